@@ -12,8 +12,6 @@ PACKAGES = [
     '.follow',
     '.plots',
     '.plots.figures',
-    '.reproduce',
-    '.reproduce.parts',
     '.runs',
     '.sweep',
 ]

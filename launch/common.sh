@@ -1,4 +1,4 @@
-# Shell functions shared by demo.sh, install.sh and tests/run.sh. Sourced, never run.
+# Shell functions shared by demo.sh, install.sh, reproduce.sh and tests/run.sh. Sourced, never run.
 # shellcheck shell=bash
 
 # The background job of a script is started with SIGINT and SIGQUIT ignored, which bash cannot undo and hands on to all that it
@@ -78,14 +78,6 @@ $(tail -n 20 "$1/log/build.log")"
 build_and_install() {
     build "$1" -DCATKIN_ENABLE_TESTING=OFF -DHDLYAP_CORE_TESTS=OFF "-DCMAKE_INSTALL_PREFIX=$1/.install" &&
         cmake --install "$1"
-}
-
-# commit_here: the short hash of what is checked out, with + if the files differ from it; empty without git.
-commit_here() {
-    local hash
-    hash=$(git -C "$ROOT" rev-parse --short HEAD 2>/dev/null) || return 0
-    git -C "$ROOT" diff --quiet HEAD || hash+=+
-    echo "$hash"
 }
 
 is_configured() {

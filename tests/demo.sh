@@ -1,18 +1,20 @@
 #!/usr/bin/env bash
 # Tests launch/demo.sh as a user meets it, on the scene that takes seconds.
-#   demo.sh first|second WORK_FOLDER BUILD    first: one run, in that build, and what is refused; second: all, built afresh
+#   demo.sh first|second WORK_FOLDER BUILD    first: one run, in that build, and what is refused; second: all, built afresh, in
+#                                             a folder beside it: what is compiled alike is in the suite's cache
 set -euo pipefail
 # shellcheck source=launch/common.sh
 source "$(dirname "${BASH_SOURCE[0]}")/../launch/common.sh"
 
 readonly TIER=$1 WORK=$2
+BUILD=$3
+[[ $TIER == first ]] || BUILD=${3%/*}/demo_build
 mkdir -p "$WORK/home" "$WORK/foreign"
 # another python3 first on PATH, as pyenv and conda have it, that knows no ROS
 printf '#!/bin/sh\necho "foreign python3" >&2\nexit 97\n' >"$WORK/foreign/python3"
 chmod +x "$WORK/foreign/python3"
 
-DEMO=(env "HOME=$WORK/home" "PATH=$WORK/foreign:$PATH" "$ROOT/launch/demo.sh" --no-install)
-[[ $TIER == second ]] || DEMO+=(--build "$3")
+DEMO=(env "HOME=$WORK/home" "PATH=$WORK/foreign:$PATH" "$ROOT/launch/demo.sh" --no-install --build "$BUILD")
 
 # shellcheck source=tests/check.sh
 source "$ROOT/tests/check.sh"
@@ -28,7 +30,7 @@ demo() { "${DEMO[@]}" "$@" 2>&1 | tee "$LOG"; }
 
 # No process of a demo is left; they are known by the folder that ROS was given.
 none_is_left() {
-    [[ -z $(grep -lzs "^ROS_HOME=$ROOT/build/home/" /proc/[0-9]*/environ || true) ]]
+    [[ -z $(grep -lzs "^ROS_HOME=$BUILD/home/" /proc/[0-9]*/environ || true) ]]
 }
 
 # is_complete FOLDER FIGURE...
@@ -81,7 +83,7 @@ check names_an_lp_step has_step 'LP\(1,0\)'
 check writes_lp_figures is_complete "$WORK/channel" spectrum steps dispersion modes p_mode phases
 LOG=$WORK/second.log
 check runs_again gives_status 0 demo --scene quick --duration 100 --out "$WORK/out"
-check builds_once gives_status 1 grep -E 'Building|Linking' "$ROOT/build/log/build.log"
+check builds_once gives_status 1 grep -E 'Building|Linking' "$BUILD/log/build.log"
 LOG=$WORK/int.log
 check ends_on_int gives_status 130 interrupted INT as_background_job
 check leaves_nothing_after_int none_is_left

@@ -1,7 +1,6 @@
 #!/usr/bin/env bash
 # Runs what the documents show: every command of the shell blocks of README and of the guides, and all of their programs.
-# Those of launch/ are tests/demo.sh's and tests/reproduce.sh's, tests/run.sh is this suite itself. Then the package that
-# doc/wrapper.md shows.
+# Those of demo.sh are tests/demo.sh's, tests/run.sh is this suite itself. Then the package that doc/wrapper.md shows.
 #   readme.sh WORK_FOLDER INSTALLED_SETUP
 set -euo pipefail
 # shellcheck source=launch/common.sh
@@ -32,10 +31,10 @@ commands() {
     { blocks bash "${DOCUMENTS[@]}" && block bash watch_steps "$WRAPPER"; } | sed -E 's/ *#.*//; /^$/d' | awk '!seen[$0]++'
 }
 
-# Commands that other tests run: demo.sh, reproduce.sh, the suite itself, packages.sh, tests/ros/test_bags.py; the last one is
-# done below, for another folder.
+# Commands that other tests run: demo.sh, the suite itself, packages.sh, tests/ros/test_bags.py; the last one is done below, for
+# another folder.
 is_run_elsewhere() {
-    [[ $1 == @(launch/demo.sh*|launch/reproduce.sh*|tests/run.sh*|tests/packages.sh*|dpkg-buildpackage*|*replay*|source*) ]]
+    [[ $1 == @(launch/demo.sh*|tests/run.sh*|tests/packages.sh*|dpkg-buildpackage*|*replay*|source*) ]]
 }
 
 # A command as a user would type it, in the folder of the clone's copy.
@@ -155,6 +154,7 @@ block c hdlyap/hdlyap.h "$CORE" >steps.c
 block c /hdlyap/steps "$WRAPPER" >watch_steps.c
 block python rospy "$ROOT/README.md" >watch.py
 block yaml disks: "$ROOT/doc/user_guide.md" >strip.yaml
+block yaml base: "$ROOT/doc/user_guide.md" >runs.yaml
 source_setup "$SETUP"
 start roscore -p "${ROS_MASTER_URI##*:}" >"$WORK/roscore.log" 2>&1
 until rostopic list >/dev/null 2>&1; do sleep 0.2; done

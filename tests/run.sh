@@ -53,7 +53,7 @@ doxygen           one      second ros_build
 
 shell_scripts() {
     cd "$ROOT"
-    shellcheck -x --exclude=SC2317 launch/*.sh launch/*.sbatch tests/*.sh tests/install/*.sh tests/fuzz/*.sh hdlyap_core/bench/*.sh .ci/run
+    shellcheck -x --exclude=SC2317 launch/*.sh launch/*.sbatch doc/reproduction/*.sh tests/*.sh tests/install/*.sh tests/fuzz/*.sh hdlyap_core/bench/*.sh .ci/run
 }
 
 # without_ros COMMAND...: as on a machine that has no ROS.

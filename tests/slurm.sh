@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Runs of several ranks: by mpirun, and on a Slurm of its own, as on a cluster; the reproduction's job array, a job that is
+# Runs of several ranks: by mpirun, and on a Slurm of its own, as on a cluster; a sweep as an array of jobs, a job that is
 # requeued.
 # Controller and two nodes are this machine, as root, in one folder, without systemd or munge.
 #   slurm.sh WORK_FOLDER INSTALLED_SETUP
@@ -76,18 +76,17 @@ refuses_what_is_no_argument() { ! srun -N 1 -n 1 hdlyap run quick --out "$WORK/n
 
 gone() { [[ -z $(squeue -h -j "$1" 2>/dev/null) ]]; }
 
-missing() { rosrun hdlyap reproduce --plan "$WORK/plan.yaml" --write --out "$WORK/array"; }
+sweep() {
+    hdlyap sweep --seeds "1 2" --duration 20 --params "{disks: 60, aspect: 0.2, equilibration: 5.0, warmup: 20.0}" --folder "$WORK/array" "$@"
+}
 
-# Two of the reproduction's runs, as doc/reproduction.md says.
+# As doc/many_machines.md says.
 runs_an_array() {
     local job
     cd "$WORK"
-    printf '%s: {base: quick, disks: 60, aspect: 0.2, equilibration: 5.0, warmup: 20.0, duration: 20, seconds: [1, 1]}\n' \
-        periodic travelling >plan.yaml
-    missing >runs.txt && [[ $(wc -l <runs.txt) == 2 ]] &&
-        job=$(sbatch --parsable --array=1-2 --mem-per-cpu=500M "$ROOT/launch/reproduce.sbatch" "$WORK/array" runs.txt \
-            --plan "$WORK/plan.yaml") &&
-        wait_for 90 gone "$job" && [[ -s array/periodic.bag && -s array/travelling.bag && -z $(missing) ]]
+    sweep --write >names.txt && [[ $(wc -l <names.txt) == 2 ]] &&
+        job=$(sbatch --parsable --array=1-2 --mem-per-cpu=500M "$ROOT/launch/runs.sbatch" "$WORK/array" names.txt) &&
+        wait_for 90 gone "$job" && [[ -z $(sweep --write) ]]
 }
 
 # A job that goes on from its checkpoint, if there is one; requeued in the middle.
@@ -119,6 +118,6 @@ check 'mpirun of two ranks' runs_by_mpirun
 check 'a Slurm of two nodes' begin
 check 'srun of two ranks' runs_together
 check 'srun of what is no argument' refuses_what_is_no_argument
-check 'sbatch of the reproduction' runs_an_array
+check 'sbatch of a sweep' runs_an_array
 check 'a requeued job goes on' goes_on
 exit "$FAILED"

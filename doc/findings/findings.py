@@ -1,7 +1,7 @@
 #!/usr/bin/python3
-"""Table of the study halves -> the picture of doc/findings.md.
+"""Tables of the studies -> the pictures of doc/findings.md, and the fits that it quotes.
 
-Usage: findings.py findings_trailing.csv draws findings_trailing.png beside it.
+Usage: findings.py TABLE.csv.. of halves, sound, dilute: prints the fits, draws TABLE.png beside it.
 """
 
 import csv
@@ -12,10 +12,12 @@ import matplotlib
 
 matplotlib.use('Agg')
 import matplotlib.pyplot as plt  # noqa: E402
+import numpy as np  # noqa: E402
 
 GREY, INK = '#8C8C8C', '#1A1A1A'
 # by density: Okabe and Ito's palette, safe for colour-blind readers
 COLOURS = {0.1: '#56B4E9', 0.2: '#0072B2', 0.4: '#009E73', 0.6: '#E69F00', 0.8: '#D55E00'}
+OTHERS = {0.03: '#0072B2', 0.01: '#009E73', 0.003: '#E69F00', 0.001: '#D55E00'}
 STYLE = {
     'font.size': 9,
     'axes.titlesize': 9,
@@ -33,7 +35,10 @@ STYLE = {
     'figure.constrained_layout.use': True,
 }
 RATE = 'P_xx / (sqrt(2) rho)'  # of the rotation over k, as the pressure has it
+EXPECTED, OVER = 'sqrt(1 - (h^2 + g^2) / x^2)', 'v over that of pressure and C'
 PLACE = 'turn while a disk flies  $\\omega\\tau$  [rad]'
+BAR = 3  # standard errors
+DILUTE = 0.01  # densities up to which B is a constant
 
 
 def rows_of(path):
@@ -45,6 +50,88 @@ def rows_of(path):
             {name: text if name == 'ends of x' else float(text) for name, text in zip(names, row)}
             for row in rows
         ]
+
+
+# ---- fits ---------------------------------------------------------------------------------------
+
+
+def fit(values, errors, *columns):
+    """Weighted least squares: coefficients, their errors, chi^2, degrees of freedom."""
+    weight = 1 / np.array(errors)
+    matrix = np.transpose(columns) * weight[:, None]
+    inverse = np.linalg.inv(matrix.T @ matrix)
+    found = inverse @ matrix.T @ (values * weight)
+    chi2 = np.sum((values * weight - matrix @ found) ** 2)
+    return found, np.sqrt(np.diag(inverse)), chi2, len(values) - len(found)
+
+
+def told(title, found, errors, chi2, freedom):
+    """One line of a fit."""
+    numbers = '  '.join(f'{one:.4f} +- {error:.4f}' for one, error in zip(found, errors))
+    return f'{title}: {numbers}  chi^2 {chi2:.1f} for {freedom}'
+
+
+def limits(rows):
+    """Lines in omega tau of v over that of the pressure, and of pressure and C: for each density,
+    and with one limit for all of them."""
+    densities = sorted({row['density'] for row in rows})
+    for some in [*([d] for d in densities), densities]:
+        few = [row for row in rows if row['density'] in some]
+        if len(few) < len(some) + 3:
+            continue
+        slopes = [[turned(row) * (row['density'] == d) for row in few] for d in some]
+        name = ', '.join(f'{d:g}' for d in some)
+        for title, column, error, unit in (
+            ('P', 'v', 'v error', [row[RATE] for row in few]),
+            ('P and C', OVER, 'over error', np.ones(len(few))),
+        ):
+            values, errors = ([row[key] for row in few] / np.array(unit) for key in (column, error))
+            line = fit(values, errors, np.ones(len(few)), *slopes)
+            yield told(f'density {name}: v over that of {title} = a + b omega tau', *line)
+
+
+def constant(rows):
+    """B = a + b / N where the gas is dilute; nothing of one size of box."""
+    some = [row for row in rows if row['density'] <= DILUTE]
+    if len({row['disks'] for row in some}) < 2:
+        return None
+    values, errors = [b_of(row) for row in some], [2 * row['h_KS error'] for row in some]
+    return fit(np.array(values), errors, np.ones(len(some)), [1 / row['disks'] for row in some])
+
+
+def constants(rows):
+    line = constant(rows)
+    return [told('B = a + b / N', *line)] if line else []
+
+
+def b_of(row):
+    """2 h_KS / N nu + ln rho."""
+    return 2 * row['h_KS / N over it'] + math.log(row['density'])
+
+
+def ratios(rows):
+    """Of the velocity of sound: over v, over that of the pressure, and as thermodynamics has it."""
+    for row in rows:
+        found = [row['sound'] / row[name] for name in ('v', RATE)]
+        expected = row['sound of the pressure'] / row[RATE]
+        relative = row['sound error'] / row['sound']
+        errors = (
+            found[0] * math.hypot(relative, row['v error'] / row['v']),
+            found[1] * math.hypot(relative, row['P_xx error'] / row[RATE]),
+            expected * row['of the pressure error'] / row['sound of the pressure'],
+        )
+        yield row, (*found, expected), errors
+
+
+def sounds(rows):
+    """A line for each box."""
+    for row, found, errors in ratios(rows):
+        numbers = '  '.join(f'{one:.4f} +- {error:.4f}' for one, error in zip(found, errors))
+        box = "density {density:g}, height {height:g}, {disks:g} disks".format(**row)
+        yield f"{box}: {numbers}"
+
+
+# ---- halves of LP modes -------------------------------------------------------------------------
 
 
 def turned(row):
@@ -60,7 +147,7 @@ def sources(row):
     return mean + half, mean - half, 2 * (h - x * g)
 
 
-def draw(rows):
+def draw_halves(rows):
     figure, ((angles, means), (rates, rest)) = plt.subplots(2, 2, figsize=(7.6, 5.8))
     _points(angles, rows, lambda row: row['angle'], 'angle', 'o')
     _points(angles, rows, lambda row: row['symmetric / mean'], 'symmetric', 's')
@@ -80,9 +167,13 @@ def draw(rows):
     _points(means, rows, lambda row: row['mean C'] / row['lambda'], None, 'o')
     means.set(ylabel=r'mean C / $\lambda$', title='(b) length of dp', ylim=(0.5, 1.02))
     _points(rates, rows, lambda row: row['v'] / row[RATE], 'v', 'o')
+    _points(rates, rows, lambda row: row[EXPECTED], None, '_')
     rates.axhline(1, color=GREY, linewidth=0.6)
+    rates.plot([], [], 'o', color=INK, label='measured')
+    rates.plot([], [], '_', color=INK, label=r'$(1 - (h^2 + g^2)/x^2)^{1/2}$')
+    rates.legend(loc='lower left')
     rates.set(
-        ylabel=r'$v \cdot \sqrt{2}\,\rho\, /\, P_{xx}$', title='(c) rotation', ylim=(0.9, 1.05)
+        ylabel=r'$v \cdot \sqrt{2}\,\rho\, /\, P_{xx}$', title='(c) rotation', ylim=(0.93, 1.02)
     )
     for part, marker, text in ((0, 'v', 'L to L'), (1, '^', 'P to P'), (2, 's', 'between L and P')):
         _points(rest, rows, lambda row, part=part: sources(row)[part], None, marker)
@@ -106,7 +197,7 @@ def _points(axes, rows, value, error, marker):
     for row in rows:
         if not math.isfinite(value(row)):
             continue
-        bar = 3 * row[f'{error} error'] if error else None
+        bar = BAR * row[f'{error} error'] if error else None
         if error == 'v':
             bar /= row[RATE]
         colour = COLOURS[row['density']]
@@ -123,14 +214,93 @@ def _points(axes, rows, value, error, marker):
         )
 
 
+# ---- sound, dilute gases ------------------------------------------------------------------------
+
+
+def draw_sound(rows):
+    """Of sound over LP modes, measured and as pressures have it. Bars: one standard error. Marks
+    of a box are a little apart along k, to be seen."""
+    figure, axes = plt.subplots(figsize=(4.8, 3.3))
+    kinds = ('o', r'$c_s / v$'), ('s', r'$c_s \sqrt{2} \rho / P$'), ('x', 'of the pressures')
+    for row, found, errors in ratios(rows):
+        colour, narrow = COLOURS[row['density']], row['height'] < 2
+        for place, (marker, _) in enumerate(kinds):
+            axes.errorbar(
+                row['k'] + 0.001 * (place - 1),
+                found[place],
+                yerr=errors[place],
+                color=colour,
+                marker=marker,
+                markerfacecolor=colour if narrow else 'white',
+                elinewidth=0.7,
+                linestyle='none',
+            )
+    for marker, text in kinds:
+        axes.plot([], [], marker, color=INK, label=text)
+    axes.plot([], [], 'o', color=INK, markerfacecolor='white', label='not in a row')
+    for density in sorted({row['density'] for row in rows}):
+        axes.plot([], [], 's', color=COLOURS[density], label=rf'$\rho = {density:g}$')
+    axes.axhline(2, color=GREY, linewidth=0.6)
+    axes.set(xlabel=r'$k$  [$1/\sigma$]', ylabel='sound over LP modes', xlim=(0, None))
+    axes.legend(ncol=2, loc='lower left')
+    return figure
+
+
+def draw_dilute(rows):
+    """Bars: one standard error. Densities are a little apart along 1 / N, to be seen."""
+    figure, (bs, largest) = plt.subplots(1, 2, figsize=(7.6, 3.1))
+    for place, density in enumerate(sorted({row['density'] for row in rows}, reverse=True)):
+        some = [row for row in rows if row['density'] == density]
+        bs.errorbar(
+            [1 / row['disks'] + 0.0005 * (place - 2) for row in some],
+            [b_of(row) for row in some],
+            yerr=[2 * row['h_KS error'] for row in some],
+            color={**COLOURS, **OTHERS}[density],
+            marker='o',
+            linestyle='none',
+            elinewidth=0.7,
+            label=rf'$\rho = {density:g}$',
+        )
+    line = constant(rows)
+    if line:
+        bs.axline((0, line[0][0]), slope=line[0][1], color=GREY, linewidth=0.6)
+    bs.set(xlabel='$1 / N$', ylabel=r'$2 h_{KS} / N \nu + \ln \rho$', xlim=(0, 0.066), title='(a)')
+    bs.legend(ncol=2)
+    for disks in sorted({row['disks'] for row in rows}):
+        some = [row for row in rows if row['disks'] == disks]
+        largest.errorbar(
+            [-math.log(row['density']) for row in some],
+            [row['lambda_1 over it'] for row in some],
+            yerr=[row['lambda_1 error'] for row in some],
+            marker='o',
+            elinewidth=0.7,
+            label=f'N = {disks:g}',
+        )
+    largest.set(xlabel=r'$-\ln \rho$', ylabel=r'$\lambda_1 / \nu$', title='(b)')
+    largest.legend()
+    return figure
+
+
+STUDIES = {  # a column that only this one has: fits, picture
+    'angle': (limits, draw_halves),
+    'sound': (sounds, draw_sound),
+    'lambda_1 over it': (constants, draw_dilute),
+}
+
+
 def main(arguments):
-    if len(arguments) != 1 or not arguments[0].endswith('.csv'):
-        print('findings.py: needs the table of halves, findings_trailing.csv', file=sys.stderr)
+    if not arguments or not all(path.endswith('.csv') for path in arguments):
+        print('findings.py: needs tables of halves, sound, dilute, each a .csv', file=sys.stderr)
         return 2
-    with plt.rc_context(STYLE):
-        picture = arguments[0][:-4] + '.png'
-        draw(rows_of(arguments[0])).savefig(picture, dpi=200, bbox_inches='tight')
-        print(picture)
+    for path in arguments:
+        rows = rows_of(path)
+        fits, draw = next(study for column, study in STUDIES.items() if column in rows[0])
+        for line in fits(rows):
+            print(line)
+        with plt.rc_context(STYLE):
+            picture = path[:-4] + '.png'
+            draw(rows).savefig(picture, dpi=200, bbox_inches='tight')
+            print(picture)
     return 0
 
 

@@ -1,9 +1,9 @@
 /** How the dp halves of LP modes stand to their dq halves: dp = C dq on the L and P fields, with
  * the angle between the halves, beside the rotation and the pressure. Long boxes of several
- * densities, several waves each. Usage: halves [--quick] >findings_trailing.csv. As many boxes side
- * by side as there are cores, one thread each. */
+ * densities, several waves each; those that turn less than twenty times in a run from several
+ * seeds. Usage: halves [--quick] >findings_trailing.csv. As many runs side by side as there are
+ * cores, one thread each. */
 #include <complex.h>
-#include <math.h>
 
 #include "study.h"
 
@@ -16,19 +16,20 @@ typedef struct box {
     hd_boundary end; /**< of x */
     double sampling; /**< [time units]; fractions of a turn */
     double duration; /**< [time units] */
+    int seeds;       /**< runs of it */
 } box;
 
 static const box BOXES[] = {
-    {0.1, 80, 6, HD_PERIODIC, 2.0, 2500},   {0.1, 140, 6, HD_PERIODIC, 2.0, 1500},
-    {0.2, 100, 4, HD_PERIODIC, 1.5, 1200},  {0.2, 160, 4, HD_PERIODIC, 1.5, 900},
-    {0.4, 100, 4, HD_PERIODIC, 1.0, 1000},  {0.4, 240, 4, HD_PERIODIC, 1.0, 500},
-    {0.4, 100, 4, HD_REFLECTING, 1.0, 800}, {0.6, 100, 4, HD_PERIODIC, 0.7, 700},
-    {0.6, 240, 4, HD_PERIODIC, 0.7, 350},   {0.8, 100, 5, HD_PERIODIC, 0.4, 500},
-    {0.8, 200, 5, HD_PERIODIC, 0.4, 400},   {0.8, 300, 3, HD_PERIODIC, 0.4, 300},
-    {0.8, 500, 3, HD_PERIODIC, 0.5, 250},   {0.8, 100, 5, HD_REFLECTING, 0.4, 500},
-    {0.8, 160, 5, HD_REFLECTING, 0.4, 300}};
-enum { BOXES_ALL = sizeof BOXES / sizeof *BOXES };
-static const box QUICK = {0.6, 40, 3, HD_PERIODIC, 0.7, 200};
+    {0.1, 80, 6, HD_PERIODIC, 2.0, 2500, 6},   {0.1, 140, 6, HD_PERIODIC, 2.0, 1500, 6},
+    {0.2, 100, 4, HD_PERIODIC, 1.5, 1200, 6},  {0.2, 160, 4, HD_PERIODIC, 1.5, 900, 6},
+    {0.4, 100, 4, HD_PERIODIC, 1.0, 1000, 1},  {0.4, 240, 4, HD_PERIODIC, 1.0, 500, 4},
+    {0.4, 100, 4, HD_REFLECTING, 1.0, 800, 6}, {0.6, 100, 4, HD_PERIODIC, 0.7, 700, 1},
+    {0.6, 240, 4, HD_PERIODIC, 0.7, 350, 4},   {0.8, 100, 5, HD_PERIODIC, 0.4, 500, 1},
+    {0.8, 200, 5, HD_PERIODIC, 0.4, 400, 1},   {0.8, 300, 3, HD_PERIODIC, 0.4, 300, 4},
+    {0.8, 500, 3, HD_PERIODIC, 0.5, 250, 4},   {0.8, 100, 5, HD_REFLECTING, 0.4, 500, 1},
+    {0.8, 160, 5, HD_REFLECTING, 0.4, 300, 4}};
+enum { BOXES_ALL = sizeof BOXES / sizeof *BOXES, SEEDS = 6 };
+static const box QUICK = {0.6, 40, 3, HD_PERIODIC, 0.7, 200, 2};
 
 /** Over vectors, pairs and times, of z = a + i b of the dq half and w of the dp half. */
 typedef struct sums {
@@ -36,9 +37,10 @@ typedef struct sums {
     double z2, antisymmetric, whole;  /**< |z|^2; see halves_compare */
 } sums;
 
-/** One box. */
+/** One run of a box. */
 typedef struct harvest {
     box box;
+    int seed; /**< from 0 */
     hd_run *run;
     double *p;
     sums (*sums)[STEPS]; /**< [BLOCKS] */
@@ -49,13 +51,14 @@ typedef struct harvest {
     double pressure; /**< P_xx / (rho kT) */
 } harvest;
 
-static hd_scene_def scene_of(const box *b)
+static hd_scene_def scene_of(const box *b, int seed)
 {
     hd_scene_def scene = hd_scene_def_default();
     scene.disks = b->disks;
     scene.density = b->density;
     scene.aspect = b->height * b->height * b->density / b->disks;
     scene.boundary[0] = b->end;
+    scene.seed += (uint64_t)seed;
     scene.equilibration = 0.2 * b->duration;
     scene.warmup = 0.4 * b->duration;
     scene.duration = b->duration;
@@ -174,7 +177,7 @@ static bool is_wanted(const hd_steps *steps, int index)
     return others == 0 && step->wave.n[1] == 0;
 }
 
-/* ---- one box -------------------------------------------------------------------------------- */
+/* ---- one run -------------------------------------------------------------------------------- */
 
 static void report_measure(harvest *h, double since)
 {
@@ -193,7 +196,7 @@ static void report_measure(harvest *h, double since)
 
 static void follow(harvest *h)
 {
-    const hd_scene_def scene = scene_of(&h->box);
+    const hd_scene_def scene = scene_of(&h->box, h->seed);
     h->run = created(&scene);
     double before[2], after[2];
     h->p = room(2 * (size_t)scene.disks, sizeof *h->p);
@@ -220,12 +223,13 @@ static void harvest_free(harvest *h)
 
 /* ---- sums -> numbers ------------------------------------------------------------------------ */
 
-enum { ANGLE, MEAN, DIFFERENCE, SYMMETRIC, RATE, SUM_RULE, NUMBERS };
+enum { ANGLE, MEAN, DIFFERENCE, SYMMETRIC, RATE, EXPECTED, OVER, SUM_RULE, NUMBERS };
 
 /** w = c z + d conj(z), by least squares: C = Re c + ((Re d, Im d), (Im d, -Re d)) and a rotation
  * by arg c. ANGLE: phase of w less that of z on average; MEAN: Re c; DIFFERENCE, SYMMETRIC: d over
- * it; RATE: of the phase of z; SUM_RULE: the form of whole vectors over that of the fields. */
-static void numbers_of(double out[NUMBERS], const sums *s, double sampling)
+ * it; RATE: of the phase of z; EXPECTED: sqrt(1 - |d|^2 / x^2) with x, the rate of the pressure;
+ * OVER: the rate over x EXPECTED; SUM_RULE: the form of whole vectors over that of the fields. */
+static void numbers_of(double out[NUMBERS], const sums *s, double sampling, double x)
 {
     const double det = s->z2 * s->z2 - creal(s->zz * conj(s->zz));
     const double complex c = (s->z2 * s->zw - conj(s->zz) * s->z_w) / det;
@@ -235,6 +239,8 @@ static void numbers_of(double out[NUMBERS], const sums *s, double sampling)
     out[DIFFERENCE] = creal(d) / creal(c);
     out[SYMMETRIC] = cimag(d) / creal(c);
     out[RATE] = carg(s->turn) / sampling;
+    out[EXPECTED] = sqrt(1.0 - creal(d * conj(d)) / (x * x));
+    out[OVER] = out[RATE] / (x * out[EXPECTED]);
     out[SUM_RULE] = s->whole / s->antisymmetric;
 }
 
@@ -245,62 +251,104 @@ static void sums_add(sums *s, const sums *more, double factor)
     s->antisymmetric += factor * more->antisymmetric, s->whole += factor * more->whole;
 }
 
+static double wave_number(const harvest *h, int step)
+{
+    return hd_steps_step(hd_run_steps(h->run), step)->wave.number;
+}
+
+/** P_xx / (sqrt(2) rho) for kT = 1: the velocity of the pressure alone. */
+static double velocity_of_pressure(const harvest *h) { return h->pressure / sqrt(2.0); }
+
 /** Jackknife: one block of time after the other is left out. False if one is empty. */
 static bool estimate(double value[NUMBERS], double error[NUMBERS], const harvest *h, int step)
 {
     sums total = {0};
     double square[NUMBERS] = {0};
+    const double x = velocity_of_pressure(h) * wave_number(h, step);
     for (int b = 0; b < BLOCKS; b++) {
         if (!(h->sums[b][step].z2 > 0.0)) return false;
         sums_add(&total, &h->sums[b][step], 1.0);
     }
-    numbers_of(value, &total, h->box.sampling);
+    numbers_of(value, &total, h->box.sampling, x);
     for (int b = 0; b < BLOCKS; b++) {
         sums less = total;
         double without[NUMBERS];
         sums_add(&less, &h->sums[b][step], -1.0);
-        numbers_of(without, &less, h->box.sampling);
+        numbers_of(without, &less, h->box.sampling, x);
         for (int k = 0; k < NUMBERS; k++) square[k] += pow(without[k] - value[k], 2.0);
     }
     for (int k = 0; k < NUMBERS; k++) error[k] = sqrt(square[k] * (BLOCKS - 1) / BLOCKS);
     return true;
 }
 
-/* ---- telling -------------------------------------------------------------------------------- */
+/* ---- runs -> a row -------------------------------------------------------------------------- */
+
+/** One step of a box. */
+typedef struct row {
+    int seeds;
+    double value[NUMBERS][SEEDS], error[NUMBERS][SEEDS];
+    double lambda, apart, pressure; /**< sums: exponent, time between collisions, velocity */
+} row;
+
+/** h[seeds]: all runs of the box; those in which the step stands alone. */
+static void row_gather(row *r, const harvest *h, int step)
+{
+    for (int s = 0; s < h->box.seeds; s++) {
+        const hd_steps *steps = hd_run_steps(h[s].run);
+        double value[NUMBERS], error[NUMBERS];
+        if (!is_wanted(steps, step) || !estimate(value, error, &h[s], step)) continue;
+        for (int n = 0; n < NUMBERS; n++)
+            r->value[n][r->seeds] = value[n], r->error[n][r->seeds] = error[n];
+        r->lambda += hd_steps_step(steps, step)->exponent;
+        r->apart += 1.0 / hd_gas_read(hd_run_gas(h[s].run)).collision_rate;
+        r->pressure += velocity_of_pressure(&h[s]);
+        r->seeds++;
+    }
+}
 
 static const char *const HEADER =
-    "density,disks,height [sigma],ends of x,nodes,k [1/sigma],lambda [1/time unit],"
-    "time between collisions [time units],angle [rad],angle error,mean C [1/time unit],mean C "
-    "error,difference / mean,difference error,symmetric / mean,symmetric error,"
-    "v [sigma/time unit],v error,P_xx / (sqrt(2) rho) [sigma/time unit],sum rule";
+    "density,disks,height [sigma],ends of x,nodes,seeds,k [1/sigma],lambda [1/time unit],"
+    "time between collisions [time units],P_xx / (sqrt(2) rho) [sigma/time unit],"
+    "angle [rad],angle error,mean C [1/time unit],mean C error,difference / mean,difference error,"
+    "symmetric / mean,symmetric error,v [sigma/time unit],v error,"
+    "sqrt(1 - (h^2 + g^2) / x^2),expected error,v over that of pressure and C,over error,sum rule";
 
-static void tell(const harvest *h, int index)
+/** The step of this index, if it stood alone in any run. */
+static void tell(const harvest *h, int step)
 {
-    const hd_step *step = hd_steps_step(hd_run_steps(h->run), index);
-    const hd_gas_means gas = hd_gas_read(hd_run_gas(h->run));
-    double x[NUMBERS], e[NUMBERS];
-    if (!is_wanted(hd_run_steps(h->run), index) || !estimate(x, e, h, index)) return;
-    const double k = step->wave.number;
-    printf("%g,%d,%g,%s,%d,%.6g,%.6g,%.6g,", h->box.density, h->box.disks, h->box.height,
-           h->box.end == HD_PERIODIC ? "periodic" : "reflecting", step->wave.n[0], k,
-           step->exponent, 1.0 / gas.collision_rate);
-    for (int n = 0; n < RATE; n++) printf("%.6g,%.3g,", x[n], e[n]);
-    printf("%.6g,%.3g,%.6g,%.3g\n", x[RATE] / k, e[RATE] / k, h->pressure / sqrt(2.0), x[SUM_RULE]);
+    const hd_step *of = hd_steps_step(hd_run_steps(h->run), step);
+    const box *b = &h->box;
+    row r = {0};
+    double error;
+    row_gather(&r, h, step);
+    if (r.seeds == 0) return;
+    printf("%g,%d,%g,%s,%d,%d,%.6g,%.6g,%.6g,%.6g,", b->density, b->disks, b->height,
+           b->end == HD_PERIODIC ? "periodic" : "reflecting", of->wave.n[0], r.seeds,
+           of->wave.number, r.lambda / r.seeds, r.apart / r.seeds, r.pressure / r.seeds);
+    for (int n = 0; n < SUM_RULE; n++) {
+        const double unit = n == RATE ? of->wave.number : 1.0,
+                     mean = mean_over_seeds(r.value[n], r.error[n], r.seeds, &error);
+        printf("%.6g,%.3g,", mean / unit, error / unit);
+    }
+    printf("%.6g\n", mean_over_seeds(r.value[SUM_RULE], r.error[SUM_RULE], r.seeds, &error));
 }
 
 int main(int argc, char **argv)
 {
     const bool quick = study_begin(argc, argv, HEADER);
     const int boxes = quick ? 1 : BOXES_ALL;
-    harvest *h = room((size_t)boxes, sizeof *h);
-    for (int b = 0; b < boxes; b++) h[b].box = quick ? QUICK : BOXES[b];
-#pragma omp parallel for schedule(dynamic)
-    for (int b = 0; b < boxes; b++) follow(&h[b]);
+    harvest *h = room((size_t)boxes * SEEDS, sizeof *h);
+    int runs = 0;
     for (int b = 0; b < boxes; b++) {
-        for (int k = 0; k < STEPS && k < hd_steps_count(hd_run_steps(h[b].run)); k++)
-            tell(&h[b], k);
-        harvest_free(&h[b]);
+        const box one = quick ? QUICK : BOXES[b];
+        for (int s = 0; s < one.seeds; s++) h[runs].box = one, h[runs++].seed = s;
     }
+#pragma omp parallel for schedule(dynamic)
+    for (int r = 0; r < runs; r++) follow(&h[r]);
+    for (int r = 0; r < runs; r += h[r].box.seeds)
+        for (int k = 0; k < STEPS && k < hd_steps_count(hd_run_steps(h[r].run)); k++)
+            tell(&h[r], k);
+    for (int r = 0; r < runs; r++) harvest_free(&h[r]);
     free(h);
     return 0;
 }

@@ -1,12 +1,13 @@
 /** Sound beside LP modes: the period of the correlation of the longest longitudinal momentum wave,
- * and that of the longest LP mode. Usage: sound [--quick] >findings_sound.csv */
+ * that of the longest LP mode, and the velocity of sound that follows from pressures. All from
+ * several seeds. Usage: sound [--quick] >findings_sound.csv */
 #include <complex.h>
-#include <math.h>
 
 #include "study.h"
 
-enum { SEEDS = 4, FIRST_LAG = 2, LAGS = 16, SAMPLES = 16000 };
+enum { SEEDS = 6, MODES = 4, FIRST_LAG = 2, LAGS = 16, SAMPLES = 16000 };
 static const double TURN = 0.6 /* [rad], of sound from one sample to the next, about */;
+static const double APART = 0.06; /* densities whose pressures are compared, over 1 - density */
 
 typedef struct box {
     double density, height; /**< height 1.000002: hardly more than a disk */
@@ -14,10 +15,17 @@ typedef struct box {
     double collisions; /**< of each disk, with tangent vectors */
 } box;
 
-static const box BOXES[] = {{0.1, 1.000002, 50, 2000}, {0.4, 1.000002, 50, 4000},
-                            {0.8, 1.000002, 50, 6000}, {0.1, 4, 60, 1500},
-                            {0.4, 4, 60, 2000},        {0.8, 5, 140, 3000}};
-enum { BOXES_ALL = sizeof BOXES / sizeof *BOXES };
+static const box BOXES[] = {
+    {0.1, 1.000002, 50, 2000},  {0.1, 1.000002, 100, 2000}, {0.4, 1.000002, 50, 4000},
+    {0.4, 1.000002, 100, 4000}, {0.8, 1.000002, 50, 6000},  {0.8, 1.000002, 100, 6000},
+    {0.1, 4, 60, 1500},         {0.1, 4, 120, 1000},        {0.4, 4, 60, 2000},
+    {0.4, 4, 120, 1500},        {0.8, 5, 140, 3000}};
+enum { BOXES_ALL = sizeof BOXES / sizeof *BOXES, QUICK = 4 /* the box of a trial */ };
+
+static double wave_number(const box *b)
+{
+    return 8.0 * atan(1.0) * b->density * b->height / b->disks;
+}
 
 static hd_scene_def scene_of(const box *b, int seed)
 {
@@ -30,15 +38,11 @@ static hd_scene_def scene_of(const box *b, int seed)
     return scene;
 }
 
-/** sum p_x exp(i k x), and the mean square of p_x is added. */
-static double complex momentum_wave(const double *q, const double *p, int disks, double k,
-                                    double *square)
+/** sum p_x exp(i k x) */
+static double complex momentum_wave(const double *q, const double *p, int disks, double k)
 {
     double complex sum = 0.0;
-    for (int j = 0; j < disks; j++) {
-        sum += p[2 * j] * cexp(I * k * q[2 * j]);
-        *square += p[2 * j] * p[2 * j] / disks;
-    }
+    for (int j = 0; j < disks; j++) sum += p[2 * j] * cexp(I * k * q[2 * j]);
     return sum;
 }
 
@@ -61,48 +65,93 @@ static double rate_of(const double complex *wave, int samples, double sampling)
     return acos(0.5 * g / sqrt(f)) / sampling;
 }
 
-/** Virial of collisions along x so far. */
-static double virial_of(const hd_trajectory *disks)
+/** Disks that move by themselves, and what they have counted at a time. */
+typedef struct gas {
+    hd_trajectory *disks;
+    double time, virial, pairs;
+} gas;
+
+static gas gas_at(hd_trajectory *disks)
 {
     double virial[2];
     hd_trajectory_virial(disks, virial);
-    return virial[0];
+    const gas now = {disks, hd_trajectory_time(disks), virial[0],
+                     (double)hd_trajectory_collisions(disks)};
+    return now;
 }
 
-/** Velocity of sound from one seed; P_xx / (rho kT), and collisions of a disk per time unit. */
-static double sound(const box *b, int seed, int samples, double *pressure, double *rate)
+/** Each disk has collided about 200 times a disk's number of neighbours along the box. */
+static gas settled(const box *b, int seed)
 {
     const hd_scene_def scene = scene_of(b, seed);
-    const double k = hd_wave_component(&scene, 0, 1);
     hd_trajectory *disks;
     require(hd_trajectory_create(&disks, &scene), "sound");
-    const double settled = 200.0 * b->disks / hd_trajectory_collision_rate(disks);
-    require(hd_trajectory_extend(disks, NULL, settled), "sound");
-    const double virial = virial_of(disks), pairs = (double)hd_trajectory_collisions(disks);
-    const double v = (1.0 + virial / (settled * b->disks)) / sqrt(2.0);
-    const double sampling = TURN / (2.0 * v * k), all = samples * sampling * b->disks;
-    double square = 0.0, *q = room(2 * (size_t)b->disks, sizeof *q),
-           *p = room(2 * (size_t)b->disks, sizeof *p);
+    require(
+        hd_trajectory_extend(disks, NULL, 200.0 * b->disks / hd_trajectory_collision_rate(disks)),
+        "sound");
+    return gas_at(disks);
+}
+
+/** Z = P_xx / rho since then, the kinetic energy of a disk being 1. */
+static double compressibility(const gas *since, int disks)
+{
+    const gas now = gas_at(since->disks);
+    return 1.0 + (now.virial - since->virial) / ((now.time - since->time) * disks);
+}
+
+/** Velocity of sound from the correlation; Z and collisions of a disk per time unit. */
+static double sound(const box *b, int seed, int samples, double *z, double *rate)
+{
+    const double k = wave_number(b);
+    const gas start = settled(b, seed);
+    /* sound is at least sqrt(2) times as fast as without collisions */
+    const double guess = 1.0 + start.virial / (start.time * b->disks);
+    const double sampling = TURN / (sqrt(2.0) * guess * k);
+    double *q = room(2 * (size_t)b->disks, sizeof *q), *p = room(2 * (size_t)b->disks, sizeof *p);
     double complex *wave = room((size_t)samples, sizeof *wave);
     for (int s = 0; s < samples; s++) {
-        require(hd_trajectory_extend(disks, NULL, settled + (s + 1) * sampling), "sound");
-        hd_trajectory_state(disks, q, p);
-        wave[s] = momentum_wave(q, p, b->disks, k, &square);
+        require(hd_trajectory_extend(start.disks, NULL, start.time + (s + 1) * sampling), "sound");
+        hd_trajectory_state(start.disks, q, p);
+        wave[s] = momentum_wave(q, p, b->disks, k);
     }
-    *pressure = square / samples + (virial_of(disks) - virial) / all;
-    *rate = 2.0 * ((double)hd_trajectory_collisions(disks) - pairs) / all;
+    *z = compressibility(&start, b->disks);
+    *rate = 2.0 * (gas_at(start.disks).pairs - start.pairs) / (samples * sampling * b->disks);
     const double found = rate_of(wave, samples, sampling) / k;
     free(wave);
     free(q);
     free(p);
-    hd_trajectory_free(disks);
+    hd_trajectory_free(start.disks);
     return found;
 }
 
-/** Mean rate of the phases of LP(1,0) over k, and its error; 0 if it was not followed. */
-static double mode(const box *b, double rate, double part, double *error)
+/** Z at another density, in a box as high, from so many collisions of a disk. */
+static double compressibility_at(const box *b, double density, int seed, double collisions)
 {
-    hd_scene_def scene = scene_of(b, 0);
+    box other = *b;
+    other.density = density;
+    const gas start = settled(&other, seed);
+    const double rate = 2.0 * start.pairs / (start.time * b->disks);
+    require(hd_trajectory_extend(start.disks, NULL, start.time + collisions / rate), "sound");
+    const double z = compressibility(&start, b->disks);
+    hd_trajectory_free(start.disks);
+    return z;
+}
+
+/** c^2 = d(rho Z)/d rho + Z^2 by two neighbouring densities, Z at that of the box. */
+static double sound_of_pressure(const box *b, double z, int seed, double collisions)
+{
+    const double below = b->density - APART * b->density * (1.0 - b->density);
+    const double above = b->density + APART * b->density * (1.0 - b->density);
+    const double slope = (above * compressibility_at(b, above, seed, collisions) -
+                          below * compressibility_at(b, below, seed, collisions)) /
+                         (above - below);
+    return sqrt(slope + z * z);
+}
+
+/** Mean rate of the phases of LP(1,0) over k, and its error; NaN if it was not followed. */
+static double mode(const box *b, int seed, double rate, double part, double *error)
+{
+    hd_scene_def scene = scene_of(b, seed);
     scene.equilibration = 100.0 / rate;
     scene.duration = part * b->collisions / rate;
     scene.warmup = 0.25 * scene.duration;
@@ -114,22 +163,37 @@ static double mode(const box *b, double rate, double part, double *error)
     const hd_velocity v = hd_phases_velocity(hd_run_phases(run));
     const double k = hd_wave_component(&scene, 0, 1);
     hd_run_free(run);
-    *error = v.v_error;
-    return v.phases > 0 && fabs(v.k_min - k) < 1e-9 && fabs(v.k_max - k) < 1e-9 ? v.v : 0.0;
+    *error = fmax(0.0, v.v_error);
+    return v.phases > 0 && fabs(v.k_min - k) < 1e-9 && fabs(v.k_max - k) < 1e-9 ? v.v : NAN;
 }
 
+static void tell(const double *value, const double *stated, int count, const char *end)
+{
+    double error;
+    const double mean = mean_over_seeds(value, stated, count, &error);
+    printf("%.6g,%.3g%s", mean, error, end);
+}
+
+/** Seeds side by side, as many as there are cores. */
 static void go(const box *b, bool quick)
 {
-    const int samples = quick ? SAMPLES / 4 : SAMPLES;
-    double sum = 0.0, squares = 0.0, pressure, rate, error;
+    const int samples = quick ? SAMPLES / 8 : SAMPLES, modes = quick ? 1 : MODES;
+    const double collisions = quick ? 2e3 : 6e4, none[SEEDS] = {0.0};
+    double c[SEEDS], expected[SEEDS], pressure[SEEDS], rate[SEEDS], v[MODES], error[MODES];
+#pragma omp parallel for schedule(dynamic)
     for (int s = 0; s < SEEDS; s++) {
-        const double c = sound(b, s, samples, &pressure, &rate);
-        sum += c / SEEDS, squares += c * c / SEEDS;
+        double z;
+        c[s] = sound(b, s, samples, &z, &rate[s]);
+        expected[s] = sound_of_pressure(b, z, s, collisions);
+        pressure[s] = z / sqrt(2.0);
     }
-    const double sound_error = sqrt(fmax(0.0, squares - sum * sum) / (SEEDS - 1));
-    const double v = mode(b, rate, quick ? 0.25 : 1.0, &error);
-    printf("%g,%g,%d,%.6g,%.3g,%.6g,%.3g,%.6g\n", b->density, b->height, b->disks, sum, sound_error,
-           v, error, pressure / sqrt(2.0));
+#pragma omp parallel for schedule(dynamic)
+    for (int s = 0; s < modes; s++) v[s] = mode(b, s, rate[s], quick ? 0.25 : 1.0, &error[s]);
+    printf("%g,%g,%d,%.6g,", b->density, b->height, b->disks, wave_number(b));
+    tell(c, none, SEEDS, ",");
+    tell(expected, none, SEEDS, ",");
+    tell(pressure, none, SEEDS, ",");
+    tell(v, error, modes, "\n");
     fflush(stdout);
 }
 
@@ -137,9 +201,10 @@ int main(int argc, char **argv)
 {
     const bool quick = study_begin(
         argc, argv,
-        "density,height [sigma],disks,sound [sigma/time unit],sound error,"
-        "v [sigma/time unit],v error,P_xx / (sqrt(2) rho) [sigma/time unit]");
-    const int first = quick ? 2 : 0, boxes = quick ? 1 : BOXES_ALL;
+        "density,height [sigma],disks,k [1/sigma],sound [sigma/time unit],sound error,"
+        "sound of the pressure [sigma/time unit],of the pressure error,"
+        "P_xx / (sqrt(2) rho) [sigma/time unit],P_xx error,v [sigma/time unit],v error");
+    const int first = quick ? QUICK : 0, boxes = quick ? 1 : BOXES_ALL;
     for (int b = first; b < first + boxes; b++) go(&BOXES[b], quick);
     return 0;
 }

@@ -4,6 +4,7 @@
 #define STUDY_H
 
 #include <hdlyap/hdlyap.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -34,6 +35,21 @@ static inline hd_run *created(const hd_scene_def *scene)
 static inline void go_on(hd_run *run, hd_stage stage)
 {
     while (hd_run_stage(run) < stage) require(hd_run_advance(run), "run");
+}
+
+/** Mean over the seeds, and its error: from those stated for each, or from their scatter if that is
+ * more. value[count], stated[count]. */
+static inline double mean_over_seeds(const double *value, const double *stated, int count,
+                                     double *error)
+{
+    double mean = 0.0, scatter = 0.0, square = 0.0;
+    for (int s = 0; s < count; s++) mean += value[s] / count;
+    for (int s = 0; s < count; s++) {
+        scatter += pow(value[s] - mean, 2.0) * count / fmax(1.0, count - 1);
+        square += stated[s] * stated[s];
+    }
+    *error = sqrt(fmax(scatter, square)) / count;
+    return mean;
 }
 
 /** The command's one option, --quick. Prints the comment and the columns' names. */

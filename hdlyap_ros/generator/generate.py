@@ -6,6 +6,9 @@ VALUE', 'NaN unless FIELD' and the same of -1, where VALUE is a number or a cons
 none), and 'while' says the same as 'if'. Whenever else, it must be finite. A comment that says
 NaN without such a rule allows it at any time; without NaN a number must always be finite.
 
+A field 'one of FIRST .. LAST' holds one of these constants. What the comment of each says before
+its first colon is its name: hdr_MESSAGE_FIELD_text(value) in C, hdlyap.data.fields.words in Python.
+
 generate.py PACKAGE HEADER FIELDS MESSAGE_FILE...
 """
 
@@ -37,6 +40,7 @@ ARRAYS = {
     'uint64': 'hdr_counts',
 }
 
+CHOICE = re.compile(r'one of (\w+) \.\. (\w+)')
 UNKNOWN = re.compile(r'(NaN|-1) (if|while|unless) (\w+)(?: is (-?\w+))?')
 
 HEADER = '''\
@@ -71,6 +75,16 @@ STRUCT = '''
 /** %(type)s%(comment)s */
 typedef struct %(name)s {
 %(rows)s} %(name)s;
+'''
+TEXTS = '''
+/** Of %(name)s.%(field)s. */
+static inline const char *%(name)s_%(field)s_text(unsigned value)
+{
+    switch (value) {
+%(rows)s
+    default: return "unknown";
+    }
+}
 '''
 SIZES = '''
 /** Bytes on the wire: of the message without what its arrays and strings hold, and of one more
@@ -164,9 +178,33 @@ class Message:
         for constant in self.spec.constants:
             if constant.type not in NUMBERS or constant.type.startswith('float'):
                 sys.exit('%s: %s: only integers are constants in C' % (self.type, constant.name))
-            c_name = ('HDR_%s_%s' % (snake(self.short_name), constant.name)).upper()
-            rows.append('    %s = %d,%s' % (c_name, constant.val, self.comment_of(constant.name)))
+            value = '%s = %d' % (self.c_constant(constant.name), constant.val)
+            rows.append('    %s,%s' % (value, self.comment_of(constant.name)))
         return CONSTANTS % dict(type=self.type, rows='\n'.join(rows)) if rows else ''
+
+    def c_constant(self, name):
+        return ('HDR_%s_%s' % (snake(self.short_name), name)).upper()
+
+    def texts(self):
+        """For each field that holds one of some constants: their names."""
+        text = ''
+        for field in self.spec.parsed_fields():
+            choice = CHOICE.search(self.text_of(field.name))
+            rows = [
+                '    case %s: return "%s";'
+                % (self.c_constant(name), self.text_of(name).partition(':')[0])
+                for name in self.choices(*choice.groups() if choice else ())
+            ]
+            if rows:
+                text += TEXTS % dict(name=self.name, field=field.name, rows='\n'.join(rows))
+        return text
+
+    def choices(self, first=None, last=None):
+        """Constants from one to another."""
+        names = [constant.name for constant in self.spec.constants]
+        if first and not {first, last} <= set(names):
+            sys.exit('%s: one of %s .. %s: no such constants' % (self.type, first, last))
+        return names[names.index(first) : names.index(last) + 1] if first else []
 
     def c_type(self, field, messages):
         if field.array_len is None:
@@ -249,7 +287,8 @@ def sorted_by_use(messages):
 def header(package, messages):
     structs = ''
     for message in messages:
-        structs += message.constants() + message.struct(messages) + message.sizes()
+        structs += message.constants() + message.struct(messages)
+        structs += message.texts() + message.sizes()
         if message.is_in_arrays_of(messages):
             structs += LIST % vars(message)
     topics = ['    DO(%s)' % message.name for message in messages if message.spec.has_header()]

@@ -93,7 +93,7 @@ scripts_run() {
 finds_package() {
     local name
     [[ $(in_prefix rospack find hdlyap) == "$PREFIX/share/hdlyap" ]] || return 1
-    for name in msg plots follow reproduce; do
+    for name in msg plots follow sweep; do
         [[ $(in_prefix python3 -c "import hdlyap.$name as one; print(one.__file__)") == "$PREFIX"/lib/* ]] || return 1
     done
 }
@@ -106,16 +106,13 @@ finds_messages() {
         [[ $(in_prefix rosmsg md5 hdlyap/Spectrum) == ???????????????????????????????? ]]
 }
 
-# Every launch file is found by name, has all files that it includes, and documents its arguments. reproduce.launch reads the
-# scene file of a run, which reproduce writes.
+# Every launch file is found by name, has all files that it includes, and documents its arguments.
 finds_launch_files() {
-    local file name scenes="$WORK/scenes"
-    mkdir -p "$scenes"
-    cp "$ROOT/launch/scenes/quick.yaml" "$scenes/periodic.yaml"
+    local file name
     for file in "$ROOT"/launch/*.launch; do
         name=$(basename "$file")
-        in_prefix roslaunch --files hdlyap "$name" "folder:=$scenes" | grep -Fx "$PREFIX/share/hdlyap/launch/$name" &&
-            in_prefix roslaunch --nodes hdlyap "$name" "folder:=$scenes" && in_prefix roslaunch --ros-args hdlyap "$name" || return 1
+        in_prefix roslaunch --files hdlyap "$name" | grep -Fx "$PREFIX/share/hdlyap/launch/$name" &&
+            in_prefix roslaunch --nodes hdlyap "$name" && in_prefix roslaunch --ros-args hdlyap "$name" || return 1
     done
 }
 

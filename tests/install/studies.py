@@ -1,10 +1,11 @@
 #!/usr/bin/python3
 """studies.py PROGRAMS: quick runs of the studies of doc/findings/, built there: their numbers are
-sound, and the picture shows something."""
+sound, the fits are those of least squares, and the pictures show something."""
 
 import csv
 import math
 import os
+import re
 import subprocess
 import sys
 import unittest
@@ -42,6 +43,19 @@ def numbers(study):
     ]
 
 
+def drawn(test, *studies):
+    """Lines that are said of the tables of the studies; their pictures show something."""
+    done = run(sys.executable, DRAW, *(os.path.join(PROGRAMS, name + '.csv') for name in studies))
+    test.assertEqual((done.returncode, done.stderr), (0, ''))
+    pictures = [line for line in done.stdout.splitlines() if line.endswith('.png')]
+    test.assertEqual(len(pictures), len(studies))
+    for picture in pictures:
+        pixels = matplotlib.image.imread(picture)
+        test.assertGreater(pixels.shape[1], 500)
+        test.assertGreater(pixels[..., :3].std(), SPREAD)
+    return [line for line in done.stdout.splitlines() if not line.endswith('.png')]
+
+
 def number(text):
     """Of all columns but one."""
     return text if text in ('periodic', 'reflecting') else float(text)
@@ -51,17 +65,27 @@ class Studies(unittest.TestCase):
     def test_halves_of_lp_modes(self):
         """The form of whole vectors vanishes, dp is hardly ahead, the pressure turns the phase."""
         (found,) = numbers('halves')
-        self.assertEqual(found['nodes'], 1)
+        self.assertEqual((found['nodes'], found['seeds']), (1, 2))
         self.assertLess(abs(found['sum rule']), 1e-6)
         self.assertLess(abs(found['angle']), 0.05)
         self.assertTrue(-0.09 < found['symmetric / mean'] < -0.03, found)
         self.assertAlmostEqual(found['v'] / found['P_xx / (sqrt(2) rho)'], 1, delta=0.06)
         self.assertTrue(0.5 < found['mean C'] / found['lambda'] < 0.8, found)
-        drawn = run(sys.executable, DRAW, os.path.join(PROGRAMS, 'halves.csv'))
-        self.assertEqual((drawn.returncode, drawn.stderr), (0, ''))
-        pixels = matplotlib.image.imread(drawn.stdout.strip())
-        self.assertGreater(pixels.shape[1], 500)
-        self.assertGreater(pixels[..., :3].std(), SPREAD)
+        self.assertEqual(drawn(self, 'halves'), [])  # one wave is no line
+
+    def test_h_and_g_slow_the_rotation(self):
+        """omega^2 = x^2 - h^2 - g^2 of the columns, but for the difference of two seeds."""
+        (found,) = numbers('halves')
+        x = found['P_xx / (sqrt(2) rho)'] * found['k'] / found['mean C']
+        square = found['difference / mean'] ** 2 + found['symmetric / mean'] ** 2
+        expected = found['sqrt(1 - (h^2 + g^2) / x^2)']
+        self.assertAlmostEqual(expected, math.sqrt(1 - square / x**2), delta=1e-4)
+        self.assertTrue(0.9985 < expected < 0.9997, found)
+        self.assertAlmostEqual(
+            found['v over that of pressure and C'],
+            found['v'] / (found['P_xx / (sqrt(2) rho)'] * expected),
+            delta=1e-3,
+        )
 
     def test_sound_is_twice_as_fast_in_a_row_of_disks(self):
         (found,) = numbers('sound')
@@ -70,17 +94,48 @@ class Studies(unittest.TestCase):
         self.assertTrue(0.7 * rods < pressure < rods, found)
         self.assertAlmostEqual(found['sound'] / pressure, 2**0.5, delta=0.07 * 2**0.5)
         self.assertAlmostEqual(found['v'] / pressure, 0.5**0.5, delta=0.07 * 0.5**0.5)
+        self.assertAlmostEqual(found['k'], 2 * math.pi * 0.8 / 50, delta=1e-5)
+        by_pressure = found['sound of the pressure'] / pressure
+        self.assertAlmostEqual(by_pressure, 2**0.5, delta=0.07 * 2**0.5)
+        (line,) = drawn(self, 'sound')
+        self.assertIn(f"{found['sound'] / found['v']:.4f} +-", line)
 
     def test_dilute_gases(self):
-        """h_KS / N nu = (B - ln rho) / 2; nu is Enskog's but for 1/N; all of 16 disks."""
+        """h_KS / N nu = (B - ln rho) / 2; nu is Enskog's but for 1/N; all of 16 disks. Both
+        fluctuate together: of 4000 collisions apiece h_KS is known to 0.5 %, the ratio better."""
         table = numbers('dilute')
         for found in table:
             rho, rate = found['density'], found['collisions of a disk']
             self.assertTrue(0.96 < rate / (2 * math.pi**0.5 * rho) < 1.15, found)
             entropy = found['h_KS / N over it']
+            self.assertTrue(0.0003 < found['h_KS error'] / entropy < 0.002, found)
             if rho <= 0.01:
-                self.assertAlmostEqual(2 * entropy + math.log(rho), 1.3, delta=0.15)
+                self.assertAlmostEqual(2 * entropy + math.log(rho), 1.3, delta=0.02)
         self.assertGreater(table[-1]['lambda_1 over it'], 13)
+        self.assertEqual(drawn(self, 'dilute'), [])  # one size is no line in 1 / N
+
+    def test_fits_are_those_of_least_squares(self):
+        """Made-up tables: B = 1.4 - 1 / N with errors of 0.01, one value of eight off by three."""
+        path = os.path.join(PROGRAMS, 'made_up.csv')
+        names = 'density,disks,h_KS / N over it,h_KS error,lambda_1 over it,lambda_1 error'
+        with open(path, 'w', encoding='utf-8') as file:
+            file.write(names + '\n')
+            for density in (0.01, 0.001):
+                for disks, off in ((10, 0), (20, 0.03 * (density < 0.01)), (50, 0), (100, 0)):
+                    b = 1.4 - 1 / disks + off
+                    file.write(f'{density},{disks},{(b - math.log(density)) / 2},0.005,9,0.1\n')
+        (line,) = drawn(self, 'made_up')
+        found = [float(one) for one in re.findall(r'-?\d+\.?\d*', line.replace('^2', ''))]
+        matrix = [[1, 1 / disks] for disks in (10, 20, 50, 100)] * 2
+        ones, ends, squares = (sum(row[1] ** power for row in matrix) for power in (0, 1, 2))
+        self.assertAlmostEqual(
+            found[1], 0.01 * math.sqrt(squares / (ones * squares - ends**2)), 4
+        )
+        self.assertAlmostEqual(found[3], 0.01 * math.sqrt(ones / (ones * squares - ends**2)), 4)
+        self.assertAlmostEqual(found[0] + found[2] * ends / ones, 1.4 - ends / ones + 0.03 / 8, 3)
+        self.assertEqual(found[-1], 6)  # of eight values
+        leverage = 1 / 8 + (0.05 - ends / 8) ** 2 / (squares - ends**2 / 8)
+        self.assertAlmostEqual(found[-2], 9 * (1 - leverage), 1)
 
     def test_a_bad_argument_gives_one_line_and_status_2(self):
         for name in ('halves', 'sound', 'dilute'):

@@ -229,6 +229,13 @@ class Listener:
         with self.arrived:
             return self.arrived.wait_for(lambda: any(map(condition, self.messages)), seconds)
 
+    def all_of(self, node):
+        """Messages of a node that ends: the last ones are still read when it has."""
+        node.wait()
+        wait_until(lambda: not self.subscriber.get_num_connections())
+        self.close()
+        return self.messages
+
     def close(self):
         self.subscriber.unregister()
 
@@ -246,20 +253,15 @@ def is_last(status):
 
 
 def whole_run(params, topics):
-    """All messages of a run that ends by itself, {topic: messages}; cost is among the topics."""
+    """All messages of a run that ends by itself, {topic: messages}."""
     listeners = {topic: Listener(topic) for topic in ('status', *topics)}
     node = start(params)
     try:
-        status = node.wait()
-        listeners['status'].wait_for(is_last)
-        end = listeners['status'].messages[-1].sim_time
-        listeners['cost'].wait_for(lambda cost: cost.sim_time == end)
+        messages = {topic: listener.all_of(node) for topic, listener in listeners.items()}
     finally:
         node.stop()
-        for listener in listeners.values():
-            listener.close()
-    assert status == 0, node.text()
-    return {topic: listener.messages for topic, listener in listeners.items()}
+    assert node.wait() == 0, node.text()
+    return messages
 
 
 @contextlib.contextmanager
@@ -278,17 +280,53 @@ unittest.TestCase.subTest = told
 
 
 class Case(unittest.TestCase):
-    """Nodes and listeners that end with the test."""
+    """Nodes, other processes, listeners and folders that end with the test."""
 
     def start(self, params, **how):
         node = start(params, **how)
         self.addCleanup(node.stop)
         return node
 
+    def process(self, command, **env):
+        process = Process(command, **env)
+        self.addCleanup(process.stop)
+        return process
+
+    def runs(self, params, **how):
+        """A node that ends by itself."""
+        node = self.start(params, **how)
+        self.ends(node)
+        return node
+
+    def ends(self, process, status=0, *words):
+        self.assertEqual(process.wait(), status, process.text())
+        for word in words:
+            self.assertIn(word, process.text())
+
+    def interrupt(self, process, status=0):
+        process.send(signal.SIGINT)
+        self.assertEqual(process.wait(), status, process.text())
+
+    def sees(self, condition, process=None, **how):
+        """Waits until it is true; a process is one that tells why it is not."""
+        self.assertTrue(wait_until(condition, **how), process and process.text())
+
     def listen(self, topic, **how):
         listener = Listener(topic, **how)
         self.addCleanup(listener.close)
         return listener
+
+    def hear(self, topic, kind):
+        """All messages of any topic."""
+        heard = []
+        subscriber = rospy.Subscriber(topic, kind, heard.append, queue_size=None)
+        self.addCleanup(subscriber.unregister)
+        return heard
+
+    def new_folder(self, **how):
+        folder = tempfile.TemporaryDirectory(**how)
+        self.addCleanup(folder.cleanup)
+        return folder.name
 
 
 class Traced(unittest.TestCase):

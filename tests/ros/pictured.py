@@ -39,23 +39,10 @@ def text(picture):
     return of(picture, 'caption', Marker.TEXT_VIEW_FACING)[0].text
 
 
-def mode_name(picture, ns):
-    """Of the mode in a panel."""
-    return of(picture, ns, Marker.TEXT_VIEW_FACING)[0].text.split()[0]
-
-
 def places(picture):
     """Of the disks in the first panel."""
     points = of(picture, 'disks', Marker.SPHERE_LIST)[0].points
     return np.array([(p.x, p.y) for p in points[: MODES['disks']]])
-
-
-def arrows(marker):
-    """Of each disk: the difference of the ends."""
-    tails = [
-        ((a.x + b.x) / 2, (a.y + b.y) / 2) for a, b in zip(marker.points[0::9], marker.points[5::9])
-    ]
-    return np.array([(tip.x - x, tip.y - y) for (x, y), tip in zip(tails, marker.points[7::9])])
 
 
 def lines(picture):

@@ -107,13 +107,11 @@ double hd_trajectory_overlap(const hd_trajectory *trajectory)
 }
 
 /** PROBE_STD_ERROR: of the exponents nearest to zero, at all times. */
-hd_cost hd_run_cost(const hd_run *run)
+double hd_spectrum_error_of_last(const hd_spectrum *spectrum, int count)
 {
-    hd_cost (*real)(const hd_run *);
-    next(&real, "hd_run_cost");
-    hd_cost cost = real(run);
-    if (getenv("PROBE_STD_ERROR")) cost.std_error = number("PROBE_STD_ERROR");
-    return cost;
+    double (*real)(const hd_spectrum *, int);
+    next(&real, "hd_spectrum_error_of_last");
+    return getenv("PROBE_STD_ERROR") ? number("PROBE_STD_ERROR") : real(spectrum, count);
 }
 
 /** PROBE_MEMORY_AFTER: blocks of the core before memory is out. */

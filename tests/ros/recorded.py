@@ -9,6 +9,7 @@ from math import sqrt
 import numpy as np
 
 import made
+from reproduced import claims
 from hdlyap.plots.phases import PhaseCourse
 from hdlyap.plots.run import Run
 
@@ -85,7 +86,7 @@ def pictures(test, part, bags):
 
 
 def rows(part, bags):
-    return [row for claim in part.claims(bags) for row in claim.rows]
+    return [row for claim in claims(part, bags).values() for row in claim.rows]
 
 
 def by_quantity(part, bags):
@@ -94,7 +95,7 @@ def by_quantity(part, bags):
 
 def verdicts(part, bags):
     """{name of claim: its verdict} of those that are judged."""
-    return {claim.name: claim.verdict for claim in part.claims(bags) if claim.judged}
+    return {name: one.verdict for name, one in claims(part, bags).items() if one.judged}
 
 
 def table(name):

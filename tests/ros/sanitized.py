@@ -66,7 +66,6 @@ def lead(node, listeners):
     call('reset_average', Trigger)
     call('set', Set, 'report_interval=0.25')
     call('set', Set, 'pace=%g' % PACE)
-    rospy.set_param('/%s/disks' % harness.NODE, 7)  # which it looks at now and then
     call('checkpoint', Trigger)
     expect(node, lambda: all(listener.messages for listener in listeners.values()))
     listeners['state'].close()

@@ -1,16 +1,13 @@
-/** What diagnostics judge, without ROS: errors that fall or do not, disks that overlap or drift,
+/** What diagnostics judge, without ROS: errors that do not fall, disks that overlap or drift,
  * subscribers that are behind, and what is made of all of it. */
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cfloat>
 #include <cmath>
-#include <random>
 #include <string>
 #include <vector>
 
 #include "wrapper/backlog.hpp"
-#include "hdlyap/scene.h"
 #include "hdlyap_ros/messages.h"
 
 extern "C" {
@@ -19,86 +16,6 @@ extern "C" {
 
 namespace
 {
-/** As it falls in a stationary run, with errors of a tenth. */
-error_trend trend_of(double (*error)(double))
-{
-    std::mt19937_64 random(1);
-    std::normal_distribution<double> noise(1.0, 0.1);
-    error_trend trend = {};
-    for (double t = 16; t < 4000; t += 1) error_trend_add(&trend, t, error(t) * noise(random));
-    return trend;
-}
-
-TEST(ErrorTrend, HealthyFalls)
-{
-    error_at since;
-    const error_trend trend = trend_of([](double t) { return 1 / std::sqrt(t); });
-    EXPECT_FALSE(error_trend_stalled(&trend, &since));
-    EXPECT_GE(trend.last.time, 8 * since.time);
-    EXPECT_LT(trend.last.time, 33 * since.time);
-}
-
-TEST(ErrorTrend, StallsAndFallsAgain)
-{
-    error_at since;
-    const error_trend trend = trend_of([](double t) { return t < 250 ? 1 / std::sqrt(t) : 0.3; });
-    EXPECT_TRUE(error_trend_stalled(&trend, &since));
-    error_trend again = trend;
-    for (double t = 4000; t < 1e5; t += 10) error_trend_add(&again, t, 19 / std::sqrt(t));
-    EXPECT_FALSE(error_trend_stalled(&again, &since));
-}
-
-TEST(ErrorTrend, SaysNothingTooEarly)
-{
-    error_at since;
-    error_trend trend = {};
-    EXPECT_FALSE(error_trend_stalled(&trend, &since));
-    for (double t = 16; t < 4 * 8 * 16; t += 1) error_trend_add(&trend, t, t < 64 ? 0.01 : 1.0);
-    EXPECT_FALSE(error_trend_stalled(&trend, &since));
-    error_trend_add(&trend, 4 * 8 * 16, 1.0);
-    EXPECT_TRUE(error_trend_stalled(&trend, &since));
-    EXPECT_EQ(since.time, 64);
-    error_trend_add(&trend, 5 * 8 * 16, -1.0); /* not known: as before */
-    EXPECT_TRUE(error_trend_stalled(&trend, &since));
-    error_trend_add(&trend, 1.0, -1.0); /* averages reset */
-    EXPECT_FALSE(error_trend_stalled(&trend, &since));
-    for (double t : {1e-30, 1e-9, 1e3, 1e12, 1e300}) error_trend_add(&trend, t, 1.0);
-    EXPECT_TRUE(error_trend_stalled(&trend, &since));
-}
-
-/** Two disks of a dense box, so far apart along x. */
-examination examined(double distance, double momentum)
-{
-    hd_scene_def def = hd_scene_def_default();
-    def.disks = 2;
-    def.density = 0.3;
-    def.aspect = 1.0;
-    const double q[] = {0.1, 1.0, 0.1 + distance, 1.0}, p[] = {-momentum, 0, 0, std::sqrt(3.0)};
-    hd_trajectory *trajectory = nullptr;
-    examination result = {};
-    EXPECT_EQ(hd_trajectory_create_from(&trajectory, &def, q, p), HD_OK);
-    if (trajectory) result = examine(trajectory);
-    hd_trajectory_free(trajectory);
-    return result;
-}
-
-TEST(Examination, RoundingIsNoOverlap)
-{
-    const examination good = examined(1.0 - 32 * DBL_EPSILON, 1.0);
-    EXPECT_TRUE(good.made);
-    EXPECT_FALSE(examination_overlap(&good));
-    EXPECT_FALSE(examination_drift(&good));
-    EXPECT_LT(good.overlap_max, 1e-9); /* before the core gives up */
-    const examination deep = examined(1.0 - 5e-10, 1.0);
-    EXPECT_TRUE(examination_overlap(&deep));
-    EXPECT_NEAR(deep.overlap, 5e-10, 1e-15);
-    const examination warm = examined(1.2, 1.0 + 1e-12);
-    EXPECT_TRUE(examination_drift(&warm));
-    EXPECT_NEAR(warm.energy_error, 0.5e-12, 1e-15);
-    const examination none = {};
-    EXPECT_FALSE(examination_overlap(&none) || examination_drift(&none));
-}
-
 /** Messages in a queue as roscpp keeps it for one subscriber, the oldest dropped first. */
 class Queue
 {
@@ -152,17 +69,6 @@ TEST(Backlog, Latched)
     EXPECT_EQ(backlog.look().waiting, 0);
 }
 
-TEST(Backlog, TakenAtOnce)
-{
-    Queue queue(1000);
-    for (int k = 0; k < 20; k++) {
-        queue.publish(10.0 * k);
-        EXPECT_EQ(queue.backlog.look().waiting, 1);
-        queue.take();
-        EXPECT_EQ(queue.backlog.look(10.0 * k + 9.0).waiting, 0);
-    }
-}
-
 TEST(Backlog, DeafThenWellAgain)
 {
     Queue queue(1000);
@@ -213,6 +119,7 @@ worker_state healthy()
 {
     worker_state state = {};
     state.status = HD_OK;
+    state.last.cost.stalled_since = -1.0;
     state.disks = {true, 1e-16, 1e-13, 1e-15, 1e-12};
     return state;
 }
@@ -237,7 +144,9 @@ TEST(Conditions, EachHasItsLevelAndMessage)
     snprintf(unkept.checkpoint.message, sizeof unkept.checkpoint.message, "disk full");
     deep.disks.overlap = 1e-12;
     warm.disks.energy_error = NAN;
-    for (double t = 1; t <= 32; t++) error_trend_add(&stalled.errors, t, 0.5);
+    stalled.last.averaged = 32;
+    stalled.last.cost.std_error = stalled.last.cost.stalled_error = 0.5;
+    stalled.last.cost.stalled_since = 4;
     const worker_state well = healthy();
     const struct {
         const worker_state *state;

@@ -4,9 +4,6 @@ listen."""
 
 import math
 import os
-import tempfile
-
-from std_srvs.srv import Trigger
 
 import harness
 from harness import is_last
@@ -41,35 +38,13 @@ OF_NEIGHBOURS = (
 RIGHT = math.pi / 2
 CONVERGED = 1e-8  # beyond what a transient of 20 leaves of the least rate, 2.2
 ROUNDING = 1e-9
-NOT_OF_THE_RUN = ('header', 'run_id', 'seconds')
-
-
-def plain(message):
-    """Its numbers, but for those of this very run of it."""
-    return {
-        name: str(getattr(message, name))
-        for name in message.__slots__
-        if name not in NOT_OF_THE_RUN
-    }
 
 
 class Case(harness.Case):
     def run_of(self, **params):
         """Messages of covariant vectors of a run that ends by itself."""
-        listener, status = self.listen('covariant'), self.listen('status')
-        node = self.start(dict(SCENE, wait_for_subscribers=['covariant', 'status'], **params))
-        self.assertEqual(node.wait(), 0, node.text())
-        self.assertTrue(status.wait_for(is_last))
-        listener.close()
-        status.close()
-        self.assertGreater(len(listener.messages), 0)
-        return listener.messages
-
-    def refused(self, node, status, *words):
-        self.assertEqual(node.wait(), status, node.text())
-        self.assertEqual(len(node.lines('FATAL')), 1, node.text())
-        for word in words:
-            self.assertIn(word, node.lines('FATAL')[0])
+        params = dict(SCENE, **params)
+        return harness.whole_run(params, ['covariant'])['covariant']
 
 
 class Windows(harness.Case):
@@ -131,9 +106,9 @@ class Windows(harness.Case):
             self.assertTrue(message.samples >= 16 or set(message.std_errors) == {-1.0})
 
     def test_local_exponents_fluctuate(self):
-        means = [sum(m.local_exponents[0] for m in self.messages) / WINDOWS, self.last.exponents[0]]
+        mean = sum(m.local_exponents[0] for m in self.messages) / WINDOWS
         self.assertGreater(len({m.local_exponents[0] for m in self.messages}), WINDOWS - 2)
-        self.assertLess(abs(means[0] - means[1]), 1.0)
+        self.assertLess(abs(mean - self.last.exponents[0]), 1.0)
         self.assertTrue(all(m.local_exponents[0] != m.exponents[0] for m in self.messages))
 
     def test_two_starts_have_met(self):
@@ -245,12 +220,6 @@ class Windows(harness.Case):
 
 
 class Choices(Case):
-    @harness.more
-    def test_storages_say_the_same(self):
-        want = [plain(message) for message in self.run_of(threads=1)]
-        got = self.run_of(threads=1, covariant_storage='recompute')
-        self.assertEqual([plain(message) for message in got], want)
-
     def test_positive_ones(self):
         for exponents, vectors in (
             ('positive', POSITIVE),
@@ -269,45 +238,30 @@ class Choices(Case):
 
     def test_with_modes(self):
         """Both kinds of vectors of one run."""
-        steps, info = self.listen('steps'), self.listen('run_info')
-        message = self.run_of(duration=40.0, observables=['covariant', 'modes', 'steps', 'hydro'])[
-            -1
-        ]
+        topics = ['run_info', 'modes', 'steps', 'hydro', 'covariant']
+        params = dict(SCENE, duration=40.0, observables=topics[1:], wait_for_subscribers=topics)
+        heard = harness.whole_run(params, topics)
+        message = heard['covariant'][-1]
         self.assertEqual((message.windows, len(message.angles)), (4, 3))
-        self.assertEqual(info.messages[0].observables, ['modes', 'steps', 'hydro', 'covariant'])
-        found = [
-            step
-            for step in steps.messages[-1].steps
-            if step.kind != Mode.ZERO and not step.conjugate
-        ]
+        self.assertEqual(heard['run_info'][0].observables, topics[1:])
+        found = heard['steps'][-1].steps
         self.assertEqual(
-            [(step.kind, step.nx, step.ny) for step in found],
+            [(s.kind, s.nx, s.ny) for s in found if s.kind != Mode.ZERO and not s.conjugate],
             [(weight.kind, weight.nx, weight.ny) for weight in message.weights],
         )
 
     def test_goes_on_from_a_checkpoint(self):
         """With the averages of its windows, what was observed and the parameters; windows may wait
         elsewhere."""
-        with tempfile.TemporaryDirectory() as folder:
-            path = os.path.join(folder, 'run.checkpoint')
-            first = self.run_of(duration=60.0, checkpoint=path)
-            listener, info = self.listen('covariant'), self.listen('run_info')
-            node = self.start(
-                dict(
-                    resume=path,
-                    duration=100.0,
-                    wait_for_subscribers=['covariant', 'run_info'],
-                    covariant_storage='recompute',
-                )
-            )
-            self.assertEqual(node.wait(), 0, node.text())
-            self.assertTrue(listener.wait_for(lambda message: message.windows == 12))
-        self.assertEqual(
-            [message.windows for message in first + listener.messages], list(range(1, 13))
-        )
-        self.assertAlmostEqual(listener.messages[0].sim_time, START + 60.0 + WINDOW, delta=ROUNDING)
-        self.assertEqual(listener.messages[0].samples, 9 * LOOKS)
-        info = info.messages[0]
+        path = os.path.join(self.new_folder(), 'run.checkpoint')
+        first = self.run_of(duration=60.0, checkpoint=path)
+        topics = ['covariant', 'run_info']
+        params = dict(resume=path, duration=100.0, covariant_storage='recompute')
+        heard = harness.whole_run(dict(params, wait_for_subscribers=topics), topics)
+        second, info = heard['covariant'], heard['run_info'][0]
+        self.assertEqual([message.windows for message in first + second], list(range(1, 13)))
+        self.assertAlmostEqual(second[0].sim_time, START + 60.0 + WINDOW, delta=ROUNDING)
+        self.assertEqual(second[0].samples, 9 * LOOKS)
         self.assertEqual(
             (info.observables, info.covariant_window, info.covariant_storage),
             (['spectrum', 'covariant', 'state'], WINDOW, 'recompute'),
@@ -316,9 +270,8 @@ class Choices(Case):
 
 class Demand(Case):
     def test_nobody(self):
-        cost, status = self.listen('cost'), self.listen('status')
+        cost = self.listen('cost')
         calls = harness.counts(self, dict(SCENE, wait_for_subscribers=['cost']))
-        self.assertTrue(status.wait_for(is_last))
         self.assertEqual({message.covariant_seconds for message in cost.messages}, {0.0})
         self.assertEqual((calls['covariant_publish'], calls['modes_measure']), (0, 0))
 
@@ -348,18 +301,6 @@ class Demand(Case):
         self.assertTrue(cost.wait_for(lambda message: message.sim_time > now + 60))
         self.assertEqual(cost.messages[-1].covariant_seconds, spent)
 
-    def test_reset(self):
-        covariant = self.listen('covariant')
-        self.start(dict(SCENE, duration=0.0, pace=200.0))
-        self.assertTrue(covariant.wait_for(lambda message: message.windows == 2))
-        harness.service('reset_average', Trigger)()
-        seen = len(covariant.messages)
-        self.assertTrue(
-            harness.wait_until(lambda: any(m.windows == 1 for m in covariant.messages[seen:]))
-        )
-        first = next(m for m in covariant.messages[seen:] if m.windows == 1)
-        self.assertEqual((first.samples, round(first.averaged_time, 6)), (LOOKS, WINDOW))
-
 
 class Faults(Case):
     @harness.more
@@ -367,34 +308,19 @@ class Faults(Case):
         """Triangles of every interval need more than those of the longest ones, which it was begun
         with."""
         self.listen('covariant')
-        node = self.start(
-            dict(
-                SCENE,
-                exponents='all_independent',
-                interval='auto',
-                covariant_window=50.0,
-                duration=0.0,
-                covariant_memory=0.005,
-            )
-        )
-        self.refused(
-            node,
-            3,
-            'at simulated time 30',
-            'covariant_memory = 0.005 GB',
-            'covariant_window = 50 ',
-            'triangles and',
-            ' need 0.00',
-        )
+        params = dict(SCENE, exponents='all_independent', interval='auto', covariant_window=50.0)
+        node = self.start(dict(params, duration=0.0, covariant_memory=0.005))
+        said = 'at simulated time 30', 'covariant_memory = 0.005 GB', 'covariant_window = 50 '
+        self.ends(node, 3, *said, 'triangles and', ' need 0.00')
+        self.assertEqual(len(node.lines('FATAL')), 1, node.text())
 
     def test_too_short_a_transient_is_warned_of(self):
         """Once; a long one is not."""
         for transient, lines in ((0.5, 1), (TRANSIENT, 0)):
             self.listen('covariant')
-            node = self.start(
+            node = self.runs(
                 dict(SCENE, covariant_transient=transient, wait_for_subscribers=['covariant'])
             )
-            self.assertEqual(node.wait(), 0, node.text())
             self.assertEqual(
                 len(node.lines('covariant_transient = %g: too short' % transient)),
                 lines,
@@ -403,8 +329,7 @@ class Faults(Case):
 
     def test_not_a_number(self):
         covariant = self.listen('covariant')
-        node = self.start(SCENE, probe={'PROBE_NAN_ANGLE': '1'})
-        self.refused(node, 3, 'not finite')
+        self.ends(self.start(SCENE, probe={'PROBE_NAN_ANGLE': '1'}), 3, 'not finite')
         self.assertEqual(covariant.messages, [])
 
 

@@ -101,6 +101,10 @@ def at(points, x):
     return points[points[:, 0] == x, 1][0]
 
 
+def dominated(violations):
+    return dict(domination_violations=[violations] * (ALL - 1))
+
+
 class Bags(bags.Bags):
     def setUp(self):
         super().setUp()
@@ -154,48 +158,64 @@ class Table(Bags):
             found.setdefault(name, []).append(rest.split())
         return found, text
 
-    def test_windows(self):
-        _, text = self.lines()
-        self.assertIn(
-            'covariant vectors: 200 time units in 4 windows, 40 samples (standard errors)', text
-        )
-        _, text = self.lines(self.changed(windows=1, lost_windows=3))
-        self.assertIn('in 1 window, 3 lost for want of room, 40 samples', text)
-
-    def test_exponents(self):
+    def test_rows(self):
         """Errors of 0.01 in both passes: combined 0.01414."""
         lines, text = self.lines()
         lowest = FORWARD[35:37].mean()
-        self.assertEqual(
-            lines['T(1,0)'][0], ['36-37', f'{lowest:.3f}(10)', f'{lowest + 0.03:.3f}(10)', '+2.12']
-        )
+        right = ['all', 'within', '89', '..', '90', 'degrees']
+        exponents = ['36-37', f'{lowest:.3f}(10)', f'{lowest + 0.03:.3f}(10)', '+2.12']
+        for name, row in (
+            ('T(1,0)', exponents),
+            ('T(1,0)', ['36-37', '0.930', '0.810', '0.270', '0.050']),
+            ('LP(1,0)', ['32-35', '0.550', '0.630', '0.190', '0.100']),
+            ('conj. T(1,0)', ['44-45', '0.730', '0.770', '0.020', '0.050']),
+            ('zero modes', ['38-43', '0.000(10)', '-0.100(10)', '-7.07']),
+            ('unstable-stable', ['0.3290(60)', '0.21000', '1.10000']),
+            ('unstable-centre', ['1.57080', '1.57080', '1.10000', *right]),
+        ):
+            self.assertIn(row, lines[name])
         self.assertEqual(lines['conj. T(1,0)'][0][-1], '+2.12')
-        self.assertEqual(lines['zero modes'][0], ['38-43', '0.000(10)', '-0.100(10)', '-7.07'])
         self.assertLess(text.index('T(1,0)  '), text.index('conj. T(1,0)'))
-        rms = np.sqrt((73 * 3.0**2 + 6.0**2) / 74 / 2)
-        self.assertIn(
-            f'without zero modes, 74 in all: root mean square {rms:.2f}, largest +4.24 at 5', text
-        )
-        self.assertIn('zero modes, 6 in all: root mean square 7.07, largest -7.07 at 38', text)
+        self.assertNotIn('too short', text)
 
-    def test_errors_differ(self):
-        """0.03 over sqrt(0.03^2 + 0.04^2)."""
+    def test_lines(self):
+        """made.cost: 0.2 and 0.55 of the time are replay and orthonormalisation. Also where all
+        pairs are dominated, and none."""
+        rms = np.sqrt((73 * 3.0**2 + 6.0**2) / 74 / 2)
+        frame = 'the tangent frame forwards (replay and orthonormalisation) 375.0 s'
+        for fields, said in (
+            ({}, 'covariant vectors: 200 time units in 4 windows, 40 samples (standard errors)'),
+            (dict(windows=1, lost_windows=3), 'in 1 window, 3 lost for want of room, 40 samples'),
+            ({}, f'without zero modes, 74 in all: root mean square {rms:.2f}, largest +4.24 at 5'),
+            ({}, 'zero modes, 6 in all: root mean square 7.07, largest -7.07 at 38'),
+            ({}, 'centre to exact null space: 4.0e-13 at the last sample, 7.0e-13 at most'),
+            ({}, '78 of 79 pairs of neighbours ever changed it, 24.7 % of the time'),
+            ({}, 'dominated splittings (2): behind 7 37'),
+            (dominated(0.0), 'dominated splittings (79): behind 1 2 3 4 5 6 7 8 and 71 more'),
+            (dominated(0.1), 'dominated splittings (0)\n'),
+            ({}, 'sine 1.0e-09 in the middle, 1.0e+00 at most'),
+            ({}, 'spaces: centre 3.0e-12, stable 5.0e-11 rad'),
+            (dict(centre_start_mismatch=0.3), ' rad: covariant_transient is too short'),
+            (dict(stable_start_mismatch=0.3), ' rad: covariant_transient is too short'),
+            ({}, f'covariant vectors took 12.5 s, {frame}, the run 500.0 s'),
+        ):
+            self.assertIn(said, report.report(self.changed(**fields)))
+        apart = dict(centre_start_mismatch=-1.0, stable_start_mismatch=-1.0)
+        self.assertNotIn('spaces: ', report.report(self.changed(**apart)))
+        self.assertIn(
+            'covariant vectors took 12.5 s', report.report(self.without(Cost)).split('\n')
+        )
+
+    def test_errors(self):
+        """0.03 over sqrt(0.03^2 + 0.04^2); unknown of one pass or of the other."""
         messages = everything()
         messages[1].std_errors, messages[-1].std_errors = [0.03] * ALL, [0.04] * ALL
         lines, _ = self.lines(self.recorded(messages))
         self.assertEqual(lines['T(1,0)'][0][-1], '+0.60')
-
-    def test_unknown_errors(self):
         for which in (1, -1):
             lines, text = self.lines(self.unknown_errors(which))
             self.assertEqual(lines['T(1,0)'][0][-1], '-')
             self.assertNotIn('root mean square', text)
-
-    def test_weights(self):
-        lines, text = self.lines()
-        self.assertEqual(lines['T(1,0)'][1], ['36-37', '0.930', '0.810', '0.270', '0.050'])
-        self.assertEqual(lines['LP(1,0)'][1], ['32-35', '0.550', '0.630', '0.190', '0.100'])
-        self.assertEqual(lines['conj. T(1,0)'][1], ['44-45', '0.730', '0.770', '0.020', '0.050'])
 
     def test_weights_of_a_wave_without_a_step(self):
         """The largest of as many vectors as there are dimensions: here in places that are apart."""
@@ -207,49 +227,6 @@ class Table(Bags):
         lines, text = self.lines(self.changed(weights=[weight]))
         self.assertEqual(lines['T(0,1) *'][0], ['11', '..', '0.460', '0.500', '0.300', '0.050'])
         self.assertIn('* no step found', text)
-
-    def test_angles(self):
-        lines, text = self.lines()
-        self.assertEqual(lines['unstable-stable'][0], ['0.3290(60)', '0.21000', '1.10000'])
-        self.assertEqual(
-            lines['unstable-centre'][0],
-            ['1.57080', '1.57080', '1.10000', 'all', 'within', '89', '..', '90', 'degrees'],
-        )
-        self.assertIn(
-            'centre to exact null space: 4.0e-13 at the last sample, 7.0e-13 at most', text
-        )
-
-    def test_order(self):
-        """Also where all pairs are dominated, and none."""
-        for run, said in (
-            (self.changed(), '78 of 79 pairs of neighbours ever changed it, 24.7 % of the time'),
-            (self.changed(), 'dominated splittings (2): behind 7 37'),
-            (self.pairs(0.0), 'dominated splittings (79): behind 1 2 3 4 5 6 7 8 and 71 more'),
-            (self.pairs(0.1), 'dominated splittings (0)\n'),
-        ):
-            self.assertIn(said, report.report(run))
-
-    def pairs(self, violations):
-        return self.changed(domination_violations=[violations] * (ALL - 1))
-
-    def test_apart(self):
-        _, text = self.lines()
-        self.assertIn('sine 1.0e-09 in the middle, 1.0e+00 at most', text)
-        self.assertIn('spaces: centre 3.0e-12, stable 5.0e-11 rad', text)
-        self.assertNotIn('too short', text)
-        both = 'centre_start_mismatch', 'stable_start_mismatch'
-        for which in both:
-            _, text = self.lines(self.changed(**{which: 0.3}))
-            self.assertIn(' rad: covariant_transient is too short', text)
-        _, text = self.lines(self.changed(**dict.fromkeys(both, -1.0)))
-        self.assertNotIn('spaces: ', text)
-
-    def test_seconds(self):
-        """made.cost: 0.2 and 0.55 of the time are replay and orthonormalisation."""
-        frame = 'the tangent frame forwards (replay and orthonormalisation) 375.0 s'
-        said = f'covariant vectors took 12.5 s, {frame}, the run 500.0 s'
-        self.assertIn(said, self.lines()[1])
-        self.assertIn('covariant vectors took 12.5 s\n', self.lines(self.without(Cost))[1] + '\n')
 
 
 class Figures(Bags):
@@ -319,24 +296,16 @@ class Figures(Bags):
                 self.assertAlmostEqual(points[place, 1], share / width)
             self.assertAlmostEqual(points[:, 1].sum() * width, 1)
 
-    def test_right_angles_are_said(self):
+    def test_one_bin_is_said(self):
+        right = ': at right angles, within 1°'
         for axes in self.draw(covariant_angles):
             self.assertEqual([len(one.get_xdata()) for one in axes.get_lines()], [91, 0, 0])
-            self.assertEqual(
-                [text.get_text() for text in axes.get_legend().get_texts()],
-                [
-                    'unstable-stable',
-                    'unstable-centre: at right angles, within 1°',
-                    'centre-stable: at right angles, within 1°',
-                ],
-            )
-
-    def test_one_bin_elsewhere(self):
+            said = [text.get_text() for text in axes.get_legend().get_texts()]
+            names = ['unstable-stable', 'unstable-centre' + right, 'centre-stable' + right]
+            self.assertEqual(said, names)
         one = made.covariant_angle(UNSTABLE_STABLE, {30: 5}, {30: 5})
-        self.assertEqual(
-            self.draw(covariant_angles, self.changed(angles=[one]))[0].get_lines()[0].get_label(),
-            'unstable-stable: 30 .. 31°',
-        )
+        lines = self.draw(covariant_angles, self.changed(angles=[one]))[0].get_lines()
+        self.assertEqual(lines[0].get_label(), 'unstable-stable: 30 .. 31°')
 
     def test_domination(self):
         axes = self.draw(covariant_domination)

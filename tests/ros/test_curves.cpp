@@ -2,7 +2,7 @@
 #include "drawn.hpp"
 
 extern "C" {
-#include "viewer/numbers.h"
+#include "common/numbers.h"
 }
 
 using namespace drawn;

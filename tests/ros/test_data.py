@@ -259,6 +259,27 @@ class NotMeasured(Loaded):
         )
         self.assertFalse(unknown & {'cos_theta', 'a', 'exponents', 'averaged_time'})
 
+    def test_names_of_constants(self):
+        """Of a field its own, where a message has several kinds of them."""
+        for kind, field, words in (
+            ('RunStatus', 'stage', 'equilibrating, warming up, averaging, finished'),
+            ('Step', 'sharing', 'alone, shared, mixing, blended, coincide'),
+            ('LpPhase', 'state', 'unresolved, weak, coarse, tracked'),
+            ('Mode', 'kind', 'none, zero, T, LP'),
+            ('CovariantAngle', 'spaces', 'unstable-stable, unstable-centre, centre-stable'),
+            (
+                'Cost',
+                'interval_limit',
+                'report interval, conditioning, doubling, overflow, parameter interval, '
+                'memory of the events, vectors wanted, repair, end of the stage, '
+                'samples for errors, none yet',
+            ),
+        ):
+            with self.subTest(kind=kind, field=field):
+                found = fields.words(getattr(hdlyap.msg, kind), field)
+                self.assertEqual(found, dict(enumerate(words.split(', '))))
+        self.assertEqual(fields.words(hdlyap.msg.Step, 'kind'), {1: 'zero', 2: 'T', 3: 'LP'})
+
     def test_messages_of_before(self):
         """They lack what came later."""
         later = r'float64|uint8', r'ks_entropy_error|\w_misfit|sharing|set_time|own_part|gap\w*'

@@ -18,7 +18,7 @@ import made
 from hdlyap.data.joined import OF_ONE_RUN, UNSEEN
 from hdlyap.data.seeds import Seeds, mean
 from made import LP, T
-from test_data import Loaded, state, without
+from test_data import Loaded, state
 
 HALF = np.linspace(3, 1, 37)
 SOURCES = os.path.join(os.path.dirname(os.path.abspath(__file__)), '../..')
@@ -175,15 +175,6 @@ class OneRun(Loaded):
         self.assertEqual(hdlyap.load(path, run=1).info.run_id, 'one')
         self.cannot_load('no run 3 in it', path, run=3)
 
-    def test_resumed_bags_of_before(self):
-        """run_info did not say what it was resumed from: then they are one trajectory twice."""
-        paths = []
-        for name in ('one', 'two'):
-            info, *others = run([1, 2], name)
-            info = without(info, 'float64', 'resumed_time')
-            paths.append(self.write([info, *others], name))
-        self.cannot_load('one trajectory twice', *paths)
-
 
 class SeveralSeeds(Loaded):
     def seeds(self, *runs):
@@ -330,30 +321,6 @@ class SeveralSeeds(Loaded):
             values = np.arange(len(lengths), dtype=float)[:, None]
             _, stated, scatter, _, _ = mean(values, np.full_like(values, np.nan), lengths)
             self.assertEqual((np.isnan(stated[0]), np.isnan(scatter[0])), (True, not is_known))
-
-    def test_coverage(self):
-        """Runs of 8 and of 16 blocks whose means and errors are known: how often the mean is within
-        one and two of its errors of the truth. Weights of 1 / error^2 would make both too
-        small."""
-        rng = np.random.default_rng(6)
-        trials, lengths = 20000, (8, 8, 8, 16, 16, 16)
-        blocks = [rng.normal(size=(length, trials)) for length in lengths]
-        values = np.array([one.mean(axis=0) for one in blocks])
-        errors = np.array([one.std(axis=0, ddof=1) / len(one) ** 0.5 for one in blocks])
-        of_all, stated, scatter, chi2, count = mean(values, errors, lengths)
-        self.assertEqual(set(count), {6})
-        # the error of the mean is that of all blocks together
-        expected = sum(lengths) ** -0.5
-        self.assertLess(abs(of_all.std() / expected - 1), 4 / np.sqrt(2 * trials))
-        for error, within in (
-            (stated, (0.676, 0.949)),  # about 60 degrees of freedom
-            (scatter, (0.637, 0.898)),  # Student's t with 5
-        ):
-            for width, share in zip((1, 2), within):
-                inside = np.mean(abs(of_all) < width * error)
-                self.assertLess(abs(inside - share), 0.015, (width, share))
-        # of errors with 7 and 15 degrees of freedom: 5 times about 1.27
-        self.assertTrue(5.0 < chi2.mean() < 5 * 7 / 5, chi2.mean())
 
 
 if __name__ == '__main__':

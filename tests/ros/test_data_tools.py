@@ -15,7 +15,7 @@ import made
 from bags import tool
 from made import LP, T
 from test_data import Loaded
-from test_data_joined import HALF, numbered, run
+from test_data_joined import HALF, numbered
 
 ESCAPE = '\x1b]0;gone\x07\x1b[2J\u202e'
 TOOLS = dict(plot=1, compare=2, repeat=1)  # and their exit statuses of a fault
@@ -104,14 +104,6 @@ class Several(Tools):
             self.assertRegex(text, row)
         drawn = {name for name in os.listdir(self.out) if name.endswith('.png')}
         self.assertEqual(drawn, {'spectrum.png', 'steps.png', 'dispersion.png'})
-
-    def test_resumed(self):
-        """The averages of the last, the course of all."""
-        a = self.write(run(range(1, 7)), 'a')
-        b = self.write(run(range(5, 9), 'two', resumed_time=104.0), 'b')
-        text = self.plot(a, b)
-        self.assertRegex(text, r'averaged time +8\n')
-        self.assertIn('lambda_max      3.080000 +- 0.010000', text)
 
     def test_others(self):
         pair = self.seed(1, 0.0), self.seed(2, 0.0, density=0.6)
@@ -243,15 +235,6 @@ class Hostile(Tools):
         self.write([info], 'a', node='/' + ESCAPE, mode='a')
         for status, _, error in self.all_tools(self.path('a')):
             self.assertIn('several nodes, choose one with --node: ', error)
-
-    def test_long_names(self):
-        """100,000 letters in a name took minutes."""
-        long = 'x ' * 50000
-        info = made.run_info(scene=long, version=long, boundary_x=long, observables=[long] * 99)
-        bag = self.write([info, made.spectrum(HALF, 50.0)], 'a')
-        for status, out, _ in self.all_tools(bag):
-            self.assertEqual(status, 0)
-            self.assertLess(len(out), 50000)
 
     def test_what_does_not_fit_together(self):
         info = made.run_info()

@@ -6,7 +6,7 @@ from diagnostic_msgs.msg import DiagnosticArray
 import rospy
 
 import harness
-from harness import MODES, OBSERVABLES, is_last
+from harness import MODES, OBSERVABLES
 
 REPORTS = 20  # of MODES, while averaging
 MESSAGE = {'fields': 'mode_field'}  # of topics that are named otherwise
@@ -62,13 +62,10 @@ class Demand(harness.Case):
 
     def test_who_comes_late(self):
         """Is told of what is measured from then on."""
-        cost = harness.Listener('cost')
-        self.addCleanup(cost.close)
-        node = harness.start(dict(MODES, warmup=0.0, duration=0.0, pace=50.0))
-        self.addCleanup(node.stop)
+        cost = self.listen('cost')
+        self.start(dict(MODES, warmup=0.0, duration=0.0, pace=50.0))
         self.assertTrue(cost.wait_for(lambda message: message.sim_time >= 15))
-        modes = harness.Listener('modes')
-        self.addCleanup(modes.close)
+        modes = self.listen('modes')
         self.assertTrue(modes.wait_for(lambda message: True))
         first = modes.messages[0]
         self.assertEqual(first.samples, 1)
@@ -82,13 +79,8 @@ class Demand(harness.Case):
 
 class Fields(harness.Case):
     def fields(self, **params):
-        listeners = {
-            topic: self.listen(topic) for topic in ('fields', 'modes', 'status', 'run_info')
-        }
-        node = self.start(dict(MODES, wait_for_subscribers=list(listeners), **params))
-        self.assertEqual(node.wait(), 0, node.text())
-        self.assertTrue(listeners['status'].wait_for(is_last))
-        return {topic: listener.messages for topic, listener in listeners.items()}
+        topics = ['fields', 'modes', 'run_info']
+        return harness.whole_run(dict(MODES, wait_for_subscribers=topics, **params), topics)
 
     def test_now_and_then(self):
         """The first report, the first at or after each multiple of the interval, and the last."""
@@ -116,11 +108,9 @@ class Fields(harness.Case):
             ('lp_phases', 'PROBE_NAN_PHASE'),
             ('steps', 'PROBE_NAN_RATE'),
         ):
-            heard = harness.Listener(name)
-            self.addCleanup(heard.close)
-            node = harness.start(dict(MODES, wait_for_subscribers=[name]), probe={probe: '1'})
-            self.addCleanup(node.stop)
-            self.assertEqual(node.wait(), 3, node.text())
+            heard = self.listen(name)
+            node = self.start(dict(MODES, wait_for_subscribers=[name]), probe={probe: '1'})
+            self.ends(node, 3)
             self.assertEqual(len(node.lines('not finite')), 1, node.text())
             self.assertTrue(name != 'fields' or heard.messages == [])
 

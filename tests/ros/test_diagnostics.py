@@ -89,8 +89,7 @@ class Diagnostics(harness.Case):
         """Those before it was resumed do not count as of its first second."""
         with tempfile.TemporaryDirectory() as folder:
             kept = os.path.join(folder, 'kept')
-            node = self.start(dict(LIVE, pace=0.0, duration=3000.0, checkpoint=kept))
-            self.assertEqual(node.wait(), 0, node.text())
+            node = self.runs(dict(LIVE, pace=0.0, duration=3000.0, checkpoint=kept))
             before = int(re.search('([0-9]+) collisions', node.text()).group(1))
             self.start(dict(resume=kept, duration=0.0, pace=1.0))
             values = self.said(OK)

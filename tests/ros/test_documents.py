@@ -129,19 +129,6 @@ class Tables(unittest.TestCase):
         self.assertEqual({name: cells[0] for name, cells in table('service').items()}, services())
         self.assertGreater(len(services()), 2)
 
-    def test_messages(self):
-        """Each is the type of a topic, or an element of another one."""
-        kinds = {cells[0] for cells in table('topic').values()}
-        messages = {name[:-4]: read('msg', name) for name in listed('msg', '.msg')}
-        for name in messages:
-            if 'hdlyap/' + name not in kinds:
-                self.assertTrue(
-                    any(
-                        re.search(r'(?m)^%s(\[\d*\])? ' % name, text) for text in messages.values()
-                    ),
-                    name,
-                )
-
     def test_headers_of_the_core(self):
         said = [
             name
@@ -240,12 +227,6 @@ class Text(unittest.TestCase):
                     self.assertIn(anchor, anchors(read(there)), (path, target))
         self.assertGreater(count, 50)
 
-    def test_pictures_are_shown(self):
-        """No picture of doc/ without a document."""
-        shown = ' '.join(read(path) for path in documents())
-        for path in files(r'^doc/.*\.(png|gif)$'):
-            self.assertIn(os.path.basename(path) + ')', shown)
-
     def test_tags(self):
         """Equations that are cited are in THEORY, and each is cited."""
         known = re.findall(r'(?m)^\*\*\[(T\d+)\]', read('hdlyap_core/THEORY.md'))
@@ -275,12 +256,6 @@ class Text(unittest.TestCase):
                         any(os.path.exists(os.path.join(ROOT, place, name)) for place in PLACES),
                         (path, name),
                     )
-
-    def test_scenes(self):
-        """Those that are named exist."""
-        for path in documents():
-            for name in re.findall(r'scene:=(\w+)(?![\w.])', read(path)):
-                self.assertIn(name + '.yaml', listed('launch/scenes', '.yaml'))
 
     def test_lengths(self):
         self.assertLessEqual(len(read('README.md').splitlines()), 200)

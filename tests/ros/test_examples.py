@@ -4,16 +4,16 @@ hears."""
 
 import math
 import re
-import signal
 import xmlrpc.client
 
 import numpy as np
+import rosgraph
 import rospy
-from std_msgs.msg import Float64, String
+from std_msgs.msg import Float64
 
 import harness
 import links
-from harness import MODES, Process
+from harness import MODES
 from hdlyap.msg import LpPhase, LpPhases, Mode, Steps
 from roslib.packages import find_node
 
@@ -25,10 +25,6 @@ STATES = {
     LpPhase.COARSE: 'turns too far between samples',
     LpPhase.TRACKED: 'followed',
 }
-
-
-class OlderPhases(LpPhases):
-    _md5sum = 32 * '0'
 
 
 def example(name):
@@ -53,41 +49,21 @@ def expected_deviations(messages, ours):
     return expected
 
 
+def outward(uri):
+    """(topic, name of the subscriber) of a node's connections."""
+    with xmlrpc.client.ServerProxy(uri) as proxy:
+        return {(link[4], link[1]) for link in proxy.getBusInfo('/test')[2] if link[2] == 'o'}
+
+
 class Examples(harness.Case):
+    @staticmethod
+    def is_heard(name):
+        """Its deviation by this test."""
+        uri = rosgraph.Master('/test').lookupNode(name)
+        return (name + '/deviation', rospy.get_name()) in outward(uri)
+
     def watch(self, name='watch_phase', **params):
         return self.start(params, name=name, command=[example('watch_phase')])
-
-    def hear(self, topic, kind):
-        heard = []
-        subscriber = rospy.Subscriber(topic, kind, heard.append, queue_size=None)
-        self.addCleanup(subscriber.unregister)
-        return heard, subscriber
-
-    def wait_for(self, condition, process):
-        self.assertTrue(harness.wait_until(condition), process.text())
-
-    def stop(self, process):
-        process.send(signal.SIGINT)
-        self.assertEqual(process.wait(), 0, process.text())
-
-
-@harness.more
-class Help(harness.Case):
-    def test_python_example_explains_itself_without_a_master(self):
-        fit = Process([*harness.command('fit'), '--help'], ROS_MASTER_URI='http://localhost:1')
-        self.addCleanup(fit.stop)
-        self.assertEqual(fit.wait(), 0)
-        self.assertIn('--node', fit.text())
-
-    def test_python_example_is_interrupted_without_a_master(self):
-        fit = Process(
-            harness.command('fit'), ROS_MASTER_URI='http://localhost:1', PYTHONUNBUFFERED='1'
-        )
-        self.addCleanup(fit.stop)
-        self.assertTrue(harness.wait_until(lambda: 'Will keep trying' in fit.text()), fit.text())
-        fit.send(signal.SIGINT)
-        self.assertEqual(fit.wait(), 130)
-        self.assertNotIn('Traceback', fit.text())
 
 
 @harness.more
@@ -95,16 +71,15 @@ class Waiting(Examples):
     def test_says_what_it_waits_for(self):
         """And says it again, as it is by then."""
         topic = '/some/node/steps'
-        fit = Process([*harness.command('fit'), '--node', '/some/node'])
-        self.addCleanup(fit.stop)
+        fit = self.process([*harness.command('fit'), '--node', '/some/node'])
         said = f'hdlyap fit waits: nobody publishes {topic}; roslaunch hdlyap run.launch starts'
-        self.wait_for(lambda: fit.lines(said), fit)
+        self.sees(lambda: fit.lines(said), fit)
         publisher = rospy.Publisher(topic, Steps, queue_size=1)
         self.addCleanup(publisher.unregister)
-        self.wait_for(lambda: fit.lines(f'hdlyap fit waits: nothing on {topic}: its node'), fit)
+        self.sees(lambda: fit.lines(f'hdlyap fit waits: nothing on {topic}: its node'), fit)
         publisher.publish(Steps(averaged_time=7.0))
-        self.wait_for(lambda: fit.lines('t = 7: c_T: not yet; c_L: not yet'), fit)
-        self.stop(fit)
+        self.sees(lambda: fit.lines('t = 7: c_T: not yet; c_L: not yet'), fit)
+        self.interrupt(fit)
 
 
 class Beside(Examples):
@@ -112,10 +87,9 @@ class Beside(Examples):
 
     def test_numbers_of_a_run(self):
         watch = self.watch(number=2)
-        fit = Process([*harness.command('fit'), '__name:=fit'])
-        self.addCleanup(fit.stop)
-        deviations, subscriber = self.hear('/watch_phase/deviation', Float64)
-        listeners = {topic: harness.Listener(topic) for topic in ('lp_phases', 'steps')}
+        fit = self.process([*harness.command('fit'), '__name:=fit'])
+        deviations = self.hear('/watch_phase/deviation', Float64)
+        listeners = {topic: self.listen(topic) for topic in ('lp_phases', 'steps')}
         node = self.start(dict(MODES, duration=250.0, pace=100.0, wait_for_subscribers=['cost']))
         wanted = {
             ('/hdlyap/' + topic, name)
@@ -126,25 +100,18 @@ class Beside(Examples):
                 ('steps', rospy.get_name()),
             )
         }
-        self.wait_for(lambda: wanted <= self.connections(node), node)
-        self.wait_for(lambda: subscriber.get_num_connections() == 1, watch)
-        cost, status = harness.Listener('cost'), harness.Listener('status')  # the run begins
-        self.addCleanup(cost.close)
-        self.addCleanup(status.close)
-        self.assertEqual(node.wait(), 0, node.text())
+        self.sees(lambda: wanted <= outward(links.node_uri(node)), node)
+        self.sees(lambda: self.is_heard('/watch_phase'), watch)
+        _, status = self.listen('cost'), self.listen('status')  # the run begins
+        self.ends(node)
         self.assertTrue(status.wait_for(harness.is_last))
         phases, steps = (listeners[topic].messages for topic in ('lp_phases', 'steps'))
         self.assertEqual((len(phases), len(steps)), (250, 250))
         self.check_deviations(phases, deviations, watch)
-        self.stop(watch)
-        self.stop(fit)
+        self.interrupt(watch)
+        self.interrupt(fit)
         self.check_states(phases, watch)
         self.check_fits(steps, fit)
-
-    @staticmethod
-    def connections(node):
-        with xmlrpc.client.ServerProxy(links.node_uri(node)) as proxy:
-            return {(link[4], link[1]) for link in proxy.getBusInfo('/test')[2] if link[2] == 'o'}
 
     @staticmethod
     def ours(message):
@@ -154,7 +121,7 @@ class Beside(Examples):
         expected = expected_deviations(messages, self.ours)
         self.assertGreater(len(expected), 50)
         self.assertGreater(max(map(abs, expected)), 1.0)
-        self.wait_for(lambda: len(deviations) >= len(expected), watch)
+        self.sees(lambda: len(deviations) >= len(expected), watch)
         np.testing.assert_allclose([each.data for each in deviations], expected, atol=ROUNDING)
 
     def check_states(self, messages, watch):
@@ -231,57 +198,21 @@ class Alone(Examples):
         ]
         for node, (name, value) in zip(nodes, cases):
             with self.subTest(name=name, value=value):
-                self.assertEqual(node.wait(), 2, node.text())
+                self.ends(node, 2)
                 self.assertEqual(len(node.text().splitlines()), 1, node.text())
                 self.assertRegex(node.text(), r'\[FATAL\] \[[0-9.]+\]: %s = .*: must be ' % name)
-
-    @harness.more
-    def test_refused_names(self):
-        for params, args in ((dict(node='a b'), ()), ({}, ('__name:=a-b',))):
-            node = self.start(
-                params, name='watch_phase', args=args, command=[example('watch_phase')]
-            )
-            self.assertEqual(node.wait(), 2, node.text())
-            self.assertEqual(len(node.text().splitlines()), 1, node.text())
-            self.assertIn('[FATAL]', node.text())
 
     def publisher(self, topic, kind):
         publisher = rospy.Publisher(topic, kind, queue_size=100)
         self.addCleanup(publisher.unregister)
         return publisher
 
-    @harness.more
-    def test_another_type_under_the_topic(self):
-        """Is refused in one line that says all; the right one is heard when it comes."""
-        wrong = self.publisher('/other/lp_phases', String)
-        self.publisher('/older/lp_phases', OlderPhases)
-        watch, older = self.watch(node='/other'), self.watch('watch_older', node='older')
-        self.wait_for(lambda: watch.lines('[ERROR]'), watch)
-        self.wait_for(lambda: older.lines('[ WARN]'), older)
-        said = watch.lines('[ERROR]') + older.lines('[ WARN]')
-        self.assertIn(
-            '/other/lp_phases is published as std_msgs/String, not as hdlyap/LpPhases', said[0]
-        )
-        self.assertRegex(
-            said[1], '/older/lp_phases is published, but .* another version of hdlyap/LpPhases'
-        )
-        wrong.unregister()
-        right = self.publisher('/other/lp_phases', LpPhases)
-        self.wait_for(lambda: right.get_num_connections() == 1, watch)
-        right.publish(LpPhases(sim_time=1.5))
-        self.wait_for(lambda: watch.lines('t = 1.5: phase 1 of LP(1,0): there is none'), watch)
-        self.assertEqual(watch.lines('[ERROR]') + older.lines('[ WARN]'), said)
-        self.stop(watch)
-        self.stop(older)
-
     def test_followed_anew(self):
         """Between two reports, and in another run: the line begins again."""
         publisher = self.publisher('/made/lp_phases', LpPhases)
         watch = self.watch(node='made')
-        deviations, subscriber = self.hear('/watch_phase/deviation', Float64)
-        self.wait_for(
-            lambda: publisher.get_num_connections() and subscriber.get_num_connections(), watch
-        )
+        deviations = self.hear('/watch_phase/deviation', Float64)
+        self.sees(lambda: publisher.get_num_connections() and self.is_heard('/watch_phase'), watch)
         # times, and how long it has been followed by then
         made = [
             (t, t - began)
@@ -304,28 +235,13 @@ class Alone(Examples):
         ]
         for message in messages:
             publisher.publish(message)
-        self.wait_for(lambda: len(deviations) >= len(messages), watch)
+        self.sees(lambda: len(deviations) >= len(messages), watch)
         np.testing.assert_allclose(
             [each.data for each in deviations],
             expected_deviations(messages, lambda message: message.phases[0]),
             atol=ROUNDING,
         )
-        self.stop(watch)
-
-    @harness.more
-    def test_node_dies_and_comes_back(self):
-        watch = self.watch()
-        deviations, _ = self.hear('/watch_phase/deviation', Float64)
-        for _ in range(2):
-            heard, said = len(deviations), len(watch.lines('phase 1 of LP(1,0)'))
-            node = self.start(
-                dict(MODES, duration=0.0, pace=100.0, wait_for_subscribers=['lp_phases'])
-            )
-            self.wait_for(lambda: len(deviations) > heard + 3, watch)
-            self.assertGreater(len(watch.lines('phase 1 of LP(1,0)')), said)
-            node.send(signal.SIGKILL)
-            node.wait()
-        self.stop(watch)
+        self.interrupt(watch)
 
 
 if __name__ == '__main__':

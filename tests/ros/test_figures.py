@@ -119,7 +119,7 @@ class Figures(Bags):
         labels = [text.get_text() for text in share.get_yticklabels()]
         self.assertEqual((labels[2], labels[4]), ('orthonormalisation', 'classification'))
         began = {text.get_text(): text.xy[0] for text in course.texts}
-        self.assertEqual(began, {'warm-up': 20.0, 'averaging': 40.0})
+        self.assertEqual(began, {'warming up': 20.0, 'averaging': 40.0})
 
     def test_dispersion(self):
         """Points with errors over k, the fits through them, and the waves' nodes along the top."""

@@ -181,7 +181,9 @@ class Running(unittest.TestCase):
         process = harness.Process([sys.executable, *FOLLOW], **self.env)
         self.addCleanup(process.stop)
         self.assertTrue(
-            harness.wait_until(lambda: self.listeners() == {'status', 'cost', 'spectrum'})
+            harness.wait_until(
+                lambda: self.listeners() == {'run_info', 'status', 'cost', 'spectrum'}
+            )
         )
         self.assertEqual(process.wait(), 0, process.text())
         self.assertRegex(process.text().splitlines()[-1], r'^finished  100\.0 %  t = 81\.0')

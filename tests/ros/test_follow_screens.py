@@ -3,7 +3,6 @@
 import io
 import itertools
 import unittest
-from types import SimpleNamespace
 
 import numpy as np
 
@@ -12,11 +11,9 @@ from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
 import made
 from hdlyap.msg import Cost, LpPhase, RunStatus
 from made import LP, T
-from hdlyap.follow import layout, panels
-from hdlyap.follow.line import Progress
-from hdlyap.follow.screen import clean, cut
+from hdlyap.follow import dashboard, line, panels
+from hdlyap.follow.layout import length, wrapped
 from hdlyap.follow.watch import Speed, View, fill, lazy
-from hdlyap.follow.wrap import joined, length, wrapped
 from hdlyap.plots.glyphs import Glyphs
 
 SIZES = (80, 24), (120, 40), (200, 60), (60, 15), (30, 5), (7, 2), (1, 1)
@@ -74,8 +71,7 @@ def view(**fields):
 
 def drawn(shown, size=(80, 24), plain=False):
     return [
-        ''.join(text for text, _ in cut(line, size[0]))
-        for line in layout.lines(shown, size, Glyphs(plain))
+        ''.join(text for text, _ in spans) for spans in dashboard.lines(shown, size, Glyphs(plain))
     ]
 
 
@@ -243,25 +239,30 @@ class Screens(unittest.TestCase):
         self.says(' '.join(self.text(shown, (400, 400)).split()), *said)
         for width in range(80, 131, 3):
             for height in (24, 400):
-                lines = layout.lines(shown, (width, height), Glyphs())
+                lines = dashboard.lines(shown, (width, height), Glyphs())
                 self.assertLessEqual(max(map(length, lines)), width)
             self.says(' '.join(self.text(shown, (width, 400)).split()), *said)
 
     def test_shared_names(self):
-        self.assertEqual(joined(['T(1,0)', 'T(0,1)'], 13), 'T(1,0)+T(0,1)')
-        self.assertEqual(joined(['T(1,0)', 'T(0,1)', 'T(1,1)'], 13), 'T(1,0)+2 more')
-        self.assertEqual(joined(['T(1,0)', 'T(0,1)'], 2), 'T(1,0)')
+        self.assertEqual(panels.joined(['T(1,0)', 'T(0,1)'], 13), 'T(1,0)+T(0,1)')
+        self.assertEqual(panels.joined(['T(1,0)', 'T(0,1)', 'T(1,1)'], 13), 'T(1,0)+2 more')
+        self.assertEqual(panels.joined(['T(1,0)', 'T(0,1)'], 2), 'T(1,0)')
 
     def test_wrapping(self):
-        line = [('  one two', 'strong'), (' three  four', '')]
-        below = [[('  one two', 'strong'), (' three', '')], [('    ', ''), ('four', '')]]
+        """In the styles that it had."""
+        line = [('  one two', 'strong'), (' three  four', 'T')]
         for whole, width, lines in (
-            (line, 21, [line]),
-            (line, 18, below),
-            ([('abcdef', '')], 4, [[('abcd', '')], [('ef', '')]]),
-            ([('abcd  ', '')], 4, [[('abcd', '')]]),
+            (line, 21, ['  one two three  four']),
+            (line, 18, ['  one two three', '    four']),
+            (line, 10, ['  one two', 'three', 'four']),
+            ([('abcdef', '')], 4, ['abcd', 'ef']),
+            ([('abcd  ', '')], 4, ['abcd']),
         ):
-            self.assertEqual(wrapped(whole, width), lines)
+            found = wrapped(whole, width)
+            self.assertEqual([''.join(text for text, _ in one) for one in found], lines)
+        styles = [{text: style for text, style in one if text.strip()} for one in wrapped(line, 10)]
+        self.assertEqual({*styles[0].values()}, {'strong'})
+        self.assertEqual({*styles[1].values(), *styles[2].values()}, {'T'})
 
     def test_numbers_that_nobody_expects(self):
         """No word of a node takes the screen away."""
@@ -273,9 +274,7 @@ class Screens(unittest.TestCase):
                 with_all(getattr(shown, name), float, number)
                 for size in FEW:
                     self.text(shown, size)
-                told = dict(status=shown.status, cost=shown.cost, spectrum=shown.spectrum)
-                own = dict(finished=False, _spent=Progress._spent, _error=lambda: '')
-                Progress.parts(SimpleNamespace(**told, **own))
+                line.parts(shown)
 
     def test_kinds_of_another_version(self):
         for name, number in itertools.product(('status', 'cost', 'steps', 'phases'), (0, 77, 255)):
@@ -337,13 +336,11 @@ class Screens(unittest.TestCase):
         self.assertEqual((shown.status, shown.cost), (None, None))
 
     def test_one_line(self):
-        progress = Progress.__new__(Progress)
-        progress.status, progress.cost = status(), cost()
-        progress.spectrum = made.spectrum([9.0, 3.0], 50.0)
-        progress.spectrum.std_errors = [0.01, 0.03]
+        shown = view(spectrum=made.spectrum([9.0, 3.0], 50.0))
+        shown.spectrum.std_errors = [0.01, 0.03]
         said = ['averaging', '50.0 %', 't = 150.0', '1:05 left', 'lambda_max 9.0000 +- 0.0100']
         said += ['interval 2.37 (conditioning), repairs 4', 'classification 5 % of the time']
-        self.assertEqual(progress.parts(), said)
+        self.assertEqual(line.parts(shown), said)
 
     def test_nonsense(self):
         """One line, and the key that ends it."""
@@ -351,20 +348,23 @@ class Screens(unittest.TestCase):
         spectrum.std_errors = []
         said = 'what the node says makes no sense here: IndexError: '
         for size in SIZES:
-            lines = drawn(view(spectrum=spectrum), size)
-            self.assertLessEqual(len(lines), size[1])
-            self.assertTrue(lines[0].startswith(said[: size[0]]))
-        progress = Progress.__new__(Progress)
-        progress.status, progress.spectrum = status(), None
-        progress.status.sim_time = '\x1b[2J'
-        progress.cost = cost(modes_seconds=1.0, wall_seconds=0.0)
-        self.assertEqual(len(progress.parts()), 1)
-        self.assertRegex(progress.parts()[0], '^what the node says makes no sense here: ValueError')
-        progress.status = status()
-        self.assertEqual(progress.parts()[-1], 'interval 2.37 (conditioning), repairs 4')
+            text = self.text(view(spectrum=spectrum), size)
+            self.assertTrue(text.startswith(said[: min(size[0], 4)]))
+        self.says(self.text(view(spectrum=spectrum)), said, '\nq quit')
+        shown = view(spectrum=None, cost=cost(modes_seconds=1.0, wall_seconds=0.0))
+        self.assertEqual(line.parts(shown)[-1], 'interval 2.37 (conditioning), repairs 4')
+        shown.status.sim_time = '\x1b[2J'
+        self.assertEqual(len(line.parts(shown)), 1)
+        self.assertRegex(
+            line.parts(shown)[0], '^what the node says makes no sense here: ValueError'
+        )
 
     def test_a_name_is_no_command(self):
-        self.assertEqual(clean('a\033[2Jb\r\x9bc'), 'a?[2Jb??c')
+        for width in (80, 5):
+            told = wrapped([('a\033[2Jb\r\x9bc', '')], width)
+            self.assertEqual(
+                ''.join(''.join(text for text, _ in part) for part in told), 'a?[2Jb ?c'
+            )
 
 
 if __name__ == '__main__':

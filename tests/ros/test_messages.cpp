@@ -139,6 +139,21 @@ TEST(messages, fields_by_name)
     EXPECT_EQ(int(hdlyap::Mode::LP), int(HDR_MODE_LP));
 }
 
+/** As hdlyap.data.fields has them, which test_data.py looks at. */
+TEST(messages, names_of_constants)
+{
+    EXPECT_STREQ(hdr_run_status_stage_text(HDR_RUN_STATUS_EQUILIBRATING), "equilibrating");
+    EXPECT_STREQ(hdr_run_status_stage_text(HDR_RUN_STATUS_FINISHED), "finished");
+    EXPECT_STREQ(hdr_run_status_stage_text(HDR_RUN_STATUS_FINISHED + 1), "unknown");
+    EXPECT_STREQ(hdr_cost_interval_limit_text(HDR_COST_LIMIT_SCHEDULE), "report interval");
+    EXPECT_STREQ(hdr_cost_interval_limit_text(HDR_COST_LIMIT_NONE), "none yet");
+    EXPECT_STREQ(hdr_step_sharing_text(HDR_STEP_SHARING_COINCIDENT), "coincide");
+    EXPECT_STREQ(hdr_step_kind_text(HDR_STEP_LP), "LP");
+    EXPECT_STREQ(hdr_step_kind_text(0), "unknown"); /* what is alone in Mode */
+    EXPECT_STREQ(hdr_mode_kind_text(0), "none");
+    EXPECT_STREQ(hdr_lp_phase_modulation_text(HDR_LP_PHASE_SIN_COS), "A = sin(kx x) cos(ky y)");
+}
+
 TEST(messages, strides)
 {
     hdr_state state = {};

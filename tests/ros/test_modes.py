@@ -179,9 +179,8 @@ class Agreement(harness.Case):
                     )
 
     def test_modes(self):
-        for modes, steps, spectrum in zip(
-            *(self.messages[t] for t in ('modes', 'steps', 'spectrum'))
-        ):
+        topics = (self.messages[topic] for topic in ('modes', 'steps', 'spectrum'))
+        for modes, steps, spectrum in zip(*topics):
             self.assertEqual([mode.index for mode in modes.modes], list(range(1, 241)))
             self.assertEqual([mode.exponent for mode in modes.modes], list(spectrum.exponents))
             self.assertEqual(modes.averaged_time, spectrum.averaged_time)
@@ -191,25 +190,21 @@ class Agreement(harness.Case):
                 self.check_mode(mode, steps.steps)
 
     def check_mode(self, mode, steps):
-        weights = [mode.null_x, mode.null_y, mode.null_p]
-        weights += [mode.weight, mode.weight_now] if mode.step >= 0 else []
-        weights += [mode.weight_l, mode.weight_p] if mode.kind == Mode.LP else []
-        for weight in weights:
-            self.assertGreaterEqual(weight, 0.0)
-            self.assertLessEqual(weight, 1.0 + ROUNDING)
+        """Of the step that it says it belongs to."""
+        of_kind = [mode.weight_l, mode.weight_p] if mode.kind == Mode.LP else []
+        of_step = [mode.weight, mode.weight_now] if mode.step >= 0 else []
+        weights = [mode.null_x, mode.null_y, mode.null_p, *of_step, *of_kind]
+        self.assertTrue(0.0 <= min(weights) and max(weights) <= 1.0 + ROUNDING, weights)
         if mode.step < 0:
             self.assertEqual((mode.kind, mode.nx, mode.ny), (Mode.NONE, 0, 0))
             return
         step = steps[mode.step]
         self.assertTrue(step.resolved)
-        self.assertEqual(
-            (mode.kind, mode.nx, mode.ny, mode.wave_number),
-            (step.kind, step.nx, step.ny, step.wave_number),
-        )
-        self.assertLessEqual(step.first_index, mode.index)
-        self.assertLessEqual(mode.index, step.last_index)
-        self.assertEqual(mode.weight_l > 0.0, mode.kind == Mode.LP)
-        self.assertEqual(mode.weight_p > 0.0, mode.kind == Mode.LP)
+        for name in ('kind', 'nx', 'ny', 'wave_number'):
+            self.assertEqual(getattr(mode, name), getattr(step, name))
+        self.assertTrue(step.first_index <= mode.index <= step.last_index)
+        for weight in (mode.weight_l, mode.weight_p):
+            self.assertEqual(weight > 0.0, mode.kind == Mode.LP)
 
     def test_weights_are_means_of_snapshots(self):
         checked = 0
@@ -317,10 +312,8 @@ class Agreement(harness.Case):
                 self.assertEqual(getattr(field, name), getattr(state, name))
             for name in ('exponent', 'kind', 'nx', 'ny', 'wave_number'):
                 self.assertEqual(getattr(field, name), getattr(mode, name))
-            norm = sum(
-                sum(v * v for v in part) for part in (field.dqx, field.dqy, field.dpx, field.dpy)
-            )
-            self.assertAlmostEqual(norm, 1.0, delta=1e-5)
+            vector = [*field.dqx, *field.dqy, *field.dpx, *field.dpy]
+            self.assertAlmostEqual(np.linalg.norm(vector), 1.0, delta=5e-6)
             self.check_pairs(field)
 
     def check_pairs(self, field):
@@ -340,31 +333,21 @@ class Agreement(harness.Case):
         a = [wave(field.wave_number * x) for x in field.x]
         for ratio in (field.p_over_px, field.p_over_py):
             part = ratio[60 * c : 60 * (c + 1)]
-            overlap = sum(u * v for u, v in zip(a, part))
-            cosine = overlap / math.sqrt(sum(u * u for u in a) * sum(v * v for v in part))
+            cosine = np.dot(a, part) / (np.linalg.norm(a) * np.linalg.norm(part))
             self.assertGreater(cosine, 0.3)
 
     def test_hydro(self):
+        """Of each vector of each step that is found."""
         for message, steps in zip(self.messages['hydro'], self.messages['steps']):
             for response in message.responses:
                 step = steps.steps[response.step]
-                self.assertEqual(
-                    (response.kind, response.nx, response.ny), (step.kind, step.nx, step.ny)
-                )
+                of_wave = (response.kind, response.nx, response.ny)
+                self.assertEqual(of_wave, (step.kind, step.nx, step.ny))
                 if response.index:
-                    self.assertTrue(step.resolved)
-                    self.assertLessEqual(step.first_index, response.index)
-                    self.assertLessEqual(response.index, step.last_index)
-            indices = {response.index for response in message.responses} - {0}
-            self.assertEqual(
-                indices,
-                {
-                    index
-                    for step in steps.steps
-                    if step.resolved and step.kind != Mode.ZERO
-                    for index in range(step.first_index, step.last_index + 1)
-                },
-            )
+                    self.assertTrue(step.first_index <= response.index <= step.last_index)
+            found = [s for s in steps.steps if s.resolved and s.kind != Mode.ZERO]
+            indices = {k for s in found for k in range(s.first_index, s.last_index + 1)}
+            self.assertEqual({response.index for response in message.responses} - {0}, indices)
 
     def test_hydro_is_that_of_the_fields(self):
         responses = {
@@ -393,12 +376,10 @@ class Agreement(harness.Case):
             k = message.wave_number[peak - 1]
             self.assertAlmostEqual(k, 2 * math.pi * message.nx[peak - 1] / self.info.box_x)
             self.assertEqual(message.ny[peak - 1], 0)
-            norm = math.sqrt(sum(u * u for u in (*field.dqx, *field.dqy)))
-            for bits, wave in enumerate((lambda x: -math.sin(k * x), lambda x: math.cos(k * x))):
-                along, across = (
-                    sum(wave(x) * u for x, u in zip(field.x, dq)) / norm
-                    for dq in (field.dqx, [-u for u in field.dqy])
-                )
+            norm = np.linalg.norm([*field.dqx, *field.dqy])
+            phase = k * np.array(field.x)
+            for bits, wave in enumerate((-np.sin(phase), np.cos(phase))):
+                along, across = np.dot(wave, field.dqx) / norm, -np.dot(wave, field.dqy) / norm
                 at = bits * n + field.index - 1
                 self.assertAlmostEqual(message.amplitude_along[at], along)
                 self.assertAlmostEqual(message.amplitude_across[at], across)
@@ -436,19 +417,18 @@ def example(modes, number, step):
 def responses_of(field, modulation):
     """At a wave vector along x over sqrt(N/2): of density, p along k and p across it, over k, and
     of energy."""
-    k, total = field.wave_number, np.zeros(4)
-    for x, px, py, dqx, dpx, dpy in zip(
-        field.x, field.px, field.py, field.dqx, field.dpx, field.dpy
-    ):
-        cosine, sine = math.cos(k * x), math.sin(k * x)
-        a, slope = (sine, k * cosine) if modulation & 1 else (cosine, -k * sine)
-        total += (
-            dqx * slope / k,
-            dpx * slope / k - px * dqx * k * a,
-            -dpy * slope / k + py * dqx * k * a,
-            2 * (px * dpx + py * dpy) * a + (px**2 + py**2) * dqx * slope,
-        )
-    return total / math.sqrt(len(field.x) / 2)
+    k = field.wave_number
+    names = 'x', 'px', 'py', 'dqx', 'dpx', 'dpy'
+    x, px, py, dqx, dpx, dpy = (np.array(getattr(field, name)) for name in names)
+    cosine, sine = np.cos(k * x), np.sin(k * x)
+    a, slope = (sine, k * cosine) if modulation & 1 else (cosine, -k * sine)
+    parts = (
+        dqx * slope / k,
+        dpx * slope / k - px * dqx * k * a,
+        -dpy * slope / k + py * dqx * k * a,
+        2 * (px * dpx + py * dpy) * a + (px**2 + py**2) * dqx * slope,
+    )
+    return np.sum(parts, axis=1) / math.sqrt(len(x) / 2)
 
 
 if __name__ == '__main__':

@@ -3,6 +3,7 @@
 
 import json
 import os
+import re
 import subprocess
 import unittest
 from unittest import mock
@@ -10,13 +11,16 @@ from unittest import mock
 import numpy as np
 import rosbag
 import rospy
+from matplotlib.colors import to_rgb
 from hdlyap.msg import LpPhase, LpPhases, State
 
 import made
 from bags import Bags, process, tool
 from hdlyap.data.reader import RecordingError
 from hdlyap.plots import frames, movie
+from hdlyap.plots.figures.style import BLUE, VERMILION
 
+VIEWER = os.path.join(made.SCRIPTS, '../src/viewer')
 INFO = made.run_info()
 TURN = 8.0  # time units that the LP mode takes
 BEGIN, END, FIELD = 10.0, 18.0, 4.0  # a report each time unit, fields each FIELD
@@ -171,6 +175,32 @@ class Drawn(Films):
         picture = movie.Picture(film, 400)
         picture.show(next(film.frames(1.0)))
         self.assertEqual(picture._panels[0]._title.get_text(), 'T(1,0): not resolved yet')
+
+
+class BesideTheViewer(unittest.TestCase):
+    def said(self, file, names):
+        """{name: numbers} of constants of the viewer."""
+        with open(os.path.join(VIEWER, file)) as source:
+            text = source.read()
+        found = {}
+        for name in names:
+            value = re.search(rf'\b{name} = {{?([-0-9.F,\s]+)', text).group(1)
+            found[name] = np.array(re.findall(r'[0-9.]+', value), dtype=float)
+        return found
+
+    def test_panels_look_alike(self):
+        """What both draw stands in two languages."""
+        colours = dict(T=BLUE, LP=VERMILION, L=movie.ALL_L, P=movie.ALL_P, DISK=movie.DISK)
+        said = self.said('palette.h', ['PALETTE_' + name for name in colours])
+        for name, colour in colours.items():
+            np.testing.assert_allclose(
+                said['PALETTE_' + name][:3], to_rgb(colour), atol=0.5 / 100, err_msg=name
+            )
+        layout = self.said('layout.c', ['LONG', 'ARROW'])
+        panel = self.said('panel.c', ['PALE', 'ARROW'])
+        self.assertEqual((layout['LONG'], panel['PALE']), (movie.LONG, movie.PALE))
+        self.assertEqual(layout['ARROW'], movie.LONGEST)
+        self.assertEqual(layout['ARROW'] * panel['ARROW'], movie.ARROW)
 
 
 class Files(Films):

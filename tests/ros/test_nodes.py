@@ -42,8 +42,6 @@ class Run:
                 name + '/' + topic, TYPES[topic], messages.append, queue_size=None
             )
             test.addCleanup(subscriber.unregister)
-        if rospy.has_param(name):
-            rospy.delete_param(name)
         rospy.set_param(name, params)
         namespace, base = name.rsplit('/', 1)
         self.node = Process(
@@ -78,10 +76,10 @@ class Nodes(harness.Case):
         return run
 
     def ended(self, run, reports=REPORTS):
-        self.assertEqual(run.node.wait(), 0, run.node.text())
+        self.ends(run.node)
         self.assertTrue(run.has(reports))
         last = run.messages['status']
-        self.assertTrue(harness.wait_until(lambda: last and harness.is_last(last[-1])))
+        self.sees(lambda: last and harness.is_last(last[-1]))
 
     def test_two_at_once_and_pace(self):
         """One is paused while the other, of another seed, runs to its end; nothing of that is in
@@ -109,9 +107,7 @@ class Nodes(harness.Case):
         )
 
     def test_names(self):
-        elsewhere = []
-        subscriber = rospy.Subscriber('/elsewhere/curve', TYPES['spectrum'], elsewhere.append)
-        self.addCleanup(subscriber.unregister)
+        elsewhere = self.hear('/elsewhere/curve', TYPES['spectrum'])
         run = Run(
             self,
             dict(RUN, seed='3', duration=0.0, pace=PACE),
@@ -135,32 +131,19 @@ class Nodes(harness.Case):
         status = rospy.wait_for_message('/diagnostics', DiagnosticArray, harness.PATIENCE).status[0]
         self.assertEqual(status.name, '/lab/room/two')
         run.service('checkpoint', Trigger)
-        run.node.send(signal.SIGINT)
-        self.assertEqual(run.node.wait(), 0, run.node.text())
-
-    @harness.more
-    def test_namespace_of_the_environment(self):
-        process = Process(
-            [harness.executable(), '_disks:=10', '_density:=0.3', '_duration:=0.0', '_pace:=10.0'],
-            ROS_NAMESPACE='/lab',
-        )
-        self.addCleanup(process.stop)
-        rospy.wait_for_message('/lab/hdlyap/state', TYPES['state'], harness.PATIENCE)
-        process.send(signal.SIGINT)
-        self.assertEqual(process.wait(), 0, process.text())
+        self.interrupt(run.node)
 
     def check_simulated_time(self):
-        follow = Process([*harness.command('follow'), '--node', '/timeless'])
-        self.addCleanup(follow.stop)
+        follow = self.process([*harness.command('follow'), '--node', '/timeless'])
         run = Run(self, dict(RUN, duration=0.0, pace=PACE), '/timeless')
         self.assertTrue(run.has(3))
         self.assertTrue(run.service('pause', SetBool)(True).success)
         self.assertTrue(run.service('pause', SetBool)(False).success)
-        self.assertTrue(harness.wait_until(follow.text))
+        self.sees(follow.text)
         run.node.send(signal.SIGINT)
         self.ended(run, reports=3)
         self.assertLess(abs(run.stamps()[-1] - time.time()), 600)
-        self.assertEqual(follow.wait(), 0, follow.text())
+        self.ends(follow)
 
     @harness.more
     def test_simulated_time(self):
@@ -190,9 +173,7 @@ class Nodes(harness.Case):
     def check_clock(self, jump, kept):
         params = dict(RUN, duration=0.0, pace=PACE, checkpoint=kept, checkpoint_interval=0.2)
         jumps = dict(LD_PRELOAD=harness.probe_library(), PROBE_CLOCK_JUMP=str(jump))
-        heard = []
-        subscriber = rospy.Subscriber('/diagnostics', DiagnosticArray, heard.append)
-        self.addCleanup(subscriber.unregister)
+        heard = self.hear('/diagnostics', DiagnosticArray)
         run = Run(self, params, '/jump_%s' % ('ahead' if jump > 0 else 'back'), **jumps)
         begin = time.monotonic()
 
@@ -202,17 +183,14 @@ class Nodes(harness.Case):
         def reports():
             return [message for message in run.messages['cost'] if has_jumped(message.header)]
 
-        self.assertTrue(harness.wait_until(lambda: reports() and os.path.exists(kept)))
+        self.sees(lambda: reports() and os.path.exists(kept))
         before, known = os.stat(kept).st_mtime_ns, len(heard)
-        rospy.set_param(run.name + '/density', 0.1)
-        self.assertTrue(harness.wait_until(lambda: run.node.lines('density')))
-        self.assertTrue(harness.wait_until(lambda: os.stat(kept).st_mtime_ns > before))
-        self.assertTrue(harness.wait_until(lambda: len(heard) > known + 1))
+        self.sees(lambda: os.stat(kept).st_mtime_ns > before)
+        self.sees(lambda: len(heard) > known + 1)
         self.assertTrue(has_jumped(heard[known + 1].header))
         values = {pair.key: pair.value for pair in heard[known + 1].status[0].values}
         self.assertGreater(float(values['collisions per second']), 0)
-        run.node.send(signal.SIGINT)
-        self.assertEqual(run.node.wait(), 0, run.node.text())
+        self.interrupt(run.node)
         first, last = reports()[0], reports()[-1]
         simulated, wall = (
             getattr(last, name) - getattr(first, name) for name in ('sim_time', 'wall_seconds')

@@ -4,7 +4,6 @@ that are started. What each may be is tested without nodes, in test_refusals.cpp
 
 import os
 import re
-import signal
 import subprocess
 
 import rosgraph
@@ -73,7 +72,7 @@ class Parameters(harness.Case):
             nodes[line] = self.start(SHORT, name='refused_%d' % k, args=[argument])
         for line, node in nodes.items():
             with self.subTest(line=line):
-                self.assertEqual(node.wait(), 2, node.text())
+                self.ends(node, 2)
                 self.assertEqual(len(node.text().splitlines()), 1, node.text())
                 self.assertRegex(
                     node.text(), r'\[FATAL\] \[[0-9.]+\]: %s.*must be ' % re.escape(line[:16])
@@ -88,7 +87,7 @@ class Parameters(harness.Case):
         for disks in (40000, 1000000):
             with self.subTest(disks=disks):
                 node = self.start(dict(disks=disks))
-                self.assertEqual(node.wait(), 3, node.text())
+                self.ends(node, 3)
                 self.assertEqual(len(node.text().splitlines()), 1, node.text())
                 self.assertRegex(
                     node.text(),
@@ -100,16 +99,14 @@ class Parameters(harness.Case):
         """run_info, and that the node ends well."""
         self.assertTrue(info.wait_for(lambda message: True), node.text())
         if node.running():
-            node.send(signal.SIGINT)
-        self.assertEqual(node.wait(), 0, node.text())
+            self.interrupt(node)
         info.close()
         return info.messages[0]
 
     def test_taken(self):
         """And what is below the node's name on the parameter server stays what was set there."""
         info, _ = self.listen('run_info'), self.listen('state')
-        node = self.start(TAKEN)
-        self.assertEqual(node.wait(), 0, node.text())
+        node = self.runs(TAKEN)
         self.assertEqual(rospy.get_param('/hdlyap'), TAKEN)
         message = self.told(node, info)
         for name, value in TAKEN.items():

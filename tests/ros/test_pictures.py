@@ -17,7 +17,7 @@ from visualization_msgs.msg import Marker
 
 import harness
 from harness import MODES, Listener
-from pictured import Pictures, are_alike, arrows, lines, mode_name, modes, of, places, text
+from pictured import Pictures, are_alike, lines, modes, places, text
 
 ENDLESS = dict(MODES, duration=0.0)
 # of a bag, with status last
@@ -50,22 +50,6 @@ def drawn_as_reported(pictures, listeners):
     ]
 
 
-def published(pictures, states, fields):
-    """(picture, namespace, field) of each mode drawn at a time of which its field was published:
-    pictures are made by the clock, so most are of other times."""
-    times = {(s.x[0], s.y[0]): s.sim_time for s in list(states.messages)}
-    known = {(f.sim_time, f.kind, f.nx, f.ny): f for f in list(fields.messages)}
-    pairs = []
-    for picture in list(pictures.all):
-        at = times.get(tuple(places(picture)[0]))
-        for ns in modes(picture) if at is not None else ():
-            nodes = map(int, re.search(r'(\d+),(\d+)', mode_name(picture, ns)).groups())
-            field = known.get((at, 2 if 'T' in ns else 3, *nodes))
-            if field:
-                pairs.append((picture, ns, field))
-    return pairs
-
-
 class Markers(harness.Case):
     def look(self, modes='lowest', node='/hdlyap', **how):
         """Pictures of a viewer that has just been started."""
@@ -74,24 +58,6 @@ class Markers(harness.Case):
         pictures.viewer = harness.start_viewer(dict(modes=modes, node=node), **how)
         self.addCleanup(pictures.viewer.stop)
         return pictures
-
-    def test_arrows_are_the_published_vectors(self):
-        states, fields = self.listen('state'), self.listen('fields')
-        pictures = self.look()
-        node = self.start(dict(ENDLESS, slow_vectors_rate=100.0, field_interval=0.0, pace=10.0))
-        self.assertTrue(
-            harness.wait_until(lambda: len(published(pictures, states, fields)) > 5, every=0.1),
-            node.text(),
-        )
-        node.stop()
-        for picture, ns, field in published(pictures, states, fields):
-            drawn = arrows(of(picture, ns, Marker.TRIANGLE_LIST)[0])
-            wanted = np.c_[field.dqx, field.dqy]
-            longest = abs(drawn).max(axis=1) < 2.0  # the longest are clipped
-            factor = (drawn[longest] * wanted[longest]).sum() / (wanted[longest] ** 2).sum()
-            self.assertGreater(factor, 0)
-            np.testing.assert_allclose(drawn[longest], factor * wanted[longest], atol=1e-9)
-            np.testing.assert_array_equal(places(picture), np.c_[field.x, field.y])
 
     def test_slow_vectors_are_those_of_the_fields(self):
         """And their coefficients those of the phases, wherever all three are of the same time."""
@@ -140,10 +106,7 @@ class Markers(harness.Case):
         listeners = {topic: Listener(topic) for topic in REPLAYED}
         live = self.look()
         node = self.start(dict(ENDLESS, slow_vectors_rate=100.0, field_interval=0.0, pace=10.0))
-        self.assertTrue(
-            harness.wait_until(lambda: len(drawn_as_reported(live, listeners)) >= 5, every=0.1),
-            node.text(),
-        )
+        self.sees(lambda: len(drawn_as_reported(live, listeners)) >= 5, node, every=0.1)
         node.send(signal.SIGINT)
         node.wait()
         live.viewer.stop()
@@ -166,9 +129,7 @@ class Markers(harness.Case):
         publishers['run_info'].publish(listeners['run_info'].messages[-1])
         for publisher in publishers.values():
             self.addCleanup(publisher.unregister)
-        self.assertTrue(
-            harness.wait_until(lambda: all(p.get_num_connections() for p in publishers.values()))
-        )
+        self.sees(lambda: all(p.get_num_connections() for p in publishers.values()))
 
         def say(topic, time_):
             for message in listeners[topic].messages:
@@ -201,15 +162,13 @@ class Markers(harness.Case):
             for value in values:
                 viewer = harness.start_viewer({name: value})
                 self.addCleanup(viewer.stop)
-                self.assertEqual(viewer.wait(), 2, viewer.text())
+                self.ends(viewer, 2)
                 self.assertEqual(len(viewer.lines(name + ' = ')), 1, viewer.text())
 
     def test_named_modes_in_their_order(self):
         pictures = self.look('LP(1,0) T(2,0) T(1,0)')
         self.start(dict(ENDLESS, slow_vectors_count=16))
-        self.assertTrue(
-            harness.wait_until(lambda: pictures.all and len(modes(pictures.all[-1])) == 3)
-        )
+        self.sees(lambda: pictures.all and len(modes(pictures.all[-1])) == 3)
         self.assertEqual(modes(pictures.all[-1]), ['mode/LP(1,0)', 'mode/T(2,0)', 'mode/T(1,0)'])
         self.assertIn('c_T', text(pictures.all[-1]))
 
@@ -217,7 +176,7 @@ class Markers(harness.Case):
         """What the viewer advises are parameters of the node."""
         pictures = self.look('T(1,0) LP(9,8)')
         self.start(dict(ENDLESS, max_mode_number=1))
-        self.assertTrue(harness.wait_until(lambda: pictures.viewer.lines('no wave')))
+        self.sees(lambda: pictures.viewer.lines('no wave'))
         (line,) = pictures.viewer.lines('looks for no wave (9,8)')
         advised = re.findall(r'[a-z]+(?:_[a-z]+)+|observables', line)
         self.assertEqual(advised, ['max_mode_number', 'max_wave_number', 'observables'])
@@ -225,20 +184,6 @@ class Markers(harness.Case):
         known = subprocess.run(asked, stdout=subprocess.PIPE, text=True, check=True).stdout
         for name in advised:
             self.assertRegex(known, '(?m)^%s:' % name)
-
-    @harness.more
-    def test_of_another_node(self):
-        """Each node has pictures of its own."""
-        pictures, other = self.look(), Pictures('/other')
-        self.addCleanup(other.close)
-        for seed, name in enumerate(('hdlyap', 'other')):
-            self.start(dict(ENDLESS, seed=str(seed), pace=10.0), name=name)
-        self.assertTrue(harness.wait_until(lambda: pictures.all))
-        pictures.viewer.stop()
-        self.assertEqual(other.all, [])
-        of_other = self.look(node='/other')
-        self.assertTrue(harness.wait_until(lambda: of_other.all))
-        self.assertGreater(abs(places(pictures.all[0]) - places(of_other.all[0])).max(), 0.1)
 
     def listeners_of(self, topic):
         state = rosgraph.Master('/test').getSystemState()[1]
@@ -266,7 +211,7 @@ class Markers(harness.Case):
         info = publisher('run_info', harness.TYPES['run_info'], latch=True)
         info.publish(RunInfo(run_id='made up', disks=1, box_x=2.0, box_y=2.0))
         pictures = self.look()
-        self.assertTrue(harness.wait_until(lambda: 'slow_vectors' in came and pictures.empty))
+        self.sees(lambda: 'slow_vectors' in came and pictures.empty)
         time.sleep(1.5)  # the viewer asks ten times in a second
         self.assertFalse(set(came).intersection(STAND_INS), came)
         slow.unregister()
@@ -278,15 +223,15 @@ class Markers(harness.Case):
         looks any more."""
         pictures = self.look()
         self.start(dict(ENDLESS, pace=10.0))
-        self.assertTrue(harness.wait_until(lambda: pictures.all))
-        self.assertTrue(harness.wait_until(lambda: not self.listeners_of('fields')))
+        self.sees(lambda: pictures.all)
+        self.sees(lambda: not self.listeners_of('fields'))
         self.assertTrue(self.listeners_of('slow_vectors') and self.listeners_of('steps'))
         pictures.close()
-        self.assertTrue(harness.wait_until(lambda: not self.listeners_of('slow_vectors')))
+        self.sees(lambda: not self.listeners_of('slow_vectors'))
         self.assertFalse(self.listeners_of('steps') or self.listeners_of('fields'))
         late = Pictures()
         self.addCleanup(late.close)
-        self.assertTrue(harness.wait_until(lambda: len(late.all) > 5))
+        self.sees(lambda: len(late.all) > 5)
 
     def test_watching_the_disks_changes_no_bit(self):
         run = dict(harness.SHORT, duration=4.0, observables=['spectrum', 'state'], pace=4.0)
@@ -310,42 +255,12 @@ class Markers(harness.Case):
         def averaging():
             return [p for p in pictures.all if 'averaging' in text(p)]
 
-        self.assertTrue(harness.wait_until(lambda: len(averaging()) >= 5))
+        self.sees(lambda: len(averaging()) >= 5)
         begin, count = time.monotonic(), len(averaging())
-        self.assertTrue(harness.wait_until(lambda: len(averaging()) >= count + 20))
+        self.sees(lambda: len(averaging()) >= count + 20)
         self.assertGreater(time.monotonic() - begin, 0.8 * 20 / 10.0)
         times = [float(re.search(r't = ([0-9.]+)', text(p)).group(1)) for p in averaging()[3:]]
         self.assertLess(max(np.diff(times)), 0.9)  # 0.2 apart, but for a busy machine
-
-    @harness.more
-    def test_without_modes_or_exponents(self):
-        pictures = self.look()
-        self.start(dict(ENDLESS, observables=['spectrum']))
-        self.assertTrue(
-            harness.wait_until(
-                lambda: any(of(p, 'spectrum', Marker.LINE_STRIP) for p in pictures.all)
-            )
-        )
-        self.assertFalse(
-            any(of(p, 'dispersion', Marker.LINE_LIST) or modes(p) for p in pictures.all)
-        )
-        pictures.all.clear()
-        self.start(dict(ENDLESS, exponents='none'))
-        self.assertTrue(
-            harness.wait_until(
-                lambda: any(not of(p, 'spectrum', Marker.LINE_LIST) for p in pictures.all)
-            )
-        )
-
-    @harness.more
-    def test_only_modes_that_there_can_be(self):
-        """Between close walls there are no transverse ones, and no panel for them."""
-        pictures = self.look()
-        self.start(dict(ENDLESS, aspect=0.05, boundary_y='reflecting', pace=20.0))
-        self.assertTrue(harness.wait_until(lambda: pictures.all))
-        titles = {m.ns for m in pictures.all[0].markers if m.ns.startswith('mode/')}
-        self.assertEqual(titles, {'mode/lowest LP'})
-        self.assertEqual(len(of(pictures.all[0], 'box', Marker.LINE_LIST)[0].points), 8)
 
     @harness.more
     def test_late_to_a_run_that_rests(self):
@@ -353,7 +268,7 @@ class Markers(harness.Case):
         self.assertTrue(harness.service('pause', SetBool)(True).success)
         time.sleep(0.5)
         pictures = self.look()
-        self.assertTrue(harness.wait_until(lambda: pictures.all, 10))
+        self.sees(lambda: pictures.all, seconds=10)
         # one, or on a busy machine one more for what was heard after it: of one time
         self.assertLessEqual(len(pictures.all), 3)
         for picture in pictures.all[1:]:
@@ -364,13 +279,13 @@ class Markers(harness.Case):
         """Nobody looked when the run was paused: its modes are found, their vectors not known."""
         before = self.look()
         self.start(ENDLESS)
-        self.assertTrue(harness.wait_until(lambda: before.all and len(modes(before.all[-1])) == 2))
+        self.sees(lambda: before.all and len(modes(before.all[-1])) == 2)
         before.viewer.stop()
         before.close()
         time.sleep(1.2)  # a message of less than a second ago is not sent anew
         self.assertTrue(harness.service('pause', SetBool)(True).success)
         late = self.look()
-        self.assertTrue(harness.wait_until(lambda: late.all and not modes(late.all[-1]), 30))
+        self.sees(lambda: late.all and not modes(late.all[-1]), seconds=30)
         titles = [
             m.text
             for m in late.all[-1].markers
@@ -390,60 +305,35 @@ class Markers(harness.Case):
         def stands():
             return re.search(r'nothing new since \d\d:\d\d:\d\d', text(pictures.all[-1]))
 
-        self.assertTrue(harness.wait_until(lambda: pictures.all))
+        self.sees(lambda: pictures.all)
         self.assertFalse(stands())
         self.assertTrue(harness.service('pause', SetBool)(True).success)
-        self.assertTrue(harness.wait_until(stands))
+        self.sees(stands)
         count = len(pictures.all)
-        self.assertTrue(harness.wait_until(lambda: len(pictures.all) > count))
+        self.sees(lambda: len(pictures.all) > count)
         self.assertTrue(harness.service('pause', SetBool)(False).success)
-        self.assertTrue(harness.wait_until(lambda: not stands()))
+        self.sees(lambda: not stands())
         node.stop()
-        self.assertTrue(harness.wait_until(stands))
+        self.sees(stands)
 
     @harness.more
-    def test_of_a_run_that_has_ended(self):
-        """Is finished, and stays so without further words."""
-        pictures = self.look()
-        self.start(dict(MODES, duration=5.0, pace=5.0))
-        self.assertTrue(
-            harness.wait_until(lambda: pictures.all and 'finished' in text(pictures.all[-1]))
-        )
-        count = len(pictures.all)
-        self.assertTrue(harness.wait_until(lambda: len(pictures.all) > count + 4))  # repeated
-        self.assertNotIn('nothing new', text(pictures.all[-1]))
-
-    @harness.more
-    def test_no_memory_for_it(self):
+    def test_no_memory(self):
+        """Said again and again, while the program goes on: of the viewer, and of the node."""
         many = dict(ENDLESS, disks=20000, aspect=1.0, exponents='none', warmup=0.0, pace=1.0)
         pictures = self.look(probe={'PROBE_GROWTH': '300000'})
         self.start(dict(many, equilibration=0.1))
-        viewer = pictures.viewer
-        self.assertTrue(
-            harness.wait_until(lambda: len(viewer.lines('not drawn: out of memory')) > 1),
-            viewer.text(),
-        )
-        self.assertTrue(viewer.running())
+        params = dict(ENDLESS, slow_vectors_count=117, pace=10.0)
+        node = self.start(params, name='short', probe={'PROBE_GROWTH': '100000'})
+        self.hear('/short/slow_vectors', SlowVectors)
+        for process, said in ((pictures.viewer, 'not drawn'), (node, 'slow_vectors not sent')):
+            self.sees(lambda: len(process.lines(said + ': out of memory')) > 1, process)
+            self.assertTrue(process.running())
         self.assertEqual(pictures.all, [])
 
-    @harness.more
-    def test_no_memory_for_slow_vectors(self):
-        self.listen('slow_vectors')
-        node = self.start(
-            dict(ENDLESS, slow_vectors_count=117, pace=10.0), probe={'PROBE_GROWTH': '100000'}
-        )
-        self.assertTrue(
-            harness.wait_until(lambda: len(node.lines('slow_vectors not sent: out of m')) > 1),
-            node.text(),
-        )
-        self.assertTrue(node.running())
-
     def test_the_frame_of_the_box_is_known(self):
-        frames = []
-        listener = rospy.Subscriber('/tf_static', TFMessage, frames.append, queue_size=None)
-        self.addCleanup(listener.unregister)
+        frames = self.hear('/tf_static', TFMessage)
         self.look()
-        self.assertTrue(harness.wait_until(lambda: frames))
+        self.sees(lambda: frames)
         transform = frames[0].transforms[0]
         self.assertEqual((transform.header.frame_id, transform.child_frame_id), ('world', 'box'))
         self.assertEqual(transform.transform.rotation.w, 1.0)

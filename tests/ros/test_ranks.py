@@ -27,15 +27,8 @@ ENVIRONMENT = {
 
 
 def mpirun(ranks=RANKS):
-    return [
-        'mpirun',
-        '--oversubscribe',
-        '--bind-to',
-        'none',
-        '-n',
-        str(ranks),
-        harness.executable(),
-    ]
+    options = ['--oversubscribe', '--bind-to', 'none', '-n', str(ranks)]
+    return ['mpirun', *options, harness.executable()]
 
 
 def is_patient():
@@ -75,7 +68,7 @@ class Ranks(harness.Case):
 
     def last(self, topic, node):
         """The last message of a run that ends by itself, of MODES."""
-        self.assertEqual(node.wait(), 0, node.text())
+        self.ends(node)
         self.assertTrue(topic.wait_for(lambda message: message.sim_time == 90.0))
         return topic.messages[-1]
 
@@ -105,7 +98,7 @@ class Ranks(harness.Case):
         node = self.on_ranks(
             dict(REPEATABLE, observables=harness.OBSERVABLES, slow_vectors_rate=50.0)
         )
-        self.assertEqual(node.wait(), 0, node.text())
+        self.ends(node)
         for name, topic in topics.items():
             self.assertTrue(topic.messages, name)
 
@@ -143,29 +136,21 @@ class Ranks(harness.Case):
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, 'kept')
             node = self.on_ranks(dict(ENDLESS, checkpoint=path, checkpoint_interval=0.2))
-            self.assertTrue(harness.wait_until(lambda: os.path.exists(path), harness.SOON))
+            self.sees(lambda: os.path.exists(path), seconds=harness.SOON)
             pids = processes(node)
             os.kill(chosen(node, pids), signal.SIGKILL)
             self.assertNotEqual(node.wait(harness.SOON), 0)
             self.assertTrue(all_gone(pids))
             node = self.on_ranks(dict(ENDLESS, resume=path))
-            self.assertTrue(
-                harness.wait_until(lambda: node.lines('goes on from simulated time'), harness.SOON),
-                node.text(),
-            )
+            self.sees(lambda: node.lines('goes on from simulated time'), node, seconds=harness.SOON)
             node.send(signal.SIGINT)
             node.wait(harness.SOON)
 
     @harness.more
-    def test_the_node_is_killed(self):
+    def test_killed(self):
+        """The node, another rank, mpirun."""
         self.kill(lambda node, pids: pids[0])
-
-    @harness.more
-    def test_another_is_killed(self):
         self.kill(lambda node, pids: pids[1])
-
-    @harness.more
-    def test_mpirun_is_killed(self):
         self.kill(lambda node, pids: node.process.pid)
 
     @harness.more
@@ -224,9 +209,8 @@ class Ranks(harness.Case):
             path = os.path.join(folder, 'kept')
             params = dict(SHORT, disks=40, threads=1)
             node = self.on_ranks(dict(params, checkpoint=path))
-            self.assertEqual(node.wait(), 0, node.text())
-            node = self.start(dict(params, resume=path, duration=4.0))
-            self.assertEqual(node.wait(), 0, node.text())
+            self.ends(node)
+            node = self.runs(dict(params, resume=path, duration=4.0))
             self.assertEqual(len(node.lines('goes on from simulated time 4 of')), 1, node.text())
 
     def test_refused(self):
@@ -239,7 +223,7 @@ class Ranks(harness.Case):
             covariant_sampling=0.1,
         )
         node = self.on_ranks(params)
-        self.assertEqual(node.wait(), 2, node.text())
+        self.ends(node, 2)
         self.assertEqual(len(node.lines('ranks = 2: must be 1 for covariant vectors')), 1)
 
 

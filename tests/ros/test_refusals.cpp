@@ -217,10 +217,6 @@ const std::vector<refusal> refusals = {
     {"covariant_storage", "memory or recompute", {"''", "disk", "file", "Memory", "5", "[memory]"}},
     {"densty", "removed: there is no parameter of this name", {"0.8"}},
     {"Disks", "removed: there is no parameter of this name", {"100"}},
-    {"max_node", "removed: it is max_mode_number now", {"2"}},
-    {"marker_rate", "removed: it is slow_vectors_rate now", {"5"}},
-    {"marker_modes", "removed: it is modes of the viewer now (rviz.launch modes:=..)", {"lowest"}},
-    {"covariant_folder", "removed: covariant_storage is memory or recompute now", {"/tmp"}},
 };
 
 /** A later line of the same name replaces an earlier one. */

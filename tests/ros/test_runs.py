@@ -1,17 +1,29 @@
 #!/usr/bin/env python3
-"""What sweeps and recorders share: a scene and what is given besides become parameters or are
-refused, bags are not overwritten. Needs no ROS master."""
+"""What many runs are made of: a scene and what is given besides become parameters or are refused,
+bags are whole or not and are not overwritten, machines take turns, processes end, progress is
+shown. Needs no ROS master."""
 # Second tier: tests/run.sh --all
 
+import contextlib
+import io
 import os
 import re
+import signal
 import subprocess
+import sys
 import tempfile
+import types
 import unittest
+from unittest import mock
 
+import roslaunch.config
 import rospkg
 
-from hdlyap.runs import bags, scene
+import harness
+import made
+from terminal import Terminal
+from hdlyap.msg import RunStatus
+from hdlyap.runs import bags, display, run, scene, tree, work
 
 GUIDE = os.path.join(os.path.dirname(os.path.abspath(__file__)), '../../doc/user_guide.md')
 LAUNCH = os.path.join(rospkg.RosPack().get_path('hdlyap'), 'launch')
@@ -166,6 +178,222 @@ class Bags(InFolder):
         with self.assertRaisesRegex(bags.InUse, f'process {writer.pid} writes {path}'):
             self.kept()
         self.assertEqual(self.files(), ['run.bag.active'])
+
+
+class Done(InFolder):
+    """Whether the bag is all of a run."""
+
+    def of(self, **changed):
+        return run.Run('one', {**run.usual(), 'scene': 'one', 'duration': 7.0, **changed})
+
+    def lacks(self, stage=RunStatus.FINISHED, progress=1.0, of=None, **said):
+        """Of a made bag, whose run_info says what it was run with."""
+        of = of or self.of()
+        info = {
+            name: value for name, value in of.parameters.items() if name in made.RunInfo.__slots__
+        }
+        info.update({'warmup': 40.0, 'interval': 0.0, 'phase_interval': 0.0, **said})
+        last = made.status(150.0, stage=stage, progress=progress)
+        made.write(
+            of.bag(self.folder), [made.run_info(**info), made.status(120.0), made.cost(150.0), last]
+        )
+        return of.lacks(self.folder)
+
+    def test_whole(self):
+        cut = 'the run has not come to its end'
+        self.assertEqual(self.of().lacks(self.folder), cut)
+        self.assertEqual(self.lacks(), '')
+        for said in (dict(progress=0.99), dict(stage=RunStatus.AVERAGING)):
+            self.assertEqual(self.lacks(**said), cut)
+        with open(self.of().bag(self.folder), 'r+b') as file:
+            file.truncate(6000)
+        self.assertEqual(self.of().lacks(self.folder), cut)
+
+    def test_parameters(self):
+        """As they are in run_info; how the run was computed makes no difference, nor what the
+        node has chosen."""
+        of = self.of(observables=['spectrum', 'steps'], duration=7, interval=0.5, seed='1')
+        same = dict(interval=0.5, threads=64, wait_for_subscribers=['spectrum'], resume='kept')
+        self.assertEqual(self.lacks(of=of, **same), '')
+        for name, value in dict(
+            duration=7.5,
+            disks=21,
+            seed='2',
+            scene='two',
+            interval=0.0,
+            observables=['steps'],
+            boundary_x='reflecting',
+            density=0.71,
+        ).items():
+            said = self.lacks(of=of, **{**same, name: value})
+            self.assertIn(f'it was run with {name} = {value or "auto"}, not ', said)
+
+
+class Machines(InFolder):
+    """Which machine each run of runs.launch goes to: those of the user's file by turns; the
+    recorder runs where its node does."""
+
+    def loaded(self, names, machines):
+        self.write(
+            'machines.launch',
+            '<launch>%s</launch>'
+            % ''.join(
+                f'<machine name="{name}" address="localhost" env-loader="/opt/{name}/env.sh"/>'
+                for name in ('m1', 'm2')
+            ),
+        )
+        for name in names:
+            self.write(name + '.yaml', f'scene: {name}\n')
+        with mock.patch.dict(os.environ, PWD=self.folder):
+            return roslaunch.config.load_config_default(
+                [
+                    (
+                        os.path.join(LAUNCH, 'runs.launch'),
+                        [
+                            'runs:=' + ' '.join(names),
+                            'machines:=' + machines,
+                            'machine_file:=machines.launch',
+                        ],
+                    )
+                ],
+                0,
+            )
+
+    def placed(self, config):
+        return {
+            node.namespace + node.name: config.machines[node.machine_name].env_loader
+            if node.machine_name
+            else None
+            for node in config.nodes
+        }
+
+    def test_by_turns(self):
+        config = self.loaded(['a', 'b', 'c'], 'm1 m2')
+        one, two = '/opt/m1/env.sh', '/opt/m2/env.sh'
+        self.assertEqual(
+            self.placed(config),
+            {
+                '/a/hdlyap': one,
+                '/a/record': one,
+                '/b/hdlyap': two,
+                '/b/record': two,
+                '/c/hdlyap': one,
+                '/c/record': one,
+                '/table': None,
+            },
+        )
+        params = {key: value.value for key, value in config.params.items()}
+        for name in 'abc':
+            self.assertEqual(params[f'/{name}/hdlyap/scene'], name)
+            self.assertEqual(params[f'/{name}/hdlyap/wait_for_subscribers'], 'all')
+            self.assertEqual(params[f'/{name}/record/node'], 'hdlyap')
+            self.assertEqual(params[f'/{name}/record/bag'], f'{self.folder}/./{name}.bag')
+        self.assertFalse(any(node.required for node in config.nodes if node.name != 'table'))
+
+    def test_one_and_here(self):
+        config = self.loaded(['a'], '')
+        self.assertEqual(
+            self.placed(config), {'/a/hdlyap': None, '/a/record': None, '/table': None}
+        )
+
+
+class Shown(unittest.TestCase):
+    def job(self, name, share):
+        return types.SimpleNamespace(run=types.SimpleNamespace(name=name), share=share)
+
+    def test_lines(self):
+        """5 of 8 and so on; the time left by what has passed, and by the estimate at first. A line
+        every ten seconds."""
+        now = [1000.0]
+        out, err = io.StringIO(), io.StringIO()
+        with mock.patch('time.monotonic', lambda: now[0]), contextlib.redirect_stdout(
+            out
+        ), contextlib.redirect_stderr(err):
+            show = display.Display(8, before=4)
+            for seconds, under_way, done in (
+                (0, [('a', 0), ('b', 0)], 0),
+                (5, [('a', 0.5)], 100),
+                (60, [('b', 0.25)], 140),
+                (60, [], 200),
+            ):
+                now[0] += seconds
+                show([self.job(*job) for job in under_way], done, 1000.0)
+            show.say('c: no')
+            now[0] += 3600
+            show.end()
+        self.assertEqual(
+            out.getvalue().splitlines(),
+            [
+                '4 of 12 runs done  a 0 %  b 0 %  all 0 %, about 16:40 left',  # as estimated
+                # 860 * (65 + 60) / (140 + 60)
+                '5 of 12 runs done  b 25 %  all 14 %, about 8:58 left',
+                '6 of 12 runs done  all 20 %, about 9:29 left',  # 800 * (125 + 60) / (200 + 60)
+                '5 of 12 runs done, 1 failed in 1:02:05',
+            ],
+        )
+        self.assertEqual(err.getvalue(), 'hdlyap sweep: c: no\n')
+
+    def test_terminal(self):
+        """One line, as wide as the terminal: the time left stays on it."""
+        terminal = Terminal(
+            [
+                sys.executable,
+                '-c',
+                '''
+from types import SimpleNamespace as Made
+from hdlyap.runs import display
+show = display.Display(3)
+show([Made(run=Made(name=name), share=0.5) for name in ('first', 'second', 'third')], 30.0, 60.0)
+''',
+            ],
+            columns=64,
+        )
+        self.addCleanup(terminal.stop)
+        self.assertEqual(terminal.wait(), 0)
+        self.assertTrue(terminal.wait_for('left'))
+        self.assertRegex(
+            terminal.screen()[0],
+            r'^0 of 3 runs done  first 50 %  2 more  all 50 %, about 0:\d\d left$',
+        )
+        self.assertLess(len(terminal.screen()[0]), 64)
+
+
+class Trees(unittest.TestCase):
+    def test_end(self):
+        """Of a command that hears, of one that does not, and of what outlives a command, in a
+        session of its own."""
+        deaf = 'trap "" INT; sleep 1000 & setsid sleep 1000 & echo; wait'
+        trees = [
+            tree.Tree(['sleep', '1000']),
+            tree.Tree(['sh', '-c', deaf]),
+            tree.Tree(['sh', '-c', deaf]),
+        ]
+        self.assertTrue(
+            harness.wait_until(lambda: [len(one._members()) for one in trees] == [1, 3, 3])
+        )
+        trees[2]._process.kill()
+        self.assertTrue(harness.wait_until(trees[2].has_ended))
+        self.assertFalse(trees[2].is_gone())
+        tree.end(trees, 0.5)
+        self.assertTrue(harness.wait_until(lambda: all(one.is_gone() for one in trees)))
+        self.assertEqual(
+            [one._process.returncode for one in trees],
+            [-signal.SIGINT, -signal.SIGKILL, -signal.SIGKILL],
+        )
+
+
+class Log(InFolder):
+    def test_last_words(self):
+        for lines, said in (
+            (['[ INFO] a', '[FATAL] [1.5]: b', '\033[31m[ERROR] c\033[0m', 'd'], '[ERROR] c; '),
+            (
+                ['[x/hdlyap-1] process has died [pid 7, exit code -9, cmd /a b].'],
+                'process has died [pid 7, exit code -9]; ',
+            ),
+            (['process has finished cleanly'], ''),
+        ):
+            self.write('log', '\n'.join(lines))
+            self.assertEqual(work.last_words(self.path('log')), said)
 
 
 if __name__ == '__main__':

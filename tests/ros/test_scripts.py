@@ -56,25 +56,20 @@ class Install(Scripts):
     def install(self):
         return self.run_it('bash', os.path.join(ROOT, 'launch/install.sh'), 'run')
 
-    def test_without_sudo(self):
-        """Is told what is missing, and the line for an administrator."""
-        status, lines = self.install()
-        self.assertEqual((status, lines[-1]), (1, LINE))
-        self.assertIn('neither root nor sudo', lines)
-        self.assertIn('2 packages are missing', lines[-2])
-
-    def test_who_may_not(self):
-        """sudo's own words come first."""
-        self.fake('sudo', 'echo u is not in the sudoers file; exit 1')
-        status, lines = self.install()
-        self.assertEqual((status, lines[-1]), (1, LINE))
-        self.assertIn('u is not in the sudoers file', lines)
-
-    def test_without_network(self):
-        self.fake('sudo', '[ "$2" != update ] || echo Temporary failure; exit 100')
-        status, lines = self.install()
-        self.assertEqual((status, lines[-1]), (1, LINE))
-        self.assertIn('Temporary failure', lines)
+    def test_who_cannot_install(self):
+        """Is told what is missing, and the line for an administrator; sudo's own words come
+        first."""
+        for sudo, said in (
+            (None, 'neither root nor sudo'),
+            ('echo u is not in the sudoers file; exit 1', 'u is not in the sudoers file'),
+            ('[ "$2" != update ] || echo Temporary failure; exit 100', 'Temporary failure'),
+        ):
+            if sudo:
+                self.fake('sudo', sudo)
+            status, lines = self.install()
+            self.assertEqual((status, lines[-1]), (1, LINE))
+            self.assertIn(said, lines)
+            self.assertIn('2 packages are missing', lines[-2])
 
     def test_umask_is_not_handed_on(self):
         """sudo joins the user's with its own."""

@@ -6,18 +6,14 @@ import glob
 import os
 import signal
 import subprocess
-import tempfile
-import uuid
-
 
 import harness
+from harness import LOOK, SOON
 
 COMMON = os.path.join(os.path.dirname(os.path.abspath(__file__)), '../../launch/common.sh')
-SOON = 12.0  # seconds; roslaunch gives its nodes some
-LOOK = 0.05  # seconds between two looks at processes
 INT, TERM = signal.SIGINT, signal.SIGTERM
 KEPT = ('HOME', 'ROS_MASTER_URI', 'ROS_HOSTNAME', 'ROS_HOME', 'ROS_LOG_DIR', 'TMPDIR')
-KEPT += ('HDLYAP_SUITE', 'HDLYAP_MARK')
+KEPT += ('HDLYAP_SUITE', 'HDLYAP_MARK', 'HDLYAP_NUMBER')
 
 # as they are started by others: what is put before the command
 WAYS = dict(
@@ -53,34 +49,27 @@ def can_be_docker():
     return subprocess.run([*WAYS['docker'], 'true'], stderr=subprocess.DEVNULL).returncode == 0
 
 
-class Started(harness.Case):
+class Started(harness.Traced, harness.Case):
     def setUp(self):
-        self.mark = os.environ['HDLYAP_MARK'] = uuid.uuid4().hex
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = folder.name
+        self.trace()
+        self.folder = self.new_folder()
         self.number = 0
 
     def path(self, name):
         return os.path.join(self.folder, name)
 
-    def ours(self, mark):
-        """Processes that this one has started, and theirs; no zombies."""
-        found = []
-        for folder in glob.glob('/proc/[0-9]*'):
-            try:
-                with open(folder + '/environ', 'rb') as file:
-                    if b'HDLYAP_MARK=' + mark.encode() in file.read().split(b'\0'):
-                        found.append(int(folder[6:]))
-            except OSError:
-                pass  # has ended
-        return [pid for pid in found if pid != os.getpid()]
+    def alive(self, process):
+        """It, and what it has started."""
+        return self.ours(variable=process.number)
 
     def start(self, way, command):
+        """All that is started has the mark and a number in its environment."""
+        self.number += 1
+        number = str(self.number)
+        os.environ.update(HDLYAP_MARK=self.mark, HDLYAP_NUMBER=number)  # cron keeps these, too
         prefix = cron() if way == 'cron' else WAYS[way]
-        process = harness.Process([*prefix, *command])
-        self.addCleanup(process.stop)
-        process.mark = os.environ['HDLYAP_MARK']
+        process = self.process([*prefix, *command(self.number)])
+        process.number = 'HDLYAP_NUMBER=' + number
         return process
 
     def main_of(self, way, process):
@@ -95,27 +84,17 @@ class Started(harness.Case):
     def check(self, cases, command, is_ready):
         """All at once: starts, waits until each is ready, asks each, and nothing is left."""
         cases = [case for case in cases if case[0] != 'docker' or can_be_docker()]
-        some = []
-        for way, number in cases:
-            self.number += 1
-            os.environ['HDLYAP_MARK'] = '%s_%d' % (self.mark, self.number)
-            some.append(self.start(way, command(self.number)))
+        some = [self.start(way, command) for way, _ in cases]
+        for process in some:
+            self.sees(lambda: is_ready(process), process, every=LOOK)
         for (way, number), process in zip(cases, some):
-            ready = harness.wait_until(lambda: is_ready(process), every=LOOK)
-            self.assertTrue(ready, (way, process.text()))
-        for (way, number), process in zip(cases, some):
-            everybody = self.ours(process.mark) if way == 'systemd' else []
+            everybody = self.alive(process) if way == 'systemd' else []
             for pid in everybody or [self.main_of(way, process)]:
                 os.kill(pid, number)
         for (way, number), process in zip(cases, some):
             with self.subTest(way=way, signal=number.name):
-                ended = harness.wait_until(lambda: not process.running(), SOON, LOOK)
-                self.assertTrue(ended, process.text())
-                self.assertNotEqual(process.wait(), -signal.SIGKILL)
-                left = harness.wait_until(lambda: not self.ours(process.mark), 3.0, LOOK)
-                self.assertTrue(left, self.ours(process.mark))
-            for pid in self.ours(process.mark):
-                os.kill(pid, signal.SIGKILL)
+                self.assertNotEqual(process.wait(SOON), -signal.SIGKILL)
+                self.sees(lambda: not self.alive(process), process, every=LOOK)
 
     # ---- programs --------------------------------------------------------------------------------
 
@@ -157,18 +136,16 @@ class Started(harness.Case):
         self.addCleanup(signal.signal, signal.SIGIO, signal.signal(signal.SIGIO, signal.SIG_IGN))
 
         def is_read(process):
-            file = leases[process.mark.split('_')[1]]
+            file = leases[process.number]
             return fcntl.fcntl(file, fcntl.F_GETLEASE) != fcntl.F_WRLCK
 
-        for name in ('repeat', 'plot'):
+        def command(k):
+            file = leases['HDLYAP_NUMBER=%d' % k] = open(self.path('%d.bag' % k), 'w')
+            self.addCleanup(file.close)
+            fcntl.fcntl(file, fcntl.F_SETLEASE, fcntl.F_WRLCK)
+            return [*harness.command('plot'), file.name]
 
-            def command(k):
-                file = leases[str(k)] = open(self.path('%d.bag' % k), 'w')
-                self.addCleanup(file.close)
-                fcntl.fcntl(file, fcntl.F_SETLEASE, fcntl.F_WRLCK)
-                return [*harness.command(name), file.name]
-
-            self.check([('background', INT), ('docker', TERM)], command, is_read)
+        self.check(SOME[:2], command, is_read)
 
     def test_script(self):
         path = self.path('script.sh')
@@ -184,27 +161,9 @@ class Started(harness.Case):
             return ['roslaunch', '-p', str(harness.free_port()), 'hdlyap', 'run.launch', *scene]
 
         def records(launch):
-            return glob.glob(self.path(launch.mark.split('_')[1] + '.bag.active'))
+            return glob.glob(self.path(launch.number.split('=')[1] + '.bag.active'))
 
         self.check(TREES, command, records)
-
-    def test_reproduce(self):
-        def command(k):
-            out = ['--quick', '--part', '1', '--jobs', '1', '--out', self.path('out%d' % k)]
-            own = 'ROS_MASTER_URI=http://localhost:%d' % harness.free_port()
-            return ['env', own, harness.program('reproduce'), *out]
-
-        def command_of(pid):
-            try:
-                with open('/proc/%d/cmdline' % pid, 'rb') as file:
-                    return file.read()
-            except OSError:  # it has ended meanwhile
-                return b''
-
-        def runs(process):
-            return any(b'hdlyap_node' in command_of(pid) for pid in self.ours(process.mark))
-
-        self.check([('background', INT)], command, runs)
 
 
 if __name__ == '__main__':

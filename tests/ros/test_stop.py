@@ -19,15 +19,14 @@ class Stop(harness.Case):
     def stop(self, node, ask=None):
         with harness.within(self, BOUND):
             (ask or (lambda: node.send(signal.SIGINT)))()
-            self.assertEqual(node.wait(), 0, node.text())
+            self.ends(node)
 
     def check_stopped(self, status, spectrum):
         """Nothing is missing up to the last message."""
-        self.assertTrue(status.wait_for(is_last))
-        self.assertTrue(is_last(status.messages[-1]))
-        times = [int(message.sim_time) for message in status.messages]
+        self.assertTrue(is_last(status[-1]))
+        times = [int(message.sim_time) for message in status]
         self.assertEqual(times[:-1], list(range(times[0], times[0] + len(times) - 1)))
-        averaged = [int(message.sim_time) for message in spectrum.messages]
+        averaged = [int(message.sim_time) for message in spectrum]
         self.assertEqual(averaged, list(range(averaged[0], times[-2] + 1)))
 
     def stops_with_last_message(self, ask):
@@ -35,33 +34,21 @@ class Stop(harness.Case):
         node = self.start(dict(ENDLESS, wait_for_subscribers=['status', 'spectrum']))
         self.assertTrue(spectrum.wait_for(lambda message: True))
         self.stop(node, lambda: ask(node))
-        self.check_stopped(status, spectrum)
+        self.check_stopped(status.all_of(node), spectrum.all_of(node))
         self.assertEqual(len(node.lines('stopped at simulated time')), 1, node.text())
+        return node
 
-    def test_interrupt(self):
-        self.stops_with_last_message(lambda node: node.send(signal.SIGINT))
-
-    def test_terminate(self):
-        self.stops_with_last_message(lambda node: node.send(signal.SIGTERM))
-
-    def test_rosnode_kill(self):
-        killed = []
+    def test_asked(self):
+        """By Ctrl-C, by a system that ends, and by rosnode kill."""
 
         def kill(node):
             uri = rosgraph.Master('/test').lookupNode('/' + harness.NODE)
             xmlrpc.client.ServerProxy(uri).shutdown('/test', 'killed by a test')
-            killed.append(node)
 
-        self.stops_with_last_message(kill)
-        self.assertEqual(len(killed[0].lines('asked to shut down: killed by a test')), 1)
-
-    @harness.more
-    def test_twice(self):
-        node = self.start(ENDLESS)
-        cost = self.listen('cost')
-        self.assertTrue(cost.wait_for(lambda message: True))
-        node.send(signal.SIGINT)
-        self.stop(node)
+        self.stops_with_last_message(lambda node: node.send(signal.SIGINT))
+        self.stops_with_last_message(lambda node: node.send(signal.SIGTERM))
+        node = self.stops_with_last_message(kill)
+        self.assertEqual(len(node.lines('asked to shut down: killed by a test')), 1)
 
     def test_during_a_step(self):
         status = self.listen('status')
@@ -77,28 +64,13 @@ class Stop(harness.Case):
     def test_during_creation(self):
         """Of a frame so large that it is announced."""
         node = self.start(dict(disks=2000, exponents='all', threads=1))
-        self.assertTrue(harness.wait_until(lambda: node.lines('makes 4000 vectors of 2000 disks')))
+        self.sees(lambda: node.lines('makes 4000 vectors of 2000 disks'))
         self.stop(node)
         self.assertEqual(node.lines('scene '), [])
 
-    @harness.more
-    def test_while_paused_recorder_listens(self):
-        echo = harness.Process(['rostopic', 'echo', '/hdlyap/state'])
-        self.addCleanup(echo.stop)
-        status = self.listen('status')
-        node = self.start(
-            dict(ENDLESS, disks=5000, exponents='none', wait_for_subscribers=['state', 'status'])
-        )
-        self.assertTrue(status.wait_for(lambda message: True))
-        echo.send(signal.SIGSTOP)
-        self.assertTrue(status.wait_for(lambda message: message.sim_time > 60))
-        self.stop(node)
-        self.assertTrue(status.wait_for(is_last))
-        links.end(echo)
-
     def test_while_waiting_for_subscribers(self):
         node = self.start(dict(SHORT, wait_for_subscribers=['state']))
-        self.assertTrue(harness.wait_until(lambda: node.lines('waiting for subscribers')))
+        self.sees(lambda: node.lines('waiting for subscribers'))
         self.stop(node)
 
     @harness.more
@@ -106,7 +78,7 @@ class Stop(harness.Case):
         links.register(self, 'state', '/gone')
         state = self.listen('state')
         node = self.start(dict(SHORT, wait_for_subscribers=['state']))
-        self.assertTrue(harness.wait_until(lambda: state.subscriber.get_num_connections() == 1))
+        self.sees(lambda: state.subscriber.get_num_connections() == 1)
         time.sleep(0.3)
         self.stop(node)
         self.assertEqual((state.messages, node.lines('WARN')), ([], []))
@@ -143,31 +115,18 @@ class Stop(harness.Case):
         uri = 'http://localhost:%d' % harness.free_port()
         for args in ([], ['_disks:=100']):
             with self.subTest(args=args):
-                node = harness.Process([harness.executable(), *args], ROS_MASTER_URI=uri)
-                self.addCleanup(node.stop)
-                self.assertTrue(harness.wait_until(lambda: node.lines('master at')), node.text())
+                node = self.process([harness.executable(), *args], ROS_MASTER_URI=uri)
+                self.sees(lambda: node.lines('master at'), node)
                 self.stop(node)
-
-    @harness.more
-    def test_without_address(self):
-        """roscpp has one then, where somebody else's master may be."""
-        node = harness.Process(['env', '-u', 'ROS_MASTER_URI', harness.executable()])
-        self.addCleanup(node.stop)
-        found = harness.wait_until(
-            lambda: node.lines('master at http://localhost:11311') or node.lines('scene ')
-        )
-        self.assertTrue(found, node.text())
-        self.stop(node)
 
     @harness.more
     def test_master_comes_later(self):
         port = harness.free_port()
-        node = harness.Process([harness.executable()], ROS_MASTER_URI='http://localhost:%d' % port)
-        self.addCleanup(node.stop)
-        self.assertTrue(harness.wait_until(lambda: node.lines('waiting for it')), node.text())
+        node = self.process([harness.executable()], ROS_MASTER_URI='http://localhost:%d' % port)
+        self.sees(lambda: node.lines('waiting for it'), node)
         master = harness.Master(port)
         self.addCleanup(master.stop)
-        self.assertTrue(harness.wait_until(lambda: node.lines('scene paper_periodic')))
+        self.sees(lambda: node.lines('scene paper_periodic'))
         self.stop(node)
 
     @harness.more
@@ -175,7 +134,7 @@ class Stop(harness.Case):
         master = harness.Master()
         self.addCleanup(master.stop)
         node = self.start(ENDLESS, ROS_MASTER_URI=master.uri)
-        self.assertTrue(harness.wait_until(lambda: node.lines('scene unnamed')))
+        self.sees(lambda: node.lines('scene unnamed'))
         time.sleep(0.3)
         master.send(signal.SIGSTOP)
         self.stop(node)

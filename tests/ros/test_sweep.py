@@ -1,18 +1,16 @@
 #!/usr/bin/env python3
-"""Sweeps: which runs they consist of, what is left when they are interrupted or fail, their table
-and figure; and what launch files say of themselves."""
+"""Sweeps and plans: which runs they consist of, their table and figure; and what launch files say
+of themselves. How runs are done is test_work.py's."""
 
-import csv
+import argparse
 import glob
 import os
-import signal
 import tempfile
 import unittest
 from math import nan
 from xml.etree import ElementTree
 
 import numpy as np
-import rosbag
 from roslaunch import arg_dump
 import rospkg
 import yaml
@@ -20,15 +18,16 @@ import yaml
 import hdlyap
 import harness
 import made
-from harness import SOON, Process, wait_until
+from harness import Process
 from made import LP, T
+from hdlyap.commands import sweep
+from hdlyap.runs import run
 from hdlyap.runs.scene import Refused
 from hdlyap.plots.figures.style import plt
-from hdlyap.sweep import figure, grid, points, table
+from hdlyap.sweep import figure, grid, plan, points, table
 
 LAUNCH = os.path.join(rospkg.RosPack().get_path('hdlyap'), 'launch')
-MODES = dict(harness.MODES, duration=150.0)
-LATEST = 240.0  # seconds that some runs of a second take on a busy machine
+PLAN = os.path.join(LAUNCH, '../doc/reproduction/runs.yaml')
 
 
 class Grid(unittest.TestCase):
@@ -48,12 +47,12 @@ class Grid(unittest.TestCase):
         ]
         self.assertEqual([run.name for run in runs], names)
         wanted = dict(disks=20, density=0.1, boundary_y='periodic', aspect=1.0, threads=1)
-        for run, wall, seed in zip(runs, ('reflecting',) * 2 + ('periodic',) * 2, '1212'):
-            found = run.parameters
+        for one, wall, seed in zip(runs, ('reflecting',) * 2 + ('periodic',) * 2, '1212'):
+            found = one.parameters
             self.assertEqual({name: found[name] for name in wanted}, wanted)
             self.assertEqual(
                 (found['boundary_x'], found['seed'], found['scene'], found['observables']),
-                (wall, seed, run.name[: -len('_seed_1')], ['spectrum']),
+                (wall, seed, one.name[: -len('_seed_1')], ['spectrum']),
             )
 
     def test_same_in_all(self):
@@ -67,7 +66,8 @@ class Grid(unittest.TestCase):
 
     def test_large_systems_are_most_of_the_work(self):
         """By which progress and the time that is left are told."""
-        small, large = (run.seconds - grid.BEGIN for run in self.runs(disks='100 200'))
+        small, large = (one.seconds - run.BEGIN for one in self.runs(disks='100 200'))
+        self.assertGreater(small, 0)
         self.assertAlmostEqual(large, 4 * small)
 
     def test_refused(self):
@@ -82,7 +82,7 @@ class Grid(unittest.TestCase):
             (dict(boundaries='periodic,periodic,periodic'), 'must be periodic or'),
             (dict(densities='0.1 0.10'), 'densities = 0.1 0.10: must be each once'),
             (dict(seeds='1', scene='nix'), 'scene = nix: must be one of'),
-            (dict(seeds='1', duration='0'), 'duration is 0: it would never end'),
+            (dict(seeds='1', duration='0'), 'duration = 0: must be above 0, or it never ends'),
             (dict(seeds='1', params='{seed: 2}'), 'must be without seed: it is swept'),
             (dict(seeds='1', params='{lyap: 2}'), 'lyap = 2: must be a parameter of hdlyap_node'),
             (dict(seeds='1', params='{checkpoint: a}'), 'checkpoint = a: must be empty'),
@@ -92,7 +92,7 @@ class Grid(unittest.TestCase):
             self.assertIn(what, str(caught.exception))
 
 
-class InFolder(harness.Traced):
+class InFolder(unittest.TestCase):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
@@ -100,6 +100,120 @@ class InFolder(harness.Traced):
 
     def path(self, *names):
         return os.path.join(self.folder, *names)
+
+
+class Plan(InFolder):
+    ENTRY = '''{base: quick, duration: 7.0, disks: 30, full: {disks: 20}, quick: {disks: 10},
+                seconds: [4, 9]}'''
+
+    def runs(self, text, quick=False):
+        """{name: Run} of this plan, in their order."""
+        with open(self.path('plan.yaml'), 'w') as file:
+            file.write(text)
+        return {run.name: run for run in plan.runs(file.name, quick, LAUNCH)}
+
+    def test_parameters(self):
+        """Those of the scene, then of the entry, then of quick or full."""
+        with open(os.path.join(LAUNCH, 'scenes/quick.yaml')) as file:
+            scene = {**run.usual(), **yaml.safe_load(file)}
+        for quick, disks, seconds in ((False, 20, 9), (True, 10, 4)):
+            one = self.runs('one: ' + self.ENTRY, quick)['one']
+            self.assertEqual(
+                one.parameters,
+                {**scene, 'threads': 1, 'duration': 7.0, 'disks': disks, 'scene': 'one'},
+            )
+            self.assertEqual(
+                (one.seconds, one.share_of(2), one.is_wide), (seconds, seconds / 2, False)
+            )
+            one.write(self.folder)
+            with open(self.path('one.yaml')) as file:
+                self.assertEqual(yaml.safe_load(file), one.parameters)
+
+    def test_one_like_another(self):
+        """By YAML's own anchors; scenes lie beside the plan, too."""
+        with open(self.path('own.yaml'), 'w') as file:
+            file.write('{disks: 40, duration: 1.0}')
+        found = self.runs(
+            'a: &a {base: own.yaml, density: 0.3}\n'
+            'b: {<<: *a, disks: 50, threads: 0, seed: 18446744073709551615}\n'
+        )
+        names = 'disks', 'density', 'threads', 'seed', 'scene'
+        self.assertEqual(
+            [[one.parameters[name] for name in names] for one in found.values()],
+            [[40, 0.3, 1, '1', 'a'], [50, 0.3, 0, '18446744073709551615', 'b']],
+        )
+        self.assertEqual((found['b'].share_of(2), found['b'].is_wide), (found['b'].seconds, True))
+
+    def test_of_the_paper(self):
+        """Each run has all parameters and ends, quick and full."""
+        for quick in (True, False):
+            found = plan.runs(PLAN, quick, LAUNCH)
+            self.assertEqual(len(found), 63)
+            for one in found:
+                self.assertEqual(set(one.parameters), set(run.usual()), one.name)
+
+    def test_refused(self):
+        for text, what in (
+            ('one: {base: nowhere}', 'one: scene = nowhere: must be one of'),
+            ('one: {base: nowhere.yaml}', 'one: scene = nowhere.yaml: must be a YAML file'),
+            ('one: {duration: 1.0}', 'one: must be {base: scene, parameter: value, ..}'),
+            ('one: []', 'one: must be {base: '),
+            ('one: {base: quick, full: 3}', 'one: must be {base: '),
+            ('one: {base: quick, duration: 0.0}', 'one: duration = 0.0: must be above 0'),
+            ('one: {base: quick, duration: 1, warmup: x}', 'one: warmup = x: must be a number'),
+            ('one: {base: quick, duration: 1, lyap: 2}', 'one: lyap = 2: must be a parameter of'),
+            ('one: {base: quick, duration: 1, seconds: [x, y]}', "one: seconds = ['x', 'y']: must"),
+            ('one: {base: quick, duration: 1, seconds: [0, 1]}', 'one: seconds = [0, 1]: must be'),
+            ('one: {base: quick, duration: 1, seconds: 1}', 'one: seconds = 1: must be two'),
+            ('a/b: {base: quick, duration: 1}', 'a/b: must be named with letters'),
+            ('1: {base: quick, duration: 1}', '1: must be named with letters'),
+            ('one: {base: quick}\none: {base: quick}', 'must have one once'),
+            ('one: {base: quick, disks: 9, disks: 8}', 'must have disks once'),
+            ('- a\n', 'must be a YAML file of runs, {name: {base: scene, parameter: value, ..}'),
+            ('a: [\n', 'must be a YAML file of runs'),
+            ('', 'must have runs'),
+        ):
+            with self.subTest(text=text), self.assertRaises(Refused) as caught:
+                self.runs(text)
+            said = str(caught.exception)
+            self.assertTrue(said.startswith(f'plan = {self.path("plan.yaml")}: '), said)
+            self.assertIn(what, said)
+            self.assertNotIn('\n', said)
+
+
+class Command(InFolder):
+    """What is asked for, by its words."""
+
+    def understood(self, *words):
+        parser = argparse.ArgumentParser()
+        sweep.options(parser)
+        found, folder, jobs = sweep.understood(parser.parse_args(words), LAUNCH, self.folder)
+        return [run.name for run in found], folder, jobs
+
+    def test_asked(self):
+        with open(self.path('p.yaml'), 'w') as file:
+            file.write('a: &a {base: quick, duration: 1}\nb: *a\nc: *a\n')
+        self.assertEqual(
+            self.understood('--plan', 'p.yaml', '--only', 'c a', '--jobs', '3'),
+            (['a', 'c'], self.path('sweep'), 3),
+        )
+        self.assertEqual(
+            self.understood('--seeds', '1 2', '--only', 'seed_2', '--folder', '/nowhere'),
+            (['seed_2'], '/nowhere', len(os.sched_getaffinity(0))),
+        )
+        for words, what in (
+            ('--seeds 1 --jobs 0', 'jobs = 0: must be 1 or more'),
+            ('--seeds 1 --folder p.yaml', 'folder = p.yaml: must be a folder'),
+            ('--seeds 1 --only b', 'only = b: must be names of the runs, and b is none'),
+            ('--seeds 1 --quick', 'quick: must be given with a plan'),
+            ('--plan p.yaml --seeds 1', 'seeds = 1: must not be given with a plan'),
+            ('--plan p.yaml --scene dense', 'scene = dense: must not be given with a plan'),
+            ('--plan p.yaml --k 0 1', 'k = [0.0, 1.0]: must not be given with a plan'),
+            ('--plan none.yaml', 'none.yaml: must be a YAML file of runs, {name: '),
+        ):
+            with self.subTest(words=words), self.assertRaises(Refused) as caught:
+                self.understood(*words.split())
+            self.assertIn(what, str(caught.exception))
 
 
 class Results(InFolder):
@@ -198,137 +312,6 @@ class Results(InFolder):
         self.assertEqual(len(program.lines('hdlyap table: ')), 2, program.text())
         self.assertEqual(len(program.lines('9.000(10)')), 1, program.text())
         self.assertIsNone(figure.draw(self.read(self.bag('a'))))
-
-
-@harness.more
-class Sweep(InFolder):
-    """Of runs of a second."""
-
-    def setUp(self):
-        super().setUp()
-        self.trace()
-        self.scene(**MODES)
-
-    def scene(self, **parameters):
-        with open(self.path('tiny.yaml'), 'w') as file:
-            yaml.safe_dump(parameters, file)
-
-    def start(self, *command, **env):
-        return Process(command, PWD=self.folder, HDLYAP_MARK=self.mark, **env)
-
-    def launch(self, *args, **env):
-        env.setdefault('ROS_MASTER_URI', 'http://localhost:%d' % harness.free_port())
-        return self.start('roslaunch', 'hdlyap', 'sweep.launch', 'scene:=tiny.yaml', *args, **env)
-
-    def sweep(self, *options, status=0):
-        """What it printed."""
-        process = self.start(*harness.command('sweep'), '--scene', 'tiny.yaml', *options)
-        self.assertEqual(process.wait(LATEST), status, process.text())
-        return process.text()
-
-    def run_ids(self):
-        """{name of a bag: run_id}"""
-        paths = glob.glob(self.path('sweep', '*.bag'))
-        return {os.path.basename(path)[:-4]: hdlyap.load(path).info.run_id for path in paths}
-
-    def test_interrupted(self):
-        """By Ctrl-C: what is whole stays and is not run again; what was cut is, and kept aside;
-        other parameters are refused."""
-        launch = self.launch('densities:=0.6 0.8', 'seeds:=1 2', 'jobs:=1')
-        self.assertTrue(wait_until(self.run_ids, LATEST), launch.text())
-        wait_until(lambda: self.ours('hdlyap_node'), SOON, harness.LOOK)
-        launch.send(signal.SIGINT)
-        self.assertEqual(launch.wait(SOON), 0, launch.text())
-        self.assert_none_left()
-        done = self.run_ids()
-        self.assertIn('density_0_6_seed_1', done)
-        self.assertLess(len(done), 4)
-        self.assertFalse(os.path.exists(self.path('sweep', 'under_way')))
-        given = '--densities', '0.6 0.8', '--seeds', '1 2'
-        self.assertRegex(self.sweep(*given), r'(?m)^4 of 4 runs done in')
-        every = self.run_ids()
-        self.assertEqual(len(every), 4)
-        self.assertEqual({**every, **done}, every)
-        self.check_results()
-        self.check_refused(*given)
-        self.check_cut(*given)
-        del every['density_0_8_seed_2']
-        self.assertEqual({**self.run_ids(), **every}, self.run_ids())
-
-    def check_results(self):
-        """The files, and their numbers."""
-        for ending in ('txt', 'png', 'svg'):
-            self.assertGreater(os.path.getsize(self.path('sweep', 'sweep.' + ending)), 500)
-        with open(self.path('sweep', 'sweep.csv')) as file:
-            rows = list(csv.DictReader(file))
-        self.assertEqual([row['density [1/sigma^2]'] for row in rows], ['0.6', '0.8'])
-        for row in rows:
-            name = 'density_' + row['density [1/sigma^2]'].replace('.', '_')
-            loaded = hdlyap.load(*(self.path('sweep', f'{name}_seed_{k}.bag') for k in '12'))
-            self.assertEqual((row['seeds'], row['averaged time [time units]']), ('1 2', '300'))
-            self.check_row(row, loaded.results)
-
-    def check_row(self, row, results):
-        self.assertIn('c_T', results.index)
-        disks = MODES['disks']
-        units = {'lambda_max': '1/time unit', 'c_T': 'sigma/time unit'}
-        for name, factor in (('lambda_max', 1), ('c_T', 1), ('h_KS', disks)):
-            shown = name if name in units else 'h_KS/N'
-            columns = [f'{shown} [{units.get(name, "1/time unit")}]']
-            columns += [f'{shown} {error}' for error in ('std_error', 'scatter')]
-            for column, known in zip(columns, ('value', 'std_error', 'scatter')):
-                self.assertAlmostEqual(float(row[column]) * factor, results[known][name], 9)
-            self.assertAlmostEqual(float(row[f'{shown} chi2']), results['chi2'][name], 9)
-        self.assertEqual(row['c_T basis'], results['basis']['c_T'])
-
-    def check_refused(self, *given):
-        said = self.sweep(*given, '--duration', '151', status=2)
-        self.assertEqual(
-            said,
-            f'hdlyap sweep: {self.path("sweep", "density_0_6_seed_1.bag")}: it was run with '
-            'duration = 150.0, not 151; must be swept with that, or in another folder\n',
-        )
-
-    def check_cut(self, *given):
-        path = self.path('sweep', 'density_0_8_seed_2.bag')
-        os.truncate(path, os.path.getsize(path) // 2)
-        said = self.sweep(*given)
-        self.assertIn(f'hdlyap sweep: {path} was there already: it is now {path}.old\n', said)
-        self.assertRegex(said, r'(?m)^4 of 4 runs done in')
-        again = self.sweep(*given)
-        self.assertNotIn('runs done', again)
-        self.assertEqual(said[said.index('the same') :], again[again.index('the same') :])
-        self.assertRegex(self.sweep(*given, '--form', 'c k'), r'\n  \[1\] c k over \d wave')
-
-    def test_one_fails(self):
-        """It is named, the others go on; in a namespace, all topics are in the bags; then it is
-        mended."""
-        self.scene(**dict(harness.SHORT, warmup='auto'))
-        given = 'densities:=2.5 0.3', 'aspects:=1', 'folder:=of mine', 'threads:=1'
-        launch = self.launch(*given, 'observables:=[spectrum, state]', ROS_NAMESPACE='/lab')
-        launch.wait(LATEST)
-        said = launch.lines('sweep: ')
-        self.assertEqual(len(said), 2, launch.text())
-        for line in said:
-            self.assertRegex(
-                line,
-                r'sweep: density_2_5_aspect_1_0: the run has not come to its end; .*FATAL.*'
-                r'density = 2\.5: .*; all that it said is in .*of mine/log/density_2_5_aspect_1_0',
-            )
-        self.assertIn('exit code 1', launch.text())
-        self.assertRegex(launch.text(), r'(?m)^1 of 2 runs done, 1 failed in')
-        self.assertRegex(launch.text(), r'(?m)^the same in all: .*density 0.3')
-        self.check_bag(self.path('of mine', 'density_0_3_aspect_1_0.bag'))
-        self.assert_none_left()
-        said = self.sweep('--densities', '2.5', '--folder', 'of mine', status=1)
-        self.assertEqual(said.count('sweep: density_2_5: the run has not come'), 2)
-        self.assertEqual(len(glob.glob(self.path('of mine', '*.bag'))), 1)
-
-    def check_bag(self, path):
-        with rosbag.Bag(path) as bag:
-            topics = {topic.rpartition('/')[2] for topic in bag.get_type_and_topic_info()[1]}
-        self.assertLessEqual({'run_info', 'status', 'cost', 'state', 'spectrum'}, topics)
-        self.assertNotIn('modes', topics)
 
 
 class Files(unittest.TestCase):

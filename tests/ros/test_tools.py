@@ -38,7 +38,7 @@ class Interrupted(Bags):
                 file.write('import os, signal, time\nos.kill(os.getpid(), signal.SIGINT)\n')
                 file.write('time.sleep(60)\n')
         path = os.pathsep.join([self.folder, os.environ['PYTHONPATH']])
-        words = [[name] for name in ('record', 'reproduce')]
+        words = [['record']]
         words += [['hdlyap', name] for name in ('fit', 'follow', 'plot', 'replay', 'sweep', 'view')]
         for script, *name in words:
             done = process(*name, script=script, env=dict(os.environ, PYTHONPATH=path))

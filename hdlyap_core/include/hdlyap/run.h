@@ -50,10 +50,14 @@ typedef struct hd_cost {
     /** largest of the exponents nearest to zero, which target_std_error is for; negative if unknown
      */
     double std_error;
-    double progress;  /**< 0 .. 1 of the time asked for, or to the target; negative if
-                          unknown */
-    double remaining; /**< predicted wall seconds to the end, or to target_std_error;
-                          negative if unknown */
+    /** Averaged time since which std_error does not fall as it does in a stationary run, an eighth
+     * of the averaged time or less; negative while it falls, or that cannot be said yet */
+    double stalled_since;
+    double stalled_error; /**< std_error then */
+    double progress;      /**< 0 .. 1 of the time asked for, or to the target; negative if
+                              unknown */
+    double remaining;     /**< predicted wall seconds to the end, or to target_std_error;
+                              negative if unknown */
 } hd_cost;
 
 typedef struct hd_run hd_run;

@@ -109,6 +109,13 @@ int hd_steps_of_vector(const hd_steps *steps, int col);
 /** Column that stands for a resolved step: the first of its set that belongs to the step itself,
  * else the first one. */
 int hd_steps_example(const hd_steps *steps, int index);
+/** True of resolved steps of the positive half without the zero modes, and of those that share a
+ * set of the first alone: whose examples show all that was found. */
+bool hd_steps_is_shown(const hd_steps *steps, int index);
+/** The resolved step of the positive half with the smallest exponent of a kind; -1 if there is
+ * none.
+ */
+int hd_steps_lowest(const hd_steps *steps, hd_mode_kind kind);
 
 /** Standard error of the sum over the resolved steps of factor(step, context) times exponent; see
  * hd_spectrum_error_of_sum. `spectrum` as in hd_steps_find. */

@@ -77,6 +77,9 @@ void hd_trajectory_momentum(const hd_trajectory *trajectory, double sum[HD_DIM])
 /** More than rounding makes of its relative error: each event so far rounds the energy of its disks
  * by some eps, and the roundings add up as a random walk. Seen: 0.01 of this. */
 double hd_trajectory_energy_rounding(const hd_trajectory *trajectory);
+/** More than rounding makes of an overlap: of some roundings in positions, of the order of the box,
+ * and in times, as long as they are counted from one moment. */
+double hd_trajectory_overlap_rounding(const hd_trajectory *trajectory);
 /** Deepest overlap of any pair now: max(0, 1 - distance) over all pairs and images. Cost O(N). */
 double hd_trajectory_overlap(const hd_trajectory *trajectory);
 

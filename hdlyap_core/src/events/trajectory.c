@@ -409,6 +409,14 @@ double hd_trajectory_energy_rounding(const hd_trajectory *tr)
     return DBL_EPSILON * (64.0 + 16.0 * sqrt(events));
 }
 
+double hd_trajectory_overlap_rounding(const hd_trajectory *tr)
+{
+    const double speed_max = 16.0; /* of two disks; the mean square of a momentum is 2 */
+    const double roundings = 16.0; /* of eps/2, on the way to a contact */
+    const double *box = tr->motion.cells.box;
+    return roundings * DBL_EPSILON * (fmax(box[0], box[1]) + speed_max * tr->epoch_length);
+}
+
 /** Distance squared from disk i to disk j, `edges` of the box further, now; to itself infinite. */
 static double distance_squared(const hd_trajectory *tr, int32_t i, int32_t j,
                                const int32_t edges[HD_DIM])

@@ -303,6 +303,30 @@ int hd_steps_example(const hd_steps *steps, int index)
     return step->col;
 }
 
+static bool is_positive(const hd_step *step) { return step->resolved && !step->conjugate; }
+
+bool hd_steps_is_shown(const hd_steps *steps, int index)
+{
+    const hd_step *step = hd_steps_step(steps, index);
+    if (!is_positive(step) || step->kind == HD_MODE_ZERO) return false;
+    for (int k = 0; k < index; k++) {
+        const hd_step *before = hd_steps_step(steps, k);
+        if (before->resolved && before->set == step->set) return false;
+    }
+    return true;
+}
+
+int hd_steps_lowest(const hd_steps *steps, hd_mode_kind kind)
+{
+    int lowest = -1;
+    for (int s = 0; s < hd_steps_count(steps); s++) {
+        const hd_step *step = hd_steps_step(steps, s);
+        if (step->kind != kind || !is_positive(step)) continue;
+        if (lowest < 0 || step->exponent < hd_steps_step(steps, lowest)->exponent) lowest = s;
+    }
+    return lowest;
+}
+
 /* ---- file ---------------------------------------------------------------------------------- */
 
 /** The rest of a step is the same in every run of its scene. */

@@ -103,6 +103,14 @@ static void add_progress(hd_cost *cost, const hd_run *run)
     if (left == 0) cost->remaining = 0.0;
 }
 
+static void add_trend(hd_cost *cost, const hd_run *run)
+{
+    hd_error_at since;
+    const bool stalled = hd_error_trend_stalled(&run->errors, &since);
+    cost->stalled_since = stalled ? since.time : -1.0;
+    cost->stalled_error = stalled ? since.error : -1.0;
+}
+
 hd_cost hd_run_cost(const hd_run *run)
 {
     hd_cost cost = run->cost;
@@ -111,6 +119,7 @@ hd_cost hd_run_cost(const hd_run *run)
     const double error = hd_carrier_smallest_error(&run->carrier);
     const double collisions = (double)hd_trajectory_collisions(run->advance.trajectory);
     add_progress(&cost, run);
+    add_trend(&cost, run);
     cost.covariant = windows ? *hd_windows_seconds(windows) : 0.0;
     cost.communication = traffic.seconds;
     cost.bytes = traffic.bytes;

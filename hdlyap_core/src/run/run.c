@@ -116,6 +116,7 @@ static void enter_stage(hd_run *run, hd_stage stage)
     run->followed = -1.0;
     if (is_averaging(run)) {
         hd_carrier_clear(&run->carrier);
+        run->errors = (hd_error_trend){.first = 0.0};
         hd_observables_clear(&run->observables, &(hd_view){.trajectory = run->advance.trajectory});
     }
     hd_carrier_save_accuracy(&run->carrier, is_averaging(run));
@@ -253,6 +254,14 @@ static hd_status measure(hd_run *run, bool add)
     return HD_OK;
 }
 
+/** Of the exponents nearest to zero, whose averages have taken a sample up. */
+static void add_error(hd_run *run)
+{
+    const double error = hd_carrier_smallest_error(&run->carrier);
+    hd_error_trend_add(&run->errors, hd_spectrum_time(run->carrier.spectrum),
+                       error < INFINITY ? error : -1.0);
+}
+
 /** A state is measured here. */
 static hd_status end_sample(hd_run *run)
 {
@@ -260,6 +269,7 @@ static hd_status end_sample(hd_run *run)
     if (is_framed(run)) HD_TRY(orthonormalise(run, true));
     hd_agenda_pass_sample(&run->agenda, hd_run_time(run));
     if (is_framed(run)) HD_TRY(hd_carrier_sample(&run->carrier, is_averaging(run)));
+    if (is_framed(run) && is_averaging(run)) add_error(run);
     return measure(run, true);
 }
 

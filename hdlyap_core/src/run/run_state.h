@@ -4,6 +4,7 @@
 #ifndef HD_RUN_STATE_H
 #define HD_RUN_STATE_H
 
+#include "averages/error_trend.h"
 #include "hdlyap/run.h"
 #include "observe/observables.h"
 #include "run/advance.h"
@@ -37,6 +38,7 @@ struct hd_run {
     double followed;  /**< simulated time at which phases were known last; negative: never */
     hd_clocks clocks;
     hd_cost cost;
+    hd_error_trend errors; /**< of those nearest to zero; begins anew with a run that is resumed */
 };
 
 /** hd_run_create_shared and hd_run_free within a call that the other ranks make, too. */

@@ -8,7 +8,6 @@
 #include "hdlyap_ros/params.h"
 #include "hdlyap_ros/publisher.h"
 #include "hdlyap_ros/service.h"
-#include "hdlyap_ros/stage.h"
 #include "hdlyap_ros/subscriber.h"
 
 #endif

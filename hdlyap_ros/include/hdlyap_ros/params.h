@@ -21,14 +21,6 @@ HDR_MUST_CHECK hdr_status hdr_params_read(hdr_params **out, const char *path, in
                                           char *const *replaced);
 void hdr_params_free(hdr_params *params);
 
-/** Of a parameter, with its value for a message to the user. */
-typedef void (*hdr_param_callback)(void *context, const char *name, const char *text);
-/** From now on `changed` is called, on the callbacks' thread and within about a second, for each
- * private parameter that is set to another value than in params or than it was called with. Asks
- * the master only when something has changed. Once for a node; params may be freed. */
-HDR_MUST_CHECK hdr_status hdr_params_watch(const hdr_params *params, hdr_node *node,
-                                           hdr_param_callback changed, void *context);
-
 int hdr_params_count(const hdr_params *params);
 /** Name of parameter k, 0 .. count - 1, in alphabetic order; NULL otherwise. */
 const char *hdr_params_name(const hdr_params *params, int k);

@@ -1,5 +1,5 @@
 """Beside the messages (hdlyap.msg): recorded runs as arrays and frames (load, data), figures and
-tables of bags (plots), a terminal screen (follow), the paper measured again (reproduce)."""
+tables of bags (plots), a terminal screen (follow), many runs (runs, sweep)."""
 
 import sys
 import threading

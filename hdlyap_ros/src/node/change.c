@@ -36,7 +36,7 @@ bool change_parse(change *out, const char *assignment, char *message, size_t siz
         return change_refuse(message, size, assignment, "must be one NAME=VALUE, such as pace=1.5");
     snprintf(name, sizeof name, "%.*s", (int)length, assignment);
     if (!parameters_has(name))
-        return change_refuse(message, size, assignment, parameters_instead(name));
+        return change_refuse(message, size, assignment, "there is no parameter of this name");
     const parameter p = parameters_named(name);
     out->name = p.name;
     if (!p.live) return change_refuse(message, size, assignment, "is read at the start");

@@ -1,6 +1,5 @@
-/** Scene file -> is it valid, its memory, speed, bag and waves. Speed is that of a second's trial
- * on this machine: the same scene, warmed up until intervals are as long as they become, or one of
- * fewer disks in a box of the same shape. What a bag takes is what the rows of the topics say. */
+/** Scene file -> is it valid, its memory, speed, bag and waves. Memory and speed are what the core
+ * estimates; what a bag takes is what the rows of the topics say. */
 #include "check.h"
 
 #include <math.h>
@@ -8,7 +7,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "clock.h"
 #include "hdlyap/hdlyap.h"
 #include "settings.h"
 #include "topics/moment.h"
@@ -16,110 +14,8 @@
 
 enum { REFUSED = 2, FAULT = 3 };
 
-static const double trial_seconds = 1.0;
-/** Collisions of each disk until intervals are as long as they become: they double from 2. */
-static const double warmup_collisions = 120.0;
 /** The recorder is sent no more reports a second. */
 static const double reports_per_second = 960.0;
-/** Disks x vectors^2 of a trial: beyond, an interval alone takes longer than a trial may. */
-static const double trial_work = 800.0 * 1600.0 * 1600.0;
-/** Averaged time of 1 % in c_T, in units of that from which errors are stated: as measured with 780
- * disks, doc/performance.md. */
-static const double of_slopes = 2.0;
-
-typedef struct trial {
-    int disks;
-    double seconds;      /**< per time unit */
-    double interval;     /**< between orthonormalisations; NaN without exponents */
-    double errors_after; /**< averaged time */
-    extent extent;       /**< of all disks */
-} trial;
-
-/* ---- the trial ------------------------------------------------------------------------------ */
-
-static hd_status collision_time(double *time, const hd_scene_def *def)
-{
-    hd_trajectory *disks;
-    const hd_status status = hd_trajectory_create(&disks, def);
-    if (status != HD_OK) return status;
-    *time = 0.5 * def->disks / hd_trajectory_collision_rate(disks);
-    hd_trajectory_free(disks);
-    return HD_OK;
-}
-
-static hd_status advance_to(hd_run *run, hd_stage stage)
-{
-    hd_status status = HD_OK;
-    while (status == HD_OK && hd_run_stage(run) < stage) status = hd_run_advance(run);
-    return status;
-}
-
-static hd_status measure(trial *out, hd_run *run)
-{
-    hd_status status = advance_to(run, HD_AVERAGING);
-    const double begin = clock_seconds(), from = hd_run_time(run);
-    const long before = hd_run_cost(run).orthonormalisations, vectors = hd_run_vectors(run);
-    double seconds = 0.0;
-    long done = 0;
-    while (status == HD_OK && (seconds < trial_seconds || (vectors > 0 && done < 2))) {
-        status = hd_run_advance(run);
-        seconds = clock_seconds() - begin;
-        done = hd_run_cost(run).orthonormalisations - before;
-    }
-    out->seconds = seconds / (hd_run_time(run) - from);
-    out->interval = hd_run_cost(run).interval;
-    return status;
-}
-
-/** A scene of the same shape and waves whose trial is short; false if it is itself one, or there is
- * none. */
-static bool make_smaller(hd_scene_def *def)
-{
-    const double vectors = hd_scene_carried(def), work = def->disks * vectors * vectors;
-    const double part = cbrt(trial_work / fmax(work, trial_work));
-    hd_scene_def smaller = *def;
-    char message[200];
-    if (part >= 1.0) return false;
-    smaller.disks = (int)(part * def->disks);
-    if (def->exponents > 0) smaller.exponents = (int)(part * vectors); /* a number of them */
-    smaller.max_wave_number /= sqrt(part);
-    if (hd_scene_check(&smaller, message, sizeof message) != HD_OK) return false;
-    *def = smaller;
-    return true;
-}
-
-/** What a trial of fewer disks says of all of them: a frame takes N^3, an error the time of sound
- * through the box. */
-static void enlarge(trial *t, const hd_scene_def *tried, const hd_scene_def *def)
-{
-    t->disks = tried->disks;
-    if (tried->disks == def->disks) return;
-    t->seconds *= pow((double)def->disks / tried->disks, 3.0);
-    t->errors_after *= hd_scene_sound_crossing(def) / hd_scene_sound_crossing(tried);
-}
-
-static hd_status try_scene(trial *out, const settings *set, char *message, size_t size)
-{
-    hd_scene_def def = set->def;
-    hd_run *run;
-    double collision = 0.0;
-    hd_status status = collision_time(&collision, &def);
-    if (status != HD_OK) return status;
-    def.equilibration = collision;
-    def.warmup = warmup_collisions * collision;
-    def.duration = def.target_std_error = 0.0;
-    def.observe &= ~(unsigned)HD_OBSERVE_COVARIANT; /* a window is longer than a trial */
-    make_smaller(&def);
-    status = hd_run_create(&run, &def, message, size);
-    if (status != HD_OK) return status;
-    hd_run_fields_every(run, set->field_interval);
-    status = measure(out, run);
-    out->errors_after = hd_run_errors_after(run);
-    enlarge(out, &def, &set->def);
-    out->extent = extent_of(set, run);
-    hd_run_free(run);
-    return status;
-}
 
 /* ---- what is printed ------------------------------------------------------------------------ */
 
@@ -130,7 +26,7 @@ static const double record_bytes = 58.0;
 typedef enum coming { REPORTS, FIELDS, WINDOWS, COMINGS } coming;
 
 /** Bytes in a bag of a topic each time. */
-static double bytes_of(const settings *set, const trial *t, topic k, coming when)
+static double bytes_of(const settings *set, const hd_estimate *t, topic k, coming when)
 {
     const topic_size s = topic_size_of(k, &t->extent);
     const double parts[COMINGS] = {s.report, s.fields, s.window}, messages = fmax(s.messages, 1.0);
@@ -141,7 +37,7 @@ static double bytes_of(const settings *set, const trial *t, topic k, coming when
     return parts[when] + (is_part ? 0.0 : messages * (texts + record_bytes));
 }
 
-static double bytes_of_all(const settings *set, const trial *t, unsigned topics, coming when)
+static double bytes_of_all(const settings *set, const hd_estimate *t, unsigned topics, coming when)
 {
     double bytes = 0.0;
     for (topic k = 0; k < TOPICS; k++)
@@ -170,17 +66,16 @@ static void print_memory(const settings *set, hd_room room)
                set->def.covariant_memory);
 }
 
-static void print_speed(const settings *set, const trial *t)
+static void print_speed(const settings *set, const hd_estimate *t)
 {
     const hd_scene_def *def = &set->def;
-    const double before = def->equilibration + hd_scene_warmup(def);
     printf("speed     %.3g s per time unit, by a trial of a second", t->seconds);
     if (t->disks < def->disks) printf(" of %d disks, and the cube of N", t->disks);
     if (!isnan(t->interval)) printf("; interval %.3g", t->interval);
     if (def->observe & HD_OBSERVE_COVARIANT) printf("; without covariant vectors");
     printf("\n");
-    print_seconds("          ", before * t->seconds);
-    printf(" before the averaging (%.4g time units)", before);
+    print_seconds("          ", t->before * t->seconds);
+    printf(" before the averaging (%.4g time units)", t->before);
     if (def->duration > 0) {
         print_seconds(", ", def->duration * t->seconds);
         printf(" of averaging (%.4g)", def->duration);
@@ -202,7 +97,7 @@ static double time_between(const settings *set, coming when)
 }
 
 /** Each topic's share, in units of `unit` bytes. */
-static void print_shares(const settings *set, const trial *t, coming when, double unit)
+static void print_shares(const settings *set, const hd_estimate *t, coming when, double unit)
 {
     const char *separator = ":";
     for (topic k = 0; k < TOPICS; k++) {
@@ -214,12 +109,11 @@ static void print_shares(const settings *set, const trial *t, coming when, doubl
 }
 
 /** Of a whole run; before the averaging there is what needs none. */
-static double bytes_in_all(const settings *set, const trial *t)
+static double bytes_in_all(const settings *set, const hd_estimate *t)
 {
     const unsigned of_averages = topics_that_are(TOPIC_OF_VECTORS) |
                                  topics_of_stages(HD_OBSERVE_ALL);
-    const double before = set->def.equilibration + hd_scene_warmup(&set->def);
-    double bytes = before / time_between(set, REPORTS) *
+    double bytes = t->before / time_between(set, REPORTS) *
                    bytes_of_all(set, t, topics_recorded(set) & ~of_averages, REPORTS);
     for (coming when = REPORTS; when < COMINGS; when++)
         bytes += set->def.duration / time_between(set, when) *
@@ -227,7 +121,7 @@ static double bytes_in_all(const settings *set, const trial *t)
     return bytes;
 }
 
-static void print_bag(const settings *set, const trial *t)
+static void print_bag(const settings *set, const hd_estimate *t)
 {
     const double speed = set->pace > 0 ? fmin(set->pace, 1.0 / t->seconds) : 1.0 / t->seconds;
     const double paced = fmin(speed, reports_per_second * set->def.report_interval);
@@ -273,25 +167,23 @@ static void print_open(const char *begin, const hd_scene_def *def, hd_mode_kind 
         printf("%s some %.2g %%, which this box and its waves leave open.\n", begin, 100.0 * open);
 }
 
-static void print_errors(const settings *set, const trial *t)
+static void print_errors(const settings *set, const hd_estimate *t)
 {
-    const double before = set->def.equilibration + hd_scene_warmup(&set->def);
-    const double steps = t->errors_after, slopes = of_slopes * steps;
     printf("errors    of exponents of steps below 1 %% when they are first stated, after %.3g time "
            "units of averaging (",
-           steps);
-    print_seconds("", (before + steps) * t->seconds);
+           t->errors_after);
+    print_seconds("", (t->before + t->errors_after) * t->seconds);
     printf(" from the start);\n          of c_T and c_L about 1 %% of sampling after %.3g (",
-           slopes);
-    print_seconds("", (before + slopes) * t->seconds);
+           t->slopes_after);
+    print_seconds("", (t->before + t->slopes_after) * t->seconds);
     printf("). An estimate, from runs of 780 disks.\n");
     print_open("          Beside it, of c_T", &set->def, HD_MODE_T);
     print_open("          Beside it, of c_L", &set->def, HD_MODE_LP);
-    if (set->def.duration > 0 && set->def.duration < steps)
+    if (set->def.duration > 0 && set->def.duration < t->errors_after)
         printf("          The duration is too short for any error.\n");
 }
 
-static void print_all(const settings *set, const trial *t, hd_room room)
+static void print_all(const settings *set, const hd_estimate *t, hd_room room)
 {
     const hd_scene_def *def = &set->def;
     double box[2];
@@ -317,7 +209,7 @@ int check_scene(int count, char *const *arguments)
     char message[512] = "";
     hdr_params *params;
     settings set;
-    trial t = {.seconds = 0.0};
+    hd_estimate t = {.disks = 0};
     if (count < 1) return refused(REFUSED, "--check: must be followed by a scene file");
     if (hdr_params_read(&params, arguments[0], count - 1, arguments + 1) != HDR_OK)
         return refused(REFUSED, hdr_error_text());
@@ -326,9 +218,10 @@ int check_scene(int count, char *const *arguments)
         status = refused(REFUSED, message);
     } else {
         const hd_room room = hd_room_available();
-        hd_status tried = hd_scene_check(&set.def, message, sizeof message);
-        if (tried == HD_OK) tried = hd_room_check(&set.def, room, message, sizeof message);
-        if (tried == HD_OK) tried = try_scene(&t, &set, message, sizeof message);
+        hd_status tried = hd_room_check(&set.def, room, message, sizeof message);
+        if (tried == HD_OK)
+            tried = hd_estimate_run(&t, &set.def, set.field_interval, message, sizeof message);
+        t.extent = extent_of(&set, t.extent);
         if (tried == HD_OK)
             print_all(&set, &t, room);
         else

@@ -1,5 +1,5 @@
 /** Settings and run -> checkpoints. */
-#define _GNU_SOURCE /* statx */
+#define _GNU_SOURCE /* O_PATH */
 #include "checkpoint_writer.h"
 
 #include <errno.h>
@@ -99,19 +99,12 @@ static hd_status save_first(const settings *set, hd_run *run, char *message, siz
     return status;
 }
 
-static bool identify(const char *path, file_identity *out)
-{
-    struct statx now;
-    if (statx(AT_FDCWD, path, 0, STATX_INO | STATX_MTIME | STATX_BTIME, &now) != 0) return false;
-    const bool known = now.stx_mask & STATX_BTIME;
-    const struct statx_timestamp when = known ? now.stx_btime : now.stx_mtime;
-    *out = (file_identity){now.stx_dev_major, now.stx_dev_minor, now.stx_ino, known,
-                           when.tv_sec,       when.tv_nsec};
-    return true;
-}
-
 /** Whose the file is: a rename makes it another one. */
-static void remember(checkpoint_writer *k) { (void)identify(k->set->checkpoint, &k->written); }
+static void remember(checkpoint_writer *k)
+{
+    if (k->written >= 0) close(k->written);
+    k->written = open(k->set->checkpoint, O_PATH | O_CLOEXEC);
+}
 
 hd_status checkpoint_writer_check(const settings *set, char *message, size_t size)
 {
@@ -125,7 +118,7 @@ hd_status checkpoint_writer_check(const settings *set, char *message, size_t siz
 hd_status checkpoint_writer_begin(checkpoint_writer *out, const settings *set, hd_run *run,
                                   char *message, size_t size)
 {
-    *out = (checkpoint_writer){.set = set, .due = INFINITY, .state = {.time = -1.0}};
+    *out = (checkpoint_writer){.set = set, .due = INFINITY, .written = -1, .state = {.time = -1.0}};
     if (!*set->checkpoint) return HD_OK;
     const int lock = folder_lock(set->checkpoint);
     const hd_status status = save_first(set, run, message, size);
@@ -150,12 +143,9 @@ bool checkpoint_writer_due(const checkpoint_writer *k)
  * copied into the old one is not seen. */
 static bool is_mine(const checkpoint_writer *k)
 {
-    const file_identity *own = &k->written;
-    file_identity now;
-    if (!identify(k->set->checkpoint, &now)) return true;
-    const bool same_time = now.seconds == own->seconds && now.nanoseconds == own->nanoseconds;
-    return now.major == own->major && now.minor == own->minor && now.number == own->number &&
-           (same_time || now.born != own->born);
+    struct stat now, own;
+    if (stat(k->set->checkpoint, &now) != 0 || fstat(k->written, &own) != 0) return true;
+    return now.st_dev == own.st_dev && now.st_ino == own.st_ino;
 }
 
 static hd_status save(checkpoint_writer *k, hd_run *run)

@@ -15,21 +15,11 @@ typedef struct kept {
     char message[512]; /**< of the last failure */
 } kept;
 
-/** A number is given again once its file is gone, so also when it was born; or, where the file
- * system does not know that, when it was changed last. */
-typedef struct file_identity {
-    unsigned major, minor; /**< of the device */
-    unsigned long long number;
-    bool born; /**< which of both the time is */
-    long long seconds;
-    unsigned nanoseconds;
-} file_identity;
-
 typedef struct checkpoint_writer {
     const settings *set;
-    bool changed;          /**< the run is not as in the file */
-    double due;            /**< [s of clock_seconds]; INFINITY: only when asked */
-    file_identity written; /**< the file, as it was written */
+    bool changed; /**< the run is not as in the file */
+    double due;   /**< [s of clock_seconds]; INFINITY: only when asked */
+    int written;  /**< the file as it was written, held open: its number is not given again; -1 */
     kept state;
 } checkpoint_writer;
 

@@ -32,24 +32,24 @@ static void add_errors(conditions *all, const worker_state *state)
     const uint8_t level = HDR_DIAGNOSTIC_ERROR;
     if (state->status != HD_OK) add(all, level, "%s", hd_status_text(state->status));
     if (state->checkpoint.failed) add(all, level, "%s", state->checkpoint.message);
-    if (examination_overlap(disks))
+    if (!(disks->overlap <= disks->overlap_max))
         add(all, level, "disks overlap by %.2g, rounding explains %.2g", disks->overlap,
             disks->overlap_max);
-    if (examination_drift(disks))
+    if (!(disks->energy_error <= disks->energy_error_max))
         add(all, level, "energy is off by %.2g, rounding explains %.2g", disks->energy_error,
             disks->energy_error_max);
 }
 
 static void add_warnings(conditions *all, const worker_state *state, const hdr_lag *slowest)
 {
-    const error_at *last = &state->errors.last;
+    const progress *last = &state->last;
     const uint8_t level = HDR_DIAGNOSTIC_WARN;
-    error_at since;
-    if (error_trend_stalled(&state->errors, &since))
+    if (last->cost.stalled_since >= 0.0)
         add(all, level,
             "errors of the smallest exponents do not fall: %.2g after %.3g averaged, %.2g after "
             "%.3g",
-            since.error, since.time, last->error, last->time);
+            last->cost.stalled_error, last->cost.stalled_since, last->cost.std_error,
+            last->averaged);
     if (slowest->seconds >= behind_seconds)
         add(all, level, "a subscriber of %s is %.1f s behind", slowest->topic, slowest->seconds);
     if (slowest->lost > 0)

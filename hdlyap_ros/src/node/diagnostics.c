@@ -6,7 +6,6 @@
 
 #include "clock.h"
 #include "conditions.h"
-#include "hdlyap_ros/stage.h"
 
 static const double period = 1.0;
 
@@ -50,7 +49,7 @@ static const char *stage_name(const worker_state *state)
 {
     if (state->stage == WORKER_WAITING) return "waiting for subscribers";
     if (state->stage == WORKER_PAUSED) return "paused";
-    return hdr_stage_name((unsigned)state->last.stage);
+    return hdr_run_status_stage_text(state->last.stage);
 }
 
 /** Since the last message, which this call makes the present one. */
@@ -63,22 +62,6 @@ static double collision_rate(diagnostics *d, const progress *last, double now)
     return seconds > 0.0 ? collisions / seconds : 0.0;
 }
 
-static const char *limit_name(hd_limit limit)
-{
-    static const char *const names[] = {[HD_LIMIT_SCHEDULE] = "report interval",
-                                        [HD_LIMIT_CONDITION] = "conditioning",
-                                        [HD_LIMIT_GROWTH] = "doubling",
-                                        [HD_LIMIT_OVERFLOW] = "overflow",
-                                        [HD_LIMIT_SCENE] = "parameter interval",
-                                        [HD_LIMIT_EVENTS] = "memory of the events",
-                                        [HD_LIMIT_LOOK] = "vectors wanted",
-                                        [HD_LIMIT_REPAIR] = "repair",
-                                        [HD_LIMIT_STAGE] = "end of the stage",
-                                        [HD_LIMIT_SAMPLE] = "samples for errors",
-                                        [HD_LIMIT_NONE] = "none yet"};
-    return names[limit];
-}
-
 static void fill_keys(diagnostics *d, key_list *list, const worker_state *state, double now)
 {
     const hd_cost *cost = &state->last.cost;
@@ -87,7 +70,7 @@ static void fill_keys(diagnostics *d, key_list *list, const worker_state *state,
     add_number(list, "progress", cost->progress);
     add_number(list, "remaining seconds", cost->remaining);
     add_number(list, "interval", cost->interval);
-    add_text(list, "interval limited by", limit_name(cost->limit));
+    add_text(list, "interval limited by", hdr_cost_interval_limit_text(cost->limit));
     add_number(list, "condition", cost->condition);
     add_number(list, "repairs", (double)cost->repairs);
     add_number(list, "collisions per second", collision_rate(d, &state->last, now));

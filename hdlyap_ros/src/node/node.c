@@ -10,7 +10,6 @@
 #include "diagnostics.h"
 #include "hdlyap/follow.h"
 #include "hdlyap/hdlyap.h"
-#include "parameters.h"
 #include "parameters_text.h"
 #include "ranks.h"
 #include "topics/report.h"
@@ -116,10 +115,7 @@ static int first_field(const settings *set)
  */
 static void log_creation(const hd_scene_def *def)
 {
-    char unused[512];
-    if (hd_scene_check(def, unused, sizeof unused) != HD_OK ||
-        hd_room_check(def, hd_room_available(), unused, sizeof unused) != HD_OK)
-        return;
+    if (hd_room_check(def, hd_room_available(), NULL, 0) != HD_OK) return;
     const int vectors = hd_scene_carried(def);
     if (4.0 * def->disks * vectors > ENTRIES_MANY)
         hdr_log(HDR_INFO, "makes %d vectors of %d disks orthonormal", vectors, def->disks);
@@ -145,23 +141,6 @@ static int create_run(app *a)
     return fault_logged(status, message);
 }
 
-/** On the parameter server, which is read at the start. */
-static void on_parameter_set(void *context, const char *name, const char *text)
-{
-    const char *node = hdr_node_name(((const app *)context)->ros);
-    const bool known = parameters_has(name);
-    if (known && parameters_named(name).live)
-        hdr_log(HDR_WARN,
-                "parameter %.40s was set to %.100s, but is read at the start; to change it now: "
-                "rosservice call %s/set \"%.40s=%.100s\"",
-                name, text, node, name, text);
-    else if (known)
-        hdr_log(HDR_WARN, "parameter %.40s was set to %.100s, but is read at the start", name,
-                text);
-    else
-        hdr_log(HDR_WARN, "parameter %.100s was set, but %s", name, parameters_instead(name));
-}
-
 /** From here on the node can be seen by others. The run begins once all of it is registered:
  * another node of this name that takes over would have to end for what comes later. */
 static hdr_status advertise(app *a)
@@ -177,7 +156,6 @@ static hdr_status advertise(app *a)
         !worker_create(&a->work, a->run, a->rep, &a->set, &a->changes, &a->keep))
         status = HDR_NO_MEMORY;
     if (status == HDR_OK) status = services_advertise(a->ros, a->work);
-    if (status == HDR_OK) status = hdr_params_watch(a->params, a->ros, on_parameter_set, a);
     return status == HDR_OK && !worker_begin(a->work) ? HDR_NO_MEMORY : status;
 }
 

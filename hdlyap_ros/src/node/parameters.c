@@ -182,17 +182,6 @@ static const parameter rows[] = {
 };
 enum { ROWS = sizeof rows / sizeof *rows };
 
-#define REMOVED "removed: "
-/** What were parameters once. */
-static const struct {
-    const char *name, *now;
-} gone[] = {
-    {"max_node", REMOVED "it is max_mode_number now"},
-    {"marker_rate", REMOVED "it is slow_vectors_rate now"},
-    {"marker_modes", REMOVED "it is modes of the viewer now (rviz.launch modes:=..)"},
-    {"covariant_folder", REMOVED "covariant_storage is memory or recompute now"},
-};
-
 static int scene_count(void)
 {
     int count;
@@ -260,16 +249,4 @@ void parameter_allowed(char text[PARAMETER_ALLOWED], const parameter *p)
     const size_t length = strlen(p->allowed);
     snprintf(text, PARAMETER_ALLOWED, "%s", p->allowed);
     topic_names(text + length, PARAMETER_ALLOWED - length, parameter_topics(p));
-}
-
-const char *parameters_why_not(const char *name)
-{
-    for (size_t k = 0; k < sizeof gone / sizeof *gone; k++)
-        if (strcmp(gone[k].name, name) == 0) return gone[k].now;
-    return REMOVED "there is no parameter of this name";
-}
-
-const char *parameters_instead(const char *name)
-{
-    return parameters_why_not(name) + strlen(REMOVED);
 }

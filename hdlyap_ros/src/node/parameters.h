@@ -60,9 +60,4 @@ enum { PARAMETER_ALLOWED = 180 };
 /** What is allowed, whole. */
 void parameter_allowed(char text[PARAMETER_ALLOWED], const parameter *p);
 
-/** What to say of a name that is none; names that were some are told what they are now. */
-const char *parameters_why_not(const char *name);
-/** The same, not as what must be done. */
-const char *parameters_instead(const char *name);
-
 #endif

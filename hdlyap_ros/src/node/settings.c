@@ -16,7 +16,8 @@ static bool check_names(reader *r)
 {
     for (int k = 0; k < hdr_params_count(r->params); k++) {
         r->name = hdr_params_name(r->params, k);
-        if (!parameters_has(r->name)) return reader_refuse(r, parameters_why_not(r->name));
+        if (!parameters_has(r->name))
+            return reader_refuse(r, "removed: there is no parameter of this name");
     }
     return true;
 }

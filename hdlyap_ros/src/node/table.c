@@ -5,9 +5,9 @@
 #include <stdbool.h>
 #include <stdio.h>
 
-#include "viewer/numbers.h"
+#include "common/numbers.h"
 #include "clock.h"
-#include "hdlyap_ros/node.h"
+#include "hdlyap_ros/messages.h"
 
 enum { TEXT = 64 };
 
@@ -17,28 +17,17 @@ static bool in_table(const hd_step *step)
     return step->resolved && step->kind != HD_MODE_ZERO && !step->conjugate;
 }
 
-static const char *kind_name(hd_mode_kind kind) { return kind == HD_MODE_T ? "T" : "LP"; }
-
-/** Why it has no vectors of its own; empty if it has. */
-static const char *sharing_name(hd_sharing sharing)
-{
-    static const char *const names[] = {[HD_SHARING_ALONE] = "",
-                                        [HD_SHARING_UNKNOWN] = "  shared",
-                                        [HD_SHARING_MIXING] = "  mixing",
-                                        [HD_SHARING_BLENDED] = "  blended",
-                                        [HD_SHARING_COINCIDENT] = "  coincide"};
-    return names[sharing];
-}
-
 static void print_step(const hd_step *step)
 {
     char name[TEXT], indices[TEXT], exponent[TEXT];
-    snprintf(name, sizeof name, "%s(%d,%d)", kind_name(step->kind), step->wave.n[0],
+    const bool alone = step->sharing == HD_SHARING_ALONE;
+    snprintf(name, sizeof name, "%s(%d,%d)", hdr_step_kind_text(step->kind), step->wave.n[0],
              step->wave.n[1]);
     snprintf(indices, sizeof indices, "%d-%d", step->col + 1, step->col + step->count);
     number_with_error(exponent, sizeof exponent, step->exponent, step->std_error);
-    hdr_log(HDR_INFO, "  %-10s %-11s %8.2f %3d %12.5f %13s%s", name, indices, step->multiplicity,
-            step->expected, step->wave.number, exponent, sharing_name(step->sharing));
+    hdr_log(HDR_INFO, "  %-10s %-11s %8.2f %3d %12.5f %13s%s%s", name, indices, step->multiplicity,
+            step->expected, step->wave.number, exponent, alone ? "" : "  ",
+            alone ? "" : hdr_step_sharing_text(step->sharing));
 }
 
 static void print_fit(const char *name, hd_coefficient c, int count, const char *of, double from,

@@ -194,6 +194,19 @@ static void change_if_due(worker *w)
     pthread_mutex_unlock(&w->lock);
 }
 
+/** Of a trajectory that has begun with kinetic energy N. */
+static examination examine(const hd_trajectory *trajectory)
+{
+    const double disks = hd_trajectory_disks(trajectory);
+    return (examination){
+        .made = true,
+        .overlap = hd_trajectory_overlap(trajectory),
+        .overlap_max = hd_trajectory_overlap_rounding(trajectory),
+        .energy_error = fabs(hd_trajectory_kinetic_energy(trajectory) - disks) / disks,
+        .energy_error_max = hd_trajectory_energy_rounding(trajectory),
+    };
+}
+
 static void examine_if_asked(worker *w)
 {
     const double begin = clock_seconds();
@@ -243,7 +256,6 @@ static hd_status step(worker *w)
     const progress now = progress_of(w->run);
     pthread_mutex_lock(&w->lock);
     w->state.last = now;
-    error_trend_add(&w->state.errors, w->state.last.averaged, w->state.last.cost.std_error);
     pthread_mutex_unlock(&w->lock);
     return status;
 }

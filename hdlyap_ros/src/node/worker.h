@@ -4,8 +4,6 @@
 #define HDLYAP_WORKER_H
 
 #include "checkpoint_writer.h"
-#include "error_trend.h"
-#include "examination.h"
 #include "topics/report.h"
 
 typedef enum worker_stage {
@@ -15,14 +13,20 @@ typedef enum worker_stage {
     WORKER_ENDED /**< finished, stopped or at fault */
 } worker_stage;
 
+/** The disks, and what rounding explains. Zero: not examined yet. */
+typedef struct examination {
+    bool made;
+    double overlap, overlap_max;           /**< deepest of any two disks [sigma] */
+    double energy_error, energy_error_max; /**< of the kinetic energy, relative */
+} examination;
+
 /** The worker seen from other threads, as of its last finished step. */
 typedef struct worker_state {
     worker_stage stage;
     hd_status status; /**< the fault that ended it, else HD_OK */
     char fault[256];  /**< in words, with its numbers */
     progress last;
-    error_trend errors; /**< of the exponents nearest to zero */
-    examination disks;  /**< as of the last worker_examine */
+    examination disks; /**< as of the last worker_examine */
     kept checkpoint;
     bool saving; /**< one is being written */
 } worker_state;

@@ -1,23 +1,14 @@
-/** How many there are in a scene of what messages list: what their sizes follow from. */
+/** How many there are in a scene of what messages list -> the sizes of messages. */
 #ifndef HDLYAP_EXTENT_H
 #define HDLYAP_EXTENT_H
 
-#include "hdlyap/run.h"
+#include "hdlyap/estimate.h"
 #include "node/settings.h"
 #include "topics/topic.h"
 
-typedef struct extent {
-    double disks, vectors;
-    double waves;             /**< of structure */
-    double subspaces, angles; /**< of covariant: fields of each wave vector, pairs of spaces */
-    double steps;             /**< in both halves of the spectrum */
-    double fields, pairs;     /**< published at one time at most, and their LP pairs in all */
-    double phases, t_phases;  /**< followed */
-    double responses;         /**< of hydro */
-} extent;
-
-/** Of a scene, whose run it is; or of which it is a smaller one, with the same waves. */
-extent extent_of(const settings *set, const hd_run *run);
+/** What the core says of a scene, with the fields that are chosen: `examples` and `pairs` are those
+ * of one time, at most. */
+hd_extent extent_of(const settings *set, hd_extent of_run);
 
 /** Bytes of a topic's messages, without texts. */
 typedef struct topic_size {
@@ -28,6 +19,6 @@ typedef struct topic_size {
 } topic_size;
 
 /** By its row. */
-topic_size topic_size_of(topic t, const extent *e);
+topic_size topic_size_of(topic t, const hd_extent *e);
 
 #endif

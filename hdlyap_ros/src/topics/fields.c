@@ -66,14 +66,6 @@ static void fill_step(hdr_mode_field *message, const hd_step *step)
     message->wave_number = step->wave.number;
 }
 
-static void fill_state(hdr_mode_field *message, const double *q, const double *p, size_t disks)
-{
-    message->x = message_array(q, disks, 2);
-    message->y = message_array(q + 1, disks, 2);
-    message->px = message_array(p, disks, 2);
-    message->py = message_array(p + 1, disks, 2);
-}
-
 static void fill_pairs(hdr_mode_field *message, const pair_fields *pairs, size_t disks)
 {
     const size_t count = pairs->count * disks;
@@ -97,30 +89,17 @@ static hd_status publish_vector(const moment *now, int col)
     const hd_step *step = s < 0 ? NULL : hd_steps_step(steps, s);
     const size_t disks = (size_t)now->set->def.disks, length = PAIRS_MAX * 2 * disks;
     const double *q, *p;
-    hdr_mode_field message = {.sim_time = hd_run_time(now->run)};
     now->room->taken = 0; /* for each anew */
     pair_fields pairs = {.l = moment_take(now, 3 * length, sizeof *pairs.l)};
     if (!pairs.l || !moment_state(now, &q, &p)) return HD_OK;
+    hdr_mode_field message = {.sim_time = hd_run_time(now->run), STATE_FIELDS(q, p, disks)};
     pairs.p = pairs.l + length;
     pairs.ratio = pairs.p + length;
     if (step && step->kind == HD_MODE_LP) reconstruct(&pairs, now->run, step, p);
     fill_vector(&message, now->run, col, disks);
     fill_step(&message, step);
-    fill_state(&message, q, p, disks);
     fill_pairs(&message, &pairs, disks);
     return topic_send_fields(now->out, &message);
-}
-
-/** Found in the positive half; of steps that share a set the first. */
-static bool has_example(const hd_steps *steps, int s)
-{
-    const hd_step *step = hd_steps_step(steps, s);
-    if (!step->resolved || step->conjugate || step->kind == HD_MODE_ZERO) return false;
-    for (int k = 0; k < s; k++) {
-        const hd_step *before = hd_steps_step(steps, k);
-        if (before->resolved && before->set == step->set) return false;
-    }
-    return true;
 }
 
 hd_status topic_publish_fields(const moment *now)
@@ -132,6 +111,6 @@ hd_status topic_publish_fields(const moment *now)
     for (int k = 0; k < choice->count && status == HD_OK; k++)
         status = publish_vector(now, choice->index[k] - 1);
     for (int s = 0; choice->count == 0 && s < hd_steps_count(steps) && status == HD_OK; s++)
-        if (has_example(steps, s)) status = publish_vector(now, hd_steps_example(steps, s));
+        if (hd_steps_is_shown(steps, s)) status = publish_vector(now, hd_steps_example(steps, s));
     return status;
 }

@@ -66,6 +66,11 @@ static inline hdr_doubles message_array(const double *data, size_t count, size_t
     return (hdr_doubles){.data = data, .count = (uint32_t)count, .stride = (uint32_t)stride};
 }
 
+/** The fields of a message that has positions and momenta of all disks. */
+#define STATE_FIELDS(q, p, disks)                                                                  \
+    .x = message_array(q, disks, 2), .y = message_array(q + 1, disks, 2),                          \
+    .px = message_array(p, disks, 2), .py = message_array(p + 1, disks, 2)
+
 /** Sends a topic's messages by topic_send_name, if there is something to say. HD_NOT_FINITE. */
 #define TOPIC(name, ...) HD_MUST_CHECK hd_status topic_publish_##name(const moment *now);
 #include "topics/rows.inc"

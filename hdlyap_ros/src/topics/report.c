@@ -54,7 +54,7 @@ progress progress_of(const hd_run *run)
 
 static hdr_status advertise(report *rep, hdr_node *ros, const hd_run *run, unsigned set)
 {
-    const extent e = extent_of(rep->set, run);
+    const hd_extent e = extent_of(rep->set, hd_extent_of(&rep->set->def, run));
     double bytes[TOPICS];
     for (topic t = 0; t < TOPICS; t++) {
         const topic_size s = topic_size_of(t, &e);

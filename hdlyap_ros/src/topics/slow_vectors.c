@@ -51,12 +51,7 @@ static int end_of(const hd_run *run)
 /** Column that stands for the lowest step of a kind; `end` while none is found. */
 static int lowest_of(const hd_steps *steps, hd_mode_kind kind, int end)
 {
-    int lowest = -1;
-    for (int s = 0; s < hd_steps_count(steps); s++) {
-        const hd_step *step = hd_steps_step(steps, s);
-        if (step->kind != kind || !step->resolved || step->conjugate) continue;
-        if (lowest < 0 || step->exponent < hd_steps_step(steps, lowest)->exponent) lowest = s;
-    }
+    const int lowest = hd_steps_lowest(steps, kind);
     return lowest < 0 ? end : hd_steps_example(steps, lowest);
 }
 
@@ -161,12 +156,9 @@ static hd_status send(const moment *now)
 {
     const size_t disks = (size_t)now->set->def.disks;
     const double *q, *p;
-    hdr_slow_vectors message = {.sim_time = hd_run_time(now->run)};
-    if (!moment_state(now, &q, &p) || !fill_vectors(&message, now)) return HD_OK;
-    message.x = message_array(q, disks, 2);
-    message.y = message_array(q + 1, disks, 2);
-    message.px = message_array(p, disks, 2);
-    message.py = message_array(p + 1, disks, 2);
+    if (!moment_state(now, &q, &p)) return HD_OK;
+    hdr_slow_vectors message = {.sim_time = hd_run_time(now->run), STATE_FIELDS(q, p, disks)};
+    if (!fill_vectors(&message, now)) return HD_OK;
     return topic_send_slow_vectors(now->out, &message);
 }
 

@@ -9,10 +9,7 @@ hd_status topic_publish_state(const moment *now)
     hdr_state message = {
         .sim_time = hd_run_time(now->run),
         .kinetic_energy = hd_trajectory_kinetic_energy(hd_run_trajectory(now->run)),
-        .x = message_array(q, disks, 2),
-        .y = message_array(q + 1, disks, 2),
-        .px = message_array(p, disks, 2),
-        .py = message_array(p + 1, disks, 2),
+        STATE_FIELDS(q, p, disks),
     };
     return topic_send_state(now->out, &message);
 }

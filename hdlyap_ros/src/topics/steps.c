@@ -3,6 +3,10 @@
 
 #include <math.h>
 
+_Static_assert((int)HD_MODE_LP == (int)HDR_STEP_LP &&
+                   (int)HD_SHARING_COINCIDENT == (int)HDR_STEP_SHARING_COINCIDENT,
+               "kinds and sharing as in the core");
+
 static hdr_step step_of(const hd_steps *steps, int s)
 {
     const hd_step *step = hd_steps_step(steps, s);

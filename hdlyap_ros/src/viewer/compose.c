@@ -4,8 +4,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "hdlyap_ros/stage.h"
-
 _Static_assert((int)PICTURE_PAIRS_MAX == (int)HEARD_PAIRS_MAX, "pairs as they are heard");
 
 bool mode_name_parse(mode_name *out, const char *text)
@@ -94,7 +92,7 @@ static void fill_vector(picture_mode *mode, const heard *h, const heard_vector *
 
 static void write_name(char *name, size_t size, const mode_name *is)
 {
-    const char *kind = is->kind == HDR_MODE_T ? "T" : "LP";
+    const char *kind = hdr_mode_kind_text(is->kind);
     if (is->nx > 0 || is->ny > 0)
         snprintf(name, size, "%s(%u,%u)", kind, (unsigned)is->nx, (unsigned)is->ny);
     else
@@ -111,7 +109,7 @@ static picture_mode mode_of(const heard *h, uint8_t kind, const mode_name *name)
     if (name)
         write_name(mode.box, sizeof mode.box, name);
     else
-        snprintf(mode.box, sizeof mode.box, "lowest %s", kind == HDR_MODE_T ? "T" : "LP");
+        snprintf(mode.box, sizeof mode.box, "lowest %s", hdr_mode_kind_text(kind));
     if (step) {
         is = (mode_name){kind, step->nx, step->ny};
         mode.index = step->first_index;
@@ -143,7 +141,7 @@ picture compose(const heard *h, const mode_choice *asked, const char *note)
     const uint32_t disks = h->time >= 0.0 ? h->disks : 0;
     picture p = {
         .scene = h->scene,
-        .stage = h->stage < UINT8_MAX ? hdr_stage_name(h->stage) : "stage unknown",
+        .stage = h->stage < UINT8_MAX ? hdr_run_status_stage_text(h->stage) : "stage unknown",
         .disks = h->disks,
         .box = {h->box[0], h->box[1]},
         .periodic = {h->periodic[0], h->periodic[1]},

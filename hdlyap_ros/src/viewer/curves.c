@@ -4,7 +4,7 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "numbers.h"
+#include "common/numbers.h"
 #include "palette.h"
 #include "plot.h"
 
@@ -86,7 +86,7 @@ static void step_names(const plot *axes, const picture *p, uint32_t last)
         const double x = plot_x(axes, left ? step->first_index : step->last_index);
         const double y = fmax(plot_y(axes, step->exponent) + side * 0.9 * axes->unit, least[left]);
         canvas_text(axes->on, axes->ns, x + side * 2.4 * axes->unit, y, 0.85 * axes->unit,
-                    palette_kind(step->kind), "%s(%u,%u)%s", step->kind == HDR_MODE_T ? "T" : "LP",
+                    palette_kind(step->kind), "%s(%u,%u)%s", hdr_mode_kind_text(step->kind),
                     (unsigned)step->nx, (unsigned)step->ny, step->members > 1 ? "+" : "");
         least[left] = y + axes->unit;
         before = step;

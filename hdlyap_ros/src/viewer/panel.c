@@ -4,7 +4,7 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "numbers.h"
+#include "common/numbers.h"
 #include "palette.h"
 
 static const double DISKS_Z = -1.0; /* below the arrows, which they would hide */

@@ -138,7 +138,8 @@ hdr_status hdr_node_create(hdr_node **out, int *argc, char **argv, const char *n
     const hdr_status status = hdr_guard([&] {
         stop_handlers_install(stop_seconds);
         setlocale(LC_CTYPE, ""); /* or log4cxx writes a question mark for each byte beyond ASCII */
-        master_address_check(*argc, argv);
+        setenv("ROS_MASTER_URI", "http://localhost:11311",
+               0); /* rospy's; not every roscpp has one */
         ros::init(*argc, argv, name, ros::init_options::NoSigintHandler);
         *out = node_start();
     });

@@ -46,7 +46,6 @@ struct hdr_node {
     ros::Publisher frame; /**< of /tf_static */
     std::vector<std::unique_ptr<hdr_subscriber>> subscribers;
     ros::WallTimer lookout; /**< for subscribers that cannot be connected */
-    ros::WallTimer watch;   /**< for parameters that are set */
     std::mutex mutex;       /**< of subscribers, which callbacks may free, and of lookout */
 };
 
@@ -60,14 +59,6 @@ uint32_t queue_length(const std::string &topic, int queue);
  * line for each publisher of another type, a WARN line where somebody of the right type cannot be
  * reached; while everybody is connected nobody is asked. */
 void connection_warnings_start(hdr_node *node);
-
-/** Throws std::invalid_argument unless the master's address, of __master:= or the environment, is
- * one: roscpp dies of others. Where the environment has none, it is given rospy's own. */
-void master_address_check(int argc, const char *const *argv);
-
-/** Of a parameter: of a string its contents, of a list as YAML has it. Equal values have one text,
- * however they were written. */
-std::string param_text(XmlRpc::XmlRpcValue &value);
 
 /** SIGINT and SIGTERM, and SIGHUP unless it is ignored, become hdr_stop_request; stop_seconds after
  * it the process is ended with status 0. Throws std::system_error. */

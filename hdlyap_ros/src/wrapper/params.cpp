@@ -38,8 +38,9 @@ std::string number_text(double number)
     }
     return text.str();
 }
-} // namespace
 
+/** Of a string its contents, of a list as YAML has it. Equal values have one text, however they
+ * were written. */
 std::string param_text(XmlRpcValue &given)
 {
     std::ostringstream text;
@@ -51,8 +52,6 @@ std::string param_text(XmlRpcValue &given)
     return "[" + text.str() + "]";
 }
 
-namespace
-{
 struct entry {
     XmlRpcValue value;
     std::string text;                 /**< of a string its contents, of a list as YAML has it */

@@ -1,12 +1,9 @@
 /** Sums, samples and what is derived from them, on numbers small enough to do by hand. */
 #include "testing.h"
 
-#include "hdlyap/spectrum.h"
-
 TEST(means_are_weighted_by_time)
 {
-    hd_spectrum *s;
-    CHECK_OK(hd_spectrum_create(&s, 4, 2, 0.0));
+    MADE(hd_spectrum, s, 4, 2, 0.0);
     CHECK_CLOSE(hd_spectrum_exponent(s, 0), 0.0, 0.0);
     hd_spectrum_add(s, (const double[]){2.0, -1.0}, 0.5);
     hd_spectrum_add(s, (const double[]){4.0, 0.0}, 1.5);
@@ -31,7 +28,6 @@ TEST(means_are_weighted_by_time)
     hd_spectrum_add(s, (const double[]){3.0, 1.0}, 0.5);
     hd_spectrum_sample(s);
     CHECK_CLOSE(hd_spectrum_exponent(s, 0), 6.0, 0.0);
-    hd_spectrum_free(s);
 }
 
 static void expect_no_local(const hd_spectrum *s)
@@ -43,8 +39,7 @@ static void expect_no_local(const hd_spectrum *s)
 /** Each sample is told once, together with those that have ended since the last time. */
 TEST(local_exponents_are_of_the_samples_since)
 {
-    hd_spectrum *s;
-    CHECK_OK(hd_spectrum_create(&s, 4, 2, 0.0));
+    MADE(hd_spectrum, s, 4, 2, 0.0);
     hd_spectrum_add(s, (const double[]){6.0, -1.0}, 2.0);
     expect_no_local(s); /* no sample has ended */
     hd_spectrum_sample(s);
@@ -61,25 +56,21 @@ TEST(local_exponents_are_of_the_samples_since)
     CHECK_CLOSE(hd_spectrum_local_time(s), 2.5, 0.0);
     hd_spectrum_clear(s);
     expect_no_local(s);
-    hd_spectrum_free(s);
 }
 
 TEST(all_exponents_show_the_pairing_error)
 {
-    hd_spectrum *s;
-    CHECK_OK(hd_spectrum_create(&s, 4, 4, 0.0));
+    MADE(hd_spectrum, s, 4, 4, 0.0);
     hd_spectrum_add(s, (const double[]){3.0, 1.0, -1.25, -3.0}, 1.0);
     hd_spectrum_sample(s);
     CHECK_CLOSE(hd_spectrum_pairing_error(s), 0.25, 0.0);
     CHECK_CLOSE(hd_spectrum_ks_entropy(s), 4.0, 0.0);
-    hd_spectrum_free(s);
 }
 
 /** Alternating series: mean and naive error known; the error must shrink, not the mean. */
 TEST(the_error_is_that_of_the_samples)
 {
-    hd_spectrum *s;
-    CHECK_OK(hd_spectrum_create(&s, 4, 1, 0.0));
+    MADE(hd_spectrum, s, 4, 1, 0.0);
     for (int k = 0; k < 64; k++) { /* de Bruijn-like: no memory at any length */
         const double x = (k * 37 % 64) / 64.0;
         hd_spectrum_add(s, &x, 0.5);
@@ -87,5 +78,4 @@ TEST(the_error_is_that_of_the_samples)
     }
     CHECK_CLOSE(hd_spectrum_exponent(s, 0), 63.0 / 64.0, 1e-14);
     assert_true(hd_spectrum_std_error(s, 0) > 0 && hd_spectrum_std_error(s, 0) < 0.2);
-    hd_spectrum_free(s);
 }

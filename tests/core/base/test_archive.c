@@ -1,9 +1,6 @@
 /** Archives: what is written is read again; what cannot be is refused, by the array's name and the
  * reason. */
-#include <string.h>
-
 #include "base/archive.h"
-
 #include "testing.h"
 
 enum { MOST = 3, TEXT = 8 };
@@ -102,7 +99,6 @@ TEST(what_is_wrong_is_named)
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         const hd_archive a = read_changed(EXAMPLE, cases[k].more, cases[k].place, cases[k].bytes,
                                           cases[k].size);
-        print_message("%s: %s\n", cases[k].name, cases[k].fault);
         assert_int_equal(a.status, HD_FILE_FAULT);
         assert_string_equal(a.name, cases[k].name);
         assert_string_equal(a.fault, cases[k].fault);

@@ -1,14 +1,8 @@
 /** Which kernels are taken for which processor, the restart, and room for threads. */
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <sys/mman.h>
 #include <sys/syscall.h>
 #include <unistd.h>
-
 #include "testing.h"
-
-#include "hdlyap/blas.h"
 
 TEST(old_kernels_are_noticed)
 {

@@ -1,9 +1,5 @@
 /** Memory: aligned, zeroed, counted, and NULL rather than less than asked for. */
 #include "base/memory.h"
-
-#include <stdlib.h>
-#include <string.h>
-
 #include "testing.h"
 
 enum { CACHE_LINE = 64 };
@@ -23,14 +19,6 @@ TEST(blocks_are_aligned_and_zero)
             memset(block, 0xa5, SIZES[k]); /* so that reuse without zeroing would show */
             hd_memory_free(block);
         }
-}
-
-TEST(count_times_size)
-{
-    double *block = hd_memory_alloc(1000, sizeof *block);
-    assert_non_null(block);
-    for (int k = 0; k < 1000; k++) block[k] = k; /* all of it is ours: the sanitizer watches */
-    hd_memory_free(block);
 }
 
 TEST(nothing_is_something)

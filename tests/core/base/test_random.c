@@ -1,9 +1,6 @@
 /** Random numbers against values of an independent program, and against what uniform means. */
 #include "base/random.h"
-
 #include "testing.h"
-
-static const double Z = 4.0;
 
 /** From a Python program written after the papers of Blackman and Vigna: splitmix64 on the seed,
  * its first output xor the stream is the state that splitmix64 then fills s[0..3] from; (next >>
@@ -39,36 +36,6 @@ TEST(known_first_values)
                 fail_msg("seed %zu value %d: got %a want %a", k, n, value, KNOWN[k].value[n]);
         }
     }
-}
-
-TEST(multiples_of_2_to_minus_52_in_range)
-{
-    hd_random random = hd_random_seeded(3, 0);
-    int fine = 0; /* ones that need the last of the 53 bits */
-    for (int k = 0; k < 100000; k++) {
-        const double value = hd_random_symmetric(&random), multiple = value * 0x1p52;
-        assert_true(value >= -1.0 && value < 1.0 && multiple == floor(multiple));
-        fine += fmod(multiple, 2.0) != 0;
-    }
-    CHECK_CLOSE(fine, 50000.0, Z * sqrt(25000.0));
-}
-
-/** Moments of the uniform distribution on [-1, 1): 0, 1/3; neighbours are uncorrelated. */
-TEST(moments)
-{
-    enum { N = 1000000 };
-    hd_random random = hd_random_seeded(4, 0);
-    double sum = 0, square = 0, product = 0, before = 0;
-    for (int k = 0; k < N; k++) {
-        const double value = hd_random_symmetric(&random);
-        sum += value;
-        square += value * value;
-        product += value * before;
-        before = value;
-    }
-    CHECK_CLOSE(sum / N, 0.0, Z * sqrt(1.0 / 3.0 / N));
-    CHECK_CLOSE(square / N, 1.0 / 3.0, Z * sqrt((1.0 / 5.0 - 1.0 / 9.0) / N));
-    CHECK_CLOSE(product / N, 0.0, Z / 3.0 / sqrt(N));
 }
 
 TEST(seeds_and_streams_differ)

@@ -1,13 +1,8 @@
 /** Status texts, and contracts that do not compile away. */
-#include "base/check.h"
-
 #include <signal.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <sys/wait.h>
 #include <unistd.h>
-
+#include "base/check.h"
 #include "testing.h"
 
 static const hd_status ALL[] = {
@@ -50,8 +45,6 @@ TEST(try_returns_what_failed)
         assert_int_equal(went_on, ALL[k] == HD_OK);
     }
 }
-
-/* ---- contracts ----------------------------------------------------------------------------- */
 
 static jmp_buf caught;
 static const char *seen_condition, *seen_file;

@@ -1,16 +1,11 @@
 /** Principal angles of spaces made so that they are known. */
-#include <float.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "testing.h"
-
 #include "covariant/angles.h"
 #include "base/random.h"
 
-enum { ROWS = 40, A = 12, B = 7 };
+OWNABLE(hd_angles)
 
-static const double PI = 3.14159265358979323846;
+enum { ROWS = 40, A = 12, B = 7 };
 
 /** All columns take part in `count` reflections of random directions: a rotation of everything. */
 static void turn(double *c, int columns, hd_random *random)
@@ -58,8 +53,7 @@ TEST(known_angles_are_found)
 {
     const double angle[B] = {1e-9, 1e-4, 0.01, PI / 4 - 1e-6, PI / 4 + 1e-6, 1.5, PI / 2};
     const double parts[] = {0.0, 0.5, 0.9};
-    hd_angles *angles;
-    CHECK_OK(hd_angles_create(&angles, ROWS, A));
+    MADE(hd_angles, angles, ROWS, A);
     for (size_t k = 0; k < sizeof parts / sizeof *parts; k++) {
         double *c = made(angle, parts[k]), found[A];
         const hd_span a = {0, A}, b = {A, B};
@@ -70,14 +64,12 @@ TEST(known_angles_are_found)
         for (int col = 0; col < B; col++) CHECK_CLOSE(found[col], angle[col], rounding);
         free(c);
     }
-    hd_angles_free(angles);
 }
 
 TEST(one_vector_and_another)
 {
     double c[2 * ROWS] = {0}, found;
-    hd_angles *angles;
-    CHECK_OK(hd_angles_create(&angles, ROWS, 1));
+    MADE(hd_angles, angles, ROWS, 1);
     c[3] = 2.0;
     c[ROWS + 3] = -5.0;
     c[ROWS + 7] = 5.0;
@@ -86,7 +78,6 @@ TEST(one_vector_and_another)
     CHECK_CLOSE(found, PI / 4, 4 * DBL_EPSILON);
     CHECK_OK(hd_angles_between(angles, &found, c, a, a));
     CHECK_CLOSE(found, 0.0, 4 * DBL_EPSILON);
-    hd_angles_free(angles);
 }
 
 /** The first columns of a triangle: as if nobody knew what they span. */
@@ -94,8 +85,7 @@ TEST(first_columns_of_a_triangle_span_coordinates)
 {
     hd_random random = hd_random_seeded(3, 1);
     double c[ROWS * ROWS] = {0}, found[ROWS], want[ROWS];
-    hd_angles *angles;
-    CHECK_OK(hd_angles_create(&angles, ROWS, ROWS / 2));
+    MADE(hd_angles, angles, ROWS, ROWS / 2);
     for (int col = 0; col < ROWS; col++)
         for (int row = 0; row <= col; row++)
             c[col * ROWS + row] = hd_random_symmetric(&random) + (row == col);
@@ -105,14 +95,12 @@ TEST(first_columns_of_a_triangle_span_coordinates)
         CHECK_OK(hd_angles_between(angles, want, c, first, others[k]));
         for (int col = 0; col < others[k].count; col++) CHECK_CLOSE(found[col], want[col], 1e-11);
     }
-    hd_angles_free(angles);
 }
 
 TEST(dependent_columns_are_refused)
 {
     const double angle[B] = {0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7}, wrong[] = {NAN, INFINITY};
-    hd_angles *angles;
-    CHECK_OK(hd_angles_create(&angles, ROWS, A));
+    MADE(hd_angles, angles, ROWS, A);
     const hd_span a = {0, A}, b = {A, B};
     for (size_t k = 0; k < 4; k++) {
         double *c = made(angle, 0.3), found[A];
@@ -122,5 +110,4 @@ TEST(dependent_columns_are_refused)
         assert_int_equal(hd_angles_between(angles, found, c, a, b), HD_ILL_CONDITIONED);
         free(c);
     }
-    hd_angles_free(angles);
 }

@@ -1,13 +1,10 @@
 /** Covariant vectors through triangles: against substitution by hand, eigenvectors, and what they
  * must map into. */
-#include <float.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "testing.h"
-
 #include "covariant/backward.h"
 #include "base/random.h"
+
+OWNABLE(hd_backward)
 
 /** Row-major upper triangle, its diagonal exp(-decay * l); below it what must not be read. */
 static double *triangle(int n, double decay, uint64_t stream)
@@ -75,15 +72,12 @@ static void check_well_conditioned(const double *c, int n)
 TEST(a_start_leans_out_of_each_span)
 {
     enum { N = 300 };
-    hd_backward *one = started(N, 1), *same = started(N, 1), *other = started(N, 2);
+    OWNED(hd_backward) *one = started(N, 1), *same = started(N, 1), *other = started(N, 2);
     check_upper_with_length_1(hd_backward_read(one), N);
     for (int col = 0; col < N; col++) assert_true(hd_backward_read(one)[col * N + col] >= 0.5);
     check_well_conditioned(hd_backward_read(one), N);
     assert_memory_equal(hd_backward_read(one), hd_backward_read(same), N * N * sizeof(double));
     assert_true(hd_backward_apart(one, other, N - 1) > 0.5);
-    hd_backward_free(one);
-    hd_backward_free(same);
-    hd_backward_free(other);
 }
 
 /** R c = c' exp(growth), for sizes on both sides of a panel's width; nothing below the diagonal is
@@ -93,9 +87,9 @@ TEST(each_vector_is_mapped_onto_the_later_one)
     const int sizes[] = {1, 2, 17, 95, 96, 97, 250};
     for (size_t k = 0; k < sizeof sizes / sizeof *sizes; k++) {
         const int n = sizes[k];
-        hd_backward *backward = started(n, 1);
-        double *later = copied(backward, n), *r = triangle(n, 4.0 / n, k),
-               *growth = malloc((size_t)n * sizeof *growth);
+        OWNED(hd_backward) *backward = started(n, 1);
+        HEAP double *later = copied(backward, n), *r = triangle(n, 4.0 / n, k),
+                    *growth = malloc((size_t)n * sizeof *growth);
         CHECK_OK(hd_backward_step(backward, growth, r));
         const double *c = hd_backward_read(backward);
         check_upper_with_length_1(c, n);
@@ -109,10 +103,6 @@ TEST(each_vector_is_mapped_onto_the_later_one)
                 CHECK_CLOSE(mapped * exp(-growth[col]), later[col * n + row],
                             64 * DBL_EPSILON * (1.0 + size * exp(-growth[col])));
             }
-        free(later);
-        free(r);
-        free(growth);
-        hd_backward_free(backward);
     }
 }
 
@@ -122,7 +112,7 @@ TEST(converges_to_eigenvectors)
 {
     enum { N = 12, STEPS = 60 };
     const double decay = 0.5;
-    hd_backward *one = started(N, 1), *other = started(N, 2);
+    OWNED(hd_backward) *one = started(N, 1), *other = started(N, 2);
     double *r = triangle(N, decay, 9), growth[N], unused[N];
     double before = 0.0;
     for (int step = 0; step < STEPS; step++) {
@@ -143,8 +133,6 @@ TEST(converges_to_eigenvectors)
         }
     }
     free(r);
-    hd_backward_free(one);
-    hd_backward_free(other);
 }
 
 TEST(apart_is_the_sine)
@@ -152,15 +140,13 @@ TEST(apart_is_the_sine)
     const double angles[] = {0.0, 1e-15, 1e-9, 0.3, 1.2, 1.57};
     for (size_t k = 0; k < sizeof angles / sizeof *angles; k++)
         for (int sign = -1; sign <= 1; sign += 2) {
-            hd_backward *one = started(2, 1), *other = started(2, 2);
+            OWNED(hd_backward) *one = started(2, 1), *other = started(2, 2);
             double *x = hd_backward_data(one) + 2, *y = hd_backward_data(other) + 2;
             x[0] = 0.0;
             x[1] = 1.0;
             y[0] = sign * sin(angles[k]);
             y[1] = sign * cos(angles[k]);
             CHECK_CLOSE(hd_backward_apart(one, other, 1), sin(angles[k]), 1e-7 * sin(angles[k]));
-            hd_backward_free(one);
-            hd_backward_free(other);
         }
 }
 
@@ -170,28 +156,25 @@ TEST(what_is_no_number_is_refused)
     const double wrong[] = {NAN, 0.0, INFINITY};
     for (int at = 0; at < N; at++)
         for (size_t k = 0; k < sizeof wrong / sizeof *wrong; k++) {
-            hd_backward *backward = started(N, 1);
+            OWNED(hd_backward) *backward = started(N, 1);
             double *r = triangle(N, 0.1, 1), growth[N];
             r[at * (N + 1)] = wrong[k];
             assert_int_equal(hd_backward_step(backward, growth, r), HD_ILL_CONDITIONED);
             free(r);
-            hd_backward_free(backward);
         }
 }
 
 TEST(triangles_are_packed)
 {
     for (int n = 1; n < 9; n++) {
-        double *r = triangle(n, 0.1, 1), *packed = malloc(hd_triangle_size(n) * sizeof *packed);
-        double *again = malloc((size_t)(n * n) * sizeof *again);
+        HEAP double *r = triangle(n, 0.1, 1),
+                    *packed = malloc(hd_triangle_size(n) * sizeof *packed);
+        HEAP double *again = malloc((size_t)(n * n) * sizeof *again);
         for (int k = 0; k < n * n; k++) again[k] = 7.0;
         hd_triangle_pack(packed, r, n);
         hd_triangle_unpack(again, packed, n);
         for (int row = 0; row < n; row++)
             for (int col = 0; col < n; col++)
                 assert_true(again[row * n + col] == (col < row ? 7.0 : r[row * n + col]));
-        free(r);
-        free(packed);
-        free(again);
     }
 }

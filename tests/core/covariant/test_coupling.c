@@ -1,8 +1,8 @@
 /** The triangle of all 4N vectors from that of half of them: as all of them have it. */
-#include <stdlib.h>
-
 #include "conjugates.h"
 #include "covariant/coupling.h"
+
+OWNABLE(hd_coupling)
 
 /** (R, X; 0, R^-T from behind) at row and column; X = R Y from behind, as its columns are. */
 static double composed(const double *r, const double *y, const double *inverse, int half, int row,
@@ -32,7 +32,7 @@ static void check_triangle_of_all(const conjugates *x, const double *y)
 {
     const int half = x->rows / 2, all = x->rows;
     const double *r = hd_ortho_factor(x->ortho[HALF]), *want = hd_ortho_factor(x->ortho[WHOLE]);
-    double *inverse = malloc((size_t)(half * half) * sizeof *inverse);
+    HEAP double *inverse = malloc((size_t)(half * half) * sizeof *inverse);
     invert(inverse, r, half);
     for (int col = 0; col < all; col++) {
         double length = 1.0;
@@ -41,7 +41,6 @@ static void check_triangle_of_all(const conjugates *x, const double *y)
             CHECK_CLOSE(composed(r, y, inverse, half, row, col), want[row * all + col],
                         80.0 * DBL_EPSILON * x->condition * length);
     }
-    free(inverse);
 }
 
 static void check_symmetric(const double *y, int half)
@@ -54,12 +53,10 @@ static void check_symmetric(const double *y, int half)
 TEST(half_of_it_and_a_coupling_are_the_triangle_of_all)
 {
     const int sizes[] = {3, 10, 60};
-    const hd_boundary y[] = {HD_PERIODIC, HD_REFLECTING, HD_PERIODIC};
+    const hd_boundary y[] = {P, R, P};
     for (int s = 0; s < 3; s++) {
-        const hd_scene_def scene = scene_of(sizes[s], 0.5, 0.9, HD_PERIODIC, y[s], 5);
-        conjugates x = conjugates_of(&scene);
-        hd_coupling *coupling;
-        CHECK_OK(hd_coupling_create(&coupling, sizes[s], 1));
+        HELD(conjugates) x = conjugates_of(scene_of(sizes[s], 0.5, 0.9, P, y[s], 5));
+        MADE(hd_coupling, coupling, sizes[s], 1);
         for (int k = 0; k < 12; k++) {
             conjugates_interval(&x, 0.3);
             CHECK_OK(hd_coupling_measure(coupling, x.frame[HALF], hd_ortho_factor(x.ortho[HALF]),
@@ -67,19 +64,15 @@ TEST(half_of_it_and_a_coupling_are_the_triangle_of_all)
             check_symmetric(hd_coupling_read(coupling), 2 * sizes[s]);
             check_triangle_of_all(&x, hd_coupling_read(coupling));
         }
-        hd_coupling_free(coupling);
-        conjugates_free(&x);
     }
 }
 
 /** Entries of Y stay as they are however long the interval is: those of X grow with it. */
 TEST(long_intervals_keep_a_coupling_small)
 {
-    const hd_scene_def scene = scene_of(10, 0.5, 0.9, HD_PERIODIC, HD_PERIODIC, 5);
-    conjugates x = conjugates_of(&scene);
-    hd_coupling *coupling;
+    HELD(conjugates) x = conjugates_of(scene_of(10, 0.5, 0.9, P, P, 5));
     double most = 0.0;
-    CHECK_OK(hd_coupling_create(&coupling, 10, 1));
+    MADE(hd_coupling, coupling, 10, 1);
     for (int k = 0; k < 40; k++) {
         const double end = hd_trajectory_time(x.trajectory) + (k < 20 ? 0.5 : 3.0);
         CHECK_OK(trajectory_to(x.trajectory, x.log, end));
@@ -90,8 +83,5 @@ TEST(long_intervals_keep_a_coupling_small)
                                      0.0, x.log->duration));
         for (int e = 0; e < 400; e++) most = fmax(most, fabs(hd_coupling_read(coupling)[e]));
     }
-    print_message("Y at most %.3g\n", most);
-    assert_true(most < 100.0);
-    hd_coupling_free(coupling);
-    conjugates_free(&x);
+    CHECK_WITHIN(most, 0.0, 100.0);
 }

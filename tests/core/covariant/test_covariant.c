@@ -1,10 +1,9 @@
 /** Covariant vectors are what they are called: by the tangent flow, by sums that must hold, by
  * another way to them. */
-#include <float.h>
-#include <stdbool.h>
-
 #include "exact.h"
 #include "passage.h"
+
+OWNABLE(hd_backward)
 
 static hd_scene_def few(int disks, hd_boundary x, hd_boundary y)
 {
@@ -12,13 +11,10 @@ static hd_scene_def few(int disks, hd_boundary x, hd_boundary y)
                  .seed = 3, .exponents = HD_EXPONENTS_ALL_INDEPENDENT);
 }
 
-/* ---- carried by the tangent flow ----------------------------------------------------------- */
-
 /** Row-major vectors of point `from`, carried to point `to` by the logged events, in place. */
 static void carry(const passage *x, double *v, int n, int from, int to)
 {
-    hd_frame *frame;
-    CHECK_OK(hd_frame_create(&frame, x->rows / 4, n, 1, 1));
+    MADE(hd_frame, frame, x->rows / 4, n, 1, 1);
     const size_t stride = (size_t)hd_frame_stride(frame), width = (size_t)n * sizeof *v;
     for (int row = 0; row < x->rows; row++)
         memcpy(hd_frame_data(frame) + (size_t)row * stride, v + row * n, width);
@@ -26,7 +22,6 @@ static void carry(const passage *x, double *v, int n, int from, int to)
         CHECK_OK(hd_frame_replay(frame, &x->log[k], 0.0, x->log[k].duration));
     for (int row = 0; row < x->rows; row++)
         memcpy(v + row * n, hd_frame_read(frame) + (size_t)row * stride, width);
-    hd_frame_free(frame);
 }
 
 /** Frobenius norm of the tangent map between two points. */
@@ -52,7 +47,7 @@ static int check_covariance(const passage *one, const passage *other, int from, 
     hd_backward *c[3] = {passage_back(one, one->count, from, 1),
                          passage_back(other, other->count - 37, from, 2),
                          passage_back(other, other->count - 37, to, 2)};
-    double *v = passage_vectors(one, c[0], from), *same = passage_vectors(other, c[1], from);
+    HEAP double *v = passage_vectors(one, c[0], from), *same = passage_vectors(other, c[1], from);
     double *later = passage_vectors(other, c[2], to), apart[64];
     int good = 0;
     for (int col = 0; col < n; col++) apart[col] = column_sine(v, same, rows, n, col);
@@ -62,8 +57,6 @@ static int check_covariance(const passage *one, const passage *other, int from, 
         assert_true(column_sine(v, later, rows, n, col) <= tolerance);
         good += tolerance < 1e-6;
     }
-    free(v);
-    free(same);
     free(later);
     for (int k = 0; k < 3; k++) hd_backward_free(c[k]);
     return good;
@@ -71,29 +64,23 @@ static int check_covariance(const passage *one, const passage *other, int from, 
 
 TEST(vectors_are_carried_into_vectors)
 {
-    const hd_boundary boundary[][2] = {
-        {HD_PERIODIC, HD_PERIODIC}, {HD_PERIODIC, HD_REFLECTING}, {HD_REFLECTING, HD_REFLECTING}};
+    const hd_boundary boundary[][2] = {{P, P}, {P, R}, {R, R}};
     for (int k = 0; k < 3; k++) {
         const hd_scene_def scene = few(4, boundary[k][0], boundary[k][1]);
-        passage one = passage_of(&scene, 1, 600, 640, 0.25),
-                other = passage_of(&scene, 2, 600, 640, 0.25);
+        HELD(passage) one = passage_of(scene, 1, 600, 640, 0.25);
+        HELD(passage) other = passage_of(scene, 2, 600, 640, 0.25);
         const int good = check_covariance(&one, &other, 12, 16);
         assert_true(good >= one.vectors - hd_scene_zero_exponents(&scene) - 2);
-        passage_free(&one);
-        passage_free(&other);
     }
 }
-
-/* ---- sums ---------------------------------------------------------------------------------- */
 
 /** The first l vectors span what those of Q do, and det C is the product of its diagonal: over any
  * time their growth sums to that of their volume, sum ln R_kk, but for what their own volume in
  * that span changes. */
 TEST(growth_sums_to_that_of_the_volume)
 {
-    const hd_scene_def scene = few(6, HD_PERIODIC, HD_PERIODIC);
-    passage x = passage_of(&scene, 1, 100, 300, 0.3);
-    hd_backward *c = passage_back(&x, 300, 200, 1);
+    HELD(passage) x = passage_of(few(6, P, P), 1, 100, 300, 0.3);
+    OWNED(hd_backward) *c = passage_back(&x, 300, 200, 1);
     const int n = x.vectors;
     double grown[64] = {0}, stretched[64] = {0}, volume[64], growth[64], sum = 0.0;
     for (int col = 0; col < n; col++) volume[col] = log(fabs(hd_backward_read(c)[col * (n + 1)]));
@@ -111,18 +98,13 @@ TEST(growth_sums_to_that_of_the_volume)
          */
         CHECK_CLOSE(sum, 0.0, 200.0 * (col + 1) * 16.0 * DBL_EPSILON * sqrt(n));
     }
-    hd_backward_free(c);
-    passage_free(&x);
 }
-
-/* ---- transients ---------------------------------------------------------------------------- */
 
 /** What two starts differ by in the second vector shrinks, on the way back, just as its growth
  * stays behind the first one's: by exp -sum (ln R_11 - ln R_22). */
 TEST(starts_meet_as_their_exponents_say)
 {
-    const hd_scene_def scene = few(4, HD_PERIODIC, HD_PERIODIC);
-    passage x = passage_of(&scene, 1, 100, 400, 0.25);
+    HELD(passage) x = passage_of(few(4, P, P), 1, 100, 400, 0.25);
     const int transient[] = {4, 20, 40, 80, 120};
     const int n = x.vectors;
     double before = INFINITY;
@@ -130,12 +112,10 @@ TEST(starts_meet_as_their_exponents_say)
         const int end = transient[k];
         double ratio[2][2], gap = 0.0;
         for (int stream = 0; stream < 2; stream++) {
-            hd_backward *c = passage_back(&x, end, end, (uint64_t)stream);
-            hd_backward *met = passage_back(&x, end, 0, (uint64_t)stream);
+            OWNED(hd_backward) *c = passage_back(&x, end, end, (uint64_t)stream);
+            OWNED(hd_backward) *met = passage_back(&x, end, 0, (uint64_t)stream);
             ratio[0][stream] = hd_backward_read(c)[n] / hd_backward_read(c)[n + 1];
             ratio[1][stream] = hd_backward_read(met)[n] / hd_backward_read(met)[n + 1];
-            hd_backward_free(c);
-            hd_backward_free(met);
         }
         for (int i = 0; i < end; i++) gap += x.stretch[i][0] - x.stretch[i][1];
         const double apart = ratio[1][0] - ratio[1][1], first = ratio[0][0] - ratio[0][1];
@@ -144,10 +124,7 @@ TEST(starts_meet_as_their_exponents_say)
         if (end >= 20) assert_true(fabs(apart) < before);
         before = fabs(apart);
     }
-    passage_free(&x);
 }
-
-/* ---- another way to find them -------------------------------------------------------------- */
 
 /** The log backwards in time: all momenta reversed, those of a contact as they were after it. */
 static void reverse(hd_event_log *into, const hd_event_log *log)
@@ -167,10 +144,8 @@ static void reverse(hd_event_log *into, const hd_event_log *log)
  * from the last point backwards in time. */
 static exact_frame *converged(const passage *x, int at, bool backwards)
 {
-    hd_frame *frame;
-    CHECK_OK(hd_frame_create(&frame, x->rows / 4, x->rows, backwards ? 11 : 12, 1));
+    MADE(hd_frame, frame, x->rows / 4, x->rows, backwards ? 11 : 12, 1);
     exact_frame *v = exact_create(frame);
-    hd_frame_free(frame);
     if (!backwards)
         for (int k = 0; k < at; k++) exact_replay(v, &x->log[k]);
     for (int k = x->count - 1; backwards && k >= at; k--) {
@@ -242,11 +217,10 @@ static void intersect(double *v, const hd_exact *forwards, const hd_exact *backw
 TEST(intersections_of_past_and_future_are_the_same)
 {
     enum { AT = 500, N = 16, POSITIVE = 5 };
-    hd_scene_def scene = scene_from(few(4, HD_PERIODIC, HD_PERIODIC), .aspect = 1.0);
-    passage x = passage_of(&scene, 1, 0, 2 * AT, 0.25);
+    HELD(passage) x = passage_of(scene_from(few(4, P, P), .aspect = 1.0), 1, 0, 2 * AT, 0.25);
     exact_frame *forwards = converged(&x, AT, false), *backwards = converged(&x, AT, true);
-    hd_backward *c = passage_back(&x, 2 * AT, AT, 1);
-    double *v = passage_vectors(&x, c, AT), *twin = calloc(N * N, sizeof *twin);
+    OWNED(hd_backward) *c = passage_back(&x, 2 * AT, AT, 1);
+    HEAP double *v = passage_vectors(&x, c, AT), *twin = calloc(N * N, sizeof *twin);
     for (int col = 0; col < N; col++) {
         if (col >= POSITIVE && col < N - POSITIVE)
             continue; /* equal exponents have no directions of their own */
@@ -255,10 +229,6 @@ TEST(intersections_of_past_and_future_are_the_same)
         CHECK_CLOSE(column_sine(v, twin, N, N, col), 0.0,
                     16.0 * DBL_EPSILON * x.condition / leaning);
     }
-    free(v);
-    free(twin);
-    hd_backward_free(c);
     exact_free(forwards);
     exact_free(backwards);
-    passage_free(&x);
 }

@@ -3,7 +3,7 @@
 #include "passage.h"
 #include "windows.h"
 
-static const double PI = 3.14159265358979323846;
+OWNABLE(hd_backward)
 
 enum {
     WARMUP = 400,
@@ -98,12 +98,10 @@ static void add_look(twin *t, const hd_scene_def *scene, const passage *x, const
                      int at)
 {
     double q[LENGTH], p[LENGTH], box[2], field[FIELDS][LENGTH], *v = passage_vectors(x, c, at);
-    hd_trajectory *trajectory;
     hd_scene_box(scene, box);
-    CHECK_OK(hd_trajectory_create(&trajectory, scene));
+    MADE(hd_trajectory, trajectory, scene);
     CHECK_OK(hd_trajectory_extend(trajectory, NULL, WINDOWS_INTERVAL * (WARMUP + at)));
     hd_trajectory_state(trajectory, q, p);
-    hd_trajectory_free(trajectory);
     add_shape(t, v);
     fill_fields(field, q, p, 2.0 * PI / box[0]);
     add_weights(t, 0, v, 0, field);
@@ -123,7 +121,7 @@ static twin twin_of(const hd_scene_def *scene, const passage *x)
 {
     twin t = {0};
     double growth[ROWS];
-    hd_backward *c = passage_back(x, END, LAST, 0), *other = passage_back(x, END, LAST, 1);
+    OWNED(hd_backward) *c = passage_back(x, END, LAST, 0), *other = passage_back(x, END, LAST, 1);
     for (int col = 0; col < ROWS; col++) t.met[col] = hd_backward_apart(c, other, col);
     for (int at = LAST; at > 0; at--) {
         if (at % PER_LOOK == 0) {
@@ -138,8 +136,6 @@ static twin twin_of(const hd_scene_def *scene, const passage *x)
         for (int col = 0; at % PER_LOOK == 1 && col + 1 < ROWS; col++)
             t.violations[col] += (t.local[col] < t.local[col + 1]) / (double)LOOKS;
     }
-    hd_backward_free(c);
-    hd_backward_free(other);
     return t;
 }
 
@@ -186,9 +182,9 @@ static void check_means(const hd_covariant *c, const twin *t)
 
 TEST(a_window_is_what_is_computed_by_hand)
 {
-    const hd_scene_def scene = windows_scene(DISKS, HD_PERIODIC, HD_PERIODIC);
-    windows w = windows_begun(&scene, WARMUP, WINDOWS_INTERVAL);
-    passage x = passage_of(&scene, 1, WARMUP, END, WINDOWS_INTERVAL);
+    const hd_scene_def scene = windows_scene(DISKS, P, P);
+    HELD(windows) w = windows_begun(scene, WARMUP, WINDOWS_INTERVAL);
+    HELD(passage) x = passage_of(scene, 1, WARMUP, END, WINDOWS_INTERVAL);
     const twin t = twin_of(&scene, &x);
     const double begin = hd_trajectory_time(w.f.trajectory);
     int count = 1;
@@ -206,6 +202,4 @@ TEST(a_window_is_what_is_computed_by_hand)
         kinds = fmax(kinds, fabs(t.weight[0][0][col] - t.weight[0][2][col]));
     }
     assert_true(halves > 0.01 && kinds > 0.01);
-    passage_free(&x);
-    windows_free(&w);
 }

@@ -1,7 +1,4 @@
 /** Windows of covariant vectors, one after the other: their times, their room, what they lack. */
-#include <float.h>
-
-#include "base/memory.h"
 #include "windows.h"
 
 enum { WARMUP = 400, LOOKS = 5, PER_LOOK = 8 };
@@ -9,8 +6,7 @@ enum { WARMUP = 400, LOOKS = 5, PER_LOOK = 8 };
 /** Without gaps; each look is one of exactly one window. */
 TEST(windows_follow_each_other)
 {
-    const hd_scene_def scene = windows_scene(4, HD_PERIODIC, HD_PERIODIC);
-    windows w = windows_begun(&scene, WARMUP, WINDOWS_INTERVAL);
+    HELD(windows) w = windows_begun(windows_scene(4, P, P), WARMUP, WINDOWS_INTERVAL);
     const double begin = hd_trajectory_time(w.f.trajectory);
     for (int count = 1; count <= 8; count++) {
         windows_finish(&w, count);
@@ -20,7 +16,6 @@ TEST(windows_follow_each_other)
         assert_int_equal(hd_splitting_samples(hd_covariant_splitting(w.c)), LOOKS * count);
     }
     assert_int_equal(hd_covariant_lost(w.c), 0);
-    windows_free(&w);
 }
 
 /** A window goes on to a look, its transient from there to another one. */
@@ -28,10 +23,10 @@ TEST(looks_that_fall_elsewhere_shorten_nothing)
 {
     const double transient[] = {3.0, 3e-6}; /* however much shorter than from look to look */
     for (int k = 0; k < 2; k++) {
-        hd_scene_def scene = scene_from(
-            windows_scene(4, HD_PERIODIC, HD_PERIODIC), .covariant_window = 5.0,
-            .covariant_transient = transient[k], .covariant_sampling = 4.0);
-        windows w = windows_begun(&scene, WARMUP, WINDOWS_INTERVAL);
+        const hd_scene_def def = scene_from(windows_scene(4, P, P), .covariant_window = 5.0,
+                                            .covariant_transient = transient[k],
+                                            .covariant_sampling = 4.0);
+        HELD(windows) w = windows_begun(def, WARMUP, WINDOWS_INTERVAL);
         const double begin = hd_trajectory_time(w.f.trajectory);
         for (int count = 1; count <= 4; count++) {
             windows_finish(&w, count);
@@ -39,7 +34,6 @@ TEST(looks_that_fall_elsewhere_shorten_nothing)
             CHECK_CLOSE(hd_trajectory_time(w.f.trajectory), begin + 8.0 * count + 4.0, 1e-9);
         }
         assert_int_equal(hd_covariant_lost(w.c), 0);
-        windows_free(&w);
     }
 }
 
@@ -64,21 +58,15 @@ static void check_exponent(const hd_spectrum *back, const hd_spectrum *forward, 
 
 TEST(exponents_are_those_of_the_frame)
 {
-    const hd_scene_def scene = windows_scene(4, HD_PERIODIC, HD_PERIODIC);
-    windows w = windows_begun(&scene, WARMUP, WINDOWS_INTERVAL);
-    hd_spectrum *forward;
-    CHECK_OK(hd_spectrum_create(&forward, 16, 16, 0.0));
+    HELD(windows) w = windows_begun(windows_scene(4, P, P), WARMUP, WINDOWS_INTERVAL);
+    MADE(hd_spectrum, forward, 16, 16, 0.0);
     for (int k = 1; hd_covariant_windows(w.c) < 30; k++) {
         if (windows_forward(&w)) windows_back(&w);
         hd_spectrum_add(forward, hd_ortho_log_stretch(w.f.ortho), WINDOWS_INTERVAL);
         if (k % PER_LOOK == 0) hd_spectrum_sample(forward);
     }
     for (int col = 0; col < 16; col++) check_exponent(hd_covariant_spectrum(w.c), forward, col, 5);
-    hd_spectrum_free(forward);
-    windows_free(&w);
 }
-
-/* ---- where triangles wait ------------------------------------------------------------------ */
 
 static void check_same(const hd_covariant *c, const hd_covariant *want, double tolerance)
 {
@@ -100,11 +88,11 @@ static void check_same(const hd_covariant *c, const hd_covariant *want, double t
  * eps condition, which a vector that leans little out of those before it feels the more. */
 TEST(both_storages_give_the_same)
 {
-    hd_scene_def scene = windows_scene(6, HD_PERIODIC, HD_PERIODIC);
+    hd_scene_def scene = windows_scene(6, P, P);
     windows w[2];
     for (int storage = 0; storage < 2; storage++) {
         scene.covariant_storage = (hd_storage)storage;
-        w[storage] = windows_begun(&scene, WARMUP, WINDOWS_INTERVAL);
+        w[storage] = windows_begun(scene, WARMUP, WINDOWS_INTERVAL);
         windows_finish(&w[storage], 20);
     }
     check_same(w[HD_STORAGE_RECOMPUTE].c, w[HD_STORAGE_MEMORY].c,
@@ -112,24 +100,12 @@ TEST(both_storages_give_the_same)
     for (int storage = 0; storage < 2; storage++) windows_free(&w[storage]);
 }
 
-/** In memory a ring grows as it is needed, once. */
-TEST(later_windows_take_no_memory)
-{
-    const hd_scene_def scene = windows_scene(4, HD_PERIODIC, HD_PERIODIC);
-    windows w = windows_begun(&scene, WARMUP, WINDOWS_INTERVAL);
-    windows_finish(&w, 8); /* 80 + 20 time units: the ring has gone round */
-    const size_t before = hd_memory_allocations();
-    windows_finish(&w, 20);
-    assert_int_equal(hd_memory_allocations(), before);
-    windows_free(&w);
-}
-
 /** Intervals a quarter as long as expected: the first window finds no room, the next ones do. */
 TEST(a_window_without_room_is_lost_and_the_next_is_not)
 {
-    hd_scene_def scene = windows_scene(4, HD_PERIODIC, HD_PERIODIC);
+    hd_scene_def scene = windows_scene(4, P, P);
     const size_t triangles = 8 * 16 * 17 / 2; /* bytes of one */
-    windows w = windows_begun(&scene, WARMUP, 4.0 * WINDOWS_INTERVAL);
+    HELD(windows) w = windows_begun(scene, WARMUP, 4.0 * WINDOWS_INTERVAL);
     windows_finish(&w, 5);
     assert_int_equal(hd_covariant_lost(w.c), 1);
     hd_covariant_clear(w.c);
@@ -137,43 +113,19 @@ TEST(a_window_without_room_is_lost_and_the_next_is_not)
     windows_free(&w);
     /* and its snapshots */
     scene.covariant_memory = 1e-9 * (80.0 * (double)triangles + 21.0 * 8 * 16 * 17);
-    w = windows_begun(&scene, WARMUP, 4.0 * WINDOWS_INTERVAL);
+    w = windows_begun(scene, WARMUP, 4.0 * WINDOWS_INTERVAL);
     for (int k = 0; k < 1000; k++) assert_false(windows_forward(&w));
     assert_true(hd_covariant_lost(w.c) > 10);
-    windows_free(&w);
 }
-
-TEST(too_little_room_is_refused_with_the_numbers)
-{
-    char message[400] = "";
-    hd_scene_def scene = windows_scene(4, HD_PERIODIC, HD_PERIODIC);
-    CHECK_OK(hd_covariant_check_room(&scene, 0.25, message, sizeof message));
-    scene.covariant_memory = 1e-4;
-    assert_int_equal(hd_covariant_check_room(&scene, 0.25, message, sizeof message), HD_REFUSED);
-    const char *numbers[] = {"covariant_window = 10", "covariant_transient = 20", "16 vectors",
-                             "covariant_memory = 0.0001 GB"};
-    for (int k = 0; k < 4; k++) assert_non_null(strstr(message, numbers[k]));
-    hd_covariant *c;
-    forward_pass f = forward_started(&scene, 1);
-    CHECK_OK(hd_covariant_create(&c, &scene, 1));
-    assert_int_equal(hd_covariant_begin(c, hd_frame_columns(f.frame), 0.0, 0.25), HD_NO_ROOM);
-    hd_covariant_free(c);
-    forward_free(&f);
-}
-
-/* ---- the centre, transients, parts of the spectrum ----------------------------------------- */
 
 /** Rounding turns a vector by eps condition. */
 TEST(the_centre_is_the_null_space)
 {
-    const hd_boundary boundary[][2] = {{HD_PERIODIC, HD_PERIODIC},
-                                       {HD_PERIODIC, HD_REFLECTING},
-                                       {HD_REFLECTING, HD_PERIODIC},
-                                       {HD_REFLECTING, HD_REFLECTING}};
+    const hd_boundary boundary[][2] = {{P, P}, {P, R}, {R, P}, {R, R}};
     for (int k = 0; k < 4; k++) {
-        hd_scene_def scene = scene_from(windows_scene(6, boundary[k][0], boundary[k][1]),
-                                        .covariant_transient = 60.0);
-        windows w = windows_begun(&scene, WARMUP, WINDOWS_INTERVAL);
+        const hd_scene_def def = scene_from(windows_scene(6, boundary[k][0], boundary[k][1]),
+                                            .covariant_transient = 60.0);
+        HELD(windows) w = windows_begun(def, WARMUP, WINDOWS_INTERVAL);
         windows_finish(&w, 10);
         const double rounding = 16.0 * DBL_EPSILON * w.f.worst;
         CHECK_CLOSE(hd_covariant_null_most(w.c), 0.0, rounding);
@@ -181,15 +133,14 @@ TEST(the_centre_is_the_null_space)
         CHECK_CLOSE(hd_covariant_start_mismatch(w.c).stable, 0.0, rounding);
         assert_true(hd_covariant_null(w.c) >= 0 &&
                     hd_covariant_null(w.c) <= hd_covariant_null_most(w.c));
-        windows_free(&w);
     }
 }
 
 static windows after_transient(double transient)
 {
-    hd_scene_def scene = scene_from(windows_scene(4, HD_PERIODIC, HD_PERIODIC),
-                                    .covariant_sampling = 0.5, .covariant_transient = transient);
-    windows w = windows_begun(&scene, WARMUP, WINDOWS_INTERVAL);
+    windows w = windows_begun(scene_from(windows_scene(4, P, P), .covariant_sampling = 0.5,
+                                         .covariant_transient = transient),
+                              WARMUP, WINDOWS_INTERVAL);
     windows_finish(&w, 3);
     return w;
 }
@@ -229,11 +180,11 @@ TEST(too_short_a_transient_is_seen)
 TEST(any_number_of_vectors_will_do)
 {
     for (int disks = 2; disks <= 5; disks++) {
-        hd_scene_def scene = windows_scene(disks, HD_PERIODIC, HD_PERIODIC);
+        hd_scene_def scene = windows_scene(disks, P, P);
         const int positive = 2 * disks - 3;
         for (int n = 1; n <= 4 * disks; n++) {
             scene.exponents = n;
-            windows w = windows_begun(&scene, WARMUP, WINDOWS_INTERVAL);
+            HELD(windows) w = windows_begun(scene, WARMUP, WINDOWS_INTERVAL);
             windows_finish(&w, 2);
             const bool centre = n >= positive + 6;
             assert_int_equal(hd_splitting_has_spaces(hd_covariant_splitting(w.c)),
@@ -242,20 +193,17 @@ TEST(any_number_of_vectors_will_do)
             assert_int_equal(hd_covariant_start_mismatch(w.c).centre >= 0, centre);
             assert_int_equal(hd_covariant_start_mismatch(w.c).stable >= 0, n > positive + 6);
             assert_true(hd_covariant_start_mismatch(w.c).most >= 0);
-            windows_free(&w);
         }
     }
 }
-
-/* ---- given up ------------------------------------------------------------------------------ */
 
 /** A way back that was given up in the middle of its window leaves nothing: what follows is what a
  * new one finds. */
 TEST(a_window_given_up_leaves_nothing)
 {
-    hd_scene_def scene = scene_from(windows_scene(4, HD_PERIODIC, HD_PERIODIC),
-                                    .covariant_transient = 120.0, .covariant_sampling = 0.5);
-    windows w = windows_begun(&scene, WARMUP, WINDOWS_INTERVAL);
+    hd_scene_def scene = scene_from(windows_scene(4, P, P), .covariant_transient = 120.0,
+                                    .covariant_sampling = 0.5);
+    HELD(windows) w = windows_begun(scene, WARMUP, WINDOWS_INTERVAL);
     while (!windows_forward(&w)) {
     }
     for (int k = 0; k < 120 * 4 + 39; k++)
@@ -264,7 +212,7 @@ TEST(a_window_given_up_leaves_nothing)
     const int done = (int)(now / WINDOWS_INTERVAL + 0.5);
     hd_covariant_clear(w.c);
     CHECK_OK(hd_covariant_begin(w.c, hd_frame_columns(w.f.frame), now, WINDOWS_INTERVAL));
-    windows fresh = windows_begun(&scene, done, WINDOWS_INTERVAL);
+    HELD(windows) fresh = windows_begun(scene, done, WINDOWS_INTERVAL);
     windows_finish(&w, 2);
     windows_finish(&fresh, 2);
     for (int col = 0; col < 16; col++) {
@@ -276,6 +224,4 @@ TEST(a_window_given_up_leaves_nothing)
         CHECK_CLOSE(hd_splitting_violations(hd_covariant_splitting(w.c))[col],
                     hd_splitting_violations(hd_covariant_splitting(fresh.c))[col], 1e-12);
     }
-    windows_free(&w);
-    windows_free(&fresh);
 }

@@ -1,12 +1,9 @@
 /** What the forward pass leaves comes back as it was, kept and computed again. */
-#include <float.h>
-
 #include "covariant/backward.h"
 #include "forward_pass.h"
 #include "base/memory.h"
 #include "covariant/history.h"
 #include "triangles.h"
-#include "interval.h"
 
 enum { DISKS = 6, INTERVALS = 24, SNAPSHOTS = 8, PASTS = 2, STEPS = 150 };
 
@@ -36,10 +33,9 @@ static double rounding_of(const forward *x) { return 64.0 * DBL_EPSILON * INTERV
 
 static forward *started(int exponents)
 {
-    hd_scene_def scene = scene(.disks = DISKS, .density = 0.5, .aspect = 0.9, .seed = 3,
-                               .exponents = exponents);
     forward *x = calloc(1, sizeof *x);
-    x->f = forward_started(&scene, 1);
+    x->f = forward_started(
+        scene(.disks = DISKS, .density = 0.5, .aspect = 0.9, .seed = 3, .exponents = exponents), 1);
     for (int warmup = 0; warmup < 20; warmup++) forward_interval(&x->f, 0.5);
     for (int way = 0; way < PASTS; way++) {
         const hd_history_def def = def_of(way, forward_vectors(&x->f));
@@ -63,7 +59,7 @@ static void freed(forward *x)
 {
     forget(x);
     for (int way = 0; way < PASTS; way++) hd_history_free(x->past[way]);
-    forward_free(&x->f);
+    forward_pass_free(&x->f);
     free(x);
 }
 
@@ -116,7 +112,7 @@ static void check_past(const forward *x, int way, long first)
 {
     const int n = forward_vectors(&x->f);
     hd_history *past = x->past[way];
-    double *found = malloc((size_t)(n * n) * sizeof *found);
+    HEAP double *found = malloc((size_t)(n * n) * sizeof *found);
     assert_int_equal(hd_history_first(past), first);
     assert_int_equal(hd_history_end(past), x->end);
     for (long k = x->end - 1; k >= first; k--) {
@@ -128,7 +124,6 @@ static void check_past(const forward *x, int way, long first)
         assert_int_equal(hd_history_has_snapshot(past, k), k % 3 == 0);
         if (k % 3 == 0) check_snapshot(x, past, k);
     }
-    free(found);
 }
 
 static void drop(forward *x, double time)
@@ -213,7 +208,7 @@ TEST(a_ring_takes_its_memory_once)
 {
     forward *x = started(HD_EXPONENTS_ALL_INDEPENDENT);
     const int n = forward_vectors(&x->f);
-    double *factor = malloc((size_t)(n * n) * sizeof *factor);
+    HEAP double *factor = malloc((size_t)(n * n) * sizeof *factor);
     size_t before = 0;
     hd_history *past = x->past[0];
     for (int k = 0; k < 6 * INTERVALS; k++) {
@@ -231,6 +226,5 @@ TEST(a_ring_takes_its_memory_once)
                                    hd_history_end(past) - 2 < 0 ? 0 : hd_history_end(past) - 2));
         if (before > 0) assert_int_equal(hd_memory_allocations(), outside);
     }
-    free(factor);
     freed(x);
 }

@@ -1,19 +1,16 @@
 /** Triangles that are computed again are those of the forward pass. */
-#include <float.h>
-
 #include "covariant/backward.h"
 #include "forward_pass.h"
 #include "covariant/recompute.h"
 #include "triangles.h"
-#include "interval.h"
 #include "tangent/interval.h"
 
 enum { DISKS = 8, STRETCH = 4, SLOTS = 5 * STRETCH, KEPT = SLOTS - STRETCH, INTERVALS = 67 };
 
 static hd_scene_def small(int exponents)
 {
-    return scene(.disks = DISKS, .density = 0.5, .aspect = 0.9, .boundary[1] = HD_REFLECTING,
-                 .seed = 3, .exponents = exponents);
+    return scene(.disks = DISKS, .density = 0.5, .aspect = 0.9, .boundary[1] = R, .seed = 3,
+                 .exponents = exponents);
 }
 
 static hd_recompute *created(int disks, int vectors, long slots, long stretch)
@@ -45,9 +42,8 @@ static void add_piece(kept *k, double t_begin, double t_end)
 
 static kept *started(int exponents)
 {
-    const hd_scene_def scene = small(exponents);
     kept *k = calloc(1, sizeof *k);
-    k->f = forward_started(&scene, 1);
+    k->f = forward_started(small(exponents), 1);
     k->r = created(DISKS, forward_vectors(&k->f), SLOTS, STRETCH);
     for (int warmup = 0; warmup < 20; warmup++) forward_interval(&k->f, 0.5);
     CHECK_OK(hd_recompute_frame(k->r, 0, hd_frame_columns(k->f.frame)));
@@ -56,7 +52,7 @@ static kept *started(int exponents)
 
 static void freed(kept *k)
 {
-    forward_free(&k->f);
+    forward_pass_free(&k->f);
     hd_recompute_free(k->r);
     for (long i = 0; i < k->end; i++) free(k->factor[i]);
     free(k);
@@ -80,9 +76,8 @@ static void check_all(kept *k)
 {
     const long first = k->end > KEPT ? k->end - KEPT : 0;
     const size_t n = (size_t)forward_vectors(&k->f);
-    double *found = malloc(n * n * sizeof *found);
+    HEAP double *found = malloc(n * n * sizeof *found);
     for (long interval = k->end - 1; interval >= first; interval--) check_slot(k, found, interval);
-    free(found);
 }
 
 /** The ring wraps several times, is read now and then in between, and some logs are cut into
@@ -121,7 +116,7 @@ TEST(what_passed_passes_again)
     const hd_ortho_limits limits = {HD_CONDITION_MAX, 1e-6, HD_NORM_FULL};
     kept *k = started(HD_EXPONENTS_ALL_INDEPENDENT);
     const int n = forward_vectors(&k->f);
-    double *found = malloc((size_t)n * (size_t)n * sizeof *found);
+    HEAP double *found = malloc((size_t)n * (size_t)n * sizeof *found);
     CHECK_OK(trajectory_to(k->f.trajectory, k->f.log, hd_trajectory_time(k->f.trajectory) + 3.2));
     CHECK_OK(hd_frame_replay(k->f.frame, k->f.log, 0.0, k->f.log->duration));
     CHECK_OK(hd_ortho_step(k->f.ortho, k->f.frame, limits));
@@ -129,11 +124,8 @@ TEST(what_passed_passes_again)
     CHECK_OK(hd_recompute_events(k->r, 0, k->f.log, 0.0, k->f.log->duration));
     CHECK_OK(hd_recompute_factor(k->r, found, NULL, 0, 0));
     check_same_triangle(found, hd_ortho_factor(k->f.ortho), n);
-    free(found);
     freed(k);
 }
-
-/* ---- logs written by hand ------------------------------------------------------------------ */
 
 /** Two disks that meet at these times, a normal turned a little further each time; `graze` is -p.n
  * of the second. */
@@ -173,7 +165,7 @@ static pair pair_created(void)
     return p;
 }
 
-static void pair_freed(pair *p)
+static void pair_free(pair *p)
 {
     hd_frame_free(p->frame);
     hd_ortho_free(p->ortho);
@@ -184,7 +176,7 @@ static void pair_freed(pair *p)
 TEST(an_event_at_a_cut_is_the_next_piece_s)
 {
     const double times[] = {0.0, 0.25, 0.5, 1.0}, cut[] = {0.0, 0.5, 1.0};
-    pair p = pair_created();
+    HELD(pair) p = pair_created();
     hd_event_log log;
     double *want[2], found[WIDE * WIDE];
     write_log(&log, times, 4, 1.0, 0.8);
@@ -199,7 +191,6 @@ TEST(an_event_at_a_cut_is_the_next_piece_s)
         check_same_triangle(found, want[slot], WIDE); /* these times are exact */
         free(want[slot]);
     }
-    pair_freed(&p);
 }
 
 /** What Cholesky cannot factor takes reflections, in the forward pass as here; the next slot goes
@@ -207,7 +198,7 @@ TEST(an_event_at_a_cut_is_the_next_piece_s)
 TEST(a_grazing_slot_takes_the_stable_step)
 {
     const double times[] = {0.2, 0.5, 0.8};
-    pair p = pair_created();
+    HELD(pair) p = pair_created();
     hd_event_log log;
     double *want[2], found[WIDE * WIDE];
     for (int slot = 0; slot < 2; slot++) {
@@ -229,7 +220,6 @@ TEST(a_grazing_slot_takes_the_stable_step)
         check_same_triangle(found, want[slot], WIDE);
         free(want[slot]);
     }
-    pair_freed(&p);
 }
 
 /** Twice the stretch or half of it needs more. */

@@ -1,16 +1,9 @@
 /** Angles of spaces made so that they are known, and order violations against their definition. */
-#include <float.h>
-#include <string.h>
-
 #include "testing.h"
-
 #include "averages/blocks.h"
-#include "hdlyap/splitting.h"
 #include "base/random.h"
 
 enum { N = 6, UNSTABLE = 2, CENTRE = 2 };
-
-static const double PI = 3.14159265358979323846;
 
 static hd_splitting *created(int vectors, int unstable, int centre)
 {
@@ -113,7 +106,7 @@ static void add_all(hd_splitting *s)
 TEST(known_angles_are_found)
 {
     const truth t = truth_of();
-    hd_splitting *s = created(N, UNSTABLE, CENTRE);
+    OWNED(hd_splitting) *s = created(N, UNSTABLE, CENTRE);
     const double last[3] = {alpha_of(SAMPLES - 1), PI / 2, beta_of(SAMPLES - 1)};
     assert_true(hd_splitting_has_spaces(s));
     for (int again = 0; again < 2; again++) { /* as if it were new */
@@ -128,27 +121,24 @@ TEST(known_angles_are_found)
         hd_splitting_clear(s);
         assert_int_equal(hd_splitting_samples(s), 0);
     }
-    hd_splitting_free(s);
 }
 
 /** Neighbours of length 1 a tiny angle apart: their cosine would not know it. */
 TEST(small_angles_keep_their_digits)
 {
     double c[4] = {1.0, 0.0, cos(1e-9), sin(1e-9)};
-    hd_splitting *s = created(2, 2, 0);
+    OWNED(hd_splitting) *s = created(2, 2, 0);
     CHECK_OK(hd_splitting_add(s, c));
     CHECK_CLOSE(hd_splitting_neighbours(s)[0], 1e-9, 1e-15);
     assert_false(hd_splitting_has_spaces(s));
-    hd_splitting_free(s);
 }
 
 TEST(dependent_vectors_are_refused)
 {
     double c[N * N];
-    hd_splitting *s = created(N, UNSTABLE, CENTRE);
+    OWNED(hd_splitting) *s = created(N, UNSTABLE, CENTRE);
     fill(c, 1.0, 1.0, 0.0);
     assert_int_equal(hd_splitting_add(s, c), HD_ILL_CONDITIONED);
-    hd_splitting_free(s);
 }
 
 enum { MANY = 9, TIMES = 50 };
@@ -174,7 +164,7 @@ TEST(order_violations_are_counted)
 {
     double growth[TIMES][MANY];
     hd_random random = hd_random_seeded(8, 0);
-    hd_splitting *s = created(MANY, MANY, 0);
+    OWNED(hd_splitting) *s = created(MANY, MANY, 0);
     for (int k = 0; k < TIMES; k++) {
         for (int col = 0; col < MANY; col++)
             growth[k][col] = -0.3 * col + 1.2 * hd_random_symmetric(&random);
@@ -189,5 +179,4 @@ TEST(order_violations_are_counted)
     hd_splitting_clear(s);
     hd_splitting_grow(s, growth[0]);
     check_order(s, growth, 1);
-    hd_splitting_free(s);
 }

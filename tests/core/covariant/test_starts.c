@@ -1,12 +1,13 @@
 /** Covariant vectors of all 4N on the way back through triangles of half of them: those of the way
  * back through triangles of all. */
-#include <stdlib.h>
-
 #include "conjugates.h"
 #include "covariant/backward.h"
 #include "covariant/coupling.h"
 #include "covariant/starts.h"
 #include "triangles.h"
+
+OWNABLE(hd_coupling)
+OWNABLE(hd_starts)
 
 enum { DISKS = 8, ALL = 4 * DISKS, HALVES = 2 * DISKS, WARMUP = 200, COUNT = 800, LOOK = 40 };
 
@@ -18,9 +19,8 @@ typedef struct history {
 static history *passed(const hd_scene_def *scene)
 {
     history *h = calloc(1, sizeof *h);
-    conjugates x = conjugates_of(scene);
-    hd_coupling *coupling;
-    CHECK_OK(hd_coupling_create(&coupling, DISKS, 1));
+    HELD(conjugates) x = conjugates_of(*scene);
+    MADE(hd_coupling, coupling, DISKS, 1);
     for (int k = -WARMUP; k < COUNT; k++) {
         conjugates_interval(&x, 0.25);
         if (k < 0) continue;
@@ -30,8 +30,6 @@ static history *passed(const hd_scene_def *scene)
         h->factor[WHOLE][k] = triangle_copy(hd_ortho_factor(x.ortho[WHOLE]), ALL);
         h->coupling[k] = triangle_copy(hd_coupling_read(coupling), HALVES);
     }
-    hd_coupling_free(coupling);
-    conjugates_free(&x);
     return h;
 }
 
@@ -86,17 +84,15 @@ static int check_vectors(hd_starts *half, hd_starts *whole)
 
 TEST(vectors_are_those_of_all_triangles)
 {
-    const hd_boundary boundary[][2] = {
-        {HD_PERIODIC, HD_PERIODIC}, {HD_PERIODIC, HD_REFLECTING}, {HD_REFLECTING, HD_REFLECTING}};
+    const hd_boundary boundary[][2] = {{P, P}, {P, R}, {R, R}};
     for (int b = 0; b < 3; b++) {
         const hd_scene_def scene = scene_of(DISKS, 0.5, 0.9, boundary[b][0], boundary[b][1], 4);
         const double *c, *same;
         history *h = passed(&scene);
-        hd_starts *half = begun(true), *whole = begun(false);
+        OWNED(hd_starts) *half = begun(true), *whole = begun(false);
         back(half, h, COUNT, LOOK, HALF);
         back(whole, h, COUNT, LOOK, WHOLE);
         const int good = check_vectors(half, whole), zero = hd_scene_zero_exponents(&scene);
-        print_message("%d of %d vectors have met\n", good, ALL);
         assert_true(good >= ALL - zero - 8);
         (void)hd_starts_growth(half);
         (void)hd_starts_growth(whole);
@@ -111,8 +107,6 @@ TEST(vectors_are_those_of_all_triangles)
         for (int col = 0; col < ALL; col++)
             agree += fabs(grown[col] - want[col]) < 1e-6 && apart(c, same, col) < 1e-6;
         assert_true(agree >= good - 2);
-        hd_starts_free(half);
-        hd_starts_free(whole);
         freed(h);
     }
 }
@@ -121,9 +115,9 @@ TEST(vectors_are_those_of_all_triangles)
  * Its columns are of length 1, and it is a triangle. */
 TEST(vectors_have_products_with_their_conjugates_alone)
 {
-    const hd_scene_def scene = scene_of(DISKS, 0.5, 0.9, HD_PERIODIC, HD_PERIODIC, 4);
+    const hd_scene_def scene = scene_of(DISKS, 0.5, 0.9, P, P, 4);
     history *h = passed(&scene);
-    hd_starts *s = begun(true);
+    OWNED(hd_starts) *s = begun(true);
     const double *both[2];
     back(s, h, COUNT, COUNT - 20, HALF);
     CHECK_OK(hd_starts_meet(s, both));
@@ -145,6 +139,5 @@ TEST(vectors_have_products_with_their_conjugates_alone)
                     CHECK_CLOSE(product, 0.0, 1e-12);
             }
         }
-    hd_starts_free(s);
     freed(h);
 }

@@ -1,12 +1,7 @@
 /** Cells: neighbours, images and lists, for one, two, three and many columns and both boundaries.
  */
 #include "events/cells.h"
-
-#include <float.h>
-#include <stdlib.h>
-
 #include "base/random.h"
-#include "scenes.h"
 #include "testing.h"
 
 static hd_cells created(int disks, double lx, double ly, hd_boundary boundary)
@@ -44,7 +39,7 @@ TEST(neighbours_in_periodic_lines)
     const int shift3[][3] = {{-1, 0, 0}, {0, 0, 0}, {0, 0, 1}};
     const int(*near[])[3] = {near1, near2, near3}, (*shift[])[3] = {shift1, shift2, shift3};
     for (int columns = 1; columns <= 3; columns++) {
-        hd_cells cells = columns_of(columns, HD_PERIODIC);
+        hd_cells cells = columns_of(columns, P);
         for (int d = 0; d < 2; d++) check_line(&cells, d, near[columns - 1], shift[columns - 1]);
         hd_cells_clear(&cells);
     }
@@ -56,7 +51,7 @@ TEST(neighbours_between_walls)
     const int near3[][3] = {{3, 0, 1}, {0, 1, 2}, {1, 2, 3}}, shift[3][3] = {{0}};
     const int(*near[])[3] = {near1, near2, near3};
     for (int columns = 1; columns <= 3; columns++) {
-        hd_cells cells = columns_of(columns, HD_REFLECTING);
+        hd_cells cells = columns_of(columns, R);
         for (int d = 0; d < 2; d++) {
             check_line(&cells, d, near[columns - 1], shift);
             assert_true(cells.line[d][0].bound[0] == 0.5);
@@ -71,7 +66,7 @@ TEST(lines_cover_the_box)
 {
     const double edge[] = {1.0 + 1e-9, 1.9, 2.1, 7.3, 123.4, 4e4}, margin = 1e-7;
     for (size_t k = 0; k < sizeof edge / sizeof *edge; k++) {
-        hd_cells cells = created(12, 31.0, edge[k], HD_PERIODIC);
+        hd_cells cells = created(12, 31.0, edge[k], P);
         for (int d = 0; d < 2; d++) {
             const int32_t size = cells.size[d];
             assert_true(cells.line[d][0].bound[0] == 0 &&
@@ -92,8 +87,7 @@ TEST(number_of_cells_follows_disks)
 {
     const double density[] = {1.0, 0.1, 1e-3, 1e-9}, aspect[] = {1.0, 0.01, 100.0};
     for (int k = 0; k < 12; k++) {
-        const hd_scene_def def = scene_of(10000, density[k % 4], aspect[k % 3], HD_PERIODIC,
-                                          HD_REFLECTING, 1);
+        const hd_scene_def def = scene_of(10000, density[k % 4], aspect[k % 3], P, R, 1);
         hd_cells cells;
         CHECK_OK(hd_cells_create(&cells, &def));
         const double count = (double)cells.size[0] * cells.size[1];
@@ -125,7 +119,7 @@ static int listed_anywhere(const hd_cells *cells, int32_t i)
 TEST(disks_are_booked_where_they_are)
 {
     enum { N = 200 };
-    hd_cells cells = created(N, 25.0, 17.0, HD_PERIODIC);
+    hd_cells cells = created(N, 25.0, 17.0, P);
     static hd_disk disks[N];
     for (int32_t i = 0; i < N; i++) {
         disks[i] = (hd_disk){.q = {cells.box[0] * (i % 20) / 19.0, cells.box[1] * (i / 20) / 9.0}};
@@ -151,7 +145,7 @@ TEST(crossing_counts_the_turns)
     for (int columns = 1; columns <= 5; columns++)
         for (int k = 0; k < 4; k++) {
             const int d = k % 2, side = k < 2 ? 0 : 2, turn = side - 1;
-            hd_cells cells = columns_of(columns, HD_PERIODIC);
+            hd_cells cells = columns_of(columns, P);
             hd_disk disks[3] = {{.q = {0.25, 0.25}}, {.q = {0.25, 0.25}}, {.q = {0.25, 0.25}}};
             for (int32_t i = 0; i < 3; i++) hd_cells_add(&cells, disks, i);
             for (int step = 0; step < 3 * columns; step++) {
@@ -173,7 +167,7 @@ TEST(crowds_come_and_go)
 {
     enum { N = 12, STEPS = 20000 };
     hd_random random = hd_random_seeded(9, 0);
-    hd_cells cells = created(N, 40.0, 40.0, HD_PERIODIC);
+    hd_cells cells = created(N, 40.0, 40.0, P);
     static hd_disk disks[N];
     int fullest = 0;
     for (int32_t i = 0; i < N; i++) {

@@ -1,10 +1,6 @@
 /** Late times: the same state goes on alike from t = 0 and from t near 1e6, bit for bit. What
  * rounding does in 1e8 collisions is seen by core_endurance (check_endurance.py). */
-#include <float.h>
-#include <stdlib.h>
-
 #include "prepared.h"
-#include "interval.h"
 
 /** 2^20; a multiple of every scene's epoch. */
 static const double LATE = 1048576.0;
@@ -13,10 +9,10 @@ enum { SCENES = 4 };
 static hd_scene_def scene_number(int k)
 {
     const hd_scene_def scene[SCENES] = {
-        scene_of(10, 0.1, 1.0, HD_PERIODIC, HD_PERIODIC, 5),
-        scene_of(100, 0.7, 0.8, HD_PERIODIC, HD_REFLECTING, 6),
-        scene_of(12, 0.3, 0.5, HD_REFLECTING, HD_REFLECTING, 7),
-        scene_in_box(8, 14.0, 1.4, HD_PERIODIC, HD_PERIODIC, 8),
+        scene_of(10, 0.1, 1.0, P, P, 5),
+        scene_of(100, 0.7, 0.8, P, R, 6),
+        scene_of(12, 0.3, 0.5, R, R, 7),
+        scene_in_box(8, 14.0, 1.4, P, P, 8),
     };
     return scene[k];
 }
@@ -62,13 +58,10 @@ TEST(a_state_goes_on_alike_at_any_time)
     const double shift[] = {LATE, ldexp(1.0, 40)}; /* 1e12, whose last digit is 2^-12 */
     for (int k = 0; k < 2 * SCENES; k++) {
         const hd_scene_def def = scene_number(k / 2);
-        hd_trajectory *early, *late;
-        CHECK_OK(hd_trajectory_create(&early, &def));
-        CHECK_OK(hd_trajectory_create(&late, &def));
+        MADE(hd_trajectory, early, &def);
+        MADE(hd_trajectory, late, &def);
         late->epoch_start = late->now = shift[k % 2];
         check_alike(early, late);
-        hd_trajectory_free(early);
-        hd_trajectory_free(late);
     }
 }
 
@@ -79,14 +72,11 @@ TEST(a_late_state_goes_on_as_at_the_start)
     const double end = HD_SANITIZED ? LATE / 64.0 : LATE;
     hd_scene_def def = scene_number(0);
     double q[20], p[20];
-    hd_trajectory *late;
-    CHECK_OK(hd_trajectory_create(&late, &def));
+    MADE(hd_trajectory, late, &def);
     CHECK_OK(hd_trajectory_extend(late, NULL, end));
     assert_true(fmod(end, late->epoch_length) == 0.0);
     assert_true(HD_SANITIZED || hd_trajectory_collisions(late) > 1000000);
     hd_trajectory_state(late, q, p);
-    hd_trajectory *early = started(&def, q, p);
+    OWNED(hd_trajectory) *early = started(&def, q, p);
     check_alike(early, late);
-    hd_trajectory_free(early);
-    hd_trajectory_free(late);
 }

@@ -1,14 +1,8 @@
 /** Nearby: everybody in the cells around a disk, once for each way to see it, and the contacts the
  * same bits as one by one. */
 #include "events/nearby.h"
-
-#include <float.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "one_contact.h"
 #include "base/random.h"
-#include "scenes.h"
 #include "testing.h"
 
 enum { DISKS = 60, SEEN_MAX = 9 * DISKS };
@@ -131,8 +125,8 @@ TEST(everybody_around_is_seen_once)
                          50};
     for (int k = 0; k < 25; k++)
         for (int c = 0; c < 5; c++) {
-            check_box(edge[k % 5], edge[k / 5], HD_PERIODIC, crowd[c]);
-            check_box(edge[k % 5], edge[k / 5], HD_REFLECTING, crowd[c]);
+            check_box(edge[k % 5], edge[k / 5], P, crowd[c]);
+            check_box(edge[k % 5], edge[k / 5], R, crowd[c]);
         }
 }
 
@@ -140,7 +134,7 @@ TEST(everybody_around_is_seen_once)
 TEST(images_are_in_reach)
 {
     static hd_disk disks[DISKS];
-    const hd_scene_def def = scene_in_box(DISKS, 12.0, 9.0, HD_PERIODIC, HD_PERIODIC, 1);
+    const hd_scene_def def = scene_in_box(DISKS, 12.0, 9.0, P, P, 1);
     hd_random random = hd_random_seeded(4, 0);
     hd_cells cells;
     hd_nearby near;

@@ -1,8 +1,5 @@
 /** Queue against a plain search of all keys. */
 #include "events/queue.h"
-
-#include <math.h>
-
 #include "base/random.h"
 #include "testing.h"
 
@@ -161,15 +158,6 @@ TEST(last_moment_is_kept)
         assert_int_equal(hd_queue_next(&queue), 1);
         hd_queue_clear(&queue);
     }
-}
-
-/** hd_queue_next looks, it does not take. */
-TEST(next_does_not_consume)
-{
-    hd_queue queue = created(3);
-    hd_queue_put(&queue, 2, key_of(1.0, 0, 0, 2));
-    for (int k = 0; k < 3; k++) assert_int_equal(hd_queue_next(&queue), 2);
-    hd_queue_clear(&queue);
 }
 
 TEST(restart_forgets_everything)

@@ -1,8 +1,4 @@
 /** Trajectory over long times: energy, momentum, no overlap, nobody outside the walls. */
-#include <float.h>
-#include <stdlib.h>
-
-#include "scenes.h"
 #include "testing.h"
 
 /** What the project promises over 10^7 collisions. */
@@ -29,7 +25,7 @@ static void check_inside(const hd_trajectory *tr, const hd_scene_def *def, doubl
     hd_trajectory_box(tr, box);
     hd_trajectory_state(tr, q, NULL);
     for (int k = 0; k < 2 * def->disks; k++) {
-        const double reach = def->boundary[k % 2] == HD_REFLECTING ? 0.5 : 0.0;
+        const double reach = def->boundary[k % 2] == R ? 0.5 : 0.0;
         const double slack = DBL_EPSILON *
                              box[k % 2]; /* on its way to a wall, just before the event */
         assert_true(q[k] >= reach - slack && q[k] <= box[k % 2] - reach + slack);
@@ -38,10 +34,9 @@ static void check_inside(const hd_trajectory *tr, const hd_scene_def *def, doubl
 
 static void check_run(const hd_scene_def *def, double collisions)
 {
-    hd_trajectory *tr;
     double *work = calloc(2 * (size_t)def->disks, sizeof *work), box[2], sum[2];
     assert_non_null(work);
-    CHECK_OK(hd_trajectory_create(&tr, def));
+    MADE(hd_trajectory, tr, def);
     hd_trajectory_box(tr, box);
     CHECK_CLOSE(hd_trajectory_kinetic_energy(tr), def->disks, ENERGY_DRIFT * def->disks);
     double t = 0;
@@ -50,27 +45,26 @@ static void check_run(const hd_scene_def *def, double collisions)
         CHECK_OK(hd_trajectory_extend(tr, NULL, t));
         CHECK_CLOSE(hd_trajectory_kinetic_energy(tr), def->disks, ENERGY_DRIFT * def->disks);
         CHECK_CLOSE(hd_trajectory_overlap(tr), 0.0, overlap_rounding(box));
+        assert_true(overlap_rounding(box) < hd_trajectory_overlap_rounding(tr));
         check_inside(tr, def, work);
         momentum_of(tr, work, sum);
         for (int d = 0; d < 2; d++)
-            if (def->boundary[d] == HD_PERIODIC) CHECK_CLOSE(sum[d], 0.0, MOMENTUM_DRIFT);
+            if (def->boundary[d] == P) CHECK_CLOSE(sum[d], 0.0, MOMENTUM_DRIFT);
     }
-    hd_trajectory_free(tr);
     free(work);
 }
 
 TEST(ten_disks_for_long)
 {
     const double collisions = HD_SANITIZED ? 2e5 : second_tier() ? 1e7 : 2e6;
-    const hd_scene_def def = scene_of(10, 0.5, 0.8, HD_PERIODIC, HD_PERIODIC, 11);
+    const hd_scene_def def = scene_of(10, 0.5, 0.8, P, P, 11);
     check_run(&def, collisions);
 }
 
 TEST(ten_disks_each_boundary)
 {
     for (int b = 1; b < 4; b++) {
-        const hd_scene_def def = scene_of(10, 0.5, 0.8, b & 1 ? HD_REFLECTING : HD_PERIODIC,
-                                          b & 2 ? HD_REFLECTING : HD_PERIODIC, 11);
+        const hd_scene_def def = scene_of(10, 0.5, 0.8, b & 1 ? R : P, b & 2 ? R : P, 11);
         check_run(&def, 0.3 * MEDIUM_RUN);
     }
 }
@@ -78,16 +72,16 @@ TEST(ten_disks_each_boundary)
 TEST(the_papers_disks)
 {
     const hd_scene_def periodic = hd_scene_def_default();
-    const hd_scene_def walls = scene_of(780, 0.8, 0.867, HD_REFLECTING, HD_REFLECTING, 5);
+    const hd_scene_def walls = scene_of(780, 0.8, 0.867, R, R, 5);
     check_run(&periodic, MEDIUM_RUN);
     check_run(&walls, MEDIUM_RUN);
 }
 
 TEST(dense_and_narrow)
 {
-    const hd_scene_def dense = scene_of(90, 1.1, 0.8660254, HD_PERIODIC, HD_PERIODIC, 5);
-    const hd_scene_def narrow = scene_in_box(12, 20.0, 1.1, HD_PERIODIC, HD_PERIODIC, 5);
-    const hd_scene_def channel = scene_in_box(12, 20.0, 1.1, HD_PERIODIC, HD_REFLECTING, 5);
+    const hd_scene_def dense = scene_of(90, 1.1, 0.8660254, P, P, 5);
+    const hd_scene_def narrow = scene_in_box(12, 20.0, 1.1, P, P, 5);
+    const hd_scene_def channel = scene_in_box(12, 20.0, 1.1, P, R, 5);
     check_run(&dense, 0.3 * MEDIUM_RUN);
     check_run(&narrow, 0.3 * MEDIUM_RUN);
     check_run(&channel, 0.1 * MEDIUM_RUN);
@@ -96,6 +90,22 @@ TEST(dense_and_narrow)
 /** A long chain: coordinates a thousand diameters large. */
 TEST(large_coordinates)
 {
-    const hd_scene_def def = scene_in_box(500, 4000.0, 1.5, HD_PERIODIC, HD_REFLECTING, 5);
+    const hd_scene_def def = scene_in_box(500, 4000.0, 1.5, P, R, 5);
     check_run(&def, 0.1 * MEDIUM_RUN);
+}
+
+/** Long before the core gives such disks up, and not as soon as they touch. */
+TEST(an_overlap_is_more_than_rounding)
+{
+    static const double below[] = {32.0 * DBL_EPSILON, 5e-10};
+    const hd_scene_def def = scene(.disks = 2, .density = 0.3, .aspect = 1.0);
+    for (int k = 0; k < 2; k++) {
+        const double q[] = {0.1, 1.0, 1.1 - below[k], 1.0}, p[] = {-1.0, 0.0, 0.0, sqrt(3.0)};
+        hd_trajectory *tr;
+        CHECK_OK(hd_trajectory_create_from(&tr, &def, q, p));
+        CHECK_CLOSE(hd_trajectory_overlap(tr), below[k], 1e-15);
+        assert_int_equal(hd_trajectory_overlap(tr) > hd_trajectory_overlap_rounding(tr), k);
+        assert_true(hd_trajectory_overlap_rounding(tr) < 1e-9);
+        hd_trajectory_free(tr);
+    }
 }

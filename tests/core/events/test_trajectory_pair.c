@@ -1,8 +1,5 @@
 /** Trajectory of two disks over a full grid of impact parameter, angle, image and wall, against the
  * closed form in long double. */
-#include <float.h>
-
-#include "scenes.h"
 #include "testing.h"
 #include "interval.h"
 
@@ -12,7 +9,7 @@ static const double POSITION_ROUNDING = 10.0 * DBL_EPSILON;
 /** Momenta are of size 1 and pass five operations. */
 static const double MOMENTUM_ROUNDING = 16.0 * DBL_EPSILON;
 
-static const double LX = 9.0, LY = 7.0, PI = 3.14159265358979323846;
+static const double LX = 9.0, LY = 7.0;
 static const double DISTANCE = 2.5;               /* of the centres at the start */
 static const double DRIFT[2] = {0.3125, -0.1875}; /* of both disks */
 enum { ANGLES = 24, IMPACTS = 41 };
@@ -106,11 +103,10 @@ static const double PASSAGE = 3.5;
 
 static void check_encounter(const encounter *e)
 {
-    const hd_scene_def def = scene_in_box(2, LX, LY, HD_PERIODIC, HD_PERIODIC, 1);
-    hd_trajectory *tr;
-    hd_event_log *log;
+    const hd_scene_def def = scene_in_box(2, LX, LY, P, P, 1);
+    OWNED(hd_trajectory) *tr = NULL;
     double after[4], box[2];
-    CHECK_OK(hd_event_log_create(&log));
+    OWNED(hd_event_log) *log = new_log();
     CHECK_OK(hd_trajectory_create_from(&tr, &def, e->q, e->p));
     hd_trajectory_box(tr, box);
     CHECK_CLOSE(box[0], LX, 2.0 * DBL_EPSILON * LX); /* sqrt of a rounded density */
@@ -124,8 +120,6 @@ static void check_encounter(const encounter *e)
         check_event(e, &log->event[0]);
         check_outcome(e, after);
     }
-    hd_event_log_free(log);
-    hd_trajectory_free(tr);
 }
 
 TEST(every_impact_angle_and_image)
@@ -160,23 +154,20 @@ TEST(grazing)
             }
 }
 
-/* ---- walls --------------------------------------------------------------------------------- */
-
 /** One disk against each wall from every angle; the other one rests far away. */
 static void check_wall(const hd_scene_def *def, int direction, int high, double angle)
 {
     const double box[2] = {LX, LY}, sign = high ? 1.0 : -1.0;
     const int across = 1 - direction;
     double q[4] = {0.5 * LX, 0.5 * LY, 0, 0}, p[4] = {0, 0, 0, 0}, after[4];
-    hd_trajectory *tr;
-    hd_event_log *log;
+    OWNED(hd_trajectory) *tr = NULL;
     q[2 + direction] = high ? 1.0 : box[direction] - 1.0; /* behind */
     q[2 + across] = 1.0;
     p[direction] = sign * cos(angle);
     p[across] = sin(angle);
     const long double reach = 0.5L * box[direction] - 0.5L,
                       t = reach / fabsl((long double)p[direction]);
-    CHECK_OK(hd_event_log_create(&log));
+    OWNED(hd_event_log) *log = new_log();
     CHECK_OK(hd_trajectory_create_from(&tr, def, q, p));
     CHECK_OK(trajectory_to(tr, log, (double)t * 1.01));
     hd_trajectory_state(tr, NULL, after);
@@ -188,14 +179,12 @@ static void check_wall(const hd_scene_def *def, int direction, int high, double 
     assert_true(event->n[direction] == 1.0 && event->n[across] == 0.0);
     assert_true(event->p[0] == p[0] && event->p[1] == p[1]);
     assert_true(after[direction] == -p[direction] && after[across] == p[across]);
-    hd_event_log_free(log);
-    hd_trajectory_free(tr);
 }
 
 TEST(every_wall_and_angle)
 {
     enum { WALL_ANGLES = 50 };
-    const hd_scene_def def = scene_in_box(2, LX, LY, HD_REFLECTING, HD_REFLECTING, 1);
+    const hd_scene_def def = scene_in_box(2, LX, LY, R, R, 1);
     for (int wall = 0; wall < 4; wall++)
         for (int a = -WALL_ANGLES; a <= WALL_ANGLES; a++)
             check_wall(&def, wall / 2, wall % 2, 0.6 * a / WALL_ANGLES);
@@ -205,12 +194,11 @@ TEST(every_wall_and_angle)
  * outwards. */
 TEST(no_image_through_a_wall)
 {
-    const hd_scene_def def = scene_in_box(2, LX, LY, HD_REFLECTING, HD_PERIODIC, 1);
+    const hd_scene_def def = scene_in_box(2, LX, LY, R, P, 1);
     const double q[] = {0.75, 3.0, LX - 0.75, 3.0}, p[] = {-1, 0, 1, 0};
-    hd_trajectory *tr;
+    OWNED(hd_trajectory) *tr = NULL;
     CHECK_OK(hd_trajectory_create_from(&tr, &def, q, p));
     CHECK_OK(hd_trajectory_extend(tr, NULL, 1.0));
     assert_true(hd_trajectory_collisions(tr) == 0);
     assert_true(hd_trajectory_wall_events(tr) == 2);
-    hd_trajectory_free(tr);
 }

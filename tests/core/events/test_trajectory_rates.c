@@ -1,12 +1,9 @@
 /** Trajectory against kinetic theory, an exact mean and independent codes. Seeds are fixed, so that
  * a tolerance of Z standard errors passes or fails for good. */
-#include <stdlib.h>
-
-#include "scenes.h"
 #include "testing.h"
 #include "interval.h"
 
-static const double Z = 3.0, PI = 3.14159265358979323846;
+static const double Z = 3.0;
 static const double EQUILIBRATION = 300.0; /* collisions per disk */
 
 enum { BLOCKS = 64 };
@@ -37,7 +34,7 @@ static hd_trajectory *equilibrated(const hd_scene_def *def)
 /** Collisions that a disk takes part in per time unit: 2 (pair events) / (N t). */
 static estimate rate_per_disk(const hd_scene_def *def, double pair_events)
 {
-    hd_trajectory *tr = equilibrated(def);
+    OWNED(hd_trajectory) *tr = equilibrated(def);
     const double piece = pair_events / BLOCKS / hd_trajectory_collision_rate(tr);
     double block[BLOCKS];
     for (int k = 0; k < BLOCKS; k++) {
@@ -46,7 +43,6 @@ static estimate rate_per_disk(const hd_scene_def *def, double pair_events)
         const double events = (double)(hd_trajectory_collisions(tr) - before);
         block[k] = 2.0 * events / (def->disks * piece);
     }
-    hd_trajectory_free(tr);
     return estimate_of(block);
 }
 
@@ -57,15 +53,13 @@ TEST(enskog_with_henderson)
 {
     const double density[] = {0.1, 0.3, 0.5, 0.7}, allowed = 0.01;
     for (size_t k = 0; k < 4; k++) {
-        hd_scene_def def = scene_of(400, density[k], 0.9, HD_PERIODIC, HD_PERIODIC, 21);
+        hd_scene_def def = scene_of(400, density[k], 0.9, P, P, 21);
         const double eta = PI * density[k] / 4.0;
         const double contact = (1.0 - 7.0 * eta / 16.0) / ((1.0 - eta) * (1.0 - eta));
         const double enskog = 2.0 * sqrt(PI) * density[k] * contact;
         const estimate rate = rate_per_disk(&def, 5e5);
-        hd_trajectory *tr;
-        CHECK_OK(hd_trajectory_create(&tr, &def));
+        MADE(hd_trajectory, tr, &def);
         CHECK_CLOSE(hd_trajectory_collision_rate(tr), 200.0 * rate.mean, 0.01 * 200.0 * rate.mean);
-        hd_trajectory_free(tr);
         assert_true(Z * rate.error < 0.5 * allowed * enskog); /* else the test says nothing */
         CHECK_CLOSE(rate.mean, enskog, allowed * enskog);
         const double path = sqrt(PI / 2.0) / rate.mean; /* mean speed over collisions */
@@ -83,8 +77,7 @@ TEST(independent_codes)
         double density, rate, error;
     } table[] = {{9, 0.5, 3.958, 0.002}, {16, 0.7, 9.220, 0.003}};
     for (size_t k = 0; k < sizeof table / sizeof *table; k++) {
-        const hd_scene_def def = scene_of(table[k].disks, table[k].density, 0.8660, HD_PERIODIC,
-                                          HD_PERIODIC, 22);
+        const hd_scene_def def = scene_of(table[k].disks, table[k].density, 0.8660, P, P, 22);
         const estimate rate = rate_per_disk(&def, HD_SANITIZED ? 2e5 : 1e6);
         const double error = sqrt(rate.error * rate.error + table[k].error * table[k].error);
         assert_true(error < 3e-3 * table[k].rate); /* a wrong rate would be seen */
@@ -103,11 +96,10 @@ static double exact_mean_impact(int disks)
 
 static estimate mean_impact(const hd_scene_def *def, double pair_events)
 {
-    hd_trajectory *tr = equilibrated(def);
+    OWNED(hd_trajectory) *tr = equilibrated(def);
     const double piece = pair_events / BLOCKS / hd_trajectory_collision_rate(tr);
     double block[BLOCKS];
-    hd_event_log *log;
-    CHECK_OK(hd_event_log_create(&log));
+    OWNED(hd_event_log) *log = new_log();
     for (int k = 0; k < BLOCKS; k++) {
         CHECK_OK(trajectory_to(tr, log, hd_trajectory_time(tr) + piece));
         double sum = 0;
@@ -116,8 +108,6 @@ static estimate mean_impact(const hd_scene_def *def, double pair_events)
                    log->event[e].n[1] * log->event[e].p[1];
         block[k] = sum / (double)log->count;
     }
-    hd_event_log_free(log);
-    hd_trajectory_free(tr);
     return estimate_of(block);
 }
 
@@ -126,7 +116,7 @@ TEST(impact_is_exact)
     const int disks[] = {16, 100, 16, 4};
     const double density[] = {0.7, 0.5, 0.05, 0.3};
     for (size_t k = 0; k < 4; k++) {
-        const hd_scene_def def = scene_of(disks[k], density[k], 1.0, HD_PERIODIC, HD_PERIODIC, 23);
+        const hd_scene_def def = scene_of(disks[k], density[k], 1.0, P, P, 23);
         const estimate impact = mean_impact(&def, HD_SANITIZED ? 1e5 : 2.5e5);
         assert_true(impact.error < 5e-3 * impact.mean);
         CHECK_CLOSE(impact.mean, exact_mean_impact(disks[k]), Z * impact.error);

@@ -1,14 +1,9 @@
 /** Trajectory against its O(N^2) twin (twin.h): the same events, bit for bit, one by one. */
 #include "scene/lattice.h"
-#include "scenes.h"
-#include "testing.h"
 #include "twin.h"
 
 enum { BOUNDARIES = 4 };
-static const hd_boundary BOUNDARY[BOUNDARIES][2] = {{HD_PERIODIC, HD_PERIODIC},
-                                                    {HD_REFLECTING, HD_REFLECTING},
-                                                    {HD_PERIODIC, HD_REFLECTING},
-                                                    {HD_REFLECTING, HD_PERIODIC}};
+static const hd_boundary BOUNDARY[BOUNDARIES][2] = {{P, P}, {R, R}, {P, R}, {R, P}};
 
 static void compare_scene(const hd_scene_def *def, size_t events)
 {
@@ -18,8 +13,6 @@ static void compare_scene(const hd_scene_def *def, size_t events)
     CHECK_OK(hd_trajectory_create(&fast, def));
     twin_compare(fast, def, HD_SANITIZED ? events / 4 : events);
 }
-
-/* ---- scenes -------------------------------------------------------------------------------- */
 
 /** Densities from thin gas to a fraction of the densest lattice. */
 static void sweep(int disks, double aspect, size_t events)

@@ -1,10 +1,5 @@
 /** The dispersion relation of steps with given exponents and errors, against an independent fit. */
-#include <float.h>
 #include <lapacke.h>
-
-#include "testing.h"
-
-#include "scenes.h"
 #include "synthetic.h"
 
 enum { DISKS = 60, VECTORS = 30, NODES_MAX = 4 };
@@ -47,9 +42,8 @@ static void plant(world *w, double *exponents, int nodes, double factor[2][NODES
 /** A channel of T(n,0) and LP(n,0), n = 1 .. nodes; exponents [VECTORS] of the truth. */
 static world channel(double *exponents, int nodes)
 {
-    hd_scene_def def = scene_from(scene_in_box(DISKS, 80.0, 1.5, HD_PERIODIC, HD_PERIODIC, 6),
-                                  .max_mode_number = nodes);
-    world w = world_create(&def, VECTORS, 1);
+    world w = world_create(
+        scene_from(scene_in_box(DISKS, 80.0, 1.5, P, P, 6), .max_mode_number = nodes), VECTORS, 1);
     exponents_falling(&w, exponents);
     as_in_long_boxes(w.steps);
     plant(&w, exponents, nodes, NULL, true);
@@ -78,7 +72,7 @@ TEST(exact_data_give_the_truth)
 {
     double exponents[VECTORS];
     for (int nodes = 1; nodes <= NODES_MAX; nodes++) {
-        world w = channel(exponents, nodes);
+        HELD(world) w = channel(exponents, nodes);
         hd_dispersion d = hd_steps_dispersion(w.steps, w.spectrum, HD_MODE_T); /* none yet */
         assert_int_equal(d.points, 0);
         CHECK_CLOSE(d.k_max, 0.0, 0.0);
@@ -96,7 +90,6 @@ TEST(exact_data_give_the_truth)
             CHECK_CLOSE(d.c_sampling_error, -1.0, 0.0);
             CHECK_CLOSE(d.misfit, -1.0, 0.0);
         }
-        world_free(&w);
     }
 }
 
@@ -104,8 +97,8 @@ TEST(exact_data_give_the_truth)
 TEST(one_point_stands_on_long_boxes)
 {
     double exponents[VECTORS];
-    hd_scene_def def = scene_in_box(DISKS, 80.0, 1.5, HD_PERIODIC, HD_PERIODIC, 6);
-    world w = channel(exponents, 1);
+    hd_scene_def def = scene_in_box(DISKS, 80.0, 1.5, P, P, 6);
+    HELD(world) w = channel(exponents, 1);
     feed(&w, exponents, 0.1, 64);
     def.max_wave_number = 0.01; /* below 2 pi / 80 */
     assert_true(isinf(hd_relation_open(&def, HD_MODE_LP)));
@@ -126,7 +119,6 @@ TEST(one_point_stands_on_long_boxes)
         const double open = sqrt(d.c.error * d.c.error - d.c_sampling_error * d.c_sampling_error);
         CHECK_CLOSE(hd_relation_open(&def, kinds[kind]), open / c, 0.02 * open / c);
     }
-    world_free(&w);
 }
 
 /* ---- against an independent fit ------------------------------------------------------------ */
@@ -200,12 +192,11 @@ TEST(fits_are_those_of_least_squares)
 {
     double exponents[VECTORS];
     for (int nodes = 1; nodes <= NODES_MAX; nodes++) {
-        world w = channel(exponents, nodes);
+        HELD(world) w = channel(exponents, nodes);
         for (int repeat = 0; repeat < 20; repeat++) {
             feed(&w, exponents, 0.05, 64);
             for (int kind = 0; kind < 2; kind++) check_against_twin(&w, kinds[kind]);
         }
-        world_free(&w);
     }
 }
 
@@ -213,7 +204,7 @@ TEST(fits_are_those_of_least_squares)
 TEST(misfits_are_told_from_errors)
 {
     double exponents[VECTORS], off[2][NODES_MAX];
-    world w = channel(exponents, NODES_MAX);
+    HELD(world) w = channel(exponents, NODES_MAX);
     for (int n = 0; n < NODES_MAX; n++) off[0][n] = off[1][n] = n % 2 ? 0.95 : 1.05;
     plant(&w, exponents, NODES_MAX, off, false);
     feed(&w, exponents, 0.01, 64);
@@ -221,7 +212,6 @@ TEST(misfits_are_told_from_errors)
         check_against_twin(&w, kinds[kind]);
         assert_true(hd_steps_dispersion(w.steps, w.spectrum, kinds[kind]).misfit > 10.0);
     }
-    world_free(&w);
 }
 
 /** Deviations of c and c2 from the truth in units of their errors, squared: of sampling alone (c),
@@ -255,17 +245,15 @@ TEST(errors_are_honest)
     enum { REPEATS = 300 };
     for (int drawn = 0; drawn < 2; drawn++) {
         double exponents[VECTORS], square[2][2] = {{0.0}};
-        world w = channel(exponents, NODES_MAX);
+        HELD(world) w = channel(exponents, NODES_MAX);
         feed(&w, exponents, 0.05, 256);
         for (int repeat = 0; repeat < REPEATS; repeat++) deviations(&w, exponents, drawn, square);
         for (int kind = 0; kind < 2; kind++)
             for (int m = 0; m < (drawn ? 2 : 1); m++) {
                 const double rms = sqrt(square[kind][m] / REPEATS);
-                print_message("rms deviation of %s: %.2f errors\n", m ? "c2" : "c", rms);
                 /* 300 numbers: 4 %; errors from 64 blocks or fewer: some more */
                 CHECK_CLOSE(rms, 1.03, 0.15);
             }
-        world_free(&w);
     }
 }
 
@@ -273,7 +261,7 @@ TEST(errors_are_honest)
 TEST(half_a_multiplicity_weighs_less)
 {
     double exponents[VECTORS];
-    world w = channel(exponents, 2);
+    HELD(world) w = channel(exponents, 2);
     feed(&w, exponents, 0.0, 1);
     hd_step step = *world_step(&w, HD_MODE_T, 2, 0);
     step.multiplicity = step.expected;
@@ -283,7 +271,6 @@ TEST(half_a_multiplicity_weighs_less)
     CHECK_CLOSE(pow(hd_steps_scatter(w.steps, &step), 2.0) - whole * whole, 2.5e-5, 1e-12);
     step.own_part = 0.5;
     CHECK_CLOSE(pow(hd_steps_scatter(w.steps, &step), 2.0) - whole * whole, 3.4e-5, 1e-12);
-    world_free(&w);
 }
 
 /* ---- which steps count --------------------------------------------------------------------- */
@@ -291,7 +278,7 @@ TEST(half_a_multiplicity_weighs_less)
 TEST(unresolved_steps_do_not_count)
 {
     double exponents[VECTORS];
-    world w = channel(exponents, NODES_MAX);
+    HELD(world) w = channel(exponents, NODES_MAX);
     exponents[VECTORS - 10] *= 3.0; /* of LP(2,0), in 18 .. 21 */
     feed(&w, exponents, 0.0, 1);
     assert_false(world_step(&w, HD_MODE_LP, 2, 0)->resolved);
@@ -300,18 +287,17 @@ TEST(unresolved_steps_do_not_count)
     CHECK_CLOSE(d.c.value, truth[1][0], ALGEBRA);
     check_against_twin(&w, HD_MODE_LP);
     assert_int_equal(hd_steps_dispersion(w.steps, w.spectrum, HD_MODE_T).points, 4);
-    world_free(&w);
 }
 
 /** T(1,0) and T(0,1) of a square box: one wave number. */
 TEST(equal_wave_numbers_are_one_point)
 {
     for (int nodes = 0; nodes < 2; nodes++) {
-        hd_scene_def def = scene_of(100, 0.5, 1.0, HD_PERIODIC, HD_PERIODIC, 4);
+        hd_scene_def def = scene_of(100, 0.5, 1.0, P, P, 4);
         double exponents[VECTORS];
         if (nodes == 0) def.max_wave_number = hd_wave_component(&def, 0, 1);
         def.max_mode_number = nodes;
-        world w = world_create(&def, VECTORS, 1);
+        HELD(world) w = world_create(def, VECTORS, 1);
         exponents_falling(&w, exponents);
         as_in_long_boxes(w.steps);
         const int both[] = {world_subspace(&w, HD_MODE_T, 1, 0),
@@ -333,7 +319,6 @@ TEST(equal_wave_numbers_are_one_point)
                                truth[0][0];
         if (nodes == 0) /* both are one set */
             CHECK_CLOSE(d.c_sampling_error, of_step, 1e-3 * of_step);
-        world_free(&w);
     }
 }
 
@@ -342,24 +327,23 @@ TEST(vanishing_exponents_do_not_count)
 {
     for (int k = 0; k < 2; k++) {
         double exponents[VECTORS], none[2][NODES_MAX] = {{1.0, 1.0}, {k * -1.0, 1.0}};
-        world w = channel(exponents, 2);
+        HELD(world) w = channel(exponents, 2);
         plant(&w, exponents, 2, none, false);
         feed(&w, exponents, 0.0, 1);
         assert_true(world_step(&w, HD_MODE_LP, 1, 0)->resolved);
         const hd_dispersion d = hd_steps_dispersion(w.steps, w.spectrum, HD_MODE_LP);
         assert_int_equal(d.points, 1);
         CHECK_CLOSE(d.c.value, truth[1][0], ALGEBRA);
-        world_free(&w);
     }
 }
 
 /** Steps of the negative half are the same steps once more. */
 TEST(conjugate_steps_do_not_count)
 {
-    hd_scene_def def = scene_from(scene_in_box(DISKS, 80.0, 1.5, HD_PERIODIC, HD_PERIODIC, 6),
-                                  .max_mode_number = 1);
     static double exponents[4 * DISKS];
-    world w = world_create(&def, 4 * DISKS, 1);
+    const hd_scene_def def = scene_from(scene_in_box(DISKS, 80.0, 1.5, P, P, 6),
+                                        .max_mode_number = 1);
+    HELD(world) w = world_create(def, 4 * DISKS, 1);
     for (int col = 0; col < 4 * DISKS; col++) exponents[col] = 3.0 - col / 40.0;
     const int s = world_subspace(&w, HD_MODE_T, 1, 0);
     world_span(&w, 4 * DISKS - 20, &s, 1, 0.0);
@@ -370,5 +354,4 @@ TEST(conjugate_steps_do_not_count)
     assert_true(hd_steps_step(w.steps, 3 + s)->resolved);
     assert_true(hd_steps_step(w.steps, 3 + s)->conjugate);
     assert_int_equal(hd_steps_dispersion(w.steps, w.spectrum, HD_MODE_T).points, 0);
-    world_free(&w);
 }

@@ -1,16 +1,6 @@
 /** Sampled fields against differences of the modulations, and against what a T, L or P field must
  * be. */
-#include <float.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include "testing.h"
-
-#include "hdlyap/fields.h"
-#include "scenes.h"
 #include "synthetic.h"
-
-static const hd_boundary P = HD_PERIODIC, R = HD_REFLECTING;
 
 enum { DISKS = 60, ROWS = 2 * DISKS };
 /** Step of central differences, about the cube root of the rounding. */
@@ -105,60 +95,6 @@ static void check_definition(sample *s, const hd_subspace *m, int c)
 }
 
 TEST(fields_are_those_of_their_modulations) { for_all(check_definition); }
-
-/* ---- as vector fields ---------------------------------------------------------------------- */
-
-/** Derivative along direction d of component e of one column, at all disks. */
-static void field_derivative(sample *s, double *out, int column, int d, int e)
-{
-    double moved[ROWS];
-    for (int sign = -1; sign <= 1; sign += 2) {
-        memcpy(moved, s->q, sizeof moved);
-        for (int j = 0; j < DISKS; j++) moved[2 * j + d] += sign * STEP;
-        hd_fields_sample(s->fields, moved, s->p);
-        for (int j = 0; j < DISKS; j++)
-            out[j] = (sign > 0 ? out[j] : 0.0) +
-                     sign * raw(s->fields, 2 * j + e, column) / (2.0 * STEP);
-    }
-    hd_fields_sample(s->fields, s->q, s->p);
-}
-
-/** div T = 0, curl L = 0; and the other one is not: curl curl A and div grad A are +-k^2 A. */
-static void check_derivatives(sample *s, const hd_subspace *m, int c)
-{
-    const bool t = m->kind == HD_MODE_T;
-    double xx[DISKS], xy[DISKS], yx[DISKS], yy[DISKS]; /* xy: of the y component along x */
-    field_derivative(s, xx, m->column + c, 0, 0);
-    field_derivative(s, xy, m->column + c, 0, 1);
-    field_derivative(s, yx, m->column + c, 1, 0);
-    field_derivative(s, yy, m->column + c, 1, 1);
-    const double k2 = m->wave.number * m->wave.number, tolerance = 2.0 * K_MAX * DIFFERENCE;
-    for (int j = 0; j < DISKS; j++) {
-        const double laplacian = -k2 * modulation(s, m, c, s->q[2 * j], s->q[2 * j + 1]);
-        CHECK_CLOSE(xx[j] + yy[j], t ? 0.0 : laplacian, tolerance);
-        CHECK_CLOSE(xy[j] - yx[j], t ? -laplacian : 0.0, tolerance);
-    }
-}
-
-TEST(t_has_no_divergence_and_l_no_curl) { for_all(check_derivatives); }
-
-/** Disks at a wall: no displacement through it. sin(n pi (1 + eps)), times k. */
-static void check_walls(sample *s, const hd_subspace *m, int c)
-{
-    const double vanishing = 50.0 * DBL_EPSILON * K_MAX;
-    for (int d = 0; d < 2; d++) {
-        if (s->scene.boundary[d] != R) continue;
-        double at_wall[ROWS];
-        memcpy(at_wall, s->q, sizeof at_wall);
-        for (int j = 0; j < DISKS; j++) at_wall[2 * j + d] = j % 2 ? 0.5 : s->box[d] - 0.5;
-        hd_fields_sample(s->fields, at_wall, s->p);
-        for (int j = 0; j < DISKS; j++)
-            CHECK_CLOSE(raw(s->fields, 2 * j + d, m->column + c), 0.0, vanishing);
-        hd_fields_sample(s->fields, s->q, s->p);
-    }
-}
-
-TEST(nothing_goes_through_a_wall) { for_all(check_walls); }
 
 /** The same far away: one box further. */
 static void check_period(sample *s, const hd_subspace *m, int c)

@@ -1,13 +1,9 @@
 /** Vectors of an LP step that are sampled as seldom as the phases allow: what the rate is known for
  * [T13]. */
-#include "testing.h"
-
 #include "modes/archived.h"
 #include "modes/foresight.h"
 #include "rotating.h"
-#include "scenes.h"
 
-static const double PI = 3.14159265358979323846;
 /** Of `pairs`: 0.75 pi / (1.25 lambda), lambda = 2.4. */
 static const double UNSEEN = 0.75 / (1.25 * 2.4) * 3.14159265358979323846;
 /** Phases may be off by this before samples come closer [rad]. */
@@ -86,13 +82,12 @@ TEST(the_rate_is_a_mean_over_time)
 /** What a file keeps goes on as if it had not been kept. */
 TEST(a_file_keeps_all)
 {
-    rotating r = pairs(2);
+    HELD(rotating) r = pairs(2);
     for (int k = 0; k < 80; k++) {
         r.dt = hd_phases_sampling(r.phases, r.w.steps);
         turn(&r, k % 2 ? 2.0 : 2.1);
     }
-    hd_phases *read;
-    CHECK_OK(hd_phases_create(&read, r.w.steps, HD_MODE_LP));
+    MADE(hd_phases, read, r.w.steps, HD_MODE_LP);
     FILE *file = tmpfile();
     assert_non_null(file);
     hd_archive out = hd_archive_writer(file);
@@ -106,8 +101,6 @@ TEST(a_file_keeps_all)
     const double sampling = hd_phases_sampling(r.phases, r.w.steps);
     assert_true(sampling > 1.5 * UNSEEN);
     CHECK_CLOSE(hd_phases_sampling(read, r.w.steps), sampling, 0.0);
-    hd_phases_free(read);
-    rotating_free(&r);
 }
 
 /* ---- what the rate is good for ------------------------------------------------------------- */
@@ -142,7 +135,7 @@ TEST(a_learnt_rate_unwraps_two_turns)
 {
     const double omega = 2.6;
     for (int d = 1; d <= 2; d++) {
-        rotating r = pairs(d);
+        HELD(rotating) r = pairs(d);
         double longest = 0.0;
         for (int k = 0; k < 2000; k++) {
             r.dt = fmin(sampling(&r), 4.0 * PI / omega);
@@ -158,14 +151,13 @@ TEST(a_learnt_rate_unwraps_two_turns)
         assert_true(v.v_error > 0 && v.v_error < 0.01 * v.v);
         CHECK_CLOSE(v.v, omega / k, 4.0 * v.v_error);
         CHECK_CLOSE(phase_of(&r, 0, 0)->omega, omega, 4.0 * phase_of(&r, 0, 0)->omega_error);
-        rotating_free(&r);
     }
 }
 
 /** Never more than 2 from one sample to the next, and nothing before twenty are known. */
 TEST(what_is_not_known_is_not_foreseen)
 {
-    rotating r = pairs(1);
+    HELD(rotating) r = pairs(1);
     double before = UNSEEN;
     for (int k = 0; k < 200; k++) {
         const double now = sampling(&r);
@@ -179,7 +171,6 @@ TEST(what_is_not_known_is_not_foreseen)
     CHECK_CLOSE(sampling(&r), UNSEEN, 1e-12);
     hd_steps_clear(r.w.steps);
     assert_true(isinf(sampling(&r)));
-    rotating_free(&r);
 }
 
 /** Mean distance of samples that come as late as they may, after the first 200. */
@@ -198,20 +189,17 @@ static double mean_distance(rotating *r, double diffusion)
 TEST(scatter_brings_samples_together)
 {
     const double parts[] = {6.0, 3.0, 1.8, 0.3, 5.0};
-    rotating r = pairs(2);
+    HELD(rotating) r = pairs(2);
     for (int k = 0; k < 5; k++) {
         const double expected = parts[k] * UNSEEN, got = mean_distance(&r, OFF * OFF / expected);
-        print_message("phases foreseen for %.1f, sampled every %.1f of what needs none\n", parts[k],
-                      got / UNSEEN);
         CHECK_CLOSE(got, fmax(expected, UNSEEN), 0.25 * expected + 0.1 * UNSEEN);
     }
-    rotating_free(&r);
 }
 
 /** A sample a third later than foreseen is too late, and what has been learnt is gone. */
 TEST(late_samples_begin_anew)
 {
-    rotating r = pairs(1);
+    HELD(rotating) r = pairs(1);
     for (int k = 0; k < 60; k++) {
         r.dt = sampling(&r);
         diffuse(&r, 2.0, OFF * OFF / (4.0 * UNSEEN));
@@ -228,7 +216,6 @@ TEST(late_samples_begin_anew)
     diffuse(&r, 2.0, 0.0);
     assert_int_equal(phase_of(&r, 0, 0)->state, HD_PHASE_TRACKED);
     CHECK_CLOSE(phase_of(&r, 0, 0)->time, UNSEEN, 1e-12);
-    rotating_free(&r);
 }
 
 /* ---- any distances ------------------------------------------------------------------------- */
@@ -238,7 +225,7 @@ static void check_honesty(const double *dt, int count, double *omega_ratio, doub
 {
     enum { REPEATS = 100, SAMPLES = 240 };
     const double omega = 1.7, diffusion = 0.05;
-    rotating r = pairs(1);
+    HELD(rotating) r = pairs(1);
     double off[2] = {0.0}, stated[2] = {0.0};
     const double k = r.step->wave.number;
     for (int repeat = 0; repeat < REPEATS; repeat++) {
@@ -257,7 +244,6 @@ static void check_honesty(const double *dt, int count, double *omega_ratio, doub
     }
     *omega_ratio = sqrt(off[0]) / stated[0];
     *v_ratio = sqrt(off[1]) / stated[1];
-    rotating_free(&r);
 }
 
 /** 100 repetitions know the ratio to 7 %, 16 to 31 blocks their mean error to 3 %. */
@@ -267,8 +253,6 @@ TEST(errors_are_true_at_any_distances)
     for (int k = 0; k < 3; k++) {
         double omega, v;
         check_honesty(all[k], 4, &omega, &v);
-        print_message("distances %g %g %g %g: omega %.2f, v %.2f stated errors\n", all[k][0],
-                      all[k][1], all[k][2], all[k][3], omega, v);
         CHECK_CLOSE(omega, 1.0, 0.25);
         CHECK_CLOSE(v, 1.0, 0.2);
     }
@@ -277,7 +261,7 @@ TEST(errors_are_true_at_any_distances)
 /** A vector that is weak in every other sample is not begun anew by the short ones in between. */
 TEST(short_samples_do_not_shorten_absences)
 {
-    rotating r = pairs_of(1, 400);
+    HELD(rotating) r = pairs_of(1, 400);
     for (int k = 0; k < 100; k++) {
         r.dt = k < 30 ? UNSEEN : k % 2 ? 0.02 : fmin(2.5, sampling(&r));
         r.strength[1] = k > 40 && k % 4 < 2 ? 0.0 : 1.0;
@@ -285,28 +269,22 @@ TEST(short_samples_do_not_shorten_absences)
         assert_int_equal(slips(&r), 0);
     }
     CHECK_CLOSE(phase_of(&r, 1, 0)->time, r.time, 1e-9);
-    rotating_free(&r);
 }
 
 /** Of far turns, with signs: as many samples apart as the phases allow. */
 TEST(exchanges_within_two_turns_are_followed)
 {
     for (int d = 1; d <= 4; d *= 2) {
-        rotating r = pairs(d);
+        HELD(rotating) r = pairs(d);
         for (int t = 0; t < 200; t++) {
-            const int a = t % (2 * d), b = (t + 1) % (2 * d), column = r.column[a];
-            if (t >= 20 && t % 2) {
-                r.column[a] = r.column[b];
-                r.column[b] = column;
-                r.sign[a] *= t % 4 == 1 ? -1.0 : 1.0;
-            }
+            if (t >= 20 && t % 2)
+                exchange(&r, t % (2 * d), (t + 1) % (2 * d), t % 4 == 1 ? -1.0 : 1.0);
             r.dt = fmin(sampling(&r), 4.0 * PI / 2.6);
             turn(&r, 2.6);
-            for (int v = 0; v < 2 * d; v++) assert_int_equal(phase_of(&r, v, 0)->col, r.column[v]);
+            check_columns(&r);
         }
         assert_int_equal(slips(&r), 0);
         assert_true(check_tracks(&r, 2.6 * r.time, r.time, 2e3 * ROUNDING) >= 2 * d);
-        rotating_free(&r);
     }
 }
 
@@ -336,7 +314,7 @@ TEST(a_rate_that_jumps_is_found_again)
     const double omega = 1.2, jumps[] = {-1.5, -1.2, -0.9, -0.7, -0.4, -0.2, 0.2,
                                          0.3,  0.5,  0.7,  0.8,  0.9,  1.1,  1.3};
     for (size_t k = 0; k < sizeof jumps / sizeof *jumps; k++) {
-        rotating r = pairs(2);
+        HELD(rotating) r = pairs(2);
         for (int t = 0; t < 200; t++) {
             r.dt = sampling(&r);
             diffuse(&r, omega, OFF * OFF / (6.0 * UNSEEN));
@@ -349,10 +327,7 @@ TEST(a_rate_that_jumps_is_found_again)
             diffuse(&r, omega + jumps[k], OFF * OFF / (6.0 * UNSEEN));
         }
         const int lost = lost_turns(&r, omega + jumps[k]);
-        print_message("omega from %.1f to %.1f: down to %.1f, %d lost; %.1f again\n", omega,
-                      omega + jumps[k], shortest / UNSEEN, lost, r.dt / UNSEEN);
         assert_int_equal(lost, 0);
         assert_true(shortest < 1.1 * UNSEEN);
-        rotating_free(&r);
     }
 }

@@ -1,19 +1,8 @@
 /** Denormals, exact zeros, single samples, constant series, odd intervals of time: no such number
  * reaches a result. */
-#include <float.h>
-#include <string.h>
-
-#include "testing.h"
-
-#include "hdlyap/phases.h"
 #include "published.h"
 #include "rotating.h"
 #include "runs.h"
-#include "synthetic.h"
-
-static const hd_boundary P = HD_PERIODIC, R = HD_REFLECTING;
-
-/* ---- vectors with tiny halves -------------------------------------------------------------- */
 
 enum { DISKS = 40, ROWS = 2 * DISKS, VECTORS = 4 };
 
@@ -73,9 +62,9 @@ static void check_weights(const world *w, const weights *got, const weights *wan
  * none. */
 TEST(a_tiny_dq_half_has_its_weights_or_none)
 {
-    hd_scene_def def = scene(.disks = DISKS, .density = 0.5, .aspect = 0.8, .seed = 3,
-                             .max_mode_number = 1);
-    world w = world_create(&def, VECTORS, 1);
+    const hd_scene_def def = scene(.disks = DISKS, .density = 0.5, .aspect = 0.8, .seed = 3,
+                                   .max_mode_number = 1);
+    HELD(world) w = world_create(def, VECTORS, 1);
     static double dq[VECTORS][ROWS];
     for (int col = 0; col < VECTORS; col++) {
         for (int row = 0; row < ROWS; row++) dq[col][row] = 0.05 * random_normal(&w.random);
@@ -91,15 +80,14 @@ TEST(a_tiny_dq_half_has_its_weights_or_none)
             for (int s = 0; s < hd_fields_subspaces(w.fields); s++)
                 assert_true(got.of[s][col] <= 1.0 + ALGEBRA);
     }
-    world_free(&w);
 }
 
 /** The same for dp, of which no weight knows. */
 TEST(a_tiny_dp_half_changes_no_weight)
 {
-    hd_scene_def def = scene(.disks = DISKS, .density = 0.5, .aspect = 0.8, .boundary[1] = R,
-                             .seed = 3, .max_mode_number = 1);
-    world w = world_create(&def, VECTORS, 1);
+    const hd_scene_def def = scene(.disks = DISKS, .density = 0.5, .aspect = 0.8, .boundary[1] = R,
+                                   .seed = 3, .max_mode_number = 1);
+    HELD(world) w = world_create(def, VECTORS, 1);
     static double dq[VECTORS][ROWS];
     for (int col = 0; col < VECTORS; col++) world_add_field(&w, dq[col], col, 0.5);
     write_halves(&w, dq, 1.0, 1.0);
@@ -119,15 +107,14 @@ TEST(a_tiny_dp_half_changes_no_weight)
             check_normal(got.ratio[col]);
         }
     }
-    world_free(&w);
 }
 
 /** Denormal entries among normal ones: as if they were zero. */
 TEST(denormal_entries_are_zeros)
 {
-    hd_scene_def def = scene(.disks = DISKS, .density = 0.5, .aspect = 0.8, .seed = 3,
-                             .max_mode_number = 1);
-    world w = world_create(&def, VECTORS, 1);
+    const hd_scene_def def = scene(.disks = DISKS, .density = 0.5, .aspect = 0.8, .seed = 3,
+                                   .max_mode_number = 1);
+    HELD(world) w = world_create(def, VECTORS, 1);
     static double dq[2][VECTORS][ROWS];
     for (int col = 0; col < VECTORS; col++) world_add_field(&w, dq[0][col], col, 0.5);
     for (int col = 0; col < VECTORS; col++)
@@ -145,18 +132,14 @@ TEST(denormal_entries_are_zeros)
             CHECK_CLOSE(got[1].of[s][col], got[0].of[s][col], 0.0);
             check_normal(got[1].of[s][col]);
         }
-    world_free(&w);
 }
-
-/* ---- constant and short series ------------------------------------------------------------- */
 
 /** Zero variance: the error is zero, or not known while there are too few samples. */
 TEST(constant_series_have_no_error)
 {
     static const double values[] = {0.0, 1.0, -3.7, 1e-300, 1e-12, 1e12};
     enum { SERIES = sizeof values / sizeof *values };
-    hd_spectrum *spectrum;
-    CHECK_OK(hd_spectrum_create(&spectrum, 8, SERIES, 0.0));
+    MADE(hd_spectrum, spectrum, 8, SERIES, 0.0);
     for (int samples = 1; samples <= 300; samples++) {
         hd_spectrum_add(spectrum, values, 1.0);
         hd_spectrum_sample(spectrum);
@@ -168,13 +151,12 @@ TEST(constant_series_have_no_error)
                         samples * DBL_EPSILON * fabs(values[col]));
         }
     }
-    hd_spectrum_free(spectrum);
 }
 
 /** The exponents of a step and their fit, all alike at all times; a phase that does not move. */
 TEST(constant_steps_and_phases_have_no_error)
 {
-    rotating r = pairs(2);
+    HELD(rotating) r = pairs(2);
     double exponents[2 * VECTORS_MAX];
     exponents_flat(exponents, 0, hd_frame_vectors(r.w.frame), 2.4);
     for (int t = 0; t < 200; t++) {
@@ -196,27 +178,17 @@ TEST(constant_steps_and_phases_have_no_error)
     }
     CHECK_CLOSE(r.step->std_error, 0.0, 4.0 * DBL_EPSILON);
     CHECK_CLOSE(hd_phases_velocity(r.phases).v, 0.0, ROUNDING);
-    rotating_free(&r);
 }
 
-/* ---- odd times ----------------------------------------------------------------------------- */
-
-/** At every report of a run; returns how many there were. */
-static long check_reports(const hd_scene_def *scene, long *numbers)
+/** Before anything is known, and at every report. */
+static void check_reports(hd_scene_def scene)
 {
-    hd_run *run = NULL;
-    long reports = 0;
-    run = created(scene);
-    *numbers += check_published(run); /* before anything is known */
-    while (going_on(run)) {
-        if (!hd_run_report_due(run)) continue;
-        *numbers += check_published(run);
-        reports++;
-    }
-    CHECK_CLOSE(hd_run_time(run), scene->equilibration + scene->warmup + scene->duration,
+    OWNED(hd_run) *run = created(scene);
+    check_published(run);
+    while (going_on(run))
+        if (hd_run_report_due(run)) check_published(run);
+    CHECK_CLOSE(hd_run_time(run), scene.equilibration + scene.warmup + scene.duration,
                 1e-12 * hd_run_time(run));
-    hd_run_free(run);
-    return reports;
 }
 
 /** One vector, the positive half and all of them; reports far more often than collisions, far less
@@ -226,23 +198,17 @@ TEST(odd_intervals_publish_only_numbers)
 {
     static const double intervals[] = {1e-4, 0.37, 1.0, 7.7, 1e6}, durations[] = {1e-3, 1.0, 10.3};
     static const int exponents[] = {1, HD_EXPONENTS_POSITIVE, HD_EXPONENTS_ALL};
-    long runs = 0, reports = 0, numbers = 0;
     for (int i = 0; i < 5; i++)
         for (int d = 0; d < 3; d++)
             for (int e = 0; e < 3; e++)
                 for (int start = 0; start < 2; start++) {
                     if (durations[d] / intervals[i] > 2e4)
                         continue; /* a report each 1e-4 of 1 is enough */
-                    hd_scene_def scene = scene(.disks = 16, .density = 0.5, .aspect = 0.1,
-                                               .boundary[1] = start ? R : P, .seed = 2,
-                                               .exponents = exponents[e],
-                                               .equilibration = start ? 0.05 : 0.0,
-                                               .warmup = start ? 0.05 : 0.0,
-                                               .duration = durations[d],
-                                               .report_interval = intervals[i], .observe = 31,
-                                               .threads = 1);
-                    reports += check_reports(&scene, &numbers);
-                    runs++;
+                    check_reports(
+                        scene(.disks = 16, .density = 0.5, .aspect = 0.1,
+                              .boundary[1] = start ? R : P, .seed = 2, .exponents = exponents[e],
+                              .equilibration = start ? 0.05 : 0.0, .warmup = start ? 0.05 : 0.0,
+                              .duration = durations[d], .report_interval = intervals[i],
+                              .observe = 31, .threads = 1));
                 }
-    print_message("%ld runs, %ld reports, %ld numbers\n", runs, reports, numbers);
 }

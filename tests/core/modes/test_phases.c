@@ -1,20 +1,12 @@
 /** Rates, errors and velocity of vectors that turn at a known rate. */
-#include <float.h>
-
-#include "testing.h"
-
 #include "rotating.h"
-#include "scenes.h"
-
-static const double PI = 3.14159265358979323846;
-static const hd_boundary R = HD_REFLECTING;
 
 /* ---- clean rotation ------------------------------------------------------------------------ */
 
 static void check_rate(int d, double omega)
 {
     enum { SAMPLES = 60 };
-    rotating r = pairs(d);
+    HELD(rotating) r = pairs(d);
     for (int k = 0; k < SAMPLES; k++) turn(&r, omega);
     assert_true(check_tracks(&r, omega * SAMPLES, SAMPLES, SAMPLES * ROUNDING) >= 2 * d);
     for (int v = 0; v < 2 * d; v++)
@@ -28,7 +20,6 @@ static void check_rate(int d, double omega)
             CHECK_CLOSE(phase->omega, omega, ROUNDING);
             CHECK_CLOSE(phase->omega_error, 0.0, ROUNDING);
         }
-    rotating_free(&r);
 }
 
 TEST(a_rotation_gives_its_omega_back)
@@ -44,7 +35,7 @@ TEST(a_rotation_gives_its_omega_back)
 /** With dt of its own and disks that move; 16 samples before an error is known. */
 TEST(time_is_what_it_is_told)
 {
-    rotating r = pairs(2);
+    HELD(rotating) r = pairs(2);
     r.dt = 0.25;
     for (int k = 1; k <= 40; k++) {
         world_move(&r.w, 0.1);
@@ -54,18 +45,16 @@ TEST(time_is_what_it_is_told)
         CHECK_CLOSE(phase->omega, -1.7, 1e3 * ROUNDING / k);
         assert_true(k < 16 ? phase->omega_error < 0 : phase->omega_error >= 0);
     }
-    rotating_free(&r);
 }
 
 /** Vectors outside, pairs inside, all LP steps one after the other. */
 TEST(phases_lie_in_order)
 {
-    hd_scene_def def = scene(.disks = 60, .density = 0.5, .aspect = 0.8, .boundary[1] = R,
-                             .seed = 9, .max_mode_number = 1);
-    world w = world_create(&def, 10, 1);
-    hd_phases *phases;
+    const hd_scene_def def = scene(.disks = 60, .density = 0.5, .aspect = 0.8, .boundary[1] = R,
+                                   .seed = 9, .max_mode_number = 1);
+    HELD(world) w = world_create(def, 10, 1);
     double rate, error;
-    CHECK_OK(hd_phases_create(&phases, w.steps, HD_MODE_LP));
+    MADE(hd_phases, phases, w.steps, HD_MODE_LP);
     int index = 0;
     for (int k = 0; k < hd_steps_count(w.steps); k++) {
         const hd_step *step = hd_steps_step(w.steps, k);
@@ -87,8 +76,6 @@ TEST(phases_lie_in_order)
     assert_true(hd_phases_velocity(phases).v_error < 0);
     for (int k = 0; k < hd_steps_count(w.steps); k++)
         assert_false(hd_phases_rate(phases, k, &rate, &error));
-    hd_phases_free(phases);
-    world_free(&w);
 }
 
 /* ---- noise --------------------------------------------------------------------------------- */
@@ -102,7 +89,7 @@ static honesty honesty_of(double white, double diffusing, int samples)
 {
     enum { REPEATS = 100 };
     const double omega = 1.1;
-    rotating r = pairs(1);
+    HELD(rotating) r = pairs(1);
     double off[2] = {0.0}, stated[2] = {0.0}, before[VECTORS_MAX];
     const double k = r.step->wave.number;
     for (int repeat = 0; repeat < REPEATS; repeat++) {
@@ -129,7 +116,6 @@ static honesty honesty_of(double white, double diffusing, int samples)
         stated[0] += phase->omega_error / REPEATS;
         stated[1] += v.v_error / REPEATS;
     }
-    rotating_free(&r);
     return (honesty){sqrt(off[0]) / stated[0], sqrt(off[1]) / stated[1]};
 }
 
@@ -140,8 +126,6 @@ TEST(errors_of_diffusing_phases_are_honest)
     const int samples[] = {60, 400};
     for (int k = 0; k < 2; k++) {
         const honesty h = honesty_of(0.0, 0.2, samples[k]);
-        print_message("diffusing, %d samples: omega %.2f, v %.2f stated errors\n", samples[k],
-                      h.omega, h.velocity);
         CHECK_CLOSE(h.omega, 1.0, 0.25);
         CHECK_CLOSE(h.velocity, 1.0, 0.25);
     }
@@ -151,8 +135,6 @@ TEST(errors_of_diffusing_phases_are_honest)
 TEST(errors_of_trembling_phases_are_never_too_small)
 {
     const honesty white = honesty_of(0.1, 0.0, 400), both = honesty_of(0.1, 0.1, 400);
-    print_message("white noise: omega %.3f, v %.3f stated errors; diffusing too: %.2f, %.2f\n",
-                  white.omega, white.velocity, both.omega, both.velocity);
     /* regression over n samples: sqrt(12 / n); stated half of sqrt(1.2) sqrt(2 blocks) of 25
      * blocks. v: 1 / sqrt(50) */
     CHECK_CLOSE(white.omega, 0.045, 0.25 * 0.045);
@@ -166,7 +148,7 @@ TEST(predictions_unwrap_far_turns)
 {
     enum { SAMPLES = 400 };
     const double omega = 0.9 * PI, noise = 0.15;
-    rotating r = pairs(2);
+    HELD(rotating) r = pairs(2);
     double before = 0.0;
     for (int t = 0; t < SAMPLES; t++) {
         const double now = t < 5 ? 0.0 : noise * random_normal(&r.w.random);
@@ -177,7 +159,6 @@ TEST(predictions_unwrap_far_turns)
     }
     assert_true(check_tracks(&r, omega * SAMPLES, SAMPLES, 5.0 * noise) >= 4);
     CHECK_CLOSE(hd_phases_velocity(r.phases).v * r.step->wave.number, omega, 5.0 * noise / SAMPLES);
-    rotating_free(&r);
 }
 
 /* ---- velocity ------------------------------------------------------------------------------ */
@@ -188,7 +169,7 @@ TEST(strength_that_goes_with_the_rate_is_no_bias)
 {
     enum { SAMPLES = 400 };
     const double omega = 0.7, unevenness = 0.4;
-    rotating r = pairs(1);
+    HELD(rotating) r = pairs(1);
     for (int t = 0; t < SAMPLES; t++) {
         for (int m = 0; m < 2; m++) {
             const double phase = atan2(r.im[m][0], r.re[m][0]) + r.angle[m][0];
@@ -200,7 +181,6 @@ TEST(strength_that_goes_with_the_rate_is_no_bias)
     /* only the ends count, which what is no field turns by less than this */
     const double end = 0.5, mean = 0.5 * (r.angle[0][0] + r.angle[1][0]) / SAMPLES;
     CHECK_CLOSE(hd_phases_velocity(r.phases).v * r.step->wave.number, mean, 2.0 * end / SAMPLES);
-    rotating_free(&r);
 }
 
 /** LP(1,0) and LP(2,0) of a channel, at rates of their own. */
@@ -212,8 +192,9 @@ typedef struct channel {
 
 static channel channel_create(void)
 {
-    hd_scene_def def = scene_from(scene_in_box(40, 50.0, 1.5, R, R, 9), .max_mode_number = 2);
-    channel ch = {.w = world_create(&def, 4, 1)};
+    channel ch = {
+        .w = world_create(scene_from(scene_in_box(40, 50.0, 1.5, R, R, 9), .max_mode_number = 2), 4,
+                          1)};
     const double exponents[4] = {1.6, 1.6, 0.8, 0.8};
     CHECK_OK(hd_phases_create(&ch.phases, ch.w.steps, HD_MODE_LP));
     for (int n = 0; n < 2; n++) {
@@ -269,7 +250,7 @@ static hd_velocity velocity_of(channel *ch, const double omega[2], const double 
 TEST(velocity_is_the_weighted_mean_of_the_steps)
 {
     enum { REPEATS = 100 };
-    channel ch = channel_create();
+    HELD(channel) ch = channel_create();
     const double v = 3.0, noise[2] = {0.015, 0.15};
     double square = 0.0, stated = 0.0;
     for (int repeat = 0; repeat < REPEATS; repeat++) {
@@ -281,17 +262,14 @@ TEST(velocity_is_the_weighted_mean_of_the_steps)
         stated += got.v_error / REPEATS;
     }
     const double best = noise[0] / sqrt(200.0) / ch.k[0];
-    print_message("rms deviation of v %.2f stated errors, %.2f of the better step's\n",
-                  sqrt(square) / stated, sqrt(square) / best);
     CHECK_CLOSE(sqrt(square) / stated, 1.0, 0.25); /* 7 % from 100 repetitions */
     CHECK_CLOSE(sqrt(square) / best, 1.0, 0.25);
-    channel_free(&ch);
 }
 
 /** Steps that contradict each other by 0.5, of errors of 0.001 / sqrt(200) and more. */
 TEST(contradictions_are_a_misfit)
 {
-    channel ch = channel_create();
+    HELD(channel) ch = channel_create();
     const double noise[2] = {0.001 * ch.k[0], 0.001 * ch.k[1]};
     const double omega[2] = {3.0 * ch.k[0], 3.5 * ch.k[1]};
     const hd_velocity v = velocity_of(&ch, omega, noise);
@@ -311,12 +289,11 @@ TEST(contradictions_are_a_misfit)
     CHECK_CLOSE(v.misfit, misfit, 1e3 * DBL_EPSILON * misfit);
     CHECK_CLOSE(v.k_min, ch.k[0], 0.0);
     CHECK_CLOSE(v.k_max, ch.k[1], 0.0);
-    channel_free(&ch);
 }
 
 TEST(sampling_follows_the_largest_exponent)
 {
-    channel ch = channel_create();
+    HELD(channel) ch = channel_create();
     CHECK_CLOSE(hd_phases_sampling(ch.phases, ch.w.steps), 0.75 * PI / (1.25 * 1.6), ROUNDING);
     hd_spectrum_clear(ch.w.spectrum);
     world_stretch(&ch.w, (const double[]){1.6, 1.6, 2.0, 2.0});
@@ -324,7 +301,6 @@ TEST(sampling_follows_the_largest_exponent)
     CHECK_CLOSE(hd_phases_sampling(ch.phases, ch.w.steps), 0.75 * PI / (1.25 * 2.0), ROUNDING);
     hd_steps_clear(ch.w.steps);
     assert_true(isinf(hd_phases_sampling(ch.phases, ch.w.steps)));
-    channel_free(&ch);
 }
 
 /** LP(1,0) and LP(0,1) of a square box share their set and turn alike: each still has a rate. */
@@ -332,9 +308,8 @@ TEST(shared_sets_turn_too)
 {
     hd_scene_def def = scene_of(60, 0.5, 1.0, R, R, 9);
     def.max_wave_number = hd_wave_component(&def, 0, 1);
-    world w = world_create(&def, 4, 1);
-    hd_phases *phases;
-    CHECK_OK(hd_phases_create(&phases, w.steps, HD_MODE_LP));
+    HELD(world) w = world_create(def, 4, 1);
+    MADE(hd_phases, phases, w.steps, HD_MODE_LP);
     const int both[] = {world_subspace(&w, HD_MODE_LP, 1, 0), world_subspace(&w, HD_MODE_LP, 0, 1)};
     double rotation[16], exponents[4] = {0.8, 0.8, 0.8, 0.8};
     world_span(&w, 0, both, 2, 0.0);
@@ -366,6 +341,4 @@ TEST(shared_sets_turn_too)
     }
     CHECK_CLOSE(hd_phases_velocity(phases).v, 0.6 / hd_wave_component(&def, 0, 1), 0.1);
     assert_true(hd_phases_velocity(phases).phases >= 2);
-    hd_phases_free(phases);
-    world_free(&w);
 }

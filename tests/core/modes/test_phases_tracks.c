@@ -1,37 +1,12 @@
 /** Tracks of vectors that change places, come and go, or begin anew. */
-#include <float.h>
-
-#include "testing.h"
-
 #include "rotating.h"
-#include "scenes.h"
-
-static const double PI = 3.14159265358979323846;
-static const hd_boundary P = HD_PERIODIC, R = HD_REFLECTING;
-
-/* ---- vectors that change places ------------------------------------------------------------ */
-
-static void exchange(rotating *r, int a, int b, double sign)
-{
-    const int column = r->column[a];
-    r->column[a] = r->column[b];
-    r->column[b] = column;
-    r->sign[a] *= sign;
-}
-
-/** The slots go with their vectors. */
-static void check_columns(const rotating *r)
-{
-    for (int v = 0; v < 2 * r->d; v++)
-        for (int c = 0; c < r->d; c++) assert_int_equal(phase_of(r, v, c)->col, r->column[v]);
-}
 
 TEST(exchanges_do_not_break_the_tracks)
 {
     const double rates[] = {0.0, 0.7, -2.0};
     for (int d = 1; d <= 4; d *= 2)
         for (int k = 0; k < 3; k++) {
-            rotating r = pairs(d);
+            HELD(rotating) r = pairs(d);
             for (int t = 0; t < 120; t++) {
                 if (t >= 10 && t % 3 == 0)
                     exchange(&r, t % (2 * d), (t + 1) % (2 * d), t % 2 ? -1.0 : 1.0);
@@ -40,11 +15,8 @@ TEST(exchanges_do_not_break_the_tracks)
                 check_columns(&r);
             }
             assert_true(check_tracks(&r, 120 * rates[k], 120.0, 120.0 * ROUNDING) >= 2 * d);
-            rotating_free(&r);
         }
 }
-
-/* ---- vectors that come and go -------------------------------------------------------------- */
 
 /** Vector 1 leaves the fields for so many samples. */
 static rotating interrupted(int d, double omega, int samples)
@@ -70,7 +42,7 @@ static rotating interrupted(int d, double omega, int samples)
 TEST(jumps_are_no_exchanges)
 {
     for (int d = 1; d <= 4; d *= 2) {
-        rotating r = pairs(d);
+        HELD(rotating) r = pairs(d);
         double angle = 0.0;
         for (int t = 0; t < 120; t++) {
             const double jump = t < 10 ? 0.0 : t % 8 == 0 ? 0.85 : t % 8 == 4 ? -0.85 : 0.0;
@@ -79,7 +51,6 @@ TEST(jumps_are_no_exchanges)
             check_columns(&r);
         }
         assert_true(check_tracks(&r, angle, 120.0, 120.0 * ROUNDING) >= 2 * d);
-        rotating_free(&r);
     }
 }
 
@@ -87,34 +58,32 @@ TEST(short_absences_keep_the_count_of_turns)
 {
     for (int d = 1; d <= 2; d++)
         for (int samples = 1; samples <= 15; samples += 2) {
-            rotating r = interrupted(d, 1.3, samples);
+            HELD(rotating) r = interrupted(d, 1.3, samples);
             const double time = 31.0 + samples;
             const int all = d == 1 ? 2 : 4;
             CHECK_CLOSE(phase_of(&r, 1, 0)->time, time, 0.0);
             for (int t = 0; t < 5; t++) turn(&r, 1.3);
             assert_true(check_tracks(&r, 1.3 * (time + 5.0), time + 5.0, 100.0 * ROUNDING) >= all);
-            rotating_free(&r);
         }
 }
 
 TEST(long_absences_begin_anew)
 {
     for (int d = 1; d <= 2; d++) {
-        rotating r = interrupted(d, 1.3, 20);
+        HELD(rotating) r = interrupted(d, 1.3, 20);
         CHECK_CLOSE(phase_of(&r, 1, 0)->time, 0.0, 0.0);
         CHECK_CLOSE(phase_of(&r, 0, 0)->time, 51.0, 0.0); /* the other one goes on */
         turn(&r, 1.3);
         CHECK_CLOSE(phase_of(&r, 1, 0)->time, 1.0, 0.0);
         CHECK_CLOSE(phase_of(&r, 1, 0)->omega, 1.3, ROUNDING);
         assert_true(phase_of(&r, 1, 0)->omega_error < 0);
-        rotating_free(&r);
     }
 }
 
 /** Nothing but noise for a while: the rate of the whole step is not spoiled. */
 TEST(absence_of_all_vectors_is_survived)
 {
-    rotating r = pairs_of(1, 400);
+    HELD(rotating) r = pairs_of(1, 400);
     for (int t = 0; t < 50; t++) turn(&r, 1.3);
     r.strength[0] = r.strength[1] = 0.0;
     for (int t = 0; t < 5; t++) turn(&r, 1.3);
@@ -122,10 +91,7 @@ TEST(absence_of_all_vectors_is_survived)
     for (int t = 0; t < 5; t++) turn(&r, 1.3);
     assert_int_equal(check_tracks(&r, 1.3 * 60, 60.0, 100.0 * ROUNDING), 2);
     CHECK_CLOSE(hd_phases_velocity(r.phases).v, 1.3 / r.step->wave.number, 100.0 * ROUNDING);
-    rotating_free(&r);
 }
-
-/* ---- beginning anew ------------------------------------------------------------------------ */
 
 static void check_all(const rotating *r, hd_phase_state state, double time)
 {
@@ -138,7 +104,7 @@ static void check_all(const rotating *r, hd_phase_state state, double time)
 
 TEST(unresolved_steps_are_not_followed)
 {
-    rotating r = pairs(1);
+    HELD(rotating) r = pairs(1);
     double exponents[2] = {2.4, 0.8};
     for (int t = 0; t < 20; t++) turn(&r, 0.5);
     check_all(&r, HD_PHASE_TRACKED, 20.0);
@@ -159,14 +125,13 @@ TEST(unresolved_steps_are_not_followed)
     turn(&r, -0.5); /* nothing is left of the old rate */
     check_all(&r, HD_PHASE_TRACKED, 1.0);
     CHECK_CLOSE(phase_of(&r, 0, 0)->omega, -0.5, ROUNDING);
-    rotating_free(&r);
 }
 
 /** The same step in other columns. */
 TEST(another_set_is_followed_anew)
 {
-    hd_scene_def def = scene_from(scene_in_box(30, 40.0, 1.5, R, P, 9), .max_mode_number = 1);
-    rotating r = rotating_create(&def, HD_MODE_LP, 1, 0, 6, 2.4);
+    const hd_scene_def def = scene_from(scene_in_box(30, 40.0, 1.5, R, P, 9), .max_mode_number = 1);
+    HELD(rotating) r = rotating_create(def, HD_MODE_LP, 1, 0, 6, 2.4);
     assert_int_equal(r.step->col, 4);
     for (int t = 0; t < 20; t++) turn(&r, 0.5);
     check_all(&r, HD_PHASE_TRACKED, 20.0);
@@ -180,7 +145,6 @@ TEST(another_set_is_followed_anew)
     turn(&r, 0.5);
     check_all(&r, HD_PHASE_TRACKED, 0.0);
     assert_int_equal(phase_of(&r, 1, 0)->col, 2);
-    rotating_free(&r);
 }
 
 /** Samples at other distances, as pieces of a schedule that changes: a slow step, for which 12.5
@@ -190,7 +154,7 @@ TEST(pieces_of_any_length_go_on)
 {
     const double lengths[] = {1.0,       2.0, 4.0, 8.0, 12.5, 7.0,  0.6 * 7.0,
                               0.4 * 7.0, 7.0, 5.0, 2.5, 0.1,  0.01, 12.5};
-    rotating r = pairs(1);
+    HELD(rotating) r = pairs(1);
     double time = 0.0;
     find(&r, 0.2);
     for (size_t k = 0; k < sizeof lengths / sizeof *lengths; k++)
@@ -210,25 +174,23 @@ TEST(pieces_of_any_length_go_on)
     r.dt = 1.0;
     turn(&r, 0.2);
     check_all(&r, HD_PHASE_TRACKED, 1.0);
-    rotating_free(&r);
 }
 
 TEST(clear_begins_anew)
 {
-    rotating r = pairs(1);
+    HELD(rotating) r = pairs(1);
     for (int t = 0; t < 20; t++) turn(&r, 0.5);
     hd_phases_clear(r.phases);
     check_all(&r, HD_PHASE_UNRESOLVED, 0.0);
     turn(&r, 0.5);
     check_all(&r, HD_PHASE_TRACKED, 0.0);
-    rotating_free(&r);
 }
 
 /** 1.25 lambda dt above pi: no phase, at no sample, until the samples are close enough; a and b are
  * known. Three samples do not tell the rate. */
 TEST(coarse_samples_are_said_to_be)
 {
-    rotating r = pairs(1);
+    HELD(rotating) r = pairs(1);
     for (int t = 0; t < 3; t++) turn(&r, 0.5);
     find(&r, 1.01 * PI / 1.25);
     for (int t = 0; t < 6; t++) {
@@ -248,5 +210,4 @@ TEST(coarse_samples_are_said_to_be)
     hd_steps_clear(r.w.steps); /* nothing is resolved: neither tracked nor coarse */
     turn(&r, 0.5);
     check_all(&r, HD_PHASE_UNRESOLVED, 0.0);
-    rotating_free(&r);
 }

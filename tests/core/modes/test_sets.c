@@ -1,12 +1,5 @@
 /** Sets of vectors found from weights and exponents whose truth is known. */
-#include <float.h>
-
-#include "testing.h"
-
 #include "places.h"
-#include "scenes.h"
-
-static const hd_boundary P = HD_PERIODIC, R = HD_REFLECTING;
 
 /** The fields of different waves overlap by N^(-1/2) each: a vector of one has up to d / N in
  * another. */
@@ -29,7 +22,7 @@ TEST(clean_steps_are_found)
     const double noises[] = {0.0, 0.3};
     for (int m = 0; m < 2; m++) {
         double exponents[VECTORS];
-        world w = steps_in_place(exponents, noises[m]);
+        HELD(world) w = steps_in_place(exponents, noises[m]);
         const double weight = 1.0 / (1.0 + noises[m] * noises[m]);
         assert_int_equal(hd_steps_count(w.steps), PLACES + 1);
         world_find(&w, exponents);
@@ -46,32 +39,28 @@ TEST(clean_steps_are_found)
                 assert_true(step->set >= 0 && step->set != step_of(&w, other)->set);
         }
         check_vectors(&w);
-        world_free(&w);
     }
 }
 
 TEST(equal_exponents_do_not_join_what_the_weights_part)
 {
     double exponents[VECTORS];
-    world w = steps_in_place(exponents, 0.0);
+    HELD(world) w = steps_in_place(exponents, 0.0);
     exponents_flat(exponents, 36, 24, 0.4);
     world_find(&w, exponents);
     for (int k = 0; k < PLACES; k++)
         check_step(step_of(&w, k), places[k].col, places[k].count, 1, 0.4);
-    world_free(&w);
 }
 
 TEST(noise_has_no_name)
 {
     double exponents[VECTORS];
-    const hd_scene_def def = scene_of_places(0.8);
-    world w = world_create(&def, VECTORS, 1);
+    HELD(world) w = world_create(scene_of_places(0.8), VECTORS, 1);
     exponents_falling(&w, exponents);
     exponents_flat(exponents, 30, 30, 0.5); /* flat, but without weight */
     for (int k = 0; k < 3; k++, world_noise(&w)) world_find(&w, exponents);
     for (int k = 0; k < hd_steps_count(w.steps); k++) check_unresolved(hd_steps_step(w.steps, k));
     for (int col = 0; col < VECTORS; col++) assert_int_equal(hd_steps_of_vector(w.steps, col), -1);
-    world_free(&w);
 }
 
 /** Half of the multiplicity is the threshold: noise as long as the field leaves half. */
@@ -80,7 +69,7 @@ TEST(weak_steps_are_not_resolved)
     const double noises[] = {0.7, 1.4}; /* weight about 0.68 and 0.36 */
     for (int m = 0; m < 2; m++) {
         double exponents[VECTORS];
-        world w = steps_in_place(exponents, noises[m]);
+        HELD(world) w = steps_in_place(exponents, noises[m]);
         world_find(&w, exponents);
         for (int k = 0; k < PLACES; k++) {
             if (m == 0)
@@ -88,7 +77,6 @@ TEST(weak_steps_are_not_resolved)
             else
                 check_unresolved(step_of(&w, k));
         }
-        world_free(&w);
     }
 }
 
@@ -100,7 +88,7 @@ TEST(chance_does_not_resolve_a_step)
     double exponents[VECTORS];
     int between = 0, resolved = 0;
     for (int k = 0; k <= 60; k++) {
-        world w = world_create(&def, 29, 1);
+        HELD(world) w = world_create(def, 29, 1);
         const int s = subspace_of(&w, 5);
         exponents_falling(&w, exponents);
         exponents_flat(exponents, 21, 8, 0.3);
@@ -113,7 +101,6 @@ TEST(chance_does_not_resolve_a_step)
         resolved += hd_steps_step(w.steps, s)->resolved;
         if (hd_steps_step(w.steps, s)->resolved)
             assert_true(hd_steps_step(w.steps, s)->multiplicity >= (0.25 + 0.5 * 0.75) * 8);
-        world_free(&w);
     }
     assert_true(between > 5 && resolved > 5);
 }
@@ -123,9 +110,9 @@ TEST(chance_does_not_resolve_a_step)
 TEST(chance_grows_with_the_window)
 {
     enum { DRAWS = 400, COLUMNS = 12 };
-    hd_scene_def def = scene(.disks = 12, .density = 0.5, .aspect = 0.8, .seed = 4,
-                             .max_mode_number = 1);
-    world w = world_create(&def, COLUMNS, 1);
+    const hd_scene_def def = scene(.disks = 12, .density = 0.5, .aspect = 0.8, .seed = 4,
+                                   .max_mode_number = 1);
+    HELD(world) w = world_create(def, COLUMNS, 1);
     for (int k = 0; k < PLACES; k++) {
         const int s = subspace_of(&w, k), d = world_dimension(&w, s);
         double sum = 0.0;
@@ -137,16 +124,15 @@ TEST(chance_grows_with_the_window)
         for (int col = 0; col < COLUMNS; col++) sum += hd_modes_average(w.modes, s, HD_WEIGHT)[col];
         CHECK_CLOSE(sum, COLUMNS * d / 24.0, 0.04 * COLUMNS * d / 24.0);
     }
-    world_free(&w);
 }
 
 /** Twelve disks: two steps in a window of 8 to 12 columns have 1/3 to 1/2 of what is expected by
  * chance alone. Were each held against its own 2, 4 or 8 dimensions, 2517 steps would be found. */
 TEST(chance_resolves_no_shared_set)
 {
-    hd_scene_def def = scene(.disks = 12, .density = 0.5, .aspect = 0.8, .seed = 4,
-                             .max_mode_number = 1);
-    world w = world_create(&def, 21, 1);
+    const hd_scene_def def = scene(.disks = 12, .density = 0.5, .aspect = 0.8, .seed = 4,
+                                   .max_mode_number = 1);
+    HELD(world) w = world_create(def, 21, 1);
     double exponents[VECTORS];
     int shared = 0;
     exponents_flat(exponents, 0, 21, 0.4);
@@ -158,41 +144,38 @@ TEST(chance_resolves_no_shared_set)
         for (int k = 0; k < PLACES; k++) shared += step_of(&w, k)->members > 1;
     }
     assert_int_equal(shared, 0);
-    world_free(&w);
 }
 
 /** Three disks: any four vectors look like LP(1,0), whose fields fill 4 of 6 dimensions. */
 TEST(fields_that_fill_the_space_name_nothing)
 {
-    hd_scene_def def = scene_from(scene_in_box(3, 12.0, 1.5, P, R, 4), .max_mode_number = 1);
     const double exponents[] = {0.4, 0.4, 0.4, 0.4};
-    world w = world_create(&def, 4, 1);
+    const hd_scene_def def = scene_from(scene_in_box(3, 12.0, 1.5, P, R, 4), .max_mode_number = 1);
+    HELD(world) w = world_create(def, 4, 1);
     const int s = world_subspace(&w, HD_MODE_LP, 1, 0);
     world_span(&w, 0, &s, 1, 0.0);
     world_find(&w, exponents);
     CHECK_CLOSE(hd_modes_average(w.modes, s, HD_WEIGHT)[0], 1.0, ROUNDING);
     check_unresolved(hd_steps_step(w.steps, s));
-    world_free(&w);
 }
 
 /** A vector of a resolved step that is something else belongs to nobody. */
 TEST(a_stranger_in_a_step_stays_unnamed)
 {
     double exponents[VECTORS];
-    world w = steps_in_place(exponents, 0.0);
+    HELD(world) w = steps_in_place(exponents, 0.0);
     world_turn(&w, 38, 5, 1.2); /* keeps cos^2 = 0.13 */
     world_find(&w, exponents);
     check_step(step_of(&w, 5), 36, 8, 1, step_of(&w, 5)->exponent);
     assert_int_equal(hd_steps_of_vector(w.steps, 38), -1);
     assert_int_equal(hd_steps_of_vector(w.steps, 39), subspace_of(&w, 5));
     CHECK_CLOSE(step_of(&w, 5)->multiplicity, 7.0 + pow(cos(1.2), 2.0), 0.1);
-    world_free(&w);
 }
 
 TEST(what_is_not_flat_is_not_resolved)
 {
     double exponents[VECTORS];
-    world w = steps_in_place(exponents, 0.0);
+    HELD(world) w = steps_in_place(exponents, 0.0);
     exponents[58] *= 1.15; /* 7 % from the mean of the two */
     exponents[52] *= 1.25; /* 18 % from the mean of the four */
     world_find(&w, exponents);
@@ -200,14 +183,13 @@ TEST(what_is_not_flat_is_not_resolved)
     check_unresolved(step_of(&w, 1));
     check_step(step_of(&w, 2), 56, 2, 1, 0.25);
     assert_int_equal(hd_steps_of_vector(w.steps, 52), -1);
-    world_free(&w);
 }
 
 /** The same deviation within three errors. */
 TEST(errors_excuse_what_is_not_flat)
 {
     double exponents[VECTORS], sample[VECTORS];
-    world w = steps_in_place(exponents, 0.0);
+    HELD(world) w = steps_in_place(exponents, 0.0);
     exponents[52] *= 1.25;
     world_look(&w);
     for (int t = 0; t < 256; t++) {
@@ -219,7 +201,6 @@ TEST(errors_excuse_what_is_not_flat)
     const double error = hd_spectrum_std_error(w.spectrum, 52);
     assert_true(3.0 * error > 0.08 * 0.3 && 3.0 * error < 0.3);
     check_step(step_of(&w, 1), 52, 4, 1, 0.3 * 1.0625);
-    world_free(&w);
 }
 
 /* ---- steps that coincide ------------------------------------------------------------------- */
@@ -255,22 +236,19 @@ TEST(a_crossing_of_t_and_lp_shares_its_set)
 {
     const double noises[] = {0.0, 0.2};
     for (int m = 0; m < 2; m++) {
-        const hd_scene_def def = scene_of_places(0.8);
         double exponents[VECTORS];
-        world w = world_create(&def, VECTORS, 1);
+        HELD(world) w = world_create(scene_of_places(0.8), VECTORS, 1);
         exponents_falling(&w, exponents);
         mix(&w, exponents, 4, 3, 40, noises[m]);
         for (int col = 40; col < 48; col++) check_named_by_weight(&w, col, 4, 3);
         for (int k = 0; k < 3; k++) check_unresolved(step_of(&w, k));
-        world_free(&w);
     }
 }
 
 TEST(square_boxes_double_their_steps)
 {
-    const hd_scene_def def = scene_of_places(1.0);
     double exponents[VECTORS];
-    world w = world_create(&def, VECTORS, 1);
+    HELD(world) w = world_create(scene_of_places(1.0), VECTORS, 1);
     exponents_falling(&w, exponents);
     const int pairs[] = {subspace_of(&w, 1), subspace_of(&w, 3)};
     world_span(&w, 48, pairs, 2, 0.0);
@@ -280,15 +258,13 @@ TEST(square_boxes_double_their_steps)
     check_step(step_of(&w, 3), 48, 8, 2, 0.7);
     assert_int_equal(step_of(&w, 1)->set, step_of(&w, 3)->set);
     assert_true(step_of(&w, 1)->set != step_of(&w, 0)->set);
-    world_free(&w);
 }
 
 /** Three at once, in whatever order they meet. */
 TEST(more_than_two_can_share)
 {
-    const hd_scene_def def = scene_of_places(0.8);
     double exponents[VECTORS];
-    world w = world_create(&def, VECTORS, 1);
+    HELD(world) w = world_create(scene_of_places(0.8), VECTORS, 1);
     exponents_falling(&w, exponents);
     exponents_flat(exponents, 50, 8, 0.4);
     const int three[] = {subspace_of(&w, 0), subspace_of(&w, 2), subspace_of(&w, 3)};
@@ -302,17 +278,15 @@ TEST(more_than_two_can_share)
             assert_int_equal(hd_steps_step(w.steps, three[k])->set, 0);
         }
     }
-    world_free(&w);
 }
 
 /** Place `weak` has two vectors left, 0.62 of each, on both sides of T(0,1): found there, but not
  * to half of it. It is left out, T stays. */
 static void check_weak_neighbour(int weak)
 {
-    const hd_scene_def def = scene_of_places(0.8);
     const double QUARTER = 0.7853981633974483, WEAKENED = 0.66;
     double exponents[VECTORS];
-    world w = world_create(&def, VECTORS, 1);
+    HELD(world) w = world_create(scene_of_places(0.8), VECTORS, 1);
     const int t = subspace_of(&w, 2), lp = subspace_of(&w, weak);
     exponents_falling(&w, exponents);
     exponents_flat(exponents, 44, 12, 0.4);
@@ -329,7 +303,6 @@ static void check_weak_neighbour(int weak)
     assert_true(weight[49] + weight[52] > 0.25 * 4 && weight[49] + weight[52] < 0.5 * 4);
     check_step(step_of(&w, 2), 50, 2, 1, 0.4);
     check_unresolved(step_of(&w, weak));
-    world_free(&w);
 }
 
 TEST(a_weak_neighbour_takes_no_step_along)
@@ -342,8 +315,7 @@ TEST(a_weak_neighbour_takes_no_step_along)
 TEST(exponents_of_shared_sets_follow_the_shares)
 {
     double exponents[VECTORS];
-    const hd_scene_def def = scene_of_places(0.8);
-    world w = world_create(&def, VECTORS, 1);
+    HELD(world) w = world_create(scene_of_places(0.8), VECTORS, 1);
     exponents_falling(&w, exponents);
     mix(&w, exponents, 4, 3, 40, 0.0);
     for (int col = 40; col < 48; col++) exponents[col] = 0.4 + 0.004 * (col - 43.5);
@@ -359,7 +331,6 @@ TEST(exponents_of_shared_sets_follow_the_shares)
     }
     assert_true(fabs(sum / weight - 0.4) > 1e-5); /* not the plain mean */
     check_step(step_of(&w, 4), 40, 8, 2, sum / weight);
-    world_free(&w);
 }
 
 /** Both vectors of T(0,1) turned into neighbours of LP(1,0): this part of T is there; they join
@@ -376,7 +347,7 @@ static world leaking(double part, double exponent)
 
 TEST(a_leak_joins_above_its_threshold)
 {
-    world w = leaking(0.17, 0.3);
+    HELD(world) w = leaking(0.17, 0.3);
     assert_int_equal(step_of(&w, 2)->members, 1);
     assert_int_equal(step_of(&w, 1)->members, 1);
     CHECK_CLOSE(step_of(&w, 2)->multiplicity, 2.0 * 0.83, 0.1);
@@ -390,5 +361,4 @@ TEST(a_leak_joins_above_its_threshold)
     check_step(step_of(&w, 2), 56, 2, 1, 0.2);
     check_step(step_of(&w, 1), 52, 4, 1, 0.3);
     CHECK_CLOSE(step_of(&w, 2)->multiplicity, 2.0 * 0.6, 0.1);
-    world_free(&w);
 }

@@ -1,8 +1,5 @@
 /** Steps in one set: the same exponent, or vectors that still mix. */
-#include "testing.h"
-
 #include "places.h"
-#include "scenes.h"
 
 enum { FIRST = 40, EACH = 4, SAMPLES = 256 };
 
@@ -10,8 +7,7 @@ enum { FIRST = 40, EACH = 4, SAMPLES = 256 };
  * are above those of the others by `gap`. */
 static world mixed(double *exponents, double gap)
 {
-    const hd_scene_def def = scene_of_places(0.8);
-    world w = world_create(&def, VECTORS, 1);
+    world w = world_create(scene_of_places(0.8), VECTORS, 1);
     const int both[] = {subspace_of(&w, 4), subspace_of(&w, 3)};
     exponents_falling(&w, exponents);
     exponents_flat(exponents, FIRST, EACH, 0.4 + 0.5 * gap);
@@ -36,7 +32,7 @@ static void go_on(world *w, const double *exponents, double noise, int samples)
 static void check_sharing(double gap, double noise, int samples, hd_sharing expected)
 {
     double exponents[VECTORS];
-    world w = mixed(exponents, gap);
+    HELD(world) w = mixed(exponents, gap);
     go_on(&w, exponents, noise, samples);
     for (int k = 3; k <= 4; k++) {
         const hd_step *step = step_of(&w, k);
@@ -46,7 +42,6 @@ static void check_sharing(double gap, double noise, int samples, hd_sharing expe
         CHECK_CLOSE(step->gap, gap, fmax(3.0 * step->gap_error, 1e-12) + (samples < 16));
         CHECK_CLOSE(step->own_part, 0.5, 0.35); /* of four vectors each, mixed at random */
     }
-    world_free(&w);
 }
 
 /** The frame is as old as warm-up (91, that of the scene) and averages: 347 time units. */
@@ -71,7 +66,7 @@ TEST(a_warmup_that_nobody_gave_counts)
 TEST(who_is_alone_shares_nothing)
 {
     double exponents[VECTORS];
-    world w = steps_in_place(exponents, 0.0);
+    HELD(world) w = steps_in_place(exponents, 0.0);
     world_look(&w);
     go_on(&w, exponents, 0.02, SAMPLES);
     for (int k = 0; k < PLACES; k++) {
@@ -81,7 +76,6 @@ TEST(who_is_alone_shares_nothing)
         CHECK_CLOSE(step->gap, 0.0, 0.0);
         CHECK_CLOSE(step->gap_error, 0.0, 0.0);
     }
-    world_free(&w);
 }
 
 /** Vectors that do not mix lie in their own columns: T, then LP; so the part tells how far they
@@ -89,7 +83,7 @@ TEST(who_is_alone_shares_nothing)
 TEST(own_columns_follow_the_exponents)
 {
     double exponents[VECTORS];
-    world w = mixed(exponents, 0.02);
+    HELD(world) w = mixed(exponents, 0.02);
     const int t = subspace_of(&w, 4), lp = subspace_of(&w, 3);
     world_span(&w, FIRST, &t, 1, 0.0);
     world_span(&w, FIRST + EACH, &lp, 1, 0.0);
@@ -99,13 +93,12 @@ TEST(own_columns_follow_the_exponents)
     go_on(&w, exponents, 0.02, SAMPLES);
     assert_int_equal(step_of(&w, 4)->members, 2);
     for (int k = 3; k <= 4; k++) CHECK_CLOSE(step_of(&w, k)->own_part, pow(cos(0.6), 2.0), 0.1);
-    world_free(&w);
 }
 
 TEST(time_counts_from_when_they_came_together)
 {
     double exponents[VECTORS];
-    world w = mixed(exponents, 0.0);
+    HELD(world) w = mixed(exponents, 0.0);
     go_on(&w, exponents, 0.02, 20);
     CHECK_CLOSE(step_of(&w, 4)->set_time, 0.0, 0.0);
     go_on(&w, exponents, 0.02, 30);
@@ -122,5 +115,4 @@ TEST(time_counts_from_when_they_came_together)
     CHECK_CLOSE(step_of(&w, 4)->set_time, 5.0, 1e-9);
     hd_steps_clear(w.steps);
     assert_int_equal(step_of(&w, 4)->sharing, HD_SHARING_ALONE);
-    world_free(&w);
 }

@@ -1,16 +1,7 @@
 /** Zero modes, conjugate steps, errors and changes of steps whose truth is known. */
-#include <float.h>
-
-#include "testing.h"
-
 #include "places.h"
-#include "scenes.h"
-
-static const hd_boundary P = HD_PERIODIC, R = HD_REFLECTING;
 
 enum { ALL_MAX = 4 * DISKS };
-
-/* ---- zero modes and the negative half ------------------------------------------------------ */
 
 static void write_zero(world *w, int col, int null, bool of_dp)
 {
@@ -22,11 +13,11 @@ static void write_zero(world *w, int col, int null, bool of_dp)
 /** Zeros begin at (4N - Z) / 2; the frame ends `carried` columns later. */
 static void check_partial_zeros(hd_boundary x, hd_boundary y, int zeros, int carried)
 {
-    hd_scene_def def = scene(.disks = 20, .density = 0.5, .aspect = 0.8, .boundary[0] = x,
-                             .boundary[1] = y, .seed = 4, .max_mode_number = 1);
     const int first = (4 * 20 - zeros) / 2;
     static double exponents[ALL_MAX];
-    world w = world_create(&def, first + carried, 1);
+    const hd_scene_def def = scene(.disks = 20, .density = 0.5, .aspect = 0.8, .boundary[0] = x,
+                                   .boundary[1] = y, .seed = 4, .max_mode_number = 1);
+    HELD(world) w = world_create(def, first + carried, 1);
     exponents_falling(&w, exponents);
     for (int k = 0; k < carried; k++) write_zero(&w, first + k, HD_NULL_P, k % 2);
     world_find(&w, exponents);
@@ -42,7 +33,6 @@ static void check_partial_zeros(hd_boundary x, hd_boundary y, int zeros, int car
         CHECK_CLOSE(step->multiplicity, step->count, ROUNDING);
         assert_int_equal(hd_steps_of_vector(w.steps, first), hd_fields_subspaces(w.fields));
     }
-    world_free(&w);
 }
 
 TEST(zero_modes_stand_in_the_middle)
@@ -57,10 +47,10 @@ TEST(zero_modes_stand_in_the_middle)
 
 TEST(noise_in_the_middle_is_no_zero_mode)
 {
-    hd_scene_def def = scene(.disks = 20, .density = 0.5, .aspect = 0.8, .seed = 4,
-                             .max_mode_number = 1);
     static double exponents[ALL_MAX];
-    world w = world_create(&def, 40, 1);
+    const hd_scene_def def = scene(.disks = 20, .density = 0.5, .aspect = 0.8, .seed = 4,
+                                   .max_mode_number = 1);
+    HELD(world) w = world_create(def, 40, 1);
     exponents_falling(&w, exponents);
     world_find(&w, exponents);
     check_unresolved(hd_steps_step(w.steps, hd_fields_subspaces(w.fields)));
@@ -72,7 +62,6 @@ TEST(noise_in_the_middle_is_no_zero_mode)
     assert_true(step->resolved);
     assert_int_equal(hd_steps_of_vector(w.steps, 38), hd_fields_subspaces(w.fields));
     assert_int_equal(hd_steps_of_vector(w.steps, 39), -1);
-    world_free(&w);
 }
 
 /** Column that mirrors another. */
@@ -80,9 +69,8 @@ static int mirror(int col, int count) { return 4 * DISKS - col - count; }
 
 TEST(all_vectors_have_conjugate_steps)
 {
-    const hd_scene_def def = scene_of_places(0.8);
     static double exponents[ALL_MAX];
-    world w = world_create(&def, 4 * DISKS, 1);
+    HELD(world) w = world_create(scene_of_places(0.8), 4 * DISKS, 1);
     for (int col = 0; col < 4 * DISKS; col++) exponents[col] = 3.0 - 6.0 * col / (4 * DISKS);
     for (int k = 0; k < PLACES; k++) {
         const int s = subspace_of(&w, k), count = places[k].count;
@@ -108,10 +96,7 @@ TEST(all_vectors_have_conjugate_steps)
     }
     check_step(hd_steps_step(w.steps, PLACES), 197, 6, 1, 0.0);
     CHECK_CLOSE(hd_steps_step(w.steps, PLACES)->multiplicity, 6.0, ROUNDING);
-    world_free(&w);
 }
-
-/* ---- errors -------------------------------------------------------------------------------- */
 
 enum { SAMPLES = 256, REPEATS = 10 };
 
@@ -144,7 +129,7 @@ static void add_samples(world *w, const double *exponents, motion how, int sampl
 static double error_of(motion how)
 {
     double exponents[VECTORS], square = 0.0;
-    world w = steps_in_place(exponents, 0.0);
+    HELD(world) w = steps_in_place(exponents, 0.0);
     for (int repeat = 0; repeat < REPEATS; repeat++) {
         hd_spectrum_clear(w.spectrum);
         hd_steps_clear(w.steps);
@@ -156,7 +141,6 @@ static double error_of(motion how)
             square += pow(step_of(&w, k)->std_error * sqrt(SAMPLES) / places[k].exponent, 2.0);
         }
     }
-    world_free(&w);
     return sqrt(square / REPEATS / PLACES) / SIZE;
 }
 
@@ -170,8 +154,6 @@ TEST(errors_know_what_moves_together)
         fours += fmin(4.0 / d[k], 1.0) / PLACES;
     }
     const double got[] = {error_of(TOGETHER), error_of(ALONE), error_of(OPPOSITE)};
-    print_message("together %.3f of %.3f, alone %.3f of %.3f, opposite %.1e\n", got[0], sqrt(fours),
-                  got[1], sqrt(alone), got[2]);
     CHECK_CLOSE(got[0], sqrt(fours), KNOWN_TO * sqrt(fours));
     CHECK_CLOSE(got[1], sqrt(alone), KNOWN_TO * sqrt(alone));
     CHECK_CLOSE(got[2], 0.0, sqrt(SAMPLES) * ROUNDING);
@@ -180,20 +162,19 @@ TEST(errors_know_what_moves_together)
 TEST(few_samples_give_no_error)
 {
     double exponents[VECTORS];
-    world w = steps_in_place(exponents, 0.0);
+    HELD(world) w = steps_in_place(exponents, 0.0);
     world_find(&w, exponents);
     add_samples(&w, exponents, ALONE, 14); /* and the one of find */
     assert_true(step_of(&w, 0)->std_error < 0);
     add_samples(&w, exponents, ALONE, 1);
     assert_true(step_of(&w, 0)->std_error > 0);
-    world_free(&w);
 }
 
 /** A set is one of columns: its error is that of all the time, also of before it was found. */
 TEST(new_sets_know_the_whole_time)
 {
     double exponents[VECTORS];
-    world w = steps_in_place(exponents, 0.0);
+    HELD(world) w = steps_in_place(exponents, 0.0);
     world_find(&w, exponents);
     add_samples(&w, exponents, ALONE, SAMPLES);
     const double before = step_of(&w, 5)->std_error;
@@ -205,15 +186,12 @@ TEST(new_sets_know_the_whole_time)
         assert_int_equal(step_of(&w, 5)->resolved, back);
     }
     CHECK_CLOSE(step_of(&w, 5)->std_error, before, 0.02 * before); /* shares are 1 but for 1 % */
-    world_free(&w);
 }
-
-/* ---- changes ------------------------------------------------------------------------------- */
 
 TEST(what_is_flat_no_more_is_not_resolved)
 {
     double exponents[VECTORS];
-    world w = steps_in_place(exponents, 0.0);
+    HELD(world) w = steps_in_place(exponents, 0.0);
     hd_steps_find(w.steps, w.spectrum); /* nothing is known yet */
     check_unresolved(step_of(&w, 0));
     world_find(&w, exponents);
@@ -221,13 +199,12 @@ TEST(what_is_flat_no_more_is_not_resolved)
     exponents[52] *= 100.0; /* LP(1,0) is flat no more */
     world_find(&w, exponents);
     check_unresolved(step_of(&w, 1));
-    world_free(&w);
 }
 
 TEST(clear_forgets_everything)
 {
     double exponents[VECTORS];
-    world w = steps_in_place(exponents, 0.0);
+    HELD(world) w = steps_in_place(exponents, 0.0);
     world_find(&w, exponents);
     for (int t = 0; t < 20; t++) world_stretch(&w, exponents);
     hd_steps_find(w.steps, w.spectrum);
@@ -239,5 +216,32 @@ TEST(clear_forgets_everything)
     world_find(&w, exponents);
     check_step(step_of(&w, 0), 58, 2, 1, 0.2);
     assert_true(step_of(&w, 0)->std_error < 0);
+}
+
+/** Of a set the first step is shown, none of the negative half, and the lowest is by its exponent.
+ */
+TEST(what_is_shown_and_what_is_lowest)
+{
+    double exponents[VECTORS];
+    world w = steps_in_place(exponents, 0.0);
+    assert_int_equal(hd_steps_lowest(w.steps, HD_MODE_T), -1);
+    assert_false(hd_steps_is_shown(w.steps, 0));
+    world_find(&w, exponents);
+    const int lowest[] = {hd_steps_lowest(w.steps, HD_MODE_T),
+                          hd_steps_lowest(w.steps, HD_MODE_LP)};
+    int shown = 0, sets = 0;
+    for (int k = 0; k < hd_steps_count(w.steps); k++) {
+        const hd_step *step = hd_steps_step(w.steps, k);
+        const bool wave = step->kind != HD_MODE_ZERO, found = step->resolved && wave;
+        shown += hd_steps_is_shown(w.steps, k);
+        if (found && step->set + 1 > sets) sets = step->set + 1;
+        if (hd_steps_is_shown(w.steps, k)) assert_true(found && !step->conjugate);
+        if (!found || step->conjugate) continue;
+        const hd_step *least = hd_steps_step(w.steps, lowest[step->kind == HD_MODE_LP]);
+        assert_int_equal(least->kind, step->kind);
+        assert_true(least->exponent <= step->exponent);
+    }
+    assert_true(lowest[0] >= 0 && lowest[1] >= 0);
+    assert_true(shown > 0 && shown <= sets);
     world_free(&w);
 }

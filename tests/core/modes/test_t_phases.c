@@ -1,11 +1,5 @@
 /** Phases of T steps: where their waves stand. */
-#include "testing.h"
-
 #include "rotating.h"
-#include "scenes.h"
-
-static const double PI = 3.14159265358979323846;
-static const hd_boundary P = HD_PERIODIC, R = HD_REFLECTING;
 
 /** The code is that of the LP phases: what turns is seen to. */
 TEST(a_turn_would_be_seen)
@@ -13,12 +7,11 @@ TEST(a_turn_would_be_seen)
     enum { SAMPLES = 60 };
     for (int d = 1; d <= 2; d++)
         for (double omega = -0.4; omega < 0.5; omega += 0.4) {
-            rotating r = t_pairs(d);
+            HELD(rotating) r = t_pairs(d);
             for (int k = 0; k < SAMPLES; k++) turn(&r, omega);
             assert_true(check_tracks(&r, omega * SAMPLES, SAMPLES, SAMPLES * ROUNDING) >= 2 * d);
             CHECK_CLOSE(phase_of(&r, 0, 0)->omega, omega, ROUNDING);
             CHECK_CLOSE(phase_of(&r, 0, 0)->omega_error, 0.0, ROUNDING);
-            rotating_free(&r);
         }
 }
 
@@ -40,7 +33,7 @@ static void write_wave(rotating *r, int col, double s, unsigned bits)
 static void check_place(int d, double part)
 {
     const double NORMS = 0.15;
-    rotating r = t_pairs(d);
+    HELD(rotating) r = t_pairs(d);
     const double k = r.step->wave.k[0], s = part / k;
     for (int m = 0; m < 2 * d; m++)
         write_wave(&r, r.step->col + m, m % 2 ? s : s - 0.5 * PI / k, m / 2 ? HD_SIN_Y : 0);
@@ -53,7 +46,6 @@ static void check_place(int d, double part)
         CHECK_CLOSE(remainder(phase->phase - part + (m % 2 ? 0.0 : 0.5 * PI), 2.0 * PI), 0.0,
                     NORMS);
     }
-    rotating_free(&r);
 }
 
 TEST(the_phase_is_where_the_wave_stands)
@@ -66,12 +58,11 @@ TEST(the_phase_is_where_the_wave_stands)
  * phase. */
 static void check_order(hd_boundary x, hd_boundary y, int count)
 {
-    hd_scene_def def = scene(.disks = 60, .density = 0.5, .aspect = 0.8, .boundary[0] = x,
-                             .boundary[1] = y, .seed = 9, .max_mode_number = 1);
-    world w = world_create(&def, 10, 1);
-    hd_phases *phases;
+    const hd_scene_def def = scene(.disks = 60, .density = 0.5, .aspect = 0.8, .boundary[0] = x,
+                                   .boundary[1] = y, .seed = 9, .max_mode_number = 1);
+    HELD(world) w = world_create(def, 10, 1);
     int index = 0;
-    CHECK_OK(hd_phases_create(&phases, w.steps, HD_MODE_T));
+    MADE(hd_phases, phases, w.steps, HD_MODE_T);
     assert_int_equal(hd_phases_count(phases), count);
     for (int k = 0; k < hd_steps_count(w.steps); k++) {
         const hd_step *step = hd_steps_step(w.steps, k);
@@ -88,8 +79,6 @@ static void check_order(hd_boundary x, hd_boundary y, int count)
             }
     }
     assert_int_equal(index, count);
-    hd_phases_free(phases);
-    world_free(&w);
 }
 
 TEST(phases_lie_in_order)
@@ -105,7 +94,7 @@ TEST(diffusion_is_measured_and_nothing_turns)
 {
     enum { REPEATS = 80, SAMPLES = 300 };
     const double D = 0.004;
-    rotating r = t_pairs(1);
+    HELD(rotating) r = t_pairs(1);
     double off = 0.0, stated = 0.0, sum = 0.0, square = 0.0, of_error = 0.0;
     r.dt = 0.5;
     for (int repeat = 0; repeat < REPEATS; repeat++) {
@@ -125,17 +114,14 @@ TEST(diffusion_is_measured_and_nothing_turns)
         square += pow(got - D, 2.0) / REPEATS;
         of_error += error / REPEATS;
     }
-    print_message("omega off by %.2f of its error; D %.4f of %.4f, off by %.2f of its error\n",
-                  sqrt(off) / stated, sum, D, sqrt(square) / of_error);
     CHECK_CLOSE(sqrt(off) / stated, 1.0, 0.3); /* 8 % from 80 repetitions */
     CHECK_CLOSE(sum, D, 4.0 * of_error / sqrt(REPEATS));
     CHECK_CLOSE(sqrt(square) / of_error, 1.0, 0.3);
-    rotating_free(&r);
 }
 
 TEST(without_blocks_there_is_no_diffusion)
 {
-    rotating r = t_pairs(1);
+    HELD(rotating) r = t_pairs(1);
     double error = 0.0;
     for (int t = 1; t < 16; t++) {
         turn(&r, 0.0);
@@ -144,5 +130,4 @@ TEST(without_blocks_there_is_no_diffusion)
     turn(&r, 0.0);
     CHECK_CLOSE(hd_phases_diffusion(r.phases, r.first, &error), 0.0, ROUNDING);
     CHECK_CLOSE(error, 0.0, ROUNDING);
-    rotating_free(&r);
 }

@@ -1,13 +1,11 @@
 /** Pressure and collision rate of whole runs: those of the trajectory over the averaged time,
  * whoever carries a frame or looks on. */
 #include "runs.h"
-#include "scenes.h"
-#include "testing.h"
 
 static hd_scene_def scene_with(int exponents, unsigned observe)
 {
-    return scene(.disks = 30, .density = 0.6, .aspect = 0.9, .boundary[1] = HD_REFLECTING,
-                 .seed = 4, .exponents = exponents, .observe = observe, .equilibration = 5.0,
+    return scene(.disks = 30, .density = 0.6, .aspect = 0.9, .boundary[1] = R, .seed = 4,
+                 .exponents = exponents, .observe = observe, .equilibration = 5.0,
                  .warmup = exponents == HD_EXPONENTS_NONE ? 0.0 : 10.0, .duration = 150.0,
                  .threads = 1);
 }
@@ -15,18 +13,13 @@ static hd_scene_def scene_with(int exponents, unsigned observe)
 /** Of a trajectory by itself, between two simulated times. */
 static hd_gas_means by_itself(const hd_scene_def *scene, double begin, double end)
 {
-    hd_trajectory *tr;
-    hd_gas *gas;
-    CHECK_OK(hd_trajectory_create(&tr, scene));
-    CHECK_OK(hd_gas_create(&gas, scene, 0.0));
+    MADE(hd_trajectory, tr, scene);
+    MADE(hd_gas, gas, scene, 0.0);
     CHECK_OK(hd_trajectory_extend(tr, NULL, begin));
     hd_gas_begin(gas, tr);
     CHECK_OK(hd_trajectory_extend(tr, NULL, end));
     hd_gas_add(gas, tr);
-    const hd_gas_means means = hd_gas_read(gas);
-    hd_gas_free(gas);
-    hd_trajectory_free(tr);
-    return means;
+    return hd_gas_read(gas);
 }
 
 static void expect_same(hd_gas_means got, hd_gas_means want)
@@ -45,7 +38,7 @@ TEST(means_are_those_of_the_averaged_time)
     for (int k = 0; k < 3; k++) {
         const hd_scene_def scene = scene_with(exponents[k], HD_OBSERVE_GAS);
         const double begin = scene.equilibration + scene.warmup;
-        hd_run *run = created(&scene);
+        OWNED(hd_run) *run = created(scene);
         int reports = 0;
         while (going_on(run)) {
             if (!hd_run_report_due(run) || !(hd_gas_read(hd_run_gas(run)).time > 0)) continue;
@@ -60,18 +53,15 @@ TEST(means_are_those_of_the_averaged_time)
         CHECK_CLOSE(last.time, scene.duration, 1e-9);
         assert_true(last.pressure_error > 0 && last.pressure_error < 0.05 * last.pressure);
         assert_true(last.collision_rate_error > 0);
-        hd_run_free(run);
     }
 }
 
 static hd_gas_means watched(const hd_scene_def *scene, double between)
 {
-    hd_run *run = created(scene);
+    OWNED(hd_run) *run = created(*scene);
     hd_run_watch(run, between, hd_run_vectors(run));
     finish(run);
-    const hd_gas_means means = hd_gas_read(hd_run_gas(run));
-    hd_run_free(run);
-    return means;
+    return hd_gas_read(hd_run_gas(run));
 }
 
 /** Nor does it matter who looks on; one report at the end is enough for an error. */
@@ -91,7 +81,7 @@ TEST(averages_begin_anew)
     static const int exponents[] = {HD_EXPONENTS_NONE, 2};
     for (int k = 0; k < 2; k++) {
         const hd_scene_def scene = scene_with(exponents[k], HD_OBSERVE_GAS);
-        hd_run *run = created(&scene);
+        OWNED(hd_run) *run = created(scene);
         until_time(run, 60.0);
         const double begin = hd_run_time(run);
         assert_true(hd_gas_read(hd_run_gas(run)).time > 10.0);
@@ -99,14 +89,5 @@ TEST(averages_begin_anew)
         CHECK_CLOSE(hd_gas_read(hd_run_gas(run)).time, 0.0, 0.0);
         finish(run);
         expect_same(hd_gas_read(hd_run_gas(run)), by_itself(&scene, begin, hd_run_time(run)));
-        hd_run_free(run);
     }
-}
-
-TEST(nobody_pays_who_does_not_ask)
-{
-    const hd_scene_def scene = scene_with(HD_EXPONENTS_NONE, 0);
-    hd_run *run = created(&scene);
-    assert_null(hd_run_gas(run));
-    hd_run_free(run);
 }

@@ -1,14 +1,5 @@
 /** Responses against differences of the sums that they respond with, and the paper's table. */
-#include <float.h>
-#include <string.h>
-
-#include "testing.h"
-
-#include "hdlyap/hydro.h"
-#include "scenes.h"
 #include "synthetic.h"
-
-static const hd_boundary P = HD_PERIODIC, R = HD_REFLECTING;
 
 enum { DISKS = 60, ROWS = 2 * DISKS, SUMS = 4 };
 
@@ -78,9 +69,9 @@ static void check_response(const world *w, const hd_hydro_response *r)
 /** All steps of one node at the end of the frame; dp at random. */
 static world all_steps(hd_boundary x, hd_boundary y, double *exponents, int vectors)
 {
-    hd_scene_def def = scene(.disks = DISKS, .density = 0.5, .aspect = 0.8, .boundary[0] = x,
-                             .boundary[1] = y, .seed = 5, .max_mode_number = 1);
-    world w = world_create(&def, vectors, 1);
+    world w = world_create(scene(.disks = DISKS, .density = 0.5, .aspect = 0.8, .boundary[0] = x,
+                                 .boundary[1] = y, .seed = 5, .max_mode_number = 1),
+                           vectors, 1);
     exponents_falling(&w, exponents);
     for (int s = 0, col = vectors; s < hd_fields_subspaces(w.fields); s++) {
         col -= world_dimension(&w, s);
@@ -122,16 +113,13 @@ TEST(responses_are_derivatives)
 {
     for (int k = 0; k < 4; k++) {
         double exponents[30];
-        world w = all_steps(k & 1 ? R : P, k & 2 ? R : P, exponents, 30);
-        hd_hydro *hydro;
-        CHECK_OK(hd_hydro_create(&hydro, &w.scene, w.steps));
+        HELD(world) w = all_steps(k & 1 ? R : P, k & 2 ? R : P, exponents, 30);
+        MADE(hd_hydro, hydro, &w.scene, w.steps);
         hd_hydro_measure(hydro, w.steps, hd_frame_columns(w.frame), w.q, w.p);
         check_entries(&w, hydro);
         world_move(&w, 3.0); /* the same vectors elsewhere */
         hd_hydro_measure(hydro, w.steps, hd_frame_columns(w.frame), w.q, w.p);
         check_entries(&w, hydro);
-        hd_hydro_free(hydro);
-        world_free(&w);
     }
 }
 
@@ -139,9 +127,8 @@ TEST(responses_are_derivatives)
 TEST(only_vectors_of_resolved_steps_respond)
 {
     double exponents[30];
-    world w = all_steps(P, P, exponents, 30);
-    hd_hydro *hydro;
-    CHECK_OK(hd_hydro_create(&hydro, &w.scene, w.steps));
+    HELD(world) w = all_steps(P, P, exponents, 30);
+    MADE(hd_hydro, hydro, &w.scene, w.steps);
     const hd_step *t = world_step(&w, HD_MODE_T, 1, 0), *lp = world_step(&w, HD_MODE_LP, 1, 0);
     world_turn(&w, lp->col + 1, 0, 1.3); /* keeps cos^2 = 0.07 of it */
     exponents[t->col] *= 3.0;
@@ -165,8 +152,6 @@ TEST(only_vectors_of_resolved_steps_respond)
         }
     }
     assert_int_equal(named, 6);
-    hd_hydro_free(hydro);
-    world_free(&w);
 }
 
 /* ---- the paper's table --------------------------------------------------------------------- */
@@ -210,18 +195,17 @@ static void add_responses(table *sum, const hd_hydro *hydro, const int subspace[
 /** Averages over independent states of a periodic box at wave vector (nx, ny). */
 static void average(table *sum, int nx, int ny, double *k)
 {
-    hd_scene_def def = scene(.disks = DISKS, .density = 0.5, .aspect = 0.8, .seed = 5,
-                             .max_mode_number = 1);
     const int modulations = nx && ny ? 4 : 2, vectors = 3 * modulations;
-    world w = world_create(&def, vectors, 1);
+    const hd_scene_def def = scene(.disks = DISKS, .density = 0.5, .aspect = 0.8, .seed = 5,
+                                   .max_mode_number = 1);
+    HELD(world) w = world_create(def, vectors, 1);
     const int subspace[] = {world_subspace(&w, HD_MODE_T, nx, ny),
                             world_subspace(&w, HD_MODE_LP, nx, ny)};
     double exponents[FIELDS_MAX];
-    hd_hydro *hydro;
     *k = hd_fields_subspace(w.fields, subspace[0])->wave.number;
     exponents_flat(exponents, 0, modulations, 0.5);
     exponents_flat(exponents, modulations, 2 * modulations, 0.3);
-    CHECK_OK(hd_hydro_create(&hydro, &w.scene, w.steps));
+    MADE(hd_hydro, hydro, &w.scene, w.steps);
     write_fields(&w, subspace);
     world_find(&w, exponents);
     assert_int_equal(hd_steps_step(w.steps, subspace[0])->col, 0);
@@ -232,8 +216,6 @@ static void average(table *sum, int nx, int ny, double *k)
         hd_hydro_measure(hydro, w.steps, hd_frame_columns(w.frame), w.q, w.p);
         add_responses(sum, hydro, subspace, modulations);
     }
-    hd_hydro_free(hydro);
-    world_free(&w);
 }
 
 /** Mean responses of field m (T, L, P in turn) at its own modulation, with alpha = <A^2> (1/2, or
@@ -273,19 +255,12 @@ static void check_table(const table *sum, int modulations, double k)
 
 TEST(the_table_of_the_paper)
 {
-    const char *names[] = {"T", "L", "P"};
     const int nodes[][2] = {{1, 0}, {0, 1}, {1, 1}};
     static table sum;
     for (int n = 0; n < 3; n++) {
         double k;
         const int modulations = n == 2 ? 4 : 2;
         average(&sum, nodes[n][0], nodes[n][1], &k);
-        for (int kind = 0; kind < 3; kind++) {
-            const double *mean = sum.mean[kind * modulations][0];
-            print_message("%s(%d,%d): density %7.4f, along %7.4f, across %7.4f, energy %7.4f\n",
-                          names[kind], nodes[n][0], nodes[n][1], mean[DENSITY], mean[ALONG],
-                          mean[ACROSS], mean[ENERGY]);
-        }
         check_table(&sum, modulations, k);
     }
 }

@@ -1,9 +1,5 @@
 /** Widths of a run's vectors: those of a slow twin, only while somebody looks. */
-#include <string.h>
-
 #include "runs.h"
-#include "scenes.h"
-#include "testing.h"
 
 enum { DISKS = 40, VECTORS_MAX = 4 * DISKS, SAMPLES_MAX = 1000 };
 
@@ -52,9 +48,8 @@ TEST(widths_are_those_of_the_vectors)
     static const int exponents[] = {HD_EXPONENTS_POSITIVE, 7, HD_EXPONENTS_ALL,
                                     HD_EXPONENTS_ALL_INDEPENDENT};
     for (size_t k = 0; k < sizeof exponents / sizeof *exponents; k++) {
-        const hd_scene_def scene = scene_with(exponents[k],
-                                              HD_OBSERVE_LOCALIZATION | HD_OBSERVE_MODES);
-        hd_run *run = created(&scene);
+        OWNED(hd_run) *run = created(
+            scene_with(exponents[k], HD_OBSERVE_LOCALIZATION | HD_OBSERVE_MODES));
         hd_localization *shape = hd_run_localization(run);
         const int n = hd_run_vectors(run);
         t.samples = 0;
@@ -67,26 +62,7 @@ TEST(widths_are_those_of_the_vectors)
         }
         assert_true(t.samples >= 16);
         expect_as(&t, shape, n);
-        print_message("%d vectors, %d samples: widths %.3f +- %.3f .. %.3f +- %.3f\n", n, t.samples,
-                      hd_localization_widths(shape)[0], hd_localization_width_error(shape, 0),
-                      hd_localization_widths(shape)[n - 1],
-                      hd_localization_width_error(shape, n - 1));
-        hd_run_free(run);
     }
-}
-
-/** The largest exponent's vector lies on few disks, the slowest ones on all (Taniguchi and Morriss
- * 2003). */
-TEST(the_fastest_vector_is_the_narrowest)
-{
-    hd_scene_def scene = scene_from(scene_with(HD_EXPONENTS_POSITIVE, HD_OBSERVE_LOCALIZATION),
-                                    .density = 0.2);
-    hd_run *run = finished(&scene);
-    const double *width = hd_localization_widths(hd_run_localization(run));
-    const int n = hd_run_vectors(run);
-    assert_true(width[0] < 0.5 * width[n - 1]);
-    for (int col = 0; col < n; col++) assert_true(width[col] >= 1.0 / DISKS && width[col] <= 1.0);
-    hd_run_free(run);
 }
 
 /** Widths of independent runs scatter as their errors say. */
@@ -97,11 +73,10 @@ TEST(errors_are_those_of_seeds)
     double stated = 0.0, square = 0.0;
     int n = 0;
     for (int seed = 0; seed < SEEDS; seed++) {
-        hd_scene_def scene = scene(.disks = 8, .density = 0.4, .aspect = 0.5,
-                                   .seed = (uint64_t)seed + 1, .observe = HD_OBSERVE_LOCALIZATION,
-                                   .exponents = HD_EXPONENTS_POSITIVE, .warmup = 20.0,
-                                   .duration = 200.0);
-        hd_run *run = finished(&scene);
+        OWNED(hd_run) *run = finished(
+            scene(.disks = 8, .density = 0.4, .aspect = 0.5, .seed = (uint64_t)seed + 1,
+                  .observe = HD_OBSERVE_LOCALIZATION, .exponents = HD_EXPONENTS_POSITIVE,
+                  .warmup = 20.0, .duration = 200.0));
         hd_localization *shape = hd_run_localization(run);
         n = hd_run_vectors(run);
         for (int col = 0; col < n; col++) {
@@ -110,7 +85,6 @@ TEST(errors_are_those_of_seeds)
             width[seed][col] = hd_localization_widths(shape)[col];
             stated += error * error / SEEDS;
         }
-        hd_run_free(run);
     }
     for (int col = 0; col < n; col++) {
         double mean = 0.0;
@@ -118,7 +92,6 @@ TEST(errors_are_those_of_seeds)
         for (int seed = 0; seed < SEEDS; seed++)
             square += pow(width[seed][col] - mean, 2.0) / (SEEDS - 1);
     }
-    print_message("spread over seeds / stated error: %.2f\n", sqrt(square / stated));
     CHECK_CLOSE(sqrt(square / stated), 1.0, 0.15);
 }
 
@@ -127,27 +100,10 @@ TEST(nothing_is_measured_while_nobody_looks)
 {
     const hd_scene_def asked = scene_with(HD_EXPONENTS_POSITIVE, HD_OBSERVE_LOCALIZATION),
                        plain = scene_with(HD_EXPONENTS_POSITIVE, 0);
-    hd_run *run = created(&asked), *other = created(&plain);
+    OWNED(hd_run) *run = created(asked), *other = created(plain);
     assert_null(hd_run_localization(other));
     hd_run_observe(run, 0);
-    while (going_on(run)) {
-        CHECK_OK(hd_run_advance(other));
-    }
+    while (going_on(run)) CHECK_OK(hd_run_advance(other));
     assert_true(hd_localization_samples(hd_run_localization(run)) == 0);
-    for (int col = 0; col < hd_run_vectors(run); col++)
-        CHECK_CLOSE(hd_spectrum_exponent(hd_run_spectrum(run), col),
-                    hd_spectrum_exponent(hd_run_spectrum(other), col), 0.0);
-    hd_run_free(run);
-    hd_run_free(other);
-}
-
-TEST(averages_begin_anew)
-{
-    const hd_scene_def scene = scene_with(3, HD_OBSERVE_LOCALIZATION);
-    hd_run *run = created(&scene);
-    until_time(run, 80.0);
-    assert_true(hd_localization_samples(hd_run_localization(run)) > 0);
-    CHECK_OK(hd_run_reset_average(run));
-    assert_true(hd_localization_samples(hd_run_localization(run)) == 0);
-    hd_run_free(run);
+    check_same_exponents(run, other, 0.0);
 }

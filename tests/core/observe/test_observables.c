@@ -1,8 +1,5 @@
 /** The table of observables: a row that is off takes no memory and is never called. */
 #define _GNU_SOURCE
-#include <string.h>
-
-#include "hdlyap/hdlyap.h"
 #include "kept.h"
 #include "runs.h"
 
@@ -56,7 +53,7 @@ TEST(a_run_has_what_it_needs)
     unsigned tried = 0;
     for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
         const hd_scene_def scene = channel(cases[c].observe);
-        hd_run *run = created(&scene);
+        OWNED(hd_run) *run = created(scene);
         unsigned parts = 0;
         double sum = 0.0;
         for (int k = 0; k < HD_OBSERVED; k++) {
@@ -69,7 +66,6 @@ TEST(a_run_has_what_it_needs)
         CHECK_CLOSE(hd_observables_bytes(&scene, 1), sum, 1e-6);
         assert_int_equal(run->observables.q != NULL, (parts & OF(modes)) != 0);
         if (cases[c].observe != HD_OBSERVE_ALL) tried |= cases[c].observe;
-        hd_run_free(run);
     }
     assert_int_equal(tried, HD_OBSERVE_ALL);
 }
@@ -91,8 +87,7 @@ static bytes archived(const hd_run *run, int k)
  * none. */
 TEST(what_nobody_looks_at_stays)
 {
-    const hd_scene_def scene = channel(HD_OBSERVE_ALL);
-    hd_run *run = created(&scene);
+    OWNED(hd_run) *run = created(channel(HD_OBSERVE_ALL));
     until_time(run, 120.0);
     for (int off = 0; off < HD_OBSERVED; off++) {
         const unsigned looked_at = HD_OBSERVE_ALL & ~rows[off]->asked;
@@ -115,10 +110,7 @@ TEST(what_nobody_looks_at_stays)
         free(after.data);
         hd_run_observe(run, HD_OBSERVE_ALL);
     }
-    hd_run_free(run);
 }
-
-/* ---- all of them at once -------------------------------------------------------------------- */
 
 static bool is_resolved(const hd_run *run, hd_mode_kind kind)
 {
@@ -131,8 +123,7 @@ static bool is_resolved(const hd_run *run, hd_mode_kind kind)
 /** All that there is, averaged until LP and T steps are known. */
 static hd_run *with_everything(double aspect)
 {
-    const hd_scene_def scene = scene_from(channel(HD_OBSERVE_ALL), .aspect = aspect);
-    hd_run *run = created(&scene);
+    hd_run *run = created(scene_from(channel(HD_OBSERVE_ALL), .aspect = aspect));
     until_time(run, 130.0);
     assert_true(is_resolved(run, HD_MODE_LP) && is_resolved(run, HD_MODE_T));
     return run;
@@ -143,12 +134,11 @@ TEST(the_next_state_comes_as_soon_as_one_kind_of_phases_needs_it)
 {
     const double aspect[] = {0.08, 0.04};
     for (int k = 0; k < 2; k++) {
-        hd_run *run = with_everything(aspect[k]);
+        OWNED(hd_run) *run = with_everything(aspect[k]);
         const double lp = hd_phases_sampling(hd_run_phases(run), hd_run_steps(run));
         const double t = hd_phases_sampling(hd_run_t_phases(run), hd_run_steps(run));
         assert_true(k == 0 ? lp < 0.9 * t : t < 0.9 * lp);
         CHECK_CLOSE(hd_observables_sampling(&run->observables), fmin(lp, t), 0.0);
-        hd_run_free(run);
     }
 }
 
@@ -182,7 +172,7 @@ TEST(a_reset_forgets_all_averages)
 #include "observe/rows.inc"
 #undef HD_ROW
     assert_int_equal(have_some, AVERAGES);
-    hd_run *run = with_everything(0.08);
+    OWNED(hd_run) *run = with_everything(0.08);
     double before[AVERAGES], after[AVERAGES];
     read_averages(run, before);
     CHECK_OK(hd_run_reset_average(run));
@@ -191,5 +181,4 @@ TEST(a_reset_forgets_all_averages)
         assert_true(before[k] > 0);
         CHECK_CLOSE(after[k], 0.0, 0.0);
     }
-    hd_run_free(run);
 }

@@ -2,26 +2,18 @@
  * for them. */
 #include <dlfcn.h>
 #include <errno.h>
-#include <float.h>
-#include <string.h>
-
 #include "base/memory.h"
 #include "runs.h"
 
 enum { VECTORS = 32 };
 
+/** Looks fall on multiples of the interval. */
 static hd_scene_def small(void)
 {
-    hd_scene_def scene = scene(.disks = VECTORS / 4, .density = 0.5, .exponents = HD_EXPONENTS_ALL,
-                               .equilibration = 10.0, .warmup = 100.0, .duration = 300.0,
-                               .report_interval = 1.0);
-    scene.interval = 0.25; /* looks fall on multiples of it */
-    scene.observe = HD_OBSERVE_COVARIANT;
-    scene.covariant_window = 20.0;
-    scene.covariant_transient = 60.0;
-    scene.covariant_sampling = 2.0;
-    scene.threads = 1;
-    return scene;
+    return scene(.disks = VECTORS / 4, .density = 0.5, .exponents = HD_EXPONENTS_ALL,
+                 .equilibration = 10.0, .warmup = 100.0, .duration = 300.0, .report_interval = 1.0,
+                 .interval = 0.25, .observe = HD_OBSERVE_COVARIANT, .covariant_window = 20.0,
+                 .covariant_transient = 60.0, .covariant_sampling = 2.0, .threads = 1);
 }
 
 static double averaging_start(const hd_run *run)
@@ -73,14 +65,12 @@ hd_status hd_covariant_step(hd_covariant *covariant)
 
 TEST(a_way_back_that_fails_is_said)
 {
-    const hd_scene_def scene = small();
-    hd_run *run = created(&scene);
+    OWNED(hd_run) *run = created(small());
     step_to_the_way_back(run);
     step_fails = true;
     assert_int_equal(hd_run_advance(run), HD_NO_MEMORY);
     step_fails = false;
     CHECK_OK(hd_run_advance(run));
-    hd_run_free(run);
 }
 
 /** As many as fit with the last one's transient; all are done before the run is finished. */
@@ -88,13 +78,11 @@ TEST(windows_are_counted)
 {
     const double duration[] = {80.0, 99.0, 139.0, 140.0, 300.0};
     for (size_t k = 0; k < sizeof duration / sizeof *duration; k++) {
-        hd_scene_def scene = scene_from(small(), .duration = duration[k]);
-        hd_run *run = finished(&scene);
+        OWNED(hd_run) *run = finished(scene_from(small(), .duration = duration[k]));
         check_windows(run, (long)floor((duration[k] - 60.0) / 20.0), averaging_start(run));
         assert_int_equal(hd_covariant_lost(hd_run_covariant(run)), 0);
         assert_true(hd_run_cost(run).covariant > 0 &&
                     hd_run_cost(run).covariant < hd_run_cost(run).wall);
-        hd_run_free(run);
     }
 }
 
@@ -102,23 +90,18 @@ TEST(windows_are_counted)
 static void check_forward_pass(int exponents)
 {
     hd_scene_def scene = scene_from(small(), .exponents = exponents);
-    hd_run *run = created(&scene);
+    OWNED(hd_run) *run = created(scene);
     step_to_the_way_back(run);
     const double time = hd_run_time(run);
     CHECK_OK(hd_run_advance(run));
     assert_true(hd_run_time(run) == time);
     finish(run);
     scene.observe = 0;
-    hd_run *other = finished(&scene);
+    OWNED(hd_run) *other = finished(scene);
     assert_null(hd_run_covariant(other));
     assert_true(hd_run_cost(other).covariant == 0.0);
     const double rounding = hd_run_cost(run).error_bound + hd_run_cost(other).error_bound;
-    for (int col = 0; col < VECTORS; col++)
-        CHECK_CLOSE(hd_spectrum_exponent(hd_run_spectrum(run), col),
-                    hd_spectrum_exponent(hd_run_spectrum(other), col),
-                    exponents == HD_EXPONENTS_ALL ? rounding : 0.0);
-    hd_run_free(run);
-    hd_run_free(other);
+    check_same_exponents(run, other, exponents == HD_EXPONENTS_ALL ? rounding : 0.0);
 }
 
 /** Half of the vectors are orthonormalised better and at other times for them. */
@@ -135,7 +118,7 @@ TEST(a_reset_begins_anew)
                         300}; /* of 240 intervals of the transient and 80 of the window */
     for (size_t k = 0; k < sizeof gone / sizeof *gone; k++) {
         const hd_scene_def scene = small();
-        hd_run *run = created(&scene);
+        OWNED(hd_run) *run = created(scene);
         step_to(run, 90.0);
         step_to_the_way_back(run);
         assert_true(hd_run_time(run) > averaging_start(run) + 90.0);
@@ -147,7 +130,6 @@ TEST(a_reset_begins_anew)
         finish(run);
         CHECK_CLOSE(hd_run_time(run), now + scene.duration, 1e-6);
         check_windows(run, 12, now);
-        hd_run_free(run);
     }
 }
 
@@ -157,16 +139,14 @@ TEST(looks_come_when_they_are_due)
 {
     const double interval[] = {0.0, 1.8};
     for (int k = 0; k < 4; k++) {
-        hd_scene_def scene = scene_from(small(), .density = 0.1, .interval = interval[k / 2],
-                                        .report_interval = 1000.0);
-        hd_run *run = created(&scene);
+        OWNED(hd_run) *run = created(scene_from(
+            small(), .density = 0.1, .interval = interval[k / 2], .report_interval = 1000.0));
         if (k % 2) step_to(run, 10.0);
         if (k % 2) CHECK_OK(hd_run_reset_average(run));
         const double start = k % 2 ? hd_run_time(run) : averaging_start(run);
         while (hd_covariant_windows(hd_run_covariant(run)) == 0) CHECK_OK(hd_run_advance(run));
         assert_int_equal(hd_covariant_lost(hd_run_covariant(run)), 0);
         check_windows(run, 1, start);
-        hd_run_free(run);
     }
 }
 
@@ -175,7 +155,7 @@ TEST(a_window_begins_when_somebody_looks_again)
 {
     for (int back = 0; back < 2; back++) {
         const hd_scene_def scene = small();
-        hd_run *run = created(&scene);
+        OWNED(hd_run) *run = created(scene);
         step_to(run, 65.0);
         if (back) step_to_the_way_back(run);
         if (back)
@@ -187,15 +167,13 @@ TEST(a_window_begins_when_somebody_looks_again)
         finish(run);
         const double left = averaging_start(run) + scene.duration - now;
         check_windows(run, (long)floor((left - 60.0) / 20.0), now);
-        hd_run_free(run);
     }
 }
 
 /** Off and on again between two steps in the middle of the way back. */
 TEST(a_blink_gives_up_the_window)
 {
-    const hd_scene_def scene = small();
-    hd_run *run = created(&scene);
+    OWNED(hd_run) *run = created(small());
     step_to_the_way_back(run);
     go_back(run, 50);
     const double now = hd_run_time(run);
@@ -203,26 +181,6 @@ TEST(a_blink_gives_up_the_window)
     hd_run_observe(run, HD_OBSERVE_COVARIANT);
     finish(run);
     check_windows(run, 8, now); /* of 300 - 80 time units */
-    hd_run_free(run);
-}
-
-/** Within their errors, and the two sums to what a window's ends make of them. */
-TEST(exponents_agree_with_the_forward_ones)
-{
-    const hd_scene_def scene = small();
-    hd_run *run = finished(&scene);
-    const hd_spectrum *forward = hd_run_spectrum(run),
-                      *back = hd_covariant_spectrum(hd_run_covariant(run));
-    const int positive = (VECTORS - 6) / 2;
-    for (int col = 0; col < VECTORS; col++) {
-        const double error = hypot(hd_spectrum_std_error(forward, col),
-                                   hd_spectrum_std_error(back, col));
-        if (col >= positive && col < positive + 6) continue; /* see test_covariant_windows */
-        assert_true(error > 0 && error < 0.1);
-        CHECK_CLOSE(hd_spectrum_exponent(back, col), hd_spectrum_exponent(forward, col),
-                    4.0 * error);
-    }
-    hd_run_free(run);
 }
 
 /** Everything at once: the centre is still the null space. Somebody who looks in between makes
@@ -232,7 +190,7 @@ TEST(other_stages_do_not_disturb)
     for (int viewed = 0; viewed < 2; viewed++) {
         hd_scene_def scene = scene_from(small(), .interval = 0.0, .report_interval = 0.25);
         scene.observe |= HD_OBSERVE_MODES | HD_OBSERVE_STEPS | HD_OBSERVE_PHASES | HD_OBSERVE_HYDRO;
-        hd_run *run = created(&scene);
+        OWNED(hd_run) *run = created(scene);
         if (viewed) hd_run_watch(run, 0.1, 8);
         finish(run);
         const hd_covariant *c = hd_run_covariant(run);
@@ -241,25 +199,7 @@ TEST(other_stages_do_not_disturb)
         /* rounding turns the space by eps times the worst condition that is let pass */
         const double condition = scene.accuracy / (2.0 * DBL_EPSILON);
         CHECK_CLOSE(hd_covariant_null_most(c), 0.0, 16.0 * DBL_EPSILON * condition);
-        hd_run_free(run);
     }
-}
-
-TEST(the_positive_half_has_no_spaces)
-{
-    hd_scene_def scene = scene_from(small(), .exponents = HD_EXPONENTS_POSITIVE);
-    hd_run *run = finished(&scene);
-    check_windows(run, 12, averaging_start(run));
-    const hd_covariant *c = hd_run_covariant(run);
-    assert_int_equal(hd_covariant_vectors(c), (VECTORS - 6) / 2);
-    assert_false(hd_splitting_has_spaces(hd_covariant_splitting(c)));
-    assert_true(hd_covariant_null(c) < 0 && hd_covariant_start_mismatch(c).centre < 0 &&
-                hd_covariant_start_mismatch(c).stable < 0);
-    assert_true(hd_covariant_start_mismatch(c).most >= 0);
-    for (int col = 0; col < hd_covariant_vectors(c); col++)
-        assert_true(hd_covariant_widths(c)[col] >= 4.0 / VECTORS &&
-                    hd_covariant_widths(c)[col] <= 1.0);
-    hd_run_free(run);
 }
 
 /* ---- room ---------------------------------------------------------------------------------- */
@@ -280,19 +220,18 @@ TEST(too_long_a_window_is_refused)
         if (!strstr(message, numbers[k])) fail_msg("%s: not in: %s", numbers[k], message);
     assert_int_equal(hd_run_create(&run, &scene, NULL, 0), HD_REFUSED);
     scene.observe = 0;
-    hd_run_free(created(&scene));
+    hd_run_free(created(scene));
     scene = small();
     scene.covariant_memory = 1.4e-3;
-    hd_run_free(created(&scene));
+    hd_run_free(created(scene));
 }
 
 static hd_status run_to_a_fault(const hd_scene_def *scene)
 {
-    hd_run *run = created(scene);
+    OWNED(hd_run) *run = created(*scene);
     hd_status status = HD_OK;
     while (status == HD_OK && hd_run_stage(run) != HD_FINISHED) status = hd_run_advance(run);
     const int fault = errno;
-    hd_run_free(run);
     errno = fault;
     return status;
 }
@@ -310,11 +249,9 @@ TEST(too_little_room_is_found_when_windows_begin)
 /** Once its ring has gone round, a run with windows takes no more memory. */
 TEST(later_windows_take_no_memory)
 {
-    const hd_scene_def scene = small();
-    hd_run *run = created(&scene);
+    OWNED(hd_run) *run = created(small());
     step_to(run, 150.0); /* 512 intervals of 0.25 */
     const size_t before = hd_memory_allocations();
     finish(run);
     assert_int_equal(hd_memory_allocations(), before);
-    hd_run_free(run);
 }

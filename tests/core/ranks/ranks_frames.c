@@ -3,8 +3,6 @@
 #include "hdlyap/ortho.h"
 #include "together.h"
 
-/* ---- calls ---------------------------------------------------------------------------------- */
-
 TEST(calls_give_the_same_to_all)
 {
     const int all = ranks->ranks, rank = ranks->rank;
@@ -57,7 +55,7 @@ TEST(blocks_of_any_size_are_exchanged)
 {
     const size_t counts[] = {3, (2 << 17) + 5};
     const int all = ranks->ranks, here = ranks->rank;
-    double *x = calloc((size_t)all * counts[1], sizeof *x);
+    HEAP double *x = calloc((size_t)all * counts[1], sizeof *x);
     assert_non_null(x);
     for (int c = 0; c < 2; c++) {
         const size_t count = counts[c];
@@ -68,7 +66,6 @@ TEST(blocks_of_any_size_are_exchanged)
             if (x[k] != exchanged((int)(k / count), here, k % count))
                 fail_msg("number %zu, blocks of %zu: %.0f", k, count, x[k]);
     }
-    free(x);
 }
 
 /** Each kind by itself, and all together. */
@@ -96,8 +93,6 @@ TEST(calls_are_counted)
     CHECK_CLOSE(ranks->traffic[HD_CALL_GATHER].bytes - gathers.bytes,
                 HERE * ROWS * WIDTH * (ranks->ranks - 1.0), 0.0);
 }
-
-/* ---- a frame -------------------------------------------------------------------------------- */
 
 typedef struct frames {
     hd_frame *own, *shared;

@@ -1,13 +1,8 @@
 /** What each of several ranks asks for, and what becomes of a run if one of them does not get it.
  */
 #include <dlfcn.h>
-#include <string.h>
-
-#include "hdlyap/blas.h"
-#include "hdlyap/room.h"
 #include "ledger.h"
 #include "runs.h"
-#include "scenes.h"
 #include "together.h"
 
 static double room_of_machine = 1e15;
@@ -27,7 +22,7 @@ TEST(memory_falls_with_the_ranks)
 {
     const hd_scene_def scene = short_scene(400, 0);
     const double m = 1600.0, n = 797.0, alike = 6e6;
-    hd_run *run;
+    OWNED(hd_run) *run = NULL;
     ledger_reset_peak();
     const double before = (double)ledger_now().live;
     CHECK_OK(hd_run_create_shared(&run, &scene, ranks, NULL, 0));
@@ -39,7 +34,6 @@ TEST(memory_falls_with_the_ranks)
                       needed / peak);
     assert_true(peak < 1.4 * 8.0 * (m * n + n * n) / ranks->ranks + alike);
     assert_true(needed > 0.95 * peak && needed < 1.25 * peak);
-    hd_run_free(run);
 }
 
 /** At a report both halves are on each rank, and the half from which they follow. */
@@ -47,7 +41,7 @@ TEST(gathered_vectors_are_estimated)
 {
     const hd_scene_def scene = scene_from(short_scene(200, HD_OBSERVE_HYDRO),
                                           .exponents = HD_EXPONENTS_ALL);
-    hd_run *run;
+    OWNED(hd_run) *run = NULL;
     ledger_reset_peak();
     const double before = (double)ledger_now().live;
     CHECK_OK(hd_run_create_shared(&run, &scene, ranks, NULL, 0));
@@ -61,7 +55,6 @@ TEST(gathered_vectors_are_estimated)
                       1e-6 * (peak - created), 1e-6 * (peak - before), needed / (peak - before));
     assert_true(peak - created >= 3.0 * 8.0 * 800.0 * 400.0);
     assert_true(needed > 0.95 * (peak - before) && needed < 1.25 * (peak - before));
-    hd_run_free(run);
 }
 
 static bool other_kernels;
@@ -96,13 +89,12 @@ TEST(ranks_share_a_machine)
 {
     const hd_scene_def scene = short_scene(50, 0);
     const double all = ranks->ranks * hd_room_needed(&scene, 1, ranks->ranks);
-    hd_run *run;
+    OWNED(hd_run) *run = NULL;
     room_of_machine = 0.99 * all;
     assert_int_equal(hd_run_create_shared(&run, &scene, ranks, NULL, 0), HD_NO_MEMORY);
     room_of_machine = 1.01 * all;
     CHECK_OK(hd_run_create_shared(&run, &scene, ranks, NULL, 0));
     room_of_machine = 1e15;
-    hd_run_free(run);
 }
 
 /** Whatever it is that the last rank does not get: all of them end, say so, and give back what they

@@ -1,12 +1,6 @@
 /** Whole runs of several ranks. */
 #define _GNU_SOURCE
-#include <string.h>
-
-#include "hdlyap/checkpoint.h"
-#include "hdlyap/follow.h"
-#include "hdlyap/hydro.h"
 #include "runs.h"
-#include "scenes.h"
 #include "together.h"
 
 /* ---- runs ----------------------------------------------------------------------------------- */
@@ -16,6 +10,14 @@ static hd_scene_def scene_of_runs(int disks, unsigned observe)
     return scene(.disks = disks, .density = 0.7, .aspect = 0.3, .seed = 3, .equilibration = 5.0,
                  .warmup = 20.0, .duration = 40.0, .report_interval = 1.0, .threads = 1,
                  .observe = observe);
+}
+
+/** By all ranks together. */
+static hd_run *shared(hd_scene_def scene)
+{
+    hd_run *run = NULL;
+    CHECK_OK(hd_run_create_shared(&run, &scene, ranks, NULL, 0));
+    return run;
 }
 
 static void expect_same_exponents(const hd_run *run, const hd_run *alone)
@@ -39,13 +41,8 @@ TEST(exponents_are_those_of_one_rank)
     for (int k = 0; k < 3; k++) {
         hd_scene_def scene = scene_of_runs(k == 0 ? 60 : 24, 0);
         scene.exponents = exponents[k];
-        hd_run *run, *alone = created(&scene);
-        CHECK_OK(hd_run_create_shared(&run, &scene, ranks, NULL, 0));
-        finish(run);
-        finish(alone);
+        OWNED(hd_run) *run = finish(shared(scene)), *alone = finished(scene);
         expect_same_exponents(run, alone);
-        hd_run_free(run);
-        hd_run_free(alone);
     }
 }
 
@@ -76,10 +73,7 @@ static void expect_modes_of_one_rank(int exponents)
     hd_scene_def scene = scene_from(
         scene_of_runs(60, HD_OBSERVE_PHASES | HD_OBSERVE_T_PHASES | HD_OBSERVE_STRUCTURE),
         .exponents = exponents);
-    hd_run *run, *alone = created(&scene);
-    CHECK_OK(hd_run_create_shared(&run, &scene, ranks, NULL, 0));
-    finish(run);
-    finish(alone);
+    OWNED(hd_run) *run = finish(shared(scene)), *alone = finished(scene);
     expect_same_exponents(run, alone);
     const hd_modes *own = hd_run_modes(alone), *shared = hd_run_modes(run);
     const int n = hd_run_vectors(run), subspaces = hd_fields_subspaces(hd_modes_fields(own));
@@ -112,8 +106,6 @@ static void expect_modes_of_one_rank(int exponents)
         CHECK_CLOSE(cosine[0][col], cosine[1][col], 1e-6);
         CHECK_CLOSE(ratio[0][col], ratio[1][col], 1e-6);
     }
-    hd_run_free(run);
-    hd_run_free(alone);
 }
 
 TEST(modes_are_those_of_one_rank)
@@ -126,10 +118,7 @@ TEST(modes_are_those_of_one_rank)
 TEST(widths_and_gas_are_those_of_one_rank)
 {
     const hd_scene_def scene = scene_of_runs(60, HD_OBSERVE_LOCALIZATION | HD_OBSERVE_GAS);
-    hd_run *run, *alone = created(&scene);
-    CHECK_OK(hd_run_create_shared(&run, &scene, ranks, NULL, 0));
-    finish(run);
-    finish(alone);
+    OWNED(hd_run) *run = finish(shared(scene)), *alone = finished(scene);
     hd_localization *shared = hd_run_localization(run), *own = hd_run_localization(alone);
     assert_true(hd_localization_samples(own) > 0);
     assert_true(hd_localization_samples(shared) == hd_localization_samples(own));
@@ -141,8 +130,6 @@ TEST(widths_and_gas_are_those_of_one_rank)
     const hd_gas_means a = hd_gas_read(hd_run_gas(run)), b = hd_gas_read(hd_run_gas(alone));
     CHECK_CLOSE(a.time, b.time, 1e-9);
     CHECK_CLOSE(a.pressure, b.pressure, 1e-9);
-    hd_run_free(run);
-    hd_run_free(alone);
 }
 
 /** The same on every rank, and once more the same: with other delays. */
@@ -152,9 +139,7 @@ TEST(bits_are_the_same)
     double kept[2 * 30];
     int n = 0;
     for (int again = 0; again < 2; again++) {
-        hd_run *run;
-        CHECK_OK(hd_run_create_shared(&run, &scene, ranks, NULL, 0));
-        finish(run);
+        OWNED(hd_run) *run = finish(shared(scene));
         n = hd_run_vectors(run);
         for (int col = 0; col < n; col++) {
             double here = hd_spectrum_exponent(hd_run_spectrum(run), col), first = here;
@@ -163,7 +148,6 @@ TEST(bits_are_the_same)
             if (again) CHECK_CLOSE(here, kept[col], 0.0);
             kept[col] = here;
         }
-        hd_run_free(run);
     }
 }
 
@@ -181,8 +165,7 @@ static void expect_vectors_of_one_rank(int exponents)
     hd_scene_def scene = scene_from(
         scene_of_runs(60, HD_OBSERVE_ALL & ~(unsigned)HD_OBSERVE_COVARIANT),
         .exponents = exponents);
-    hd_run *run, *alone = created(&scene);
-    CHECK_OK(hd_run_create_shared(&run, &scene, ranks, NULL, 0));
+    hd_run *run = shared(scene), *alone = created(scene);
     hd_run_fields_from(run, 100);
     finish(run);
     finish(alone);
@@ -224,15 +207,13 @@ TEST(vectors_are_gathered_for_reports)
 TEST(vectors_are_gathered_for_fields)
 {
     const hd_scene_def scene = scene_of_runs(30, HD_OBSERVE_FIELDS);
-    hd_run *run;
-    CHECK_OK(hd_run_create_shared(&run, &scene, ranks, NULL, 0));
+    OWNED(hd_run) *run = shared(scene);
     hd_run_fields_from(run, 40);
     finish(run);
     const hd_columns got = hd_run_frame_columns(run);
     assert_true(hd_run_fields_due(run));
     assert_int_equal(got.first + got.count, hd_run_vectors(run));
     assert_true(got.first <= 40);
-    hd_run_free(run);
 }
 
 TEST(nothing_is_gathered_for_nobody)
@@ -241,12 +222,9 @@ TEST(nothing_is_gathered_for_nobody)
     for (int k = 0; k < 2; k++) {
         const hd_scene_def scene = scene_from(scene_of_runs(30, HD_OBSERVE_STEPS),
                                               .exponents = exponents[k]);
-        hd_run *run;
-        CHECK_OK(hd_run_create_shared(&run, &scene, ranks, NULL, 0));
-        finish(run);
+        OWNED(hd_run) *run = finish(shared(scene));
         assert_true(hd_modes_samples(hd_run_modes(run)) > 0);
         assert_int_equal(hd_run_frame_columns(run).count, 0);
-        hd_run_free(run);
     }
 }
 
@@ -258,10 +236,7 @@ TEST(covariant_vectors_are_those_of_one_rank)
         .covariant_window = 10.0, .covariant_transient = 10.0, .covariant_sampling = 1.0);
     for (int k = 0; k < 2; k++) {
         scene.covariant_storage = k == 0 ? HD_STORAGE_MEMORY : HD_STORAGE_RECOMPUTE;
-        hd_run *run, *alone = created(&scene);
-        CHECK_OK(hd_run_create_shared(&run, &scene, ranks, NULL, 0));
-        finish(run);
-        finish(alone);
+        OWNED(hd_run) *run = finish(shared(scene)), *alone = finished(scene);
         const hd_covariant *a = hd_run_covariant(run), *b = hd_run_covariant(alone);
         assert_int_equal(hd_covariant_windows(a), hd_covariant_windows(b));
         assert_true(hd_covariant_windows(a) >= 2);
@@ -273,8 +248,6 @@ TEST(covariant_vectors_are_those_of_one_rank)
         }
         CHECK_CLOSE(hd_splitting_angle(hd_covariant_splitting(a), HD_UNSTABLE_STABLE)->mean,
                     hd_splitting_angle(hd_covariant_splitting(b), HD_UNSTABLE_STABLE)->mean, 1e-6);
-        hd_run_free(run);
-        hd_run_free(alone);
     }
 }
 
@@ -283,7 +256,7 @@ TEST(disks_are_compared)
 {
     for (int with_frame = 0; with_frame < 2; with_frame++) {
         hd_scene_def scene = scene_of_runs(20, 0);
-        hd_run *run;
+        OWNED(hd_run) *run = NULL;
         hd_status status = HD_OK;
         if (!with_frame) scene.exponents = HD_EXPONENTS_NONE;
         scene.seed += ranks->rank == ranks->ranks - 1;
@@ -291,7 +264,6 @@ TEST(disks_are_compared)
         while (status == HD_OK && hd_run_time(run) < 1.5) status = hd_run_advance(run);
         assert_int_equal(status, HD_RANKS_APART);
         CHECK_CLOSE(hd_run_time(run), 1.0, 1e-9);
-        hd_run_free(run);
     }
 }
 
@@ -299,8 +271,7 @@ TEST(disks_are_compared)
 static void expect_watched(int disks)
 {
     const hd_scene_def scene = scene_of_runs(disks, HD_OBSERVE_STEPS | HD_OBSERVE_PHASES);
-    hd_run *run;
-    CHECK_OK(hd_run_create_shared(&run, &scene, ranks, NULL, 0));
+    OWNED(hd_run) *run = shared(scene);
     const int first = hd_run_vectors(run) - 6;
     hd_run_watch(run, 0.25, first);
     int seen = 0;
@@ -313,7 +284,6 @@ static void expect_watched(int disks)
         seen++;
     }
     assert_true(seen >= 36);
-    hd_run_free(run);
 }
 
 TEST(the_slowest_are_watched)
@@ -330,7 +300,7 @@ TEST(checkpoints_fit_any_number_of_ranks)
     const hd_scene_def scene = scene_of_runs(30, HD_OBSERVE_STEPS | HD_OBSERVE_PHASES);
     char message[300] = "", own[40], path[] = "ranks.checkpoint";
     snprintf(own, sizeof own, "ranks_%d.checkpoint", ranks->rank);
-    hd_run *run, *same, *fewer, *more, *alone = created(&scene);
+    hd_run *run, *same, *fewer, *more, *alone = created(scene);
     CHECK_OK(hd_run_create_shared(&run, &scene, ranks, NULL, 0));
     until_time(run, 40.0);
     until_time(alone, 40.0);
@@ -392,7 +362,7 @@ static double lead(hd_communicator *c)
                                        HD_OBSERVE_STEPS | HD_OBSERVE_PHASES | HD_OBSERVE_FIELDS);
     char message[300], path[] = "led.checkpoint";
     int fields = 0;
-    hd_run *run;
+    OWNED(hd_run) *run = NULL;
     scene.observe |= HD_OBSERVE_COVARIANT;
     scene.exponents = HD_EXPONENTS_ALL;
     if (c) assert_int_equal(hd_run_create_shared(&run, &scene, c, message, 300), HD_REFUSED);
@@ -424,7 +394,6 @@ static double lead(hd_communicator *c)
     finish(run);
     const double sum = hd_spectrum_ks_entropy(hd_run_spectrum(run));
     CHECK_CLOSE(hd_run_time(run), 100.0, 1e-9);
-    hd_run_free(run);
     return sum;
 }
 

@@ -5,17 +5,10 @@
 #define HD_TOGETHER_H
 
 #include <hdlyap/mpi.h>
-#include <stdbool.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
-
 #include "testing.h"
 
 static hd_communicator *ranks;
-
-/* ---- a transport that is late --------------------------------------------------------------- */
 
 static const hd_transport *in_time;
 

@@ -1,7 +1,5 @@
 /** When samples end, interval by interval. */
-#include "scenes.h"
 #include "testing.h"
-
 #include "run/agenda.h"
 
 /** Goes to the end of the interval that is planned, and plans the next one. */
@@ -29,7 +27,6 @@ TEST(the_first_sample_after_a_reset_is_a_whole_one)
     hd_agenda_plan(&agenda, &pace);
     int intervals = 1;
     for (; !agenda.sample_ends && intervals < 100; intervals++) next_interval(&agenda, &pace);
-    print_message("a sample of %d intervals\n", intervals);
     assert_true(intervals > 2 && intervals < 100);
     hd_agenda_enter(&agenda, HD_AVERAGING, pace.now);
     pace.now = hd_agenda_next(&agenda, &pace);

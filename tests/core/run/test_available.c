@@ -1,13 +1,8 @@
 /** What a machine leaves, as its files say: no file is read but those that are given here. */
 #include <dlfcn.h>
-#include <stdio.h>
-#include <string.h>
 #include <sys/resource.h>
 #include <unistd.h>
-
 #include "testing.h"
-
-#include "hdlyap/room.h"
 
 typedef struct text {
     const char *path, *contents;
@@ -33,7 +28,6 @@ static void expect(const text *there, double bytes, const char *limit)
     texts = there;
     const hd_room room = hd_room_available();
     texts = NULL;
-    print_message("%.17g bytes, by %s\n", room.bytes, room.limit);
     assert_true(room.bytes == bytes);
     assert_string_equal(room.limit, limit);
     assert_int_equal(room.ranks, 1);

@@ -1,13 +1,6 @@
 /** What is changed while a run goes on: when it holds, what is refused, and that the same change at
  * the same time gives the same bits. */
-#include <float.h>
-
 #include "kept.h"
-#include "testing.h"
-
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 #define PATH "change.checkpoint"
 
@@ -39,9 +32,8 @@ static void expect_refused(hd_run *run, const char *name, double value, const ch
 /** In the averaging, in the middle of a sample. */
 static hd_run *averaging(double report_interval, double duration)
 {
-    hd_scene_def def = scene_from(kept_scene(30, 0.7, 1.0, 5, KEPT_ALL),
-                                  .report_interval = report_interval, .duration = duration);
-    hd_run *run = kept_run(&def);
+    hd_run *run = kept_run(scene_from(kept_scene(30, 0.7, 1.0, 5, KEPT_ALL),
+                                      .report_interval = report_interval, .duration = duration));
     while (hd_run_stage(run) != HD_AVERAGING || hd_run_time(run) < 26.0) kept_steps(run, 1);
     while (hd_run_time(run) >= hd_run_change_time(run)) kept_steps(run, 1);
     return run;
@@ -58,7 +50,7 @@ static double next_report(hd_run *run)
 /** Reports come as before until then, and as asked for after it, until the end that was. */
 static void expect_reports(double before, double after)
 {
-    hd_run *run = averaging(before, 20.0);
+    OWNED(hd_run) *run = averaging(before, 20.0);
     const double from = hd_run_change_time(run), start = 23.0;
     change(run, "report_interval", after);
     CHECK_CLOSE(hd_run_scene(run)->report_interval, after, 0.0);
@@ -72,7 +64,6 @@ static void expect_reports(double before, double after)
         now = next_report(run);
     }
     CHECK_CLOSE(now, 43.0, 0.0);
-    hd_run_free(run);
 }
 
 TEST(reports_come_in_another_interval)
@@ -85,8 +76,7 @@ TEST(reports_come_in_another_interval)
 
 TEST(before_the_averaging_it_holds_from_the_next_report_on)
 {
-    hd_scene_def def = kept_scene(30, 0.7, 1.0, 5, 0);
-    hd_run *run = kept_run(&def);
+    OWNED(hd_run) *run = kept_run(kept_scene(30, 0.7, 1.0, 5, 0));
     while (hd_run_time(run) < 5.0) kept_steps(run, 1);
     const double from = hd_run_change_time(run);
     assert_true(from <= hd_run_time(run) + 1.0);
@@ -95,7 +85,6 @@ TEST(before_the_averaging_it_holds_from_the_next_report_on)
     for (int k = 1; hd_run_stage(run) == HD_WARMING_UP; k++)
         CHECK_CLOSE(next_report(run), fmin(from + 0.25 * k, 23.0), 1e-9);
     CHECK_CLOSE(hd_run_time(run), 23.0, 0.0);
-    hd_run_free(run);
 }
 
 static double ended(hd_run *run)
@@ -108,7 +97,7 @@ static double ended(hd_run *run)
 
 TEST(the_duration_changes)
 {
-    hd_run *run = averaging(1.0, 20.0);
+    OWNED(hd_run) *run = averaging(1.0, 20.0);
     expect_refused(run, "duration", -1.0, "duration = -1: must be from 0");
     expect_refused(run, "duration", 1.0, "duration = 1: must be 0 or at least");
     const double least = hd_run_change_time(run) - 23.0;
@@ -127,7 +116,6 @@ TEST(the_duration_changes)
     change(run, "duration", 0.0);
     while (hd_run_time(run) < 60.0) kept_steps(run, 1);
     assert_int_equal(hd_run_stage(run), HD_AVERAGING);
-    hd_run_free(run);
 }
 
 /** In the sample at whose end the run would have ended: there it says what it has to say. */
@@ -146,8 +134,7 @@ TEST(at_the_end_it_becomes_longer)
 
 TEST(the_target_changes)
 {
-    hd_scene_def def = scene_from(kept_scene(30, 0.7, 1.0, 5, 0), .duration = 400.0);
-    hd_run *run = kept_run(&def);
+    hd_run *run = kept_run(scene_from(kept_scene(30, 0.7, 1.0, 5, 0), .duration = 400.0));
     while (hd_run_cost(run).std_error < 0) kept_steps(run, 1);
     const double from = hd_run_change_time(run);
     change(run, "target_std_error", 1e3); /* was reached long ago */
@@ -159,7 +146,7 @@ TEST(the_target_changes)
 static void expect_fields(double report_interval)
 {
     hd_scene_def def = kept_scene(30, 0.7, 1.0, 5, KEPT_ALL | HD_OBSERVE_FIELDS);
-    hd_run *run = kept_run(&def);
+    OWNED(hd_run) *run = kept_run(def);
     hd_run_fields_every(run, 1000.0);
     while (hd_run_time(run) < 30.0) kept_steps(run, 1);
     const double from = hd_run_change_time(run);
@@ -174,7 +161,6 @@ static void expect_fields(double report_interval)
         due += reached;
     }
     assert_true(due >= 5);
-    hd_run_free(run);
 }
 
 TEST(the_fields_interval_changes)
@@ -187,7 +173,7 @@ TEST(the_rest_is_read_at_the_start)
 {
     int count, live = 0;
     const hd_parameter *rows = hd_scene_parameters(&count);
-    hd_run *run = averaging(1.0, 20.0);
+    OWNED(hd_run) *run = averaging(1.0, 20.0);
     for (int k = 0; k < count; k++) {
         live += rows[k].live;
         assert_true(!rows[k].live || rows[k].may_differ);
@@ -197,7 +183,6 @@ TEST(the_rest_is_read_at_the_start)
     expect_refused(run, "report_interval", 0.0, "report_interval = 0: must be from 1e-6");
     while (kept_steps(run, 1)) continue;
     expect_refused(run, "duration", 100.0, "the run has ended");
-    hd_run_free(run);
 }
 
 static void expect_same(hd_run *a, hd_run *b)
@@ -219,10 +204,9 @@ TEST(the_same_change_gives_the_same_bits)
     const double from = hd_run_change_time(early);
     hd_run *kept = kept_and_resumed(early, PATH, NULL);
     for (double before = hd_run_time(late); hd_run_time(late) + 1e-9 < from;) {
-        hd_run *tried = kept_and_resumed(late, PATH, NULL);
+        OWNED(hd_run) *tried = kept_and_resumed(late, PATH, NULL);
         kept_steps(tried, 1);
         const bool is_last = hd_run_time(tried) + 1e-9 >= from;
-        hd_run_free(tried);
         if (is_last) break;
         kept_steps(late, 1);
         assert_true(hd_run_time(late) > before);

@@ -1,10 +1,4 @@
 /** A run that is taken up again is the run that was not interrupted. */
-#include <stdlib.h>
-#include <string.h>
-
-#include "testing.h"
-
-#include "hdlyap/parameters.h"
 #include "kept.h"
 #include "same.h"
 #include "run/run_state.h"
@@ -18,7 +12,7 @@ static const char PATH[] = "checkpoint.test";
 static void expect_uninterrupted_watched(const hd_scene_def *def, int every, int least,
                                          double between, int slowest)
 {
-    hd_run *alone = kept_run(def), *other = kept_run(def);
+    OWNED(hd_run) *alone = kept_run(*def), *other = kept_run(*def);
     int times = 0, taken = 0;
     hd_run_watch(alone, between, hd_run_vectors(alone) - slowest);
     do {
@@ -33,8 +27,6 @@ static void expect_uninterrupted_watched(const hd_scene_def *def, int every, int
     } while (taken == every);
     assert_int_equal(hd_run_stage(other), HD_FINISHED);
     assert_true(times >= least);
-    hd_run_free(alone);
-    hd_run_free(other);
 }
 
 static void expect_uninterrupted(const hd_scene_def *def, int every, int least)
@@ -45,7 +37,7 @@ static void expect_uninterrupted(const hd_scene_def *def, int every, int least)
 TEST(a_resumed_run_is_the_uninterrupted_one)
 {
     hd_scene_def walls = scene_from(kept_scene(24, 0.6, 0.5, HD_EXPONENTS_ALL, KEPT_AT_REPORTS),
-                                    .boundary[0] = HD_REFLECTING, .boundary[1] = HD_REFLECTING);
+                                    .boundary[0] = R, .boundary[1] = R);
     hd_scene_def crowded = scene_from(
         kept_scene(60, 0.8, 0.06, HD_EXPONENTS_POSITIVE, KEPT_AT_REPORTS | HD_OBSERVE_FIELDS),
         .report_interval = 0.25, .threads = 2);
@@ -77,9 +69,8 @@ TEST(a_run_that_is_looked_at_keeps_its_plan)
  * found steps. */
 TEST(what_was_compared_was_there)
 {
-    hd_scene_def def = scene_from(kept_scene(60, 0.8, 0.06, HD_EXPONENTS_POSITIVE, KEPT_ALL),
-                                  .report_interval = 0.1);
-    hd_run *run = kept_run(&def);
+    OWNED(hd_run) *run = kept_run(scene_from(
+        kept_scene(60, 0.8, 0.06, HD_EXPONENTS_POSITIVE, KEPT_ALL), .report_interval = 0.1));
     hd_run_watch(run, 0.1, hd_run_vectors(run) - 8);
     kept_steps(run, 1000000);
     int tracked = 0, resolved = 0;
@@ -91,36 +82,17 @@ TEST(what_was_compared_was_there)
     assert_true(hd_run_cost(run).slow_vector_samples > 0);
     assert_true(tracked > 0);
     assert_true(resolved > 0);
-    hd_run_free(run);
-}
-
-/** The log that waits for the next orthonormalisation is in the file. */
-TEST(pending_events_are_kept)
-{
-    hd_scene_def def = scene_from(kept_scene(100, 0.7, 1.0, HD_EXPONENTS_POSITIVE, 0),
-                                  .report_interval = 0.125);
-    hd_run *run = kept_run(&def);
-    while (hd_run_stage(run) != HD_FINISHED && run->carrier.log->count < 100) kept_steps(run, 1);
-    hd_run *resumed = kept_and_resumed(run, PATH, NULL);
-    assert_true(run->carrier.log->count >= 100);
-    assert_int_equal(resumed->carrier.log->count, run->carrier.log->count);
-    for (size_t k = 0; k < run->carrier.log->count; k++)
-        assert_memory_equal(&resumed->carrier.log->event[k], &run->carrier.log->event[k],
-                            sizeof(hd_event));
-    hd_run_free(run);
-    hd_run_free(resumed);
 }
 
 TEST(clocks_and_costs_go_on)
 {
-    const hd_scene_def def = kept_scene(30, 0.7, 1.0, HD_EXPONENTS_POSITIVE, KEPT_ALL);
-    hd_run *run = kept_run(&def);
+    OWNED(hd_run) *run = kept_run(kept_scene(30, 0.7, 1.0, HD_EXPONENTS_POSITIVE, KEPT_ALL));
     while (hd_run_stage(run) != HD_AVERAGING || isnan(hd_run_cost(run).error_bound))
         kept_steps(run, 1);
     hd_run_observe(run, HD_OBSERVE_MODES);
     run->cost.limit = HD_LIMIT_REPAIR;
     const hd_cost before = hd_run_cost(run);
-    hd_run *resumed = kept_and_resumed(run, PATH, NULL);
+    OWNED(hd_run) *resumed = kept_and_resumed(run, PATH, NULL);
     const hd_cost after = hd_run_cost(resumed);
     assert_true(before.orthonormalisations > 0);
     assert_int_equal(after.orthonormalisations, before.orthonormalisations);
@@ -133,24 +105,19 @@ TEST(clocks_and_costs_go_on)
     assert_true(after.remaining >= before.remaining);
     CHECK_CLOSE(resumed->clocks.frame_start_time, run->clocks.frame_start_time, 0.0);
     assert_int_equal(hd_observables_looked_at(&resumed->observables), HD_OBSERVE_MODES);
-    hd_run_free(run);
-    hd_run_free(resumed);
 }
 
 /** The clock may have begun anew, less ago than the run has been going on. */
 TEST(the_time_left_is_known_after_a_restart)
 {
-    const hd_scene_def def = kept_scene(30, 0.7, 1.0, HD_EXPONENTS_POSITIVE, 0);
-    hd_run *run = kept_run(&def);
+    OWNED(hd_run) *run = kept_run(kept_scene(30, 0.7, 1.0, HD_EXPONENTS_POSITIVE, 0));
     while (hd_run_stage(run) != HD_AVERAGING) kept_steps(run, 1);
     run->clocks.frame_started = -1000.0;
     assert_true(hd_run_cost(run).remaining > 0.0);
-    hd_run *resumed = kept_and_resumed(run, PATH, NULL);
+    OWNED(hd_run) *resumed = kept_and_resumed(run, PATH, NULL);
     assert_true(hd_run_cost(resumed).remaining > 0.0);
     kept_steps(resumed, 1000);
     CHECK_CLOSE(resumed->clocks.frame_start_time, run->clocks.frame_start_time, 0.0);
-    hd_run_free(run);
-    hd_run_free(resumed);
 }
 
 /* ---- another duration ---------------------------------------------------------------------- */
@@ -161,11 +128,11 @@ TEST(a_finished_run_can_be_made_longer)
 {
     hd_scene_def def = scene_from(kept_scene(30, 0.7, 1.0, HD_EXPONENTS_POSITIVE, KEPT_ALL),
                                   .duration = 33.3);
-    hd_run *run = kept_run(&def);
+    OWNED(hd_run) *run = kept_run(def);
     hd_run_watch(run, 0.1, hd_run_vectors(run) - 8);
     kept_steps(run, 1000000);
     hd_scene_def longer = scene_from(def, .duration = 80.0);
-    hd_run *resumed = kept_and_resumed(run, PATH, &longer), *once = kept_run(&longer);
+    OWNED(hd_run) *resumed = kept_and_resumed(run, PATH, &longer), *once = kept_run(longer);
     assert_int_equal(hd_run_stage(resumed), HD_AVERAGING);
     kept_steps(resumed, 1000000);
     kept_steps(once, 1000000);
@@ -176,9 +143,6 @@ TEST(a_finished_run_can_be_made_longer)
         CHECK_CLOSE(hd_spectrum_exponent(a, col), hd_spectrum_exponent(b, col), def.accuracy);
     assert_int_equal(hd_trajectory_collisions(hd_run_trajectory(resumed)),
                      hd_trajectory_collisions(hd_run_trajectory(once)));
-    hd_run_free(run);
-    hd_run_free(resumed);
-    hd_run_free(once);
 }
 
 /** At every moment of the averaging: what has been averaged, and hardly more, is a duration; what
@@ -187,19 +151,17 @@ TEST(the_duration_can_end_at_once)
 {
     static const double more[] = {0.0, 0.01, 0.1, 0.35, -5e-14}; /* of 20 with 15 digits */
     const hd_scene_def def = kept_scene(20, 0.7, 1.0, HD_EXPONENTS_POSITIVE, KEPT_ALL);
-    hd_run *run = kept_run(&def);
+    OWNED(hd_run) *run = kept_run(def);
     for (int k = 0; kept_steps(run, 1) == 1; k++) {
         if (hd_run_stage(run) != HD_AVERAGING || hd_run_time(run) == run->agenda.schedule.start)
             continue;
         hd_scene_def shorter = scene_from(
             def, .duration = hd_run_time(run) - run->agenda.schedule.start + more[k % 5]);
-        hd_run *ended = kept_and_resumed(run, PATH, &shorter);
+        OWNED(hd_run) *ended = kept_and_resumed(run, PATH, &shorter);
         kept_steps(ended, 1000);
         assert_int_equal(hd_run_stage(ended), HD_FINISHED);
         hd_run_free(kept_and_resumed(ended, PATH, &def));
-        hd_run_free(ended);
     }
-    hd_run_free(run);
 }
 
 /** A step of no length teaches nothing. */
@@ -207,27 +169,24 @@ TEST(phases_too_short_for_the_time_to_move_are_kept)
 {
     hd_scene_def def = scene_from(kept_scene(20, 0.7, 1.0, HD_EXPONENTS_POSITIVE, 0),
                                   .equilibration = 100.0, .warmup = 1e-15, .duration = 2.0);
-    hd_run *run = kept_run(&def);
+    OWNED(hd_run) *run = kept_run(def);
     for (int taken = 1; taken == 1; taken = kept_steps(run, 1))
         hd_run_free(kept_and_resumed(run, PATH, &def));
-    hd_run_free(run);
 }
 
 TEST(what_the_target_has_ended_stays_ended)
 {
     hd_scene_def def = scene_from(kept_scene(20, 0.7, 1.0, HD_EXPONENTS_POSITIVE, 0),
                                   .duration = 0.0, .target_std_error = 0.05);
-    hd_run *run = kept_run(&def);
+    OWNED(hd_run) *run = kept_run(def);
     kept_steps(run, 100000);
     assert_int_equal(hd_run_stage(run), HD_FINISHED);
-    hd_run *again = kept_and_resumed(run, PATH, &def);
+    OWNED(hd_run) *again = kept_and_resumed(run, PATH, &def);
     assert_int_equal(hd_run_stage(again), HD_FINISHED);
     hd_run_free(again);
     def.target_std_error = 0.02;
     again = kept_and_resumed(run, PATH, &def);
     assert_int_equal(hd_run_stage(again), HD_AVERAGING);
-    hd_run_free(again);
-    hd_run_free(run);
 }
 
 /** Not with the interval that is under way. */
@@ -236,20 +195,18 @@ TEST(another_target_holds_at_once)
     const hd_scene_def def = scene(.disks = 20, .density = 0.1, .exponents = 3, .threads = 1,
                                    .equilibration = 5.0, .warmup = 20.0, .duration = 1e4,
                                    .report_interval = 0.05);
-    hd_run *run = kept_run(&def);
+    OWNED(hd_run) *run = kept_run(def);
     while (!(hd_run_cost(run).std_error > 0)) CHECK_OK(hd_run_advance(run));
     while (!hd_run_report_due(run) || hd_agenda_is_measured(&run->agenda, hd_run_time(run)))
         CHECK_OK(hd_run_advance(run));
     const hd_scene_def asked = scene_from(def, .target_std_error = 2 * hd_run_cost(run).std_error);
-    hd_run *other = kept_and_resumed(run, PATH, &asked);
+    OWNED(hd_run) *other = kept_and_resumed(run, PATH, &asked);
     const double now = hd_run_time(other);
     assert_true(other->agenda.interval_end > now + 2 * def.report_interval);
     do CHECK_OK(hd_run_advance(other));
     while (!hd_run_report_due(other));
     CHECK_CLOSE(hd_run_time(other), now + def.report_interval, 1e-9);
     assert_int_equal(hd_run_stage(other), HD_FINISHED);
-    hd_run_free(run);
-    hd_run_free(other);
 }
 
 /** Turns of a thousandth of a sample say nothing about a velocity, and end no tracking. */
@@ -260,21 +217,18 @@ TEST(an_end_that_cuts_a_sample_short_keeps_the_phases)
     hd_scene_def odd = def, longer = def;
     odd.duration = 80.001;
     longer.duration = 100.0;
-    hd_run *even = kept_run(&def), *cut = kept_run(&odd);
+    OWNED(hd_run) *even = kept_run(def), *cut = kept_run(odd);
     kept_steps(even, 100000);
     kept_steps(cut, 100000);
     const hd_velocity v = hd_phases_velocity(hd_run_phases(even));
     assert_true(v.phases > 0);
     CHECK_CLOSE(hd_phases_velocity(hd_run_phases(cut)).v, v.v, 0.1 * v.v_error);
-    hd_run *resumed = kept_and_resumed(cut, PATH, &longer);
+    OWNED(hd_run) *resumed = kept_and_resumed(cut, PATH, &longer);
     kept_steps(resumed, 100000);
     double longest = 0.0;
     for (int k = 0; k < hd_phases_count(hd_run_phases(resumed)); k++)
         longest = fmax(longest, hd_phases_phase(hd_run_phases(resumed), k)->time);
     assert_true(longest > 50.0); /* it was not begun anew at 80 */
-    hd_run_free(even);
-    hd_run_free(cut);
-    hd_run_free(resumed);
 }
 
 static void expect_refused(const hd_scene_def *asked, hd_status expected, const char *word)
@@ -308,7 +262,7 @@ TEST(each_parameter_may_differ_or_is_refused_by_name)
     const hd_scene_def def = kept_scene(30, 0.7, 1.0, 5, KEPT_ALL);
     int count, free_to_change = 0;
     const hd_parameter *rows = hd_scene_parameters(&count);
-    hd_run *run = kept_run(&def);
+    OWNED(hd_run) *run = kept_run(def);
     while (hd_run_stage(run) != HD_AVERAGING || hd_run_time(run) < 25.0) kept_steps(run, 1);
     hd_run_free(kept_and_resumed(run, PATH, &def));
     for (int k = 0; k < count; k++) {
@@ -320,16 +274,14 @@ TEST(each_parameter_may_differ_or_is_refused_by_name)
             expect_refused(&asked, HD_REFUSED, name);
             continue;
         }
-        hd_run *other = kept_and_resumed(run, PATH, &asked);
+        OWNED(hd_run) *other = kept_and_resumed(run, PATH, &asked);
         CHECK_CLOSE(hd_parameter_value(&rows[k], hd_run_scene(other)), value, 0.0);
-        hd_run_free(other);
         free_to_change++;
     }
     assert_true(free_to_change > 2);
     hd_scene_def shorter = def;
     shorter.duration = 0.5; /* than what has been averaged */
     expect_refused(&shorter, HD_REFUSED, "duration");
-    hd_run_free(run);
 }
 
 /** Excludes max_mode_number. */
@@ -343,7 +295,7 @@ TEST(it_says_whose_it_is)
     for (int k = 0; k < count; k++) /* nothing is as it usually is */
         if (hd_parameter_value(&rows[k], &def) == rows[k].usual && rows[k].offset != WAVE_NUMBER)
             def = with_another(&def, &rows[k]);
-    hd_run *run = kept_run(&def);
+    OWNED(hd_run) *run = kept_run(def);
     hd_checkpoint found;
     char long_label[200] = "", message[512] = "";
     kept_steps(run, 12);
@@ -358,5 +310,4 @@ TEST(it_says_whose_it_is)
         CHECK_CLOSE(hd_parameter_value(&rows[k], &found.scene), hd_parameter_value(&rows[k], &def),
                     0.0);
     CHECK_CLOSE(found.time, hd_run_time(run), 0.0);
-    hd_run_free(run);
 }

@@ -1,12 +1,6 @@
 /** Contents of a checkpoint that no run has, with a checksum that is right: refused, or survived.
  */
 #define _POSIX_C_SOURCE 200809L
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include "testing.h"
-
 #include "kept.h"
 #include "run/run_state.h"
 
@@ -46,9 +40,9 @@ static void expect_nonsense_refused(const bytes *b, const nonsense_case *c)
 /** Each of the conditions that is asked for, broken by itself. */
 TEST(contents_that_no_run_has_are_refused)
 {
-    hd_scene_def def = scene_from(kept_scene(60, 0.8, 0.06, HD_EXPONENTS_POSITIVE, KEPT_ALL),
-                                  .report_interval = 0.1);
-    hd_run *run = kept_run(&def), *again = NULL;
+    OWNED(hd_run) *run = kept_run(scene_from(
+        kept_scene(60, 0.8, 0.06, HD_EXPONENTS_POSITIVE, KEPT_ALL), .report_interval = 0.1)),
+                  *again = NULL;
     char message[512] = "";
     while (hd_run_time(run) < 42.0 || run->carrier.log->count < 10) kept_steps(run, 1);
     const bytes b = kept_bytes(run);
@@ -110,17 +104,14 @@ TEST(contents_that_no_run_has_are_refused)
         {"phase sums", 1, 1e9, 0, "phase"},
     };
     CHECK_OK(kept_read(&again, &b, NULL, message, sizeof message));
-    hd_run_free(again);
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++)
         expect_nonsense_refused(&b, &cases[k]);
     free(b.data);
-    hd_run_free(run);
 }
 
 TEST(structure_that_no_run_has_is_refused)
 {
-    const hd_scene_def def = kept_scene(10, 0.5, 0.3, HD_EXPONENTS_POSITIVE, KEPT_AT_REPORTS);
-    hd_run *run = kept_run(&def);
+    OWNED(hd_run) *run = kept_run(kept_scene(10, 0.5, 0.3, HD_EXPONENTS_POSITIVE, KEPT_AT_REPORTS));
     while (hd_structure_samples(hd_run_structure(run)) < 3) assert_int_equal(kept_steps(run, 1), 1);
     const bytes b = kept_bytes(run);
     static const nonsense_case cases[] = {
@@ -131,14 +122,12 @@ TEST(structure_that_no_run_has_is_refused)
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++)
         expect_nonsense_refused(&b, &cases[k]);
     free(b.data);
-    hd_run_free(run);
 }
 
 /** Where nothing is pending: found by tests/fuzz. */
 TEST(reports_are_not_passed_twice)
 {
-    const hd_scene_def def = kept_scene(4, 0.3, 0.3, HD_EXPONENTS_ALL, 0);
-    hd_run *run = kept_run(&def), *again = NULL;
+    OWNED(hd_run) *run = kept_run(kept_scene(4, 0.3, 0.3, HD_EXPONENTS_ALL, 0)), *again = NULL;
     char message[512] = "";
     while (hd_run_stage(run) < HD_AVERAGING || run->agenda.schedule.reports == 0 ||
            run->carrier.log->duration > 0)
@@ -154,8 +143,6 @@ TEST(reports_are_not_passed_twice)
     CHECK_OK(kept_read(&again, &b, NULL, message, sizeof message));
     assert_true(again->advance.longest <= again->advance.bound);
     free(b.data);
-    hd_run_free(again);
-    hd_run_free(run);
 }
 
 /** Number `at` of the file is the first of its array, or one of the numbers behind it. */
@@ -182,8 +169,7 @@ TEST(nonsense_is_survived)
                                         0x7fefffffffffffff,
                                         0xc08f400000000000,
                                         1 << 20};
-    const hd_scene_def def = kept_scene(4, 0.3, 0.3, HD_EXPONENTS_ALL, KEPT_ALL);
-    hd_run *run = kept_run(&def);
+    hd_run *run = kept_run(kept_scene(4, 0.3, 0.3, HD_EXPONENTS_ALL, KEPT_ALL));
     kept_steps(run, 60);
     const bytes whole = kept_bytes(run);
     hd_run_free(run);

@@ -3,23 +3,15 @@
 #define _POSIX_C_SOURCE 200809L
 #include <fcntl.h>
 #include <signal.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
-
-#include "testing.h"
-
 #include "run/checkpoint_file.h"
 #include "kept.h"
 #include "run/run_state.h"
 
 static const char PATH[] = "checkpoint_file.test", PART[] = "checkpoint_file.test.part";
-
-/* ---- files that are not whole -------------------------------------------------------------- */
 
 static void expect_refused(const char *word)
 {
@@ -39,15 +31,21 @@ static void file_write(const char *path, const char *data, size_t size)
     fclose(file);
 }
 
+static void expect_as_before(const bytes *before)
+{
+    const bytes now = kept_file(PATH);
+    assert_int_equal(now.size, before->size);
+    assert_memory_equal(now.data, before->data, before->size);
+    free(now.data);
+}
+
 /** A small one: of two disks. */
 static bytes checkpoint_bytes(void)
 {
-    const hd_scene_def def = kept_scene(2, 0.3, 1.0, 1, 0);
-    hd_run *run = kept_run(&def);
+    OWNED(hd_run) *run = kept_run(kept_scene(2, 0.3, 1.0, 1, 0));
     char message[512] = "";
     kept_steps(run, 15);
     CHECK_OK(hd_run_save(run, PATH, KEPT_LABEL, message, sizeof message));
-    hd_run_free(run);
     return kept_file(PATH);
 }
 
@@ -118,8 +116,6 @@ TEST(another_format_is_refused_as_such)
     expect_format_refused(HD_CHECKPOINT_FORMAT - 1, "an older hdlyap");
 }
 
-/* ---- files that cannot be written ---------------------------------------------------------- */
-
 static void expect_unwritable(hd_run *run, const char *path, const char *word)
 {
     char message[512] = "";
@@ -130,8 +126,7 @@ static void expect_unwritable(hd_run *run, const char *path, const char *word)
 
 TEST(what_cannot_be_written_is_named)
 {
-    const hd_scene_def def = kept_scene(4, 0.3, 1.0, 1, 0);
-    hd_run *run = kept_run(&def);
+    OWNED(hd_run) *run = kept_run(kept_scene(4, 0.3, 1.0, 1, 0));
     char message[512] = "", too_long[5000];
     memset(too_long, 'a', sizeof too_long);
     too_long[sizeof too_long - 1] = 0;
@@ -148,14 +143,12 @@ TEST(what_cannot_be_written_is_named)
     remove(PART);
     CHECK_OK(hd_checkpoint_writable(PATH, message, sizeof message));
     assert_int_not_equal(access(PART, F_OK), 0);
-    hd_run_free(run);
 }
 
 /** A file may not become larger than a part of it: what is there stays, what was begun goes. */
 TEST(a_write_that_fails_leaves_the_file)
 {
-    const hd_scene_def def = kept_scene(30, 0.7, 1.0, HD_EXPONENTS_POSITIVE, 0);
-    hd_run *run = kept_run(&def);
+    OWNED(hd_run) *run = kept_run(kept_scene(30, 0.7, 1.0, HD_EXPONENTS_POSITIVE, 0));
     hd_run_free(kept_and_resumed(run, PATH, NULL));
     const bytes before = kept_file(PATH);
     struct rlimit limit, few;
@@ -171,31 +164,22 @@ TEST(a_write_that_fails_leaves_the_file)
         assert_int_equal(status, HD_FILE_FAULT);
         assert_non_null(strstr(message, "File too large"));
         assert_int_not_equal(access(PART, F_OK), 0);
-        const bytes after = kept_file(PATH);
-        assert_int_equal(after.size, before.size);
-        assert_memory_equal(after.data, before.data, before.size);
-        free(after.data);
+        expect_as_before(&before);
     }
     free(before.data);
-    hd_run_free(run);
 }
 
 TEST(a_run_that_is_no_number_is_not_written)
 {
-    const hd_scene_def def = kept_scene(30, 0.7, 1.0, HD_EXPONENTS_POSITIVE, 0);
-    hd_run *run = kept_run(&def);
+    OWNED(hd_run) *run = kept_run(kept_scene(30, 0.7, 1.0, HD_EXPONENTS_POSITIVE, 0));
     hd_run_free(kept_and_resumed(run, PATH, NULL));
     const bytes before = kept_file(PATH);
     char message[512] = "";
     hd_frame_data(run->carrier.frame)[17] = NAN;
     assert_int_equal(hd_run_save(run, PATH, KEPT_LABEL, message, sizeof message), HD_NOT_FINITE);
     assert_non_null(strstr(message, "frame vectors: a number is not finite"));
-    const bytes after = kept_file(PATH);
-    assert_int_equal(after.size, before.size);
-    assert_memory_equal(after.data, before.data, before.size);
+    expect_as_before(&before);
     free(before.data);
-    free(after.data);
-    hd_run_free(run);
 }
 
 /** Of what cannot be written for another reason than the file, the status says why. */
@@ -211,14 +195,6 @@ TEST(a_fault_without_words_is_named)
     assert_non_null(strstr(message, "frame vectors: out of memory"));
 }
 
-static void put(const char *path, const char *text, size_t size)
-{
-    FILE *file = fopen(path, "wb");
-    assert_non_null(file);
-    assert_int_equal(fwrite(text, 1, size, file), size);
-    assert_int_equal(fclose(file), 0);
-}
-
 /** What a killed process has left is written over; what somebody else has there, stays. */
 TEST(only_a_part_is_written_over)
 {
@@ -227,16 +203,16 @@ TEST(only_a_part_is_written_over)
     const char *const left[] = {begun, zeros, begun};
     const size_t sizes[] = {sizeof begun, sizeof zeros, 0};
     for (int k = 0; k < 3; k++) {
-        put(PART, left[k], sizes[k]);
+        file_write(PART, left[k], sizes[k]);
         CHECK_OK(hd_checkpoint_writable(PATH, message, sizeof message));
     }
-    put(PART, "notes of somebody, longer than a head", 37);
+    file_write(PART, "notes of somebody, longer than a head", 37);
     assert_int_equal(hd_checkpoint_writable(PATH, message, sizeof message), HD_FILE_FAULT);
     assert_non_null(strstr(message, "no part of a checkpoint"));
     bytes now = kept_file(PART);
     assert_int_equal(now.size, 37);
     free(now.data);
-    put(PART, begun, sizeof begun);
+    file_write(PART, begun, sizeof begun);
     (void)remove("other.name");
     assert_int_equal(link(PART, "other.name"), 0);
     assert_int_equal(hd_checkpoint_writable(PATH, message, sizeof message), HD_FILE_FAULT);

@@ -1,10 +1,5 @@
 /** Runs of all 4N exponents, half of them carried, beside runs that carry each. */
-#include <float.h>
-#include <stdlib.h>
-
 #include "runs.h"
-#include "run/run_state.h"
-#include "scenes.h"
 
 static hd_scene_def few(int exponents, hd_boundary x, hd_boundary y)
 {
@@ -15,8 +10,7 @@ static hd_scene_def few(int exponents, hd_boundary x, hd_boundary y)
 
 TEST(exponents_pair_by_construction)
 {
-    const hd_scene_def scene = few(HD_EXPONENTS_ALL, HD_PERIODIC, HD_REFLECTING);
-    hd_run *run = finished(&scene);
+    OWNED(hd_run) *run = finished(few(HD_EXPONENTS_ALL, P, R));
     const hd_spectrum *s = hd_run_spectrum(run);
     assert_int_equal(hd_run_vectors(run), 40);
     assert_int_equal(hd_frame_vectors(hd_run_frame(run)), 20);
@@ -25,28 +19,22 @@ TEST(exponents_pair_by_construction)
         assert_true(hd_spectrum_std_error(s, col) == hd_spectrum_std_error(s, 39 - col));
         assert_true(hd_spectrum_local(s, col) == -hd_spectrum_local(s, 39 - col));
     }
-    hd_run_free(run);
 }
 
 /** One does not know where the other's frame began: what both averaged forgets that like 1 / t. */
 TEST(exponents_are_those_of_vectors_carried_each)
 {
-    const hd_scene_def one = few(HD_EXPONENTS_ALL, HD_PERIODIC, HD_PERIODIC),
-                       other = few(HD_EXPONENTS_ALL_INDEPENDENT, HD_PERIODIC, HD_PERIODIC);
-    hd_run *half = finished(&one), *whole = finished(&other);
-    for (int col = 0; col < 40; col++)
-        CHECK_CLOSE(hd_spectrum_exponent(hd_run_spectrum(half), col),
-                    hd_spectrum_exponent(hd_run_spectrum(whole), col), 4.0 / one.duration);
-    hd_run_free(half);
-    hd_run_free(whole);
+    const hd_scene_def one = few(HD_EXPONENTS_ALL, P, P),
+                       other = few(HD_EXPONENTS_ALL_INDEPENDENT, P, P);
+    OWNED(hd_run) *half = finished(one), *whole = finished(other);
+    check_same_exponents(half, whole, 4.0 / one.duration);
 }
 
 /** Known at reports: all 4N, orthonormal. */
 TEST(all_vectors_are_known_where_they_are_measured)
 {
-    hd_scene_def scene = scene_from(few(HD_EXPONENTS_ALL, HD_PERIODIC, HD_PERIODIC),
-                                    .observe = HD_OBSERVE_STEPS | HD_OBSERVE_MODES);
-    hd_run *run = finished(&scene);
+    OWNED(hd_run) *run = finished(
+        scene_from(few(HD_EXPONENTS_ALL, P, P), .observe = HD_OBSERVE_STEPS | HD_OBSERVE_MODES));
     const hd_columns v = hd_run_columns(run);
     double cosine[40], ratio[40];
     assert_int_equal(v.count, 40);
@@ -60,10 +48,7 @@ TEST(all_vectors_are_known_where_they_are_measured)
     assert_ptr_equal(hd_run_frame_columns(run).data, v.data);
     hd_run_halves(run, cosine, ratio);
     for (int col = 0; col < 40; col++) CHECK_CLOSE(cosine[col], -cosine[39 - col], 0.0);
-    hd_run_free(run);
 }
-
-/* ---- covariant vectors --------------------------------------------------------------------- */
 
 static hd_scene_def windowed(int exponents, hd_boundary x, hd_boundary y)
 {
@@ -117,14 +102,11 @@ static void check_spaces(hd_run *half, hd_run *whole)
 TEST(covariant_vectors_are_those_of_vectors_carried_each)
 {
     for (int b = 0; b < 4; b++) {
-        const hd_boundary x = b & 1 ? HD_REFLECTING : HD_PERIODIC,
-                          y = b & 2 ? HD_REFLECTING : HD_PERIODIC;
+        const hd_boundary x = b & 1 ? R : P, y = b & 2 ? R : P;
         const hd_scene_def one = windowed(HD_EXPONENTS_ALL, x, y),
                            other = windowed(HD_EXPONENTS_ALL_INDEPENDENT, x, y);
-        hd_run *half = finished(&one), *whole = finished(&other);
+        OWNED(hd_run) *half = finished(one), *whole = finished(other);
         check_spaces(half, whole);
-        hd_run_free(half);
-        hd_run_free(whole);
     }
 }
 
@@ -144,8 +126,7 @@ static void disturb(hd_frame *frame, double part)
 /** Then the frame is made isotropic again, which the triangle before it knows nothing of. */
 TEST(a_window_begins_anew_where_isotropy_is_lost)
 {
-    const hd_scene_def scene = windowed(HD_EXPONENTS_ALL, HD_PERIODIC, HD_PERIODIC);
-    hd_run *run = until(created(&scene), HD_AVERAGING);
+    OWNED(hd_run) *run = until(created(windowed(HD_EXPONENTS_ALL, P, P)), HD_AVERAGING);
     until_time(run, hd_run_time(run) + 20.0);
     while (run->carrier.log->duration > 0) CHECK_OK(hd_run_advance(run));
     disturb(run->carrier.frame, 1e-4);
@@ -154,18 +135,15 @@ TEST(a_window_begins_anew_where_isotropy_is_lost)
     assert_true(rounding < 1e-6);
     assert_int_equal(hd_covariant_windows(hd_run_covariant(run)), 6); /* of 7 */
     CHECK_CLOSE(hd_covariant_null_most(hd_run_covariant(run)), 0.0, rounding);
-    hd_run_free(run);
 }
 
 /** Triangles and couplings that are computed again are the same but for rounding. */
 TEST(recomputed_windows_are_the_same)
 {
-    const hd_scene_def one = windowed(HD_EXPONENTS_ALL, HD_PERIODIC, HD_PERIODIC);
-    hd_scene_def other = scene_from(one, .covariant_storage = HD_STORAGE_RECOMPUTE);
-    hd_run *kept = finished(&one), *again = finished(&other);
+    const hd_scene_def one = windowed(HD_EXPONENTS_ALL, P, P);
+    OWNED(hd_run) *kept = finished(one),
+                  *again = finished(scene_from(one, .covariant_storage = HD_STORAGE_RECOMPUTE));
     check_spaces(kept, again);
     assert_true(hd_covariant_bytes(hd_run_covariant(again)) <
                 hd_covariant_bytes(hd_run_covariant(kept)));
-    hd_run_free(kept);
-    hd_run_free(again);
 }

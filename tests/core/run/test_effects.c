@@ -1,9 +1,5 @@
 /** Only what a scene asks for has memory, and the loop asks for none: blocks and bytes, exactly. */
 #include "ledger.h"
-#include "scenes.h"
-#include "testing.h"
-
-#include "hdlyap/hdlyap.h"
 #include "runs.h"
 
 enum { DISKS = 100, HALF = 2 * DISKS - 3, EVERYTHING = 223 };
@@ -19,7 +15,7 @@ static hd_scene_def small(int exponents, unsigned observe)
 static ledger held(const hd_scene_def *scene, double time)
 {
     const ledger before = ledger_now();
-    hd_run *run = created(scene);
+    hd_run *run = created(*scene);
     until_time(run, time);
     const ledger now = ledger_now();
     hd_run_free(run);
@@ -62,7 +58,6 @@ TEST(bytes_are_those_of_the_vectors_asked_for)
     for (size_t k = 0; k < sizeof wanted / sizeof *wanted; k++) {
         const double bytes = bytes_for(wanted[k], 0);
         const double n = 16.0 * ceil(wanted[k] / 16.0); /* whole blocks of columns */
-        print_message("%d vectors: %.0f bytes, %.4f of the half\n", wanted[k], bytes, bytes / half);
         assert_true(bytes > 8.0 * m * wanted[k]);
         assert_true(bytes <= copies * 8.0 * m * n + 8.0 * n * n + rest);
     }
@@ -79,7 +74,6 @@ TEST(stages_have_memory_when_asked_for)
     double before = 0.0;
     for (size_t k = 0; k < sizeof stages / sizeof *stages; k++) {
         const double bytes = bytes_for(HD_EXPONENTS_POSITIVE, stages[k]);
-        print_message("stages %u: %.0f bytes\n", stages[k], bytes);
         assert_true(bytes > before + 1000.0);
         before = bytes;
     }
@@ -94,8 +88,7 @@ TEST(stages_have_memory_when_asked_for)
 TEST(what_is_not_asked_for_is_not_there)
 {
     for (int exponents = HD_EXPONENTS_POSITIVE; exponents <= 1; exponents++) {
-        const hd_scene_def scene = small(exponents, 0);
-        hd_run *run = created(&scene);
+        OWNED(hd_run) *run = created(small(exponents, 0));
         assert_int_equal(hd_run_frame(run) != NULL, exponents != HD_EXPONENTS_NONE);
         assert_int_equal(hd_run_spectrum(run) != NULL, exponents != HD_EXPONENTS_NONE);
         assert_null(hd_run_modes(run));
@@ -103,7 +96,6 @@ TEST(what_is_not_asked_for_is_not_there)
         assert_null(hd_run_phases(run));
         assert_null(hd_run_t_phases(run));
         assert_null(hd_run_structure(run));
-        hd_run_free(run);
     }
 }
 
@@ -124,15 +116,12 @@ TEST(a_long_run_allocates_nothing)
                  {HD_EXPONENTS_POSITIVE, EVERYTHING},
                  {HD_EXPONENTS_ALL, EVERYTHING | HD_OBSERVE_GAS | HD_OBSERVE_LOCALIZATION}};
     for (size_t k = 0; k < 2 * (sizeof modes / sizeof *modes); k++) {
-        hd_scene_def scene = scene_from(small(modes[k / 2].exponents, modes[k / 2].observe),
-                                        .boundary[0] = k % 2 ? HD_REFLECTING : HD_PERIODIC,
-                                        .boundary[1] = k % 2 ? HD_REFLECTING : HD_PERIODIC,
-                                        .disks = 40);
-        hd_run *run = created(&scene);
+        OWNED(hd_run) *run = created(scene_from(small(modes[k / 2].exponents, modes[k / 2].observe),
+                                                .boundary[0] = k % 2 ? R : P,
+                                                .boundary[1] = k % 2 ? R : P, .disks = 40));
         until_time(run, 60.0);
         const size_t before = ledger_now().allocations;
         until_time(run, HUGE_VAL);
         assert_int_equal(ledger_now().allocations, before);
-        hd_run_free(run);
     }
 }

@@ -8,10 +8,6 @@
 #include "agreement.h"
 #include "runs.h"
 
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
 /** SEEDS know a ratio to 7 %; numbers of the same runs against each other need fewer. */
 enum { SEEDS = 100, SEEDS_OF_PAIRS = 24 };
 
@@ -44,11 +40,10 @@ static harvest harvested(hd_scene_def scene, double duration, int seeds)
     scene.duration = duration;
     for (int seed = 0; seed < seeds; seed++) {
         scene.seed = (uint64_t)seed + 1;
-        hd_run *run = created(&scene);
+        OWNED(hd_run) *run = created(scene);
         lay_out(&h, run);
         finish(run);
         numbers_read(run, h.numbers + (size_t)seed * (size_t)h.stride);
-        hd_run_free(run);
     }
     return h;
 }
@@ -82,7 +77,7 @@ static void check_rule(const harvest *h, const char *const *names)
  * or less dense h_KS and T(2,0) remember too long for such short runs (hdlyap_errors --box
  * channel).
  */
-static hd_scene_def narrow_box(void) { return box(48, 0.8, 0.03, HD_PERIODIC); }
+static hd_scene_def narrow_box(void) { return box(48, 0.8, 0.03, P); }
 
 TEST(in_a_narrow_box)
 {
@@ -107,7 +102,7 @@ TEST(between_walls)
 {
     static const char *const names[] = {"exponents", "h_KS",          "LP(1;0)", "c_L",
                                         "v",         "omega LP(1;0)", NULL};
-    harvest h = harvested(box(36, 0.7, 0.5, HD_REFLECTING), 100.0, 3 * SEEDS);
+    harvest h = harvested(box(36, 0.7, 0.5, R), 100.0, 3 * SEEDS);
     check_rule(&h, names);
     free(h.numbers);
 }
@@ -117,7 +112,7 @@ TEST(between_walls)
  * better than either is known: a few seeds are enough. */
 TEST(of_steps_that_share_a_set)
 {
-    harvest h = harvested(box(100, 0.7, 1.0, HD_PERIODIC), 120.0, SEEDS_OF_PAIRS);
+    harvest h = harvested(box(100, 0.7, 1.0, P), 120.0, SEEDS_OF_PAIRS);
     const double of_c = agreement_on(&h, "c_T").ratio;
     const double of_steps = 0.5 *
                             (agreement_on(&h, "T(1;0)").ratio + agreement_on(&h, "T(0;1)").ratio);
@@ -134,18 +129,17 @@ TEST(a_target_is_not_met_by_luck)
     const double truth = 5.1067, of_truth = 0.0021; /* 40 runs of 4000 time units */
     int beyond_two = 0, beyond_three = 0;
     for (int seed = 1; seed <= TIMES; seed++) {
-        hd_scene_def scene = scene_from(box(10, 0.7, hd_scene_def_default().aspect, HD_PERIODIC),
+        hd_scene_def scene = scene_from(box(10, 0.7, hd_scene_def_default().aspect, P),
                                         .equilibration = 5.0, .warmup = 10.0, .exponents = 1,
                                         .observe = 0, .duration = 20000.0, .target_std_error = 0.1,
                                         .seed = (uint64_t)seed);
-        hd_run *run = finished(&scene);
+        OWNED(hd_run) *run = finished(scene);
         const hd_spectrum *spectrum = hd_run_spectrum(run);
         const double error = hd_spectrum_std_error(spectrum, 0);
         const double off = fabs(hd_spectrum_exponent(spectrum, 0) - truth);
         assert_true(hd_spectrum_time(spectrum) < 2000.0 && error <= scene.target_std_error);
         beyond_two += off > 2.0 * hypot(error, of_truth);
         beyond_three += off > 3.0 * hypot(error, of_truth);
-        hd_run_free(run);
     }
     print_message("%d of %d beyond two errors, %d beyond three\n", beyond_two, TIMES, beyond_three);
     assert_true(beyond_two >= TIMES / 100 && beyond_two <= 17 && beyond_three <= 3);

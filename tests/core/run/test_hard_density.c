@@ -1,16 +1,12 @@
 /** From thin gas to just under closest packing, and channels from a disk's width up: events as the
  * twin has them, energy, overlap, collision rate, and a whole spectrum that is finite, sums to zero
  * and pairs. */
-#include <float.h>
-
-#include "hdlyap/run.h"
 #include "runs.h"
 #include "scene/lattice.h"
 #include "prepared.h"
 #include "base/random.h"
 #include "twin.h"
 
-static const double PI = 3.14159265358979323846;
 static const double DENSITY[] = {
     0.001, 0.01, 0.1,
     0.4,   0.7,  0.9,
@@ -20,25 +16,21 @@ enum { DENSITIES = sizeof DENSITY / sizeof *DENSITY };
 /** A box that holds four rows of `columns` disks in closest packing. */
 static hd_scene_def packed(int columns, double density)
 {
-    return scene_of(4 * columns, density, 4.0 * sqrt(0.75) / columns, HD_PERIODIC, HD_PERIODIC, 7);
+    return scene_of(4 * columns, density, 4.0 * sqrt(0.75) / columns, P, P, 7);
 }
 
 /** Time in which a disk collides about `count` times, as tried out. */
 static double time_of(const hd_scene_def *def, double count)
 {
-    hd_trajectory *tr;
-    CHECK_OK(hd_trajectory_create(&tr, def));
+    MADE(hd_trajectory, tr, def);
     const double wanted = 0.5 * count * def->disks;
     double t = 1e-9 / hd_trajectory_collision_rate(tr), seen = 0;
     while (seen < wanted) {
         CHECK_OK(hd_trajectory_extend(tr, NULL, t *= 1.5));
         seen = (double)hd_trajectory_collisions(tr);
     }
-    hd_trajectory_free(tr);
     return t * wanted / seen;
 }
-
-/* ---- trajectories -------------------------------------------------------------------------- */
 
 /** Where they are, and as two of them touch: as in test_trajectory_conservation.c, and what the
  * rounding of the time of the contact adds at a speed of 4. */
@@ -53,11 +45,10 @@ static void check_overlap(hd_trajectory *tr, const double box[2])
 static void check_conserved(const hd_scene_def *def, double events)
 {
     enum { LOOKS = 500 };
-    hd_trajectory *tr;
     double box[2];
     hd_scene_box(def, box);
     const double t_end = time_of(def, 2.0 * events / def->disks);
-    CHECK_OK(hd_trajectory_create(&tr, def));
+    MADE(hd_trajectory, tr, def);
     const double energy = hd_trajectory_kinetic_energy(tr);
     for (int k = 1; k <= LOOKS; k++) {
         const double t = t_end * k / LOOKS;
@@ -66,36 +57,14 @@ static void check_conserved(const hd_scene_def *def, double events)
         check_overlap(tr, box);
     }
     assert_true((double)hd_trajectory_collisions(tr) > 0.5 * events);
-    hd_trajectory_free(tr);
 }
 
 TEST(gas_to_solid_is_the_twins)
 {
     for (int k = 0; k < DENSITIES; k++) {
         const hd_scene_def def = packed(5, DENSITY[k]);
-        hd_trajectory *fast;
-        CHECK_OK(hd_trajectory_create(&fast, &def));
-        twin_compare(fast, &def, 2000);
+        twin_compare(trajectory_of(def), &def, 2000);
         check_conserved(&def, HD_SANITIZED || !second_tier() ? 2e4 : 2e5);
-    }
-}
-
-/** [T2] within a percent; 1e5 collisions scatter by a third of that. */
-TEST(thin_gas_collides_as_enskog_says)
-{
-    const double count = HD_SANITIZED ? 2e4 : 1e5, allowed = HD_SANITIZED ? 0.02 : 0.01;
-    for (int k = 0; k < 3; k++) {
-        const hd_scene_def def = scene_of(400, DENSITY[k], 1.0, HD_PERIODIC, HD_PERIODIC, 31);
-        const double eta = PI * DENSITY[k] / 4.0;
-        const double contact = (1.0 - 7.0 * eta / 16.0) / ((1.0 - eta) * (1.0 - eta));
-        const double rate = sqrt(PI) * DENSITY[k] * contact * def.disks, start = 1e4 / rate;
-        hd_trajectory *tr;
-        CHECK_OK(hd_trajectory_create(&tr, &def));
-        CHECK_OK(hd_trajectory_extend(tr, NULL, start));
-        const double before = (double)hd_trajectory_collisions(tr);
-        CHECK_OK(hd_trajectory_extend(tr, NULL, start + count / rate));
-        CHECK_CLOSE((double)hd_trajectory_collisions(tr) - before, count, allowed * count);
-        hd_trajectory_free(tr);
     }
 }
 
@@ -106,7 +75,7 @@ TEST(contact_within_rounding_at_the_start)
     const double spacing[] = {1.0, 1.0 + DBL_EPSILON, 1.0 - DBL_EPSILON, 1.0 - 1e-12, 1.0 - 0.9e-9};
     hd_random random = hd_random_seeded(3, 0);
     for (int k = 0; k < 5 * 8; k++) {
-        const hd_boundary boundary = k % 2 ? HD_REFLECTING : HD_PERIODIC;
+        const hd_boundary boundary = k % 2 ? R : P;
         const hd_scene_def def = scene_in_box(16, 6.0, 5.5, boundary, boundary, 1);
         double q[32], p[32];
         for (int i = 0; i < 16; i++) {
@@ -114,17 +83,14 @@ TEST(contact_within_rounding_at_the_start)
             q[2 * i + 1] = 0.5 + spacing[k / 8] * sqrt(0.75) * (i / 4) + 0.5;
             for (int d = 0; d < 2; d++) p[2 * i + d] = 1.7 * hd_random_symmetric(&random);
         }
-        hd_trajectory *tr = started(&def, q, p);
+        OWNED(hd_trajectory) *tr = started(&def, q, p);
         assert_true(hd_trajectory_overlap(tr) <= 1e-9);
         CHECK_OK(hd_trajectory_extend(tr, NULL, 10.0));
         CHECK_CLOSE(hd_trajectory_overlap(tr), 0.0, 4.0 * DBL_EPSILON * 6.0);
         assert_true(hd_trajectory_collisions(tr) > 100);
-        hd_trajectory_free(tr);
         twin_compare(started(&def, q, p), &def, 300);
     }
 }
-
-/* ---- exponents ----------------------------------------------------------------------------- */
 
 /** All exponents, over `time`: times are those of the dense, accuracy is per time unit. */
 static hd_run *finished_after(hd_scene_def scene, double time)
@@ -168,13 +134,8 @@ TEST(exponents_pair_at_every_density)
     for (int k = 0; k < DENSITIES; k++) {
         const hd_scene_def scene = packed(3, DENSITY[k]);
         const double per_disk = HD_SANITIZED ? 300.0 : second_tier() ? 2000.0 : 700.0;
-        hd_run *run = finished_after(scene, time_of(&scene, per_disk));
-        print_message("density %g: lambda_1 %.4g, pairing error * t %.2g\n", DENSITY[k],
-                      hd_spectrum_lambda_max(hd_run_spectrum(run)),
-                      hd_spectrum_pairing_error(hd_run_spectrum(run)) *
-                          hd_run_scene(run)->duration);
+        OWNED(hd_run) *run = finished_after(scene, time_of(&scene, per_disk));
         check_spectrum(run);
-        hd_run_free(run);
     }
 }
 
@@ -183,15 +144,13 @@ TEST(several_grazes_in_an_interval_are_divided)
 {
     const uint64_t seeds[] = {159, 284};
     for (int k = 0; k < 2; k++) {
-        hd_scene_def scene = scene_of(3, 0.001, 1.0, HD_PERIODIC, HD_PERIODIC, seeds[k]);
+        hd_scene_def scene = scene_of(3, 0.001, 1.0, P, P, seeds[k]);
         const double time = 300.0 / (3.5 * scene.density);
-        hd_run *run;
         scene.exponents = HD_EXPONENTS_ALL_INDEPENDENT;
         scene.equilibration = scene.warmup = 0.0;
         scene.duration = scene.report_interval = time;
-        run = finished(&scene);
+        OWNED(hd_run) *run = finished(scene);
         CHECK_CLOSE(hd_spectrum_pairing_error(hd_run_spectrum(run)) * time, 0.0, 12.0);
-        hd_run_free(run);
     }
 }
 
@@ -204,22 +163,12 @@ typedef struct channel {
 static void check_channel(const channel *c, hd_boundary x, hd_boundary y)
 {
     enum { CHAIN = 4 };
-    const double length = x == HD_REFLECTING ? 1.0 + (CHAIN - 1) * (1.0 + c->gap)
-                                             : CHAIN * (1.0 + c->gap);
+    const double length = x == R ? 1.0 + (CHAIN - 1) * (1.0 + c->gap) : CHAIN * (1.0 + c->gap);
     const hd_scene_def scene = scene_in_box(CHAIN, length, 1.0 + c->width, x, y, 2);
-    hd_trajectory *fast;
-    CHECK_OK(hd_trajectory_create(&fast, &scene));
-    twin_compare(fast, &scene, 1000);
-    hd_run *run = finished_after(scene, time_of(&scene, HD_SANITIZED ? 0.2 * c->count : c->count));
-    print_message("Ly = 1 + %.9g, boundaries %d %d: %.0f collisions, %.3g of walls, lambda_1 %.3g, "
-                  "pairing error * t %.2g\n",
-                  c->width, (int)x, (int)y,
-                  (double)hd_trajectory_collisions(hd_run_trajectory(run)),
-                  (double)hd_trajectory_wall_events(hd_run_trajectory(run)),
-                  hd_spectrum_lambda_max(hd_run_spectrum(run)),
-                  hd_spectrum_pairing_error(hd_run_spectrum(run)) * hd_run_scene(run)->duration);
+    twin_compare(trajectory_of(scene), &scene, 1000);
+    OWNED(hd_run) *run = finished_after(scene,
+                                        time_of(&scene, HD_SANITIZED ? 0.2 * c->count : c->count));
     check_spectrum(run);
-    hd_run_free(run);
 }
 
 /** Single file: a disk's wall events outnumber its collisions by gap / width. */
@@ -228,8 +177,8 @@ TEST(single_file)
     const channel c[] = {
         {1e-9, 1e-6, 300}, {1e-6, 1e-4, 1500}, {1e-3, 1e-2, 1500}, {0.05, 0.1, 1500}};
     for (int k = 0; k < 4; k++) {
-        check_channel(&c[k], HD_PERIODIC, HD_REFLECTING);
-        check_channel(&c[k], HD_REFLECTING, HD_REFLECTING);
+        check_channel(&c[k], P, R);
+        check_channel(&c[k], R, R);
     }
 }
 
@@ -241,7 +190,7 @@ TEST(several_images)
                          {1.0 - 1e-9, 0.3, 1500},  {1.0 - 2e-15, 0.3, 1500}, {1.0, 0.3, 1500},
                          {1.0 + 2e-15, 0.3, 1500}, {1.0 + 1e-9, 0.3, 1500}};
     for (int k = 0; k < 8; k++) {
-        check_channel(&c[k], HD_PERIODIC, HD_PERIODIC);
-        check_channel(&c[k], HD_PERIODIC, HD_REFLECTING);
+        check_channel(&c[k], P, P);
+        check_channel(&c[k], P, R);
     }
 }

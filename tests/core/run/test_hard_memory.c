@@ -1,12 +1,7 @@
 /** Out of memory at every single allocation of a run: it is named, and all of what was had is given
  * back. */
-#include <stdio.h>
-
 #include "ledger.h"
 #include "runs.h"
-#include "testing.h"
-
-#include "hdlyap/hdlyap.h"
 
 enum { EVERYTHING = 31 | HD_OBSERVE_GAS | HD_OBSERVE_LOCALIZATION };
 static const char FILE_NAME[] = "hard_memory.test";
@@ -30,9 +25,9 @@ static hd_scene_def all_observables(void)
  */
 static hd_scene_def growing_log(void)
 {
-    return scene(.disks = 2000, .density = 0.7, .aspect = 1.0, .boundary[1] = HD_REFLECTING,
-                 .exponents = 1, .equilibration = 0.1, .warmup = 2.0, .duration = 2.0,
-                 .report_interval = 2.0, .threads = 1);
+    return scene(.disks = 2000, .density = 0.7, .aspect = 1.0, .boundary[1] = R, .exponents = 1,
+                 .equilibration = 0.1, .warmup = 2.0, .duration = 2.0, .report_interval = 2.0,
+                 .threads = 1);
 }
 
 static hd_status live(world *w, const hd_scene_def *scene)
@@ -65,7 +60,7 @@ static hd_status life(const hd_scene_def *scene, const char *resumed, size_t fir
 static size_t needed(const hd_scene_def *scene, size_t *of_creation)
 {
     const size_t before = ledger_now().allocations;
-    hd_run *run = created(scene);
+    hd_run *run = created(*scene);
     hd_run_free(run);
     const size_t created = ledger_now().allocations;
     CHECK_OK(life(scene, NULL, 0, 0));
@@ -111,7 +106,7 @@ TEST(of_a_growing_log)
 TEST(of_a_resumed_run)
 {
     const hd_scene_def scene = growing_log();
-    hd_run *run = created(&scene);
+    hd_run *run = created(scene);
     until(run, HD_AVERAGING);
     CHECK_OK(hd_run_advance(run));
     CHECK_OK(hd_run_save(run, FILE_NAME, "", NULL, 0));

@@ -1,8 +1,6 @@
 /** What is said to limit the interval between orthonormalisations is what does: each case is one in
  * which only that can. */
-#include "run/run_state.h"
 #include "runs.h"
-#include "scenes.h"
 
 static hd_scene_def scene_of_disks(int disks, double report_interval)
 {
@@ -26,14 +24,12 @@ static seen seen_of(const hd_run *run)
 /** Some samples after the averaging began. */
 static seen settled(const hd_scene_def *scene)
 {
-    hd_run *run = created(scene);
+    OWNED(hd_run) *run = created(*scene);
     until(run, HD_AVERAGING);
     const double from = run->agenda.schedule.start,
                  sample = hd_agenda_sample_longest(&run->agenda, &run->carrier.interval);
     until_time(run, from + 3.5 * fmax(sample, scene->report_interval));
-    const seen last = seen_of(run);
-    hd_run_free(run);
-    return last;
+    return seen_of(run);
 }
 
 /** What the conditioning allows where nothing else limits: reports are far apart, and far from a
@@ -47,7 +43,6 @@ static seen alone(int disks)
 TEST(the_conditioning_is_not_called_a_report)
 {
     const seen last = alone(24);
-    print_message("interval %g\n", last.interval);
     assert_int_equal(last.limit, HD_LIMIT_CONDITION);
     assert_true(last.interval < 10.0);
 }
@@ -55,15 +50,12 @@ TEST(the_conditioning_is_not_called_a_report)
 /** In 120 time units of averaging, after the first report, which has something to say. */
 static long orthonormalisations_with(double report_interval)
 {
-    const hd_scene_def scene = scene_of_disks(60, report_interval);
-    hd_run *run = created(&scene);
+    OWNED(hd_run) *run = created(scene_of_disks(60, report_interval));
     while (hd_run_stage(run) < HD_AVERAGING || hd_run_time(run) < run->agenda.schedule.start + 12.0)
         CHECK_OK(hd_run_advance(run));
     const long before = hd_run_cost(run).orthonormalisations;
     until_time(run, run->agenda.schedule.start + 132.0);
-    const long count = hd_run_cost(run).orthonormalisations - before;
-    hd_run_free(run);
-    return count;
+    return hd_run_cost(run).orthonormalisations - before;
 }
 
 /** Conditions scatter: within a tenth. */
@@ -73,8 +65,6 @@ TEST(a_report_costs_no_orthonormalisation)
     const long few = orthonormalisations_with(12.0);
     for (int k = 0; k < 4; k++) {
         const long count = orthonormalisations_with(reports[k]);
-        print_message("report %g: %ld orthonormalisations, %ld at every 12\n", reports[k], count,
-                      few);
         CHECK_CLOSE((double)count, (double)few, 0.1 * (double)few);
     }
 }
@@ -98,7 +88,6 @@ TEST(samples_for_errors_limit)
     scene = scene_of_disks(24, 20.0); /* of one vector, nothing else is known */
     scene.exponents = 1;
     const seen one = settled(&scene);
-    print_message("one vector: interval %g\n", one.interval);
     assert_int_equal(one.limit, HD_LIMIT_SAMPLE);
 }
 
@@ -108,7 +97,7 @@ TEST(vectors_that_are_wanted_limit)
     hd_scene_def scene = scene_from(
         scene_of_disks(24, 0.5), .observe = HD_OBSERVE_MODES | HD_OBSERVE_STEPS | HD_OBSERVE_HYDRO,
         .max_mode_number = 1);
-    hd_run *run = created(&scene);
+    OWNED(hd_run) *run = created(scene);
     long looks = 0, foreseen = 0;
     for (long reports = 0; hd_run_time(run) < 60.0;) {
         CHECK_OK(hd_run_advance(run));
@@ -120,14 +109,13 @@ TEST(vectors_that_are_wanted_limit)
         if (last.limit == HD_LIMIT_SCHEDULE) CHECK_CLOSE(last.interval, 0.5, 1e-9);
     }
     assert_true(looks >= 4 && foreseen > 3 * looks / 2);
-    hd_run_free(run);
 }
 
 /** Learnt by doubling; then the stage ends. */
 TEST(the_warmup_is_learnt_and_ends)
 {
     hd_scene_def scene = scene_from(scene_of_disks(24, 0.5), .warmup = 0.5);
-    hd_run *run = created(&scene);
+    OWNED(hd_run) *run = created(scene);
     assert_int_equal(seen_of(run).limit, HD_LIMIT_NONE);
     assert_true(isnan(seen_of(run).interval));
     bool learns = false;
@@ -138,8 +126,7 @@ TEST(the_warmup_is_learnt_and_ends)
     assert_true(learns);
     hd_run_free(run);
     scene.warmup = 1e-3;
-    run = created(&scene);
+    run = created(scene);
     until(run, HD_AVERAGING);
     assert_int_equal(seen_of(run).limit, HD_LIMIT_STAGE);
-    hd_run_free(run);
 }

@@ -1,9 +1,6 @@
 /** Between measured states a run orthonormalises in the norm of dq: nothing that is read of it may
  * show that [T5]. */
-#include <string.h>
-
 #include "runs.h"
-#include "scenes.h"
 
 enum { DISKS = 40, VECTORS = 2 * DISKS - 3 };
 
@@ -31,32 +28,20 @@ static int finish_counting(hd_run *run)
  * looked at. */
 TEST(exponents_do_not_depend_on_it)
 {
-    const hd_scene_def scene = endless(0);
-    const hd_scene_def looked = endless(HD_OBSERVE_MODES | HD_OBSERVE_STEPS | HD_OBSERVE_HYDRO);
-    hd_run *run = created(&scene), *twin = created(&looked);
+    OWNED(hd_run) *run = created(endless(0)),
+                  *twin = created(endless(HD_OBSERVE_MODES | HD_OBSERVE_STEPS | HD_OBSERVE_HYDRO));
     const int with = finish_counting(run), without = finish_counting(twin);
     assert_true(with > 40);
     assert_int_equal(without, 0);
     const double bound = hd_run_cost(run).error_bound + hd_run_cost(twin).error_bound;
-    double most = 0.0;
-    for (int col = 0; col < VECTORS; col++) {
-        const double off = hd_spectrum_exponent(run->carrier.spectrum, col) -
-                           hd_spectrum_exponent(twin->carrier.spectrum, col);
-        CHECK_CLOSE(off, 0.0, bound);
-        most = fmax(most, fabs(off));
-    }
-    print_message("%d states in the norm of dq; exponents apart by %.1e, bounds %.1e\n", with, most,
-                  bound);
-    hd_run_free(run);
-    hd_run_free(twin);
+    check_same_exponents(run, twin, bound);
 }
 
 /** Angles and ratios of the halves are those of the last measured state, like the averages, and not
  * those of the frame that stands there. */
 TEST(halves_are_those_of_the_measured_state)
 {
-    const hd_scene_def scene = endless(0);
-    hd_run *run = created(&scene);
+    OWNED(hd_run) *run = created(endless(0));
     double want[2][VECTORS], got[2][VECTORS], frame[2][VECTORS];
     int between = 0;
     while (hd_run_time(run) < 100.0) {
@@ -71,5 +56,4 @@ TEST(halves_are_those_of_the_measured_state)
         between += !run->carrier.whole && fabs(frame[0][VECTORS - 1] - got[0][VECTORS - 1]) > 1e-6;
     }
     assert_true(between > 20);
-    hd_run_free(run);
 }

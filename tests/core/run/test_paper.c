@@ -1,8 +1,5 @@
 /** The paper's 780 disks: steps of the small exponents at c_T k and c_L k, then the zeros [T9]. */
 #include "runs.h"
-#include "testing.h"
-
-#include "hdlyap/run.h"
 
 /** The paper's fits are guides to the eye, +-3 %; one more for the finite time. They are straight
  * lines: the curvature of the LP branch, 0.55 k^2 at density 0.4, adds up to 4 % between the first
@@ -28,7 +25,7 @@ static hd_run *paper_run(void)
     scene.warmup = 60.0;
     scene.duration = 70.0; /* errors come from 16 times that sound needs through the box */
     scene.observe = HD_OBSERVE_STEPS | HD_OBSERVE_PHASES;
-    return finished(&scene);
+    return finished(scene);
 }
 
 static const hd_step *row_of(const hd_run *run, size_t row)

@@ -2,14 +2,7 @@
  * an interruption.
  *
  *   test_resume [RUNS [FIRST]]    so many of them, the first one of this seed; for hours, too */
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include "testing.h"
-
 #include "draw.h"
-#include "hdlyap/parameters.h"
 #include "kept.h"
 #include "run/run_state.h"
 #include "same.h"
@@ -236,7 +229,7 @@ static void a_resumed_run_is_the_uninterrupted_one(void **state)
 {
     hd_random random = hd_random_seeded(*(const uint64_t *)*state, 0);
     const hd_scene_def def = drawn_possible(&random);
-    twins t = {.alone = kept_run(&def), .other = kept_run(&def), .watch_interval = INFINITY};
+    twins t = {.alone = kept_run(def), .other = kept_run(def), .watch_interval = INFINITY};
     if (chance(&random, 0.5)) t.field_interval = log_uniform(&random, 0.1, 100.0);
     if (chance(&random, 0.2)) t.watch_interval = log_uniform(&random, 0.02, 1.0);
     t.watch_first = chance(&random, 0.5) ? hd_run_vectors(t.alone) * 3 / 4 : 4 * def.disks;

@@ -1,73 +1,41 @@
 /** The estimate of a run's memory against what the core asks for, and what is said where it is too
  * little. */
-#include <stdio.h>
-#include <string.h>
-
 #include "ledger.h"
 #include "runs.h"
-#include "scenes.h"
-
-#include "hdlyap/modes.h"
-#include "hdlyap/pmode.h"
-#include "hdlyap/room.h"
-#include "hdlyap/wave.h"
 #include "observe/observables.h"
 
-static double asked_for(const hd_scene_def *scene)
+/** To 7 %; and a run gives back what it had. */
+static void compare(hd_scene_def scene)
 {
     const size_t before = ledger_now().live;
-    hd_run *run = created(scene);
-    finish(run);
-    hd_run_free(run);
-    assert_int_equal(ledger_now().live, before);
-    return (double)ledger_now().peak;
-}
-
-static void compare(const char *what, const hd_scene_def *scene, double least, double most)
-{
     ledger_reset_peak();
-    const double asked = asked_for(scene), threads = scene->threads;
-    const double needed = hd_room_needed(scene, (int)threads, 1);
-    print_message("%s: asked for %.2f MB, estimated %.3f times that\n", what, 1e-6 * asked,
-                  needed / asked);
-    assert_true(needed >= least * asked && needed <= most * asked);
+    hd_run_free(finished(scene));
+    assert_int_equal(ledger_now().live, before);
+    CHECK_WITHIN(hd_room_needed(&scene, scene.threads, 1) / (double)ledger_now().peak, 0.93, 1.07);
 }
 
+/** Intervals become as long as they do. */
 static hd_scene_def short_run(int disks, int exponents, unsigned observe)
 {
-    hd_scene_def scene = scene(.disks = disks, .density = 0.8, .aspect = 1.0, .equilibration = 0.1);
-    scene.warmup = 3.0; /* intervals as long as they become */
-    scene.duration = scene.report_interval = 3.0;
-    scene.exponents = exponents;
-    scene.observe = observe;
-    scene.threads = 2;
-    return scene;
+    return scene(.disks = disks, .density = 0.8, .aspect = 1.0, .equilibration = 0.1, .warmup = 3.0,
+                 .duration = 3.0, .report_interval = 3.0, .exponents = exponents,
+                 .observe = observe, .threads = 2);
 }
 
 TEST(the_estimate_is_what_is_asked_for)
 {
     enum { MODES = HD_OBSERVE_STEPS | HD_OBSERVE_PHASES | HD_OBSERVE_T_PHASES };
-    enum { STRUCTURE = MODES | HD_OBSERVE_STRUCTURE };
-    hd_scene_def scene = short_run(300, HD_EXPONENTS_POSITIVE, 0);
-    compare("positive half", &scene, 0.93, 1.07);
-    scene = short_run(300, HD_EXPONENTS_POSITIVE, MODES);
-    compare("with modes", &scene, 0.93, 1.07);
-    scene = short_run(300, HD_EXPONENTS_POSITIVE, STRUCTURE);
-    compare("with structure factors", &scene, 0.93, 1.07);
-    scene.aspect = 0.01;
-    compare("structure factors in a channel", &scene, 0.93, 1.07);
-    scene = short_run(300, HD_EXPONENTS_POSITIVE, MODES);
-    scene.max_wave_number = hd_wave_limits_of(&scene).largest;
-    compare("all wave vectors", &scene, 0.93, 1.07);
-    scene = short_run(200, HD_EXPONENTS_ALL, MODES);
-    compare("all exponents", &scene, 0.93, 1.07);
-    scene = short_run(2000, 60, 0);
-    scene.warmup = 10.0;
-    compare("2000 disks, 60 exponents", &scene, 0.93, 1.07);
-    scene = short_run(20000, HD_EXPONENTS_NONE, 0);
-    scene.warmup = scene.equilibration = 0.0;
-    scene.duration = 0.5;
-    compare("disks alone", &scene, 0.93, 1.07);
+    const hd_scene_def modes = short_run(300, HD_EXPONENTS_POSITIVE, MODES),
+                       structure = scene_from(modes, .observe = MODES | HD_OBSERVE_STRUCTURE);
+    compare(short_run(300, HD_EXPONENTS_POSITIVE, 0));
+    compare(modes);
+    compare(structure);
+    compare(scene_from(structure, .aspect = 0.01));
+    compare(scene_from(modes, .max_wave_number = hd_wave_limits_of(&modes).largest));
+    compare(short_run(200, HD_EXPONENTS_ALL, MODES));
+    compare(scene_from(short_run(2000, 60, 0), .warmup = 10.0));
+    compare(scene_from(short_run(20000, HD_EXPONENTS_NONE, 0), .warmup = 0.0, .equilibration = 0.0,
+                       .duration = 0.5));
 }
 
 /** Of each field: its values at the disks, and some numbers of each vector; none of each other
@@ -77,15 +45,12 @@ TEST(fields_take_no_more_the_more_there_are)
 {
     double of_one[2];
     for (int k = 0; k < 2; k++) {
-        hd_modes *modes;
         hd_scene_def scene = short_run(100, 60, HD_OBSERVE_STEPS);
         scene.max_mode_number = k == 0 ? 3 : 8;
         ledger_reset_peak();
-        CHECK_OK(hd_modes_create(&modes, &scene, 60, 1));
+        MADE(hd_modes, modes, &scene, 60, 1);
         of_one[k] = (double)ledger_now().peak / hd_fields_columns(hd_modes_fields(modes));
-        hd_modes_free(modes);
     }
-    print_message("%.0f and %.0f bytes of each field\n", of_one[0], of_one[1]);
     assert_true(of_one[1] <= of_one[0]);
 }
 
@@ -105,7 +70,6 @@ TEST(what_is_too_much_is_said)
     const hd_scene_def large = short_run(20000, HD_EXPONENTS_POSITIVE, HD_OBSERVE_ALL & 31);
     int exponents = 0, disks = 0;
     assert_int_equal(hd_room_check(&large, room, line, sizeof line), HD_NO_MEMORY);
-    print_message("%s\n", line);
     assert_true(strncmp(line, "out of memory: disks = 20000 with 39997 exponents need 5", 56) == 0);
     assert_non_null(strstr(line, "there are 8 GB (machine)"));
     const char *fits = strstr(line, "exponents = ");
@@ -134,14 +98,10 @@ TEST(fields_are_counted)
 {
     const hd_scene_def scene = short_run(300, 10, HD_OBSERVE_FIELDS);
     const size_t before = ledger_now().live;
-    hd_pmode *pmode;
-    CHECK_OK(hd_pmode_create(&pmode, scene.disks));
+    MADE(hd_pmode, pmode, scene.disks);
     const double asked = (double)(ledger_now().live - before);
     const double stated = hd_fields_row.bytes(&scene, 1);
-    print_message("fields: asked for %.0f bytes, estimated %.3f times that\n", asked,
-                  stated / asked);
-    assert_true(stated >= 0.93 * asked && stated <= 1.07 * asked);
-    hd_pmode_free(pmode);
+    CHECK_WITHIN(stated / asked, 0.93, 1.07);
 }
 
 TEST(nothing_is_allocated_for_it)
@@ -152,7 +112,6 @@ TEST(nothing_is_allocated_for_it)
     const size_t before = ledger_now().allocations;
     assert_int_equal(hd_run_create(&run, &large, line, sizeof line), HD_NO_MEMORY);
     assert_null(run);
-    print_message("%s\n", line);
     assert_int_equal(ledger_now().allocations, before);
     assert_non_null(strstr(line, "would fit"));
 }
@@ -160,6 +119,5 @@ TEST(nothing_is_allocated_for_it)
 TEST(there_is_some)
 {
     const hd_room room = hd_room_available();
-    print_message("%.3g GB (%s)\n", 1e-9 * room.bytes, room.limit);
-    assert_true(room.bytes > 1e7 && room.bytes < 1e15);
+    CHECK_WITHIN(room.bytes, 1e7, 1e15);
 }

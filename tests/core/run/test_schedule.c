@@ -1,9 +1,5 @@
 /** Ends of stages and reports. */
-#include <float.h>
-
-#include "scenes.h"
 #include "testing.h"
-
 #include "run/schedule.h"
 
 static hd_schedule schedule_of(double warmup, double duration, double report_interval)

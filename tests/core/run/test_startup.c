@@ -1,16 +1,10 @@
 /** Memory of the paper's scene from its creation to its first report: at most 1.4 times the frame
  * and its Gram matrix, 8 m n + 8 n^2 bytes, and the disks' own state. */
-#include <stdio.h>
-#include <stdlib.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
-
 #include "ledger.h"
-#include "scenes.h"
 #include "testing.h"
-
-#include "hdlyap/hdlyap.h"
 
 static const double MOST = 1.4;
 /** OpenBLAS's packing buffers, of which a kernel touches what it needs (32 MB a thread at most, 12
@@ -65,8 +59,6 @@ TEST(of_the_positive_half)
     const double n = whole.vectors, unit = 8.0 * 4.0 * with.disks * n + 8.0 * n * n;
     const double asked = (whole.asked - disks.asked) / unit;
     const double resident = (whole.resident - disks.resident) / unit;
-    print_message("%.0f vectors: %.1f MB; asked for %.3f times as much, resident %.3f times\n", n,
-                  1e-6 * unit, asked, resident);
     assert_true(asked > 1.0 && resident > 1.0); /* both see the frame */
     assert_true(asked <= MOST);
     assert_true(resident <= MOST + LIBRARY / unit);

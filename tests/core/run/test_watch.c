@@ -1,10 +1,4 @@
 /** Runs that are watched, for pictures. */
-#include <float.h>
-
-#include "testing.h"
-
-#include "hdlyap/hdlyap.h"
-#include "scenes.h"
 #include "runs.h"
 
 static const unsigned EVERYTHING = HD_OBSERVE_MODES | HD_OBSERVE_STEPS | HD_OBSERVE_PHASES;
@@ -42,17 +36,13 @@ static void check_same_phases(const hd_run *a, const hd_run *b)
 TEST(a_view_of_the_disks_changes_nothing)
 {
     const hd_scene_def scene = long_box(60.0);
-    hd_run *plain = created(&scene), *viewed = created(&scene);
+    OWNED(hd_run) *plain = created(scene), *viewed = created(scene);
     hd_run_watch(viewed, 0.037, hd_run_vectors(viewed));
     const int few = finish_counting(plain), many = finish_counting(viewed);
     assert_true(many > 105.0 / 0.037);
     assert_true(few < many / 10);
-    for (int col = 0; col < hd_run_vectors(plain); col++)
-        assert_true(hd_spectrum_exponent(hd_run_spectrum(plain), col) ==
-                    hd_spectrum_exponent(hd_run_spectrum(viewed), col));
+    check_same_exponents(plain, viewed, 0.0);
     check_same_phases(plain, viewed);
-    hd_run_free(plain);
-    hd_run_free(viewed);
 }
 
 static double dot(hd_columns v, int a, hd_columns w, int b, int rows)
@@ -90,9 +80,9 @@ static void catch_up(hd_run *run, double time)
 TEST(each_step_ends_with_the_vectors_wanted)
 {
     hd_scene_def scene = scene_from(long_box(30.0), .report_interval = 0.25);
-    hd_run *run = created(&scene);
+    OWNED(hd_run) *run = created(scene);
     scene.observe |= HD_OBSERVE_FIELDS;
-    hd_run *twin = created(&scene);
+    OWNED(hd_run) *twin = created(scene);
     const int n = hd_run_vectors(run), rows = 4 * scene.disks;
     int compared = 0;
     begin_to_look(run);
@@ -111,8 +101,6 @@ TEST(each_step_ends_with_the_vectors_wanted)
     }
     assert_true(compared > 50);
     assert_true(hd_run_cost(run).slow_vector_samples > 50);
-    hd_run_free(run);
-    hd_run_free(twin);
 }
 
 /** The exponents of a run that is looked at are those of one that is not, within what both may be
@@ -120,25 +108,20 @@ TEST(each_step_ends_with_the_vectors_wanted)
 TEST(looking_spoils_no_exponent)
 {
     const hd_scene_def scene = long_box(40.0);
-    hd_run *plain = created(&scene), *viewed = created(&scene);
+    OWNED(hd_run) *plain = created(scene), *viewed = created(scene);
     hd_run_watch(viewed, 0.3, hd_run_vectors(viewed) - WANTED);
     finish_counting(plain);
     finish_counting(viewed);
     const double bound = hd_run_cost(plain).error_bound + hd_run_cost(viewed).error_bound;
     assert_true(bound > 0.0 && bound < 4e-8); /* accuracy 1e-8, stated with room [T6] */
-    for (int col = 0; col < hd_run_vectors(plain); col++)
-        CHECK_CLOSE(hd_spectrum_exponent(hd_run_spectrum(viewed), col),
-                    hd_spectrum_exponent(hd_run_spectrum(plain), col), bound);
-    hd_run_free(plain);
-    hd_run_free(viewed);
+    check_same_exponents(viewed, plain, bound);
 }
 
 /** In the middle of an interval nothing is known unless somebody wants it, and modes are wanted at
  * all. */
 TEST(nobody_looks_nothing_is_known)
 {
-    const hd_scene_def scene = long_box(20.0);
-    hd_run *run = created(&scene);
+    OWNED(hd_run) *run = created(long_box(20.0));
     int known = 0, unknown = 0;
     assert_int_equal(hd_run_columns(run).count, 0);
     begin_to_look(run);
@@ -150,5 +133,4 @@ TEST(nobody_looks_nothing_is_known)
     }
     assert_int_equal(known, 0);
     assert_true(unknown > 100);
-    hd_run_free(run);
 }

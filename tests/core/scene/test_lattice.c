@@ -1,10 +1,5 @@
 /** Lattice: exactly N disks inside the box, none closer than a diameter, as dense as promised. */
 #include "scene/lattice.h"
-
-#include <float.h>
-#include <stdlib.h>
-
-#include "scenes.h"
 #include "testing.h"
 
 /** A site is a product and a sum of numbers up to L. */
@@ -18,7 +13,7 @@ static double square(double x) { return x * x; }
 /** Least distance of two sites in one direction; periodic boxes by all images that count. */
 static double least_gap(double r, double box, hd_boundary boundary)
 {
-    return boundary == HD_PERIODIC ? r - box * round(r / box) : r;
+    return boundary == P ? r - box * round(r / box) : r;
 }
 
 /** Smallest distance of any pair; a lattice's nearest image is the nearest in each direction. */
@@ -38,7 +33,7 @@ static double smallest_distance(const double *q, int n, const double box[2],
 static void check_sites(const double *q, const hd_scene_def *def, const double box[2])
 {
     for (int k = 0; k < 2 * def->disks; k++) {
-        const double reach = def->boundary[k % 2] == HD_REFLECTING ? 0.5 : 0.0;
+        const double reach = def->boundary[k % 2] == R ? 0.5 : 0.0;
         assert_true(q[k] >= reach && q[k] <= box[k % 2] - reach);
     }
     assert_true(isnan(q[2 * def->disks])); /* not one more than asked for */
@@ -50,7 +45,7 @@ static double check_lattice(const hd_scene_def *def)
     double box[2];
     hd_scene_box(def, box);
     const hd_lattice best = hd_lattice_best(def->disks, box, def->boundary);
-    double *q = calloc(2 * (size_t)def->disks + 1, sizeof *q);
+    HEAP double *q = calloc(2 * (size_t)def->disks + 1, sizeof *q);
     assert_non_null(q);
     for (int k = 0; k <= 2 * def->disks; k++) q[k] = NAN;
     hd_lattice_fill(&best, q, def->disks, box, def->boundary);
@@ -60,7 +55,6 @@ static double check_lattice(const hd_scene_def *def)
         fail_msg("N %d boundary %d %d density %.17g: distance %.17g promised %.17g", def->disks,
                  (int)def->boundary[0], (int)def->boundary[1], def->density, distance,
                  best.distance);
-    free(q);
     return best.distance;
 }
 
@@ -122,10 +116,10 @@ TEST(maximum_is_the_same_lying_and_standing)
 TEST(known_packings)
 {
     const double closest = 2.0 / sqrt(3.0), close = 1e-6;
-    const hd_scene_def hexagonal = scene_of(64, 0.5, sqrt(0.75), HD_PERIODIC, HD_PERIODIC, 1);
-    const hd_scene_def upright = scene_of(64, 0.5, 1.0 / sqrt(0.75), HD_PERIODIC, HD_PERIODIC, 1);
-    const hd_scene_def in_a_square = scene_of(64, 0.5, 1.0, HD_PERIODIC, HD_PERIODIC, 1);
-    const hd_scene_def two_in_a_box = scene_of(2, 0.5, 0.5, HD_REFLECTING, HD_REFLECTING, 1);
+    const hd_scene_def hexagonal = scene_of(64, 0.5, sqrt(0.75), P, P, 1);
+    const hd_scene_def upright = scene_of(64, 0.5, 1.0 / sqrt(0.75), P, P, 1);
+    const hd_scene_def in_a_square = scene_of(64, 0.5, 1.0, P, P, 1);
+    const hd_scene_def two_in_a_box = scene_of(2, 0.5, 0.5, R, R, 1);
     CHECK_CLOSE(hd_lattice_density_max(&hexagonal), closest, close);
     CHECK_CLOSE(hd_lattice_density_max(&upright), closest, close);
     assert_true(hd_lattice_density_max(&in_a_square) > 1.0 - close);
@@ -146,7 +140,7 @@ TEST(papers_scenes_fit)
 /** Without spare sites every site is used; with them the gaps are spread, not left at the end. */
 TEST(spare_sites_are_spread)
 {
-    const hd_scene_def def = scene_of(61, 0.4, 1.0, HD_PERIODIC, HD_PERIODIC, 1);
+    const hd_scene_def def = scene_of(61, 0.4, 1.0, P, P, 1);
     const hd_lattice lattice = {.along = 0, .rows = 8, .columns = 8, .column = 1.5, .row = 1.5};
     const double box[2] = {12.0, 12.0};
     double q[2 * 61];

@@ -1,9 +1,5 @@
 /** The rows of a scene's parameters: each says the same thing once in numbers and once in words,
  * and none is missing. */
-#include <stdlib.h>
-#include <string.h>
-
-#include "hdlyap/parameters.h"
 #include "testing.h"
 
 static size_t size_of(const hd_parameter *row)

@@ -1,14 +1,7 @@
 /** Wave vectors and modulations against the table of the paper and an enumeration by brute force.
  */
-#include <float.h>
-
 #include "testing.h"
 
-#include "hdlyap/wave.h"
-#include "scenes.h"
-
-static const double PI = 3.14159265358979323846;
-static const hd_boundary P = HD_PERIODIC, R = HD_REFLECTING;
 /** A few roundings, relative. */
 static const double ROUNDING = 8.0 * DBL_EPSILON;
 
@@ -28,8 +21,6 @@ TEST(components_follow_the_boundary)
             }
     }
 }
-
-/* ---- modulations --------------------------------------------------------------------------- */
 
 static void check_bits(hd_modulations got, const char *want)
 {
@@ -58,8 +49,6 @@ TEST(dimensions_follow_the_table)
         check_bits(hd_wave_pairs(&wave, cases[k].boundary), cases[k].pairs);
     }
 }
-
-/* ---- enumeration --------------------------------------------------------------------------- */
 
 static bool wanted(const hd_scene_def *def, int nx, int ny)
 {
@@ -177,8 +166,6 @@ TEST(capacity_is_kept)
     assert_int_equal(hd_waves(&def, wave, 3), 8);
     CHECK_CLOSE(wave[3].number, -1.0, 0.0);
 }
-
-/* ---- limits -------------------------------------------------------------------------------- */
 
 TEST(limits_are_those_of_the_disks)
 {

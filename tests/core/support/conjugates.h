@@ -3,12 +3,7 @@
 #ifndef HD_CONJUGATES_H
 #define HD_CONJUGATES_H
 
-#include <float.h>
-#include <string.h>
-
-#include "hdlyap/ortho.h"
 #include "interval.h"
-#include "scenes.h"
 #include "tangent/conjugate.h"
 #include "testing.h"
 
@@ -36,16 +31,16 @@ static inline void conjugates_copy(conjugates *x)
                all.data + (size_t)row * (size_t)all.stride, (size_t)x->rows * sizeof(double));
 }
 
-static inline conjugates conjugates_of(const hd_scene_def *scene)
+static inline conjugates conjugates_of(hd_scene_def scene)
 {
-    conjugates x = {.disks = scene->disks, .rows = 4 * scene->disks, .condition = 1.0};
-    CHECK_OK(hd_trajectory_create(&x.trajectory, scene));
+    conjugates x = {.disks = scene.disks, .rows = 4 * scene.disks, .condition = 1.0};
+    CHECK_OK(hd_trajectory_create(&x.trajectory, &scene));
     CHECK_OK(hd_trajectory_extend(x.trajectory, NULL, 10.0));
     CHECK_OK(hd_event_log_create(&x.log));
     CHECK_OK(hd_conjugate_create(&x.conjugate, x.rows, x.rows / 2));
     for (int k = 0; k < 2; k++) {
         const int vectors = k == HALF ? x.rows / 2 : x.rows;
-        CHECK_OK(hd_frame_create(&x.frame[k], x.disks, vectors, scene->seed, 1));
+        CHECK_OK(hd_frame_create(&x.frame[k], x.disks, vectors, scene.seed, 1));
         CHECK_OK(hd_ortho_create(&x.ortho[k], x.rows, vectors));
         CHECK_OK(hd_ortho_keep_factor(x.ortho[k]));
     }

@@ -1,11 +1,6 @@
 /** Event log -> sums of ln R_ll [T1], [T3]-[T5], by the Gram-Schmidt process as it stands in
  * textbooks, twice. */
 #include "exact.h"
-
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "tangent/conjugate.h"
 #include "testing.h"
 #include "interval.h"
@@ -76,8 +71,6 @@ void exact_begin_anew(exact_frame *x)
     for (int col = 0; col < x->vectors; col++) x->sum[col] = 0.0L;
 }
 
-/* ---- the tangent maps, as [T1], [T3] and [T4] say them ------------------------------------- */
-
 /** The rows of one disk: dq_x, dq_y, dp_x, dp_y. */
 static hd_exact *rows_of(const exact_frame *x, int disk) { return x->v + 4 * disk * x->vectors; }
 
@@ -133,8 +126,6 @@ void exact_replay(exact_frame *x, const hd_event_log *log)
     fly(x, (hd_exact)log->duration - t);
     exact_orthonormalise(x->v, x->rows, x->vectors, x->sum);
 }
-
-/* ---- a whole scene ------------------------------------------------------------------------- */
 
 /** In pieces, so that the log stays short. */
 static void carry(exact_frame *x, hd_trajectory *trajectory, hd_event_log *log, double length)

@@ -2,11 +2,6 @@
 #ifndef HD_FORWARD_PASS_H
 #define HD_FORWARD_PASS_H
 
-#include <stdlib.h>
-#include <string.h>
-
-#include "hdlyap/ortho.h"
-#include "scenes.h"
 #include "testing.h"
 #include "interval.h"
 
@@ -35,23 +30,22 @@ static inline void forward_interval(forward_pass *f, double length)
 }
 
 /** At time 0, with its own random frame. */
-static inline forward_pass forward_started(const hd_scene_def *scene, uint64_t seed)
+static inline forward_pass forward_started(hd_scene_def scene, uint64_t seed)
 {
     forward_pass f = {0};
-    const int n = hd_scene_vectors(scene);
-    hd_scene_def bare = *scene; /* what a run would refuse is not asked for here */
-    bare.observe = 0;
-    CHECK_OK(hd_trajectory_create(&f.trajectory, &bare));
+    const int n = hd_scene_vectors(&scene);
+    scene.observe = 0; /* what a run would refuse is not asked for here */
+    CHECK_OK(hd_trajectory_create(&f.trajectory, &scene));
     CHECK_OK(hd_event_log_create(&f.log));
-    CHECK_OK(hd_frame_create(&f.frame, scene->disks, n, seed, 1));
-    CHECK_OK(hd_ortho_create(&f.ortho, 4 * scene->disks, n));
+    CHECK_OK(hd_frame_create(&f.frame, scene.disks, n, seed, 1));
+    CHECK_OK(hd_ortho_create(&f.ortho, 4 * scene.disks, n));
     CHECK_OK(hd_ortho_keep_factor(f.ortho));
     forward_factor(&f);
     f.worst = 1.0;
     return f;
 }
 
-static inline void forward_free(forward_pass *f)
+static inline void forward_pass_free(forward_pass *f)
 {
     hd_trajectory_free(f->trajectory);
     hd_event_log_free(f->log);

@@ -1,13 +1,7 @@
 /** See kept.h. */
 #define _POSIX_C_SOURCE 200809L
-#include "kept.h"
-
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <sys/stat.h>
-
-#include "testing.h"
+#include "kept.h"
 
 hd_scene_def kept_scene(int disks, double density, double aspect, int exponents, unsigned observe)
 {
@@ -16,11 +10,11 @@ hd_scene_def kept_scene(int disks, double density, double aspect, int exponents,
                  .duration = 20.0, .threads = 1);
 }
 
-hd_run *kept_run(const hd_scene_def *def)
+hd_run *kept_run(hd_scene_def def)
 {
     hd_run *run;
     char message[256] = "";
-    if (hd_run_create(&run, def, message, sizeof message) != HD_OK) fail_msg("%s", message);
+    if (hd_run_create(&run, &def, message, sizeof message) != HD_OK) fail_msg("%s", message);
     return run;
 }
 

@@ -3,7 +3,7 @@
 #define HD_KEPT_H
 
 #include "run/checkpoint.h"
-#include "scenes.h"
+#include "testing.h"
 
 enum {
     KEPT_ALL = HD_OBSERVE_MODES | HD_OBSERVE_STEPS | HD_OBSERVE_PHASES | HD_OBSERVE_T_PHASES |
@@ -18,7 +18,7 @@ enum { KEPT_HEAD = HD_ARCHIVE_NAME + 16 };
 /** A short run of a periodic box, on one thread. */
 hd_scene_def kept_scene(int disks, double density, double aspect, int exponents, unsigned observe);
 
-hd_run *kept_run(const hd_scene_def *def);
+hd_run *kept_run(hd_scene_def def);
 
 /** Takes so many steps, or fewer if the run ends; returns how many. */
 int kept_steps(hd_run *run, int count);

@@ -33,11 +33,11 @@ static inline void passage_keep(passage *x, forward_pass *f, double length)
 }
 
 /** From a random frame of that seed, after `warmup` intervals. */
-static inline passage passage_of(const hd_scene_def *scene, uint64_t seed, int warmup, int count,
+static inline passage passage_of(hd_scene_def scene, uint64_t seed, int warmup, int count,
                                  double length)
 {
-    forward_pass f = forward_started(scene, seed);
-    passage x = {.rows = 4 * scene->disks, .vectors = forward_vectors(&f)};
+    HELD(forward_pass) f = forward_started(scene, seed);
+    passage x = {.rows = 4 * scene.disks, .vectors = forward_vectors(&f)};
     const size_t points = (size_t)count + 1;
     assert_true(x.vectors <= 64);
     x.factor = calloc(points, sizeof *x.factor);
@@ -48,7 +48,6 @@ static inline passage passage_of(const hd_scene_def *scene, uint64_t seed, int w
     x.q[0] = forward_copy(&f);
     while (x.count < count) passage_keep(&x, &f, length);
     x.condition /= count;
-    forward_free(&f);
     return x;
 }
 

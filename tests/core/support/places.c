@@ -1,10 +1,5 @@
 #include "places.h"
 
-#include <float.h>
-
-#include "scenes.h"
-#include "testing.h"
-
 const place places[PLACES] = {{HD_MODE_T, 1, 0, 58, 2, 0.20}, {HD_MODE_LP, 1, 0, 52, 4, 0.30},
                               {HD_MODE_T, 0, 1, 56, 2, 0.25}, {HD_MODE_LP, 0, 1, 48, 4, 0.36},
                               {HD_MODE_T, 1, 1, 44, 4, 0.45}, {HD_MODE_LP, 1, 1, 36, 8, 0.55}};
@@ -25,8 +20,7 @@ const hd_step *step_of(const world *w, int k)
 
 world steps_in_place(double *exponents, double noise)
 {
-    const hd_scene_def def = scene_of_places(0.8);
-    world w = world_create(&def, VECTORS, 1);
+    world w = world_create(scene_of_places(0.8), VECTORS, 1);
     exponents_falling(&w, exponents);
     for (int k = 0; k < PLACES; k++) {
         const int s = subspace_of(&w, k);

@@ -3,7 +3,6 @@
 #define HD_PREPARED_H
 
 #include "events/trajectory_state.h"
-#include "scenes.h"
 #include "testing.h"
 #include "interval.h"
 
@@ -14,11 +13,12 @@ static inline hd_trajectory *started(const hd_scene_def *def, const double *q, c
     return tr;
 }
 
-static inline hd_event_log *new_log(void)
+/** From the scene's own start. */
+static inline hd_trajectory *trajectory_of(hd_scene_def def)
 {
-    hd_event_log *log;
-    CHECK_OK(hd_event_log_create(&log));
-    return log;
+    hd_trajectory *tr = NULL;
+    CHECK_OK(hd_trajectory_create(&tr, &def));
+    return tr;
 }
 
 /** All events before t_end. */
@@ -26,9 +26,8 @@ static inline hd_event_log *log_of(const hd_scene_def *def, const double *q, con
                                    double t_end)
 {
     hd_event_log *log = new_log();
-    hd_trajectory *tr = started(def, q, p);
+    OWNED(hd_trajectory) *tr = started(def, q, p);
     CHECK_OK(trajectory_to(tr, log, t_end));
-    hd_trajectory_free(tr);
     return log;
 }
 

@@ -5,7 +5,7 @@
 #include "hdlyap/run.h"
 
 /** Each is finite, and zero or no smaller than the smallest normal number; fails the test
- * otherwise, with its name. Returns how many there are. */
-long check_published(const hd_run *run);
+ * otherwise, with its name. */
+void check_published(const hd_run *run);
 
 #endif

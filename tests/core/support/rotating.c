@@ -1,8 +1,5 @@
 #include "rotating.h"
 
-#include "scenes.h"
-#include "testing.h"
-
 const hd_phase *phase_of(const rotating *r, int slot, int c)
 {
     return hd_phases_phase(r->phases, r->first + slot * r->d + c);
@@ -74,7 +71,7 @@ void begin(rotating *r)
     show(r);
 }
 
-rotating rotating_create(const hd_scene_def *def, hd_mode_kind kind, int nx, int ny, int vectors,
+rotating rotating_create(hd_scene_def def, hd_mode_kind kind, int nx, int ny, int vectors,
                          double exponent)
 {
     rotating r = {.w = world_create(def, vectors, 1), .dt = 1.0};
@@ -103,23 +100,36 @@ rotating pairs_of(int d, int disks)
     const double exponent = 2.4;
     hd_scene_def def;
     if (d == 4) {
-        def = scene_of(disks, 0.5, 0.8, HD_PERIODIC, HD_PERIODIC, 9);
+        def = scene_of(disks, 0.5, 0.8, P, P, 9);
         def.max_mode_number = 1;
-        return rotating_create(&def, HD_MODE_LP, 1, 1, 8, exponent);
+        return rotating_create(def, HD_MODE_LP, 1, 1, 8, exponent);
     }
-    def = scene_in_box(disks, disks / 0.75, 1.5, d == 1 ? HD_REFLECTING : HD_PERIODIC, HD_PERIODIC,
-                       9);
+    def = scene_in_box(disks, disks / 0.75, 1.5, d == 1 ? R : P, P, 9);
     def.max_mode_number = 1;
-    return rotating_create(&def, HD_MODE_LP, 1, 0, 2 * d, exponent);
+    return rotating_create(def, HD_MODE_LP, 1, 0, 2 * d, exponent);
 }
 
 rotating pairs(int d) { return pairs_of(d, d == 4 ? 60 : 30); }
 
 rotating t_pairs(int d)
 {
-    hd_scene_def def = scene(.disks = 60, .density = 0.5, .aspect = 0.8, .seed = 9,
-                             .max_mode_number = 1);
-    return rotating_create(&def, HD_MODE_T, 1, d - 1, 2 * d, 2.4);
+    return rotating_create(
+        scene(.disks = 60, .density = 0.5, .aspect = 0.8, .seed = 9, .max_mode_number = 1),
+        HD_MODE_T, 1, d - 1, 2 * d, 2.4);
+}
+
+void exchange(rotating *r, int a, int b, double sign)
+{
+    const int column = r->column[a];
+    r->column[a] = r->column[b];
+    r->column[b] = column;
+    r->sign[a] *= sign;
+}
+
+void check_columns(const rotating *r)
+{
+    for (int v = 0; v < 2 * r->d; v++)
+        for (int c = 0; c < r->d; c++) assert_int_equal(phase_of(r, v, c)->col, r->column[v]);
 }
 
 double strength_of(const hd_phase *phase) { return phase->a * phase->a + phase->b * phase->b; }

@@ -3,7 +3,6 @@
 #ifndef HD_ROTATING_H
 #define HD_ROTATING_H
 
-#include "hdlyap/phases.h"
 #include "synthetic.h"
 
 enum { VECTORS_MAX = 8, PAIRS_MAX = 4, ROWS_MAX = 800 };
@@ -31,7 +30,7 @@ typedef struct rotating {
 
 /** The step of this kind at (nx, ny) of this scene in the last columns of a frame of `vectors`;
  * drawn and shown. */
-rotating rotating_create(const hd_scene_def *def, hd_mode_kind kind, int nx, int ny, int vectors,
+rotating rotating_create(hd_scene_def def, hd_mode_kind kind, int nx, int ny, int vectors,
                          double exponent);
 /** 1, 2 or 4 pairs. The exponent allows turns up to 0.95 pi. */
 rotating pairs_of(int d, int disks);
@@ -48,6 +47,12 @@ void begin(rotating *r);
 void turn(rotating *r, double omega);
 /** Exponents all alike, and the steps anew. */
 void find(rotating *r, double exponent);
+
+/** Vectors a and b change places; a takes this sign, too. */
+void exchange(rotating *r, int a, int b, double sign);
+
+/** Fails unless the slots are in the columns of their vectors. */
+void check_columns(const rotating *r);
 
 const hd_phase *phase_of(const rotating *r, int slot, int c);
 double strength_of(const hd_phase *phase);

@@ -2,16 +2,13 @@
 #ifndef HD_RUNS_H
 #define HD_RUNS_H
 
-#include <math.h>
-
 #include "run/run_state.h"
-#include "scenes.h"
 #include "testing.h"
 
-static inline hd_run *created(const hd_scene_def *scene)
+static inline hd_run *created(hd_scene_def scene)
 {
     hd_run *run = NULL;
-    CHECK_OK(hd_run_create(&run, scene, NULL, 0));
+    CHECK_OK(hd_run_create(&run, &scene, NULL, 0));
     return run;
 }
 
@@ -24,7 +21,7 @@ static inline hd_run *until(hd_run *run, hd_stage stage)
 
 static inline hd_run *finish(hd_run *run) { return until(run, HD_FINISHED); }
 
-static inline hd_run *finished(const hd_scene_def *scene) { return finish(created(scene)); }
+static inline hd_run *finished(hd_scene_def scene) { return finish(created(scene)); }
 
 /** Goes on to that simulated time, or to the end. */
 static inline void until_time(hd_run *run, double time)
@@ -39,6 +36,15 @@ static inline bool going_on(hd_run *run)
     if (hd_run_stage(run) == HD_FINISHED) return false;
     CHECK_OK(hd_run_advance(run));
     return true;
+}
+
+/** All exponents of both runs, apart by no more than this. */
+static inline void check_same_exponents(const hd_run *a, const hd_run *b, double tolerance)
+{
+    assert_int_equal(hd_run_vectors(a), hd_run_vectors(b));
+    for (int col = 0; col < hd_run_vectors(a); col++)
+        CHECK_CLOSE(hd_spectrum_exponent(hd_run_spectrum(a), col),
+                    hd_spectrum_exponent(hd_run_spectrum(b), col), tolerance);
 }
 
 /** Behind the controller's back: where an interval would be planned, one of this length, within the

@@ -1,11 +1,5 @@
 /** Two runs -> their numbers, one by one. */
 #include "same.h"
-
-#include <stdlib.h>
-#include <string.h>
-
-#include "testing.h"
-
 #include "kept.h"
 #include "run/run_state.h"
 

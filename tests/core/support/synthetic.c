@@ -1,12 +1,5 @@
 #include "synthetic.h"
 
-#include <stdlib.h>
-#include <string.h>
-
-#include "hdlyap/blas.h"
-#include "testing.h"
-
-static const double PI = 3.14159265358979323846;
 enum { VECTORS_MAX = 64 };
 
 static void take_state(world *w)
@@ -15,19 +8,19 @@ static void take_state(world *w)
     hd_fields_sample(w->fields, w->q, w->p);
 }
 
-world world_create(const hd_scene_def *scene, int vectors, int threads)
+world world_create(hd_scene_def scene, int vectors, int threads)
 {
-    world w = {.scene = *scene, .random = hd_random_seeded(scene->seed, 77)};
-    const size_t size = 2 * (size_t)scene->disks * sizeof(double);
+    world w = {.scene = scene, .random = hd_random_seeded(scene.seed, 77)};
+    const size_t size = 2 * (size_t)scene.disks * sizeof(double);
     hd_blas_use_threads(threads); /* more would only wait for each other */
     w.q = malloc(size);
     w.p = malloc(size);
-    CHECK_OK(hd_trajectory_create(&w.trajectory, scene));
-    CHECK_OK(hd_fields_create(&w.fields, scene));
-    CHECK_OK(hd_frame_create(&w.frame, scene->disks, vectors, scene->seed, threads));
-    CHECK_OK(hd_modes_create(&w.modes, scene, vectors, threads));
-    CHECK_OK(hd_steps_create(&w.steps, scene, w.modes));
-    CHECK_OK(hd_spectrum_create(&w.spectrum, 4 * scene->disks, vectors, 0.0));
+    CHECK_OK(hd_trajectory_create(&w.trajectory, &scene));
+    CHECK_OK(hd_fields_create(&w.fields, &scene));
+    CHECK_OK(hd_frame_create(&w.frame, scene.disks, vectors, scene.seed, threads));
+    CHECK_OK(hd_modes_create(&w.modes, &scene, vectors, threads));
+    CHECK_OK(hd_steps_create(&w.steps, &scene, w.modes));
+    CHECK_OK(hd_spectrum_create(&w.spectrum, 4 * scene.disks, vectors, 0.0));
     CHECK_OK(hd_trajectory_extend(w.trajectory, NULL, 20.0));
     take_state(&w);
     world_noise(&w);
@@ -58,8 +51,6 @@ void world_place(world *w, const double *q, const double *p)
     memcpy(w->p, p, (size_t)world_rows(w) * sizeof *p);
     hd_fields_sample(w->fields, w->q, w->p);
 }
-
-/* ---- random numbers ------------------------------------------------------------------------ */
 
 /** Box and Muller. */
 double random_normal(hd_random *random)
@@ -97,8 +88,6 @@ void random_rotation(hd_random *random, double *out, int n)
     orthonormalise(out, n, n);
 }
 
-/* ---- fields -------------------------------------------------------------------------------- */
-
 int world_rows(const world *w) { return 2 * w->scene.disks; }
 
 int world_subspace(const world *w, hd_mode_kind kind, int nx, int ny)
@@ -121,7 +110,7 @@ void modulation_at(const hd_scene_def *scene, double out[3], const hd_wave *wave
 {
     double f[2], df[2];
     for (int d = 0; d < 2; d++) {
-        const double wall = scene->boundary[d] == HD_REFLECTING ? 0.5 : 0.0;
+        const double wall = scene->boundary[d] == R ? 0.5 : 0.0;
         const double k = wave->k[d], angle = k * (q[d] - wall);
         const bool sine = bits & (d == 0 ? HD_SIN_X : HD_SIN_Y);
         f[d] = sine ? sin(angle) : cos(angle);
@@ -138,8 +127,6 @@ void world_add_field(const world *w, double *out, int column, double factor)
     for (int row = 0; row < world_rows(w); row++)
         out[row] += factor * hd_fields_data(w->fields)[(size_t)row * stride + (size_t)column];
 }
-
-/* ---- vectors ------------------------------------------------------------------------------- */
 
 static double *element(const world *w, int row, int half, int col)
 {
@@ -159,10 +146,9 @@ void world_write(world *w, int col, const double *dq, const double *dp)
 
 void world_write_mode(world *w, int col, const double *dq, double c)
 {
-    double *dp = malloc((size_t)world_rows(w) * sizeof *dp);
+    HEAP double *dp = malloc((size_t)world_rows(w) * sizeof *dp);
     for (int row = 0; row < world_rows(w); row++) dp[row] = c * dq[row];
     world_write(w, col, dq, dp);
-    free(dp);
 }
 
 void world_read(const world *w, int col, double *dq, double *dp)
@@ -175,12 +161,11 @@ void world_read(const world *w, int col, double *dq, double *dp)
 
 void world_noise(world *w)
 {
-    double *dq = malloc((size_t)world_rows(w) * sizeof *dq);
+    HEAP double *dq = malloc((size_t)world_rows(w) * sizeof *dq);
     for (int col = 0; col < hd_frame_vectors(w->frame); col++) {
         for (int row = 0; row < world_rows(w); row++) dq[row] = random_normal(&w->random);
         world_write_mode(w, col, dq, 1.0);
     }
-    free(dq);
 }
 
 /** [columns][2N]; returns the number of columns. */
@@ -200,25 +185,23 @@ static void write_turned(world *w, int col, const double *basis, const double *t
                          double noise)
 {
     const int rows = world_rows(w);
-    double *dq = calloc((size_t)rows, sizeof *dq);
+    HEAP double *dq = calloc((size_t)rows, sizeof *dq);
     for (int row = 0; row < rows; row++) {
         for (int b = 0; b < count; b++)
             dq[row] += turn[b] * basis[(size_t)b * (size_t)rows + (size_t)row];
         dq[row] += noise / sqrt(rows) * random_normal(&w->random);
     }
     world_write_mode(w, col, dq, 1.0);
-    free(dq);
 }
 
 void world_span(world *w, int col, const int *subspace, int subspaces, double noise)
 {
     double turn[VECTORS_MAX * VECTORS_MAX];
-    double *basis = calloc(VECTORS_MAX * (size_t)world_rows(w), sizeof *basis);
+    HEAP double *basis = calloc(VECTORS_MAX * (size_t)world_rows(w), sizeof *basis);
     const int count = fields_of(w, basis, subspace, subspaces);
     orthonormalise(basis, count, world_rows(w));
     random_rotation(&w->random, turn, count);
     for (int m = 0; m < count; m++) write_turned(w, col + m, basis, turn + m * count, count, noise);
-    free(basis);
 }
 
 void world_turn(world *w, int a, int b, double angle)
@@ -231,8 +214,6 @@ void world_turn(world *w, int a, int b, double angle)
             *x = turned;
         }
 }
-
-/* ---- what is measured ---------------------------------------------------------------------- */
 
 void world_look(world *w)
 {

@@ -3,7 +3,7 @@
 #ifndef HD_SYNTHETIC_H
 #define HD_SYNTHETIC_H
 
-#include "hdlyap/steps.h"
+#include "testing.h"
 #include "base/random.h"
 
 typedef struct world {
@@ -19,7 +19,7 @@ typedef struct world {
 } world;
 
 /** An equilibrated state; the frame is noise. */
-world world_create(const hd_scene_def *scene, int vectors, int threads);
+world world_create(hd_scene_def scene, int vectors, int threads);
 void world_free(world *w);
 /** Lets the disks go on: the next state. */
 void world_move(world *w, double time);

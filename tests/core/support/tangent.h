@@ -2,9 +2,6 @@
 #ifndef HD_TANGENT_H
 #define HD_TANGENT_H
 
-#include <float.h>
-
-#include "hdlyap/frame.h"
 #include "testing.h"
 
 static inline double *frame_entry(hd_frame *frame, int row, int col)
@@ -50,10 +47,9 @@ static inline double check_symplectic_map(const hd_event_log *log, int disks)
     enum { MAX = 16 };
     const int rows = 4 * disks;
     const double known = 16.0 * DBL_EPSILON * fmax(1.0, (double)log->count);
-    hd_frame *frame;
     double a[MAX], b[MAX], size[MAX], all = 0.0;
     assert_true(rows <= MAX);
-    CHECK_OK(hd_frame_create(&frame, disks, rows, 1, 1));
+    MADE(hd_frame, frame, disks, rows, 1, 1);
     frame_identity(frame);
     CHECK_OK(hd_frame_replay(frame, log, 0.0, log->duration));
     for (int k = 0; k < rows; k++) {
@@ -69,7 +65,6 @@ static inline double check_symplectic_map(const hd_event_log *log, int disks)
             frame_column(frame, l, b);
             CHECK_CLOSE(symplectic(a, b, rows), want, known * all * (size[k] + size[l]));
         }
-    hd_frame_free(frame);
     return all;
 }
 

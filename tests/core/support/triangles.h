@@ -2,10 +2,6 @@
 #ifndef HD_TRIANGLES_H
 #define HD_TRIANGLES_H
 
-#include <float.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "testing.h"
 
 /** Row-major copy of R, to be freed; zeros below the diagonal. */

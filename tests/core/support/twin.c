@@ -4,11 +4,6 @@
  * contact (here for one pair at a time), epochs, folding into the box, and the exchange of momenta.
  */
 #include "twin.h"
-
-#include <float.h>
-#include <math.h>
-#include <stdlib.h>
-
 #include "one_contact.h"
 
 /** Images that come this close to touching [sigma] are tried: far above rounding, and harmless. */
@@ -65,7 +60,7 @@ static void image_range(int32_t range[2], const line *l)
 {
     const double a = l->r + l->p * l->from, b = l->r + l->p * l->to;
     range[0] = range[1] = 0;
-    if (l->boundary == HD_REFLECTING) return;
+    if (l->boundary == R) return;
     range[0] = (int32_t)ceil((-1.0 - IMAGE_MARGIN - fmax(a, b)) / l->box);
     range[1] = (int32_t)floor((1.0 + IMAGE_MARGIN - fmin(a, b)) / l->box);
 }
@@ -117,7 +112,7 @@ static double wall_at(const twin *t, const hd_disk *disk, int d)
 
 static double wall_time(const twin *t, const hd_disk *disk, int d)
 {
-    if (t->boundary[d] != HD_REFLECTING || disk->p[d] == 0) return INFINITY;
+    if (t->boundary[d] != R || disk->p[d] == 0) return INFINITY;
     return disk->t + fmax((wall_at(t, disk, d) - disk->q[d]) / disk->p[d], 0.0);
 }
 
@@ -160,7 +155,7 @@ static void move(hd_disk *disk, double to)
 static void fold(const twin *t, hd_disk *disk)
 {
     for (int d = 0; d < 2; d++)
-        if (t->boundary[d] == HD_PERIODIC) disk->q[d] -= floor(disk->q[d] / t->box[d]) * t->box[d];
+        if (t->boundary[d] == P) disk->q[d] -= floor(disk->q[d] / t->box[d]) * t->box[d];
 }
 
 /** r.r - 1 as a double and the correction lost in it, added last. */

@@ -3,9 +3,8 @@
 #ifndef HD_TWIN_H
 #define HD_TWIN_H
 
-#include <stdbool.h>
-
-#include "hdlyap/trajectory.h"
+#include "interval.h"
+#include "testing.h"
 
 typedef struct twin twin;
 

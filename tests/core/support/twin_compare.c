@@ -1,12 +1,6 @@
 /** Follows a trajectory and its twin side by side, interval by interval. */
 #include "twin.h"
 
-#include <stdlib.h>
-#include <string.h>
-
-#include "testing.h"
-#include "interval.h"
-
 /** Intervals are cut unevenly so that their ends fall anywhere in an epoch. */
 static const double PIECES[] = {0.37, 2.9, 0.011, 11.3};
 enum { PIECE_KINDS = sizeof PIECES / sizeof *PIECES };

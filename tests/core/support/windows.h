@@ -2,10 +2,7 @@
 #ifndef HD_WINDOWS_H
 #define HD_WINDOWS_H
 
-#include <stdbool.h>
-
 #include "forward_pass.h"
-#include "hdlyap/covariant.h"
 
 /** A power of two: sums of it are exact, and looks fall where they are due. */
 #define WINDOWS_INTERVAL 0.25
@@ -24,11 +21,11 @@ static inline hd_scene_def windows_scene(int disks, hd_boundary x, hd_boundary y
 }
 
 /** After `warmup` intervals; begun with room for intervals of this length. */
-static inline windows windows_begun(const hd_scene_def *scene, int warmup, double interval)
+static inline windows windows_begun(hd_scene_def scene, int warmup, double interval)
 {
     windows w = {forward_started(scene, 1), NULL};
     for (int k = 0; k < warmup; k++) forward_interval(&w.f, WINDOWS_INTERVAL);
-    CHECK_OK(hd_covariant_create(&w.c, scene, 1));
+    CHECK_OK(hd_covariant_create(&w.c, &scene, 1));
     CHECK_OK(hd_covariant_begin(w.c, hd_frame_columns(w.f.frame),
                                 hd_trajectory_time(w.f.trajectory), interval));
     return w;
@@ -36,7 +33,7 @@ static inline windows windows_begun(const hd_scene_def *scene, int warmup, doubl
 
 static inline void windows_free(windows *w)
 {
-    forward_free(&w->f);
+    forward_pass_free(&w->f);
     hd_covariant_free(w->c);
 }
 

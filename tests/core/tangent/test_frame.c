@@ -1,10 +1,4 @@
 /** The tangent maps: against shadow trajectories, exact invariants, and each other. */
-#include <float.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include "testing.h"
-
 #include "tangent.h"
 #include "interval.h"
 
@@ -24,12 +18,10 @@ static shadow shadow_of(int disks, double density, hd_boundary x, hd_boundary y)
     s.scene.aspect = 0.8;
     s.scene.boundary[0] = x;
     s.scene.boundary[1] = y;
-    hd_trajectory *tr;
-    CHECK_OK(hd_trajectory_create(&tr, &s.scene));
+    MADE(hd_trajectory, tr, &s.scene);
     CHECK_OK(hd_trajectory_extend(tr, NULL, 20.0));
     s.time = 1.6 * disks / hd_trajectory_collision_rate(tr); /* about three collisions a disk */
     hd_trajectory_state(tr, s.q, s.p);
-    hd_trajectory_free(tr);
     for (int row = 0; row < 4 * disks; row++) s.d[row] = cos(1.0 + 7.0 * row); /* any direction */
     return s;
 }
@@ -43,22 +35,19 @@ static void follow(const shadow *s, double epsilon, double *q, double *p, hd_eve
             q0[2 * i + c] = s->q[2 * i + c] + epsilon * s->d[4 * i + c];
             p0[2 * i + c] = s->p[2 * i + c] + epsilon * s->d[4 * i + 2 + c];
         }
-    hd_trajectory *tr;
+    OWNED(hd_trajectory) *tr = NULL;
     CHECK_OK(hd_trajectory_create_from(&tr, &s->scene, q0, p0));
     CHECK_OK(trajectory_to(tr, log, s->time));
     hd_trajectory_state(tr, q, p);
-    hd_trajectory_free(tr);
 }
 
 /** d carried by the frame. */
 static void carry(const shadow *s, const hd_event_log *log, double *out)
 {
-    hd_frame *frame;
-    CHECK_OK(hd_frame_create(&frame, s->scene.disks, 1, 1, 1));
+    MADE(hd_frame, frame, s->scene.disks, 1, 1, 1);
     memcpy(hd_frame_data(frame), s->d, (size_t)(4 * s->scene.disks) * sizeof(double));
     CHECK_OK(hd_frame_replay(frame, log, 0.0, log->duration));
     memcpy(out, hd_frame_data(frame), (size_t)(4 * s->scene.disks) * sizeof(double));
-    hd_frame_free(frame);
 }
 
 /** Relative deviation of the central difference from the carried vector. */
@@ -83,28 +72,24 @@ static void check_shadow(int disks, double density, hd_boundary x, hd_boundary y
 {
     const shadow s = shadow_of(disks, density, x, y);
     double q[64], p[64], carried[128], error[4];
-    hd_event_log *log;
-    CHECK_OK(hd_event_log_create(&log));
+    OWNED(hd_event_log) *log = new_log();
     follow(&s, 0.0, q, p, log);
     assert_true(log->count > (size_t)disks);
     carry(&s, log, carried);
     for (int k = 0; k < 4; k++) error[k] = shadow_error(&s, carried, pow(10.0, -5.0 - 0.5 * k));
-    print_message("%d disks, %zu events: deviation %.1e %.1e %.1e %.1e\n", disks, log->count,
-                  error[0], error[1], error[2], error[3]);
     assert_true(error[3] < 1e-5);
     for (int k = 0; k < 3;
          k++) /* a factor 10 each, less what rounding of order 1e-15 / epsilon adds */
         CHECK_CLOSE(error[k + 1], error[k] / 10.0, 0.5 * error[k] / 10.0 + 1e-8);
-    hd_event_log_free(log);
 }
 
 TEST(maps_are_the_derivative_of_the_flow)
 {
-    check_shadow(10, 0.5, HD_PERIODIC, HD_PERIODIC);
-    check_shadow(12, 0.3, HD_REFLECTING, HD_REFLECTING);
-    check_shadow(12, 0.6, HD_PERIODIC, HD_REFLECTING);
-    check_shadow(12, 0.6, HD_REFLECTING, HD_PERIODIC);
-    check_shadow(30, 0.7, HD_PERIODIC, HD_PERIODIC);
+    check_shadow(10, 0.5, P, P);
+    check_shadow(12, 0.3, R, R);
+    check_shadow(12, 0.6, P, R);
+    check_shadow(12, 0.6, R, P);
+    check_shadow(30, 0.7, P, P);
 }
 
 /* ---- many vectors -------------------------------------------------------------------------- */
@@ -120,14 +105,12 @@ static scene_log logged(int disks, hd_boundary boundary, double time)
     scene_log s = {.scene = hd_scene_def_default()};
     s.scene.disks = disks;
     s.scene.boundary[0] = s.scene.boundary[1] = boundary;
-    hd_trajectory *tr;
     CHECK_OK(hd_event_log_create(&s.log));
-    CHECK_OK(hd_trajectory_create(&tr, &s.scene));
+    MADE(hd_trajectory, tr, &s.scene);
     CHECK_OK(hd_trajectory_extend(tr, NULL, 10.0));
     hd_trajectory_state(tr, s.q[0], s.p[0]);
     CHECK_OK(trajectory_to(tr, s.log, 10.0 + time));
     hd_trajectory_state(tr, s.q[1], s.p[1]);
-    hd_trajectory_free(tr);
     return s;
 }
 
@@ -136,9 +119,8 @@ static void check_symplectic(hd_boundary boundary)
 {
     enum { DISKS = 9, ROWS = 4 * DISKS };
     scene_log s = logged(DISKS, boundary, 1.0);
-    hd_frame *frame;
     double before[ROWS][ROWS], a[ROWS], b[ROWS];
-    CHECK_OK(hd_frame_create(&frame, DISKS, ROWS, 3, 1));
+    MADE(hd_frame, frame, DISKS, ROWS, 3, 1);
     for (int k = 0; k < ROWS; k++)
         for (int l = 0; l < ROWS; l++)
             before[k][l] = symplectic(frame_column(frame, k, a), frame_column(frame, l, b), ROWS);
@@ -152,14 +134,13 @@ static void check_symplectic(hd_boundary boundary)
             CHECK_CLOSE(symplectic(a, b, ROWS), before[k][l],
                         sqrt(events) * 8 * DBL_EPSILON * size);
         }
-    hd_frame_free(frame);
     hd_event_log_free(s.log);
 }
 
 TEST(maps_are_symplectic)
 {
-    check_symplectic(HD_PERIODIC);
-    check_symplectic(HD_REFLECTING);
+    check_symplectic(P);
+    check_symplectic(R);
 }
 
 /** Uniform dq, uniform dp, dq = p and dp = p are carried into vectors known in closed form. */
@@ -168,9 +149,8 @@ TEST(zero_modes_stay_zero_modes)
     enum { DISKS = 30, ROWS = 4 * DISKS };
     const double time = 1.0,
                  tolerance = 1e-10; /* eps * e^(lambda_1 t) at lambda_1 t = 7, |p| = 8 */
-    scene_log s = logged(DISKS, HD_PERIODIC, time);
-    hd_frame *frame;
-    CHECK_OK(hd_frame_create(&frame, DISKS, 6, 1, 1));
+    scene_log s = logged(DISKS, P, time);
+    MADE(hd_frame, frame, DISKS, 6, 1, 1);
     double *v = hd_frame_data(frame);
     const int stride = hd_frame_stride(frame);
     for (int i = 0; i < DISKS; i++)
@@ -195,7 +175,6 @@ TEST(zero_modes_stay_zero_modes)
                 CHECK_CLOSE(dp[k], want_p[k], tolerance);
             }
         }
-    hd_frame_free(frame);
     hd_event_log_free(s.log);
 }
 
@@ -203,8 +182,7 @@ TEST(zero_modes_stay_zero_modes)
 static void replayed(const scene_log *s, int vectors, int threads, const double *cuts, int col,
                      double *out)
 {
-    hd_frame *frame;
-    CHECK_OK(hd_frame_create(&frame, s->scene.disks, vectors, 1, threads));
+    MADE(hd_frame, frame, s->scene.disks, vectors, 1, threads);
     double *v = hd_frame_data(frame);
     for (int row = 0; row < hd_frame_rows(frame); row++)
         for (int k = 0; k < vectors; k++)
@@ -212,7 +190,6 @@ static void replayed(const scene_log *s, int vectors, int threads, const double 
     double begin = 0.0;
     for (; *cuts > 0.0; begin = *cuts++) CHECK_OK(hd_frame_replay(frame, s->log, begin, *cuts));
     frame_column(frame, col, out);
-    hd_frame_free(frame);
 }
 
 static void check_same(const double *a, const double *b, int rows, double relative)
@@ -227,7 +204,7 @@ TEST(columns_do_not_know_of_each_other)
     enum { DISKS = 40, ROWS = 4 * DISKS };
     static const int counts[] = {1, 2, 3, 4, 5, 7, 8, 9, 16, 17, 31, 33, 63, 64, 65, 100, 129, 160};
     const double whole[] = {1.0, 0.0}, rounding = 1e3 * DBL_EPSILON; /* e^(lambda_1 t), no more */
-    scene_log s = logged(DISKS, HD_REFLECTING, 1.0);
+    scene_log s = logged(DISKS, R, 1.0);
     double one[ROWS], other[ROWS];
     for (size_t k = 0; k < sizeof counts / sizeof *counts; k++) {
         const int last = counts[k] - 1;
@@ -244,7 +221,7 @@ TEST(columns_do_not_know_of_each_other)
 TEST(pieces_make_the_whole)
 {
     enum { DISKS = 40, ROWS = 4 * DISKS };
-    scene_log s = logged(DISKS, HD_PERIODIC, 1.0);
+    scene_log s = logged(DISKS, P, 1.0);
     const double at_event = s.log->event[s.log->count / 2].t;
     const double whole[] = {1.0, 0.0}, two[] = {0.3, 1.0, 0.0}, event[] = {at_event, 1.0, 0.0};
     double one[ROWS], other[ROWS];
@@ -259,18 +236,15 @@ TEST(pieces_make_the_whole)
 TEST(rewind_brings_the_vectors_back)
 {
     enum { DISKS = 20, VECTORS = 70 };
-    scene_log s = logged(DISKS, HD_PERIODIC, 0.5);
-    hd_frame *frame;
-    CHECK_OK(hd_frame_create(&frame, DISKS, VECTORS, 5, 2));
+    scene_log s = logged(DISKS, P, 0.5);
+    MADE(hd_frame, frame, DISKS, VECTORS, 5, 2);
     const size_t size = (size_t)(hd_frame_rows(frame) * hd_frame_stride(frame)) * sizeof(double);
-    double *before = malloc(size);
+    HEAP double *before = malloc(size);
     memcpy(before, hd_frame_data(frame), size);
     CHECK_OK(hd_frame_replay(frame, s.log, 0.0, 0.5));
     assert_memory_not_equal(before, hd_frame_data(frame), size);
     hd_frame_rewind(frame);
     assert_memory_equal(before, hd_frame_data(frame), size);
-    free(before);
-    hd_frame_free(frame);
     hd_event_log_free(s.log);
 }
 
@@ -278,24 +252,21 @@ TEST(rewind_brings_the_vectors_back)
 TEST(a_half_that_vanishes_has_no_angle)
 {
     enum { DISKS = 2, VECTORS = 2 };
-    hd_frame *frame;
     double cosine[VECTORS], ratio[VECTORS];
-    CHECK_OK(hd_frame_create(&frame, DISKS, VECTORS, 9, 1));
+    MADE(hd_frame, frame, DISKS, VECTORS, 9, 1);
     for (int row = 0; row < 4 * DISKS; row++)
         for (int col = 0; col < VECTORS; col++) /* column 0: dp = 0, column 1: dq = 0 */
             hd_frame_data(frame)[row * hd_frame_stride(frame) + col] = (row % 4 < 2) == (col == 0);
     hd_frame_halves(frame, cosine, ratio);
     assert_true(isnan(cosine[0]) && isnan(cosine[1]) && isnan(ratio[1]));
     CHECK_CLOSE(ratio[0], 0.0, 0.0);
-    hd_frame_free(frame);
 }
 
 TEST(halves_are_measured_per_column)
 {
     enum { DISKS = 5, VECTORS = 20 };
-    hd_frame *frame;
     double cosine[VECTORS], ratio[VECTORS], v[4 * DISKS];
-    CHECK_OK(hd_frame_create(&frame, DISKS, VECTORS, 9, 1));
+    MADE(hd_frame, frame, DISKS, VECTORS, 9, 1);
     for (int row = 0; row < 4 * DISKS; row++) /* column 3: dp = -2 dq */
         hd_frame_data(frame)[row * hd_frame_stride(frame) + 3] = row % 4 < 2 ? 1.5 : -3.0;
     hd_frame_halves(frame, cosine, ratio);
@@ -312,5 +283,4 @@ TEST(halves_are_measured_per_column)
         CHECK_CLOSE(cosine[col], qp / sqrt(qq * pp), 8 * DBL_EPSILON);
         CHECK_CLOSE(ratio[col], sqrt(pp / qq), 8 * DBL_EPSILON * ratio[col]);
     }
-    hd_frame_free(frame);
 }

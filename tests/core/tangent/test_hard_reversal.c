@@ -1,8 +1,5 @@
 /** Forward for a while, all momenta reversed, and back: disks return as far as rounding, which
  * grows by exp(lambda_1 t), allows; and do not where it must have grown beyond the box. */
-#include <float.h>
-
-#include "hdlyap/frame.h"
 #include "prepared.h"
 
 enum { DISKS = 12, STARTS = 24 };
@@ -20,10 +17,9 @@ static hd_scene_def scene_with(hd_boundary x, hd_boundary y)
 static state carried(const hd_scene_def *def, const state *from, double time)
 {
     state to;
-    hd_trajectory *tr = started(def, from->q, from->p);
+    OWNED(hd_trajectory) *tr = started(def, from->q, from->p);
     CHECK_OK(hd_trajectory_extend(tr, NULL, time));
     hd_trajectory_state(tr, to.q, to.p);
-    hd_trajectory_free(tr);
     return to;
 }
 
@@ -40,9 +36,8 @@ static double distance(const hd_scene_def *def, const state *a, const state *b)
     double box[2], sum = 0;
     hd_scene_box(def, box);
     for (int k = 0; k < 2 * DISKS; k++) {
-        const double dq = def->boundary[k % 2] == HD_PERIODIC
-                              ? remainder(a->q[k] - b->q[k], box[k % 2])
-                              : a->q[k] - b->q[k];
+        const double dq = def->boundary[k % 2] == P ? remainder(a->q[k] - b->q[k], box[k % 2])
+                                                    : a->q[k] - b->q[k];
         sum += dq * dq + (a->p[k] - b->p[k]) * (a->p[k] - b->p[k]);
     }
     return sqrt(sum);
@@ -59,17 +54,14 @@ static double miss(const hd_scene_def *def, const state *start, double time)
 /** ln of what a random vector is stretched by on the way: exp(lambda_1 t) of this very stretch. */
 static double stretched(const hd_scene_def *def, const state *start, double time)
 {
-    hd_frame *frame;
-    hd_event_log *events = log_of(def, start->q, start->p, time);
-    CHECK_OK(hd_frame_create(&frame, DISKS, 1, 4, 1));
+    OWNED(hd_event_log) *events = log_of(def, start->q, start->p, time);
+    MADE(hd_frame, frame, DISKS, 1, 4, 1);
     double square[2] = {0, 0};
     for (int pass = 0; pass < 2; pass++) {
         if (pass) CHECK_OK(hd_frame_replay(frame, events, 0.0, time));
         for (int row = 0; row < hd_frame_rows(frame); row++)
             square[pass] += pow(hd_frame_read(frame)[row * hd_frame_stride(frame)], 2.0);
     }
-    hd_frame_free(frame);
-    hd_event_log_free(events);
     return 0.5 * log(square[1] / square[0]);
 }
 
@@ -78,15 +70,11 @@ static state next_start(const hd_scene_def *def, const state *s) { return carrie
 static state first_start(const hd_scene_def *def)
 {
     state s;
-    hd_trajectory *tr;
-    CHECK_OK(hd_trajectory_create(&tr, def));
+    MADE(hd_trajectory, tr, def);
     CHECK_OK(hd_trajectory_extend(tr, NULL, 20.0));
     hd_trajectory_state(tr, s.q, s.p);
-    hd_trajectory_free(tr);
     return s;
 }
-
-/* ---- returning ----------------------------------------------------------------------------- */
 
 /** Rounding starts as some eps of 4 N coordinates of size up to 6, is made anew at every collision,
  * and each part of it is stretched by the rest of the way there and back, where it lies along the
@@ -115,13 +103,10 @@ static returns returns_after(const hd_scene_def *def, double time)
         r.largest = fmax(r.largest, off);
         r.nearest = fmin(r.nearest, missed);
     }
-    print_message("t = %g: ln(stretch) %.1f, ln(miss / eps) %.2f above it, at most %.1f\n", time,
-                  r.stretch, r.off, r.largest);
     return r;
 }
 
-static const hd_boundary BOUNDARY[][2] = {
-    {HD_PERIODIC, HD_PERIODIC}, {HD_REFLECTING, HD_REFLECTING}, {HD_PERIODIC, HD_REFLECTING}};
+static const hd_boundary BOUNDARY[][2] = {{P, P}, {R, R}, {P, R}};
 
 TEST(returns_as_far_as_rounding_grows)
 {
@@ -154,15 +139,13 @@ TEST(events_come_in_the_opposite_order)
         const hd_scene_def def = scene_with(BOUNDARY[b][0], BOUNDARY[b][1]);
         const state start = first_start(&def), there = carried(&def, &start, time);
         const state turned = reversed(&there);
-        hd_event_log *forth = log_of(&def, start.q, start.p, time);
-        hd_event_log *back = log_of(&def, turned.q, turned.p, time);
+        OWNED(hd_event_log) *forth = log_of(&def, start.q, start.p, time);
+        OWNED(hd_event_log) *back = log_of(&def, turned.q, turned.p, time);
         assert_true(forth->count > 2 * DISKS && back->count == forth->count);
         for (size_t k = 0; k < forth->count; k++) {
             const hd_event *a = &forth->event[k], *c = &back->event[back->count - 1 - k];
             assert_true(a->i == c->i && a->j == c->j);
             CHECK_CLOSE(a->t + c->t, time, 1e-9);
         }
-        hd_event_log_free(forth);
-        hd_event_log_free(back);
     }
 }

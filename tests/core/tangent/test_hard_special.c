@@ -1,16 +1,9 @@
 /** Numbers at the ends of the range: momenta of 1e-300, disks at rest, positions on edges, zeros of
  * either sign, vectors so short that their squares vanish. Nothing becomes NaN or infinite, and
  * what cannot be told is refused. */
-#include <float.h>
-#include <stdlib.h>
-
-#include "hdlyap/ortho.h"
 #include "prepared.h"
 #include "tangent.h"
 #include "twin.h"
-#include "interval.h"
-
-/* ---- the trajectory ------------------------------------------------------------------------ */
 
 enum { DISKS = 4 };
 
@@ -74,8 +67,8 @@ static void check_first_maps(hd_event_log *log)
 
 static void check_special(const special *s, const hd_scene_def *def)
 {
-    hd_trajectory *tr = started(def, s->q, s->p);
-    hd_event_log *log = new_log();
+    OWNED(hd_trajectory) *tr = started(def, s->q, s->p);
+    OWNED(hd_event_log) *log = new_log();
     double q[2 * DISKS], p[2 * DISKS];
     const double energy = hd_trajectory_kinetic_energy(tr);
     CHECK_OK(trajectory_to(tr, log, END));
@@ -87,17 +80,14 @@ static void check_special(const special *s, const hd_scene_def *def)
     CHECK_CLOSE(hd_trajectory_kinetic_energy(tr), energy, rounding);
     const long pairs = (long)hd_trajectory_collisions(tr);
     const long events = pairs + (long)hd_trajectory_wall_events(tr);
-    print_message("%s: %ld events, %ld of pairs\n", s->what, events, pairs);
     assert_true(s->events ? events >= s->events : pairs == 0);
     if (s->events) twin_compare(started(def, s->q, s->p), def, (size_t)s->events);
-    hd_event_log_free(log);
-    hd_trajectory_free(tr);
 }
 
 TEST(special_states_stay_finite)
 {
     for (int k = 0; k < 2 * SPECIALS; k++) {
-        const hd_boundary boundary = k % 2 ? HD_REFLECTING : HD_PERIODIC;
+        const hd_boundary boundary = k % 2 ? R : P;
         const hd_scene_def def = scene_in_box(DISKS, 8.0, 8.0, boundary, boundary, 1);
         check_special(&SPECIAL[k / 2], &def);
     }
@@ -108,23 +98,22 @@ TEST(disks_at_rest_stay_there)
 {
     const double p[2 * DISKS] = {0, -0.0};
     for (int k = 0; k < 2 * SPECIALS; k++) {
-        const hd_boundary boundary = k % 2 ? HD_REFLECTING : HD_PERIODIC;
+        const hd_boundary boundary = k % 2 ? R : P;
         const hd_scene_def def = scene_in_box(DISKS, 8.0, 8.0, boundary, boundary, 1);
         const double *q = SPECIAL[k / 2].q;
-        hd_trajectory *tr = started(&def, q, p);
+        OWNED(hd_trajectory) *tr = started(&def, q, p);
         double now[2 * DISKS];
         for (double t = 1.0; t < 1e300; t *= 1e15) CHECK_OK(hd_trajectory_extend(tr, NULL, t));
         hd_trajectory_state(tr, now, NULL);
         assert_memory_equal(now, q, sizeof now);
         assert_int_equal(hd_trajectory_collisions(tr) + hd_trajectory_wall_events(tr), 0);
-        hd_trajectory_free(tr);
     }
 }
 
 /** At the origin, a zero of either sign, and on the far edge, which is the same place. */
 TEST(edges_of_the_box_are_one_place)
 {
-    const hd_scene_def def = scene_in_box(2, 8.0, 8.0, HD_PERIODIC, HD_PERIODIC, 1);
+    const hd_scene_def def = scene_in_box(2, 8.0, 8.0, P, P, 1);
     const double edge[] = {0.0, -0.0, 8.0};
     hd_event_log *log[3];
     for (int k = 0; k < 3; k++) {
@@ -142,8 +131,6 @@ TEST(edges_of_the_box_are_one_place)
     for (int k = 0; k < 3; k++) hd_event_log_free(log[k]);
 }
 
-/* ---- the frame ----------------------------------------------------------------------------- */
-
 enum { FRAME_DISKS = 12, ROWS = 4 * FRAME_DISKS };
 
 /** Maps are linear: 2^-1030 of a vector becomes 2^-1030 of what it becomes, but for what denormal
@@ -151,15 +138,13 @@ enum { FRAME_DISKS = 12, ROWS = 4 * FRAME_DISKS };
  * follows. */
 TEST(denormal_vectors_are_carried_as_others)
 {
-    const hd_scene_def def = scene_of(FRAME_DISKS, 0.5, 1.0, HD_PERIODIC, HD_REFLECTING, 3);
+    const hd_scene_def def = scene_of(FRAME_DISKS, 0.5, 1.0, P, R, 3);
     const double small = ldexp(1.0, -1030);
-    hd_trajectory *tr;
-    hd_event_log *log = new_log();
-    hd_frame *frame;
+    OWNED(hd_event_log) *log = new_log();
     double a[ROWS], b[ROWS];
-    CHECK_OK(hd_trajectory_create(&tr, &def));
+    MADE(hd_trajectory, tr, &def);
     CHECK_OK(trajectory_to(tr, log, 1.0));
-    CHECK_OK(hd_frame_create(&frame, FRAME_DISKS, 2, 1, 1));
+    MADE(hd_frame, frame, FRAME_DISKS, 2, 1, 1);
     for (int row = 0; row < ROWS; row++)
         *frame_entry(frame, row, 1) = small * *frame_entry(frame, row, 0);
     CHECK_OK(hd_frame_replay(frame, log, 0.0, 1.0));
@@ -168,9 +153,6 @@ TEST(denormal_vectors_are_carried_as_others)
     const double stretch = sqrt(dot(a, a, ROWS)),
                  lost = 10.0 * (double)log->count * ldexp(1.0, -1074);
     for (int row = 0; row < ROWS; row++) CHECK_CLOSE(b[row], small * a[row], lost * stretch);
-    hd_frame_free(frame);
-    hd_event_log_free(log);
-    hd_trajectory_free(tr);
 }
 
 typedef enum shape { INDEPENDENT, NEARLY_DEPENDENT, DEPENDENT } shape;
@@ -200,10 +182,8 @@ static int check_scaled(const scaled *s)
     const hd_ortho_limits twice = {1e9, DBL_EPSILON, HD_NORM_FULL};
     const double known = s->how == INDEPENDENT ? 1e-12 : 1e-8;
     double before[ROWS], after[ROWS];
-    hd_frame *frame;
-    hd_ortho *ortho;
-    CHECK_OK(hd_frame_create(&frame, FRAME_DISKS, s->vectors, 3, 1));
-    CHECK_OK(hd_ortho_create(&ortho, ROWS, s->vectors));
+    MADE(hd_frame, frame, FRAME_DISKS, s->vectors, 3, 1);
+    MADE(hd_ortho, ortho, ROWS, s->vectors);
     CHECK_OK(hd_ortho_step(ortho, frame, twice));
     frame_column(frame, s->vectors - 1, before);
     const double last = shape_frame(frame, s->how);
@@ -221,8 +201,6 @@ static int check_scaled(const scaled *s)
     } else {
         assert_int_equal(status, HD_ILL_CONDITIONED);
     }
-    hd_ortho_free(ortho);
-    hd_frame_free(frame);
     return status == HD_OK;
 }
 
@@ -247,6 +225,5 @@ TEST(vectors_of_any_length_are_factored_or_refused)
             if (abs(power) < 217 && (s.how != DEPENDENT || s.vectors == 1)) assert_true(factored);
             if (s.how == DEPENDENT && s.vectors > 1) assert_false(factored);
         }
-    print_message("%d factored, %d refused\n", count[1], count[0]);
     assert_true(count[0] > 100 && count[1] > 100);
 }

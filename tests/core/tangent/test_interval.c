@@ -1,8 +1,5 @@
 /** The interval follows what the conditioning shows. */
-#include <float.h>
-
 #include "testing.h"
-
 #include "base/random.h"
 #include "tangent/interval.h"
 
@@ -46,32 +43,6 @@ TEST(failures_shorten_it)
     assert_true(hd_interval_next(&interval, 1e9).length <= before);
     for (int k = 0; k < 10; k++) hd_interval_failed(&interval, before);
     assert_true(hd_interval_next(&interval, 1e9).length < 0.99 * before);
-}
-
-/** ln(condition) = rate * length + scatter, the scatter the same at all lengths: kept free above
- * the mean, so that few intervals are repaired, and not multiplied with the length. */
-TEST(scatter_is_kept_free_once)
-{
-    hd_interval interval = hd_interval_first(0.1, INFINITY, 1e-8);
-    const double rate = 6.5, scatter = 1.0;
-    int repaired = 0;
-    double sum = 0.0;
-    for (int k = 0; k < 2000; k++) {
-        const double length = hd_interval_next(&interval, 1e9).length;
-        const double most = hd_interval_condition_max(&interval, length);
-        const double seen = exp(rate * length + scatter * sqrt(2.0) * cos(k * k * 0.7));
-        repaired += seen > most;
-        sum += length;
-        if (seen > most)
-            hd_interval_failed(&interval, length);
-        else
-            hd_interval_learn(&interval, length, fmax(seen, 1.0), rate * length);
-    }
-    const double mean = sum / 2000;
-    const double ideal = log(hd_interval_condition_max(&interval, mean)) / rate;
-    print_message("mean length %.2f of %.2f, %.1f %% repaired\n", mean, ideal, repaired / 20.0);
-    assert_true(mean > 0.75 * ideal && mean < ideal);
-    assert_true(repaired < 0.1 * 2000);
 }
 
 TEST(limits_are_kept)
@@ -174,8 +145,6 @@ TEST(the_bound_is_kept_and_used)
     }
     const double mean = time / averaged;
     const double ideal = (log(accuracy * mean / (40.0 * DBL_EPSILON)) - 0.5 * scatter) / rate;
-    print_message("mean length %.3f, ideal %.3f; %.1f %% repaired, %.1f saved\n", mean, ideal,
-                  100.0 * repaired / INTERVALS, interval.saved);
     CHECK_CLOSE(mean, ideal, 0.05 * ideal);
     assert_true(repaired < 0.1 * INTERVALS);
 }

@@ -1,9 +1,5 @@
 /** Widths and angles of the halves of vectors whose answers are known. */
-#include <float.h>
-
 #include "testing.h"
-
-#include "hdlyap/localization.h"
 
 enum { DISKS = 5, ROWS = 4 * DISKS, VECTORS = 3, STRIDE = 8 };
 
@@ -37,21 +33,20 @@ static void fill(double v[ROWS][STRIDE])
 TEST(widths_are_those_of_known_vectors)
 {
     double v[ROWS][STRIDE];
-    hd_localization *shape = created();
+    OWNED(hd_localization) *shape = created();
     fill(v);
     add(shape, v);
     const double *width = hd_localization_widths(shape);
     CHECK_CLOSE(width[0], 1.0 / DISKS, 8 * DBL_EPSILON);
     CHECK_CLOSE(width[1], 1.0, 32 * DBL_EPSILON);
     CHECK_CLOSE(width[2], pow(0.2, -0.2) * pow(0.8, -0.8) / DISKS, 16 * DBL_EPSILON);
-    hd_localization_free(shape);
 }
 
 /** exp of the mean entropy, not the mean of the widths. */
 TEST(entropies_are_averaged)
 {
     double one[ROWS][STRIDE], other[ROWS][STRIDE];
-    hd_localization *shape = created();
+    OWNED(hd_localization) *shape = created();
     fill(one);
     fill(other);
     for (int row = 0; row < ROWS; row++) other[row][0] = one[row][1];
@@ -62,7 +57,6 @@ TEST(entropies_are_averaged)
     hd_localization_clear(shape);
     add(shape, one);
     CHECK_CLOSE(hd_localization_widths(shape)[0], 1.0 / DISKS, 8 * DBL_EPSILON);
-    hd_localization_free(shape);
 }
 
 /** dq along one direction of all rows, dp turned out of it by an angle, of any length. */
@@ -80,7 +74,7 @@ static void halves(double v[ROWS][STRIDE], int col, double angle, double length)
 TEST(cosines_are_those_of_known_angles)
 {
     double v[ROWS][STRIDE];
-    hd_localization *shape = created();
+    OWNED(hd_localization) *shape = created();
     fill(v);
     halves(v, 0, 1.0, 0.3);
     halves(v, 1, 3.0, 0.9); /* an obtuse angle counts as the acute one beside it */
@@ -94,5 +88,4 @@ TEST(cosines_are_those_of_known_angles)
     add(shape, v);
     CHECK_CLOSE(hd_localization_cosines(shape)[0], 0.5 * (cos(1.0) + 1.0), 8 * DBL_EPSILON);
     CHECK_CLOSE(hd_localization_cosines(shape)[2], 0.5 * cos(1.2), 8 * DBL_EPSILON);
-    hd_localization_free(shape);
 }

@@ -1,10 +1,4 @@
 /** The norm of dq against a slow twin, and against the full norm on tangent maps of a scene. */
-#include <float.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include "testing.h"
-
 #include "exact.h"
 #include "forward_pass.h"
 #include "tangent.h"
@@ -89,14 +83,12 @@ static void check_kept(const hd_exact *v, const hd_frame *q, const double *r, in
 static void check_against_twin(int disks, int n, double spread, hd_ortho_limits limits)
 {
     const int rows = 4 * disks;
-    hd_frame *frame;
-    hd_ortho *ortho;
-    CHECK_OK(hd_frame_create(&frame, disks, n, 11, 1));
-    CHECK_OK(hd_ortho_create(&ortho, rows, n));
+    MADE(hd_frame, frame, disks, n, 11, 1);
+    MADE(hd_ortho, ortho, rows, n);
     CHECK_OK(hd_ortho_keep_factor(ortho));
     lean(frame, spread);
-    hd_exact *v = exact_copy(frame), *q = exact_copy(frame);
-    hd_exact *r = calloc((size_t)(n * n), sizeof *r);
+    HEAP hd_exact *v = exact_copy(frame), *q = exact_copy(frame);
+    HEAP hd_exact *r = calloc((size_t)(n * n), sizeof *r);
     twin(q, rows, n, r);
     CHECK_OK(hd_ortho_step(ortho, frame, limits));
     assert_int_equal(hd_ortho_norm(ortho), HD_NORM_DQ);
@@ -119,11 +111,6 @@ static void check_against_twin(int disks, int n, double spread, hd_ortho_limits 
         for (int col = 0; col < n; col++)
             CHECK_CLOSE(*frame_entry(frame, row, col), (double)q[row * n + col],
                         rounding * fmax(1.0, (double)size));
-    free(v);
-    free(q);
-    free(r);
-    hd_ortho_free(ortho);
-    hd_frame_free(frame);
 }
 
 TEST(agrees_with_the_twin)
@@ -140,21 +127,15 @@ TEST(agrees_with_the_twin)
 TEST(the_defect_is_foreseen)
 {
     for (double spread = 2.0; spread <= 14.0; spread += 1.0) {
-        hd_frame *frame;
-        hd_ortho *ortho;
-        CHECK_OK(hd_frame_create(&frame, 60, 100, 7, 1));
-        CHECK_OK(hd_ortho_create(&ortho, 240, 100));
+        MADE(hd_frame, frame, 60, 100, 7, 1);
+        MADE(hd_ortho, ortho, 240, 100);
         lean(frame, spread);
         CHECK_OK(hd_ortho_step(ortho, frame, LOOSE));
         assert_int_equal(hd_ortho_passes(ortho), 1);
         const double measured = hd_ortho_defect_measured(ortho, frame, HD_NORM_DQ);
-        print_message("condition %.1e: defect %.1e, foreseen %.1e\n", hd_ortho_condition(ortho),
-                      measured, hd_ortho_defect(ortho));
         assert_true(measured <= hd_ortho_defect(ortho) + 16 * DBL_EPSILON);
         assert_true(measured >= 1e-3 * hd_ortho_defect(ortho));
         assert_true(hd_ortho_defect_measured(ortho, frame, HD_NORM_FULL) > 0.5);
-        hd_ortho_free(ortho);
-        hd_frame_free(frame);
     }
 }
 
@@ -162,11 +143,8 @@ TEST(the_defect_is_foreseen)
 
 static hd_status step_of(hd_frame *frame, hd_ortho_limits limits)
 {
-    hd_ortho *ortho;
-    CHECK_OK(hd_ortho_create(&ortho, hd_frame_rows(frame), hd_frame_vectors(frame)));
-    const hd_status status = hd_ortho_step(ortho, frame, limits);
-    hd_ortho_free(ortho);
-    return status;
+    MADE(hd_ortho, ortho, hd_frame_rows(frame), hd_frame_vectors(frame));
+    return hd_ortho_step(ortho, frame, limits);
 }
 
 /** Two vectors with the same dq half: different for the full norm. */
@@ -174,12 +152,10 @@ TEST(dependent_dq_halves_are_refused)
 {
     for (int to = 1; to < 20; to += 6)
         for (int how = 0; how < 2; how++) {
-            hd_frame *frame;
-            CHECK_OK(hd_frame_create(&frame, 12, 20, 7, 1));
+            MADE(hd_frame, frame, 12, 20, 7, 1);
             for (int row = 0; row < 48; row++)
                 if (row % 4 < 2) *frame_entry(frame, row, to) = *frame_entry(frame, row, 0);
             assert_int_equal(step_of(frame, how ? LOOSE : FULL), how ? HD_ILL_CONDITIONED : HD_OK);
-            hd_frame_free(frame);
         }
 }
 
@@ -190,11 +166,9 @@ TEST(what_is_no_number_is_refused)
     for (int k = 0; k < 3; k++)
         for (int row = 4; row < 8; row++)
             for (int col = 0; col < 20; col++) {
-                hd_frame *frame;
-                CHECK_OK(hd_frame_create(&frame, 12, 20, 7, 1));
+                MADE(hd_frame, frame, 12, 20, 7, 1);
                 *frame_entry(frame, row, col) = values[k];
                 assert_int_equal(step_of(frame, LOOSE), HD_ILL_CONDITIONED);
-                hd_frame_free(frame);
             }
 }
 
@@ -235,9 +209,9 @@ static void chain_step(chain *c, hd_ortho_limits other)
 static chain chain_started(hd_boundary x, hd_boundary y)
 {
     chain c = {0};
-    hd_scene_def scene = scene(.disks = DISKS, .density = 0.7, .aspect = 1.0, .boundary[0] = x,
-                               .boundary[1] = y, .seed = 3, .exponents = HD_EXPONENTS_POSITIVE);
-    c.f = forward_started(&scene, 5);
+    c.f = forward_started(scene(.disks = DISKS, .density = 0.7, .aspect = 1.0, .boundary[0] = x,
+                                .boundary[1] = y, .seed = 3, .exponents = HD_EXPONENTS_POSITIVE),
+                          5);
     c.n = forward_vectors(&c.f);
     for (int k = 0; k < WARMUP; k++) forward_interval(&c.f, INTERVAL);
     CHECK_OK(hd_ortho_step(c.f.ortho, c.f.frame, FULL));
@@ -252,7 +226,7 @@ static chain chain_started(hd_boundary x, hd_boundary y)
 
 static void chain_free(chain *c)
 {
-    forward_free(&c->f);
+    forward_pass_free(&c->f);
     hd_frame_free(c->frame);
     hd_ortho_free(c->ortho);
     free(c->sum[0]);
@@ -271,10 +245,9 @@ static double chain_difference(const chain *c)
  * ends in the norm of dq they are not, but stay near. */
 TEST(sums_are_those_of_the_full_norm)
 {
-    static const hd_boundary boundary[][2] = {
-        {HD_PERIODIC, HD_PERIODIC}, {HD_REFLECTING, HD_PERIODIC}, {HD_REFLECTING, HD_REFLECTING}};
+    static const hd_boundary boundary[][2] = {{P, P}, {R, P}, {R, R}};
     for (int k = 0; k < 3; k++) {
-        chain c = chain_started(boundary[k][0], boundary[k][1]);
+        HELD(chain) c = chain_started(boundary[k][0], boundary[k][1]);
         double most = 0.0;
         for (int step = 1; step < STEPS; step++) {
             chain_step(&c, step % 5 == 0 ? FULL : step % 2 ? LOOSE : TIGHT);
@@ -282,14 +255,9 @@ TEST(sums_are_those_of_the_full_norm)
         }
         chain_step(&c, FULL);
         const double rounding = 2 * 20 * 2 * DBL_EPSILON * (c.condition[0] + c.condition[1]);
-        print_message("sums up to %.0f: with the norm of dq in between %.1e off, of %.1e allowed; "
-                      "within %.2f on the way; mean condition %.3g, was %.3g\n",
-                      c.sum[0][0], chain_difference(&c), rounding, most, c.condition[1] / STEPS,
-                      c.condition[0] / STEPS);
         assert_true(rounding < 1e-6);
         assert_true(chain_difference(&c) <= rounding);
         assert_true(most > 1e-3 && most < 3.0);
-        chain_free(&c);
     }
 }
 
@@ -297,12 +265,9 @@ TEST(sums_are_those_of_the_full_norm)
  * the time. */
 TEST(conditions_are_smaller)
 {
-    chain c = chain_started(HD_PERIODIC, HD_PERIODIC);
+    HELD(chain) c = chain_started(P, P);
     for (int step = 0; step < 5 * STEPS; step++) chain_step(&c, LOOSE);
-    print_message("t = %.0f: sums within %.2f; mean condition %.3g, was %.3g\n", c.time,
-                  chain_difference(&c), c.condition[1] / (5 * STEPS), c.condition[0] / (5 * STEPS));
     assert_true(chain_difference(&c) < 3.0);
     assert_true(c.sum[0][c.n - 1] > 10.0);
     assert_true(c.condition[1] < 0.5 * c.condition[0]);
-    chain_free(&c);
 }

@@ -1,13 +1,7 @@
 /** The factorisation against LAPACK's Householder one, and the honesty of its condition estimate.
  */
-#include <float.h>
 #include <lapacke.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "testing.h"
-
-#include "hdlyap/ortho.h"
 #include "base/random.h"
 
 static const hd_ortho_limits LOOSE = {1e7, 0.5, HD_NORM_FULL},
@@ -27,12 +21,10 @@ static double *copied(hd_frame *frame)
 /** |diag R| of a row-major matrix by dgeqrf. */
 static void householder(const double *v, int rows, int n, double *diagonal)
 {
-    double *a = malloc((size_t)(rows * n) * sizeof *a), *tau = malloc((size_t)n * sizeof *tau);
+    HEAP double *a = malloc((size_t)(rows * n) * sizeof *a), *tau = malloc((size_t)n * sizeof *tau);
     memcpy(a, v, (size_t)(rows * n) * sizeof *a);
     assert_int_equal(LAPACKE_dgeqrf(LAPACK_ROW_MAJOR, rows, n, a, n, tau), 0);
     for (int col = 0; col < n; col++) diagonal[col] = fabs(a[col * n + col]);
-    free(a);
-    free(tau);
 }
 
 /** Lets the columns lean into the first two, the last ones e^spread times: so does a long interval.
@@ -54,7 +46,7 @@ static void check_factors(const double *v, const double *q, int rows, int n, dou
 {
     for (int col = 0; col < n; col++) {
         double norm = 0.0;
-        double *left = malloc((size_t)rows * sizeof *left);
+        HEAP double *left = malloc((size_t)rows * sizeof *left);
         for (int row = 0; row < rows; row++) {
             left[row] = v[row * n + col];
             norm += left[row] * left[row];
@@ -65,7 +57,6 @@ static void check_factors(const double *v, const double *q, int rows, int n, dou
             for (int row = 0; row < rows; row++) left[row] -= r * q[row * n + k];
         }
         for (int row = 0; row < rows; row++) CHECK_CLOSE(left[row], 0.0, tolerance * sqrt(norm));
-        free(left);
     }
 }
 
@@ -87,30 +78,24 @@ static void check_kept(const double *v, const double *q, const double *r, int ro
 /** With the passes that a step made: none, one or two of them have to be multiplied. */
 static void check_factor(int disks, int n, double spread, hd_ortho_limits limits, int passes)
 {
-    hd_frame *frame;
-    hd_ortho *ortho;
-    CHECK_OK(hd_frame_create(&frame, disks, n, 11, 1));
-    CHECK_OK(hd_ortho_create(&ortho, 4 * disks, n));
+    MADE(hd_frame, frame, disks, n, 11, 1);
+    MADE(hd_ortho, ortho, 4 * disks, n);
     assert_null(hd_ortho_factor(ortho));
     CHECK_OK(hd_ortho_keep_factor(ortho));
     for (int again = 0; again < 2; again++) { /* nothing of the first is left in the second */
         make_ill_conditioned(frame, spread);
-        double *v = copied(frame);
+        HEAP double *v = copied(frame);
         if (passes == 0)
             CHECK_OK(hd_ortho_step_stable(ortho, frame, 1e13));
         else
             CHECK_OK(hd_ortho_step(ortho, frame, limits));
         if (passes > 0) assert_int_equal(hd_ortho_passes(ortho), passes);
-        double *q = copied(frame);
+        HEAP double *q = copied(frame);
         const double *r = hd_ortho_factor(ortho);
         check_kept(v, q, r, 4 * disks, n);
         for (int col = 0; col < n; col++)
             CHECK_CLOSE(log(r[col * n + col]), hd_ortho_log_stretch(ortho)[col], 64 * DBL_EPSILON);
-        free(v);
-        free(q);
     }
-    hd_ortho_free(ortho);
-    hd_frame_free(frame);
 }
 
 TEST(keeps_the_triangle)
@@ -126,29 +111,23 @@ TEST(keeps_the_triangle)
 
 static void check_step(int disks, int n, double spread, int stable)
 {
-    hd_frame *frame;
-    hd_ortho *ortho;
     const int rows = 4 * disks;
     double diagonal[200];
-    CHECK_OK(hd_frame_create(&frame, disks, n, 11, 1));
-    CHECK_OK(hd_ortho_create(&ortho, rows, n));
+    MADE(hd_frame, frame, disks, n, 11, 1);
+    MADE(hd_ortho, ortho, rows, n);
     make_ill_conditioned(frame, spread);
-    double *v = copied(frame);
+    HEAP double *v = copied(frame);
     householder(v, rows, n, diagonal);
     if (stable)
         CHECK_OK(hd_ortho_step_stable(ortho, frame, 1e13));
     else
         CHECK_OK(hd_ortho_step(ortho, frame, TIGHT));
-    double *q = copied(frame);
+    HEAP double *q = copied(frame);
     const double rounding = 32 * DBL_EPSILON * hd_ortho_condition(ortho);
     for (int col = 0; col < n; col++)
         CHECK_CLOSE(hd_ortho_log_stretch(ortho)[col], log(diagonal[col]), rounding);
     assert_true(hd_ortho_defect_measured(ortho, frame, HD_NORM_FULL) < 32 * DBL_EPSILON);
     check_factors(v, q, rows, n, 64 * DBL_EPSILON);
-    free(v);
-    free(q);
-    hd_ortho_free(ortho);
-    hd_frame_free(frame);
 }
 
 TEST(agrees_with_householder)
@@ -167,7 +146,7 @@ TEST(agrees_with_householder)
 /** max_l sqrt(sum_k (R^-1)_kl^2 |V e_k|^2), R by dgeqrf, its inverse by dtrtri. */
 static double exact_condition(const double *v, int rows, int n)
 {
-    double *a = malloc((size_t)(rows * n) * sizeof *a), *tau = malloc((size_t)n * sizeof *tau);
+    HEAP double *a = malloc((size_t)(rows * n) * sizeof *a), *tau = malloc((size_t)n * sizeof *tau);
     double worst = 0.0;
     memcpy(a, v, (size_t)(rows * n) * sizeof *a);
     assert_int_equal(LAPACKE_dgeqrf(LAPACK_ROW_MAJOR, rows, n, a, n, tau), 0);
@@ -181,8 +160,6 @@ static double exact_condition(const double *v, int rows, int n)
         for (int k = 0; k <= l; k++) sum += a[k * n + l] * a[k * n + l] * tau[k];
         worst = fmax(worst, sum);
     }
-    free(a);
-    free(tau);
     return sqrt(worst);
 }
 
@@ -192,21 +169,16 @@ TEST(the_condition_is_that_of_the_inverse)
 {
     for (double spread = 0.0; spread <= 12.0; spread += 1.5)
         for (int stable = 0; stable < 2; stable++) {
-            hd_frame *frame;
-            hd_ortho *ortho;
-            CHECK_OK(hd_frame_create(&frame, 40, 90, 3, 1));
-            CHECK_OK(hd_ortho_create(&ortho, 160, 90));
+            MADE(hd_frame, frame, 40, 90, 3, 1);
+            MADE(hd_ortho, ortho, 160, 90);
             make_ill_conditioned(frame, spread);
-            double *v = copied(frame);
+            HEAP double *v = copied(frame);
             if (stable)
                 CHECK_OK(hd_ortho_step_stable(ortho, frame, 1e13));
             else
                 CHECK_OK(hd_ortho_step(ortho, frame, LOOSE));
             const double ratio = hd_ortho_condition(ortho) / exact_condition(v, 160, 90);
             assert_true(ratio > 0.8 && ratio < 2.0);
-            free(v);
-            hd_ortho_free(ortho);
-            hd_frame_free(frame);
         }
 }
 
@@ -215,20 +187,14 @@ TEST(the_condition_is_that_of_the_inverse)
 TEST(the_defect_is_foreseen)
 {
     for (double spread = 2.0; spread <= 12.0; spread += 1.0) {
-        hd_frame *frame;
-        hd_ortho *ortho;
-        CHECK_OK(hd_frame_create(&frame, 50, 100, 7, 1));
-        CHECK_OK(hd_ortho_create(&ortho, 200, 100));
+        MADE(hd_frame, frame, 50, 100, 7, 1);
+        MADE(hd_ortho, ortho, 200, 100);
         make_ill_conditioned(frame, spread);
         CHECK_OK(hd_ortho_step(ortho, frame, LOOSE));
         assert_int_equal(hd_ortho_passes(ortho), 1);
         const double measured = hd_ortho_defect_measured(ortho, frame, HD_NORM_FULL);
-        print_message("condition %.1e: defect %.1e, foreseen %.1e\n", hd_ortho_condition(ortho),
-                      measured, hd_ortho_defect(ortho));
         assert_true(measured <= hd_ortho_defect(ortho) + 16 * DBL_EPSILON);
         assert_true(measured >= 1e-2 * hd_ortho_defect(ortho));
-        hd_ortho_free(ortho);
-        hd_frame_free(frame);
     }
 }
 
@@ -245,12 +211,10 @@ static void loosen(hd_frame *frame)
 TEST(logarithms_telescope)
 {
     enum { N = 60 };
-    hd_frame *loose, *tight;
-    hd_ortho *ortho;
     double sum[2][N] = {{0}};
-    CHECK_OK(hd_frame_create(&loose, 30, N, 7, 1));
-    CHECK_OK(hd_frame_create(&tight, 30, N, 7, 1));
-    CHECK_OK(hd_ortho_create(&ortho, 120, N));
+    MADE(hd_frame, loose, 30, N, 7, 1);
+    MADE(hd_frame, tight, 30, N, 7, 1);
+    MADE(hd_ortho, ortho, 120, N);
     double defect = 0.0;
     for (int step = 0; step < 6; step++) {
         const hd_ortho_limits limits = step < 5 ? LOOSE : TIGHT;
@@ -266,43 +230,31 @@ TEST(logarithms_telescope)
     const double rounding = 6 * 64 * DBL_EPSILON * hd_ortho_condition(ortho);
     assert_true(defect > 10 * rounding); /* the loose states were loose */
     for (int col = 0; col < N; col++) CHECK_CLOSE(sum[0][col], sum[1][col], rounding);
-    hd_ortho_free(ortho);
-    hd_frame_free(loose);
-    hd_frame_free(tight);
 }
 
 /** One entry that is no number is seen in the measured defect wherever it stands. */
 TEST(a_measured_defect_keeps_nan)
 {
     for (int col = 0; col < 30; col++) {
-        hd_frame *frame;
-        hd_ortho *ortho;
-        CHECK_OK(hd_frame_create(&frame, 10, 30, 7, 1));
-        CHECK_OK(hd_ortho_create(&ortho, 40, 30));
+        MADE(hd_frame, frame, 10, 30, 7, 1);
+        MADE(hd_ortho, ortho, 40, 30);
         CHECK_OK(hd_ortho_step(ortho, frame, TIGHT));
         hd_frame_data(frame)[5 * hd_frame_stride(frame) + col] = NAN;
         assert_true(isnan(hd_ortho_defect_measured(ortho, frame, HD_NORM_FULL)));
-        hd_ortho_free(ortho);
-        hd_frame_free(frame);
     }
 }
 
 static hd_status step_with_entry(double value, double condition, int twin)
 {
-    hd_frame *frame;
-    hd_ortho *ortho;
-    CHECK_OK(hd_frame_create(&frame, 10, 12, 7, 1));
-    CHECK_OK(hd_ortho_create(&ortho, 40, 12));
+    MADE(hd_frame, frame, 10, 12, 7, 1);
+    MADE(hd_ortho, ortho, 40, 12);
     double *v = hd_frame_data(frame);
     v[5 * hd_frame_stride(frame) + 3] = value;
     if (twin)
         for (int row = 0; row < 40; row++)
             v[row * hd_frame_stride(frame) + 9] = v[row * hd_frame_stride(frame) + 2];
     const hd_ortho_limits limits = {condition, 0.5, HD_NORM_FULL};
-    const hd_status status = hd_ortho_step(ortho, frame, limits);
-    hd_ortho_free(ortho);
-    hd_frame_free(frame);
-    return status;
+    return hd_ortho_step(ortho, frame, limits);
 }
 
 TEST(what_cannot_be_trusted_is_refused)

@@ -1,16 +1,8 @@
 /** Products in pieces against sums in loops, and that threads of OpenBLAS never meet in one. */
 #include <dlfcn.h>
-#include <float.h>
-#include <math.h>
 #include <omp.h>
 #include <stdatomic.h>
-#include <stdbool.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "testing.h"
-
-#include "hdlyap/blas.h"
 #include "tangent/product.h"
 
 static atomic_int calls, alone; /**< of cblas_dgemm; outside of parallel regions */
@@ -56,9 +48,10 @@ static void check(shape s, CBLAS_TRANSPOSE op_a, CBLAS_TRANSPOSE op_b, double be
     enum { GAP = 3 };
     const int lda = (op_a == CblasNoTrans ? s.m : s.k) + GAP,
               ldb = (op_b == CblasNoTrans ? s.k : s.n) + GAP, ldc = s.m + GAP;
-    double *a = numbers((size_t)lda * (size_t)(op_a == CblasNoTrans ? s.k : s.m)),
-           *b = numbers((size_t)ldb * (size_t)(op_b == CblasNoTrans ? s.n : s.k)),
-           *c = numbers((size_t)ldc * (size_t)s.n), *before = numbers((size_t)ldc * (size_t)s.n);
+    HEAP double *a = numbers((size_t)lda * (size_t)(op_a == CblasNoTrans ? s.k : s.m)),
+                *b = numbers((size_t)ldb * (size_t)(op_b == CblasNoTrans ? s.n : s.k)),
+                *c = numbers((size_t)ldc * (size_t)s.n),
+                *before = numbers((size_t)ldc * (size_t)s.n);
     if (beta == 0.0) c[0] = NAN;
     hd_dgemm(op_a, op_b, s.m, s.n, s.k, ALPHA, a, lda, b, ldb, beta, c, ldc);
     for (int col = 0; col < s.n; col++)
@@ -75,10 +68,6 @@ static void check(shape s, CBLAS_TRANSPOSE op_a, CBLAS_TRANSPOSE op_b, double be
             else
                 assert_true(c[at] == before[at]);
         }
-    free(a);
-    free(b);
-    free(c);
-    free(before);
 }
 
 static const shape SHAPES[] = {{1, 1, 1},    {5, 3, 2},      {17, 400, 160}, {704, 33, 70},

@@ -1,17 +1,13 @@
 /** One thread or all of them: never the slower by much, and what the user asks for in any case. */
 #include "testing.h"
-
-#include "hdlyap/blas.h"
 #include "tangent/threads.h"
 
 static int chosen(int disks, int vectors, int wanted, int *most)
 {
-    hd_ortho *ortho;
     int threads = 0;
     *most = hd_threads_most(wanted, 4 * disks, vectors);
-    CHECK_OK(hd_ortho_create(&ortho, 4 * disks, vectors));
+    MADE(hd_ortho, ortho, 4 * disks, vectors);
     CHECK_OK(hd_threads_choose(&threads, ortho, disks, vectors, *most));
-    hd_ortho_free(ortho);
     return threads;
 }
 
@@ -45,15 +41,11 @@ TEST(what_is_asked_for_is_not_doubted)
 /** Also after a product, before which OpenBLAS 0.3.29 thinks again. */
 TEST(as_many_compute_as_were_asked_for)
 {
-    hd_frame *frame;
-    hd_ortho *ortho;
-    CHECK_OK(hd_frame_create(&frame, 160, 317, 1, 2));
-    CHECK_OK(hd_ortho_create(&ortho, 4 * 160, 317));
+    MADE(hd_frame, frame, 160, 317, 1, 2);
+    MADE(hd_ortho, ortho, 4 * 160, 317);
     for (int threads = 1; threads <= 2; threads++) {
         hd_blas_use_threads(threads);
         CHECK_OK(hd_ortho_step(ortho, frame, (hd_ortho_limits){1e7, 1.0, HD_NORM_FULL}));
         assert_int_equal(hd_blas_query().threads, threads);
     }
-    hd_ortho_free(ortho);
-    hd_frame_free(frame);
 }

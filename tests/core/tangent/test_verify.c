@@ -1,13 +1,5 @@
 /** The verify build's checks: silent about what is right, each of them heard when its invariant is
  * broken. */
-#include <setjmp.h>
-#include <stdbool.h>
-#include <string.h>
-
-#include "testing.h"
-
-#include "hdlyap/run.h"
-#include "run/run_state.h"
 #include "events/trajectory_state.h"
 #include "runs.h"
 #include "tangent/verify.h"
@@ -43,17 +35,16 @@ static volatile bool broken;
 
 static hd_run *run_of(int exponents)
 {
-    hd_scene_def def = scene(.disks = 16, .density = 0.7, .aspect = 1.0, .seed = 3,
-                             .exponents = exponents, .equilibration = 2.0, .warmup = 10.0,
-                             .duration = 10.0);
-    hd_run *run = created(&def);
+    hd_run *run = created(scene(.disks = 16, .density = 0.7, .aspect = 1.0, .seed = 3,
+                                .exponents = exponents, .equilibration = 2.0, .warmup = 10.0,
+                                .duration = 10.0));
     for (int k = 0; k < 20; k++) CHECK_OK(hd_run_advance(run));
     return run;
 }
 
 TEST(disks_are_checked)
 {
-    hd_run *run = run_of(HD_EXPONENTS_POSITIVE);
+    OWNED(hd_run) *run = run_of(HD_EXPONENTS_POSITIVE);
     const hd_trajectory *tr = run->advance.trajectory;
     hd_disk *disk = run->advance.trajectory->motion.disk;
     const hd_disk right = disk[0];
@@ -74,7 +65,6 @@ TEST(disks_are_checked)
     disk[0].p[1] = NAN;
     EXPECT_BROKEN(true, hd_verify_disks(tr, &run->scene));
     disk[0] = right;
-    hd_run_free(run);
 }
 
 TEST(the_log_is_checked)
@@ -107,7 +97,7 @@ TEST(the_log_is_checked)
 
 TEST(the_frame_is_checked)
 {
-    hd_run *run = run_of(HD_EXPONENTS_ALL_INDEPENDENT);
+    OWNED(hd_run) *run = run_of(HD_EXPONENTS_ALL_INDEPENDENT);
     const hd_symplectic before = hd_verify_sample(run->carrier.frame);
     double *entry = hd_frame_data(run->carrier.frame);
     const double right = entry[0];
@@ -123,13 +113,12 @@ TEST(the_frame_is_checked)
     double *stretch = (double *)hd_ortho_log_stretch(run->carrier.ortho);
     stretch[3] += 0.1;
     EXPECT_BROKEN(true, hd_verify_ortho(run->carrier.ortho, run->carrier.frame));
-    hd_run_free(run);
 }
 
 /** After a step in the norm of dq the dp halves may be anything. */
 TEST(the_frame_is_checked_in_the_norm_of_its_step)
 {
-    hd_run *run = run_of(HD_EXPONENTS_POSITIVE);
+    OWNED(hd_run) *run = run_of(HD_EXPONENTS_POSITIVE);
     const hd_ortho_limits limits = {1e7, 1e-6, HD_NORM_DQ};
     CHECK_OK(hd_ortho_step(run->carrier.ortho, run->carrier.frame, limits));
     EXPECT_BROKEN(false, hd_verify_ortho(run->carrier.ortho, run->carrier.frame));
@@ -137,15 +126,13 @@ TEST(the_frame_is_checked_in_the_norm_of_its_step)
     EXPECT_BROKEN(false, hd_verify_ortho(run->carrier.ortho, run->carrier.frame));
     hd_frame_data(run->carrier.frame)[hd_frame_stride(run->carrier.frame)] += 1e-3;
     EXPECT_BROKEN(true, hd_verify_ortho(run->carrier.ortho, run->carrier.frame));
-    hd_run_free(run);
 }
 
 /** The step of a run asks, where the build verifies, and only there. */
 TEST(a_step_asks_where_the_build_verifies)
 {
-    hd_run *run = run_of(HD_EXPONENTS_POSITIVE);
+    OWNED(hd_run) *run = run_of(HD_EXPONENTS_POSITIVE);
     hd_disk *disk = run->advance.trajectory->motion.disk;
     for (int i = 0; i < 16; i++) disk[i].p[0] *= 1.0 + 1e-9;
     EXPECT_BROKEN(VERIFIES, (void)!hd_run_advance(run));
-    hd_run_free(run);
 }

@@ -9,6 +9,7 @@ master, or sees this one.
 
 Exit status: 0 the run went to its end; 1 it did not; 2 refused."""
 
+import contextlib
 import os
 import time
 
@@ -24,10 +25,18 @@ def options(parser):
     parser.add_argument('--out', required=True, metavar='FILE', help='bag to record to')
 
 
+def stamp(path):
+    """Another one of another file; None if there is none."""
+    with contextlib.suppress(OSError):
+        found = os.stat(path)
+        return found.st_ino, found.st_mtime_ns
+
+
 def main(args):
     if ranks.number() > 0:
         ranks.become_node()
     bag = os.path.abspath(args.out if args.out.endswith('.bag') else args.out + '.bag')
+    before = stamp(bag)  # a run that is refused leaves it
     command = ['roslaunch', '-p', str(ranks.free_port()), 'hdlyap', 'run.launch']
     command += [f'scene:={args.scene}', 'record:=true', f'bag:={bag}', *args.assigned]
     os.environ['ROS_HOSTNAME'] = 'localhost'  # nobody looks at it from outside
@@ -36,4 +45,4 @@ def main(args):
         while not launch.is_gone() and not asked_to_end:
             time.sleep(tree.POLL)
         tree.end([launch], PATIENCE)
-    return 0 if ranks.is_complete(bag) else 1
+    return 0 if stamp(bag) != before and ranks.is_complete(bag) else 1

@@ -1,9 +1,11 @@
-"""Runs of one scene with all combinations of values, and a table and a figure of them.
+"""Runs of one scene with all combinations of values, and a table and a figure of them; or the runs
+of a plan.
 
-Some run at a time, each recorded in a bag of its own; means are over the seeds. Bags that are
-whole are not made again: the same command goes on with a sweep that was interrupted.
+Some run at a time, each recorded in a bag of its own; means are over the seeds. Runs that are done
+are not done again: the same command goes on with what was interrupted.
 
 hdlyap sweep --densities "0.2 0.4" --seeds "1 2" --folder sweep
+hdlyap sweep --plan runs.yaml --folder campaign
 
 Exit status: 0 all runs are there; 1 a run has failed; 2 refused before the first run; 129, 130, 143
 ended by a signal."""
@@ -16,18 +18,16 @@ import rospkg
 from hdlyap.plots import fits
 from hdlyap.runs import bags, work
 from hdlyap.runs.scene import Refused
-from hdlyap.sweep import grid, result
+from hdlyap.sweep import grid, plan, result
 
 
 FAULT = 1
-TEXTS = (
+OF_GRID = (
     ('scene', 'quick', 'as in run.launch'),
     ('duration', '', 'time units to average over; default: as in the scene'),
     ('observables', '[spectrum, steps, lp_phases]', 'topics in the bags'),
     ('params', '', 'other parameters of all runs, as {warmup: 50}'),
     ('threads', '1', 'of each run; 0: all cores, one run after the other'),
-    ('jobs', '', 'runs at a time; default: one for each core'),
-    ('folder', 'sweep', 'of bags, table and figure'),
 )
 
 
@@ -36,41 +36,82 @@ def options(parser):
         parser.add_argument(
             '--' + swept.argument, default='', metavar='"A B .."', help=swept.wanted
         )
-    for name, default, text in TEXTS:
-        parser.add_argument('--' + name, default=default, help=text)
+    for name, _, text in OF_GRID:
+        parser.add_argument('--' + name, default='', help=text)
+    parser.add_argument(
+        '--plan',
+        metavar='FILE',
+        help='instead of all that: runs {name: {base: scene, parameter: value, ..}, ..}',
+    )
+    parser.add_argument('--quick', action='store_true', help='the quick runs of the plan')
+    parser.add_argument('--only', default='', metavar='"NAME .."', help='no other runs than these')
+    parser.add_argument('--jobs', default='', help='runs at a time; default: one for each core')
+    parser.add_argument('--folder', default='', help='of bags, table and figure; default: sweep')
+    parser.add_argument(
+        '--write',
+        action='store_true',
+        help='do nothing but write the scene files and print the names of the runs that are not '
+        'done, for runs.launch and runs.sbatch',
+    )
     fits.add_arguments(parser)
 
 
 def understood(args, launch, cwd):
     """(runs, folder, jobs)"""
-    defaults = {name: default for name, default, _ in TEXTS}
-    defaults.update({swept.argument: '' for swept in grid.SWEPT})
-    given = {name: getattr(args, name) or default for name, default in defaults.items()}
-    folder, jobs = given.pop('folder'), given.pop('jobs')
-    cores = len(os.sched_getaffinity(0))
-    if jobs and not (jobs.isdecimal() and int(jobs) > 0):
-        raise Refused(f'jobs = {jobs}: must be 1 or more')
+    if args.jobs and not (args.jobs.isdecimal() and int(args.jobs) > 0):
+        raise Refused(f'jobs = {args.jobs}: must be 1 or more')
+    folder = args.folder or 'sweep'
     path = os.path.join(cwd, folder)
     if os.path.exists(path) and not os.path.isdir(path):
         raise Refused(f'folder = {folder}: must be a folder')
-    return grid.runs(given, launch, cwd), path, int(jobs or cores)
+    return (
+        chosen(runs(args, launch, cwd), args.only),
+        path,
+        int(args.jobs or len(os.sched_getaffinity(0))),
+    )
 
 
-def missing(runs, folder):
-    """Those whose bag is not whole; what is there of it is kept under another name."""
-    found = [run for run in runs if not run.is_done(folder)]
+def runs(args, launch, cwd):
+    """All that are asked for."""
+    usual = {name: default for name, default, _ in OF_GRID}
+    names = [*usual, *(swept.argument for swept in grid.SWEPT)]
+    given = {name: getattr(args, name) for name in names if getattr(args, name)}
+    if args.plan:
+        for name, value in {**given, 'form': args.form, 'k': args.k}.items():
+            if value:
+                raise Refused(f'{name} = {value}: must not be given with a plan')
+        return plan.runs(os.path.join(cwd, args.plan), args.quick, launch)
+    if args.quick:
+        raise Refused('quick: must be given with a plan, which says what that is')
+    return grid.runs({**usual, **given}, launch, cwd)
+
+
+def chosen(found, only):
+    names = only.split()
+    for name in sorted(set(names) - {run.name for run in found}):
+        raise Refused(f'only = {only}: must be names of the runs, and {name} is none')
+    return [run for run in found if run.name in names or not names]
+
+
+def write(found, folder):
+    """For runs that are done elsewhere."""
+    os.makedirs(folder, exist_ok=True)
     for run in found:
-        for line in bags.keep(run.bag(folder)):
-            print(f'hdlyap sweep: {line}', flush=True)
-    return found
+        run.write(folder)
+        if run.lacks(folder):
+            print(run.name)
+    return 0
 
 
-def sweep(runs, folder, jobs, choice):
+def sweep(found, folder, jobs, args):
     """Exit status."""
     os.makedirs(folder, exist_ok=True)
-    failed = work.do('sweep', runs, lambda: missing(runs, folder), folder, jobs)
-    there = [run.bag(folder) for run in runs if os.path.exists(run.bag(folder))]
-    wrong = failed + result.write(there, folder, choice)
+    wrong = work.do(found, folder, jobs)
+    there = [run.bag(folder) for run in found if os.path.exists(run.bag(folder))]
+    if args.plan:  # they may be of anything
+        print(f'{len(there)} of {len(found)} runs are in {folder}', flush=True)
+    else:
+        wrong += result.write(there, folder, fits.choice(args))
     for line in wrong:
         print(f'hdlyap sweep: {line}', file=sys.stderr, flush=True)
     return 1 if wrong else 0
@@ -80,8 +121,8 @@ def main(args):
     os.environ.pop('ROS_NAMESPACE', None)  # roslaunch would put the nodes below it
     launch = os.path.join(rospkg.RosPack().get_path('hdlyap'), 'launch')
     try:
-        runs, folder, jobs = understood(args, launch, os.environ.get('PWD', os.getcwd()))
-        status = sweep(runs, folder, jobs, fits.choice(args))
+        found, folder, jobs = understood(args, launch, os.environ.get('PWD', os.getcwd()))
+        status = write(found, folder) if args.write else sweep(found, folder, jobs, args)
     except SystemExit:
         print('hdlyap sweep: interrupted; the same command goes on with the runs that are missing')
         raise

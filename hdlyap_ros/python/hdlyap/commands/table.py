@@ -1,7 +1,7 @@
 """The table of a sweep, of any bags.
 
-lambda_max, h_KS/N, c_T, c_L and v of each system, means over its seeds. Runs of reproduce.launch
-are waited for, until all have ended."""
+lambda_max, h_KS/N, c_T, c_L and v of each system, means over its seeds. Runs of runs.launch are
+waited for, until all have ended."""
 
 import os
 import sys

@@ -12,10 +12,7 @@ import rospy
 import yaml
 from visualization_msgs.msg import Marker, MarkerArray
 
-DOCK, BARS = (
-    380,
-    92,
-)  # pixels of the window that are not the picture: its list of displays, its bars
+DOCK, BARS = 380, 92  # pixels of the window beside the picture: its list of displays, its bars
 MARGIN = 1.02
 LETTER, LINE = 0.5, 1.2  # width and height of rviz's letters, as parts of a text's height
 # A drag with the left button adds to the angle of rviz's view, a 32-bit float, which would turn the

@@ -1,11 +1,13 @@
-"""Message -> what its definition says of its fields: their units, and which are -1 while unknown. A
-bag has the definitions that it was recorded with."""
+"""Message -> what its definition says of its fields: their units, which are -1 while unknown, and
+the names of the constants that they hold. A bag has the definitions that it was recorded with."""
 
 import re
 from collections import namedtuple
 from functools import lru_cache
 
 LINE = re.compile(r'(?m)^[\w/]+(?:\[\])? +(\w+) +# *(.*)$')
+CONSTANT = re.compile(r'(?m)^\w+ +(\w+) *= *(\d+) *# *([^:\n]*)')
+CHOICE = re.compile(r'one of (\w+) \.\. (\w+)')
 UNIT = re.compile(r'\[([^\]]*)\]\s*$')
 UNKNOWN = re.compile(r'(?:^|[;,] )-1 (?!\.\.)')
 
@@ -17,11 +19,27 @@ def of(message):
     return _parsed(message._full_text)
 
 
+def words(message, field):
+    """{value: name} of a field that is 'one of FIRST .. LAST': a constant's name is what its
+    comment says before its first colon."""
+    own = _own(message._full_text)
+    first, last = CHOICE.search(dict(LINE.findall(own))[field]).groups()
+    constants = CONSTANT.findall(own)
+    names = [name for name, _, _ in constants]
+    chosen = constants[names.index(first) : names.index(last) + 1]
+    return {int(value): word.strip() for _, value, word in chosen}
+
+
+def _own(text):
+    """What follows are the types that it is made of."""
+    return text.partition('=' * 80)[0]
+
+
 @lru_cache(maxsize=None)
 def _parsed(text):
-    own = text.partition('=' * 80)[0]  # what follows are the types that it is made of
     return {
-        name: Field(_unit(what), bool(UNKNOWN.search(what))) for name, what in LINE.findall(own)
+        name: Field(_unit(what), bool(UNKNOWN.search(what)))
+        for name, what in LINE.findall(_own(text))
     }
 
 

@@ -122,7 +122,7 @@ def _chosen(path, node, number):
 
 
 def different(a, b, names):
-    """(name, value of a, value of b) of the first of them in which two run_infos differ; None."""
+    """(name, value of a, value of b) of each of them in which two run_infos differ."""
     for name in names:
         values = [_value(info, name) for info in (a, b)]
         if None in values:  # bags of another version
@@ -130,8 +130,7 @@ def different(a, b, names):
         both = all(isinstance(value, float) for value in values)
         same = math.isclose(*values, rel_tol=SAME) if both else values[0] == values[1]
         if not same:
-            return (name, *values)
-    return None
+            yield name, *values
 
 
 def _value(info, name):
@@ -143,9 +142,7 @@ def _value(info, name):
 
 def _refuse_others(parts, names, why):
     for part in parts[1:]:
-        found = different(parts[0].info, part.info, names)
-        if found is not None:
-            name, one, other = found
+        for name, one, other in different(parts[0].info, part.info, names):
             raise RecordingError(
                 f'{parts[0].path} and {part.path} {why}: {name} is {one} and {other}'
             )

@@ -3,6 +3,7 @@ first asked for."""
 
 from collections import namedtuple
 from functools import cached_property
+from operator import attrgetter
 
 import numpy as np
 import pandas
@@ -42,6 +43,11 @@ Averages = namedtuple('Averages', 'times averaged_times exponents std_errors loc
 Local = namedtuple('Local', 'times lengths exponents')
 
 
+def _last(topic):
+    """The frame of its last message."""
+    return cached_property(lambda run: FRAMES[topic](run.last(topic)))
+
+
 class Run:
     """`info` is its run_info. Arrays have a row for each message: `times` (simulated),
     `averaged_times`, `exponents` and `std_errors` of the running means; `local` the samples. Frames
@@ -72,25 +78,11 @@ class Run:
 
     # ---- running means and samples ----------------------------------------------------------
 
-    @property
-    def times(self):
-        return self._averages.times
-
-    @property
-    def averaged_times(self):
-        return self._averages.averaged_times
-
-    @property
-    def exponents(self):
-        return self._averages.exponents
-
-    @property
-    def std_errors(self):
-        return self._averages.std_errors
-
-    @property
-    def local(self):
-        return self._averages.local
+    times = property(attrgetter('_averages.times'))
+    averaged_times = property(attrgetter('_averages.averaged_times'))
+    exponents = property(attrgetter('_averages.exponents'))
+    std_errors = property(attrgetter('_averages.std_errors'))
+    local = property(attrgetter('_averages.local'))
 
     @cached_property
     def _averages(self):
@@ -121,33 +113,13 @@ class Run:
     def spectrum(self):
         return tables.arrays(self._averages.last, without=('local_exponents',))
 
-    @cached_property
-    def modes(self):
-        return tables.of_modes(self.last('modes'))
-
-    @cached_property
-    def steps(self):
-        return tables.of_steps(self.last('steps'))
-
-    @cached_property
-    def phases(self):
-        return tables.of_phases(self.last('lp_phases'))
-
-    @cached_property
-    def t_phases(self):
-        return tables.of_t_phases(self.last('t_phases'))
-
-    @cached_property
-    def covariant(self):
-        return tables.arrays(self.last('covariant'))
-
-    @cached_property
-    def localization(self):
-        return tables.arrays(self.last('localization'))
-
-    @cached_property
-    def gas(self):
-        return tables.of_gas(self.last('gas'))
+    modes = _last('modes')
+    steps = _last('steps')
+    phases = _last('lp_phases')
+    t_phases = _last('t_phases')
+    covariant = _last('covariant')
+    localization = _last('localization')
+    gas = _last('gas')
 
     @cached_property
     def results(self):

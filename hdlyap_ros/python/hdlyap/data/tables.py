@@ -10,21 +10,15 @@ from hdlyap.plots import stages, steps, waves
 from hdlyap.plots.numbers import known
 
 from . import fields
+from .fields import words
 
 NUMBERED = 'exponents', 'widths'  # arrays with an element for each Lyapunov index
 NUMBERS = {'bool': bool, 'float64': float}  # others are integers
-KINDS = {0: 'none', **steps.NAMES}
-
-
-def _names(kind, names, prefix=''):
-    return {getattr(kind, prefix + name.upper()): name for name in names.split()}
-
-
 # columns whose numbers have names
 NAMES = {
-    'kind': KINDS,
-    'sharing': _names(Step, 'alone unknown mixing blended coincident', 'SHARING_'),
-    'state': _names(LpPhase, 'unresolved weak coarse tracked'),
+    'kind': words(Mode, 'kind'),
+    'sharing': words(Step, 'sharing'),
+    'state': words(LpPhase, 'state'),
     'stage': stages.STAGES,
     'interval_limit': stages.LIMITS,
 }

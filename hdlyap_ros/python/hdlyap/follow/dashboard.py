@@ -6,7 +6,8 @@ import rospy
 
 from hdlyap.plots import glyphs
 
-from . import layout
+from . import panels
+from .layout import arranged, wrapped
 from .screen import Screen
 from .watch import Watch
 
@@ -22,7 +23,7 @@ def follow(node, plain=False):
     screen = Screen(plain)
     with screen:
         status = _redraw(watch, screen, drawn)
-    last = layout.lines(watch.view(), screen.size, drawn)
+    last = lines(watch.view(), screen.size, drawn)
     screen.leave_behind([line for line in last[:-1] if line])  # without the keys
     return status
 
@@ -30,10 +31,19 @@ def follow(node, plain=False):
 def _redraw(watch, screen, drawn):
     while not rospy.is_shutdown():
         view, size = watch.view(), screen.size
-        screen.show(layout.lines(view, size, drawn), size)
+        screen.show(lines(view, size, drawn), size)
         key = screen.key(PERIOD)
         if key == 'q':
             return WENT_AWAY if view.is_gone and not view.is_finished else 0
         if key == 'm':
             watch.toggle_computed()
     return INTERRUPTED
+
+
+def lines(view, size, drawn):
+    """One that says so where a node makes no sense."""
+    try:
+        return arranged(panels.of(view, *size, drawn), size)
+    except Exception as error:  # what no check has foreseen: a node may say anything
+        said = wrapped([(panels.nonsense(error), 'error')], size[0])
+        return [*said, [('q quit', 'faint')]][: size[1]]

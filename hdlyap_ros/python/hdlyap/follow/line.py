@@ -3,86 +3,50 @@ and scripts."""
 
 import os
 import sys
-import threading
 import time
 from math import inf
 
 import rospy
 
-from hdlyap.msg import Cost, RunStatus, Spectrum
+from hdlyap.data.reader import plain
 from hdlyap.plots.numbers import clock
 from hdlyap.plots.stages import LIMITS, STAGES
 
-from .nodes import is_alive
+from .layout import flow, wrapped
 from .panels import nonsense
-from .screen import clean
-from .wrap import flow, wrapped
+from .watch import Watch
 
 LINE_PERIOD = 10.0  # seconds between lines where there is no terminal
-SILENCE = 2.0  # seconds without a message after which the node is asked
+LOOK_PERIOD = 0.25  # seconds between two looks
 LAST_WORDS = 0.3  # seconds that others may be behind the last status
 
 
-class Progress:
-    """What the node said last; the callbacks of three topics write it, the main loop reads."""
+def parts(view):
+    """Of the line."""
+    try:
+        return list(_parts(view))
+    except Exception as error:  # what no check has foreseen: a node may say anything
+        return [plain(nonsense(error))]
 
-    def __init__(self, node):
-        self.status = self.cost = self.spectrum = None
-        self.news = threading.Event()
-        self.last_heard = time.monotonic()
-        rospy.Subscriber(node + '/status', RunStatus, self._hear_status, queue_size=1)
-        rospy.Subscriber(node + '/cost', Cost, self._hear_cost, queue_size=1)
-        rospy.Subscriber(node + '/spectrum', Spectrum, self._hear_spectrum, queue_size=1)
 
-    def _hear_status(self, msg):
-        self.status = msg
-        self.last_heard = time.monotonic()
-        self.news.set()
-
-    def _hear_cost(self, msg):
-        self.cost = msg
-
-    def _hear_spectrum(self, msg):
-        self.spectrum = msg
-
-    @property
-    def finished(self):
-        return self.status is not None and self.status.stage == RunStatus.FINISHED
-
-    def parts(self):
-        """Of the line."""
-        try:
-            return self._parts()
-        except Exception as error:  # what no check has foreseen: a node may say anything
-            return [clean(nonsense(error))]
-
-    def _parts(self):
-        status = self.status
-        parts = [STAGES.get(status.stage, '?'), f't = {status.sim_time:.1f}']
-        if status.progress > 0:
-            parts.insert(1, f'{100 * status.progress:.1f} %')
-        if 0 <= status.remaining_seconds < inf and not self.finished:
-            parts.append(f'{clock(status.remaining_seconds)} left')
-        if self.spectrum is not None and self.spectrum.averaged_time > 0:
-            parts.append(f'lambda_max {self.spectrum.lambda_max:.4f}' + self._error())
-        return parts + (self._spent(self.cost) if self.cost is not None else [])
-
-    @staticmethod
-    def _spent(cost):
-        parts = []
-        if cost.orthonormalisations:
-            parts.append(
-                f'interval {cost.interval:.3g} ({LIMITS.get(cost.interval_limit, "?")}), '
-                f'repairs {cost.repairs}'
-            )
-        if cost.modes_seconds > 0 and cost.wall_seconds > 0:
-            share = 100 * cost.modes_seconds / cost.wall_seconds
-            parts.append(f'classification {share:.0f} % of the time')
-        return parts
-
-    def _error(self):
-        errors = self.spectrum.std_errors
-        return f' +- {errors[0]:.4f}' if errors and errors[0] >= 0 else ''
+def _parts(view):
+    status, cost = view.status, view.cost
+    yield STAGES.get(status.stage, '?')
+    if status.progress > 0:
+        yield f'{100 * status.progress:.1f} %'
+    yield f't = {status.sim_time:.1f}'
+    if 0 <= status.remaining_seconds < inf and not view.is_finished:
+        yield f'{clock(status.remaining_seconds)} left'
+    if view.is_averaged:
+        errors = view.spectrum.std_errors
+        error = f' +- {errors[0]:.4f}' if errors and errors[0] >= 0 else ''
+        yield f'lambda_max {view.spectrum.lambda_max:.4f}{error}'
+    if cost is not None and cost.orthonormalisations:
+        limit = LIMITS.get(cost.interval_limit, '?')
+        yield f'interval {cost.interval:.3g} ({limit}), repairs {cost.repairs}'
+    if cost is not None and cost.modes_seconds > 0 and cost.wall_seconds > 0:
+        share = 100 * cost.modes_seconds / cost.wall_seconds
+        yield f'classification {share:.0f} % of the time'
 
 
 class Display:
@@ -119,18 +83,20 @@ class Display:
 def follow(node):
     """Shows the progress until the node has finished, has gone, or the user has had enough;
     returns the exit status."""
-    progress, display = Progress(node), Display()
+    watch, display, shown = Watch(node, computed={}), Display(), None
     try:
         while not rospy.is_shutdown():
-            if progress.news.wait(timeout=0.5):
-                progress.news.clear()
-                display.show(progress.parts())
-            if progress.finished:
+            view = watch.view()
+            if view.is_finished:
                 time.sleep(LAST_WORDS)
-                display.show(progress.parts(), last=True)
+                display.show(parts(watch.view()), last=True)
                 return 0
-            if time.monotonic() - progress.last_heard > SILENCE and not is_alive(node):
+            if view.is_gone:
                 return 3
+            if view.status is not shown:
+                display.show(parts(view))
+                shown = view.status
+            time.sleep(LOOK_PERIOD)
         return 130
     finally:
         display.close()

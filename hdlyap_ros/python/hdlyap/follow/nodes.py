@@ -9,9 +9,8 @@ from xml.parsers import expat
 import rosgraph
 import rospy
 
+from hdlyap.data.reader import plain
 from hdlyap.msg import RunStatus
-
-from . import screen
 
 ANSWER = 5.0  # seconds that a master or a node may take to answer
 SOON = 1.0  # the same while nothing is known of a master
@@ -47,21 +46,18 @@ def wait_for_node(name, deadline):
         found.update(_nodes())
         return name in found if name else bool(found)
 
+    def listed():
+        return plain(', '.join(sorted(found)), LIST)  # anybody may have given them
+
     def missing():
-        others = f'; there is {_listed(found)}' if found else ''
+        others = f'; there is {listed()}' if found else ''
         return f'hdlyap follow: no {name or "hdlyap_node"} that publishes a run_info{others}'
 
     if not _wait(look, deadline, missing):
         return None
     if name is None and len(found) > 1:
-        sys.exit(f'hdlyap follow: several nodes, choose one with --node: {_listed(found)}')
+        sys.exit(f'hdlyap follow: several nodes, choose one with --node: {listed()}')
     return name or found.pop()
-
-
-def _listed(names):
-    """Anybody may have given them."""
-    text = screen.clean(', '.join(sorted(names)))
-    return text if len(text) <= LIST else text[: LIST - 3] + '...'
 
 
 def _wait(is_there, deadline, missing):
@@ -82,16 +78,11 @@ def _wait(is_there, deadline, missing):
 
 def _nodes():
     """That publish hdlyap/RunStatus."""
-    return {
-        topic.rpartition('/')[0] for topic, kind in _published_topics() if kind == RunStatus._type
-    }
-
-
-def _published_topics():
     try:
-        return rospy.get_published_topics()
-    except OSError:
-        return []
+        topics = ask_master('getPublishedTopics', '')
+    except UNANSWERED:
+        return set()
+    return {topic.rpartition('/')[0] for topic, kind in topics if kind == RunStatus._type}
 
 
 def ask_master(question, *about):

@@ -9,16 +9,29 @@ from hdlyap.plots.phases import apart
 from hdlyap.plots.report import system
 from hdlyap.plots.stages import LIMITS, STAGES, seconds
 
-from .wrap import flow, joined
+from .layout import MORE, flow
 
 LEVELS = {0: ('OK', 'ok'), 1: ('WARN', 'warn'), 2: ('ERROR', 'error'), 3: ('STALE', 'warn')}
 KIND_STYLES = {steps.T: 'T', steps.LP: 'LP'}
 PART_BAR = 6  # columns
 ROOMY = 30  # lines of a screen
-MORE = '  {} more'  # in the heading of a table that is cut
 STATES = {LpPhase.WEAK: 'too weak now', LpPhase.COARSE: 'turns too fast'}
 PHASE_ROW = '  {:<9} {:<17} {:>6} {:>7}  {} {:<6}{:<14} {}'
 PHASE_HEAD = PHASE_ROW.format('LP phases', 'A', 'index', '|(a,b)|', ' ', '/2 pi', 'omega', 'v')
+
+
+def of(view, width, height, glyphs):
+    """{panel: lines}"""
+    return {
+        'head': head(view, width),
+        'progress': progress(view, width, glyphs),
+        'numbers': numbers(view, width, height),
+        'table': table(view, width),
+        'phases': phases(view, glyphs),
+        'cost': cost(view, width, glyphs),
+        'diagnosis': diagnosis(view),
+        'keys': keys(view),
+    }
 
 
 def nonsense(error):
@@ -73,39 +86,38 @@ def _times(view):
 
 def numbers(view, width, height):
     """Exponents, and fits; where there is room, with what they stand on."""
-    cells = [f'{name} {value}' for name, value in _numbers(view)]
-    return flow(cells, width) + flow(_fits(view, height >= ROOMY), width)
+    return flow(_numbers(view), width) + flow(_fits(view, height >= ROOMY), width)
 
 
 def _numbers(view):
-    spectrum, message = view.spectrum, view.steps
+    spectrum, message = view.spectrum, _averaged_steps(view)
     if view.is_averaged and len(spectrum.exponents):
-        yield 'lambda_max', _measured(spectrum.lambda_max, spectrum.std_errors[0])
+        yield f'lambda_max {_measured(spectrum.lambda_max, spectrum.std_errors[0])}'
         if len(spectrum.exponents) > 1 and view.info:
-            yield view.sum_name, _measured(spectrum.ks_entropy, view.sum_error)
+            yield f'{view.sum_name} {_measured(spectrum.ks_entropy, view.sum_error)}'
         if spectrum.pairing_error >= 0:
-            yield 'pairing error', f'{spectrum.pairing_error:.1e}'
-    if message is None or message.averaged_time <= 0:
-        return
-    looked_for = [step for step in message.steps if step.kind != steps.ZERO]
-    found = sum(step.resolved for step in looked_for)
-    yield 'steps resolved', f'{found} of {len(looked_for)}'
+            yield f'pairing error {spectrum.pairing_error:.1e}'
+    if message is not None:
+        looked_for = [step.resolved for step in message.steps if step.kind != steps.ZERO]
+        yield f'steps resolved {sum(looked_for)} of {len(looked_for)}'
+
+
+def _averaged_steps(view):
+    """None without any."""
+    return view.steps if view.steps is not None and view.steps.averaged_time > 0 else None
 
 
 def _fits(view, with_waves):
-    message = view.steps if view.steps is not None and view.steps.averaged_time > 0 else None
-    for fit in fits.of(message):
+    for fit in fits.of(_averaged_steps(view)):
         if fit.count:
-            _, value, error = fit.values[0]
-            yield f'{fit.symbol} {_measured(value, error)}' + (
-                f' ({fit.basis})' if with_waves else ''
-            )
+            basis = f' ({fit.basis})' if with_waves else ''
+            yield f'{fit.symbol} {_measured(*fit.values[0][1:])}{basis}'
 
 
 def table(view, width):
     """Steps: the heading, then a row each; or why there are none."""
-    message = view.steps
-    if message is None or message.averaged_time <= 0:
+    message = _averaged_steps(view)
+    if message is None:
         return _without(view, 'steps')
     fitted = {step.name: step.fitted for step in paper.steps(view.info)} if view.info else {}
     found = list(step_table.block_rows(message, fitted))
@@ -130,6 +142,16 @@ def _table_lines(rows, beside_paper, width):
     longest = max(len(row[0]) for row in rows) + room
     names = [joined(row[0].split('+'), max(longest, 0)) for row in rows]
     return list(step_table.layout([[name, *row[1:]] for name, row in zip(names, rows)]))
+
+
+def joined(names, room):
+    """T(1,0)+T(0,1), or as many of them as there is room for, and how many are left."""
+    for count in range(len(names), 0, -1):
+        left = len(names) - count
+        text = '+'.join([*names[:count], *([f'{left} more'] if left else [])])
+        if len(text) <= room:
+            return text
+    return names[0]
 
 
 def phases(view, glyphs):
@@ -183,27 +205,22 @@ def cost(view, width, glyphs):
     """Shares of the wall time, and what the interval between orthonormalisations is due to."""
     if view.cost is None or view.cost.wall_seconds <= 0:
         return []
-    shares = {part: spent / view.cost.wall_seconds for part, spent in seconds(view.cost).items()}
-    return flow(
-        [
-            f'{part:<9} {glyphs.bar(share, PART_BAR)} {100 * share:3.0f} %'
-            for part, share in shares.items()
-        ],
-        width,
-        '  ',
-    ) + flow(_interval(view), width)
+    cells = []
+    for part, spent in seconds(view.cost).items():
+        share = spent / view.cost.wall_seconds
+        cells.append(f'{part:<9} {glyphs.bar(share, PART_BAR)} {100 * share:3.0f} %')
+    return flow(cells, width, '  ') + flow(_interval(view.cost), width)
 
 
-def _interval(view):
-    cost_now = view.cost
-    if cost_now.orthonormalisations:
-        yield f'interval {cost_now.interval:.3g} ({LIMITS.get(cost_now.interval_limit, "?")})'
-        yield f'repairs {cost_now.repairs}'
-        yield f'condition {cost_now.condition:.1e}'
-        if isfinite(cost_now.error_bound):
-            yield f'error bound {cost_now.error_bound:.1e}'
-    if isfinite(cost_now.events_per_second):
-        yield f'{cost_now.events_per_second:.2g} events/s'
+def _interval(message):
+    if message.orthonormalisations:
+        yield f'interval {message.interval:.3g} ({LIMITS.get(message.interval_limit, "?")})'
+        yield f'repairs {message.repairs}'
+        yield f'condition {message.condition:.1e}'
+        if isfinite(message.error_bound):
+            yield f'error bound {message.error_bound:.1e}'
+    if isfinite(message.events_per_second):
+        yield f'{message.events_per_second:.2g} events/s'
 
 
 def diagnosis(view):
@@ -215,12 +232,8 @@ def diagnosis(view):
     if view.is_finished:
         return lines + [[('the run has finished', 'strong')]]
     if view.is_gone:
-        lines.append(
-            [
-                ('GONE', 'error'),
-                (f'  {view.node} does not answer; waiting for it to come ' 'back', ''),
-            ]
-        )
+        said = f'  {view.node} does not answer; waiting for it to come back'
+        lines.append([('GONE', 'error'), (said, '')])
     elif view.silence > 5:
         lines.append([(f'no message for {clock(view.silence)}', 'warn')])
     if view.is_master_gone:

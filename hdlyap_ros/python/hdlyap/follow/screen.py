@@ -1,5 +1,7 @@
 """Lines of text -> a terminal used as a whole, and left as it was however the program ends."""
 
+import contextlib
+import itertools
 import os
 import select
 import signal
@@ -8,12 +10,9 @@ import tempfile
 import termios
 import tty
 
-from .wrap import length, spans
-
 ENTER = '\033[?1049h\033[?25l\033[?7l'  # another screen, no cursor, no wrapping at the edge
 LEAVE = '\033[0m\033[?7h\033[?25h\033[?1049l'
-HOME, TO_LINE_END, TO_END, CLEAR = '\033[H', '\033[K', '\033[J', '\033[2J'
-HANGUP = 128 + signal.SIGHUP
+HOME, TO_LINE_END, TO_END = '\033[H', '\033[K', '\033[J'
 UNKNOWN_SIZE = (80, 24)
 # blue and vermilion as in the figures, of a lightness that shows on black and on white
 COLOURS = {
@@ -42,24 +41,25 @@ class Screen:
     """A context: inside, show() puts lines on the screen. A line is a list of (text, style)."""
 
     def __init__(self, plain=False):
-        self._styles = {} if plain else _styles()
-        self._saved = None  # settings of the keyboard; None where it is none of ours
+        many = '256' in os.environ.get('TERM', '') or 'COLORTERM' in os.environ
+        colours = COLOURS if many and 'NO_COLOR' not in os.environ else {}
+        self._styles = {} if plain else {**WEIGHTS, **colours}
+        self._keyboard = None  # its settings; None where it is none of ours
         self._shown = None  # (size, text) of what stands there
-        self._handlers = {}
-        self._complaints = Complaints()
+        self._left = contextlib.ExitStack()  # what is undone at the end
 
     def __enter__(self):
-        self._complaints.hold_back()
-        for number, handler in ((signal.SIGTSTP, self._suspend), (signal.SIGHUP, _hang_up)):
-            self._handlers[number] = signal.signal(number, handler)
-        self._take()
+        with self._left as left:
+            left.enter_context(complaints_held_back())
+            left.callback(signal.signal, signal.SIGTSTP, signal.getsignal(signal.SIGTSTP))
+            signal.signal(signal.SIGTSTP, self._suspend)
+            left.callback(self._give_back)
+            self._take()
+            self._left = left.pop_all()
         return self
 
     def __exit__(self, kind, error, trace):
-        self._give_back()
-        for number, handler in self._handlers.items():
-            signal.signal(number, handler)
-        self._complaints.let_out()
+        self._left.close()
 
     @property
     def size(self):
@@ -68,57 +68,48 @@ class Screen:
         return (columns, lines) if columns and lines else UNKNOWN_SIZE
 
     def show(self, lines, size):
-        """As many lines as the screen has, each cut to its width; nothing is sent if they stand
-        there already."""
-        text = '\r\n'.join(self._cleared(cut(line, size[0]), size[0]) for line in lines[: size[1]])
-        if len(lines) < size[1]:
-            text += '\r\n' + TO_END
+        """No more of them, and none wider, than the screen of that size; nothing is sent if they
+        stand there already."""
+        text = '\r\n'.join(TO_LINE_END + self._painted(line) for line in lines)
+        below = '\r\n' + TO_END if len(lines) < size[1] else ''
         if self._shown != (size, text):
-            _write((HOME if self._shown and self._shown[0] == size else CLEAR + HOME) + text)
+            is_new = not self._shown or self._shown[0] != size
+            _write(HOME + (TO_END if is_new else '') + text + below)
             self._shown = (size, text)
 
     def leave_behind(self, lines):
         """After the end, so that the last numbers stay readable."""
-        _write('\n'.join(self._painted(line) for line in lines) + '\n')
+        _write('\n'.join(map(self._painted, lines)) + '\n')
 
     def key(self, seconds):
         """A key that is pressed within so many seconds; else ''."""
-        keyboard = [sys.stdin] if self._saved else []
-        ready, _, _ = select.select(keyboard, [], [], seconds)
-        if not ready:
+        keyboard = [sys.stdin] if self._keyboard else []
+        if not select.select(keyboard, [], [], seconds)[0]:
             return ''
         pressed = os.read(sys.stdin.fileno(), 1)
         if not pressed:
             raise EOFError  # the terminal has gone
         return pressed.decode('ascii', 'replace')
 
-    def _cleared(self, line, width):
-        """With nothing left behind it. Behind a line as wide as the screen the cursor still stands
-        on its last character."""
-        return self._painted(line) + (TO_LINE_END if length(line) < width else '')
-
     def _painted(self, line):
-        return ''.join(
-            f'\033[{self._styles[style]}m{clean(text)}\033[0m'
-            if style in self._styles
-            else clean(text)
-            for text, style in line
-        )
+        painted = ''
+        for style, spans in itertools.groupby(line, key=lambda span: self._styles.get(span[1])):
+            text = ''.join(text for text, _ in spans)
+            painted += f'\033[{style}m{text}\033[0m' if style else text
+        return painted
 
     def _take(self):
         if sys.stdin.isatty():
-            self._saved = termios.tcgetattr(sys.stdin)
+            self._keyboard = termios.tcgetattr(sys.stdin)
             tty.setcbreak(sys.stdin)
         self._shown = None
-        _write(ENTER + CLEAR)
+        _write(ENTER)
 
     def _give_back(self):
-        try:
+        with contextlib.suppress(OSError, termios.error):  # where no terminal is left
             _write(LEAVE)
-            if self._saved:
-                termios.tcsetattr(sys.stdin, termios.TCSADRAIN, self._saved)
-        except (OSError, termios.error):
-            pass  # no terminal is left to be given back
+            if self._keyboard:
+                termios.tcsetattr(sys.stdin, termios.TCSADRAIN, self._keyboard)
 
     def _suspend(self, number, frame):
         """Ctrl-Z: the shell gets its terminal, until the program is in the foreground again."""
@@ -127,47 +118,24 @@ class Screen:
         self._take()
 
 
-class Complaints:
-    """What libraries write to stderr: they would write it across the screen."""
-
-    def __init__(self):
-        self._kept = self._stderr = None
-
-    def hold_back(self):
-        if sys.stderr.isatty():
-            self._kept, self._stderr = tempfile.TemporaryFile(), os.dup(sys.stderr.fileno())
-            os.dup2(self._kept.fileno(), sys.stderr.fileno())
-
-    def let_out(self):
-        if self._stderr is None:
-            return
-        sys.stderr.flush()
-        os.dup2(self._stderr, sys.stderr.fileno())
-        os.close(self._stderr)
-        self._kept.seek(0)
-        sys.stderr.write(self._kept.read().decode('utf-8', 'replace'))
-
-
-def cut(line, width):
-    """The line's first columns."""
-    return spans(line, 0, width)
-
-
-def clean(text):
-    """What a node says must not reach the terminal as a command."""
-    return ''.join(c if c.isprintable() else '?' for c in text)
-
-
-def _styles():
-    many = '256' in os.environ.get('TERM', '') or 'COLORTERM' in os.environ
-    return {**WEIGHTS, **(COLOURS if many and 'NO_COLOR' not in os.environ else {})}
+@contextlib.contextmanager
+def complaints_held_back():
+    """What libraries write to stderr meanwhile: they would write it across the screen."""
+    if not sys.stderr.isatty():
+        yield
+        return
+    with tempfile.TemporaryFile() as kept, os.fdopen(os.dup(2), 'wb') as stderr:
+        os.dup2(kept.fileno(), 2)
+        try:
+            yield
+        finally:
+            sys.stderr.flush()
+            os.dup2(stderr.fileno(), 2)
+            kept.seek(0)
+            stderr.write(kept.read())
 
 
 def _write(text):
     data = text.encode(sys.stdout.encoding or 'ascii', 'replace')
     while data:
         data = data[os.write(sys.stdout.fileno(), data) :]
-
-
-def _hang_up(number, frame):
-    sys.exit(HANGUP)

@@ -1,17 +1,27 @@
-"""A node's topics -> View: what it said last about its present run."""
+"""A node's topics -> View: what it said last about its present run. All that may have to wait for
+an answer is in a thread. To watch a run must not change it: what the node computes only for
+listeners is listened to while others do, or if the user wants it."""
 
+import re
+import threading
 import time
 from collections import deque
+
+import rospy
 
 from diagnostic_msgs.msg import DiagnosticArray
 from hdlyap.msg import Cost, LpPhases, RunInfo, RunStatus, Spectrum, Steps
 from hdlyap.plots.run import Run
 
-from .scout import Scout
+from .nodes import UNANSWERED, address, answers, ask_master
 
 ALWAYS = {'run_info': RunInfo, 'status': RunStatus, 'cost': Cost, 'spectrum': Spectrum}
 COMPUTED = {'steps': Steps, 'lp_phases': LpPhases}
+FIELDS = {'run_info': 'info', 'lp_phases': 'phases'}  # of View, where not called as the topic
+PERIOD = 1.0  # seconds between two looks at the master
+SILENCE = 2.0  # seconds without a message after which the node is asked
 SPEED_OVER = 10.0  # wall seconds
+FOLLOWER = re.compile(r'/follow_\d+_\d+$')  # names that rospy gives to our like
 
 
 class View(Run):
@@ -34,40 +44,40 @@ class View(Run):
 
 
 class Watch:
-    """Listens; view() is what is known now."""
+    """Listens; view() is what is known now. computed: what of COMPUTED is of interest."""
 
-    def __init__(self, node):
-        self._node = node
+    def __init__(self, node, computed=COMPUTED):
+        self._node, self._computed = node, computed
+        kinds = {**ALWAYS, **computed}
+        self._topics = {f'{node}/{name}': (lazy(kinds[name]), self._hear) for name in kinds}
+        self._topics['/diagnostics'] = DiagnosticArray, self._hear_diagnostics
         self._last, self._diagnosis = {}, None
         self._heard, self._speed = time.monotonic(), Speed()
-        always = {f'{node}/{name}': (lazy(kind), self._hear) for name, kind in ALWAYS.items()}
-        always['/diagnostics'] = DiagnosticArray, self._hear_diagnostics
-        self._scout = Scout(
-            node,
-            always,
-            {f'{node}/{name}': (lazy(kind), self._hear) for name, kind in COMPUTED.items()},
-            self._silence,
-        )
+        self._ears, self._address = {}, None
+        self._wanted = self._is_gone = self._is_master_gone = False
+        self._others = frozenset()
+        self._soon = threading.Event()
+        threading.Thread(target=self._go_round, daemon=True).start()
 
     def toggle_computed(self):
         """Has the node compute steps and LP phases although nobody else listens, or no more."""
-        self._scout.toggle_wanted()
+        self._wanted = not self._wanted
+        self._soon.set()
 
     def view(self):
-        scout, view = self._scout, View()
-        listened = scout.listened
-        last = {
-            topic.rpartition('/')[2]: message.unpacked()
-            for topic, message in dict(self._last).items()
-            if topic in listened
-        }
-        fill(view, last)
+        view = View()
+        fill(
+            view,
+            {
+                _name(topic): message.unpacked()
+                for topic, message in dict(self._last).items()
+                if topic in self._ears
+            },
+        )
         view.node, view.silence = self._node, self._silence()
         view.diagnosis, view.speed = self._diagnosis, self._speed.add(view.cost)
-        view.wanted, view.others = scout.wanted, {
-            topic.rpartition('/')[2] for topic in scout.others
-        }
-        view.is_gone, view.is_master_gone = scout.is_node_gone, scout.is_master_gone
+        view.wanted, view.others = self._wanted, self._others
+        view.is_gone, view.is_master_gone = self._is_gone, self._is_master_gone
         return view
 
     def _silence(self):
@@ -83,21 +93,57 @@ class Watch:
                 self._heard = time.monotonic()
                 self._diagnosis = status
 
+    def _go_round(self):
+        while not rospy.is_shutdown():
+            self._soon.clear()
+            self._look()
+            self._is_gone = self._silence() > SILENCE and not (
+                self._address and answers(self._address)
+            )
+            self._soon.wait(PERIOD)
+
+    def _look(self):
+        try:
+            speakers, listeners = map(dict, ask_master('getSystemState')[:2])
+            self._is_master_gone = False
+        except UNANSWERED:
+            self._is_master_gone = True
+            return
+        self._listen(speakers, listeners)
+        try:
+            self._address = address(self._node)
+        except UNANSWERED:
+            pass  # a node that no master knows may still be where it was
+
+    def _listen(self, speakers, listeners):
+        """Both: {topic: names of nodes}"""
+        self._others = frozenset(
+            name
+            for name in self._computed
+            if not all(map(FOLLOWER.search, listeners.get(f'{self._node}/{name}', ())))
+        )
+        for topic, (kind, callback) in self._topics.items():
+            name = _name(topic)
+            wanted = name not in self._computed or self._wanted or name in self._others
+            # by a master that was restarted; a node that it does not know either is still connected
+            forgotten = topic in speakers and rospy.get_name() not in listeners.get(topic, ())
+            if topic in self._ears and (forgotten or not wanted):
+                self._ears.pop(topic).unregister()
+            if wanted and topic not in self._ears:
+                self._ears[topic] = rospy.Subscriber(topic, kind, callback, topic, queue_size=1)
+
+
+def _name(topic):
+    return topic.rpartition('/')[2]
+
 
 def fill(view, last):
     """With the last messages of the topics, but None and those that are left of a run before the
     one that the status is of."""
-    last = {name: message for name, message in last.items() if message is not None}
     newest = last.get('status') or last.get('run_info')
-    last = (
-        {name: message for name, message in last.items() if message.run_id == newest.run_id}
-        if newest
-        else {}
-    )
-    view.info = last.get('run_info')
-    view.status, view.cost = last.get('status'), last.get('cost')
-    view.spectrum, view.steps = last.get('spectrum'), last.get('steps')
-    view.phases = last.get('lp_phases')
+    for name, message in last.items():
+        if message is not None and newest and message.run_id == newest.run_id:
+            setattr(view, FIELDS.get(name, name), message)
 
 
 class Speed:

@@ -5,13 +5,12 @@ import io
 
 import numpy as np
 
+from hdlyap.data.joined import SYSTEM, different
 from hdlyap.data.reader import RecordingError
 
 from . import fits, steps
 from .deviation import Deviation
 
-SAME = 1e-9  # relative: parameters that were given as the same decimal number
-SYSTEM = ('disks', 'density', 'aspect', 'boundary_x', 'boundary_y')
 OWN = ('header', 'run_id')  # of every message, also of bit-identical runs
 
 
@@ -71,19 +70,11 @@ def _bits(message):
 
 
 def _refuse_other_systems(a, b):
-    others = [
-        f'{name} {getattr(a, name)} and {getattr(b, name)}'
-        for name in SYSTEM
-        if not _is_same(getattr(a, name), getattr(b, name))
-    ]
+    others = [f'{name} {one} and {other}' for name, one, other in different(a, b, SYSTEM)]
     if others:
         raise RecordingError(
             'the runs are of different systems and are not compared: ' + ', '.join(others)
         )
-
-
-def _is_same(one, other):
-    return one == other or (isinstance(one, float) and abs(one - other) <= SAME * abs(one))
 
 
 def _refuse_without_exponents(a, b):

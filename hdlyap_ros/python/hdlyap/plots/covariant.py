@@ -4,16 +4,13 @@ from math import pi
 
 import numpy as np
 
+from hdlyap.data.fields import words
 from hdlyap.msg import CovariantAngle
 
 from . import steps
 from .numbers import known
 
-SPACES = {
-    CovariantAngle.UNSTABLE_STABLE: 'unstable-stable',
-    CovariantAngle.UNSTABLE_CENTRE: 'unstable-centre',
-    CovariantAngle.CENTRE_STABLE: 'centre-stable',
-}
+SPACES = words(CovariantAngle, 'spaces')
 RIGHT_ANGLE = pi / 2
 
 
@@ -87,23 +84,15 @@ def within(numbers, block):
 
 def blocks(run):
     """Zero modes, then the steps of both halves, smallest |exponent| first: (name, block)."""
-    message = run.steps
-    zero = message and steps.zero_modes(message)
-    if zero is not None and zero.resolved:
-        yield 'zero modes', steps.Block([zero])
-    halves = [('', block) for block in steps.blocks(message)]
-    halves += [('conj. ', block) for block in steps.blocks(message, conjugate=True)]
+    found = steps.all_blocks(run.steps)
     # each step before its conjugate: they have the same exponents but for the sign and an error
-    order = {block.name: place for place, (half, block) in enumerate(halves) if not half}
-    for half, block in sorted(halves, key=lambda one: (order.get(one[1].name, len(order)), one[0])):
-        yield half + block.name, block
+    order = {block.name: place for place, block in enumerate(found) if not block.conjugate}
+    for block in sorted(found, key=lambda one: (order.get(one.name, len(found)), one.conjugate)):
+        half = 'conj. ' if block.conjugate else ''
+        yield half + block.name if block.kind != steps.ZERO else 'zero modes', block
 
 
 # ---- weights ----------------------------------------------------------------------------------
-
-
-def weight_name(weight):
-    return steps.name(weight)
 
 
 def chance(run, weight):
@@ -117,7 +106,7 @@ def weights_over(run, block):
     inside = within(indices(run.covariant), block)
     for step in block.steps if inside is not None else ():
         found = next(
-            (weight for weight in run.covariant.weights if weight_name(weight) == steps.name(step)),
+            (weight for weight in run.covariant.weights if steps.name(weight) == steps.name(step)),
             None,
         )
         if found is None:
@@ -132,7 +121,7 @@ def unresolved_weights(run):
     carried = int((numbers <= run.positive_end).sum())
     resolved = steps.resolved(run.steps)
     for weight in run.covariant.weights:
-        if weight_name(weight) in resolved or weight.dimension > carried:
+        if steps.name(weight) in resolved or weight.dimension > carried:
             continue
         best = np.sort(np.argsort(weight.dq[:carried], kind='stable')[carried - weight.dimension :])
         yield weight, numbers[best], (*_means(weight, best), chance(run, weight))

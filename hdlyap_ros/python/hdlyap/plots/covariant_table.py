@@ -89,7 +89,7 @@ def _weights(recording):
         ]
     remark = []
     for weight, indices, weights in list(covariant.unresolved_weights(recording))[:UNRESOLVED]:
-        rows.append(_weight_row(covariant.weight_name(weight) + ' *', _listed(indices), weights))
+        rows.append(_weight_row(steps.name(weight) + ' *', _listed(indices), weights))
         remark = [
             '  * no step found: as many vectors as its fields have dimensions, '
             'those with the largest dq weights'

@@ -5,7 +5,7 @@ import subprocess
 
 import numpy as np
 from matplotlib.animation import FFMpegWriter
-from matplotlib.collections import EllipseCollection, LineCollection
+from matplotlib.collections import LineCollection
 from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle
@@ -13,6 +13,7 @@ from matplotlib.patches import Circle
 from hdlyap.data.reader import RecordingError
 
 from . import steps
+from .figures.box import arrows, disks
 from .figures.style import BLUE, GREY, VERMILION, scene
 from .numbers import known, with_error
 from .progress import Progress
@@ -51,22 +52,9 @@ class Panel:
         info = film.info
         self._axes, self._name, self._film = axes, name, film
         self._distance = np.sqrt(info.box_x * info.box_y / info.disks)
-        self._disks = EllipseCollection(
-            [1.0],
-            [1.0],
-            [0.0],
-            units='xy',
-            offsets=np.zeros((1, 2)),
-            facecolors=DISK,
-            antialiaseds=False,
-            **offsets_in(axes),
-        )
-        axes.add_collection(self._disks)
+        self._disks = disks(axes, info, [0.0], [0.0], facecolors=DISK, antialiaseds=False)
         self._arrows = None
         self._colour = BLUE if name.startswith('T') else VERMILION
-        axes.set_aspect('equal')
-        axes.set_xlim(0, info.box_x)
-        axes.set_ylim(0, info.box_y)
         axes.set_xticks([])
         axes.set_yticks([])
         self._title = axes.set_title('', fontsize=7.5, color=self._colour, loc='left')
@@ -82,32 +70,14 @@ class Panel:
         dq *= ARROW * self._distance / np.sqrt(np.mean(np.sum(dq**2, axis=0)))
         dq *= np.minimum(1, LONGEST * self._distance / np.maximum(np.hypot(*dq), 1e-300))
         if self._arrows is None:
-            self._arrows = self._quiver(len(field.x))
+            zeros = np.zeros_like(dq)
+            self._arrows = arrows(self._axes, *zeros, zeros, width=0.14 * self._distance)
         self._arrows.set_offsets(np.c_[field.x, field.y] - 0.5 * dq.T)
         self._arrows.set_UVC(*dq)
         pale = PALE if field.sim_time != frame.time else 0.0
         colour = mode_colour(field, frame.turned.get(self._name, ()))
         self._arrows.set_color(mixed(colour, (1.0, 1.0, 1.0), pale))
         self._show_dials(frame, field, colour)
-
-    def _quiver(self, count):
-        zeros = np.zeros(count)
-        return self._axes.quiver(
-            zeros,
-            zeros,
-            zeros,
-            zeros,
-            angles='xy',
-            scale_units='xy',
-            scale=1,
-            units='xy',
-            width=0.14 * self._distance,
-            headwidth=3.5,
-            headlength=4,
-            headaxislength=3.5,
-            minlength=0,
-            zorder=3,
-        )
 
     def _text(self, frame, field):
         step = self._film.steps.get(self._name)
@@ -146,12 +116,6 @@ def dial(axes, number):
     hand = LineCollection([], linewidths=2.5)
     inset.add_collection(hand)
     return hand
-
-
-def offsets_in(axes):
-    """matplotlib 3.6 has given it another name."""
-    new = hasattr(EllipseCollection, 'set_offset_transform')
-    return {'offset_transform' if new else 'transOffset': axes.transData}
 
 
 def mixed(one, other, part):

@@ -1,6 +1,7 @@
 """Recorded runs as tables and figures take them: messages, and the courses of what they draw."""
 
 import copy
+from functools import cached_property
 
 from hdlyap.data import seeds
 
@@ -30,36 +31,26 @@ class Recorded(Run):
         if self.is_mean:
             self.info, self.left_out = copy.copy(data.info), data.left_out
             self.info.seed, self.info.run_id = ', '.join(data.seeds), ''
-        self._read = {}
 
-    @property
-    def spectrum(self):
-        return self._once('spectrum', self._averaged)
+    spectrum = cached_property(lambda self: self._averaged('spectrum'))
+    steps = cached_property(lambda self: self._averaged('steps'))
+    gas = cached_property(lambda self: self._averaged('gas'))
+    localization = cached_property(lambda self: self._last('localization'))
+    covariant = cached_property(lambda self: self._averaged('covariant'))  # of at least one window
 
-    @property
-    def steps(self):
-        return self._once('steps', self._averaged)
-
-    @property
-    def gas(self):
-        return self._once('gas', self._averaged)
-
-    @property
-    def localization(self):
-        return self._once('localization', self._last)
-
-    @property
-    def covariant(self):
-        """There is at least one window."""
-        return self._once('covariant', self._averaged)
-
-    @property
+    @cached_property
     def phases(self):
-        return self._once('lp_phases', self._phases)
+        course = PhaseCourse()
+        for message in self.data.messages('lp_phases'):
+            course.add(message)
+        return course
 
-    @property
+    @cached_property
     def structure(self):
-        return self._once('structure', self._structure)
+        course = StructureCourse()
+        for message in self.data.messages('structure'):
+            course.add(message, self.positive_end)
+        return course
 
     @property
     def smallest(self):
@@ -110,26 +101,9 @@ class Recorded(Run):
         table = course.table()
         return None if table is None else dict(zip(('time', 'wall', *PARTS), table.T))
 
-    def _once(self, topic, of):
-        if topic not in self._read:
-            self._read[topic] = of(topic)
-        return self._read[topic]
-
     def _last(self, topic):
         return self.data.last(topic, numpy=None) if self.data.has(topic) else None
 
     def _averaged(self, topic):
         message = self._last(topic)
         return message if message is not None and message.averaged_time > 0 else None
-
-    def _phases(self, topic):
-        course = PhaseCourse()
-        for message in self.data.messages(topic):
-            course.add(message)
-        return course
-
-    def _structure(self, topic):
-        course = StructureCourse()
-        for message in self.data.messages(topic):
-            course.add(message, self.positive_end)
-        return course

@@ -1,5 +1,6 @@
-"""Names for the constants of hdlyap/RunStatus and hdlyap/Cost, and for the seconds of the cost."""
+"""Names of stages, of limits of the interval, and of the seconds of the cost."""
 
+from hdlyap.data.fields import words
 from hdlyap.msg import Cost, RunStatus
 
 # a field of that name, with _seconds behind it: what it is for
@@ -14,26 +15,8 @@ LABELS = {
     'other': 'other',
 }
 PARTS = tuple(LABELS)[:-1]
-STAGES = {
-    RunStatus.EQUILIBRATING: 'equilibrating',
-    RunStatus.WARMING_UP: 'warming up',
-    RunStatus.AVERAGING: 'averaging',
-    RunStatus.FINISHED: 'finished',
-}
-# why the interval is not longer
-LIMITS = {
-    Cost.LIMIT_SCHEDULE: 'report interval',
-    Cost.LIMIT_CONDITION: 'conditioning',
-    Cost.LIMIT_GROWTH: 'doubling',
-    Cost.LIMIT_OVERFLOW: 'overflow',
-    Cost.LIMIT_SCENE: 'parameter interval',
-    Cost.LIMIT_EVENTS: 'memory of the events',
-    Cost.LIMIT_LOOK: 'vectors wanted',
-    Cost.LIMIT_REPAIR: 'repair',
-    Cost.LIMIT_STAGE: 'end of the stage',
-    Cost.LIMIT_SAMPLE: 'samples for errors',
-    Cost.LIMIT_NONE: 'none yet',
-}
+STAGES = words(RunStatus, 'stage')
+LIMITS = words(Cost, 'interval_limit')  # why the interval is not longer
 
 
 def seconds(cost):

@@ -2,6 +2,7 @@
 
 from math import isfinite
 
+from hdlyap.data.fields import words
 from hdlyap.msg import Step
 
 from . import fits, paper, steps
@@ -17,11 +18,7 @@ COLUMNS = (
     ('exponent', '>13'),
 )
 PAPER_COLUMNS = (('c k', '>8'), ('deviation', '>11'))
-SHARING = {
-    Step.SHARING_MIXING: 'mixing',
-    Step.SHARING_BLENDED: 'blended',
-    Step.SHARING_COINCIDENT: 'coincide',
-}
+SHARING = words(Step, 'sharing')
 
 
 def blocks(recording):
@@ -79,7 +76,8 @@ def zero_cells(run):
 
 
 def _shared_cells(block):
-    said = sorted({SHARING.get(stated(step, 'sharing'), '') for step in block.steps} - {''})
+    known = {stated(step, 'sharing') for step in block.steps} - {Step.SHARING_UNKNOWN}
+    said = sorted({SHARING.get(value, '') for value in known} - {''})
     return [
         block.name,
         block.indices,

@@ -2,7 +2,10 @@
 
 import numpy as np
 
-NAMES = {1: 'zero', 2: 'T', 3: 'LP'}  # of Mode's kinds
+from hdlyap.data.fields import words
+from hdlyap.msg import Step
+
+NAMES = words(Step, 'kind')
 ZERO, T, LP = NAMES
 
 
@@ -26,6 +29,7 @@ class Block:
     def __init__(self, steps):
         self.steps = sorted(steps, key=lambda step: (step.wave_number, step.kind))
         self.first, self.last = steps[0].first_index, steps[0].last_index
+        self.conjugate = steps[0].conjugate
         self.multiplicity = sum(step.multiplicity for step in steps)
         self.expected = sum(step.expected for step in steps)
 
@@ -60,6 +64,13 @@ def blocks(message, conjugate=False):
         if step.resolved and step.kind != ZERO and step.conjugate == conjugate:
             sets.setdefault(step.set, []).append(step)
     return sorted((Block(steps) for steps in sets.values()), key=lambda block: abs(block.height))
+
+
+def all_blocks(message):
+    """Of the zero modes, if they are resolved, and of both halves; none without a message."""
+    zero = zero_modes(message) if message is not None else None
+    found = [Block([zero])] if zero is not None and zero.resolved else []
+    return found + blocks(message) + blocks(message, conjugate=True)
 
 
 def resolved(message, conjugate=False):

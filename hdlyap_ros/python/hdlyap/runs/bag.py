@@ -1,4 +1,4 @@
-"""The bag of one run, read as often as the parts of the paper need and no more."""
+"""The bag of one run, read once."""
 
 from hdlyap.msg import RunStatus
 from hdlyap.data import joined, reader

@@ -8,15 +8,14 @@ import time
 from hdlyap.follow.line import Display as Line
 from hdlyap.plots.numbers import clock
 
-PLANNED = 60.0  # seconds of work that the plan's own estimate counts for, beside what has been seen
+ESTIMATED = 60.0  # seconds of work that the estimate counts for, beside what has been seen
 
 
 class Display:
-    """For work.work: shows progress through `count` runs of the tool of that name; `before`: those
-    that were there before."""
+    """For work.work: shows progress through `count` runs; `before`: those that were there
+    before."""
 
-    def __init__(self, name, count, before=0):
-        self._name = name
+    def __init__(self, count, before=0):
         self._count, self._before, self._line = count + before, before, Line()
         self._began = time.monotonic()
         self._seen, self._failed, self._ended = set(), 0, 0
@@ -30,8 +29,8 @@ class Display:
         self._line.show([_fitting(self._count_of_runs(), shares, rest)])
 
     def _left(self, done, total):
-        """Seconds, by the plan's and those that have passed for what is done of it."""
-        return (total - done) * (time.monotonic() - self._began + PLANNED) / (done + PLANNED)
+        """Seconds, by those estimated and those that have passed for what is done."""
+        return (total - done) * (time.monotonic() - self._began + ESTIMATED) / (done + ESTIMATED)
 
     def _count_of_runs(self):
         failed = f', {self._failed} failed' if self._failed else ''
@@ -42,7 +41,7 @@ class Display:
         """That a run has failed."""
         self._failed += 1
         self._line.close()
-        print(f'{self._name}: {line}', file=sys.stderr, flush=True)
+        print(f'hdlyap sweep: {line}', file=sys.stderr, flush=True)
 
     def end(self):
         """The total."""

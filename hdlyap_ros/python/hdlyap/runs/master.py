@@ -9,7 +9,7 @@ from hdlyap.follow import nodes
 from .tree import Tree, end
 
 POLL = 0.2
-COMING = 15.0  # seconds for a master to come up
+COMING = 60.0  # seconds for a master to come up, on a busy machine
 ASK = 5.0  # seconds between two questions whether it is there
 SILENCE = 15.0  # of it, after which it has gone
 PATIENCE = 5.0  # with our own, to end

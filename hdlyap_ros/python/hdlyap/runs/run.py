@@ -1,5 +1,5 @@
-"""One run of many: its name, the parameters of its node, and about how many seconds it takes: on
-all of two cores if it is wide, else on one."""
+"""One run of many: its name, the parameters of its node, whether it is done, and about how many
+seconds it takes: on all of two cores if it is wide, else on one."""
 
 import functools
 from math import isfinite
@@ -10,22 +10,24 @@ import roslib.packages
 import yaml
 
 from . import files
+from .bag import Bag
+from .scene import Refused
 
+ABOUT = 'A run of hdlyap sweep.'  # first line of its scene file
 AUTO = 'auto'  # what the node chooses itself
+TIMES = 'equilibration', 'warmup', 'duration'
+OF_ONE = 'checkpoint', 'resume'  # parameters that runs cannot share
+# seconds, about: to come up; of a time unit with 200 disks on one core, as their square
+BEGIN, STEP, DISKS = 5.0, 0.03, 200
 
 
 class Run:
-    ABOUT = 'One run of many.'  # first line of its scene file
-
-    def __init__(self, name, parameters, seconds):
-        """ValueError if it would not end."""
-        self.name, self.parameters, self.seconds = name, parameters, seconds
-        for needed in ('equilibration', 'warmup', 'duration'):
-            is_chosen = needed == 'warmup' and parameters[needed] == AUTO  # by the node
-            if not (is_chosen or is_number(parameters[needed])):
-                raise ValueError(f'{needed} is {parameters[needed]}, must be a number')
-        if not parameters['duration'] > 0:
-            raise ValueError('duration is 0: it would never end')
+    def __init__(self, name, parameters, seconds=None):
+        """All parameters; seconds: about, if they are known. Refused if the node does not know
+        them, or it would not end."""
+        _check(parameters)
+        self.name, self.parameters = name, parameters
+        self.seconds = seconds or _estimate(parameters)
 
     @property
     def is_wide(self):
@@ -59,14 +61,38 @@ class Run:
 
     def write(self, folder):
         """The scene file, if it is not there with these very parameters."""
-        text = f'# {self.ABOUT}\n' + yaml.safe_dump(
+        text = f'# {ABOUT}\n' + yaml.safe_dump(
             self.parameters, sort_keys=False, default_flow_style=None
         )
         if files.read(self.scene_file(folder)) != text:
             files.write(self.scene_file(folder), text)
 
-    def note(self, folder, **facts):
-        """To be called when the bag is whole; facts: seconds, run_id, commit."""
+    def lacks(self, folder):
+        """What its bag there lacks to be all of it, in words; '' if nothing: it is done."""
+        bag = Bag(self.bag(folder))
+        if not bag.is_complete():
+            return 'the run has not come to its end'
+        return bag.differs_from(self.parameters)
+
+
+def _check(parameters):
+    for name, value in parameters.items():
+        if name not in usual():
+            raise Refused(f'{name} = {value}: must be a parameter of hdlyap_node')
+        if name in OF_ONE and value:
+            raise Refused(f'{name} = {value}: must be empty in a sweep, which goes on by itself')
+    for name in TIMES:
+        is_chosen = name == 'warmup' and parameters[name] == AUTO  # by the node
+        if not (is_chosen or is_number(parameters[name])):
+            raise Refused(f'{name} = {parameters[name]}: must be a number')
+    if not parameters['duration'] > 0:
+        raise Refused(f'duration = {parameters["duration"]}: must be above 0, or it never ends')
+
+
+def _estimate(parameters):
+    time = sum(parameters[name] for name in TIMES if is_number(parameters[name]))
+    disks = parameters['disks'] if is_number(parameters['disks']) else DISKS  # it is refused
+    return BEGIN + STEP * time * (disks / DISKS) ** 2
 
 
 @functools.lru_cache(maxsize=None)

@@ -47,14 +47,21 @@ def scene_file(scene, folder, cwd):
         raise Refused(
             f'scene = {scene}: must be one of {", ".join(names)}; or a file with its .yaml'
         )
+    values = load(path, f'scene = {scene}', 'parameters')
+    return dict({'scene': os.path.basename(path)[: -len('.yaml')]}, **values)
+
+
+def load(path, name, holds):
+    """The mapping in a YAML file; name: as the user knows it, holds: what it must hold."""
+    wanted = f'{name}: must be a YAML file of {holds}'
     try:
         with open(path) as file:
             values = yaml.safe_load(file) or {}
     except (OSError, yaml.YAMLError, UnicodeDecodeError) as error:
-        raise Refused(f'scene = {scene}: must be a YAML file of parameters: {in_line(error)}')
+        raise Refused(f'{wanted}: {in_line(error)}')
     if not isinstance(values, dict):
-        raise Refused(f'scene = {scene}: must be a YAML file of parameters')
-    return dict({'scene': os.path.basename(path)[: -len('.yaml')]}, **values)
+        raise Refused(wanted)
+    return values
 
 
 def in_line(error):

@@ -1,4 +1,4 @@
-"""Runs that are missing -> their bags: one roslaunch each, wide ones alone, the others side by
+"""Runs that are not done -> their bags: one roslaunch each, wide ones alone, the others side by
 side."""
 
 import contextlib
@@ -13,7 +13,7 @@ import rospy
 from hdlyap import signals
 from hdlyap.msg import RunStatus
 
-from .bag import Bag
+from . import bags
 from .display import Display
 from .master import Master, MasterError
 from .tree import Tree, end
@@ -53,9 +53,12 @@ class Job:
                 [
                     'roslaunch',
                     'hdlyap',
-                    'reproduce.launch',
-                    f'runs:={run.name}',
-                    f'folder:={self._new}',
+                    'run.launch',
+                    f'__ns:={run.name}',
+                    f'scene:={run.scene_file(self._new)}',
+                    'record:=true',
+                    f'bag:={run.bag(self._new)}',
+                    'table:=0',
                 ],
                 file,
             )
@@ -78,29 +81,21 @@ class Job:
     def is_silent(self):
         return self.status is None and self.seconds > SILENCE
 
-    def close(self, commit):
-        """After its end: notes it. WorkError if the run did not go to its end."""
-        made = Bag(self.run.bag(self._new))
-        why = self._failure(made)
+    def close(self):
+        """After its end. WorkError if the run did not go to its end."""
+        why = self._failure()
         if why:
             raise WorkError(
                 f'{self.run.name}: {why}; {last_words(self.log)}all that it said is in {self.log}'
             )
-        os.replace(made.path, self.run.bag(self._folder))
-        self.run.note(
-            self._folder,
-            seconds=round(self.seconds, 1),
-            commit=commit,
-            run_id=Bag(self.run.bag(self._folder)).info.run_id,
-        )
+        os.replace(self.run.bag(self._new), self.run.bag(self._folder))
 
-    def _failure(self, made):
-        """None of a bag that is whole."""
-        if not made.is_complete():
-            if self.is_silent():
-                return f'no word of its node within {SILENCE:.0f} s'
-            return 'the run has not come to its end'
-        return made.differs_from(self.run.parameters)
+    def _failure(self):
+        """'' of a bag that is whole."""
+        lacks = self.run.lacks(self._new)
+        return (
+            f'no word of its node within {SILENCE:.0f} s' if lacks and self.is_silent() else lacks
+        )
 
     def leave(self):
         """No trace but the log, and the bag if it is whole."""
@@ -123,9 +118,9 @@ def last_words(log):
 class Work:
     """The runs, as many at a time as there is room for."""
 
-    def __init__(self, runs, folder, logs, jobs, commit):
+    def __init__(self, runs, folder, logs, jobs):
         self.waiting, self.under_way, self.failed = list(runs), [], []
-        self._folder, self._logs, self._jobs, self._commit = folder, logs, jobs, commit
+        self._folder, self._logs, self._jobs = folder, logs, jobs
         self._total, self._done = sum(run.share_of(jobs) for run in runs), 0.0
 
     def progress(self):
@@ -157,7 +152,7 @@ class Work:
         for job in [job for job in self.under_way if job.has_ended() or job.is_silent()]:
             self._end([job])
             try:
-                job.close(self._commit)
+                job.close()
             except WorkError as error:
                 said.append(str(error))
             self._done += job.run.share_of(self._jobs)
@@ -178,28 +173,38 @@ class Work:
         end([job.tree for job in jobs], PATIENCE, is_pressed)
 
 
-def do(name, needed, missing, folder, jobs, commit=''):
-    """Those of the runs needed that missing() then returns, by the tool of this name; a line for
-    each that has failed. Nobody else may do so in this folder meanwhile: WorkError."""
+def do(runs, folder, jobs):
+    """Those that are not done; a line for each that has failed. Nobody else may do so in this
+    folder meanwhile: WorkError."""
     logs = os.path.join(folder, 'log')
     os.makedirs(logs, exist_ok=True)
     with open(os.path.join(logs, '.lock'), 'w') as lock:
         try:
             fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except BlockingIOError:
-            raise WorkError(f'another {name} does the runs of {folder}')
+            raise WorkError(f'another sweep does the runs of {folder}')
         except OSError:
             pass  # a file system without locks
-        todo = missing()
-        show = Display(name, len(todo), len(needed) - len(todo))
+        todo = _missing(runs, folder)
+        show = Display(len(todo), len(runs) - len(todo))
         try:
-            work(name, Work(todo, folder, logs, jobs, commit), show)
+            work(Work(todo, folder, logs, jobs), show)
         except WorkError as error:
             return str(error).splitlines()
     return []
 
 
-def work(name, all_of_it, show):
+def _missing(runs, folder):
+    """Those that are not done; what is there in place of their bags is kept under another name."""
+    lacks = {run: run.lacks(folder) for run in runs}
+    todo = [run for run in runs if lacks[run]]
+    for run in todo:
+        for line in bags.keep(run.bag(folder)):
+            print(f'hdlyap sweep: {line}, as {lacks[run]}', flush=True)
+    return todo
+
+
+def work(all_of_it, show):
     """Does the runs. show(jobs under way, seconds of work done, of all) is called some times a
     second, show.say(line) when a run has failed, which stops none of the others; WorkError at the
     end names all that did.
@@ -210,7 +215,7 @@ def work(name, all_of_it, show):
         try:
             master = Master()
             try:
-                rospy.init_node(name, anonymous=True, disable_signals=True)
+                rospy.init_node('sweep', anonymous=True, disable_signals=True)
                 _go_on(all_of_it, master, came, show)
             finally:
                 all_of_it.stop(came)

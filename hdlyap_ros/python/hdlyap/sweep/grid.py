@@ -7,13 +7,10 @@ import re
 import yaml
 
 from hdlyap.runs import run, scene
-from hdlyap.runs.bag import Bag
+from hdlyap.runs.run import Run
 from hdlyap.runs.scene import Refused
 
 PERIODIC, REFLECTING = WALLS = 'periodic', 'reflecting'
-# seconds of a run, about: to come up; of a time unit with 200 disks on one core, as their square
-BEGIN, STEP, DISKS = 5.0, 0.03, 200
-OF_ONE = 'checkpoint', 'resume'  # parameters that runs cannot share
 
 
 class Swept(namedtuple('Swept', 'argument name parameters wanted')):
@@ -67,22 +64,6 @@ SWEPT = (
 )
 
 
-class Run(run.Run):
-    ABOUT = 'A run of a sweep: hdlyap sweep.'
-
-    def is_done(self, folder):
-        """Whether its bag is whole. Refused if that is of a run with other parameters."""
-        bag = Bag(self.bag(folder))
-        if not bag.is_complete():
-            return False
-        difference = bag.differs_from(self.parameters)
-        if difference:
-            raise Refused(
-                f'{bag.path}: {difference}; must be swept with that, or in another folder'
-            )
-        return True
-
-
 def runs(given, launch, cwd):
     """given: {argument: text} of those swept and of scene, duration, observables, threads and
     params; launch: folder of the launch files; cwd: of relative paths."""
@@ -92,26 +73,14 @@ def runs(given, launch, cwd):
     if not chosen:
         names = ', '.join(swept.argument for swept in SWEPT)
         raise Refused(f'nothing to sweep over: must be values of at least one of {names}')
-    usual = run.usual()
-    base = _base(given, launch, cwd, usual)
+    base = scene.parameters(given, launch, cwd)
+    if isinstance(base.get('observables'), str):
+        base['observables'] = yaml.safe_load(base['observables'])
     for swept in chosen:
         twice = set(swept.parameters) & set(scene.mapping('params', given['params']))
         if twice:
             raise Refused(f'params = {given["params"]}: must be without {min(twice)}: it is swept')
-    return [_run({**usual, **base}, chosen) for chosen in itertools.product(*chosen.values())]
-
-
-def _base(given, launch, cwd, usual):
-    """Parameters of the scene, and of what is the same in all runs."""
-    base = scene.parameters(given, launch, cwd)
-    if isinstance(base.get('observables'), str):
-        base['observables'] = yaml.safe_load(base['observables'])
-    for name, value in base.items():
-        if name not in usual:
-            raise Refused(f'{name} = {value}: must be a parameter of hdlyap_node')
-        if name in OF_ONE and value:
-            raise Refused(f'{name} = {value}: must be empty in a sweep, which goes on by itself')
-    return base
+    return [_run({**run.usual(), **base}, chosen) for chosen in itertools.product(*chosen.values())]
 
 
 def _run(parameters, chosen):
@@ -121,12 +90,4 @@ def _run(parameters, chosen):
     for _, values in chosen:
         parameters = {**parameters, **{key: scene.fitting(v) for key, v in values.items()}}
     parameters['scene'] = '_'.join(same) or parameters['scene']
-    try:
-        found = Run('_'.join(names), parameters, BEGIN)
-    except ValueError as error:
-        raise Refused(str(error))
-    times = [parameters[name] for name in ('equilibration', 'warmup', 'duration')]
-    time = sum(one for one in times if run.is_number(one))
-    disks = parameters['disks'] if run.is_number(parameters['disks']) else DISKS  # it is refused
-    found.seconds += STEP * time * (disks / DISKS) ** 2
-    return found
+    return Run('_'.join(names), parameters)

@@ -3,7 +3,7 @@
 from matplotlib import ticker
 import numpy as np
 
-from .style import BLUE, GREY, INK, ORANGE, SKY, VERMILION, plt, scene, thinned
+from .style import BLUE, GREY, INK, ORANGE, SKY, VERMILION, plt, thinned, titled
 
 
 def draw(recording):
@@ -34,10 +34,7 @@ def draw(recording):
     bottom.set_ylabel('standard error  [1/time unit]')
     bottom.set_xlabel('averaged time  [time units]')
     bottom.set_xscale('log')
-    for axes, name in zip((top, middle, bottom), 'abc'):
-        axes.set_title(f'({name})', loc='left')
-    figure.suptitle(scene(recording.info), fontsize=9)
-    return figure
+    return titled(figure, recording.info, top, middle, bottom)
 
 
 def _with_error(axes, time, mean, error, colour, label=None):

@@ -4,8 +4,8 @@ import numpy as np
 
 from hdlyap.msg import RunStatus
 
-from ..stages import LABELS, PARTS
-from .style import BLUE, GREEN, INK, ORANGE, PURPLE, SKY, VERMILION, plt, scene, thinned
+from ..stages import LABELS, PARTS, STAGES
+from .style import BLUE, GREEN, INK, ORANGE, PURPLE, SKY, VERMILION, plt, thinned, titled
 
 PART_COLOURS = {
     'events': BLUE,
@@ -16,11 +16,6 @@ PART_COLOURS = {
     'covariant': INK,
     'publish': PURPLE,
     'other': '#BFBFBF',
-}
-STAGES = {
-    RunStatus.EQUILIBRATING: 'equilibration',
-    RunStatus.WARMING_UP: 'warm-up',
-    RunStatus.AVERAGING: 'averaging',
 }
 
 
@@ -34,8 +29,7 @@ def draw(recording):
     cost['other'] = np.maximum(0, cost['wall'] - sum(cost[part] for part in PARTS))
     _course(course, cost, recording.began)
     _shares(share, cost)
-    figure.suptitle(scene(recording.info), fontsize=9)
-    return figure
+    return titled(figure, recording.info)
 
 
 def _course(axes, cost, began):
@@ -47,7 +41,7 @@ def _course(axes, cost, began):
         linewidth=0,
     )
     for stage, name in STAGES.items():
-        if stage in began:
+        if stage in began and stage != RunStatus.FINISHED:
             axes.axvline(began[stage], color=INK, linewidth=0.6, linestyle=':')
             axes.annotate(
                 name,

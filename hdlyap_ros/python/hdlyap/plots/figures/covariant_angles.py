@@ -3,7 +3,7 @@
 import numpy as np
 
 from .. import covariant
-from .style import BLUE, GREEN, VERMILION, plt, scene
+from .style import BLUE, GREEN, VERMILION, plt, titled
 
 COLOURS = (VERMILION, BLUE, GREEN)  # of the pairs of spaces
 ROOM = 1.4  # above the curves, for what is said
@@ -26,8 +26,7 @@ def draw(run):
         axes.set_xticklabels(['0', r'$\pi/8$', r'$\pi/4$', r'$3\pi/8$', r'$\pi/2$'])
         axes.set_xlabel('angle  [rad]')
     left.set_ylabel('probability density  [1/rad]')
-    figure.suptitle(f'{scene(run.info)}, {message.samples} samples', fontsize=9)
-    return figure
+    return titled(figure, run.info, more=f', {message.samples} samples')
 
 
 def _histograms(axes, angles, name):

@@ -16,16 +16,14 @@ def draw(run):
         message.domination_violations, dtype=float
     )
     panels = Panels(run, 2, 4.8)
-    panels.plot(
-        0, places, message.violations, '.', color=BLUE, markersize=3, label='next one grew more'
-    )
-    panels.plot(1, places, violated, '.', color=INK, markersize=3, label='of all times')
+    panels.plot(0, places, message.violations, color=BLUE, label='next one grew more')
+    panels.plot(1, places, violated, color=INK, label='of all times')
     isolated = violated == 0
     panels.plot(
         1,
         places[isolated],
         violated[isolated],
-        'v',
+        fmt='v',
         color=GREEN,
         markersize=4.5,
         label=f'never ({isolated.sum()} dominated splittings)',

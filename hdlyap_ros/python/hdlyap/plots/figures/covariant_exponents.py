@@ -18,17 +18,15 @@ def draw(run):
         0,
         compared.indices,
         message.local_exponents,
-        '.',
         color=LIGHT,
-        markersize=3,
         label='backward, between two samples',
     )
     panels.plot(
         0,
         compared.indices,
         compared.forward,
-        'o',
         compared.forward_error,
+        fmt='o',
         color=INK,
         markersize=4,
         markerfacecolor='none',
@@ -39,10 +37,8 @@ def draw(run):
         0,
         compared.indices,
         compared.backward,
-        '.',
         compared.backward_error,
         color=VERMILION,
-        markersize=3,
         label='backward (covariant)',
     )
     _deviations(panels, compared)
@@ -60,13 +56,7 @@ def _deviations(panels, compared):
         (compared.is_zero, ZERO, 'zero modes'),
     ):
         panels.plot(
-            1,
-            compared.indices[chosen],
-            compared.deviation[chosen],
-            '.',
-            color=colour,
-            markersize=3,
-            label=label,
+            1, compared.indices[chosen], compared.deviation[chosen], color=colour, label=label
         )
     for axes in panels.grid[1]:
         level(axes, 0)

@@ -16,28 +16,16 @@ def draw(run):
         return None
     indices, places = covariant.indices(message), covariant.between(message)
     panels = Panels(run, 4, 7.4)
-    panels.plot(0, indices, message.widths, '.', color=INK, markersize=3, label='width')
-    panels.plot(1, indices, message.cos_theta, '.', color=BLUE, markersize=3, label='cosine')
-    panels.plot(
-        2, places, message.neighbour_angles, '.', color=VERMILION, markersize=3, label='mean'
-    )
-    panels.plot(
-        2,
-        places,
-        message.least_neighbour_angles,
-        '.',
-        color=SKY,
-        markersize=3,
-        label='smallest so far',
-    )
+    panels.plot(0, indices, message.widths, color=INK, label='width')
+    panels.plot(1, indices, message.cos_theta, color=BLUE, label='cosine')
+    panels.plot(2, places, message.neighbour_angles, color=VERMILION, label='mean')
+    panels.plot(2, places, message.least_neighbour_angles, color=SKY, label='smallest so far')
     apart = np.array(message.start_mismatch, dtype=float)
     panels.plot(
         3,
         indices,
         np.where(apart > 0, np.maximum(apart, ROUNDING), np.nan),
-        '.',
         color=INK,
-        markersize=3,
         label='apart',
     )
     for axes in panels.grid[0]:

@@ -1,9 +1,9 @@
 """Weights of the lowest waves' fields in the vectors round the zero modes: Gram-Schmidt beside
 covariant ones."""
 
-from .. import covariant
+from .. import covariant, steps
 from .over_index import level, near_zero, shade
-from .style import GREY, INK, kind_colour, plt, scene
+from .style import GREY, INK, kind_colour, plt, titled
 
 PANELS = 4
 
@@ -38,10 +38,7 @@ def draw(run):
         axes.set_xlabel(r'index $\ell$')
     # far from its step the weights are small
     grid[0, 0].legend(loc='upper left', bbox_to_anchor=(0, 0.92), fontsize=6.5, handletextpad=0.2)
-    figure.suptitle(
-        f'{scene(run.info)}, covariant vectors of {message.samples} samples', fontsize=9
-    )
-    return figure
+    return titled(figure, run.info, more=f', covariant vectors of {message.samples} samples')
 
 
 def _panel(axes, run, weight, indices):
@@ -75,7 +72,7 @@ def _panel(axes, run, weight, indices):
     level(axes, covariant.chance(run, weight), 'by chance')
     axes.set_ylim(-0.03, 1.03)
     axes.annotate(
-        covariant.weight_name(weight),
+        steps.name(weight),
         (0.03, 0.95),
         xycoords='axes fraction',
         va='top',

@@ -4,7 +4,7 @@ import numpy as np
 
 from .. import fits, paper, steps
 from ..numbers import with_error
-from .style import GREY, KIND_COLOURS, bars, kind_colour, plt, scene
+from .style import GREY, KIND_COLOURS, bars, kind_colour, plt, titled
 
 MARKERS = {steps.T: 'o', steps.LP: 's'}
 CLOSE = 0.028  # of the width of the axes: nearer names stand behind one another
@@ -30,8 +30,7 @@ def draw(recording):
     axes.set_ylabel(r'$\lambda$  [1/time unit]')
     _wave_axis(axes, [step for _, step in points], end)
     _legend(axes, [block for block, _ in points])
-    figure.suptitle(scene(recording.info), fontsize=9)
-    return figure
+    return titled(figure, recording.info)
 
 
 def _point(axes, step, alone):

@@ -2,9 +2,8 @@
 exponents, which are localised; beside covariant ones, where there are."""
 
 import numpy as np
-from matplotlib import ticker
 
-from .style import BLUE, GREY, INK, bars, plt, scene
+from .style import BLUE, GREY, INK, bars, index_axis, plt, titled
 
 LARGEST = 48  # vectors in the magnified panel
 
@@ -25,8 +24,7 @@ def draw(recording):
         grid[0, 1].set_title('(b) largest exponents', loc='left')
     if recording.covariant is not None:
         grid[0, -1].legend(loc='lower right', handletextpad=0.2)
-    figure.suptitle(f'{scene(recording.info)}, {message.samples} samples', fontsize=9)
-    return figure
+    return titled(figure, recording.info, more=f', {message.samples} samples')
 
 
 def _panel(axes, recording, count):
@@ -47,8 +45,7 @@ def _panel(axes, recording, count):
         fontsize=7,
     )
     axes.set_ylim(bottom=0)
-    axes.xaxis.set_major_locator(ticker.MaxNLocator(nbins=6, integer=True, steps=[1, 2, 5, 10]))
-    axes.set_xlabel(r'index $\ell$')
+    index_axis(axes)
 
 
 def _dots(axes, message, count, **style):

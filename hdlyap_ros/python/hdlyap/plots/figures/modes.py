@@ -1,10 +1,10 @@
 """Vector fields of the modes with the smallest exponents, one of each step, at the disks."""
 
 import numpy as np
-from matplotlib.collections import EllipseCollection
 
 from .. import steps
-from .style import GREY, LIGHT, MEMBER_COLOURS, kind_colour, plt, scene
+from .box import arrows, disks
+from .style import GREY, LIGHT, MEMBER_COLOURS, kind_colour, plt, titled
 
 PANELS = 6
 WIDTH = 7.2  # of the figure [inch]
@@ -45,8 +45,7 @@ def draw(recording, names=None):
         figure = _channel(panels, info)
     else:
         figure = draw_panels(panels, info)
-    figure.suptitle(scene(info) + f', $t={panels[0].field.sim_time:g}$: $\\delta q$', fontsize=9)
-    return figure
+    return titled(figure, info, more=f', $t={panels[0].field.sim_time:g}$: $\\delta q$')
 
 
 def chosen(recording):
@@ -117,48 +116,10 @@ def _arrows(axes, panel, info, as_pixels):
     field = panel.field
     dq = np.array([field.dqx, field.dqy])
     dq = dq * ARROW / np.sqrt(np.mean(np.sum(dq**2, axis=0)))
-    axes.add_collection(_disks(axes, field))
-    axes.quiver(
-        field.x,
-        field.y,
-        *dq,
-        angles='xy',
-        scale_units='xy',
-        scale=1,
-        units='xy',
-        width=0.13,
-        headwidth=3.5,
-        headlength=4,
-        headaxislength=3.5,
-        minlength=0,
-        color=panel.colour,
-        zorder=3,
-        rasterized=as_pixels,
-    )
-    axes.set_aspect('equal')
-    axes.set_xlim(0, info.box_x)
-    axes.set_ylim(0, info.box_y)
+    disks(axes, info, field.x, field.y, facecolors='none', edgecolors=LIGHT, linewidths=0.4)
+    arrows(axes, field.x, field.y, dq, width=0.13, color=panel.colour, rasterized=as_pixels)
     axes.set_title(panel.title, fontsize=8 if len(panel.name) < LONG else 6)
     axes.tick_params(labelsize=6, length=2)
-
-
-def _disks(axes, field):
-    """One outline, repeated: much less of a file than one for each disk."""
-    # matplotlib 3.6 has given it another name
-    transform = (
-        'offset_transform' if hasattr(EllipseCollection, 'set_offset_transform') else 'transOffset'
-    )
-    return EllipseCollection(
-        [1.0],
-        [1.0],
-        [0.0],
-        units='xy',
-        offsets=np.c_[field.x, field.y],
-        facecolors='none',
-        edgecolors=LIGHT,
-        linewidths=0.4,
-        **{transform: axes.transData},
-    )
 
 
 def _channel(panels, info):

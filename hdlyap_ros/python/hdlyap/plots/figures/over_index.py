@@ -2,10 +2,9 @@
 steps."""
 
 import numpy as np
-from matplotlib import ticker
 
 from .. import covariant, steps
-from .style import GREY, ZERO, kind_colour, plt, scene
+from .style import GREY, index_axis, kind_colour, plt, titled
 
 LEAST, MOST = 16, 40  # vectors of the positive half in the magnified panels
 
@@ -26,30 +25,25 @@ class Panels:
             figsize=(4.6 if len(self.ranges) == 1 else 7.6, height),
             constrained_layout=True,
         )
-        self.figure.suptitle(
-            f'{scene(run.info)}, covariant vectors of {message.windows} '
-            f'window{"s" if message.windows != 1 else ""}',
-            fontsize=9,
-        )
+        windows = f'{message.windows} window' + ('s' if message.windows != 1 else '')
+        titled(self.figure, run.info, more=f', covariant vectors of {windows}')
 
-    def plot(self, row, places, values, form, error=None, **style):
+    def plot(self, row, places, values, error=None, **style):
         """In every column what lies in its range."""
+        style = {'fmt': '.', 'markersize': 3, 'elinewidth': 0.7, **style}
         places, values = np.asarray(places), np.asarray(values, dtype=float)
         for axes, (first, last) in zip(self.grid[row], self.ranges):
             inside = (places >= first - 0.5) & (places <= last + 0.5) & np.isfinite(values)
             bars = None if error is None or not np.isfinite(error[inside]).any() else error[inside]
-            axes.errorbar(places[inside], values[inside], bars, fmt=form, elinewidth=0.7, **style)
+            axes.errorbar(places[inside], values[inside], bars, **style)
 
     def finish(self, *labels):
         """Names of the rows; the steps of what is magnified, or of the only column."""
         for axes, label in zip(self.grid[:, 0], labels):
             axes.set_ylabel(label)
         for axes, (first, last) in zip(self.grid[-1], self.ranges):
-            axes.set_xlabel(r'index $\ell$')
+            index_axis(axes)
             axes.set_xlim(first - 0.8, last + 0.8)
-            axes.xaxis.set_major_locator(
-                ticker.MaxNLocator(nbins=6, integer=True, steps=[1, 2, 5, 10])
-            )
         shade(self.grid[:, -1], self._run, *self.ranges[-1])
         return self.figure
 
@@ -68,7 +62,7 @@ def shade(column, run, first, last):
     for name, block in covariant.blocks(run):
         if block.first < first or block.last > last:
             continue
-        colour = ZERO if block.kind == steps.ZERO else kind_colour(block.kind)
+        colour = kind_colour(block.kind)
         for axes in column:
             axes.axvspan(
                 block.first - 0.5, block.last + 0.5, color=colour, alpha=0.13, linewidth=0, zorder=0

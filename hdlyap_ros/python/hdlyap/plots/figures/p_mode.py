@@ -5,7 +5,7 @@ import numpy as np
 
 from .. import steps, waves
 from .pattern import pattern
-from .style import BLUE, GREY, VERMILION, plt, scene
+from .style import BLUE, GREY, VERMILION, plt, titled
 
 CUT = 2.5  # amplitudes shown: where a momentum is tiny, the quotient is not
 EPSILON = 1e-2  # of the mean square of a momentum component, in the quotients: HD_PMODE_EPSILON
@@ -40,12 +40,11 @@ def draw(recording):
         if mode.along:
             _modulation(grid[1, column], mode, amplitude)
     _label(grid, mode)
-    figure.suptitle(
-        f'{scene(recording.info)}, {mode.name}, $t={field.sim_time:g}$: P mode with '
-        f'$A={mode.formula[1:]}\nabove as measured, below divided by the momenta',
-        fontsize=9,
+    said = (
+        f', {mode.name}, $t={field.sim_time:g}$: P mode with $A={mode.formula[1:]}\n'
+        'above as measured, below divided by the momenta'
     )
-    return figure
+    return titled(figure, recording.info, more=said)
 
 
 def chosen(recording):

@@ -5,7 +5,7 @@ import numpy as np
 from .. import steps
 from ..phases import apart, regression, turning
 from ..numbers import with_error
-from .style import MEMBER_COLOURS, plt, scene, thinned
+from .style import MEMBER_COLOURS, plt, thinned, titled
 
 STEPS = 4  # are shown
 PER_STEP = 2  # phases of each: more would hide one another
@@ -28,10 +28,7 @@ def draw(recording, speeds=None):
     top.legend(loc='lower right', bbox_to_anchor=(1, 1), ncol=2)
     bottom.set_ylabel(r'deviation from even turning  [% of $2\pi$]')
     bottom.set_xlabel('simulated time  [time units]')
-    for axes, name in zip((top, bottom), 'ab'):
-        axes.set_title(f'({name})', loc='left')
-    figure.suptitle(scene(recording.info), fontsize=9)
-    return figure
+    return titled(figure, recording.info, top, bottom)
 
 
 def chosen(recording):

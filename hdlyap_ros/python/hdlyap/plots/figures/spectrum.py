@@ -1,10 +1,22 @@
 """All exponents, and magnified the smallest ones with the steps that were measured."""
 
-from matplotlib import patches, ticker
+from matplotlib import patches
 import numpy as np
 
 from .. import paper, steps
-from .style import GREY, INK, KIND_COLOURS, MIXED, VERMILION, ZERO, bars, kind_colour, plt, scene
+from .style import (
+    GREY,
+    INK,
+    KIND_COLOURS,
+    MIXED,
+    VERMILION,
+    ZERO,
+    bars,
+    index_axis,
+    kind_colour,
+    plt,
+    titled,
+)
 
 # Smallest exponents in the second panel: so many at least, and at most if the steps need them; with
 # more, their names would not fit
@@ -27,12 +39,8 @@ def draw(recording):
         _whole(whole, recording)
         small.set_title('(b) smallest exponents', loc='left')
     _small(small, recording)
-    figure.suptitle(
-        f'{scene(recording.info)}, averaged over '
-        f'{recording.spectrum.averaged_time:g} time units',
-        fontsize=9,
-    )
-    return figure
+    averaged = f', averaged over {recording.spectrum.averaged_time:g} time units'
+    return titled(figure, recording.info, more=averaged)
 
 
 def _whole(axes, recording):
@@ -56,8 +64,7 @@ def _whole(axes, recording):
 
 def _exponent_axes(axes):
     axes.axhline(0, color=GREY, linewidth=0.6)
-    axes.xaxis.set_major_locator(ticker.MaxNLocator(nbins=8, integer=True, steps=[1, 2, 5, 10]))
-    axes.set_xlabel(r'index $\ell$')
+    index_axis(axes, 8)
     axes.set_ylabel(r'$\lambda_\ell$  [1/time unit]')
 
 
@@ -110,7 +117,9 @@ def _small(axes, recording):
             capsize=1.5,
         )
     shown = [
-        block for block in _all_blocks(recording) if first <= block.first and block.last <= last
+        block
+        for block in steps.all_blocks(recording.steps)
+        if first <= block.first and block.last <= last
     ]
     for block in shown:
         _name_block(axes, spectrum, block)
@@ -125,31 +134,17 @@ def _small(axes, recording):
     _legend(axes, shown, bands)
 
 
-def _all_blocks(recording):
-    """Of both halves, and the zero modes."""
-    message = recording.steps
-    if message is None:
-        return []
-    zero = steps.zero_modes(message)
-    found = [steps.Block([zero])] if zero is not None and zero.resolved else []
-    return found + steps.blocks(message) + steps.blocks(message, conjugate=True)
-
-
 def _colours(recording, first, last):
     """{index: colour} of the vectors of every step in that range; without steps, of the paper's."""
     colours = {}
-    for block in _all_blocks(recording):
+    for block in steps.all_blocks(recording.steps):
         for index in range(max(first, block.first), min(last, block.last) + 1):
-            colours[index] = _block_colour(block)
+            colours[index] = kind_colour(block.kind)
     if recording.steps is None:
         for step in paper.steps(recording.info):
             for index in range(step.first, step.last + 1):
                 colours[index] = KIND_COLOURS[step.kind]
     return colours
-
-
-def _block_colour(block):
-    return ZERO if block.kind == steps.ZERO else kind_colour(block.kind)
 
 
 def _name_block(axes, spectrum, block):
@@ -162,7 +157,7 @@ def _name_block(axes, spectrum, block):
         (0.5 * (block.first + block.last), highest),
         xytext=(0, 6),
         textcoords='offset points',
-        color=_block_colour(block),
+        color=kind_colour(block.kind),
         fontsize=7,
         rotation=90,
         ha='center',
@@ -205,7 +200,7 @@ def _legend(axes, blocks, bands):
             (MIXED, 'T and LP share a set'),
             (ZERO, 'zero modes'),
         )
-        if colour in {_block_colour(block) for block in blocks}
+        if colour in {kind_colour(block.kind) for block in blocks}
     ]
     if bands:
         handles += [

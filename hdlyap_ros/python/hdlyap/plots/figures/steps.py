@@ -3,7 +3,7 @@
 import numpy as np
 
 from .. import steps
-from .style import GREY, INK, bars, kind_colour, plt, scene
+from .style import GREY, INK, bars, kind_colour, plt, titled
 
 MOST = 24  # steps shown: the names of more would not fit
 ROOM = 6  # for so many at least
@@ -35,14 +35,10 @@ def draw(recording):
     bottom.set_xticks(range(len(blocks)))
     bottom.set_xticklabels([block.name.replace('+', '\n+') for block in blocks], rotation=90)
     bottom.set_xlim(-0.7, max(len(blocks), ROOM) - 0.3)
-    for axes, name in zip((top, bottom), 'ab'):
-        axes.set_title(f'({name})', loc='left')
+    for axes in (top, bottom):
         axes.tick_params(axis='x', length=0)
-    figure.suptitle(
-        f'{scene(recording.info)}, averaged over ' f'{recording.steps.averaged_time:g} time units',
-        fontsize=9,
-    )
-    return figure
+    averaged = f', averaged over {recording.steps.averaged_time:g} time units'
+    return titled(figure, recording.info, top, bottom, more=averaged)
 
 
 def _found(axes, place, block):

@@ -7,7 +7,7 @@ from matplotlib.colors import LogNorm
 from .. import steps
 from ..numbers import with_error
 from ..structure import DIRECTIONS, frequencies, line, power
-from .style import INK, kind_colour, plt, scene
+from .style import INK, kind_colour, plt, titled
 
 NOISE = 0.5  # structure factor of a random vector
 TITLES = {'along': '(a) along $k$', 'across': '(b) across $k$'}
@@ -30,8 +30,7 @@ def draw(recording):
         axes.set_ylabel(r'wave number $k$  [$1/\sigma$]' if column == 0 else '')
     figure.colorbar(image, ax=figure.axes[:2], label=r'$S(k)$')
     _lines(figure.add_subplot(grid[1, :]), recording, found)
-    figure.suptitle(scene(recording.info), fontsize=9)
-    return figure
+    return titled(figure, recording.info)
 
 
 def shells(means, direction):

@@ -7,6 +7,7 @@ import matplotlib
 matplotlib.use('Agg')
 import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
+from matplotlib import ticker  # noqa: E402
 
 from ..numbers import known  # noqa: E402
 from .. import steps  # noqa: E402
@@ -22,9 +23,8 @@ BLUE, ORANGE, GREEN, VERMILION, PURPLE, SKY = (
     '#56B4E9',
 )
 GREY, LIGHT, INK = '#8C8C8C', '#C8C8C8', '#1A1A1A'
-KIND_COLOURS = {'T': BLUE, 'LP': VERMILION}
-MIXED = PURPLE  # vectors that T and LP steps share
-ZERO = GREEN
+MIXED, ZERO = PURPLE, GREEN  # vectors that T and LP steps share, those of the zero modes
+KIND_COLOURS = {'T': BLUE, 'LP': VERMILION, 'zero': ZERO}
 MEMBER_COLOURS = (BLUE, VERMILION, GREEN, ORANGE, PURPLE, SKY)
 STYLE = {
     'font.size': 9,
@@ -68,6 +68,20 @@ def save(figure, folder, name, dpi=250):
 def scene(info):
     name = info.scene.replace('$', r'\$')  # which would begin a formula
     return f'{name}: $N={info.disks}$, $\\rho={info.density:g}$, $L_y/L_x={info.aspect:g}$'
+
+
+def titled(figure, info, *panels, more=''):
+    """The scene above it, and a letter above each of its panels."""
+    for axes, letter in zip(panels, 'abc'):
+        axes.set_title(f'({letter})', loc='left')
+    figure.suptitle(scene(info) + more, fontsize=9)
+    return figure
+
+
+def index_axis(axes, nbins=6):
+    """Of Lyapunov indices."""
+    axes.xaxis.set_major_locator(ticker.MaxNLocator(nbins, integer=True, steps=[1, 2, 5, 10]))
+    axes.set_xlabel(r'index $\ell$')
 
 
 def bars(std_errors):

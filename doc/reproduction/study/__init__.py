@@ -1,0 +1,1 @@
+"""The paper measured again: bags of its runs -> rows of claims.yaml, figures, tables."""

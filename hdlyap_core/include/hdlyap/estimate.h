@@ -1,0 +1,49 @@
+/** What a run of a scene will take on this machine, and how much it will tell: from a short trial
+ * of it. Its memory is hd_room_needed's. */
+#ifndef HDLYAP_ESTIMATE_H
+#define HDLYAP_ESTIMATE_H
+
+#include "hdlyap/run.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** How many there are of what a run tells. What the scene does not ask for is 0. */
+typedef struct hd_extent {
+    int disks, vectors;
+    int waves; /**< of the structure factors */
+    int subspaces,
+        angles;          /**< of covariant vectors: kinds of fields of each wave, pairs of spaces */
+    int steps;           /**< in both halves of the spectrum */
+    int examples, pairs; /**< steps that have an example, and the LP pairs of these in all */
+    int phases, t_phases; /**< followed */
+    int responses;        /**< hydrodynamic ones */
+} hd_extent;
+
+/** Of a checked scene, whose run it is; or of which it is a smaller one, with the same waves. */
+hd_extent hd_extent_of(const hd_scene_def *def, const hd_run *run);
+
+typedef struct hd_estimate {
+    int disks;           /**< of the trial: fewer than the scene's where that would take too long */
+    double seconds;      /**< wall seconds per time unit of the averaging */
+    double interval;     /**< time units between orthonormalisations; NaN without exponents */
+    double before;       /**< time units before the averaging */
+    double errors_after; /**< averaged time until errors are first stated; those of exponents of
+                              steps are below 1 % then. 0 without exponents, as the next */
+    double slopes_after; /**< averaged time until c_T and c_L are known to about 1 % of sampling */
+    hd_extent extent;
+} hd_estimate;
+
+/** Tries a checked scene for a second or two, once it is as fast as it becomes: the scene itself,
+ * or one of fewer disks in a box of the same shape, whose time is enlarged by the cube of N.
+ * Covariant vectors are not tried: a window of them is longer. fields_every as of
+ * hd_run_fields_every. Fails as hd_run_create and hd_run_advance, HD_REFUSED with its line in
+ * `message`. */
+HD_MUST_CHECK hd_status hd_estimate_run(hd_estimate *out, const hd_scene_def *def,
+                                        double fields_every, char *message, size_t size);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,44 @@
+/** The rule: over eight times the averaged time an error falls to 0.35, over 32 times to 0.18 of
+ * what it was. Errors from few blocks are uncertain themselves, most of all the first ones: without
+ * them, the error has fallen to 0.55 or less in all of 420 runs of 15 scenes and many seeds, with
+ * them to 2.1 in one. */
+#include "averages/error_trend.h"
+
+#include <math.h>
+
+static const double GROWTH = 8.0;
+/** Of the earlier error: more is no matter of chance. */
+static const double STALLED_RATIO = 0.8;
+/** Averaged time of errors that are believed, in that of the first one. */
+static const double SETTLING = 4.0;
+/** Binary exponent of the shortest averaged time that has a mark of its own. */
+enum { FIRST_EXPONENT = -20 };
+
+static int mark_of(double time)
+{
+    const int k = ilogb(time) - FIRST_EXPONENT;
+    return k < 0 ? 0 : k < HD_ERROR_TREND_MARKS ? k : HD_ERROR_TREND_MARKS - 1;
+}
+
+void hd_error_trend_add(hd_error_trend *trend, double time, double error)
+{
+    if (time < trend->last.time) *trend = (hd_error_trend){.first = 0.0};
+    if (!(time > 0.0) || !(error >= 0.0)) return;
+    trend->last = (hd_error_at){time, error};
+    if (trend->first == 0.0) trend->first = time;
+    if (time < SETTLING * trend->first) return;
+    hd_error_at *mark = &trend->mark[mark_of(time)];
+    if (mark->time == 0.0) *mark = trend->last;
+}
+
+bool hd_error_trend_stalled(const hd_error_trend *trend, hd_error_at *since)
+{
+    const hd_error_at *last = &trend->last;
+    if (last->time == 0.0) return false;
+    for (int k = mark_of(last->time); k >= 0; k--) {
+        *since = trend->mark[k];
+        if (since->time > 0.0 && since->time * GROWTH <= last->time)
+            return !(last->error < STALLED_RATIO * since->error);
+    }
+    return false;
+}

@@ -1,0 +1,152 @@
+/** Scene -> a short trial -> what a run of it will take, and how much it will tell.
+ *
+ * The trial is warmed up until intervals are as long as they become; then it goes on for a second,
+ * and for two orthonormalisations. */
+#include "hdlyap/estimate.h"
+
+#include <math.h>
+
+#include "base/check.h"
+#include "base/clock.h"
+#include "base/memory.h"
+
+/** How long the trial goes on, at least [s]. */
+static const double TRIAL_SECONDS = 1.0;
+/** Collisions of each disk until intervals are as long as they become: they double from 2. */
+static const double WARMUP_COLLISIONS = 120.0;
+/** Disks x vectors^2 of a trial: beyond, an interval alone takes longer than a trial may. */
+static const double TRIAL_WORK = 800.0 * 1600.0 * 1600.0;
+/** Averaged time of 1 % in c_T, in units of that from which errors are stated: as measured with 780
+ * disks, doc/performance.md. */
+static const double OF_SLOPES = 2.0;
+
+/* ---- how much it tells --------------------------------------------------------------------- */
+
+/** Kinds of fields of all wave vectors. */
+static int subspaces_of(const hd_scene_def *def)
+{
+    const int count = hd_waves(def, NULL, 0);
+    int subspaces = 0;
+    hd_wave *wave = hd_memory_alloc((size_t)count + 1, sizeof *wave);
+    if (!wave) return 2 * count;
+    hd_waves(def, wave, count);
+    for (int k = 0; k < count; k++) {
+        subspaces += hd_wave_transverse(&wave[k], def->boundary).count > 0;
+        subspaces += hd_wave_pairs(&wave[k], def->boundary).count > 0;
+    }
+    hd_memory_free(wave);
+    return subspaces;
+}
+
+/** Those of which one vector each can be shown. */
+static void count_examples(hd_extent *e, const hd_steps *steps)
+{
+    for (int s = 0; s < hd_steps_count(steps); s++) {
+        const hd_step *step = hd_steps_step(steps, s);
+        if (step->kind == HD_MODE_ZERO || step->conjugate) continue;
+        e->examples++;
+        if (step->kind == HD_MODE_LP) e->pairs += step->expected / 2;
+    }
+}
+
+hd_extent hd_extent_of(const hd_scene_def *def, const hd_run *run)
+{
+    const int known = hd_scene_positive_exponents(def) + hd_scene_zero_exponents(def);
+    hd_extent e = {.disks = def->disks, .vectors = hd_scene_vectors(def)};
+    if (def->observe & HD_OBSERVE_STRUCTURE) e.waves = hd_structure_waves_of(def);
+    if (def->observe & HD_OBSERVE_COVARIANT) {
+        e.subspaces = subspaces_of(def);
+        if (e.vectors > known) e.angles = HD_PAIRS_OF_SPACES;
+    }
+    if (hd_run_steps(run)) {
+        e.steps = hd_steps_count(hd_run_steps(run));
+        count_examples(&e, hd_run_steps(run));
+    }
+    if (hd_run_phases(run)) e.phases = hd_phases_count(hd_run_phases(run));
+    if (hd_run_t_phases(run)) e.t_phases = hd_phases_count(hd_run_t_phases(run));
+    if (hd_run_hydro(run)) e.responses = hd_hydro_count(hd_run_hydro(run));
+    return e;
+}
+
+/* ---- what it takes ------------------------------------------------------------------------- */
+
+static hd_status collision_time(double *time, const hd_scene_def *def)
+{
+    hd_trajectory *disks;
+    HD_TRY(hd_trajectory_create(&disks, def));
+    *time = 0.5 * def->disks / hd_trajectory_collision_rate(disks);
+    hd_trajectory_free(disks);
+    return HD_OK;
+}
+
+/** A scene of the same shape and waves whose trial is short; the scene itself if it is one, or
+ * there is none. */
+static hd_scene_def smaller(const hd_scene_def *def)
+{
+    const double vectors = hd_scene_carried(def), work = def->disks * vectors * vectors;
+    const double part = cbrt(TRIAL_WORK / fmax(work, TRIAL_WORK));
+    hd_scene_def scene = *def;
+    if (part >= 1.0) return scene;
+    scene.disks = (int)(part * def->disks);
+    if (def->exponents > 0) scene.exponents = (int)(part * vectors); /* a number of them */
+    scene.max_wave_number /= sqrt(part);
+    return hd_scene_check(&scene, NULL, 0) == HD_OK ? scene : *def;
+}
+
+static hd_status trial_scene(hd_scene_def *out, const hd_scene_def *def)
+{
+    double collision = 0.0;
+    HD_TRY(collision_time(&collision, def));
+    *out = *def;
+    out->equilibration = collision;
+    out->warmup = WARMUP_COLLISIONS * collision;
+    out->duration = out->target_std_error = 0.0;
+    out->observe &= ~(unsigned)HD_OBSERVE_COVARIANT; /* a window is longer than a trial */
+    *out = smaller(out);
+    return HD_OK;
+}
+
+static hd_status measure(hd_estimate *out, hd_run *run)
+{
+    while (hd_run_stage(run) < HD_AVERAGING) HD_TRY(hd_run_advance(run));
+    const double begin = hd_clock_now(), from = hd_run_time(run);
+    const long before = hd_run_cost(run).orthonormalisations, vectors = hd_run_vectors(run);
+    double seconds = 0.0;
+    long done = 0;
+    while (seconds < TRIAL_SECONDS || (vectors > 0 && done < 2)) {
+        HD_TRY(hd_run_advance(run));
+        seconds = hd_clock_now() - begin;
+        done = hd_run_cost(run).orthonormalisations - before;
+    }
+    out->seconds = seconds / (hd_run_time(run) - from);
+    out->interval = hd_run_cost(run).interval;
+    out->errors_after = hd_run_errors_after(run);
+    return HD_OK;
+}
+
+/** What a trial of fewer disks says of all of them: a frame takes N^3, an error the time of sound
+ * through the box. */
+static void enlarge(hd_estimate *e, const hd_scene_def *tried, const hd_scene_def *def)
+{
+    e->disks = tried->disks;
+    if (tried->disks == def->disks) return;
+    e->seconds *= pow((double)def->disks / tried->disks, 3.0);
+    e->errors_after *= hd_scene_sound_crossing(def) / hd_scene_sound_crossing(tried);
+}
+
+hd_status hd_estimate_run(hd_estimate *out, const hd_scene_def *def, double fields_every,
+                          char *message, size_t size)
+{
+    hd_scene_def tried;
+    hd_run *run;
+    *out = (hd_estimate){.before = def->equilibration + hd_scene_warmup(def)};
+    HD_TRY(trial_scene(&tried, def));
+    HD_TRY(hd_run_create(&run, &tried, message, size));
+    hd_run_fields_every(run, fields_every);
+    const hd_status status = measure(out, run);
+    enlarge(out, &tried, def);
+    out->slopes_after = OF_SLOPES * out->errors_after;
+    out->extent = hd_extent_of(def, run);
+    hd_run_free(run);
+    return status;
+}

@@ -1,0 +1,24 @@
+"""The box with its disks, and a vector at each of them."""
+
+import numpy as np
+from matplotlib.collections import EllipseCollection
+
+
+def disks(axes, info, x, y, **style):
+    """One outline, repeated: much less of a file than one for each disk."""
+    axes.set_aspect('equal')
+    axes.set_xlim(0, info.box_x)
+    axes.set_ylim(0, info.box_y)
+    # matplotlib 3.6 has given it another name
+    new = hasattr(EllipseCollection, 'set_offset_transform')
+    place = {'offset_transform' if new else 'transOffset': axes.transData, 'offsets': np.c_[x, y]}
+    found = EllipseCollection([1.0], [1.0], [0.0], units='xy', **place, **style)
+    axes.add_collection(found)
+    return found
+
+
+def arrows(axes, x, y, dq, **style):
+    """As long as they are in the box; width: in sigma."""
+    form = dict(angles='xy', scale_units='xy', scale=1, units='xy', minlength=0, zorder=3)
+    heads = dict(headwidth=3.5, headlength=4, headaxislength=3.5)
+    return axes.quiver(x, y, *dq, **form, **heads, **style)

@@ -1,0 +1,149 @@
+/** What a trial says of a run, against that run in the same process. Seconds are the processor's
+ * for this process alone: whoever else computes on this machine takes none of them. */
+#include <time.h>
+
+#include "base/clock.h"
+#include "hdlyap/estimate.h"
+
+#include "runs.h"
+
+/** In place of the core's. */
+double hd_clock_now(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+static hd_estimate estimated(const hd_scene_def *def)
+{
+    hd_estimate e;
+    char message[512] = "";
+    const hd_status status = hd_estimate_run(&e, def, 5.0, message, sizeof message);
+    if (status != HD_OK) print_error("%s\n", message);
+    CHECK_OK(status);
+    return e;
+}
+
+/** Seconds per time unit of the averaging, from where it begins. */
+static double taken(hd_run *run)
+{
+    hd_run_fields_every(run, 5.0);
+    until(run, HD_AVERAGING);
+    const double begin = hd_clock_now(), from = hd_run_time(run);
+    finish(run);
+    return (hd_clock_now() - begin) / (hd_run_time(run) - from);
+}
+
+/** Caches and clock rates change from one second to the next. */
+static const double SECONDS_FACTOR = 1.5;
+/** Between orthonormalisations: the conditioning goes up and down. */
+static const double INTERVAL_FACTOR = 1.3;
+
+static void check_ratio(const char *what, double said, double true_value, double factor)
+{
+    print_message("%s: said %.4g, is %.4g, ratio %.3f\n", what, said, true_value,
+                  said / true_value);
+    assert_true(said < factor * true_value && true_value < factor * said);
+}
+
+/** Of a run that is warmed up as long as a trial, and goes on for some seconds. */
+static void compare(const hd_scene_def *def)
+{
+    const hd_estimate e = estimated(def);
+    hd_run *run = created(*def);
+    const double seconds = taken(run);
+    check_ratio("seconds per time unit", e.seconds, seconds, SECONDS_FACTOR);
+    if (hd_run_vectors(run) > 0)
+        check_ratio("interval", e.interval, hd_run_cost(run).interval, INTERVAL_FACTOR);
+    CHECK_CLOSE(e.before, def->equilibration + def->warmup, 0.0);
+    CHECK_CLOSE(e.errors_after, hd_run_errors_after(run), 0.0);
+    CHECK_CLOSE(e.slopes_after, 2.0 * hd_run_errors_after(run), 0.0);
+    assert_int_equal(e.disks, def->disks);
+    hd_run_free(run);
+}
+
+static hd_scene_def usual(double duration)
+{
+    hd_scene_def def = scene(.disks = 100, .density = 0.7, .aspect = 0.1, .equilibration = 1.0,
+                             .warmup = 60.0, .report_interval = 1.0, .threads = 1);
+    def.duration = duration;
+    return def;
+}
+
+TEST(seconds_of_exponents)
+{
+    hd_scene_def def = usual(200.0);
+    def.observe = 0;
+    compare(&def);
+}
+
+TEST(seconds_of_all_that_is_observed)
+{
+    hd_scene_def def = usual(100.0);
+    def.observe = HD_OBSERVE_ALL & ~(unsigned)HD_OBSERVE_COVARIANT;
+    compare(&def);
+}
+
+TEST(seconds_of_disks_alone)
+{
+    hd_scene_def def = usual(20000.0);
+    def.exponents = HD_EXPONENTS_NONE;
+    def.observe = HD_OBSERVE_GAS;
+    compare(&def);
+}
+
+/** How much a run tells is what it has; of covariant vectors, which are not tried, too. */
+TEST(extent_is_the_runs)
+{
+    hd_scene_def def = scene(.disks = 24, .density = 0.7, .aspect = 0.15, .equilibration = 1.0,
+                             .warmup = 25.0, .duration = 40.0, .threads = 1,
+                             .exponents = HD_EXPONENTS_ALL, .observe = HD_OBSERVE_ALL);
+    def.covariant_window = 10.0;
+    def.covariant_transient = 20.0;
+    def.covariant_sampling = 0.5;
+    const hd_extent e = estimated(&def).extent;
+    hd_run *run = finished(def);
+    const hd_covariant *covariant = hd_run_covariant(run);
+    int examples = 0, pairs = 0;
+    for (int s = 0; s < hd_steps_count(hd_run_steps(run)); s++) {
+        const hd_step *step = hd_steps_step(hd_run_steps(run), s);
+        const bool shown = !step->conjugate && step->kind != HD_MODE_ZERO;
+        examples += shown;
+        if (shown && step->kind == HD_MODE_LP)
+            pairs +=
+                hd_fields_subspace(hd_modes_fields(hd_run_modes(run)), step->subspace)->dimension /
+                2;
+    }
+    assert_int_equal(e.disks, 24);
+    assert_int_equal(e.vectors, hd_run_vectors(run));
+    assert_int_equal(e.waves, hd_structure_waves(hd_run_structure(run)));
+    assert_int_equal(e.subspaces,
+                     hd_fields_subspaces(hd_modes_fields(hd_covariant_half(covariant, 0))));
+    assert_int_equal(e.angles, HD_PAIRS_OF_SPACES);
+    assert_int_equal(e.steps, hd_steps_count(hd_run_steps(run)));
+    assert_int_equal(e.examples, examples);
+    assert_int_equal(e.pairs, pairs);
+    assert_int_equal(e.phases, hd_phases_count(hd_run_phases(run)));
+    assert_int_equal(e.t_phases, hd_phases_count(hd_run_t_phases(run)));
+    assert_int_equal(e.responses, hd_hydro_count(hd_run_hydro(run)));
+    assert_true(e.steps > e.examples && e.examples > 2 && e.pairs > 2 && e.responses > 0);
+    hd_run_free(run);
+}
+
+/** Beyond 800 disks fewer of them are tried: the cube of N, and the time of sound. */
+TEST(seconds_of_many_disks)
+{
+    hd_scene_def def = usual(20.0);
+    if (!second_tier()) skip();
+    def.disks = 1000;
+    def.aspect = 1.0;
+    def.warmup = 12.0;
+    def.observe = 0;
+    const hd_estimate e = estimated(&def);
+    assert_in_range(e.disks, 700, 900);
+    hd_run *run = created(def);
+    check_ratio("averaged time of errors", e.errors_after, hd_run_errors_after(run), 1.1);
+    check_ratio("seconds per time unit", e.seconds, taken(run), 2.0);
+    hd_run_free(run);
+}

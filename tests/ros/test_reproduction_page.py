@@ -1,0 +1,195 @@
+"""The page of the reproduction: counts, figures and tables, what is missing, parts that fail."""
+# Second tier: tests/run.sh --all
+
+import contextlib
+import io
+import os
+import tempfile
+import unittest
+from unittest import mock
+
+import made
+from hdlyap.msg import RunStatus
+from hdlyap.plots.figures import plt
+from reproduced import FRONT as FRONT_PAGE, PARTS, plan
+import tables
+from study import bags, files, page, table
+from study.row import HEADER, Claim, Row
+
+FRONT = [
+    {'says': 'all are small', 'claims': ['it is small']},
+    {'says': 'all are large', 'claims': ['it is large']},
+    {'says': 'none is wide', 'claims': ['it is wide']},
+]
+
+
+class Part:
+    """Of a table; its own module."""
+
+    def __init__(self, number, name):
+        self.number, self.title, self.runs, self.module = number, 'a part', [name], self
+
+    def claims(self, bags):
+        (name,) = self.runs
+        rows = [Row('disks', 20, bags[name].info.disks), Row('seed', None, None)]
+        usual = {'criterion': 'the same', 'of': 'ours', 'kind': 'the paper'}
+        own = {'kind': 'ours', 'claim': f'it is large, {name}'}
+        return [
+            Claim(self.number, {**usual, 'claim': f'it is small, {name}'}, rows),
+            Claim(self.number, {**usual, **own}, [Row('vectors', 5, 4)]),
+            Claim(self.number, {'claim': 'more', 'kind': 'beside'}, [Row('seed', None, 1)]),
+        ]
+
+    def figures(self, bags):
+        yield self.runs[0], plt.figure(figsize=(1, 1))
+
+    def tables(self, bags):
+        yield self.runs[0], ('a', 'b'), [(1, 'x,y')]
+
+
+class Page(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+        for name, progress in (('one', 1.0), ('two', 1.0), ('three', 0.9)):
+            last = made.status(150.0, stage=RunStatus.FINISHED, progress=progress)
+            made.write(self.path(name + '.bag'), [made.run_info(), made.status(120.0), last])
+        self.parts = [Part(number, name) for number, name in enumerate(('one', 'two', 'three'), 1)]
+
+    def path(self, *names):
+        return os.path.join(self.folder, *names)
+
+    def write(self, chosen, suffix=''):
+        found = bags.found(self.folder, ['one', 'two', 'three', 'four'])
+        return page.write(chosen, FRONT, found, self.path('results'), suffix)
+
+    def read(self, name):
+        with open(self.path('results', name)) as file:
+            return file.read()
+
+    def test_all(self):
+        text, failed = self.write(self.parts)
+        self.assertEqual(failed, [])
+        self.assertIn(
+            '\n1. a part\n'
+            '               published  measured  unit  verdict       caught     remark\n'
+            '  agrees: it is small, one (1 value; criterion, ours: the same)\n'
+            '      disks    20         20              agrees        any other\n'
+            '      seed     -          -               not measured\n'
+            '  differs: it is large, one (1 value; criterion, ours: the same)\n'
+            '      vectors  5          4               differs       any other\n'
+            '  beside: more\n'
+            '      seed     -          1\n',
+            text,
+        )
+        self.assertIn('\npart 3: not drawn, missing: three\n', text)  # its bag has no end
+        names = [
+            f'{name}.{kind}' for name in ('01_one', '02_two') for kind in ('csv', 'png', 'svg')
+        ]
+        listed = sorted(os.listdir(self.path('results')))
+        self.assertEqual(listed, [*names, 'results.txt', 'rows.csv'])
+        self.assertEqual(self.read('results.txt'), text)
+        self.assertEqual(self.read('01_one.csv'), 'a,b\n1,"x,y"\n')
+        lines = self.read('rows.csv').splitlines()
+        self.assertEqual(lines[0], ','.join(HEADER))
+        first = (
+            '1,the paper,,,"it is small, one",the same,ours,agrees,disks,20,,20,,,agrees,any other,'
+        )
+        self.assertEqual([lines[1], lines[4]], [first, '1,beside,,,more,,,,seed,,,1,,,,,'])
+
+    def test_two_counts_and_what_holds(self):
+        text, _ = self.write(self.parts)
+        counts = (
+            '0 differ, 0 are not decided, 0 are not measured; 2 measured values are behind them.'
+        )
+        self.assertIn(f'\nOf 2 statements of the paper 2 agree, {counts}\n', text)
+        self.assertIn('\nOf 2 statements of ours 0 agree, 2 differ, 0 are not', text)
+        self.assertIn('\n  part  1  differs         1  it is large, one\n', text)
+        self.assertIn('\nyes: all are small\n', text)
+        off = '; '.join(f'differs: it is large, {name}' for name in ('one', 'two'))
+        self.assertIn(f'\nnot all: all are large ({off})\n', text)
+        self.assertIn('\nnot measured: none is wide\n', text)
+
+    def test_some(self):
+        """The page of all parts stays."""
+        self.write(self.parts)
+        before = self.read('results.txt')
+        self.write(self.parts[1:], '_02_03')
+        self.assertIn('2. a part', self.read('results_02_03.txt'))
+        self.assertEqual(self.read('results.txt'), before)
+
+    def test_failure(self):
+        """Of a part: the others are there; what was there stays."""
+        self.write(self.parts)
+        before, said = self.read('01_one.csv'), io.StringIO()
+        with mock.patch.object(self.parts[0], 'tables', side_effect=KeyError('x')):
+            with contextlib.redirect_stderr(said):
+                text, failed = self.write(self.parts)
+        self.assertEqual(failed, ["part 1: KeyError: 'x'"])
+        self.assertIn(failed[0], text)
+        self.assertIn('\n2. a part\n', text)
+        self.assertIn('Traceback', said.getvalue())
+        self.assertEqual(self.read('01_one.csv'), before)
+
+    def test_files_are_whole(self):
+        path = self.path('x.txt')
+        files.write(path, 'good')
+        with mock.patch('os.replace', side_effect=OSError), self.assertRaises(OSError):
+            files.write(path, 'bad')
+        with open(path) as file:
+            self.assertEqual(file.read(), 'good')
+
+
+class Document(unittest.TestCase):
+    """doc/reproduction.md has the numbers of rows.csv."""
+
+    def test_tables_of_the_page(self):
+        with open(tables.PAGE) as file:
+            text = file.read()
+        self.assertEqual(text, tables.written(text, tables.claims(), FRONT_PAGE))
+
+    def test_a_line(self):
+        usual = dict.fromkeys(HEADER, '')
+        usual.update(part='3', kind='ours', claim='so', criterion='3 %', criterion_of='ours')
+        for values, cells in (
+            ([('1.0', '1.01', '0.002', 'agrees', '3 %')], ['1.0100(20)', '3 %', 'agrees']),
+            ([('1', '2', '', 'differs', 'any other')], ['2', 'any other', '**differs**']),
+            ([('a', 'a', '', 'agrees', 'any other')] * 2, ['the same', 'any other', 'agrees']),
+            (
+                [('2', f'{2 + off}', '0.01', 'agrees', f'{9 + off} %') for off in range(7)],
+                ['7 values, 2.000(10) of 2 to 8.000(10) of 2', '9 % to 15 %', 'agrees'],
+            ),
+        ):
+            lines = [
+                dict(usual, published=a, measured=b, error=c, verdict=d, caught=e, claim_verdict=d)
+                for a, b, c, d, e in values
+            ]
+            said = tables._line(lines).strip('| ').split(' | ')
+            self.assertEqual(said, ['3', 'so', '3 % (ours)', *cells])
+
+
+class Table(unittest.TestCase):
+    def test_every_statement_says_what_it_is_judged_by(self):
+        for part in PARTS:
+            for one in part.entries:
+                self.assertTrue(callable(getattr(part.module, one['measure'])), one['claim'])
+                if one['kind'] != table.BESIDE:
+                    self.assertIn(one['of'], ('the paper', 'inferred from the paper', 'ours'))
+                if one['kind'] == table.STATEMENT:
+                    self.assertTrue(one['where'] and one['words'], one['claim'])
+        names = [one['claim'] for part in PARTS for one in part.entries]
+        self.assertEqual(len(names), len(set(names)))
+
+    def test_the_front_is_about_statements_of_the_paper(self):
+        entries = [one for part in PARTS for one in part.entries if one['kind'] == table.STATEMENT]
+        for sentence in FRONT_PAGE:
+            for start in sentence['claims']:
+                self.assertTrue(any(one['claim'].startswith(start) for one in entries), start)
+
+    def test_every_run_is_planned_and_needed(self):
+        self.assertEqual(set(table.runs_of(PARTS)), set(plan()))
+
+
+if __name__ == '__main__':
+    unittest.main()

@@ -1,0 +1,127 @@
+"""The velocity that the pressure of a box gives, against limits that are known."""
+# Second tier: tests/run.sh --all
+
+import unittest
+
+import numpy as np
+
+import recorded
+from hdlyap.plots import equation
+import reproduced  # noqa: F401, finds the study
+from study import pressure
+
+WALLS = ('reflecting', 'reflecting')
+
+
+class Pressure(unittest.TestCase):
+    def test_without_walls(self):
+        info = recorded.info(780, 0.4, 0.867)
+        expected = float(equation.compressibility(0.4)) / 2**0.5
+        for nodes in ((1, 0), (0, 1), (2, 1)):
+            self.assertAlmostEqual(pressure.velocity(info, *nodes), expected, 12)
+        self.assertEqual(pressure.inside(info), 780 / (info.box_x * info.box_y))
+
+    def test_walls_do_nothing_to_an_ideal_gas(self):
+        """But that it is denser where centres can be."""
+        for boundaries in (WALLS, ('periodic', 'reflecting'), ('reflecting', 'periodic')):
+            info = recorded.info(40, 1e-4, 0.5, boundaries)
+            for nodes in ((1, 0), (1, 1), (0, 1)):
+                self.assertAlmostEqual(pressure.velocity(info, *nodes) * 2**0.5, 1, 3)
+        self.assertAlmostEqual(pressure.adsorbed(1e-4) / -0.5e-4, 1, 3)
+
+    def test_all_disks_are_somewhere(self):
+        for density in (0.1, 0.4, 0.8):
+            info = recorded.info(100, density, 0.5, WALLS)
+            inside, length = pressure.inside(info), 2 * (info.box_x + info.box_y)
+            self.assertGreater(inside, density)
+            total = inside * info.box_x * info.box_y + pressure.adsorbed(inside) * length
+            self.assertAlmostEqual(total, 100, 6)
+
+    def test_forces(self):
+        """By hand, and the wave vector's direction between them."""
+        info = recorded.info(100, 0.5, 0.5, ('periodic', 'reflecting'))
+        rho, lx, ly = pressure.inside(info), info.box_x, info.box_y
+        p, gamma = pressure.HENDERSON.pressure(rho), pressure.tension(rho)
+        along = (p * ly - 2 * gamma) * lx / 100 / 2**0.5
+        across = p * lx * (ly - 1) / 100 / 2**0.5
+        self.assertAlmostEqual(pressure.velocity(info, 1, 0), along, 12)
+        self.assertAlmostEqual(pressure.velocity(info, 0, 1), across, 12)
+        x, y = (1 / lx) ** 2, (1 / (ly - 1)) ** 2
+        self.assertAlmostEqual(
+            pressure.velocity(info, 1, 1), (x * along + y * across) / (x + y), 12
+        )
+
+    def test_large_boxes_have_no_walls(self):
+        found = [
+            pressure.velocity(recorded.info(disks, 0.6, 1.0, WALLS), 1, 0)
+            / pressure.velocity(recorded.info(disks, 0.6, 1.0), 1, 0)
+            - 1
+            for disks in (100, 10**4, 10**6)
+        ]
+        self.assertAlmostEqual(found[1] / found[2], 10, delta=0.5)  # as circumference over area
+        self.assertGreater(found[0], found[1])
+
+    def test_rods(self):
+        """On a line, Tonks: P = rho / (1 - rho)."""
+        for number in (0.1, 0.5, 0.9):
+            for is_reflecting in (True, False):
+                v = pressure.of_row(number, 1e-6, is_reflecting)
+                self.assertAlmostEqual(v * 2**0.5 * (1 - number), 1, 6)
+
+    def test_row(self):
+        """Against the largest eigenvalue itself, at other places across."""
+        number, height = 0.75, 0.5
+        force = pressure.of_row(number, height, True) * number * 2**0.5
+        place = (np.arange(150) + 0.5) * height / 150
+        contact = np.sqrt(1 - (place[:, None] - place) ** 2)
+
+        def logarithm(force):
+            return np.log(np.linalg.eigvalsh(np.exp(-force * contact))[-1] / force)
+
+        length = (logarithm(force * 0.999) - logarithm(force * 1.001)) / (0.002 * force)
+        self.assertAlmostEqual(length * number, 1, 4)
+
+    def test_row_round_a_cylinder(self):
+        """No place across is preferred: 1 / rho = 1 / F + the mean of s."""
+        number, height = 0.75, 1.5
+        force = pressure.of_row(number, height, False) * number * 2**0.5
+        contact = np.sqrt(1 - np.linspace(-0.75, 0.75, 20001) ** 2)
+        mean = np.average(contact, weights=np.exp(-force * contact))
+        self.assertAlmostEqual((1 / force + mean) * number, 1, 3)
+
+    def test_what_is_a_row(self):
+        for height, boundary, expected in (
+            (1.5, 'reflecting', True),
+            (1.9, 'reflecting', False),
+            (1.5, 'periodic', True),
+            (1.8, 'periodic', False),
+        ):
+            box_x = 200.0
+            info = recorded.info(150, 150 / box_x / height, height / box_x, ('periodic', boundary))
+            self.assertEqual(pressure.is_row(info), expected)
+        narrow = recorded.info(150, 0.5, 0.0075, ('periodic', 'reflecting'))
+        self.assertAlmostEqual(pressure.velocity(narrow, 1, 0), pressure.of_row(0.75, 0.5, True), 9)
+
+    def test_measured(self):
+        """Over Henderson's; straight between densities, with its error."""
+        state = pressure.Equation([(0.8, 0.97, 0.002), (0.4, 1.01, 0.001)])
+        for density, quotient, error in (
+            (0.1, 1.01, 0.001),
+            (0.6, 0.99, 0.0015),
+            (0.9, 0.97, 0.002),
+        ):
+            self.assertAlmostEqual(state.over_henderson(density)[0], quotient)
+            self.assertAlmostEqual(state.over_henderson(density)[1], error)
+            over = state.pressure(density) / pressure.HENDERSON.pressure(density)
+            self.assertAlmostEqual(over, quotient)
+        info = recorded.info(780, 0.8, 0.867)
+        over = pressure.velocity(info, 1, 0, state) / pressure.velocity(info, 1, 0)
+        self.assertAlmostEqual(over, 0.97)
+        self.assertAlmostEqual(pressure.error(info, state), 0.002 / 0.97)
+        row = recorded.info(150, 0.5, 0.0075)
+        self.assertEqual(pressure.error(row, state), 0.0)
+        self.assertEqual(pressure.velocity(row, 1, 0, state), pressure.velocity(row, 1, 0))
+
+
+if __name__ == '__main__':
+    unittest.main()
