@@ -5,16 +5,7 @@ from distutils.core import setup  # setuptools: catkin does not quote the path o
 
 from catkin_pkg.python_setup import generate_distutils_setup
 
-PACKAGES = [
-    '',
-    '.commands',
-    '.data',
-    '.follow',
-    '.plots',
-    '.plots.figures',
-    '.runs',
-    '.sweep',
-]
+PACKAGES = ['', '.commands', '.data', '.follow', '.plots', '.plots.figures', '.runs', '.sweep']
 setup(
     **generate_distutils_setup(
         packages=['hdlyap' + name for name in PACKAGES],
