@@ -41,9 +41,10 @@ class Table(Bags):
 
     def test_steps_that_share_a_set(self):
         shared = dict(set=7, members=2, expected=4)
+        unknown = dict(shared, sharing=Step.SHARING_UNKNOWN)
         lines, text = self.run_with(
-            made.step(INFO, T, 1, 1, 26, 33, multiplicity=3.9, **shared),
-            made.step(INFO, LP, 0, 1, 26, 33, multiplicity=3.5, **shared),
+            made.step(INFO, T, 1, 1, 26, 33, multiplicity=3.9, **unknown),
+            made.step(INFO, LP, 0, 1, 26, 33, multiplicity=3.5, **unknown),
         )
         self.assertEqual(lines['LP(0,1)+T(1,1)'], ['26-33', '7.40', '8'])
         self.assertEqual(lines['T(1,1)'], ['3.90', '4', '1.40496', '2.1643(20)'])
