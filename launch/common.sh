@@ -67,8 +67,13 @@ build() {
 # build_or_die DIR: and installs, because rosrun sees no program in a folder build/ of the package itself; into a hidden
 # folder, because roslaunch would find each launch file twice. Its programs are then on the path.
 build_or_die() {
-    say "building in $1"
-    run build_and_install "$1" >"$1/log/build.log" 2>&1 ||
+    say "building in $1: minutes, the first time"
+    start build_and_install "$1" >"$1/log/build.log" 2>&1
+    while [[ -t 1 ]] && is_running "$CHILD"; do
+        printf '\r%s\r' "$(grep -o '^\[ *[0-9]*%\]' "$1/log/build.log" | tail -n 1)"
+        sleep 0.5
+    done
+    finish "$CHILD" ||
         die "the build failed; its log is $1/log/build.log:
 $(tail -n 20 "$1/log/build.log")"
     echo "source \"\$(dirname \"\${BASH_SOURCE[0]}\")/.install/setup.bash\"" >"$1/setup.bash"

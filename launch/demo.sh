@@ -60,11 +60,14 @@ run_scene() {
     start roslaunch hdlyap run.launch "scene:=$scene" "duration:=$duration" \
         record:=true "bag:=$out/run.bag" >"$LOG" 2>&1
     launch=$CHILD
-    start hdlyap follow --line
-    follow=$CHILD
-    while is_running "$launch" && is_running "$follow"; do sleep 0.2; done
-    finish_soon "$follow" || seen=$?
-    ((seen != 1)) || stop "$launch"     # no node has come up
+    while is_running "$launch" && ! grep -aqs ': scene ' "$LOG"; do sleep 0.2; done
+    if is_running "$launch"; then
+        start hdlyap follow --line
+        follow=$CHILD
+        while is_running "$launch" && is_running "$follow"; do sleep 0.2; done
+        finish_soon "$follow" || seen=$?
+        ((seen != 1)) || stop "$launch" # the node is gone
+    fi
     finish "$launch" || true
     check_run
 }

@@ -51,11 +51,11 @@ def save_nothing(figure, folder, name):
 
 
 def check_title(figure, name):
-    """A figure names its system: scene, disks, density. It is not needed any more."""
+    """A figure names its system: scene, disks, density, walls. It is not needed any more."""
     from hdlyap.plots.figures import plt
 
     title = figure._suptitle.get_text() if figure._suptitle is not None else ''
-    if not re.match(r'.+: \$N=\d+\$, \$\\rho=[0-9.]+\$', title):
+    if not re.match(r'.+: \$N=\d+\$, \$\\rho=[0-9.]+\$, .+, (x )?(periodic|reflecting)', title):
         raise AssertionError(f'{name}: its title is {title!r}')
     plt.close(figure)
 

@@ -77,8 +77,10 @@ class Check(harness.Case):
     def test_what_averaging_does_not_take_away(self):
         """Walls 8.66 apart, k = 0.41: 2.89 % of both, 1.73 % of a step, 0.45 % of curvature."""
         params = dict(disks=150, density=0.6, aspect=0.3, boundary_y='reflecting')
-        done = checked(self.file_of(params))
+        file = self.file_of(params)
+        done = checked(file)
         self.assertIn('\n          Beside it, of c_T some 3.4 %, which this box', done.stdout)
+        self.assertIn(f'scene     {os.path.basename(file)[:-5]} is valid: ', done.stdout)
 
     def test_scenes(self):
         """With all kinds of stages; those that are large are made small."""

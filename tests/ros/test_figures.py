@@ -49,7 +49,7 @@ class Figures(Bags):
         np.testing.assert_allclose(line.get_xydata(), np.transpose([x, y]), rtol=1e-9)
 
     def test_convergence(self):
-        """Means and errors at averaged times; of the largest error its course and 1 / sqrt(t)."""
+        """Means and errors at averaged times; of all errors together their course and 1 / sqrt(t)."""
         times = np.arange(1.0, 5.0)
         messages = [made.spectrum(EXPONENTS + t, t, error=0.1 / t) for t in times]
         for one, t in zip(messages, times):
@@ -66,8 +66,9 @@ class Figures(Bags):
                 at = corners[corners[:, 0] == t, 1]
                 ends = mean + t - error / t, mean + t + error / t
                 np.testing.assert_allclose((at.min(), at.max()), ends)
-        self.shows(bottom.lines[0], times, 0.1 / times)
-        self.shows(bottom.lines[1], times, 0.1 / 4 * np.sqrt(4 / times))
+        typical = np.sqrt((35 * 0.1**2 + 0.05**2 + 0.07**2) / 37)
+        self.shows(bottom.lines[0], times, typical / times)
+        self.shows(bottom.lines[1], times, typical / 4 * np.sqrt(4 / times))
 
     def test_spectrum(self):
         """At their indices, with errors, in the colours of the steps; with the paper's bands."""
@@ -108,11 +109,12 @@ class Figures(Bags):
             made.status(time, stage=stage) for time, stage in zip((20, 30, 40, 50), (1, 1, 2, 2))
         ]
         course, share = self.draw(cost, *stages, *map(made.cost, (50.0, 100.0)))
-        parts = [10, 20, 55, 0, 5, 0, 0, 10]
+        parts = [10, 20, 55, 0, 5, 0, 0, 5, 5]  # the rest of before the first report, and after it
         tops = [path.vertices for one in course.collections for path in one.get_paths()]
-        for corners, top in zip(tops, np.cumsum(parts)):
-            for time in (50.0, 100.0):
-                self.assertAlmostEqual(max(corners[corners[:, 0] == time, 1]), top * time / 100)
+        halfway = [5, 10, 27.5, 0, 2.5, 0, 0, 0, 5]
+        for time, spent in ((50.0, halfway), (100.0, parts)):
+            for corners, top in zip(tops, np.cumsum(spent)):
+                self.assertAlmostEqual(max(corners[corners[:, 0] == time, 1]), top)
         np.testing.assert_allclose([bar.get_width() for bar in share.patches], parts, atol=1e-9)
         said = [text.get_text() for text in share.texts]
         self.assertEqual((said[2], said[4]), ('55 s (55.0 %)', '5 s (5.0 %)'))
@@ -276,7 +278,9 @@ class Figures(Bags):
         """A name of a scene may look like a formula."""
         info = made.run_info(scene=r'a $\frac{ b $ $')
         self.draw(spectrum, made.spectrum(EXPONENTS, 50.0), info=info)
-        self.assertEqual(scene(INFO), r'made: $N=20$, $\rho=0.5$, $L_y/L_x=1$')
+        self.assertEqual(scene(INFO), r'made: $N=20$, $\rho=0.5$, $L_y/L_x=1$, periodic')
+        walls = made.run_info(boundary_y='reflecting')
+        self.assertIn('$, x periodic, y reflecting', scene(walls))
 
 
 if __name__ == '__main__':

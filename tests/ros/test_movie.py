@@ -215,23 +215,30 @@ class Files(Films):
         return done.stdout
 
     def test_read_back(self):
-        for name, width, how in (('modes.mp4', 1280, process), ('modes.gif', 480, tool)):
+        part = '--begin', '12', '--end', '16.5', '--width', '320'
+        for name, width, count, how, cut, times in (
+            ('modes.mp4', 1280, 5, process, (), '10 to 18 in 1.0 s'),
+            ('modes.gif', 480, 5, tool, (), '10 to 18 in 1.0 s'),
+            ('part.gif', 320, 3, tool, part, '12 to 16.5 in 0.6 s'),
+        ):
             path = os.path.join(self.folder, name)
-            options = '--out', path, '--fps', '5', '--pace', '10'
+            options = '--out', path, '--fps', '5', '--pace', '10', *cut
             text = self.succeeds('movie', self.bag, *options, how=how)
-            self.assertEqual(self.probe(path), (5, width, '5/1'))
-            said = f'{name}: T(1,0) and LP(1,0) from t = 10 to 18 in 1.0 s, 5 frames'
-            self.assertIn(said, text)
+            self.assertEqual(self.probe(path), (count, width, '5/1'))
+            self.assertIn(f'{name}: T(1,0) and LP(1,0) from t = {times}, {count} frames', text)
             raw = self.ffmpeg('ffmpeg', '-i', path, '-f', 'rawvideo', '-pix_fmt', 'rgb24', '-')
-            shots = np.frombuffer(raw, np.uint8).reshape(5, -1).astype(int)
+            shots = np.frombuffer(raw, np.uint8).reshape(count, -1).astype(int)
             self.assertGreater((abs(shots[1] - shots[0]) > 60).mean(), 0.005)  # it moves
             self.assertLess((shots[0] > 200).mean(), 0.98)  # something is drawn
-        self.assertEqual(sorted(os.listdir(self.folder)), ['modes.gif', 'modes.mp4', 'run.bag'])
+        self.assertEqual(
+            sorted(os.listdir(self.folder)), ['modes.gif', 'modes.mp4', 'part.gif', 'run.bag']
+        )
 
     def test_what_is_refused(self):
         for args, words in (
             (('--out', 'modes.avi'), 'modes.avi: must end with .mp4 or .gif'),
             (('--pace', '0'), 'must be above 0'),
+            (('--width', '5000'), '5000: must be 64 .. 4096'),
             (('--modes', 'Q(1,0)'), 'must be lowest or names'),
         ):
             done = tool('movie', self.bag, *args)
@@ -240,6 +247,8 @@ class Files(Films):
         out = '--out', os.path.join(self.folder, 'modes.mp4')
         with mock.patch.dict(os.environ, PATH=self.folder):
             self.refuses('hdlyap movie: there is no ffmpeg', 'movie', self.bag, *out)
+        words = r'hdlyap movie: .*: from t = 19 to 18: must be forwards, and within 10 .. 18\n'
+        self.refuses(words, 'movie', self.bag, '--begin', '19', *out)
         for but, words in (
             (('state', 'fields'), 'neither state nor fields'),
             (('steps',), 'no step is resolved'),

@@ -215,8 +215,10 @@ const std::vector<refusal> refusals = {
     {"covariant_sampling", "a number", no_number},
     {"covariant_memory", "a number", no_number},
     {"covariant_storage", "memory or recompute", {"''", "disk", "file", "Memory", "5", "[memory]"}},
-    {"densty", "removed: there is no parameter of this name", {"0.8"}},
-    {"Disks", "removed: there is no parameter of this name", {"100"}},
+    {"thickness", "removed: there is no parameter of this name", {"0.8"}},
+    {"densty", "renamed: is density meant? No parameter has this name", {"0.8"}},
+    {"Disks", "renamed: is disks meant? No parameter has this name", {"100"}},
+    {"warmpu", "renamed: is warmup meant? No parameter has this name", {"100"}},
 };
 
 /** A later line of the same name replaces an earlier one. */

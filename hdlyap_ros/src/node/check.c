@@ -204,9 +204,19 @@ static int refused(int status, const char *message)
     return status;
 }
 
+/** As run.launch calls a scene that does not name itself. */
+static const char *name_of(const char *path, char *name, size_t size)
+{
+    const char *slash = strrchr(path, '/');
+    snprintf(name, size, "%s", slash ? slash + 1 : path);
+    char *suffix = strstr(name, ".yaml");
+    if (suffix) *suffix = '\0';
+    return name;
+}
+
 int check_scene(int count, char *const *arguments)
 {
-    char message[512] = "";
+    char message[512] = "", name[256];
     hdr_params *params;
     settings set;
     hd_estimate t = {.disks = 0};
@@ -218,6 +228,8 @@ int check_scene(int count, char *const *arguments)
         status = refused(REFUSED, message);
     } else {
         const hd_room room = hd_room_available();
+        if (!*hdr_param_text(params, "scene"))
+            set.scene = name_of(arguments[0], name, sizeof name);
         hd_status tried = hd_room_check(&set.def, room, message, sizeof message);
         if (tried == HD_OK)
             tried = hd_estimate_run(&t, &set.def, set.field_interval, message, sizeof message);

@@ -222,6 +222,40 @@ bool parameters_has(const char *name)
     return false;
 }
 
+/** Letters to put in, leave out or replace until `name` is `other` (Levenshtein). */
+static size_t slips(const char *name, const char *other)
+{
+    enum { LETTERS = 63 };
+    size_t row[LETTERS + 1];
+    const size_t letters = strnlen(other, LETTERS);
+    for (size_t j = 0; j <= letters; j++) row[j] = j;
+    for (size_t i = 0; name[i]; i++) {
+        size_t corner = i;
+        row[0] = i + 1;
+        for (size_t j = 1; j <= letters; j++) {
+            const size_t replaced = corner + (name[i] != other[j - 1]);
+            const size_t added = 1 + (row[j] < row[j - 1] ? row[j] : row[j - 1]);
+            corner = row[j];
+            row[j] = replaced < added ? replaced : added;
+        }
+    }
+    return row[letters];
+}
+
+const char *parameters_meant(const char *name)
+{
+    const char *meant = NULL;
+    size_t fewest = 3;
+    for (int k = 0; k < parameters_count(); k++) {
+        const char *other = parameters_at(k).name;
+        const size_t n = slips(name, other);
+        if (n >= fewest || 2 * n >= strlen(other)) continue;
+        fewest = n;
+        meant = other;
+    }
+    return meant;
+}
+
 parameter parameters_named(const char *name)
 {
     int k = 0;

@@ -7,6 +7,7 @@ import importlib
 import logging
 import os
 import pkgutil
+import signal
 import sys
 import traceback
 import warnings
@@ -78,7 +79,12 @@ def _ended(name, module, args):
         warnings.simplefilter('ignore', kind)
     fault = getattr(module, 'FAULT', None)
     try:
-        return module.main(args)
+        status = module.main(args)
+        sys.stdout.flush()
+        return status
+    except BrokenPipeError:  # of a reader that has seen enough, as head
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 128 + signal.SIGPIPE
     except (RecordingError, OSError) as error:
         text = str(error)
     except Exception as error:  # what no check has foreseen: a bag may say anything

@@ -19,6 +19,13 @@ def film_file(path):
     return path
 
 
+def width(text):
+    number = int(text)
+    if not 64 <= number <= 4096:
+        raise argparse.ArgumentTypeError('%s: must be 64 .. 4096' % text)
+    return number
+
+
 def modes(text):
     """Names with spaces between; None: the lowest ones."""
     names = text.split()
@@ -48,6 +55,15 @@ def options(parser):
     parser.add_argument(
         '--fps', type=positive, default=FPS, metavar='NUMBER', help='frames per second'
     )
+    parser.add_argument('--begin', type=float, metavar='TIME', help='simulated time of the first')
+    parser.add_argument('--end', type=float, metavar='TIME', help='and of the last frame')
+    parser.add_argument(
+        '--width',
+        type=width,
+        metavar='PIXELS',
+        help='default: %s'
+        % ', '.join('%d of %s' % (movie.WIDTH[kind], kind) for kind in movie.WIDTH),
+    )
     parser.add_argument('--node', metavar='NAME', help='which node, if several are in the bag')
     parser.add_argument(
         '--run', type=int, metavar='NUMBER', help='which run, from 1 (default: the last)'
@@ -55,7 +71,8 @@ def options(parser):
 
 
 def main(args):
-    film = frames.Film(args.bags, args.modes, args.node, args.run)
+    within = args.begin, args.end
+    film = frames.Film(args.bags, args.modes, args.node, args.run, within)
     pace = args.pace or args.fps * (film.report or 1.0)
     if film.field_interval > 2 * film.report > 0:
         print(
@@ -63,7 +80,7 @@ def main(args):
             'field_interval: 0 for vectors that move as smoothly'
             % (film.field_interval, film.report)
         )
-    count = movie.write(film, args.out, pace, args.fps)
+    count = movie.write(film, args.out, pace, args.fps, args.width)
     print(
         '%s: %s from t = %g to %g in %.1f s, %d frames'
         % (args.out, ' and '.join(film.names), film.begin, film.end, count / args.fps, count)

@@ -97,6 +97,8 @@ def options(parser):
 
 
 def main(args):
+    if not (os.environ.get('DISPLAY') or os.environ.get('WAYLAND_DISPLAY')):
+        sys.exit('hdlyap view: DISPLAY is not set: rviz needs a screen')
     try:
         with open(args.config or shipped()) as file:
             config = yaml.safe_load(file)

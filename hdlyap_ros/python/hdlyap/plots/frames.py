@@ -57,9 +57,11 @@ class Frame:
 
 
 class Film:
-    """Of the last run of a bag, or of the one of that number; of several that belong to one run."""
+    """Of the last run of a bag, or of the one of that number; of several that belong to one run.
+    within: its first and last simulated time, None: from when all modes are found, to the last."""
 
-    def __init__(self, paths, names=None, node=None, number=None):
+    def __init__(self, paths, names=None, node=None, number=None, within=(None, None)):
+        self.which = paths, node, number
         self._run = joined.one(paths, node, number)
         self.info = self._run.info
         self.steps = steps.resolved(Recorded(run.Run(self._run)).steps)
@@ -77,8 +79,7 @@ class Film:
             raise RecordingError(
                 f'{self._run.name}: neither state nor fields in it: there are no disks'
             )
-        self.begin = begin if begin is not None else places[0]
-        self.end = places[-1]
+        self.begin, self.end = self._cut(places, begin, *within)
         self.report = _apart(places[places >= self.begin])
         self.field_interval = _apart(fields)
 
@@ -94,6 +95,21 @@ class Film:
                 first.setdefault(name, packed.sim_time)
         begin = max(first.values(), default=None)
         return np.array(sorted(places)), np.array(sorted(fields)), begin
+
+    @property
+    def name(self):
+        return self._run.name
+
+    def _cut(self, places, found, begin, end):
+        if begin is None:
+            begin = found if found is not None else places[0]
+        first, last = max(begin, places[0]), min(places[-1] if end is None else end, places[-1])
+        if first > last:
+            raise RecordingError(
+                f'{self._run.name}: from t = {begin:g} to {last:g}: must be forwards, and within '
+                f'{places[0]:g} .. {places[-1]:g}'
+            )
+        return first, last
 
     def count(self, every):
         """Number of frames that are so much simulated time apart."""

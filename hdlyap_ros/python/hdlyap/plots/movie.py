@@ -1,10 +1,14 @@
 """Frames -> a film of modes with the disks moving: an MP4 or a GIF."""
 
+import contextlib
+import itertools
+import json
 import os
 import subprocess
+import sys
 
 import numpy as np
-from matplotlib.animation import FFMpegWriter
+from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.collections import LineCollection
 from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
@@ -12,7 +16,7 @@ from matplotlib.patches import Circle
 
 from hdlyap.data.reader import RecordingError
 
-from . import steps
+from . import frames, steps
 from .figures.box import arrows, disks
 from .figures.style import BLUE, GREY, VERMILION, scene
 from .numbers import known, with_error
@@ -107,12 +111,14 @@ def dial(axes, number):
     size = 0.22 / axes.figure.get_figheight()
     across = size * axes.figure.get_figheight() / axes.figure.get_figwidth()
     inset = axes.figure.add_axes(
-        [box.x1 - (number + 1) * 1.15 * across, box.y1 + 0.25 * size, across, size]
+        [box.x1 - (number + 1) * 1.35 * across, box.y1 + 0.25 * size, across, size]
     )
     inset.set_axis_off()
     inset.set_xlim(-1.05, 1.05)
     inset.set_ylim(-1.05, 1.05)
     inset.add_patch(Circle((0, 0), 1, fill=False, edgecolor=GREY))
+    inset.text(1.2, 0, 'a', fontsize=5, va='center')
+    inset.text(0, 1.15, 'b', fontsize=5, ha='center')
     hand = LineCollection([], linewidths=2.5)
     inset.add_collection(hand)
     return hand
@@ -144,9 +150,20 @@ class Picture:
         self.figure = Figure(
             figsize=(INCHES, height), dpi=(width + 0.5) / INCHES
         )  # cut to a whole number
+        FigureCanvasAgg(self.figure)
         self._title = self.figure.text(
             0.5, 1 - 0.08 / height, '', ha='center', va='top', fontsize=9
         )
+        for mode, colour, place in (('L', ALL_L, INCHES - GAP - 0.3), ('P', ALL_P, INCHES - GAP)):
+            if any(name.startswith('LP') for name in film.names):
+                self.figure.text(
+                    *(place / INCHES, 1 - 0.08 / height),
+                    f'\u25cf {mode}',
+                    color=colour,
+                    ha='right',
+                    va='top',
+                    fontsize=8,
+                )
         self._film, self._panels = film, []
         for k, name in enumerate(film.names):
             row, column = divmod(k, columns)
@@ -163,26 +180,79 @@ class Picture:
             panel.show(frame)
 
 
-def write(film, path, pace, fps, progress=None):
+def write(film, path, pace, fps, width=None):
     """The number of frames. Complete films only: an older one is replaced in one step."""
     folder, name = os.path.split(path)
     suffix = os.path.splitext(name)[1]
-    codec, options = CODECS[suffix]
-    if not FFMpegWriter.isAvailable():
-        raise MovieError('there is no ffmpeg; install it (Debian and Ubuntu: ffmpeg)')
-    writer = FFMpegWriter(fps=fps, codec=codec, extra_args=options)
-    picture = Picture(film, WIDTH[suffix])
+    width, every = width or WIDTH[suffix], pace / fps
     unfinished = os.path.join(folder, f'.{os.getpid()}.{name}')
-    total = film.count(pace / fps)
+    total = film.count(every)
+    words = command(Picture(film, width), fps, CODECS[suffix], unfinished)
     try:
-        with writer.saving(picture.figure, unfinished, picture.figure.dpi):
-            for frame in (progress or Progress('drawing')).over(film.frames(pace / fps), total):
-                picture.show(frame)
-                writer.grab_frame()
+        with contextlib.closing(_pixels(film, every, width, total)) as pixels:
+            said = _filmed(Progress('drawing').over(pixels, total), words)
+        if said:
+            raise MovieError(f'{path}: ffmpeg failed: {said}')
         os.replace(unfinished, path)
-    except (subprocess.CalledProcessError, BrokenPipeError) as error:
-        raise MovieError(f'{path}: ffmpeg failed: {error}')
     finally:
         if os.path.exists(unfinished):
             os.remove(unfinished)
     return total
+
+
+def command(picture, fps, codec, path):
+    name, options = codec
+    width, height = picture.figure.canvas.get_width_height()
+    pixels = ['-f', 'rawvideo', '-pix_fmt', 'rgba', '-s', f'{width}x{height}', '-r', str(fps)]
+    return ['ffmpeg', '-v', 'error', *pixels, '-i', '-', '-c:v', name, *options, '-y', path]
+
+
+def _filmed(pixels, words):
+    """What ffmpeg says if it fails."""
+    try:
+        ffmpeg = subprocess.Popen(words, stdin=subprocess.PIPE, stderr=subprocess.PIPE)
+    except FileNotFoundError:
+        raise MovieError('there is no ffmpeg; install it (Debian and Ubuntu: ffmpeg)')
+    with ffmpeg:
+        try:
+            for one in pixels:
+                ffmpeg.stdin.write(one)
+        except BrokenPipeError:
+            pass  # it says why
+        said = ffmpeg.communicate()[1].decode(errors='replace').strip()
+    return said or f'status {ffmpeg.returncode}' if ffmpeg.returncode else ''
+
+
+def _pixels(film, every, width, total):
+    """Of one frame after the other. Each of as many processes as cores reads the bag and draws every
+    so-manieth, no farther ahead than its pipe holds."""
+    count = min(os.cpu_count() or 1, total)
+    what = [film.which, film.names, [film.begin, film.end], every, width, count]
+    draw = [sys.executable, '-c', 'from hdlyap.plots import movie; movie.draw_part()']
+    size = np.prod(Picture(film, width).figure.canvas.get_width_height()) * 4
+    parts = [
+        subprocess.Popen([*draw, json.dumps([*what, k])], stdout=subprocess.PIPE)
+        for k in range(count)
+    ]
+    try:
+        for number in range(total):
+            one = parts[number % count].stdout.read(size)
+            if len(one) < size:
+                raise MovieError(f'{film.name}: a process that draws has failed')
+            yield one
+    finally:
+        for part in parts:
+            part.kill()
+            part.wait()
+            part.stdout.close()
+
+
+def draw_part():
+    """In a process of its own, which its first argument tells what."""
+    which, names, within, every, width, count, k = json.loads(sys.argv[1])
+    film = frames.Film(which[0], names, which[1], which[2], within)
+    picture = Picture(film, width)
+    for frame in itertools.islice(film.frames(every), k, None, count):
+        picture.show(frame)
+        picture.figure.canvas.draw()
+        sys.stdout.buffer.write(picture.figure.canvas.buffer_rgba())

@@ -3,6 +3,8 @@
 import copy
 from functools import cached_property
 
+import numpy as np
+
 from hdlyap.data import seeds
 
 from .course import Course
@@ -79,14 +81,14 @@ class Recorded(Run):
                 if message.averaged_time < last:
                     course.clear()  # the averages were reset
                 last, errors = message.averaged_time, message.std_errors
-                means = last, message.lambda_max, errors[0], max(errors)
+                means = last, message.lambda_max, errors[0], _typical(errors)
                 course.add((*means, *message.exponents[small], *errors[small]))
         table = course.table()
         return {
             'time': table[:, 0],
             'lambda_max': table[:, 1],
             'lambda_max_error': known(table[:, 2]),
-            'largest_error': known(table[:, 3]),
+            'error': known(table[:, 3]),
             'small': table[:, 4 : 4 + n],
             'small_errors': known(table[:, 4 + n :]),
         }
@@ -107,3 +109,9 @@ class Recorded(Run):
     def _averaged(self, topic):
         message = self._last(topic)
         return message if message is not None and message.averaged_time > 0 else None
+
+
+def _typical(errors):
+    """Root mean square of those known; -1 of none."""
+    errors = errors[errors > 0]
+    return np.sqrt(np.mean(errors**2)) if len(errors) else -1.0

@@ -30,10 +30,13 @@ def draw(recording):
         )
     middle.set_ylabel(r'$\lambda_\ell$  [1/time unit]')
     middle.legend(ncol=2)
-    _largest_error(bottom, time, course['largest_error'][kept])
+    _error(bottom, time, course['error'][kept])
     bottom.set_ylabel('standard error  [1/time unit]')
     bottom.set_xlabel('averaged time  [time units]')
     bottom.set_xscale('log')
+    top.set_title('largest exponent', loc='left')
+    middle.set_title('smallest exponents', loc='left')
+    bottom.set_title('standard errors', loc='left')
     return titled(figure, recording.info, top, middle, bottom)
 
 
@@ -43,12 +46,12 @@ def _with_error(axes, time, mean, error, colour, label=None):
     axes.plot(time, mean, color=colour, label=label)
 
 
-def _largest_error(axes, time, error):
+def _error(axes, time, error):
     measured = np.isfinite(error)
     if not measured.any():
         axes.annotate('not yet known', (0.5, 0.5), xycoords='axes fraction', ha='center')
         return
-    axes.loglog(time[measured], error[measured], color=INK, label='largest standard error')
+    axes.loglog(time[measured], error[measured], color=INK, label='of all exponents, root mean square')
     axes.loglog(
         time[measured],
         error[measured][-1] * np.sqrt(time[-1] / time[measured]),

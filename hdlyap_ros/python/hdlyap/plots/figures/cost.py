@@ -15,8 +15,10 @@ PART_COLOURS = {
     'modes': VERMILION,
     'covariant': INK,
     'publish': PURPLE,
-    'other': '#BFBFBF',
+    'other': '#8C8C8C',
+    'start': '#D9D9D9',
 }
+NAMES = {**LABELS, 'start': 'start, wait for recorder'}
 
 
 def draw(recording):
@@ -26,7 +28,9 @@ def draw(recording):
     figure, (course, share) = plt.subplots(
         1, 2, figsize=(7.2, 3.2), constrained_layout=True, gridspec_kw={'width_ratios': [1.5, 1]}
     )
-    cost['other'] = np.maximum(0, cost['wall'] - sum(cost[part] for part in PARTS))
+    other = np.maximum(0, cost['wall'] - sum(cost[part] for part in PARTS))
+    cost['start'] = np.minimum(other, other[0])  # all that came before the first report
+    cost['other'] = other - cost['start']
     _course(course, cost, recording.began)
     _shares(share, cost)
     return titled(figure, recording.info)
@@ -36,7 +40,7 @@ def _course(axes, cost, began):
     kept = thinned(len(cost['time']))
     axes.stackplot(
         cost['time'][kept],
-        *(cost[part][kept] for part in LABELS),
+        *(cost[part][kept] for part in NAMES),
         colors=list(PART_COLOURS.values()),
         linewidth=0,
     )
@@ -61,7 +65,7 @@ def _course(axes, cost, began):
 
 
 def _shares(axes, cost):
-    seconds = np.array([cost[part][-1] for part in LABELS])
+    seconds = np.array([cost[part][-1] for part in NAMES])
     rows = np.arange(len(seconds))
     axes.barh(rows, seconds, color=list(PART_COLOURS.values()))
     for row, value in zip(rows, seconds):
@@ -74,7 +78,7 @@ def _shares(axes, cost):
             fontsize=8,
         )
     axes.set_yticks(rows)
-    axes.set_yticklabels(LABELS.values())
+    axes.set_yticklabels(NAMES.values())
     axes.tick_params(axis='y', length=0)
     axes.invert_yaxis()
     axes.set_xlim(0, 1.9 * max(seconds))

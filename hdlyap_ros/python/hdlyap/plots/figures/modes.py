@@ -45,7 +45,7 @@ def draw(recording, names=None):
         figure = _channel(panels, info)
     else:
         figure = draw_panels(panels, info)
-    return titled(figure, info, more=f', $t={panels[0].field.sim_time:g}$: $\\delta q$')
+    return titled(figure, info, more=f'\n$t={panels[0].field.sim_time:g}$: $\\delta q$')
 
 
 def chosen(recording):

@@ -6,7 +6,7 @@ from .. import steps
 from .style import GREY, INK, bars, kind_colour, plt, titled
 
 MOST = 24  # steps shown: the names of more would not fit
-ROOM = 6  # for so many at least
+ROOM = 4  # for so many at least
 
 
 def draw(recording):
@@ -37,7 +37,7 @@ def draw(recording):
     bottom.set_xlim(-0.7, max(len(blocks), ROOM) - 0.3)
     for axes in (top, bottom):
         axes.tick_params(axis='x', length=0)
-    averaged = f', averaged over {recording.steps.averaged_time:g} time units'
+    averaged = f'\naveraged over {recording.steps.averaged_time:g} time units'
     return titled(figure, recording.info, top, bottom, more=averaged)
 
 

@@ -67,13 +67,16 @@ def save(figure, folder, name, dpi=250):
 
 def scene(info):
     name = info.scene.replace('$', r'\$')  # which would begin a formula
-    return f'{name}: $N={info.disks}$, $\\rho={info.density:g}$, $L_y/L_x={info.aspect:g}$'
+    x, y = info.boundary_x, info.boundary_y
+    walls = x if x == y else f'x {x}, y {y}'
+    box = f'$\\rho={info.density:g}$, $L_y/L_x={info.aspect:g}$'
+    return f'{name}: $N={info.disks}$, {box}, {walls}'
 
 
 def titled(figure, info, *panels, more=''):
-    """The scene above it, and a letter above each of its panels."""
+    """The scene above it, and a letter above each of its panels, before what stands there."""
     for axes, letter in zip(panels, 'abc'):
-        axes.set_title(f'({letter})', loc='left')
+        axes.set_title(f'({letter}) {axes.get_title(loc="left")}'.rstrip(), loc='left')
     figure.suptitle(scene(info) + more, fontsize=9)
     return figure
 
