@@ -149,6 +149,18 @@ class Command(Bags):
                 if not_said:
                     self.assertNotRegex(text, not_said)
 
+    def test_chosen_figures_on_pages(self):
+        self.write(made.small_run())
+        pdf = os.path.join(self.folder, 'talk.pdf')
+        text = self.plot(files('phases', 'steps'), '--only', 'steps', 'phases', '--pdf', pdf)
+        self.assertTrue(text.endswith(pdf + '\n'))
+        with open(pdf, 'rb') as file:
+            self.assertEqual(file.read().count(b'/Type /Page '), 2)
+        self.assertEqual(sorted(os.listdir(self.folder)), ['out', 'run.bag', 'talk.pdf'])
+        done = tool('plot', self.path(), '--only', 'picture')
+        self.assertEqual(done.status, 2)
+        self.assertIn("'picture' (choose from 'spectrum', ", done.error)
+
     def test_process(self):
         self.write([INFO, made.spectrum(HALF, 50.0), made.steps([LP_STEP])])
         text = self.plot(SPECTRUM + STEPS, how=process)

@@ -28,6 +28,11 @@ def options(parser):
         help='which run, if several are in the bag, from 1 (default: the last)',
     )
     fits.add_arguments(parser)
+    names = [figures.name(kind) for kind in figures.FIGURES]
+    parser.add_argument(
+        '--only', nargs='+', choices=names, metavar='FIGURE', help='out of ' + ', '.join(names)
+    )
+    parser.add_argument('--pdf', metavar='FILE', help='one file of all figures, a page for each')
     parser.add_argument('--csv', metavar='DIR', help='folder for all tables as CSV')
     parser.add_argument('--npz', metavar='FILE', help='file for all arrays, for numpy.load')
 
@@ -46,7 +51,8 @@ def main(args):
         print('\nno averaged spectrum in this bag: only the cost can be drawn')
     os.makedirs(args.out, exist_ok=True)
     kinds = figures.OF_MEANS if run.is_mean else figures.FIGURES
-    files = figures.draw_all(run, args.out, Progress('drawing'), kinds)
+    kinds = [kind for kind in kinds if not args.only or figures.name(kind) in args.only]
+    files = figures.draw_all(run, args.out, Progress('drawing'), kinds, args.pdf)
     if args.csv or args.npz:
         files += exported(run.data, args)
     print('\n' + '\n'.join(files))

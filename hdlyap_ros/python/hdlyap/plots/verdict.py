@@ -35,16 +35,15 @@ def verdict(comparison):
     chance, judged = chance_of_largest(deviations)
     (one,) = unlikeliest(deviations)
     found = (
-        f'least likely of {judged}: {one.name}, z = {one.z:+.2f}, '
-        f'probability {one.chance:.1e} alone\n'
-        f'one of {judged} as unlikely by chance: probability at most {chance:.2g}, however '
-        'they fluctuate together\n'
-        f'(Bonferroni, and Student\'s t as if every error were of {FREEDOM + 1} blocks)'
+        f'farthest apart of {judged} numbers: {one.name}, by {abs(one.z):.2f} of its errors; '
+        f'probability by itself {one.chance:.1e}\n'
+        f'probability that chance takes any of {judged} so far: at most {chance:.2g} '
+        f'(Bonferroni; Student\'s t, errors of {FREEDOM + 1} blocks)'
     )
     found = '\n'.join([found, *_warnings(comparison)])
     if chance >= CHANCE:
-        return f'{found}\nagree within their errors: not less than {CHANCE:g}', AGREE
-    return f'{found}\ndiffer: less than {CHANCE:g}', DIFFER
+        return f'{found}\nagree within their errors: that is not below {CHANCE:g}', AGREE
+    return f'{found}\ndiffer: that is below {CHANCE:g}', DIFFER
 
 
 def _warnings(comparison):

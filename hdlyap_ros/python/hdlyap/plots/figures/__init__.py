@@ -1,4 +1,9 @@
-"""Recording -> figures, as PNG and SVG: one file here for each."""
+"""Recording -> figures, as PNG, SVG and pages of a PDF: one file here for each."""
+
+import contextlib
+import os
+
+from matplotlib.backends.backend_pdf import PdfPages
 
 from . import (
     convergence,
@@ -40,12 +45,38 @@ FIGURES = (
 OF_MEANS = (spectrum, steps, dispersion)  # the others are of one run
 
 
-def draw_all(recording, folder, progress, kinds=FIGURES):
-    """Every figure that the recording has data for; the names of the files written."""
+def name(kind):
+    return kind.__name__.rpartition('.')[2]
+
+
+def draw_all(recording, folder, progress, kinds=FIGURES, pdf=None):
+    """Every figure that the recording has data for; the names of the files written. pdf: one more
+    file, that has them all."""
     files = []
-    with plt.rc_context(STYLE):
+    with plt.rc_context(STYLE), _pages(pdf) as pages:
         for kind in progress.over(kinds, len(kinds)):
             figure = kind.draw(recording)
-            if figure is not None:
-                files += save(figure, folder, kind.__name__.rpartition('.')[2])
-    return files
+            if figure is None:
+                continue
+            if pages is not None:
+                pages.savefig(figure)
+            files += save(figure, folder, name(kind))
+    return files + ([pdf] if pdf and os.path.exists(pdf) else [])
+
+
+@contextlib.contextmanager
+def _pages(path):
+    """Complete files only; none without a page."""
+    if not path:
+        yield None
+        return
+    folder, last = os.path.split(path)
+    unfinished = os.path.join(folder, f'.{os.getpid()}.{last}')
+    try:
+        with PdfPages(unfinished, keep_empty=False) as pages:
+            yield pages
+        if os.path.exists(unfinished):
+            os.replace(unfinished, path)
+    finally:
+        if os.path.exists(unfinished):
+            os.remove(unfinished)

@@ -51,7 +51,9 @@ def _error(axes, time, error):
     if not measured.any():
         axes.annotate('not yet known', (0.5, 0.5), xycoords='axes fraction', ha='center')
         return
-    axes.loglog(time[measured], error[measured], color=INK, label='of all exponents, root mean square')
+    axes.loglog(
+        time[measured], error[measured], color=INK, label='of all exponents, root mean square'
+    )
     axes.loglog(
         time[measured],
         error[measured][-1] * np.sqrt(time[-1] / time[measured]),
