@@ -67,7 +67,7 @@ static void print_steps(const hd_run *run)
         found += in_table(step);
     }
     if (found == 0) return;
-    hdr_log(HDR_INFO, "  %-10s %-11s %8s %3s %12s %13s", "step", "indices", "measured", "of",
+    hdr_log(HDR_INFO, "  %-10s %-11s %8s %3s %12s %13s", "step", "indices", "found", "of",
             "k [1/sigma]", "exponent");
     for (int col = hd_run_vectors(run) - 1; col >= 0; col--)
         for (int k = 0; k < count; k++)

@@ -134,6 +134,8 @@ TEST(a_finished_run_can_be_made_longer)
     hd_scene_def longer = scene_from(def, .duration = 80.0);
     OWNED(hd_run) *resumed = kept_and_resumed(run, PATH, &longer), *once = kept_run(longer);
     assert_int_equal(hd_run_stage(resumed), HD_AVERAGING);
+    assert_true(hd_run_followed(run) > 0.0);
+    CHECK_CLOSE(hd_run_followed(resumed), hd_run_followed(run), 0.0);
     kept_steps(resumed, 1000000);
     kept_steps(once, 1000000);
     const hd_spectrum *a = hd_run_spectrum(resumed), *b = hd_run_spectrum(once);

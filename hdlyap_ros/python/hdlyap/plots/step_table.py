@@ -12,7 +12,7 @@ from .phases import turning
 WIDTH = 100  # of a line with a list of names
 COLUMNS = (
     ('indices', '<10'),
-    ('measured', '>8'),
+    ('found', '>8'),
     ('of', '>3'),
     ('k [1/sigma]', '>12'),
     ('exponent', '>13'),
