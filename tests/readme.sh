@@ -10,7 +10,7 @@ readonly WORK=$1 SETUP=$2
 
 readonly WRAPPER=$ROOT/doc/wrapper.md CORE=$ROOT/doc/core.md
 readonly DOCUMENTS=("$ROOT/README.md" "$ROOT/tests/README.md" "$ROOT/CONTRIBUTING.md" "$ROOT/doc/user_guide.md" "$ROOT/doc/performance.md"
-    "$ROOT/doc/findings.md")
+    "$ROOT/doc/findings.md" "$ROOT/doc/first_hour.md" "$ROOT/doc/tour.md")
 
 # shellcheck source=tests/check.sh
 source "$ROOT/tests/check.sh"
@@ -154,6 +154,9 @@ block c hdlyap/hdlyap.h "$CORE" >steps.c
 block c /hdlyap/steps "$WRAPPER" >watch_steps.c
 block python rospy "$ROOT/README.md" >watch.py
 block yaml disks: "$ROOT/doc/user_guide.md" >strip.yaml
+block yaml disks: "$ROOT/doc/first_hour.md" >mine.yaml
+block python hdlyap.load "$ROOT/doc/first_hour.md" >mine.py
+block python hdlyap.load "$ROOT/README.md" >c_t.py
 block yaml base: "$ROOT/doc/user_guide.md" >runs.yaml
 source_setup "$SETUP"
 start roscore -p "${ROS_MASTER_URI##*:}" >"$WORK/roscore.log" 2>&1
@@ -162,6 +165,8 @@ while read -r line; do
     is_run_elsewhere "$line" || check "$line" type_in "$line"
 done < <(commands)
 check c_program c_program_prints_the_steps
+check python_on_mine says 'LP\(1,0\) +k = 0\.077[0-9]+  lambda = 0\.2[45]' '^c_T ' -- python3 mine.py
+check python_on_run says '^T\(1,0\) .*lambda = ' '^value ' -- python3 c_t.py
 check python_program beside_a_node says "${STEPS_SAID[@]}" -- python3 watch.py
 check c_subscriber beside_a_node says "${STEPS_SAID[@]}" -- ./watch_steps
 check nodes_in_c run nodes_in_c

@@ -49,7 +49,7 @@ class Figures(Bags):
         np.testing.assert_allclose(line.get_xydata(), np.transpose([x, y]), rtol=1e-9)
 
     def test_convergence(self):
-        """Means and errors at averaged times; of all errors together their course and 1 / sqrt(t)."""
+        """Means and errors at averaged times; the course of all errors, and 1 / sqrt(t)."""
         times = np.arange(1.0, 5.0)
         messages = [made.spectrum(EXPONENTS + t, t, error=0.1 / t) for t in times]
         for one, t in zip(messages, times):

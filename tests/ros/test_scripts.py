@@ -121,7 +121,8 @@ class Folders(Scripts):
         self.write(os.path.join(self.clone, 'build'))
         other = self.path('an other')
         status, lines = self.demo('--build', other)
-        self.assertEqual((status, lines[0]), (1, f'== building in {other}: minutes, the first time'))
+        said = f'== building in {other}: minutes, the first time'
+        self.assertEqual((status, lines[0]), (1, said))
         self.assertNotIn('could not load cache', '\n'.join(lines))  # as cmake has failed before
         self.assertGreater(os.path.getsize(os.path.join(other, 'log/build.log')), 0)
         self.assertTrue(os.path.isdir(os.path.join(other, 'demo/quick')))

@@ -224,8 +224,8 @@ def _filmed(pixels, words):
 
 
 def _pixels(film, every, width, total):
-    """Of one frame after the other. Each of as many processes as cores reads the bag and draws every
-    so-manieth, no farther ahead than its pipe holds."""
+    """Of one frame after the other. Each of as many processes as cores reads the bag and draws
+    every so-manieth, no farther ahead than its pipe holds."""
     count = min(os.cpu_count() or 1, total)
     what = [film.which, film.names, [film.begin, film.end], every, width, count]
     draw = [sys.executable, '-c', 'from hdlyap.plots import movie; movie.draw_part()']
