@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """A figure of one's own: the spectrum with its errors, and how the local largest exponent is
 distributed. own_figure.py FIGURE.png BAG..."""
 

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """From the spectrum over the phases of an LP mode to covariant vectors: doc/tour.md.
 tour.py FOLDER BAG..."""
 

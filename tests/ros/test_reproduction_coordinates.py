@@ -181,11 +181,10 @@ class Coordinates(Part):
             cos[END : END + 3] = 1 - 0.5 * (3.0 / age) ** 2
             cos[END + 3 : END + 6] = -cos[END]
 
-        claim = self.claims(self.full(change))[
-            'cos Theta of the zero modes lies between these limits'
-        ]
-        self.assertEqual((claim.verdict, claim.values), ('agrees', 6))
-        row = self.rows(self.full(change))['|cos Theta| of zero mode 41']
+        rows = self.rows(self.full(change))
+        shown = [name for name in rows if name.startswith('|cos Theta| of zero mode ')]
+        self.assertEqual(len(shown), 6)
+        row = rows['|cos Theta| of zero mode 41']
         self.assertTrue(row.remark.startswith('cos Theta -0.9'), row.remark)
         self.assertTrue(row.remark.endswith('of the frame: 3.00 to 3.00'), row.remark)
 
