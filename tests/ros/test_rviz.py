@@ -191,13 +191,18 @@ class Rviz(harness.Case):
 
 
 class View(harness.Case):
-    def test_without_a_config_or_a_master(self):
-        view = self.process([*VIEW, '--config', 'none.rviz'])
-        self.assertEqual(view.wait(), 1)
-        self.assertEqual(
-            view.text().strip(), "hdlyap view: [Errno 2] No such file or directory: 'none.rviz'"
-        )
-        view = self.process(VIEW, ROS_MASTER_URI='http://localhost:1', PYTHONUNBUFFERED='1')
+    def test_what_is_missing(self):
+        """A configuration, a screen, a master."""
+        no_file = "[Errno 2] No such file or directory: 'none.rviz'"
+        for words, env, said in (
+            ([*VIEW, '--config', 'none.rviz'], {}, no_file),
+            (VIEW, {'DISPLAY': ''}, 'DISPLAY is not set: rviz needs a screen'),
+        ):
+            view = self.process(words, **env)
+            self.assertEqual(view.wait(), 1)
+            self.assertEqual(view.text().strip(), 'hdlyap view: ' + said)
+        patient = dict(ROS_MASTER_URI='http://localhost:1', PYTHONUNBUFFERED='1', DISPLAY=':0')
+        view = self.process(VIEW, **patient)
         self.sees(lambda: 'Will keep trying' in view.text(), view)
         view.send(signal.SIGINT)
         self.assertEqual(view.wait(), 130)

@@ -126,7 +126,7 @@ class Started(harness.Traced, harness.Case):
     def test_view(self):
         self.check(
             SOME[:2],
-            lambda k: [*harness.command('view'), '--node', '/nowhere'],
+            lambda k: ['env', 'DISPLAY=:0', *harness.command('view'), '--node', '/nowhere'],
             lambda view: view.lines('waiting for pictures'),
         )
 

@@ -97,13 +97,13 @@ def options(parser):
 
 
 def main(args):
-    if not (os.environ.get('DISPLAY') or os.environ.get('WAYLAND_DISPLAY')):
-        sys.exit('hdlyap view: DISPLAY is not set: rviz needs a screen')
     try:
         with open(args.config or shipped()) as file:
             config = yaml.safe_load(file)
     except (OSError, yaml.YAMLError) as error:
         sys.exit('hdlyap view: %s' % error)
+    if not (os.environ.get('DISPLAY') or os.environ.get('WAYLAND_DISPLAY')):
+        sys.exit('hdlyap view: DISPLAY is not set: rviz needs a screen')
     try:
         rospy.init_node('view', anonymous=True)
     except rospy.ROSInitException:  # interrupted while there was no master
