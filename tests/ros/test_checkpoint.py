@@ -152,6 +152,14 @@ class Checkpoint(harness.Case):
         self.assertEqual(os.stat(self.file).st_ino, current.st_ino)  # nothing has happened since
         self.interrupt(node)
 
+    def test_service_without_a_file(self):
+        node = self.start(LONG)
+        answer = self.call('checkpoint', Trigger)
+        self.assertEqual(
+            (answer.success, answer.message), (False, 'the parameter checkpoint names no file')
+        )
+        self.interrupt(node)
+
     def test_at_intervals(self):
         cost = self.listen('cost')
         node = self.start(dict(LONG, checkpoint=self.file, checkpoint_interval=0.05))
