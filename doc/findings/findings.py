@@ -154,8 +154,8 @@ def draw_halves(rows):
     _points(angles, rows, lambda row: row['difference / mean'], 'difference', '^')
     angles.axhline(0, color=GREY, linewidth=0.6)
     angles.set(
-        ylabel='of dp, beside dq',
-        title='(a) mean angle, and what C has beside a number',
+        ylabel='angle of dp [rad], and C beside a number',
+        title='(a) mean angle, and the rest of C',
         ylim=(-0.16, 0.06),
     )
     for y, text in (
@@ -175,11 +175,11 @@ def draw_halves(rows):
     rates.set(
         ylabel=r'$v \cdot \sqrt{2}\,\rho\, /\, P_{xx}$', title='(c) rotation', ylim=(0.93, 1.02)
     )
-    for part, marker, text in ((0, 'v', 'L to L'), (1, '^', 'P to P'), (2, 's', 'between L and P')):
+    for part, marker, text in ((0, 'v', '$D_{LL}$'), (1, '^', '$D_{PP}$'), (2, 's', '$D_{LP}$')):
         _points(rest, rows, lambda row, part=part: sources(row)[part], None, marker)
         rest.plot([], [], color=INK, marker=marker, linestyle='none', label=text)
     rest.axhline(0, color=GREY, linewidth=0.6)
-    rest.set(ylabel=r'source of dp from dq / (mean C)$^2$', title='(d) source', ylim=(-0.3, 2))
+    rest.set(ylabel=r'$D / c^2$', title='(d) source of dp from dq', ylim=(-0.3, 2))
     rest.legend(ncol=3, loc='upper right', columnspacing=0.8, handletextpad=0.1)
     for axes in (angles, means, rates, rest):
         axes.set(xlabel=PLACE, xlim=(0, 0.13))

@@ -264,7 +264,7 @@ def _against_c_l(axes, found):
     t = [(one.branch['LP'].slope, *_of(one.branch['T'])) for one in found if one.branch['T']]
     draw.bars(axes, t, 'o', KIND_COLOURS['T'], '$c_T$')
     v = [(one.branch['LP'].slope, one.v, one.v_error) for one in found if one.phases]
-    draw.bars(axes, v, '^', GREEN, '$v$')
+    draw.bars(axes, v, '^', GREEN, '$v$', markerfacecolor='none')
     axes.set(xlim=(0, largest), ylim=(0, largest))
     axes.set(xlabel=r'$c_L$  [$\sigma$/time unit]', ylabel=r'$c_T$, $v$  [$\sigma$/time unit]')
     axes.legend(loc='upper left')

@@ -140,7 +140,7 @@ def _figure(boxes):
     left.set_ylabel(r'$N\,t\;\mathrm{var}\,\lambda$  [1/time unit]')
     middle.set(xlabel=r'disks $N$', ylabel=r'$t\;\mathrm{var}\,\lambda$  [1/time unit]')
     right.set_xlabel(r'averaging time $t$  [time units]')
-    for axes in (left, middle):
+    for axes in (left, middle, right):
         draw.legend(axes, loc='lower left')
     return figure
 

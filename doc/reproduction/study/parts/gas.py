@@ -132,13 +132,13 @@ def _figure(known):
         axes.plot(density[solid], curve(density[solid]), color=GREY, label='Henderson')
         axes.plot(density[~solid], curve(density[~solid]), ':', color=GREY)
     draw.bars(left, [(one.density, *one.z) for one in known], 'o', BLUE, 'measured')
-    left.set_ylabel('$Z = p / \\rho kT$')
+    left.set_ylabel('$Z = P / \\rho kT$')
     sounds = [(one.density, *sound) for one, sound in zip(known, _sounds(known))]
     draw.bars(right, sounds, 'o', BLUE, 'sound')
     moving = [(one.density, one.modes.v, one.modes.v_error) for one in known if one.modes.phases]
     draw.bars(right, moving, 's', VERMILION, '$v$ of LP modes')
     z = equation.compressibility(density)
-    right.plot(density, z / sqrt(2), '--', color=INK, label=r'$Z/\sqrt{2}$')
+    right.plot(density, z / sqrt(2), '--', color=INK, label=r'Henderson, $Z/\sqrt{2}$')
     right.set_ylabel('velocity  ' + draw.SIGMA_UNIT)
     for axes in (left, right):
         axes.set_xlabel(r'density  [$1/\sigma^2$]')

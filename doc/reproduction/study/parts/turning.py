@@ -155,7 +155,7 @@ def figures(bags):
     snapshots = [one for wave in WAVES for one in _chosen(bag, turning.get(wave))]
     if snapshots:
         figure = modes.draw_panels(snapshots, bag.info)
-        apart = f'fields {QUARTER:.2f} apart, nearest to L and P'
+        apart = f'fields {QUARTER:.2f} apart, the nearest to L and P that were recorded'
         figure.suptitle(f'{scene(bag.info)}, {apart}', fontsize=9)
         yield 'quarters', figure
 
