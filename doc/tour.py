@@ -27,15 +27,19 @@ figure, (left, right) = plt.subplots(1, 2, figsize=(9, 4), constrained_layout=Tr
 left.plot(run.spectrum.index, run.spectrum.exponent, '.')
 left.set_xlabel('Lyapunov index')
 left.set_ylabel('exponent [%s]' % run.units['exponents'])
-right.errorbar(steps.wave_number, steps.exponent, steps.std_error, fmt='o')
+right.errorbar(steps.wave_number, steps.exponent, steps.std_error, fmt='ko')
 for name, step in steps.iterrows():
     right.annotate(
         name, (step.wave_number, step.exponent), xytext=(6, -8), textcoords='offset points'
     )
-for slope in ('c_T', 'c_L'):
+for slope, colour in (('c_T', 'tab:blue'), ('c_L', 'tab:red')):
     value, error = run.results.loc[slope, ['value', 'std_error']]
     right.axline(
-        (0, 0), slope=value, linewidth=0.7, label='%s = %.2f +- %.2f' % (slope, value, error)
+        (0, 0),
+        slope=value,
+        color=colour,
+        linewidth=0.7,
+        label='%s = %.2f +- %.2f' % (slope, value, error),
     )
 right.set(xlim=(0, 0.6), ylim=(0, 2), xlabel='k [1/sigma]')
 right.legend()
@@ -45,7 +49,7 @@ save(figure, 'tour_spectrum')
 course = run.course('lp_phases').xs(0, level='number')
 time = course.index.get_level_values('sim_time')
 figure, (left, right) = plt.subplots(1, 2, figsize=(9, 4), constrained_layout=True)
-states = course[['a', 'b']].drop_duplicates()[-12:]  # two reports may tell of the same state
+states = course[['a', 'b']].drop_duplicates().iloc[-33:]  # two reports may tell of the same state
 left.plot(states.a, states.b, 'o-', linewidth=0.5, markersize=3)
 left.set(
     xlim=(-1, 1),

@@ -96,4 +96,4 @@ build_or_die "$BUILD"
 say "running scene $scene, $duration time units"
 run_scene
 run hdlyap plot "$out/run.bag" --out "$out"
-say "bag and figures are in $out"
+say "bag and figures are in $out; source $BUILD/setup.bash makes all commands known to a shell"

@@ -228,8 +228,7 @@ int check_scene(int count, char *const *arguments)
         status = refused(REFUSED, message);
     } else {
         const hd_room room = hd_room_available();
-        if (!*hdr_param_text(params, "scene"))
-            set.scene = name_of(arguments[0], name, sizeof name);
+        if (!*hdr_param_text(params, "scene")) set.scene = name_of(arguments[0], name, sizeof name);
         hd_status tried = hd_room_check(&set.def, room, message, sizeof message);
         if (tried == HD_OK)
             tried = hd_estimate_run(&t, &set.def, set.field_interval, message, sizeof message);

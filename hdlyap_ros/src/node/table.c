@@ -23,7 +23,10 @@ static void print_step(const hd_step *step)
     const bool alone = step->sharing == HD_SHARING_ALONE;
     snprintf(name, sizeof name, "%s(%d,%d)", hdr_step_kind_text(step->kind), step->wave.n[0],
              step->wave.n[1]);
-    snprintf(indices, sizeof indices, "%d-%d", step->col + 1, step->col + step->count);
+    const int printed = snprintf(indices, sizeof indices, "%d", step->col + 1);
+    if (step->count > 1)
+        snprintf(indices + printed, sizeof indices - (size_t)printed, "-%d",
+                 step->col + step->count);
     number_with_error(exponent, sizeof exponent, step->exponent, step->std_error);
     hdr_log(HDR_INFO, "  %-10s %-11s %8.2f %3d %12.5f %13s%s%s", name, indices, step->multiplicity,
             step->expected, step->wave.number, exponent, alone ? "" : "  ",

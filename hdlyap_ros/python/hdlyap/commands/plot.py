@@ -3,7 +3,7 @@
 Several bags are parts of one run (split, or resumed from a checkpoint), or runs of several seeds,
 whose means are drawn.
 
-Exit status: 0, or 1 if a bag cannot be used or a file cannot be written."""
+Exit status: 0; 1 if a bag cannot be used or a file cannot be written; 2 for a wrong option."""
 
 import os
 

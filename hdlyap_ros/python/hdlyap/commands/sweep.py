@@ -1,5 +1,4 @@
-"""Runs of one scene with all combinations of values, and a table and a figure of them; or the runs
-of a plan.
+"""Runs of one scene with all combinations of values, or of a plan; a table and a figure of them.
 
 Some run at a time, each recorded in a bag of its own; means are over the seeds. Runs that are done
 are not done again: the same command goes on with what was interrupted.

@@ -24,7 +24,7 @@ from .progress import Progress
 
 WIDTH = {'.mp4': 1280, '.gif': 480}  # pixels, of the kinds of files that there are
 INCHES = 5.0  # of that width
-TOP, TITLE, GAP = 0.25, 0.45, 0.12  # inches: the film's title, a panel's, and between
+TOP, TITLE, GAP = 0.4, 0.45, 0.12  # inches: the film's title, a panel's, and between
 LONG = 2.5  # boxes this much longer than high lie above each other
 ARROW, LONGEST = 1.3, 2.6  # root mean square and longest, in mean distances of disks
 ALL_L, ALL_P = to_rgb('#E69F00'), to_rgb('#661F05')  # an LP mode, as in rviz
@@ -152,12 +152,12 @@ class Picture:
         )  # cut to a whole number
         FigureCanvasAgg(self.figure)
         self._title = self.figure.text(
-            0.5, 1 - 0.08 / height, '', ha='center', va='top', fontsize=9
+            0.5, 1 - 0.08 / height, '', ha='center', va='top', fontsize=8
         )
         for mode, colour, place in (('L', ALL_L, INCHES - GAP - 0.3), ('P', ALL_P, INCHES - GAP)):
             if any(name.startswith('LP') for name in film.names):
                 self.figure.text(
-                    *(place / INCHES, 1 - 0.08 / height),
+                    *(place / INCHES, 1 - 0.22 / height),
                     f'\u25cf {mode}',
                     color=colour,
                     ha='right',
@@ -175,7 +175,7 @@ class Picture:
             self._panels.append(Panel(axes, name, film))
 
     def show(self, frame):
-        self._title.set_text(f'{scene(self._film.info)}   $t={frame.time:.1f}$')
+        self._title.set_text(f'{scene(self._film.info)}\n$t={frame.time:.1f}$')
         for panel in self._panels:
             panel.show(frame)
 

@@ -97,9 +97,12 @@ class Recorded(Run):
         """Wall seconds since the start against simulated time, by part; None if unrecorded."""
         # older bags do not know every part
         names = ['sim_time', 'wall_seconds', *(part + '_seconds' for part in PARTS)]
-        course = Course()
+        course, last, before = Course(), np.zeros(len(names)), np.zeros(len(names))
         for message in self.data.messages('cost'):
-            course.add([getattr(message, name, 0.0) for name in names])
+            now = np.array([getattr(message, name, 0.0) for name in names])
+            before += np.where(now < last, last, 0.0)  # a run that goes on may count from 0
+            last = now
+            course.add(before + now)
         table = course.table()
         return None if table is None else dict(zip(('time', 'wall', *PARTS), table.T))
 
