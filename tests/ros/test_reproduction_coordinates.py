@@ -207,6 +207,15 @@ class Coordinates(Part):
             self.assertAlmostEqual(total.measured, off, delta=1e-9)
             self.assertEqual((total.left_open, total.verdict), (2 * ACCURACY, verdict))
 
+    def test_independent_pairs_of_unknown_error(self):
+        """Of a run that is too short for errors: no chi^2."""
+        steps = made.steps([made.step(made.run_info(), made.T, 1, 0, 36, 37)])
+        last = made.spectrum(np.linspace(3, -3, COUNT), 20.0, error=-1.0)
+        last.cos_theta, last.dp_dq_ratio = symmetric()
+        bags = {'halves': self.bag('halves', [made.run_info(accuracy=ACCURACY), last, steps])}
+        row = self.rows(bags)['lambda_l + lambda_(4N+1-l) of the vectors of steps']
+        self.assertEqual((row.measured, row.verdict), (None, 'not measured'))
+
     def test_cosines_of_steps(self):
         rows = self.rows(self.full())
         cos, _ = symmetric()

@@ -140,6 +140,12 @@ class Scatter(Row):
         self.left_open = critical(freedom) - freedom if freedom else 0.0
         self.errors = errors
 
+    def _beside_a_number(self):
+        """Less than expected is no difference: values may fluctuate together."""
+        if self.measured < self.published:
+            return AGREES if self.power <= self.telling else UNDECIDED
+        return super()._beside_a_number()
+
     @property
     def power(self):
         """Percent by which the least known value alone must be off. It adds x to the mean of

@@ -6,6 +6,7 @@ from matplotlib import ticker
 
 from hdlyap.data import reader
 from hdlyap.plots import paper, steps
+from hdlyap.plots.numbers import known
 from hdlyap.plots.figures.style import BLUE, GREY, VERMILION, ZERO, plt, scene
 
 from .. import averages, draw, zeros
@@ -173,8 +174,8 @@ def pairing(bags):
     scatter = Scatter('lambda_l + lambda_(4N+1-l) of the vectors of steps')
     if halves.is_known:
         total.measured = abs(float(halves.pairs.sum()))
-        errors = np.hypot(halves.errors, halves.errors[::-1])[inside]
-        if len(inside) and (errors > 0).all():
+        errors = np.hypot(known(halves.errors), known(halves.errors[::-1]))[inside]
+        if len(inside) and np.isfinite(errors).all():
             off, largest = halves.pairs[inside] / errors, np.abs(halves.pairs[inside]).max()
             percent = 100 * errors / halves.exponents[inside]
             remark = f'largest {largest:.2g} {UNIT}'
