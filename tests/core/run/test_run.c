@@ -1,6 +1,7 @@
 /** Whole runs: the schedule, the stated bound, restarts of the average, what is said of their end.
  */
 #include "runs.h"
+#include "tangent/interval.h"
 
 static hd_scene_def small(int disks, int exponents)
 {
@@ -57,6 +58,20 @@ TEST(the_bound_keeps_to_the_accuracy)
     }
 }
 
+/** The frame that an averaging begins with was rounded, too: the bound knows of it. */
+TEST(the_bound_counts_the_frame_at_the_beginning)
+{
+    OWNED(hd_run) *run = until(created(small(12, 4)), HD_AVERAGING);
+    const hd_cost before = hd_run_cost(run);
+    hd_cost after = before;
+    while (after.orthonormalisations == before.orthonormalisations) {
+        CHECK_OK(hd_run_advance(run));
+        after = hd_run_cost(run);
+    }
+    const double least = HD_ENLARGED * HD_ROUNDING * (before.condition + after.condition);
+    assert_true(after.error_bound * hd_carrier_averaged(&run->carrier) >= 0.999 * least);
+}
+
 /** No interval of the averaging is shorter than the reports are apart: where its end and a report
  * were the same but for rounding (of 20 + 0.05 + 0.1, say), a crumb was left, and some 28 intervals
  * to grow from it. */
@@ -79,7 +94,7 @@ TEST(the_average_can_start_afresh)
     hd_scene_def scene = small(12, 4);
     OWNED(hd_run) *run = until(created(scene), HD_AVERAGING);
     CHECK_OK(hd_run_reset_average(run)); /* at its very start: nothing changes */
-    until_time(run, 25.0 || !hd_run_report_due(run));
+    while (hd_run_time(run) < 25.0 || !hd_run_report_due(run)) CHECK_OK(hd_run_advance(run));
     const double at = hd_run_time(run);
     CHECK_OK(hd_run_reset_average(run));
     CHECK_CLOSE(hd_spectrum_time(hd_run_spectrum(run)), 0.0, 0.0);
