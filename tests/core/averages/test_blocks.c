@@ -139,6 +139,29 @@ TEST(errors_of_turns_know_what_trembles)
     CHECK_CLOSE(stated / want, 1.0, KNOWN_TO);
 }
 
+/** Samples are not laid out for blocks: a little less than the least weight is one. */
+TEST(nearly_a_block_is_one)
+{
+    hd_blocks blocks;
+    CHECK_OK(hd_blocks_create(&blocks, 1, 2.0));
+    for (int k = 0; k < HD_SPECTRUM_BLOCKS_MIN; k++)
+        hd_blocks_add(&blocks, &(double){k % 3}, 0.93 * 2.0);
+    assert_int_equal(blocks.count, HD_SPECTRUM_BLOCKS_MIN);
+    hd_blocks_clear(&blocks);
+}
+
+/** Turns 0, 1, .. 15, each of which says what the next one will be: that does not count. */
+TEST(errors_of_turns_know_nothing_else)
+{
+    enum { SAMPLES = HD_SPECTRUM_BLOCKS_MIN };
+    const double n = SAMPLES, squares = n * (n * n - 1.0) / 12.0;
+    hd_blocks blocks;
+    CHECK_OK(hd_blocks_create(&blocks, 1, 0.0));
+    for (int k = 0; k < SAMPLES; k++) hd_blocks_add(&blocks, &(double){k}, 1.0);
+    CHECK_CLOSE(hd_blocks_error_of_turns(&blocks), sqrt(squares * n / (n - 1.0)) / n, ROUNDING);
+    hd_blocks_clear(&blocks);
+}
+
 /* ---- what is known ------------------------------------------------------------------------- */
 
 TEST(few_samples_give_no_error)
@@ -266,12 +289,14 @@ TEST(blocks_hold_the_whole_history)
 TEST(a_series_can_be_forgotten)
 {
     hd_blocks blocks;
-    CHECK_OK(hd_blocks_create(&blocks, 2, 0.0));
-    for (int k = 0; k < 20; k++) hd_blocks_add(&blocks, (double[]){k, 1.0}, 1.0);
+    CHECK_OK(hd_blocks_create(&blocks, 2, 2.0));
+    for (int k = 0; k < 21; k++) hd_blocks_add(&blocks, (double[]){k, 1.0}, 1.0);
     hd_blocks_forget(&blocks, 0);
+    hd_blocks_add(&blocks, (double[]){0.0, 1.0}, 1.0); /* the end of a block that had begun */
+    assert_int_equal(blocks.count, 11);
     for (int k = 0; k < blocks.count; k++) {
         CHECK_CLOSE(hd_blocks_sum(&blocks, k)[0], 0.0, 0.0);
-        CHECK_CLOSE(hd_blocks_sum(&blocks, k)[1], 1.0, 0.0);
+        CHECK_CLOSE(hd_blocks_sum(&blocks, k)[1], 2.0, 0.0);
     }
     hd_blocks_clear(&blocks);
 }

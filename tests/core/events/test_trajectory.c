@@ -1,5 +1,6 @@
 /** Trajectory: creation, refusal, cutting into intervals, bookkeeping. */
 #include "base/memory.h"
+#include "events/trajectory_state.h"
 #include "prepared.h"
 
 /** Log times are sums of two rounded times of at most T. */
@@ -283,6 +284,35 @@ TEST(overlap_in_a_crowded_cell_is_refused)
             const hd_status status = hd_trajectory_create_from(&tr, &def, q, p);
             assert_int_equal(status, b == a ? HD_OK : HD_OVERLAP);
         }
+}
+
+/** Disks keep the turns that they have made since they collided: of two that both have made some.
+ */
+TEST(overlap_is_seen_after_turns_around_the_box)
+{
+    enum { DISKS = 200 };
+    OWNED(hd_trajectory) *tr = trajectory_of(scene_of(DISKS, 0.05, 0.1, P, P, 3));
+    double q[2 * DISKS], box[2], least = INFINITY, way[2] = {0.0};
+    hd_disk *moved = NULL, *disk = tr->motion.disk;
+    CHECK_OK(trajectory_to(tr, NULL, 50.0));
+    hd_trajectory_state(tr, q, NULL);
+    hd_trajectory_box(tr, box);
+    for (int i = 0; i < DISKS; i++)
+        for (int j = 0; j < i; j++) {
+            double r[2];
+            if (disk[i].wrap[1] == 0 || disk[j].wrap[1] == 0) continue;
+            for (int d = 0; d < 2; d++) {
+                r[d] = q[2 * j + d] - q[2 * i + d];
+                r[d] -= box[d] * round(r[d] / box[d]);
+            }
+            if (hypot(r[0], r[1]) >= least) continue;
+            least = hypot(r[0], r[1]);
+            moved = &disk[i];
+            memcpy(way, r, sizeof way);
+        }
+    assert_true(least < 3.8); /* an edge of a cell */
+    for (int d = 0; d < 2; d++) moved->q[d] += (1.0 - 0.9 / least) * way[d];
+    CHECK_WITHIN(hd_trajectory_overlap(tr), 0.1 - 1e-12, 1.0);
 }
 
 TEST(refused_scenes_give_nothing)

@@ -266,6 +266,47 @@ TEST(velocity_is_the_weighted_mean_of_the_steps)
     CHECK_CLOSE(sqrt(square) / best, 1.0, 0.25);
 }
 
+/** Two steps turn against each other and stray together: what one gains, the other loses. */
+TEST(the_error_of_the_velocity_knows_which_way_steps_turn)
+{
+    HELD(channel) ch = channel_create();
+    for (int n = 0; n < 2; n++) ch.phase[n][0] = 0.0, ch.phase[n][1] = 0.5 * PI;
+    for (int t = 0; t < 200; t++) {
+        channel_show(&ch, t);
+        const double stray = 0.01 * random_normal(&ch.w.random);
+        for (int n = 0; n < 2; n++)
+            for (int m = 0; m < 2; m++) ch.phase[n][m] += ch.k[n] * ((n == 0 ? 3.0 : -3.0) + stray);
+    }
+    double rate, error;
+    const hd_velocity v = hd_phases_velocity(ch.phases);
+    assert_true(hd_phases_rate(ch.phases, world_subspace(&ch.w, HD_MODE_LP, 1, 0), &rate, &error));
+    CHECK_CLOSE(v.v, 3.0, ROUNDING);
+    CHECK_WITHIN(v.v_error, 0.0, 1e-3 * error / ch.k[0]);
+}
+
+/** One that was lost for a while has turned in few of the blocks: 61 are there, 8 are its own. */
+TEST(a_step_that_comes_late_knows_its_error_late)
+{
+    HELD(channel) ch = channel_create();
+    const double lost[4] = {3.2, 1.6, 0.8, 0.8}, found[4] = {1.6, 1.6, 0.8, 0.8};
+    double rate, error[2];
+    for (int t = 0; t < 70; t++) {
+        if (t == 60 || t == 61) {
+            hd_spectrum_clear(ch.w.spectrum);
+            world_stretch(&ch.w, t == 60 ? lost : found);
+            hd_steps_find(ch.w.steps, ch.w.spectrum);
+            assert_int_equal(world_step(&ch.w, HD_MODE_LP, 2, 0)->resolved, t == 61);
+        }
+        channel_show(&ch, t);
+        for (int n = 0; n < 2; n++)
+            for (int m = 0; m < 2; m++) ch.phase[n][m] += 3.0 * ch.k[n];
+    }
+    for (int n = 0; n < 2; n++)
+        assert_true(hd_phases_rate(ch.phases, world_subspace(&ch.w, HD_MODE_LP, n + 1, 0), &rate,
+                                   &error[n]));
+    assert_true(error[0] >= 0 && error[1] < 0);
+}
+
 /** Steps that contradict each other by 0.5, of errors of 0.001 / sqrt(200) and more. */
 TEST(contradictions_are_a_misfit)
 {

@@ -82,11 +82,14 @@ TEST(averages_begin_anew)
     for (int k = 0; k < 2; k++) {
         const hd_scene_def scene = scene_with(exponents[k], HD_OBSERVE_GAS);
         OWNED(hd_run) *run = created(scene);
-        until_time(run, 60.0);
+        until_time(run, 100.0);
         const double begin = hd_run_time(run);
-        assert_true(hd_gas_read(hd_run_gas(run)).time > 10.0);
+        const hd_gas_means before = hd_gas_read(hd_run_gas(run));
+        assert_true(before.time > 10.0 && before.pressure_error > 0);
         CHECK_OK(hd_run_reset_average(run));
-        CHECK_CLOSE(hd_gas_read(hd_run_gas(run)).time, 0.0, 0.0);
+        const hd_gas_means after = hd_gas_read(hd_run_gas(run));
+        CHECK_CLOSE(after.time, 0.0, 0.0);
+        assert_true(after.pressure_error < 0 && after.collision_rate_error < 0);
         finish(run);
         expect_same(hd_gas_read(hd_run_gas(run)), by_itself(&scene, begin, hd_run_time(run)));
     }

@@ -154,6 +154,35 @@ TEST(only_vectors_of_resolved_steps_respond)
     assert_int_equal(named, 6);
 }
 
+/** Of a set that two steps share each has the vectors that are most of it. */
+TEST(vectors_of_a_shared_set_respond_once)
+{
+    enum { VECTORS = 30, DIMENSIONS = 6, FIRST = VECTORS - DIMENSIONS };
+    double exponents[VECTORS];
+    HELD(world)
+    w = world_create(
+        scene(.disks = DISKS, .density = 0.5, .aspect = 0.8, .seed = 5, .max_mode_number = 1),
+        VECTORS, 1);
+    const int shared[] = {world_subspace(&w, HD_MODE_T, 1, 0),
+                          world_subspace(&w, HD_MODE_LP, 1, 0)};
+    exponents_falling(&w, exponents);
+    exponents_flat(exponents, FIRST, DIMENSIONS, 0.3);
+    world_span(&w, FIRST, shared, 2, 0.1);
+    world_find(&w, exponents);
+    MADE(hd_hydro, hydro, &w.scene, w.steps);
+    hd_hydro_measure(hydro, w.steps, hd_frame_columns(w.frame), w.q, w.p);
+    assert_int_equal(world_step(&w, HD_MODE_T, 1, 0)->members, 2);
+    int named = 0;
+    for (int e = 0; e < hd_hydro_count(hydro); e++) {
+        const hd_hydro_response *r = hd_hydro_at(hydro, e);
+        if (r->col < 0) continue;
+        assert_int_equal(hd_steps_of_vector(w.steps, r->col), r->step);
+        check_response(&w, r);
+        named++;
+    }
+    assert_true(named >= 8); /* four vectors at two modulations */
+}
+
 /* ---- the paper's table --------------------------------------------------------------------- */
 
 enum { STATES = 300, FIELDS_MAX = 12, MODULATIONS = 4 };

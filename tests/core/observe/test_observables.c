@@ -165,6 +165,17 @@ static void read_averages(const hd_run *run, double of[AVERAGES])
     memcpy(of, now, sizeof now);
 }
 
+/** Whatever else is looked at no more, and again. */
+TEST(what_is_looked_at_goes_on)
+{
+    OWNED(hd_run) *run = with_everything(0.08);
+    const int tracked = hd_phases_velocity(hd_run_phases(run)).phases;
+    assert_true(tracked > 0);
+    hd_run_observe(run, HD_OBSERVE_ALL & ~(unsigned)HD_OBSERVE_HYDRO);
+    hd_run_observe(run, HD_OBSERVE_ALL);
+    assert_int_equal(hd_phases_velocity(hd_run_phases(run)).phases, tracked);
+}
+
 TEST(a_reset_forgets_all_averages)
 {
     int have_some = 0;

@@ -107,6 +107,17 @@ TEST(clocks_and_costs_go_on)
     assert_int_equal(hd_observables_looked_at(&resumed->observables), HD_OBSERVE_MODES);
 }
 
+/** As many as before, and as said: any number. */
+TEST(threads_are_as_before_where_none_are_asked_for)
+{
+    hd_scene_def scene = kept_scene(12, 0.7, 1.0, 4, 0);
+    OWNED(hd_run) *run = kept_run(scene);
+    scene.threads = 0;
+    OWNED(hd_run) *resumed = kept_and_resumed(run, PATH, &scene);
+    assert_int_equal(hd_run_threads(resumed), 1);
+    assert_int_equal(hd_run_scene(resumed)->threads, 0);
+}
+
 /** The clock may have begun anew, less ago than the run has been going on. */
 TEST(the_time_left_is_known_after_a_restart)
 {

@@ -54,9 +54,12 @@ TEST(entropies_are_averaged)
     add(shape, other);
     add(shape, other);
     CHECK_CLOSE(hd_localization_widths(shape)[0], pow(DISKS, 2.0 / 3.0) / DISKS, 64 * DBL_EPSILON);
+    for (int k = 0; k < HD_SPECTRUM_BLOCKS_MIN; k++) add(shape, k % 3 ? one : other);
+    assert_true(hd_localization_width_error(shape, 0) > 0);
     hd_localization_clear(shape);
     add(shape, one);
     CHECK_CLOSE(hd_localization_widths(shape)[0], 1.0 / DISKS, 8 * DBL_EPSILON);
+    CHECK_CLOSE(hd_localization_width_error(shape, 0), -1.0, 0.0);
 }
 
 /** dq along one direction of all rows, dp turned out of it by an angle, of any length. */
