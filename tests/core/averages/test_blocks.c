@@ -206,6 +206,18 @@ TEST(a_memory_as_long_as_the_series_gives_no_error)
     }
 }
 
+/** Of 16 blocks two waves are remembered too well, by 0.9 of each, three by 0.5. */
+TEST(blocks_that_remember_much_give_no_error)
+{
+    for (int waves = 2; waves <= 3; waves++) {
+        double x[HD_SPECTRUM_BLOCKS_MIN];
+        for (int k = 0; k < HD_SPECTRUM_BLOCKS_MIN; k++)
+            x[k] = cos(2.0 * PI * waves * (k + 0.5) / HD_SPECTRUM_BLOCKS_MIN);
+        const double error = hd_deviations_error(x, HD_SPECTRUM_BLOCKS_MIN, 0.0);
+        assert_true(waves == 2 ? error == -1.0 : error > 0);
+    }
+}
+
 /** In few blocks and in many: unknown is something else. */
 TEST(what_is_no_number_has_no_error)
 {
