@@ -113,7 +113,8 @@ static void enter_stage(hd_run *run, hd_stage stage)
     const double now = hd_run_time(run);
     hd_agenda_enter(&run->agenda, stage, now);
     hd_advance_stop(&run->advance, now);
-    if (stage != HD_FINISHED) run->followed = -1.0; /* a run that is made longer goes on from there */
+    if (stage != HD_FINISHED)
+        run->followed = -1.0; /* a run that is made longer goes on from there */
     if (is_averaging(run)) {
         hd_carrier_clear(&run->carrier);
         run->errors = (hd_error_trend){.first = 0.0};

@@ -44,7 +44,8 @@ parameter parameters_at(int k);
 /** True if there is one of this name. */
 bool parameters_has(const char *name);
 
-/** The name that this one may be meant for, a slip or two of the keys away; NULL if there is none. */
+/** The name that this one may be meant for, a slip or two of the keys away; NULL if there is none.
+ */
 const char *parameters_meant(const char *name);
 
 /** The row of a name, which there must be. */
