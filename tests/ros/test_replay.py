@@ -116,7 +116,7 @@ class Replayed(harness.Case):
         self.listen_to('run_info', 'state', 'status')
         replay = self.replay('--pace', '1000', '--look', '/hdlyap')
         self.sees(lambda: self.times('run_info'), replay)
-        self.process([*harness.command('view'), '--node', '/hdlyap'])
+        self.process([*harness.command('view'), '--node', '/hdlyap'], DISPLAY=':0')
         self.sees(lambda: self.looks('/view_'))
         time.sleep(0.3)  # replay asks every 0.1 s
         self.assertEqual(self.times('state'), [])

@@ -29,6 +29,7 @@ LONG = 2.5  # boxes this much longer than high lie above each other
 ARROW, LONGEST = 1.3, 2.6  # root mean square and longest, in mean distances of disks
 ALL_L, ALL_P = to_rgb('#E69F00'), to_rgb('#661F05')  # an LP mode, as in rviz
 DISK = '#DCDCDC'
+DRAW = 'import hdlyap.tool; from hdlyap.plots import movie; movie.draw_part()'
 PALE = 0.3  # part of white in a vector that is of an earlier time
 CODECS = {
     '.mp4': (
@@ -228,7 +229,7 @@ def _pixels(film, every, width, total):
     every so-manieth, no farther ahead than its pipe holds."""
     count = min(os.cpu_count() or 1, total)
     what = [film.which, film.names, [film.begin, film.end], every, width, count]
-    draw = [sys.executable, '-c', 'from hdlyap.plots import movie; movie.draw_part()']
+    draw = [sys.executable, '-c', DRAW]
     size = np.prod(Picture(film, width).figure.canvas.get_width_height()) * 4
     parts = [
         subprocess.Popen([*draw, json.dumps([*what, k])], stdout=subprocess.PIPE)
