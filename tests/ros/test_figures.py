@@ -123,6 +123,15 @@ class Figures(Bags):
         began = {text.get_text(): text.xy[0] for text in course.texts}
         self.assertEqual(began, {'warming up': 20.0, 'averaging': 40.0})
 
+    def test_cost_of_a_run_that_goes_on(self):
+        """What the node counts from 0 again is added; the wall clock goes on by itself."""
+        messages = [made.cost(time) for time in (50.0, 60.0, 70.0, 80.0)]
+        for one, seconds in zip(messages, (3.0, 4.0, 1.0, 2.0)):
+            one.publish_seconds = seconds
+        found = self.recorded([INFO, *messages]).cost()
+        np.testing.assert_array_equal(found['publish'], [3, 4, 5, 6])
+        np.testing.assert_array_equal(found['wall'], [50, 60, 70, 80])
+
     def test_dispersion(self):
         """Points with errors over k, the fits through them, and the waves' nodes along the top."""
         other = made.step(INFO, T, 1, 1, 24, 27)

@@ -111,7 +111,7 @@ class Launch(harness.Case):
         """With one line of what is wrong; no bag is touched."""
         refused = {
             'duration:=-1': 'duration = -1: must be from 0',
-            'params:={disk: 50}': 'disk = 50: must be renamed: is disks meant?',
+            'params:={disk: 50}': 'disk = 50: must be removed: there is no parameter of this name',
         }
         with tempfile.TemporaryDirectory() as folder:
             with open(os.path.join(folder, 'q.bag'), 'w') as file:

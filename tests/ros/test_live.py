@@ -162,7 +162,7 @@ class Live(harness.Case):
             'target_std_error=-1': 'must be from 0',
             'duration=5': 'duration = 5: must be 0 or at least',
             'field_interval=-5': 'must be from 0',
-            'paces=5': 'paces=5: there is no parameter of this name',
+            'paces=5': 'paces=5: there is no parameter of this name; is pace meant?',
             'pace': 'must be one NAME=VALUE',
             '': 'must be one NAME=VALUE',
             'pace=30 duration=2': 'must be one NAME=VALUE',

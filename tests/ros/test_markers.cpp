@@ -291,7 +291,7 @@ TEST(markers, a_mode_without_its_vector_keeps_its_number)
     expect_shown(array);
     EXPECT_TRUE(in(array, "mode/LP(1,1)", Marker::TRIANGLE_LIST).empty());
     EXPECT_TRUE(in(array, "phases", Marker::LINE_LIST).empty());
-    EXPECT_EQ("LP(1,1)   lambda = 0.61252(67)\nvector 7 not in slow_vectors",
+    EXPECT_EQ("LP(1,1)   lambda = 0.61252(67)\nvector 7 not received",
               title(array, "mode/LP(1,1)").text);
 }
 

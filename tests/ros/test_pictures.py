@@ -293,7 +293,7 @@ class Markers(harness.Case):
         ]
         self.assertEqual(len(titles), 2)
         for title in titles:
-            self.assertRegex(title, r'vector \d+ not in slow_vectors')
+            self.assertRegex(title, r'vector \d+ not received')
 
     @harness.more
     def test_what_comes_no_more_is_not_shown_as_live(self):

@@ -216,9 +216,9 @@ const std::vector<refusal> refusals = {
     {"covariant_memory", "a number", no_number},
     {"covariant_storage", "memory or recompute", {"''", "disk", "file", "Memory", "5", "[memory]"}},
     {"thickness", "removed: there is no parameter of this name", {"0.8"}},
-    {"densty", "renamed: is density meant? No parameter has this name", {"0.8"}},
-    {"Disks", "renamed: is disks meant? No parameter has this name", {"100"}},
-    {"warmpu", "renamed: is warmup meant? No parameter has this name", {"100"}},
+    {"densty", "removed: there is no parameter of this name; is density meant?", {"0.8"}},
+    {"Disks", "removed: there is no parameter of this name; is disks meant?", {"100"}},
+    {"warmpu", "removed: there is no parameter of this name; is warmup meant?", {"100"}},
 };
 
 /** A later line of the same name replaces an earlier one. */
@@ -346,7 +346,8 @@ TEST(Parameters, RefusedChanges)
         {"['5 pace=-1']", "5 pace=-1", "pace=-1: must be from 0 (as fast as it goes) to 1e12"},
         {"['5 pace=nan']", "5 pace=nan", "pace=nan: must be from 0 (as fast as it goes) to 1e12"},
         {"['5 pace=1', '6 disks=50']", "6 disks=50", "disks=50: is read at the start"},
-        {"['5 paces=1']", "5 paces=1", "paces=1: there is no parameter of this name"},
+        {"['5 paces=1']", "5 paces=1",
+         "paces=1: there is no parameter of this name; is pace meant?"},
     };
     for (const auto &one : refused)
         EXPECT_EQ(begun(with("changes: " + one.given)),

@@ -35,8 +35,11 @@ bool change_parse(change *out, const char *assignment, char *message, size_t siz
     if (length == 0 || *sign != '=' || strchr(sign + 1, '='))
         return change_refuse(message, size, assignment, "must be one NAME=VALUE, such as pace=1.5");
     snprintf(name, sizeof name, "%.*s", (int)length, assignment);
-    if (!parameters_has(name))
-        return change_refuse(message, size, assignment, "there is no parameter of this name");
+    if (!parameters_has(name)) {
+        char unknown[PARAMETER_UNKNOWN];
+        parameters_unknown(unknown, name);
+        return change_refuse(message, size, assignment, unknown);
+    }
     const parameter p = parameters_named(name);
     out->name = p.name;
     if (!p.live) return change_refuse(message, size, assignment, "is read at the start");

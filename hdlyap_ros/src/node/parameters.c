@@ -242,7 +242,7 @@ static size_t slips(const char *name, const char *other)
     return row[letters];
 }
 
-const char *parameters_meant(const char *name)
+void parameters_unknown(char text[PARAMETER_UNKNOWN], const char *name)
 {
     const char *meant = NULL;
     size_t fewest = 3;
@@ -253,7 +253,8 @@ const char *parameters_meant(const char *name)
         fewest = n;
         meant = other;
     }
-    return meant;
+    snprintf(text, PARAMETER_UNKNOWN, "there is no parameter of this name%s%s%s",
+             meant ? "; is " : "", meant ? meant : "", meant ? " meant?" : "");
 }
 
 parameter parameters_named(const char *name)

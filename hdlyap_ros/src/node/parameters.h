@@ -44,9 +44,11 @@ parameter parameters_at(int k);
 /** True if there is one of this name. */
 bool parameters_has(const char *name);
 
-/** The name that this one may be meant for, a slip or two of the keys away; NULL if there is none.
- */
-const char *parameters_meant(const char *name);
+/** Room for parameters_unknown. */
+enum { PARAMETER_UNKNOWN = 128 };
+/** What to say of a name that is none; with the one that may be meant, a slip or two of the keys
+ * away. */
+void parameters_unknown(char text[PARAMETER_UNKNOWN], const char *name);
 
 /** The row of a name, which there must be. */
 parameter parameters_named(const char *name);

@@ -17,11 +17,9 @@ static bool check_names(reader *r)
     for (int k = 0; k < hdr_params_count(r->params); k++) {
         r->name = hdr_params_name(r->params, k);
         if (parameters_has(r->name)) continue;
-        const char *meant = parameters_meant(r->name);
-        char allowed[128] = "removed: there is no parameter of this name";
-        if (meant)
-            snprintf(allowed, sizeof allowed, "renamed: is %s meant? No parameter has this name",
-                     meant);
+        char unknown[PARAMETER_UNKNOWN], allowed[sizeof "removed: " + PARAMETER_UNKNOWN];
+        parameters_unknown(unknown, r->name);
+        snprintf(allowed, sizeof allowed, "removed: %s", unknown);
         return reader_refuse(r, allowed);
     }
     return true;

@@ -156,7 +156,7 @@ static void write_vector(char *text, size_t size, const layout *l, const picture
 {
     const char *strips = l->strips ? "; below: dq along the box, across it grey" : "";
     if (!m->known)
-        snprintf(text, size, "vector %u not in slow_vectors", (unsigned)m->index);
+        snprintf(text, size, "vector %u not received", (unsigned)m->index);
     else if (is_of_before(p))
         snprintf(text, size, "vector %u of t = %.1f%s", (unsigned)m->index, p->vector_time, strips);
     else

@@ -146,4 +146,8 @@ TEST(seconds_of_many_disks)
     check_ratio("averaged time of errors", e.errors_after, hd_run_errors_after(run), 1.1);
     check_ratio("seconds per time unit", e.seconds, taken(run), 2.0);
     hd_run_free(run);
+    def.disks = 2000; /* the same trial: another power than the cube is off by 2 and more */
+    const hd_estimate twice = estimated(&def);
+    assert_int_equal(twice.disks, e.disks);
+    check_ratio("of twice as many disks", twice.seconds, 8.0 * e.seconds, SECONDS_FACTOR);
 }

@@ -5,6 +5,8 @@ import os
 
 import numpy as np
 
+from hdlyap import whole
+
 from .reader import Missing
 
 FRAMES = ('results', 'spectrum', 'steps', 'modes', 'phases', 't_phases', 'covariant')
@@ -31,7 +33,9 @@ def csv(run, folder):
     paths = []
     for name, frame in tables(run).items():
         paths.append(os.path.join(folder, name + '.csv'))
-        with open(paths[-1], 'w', encoding='utf-8') as file:
+        with whole.written(paths[-1]) as unfinished, open(
+            unfinished, 'w', encoding='utf-8'
+        ) as file:
             file.write(f'# {_origin(run)}\n# units: {_units(frame)}\n')
             frame.to_csv(file)
     return paths
@@ -55,7 +59,9 @@ def npz(run, path):
             if unit:
                 arrays['units'][key] = unit
     arrays['units'] = json.dumps(arrays['units'])
-    with open(path, 'wb') as file:  # savez would add .npz to a name without it
+    with whole.written(path) as unfinished, open(
+        unfinished, 'wb'
+    ) as file:  # savez would add .npz to a name without it
         np.savez_compressed(file, **arrays)
     return path
 

@@ -14,6 +14,7 @@ from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle
 
+from hdlyap import whole
 from hdlyap.data.reader import RecordingError
 
 from . import frames, steps
@@ -183,28 +184,22 @@ class Picture:
 
 def write(film, path, pace, fps, width=None):
     """The number of frames. Complete films only: an older one is replaced in one step."""
-    folder, name = os.path.split(path)
-    suffix = os.path.splitext(name)[1]
+    suffix = os.path.splitext(path)[1]
     width, every = width or WIDTH[suffix], pace / fps
-    unfinished = os.path.join(folder, f'.{os.getpid()}.{name}')
     total = film.count(every)
-    words = command(Picture(film, width), fps, CODECS[suffix], unfinished)
-    try:
-        with contextlib.closing(_pixels(film, every, width, total)) as pixels:
+    size = Picture(film, width).figure.canvas.get_width_height()
+    with whole.written(path) as unfinished:
+        words = command(size, fps, CODECS[suffix], unfinished)
+        with contextlib.closing(_pixels(film, every, width, total, size)) as pixels:
             said = _filmed(Progress('drawing').over(pixels, total), words)
         if said:
             raise MovieError(f'{path}: ffmpeg failed: {said}')
-        os.replace(unfinished, path)
-    finally:
-        if os.path.exists(unfinished):
-            os.remove(unfinished)
     return total
 
 
-def command(picture, fps, codec, path):
+def command(size, fps, codec, path):
     name, options = codec
-    width, height = picture.figure.canvas.get_width_height()
-    pixels = ['-f', 'rawvideo', '-pix_fmt', 'rgba', '-s', f'{width}x{height}', '-r', str(fps)]
+    pixels = ['-f', 'rawvideo', '-pix_fmt', 'rgba', '-s', '%dx%d' % size, '-r', str(fps)]
     return ['ffmpeg', '-v', 'error', *pixels, '-i', '-', '-c:v', name, *options, '-y', path]
 
 
@@ -224,21 +219,21 @@ def _filmed(pixels, words):
     return said or f'status {ffmpeg.returncode}' if ffmpeg.returncode else ''
 
 
-def _pixels(film, every, width, total):
+def _pixels(film, every, width, total, size):
     """Of one frame after the other. Each of as many processes as cores reads the bag and draws
     every so-manieth, no farther ahead than its pipe holds."""
     count = min(os.cpu_count() or 1, total)
     what = [film.which, film.names, [film.begin, film.end], every, width, count]
     draw = [sys.executable, '-c', DRAW]
-    size = np.prod(Picture(film, width).figure.canvas.get_width_height()) * 4
+    length = 4 * size[0] * size[1]
     parts = [
         subprocess.Popen([*draw, json.dumps([*what, k])], stdout=subprocess.PIPE)
         for k in range(count)
     ]
     try:
         for number in range(total):
-            one = parts[number % count].stdout.read(size)
-            if len(one) < size:
+            one = parts[number % count].stdout.read(length)
+            if len(one) < length:
                 raise MovieError(f'{film.name}: a process that draws has failed')
             yield one
     finally:

@@ -13,16 +13,6 @@ class Bag:
 
     def __init__(self, path):
         self.path = path
-        self._recording = None
-
-    @property
-    def recording(self):
-        """All of it, as figures take it."""
-        if self._recording is None:
-            from hdlyap.plots import recorded  # only here: pandas takes a while
-
-            self._recording = recorded.read(self.path)
-        return self._recording
 
     @property
     def info(self):
@@ -48,10 +38,6 @@ class Bag:
         """Whether the run went to its end."""
         last = self.last(reader.STATUS)
         return last is not None and last.stage == RunStatus.FINISHED and last.progress >= 1
-
-    def was_run_with(self, parameters):
-        """Whether its run had these parameters of the node."""
-        return not self.differs_from(parameters)
 
     def differs_from(self, parameters):
         """In which parameter of the node, in words; '' in none."""

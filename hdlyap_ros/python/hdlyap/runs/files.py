@@ -2,19 +2,13 @@
 
 import csv
 import io
-import os
-import uuid
+
+from hdlyap import whole
 
 
 def write(path, text):
-    unfinished = f'{path}.{uuid.uuid4().hex}.new'  # other computers may write it too
-    try:
-        with open(unfinished, 'w') as file:
-            file.write(text)
-        os.replace(unfinished, path)
-    finally:
-        if os.path.exists(unfinished):
-            os.remove(unfinished)
+    with whole.written(path) as unfinished, open(unfinished, 'w') as file:
+        file.write(text)
 
 
 def write_csv(path, header, lines):

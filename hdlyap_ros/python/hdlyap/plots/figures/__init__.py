@@ -1,9 +1,10 @@
 """Recording -> figures, as PNG, SVG and pages of a PDF: one file here for each."""
 
 import contextlib
-import os
 
 from matplotlib.backends.backend_pdf import PdfPages
+
+from hdlyap import whole
 
 from . import (
     convergence,
@@ -61,22 +62,14 @@ def draw_all(recording, folder, progress, kinds=FIGURES, pdf=None):
             if pages is not None:
                 pages.savefig(figure)
             files += save(figure, folder, name(kind))
-    return files + ([pdf] if pdf and os.path.exists(pdf) else [])
+    return files + ([pdf] if pdf and files else [])
 
 
 @contextlib.contextmanager
 def _pages(path):
-    """Complete files only; none without a page."""
+    """None without a path."""
     if not path:
         yield None
         return
-    folder, last = os.path.split(path)
-    unfinished = os.path.join(folder, f'.{os.getpid()}.{last}')
-    try:
-        with PdfPages(unfinished, keep_empty=False) as pages:
-            yield pages
-        if os.path.exists(unfinished):
-            os.replace(unfinished, path)
-    finally:
-        if os.path.exists(unfinished):
-            os.remove(unfinished)
+    with whole.written(path) as unfinished, PdfPages(unfinished, keep_empty=False) as pages:
+        yield pages

@@ -9,6 +9,8 @@ import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
 from matplotlib import ticker  # noqa: E402
 
+from hdlyap import whole  # noqa: E402
+
 from ..numbers import known  # noqa: E402
 from .. import steps  # noqa: E402
 
@@ -46,20 +48,15 @@ STYLE = {
 
 
 def save(figure, folder, name, dpi=250):
-    """Complete files only: a good older one is replaced in one step. dpi: of the PNG file."""
+    """Their names. dpi: of the PNG file."""
     files = []
     for suffix, options in (
         ('png', {'dpi': dpi}),
         ('svg', {'dpi': 200, 'metadata': {'Date': None}}),
     ):
         path = os.path.join(folder, f'{name}.{suffix}')
-        unfinished = os.path.join(folder, f'.{name}.{os.getpid()}.{suffix}')
-        try:
+        with whole.written(path) as unfinished:
             figure.savefig(unfinished, **options)
-            os.replace(unfinished, path)
-        finally:
-            if os.path.exists(unfinished):
-                os.remove(unfinished)
         files.append(path)
     plt.close(figure)
     return files

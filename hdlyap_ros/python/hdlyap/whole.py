@@ -1,0 +1,20 @@
+"""Files that are whole or not there."""
+
+import contextlib
+import os
+import uuid
+
+
+@contextlib.contextmanager
+def written(path):
+    """A name beside it, of the same ending, to write to. A good older file is replaced in one step,
+    and only if all went well and something was written."""
+    folder, name = os.path.split(path)
+    unfinished = os.path.join(folder, f'.{uuid.uuid4().hex}.{name}')  # others may write it, too
+    try:
+        yield unfinished
+        if os.path.exists(unfinished):
+            os.replace(unfinished, path)
+    finally:
+        if os.path.exists(unfinished):
+            os.remove(unfinished)
