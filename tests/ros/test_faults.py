@@ -48,10 +48,12 @@ class Faults(harness.Case):
         return node, cost
 
     def test_no_address_of_a_master(self):
-        """Is for roscpp to refuse, which does so with a line of its own."""
-        node = self.process([harness.executable(), '__master:=localhost:1'])
-        self.assertNotEqual(node.wait(), 0)
-        self.assertIn('localhost:1', node.text())
+        """roscpp would die of these."""
+        for address in '', 'localhost:1', 'ftp://localhost:1', 'http://localhost':
+            for words, own in (([], address), (['__master:=' + address], 'http://localhost:1')):
+                node = self.process([harness.executable(), *words], ROS_MASTER_URI=own)
+                self.ends(node, 2, "ROS_MASTER_URI = '%s': must be http://HOST:PORT" % address)
+                self.assertEqual(len(node.text().strip().splitlines()), 1, node.text())
 
     def goes_on(self, node, cost):
         now = len(cost.seqs)

@@ -10,6 +10,7 @@
 
 #include <unistd.h>
 
+#include <ros/network.h>
 #include <ros/xmlrpc_manager.h>
 
 #include "guard.hpp"
@@ -130,6 +131,22 @@ void throw_of_another_type(const std::string &topic, const std::string &datatype
                                 ": this node has it with another type");
 }
 
+/** roscpp dies of an address that it cannot take apart. */
+static void master_address_check(int argc, const char *const *argv)
+{
+    const std::string option = "__master:=";
+    setenv("ROS_MASTER_URI", "http://localhost:11311", 0); // rospy's; not every roscpp has one
+    std::string address = std::getenv("ROS_MASTER_URI"), host;
+    for (int k = 1; k < argc; k++) {
+        const std::string argument = argv[k];
+        if (argument.compare(0, option.size(), option) == 0)
+            address = argument.substr(option.size());
+    }
+    std::uint32_t port = 0;
+    if (!ros::network::splitURI(address, host, port))
+        throw std::invalid_argument("ROS_MASTER_URI = '" + address + "': must be http://HOST:PORT");
+}
+
 hdr_status hdr_node_create(hdr_node **out, int *argc, char **argv, const char *name,
                            double stop_seconds, int memory_status)
 {
@@ -138,8 +155,7 @@ hdr_status hdr_node_create(hdr_node **out, int *argc, char **argv, const char *n
     const hdr_status status = hdr_guard([&] {
         stop_handlers_install(stop_seconds);
         setlocale(LC_CTYPE, ""); /* or log4cxx writes a question mark for each byte beyond ASCII */
-        setenv("ROS_MASTER_URI", "http://localhost:11311",
-               0); /* rospy's; not every roscpp has one */
+        master_address_check(*argc, argv);
         ros::init(*argc, argv, name, ros::init_options::NoSigintHandler);
         *out = node_start();
     });
