@@ -365,6 +365,7 @@ def lp_phases(info, made, sim_time, modulations=(0, 1), began=0.0, rng=None, run
                     step=number,
                     nx=one.nx,
                     ny=one.ny,
+                    wave_number=one.wave_number,
                     modulation=bits,
                     index=index,
                     state=LpPhase.TRACKED if one.resolved else LpPhase.UNRESOLVED,

@@ -67,7 +67,7 @@ struct hearing {
     /** Of the vector of LP(0,1). */
     void phase(double time, double a, double b)
     {
-        hdr_lp_phase phase = {1, 0, 1, 0, 5, HDR_LP_PHASE_TRACKED, a, b, 0, 0, 0, 0, 0};
+        hdr_lp_phase phase = {1, 0, 1, 0.6, 0, 5, HDR_LP_PHASE_TRACKED, a, b, 0, 0, 0, 0, 0};
         hdr_lp_phases phases = {};
         phases.run_id = "run", phases.phases = {&phase, 1}, phases.sim_time = time;
         heard_lp_phases(&h, &phases);
@@ -100,6 +100,21 @@ TEST(heard, a_resolved_mode_is_found_without_its_vector)
     EXPECT_EQ(-1.0, p.mode[1].error);
     for (const auto &marker : drawn::drawing().of(p).markers)
         EXPECT_EQ(std::string::npos, marker.text.find("not resolved"));
+}
+
+TEST(heard, a_mode_that_no_step_has_is_absent)
+{
+    hearing on;
+    mode_choice asked = {};
+    asked.count = 2;
+    asked.mode[0] = {HDR_MODE_LP, 0, 1}, asked.mode[1] = {HDR_MODE_T, 0, 1};
+    on.state(1.0);
+    const picture before = compose(&on.h, &asked, "");
+    EXPECT_FALSE(before.mode[0].absent || before.mode[1].absent); // no steps yet
+    on.steps(false);
+    const picture p = compose(&on.h, &asked, "");
+    EXPECT_FALSE(p.mode[0].absent);
+    EXPECT_TRUE(p.mode[1].absent);
 }
 
 /** Exponents and where the run is. */

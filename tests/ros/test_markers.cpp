@@ -278,6 +278,8 @@ TEST(markers, what_is_gone_is_deleted)
         EXPECT_EQ(1, deleted["mode/LP(1,1)"]); // arrows; its title says that it is not resolved
         EXPECT_EQ("LP(1,1): not resolved", title(array, "mode/LP(1,1)").text);
     }
+    s.p.mode[1].absent = true;
+    EXPECT_EQ("LP(1,1): this run looks for none", title(on.of(s.p), "mode/LP(1,1)").text);
 }
 
 /** Between two orthonormalisations, of a run that rests: a mode is found although its vector is not

@@ -267,6 +267,7 @@ class Agreement(harness.Case):
         self.assertLessEqual(step.first_index, phase.index)
         self.assertLessEqual(phase.index, step.last_index)
         if phase.tracked_time > 0:
+            self.assertEqual(phase.wave_number, step.wave_number)
             self.assertAlmostEqual(phase.velocity, abs(phase.omega) / step.wave_number)
         if phase.state == LpPhase.TRACKED:
             turn = (phase.phase - math.atan2(phase.b, phase.a)) / (2 * math.pi)

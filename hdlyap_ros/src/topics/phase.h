@@ -45,9 +45,10 @@ static inline double phase_time(const hd_phase *phase)
 /** The fields that both messages have. */
 #define PHASE_FIELDS(phase_of, step_of)                                                            \
     .step = (uint32_t)phase_of->step, .nx = (uint32_t)step_of->wave.n[0],                          \
-    .ny = (uint32_t)step_of->wave.n[1], .modulation = phase_of->modulation,                        \
-    .index = phase_index(phase_of), .state = (uint8_t)phase_of->state, .a = phase_of->a,           \
-    .b = phase_of->b, .phase = phase_angle(phase_of), .omega = phase_of->omega,                    \
+    .ny = (uint32_t)step_of->wave.n[1], .wave_number = step_of->wave.number,                       \
+    .modulation = phase_of->modulation, .index = phase_index(phase_of),                            \
+    .state = (uint8_t)phase_of->state, .a = phase_of->a, .b = phase_of->b,                         \
+    .phase = phase_angle(phase_of), .omega = phase_of->omega,                                      \
     .omega_error = phase_of->omega_error, .tracked_time = phase_time(phase_of)
 
 #endif

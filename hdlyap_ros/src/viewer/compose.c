@@ -17,6 +17,17 @@ bool mode_name_parse(mode_name *out, const char *text)
     return sscanf(text, "(%4u,%4u)%n", &out->nx, &out->ny, &end) == 2 && end > 0 && !text[end];
 }
 
+/** False where the box cannot have it, or it was not asked for. */
+static bool is_looked_for(const heard *h, const mode_name *name)
+{
+    bool is = h->steps.steps.count == 0;
+    for (uint32_t k = 0; k < h->steps.steps.count; k++) {
+        const hdr_step *step = &h->steps.steps.data[k];
+        is |= step->kind == name->kind && step->nx == name->nx && step->ny == name->ny;
+    }
+    return is;
+}
+
 static bool is_shown(const hdr_step *step) { return step->resolved && !step->conjugate; }
 
 /** The lowest step of a kind that is resolved, or the one of a name; NULL if there is none. */
@@ -122,6 +133,7 @@ static picture_mode mode_of(const heard *h, uint8_t kind, const mode_name *name)
         mode.error = -1.0;
     }
     mode.found = step || v;
+    mode.absent = name && !mode.found && !is_looked_for(h, name);
     write_name(mode.name, sizeof mode.name, &is);
     if (v) fill_vector(&mode, h, v);
     return mode;

@@ -175,7 +175,8 @@ static void title(canvas *on, const char *ns, double x, double y, const layout *
         canvas_text(on, ns, x, y, height, palette_kind(m->kind), "%s   lambda = %s\n%s", m->name,
                     number, vector);
     else
-        canvas_text(on, ns, x, y, height, PALETTE_INK, "%s: not resolved", m->name);
+        canvas_text(on, ns, x, y, height, PALETTE_INK, "%s: %s", m->name,
+                    m->absent ? "this run looks for none" : "not resolved");
 }
 
 void panel_mode(canvas *on, const layout *l, const picture *p, int k)

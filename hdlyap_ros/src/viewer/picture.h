@@ -14,6 +14,7 @@ typedef struct picture_mode {
     char box[24];       /**< name of its check box, the same in all pictures: T(1,0), or lowest T */
     char name[24];      /**< e.g. T(1,0); or of what is looked for, e.g. T */
     uint8_t kind;       /**< HDR_MODE_T or HDR_MODE_LP */
+    bool absent;        /**< it was asked for, and the run has no such step */
     bool found;         /**< its step is resolved; else nothing of the rest is known */
     uint32_t index;     /**< Lyapunov index of its vector, from 1 */
     double exponent;    /**< of its step, or else of the vector [1/time unit] */

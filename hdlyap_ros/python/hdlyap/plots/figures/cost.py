@@ -20,6 +20,8 @@ PART_COLOURS = {
 }
 NAMES = {**LABELS, 'start': 'start, wait for recorder'}
 
+NAMED = 0.04  # part of the run from which a stage has room for its name
+
 
 def draw(recording):
     cost = recording.cost()
@@ -44,12 +46,14 @@ def _course(axes, cost, began):
         colors=list(PART_COLOURS.values()),
         linewidth=0,
     )
-    for stage, name in STAGES.items():
-        if stage in began and stage != RunStatus.FINISHED:
-            axes.axvline(began[stage], color=INK, linewidth=0.6, linestyle=':')
+    stages = sorted((time, stage) for stage, time in began.items() if stage != RunStatus.FINISHED)
+    ends = [time for time, _ in stages[1:]] + [cost['time'][-1]]
+    for (time, stage), end in zip(stages, ends):
+        axes.axvline(time, color=INK, linewidth=0.6, linestyle=':')
+        if end - time > NAMED * cost['time'][-1]:
             axes.annotate(
-                name,
-                (began[stage], 1),
+                STAGES[stage],
+                (time, 1),
                 xycoords=('data', 'axes fraction'),
                 xytext=(6, -3),
                 textcoords='offset points',

@@ -42,7 +42,7 @@ def draw(run):
         label='backward (covariant)',
     )
     _deviations(panels, compared)
-    panels.grid[0, 0].legend(handletextpad=0.4)
+    panels.grid[0, 0].legend(loc='lower left', handletextpad=0.4)
     return panels.finish(r'$\lambda_\ell$  [1/time unit]', 'backward - forward\n[combined errors]')
 
 
