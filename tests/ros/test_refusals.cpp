@@ -144,7 +144,7 @@ const std::vector<refusal> refusals = {
     {"scene", "a string", {"5", "[quick]", "true"}},
     {"scene", "a line that is not empty", {"''"}},
     {"disks", "an integer, without a point", no_integer},
-    {"disks", "an integer from 2 to 1000000", {"1", "0", "-3", "1000001"}},
+    {"disks", "an integer from 1 to 1000000", {"0", "-3", "1000001"}},
     {"density", "a number", no_number},
     {"density", "from 1e-6 to 2/sqrt(3) = 1.1547", {"0", "-0.1", "1.1548", "nan", "inf"}},
     {"aspect", "a number", no_number},

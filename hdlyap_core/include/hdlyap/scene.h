@@ -15,7 +15,11 @@ extern "C" {
 /** Components of a position, and of a vector of tangent space at one disk: dq, then dp. */
 enum { HD_DIM = 2, HD_ROWS = 2 * HD_DIM };
 
-typedef enum hd_boundary { HD_PERIODIC, HD_REFLECTING } hd_boundary;
+/** What holds the disks. */
+typedef enum hd_container { HD_RECTANGLE, HD_CIRCLE } hd_container;
+
+/** Of a direction; HD_CURVED in a circle, where no scene can ask for another one. */
+typedef enum hd_boundary { HD_PERIODIC, HD_REFLECTING, HD_CURVED } hd_boundary;
 
 /** Stages of a run, one after the other: disks alone; with the frame; averages are taken; done. */
 typedef enum hd_stage { HD_EQUILIBRATING, HD_WARMING_UP, HD_AVERAGING, HD_FINISHED } hd_stage;
@@ -57,7 +61,8 @@ typedef enum hd_storage {
 /** Each parameter's default, range, unit and text stands in parameters.inc, which declares those
  * that are plain numbers. */
 typedef struct hd_scene_def {
-    hd_boundary boundary[HD_DIM]; /**< boundary_x, boundary_y */
+    hd_container container;
+    hd_boundary boundary[HD_DIM]; /**< boundary_x, boundary_y: see hd_scene_boundary */
     uint64_t seed;
     int exponents;         /**< number of leading ones, 1 .. 4N, or one of HD_EXPONENTS_* */
     double warmup;         /**< HD_WARMUP_AUTO, see hd_scene_warmup [time units] */
@@ -77,8 +82,12 @@ hd_scene_def hd_scene_def_default(void);
 /** HD_OK, or HD_REFUSED with one line in `message`: the parameter, its value, what is allowed. */
 HD_MUST_CHECK hd_status hd_scene_check(const hd_scene_def *def, char *message, size_t size);
 
-/** Box edges [sigma]: Lx = sqrt(N / (rho A)), Ly = A Lx. */
+/** Box edges [sigma]: Lx = sqrt(N / (rho A)), Ly = A Lx; of the square around a circle 2 R, with R
+ * = sqrt(N / (pi rho)). */
 void hd_scene_box(const hd_scene_def *def, double box[HD_DIM]);
+
+/** What the ends of direction d are. */
+hd_boundary hd_scene_boundary(const hd_scene_def *def, int d);
 
 /** Time that sound takes through the longer edge of the box, by Henderson's equation of state (Mol.
  * Phys. 30, 971 (1975)) [time units]. */
@@ -88,13 +97,15 @@ double hd_scene_sound_crossing(const hd_scene_def *def);
  * at contact: 1 / (2 sqrt(2) density g) [sigma]. */
 double hd_scene_mean_free_path(const hd_scene_def *def);
 
-/** Number of vanishing exponents: 6, 4 or 2 for both, one or no direction periodic. */
+/** Number of vanishing exponents: 6, 4 or 2 for both, one or no direction periodic; 4 in a circle.
+ */
 int hd_scene_zero_exponents(const hd_scene_def *def);
 
 /** Number of positive exponents, (4N - Z) / 2. */
 int hd_scene_positive_exponents(const hd_scene_def *def);
 
-/** Directions of the exact null space [T9]: uniform along x, along y (where periodic), momenta. */
+/** Directions of the null space [T9]: uniform along x, along y (where periodic), momenta. In a
+ * circle HD_NULL_X is a rotation about the centre. */
 enum { HD_NULL_X, HD_NULL_Y, HD_NULL_P, HD_NULLS };
 
 /** Time with the frame before the averaging, as asked for or chosen [T12]. */

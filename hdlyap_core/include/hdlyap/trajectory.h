@@ -12,20 +12,24 @@
 extern "C" {
 #endif
 
-/** hd_event.j of a wall event is HD_WALL_X or HD_WALL_Y (the direction of the wall's normal). */
-enum { HD_WALL_X = -1, HD_WALL_Y = -2 };
+/** hd_event.j of a wall event: HD_WALL_X or HD_WALL_Y (the direction of the wall's normal), or
+ * HD_WALL_ROUND. */
+enum { HD_WALL_X = -1, HD_WALL_Y = -2, HD_WALL_ROUND = -3 };
 
 /** One event; self-contained: with the disks' order in the log it fixes the tangent map [T3]. */
 typedef struct hd_event {
-    double t;         /**< since the start of the log [time units] */
-    int32_t i;        /**< disk, 0-based; i < j for a pair */
-    int32_t j;        /**< other disk, or HD_WALL_* */
-    double n[HD_DIM]; /**< unit vector from i to j at contact; for a wall its axis */
+    double t;  /**< since the start of the log [time units] */
+    int32_t i; /**< disk, 0-based; i < j for a pair */
+    int32_t j; /**< other disk, or HD_WALL_* */
+    /** Unit vector from i to j at contact; for a wall its axis, for a round one the outward normal
+     * as long as the radius of its curvature. */
+    double n[HD_DIM];
     double p[HD_DIM]; /**< p_j - p_i before the collision; for a wall the momentum before it */
 } hd_event;
 
-/** Events of one interval in their total order: time, pairs before walls, i, j; in a corner the x
- * wall before the y wall; one pair through two images at once: the lower image in y, then in x. */
+/** Events of one interval in their total order: time, pairs before flat walls, i, j; of one disk
+ * pairs before the round wall; in a corner the x wall before the y wall; one pair through two
+ * images at once: the lower image in y, then in x. */
 typedef struct hd_event_log {
     hd_event *event; /**< [count] */
     size_t count, capacity;
@@ -74,6 +78,8 @@ void hd_trajectory_state(const hd_trajectory *trajectory, double *q, double *p);
 double hd_trajectory_kinetic_energy(const hd_trajectory *trajectory); /**< sum p^2 / 2, = N */
 /** Of all disks together. */
 void hd_trajectory_momentum(const hd_trajectory *trajectory, double sum[HD_DIM]);
+/** The same about the middle of the box; a circle conserves it. */
+double hd_trajectory_angular_momentum(const hd_trajectory *trajectory);
 /** More than rounding makes of its relative error: each event so far rounds the energy of its disks
  * by some eps, and the roundings add up as a random walk. Seen: 0.01 of this. */
 double hd_trajectory_energy_rounding(const hd_trajectory *trajectory);

@@ -10,15 +10,8 @@
 extern "C" {
 #endif
 
-/** Number of nodes along x and y, both >= 0, not both 0. */
-typedef struct hd_wave {
-    int n[HD_DIM];
-    double k[HD_DIM]; /**< components of the wave vector, >= 0 [1/sigma] */
-    double number;    /**< |k| [1/sigma] */
-} hd_wave;
-
 /** A is a product of a function of x and one of y; a set bit: sine, otherwise cosine (1 for n = 0).
- */
+ * In a circle HD_SIN_X is a sine of the angle. */
 enum { HD_SIN_X = 1, HD_SIN_Y = 2 };
 
 enum { HD_MODULATIONS_MAX = 4 };
@@ -29,12 +22,19 @@ typedef struct hd_modulations {
     unsigned char bits[HD_MODULATIONS_MAX];
 } hd_modulations;
 
-/** Modulations of the transverse fields: sine and n >= 1 along a reflecting direction. */
-hd_modulations hd_wave_transverse(const hd_wave *wave, const hd_boundary boundary[HD_DIM]);
-/** Modulations of the LP pairs: cosine along a reflecting direction. */
-hd_modulations hd_wave_pairs(const hd_wave *wave, const hd_boundary boundary[HD_DIM]);
+/** In a rectangle of n[0] nodes along x and n[1] along y, not both 0; in a circle J_m(k r) of m =
+ * n[0] with the n[1]th root of its kind at the wall: T and LP fields have waves of their own. */
+typedef struct hd_wave {
+    int n[HD_DIM];
+    double k[HD_DIM]; /**< components of the wave vector, >= 0; in a circle |k|, 0 [1/sigma] */
+    double number;    /**< |k| [1/sigma] */
+    /** Of the transverse fields: sine and n >= 1 along a reflecting direction. */
+    hd_modulations transverse;
+    hd_modulations pairs; /**< of the LP pairs: cosine along a reflecting direction */
+} hd_wave;
 
-/** k along direction d for n nodes: 2 pi n / L periodic, pi n / (L - 1) reflecting. */
+/** k along direction d of a rectangle for n nodes: 2 pi n / L periodic, pi n / (L - 1) reflecting.
+ */
 double hd_wave_component(const hd_scene_def *def, int d, int n);
 
 /** What a scene may ask for. */

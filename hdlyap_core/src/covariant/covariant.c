@@ -320,16 +320,16 @@ static void raise_to(double *most, double now)
 /** Largest angle between the covariant centre and the null space. */
 static hd_status measure_null(hd_covariant *c)
 {
-    const hd_span covariant = {0, c->centre}, exact = {c->centre, c->centre};
     double *columns = c->null_columns;
     if (c->centre == 0) return HD_OK;
     for (int col = 0; col < c->centre; col++)
         cblas_dcopy(c->rows, c->frame + c->unstable + col, c->vectors,
                     columns + (size_t)col * (size_t)c->rows, 1);
-    hd_null_space_fill(c->scene.boundary, c->p, c->scene.disks,
-                       columns + (size_t)c->centre * (size_t)c->rows);
+    const int known = hd_null_space_fill(&c->scene, c->q, c->p,
+                                         columns + (size_t)c->centre * (size_t)c->rows);
+    const hd_span covariant = {0, c->centre}, exact = {c->centre, known};
     HD_TRY(hd_angles_between(c->null, c->angle, columns, covariant, exact));
-    c->null_apart = c->angle[c->centre - 1];
+    c->null_apart = c->angle[known - 1];
     raise_to(&c->null_apart_most, c->null_apart);
     return HD_OK;
 }

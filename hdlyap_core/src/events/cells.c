@@ -21,8 +21,8 @@ static void line_fill(hd_cell_line *line, int32_t size, double length, hd_bounda
             const int32_t column = c + k - 1;
             l->shift[k] = column < 0 ? -1 : column >= size;
             l->near[k] = column - l->shift[k] * size;
-            if (boundary == HD_REFLECTING && l->shift[k] != 0) l->near[k] = size;
-            if (boundary == HD_REFLECTING) l->shift[k] = 0;
+            if (boundary != HD_PERIODIC && l->shift[k] != 0) l->near[k] = size;
+            if (boundary != HD_PERIODIC) l->shift[k] = 0;
         }
     }
     if (boundary == HD_REFLECTING) {
@@ -38,7 +38,7 @@ static size_t cell_count(const hd_cells *cells)
 
 hd_status hd_cells_create(hd_cells *cells, const hd_scene_def *def)
 {
-    *cells = (hd_cells){.boundary = {def->boundary[0], def->boundary[1]}};
+    *cells = (hd_cells){.boundary = {hd_scene_boundary(def, 0), hd_scene_boundary(def, 1)}};
     hd_scene_box(def, cells->box);
     const double edge = fmax(EDGE_MIN, sqrt(DISKS_PER_CELL / def->density));
     for (int d = 0; d < HD_DIM; d++) {

@@ -54,16 +54,18 @@ hd_status hd_event_log_reserve(hd_event_log *log, size_t count)
 static bool disks_exist(const hd_event *event, int disks)
 {
     if (event->i < 0 || event->i >= disks) return false;
-    return event->j == HD_WALL_X || event->j == HD_WALL_Y ||
-           (event->j > event->i && event->j < disks);
+    return (event->j < 0 && event->j >= HD_WALL_ROUND) || (event->j > event->i && event->j < disks);
 }
 
 static double product(const double a[2], const double b[2]) { return a[0] * b[0] + a[1] * b[1]; }
 
-/** A quotient of a vector and its length: each is right to an ulp or two. */
-static bool is_unit(const double n[HD_DIM])
+/** A quotient of a vector and its length: each is right to an ulp or two. Of a round wall: times a
+ * radius. */
+static bool is_normal(const hd_event *event)
 {
-    return fabs(product(n, n) - 1.0) <= 8.0 * DBL_EPSILON;
+    const double square = product(event->n, event->n);
+    if (event->j == HD_WALL_ROUND) return square > 0 && square < INFINITY;
+    return fabs(square - 1.0) <= 8.0 * DBL_EPSILON;
 }
 
 /** Within the rounding of the normal. */
@@ -81,7 +83,7 @@ const char *hd_event_log_fault(const hd_event_log *log, int disks)
         if (!(event->t >= before)) return "an event comes before the one before it";
         if (!(event->t <= log->duration)) return "an event comes after the end";
         if (!disks_exist(event, disks)) return "there is no such disk";
-        if (!is_unit(event->n)) return "a normal is no unit vector";
+        if (!is_normal(event)) return "a normal is no unit vector";
         if (event->j >= 0 && !approach(event)) return "disks collide that part";
         before = event->t;
     }
@@ -114,7 +116,7 @@ void hd_event_log_archive(hd_event_log *log, hd_archive *archive, int disks)
     hd_archive_of_ints(archive, "log i j", 2 * count);
     for (size_t k = 0; k < count; k++) {
         hd_archive_next_int(archive, &log->event[k].i, 0, disks - 1);
-        hd_archive_next_int(archive, &log->event[k].j, HD_WALL_Y, disks - 1);
+        hd_archive_next_int(archive, &log->event[k].j, HD_WALL_ROUND, disks - 1);
     }
     const char *fault = hd_event_log_fault(log, disks);
     if (fault) hd_archive_refuse(archive, "log", fault);

@@ -77,6 +77,13 @@ static void predict_beside(hd_motion *m, int32_t i, int d, int side)
         for (int k = 0; k < 3; k++) predict_listed(m, i, d == 0 ? side : k, d == 0 ? k : side);
 }
 
+/** The first contact of disk i: pairs at the same time come before it, by its number. */
+static void predict_round_wall(hd_motion *m, int32_t i)
+{
+    m->predicted[i] = (prediction){.contact = hd_round_wall_time(&m->wall, &m->disk[i]),
+                                   .partner = m->count};
+}
+
 /** Time at which the disk reaches the edge of its cell (or the wall) in direction d. */
 static double edge_time(const hd_motion *m, const hd_disk *disk, int d)
 {
@@ -115,6 +122,7 @@ void hd_prediction_renew(hd_motion *m, int32_t i)
 {
     m->predicted[i].contact = INFINITY;
     m->predicted[i].partner = -1;
+    if (m->wall.reach > 0) predict_round_wall(m, i);
     predict_around(m, i);
     schedule(m, i);
 }

@@ -6,13 +6,14 @@
 #include "events/cells.h"
 #include "events/contact.h"
 #include "events/queue.h"
+#include "events/round_wall.h"
 
 enum { PAIR, WALL, EDGE };  /* kinds, in the order in which equal times are taken */
 enum { LOW = 0, HIGH = 2 }; /* sides of a cell, as in hd_cell_line */
 
 typedef struct prediction {
-    double contact; /**< time of the earliest known contact, or INFINITY */
-    int32_t partner;
+    double contact;              /**< time of the earliest known contact, or INFINITY */
+    int32_t partner;             /**< hd_motion.count: the round wall */
     uint32_t partner_collisions; /**< when it was predicted */
     int32_t image[HD_DIM];       /**< box edges to add to the partner's position */
     int32_t direction, side;     /**< of the next cell edge or wall */
@@ -21,7 +22,8 @@ typedef struct prediction {
 /** The disks, and what each will meet next. */
 typedef struct hd_motion {
     int32_t count;
-    hd_disk *disk;
+    hd_disk *disk; /**< [count + 1]: the last one stands for the round wall, and is none */
+    hd_round_wall wall;
     prediction *predicted;
     hd_cells cells;
     hd_queue queue;

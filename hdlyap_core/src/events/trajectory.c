@@ -20,7 +20,7 @@
 #include "events/event_log.h"
 #include "events/prefetch.h"
 #include "events/trajectory_state.h"
-#include "scene/lattice.h"
+#include "scene/container.h"
 #include "scene/scene_check.h"
 
 /** Faster disks would lose the positions' digits within one epoch. */
@@ -150,6 +150,18 @@ static hd_status reflect(hd_trajectory *tr, hd_event_log *log, hd_event *event, 
     return log_append(log, event);
 }
 
+/** Reflection at a round wall [T21]. */
+static hd_status reflect_round(hd_trajectory *tr, hd_event_log *log, hd_event *event, double t)
+{
+    hd_disk *disk = &tr->motion.disk[event->i];
+    move_to(disk, t);
+    const bool reflected = hd_round_wall_reflect(&tr->motion.wall, disk, event);
+    disk->collisions++;
+    tr->wall_events += reflected;
+    hd_prediction_renew(&tr->motion, event->i);
+    return reflected ? log_append(log, event) : HD_OK;
+}
+
 /** Over a cell edge: only the three cells that come into reach are new. */
 static void cross(hd_trajectory *tr, int32_t i)
 {
@@ -171,6 +183,7 @@ static hd_status take_event(hd_trajectory *tr, hd_event_log *log, int32_t i, dou
     default: break;
     }
     const prediction *next = &tr->motion.predicted[i];
+    if (next->partner == tr->motion.count) return reflect_round(tr, log, &event, key.t);
     if (next->partner_collisions == tr->motion.disk[next->partner].collisions)
         return collide(tr, log, &event, i, key.t);
     hd_prediction_renew(&tr->motion, i); /* stale */
@@ -260,7 +273,8 @@ static hd_status trajectory_prepare(hd_trajectory *tr, const hd_scene_def *def)
     tr->motion.count = def->disks;
     tr->rate = enskog_rate(def);
     tr->epoch_length = epoch_for(2.0 * tr->rate / def->disks);
-    tr->motion.disk = hd_memory_alloc((size_t)tr->motion.count, sizeof *tr->motion.disk);
+    tr->motion.wall = hd_round_wall_of(def);
+    tr->motion.disk = hd_memory_alloc((size_t)tr->motion.count + 1, sizeof *tr->motion.disk);
     tr->motion.predicted = hd_memory_alloc((size_t)tr->motion.count, sizeof *tr->motion.predicted);
     if (!tr->motion.disk || !tr->motion.predicted) return HD_NO_MEMORY;
     HD_TRY(hd_cells_create(&tr->motion.cells, def));
@@ -279,6 +293,9 @@ static hd_status trajectory_start(hd_trajectory *tr, const double *q, const doub
             if (!(disk->q[d] >= reach && disk->q[d] <= tr->motion.cells.box[d] - reach))
                 return HD_REFUSED;
         }
+        if (tr->motion.wall.reach > 0 &&
+            hd_round_wall_excess(&tr->motion.wall, disk->q) > HD_OVERLAP_MAX)
+            return HD_REFUSED;
         hd_cells_add(&tr->motion.cells, tr->motion.disk, i);
     }
     if (hd_trajectory_overlap(tr) > HD_OVERLAP_MAX) return HD_OVERLAP;
@@ -286,17 +303,15 @@ static hd_status trajectory_start(hd_trajectory *tr, const double *q, const doub
     return HD_OK;
 }
 
-/** Momenta: uniform, without a mean along periodic directions, scaled to K = N. */
-static void momenta_fill(double *p, const hd_scene_def *def)
+/** Momenta: uniform, without what is conserved, scaled to K = N. */
+static void momenta_fill(double *p, const hd_scene_def *def, const double *q)
 {
     hd_random random = hd_random_seeded(def->seed, 0);
     const int n = def->disks;
-    double mean[HD_DIM] = {0, 0}, square = 0;
-    for (int k = 0; k < 2 * n; k++) mean[k % 2] += p[k] = hd_random_symmetric(&random);
-    for (int k = 0; k < 2 * n; k++) {
-        if (def->boundary[k % 2] == HD_PERIODIC) p[k] -= mean[k % 2] / n;
-        square += p[k] * p[k];
-    }
+    double square = 0;
+    for (int k = 0; k < 2 * n; k++) p[k] = hd_random_symmetric(&random);
+    hd_container_of(def)->still(def, q, p);
+    for (int k = 0; k < 2 * n; k++) square += p[k] * p[k];
     const double scale = sqrt(2.0 * n / square);
     for (int k = 0; k < 2 * n; k++) p[k] *= scale;
 }
@@ -328,15 +343,12 @@ hd_status hd_trajectory_create(hd_trajectory **out, const hd_scene_def *def)
 {
     *out = NULL;
     if (hd_scene_check(def, NULL, 0) != HD_OK) return HD_REFUSED;
-    double box[HD_DIM];
-    hd_scene_box(def, box);
-    const hd_lattice lattice = hd_lattice_best(def->disks, box, def->boundary);
     double *q = hd_memory_alloc(HD_DIM * (size_t)def->disks, sizeof *q);
     double *p = hd_memory_alloc(HD_DIM * (size_t)def->disks, sizeof *p);
     hd_status status = HD_NO_MEMORY;
     if (q && p) {
-        hd_lattice_fill(&lattice, q, def->disks, box, def->boundary);
-        momenta_fill(p, def);
+        hd_container_of(def)->start(def, q);
+        momenta_fill(p, def, q);
         status = hd_trajectory_create_from(out, def, q, p);
     }
     hd_memory_free(q);
@@ -392,6 +404,19 @@ void hd_trajectory_momentum(const hd_trajectory *tr, double sum[HD_DIM])
     sum[0] = sum[1] = 0.0;
     for (int i = 0; i < tr->motion.count; i++)
         for (int d = 0; d < HD_DIM; d++) sum[d] += tr->motion.disk[i].p[d];
+}
+
+double hd_trajectory_angular_momentum(const hd_trajectory *tr)
+{
+    double sum = 0.0;
+    for (int32_t i = 0; i < tr->motion.count; i++) {
+        hd_disk disk = tr->motion.disk[i];
+        move_to(&disk, tr->now - tr->epoch_start);
+        fold(tr, &disk);
+        sum += (disk.q[0] - 0.5 * tr->motion.cells.box[0]) * disk.p[1] -
+               (disk.q[1] - 0.5 * tr->motion.cells.box[1]) * disk.p[0];
+    }
+    return sum;
 }
 
 double hd_trajectory_kinetic_energy(const hd_trajectory *tr)

@@ -31,13 +31,16 @@ static void disks_archive(hd_trajectory *tr, hd_archive *archive)
 
 static bool in_its_cell(const hd_trajectory *tr, const hd_disk *disk)
 {
+    double at[HD_DIM];
     for (int d = 0; d < HD_DIM; d++) {
         const double *bound = tr->motion.cells.line[d][disk->cell[d]].bound;
         const double flight = disk->p[d] * (tr->now - tr->epoch_start - disk->t);
         const double place = disk->q[d] + flight - disk->wrap[d] * tr->motion.cells.box[d];
+        at[d] = place;
         if (!(place >= bound[0] - PLACE_CLOSE && place <= bound[1] + PLACE_CLOSE)) return false;
     }
-    return true;
+    const hd_round_wall *wall = &tr->motion.wall;
+    return wall->reach == 0 || hd_round_wall_excess(wall, at) <= PLACE_CLOSE;
 }
 
 /** What the disks' numbers are not, or NULL. Of a scene: its energy is N. */

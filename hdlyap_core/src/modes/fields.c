@@ -7,10 +7,12 @@
 
 #include <float.h>
 #include <math.h>
+#include <stdbool.h>
 
 #include "base/check.h"
 #include "base/memory.h"
 #include "modes/archived.h"
+#include "modes/circle_fields.h"
 #include "modes/harmonics.h"
 #include "scene/null_space.h"
 
@@ -44,8 +46,7 @@ hd_fields_count hd_fields_count_of(const hd_scene_def *scene)
     const int count = hd_waves(scene, wave, WAVES);
     hd_fields_count all = {.subspaces = 2.0 * count};
     for (int k = 0; k < count && k < WAVES; k++) {
-        const double pairs = hd_wave_pairs(&wave[k], scene->boundary).count;
-        const double t = hd_wave_transverse(&wave[k], scene->boundary).count;
+        const double pairs = wave[k].pairs.count, t = wave[k].transverse.count;
         all.columns += t + 2.0 * pairs;
         all.lp_phases += 2.0 * pairs * pairs;
         all.t_phases += 2.0 * floor(t / 2.0) * floor(t / 2.0);
@@ -65,8 +66,8 @@ static hd_status subspaces_create(hd_fields *fields, const hd_scene_def *def)
     }
     (void)hd_waves(def, wave, waves);
     for (int w = 0; w < waves; w++) {
-        subspace_add(fields, HD_MODE_T, &wave[w], hd_wave_transverse(&wave[w], def->boundary));
-        subspace_add(fields, HD_MODE_LP, &wave[w], hd_wave_pairs(&wave[w], def->boundary));
+        subspace_add(fields, HD_MODE_T, &wave[w], wave[w].transverse);
+        subspace_add(fields, HD_MODE_LP, &wave[w], wave[w].pairs);
     }
     hd_memory_free(wave);
     return HD_OK;
@@ -75,9 +76,9 @@ static hd_status subspaces_create(hd_fields *fields, const hd_scene_def *def)
 static hd_status fields_prepare(hd_fields *fields, const hd_scene_def *def)
 {
     HD_TRY(subspaces_create(fields, def));
-    for (int d = 0; d < HD_DIM; d++)
+    fields->null = hd_null_space_of(def);
+    for (int d = 0; d < HD_DIM && !fields->null.curved; d++)
         HD_TRY(hd_harmonics_create(&fields->along[d], def, d, fields->along[d].nodes));
-    fields->null = hd_null_space_of(def->boundary);
     fields->columns += HD_NULLS;
     fields->stride = (fields->columns + 7) / 8 * 8;
     fields->data = hd_memory_alloc(HD_DIM * (size_t)fields->disks * (size_t)fields->stride,
@@ -130,17 +131,43 @@ static void sample_modulation(const hd_fields *fields, const hd_subspace *s, int
     x[pair] = p[0] * f * g, y[pair] = p[1] * f * g;
 }
 
-static void sample_disk(hd_fields *fields, const double *q, const double *p, double *x, double *y)
+static void sample_rectangle(hd_fields *fields, const double *q, const double *p, double *x,
+                             double *y)
 {
-    const int null = fields->columns - HD_NULLS;
     for (int d = 0; d < HD_DIM; d++) hd_harmonics_fill(&fields->along[d], q[d]);
     for (int s = 0; s < fields->subspaces; s++)
         for (int c = 0; c < fields->subspace[s].modulations.count; c++)
             sample_modulation(fields, &fields->subspace[s], c, p, x, y);
+}
+
+/** [T21] */
+static void sample_circle(const hd_fields *fields, const double *q, const double *p, double *x,
+                          double *y)
+{
+    hd_circle_modulation at[2];
+    for (int k = 0; k < fields->subspaces; k++) {
+        const hd_subspace *s = &fields->subspace[k];
+        const int count = s->modulations.count;
+        hd_circle_modulations(at, &s->wave, q[0] - fields->null.centre, q[1] - fields->null.centre);
+        for (int c = 0, column = s->column; c < count; c++, column++) {
+            const bool t = s->kind == HD_MODE_T;
+            x[column] = t ? at[c].y : at[c].x, y[column] = t ? -at[c].x : at[c].y;
+            if (!t) x[column + count] = p[0] * at[c].a, y[column + count] = p[1] * at[c].a;
+        }
+    }
+}
+
+static void sample_disk(hd_fields *fields, const double *q, const double *p, double *x, double *y)
+{
+    const int null = fields->columns - HD_NULLS;
+    if (fields->null.curved)
+        sample_circle(fields, q, p, x, y);
+    else
+        sample_rectangle(fields, q, p, x, y);
     for (int k = 0; k < fields->null.count; k++) {
         const int axis = fields->null.axis[k];
-        x[null + axis] = hd_null_entry(axis, 0, p[0]);
-        y[null + axis] = hd_null_entry(axis, 1, p[1]);
+        x[null + axis] = hd_null_entry(&fields->null, axis, 0, q, p);
+        y[null + axis] = hd_null_entry(&fields->null, axis, 1, q, p);
     }
 }
 

@@ -7,6 +7,8 @@
 
 #include <math.h>
 
+#include "scene/container.h"
+
 /** Of c3 / c: how far densities lie off the formula. */
 static const double OFF = 0.1;
 /** Walls move c by about WALL sigma / edge, and each step by WALL_OWN of that for itself. */
@@ -22,7 +24,7 @@ static double walls_of(const hd_scene_def *def, const double box[HD_DIM])
 {
     double square = 0.0;
     for (int d = 0; d < HD_DIM; d++)
-        if (def->boundary[d] == HD_REFLECTING) square += WALL * WALL / (box[d] * box[d]);
+        if (hd_scene_boundary(def, d) == HD_REFLECTING) square += WALL * WALL / (box[d] * box[d]);
     return sqrt(square);
 }
 
@@ -49,18 +51,16 @@ hd_relation hd_relation_of(const hd_scene_def *def, hd_mode_kind kind)
 /** Wave number of the longest wave with fields of a kind; INFINITY if the scene asks for none. */
 static double longest_of(const hd_scene_def *def, hd_mode_kind kind)
 {
-    const double sampled = hd_wave_limits_of(def).largest, asked = def->max_wave_number;
-    const double limit = asked > 0 ? fmin(asked, sampled) : sampled;
-    double longest = INFINITY;
-    for (int n = 1; n < 4; n++) {
-        const int nx = n & 1, ny = n >> 1;
-        const double k[HD_DIM] = {hd_wave_component(def, 0, nx), hd_wave_component(def, 1, ny)};
-        const hd_wave wave = {{nx, ny}, {k[0], k[1]}, hypot(k[0], k[1])};
-        const hd_modulations found = kind == HD_MODE_T ? hd_wave_transverse(&wave, def->boundary)
-                                                       : hd_wave_pairs(&wave, def->boundary);
-        if (found.count > 0 && wave.number <= limit) longest = fmin(longest, wave.number);
-    }
-    return longest;
+    enum { LONG = 8 };
+    hd_wave wave[LONG];
+    hd_scene_def first = *def;
+    first.max_mode_number = 1;
+    first.max_wave_number = 0.0;
+    const int count = hd_waves(&first, wave, LONG);
+    for (int k = 0; k < count && wave[k].number <= hd_wave_limit(def); k++)
+        if ((kind == HD_MODE_T ? wave[k].transverse : wave[k].pairs).count > 0)
+            return wave[k].number;
+    return INFINITY;
 }
 
 double hd_relation_open(const hd_scene_def *def, hd_mode_kind kind)

@@ -96,9 +96,7 @@ static hd_status plan_waves(hd_structure *s, const hd_scene_def *def)
     (void)hd_waves(&all, wave, s->waves);
     for (int w = 0, used[HD_DIM] = {0, 0}; w < s->waves; w++) {
         if (w % AT_ONCE == 0) used[0] = used[1] = 0;
-        s->plan[w] = (planned){.wave = wave[w],
-                               .modulations = {hd_wave_pairs(&wave[w], def->boundary),
-                                               hd_wave_transverse(&wave[w], def->boundary)}};
+        s->plan[w] = (planned){.wave = wave[w], .modulations = {wave[w].pairs, wave[w].transverse}};
         plan_columns(&s->plan[w], used);
         s->plan[w].root = 1.0;
         for (int d = 0; d < HD_DIM; d++) {

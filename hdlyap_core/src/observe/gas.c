@@ -6,6 +6,7 @@
 #include "averages/blocks.h"
 #include "base/memory.h"
 #include "observe/observable.h"
+#include "scene/container.h"
 
 /** Series that are averaged: per time unit, in order. */
 enum { COLLISIONS, VIRIAL_X, VIRIAL_Y, SERIES };
@@ -32,10 +33,13 @@ static counts counts_of(const hd_trajectory *trajectory)
     return now;
 }
 
-/** Momenta along a direction, but for their sum where it is conserved. */
+/** Momenta along a direction, but for what is conserved: their sum, of a circle half of the angular
+ * momentum. */
 static double momenta(const hd_scene_def *def, int d)
 {
-    return def->disks - (def->boundary[d] == HD_PERIODIC);
+    static const double conserved[] = {
+        [HD_PERIODIC] = 1.0, [HD_REFLECTING] = 0.0, [HD_CURVED] = 0.5};
+    return def->disks - conserved[hd_scene_boundary(def, d)];
 }
 
 double hd_gas_temperature(const hd_scene_def *def)
@@ -43,13 +47,7 @@ double hd_gas_temperature(const hd_scene_def *def)
     return 2.0 * def->disks / (momenta(def, 0) + momenta(def, 1));
 }
 
-double hd_gas_area(const hd_scene_def *def)
-{
-    double box[HD_DIM];
-    hd_scene_box(def, box);
-    for (int d = 0; d < HD_DIM; d++) box[d] -= def->boundary[d] == HD_REFLECTING;
-    return box[0] * box[1];
-}
+double hd_gas_area(const hd_scene_def *def) { return hd_container_of(def)->area(def); }
 
 hd_status hd_gas_create(hd_gas **out, const hd_scene_def *def, double block)
 {

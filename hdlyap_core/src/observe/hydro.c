@@ -31,16 +31,13 @@ typedef struct modulation {
 /** Coefficients of the four functionals on dq_x, dq_y, dp_x, dp_y of one disk. */
 typedef double functionals[RESPONSES][4];
 
-static int modulations_of(const hd_step *step, const hd_hydro *hydro)
+static int modulations_of(const hd_step *step)
 {
-    return step->kind == HD_MODE_ZERO ? 0 : hd_wave_pairs(&step->wave, hydro->boundary).count;
+    return step->kind == HD_MODE_ZERO ? 0 : step->wave.pairs.count;
 }
 
 /** Entries of a step: vectors outside, modulations inside. */
-static int entries_of(const hd_step *step, const hd_hydro *hydro)
-{
-    return step->expected * modulations_of(step, hydro);
-}
+static int entries_of(const hd_step *step) { return step->expected * modulations_of(step); }
 
 hd_status hd_hydro_create(hd_hydro **out, const hd_scene_def *def, const hd_steps *steps)
 {
@@ -50,7 +47,7 @@ hd_status hd_hydro_create(hd_hydro **out, const hd_scene_def *def, const hd_step
     memcpy(hydro->boundary, def->boundary, sizeof hydro->boundary);
     hydro->disks = def->disks;
     for (int k = 0; k < hd_steps_count(steps); k++)
-        hydro->count += entries_of(hd_steps_step(steps, k), hydro);
+        hydro->count += entries_of(hd_steps_step(steps, k));
     hydro->response = hd_memory_alloc((size_t)hydro->count + 1, sizeof *hydro->response);
     if (!hydro->response) {
         hd_hydro_free(hydro);
@@ -137,7 +134,7 @@ static void step_measure(hd_hydro *hydro, hd_hydro_response *out, const hd_steps
                          hd_columns vectors, const double *q, const double *p)
 {
     const hd_step *step = hd_steps_step(steps, index);
-    const hd_modulations m = hd_wave_pairs(&step->wave, hydro->boundary);
+    const hd_modulations m = step->wave.pairs;
     const double scale = 1.0 / sqrt(0.5 * hydro->disks);
     double sum[RESPONSES][HD_SET_VECTORS_MAX];
     for (int c = 0; c < m.count; c++) {
@@ -156,11 +153,10 @@ static void step_measure(hd_hydro *hydro, hd_hydro_response *out, const hd_steps
     }
 }
 
-static void entries_clear(const hd_hydro *hydro, hd_hydro_response *out, const hd_step *step,
-                          int index)
+static void entries_clear(hd_hydro_response *out, const hd_step *step, int index)
 {
-    const hd_modulations m = hd_wave_pairs(&step->wave, hydro->boundary);
-    for (int e = 0; e < entries_of(step, hydro); e++)
+    const hd_modulations m = step->wave.pairs;
+    for (int e = 0; e < entries_of(step); e++)
         out[e] = (hd_hydro_response){.step = index, .col = -1, .modulation = m.bits[e % m.count]};
 }
 
@@ -170,10 +166,10 @@ void hd_hydro_measure(hd_hydro *hydro, const hd_steps *steps, hd_columns vectors
     hd_hydro_response *out = hydro->response;
     for (int k = 0; k < hd_steps_count(steps); k++) {
         const hd_step *step = hd_steps_step(steps, k);
-        if (modulations_of(step, hydro) == 0) continue;
-        entries_clear(hydro, out, step, k);
+        if (modulations_of(step) == 0) continue;
+        entries_clear(out, step, k);
         if (step->resolved) step_measure(hydro, out, steps, k, vectors, q, p);
-        out += entries_of(step, hydro);
+        out += entries_of(step);
     }
 }
 

@@ -6,6 +6,7 @@
 
 #include "base/check.h"
 #include "run/schedule.h"
+#include "scene/container.h"
 
 /** No advance is planned shorter: simulated time must move. */
 static const double SHORTEST = 1e-12;
@@ -14,12 +15,8 @@ static const double SHORTEST = 1e-12;
  * across the box. */
 static double events_per_disk(const hd_advance *advance, const hd_scene_def *scene)
 {
-    double box[HD_DIM],
-        rate = 2.0 * hd_trajectory_collision_rate(advance->trajectory) / scene->disks;
-    hd_scene_box(scene, box);
-    for (int d = 0; d < HD_DIM; d++)
-        if (scene->boundary[d] == HD_REFLECTING) rate += 1.0 / (box[d] - 1.0);
-    return rate;
+    return 2.0 * hd_trajectory_collision_rate(advance->trajectory) / scene->disks +
+           hd_container_of(scene)->wall_rate(scene);
 }
 
 hd_status hd_advance_create(hd_advance *advance, const hd_scene_def *scene)

@@ -31,8 +31,8 @@ static int subspaces_of(const hd_scene_def *def)
     if (!wave) return 2 * count;
     hd_waves(def, wave, count);
     for (int k = 0; k < count; k++) {
-        subspaces += hd_wave_transverse(&wave[k], def->boundary).count > 0;
-        subspaces += hd_wave_pairs(&wave[k], def->boundary).count > 0;
+        subspaces += wave[k].transverse.count > 0;
+        subspaces += wave[k].pairs.count > 0;
     }
     hd_memory_free(wave);
     return subspaces;

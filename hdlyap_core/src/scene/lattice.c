@@ -4,6 +4,8 @@
 #include <math.h>
 #include <stdint.h>
 
+#include "scene/container.h"
+
 /** Sites of `rows` rows. */
 static int64_t site_count(int64_t rows, int64_t columns, int odd_short)
 {
@@ -97,7 +99,7 @@ double hd_lattice_density_max(const hd_scene_def *def)
         hd_scene_box(&trial, box);
         const int fits = box[0] > 1.0 && box[1] > 1.0 &&
                          hd_lattice_best(trial.disks, box, trial.boundary).distance >=
-                             HD_LATTICE_DISTANCE_MIN;
+                             HD_START_DISTANCE_MIN;
         *(fits ? &low : &high) = trial.density;
     }
     return low;

@@ -4,9 +4,6 @@
 
 #include "hdlyap/scene.h"
 
-/** Least distance of two start positions: disks that all touch can never move. */
-#define HD_LATTICE_DISTANCE_MIN (1.0 + 1e-9)
-
 /** Rows along direction `along` (0 = x, 1 = y). */
 typedef struct hd_lattice {
     int along;

@@ -1,4 +1,4 @@
-/** The exact null space [T9]: its directions in dq; those in dp are the same. */
+/** The null space of a scene [T9]: its directions in dq; those in dp are the same. */
 #ifndef HD_NULL_SPACE_H
 #define HD_NULL_SPACE_H
 
@@ -10,34 +10,55 @@
 typedef struct hd_null_space {
     int count; /**< half of hd_scene_zero_exponents */
     int axis[HD_NULLS];
+    bool curved;   /**< HD_NULL_X is a rotation */
+    double centre; /**< about (centre, centre) */
 } hd_null_space;
 
-static inline hd_null_space hd_null_space_of(const hd_boundary boundary[HD_DIM])
+static inline hd_null_space hd_null_space_of(const hd_scene_def *def)
 {
-    hd_null_space null = {0};
+    hd_null_space null = {.curved = hd_scene_boundary(def, 0) == HD_CURVED};
+    double box[HD_DIM];
+    hd_scene_box(def, box);
+    null.centre = 0.5 * box[0];
     for (int axis = 0; axis < HD_NULLS; axis++)
-        if (axis == HD_NULL_P || boundary[axis] == HD_PERIODIC) null.axis[null.count++] = axis;
+        if (axis == HD_NULL_P ||
+            (null.curved ? axis == HD_NULL_X : hd_scene_boundary(def, axis) == HD_PERIODIC))
+            null.axis[null.count++] = axis;
     return null;
 }
 
-/** Entry of a direction at a disk's component d (0: x, 1: y) of momentum p; not normalised. */
-static inline double hd_null_entry(int axis, int d, double p)
+/** Entry of a direction at component d (0: x, 1: y) of a disk at q with momentum p; not normalised.
+ */
+static inline double hd_null_entry(const hd_null_space *null, int axis, int d, const double *q,
+                                   const double *p)
 {
-    return axis == HD_NULL_P ? p : (double)(axis == d);
+    if (axis == HD_NULL_P) return p[d];
+    if (!null->curved) return (double)(axis == d);
+    return d == 0 ? null->centre - q[1] : q[0] - null->centre;
 }
 
-/** column[2 count][4 disks]: each direction in dq and in dp; p[2 disks]: momenta. */
-static inline void hd_null_space_fill(const hd_boundary boundary[HD_DIM], const double *p,
-                                      int disks, double *column)
+/** column[..][4 disks] of the vectors that stay as they are, exactly: each direction in dq and in
+ * dp; a rotation turns q and p alike, once. q[2 disks], p[2 disks]. Returns their number. */
+static inline int hd_null_space_fill(const hd_scene_def *def, const double *q, const double *p,
+                                     double *column)
 {
-    const hd_null_space null = hd_null_space_of(boundary);
-    const size_t rows = HD_ROWS * (size_t)disks;
-    for (int k = 0; k < 2 * null.count; k++, column += rows) {
+    const hd_null_space null = hd_null_space_of(def);
+    const size_t rows = HD_ROWS * (size_t)def->disks;
+    int count = 0;
+    for (int k = 0; k < 2 * null.count; k++) {
+        const bool rotation = null.curved && null.axis[k / 2] == HD_NULL_X;
+        if (rotation && k % 2 == 1) continue;
         memset(column, 0, rows * sizeof *column);
-        for (int j = 0; j < 2 * disks; j++)
-            column[4 * (j / 2) + 2 * (k % 2) + j % 2] = hd_null_entry(null.axis[k / 2], j % 2,
-                                                                      p[j]);
+        for (int j = 0; j < 2 * def->disks; j++) {
+            const double *at = q + j / 2 * 2, *moving = p + j / 2 * 2;
+            double *entry = column + 4 * (j / 2) + j % 2;
+            entry[2 * (k % 2)] = hd_null_entry(&null, null.axis[k / 2], j % 2, at, moving);
+            if (rotation) entry[2] = j % 2 == 0 ? -moving[1] : moving[0];
+        }
+        column += rows;
+        count++;
     }
+    return count;
 }
 
 #endif

@@ -3,6 +3,8 @@
 
 #include <string.h>
 
+static const hd_parameter_word hd_container_words[] = {
+    {"rectangle", HD_RECTANGLE}, {"circle", HD_CIRCLE}, {NULL, 0}};
 static const hd_parameter_word hd_boundary_words[] = {
     {"periodic", HD_PERIODIC}, {"reflecting", HD_REFLECTING}, {NULL, 0}};
 static const hd_parameter_word hd_exponents_words[] = {

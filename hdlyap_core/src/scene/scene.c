@@ -6,6 +6,7 @@
 #include "hdlyap/parameters.h"
 #include "hdlyap/wave.h"
 #include "scene/archived.h"
+#include "scene/container.h"
 
 hd_scene_def hd_scene_def_default(void)
 {
@@ -18,8 +19,17 @@ hd_scene_def hd_scene_def_default(void)
 
 void hd_scene_box(const hd_scene_def *def, double box[HD_DIM])
 {
-    box[0] = sqrt((double)def->disks / (def->density * def->aspect));
-    box[1] = def->aspect * box[0];
+    hd_container_of(def)->box(def, box);
+}
+
+const hd_container_row *hd_container_of(const hd_scene_def *def)
+{
+    return def->container == HD_CIRCLE ? &hd_circle_row : &hd_rectangle_row;
+}
+
+hd_boundary hd_scene_boundary(const hd_scene_def *def, int d)
+{
+    return def->container == HD_CIRCLE ? HD_CURVED : def->boundary[d];
 }
 
 /** p = rho Z: c^2 = d(rho Z)/d rho + Z^2, as a disk has two degrees of freedom and kT = 1. */
@@ -42,7 +52,7 @@ double hd_scene_mean_free_path(const hd_scene_def *def)
 
 int hd_scene_zero_exponents(const hd_scene_def *def)
 {
-    return 2 + 2 * (def->boundary[0] == HD_PERIODIC) + 2 * (def->boundary[1] == HD_PERIODIC);
+    return 2 * hd_container_of(def)->symmetries(def);
 }
 
 int hd_scene_vectors(const hd_scene_def *def)

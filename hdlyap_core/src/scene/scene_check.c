@@ -1,17 +1,12 @@
 /** What can be asked for: ranges, and what fits together. */
 #include "scene/scene_check.h"
 
-#include <math.h>
 #include <stdbool.h>
 
 #include "base/check.h"
 #include "hdlyap/parameters.h"
 #include "hdlyap/wave.h"
-#include "scene/lattice.h"
-
-/** Room between walls beyond a diameter: less is crossed more often than there are times to tell
- * apart. It is 1e-9 but for the rounding of an edge that density and aspect give. */
-static const double ROOM_MIN = 0.999e-9;
+#include "scene/container.h"
 
 static hd_status refuse_value(const hd_parameter *row, const hd_scene_def *def, char *message,
                               size_t size)
@@ -40,25 +35,10 @@ static hd_status check_ranges(const hd_scene_def *def, bool covariant, char *mes
     return HD_OK;
 }
 
-static bool is_wide_enough(const hd_scene_def *def, int d, double edge)
-{
-    return def->boundary[d] == HD_REFLECTING ? edge - 1.0 >= ROOM_MIN : edge > 1.0;
-}
-
 hd_status hd_scene_check_box(const hd_scene_def *def, char *message, size_t size)
 {
-    double box[HD_DIM];
     HD_TRY(check_ranges(def, false, message, size));
-    hd_scene_box(def, box);
-    for (int d = 0; d < HD_DIM; d++) {
-        const char *room = def->boundary[d] == HD_REFLECTING ? " by 1e-9" : "";
-        if (is_wide_enough(def, d, box[d])) continue;
-        return hd_refuse(message, size,
-                         "density = %.15g with disks = %d, aspect = %.15g: the box edge L%c = "
-                         "%.15g must be above the disk diameter 1%s",
-                         def->density, def->disks, def->aspect, "xy"[d], box[d], room);
-    }
-    return HD_OK;
+    return hd_container_of(def)->check(def, message, size);
 }
 
 /** Waves that the disks do not sample have no fields. */
@@ -112,9 +92,8 @@ static hd_status check_covariant(const hd_scene_def *def, char *message, size_t 
 
 hd_status hd_scene_check(const hd_scene_def *def, char *message, size_t size)
 {
-    double box[HD_DIM];
+    const hd_container_row *container = hd_container_of(def);
     HD_TRY(hd_scene_check_box(def, message, size));
-    hd_scene_box(def, box);
     if (def->exponents < HD_EXPONENTS_ALL_INDEPENDENT || def->exponents > HD_ROWS * def->disks)
         return hd_refuse(
             message, size,
@@ -123,11 +102,11 @@ hd_status hd_scene_check(const hd_scene_def *def, char *message, size_t size)
             def->exponents, HD_ROWS * def->disks);
     HD_TRY(check_waves(def, message, size));
     HD_TRY(check_covariant(def, message, size));
-    if (hd_lattice_best(def->disks, box, def->boundary).distance < HD_LATTICE_DISTANCE_MIN)
+    if (container->start_distance(def) < HD_START_DISTANCE_MIN)
         return hd_refuse(
             message, size,
             "density = %.15g: must be at most %.6g with disks = %d, aspect = %.15g and "
             "these boundaries (densest start lattice)",
-            def->density, hd_lattice_density_max(def), def->disks, def->aspect);
+            def->density, container->density_max(def), def->disks, def->aspect);
     return HD_OK;
 }

@@ -13,10 +13,16 @@ enum { HD_BLOCK_BYTES = 512 * 1024, HD_BLOCK_WIDTH_MAX = 64 };
 /** Tangent map of one event: free flights of its disks since their last events, then the collision.
  */
 typedef struct hd_tangent_map {
-    int32_t i, j;     /**< as in hd_event */
-    double flight[2]; /**< of i, of j */
+    int32_t i, j; /**< as in hd_event */
+    union {
+        double flight[2]; /**< of i, of j */
+        struct {
+            double alone; /**< flight of i */
+            double bend;  /**< of a round wall, twice its curvature */
+        };
+    };
     double n[HD_DIM];
-    double normal;     /**< b = p.n < 0 */
+    double normal;     /**< b = p.n: < 0, of a round wall > 0 */
     double tangential; /**< p_t = p.t, t = n turned by +90 degrees */
     double ratio;      /**< p_t / b */
 } hd_tangent_map;

@@ -4,8 +4,9 @@
  * of columns into a buffer that stays in its cache, [disk][4][width], carries it through all maps
  * with lazy free flight (only disks that collide are brought up to date), and writes it to the
  * second copy of V; so the vectors from before remain for hd_frame_rewind at no cost in time.
- * Equations [T1], [T3], [T4]. Parallel over blocks; the result does not depend on the number of
- * threads. */
+ * Equations [T1], [T3], [T4], [T21]. Parallel over blocks; the result does not depend on the number
+ * of threads. */
+#include <math.h>
 #include <omp.h>
 #include <string.h>
 
@@ -26,14 +27,26 @@ static double flight(double *since, int32_t disk, double t)
     return tau;
 }
 
+/** The normal of a round wall is as long as its radius. */
+static void curved_fill(hd_tangent_map *map)
+{
+    const double radius = sqrt(map->n[0] * map->n[0] + map->n[1] * map->n[1]);
+    map->bend = 2.0 / radius;
+    map->n[0] /= radius;
+    map->n[1] /= radius;
+}
+
 static void map_fill(hd_tangent_map *map, const hd_event *event, double *since)
 {
     *map = (hd_tangent_map){.i = event->i, .j = event->j, .n = {event->n[0], event->n[1]}};
     map->flight[0] = flight(since, event->i, event->t);
-    if (event->j < 0) return;
-    map->flight[1] = flight(since, event->j, event->t);
-    map->normal = event->p[0] * event->n[0] + event->p[1] * event->n[1];
-    map->tangential = event->p[1] * event->n[0] - event->p[0] * event->n[1];
+    if (event->j == HD_WALL_X || event->j == HD_WALL_Y) return;
+    if (event->j == HD_WALL_ROUND)
+        curved_fill(map);
+    else
+        map->flight[1] = flight(since, event->j, event->t);
+    map->normal = event->p[0] * map->n[0] + event->p[1] * map->n[1];
+    map->tangential = event->p[1] * map->n[0] - event->p[0] * map->n[1];
     map->ratio = map->tangential / map->normal;
 }
 
@@ -98,6 +111,24 @@ static inline __attribute__((always_inline)) void collide(double *restrict vi, d
     }
 }
 
+/** [T21]: dq.t - (p_t / b) dq.n is where along the wall the shadow meets it. */
+static inline __attribute__((always_inline)) void curve(double *restrict v,
+                                                        const hd_tangent_map *map, int width)
+{
+    const double nx = map->n[0], ny = map->n[1], ratio = map->ratio;
+    const double b = map->bend * map->normal, pt = map->bend * map->tangential;
+    fly(v, map->flight[0], width);
+#pragma GCC ivdep
+    for (int k = 0; k < width; k++) {
+        double *q = v + k, *p = v + 2 * width + k;
+        const double a = q[0] * nx + q[width] * ny;
+        const double s = q[width] * nx - q[0] * ny - ratio * a;
+        const double u = 2.0 * (p[0] * nx + p[width] * ny) + pt * s, w = b * s;
+        q[0] -= 2.0 * a * nx, q[width] -= 2.0 * a * ny;
+        p[0] -= u * nx - w * ny, p[width] -= u * ny + w * nx;
+    }
+}
+
 /** [T4] */
 static inline __attribute__((always_inline)) void reflect(double *restrict v,
                                                           const hd_tangent_map *map, int width)
@@ -139,6 +170,8 @@ static inline __attribute__((always_inline)) void replay_width(double *buffer, m
         double *vi = buffer + disk * (size_t)map[e].i;
         if (!walls || map[e].j >= 0)
             collide(vi, buffer + disk * (size_t)map[e].j, &map[e], width);
+        else if (map[e].j == HD_WALL_ROUND)
+            curve(vi, &map[e], width);
         else
             reflect(vi, &map[e], width);
     }

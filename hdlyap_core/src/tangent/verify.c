@@ -27,8 +27,13 @@ static void expect_momentum(const hd_trajectory *tr, const hd_scene_def *scene)
     double sum[HD_DIM];
     hd_trajectory_momentum(tr, sum);
     for (int d = 0; d < HD_DIM; d++)
-        if (scene->boundary[d] == HD_PERIODIC)
+        if (hd_scene_boundary(scene, d) == HD_PERIODIC)
             expect_at_most(fabs(sum[d]), n * hd_trajectory_energy_rounding(tr), "momentum");
+    if (hd_scene_boundary(scene, 0) != HD_CURVED) return;
+    double box[HD_DIM];
+    hd_trajectory_box(tr, box);
+    expect_at_most(fabs(hd_trajectory_angular_momentum(tr)),
+                   n * box[0] * hd_trajectory_energy_rounding(tr), "angular momentum");
 }
 
 void hd_verify_disks(const hd_trajectory *tr, const hd_scene_def *scene)

@@ -150,9 +150,9 @@ static void print_waves(const settings *set)
     const int count = hd_waves(def, wave, SHOWN), shown = count < SHOWN ? count : SHOWN;
     printf("waves    ");
     for (int k = 0; k < shown; k++) {
-        const char *kinds = hd_wave_transverse(&wave[k], def->boundary).count == 0 ? " LP"
+        const char *kinds = wave[k].transverse.count == 0 ? " LP"
                                                                                    : " T,LP";
-        printf("%s(%d,%d)", hd_wave_pairs(&wave[k], def->boundary).count == 0 ? " T" : kinds,
+        printf("%s(%d,%d)", wave[k].pairs.count == 0 ? " T" : kinds,
                wave[k].n[0], wave[k].n[1]);
     }
     if (count > shown) printf(" and %d more", count - shown);

@@ -96,7 +96,7 @@ static void check_entries(const world *w, const hd_hydro *hydro)
         const hd_step *step = hd_steps_step(w->steps, k);
         if (step->kind == HD_MODE_ZERO) continue;
         assert_true(step->resolved && step->members == 1);
-        const hd_modulations m = hd_wave_pairs(&step->wave, w->scene.boundary);
+        const hd_modulations m = step->wave.pairs;
         for (int v = 0; v < step->expected; v++)
             for (int c = 0; c < m.count; c++) {
                 const hd_hydro_response *r = hd_hydro_at(hydro, index++);

@@ -297,8 +297,9 @@ TEST(each_parameter_may_differ_or_is_refused_by_name)
     expect_refused(&shorter, HD_REFUSED, "duration");
 }
 
-/** Excludes max_mode_number. */
-static const size_t WAVE_NUMBER = offsetof(hd_scene_def, max_wave_number);
+/** Exclude max_mode_number; aspect and boundaries. */
+static const size_t WAVE_NUMBER = offsetof(hd_scene_def, max_wave_number),
+                    CONTAINER = offsetof(hd_scene_def, container);
 
 TEST(it_says_whose_it_is)
 {
@@ -306,7 +307,8 @@ TEST(it_says_whose_it_is)
     int count;
     const hd_parameter *rows = hd_scene_parameters(&count);
     for (int k = 0; k < count; k++) /* nothing is as it usually is */
-        if (hd_parameter_value(&rows[k], &def) == rows[k].usual && rows[k].offset != WAVE_NUMBER)
+        if (hd_parameter_value(&rows[k], &def) == rows[k].usual && rows[k].offset != WAVE_NUMBER &&
+            rows[k].offset != CONTAINER)
             def = with_another(&def, &rows[k]);
     OWNED(hd_run) *run = kept_run(def);
     hd_checkpoint found;

@@ -49,7 +49,7 @@ TEST(contents_that_no_run_has_are_refused)
     static const nonsense_case cases[] = {
         {"scene disks", 0, 0, 61, "another array"},
         {"scene disks", 0, 0, 1000000, "too short"},
-        {"scene disks", 0, 0, 1, "out of its range"},
+        {"scene disks", 0, 0, 1, "in a rectangle"},
         {"scene density", 0, NAN, 0, "not finite"},
         {"scene density", 0, 5.0, 0, "density"},
         {"scene observe", 0, 0, 1024, "out of its range"},

@@ -130,7 +130,9 @@ TEST(whole_fields_out_of_range)
         char value[32];
         hd_scene_def def = scene(.disks = disks[k]);
         snprintf(value, sizeof value, "= %d", disks[k]);
-        check_refused(&def, "disks", value, "an integer from 2 to 1000000");
+        check_refused(&def, "disks", value,
+                      disks[k] == 1 ? "from 2 to 1000000 in a rectangle"
+                                    : "an integer from 1 to 1000000");
     }
     for (size_t k = 0; k < 2; k++) {
         char value[32];

@@ -43,10 +43,16 @@ TEST(dimensions_follow_the_table)
         {{P, R}, 0, 1, "2", "0"},       {{P, R}, 1, 1, "23", "01"}, {{R, P}, 1, 0, "1", "0"},
         {{R, P}, 0, 1, "", "02"},       {{R, P}, 1, 1, "13", "02"},
     };
+    static hd_wave wave[WAVES_MAX];
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
-        const hd_wave wave = {.n = {cases[k].nx, cases[k].ny}};
-        check_bits(hd_wave_transverse(&wave, cases[k].boundary), cases[k].transverse);
-        check_bits(hd_wave_pairs(&wave, cases[k].boundary), cases[k].pairs);
+        hd_scene_def def = scene_in_box(400, 25, 20, cases[k].boundary[0], cases[k].boundary[1], 1);
+        def.max_mode_number = 3;
+        const int count = hd_waves(&def, wave, WAVES_MAX);
+        int at = 0;
+        while (at < count && (wave[at].n[0] != cases[k].nx || wave[at].n[1] != cases[k].ny)) at++;
+        assert_true(at < count);
+        check_bits(wave[at].transverse, cases[k].transverse);
+        check_bits(wave[at].pairs, cases[k].pairs);
     }
 }
 

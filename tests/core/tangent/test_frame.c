@@ -10,14 +10,10 @@ typedef struct shadow {
     double time;
 } shadow;
 
-static shadow shadow_of(int disks, double density, hd_boundary x, hd_boundary y)
+static shadow shadow_of(hd_scene_def scene)
 {
-    shadow s = {.scene = hd_scene_def_default()};
-    s.scene.disks = disks;
-    s.scene.density = density;
-    s.scene.aspect = 0.8;
-    s.scene.boundary[0] = x;
-    s.scene.boundary[1] = y;
+    const int disks = scene.disks;
+    shadow s = {.scene = scene};
     MADE(hd_trajectory, tr, &s.scene);
     CHECK_OK(hd_trajectory_extend(tr, NULL, 20.0));
     s.time = 1.6 * disks / hd_trajectory_collision_rate(tr); /* about three collisions a disk */
@@ -68,9 +64,10 @@ static double shadow_error(const shadow *s, const double *carried, double epsilo
 }
 
 /** Over a sweep of offsets the deviation falls as epsilon^2, down to rounding / epsilon. */
-static void check_shadow(int disks, double density, hd_boundary x, hd_boundary y)
+static void check_shadow(hd_scene_def scene)
 {
-    const shadow s = shadow_of(disks, density, x, y);
+    const shadow s = shadow_of(scene);
+    const int disks = scene.disks;
     double q[64], p[64], carried[128], error[4];
     OWNED(hd_event_log) *log = new_log();
     follow(&s, 0.0, q, p, log);
@@ -85,11 +82,13 @@ static void check_shadow(int disks, double density, hd_boundary x, hd_boundary y
 
 TEST(maps_are_the_derivative_of_the_flow)
 {
-    check_shadow(10, 0.5, P, P);
-    check_shadow(12, 0.3, R, R);
-    check_shadow(12, 0.6, P, R);
-    check_shadow(12, 0.6, R, P);
-    check_shadow(30, 0.7, P, P);
+    check_shadow(scene_of(10, 0.5, 0.8, P, P, 1));
+    check_shadow(scene_of(12, 0.3, 0.8, R, R, 1));
+    check_shadow(scene_of(12, 0.6, 0.8, P, R, 1));
+    check_shadow(scene_of(12, 0.6, 0.8, R, P, 1));
+    check_shadow(scene_of(30, 0.7, 0.8, P, P, 1));
+    check_shadow(scene(.container = HD_CIRCLE, .disks = 12, .density = 0.3));
+    check_shadow(scene(.container = HD_CIRCLE, .disks = 30, .density = 0.7));
 }
 
 /* ---- many vectors -------------------------------------------------------------------------- */

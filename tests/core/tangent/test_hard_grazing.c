@@ -55,6 +55,27 @@ TEST(maps_stay_finite_and_symplectic)
             }
 }
 
+/** The largest entry of S is 2 p_t^2 / (R b), from dq along n to dp along n. */
+static void check_round_wall(double impact, double angle, double radius)
+{
+    const double n[2] = {cos(angle), sin(angle)}, pt = sqrt(1.0 - impact * impact);
+    hd_event event = {.t = 0.25,
+                      .j = HD_WALL_ROUND,
+                      .n = {radius * n[0], radius * n[1]},
+                      .p = {impact * n[0] - pt * n[1], impact * n[1] + pt * n[0]}};
+    const hd_event_log log = {.event = &event, .count = 1, .capacity = 1, .duration = 0.5};
+    const double size = check_symplectic_map(&log, 1), stretch = 2.0 / (radius * impact);
+    if (stretch > 1e3) assert_true(size > 0.9 * stretch && size < 1.6 * stretch);
+}
+
+TEST(a_round_wall_is_finite_and_symplectic)
+{
+    for (double impact = 1.0; impact > 0.5 * TAKEN_MIN; impact *= 0.1)
+        for (int a = 0; a < ANGLES; a++)
+            for (double radius = 0.01; radius < 200.0; radius *= 10.0)
+                check_round_wall(impact, 2.0 * PI * a / ANGLES, radius);
+}
+
 static const double DRIFT[2] = {0.3125, -0.1875}; /* of both disks */
 
 /** Two disks that meet at `wait`, drifting together `drift` times DRIFT. */

@@ -1,0 +1,245 @@
+/** A circular container: start positions, what is conserved, wave numbers [T21]. Of the
+ * trajectory's start + - * / sqrt only. */
+#define _XOPEN_SOURCE 700 /* jn */
+
+#include "scene/circle.h"
+
+#include <float.h>
+#include <math.h>
+
+#include "base/check.h"
+#include "scene/container.h"
+
+static const double PI = 3.14159265358979323846;
+
+double hd_circle_radius(const hd_scene_def *def) { return sqrt(def->disks / (PI * def->density)); }
+
+static double reach_of(const hd_scene_def *def) { return hd_circle_radius(def) - 0.5; }
+
+static void circle_box(const hd_scene_def *def, double box[HD_DIM])
+{
+    box[0] = box[1] = 2.0 * hd_circle_radius(def);
+}
+
+static double circle_area(const hd_scene_def *def) { return PI * reach_of(def) * reach_of(def); }
+
+/** Half the circumference to the area, as two walls have it in a box. */
+static double circle_wall_rate(const hd_scene_def *def) { return 1.0 / reach_of(def); }
+
+/** Energy and time; rotation and angular momentum. */
+static int circle_symmetries(const hd_scene_def *def)
+{
+    (void)def;
+    return 2;
+}
+
+static hd_status circle_check(const hd_scene_def *def, char *message, size_t size)
+{
+    const hd_scene_def usual = hd_scene_def_default();
+    if (def->aspect != usual.aspect)
+        return hd_refuse(message, size, "aspect = %.15g: must not be given with container = circle",
+                         def->aspect);
+    for (int d = 0; d < HD_DIM; d++)
+        if (def->boundary[d] != usual.boundary[d])
+            return hd_refuse(message, size,
+                             "boundary_%c = reflecting: must not be given with container = circle, "
+                             "whose wall reflects",
+                             "xy"[d]);
+    if (def->observe & (HD_OBSERVE_HYDRO | HD_OBSERVE_STRUCTURE))
+        return hd_refuse(
+            message, size,
+            "observe: hydro and structure, which are of waves in a rectangle, must not "
+            "be given with container = circle");
+    if (!(reach_of(def) >= HD_ROOM_MIN))
+        return hd_refuse(message, size,
+                         "density = %.15g with disks = %d: the radius %.15g of the container must "
+                         "be above that of a disk, 1/2, by 1e-9",
+                         def->density, def->disks, hd_circle_radius(def));
+    return HD_OK;
+}
+
+/* ---- start ---------------------------------------------------------------------------------- */
+
+/** A hexagonal lattice of spacing 1 about one of its points of symmetry: rows at y = j ROW - y0, in
+ * which sites lie at x = i + (j odd) / 2 - x0. */
+typedef struct hexagons {
+    double x0, y0;
+    double square; /**< least radius squared with enough sites */
+} hexagons;
+
+static const double ROW = 0.86602540378443864676;
+
+/** First column and number of sites of row j within a radius. */
+static double row_of(const hexagons *h, double square, int j, double *first)
+{
+    const double y = j * ROW - h->y0, x = (j % 2 != 0 ? 0.5 : 0.0) - h->x0;
+    if (y * y > square) return 0.0;
+    const double half = sqrt(square - y * y);
+    *first = ceil(-half - x);
+    return floor(half - x) - *first + 1.0;
+}
+
+static int rows_of(double square) { return (int)(sqrt(square) / ROW) + 1; }
+
+static double sites_within(const hexagons *h, double square)
+{
+    const int rows = rows_of(square);
+    double sites = 0.0, first;
+    for (int j = -rows; j <= rows; j++) sites += row_of(h, square, j, &first);
+    return sites;
+}
+
+/** The least circle about one of the points of symmetry with at least so many sites. */
+static hexagons densest(int disks)
+{
+    enum { POINTS = 3, BISECTIONS = 100 };
+    static const double point[POINTS][HD_DIM] = {{0, 0}, {0.5, 0}, {0.5, 0.28867513459481288225}};
+    hexagons best = {.square = INFINITY};
+    for (int k = 0; k < POINTS; k++) {
+        hexagons h = {point[k][0], point[k][1], 0.0};
+        double low = 0.0, high = disks + 2.0; /* sites lie at least as dense as their squares */
+        for (int b = 0; b < BISECTIONS && low < high; b++) {
+            const double middle = 0.5 * (low + high);
+            *(sites_within(&h, middle) >= disks ? &high : &low) = middle;
+        }
+        h.square = high;
+        if (h.square < best.square) best = h;
+    }
+    return best;
+}
+
+/** Spacing of sites; a little less than fits, for the rounding of the outermost. */
+static double spacing_of(const hexagons *h, double reach)
+{
+    return reach / sqrt(h->square) * (1.0 - 8.0 * DBL_EPSILON);
+}
+
+static double circle_start_distance(const hd_scene_def *def)
+{
+    const hexagons h = densest(def->disks);
+    return def->disks > 1 ? spacing_of(&h, reach_of(def)) : INFINITY;
+}
+
+static double circle_density_max(const hd_scene_def *def)
+{
+    const hexagons h = densest(def->disks);
+    const double spacing = HD_START_DISTANCE_MIN * (1.0 + 16.0 * DBL_EPSILON);
+    const double radius = 0.5 + (def->disks > 1 ? spacing * sqrt(h.square) : 1e-9);
+    return def->disks / (PI * radius * radius);
+}
+
+/** Spare sites are left empty evenly. */
+static void circle_start(const hd_scene_def *def, double *q)
+{
+    const hexagons h = densest(def->disks);
+    const double centre = hd_circle_radius(def), spacing = spacing_of(&h, reach_of(def));
+    const int64_t sites = (int64_t)sites_within(&h, h.square), disks = def->disks;
+    const int rows = rows_of(h.square);
+    int64_t site = 0;
+    for (int j = -rows; j <= rows; j++) {
+        double first;
+        const int count = (int)row_of(&h, h.square, j, &first);
+        for (int i = 0; i < count; i++, site++) {
+            if ((site + 1) * disks / sites == site * disks / sites) continue;
+            *q++ = centre + spacing * (first + i + (j % 2 != 0 ? 0.5 : 0.0) - h.x0);
+            *q++ = centre + spacing * (j * ROW - h.y0);
+        }
+    }
+}
+
+static void circle_still(const hd_scene_def *def, const double *q, double *p)
+{
+    const double centre = hd_circle_radius(def);
+    double angular = 0.0, inertia = 0.0;
+    for (int k = 0; k < HD_DIM * def->disks; k += HD_DIM) {
+        const double x = q[k] - centre, y = q[k + 1] - centre;
+        angular += x * p[k + 1] - y * p[k];
+        inertia += x * x + y * y;
+    }
+    const double rate = inertia > 0 ? angular / inertia : 0.0;
+    for (int k = 0; k < HD_DIM * def->disks; k += HD_DIM) {
+        p[k] += rate * (q[k + 1] - centre);
+        p[k + 1] -= rate * (q[k] - centre);
+    }
+}
+
+/* ---- waves ---------------------------------------------------------------------------------- */
+
+/** T: J_m has no flow through the wall; a flow about the centre (m = 0) that rigid rotation has no
+ * part in has J_2. LP: J_m'. Up to a factor. */
+static double at_wall(bool transverse, int m, double x)
+{
+    if (transverse) return jn(m > 0 ? m : 2, x);
+    return m > 0 ? jn(m - 1, x) - jn(m + 1, x) : jn(1, x);
+}
+
+/** The next root above x: roots are more than pi / 2 apart. */
+static double next_root(bool transverse, int m, double x)
+{
+    const double STEP = 0.5, CLOSE = 1e-14;
+    double low = x + 1e-3, high = low + STEP;
+    const bool below = at_wall(transverse, m, low) < 0;
+    while ((at_wall(transverse, m, high) < 0) == below) low = high, high += STEP;
+    while (high - low > CLOSE * high) {
+        const double middle = 0.5 * (low + high);
+        if (!(middle > low && middle < high)) break;
+        *((at_wall(transverse, m, middle) < 0) == below ? &low : &high) = middle;
+    }
+    return 0.5 * (low + high);
+}
+
+/** Where to begin: the first root of J_m' is above m, J_0' = -J_1 has one at 0, which is none. */
+static double before_roots(int m) { return m > 0 ? m : 0.1; }
+
+static hd_modulations modulations_of(int m)
+{
+    return m > 0 ? (hd_modulations){2, {0, HD_SIN_X}} : (hd_modulations){1, {0}};
+}
+
+/** A wave with fields of one kind; n[0] = m, n[1]: which root of it. */
+static hd_wave wave_of(double reach, bool transverse, int m, int n, double root)
+{
+    const double k = root / reach;
+    hd_wave wave = {.n = {m, n}, .k = {k, 0.0}, .number = k};
+    *(transverse ? &wave.transverse : &wave.pairs) = modulations_of(m);
+    return wave;
+}
+
+static hd_wave_limits circle_limits(const hd_scene_def *def)
+{
+    hd_wave_limits limits = {INFINITY, PI * sqrt(def->density), 0};
+    const double reach = reach_of(def), longest = next_root(false, 1, before_roots(1)) / reach;
+    limits.node = longest <= limits.largest ? (int)fmin(limits.largest * reach, 1e6) : 0;
+    if (limits.node > 0) limits.smallest = longest;
+    return limits;
+}
+
+static int circle_waves(const hd_scene_def *def, hd_wave *out, int capacity)
+{
+    const double reach = reach_of(def), limit = hd_wave_limit(def) * (1.0 + 1e-12);
+    const int nodes = hd_wave_nodes(def, circle_limits(def).node);
+    int count = 0;
+    for (int transverse = 0; transverse < 2; transverse++)
+        for (int m = 0; m <= nodes; m++) {
+            double root = before_roots(m);
+            for (int n = 1; n <= nodes; n++) {
+                root = next_root(transverse, m, root);
+                if (root > limit * reach) break;
+                if (count < capacity) out[count] = wave_of(reach, transverse, m, n, root);
+                count++;
+            }
+        }
+    return count;
+}
+
+const hd_container_row hd_circle_row = {.check = circle_check,
+                                        .box = circle_box,
+                                        .area = circle_area,
+                                        .wall_rate = circle_wall_rate,
+                                        .symmetries = circle_symmetries,
+                                        .start_distance = circle_start_distance,
+                                        .density_max = circle_density_max,
+                                        .start = circle_start,
+                                        .still = circle_still,
+                                        .limits = circle_limits,
+                                        .waves = circle_waves};

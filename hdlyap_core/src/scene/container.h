@@ -1,0 +1,41 @@
+/** What holds the disks. Each kind is a file with a row of functions; who asks knows rows alone. */
+#ifndef HD_CONTAINER_ROW_H
+#define HD_CONTAINER_ROW_H
+
+#include "hdlyap/wave.h"
+
+/** Least distance of two start positions: disks that all touch can never move. */
+#define HD_START_DISTANCE_MIN (1.0 + 1e-9)
+
+/** Room of centres between walls: less is crossed more often than there are times to tell apart. It
+ * is 1e-9 but for the rounding of an edge that density and aspect give. */
+#define HD_ROOM_MIN 0.999e-9
+
+typedef struct hd_container_row {
+    /** That one disk has room, and that no parameter is given which it does not have. */
+    hd_status (*check)(const hd_scene_def *def, char *message, size_t size);
+    void (*box)(const hd_scene_def *def, double box[HD_DIM]); /**< edges of the box around it */
+    double (*area)(const hd_scene_def *def);                  /**< that centres can reach */
+    /** Collisions with walls of one disk per time unit and mean momentum across them. */
+    double (*wall_rate)(const hd_scene_def *def);
+    /** Pairs of zero exponents: of energy and time, and of each conserved momentum. */
+    int (*symmetries)(const hd_scene_def *def);
+    double (*start_distance)(const hd_scene_def *def); /**< least, of the densest start positions */
+    double (*density_max)(const hd_scene_def *def);    /**< that these can hold; 0 for none */
+    void (*start)(const hd_scene_def *def, double *q); /**< q[2 disks] */
+    /** Takes out of p[2 disks] each momentum that is conserved. */
+    void (*still)(const hd_scene_def *def, const double *q, double *p);
+    hd_wave_limits (*limits)(const hd_scene_def *def);
+    int (*waves)(const hd_scene_def *def, hd_wave *out, int capacity); /**< in any order */
+} hd_container_row;
+
+extern const hd_container_row hd_rectangle_row, hd_circle_row;
+
+const hd_container_row *hd_container_of(const hd_scene_def *def);
+
+/** Largest number of nodes that the scene asks for, of `most` within the limits. */
+int hd_wave_nodes(const hd_scene_def *def, int most);
+/** Wave number up to which the scene asks for waves. */
+double hd_wave_limit(const hd_scene_def *def);
+
+#endif

@@ -1,0 +1,143 @@
+/** The circle as a container: start, what is refused, wave numbers [T21]. */
+#include "testing.h"
+
+static hd_scene_def circle(int disks, double density)
+{
+    return scene(.container = HD_CIRCLE, .disks = disks, .density = density);
+}
+
+static double radius_of(const hd_scene_def *def)
+{
+    double box[2];
+    hd_scene_box(def, box);
+    CHECK_CLOSE(box[0], box[1], 0.0);
+    return 0.5 * box[0];
+}
+
+static void check_refused(hd_scene_def def, const char *text)
+{
+    char message[256] = "";
+    assert_int_equal(hd_scene_check(&def, message, sizeof message), HD_REFUSED);
+    if (!strstr(message, text)) fail_msg("\"%s\" does not say \"%s\"", message, text);
+}
+
+TEST(density_is_by_the_area_of_the_circle)
+{
+    for (int n = 1; n < 1000; n = 2 * n + 1) {
+        const hd_scene_def def = circle(n, 0.3);
+        const double r = radius_of(&def);
+        CHECK_CLOSE(n / (PI * r * r), 0.3, 4.0 * DBL_EPSILON);
+    }
+}
+
+TEST(what_a_circle_has_not_is_refused_by_name)
+{
+    hd_scene_def def = circle(100, 0.7);
+    CHECK_OK(hd_scene_check(&def, NULL, 0));
+    check_refused(scene_from(def, .aspect = 1.0), "aspect = 1: must not be given");
+    check_refused(scene_from(def, .boundary[0] = R), "boundary_x = reflecting: must not be given");
+    check_refused(scene_from(def, .boundary[1] = R), "boundary_y = reflecting: must not be given");
+    check_refused(scene_from(def, .observe = HD_OBSERVE_HYDRO), "hydro");
+    check_refused(scene_from(def, .observe = HD_OBSERVE_STRUCTURE), "structure");
+    check_refused(scene(.disks = 1), "disks = 1: must be");
+}
+
+/** Below the density that is named disks start apart, inside, with energy N and at rest together;
+ * above it they are refused. */
+static void check_start(int disks)
+{
+    char message[256] = "";
+    hd_scene_def def = circle(disks, 1.1547);
+    double densest = 1.1547;
+    if (hd_scene_check(&def, message, sizeof message) != HD_OK) {
+        const char *most = strstr(message, "must be at most ");
+        assert_non_null(most);
+        densest = strtod(most + strlen("must be at most "), NULL);
+    }
+    def.density = densest * (1.0 - 1e-5);
+    MADE(hd_trajectory, tr, &def);
+    HEAP double *q = calloc(2 * (size_t)disks, sizeof *q);
+    const double r = radius_of(&def);
+    hd_trajectory_state(tr, q, NULL);
+    double least = INFINITY, farthest = 0.0;
+    for (int i = 0; i < disks; i++) {
+        farthest = fmax(farthest, hypot(q[2 * i] - r, q[2 * i + 1] - r));
+        for (int j = 0; j < i; j++)
+            least = fmin(least, hypot(q[2 * i] - q[2 * j], q[2 * i + 1] - q[2 * j + 1]));
+    }
+    assert_true(farthest <= r - 0.5);
+    assert_true(least >= 1.0);
+    CHECK_CLOSE(hd_trajectory_kinetic_energy(tr), disks, 1e-13 * disks);
+    CHECK_CLOSE(hd_trajectory_angular_momentum(tr), 0.0, 1e-13 * disks * r);
+    def.density = densest * (1.0 + 2e-5);
+    if (def.density < 1.1547) check_refused(def, "density = ");
+}
+
+TEST(disks_start_apart_and_inside)
+{
+    for (int n = 2; n < 60; n++) check_start(n);
+    for (int n = 60; n < 1500; n += 1 + n / 4) check_start(n);
+}
+
+/** Closest packings of 2, 3 and 7 disks are hexagons; of many it is nearly that of the plane. */
+TEST(known_packings)
+{
+    const struct {
+        int disks;
+        double radius;
+    } packed[] = {{2, 1.0}, {3, 0.5 + 1.0 / sqrt(3.0)}, {7, 1.5}, {19, 2.5}};
+    for (size_t k = 0; k < sizeof packed / sizeof *packed; k++) {
+        const double densest = packed[k].disks / (PI * packed[k].radius * packed[k].radius);
+        const hd_scene_def below = circle(packed[k].disks, densest * (1.0 - 1e-8));
+        if (packed[k].disks < 19) CHECK_OK(hd_scene_check(&below, NULL, 0));
+        check_refused(circle(packed[k].disks, densest * (1.0 + 1e-8)), "density = ");
+    }
+    const hd_scene_def many = circle(780, 1.0);
+    CHECK_OK(hd_scene_check(&many, NULL, 0));
+}
+
+/** Roots from Abramowitz and Stegun, tables 9.5: of J_m' (LP), of J_m and, for m = 0, J_2 (T). */
+TEST(wave_numbers_are_published_roots)
+{
+    static const struct {
+        int m, n, pairs, transverse;
+        double root;
+    } known[] = {
+        {1, 1, 2, 0, 1.84118}, {2, 1, 2, 0, 3.05424}, {0, 1, 0, 1, 5.13562}, {0, 1, 1, 0, 3.83171},
+        {1, 1, 0, 2, 3.83171}, {2, 1, 0, 2, 5.13562}, {1, 2, 2, 0, 5.33144}, {2, 2, 2, 0, 6.70613},
+        {0, 2, 1, 0, 7.01559}, {1, 2, 0, 2, 7.01559}, {0, 2, 0, 1, 8.41724}, {2, 2, 0, 2, 8.41724},
+    };
+    enum { KNOWN = sizeof known / sizeof *known };
+    const hd_scene_def def = circle(400, 0.5);
+    const double reach = radius_of(&def) - 0.5;
+    hd_wave wave[2 * KNOWN];
+    assert_int_equal(hd_waves(&def, wave, 2 * KNOWN), KNOWN);
+    for (int k = 0; k < KNOWN; k++) {
+        int at = 0;
+        while (at < KNOWN && !(wave[at].n[0] == known[k].m && wave[at].n[1] == known[k].n &&
+                               wave[at].pairs.count == known[k].pairs &&
+                               wave[at].transverse.count == known[k].transverse))
+            at++;
+        assert_true(at < KNOWN);
+        CHECK_CLOSE(wave[at].number * reach, known[k].root, 6e-6);
+        if (k > 0) assert_true(wave[k].number >= wave[k - 1].number);
+    }
+}
+
+TEST(every_wave_up_to_a_wave_number)
+{
+    hd_scene_def def = circle(400, 0.5);
+    hd_wave wave[1000];
+    double most = hd_wave_limits_of(&def).largest;
+    def.max_wave_number = most;
+    const int count = hd_waves(&def, wave, 1000);
+    const double reach = radius_of(&def) - 0.5;
+    /* Weyl: LP and T each about (k a)^2 / 4 +- k a / 2, less the sines */
+    int dimension = 0;
+    for (int k = 0; k < count; k++) dimension += wave[k].pairs.count + wave[k].transverse.count;
+    CHECK_CLOSE(dimension, 0.5 * most * most * reach * reach, 0.05 * dimension + most * reach);
+    most = hd_wave_limits_of(&def).smallest;
+    CHECK_CLOSE(most * reach, 1.84118, 1e-5);
+    def.max_wave_number = 1.0001 * most;
+    assert_int_equal(hd_waves(&def, wave, 1000), 1);
+}
