@@ -6,22 +6,45 @@
 #include <complex.h>
 #include <math.h>
 
+/** A radial function, its derivative, and m times its quotient by r. */
+typedef struct radial {
+    double value, along, across;
+} radial;
+
 /** By J_(m-1) and J_(m+1), which need no quotient by r: J_m' is half their difference, m J_m(x) / x
  * half their sum. */
-void hd_circle_modulations(hd_circle_modulation out[2], const hd_wave *wave, double x, double y)
+static radial bessel(int m, double k, double r)
+{
+    const double below = m > 0 ? jn(m - 1, k * r) : -jn(1, k * r), above = jn(m + 1, k * r);
+    return (radial){jn(m, k * r), 0.5 * k * (below - above), 0.5 * k * (below + above)};
+}
+
+/** Less the harmonic function that is the same at the wall. */
+static radial at(const hd_wave *wave, double reach, double r)
 {
     const int m = wave->n[0];
-    const double k = wave->number, r = hypot(x, y);
-    const double below = m > 0 ? jn(m - 1, k * r) : -jn(1, k * r), above = jn(m + 1, k * r);
-    const double along = 0.5 * k * (below - above), across = 0.5 * k * (below + above);
+    radial f = bessel(m, wave->number, r);
+    if (wave->transverse.count == 0) return f;
+    const double same = jn(m, wave->number * reach);
+    const double slope = m > 0 ? same * m / reach * pow(r / reach, m - 1) : 0.0;
+    f.value -= same * pow(r / reach, m);
+    f.along -= slope;
+    f.across -= slope;
+    return f;
+}
+
+void hd_circle_modulations(hd_circle_modulation out[2], const hd_wave *wave, double reach, double x,
+                           double y)
+{
+    const double r = hypot(x, y);
+    const radial f = at(wave, reach, r);
     const double complex direction = r > 0 ? (x + I * y) / r : 1.0;
     double complex turned = 1.0; /* e^(i m theta) */
-    for (int n = 0; n < m; n++) turned *= direction;
+    for (int n = 0; n < wave->n[0]; n++) turned *= direction;
     const double part[2] = {creal(turned), cimag(turned)}, other[2] = {-part[1], part[0]};
     const double c = creal(direction), s = cimag(direction);
     for (int sine = 0; sine < 2; sine++) {
-        const double radial = along * part[sine], angular = across * other[sine];
-        out[sine] = (hd_circle_modulation){jn(m, k * r) * part[sine], radial * c - angular * s,
-                                           radial * s + angular * c};
+        const double u = f.along * part[sine], v = f.across * other[sine];
+        out[sine] = (hd_circle_modulation){f.value * part[sine], u * c - v * s, u * s + v * c};
     }
 }

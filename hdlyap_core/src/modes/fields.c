@@ -148,7 +148,8 @@ static void sample_circle(const hd_fields *fields, const double *q, const double
     for (int k = 0; k < fields->subspaces; k++) {
         const hd_subspace *s = &fields->subspace[k];
         const int count = s->modulations.count;
-        hd_circle_modulations(at, &s->wave, q[0] - fields->null.centre, q[1] - fields->null.centre);
+        hd_circle_modulations(at, &s->wave, fields->null.centre - 0.5, q[0] - fields->null.centre,
+                              q[1] - fields->null.centre);
         for (int c = 0, column = s->column; c < count; c++, column++) {
             const bool t = s->kind == HD_MODE_T;
             x[column] = t ? at[c].y : at[c].x, y[column] = t ? -at[c].x : at[c].y;

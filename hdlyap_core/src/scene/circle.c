@@ -165,11 +165,11 @@ static void circle_still(const hd_scene_def *def, const double *q, double *p)
 
 /* ---- waves ---------------------------------------------------------------------------------- */
 
-/** T: J_m has no flow through the wall; a flow about the centre (m = 0) that rigid rotation has no
- * part in has J_2. LP: J_m'. Up to a factor. */
+/** T: no tangential stress at the wall, of the flow that hd_circle_modulations gives. LP: J_m',
+ * nothing through the wall. Up to a factor. */
 static double at_wall(bool transverse, int m, double x)
 {
-    if (transverse) return jn(m > 0 ? m : 2, x);
+    if (transverse) return m > 0 ? m * jn(m, x) - jn(m + 2, x) : jn(2, x);
     return m > 0 ? jn(m - 1, x) - jn(m + 1, x) : jn(1, x);
 }
 
@@ -188,8 +188,9 @@ static double next_root(bool transverse, int m, double x)
     return 0.5 * (low + high);
 }
 
-/** Where to begin: the first root of J_m' is above m, J_0' = -J_1 has one at 0, which is none. */
-static double before_roots(int m) { return m > 0 ? m : 0.1; }
+/** Where to begin: the first root of J_m' is above m, that of T above m + 1; J_0' = -J_1 has one at
+ * 0, which is none. T of m = 1 has those of LP of 2, to the last bit. */
+static double before_roots(bool transverse, int m) { return transverse ? m + 1 : fmax(m, 0.1); }
 
 static hd_modulations modulations_of(int m)
 {
@@ -208,7 +209,8 @@ static hd_wave wave_of(double reach, bool transverse, int m, int n, double root)
 static hd_wave_limits circle_limits(const hd_scene_def *def)
 {
     hd_wave_limits limits = {INFINITY, PI * sqrt(def->density), 0};
-    const double reach = reach_of(def), longest = next_root(false, 1, before_roots(1)) / reach;
+    const double reach = reach_of(def),
+                 longest = next_root(false, 1, before_roots(false, 1)) / reach;
     limits.node = longest <= limits.largest ? (int)fmin(limits.largest * reach, 1e6) : 0;
     if (limits.node > 0) limits.smallest = longest;
     return limits;
@@ -221,7 +223,7 @@ static int circle_waves(const hd_scene_def *def, hd_wave *out, int capacity)
     int count = 0;
     for (int transverse = 0; transverse < 2; transverse++)
         for (int m = 0; m <= nodes; m++) {
-            double root = before_roots(m);
+            double root = before_roots(transverse, m);
             for (int n = 1; n <= nodes; n++) {
                 root = next_root(transverse, m, root);
                 if (root > limit * reach) break;

@@ -7,34 +7,35 @@
 /** Central differences: truncation of h^2 / 6 times a third derivative, and rounding over h. */
 static const double STEP = 1e-5, DIFFERENCE = 1e-9;
 
+static const double REACH = 8.0;
+
 static double modulation(const hd_wave *wave, int sine, double x, double y)
 {
     const int m = wave->n[0];
-    const double turned = m * atan2(y, x), radial = jn(m, wave->number * hypot(x, y));
+    const double turned = m * atan2(y, x), r = hypot(x, y), k = wave->number;
+    const double radial = jn(m, k * r) -
+                          (wave->transverse.count > 0 ? jn(m, k * REACH) * pow(r / REACH, m) : 0.0);
     return radial * (sine ? sin(turned) : cos(turned));
 }
 
 TEST(gradients_are_those_of_the_modulations)
 {
     for (int m = 0; m < 6; m++)
-        for (int k = 0; k < 200; k++) {
-            const hd_wave wave = {.n = {m, 1}, .number = 0.1 + 0.01 * k};
-            const double r = k == 0 ? 1e-4 : 8.0 * fmod(0.618 * k, 1.0), x = r * cos(k),
+        for (int k = 0; k < 400; k++) {
+            const hd_wave wave = {
+                .n = {m, 1}, .number = 0.1 + 0.005 * k, .transverse = {k % 2, {0}}};
+            const double r = k < 2 ? 1e-4 : REACH * fmod(0.618 * k, 1.0), x = r * cos(k),
                          y = r * sin(k);
             hd_circle_modulation at[2];
-            hd_circle_modulations(at, &wave, x, y);
+            hd_circle_modulations(at, &wave, REACH, x, y);
             for (int sine = 0; sine < 2; sine++) {
+                const double dx = modulation(&wave, sine, x + STEP, y) -
+                                  modulation(&wave, sine, x - STEP, y);
+                const double dy = modulation(&wave, sine, x, y + STEP) -
+                                  modulation(&wave, sine, x, y - STEP);
                 CHECK_CLOSE(at[sine].a, modulation(&wave, sine, x, y), 1e-14);
-                CHECK_CLOSE(
-                    at[sine].x,
-                    (modulation(&wave, sine, x + STEP, y) - modulation(&wave, sine, x - STEP, y)) /
-                        (2.0 * STEP),
-                    DIFFERENCE);
-                CHECK_CLOSE(
-                    at[sine].y,
-                    (modulation(&wave, sine, x, y + STEP) - modulation(&wave, sine, x, y - STEP)) /
-                        (2.0 * STEP),
-                    DIFFERENCE);
+                CHECK_CLOSE(at[sine].x, dx / (2.0 * STEP), DIFFERENCE);
+                CHECK_CLOSE(at[sine].y, dy / (2.0 * STEP), DIFFERENCE);
             }
         }
 }
@@ -45,12 +46,42 @@ TEST(the_centre_is_a_place_like_others)
     for (int m = 0; m < 4; m++) {
         const hd_wave wave = {.n = {m, 1}, .number = 0.7};
         hd_circle_modulation at[2];
-        hd_circle_modulations(at, &wave, 0.0, 0.0);
+        hd_circle_modulations(at, &wave, REACH, 0.0, 0.0);
         CHECK_CLOSE(at[0].a, m == 0, 0.0);
         CHECK_CLOSE(at[0].x, m == 1 ? 0.35 : 0.0, 1e-16);
         CHECK_CLOSE(at[0].y, 0.0, 0.0);
         CHECK_CLOSE(at[1].y, m == 1 ? 0.35 : 0.0, 1e-16);
     }
+}
+
+/** The flow of T at distance r and angle 0: through the wall, and along it. */
+static void flow(const hd_wave *wave, double r, double along[2])
+{
+    hd_circle_modulation at[2];
+    hd_circle_modulations(at, wave, REACH, r, 0.0);
+    along[0] = at[1].y;  /* of the sine */
+    along[1] = -at[0].x; /* of the cosine */
+}
+
+/** At the roots of [T21] nothing goes through the wall, and r d/dr (u_theta / r) is 0 there. */
+TEST(a_transverse_flow_slips_along_the_wall)
+{
+    static const double root[][3] = {
+        {0, 5.13562, 8.41724}, {1, 3.05424, 6.70613}, {2, 4.61256, 8.15781}};
+    for (int m = 0; m < 3; m++)
+        for (int n = 1; n < 3; n++) {
+            const hd_wave wave = {
+                .n = {m, n}, .number = root[m][n] / REACH, .transverse = {1, {0}}};
+            double here[2], before[2], after[2];
+            flow(&wave, REACH, here);
+            flow(&wave, REACH - STEP, before);
+            flow(&wave, REACH + STEP, after);
+            const double slope = (after[1] / (REACH + STEP) - before[1] / (REACH - STEP)) /
+                                 (2.0 * STEP);
+            CHECK_CLOSE(here[0], 0.0, 1e-15);
+            assert_true(fabs(here[1]) > 0.02);
+            CHECK_CLOSE(REACH * slope / here[1], 0.0, 1e-4);
+        }
 }
 
 enum { DISKS = 90, ROWS = 2 * DISKS };
@@ -80,7 +111,8 @@ TEST(nothing_goes_through_the_wall)
             const hd_subspace *of = hd_fields_subspace(fields, s);
             for (int c = 0; c < of->modulations.count; c++) {
                 const int column = of->column + c;
-                CHECK_CLOSE(x[column] * cos(j) + y[column] * sin(j), 0.0, 1e-12);
+                const double normal = x[column] * cos(j) + y[column] * sin(j);
+                CHECK_CLOSE(normal * hd_fields_norm(fields, column), 0.0, 1e-12);
             }
         }
         /* the null space: a rotation about the centre, nothing, the momenta */
@@ -112,7 +144,7 @@ TEST(fields_of_one_modulation)
             const double *x = hd_fields_data(fields) + (size_t)(2 * j * hd_fields_stride(fields));
             const double *y = x + hd_fields_stride(fields);
             hd_circle_modulation at[2];
-            hd_circle_modulations(at, &of->wave, q[2 * j] - 0.5 * box[0],
+            hd_circle_modulations(at, &of->wave, 0.5 * box[0] - 0.5, q[2 * j] - 0.5 * box[0],
                                   q[2 * j + 1] - 0.5 * box[1]);
             for (int c = 0; c < of->modulations.count; c++) {
                 const int column = of->column + c, pair = column + of->modulations.count;

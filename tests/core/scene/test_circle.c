@@ -96,16 +96,17 @@ TEST(known_packings)
     CHECK_OK(hd_scene_check(&many, NULL, 0));
 }
 
-/** Roots from Abramowitz and Stegun, tables 9.5: of J_m' (LP), of J_m and, for m = 0, J_2 (T). */
+/** Roots of J_m' (LP) and of m J_m - J_(m+2) (T), which for m = 0 are those of J_2 and for m = 1
+ * those of J_2': Abramowitz and Stegun, tables 9.5; those of m = 2 solve their equation. */
 TEST(wave_numbers_are_published_roots)
 {
     static const struct {
         int m, n, pairs, transverse;
         double root;
     } known[] = {
-        {1, 1, 2, 0, 1.84118}, {2, 1, 2, 0, 3.05424}, {0, 1, 0, 1, 5.13562}, {0, 1, 1, 0, 3.83171},
-        {1, 1, 0, 2, 3.83171}, {2, 1, 0, 2, 5.13562}, {1, 2, 2, 0, 5.33144}, {2, 2, 2, 0, 6.70613},
-        {0, 2, 1, 0, 7.01559}, {1, 2, 0, 2, 7.01559}, {0, 2, 0, 1, 8.41724}, {2, 2, 0, 2, 8.41724},
+        {1, 1, 2, 0, 1.84118}, {1, 1, 0, 2, 3.05424}, {2, 1, 2, 0, 3.05424}, {0, 1, 1, 0, 3.83171},
+        {2, 1, 0, 2, 4.61256}, {0, 1, 0, 1, 5.13562}, {1, 2, 2, 0, 5.33144}, {1, 2, 0, 2, 6.70613},
+        {2, 2, 2, 0, 6.70613}, {0, 2, 1, 0, 7.01559}, {2, 2, 0, 2, 8.15781}, {0, 2, 0, 1, 8.41724},
     };
     enum { KNOWN = sizeof known / sizeof *known };
     const hd_scene_def def = circle(400, 0.5);
