@@ -11,12 +11,16 @@ extern "C" {
 #endif
 
 /** A is a product of a function of x and one of y; a set bit: sine, otherwise cosine (1 for n = 0).
- * In a circle HD_SIN_X is a sine of the angle. */
+ */
 enum { HD_SIN_X = 1, HD_SIN_Y = 2 };
+
+/** Or of a function of r and cos(m theta) or sin(m theta) in a circle. */
+enum { HD_COS_M = 4, HD_SIN_M = 5 };
 
 enum { HD_MODULATIONS_MAX = 4 };
 
-/** Bits of the modulations of one kind of field at a wave vector, ascending. */
+/** Bits of the modulations of one kind of field at a wave vector, or HD_COS_M and HD_SIN_M;
+ * ascending. */
 typedef struct hd_modulations {
     int count; /**< 0 .. 4 */
     unsigned char bits[HD_MODULATIONS_MAX];

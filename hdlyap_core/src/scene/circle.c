@@ -194,7 +194,7 @@ static double before_roots(bool transverse, int m) { return transverse ? m + 1 :
 
 static hd_modulations modulations_of(int m)
 {
-    return m > 0 ? (hd_modulations){2, {0, HD_SIN_X}} : (hd_modulations){1, {0}};
+    return (hd_modulations){m > 0 ? 2 : 1, {HD_COS_M, HD_SIN_M}};
 }
 
 /** A wave with fields of one kind; n[0] = m, n[1]: which root of it. */

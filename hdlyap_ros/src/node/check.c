@@ -150,10 +150,8 @@ static void print_waves(const settings *set)
     const int count = hd_waves(def, wave, SHOWN), shown = count < SHOWN ? count : SHOWN;
     printf("waves    ");
     for (int k = 0; k < shown; k++) {
-        const char *kinds = wave[k].transverse.count == 0 ? " LP"
-                                                                                   : " T,LP";
-        printf("%s(%d,%d)", wave[k].pairs.count == 0 ? " T" : kinds,
-               wave[k].n[0], wave[k].n[1]);
+        const char *kinds = wave[k].transverse.count == 0 ? " LP" : " T,LP";
+        printf("%s(%d,%d)", wave[k].pairs.count == 0 ? " T" : kinds, wave[k].n[0], wave[k].n[1]);
     }
     if (count > shown) printf(" and %d more", count - shown);
     printf("\n");
@@ -186,10 +184,10 @@ static void print_errors(const settings *set, const hd_estimate *t)
 static void print_all(const settings *set, const hd_estimate *t, hd_room room)
 {
     const hd_scene_def *def = &set->def;
-    double box[2];
-    hd_scene_box(def, box);
-    printf("scene     %s is valid: %d disks in %.6g x %.6g, %d vectors\n", set->scene, def->disks,
-           box[0], box[1], hd_scene_vectors(def));
+    char container[64];
+    settings_write_container(container, sizeof container, def);
+    printf("scene     %s is valid: %d disks in %s, %d vectors\n", set->scene, def->disks, container,
+           hd_scene_vectors(def));
     print_memory(set, room);
     print_speed(set, t);
     print_bag(set, t);

@@ -173,12 +173,11 @@ static void log_start(const app *a)
 {
     const hd_scene_def *def = &a->set.def;
     const hd_blas blas = hd_blas_query();
-    double box[2];
-    hd_scene_box(def, box);
-    hdr_log(HDR_INFO,
-            "scene %s: %d disks in %.6g x %.6g, %d vectors, %d threads; %s, kernel %s, %d threads",
-            a->set.scene, def->disks, box[0], box[1], hd_run_vectors(a->run),
-            hd_run_threads(a->run), blas.library, blas.kernel, blas.threads);
+    char container[64];
+    settings_write_container(container, sizeof container, def);
+    hdr_log(HDR_INFO, "scene %s: %d disks in %s, %d vectors, %d threads; %s, kernel %s, %d threads",
+            a->set.scene, def->disks, container, hd_run_vectors(a->run), hd_run_threads(a->run),
+            blas.library, blas.kernel, blas.threads);
     warn_of_threads(a->run);
     if (*a->set.resume)
         hdr_log(HDR_INFO, "goes on from simulated time %.6g of %s", hd_run_time(a->run),

@@ -15,9 +15,9 @@ static const parameter name_row = {
     .allowed = "a line that is not empty",
     .unit = "",
     .may_differ = true,
-    .text =
-        "Name of the scene, copied into run_info. It must come with disks, density, aspect or a "
-        "boundary: a name chooses no system. One without a name is unnamed.",
+    .text = "Name of the scene, copied into run_info. It must come with container, disks, density, "
+            "aspect or "
+            "a boundary: a name chooses no system. One without a name is unnamed.",
 };
 
 static const parameter rows[] = {

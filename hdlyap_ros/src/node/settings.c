@@ -37,11 +37,22 @@ static bool read_all(settings *out, reader *r)
     return true;
 }
 
+void settings_write_container(char *text, size_t size, const hd_scene_def *def)
+{
+    double box[2];
+    hd_scene_box(def, box);
+    if (def->container == HD_CIRCLE)
+        snprintf(text, size, "a circle of radius %.6g", 0.5 * box[0]);
+    else
+        snprintf(text, size, "%.6g x %.6g", box[0], box[1]);
+}
+
 /** A name chooses no system: it must come with the one that it names, and no system has the name of
  * the usual one but that itself. */
 static bool check_scene_name(settings *set, reader *r)
 {
-    static const char *const system[] = {"disks", "density", "aspect", "boundary_x", "boundary_y"};
+    static const char *const system[] = {"container", "disks",      "density",
+                                         "aspect",    "boundary_x", "boundary_y"};
     const parameter name = parameters_named("scene");
     bool given = false, usual = true;
     for (size_t k = 0; k < sizeof system / sizeof *system; k++) {
@@ -55,9 +66,9 @@ static bool check_scene_name(settings *set, reader *r)
         return true;
     }
     return given || strcmp(set->scene, name.usual) == 0 ||
-           reader_refuse(r,
-                         "given with its disks, density, aspect, boundary_x or boundary_y: a "
-                         "name chooses none of them, roslaunch hdlyap run.launch scene:=.. does");
+           reader_refuse(
+               r, "given with its container, disks, density, aspect, boundary_x or boundary_y: a "
+                  "name chooses none of them, roslaunch hdlyap run.launch scene:=.. does");
 }
 
 /** Those that the scene does not know of, where the row says a range. */

@@ -56,13 +56,15 @@ static bool fill_changes(hdr_run_info *info, const moment *now)
 static void fill_scene(hdr_run_info *info, const settings *set)
 {
     const hd_scene_def *def = &set->def;
+    const bool is_circle = def->container == HD_CIRCLE;
     double box[2];
     hd_scene_box(def, box);
     info->scene = set->scene;
     info->box_x = box[0];
     info->box_y = box[1];
-    info->boundary_x = word_of("boundary_x", def);
-    info->boundary_y = word_of("boundary_y", def);
+    info->container = word_of("container", def);
+    info->boundary_x = is_circle ? "curved" : word_of("boundary_x", def);
+    info->boundary_y = is_circle ? "curved" : word_of("boundary_y", def);
     info->seed = set->seed;
     info->exponents = set->exponents;
     info->zero_exponents = (uint32_t)hd_scene_zero_exponents(def);
@@ -74,6 +76,7 @@ static void fill_scene(hdr_run_info *info, const settings *set)
 #define HD_REAL(name, ...) info->name = def->name;
 #define HD_OTHER(...)
 #include "hdlyap/parameters.inc"
+    if (is_circle) info->aspect = 1.0;
 }
 
 /** What it runs on. */

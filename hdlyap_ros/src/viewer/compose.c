@@ -157,6 +157,7 @@ picture compose(const heard *h, const mode_choice *asked, const char *note)
         .disks = h->disks,
         .box = {h->box[0], h->box[1]},
         .periodic = {h->periodic[0], h->periodic[1]},
+        .round = h->round,
         .time = h->time >= 0.0 ? h->time : h->status_time,
         .averaged = h->averaged,
         .progress = h->progress,

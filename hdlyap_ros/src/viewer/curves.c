@@ -224,14 +224,22 @@ static void write_time(char *text, size_t size, const picture *p)
         snprintf(text, size, "waiting for its first message");
 }
 
+static void write_box(char *text, size_t size, const picture *p)
+{
+    static const char *const end[] = {"reflecting", "periodic"};
+    if (p->round)
+        snprintf(text, size, "in a circle");
+    else
+        snprintf(text, size, "x %s, y %s", end[p->periodic[0]], end[p->periodic[1]]);
+}
+
 void curves_caption(canvas *on, const layout *l, const picture *p)
 {
-    char results[300] = "", time[80];
+    char results[300] = "", time[80], box[40];
+    write_box(box, sizeof box, p);
     write_results(results, sizeof results, p);
     write_time(time, sizeof time, p);
     canvas_text(on, "caption", l->caption_x, l->caption_y, 1.3 * l->unit, PALETTE_INK,
-                "%.60s: %u disks, x %s, y %s\n%s%s%s\n%s", p->scene, (unsigned)p->disks,
-                p->periodic[0] ? "periodic" : "reflecting",
-                p->periodic[1] ? "periodic" : "reflecting", time, *p->note ? "   " : "", p->note,
-                results);
+                "%.60s: %u disks, %s\n%s%s%s\n%s", p->scene, (unsigned)p->disks, box, time,
+                *p->note ? "   " : "", p->note, results);
 }

@@ -8,7 +8,7 @@ bool draw(canvas *on, hdr_markers *out, const picture *p, const char *frame_id)
 {
     const layout l = layout_of(p);
     canvas_clear(on);
-    panel_boxes(on, &l);
+    panel_boxes(on, &l, p);
     panel_disks(on, &l, p);
     for (int k = 0; k < p->modes; k++) panel_mode(on, &l, p, k);
     if (p->has_exponents) curves_spectrum(on, &l, p);

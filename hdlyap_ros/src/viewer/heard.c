@@ -28,8 +28,8 @@ static bool is_in(const hdr_strings *list, const char *name)
 static bool has_transverse(const heard *h, const hdr_run_info *info)
 {
     for (uint32_t k = 0; k < info->wave_nx.count && k < info->wave_ny.count; k++)
-        if ((h->periodic[0] || info->wave_nx.data[k] > 0) &&
-            (h->periodic[1] || info->wave_ny.data[k] > 0))
+        if (h->round || ((h->periodic[0] || info->wave_nx.data[k] > 0) &&
+                         (h->periodic[1] || info->wave_ny.data[k] > 0)))
             return true;
     return false;
 }
@@ -46,6 +46,7 @@ static void begin(heard *h, const hdr_run_info *info)
     h->box[1] = info->box_y;
     h->periodic[0] = strcmp(info->boundary_x, "periodic") == 0;
     h->periodic[1] = strcmp(info->boundary_y, "periodic") == 0;
+    h->round = strcmp(info->boundary_x, "curved") == 0;
     h->has_exponents = info->vectors > 0;
     h->has_steps = is_in(&info->observables, "steps");
     for (size_t k = 0; k < sizeof of_modes / sizeof *of_modes; k++)

@@ -25,6 +25,7 @@ typedef struct heard {
     uint32_t disks;
     double box[2];
     bool periodic[2];
+    bool round;                    /**< the wall is a circle, which the box holds */
     bool has_exponents, has_steps; /**< sooner or later, as the next two */
     bool has_t, has_lp; /**< modes of these kinds: can be in the box, and are looked for */
     uint8_t stage;      /**< UINT8_MAX before the first status */

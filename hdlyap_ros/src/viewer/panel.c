@@ -15,10 +15,19 @@ static const double LINE = 0.12;                     /* in units of the text's h
 static const double DIAL = 1.2, DIAL_STEP = 2.4;     /* radius and, in radii, distance */
 static const double TITLE = 1.8, TITLE_HEIGHT = 1.1; /* above a panel's arrows, in the same */
 static const double PALE = 0.3; /* part of white in what is not of the picture's time */
-enum { DIAL_SIDES = 32 };
+enum { DIAL_SIDES = 32, WALL_SIDES = 128 };
 /** Of a strip: part of its half height that the root mean square takes; size of a dot. */
 static const double STRIP_SCALE = 0.3, STRIP_DOT = 0.35;
 static const double TURN = 6.283185307179586;
+
+static void circle(canvas *on, double x, double y, double radius, int sides)
+{
+    for (int side = 0; side < sides; side++) {
+        const double from = TURN * side / sides, to = TURN * (side + 1) / sides;
+        canvas_line(on, x + radius * cos(from), y + radius * sin(from), x + radius * cos(to),
+                    y + radius * sin(to));
+    }
+}
 
 static void outline(canvas *on, const rect *r)
 {
@@ -29,11 +38,15 @@ static void outline(canvas *on, const rect *r)
     canvas_line(on, r->x, y, r->x, r->y);
 }
 
-void panel_boxes(canvas *on, const layout *l)
+void panel_boxes(canvas *on, const layout *l, const picture *p)
 {
     canvas_layer(on, "box", HDR_MARKER_LINE_LIST, PALETTE_INK, LINE * l->unit);
     for (int k = 0; k < l->panels; k++) {
-        outline(on, &l->panel[k]);
+        const rect *r = &l->panel[k];
+        if (p->round)
+            circle(on, r->x + 0.5 * r->width, r->y + 0.5 * r->height, 0.5 * r->width, WALL_SIDES);
+        else
+            outline(on, r);
         if (l->strips) outline(on, &l->strip[k]);
     }
 }
@@ -137,11 +150,7 @@ static void dials(canvas *on, double x, double y, double unit, const picture_mod
     canvas_layer(on, "phases", HDR_MARKER_LINE_LIST, PALETTE_INK, LINE * unit);
     for (uint32_t k = 0; k < m->pairs; k++) {
         const double at = x - (DIAL_STEP * (m->pairs - k - 0.5)) * radius;
-        for (int side = 0; side < DIAL_SIDES; side++) {
-            const double from = TURN * side / DIAL_SIDES, to = TURN * (side + 1) / DIAL_SIDES;
-            canvas_line(on, at + radius * cos(from), y + radius * sin(from), at + radius * cos(to),
-                        y + radius * sin(to));
-        }
+        circle(on, at, y, radius, DIAL_SIDES);
     }
     canvas_layer(on, "phases", HDR_MARKER_LINE_LIST, colour_of(m), 3.0 * LINE * unit);
     for (uint32_t k = 0; k < m->pairs; k++) {

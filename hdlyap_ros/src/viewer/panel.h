@@ -6,7 +6,7 @@
 #include "layout.h"
 
 /** Outlines of all panels, and the disks in them, in one layer each. */
-void panel_boxes(canvas *on, const layout *l);
+void panel_boxes(canvas *on, const layout *l, const picture *p);
 void panel_disks(canvas *on, const layout *l, const picture *p);
 
 /** Arrows of mode k (in a box too long for them its components against x), its title, and of an LP

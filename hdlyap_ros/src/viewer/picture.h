@@ -31,6 +31,7 @@ typedef struct picture {
     uint32_t disks;            /**< 1 or more */
     double box[2];             /**< [sigma] */
     bool periodic[2];
+    bool round;                          /**< the wall is a circle, which the box holds */
     double time, averaged;               /**< [time units]; time is -1 before the first message */
     double progress;                     /**< 0 .. 1; negative if unknown */
     const char *note;                    /**< why it may not be what is now; "" otherwise */

@@ -26,8 +26,12 @@ TEST(it_is_reached_when_it_says)
         const double at = 2.4 * k, speed = pow(10.0, k % 5 - 2);
         const double inwards = k % 3 == 0 ? PI + 1.5 * sin(1.7 * k) : 0.9 * k;
         const double p[2] = {speed * cos(at + inwards), speed * sin(at + inwards)};
-        const hd_disk disk = {
-            {wall.centre + r * cos(at), wall.centre + r * sin(at)}, {p[0], p[1]}, 0.25, {0}, {0}, 0};
+        const hd_disk disk = {{wall.centre + r * cos(at), wall.centre + r * sin(at)},
+                              {p[0], p[1]},
+                              0.25,
+                              {0},
+                              {0},
+                              0};
         const double t = hd_round_wall_time(&wall, &disk) - disk.t;
         const double there[2] = {disk.q[0] + t * p[0], disk.q[1] + t * p[1]};
         const double before[2] = {disk.q[0] + 0.9 * t * p[0], disk.q[1] + 0.9 * t * p[1]};
@@ -44,7 +48,8 @@ TEST(a_disk_that_glides_does_not_stay_for_ever)
     const hd_round_wall wall = hd_round_wall_of(&def);
     for (double out = 1e-3; out > 1e-18; out *= 0.1)
         for (int sign = -1; sign < 2; sign += 2) {
-            hd_disk disk = {{wall.centre + wall.reach, wall.centre}, {sign * out, 1.0}, 0.0, {0}, {0}, 0};
+            hd_disk disk = {
+                {wall.centre + wall.reach, wall.centre}, {sign * out, 1.0}, 0.0, {0}, {0}, 0};
             hd_event event = {.i = 0};
             const bool outwards = hd_round_wall_reflect(&wall, &disk, &event);
             assert_int_equal(outwards, sign > 0);

@@ -89,6 +89,20 @@ TEST(any_forced_interval_gives_the_exact_spectrum)
     }
 }
 
+TEST(a_circle_has_the_exact_spectrum)
+{
+    static const int exponents[] = {HD_EXPONENTS_POSITIVE, HD_EXPONENTS_ALL};
+    double exact[VECTORS_MAX];
+    for (int k = 0; k < 2; k++) {
+        const hd_scene_def small = small_scene(10, exponents[k], 3);
+        const hd_scene_def scene = scene_from(small, .container = HD_CIRCLE,
+                                              .aspect = hd_scene_def_default().aspect);
+        exact_spectrum(&scene, exact);
+        check_forced(scene, exact, 0.0);
+        check_forced(scene, exact, 25.0);
+    }
+}
+
 /** What is not carried changes places with the last vector, too [T6]. Which runs do depends on the
  * last bits, so on the processor: with four of OpenBLAS's kernels 2 to 4 of 100 were seen; of 20,
  * 1 to 2. */

@@ -56,9 +56,13 @@ static hd_scene_def drawn(hd_random *random)
                              .density = log_uniform(random, 0.02, 0.9),
                              .aspect = log_uniform(random, 0.1, 10.0));
     for (int d = 0; d < 2; d++) def.boundary[d] = (hd_boundary)one_of(random, 2);
+    if (chance(random, 0.15))
+        def = scene(.container = HD_CIRCLE, .disks = def.disks, .density = def.density);
     def.seed = (uint64_t)one_of(random, 1 << 30);
     def.exponents = drawn_exponents(random, def.disks);
     def.observe = drawn_observables(random, &def);
+    if (def.container == HD_CIRCLE)
+        def.observe &= ~(unsigned)(HD_OBSERVE_HYDRO | HD_OBSERVE_STRUCTURE);
     def.equilibration = chance(random, 0.3) ? 0.0 : log_uniform(random, 0.1, 10.0);
     def.warmup = chance(random, 0.2) ? 0.0 : log_uniform(random, 0.1, 10.0);
     def.duration = chance(random, 0.3) ? 0.0 : log_uniform(random, 0.5, 300.0);

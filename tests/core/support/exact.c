@@ -101,6 +101,24 @@ static void collide(hd_exact *i, hd_exact *j, int n, const hd_event *event)
     }
 }
 
+/** [T21] */
+static void curve(hd_exact *disk, int n, const hd_event *event)
+{
+    const hd_exact radius = hypotl(event->n[0], event->n[1]);
+    const hd_exact nx = event->n[0] / radius, ny = event->n[1] / radius;
+    const hd_exact px = event->p[0], py = event->p[1];
+    const hd_exact b = px * nx + py * ny;
+    for (int k = 0; k < n; k++) {
+        hd_exact *v[4] = {disk + k, disk + n + k, disk + 2 * n + k, disk + 3 * n + k};
+        const hd_exact a = *v[0] * nx + *v[1] * ny, d = *v[2] * nx + *v[3] * ny;
+        /* delta = dq - p (dq.n) / b, of which p.delta n + b delta is added */
+        const hd_exact x = *v[0] - px * a / b, y = *v[1] - py * a / b, pd = px * x + py * y;
+        *v[0] -= 2 * a * nx, *v[1] -= 2 * a * ny;
+        *v[2] -= 2 * d * nx + 2 / radius * (pd * nx + b * x);
+        *v[3] -= 2 * d * ny + 2 / radius * (pd * ny + b * y);
+    }
+}
+
 static void reflect(hd_exact *disk, int n, int d)
 {
     for (int k = 0; k < n; k++) {
@@ -118,6 +136,8 @@ void exact_replay(exact_frame *x, const hd_event_log *log)
         fly(x, (hd_exact)event->t - t);
         if (event->j >= 0)
             collide(i, rows_of(x, event->j), x->vectors, event);
+        else if (event->j == HD_WALL_ROUND)
+            curve(i, x->vectors, event);
         else
             reflect(i, x->vectors, event->j == HD_WALL_Y);
         if (k % EVENTS_MAX == 0) exact_orthonormalise(x->v, x->rows, x->vectors, x->sum);

@@ -6,6 +6,8 @@ import yaml
 
 from hdlyap.data import reader
 
+from .waves import is_round
+
 # of run_info, what is no parameter: what follows from them, and what the run ran on
 RESULTS = (
     'header',
@@ -26,6 +28,7 @@ RESULTS = (
     'marker_modes',  # of bags of before: parameters of the viewer now
     'marker_rate',
 )
+OF_A_BOX = ('aspect', 'boundary_x', 'boundary_y')  # which a circle has not
 # a word, or a list of numbers as text
 LISTS = ('field_indices',)
 # bags of before these parameters
@@ -53,7 +56,8 @@ def scene_file(info):
 def parameters(info):
     """By name. The run begins anew, and leaves the first one's checkpoint alone; what it was
     resumed from makes no difference to its numbers."""
-    names = [name for name in info.__slots__ if name not in RESULTS]
+    results = RESULTS + (OF_A_BOX if is_round(info) else ())
+    names = [name for name in info.__slots__ if name not in results]
     asked = {name: getattr(info, name) for name in names}
     asked.update(
         {name: _list_of(asked[name]) for name in LISTS if name in asked},

@@ -6,6 +6,7 @@ from hdlyap.data import seeds
 
 from . import covariant_table, equation, paper, step_table
 from .numbers import known, with_error
+from .waves import is_round
 
 TAIL = 64  # exponents in the table
 COLUMNS = 3
@@ -72,6 +73,8 @@ def _head(recording):
 
 
 def system(info):
+    if is_round(info):
+        return f'N = {info.disks}, density {info.density:g}, circle of radius {info.box_x / 2:.3f}'
     return (
         f'N = {info.disks}, density {info.density:g}, '
         f'box {info.box_x:.3f} x {info.box_y:.3f}, '

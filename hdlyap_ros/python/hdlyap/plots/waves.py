@@ -3,8 +3,30 @@
 import numpy as np
 
 SIN_X, SIN_Y = 1, 2  # bits of LpPhase's constants for a modulation
+COS_M, SIN_M = 4, 5  # those of a circle
 FUNCTIONS = (np.cos, np.sin)
+POINTS = 256  # of a period: enough for k r up to 100
 SLOPES = (lambda phase: -np.sin(phase), np.cos)  # their derivatives
+
+
+def is_round(info):
+    """Whether the container is a circle: its radius is half of box_x, its centre (R, R)."""
+    return info.boundary_x == 'curved'
+
+
+def bessel(order, x):
+    """J_m(x), by its integral over a period, which the sum has to the last digits."""
+    turn = 2 * np.pi * np.arange(POINTS) / POINTS
+    x = np.asarray(x)[..., np.newaxis]
+    return np.cos(order * turn - x * np.sin(turn)).mean(axis=-1)
+
+
+def round_modulation(info, wave_number, order, bits, x, y):
+    """A of L and P fields in a circle."""
+    from_centre = np.asarray(x) - info.box_x / 2 + 1j * (np.asarray(y) - info.box_y / 2)
+    turned = order * np.angle(from_centre)
+    angular = np.sin(turned) if bits == SIN_M else np.cos(turned)
+    return bessel(order, wave_number * np.abs(from_centre)) * angular
 
 
 def wave_vector(info, nx, ny):
@@ -62,6 +84,9 @@ def modulations(info, nx, ny, transverse=False):
 
 def formula(nx, ny, bits):
     """A as text for a figure."""
+    if bits >= COS_M:
+        turned = '' if nx == 0 else rf'\,\{FUNCTIONS[bits - COS_M].__name__} {_times(nx)}\theta'
+        return f'$J_{{{nx}}}(k r){turned}$'
     return (
         '$'
         + r'\,'.join(f'\\{function} k_{axis} {axis}' for function, axis in _factors(nx, ny, bits))
@@ -71,7 +96,14 @@ def formula(nx, ny, bits):
 
 def plain_formula(nx, ny, bits):
     """A as text for a terminal."""
+    if bits >= COS_M:
+        turned = f' {FUNCTIONS[bits - COS_M].__name__} {_times(nx)}theta' if nx else ''
+        return f'J{nx}(kr){turned}'
     return ' '.join(f'{function} k{axis} {axis}' for function, axis in _factors(nx, ny, bits))
+
+
+def _times(count):
+    return '' if count == 1 else count
 
 
 def _factors(nx, ny, bits):

@@ -2,6 +2,11 @@
 
 import numpy as np
 from matplotlib.collections import EllipseCollection
+from matplotlib.patches import Circle
+
+from ..waves import is_round
+
+WALL = dict(fill=False, edgecolor='black', linewidth=0.8)
 
 
 def disks(axes, info, x, y, **style):
@@ -9,12 +14,23 @@ def disks(axes, info, x, y, **style):
     axes.set_aspect('equal')
     axes.set_xlim(0, info.box_x)
     axes.set_ylim(0, info.box_y)
+    if is_round(info):
+        wall(axes, info)
     # matplotlib 3.6 has given it another name
     new = hasattr(EllipseCollection, 'set_offset_transform')
     place = {'offset_transform' if new else 'transOffset': axes.transData, 'offsets': np.c_[x, y]}
     found = EllipseCollection([1.0], [1.0], [0.0], units='xy', **place, **style)
     axes.add_collection(found)
     return found
+
+
+def wall(axes, info):
+    """A round one: it takes the place of the frame."""
+    radius = info.box_x / 2
+    axes.add_patch(Circle((radius, radius), radius, clip_on=False, **WALL))
+    for spine in axes.spines.values():
+        spine.set_visible(False)
+    axes.tick_params(top=False, right=False)
 
 
 def arrows(axes, x, y, dq, **style):

@@ -13,6 +13,7 @@ from hdlyap import whole  # noqa: E402
 
 from ..numbers import known  # noqa: E402
 from .. import steps  # noqa: E402
+from ..waves import is_round  # noqa: E402
 
 POINTS = 2000  # of a curve; more cannot be seen
 # Okabe and Ito's palette, safe for colour-blind readers
@@ -64,6 +65,10 @@ def save(figure, folder, name, dpi=250):
 
 def scene(info):
     name = info.scene.replace('$', r'\$')  # which would begin a formula
+    if is_round(info):
+        return (
+            f'{name}: $N={info.disks}$, $\\rho={info.density:g}$, circle, $R={info.box_x / 2:.4g}$'
+        )
     x, y = info.boundary_x, info.boundary_y
     walls = x if x == y else f'x {x}, y {y}'
     box = f'$\\rho={info.density:g}$, $L_y/L_x={info.aspect:g}$'

@@ -1,0 +1,119 @@
+/** Whole runs in a circle: the spectrum, its zeros, its modes [T21]. */
+#include "runs.h"
+
+static hd_scene_def circle(int disks, double density)
+{
+    return scene(.container = HD_CIRCLE, .disks = disks, .density = density, .equilibration = 20.0,
+                 .warmup = 20.0, .seed = 3, .threads = 1);
+}
+
+/** Each carried by itself: opposite pairs, but for what the frame's random start leaves after a
+ * thousand time units, and four zeros, which fall as ln(t) / t, 0.003 here. */
+TEST(opposite_pairs_and_four_zeros)
+{
+    const int disks[] = {4, 10, 36};
+    for (int k = 0; k < 3; k++) {
+        const int n = disks[k];
+        OWNED(hd_run) *run = finished(scene_from(
+            circle(n, 0.5), .exponents = HD_EXPONENTS_ALL_INDEPENDENT, .duration = 1000.0));
+        const hd_spectrum *s = hd_run_spectrum(run);
+        assert_int_equal(hd_run_vectors(run), 4 * n);
+        assert_int_equal(hd_scene_zero_exponents(hd_run_scene(run)), 4);
+        for (int col = 0; col < 2 * n; col++)
+            CHECK_CLOSE(hd_spectrum_exponent(s, col), -hd_spectrum_exponent(s, 4 * n - 1 - col),
+                        1e-4);
+        for (int col = 2 * n - 2; col < 2 * n; col++)
+            CHECK_CLOSE(hd_spectrum_exponent(s, col), 0.0, 0.01);
+        assert_true(hd_spectrum_exponent(s, 2 * n - 3) > 0.2);
+    }
+}
+
+/** One disk, and two that are mirror images of each other, are not chaotic: all exponents fall. */
+TEST(one_disk_is_integrable)
+{
+    double before = INFINITY;
+    for (double duration = 100.0; duration < 5000.0; duration *= 10.0) {
+        OWNED(hd_run) *run = finished(
+            scene_from(circle(1, 0.5), .exponents = HD_EXPONENTS_ALL, .duration = duration));
+        const double largest = hd_spectrum_exponent(hd_run_spectrum(run), 0);
+        assert_int_equal(hd_run_vectors(run), 4);
+        assert_true(largest < 0.25 * before);
+        CHECK_CLOSE(largest, 0.0, 3.0 * log(duration) / duration);
+        before = largest;
+    }
+}
+
+static const hd_step *step_named(const hd_run *run, hd_mode_kind kind, int m, int n)
+{
+    const hd_steps *steps = hd_run_steps(run);
+    for (int k = 0; k < hd_steps_count(steps); k++) {
+        const hd_step *step = hd_steps_step(steps, k);
+        if (step->kind == kind && step->wave.n[0] == m && step->wave.n[1] == n) return step;
+    }
+    fail_msg("no step (%d,%d)", m, n);
+    return NULL;
+}
+
+/** The lowest steps in their order, with their multiplicities. */
+TEST(the_lowest_steps)
+{
+    hd_scene_def def = circle(160, 0.7);
+    def.duration = second_tier() ? 400.0 : 100.0;
+    def.observe = HD_OBSERVE_STEPS | HD_OBSERVE_PHASES | HD_OBSERVE_T_PHASES;
+    OWNED(hd_run) *run = finished(def);
+    const hd_step *lp = step_named(run, HD_MODE_LP, 1, 1), *t = step_named(run, HD_MODE_T, 1, 1);
+    const int n = hd_run_vectors(run);
+    assert_int_equal(n, 2 * 160 - 2);
+    assert_true(lp->resolved && t->resolved);
+    assert_int_equal(lp->col, n - 4);
+    assert_int_equal(lp->expected, 4);
+    assert_int_equal(t->col, n - 6);
+    assert_int_equal(t->expected, 2);
+    CHECK_WITHIN(lp->multiplicity, 2.8, 4.0);
+    CHECK_WITHIN(t->multiplicity, 1.2, 2.0);
+    CHECK_CLOSE(t->exponent / t->wave.number, 2.5, 0.15); /* c_T of a box: 2.6 */
+    double omega, error;
+    int number = 0;
+    while (hd_steps_step(hd_run_steps(run), number) != lp) number++;
+    assert_true(hd_phases_rate(hd_run_phases(run), number, &omega, &error));
+    CHECK_CLOSE(omega / lp->wave.number, 3.5, 0.15); /* v of a box: 3.7 */
+}
+
+/** The rotation is in the covariant centre as soon as this has been found: its angle falls as the
+ * smallest exponent, 0.15, says. The other two are there from the start. */
+TEST(the_covariant_centre_holds_the_rotation)
+{
+    double most[2];
+    for (int k = 0; k < 2; k++) {
+        hd_scene_def def = circle(6, 0.5);
+        def.exponents = HD_EXPONENTS_ALL_INDEPENDENT;
+        def.observe = HD_OBSERVE_COVARIANT;
+        def.warmup = def.covariant_transient = k == 0 ? 100.0 : 200.0;
+        def.covariant_window = 20.0;
+        def.duration = def.covariant_transient + 60.0;
+        OWNED(hd_run) *run = finished(def);
+        most[k] = hd_covariant_null_most(hd_run_covariant(run));
+    }
+    CHECK_WITHIN(most[0], 1e-9, 1e-2);
+    CHECK_WITHIN(most[1], 0.0, 1e-7);
+    assert_true(most[1] < 1e-3 * most[0]);
+}
+
+/** All 4N: the null space holds the zero modes; only three of their four vectors are exact. */
+TEST(zero_modes_are_found)
+{
+    hd_scene_def def = circle(60, 0.6);
+    def.exponents = HD_EXPONENTS_ALL;
+    def.duration = 60.0;
+    def.observe = HD_OBSERVE_STEPS;
+    OWNED(hd_run) *run = finished(def);
+    const hd_steps *steps = hd_run_steps(run);
+    const hd_step *zero = NULL;
+    for (int k = 0; k < hd_steps_count(steps); k++)
+        if (hd_steps_step(steps, k)->kind == HD_MODE_ZERO) zero = hd_steps_step(steps, k);
+    assert_non_null(zero);
+    assert_true(zero->resolved);
+    assert_int_equal(zero->expected, 4);
+    assert_int_equal(zero->col, 2 * 60 - 2);
+    CHECK_WITHIN(zero->multiplicity, 3.0, 4.0);
+}
