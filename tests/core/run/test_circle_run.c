@@ -7,8 +7,8 @@ static hd_scene_def circle(int disks, double density)
                  .warmup = 20.0, .seed = 3, .threads = 1);
 }
 
-/** Each carried by itself: opposite pairs, but for what the frame's random start leaves after a
- * thousand time units, and four zeros, which fall as ln(t) / t, 0.003 here. */
+/** Each carried by itself: opposite pairs but for a bounded sum, no change of volume, and four
+ * zeros, which fall as ln(t) / t, 0.003 here. */
 TEST(opposite_pairs_and_four_zeros)
 {
     const int disks[] = {4, 10, 36};
@@ -19,12 +19,15 @@ TEST(opposite_pairs_and_four_zeros)
         const hd_spectrum *s = hd_run_spectrum(run);
         assert_int_equal(hd_run_vectors(run), 4 * n);
         assert_int_equal(hd_scene_zero_exponents(hd_run_scene(run)), 4);
+        double volume = 0.0;
+        for (int col = 0; col < 4 * n; col++) volume += hd_spectrum_exponent(s, col);
+        CHECK_CLOSE(volume, 0.0, 4.0 * n * 1e-8); /* the accuracy of each */
         for (int col = 0; col < 2 * n; col++)
             CHECK_CLOSE(hd_spectrum_exponent(s, col), -hd_spectrum_exponent(s, 4 * n - 1 - col),
-                        1e-4);
+                        5.0 / 1000.0);
         for (int col = 2 * n - 2; col < 2 * n; col++)
             CHECK_CLOSE(hd_spectrum_exponent(s, col), 0.0, 0.01);
-        assert_true(hd_spectrum_exponent(s, 2 * n - 3) > 0.2);
+        assert_true(hd_spectrum_exponent(s, 2 * n - 3) > 0.1);
     }
 }
 

@@ -4,6 +4,7 @@ import numpy as np
 
 from .. import fits, paper, steps
 from ..numbers import with_error
+from ..waves import is_round
 from .style import GREY, KIND_COLOURS, bars, kind_colour, plt, titled
 
 MARKERS = {steps.T: 'o', steps.LP: 's'}
@@ -28,7 +29,7 @@ def draw(recording):
     axes.set_ylim(0, MARGIN * max(step.exponent for _, step in points))
     axes.set_xlabel(r'wave number $k$  [1/$\sigma$]')
     axes.set_ylabel(r'$\lambda$  [1/time unit]')
-    _wave_axis(axes, [step for _, step in points], end)
+    _wave_axis(axes, recording.info, [step for _, step in points], end)
     _legend(axes, [block for block, _ in points])
     return titled(figure, recording.info)
 
@@ -78,7 +79,7 @@ def _fit_label(fit):
     return label + (f' by {fit.form}' if fit.terms < 3 else '')
 
 
-def _wave_axis(axes, points, end):
+def _wave_axis(axes, info, points, end):
     """Nodes of the waves along the upper edge, each over its wave number; names that would
     overlap are put together."""
     groups = []
@@ -102,7 +103,7 @@ def _wave_axis(axes, points, end):
     upper.set_xlim(axes.get_xlim())
     upper.set_xticks([k for k, _ in groups])
     upper.set_xticklabels([_joined(list(names)) for _, names in groups], rotation=90, fontsize=7)
-    upper.set_xlabel(r'nodes $(n_x,n_y)$', fontsize=8)
+    upper.set_xlabel(r'$(m,n)$' if is_round(info) else r'nodes $(n_x,n_y)$', fontsize=8)
 
 
 def _joined(names):
