@@ -13,8 +13,9 @@ enum { DISKS_MAX = 36 };
  */
 static void opposite_sums(double *out, int disks, double duration)
 {
-    OWNED(hd_run) *run = finished(scene_from(
-        circle(disks, 0.5), .exponents = HD_EXPONENTS_ALL_INDEPENDENT, .duration = duration));
+    OWNED(hd_run) *run = finished(scene_from(circle(disks, 0.5),
+                                             .exponents = HD_EXPONENTS_ALL_INDEPENDENT,
+                                             .warmup = 100.0, .duration = duration));
     const hd_spectrum *s = hd_run_spectrum(run);
     double volume = 0.0;
     assert_int_equal(hd_run_vectors(run), 4 * disks);
