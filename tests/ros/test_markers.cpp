@@ -108,6 +108,17 @@ TEST(markers, errors_that_are_known_no_more_are_deleted)
     }));
 }
 
+TEST(markers, a_round_wall_takes_the_place_of_the_box)
+{
+    scene s(20.0, 20.0, 40, 2, 2);
+    s.p.round = true;
+    const std::vector<Marker> walls = in(drawing().of(s.p), "box", Marker::LINE_LIST);
+    ASSERT_EQ(1u, walls.size());
+    for (size_t k = 0; k < walls[0].points.size() / 2; k++) // of the first panel, at (0, 0)
+        EXPECT_NEAR(10.0, std::hypot(walls[0].points[k].x - 10.0, walls[0].points[k].y - 10.0),
+                    1e-5);
+}
+
 TEST(markers, disks_and_boxes_lie_where_they_are)
 {
     scene s(20.0, 10.0, 40, 2, 2);

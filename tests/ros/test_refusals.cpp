@@ -144,6 +144,7 @@ const std::vector<refusal> refusals = {
     {"scene", "a string", {"5", "[quick]", "true"}},
     {"scene", "a line that is not empty", {"''"}},
     {"disks", "an integer, without a point", no_integer},
+    {"container", "rectangle or circle", {"square", "", "1"}},
     {"disks", "an integer from 1 to 1000000", {"0", "-3", "1000001"}},
     {"density", "a number", no_number},
     {"density", "from 1e-6 to 2/sqrt(3) = 1.1547", {"0", "-0.1", "1.1548", "nan", "inf"}},
@@ -358,7 +359,7 @@ TEST(Parameters, RefusedChanges)
 TEST(Parameters, ANameAloneChoosesNoScene)
 {
     const std::string why =
-        "scene = quick: must be given with its disks, density, aspect, boundary_x or "
+        "scene = quick: must be given with its container, disks, density, aspect, boundary_x or "
         "boundary_y: a name chooses none of them, roslaunch hdlyap run.launch scene:=.. does";
     EXPECT_EQ(begun("scene: quick"), why);
     EXPECT_EQ(begun("scene: quick\nduration: 5.0"), why);
