@@ -358,10 +358,9 @@ def tables_of_circles(rows):
     for one in against_boxes(rows):
         name = f'{"T" if one["t"] else "LP"}({one["mn"][0]:g},{one["mn"][1]:g})'
         more = f'by J_m = 0 {one["by_j"]:.3f}' if one['t'] else f'omega {one["turning"]:.3f}'
-        yield (
-            f'density {one["density"]:g}, {one["disks"]:g} disks, {name}: '
-            f'found {one["found"]:.2f}, lambda over that of a box {one["ratio"]:.4f} +- {one["error"]:.4f}, {more}'
-        )
+        circle = f'density {one["density"]:g}, {one["disks"]:g} disks, {name}'
+        ratio = f'lambda over that of a box {one["ratio"]:.4f} +- {one["error"]:.4f}'
+        yield f'{circle}: found {one["found"]:.2f}, {ratio}, {more}'
 
 
 def draw_circles(rows):
