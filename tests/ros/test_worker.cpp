@@ -16,7 +16,7 @@ bool changes_take(changes *, settings *, hd_run *) { return false; }
 bool checkpoint_writer_due(const checkpoint_writer *) { return false; }
 void checkpoint_writer_save(checkpoint_writer *, hd_run *) {}
 void checkpoint_writer_touch(checkpoint_writer *) {}
-progress progress_of(const hd_run *) { return {}; }
+progress progress_of(const hd_run *, double) { return {}; }
 bool report_awaited_here(report *) { return false; }
 unsigned report_demand(report *) { return 0; }
 void report_demand_slow(report *, hd_run *) {}

@@ -148,8 +148,8 @@ static hdr_status advertise(app *a)
     const char *kernel = hd_blas_query().kernel;
     hdr_status status = report_create(&a->rep, a->ros, &a->set, a->run);
     if (status == HDR_OK)
-        status = diagnostics_advertise(&a->diag, a->ros, a->rep, progress_of(a->run).collisions,
-                                       kernel);
+        status = diagnostics_advertise(&a->diag, a->ros, a->rep,
+                                       progress_of(a->run, a->set.pace).collisions, kernel);
     if (status == HDR_OK && report_run_info(a->rep, a->run, &a->changes) != HD_OK)
         status = HDR_NOT_FINITE;
     if (status == HDR_OK &&

@@ -4,10 +4,12 @@
 #include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
+#include <unistd.h>
 
 #include "common/numbers.h"
 #include "clock.h"
 #include "hdlyap_ros/messages.h"
+#include "topics/progress.h"
 
 enum { TEXT = 64 };
 
@@ -83,7 +85,7 @@ static void print_steps(const hd_run *run)
 static void print(const char *what, const settings *set, const hd_run *run)
 {
     const hd_spectrum *spectrum = hd_run_spectrum(run);
-    const double remaining = hd_run_cost(run).remaining;
+    const double remaining = progress_of(run, set->pace).cost.remaining;
     char of[TEXT] = "", lambda[TEXT], left[TEXT] = "";
     number_with_error(lambda, sizeof lambda, hd_spectrum_exponent(spectrum, 0),
                       hd_spectrum_std_error(spectrum, 0));
@@ -125,10 +127,19 @@ void table_tell(table *t, const settings *set, const hd_run *run)
     print("so far", set, run);
 }
 
+/** A recorder's file, which has another name as long as it is written. */
+static bool is_recorded(const char *bag)
+{
+    char written[TEXT + 4096];
+    snprintf(written, sizeof written, "%s.active", bag);
+    return *bag && (access(bag, F_OK) == 0 || access(written, F_OK) == 0);
+}
+
 void table_result(const settings *set, const hd_run *run)
 {
     if (set->table > 0.0 && is_averaged(run)) print("result", set, run);
-    if (*set->bag) hdr_log(HDR_INFO, "the bag is %s; hdlyap plot draws its figures", set->bag);
+    if (is_recorded(set->bag))
+        hdr_log(HDR_INFO, "the bag is %s; hdlyap plot draws its figures", set->bag);
     if (*set->checkpoint)
         hdr_log(HDR_INFO, "the checkpoint is %s; resume:=FILE goes on from it", set->checkpoint);
 }

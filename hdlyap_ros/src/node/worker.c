@@ -253,7 +253,7 @@ static hd_status step(worker *w)
     if (status != HD_OK) return status;
     status = publish(w);
     if (status == HD_OK && hd_run_report_due(w->run)) table_tell(&w->table, w->set, w->run);
-    const progress now = progress_of(w->run);
+    const progress now = progress_of(w->run, w->set->pace);
     pthread_mutex_lock(&w->lock);
     w->state.last = now;
     pthread_mutex_unlock(&w->lock);
@@ -329,7 +329,7 @@ bool worker_create(worker **out, hd_run *run, report *rep, settings *set, change
     w->rep = rep;
     w->set = set;
     w->changes = all;
-    w->state.last = progress_of(run);
+    w->state.last = progress_of(run, set->pace);
     w->keep = *keep;
     w->state.checkpoint = w->keep.state;
     locks_create(w);

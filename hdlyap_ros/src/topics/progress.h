@@ -14,6 +14,7 @@ typedef struct progress {
     int resolved_steps; /**< -1 while nobody looks at them */
 } progress;
 
-progress progress_of(const hd_run *run);
+/** pace: simulated time per wall second at most, which is waited for; 0: none. */
+progress progress_of(const hd_run *run, double pace);
 
 #endif

@@ -37,14 +37,23 @@ static int resolved_steps(const hd_run *run)
     return resolved;
 }
 
-progress progress_of(const hd_run *run)
+/** Wall seconds to the end, by what was spent so far, or by the pace if that takes longer. */
+static double remaining_at(const hd_cost *cost, double time, double pace)
+{
+    if (!(pace > 0 && cost->progress > 0 && cost->remaining >= 0)) return cost->remaining;
+    return fmax(cost->remaining, time * (1.0 / cost->progress - 1.0) / pace);
+}
+
+progress progress_of(const hd_run *run, double pace)
 {
     const hd_spectrum *spectrum = hd_run_spectrum(run);
+    hd_cost cost = hd_run_cost(run);
+    cost.remaining = remaining_at(&cost, hd_run_time(run), pace);
     return (progress){
         .stage = hd_run_stage(run),
         .time = hd_run_time(run),
         .collisions = hd_trajectory_collisions(hd_run_trajectory(run)),
-        .cost = hd_run_cost(run),
+        .cost = cost,
         .averaged = spectrum ? hd_spectrum_time(spectrum) : 0.0,
         .resolved_steps = resolved_steps(run),
     };
@@ -167,7 +176,7 @@ hd_status report_publish(report *rep, const hd_run *run)
     moment now = moment_of(rep, run);
     hd_status status = publish(rep, &now, topics_due(rep, run));
     if (status == HD_OK && hd_run_stage(run) != HD_FINISHED) {
-        const progress last = progress_of(run);
+        const progress last = progress_of(run, rep->set->pace);
         status = publish_progress(rep, &last);
     }
     rep->seconds += clock_seconds() - start;

@@ -56,4 +56,8 @@ def main(args):
     if args.csv or args.npz:
         files += exported(run.data, args)
     print('\n' + '\n'.join(files))
+    drawn = {os.path.basename(file).partition('.')[0] for file in files}
+    nothing = [name for name in args.only or () if name not in drawn]
+    if nothing:
+        print('nothing to draw in this bag: ' + ', '.join(nothing))
     return 0

@@ -10,7 +10,7 @@ from . import reader
 from .reader import RecordingError
 
 # what bags that belong together have in common: all that decides what is measured
-SYSTEM = ('disks', 'density', 'aspect', 'boundary_x', 'boundary_y')
+SYSTEM = ('container', 'disks', 'density', 'aspect', 'boundary_x', 'boundary_y')
 MEASURED = SYSTEM + ('vectors', 'wave_nx', 'wave_ny')
 # what a resumed run has as before (HD_AS_BEFORE of hdlyap/parameters.inc), so parts of one run, too
 OF_ONE_RUN = SYSTEM + ('seed', 'exponents', 'equilibration', 'warmup', 'interval', 'accuracy')

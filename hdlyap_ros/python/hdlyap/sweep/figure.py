@@ -99,8 +99,10 @@ def _limits(places, words):
 
 
 def _point(axes, place, value, number):
-    """Open if the fit is c k or c k + c2 k^2 alone, which have the rest of the curvature in c."""
+    """Open if the fit is c k or c k + c2 k^2 alone, which have the rest of the curvature in c; a
+    cross if nothing is known of its error."""
     colour, marker = _look(number)
+    marker = marker if np.isfinite(value.error) else 'x'
     axes.errorbar(
         place,
         value.value,
@@ -126,6 +128,8 @@ def _explain(figure, panels, series, points):
     """The legend below the panels, and what the looks of points say; the height that it takes."""
     lines = ['error bars: one standard error, over seeds the larger one of stated and scatter']
     values = [point.values[name] for point in points for name in FITTED if name in point.values]
+    if any(not np.isfinite(v.error) for point in points for v in point.values.values()):
+        lines.append('cross: the error is not known, the run was too short')
     if any(map(_is_open, values)):
         lines.append('open: the rest of the curvature is in c; the form is in sweep.txt')
     handles = []

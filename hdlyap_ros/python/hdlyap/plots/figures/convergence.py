@@ -7,8 +7,8 @@ from .style import BLUE, GREY, INK, ORANGE, SKY, VERMILION, plt, thinned, titled
 
 
 def draw(recording):
-    if recording.spectrum is None:
-        return None
+    if recording.spectrum is None or len(recording.course()['time']) < 2:
+        return None  # a single report has no course
     figure, (top, middle, bottom) = plt.subplots(
         3, 1, figsize=(5.2, 6.6), sharex=True, constrained_layout=True
     )
