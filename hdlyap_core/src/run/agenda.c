@@ -69,11 +69,12 @@ double hd_agenda_sample_longest(const hd_agenda *a, const hd_interval *interval)
     return hd_equal_part(block, usual < most && usual > most / IN_A_SAMPLE ? usual : most);
 }
 
-double hd_agenda_interval_expected(const hd_agenda *a, const hd_interval *interval, bool at_reports)
+double hd_agenda_interval_expected(const hd_agenda *a, const hd_interval *interval, bool at_reports,
+                                   double phases)
 {
     const double sample = hd_agenda_sample_longest(a, interval);
     const double most = at_reports ? fmin(sample, a->schedule.report_interval) : sample;
-    return fmin(hd_interval_longest(interval).length, most);
+    return fmin(hd_interval_longest(interval).length, fmin(most, phases));
 }
 
 /** The next time at which all vectors must be known: the end of the stage, or a report for which

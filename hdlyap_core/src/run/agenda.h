@@ -90,9 +90,10 @@ bool hd_agenda_is_due(const hd_agenda *agenda, unsigned why);
 
 /** What a sample should last at most. */
 double hd_agenda_sample_longest(const hd_agenda *agenda, const hd_interval *interval);
-/** What intervals are expected to last: those at reports end early. */
+/** What intervals are expected to last: those at reports end early, and those before phases, which
+ * are at most so far apart. */
 double hd_agenda_interval_expected(const hd_agenda *agenda, const hd_interval *interval,
-                                   bool at_reports);
+                                   bool at_reports, double phases);
 
 /* ---- changes ------------------------------------------------------------------------------- */
 

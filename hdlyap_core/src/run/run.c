@@ -197,6 +197,24 @@ static void take_changes(hd_run *run)
     hd_agenda_end_averaging(&run->agenda, target_reached(run), now);
 }
 
+/** Longest time from one measured state to the next; as somebody asks for it, if there is anything
+ * to follow. */
+static double sampling(const hd_run *run)
+{
+    const double wanted = run->scene.phase_interval;
+    if (!is_needed(run, HD_NEEDS_CLOSE)) return INFINITY;
+    const double needed = hd_observables_sampling(&run->observables);
+    return wanted > 0 && needed < INFINITY ? fmin(wanted, needed) : needed;
+}
+
+/** What it will be at its shortest, as far as is known: phases that are wanted often will be there.
+ */
+static double sampling_expected(const hd_run *run)
+{
+    const double wanted = run->scene.phase_interval;
+    return is_needed(run, HD_NEEDS_CLOSE) && wanted > 0 ? wanted : sampling(run);
+}
+
 /** The frame becomes orthonormal here; measured: in the whole norm. */
 static hd_status orthonormalise(hd_run *run, bool measured)
 {
@@ -207,7 +225,8 @@ static hd_status orthonormalise(hd_run *run, bool measured)
         .measured = measured,
         .observed = is_needed(run, HD_NEEDS_FRAME),
         .windows = hd_run_windows(run),
-        .expected = hd_agenda_interval_expected(&run->agenda, &run->carrier.interval, at_reports),
+        .expected = hd_agenda_interval_expected(&run->agenda, &run->carrier.interval, at_reports,
+                                                sampling_expected(run)),
         .trajectory = run->advance.trajectory};
     const bool carried = run->carrier.log->duration > 0;
     HD_TRY(hd_carrier_orthonormalise(&run->carrier, how));
@@ -343,16 +362,6 @@ static hd_status go_back(hd_run *run, bool to_its_end)
 hd_status hd_run_settle(hd_run *run) { return go_back(run, true); }
 
 /* ---- from one time to the next ------------------------------------------------------------- */
-
-/** Longest time from one measured state to the next; as somebody asks for it, if there is anything
- * to follow. */
-static double sampling(const hd_run *run)
-{
-    const double wanted = run->scene.phase_interval;
-    if (!is_needed(run, HD_NEEDS_CLOSE)) return INFINITY;
-    const double needed = hd_observables_sampling(&run->observables);
-    return wanted > 0 && needed < INFINITY ? fmin(wanted, needed) : needed;
-}
 
 static hd_pace pace_of(hd_run *run)
 {

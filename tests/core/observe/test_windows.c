@@ -255,3 +255,16 @@ TEST(later_windows_take_no_memory)
     finish(run);
     assert_int_equal(hd_memory_allocations(), before);
 }
+
+/** Phases that are wanted close together end intervals early: there is room for all of them. */
+TEST(no_window_is_lost_to_phases)
+{
+    hd_scene_def def = scene(.disks = 60, .density = 0.8, .aspect = 0.06, .warmup = 60.0,
+                             .phase_interval = 0.2, .covariant_window = 60.0,
+                             .covariant_transient = 20.0, .duration = 90.0);
+    def.exponents = HD_EXPONENTS_ALL;
+    def.observe = HD_OBSERVE_COVARIANT | HD_OBSERVE_STEPS | HD_OBSERVE_PHASES;
+    OWNED(hd_run) *run = finished(def);
+    assert_int_equal(hd_covariant_lost(hd_run_covariant(run)), 0);
+    assert_true(hd_covariant_windows(hd_run_covariant(run)) > 0);
+}
