@@ -376,7 +376,7 @@ def draw_circles(rows):
         for m, n in names:
             axes.plot([], [], MARKS[m, n], color=INK, label=f'{kind}({m},{n})')
         axes.axhline(1, color=GREY, linewidth=0.6)
-        axes.set(xlabel=r'$1 / R$  [$1/\sigma$]', xlim=(0, None), ylim=(0.62, 1.03))
+        axes.set(xlabel=r'$1 / R$  [$1/\sigma$]', xlim=(0, 0.102), ylim=(0.56, 1.03))
         axes.legend(loc='lower left', ncol=2, handletextpad=0.1, columnspacing=0.6)
     of_t.set_title(r'(b) $\lambda$ over that of a box; open: $J_m = 0$', loc='left')
     of_lp.set_title(r'(c) $\lambda$ over that of a box; open: $\omega$', loc='left')
