@@ -329,7 +329,7 @@ bool worker_create(worker **out, hd_run *run, report *rep, settings *set, change
     w->rep = rep;
     w->set = set;
     w->changes = all;
-    w->state.last = progress_of(run, set->pace);
+    w->state.last = progress_of(run, 0.0);
     w->keep = *keep;
     w->state.checkpoint = w->keep.state;
     locks_create(w);
