@@ -7,8 +7,8 @@ from .style import BLUE, GREY, INK, ORANGE, SKY, VERMILION, plt, thinned, titled
 
 
 def draw(recording):
-    if recording.spectrum is None or len(recording.course()['time']) < 2:
-        return None  # a single report has no course
+    if recording.spectrum is None:
+        return None
     figure, (top, middle, bottom) = plt.subplots(
         3, 1, figsize=(5.2, 6.6), sharex=True, constrained_layout=True
     )
@@ -43,7 +43,12 @@ def draw(recording):
 def _with_error(axes, time, mean, error, colour, label=None):
     if np.isfinite(error).any():
         axes.fill_between(time, mean - error, mean + error, color=colour, alpha=0.25, linewidth=0)
-    axes.plot(time, mean, color=colour, label=label)
+    axes.plot(time, mean, _mark(time), color=colour, label=label)
+
+
+def _mark(time):
+    """A single report is a point."""
+    return 'o' if len(time) == 1 else '-'
 
 
 def _error(axes, time, error):
@@ -52,7 +57,11 @@ def _error(axes, time, error):
         axes.annotate('not yet known', (0.5, 0.5), xycoords='axes fraction', ha='center')
         return
     axes.loglog(
-        time[measured], error[measured], color=INK, label='of all exponents, root mean square'
+        time[measured],
+        error[measured],
+        _mark(time[measured]),
+        color=INK,
+        label='of all exponents, root mean square',
     )
     axes.loglog(
         time[measured],
