@@ -236,6 +236,14 @@ class Results(InFolder):
         self.assertEqual(wrong, [])
         return found
 
+    def test_seeds_that_differ_by_more_than_they_state(self):
+        """Four largest exponents, each 9 +- 0.01; then one that is ten errors off."""
+        same = [self.bag(f's{n}', 0.4, str(n)) for n in range(1, 5)]
+        other = [self.bag(f'o{n}', 0.5, str(n), value=9.0 + 0.1 * (n == 4)) for n in range(1, 5)]
+        lines = [line for line in table.text(self.read(*same, *other)) if 'differ by more' in line]
+        self.assertEqual(len(lines), 1, lines)
+        self.assertTrue(lines[0].startswith('lambda_max (density 0.5): the seeds differ'), lines)
+
     def test_fits_on_different_bases_are_marked(self):
         """Of one form over the same wave numbers they share their number; a line explains each."""
         one_wave = dict(t_points=1, t_k_max=made.K, t_prior_share=nan, l_points=0, v_phases=0)
@@ -291,7 +299,7 @@ class Results(InFolder):
         self.assertRegex(lines[2], r'^periodic +9\.200\(58\) .* 3 +150$')
         self.assertRegex(lines[3], r'^reflecting +9\.0000\(71\) +unlike +1\.500')
         self.assertIn('unlike: fits of the seeds have not the same form or wave numbers', lines)
-        self.assertRegex(lines[-2], r'^periodic +0\.0058 0\.058 1e\+02 ')
+        self.assertRegex(lines[-3], r'^periodic +0\.0058 0\.058 1e\+02 ')
         results = hdlyap.load(*paths).results
         for name, shown, factor in (('lambda_max', 'lambda_max', 1), ('h_KS', 'h_KS/N', 1 / 20)):
             value, expected = found[0].values[shown], results.loc[name]

@@ -1,11 +1,13 @@
 """Points -> a table as text, and as CSV."""
 
-from math import isfinite
+from math import isfinite, sqrt
 
 from hdlyap.plots.numbers import with_error
 from hdlyap.runs import files
 
 from .points import FITTED, QUANTITIES, varied
+
+UNLIKELY = 4.0  # standard deviations of chi^2 beyond its degrees of freedom
 
 
 class Marks:
@@ -66,6 +68,20 @@ def text(points):
                 if len(point.runs) > 1
             ],
         )
+        yield from _scattered(points, names)
+
+
+def _scattered(points, names):
+    """Where the seeds differ by more than they state."""
+    for point in points:
+        for name, value in point.values.items():
+            freedom = value.runs - 1
+            if freedom > 0 and value.chi2 > freedom + UNLIKELY * sqrt(2 * freedom):
+                where = ', '.join(map(' '.join, zip(names, _of_system(point, names))))
+                yield (
+                    f'{name} ({where}): the seeds differ by more than their errors, which are too '
+                    'small; steps of some of them may mix: see their runs'
+                )
 
 
 def _plain(value):
