@@ -299,7 +299,7 @@ class Results(InFolder):
         self.assertRegex(lines[2], r'^periodic +9\.200\(58\) .* 3 +150$')
         self.assertRegex(lines[3], r'^reflecting +9\.0000\(71\) +unlike +1\.500')
         self.assertIn('unlike: fits of the seeds have not the same form or wave numbers', lines)
-        self.assertRegex(lines[-3], r'^periodic +0\.0058 0\.058 1e\+02 ')
+        self.assertRegex(lines[-4], r'^periodic +0\.0058 0\.058 1e\+02 ')
         results = hdlyap.load(*paths).results
         for name, shown, factor in (('lambda_max', 'lambda_max', 1), ('h_KS', 'h_KS/N', 1 / 20)):
             value, expected = found[0].values[shown], results.loc[name]
