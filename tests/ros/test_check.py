@@ -167,6 +167,14 @@ class Check(harness.Case):
         taken = cost.wall_seconds / cost.sim_time
         self.assertTrue(0.1 < seconds / taken < 10.0, (seconds, taken))
 
+    def test_time_of_a_recorder(self):
+        """It takes 960 reports a second: 200 time units of ten thousand each."""
+        params = dict(MODES, observables=['gas'], exponents='none', duration=190.0, warmup=0.0)
+        said = checked(self.file_of(dict(params, report_interval=1e-4))).stdout
+        self.assertIn('; recorded in all at least 34.7 min', said)
+        rare = dict(params, report_interval=100.0)
+        self.assertNotIn('recorded in all', checked(self.file_of(rare)).stdout)
+
     def test_refused_as_by_the_node(self):
         some = (
             dict(disks=-1),

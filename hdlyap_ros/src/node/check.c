@@ -79,6 +79,9 @@ static void print_speed(const settings *set, const hd_estimate *t)
     if (def->duration > 0) {
         print_seconds(", ", def->duration * t->seconds);
         printf(" of averaging (%.4g)", def->duration);
+        const double time = t->before + def->duration;
+        const double recorded = time / (reports_per_second * def->report_interval);
+        if (recorded > time * t->seconds) print_seconds("; recorded in all at least ", recorded);
     }
     printf("\n");
 }
