@@ -305,6 +305,35 @@ def slips(order, root, r, harmonic=True):
     return root * (below + above) / 2 - taken, taken - root * (below - above) / 2
 
 
+def coupled(order, z, c_t, c_l, v):
+    """Three waves of one growth rate z, in a circle of radius 1: L with P ahead, with P behind, and
+    T. Vanishes if they can make u_r, the tangential stress and dA/dr vanish at the wall."""
+    columns = []
+    for ahead in (1j, -1j):
+        k = z / (c_l + ahead * v)
+        j, slope = bessel(order, k), k * (bessel(order - 1, k) - bessel(order + 1, k)) / 2
+        columns.append([slope, order * (2 * j - slope), ahead * k * slope])
+    k = z / c_t
+    j, slope = bessel(order, k), k * (bessel(order - 1, k) - bessel(order + 1, k)) / 2
+    columns.append([order * j, (k * k - order**2) * j + 2 * slope, 0])
+    matrix = np.array(columns)
+    return np.linalg.det(matrix / np.abs(matrix).max(axis=1, keepdims=True))
+
+
+def growth(order, start, *speeds):
+    """The root next to a growth rate, by secants."""
+    before, now = start, 0.98 * start
+    values = [coupled(order, z, *speeds) for z in (before, now)]
+    for _ in range(60):
+        step = (before - now) * values[1] / (values[1] - values[0])
+        step *= min(1, 0.05 * abs(now) / abs(step))
+        before, now = now, now + step
+        values = values[1], coupled(order, now, *speeds)
+        if abs(step) < 1e-10 * abs(now):
+            break
+    return now
+
+
 def circles(rows):
     """Each circle's density and size, its steps, and those of the box with its pressure."""
     order = dict.fromkeys((row['density'], row['disks']) for row in rows if row['circle'])
@@ -340,7 +369,12 @@ def against_boxes(rows):
             expected = in_box(box, t)
             ratio = row['exponent'] / expected(row['k'])
             by_j = row['k'] * ROOTS[m, n][1] / ROOTS[m, n][0] if t else math.nan
+            speeds = [in_box(box, kind)(row['k']) / row['k'] for kind in (1, 0)]
+            x = row['k'] * (radius - 0.5)
+            free = x * (speeds[0] if t else speeds[1] + 1j * v)
+            z = growth(int(m), 0.99 * free, *speeds, v) if m else free
             yield dict(
+                theory=(z.real / free.real, math.nan if t else z.imag / free.imag),
                 density=density,
                 disks=disks,
                 inverse=1 / radius,
@@ -360,16 +394,23 @@ def tables_of_circles(rows):
         more = f'by J_m = 0 {one["by_j"]:.3f}' if one['t'] else f'omega {one["turning"]:.3f}'
         circle = f'density {one["density"]:g}, {one["disks"]:g} disks, {name}'
         ratio = f'lambda over that of a box {one["ratio"]:.4f} +- {one["error"]:.4f}'
-        yield f'{circle}: found {one["found"]:.2f}, {ratio}, {more}'
+        expected = ' and '.join(f'{x:.3f}' for x in one['theory'] if x == x)
+        yield f'{circle}: found {one["found"]:.2f}, {ratio}, {more}; as coupled waves {expected}'
 
 
 def draw_circles(rows):
     figure, (flow, of_t, of_lp) = plt.subplots(1, 3, figsize=(9.6, 3.3))
     _flow(flow, rows)
-    for one in against_boxes(rows):
+    ratios = list(against_boxes(rows))
+    # what a circle does to a wave that is not coupled
+    alone = {one['inverse']: one['ratio'] for one in ratios if one['t'] and one['mn'] == (0, 1)}
+    for one in ratios:
         axes, colour = of_t if one['t'] else of_lp, CIRCLES.get(one['density'], INK)
         style = dict(color=colour, marker=MARKS[one['mn']], linestyle='none')
         axes.errorbar(one['inverse'], one['ratio'], yerr=max(one['error'], 0), **style)
+        if one['inverse'] in alone:
+            expected = alone[one['inverse']] * one['theory'][0]
+            axes.plot(one['inverse'], expected, '_', color=colour, markersize=14)
         other = one['by_j'] if one['t'] else one['turning']
         axes.plot(one['inverse'], other, markerfacecolor='white', **style)
     for axes, kind, names in ((of_t, 'T', ROOTS), (of_lp, 'LP', LP_ROOTS)):
@@ -378,8 +419,8 @@ def draw_circles(rows):
         axes.axhline(1, color=GREY, linewidth=0.6)
         axes.set(xlabel=r'$1 / R$  [$1/\sigma$]', xlim=(0, 0.102), ylim=(0.56, 1.03))
         axes.legend(loc='lower left', ncol=2, handletextpad=0.1, columnspacing=0.6)
-    of_t.set_title(r'(b) $\lambda$ over that of a box; open: $J_m = 0$', loc='left')
-    of_lp.set_title(r'(c) $\lambda$ over that of a box; open: $\omega$', loc='left')
+    of_t.set_title(r'(b) T: $\lambda$ over that of a box; open: $J_m = 0$', loc='left')
+    of_lp.set_title(r'(c) LP: the same; open: $\omega$; bars: theory of $\lambda$', loc='left')
     for density, colour in CIRCLES.items():
         flow.plot([], [], 's', color=colour, label=rf'$\rho = {density:g}$')
     flow.legend(loc='lower right', handletextpad=0.2)
