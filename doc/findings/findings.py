@@ -284,7 +284,7 @@ def draw_dilute(rows):
 
 # ---- circles ------------------------------------------------------------------------------------
 
-# T(m, n): the root of m J_m = J_(m+2), and that of J_m (of J_2 where m is 0, the same)
+# T(m, n): the root of m J_m = J_(m+2), and that of J_m, which is no candidate where m is 0
 ROOTS = {(1, 1): (3.05424, 3.83171), (2, 1): (4.61256, 5.13562), (0, 1): (5.13562, 5.13562)}
 ROOTS[1, 2] = 6.70613, 7.01559
 LP_ROOTS = {(1, 1): 1.84118, (2, 1): 3.05424, (0, 1): 3.83171}

@@ -268,10 +268,10 @@ static const std::vector<std::pair<std::string, std::string>> refused_together =
      "these boundaries: " UNSAMPLED},
     {"max_mode_number: 3", "max_mode_number = 3: must be at most 2 with disks = 20, density = "
                            "0.7, aspect = 1 and these boundaries: " UNSAMPLED},
-    {"max_wave_number: 1.1", "max_wave_number = 1.1: must be from 1.17548, the longest wave of "
-                             "this box, to 2.62844: " UNSAMPLED_ONE},
-    {"max_wave_number: 2.7", "max_wave_number = 2.7: must be from 1.17548, the longest wave of "
-                             "this box, to 2.62844: " UNSAMPLED_ONE},
+    {"max_wave_number: 1.1", "max_wave_number = 1.1: must be from 1.17548, the longest wave, "
+                             "to 2.62844: " UNSAMPLED_ONE},
+    {"max_wave_number: 2.7", "max_wave_number = 2.7: must be from 1.17548, the longest wave, "
+                             "to 2.62844: " UNSAMPLED_ONE},
     {"{max_mode_number: 1, observables: [spectrum, state]}",
      "max_mode_number = 1: must be 0 without an observable out of " OF_VECTORS},
     {"{max_mode_number: 1, exponents: none}",

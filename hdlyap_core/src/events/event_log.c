@@ -8,6 +8,7 @@
 
 #include "base/memory.h"
 #include "events/archived.h"
+#include "events/round_wall.h"
 
 double hd_event_log_bytes(double events)
 {
@@ -59,32 +60,42 @@ static bool disks_exist(const hd_event *event, int disks)
 
 static double product(const double a[2], const double b[2]) { return a[0] * b[0] + a[1] * b[1]; }
 
-/** A quotient of a vector and its length: each is right to an ulp or two. Of a round wall: times a
- * radius. */
-static bool is_normal(const hd_event *event)
+/** Flat walls lie in a rectangle, round ones in a circle. */
+static bool wall_exists(const hd_event *event, double reach)
 {
-    const double square = product(event->n, event->n);
-    if (event->j == HD_WALL_ROUND) return square > 0 && square < INFINITY;
-    return fabs(square - 1.0) <= 8.0 * DBL_EPSILON;
+    return event->j == HD_WALL_ROUND ? reach > 0
+                                     : event->j >= 0 || (event->j >= HD_WALL_Y && reach == 0);
 }
 
-/** Within the rounding of the normal. */
+/** Its length is 1, or the radius of a round wall: a quotient of a vector and its length is right
+ * to an ulp or two. */
+static bool is_normal(const hd_event *event, double reach)
+{
+    const double square = event->j == HD_WALL_ROUND ? reach * reach : 1.0;
+    return fabs(product(event->n, event->n) - square) <= 16.0 * DBL_EPSILON * square;
+}
+
+/** Within the rounding of the normal; a round wall is reached outwards. */
 static bool approach(const hd_event *event)
 {
     const double speed = sqrt(product(event->p, event->p));
+    if (event->j == HD_WALL_ROUND) return product(event->n, event->p) > 0;
     return product(event->n, event->p) <= 4.0 * DBL_EPSILON * speed;
 }
 
-const char *hd_event_log_fault(const hd_event_log *log, int disks)
+const char *hd_event_log_fault(const hd_event_log *log, const hd_scene_def *scene)
 {
+    const double reach = hd_round_wall_of(scene).reach;
     double before = 0.0;
     for (size_t k = 0; k < log->count; k++) {
         const hd_event *event = &log->event[k];
         if (!(event->t >= before)) return "an event comes before the one before it";
         if (!(event->t <= log->duration)) return "an event comes after the end";
-        if (!disks_exist(event, disks)) return "there is no such disk";
-        if (!is_normal(event)) return "a normal is no unit vector";
-        if (event->j >= 0 && !approach(event)) return "disks collide that part";
+        if (!disks_exist(event, scene->disks)) return "there is no such disk";
+        if (!wall_exists(event, reach)) return "there is no such wall";
+        if (!is_normal(event, reach)) return "a normal has not the length that it should";
+        if ((event->j >= 0 || event->j == HD_WALL_ROUND) && !approach(event))
+            return "what meets there parts";
         before = event->t;
     }
     return NULL;
@@ -99,7 +110,7 @@ static void event_archive(hd_event *event, hd_archive *archive)
     hd_archive_next_doubles(archive, event->p, 2);
 }
 
-void hd_event_log_archive(hd_event_log *log, hd_archive *archive, int disks)
+void hd_event_log_archive(hd_event_log *log, hd_archive *archive, const hd_scene_def *scene)
 {
     size_t count = log->count;
     hd_archive_double(archive, "log duration", &log->duration);
@@ -115,9 +126,9 @@ void hd_event_log_archive(hd_event_log *log, hd_archive *archive, int disks)
     for (size_t k = 0; k < count; k++) event_archive(&log->event[k], archive);
     hd_archive_of_ints(archive, "log i j", 2 * count);
     for (size_t k = 0; k < count; k++) {
-        hd_archive_next_int(archive, &log->event[k].i, 0, disks - 1);
-        hd_archive_next_int(archive, &log->event[k].j, HD_WALL_ROUND, disks - 1);
+        hd_archive_next_int(archive, &log->event[k].i, 0, scene->disks - 1);
+        hd_archive_next_int(archive, &log->event[k].j, HD_WALL_ROUND, scene->disks - 1);
     }
-    const char *fault = hd_event_log_fault(log, disks);
+    const char *fault = hd_event_log_fault(log, scene);
     if (fault) hd_archive_refuse(archive, "log", fault);
 }

@@ -9,6 +9,6 @@ HD_MUST_CHECK hd_status hd_event_log_reserve(hd_event_log *log, size_t count);
 
 /** NULL, or what is wrong: a time outside the interval or before the one before it, a disk that
  * there is not, a normal that is no unit vector, disks that part. */
-const char *hd_event_log_fault(const hd_event_log *log, int disks);
+const char *hd_event_log_fault(const hd_event_log *log, const hd_scene_def *scene);
 
 #endif

@@ -41,16 +41,15 @@ bool hd_round_wall_reflect(const hd_round_wall *wall, hd_disk *disk, hd_event *e
     const double r[HD_DIM] = {disk->q[0] - wall->centre, disk->q[1] - wall->centre};
     const double distance = sqrt(r[0] * r[0] + r[1] * r[1]);
     const double speed = sqrt(disk->p[0] * disk->p[0] + disk->p[1] * disk->p[1]);
-    double outwards = 0.0;
-    for (int d = 0; d < HD_DIM; d++) outwards += disk->p[d] * (r[d] / distance);
-    const double size = outwards > 0 ? outwards : -outwards;
-    const double inwards = size > GLIDE * speed ? size : GLIDE * speed;
     event->j = HD_WALL_ROUND;
     for (int d = 0; d < HD_DIM; d++) {
         event->n[d] = wall->reach * (r[d] / distance);
         event->p[d] = disk->p[d];
         disk->q[d] = wall->centre + event->n[d]; /* there within rounding: no drift */
-        disk->p[d] -= (outwards + inwards) * (r[d] / distance);
     }
-    return outwards > 0;
+    const double along = event->n[0] * event->p[0] + event->n[1] * event->p[1];
+    const double outwards = along / wall->reach, size = outwards > 0 ? outwards : -outwards;
+    const double inwards = size > GLIDE * speed ? size : GLIDE * speed;
+    for (int d = 0; d < HD_DIM; d++) disk->p[d] -= (outwards + inwards) * (r[d] / distance);
+    return along > 0;
 }

@@ -386,12 +386,19 @@ void hd_trajectory_box(const hd_trajectory *tr, double box[HD_DIM])
     box[1] = tr->motion.cells.box[1];
 }
 
+/** As it is now, in the box. */
+static hd_disk disk_now(const hd_trajectory *tr, int32_t i)
+{
+    hd_disk disk = tr->motion.disk[i];
+    move_to(&disk, tr->now - tr->epoch_start);
+    fold(tr, &disk);
+    return disk;
+}
+
 void hd_trajectory_state(const hd_trajectory *tr, double *q, double *p)
 {
     for (int32_t i = 0; i < tr->motion.count; i++) {
-        hd_disk disk = tr->motion.disk[i];
-        move_to(&disk, tr->now - tr->epoch_start);
-        fold(tr, &disk);
+        const hd_disk disk = disk_now(tr, i);
         for (int d = 0; d < HD_DIM; d++) {
             if (q) q[HD_DIM * i + d] = disk.q[d];
             if (p) p[HD_DIM * i + d] = disk.p[d];
@@ -410,9 +417,7 @@ double hd_trajectory_angular_momentum(const hd_trajectory *tr)
 {
     double sum = 0.0;
     for (int32_t i = 0; i < tr->motion.count; i++) {
-        hd_disk disk = tr->motion.disk[i];
-        move_to(&disk, tr->now - tr->epoch_start);
-        fold(tr, &disk);
+        const hd_disk disk = disk_now(tr, i);
         sum += (disk.q[0] - 0.5 * tr->motion.cells.box[0]) * disk.p[1] -
                (disk.q[1] - 0.5 * tr->motion.cells.box[1]) * disk.p[0];
     }

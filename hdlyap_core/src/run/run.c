@@ -401,7 +401,7 @@ static hd_status move_disks(hd_run *run, double end)
                                  hd_advance_on(&run->advance, log, run->watch.interval)));
     run->cost.events += hd_clock_now() - start;
     if (HD_VERIFIES) hd_verify_disks(run->advance.trajectory, &run->scene);
-    if (HD_VERIFIES && log) hd_verify_log(log, run->scene.disks);
+    if (HD_VERIFIES && log) hd_verify_log(log, &run->scene);
     return HD_OK;
 }
 

@@ -6,6 +6,7 @@
 
 #include <float.h>
 #include <math.h>
+#include <stdio.h>
 
 #include "base/check.h"
 #include "scene/container.h"
@@ -33,7 +34,14 @@ static int circle_symmetries(const hd_scene_def *def)
     return 2;
 }
 
-static hd_status circle_check(const hd_scene_def *def, char *message, size_t size)
+static void circle_say(const hd_scene_def *def, char *text, size_t size)
+{
+    (void)def;
+    snprintf(text, size, "container = circle");
+}
+
+/** What cannot be in a circle. */
+static hd_status check_parameters(const hd_scene_def *def, char *message, size_t size)
 {
     const hd_scene_def usual = hd_scene_def_default();
     if (def->aspect != usual.aspect)
@@ -46,10 +54,16 @@ static hd_status circle_check(const hd_scene_def *def, char *message, size_t siz
                              "whose wall reflects",
                              "xy"[d]);
     if (def->observe & (HD_OBSERVE_HYDRO | HD_OBSERVE_STRUCTURE))
-        return hd_refuse(
-            message, size,
-            "observe: hydro and structure, which are of waves in a rectangle, must not "
-            "be given with container = circle");
+        return hd_refuse(message, size,
+                         "observables = %s: must not be given with container = circle: it is of "
+                         "waves in a rectangle",
+                         def->observe & HD_OBSERVE_HYDRO ? "hydro" : "structure");
+    return HD_OK;
+}
+
+static hd_status circle_check(const hd_scene_def *def, char *message, size_t size)
+{
+    HD_TRY(check_parameters(def, message, size));
     if (!(reach_of(def) >= HD_ROOM_MIN))
         return hd_refuse(message, size,
                          "density = %.15g with disks = %d: the radius %.15g of the container must "
@@ -173,19 +187,28 @@ static double at_wall(bool transverse, int m, double x)
     return m > 0 ? jn(m - 1, x) - jn(m + 1, x) : jn(1, x);
 }
 
-/** The next root above x: roots are more than pi / 2 apart. */
+/** The next root above x; roots are more than pi / 2 apart. By chords, of which an end that stays
+ * counts half the next time (Illinois). */
 static double next_root(bool transverse, int m, double x)
 {
     const double STEP = 0.5, CLOSE = 1e-14;
     double low = x + 1e-3, high = low + STEP;
-    const bool below = at_wall(transverse, m, low) < 0;
-    while ((at_wall(transverse, m, high) < 0) == below) low = high, high += STEP;
-    while (high - low > CLOSE * high) {
-        const double middle = 0.5 * (low + high);
-        if (!(middle > low && middle < high)) break;
-        *((at_wall(transverse, m, middle) < 0) == below ? &low : &high) = middle;
+    double below = at_wall(transverse, m, low), above = at_wall(transverse, m, high);
+    while (below * above > 0) {
+        low = high, below = above;
+        above = at_wall(transverse, m, high += STEP);
     }
-    return 0.5 * (low + high);
+    for (int stays = 0; high - low > CLOSE * high && above != 0;) {
+        const double at = (low * above - high * below) / (above - below);
+        if (!(at > low && at < high)) break;
+        const double here = at_wall(transverse, m, at);
+        const int moves = here * below > 0 ? -1 : 1; /* the low end, or the high one */
+        *(moves < 0 ? &low : &high) = at;
+        *(moves < 0 ? &below : &above) = here;
+        if (stays == -moves) *(moves < 0 ? &above : &below) *= 0.5;
+        stays = -moves;
+    }
+    return fabs(below) < fabs(above) ? low : high;
 }
 
 /** Where to begin: the first root of J_m' is above m, that of T above m + 1; J_0' = -J_1 has one at
@@ -206,13 +229,16 @@ static hd_wave wave_of(double reach, bool transverse, int m, int n, double root)
     return wave;
 }
 
+/** Of the waves with m nodes LP has the longest. */
 static hd_wave_limits circle_limits(const hd_scene_def *def)
 {
     hd_wave_limits limits = {INFINITY, PI * sqrt(def->density), 0};
-    const double reach = reach_of(def),
-                 longest = next_root(false, 1, before_roots(false, 1)) / reach;
-    limits.node = longest <= limits.largest ? (int)fmin(limits.largest * reach, 1e6) : 0;
-    if (limits.node > 0) limits.smallest = longest;
+    const double reach = reach_of(def), most = limits.largest * reach;
+    limits.node = (int)fmin(most, 1e6);
+    while (limits.node > 0 &&
+           next_root(false, limits.node, before_roots(false, limits.node)) > most)
+        limits.node--;
+    if (limits.node > 0) limits.smallest = next_root(false, 1, before_roots(false, 1)) / reach;
     return limits;
 }
 
@@ -234,7 +260,8 @@ static int circle_waves(const hd_scene_def *def, hd_wave *out, int capacity)
     return count;
 }
 
-const hd_container_row hd_circle_row = {.check = circle_check,
+const hd_container_row hd_circle_row = {.say = circle_say,
+                                        .check = circle_check,
                                         .box = circle_box,
                                         .area = circle_area,
                                         .wall_rate = circle_wall_rate,

@@ -12,6 +12,8 @@
 #define HD_ROOM_MIN 0.999e-9
 
 typedef struct hd_container_row {
+    /** For a refusal, what it is beside its disks and their density. */
+    void (*say)(const hd_scene_def *def, char *text, size_t size);
     /** That one disk has room, and that no parameter is given which it does not have. */
     hd_status (*check)(const hd_scene_def *def, char *message, size_t size);
     void (*box)(const hd_scene_def *def, double box[HD_DIM]); /**< edges of the box around it */

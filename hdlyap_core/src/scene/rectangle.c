@@ -1,5 +1,6 @@
 /** A rectangular container: each direction is periodic or has walls. */
 #include <math.h>
+#include <stdio.h>
 
 #include "base/check.h"
 #include "scene/container.h"
@@ -16,6 +17,11 @@ static void rectangle_box(const hd_scene_def *def, double box[HD_DIM])
 {
     box[0] = sqrt((double)def->disks / (def->density * def->aspect));
     box[1] = def->aspect * box[0];
+}
+
+static void rectangle_say(const hd_scene_def *def, char *text, size_t size)
+{
+    snprintf(text, size, "aspect = %.15g and these boundaries", def->aspect);
 }
 
 static hd_status rectangle_check(const hd_scene_def *def, char *message, size_t size)
@@ -163,7 +169,8 @@ static int rectangle_waves(const hd_scene_def *def, hd_wave *out, int capacity)
     return count;
 }
 
-const hd_container_row hd_rectangle_row = {.check = rectangle_check,
+const hd_container_row hd_rectangle_row = {.say = rectangle_say,
+                                           .check = rectangle_check,
                                            .box = rectangle_box,
                                            .area = rectangle_area,
                                            .wall_rate = rectangle_wall_rate,

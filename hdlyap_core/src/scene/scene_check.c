@@ -8,6 +8,8 @@
 #include "hdlyap/wave.h"
 #include "scene/container.h"
 
+enum { SAID = 96 }; /* of a container */
+
 static hd_status refuse_value(const hd_parameter *row, const hd_scene_def *def, char *message,
                               size_t size)
 {
@@ -45,6 +47,8 @@ hd_status hd_scene_check_box(const hd_scene_def *def, char *message, size_t size
 static hd_status check_waves(const hd_scene_def *def, char *message, size_t size)
 {
     const hd_wave_limits limits = hd_wave_limits_of(def);
+    char said[SAID];
+    hd_container_of(def)->say(def, said, sizeof said);
     if (def->max_wave_number > 0 && def->max_mode_number > 0)
         return hd_refuse(message, size,
                          "max_mode_number = %d: must be 0 when max_wave_number = %.15g is given",
@@ -52,17 +56,15 @@ static hd_status check_waves(const hd_scene_def *def, char *message, size_t size
     if (def->max_mode_number > limits.node)
         return hd_refuse(
             message, size,
-            "max_mode_number = %d: must be at most %d with disks = %d, density = %.15g, aspect = "
-            "%.15g and these boundaries: a shorter wave than two mean distances, "
-            "2 / sqrt(density), is not sampled",
-            def->max_mode_number, limits.node, def->disks, def->density, def->aspect);
+            "max_mode_number = %d: must be at most %d with disks = %d, density = %.15g, %s: a "
+            "shorter wave than two mean distances, 2 / sqrt(density), is not sampled",
+            def->max_mode_number, limits.node, def->disks, def->density, said);
     const double k = def->max_wave_number;
     if (k > 0 && !(k >= limits.smallest && k <= limits.largest))
-        return hd_refuse(
-            message, size,
-            "max_wave_number = %.15g: must be from %.6g, the longest wave of this box, to %.6g: "
-            "a shorter one than two mean distances, 2 / sqrt(density), is not sampled",
-            k, limits.smallest, limits.largest);
+        return hd_refuse(message, size,
+                         "max_wave_number = %.15g: must be from %.6g, the longest wave, to %.6g: "
+                         "a shorter one than two mean distances, 2 / sqrt(density), is not sampled",
+                         k, limits.smallest, limits.largest);
     return HD_OK;
 }
 
@@ -72,6 +74,11 @@ static hd_status check_covariant(const hd_scene_def *def, char *message, size_t 
     const double window = def->covariant_window, transient = def->covariant_transient;
     if (!(def->observe & HD_OBSERVE_COVARIANT)) return HD_OK;
     HD_TRY(check_ranges(def, true, message, size));
+    if (hd_scene_positive_exponents(def) < 1)
+        return hd_refuse(message, size,
+                         "observables = covariant: must not be given with disks = %d, which has no "
+                         "unstable vector",
+                         def->disks);
     if (def->covariant_sampling > window)
         return hd_refuse(message, size,
                          "covariant_sampling = %.15g: must be from 1e-6 to covariant_window",
@@ -100,13 +107,18 @@ hd_status hd_scene_check(const hd_scene_def *def, char *message, size_t size)
             "exponents = %d: must be positive, all, all_independent, none or from 1 to 4 "
             "disks = %d",
             def->exponents, HD_ROWS * def->disks);
+    if (def->exponents == HD_EXPONENTS_POSITIVE && hd_scene_vectors(def) == 0)
+        return hd_refuse(message, size,
+                         "exponents = positive: must be all, all_independent, none or from 1 to 4 "
+                         "with disks = 1, which has no positive one");
     HD_TRY(check_waves(def, message, size));
     HD_TRY(check_covariant(def, message, size));
+    char said[SAID];
+    container->say(def, said, sizeof said);
     if (container->start_distance(def) < HD_START_DISTANCE_MIN)
         return hd_refuse(
             message, size,
-            "density = %.15g: must be at most %.6g with disks = %d, aspect = %.15g and "
-            "these boundaries (densest start lattice)",
-            def->density, container->density_max(def), def->disks, def->aspect);
+            "density = %.15g: must be at most %.6g with disks = %d, %s (densest start lattice)",
+            def->density, container->density_max(def), def->disks, said);
     return HD_OK;
 }

@@ -45,9 +45,9 @@ void hd_verify_disks(const hd_trajectory *tr, const hd_scene_def *scene)
     expect_momentum(tr, scene);
 }
 
-void hd_verify_log(const hd_event_log *log, int disks)
+void hd_verify_log(const hd_event_log *log, const hd_scene_def *scene)
 {
-    const char *fault = hd_event_log_fault(log, disks);
+    const char *fault = hd_event_log_fault(log, scene);
     if (fault) fprintf(stderr, "hdlyap: verify: event log: %s\n", fault);
     HD_ASSERT(!fault);
 }

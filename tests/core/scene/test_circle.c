@@ -40,6 +40,11 @@ TEST(what_a_circle_has_not_is_refused_by_name)
     check_refused(scene_from(def, .observe = HD_OBSERVE_HYDRO), "hydro");
     check_refused(scene_from(def, .observe = HD_OBSERVE_STRUCTURE), "structure");
     check_refused(scene(.disks = 1), "disks = 1: must be");
+    check_refused(circle(1, 0.5), "exponents = positive: must be all");
+    check_refused(
+        scene_from(circle(1, 0.5), .exponents = HD_EXPONENTS_ALL, .observe = HD_OBSERVE_COVARIANT),
+        "observables = covariant: must not be given with disks = 1");
+    check_refused(scene_from(def, .max_mode_number = 40), "density = 0.7, container = circle: a");
 }
 
 /** Below the density that is named disks start apart, inside, with energy N and at rest together;
@@ -122,6 +127,23 @@ TEST(wave_numbers_are_published_roots)
         assert_true(at < KNOWN);
         CHECK_CLOSE(wave[at].number * reach, known[k].root, 6e-6);
         if (k > 0) assert_true(wave[k].number >= wave[k - 1].number);
+    }
+}
+
+/** The largest number of nodes that is allowed is that of a wave that is there. */
+TEST(no_more_nodes_than_waves_have)
+{
+    for (int disks = 5; disks < 500; disks += 1 + disks / 3) {
+        hd_scene_def def = circle(disks, 0.5);
+        hd_wave wave[2000];
+        def.max_mode_number = hd_wave_limits_of(&def).node;
+        CHECK_OK(hd_scene_check(&def, NULL, 0));
+        int largest = 0;
+        const int count = hd_waves(&def, wave, 2000);
+        for (int k = 0; k < count; k++) largest = wave[k].n[0] > largest ? wave[k].n[0] : largest;
+        assert_int_equal(largest, def.max_mode_number);
+        def.max_mode_number++;
+        check_refused(def, "max_mode_number = ");
     }
 }
 

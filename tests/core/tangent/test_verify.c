@@ -69,6 +69,7 @@ TEST(disks_are_checked)
 
 TEST(the_log_is_checked)
 {
+    const hd_scene_def box = scene(.disks = 3, .density = 0.5);
     const hd_event right[2] = {{0.5, 0, 1, {1, 0}, {-1, 0}}, {0.7, 2, HD_WALL_Y, {0, 1}, {1, 2}}};
     const struct {
         int event;
@@ -79,19 +80,35 @@ TEST(the_log_is_checked)
         {0, {NAN, 0, 1, {1, 0}, {-1, 0}}}, /* never */
         {0, {0.5, 1, 0, {1, 0}, {-1, 0}}}, /* not in their order */
         {0, {0.5, 0, 3, {1, 0}, {-1, 0}}}, /* no such disk */
-        {0, {0.5, -1, 1, {1, 0}, {-1, 0}}},   {0, {0.5, 0, -4, {1, 0}, {-1, 0}}}, /* no such wall */
+        {0, {0.5, 0, HD_WALL_ROUND, {1, 0}, {1, 0}}},
+        {0, {0.5, -1, 1, {1, 0}, {-1, 0}}},
+        {0, {0.5, 0, -4, {1, 0}, {-1, 0}}},   /* no such wall */
         {0, {0.5, 0, 1, {1, 1e-7}, {-1, 0}}}, /* not a unit vector */
-        {0, {0.5, 0, 1, {NAN, 0}, {-1, 0}}},  {0, {0.5, 0, 1, {1, 0}, {1e-9, 0}}}, /* parting */
+        {0, {0.5, 0, 1, {NAN, 0}, {-1, 0}}},
+        {0, {0.5, 0, 1, {1, 0}, {1e-9, 0}}}, /* parting */
         {0, {0.5, 0, 1, {1, 0}, {NAN, 0}}},
     };
+    /* one disk in a circle of reach 2 */
+    const hd_scene_def round = scene(.container = HD_CIRCLE, .disks = 1,
+                                     .density = 1.0 / (PI * 2.5 * 2.5));
+    const hd_event at_wall[] = {{0.5, 0, HD_WALL_ROUND, {2, 0}, {1, 3}},
+                                {0.5, 0, HD_WALL_ROUND, {1, 0}, {1, 3}},  /* of another radius */
+                                {0.5, 0, HD_WALL_ROUND, {2, 0}, {-1, 3}}, /* inwards */
+                                {0.5, 0, HD_WALL_ROUND, {2, 0}, {NAN, 3}},
+                                {0.5, 0, HD_WALL_X, {1, 0}, {1, 3}}}; /* there is none */
     hd_event event[2];
+    for (volatile size_t k = 0; k < sizeof at_wall / sizeof *at_wall; k++) {
+        const hd_event_log one = {event, 1, 1, 1.0};
+        event[0] = at_wall[k];
+        EXPECT_BROKEN(k > 0, hd_verify_log(&one, &round));
+    }
     const hd_event_log log = {event, 2, 2, 1.0};
     memcpy(event, right, sizeof event);
-    EXPECT_BROKEN(false, hd_verify_log(&log, 3));
+    EXPECT_BROKEN(false, hd_verify_log(&log, &box));
     for (volatile size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         memcpy(event, right, sizeof event);
         event[cases[k].event] = cases[k].wrong;
-        EXPECT_BROKEN(true, hd_verify_log(&log, 3));
+        EXPECT_BROKEN(true, hd_verify_log(&log, &box));
     }
 }
 

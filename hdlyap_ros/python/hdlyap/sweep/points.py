@@ -8,6 +8,7 @@ import numpy as np
 from hdlyap.data import reader, seeds
 from hdlyap.data.joined import MEASURED
 from hdlyap.data.reader import RecordingError
+from hdlyap.plots.waves import is_round
 
 # name in a frame of results -> its unit; as the columns of a table
 QUANTITIES = {
@@ -92,7 +93,7 @@ class Point:
 
 
 def system(info):
-    walls = dict.fromkeys((info.boundary_x, info.boundary_y))
+    walls = ['circle'] if is_round(info) else dict.fromkeys((info.boundary_x, info.boundary_y))
     return {
         'disks': info.disks,
         'density': info.density,

@@ -66,7 +66,7 @@ def chosen(recording):
         fields,
         default=None,
         key=lambda field: (
-            field.nx > 0 and field.ny > 0,
+            field.nx > 0 and field.ny > 0 and not waves.is_round(recording.info),
             numbers[field.nx, field.ny],
             -field.sim_time,
         ),
