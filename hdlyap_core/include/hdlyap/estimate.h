@@ -27,7 +27,7 @@ hd_extent hd_extent_of(const hd_scene_def *def, const hd_run *run);
 typedef struct hd_estimate {
     int disks;           /**< of the trial: fewer than the scene's where that would take too long */
     double seconds;      /**< wall seconds per time unit of the averaging */
-    double interval;     /**< time units between orthonormalisations; NaN without exponents */
+    double interval;     /**< mean time between orthonormalisations; NaN without exponents */
     double before;       /**< time units before the averaging */
     double errors_after; /**< averaged time until errors are first stated; those of exponents of
                               steps are below 1 % then. 0 without exponents, as the next */

@@ -119,7 +119,7 @@ static hd_status measure(hd_estimate *out, hd_run *run)
         done = hd_run_cost(run).orthonormalisations - before;
     }
     out->seconds = seconds / (hd_run_time(run) - from);
-    out->interval = hd_run_cost(run).interval;
+    out->interval = vectors > 0 ? (hd_run_time(run) - from) / (double)done : NAN;
     out->errors_after = hd_run_errors_after(run);
     return HD_OK;
 }
