@@ -5,7 +5,9 @@ import numpy as np
 from .. import steps
 from ..phases import apart, regression, turning
 from ..numbers import with_error
-from .style import MEMBER_COLOURS, plt, thinned, titled
+from .style import GREEN, INK, ORANGE, PURPLE, SKY, plt, thinned, titled
+
+COLOURS = GREEN, PURPLE, SKY, INK, ORANGE  # of steps; T and LP have others
 
 STEPS = 4  # are shown
 PER_STEP = 2  # phases of each: more would hide one another
@@ -19,7 +21,7 @@ def draw(recording, speeds=None):
     figure, (top, bottom) = plt.subplots(
         2, 1, figsize=(5.6, 5.6), sharex=True, constrained_layout=True
     )
-    for (step, numbers), colour in zip(shown, MEMBER_COLOURS):
+    for (step, numbers), colour in zip(shown, COLOURS):
         for number in numbers:
             for time, phase in recording.phases.curves(number):
                 _curve(top, bottom, time, phase, colour)
