@@ -71,8 +71,9 @@ static bool wall_exists(const hd_event *event, double reach)
  * to an ulp or two. */
 static bool is_normal(const hd_event *event, double reach)
 {
-    const double square = event->j == HD_WALL_ROUND ? reach * reach : 1.0;
-    return fabs(product(event->n, event->n) - square) <= 16.0 * DBL_EPSILON * square;
+    const bool is_round = event->j == HD_WALL_ROUND; /* one more product */
+    const double square = is_round ? reach * reach : 1.0, roundings = is_round ? 12.0 : 8.0;
+    return fabs(product(event->n, event->n) - square) <= roundings * DBL_EPSILON * square;
 }
 
 /** Within the rounding of the normal; a round wall is reached outwards. */

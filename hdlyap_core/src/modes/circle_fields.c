@@ -19,28 +19,33 @@ static radial bessel(int m, double k, double r)
     return (radial){jn(m, k * r), 0.5 * k * (below - above), 0.5 * k * (below + above)};
 }
 
-/** Less the harmonic function that is the same at the wall. */
-static radial at(const hd_wave *wave, double reach, double r)
+hd_circle_wave hd_circle_wave_of(const hd_wave *wave, double reach)
 {
     const int m = wave->n[0];
-    radial f = bessel(m, wave->number, r);
-    if (wave->transverse.count == 0) return f;
-    const double same = jn(m, wave->number * reach);
-    const double slope = m > 0 ? same * m / reach * pow(r / reach, m - 1) : 0.0;
-    f.value -= same * pow(r / reach, m);
-    f.along -= slope;
-    f.across -= slope;
+    const double k = wave->number;
+    return (hd_circle_wave){m, k, reach, wave->transverse.count > 0 ? jn(m, k * reach) : 0.0};
+}
+
+/** Less the harmonic function. */
+static radial at(const hd_circle_wave *wave, double r)
+{
+    const int m = wave->m;
+    radial f = bessel(m, wave->k, r);
+    const double slope = m > 0 ? wave->harmonic / wave->reach * pow(r / wave->reach, m - 1) : 0.0;
+    f.value -= m > 0 ? slope * r : wave->harmonic;
+    f.along -= m * slope;
+    f.across -= m * slope;
     return f;
 }
 
-void hd_circle_modulations(hd_circle_modulation out[2], const hd_wave *wave, double reach, double x,
+void hd_circle_modulations(hd_circle_modulation out[2], const hd_circle_wave *wave, double x,
                            double y)
 {
     const double r = hypot(x, y);
-    const radial f = at(wave, reach, r);
+    const radial f = at(wave, r);
     const double complex direction = r > 0 ? (x + I * y) / r : 1.0;
     double complex turned = 1.0; /* e^(i m theta) */
-    for (int n = 0; n < wave->n[0]; n++) turned *= direction;
+    for (int n = 0; n < wave->m; n++) turned *= direction;
     const double part[2] = {creal(turned), cimag(turned)}, other[2] = {-part[1], part[0]};
     const double c = creal(direction), s = cimag(direction);
     for (int sine = 0; sine < 2; sine++) {

@@ -9,9 +9,17 @@ typedef struct hd_circle_modulation {
     double a, x, y;
 } hd_circle_modulation;
 
-/** out[2]: of the cosine and of the sine, at (x, y) from the centre: J_m(k r) of the L and P
- * fields; of T fields J_m(k r) - J_m(k a) (r / a)^m, which vanishes at the wall, a = `reach`. */
-void hd_circle_modulations(hd_circle_modulation out[2], const hd_wave *wave, double reach, double x,
+/** A(r) = J_m(k r) - harmonic (r / reach)^m. */
+typedef struct hd_circle_wave {
+    int m;
+    double k, reach;
+    double harmonic; /**< 0 of L and P fields; of T fields J_m(k reach): A vanishes at the wall */
+} hd_circle_wave;
+
+hd_circle_wave hd_circle_wave_of(const hd_wave *wave, double reach);
+
+/** out[2]: of the cosine and of the sine, at (x, y) from the centre. */
+void hd_circle_modulations(hd_circle_modulation out[2], const hd_circle_wave *wave, double x,
                            double y);
 
 #endif

@@ -21,6 +21,7 @@ struct hd_fields {
     hd_harmonics along[HD_DIM];
     hd_null_space null;
     hd_subspace *subspace; /**< [subspaces] */
+    hd_circle_wave *round; /**< [subspaces], of a circle; NULL in a rectangle */
     double *data;          /**< [2 disks * stride] */
     double *norm;          /**< [stride], of the columns as sampled */
 };
@@ -73,10 +74,20 @@ static hd_status subspaces_create(hd_fields *fields, const hd_scene_def *def)
     return HD_OK;
 }
 
+static hd_status round_create(hd_fields *fields)
+{
+    fields->round = hd_memory_alloc((size_t)fields->subspaces + 1, sizeof *fields->round);
+    if (!fields->round) return HD_NO_MEMORY;
+    for (int s = 0; s < fields->subspaces; s++)
+        fields->round[s] = hd_circle_wave_of(&fields->subspace[s].wave, fields->null.centre - 0.5);
+    return HD_OK;
+}
+
 static hd_status fields_prepare(hd_fields *fields, const hd_scene_def *def)
 {
     HD_TRY(subspaces_create(fields, def));
     fields->null = hd_null_space_of(def);
+    if (fields->null.curved) HD_TRY(round_create(fields));
     for (int d = 0; d < HD_DIM && !fields->null.curved; d++)
         HD_TRY(hd_harmonics_create(&fields->along[d], def, d, fields->along[d].nodes));
     fields->columns += HD_NULLS;
@@ -106,6 +117,7 @@ void hd_fields_free(hd_fields *fields)
     if (!fields) return;
     for (int d = 0; d < HD_DIM; d++) hd_harmonics_clear(&fields->along[d]);
     hd_memory_free(fields->subspace);
+    hd_memory_free(fields->round);
     hd_memory_free(fields->data);
     hd_memory_free(fields->norm);
     hd_memory_free(fields);
@@ -148,7 +160,7 @@ static void sample_circle(const hd_fields *fields, const double *q, const double
     for (int k = 0; k < fields->subspaces; k++) {
         const hd_subspace *s = &fields->subspace[k];
         const int count = s->modulations.count;
-        hd_circle_modulations(at, &s->wave, fields->null.centre - 0.5, q[0] - fields->null.centre,
+        hd_circle_modulations(at, &fields->round[k], q[0] - fields->null.centre,
                               q[1] - fields->null.centre);
         for (int c = 0, column = s->column; c < count; c++, column++) {
             const bool t = s->kind == HD_MODE_T;
@@ -161,7 +173,7 @@ static void sample_circle(const hd_fields *fields, const double *q, const double
 static void sample_disk(hd_fields *fields, const double *q, const double *p, double *x, double *y)
 {
     const int null = fields->columns - HD_NULLS;
-    if (fields->null.curved)
+    if (fields->round)
         sample_circle(fields, q, p, x, y);
     else
         sample_rectangle(fields, q, p, x, y);

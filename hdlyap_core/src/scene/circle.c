@@ -154,7 +154,7 @@ static void circle_start(const hd_scene_def *def, double *q)
         double first;
         const int count = (int)row_of(&h, h.square, j, &first);
         for (int i = 0; i < count; i++, site++) {
-            if ((site + 1) * disks / sites == site * disks / sites) continue;
+            if (hd_site_is_spare(site, sites, disks)) continue;
             *q++ = centre + spacing * (first + i + (j % 2 != 0 ? 0.5 : 0.0) - h.x0);
             *q++ = centre + spacing * (j * ROW - h.y0);
         }

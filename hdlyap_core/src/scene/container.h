@@ -2,6 +2,9 @@
 #ifndef HD_CONTAINER_ROW_H
 #define HD_CONTAINER_ROW_H
 
+#include <stdbool.h>
+#include <stdint.h>
+
 #include "hdlyap/wave.h"
 
 /** Least distance of two start positions: disks that all touch can never move. */
@@ -34,6 +37,12 @@ typedef struct hd_container_row {
 extern const hd_container_row hd_rectangle_row, hd_circle_row;
 
 const hd_container_row *hd_container_of(const hd_scene_def *def);
+
+/** Of more sites than disks some are left empty, evenly. */
+static inline bool hd_site_is_spare(int64_t site, int64_t sites, int64_t disks)
+{
+    return (site + 1) * disks / sites == site * disks / sites;
+}
 
 /** Largest number of nodes that the scene asks for, of `most` within the limits. */
 int hd_wave_nodes(const hd_scene_def *def, int most);

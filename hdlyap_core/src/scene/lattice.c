@@ -82,7 +82,7 @@ void hd_lattice_fill(const hd_lattice *lattice, double *q, int disks, const doub
     for (int row = 0; row < lattice->rows; row++) {
         const int columns = lattice->columns - (lattice->odd_short && row % 2);
         for (int column = 0; column < columns; column++, site++) {
-            if ((site + 1) * disks / sites == site * disks / sites) continue; /* left empty */
+            if (hd_site_is_spare(site, sites, disks)) continue;
             place(lattice, q + 2 * disk++, row, column, box, boundary);
         }
     }

@@ -26,8 +26,9 @@ TEST(gradients_are_those_of_the_modulations)
                 .n = {m, 1}, .number = 0.1 + 0.005 * k, .transverse = {k % 2, {0}}};
             const double r = k < 2 ? 1e-4 : REACH * fmod(0.618 * k, 1.0), x = r * cos(k),
                          y = r * sin(k);
+            const hd_circle_wave of = hd_circle_wave_of(&wave, REACH);
             hd_circle_modulation at[2];
-            hd_circle_modulations(at, &wave, REACH, x, y);
+            hd_circle_modulations(at, &of, x, y);
             for (int sine = 0; sine < 2; sine++) {
                 const double dx = modulation(&wave, sine, x + STEP, y) -
                                   modulation(&wave, sine, x - STEP, y);
@@ -45,8 +46,9 @@ TEST(the_centre_is_a_place_like_others)
 {
     for (int m = 0; m < 4; m++) {
         const hd_wave wave = {.n = {m, 1}, .number = 0.7};
+        const hd_circle_wave of = hd_circle_wave_of(&wave, REACH);
         hd_circle_modulation at[2];
-        hd_circle_modulations(at, &wave, REACH, 0.0, 0.0);
+        hd_circle_modulations(at, &of, 0.0, 0.0);
         CHECK_CLOSE(at[0].a, m == 0, 0.0);
         CHECK_CLOSE(at[0].x, m == 1 ? 0.35 : 0.0, 1e-16);
         CHECK_CLOSE(at[0].y, 0.0, 0.0);
@@ -57,8 +59,9 @@ TEST(the_centre_is_a_place_like_others)
 /** The flow of T at distance r and angle 0: through the wall, and along it. */
 static void flow(const hd_wave *wave, double r, double along[2])
 {
+    const hd_circle_wave of = hd_circle_wave_of(wave, REACH);
     hd_circle_modulation at[2];
-    hd_circle_modulations(at, wave, REACH, r, 0.0);
+    hd_circle_modulations(at, &of, r, 0.0);
     along[0] = at[1].y;  /* of the sine */
     along[1] = -at[0].x; /* of the cosine */
 }
@@ -143,9 +146,9 @@ TEST(fields_of_one_modulation)
         for (int j = 0; j < DISKS; j++) {
             const double *x = hd_fields_data(fields) + (size_t)(2 * j * hd_fields_stride(fields));
             const double *y = x + hd_fields_stride(fields);
+            const hd_circle_wave here = hd_circle_wave_of(&of->wave, 0.5 * box[0] - 0.5);
             hd_circle_modulation at[2];
-            hd_circle_modulations(at, &of->wave, 0.5 * box[0] - 0.5, q[2 * j] - 0.5 * box[0],
-                                  q[2 * j + 1] - 0.5 * box[1]);
+            hd_circle_modulations(at, &here, q[2 * j] - 0.5 * box[0], q[2 * j + 1] - 0.5 * box[1]);
             for (int c = 0; c < of->modulations.count; c++) {
                 const int column = of->column + c, pair = column + of->modulations.count;
                 const double norm = hd_fields_norm(fields, column);
