@@ -53,10 +53,10 @@ def main(args):
     kinds = figures.OF_MEANS if run.is_mean else figures.FIGURES
     kinds = [kind for kind in kinds if not args.only or figures.name(kind) in args.only]
     files = figures.draw_all(run, args.out, Progress('drawing'), kinds, args.pdf)
+    drawn = {os.path.basename(file).partition('.')[0] for file in files}
     if args.csv or args.npz:
         files += exported(run.data, args)
     print('\n' + '\n'.join(files))
-    drawn = {os.path.basename(file).partition('.')[0] for file in files}
     nothing = [name for name in args.only or () if name not in drawn]
     if nothing:
         print('nothing to draw in this bag: ' + ', '.join(nothing))

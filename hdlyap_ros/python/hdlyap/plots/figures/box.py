@@ -14,8 +14,7 @@ def disks(axes, info, x, y, **style):
     axes.set_aspect('equal')
     axes.set_xlim(0, info.box_x)
     axes.set_ylim(0, info.box_y)
-    if is_round(info):
-        wall(axes, info)
+    enclose(axes, info)
     # matplotlib 3.6 has given it another name
     new = hasattr(EllipseCollection, 'set_offset_transform')
     place = {'offset_transform' if new else 'transOffset': axes.transData, 'offsets': np.c_[x, y]}
@@ -24,8 +23,10 @@ def disks(axes, info, x, y, **style):
     return found
 
 
-def wall(axes, info):
-    """A round one: it takes the place of the frame."""
+def enclose(axes, info):
+    """A round wall takes the place of the frame."""
+    if not is_round(info):
+        return
     radius = info.box_x / 2
     axes.add_patch(Circle((radius, radius), radius, clip_on=False, **WALL))
     for spine in axes.spines.values():

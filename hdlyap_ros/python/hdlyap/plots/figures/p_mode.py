@@ -4,7 +4,7 @@ momenta."""
 import numpy as np
 
 from .. import steps, waves
-from .box import wall
+from .box import enclose
 from .pattern import pattern
 from .style import BLUE, GREY, VERMILION, plt, titled
 
@@ -89,10 +89,9 @@ class PMode:
         self.bits = field.modulation[pair]
         self.name = steps.wave_name('LP', field)
         self.formula = waves.formula(field.nx, field.ny, self.bits)
-        self.along = 'x' if field.ny == 0 else 'y' if field.nx == 0 else None
-        if waves.is_round(info):
-            self.along = None
-        self._field, self._info = field, info
+        along = 'x' if field.ny == 0 else 'y' if field.nx == 0 else None
+        self.along = None if waves.is_round(info) else along
+        self._field, self.info = field, info
         self.x, self.y = np.array(field.x), np.array(field.y)
         self._p = np.array([field.px, field.py])
 
@@ -102,17 +101,13 @@ class PMode:
 
     @property
     def length(self):
-        return self._info.box_x if self.along == 'x' else self._info.box_y
-
-    def enclose(self, axes):
-        if waves.is_round(self._info):
-            wall(axes, self._info)
+        return self.info.box_x if self.along == 'x' else self.info.box_y
 
     def modulation(self, x, y):
         wave = self._field
-        if waves.is_round(self._info):
-            return waves.round_modulation(self._info, wave.wave_number, wave.nx, self.bits, x, y)
-        return waves.modulation(self._info, wave.nx, wave.ny, self.bits, x, y)
+        if waves.is_round(self.info):
+            return waves.round_modulation(self.info, wave.wave_number, wave.nx, self.bits, x, y)
+        return waves.modulation(self.info, wave.nx, wave.ny, self.bits, x, y)
 
     def amplitude(self, component):
         """Of A in a quotient, by least squares: its noise is as large as the momentum is small."""
@@ -160,7 +155,7 @@ def _modulation(axes, mode, amplitude):
 
 def _map(axes, mode, values, limit, name):
     pattern(axes, mode.x, mode.y, values, limit)
-    mode.enclose(axes)
+    enclose(axes, mode.info)
     axes.set_title(name, loc='left', fontsize=8)
 
 
