@@ -140,6 +140,8 @@ TEST(curves, the_caption_says_what_is_known)
     s.p.periodic[1] = true;
     s.p.note = "(nothing new since 14:03:27)";
     expect({"v 1.612(23)", "x reflecting, y periodic", "   (nothing new since 14:03:27)\n"});
+    s.p.round = true;
+    expect({"a scene: 10 disks, in a circle"});
     s.p.time = -1.0, s.p.x.count = s.p.y.count = 0; // described, and not begun
     expect({"waiting for its first message", "a scene: 10 disks"});
 }

@@ -8,7 +8,9 @@ import numpy as np
 import made
 from bags import Bags
 from made import LP, T
+from hdlyap.plots import report, waves
 from hdlyap.plots.figures import (
+    box,
     convergence,
     cost,
     dispersion,
@@ -290,6 +292,22 @@ class Figures(Bags):
         self.assertEqual(scene(INFO), r'made: $N=20$, $\rho=0.5$, $L_y/L_x=1$, periodic')
         walls = made.run_info(boundary_y='reflecting')
         self.assertIn('$, x periodic, y reflecting', scene(walls))
+
+    def test_circle(self):
+        """Is named with its radius and drawn as a wall of it, without a frame; its waves have
+        (m,n) and no direction."""
+        info = made.run_info(
+            box_x=8.0, box_y=8.0, boundary_x='curved', boundary_y='curved', wave_nx=[1], wave_ny=[1]
+        )
+        self.assertEqual(scene(info), r'made: $N=20$, $\rho=0.5$, circle, $R=4$')
+        self.assertEqual(report.system(info), 'N = 20, density 0.5, circle of radius 4.000')
+        _, axes = plt.subplots()
+        box.disks(axes, info, [4.0], [4.0])
+        (wall,) = axes.patches
+        self.assertEqual((wall.center, wall.radius), ((4.0, 4.0), 4.0))
+        self.assertFalse(any(spine.get_visible() for spine in axes.spines.values()))
+        self.assertEqual(waves.formula(2, 1, waves.COS_M), r'$J_{2}(k r)\,\cos 2\theta$')
+        self.assertEqual(waves.formula(2, 1, waves.SIN_M), r'$J_{2}(k r)\,\sin 2\theta$')
 
 
 if __name__ == '__main__':

@@ -48,6 +48,7 @@ class Launch(harness.Case):
         run.wait()
         self.assertEqual(len(run.lines('must be in a folder that is there')), 1, run.text())
         self.assertEqual(run.lines('Recording to'), [])
+        self.assertNotIn('the bag is', run.text())
 
     def check_result(self, run, averaged, *words):
         """Is printed last."""

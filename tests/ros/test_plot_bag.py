@@ -157,6 +157,11 @@ class Command(Bags):
         with open(pdf, 'rb') as file:
             self.assertEqual(file.read().count(b'/Type /Page '), 2)
         self.assertEqual(sorted(os.listdir(self.folder)), ['out', 'run.bag', 'talk.pdf'])
+        for more in ((), ('--csv', self.out)):
+            text = self.succeeds(
+                'plot', self.path(), '--only', 'localization', '--out', self.out, *more
+            )
+            self.assertIn('\nnothing to draw in this bag: localization', text)
         done = tool('plot', self.path(), '--only', 'picture')
         self.assertEqual(done.status, 2)
         self.assertIn("'picture' (choose from 'spectrum', ", done.error)

@@ -286,6 +286,19 @@ class Results(InFolder):
             ends = [bars.lines[2][0].get_segments()[0][:, 1] for bars in axes.containers]
             np.testing.assert_allclose(sorted(np.ptp(ends, axis=1)), 2 * np.sort(errors))
 
+    def test_no_error(self):
+        """Is drawn as a cross; a container that is not a box has its name in the table."""
+        bags = [self.bag(f'c{n}', n, boundary='curved', c_t_error=nan) for n in (0.4, 0.5)]
+        found = self.read(*bags)
+        self.assertIn('boundary circle', next(iter(table.text(found))))
+        drawn = figure.draw(found)
+        self.addCleanup(plt.close, drawn)
+        markers = {
+            axes.get_ylabel(): [line.get_marker() for line in axes.lines] for axes in drawn.axes
+        }
+        self.assertIn('x', markers[figure.NAMES['c_T']])
+        self.assertNotIn('x', markers[figure.NAMES['c_L']])
+
     def test_over_seeds(self):
         """One point of each system; both errors and chi^2 as hdlyap.load has them; a fit that is
         not of one form in all is none."""
