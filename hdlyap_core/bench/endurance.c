@@ -48,9 +48,10 @@ static double overlap_at_contact(hd_trajectory *tr)
     const prediction *next = &tr->motion.predicted[i];
     const hd_disk *a = &tr->motion.disk[i], *b = &tr->motion.disk[next->partner];
     if (next->partner_collisions != b->collisions) return 0.0;
-    const hd_pair shift = {next->image[0] * tr->motion.cells.box[0],
-                           next->image[1] * tr->motion.cells.box[1]};
-    const hd_pair r = hd_contact_separation(a, b, shift, tr->motion.queue.entry[i].key.t);
+    const double shift[HD_DIM] = {next->image[0] * tr->motion.cells.box[0],
+                                  next->image[1] * tr->motion.cells.box[1]};
+    double r[HD_DIM];
+    hd_contact_separation(r, a, b, shift, tr->motion.queue.entry[i].key.t);
     return 1.0 - sqrt(hd_contact_dot(r, r));
 }
 

@@ -16,7 +16,7 @@ function(stage_of out header)
     if(name STREQUAL hdlyap) # everything
       set(folder run)
     else()
-      file(GLOB source RELATIVE ${CORE}/src ${CORE}/src/*/${name}.c)
+      file(GLOB source RELATIVE ${CORE}/src ${CORE}/src/*/${name}.c ${CORE}/src/*/${name}_2d.c)
       get_filename_component(folder "${source}" DIRECTORY)
     endif()
   elseif(NOT EXISTS ${CORE}/src/${header})

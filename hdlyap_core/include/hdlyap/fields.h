@@ -1,4 +1,4 @@
-/** The T, L and P fields of every wave vector, sampled at the disks [T10]. */
+/** The T, L and P fields of every wave vector, sampled at the disks [T10], [T22]. */
 #ifndef HDLYAP_FIELDS_H
 #define HDLYAP_FIELDS_H
 
@@ -27,13 +27,13 @@ typedef struct hd_fields hd_fields;
 HD_MUST_CHECK hd_status hd_fields_create(hd_fields **out, const hd_scene_def *def);
 void hd_fields_free(hd_fields *fields);
 
-/** Samples every field at q[2N], p[2N]; each column gets norm 1 (or stays zero). Cost O(N *
- * columns). */
+/** Samples every field at q[HD_DIM N], p[HD_DIM N]; each column gets norm 1 (or stays zero). Cost
+ * O(N * columns). */
 void hd_fields_sample(hd_fields *fields, const double *q, const double *p);
 
 int hd_fields_columns(const hd_fields *fields); /**< all */
 int hd_fields_stride(const hd_fields *fields);  /**< doubles from one row to the next */
-/** Row-major, rows 2j, 2j+1 = x, y component at disk j. */
+/** Row-major, HD_DIM rows for each disk: components x, y, .. there. */
 const double *hd_fields_data(const hd_fields *fields);
 
 /** Norm of a column before it was made 1. */

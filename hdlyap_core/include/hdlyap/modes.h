@@ -19,9 +19,9 @@ HD_MUST_CHECK hd_status hd_modes_create(hd_modes **out, const hd_scene_def *def,
                                         int threads);
 void hd_modes_free(hd_modes *modes);
 
-/** Measures orthonormal vectors (all of them, or some: the others keep their snapshot) at q[2N],
- * p[2N]: a snapshot, without averaging. HD_NOT_FINITE. Cost 4 N columns flops per vector as dgemm,
- * and one reading of the vectors. */
+/** Measures orthonormal vectors (all of them, or some: the others keep their snapshot) at q[HD_DIM
+ * N], p[HD_DIM N]: a snapshot, without averaging. HD_NOT_FINITE. Cost 4 N columns flops per vector
+ * as dgemm, and one reading of the vectors. */
 HD_MUST_CHECK hd_status hd_modes_measure(hd_modes *modes, hd_columns vectors, const double *q,
                                          const double *p);
 /** Of vectors that several ranks have measured, `width` of the `carried` ones each, and the
@@ -47,8 +47,8 @@ const double *hd_modes_snapshot(const hd_modes *modes, int s, hd_weight which);
 const double *hd_modes_average(const hd_modes *modes, int s, hd_weight which);
 
 /** Squared norms of the orthogonal projections of the whole vectors onto the exact null space [T9],
- * its parts apart: N_x, N_y (uniform dq or dp along a periodic direction), N_p (dq = p or dp = p);
- * [n]. */
+ * its parts apart: N_x, N_y, N_z (uniform dq or dp along a periodic direction), N_p (dq = p or dp =
+ * p); [n]. */
 const double *hd_modes_null_snapshot(const hd_modes *modes, int null);
 const double *hd_modes_null_average(const hd_modes *modes, int null);
 

@@ -12,10 +12,19 @@
 extern "C" {
 #endif
 
-/** Components of a position, and of a vector of tangent space at one disk: dq, then dp. */
-enum { HD_DIM = 2, HD_ROWS = 2 * HD_DIM };
+/** Components of a position: 2, disks, or 3, spheres, which are called disks as well. Each has a
+ * library of its own, and who uses the one for spheres compiles with -DHD_DIM=3. */
+#ifndef HD_DIM
+#define HD_DIM 2
+#endif
+#if HD_DIM != 2 && HD_DIM != 3
+#error "HD_DIM: must be 2 or 3"
+#endif
 
-/** What holds the disks. */
+/** Components of a vector of tangent space at one disk: dq, then dp. */
+enum { HD_ROWS = 2 * HD_DIM };
+
+/** What holds the disks: a box with edges along the axes, or in two dimensions a circle. */
 typedef enum hd_container { HD_RECTANGLE, HD_CIRCLE } hd_container;
 
 /** Of a direction; HD_CURVED in a circle, where no scene can ask for another one. */
@@ -62,9 +71,9 @@ typedef enum hd_storage {
  * that are plain numbers. */
 typedef struct hd_scene_def {
     hd_container container;
-    hd_boundary boundary[HD_DIM]; /**< boundary_x, boundary_y: see hd_scene_boundary */
+    hd_boundary boundary[3]; /**< boundary_x, _y, _z, the last of spheres: see hd_scene_boundary */
     uint64_t seed;
-    int exponents;         /**< number of leading ones, 1 .. 4N, or one of HD_EXPONENTS_* */
+    int exponents;         /**< number of leading ones, 1 .. HD_ROWS N, or one of HD_EXPONENTS_* */
     double warmup;         /**< HD_WARMUP_AUTO, see hd_scene_warmup [time units] */
     double interval;       /**< 0 = auto [time units] */
     double phase_interval; /**< the same */
@@ -82,39 +91,40 @@ hd_scene_def hd_scene_def_default(void);
 /** HD_OK, or HD_REFUSED with one line in `message`: the parameter, its value, what is allowed. */
 HD_MUST_CHECK hd_status hd_scene_check(const hd_scene_def *def, char *message, size_t size);
 
-/** Box edges [sigma]: Lx = sqrt(N / (rho A)), Ly = A Lx; of the square around a circle 2 R, with R
- * = sqrt(N / (pi rho)). */
+/** Box edges [sigma]: Lx = sqrt(N / (rho A)), Ly = A Lx, with A = aspect; of spheres Lx = cbrt(N /
+ * (rho A B)), Lz = B Lx, with B = aspect_z; of the square around a circle 2 R, with R = sqrt(N /
+ * (pi rho)). */
 void hd_scene_box(const hd_scene_def *def, double box[HD_DIM]);
 
 /** What the ends of direction d are. */
 hd_boundary hd_scene_boundary(const hd_scene_def *def, int d);
 
-/** Time that sound takes through the longer edge of the box, by Henderson's equation of state (Mol.
- * Phys. 30, 971 (1975)) [time units]. */
+/** Time that sound takes through the longest edge of the box, by the equation of state of Henderson
+ * (Mol. Phys. 30, 971 (1975)), of spheres that of Carnahan and Starling (J. Chem. Phys. 51, 635
+ * (1969)) [time units]. */
 double hd_scene_sound_crossing(const hd_scene_def *def);
 
-/** Mean path of a disk between two collisions, by Enskog's theory with Henderson's pair correlation
- * at contact: 1 / (2 sqrt(2) density g) [sigma]. */
+/** Mean path of a disk between two collisions, by Enskog's theory with the pair correlation at
+ * contact of the same authors: 1 / (2 sqrt(2) density g), of spheres 1 / (sqrt(2) pi density g)
+ * [sigma]. */
 double hd_scene_mean_free_path(const hd_scene_def *def);
 
-/** Number of vanishing exponents: 6, 4 or 2 for both, one or no direction periodic; 4 in a circle.
- */
+/** Number of vanishing exponents: 2, and 2 for each periodic direction; 4 in a circle. */
 int hd_scene_zero_exponents(const hd_scene_def *def);
 
-/** Number of positive exponents, (4N - Z) / 2. */
+/** Number of positive exponents, (HD_ROWS N - Z) / 2. */
 int hd_scene_positive_exponents(const hd_scene_def *def);
 
-/** Directions of the null space [T9]: uniform along x, along y (where periodic), momenta. In a
- * circle HD_NULL_X is a rotation about the centre. */
-enum { HD_NULL_X, HD_NULL_Y, HD_NULL_P, HD_NULLS };
+/** Directions of the null space [T9]: uniform along x, along y, of spheres along z (where
+ * periodic), momenta. In a circle HD_NULL_X is a rotation about the centre. */
+enum { HD_NULL_X, HD_NULL_Y, HD_NULL_P = HD_DIM, HD_NULLS };
 
 /** Time with the frame before the averaging, as asked for or chosen [T12]. */
 double hd_scene_warmup(const hd_scene_def *def);
 
-/** Number of exponents and tangent vectors that come out, 0 .. 4N (the positive half is (4N - Z) /
- * 2). */
+/** Number of exponents and tangent vectors that come out, 0 .. HD_ROWS N. */
 int hd_scene_vectors(const hd_scene_def *def);
-/** Number of tangent vectors that are carried for them: 2N for all 4N [T18]. */
+/** Number of tangent vectors that are carried for them: half for all of them [T18]. */
 int hd_scene_carried(const hd_scene_def *def);
 
 #ifdef __cplusplus

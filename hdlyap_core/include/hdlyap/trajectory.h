@@ -12,9 +12,9 @@
 extern "C" {
 #endif
 
-/** hd_event.j of a wall event: HD_WALL_X or HD_WALL_Y (the direction of the wall's normal), or
- * HD_WALL_ROUND. */
-enum { HD_WALL_X = -1, HD_WALL_Y = -2, HD_WALL_ROUND = -3 };
+/** hd_event.j of a wall event: HD_WALL_X, HD_WALL_Y or of spheres HD_WALL_Z (the direction of the
+ * wall's normal), or HD_WALL_ROUND. */
+enum { HD_WALL_X = -1, HD_WALL_Y = -2, HD_WALL_Z = -3, HD_WALL_ROUND = -1 - HD_DIM };
 
 /** One event; self-contained: with the disks' order in the log it fixes the tangent map [T3]. */
 typedef struct hd_event {
@@ -28,8 +28,8 @@ typedef struct hd_event {
 } hd_event;
 
 /** Events of one interval in their total order: time, pairs before flat walls, i, j; of one disk
- * pairs before the round wall; in a corner the x wall before the y wall; one pair through two
- * images at once: the lower image in y, then in x. */
+ * pairs before the round wall; in a corner the x wall before the y wall before the z wall; one
+ * pair through two images at once: the lower image in z, then in y, then in x. */
 typedef struct hd_event_log {
     hd_event *event; /**< [count] */
     size_t count, capacity;
@@ -47,7 +47,8 @@ typedef struct hd_trajectory hd_trajectory;
  * Fails with HD_REFUSED, of what hd_scene_check says why, and HD_NO_MEMORY. Cost O(N log N). */
 HD_MUST_CHECK hd_status hd_trajectory_create(hd_trajectory **out, const hd_scene_def *def);
 
-/** A prepared state: q[2N] inside the box (x0 y0 x1 y1 ..), p[2N]; nothing is rescaled.
+/** A prepared state: q[HD_DIM N] inside the box (x0 y0 x1 y1 ..), p[HD_DIM N];
+ * nothing is rescaled.
  * HD_REFUSED for a box that hd_scene_check refuses, positions outside it, |p| above 1e6;
  * HD_OVERLAP for disks deeper than 1e-9. */
 HD_MUST_CHECK hd_status hd_trajectory_create_from(hd_trajectory **out, const hd_scene_def *def,
@@ -69,16 +70,16 @@ uint64_t hd_trajectory_collisions(const hd_trajectory *trajectory); /**< pair ev
 uint64_t hd_trajectory_wall_events(const hd_trajectory *trajectory);
 /** Virial of the pair events so far, by direction: sum of |p.n| n_d^2 [sigma momentum] [T19]. */
 void hd_trajectory_virial(const hd_trajectory *trajectory, double virial[HD_DIM]);
-/** Estimate of the pair events per time unit, Enskog with Henderson's contact value [T2]. */
+/** Estimate of the pair events per time unit, by Enskog's theory [T2]. */
 double hd_trajectory_collision_rate(const hd_trajectory *trajectory);
 
-/** State now: q[2N] inside the box, p[2N]. Either may be NULL. Cost O(N). */
+/** State now: q[HD_DIM N] inside the box, p[HD_DIM N]. Either may be NULL. Cost O(N). */
 void hd_trajectory_state(const hd_trajectory *trajectory, double *q, double *p);
 
 double hd_trajectory_kinetic_energy(const hd_trajectory *trajectory); /**< sum p^2 / 2, = N */
 /** Of all disks together. */
 void hd_trajectory_momentum(const hd_trajectory *trajectory, double sum[HD_DIM]);
-/** The same about the middle of the box; a circle conserves it. */
+/** The same about the middle of the box, about z; a circle conserves it. */
 double hd_trajectory_angular_momentum(const hd_trajectory *trajectory);
 /** More than rounding makes of its relative error: each event so far rounds the energy of its disks
  * by some eps, and the roundings add up as a random walk. Seen: 0.01 of this. */

@@ -1,4 +1,5 @@
-/** Wave vectors of the box, and the modulations A(x, y) that live on them [T10]. */
+/** Wave vectors of the box, and the modulations A(x, y), of spheres A(x, y, z), that live on them
+ * [T10], [T22]. */
 #ifndef HDLYAP_WAVE_H
 #define HDLYAP_WAVE_H
 
@@ -10,34 +11,45 @@
 extern "C" {
 #endif
 
-/** A is a product of a function of x and one of y; a set bit: sine, otherwise cosine (1 for n = 0).
+/** A is a product of a function of each coordinate; a set bit: sine, otherwise cosine (1 for n =
+ * 0).
  */
-enum { HD_SIN_X = 1, HD_SIN_Y = 2 };
+enum { HD_SIN_X = 1, HD_SIN_Y = 2, HD_SIN_Z = 4 };
 
-/** Or of a function of r and cos(m theta) or sin(m theta) in a circle. */
-enum { HD_COS_M = 4, HD_SIN_M = 5 };
+/** Of spheres each A has up to two transverse fields: with this bit, the second one. */
+enum { HD_SECOND = 8 };
 
-enum { HD_MODULATIONS_MAX = 4 };
+/** Or A is a function of r times cos(m theta) or sin(m theta) in a circle. */
+enum { HD_COS_M = 16, HD_SIN_M = 17 };
+
+/** Products; transverse fields of them; fields of the largest subspace, of LP two for each A. */
+enum {
+    HD_MODULATIONS_MAX = 1 << HD_DIM,
+    HD_TRANSVERSE_MAX = HD_MODULATIONS_MAX * (HD_DIM - 1),
+    HD_FIELDS_MAX = 2 * HD_MODULATIONS_MAX
+};
 
 /** Bits of the modulations of one kind of field at a wave vector, or HD_COS_M and HD_SIN_M;
  * ascending. */
 typedef struct hd_modulations {
-    int count; /**< 0 .. 4 */
-    unsigned char bits[HD_MODULATIONS_MAX];
+    int count; /**< of LP 0 .. HD_MODULATIONS_MAX, of T 0 .. HD_TRANSVERSE_MAX */
+    unsigned char bits[HD_TRANSVERSE_MAX];
 } hd_modulations;
 
-/** In a rectangle of n[0] nodes along x and n[1] along y, not both 0; in a circle J_m(k r) of m =
+/** In a box of n[d] nodes along each direction, not all 0; in a circle J_m(k r) of m =
  * n[0] with the n[1]th root of its kind at the wall: T and LP fields have waves of their own. */
 typedef struct hd_wave {
     int n[HD_DIM];
     double k[HD_DIM]; /**< components of the wave vector, >= 0; in a circle |k|, 0 [1/sigma] */
     double number;    /**< |k| [1/sigma] */
-    /** Of the transverse fields: sine and n >= 1 along a reflecting direction. */
+    /** Of the transverse fields: sine and n >= 1 along a reflecting direction; of spheres see
+     * [T22].
+     */
     hd_modulations transverse;
     hd_modulations pairs; /**< of the LP pairs: cosine along a reflecting direction */
 } hd_wave;
 
-/** k along direction d of a rectangle for n nodes: 2 pi n / L periodic, pi n / (L - 1) reflecting.
+/** k along direction d of a box for n nodes: 2 pi n / L periodic, pi n / (L - 1) reflecting.
  */
 double hd_wave_component(const hd_scene_def *def, int d, int n);
 
@@ -46,7 +58,7 @@ typedef struct hd_wave_limits {
     double
         smallest; /**< wave number of the longest wave in the box; above largest if there is none */
     double largest; /**< wave number that the disks still sample: wave length two mean distances,
-                          pi sqrt(density) */
+                          pi sqrt(density), of spheres pi cbrt(density) */
     int node; /**< largest number of nodes along a direction within that; 0 if there is no wave */
 } hd_wave_limits;
 hd_wave_limits hd_wave_limits_of(const hd_scene_def *def);

@@ -31,7 +31,7 @@ hd_status hd_coupling_create(hd_coupling **out, int disks, int threads)
     *out = NULL;
     if (!c) return HD_NO_MEMORY;
     c->rows = HD_ROWS * disks;
-    c->half = 2 * disks;
+    c->half = HD_DIM * disks;
     c->y = hd_memory_alloc((size_t)c->half * (size_t)c->half, sizeof(double));
     if (!c->y || hd_frame_create(&c->frame, disks, c->half, 1, threads) != HD_OK) {
         hd_coupling_free(c);

@@ -33,15 +33,19 @@ static void line_fill(hd_cell_line *line, int32_t size, double length, hd_bounda
 
 static size_t cell_count(const hd_cells *cells)
 {
-    return ((size_t)cells->size[0] + 1) * ((size_t)cells->size[1] + 1);
+    size_t count = 1;
+    for (int d = 0; d < HD_DIM; d++) count *= (size_t)cells->size[d] + 1;
+    return count;
 }
 
 hd_status hd_cells_create(hd_cells *cells, const hd_scene_def *def)
 {
-    *cells = (hd_cells){.boundary = {hd_scene_boundary(def, 0), hd_scene_boundary(def, 1)}};
+    *cells = (hd_cells){.next = NULL};
     hd_scene_box(def, cells->box);
-    const double edge = fmax(EDGE_MIN, sqrt(DISKS_PER_CELL / def->density));
+    const double place = DISKS_PER_CELL / def->density;
+    const double edge = fmax(EDGE_MIN, HD_DIM == 2 ? sqrt(place) : cbrt(place));
     for (int d = 0; d < HD_DIM; d++) {
+        cells->boundary[d] = hd_scene_boundary(def, d);
         cells->size[d] = (int32_t)fmax(1.0, floor(cells->box[d] / edge));
         cells->line[d] = hd_memory_alloc((size_t)cells->size[d], sizeof *cells->line[d]);
         if (!cells->line[d]) return HD_NO_MEMORY;
@@ -54,8 +58,7 @@ hd_status hd_cells_create(hd_cells *cells, const hd_scene_def *def)
 
 void hd_cells_clear(hd_cells *cells)
 {
-    hd_memory_free(cells->line[0]);
-    hd_memory_free(cells->line[1]);
+    for (int d = 0; d < HD_DIM; d++) hd_memory_free(cells->line[d]);
     hd_memory_free(cells->cell);
     hd_memory_free(cells->next);
     *cells = (hd_cells){0};
@@ -96,7 +99,7 @@ static void cell_remove(hd_cells *cells, hd_cell *cell, int32_t i)
 
 static hd_cell *cell_of(const hd_cells *cells, const hd_disk *disk)
 {
-    return hd_cells_at(cells, disk->cell[0], disk->cell[1]);
+    return hd_cells_at(cells, disk->cell);
 }
 
 void hd_cells_book(hd_cells *cells, const hd_disk *disks, int32_t i)

@@ -1,4 +1,4 @@
-/** The state of one disk between its events: one cache line. */
+/** The state of one disk between its events: one cache line, of a sphere somewhat more. */
 #ifndef HD_DISK_H
 #define HD_DISK_H
 
@@ -16,7 +16,7 @@ typedef struct hd_disk {
     double p[HD_DIM];
     double t;
     int32_t wrap[HD_DIM]; /**< box edges to subtract from its present position to be in its cell */
-    int32_t cell[HD_DIM]; /**< column, row */
+    int32_t cell[HD_DIM]; /**< column, row, of spheres layer */
     uint32_t collisions;  /**< changes whenever q, p, t do; tells stale predictions */
 } hd_disk;
 

@@ -12,7 +12,7 @@
 
 double hd_event_log_bytes(double events)
 {
-    static const double OF_AN_EVENT = 130.0;
+    static const double OF_AN_EVENT = HD_DIM == 2 ? 130.0 : 170.0;
     return OF_AN_EVENT * events;
 }
 
@@ -58,13 +58,18 @@ static bool disks_exist(const hd_event *event, int disks)
     return (event->j < 0 && event->j >= HD_WALL_ROUND) || (event->j > event->i && event->j < disks);
 }
 
-static double product(const double a[2], const double b[2]) { return a[0] * b[0] + a[1] * b[1]; }
+static double product(const double a[HD_DIM], const double b[HD_DIM])
+{
+    double sum = a[0] * b[0];
+    for (int d = 1; d < HD_DIM; d++) sum += a[d] * b[d];
+    return sum;
+}
 
-/** Flat walls lie in a rectangle, round ones in a circle. */
+/** Flat walls lie in a box, round ones in a circle. */
 static bool wall_exists(const hd_event *event, double reach)
 {
     return event->j == HD_WALL_ROUND ? reach > 0
-                                     : event->j >= 0 || (event->j >= HD_WALL_Y && reach == 0);
+                                     : event->j >= 0 || (event->j > HD_WALL_ROUND && reach == 0);
 }
 
 /** Its length is 1, or the radius of a round wall: a quotient of a vector and its length is right
@@ -107,8 +112,8 @@ const char *hd_event_log_fault(const hd_event_log *log, const hd_scene_def *scen
 static void event_archive(hd_event *event, hd_archive *archive)
 {
     hd_archive_next_doubles(archive, &event->t, 1);
-    hd_archive_next_doubles(archive, event->n, 2);
-    hd_archive_next_doubles(archive, event->p, 2);
+    hd_archive_next_doubles(archive, event->n, HD_DIM);
+    hd_archive_next_doubles(archive, event->p, HD_DIM);
 }
 
 void hd_event_log_archive(hd_event_log *log, hd_archive *archive, const hd_scene_def *scene)
@@ -123,7 +128,7 @@ void hd_event_log_archive(hd_event_log *log, hd_archive *archive, const hd_scene
         if (!hd_archive_good(archive)) return;
         log->count = count;
     }
-    hd_archive_of_doubles(archive, "log t n p", 5 * count);
+    hd_archive_of_doubles(archive, "log t n p", (1 + 2 * HD_DIM) * count);
     for (size_t k = 0; k < count; k++) event_archive(&log->event[k], archive);
     hd_archive_of_ints(archive, "log i j", 2 * count);
     for (size_t k = 0; k < count; k++) {

@@ -11,58 +11,71 @@ typedef int32_t int_quad __attribute__((vector_size(16)));
 
 static inline int_quad spread(int32_t x) { return (int_quad){x, x, x, x}; }
 
-/** Images of the cells below, at and above a line, as a disk with those wraps sees them. */
-static inline int_quad images_of(const hd_cell_line *line, int32_t wrap)
+/** The cells around a disk in each direction, as it sees them: by how much to go on in the array of
+ * cells, and images. Copies: what is gathered might be these, as far as the compiler knows. */
+typedef struct around {
+    ptrdiff_t place[HD_DIM][3];
+    int32_t image[HD_DIM][3];
+} around;
+
+static inline around around_of(const hd_cells *cells, const hd_disk *disk)
 {
-    int_quad shift;
-    memcpy(&shift, line->shift, sizeof shift);
-    return shift + wrap;
+    around a;
+    ptrdiff_t step = 1;
+    for (int d = 0; d < HD_DIM; d++) {
+        const hd_cell_line *line = &cells->line[d][disk->cell[d]];
+        for (int side = 0; side < 3; side++) {
+            a.place[d][side] = line->near[side] * step;
+            a.image[d][side] = line->shift[side] + disk->wrap[d];
+        }
+        step *= cells->size[d] + 1;
+    }
+    return a;
 }
 
-/** Adds the disks in a cell's places: copies the whole cell, and counts what is in it. */
-static inline void add_cell(hd_nearby *near, const hd_cell *cell, int_quad x, int_quad y)
+/** Adds the disks in the places of cell number k of those around: copies the whole cell, and counts
+ * what is in it. */
+static inline void add_cell(hd_nearby *near, const hd_cell *cells, const around *a, int k)
 {
     const int32_t count = near->count;
+    const hd_cell *cell = cells;
+    for (int d = 0; d < HD_DIM; d++) cell += a->place[d][hd_cells_side(k, d)];
     memcpy(&near->disk[count], cell, sizeof *cell);
-    memcpy(&near->image[0][count], &x, sizeof x);
-    memcpy(&near->image[1][count], &y, sizeof y);
+    for (int d = 0; d < HD_DIM; d++) {
+        const int_quad image = spread(a->image[d][hd_cells_side(k, d)]);
+        memcpy(&near->image[d][count], &image, sizeof image);
+    }
     near->count = count + cell->count;
     near->crowded |= cell->crowded;
 }
 
 void hd_nearby_around(hd_nearby *near, const hd_cells *cells, const hd_disk *disk)
 {
-    const hd_cell_line column = cells->line[0][disk->cell[0]], row = cells->line[1][disk->cell[1]];
-    const int_quad x = images_of(&column, disk->wrap[0]), y = images_of(&row, disk->wrap[1]);
+    const around a = around_of(cells, disk);
+    const hd_cell *first = cells->cell;
     near->count = near->crowded = 0;
-    for (int v = 0; v < 3; v++) {
-        const hd_cell *first = hd_cells_at(cells, 0, row.near[v]);
-        for (int u = 0; u < 3; u++)
-            add_cell(near, &first[column.near[u]], spread(x[u]), spread(y[v]));
-    }
+#pragma GCC unroll 27
+    for (int k = 0; k < HD_CELLS_AROUND; k++) add_cell(near, first, &a, k);
 }
 
 void hd_nearby_beside(hd_nearby *near, const hd_cells *cells, const hd_disk *disk, int d, int side)
 {
-    const hd_cell_line column = cells->line[0][disk->cell[0]], row = cells->line[1][disk->cell[1]];
+    const around a = around_of(cells, disk);
     near->count = near->crowded = 0;
-    for (int k = 0; k < 3; k++) {
-        const int u = d == 0 ? side : k, v = d == 0 ? k : side;
-        add_cell(near, hd_cells_at(cells, column.near[u], row.near[v]),
-                 spread(column.shift[u] + disk->wrap[0]), spread(row.shift[v] + disk->wrap[1]));
-    }
+    for (int k = 0; k < HD_CELLS_BESIDE; k++)
+        add_cell(near, cells->cell, &a, hd_cells_beside(k, d, side));
 }
 
-int32_t hd_nearby_listed(hd_nearby *near, const hd_cells *cells, const hd_disk *disk, int u, int v,
+int32_t hd_nearby_listed(hd_nearby *near, const hd_cells *cells, const hd_disk *disk, int k,
                          int32_t j)
 {
-    const int32_t x = cells->line[0][disk->cell[0]].shift[u] + disk->wrap[0];
-    const int32_t y = cells->line[1][disk->cell[1]].shift[v] + disk->wrap[1];
     near->count = 0;
     while (near->count < HD_NEARBY_MAX && (j = hd_cells_next(cells, j)) >= 0) {
         near->disk[near->count] = j;
-        near->image[0][near->count] = x;
-        near->image[1][near->count++] = y;
+        for (int d = 0; d < HD_DIM; d++)
+            near->image[d][near->count] = cells->line[d][disk->cell[d]].shift[hd_cells_side(k, d)] +
+                                          disk->wrap[d];
+        near->count++;
     }
     return j;
 }
@@ -88,7 +101,7 @@ static inline void earliest_lower(earliest *e, hd_pair t, int64_t k)
 
 static inline int earliest_number(const earliest *e)
 {
-    const int64_t number[HD_DIM] = {e->number[0], e->number[1]};
+    const int64_t number[2] = {e->number[0], e->number[1]};
     const double t = e->t[1] < e->t[0] ? e->t[1] : e->t[0];
     if (t == INFINITY) return HD_NEARBY_NONE;
     if ((e->t[0] == e->t[1]) | (int)(e->tied[0] | e->tied[1])) return HD_NEARBY_TIED;
@@ -100,11 +113,14 @@ static inline hd_pair contacts_with(const hd_two_disks *a, const hd_nearby *near
                                     const hd_disk *disks, const double box[HD_DIM])
 {
     const hd_disk *b0 = &disks[near->disk[k]], *b1 = &disks[near->disk[k + 1]];
-    const int32_t *x = &near->image[0][k], *y = &near->image[1][k];
     const hd_two_disks b = hd_two_disks_of(b0, b1);
-    const hd_pair edges_x = {x[0] - b0->wrap[0], x[1] - b1->wrap[0]};
-    const hd_pair edges_y = {y[0] - b0->wrap[1], y[1] - b1->wrap[1]};
-    return hd_contact_times(a, &b, edges_x * box[0], edges_y * box[1]);
+    hd_pair shift[HD_DIM];
+    for (int d = 0; d < HD_DIM; d++) {
+        const int32_t *image = &near->image[d][k];
+        const hd_pair edges = {image[0] - b0->wrap[d], image[1] - b1->wrap[d]};
+        shift[d] = edges * box[d];
+    }
+    return hd_contact_times(a, &b, shift);
 }
 
 /** hd_nearby_contacts, without what fills the last step. */

@@ -6,8 +6,9 @@
 #include "events/cells.h"
 #include "events/contact.h"
 
-/** The places of 9 cells; and what the copy of a whole cell and the last step spill beyond. */
-enum { HD_NEARBY_MAX = 9 * HD_CELL_DISKS, HD_NEARBY_SPARE = 4 };
+/** The places of all cells around; and what the copy of a whole cell and the last step spill
+ * beyond. */
+enum { HD_NEARBY_MAX = HD_CELLS_AROUND * HD_CELL_DISKS, HD_NEARBY_SPARE = 4 };
 
 typedef struct hd_nearby {
     int32_t count, crowded; /**< crowded: 1 if a cell's list holds more */
@@ -17,15 +18,16 @@ typedef struct hd_nearby {
     int32_t image[HD_DIM][HD_NEARBY_MAX + HD_NEARBY_SPARE];
 } hd_nearby;
 
-/** The disks in the places of the 9 cells around a disk, itself among them. */
+/** The disks in the places of the cells around a disk, itself among them. */
 void hd_nearby_around(hd_nearby *near, const hd_cells *cells, const hd_disk *disk);
 
-/** The disks in the places of the 3 cells at one side (0 low, 2 high) of a disk in direction d. */
+/** The disks in the places of the cells at one side (0 low, 2 high) of a disk in direction d. */
 void hd_nearby_beside(hd_nearby *near, const hd_cells *cells, const hd_disk *disk, int d, int side);
 
 /** Those of one cell that find no place there: what comes after j in its list, as many as `near`
- * holds. The cell is at side u in x, v in y. Returns the last one, to be asked for more, or -1. */
-int32_t hd_nearby_listed(hd_nearby *near, const hd_cells *cells, const hd_disk *disk, int u, int v,
+ * holds. The cell is number k of those around. Returns the last one, to be asked for more, or -1.
+ */
+int32_t hd_nearby_listed(hd_nearby *near, const hd_cells *cells, const hd_disk *disk, int k,
                          int32_t j);
 
 enum { HD_NEARBY_NONE = -1, HD_NEARBY_TIED = -2 };

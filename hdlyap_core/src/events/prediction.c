@@ -13,8 +13,9 @@ static bool comes_first(int32_t i, int32_t j, const int32_t image[HD_DIM], const
 {
     if (j != other->partner) return j < other->partner;
     const int32_t sign = i < j ? 1 : -1;
-    if (image[1] != other->image[1]) return sign * image[1] < sign * other->image[1];
-    return sign * image[0] < sign * other->image[0];
+    int d = HD_DIM - 1;
+    while (d > 0 && image[d] == other->image[d]) d--;
+    return sign * image[d] < sign * other->image[d];
 }
 
 /** Lowers the prediction of disk i to its contact with number k of those nearby, if that is
@@ -24,14 +25,14 @@ static void predict_contact(hd_motion *m, int32_t i, const hd_nearby *near, int 
     prediction *best = &m->predicted[i];
     const int32_t j = near->disk[k];
     const hd_disk *b = &m->disk[j];
-    const int32_t image[HD_DIM] = {near->image[0][k] - b->wrap[0], near->image[1][k] - b->wrap[1]};
+    int32_t image[HD_DIM];
+    for (int d = 0; d < HD_DIM; d++) image[d] = near->image[d][k] - b->wrap[d];
     if (!(contact < INFINITY && contact <= best->contact)) return;
     if (contact == best->contact && !comes_first(i, j, image, best)) return;
     best->contact = contact;
     best->partner = j;
     best->partner_collisions = b->collisions;
-    best->image[0] = image[0];
-    best->image[1] = image[1];
+    for (int d = 0; d < HD_DIM; d++) best->image[d] = image[d];
 }
 
 /** Lowers the prediction of disk i by its contacts with those nearby. */
@@ -44,17 +45,16 @@ static void predict_nearby(hd_motion *m, int32_t i, hd_nearby *near)
     for (int k = 0; k < near->count; k++) predict_contact(m, i, near, k, contact[k]);
 }
 
-/** Lowers the prediction of disk i by its contacts with those that have no place in the cell at
- * side u in x, v in y (0 low, 1 here, 2 high). */
-static void predict_listed(hd_motion *m, int32_t i, int u, int v)
+/** Lowers the prediction of disk i by its contacts with those that have no place in cell number k
+ * of those around. */
+static void predict_listed(hd_motion *m, int32_t i, int k)
 {
     const hd_disk *disk = &m->disk[i];
-    const hd_cell *cell = hd_cells_at(&m->cells, m->cells.line[0][disk->cell[0]].near[u],
-                                      m->cells.line[1][disk->cell[1]].near[v]);
+    const hd_cell *cell = hd_cells_near(&m->cells, disk, k);
     if (!cell->crowded) return;
     hd_nearby near;
     for (int32_t j = cell->disk[HD_CELL_DISKS - 1]; j >= 0;) {
-        j = hd_nearby_listed(&near, &m->cells, disk, u, v, j);
+        j = hd_nearby_listed(&near, &m->cells, disk, k, j);
         predict_nearby(m, i, &near);
     }
 }
@@ -65,7 +65,7 @@ static void predict_around(hd_motion *m, int32_t i)
     hd_nearby_around(&near, &m->cells, &m->disk[i]);
     predict_nearby(m, i, &near);
     if (near.crowded)
-        for (int k = 0; k < 9; k++) predict_listed(m, i, k % 3, k / 3);
+        for (int k = 0; k < HD_CELLS_AROUND; k++) predict_listed(m, i, k);
 }
 
 static void predict_beside(hd_motion *m, int32_t i, int d, int side)
@@ -74,7 +74,7 @@ static void predict_beside(hd_motion *m, int32_t i, int d, int side)
     hd_nearby_beside(&near, &m->cells, &m->disk[i], d, side);
     predict_nearby(m, i, &near);
     if (near.crowded)
-        for (int k = 0; k < 3; k++) predict_listed(m, i, d == 0 ? side : k, d == 0 ? k : side);
+        for (int k = 0; k < HD_CELLS_BESIDE; k++) predict_listed(m, i, hd_cells_beside(k, d, side));
 }
 
 /** The first contact of disk i: pairs at the same time come before it, by its number. */
@@ -105,14 +105,22 @@ static void schedule(hd_motion *m, int32_t i)
 {
     const hd_disk *disk = &m->disk[i];
     prediction *next = &m->predicted[i];
-    const double edge[HD_DIM] = {edge_time(m, disk, 0), edge_time(m, disk, 1)};
-    const int32_t side[HD_DIM] = {HIGH * (disk->p[0] > 0), HIGH * (disk->p[1] > 0)};
-    const int wall[HD_DIM] = {is_wall(m, disk, 0, side[0]), is_wall(m, disk, 1, side[1])};
-    const int d = (edge[1] < edge[0]) | ((edge[1] == edge[0]) & (wall[1] > wall[0]));
+    double edge[HD_DIM];
+    int32_t side[HD_DIM];
+    int wall[HD_DIM], d = 0;
+    for (int e = 0; e < HD_DIM; e++) {
+        edge[e] = edge_time(m, disk, e);
+        side[e] = HIGH * (disk->p[e] > 0);
+        wall[e] = is_wall(m, disk, e, side[e]);
+    }
+    for (int e = 1; e < HD_DIM; e++) {
+        const int first = (edge[e] < edge[d]) | ((edge[e] == edge[d]) & (wall[e] > wall[d]));
+        d += first * (e - d);
+    }
     const int32_t j = next->partner;
     next->direction = d;
     next->side = side[d];
-    const hd_queue_key key[HD_DIM] = {
+    const hd_queue_key key[2] = {
         {edge[d], hd_queue_order(wall[d] ? WALL : EDGE, i, -1 - d)},
         {next->contact, hd_queue_order(PAIR, i < j ? i : j, i < j ? j : i)}};
     hd_queue_put(&m->queue, i, key[(next->contact < INFINITY) & (next->contact <= edge[d])]);

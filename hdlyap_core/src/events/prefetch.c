@@ -15,9 +15,8 @@ enum { FETCH_STEP = 2 };
 /** The rows of cells around a disk. */
 static FETCHES void fetch_cells(const hd_cells *cells, const hd_disk *disk)
 {
-    const hd_cell_line *row = &cells->line[1][disk->cell[1]];
-    for (int k = 0; k < 3; k++) {
-        const hd_cell *cell = hd_cells_at(cells, disk->cell[0], row->near[k]);
+    for (int k = 1; k < HD_CELLS_AROUND; k += 3) { /* its own column */
+        const hd_cell *cell = hd_cells_near(cells, disk, k);
         __builtin_prefetch(cell - (disk->cell[0] > 0));
         __builtin_prefetch(cell + 1);
     }
@@ -26,10 +25,8 @@ static FETCHES void fetch_cells(const hd_cells *cells, const hd_disk *disk)
 /** The first disk of each; without asking whether there is one. */
 static FETCHES void fetch_nearby(const hd_motion *m, const hd_disk *disk)
 {
-    const hd_cell_line *column = &m->cells.line[0][disk->cell[0]];
-    const hd_cell_line *row = &m->cells.line[1][disk->cell[1]];
-    for (int k = 0; k < 9; k++) {
-        const hd_cell *cell = hd_cells_at(&m->cells, column->near[k % 3], row->near[k / 3]);
+    for (int k = 0; k < HD_CELLS_AROUND; k++) {
+        const hd_cell *cell = hd_cells_near(&m->cells, disk, k);
         __builtin_prefetch(&m->disk[cell->disk[0]]);
     }
 }

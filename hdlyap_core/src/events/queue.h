@@ -4,7 +4,7 @@
 #ifndef HD_QUEUE_H
 #define HD_QUEUE_H
 
-#include "hdlyap/status.h"
+#include "hdlyap/scene.h"
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -15,15 +15,15 @@ typedef struct hd_queue_key {
     uint64_t order; /**< hd_queue_order */
 } hd_queue_key;
 
-/** Kind (< 4), i (>= 0) and j (>= -2) as one number that sorts like the three. */
+/** Kind (< 4), i (>= 0) and j (>= -HD_DIM) as one number that sorts like the three. */
 static inline uint64_t hd_queue_order(int32_t kind, int32_t i, int32_t j)
 {
-    return (uint64_t)kind << 62 | (uint64_t)i << 31 | (uint64_t)(j + 2);
+    return (uint64_t)kind << 62 | (uint64_t)i << 31 | (uint64_t)(j + HD_DIM);
 }
 
 static inline int32_t hd_queue_kind(uint64_t order) { return (int32_t)(order >> 62); }
 static inline int32_t hd_queue_i(uint64_t order) { return (int32_t)(order >> 31 & INT32_MAX); }
-static inline int32_t hd_queue_j(uint64_t order) { return (int32_t)(order & INT32_MAX) - 2; }
+static inline int32_t hd_queue_j(uint64_t order) { return (int32_t)(order & INT32_MAX) - HD_DIM; }
 
 /** One disk's event and where it waits; half a cache line. */
 typedef struct hd_queue_entry {

@@ -21,6 +21,7 @@
 #include "events/prefetch.h"
 #include "events/trajectory_state.h"
 #include "scene/container.h"
+#include "scene/fluid.h"
 #include "scene/scene_check.h"
 
 /** Faster disks would lose the positions' digits within one epoch. */
@@ -54,28 +55,35 @@ static hd_status log_append(hd_event_log *log, const hd_event *event)
 }
 
 /** r.r - 1 to twice the working precision (Dekker's product, Knuth's sum). */
-static double square_minus_one(hd_pair r)
+static double square_minus_one(const double r[HD_DIM])
 {
     const double splitter = 134217729.0; /* 2^27 + 1 */
-    double product[2], error[2];
+    double product[HD_DIM], error[HD_DIM];
     for (int d = 0; d < HD_DIM; d++) {
         const double big = splitter * r[d], high = big - (big - r[d]), low = r[d] - high;
         product[d] = r[d] * r[d];
         error[d] = ((high * high - product[d]) + 2.0 * high * low) + low * low;
     }
-    const double sum = product[0] + product[1], part = sum - product[0];
-    const double lost = (product[0] - (sum - part)) + (product[1] - part);
-    return (sum - 1.0) + (lost + error[0] + error[1]);
+    double all = product[0], lost = 0.0;
+    for (int d = 1; d < HD_DIM; d++) {
+        const double sum = all + product[d], part = sum - all;
+        lost += (all - (sum - part)) + (product[d] - part);
+        all = sum;
+    }
+    for (int d = 0; d < HD_DIM; d++) lost += error[d];
+    return (all - 1.0) + lost;
 }
 
 /** What two disks that are r apart exchange: false if nothing, because they graze within rounding.
  * An approach that is lost in the rounding of their momenta might leave these as they are, and the
  * pair would meet again at once, for ever: it is turned into a parting that rounding cannot take
- * back, along the longer component of r. */
-static bool exchange(hd_disk *a, hd_disk *b, hd_pair r, double approach, double excess)
+ * back, along the longest component of r. */
+static bool exchange(hd_disk *a, hd_disk *b, const double r[HD_DIM], double approach, double excess)
 {
-    const double lost = 8.0 * DBL_EPSILON *
-                        (fabs(a->p[0]) + fabs(a->p[1]) + fabs(b->p[0]) + fabs(b->p[1]));
+    double size = 0.0;
+    for (int d = 0; d < HD_DIM; d++) size += fabs(a->p[d]);
+    for (int d = 0; d < HD_DIM; d++) size += fabs(b->p[d]);
+    const double lost = 8.0 * DBL_EPSILON * size;
     if (approach < -lost) {
         /* approach / r.r; with r.r rounded near 1 the energy would drift, 3e-16 a collision */
         const double per_r = approach - approach * excess;
@@ -86,7 +94,8 @@ static bool exchange(hd_disk *a, hd_disk *b, hd_pair r, double approach, double 
         return true;
     }
     if (approach < 0) {
-        const int d = fabs(r[1]) > fabs(r[0]);
+        int d = 0;
+        for (int e = 1; e < HD_DIM; e++) d = fabs(r[e]) > fabs(r[d]) ? e : d;
         a->p[d] -= copysign(lost, r[d]);
         b->p[d] += copysign(lost, r[d]);
     }
@@ -101,11 +110,11 @@ static hd_status collide(hd_trajectory *tr, hd_event_log *log, const hd_event *c
     hd_disk *a = &tr->motion.disk[event.i], *b = &tr->motion.disk[event.j];
     const prediction *how = &tr->motion.predicted[found_by];
     const double sign = 1.0 - 2.0 * (found_by != event.i); /* the image is seen from the finder */
-    const hd_pair shift = {sign * how->image[0] * tr->motion.cells.box[0],
-                           sign * how->image[1] * tr->motion.cells.box[1]};
+    double shift[HD_DIM], r[HD_DIM];
+    for (int d = 0; d < HD_DIM; d++) shift[d] = sign * how->image[d] * tr->motion.cells.box[d];
     move_to(a, t);
     move_to(b, t);
-    const hd_pair r = hd_contact_separation(a, b, shift, t);
+    hd_contact_separation(r, a, b, shift, t);
     const double distance = sqrt(hd_contact_dot(r, r));
     double approach = 0;
     for (int d = 0; d < HD_DIM; d++) {
@@ -140,8 +149,7 @@ static hd_status reflect(hd_trajectory *tr, hd_event_log *log, hd_event *event, 
     move_to(disk, t);
     disk->q[d] = line->bound[how->side == HIGH]; /* there within rounding: no drift */
     event->n[d] = 1.0;
-    event->p[0] = disk->p[0];
-    event->p[1] = disk->p[1];
+    for (int e = 0; e < HD_DIM; e++) event->p[e] = disk->p[e];
     disk->p[d] = -disk->p[d];
     disk->collisions++;
     fold(tr, disk);
@@ -162,7 +170,7 @@ static hd_status reflect_round(hd_trajectory *tr, hd_event_log *log, hd_event *e
     return reflected ? log_append(log, event) : HD_OK;
 }
 
-/** Over a cell edge: only the three cells that come into reach are new. */
+/** Over a cell edge: only the cells at that side come into reach. */
 static void cross(hd_trajectory *tr, int32_t i)
 {
     const int d = tr->motion.predicted[i].direction, side = tr->motion.predicted[i].side;
@@ -199,7 +207,8 @@ static hd_status turn_epoch(hd_trajectory *tr)
         disk->t = 0;
         fold(tr, disk);
         disk->collisions++;
-        if (!isfinite(disk->q[0] + disk->q[1] + disk->p[0] + disk->p[1])) return HD_NOT_FINITE;
+        for (int d = 0; d < HD_DIM; d++)
+            if (!isfinite(disk->q[d] + disk->p[d])) return HD_NOT_FINITE;
     }
     tr->epoch_start += tr->epoch_length;
     hd_queue_restart(&tr->motion.queue);
@@ -210,7 +219,8 @@ static hd_status turn_epoch(hd_trajectory *tr)
 static bool at_rest(const hd_trajectory *tr)
 {
     for (int32_t i = 0; i < tr->motion.count; i++)
-        if (tr->motion.disk[i].p[0] != 0 || tr->motion.disk[i].p[1] != 0) return false;
+        for (int d = 0; d < HD_DIM; d++)
+            if (tr->motion.disk[i].p[d] != 0) return false;
     return true;
 }
 
@@ -248,15 +258,6 @@ hd_status hd_trajectory_extend(hd_trajectory *tr, hd_event_log *log, double t_en
 
 /* ---- creation ------------------------------------------------------------------------------ */
 
-/** Mean pair events per time unit [T2]. */
-static double enskog_rate(const hd_scene_def *def)
-{
-    const double pi = 3.14159265358979323846;
-    const double eta = fmin(pi * def->density / 4.0, 0.9);
-    const double contact = (1.0 - 7.0 * eta / 16.0) / ((1.0 - eta) * (1.0 - eta));
-    return sqrt(pi) * def->density * contact * def->disks;
-}
-
 /** A power of two that holds about 32 to 64 collisions of a disk; in a thin gas less, so that no
  * flight is so long that its rounding comes near HD_OVERLAP_MAX. */
 static double epoch_for(double rate_per_disk)
@@ -271,7 +272,7 @@ static double epoch_for(double rate_per_disk)
 static hd_status trajectory_prepare(hd_trajectory *tr, const hd_scene_def *def)
 {
     tr->motion.count = def->disks;
-    tr->rate = enskog_rate(def);
+    tr->rate = 0.5 * hd_fluid_rate(def->density) * def->disks;
     tr->epoch_length = epoch_for(2.0 * tr->rate / def->disks);
     tr->motion.wall = hd_round_wall_of(def);
     tr->motion.disk = hd_memory_alloc((size_t)tr->motion.count + 1, sizeof *tr->motion.disk);
@@ -309,17 +310,17 @@ static void momenta_fill(double *p, const hd_scene_def *def, const double *q)
     hd_random random = hd_random_seeded(def->seed, 0);
     const int n = def->disks;
     double square = 0;
-    for (int k = 0; k < 2 * n; k++) p[k] = hd_random_symmetric(&random);
+    for (int k = 0; k < HD_DIM * n; k++) p[k] = hd_random_symmetric(&random);
     hd_container_of(def)->still(def, q, p);
-    for (int k = 0; k < 2 * n; k++) square += p[k] * p[k];
+    for (int k = 0; k < HD_DIM * n; k++) square += p[k] * p[k];
     const double scale = sqrt(2.0 * n / square);
-    for (int k = 0; k < 2 * n; k++) p[k] *= scale;
+    for (int k = 0; k < HD_DIM * n; k++) p[k] *= scale;
 }
 
 double hd_trajectory_bytes(double disks)
 {
-    static const double OF_A_DISK =
-        255.0; /* its cells, its place in the queue and its prediction */
+    /* its cells, its place in the queue and its prediction */
+    static const double OF_A_DISK = HD_DIM == 2 ? 255.0 : 310.0;
     return OF_A_DISK * disks;
 }
 
@@ -376,14 +377,12 @@ double hd_trajectory_collision_rate(const hd_trajectory *tr) { return tr->rate; 
 
 void hd_trajectory_virial(const hd_trajectory *tr, double virial[HD_DIM])
 {
-    virial[0] = tr->virial[0];
-    virial[1] = tr->virial[1];
+    for (int d = 0; d < HD_DIM; d++) virial[d] = tr->virial[d];
 }
 
 void hd_trajectory_box(const hd_trajectory *tr, double box[HD_DIM])
 {
-    box[0] = tr->motion.cells.box[0];
-    box[1] = tr->motion.cells.box[1];
+    for (int d = 0; d < HD_DIM; d++) box[d] = tr->motion.cells.box[d];
 }
 
 /** As it is now, in the box. */
@@ -408,7 +407,7 @@ void hd_trajectory_state(const hd_trajectory *tr, double *q, double *p)
 
 void hd_trajectory_momentum(const hd_trajectory *tr, double sum[HD_DIM])
 {
-    sum[0] = sum[1] = 0.0;
+    for (int d = 0; d < HD_DIM; d++) sum[d] = 0.0;
     for (int i = 0; i < tr->motion.count; i++)
         for (int d = 0; d < HD_DIM; d++) sum[d] += tr->motion.disk[i].p[d];
 }
@@ -428,8 +427,7 @@ double hd_trajectory_kinetic_energy(const hd_trajectory *tr)
 {
     double twice = 0;
     for (int32_t i = 0; i < tr->motion.count; i++)
-        twice += tr->motion.disk[i].p[0] * tr->motion.disk[i].p[0] +
-                 tr->motion.disk[i].p[1] * tr->motion.disk[i].p[1];
+        twice += hd_contact_dot(tr->motion.disk[i].p, tr->motion.disk[i].p);
     return 0.5 * twice;
 }
 
@@ -443,8 +441,9 @@ double hd_trajectory_overlap_rounding(const hd_trajectory *tr)
 {
     const double speed_max = 16.0; /* of two disks; the mean square of a momentum is 2 */
     const double roundings = 16.0; /* of eps/2, on the way to a contact */
-    const double *box = tr->motion.cells.box;
-    return roundings * DBL_EPSILON * (fmax(box[0], box[1]) + speed_max * tr->epoch_length);
+    double longest = 0.0;
+    for (int d = 0; d < HD_DIM; d++) longest = fmax(longest, tr->motion.cells.box[d]);
+    return roundings * DBL_EPSILON * (longest + speed_max * tr->epoch_length);
 }
 
 /** Distance squared from disk i to disk j, `edges` of the box further, now; to itself infinite. */
@@ -452,20 +451,21 @@ static double distance_squared(const hd_trajectory *tr, int32_t i, int32_t j,
                                const int32_t edges[HD_DIM])
 {
     const hd_disk *a = &tr->motion.disk[i], *b = &tr->motion.disk[j];
-    const hd_pair shift = {(edges[0] + a->wrap[0] - b->wrap[0]) * tr->motion.cells.box[0],
-                           (edges[1] + a->wrap[1] - b->wrap[1]) * tr->motion.cells.box[1]};
-    const hd_pair r = hd_contact_separation(a, b, shift, tr->now - tr->epoch_start);
+    double shift[HD_DIM], r[HD_DIM];
+    for (int d = 0; d < HD_DIM; d++)
+        shift[d] = (edges[d] + a->wrap[d] - b->wrap[d]) * tr->motion.cells.box[d];
+    hd_contact_separation(r, a, b, shift, tr->now - tr->epoch_start);
     return i == j ? INFINITY : hd_contact_dot(r, r);
 }
 
-/** Least distance squared from disk i to the disks of one neighbouring cell, now. */
-static double nearest_in_cell(const hd_trajectory *tr, int32_t i, int32_t x, int32_t y)
+/** Least distance squared from disk i to the disks of cell n of those around it, now. */
+static double nearest_in_cell(const hd_trajectory *tr, int32_t i, int n)
 {
     const hd_disk *disk = &tr->motion.disk[i];
-    const hd_cell_line *lx = &tr->motion.cells.line[0][disk->cell[0]];
-    const hd_cell_line *ly = &tr->motion.cells.line[1][disk->cell[1]];
-    const hd_cell *cell = hd_cells_at(&tr->motion.cells, lx->near[x], ly->near[y]);
-    const int32_t edges[HD_DIM] = {lx->shift[x], ly->shift[y]};
+    const hd_cell *cell = hd_cells_near(&tr->motion.cells, disk, n);
+    int32_t edges[HD_DIM];
+    for (int d = 0; d < HD_DIM; d++)
+        edges[d] = tr->motion.cells.line[d][disk->cell[d]].shift[hd_cells_side(n, d)];
     double least = INFINITY;
     for (int k = 0; k < cell->count; k++)
         least = fmin(least, distance_squared(tr, i, cell->disk[k], edges));
@@ -480,6 +480,6 @@ double hd_trajectory_overlap(const hd_trajectory *tr)
 {
     double least = INFINITY;
     for (int32_t i = 0; i < tr->motion.count; i++)
-        for (int32_t k = 0; k < 9; k++) least = fmin(least, nearest_in_cell(tr, i, k % 3, k / 3));
+        for (int n = 0; n < HD_CELLS_AROUND; n++) least = fmin(least, nearest_in_cell(tr, i, n));
     return least < 1.0 ? 1.0 - sqrt(least) : 0.0;
 }

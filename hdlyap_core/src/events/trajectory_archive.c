@@ -14,13 +14,13 @@ static const double PLACE_CLOSE = 1e-6, ENERGY_CLOSE = 1e-6;
 static void disks_archive(hd_trajectory *tr, hd_archive *archive)
 {
     const size_t n = (size_t)tr->motion.count;
-    hd_archive_of_doubles(archive, "trajectory q p t", 5 * n);
+    hd_archive_of_doubles(archive, "trajectory q p t", (2 * HD_DIM + 1) * n);
     for (size_t i = 0; i < n; i++) {
-        hd_archive_next_doubles(archive, tr->motion.disk[i].q, 2);
-        hd_archive_next_doubles(archive, tr->motion.disk[i].p, 2);
+        hd_archive_next_doubles(archive, tr->motion.disk[i].q, HD_DIM);
+        hd_archive_next_doubles(archive, tr->motion.disk[i].p, HD_DIM);
         hd_archive_next_doubles(archive, &tr->motion.disk[i].t, 1);
     }
-    hd_archive_of_ints(archive, "trajectory wrap cell", 4 * n);
+    hd_archive_of_ints(archive, "trajectory wrap cell", 2 * HD_DIM * n);
     for (size_t i = 0; i < n; i++)
         for (int d = 0; d < HD_DIM; d++) {
             hd_archive_next_int(archive, &tr->motion.disk[i].wrap[d], -WRAP_MAX, WRAP_MAX);
@@ -78,7 +78,7 @@ void hd_trajectory_archive(hd_trajectory *tr, hd_archive *archive)
     hd_archive_double(archive, "trajectory time", &tr->now);
     hd_archive_bits(archive, "trajectory collisions", &tr->collisions);
     hd_archive_bits(archive, "trajectory wall events", &tr->wall_events);
-    hd_archive_doubles(archive, "trajectory virial", tr->virial, 2);
+    hd_archive_doubles(archive, "trajectory virial", tr->virial, HD_DIM);
     disks_archive(tr, archive);
     if (archive->writing || !hd_archive_good(archive)) return;
     book(tr);

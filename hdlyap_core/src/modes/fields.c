@@ -1,8 +1,8 @@
-/** Positions and momenta -> sampled fields [T10].
+/** Positions and momenta -> sampled fields [T10], [T22].
  *
- * Row-major, rows 2j, 2j+1 = x, y of disk j: the right-hand factor of a dgemm against the rows of
- * the frame. The functions of one coordinate are tabulated per disk, each field is a product of
- * two. */
+ * Row-major, HD_DIM rows of each disk: the right-hand factor of a dgemm against the rows of the
+ * frame. The functions of one coordinate are tabulated per disk, each field is a product of them.
+ */
 #include "hdlyap/fields.h"
 
 #include <float.h>
@@ -14,6 +14,7 @@
 #include "modes/archived.h"
 #include "modes/circle_fields.h"
 #include "modes/harmonics.h"
+#include "modes/plane_fields.h"
 #include "scene/null_space.h"
 
 struct hd_fields {
@@ -22,7 +23,7 @@ struct hd_fields {
     hd_null_space null;
     hd_subspace *subspace; /**< [subspaces] */
     hd_circle_wave *round; /**< [subspaces], of a circle; NULL in a rectangle */
-    double *data;          /**< [2 disks * stride] */
+    double *data;          /**< [HD_DIM disks * stride] */
     double *norm;          /**< [stride], of the columns as sampled */
 };
 
@@ -42,7 +43,7 @@ static void subspace_add(hd_fields *fields, hd_mode_kind kind, const hd_wave *wa
 
 hd_fields_count hd_fields_count_of(const hd_scene_def *scene)
 {
-    enum { WAVES = 4096, OF_ONE = 12 }; /* columns of a wave vector at most */
+    enum { WAVES = 4096, OF_ONE = HD_TRANSVERSE_MAX + HD_FIELDS_MAX }; /* columns of a wave */
     hd_wave wave[WAVES];
     const int count = hd_waves(scene, wave, WAVES);
     hd_fields_count all = {.subspaces = 2.0 * count};
@@ -74,6 +75,7 @@ static hd_status subspaces_create(hd_fields *fields, const hd_scene_def *def)
     return HD_OK;
 }
 
+#if HD_DIM == 2
 static hd_status round_create(hd_fields *fields)
 {
     fields->round = hd_memory_alloc((size_t)fields->subspaces + 1, sizeof *fields->round);
@@ -82,12 +84,15 @@ static hd_status round_create(hd_fields *fields)
         fields->round[s] = hd_circle_wave_of(&fields->subspace[s].wave, fields->null.centre - 0.5);
     return HD_OK;
 }
+#endif
 
 static hd_status fields_prepare(hd_fields *fields, const hd_scene_def *def)
 {
     HD_TRY(subspaces_create(fields, def));
     fields->null = hd_null_space_of(def);
+#if HD_DIM == 2
     if (fields->null.curved) HD_TRY(round_create(fields));
+#endif
     for (int d = 0; d < HD_DIM && !fields->null.curved; d++)
         HD_TRY(hd_harmonics_create(&fields->along[d], def, d, fields->along[d].nodes));
     fields->columns += HD_NULLS;
@@ -125,62 +130,29 @@ void hd_fields_free(hd_fields *fields)
 
 /* ---- sampling ------------------------------------------------------------------------------ */
 
-/** Fields of one modulation A = f(x) g(y) at one disk: T = curl A; L = grad A and P = p A. */
-static void sample_modulation(const hd_fields *fields, const hd_subspace *s, int c, const double *p,
-                              double *x, double *y)
-{
-    const unsigned bits = s->modulations.bits[c];
-    const int at_x = 2 * s->wave.n[0] + (int)(bits & HD_SIN_X);
-    const int at_y = 2 * s->wave.n[1] + (int)(bits >> 1);
-    const double f = fields->along[0].value[at_x], df = fields->along[0].derivative[at_x];
-    const double g = fields->along[1].value[at_y], dg = fields->along[1].derivative[at_y];
-    const int column = s->column + c, pair = column + s->modulations.count;
-    if (s->kind == HD_MODE_T) {
-        x[column] = f * dg, y[column] = -df * g;
-        return;
-    }
-    x[column] = df * g, y[column] = f * dg;
-    x[pair] = p[0] * f * g, y[pair] = p[1] * f * g;
-}
-
-static void sample_rectangle(hd_fields *fields, const double *q, const double *p, double *x,
-                             double *y)
+static void sample_box(hd_fields *fields, double *const row[HD_DIM], const double *q,
+                       const double *p)
 {
     for (int d = 0; d < HD_DIM; d++) hd_harmonics_fill(&fields->along[d], q[d]);
     for (int s = 0; s < fields->subspaces; s++)
-        for (int c = 0; c < fields->subspace[s].modulations.count; c++)
-            sample_modulation(fields, &fields->subspace[s], c, p, x, y);
+        hd_plane_fields_fill(row, &fields->subspace[s], fields->along, p);
 }
 
-/** [T21] */
-static void sample_circle(const hd_fields *fields, const double *q, const double *p, double *x,
-                          double *y)
-{
-    hd_circle_modulation at[2];
-    for (int k = 0; k < fields->subspaces; k++) {
-        const hd_subspace *s = &fields->subspace[k];
-        const int count = s->modulations.count;
-        hd_circle_modulations(at, &fields->round[k], q[0] - fields->null.centre,
-                              q[1] - fields->null.centre);
-        for (int c = 0, column = s->column; c < count; c++, column++) {
-            const bool t = s->kind == HD_MODE_T;
-            x[column] = t ? at[c].y : at[c].x, y[column] = t ? -at[c].x : at[c].y;
-            if (!t) x[column + count] = p[0] * at[c].a, y[column + count] = p[1] * at[c].a;
-        }
-    }
-}
-
-static void sample_disk(hd_fields *fields, const double *q, const double *p, double *x, double *y)
+static void sample_disk(hd_fields *fields, double *const row[HD_DIM], const double *q,
+                        const double *p)
 {
     const int null = fields->columns - HD_NULLS;
+#if HD_DIM == 2
     if (fields->round)
-        sample_circle(fields, q, p, x, y);
+        hd_circle_fields_fill(row, fields->subspace, fields->round, fields->subspaces,
+                              fields->null.centre, q, p);
     else
-        sample_rectangle(fields, q, p, x, y);
+#endif
+        sample_box(fields, row, q, p);
     for (int k = 0; k < fields->null.count; k++) {
         const int axis = fields->null.axis[k];
-        x[null + axis] = hd_null_entry(&fields->null, axis, 0, q, p);
-        y[null + axis] = hd_null_entry(&fields->null, axis, 1, q, p);
+        for (int d = 0; d < HD_DIM; d++)
+            row[d][null + axis] = hd_null_entry(&fields->null, axis, d, q, p);
     }
 }
 
@@ -204,8 +176,10 @@ void hd_fields_sample(hd_fields *fields, const double *q, const double *p)
 {
     const size_t stride = (size_t)fields->stride;
     for (int j = 0; j < fields->disks; j++) {
-        double *x = fields->data + 2 * stride * (size_t)j;
-        sample_disk(fields, q + HD_DIM * j, p + HD_DIM * j, x, x + stride);
+        double *row[HD_DIM];
+        for (size_t d = 0; d < HD_DIM; d++)
+            row[d] = fields->data + (HD_DIM * (size_t)j + d) * stride;
+        sample_disk(fields, row, q + HD_DIM * j, p + HD_DIM * j);
     }
     normalise(fields);
 }

@@ -1,10 +1,10 @@
 /** Frame -> weights of every vector in every subspace [T11].
  *
- * With B (2N x D, row-major) the sampled fields of all subspaces and U (2N x n) the dq halves, the
- * overlaps B^T U are two products, over the x and the y rows of the frame where they lie. Least
- * squares on one subspace: its Gram matrix G = E L E^T (dgesvd), coefficients c = G^+ B^T u, weight
- * = |L^(-1/2) E^T B^T u|^2; directions that the disks do not sample (L below RANK) are left out.
- * The vectors stay in columns throughout. */
+ * With B (HD_DIM N x D, row-major) the sampled fields of all subspaces and U (HD_DIM N x n) the dq
+ * halves, the overlaps B^T U are HD_DIM products, over the x, the y, .. rows of the frame where
+ * they lie. Least squares on one subspace: its Gram matrix G = E L E^T (dgesvd), coefficients c =
+ * G^+ B^T u, weight = |L^(-1/2) E^T B^T u|^2; directions that the disks do not sample (L below
+ * RANK) are left out. The vectors stay in columns throughout. */
 #include "hdlyap/modes.h"
 
 #include <cblas.h>
@@ -23,7 +23,7 @@
  */
 static const double RANK = 1e-6;
 
-enum { DIMENSION_MAX = 2 * HD_MODULATIONS_MAX, BLOCK = 128 };
+enum { DIMENSION_MAX = HD_FIELDS_MAX, BLOCK = 128 };
 
 struct hd_modes {
     hd_fields *fields;
@@ -50,7 +50,7 @@ double hd_modes_bytes(const hd_scene_def *scene, double vectors)
 {
     const hd_fields_count count = hd_fields_count_of(scene);
     const double columns = count.columns + HD_NULLS, rows = count.subspaces * HD_WEIGHTS + HD_NULLS,
-                 fields = 2.0 * scene->disks * (columns + 4.0);
+                 fields = (double)HD_DIM * scene->disks * (columns + 4.0);
     return sizeof(double) * (fields + DIMENSION_MAX * columns +
                              (columns + DIMENSION_MAX + 1.0 + HD_NULLS + 2.0 * rows) * vectors);
 }
@@ -110,7 +110,8 @@ void hd_modes_free(hd_modes *modes)
 
 /* ---- one snapshot -------------------------------------------------------------------------- */
 
-/** out[count][stride] = (fields from `column` on)^T times the dq (half 0) or dp (half 2) rows. */
+/** out[count][stride] = (fields from `column` on)^T times the dq (half 0) or dp (half HD_DIM) rows.
+ */
 static void overlaps(const hd_modes *modes, hd_columns v, int half, int column, int count,
                      double *out)
 {
@@ -118,8 +119,8 @@ static void overlaps(const hd_modes *modes, hd_columns v, int half, int column, 
     for (int d = 0; d < HD_DIM; d++)
         hd_dgemm(CblasNoTrans, CblasTrans, v.count, count, modes->disks, 1.0,
                  v.data + (size_t)(half + d) * (size_t)v.stride, HD_ROWS * v.stride,
-                 hd_fields_data(modes->fields) + (size_t)d * (size_t)fields + column, 2 * fields, d,
-                 out + v.first, (int)modes->stride);
+                 hd_fields_data(modes->fields) + (size_t)d * (size_t)fields + column,
+                 HD_DIM * fields, d > 0, out + v.first, (int)modes->stride);
 }
 
 static double *gram_of(const hd_modes *modes, const hd_subspace *s)
@@ -152,7 +153,7 @@ static void dq_norms(hd_modes *modes, hd_columns v)
         const int end = col + BLOCK < n ? col + BLOCK : n;
         double *sum = modes->dq_norm + v.first;
         for (int l = col; l < end; l++) sum[l] = 0.0;
-        for (int row = 0; row < rows; row += row % HD_ROWS == 0 ? 1 : 3)
+        for (int row = 0; row < rows; row += row % HD_ROWS == HD_DIM - 1 ? HD_DIM + 1 : 1)
             for (int l = col; l < end; l++) {
                 const double dq = v.data[(size_t)row * (size_t)v.stride + (size_t)l];
                 sum[l] += dq * dq;
@@ -260,7 +261,7 @@ hd_status hd_modes_measure(hd_modes *modes, hd_columns v, const double *q, const
     if (!hd_all_finite(modes->gram, (size_t)columns * DIMENSION_MAX)) return HD_NOT_FINITE;
     dq_norms(modes, v);
     overlaps(modes, v, 0, 0, columns, modes->coefficient);
-    overlaps(modes, v, 2, columns - HD_NULLS, HD_NULLS, modes->null_dp);
+    overlaps(modes, v, HD_DIM, columns - HD_NULLS, HD_NULLS, modes->null_dp);
     measure_null(modes, v);
     normalise(modes, v);
     for (int s = 0; s < hd_fields_subspaces(modes->fields); s++) measure_subspace(modes, s, v);

@@ -1,7 +1,7 @@
 /** Vectors of an LP step -> its L and P modes [T14].
  *
- * With B (2N x 2d) the normalised fields and psi (2N x 2d) the normalised dq halves, Q solves
- * psi Q = B by least squares; the modes are psi Q. In the terms of what is measured already,
+ * With B (HD_DIM N x 2d) the normalised fields and psi (HD_DIM N x 2d) the normalised dq halves, Q
+ * solves psi Q = B by least squares; the modes are psi Q. In the terms of what is measured already,
  * psi^T B = overlaps, so Q = (psi^T psi)^-1 psi^T B (dposv on 2d x 2d; psi is nearly orthonormal).
  */
 #include "hdlyap/pmode.h"
@@ -14,12 +14,12 @@
 #include "base/memory.h"
 #include "modes/archived.h"
 
-enum { DIMENSION_MAX = 2 * HD_MODULATIONS_MAX };
+enum { DIMENSION_MAX = HD_FIELDS_MAX };
 
 struct hd_pmode {
     int disks, dimension; /**< 2d */
-    double *psi;          /**< [DIMENSION_MAX][2N] */
-    double *field;        /**< [DIMENSION_MAX][2N] */
+    double *psi;          /**< [DIMENSION_MAX][HD_DIM N] */
+    double *field;        /**< [DIMENSION_MAX][HD_DIM N] */
     double q[DIMENSION_MAX * DIMENSION_MAX];
     double residual[DIMENSION_MAX];
     double norm[DIMENSION_MAX]; /**< of the fields as sampled */
@@ -28,7 +28,7 @@ struct hd_pmode {
 
 double hd_pmode_bytes(double disks)
 {
-    return sizeof(hd_pmode) + 2.0 * DIMENSION_MAX * 2.0 * disks * sizeof(double);
+    return sizeof(hd_pmode) + 2.0 * DIMENSION_MAX * HD_DIM * disks * sizeof(double);
 }
 
 hd_status hd_pmode_create(hd_pmode **out, int disks)
@@ -156,7 +156,7 @@ int hd_pmode_pairs(const hd_pmode *pmode) { return pmode->dimension / 2; }
 const double *hd_pmode_field(const hd_pmode *pmode, int c)
 {
     HD_ASSERT(c >= 0 && c < pmode->dimension);
-    return pmode->field + 2 * (size_t)c * (size_t)pmode->disks;
+    return pmode->field + HD_DIM * (size_t)c * (size_t)pmode->disks;
 }
 
 double hd_pmode_residual(const hd_pmode *pmode, int c)

@@ -14,9 +14,13 @@ static const double RATE_PER_EXPONENT = 1.25;
 static const double SAFE = 0.75;
 enum { LEARN = 4 };
 
+/** T fields whose modulations are the same are no cosine and sine: of spheres between walls. */
 int hd_rotor_pairs(const hd_step *step, hd_mode_kind kind)
 {
-    return step->kind == kind ? step->expected / 2 : 0;
+    const unsigned char *bits = step->wave.transverse.bits;
+    if (step->kind != kind) return 0;
+    if (kind == HD_MODE_T && (bits[0] ^ bits[1]) & HD_SECOND) return 0;
+    return step->expected / 2;
 }
 
 /** L fields stand before P fields, each T field of a sine behind that of the cosine. */

@@ -8,8 +8,8 @@
 #include "observe/observable.h"
 #include "scene/container.h"
 
-/** Series that are averaged: per time unit, in order. */
-enum { COLLISIONS, VIRIAL_X, VIRIAL_Y, SERIES };
+/** Series that are averaged: per time unit; of the virial one for each direction. */
+enum { COLLISIONS, VIRIAL_X, SERIES = VIRIAL_X + HD_DIM };
 
 /** What a trajectory has counted. */
 typedef struct counts {
@@ -44,7 +44,9 @@ static double momenta(const hd_scene_def *def, int d)
 
 double hd_gas_temperature(const hd_scene_def *def)
 {
-    return 2.0 * def->disks / (momenta(def, 0) + momenta(def, 1));
+    double all = 0.0;
+    for (int d = 0; d < HD_DIM; d++) all += momenta(def, d);
+    return 2.0 * def->disks / all;
 }
 
 double hd_gas_area(const hd_scene_def *def) { return hd_container_of(def)->area(def); }
@@ -84,9 +86,8 @@ void hd_gas_add(hd_gas *gas, const hd_trajectory *trajectory)
 {
     const counts now = counts_of(trajectory), last = gas->last;
     const double dt = now.time - last.time;
-    const double sample[SERIES] = {[COLLISIONS] = (double)(now.collisions - last.collisions),
-                                   [VIRIAL_X] = now.virial[0] - last.virial[0],
-                                   [VIRIAL_Y] = now.virial[1] - last.virial[1]};
+    double sample[SERIES] = {[COLLISIONS] = (double)(now.collisions - last.collisions)};
+    for (int d = 0; d < HD_DIM; d++) sample[VIRIAL_X + d] = now.virial[d] - last.virial[d];
     if (!(dt > 0)) return;
     for (int s = 0; s < SERIES; s++) gas->sum[s] += sample[s];
     gas->time += dt;
@@ -108,13 +109,15 @@ hd_gas_means hd_gas_read(const hd_gas *gas)
     hd_gas_means m = {.time = gas->time,
                       .collision_rate = each * gas->sum[COLLISIONS] / t,
                       .collision_rate_error = error_of(gas, COLLISIONS, COLLISIONS, each),
-                      .pressure_error = error_of(gas, VIRIAL_X, VIRIAL_Y, 0.5 / a)};
+                      .pressure_error = error_of(gas, VIRIAL_X, SERIES - 1, 1.0 / HD_DIM / a)};
     for (int d = 0; d < HD_DIM; d++) {
         m.pressure_of[d] = (gas->kinetic[d] + gas->sum[VIRIAL_X + d] / t) / a;
         m.pressure_of_error[d] = error_of(gas, VIRIAL_X + d, VIRIAL_X + d, 1.0 / a);
     }
-    m.pressure = 0.5 * (m.pressure_of[0] + m.pressure_of[1]);
-    m.compressibility = m.pressure * a / gas->disks;
+    m.pressure = 0.0;
+    for (int d = 0; d < HD_DIM; d++) m.pressure += m.pressure_of[d];
+    m.pressure /= HD_DIM;
+    m.compressibility = m.pressure * a / gas->disks * (HD_DIM / 2.0);
     return m;
 }
 

@@ -53,7 +53,10 @@ hd_extent hd_extent_of(const hd_scene_def *def, const hd_run *run)
 {
     const int known = hd_scene_positive_exponents(def) + hd_scene_zero_exponents(def);
     hd_extent e = {.disks = def->disks, .vectors = hd_scene_vectors(def)};
+#if HD_DIM == 2
     if (def->observe & HD_OBSERVE_STRUCTURE) e.waves = hd_structure_waves_of(def);
+    if (hd_run_hydro(run)) e.responses = hd_hydro_count(hd_run_hydro(run));
+#endif
     if (def->observe & HD_OBSERVE_COVARIANT) {
         e.subspaces = subspaces_of(def);
         if (e.vectors > known) e.angles = HD_PAIRS_OF_SPACES;
@@ -64,7 +67,6 @@ hd_extent hd_extent_of(const hd_scene_def *def, const hd_run *run)
     }
     if (hd_run_phases(run)) e.phases = hd_phases_count(hd_run_phases(run));
     if (hd_run_t_phases(run)) e.t_phases = hd_phases_count(hd_run_t_phases(run));
-    if (hd_run_hydro(run)) e.responses = hd_hydro_count(hd_run_hydro(run));
     return e;
 }
 

@@ -27,8 +27,8 @@ typedef struct hd_container_row {
     int (*symmetries)(const hd_scene_def *def);
     double (*start_distance)(const hd_scene_def *def); /**< least, of the densest start positions */
     double (*density_max)(const hd_scene_def *def);    /**< that these can hold; 0 for none */
-    void (*start)(const hd_scene_def *def, double *q); /**< q[2 disks] */
-    /** Takes out of p[2 disks] each momentum that is conserved. */
+    void (*start)(const hd_scene_def *def, double *q); /**< q[HD_DIM disks] */
+    /** Takes out of p[HD_DIM disks] each momentum that is conserved. */
     void (*still)(const hd_scene_def *def, const double *q, double *p);
     hd_wave_limits (*limits)(const hd_scene_def *def);
     int (*waves)(const hd_scene_def *def, hd_wave *out, int capacity); /**< in any order */

@@ -27,7 +27,8 @@ static inline hd_null_space hd_null_space_of(const hd_scene_def *def)
     return null;
 }
 
-/** Entry of a direction at component d (0: x, 1: y) of a disk at q with momentum p; not normalised.
+/** Entry of a direction at component d (0: x, 1: y, 2: z) of a disk at q with momentum p; not
+ * normalised.
  */
 static inline double hd_null_entry(const hd_null_space *null, int axis, int d, const double *q,
                                    const double *p)
@@ -37,8 +38,9 @@ static inline double hd_null_entry(const hd_null_space *null, int axis, int d, c
     return d == 0 ? null->centre - q[1] : q[0] - null->centre;
 }
 
-/** column[..][4 disks] of the vectors that stay as they are, exactly: each direction in dq and in
- * dp; a rotation turns q and p alike, once. q[2 disks], p[2 disks]. Returns their number. */
+/** column[..][HD_ROWS disks] of the vectors that stay as they are, exactly: each direction in dq
+ * and in dp; a rotation turns q and p alike, once. q[HD_DIM disks], p[HD_DIM disks]. Returns their
+ * number. */
 static inline int hd_null_space_fill(const hd_scene_def *def, const double *q, const double *p,
                                      double *column)
 {
@@ -49,11 +51,12 @@ static inline int hd_null_space_fill(const hd_scene_def *def, const double *q, c
         const bool rotation = null.curved && null.axis[k / 2] == HD_NULL_X;
         if (rotation && k % 2 == 1) continue;
         memset(column, 0, rows * sizeof *column);
-        for (int j = 0; j < 2 * def->disks; j++) {
-            const double *at = q + j / 2 * 2, *moving = p + j / 2 * 2;
-            double *entry = column + 4 * (j / 2) + j % 2;
-            entry[2 * (k % 2)] = hd_null_entry(&null, null.axis[k / 2], j % 2, at, moving);
-            if (rotation) entry[2] = j % 2 == 0 ? -moving[1] : moving[0];
+        for (int j = 0; j < HD_DIM * def->disks; j++) {
+            const int d = j % HD_DIM;
+            const double *at = q + (j - d), *moving = p + (j - d);
+            double *entry = column + HD_ROWS * (j / HD_DIM) + d;
+            entry[HD_DIM * (k % 2)] = hd_null_entry(&null, null.axis[k / 2], d, at, moving);
+            if (rotation) entry[HD_DIM] = d == 0 ? -moving[1] : moving[0];
         }
         column += rows;
         count++;

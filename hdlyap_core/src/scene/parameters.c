@@ -3,8 +3,11 @@
 
 #include <string.h>
 
-static const hd_parameter_word hd_container_words[] = {
-    {"rectangle", HD_RECTANGLE}, {"circle", HD_CIRCLE}, {NULL, 0}};
+static const hd_parameter_word hd_container_words[] = {{"rectangle", HD_RECTANGLE},
+#if HD_DIM == 2
+                                                       {"circle", HD_CIRCLE},
+#endif
+                                                       {NULL, 0}};
 static const hd_parameter_word hd_boundary_words[] = {
     {"periodic", HD_PERIODIC}, {"reflecting", HD_REFLECTING}, {NULL, 0}};
 static const hd_parameter_word hd_exponents_words[] = {

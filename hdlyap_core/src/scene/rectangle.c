@@ -1,4 +1,4 @@
-/** A rectangular container: each direction is periodic or has walls. */
+/** A rectangular container, of spheres a box: each direction is periodic or has walls. */
 #include <math.h>
 #include <stdio.h>
 
@@ -13,15 +13,34 @@ static const double NARROW = 2.0;
 
 static bool has_walls(const hd_scene_def *def, int d) { return def->boundary[d] == HD_REFLECTING; }
 
+#if HD_DIM == 3
+/** By Newton's method, from above: the same bits everywhere. */
+static double cube_root(double x)
+{
+    double root = fmax(x, 1.0);
+    for (double next = root; (next = root - (root - x / (root * root)) / 3.0) < root;) root = next;
+    return root;
+}
+#endif
+
 static void rectangle_box(const hd_scene_def *def, double box[HD_DIM])
 {
+#if HD_DIM == 2
     box[0] = sqrt((double)def->disks / (def->density * def->aspect));
+#else
+    box[0] = cube_root((double)def->disks / (def->density * def->aspect * def->aspect_z));
+    box[2] = def->aspect_z * box[0];
+#endif
     box[1] = def->aspect * box[0];
 }
 
 static void rectangle_say(const hd_scene_def *def, char *text, size_t size)
 {
-    snprintf(text, size, "aspect = %.15g and these boundaries", def->aspect);
+    if (HD_DIM == 2)
+        snprintf(text, size, "aspect = %.15g and these boundaries", def->aspect);
+    else
+        snprintf(text, size, "aspect = %.15g, aspect_z = %.15g and these boundaries", def->aspect,
+                 def->aspect_z);
 }
 
 static hd_status rectangle_check(const hd_scene_def *def, char *message, size_t size)
@@ -34,10 +53,12 @@ static hd_status rectangle_check(const hd_scene_def *def, char *message, size_t 
                          def->disks);
     for (int d = 0; d < HD_DIM; d++) {
         if (has_walls(def, d) ? box[d] - 1.0 >= HD_ROOM_MIN : box[d] > 1.0) continue;
+        char said[24 + 24] = "";
+        if (HD_DIM == 3) snprintf(said, sizeof said, ", aspect_z = %.15g", def->aspect_z);
         return hd_refuse(message, size,
-                         "density = %.15g with disks = %d, aspect = %.15g: the box edge L%c = "
+                         "density = %.15g with disks = %d, aspect = %.15g%s: the box edge L%c = "
                          "%.15g must be above the disk diameter 1%s",
-                         def->density, def->disks, def->aspect, "xy"[d], box[d],
+                         def->density, def->disks, def->aspect, said, "xyz"[d], box[d],
                          has_walls(def, d) ? " by 1e-9" : "");
     }
     return HD_OK;
@@ -45,10 +66,10 @@ static hd_status rectangle_check(const hd_scene_def *def, char *message, size_t 
 
 static double rectangle_area(const hd_scene_def *def)
 {
-    double box[HD_DIM];
+    double box[HD_DIM], area = 1.0;
     rectangle_box(def, box);
-    for (int d = 0; d < HD_DIM; d++) box[d] -= has_walls(def, d);
-    return box[0] * box[1];
+    for (int d = 0; d < HD_DIM; d++) area *= box[d] - has_walls(def, d);
+    return area;
 }
 
 static double rectangle_wall_rate(const hd_scene_def *def)
@@ -63,7 +84,9 @@ static double rectangle_wall_rate(const hd_scene_def *def)
 /** Energy and time; a uniform motion and its momentum along each periodic direction. */
 static int rectangle_symmetries(const hd_scene_def *def)
 {
-    return 1 + !has_walls(def, 0) + !has_walls(def, 1);
+    int periodic = 0;
+    for (int d = 0; d < HD_DIM; d++) periodic += !has_walls(def, d);
+    return 1 + periodic;
 }
 
 /* ---- start ---------------------------------------------------------------------------------- */
@@ -87,11 +110,29 @@ static void rectangle_start(const hd_scene_def *def, double *q)
 
 static void rectangle_still(const hd_scene_def *def, const double *q, double *p)
 {
-    double mean[HD_DIM] = {0, 0};
+    double mean[HD_DIM] = {0};
     (void)q;
     for (int k = 0; k < HD_DIM * def->disks; k++) mean[k % HD_DIM] += p[k];
     for (int k = 0; k < HD_DIM * def->disks; k++)
         if (!has_walls(def, k % HD_DIM)) p[k] -= mean[k % HD_DIM] / def->disks;
+}
+
+/** The densest that the lattice can hold with these N, aspects and boundaries. */
+static double rectangle_density_max(const hd_scene_def *def)
+{
+    enum { BISECTIONS = 30 };
+    hd_scene_def trial = *def;
+    double low = 0.0, high = (HD_DIM == 2 ? 2.0 / sqrt(3.0) : sqrt(2.0)) * (1.0 + 1e-9);
+    for (int k = 0; k < BISECTIONS; k++) {
+        double box[HD_DIM];
+        trial.density = 0.5 * (low + high);
+        rectangle_box(&trial, box);
+        bool fits = true;
+        for (int d = 0; d < HD_DIM; d++) fits &= box[d] > 1.0;
+        fits = fits && rectangle_start_distance(&trial) >= HD_START_DISTANCE_MIN;
+        *(fits ? &low : &high) = trial.density;
+    }
+    return low;
 }
 
 /* ---- waves ---------------------------------------------------------------------------------- */
@@ -110,19 +151,46 @@ static unsigned functions(const hd_scene_def *def, int d, int n, bool transverse
     return n > 0 ? 3u : 1u;
 }
 
-static hd_modulations products(unsigned of_x, unsigned of_y)
+/** Products of functions of all coordinates, from the set of each. */
+static hd_modulations products(const unsigned of[HD_DIM])
 {
     hd_modulations out = {0};
-    for (unsigned bits = 0; bits < HD_MODULATIONS_MAX; bits++)
-        if ((of_x >> (bits & HD_SIN_X) & 1u) && (of_y >> (bits >> 1) & 1u))
-            out.bits[out.count++] = (unsigned char)bits;
+    for (unsigned bits = 0; bits < HD_MODULATIONS_MAX; bits++) {
+        bool there = true;
+        for (int d = 0; d < HD_DIM; d++) there &= of[d] >> (bits >> d & 1u) & 1u;
+        if (there) out.bits[out.count++] = (unsigned char)bits;
+    }
     return out;
 }
 
 static hd_modulations modulations(const hd_scene_def *def, const int n[HD_DIM], bool transverse)
 {
-    return products(functions(def, 0, n[0], transverse), functions(def, 1, n[1], transverse));
+    unsigned of[HD_DIM];
+    for (int d = 0; d < HD_DIM; d++) of[d] = functions(def, d, n[d], transverse);
+    return products(of);
 }
+
+#if HD_DIM == 2
+static hd_modulations transverse_fields(const hd_scene_def *def, const int n[HD_DIM])
+{
+    return modulations(def, n, true);
+}
+#else
+/** Of each modulation of the pairs one field less than there are components that may be: a wall
+ * forbids the one across it that has no nodes [T22]. */
+static hd_modulations transverse_fields(const hd_scene_def *def, const int n[HD_DIM])
+{
+    const hd_modulations scalar = modulations(def, n, false);
+    int components = 0;
+    for (int d = 0; d < HD_DIM; d++) components += n[d] > 0 || !has_walls(def, d);
+    hd_modulations out = {.count = scalar.count * (components - 1)};
+    for (int c = 0; c < HD_TRANSVERSE_MAX && c < out.count; c++) {
+        const int second = c < scalar.count ? 0 : HD_SECOND;
+        out.bits[c] = (unsigned char)(scalar.bits[c % scalar.count] | second);
+    }
+    return out;
+}
+#endif
 
 /** Largest number of nodes along d whose wave is not longer than `limit`. */
 static int nodes_within(const hd_scene_def *def, int d, double limit)
@@ -135,7 +203,8 @@ static int nodes_within(const hd_scene_def *def, int d, double limit)
 
 static hd_wave_limits rectangle_limits(const hd_scene_def *def)
 {
-    hd_wave_limits limits = {INFINITY, PI * sqrt(def->density), 0};
+    const double distances = HD_DIM == 2 ? sqrt(def->density) : cbrt(def->density);
+    hd_wave_limits limits = {INFINITY, PI * distances, 0};
     for (int d = 0; d < HD_DIM; d++) {
         const int nodes = nodes_within(def, d, limits.largest);
         if (nodes > limits.node) limits.node = nodes;
@@ -144,28 +213,40 @@ static hd_wave_limits rectangle_limits(const hd_scene_def *def)
     return limits;
 }
 
-static hd_wave wave_of(const hd_scene_def *def, int nx, int ny)
+static hd_wave wave_of(const hd_scene_def *def, const int n[HD_DIM])
 {
-    hd_wave wave = {.n = {nx, ny}};
-    for (int d = 0; d < HD_DIM; d++) wave.k[d] = hd_wave_component(def, d, wave.n[d]);
-    wave.number = hypot(wave.k[0], wave.k[1]);
-    wave.transverse = modulations(def, wave.n, true);
-    wave.pairs = modulations(def, wave.n, false);
+    hd_wave wave = {.number = 0.0};
+    for (int d = 0; d < HD_DIM; d++) {
+        wave.n[d] = n[d];
+        wave.k[d] = hd_wave_component(def, d, n[d]);
+        wave.number = hypot(wave.number, wave.k[d]);
+    }
+    wave.transverse = transverse_fields(def, n);
+    wave.pairs = modulations(def, n, false);
     return wave;
+}
+
+/** The next numbers of nodes, x first; false after the last ones. */
+static bool next_nodes(int n[HD_DIM], const int most[HD_DIM])
+{
+    for (int d = 0; d < HD_DIM; d++) {
+        if (n[d]++ < most[d]) return true;
+        n[d] = 0;
+    }
+    return false;
 }
 
 static int rectangle_waves(const hd_scene_def *def, hd_wave *out, int capacity)
 {
     const double limit = hd_wave_limit(def);
-    int node[HD_DIM], count = 0;
-    for (int d = 0; d < HD_DIM; d++) node[d] = hd_wave_nodes(def, nodes_within(def, d, limit));
-    for (int ny = 0; ny <= node[1]; ny++)
-        for (int nx = ny == 0; nx <= node[0]; nx++) {
-            const hd_wave wave = wave_of(def, nx, ny);
-            if (wave.number > limit * (1.0 + 1e-12)) continue;
-            if (count < capacity) out[count] = wave;
-            count++;
-        }
+    int most[HD_DIM], n[HD_DIM] = {0}, count = 0;
+    for (int d = 0; d < HD_DIM; d++) most[d] = hd_wave_nodes(def, nodes_within(def, d, limit));
+    while (next_nodes(n, most)) {
+        const hd_wave wave = wave_of(def, n);
+        if (wave.number > limit * (1.0 + 1e-12)) continue;
+        if (count < capacity) out[count] = wave;
+        count++;
+    }
     return count;
 }
 
@@ -176,7 +257,7 @@ const hd_container_row hd_rectangle_row = {.say = rectangle_say,
                                            .wall_rate = rectangle_wall_rate,
                                            .symmetries = rectangle_symmetries,
                                            .start_distance = rectangle_start_distance,
-                                           .density_max = hd_lattice_density_max,
+                                           .density_max = rectangle_density_max,
                                            .start = rectangle_start,
                                            .still = rectangle_still,
                                            .limits = rectangle_limits,

@@ -10,6 +10,13 @@
 
 enum { SAID = 96 }; /* of a container */
 
+/** Mean distance of two disks: 1 over this of the density. */
+#if HD_DIM == 2
+#define ROOT "sqrt"
+#else
+#define ROOT "cbrt"
+#endif
+
 static hd_status refuse_value(const hd_parameter *row, const hd_scene_def *def, char *message,
                               size_t size)
 {
@@ -37,9 +44,28 @@ static hd_status check_ranges(const hd_scene_def *def, bool covariant, char *mes
     return HD_OK;
 }
 
+/** What spheres have, and disks have not; and the other way round. */
+static hd_status check_dimensions(const hd_scene_def *def, char *message, size_t size)
+{
+    const hd_scene_def usual = hd_scene_def_default();
+    const unsigned flat = HD_OBSERVE_HYDRO | HD_OBSERVE_STRUCTURE;
+    if (HD_DIM == 2 && def->aspect_z != usual.aspect_z)
+        return hd_refuse(message, size, "aspect_z = %.15g: must not be given with dimensions = 2",
+                         def->aspect_z);
+    if (HD_DIM == 2 && def->boundary[2] != usual.boundary[2])
+        return hd_refuse(message, size,
+                         "boundary_z = reflecting: must not be given with dimensions = 2");
+    if (HD_DIM == 3 && def->observe & flat)
+        return hd_refuse(message, size,
+                         "observables = %s: must not be given with dimensions = 3: it is of disks",
+                         def->observe & HD_OBSERVE_HYDRO ? "hydro" : "structure");
+    return HD_OK;
+}
+
 hd_status hd_scene_check_box(const hd_scene_def *def, char *message, size_t size)
 {
     HD_TRY(check_ranges(def, false, message, size));
+    HD_TRY(check_dimensions(def, message, size));
     return hd_container_of(def)->check(def, message, size);
 }
 
@@ -57,13 +83,14 @@ static hd_status check_waves(const hd_scene_def *def, char *message, size_t size
         return hd_refuse(
             message, size,
             "max_mode_number = %d: must be at most %d with disks = %d, density = %.15g, %s: a "
-            "shorter wave than two mean distances, 2 / sqrt(density), is not sampled",
+            "shorter wave than two mean distances, 2 / " ROOT "(density), is not sampled",
             def->max_mode_number, limits.node, def->disks, def->density, said);
     const double k = def->max_wave_number;
     if (k > 0 && !(k >= limits.smallest && k <= limits.largest))
         return hd_refuse(message, size,
                          "max_wave_number = %.15g: must be from %.6g, the longest wave, to %.6g: "
-                         "a shorter one than two mean distances, 2 / sqrt(density), is not sampled",
+                         "a shorter one than two mean distances, 2 / " ROOT
+                         "(density), is not sampled",
                          k, limits.smallest, limits.largest);
     return HD_OK;
 }
@@ -104,9 +131,9 @@ hd_status hd_scene_check(const hd_scene_def *def, char *message, size_t size)
     if (def->exponents < HD_EXPONENTS_ALL_INDEPENDENT || def->exponents > HD_ROWS * def->disks)
         return hd_refuse(
             message, size,
-            "exponents = %d: must be positive, all, all_independent, none or from 1 to 4 "
+            "exponents = %d: must be positive, all, all_independent, none or from 1 to %d "
             "disks = %d",
-            def->exponents, HD_ROWS * def->disks);
+            def->exponents, HD_ROWS, HD_ROWS * def->disks);
     if (def->exponents == HD_EXPONENTS_POSITIVE && hd_scene_vectors(def) == 0)
         return hd_refuse(message, size,
                          "exponents = positive: must be all, all_independent, none or from 1 to 4 "

@@ -13,7 +13,9 @@ static int compare_waves(const void *a, const void *b)
 {
     const hd_wave *x = a, *y = b;
     if (x->number != y->number) return x->number < y->number ? -1 : 1;
-    return x->n[1] != y->n[1] ? x->n[1] - y->n[1] : x->n[0] - y->n[0];
+    int d = HD_DIM - 1;
+    while (d > 0 && x->n[d] == y->n[d]) d--;
+    return x->n[d] - y->n[d];
 }
 
 hd_wave_limits hd_wave_limits_of(const hd_scene_def *def)

@@ -1,4 +1,4 @@
-/** 2N vectors -> all 4N, by J (dq, dp) = (dp, -dq) [T18].
+/** Half of the vectors -> all of them, 2N -> 4N of disks, by J (dq, dp) = (dp, -dq) [T18].
  *
  * Q is row-major (stride >= n), for BLAS the column-major Q^T with its first rows the first
  * vectors. Panels, and what is turned by J, are column-major with a column for each vector. */
@@ -299,8 +299,8 @@ static double product_of_columns(const hd_frame *frame, int a, int b)
     const double *x = hd_frame_read(frame) + a, *y = hd_frame_read(frame) + b;
     double sum = 0.0;
     for (size_t d = 0; d < HD_DIM; d++)
-        sum += cblas_ddot(disks, x + d * stride, step, y + (2 + d) * stride, step) -
-               cblas_ddot(disks, x + (2 + d) * stride, step, y + d * stride, step);
+        sum += cblas_ddot(disks, x + d * stride, step, y + (HD_DIM + d) * stride, step) -
+               cblas_ddot(disks, x + (HD_DIM + d) * stride, step, y + d * stride, step);
     return sum;
 }
 

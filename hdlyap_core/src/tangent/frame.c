@@ -1,6 +1,6 @@
-/** Tangent vectors: 4N x n, row-major, rows 4i .. 4i+3 = dq_x dq_y dp_x dp_y of disk i. Of several
- * ranks each has some columns; for an orthonormalisation it has some rows of all, in the same room:
- * its columns of some disks are exchanged for those disks' columns of the others. */
+/** Tangent vectors: row-major, HD_ROWS rows of each disk, dq_x dq_y (dq_z) dp_x dp_y (dp_z). Of
+ * several ranks each has some columns; for an orthonormalisation it has some rows of all, in the
+ * same room: its columns of some disks are exchanged for those disks' columns of the others. */
 #include "tangent/frame_state.h"
 
 #include <float.h>
@@ -209,7 +209,7 @@ static void halves_of_columns(const hd_frame *frame, double sum[3][HD_BLOCK_WIDT
         for (int d = 0; d < HD_DIM; d++) {
             const double *v = frame->copy[frame->current] + col;
             const double *dq = v + (size_t)(row + d) * (size_t)frame->stride;
-            const double *dp = dq + 2 * (size_t)frame->stride;
+            const double *dp = dq + HD_DIM * (size_t)frame->stride;
             for (int k = 0; k < count; k++) {
                 sum[0][k] += dq[k] * dq[k];
                 sum[1][k] += dp[k] * dp[k];

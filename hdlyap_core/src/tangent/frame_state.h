@@ -6,26 +6,14 @@
 #include <stdbool.h>
 
 #include "hdlyap/frame.h"
+#if HD_DIM == 2
+#include "tangent/kernel_2d.h"
+#else
+#include "tangent/kernel_3d.h"
+#endif
 
 /** Columns that a thread carries at once, and their bytes in its cache. */
 enum { HD_BLOCK_BYTES = 512 * 1024, HD_BLOCK_WIDTH_MAX = 64 };
-
-/** Tangent map of one event: free flights of its disks since their last events, then the collision.
- */
-typedef struct hd_tangent_map {
-    int32_t i, j; /**< as in hd_event */
-    union {
-        double flight[2]; /**< of i, of j */
-        struct {
-            double alone; /**< flight of i */
-            double bend;  /**< of a round wall, twice its curvature */
-        };
-    };
-    double n[HD_DIM];
-    double normal;     /**< b = p.n: < 0, of a round wall > 0 */
-    double tangential; /**< p_t = p.t, t = n turned by +90 degrees */
-    double ratio;      /**< p_t / b */
-} hd_tangent_map;
 
 struct hd_frame {
     hd_communicator *communicator; /**< NULL: all vectors are here */

@@ -79,15 +79,20 @@ typedef struct sums {
 
 static void add_disk(sums *s, const double *row, size_t stride, int count)
 {
-    const double *x = row, *y = row + stride, *px = row + 2 * stride, *py = row + 3 * stride;
     for (int col = 0; col < count; col++) {
-        const double dq = x[col] * x[col] + y[col] * y[col],
-                     dp = px[col] * px[col] + py[col] * py[col];
+        double dq = 0.0, dp = 0.0, dqdp = 0.0;
+        for (size_t d = 0; d < HD_DIM; d++) {
+            const double q = row[d * stride + (size_t)col],
+                         p = row[(HD_DIM + d) * stride + (size_t)col];
+            dq += q * q;
+            dp += p * p;
+            dqdp += q * p;
+        }
         const double part = dq + dp;
         s->entropy[col] -= part > DBL_MIN ? part * log(part) : 0.0;
         s->dq[col] += dq;
         s->dp[col] += dp;
-        s->dqdp[col] += x[col] * px[col] + y[col] * py[col];
+        s->dqdp[col] += dqdp;
     }
 }
 

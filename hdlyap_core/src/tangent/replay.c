@@ -1,12 +1,11 @@
 /** Event log -> tangent vectors carried along.
  *
  * The log is first turned into tangent maps with all divisions done. Then each thread takes a block
- * of columns into a buffer that stays in its cache, [disk][4][width], carries it through all maps
- * with lazy free flight (only disks that collide are brought up to date), and writes it to the
+ * of columns into a buffer that stays in its cache, [disk][HD_ROWS][width], carries it through all
+ * maps with lazy free flight (only disks that collide are brought up to date), and writes it to the
  * second copy of V; so the vectors from before remain for hd_frame_rewind at no cost in time.
- * Equations [T1], [T3], [T4], [T21]. Parallel over blocks; the result does not depend on the number
- * of threads. */
-#include <math.h>
+ * Maps and kernels are those of disks or of spheres [T1], [T3], [T4], [T21], [T22]. Parallel over
+ * blocks; the result does not depend on the number of threads. */
 #include <omp.h>
 #include <string.h>
 
@@ -27,27 +26,12 @@ static double flight(double *since, int32_t disk, double t)
     return tau;
 }
 
-/** The normal of a round wall is as long as its radius. */
-static void curved_fill(hd_tangent_map *map)
-{
-    const double radius = sqrt(map->n[0] * map->n[0] + map->n[1] * map->n[1]);
-    map->bend = 2.0 / radius;
-    map->n[0] /= radius;
-    map->n[1] /= radius;
-}
-
 static void map_fill(hd_tangent_map *map, const hd_event *event, double *since)
 {
-    *map = (hd_tangent_map){.i = event->i, .j = event->j, .n = {event->n[0], event->n[1]}};
+    *map = (hd_tangent_map){.i = event->i, .j = event->j};
     map->flight[0] = flight(since, event->i, event->t);
-    if (event->j == HD_WALL_X || event->j == HD_WALL_Y) return;
-    if (event->j == HD_WALL_ROUND)
-        curved_fill(map);
-    else
-        map->flight[1] = flight(since, event->j, event->t);
-    map->normal = event->p[0] * map->n[0] + event->p[1] * map->n[1];
-    map->tangential = event->p[1] * map->n[0] - event->p[0] * map->n[1];
-    map->ratio = map->tangential / map->normal;
+    if (event->j >= 0) map->flight[1] = flight(since, event->j, event->t);
+    hd_map_fill(map, event);
 }
 
 static hd_status maps_reserve(hd_frame *frame, size_t count)
@@ -81,66 +65,6 @@ static size_t maps_fill(hd_frame *frame, const hd_event_log *log, double t_begin
 
 /* ---- a block of columns -------------------------------------------------------------------- */
 
-/** [T1] dq += tau dp; v points to the four rows of a disk. */
-static inline __attribute__((always_inline)) void fly(double *restrict v, double tau, int width)
-{
-    for (int k = 0; k < 2 * width; k++) v[k] += tau * v[2 * width + k];
-}
-
-/** [T3] with the free flights before it; only the tangential part s of the displacement turns n. */
-static inline __attribute__((always_inline)) void collide(double *restrict vi, double *restrict vj,
-                                                          const hd_tangent_map *map, int width)
-{
-    const double nx = map->n[0], ny = map->n[1], ti = map->flight[0], tj = map->flight[1];
-    const double b = map->normal, pt = map->tangential, ratio = map->ratio;
-#pragma GCC ivdep
-    for (int k = 0; k < width; k++) {
-        double *qi = vi + k, *pi = vi + 2 * width + k, *qj = vj + k, *pj = vj + 2 * width + k;
-        const double qix = qi[0] + ti * pi[0], qiy = qi[width] + ti * pi[width];
-        const double qjx = qj[0] + tj * pj[0], qjy = qj[width] + tj * pj[width];
-        const double qx = qjx - qix, qy = qjy - qiy;
-        const double px = pj[0] - pi[0], py = pj[width] - pi[width];
-        const double a = qx * nx + qy * ny;                     /* dq.n */
-        const double s = qy * nx - qx * ny - ratio * a;         /* dq.t - (p_t / b) a */
-        const double u = px * nx + py * ny + pt * s, w = b * s; /* d + p_t s, b s */
-        const double ux = u * nx - w * ny, uy = u * ny + w * nx;
-        qi[0] = qix + a * nx, qi[width] = qiy + a * ny;
-        qj[0] = qjx - a * nx, qj[width] = qjy - a * ny;
-        pi[0] += ux, pi[width] += uy;
-        pj[0] -= ux, pj[width] -= uy;
-    }
-}
-
-/** [T21]: dq.t - (p_t / b) dq.n is where along the wall the shadow meets it. */
-static inline __attribute__((always_inline)) void curve(double *restrict v,
-                                                        const hd_tangent_map *map, int width)
-{
-    const double nx = map->n[0], ny = map->n[1], ratio = map->ratio;
-    const double b = map->bend * map->normal, pt = map->bend * map->tangential;
-    fly(v, map->flight[0], width);
-#pragma GCC ivdep
-    for (int k = 0; k < width; k++) {
-        double *q = v + k, *p = v + 2 * width + k;
-        const double a = q[0] * nx + q[width] * ny;
-        const double s = q[width] * nx - q[0] * ny - ratio * a;
-        const double u = 2.0 * (p[0] * nx + p[width] * ny) + pt * s, w = b * s;
-        q[0] -= 2.0 * a * nx, q[width] -= 2.0 * a * ny;
-        p[0] -= u * nx - w * ny, p[width] -= u * ny + w * nx;
-    }
-}
-
-/** [T4] */
-static inline __attribute__((always_inline)) void reflect(double *restrict v,
-                                                          const hd_tangent_map *map, int width)
-{
-    const int d = map->j == HD_WALL_Y;
-    fly(v, map->flight[0], width);
-    for (int k = 0; k < width; k++) {
-        v[d * width + k] = -v[d * width + k];
-        v[(2 + d) * width + k] = -v[(2 + d) * width + k];
-    }
-}
-
 typedef struct maps {
     const hd_tangent_map *map; /**< [count] */
     size_t count;
@@ -169,11 +93,9 @@ static inline __attribute__((always_inline)) void replay_width(double *buffer, m
         if (e < m.fetching) fetch(buffer, &map[e + FETCH_AHEAD], width);
         double *vi = buffer + disk * (size_t)map[e].i;
         if (!walls || map[e].j >= 0)
-            collide(vi, buffer + disk * (size_t)map[e].j, &map[e], width);
-        else if (map[e].j == HD_WALL_ROUND)
-            curve(vi, &map[e], width);
+            hd_collide(vi, buffer + disk * (size_t)map[e].j, &map[e], width);
         else
-            reflect(vi, &map[e], width);
+            hd_meet_wall(vi, &map[e], width);
     }
 }
 
@@ -238,7 +160,7 @@ static void block_replay(const hd_frame *frame, double *buffer, size_t count, in
     else
         replay_block(buffer, m, width);
     for (int i = 0; i < frame->disks; i++)
-        fly(buffer + HD_ROWS * (size_t)width * (size_t)i, frame->since[i], width);
+        hd_fly(buffer + HD_ROWS * (size_t)width * (size_t)i, frame->since[i], width);
     block_store(frame, buffer, col, used);
 }
 

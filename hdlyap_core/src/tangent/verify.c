@@ -60,7 +60,7 @@ static int first_of(const hd_frame *frame, int k)
     return (int)((long)hd_frame_columns(frame).count * k / HD_VERIFY_PAIRS);
 }
 
-/** Rows are dq_x, dq_y, dp_x, dp_y of each disk. */
+/** Rows are dq_x, dq_y, .. dp_x, dp_y, .. of each disk. */
 static void pair_products(const hd_frame *frame, int a, int b, double *product, double *scale)
 {
     const double *data = hd_frame_read(frame);

@@ -98,7 +98,7 @@ TEST(number_of_cells_follows_disks)
 
 static int listed(const hd_cells *cells, int32_t x, int32_t y, int32_t i)
 {
-    const hd_cell *cell = hd_cells_at(cells, x, y);
+    const hd_cell *cell = hd_cells_at(cells, (const int32_t[2]){x, y});
     int found = 0;
     for (int k = 0; k < cell->count; k++) found += cell->disk[k] == i;
     if (!cell->crowded) return found;

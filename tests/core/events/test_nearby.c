@@ -34,11 +34,12 @@ static void sight_take(sight *s, const hd_nearby *near)
 
 static void sight_take_listed(sight *s, const hd_cells *cells, const hd_disk *disk, int u, int v)
 {
-    const hd_cell *cell = hd_cells_at(cells, cells->line[0][disk->cell[0]].near[u],
-                                      cells->line[1][disk->cell[1]].near[v]);
+    const int32_t at[2] = {cells->line[0][disk->cell[0]].near[u],
+                           cells->line[1][disk->cell[1]].near[v]};
+    const hd_cell *cell = hd_cells_at(cells, at);
     hd_nearby near;
     for (int32_t j = cell->crowded ? cell->disk[HD_CELL_DISKS - 1] : -1; j >= 0;) {
-        j = hd_nearby_listed(&near, cells, disk, u, v, j);
+        j = hd_nearby_listed(&near, cells, disk, 3 * v + u, j);
         sight_take(s, &near);
     }
 }
@@ -192,8 +193,8 @@ static int check_contacts(hd_nearby *near, const hd_disk *disks, int32_t i)
     const int first = hd_nearby_contacts(got, near, disks, i, box);
     for (int k = 0; k < near->count; k++) {
         const hd_disk *b = &disks[near->disk[k]];
-        const hd_pair shift = {(near->image[0][k] - b->wrap[0]) * box[0],
-                               (near->image[1][k] - b->wrap[1]) * box[1]};
+        const double shift[2] = {(near->image[0][k] - b->wrap[0]) * box[0],
+                                 (near->image[1][k] - b->wrap[1]) * box[1]};
         const double want = one_contact(&disks[i], b, shift);
         if (want < INFINITY ? got[k] != want : !isnan(got[k]))
             fail_msg("contact %d of %d at %.17g, wanted %.17g", k, near->count, got[k], want);

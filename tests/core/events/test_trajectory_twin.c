@@ -1,5 +1,5 @@
 /** Trajectory against its O(N^2) twin (twin.h): the same events, bit for bit, one by one. */
-#include "scene/lattice.h"
+#include "scene/container.h"
 #include "twin.h"
 
 enum { BOUNDARIES = 4 };
@@ -20,7 +20,7 @@ static void sweep(int disks, double aspect, size_t events)
     const double fraction[] = {0.02, 0.3, 0.7, 0.95, 0.999, 1.0 - 1e-6};
     for (int b = 0; b < BOUNDARIES; b++) {
         hd_scene_def def = scene_of(disks, 0.1, aspect, BOUNDARY[b][0], BOUNDARY[b][1], 7);
-        const double densest = hd_lattice_density_max(&def);
+        const double densest = hd_container_of(&def)->density_max(&def);
         for (size_t k = 0; k < sizeof fraction / sizeof *fraction; k++) {
             def.density = fraction[k] * densest;
             def.seed = 100 * (uint64_t)disks + k;

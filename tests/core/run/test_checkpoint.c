@@ -308,7 +308,7 @@ TEST(it_says_whose_it_is)
     const hd_parameter *rows = hd_scene_parameters(&count);
     for (int k = 0; k < count; k++) /* nothing is as it usually is */
         if (hd_parameter_value(&rows[k], &def) == rows[k].usual && rows[k].offset != WAVE_NUMBER &&
-            rows[k].offset != CONTAINER)
+            rows[k].offset != CONTAINER && !is_of_spheres(&rows[k]))
             def = with_another(&def, &rows[k]);
     OWNED(hd_run) *run = kept_run(def);
     hd_checkpoint found;

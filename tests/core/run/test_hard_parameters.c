@@ -135,6 +135,7 @@ static hd_scene_def drawn(hd_random *random)
     for (int k = 0; k < count; k++) {
         const hd_parameter *p = &rows[k];
         if (p->kind == HD_PARAMETER_SEED || p->needs == HD_OBSERVE_COVARIANT) continue;
+        if (is_of_spheres(p) && chance(random, 0.98)) continue;
         if (is_named(p, "max_mode_number") && chance(random, 0.5)) continue;
         if (is_named(p, "max_wave_number") && chance(random, 0.8)) continue;
         put_usual(random, &def, p);

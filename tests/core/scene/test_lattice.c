@@ -1,4 +1,5 @@
 /** Lattice: exactly N disks inside the box, none closer than a diameter, as dense as promised. */
+#include "scene/container.h"
 #include "scene/lattice.h"
 #include "testing.h"
 
@@ -65,7 +66,7 @@ TEST(sites_keep_their_distance)
         for (int k = 0; k < 6 * 4 * 4; k++) {
             hd_scene_def def = scene_of(n, 0.1, aspect[k / 16], (hd_boundary)(k & 1),
                                         (hd_boundary)(k >> 1 & 1), 1);
-            def.density = fraction[k / 4 % 4] * hd_lattice_density_max(&def);
+            def.density = fraction[k / 4 % 4] * hd_container_of(&def)->density_max(&def);
             if (def.density > 0) assert_true(check_lattice(&def) >= 1.0);
         }
 }
@@ -89,7 +90,7 @@ TEST(maximum_is_where_disks_touch)
             hd_scene_def def = scene_of(n, 0.1, aspect[k / 4], (hd_boundary)(k & 1),
                                         (hd_boundary)(k >> 1 & 1), 1);
             double box[2];
-            const double densest = hd_lattice_density_max(&def);
+            const double densest = hd_container_of(&def)->density_max(&def);
             def.density = densest * (1.0 + close);
             hd_scene_box(&def, box);
             const int wide = box[0] > 1.0 && box[1] > 1.0;
@@ -108,7 +109,8 @@ TEST(maximum_is_the_same_lying_and_standing)
             const hd_boundary x = (hd_boundary)(k & 1), y = (hd_boundary)(k >> 1 & 1);
             const hd_scene_def lying = scene_of(n, 0.1, aspect[k / 4], x, y, 1);
             const hd_scene_def standing = scene_of(n, 0.1, 1.0 / aspect[k / 4], y, x, 1);
-            CHECK_CLOSE(hd_lattice_density_max(&standing), hd_lattice_density_max(&lying), close);
+            CHECK_CLOSE(hd_container_of(&standing)->density_max(&standing),
+                        hd_container_of(&lying)->density_max(&lying), close);
         }
 }
 
@@ -120,10 +122,10 @@ TEST(known_packings)
     const hd_scene_def upright = scene_of(64, 0.5, 1.0 / sqrt(0.75), P, P, 1);
     const hd_scene_def in_a_square = scene_of(64, 0.5, 1.0, P, P, 1);
     const hd_scene_def two_in_a_box = scene_of(2, 0.5, 0.5, R, R, 1);
-    CHECK_CLOSE(hd_lattice_density_max(&hexagonal), closest, close);
-    CHECK_CLOSE(hd_lattice_density_max(&upright), closest, close);
-    assert_true(hd_lattice_density_max(&in_a_square) > 1.0 - close);
-    CHECK_CLOSE(hd_lattice_density_max(&two_in_a_box), 1.0, close);
+    CHECK_CLOSE(hd_container_of(&hexagonal)->density_max(&hexagonal), closest, close);
+    CHECK_CLOSE(hd_container_of(&upright)->density_max(&upright), closest, close);
+    assert_true(hd_container_of(&in_a_square)->density_max(&in_a_square) > 1.0 - close);
+    CHECK_CLOSE(hd_container_of(&two_in_a_box)->density_max(&two_in_a_box), 1.0, close);
 }
 
 /** The paper's densities must be possible. */
@@ -133,7 +135,7 @@ TEST(papers_scenes_fit)
         const hd_scene_def def = scene_of(780, 0.8, 0.867, (hd_boundary)(b & 1),
                                           (hd_boundary)(b >> 1), 1);
         assert_true(check_lattice(&def) > 1.0);
-        assert_true(hd_lattice_density_max(&def) > 1.0);
+        assert_true(hd_container_of(&def)->density_max(&def) > 1.0);
     }
 }
 

@@ -2,6 +2,9 @@
 #ifndef HD_SCENES_H
 #define HD_SCENES_H
 
+#include <string.h>
+
+#include "hdlyap/parameters.h"
 #include "hdlyap/trajectory.h"
 
 #if defined(__SANITIZE_ADDRESS__)
@@ -14,6 +17,15 @@
 #ifndef HD_SANITIZED
 #define HD_SANITIZED 0
 #endif
+
+/** A parameter that has one value of disks: what spheres have. */
+static inline bool is_of_spheres(const hd_parameter *row)
+{
+    static const char *const names[] = {"dimensions", "aspect_z", "boundary_z"};
+    for (int k = 0; k < 3; k++)
+        if (strcmp(row->name, names[k]) == 0) return true;
+    return false;
+}
 
 /** The default scene but for the fields given: scene(.disks = 12, .boundary[1] = HD_REFLECTING). */
 #define scene(...) scene_from(hd_scene_def_default(), __VA_ARGS__)

@@ -35,7 +35,7 @@ typedef struct candidate {
 
 static contact contact_through(const twin *t, int i, int j, int32_t mx, int32_t my)
 {
-    const hd_pair shift = {mx * t->box[0], my * t->box[1]};
+    const double shift[2] = {mx * t->box[0], my * t->box[1]};
     const double time = one_contact(&t->disk[i], &t->disk[j], shift);
     return time < INFINITY ? (contact){time, {mx, my}} : (contact){.t = INFINITY};
 }
@@ -83,7 +83,9 @@ static void predict_pair(twin *t, int i, int j)
     const double now = fmax(a->t, b->t), length = t->epoch_length - now;
     contact *best = &t->pair[i * t->n + j];
     *best = (contact){.t = INFINITY};
-    const hd_pair r = hd_contact_separation(a, b, (hd_pair){0, 0}, now);
+    const double here[2] = {0, 0};
+    double r[2];
+    hd_contact_separation(r, a, b, here, now);
     const line x = {r[0], b->p[0] - a->p[0], 0, length, t->box[0], t->boundary[0]};
     int32_t mx[2], my[2];
     image_range(mx, &x);
@@ -159,7 +161,7 @@ static void fold(const twin *t, hd_disk *disk)
 }
 
 /** r.r - 1 as a double and the correction lost in it, added last. */
-static double excess_of(hd_pair r)
+static double excess_of(const double r[2])
 {
     const double xx = r[0] * r[0], yy = r[1] * r[1], sum = xx + yy, back = sum - xx;
     const double lost = (xx - (sum - back)) + (yy - back);
@@ -172,7 +174,7 @@ static double lost_by(const hd_disk *a, const hd_disk *b)
     return 8.0 * DBL_EPSILON * (fabs(a->p[0]) + fabs(a->p[1]) + fabs(b->p[0]) + fabs(b->p[1]));
 }
 
-static void push(hd_disk *a, hd_disk *b, hd_pair along, double impulse)
+static void push(hd_disk *a, hd_disk *b, const double along[2], double impulse)
 {
     for (int d = 0; d < 2; d++) {
         a->p[d] += impulse * along[d];
@@ -185,10 +187,11 @@ static bool collide(twin *t, hd_event *event, const candidate *c)
 {
     hd_disk *a = &t->disk[c->i], *b = &t->disk[c->j];
     const contact *how = &t->pair[c->i * t->n + c->j];
-    const hd_pair shift = {how->image[0] * t->box[0], how->image[1] * t->box[1]};
+    const double shift[2] = {how->image[0] * t->box[0], how->image[1] * t->box[1]};
     move(a, c->t);
     move(b, c->t);
-    const hd_pair r = hd_contact_separation(a, b, shift, c->t);
+    double r[2];
+    hd_contact_separation(r, a, b, shift, c->t);
     const double distance = sqrt(r[0] * r[0] + r[1] * r[1]);
     for (int d = 0; d < 2; d++) {
         event->n[d] = r[d] / distance;
@@ -201,8 +204,8 @@ static bool collide(twin *t, hd_event *event, const candidate *c)
         push(a, b, r, approach - approach * excess_of(r));
     else if (approach < 0)
         push(a, b,
-             fabs(r[1]) > fabs(r[0]) ? (hd_pair){0, copysign(1, r[1])}
-                                     : (hd_pair){copysign(1, r[0]), 0},
+             fabs(r[1]) > fabs(r[0]) ? (const double[2]){0, copysign(1, r[1])}
+                                     : (const double[2]){copysign(1, r[0]), 0},
              -lost);
     fold(t, a);
     fold(t, b);

@@ -1,4 +1,5 @@
-/** Scene -> start positions. All kinds of rows are tried; arithmetic is + - * / sqrt only. */
+/** Scene -> start positions of disks. All kinds of rows are tried; arithmetic is + - * / sqrt only.
+ */
 #include "scene/lattice.h"
 
 #include <math.h>
@@ -86,21 +87,4 @@ void hd_lattice_fill(const hd_lattice *lattice, double *q, int disks, const doub
             place(lattice, q + 2 * disk++, row, column, box, boundary);
         }
     }
-}
-
-double hd_lattice_density_max(const hd_scene_def *def)
-{
-    enum { BISECTIONS = 30 };
-    hd_scene_def trial = *def;
-    double low = 0.0, high = 2.0 / sqrt(3.0) * (1.0 + 1e-9);
-    for (int k = 0; k < BISECTIONS; k++) {
-        double box[HD_DIM];
-        trial.density = 0.5 * (low + high);
-        hd_scene_box(&trial, box);
-        const int fits = box[0] > 1.0 && box[1] > 1.0 &&
-                         hd_lattice_best(trial.disks, box, trial.boundary).distance >=
-                             HD_START_DISTANCE_MIN;
-        *(fits ? &low : &high) = trial.density;
-    }
-    return low;
 }

@@ -5,6 +5,7 @@
 
 #include <complex.h>
 #include <math.h>
+#include <stdbool.h>
 
 /** A radial function, its derivative, and m times its quotient by r. */
 typedef struct radial {
@@ -51,5 +52,23 @@ void hd_circle_modulations(hd_circle_modulation out[2], const hd_circle_wave *wa
     for (int sine = 0; sine < 2; sine++) {
         const double u = f.along * part[sine], v = f.across * other[sine];
         out[sine] = (hd_circle_modulation){f.value * part[sine], u * c - v * s, u * s + v * c};
+    }
+}
+
+void hd_circle_fields_fill(double *const row[HD_DIM], const hd_subspace *subspace,
+                           const hd_circle_wave *round, int subspaces, double centre,
+                           const double *q, const double *p)
+{
+    double *x = row[0], *y = row[1];
+    hd_circle_modulation at[2];
+    for (int k = 0; k < subspaces; k++) {
+        const hd_subspace *s = &subspace[k];
+        const int count = s->modulations.count;
+        hd_circle_modulations(at, &round[k], q[0] - centre, q[1] - centre);
+        for (int c = 0, column = s->column; c < count; c++, column++) {
+            const bool t = s->kind == HD_MODE_T;
+            x[column] = t ? at[c].y : at[c].x, y[column] = t ? -at[c].x : at[c].y;
+            if (!t) x[column + count] = p[0] * at[c].a, y[column + count] = p[1] * at[c].a;
+        }
     }
 }

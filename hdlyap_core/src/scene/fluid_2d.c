@@ -1,0 +1,40 @@
+/** Hard disks: Henderson, Mol. Phys. 30, 971 (1975). + - * / sqrt only, as the length of an epoch
+ * follows. */
+#include "scene/fluid.h"
+
+#include <math.h>
+
+static const double PI = 3.14159265358979323846;
+
+double hd_fluid_contact(double density)
+{
+    const double eta = 0.25 * PI * density, free = 1.0 - eta;
+    return (1.0 - 7.0 / 16.0 * eta) / (free * free);
+}
+
+/** Near the closest packing as at eta = 0.9. */
+double hd_fluid_rate(double density)
+{
+    return 2.0 * sqrt(PI) * density * hd_fluid_contact(fmin(density, 3.6 / PI));
+}
+
+double hd_fluid_free_path(double density)
+{
+    return 1.0 / (2.0 * sqrt(2.0) * density * hd_fluid_contact(density));
+}
+
+/** p = rho Z: c^2 = d(rho Z)/d rho + Z^2, as a disk has two degrees of freedom and kT = 1. */
+double hd_fluid_sound(double density)
+{
+    const double eta = 0.25 * PI * density, free = 1.0 - eta;
+    const double z = (1.0 + eta * eta / 8.0) / (free * free);
+    const double slope = (0.25 * eta + 2.0 * z * free) / (free * free); /* dZ / d eta */
+    return sqrt(z + eta * slope + z * z);
+}
+
+/** Eckmann et al. (2005), to 3 % for densities up to 0.8. */
+double hd_fluid_transverse(double density)
+{
+    const double square = density * density;
+    return 0.902 + 1.050 * density - 0.053 * square + 3.85 * square * square;
+}

@@ -1,0 +1,148 @@
+/** Scene -> start positions of spheres: grids of about the same spacing along all directions, of
+ * which the sites of one kind of lattice are taken. Arithmetic is + - * / sqrt only. */
+#include "scene/lattice.h"
+
+#include <math.h>
+#include <stdint.h>
+
+#include "scene/container.h"
+
+enum { KINDS = 3 };
+
+static bool is_site(int kind, int x, int y, int z)
+{
+    if (kind == HD_LATTICE_FACES) return (x + y + z) % 2 == 0;
+    return kind == HD_LATTICE_SIMPLE || (x % 2 == y % 2 && y % 2 == z % 2);
+}
+
+static int64_t site_count(int kind, const int n[HD_DIM])
+{
+    const int64_t all = (int64_t)n[0] * n[1] * n[2];
+    const int64_t even = (int64_t)((n[0] + 1) / 2) * ((n[1] + 1) / 2) * ((n[2] + 1) / 2);
+    const int64_t odd = (int64_t)(n[0] / 2) * (n[1] / 2) * (n[2] / 2);
+    if (kind == HD_LATTICE_BODY) return even + odd;
+    return kind == HD_LATTICE_FACES ? (all + 1) / 2 : all;
+}
+
+/** Of `count` points that must fit into `length`; one point alone has no neighbour. */
+static double spacing(double length, int count, hd_boundary boundary)
+{
+    if (boundary == HD_PERIODIC) return length / count;
+    return count > 1 ? (length - 1.0) / (count - 1) : length;
+}
+
+/** Of two sites that differ by so many points, where both can be. */
+static double apart(const hd_lattice *l, const int step[HD_DIM], const hd_boundary boundary[HD_DIM])
+{
+    double square = 0.0;
+    for (int d = 0; d < HD_DIM; d++) {
+        if (step[d] >= l->size[d] && boundary[d] != HD_PERIODIC) return INFINITY;
+        square += step[d] * step[d] * l->spacing[d] * l->spacing[d];
+    }
+    return sqrt(square);
+}
+
+static double smallest_distance(const hd_lattice *l, const hd_boundary boundary[HD_DIM])
+{
+    double least = INFINITY;
+    for (int k = 1; k < 27; k++) {
+        const int step[HD_DIM] = {k % 3, k / 3 % 3, k / 9};
+        if (is_site(l->kind, step[0], step[1], step[2]))
+            least = fmin(least, apart(l, step, boundary));
+    }
+    return least;
+}
+
+/** Every other point must meet its likes through the image. */
+static bool is_even(const hd_lattice *l, const hd_boundary boundary[HD_DIM])
+{
+    for (int d = 0; d < HD_DIM; d++)
+        if (l->kind != HD_LATTICE_SIMPLE && boundary[d] == HD_PERIODIC && l->size[d] % 2 != 0)
+            return false;
+    return true;
+}
+
+static void try_size(hd_lattice *best, int disks, int kind, const int size[HD_DIM],
+                     const double box[HD_DIM], const hd_boundary boundary[HD_DIM])
+{
+    hd_lattice l = {.kind = kind};
+    for (int d = 0; d < HD_DIM; d++) {
+        if (size[d] < 1) return;
+        l.size[d] = size[d];
+        l.spacing[d] = spacing(box[d], size[d], boundary[d]);
+    }
+    if (!is_even(&l, boundary) || site_count(kind, size) < disks) return;
+    l.distance = smallest_distance(&l, boundary);
+    if (l.distance > best->distance) *best = l;
+}
+
+/** Points of the finest grid whose spacing is not below `least`. */
+static void size_of(int size[HD_DIM], double least, const double box[HD_DIM],
+                    const hd_boundary boundary[HD_DIM])
+{
+    for (int d = 0; d < HD_DIM; d++) {
+        const double room = boundary[d] == HD_PERIODIC ? box[d] / least
+                                                       : (box[d] - 1.0) / least + 1;
+        size[d] = (int)fmax(1.0, fmin(floor(room), 4e6));
+    }
+}
+
+/** A spacing at which just enough sites of a kind fit. */
+static double spacing_of(int disks, int kind, const double box[HD_DIM],
+                         const hd_boundary boundary[HD_DIM])
+{
+    enum { BISECTIONS = 60 };
+    double low = 0.0, high = fmax(box[0], fmax(box[1], box[2]));
+    for (int k = 0; k < BISECTIONS; k++) {
+        const double middle = 0.5 * (low + high);
+        int size[HD_DIM];
+        size_of(size, middle, box, boundary);
+        const double sites = (double)size[0] * size[1] * size[2];
+        const bool enough = sites > 8.0 * disks || site_count(kind, size) >= disks;
+        *(enough ? &low : &high) = middle;
+    }
+    return low;
+}
+
+hd_lattice hd_lattice_best(int disks, const double box[HD_DIM], const hd_boundary boundary[HD_DIM])
+{
+    enum { AROUND = 3, WIDTH = 2 * AROUND + 1 }; /* points more or fewer along each direction */
+    hd_lattice best = {.distance = -1.0};
+    for (int kind = 0; kind < KINDS; kind++) {
+        int size[HD_DIM];
+        size_of(size, spacing_of(disks, kind, box, boundary), box, boundary);
+        for (int k = 0; k < WIDTH * WIDTH * WIDTH; k++) {
+            const int near[HD_DIM] = {size[0] + k % WIDTH - AROUND,
+                                      size[1] + k / WIDTH % WIDTH - AROUND,
+                                      size[2] + k / (WIDTH * WIDTH) - AROUND};
+            try_size(&best, disks, kind, near, box, boundary);
+        }
+    }
+    return best;
+}
+
+static void place(const hd_lattice *l, double q[HD_DIM], const int at[HD_DIM],
+                  const double box[HD_DIM], const hd_boundary boundary[HD_DIM])
+{
+    for (int d = 0; d < HD_DIM; d++) {
+        const bool periodic = boundary[d] == HD_PERIODIC;
+        const double along = (at[d] + (periodic ? 0.5 : 0.0)) * l->spacing[d];
+        q[d] = periodic ? along : fmin(0.5 + along, box[d] - 0.5); /* rounding of the last */
+    }
+}
+
+void hd_lattice_fill(const hd_lattice *l, double *q, int disks, const double box[HD_DIM],
+                     const hd_boundary boundary[HD_DIM])
+{
+    const int64_t sites = site_count(l->kind, l->size);
+    int64_t site = 0;
+    int at[HD_DIM];
+    for (at[2] = 0; at[2] < l->size[2]; at[2]++)
+        for (at[1] = 0; at[1] < l->size[1]; at[1]++)
+            for (at[0] = 0; at[0] < l->size[0]; at[0]++) {
+                if (!is_site(l->kind, at[0], at[1], at[2])) continue;
+                if (hd_site_is_spare(site++, sites, disks)) continue;
+                place(l, q, at, box, boundary);
+                q += HD_DIM;
+            }
+}
