@@ -67,7 +67,7 @@ struct hearing {
     /** Of the vector of LP(0,1). */
     void phase(double time, double a, double b)
     {
-        hdr_lp_phase phase = {1, 0, 1, 0.6, 0, 5, HDR_LP_PHASE_TRACKED, a, b, 0, 0, 0, 0, 0};
+        hdr_lp_phase phase = {1, 0, 1, 0, 0.6, 0, 5, HDR_LP_PHASE_TRACKED, a, b, 0, 0, 0, 0, 0};
         hdr_lp_phases phases = {};
         phases.run_id = "run", phases.phases = {&phase, 1}, phases.sim_time = time;
         heard_lp_phases(&h, &phases);

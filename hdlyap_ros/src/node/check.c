@@ -1,5 +1,6 @@
 /** Scene file -> is it valid, its memory, speed, bag and waves. Memory and speed are what the core
  * estimates; what a bag takes is what the rows of the topics say. */
+#include "common/dimension.h"
 #include "check.h"
 
 #include <math.h>
@@ -70,7 +71,7 @@ static void print_speed(const settings *set, const hd_estimate *t)
 {
     const hd_scene_def *def = &set->def;
     printf("speed     %.3g s per time unit, by a trial of a second", t->seconds);
-    if (t->disks < def->disks) printf(" of %d disks, and the cube of N", t->disks);
+    if (t->disks < def->disks) printf(" of %d " DISKS ", and the cube of N", t->disks);
     if (!isnan(t->interval)) printf("; interval %.3g", t->interval);
     if (def->observe & HD_OBSERVE_COVARIANT) printf("; without covariant vectors");
     printf("\n");
@@ -148,13 +149,15 @@ static void print_bag(const settings *set, const hd_estimate *t)
 static void print_waves(const settings *set)
 {
     const hd_scene_def *def = &set->def;
-    enum { SHOWN = 200 };
+    enum { SHOWN = 200, NODES_TEXT = 40 };
     hd_wave wave[SHOWN];
     const int count = hd_waves(def, wave, SHOWN), shown = count < SHOWN ? count : SHOWN;
     printf("waves    ");
     for (int k = 0; k < shown; k++) {
         const char *kinds = wave[k].transverse.count == 0 ? " LP" : " T,LP";
-        printf("%s(%d,%d)", wave[k].pairs.count == 0 ? " T" : kinds, wave[k].n[0], wave[k].n[1]);
+        char nodes[NODES_TEXT];
+        printf("%s%s", wave[k].pairs.count == 0 ? " T" : kinds,
+               nodes_text(nodes, sizeof nodes, &wave[k]));
     }
     if (count > shown) printf(" and %d more", count - shown);
     printf("\n");
@@ -189,8 +192,8 @@ static void print_all(const settings *set, const hd_estimate *t, hd_room room)
     const hd_scene_def *def = &set->def;
     char container[64];
     settings_write_container(container, sizeof container, def);
-    printf("scene     %s is valid: %d disks in %s, %d vectors\n", set->scene, def->disks, container,
-           hd_scene_vectors(def));
+    printf("scene     %s is valid: %d " DISKS " in %s, %d vectors\n", set->scene, def->disks,
+           container, hd_scene_vectors(def));
     print_memory(set, room);
     print_speed(set, t);
     print_bag(set, t);

@@ -1,5 +1,6 @@
 /** OK while it computes and there is nothing to say. ERROR: a fault has ended it, or what it says
  * or keeps is no longer right. WARN: the numbers are right, but not what was hoped for. */
+#include "common/dimension.h"
 #include "conditions.h"
 
 #include <inttypes.h>
@@ -33,7 +34,7 @@ static void add_errors(conditions *all, const worker_state *state)
     if (state->status != HD_OK) add(all, level, "%s", hd_status_text(state->status));
     if (state->checkpoint.failed) add(all, level, "%s", state->checkpoint.message);
     if (!(disks->overlap <= disks->overlap_max))
-        add(all, level, "disks overlap by %.2g, rounding explains %.2g", disks->overlap,
+        add(all, level, DISKS " overlap by %.2g, rounding explains %.2g", disks->overlap,
             disks->overlap_max);
     if (!(disks->energy_error <= disks->energy_error_max))
         add(all, level, "energy is off by %.2g, rounding explains %.2g", disks->energy_error,

@@ -6,6 +6,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "common/dimension.h"
 #include "check.h"
 #include "diagnostics.h"
 #include "hdlyap/follow.h"
@@ -117,8 +118,8 @@ static void log_creation(const hd_scene_def *def)
 {
     if (hd_room_check(def, hd_room_available(), NULL, 0) != HD_OK) return;
     const int vectors = hd_scene_carried(def);
-    if (4.0 * def->disks * vectors > ENTRIES_MANY)
-        hdr_log(HDR_INFO, "makes %d vectors of %d disks orthonormal", vectors, def->disks);
+    if ((double)HD_ROWS * def->disks * vectors > ENTRIES_MANY)
+        hdr_log(HDR_INFO, "makes %d vectors of %d " DISKS " orthonormal", vectors, def->disks);
 }
 
 /** A run whose checkpoints could not be written is not begun. */
@@ -175,7 +176,8 @@ static void log_start(const app *a)
     const hd_blas blas = hd_blas_query();
     char container[64];
     settings_write_container(container, sizeof container, def);
-    hdr_log(HDR_INFO, "scene %s: %d disks in %s, %d vectors, %d threads; %s, kernel %s, %d threads",
+    hdr_log(HDR_INFO,
+            "scene %s: %d " DISKS " in %s, %d vectors, %d threads; %s, kernel %s, %d threads",
             a->set.scene, def->disks, container, hd_run_vectors(a->run), hd_run_threads(a->run),
             blas.library, blas.kernel, blas.threads);
     warn_of_threads(a->run);

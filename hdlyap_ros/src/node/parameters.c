@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "common/dimension.h"
 #include "settings.h"
 #include "topics/topic.h"
 
@@ -11,13 +12,14 @@ static const parameter name_row = {
     .name = "scene",
     .kind = NAME,
     .offset = offsetof(settings, scene),
-    .usual = "paper_periodic",
+    .usual = USUAL_SCENE,
     .allowed = "a line that is not empty",
     .unit = "",
     .may_differ = true,
-    .text = "Name of the scene, copied into run_info. It must come with container, disks, density, "
-            "aspect or "
-            "a boundary: a name chooses no system. One without a name is unnamed.",
+    .text =
+        "Name of the scene, copied into run_info. It must come with dimensions, container, disks, "
+        "density, an aspect or a boundary: a name chooses no system. One without a name is "
+        "unnamed.",
 };
 
 static const parameter rows[] = {

@@ -39,20 +39,23 @@ static bool read_all(settings *out, reader *r)
 
 void settings_write_container(char *text, size_t size, const hd_scene_def *def)
 {
-    double box[2];
+    double box[HD_DIM];
     hd_scene_box(def, box);
     if (def->container == HD_CIRCLE)
         snprintf(text, size, "a circle of radius %.6g", 0.5 * box[0]);
-    else
+    else if (HD_DIM == 2)
         snprintf(text, size, "%.6g x %.6g", box[0], box[1]);
+    else
+        snprintf(text, size, "%.6g x %.6g x %.6g", box[0], box[1], box[HD_DIM - 1]);
 }
 
 /** A name chooses no system: it must come with the one that it names, and no system has the name of
  * the usual one but that itself. */
 static bool check_scene_name(settings *set, reader *r)
 {
-    static const char *const system[] = {"container", "disks",      "density",
-                                         "aspect",    "boundary_x", "boundary_y"};
+    static const char *const system[] = {"dimensions", "container",  "disks",
+                                         "density",    "aspect",     "aspect_z",
+                                         "boundary_x", "boundary_y", "boundary_z"};
     const parameter name = parameters_named("scene");
     bool given = false, usual = true;
     for (size_t k = 0; k < sizeof system / sizeof *system; k++) {
@@ -67,7 +70,7 @@ static bool check_scene_name(settings *set, reader *r)
     }
     return given || strcmp(set->scene, name.usual) == 0 ||
            reader_refuse(
-               r, "given with its container, disks, density, aspect, boundary_x or boundary_y: a "
+               r, "given with its dimensions, container, disks, density, aspects or boundaries: a "
                   "name chooses none of them, roslaunch hdlyap run.launch scene:=.. does");
 }
 

@@ -81,8 +81,7 @@ static void gather_weights(arrays *r, const hd_covariant *covariant)
         const hd_subspace *subspace = hd_fields_subspace(hd_modes_fields(dq), s);
         r->weight[k] = (hdr_covariant_weight){
             .kind = (uint8_t)subspace->kind,
-            .nx = (uint32_t)subspace->wave.n[0],
-            .ny = (uint32_t)subspace->wave.n[1],
+            NODES(subspace->wave),
             .wave_number = subspace->wave.number,
             .dimension = (uint32_t)subspace->dimension,
             .dq = message_array(hd_modes_average(dq, s, HD_WEIGHT), r->vectors, 1),

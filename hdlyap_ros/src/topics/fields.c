@@ -7,7 +7,7 @@
 
 enum { PAIRS_MAX = HD_MODULATIONS_MAX };
 
-/** Reconstructed modes of one step, pair by pair; arrays [pairs][2N]: x0 y0 x1 y1 .. */
+/** Reconstructed modes of one step, pair by pair; arrays [pairs][HD_DIM N]: x0 y0 x1 y1 .. */
 typedef struct pair_fields {
     uint32_t count;
     uint8_t modulation[PAIRS_MAX];
@@ -19,7 +19,7 @@ typedef struct pair_fields {
 static void reconstruct(pair_fields *pairs, const hd_run *run, const hd_step *step,
                         const double *momenta)
 {
-    const size_t length = 2 * (size_t)hd_run_scene(run)->disks;
+    const size_t length = HD_DIM * (size_t)hd_run_scene(run)->disks;
     const hd_modes *modes = hd_run_modes(run);
     hd_pmode *pmode = hd_run_pmode(run);
     if (!hd_pmode_reconstruct(pmode, step, modes, hd_run_frame_columns(run))) return;
@@ -38,12 +38,12 @@ static void reconstruct(pair_fields *pairs, const hd_run *run, const hd_step *st
     }
 }
 
-/** Component 0 .. 3 of a vector of the frame. */
+/** Component 0 .. HD_ROWS - 1 of a vector of the frame. */
 static hdr_doubles column_of(hd_columns frame, int col, int component, size_t disks)
 {
     const size_t stride = (size_t)frame.stride;
     return message_array(frame.data + (size_t)component * stride + (col - frame.first), disks,
-                         4 * stride);
+                         HD_ROWS * stride);
 }
 
 static void fill_vector(hdr_mode_field *message, const hd_run *run, int col, size_t disks)
@@ -51,18 +51,17 @@ static void fill_vector(hdr_mode_field *message, const hd_run *run, int col, siz
     const hd_columns frame = hd_run_frame_columns(run);
     message->index = (uint32_t)col + 1;
     message->exponent = hd_spectrum_exponent(hd_run_spectrum(run), col);
-    message->dqx = column_of(frame, col, 0, disks);
-    message->dqy = column_of(frame, col, 1, disks);
-    message->dpx = column_of(frame, col, 2, disks);
-    message->dpy = column_of(frame, col, 3, disks);
+    hdr_doubles *const component[] = {&message->dqx, &message->dqy,
+                                      OF_SPHERES(&message->dqz, ) & message->dpx, &message->dpy,
+                                      OF_SPHERES(&message->dpz)};
+    for (int k = 0; k < HD_ROWS; k++) *component[k] = column_of(frame, col, k, disks);
 }
 
 static void fill_step(hdr_mode_field *message, const hd_step *step)
 {
     if (!step) return;
     message->kind = (uint8_t)step->kind;
-    message->nx = (uint32_t)step->wave.n[0];
-    message->ny = (uint32_t)step->wave.n[1];
+    PUT_NODES(message, step->wave);
     message->wave_number = step->wave.number;
 }
 
@@ -74,12 +73,15 @@ static void fill_pairs(hdr_mode_field *message, const pair_fields *pairs, size_t
     message->residual_l = message_array(pairs->residual_l, pairs->count, 1);
     message->residual_p = message_array(pairs->residual_p, pairs->count, 1);
     message->rotation_distance = pairs->rotation_distance;
-    message->l_x = message_array(pairs->l, count, 2);
-    message->l_y = message_array(pairs->l + 1, count, 2);
-    message->p_x = message_array(pairs->p, count, 2);
-    message->p_y = message_array(pairs->p + 1, count, 2);
-    message->p_over_px = message_array(pairs->ratio, count, 2);
-    message->p_over_py = message_array(pairs->ratio + 1, count, 2);
+    message->l_x = COMPONENT(pairs->l, 0, count);
+    message->l_y = COMPONENT(pairs->l, 1, count);
+    message->p_x = COMPONENT(pairs->p, 0, count);
+    message->p_y = COMPONENT(pairs->p, 1, count);
+    message->p_over_px = COMPONENT(pairs->ratio, 0, count);
+    message->p_over_py = COMPONENT(pairs->ratio, 1, count);
+    OF_SPHERES(message->l_z = COMPONENT(pairs->l, 2, count);)
+    OF_SPHERES(message->p_z = COMPONENT(pairs->p, 2, count);)
+    OF_SPHERES(message->p_over_pz = COMPONENT(pairs->ratio, 2, count);)
 }
 
 static hd_status publish_vector(const moment *now, int col)
@@ -87,7 +89,7 @@ static hd_status publish_vector(const moment *now, int col)
     const hd_steps *steps = hd_run_steps(now->run);
     const int s = hd_steps_of_vector(steps, col);
     const hd_step *step = s < 0 ? NULL : hd_steps_step(steps, s);
-    const size_t disks = (size_t)now->set->def.disks, length = PAIRS_MAX * 2 * disks;
+    const size_t disks = (size_t)now->set->def.disks, length = PAIRS_MAX * HD_DIM * disks;
     const double *q, *p;
     now->room->taken = 0; /* for each anew */
     pair_fields pairs = {.l = moment_take(now, 3 * length, sizeof *pairs.l)};

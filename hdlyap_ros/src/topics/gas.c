@@ -1,6 +1,8 @@
 /** Averages of collisions and their virial -> Gas. */
 #include "topics/moment.h"
 
+#include <math.h>
+
 hd_status topic_publish_gas(const moment *now)
 {
     const hd_gas_means m = hd_gas_read(hd_run_gas(now->run));
@@ -15,6 +17,8 @@ hd_status topic_publish_gas(const moment *now)
         .pressure_x_error = m.pressure_of_error[0],
         .pressure_y = m.pressure_of[1],
         .pressure_y_error = m.pressure_of_error[1],
+        .pressure_z = HD_DIM == 3 ? m.pressure_of[HD_DIM - 1] : NAN,
+        .pressure_z_error = HD_DIM == 3 ? m.pressure_of_error[HD_DIM - 1] : -1.0,
         .compressibility = m.compressibility,
     };
     return m.time > 0.0 ? topic_send_gas(now->out, &message) : HD_OK;

@@ -8,11 +8,10 @@ static void fill_kind(hdr_mode *mode, const hd_modes *modes, const hd_step *step
 {
     const int col = (int)mode->index - 1;
     mode->kind = (uint8_t)step->kind;
-    mode->nx = (uint32_t)step->wave.n[0];
-    mode->ny = (uint32_t)step->wave.n[1];
+    PUT_NODES(mode, step->wave);
     mode->wave_number = step->wave.number;
     if (step->kind == HD_MODE_ZERO) {
-        mode->weight = mode->null_x + mode->null_y + mode->null_p;
+        mode->weight = mode->null_x + mode->null_y + mode->null_z + mode->null_p;
         for (int k = 0; k < HD_NULLS; k++)
             mode->weight_now += hd_modes_null_snapshot(modes, k)[col];
         return;
@@ -33,7 +32,8 @@ static hdr_mode mode_of(const hd_run *run, int col)
         .exponent = hd_spectrum_exponent(hd_run_spectrum(run), col),
         .null_x = hd_modes_null_average(modes, HD_NULL_X)[col],
         .null_y = hd_modes_null_average(modes, HD_NULL_Y)[col],
-        .null_p = hd_modes_null_average(modes, HD_NULL_P)[col],
+        OF_SPHERES(.null_z = hd_modes_null_average(modes, 2)[col], ).null_p = hd_modes_null_average(
+            modes, HD_NULL_P)[col],
         .step = s,
     };
     if (s >= 0) fill_kind(&mode, modes, hd_steps_step(hd_run_steps(run), s));

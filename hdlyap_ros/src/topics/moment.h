@@ -2,6 +2,7 @@
 #ifndef HDLYAP_MOMENT_H
 #define HDLYAP_MOMENT_H
 
+#include "common/dimension.h"
 #include "hdlyap/run.h"
 #include "node/changes.h"
 #include "node/settings.h"
@@ -66,10 +67,14 @@ static inline hdr_doubles message_array(const double *data, size_t count, size_t
     return (hdr_doubles){.data = data, .count = (uint32_t)count, .stride = (uint32_t)stride};
 }
 
+/** One component of all disks: of positions, say. */
+#define COMPONENT(of, d, disks) message_array((of) + (d), disks, HD_DIM)
+
 /** The fields of a message that has positions and momenta of all disks. */
 #define STATE_FIELDS(q, p, disks)                                                                  \
-    .x = message_array(q, disks, 2), .y = message_array(q + 1, disks, 2),                          \
-    .px = message_array(p, disks, 2), .py = message_array(p + 1, disks, 2)
+    OF_SPHERES(.z = COMPONENT(q, 2, disks), .pz = COMPONENT(p, 2, disks), )                        \
+        .x = COMPONENT(q, 0, disks),                                                               \
+       .y = COMPONENT(q, 1, disks), .px = COMPONENT(p, 0, disks), .py = COMPONENT(p, 1, disks)
 
 /** Sends a topic's messages by topic_send_name, if there is something to say. HD_NOT_FINITE. */
 #define TOPIC(name, ...) HD_MUST_CHECK hd_status topic_publish_##name(const moment *now);

@@ -4,6 +4,7 @@
 
 #include <math.h>
 
+#include "common/dimension.h"
 #include "hdlyap/run.h"
 
 /** Simulated time of the phases. */
@@ -44,8 +45,7 @@ static inline double phase_time(const hd_phase *phase)
 
 /** The fields that both messages have. */
 #define PHASE_FIELDS(phase_of, step_of)                                                            \
-    .step = (uint32_t)phase_of->step, .nx = (uint32_t)step_of->wave.n[0],                          \
-    .ny = (uint32_t)step_of->wave.n[1], .wave_number = step_of->wave.number,                       \
+    .step = (uint32_t)phase_of->step, NODES(step_of->wave), .wave_number = step_of->wave.number,   \
     .modulation = phase_of->modulation, .index = phase_index(phase_of),                            \
     .state = (uint8_t)phase_of->state, .a = phase_of->a, .b = phase_of->b,                         \
     .phase = phase_angle(phase_of), .omega = phase_of->omega,                                      \

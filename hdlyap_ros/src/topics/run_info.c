@@ -26,15 +26,16 @@ static bool fill_waves(hdr_run_info *info, const moment *now)
     const hd_scene_def *def = &now->set->def;
     const uint32_t count = def->observe & HD_OBSERVE_WAVES ? (uint32_t)hd_waves(def, NULL, 0) : 0;
     hd_wave *waves = moment_take(now, count, sizeof *waves);
-    uint32_t *nodes = moment_take(now, 2 * (size_t)count, sizeof *nodes);
+    uint32_t *nodes = moment_take(now, 3 * (size_t)count, sizeof *nodes);
     if (!waves || !nodes) return false;
     hd_waves(def, waves, (int)count);
     for (uint32_t k = 0; k < count; k++) {
-        nodes[k] = (uint32_t)waves[k].n[0];
-        nodes[count + k] = (uint32_t)waves[k].n[1];
+        for (uint32_t d = 0; d < 3; d++)
+            nodes[d * count + k] = d < HD_DIM ? (uint32_t)waves[k].n[d] : 0;
     }
     info->wave_nx = (hdr_uints){nodes, count};
     info->wave_ny = (hdr_uints){nodes + count, count};
+    info->wave_nz = (hdr_uints){nodes + 2 * (size_t)count, count};
     return true;
 }
 
@@ -57,11 +58,13 @@ static void fill_scene(hdr_run_info *info, const settings *set)
 {
     const hd_scene_def *def = &set->def;
     const bool is_circle = def->container == HD_CIRCLE;
-    double box[2];
+    double box[HD_DIM];
     hd_scene_box(def, box);
     info->scene = set->scene;
     info->box_x = box[0];
     info->box_y = box[1];
+    OF_SPHERES(info->box_z = box[2];)
+    OF_SPHERES(info->boundary_z = word_of("boundary_z", def);)
     info->container = word_of("container", def);
     info->boundary_x = is_circle ? "curved" : word_of("boundary_x", def);
     info->boundary_y = is_circle ? "curved" : word_of("boundary_y", def);

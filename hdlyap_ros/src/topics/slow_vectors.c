@@ -17,9 +17,9 @@ static const double early = 0.5;
 /** What is said of each vector, [vectors] each unless said otherwise. */
 typedef struct vector_arrays {
     double *exponents, *a, *b; /**< [vectors], [PAIRS_MAX * vectors] twice */
-    uint32_t *nx, *ny;
+    uint32_t *nodes[HD_DIM];   /**< nx, ny, .. */
     uint8_t *kind, *pairs;
-    double *dq; /**< dqx of all vectors, then dqy */
+    double *dq; /**< dqx of all vectors, then dqy, .. */
 } vector_arrays;
 
 /** False without memory. */
@@ -27,13 +27,13 @@ static bool arrays_take(vector_arrays *of, const moment *now, size_t count, size
 {
     const size_t disks = (size_t)now->set->def.disks;
     of->exponents = moment_take(now, (1 + 2 * PAIRS_MAX) * count, sizeof *of->exponents);
-    of->nx = moment_take(now, 2 * count, sizeof *of->nx);
+    of->nodes[0] = moment_take(now, HD_DIM * count, sizeof *of->nodes[0]);
     of->kind = moment_take(now, 2 * count, sizeof *of->kind);
-    of->dq = moment_take(now, 2 * disks * known, sizeof *of->dq);
-    if (!of->exponents || !of->nx || !of->kind || !of->dq) return false;
+    of->dq = moment_take(now, HD_DIM * disks * known, sizeof *of->dq);
+    if (!of->exponents || !of->nodes[0] || !of->kind || !of->dq) return false;
     of->a = of->exponents + count;
     of->b = of->a + PAIRS_MAX * count;
-    of->ny = of->nx + count;
+    for (int d = 1; d < HD_DIM; d++) of->nodes[d] = of->nodes[d - 1] + count;
     of->pairs = of->kind + count;
     return true;
 }
@@ -95,8 +95,7 @@ static void fill_step(vector_arrays *of, int k, const hd_run *run, int col, bool
     const hd_step *step = s < 0 ? NULL : hd_steps_step(hd_run_steps(run), s);
     const hd_modes *modes = hd_run_modes(run);
     of->kind[k] = (uint8_t)(step ? step->kind : HD_MODE_NONE);
-    of->nx[k] = step ? (uint32_t)step->wave.n[0] : 0;
-    of->ny[k] = step ? (uint32_t)step->wave.n[1] : 0;
+    for (int d = 0; d < HD_DIM; d++) of->nodes[d][k] = step ? (uint32_t)step->wave.n[d] : 0;
     of->pairs[k] = 0;
     for (int c = 0; c < PAIRS_MAX; c++) of->a[PAIRS_MAX * k + c] = of->b[PAIRS_MAX * k + c] = 0.0;
     if (!known || !step || step->kind != HD_MODE_LP) return;
@@ -114,11 +113,10 @@ static void fill_dq(vector_arrays *of, hd_columns known, int first, size_t vecto
 {
     const size_t stride = (size_t)known.stride;
     for (size_t j = 0; j < disks; j++) {
-        const double *row = known.data + 4 * j * stride + (size_t)(first - known.first);
-        for (size_t k = 0; k < vectors; k++) {
-            of->dq[k * disks + j] = row[k];
-            of->dq[(vectors + k) * disks + j] = row[stride + k];
-        }
+        const double *row = known.data + HD_ROWS * j * stride + (size_t)(first - known.first);
+        for (size_t d = 0; d < HD_DIM; d++)
+            for (size_t k = 0; k < vectors; k++)
+                of->dq[(d * vectors + k) * disks + j] = row[d * stride + k];
     }
 }
 
@@ -142,13 +140,15 @@ static bool fill_vectors(hdr_slow_vectors *message, const moment *now)
     message->vectors = (uint32_t)count;
     message->exponents = message_array(of.exponents, count, 1);
     message->kind = (hdr_bytes){of.kind, (uint32_t)count};
-    message->nx = (hdr_uints){of.nx, (uint32_t)count};
-    message->ny = (hdr_uints){of.ny, (uint32_t)count};
+    message->nx = (hdr_uints){of.nodes[0], (uint32_t)count};
+    message->ny = (hdr_uints){of.nodes[1], (uint32_t)count};
+    OF_SPHERES(message->nz = (hdr_uints){of.nodes[2], (uint32_t)count};)
     message->pairs = (hdr_bytes){of.pairs, (uint32_t)count};
     message->a = message_array(of.a, PAIRS_MAX * count, 1);
     message->b = message_array(of.b, PAIRS_MAX * count, 1);
     message->dqx = message_array(of.dq, numbers, 1);
     message->dqy = message_array(of.dq + numbers, numbers, 1);
+    OF_SPHERES(message->dqz = message_array(of.dq + 2 * numbers, numbers, 1);)
     return true;
 }
 

@@ -12,8 +12,7 @@ static hdr_step step_of(const hd_steps *steps, int s)
     const hd_step *step = hd_steps_step(steps, s);
     hdr_step out = {
         .kind = (uint8_t)step->kind,
-        .nx = (uint32_t)step->wave.n[0],
-        .ny = (uint32_t)step->wave.n[1],
+        NODES(step->wave),
         .wave_number = step->wave.number,
         .conjugate = step->conjugate,
         .resolved = step->resolved,
