@@ -1,0 +1,202 @@
+#!/usr/bin/env python3
+"""A run of hard spheres: what a subscriber gets of z, and its fields made again in numpy."""
+
+import itertools
+
+import numpy as np
+
+import harness
+from hdlyap.msg import Mode
+
+TOPICS = ['run_info', 'spectrum', 'modes', 'steps', 'lp_phases', 't_phases', 'fields', 'gas']
+TOPICS += ['state', 'covariant']
+SCENE = dict(dimensions=3, disks=128, density=0.5, aspect=0.25, aspect_z=0.3, equilibration=10.0)
+SCENE.update(scene='balls', warmup=20.0, duration=70.0, report_interval=5.0, max_mode_number=2)
+SCENE.update(boundary_y='reflecting', observables=TOPICS[1:], seed='3', covariant_window=20.0)
+SCENE.update(covariant_transient=20.0, exponents='all')
+ROUNDING = 1e-7
+VECTOR = 'dqx', 'dqy', 'dqz', 'dpx', 'dpy', 'dpz'
+
+
+def of(message, *names):
+    """[names, disks]"""
+    return np.array([getattr(message, name) for name in names])
+
+
+def nodes(message):
+    return message.nx, message.ny, message.nz
+
+
+class Spheres(harness.Case):
+    @classmethod
+    def setUpClass(cls):
+        cls.messages = harness.whole_run(dict(SCENE, wait_for_subscribers=TOPICS), TOPICS)
+        cls.info = cls.messages['run_info'][-1]
+        cls.box = of(cls.info, 'box_x', 'box_y', 'box_z')
+
+    def coordinate(self, field, d):
+        """Wave number and coordinate along d, from where it is counted."""
+        q, n = of(field, 'x', 'y', 'z')[d], nodes(field)[d]
+        walls = self.boundaries()[d] == 'reflecting'
+        k = np.pi * n / (self.box[d] - 1) if walls else 2 * np.pi * n / self.box[d]
+        return k, q - 0.5 * walls
+
+    def factor(self, field, d, sine, derived=0):
+        """cos k u or sin k u of one coordinate, or its derivative over k."""
+        k, u = self.coordinate(field, d)
+        return np.cos(k * u - np.pi / 2 * sine + np.pi / 2 * derived)
+
+    def gradients(self, field):
+        """For each modulation A: A, and its derivatives over k, or A where k = 0; [disks] each."""
+        free = [
+            range(2) if n and wall != 'reflecting' else [0]
+            for n, wall in zip(
+                nodes(field), of(self.info, 'boundary_x', 'boundary_y', 'boundary_z')
+            )
+        ]
+        for sines in itertools.product(*free):
+            parts = [self.factor(field, d, sines[d]) for d in range(3)]
+            along = []
+            for d in range(3):
+                derived = list(parts)
+                if nodes(field)[d]:
+                    derived[d] = self.factor(field, d, sines[d], 1)
+                along.append(np.prod(derived, axis=0))
+            yield np.prod(parts, axis=0), np.array(along)
+
+    def basis(self, field):
+        """Its subspace, [fields, 3, disks]: of T by an SVD, all e that walls allow."""
+        k = np.array([self.coordinate(field, d)[0] for d in range(3)])
+        if field.kind == Mode.LP:
+            momenta = of(field, 'px', 'py', 'pz')
+            pairs = [(k[:, None] * s, momenta * a) for a, s in self.gradients(field)]
+            return [part for pair in pairs for part in pair]
+        walls = [n == 0 and b == 'reflecting' for n, b in zip(nodes(field), self.boundaries())]
+        forbidden = [np.eye(3)[d] for d in range(3) if walls[d]]
+        _, _, across = np.linalg.svd(np.array([k, *forbidden]))
+        chosen = across[1 + len(forbidden) :]
+        return [e[:, None] * s for _, s in self.gradients(field) for e in chosen]
+
+    def boundaries(self):
+        return of(self.info, 'boundary_x', 'boundary_y', 'boundary_z')
+
+    def test_what_draws_it(self):
+        info, edge = self.info, np.cbrt(128 / (0.5 * 0.25 * 0.3))
+        np.testing.assert_allclose(self.box, [edge, 0.25 * edge, 0.3 * edge], rtol=1e-14)
+        self.assertEqual((info.dimensions, info.aspect_z, info.container), (3, 0.3, 'rectangle'))
+        self.assertEqual(list(self.boundaries()), ['periodic', 'reflecting', 'periodic'])
+        self.assertEqual((info.zero_exponents, info.vectors), (6, 6 * 128))
+        self.assertEqual(len(info.wave_nz), len(info.wave_nx))
+        self.assertGreater(max(info.wave_nz), 0)
+        for state in self.messages['state']:
+            q, p = of(state, 'x', 'y', 'z'), of(state, 'px', 'py', 'pz')
+            self.assertEqual(q.shape, (3, 128))
+            self.assertTrue(((q >= 0) & (q <= self.box[:, None])).all())
+            self.assertTrue((abs(q[1] - self.box[1] / 2) <= self.box[1] / 2 - 0.5 + 1e-12).all())
+            self.assertAlmostEqual(np.sum(p**2) / 2, 128.0, places=9)
+            np.testing.assert_allclose(p.sum(axis=1)[[0, 2]], 0.0, atol=1e-10)
+            self.assertGreaterEqual(self.nearest(q), 1.0 - 1e-9)
+
+    def nearest(self, q):
+        apart = q[:, :, None] - q[:, None, :]
+        for d in (0, 2):
+            apart[d] -= self.box[d] * np.round(apart[d] / self.box[d])
+        distance = np.sqrt(np.sum(apart**2, axis=0)) + 9.0 * np.eye(q.shape[1])
+        return distance.min()
+
+    def test_steps(self):
+        steps = self.messages['steps'][-1].steps
+        named = {(s.kind, nodes(s)): s for s in steps if s.kind != Mode.ZERO and not s.conjugate}
+        lp, t = named[Mode.LP, (1, 0, 0)], named[Mode.T, (1, 0, 0)]
+        # of T along z alone: y would go through the walls
+        self.assertEqual((lp.expected, t.expected, t.resolved, lp.resolved), (4, 2, True, True))
+        self.assertEqual((t.first_index, lp.first_index), (380, 376))
+        self.assertEqual(
+            (named[Mode.T, (1, 1, 0)].expected, named[Mode.T, (1, 0, 1)].expected), (4, 4)
+        )
+        self.assertEqual(
+            (named[Mode.LP, (0, 1, 1)].expected, named[Mode.T, (0, 1, 1)].expected), (4, 4)
+        )
+        self.assertAlmostEqual(lp.wave_number * self.box[0], 2 * np.pi, places=12)
+        phases = self.messages['lp_phases'][-1].phases
+        self.assertTrue({nodes(phase) for phase in phases} <= {key[1] for key in named})
+        self.assertTrue(self.messages['t_phases'][-1].phases)
+
+    def test_weights(self):
+        """By least squares on the fields, of all vectors of the same time."""
+        modes = {message.sim_time: message.modes for message in self.messages['modes']}
+        kinds = set()
+        for field in self.messages['fields']:
+            vector = of(field, *VECTOR)
+            self.assertAlmostEqual(np.sum(vector**2), 1.0, delta=ROUNDING)
+            if field.kind not in (Mode.T, Mode.LP) or field.sim_time not in modes:
+                continue
+            basis = np.array([part.ravel() for part in self.basis(field)]).T
+            basis, dq = basis / np.linalg.norm(basis, axis=0), vector[:3].ravel()
+            dq /= np.linalg.norm(dq)
+            found = basis @ np.linalg.lstsq(basis, dq, rcond=None)[0]
+            mode = modes[field.sim_time][field.index - 1]
+            self.assertEqual(nodes(mode), nodes(field))
+            self.assertAlmostEqual(np.sum(found**2), mode.weight_now, delta=ROUNDING)
+            kinds.add((field.kind, nodes(field)))
+        self.assertLessEqual({(Mode.T, (1, 0, 0)), (Mode.LP, (1, 0, 0))}, kinds)
+
+    def test_null_space(self):
+        """In its middle the vectors lie in it, as far as they have had the time to."""
+        zero = [m for m in self.messages['modes'][-1].modes if m.kind == Mode.ZERO]
+        self.assertEqual([m.index for m in zero], list(range(382, 388)))
+        for m in zero:
+            self.assertAlmostEqual(m.null_x + m.null_z + m.null_p, 1.0, delta=0.05)
+            self.assertEqual(m.null_y, 0.0)
+        self.assertGreater(max(m.null_z for m in zero), 0.2)
+
+    def test_reconstructed_modes(self):
+        for field in self.messages['fields']:
+            if not field.pairs:
+                continue
+            rows = of(field, 'l_x', 'l_y', 'l_z').reshape(3, field.pairs, -1)
+            norms = np.sqrt(np.sum(rows**2, axis=(0, 2)))
+            np.testing.assert_allclose(norms**2, 1 - np.array(field.residual_l) ** 2, atol=1e-6)
+            self.assertEqual(len(field.p_z), len(field.p_over_pz))
+            return
+        self.fail('no LP step of its own')
+
+    def test_gas(self):
+        gas = self.messages['gas'][-1]
+        each = of(gas, 'pressure_x', 'pressure_y', 'pressure_z')
+        volume = self.box[0] * (self.box[1] - 1) * self.box[2]
+        self.assertAlmostEqual(gas.pressure, each.mean(), places=12)
+        self.assertAlmostEqual(gas.compressibility, 1.5 * gas.pressure * volume / 128, places=9)
+        self.assertTrue((of(gas, 'pressure_x_error', 'pressure_z_error') != 0).all())
+
+    def test_covariant(self):
+        last = self.messages['covariant'][-1]
+        self.assertEqual(len(last.exponents), 6 * 128)
+        self.assertIn((0, 1, 1), {nodes(weight) for weight in last.weights})
+        local = np.array(last.exponents) + np.array(last.exponents)[::-1]
+        self.assertLess(abs(local).max(), 0.2)
+
+
+class Refused(harness.Case):
+    def test_by_name(self):
+        for dimensions, given, word in (
+            (2, dict(dimensions=3), 'dimensions = 3: must be 2: disks; hdlyap_node_3d'),
+            (3, dict(dimensions=2), 'dimensions = 2: must be 3: spheres; hdlyap_node'),
+            (2, dict(aspect_z=0.5), 'aspect_z = 0.5: must not be given with dimensions = 2'),
+            (3, dict(container='circle'), 'container = circle: must be rectangle (a box)'),
+            (3, dict(density=1.5), 'density = 1.5: must be from 1e-6 to sqrt(2)'),
+            (
+                3,
+                dict(observables=['hydro']),
+                'observables = [hydro]: must be a list out of spectrum',
+            ),
+        ):
+            program = harness.executable(dict(dimensions=dimensions))
+            node = harness.start(given, command=[program])
+            self.addCleanup(node.stop)
+            self.assertEqual(node.wait(), 2, node.text())
+            self.assertIn(word, node.text())
+
+
+if __name__ == '__main__':
+    harness.main('spheres')
