@@ -9,12 +9,13 @@ import harness
 from hdlyap.msg import Mode
 
 TOPICS = ['run_info', 'spectrum', 'modes', 'steps', 'lp_phases', 't_phases', 'fields', 'gas']
-TOPICS += ['state', 'covariant']
+TOPICS += ['state', 'covariant', 'hydro']
 SCENE = dict(dimensions=3, disks=128, density=0.5, aspect=0.25, aspect_z=0.3, equilibration=10.0)
 SCENE.update(scene='balls', warmup=20.0, duration=70.0, report_interval=5.0, max_mode_number=2)
 SCENE.update(boundary_y='reflecting', observables=TOPICS[1:], seed='3', covariant_window=20.0)
 SCENE.update(covariant_transient=20.0, exponents='all')
 ROUNDING = 1e-7
+SLOPE = 1e-4  # of central differences
 VECTOR = 'dqx', 'dqy', 'dqz', 'dpx', 'dpy', 'dpz'
 
 
@@ -34,19 +35,20 @@ class Spheres(harness.Case):
         cls.info = cls.messages['run_info'][-1]
         cls.box = of(cls.info, 'box_x', 'box_y', 'box_z')
 
-    def coordinate(self, field, d):
-        """Wave number and coordinate along d, from where it is counted."""
-        q, n = of(field, 'x', 'y', 'z')[d], nodes(field)[d]
+    def coordinate(self, field, d, moved=0.0):
+        """Wave number and coordinate along d, from where it is counted; of disks moved along dq."""
+        n = nodes(field)[d]
+        q = of(field, 'x', 'y', 'z')[d] + moved * of(field, *VECTOR)[d]
         walls = self.boundaries()[d] == 'reflecting'
         k = np.pi * n / (self.box[d] - 1) if walls else 2 * np.pi * n / self.box[d]
         return k, q - 0.5 * walls
 
-    def factor(self, field, d, sine, derived=0):
+    def factor(self, field, d, sine, derived=0, moved=0.0):
         """cos k u or sin k u of one coordinate, or its derivative over k."""
-        k, u = self.coordinate(field, d)
+        k, u = self.coordinate(field, d, moved)
         return np.cos(k * u - np.pi / 2 * sine + np.pi / 2 * derived)
 
-    def gradients(self, field):
+    def gradients(self, field, moved=0.0):
         """For each modulation A: A, and its derivatives over k, or A where k = 0; [disks] each."""
         free = [
             range(2) if n and wall != 'reflecting' else [0]
@@ -55,12 +57,12 @@ class Spheres(harness.Case):
             )
         ]
         for sines in itertools.product(*free):
-            parts = [self.factor(field, d, sines[d]) for d in range(3)]
+            parts = [self.factor(field, d, sines[d], 0, moved) for d in range(3)]
             along = []
             for d in range(3):
                 derived = list(parts)
                 if nodes(field)[d]:
-                    derived[d] = self.factor(field, d, sines[d], 1)
+                    derived[d] = self.factor(field, d, sines[d], 1, moved)
                 along.append(np.prod(derived, axis=0))
             yield np.prod(parts, axis=0), np.array(along)
 
@@ -71,11 +73,23 @@ class Spheres(harness.Case):
             momenta = of(field, 'px', 'py', 'pz')
             pairs = [(k[:, None] * s, momenta * a) for a, s in self.gradients(field)]
             return [part for pair in pairs for part in pair]
+        return [e[:, None] * s for _, s in self.gradients(field) for e in self.across(field, k)]
+
+    def across(self, field, k):
+        """Unit vectors across k, and across walls without nodes."""
         walls = [n == 0 and b == 'reflecting' for n, b in zip(nodes(field), self.boundaries())]
         forbidden = [np.eye(3)[d] for d in range(3) if walls[d]]
         _, _, across = np.linalg.svd(np.array([k, *forbidden]))
-        chosen = across[1 + len(forbidden) :]
-        return [e[:, None] * s for _, s in self.gradients(field) for e in chosen]
+        return across[1 + len(forbidden) :]
+
+    def sums(self, field, moved):
+        """Of each modulation: density and momentum along k, over k; energy; momentum across k."""
+        k = np.array([self.coordinate(field, d)[0] for d in range(3)])
+        p = of(field, 'px', 'py', 'pz') + moved * of(field, *VECTOR[3:])
+        for a, s in self.gradients(field, moved):
+            along, *others = (np.sum(p * e[:, None] * s) for e in (k, *self.across(field, k)))
+            size = np.linalg.norm(k)
+            yield np.array([a.sum() / size, along / size, np.sum(p**2 * a), *others])
 
     def boundaries(self):
         return of(self.info, 'boundary_x', 'boundary_y', 'boundary_z')
@@ -161,6 +175,25 @@ class Spheres(harness.Case):
             return
         self.fail('no LP step of its own')
 
+    def test_response(self):
+        """Of each published vector by differences of the sums themselves."""
+        hydro = {message.sim_time: message.responses for message in self.messages['hydro']}
+        kinds = set()
+        for field in self.messages['fields']:
+            if field.kind not in (Mode.T, Mode.LP) or field.sim_time not in hydro:
+                continue
+            of_it = [r for r in hydro[field.sim_time] if r.index == field.index]
+            of_it.sort(key=lambda r: [r.modulation >> d & 1 for d in range(3)])
+            pairs = zip(self.sums(field, SLOPE), self.sums(field, -SLOPE))
+            wanted = [(up - down) / (2 * SLOPE * np.sqrt(128 / 2)) for up, down in pairs]
+            self.assertEqual(len(of_it), len(wanted))
+            for r, (density, along, energy, *across) in zip(of_it, wanted):
+                got = [r.density, r.along, r.energy, np.hypot(r.across, r.across_second)]
+                want = [density, along, energy, np.linalg.norm(across)]
+                np.testing.assert_allclose(got, want, atol=1e-6)
+                kinds.add(field.kind)
+        self.assertEqual(kinds, {Mode.T, Mode.LP})
+
     def test_gas(self):
         gas = self.messages['gas'][-1]
         each = of(gas, 'pressure_x', 'pressure_y', 'pressure_z')
@@ -185,11 +218,7 @@ class Refused(harness.Case):
             (2, dict(aspect_z=0.5), 'aspect_z = 0.5: must not be given with dimensions = 2'),
             (3, dict(container='circle'), 'container = circle: must be rectangle (a box)'),
             (3, dict(density=1.5), 'density = 1.5: must be from 1e-6 to sqrt(2)'),
-            (
-                3,
-                dict(observables=['hydro']),
-                'observables = [hydro]: must be a list out of spectrum',
-            ),
+            (3, dict(observables=['structure']), '= [structure]: must be a list out of spectrum'),
         ):
             program = harness.executable(dict(dimensions=dimensions))
             node = harness.start(given, command=[program])

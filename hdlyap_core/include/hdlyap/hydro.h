@@ -12,11 +12,13 @@ extern "C" {
 /** Response of sums over the disks to one normalised vector (|dq|^2 + |dp|^2 = 1), at one
  * modulation A of its step's wave vector, over sqrt(N/2): density, of sum A, over k; momentum
  * along, of sum p.grad A, over k, and across, of sum p.curl A', over k, A' being A with sines along
- * reflecting directions (0 where n is 0 there); energy, of sum p^2 A. */
+ * reflecting directions (0 where n is 0 there), of spheres of sum p.F of both transverse fields F
+ * of A [T22], of unit e; energy, of sum p^2 A. */
 typedef struct hd_hydro_response {
     int step, col;
     unsigned char modulation; /**< HD_SIN_X | HD_SIN_Y */
     double density, along, across, energy;
+    double across_second; /**< of spheres, else 0 */
 } hd_hydro_response;
 
 typedef struct hd_hydro hd_hydro;
@@ -26,7 +28,7 @@ HD_MUST_CHECK hd_status hd_hydro_create(hd_hydro **out, const hd_scene_def *def,
 void hd_hydro_free(hd_hydro *hydro);
 
 /** Responses of the vectors that belong to a resolved step (hd_steps_of_vector), in the state
- * q[2N], p[2N]. */
+ * q[HD_DIM N], p[HD_DIM N]. */
 void hd_hydro_measure(hd_hydro *hydro, const hd_steps *steps, hd_columns vectors, const double *q,
                       const double *p);
 

@@ -149,8 +149,7 @@ const hd_phases *hd_run_phases(const hd_run *run);   /**< of the LP steps */
 const hd_phases *hd_run_t_phases(const hd_run *run); /**< NULL unless observed */
 const hd_structure *
 hd_run_structure(const hd_run *run); /**< NULL unless observed; of disks alone */
-/** NULL unless observed; of disks alone. Responses are those of the last report while averages are
- * taken. */
+/** NULL unless observed. Responses are those of the last report while averages are taken. */
 const hd_hydro *hd_run_hydro(const hd_run *run);
 /** NULL unless fields are observed: for whoever reconstructs modes of hd_run_frame_columns where
  * they are due. */

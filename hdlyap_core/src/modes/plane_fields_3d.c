@@ -5,30 +5,7 @@
  * field. */
 #include "modes/plane_fields.h"
 
-#include <math.h>
-#include <string.h>
-
-static void cross(double out[HD_DIM], const double a[HD_DIM], const double b[HD_DIM])
-{
-    for (int d = 0; d < HD_DIM; d++)
-        out[d] = a[(d + 1) % 3] * b[(d + 2) % 3] - a[(d + 2) % 3] * b[(d + 1) % 3];
-}
-
-static double length_of(const double a[HD_DIM]) { return hypot(hypot(a[0], a[1]), a[2]); }
-
-/** Unit vectors across k: the first one in the plane across `axis`, along x if k is along it. */
-static void across(double e[2][HD_DIM], const double k[HD_DIM], int axis)
-{
-    const double unit[HD_DIM] = {axis == 0, axis == 1, axis == 2},
-                 along_x[HD_DIM] = {1.0, 0.0, 0.0};
-    cross(e[0], unit, k);
-    if (length_of(e[0]) == 0) memcpy(e[0], along_x, sizeof along_x);
-    cross(e[1], k, e[0]);
-    for (int field = 0; field < 2; field++) {
-        const double length = length_of(e[field]);
-        for (int d = 0; d < HD_DIM; d++) e[field][d] /= length;
-    }
-}
+#include "modes/polarisation.h"
 
 /** A, and s. */
 static double products(double s[HD_DIM], const hd_wave *wave, const hd_harmonics along[HD_DIM],
@@ -49,10 +26,9 @@ static void fill_transverse(double *const row[HD_DIM], const hd_subspace *s,
                             const hd_harmonics along[HD_DIM])
 {
     double e[2][HD_DIM], product[HD_DIM];
-    int axis = HD_DIM - 1;
-    for (int d = 0; d < HD_DIM; d++) /* nothing goes through a wall */
-        if (s->wave.n[d] == 0 && along[d].offset > 0) axis = d;
-    across(e, s->wave.k, axis);
+    unsigned walls = 0;
+    for (int d = 0; d < HD_DIM; d++) walls |= (unsigned)(along[d].offset > 0) << d;
+    hd_polarisations(e, &s->wave, walls);
     for (int c = 0; c < s->modulations.count; c++) {
         const unsigned bits = s->modulations.bits[c];
         products(product, &s->wave, along, bits & (HD_SECOND - 1));

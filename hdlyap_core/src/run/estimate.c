@@ -55,8 +55,8 @@ hd_extent hd_extent_of(const hd_scene_def *def, const hd_run *run)
     hd_extent e = {.disks = def->disks, .vectors = hd_scene_vectors(def)};
 #if HD_DIM == 2
     if (def->observe & HD_OBSERVE_STRUCTURE) e.waves = hd_structure_waves_of(def);
-    if (hd_run_hydro(run)) e.responses = hd_hydro_count(hd_run_hydro(run));
 #endif
+    if (hd_run_hydro(run)) e.responses = hd_hydro_count(hd_run_hydro(run));
     if (def->observe & HD_OBSERVE_COVARIANT) {
         e.subspaces = subspaces_of(def);
         if (e.vectors > known) e.angles = HD_PAIRS_OF_SPACES;

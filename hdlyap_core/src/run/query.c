@@ -30,8 +30,8 @@ const hd_phases *hd_run_phases(const hd_run *run) { return part(run, HD_OBSERVED
 const hd_phases *hd_run_t_phases(const hd_run *run) { return part(run, HD_OBSERVED_t_phases); }
 #if HD_DIM == 2
 const hd_structure *hd_run_structure(const hd_run *run) { return part(run, HD_OBSERVED_structure); }
-const hd_hydro *hd_run_hydro(const hd_run *run) { return part(run, HD_OBSERVED_hydro); }
 #endif
+const hd_hydro *hd_run_hydro(const hd_run *run) { return part(run, HD_OBSERVED_hydro); }
 hd_pmode *hd_run_pmode(const hd_run *run) { return part(run, HD_OBSERVED_fields); }
 const hd_gas *hd_run_gas(const hd_run *run) { return part(run, HD_OBSERVED_gas); }
 hd_localization *hd_run_localization(const hd_run *run)

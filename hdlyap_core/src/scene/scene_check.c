@@ -48,17 +48,16 @@ static hd_status check_ranges(const hd_scene_def *def, bool covariant, char *mes
 static hd_status check_dimensions(const hd_scene_def *def, char *message, size_t size)
 {
     const hd_scene_def usual = hd_scene_def_default();
-    const unsigned flat = HD_OBSERVE_HYDRO | HD_OBSERVE_STRUCTURE;
     if (HD_DIM == 2 && def->aspect_z != usual.aspect_z)
         return hd_refuse(message, size, "aspect_z = %.15g: must not be given with dimensions = 2",
                          def->aspect_z);
     if (HD_DIM == 2 && def->boundary[2] != usual.boundary[2])
         return hd_refuse(message, size,
                          "boundary_z = reflecting: must not be given with dimensions = 2");
-    if (HD_DIM == 3 && def->observe & flat)
+    if (HD_DIM == 3 && def->observe & HD_OBSERVE_STRUCTURE)
         return hd_refuse(message, size,
-                         "observables = %s: must not be given with dimensions = 3: it is of disks",
-                         def->observe & HD_OBSERVE_HYDRO ? "hydro" : "structure");
+                         "observables = structure: must not be given with dimensions = 3: it is of "
+                         "disks");
     return HD_OK;
 }
 

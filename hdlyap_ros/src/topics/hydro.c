@@ -14,6 +14,7 @@ static hdr_hydro_mode mode_of(const hd_hydro_response *response, const hd_steps 
         .density = response->density,
         .along = response->along,
         .across = response->across,
+        .across_second = response->across_second,
         .energy = response->energy,
     };
 }

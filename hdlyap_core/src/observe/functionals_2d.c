@@ -1,0 +1,63 @@
+/** One disk -> coefficients of the functionals [T15]. */
+#include "observe/functionals.h"
+
+#include <math.h>
+#include <stdbool.h>
+#include <string.h>
+
+/** A modulation at one place: the value and the derivatives that differ from it by more than a
+ * factor. */
+typedef struct modulation {
+    double a, x, y, xy;
+} modulation;
+
+/** cos or sin of k u, and its derivative. */
+static void function_at(double *value, double *derivative, double k, double u, bool sine)
+{
+    *value = sine ? sin(k * u) : cos(k * u);
+    *derivative = k * (sine ? cos(k * u) : -sin(k * u));
+}
+
+static modulation modulation_at(const hd_boundary boundary[HD_DIM], const hd_wave *wave,
+                                unsigned bits, const double *q)
+{
+    double f, df, g, dg;
+    const double u = q[0] - (boundary[0] == HD_REFLECTING ? 0.5 : 0.0);
+    const double v = q[1] - (boundary[1] == HD_REFLECTING ? 0.5 : 0.0);
+    function_at(&f, &df, wave->k[0], u, bits & HD_SIN_X);
+    function_at(&g, &dg, wave->k[1], v, bits & HD_SIN_Y);
+    return (modulation){f * g, df * g, f * dg, df * dg};
+}
+
+/** [T15]; A of the density, B of the transverse momentum. A_xx = -kx^2 A, A_yy = -ky^2 A. */
+static void fill(double out[HD_FUNCTIONALS][HD_ROWS], const hd_wave *wave, const modulation *A,
+                 const modulation *B, const double *p)
+{
+    const double k = wave->number, kx2 = wave->k[0] * wave->k[0], ky2 = wave->k[1] * wave->k[1];
+    const double p2 = p[0] * p[0] + p[1] * p[1];
+    const double here[HD_FUNCTIONALS][HD_ROWS] = {
+        {A->x / k, A->y / k, 0.0, 0.0},
+        {(-kx2 * p[0] * A->a + p[1] * A->xy) / k, (p[0] * A->xy - ky2 * p[1] * A->a) / k, A->x / k,
+         A->y / k},
+        {(p[0] * B->xy + kx2 * p[1] * B->a) / k, (-ky2 * p[0] * B->a - p[1] * B->xy) / k, B->y / k,
+         -B->x / k},
+        {p2 * A->x, p2 * A->y, 2.0 * p[0] * A->a, 2.0 * p[1] * A->a},
+    };
+    memcpy(out, here, sizeof here);
+}
+
+/** A with sines along reflecting directions: what a transverse field with this wave vector has. */
+static unsigned transverse_bits(const hd_boundary boundary[HD_DIM], unsigned bits)
+{
+    if (boundary[0] == HD_REFLECTING) bits |= HD_SIN_X;
+    if (boundary[1] == HD_REFLECTING) bits |= HD_SIN_Y;
+    return bits;
+}
+
+void hd_functionals_at(double out[HD_FUNCTIONALS][HD_ROWS], const hd_wave *wave, unsigned bits,
+                       const hd_boundary boundary[HD_DIM], const double *q, const double *p)
+{
+    const modulation a = modulation_at(boundary, wave, bits, q);
+    const modulation b = modulation_at(boundary, wave, transverse_bits(boundary, bits), q);
+    fill(out, wave, &a, &b, p);
+}
