@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """A run of hard spheres: what a subscriber gets of z, and its fields made again in numpy."""
 
+import copy
 import itertools
 
 import numpy as np
@@ -9,7 +10,7 @@ import harness
 from hdlyap.msg import Mode
 
 TOPICS = ['run_info', 'spectrum', 'modes', 'steps', 'lp_phases', 't_phases', 'fields', 'gas']
-TOPICS += ['state', 'covariant', 'hydro']
+TOPICS += ['state', 'covariant', 'hydro', 'structure']
 SCENE = dict(dimensions=3, disks=128, density=0.5, aspect=0.25, aspect_z=0.3, equilibration=10.0)
 SCENE.update(scene='balls', warmup=20.0, duration=70.0, report_interval=5.0, max_mode_number=2)
 SCENE.update(boundary_y='reflecting', observables=TOPICS[1:], seed='3', covariant_window=20.0)
@@ -194,6 +195,37 @@ class Spheres(harness.Case):
                 kinds.add(field.kind)
         self.assertEqual(kinds, {Mode.T, Mode.LP})
 
+    def test_structure(self):
+        """Amplitudes of the published vectors at their strongest waves, from the vectors."""
+        structures = {message.sim_time: message for message in self.messages['structure']}
+        checked = 0
+        for field in self.messages['fields']:
+            s = structures.get(field.sim_time)
+            if s is None or not s.peak[field.index - 1]:
+                continue
+            wave = s.peak[field.index - 1] - 1
+            at = copy.copy(field)
+            at.nx, at.ny, at.nz = s.nx[wave], s.ny[wave], s.nz[wave]
+            along, across = self.amplitudes(at)
+            vectors, column = len(s.peak), field.index - 1
+            got = np.reshape(s.amplitude_along, (8, vectors))[:, column]
+            np.testing.assert_allclose(np.sort(got[got != 0]), np.sort(along), atol=1e-6)
+            got = np.reshape(s.amplitude_across, (16, vectors))[:, column]
+            self.assertAlmostEqual(np.sum(got**2), np.sum(across**2), delta=1e-6)
+            checked += 1
+        self.assertGreater(checked, 3)
+
+    def amplitudes(self, field):
+        """Of dq, with norm 1, along k and across it: of all modulations."""
+        k = np.array([self.coordinate(field, d)[0] for d in range(3)])
+        dq, walls = of(field, *VECTOR[:3]), self.boundaries() == 'reflecting'
+        dq *= np.sqrt(2.0 ** sum(walls & (np.array(nodes(field)) > 0))) / np.linalg.norm(dq)
+        directions = [k / np.linalg.norm(k), *self.across(field, k)]
+        found = np.array(
+            [[np.sum(dq * e[:, None] * s) for e in directions] for _, s in self.gradients(field)]
+        )
+        return found[:, 0], found[:, 1:]
+
     def test_gas(self):
         gas = self.messages['gas'][-1]
         each = of(gas, 'pressure_x', 'pressure_y', 'pressure_z')
@@ -218,7 +250,7 @@ class Refused(harness.Case):
             (2, dict(aspect_z=0.5), 'aspect_z = 0.5: must not be given with dimensions = 2'),
             (3, dict(container='circle'), 'container = circle: must be rectangle (a box)'),
             (3, dict(density=1.5), 'density = 1.5: must be from 1e-6 to sqrt(2)'),
-            (3, dict(observables=['structure']), '= [structure]: must be a list out of spectrum'),
+            (3, dict(observables=['orbits']), '= [orbits]: must be a list out of spectrum'),
         ):
             program = harness.executable(dict(dimensions=dimensions))
             node = harness.start(given, command=[program])

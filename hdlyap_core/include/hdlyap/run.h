@@ -145,10 +145,9 @@ const hd_frame *hd_run_frame(const hd_run *run);
 const hd_spectrum *hd_run_spectrum(const hd_run *run); /**< NULL without exponents */
 const hd_modes *hd_run_modes(const hd_run *run); /**< NULL unless observed, as the two below */
 const hd_steps *hd_run_steps(const hd_run *run);
-const hd_phases *hd_run_phases(const hd_run *run);   /**< of the LP steps */
-const hd_phases *hd_run_t_phases(const hd_run *run); /**< NULL unless observed */
-const hd_structure *
-hd_run_structure(const hd_run *run); /**< NULL unless observed; of disks alone */
+const hd_phases *hd_run_phases(const hd_run *run);       /**< of the LP steps */
+const hd_phases *hd_run_t_phases(const hd_run *run);     /**< NULL unless observed */
+const hd_structure *hd_run_structure(const hd_run *run); /**< NULL unless observed */
 /** NULL unless observed. Responses are those of the last report while averages are taken. */
 const hd_hydro *hd_run_hydro(const hd_run *run);
 /** NULL unless fields are observed: for whoever reconstructs modes of hd_run_frame_columns where

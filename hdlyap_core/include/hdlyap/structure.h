@@ -21,9 +21,9 @@ HD_MUST_CHECK hd_status hd_structure_create(hd_structure **out, const hd_scene_d
                                             int vectors, int threads);
 void hd_structure_free(hd_structure *structure);
 
-/** A snapshot of vectors (all of them, or some: the others keep theirs) at q[2N], whose dq halves
- * have these norms, [n]. HD_NOT_FINITE. Cost 16 N waves flops per vector as dgemm in periodic
- * boxes, half of it per wall, and 2 waves numbers written. */
+/** A snapshot of vectors (all of them, or some: the others keep theirs) at q[HD_DIM N], whose dq
+ * halves have these norms, [n]. HD_NOT_FINITE. Cost 16 N waves flops per vector as dgemm in
+ * periodic boxes, half of it per wall, and 2 waves numbers written. */
 HD_MUST_CHECK hd_status hd_structure_measure(hd_structure *structure, hd_columns vectors,
                                              const double *q, const double *dq_norm);
 /** As hd_modes_share. */
@@ -45,7 +45,8 @@ const hd_wave *hd_structure_wave(const hd_structure *structure, int wave);
 /** S(k) = |sum_j e.dq_j exp(-i k.q_j)|^2 with |dq| = 1, mean over k and its mirror image (k_x,
  * -k_y); of the snapshot, or mean over samples; [n]. Where the wave has nodes between walls it is
  * that of the box and its mirror image, per disk. Random vectors have 1/2; one that lies in the
- * wave's fields has N over the number of their modulations, 1 .. 4. */
+ * wave's fields has N over the number of their modulations, 1 .. 4. Of spheres e across k is either
+ * of two directions, and both are added up: random vectors have 1/3 along k and 2/3 across. */
 const double *hd_structure_snapshot(const hd_structure *structure, int wave, hd_direction e);
 const double *hd_structure_mean(const hd_structure *structure, int wave, hd_direction e);
 
@@ -54,7 +55,8 @@ const double *hd_structure_mean(const hd_structure *structure, int wave, hd_dire
 int hd_structure_peak(const hd_structure *structure, int col);
 /** Snapshot of the amplitude of that wave, of modulation A (HD_SIN_X | HD_SIN_Y): along sum grad A
  * . dq / k, across sum curl A . dq / k, times sqrt(2) for each direction of walls with nodes: their
- * squares add up to the snapshot of S. 0 where A is none of the boundaries'; [n]. */
+ * squares add up to the snapshot of S. 0 where A is none of the boundaries'; [n]. Of spheres across
+ * is along the first of two directions, with HD_SECOND along the other one [T22]. */
 const double *hd_structure_amplitude(const hd_structure *structure, hd_direction e,
                                      unsigned modulation);
 

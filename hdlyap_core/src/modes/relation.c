@@ -1,16 +1,12 @@
-/** Scene -> what is known of lambda(k) before its steps are measured [T12].
- *
- * Curvature was measured in long and wide boxes at densities from 0.2 to 0.8, what edges do in
- * boxes with walls and in narrow ones. In a thin gas k l decides, l the mean free path, else k
- * sigma. */
+/** Scene -> what is known of lambda(k) before its steps are measured [T12]: how it bends in long
+ * boxes, and what edges do, as measured of disks between walls and in narrow boxes. */
 #include "hdlyap/steps.h"
 
 #include <math.h>
 
+#include "modes/curvature.h"
 #include "scene/container.h"
 
-/** Of c3 / c: how far densities lie off the formula. */
-static const double OFF = 0.1;
 /** Walls move c by about WALL sigma / edge, and each step by WALL_OWN of that for itself. */
 static const double WALL = 0.25, WALL_OWN = 0.6;
 /** In a circle LP steps lie below the relation of boxes, by 31 % (LP(1,1), density 0.4) to nothing
@@ -34,21 +30,16 @@ static double walls_of(const hd_scene_def *def, const double box[HD_DIM])
 hd_relation hd_relation_of(const hd_scene_def *def, hd_mode_kind kind)
 {
     const bool t = kind == HD_MODE_T;
-    const double l = hd_scene_mean_free_path(def);
-    double box[HD_DIM];
+    double box[HD_DIM], edge = INFINITY;
     hd_scene_box(def, box);
-    const double walls = walls_of(def, box), edge = fmin(box[0], box[1]), square = edge * edge;
+    for (int d = 0; d < HD_DIM; d++) edge = fmin(edge, box[d]);
+    const double walls = walls_of(def, box), square = edge * edge;
     const double rows = CROWDED * pow(def->density / DENSE, 8.0) / (square * square);
     const double narrow = hypot((t ? 0.1 : 0.25) / square, rows);
-    hd_relation r = {
-        .c2 = t ? 0.02 : 0.11 + 0.16 * l,
-        .c2_error = t ? 0.007 : 0.02 + 0.02 * l,
-        .c3 = t ? 0.05 + 1.3 * l * l : 0.55 + 2.0 * l * l,
-        .box_error = hypot(walls, narrow),
-        .scatter = hypot(t ? 0.001 : 0.002, WALL_OWN * walls),
-    };
+    hd_relation r = hd_curvature_of(kind, hd_scene_mean_free_path(def));
+    r.box_error = hypot(walls, narrow);
+    r.scatter = hypot(r.scatter, WALL_OWN * walls);
     if (hd_scene_boundary(def, 0) == HD_CURVED) r.scatter = r.box_error = t ? ROUND_T : ROUND_LP;
-    r.c3_error = OFF * r.c3 + (t ? 0.01 : 0.0);
     return r;
 }
 

@@ -53,9 +53,7 @@ hd_extent hd_extent_of(const hd_scene_def *def, const hd_run *run)
 {
     const int known = hd_scene_positive_exponents(def) + hd_scene_zero_exponents(def);
     hd_extent e = {.disks = def->disks, .vectors = hd_scene_vectors(def)};
-#if HD_DIM == 2
     if (def->observe & HD_OBSERVE_STRUCTURE) e.waves = hd_structure_waves_of(def);
-#endif
     if (hd_run_hydro(run)) e.responses = hd_hydro_count(hd_run_hydro(run));
     if (def->observe & HD_OBSERVE_COVARIANT) {
         e.subspaces = subspaces_of(def);

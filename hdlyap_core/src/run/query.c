@@ -28,9 +28,7 @@ const hd_modes *hd_run_modes(const hd_run *run) { return part(run, HD_OBSERVED_m
 const hd_steps *hd_run_steps(const hd_run *run) { return part(run, HD_OBSERVED_steps); }
 const hd_phases *hd_run_phases(const hd_run *run) { return part(run, HD_OBSERVED_phases); }
 const hd_phases *hd_run_t_phases(const hd_run *run) { return part(run, HD_OBSERVED_t_phases); }
-#if HD_DIM == 2
 const hd_structure *hd_run_structure(const hd_run *run) { return part(run, HD_OBSERVED_structure); }
-#endif
 const hd_hydro *hd_run_hydro(const hd_run *run) { return part(run, HD_OBSERVED_hydro); }
 hd_pmode *hd_run_pmode(const hd_run *run) { return part(run, HD_OBSERVED_fields); }
 const hd_gas *hd_run_gas(const hd_run *run) { return part(run, HD_OBSERVED_gas); }

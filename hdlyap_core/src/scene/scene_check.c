@@ -44,7 +44,7 @@ static hd_status check_ranges(const hd_scene_def *def, bool covariant, char *mes
     return HD_OK;
 }
 
-/** What spheres have, and disks have not; and the other way round. */
+/** What spheres alone have. */
 static hd_status check_dimensions(const hd_scene_def *def, char *message, size_t size)
 {
     const hd_scene_def usual = hd_scene_def_default();
@@ -54,10 +54,6 @@ static hd_status check_dimensions(const hd_scene_def *def, char *message, size_t
     if (HD_DIM == 2 && def->boundary[2] != usual.boundary[2])
         return hd_refuse(message, size,
                          "boundary_z = reflecting: must not be given with dimensions = 2");
-    if (HD_DIM == 3 && def->observe & HD_OBSERVE_STRUCTURE)
-        return hd_refuse(message, size,
-                         "observables = structure: must not be given with dimensions = 3: it is of "
-                         "disks");
     return HD_OK;
 }
 

@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-enum { MODULATIONS = HD_MODULATIONS_MAX };
+enum { ALONG = HD_MODULATIONS_MAX, ACROSS = HD_TRANSVERSE_MAX };
 
 static void gather_means(double *mean, const hd_structure *s, size_t waves, size_t vectors)
 {
@@ -15,7 +15,8 @@ static void gather_means(double *mean, const hd_structure *s, size_t waves, size
 static void gather_amplitudes(double *amplitude, const hd_structure *s, size_t vectors)
 {
     for (hd_direction e = HD_ALONG; e < HD_DIRECTIONS; e++)
-        for (unsigned bits = 0; bits < MODULATIONS; bits++, amplitude += vectors)
+        for (unsigned bits = 0; bits < (e == HD_ALONG ? ALONG : ACROSS);
+             bits++, amplitude += vectors)
             memcpy(amplitude, hd_structure_amplitude(s, e, bits), vectors * sizeof *amplitude);
 }
 
@@ -23,8 +24,7 @@ static void gather_waves(double *number, uint32_t *nodes, const hd_structure *s,
 {
     for (size_t w = 0; w < waves; w++) {
         const hd_wave *wave = hd_structure_wave(s, (int)w);
-        nodes[w] = (uint32_t)wave->n[0];
-        nodes[waves + w] = (uint32_t)wave->n[1];
+        for (size_t d = 0; d < HD_DIM; d++) nodes[d * waves + w] = (uint32_t)wave->n[d];
         number[w] = wave->number;
     }
 }
@@ -33,14 +33,14 @@ hd_status topic_publish_structure(const moment *now)
 {
     const hd_structure *s = hd_run_structure(now->run);
     const size_t waves = (size_t)hd_structure_waves(s), n = (size_t)hd_structure_vectors(s);
-    const size_t means = hd_run_fields_due(now->run) ? waves * n : 0, amplitudes = MODULATIONS * n;
+    const size_t means = hd_run_fields_due(now->run) ? waves * n : 0;
     if (hd_structure_samples(s) == 0) return HD_OK;
     double *number = moment_take(now, waves, sizeof *number);
     double *mean = moment_take(now, 2 * means, sizeof *mean);
-    double *amplitude = moment_take(now, 2 * amplitudes, sizeof *amplitude);
-    uint32_t *nodes = moment_take(now, 2 * waves + n, sizeof *nodes);
+    double *amplitude = moment_take(now, (ALONG + ACROSS) * n, sizeof *amplitude);
+    uint32_t *nodes = moment_take(now, HD_DIM * waves + n, sizeof *nodes);
     if (!number || !mean || !amplitude || !nodes) return HD_OK;
-    uint32_t *peak = nodes + 2 * waves;
+    uint32_t *peak = nodes + HD_DIM * waves;
     gather_waves(number, nodes, s, waves);
     if (means > 0) gather_means(mean, s, waves, n);
     gather_amplitudes(amplitude, s, n);
@@ -50,12 +50,13 @@ hd_status topic_publish_structure(const moment *now)
         .samples = (uint32_t)hd_structure_samples(s),
         .nx = {nodes, (uint32_t)waves},
         .ny = {nodes + waves, (uint32_t)waves},
-        .wave_number = message_array(number, waves, 1),
+        OF_SPHERES(.nz = {nodes + 2 * waves, (uint32_t)waves}, ).wave_number = message_array(
+            number, waves, 1),
         .along = message_array(mean, means, 1),
         .across = message_array(mean + means, means, 1),
         .peak = {peak, (uint32_t)n},
-        .amplitude_along = message_array(amplitude, amplitudes, 1),
-        .amplitude_across = message_array(amplitude + amplitudes, amplitudes, 1),
+        .amplitude_along = message_array(amplitude, ALONG * n, 1),
+        .amplitude_across = message_array(amplitude + ALONG * n, ACROSS * n, 1),
     };
     return topic_send_structure(now->out, &message);
 }

@@ -1,8 +1,8 @@
 /** Frame -> structure factors of every vector at every wave vector [T20].
  *
- * The sums over the disks of dq_x and dq_y times products of a cosine or sine of x and one of y are
- * two matrix products, over the x and the y rows of the frame where they lie, some waves at a time:
- * the sums of those stay in cache until they are amplitudes along and across k. */
+ * The sums over the disks of dq_x, dq_y, .. times products of a cosine or sine of each coordinate
+ * are HD_DIM matrix products, over the x, the y, .. rows of the frame where they lie, some waves at
+ * a time: the sums of those stay in cache until they are amplitudes along and across k. */
 #include "hdlyap/structure.h"
 
 #include <limits.h>
@@ -15,9 +15,15 @@
 #include "hdlyap/modes.h"
 #include "modes/archived.h"
 #include "modes/harmonics.h"
+#include "modes/structure_terms.h"
 #include "tangent/product.h"
 
-enum { AT_ONCE = 16, FUNCTIONS = HD_MODULATIONS_MAX, WIDTH = AT_ONCE * FUNCTIONS };
+enum {
+    AT_ONCE = 16,
+    FUNCTIONS = HD_MODULATIONS_MAX,
+    AMPLITUDES = HD_TRANSVERSE_MAX,
+    WIDTH = AT_ONCE * FUNCTIONS
+};
 
 /** A wave vector, and for each component of dq the columns of its functions: -1 where no amplitude
  * needs one. */
@@ -26,6 +32,7 @@ typedef struct planned {
     hd_modulations modulations[HD_DIRECTIONS];
     int column[HD_DIM][FUNCTIONS]; /**< by the bits of the function, among those of AT_ONCE waves */
     double root;                   /**< of 2 for each direction with walls and nodes */
+    unsigned walls;                /**< bit d: across direction d */
 } planned;
 
 struct hd_structure {
@@ -35,10 +42,10 @@ struct hd_structure {
     size_t stride;         /**< of every array over the vectors */
     double *value[HD_DIM]; /**< [disks][2 (nodes + 1)]: harmonics of each disk */
     double *factor;        /**< [disks][WIDTH]: of one component and some waves */
-    double *sum[HD_DIM];   /**< [WIDTH][stride]: of dq_x, dq_y times these */
+    double *sum[HD_DIM];   /**< [WIDTH][stride]: of dq_x, dq_y, .. times these */
     double *snapshot;      /**< [waves][HD_DIRECTIONS][stride] */
     double *mean;          /**< same, over samples */
-    double *amplitude;     /**< [HD_DIRECTIONS][FUNCTIONS][stride] */
+    double *amplitude;     /**< [HD_DIRECTIONS][AMPLITUDES][stride] */
     double *work;          /**< [AT_ONCE][stride] */
     int *peak, *shown;     /**< [vectors]: of the mean now, and when the snapshot was taken */
     long samples;
@@ -61,27 +68,32 @@ int hd_structure_waves_of(const hd_scene_def *def)
     return hd_waves(&all, NULL, 0);
 }
 
-/** The modulation whose derivative along d has these bits. */
-static unsigned other(unsigned bits, int d) { return bits ^ (d == 0 ? HD_SIN_X : HD_SIN_Y); }
-
-/** Along k the function of component d comes from the derivative of A along d, across from that
- * along the other direction. */
-static unsigned function_of(unsigned bits, hd_direction e, int d)
+static hd_structure_term term_of(const planned *p, hd_direction e, unsigned bits, int d)
 {
-    return other(bits, e == HD_ALONG ? d : 1 - d);
+    return hd_structure_term_of(&p->wave, e, bits, d, p->walls);
 }
 
 static void plan_columns(planned *p, int used[HD_DIM])
 {
     memset(p->column, -1, sizeof p->column);
-    for (int e = 0; e < HD_DIRECTIONS; e++)
+    for (hd_direction e = HD_ALONG; e < HD_DIRECTIONS; e++)
         for (int c = 0; c < p->modulations[e].count; c++)
             for (int d = 0; d < HD_DIM; d++) {
-                const int from = e == HD_ALONG ? d : 1 - d; /* no derivative of a constant */
-                int *column =
-                    &p->column[d][function_of(p->modulations[e].bits[c], (hd_direction)e, d)];
-                if (*column < 0 && p->wave.n[from] > 0) *column = used[d]++;
+                const hd_structure_term term = term_of(p, e, p->modulations[e].bits[c], d);
+                int *column = &p->column[d][term.function];
+                if (*column < 0 && term.factor != 0) *column = used[d]++;
             }
+}
+
+/** Where walls are, and what they make of squares. */
+static void plan_walls(planned *p, const hd_scene_def *def)
+{
+    p->root = 1.0;
+    for (int d = 0; d < HD_DIM; d++) {
+        const bool walls = def->boundary[d] == HD_REFLECTING;
+        p->walls |= (unsigned)walls << d;
+        if (walls && p->wave.n[d] > 0) p->root *= sqrt(2.0);
+    }
 }
 
 static hd_status plan_waves(hd_structure *s, const hd_scene_def *def)
@@ -94,15 +106,13 @@ static hd_status plan_waves(hd_structure *s, const hd_scene_def *def)
         return HD_NO_MEMORY;
     }
     (void)hd_waves(&all, wave, s->waves);
-    for (int w = 0, used[HD_DIM] = {0, 0}; w < s->waves; w++) {
-        if (w % AT_ONCE == 0) used[0] = used[1] = 0;
+    for (int w = 0, used[HD_DIM]; w < s->waves; w++) {
+        if (w % AT_ONCE == 0) memset(used, 0, sizeof used);
         s->plan[w] = (planned){.wave = wave[w], .modulations = {wave[w].pairs, wave[w].transverse}};
+        plan_walls(&s->plan[w], def);
         plan_columns(&s->plan[w], used);
-        s->plan[w].root = 1.0;
-        for (int d = 0; d < HD_DIM; d++) {
+        for (int d = 0; d < HD_DIM; d++)
             if (wave[w].n[d] > s->along[d].nodes) s->along[d].nodes = wave[w].n[d];
-            if (wave[w].n[d] > 0 && def->boundary[d] == HD_REFLECTING) s->plan[w].root *= sqrt(2.0);
-        }
     }
     hd_memory_free(wave);
     return HD_OK;
@@ -112,29 +122,31 @@ double hd_structure_bytes(const hd_scene_def *scene, double vectors)
 {
     const double waves = hd_structure_waves_of(scene), longer = hd_wave_limits_of(scene).node + 1.0,
                  shorter = waves / longer + 1.0;
-    return sizeof(double) * (2.0 * HD_DIRECTIONS * waves * vectors +
-                             (2.0 * WIDTH + AT_ONCE + HD_DIRECTIONS * FUNCTIONS + 1.0) * vectors +
-                             scene->disks * (WIDTH + 2.0 * (longer + shorter)));
+    return sizeof(double) *
+           (2.0 * HD_DIRECTIONS * waves * vectors +
+            (HD_DIM * (double)WIDTH + AT_ONCE + HD_DIRECTIONS * AMPLITUDES + 1.0) * vectors +
+            scene->disks * (WIDTH + 2.0 * (longer + (HD_DIM - 1) * shorter)));
 }
 
 static hd_status prepare(hd_structure *s, const hd_scene_def *def)
 {
     const size_t disks = (size_t)def->disks, waves = (size_t)s->waves, n = s->stride;
     HD_TRY(plan_waves(s, def));
-    for (int d = 0; d < HD_DIM; d++)
+    for (int d = 0; d < HD_DIM; d++) {
+        const size_t functions = 2 * ((size_t)s->along[d].nodes + 1);
         HD_TRY(hd_harmonics_create(&s->along[d], def, d, s->along[d].nodes));
+        s->value[d] = hd_memory_alloc(disks * functions, sizeof(double));
+        s->sum[d] = hd_memory_alloc(WIDTH * n, sizeof(double));
+        if (!s->value[d] || !s->sum[d]) return HD_NO_MEMORY;
+    }
     struct {
         double **array;
         size_t size;
-    } wanted[] = {{&s->value[0], disks * 2 * ((size_t)s->along[0].nodes + 1)},
-                  {&s->value[1], disks * 2 * ((size_t)s->along[1].nodes + 1)},
-                  {&s->factor, disks * WIDTH},
-                  {&s->sum[0], WIDTH * n},
-                  {&s->sum[1], WIDTH * n},
+    } wanted[] = {{&s->factor, disks * WIDTH},
                   {&s->work, AT_ONCE * n},
                   {&s->snapshot, waves * HD_DIRECTIONS * n + 1},
                   {&s->mean, waves * HD_DIRECTIONS * n + 1},
-                  {&s->amplitude, HD_DIRECTIONS * FUNCTIONS * n}};
+                  {&s->amplitude, HD_DIRECTIONS * AMPLITUDES * n}};
     for (size_t k = 0; k < sizeof wanted / sizeof *wanted; k++)
         if (!(*wanted[k].array = hd_memory_alloc(wanted[k].size, sizeof(double))))
             return HD_NO_MEMORY;
@@ -196,21 +208,31 @@ static void fill_values(hd_structure *s, const double *q)
     }
 }
 
+/** A function at the wave: the product of one of each coordinate, of all disks. */
+static void fill_factor(hd_structure *s, const planned *p, unsigned bits, int column)
+{
+    const double *of[HD_DIM];
+    size_t size[HD_DIM];
+    for (int d = 0; d < HD_DIM; d++) {
+        of[d] = s->value[d] + 2 * p->wave.n[d] + (bits >> d & 1);
+        size[d] = 2 * ((size_t)s->along[d].nodes + 1);
+    }
+    for (size_t j = 0; j < (size_t)s->disks; j++) {
+        double product = of[0][j * size[0]];
+        for (int d = 1; d < HD_DIM; d++) product *= of[d][j * size[d]];
+        s->factor[j * WIDTH + (size_t)column] = product;
+    }
+}
+
 /** factor[disks][WIDTH] of component d at waves [from, to); returns how many columns there are. */
 static int fill_factors(hd_structure *s, int d, int from, int to)
 {
-    const size_t size[HD_DIM] = {2 * ((size_t)s->along[0].nodes + 1),
-                                 2 * ((size_t)s->along[1].nodes + 1)};
     int columns = 0;
     for (int w = from; w < to; w++)
         for (unsigned bits = 0; bits < FUNCTIONS; bits++) {
-            const planned *p = &s->plan[w];
-            const int column = p->column[d][bits];
+            const int column = s->plan[w].column[d][bits];
             if (column < 0) continue;
-            const double *f = s->value[0] + 2 * p->wave.n[0] + (bits & HD_SIN_X);
-            const double *g = s->value[1] + 2 * p->wave.n[1] + (bits >> 1);
-            for (size_t j = 0; j < (size_t)s->disks; j++)
-                s->factor[j * WIDTH + (size_t)column] = f[j * size[0]] * g[j * size[1]];
+            fill_factor(s, &s->plan[w], bits, column);
             columns++;
         }
     return columns;
@@ -227,33 +249,16 @@ static void sum_up(hd_structure *s, hd_columns v, int from, int to)
     }
 }
 
-/** Derivative of A along d over that of its other function, over |k|. */
-static double slope(const hd_wave *wave, unsigned bits, int d)
-{
-    const double part = wave->k[d] / wave->number;
-    return bits & (d == 0 ? HD_SIN_X : HD_SIN_Y) ? part : -part;
-}
-
-/** Row of the sums of component d times a function; NULL if it is not needed. */
-static const double *row_of(const hd_structure *s, const planned *p, unsigned bits, int d)
-{
-    return p->column[d][bits] < 0 ? NULL : s->sum[d] + (size_t)p->column[d][bits] * s->stride;
-}
-
-/** Amplitudes of one modulation, of vectors not yet normalised: along (A_x, A_y), across (A_y,
- * -A_x).
- */
+/** Amplitudes of one modulation, of vectors not yet normalised. */
 static void amplitudes(const hd_structure *s, double *out, const planned *p, hd_direction e,
                        unsigned bits, hd_columns v)
 {
-    const double factor[HD_DIM] = {
-        e == HD_ALONG ? slope(&p->wave, bits, 0) : slope(&p->wave, bits, 1),
-        e == HD_ALONG ? slope(&p->wave, bits, 1) : -slope(&p->wave, bits, 0)};
     memset(out, 0, (size_t)v.count * sizeof *out);
     for (int d = 0; d < HD_DIM; d++) {
-        const double *row = row_of(s, p, function_of(bits, e, d), d);
-        if (!row || factor[d] == 0.0) continue;
-        for (int l = 0; l < v.count; l++) out[l] += factor[d] * row[v.first + l];
+        const hd_structure_term term = term_of(p, e, bits, d);
+        if (term.factor == 0) continue;
+        const double *row = s->sum[d] + (size_t)p->column[d][term.function] * s->stride;
+        for (int l = 0; l < v.count; l++) out[l] += term.factor * row[v.first + l];
     }
 }
 
@@ -272,7 +277,7 @@ static void measure_wave(hd_structure *s, double *work, int w, hd_columns v, con
         double *out = snapshot_of(s, s->snapshot, w, e) + v.first;
         memset(out, 0, (size_t)v.count * sizeof *out);
         for (int c = 0; c < m->count; c++) {
-            double *kept = s->amplitude + ((size_t)e * FUNCTIONS + m->bits[c]) * s->stride;
+            double *kept = s->amplitude + ((size_t)e * AMPLITUDES + m->bits[c]) * s->stride;
             amplitudes(s, work, &s->plan[w], e, m->bits[c], v);
             for (int l = 0; l < v.count; l++) {
                 const double norm = dq_norm[v.first + l];
@@ -298,7 +303,7 @@ hd_status hd_structure_measure(hd_structure *s, hd_columns v, const double *q,
     const size_t size = (size_t)s->waves * HD_DIRECTIONS * s->stride;
     memcpy(s->shown, s->peak, (size_t)s->vectors * sizeof *s->shown);
     fill_values(s, q);
-    for (size_t row = 0; row < HD_DIRECTIONS * FUNCTIONS; row++)
+    for (size_t row = 0; row < HD_DIRECTIONS * AMPLITUDES; row++)
         memset(s->amplitude + row * s->stride + v.first, 0, (size_t)v.count * sizeof(double));
     for (int from = 0; from < s->waves; from += AT_ONCE) {
         const int to = from + AT_ONCE < s->waves ? from + AT_ONCE : s->waves;
@@ -313,7 +318,7 @@ hd_status hd_structure_share(hd_structure *s, hd_communicator *communicator, int
     const size_t rows = (size_t)s->waves * HD_DIRECTIONS, n = (size_t)s->vectors;
     hd_shared own = {rows, s->stride, (size_t)width, (size_t)carried, 0};
     HD_TRY(hd_communicator_share_halves(communicator, s->snapshot, own, n));
-    own.rows = HD_DIRECTIONS * FUNCTIONS;
+    own.rows = HD_DIRECTIONS * AMPLITUDES;
     return hd_communicator_share_halves(communicator, s->amplitude, own, n);
 }
 
@@ -380,8 +385,8 @@ int hd_structure_peak(const hd_structure *s, int col)
 
 const double *hd_structure_amplitude(const hd_structure *s, hd_direction e, unsigned modulation)
 {
-    HD_ASSERT(e < HD_DIRECTIONS && modulation < FUNCTIONS);
-    return s->amplitude + ((size_t)e * FUNCTIONS + modulation) * s->stride;
+    HD_ASSERT(e < HD_DIRECTIONS && modulation < AMPLITUDES);
+    return s->amplitude + ((size_t)e * AMPLITUDES + modulation) * s->stride;
 }
 
 /** The snapshot belongs to this time alone. */
