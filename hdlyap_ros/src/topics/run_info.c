@@ -64,7 +64,7 @@ static void fill_scene(hdr_run_info *info, const settings *set)
     info->box_x = box[0];
     info->box_y = box[1];
     OF_SPHERES(info->box_z = box[2];)
-    OF_SPHERES(info->boundary_z = word_of("boundary_z", def);)
+    info->boundary_z = HD_DIM == 3 ? word_of("boundary_z", def) : "";
     info->container = word_of("container", def);
     info->boundary_x = is_circle ? "curved" : word_of("boundary_x", def);
     info->boundary_y = is_circle ? "curved" : word_of("boundary_y", def);
