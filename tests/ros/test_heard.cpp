@@ -107,7 +107,7 @@ TEST(heard, a_mode_that_no_step_has_is_absent)
     hearing on;
     mode_choice asked = {};
     asked.count = 2;
-    asked.mode[0] = {HDR_MODE_LP, 0, 1}, asked.mode[1] = {HDR_MODE_T, 0, 1};
+    asked.mode[0] = {HDR_MODE_LP, 0, 1, 0}, asked.mode[1] = {HDR_MODE_T, 0, 1, 0};
     on.state(1.0);
     const picture before = compose(&on.h, &asked, "");
     EXPECT_FALSE(before.mode[0].absent || before.mode[1].absent); // no steps yet
