@@ -375,6 +375,9 @@ TEST(heard, numbers_along_z_that_do_not_fit)
     EXPECT_EQ(9.0, flat.drawn().time);
     const picture p = flat.drawn();
     EXPECT_TRUE(!picture_has_spheres(&p) && p.z.count == 0 && !p.periodic[2]);
+    flat.info.run_id = "disks", flat.info.dimensions = 2, flat.info.box_z = 10.0;
+    EXPECT_TRUE(heard_run_info(&flat.h, &flat.info));
+    EXPECT_EQ(0.0, flat.drawn().box[2]);
 }
 
 TEST(heard, slow_vectors_of_spheres)
