@@ -120,6 +120,24 @@ struct scene {
     }
 };
 
+/** The same of spheres, in a box that is so high. */
+struct spheres : scene {
+    std::vector<double> z, dz;
+
+    spheres(double width, double height, double depth, int count, int modes, unsigned seed)
+        : scene(width, height, count, modes, seed)
+    {
+        std::mt19937_64 random(seed + 1);
+        std::uniform_real_distribution<double> part(0.0, 1.0);
+        p.box[2] = depth;
+        for (int i = 0; i < count; i++) z.push_back(depth * part(random));
+        for (int k = 0; k < count * modes; k++) dz.push_back(part(random) - 0.5);
+        const auto each = static_cast<uint32_t>(count);
+        p.z = p.at_z = {z.data(), each, 1};
+        for (int k = 0; k < modes; k++) p.mode[k].dz = {dz.data() + count * k, each, 1};
+    }
+};
+
 struct drawing {
     canvas *on = nullptr;
     drawing() { EXPECT_TRUE(canvas_create(&on)); }

@@ -11,11 +11,14 @@ import time
 import matplotlib.image
 import numpy as np
 import rosgraph
+import rospy
 import yaml
+from geometry_msgs.msg import Point
 from std_srvs.srv import SetBool
 from visualization_msgs.msg import Marker, MarkerArray
 
 import harness
+from hdlyap.commands import view as view_command
 
 VIEW = harness.command('view')
 SCREEN = (1360, 960)
@@ -53,9 +56,9 @@ class Screen:
         self.server.wait()
 
 
-def config(folder):
+def config(folder, name='hdlyap.rviz'):
     """The view that is shipped, on a paper of its own."""
-    share = os.path.join(os.path.dirname(__file__), '..', '..', 'hdlyap_ros', 'rviz', 'hdlyap.rviz')
+    share = os.path.join(os.path.dirname(__file__), '..', '..', 'hdlyap_ros', 'rviz', name)
     with open(share) as file:
         view = yaml.safe_load(file)
     view['Visualization Manager']['Global Options']['Background Color'] = '%d; %d; %d' % PAPER
@@ -188,6 +191,92 @@ class Rviz(harness.Case):
         self.sees(lambda: len(self.pictures) > count + 20)
         self.check_shown(self.rest())
         self.assertTrue(self.missing(first), 'the picture does not change')
+
+
+def seen_from(view, point):
+    """Where a camera at the place of the view sees a point: right of its middle and above, as
+    tangents of angles."""
+    yaw, pitch = view['Yaw'], view['Pitch']
+    away = np.array(
+        [np.cos(yaw) * np.cos(pitch), np.sin(yaw) * np.cos(pitch), np.sin(pitch)]
+    )  # from the focal point to the camera
+    right = np.cross([0, 0, 1], away) / np.cos(pitch)
+    camera = np.array([view['Focal Point'][axis] for axis in 'XYZ']) + view['Distance'] * away
+    ray = np.array(point) - camera
+    return np.array([ray @ right, ray @ np.cross(away, right)]) / -(ray @ away)
+
+
+def box_of_spheres(size):
+    """A picture of nothing but the edges of a box."""
+    corners = [np.array([i, j, k]) for i in (0, 1) for j in (0, 1) for k in (0, 1)]
+    edges = [(a, b) for a in corners for b in corners if (b - a).sum() == abs(b - a).sum() == 1]
+    marker = Marker(ns='box', type=Marker.LINE_LIST, action=Marker.ADD)
+    marker.header.frame_id = 'world'
+    marker.pose.orientation.w = marker.color.a = marker.color.r = 1.0
+    marker.scale.x = 0.3
+    marker.points = [Point(*(size * corner)) for edge in edges for corner in edge]
+    return MarkerArray([marker])
+
+
+class Spheres(harness.Case):
+    SIZE = np.array([20.0, 6.0, 5.0])
+    ROOM = SCREEN[0] - view_command.DOCK, SCREEN[1] - view_command.BARS
+
+    def shipped(self, picture):
+        return view_command.configuration(view_command.shipped(picture))
+
+    def test_the_view_is_that_of_the_picture(self):
+        """It can be turned where something is above the plane, and shows all of it."""
+        flat = self.shipped(box_of_spheres(self.SIZE * [1, 1, 0]))
+        self.assertEqual(
+            flat['Visualization Manager']['Views']['Current']['Class'], 'rviz/TopDownOrtho'
+        )
+        picture = box_of_spheres(self.SIZE)
+        for yaw, pitch in ((None, None), (0.3, 0.2), (-2.0, 1.4)):
+            config = self.shipped(picture)
+            view = config['Visualization Manager']['Views']['Current']
+            self.assertEqual(view['Class'], 'rviz/Orbit')
+            if yaw is not None:
+                view.update(Yaw=yaw, Pitch=pitch)
+            view_command.fitted(config, '/a/markers', picture)
+            (display,) = config['Visualization Manager']['Displays']
+            self.assertEqual(display['Marker Topic'], '/a/markers')
+            edge = np.tan(np.radians(22.5)) * np.array([self.ROOM[0] / self.ROOM[1], 1])
+            places = [
+                abs(seen_from(view, (p.x, p.y, p.z))) / edge for p in picture.markers[0].points
+            ]
+            self.assertAlmostEqual(np.max(places), 1 / view_command.MARGIN, places=9)
+
+    def test_rviz_shows_a_box_in_space(self):
+        """Its edges are where the view says that they are."""
+        folder, screen = self.new_folder(), Screen()
+        self.addCleanup(screen.close)
+        publisher = rospy.Publisher('/hdlyap/markers', MarkerArray, queue_size=1, latch=True)
+        picture = box_of_spheres(self.SIZE)
+        publisher.publish(picture)
+        command = [*VIEW, '--config', config(folder, 'hdlyap_3d.rviz')]
+        self.process(command, ROS_HOME=folder, **screen.env)
+        self.assertTrue(harness.wait_until(lambda: self.part_seen(folder, screen, picture) > 0.8))
+
+    def part_seen(self, folder, screen, picture):
+        """Of places on the edges."""
+        shot = screen.shot()
+        rows, columns = np.nonzero((shot == PAPER).all(axis=2))
+        if not len(rows):
+            return 0.0
+        with open(os.path.join(folder, 'view_hdlyap_markers.rviz')) as file:
+            view = yaml.safe_load(file)['Visualization Manager']['Views']['Current']
+        middle = np.array([columns.min() + columns.max(), rows.min() + rows.max()]) / 2
+        scale = 0.5 * (rows.max() - rows.min() + 1) / np.tan(np.radians(22.5))
+        points = [np.array([p.x, p.y, p.z]) for p in picture.markers[0].points]
+        seen = []
+        for a, b in zip(points[::2], points[1::2]):
+            for part in (0.2, 0.35, 0.5, 0.65, 0.8):
+                x, y = seen_from(view, a + part * (b - a)) * scale
+                column, row = int(round(middle[0] + x)), int(round(middle[1] - y))
+                around = shot[row - 2 : row + 3, column - 2 : column + 3].reshape(-1, 3)
+                seen.append(bool((around[:, 0] - around[:, 1] > 100).any()))  # red
+        return sum(seen) / len(seen)
 
 
 class View(harness.Case):

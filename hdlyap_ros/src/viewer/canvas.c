@@ -31,6 +31,7 @@ struct canvas {
     hdr_point *points;
     hdr_colour *colours;
     size_t used, room;
+    double level;
     bool failed;
 };
 
@@ -48,8 +49,11 @@ void canvas_clear(canvas *c)
 {
     c->count = 0;
     c->used = 0;
+    c->level = 0.0;
     c->failed = false;
 }
+
+void canvas_level(canvas *c, double z) { c->level = z; }
 
 static int32_t next_id(const canvas *c, const char *ns)
 {
@@ -80,6 +84,8 @@ void canvas_layer(canvas *c, const char *ns, int type, hdr_colour colour, double
     };
     c->count++;
 }
+
+void canvas_unlit(canvas *c) { c->layers[c->count - 1].coloured = true; }
 
 static bool grow(canvas *c)
 {
@@ -113,8 +119,8 @@ void canvas_point(canvas *c, double x, double y, double z)
 
 void canvas_line(canvas *c, double x0, double y0, double x1, double y1)
 {
-    canvas_point(c, x0, y0, 0.0);
-    canvas_point(c, x1, y1, 0.0);
+    canvas_point(c, x0, y0, c->level);
+    canvas_point(c, x1, y1, c->level);
 }
 
 void canvas_text(canvas *c, const char *ns, double x, double y, double height, hdr_colour colour,
@@ -124,7 +130,7 @@ void canvas_text(canvas *c, const char *ns, double x, double y, double height, h
     canvas_layer(c, ns, HDR_MARKER_TEXT, colour, height);
     if (c->failed) return;
     layer *l = &c->layers[c->count - 1];
-    l->marker.position = (hdr_point){x, y, 0.5};
+    l->marker.position = (hdr_point){x, y, c->level + 0.5};
     va_start(list, format);
     vsnprintf(l->text, sizeof l->text, format, list);
     va_end(list);

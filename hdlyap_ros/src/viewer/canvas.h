@@ -15,9 +15,15 @@ void canvas_free(canvas *c);
 /** Begins a picture. */
 void canvas_clear(canvas *c);
 
+/** Lines and texts that follow lie so high; 0 at the beginning. */
+void canvas_level(canvas *c, double z);
+
 /** The points that follow are of one marker of a list type; ns: at most 31 characters; thickness of
  * lines, or diameter [sigma]. */
 void canvas_layer(canvas *c, const char *ns, int type, hdr_colour colour, double thickness);
+/** Each point of the layer has the layer's colour as its own: rviz sheds light on triangles
+ * without, which turns those black that are seen from their dark side. */
+void canvas_unlit(canvas *c);
 void canvas_point(canvas *c, double x, double y, double z);
 /** A point of its own colour: all of a layer, or none. */
 void canvas_coloured(canvas *c, double x, double y, double z, hdr_colour colour);

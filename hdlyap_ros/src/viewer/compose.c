@@ -4,17 +4,23 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "nodes.h"
+
 _Static_assert((int)PICTURE_PAIRS_MAX == (int)HEARD_PAIRS_MAX, "pairs as they are heard");
 
 bool mode_name_parse(mode_name *out, const char *text)
 {
     const bool is_lp = strncmp(text, "LP", 2) == 0;
-    int end = -1;
+    int end = -1, of_disks = -1;
     if (!is_lp && *text != 'T') return false;
     out->kind = is_lp ? HDR_MODE_LP : HDR_MODE_T;
     text += is_lp ? 2 : 1;
     if (strspn(text, "(0123456789,)") != strlen(text)) return false;
-    return sscanf(text, "(%4u,%4u)%n", &out->nx, &out->ny, &end) == 2 && end > 0 && !text[end];
+    out->nz = 0;
+    (void)sscanf(text, "(%4u,%4u)%n", &out->nx, &out->ny, &of_disks);
+    (void)sscanf(text, "(%4u,%4u,%4u)%n", &out->nx, &out->ny, &out->nz, &end);
+    if (end < 0) end = of_disks;
+    return end > 0 && !text[end];
 }
 
 /** False where the box cannot have it, or it was not asked for. */
@@ -23,7 +29,7 @@ static bool is_looked_for(const heard *h, const mode_name *name)
     bool is = h->steps.steps.count == 0;
     for (uint32_t k = 0; k < h->steps.steps.count; k++) {
         const hdr_step *step = &h->steps.steps.data[k];
-        is |= step->kind == name->kind && step->nx == name->nx && step->ny == name->ny;
+        is |= step->kind == name->kind && SAME_NODES(step, name);
     }
     return is;
 }
@@ -37,7 +43,7 @@ static const hdr_step *step_of(const heard *h, uint8_t kind, const mode_name *na
     for (uint32_t k = 0; k < h->steps.steps.count; k++) {
         const hdr_step *step = &h->steps.steps.data[k];
         if (step->kind != kind || !is_shown(step)) continue;
-        if (name && (step->nx != name->nx || step->ny != name->ny)) continue;
+        if (name && !SAME_NODES(step, name)) continue;
         if (!found || step->exponent < found->exponent) found = step;
     }
     return found;
@@ -49,7 +55,7 @@ static const heard_vector *vector_of(const heard *h, uint8_t kind, const mode_na
     const heard_vector *found = NULL;
     for (int k = 0; k < h->vectors; k++) {
         const heard_vector *v = &h->vector[k];
-        if (v->kind != kind || (name && (v->nx != name->nx || v->ny != name->ny))) continue;
+        if (v->kind != kind || (name && !SAME_NODES(v, name))) continue;
         if (!found || (name ? v->index < found->index : v->exponent < found->exponent)) found = v;
     }
     return found;
@@ -58,7 +64,7 @@ static const heard_vector *vector_of(const heard *h, uint8_t kind, const mode_na
 /** The first of a step, or of its set where none is its own; NULL if there is none. */
 static const heard_vector *vector_of_step(const heard *h, const hdr_step *step)
 {
-    const mode_name name = {step->kind, step->nx, step->ny};
+    const mode_name name = {step->kind, step->nx, step->ny, step->nz};
     const heard_vector *found = vector_of(h, step->kind, &name);
     for (int k = 0; k < h->vectors && !found; k++)
         if (h->vector[k].index == step->first_index) found = &h->vector[k];
@@ -68,6 +74,12 @@ static const heard_vector *vector_of_step(const heard *h, const hdr_step *step)
 static hdr_doubles array_of(const double *data, uint32_t count)
 {
     return (hdr_doubles){.data = data, .count = count, .stride = 1};
+}
+
+/** Along z of spheres, and empty of disks. */
+static hdr_doubles depth_of(const heard *h, const double *data, uint32_t count)
+{
+    return array_of(data, heard_has_spheres(h) ? count : 0);
 }
 
 static double momentum_of(const heard_vector *v)
@@ -98,16 +110,16 @@ static void fill_vector(picture_mode *mode, const heard *h, const heard_vector *
     if (!v->known) return;
     mode->dx = array_of(v->dx, h->disks);
     mode->dy = array_of(v->dy, h->disks);
+    mode->dz = depth_of(h, v->dz, h->disks);
     if (mode->kind == HDR_MODE_LP && v->kind == HDR_MODE_LP) fill_pairs(mode, h, v);
 }
 
-static void write_name(char *name, size_t size, const mode_name *is)
+static void write_name(char *name, size_t size, const heard *h, const mode_name *is)
 {
-    const char *kind = hdr_mode_kind_text(is->kind);
-    if (is->nx > 0 || is->ny > 0)
-        snprintf(name, size, "%s(%u,%u)", kind, (unsigned)is->nx, (unsigned)is->ny);
-    else
-        snprintf(name, size, "%s", kind);
+    char nodes[NODES_SIZE] = "";
+    if (is->nx > 0 || is->ny > 0 || is->nz > 0)
+        nodes_write(nodes, heard_has_spheres(h), is->nx, is->ny, is->nz);
+    snprintf(name, size, "%s%s", hdr_mode_kind_text(is->kind), nodes);
 }
 
 /** name: the one asked for; NULL: the lowest of the kind, as the steps say or else the vectors. */
@@ -118,23 +130,23 @@ static picture_mode mode_of(const heard *h, uint8_t kind, const mode_name *name)
     const heard_vector *v = step ? vector_of_step(h, step) : NULL;
     mode_name is = name ? *name : (mode_name){.kind = kind};
     if (name)
-        write_name(mode.box, sizeof mode.box, name);
+        write_name(mode.box, sizeof mode.box, h, name);
     else
         snprintf(mode.box, sizeof mode.box, "lowest %s", hdr_mode_kind_text(kind));
     if (step) {
-        is = (mode_name){kind, step->nx, step->ny};
+        is = (mode_name){kind, step->nx, step->ny, step->nz};
         mode.index = step->first_index;
         mode.exponent = step->exponent;
         mode.error = step->std_error;
     }
     if (!v && (v = vector_of(h, kind, name))) { /* the step has not been heard */
-        is = (mode_name){kind, v->nx, v->ny};
+        is = (mode_name){kind, v->nx, v->ny, v->nz};
         mode.exponent = v->exponent;
         mode.error = -1.0;
     }
     mode.found = step || v;
     mode.absent = name && !mode.found && !is_looked_for(h, name);
-    write_name(mode.name, sizeof mode.name, &is);
+    write_name(mode.name, sizeof mode.name, h, &is);
     if (v) fill_vector(&mode, h, v);
     return mode;
 }
@@ -155,8 +167,8 @@ picture compose(const heard *h, const mode_choice *asked, const char *note)
         .scene = h->scene,
         .stage = h->stage < UINT8_MAX ? hdr_run_status_stage_text(h->stage) : "stage unknown",
         .disks = h->disks,
-        .box = {h->box[0], h->box[1]},
-        .periodic = {h->periodic[0], h->periodic[1]},
+        .box = {h->box[0], h->box[1], h->box[2]},
+        .periodic = {h->periodic[0], h->periodic[1], h->periodic[2]},
         .round = h->round,
         .time = h->time >= 0.0 ? h->time : h->status_time,
         .averaged = h->averaged,
@@ -164,9 +176,11 @@ picture compose(const heard *h, const mode_choice *asked, const char *note)
         .note = note,
         .x = array_of(h->x, disks),
         .y = array_of(h->y, disks),
+        .z = depth_of(h, h->z, disks),
         .vector_time = h->vector_time,
         .at_x = array_of(h->at_x, h->disks),
         .at_y = array_of(h->at_y, h->disks),
+        .at_z = depth_of(h, h->at_z, h->disks),
         .has_exponents = h->has_exponents,
         .exponents = array_of(h->exponents, h->exponents_count),
         .lambda_max = h->lambda_max,

@@ -7,8 +7,8 @@
 
 /** A mode by its name. */
 typedef struct mode_name {
-    uint8_t kind; /**< HDR_MODE_T or HDR_MODE_LP */
-    uint32_t nx, ny;
+    uint8_t kind;        /**< HDR_MODE_T or HDR_MODE_LP */
+    uint32_t nx, ny, nz; /**< nz is 0 of disks */
 } mode_name;
 
 typedef struct mode_choice {
@@ -16,7 +16,7 @@ typedef struct mode_choice {
     int count; /**< 0: the lowest step of each kind */
 } mode_choice;
 
-/** T(nx,ny) or LP(nx,ny), and nothing else; false otherwise. */
+/** T(nx,ny), LP(nx,ny), or with three numbers, and nothing else; false otherwise. */
 bool mode_name_parse(mode_name *out, const char *text);
 
 /** Of a run that has begun; note: as in the picture. Points into what was heard. */

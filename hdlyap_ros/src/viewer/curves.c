@@ -5,6 +5,7 @@
 #include <stdio.h>
 
 #include "common/numbers.h"
+#include "nodes.h"
 #include "palette.h"
 #include "plot.h"
 
@@ -76,6 +77,7 @@ static const hdr_step *step_of(const picture *p, uint32_t index)
 static void step_names(const plot *axes, const picture *p, uint32_t last)
 {
     const hdr_step *before = NULL;
+    char nodes[NODES_SIZE];
     double least[2] = {-HUGE_VAL, -HUGE_VAL};
     int names = 0;
     for (uint32_t i = last; i > axes->min[0] && names < NAMES_MAX; i--) {
@@ -86,8 +88,9 @@ static void step_names(const plot *axes, const picture *p, uint32_t last)
         const double x = plot_x(axes, left ? step->first_index : step->last_index);
         const double y = fmax(plot_y(axes, step->exponent) + side * 0.9 * axes->unit, least[left]);
         canvas_text(axes->on, axes->ns, x + side * 2.4 * axes->unit, y, 0.85 * axes->unit,
-                    palette_kind(step->kind), "%s(%u,%u)%s", hdr_mode_kind_text(step->kind),
-                    (unsigned)step->nx, (unsigned)step->ny, step->members > 1 ? "+" : "");
+                    palette_kind(step->kind), "%s%s%s", hdr_mode_kind_text(step->kind),
+                    nodes_write(nodes, picture_has_spheres(p), step->nx, step->ny, step->nz),
+                    step->members > 1 ? "+" : "");
         least[left] = y + axes->unit;
         before = step;
     }
@@ -227,7 +230,10 @@ static void write_time(char *text, size_t size, const picture *p)
 static void write_box(char *text, size_t size, const picture *p)
 {
     static const char *const end[] = {"reflecting", "periodic"};
-    if (p->round)
+    if (picture_has_spheres(p))
+        snprintf(text, size, "%.4g x %.4g x %.4g, x %s, y %s, z %s", p->box[0], p->box[1],
+                 p->box[2], end[p->periodic[0]], end[p->periodic[1]], end[p->periodic[2]]);
+    else if (p->round)
         snprintf(text, size, "in a circle");
     else
         snprintf(text, size, "x %s, y %s", end[p->periodic[0]], end[p->periodic[1]]);
@@ -235,11 +241,12 @@ static void write_box(char *text, size_t size, const picture *p)
 
 void curves_caption(canvas *on, const layout *l, const picture *p)
 {
-    char results[300] = "", time[80], box[40];
+    char results[300] = "", time[80], box[100];
     write_box(box, sizeof box, p);
     write_results(results, sizeof results, p);
     write_time(time, sizeof time, p);
     canvas_text(on, "caption", l->caption_x, l->caption_y, 1.3 * l->unit, PALETTE_INK,
-                "%.60s: %u disks, %s\n%s%s%s\n%s", p->scene, (unsigned)p->disks, box, time,
-                *p->note ? "   " : "", p->note, results);
+                "%.60s: %u %s, %s\n%s%s%s\n%s", p->scene, (unsigned)p->disks,
+                picture_has_spheres(p) ? "spheres" : "disks", box, time, *p->note ? "   " : "",
+                p->note, results);
 }

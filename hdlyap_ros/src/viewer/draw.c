@@ -13,6 +13,7 @@ bool draw(canvas *on, hdr_markers *out, const picture *p, const char *frame_id)
     for (int k = 0; k < p->modes; k++) panel_mode(on, &l, p, k);
     if (p->has_exponents) curves_spectrum(on, &l, p);
     if (p->steps) curves_dispersion(on, &l, p);
+    canvas_level(on, p->box[2]);
     curves_caption(on, &l, p);
     return canvas_markers(on, out, frame_id);
 }

@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "nodes.h"
+
 void heard_clear(heard *h)
 {
     for (int k = 0; k < HEARD_VECTORS_MAX; k++) free(h->vector[k].dx);
@@ -24,14 +26,38 @@ static bool is_in(const hdr_strings *list, const char *name)
     return false;
 }
 
-/** Transverse modes have a node between reflecting walls [T10]. */
+/** Of element k; disks have none along z. */
+static uint32_t nodes(const hdr_uints *along, uint32_t k)
+{
+    return k < along->count ? along->data[k] : 0;
+}
+
+/** Transverse fields go along two directions at least, and along none that ends at walls without
+ * nodes between them [T10]. */
+static bool is_transverse(const heard *h, const hdr_run_info *info, uint32_t wave)
+{
+    const hdr_uints *const along[] = {&info->wave_nx, &info->wave_ny, &info->wave_nz};
+    int directions = 0;
+    for (int d = 0; d < 3; d++) directions += h->periodic[d] || nodes(along[d], wave) > 0;
+    return h->round || directions >= 2;
+}
+
 static bool has_transverse(const heard *h, const hdr_run_info *info)
 {
     for (uint32_t k = 0; k < info->wave_nx.count && k < info->wave_ny.count; k++)
-        if (h->round || ((h->periodic[0] || info->wave_nx.data[k] > 0) &&
-                         (h->periodic[1] || info->wave_ny.data[k] > 0)))
-            return true;
+        if (is_transverse(h, info, k)) return true;
     return false;
+}
+
+static void begin_box(heard *h, const hdr_run_info *info)
+{
+    h->box[0] = info->box_x;
+    h->box[1] = info->box_y;
+    h->box[2] = info->dimensions == 3 ? info->box_z : 0.0;
+    h->periodic[0] = strcmp(info->boundary_x, "periodic") == 0;
+    h->periodic[1] = strcmp(info->boundary_y, "periodic") == 0;
+    h->periodic[2] = heard_has_spheres(h) && strcmp(info->boundary_z, "periodic") == 0;
+    h->round = strcmp(info->boundary_x, "curved") == 0;
 }
 
 static void begin(heard *h, const hdr_run_info *info)
@@ -42,11 +68,7 @@ static void begin(heard *h, const hdr_run_info *info)
     snprintf(h->scene, sizeof h->scene, "%s", info->scene);
     h->disks = info->disks;
     h->stage = UINT8_MAX;
-    h->box[0] = info->box_x;
-    h->box[1] = info->box_y;
-    h->periodic[0] = strcmp(info->boundary_x, "periodic") == 0;
-    h->periodic[1] = strcmp(info->boundary_y, "periodic") == 0;
-    h->round = strcmp(info->boundary_x, "curved") == 0;
+    begin_box(h, info);
     h->has_exponents = info->vectors > 0;
     h->has_steps = is_in(&info->observables, "steps");
     for (size_t k = 0; k < sizeof of_modes / sizeof *of_modes; k++)
@@ -59,11 +81,13 @@ bool heard_run_info(heard *h, const hdr_run_info *info)
 {
     if (h->begun && strcmp(h->run_id, info->run_id) == 0) return false;
     heard_clear(h);
-    h->x = malloc(4 * (size_t)info->disks * sizeof *h->x + 1);
+    h->x = malloc(6 * (size_t)info->disks * sizeof *h->x + 1);
     if (!h->x) return false;
     h->y = h->x + info->disks;
-    h->at_x = h->y + info->disks;
+    h->z = h->y + info->disks;
+    h->at_x = h->z + info->disks;
     h->at_y = h->at_x + info->disks;
+    h->at_z = h->at_y + info->disks;
     begin(h, info);
     h->changed = true;
     return true;
@@ -91,23 +115,35 @@ static void *replaced(const void *old, const void *from, size_t bytes)
 
 /* ---- disks and vectors of one time ----------------------------------------------------------- */
 
-/** Disks at a time; false if the places are not of each of them. */
-static bool move(heard *h, double time, const hdr_doubles *x, const hdr_doubles *y)
+/** So many numbers of each disk, and along z of each sphere. */
+static bool are_of_each(const heard *h, uint64_t times, const hdr_doubles *x, const hdr_doubles *y,
+                        const hdr_doubles *z)
 {
-    if (x->count != h->disks || y->count != h->disks) return false;
+    const uint64_t all = times * h->disks;
+    return x->count == all && y->count == all && z->count == (heard_has_spheres(h) ? all : 0);
+}
+
+/** Disks at a time; false if the places are not of each of them. */
+static bool move(heard *h, double time, const hdr_doubles *x, const hdr_doubles *y,
+                 const hdr_doubles *z)
+{
+    if (!are_of_each(h, 1, x, y, z)) return false;
     copy(h->x, x);
     copy(h->y, y);
+    copy(h->z, z);
     h->time = time;
     h->changed = true;
     return true;
 }
 
 /** Vectors that are heard next are of this time and these places. */
-static bool begin_vectors(heard *h, double time, const hdr_doubles *x, const hdr_doubles *y)
+static bool begin_vectors(heard *h, double time, const hdr_doubles *x, const hdr_doubles *y,
+                          const hdr_doubles *z)
 {
-    if (x->count != h->disks || y->count != h->disks) return false;
+    if (!are_of_each(h, 1, x, y, z)) return false;
     copy(h->at_x, x);
     copy(h->at_y, y);
+    copy(h->at_z, z);
     h->vector_time = time;
     h->vectors = 0;
     return true;
@@ -120,7 +156,7 @@ void heard_state(heard *h, const hdr_state *state)
         h->vector_time = -1.0;
         h->vectors = 0;
     }
-    (void)move(h, state->sim_time, &state->x, &state->y);
+    (void)move(h, state->sim_time, &state->x, &state->y, &state->z);
 }
 
 /** A vector more, with all but its arrays; NULL without room. */
@@ -128,11 +164,12 @@ static heard_vector *add(heard *h, const heard_vector *what)
 {
     if (h->vectors == HEARD_VECTORS_MAX) return NULL;
     heard_vector *v = &h->vector[h->vectors];
-    double *block = v->dx ? v->dx : malloc(2 * (size_t)h->disks * sizeof *block + 1);
+    double *block = v->dx ? v->dx : malloc(3 * (size_t)h->disks * sizeof *block + 1);
     if (!block) return NULL;
     *v = *what;
     v->dx = block;
-    v->dy = block + h->disks;
+    v->dy = v->dx + h->disks;
+    v->dz = v->dy + h->disks;
     h->vectors++;
     return v;
 }
@@ -151,7 +188,7 @@ uint32_t heard_pairs(const heard *h, double time, const heard_vector *v, double 
     if (h->phases.sim_time != time) return 0;
     for (uint32_t k = 0; k < h->phases.phases.count && pairs < HEARD_PAIRS_MAX; k++) {
         const hdr_lp_phase *phase = &h->phases.phases.data[k];
-        if (phase->index != v->index || phase->nx != v->nx || phase->ny != v->ny) continue;
+        if (phase->index != v->index || !SAME_NODES(phase, v)) continue;
         a[pairs] = phase->a;
         b[pairs++] = phase->b;
     }
@@ -172,20 +209,22 @@ void heard_mode_field(heard *h, const hdr_mode_field *field)
     const heard_vector what = {.kind = field->kind,
                                .nx = field->nx,
                                .ny = field->ny,
+                               .nz = field->nz,
                                .index = field->index,
                                .exponent = field->exponent,
                                .known = true};
     if (!is_ours(h, field->run_id)) return;
-    if (field->dqx.count != h->disks || field->dqy.count != h->disks) return;
+    if (!are_of_each(h, 1, &field->dqx, &field->dqy, &field->dqz)) return;
     if (field->sim_time != h->vector_time &&
-        !begin_vectors(h, field->sim_time, &field->x, &field->y))
+        !begin_vectors(h, field->sim_time, &field->x, &field->y, &field->z))
         return;
-    if (field->sim_time > h->time) (void)move(h, field->sim_time, &field->x, &field->y);
+    if (field->sim_time > h->time) (void)move(h, field->sim_time, &field->x, &field->y, &field->z);
     heard_vector *v = with_index(h, field->index);
     if (!v) v = add(h, &what);
     if (!v) return;
     copy(v->dx, &field->dqx);
     copy(v->dy, &field->dqy);
+    copy(v->dz, &field->dqz);
     note_pairs(h);
     h->changed = true;
 }
@@ -195,50 +234,61 @@ static bool is_wanted(const heard *h, const heard_vector *v)
 {
     bool is_new = v->kind == HDR_MODE_T || v->kind == HDR_MODE_LP;
     for (int k = 0; k < h->vectors && is_new; k++)
-        is_new = h->vector[k].kind != v->kind || h->vector[k].nx != v->nx ||
-                 h->vector[k].ny != v->ny;
+        is_new = h->vector[k].kind != v->kind || !SAME_NODES(&h->vector[k], v);
     for (uint32_t k = 0; k < h->steps.steps.count && !is_new; k++)
         is_new = h->steps.steps.data[k].resolved && h->steps.steps.data[k].first_index == v->index;
     return is_new;
 }
 
+/** As many numbers a and b as each vector of slow_vectors has. */
+static uint32_t pairs_of_each(const heard *h) { return heard_has_spheres(h) ? 8 : 4; }
+
 /** Element k of each array. */
-static heard_vector vector_of(const hdr_slow_vectors *slow, uint32_t k)
+static heard_vector vector_of(const heard *h, const hdr_slow_vectors *slow, uint32_t k)
 {
+    const uint32_t each = pairs_of_each(h), pairs = slow->pairs.data[k];
     heard_vector v = {.kind = slow->kind.data[k],
                       .nx = slow->nx.data[k],
                       .ny = slow->ny.data[k],
+                      .nz = nodes(&slow->nz, k),
                       .index = slow->first_index + k,
                       .exponent = slow->exponents.data[k],
                       .known = slow->dqx.count > 0,
-                      .pairs = slow->pairs.data[k]};
-    memcpy(v.a, slow->a.data + (size_t)HEARD_PAIRS_MAX * k, sizeof v.a);
-    memcpy(v.b, slow->b.data + (size_t)HEARD_PAIRS_MAX * k, sizeof v.b);
+                      .pairs = pairs < each ? pairs : each};
+    memcpy(v.a, slow->a.data + (size_t)each * k, each * sizeof *v.a);
+    memcpy(v.b, slow->b.data + (size_t)each * k, each * sizeof *v.b);
     return v;
 }
 
 /** Its arrays are as long as it says. */
 static bool is_whole(const heard *h, const hdr_slow_vectors *m)
 {
-    const uint64_t n = m->vectors, all = n * h->disks;
-    const bool known = m->dqx.count == all && m->dqy.count == all;
+    const uint64_t n = m->vectors, pairs = n * pairs_of_each(h);
     return m->exponents.count == n && m->kind.count == n && m->nx.count == n && m->ny.count == n &&
-           m->pairs.count == n && m->a.count == HEARD_PAIRS_MAX * n &&
-           m->b.count == HEARD_PAIRS_MAX * n && (known || (m->dqx.count == 0 && m->dqy.count == 0));
+           m->pairs.count == n && m->a.count == pairs && m->b.count == pairs &&
+           (m->nz.count == n || !heard_has_spheres(h)) &&
+           (are_of_each(h, n, &m->dqx, &m->dqy, &m->dqz) ||
+            are_of_each(h, 0, &m->dqx, &m->dqy, &m->dqz));
+}
+
+/** Vector k of all; nothing along z of disks. */
+static void copy_vector(double *to, const hdr_doubles *all, uint32_t k, uint32_t disks)
+{
+    if (all->count > 0) memcpy(to, all->data + (size_t)k * disks, disks * sizeof *to);
 }
 
 void heard_slow_vectors(heard *h, const hdr_slow_vectors *slow)
 {
     if (!is_ours(h, slow->run_id) || !is_whole(h, slow)) return;
-    if (!move(h, slow->sim_time, &slow->x, &slow->y)) return;
-    (void)begin_vectors(h, slow->sim_time, &slow->x, &slow->y);
+    if (!move(h, slow->sim_time, &slow->x, &slow->y, &slow->z)) return;
+    (void)begin_vectors(h, slow->sim_time, &slow->x, &slow->y, &slow->z);
     for (uint32_t k = 0; k < slow->vectors; k++) {
-        const heard_vector what = vector_of(slow, k);
+        const heard_vector what = vector_of(h, slow, k);
         heard_vector *v = is_wanted(h, &what) ? add(h, &what) : NULL;
         if (!v || !v->known) continue;
-        if (v->pairs > HEARD_PAIRS_MAX) v->pairs = HEARD_PAIRS_MAX;
-        memcpy(v->dx, slow->dqx.data + (size_t)k * h->disks, h->disks * sizeof *v->dx);
-        memcpy(v->dy, slow->dqy.data + (size_t)k * h->disks, h->disks * sizeof *v->dy);
+        copy_vector(v->dx, &slow->dqx, k, h->disks);
+        copy_vector(v->dy, &slow->dqy, k, h->disks);
+        copy_vector(v->dz, &slow->dqz, k, h->disks);
     }
 }
 

@@ -6,35 +6,36 @@
 
 #include "hdlyap_ros/messages.h"
 
-enum { HEARD_VECTORS_MAX = 64, HEARD_PAIRS_MAX = 4 };
+enum { HEARD_VECTORS_MAX = 64, HEARD_PAIRS_MAX = 8 };
 
 /** One Lyapunov vector, of slow_vectors or of fields. */
 typedef struct heard_vector {
     uint8_t kind; /**< of its step, as in Mode, and where that lies */
-    uint32_t nx, ny, index;
+    uint32_t nx, ny, nz, index;
     double exponent;
     uint32_t pairs; /**< of which a and b are known with the vector */
     double a[HEARD_PAIRS_MAX], b[HEARD_PAIRS_MAX];
-    bool known;      /**< the vector itself, at its place and time: */
-    double *dx, *dy; /**< [N] each, in one block at dx */
+    bool known;           /**< the vector itself, at its place and time: */
+    double *dx, *dy, *dz; /**< [N] each, in one block at dx; dz of spheres, as all of z */
 } heard_vector;
 
 typedef struct heard {
     bool begun; /**< run_info is known: box, names and what follows */
     char run_id[96], scene[64];
     uint32_t disks;
-    double box[2];
-    bool periodic[2];
+    double box[3]; /**< 0 along z of disks, spheres otherwise */
+    bool periodic[3];
     bool round;                    /**< the wall is a circle, which the box holds */
     bool has_exponents, has_steps; /**< sooner or later, as the next two */
     bool has_t, has_lp; /**< modes of these kinds: can be in the box, and are looked for */
     uint8_t stage;      /**< UINT8_MAX before the first status */
     double progress;
-    double status_time;  /**< of the last status; -1 before the first */
-    double time, *x, *y; /**< of the disks; in one block at x; time is -1 before the first */
+    double status_time;      /**< of the last status; -1 before the first */
+    double time, *x, *y, *z; /**< of the disks; in one block at x; time is -1 before the first */
     heard_vector vector[HEARD_VECTORS_MAX];
     int vectors;
-    double vector_time, *at_x, *at_y; /**< of the vectors: where the disks were then, behind y */
+    double vector_time, *at_x, *at_y,
+        *at_z; /**< of the vectors: where the disks were then, behind z */
     double *exponents, averaged;
     double lambda_max, lambda_max_error; /**< the error is -1 while it is not known */
     uint32_t exponents_count;
@@ -44,6 +45,8 @@ typedef struct heard {
 } heard;
 
 void heard_clear(heard *h); /**< frees; {0} before the first use */
+
+static inline bool heard_has_spheres(const heard *h) { return h->box[2] > 0.0; }
 
 /* Each copies what is needed; what is of another run, or no memory is left for, is passed over. */
 

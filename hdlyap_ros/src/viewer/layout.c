@@ -9,12 +9,23 @@ static const double ARROW = 2.6;        /* the longest, in mean distances of dis
 static const double LONG = 2.5;         /* boxes this much longer than high lie above each other */
 static const double TOO_LONG = 40.0;    /* arrows of neighbours would cover each other */
 static const double STRIP = 8.0;        /* height */
+static const double RISE = 0.7;         /* of what is above the plane, as seen from 55 degrees */
 static const double PLOT_HEIGHT = 0.65; /* of its width */
+
+/** Of a box of spheres that is seen from above and from the front, as rviz's view begins: its
+ * height on the screen, as of something flat. */
+static double height_of(const picture *p) { return p->box[1] + RISE * p->box[2]; }
+
+static double distance_of(const picture *p)
+{
+    return picture_has_spheres(p) ? cbrt(p->box[0] * p->box[1] * p->box[2] / p->disks)
+                                  : sqrt(p->box[0] * p->box[1] / p->disks);
+}
 
 /** Columns of a grid of panels that is not much higher than wide. */
 static int columns_of(const picture *p, int panels)
 {
-    const double shape = p->box[0] / p->box[1];
+    const double shape = p->box[0] / height_of(p);
     if (shape > LONG) return 1;
     const int columns = (int)ceil(sqrt(1.5 * panels / shape));
     return columns < panels ? columns : panels;
@@ -32,7 +43,7 @@ static void place_panels(layout *l, const picture *p, int columns)
     for (int k = 0; k < l->panels; k++) {
         l->panel[k] = (rect){
             .x = k % columns * (p->box[0] + GAP * l->unit + l->arrow),
-            .y = -(k / columns) * (p->box[1] + strip + TITLE * l->unit + l->arrow),
+            .y = -(k / columns) * (height_of(p) + strip + TITLE * l->unit + l->arrow),
             .width = p->box[0],
             .height = p->box[1],
         };
@@ -54,12 +65,14 @@ static void place_plots(layout *l, double width, double bottom)
 
 layout layout_of(const picture *p)
 {
+    const double distance = distance_of(p);
     layout l = {.panels = p->modes > 0 ? p->modes : 1,
-                .strips = p->modes > 0 && p->box[0] > TOO_LONG * p->box[1],
-                .arrow = ARROW * sqrt(p->box[0] * p->box[1] / p->disks)};
+                .strips = p->modes > 0 && p->box[0] > TOO_LONG * fmax(p->box[1], p->box[2]),
+                .distance = distance,
+                .arrow = ARROW * distance};
     const int columns = columns_of(p, l.panels);
     const double least = fmax(p->box[0],
-                              0.8 * p->box[1]); /* plots need room beside a high box too */
+                              0.8 * height_of(p)); /* plots need room beside a high box too */
     l.unit = fmax(grid_width(p, &l, columns, 0.0), least) / (WIDTH_UNITS - (columns - 1) * GAP);
     const double width = fmax(grid_width(p, &l, columns, l.unit), WIDTH_UNITS * l.unit);
     place_panels(&l, p, columns);

@@ -10,7 +10,8 @@ typedef struct rect {
 } rect;
 
 typedef struct layout {
-    double unit; /**< height of text */
+    double unit;     /**< height of text */
+    double distance; /**< of neighbouring disks, about */
     double
         arrow; /**< length of the longest; half of it may stand out of a panel, where no text is */
     rect panel[PICTURE_MODES_MAX];

@@ -12,6 +12,8 @@ static const hdr_colour PALETTE_L = {0.902F, 0.624F, 0.0F,
 static const hdr_colour PALETTE_P = {0.40F, 0.12F, 0.02F, 1.0F};     /* and one that is all P */
 static const hdr_colour PALETTE_ZERO = {0.0F, 0.620F, 0.451F, 1.0F}; /* #009E73 */
 static const hdr_colour PALETTE_DISK = {0.86F, 0.86F, 0.86F, 1.0F};
+/** As of glass: arrows are seen through it. */
+static const hdr_colour PALETTE_SPHERE = {0.5F, 0.5F, 0.5F, 0.3F};
 /** Lines, numbers and exponents that are of no step: legible on white and on rviz's own dark grey.
  */
 static const hdr_colour PALETTE_INK = {0.42F, 0.42F, 0.42F, 1.0F};

@@ -1,4 +1,6 @@
-/** One panel of a picture. Arrows are flat triangles in one list: a shaft of two, a head of one. */
+/** One panel of a picture. Arrows are flat triangles in one list: a shaft of two, a head of one. Of
+ * spheres there is a second list, of the same arrows turned by a right angle, to be seen from all
+ * sides. */
 #include "panel.h"
 
 #include <math.h>
@@ -15,9 +17,13 @@ static const double LINE = 0.12;                     /* in units of the text's h
 static const double DIAL = 1.2, DIAL_STEP = 2.4;     /* radius and, in radii, distance */
 static const double TITLE = 1.8, TITLE_HEIGHT = 1.1; /* above a panel's arrows, in the same */
 static const double PALE = 0.3; /* part of white in what is not of the picture's time */
-enum { DIAL_SIDES = 32, WALL_SIDES = 128 };
+enum { DIALS = 4, DIAL_SIDES = 32, WALL_SIDES = 128 };
 /** Of a strip: part of its half height that the root mean square takes; size of a dot. */
 static const double STRIP_SCALE = 0.3, STRIP_DOT = 0.35;
+/** Part of black in the second arrows, without which two that overlap are one blot. */
+static const double SHADE = 0.3;
+/** How a flat arrow lies. */
+typedef enum facing { LEVEL, UPRIGHT } facing;
 static const double TURN = 6.283185307179586;
 
 static void circle(canvas *on, double x, double y, double radius, int sides)
@@ -38,6 +44,24 @@ static void outline(canvas *on, const rect *r)
     canvas_line(on, r->x, y, r->x, r->y);
 }
 
+static void posts(canvas *on, const rect *r, double height)
+{
+    for (int corner = 0; corner < 4; corner++) {
+        const double x = r->x + corner % 2 * r->width, y = r->y + corner / 2 * r->height;
+        canvas_point(on, x, y, 0.0);
+        canvas_point(on, x, y, height);
+    }
+}
+
+/** The upper and the upright edges of a box of spheres. */
+static void lid(canvas *on, const rect *r, double height)
+{
+    canvas_level(on, height);
+    outline(on, r);
+    canvas_level(on, 0.0);
+    posts(on, r, height);
+}
+
 void panel_boxes(canvas *on, const layout *l, const picture *p)
 {
     canvas_layer(on, "box", HDR_MARKER_LINE_LIST, PALETTE_INK, LINE * l->unit);
@@ -47,6 +71,7 @@ void panel_boxes(canvas *on, const layout *l, const picture *p)
             circle(on, r->x + 0.5 * r->width, r->y + 0.5 * r->height, 0.5 * r->width, WALL_SIDES);
         else
             outline(on, r);
+        if (picture_has_spheres(p)) lid(on, r, p->box[2]);
         if (l->strips) outline(on, &l->strip[k]);
     }
 }
@@ -56,32 +81,68 @@ static double element(const hdr_doubles *array, uint32_t i)
     return array->data[(size_t)i * array->stride];
 }
 
-void panel_disks(canvas *on, const layout *l, const picture *p)
+/** Element i along each direction; 0 along z of disks. */
+static hdr_point triple(const hdr_doubles *x, const hdr_doubles *y, const hdr_doubles *z,
+                        uint32_t i)
 {
-    canvas_layer(on, "disks", HDR_MARKER_SPHERE_LIST, PALETTE_DISK, 1.0);
-    for (int k = 0; k < l->panels; k++)
-        for (uint32_t i = 0; i < p->x.count; i++)
-            canvas_point(on, l->panel[k].x + element(&p->x, i), l->panel[k].y + element(&p->y, i),
-                         DISKS_Z);
+    return (hdr_point){element(x, i), element(y, i), z->count > 0 ? element(z, i) : 0.0};
 }
 
-/** From (x, y) by (dx, dy); width: mean distance of disks. */
-static void arrow(canvas *on, double x, double y, double dx, double dy, double width)
+void panel_disks(canvas *on, const layout *l, const picture *p)
 {
-    const double length = hypot(dx, dy), nx = -dy / length, ny = dx / length;
+    const bool spheres = picture_has_spheres(p);
+    const double z = spheres ? 0.0 : DISKS_Z;
+    canvas_layer(on, spheres ? "spheres" : "disks", HDR_MARKER_SPHERE_LIST,
+                 spheres ? PALETTE_SPHERE : PALETTE_DISK, 1.0);
+    for (int k = 0; k < l->panels; k++)
+        for (uint32_t i = 0; i < p->x.count; i++) {
+            const hdr_point at = triple(&p->x, &p->y, &p->z, i);
+            canvas_point(on, l->panel[k].x + at.x, l->panel[k].y + at.y, z + at.z);
+        }
+}
+
+static double length_of(hdr_point d) { return hypot(hypot(d.x, d.y), d.z); }
+
+/** From a by part of d. */
+static hdr_point along(hdr_point a, double part, hdr_point d)
+{
+    return (hdr_point){a.x + part * d.x, a.y + part * d.y, a.z + part * d.z};
+}
+
+static void corner(canvas *on, hdr_point at) { canvas_point(on, at.x, at.y, at.z); }
+
+/** From a tail by d; n: unit vector across, in whose plane with d it lies; s, h: half widths of
+ * shaft and head. */
+static void flat_arrow(canvas *on, hdr_point tail, hdr_point d, hdr_point n, double s, double h)
+{
+    const hdr_point tip = along(tail, 1.0, d), neck = along(tip, -HEAD, d);
+    corner(on, along(tail, -s, n));
+    corner(on, along(neck, -s, n));
+    corner(on, along(neck, s, n));
+    corner(on, along(tail, -s, n));
+    corner(on, along(neck, s, n));
+    corner(on, along(tail, s, n));
+    corner(on, along(neck, -h, n));
+    corner(on, tip);
+    corner(on, along(neck, h, n));
+}
+
+/** Unit vector across d, which is so long: in the plane of the disks, or across that and d. */
+static hdr_point across(hdr_point d, double length, facing which)
+{
+    const double level = hypot(d.x, d.y);
+    const hdr_point n = level > 0.0 ? (hdr_point){-d.y / level, d.x / level, 0.0}
+                                    : (hdr_point){1.0, 0.0, 0.0};
+    if (which == LEVEL) return n;
+    return (hdr_point){-n.y * d.z / length, n.x * d.z / length, (n.y * d.x - n.x * d.y) / length};
+}
+
+/** Round a place; width: mean distance of disks. */
+static void arrow(canvas *on, hdr_point at, hdr_point d, double width, facing which)
+{
+    const double length = length_of(d);
     const double s = SHAFT_WIDTH * width, h = fmin(HEAD_WIDTH * width, 0.4 * length);
-    const double x0 = x - 0.5 * dx, y0 = y - 0.5 * dy, x1 = x0 + dx, y1 = y0 + dy;
-    const double neck_x = x1 - HEAD * dx, neck_y = y1 - HEAD * dy;
-    if (!(length > 0.0)) return;
-    canvas_point(on, x0 - s * nx, y0 - s * ny, 0.0);
-    canvas_point(on, neck_x - s * nx, neck_y - s * ny, 0.0);
-    canvas_point(on, neck_x + s * nx, neck_y + s * ny, 0.0);
-    canvas_point(on, x0 - s * nx, y0 - s * ny, 0.0);
-    canvas_point(on, neck_x + s * nx, neck_y + s * ny, 0.0);
-    canvas_point(on, x0 + s * nx, y0 + s * ny, 0.0);
-    canvas_point(on, neck_x - h * nx, neck_y - h * ny, 0.0);
-    canvas_point(on, x1, y1, 0.0);
-    canvas_point(on, neck_x + h * nx, neck_y + h * ny, 0.0);
+    if (length > 0.0) flat_arrow(on, along(at, -0.5, d), d, across(d, length, which), s, h);
 }
 
 /** An LP mode turns from L to P: its hue says so. */
@@ -103,22 +164,35 @@ static double mean_square(const picture_mode *m)
 {
     double sum = 0.0;
     for (uint32_t i = 0; i < m->dx.count; i++) {
-        const double dx = element(&m->dx, i), dy = element(&m->dy, i);
-        sum += dx * dx + dy * dy;
+        const hdr_point d = triple(&m->dx, &m->dy, &m->dz, i);
+        sum += d.x * d.x + d.y * d.y + d.z * d.z;
     }
     return m->dx.count > 0 ? sum / m->dx.count : 0.0;
 }
 
-static void arrows(canvas *on, const rect *r, const picture *p, const picture_mode *m, double most)
+static void arrows(canvas *on, const layout *l, const rect *r, const picture *p,
+                   const picture_mode *m, facing which)
 {
-    const double distance = sqrt(p->box[0] * p->box[1] / p->disks);
-    const double square = mean_square(m), scale = square > 0.0 ? ARROW * most / sqrt(square) : 0.0;
+    const double most = l->arrow, square = mean_square(m);
+    const double scale = square > 0.0 ? ARROW * most / sqrt(square) : 0.0;
+    const hdr_point zero = {0.0, 0.0, 0.0}, corner_of = {r->x, r->y, 0.0};
     for (uint32_t i = 0; i < m->dx.count; i++) {
-        const double dx = scale * element(&m->dx, i), dy = scale * element(&m->dy, i);
-        const double shorter = fmin(1.0, most / fmax(hypot(dx, dy), 1e-300));
-        arrow(on, r->x + element(&p->at_x, i), r->y + element(&p->at_y, i), shorter * dx,
-              shorter * dy, distance);
+        const hdr_point d = along(zero, scale, triple(&m->dx, &m->dy, &m->dz, i));
+        const double shorter = fmin(1.0, most / fmax(length_of(d), 1e-300));
+        const hdr_point at = along(corner_of, 1.0, triple(&p->at_x, &p->at_y, &p->at_z, i));
+        arrow(on, at, along(zero, shorter, d), l->distance, which);
     }
+}
+
+/** In a layer of their own; rviz's light is for a plane. */
+static void field(canvas *on, const char *ns, const layout *l, const picture *p, int k,
+                  facing which)
+{
+    const hdr_colour black = {0.0F, 0.0F, 0.0F, 1.0F}, colour = colour_of_field(p, &p->mode[k]);
+    canvas_layer(on, ns, HDR_MARKER_TRIANGLE_LIST,
+                 which == LEVEL ? colour : palette_mix(colour, black, SHADE), 1.0);
+    if (picture_has_spheres(p)) canvas_unlit(on);
+    arrows(on, l, &l->panel[k], p, &p->mode[k], which);
 }
 
 /** One component against x, between the edges of a strip. */
@@ -132,21 +206,25 @@ static void dots(canvas *on, const rect *strip, const picture *p, const hdr_doub
     }
 }
 
-/** Both components of a long box's mode: along it in colour, across it in grey. */
+/** All components of a long box's mode: along it in colour, across it in grey. */
 static void components(canvas *on, const layout *l, const picture *p, int k, const char *ns)
 {
     const picture_mode *m = &p->mode[k];
     const double square = mean_square(m), scale = square > 0.0 ? STRIP_SCALE / sqrt(square) : 0.0;
     canvas_layer(on, ns, HDR_MARKER_POINTS, PALETTE_INK, STRIP_DOT * l->unit);
     dots(on, &l->strip[k], p, &m->dy, scale);
+    dots(on, &l->strip[k], p, &m->dz, scale);
     canvas_layer(on, ns, HDR_MARKER_POINTS, colour_of_field(p, m), STRIP_DOT * l->unit);
     dots(on, &l->strip[k], p, &m->dx, scale);
 }
 
+/** Eight dials, of spheres, take no more room than four. */
+static double smaller(uint32_t pairs) { return pairs > DIALS ? (double)DIALS / pairs : 1.0; }
+
 /** Coefficients (a, b) of each pair in their unit circle, in a row that ends at x. */
 static void dials(canvas *on, double x, double y, double unit, const picture_mode *m)
 {
-    const double radius = DIAL * unit;
+    const double radius = DIAL * unit * smaller(m->pairs);
     canvas_layer(on, "phases", HDR_MARKER_LINE_LIST, PALETTE_INK, LINE * unit);
     for (uint32_t k = 0; k < m->pairs; k++) {
         const double at = x - (DIAL_STEP * (m->pairs - k - 0.5)) * radius;
@@ -194,15 +272,17 @@ void panel_mode(canvas *on, const layout *l, const picture *p, int k)
     const rect *r = &l->panel[k];
     const double top = r->y + r->height + 0.5 * l->arrow + TITLE * l->unit;
     const uint32_t pairs = m->known ? m->pairs : 0;
-    const double row = pairs * DIAL_STEP * DIAL * l->unit; /* of dials */
+    const double row = pairs * DIAL_STEP * DIAL * l->unit * smaller(pairs); /* of dials */
     char ns[32];
     snprintf(ns, sizeof ns, "mode/%s", m->box);
     if (m->known && l->strips) {
         components(on, l, p, k, ns);
     } else if (m->known) {
-        canvas_layer(on, ns, HDR_MARKER_TRIANGLE_LIST, colour_of_field(p, m), 1.0);
-        arrows(on, r, p, m, l->arrow);
+        field(on, ns, l, p, k, LEVEL);
+        if (picture_has_spheres(p)) field(on, ns, l, p, k, UPRIGHT);
     }
+    canvas_level(on, p->box[2]);
     if (pairs > 0) dials(on, r->x + r->width, top, l->unit, m);
     title(on, ns, r->x + 0.5 * (r->width - row), top, l, p, m);
+    canvas_level(on, 0.0);
 }

@@ -10,6 +10,7 @@
 #include "compose.h"
 #include "draw.h"
 #include "hdlyap_ros/hdlyap_ros.h"
+#include "nodes.h"
 
 enum { EXIT_REFUSED = 2, EXIT_NO_MEMORY = 3, QUEUE = 1000, TOPIC_SIZE = 300 };
 
@@ -56,16 +57,16 @@ static double seconds_now(void)
 /* ---- modes --------------------------------------------------------------------------------- */
 
 static const char *const modes_allowed =
-    "lowest or 1 to 8 names such as T(1,0) LP(1,1), with spaces between";
+    "lowest or 1 to 8 names such as T(1,0) LP(1,1), of spheres T(1,0,0), with spaces between";
 
 /** False unless the text is `lowest` or of 1 to PICTURE_MODES_MAX names, with spaces between. */
 static bool parse_modes(mode_choice *modes, const char *text)
 {
-    char name[16];
+    char name[24];
     int end = 0;
     *modes = (mode_choice){.count = 0};
     if (strcmp(text, "lowest") == 0) return true;
-    for (; sscanf(text, "%15s%n", name, &end) == 1; text += end)
+    for (; sscanf(text, "%23s%n", name, &end) == 1; text += end)
         if (modes->count == PICTURE_MODES_MAX ||
             !mode_name_parse(&modes->mode[modes->count++], name))
             return false;
@@ -125,9 +126,23 @@ static void tend(viewer *v)
 
 static bool is_looked_for(const hdr_run_info *info, const mode_name *name)
 {
-    for (uint32_t k = 0; k < info->wave_nx.count && k < info->wave_ny.count; k++)
-        if (info->wave_nx.data[k] == name->nx && info->wave_ny.data[k] == name->ny) return true;
+    for (uint32_t k = 0; k < info->wave_nx.count && k < info->wave_ny.count; k++) {
+        const mode_name wave = {.nx = info->wave_nx.data[k],
+                                .ny = info->wave_ny.data[k],
+                                .nz = k < info->wave_nz.count ? info->wave_nz.data[k] : 0};
+        if (SAME_NODES(&wave, name)) return true;
+    }
     return false;
+}
+
+static void warn_of_none(const hdr_run_info *info, const mode_name *name)
+{
+    char nodes[NODES_SIZE];
+    nodes_write(nodes, info->dimensions == 3, name->nx, name->ny, name->nz);
+    hdr_log(HDR_WARN,
+            "modes: %s looks for no wave %s: start it with a larger max_mode_number "
+            "or max_wave_number, and with observables that need modes",
+            info->scene, nodes);
 }
 
 static void on_run_info(void *context, const hdr_run_info *info)
@@ -139,11 +154,7 @@ static void on_run_info(void *context, const hdr_run_info *info)
     pthread_mutex_unlock(&v->lock);
     if (!begins) return;
     for (int k = 0; k < v->modes.count; k++)
-        if (!is_looked_for(info, &v->modes.mode[k]))
-            hdr_log(HDR_WARN,
-                    "modes: %s looks for no wave (%u,%u): start it with a larger max_mode_number "
-                    "or max_wave_number, and with observables that need modes",
-                    info->scene, (unsigned)v->modes.mode[k].nx, (unsigned)v->modes.mode[k].ny);
+        if (!is_looked_for(info, &v->modes.mode[k])) warn_of_none(info, &v->modes.mode[k]);
 }
 
 /** on_NAME: hears a message, with what is done before and after it. */

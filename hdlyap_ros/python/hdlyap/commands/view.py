@@ -3,6 +3,7 @@
 Waits for the first picture, fits rviz's view to it and becomes rviz."""
 
 import glob
+import math
 import os
 import sys
 import threading
@@ -18,6 +19,7 @@ LETTER, LINE = 0.5, 1.2  # width and height of rviz's letters, as parts of a tex
 # A drag with the left button adds to the angle of rviz's view, a 32-bit float, which would turn the
 # picture but not its text. To so large an angle nothing can be added; it is none but for 2e-7.
 LOCKED = 1111175296
+FIELD_OF_VIEW = math.radians(45)  # of rviz, from the lower to the upper edge
 
 
 def first_picture(topic):
@@ -40,15 +42,22 @@ def first_picture(topic):
     return pictures[0] if pictures else None
 
 
-def shipped():
-    """rviz's configuration, in an installed package or in its source."""
+def shipped(picture):
+    """rviz's configuration, in an installed package or in its source: spheres can be turned."""
+    name = 'hdlyap_3d.rviz' if is_in_space(picture) else 'hdlyap.rviz'
     share = rospkg.RosPack().get_path('hdlyap')
-    installed = os.path.join(share, 'rviz', 'hdlyap.rviz')
+    installed = os.path.join(share, 'rviz', name)
     return (
-        installed
-        if os.path.exists(installed)
-        else os.path.join(share, 'hdlyap_ros', 'rviz', 'hdlyap.rviz')
+        installed if os.path.exists(installed) else os.path.join(share, 'hdlyap_ros', 'rviz', name)
     )
+
+
+def configuration(path):
+    try:
+        with open(path) as file:
+            return yaml.safe_load(file)
+    except (OSError, yaml.YAMLError) as error:
+        sys.exit('hdlyap view: %s' % error)
 
 
 def is_software_gl():
@@ -58,50 +67,87 @@ def is_software_gl():
     return forced or not any(map(glob.glob, cards))
 
 
-def bounds(picture):
-    """Corners of all that is drawn: (x, y) least and most."""
-    drawn = [marker for marker in picture.markers if marker.action == Marker.ADD]
-    places = [(point.x, point.y) for marker in drawn for point in marker.points]
-    for marker in drawn:
+def drawn(picture):
+    return [marker for marker in picture.markers if marker.action == Marker.ADD]
+
+
+def is_in_space(picture):
+    """Of spheres: disks and plots lie in a plane."""
+    return any(point.z > 0 for marker in drawn(picture) for point in marker.points)
+
+
+def places(picture):
+    """Points of all that is drawn, and the corners of its texts: (x, y, z)."""
+    found = [(point.x, point.y, point.z) for marker in drawn(picture) for point in marker.points]
+    for marker in drawn(picture):
         if marker.type == Marker.TEXT_VIEW_FACING:
             lines, place = marker.text.split('\n'), marker.pose.position
             width = LETTER * max(map(len, lines)) * marker.scale.z
             for side in (-0.5, 0.5):
                 height = side * LINE * len(lines) * marker.scale.z
-                places.append((place.x + side * width, place.y + height))
-    return tuple(map(min, zip(*places))), tuple(map(max, zip(*places)))
+                found.append((place.x + side * width, place.y + height, place.z))
+    return found
+
+
+def middle_and_size(numbers):
+    low, high = min(numbers), max(numbers)
+    return 0.5 * (low + high), high - low
+
+
+def from_above(view, room, points):
+    """All of a plane picture."""
+    (x, width), (y, height), _ = map(middle_and_size, zip(*points))
+    scale = min(room[0] / (MARGIN * width), room[1] / (MARGIN * height))
+    view.update(X=x, Y=y, Angle=LOCKED, Scale=scale)
+
+
+def seen(view, point):
+    """Of a point, as one looks from the view's direction to its focal point: how far it is to the
+    right of that, above it, and nearer."""
+    yaw, pitch = view['Yaw'], view['Pitch']
+    x, y, z = (p - view['Focal Point'][axis] for p, axis in zip(point, 'XYZ'))
+    out = x * math.cos(yaw) + y * math.sin(yaw)  # away from the focal point, in the plane
+    return (
+        y * math.cos(yaw) - x * math.sin(yaw),
+        z * math.cos(pitch) - out * math.sin(pitch),
+        z * math.sin(pitch) + out * math.cos(pitch),
+    )
+
+
+def from_aside(view, room, points):
+    """All of a picture in space, from the direction that the view has."""
+    middle = [middle_and_size(numbers)[0] for numbers in zip(*points)]
+    view['Focal Point'].update(zip('XYZ', middle))
+    up = math.tan(0.5 * FIELD_OF_VIEW) / MARGIN
+    right = up * room[0] / room[1]
+    apparent = [seen(view, point) for point in points]
+    view['Distance'] = max(near + max(abs(x) / right, abs(y) / up) for x, y, near in apparent)
 
 
 def fitted(config, topic, picture):
     """rviz's configuration with this topic, and its view on all of the picture."""
-    low, high = bounds(picture)
     manager, window = config['Visualization Manager'], config['Window Geometry']
     room = window['Width'] - DOCK, window['Height'] - BARS
     for display in manager['Displays']:
         if display['Class'] == 'rviz/MarkerArray':
             display['Marker Topic'] = topic
-    manager['Views']['Current'].update(
-        X=0.5 * (low[0] + high[0]),
-        Y=0.5 * (low[1] + high[1]),
-        Angle=LOCKED,
-        Scale=min(room[d] / (MARGIN * (high[d] - low[d])) for d in range(2)),
-    )
+    view = manager['Views']['Current']
+    fit = from_aside if view['Class'] == 'rviz/Orbit' else from_above
+    fit(view, room, places(picture))
     return config
 
 
 def options(parser):
     parser.add_argument('--node', default='/hdlyap', metavar='NAME', help='default: %(default)s')
     parser.add_argument(
-        '--config', metavar='FILE', help='a view of your own instead of rviz/hdlyap.rviz'
+        '--config',
+        metavar='FILE',
+        help='a view of your own instead of rviz/hdlyap.rviz, or hdlyap_3d.rviz of spheres',
     )
 
 
 def main(args):
-    try:
-        with open(args.config or shipped()) as file:
-            config = yaml.safe_load(file)
-    except (OSError, yaml.YAMLError) as error:
-        sys.exit('hdlyap view: %s' % error)
+    config = configuration(args.config) if args.config else None
     if not (os.environ.get('DISPLAY') or os.environ.get('WAYLAND_DISPLAY')):
         sys.exit('hdlyap view: DISPLAY is not set: rviz needs a screen')
     try:
@@ -112,6 +158,7 @@ def main(args):
     picture = first_picture(topic)
     if picture is None:
         return 130
+    config = config or configuration(shipped(picture))
     own = os.path.join(rospkg.get_ros_home(), 'view' + topic.replace('/', '_') + '.rviz')
     with open(own, 'w') as file:
         yaml.safe_dump(fitted(config, topic, picture), file)

@@ -1,0 +1,25 @@
+/** Numbers of nodes of waves: two of disks, three of spheres. */
+#ifndef HDLYAP_NODES_H
+#define HDLYAP_NODES_H
+
+#include <stdbool.h>
+#include <stdint.h>
+#include <stdio.h>
+
+/** Of two that have nx, ny and nz. */
+#define SAME_NODES(a, b) ((a)->nx == (b)->nx && (a)->ny == (b)->ny && (a)->nz == (b)->nz)
+
+enum { NODES_SIZE = 40 };
+
+/** (1,0), of spheres (1,0,0); three also where disks are asked for what they have not. */
+static inline const char *nodes_write(char text[NODES_SIZE], bool spheres, uint32_t nx, uint32_t ny,
+                                      uint32_t nz)
+{
+    if (spheres || nz > 0)
+        snprintf(text, NODES_SIZE, "(%u,%u,%u)", (unsigned)nx, (unsigned)ny, (unsigned)nz);
+    else
+        snprintf(text, NODES_SIZE, "(%u,%u)", (unsigned)nx, (unsigned)ny);
+    return text;
+}
+
+#endif
