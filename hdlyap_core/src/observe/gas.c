@@ -147,7 +147,7 @@ static void gas_archive(void *self, hd_archive *archive, const hd_trajectory *no
 {
     hd_gas *gas = self;
     hd_archive_double(archive, "gas last time", &gas->last.time);
-    hd_archive_doubles(archive, "gas last virial", gas->last.virial, 2);
+    hd_archive_doubles(archive, "gas last virial", gas->last.virial, HD_DIM);
     hd_archive_bits(archive, "gas last collisions", &gas->last.collisions);
     hd_archive_double(archive, "gas time", &gas->time);
     hd_archive_doubles(archive, "gas sum", gas->sum, SERIES);
