@@ -18,10 +18,6 @@ TEST(what_is_of_disks_alone)
                "dimensions:=3)");
     check_line(scene_from(usual(), .container = HD_CIRCLE),
                "container = 1: must be rectangle (a box), in three dimensions");
-    check_line(scene_from(usual(), .observe = HD_OBSERVE_HYDRO),
-               "observables = hydro: must not be given with dimensions = 3: it is of disks");
-    check_line(scene_from(usual(), .observe = HD_OBSERVE_MODES | HD_OBSERVE_STRUCTURE),
-               "observables = structure: must not be given with dimensions = 3: it is of disks");
 }
 
 TEST(values_out_of_range)
