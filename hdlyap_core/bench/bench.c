@@ -1,7 +1,8 @@
 /** What a run costs: its parts, and the whole as a ratio to the floor
  * F = 4 m n^2 flops at dgemm speed per ln(1e8) / (lambda_1 - lambda_n) of simulated time,
  * all measured in one run on one machine, in rounds.
- * Usage: hdlyap_bench [--disks N] [--threads N] [--rounds N] [--duration TIME UNITS OF A ROUND]
+ * Usage: hdlyap_bench, of spheres hdlyap_bench_3d, [--disks N] [--density RHO] [--threads N]
+ * [--rounds N] [--duration TIME UNITS OF A ROUND]
  *         [--settling TIME UNITS BEFORE THE FIRST] [--whole] [--events] [--out FOLDER]
  *         [--name NAME]; with --out it writes FOLDER/NAME.csv; --whole and --events are for one
  *         part alone. */
@@ -17,6 +18,7 @@
 
 typedef struct asked {
     int disks, threads, rounds;
+    double density;
     double duration;    /**< of a round [time units] */
     double settling;    /**< of the averaging, before the first [time units] */
     bool whole, events; /**< that part alone */
@@ -40,7 +42,7 @@ static double spread_of(const hd_run *run)
 static void one_round(hd_run *run, gemm *g, double duration, result *r)
 {
     const double begin = hd_run_time(run), start = seconds();
-    const int m = 4 * hd_run_scene(run)->disks, n = hd_run_vectors(run);
+    const int m = HD_ROWS * hd_run_scene(run)->disks, n = hd_run_vectors(run);
     double measuring = 0.0;
     sample speed = {0};
     for (int step = 0; hd_run_time(run) < begin + duration - 1e-9; step++) {
@@ -91,10 +93,10 @@ static void print_parts(const result *r, double duration)
 
 static void tell(const hd_run *run, const gemm *g, const asked *a, const result *r, char **argv)
 {
-    printf("%d disks, %d vectors, %d threads, %s kernels, dgemm %.1f GF/s, %d rounds of %g time "
+    printf("%d %s, %d vectors, %d threads, %s kernels, dgemm %.1f GF/s, %d rounds of %g time "
            "units\n",
-           a->disks, hd_run_vectors(run), hd_run_threads(run), hd_blas_query().kernel,
-           gemm_rate(g) * 1e-9, a->rounds, a->duration);
+           a->disks, HD_DIM == 2 ? "disks" : "spheres", hd_run_vectors(run), hd_run_threads(run),
+           hd_blas_query().kernel, gemm_rate(g) * 1e-9, a->rounds, a->duration);
     table *t = ratio_begin(a->out, a->name);
     ratio_tell(t, "whole run W [s/time unit]", a->disks, &r->w);
     ratio_tell(t, "floor F [s/time unit]", a->disks, &r->f);
@@ -107,13 +109,14 @@ static void whole_run(const asked *a, char **argv)
 {
     hd_scene_def scene = hd_scene_def_default();
     scene.disks = a->disks;
+    scene.density = a->density;
     scene.threads = a->threads;
     scene.equilibration = 20.0;
     scene.warmup = 30.0;
     scene.observe = HD_OBSERVE_STEPS | HD_OBSERVE_PHASES;
     hd_run *run = created(&scene);
     result r = {0};
-    gemm *g = gemm_create(4 * scene.disks, hd_run_vectors(run));
+    gemm *g = gemm_create(HD_ROWS * scene.disks, hd_run_vectors(run));
     measure(run, g, a, &r);
     tell(run, g, a, &r, argv);
     gemm_free(g);
@@ -158,11 +161,13 @@ static double memory_rate(void)
 }
 
 /** One exponent of many disks: what its replay must move per event, a logged event and a tangent
- * map in and out, the vector's eight numbers of two disks in and out, against copying as many
+ * map in and out, the vector's numbers of two disks in and out, against copying as many
  * bytes. */
 static void one_exponent(int disks, double memory)
 {
-    const double bytes_per_event = 48.0 + 2.0 * 64.0 + 2.0 * 8.0 * 8.0;
+    const double of_map = HD_DIM == 2 ? 64.0 : 104.0;
+    const double bytes_per_event = (double)sizeof(hd_event) + 2.0 * of_map +
+                                   2.0 * 2.0 * HD_ROWS * 8.0;
     hd_scene_def scene = hd_scene_def_default();
     scene.disks = disks;
     scene.density = 0.7;
@@ -203,8 +208,14 @@ static void print_events(void)
 
 int main(int argc, char **argv)
 {
-    asked a = {.disks = 780, .rounds = 5, .duration = 16.0, .settling = 100.0, .name = "whole"};
+    asked a = {.disks = 780,
+               .density = 0.8,
+               .rounds = 5,
+               .duration = 16.0,
+               .settling = 100.0,
+               .name = "whole"};
     const option list[] = {{"--disks", .count = &a.disks, .least = 10, .most = 5000},
+                           {"--density", .number = &a.density, .least = 1e-3, .most = 1.4},
                            {"--threads", .count = &a.threads, .least = 0, .most = 256},
                            {"--rounds", .count = &a.rounds, .least = 1, .most = SAMPLE_MAX},
                            {"--duration", .number = &a.duration, .least = 1, .most = 1e6},
