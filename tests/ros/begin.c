@@ -7,9 +7,11 @@
 
 bool begin_run(const hdr_params *params, bool tiny, char *line, size_t size)
 {
-    const hd_scene_def two = {.disks = 2,
+    const hd_scene_def two = {.dimensions = HD_DIM,
+                              .disks = 2,
                               .density = 0.1,
                               .aspect = 1.0,
+                              .aspect_z = 1.0,
                               .exponents = HD_EXPONENTS_NONE,
                               .accuracy = 1e-8,
                               .report_interval = 1.0};

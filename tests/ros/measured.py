@@ -8,7 +8,7 @@ import math
 from hdlyap.msg import Cost, LpPhase, Mode, RunStatus
 
 OF_STEPS = ('multiplicity', 'exponent', 'scatter', 'set_time', 'own_part', 'gap')
-OF_RESPONSES = ('density', 'along', 'across', 'energy')
+OF_RESPONSES = ('density', 'along', 'across', 'across_second', 'energy')
 OF_LP = ('weight_l', 'weight_p')
 
 
@@ -111,6 +111,10 @@ def _hydro(message):
                 yield f'responses[{k}].{name}'
 
 
+def _gas(message):
+    yield from [] if message.pressure_z_error >= 0 else ['pressure_z']  # of disks
+
+
 def _field(message):
     if message.kind == Mode.NONE:
         yield 'wave_number'
@@ -126,6 +130,7 @@ RULES = dict(
     LpPhases=_phases,
     TPhases=_t_phases,
     Hydro=_hydro,
+    Gas=_gas,
     ModeField=_field,
 )
 

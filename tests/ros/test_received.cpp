@@ -135,7 +135,7 @@ TEST(received, counts_that_lie_are_refused)
     const bytes whole = bytes_of(some_field());
     const size_t header_end = 4 + 8 + 4 + 3;
     for (const uint32_t lie : {0xffffffffu, 0x20000001u}) {
-        for (const size_t at : {size_t(12), header_end, header_end + 4 + 3 + 8 + 4 + 1 + 8 + 16}) {
+        for (const size_t at : {size_t(12), header_end, header_end + 4 + 3 + 8 + 4 + 1 + 12 + 16}) {
             bytes wrong = whole;
             std::memcpy(wrong.data() + at, &lie, sizeof lie);
             expect_refused<hdr_mode_field>(wrong);

@@ -3,8 +3,11 @@
 
 import copy
 import itertools
+import os
+import subprocess
 
 import numpy as np
+import yaml
 
 import harness
 from hdlyap.msg import Mode
@@ -15,6 +18,7 @@ SCENE = dict(dimensions=3, disks=128, density=0.5, aspect=0.25, aspect_z=0.3, eq
 SCENE.update(scene='balls', warmup=20.0, duration=70.0, report_interval=5.0, max_mode_number=2)
 SCENE.update(boundary_y='reflecting', observables=TOPICS[1:], seed='3', covariant_window=20.0)
 SCENE.update(covariant_transient=20.0, exponents='all')
+SCENES = os.path.join(os.path.dirname(os.path.abspath(__file__)), '../../launch/scenes')
 ROUNDING = 1e-7
 SLOPE = 1e-4  # of central differences
 VECTOR = 'dqx', 'dqy', 'dqz', 'dpx', 'dpy', 'dpz'
@@ -240,6 +244,24 @@ class Spheres(harness.Case):
         self.assertIn((0, 1, 1), {nodes(weight) for weight in last.weights})
         local = np.array(last.exponents) + np.array(last.exponents)[::-1]
         self.assertLess(abs(local).max(), 0.2)
+
+
+class Scenes(harness.Case):
+    def test_each_is_valid_and_says_nothing_twice(self):
+        program = harness.executable(dict(dimensions=3))
+        usual = yaml.safe_load(subprocess.check_output([program, '--parameters'], text=True))
+        files = sorted(name for name in os.listdir(SCENES) if name.startswith('spheres'))
+        self.assertEqual(len(files), 3)
+        for name in files:
+            path = os.path.join(SCENES, name)
+            with open(path) as file:
+                scene = yaml.safe_load(file)
+            self.assertEqual(scene.pop('scene') + '.yaml', name)
+            self.assertEqual(scene.pop('dimensions'), 3)
+            self.assertEqual({key for key in scene if scene[key] == usual[key]}, set())
+            said = subprocess.check_output([program, '--check', path, 'disks:=108'], text=True)
+            self.assertIn('is valid: 108 spheres in ', said)
+            self.assertRegex(said, r'(?m)^waves +(T,)?LP\(1,0,0\)')
 
 
 class Refused(harness.Case):
