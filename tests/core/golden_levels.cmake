@@ -5,6 +5,10 @@ cmake_minimum_required(VERSION 3.16)
 
 file(GLOB SOURCES ${CORE}/src/base/*.c ${CORE}/src/scene/*.c ${CORE}/src/events/*.c)
 list(FILTER SOURCES EXCLUDE REGEX "/(blas|gas)\\.c$") # which no event knows of
+set(SOURCES_2 ${SOURCES}) # of disks
+list(FILTER SOURCES_2 EXCLUDE REGEX "_3d\\.c$")
+set(SOURCES_3 ${SOURCES}) # of spheres
+list(FILTER SOURCES_3 EXCLUDE REGEX "_2d\\.c$")
 set(TESTS ${CMAKE_CURRENT_LIST_DIR}/support)
 set(EXACT -std=c11 -ffp-contract=off -fno-math-errno -fno-trapping-math)
 # all that this processor can do; clang takes -mcpu=native for it on arm64, not -march
@@ -17,21 +21,22 @@ endif()
 set(LEVELS "-O0" "-O2" "-O3 ${NATIVE}")
 file(MAKE_DIRECTORY ${WORK})
 
-function(expect_golden compiler level)
+function(expect_golden compiler level dimensions)
   string(REPLACE " " ";" flags ${level})
   get_filename_component(name ${compiler} NAME)
-  string(MAKE_C_IDENTIFIER "golden_${name}${level}" program)
+  string(MAKE_C_IDENTIFIER "golden_${name}${level}_${dimensions}d" program)
   execute_process(RESULT_VARIABLE failed
-    COMMAND ${compiler} ${EXACT} ${flags} -I${CORE}/include -I${CORE}/src -I${TESTS} ${SOURCES}
+    COMMAND ${compiler} ${EXACT} ${flags} -DHD_DIM=${dimensions} -I${CORE}/include -I${CORE}/src -I${TESTS}
+      ${SOURCES_${dimensions}}
       ${TESTS}/golden.c ${TESTS}/golden_main.c -o ${WORK}/${program} -lz -lm)
   if(failed)
-    message(FATAL_ERROR "${compiler} ${level}: does not compile")
+    message(FATAL_ERROR "${compiler} ${level}, ${dimensions} dimensions: does not compile")
   endif()
   execute_process(COMMAND ${WORK}/${program} RESULT_VARIABLE failed OUTPUT_VARIABLE hashes)
   if(failed)
-    message(FATAL_ERROR "${compiler} ${level}:\n${hashes}")
+    message(FATAL_ERROR "${compiler} ${level}, ${dimensions} dimensions:\n${hashes}")
   endif()
-  message("${compiler} ${level}: as stored")
+  message("${compiler} ${level}, ${dimensions} dimensions: as stored")
 endfunction()
 
 set(COMPILERS "")
@@ -46,6 +51,7 @@ if(NOT COMPILERS)
 endif()
 foreach(compiler IN LISTS COMPILERS)
   foreach(level IN LISTS LEVELS)
-    expect_golden(${compiler} ${level})
+    expect_golden(${compiler} ${level} 2)
+    expect_golden(${compiler} ${level} 3)
   endforeach()
 endforeach()

@@ -1,5 +1,5 @@
-# cmake -DCORE=<hdlyap_core> -DWORK=<folder> [-DLIBRARY=<libhdlyap_core.so>] -P headers.cmake
-# Each public header alone, as strict C and as C++; with a library, a C++ program that uses it.
+# cmake -DCORE=<hdlyap_core> -DWORK=<folder> [-DLIBRARY=<libhdlyap_core.so> -DLIBRARY_3D=<libhdlyap_core_3d.so>] -P headers.cmake
+# Each public header alone, as strict C and as C++; with the libraries, a C++ program that uses each.
 cmake_minimum_required(VERSION 3.16)
 
 set(WARNINGS -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror)
@@ -23,19 +23,22 @@ function(check_headers compiler suffix)
     set(source ${WORK}/alone_${name}.${suffix})
     file(WRITE ${source} "#include \"${header}\"\n#include \"${header}\"\nint main(void);\n")
     foreach(standard IN LISTS ARGN)
-      run("${compiler} -std=${standard} ${header}"
-        ${compiler} -std=${standard} ${WARNINGS} -I${CORE}/include -fsyntax-only ${source})
+      foreach(spheres "" -DHD_DIM=3)
+        run("${compiler} -std=${standard} ${spheres} ${header}" ${compiler} -std=${standard} ${spheres} ${WARNINGS}
+          -I${CORE}/include -fsyntax-only ${source})
+      endforeach()
     endforeach()
   endforeach()
   message("${compiler}: ${HEADERS} as ${ARGN}")
 endfunction()
 
-function(check_program compiler)
-  get_filename_component(folder ${LIBRARY} DIRECTORY)
+function(check_program compiler library) # .. and flags
+  get_filename_component(folder ${library} DIRECTORY)
   get_filename_component(name ${compiler} NAME)
-  set(program ${WORK}/uses_${name})
-  run("${compiler} with the library" ${compiler} -std=c++11 ${WARNINGS} -I${CORE}/include
-    ${CMAKE_CURRENT_LIST_DIR}/headers.cpp -o ${program} ${LIBRARY} -Wl,-rpath,${folder})
+  get_filename_component(linked ${library} NAME_WE)
+  set(program ${WORK}/uses_${linked}_${name})
+  run("${compiler} with ${linked}" ${compiler} -std=c++11 ${ARGN} ${WARNINGS} -I${CORE}/include
+    ${CMAKE_CURRENT_LIST_DIR}/headers.cpp -o ${program} ${library} -Wl,-rpath,${folder})
   run("${program}" ${program})
 endfunction()
 
@@ -51,7 +54,8 @@ foreach(name g++ clang++)
   if(HEADERS_${name})
     check_headers(${HEADERS_${name}} cpp c++11 c++17)
     if(LIBRARY)
-      check_program(${HEADERS_${name}})
+      check_program(${HEADERS_${name}} ${LIBRARY})
+      check_program(${HEADERS_${name}} ${LIBRARY_3D} -DHD_DIM=3)
     endif()
   endif()
 endforeach()

@@ -147,6 +147,17 @@ TEST(whole_fields_out_of_range)
     }
 }
 
+/** What is of spheres alone is refused, not left aside. */
+TEST(a_third_direction)
+{
+    const hd_scene_def three = scene(.dimensions = 3), high = scene(.aspect_z = 0.5);
+    const hd_scene_def walls = scene(.boundary[2] = R);
+    check_refused(&three, "dimensions", "= 3",
+                  "must be 2: disks; hdlyap_node_3d is for spheres (run.launch dimensions:=3)");
+    check_refused(&high, "aspect_z", "= 0.5", "must not be given with dimensions = 2");
+    check_refused(&walls, "boundary_z", "= reflecting", "must not be given with dimensions = 2");
+}
+
 TEST(exponents_out_of_range)
 {
     const int refused[] = {-4, 3121, INT32_MAX, INT32_MIN}, accepted[] = {-3, -2, -1, 0, 1, 3120};

@@ -71,32 +71,49 @@ void exact_begin_anew(exact_frame *x)
     for (int col = 0; col < x->vectors; col++) x->sum[col] = 0.0L;
 }
 
-/** The rows of one disk: dq_x, dq_y, dp_x, dp_y. */
-static hd_exact *rows_of(const exact_frame *x, int disk) { return x->v + 4 * disk * x->vectors; }
+/** The rows of one disk: dq_x, dq_y, .., dp_x, dp_y, .. */
+static hd_exact *rows_of(const exact_frame *x, int disk)
+{
+    return x->v + HD_ROWS * disk * x->vectors;
+}
 
 static void fly(exact_frame *x, hd_exact tau)
 {
     const int n = x->vectors;
-    for (int disk = 0; tau > 0 && disk < x->rows / 4; disk++)
-        for (int k = 0; k < 2 * n; k++) rows_of(x, disk)[k] += tau * rows_of(x, disk)[2 * n + k];
+    for (int disk = 0; tau > 0 && disk < x->rows / HD_ROWS; disk++)
+        for (int k = 0; k < HD_DIM * n; k++)
+            rows_of(x, disk)[k] += tau * rows_of(x, disk)[HD_DIM * n + k];
 }
 
+static hd_exact product(const hd_exact *a, const hd_exact *b)
+{
+    hd_exact sum = 0.0L;
+    for (int d = 0; d < HD_DIM; d++) sum += a[d] * b[d];
+    return sum;
+}
+
+/** The usual form, with the displacement of the point of contact delta = dq - p (dq.n) / (p.n). */
 static void collide(hd_exact *i, hd_exact *j, int n, const hd_event *event)
 {
-    const hd_exact length = hypotl(event->n[0], event->n[1]);
-    const hd_exact nx = event->n[0] / length, ny = event->n[1] / length;
-    const hd_exact px = event->p[0], py = event->p[1];
-    const hd_exact b = px * nx + py * ny, pt = py * nx - px * ny;
+    hd_exact normal[HD_DIM], p[HD_DIM], q[HD_DIM], dp[HD_DIM], delta[HD_DIM];
+    for (int d = 0; d < HD_DIM; d++) normal[d] = event->n[d], p[d] = event->p[d];
+    const hd_exact length = sqrtl(product(normal, normal));
+    for (int d = 0; d < HD_DIM; d++) normal[d] /= length;
+    const hd_exact b = product(p, normal);
     for (int k = 0; k < n; k++) {
-        const hd_exact qx = j[k] - i[k], qy = j[n + k] - i[n + k];
-        const hd_exact dx = j[2 * n + k] - i[2 * n + k], dy = j[3 * n + k] - i[3 * n + k];
-        const hd_exact a = qx * nx + qy * ny, s = qy * nx - qx * ny - pt / b * a;
-        const hd_exact along = dx * nx + dy * ny + pt * s, across = b * s;
-        const hd_exact change[4] = {a * nx, a * ny, along * nx - across * ny,
-                                    along * ny + across * nx};
-        for (int row = 0; row < 4; row++) {
-            i[row * n + k] += change[row];
-            j[row * n + k] -= change[row];
+        for (int d = 0; d < HD_DIM; d++) {
+            q[d] = j[d * n + k] - i[d * n + k];
+            dp[d] = j[(HD_DIM + d) * n + k] - i[(HD_DIM + d) * n + k];
+        }
+        const hd_exact a = product(q, normal);
+        for (int d = 0; d < HD_DIM; d++) delta[d] = q[d] - p[d] * a / b;
+        const hd_exact along = product(dp, normal) + product(p, delta);
+        for (int d = 0; d < HD_DIM; d++) {
+            const hd_exact turned = along * normal[d] + b * delta[d];
+            i[d * n + k] += a * normal[d];
+            j[d * n + k] -= a * normal[d];
+            i[(HD_DIM + d) * n + k] += turned;
+            j[(HD_DIM + d) * n + k] -= turned;
         }
     }
 }
@@ -123,7 +140,7 @@ static void reflect(hd_exact *disk, int n, int d)
 {
     for (int k = 0; k < n; k++) {
         disk[d * n + k] *= -1.0L;
-        disk[(2 + d) * n + k] *= -1.0L;
+        disk[(HD_DIM + d) * n + k] *= -1.0L;
     }
 }
 
@@ -139,7 +156,7 @@ void exact_replay(exact_frame *x, const hd_event_log *log)
         else if (event->j == HD_WALL_ROUND)
             curve(i, x->vectors, event);
         else
-            reflect(i, x->vectors, event->j == HD_WALL_Y);
+            reflect(i, x->vectors, -1 - event->j);
         if (k % EVENTS_MAX == 0) exact_orthonormalise(x->v, x->rows, x->vectors, x->sum);
         t = event->t;
     }

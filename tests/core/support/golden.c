@@ -13,6 +13,7 @@ typedef struct golden {
     uint64_t hash;
 } golden;
 
+#if HD_DIM == 2
 static golden golden_scene(int scene)
 {
     const hd_boundary p = HD_PERIODIC, r = HD_REFLECTING;
@@ -29,6 +30,22 @@ static golden golden_scene(int scene)
     };
     return all[scene];
 }
+#else
+static golden golden_scene(int scene)
+{
+    const golden all[GOLDEN_SCENES] = {
+        {spheres_of(500, 0.8, 1.0, 1.0, 0, 1), 30000, 0xc261628e6babd33au},
+        {spheres_of(2, 0.3, 1.0, 1.0, 0, 2), 5000, 0xd11151fa097e2ba0u},
+        {spheres_of(16, 0.7, 0.9, 0.8, 7, 3), 20000, 0xf9fe38bbd9c2c68cu},
+        {spheres_of(100, 0.05, 0.3, 0.5, 4, 12345678901234567890u), 10000, 0x350f791558565328u},
+        {spheres_in_box(4, 1.6, 1.7, 1.8, 2, 4), 10000, 0xbe93c799f43a9a81u},
+        {spheres_of(108, 1.35, 1.0, 1.0, 0, 5), 10000, 0x016cd45fe53c6fcfu},
+        {spheres_of(20000, 0.6, 0.8, 0.7, 1, 6), 60000,
+         0x25cdd5a1319ff59fu}, /* larger than the caches */
+    };
+    return all[scene];
+}
+#endif
 
 static uint64_t hash_bytes(uint64_t hash, const void *data, size_t size)
 {

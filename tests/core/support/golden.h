@@ -5,7 +5,9 @@
 
 #include <stdint.h>
 
-enum { GOLDEN_SCENES = 8 };
+#include "hdlyap/scene.h"
+
+enum { GOLDEN_SCENES = HD_DIM == 2 ? 8 : 7 };
 
 /** FNV-1a over i, j and the bits of n and p of the scene's first events; 0 if it could not run. */
 uint64_t golden_hash(int scene);

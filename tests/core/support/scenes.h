@@ -74,4 +74,21 @@ static inline hd_scene_def scene_in_box(int disks, double lx, double ly, hd_boun
     return scene_of(disks, disks / (lx * ly), ly / lx, x, y, seed);
 }
 
+/** Of spheres; walls: 1 of x, 2 of y, 4 of z. */
+static inline hd_scene_def spheres_of(int disks, double density, double aspect, double aspect_z,
+                                      int walls, uint64_t seed)
+{
+    return scene(.disks = disks, .density = density, .aspect = aspect, .aspect_z = aspect_z,
+                 .boundary[0] = (hd_boundary)(walls & 1),
+                 .boundary[1] = (hd_boundary)(walls >> 1 & 1),
+                 .boundary[2] = (hd_boundary)(walls >> 2 & 1), .seed = seed);
+}
+
+/** The same by the edges of the box. */
+static inline hd_scene_def spheres_in_box(int disks, double lx, double ly, double lz, int walls,
+                                          uint64_t seed)
+{
+    return spheres_of(disks, disks / (lx * ly * lz), ly / lx, lz / lx, walls, seed);
+}
+
 #endif

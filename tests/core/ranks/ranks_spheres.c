@@ -1,0 +1,42 @@
+/** Whole runs of spheres by several ranks, against one. */
+#define _GNU_SOURCE
+#include "runs.h"
+#include "together.h"
+
+static hd_scene_def scene_of_runs(int exponents)
+{
+    return scene_from(spheres_of(30, 0.5, 0.3, 0.4, 4, 3), .equilibration = 5.0, .warmup = 20.0,
+                      .duration = 20.0, .threads = 1, .exponents = exponents,
+                      .observe = HD_OBSERVE_STEPS | HD_OBSERVE_LOCALIZATION | HD_OBSERVE_GAS);
+}
+
+/** Frames differ by rounding, and weights by little as long as directions are those of the
+ * dynamics; the events are the same bits. */
+static void compare(hd_scene_def def)
+{
+    hd_run *run = NULL;
+    double q[2][90];
+    CHECK_OK(hd_run_create_shared(&run, &def, ranks, NULL, 0));
+    finish(run);
+    OWNED(hd_run) *alone = finished(def);
+    check_same_exponents(run, alone, hd_run_cost(run).error_bound + hd_run_cost(alone).error_bound);
+    hd_trajectory_state(hd_run_trajectory(run), q[0], NULL);
+    hd_trajectory_state(hd_run_trajectory(alone), q[1], NULL);
+    assert_memory_equal(q[0], q[1], sizeof q[0]);
+    const hd_modes *shared = hd_run_modes(run), *own = hd_run_modes(alone);
+    for (int s = 0; s < hd_fields_subspaces(hd_modes_fields(own)); s++)
+        for (int col = 0; col < hd_run_vectors(run); col++)
+            CHECK_CLOSE(hd_modes_snapshot(shared, s, HD_WEIGHT)[col],
+                        hd_modes_snapshot(own, s, HD_WEIGHT)[col], 1e-6);
+    for (int col = 0; col < hd_run_vectors(run); col++)
+        CHECK_CLOSE(hd_localization_widths(hd_run_localization(run))[col],
+                    hd_localization_widths(hd_run_localization(alone))[col], 1e-6);
+    CHECK_CLOSE(hd_gas_read(hd_run_gas(run)).pressure, hd_gas_read(hd_run_gas(alone)).pressure,
+                1e-9);
+    hd_run_free(run);
+}
+
+TEST(runs_are_those_of_one_rank) { compare(scene_of_runs(HD_EXPONENTS_POSITIVE)); }
+TEST(halves_are_those_of_one_rank) { compare(scene_of_runs(HD_EXPONENTS_ALL)); }
+
+int main(int argc, char **argv) { return ranks_main(argc, argv); }
