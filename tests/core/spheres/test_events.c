@@ -243,3 +243,26 @@ TEST(lower_images_come_first)
         }
     }
 }
+
+/** Four at the same time: after the lowest, z decides before y, and y before x. */
+TEST(the_last_direction_counts_most)
+{
+    for (int along = 0; along < 3; along++) {
+        const int low = along == 0 ? 1 : 0, high = along == 2 ? 1 : 2;
+        double edge[3] = {1.25, 1.25, 1.25}, q[6] = {0.25, 0.25, 0.25, 0.875, 0.875, 0.875};
+        double p[6] = {0};
+        edge[along] = 4.0; /* across, images are 0.625 away on either side, exactly */
+        q[along] = 0.5, q[3 + along] = 2.5;
+        p[along] = 0.5, p[3 + along] = -0.5;
+        const hd_scene_def def = spheres_in_box(2, edge[0], edge[1], edge[2], 0, 1);
+        double box[3];
+        hd_scene_box(&def, box);
+        for (int d = 0; d < 3; d++) CHECK_CLOSE(box[d], edge[d], 0.0); /* else they are no ties */
+        OWNED(hd_event_log) *log = log_of(&def, q, p, 1.9);
+        assert_true(log->count >= 2);
+        CHECK_CLOSE(log->event[0].n[low], -0.625, 16 * DBL_EPSILON);
+        CHECK_CLOSE(log->event[0].n[high], -0.625, 16 * DBL_EPSILON);
+        CHECK_CLOSE(log->event[1].n[low], 0.625, 16 * DBL_EPSILON);
+        CHECK_CLOSE(log->event[1].n[high], -0.625, 16 * DBL_EPSILON);
+    }
+}

@@ -57,6 +57,15 @@ static void check_sound(const hd_run *run)
                 Z * hypot(error / k, factor * gas.pressure_error));
 }
 
+/** The warm-up that a scene gets by itself, 3 / (0.05 c_T k), is that of the smallest step to 6 %. */
+static void check_warmup(const hd_run *run)
+{
+    const hd_scene_def def = scene_from(*hd_run_scene(run), .warmup = HD_WARMUP_AUTO);
+    const hd_steps *steps = hd_run_steps(run);
+    const double want = 60.0 / hd_steps_step(steps, step_at(steps, HD_MODE_T, 1))->exponent;
+    CHECK_CLOSE(hd_scene_warmup(&def), want, 0.06 * want);
+}
+
 /** Four vectors, in two pairs of a cosine and a sine: one pair for each direction across the wave.
  * A vector of four fields that it is made of: its weight is near their squares together. */
 static void check_t_phases(const hd_run *run)
@@ -90,6 +99,7 @@ TEST(a_long_box_has_its_steps_and_its_sound)
     check_step(run, HD_MODE_T, 2, n - 12);
     check_sound(run);
     check_t_phases(run);
+    check_warmup(run);
 }
 
 /* ---- kept ----------------------------------------------------------------------------------- */
