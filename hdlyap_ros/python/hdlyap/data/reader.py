@@ -37,7 +37,7 @@ ALIKE = {
     LOCALIZATION: ('widths', 'std_errors', 'widths_now'),
 }
 # as many again of spheres, none of disks
-OF_SPHERES = {STATE: ('z', 'pz'), FIELD: ('z', 'pz', 'dqz', 'dpz')}
+OF_SPHERES = {STATE: ('z', 'pz'), FIELD: ('z', 'pz', 'dqz', 'dpz'), STRUCTURE: ('nz',)}
 AMPLITUDES = 'amplitude_along', 'amplitude_across'
 
 
@@ -131,9 +131,12 @@ def check(kind, message):
     if kind == STRUCTURE:
         n, waves = len(message.peak), len(message.nx)
         means = {len(message.along), len(message.across)}
-        now = {len(getattr(message, name)) for name in AMPLITUDES}
-        if means not in ({0}, {n * waves}) or now != {4 * n}:
-            raise Damaged(f'{kind}: {sorted(means | now)} elements of {n} vectors, {waves} waves')
+        now = [len(getattr(message, name)) for name in AMPLITUDES]
+        solid = waves and len(getattr(message, 'nz', ()))
+        if means not in ({0}, {n * waves}) or now != ([8 * n, 16 * n] if solid else [4 * n, 4 * n]):
+            raise Damaged(
+                f'{kind}: {sorted(means | set(now))} elements of {n} vectors, {waves} waves'
+            )
     if kind == RUN_INFO:
         sizes = [message.density, message.aspect, message.box_x, message.box_y]
         if space.is_solid(message):
