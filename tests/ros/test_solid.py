@@ -338,10 +338,19 @@ class Figures(Solid):
         middle = quiver.get_offsets().T + 0.5 * seen
         np.testing.assert_allclose(middle, view.places(Q)[:, order])
 
+    def test_slab(self):
+        """Of many spheres the arrows in front alone: 2.6 * 8 * 2 of 400."""
+        info = made.spheres(disks=400)
+        q, _ = made.balls(info)
+        field = made.ball_field(info, FIRST, np.ones((3, 400)))
+        messages = made.spectrum(np.linspace(9, 3, 56), 50.0), made.steps(FOUND)
+        arrows = modes.draw(self.recorded([info, *messages, field])).axes[0]
+        (quiver,) = [one for one in arrows.collections if hasattr(one, 'U')]
+        self.assertEqual(len(quiver.U), np.sum(q[1] < 0.104 * 2.5))
+        self.assertTrue(arrows.get_title(loc='left').endswith(r', $y<0.26\,\sigma$'))
+
     def test_several_waves(self):
         """Of steps that share a set each component against what all their fields give."""
-        for one in (FIRST, DEEP):
-            self.addCleanup(setattr, one, 'set', one.set)
         both = [
             made.step(INFO, T, 1, 0, 49, 56, set=49, members=2),
             made.step(INFO, T, 0, 0, 49, 56, nz=1, set=49, members=2),

@@ -96,7 +96,10 @@ def _panel(axes, name, x, series):
     axes.set_xlim(*_limits(list(places.values()), words))
     if words:
         axes.set_xticks(range(len(words)))
-        axes.set_xticklabels(words)
+        # three would run into each other
+        axes.set_xticklabels(
+            [word.replace(',', ',\n') if word.count(',') > 1 else word for word in words]
+        )
     axes.set_xlabel(_label(x, every[0].info))
     axes.set_ylabel(NAMES[name])
 

@@ -13,6 +13,7 @@ WIDTH, TALLEST = 7.6, 10.0  # of the figure [inch]
 ROW = 1.75  # of a row, at least
 ARROW = 1.3  # root mean square length [sigma]
 DOT = 0.3  # of a sphere, as those in front would hide the others [sigma]
+MOST = 2.6  # arrows behind one square sigma of the front; of more spheres those in front
 LIMIT = 2.8  # components shown, in root mean squares of the vector
 LONG = 42  # letters do not fit over a panel in the usual size
 AXES, COLOURS = 'xyz', (VERMILION, BLUE, GREEN)
@@ -40,12 +41,15 @@ def draw_panels(panels, info):
 
 def _arrows(axes, panel, info, view):
     q, dq = space.vectors(panel.field), space.vectors(panel.field, 'dq')
-    order = view.order(q)
-    q, dq = q[:, order], dq[:, order] * ARROW / np.sqrt(np.mean(np.sum(dq**2, axis=0)))
+    dq = dq * ARROW / np.sqrt(np.mean(np.sum(dq**2, axis=0)))
+    share = min(1.0, MOST * info.box_x * info.box_z / info.disks)
+    order = [k for k in view.order(q) if share == 1 or q[1, k] < share * info.box_y]
+    q, dq = q[:, order], dq[:, order]
     disks(axes, info, *q, size=DOT, facecolors=view.pale(GREY, q))
     start = view.places(q - 0.5 * dq)
     arrows(axes, *start, view.vectors(dq), width=0.13, color=view.pale(panel.colour, q))
-    axes.set_title(panel.title, fontsize=8, loc='left')
+    slab = rf', $y<{share * info.box_y:.2g}\,\sigma$' if share < 1 else ''
+    axes.set_title(panel.title + slab, fontsize=8, loc='left')
 
 
 def _component(axes, panel, info):
@@ -87,6 +91,7 @@ def _projection(axes, mode, kind):
         _dots(axes, mode.projection[d], mode.dq[d], d)
     axes.plot([-LIMIT, LIMIT], [-LIMIT, LIMIT], color=GREY, linewidth=0.8, zorder=3)
     axes.set_xlim(-LIMIT, LIMIT)
+    axes.set_aspect('equal')
     axes.set_xlabel('in the fields / rms', fontsize=7)
     axes.set_ylabel(r'$\delta q$ / rms', fontsize=7)
     return 'each sphere'
