@@ -405,8 +405,9 @@ class Films(Solid):
         found = [made.step(INFO, T, 1, 0, 53, 56), made.step(INFO, T, 0, 0, 45, 48, nz=1)]
         field = made.ball_field(INFO, found[0], transverse())
         other = made.ball_field(INFO, found[1], transverse()[[2, 1, 0]])
-        path = self.write([INFO, made.steps(found), state(150.0), field, other])
+        path = self.write([INFO, state(140.0), made.steps(found), state(150.0), field, other])
         film = frames.Film(path, ['T(1,0,0)'])
+        self.assertEqual(film.begin, 150)  # when the mode is found
         (frame,) = film.frames(1.0)
         self.assertEqual(list(frame.fields), ['T(1,0,0)'])
         picture = movie.Picture(film, 300)
