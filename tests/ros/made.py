@@ -89,6 +89,13 @@ def run_info(**fields):
     )
 
 
+def spheres(**fields):
+    """Twenty in a box of 8 x 2.5 x 2."""
+    solid = dict(dimensions=3, disks=20, aspect=0.3125, aspect_z=0.25, box_x=8.0, box_y=2.5)
+    solid.update(box_z=2.0, boundary_z='periodic', zero_exponents=8)
+    return run_info(**{**solid, **fields})
+
+
 def spectrum(exponents, averaged_time, run_id='one', error=0.01, pairing_error=-1.0):
     n = len(exponents)
     return Spectrum(
@@ -128,26 +135,27 @@ def status(sim_time, run_id='one', **fields):
     )
 
 
-def wave_number(info, nx, ny):
-    return float(np.hypot(*waves.wave_vector(info, nx, ny)))
+def wave_number(info, nx, ny, nz=0):
+    return float(np.linalg.norm(waves.wave_vector(info, nx, ny, nz)))
 
 
-def exponent(info, kind, nx, ny):
+def exponent(info, kind, nx, ny, nz=0):
     c, c2 = CURVES[kind]
-    k = wave_number(info, nx, ny)
+    k = wave_number(info, nx, ny, nz)
     return c * k + c2 * k * k
 
 
-def step(info, kind, nx, ny, first, last, **fields):
+def step(info, kind, nx, ny, first, last, nz=0, **fields):
     """A resolved step of its own, whose fields are all found; of LP it turns as its phases do."""
-    omega = VELOCITY * wave_number(info, nx, ny) if kind == LP else np.nan
+    omega = VELOCITY * wave_number(info, nx, ny, nz) if kind == LP else np.nan
     return message_of(
         Step,
         fields,
         kind=kind,
         nx=nx,
         ny=ny,
-        wave_number=wave_number(info, nx, ny),
+        nz=nz,
+        wave_number=wave_number(info, nx, ny, nz),
         resolved=True,
         expected=last - first + 1,
         first_index=first,
@@ -155,7 +163,7 @@ def step(info, kind, nx, ny, first, last, **fields):
         multiplicity=0.99 * (last - first + 1),
         set=first,
         members=1,
-        exponent=exponent(info, kind, nx, ny),
+        exponent=exponent(info, kind, nx, ny, nz),
         std_error=ERROR,
         omega=omega,
         omega_error=0.01 * omega if kind == LP else -1.0,
@@ -365,6 +373,7 @@ def lp_phases(info, made, sim_time, modulations=(0, 1), began=0.0, rng=None, run
                     step=number,
                     nx=one.nx,
                     ny=one.ny,
+                    nz=one.nz,
                     wave_number=one.wave_number,
                     modulation=bits,
                     index=index,
@@ -416,6 +425,23 @@ def disks(info, seed=1):
     x = (place % columns + 0.5 + rng.uniform(-0.3, 0.3, info.disks)) * info.box_x / columns
     y = (place // columns + 0.5 + rng.uniform(-0.3, 0.3, info.disks)) * info.box_y / rows
     return [x, y, *rng.normal(size=(2, info.disks))]
+
+
+def balls(info, seed=1):
+    """Positions anywhere and thermal momenta, rows along x, y and z of each."""
+    rng = np.random.default_rng(seed)
+    q = rng.uniform(size=(3, info.disks)) * np.array([[info.box_x], [info.box_y], [info.box_z]])
+    return q, np.sqrt(2 / 3) * rng.normal(size=q.shape)
+
+
+def ball_field(info, one, dq, **fields):
+    """A vector of spheres at balls(info): dq, rows along x, y and z."""
+    q, p = balls(info)
+    named = zip(('', 'p', 'dq', 'dp'), (q, p, dq, dq))
+    rows = {name + axis: row for name, rows in named for axis, row in zip('xyz', rows)}
+    about = {name: getattr(one, name) for name in ('kind', 'nx', 'ny', 'nz', 'wave_number')}
+    made = dict(run_id='one', sim_time=150.0, index=one.last_index, exponent=one.exponent)
+    return ModeField(**{**made, **about, **rows, **fields})
 
 
 def mode_field(info, one, sim_time=150.0, modulations=(0, 1), noise=0.3, index=None, **fields):

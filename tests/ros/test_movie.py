@@ -101,7 +101,7 @@ class Frames(Films):
             time = BEGIN + number
             of = BEGIN + FIELD * (number // int(FIELD))
             self.assertEqual(frame.time, time)
-            np.testing.assert_array_equal(frame.x, state(time).x)
+            np.testing.assert_array_equal(frame.places[0], state(time).x)
             for field, wanted in zip(map(frame.fields.get, film.names), fields(of)):
                 self.assertEqual(field.sim_time, of)
                 np.testing.assert_array_equal(field.dqy, wanted.dqy)

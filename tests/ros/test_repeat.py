@@ -28,6 +28,9 @@ def complete(name):
             scene.update(yaml.safe_load(file))
     for name in 'table', 'bag':  # of the log: they do not belong to the run
         scene.pop(name)
+    if scene['dimensions'] == 2:
+        for name in 'aspect_z', 'boundary_z':
+            scene.pop(name)
     return scene
 
 

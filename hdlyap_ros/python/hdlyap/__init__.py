@@ -10,7 +10,8 @@ if sys.version_info[:2] == (3, 9):  # rospy 1.15.9 of Debian 11 still calls it b
 
 def load(*bags, node=None, run=None, form=None, k=None):
     """What was recorded in a bag, or in several that belong together: see hdlyap.data.run.Run and
-    hdlyap.data.seeds.Seeds, and hdlyap.data.seeds.load of the rest."""
+    hdlyap.data.seeds.Seeds, and hdlyap.data.seeds.load of the rest. Runs of spheres have z beside
+    x and y."""
     from hdlyap.data import seeds  # only here: pandas takes a while
 
     return seeds.load(*bags, node=node, run=run, form=form, k=k)

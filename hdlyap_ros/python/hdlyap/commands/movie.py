@@ -6,7 +6,7 @@ import argparse
 import os
 import re
 
-from hdlyap.plots import frames, movie
+from hdlyap.plots import frames, movie, space
 from hdlyap.plots.numbers import positive
 
 FAULT = 1
@@ -29,7 +29,9 @@ def width(text):
 def modes(text):
     """Names with spaces between; None: the lowest ones."""
     names = text.split()
-    if text != 'lowest' and not all(re.fullmatch(r'(T|LP)\(\d+,\d+\)', name) for name in names):
+    if text != 'lowest' and not all(
+        re.fullmatch(r'(T|LP)\(\d+,\d+(,\d+)?\)', name) for name in names
+    ):
         raise argparse.ArgumentTypeError(
             '%s: must be lowest or names such as "T(1,0) LP(1,1)", with spaces between' % text
         )
@@ -76,9 +78,9 @@ def main(args):
     pace = args.pace or args.fps * (film.report or 1.0)
     if film.field_interval > 2 * film.report > 0:
         print(
-            'hdlyap movie: vectors are %g time units apart, disks %g: record with '
+            'hdlyap movie: vectors are %g time units apart, %ss %g: record with '
             'field_interval: 0 for vectors that move as smoothly'
-            % (film.field_interval, film.report)
+            % (film.field_interval, space.particle(film.info), film.report)
         )
     count = movie.write(film, args.out, pace, args.fps, args.width)
     print(

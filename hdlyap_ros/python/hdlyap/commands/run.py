@@ -11,10 +11,14 @@ Exit status: 0 the run went to its end; 1 it did not; 2 refused."""
 
 import contextlib
 import os
+import sys
 import time
 
+import rospkg
+
 from hdlyap import signals
-from hdlyap.runs import ranks, tree
+from hdlyap.runs import ranks, run, scene, tree
+from hdlyap.runs.scene import Refused
 
 PATIENCE = 60.0  # seconds that all may take to end, the last checkpoint included
 
@@ -32,13 +36,34 @@ def stamp(path):
         return found.st_ino, found.st_mtime_ns
 
 
+def asked(args):
+    """Dimensions: those of an argument, else of the scene."""
+    said = [word.partition(':=')[2] for word in args.assigned if word.startswith('dimensions:=')]
+    if said:
+        return run.dimensions({'dimensions': scene.typed(said[-1])})
+    launch = os.path.join(rospkg.RosPack().get_path('hdlyap'), 'launch')
+    return run.dimensions(scene.scene_file(args.scene, launch, os.getcwd()))
+
+
 def main(args):
+    try:
+        dimensions = asked(args)
+    except Refused as refused:
+        if ranks.number() == 0:
+            print(f'hdlyap run: {refused}', file=sys.stderr)
+        return 2
     if ranks.number() > 0:
-        ranks.become_node()
+        ranks.become_node(dimensions)
     bag = os.path.abspath(args.out if args.out.endswith('.bag') else args.out + '.bag')
     before = stamp(bag)  # a run that is refused leaves it
     command = ['roslaunch', '-p', str(ranks.free_port()), 'hdlyap', 'run.launch']
-    command += [f'scene:={args.scene}', 'record:=true', f'bag:={bag}', *args.assigned]
+    command += [
+        f'scene:={args.scene}',
+        f'dimensions:={dimensions}',
+        'record:=true',
+        f'bag:={bag}',
+        *args.assigned,
+    ]
     os.environ['ROS_HOSTNAME'] = 'localhost'  # nobody looks at it from outside
     with signals.held() as asked_to_end:
         launch = tree.Tree(command, output=None)

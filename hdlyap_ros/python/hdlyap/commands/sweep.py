@@ -32,8 +32,9 @@ OF_GRID = (
 
 def options(parser):
     for swept in grid.SWEPT:
+        more = '; of spheres three' if swept.argument == 'boundaries' else ''
         parser.add_argument(
-            '--' + swept.argument, default='', metavar='"A B .."', help=swept.wanted
+            '--' + swept.argument, default='', metavar='"A B .."', help=swept.wanted + more
         )
     for name, _, text in OF_GRID:
         parser.add_argument('--' + name, default='', help=text)

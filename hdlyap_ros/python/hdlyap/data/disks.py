@@ -1,13 +1,15 @@
-"""The topic ~state of a run -> positions and momenta of the disks, one message at a time."""
+"""The topic ~state of a run -> positions and momenta of disks or spheres, one message at a time."""
 
 import numpy as np
+
+from hdlyap.plots import space
 
 from . import reader
 
 
 class Disks:
     """`times` of the messages; what is said of a time is of the message nearest to it. Iterates
-    over (time, positions, momenta), arrays of N rows."""
+    over (time, positions, momenta), arrays of N rows, x, y and of spheres z in each."""
 
     def __init__(self, joined):
         self._joined = joined
@@ -24,15 +26,15 @@ class Disks:
     def __iter__(self):
         for packed in self._joined.packed((reader.STATE,)):
             message = packed.message(np)
-            yield message.sim_time, _pairs(message.x, message.y), _pairs(message.px, message.py)
+            yield message.sim_time, _rows(message), _rows(message, 'p')
 
     def positions(self, time):
         message = self._nearest(time)
-        return _pairs(message.x, message.y)
+        return _rows(message)
 
     def momenta(self, time):
         message = self._nearest(time)
-        return _pairs(message.px, message.py)
+        return _rows(message, 'p')
 
     def _nearest(self, time):
         number = int(np.argmin(abs(self.times - time)))
@@ -45,5 +47,5 @@ class Disks:
         )
 
 
-def _pairs(x, y):
-    return np.stack([x, y], axis=1)
+def _rows(message, name=''):
+    return np.stack(space.vectors(message, name), axis=1)

@@ -6,6 +6,7 @@ import os
 import numpy as np
 
 from hdlyap import whole
+from hdlyap.plots import space
 
 from .reader import Missing
 
@@ -69,9 +70,11 @@ def npz(run, path):
 def _origin(run):
     info = run.info
     seeds = ' '.join(getattr(run, 'seeds', [info.seed]))
+    box = ' x '.join(f'{edge:.6g}' for edge in space.along(info, 'box_'))
+    spheres = ' spheres' if space.is_solid(info) else ''
     return (
-        f'hdlyap {info.version}, scene {info.scene}, N = {info.disks}, density {info.density:g}, '
-        f'box {info.box_x:.6g} x {info.box_y:.6g}, seed {seeds}'
+        f'hdlyap {info.version}, scene {info.scene}, N = {info.disks}{spheres}, '
+        f'density {info.density:g}, box {box}, seed {seeds}'
     )
 
 

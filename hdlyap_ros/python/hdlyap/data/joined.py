@@ -10,8 +10,9 @@ from . import reader
 from .reader import RecordingError
 
 # what bags that belong together have in common: all that decides what is measured
-SYSTEM = ('container', 'disks', 'density', 'aspect', 'boundary_x', 'boundary_y')
-MEASURED = SYSTEM + ('vectors', 'wave_nx', 'wave_ny')
+OF_SPHERES = ('dimensions', 'aspect_z', 'boundary_z', 'wave_nz')  # alike of all disks
+SYSTEM = ('container', 'disks', 'density', 'aspect', 'boundary_x', 'boundary_y', *OF_SPHERES[:3])
+MEASURED = SYSTEM + ('vectors', 'wave_nx', 'wave_ny', 'wave_nz')
 # what a resumed run has as before (HD_AS_BEFORE of hdlyap/parameters.inc), so parts of one run, too
 OF_ONE_RUN = SYSTEM + ('seed', 'exponents', 'equilibration', 'warmup', 'interval', 'accuracy')
 OF_ONE_RUN += ('phase_interval', 'max_wave_number', 'max_mode_number', 'observables')

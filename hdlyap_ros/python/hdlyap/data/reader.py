@@ -10,6 +10,7 @@ import struct
 
 import rosbag
 
+from hdlyap.plots import space
 from hdlyap.plots.progress import Progress
 
 from . import definitions
@@ -35,8 +36,8 @@ ALIKE = {
     COVARIANT: ('exponents', 'std_errors', 'start_mismatch', 'widths', 'cos_theta'),
     LOCALIZATION: ('widths', 'std_errors', 'widths_now'),
 }
-
-
+# as many again of spheres, none of disks
+OF_SPHERES = {STATE: ('z', 'pz'), FIELD: ('z', 'pz', 'dqz', 'dpz'), STRUCTURE: ('nz',)}
 AMPLITUDES = 'amplitude_along', 'amplitude_across'
 
 
@@ -94,9 +95,9 @@ class Packed:
         """Lyapunov index of a ModeField: it follows sim_time."""
         return struct.unpack_from('<I', self._data, self._after_run_id + 8)[0]
 
-    def field_wave(self):
-        """kind, nx and ny of a ModeField, which follow the index."""
-        return struct.unpack_from('<BII', self._data, self._after_run_id + 12)
+    def field_wave(self, directions=2):
+        """kind, nx, ny and of spheres nz of a ModeField, which follow the index."""
+        return struct.unpack_from('<B' + directions * 'I', self._data, self._after_run_id + 12)
 
     def message(self, numpy=None):
         """Its arrays are lists; with the module numpy they are its arrays, which share memory with
@@ -115,9 +116,12 @@ class Packed:
 
 def check(kind, message):
     """What all that reads a message relies on; Damaged if it does not hold."""
-    lengths = {
-        len(getattr(message, name, ())) for name in ALIKE.get(kind, ()) if hasattr(message, name)
-    }
+    lengths, of_spheres = (
+        {len(getattr(message, name)) for name in names.get(kind, ()) if hasattr(message, name)}
+        for names in (ALIKE, OF_SPHERES)
+    )
+    if of_spheres != {0}:
+        lengths |= of_spheres
     if len(lengths) > 1:
         raise Damaged(f'{kind}: its arrays have {sorted(lengths)} elements')
     if kind == SPECTRUM and not len(message.exponents):
@@ -127,13 +131,18 @@ def check(kind, message):
     if kind == STRUCTURE:
         n, waves = len(message.peak), len(message.nx)
         means = {len(message.along), len(message.across)}
-        now = {len(getattr(message, name)) for name in AMPLITUDES}
-        if means not in ({0}, {n * waves}) or now != {4 * n}:
-            raise Damaged(f'{kind}: {sorted(means | now)} elements of {n} vectors, {waves} waves')
+        now = [len(getattr(message, name)) for name in AMPLITUDES]
+        solid = waves and len(getattr(message, 'nz', ()))
+        if means not in ({0}, {n * waves}) or now != ([8 * n, 16 * n] if solid else [4 * n, 4 * n]):
+            raise Damaged(
+                f'{kind}: {sorted(means | set(now))} elements of {n} vectors, {waves} waves'
+            )
     if kind == RUN_INFO:
-        sizes = message.density, message.aspect, message.box_x, message.box_y
+        sizes = [message.density, message.aspect, message.box_x, message.box_y]
+        if space.is_solid(message):
+            sizes += [message.aspect_z, message.box_z]
         if not (message.disks and all(math.isfinite(size) and size > 0 for size in sizes)):
-            raise Damaged(f'{kind}: {message.disks} disks, density, aspect and box {sizes}')
+            raise Damaged(f'{kind}: {message.disks} disks, density, aspect and box {tuple(sizes)}')
 
 
 def run_infos(path, node=None):

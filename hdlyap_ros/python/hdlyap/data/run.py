@@ -9,7 +9,7 @@ import numpy as np
 import pandas
 
 from hdlyap import msg, topics
-from hdlyap.plots import fits, run as common
+from hdlyap.plots import fits, run as common, space
 from hdlyap.plots.numbers import known
 
 from . import fields, reader, structure, tables
@@ -18,13 +18,13 @@ from .reader import Missing
 
 TOPICS = {name: message._type for name, message in topics.RECORDED.items()}
 FRAMES = {
-    'spectrum': tables.arrays,
+    'spectrum': tables.of_arrays,
     'modes': tables.of_modes,
     'steps': tables.of_steps,
     'lp_phases': tables.of_phases,
     't_phases': tables.of_t_phases,
-    'covariant': tables.arrays,
-    'localization': tables.arrays,
+    'covariant': tables.of_arrays,
+    'localization': tables.of_arrays,
     'gas': tables.of_gas,
 }
 # name of an array: where its unit is said
@@ -45,7 +45,7 @@ Local = namedtuple('Local', 'times lengths exponents')
 
 def _last(topic):
     """The frame of its last message."""
-    return cached_property(lambda run: FRAMES[topic](run.last(topic)))
+    return cached_property(lambda run: FRAMES[topic](run.last(topic), run.info))
 
 
 class Run:
@@ -53,8 +53,9 @@ class Run:
     `averaged_times`, `exponents` and `std_errors` of the running means; `local` the samples. Frames
     are of the last message: `spectrum`, `modes`, `steps`, `phases`, `t_phases`, `covariant`,
     `localization`, `gas`, `results`; or of all: `cost`, `status`, `course(topic)`. `structure` has
-    structure factors, `state` positions and momenta, `fields` the last field of each vector. What
-    was averaged before ~reset_average does not count."""
+    structure factors, `state` positions and momenta, `fields` the last field of each vector. Of
+    spheres each has z beside x and y, as fields[index].dqz, steps['nz'], gas.loc['pressure_z'].
+    What was averaged before ~reset_average does not count."""
 
     def __init__(self, joined, form=None, k=None):
         self._joined = joined
@@ -63,8 +64,8 @@ class Run:
         self.runs_in_bag = joined.runs  # of the last part
 
     def __repr__(self):
-        info = self.info
-        return f'<hdlyap run {info.run_id}: {info.scene}, {info.disks} disks, seed {info.seed}>'
+        info, what = self.info, space.particle(self.info)
+        return f'<hdlyap run {info.run_id}: {info.scene}, {info.disks} {what}s, seed {info.seed}>'
 
     @property
     def units(self):
@@ -180,7 +181,7 @@ class Run:
         """Frame of all messages of 'spectrum', 'modes', 'steps', 'lp_phases', 't_phases',
         'covariant', 'localization' or 'gas', by simulated time:
         course('lp_phases')['phase'].unstack() has a column for each phase."""
-        return tables.over_time(self._all(topic), FRAMES[topic])
+        return tables.over_time(self._all(topic), FRAMES[topic], self.info)
 
     @cached_property
     def structure(self):

@@ -6,6 +6,8 @@ from functools import cached_property
 import numpy as np
 import pandas
 
+from hdlyap.plots import space
+
 from . import joined, tables
 from .reader import Missing, RecordingError
 from .run import Run
@@ -67,7 +69,8 @@ class Seeds:
         return taken, lines
 
     def __repr__(self):
-        return f'<hdlyap runs of {self.info.disks} disks, seeds {", ".join(self.seeds)}>'
+        what = space.particle(self.info)
+        return f'<hdlyap runs of {self.info.disks} {what}s, seeds {", ".join(self.seeds)}>'
 
     def __getattr__(self, name):
         if not name.startswith('_') and hasattr(Run, name):
@@ -98,7 +101,8 @@ class Seeds:
         frames = [run.steps[run.steps['resolved']] for run in self.runs]
         names = list(dict.fromkeys(name for one in frames for name in one.index))
         about = pandas.concat(frames)
-        about = about[~about.index.duplicated()].loc[names, ['kind', 'nx', 'ny', 'wave_number']]
+        columns = [name for name in ('kind', 'nx', 'ny', 'nz', 'wave_number') if name in about]
+        about = about[~about.index.duplicated()].loc[names, columns]
         made = self._mean(frames, 'exponent', index=about.index)
         multiplicity = self._mean(frames, 'multiplicity', index=about.index)['multiplicity']
         columns = {**about, 'multiplicity': multiplicity, **made}

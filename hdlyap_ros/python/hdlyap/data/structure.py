@@ -7,6 +7,8 @@ from hdlyap.plots import structure
 
 from . import fields, tables
 
+NODES = ['nx', 'ny', 'nz']
+
 
 class Structure:
     """`waves`: frame of nodes and wave numbers. `along`, `across`: mean structure factors, a row
@@ -19,17 +21,16 @@ class Structure:
         unit = {'wave_number': fields.of(message)['wave_number'].unit}
         self.samples = means.samples
         self.waves = tables.frame(
-            {'nx': means.nx, 'ny': means.ny, 'wave_number': means.wave_number}, unit
+            {**dict(zip(NODES, means.nodes)), 'wave_number': means.wave_number}, unit
         )
-        names = pandas.MultiIndex.from_arrays([means.nx, means.ny], names=['nx', 'ny'])
+        names = pandas.MultiIndex.from_arrays(list(means.nodes), names=NODES[: len(means.nodes)])
         self.along = pandas.DataFrame(means.along.T, index, names)
         self.across = pandas.DataFrame(means.across.T, index, names)
         largest = np.argmax(means.along + means.across, axis=0)
         vectors = np.arange(len(index))
         self.peaks = tables.frame(
             {
-                'nx': means.nx[largest],
-                'ny': means.ny[largest],
+                **dict(zip(NODES, means.nodes[:, largest])),
                 'wave_number': means.wave_number[largest],
                 'along': means.along[largest, vectors],
                 'across': means.across[largest, vectors],
@@ -40,8 +41,9 @@ class Structure:
 
 
 def amplitudes(messages, indices, direction):
-    """Frame by simulated time, a column for each index and modulation (0: COS_COS ..); NaN while
-    the vector had another wave than in the end."""
+    """Frame by simulated time, a column for each index and modulation (0: COS_COS .., across
+    of spheres the first fields of all, then the second); NaN while the vector had another wave than
+    in the end."""
     times, rows, peaks = [], [], []
     columns = np.array(indices) - 1
     for message in messages:
@@ -53,7 +55,9 @@ def amplitudes(messages, indices, direction):
         peaks.append(np.array(message.peak)[columns])
     shown = (np.array(peaks) == peaks[-1]) & (np.array(peaks) > 0)  # 0: no wave yet
     rows = np.where(shown[:, np.newaxis], rows, np.nan)
-    names = pandas.MultiIndex.from_product([range(4), indices], names=['modulation', 'index'])
+    names = pandas.MultiIndex.from_product(
+        [range(rows[0].shape[0]), indices], names=['modulation', 'index']
+    )
     frame = pandas.DataFrame(
         rows.reshape(len(rows), -1), pandas.Index(times, name='sim_time'), names
     )

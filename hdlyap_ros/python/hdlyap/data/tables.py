@@ -1,17 +1,18 @@
 """Messages -> pandas frames. Columns have the names of the fields (of an array: in the singular),
-attrs['units'] their units. What is not known or not measured is NaN, also in bags whose messages
-said 0 or -1."""
+attrs['units'] their units; those of z are of spheres alone. What is not known or not measured is
+NaN, also in bags whose messages said 0 or -1."""
 
 import numpy as np
 import pandas
 
 from hdlyap.msg import LpPhase, Mode, Step
-from hdlyap.plots import stages, steps, waves
+from hdlyap.plots import space, stages, steps, waves
 from hdlyap.plots.numbers import known
 
 from . import fields
 from .fields import words
 
+OF_SPHERES = 'nz', 'null_z'  # columns
 NUMBERED = 'exponents', 'widths'  # arrays with an element for each Lyapunov index
 NUMBERS = {'bool': bool, 'float64': float}  # others are integers
 # columns whose numbers have names
@@ -46,7 +47,7 @@ def elements(parts, index=None, without=()):
     for name in NAMES.keys() & columns.keys():
         columns[name] = [NAMES[name].get(value, str(value)) for value in columns[name]]
     for name in without:
-        del columns[name]
+        columns.pop(name, None)
     units = {name: field.unit for name, field in described.items()}
     return frame(columns, units, index)
 
@@ -95,55 +96,65 @@ def arrays(message, without=()):
     return frame(columns, units, index)
 
 
-def of_steps(message):
+def of_arrays(message, info=None):
+    return arrays(message)
+
+
+def of_steps(message, info=None):
     """By name; * stands behind those of the negative half."""
-    names = [steps.name(step) + ('*' if step.conjugate else '') for step in message.steps]
-    return elements(message.steps, pandas.Index(names, name='step'))
+    names = [steps.name(step, info) + ('*' if step.conjugate else '') for step in message.steps]
+    return elements(message.steps, pandas.Index(names, name='step'), _left_out(info))
 
 
-def of_modes(message):
+def _left_out(info):
+    return () if space.is_solid(info) else OF_SPHERES
+
+
+def of_modes(message, info=None):
     index = pandas.Index([mode.index for mode in message.modes], name='index', dtype=int)
-    return elements(message.modes, index, without=('index', 'step'))
+    return elements(message.modes, index, without=('index', 'step', *_left_out(info)))
 
 
-def of_gas(message):
+def of_gas(message, info=None):
     """By quantity."""
     described = fields.of(message)
-    names = 'collision_rate', 'pressure', 'pressure_x', 'pressure_y'
+    names = ['collision_rate', 'pressure', *('pressure_' + axis for axis in space.axes(info))]
+    per = f'1/sigma^{len(space.axes(info))}'  # the definition says that of disks
     values = [getattr(message, name) for name in names] + [message.compressibility]
     errors = known([getattr(message, name + '_error') for name in names])
     relative = errors[1] / message.pressure if message.pressure else np.nan
     columns = {
         'value': values,
         'std_error': [*errors, relative * message.compressibility],
-        'unit': [described[name].unit for name in names] + [''],
+        'unit': [described['collision_rate'].unit, *[per] * (len(names) - 1), ''],
     }
     index = pandas.Index([*names, 'compressibility'], name='quantity')
     return frame(columns, {}, index)
 
 
-def of_phases(message, kind='LP'):
+def of_phases(message, info=None, kind='LP'):
     """By their number; the modulation as a formula."""
     phases = message.phases
-    made = elements(phases, pandas.RangeIndex(len(phases), name='number'))
+    made = elements(phases, pandas.RangeIndex(len(phases), name='number'), _left_out(info))
     if phases:
-        made['step'] = [steps.wave_name(kind, phase) for phase in phases]
+        made['step'] = [steps.wave_name(kind, phase, info) for phase in phases]
         made['modulation'] = [
-            waves.plain_formula(phase.nx, phase.ny, phase.modulation) for phase in phases
+            waves.plain_formula(phase.nx, phase.ny, phase.modulation, getattr(phase, 'nz', 0))
+            for phase in phases
         ]
     return made
 
 
-def of_t_phases(message):
+def of_t_phases(message, info=None):
     """The same of the T steps."""
-    return of_phases(message, 'T')
+    return of_phases(message, info, 'T')
 
 
-def over_time(messages, of):
+def over_time(messages, of, info=None):
     """The frames of many messages below each other, by simulated time. Two reports can tell the
     same state of phases: it is there once."""
     states = {message.sim_time: message for message in messages}
-    frames, times = zip(*((of(message), time) for time, message in states.items()))
+    frames, times = zip(*((of(message, info), time) for time, message in states.items()))
     joined = pandas.concat(frames, keys=times, names=['sim_time'])
     object.__setattr__(joined, 'attrs', frames[-1].attrs)
     return joined

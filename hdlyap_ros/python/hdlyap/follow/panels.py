@@ -16,8 +16,9 @@ KIND_STYLES = {steps.T: 'T', steps.LP: 'LP'}
 PART_BAR = 6  # columns
 ROOMY = 30  # lines of a screen
 STATES = {LpPhase.WEAK: 'too weak now', LpPhase.COARSE: 'turns too fast'}
-PHASE_ROW = '  {:<9} {:<17} {:>6} {:>7}  {} {:<6}{:<14} {}'
-PHASE_HEAD = PHASE_ROW.format('LP phases', 'A', 'index', '|(a,b)|', ' ', '/2 pi', 'omega', 'v')
+PHASE_ROW = '  {:<9} {:<{width}} {:>6} {:>7}  {} {:<6}{:<14} {}'
+FORMULA = 17  # columns, or more of spheres
+PHASE_HEAD = 'LP phases', 'A', 'index', '|(a,b)|', ' ', '/2 pi', 'omega', 'v'
 
 
 def of(view, width, height, glyphs):
@@ -120,7 +121,7 @@ def table(view, width):
     if message is None:
         return _without(view, 'steps')
     fitted = {step.name: step.fitted for step in paper.steps(view.info)} if view.info else {}
-    found = list(step_table.block_rows(message, fitted))
+    found = list(step_table.block_rows(message, fitted, view.info))
     if view.info and view.is_averaged and view.last_index > view.positive_end:
         found.insert(0, (step_table.zero_cells(view), None))
     if not found:
@@ -162,7 +163,10 @@ def phases(view, glyphs):
     found = ranked(view.phases.phases)
     if not found:
         return _note('LP phases', 'no LP step resolved yet')
-    return [[(PHASE_HEAD, 'faint')]] + [[(_phase_row(phase, glyphs), 'LP')] for phase in found]
+    rows = [_phase_cells(phase, view.info, glyphs) for phase in found]
+    width = max(FORMULA, *(len(row[1]) for row in rows))
+    lines = [PHASE_ROW.format(*row, width=width) for row in (PHASE_HEAD, *rows)]
+    return [[(lines[0], 'faint')]] + [[(line, 'LP')] for line in lines[1:]]
 
 
 def ranked(found):
@@ -181,7 +185,7 @@ def ranked(found):
     return [found[number] for _, number in sorted(rounds, key=lambda pair: pair[0])]
 
 
-def _phase_row(phase, glyphs):
+def _phase_cells(phase, info, glyphs):
     a, b = phase.a, phase.b
     turn = atan2(b, a) / (2 * pi) % 1 if isfinite(a) and isfinite(b) else 0.0
     omega, v = STATES.get(phase.state, ''), ''
@@ -189,9 +193,9 @@ def _phase_row(phase, glyphs):
         omega = _measured(phase.omega, phase.omega_error)
         error = phase.velocity * phase.omega_error / abs(phase.omega) if phase.omega else -1.0
         v = _measured(phase.velocity, error)
-    return PHASE_ROW.format(
-        steps.wave_name('LP', phase),
-        waves.plain_formula(phase.nx, phase.ny, phase.modulation),
+    return (
+        steps.wave_name('LP', phase, info),
+        waves.plain_formula(phase.nx, phase.ny, phase.modulation, phase.nz),
         phase.index,
         f'{hypot(a, b):.2f}',
         glyphs.dial(turn),

@@ -8,7 +8,7 @@ import numpy as np
 from hdlyap.data.joined import SYSTEM, different
 from hdlyap.data.reader import RecordingError
 
-from . import fits, steps
+from . import fits, space, steps
 from .deviation import Deviation
 
 OWN = ('header', 'run_id')  # of every message, also of bit-identical runs
@@ -45,9 +45,10 @@ class Comparison:
     def found_once(self):
         """Names of the steps that are resolved in only one of the runs: (in a, in b)."""
         a, b = (_resolved(run) for run in self.runs)
+        info = self.runs[0].info
         return (
-            [_step_name(a[key]) for key in a if key not in b],
-            [_step_name(b[key]) for key in b if key not in a],
+            [_step_name(a[key], info) for key in a if key not in b],
+            [_step_name(b[key], info) for key in b if key not in a],
         )
 
     @property
@@ -118,13 +119,13 @@ def _resolved(run):
     """{what it is: Step} of the resolved steps, smallest |exponent| first."""
     found = [step for step in (run.steps.steps if run.steps else ()) if step.resolved]
     return {
-        (step.kind, step.nx, step.ny, step.conjugate): step
+        (step.kind, space.nodes(step, run.info), step.conjugate): step
         for step in sorted(found, key=lambda step: abs(step.exponent))
     }
 
 
-def _step_name(step):
-    return steps.name(step) + ('*' if step.conjugate else '')
+def _step_name(step, info):
+    return steps.name(step, info) + ('*' if step.conjugate else '')
 
 
 def _steps(a, b):
@@ -133,7 +134,7 @@ def _steps(a, b):
     pairs = [(in_a[key], in_b[key]) for key in in_a if key in in_b]
     return [
         Deviation(
-            _step_name(pair[0]),
+            _step_name(pair[0], a.info),
             [step.exponent for step in pair],
             [step.std_error for step in pair],
             judged=pair[0].kind != steps.ZERO,

@@ -1,5 +1,6 @@
 """Covariant vectors of a run beside its Gram-Schmidt vectors: exponents, weights, angles, order."""
 
+from functools import partial
 from math import pi
 
 import numpy as np
@@ -7,7 +8,7 @@ import numpy as np
 from hdlyap.data.fields import words
 from hdlyap.msg import CovariantAngle
 
-from . import steps
+from . import space, steps
 from .numbers import known
 
 SPACES = words(CovariantAngle, 'spaces')
@@ -84,7 +85,7 @@ def within(numbers, block):
 
 def blocks(run):
     """Zero modes, then the steps of both halves, smallest |exponent| first: (name, block)."""
-    found = steps.all_blocks(run.steps)
+    found = steps.all_blocks(run.steps, run.info)
     # each step before its conjugate: they have the same exponents but for the sign and an error
     order = {block.name: place for place, block in enumerate(found) if not block.conjugate}
     for block in sorted(found, key=lambda one: (order.get(one.name, len(found)), one.conjugate)):
@@ -97,18 +98,16 @@ def blocks(run):
 
 def chance(run, weight):
     """Weight that a vector without any preference has."""
-    return weight.dimension / (2.0 * run.info.disks)
+    return 2.0 * weight.dimension / space.phase_space(run.info)
 
 
 def weights_over(run, block):
     """(step, weights) of a block whose vectors are carried: means over them of the Gram-Schmidt dq,
     of the covariant dq and dp halves, and what chance would give."""
     inside = within(indices(run.covariant), block)
+    name_of = partial(steps.name, info=run.info)
     for step in block.steps if inside is not None else ():
-        found = next(
-            (weight for weight in run.covariant.weights if steps.name(weight) == steps.name(step)),
-            None,
-        )
+        found = next((one for one in run.covariant.weights if name_of(one) == name_of(step)), None)
         if found is None:
             continue
         yield step, (*_means(found, inside), chance(run, found))
@@ -119,9 +118,9 @@ def unresolved_weights(run):
     vectors as their space has dimensions, those with the largest dq weights; lowest waves first."""
     numbers = indices(run.covariant)
     carried = int((numbers <= run.positive_end).sum())
-    resolved = steps.resolved(run.steps)
+    resolved = steps.resolved(run.steps, run.info)
     for weight in run.covariant.weights:
-        if steps.name(weight) in resolved or weight.dimension > carried:
+        if steps.name(weight, run.info) in resolved or weight.dimension > carried:
             continue
         best = np.sort(np.argsort(weight.dq[:carried], kind='stable')[carried - weight.dimension :])
         yield weight, numbers[best], (*_means(weight, best), chance(run, weight))

@@ -84,12 +84,14 @@ def _weights(recording):
     for name, block in _chosen(recording):
         half = name[: -len(block.name)] if name.endswith(block.name) else ''
         rows += [
-            _weight_row(half + steps.name(step), block.indices, weights)
+            _weight_row(half + steps.name(step, recording.info), block.indices, weights)
             for step, weights in covariant.weights_over(recording, block)
         ]
     remark = []
     for weight, indices, weights in list(covariant.unresolved_weights(recording))[:UNRESOLVED]:
-        rows.append(_weight_row(steps.name(weight) + ' *', _listed(indices), weights))
+        rows.append(
+            _weight_row(steps.name(weight, recording.info) + ' *', _listed(indices), weights)
+        )
         remark = [
             '  * no step found: as many vectors as its fields have dimensions, '
             'those with the largest dq weights'

@@ -2,11 +2,15 @@
 reduced units, the kinetic energy of a disk being 1, so that kT = 1.
 
 Of the reference, Henderson, Mol. Phys. 30, 971 (1975), Z = (1 + eta^2 / 8) / (1 - eta)^2 with
-eta = pi rho / 4, good to a percent up to MOST; all of it takes numbers and arrays."""
+eta = pi rho / 4, good to a percent up to MOST; all of it takes numbers and arrays. Of spheres,
+whose kT is 2/3, Carnahan and Starling, J. Chem. Phys. 51, 635 (1969), with eta = pi rho / 6."""
 
+from collections import namedtuple
 from math import pi, sqrt
 
 import numpy as np
+
+from . import space
 
 MOST = 0.7  # density; disks freeze near 0.88
 
@@ -15,6 +19,21 @@ def compressibility(density):
     """Z = p / rho."""
     eta = pi * np.asarray(density) / 4
     return (1 + eta**2 / 8) / (1 - eta) ** 2
+
+
+def compressibility_of_spheres(density):
+    """Z = p / (rho kT)."""
+    eta = pi * np.asarray(density) / 6
+    return (1 + eta + eta**2 - eta**3) / (1 - eta) ** 3
+
+
+Reference = namedtuple('Reference', 'compressibility most by')
+DISKS = Reference(compressibility, MOST, 'Henderson (1975)')
+SPHERES = Reference(compressibility_of_spheres, 0.9, 'Carnahan and Starling (1969)')
+
+
+def of(info):
+    return SPHERES if space.is_solid(info) else DISKS
 
 
 def contact_value(z, density):

@@ -7,7 +7,7 @@ import numpy as np
 from hdlyap.data import joined, run
 from hdlyap.data.reader import FIELD, PHASES, STATE, RecordingError
 
-from . import steps
+from . import space, steps
 from .recorded import Recorded
 
 MOST = 1e6  # frames of a film: ten of them a second are a day
@@ -16,8 +16,9 @@ MOST = 1e6  # frames of a film: ten of them a second are a day
 class Frame:
     """What is known at a time. Each has a time of its own: fields come seldom."""
 
-    def __init__(self):
-        self.time, self.x, self.y = None, None, None
+    def __init__(self, info=None):
+        self._info = info
+        self.time, self.places = None, None  # rows along each direction
         self.fields = {}  # name of the mode -> ModeField
         self.phases = None  # LpPhases
         self.turned = {}  # name of the mode -> pairs (a, b) at the time of its field
@@ -26,13 +27,13 @@ class Frame:
         if kind == PHASES:
             self.phases = message
         else:
-            self.time, self.x, self.y = message.sim_time, message.x, message.y
+            self.time, self.places = message.sim_time, space.vectors(message)
         if kind == FIELD:
             self._add_field(message, names)
         self._note_pairs()
 
     def _add_field(self, field, names):
-        name = wave_name(field.kind, field.nx, field.ny)
+        name = wave_name(field.kind, space.nodes(field, self._info))
         before = self.fields.get(name)
         # of several vectors of a step the first
         if name in names and not (
@@ -51,7 +52,8 @@ class Frame:
         return [
             (phase.a, phase.b)
             for phase in (self.phases.phases if self.phases else ())
-            if (phase.index, phase.nx, phase.ny) == (field.index, field.nx, field.ny)
+            if phase.index == field.index
+            and space.nodes(phase, self._info) == space.nodes(field, self._info)
             and isfinite(phase.a + phase.b)
         ]
 
@@ -64,7 +66,7 @@ class Film:
         self.which = paths, node, number
         self._run = joined.one(paths, node, number)
         self.info = self._run.info
-        self.steps = steps.resolved(Recorded(run.Run(self._run)).steps)
+        self.steps = steps.resolved(Recorded(run.Run(self._run)).steps, self.info)
         self.names = names or lowest(self.steps)
         if not self.names:
             raise RecordingError(f'{self._run.name}: no step is resolved in it')
@@ -77,7 +79,8 @@ class Film:
         places, fields, begin = self._times()
         if len(places) == 0:
             raise RecordingError(
-                f'{self._run.name}: neither state nor fields in it: there are no disks'
+                f'{self._run.name}: neither state nor fields in it: there are no '
+                f'{space.particle(self.info)}s'
             )
         self.begin, self.end = self._cut(places, begin, *within)
         self.report = _apart(places[places >= self.begin])
@@ -89,12 +92,16 @@ class Film:
         places, fields, first = set(), set(), {}
         for packed in self._run.in_time((STATE, FIELD)):
             places.add(packed.sim_time)
-            name = wave_name(*packed.field_wave()) if packed.kind == FIELD else None
+            name = self._wave_name(packed) if packed.kind == FIELD else None
             if name in self.names:
                 fields.add(packed.sim_time)
                 first.setdefault(name, packed.sim_time)
         begin = max(first.values(), default=None)
         return np.array(sorted(places)), np.array(sorted(fields)), begin
+
+    def _wave_name(self, packed):
+        kind, *nodes = packed.field_wave(len(space.axes(self.info)))
+        return wave_name(kind, nodes)
 
     @property
     def name(self):
@@ -123,7 +130,7 @@ class Film:
 
     def frames(self, every):
         """What is known at each of those times, in one Frame."""
-        frame, number, count = Frame(), 0, self.count(every)
+        frame, number, count = Frame(self.info), 0, self.count(every)
         for packed in self._run.in_time((STATE, FIELD, PHASES)):
             while number < count and packed.sim_time > self.begin + number * every + 1e-9:
                 yield frame
@@ -133,9 +140,11 @@ class Film:
             yield frame
 
 
-def wave_name(kind, nx, ny):
+def wave_name(kind, nodes):
     """T(1,0); None of a vector that is of no such step."""
-    return f'{steps.NAMES[kind]}({nx},{ny})' if kind in (steps.T, steps.LP) else None
+    return (
+        f'{steps.NAMES[kind]}({",".join(map(str, nodes))})' if kind in (steps.T, steps.LP) else None
+    )
 
 
 def _apart(times):

@@ -17,9 +17,10 @@ from matplotlib.patches import Circle
 from hdlyap import whole
 from hdlyap.data.reader import RecordingError
 
-from . import frames, steps
+from . import frames, space, steps
 from .figures.box import arrows, disks
 from .figures.style import BLUE, GREY, VERMILION, scene
+from .figures.view import View
 from .numbers import known, with_error
 from .progress import Progress
 
@@ -30,6 +31,7 @@ LONG = 2.5  # boxes this much longer than high lie above each other
 ARROW, LONGEST = 1.3, 2.6  # root mean square and longest, in mean distances of disks
 ALL_L, ALL_P = to_rgb('#E69F00'), to_rgb('#661F05')  # an LP mode, as in rviz
 DISK = '#DCDCDC'
+SPHERE, DOT = '#8C8C8C', 0.3  # drawn smaller, as those in front would hide the others [sigma]
 DRAW = 'import hdlyap.tool; from hdlyap.plots import movie; movie.draw_part()'
 PALE = 0.3  # part of white in a vector that is of an earlier time
 CODECS = {
@@ -57,8 +59,9 @@ class Panel:
     def __init__(self, axes, name, film):
         info = film.info
         self._axes, self._name, self._film = axes, name, film
-        self._distance = np.sqrt(info.box_x * info.box_y / info.disks)
-        self._disks = disks(axes, info, [0.0], [0.0], facecolors=DISK, antialiaseds=False)
+        self._distance, self._view = space.distance(info), View(info)
+        style = dict(size=DOT) if self._view.is_solid else dict(facecolors=DISK, antialiaseds=False)
+        self._disks = disks(axes, info, *np.zeros((len(space.axes(info)), 1)), **style)
         self._arrows = None
         self._colour = BLUE if name.startswith('T') else VERMILION
         axes.set_xticks([])
@@ -67,23 +70,35 @@ class Panel:
         self._dials = []
 
     def show(self, frame):
-        self._disks.set_offsets(np.c_[frame.x, frame.y])
+        self._show_disks(frame.places)
         field = frame.fields.get(self._name)
         self._title.set_text(self._text(frame, field))
         if field is None:
             return
-        dq = np.array([field.dqx, field.dqy])
+        dq = space.vectors(field, 'dq')
         dq *= ARROW * self._distance / np.sqrt(np.mean(np.sum(dq**2, axis=0)))
-        dq *= np.minimum(1, LONGEST * self._distance / np.maximum(np.hypot(*dq), 1e-300))
+        dq *= np.minimum(
+            1, LONGEST * self._distance / np.maximum(np.linalg.norm(dq, axis=0), 1e-300)
+        )
+        q = space.vectors(field)
+        order = self._view.order(q)
+        q, dq = q[:, order], dq[:, order]
         if self._arrows is None:
-            zeros = np.zeros_like(dq)
+            zeros = np.zeros_like(dq[:2])
             self._arrows = arrows(self._axes, *zeros, zeros, width=0.14 * self._distance)
-        self._arrows.set_offsets(np.c_[field.x, field.y] - 0.5 * dq.T)
-        self._arrows.set_UVC(*dq)
+        self._arrows.set_offsets(self._view.places(q - 0.5 * dq).T)
+        self._arrows.set_UVC(*self._view.vectors(dq))
         pale = PALE if field.sim_time != frame.time else 0.0
         colour = mode_colour(field, frame.turned.get(self._name, ()))
-        self._arrows.set_color(mixed(colour, (1.0, 1.0, 1.0), pale))
+        colour_now = mixed(colour, (1.0, 1.0, 1.0), pale)
+        self._arrows.set_color(self._view.pale(colour_now, q))
         self._show_dials(frame, field, colour)
+
+    def _show_disks(self, q):
+        q = q[:, self._view.order(q)]
+        self._disks.set_offsets(self._view.places(q).T)
+        if self._view.is_solid:
+            self._disks.set_facecolors(self._view.pale(SPHERE, q))
 
     def _text(self, frame, field):
         step = self._film.steps.get(self._name)
@@ -144,10 +159,11 @@ class Picture:
     """A figure with a panel for each mode, that shows one frame after the other."""
 
     def __init__(self, film, width):
-        info, count = film.info, len(film.names)
-        rows, columns = (count, 1) if info.box_x > LONG * info.box_y else (1, count)
+        count = len(film.names)
+        wide, tall = View(film.info).size
+        rows, columns = (count, 1) if wide > LONG * tall else (1, count)
         across = (INCHES - GAP * (columns + 1)) / columns
-        high = across * info.box_y / info.box_x
+        high = across * tall / wide
         height = TOP + rows * (high + TITLE)
         self.figure = Figure(
             figsize=(INCHES, height), dpi=(width + 0.5) / INCHES

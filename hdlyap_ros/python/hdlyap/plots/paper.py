@@ -5,6 +5,8 @@ branches, and at density 0.4 their curvature."""
 from collections import namedtuple
 from math import hypot, isclose, pi
 
+from . import space
+
 DISKS, DENSITY, ASPECT = 780, 0.8, 0.867
 FIT_ACCURACY = 0.03  # ours: how well slopes are taken to be described by the fits
 FITS = 'fits of Eckmann, Forster, Posch, Zabey 2005'
@@ -68,6 +70,8 @@ def steps(info):
 
 def branches(info):
     """{kind: Branch} where the paper's fits hold for the run, else none."""
+    if space.is_solid(info):
+        return {}
     if isclose(info.density, CURVES_DENSITY, rel_tol=1e-6) and _within(info.disks, CURVES_DISKS):
         return CURVES
     if info.density <= DENSITY * (1 + 1e-6) and info.disks >= 400:
@@ -81,7 +85,8 @@ def _within(value, ends):
 
 def _is_periodic_scene(info):
     return (
-        info.disks == DISKS
+        not space.is_solid(info)
+        and info.disks == DISKS
         and isclose(info.density, DENSITY, rel_tol=1e-6)
         and isclose(info.aspect, ASPECT, rel_tol=1e-6)
         and info.boundary_x == info.boundary_y == 'periodic'

@@ -6,6 +6,7 @@ import yaml
 
 from hdlyap.data import reader
 
+from . import space
 from .waves import is_round
 
 # of run_info, what is no parameter: what follows from them, and what the run ran on
@@ -15,10 +16,12 @@ RESULTS = (
     'version',
     'box_x',
     'box_y',
+    'box_z',
     'vectors',
     'zero_exponents',
     'wave_nx',
     'wave_ny',
+    'wave_nz',
     'resumed_time',
     'ranks',
     'blas_threads',
@@ -28,6 +31,7 @@ RESULTS = (
     'marker_modes',  # of bags of before: parameters of the viewer now
     'marker_rate',
 )
+OF_SPHERES = ('aspect_z', 'boundary_z')  # which disks have not
 OF_A_BOX = ('aspect', 'boundary_x', 'boundary_y')  # which a circle has not
 # a word, or a list of numbers as text
 LISTS = ('field_indices',)
@@ -57,6 +61,7 @@ def parameters(info):
     """By name. The run begins anew, and leaves the first one's checkpoint alone; what it was
     resumed from makes no difference to its numbers."""
     results = RESULTS + (OF_A_BOX if is_round(info) else ())
+    results += () if space.is_solid(info) else OF_SPHERES
     names = [name for name in info.__slots__ if name not in results]
     asked = {name: getattr(info, name) for name in names}
     asked.update(
@@ -94,9 +99,12 @@ def _remarks(info):
     )
     if info.wait_for_subscribers:
         yield (
-            'Waits for subscribers, as that run did: '
-            'roslaunch hdlyap run.launch scene:=FILE.yaml record:=true'
+            'Waits for subscribers, as that run did: roslaunch hdlyap run.launch scene:=FILE.yaml '
+            + 'dimensions:=3 ' * space.is_solid(info)
+            + 'record:=true'
         )
+    elif space.is_solid(info):
+        yield 'Of spheres: roslaunch hdlyap run.launch scene:=FILE.yaml dimensions:=3'
     if info.resume:
         yield (
             f'That run went on from {info.resume} at simulated time {info.resumed_time:g}; '

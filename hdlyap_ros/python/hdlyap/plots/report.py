@@ -4,7 +4,7 @@ import numpy as np
 
 from hdlyap.data import seeds
 
-from . import covariant_table, equation, paper, step_table
+from . import covariant_table, equation, paper, space, step_table
 from .numbers import known, with_error
 from .waves import is_round
 
@@ -75,10 +75,11 @@ def _head(recording):
 def system(info):
     if is_round(info):
         return f'N = {info.disks}, density {info.density:g}, circle of radius {info.box_x / 2:.3f}'
+    spheres = ' spheres' if space.is_solid(info) else ''
     return (
-        f'N = {info.disks}, density {info.density:g}, '
-        f'box {info.box_x:.3f} x {info.box_y:.3f}, '
-        f'x {info.boundary_x}, y {info.boundary_y}'
+        f'N = {info.disks}{spheres}, density {info.density:g}, box '
+        + ' x '.join(f'{edge:.3f}' for edge in space.along(info, 'box_'))
+        + ''.join(f', {axis} {getattr(info, "boundary_" + axis)}' for axis in space.axes(info))
     )
 
 
@@ -114,21 +115,28 @@ def _gas(recording):
     gas, info = recording.gas, recording.info
     known = gas.pressure_error >= 0 and gas.pressure > 0
     relative = gas.pressure_error / gas.pressure if known else -1.0
-    periodic = info.boundary_x == info.boundary_y == 'periodic'
+    periodic = set(space.along(info, 'boundary_')) == {'periodic'}
+    axes, solid = space.axes(info), space.is_solid(info)
+    each = ', '.join(f'{getattr(gas, "pressure_" + axis):.6f}' for axis in axes)
+    per = f'per {space.particle(info)} and time unit'
     rows = [
-        ('collision rate', gas.collision_rate, gas.collision_rate_error, 'per disk and time unit'),
-        ('pressure', gas.pressure, gas.pressure_error, 'per sigma^2'),
-        ('  of px, py', f'{gas.pressure_x:.6f}, {gas.pressure_y:.6f}', -1.0, ''),
-        ('Z = p A / N', gas.compressibility, relative * gas.compressibility, ''),
+        ('collision rate', gas.collision_rate, gas.collision_rate_error, per),
+        ('pressure', gas.pressure, gas.pressure_error, f'per sigma^{len(axes)}'),
+        ('  of ' + ', '.join('p' + axis for axis in axes), each, -1.0, ''),
+        (
+            'Z = p V / N kT' if solid else 'Z = p A / N',
+            gas.compressibility,
+            relative * gas.compressibility,
+            '',
+        ),
     ]
     lines = [f'gas, averaged over {gas.averaged_time:g}']
     for name, value, error, unit in rows:
         text = value if isinstance(value, str) else f'{value:.6f}{_error(error)}'
         lines.append(f'{name:<15} {text} {unit}'.rstrip())
-    if periodic and info.density <= equation.MOST:
-        lines.append(
-            f'                {equation.compressibility(info.density):.6f} by Henderson (1975)'
-        )
+    reference = equation.of(info)
+    if periodic and info.density <= reference.most:
+        lines.append(f'{"":<15} {reference.compressibility(info.density):.6f} by {reference.by}')
     return '\n'.join(lines)
 
 

@@ -1,5 +1,6 @@
 """What is known of one run, whether it was recorded or still goes on."""
 
+from . import space
 from .numbers import stated
 
 
@@ -14,7 +15,12 @@ class Run:
     @property
     def positive_end(self):
         """Lyapunov index of the last positive exponent."""
-        return (4 * self.info.disks - self.info.zero_exponents) // 2
+        return (self.phase_space - self.info.zero_exponents) // 2
+
+    @property
+    def phase_space(self):
+        """Its dimension: exponents in all."""
+        return space.phase_space(self.info)
 
     @property
     def last_index(self):

@@ -36,19 +36,22 @@ def _steps(recording):
         f'steps: at least {100 * message.threshold:.0f} % of the expected multiplicity found '
         '(standard errors)'
     )
-    rows = [zero_cells(recording)] + [cells for cells, _ in block_rows(message, fitted)]
+    rows = [zero_cells(recording)] + [
+        cells for cells, _ in block_rows(message, fitted, recording.info)
+    ]
     if fitted:
         title += f'\nc k: {paper.FITS} (+-3 %)'
-    return '\n'.join([title, *layout(rows, bool(fitted)), *_remarks(message)])
+    remarks = _remarks(message, recording.info)
+    return '\n'.join([title, *layout(rows, bool(fitted)), *remarks])
 
 
-def block_rows(message, fitted):
+def block_rows(message, fitted, info):
     """(cells of a row, kind of its step or None for several), smallest exponent first."""
-    for block in steps.blocks(message):
+    for block in steps.blocks(message, info):
         if len(block.steps) > 1:
             yield _shared_cells(block), block.kind
         for step in block.steps:
-            yield _cells(block, step, fitted), step.kind
+            yield _cells(block, step, steps.name(step, info), fitted), step.kind
 
 
 def layout(rows, beside_paper=False):
@@ -88,10 +91,9 @@ def _shared_cells(block):
     ]
 
 
-def _cells(block, step, fitted):
+def _cells(block, step, name, fitted):
     """A step that shares its set is indented below the names of all."""
     shared = len(block.steps) > 1
-    name = steps.name(step)
     cells = [
         '  ' + name if shared else name,
         '' if shared else block.indices,
@@ -105,41 +107,38 @@ def _cells(block, step, fitted):
     return cells
 
 
-def _remarks(message):
+def _remarks(message, info):
     """What is not in the table."""
     missing = steps.unresolved(message)
     if missing:
-        yield '  ' + _names(f'not resolved ({len(missing)}): ', missing)
+        yield '  ' + _names(f'not resolved ({len(missing)}): ', missing, info)
     half = [step for step in message.steps if step.conjugate]
     if half:
-        yield '  ' + _conjugates(message, half)
+        yield '  ' + _conjugates(message, half, info)
 
 
-def _names(start, missing):
+def _names(start, missing, info):
     """As many names as fit into a line."""
     text = start
     for count, step in enumerate(missing):
-        name = steps.name(step) + ' '
+        name = steps.name(step, info) + ' '
         if len(text + name) > WIDTH - len('and 999 more'):
             return f'{text}and {len(missing) - count} more'
         text += name
     return text.rstrip()
 
 
-def _conjugates(message, half):
+def _conjugates(message, half, info):
     """The negative half in a line: found as often, and how far it is from a mirror image."""
     found = [step for step in half if step.resolved]
     line = f'conjugate steps of the negative half: {len(found)} of {len(half)} resolved'
     mirror = {
-        steps.name(step): step.exponent
+        steps.name(step, info): step.exponent
         for step in message.steps
         if step.resolved and not step.conjugate
     }
-    sums = [
-        abs(step.exponent + mirror[steps.name(step)])
-        for step in found
-        if steps.name(step) in mirror
-    ]
+    names = ((steps.name(step, info), step.exponent) for step in found)
+    sums = [abs(exponent + mirror[name]) for name, exponent in names if name in mirror]
     return line + (f', largest |sum with its partner| {max(sums):.1e}' if sums else '')
 
 
@@ -195,7 +194,7 @@ def _lp_dynamics(recording):
         k, cells = step.wave_number, ('-', '-')
         if isfinite(omega):
             cells = with_error(omega, error), with_error(omega / k, error / k)
-        name, (omega, v) = steps.name(step), cells
+        name, (omega, v) = steps.name(step, recording.info), cells
         lines.append(f'  {name:<14} {omega:<15} {v:<15} {tracked} of {len(phases)}')
     if len(lines) > 2:
         yield '\n'.join(lines)

@@ -1,17 +1,20 @@
-"""Steps message -> blocks: steps whose vectors mix stand together."""
+"""Steps message -> blocks: steps whose vectors mix stand together. The run_info tells disks, whose
+waves have two numbers of nodes, from spheres; without one it is of disks."""
 
 import numpy as np
 
 from hdlyap.data.fields import words
 from hdlyap.msg import Step
 
+from . import space
+
 NAMES = words(Step, 'kind')
 ZERO, T, LP = NAMES
 
 
-def name(step):
+def name(step, info=None):
     """Of a Step, or of anything else with kind, nx and ny."""
-    return NAMES[step.kind] if step.kind == ZERO else wave_name(kind_name(step.kind), step)
+    return NAMES[step.kind] if step.kind == ZERO else wave_name(kind_name(step.kind), step, info)
 
 
 def kind_name(kind):
@@ -19,14 +22,20 @@ def kind_name(kind):
     return NAMES.get(kind, f'kind {kind}')
 
 
-def wave_name(kind, wave):
-    return f'{kind}({wave.nx},{wave.ny})'
+def wave_name(kind, wave, info=None):
+    """T(1,0), of spheres T(1,0,0)."""
+    return f'{kind}{nodes_name(wave, info)}'
+
+
+def nodes_name(wave, info):
+    return '(' + ','.join(map(str, space.nodes(wave, info))) + ')'
 
 
 class Block:
     """The resolved steps of one set of vectors; more than one where steps share it."""
 
-    def __init__(self, steps):
+    def __init__(self, steps, info=None):
+        self._info = info
         self.steps = sorted(steps, key=lambda step: (step.wave_number, step.kind))
         self.first, self.last = steps[0].first_index, steps[0].last_index
         self.conjugate = steps[0].conjugate
@@ -35,7 +44,7 @@ class Block:
 
     @property
     def name(self):
-        return '+'.join(name(step) for step in self.steps)
+        return '+'.join(name(step, self._info) for step in self.steps)
 
     @property
     def kind(self):
@@ -56,27 +65,28 @@ class Block:
         )
 
 
-def blocks(message, conjugate=False):
+def blocks(message, info=None, conjugate=False):
     """Resolved steps of one half of the spectrum without the zero modes, smallest |lambda| first;
     none without a message."""
     sets = {}
     for step in message.steps if message is not None else ():
         if step.resolved and step.kind != ZERO and step.conjugate == conjugate:
             sets.setdefault(step.set, []).append(step)
-    return sorted((Block(steps) for steps in sets.values()), key=lambda block: abs(block.height))
+    found = (Block(steps, info) for steps in sets.values())
+    return sorted(found, key=lambda block: abs(block.height))
 
 
-def all_blocks(message):
+def all_blocks(message, info=None):
     """Of the zero modes, if they are resolved, and of both halves; none without a message."""
     zero = zero_modes(message) if message is not None else None
     found = [Block([zero])] if zero is not None and zero.resolved else []
-    return found + blocks(message) + blocks(message, conjugate=True)
+    return found + blocks(message, info) + blocks(message, info, conjugate=True)
 
 
-def resolved(message, conjugate=False):
+def resolved(message, info=None, conjugate=False):
     """{name: step} of one half of the spectrum without the zero modes; empty without a message."""
     return {
-        name(step): step
+        name(step, info): step
         for step in (message.steps if message is not None else ())
         if step.resolved and step.kind != ZERO and step.conjugate == conjugate
     }

@@ -5,14 +5,17 @@ from collections import deque, namedtuple
 
 import numpy as np
 
+from . import space
+
 KEPT = 64  # slowest vectors of positive exponent whose amplitudes are kept
 LAST = 16384  # reports, 70 MB of amplitudes
 FREQUENCIES = 400  # of a spectrum
 PIECES = 4  # of a course, for the error of its line
 REPORTS = 4 * PIECES  # of the shortest course that has a line
 FLOOR = 0.1  # of the largest power: what is below is no part of the line
-# mean structure factors: along and across have a row for each wave, a column for each vector
-Means = namedtuple('Means', 'samples nx ny wave_number along across')
+# mean structure factors: along and across have a row for each wave, a column for each vector;
+# nodes: nx, ny and of spheres nz
+Means = namedtuple('Means', 'samples nx ny wave_number along across nodes')
 Line = namedtuple('Line', 'omega error')
 DIRECTIONS = 'along', 'across'
 
@@ -35,7 +38,7 @@ class StructureCourse:
         kept = slice(self.first - 1, end)
         self._times.append(msg.sim_time)
         self._peaks.append(np.array(msg.peak[kept], dtype=int))
-        self._amplitudes.append(np.stack([amplitudes(msg, e)[:, kept] for e in DIRECTIONS]))
+        self._amplitudes.append([amplitudes(msg, e)[:, kept] for e in DIRECTIONS])
 
     def of(self, indices, direction):
         """(times, amplitudes[times, series]) of these vectors as long as none had another wave
@@ -46,7 +49,8 @@ class StructureCourse:
         peaks = np.array(self._peaks)[:, columns]
         other = np.flatnonzero((peaks != peaks[-1]).any(axis=1))
         begin = other[-1] + 1 if len(other) else 0
-        found = np.array(self._amplitudes)[begin:, DIRECTIONS.index(direction)][..., columns]
+        which = DIRECTIONS.index(direction)
+        found = np.array([one[which] for one in self._amplitudes])[begin:, :, columns]
         return np.array(self._times)[begin:], found.reshape(len(found), -1)
 
     def has(self, indices):
@@ -58,20 +62,22 @@ def means_of(msg):
     """Of a message with numpy arrays; None if it has none."""
     if not len(msg.along):
         return None
-    shape = len(msg.nx), len(msg.peak)
+    shape, nodes = (len(msg.nx), len(msg.peak)), space.vectors(msg, 'n').astype(int)
     return Means(
         msg.samples,
-        np.array(msg.nx, dtype=int),
-        np.array(msg.ny, dtype=int),
+        *nodes[:2],
         np.array(msg.wave_number),
         np.array(msg.along).reshape(shape),
         np.array(msg.across).reshape(shape),
+        nodes,
     )
 
 
 def amplitudes(msg, direction):
-    """A row for each modulation, a column for each vector."""
-    return np.array(getattr(msg, 'amplitude_' + direction)).reshape(4, len(msg.peak))
+    """A row for each modulation, a column for each vector; across of spheres twice as many."""
+    solid = len(getattr(msg, 'nz', ())) > 0
+    rows = 8 * (1 + DIRECTIONS.index(direction)) if solid else 4
+    return np.array(getattr(msg, 'amplitude_' + direction)).reshape(rows, len(msg.peak))
 
 
 def power(times, series, omega):

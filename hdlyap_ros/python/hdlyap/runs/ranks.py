@@ -19,9 +19,15 @@ def number():
     return 0
 
 
-def become_node():
+def node(dimensions):
+    """Path of the program, of disks or of spheres."""
+    name = 'hdlyap_node_3d' if dimensions == 3 else 'hdlyap_node'
+    return roslib.packages.find_node('hdlyap', name)[0]
+
+
+def become_node(dimensions):
     """Does not return."""
-    program = roslib.packages.find_node('hdlyap', 'hdlyap_node')[0]
+    program = node(dimensions)
     os.execv(program, [program])
 
 

@@ -6,10 +6,9 @@ from math import isfinite
 import os
 import subprocess
 
-import roslib.packages
 import yaml
 
-from . import files
+from . import files, ranks
 from .bag import Bag
 from .scene import Refused
 
@@ -26,6 +25,7 @@ class Run:
         """All parameters; seconds: about, if they are known. Refused if the node does not know
         them, or it would not end."""
         _check(parameters)
+        self.dimensions = dimensions(parameters)
         self.name, self.parameters = name, parameters
         self.seconds = seconds or _estimate(parameters)
 
@@ -76,8 +76,9 @@ class Run:
 
 
 def _check(parameters):
+    known = usual(dimensions(parameters))
     for name, value in parameters.items():
-        if name not in usual():
+        if name not in known:
             raise Refused(f'{name} = {value}: must be a parameter of hdlyap_node')
         if name in OF_ONE and value:
             raise Refused(f'{name} = {value}: must be empty in a sweep, which goes on by itself')
@@ -92,15 +93,24 @@ def _check(parameters):
 def _estimate(parameters):
     time = sum(parameters[name] for name in TIMES if is_number(parameters[name]))
     disks = parameters['disks'] if is_number(parameters['disks']) else DISKS  # it is refused
-    return BEGIN + STEP * time * (disks / DISKS) ** 2
+    return BEGIN + STEP * time * (dimensions(parameters) / 2 * disks / DISKS) ** 2
 
 
 @functools.lru_cache(maxsize=None)
-def usual():
-    """The default of every parameter, as the node says."""
-    node = roslib.packages.find_node('hdlyap', 'hdlyap_node')[0]
-    said = subprocess.run([node, '--parameters'], check=True, stdout=subprocess.PIPE).stdout
+def usual(dimensions=2):
+    """The default of every parameter, as the node of disks or of spheres says."""
+    said = subprocess.run(
+        [ranks.node(dimensions), '--parameters'], check=True, stdout=subprocess.PIPE
+    ).stdout
     return yaml.safe_load(said)
+
+
+def dimensions(parameters):
+    """Of a scene; Refused if there are no such spaces."""
+    value = parameters.get('dimensions', 2)
+    if value not in (2, 3) or isinstance(value, bool):
+        raise Refused(f'dimensions = {value}: must be 2 or 3')
+    return int(value)
 
 
 def is_number(value):

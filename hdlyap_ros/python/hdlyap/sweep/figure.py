@@ -2,6 +2,7 @@
 
 import itertools
 
+from hdlyap.plots import space
 from hdlyap.plots.figures.style import GREY, MEMBER_COLOURS, plt
 import numpy as np
 
@@ -11,6 +12,7 @@ LABELS = {
     'disks': 'number of disks $N$',
     'density': r'density $\rho$  [1/$\sigma^2$]',
     'aspect': 'aspect ratio $L_y/L_x$',
+    'aspect_z': 'aspect ratio $L_z/L_x$',
     'boundary': 'boundary',
 }
 NAMES = {
@@ -52,7 +54,13 @@ def _count(points, name):
 
 
 def _said(name, value):
-    short = {'disks': '$N$', 'density': r'$\rho$', 'aspect': '$L_y/L_x$', 'boundary': ''}
+    short = {
+        'disks': '$N$',
+        'density': r'$\rho$',
+        'aspect': '$L_y/L_x$',
+        'aspect_z': '$L_z/L_x$',
+        'boundary': '',
+    }
     return f'{short[name]} = {value:g}' if short[name] else value
 
 
@@ -88,9 +96,17 @@ def _panel(axes, name, x, series):
     axes.set_xlim(*_limits(list(places.values()), words))
     if words:
         axes.set_xticks(range(len(words)))
-        axes.set_xticklabels(words)
-    axes.set_xlabel(LABELS[x])
+        # three would run into each other
+        axes.set_xticklabels(
+            [word.replace(',', ',\n') if word.count(',') > 1 else word for word in words]
+        )
+    axes.set_xlabel(_label(x, every[0].info))
     axes.set_ylabel(NAMES[name])
+
+
+def _label(x, info):
+    label = LABELS[x].replace('disks', space.particle(info) + 's')
+    return label.replace('^2', f'^{len(space.axes(info))}')
 
 
 def _limits(places, words):

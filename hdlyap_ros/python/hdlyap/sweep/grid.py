@@ -10,11 +10,20 @@ from hdlyap.runs import run, scene
 from hdlyap.runs.run import Run
 from hdlyap.runs.scene import Refused
 
+OF_SPHERES = (
+    'periodic or reflecting, or three of them for x, y and z as reflecting,periodic,periodic'
+)
 PERIODIC, REFLECTING = WALLS = 'periodic', 'reflecting'
 
 
 class Swept(namedtuple('Swept', 'argument name parameters wanted')):
     """Argument, name of one value, the parameters that it says, what is allowed."""
+
+    def of(self, dimensions):
+        """Of spheres a boundary has three."""
+        if self.argument != 'boundaries' or dimensions == 2:
+            return self
+        return self._replace(parameters=(*self.parameters, 'boundary_z'), wanted=OF_SPHERES)
 
     def values(self, text):
         """[(name, {parameter: value})] of each; [] if not one is given."""
@@ -28,7 +37,7 @@ class Swept(namedtuple('Swept', 'argument name parameters wanted')):
     def _value(self, text, word):
         words = word.split(',') if self.argument == 'boundaries' else [word]
         values = [self._parsed(one) for one in words]
-        if None in values or len(values) > len(self.parameters):
+        if None in values or len(values) not in (1, len(self.parameters)):
             raise Refused(f'{self.argument} = {text}: must be {self.wanted}, with spaces between')
         name = '_'.join([self.name, *map(str, values)])
         # one word is that of all of them
@@ -68,26 +77,31 @@ def runs(given, launch, cwd):
     """given: {argument: text} of those swept and of scene, duration, observables, threads and
     params; launch: folder of the launch files; cwd: of relative paths."""
     given = {name: text.strip() for name, text in given.items()}
-    chosen = {swept: swept.values(given.pop(swept.argument, '')) for swept in SWEPT}
-    chosen = {swept: values for swept, values in chosen.items() if values}
-    if not chosen:
+    texts = {swept: given.pop(swept.argument, '') for swept in SWEPT}
+    if not any(texts.values()):
         names = ', '.join(swept.argument for swept in SWEPT)
         raise Refused(f'nothing to sweep over: must be values of at least one of {names}')
     base = scene.parameters(given, launch, cwd)
+    dimensions = run.dimensions(base)
+    chosen = {swept.of(dimensions): text for swept, text in texts.items() if text}
+    chosen = {swept: swept.values(text) for swept, text in chosen.items()}
     if isinstance(base.get('observables'), str):
         base['observables'] = yaml.safe_load(base['observables'])
     for swept in chosen:
         twice = set(swept.parameters) & set(scene.mapping('params', given['params']))
         if twice:
             raise Refused(f'params = {given["params"]}: must be without {min(twice)}: it is swept')
-    return [_run({**run.usual(), **base}, chosen) for chosen in itertools.product(*chosen.values())]
+    base = {**run.usual(dimensions), **base}
+    # run.launch tells spheres by the name, where nobody says it, as for runs.launch
+    first = ['spheres'] if dimensions == 3 else []
+    return [_run(base, chosen, first) for chosen in itertools.product(*chosen.values())]
 
 
-def _run(parameters, chosen):
+def _run(parameters, chosen, first):
     """Runs that differ in their seeds alone have one scene."""
-    names = [name for name, _ in chosen]
+    names = first + [name for name, _ in chosen]
     same = [name for name, values in chosen if 'seed' not in values]
     for _, values in chosen:
         parameters = {**parameters, **{key: scene.fitting(v) for key, v in values.items()}}
-    parameters['scene'] = '_'.join(same) or parameters['scene']
+    parameters['scene'] = '_'.join(first + same) if same else parameters['scene']
     return Run('_'.join(names), parameters)

@@ -46,8 +46,9 @@ def _run(path, name, entry, quick, launch):
             raise Refused(f'must be {ENTRY}')
         base = scene.scene_file(str(entry['base']), launch, os.path.dirname(os.path.abspath(path)))
         asked = {key: value for key, value in entry.items() if key not in OWN}
-        parameters = {**run.usual(), **base, 'threads': 1, 'scene': name, **asked}
-        parameters.update(entry.get('quick' if quick else 'full', {}))
+        asked.update(entry.get('quick' if quick else 'full', {}))
+        usual = run.usual(run.dimensions({**base, **asked}))
+        parameters = {**usual, **base, 'threads': 1, 'scene': name, **asked}
         parameters = {str(key): scene.fitting(value) for key, value in parameters.items()}
         return Run(name, parameters, _seconds(entry, quick))
     except Refused as refused:

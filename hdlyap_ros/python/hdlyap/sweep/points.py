@@ -6,8 +6,9 @@ from collections import namedtuple
 import numpy as np
 
 from hdlyap.data import reader, seeds
-from hdlyap.data.joined import MEASURED
+from hdlyap.data.joined import MEASURED, OF_SPHERES
 from hdlyap.data.reader import RecordingError
+from hdlyap.plots import space
 from hdlyap.plots.waves import is_round
 
 # name in a frame of results -> its unit; as the columns of a table
@@ -93,11 +94,14 @@ class Point:
 
 
 def system(info):
-    walls = ['circle'] if is_round(info) else dict.fromkeys((info.boundary_x, info.boundary_y))
+    walls = ['circle'] if is_round(info) else space.along(info, 'boundary_')
+    walls = walls[:1] if len(set(walls)) == 1 else walls
+    solid = {'aspect_z': info.aspect_z} if space.is_solid(info) else {}
     return {
         'disks': info.disks,
         'density': info.density,
         'aspect': info.aspect,
+        **solid,
         'boundary': ','.join(walls),
     }
 
@@ -109,14 +113,23 @@ def varied(points):
     return [name for name in values if name not in fixed], fixed
 
 
+def _measured(info):
+    """Of disks without what bags of before spheres lack."""
+    return [name for name in MEASURED if space.is_solid(info) or name not in OF_SPHERES]
+
+
 def read(paths, choice=(None, None)):
     """([Point] in the order of their systems, a line for each bag or system that cannot be
     read)"""
-    systems, wrong = {}, []
+    systems, wrong, first = {}, [], None
     for path in paths:
         try:
             info = list(reader.run_infos(path).values())[-1]
-            same = [str(getattr(info, name, None)) for name in MEASURED]
+            first = first or info
+            if space.is_solid(info) != space.is_solid(first):
+                what, others = (space.particle(one) + 's' for one in (info, first))
+                raise RecordingError(f'{path}: of {what}, in a table of {others}')
+            same = [str(getattr(info, name, None)) for name in _measured(info)]
             systems.setdefault((*system(info).values(), *same), []).append(path)
         except RecordingError as error:
             wrong.append(str(error))

@@ -2,6 +2,7 @@
 
 from math import isfinite, sqrt
 
+from hdlyap.plots import space
 from hdlyap.plots.numbers import with_error
 from hdlyap.runs import files
 
@@ -122,8 +123,9 @@ def _table(head, rows):
 
 def csv(points, path):
     """All digits; nothing where something is not known. The units stand in the head."""
-    head = ['disks', 'density [1/sigma^2]', 'aspect', 'boundary', 'seeds']
-    head.append('averaged time [time units]')
+    units = {'density': f' [1/sigma^{len(space.axes(points[0].info))}]'}
+    head = [name + units.get(name, '') for name in points[0].system]
+    head += ['seeds', 'averaged time [time units]']
     for name, unit in QUANTITIES.items():
         head += [f'{name} [{unit}]', f'{name} std_error', f'{name} scatter', f'{name} chi2']
         head += [f'{name} basis'] if name in FITTED else []

@@ -1,24 +1,27 @@
-"""The box with its disks, and a vector at each of them."""
+"""The box with its disks or spheres, and a vector at each of them."""
 
-import numpy as np
 from matplotlib.collections import EllipseCollection
 from matplotlib.patches import Circle
 
 from ..waves import is_round
+from .view import View
 
 WALL = dict(fill=False, edgecolor='black', linewidth=0.8)
 
 
-def disks(axes, info, x, y, **style):
-    """One outline, repeated: much less of a file than one for each disk."""
-    axes.set_aspect('equal')
-    axes.set_xlim(0, info.box_x)
-    axes.set_ylim(0, info.box_y)
+def disks(axes, info, *q, size=1.0, **style):
+    """One outline, repeated: much less of a file than one for each disk. q: x, y and of spheres
+    z."""
+    view = View(info)
+    view.fit(axes)
     enclose(axes, info)
     # matplotlib 3.6 has given it another name
     new = hasattr(EllipseCollection, 'set_offset_transform')
-    place = {'offset_transform' if new else 'transOffset': axes.transData, 'offsets': np.c_[x, y]}
-    found = EllipseCollection([1.0], [1.0], [0.0], units='xy', **place, **style)
+    place = {
+        'offset_transform' if new else 'transOffset': axes.transData,
+        'offsets': view.places(q).T,
+    }
+    found = EllipseCollection([size], [size], [0.0], units='xy', **place, **style)
     axes.add_collection(found)
     return found
 

@@ -72,7 +72,7 @@ def _panel(axes, run, weight, indices):
     level(axes, covariant.chance(run, weight), 'by chance')
     axes.set_ylim(-0.03, 1.03)
     axes.annotate(
-        steps.name(weight),
+        steps.name(weight, run.info),
         (0.03, 0.95),
         xycoords='axes fraction',
         va='top',

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from .. import fits, paper, steps
+from .. import fits, paper, space, steps
 from ..numbers import with_error
 from ..waves import is_round
 from .style import GREY, KIND_COLOURS, bars, kind_colour, plt, titled
@@ -15,7 +15,8 @@ PUBLISHED_UP_TO = 0.3  # wave numbers for which slopes without curvature are mea
 
 
 def draw(recording):
-    points = [(block, step) for block in steps.blocks(recording.steps) for step in block.steps]
+    found = steps.blocks(recording.steps, recording.info)
+    points = [(block, step) for block in found for step in block.steps]
     if not points:
         return None
     figure, axes = plt.subplots(figsize=(5.2, 4.4), constrained_layout=True)
@@ -84,7 +85,7 @@ def _wave_axis(axes, info, points, end):
     overlap are put together."""
     groups = []
     for step in sorted(points, key=lambda step: step.wave_number):
-        name = f'({step.nx},{step.ny})'
+        name = steps.nodes_name(step, info)
         if groups and step.wave_number - groups[-1][0] < CLOSE * end:
             groups[-1][1].setdefault(name)
         else:
@@ -103,7 +104,8 @@ def _wave_axis(axes, info, points, end):
     upper.set_xlim(axes.get_xlim())
     upper.set_xticks([k for k, _ in groups])
     upper.set_xticklabels([_joined(list(names)) for _, names in groups], rotation=90, fontsize=7)
-    upper.set_xlabel(r'$(m,n)$' if is_round(info) else r'nodes $(n_x,n_y)$', fontsize=8)
+    names = ','.join(f'n_{axis}' for axis in space.axes(info))
+    upper.set_xlabel('$(m,n)$' if is_round(info) else f'nodes $({names})$', fontsize=8)
 
 
 def _joined(names):

@@ -3,6 +3,7 @@ exponents, which are localised; beside covariant ones, where there are."""
 
 import numpy as np
 
+from .. import space
 from .style import BLUE, GREY, INK, bars, index_axis, plt, titled
 
 LARGEST = 48  # vectors in the magnified panel
@@ -37,7 +38,7 @@ def _panel(axes, recording, count):
     axes.text(
         0.99,
         least,
-        'one disk',
+        f'one {space.particle(recording.info)}',
         transform=axes.get_yaxis_transform(),
         ha='right',
         va='bottom',

@@ -1,8 +1,10 @@
-"""Vector fields of the modes with the smallest exponents, one of each step, at the disks."""
+"""Vector fields of the modes with the smallest exponents, one of each step, at the disks.
+Of spheres see solid_modes."""
 
 import numpy as np
 
-from .. import steps
+from .. import space, steps
+from . import solid_modes
 from .box import arrows, disks
 from .style import GREY, LIGHT, MEMBER_COLOURS, kind_colour, plt, titled
 
@@ -41,7 +43,9 @@ def draw(recording, names=None):
     if not panels:
         return None
     info = recording.info
-    if min(info.box_x, info.box_y) < CHANNEL:
+    if space.is_solid(info):
+        figure = solid_modes.draw_panels(panels, info)
+    elif min(info.box_x, info.box_y) < CHANNEL:
         figure = _channel(panels, info)
     else:
         figure = draw_panels(panels, info)
@@ -67,7 +71,7 @@ def named(recording, names):
 def _latest(recording):
     """Panels of the latest field of each set, and of the vectors outside every step."""
     latest, others = {}, []
-    blocks = steps.blocks(recording.steps)
+    blocks = steps.blocks(recording.steps, recording.info)
     for field in recording.fields():
         block = next((block for block in blocks if block.first <= field.index <= block.last), None)
         if block is None:

@@ -54,7 +54,7 @@ def near_zero(run, indices):
     end = min(run.positive_end, indices[-1])
     lowest = min((block.first for block in steps.blocks(run.steps)), default=end)
     first = max(indices[0], end + 1 - min(max(LEAST, end + 4 - lowest), MOST))
-    return first, min(indices[-1], 4 * run.info.disks + 1 - first)
+    return first, min(indices[-1], run.phase_space + 1 - first)
 
 
 def shade(column, run, first, last):

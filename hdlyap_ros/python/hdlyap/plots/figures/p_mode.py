@@ -3,7 +3,7 @@ momenta."""
 
 import numpy as np
 
-from .. import steps, waves
+from .. import space, steps, waves
 from .box import enclose
 from .pattern import pattern
 from .style import BLUE, GREY, VERMILION, plt, titled
@@ -19,16 +19,17 @@ def draw(recording):
     if field is None:
         return None
     mode = PMode(field, clearest(field), recording.info)
+    directions = space.axes(recording.info)
     figure, grid = plt.subplots(
         2,
-        2,
-        figsize=(7.2, 4.6 if mode.along else 6.2),
+        len(directions),
+        figsize=(7.2 if len(directions) == 2 else 9.6, 4.6 if mode.along else 6.2),
         sharex=True,
         sharey='row' if mode.along else True,
         constrained_layout=True,
     )
     panel = _curve if mode.along else _map
-    for column, axis in enumerate('xy'):
+    for column, axis in enumerate(directions):
         panel(grid[0, column], mode, mode.raw[column], NOISE, f'$\\phi_{{P,{axis}}}$')
         amplitude = mode.amplitude(column)
         panel(
@@ -53,21 +54,23 @@ def chosen(recording):
     clearer."""
     numbers = (
         {
-            (step.nx, step.ny): order
+            space.nodes(step, recording.info): order
             for order, (_, step) in enumerate(steps.resolved_lp(recording.steps))
         }
         if recording.steps is not None
         else {}
     )
-    fields = [
-        field for field in recording.fields() if field.pairs and (field.nx, field.ny) in numbers
-    ]
+
+    def nodes(field):
+        return space.nodes(field, recording.info)
+
+    fields = [field for field in recording.fields() if field.pairs and nodes(field) in numbers]
     return min(
         fields,
         default=None,
         key=lambda field: (
-            field.nx > 0 and field.ny > 0 and not waves.is_round(recording.info),
-            numbers[field.nx, field.ny],
+            np.count_nonzero(nodes(field)) > 1 and not waves.is_round(recording.info),
+            numbers[nodes(field)],
             -field.sim_time,
         ),
     )
@@ -83,31 +86,33 @@ class PMode:
 
     def __init__(self, field, pair, info):
         part = slice(pair * len(field.x), (pair + 1) * len(field.x))
-        raw = np.array([field.p_x[part], field.p_y[part]])
+        raw = space.vectors(field, 'p_')[:, part]
         self.raw = raw / np.sqrt(np.mean(raw**2))
-        self.divided = np.array([field.p_over_px[part], field.p_over_py[part]])
-        self.bits = field.modulation[pair]
-        self.name = steps.wave_name('LP', field)
-        self.formula = waves.formula(field.nx, field.ny, self.bits)
-        along = 'x' if field.ny == 0 else 'y' if field.nx == 0 else None
-        self.along = None if waves.is_round(info) else along
+        self.divided = space.vectors(field, 'p_over_p')[:, part]
+        self.bits, self.nodes = field.modulation[pair], space.nodes(field, info)
+        self.name = steps.wave_name('LP', field, info)
+        self.formula = waves.formula(*self.nodes[:2], self.bits, *self.nodes[2:])
+        named = [axis for axis, n in zip('xyz', self.nodes) if n]
+        self.along = named[0] if len(named) == 1 and not waves.is_round(info) else None
+        # of a map: two directions that it depends on
+        self.across = 'xy' if waves.is_round(info) or len(named) == 1 else named[0] + named[1]
         self._field, self.info = field, info
-        self.x, self.y = np.array(field.x), np.array(field.y)
-        self._p = np.array([field.px, field.py])
+        self.q = space.vectors(field)
+        self._p = space.vectors(field, 'p')
 
     @property
     def place(self):
-        return self.x if self.along == 'x' else self.y
+        return self.q['xyz'.index(self.along)]
 
     @property
     def length(self):
-        return self.info.box_x if self.along == 'x' else self.info.box_y
+        return getattr(self.info, 'box_' + self.along)
 
-    def modulation(self, x, y):
-        wave = self._field
+    def modulation(self, x, y, *z):
+        wave, (nx, ny, *nz) = self._field, self.nodes
         if waves.is_round(self.info):
             return waves.round_modulation(self.info, wave.wave_number, wave.nx, self.bits, x, y)
-        return waves.modulation(self.info, wave.nx, wave.ny, self.bits, x, y)
+        return waves.modulation(self.info, nx, ny, self.bits, x, y, *nz, *z)
 
     def amplitude(self, component):
         """Of A in a quotient, by least squares: its noise is as large as the momentum is small."""
@@ -115,7 +120,7 @@ class PMode:
 
     def fit(self, component, divided=True):
         """Of A to a quotient, or to the mode itself, whose noise is alike everywhere."""
-        a = self.modulation(self.x, self.y)
+        a = self.modulation(*self.q)
         if not divided:
             return Fit(a, self.raw[component], np.ones_like(a))
         # p^2 / (p^2 + eps): what the division has left of A
@@ -150,17 +155,18 @@ def _curve(axes, mode, values, limit, name):
 
 def _modulation(axes, mode, amplitude):
     place = np.linspace(0, mode.length, 300)
-    axes.plot(place, amplitude * mode.modulation(place, place), color=VERMILION)
+    axes.plot(place, amplitude * mode.modulation(*[place] * len(mode.q)), color=VERMILION)
 
 
 def _map(axes, mode, values, limit, name):
-    pattern(axes, mode.x, mode.y, values, limit)
+    x, y = (mode.q['xyz'.index(axis)] for axis in mode.across)
+    pattern(axes, x, y, values, limit)
     enclose(axes, mode.info)
     axes.set_title(name, loc='left', fontsize=8)
 
 
 def _label(grid, mode):
     for axes in grid[-1]:
-        axes.set_xlabel(rf'${mode.along or "x"}$  [$\sigma$]')
+        axes.set_xlabel(rf'${mode.along or mode.across[0]}$  [$\sigma$]')
     for row in grid if not mode.along else ():
-        row[0].set_ylabel(r'$y$  [$\sigma$]')
+        row[0].set_ylabel(rf'${mode.across[1]}$  [$\sigma$]')

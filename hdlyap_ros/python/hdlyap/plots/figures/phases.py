@@ -63,7 +63,7 @@ def _curve(top, bottom, time, phase, colour):
 
 
 def _label(recording, number, speeds):
-    name = steps.name(recording.steps.steps[number])
+    name = steps.name(recording.steps.steps[number], recording.info)
     speed = speeds.get(name) or _speed(recording, number)
     return name + (f': $v = {with_error(*speed, decimals=3)}$' if speed else '')
 

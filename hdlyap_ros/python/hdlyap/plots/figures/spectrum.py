@@ -92,11 +92,13 @@ def _magnified_range(recording):
     more are carried as many behind them."""
     spectrum = recording.spectrum
     end = min(recording.positive_end, recording.last_index)
-    lowest = min((block.first for block in steps.blocks(recording.steps)), default=end)
+    lowest = min(
+        (block.first for block in steps.blocks(recording.steps, recording.info)), default=end
+    )
     halves = 2 if recording.last_index > recording.positive_end else 1
     count = min(max(MAGNIFIED, end - lowest + 5), MAGNIFIED_MOST) // halves
     first = max(spectrum.first_index, end - count + 1)
-    last = min(recording.last_index, 4 * recording.info.disks + 1 - first)
+    last = min(recording.last_index, recording.phase_space + 1 - first)
     return first, last
 
 
@@ -118,7 +120,7 @@ def _small(axes, recording):
         )
     shown = [
         block
-        for block in steps.all_blocks(recording.steps)
+        for block in steps.all_blocks(recording.steps, recording.info)
         if first <= block.first and block.last <= last
     ]
     for block in shown:
@@ -137,7 +139,7 @@ def _small(axes, recording):
 def _colours(recording, first, last):
     """{index: colour} of the vectors of every step in that range; without steps, of the paper's."""
     colours = {}
-    for block in steps.all_blocks(recording.steps):
+    for block in steps.all_blocks(recording.steps, recording.info):
         for index in range(max(first, block.first), min(last, block.last) + 1):
             colours[index] = kind_colour(block.kind)
     if recording.steps is None:

@@ -10,7 +10,7 @@ ROOM = 4  # for so many at least
 
 
 def draw(recording):
-    blocks = steps.blocks(recording.steps)[:MOST]
+    blocks = steps.blocks(recording.steps, recording.info)[:MOST]
     if not blocks or recording.spectrum is None:
         return None
     figure, (top, bottom) = plt.subplots(

@@ -12,7 +12,7 @@ from matplotlib import ticker  # noqa: E402
 from hdlyap import whole  # noqa: E402
 
 from ..numbers import known  # noqa: E402
-from .. import steps  # noqa: E402
+from .. import space, steps  # noqa: E402
 from ..waves import is_round  # noqa: E402
 
 POINTS = 2000  # of a curve; more cannot be seen
@@ -69,10 +69,17 @@ def scene(info):
         return (
             f'{name}: $N={info.disks}$, $\\rho={info.density:g}$, circle, $R={info.box_x / 2:.4g}$'
         )
-    x, y = info.boundary_x, info.boundary_y
-    walls = x if x == y else f'x {x}, y {y}'
-    box = f'$\\rho={info.density:g}$, $L_y/L_x={info.aspect:g}$'
-    return f'{name}: $N={info.disks}$, {box}, {walls}'
+    walls = space.along(info, 'boundary_')
+    walls = walls[:1] if len(set(walls)) == 1 else map(' '.join, zip('xyz', walls))
+    box = f'$\\rho={info.density:g}$, ' + (
+        _edges(info) if space.is_solid(info) else f'$L_y/L_x={info.aspect:g}$'
+    )
+    return f'{name}: $N={info.disks}$, {box}, ' + ', '.join(walls)
+
+
+def _edges(info):
+    edges = r'\times '.join(f'{edge:.2f}' for edge in space.along(info, 'box_'))
+    return rf'${edges}\,\sigma^3$'
 
 
 def titled(figure, info, *panels, more=''):

@@ -1,0 +1,54 @@
+"""Vector of a step of spheres -> how it is made of the fields of the waves of its set, T, or L and
+P, by least squares."""
+
+import numpy as np
+
+from . import space, steps, waves
+
+
+class Expected:
+    """dq of a ModeField, scaled to a mean square of one, beside its projection on the fields of
+    these steps. `along`: the directions in which they have nodes."""
+
+    def __init__(self, field, found, info):
+        self.info, self._field = info, field
+        self._waves = [(step.kind, space.nodes(step, info)) for step in found]
+        self.q, dq = space.vectors(field), space.vectors(field, 'dq')
+        self.dq = dq / np.sqrt(np.mean(np.sum(dq**2, axis=0)))
+        self.along = [d for d in range(3) if any(nodes[d] for _, nodes in self._waves)]
+        shapes = self._shapes(self.q)
+        table = np.array([*shapes, *self._momenta()])
+        table = table.reshape(len(table), -1).T
+        found, *_ = np.linalg.lstsq(table, self.dq.ravel(), rcond=None)
+        self._of_shapes = found[: len(shapes)]
+        self.projection = (table @ found).reshape(self.dq.shape)
+
+    def _bits(self, kind, nodes):
+        return waves.modulations(
+            self.info, *nodes[:2], transverse=kind == steps.T, nz=sum(nodes[2:])
+        )
+
+    def _shapes(self, q):
+        shape = {steps.T: waves.transverse, steps.LP: waves.longitudinal}
+        return [
+            shape[kind](self.info, nodes, bits, q)
+            for kind, nodes in self._waves
+            for bits in self._bits(kind, nodes)
+        ]
+
+    def _momenta(self):
+        (x, y, *z), p = self.q, space.vectors(self._field, 'p')
+        return [
+            p * waves.modulation(self.info, *nodes[:2], bits, x, y, *nodes[2:], *z)
+            for kind, nodes in self._waves
+            for bits in (self._bits(kind, nodes) if kind == steps.LP else ())
+        ]
+
+    def at(self, q):
+        """The T or L field that it has, at other places."""
+        return np.tensordot(self._of_shapes, self._shapes(q), axes=1)
+
+    @property
+    def weight(self):
+        """Of its square, the part in the projection."""
+        return float(np.mean(np.sum(self.projection**2, axis=0)))

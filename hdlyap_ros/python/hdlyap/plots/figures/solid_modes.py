@@ -1,0 +1,102 @@
+"""Modes of spheres, a row for each: arrows in the box, and components beside the fields of the
+waves that the boundaries prescribe."""
+
+import numpy as np
+
+from .. import space, steps
+from ..expected import Expected
+from .box import arrows, disks
+from .style import BLUE, GREEN, GREY, VERMILION, plt
+from .view import View
+
+WIDTH, TALLEST = 7.6, 10.0  # of the figure [inch]
+ROW = 1.75  # of a row, at least
+ARROW = 1.3  # root mean square length [sigma]
+DOT = 0.3  # of a sphere, as those in front would hide the others [sigma]
+MOST = 2.6  # arrows behind one square sigma of the front; of more spheres those in front
+LIMIT = 2.8  # components shown, in root mean squares of the vector
+LONG = 42  # letters do not fit over a panel in the usual size
+AXES, COLOURS = 'xyz', (VERMILION, BLUE, GREEN)
+
+
+def draw_panels(panels, info):
+    """Of modes.Panel."""
+    view = View(info)
+    left = 0.6 * WIDTH
+    high = max(ROW, left * view.size[1] / view.size[0] + 0.3)
+    high = min(high, TALLEST / len(panels))
+    figure, rows = plt.subplots(
+        len(panels),
+        2,
+        squeeze=False,
+        figsize=(WIDTH, len(panels) * high + 0.6),
+        gridspec_kw={'width_ratios': [3, 2]},
+        constrained_layout=True,
+    )
+    for (in_space, beside), panel in zip(rows, panels):
+        _arrows(in_space, panel, info, view)
+        _component(beside, panel, info)
+    return figure
+
+
+def _arrows(axes, panel, info, view):
+    q, dq = space.vectors(panel.field), space.vectors(panel.field, 'dq')
+    dq = dq * ARROW / np.sqrt(np.mean(np.sum(dq**2, axis=0)))
+    share = min(1.0, MOST * info.box_x * info.box_z / info.disks)
+    order = [k for k in view.order(q) if share == 1 or q[1, k] < share * info.box_y]
+    q, dq = q[:, order], dq[:, order]
+    disks(axes, info, *q, size=DOT, facecolors=view.pale(GREY, q))
+    start = view.places(q - 0.5 * dq)
+    arrows(axes, *start, view.vectors(dq), width=0.13, color=view.pale(panel.colour, q))
+    slab = rf', $y<{share * info.box_y:.2g}\,\sigma$' if share < 1 else ''
+    axes.set_title(panel.title + slab, fontsize=8, loc='left')
+
+
+def _component(axes, panel, info):
+    """None of a vector outside every step."""
+    if panel.block is None:
+        axes.set_axis_off()
+        return
+    mode = Expected(panel.field, panel.block.steps, info)
+    is_line = len(mode.along) == 1
+    names = (_curve if is_line else _projection)(axes, mode, panel.block.kind)
+    title = f'{names}, {100 * mode.weight:.0f} % in {panel.name}'
+    axes.set_title(title, fontsize=8 if len(title) < LONG else 6, loc='left')
+    place = 'upper right' if is_line else 'upper left'
+    axes.legend(fontsize=7, loc=place, ncol=3 if is_line else 1, handletextpad=0)
+    axes.set_ylim(-LIMIT, LIMIT)
+    axes.tick_params(labelsize=6, length=2)
+
+
+def _curve(axes, mode, kind):
+    """Against the coordinate along the wave: the component along it of LP, both others of T."""
+    (along,) = mode.along
+    length = space.along(mode.info, 'box_')[along]
+    line = np.zeros((3, 200))
+    line[along] = np.linspace(0, length, 200)
+    shown = [d for d in range(3) if kind is None or (d == along) == (kind == steps.LP)]
+    for d in shown:
+        _dots(axes, mode.q[along], mode.dq[d], d)
+        axes.plot(line[along], mode.at(line)[d], color=COLOURS[d])
+    axes.axhline(0, color=GREY, linewidth=0.5)
+    axes.set_xlim(0, length)
+    axes.set_xlabel(rf'${AXES[along]}$  [$\sigma$]', fontsize=7)
+    axes.set_ylabel(r'$\delta q$ / rms', fontsize=7)
+    return 'wave along $' + AXES[along] + '$'
+
+
+def _projection(axes, mode, kind):
+    """Of waves along several directions, against what their fields give."""
+    for d in range(3):
+        _dots(axes, mode.projection[d], mode.dq[d], d)
+    axes.plot([-LIMIT, LIMIT], [-LIMIT, LIMIT], color=GREY, linewidth=0.8, zorder=3)
+    axes.set_xlim(-LIMIT, LIMIT)
+    axes.set_aspect('equal')
+    axes.set_xlabel('in the fields / rms', fontsize=7)
+    axes.set_ylabel(r'$\delta q$ / rms', fontsize=7)
+    return 'each sphere'
+
+
+def _dots(axes, x, y, d):
+    label = rf'$\delta q_{AXES[d]}$'
+    axes.plot(x, y, 'os^'[d], color=COLOURS[d], markersize=1.8, label=label)

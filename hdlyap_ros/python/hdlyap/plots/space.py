@@ -1,0 +1,50 @@
+"""Disks or spheres -> the directions that what a run_info or a message says has: x, y and of
+spheres z. Bags of before spheres know nothing of z."""
+
+import numpy as np
+
+
+def is_solid(info):
+    """Whether it is of spheres; None is of disks."""
+    return getattr(info, 'dimensions', 2) == 3
+
+
+def axes(info):
+    return 'xyz' if is_solid(info) else 'xy'
+
+
+def along(info, name):
+    """Of box_ or boundary_, in each direction."""
+    return [getattr(info, name + axis) for axis in axes(info)]
+
+
+def nodes(wave, info):
+    """Of a Step, or of anything else with nx and ny, along each direction."""
+    return tuple(getattr(wave, 'n' + axis) for axis in axes(info))
+
+
+def vectors(message, name=''):
+    """Rows along x, y and of spheres z, of positions, or of what has a name before the axis, as dq
+    and p_."""
+    rows = (getattr(message, name + axis, ()) for axis in 'xyz')
+    return np.array([row for row in rows if len(row)])
+
+
+def particle(info):
+    """What it is called."""
+    return 'sphere' if is_solid(info) else 'disk'
+
+
+def size(info):
+    """Area or volume of the box."""
+    return float(np.prod(along(info, 'box_')))
+
+
+def distance(info):
+    """Mean one of neighbours."""
+    return (size(info) / info.disks) ** (1 / len(axes(info)))
+
+
+def phase_space(info):
+    """Lyapunov exponents in all: 4N, of spheres 6N."""
+    return 2 * len(axes(info)) * info.disks
