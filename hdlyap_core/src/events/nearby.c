@@ -11,6 +11,20 @@ typedef int32_t int_quad __attribute__((vector_size(16)));
 
 static inline int_quad spread(int32_t x) { return (int_quad){x, x, x, x}; }
 
+/** Adds the disks in the places of a cell, which are seen through these images: copies the whole
+ * cell, and counts what is in it. */
+static inline void add_cell(hd_nearby *near, const hd_cell *cell, const int32_t image[HD_DIM])
+{
+    const int32_t count = near->count;
+    memcpy(&near->disk[count], cell, sizeof *cell);
+    for (int d = 0; d < HD_DIM; d++) {
+        const int_quad images = spread(image[d]);
+        memcpy(&near->image[d][count], &images, sizeof images);
+    }
+    near->count = count + cell->count;
+    near->crowded |= cell->crowded;
+}
+
 /** The cells around a disk in each direction, as it sees them: by how much to go on in the array of
  * cells, and images. Copies: what is gathered might be these, as far as the compiler knows. */
 typedef struct around {
@@ -33,37 +47,38 @@ static inline around around_of(const hd_cells *cells, const hd_disk *disk)
     return a;
 }
 
-/** Adds the disks in the places of cell number k of those around: copies the whole cell, and counts
- * what is in it. */
-static inline void add_cell(hd_nearby *near, const hd_cell *cells, const around *a, int k)
-{
-    const int32_t count = near->count;
-    const hd_cell *cell = cells;
-    for (int d = 0; d < HD_DIM; d++) cell += a->place[d][hd_cells_side(k, d)];
-    memcpy(&near->disk[count], cell, sizeof *cell);
-    for (int d = 0; d < HD_DIM; d++) {
-        const int_quad image = spread(a->image[d][hd_cells_side(k, d)]);
-        memcpy(&near->image[d][count], &image, sizeof image);
-    }
-    near->count = count + cell->count;
-    near->crowded |= cell->crowded;
-}
-
 void hd_nearby_around(hd_nearby *near, const hd_cells *cells, const hd_disk *disk)
 {
     const around a = around_of(cells, disk);
     const hd_cell *first = cells->cell;
     near->count = near->crowded = 0;
 #pragma GCC unroll 27
-    for (int k = 0; k < HD_CELLS_AROUND; k++) add_cell(near, first, &a, k);
+    for (int k = 0; k < HD_CELLS_AROUND; k++) {
+        const hd_cell *cell = first;
+        int32_t image[HD_DIM];
+        for (int d = 0; d < HD_DIM; d++) {
+            cell += a.place[d][hd_cells_side(k, d)];
+            image[d] = a.image[d][hd_cells_side(k, d)];
+        }
+        add_cell(near, cell, image);
+    }
 }
 
+/** With nine cells of which it takes three, all are not worth being prepared. */
 void hd_nearby_beside(hd_nearby *near, const hd_cells *cells, const hd_disk *disk, int d, int side)
 {
-    const around a = around_of(cells, disk);
+    hd_cell_line line[HD_DIM];
+    for (int e = 0; e < HD_DIM; e++) line[e] = cells->line[e][disk->cell[e]];
     near->count = near->crowded = 0;
-    for (int k = 0; k < HD_CELLS_BESIDE; k++)
-        add_cell(near, cells->cell, &a, hd_cells_beside(k, d, side));
+    for (int k = 0; k < HD_CELLS_BESIDE; k++) {
+        int32_t at[HD_DIM], image[HD_DIM];
+        for (int e = 0; e < HD_DIM; e++) {
+            const int here = e == d ? side : e == (d == 0) ? k % 3 : k / 3;
+            at[e] = line[e].near[here];
+            image[e] = line[e].shift[here] + disk->wrap[e];
+        }
+        add_cell(near, hd_cells_at(cells, at), image);
+    }
 }
 
 int32_t hd_nearby_listed(hd_nearby *near, const hd_cells *cells, const hd_disk *disk, int k,
