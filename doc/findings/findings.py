@@ -482,12 +482,14 @@ def slopes(some, kind):
 def tables_of_spheres(rows):
     for density, some in long_boxes(rows):
         for kind in ('T', 'LP'):
-            yield f'density {density:g}: c_{kind} {slopes(some, kind)[0]:.4f} +- {slopes(some, kind)[1]:.4f}'
+            value, error = slopes(some, kind)
+            yield f'density {density:g}: c_{kind} {value:.4f} +- {error:.4f}'
         for row in some:
             if row['omega / k'] == row['omega / k']:
                 ratio = row['omega / k'] / row[PRESSURE]
                 error = row['omega / k error'] / row[PRESSURE]
-                yield f'density {density:g}, k {row["k"]:.4f}: v over that of the pressure {ratio:.4f} +- {error:.4f}'
+                wave = f'density {density:g}, k {row["k"]:.4f}'
+                yield f'{wave}: v over that of the pressure {ratio:.4f} +- {error:.4f}'
     for row in rows:
         if row['aspect'] > min_aspect(rows):
             name = f'{row["kind"]}({row["nx"]:g},{row["ny"]:g},{row["nz"]:g})'
