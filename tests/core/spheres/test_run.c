@@ -57,7 +57,8 @@ static void check_sound(const hd_run *run)
                 Z * hypot(error / k, factor * gas.pressure_error));
 }
 
-/** The warm-up that a scene gets by itself, 3 / (0.05 c_T k), is that of the smallest step to 6 %. */
+/** The warm-up that a scene gets by itself, 3 / (0.05 c_T k), is that of the smallest step to 6 %.
+ */
 static void check_warmup(const hd_run *run)
 {
     const hd_scene_def def = scene_from(*hd_run_scene(run), .warmup = HD_WARMUP_AUTO);
