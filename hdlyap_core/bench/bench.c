@@ -190,8 +190,8 @@ static void one_exponent(int disks, double memory)
 
 static void print_events(void)
 {
-    printf("\nEvents alone, one core:\n%9s %9s %12s %22s\n", "disks", "density", "collisions",
-           "million collisions / s");
+    printf("\nEvents alone, one core:\n%9s %9s %12s %22s\n", HD_DIM == 2 ? "disks" : "spheres",
+           "density", "collisions", "million collisions / s");
     events_alone(780, 0.7, 1e6);
     events_alone(1000, 0.7, 1e6);
     events_alone(10000, 0.7, 1e6);

@@ -21,7 +21,8 @@ typedef enum hd_phase_state {
 typedef struct hd_phase {
     int step;                 /**< of hd_steps */
     unsigned char modulation; /**< HD_SIN_X | HD_SIN_Y: of both L and P; of T the first field's, the
-                                 other one's has a sine for a cosine, along x if that is periodic */
+                                 other one's has a sine for a cosine, along the first direction that
+                                 is periodic and has nodes; of spheres both may have HD_SECOND */
     int col; /**< the vector followed; it changes where vectors change places; -1 */
     hd_phase_state state;
     double a, b;  /**< least-squares coefficients on the normalised fields: L and P, T and T */

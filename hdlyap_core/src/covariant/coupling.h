@@ -6,7 +6,8 @@
 
 typedef struct hd_coupling hd_coupling;
 
-/** Of frames of 2N vectors. HD_NO_MEMORY: they take as much room as a frame, and 32 N^2 bytes. */
+/** Of frames of 2N vectors. HD_NO_MEMORY: they take as much room as a frame, and 8 (HD_DIM N)^2
+ * bytes. */
 HD_MUST_CHECK hd_status hd_coupling_create(hd_coupling **out, int disks, int threads);
 void hd_coupling_free(hd_coupling *coupling);
 

@@ -39,7 +39,7 @@ HD_MUST_CHECK hd_status hd_history_add(hd_history *past, const double *factor,
 bool hd_history_keeps_next(const hd_history *past);
 bool hd_history_is_full(const hd_history *past);
 
-/** Keeps the frame and the state of the end of the last interval: q[2N], p[2N]. */
+/** Keeps the frame and the state of the end of the last interval: q[HD_DIM N], p[HD_DIM N]. */
 HD_MUST_CHECK hd_status hd_history_snapshot(hd_history *past, hd_columns frame, const double *q,
                                             const double *p);
 
@@ -58,7 +58,8 @@ bool hd_history_has_snapshot(const hd_history *past, long interval); /**< at its
  * interval. */
 HD_MUST_CHECK hd_status hd_history_factor(hd_history *past, double *factor, double *coupling,
                                           long interval);
-/** Vectors [4N * n] row-major, or all [4N * 2n] where half are carried, q[2N], p[2N] of a snapshot.
+/** Vectors [4N * n] row-major, or all [4N * 2n] where half are carried, q[HD_DIM N], p[HD_DIM N] of
+ * a snapshot.
  */
 void hd_history_vectors(const hd_history *past, double *vectors, double *q, double *p,
                         long interval);

@@ -64,7 +64,8 @@ void hd_nearby_around(hd_nearby *near, const hd_cells *cells, const hd_disk *dis
     }
 }
 
-/** With nine cells of which it takes three, all are not worth being prepared. */
+/** A third of the cells: images and places of all are not worth being prepared. The other
+ * directions than d go through their sides. */
 void hd_nearby_beside(hd_nearby *near, const hd_cells *cells, const hd_disk *disk, int d, int side)
 {
     hd_cell_line line[HD_DIM];

@@ -114,7 +114,6 @@ hd_gas_means hd_gas_read(const hd_gas *gas)
         m.pressure_of[d] = (gas->kinetic[d] + gas->sum[VIRIAL_X + d] / t) / a;
         m.pressure_of_error[d] = error_of(gas, VIRIAL_X + d, VIRIAL_X + d, 1.0 / a);
     }
-    m.pressure = 0.0;
     for (int d = 0; d < HD_DIM; d++) m.pressure += m.pressure_of[d];
     m.pressure /= HD_DIM;
     m.compressibility = m.pressure * a / gas->disks * (HD_DIM / 2.0);

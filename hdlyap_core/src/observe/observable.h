@@ -51,7 +51,8 @@ typedef struct hd_view {
     /** A single rank: all n, and none. One of several: those that it carries, and their partners,
      * if only half of the vectors are carried. */
     hd_columns vectors[2];
-    const double *q, *p; /**< [2N] each, to measure and report; NULL unless modes are looked at */
+    const double *q,
+        *p; /**< [HD_DIM N] each, to measure and report; NULL unless modes are looked at */
 } hd_view;
 
 /** Functions may be NULL: then there is nothing to do. `self` is what `create` made. */

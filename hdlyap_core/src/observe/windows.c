@@ -18,10 +18,10 @@ static const double GO_SECONDS = 0.1;
 struct hd_windows {
     hd_covariant *covariant;
     hd_communicator *communicator; /**< NULL: a single rank; all of them go the same way back */
-    double *gathered;              /**< [4N * n], vectors of all ranks; NULL of a single one */
-    double sampling;               /**< from the beginning of a window to its first look */
-    bool due;                      /**< a window begins with the next interval */
-    double seconds;                /**< wall seconds spent here */
+    double *gathered; /**< [HD_ROWS N * n], vectors of all ranks; NULL of a single one */
+    double sampling;  /**< from the beginning of a window to its first look */
+    bool due;         /**< a window begins with the next interval */
+    double seconds;   /**< wall seconds spent here */
 };
 
 const hd_covariant *hd_windows_covariant(const hd_windows *windows) { return windows->covariant; }

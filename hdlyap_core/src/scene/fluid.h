@@ -2,6 +2,8 @@
 #ifndef HD_FLUID_H
 #define HD_FLUID_H
 
+#include "hdlyap/scene.h"
+
 /** kT of many: twice the kinetic energy over the directions. */
 #define HD_FLUID_TEMPERATURE (2.0 / HD_DIM)
 

@@ -25,8 +25,8 @@ typedef struct hd_lattice {
 } hd_lattice;
 #endif
 
-/** The lattice with at least N sites and the largest smallest distance. Cost O(N), of spheres O(1).
- */
+/** The lattice with at least N sites and the largest smallest distance, of spheres the best of some
+ * thousand that are tried. Cost O(N), of spheres O(1). */
 hd_lattice hd_lattice_best(int disks, const double box[HD_DIM], const hd_boundary boundary[HD_DIM]);
 
 /** Fills q[HD_DIM disks]; spare sites are left empty evenly. */

@@ -76,19 +76,24 @@ static void try_size(hd_lattice *best, int disks, int kind, const int size[HD_DI
     if (l.distance > best->distance) *best = l;
 }
 
+/** The same number of points along one direction whatever the spacing is; axis -1: along none. */
+typedef struct held {
+    int axis, points;
+} held;
+
 /** Points of the finest grid whose spacing is not below `least`. */
-static void size_of(int size[HD_DIM], double least, const double box[HD_DIM],
+static void size_of(int size[HD_DIM], double least, held h, const double box[HD_DIM],
                     const hd_boundary boundary[HD_DIM])
 {
     for (int d = 0; d < HD_DIM; d++) {
         const double room = boundary[d] == HD_PERIODIC ? box[d] / least
                                                        : (box[d] - 1.0) / least + 1;
-        size[d] = (int)fmax(1.0, fmin(floor(room), 4e6));
+        size[d] = d == h.axis ? h.points : (int)fmax(1.0, fmin(floor(room), 4e6));
     }
 }
 
 /** A spacing at which just enough sites of a kind fit. */
-static double spacing_of(int disks, int kind, const double box[HD_DIM],
+static double spacing_of(int disks, int kind, held h, const double box[HD_DIM],
                          const hd_boundary boundary[HD_DIM])
 {
     enum { BISECTIONS = 60 };
@@ -96,7 +101,7 @@ static double spacing_of(int disks, int kind, const double box[HD_DIM],
     for (int k = 0; k < BISECTIONS; k++) {
         const double middle = 0.5 * (low + high);
         int size[HD_DIM];
-        size_of(size, middle, box, boundary);
+        size_of(size, middle, h, box, boundary);
         const double sites = (double)size[0] * size[1] * size[2];
         const bool enough = sites > 8.0 * disks || site_count(kind, size) >= disks;
         *(enough ? &low : &high) = middle;
@@ -104,19 +109,31 @@ static double spacing_of(int disks, int kind, const double box[HD_DIM],
     return low;
 }
 
-hd_lattice hd_lattice_best(int disks, const double box[HD_DIM], const hd_boundary boundary[HD_DIM])
+static void try_around(hd_lattice *best, int disks, int kind, held h, const double box[HD_DIM],
+                       const hd_boundary boundary[HD_DIM])
 {
     enum { AROUND = 3, WIDTH = 2 * AROUND + 1 }; /* points more or fewer along each direction */
+    int size[HD_DIM];
+    size_of(size, spacing_of(disks, kind, h, box, boundary), h, box, boundary);
+    for (int k = 0; k < WIDTH * WIDTH * WIDTH; k++) {
+        const int near[HD_DIM] = {size[0] + k % WIDTH - AROUND,
+                                  size[1] + k / WIDTH % WIDTH - AROUND,
+                                  size[2] + k / (WIDTH * WIDTH) - AROUND};
+        if (h.axis < 0 || near[h.axis] == h.points)
+            try_size(best, disks, kind, near, box, boundary);
+    }
+}
+
+/** Between walls a few layers may lie farther apart than their sites. */
+hd_lattice hd_lattice_best(int disks, const double box[HD_DIM], const hd_boundary boundary[HD_DIM])
+{
+    enum { LAYERS = 6 };
     hd_lattice best = {.distance = -1.0};
     for (int kind = 0; kind < KINDS; kind++) {
-        int size[HD_DIM];
-        size_of(size, spacing_of(disks, kind, box, boundary), box, boundary);
-        for (int k = 0; k < WIDTH * WIDTH * WIDTH; k++) {
-            const int near[HD_DIM] = {size[0] + k % WIDTH - AROUND,
-                                      size[1] + k / WIDTH % WIDTH - AROUND,
-                                      size[2] + k / (WIDTH * WIDTH) - AROUND};
-            try_size(&best, disks, kind, near, box, boundary);
-        }
+        try_around(&best, disks, kind, (held){-1, 0}, box, boundary);
+        for (int axis = 0; axis < HD_DIM; axis++)
+            for (int layers = 1; layers <= LAYERS && boundary[axis] != HD_PERIODIC; layers++)
+                try_around(&best, disks, kind, (held){axis, layers}, box, boundary);
     }
     return best;
 }

@@ -88,7 +88,8 @@ double hd_scene_warmup(const hd_scene_def *def)
     return def->observe & HD_OBSERVE_COVARIANT ? fmax(time, def->covariant_transient) : time;
 }
 
-/** Ranges beyond what the types hold are checked with the whole of it. */
+/** Ranges beyond what the types hold are checked with the whole of it, and so is the dimension,
+ * which has then words of its own. */
 void hd_scene_archive(hd_scene_def *def, hd_archive *archive)
 {
     int count;
@@ -103,7 +104,10 @@ void hd_scene_archive(hd_scene_def *def, hd_archive *archive)
         case HD_PARAMETER_INTERVAL: hd_archive_double(archive, r->record, &real); break;
         default:
             whole = (int)real;
-            hd_archive_int(archive, r->record, &whole, (int)r->least, (int)r->most);
+            if (r->offset == offsetof(hd_scene_def, dimensions))
+                hd_archive_int(archive, r->record, &whole, 2, 3);
+            else
+                hd_archive_int(archive, r->record, &whole, (int)r->least, (int)r->most);
             real = whole;
         }
         hd_parameter_assign(r, def, real);

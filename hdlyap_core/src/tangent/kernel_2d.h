@@ -5,7 +5,7 @@
 
 #include <math.h>
 
-#include "hdlyap/trajectory.h"
+#include "tangent/kernel.h"
 
 /** Free flights of its disks since their last events, then the collision. */
 typedef struct hd_tangent_map {
@@ -42,14 +42,6 @@ static inline void hd_map_fill(hd_tangent_map *map, const hd_event *event)
     map->normal = event->p[0] * map->n[0] + event->p[1] * map->n[1];
     map->tangential = event->p[1] * map->n[0] - event->p[0] * map->n[1];
     map->ratio = map->tangential / map->normal;
-}
-
-#define HD_KERNEL static inline __attribute__((always_inline))
-
-/** [T1] dq += tau dp; v points to the four rows of a disk. */
-HD_KERNEL void hd_fly(double *restrict v, double tau, int width)
-{
-    for (int k = 0; k < 2 * width; k++) v[k] += tau * v[2 * width + k];
 }
 
 /** [T3] with the free flights before it; only the tangential part s of the displacement turns n. */
@@ -93,24 +85,13 @@ HD_KERNEL void hd_curve(double *restrict v, const hd_tangent_map *map, int width
     }
 }
 
-/** [T4] */
-HD_KERNEL void hd_reflect(double *restrict v, const hd_tangent_map *map, int width)
-{
-    const int d = map->j == HD_WALL_Y;
-    hd_fly(v, map->flight[0], width);
-    for (int k = 0; k < width; k++) {
-        v[d * width + k] = -v[d * width + k];
-        v[(2 + d) * width + k] = -v[(2 + d) * width + k];
-    }
-}
-
 /** A disk that meets a wall of either kind. */
 HD_KERNEL void hd_meet_wall(double *restrict v, const hd_tangent_map *map, int width)
 {
     if (map->j == HD_WALL_ROUND)
         hd_curve(v, map, width);
     else
-        hd_reflect(v, map, width);
+        hd_reflect(v, map->j == HD_WALL_Y, map->flight[0], width);
 }
 
 #endif

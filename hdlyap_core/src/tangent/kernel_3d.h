@@ -3,7 +3,7 @@
 #ifndef HD_KERNEL_3D_H
 #define HD_KERNEL_3D_H
 
-#include "hdlyap/trajectory.h"
+#include "tangent/kernel.h"
 
 /** Free flights of its spheres since their last events, then the collision. */
 typedef struct hd_tangent_map {
@@ -25,14 +25,6 @@ static inline void hd_map_fill(hd_tangent_map *map, const hd_event *event)
         map->across[d] = event->p[d] - map->normal * map->n[d];
         map->ratio[d] = map->across[d] / map->normal;
     }
-}
-
-#define HD_KERNEL static inline __attribute__((always_inline))
-
-/** [T1] dq += tau dp; v points to the six rows of a sphere. */
-HD_KERNEL void hd_fly(double *restrict v, double tau, int width)
-{
-    for (int k = 0; k < 3 * width; k++) v[k] += tau * v[3 * width + k];
 }
 
 /** [T22] with the free flights before it; only the part s of the displacement across n turns n. */
@@ -64,15 +56,9 @@ HD_KERNEL void hd_collide(double *restrict vi, double *restrict vj, const hd_tan
     }
 }
 
-/** [T4] */
 HD_KERNEL void hd_meet_wall(double *restrict v, const hd_tangent_map *map, int width)
 {
-    const int d = -1 - map->j;
-    hd_fly(v, map->flight[0], width);
-    for (int k = 0; k < width; k++) {
-        v[d * width + k] = -v[d * width + k];
-        v[(3 + d) * width + k] = -v[(3 + d) * width + k];
-    }
+    hd_reflect(v, -1 - map->j, map->flight[0], width);
 }
 
 #endif

@@ -2,19 +2,20 @@
 #ifndef HDLYAP_DIMENSION_H
 #define HDLYAP_DIMENSION_H
 
-#include <stdio.h>
-
+#include "common/nodes.h"
 #include "hdlyap/wave.h"
 
 #if HD_DIM == 2
 #define NODE_NAME "hdlyap_node"
 #define DISKS "disks"
 #define USUAL_SCENE "paper_periodic" /* with all defaults */
+#define QUICK_SCENE "quick"
 #define OF_SPHERES(...)
 #else
 #define NODE_NAME "hdlyap_node_3d"
 #define DISKS "spheres"
 #define USUAL_SCENE "unnamed"
+#define QUICK_SCENE "spheres"
 #define OF_SPHERES(...) __VA_ARGS__
 #endif
 
@@ -32,14 +33,10 @@
     } while (0)
 
 /** As (1,0), of spheres (1,0,0). */
-static inline const char *nodes_text(char *text, size_t size, const hd_wave *wave)
+static inline const char *nodes_text(char text[NODES_SIZE], const hd_wave *wave)
 {
-#if HD_DIM == 2
-    snprintf(text, size, "(%d,%d)", wave->n[0], wave->n[1]);
-#else
-    snprintf(text, size, "(%d,%d,%d)", wave->n[0], wave->n[1], wave->n[2]);
-#endif
-    return text;
+    return nodes_write(text, HD_DIM == 3, (uint32_t)wave->n[0], (uint32_t)wave->n[1],
+                       HD_DIM == 3 ? (uint32_t)wave->n[HD_DIM - 1] : 0);
 }
 
 #endif

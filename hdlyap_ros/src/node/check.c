@@ -149,15 +149,14 @@ static void print_bag(const settings *set, const hd_estimate *t)
 static void print_waves(const settings *set)
 {
     const hd_scene_def *def = &set->def;
-    enum { SHOWN = 200, NODES_TEXT = 40 };
+    enum { SHOWN = 200 };
     hd_wave wave[SHOWN];
     const int count = hd_waves(def, wave, SHOWN), shown = count < SHOWN ? count : SHOWN;
     printf("waves    ");
     for (int k = 0; k < shown; k++) {
         const char *kinds = wave[k].transverse.count == 0 ? " LP" : " T,LP";
-        char nodes[NODES_TEXT];
-        printf("%s%s", wave[k].pairs.count == 0 ? " T" : kinds,
-               nodes_text(nodes, sizeof nodes, &wave[k]));
+        char nodes[NODES_SIZE];
+        printf("%s%s", wave[k].pairs.count == 0 ? " T" : kinds, nodes_text(nodes, &wave[k]));
     }
     if (count > shown) printf(" and %d more", count - shown);
     printf("\n");

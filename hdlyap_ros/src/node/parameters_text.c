@@ -90,7 +90,8 @@ int parameters_print_help(void)
         "  " NODE_NAME " --parameters\n"
         "                         prints a scene file with all parameters and their defaults\n"
         "  " NODE_NAME " --version\n\n"
-        "roslaunch hdlyap run.launch scene:=quick runs a scene file with a master of its own.\n"
+        "roslaunch hdlyap run.launch scene:=" QUICK_SCENE
+        " runs a scene file with a master of its own.\n"
         "Exit status: 0 finished or stopped, 2 refused, 3 a numerical fault or no memory, 4 a "
         "file fault.\n");
     return fflush(stdout) == 0 ? 0 : 1;

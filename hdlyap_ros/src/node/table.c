@@ -22,10 +22,10 @@ static bool in_table(const hd_step *step)
 
 static void print_step(const hd_step *step)
 {
-    char name[2 * TEXT], nodes[TEXT], indices[TEXT], exponent[TEXT];
+    char name[2 * TEXT], nodes[NODES_SIZE], indices[TEXT], exponent[TEXT];
     const bool alone = step->sharing == HD_SHARING_ALONE;
     snprintf(name, sizeof name, "%s%s", hdr_step_kind_text(step->kind),
-             nodes_text(nodes, sizeof nodes, &step->wave));
+             nodes_text(nodes, &step->wave));
     const int printed = snprintf(indices, sizeof indices, "%d", step->col + 1);
     if (step->count > 1)
         snprintf(indices + printed, sizeof indices - (size_t)printed, "-%d",

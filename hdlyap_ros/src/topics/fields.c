@@ -52,7 +52,7 @@ static void fill_vector(hdr_mode_field *message, const hd_run *run, int col, siz
     message->index = (uint32_t)col + 1;
     message->exponent = hd_spectrum_exponent(hd_run_spectrum(run), col);
     hdr_doubles *const component[] = {&message->dqx, &message->dqy,
-                                      OF_SPHERES(&message->dqz, ) & message->dpx, &message->dpy,
+                                      OF_SPHERES(&message->dqz, )(&message->dpx), &message->dpy,
                                       OF_SPHERES(&message->dpz)};
     for (int k = 0; k < HD_ROWS; k++) *component[k] = column_of(frame, col, k, disks);
 }

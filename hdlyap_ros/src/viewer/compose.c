@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "nodes.h"
+#include "common/nodes.h"
 
 _Static_assert((int)PICTURE_PAIRS_MAX == (int)HEARD_PAIRS_MAX, "pairs as they are heard");
 

@@ -5,7 +5,7 @@
 #include <stdio.h>
 
 #include "common/numbers.h"
-#include "nodes.h"
+#include "common/nodes.h"
 #include "palette.h"
 #include "plot.h"
 

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "nodes.h"
+#include "common/nodes.h"
 
 void heard_clear(heard *h)
 {

@@ -10,7 +10,7 @@
 #include "compose.h"
 #include "draw.h"
 #include "hdlyap_ros/hdlyap_ros.h"
-#include "nodes.h"
+#include "common/nodes.h"
 
 enum { EXIT_REFUSED = 2, EXIT_NO_MEMORY = 3, QUEUE = 1000, TOPIC_SIZE = 300 };
 

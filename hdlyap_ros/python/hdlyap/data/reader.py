@@ -143,6 +143,8 @@ def check(kind, message):
             sizes += [message.aspect_z, message.box_z]
         if not (message.disks and all(math.isfinite(size) and size > 0 for size in sizes)):
             raise Damaged(f'{kind}: {message.disks} disks, density, aspect and box {tuple(sizes)}')
+        if message.container == 'circle' and not hasattr(message, 'dimensions'):
+            raise Damaged(f'{kind}: of a circle, of before modulations had the numbers that they have')
 
 
 def run_infos(path, node=None):
