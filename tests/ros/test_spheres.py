@@ -265,6 +265,19 @@ class Scenes(harness.Case):
 
 
 class Refused(harness.Case):
+    def test_checkpoint_of_the_other(self):
+        others = {2: 'dimensions = 3: must be 2: disks', 3: 'dimensions = 2: must be 3: spheres'}
+        for dimensions, said in others.items():
+            path = os.path.join(self.new_folder(), 'kept')
+            scene = dict(dimensions=5 - dimensions, disks=20, aspect=1.0, density=0.3)
+            scene.update(exponents='none', equilibration=1.0, duration=2.0, checkpoint=path)
+            self.assertEqual(harness.start(dict(scene, observables=['state'])).wait(), 0)
+            program = harness.executable(dict(dimensions=dimensions))
+            node = harness.start(dict(resume=path), command=[program])
+            self.addCleanup(node.stop)
+            self.assertNotEqual(node.wait(), 0)
+            self.assertIn(said, node.text())
+
     def test_by_name(self):
         for dimensions, given, word in (
             (2, dict(dimensions=3), 'dimensions = 3: must be 2: disks; hdlyap_node_3d'),
