@@ -498,7 +498,7 @@ def tables_of_spheres(rows):
             yield f'{box}: {name} found {row["found"]:.2f} of {row["expected"]:g}{shared}'
 
 
-PRESSURE = 'P / (sqrt(3 kT) rho)'
+PRESSURE = 'P_xx / (sqrt(3 kT) rho)'
 SPHERES = {0.1: '#56B4E9', 0.3: '#0072B2', 0.5: '#009E73', 0.7: '#E69F00', 0.9: '#D55E00'}
 
 
@@ -536,7 +536,9 @@ def draw_spheres(rows):
     of_t, of_lp, pressure = zip(*points)
     speeds.plot(densities, of_lp, 'D--', color=INK, label='$c_L$')
     speeds.plot(densities, of_t, 's:', color=INK, label='$c_T$')
-    speeds.plot(densities, pressure, '-', color=INK, linewidth=0.8, label=r'$P / \rho\sqrt{3 kT}$')
+    speeds.plot(
+        densities, pressure, '-', color=INK, linewidth=0.8, label=r'$P_{xx} / \rho\sqrt{3 kT}$'
+    )
     speeds.plot([], [], 'o', color=INK, markerfacecolor='white', label='$v$')
     speeds.plot([], [], '-', label='disks: $c_L$, $c_T$ of the paper', **of_disks)
     speeds.set(xlabel=r'$\rho$', xlim=(0, 1), ylim=(0, 5.5))

@@ -113,7 +113,7 @@ static void tell_step(const box *b, hd_run *const run[], int index, double press
     fflush(stdout);
 }
 
-/** P / (rho sqrt(3 kT)) of all seeds. */
+/** P_xx / (rho sqrt(3 kT)) of all seeds: of the direction of the long waves. */
 static double velocity_of_pressure(const box *b, hd_run *const run[], double *error)
 {
     const hd_scene_def *scene = hd_run_scene(run[0]);
@@ -121,8 +121,8 @@ static double velocity_of_pressure(const box *b, hd_run *const run[], double *er
     double value[SEEDS], stated[SEEDS];
     for (int s = 0; s < b->seeds; s++) {
         const hd_gas_means gas = hd_gas_read(hd_run_gas(run[s]));
-        value[s] = gas.pressure / unit;
-        stated[s] = fmax(0.0, gas.pressure_error) / unit;
+        value[s] = gas.pressure_of[0] / unit;
+        stated[s] = fmax(0.0, gas.pressure_of_error[0]) / unit;
     }
     return mean_over_seeds(value, stated, b->seeds, error);
 }
@@ -150,7 +150,7 @@ int main(int argc, char **argv)
         argc, argv,
         "density,aspect,disks,boundaries,kind,nx,ny,nz,k [1/sigma],expected,found,members,"
         "lambda / k [sigma/time unit],lambda / k error,omega / k [sigma/time unit],omega / k error,"
-        "P / (sqrt(3 kT) rho) [sigma/time unit],P error");
+        "P_xx / (sqrt(3 kT) rho) [sigma/time unit],P_xx error");
     const int first = quick ? QUICK : 0, boxes = quick ? 1 : BOXES_ALL;
     for (int b = first; b < first + boxes; b++) go(&BOXES[b], quick);
     return 0;

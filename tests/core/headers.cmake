@@ -42,6 +42,15 @@ function(check_program compiler library) # .. and flags
   run("${program}" ${program})
 endfunction()
 
+# Headers of one dimension and the library of the other do not link, and the linker names why.
+function(check_mismatch compiler library) # .. and flags
+  execute_process(COMMAND ${compiler} -std=c++11 ${ARGN} -I${CORE}/include ${CMAKE_CURRENT_LIST_DIR}/headers.cpp
+    -o ${WORK}/mismatch ${library} RESULT_VARIABLE failed ERROR_VARIABLE text)
+  if(NOT failed OR NOT text MATCHES "hd_scene_def_default")
+    message(SEND_ERROR "${compiler} ${ARGN} with ${library}: must not link, and name hd_scene_def_default\n${text}")
+  endif()
+endfunction()
+
 foreach(name gcc clang)
   find_program(HEADERS_${name} ${name})
   if(HEADERS_${name})
@@ -56,6 +65,8 @@ foreach(name g++ clang++)
     if(LIBRARY)
       check_program(${HEADERS_${name}} ${LIBRARY})
       check_program(${HEADERS_${name}} ${LIBRARY_3D} -DHD_DIM=3)
+      check_mismatch(${HEADERS_${name}} ${LIBRARY_3D})
+      check_mismatch(${HEADERS_${name}} ${LIBRARY} -DHD_DIM=3)
     endif()
   endif()
 endforeach()

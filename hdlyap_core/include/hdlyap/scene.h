@@ -85,6 +85,10 @@ typedef struct hd_scene_def {
 #include "hdlyap/parameters.inc"
 } hd_scene_def;
 
+/* A program with the library of the other dimension does not link. */
+#if HD_DIM == 3
+#define hd_scene_def_default hd_scene_def_default_3d
+#endif
 /** The paper's periodic scene: 780 disks, density 0.8, aspect 0.867. */
 hd_scene_def hd_scene_def_default(void);
 

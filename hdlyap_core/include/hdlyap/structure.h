@@ -46,7 +46,8 @@ const hd_wave *hd_structure_wave(const hd_structure *structure, int wave);
  * -k_y); of the snapshot, or mean over samples; [n]. Where the wave has nodes between walls it is
  * that of the box and its mirror image, per disk. Random vectors have 1/2; one that lies in the
  * wave's fields has N over the number of their modulations, 1 .. 4. Of spheres e across k is either
- * of two directions, and both are added up: random vectors have 1/3 along k and 2/3 across. */
+ * of two directions, and both are added up: in periodic boxes random vectors have 1/3 along k and
+ * 2/3 across. */
 const double *hd_structure_snapshot(const hd_structure *structure, int wave, hd_direction e);
 const double *hd_structure_mean(const hd_structure *structure, int wave, hd_direction e);
 

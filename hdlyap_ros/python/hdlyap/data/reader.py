@@ -144,7 +144,9 @@ def check(kind, message):
         if not (message.disks and all(math.isfinite(size) and size > 0 for size in sizes)):
             raise Damaged(f'{kind}: {message.disks} disks, density, aspect and box {tuple(sizes)}')
         if message.container == 'circle' and not hasattr(message, 'dimensions'):
-            raise Damaged(f'{kind}: of a circle, of before modulations had the numbers that they have')
+            raise Damaged(
+                f'{kind}: of a circle, of before modulations had the numbers that they have'
+            )
 
 
 def run_infos(path, node=None):

@@ -37,7 +37,7 @@ def of(info):
 
 
 def contact_value(z, density):
-    """g(sigma) of a Z: Z - 1 = (pi / 2) rho g."""
+    """g(sigma) of a Z of disks: Z - 1 = (pi / 2) rho g."""
     return 2 * (np.asarray(z) - 1) / (pi * np.asarray(density))
 
 
@@ -47,7 +47,7 @@ def collision_rate(z):
 
 
 def mean_free_path(rate):
-    """Mean speed over the collisions of a disk in a time unit [sigma]."""
+    """Of disks: mean speed over the collisions of each in a time unit [sigma]."""
     return sqrt(pi / 2) / np.asarray(rate)
 
 
@@ -61,7 +61,7 @@ def sound_velocity(density):
 
 
 def sound_velocities(densities, z, errors=None):
-    """Of measured Z at three or more densities: (velocities, errors) there. The slope is that of
+    """Of measured Z of disks at three or more densities: (velocities, errors) there. The slope is that of
     the quadratic through each density's nearest three; errors (of Z, independent) go through it
     linearly."""
     densities, z = np.asarray(densities, dtype=float), np.asarray(z, dtype=float)
