@@ -20,7 +20,9 @@ def draw(recording):
         return None
     figure = plt.figure(figsize=(7, 6.2), constrained_layout=True)
     grid = figure.add_gridspec(2, 2)
-    found = [block for block in steps.blocks(recording.steps, recording.info) if len(block.steps) == 1]
+    found = [
+        block for block in steps.blocks(recording.steps, recording.info) if len(block.steps) == 1
+    ]
     for column, direction in enumerate(DIRECTIONS):
         axes = figure.add_subplot(grid[0, column])
         image = _ridge(axes, means, direction)
