@@ -62,8 +62,8 @@ def sound_velocity(density):
 
 def sound_velocities(densities, z, errors=None):
     """Of disks, and measured Z at three or more densities: (velocities, errors) there. The slope is
-    that of the quadratic through each density's nearest three; errors (of Z, independent) go through
-    it linearly."""
+    that of the quadratic through each density's nearest three; errors (of Z, independent) go
+    through it linearly."""
     densities, z = np.asarray(densities, dtype=float), np.asarray(z, dtype=float)
     errors = np.full(len(z), np.nan) if errors is None else np.asarray(errors, dtype=float)
     if len(z) < 3 or len(set(densities)) < len(densities):
