@@ -8,6 +8,7 @@
 
 #include "base/memory.h"
 #include "events/archived.h"
+#include "events/contact.h"
 #include "events/round_wall.h"
 
 double hd_event_log_bytes(double events)
@@ -58,13 +59,6 @@ static bool disks_exist(const hd_event *event, int disks)
     return (event->j < 0 && event->j >= HD_WALL_ROUND) || (event->j > event->i && event->j < disks);
 }
 
-static double product(const double a[HD_DIM], const double b[HD_DIM])
-{
-    double sum = a[0] * b[0];
-    for (int d = 1; d < HD_DIM; d++) sum += a[d] * b[d];
-    return sum;
-}
-
 /** Flat walls lie in a box, round ones in a circle. */
 static bool wall_exists(const hd_event *event, double reach)
 {
@@ -78,15 +72,15 @@ static bool is_normal(const hd_event *event, double reach)
 {
     const bool is_round = event->j == HD_WALL_ROUND; /* one more product */
     const double square = is_round ? reach * reach : 1.0, roundings = is_round ? 12.0 : 8.0;
-    return fabs(product(event->n, event->n) - square) <= roundings * DBL_EPSILON * square;
+    return fabs(hd_contact_dot(event->n, event->n) - square) <= roundings * DBL_EPSILON * square;
 }
 
 /** Within the rounding of the normal; a round wall is reached outwards. */
 static bool approach(const hd_event *event)
 {
-    const double speed = sqrt(product(event->p, event->p));
-    if (event->j == HD_WALL_ROUND) return product(event->n, event->p) > 0;
-    return product(event->n, event->p) <= 4.0 * DBL_EPSILON * speed;
+    const double speed = sqrt(hd_contact_dot(event->p, event->p));
+    if (event->j == HD_WALL_ROUND) return hd_contact_dot(event->n, event->p) > 0;
+    return hd_contact_dot(event->n, event->p) <= 4.0 * DBL_EPSILON * speed;
 }
 
 const char *hd_event_log_fault(const hd_event_log *log, const hd_scene_def *scene)

@@ -1,12 +1,25 @@
-/** Scene -> what is known of lambda(k) before its steps are measured [T12]: how it bends in long
- * boxes, and what edges do, as measured of disks between walls and in narrow boxes. */
+/** Scene -> what is known of lambda(k) before its steps are measured [T12].
+ *
+ * How it bends was measured in long boxes: of disks, wide ones too, at densities from 0.2 to 0.8;
+ * of spheres, 8 : 1 : 1, from 0.3 to 0.9 (doc/findings.md). In a thin gas k l decides, l the mean
+ * free path, else k sigma. What edges do, of disks in boxes with walls and in narrow ones. */
 #include "hdlyap/steps.h"
 
 #include <math.h>
 
-#include "modes/curvature.h"
 #include "scene/container.h"
 
+/** c2 / c = c2 + c2_l l, its error alike; c3 / c = c3 + c3_l2 l^2, its error besides OFF times c3.
+ */
+typedef struct bend {
+    double c2, c2_l, error, error_l, c3, c3_l2, c3_error;
+} bend;
+/** Of disks and of spheres, of LP and of T. */
+static const bend BENDS[2][2] = {
+    {{0.11, 0.16, 0.02, 0.02, 0.55, 2.0, 0.0}, {0.02, 0.0, 0.007, 0.0, 0.05, 1.3, 0.01}},
+    {{0.05, 0.17, 0.03, 0.04, 0.18, 0.8, 0.05}, {0.02, 0.0, 0.015, 0.0, 0.01, 0.87, 0.02}}};
+/** Of c3 / c: how far densities lie off the formulae. */
+static const double OFF = HD_DIM == 2 ? 0.1 : 0.15;
 /** Walls move c by about WALL sigma / edge, and each step by WALL_OWN of that for itself. */
 static const double WALL = 0.25, WALL_OWN = 0.6;
 /** In a circle LP steps lie below the relation of boxes, by 31 % (LP(1,1), density 0.4) to nothing
@@ -30,15 +43,22 @@ static double walls_of(const hd_scene_def *def, const double box[HD_DIM])
 hd_relation hd_relation_of(const hd_scene_def *def, hd_mode_kind kind)
 {
     const bool t = kind == HD_MODE_T;
+    const bend *b = &BENDS[HD_DIM - 2][t];
+    const double l = hd_scene_mean_free_path(def);
     double box[HD_DIM], edge = INFINITY;
     hd_scene_box(def, box);
     for (int d = 0; d < HD_DIM; d++) edge = fmin(edge, box[d]);
     const double walls = walls_of(def, box), square = edge * edge;
     const double rows = CROWDED * pow(def->density / DENSE, 8.0) / (square * square);
     const double narrow = hypot((t ? 0.1 : 0.25) / square, rows);
-    hd_relation r = hd_curvature_of(kind, hd_scene_mean_free_path(def));
-    r.box_error = hypot(walls, narrow);
-    r.scatter = hypot(r.scatter, WALL_OWN * walls);
+    hd_relation r = {
+        .c2 = b->c2 + b->c2_l * l,
+        .c2_error = b->error + b->error_l * l,
+        .c3 = b->c3 + b->c3_l2 * l * l,
+        .box_error = hypot(walls, narrow),
+        .scatter = hypot(t ? 0.001 : 0.002, WALL_OWN * walls),
+    };
+    r.c3_error = OFF * r.c3 + b->c3_error;
     if (hd_scene_boundary(def, 0) == HD_CURVED) r.scatter = r.box_error = t ? ROUND_T : ROUND_LP;
     return r;
 }

@@ -1,0 +1,80 @@
+/** What a viewer has heard, for the tests of what it draws then. */
+#ifndef HEARING_HPP
+#define HEARING_HPP
+
+#include "drawn.hpp"
+
+extern "C" {
+#include "viewer/compose.h"
+}
+
+static const uint32_t DISKS = 3;
+
+/** What a viewer has heard, and the arrays of what it hears. */
+struct hearing {
+    heard h = {};
+    std::vector<double> numbers;
+    const char *topics[2] = {"steps", "fields"};
+    const uint32_t nx[2] = {1, 0}, ny[2] = {0, 1};
+    hdr_run_info info = {};
+    std::vector<hdr_step> step;
+    mode_choice lowest = {};
+
+    explicit hearing(const char *boundary = "periodic")
+    {
+        heard_clear(&h);
+        for (int k = 0; k < 100; k++) numbers.push_back(0.01 * k);
+        info.run_id = "run", info.scene = "a scene", info.disks = DISKS;
+        info.box_x = info.box_y = 10.0, info.boundary_x = "periodic", info.boundary_y = boundary;
+        info.vectors = 9;
+        info.observables = {topics, 2};
+        info.wave_nx = {nx, 2}, info.wave_ny = {ny, 2};
+        EXPECT_TRUE(heard_run_info(&h, &info));
+        EXPECT_FALSE(heard_run_info(&h, &info)); // the same
+    }
+    ~hearing() { heard_clear(&h); }
+
+    hdr_doubles array(uint32_t count, uint32_t from = 0) { return {&numbers[from], count, 1}; }
+
+    void steps(bool resolved)
+    {
+        step = {drawn::a_step(HDR_MODE_T, 1, 0, 0.6, 7, 8, 1.5, 0.25),
+                drawn::a_step(HDR_MODE_LP, 0, 1, 0.6, 5, 6, 1.8, -1.0)};
+        for (hdr_step &one : step) one.resolved = resolved;
+        hdr_steps message = {};
+        message.run_id = "run", message.steps = {step.data(), 2};
+        heard_steps(&h, &message);
+    }
+
+    void state(double time)
+    {
+        hdr_state message = {};
+        message.run_id = "run", message.sim_time = time;
+        message.x = array(DISKS), message.y = array(DISKS, 10);
+        heard_state(&h, &message);
+    }
+
+    void field(double time, uint8_t kind, uint32_t x, uint32_t index)
+    {
+        hdr_mode_field message = {};
+        message.run_id = "run", message.sim_time = time, message.kind = kind;
+        message.nx = x, message.ny = !x, message.index = index,
+        message.exponent = 2.0 - 0.1 * index;
+        message.x = array(DISKS, 20), message.y = array(DISKS, 30);
+        message.dqx = array(DISKS, index), message.dqy = array(DISKS, 40);
+        heard_mode_field(&h, &message);
+    }
+
+    /** Of the vector of LP(0,1). */
+    void phase(double time, double a, double b)
+    {
+        hdr_lp_phase phase = {1, 0, 1, 0, 0.6, 0, 5, HDR_LP_PHASE_TRACKED, a, b, 0, 0, 0, 0, 0};
+        hdr_lp_phases phases = {};
+        phases.run_id = "run", phases.phases = {&phase, 1}, phases.sim_time = time;
+        heard_lp_phases(&h, &phases);
+    }
+
+    picture drawn() { return compose(&h, &lowest, ""); }
+};
+
+#endif
