@@ -47,6 +47,10 @@ typedef struct hd_wave {
      */
     hd_modulations transverse;
     hd_modulations pairs; /**< of the LP pairs: cosine along a reflecting direction */
+#if HD_DIM == 3
+    double across[2][HD_DIM]; /**< unit vectors of the transverse fields, without HD_SECOND and with
+                                 it; zeros where there are none [T22] */
+#endif
 } hd_wave;
 
 /** k along direction d of a box for n nodes: 2 pi n / L periodic, pi n / (L - 1) reflecting.

@@ -5,8 +5,6 @@
  * field. */
 #include "modes/plane_fields.h"
 
-#include "modes/polarisation.h"
-
 /** A, and s. */
 static double products(double s[HD_DIM], const hd_wave *wave, const hd_harmonics along[HD_DIM],
                        unsigned bits)
@@ -25,15 +23,12 @@ static double products(double s[HD_DIM], const hd_wave *wave, const hd_harmonics
 static void fill_transverse(double *const row[HD_DIM], const hd_subspace *s,
                             const hd_harmonics along[HD_DIM])
 {
-    double e[2][HD_DIM], product[HD_DIM];
-    unsigned walls = 0;
-    for (int d = 0; d < HD_DIM; d++) walls |= (unsigned)(along[d].offset > 0) << d;
-    hd_polarisations(e, &s->wave, walls);
+    double product[HD_DIM];
     for (int c = 0; c < s->modulations.count; c++) {
         const unsigned bits = s->modulations.bits[c];
         products(product, &s->wave, along, bits & (HD_SECOND - 1));
         for (int d = 0; d < HD_DIM; d++)
-            row[d][s->column + c] = e[(bits & HD_SECOND) != 0][d] * product[d];
+            row[d][s->column + c] = s->wave.across[(bits & HD_SECOND) != 0][d] * product[d];
     }
 }
 

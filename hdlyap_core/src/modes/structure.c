@@ -32,7 +32,6 @@ typedef struct planned {
     hd_modulations modulations[HD_DIRECTIONS];
     int column[HD_DIM][FUNCTIONS]; /**< by the bits of the function, among those of AT_ONCE waves */
     double root;                   /**< of 2 for each direction with walls and nodes */
-    unsigned walls;                /**< bit d: across direction d */
 } planned;
 
 struct hd_structure {
@@ -68,32 +67,25 @@ int hd_structure_waves_of(const hd_scene_def *def)
     return hd_waves(&all, NULL, 0);
 }
 
-static hd_structure_term term_of(const planned *p, hd_direction e, unsigned bits, int d)
-{
-    return hd_structure_term_of(&p->wave, e, bits, d, p->walls);
-}
-
 static void plan_columns(planned *p, int used[HD_DIM])
 {
     memset(p->column, -1, sizeof p->column);
     for (hd_direction e = HD_ALONG; e < HD_DIRECTIONS; e++)
         for (int c = 0; c < p->modulations[e].count; c++)
             for (int d = 0; d < HD_DIM; d++) {
-                const hd_structure_term term = term_of(p, e, p->modulations[e].bits[c], d);
+                const hd_structure_term term = hd_structure_term_of(&p->wave, e,
+                                                                    p->modulations[e].bits[c], d);
                 int *column = &p->column[d][term.function];
                 if (*column < 0 && term.factor != 0) *column = used[d]++;
             }
 }
 
-/** Where walls are, and what they make of squares. */
-static void plan_walls(planned *p, const hd_scene_def *def)
+/** What walls make of squares. */
+static void plan_root(planned *p, const hd_scene_def *def)
 {
     p->root = 1.0;
-    for (int d = 0; d < HD_DIM; d++) {
-        const bool walls = def->boundary[d] == HD_REFLECTING;
-        p->walls |= (unsigned)walls << d;
-        if (walls && p->wave.n[d] > 0) p->root *= sqrt(2.0);
-    }
+    for (int d = 0; d < HD_DIM; d++)
+        if (def->boundary[d] == HD_REFLECTING && p->wave.n[d] > 0) p->root *= sqrt(2.0);
 }
 
 static hd_status plan_waves(hd_structure *s, const hd_scene_def *def)
@@ -109,7 +101,7 @@ static hd_status plan_waves(hd_structure *s, const hd_scene_def *def)
     for (int w = 0, used[HD_DIM]; w < s->waves; w++) {
         if (w % AT_ONCE == 0) memset(used, 0, sizeof used);
         s->plan[w] = (planned){.wave = wave[w], .modulations = {wave[w].pairs, wave[w].transverse}};
-        plan_walls(&s->plan[w], def);
+        plan_root(&s->plan[w], def);
         plan_columns(&s->plan[w], used);
         for (int d = 0; d < HD_DIM; d++)
             if (wave[w].n[d] > s->along[d].nodes) s->along[d].nodes = wave[w].n[d];
@@ -255,7 +247,7 @@ static void amplitudes(const hd_structure *s, double *out, const planned *p, hd_
 {
     memset(out, 0, (size_t)v.count * sizeof *out);
     for (int d = 0; d < HD_DIM; d++) {
-        const hd_structure_term term = term_of(p, e, bits, d);
+        const hd_structure_term term = hd_structure_term_of(&p->wave, e, bits, d);
         if (term.factor == 0) continue;
         const double *row = s->sum[d] + (size_t)p->column[d][term.function] * s->stride;
         for (int l = 0; l < v.count; l++) out[l] += term.factor * row[v.first + l];

@@ -11,8 +11,7 @@ typedef struct hd_structure_term {
     double factor;
 } hd_structure_term;
 
-/** Of component d in the amplitude of modulation `bits` of the wave; walls: bit d, across d. */
-hd_structure_term hd_structure_term_of(const hd_wave *wave, hd_direction e, unsigned bits, int d,
-                                       unsigned walls);
+/** Of component d in the amplitude of modulation `bits` of the wave. */
+hd_structure_term hd_structure_term_of(const hd_wave *wave, hd_direction e, unsigned bits, int d);
 
 #endif

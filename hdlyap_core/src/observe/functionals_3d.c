@@ -7,8 +7,6 @@
 #include <math.h>
 #include <stdbool.h>
 
-#include "modes/polarisation.h"
-
 /** Functions of one coordinate: A's, and as s of its component has it; each with its derivative. */
 typedef struct factor {
     double value, slope, own, own_slope;
@@ -46,20 +44,17 @@ void hd_functionals_at(double out[HD_FUNCTIONALS][HD_ROWS], const hd_wave *wave,
 {
     enum { DENSITY, ALONG, ACROSS, ENERGY = ACROSS + 2 };
     factor f[HD_DIM];
-    double e[2][HD_DIM], along[HD_DIM];
+    double along[HD_DIM];
     double p2 = 0.0;
-    unsigned walls = 0;
     for (int d = 0; d < HD_DIM; d++) {
         const bool wall = boundary[d] == HD_REFLECTING;
-        walls |= (unsigned)wall << d;
         f[d] = factor_at(wave->k[d], q[d] - (wall ? 0.5 : 0.0), bits >> d & 1);
         along[d] = wave->k[d] / wave->number;
         p2 += p[d] * p[d];
     }
-    hd_polarisations(e, wave, walls);
     fill_momentum(out[ALONG], f, along, p);
-    fill_momentum(out[ACROSS], f, e[0], p);
-    fill_momentum(out[ACROSS + 1], f, e[1], p);
+    fill_momentum(out[ACROSS], f, wave->across[0], p);
+    fill_momentum(out[ACROSS + 1], f, wave->across[1], p);
     for (int d = 0; d < HD_DIM; d++) {
         const double slope = product(f, HD_DIM, d);
         out[DENSITY][d] = slope / wave->number;

@@ -5,6 +5,7 @@
 #include "base/check.h"
 #include "scene/container.h"
 #include "scene/lattice.h"
+#include "scene/polarisation.h"
 
 static const double PI = 3.14159265358979323846;
 
@@ -223,6 +224,9 @@ static hd_wave wave_of(const hd_scene_def *def, const int n[HD_DIM])
     }
     wave.transverse = transverse_fields(def, n);
     wave.pairs = modulations(def, n, false);
+#if HD_DIM == 3
+    hd_polarisations(wave.across, &wave, def);
+#endif
     return wave;
 }
 

@@ -4,7 +4,6 @@
 #include <string.h>
 #include "draw.h"
 #include "hdlyap/hdlyap.h"
-#include "modes/polarisation.h"
 #include "observe/functionals.h"
 #include "testing.h"
 
@@ -53,18 +52,14 @@ static void sums(double out[HD_FUNCTIONALS], const state *s, const hd_wave *wave
                  const double x[6])
 {
     const double *q = x, *p = x + 3, a = modulation(s, wave, bits, q, -1);
-    double e[2][3];
-    unsigned walls = 0;
-    for (int d = 0; d < 3; d++) walls |= (unsigned)(s->scene.boundary[d] == HD_REFLECTING) << d;
-    hd_polarisations(e, wave, walls);
     for (int f = 0; f < HD_FUNCTIONALS; f++) out[f] = 0.0;
     out[0] = a / wave->number;
     for (int d = 0; d < 3; d++) {
         const double slope = modulation(s, wave, bits, q, d);
         const double of = wave->n[d] > 0 ? slope / wave->k[d] : a;
         out[1] += p[d] * slope / wave->number;
-        out[2] += p[d] * e[0][d] * of;
-        out[3] += p[d] * e[1][d] * of;
+        out[2] += p[d] * wave->across[0][d] * of;
+        out[3] += p[d] * wave->across[1][d] * of;
         out[4] += p[d] * p[d] * a;
     }
 }
@@ -111,8 +106,7 @@ TEST(directions_across)
         hd_wave wave[64];
         const int waves = hd_waves(&s.scene, wave, 64);
         for (int w = 0; w < waves; w++) {
-            double e[2][3];
-            hd_polarisations(e, &wave[w], (unsigned)walls);
+            const double(*e)[3] = wave[w].across;
             int count = 0;
             for (int f = 0; f < 2; f++) {
                 const double length = dot(e[f], e[f]);

@@ -1,5 +1,5 @@
 /** A wave -> directions of its transverse fields [T22]. */
-#include "modes/polarisation.h"
+#include "scene/polarisation.h"
 
 #include <math.h>
 
@@ -19,12 +19,12 @@ static double normalise(double a[HD_DIM])
 
 /** Nothing goes through a wall: across the direction of one that has no nodes, and then there is no
  * second one; else the first is across z. */
-void hd_polarisations(double e[2][HD_DIM], const hd_wave *wave, unsigned walls)
+void hd_polarisations(double e[2][HD_DIM], const hd_wave *wave, const hd_scene_def *def)
 {
     double unit[HD_DIM] = {0.0};
     int axis = HD_DIM - 1, forbidden = 0;
     for (int d = 0; d < HD_DIM; d++)
-        if (wave->n[d] == 0 && walls >> d & 1) axis = d, forbidden++;
+        if (wave->n[d] == 0 && def->boundary[d] == HD_REFLECTING) axis = d, forbidden++;
     unit[axis] = 1.0;
     cross(e[0], unit, wave->k);
     if (normalise(e[0]) == 0) e[0][0] = 1.0;
