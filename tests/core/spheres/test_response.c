@@ -106,7 +106,7 @@ TEST(directions_across)
         hd_wave wave[64];
         const int waves = hd_waves(&s.scene, wave, 64);
         for (int w = 0; w < waves; w++) {
-            const double(*e)[3] = wave[w].across;
+            double(*e)[3] = wave[w].across;
             int count = 0;
             for (int f = 0; f < 2; f++) {
                 const double length = dot(e[f], e[f]);
