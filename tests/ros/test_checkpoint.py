@@ -4,6 +4,7 @@
 import os
 import signal
 
+from diagnostic_msgs.msg import DiagnosticArray
 from std_srvs.srv import SetBool, Trigger
 
 import harness
@@ -21,6 +22,10 @@ class Checkpoint(harness.Case):
 
     def call(self, name, kind, *request):
         return harness.service(name, kind)(*request)
+
+    def has_gone_on(self):
+        """By a report or more from now."""
+        self.assertTrue(self.listen('state').wait_for(lambda message: True))
 
     def recorded(self, params, stop_after=None):
         """All messages of a run by topic, without what the clock and the run's name are."""
@@ -131,10 +136,23 @@ class Checkpoint(harness.Case):
     @harness.more
     def test_while_paused(self):
         """What has happened before the pause is in the file."""
+        heard = self.hear('/diagnostics', DiagnosticArray)
         node = self.start(dict(LONG, checkpoint=self.file, checkpoint_interval=1.5, pace=50.0))
+        self.has_gone_on()
         self.assertTrue(self.call('pause', SetBool, True).success)
-        written = os.stat(self.file).st_ino
-        self.sees(lambda: os.stat(self.file).st_ino != written)
+
+        def kept():
+            values = {pair.key: pair.value for pair in heard[-1].status[0].values} if heard else {}
+            time = values.get('checkpoint of simulated time')
+            return values.get('stage') == 'paused' and time == values['simulated time'] and time
+
+        self.sees(kept)
+        time = kept()
+        self.assertGreater(float(time), 0.0)
+        node.send(signal.SIGKILL)
+        node.wait()
+        node = self.start(dict(resume=self.file))
+        self.sees(lambda: node.lines(f'goes on from simulated time {time} of'), node)
         self.interrupt(node)
 
     def test_service(self):
@@ -143,6 +161,7 @@ class Checkpoint(harness.Case):
         self.assertTrue(answer.success, answer.message)
         self.assertIn(self.file, answer.message)
         first = os.stat(self.file)
+        self.has_gone_on()
         self.assertTrue(self.call('pause', SetBool, True).success)
         answer = self.call('checkpoint', Trigger)
         self.assertTrue(answer.success, answer.message)
