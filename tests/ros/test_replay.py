@@ -4,7 +4,10 @@
 import os
 import re
 import tempfile
+import threading
 import time
+import types
+from unittest import mock
 
 import genpy.dynamic
 import rosbag
@@ -15,6 +18,7 @@ from visualization_msgs.msg import MarkerArray
 
 import harness
 import made
+from hdlyap.commands.replay import Clock
 from hdlyap.msg import RunInfo, RunStatus, State, Steps
 
 REPLAY = harness.command('replay')
@@ -88,6 +92,19 @@ class Replayed(harness.Case):
         spans = [later - walls[k] for k, later in enumerate(walls[half:])]
         self.assertGreater(max(spans), 0.95 * half / 20)
         self.assertIn('replay: at the end, t = 30', replay.text())
+
+    def test_late_messages_delay_nothing(self):
+        """Covariant vectors are of times long past."""
+        running = threading.Event()
+        running.set()
+        wall = types.SimpleNamespace(now=0.0)
+        with mock.patch('hdlyap.commands.replay.time') as clock:
+            clock.monotonic = lambda: wall.now
+            clock.sleep = lambda seconds: setattr(wall, 'now', wall.now + seconds)
+            due = Clock(types.SimpleNamespace(pace=2.0, rate=1.0), running)
+            for time_ in (1.0, 11.0, 3.0, 5.0, 12.0):
+                due.wait_for(types.SimpleNamespace(run='one', time=time_, wall=0.0))
+        self.assertAlmostEqual(wall.now, 5.5)
 
     def test_clock_set_back(self):
         """What follows takes its time, too: a message each millisecond, fifty times as slow."""

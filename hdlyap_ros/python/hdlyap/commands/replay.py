@@ -122,7 +122,8 @@ class Clock:
             self._due, self._last, self._run = time.monotonic(), now, message.run
         if now > self._last:
             self._due += (now - self._last) / self._rate
-        if now > self._last or now < self._last - DISORDER:  # the clock was set back
+        set_back = not self._by_run and now < self._last - DISORDER  # covariant vectors come late
+        if now > self._last or set_back:
             self._last = now
         self._hold()
         while time.monotonic() < self._due and not rospy.is_shutdown():
