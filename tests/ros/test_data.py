@@ -14,6 +14,7 @@ import rosbag
 
 import hdlyap
 import made
+import made_fields
 from bags import Bags
 from hdlyap.data import fields
 from hdlyap.data.reader import RecordingError
@@ -34,7 +35,7 @@ def modes(sim_time):
 
 
 def state(sim_time, run_id='one'):
-    x, y, px, py = made.disks(made.run_info(), seed=int(sim_time))
+    x, y, px, py = made_fields.disks(made.run_info(), seed=int(sim_time))
     return State(run_id=run_id, sim_time=sim_time, x=x, y=y, px=px, py=py)
 
 

@@ -6,6 +6,7 @@ import unittest
 import numpy as np
 
 import made
+import made_fields
 from bags import Bags
 from made import LP, T
 from hdlyap.plots import report, waves
@@ -186,10 +187,10 @@ class Figures(Bags):
     def test_modes(self):
         """Arrows at the disks, as long as the field but for one factor; the last of each step."""
         fields = [
-            made.mode_field(INFO, LOW, 149.0, index=37),
-            made.mode_field(INFO, LOW, 150.0, index=36),
-            made.mode_field(INFO, HIGH, 150.0, index=35),
-            made.mode_field(INFO, HIGH, 90.0, index=12),
+            made_fields.mode_field(INFO, LOW, 149.0, index=37),
+            made_fields.mode_field(INFO, LOW, 150.0, index=36),
+            made_fields.mode_field(INFO, HIGH, 150.0, index=35),
+            made_fields.mode_field(INFO, HIGH, 90.0, index=12),
         ]
         run = self.recorded([INFO, made.steps([HIGH, LOW]), *fields])
         panels = [(panel.name, panel.field.index) for panel in modes.chosen(run)]
@@ -216,7 +217,7 @@ class Figures(Bags):
         """Both components along it, with a mean square of one."""
         info = made.run_info(aspect=0.0375, box_x=40.0, box_y=1.5, boundary_y='reflecting')
         step = made.step(info, LP, 1, 0, 35, 38)
-        field = made.mode_field(info, step)
+        field = made_fields.mode_field(info, step)
         (axes,) = self.draw(modes, made.steps([step]), field, info=info)
         factor = np.sqrt(20 / np.sum(np.square([field.dqx, field.dqy])))
         self.shows(axes.lines[0], field.x, np.multiply(field.dqx, factor))
@@ -226,9 +227,9 @@ class Figures(Bags):
         """Is what the field says; above its values, below their quotients, beside the fit."""
         along = made.step(INFO, LP, 0, 1, 28, 31)
         diagonal = made.step(INFO, LP, 1, 1, 30, 37, exponent=1.0)
-        last = made.mode_field(INFO, along, modulations=(0, 2))
+        last = made_fields.mode_field(INFO, along, modulations=(0, 2))
         last.residual_p = [0.2, 0.1]
-        fields = [made.mode_field(INFO, diagonal, modulations=(0, 1, 2, 3)), last]
+        fields = [made_fields.mode_field(INFO, diagonal, modulations=(0, 1, 2, 3)), last]
         run = self.recorded([INFO, made.steps([diagonal, along]), *fields])
         field = p_mode.chosen(run)
         self.assertEqual((field.nx, field.ny, field.pairs), (0, 1, 2))

@@ -15,6 +15,7 @@ from matplotlib.colors import to_rgb
 from hdlyap.msg import LpPhase, LpPhases, State
 
 import made
+import made_fields
 from bags import Bags, process, tool
 from hdlyap.data.reader import RecordingError
 from hdlyap.plots import frames, movie
@@ -32,7 +33,7 @@ def angle(time):
 
 
 def state(time):
-    x, y, px, py = made.disks(INFO)
+    x, y, px, py = made_fields.disks(INFO)
     return State(
         run_id='one', sim_time=time, x=np.mod(x + 0.1 * time, INFO.box_x), y=y, px=px, py=py
     )
@@ -47,7 +48,9 @@ def phases(time):
 
 def fields(time):
     """T stands; LP is cos along x, sin along y."""
-    t, lp = (made.mode_field(INFO, step, sim_time=time, index=step.first_index) for step in STEPS)
+    t, lp = (
+        made_fields.mode_field(INFO, step, sim_time=time, index=step.first_index) for step in STEPS
+    )
     t.x = lp.x = state(time).x
     t.dqx, t.dqy = np.zeros(20), np.cos(2 * np.pi * np.array(t.x) / INFO.box_x)
     lp.dqx, lp.dqy = np.full(20, np.cos(angle(time))), np.full(20, np.sin(angle(time)))

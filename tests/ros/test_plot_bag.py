@@ -15,6 +15,7 @@ from hdlyap.msg import LpPhases, ModeField, Steps
 from std_msgs.msg import String
 
 import made
+import made_fields
 from bags import Bags, files, process, tool
 from made import LP, T
 from hdlyap.data.reader import RecordingError
@@ -118,7 +119,7 @@ def cases():
         (INFO, 1, 1, (0, 1, 2, 3)),
     ):
         step = made.step(info, LP, nx, ny, 30, 37)
-        field = made.mode_field(info, step, modulations=bits)
+        field = made_fields.mode_field(info, step, modulations=bits)
         messages = [info, made.spectrum(np.linspace(3, 1, 38), 1.0), made.steps([step]), field]
         yield messages, SPECTRUM + STEPS + files('modes', 'p_mode'), (rf'LP\({nx},{ny}\)',), None
     everything = made.small_run()
@@ -239,7 +240,7 @@ class Kept(Bags):
                 made.spectrum([9.0], 5.0),
                 made.steps([LP_STEP]),
                 made.lp_phases(INFO, [LP_STEP], 5.0),
-                made.mode_field(INFO, LP_STEP),
+                made_fields.mode_field(INFO, LP_STEP),
                 made.run_info(run_id='two'),
                 made.steps([LP_STEP]),  # late
                 made.spectrum([3.0], 1.0, run_id='two'),
@@ -318,7 +319,7 @@ class Kept(Bags):
         info = made.run_info(disks=2000, box_x=63.2, box_y=63.2)
         step = made.step(info, LP, 1, 0, 3994, 3997)
         one = 8 * 20 * info.disks  # bytes: vectors and two pairs
-        fields = itertools.repeat(made.mode_field(info, step), 100)
+        fields = itertools.repeat(made_fields.mode_field(info, step), 100)
         self.write(itertools.chain([info], fields, itertools.repeat(made.steps([step]), 1000)))
         self.assertGreater(os.path.getsize(self.path()), 100 * one)
         tracemalloc.start()

@@ -6,6 +6,7 @@ import unittest
 import numpy as np
 
 import made
+import made_fields
 from made import LP, T
 from hdlyap.plots import waves
 from hdlyap.plots.figures.modes import ARROW
@@ -110,8 +111,8 @@ def by_hand(info, letter, x, y, momenta):
 def field(info, one, share, letter, others, sim_time=150.0):
     """A vector of (1,0), so much of it in its last field by hand; the rest knows nothing of any
     field of `others`."""
-    made_field = made.mode_field(info, one, sim_time=sim_time)
-    x, y, *momenta = made.disks(info)
+    made_field = made_fields.mode_field(info, one, sim_time=sim_time)
+    x, y, *momenta = made_fields.disks(info)
     inside = by_hand(info, letter, x, y, momenta)[-1]
     basis = np.array([column for each in others for column in by_hand(info, each, x, y, momenta)]).T
     rest = np.random.default_rng(7).normal(size=2 * info.disks)
@@ -145,7 +146,7 @@ class Fields(Part):
                 field(info, found[1], share - 0.2, 'P', 'LP', sim_time),
             ]
         messages += [
-            made.mode_field(info, one, modulations=(0, 1) if one.nx else (0, 2))
+            made_fields.mode_field(info, one, modulations=(0, 1) if one.nx else (0, 2))
             for one in found[2:]
         ]
         return {'periodic': self.bag('periodic', messages)}
@@ -179,7 +180,9 @@ class Fields(Part):
     def test_curl_of_a_diagonal_wave(self):
         """Made by small differences, which are right to h^2."""
         info = made.run_info()
-        one = made.mode_field(info, made.step(info, T, 1, 1, 22, 25), modulations=(0, 3), noise=0.0)
+        one = made_fields.mode_field(
+            info, made.step(info, T, 1, 1, 22, 25), modulations=(0, 3), noise=0.0
+        )
         self.assertAlmostEqual(projection.weight(info, one, 'T'), 1.0, delta=1e-6)
         self.assertLess(projection.weight(info, one, 'L'), 0.5)
 
@@ -271,13 +274,13 @@ class Fields(Part):
             [axes.get_title()[:6] for axes in panels],
             [f'{letter}({nodes})' for nodes in ('1,0', '0,1', '1,1') for letter in 'TLP'],
         )
-        shown = made.mode_field(made.run_info(), self.found(made.run_info())[5])
+        shown = made_fields.mode_field(made.run_info(), self.found(made.run_info())[5])
         for axes, halves in zip(panels[-2:], ((shown.l_x, shown.l_y), (shown.p_x, shown.p_y))):
             (arrows,) = [one for one in axes.collections if hasattr(one, 'U')]
             values = np.array(halves)[:, : len(shown.x)]  # of the first pair
             size = np.sqrt(np.mean(np.sum(values**2, axis=0)))
             np.testing.assert_allclose([arrows.U, arrows.V], values * ARROW / size)
-        wanted = made.mode_field(
+        wanted = made_fields.mode_field(
             made.run_info(), self.found(made.run_info())[4], modulations=(0, 1)
         )
         rms = np.sqrt(np.mean(np.square([wanted.dqx, wanted.dqy])))
@@ -293,7 +296,7 @@ class Fields(Part):
 
     def test_vectors_outside_of_every_step_are_left_out(self):
         info = made.run_info()
-        other = made.mode_field(info, made.step(info, T, 1, 0, 36, 37), kind=0)
+        other = made_fields.mode_field(info, made.step(info, T, 1, 0, 36, 37), kind=0)
         self.measures_nothing({'periodic': self.bag('periodic', [info, other])})
 
 

@@ -7,6 +7,7 @@ import unittest
 import numpy as np
 
 import made
+import made_fields
 from made import LP
 from hdlyap.plots.figures.p_mode import EPSILON, Fit
 from reproduced import Part
@@ -23,7 +24,7 @@ def field(info, amplitudes, sim_time=150.0, noise=0.0, seed=1, nodes=(1, 0)):
     rng = np.random.default_rng(seed)
     one = made.step(info, LP, *nodes, 32, 35)
     k = 2 * np.pi / info.box_x
-    x, _, *momenta = made.disks(info)
+    x, _, *momenta = made_fields.disks(info)
     eps = EPSILON * np.mean(np.square(momenta))
     raw, over = [], []
     for a in (np.cos(k * x), np.sin(k * x)):
@@ -35,7 +36,7 @@ def field(info, amplitudes, sim_time=150.0, noise=0.0, seed=1, nodes=(1, 0)):
     parts = [
         np.concatenate([pair[axis] for pair in values]) for values in (raw, over) for axis in (0, 1)
     ]
-    return made.mode_field(
+    return made_fields.mode_field(
         info,
         one,
         sim_time=sim_time,

@@ -9,6 +9,7 @@ import numpy as np
 from hdlyap.msg import LpPhase
 
 import made
+import made_fields
 from made import LP, T
 import reproduced  # noqa: F401, finds the study
 from study import blocks, rotation
@@ -207,7 +208,9 @@ class Turning(Turned):
             made.step(self.WALLS, T, 1, 1, 34, 34),
         ]
         return [
-            made.mode_field(self.WALLS, one, sim_time=t, modulations=(0,), index=one.first_index)
+            made_fields.mode_field(
+                self.WALLS, one, sim_time=t, modulations=(0,), index=one.first_index
+            )
             for t in times
             for one in steps
         ]

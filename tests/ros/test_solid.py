@@ -10,13 +10,14 @@ import rospkg
 
 import hdlyap
 import made
+import made_fields
 from bags import Bags
 from made import LP, T
 from hdlyap.commands import run as command
 from hdlyap.follow.panels import phases as phase_lines
 from hdlyap.msg import LpPhase, State, Structure
-from hdlyap.plots import covariant, equation, expected, frames, movie, paper, space
-from hdlyap.plots import repetition, structure, waves
+from hdlyap.plots import covariant, equation, frames, movie, paper, space
+from hdlyap.plots import repetition, structure
 from hdlyap.plots.figures import dispersion, modes, p_mode, plt, spectrum
 from hdlyap.plots.figures.style import scene
 from hdlyap.plots.figures.view import View
@@ -32,7 +33,7 @@ FIRST = made.step(INFO, T, 1, 0, 53, 56)
 SECOND = made.step(INFO, LP, 1, 0, 49, 52)
 DEEP = made.step(INFO, T, 0, 0, 45, 48, nz=1)
 FOUND = [FIRST, SECOND, DEEP]
-Q, P = made.balls(INFO)
+Q, P = made_fields.balls(INFO)
 
 
 def state(sim_time=150.0):
@@ -69,7 +70,7 @@ class Solid(Bags):
 
 class Arrays(Solid):
     def test_positions_and_fields(self):
-        loaded = self.load(state(), made.ball_field(INFO, FIRST, transverse()))
+        loaded = self.load(state(), made_fields.ball_field(INFO, FIRST, transverse()))
         for found, rows in ((loaded.state.positions(150), Q), (loaded.state.momenta(0), P)):
             np.testing.assert_array_equal(found, rows.T)
         ((time, places, momenta),) = loaded.state
@@ -143,81 +144,6 @@ class Arrays(Solid):
             second = self.write([other, made.spectrum([2.0], 5.0)], 'b')
             with self.assertRaisesRegex(hdlyap.data.reader.RecordingError, what):
                 hdlyap.load(first, second)
-
-
-class Waves(unittest.TestCase):
-    def test_wave_vector(self):
-        walls = made.spheres(boundary_y='reflecting', boundary_z='reflecting')
-        found = waves.wave_vector(walls, 2, 1, 3)
-        np.testing.assert_allclose(found, [np.pi / 2, np.pi / 1.5, 3 * np.pi])
-
-    def test_formulas(self):
-        for bits, words, formula in (
-            (0, 'cos kx x cos kz z', r'$\cos k_x x\,\cos k_z z$'),
-            (LpPhase.SIN_Z, 'cos kx x sin kz z', r'$\cos k_x x\,\sin k_z z$'),
-            (9, 'sin kx x cos kz z, second', r'$\sin k_x x\,\cos k_z z$, second'),
-        ):
-            self.assertEqual(waves.plain_formula(1, 0, bits, 2), words)
-            self.assertEqual(waves.formula(1, 0, bits, 2), formula)
-        self.assertEqual((waves.COS_M, waves.SIN_M), (16, 17))
-
-    def test_gradient(self):
-        """By small differences; a wall is half a diameter away."""
-        info, h = made.spheres(boundary_z='reflecting'), 1e-5
-        for bits in waves.modulations(info, 1, 1, nz=1):
-            where = (info, 1, 1, bits)
-            found = waves.gradient(*where, *Q[:2], 1, Q[2])
-            for d in range(3):
-                up, down = (Q + sign * h * np.eye(3)[d][:, None] for sign in (1, -1))
-                ends = [waves.modulation(*where, *q[:2], 1, q[2]) for q in (up, down)]
-                np.testing.assert_allclose(found[d], (ends[0] - ends[1]) / (2 * h), atol=1e-8)
-
-    def test_transverse(self):
-        """Both fields are across k and across each other in their sums of squares, have no
-        divergence, and none goes through a wall."""
-        walls = made.spheres(boundary_y='reflecting')
-        for info, nodes, count in (
-            (INFO, (1, 1, 1), 16),
-            (INFO, (0, 0, 1), 4),
-            (walls, (1, 0, 1), 4),
-        ):
-            bits = waves.modulations(info, *nodes[:2], transverse=True, nz=nodes[2])
-            self.assertEqual(len(bits), count)
-            h = 1e-5 * np.eye(3)
-            for one in bits:
-                ends = [
-                    [waves.transverse(info, nodes, one, Q + s * h[d][:, None])[d] for d in range(3)]
-                    for s in (1, -1)
-                ]
-                divergence = np.sum(np.subtract(*ends), axis=0) / 2e-5
-                np.testing.assert_allclose(divergence, 0, atol=1e-8)
-            table = [waves.transverse(info, nodes, one, Q).ravel() for one in bits]
-            self.assertEqual(np.linalg.matrix_rank(table), count)
-        at_wall = np.array([[1.3], [0.5], [0.7]])
-        for one in waves.modulations(walls, 1, 0, transverse=True, nz=1):
-            self.assertEqual(waves.transverse(walls, (1, 0, 1), one, at_wall)[1], 0)
-        everywhere = made.spheres(**{'boundary_' + axis: 'reflecting' for axis in 'xyz'})
-        self.assertEqual(waves.modulations(everywhere, 1, 0, transverse=True), [])
-        self.assertEqual(len(waves.modulations(everywhere, 1, 1, transverse=True)), 1)
-
-    def test_expected(self):
-        """Of fields alone all, at other places, too; of noise beside them the rest."""
-        info = made.spheres(disks=400)
-        q, p = made.balls(info)
-        phase = 2 * np.pi * q[0] / 8
-        dq = np.array([0 * phase, 3 * np.sin(phase), 4 * np.cos(phase)])
-        one = expected.Expected(made.ball_field(info, FIRST, dq), [FIRST], info)
-        self.assertEqual(one.along, [0])
-        self.assertAlmostEqual(one.weight, 1)
-        at = one.at(np.array([[2.0], [0], [0]]))[:, 0]
-        scale = np.sqrt(np.mean(np.sum(dq**2, axis=0)))
-        np.testing.assert_allclose(at * scale, [0, 3, 0], atol=1e-9)
-        noisy = dq + 3 * np.random.default_rng(1).normal(size=dq.shape)
-        one = expected.Expected(made.ball_field(info, FIRST, noisy), [FIRST], info)
-        self.assertAlmostEqual(one.weight, 12.5 / (12.5 + 27), delta=0.05)
-        lp = np.array([np.cos(phase), 0 * phase, 0 * phase]) + p * np.sin(phase)
-        one = expected.Expected(made.ball_field(info, SECOND, lp), [SECOND], info)
-        self.assertAlmostEqual(one.weight, 1)
 
 
 class Numbers(Solid):
@@ -315,8 +241,8 @@ class Figures(Solid):
     def test_modes(self):
         """Arrows as the box is seen, and both components beside their sines."""
         fields = [
-            made.ball_field(INFO, FIRST, transverse()),
-            made.ball_field(INFO, SECOND, longitudinal()),
+            made_fields.ball_field(INFO, FIRST, transverse()),
+            made_fields.ball_field(INFO, SECOND, longitudinal()),
         ]
         messages = made.spectrum(np.linspace(9, 3, 56), 50.0), made.steps(FOUND)
         arrows, curves, _, along = self.draw(modes, *messages, *fields)
@@ -341,8 +267,8 @@ class Figures(Solid):
     def test_slab(self):
         """Of many spheres the arrows in front alone: 2.6 * 8 * 2 of 400."""
         info = made.spheres(disks=400)
-        q, _ = made.balls(info)
-        field = made.ball_field(info, FIRST, np.ones((3, 400)))
+        q, _ = made_fields.balls(info)
+        field = made_fields.ball_field(info, FIRST, np.ones((3, 400)))
         messages = made.spectrum(np.linspace(9, 3, 56), 50.0), made.steps(FOUND)
         arrows = modes.draw(self.recorded([info, *messages, field])).axes[0]
         (quiver,) = [one for one in arrows.collections if hasattr(one, 'U')]
@@ -357,7 +283,7 @@ class Figures(Solid):
         ]
         dq = transverse()
         dq[0] += np.cos(np.pi * Q[2])
-        field = made.ball_field(INFO, both[0], dq)
+        field = made_fields.ball_field(INFO, both[0], dq)
         messages = made.spectrum(np.linspace(9, 3, 56), 50.0), made.steps(both)
         _, each = self.draw(modes, *messages, field)
         self.assertEqual(each.get_title(loc='left'), 'each sphere, 100 % in T(1,0,0)+T(0,0,1)')
@@ -367,7 +293,7 @@ class Figures(Solid):
     def test_p_mode(self):
         """Three components, each divided by its momentum: 0.9 cos kx x."""
         a = np.cos(2 * np.pi * Q[0] / 8)
-        field = made.ball_field(INFO, SECOND, longitudinal(), pairs=1, modulation=bytes([0]))
+        field = made_fields.ball_field(INFO, SECOND, longitudinal(), pairs=1, modulation=bytes([0]))
         field.residual_l = field.residual_p = [0.1]
         eps = p_mode.EPSILON * np.mean(P**2)
         for axis, p in zip('xyz', P):
@@ -403,8 +329,8 @@ class Films(Solid):
     def test_projected(self):
         """Spheres and arrows where they are seen; names of three numbers."""
         found = [made.step(INFO, T, 1, 0, 53, 56), made.step(INFO, T, 0, 0, 45, 48, nz=1)]
-        field = made.ball_field(INFO, found[0], transverse())
-        other = made.ball_field(INFO, found[1], transverse()[[2, 1, 0]])
+        field = made_fields.ball_field(INFO, found[0], transverse())
+        other = made_fields.ball_field(INFO, found[1], transverse()[[2, 1, 0]])
         path = self.write([INFO, state(140.0), made.steps(found), state(150.0), field, other])
         film = frames.Film(path, ['T(1,0,0)'])
         self.assertEqual(film.begin, 150)  # when the mode is found

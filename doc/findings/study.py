@@ -1,0 +1,55 @@
+"""What the studies share: their tables, a fit, colours and style."""
+
+import csv
+
+import numpy as np
+
+GREY, INK = '#8C8C8C', '#1A1A1A'
+# by density: Okabe and Ito's palette, safe for colour-blind readers
+COLOURS = {0.1: '#56B4E9', 0.2: '#0072B2', 0.4: '#009E73', 0.6: '#E69F00', 0.8: '#D55E00'}
+STYLE = {
+    'font.size': 9,
+    'axes.titlesize': 9,
+    'legend.fontsize': 8,
+    'xtick.labelsize': 8,
+    'ytick.labelsize': 8,
+    'xtick.direction': 'in',
+    'ytick.direction': 'in',
+    'xtick.top': True,
+    'ytick.right': True,
+    'axes.linewidth': 0.7,
+    'lines.linewidth': 1.2,
+    'lines.markersize': 4,
+    'legend.frameon': False,
+    'figure.constrained_layout.use': True,
+}
+RATE = 'P_xx / (sqrt(2) rho)'  # of the rotation over k, as the pressure has it
+BAR = 3  # standard errors
+WORDS = 'ends of x', 'boundaries', 'kind'  # columns of them
+
+
+def rows_of(path):
+    """Columns by their names, without the units."""
+    with open(path, encoding='utf-8') as file:
+        rows = csv.reader(line for line in file if not line.startswith('#'))
+        names = [name.partition(' [')[0] for name in next(rows)]
+        return [
+            {name: text if name in WORDS else float(text) for name, text in zip(names, row)}
+            for row in rows
+        ]
+
+
+def fit(values, errors, *columns):
+    """Weighted least squares: coefficients, their errors, chi^2, degrees of freedom."""
+    weight = 1 / np.array(errors)
+    matrix = np.transpose(columns) * weight[:, None]
+    inverse = np.linalg.inv(matrix.T @ matrix)
+    found = inverse @ matrix.T @ (values * weight)
+    chi2 = np.sum((values * weight - matrix @ found) ** 2)
+    return found, np.sqrt(np.diag(inverse)), chi2, len(values) - len(found)
+
+
+def told(title, found, errors, chi2, freedom):
+    """One line of a fit."""
+    numbers = '  '.join(f'{one:.4f} +- {error:.4f}' for one, error in zip(found, errors))
+    return f'{title}: {numbers}  chi^2 {chi2:.1f} for {freedom}'
