@@ -67,10 +67,12 @@ AT_ONCE = 4  # nodes that run at the same time
 class Security(harness.Case):
     def watch(self, params):
         """A node, and the file with its calls of the system."""
-        trace = os.path.join(self.new_folder(), 'trace')
+        folder = self.new_folder()
+        trace = os.path.join(folder, 'trace')
         options = ['-s', '200', '-e', 'signal=none', '-e', 'trace=' + CALLS, '-o', trace]
         command = ['strace', '-f', '--seccomp-bpf', '-qq', *options, harness.executable()]
-        return self.start(params, command=command), trace
+        # roscpp makes its folder of logs below the home where it is told of none
+        return self.start(params, command=command, ROS_LOG_DIR=folder), trace
 
     def check_watched(self, params, status, lines, ours=()):
         """How it ends, with how many lines, and that it writes only these files."""
