@@ -69,7 +69,7 @@ prepare_user() {
         inside apt-get satisfy -y -q --no-install-recommends "$(of_packages Depends)" &&
         inside apt-get install -y -q --no-install-recommends g++ cmake make pkg-config openmpi-bin iproute2 python3-rostopic python3-rosmsg &&
         inside useradd -m user &&
-        cp -r "$SYSTEM$CLONE/tests" "$SYSTEM/home/user" && chown -R --reference="$SYSTEM/home/user" "$SYSTEM/home/user"
+        (cd "$SYSTEM$CLONE" && cp -r --parents -t "$SYSTEM/home/user" tests doc/findings) && chown -R --reference="$SYSTEM/home/user" "$SYSTEM/home/user"
 }
 
 # files: all of the system, with their kinds and rights, but for logs, lists of packages and homes.
