@@ -209,8 +209,9 @@ leftovers() {
     while read -r lock; do
         is_running "$(tr -d ' ' <"$lock")" || { echo "$lock" && status=1; }
     done < <(find /tmp -maxdepth 1 -name '.X*-lock' -user "$(id -un)" -newer "$TAKEN.since")
-    # genpy's for the messages of a bag: a Python program that had to be killed leaves them
-    find "$TMPDIR" -mindepth 1 -name 'genpy_*' -prune -o -mindepth 1 -print | grep . && status=1
+    # genpy's for the messages of a bag, and Open MPI 5's: a Python program or a rank that had to be killed leaves them
+    find "$TMPDIR" -mindepth 1 -name 'genpy_*' -prune -o -mindepth 1 -name 'ompi.*' -exec test -d '{}/jf.0' ';' -prune -o -mindepth 1 -print |
+        grep . && status=1
     return "$status"
 }
 

@@ -53,23 +53,15 @@ def name(kind):
 def draw_all(recording, folder, progress, kinds=FIGURES, pdf=None):
     """Every figure that the recording has data for; the names of the files written. pdf: one more
     file, that has them all."""
-    files = []
-    with plt.rc_context(STYLE), _pages(pdf) as pages:
+    files, pages = [], None
+    with plt.rc_context(STYLE), contextlib.ExitStack() as stack:
         for kind in progress.over(kinds, len(kinds)):
             figure = kind.draw(recording)
             if figure is None:
                 continue
-            if pages is not None:
+            if pdf and not pages:
+                pages = stack.enter_context(PdfPages(stack.enter_context(whole.written(pdf))))
+            if pdf:
                 pages.savefig(figure)
             files += save(figure, folder, name(kind))
     return files + ([pdf] if pdf and files else [])
-
-
-@contextlib.contextmanager
-def _pages(path):
-    """None without a path."""
-    if not path:
-        yield None
-        return
-    with whole.written(path) as unfinished, PdfPages(unfinished, keep_empty=False) as pages:
-        yield pages
