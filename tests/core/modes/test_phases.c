@@ -192,9 +192,8 @@ typedef struct channel {
 
 static channel channel_create(void)
 {
-    channel ch = {
-        .w = world_create(scene_from(scene_in_box(40, 50.0, 1.5, R, R, 9), .max_mode_number = 2), 4,
-                          1)};
+    const hd_scene_def def = scene_from(scene_in_box(40, 50.0, 1.5, R, R, 9), .max_mode_number = 2);
+    channel ch = {.w = world_create(def, 4, 1)};
     const double exponents[4] = {1.6, 1.6, 0.8, 0.8};
     CHECK_OK(hd_phases_create(&ch.phases, ch.w.steps, HD_MODE_LP));
     for (int n = 0; n < 2; n++) {
