@@ -165,7 +165,8 @@ class Command(Bags):
             self.assertIn('\nnothing to draw in this bag: localization', text)
         done = tool('plot', self.path(), '--only', 'picture')
         self.assertEqual(done.status, 2)
-        self.assertIn("'picture' (choose from 'spectrum', ", done.error)
+        # Python 3.12 has no quotes there
+        self.assertRegex(done.error, r"'picture' \(choose from '?spectrum'?, ")
 
     def test_process(self):
         self.write([INFO, made.spectrum(HALF, 50.0), made.steps([LP_STEP])])
