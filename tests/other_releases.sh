@@ -20,7 +20,7 @@ compilers_of_release() {
     inside apt-cache search --names-only '^(gcc|clang)-[0-9]+$' | sed 's/ .*//' | sort -V
 }
 
-# with_compiler NAME: all of the tree; a warning is an error, but not in headers of the system. Then the hash of the event log.
+# with_compiler NAME: all of the tree; a warning is an error, but not in headers of the system. Then the hashes of the event logs.
 # shellcheck disable=SC2016
 with_compiler() {
     inside bash -euc '
@@ -34,8 +34,7 @@ with_compiler() {
         set -- "$1" "-DCMAKE_C_COMPILER=$1" "-DCMAKE_CXX_COMPILER=$cxx" -DPYTHON_EXECUTABLE=/usr/bin/python3 -DCATKIN_ENABLE_TESTING=OFF
         cmake -S . -B "build/$1" -G Ninja "${@:2}" -DHDLYAP_CORE_TESTS=ON -DCMAKE_C_FLAGS=-Werror -DCMAKE_CXX_FLAGS=-Werror
         cmake --build "build/$1" -- -k 0
-        golden=$(find "build/$1" -name test_golden -type f)
-        "$golden"' -- "$1"
+        for golden in test_golden test_spheres_golden; do "$(find "build/$1" -name "$golden" -type f)"; done' -- "$1"
 }
 
 compilers() {
