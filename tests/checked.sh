@@ -16,15 +16,16 @@ mkdir -p "$WORK"
 # shellcheck source=tests/check.sh
 source "$ROOT/tests/check.sh"
 
-# build_with SANITIZER C_COMPILER CXX_COMPILER TARGET...: clang's OpenMP tells the thread sanitizer what it orders. What is
-# C++ and not looked at is compiled as in the plain build, whose results are in the cache.
+# build_with SANITIZER C_COMPILER CXX_COMPILER TARGET...: clang's OpenMP tells the thread sanitizer what it orders, and clang
+# warns of what gcc does not. What is C++ and not looked at is compiled as in the plain build, whose results are in the cache.
 build_with() {
-    local sanitizer=$1 c=$2 cxx=$3 for_cxx='-O1 -Wno-maybe-uninitialized' # gcc's are of its own library
+    local sanitizer=$1 c=$2 cxx=$3 for_c=-O1 for_cxx='-O1 -Wno-maybe-uninitialized' # gcc's are of its own library
     shift 3
     [[ $sanitizer != address_of_c ]] || for_cxx='-O3 -DNDEBUG'
+    [[ $c != clang* ]] || for_c+=' -Werror'
     ROS_LANG_DISABLE=genlisp:genpy cmake -S "$ROOT" -B "$BUILDS/$sanitizer" -DPYTHON_EXECUTABLE=/usr/bin/python3 \
         "-DCMAKE_C_COMPILER=$c" "-DCMAKE_CXX_COMPILER=$cxx" -DCMAKE_BUILD_TYPE=Checked \
-        -DCMAKE_C_FLAGS_CHECKED=-O1 "-DCMAKE_CXX_FLAGS_CHECKED=$for_cxx" -DHDLYAP_CORE_TESTS=ON \
+        "-DCMAKE_C_FLAGS_CHECKED=$for_c" "-DCMAKE_CXX_FLAGS_CHECKED=$for_cxx" -DHDLYAP_CORE_TESTS=ON \
         -DHDLYAP_BENCH=OFF -DCATKIN_ENABLE_TESTING=OFF "-DHDLYAP_SANITIZE=$sanitizer"
     cmake --build "$BUILDS/$sanitizer" --target "$@" -- -j "$(nproc)"
 }
@@ -74,7 +75,7 @@ export HDLYAP_RESTARTED=1 GOMP_SPINCOUNT=2000
 if [[ $MODE == life ]]; then
     check address_node run live "$TIER" "$ADDRESS" "$(node_of "$BUILDS/$ADDRESS")"
 else
-    check thread_build build_with thread clang clang++ hdlyap_node "${PARALLEL[@]/#/hdlyap_test_}"
+    check thread_build build_with thread clang clang++ hdlyap_node hdlyap_core_3d "${PARALLEL[@]/#/hdlyap_test_}"
     check thread_core run under_threads parallel_tests
     check thread_node run under_threads live second thread "$(node_of "$BUILDS/thread")"
     check valgrind_core run core_in_valgrind

@@ -17,8 +17,10 @@ typedef struct hd_lattice {
 #else
 /** Sites of a grid of `size` points: all of them, every other one (face-centred cubic if the
  * spacings are the same), or those with all numbers even or all odd (body-centred). */
+enum { HD_LATTICE_SIMPLE, HD_LATTICE_FACES, HD_LATTICE_BODY };
+
 typedef struct hd_lattice {
-    enum { HD_LATTICE_SIMPLE, HD_LATTICE_FACES, HD_LATTICE_BODY } kind;
+    int kind; /**< HD_LATTICE_SIMPLE .. */
     int size[HD_DIM];
     double spacing[HD_DIM]; /**< of the points [sigma] */
     double distance;        /**< smallest between two sites, images included */

@@ -13,6 +13,11 @@
 #include "base/memory.h"
 #include "base/multiversion.h"
 #include "tangent/frame_state.h"
+#if HD_DIM == 2
+#include "tangent/kernel_2d.h"
+#else
+#include "tangent/kernel_3d.h"
+#endif
 
 /** Events that are fetched ahead, where the disks of a block outgrow the cache. */
 enum { FETCH_AHEAD = 12, LINE = 64 / sizeof(double) };
