@@ -5,14 +5,18 @@
 
 #include <stdbool.h>
 
+#include "common/nodes.h"
 #include "hdlyap_ros/messages.h"
 
 enum { PICTURE_MODES_MAX = 8, PICTURE_PAIRS_MAX = 8 };
+enum { PICTURE_NAME_SIZE = NODES_SIZE + 8 };
 
 /** One mode that is to be seen, in a panel of its own. */
 typedef struct picture_mode {
-    char box[24];    /**< name of its check box, the same in all pictures: T(1,0), or lowest T */
-    char name[24];   /**< e.g. T(1,0); or of what is looked for, e.g. T */
+    /** Name of its check box, the same in all pictures: T(1,0), or lowest T. */
+    char box[PICTURE_NAME_SIZE];
+    /** E.g. T(1,0); or of what is looked for, e.g. T. */
+    char name[PICTURE_NAME_SIZE];
     uint8_t kind;    /**< HDR_MODE_T or HDR_MODE_LP */
     bool absent;     /**< it was asked for, and the run has no such step */
     bool found;      /**< its step is resolved; else nothing of the rest is known */
