@@ -17,13 +17,13 @@ typedef struct picture_mode {
     char box[PICTURE_NAME_SIZE];
     /** E.g. T(1,0); or of what is looked for, e.g. T. */
     char name[PICTURE_NAME_SIZE];
-    uint8_t kind;    /**< HDR_MODE_T or HDR_MODE_LP */
-    bool absent;     /**< it was asked for, and the run has no such step */
-    bool found;      /**< its step is resolved; else nothing of the rest is known */
-    uint32_t index;  /**< Lyapunov index of its vector, from 1 */
-    double exponent; /**< of its step, or else of the vector [1/time unit] */
-    double error;    /**< of it; -1 while not known */
-    bool known;      /**< the vector; else nothing of the rest is */
+    uint8_t kind;           /**< HDR_MODE_T or HDR_MODE_LP */
+    bool absent;            /**< it was asked for, and the run has no such step */
+    bool found;             /**< its step is resolved; else nothing of the rest is known */
+    uint32_t index;         /**< Lyapunov index of its vector, from 1 */
+    double exponent;        /**< of its step, or else of the vector [1/time unit] */
+    double error;           /**< of it; -1 while not known */
+    bool known;             /**< the vector; else nothing of the rest is */
     hdr_doubles dx, dy, dz; /**< [N] dq half of the vector; dz is empty of disks, as all of z */
     uint32_t pairs;         /**< of an LP mode, at the time of the picture if that is known */
     double a[PICTURE_PAIRS_MAX], b[PICTURE_PAIRS_MAX]; /**< as in LpPhase */
