@@ -273,7 +273,7 @@ void panel_mode(canvas *on, const layout *l, const picture *p, int k)
     const double top = r->y + r->height + 0.5 * l->arrow + TITLE * l->unit;
     const uint32_t pairs = m->known ? m->pairs : 0;
     const double row = pairs * DIAL_STEP * DIAL * l->unit * smaller(pairs); /* of dials */
-    char ns[32];
+    char ns[PICTURE_NAME_SIZE + 5];
     snprintf(ns, sizeof ns, "mode/%s", m->box);
     if (m->known && l->strips) {
         components(on, l, p, k, ns);
