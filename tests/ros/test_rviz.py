@@ -32,8 +32,9 @@ class Screen:
 
     def __init__(self):
         read, write = os.pipe()
+        # without -noreset a picture, its only client, would close it to who comes just then
         self.server = subprocess.Popen(
-            ['Xvfb', '-displayfd', str(write), '-screen', '0', '%dx%dx24' % SCREEN],
+            ['Xvfb', '-noreset', '-displayfd', str(write), '-screen', '0', '%dx%dx24' % SCREEN],
             pass_fds=[write],
             stderr=subprocess.DEVNULL,
         )
@@ -255,8 +256,8 @@ class Spheres(harness.Case):
         picture = box_of_spheres(self.SIZE)
         publisher.publish(picture)
         command = [*VIEW, '--config', config(folder, 'hdlyap_3d.rviz')]
-        self.process(command, ROS_HOME=folder, **screen.env)
-        self.assertTrue(harness.wait_until(lambda: self.part_seen(folder, screen, picture) > 0.8))
+        rviz = self.process(command, ROS_HOME=folder, **screen.env)
+        self.sees(lambda: self.part_seen(folder, screen, picture) > 0.8, rviz)
 
     def part_seen(self, folder, screen, picture):
         """Of places on the edges."""
