@@ -155,6 +155,15 @@ class Process:
             self.send(signal.SIGKILL)
             self.wait()
 
+    def end(self):
+        """Stopped, but it may say so before. Its master would go on telling its port who publishes,
+        or to shut down: a node of another test may have it by then."""
+        if self.running():
+            self.send(signal.SIGINT)
+            with contextlib.suppress(subprocess.TimeoutExpired):
+                self.wait(2.0)
+        self.stop()
+
 
 class Master(Process):
     """A ROS master that can be killed."""
@@ -284,12 +293,12 @@ class Case(unittest.TestCase):
 
     def start(self, params, **how):
         node = start(params, **how)
-        self.addCleanup(node.stop)
+        self.addCleanup(node.end)
         return node
 
     def process(self, command, **env):
         process = Process(command, **env)
-        self.addCleanup(process.stop)
+        self.addCleanup(process.end)
         return process
 
     def runs(self, params, **how):

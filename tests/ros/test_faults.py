@@ -102,7 +102,7 @@ class Faults(harness.Case):
                 viewer = harness.start_viewer(
                     probe={'PROBE_THREADS': threads, 'PROBE_COUNTS': path}
                 )
-                self.addCleanup(viewer.stop)
+                self.addCleanup(viewer.end)
                 self.ends(viewer, FAULT)
                 self.assertEqual(len(viewer.lines('FATAL')), 1, viewer.text())
                 self.assertFalse(os.path.exists(path), threads)

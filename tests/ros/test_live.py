@@ -252,7 +252,7 @@ class Live(harness.Case):
 
     def test_modes_of_the_viewer(self):
         viewer = harness.start_viewer()
-        self.addCleanup(viewer.stop)
+        self.addCleanup(viewer.end)
         for assignment, success, words in (
             ('modes=T(1,0) LP(1,1)', True, 'modes = T(1,0) LP(1,1)'),
             ('modes=lowest', True, 'modes = lowest'),

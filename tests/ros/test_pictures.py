@@ -56,7 +56,7 @@ class Markers(harness.Case):
         pictures = Pictures(node)
         self.addCleanup(pictures.close)
         pictures.viewer = harness.start_viewer(dict(modes=modes, node=node), **how)
-        self.addCleanup(pictures.viewer.stop)
+        self.addCleanup(pictures.viewer.end)
         return pictures
 
     def test_slow_vectors_are_those_of_the_fields(self):
@@ -161,7 +161,7 @@ class Markers(harness.Case):
         ).items():
             for value in values:
                 viewer = harness.start_viewer({name: value})
-                self.addCleanup(viewer.stop)
+                self.addCleanup(viewer.end)
                 self.ends(viewer, 2)
                 self.assertEqual(len(viewer.lines(name + ' = ')), 1, viewer.text())
 

@@ -181,7 +181,7 @@ class Rviz(harness.Case):
 
     def test_late_and_live(self):
         viewer = harness.start_viewer()
-        self.addCleanup(viewer.stop)
+        self.addCleanup(viewer.end)
         node = self.start(SCENE)
         self.sees(self.modes_seen, node)
         first = self.rest()
