@@ -43,9 +43,7 @@ class Costs(harness.Case):
         return harness.whole_run(params, ['run_info', 'cost', *observed])
 
     def test_seconds_of_each_stage(self):
-        """They add up to those of the clock, in most runs: a busy machine may put 30 ms between a
-        report and its stamp."""
-        of_clock = []
+        """They add up to those of the clock."""
         for stage, (least, params) in SHARES.items():
             with self.subTest(stage=stage):
                 messages = self.run_of(**params)['cost']
@@ -60,8 +58,10 @@ class Costs(harness.Case):
                 under_way = messages[1].publish_seconds - first.publish_seconds
                 self.assertLessEqual(sum(spent.values()) - under_way, wall, spent)
                 self.assertGreater(sum(spent.values()), WHOLE * wall, spent)
-                of_clock.append(wall / (last.header.stamp - first.header.stamp).to_sec())
-        self.assertAlmostEqual(median(of_clock), 1.0, delta=0.02, msg=of_clock)
+                # a busy machine may put 30 ms between a report and its stamp, but not between each
+                late = [m.header.stamp.to_sec() - m.wall_seconds for m in messages]
+                half = len(late) // 2
+                self.assertAlmostEqual(min(late[half:]), min(late[:half]), delta=0.01 * wall)
 
     def test_counts(self):
         """Of a run whose intervals are all the same, so short that nothing shortens them."""
