@@ -13,7 +13,6 @@ import matplotlib
 
 matplotlib.use('Agg')
 import matplotlib.pyplot as plt  # noqa: E402
-from matplotlib import ticker  # noqa: E402
 
 # Okabe and Ito's palette, safe for colour-blind readers
 BLUE, ORANGE, GREEN, VERMILION, PURPLE, SKY = (
@@ -53,12 +52,6 @@ METHODS = {  # name in the table: label, colour, marker
 }
 WRONG, FAILS = 1e-2, 1e1  # from where an exponent is useless; above this failures are drawn
 PARTS = {'events': BLUE, 'replay': GREEN, 'factorisation': VERMILION, 'modes': PURPLE}
-QUANTITIES = {
-    'lambda_1': (r'$\lambda_1$', INK),
-    'c_T': (r'$c_T$', BLUE),
-    'c_L': (r'$c_L$', VERMILION),
-    'v': (r'$v$', GREEN),
-}
 
 
 class Table:
@@ -247,57 +240,6 @@ def _plain_ticks(axes):
     axes.minorticks_off()
 
 
-# ---- how long a wanted error takes ----------------------------------------------------------
-
-
-def convergence(tables):
-    table = tables['convergence']
-    figure, axes = plt.subplots(figsize=(5.2, 3.8))
-    wall = table['wall time']
-    for name, (label, colour) in QUANTITIES.items():
-        errors = [
-            100 * error / value if error > 0 and value > 0 else math.nan
-            for value, error in zip(table[name], table[f'{name} error'])
-        ]
-        axes.plot(wall, errors, color=colour, label=label)
-    known = [
-        100 * error / value for value, error in zip(table['lambda_1'], table['lambda_1 error'])
-    ]
-    axes.plot(
-        wall,
-        [1.5 * known[-1] * math.sqrt(wall[-1] / w) for w in wall],
-        '--',
-        color=GREY,
-        label=r'$\propto 1/\sqrt{t}$',
-    )
-    axes.set(
-        xscale='log',
-        yscale='log',
-        xlabel='wall time of averaging  [s]',
-        ylabel='standard error  [% of the value]',
-    )
-    _plain_ticks(axes)
-    low, high = axes.get_ylim()
-    ticks = [t for t in (0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50) if low <= t <= high]
-    axes.set_yticks(ticks)
-    axes.set_yticklabels([f'{tick:g}' for tick in ticks])
-    axes.legend(ncol=2, loc='lower left')
-    _second_axis(axes, table)
-    return figure
-
-
-def _second_axis(axes, table):
-    rate = table['averaged time'][-1] / table['wall time'][-1]
-    above = axes.secondary_xaxis('top', functions=(lambda x: x * rate, lambda x: x / rate))
-    above.set_xlabel('averaged time  [time units]')
-    axes.tick_params(top=False, which='both')
-    ticks = [a * 10**k for k in range(5) for a in (1, 2, 5)]
-    low, high = (rate * x for x in axes.get_xlim())
-    above.set_xticks([tick for tick in ticks if low <= tick <= high])
-    above.xaxis.set_major_formatter(ticker.FormatStrFormatter('%g'))
-    above.xaxis.set_minor_formatter(ticker.NullFormatter())
-
-
 # ---- how cost grows -------------------------------------------------------------------------
 
 
@@ -359,49 +301,7 @@ def effects(tables):
     return figure
 
 
-# ---- whether the errors are true ------------------------------------------------------------
-
-
-def _kind(quantity):
-    """Steps and angular velocities of all waves in one line."""
-    if '(' not in quantity:
-        return quantity
-    return 'omega' if quantity.startswith('omega') else 'steps'
-
-
-def errors(tables):
-    rows = [row for row in tables['errors'].rows if row['scatter / stated'] >= 0]
-    kinds = list(dict.fromkeys(_kind(row['quantity']) for row in rows))
-    boxes = list(dict.fromkeys(row['box'] for row in rows))
-    lengths = sorted({row['length'] for row in rows})
-    colours = dict(zip(boxes, (BLUE, GREEN, VERMILION, PURPLE, ORANGE, GREY, SKY)))
-    markers = dict(zip(lengths, 'v^o'))
-    figure, axes = plt.subplots(figsize=(6.4, 0.9 + 0.28 * len(kinds)))
-    axes.axvspan(0.8, 1.25, color=LIGHT, alpha=0.5, lw=0)
-    axes.axvline(1, color=GREY, lw=0.7)
-    for row in rows:
-        off = 0.1 * (boxes.index(row['box']) - (len(boxes) - 1) / 2)
-        style = {'color': colours[row['box']], 'marker': markers[row['length']], 'ls': ''}
-        axes.plot(row['scatter / stated'], kinds.index(_kind(row['quantity'])) + off, **style)
-    for box in boxes:
-        axes.plot([], [], linestyle='', marker='s', color=colours[box], label=box)
-    for length in lengths:
-        label = f'{length:g} time units'
-        axes.plot([], [], linestyle='', marker=markers[length], color=INK, label=label)
-    axes.set(xscale='log', xlabel='scatter over the seeds / stated error')
-    low, high = axes.get_xlim()
-    ticks = [tick for tick in (0.25, 0.5, 0.7, 0.8, 0.9, 1, 1.1, 1.25, 1.5, 2) if low < tick < high]
-    axes.set_xticks(ticks)
-    axes.set_xticklabels([f'{tick:g}' for tick in ticks])
-    axes.minorticks_off()
-    axes.set_yticks(range(len(kinds)))
-    axes.set_yticklabels(kinds)
-    axes.invert_yaxis()
-    axes.legend(loc='center left', bbox_to_anchor=(1, 0.5))
-    return figure
-
-
-FIGURES = (precision, convergence, scaling, effects, errors)
+FIGURES = (precision, scaling, effects)
 
 
 def save(figure, machine, path):

@@ -84,10 +84,9 @@ run_all() {
     elif [[ -x $PROGRAMS/hdlyap_effects ]]; then
         with_effects=1
     fi
-    TOTAL=$((${#QUICK[@]} ? 12 : 2212))
+    TOTAL=$((${#QUICK[@]} ? 6 : 642))
     if ((with_effects)); then TOTAL=$((TOTAL + 60)); fi
     stage 220 'what accuracy costs' "$PROGRAMS/hdlyap_precision" --out "$OUT" "${QUICK[@]}"
-    stage 45 'how long a wanted error takes' "$PROGRAMS/hdlyap_convergence" --out "$OUT" "${QUICK[@]}"
     stage 300 'how cost grows' "$PROGRAMS/hdlyap_scaling" --out "$OUT" "${QUICK[@]}"
     stage 15 'a whole run to its floor' "$PROGRAMS/hdlyap_bench" "${whole[@]}" "${small[@]}"
     stage 5 'the same, N = 100, one thread' "$PROGRAMS/hdlyap_bench" "${whole[@]}" --name whole_small \
@@ -99,10 +98,6 @@ run_all() {
     if ((!${#QUICK[@]})); then
         stage 12 'events alone, and one exponent' "$PROGRAMS/hdlyap_bench" --events
     fi
-    stage 250 'what covariant vectors cost' "$PROGRAMS/hdlyap_covariant" --out "$OUT" "${QUICK[@]}"
-    stage 900 'whether the errors are true' "$PROGRAMS/hdlyap_errors" --out "$OUT" "${QUICK[@]}"
-    stage 40 'what others write' "$PROGRAMS/hdlyap_rivals" --out "$OUT" "${small[@]}"
-    stage 350 'a long trajectory' "$PROGRAMS/hdlyap_endurance" --out "$OUT" "${QUICK[@]}"
     if ((with_effects)); then
         stage 60 'what each effect costs' effects
     fi

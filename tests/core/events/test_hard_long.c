@@ -1,5 +1,5 @@
 /** Late times: the same state goes on alike from t = 0 and from t near 1e6, bit for bit. What
- * rounding does in 1e8 collisions is seen by core_endurance (check_endurance.py). */
+ * rounding does in 1e7 collisions is seen by test_trajectory_conservation.c. */
 #include "prepared.h"
 
 /** 2^20; a multiple of every scene's epoch. */

@@ -2,7 +2,20 @@
 #include "testing.h"
 
 /** What the project promises over 10^7 collisions. */
-static const double ENERGY_DRIFT = 1e-11, MOMENTUM_DRIFT = 1e-10;
+static const double ENERGY_DRIFT = 1e-11;
+/** Energy and momentum walk at random: this many standard deviations their largest excursion does
+ * not reach. */
+static const double Z = 5.0;
+/** A collision's step in energy: its four momenta are rounded, each to eps p / sqrt(12) rms, and
+ * <p^4> = 3, together below 1 eps; what is exchanged is wrong by some eps of b^2, and <b^4> =
+ * 32: 3.5 eps. A drift of the 3e-16 that r.r rounded near 1 would give exceeds the bound after some
+ * 1e4 collisions. */
+static const double ENERGY_STEP = 4.0 * DBL_EPSILON;
+/** In one component of the momentum: two momenta are rounded, each to eps p / sqrt(12) rms, <p^2>
+ * = 1. */
+static const double MOMENTUM_STEP = 0.5 * DBL_EPSILON;
+/** Of one disk, when the mean is taken out and all are scaled. */
+static const double MOMENTUM_START = 4.0 * DBL_EPSILON;
 static const double MEDIUM_RUN = HD_SANITIZED ? 1e5 : 5e5;
 enum { SAMPLES = 200 };
 
@@ -38,18 +51,23 @@ static void check_run(const hd_scene_def *def, double collisions)
     assert_non_null(work);
     MADE(hd_trajectory, tr, def);
     hd_trajectory_box(tr, box);
-    CHECK_CLOSE(hd_trajectory_kinetic_energy(tr), def->disks, ENERGY_DRIFT * def->disks);
+    const double energy = hd_trajectory_kinetic_energy(tr);
+    const double summed = DBL_EPSILON *
+                          pow(def->disks, 1.5); /* of N partial sums, N / 2 in the mean */
+    CHECK_CLOSE(energy, def->disks, ENERGY_DRIFT * def->disks);
     double t = 0;
     while (t == 0 || (double)hd_trajectory_collisions(tr) < collisions) {
         t += collisions / SAMPLES / hd_trajectory_collision_rate(tr);
         CHECK_OK(hd_trajectory_extend(tr, NULL, t));
-        CHECK_CLOSE(hd_trajectory_kinetic_energy(tr), def->disks, ENERGY_DRIFT * def->disks);
+        const double walked = Z * sqrt((double)hd_trajectory_collisions(tr) + def->disks);
+        CHECK_CLOSE(hd_trajectory_kinetic_energy(tr), energy, summed + ENERGY_STEP * walked);
         CHECK_CLOSE(hd_trajectory_overlap(tr), 0.0, overlap_rounding(box));
         assert_true(overlap_rounding(box) < hd_trajectory_overlap_rounding(tr));
         check_inside(tr, def, work);
         momentum_of(tr, work, sum);
         for (int d = 0; d < 2; d++)
-            if (def->boundary[d] == P) CHECK_CLOSE(sum[d], 0.0, MOMENTUM_DRIFT);
+            if (def->boundary[d] == P)
+                CHECK_CLOSE(sum[d], 0.0, MOMENTUM_START * def->disks + MOMENTUM_STEP * walked);
     }
     free(work);
 }

@@ -1,10 +1,10 @@
 /** The rule of every published standard error, in a quick form: over independent runs a number
- * scatters as far as each run states. hdlyap_errors makes the whole table.
+ * scatters as far as each run states.
  *
  * The seeds are fixed and the trajectories are the same bits everywhere, so that the outcome is
  * reproducible. A new estimator whose errors are true breaks the rule with a chance of 1 % for each
  * number (agreement_holds), and fails here about once in ten times, as numbers of one scene go
- * together: then the whole table decides. */
+ * together: then more seeds decide. */
 #include "agreement.h"
 #include "runs.h"
 
@@ -74,9 +74,7 @@ static void check_rule(const harvest *h, const char *const *names)
 }
 
 /** c_T is of two wave numbers here, whose steps fluctuate together. In channels that are narrower
- * or less dense h_KS and T(2,0) remember too long for such short runs (hdlyap_errors --box
- * channel).
- */
+ * or less dense h_KS and T(2,0) remember too long for such short runs. */
 static hd_scene_def narrow_box(void) { return box(48, 0.8, 0.03, P); }
 
 TEST(in_a_narrow_box)
@@ -103,6 +101,20 @@ TEST(between_walls)
     static const char *const names[] = {"exponents", "h_KS",          "LP(1;0)", "c_L",
                                         "v",         "omega LP(1;0)", NULL};
     harvest h = harvested(box(36, 0.7, 0.5, R), 100.0, 3 * SEEDS);
+    check_rule(&h, names);
+    free(h.numbers);
+}
+
+/** All 4N vectors; the windows of 20 lie behind each other. */
+TEST(of_covariant_vectors)
+{
+    static const char *const names[] = {"covariant exponents", "angle", NULL};
+    hd_scene_def tiny = box(24, 0.7, 0.13, P);
+    tiny.exponents = HD_EXPONENTS_ALL;
+    tiny.observe |= HD_OBSERVE_COVARIANT;
+    tiny.covariant_window = tiny.covariant_transient = 20.0;
+    tiny.covariant_sampling = 2.0;
+    harvest h = harvested(tiny, 400.0, SEEDS / 2);
     check_rule(&h, names);
     free(h.numbers);
 }

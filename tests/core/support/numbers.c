@@ -33,18 +33,6 @@ static void name_step(const hd_run *run, int index, char *out, size_t size)
              step->wave.n[1]);
 }
 
-void numbers_name(const hd_run *run, uint64_t of, char *out, size_t size)
-{
-    out[0] = '\0';
-    for (int k = 0; of != NO_STEPS && k < waves(run); k++) {
-        char name[16];
-        if (!(of & bit(k))) continue;
-        name_step(run, k, name, sizeof name);
-        const size_t used = strlen(out);
-        snprintf(out + used, size - used, "%s%s", used > 0 ? "+" : "", name);
-    }
-}
-
 /* ---- one number after the other -------------------------------------------------------------- */
 
 /** Rows and numbers so far; out NULL: only the rows are wanted. */
@@ -171,13 +159,3 @@ int numbers_rows(const hd_run *run, row_of_numbers *out)
 }
 
 void numbers_read(const hd_run *run, number *out) { list_of(run, out); }
-
-int numbers_first_of_modes(const hd_run *run)
-{
-    int first = positive(run);
-    for (int k = 0; hd_run_steps(run) && k < waves(run); k++) {
-        const hd_step *step = hd_steps_step(hd_run_steps(run), k);
-        if (step->resolved && step->col < first) first = step->col;
-    }
-    return first;
-}

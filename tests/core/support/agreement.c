@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "sample.h"
-#include "timing.h"
+#include "testing.h"
 
 /** Of one number: the seeds that state an error. */
 typedef struct column {
@@ -32,7 +32,8 @@ static uint64_t most_common(const number *numbers, int seeds, int stride)
 static column column_of(const number *numbers, int seeds, int stride, uint64_t of)
 {
     /* unsigned: GCC 10 takes what is negative for possible, and warns */
-    column c = {.seed = room((unsigned)seeds, sizeof *c.seed)};
+    column c = {.seed = calloc((unsigned)seeds, sizeof *c.seed)};
+    assert_non_null(c.seed);
     for (int s = 0; s < seeds; s++) {
         const number *n = &numbers[s * stride];
         if (of == 0 || n->of != of) continue;
@@ -59,15 +60,8 @@ static int count_within(const column *c, double errors)
     return count;
 }
 
-static double least_error(const column *c)
-{
-    sample errors = {0};
-    for (int s = 0; s < c->stated; s++) sample_add(&errors, c->seed[s]->error);
-    return sample_least(&errors) / sample_median(&errors);
-}
-
 typedef struct rest {
-    sample ratio, least, taken, stated;
+    sample ratio, taken, stated;
     double within[2], numbers;
 } rest;
 
@@ -78,7 +72,6 @@ static void column_add(rest *r, const column *c)
     sample_add(&r->stated, c->stated);
     if (c->stated < AGREEMENT_LEAST) return;
     sample_add(&r->ratio, sqrt(c->square / c->errors));
-    sample_add(&r->least, least_error(c));
     for (int k = 0; k < 2; k++) r->within[k] += count_within(c, 1.0 + k);
     r->numbers += c->stated;
 }
@@ -88,19 +81,17 @@ static agreement sum_up(const rest *r, const agreement *first)
     agreement a = *first;
     a.taken = (int)sample_median(&r->taken);
     a.stated = (int)sample_median(&r->stated);
-    a.ratio = a.least_ratio = a.most_ratio = a.least_error = a.within[0] = a.within[1] = -1.0;
+    a.ratio = a.within[0] = a.within[1] = -1.0;
     if (r->numbers == 0) return a;
     a.ratio = sample_median(&r->ratio);
-    a.least_ratio = sample_least(&r->ratio);
-    a.most_ratio = sample_most(&r->ratio);
-    a.least_error = sample_least(&r->least);
     for (int k = 0; k < 2; k++) a.within[k] = r->within[k] / r->numbers;
     return a;
 }
 
 agreement agreement_of(const number *numbers, int seeds, int stride, int first, int count)
 {
-    rest *r = room(1, sizeof *r);
+    HEAP rest *r = calloc(1, sizeof *r);
+    assert_non_null(r);
     agreement one = {0};
     for (int k = first; k < first + count; k++) {
         const uint64_t of = most_common(numbers + k, seeds, stride);
@@ -111,9 +102,7 @@ agreement agreement_of(const number *numbers, int seeds, int stride, int first, 
         column_add(r, &c);
         free(c.seed);
     }
-    const agreement a = sum_up(r, &one);
-    free(r);
-    return a;
+    return sum_up(r, &one);
 }
 
 /** Three standard errors of a part of so many. */
@@ -127,18 +116,4 @@ bool agreement_holds(const agreement *a, int seeds)
               a->within[k] <= normal[k] + three(normal[k], seeds)))
             return false;
     return a->ratio >= 0.8 && a->ratio <= 1.25;
-}
-
-double agreement_with_neighbours(const number *numbers, int seeds, int stride, int first, int count)
-{
-    double least = INFINITY;
-    for (int s = 0; s < seeds; s++)
-        for (int k = first + 2; k < first + count - 2; k++) {
-            const number *n = &numbers[s * stride + k];
-            const double sum = n[-2].error + n[-1].error + n[1].error + n[2].error;
-            const bool known = n[-2].error >= 0 && n[-1].error >= 0 && n[1].error >= 0 &&
-                               n[2].error >= 0 && n->error >= 0;
-            if (known) least = fmin(least, n->error / (0.25 * sum));
-        }
-    return least < INFINITY ? least : -1.0;
 }

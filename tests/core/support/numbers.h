@@ -1,7 +1,7 @@
 /** The numbers that a run publishes with a standard error, side by side: those of one scene keep
  * their places, whatever the seed. */
-#ifndef HD_BENCH_NUMBERS_H
-#define HD_BENCH_NUMBERS_H
+#ifndef HD_TEST_NUMBERS_H
+#define HD_TEST_NUMBERS_H
 
 #include <hdlyap/run.h>
 
@@ -26,12 +26,5 @@ int numbers_rows(const hd_run *run, row_of_numbers *out);
 /** As the run would publish them now; out: up to the end of the last row. Of seeds that are
  * compared. */
 void numbers_read(const hd_run *run, number *out);
-
-/** Column of the first exponent that belongs to a mode; the number of positive ones if there is
- * none. */
-int numbers_first_of_modes(const hd_run *run);
-
-/** Names of the steps in number.of, with + between them. */
-void numbers_name(const hd_run *run, uint64_t of, char *out, size_t size);
 
 #endif
