@@ -106,12 +106,12 @@ double hd_trajectory_overlap(const hd_trajectory *trajectory)
     return getenv("PROBE_OVERLAP") ? number("PROBE_OVERLAP") : real(trajectory);
 }
 
-/** PROBE_STD_ERROR: of the exponents nearest to zero, at all times. */
-double hd_spectrum_error_of_last(const hd_spectrum *spectrum, int count)
+/** PROBE_STD_ERROR: of the positive exponents nearest to zero, at all times. */
+double hd_spectrum_largest_error(const hd_spectrum *spectrum, int begin, int end)
 {
-    double (*real)(const hd_spectrum *, int);
-    next(&real, "hd_spectrum_error_of_last");
-    return getenv("PROBE_STD_ERROR") ? number("PROBE_STD_ERROR") : real(spectrum, count);
+    double (*real)(const hd_spectrum *, int, int);
+    next(&real, "hd_spectrum_largest_error");
+    return getenv("PROBE_STD_ERROR") ? number("PROBE_STD_ERROR") : real(spectrum, begin, end);
 }
 
 /** PROBE_MEMORY_AFTER: blocks of the core before memory is out. */

@@ -47,8 +47,8 @@ typedef struct hd_cost {
     long second_passes;       /**< how many needed a second pass */
     long slow_vector_samples; /**< samples that ended early for who watches the vectors */
     long repairs;             /**< intervals that turned out too long and were replayed in pieces */
-    /** largest of the exponents nearest to zero, which target_std_error is for; negative if unknown
-     */
+    /** largest of the eight positive exponents nearest to zero, or of the last ones carried if
+     * fewer are, which target_std_error is for; negative if unknown */
     double std_error;
     /** Averaged time since which std_error does not fall as it does in a stationary run, an eighth
      * of the averaged time or less; negative while it falls, or that cannot be said yet */

@@ -43,9 +43,9 @@ double hd_spectrum_std_error(const hd_spectrum *spectrum, int col);
 /** Standard error of sum_i factor_i lambda_i (a mean, a sum, a fit), which knows how the exponents
  * fluctuate together; negative while it cannot be known. O(count blocks). */
 double hd_spectrum_error_of_sum(const hd_spectrum *spectrum, const hd_part *parts, int count);
-/** Largest of the standard errors of the last `count` exponents carried; INFINITY while one is
- * unknown. */
-double hd_spectrum_error_of_last(const hd_spectrum *spectrum, int count);
+/** Largest of the standard errors of the columns [begin, end); INFINITY while one is unknown, and
+ * of none. */
+double hd_spectrum_largest_error(const hd_spectrum *spectrum, int begin, int end);
 /** Mean over the samples that have ended since hd_spectrum_local_restart (or since the averaging
  * began), NaN if none has; and how long they were together, 0 if none has. */
 double hd_spectrum_local(const hd_spectrum *spectrum, int col);

@@ -120,11 +120,10 @@ double hd_spectrum_error_of_sum(const hd_spectrum *spectrum, const hd_part *part
     return hd_blocks_error(&spectrum->blocks, parts, count);
 }
 
-double hd_spectrum_error_of_last(const hd_spectrum *spectrum, int count)
+double hd_spectrum_largest_error(const hd_spectrum *spectrum, int begin, int end)
 {
-    double worst = 0.0;
-    for (int col = spectrum->vectors > count ? spectrum->vectors - count : 0;
-         col < spectrum->vectors; col++) {
+    double worst = begin < end ? 0.0 : INFINITY;
+    for (int col = begin; col < end; col++) {
         const double error = hd_spectrum_std_error(spectrum, col);
         worst = error >= 0 ? fmax(worst, error) : INFINITY; /* NaN is not known either */
     }

@@ -43,7 +43,7 @@ static const double ORTHONORMAL = 1e-10;
 /** Collisions of each disk between two orthonormalisations that no accuracy and no density exceed.
  */
 static const double COLLISIONS_MOST = 60.0;
-/** Exponents nearest to zero, which target_std_error is for. */
+/** Positive exponents nearest to zero, which target_std_error is for. */
 enum { SMALLEST_EXPONENTS = 8 };
 /** Kept for a half that is no number. */
 static const double NO_HALF = -2.0;
@@ -400,7 +400,9 @@ void hd_carrier_halves(const hd_carrier *c, double *cos_theta, double *dp_dq_rat
 
 double hd_carrier_smallest_error(const hd_carrier *c)
 {
-    return c->spectrum ? hd_spectrum_error_of_last(c->spectrum, SMALLEST_EXPONENTS) : INFINITY;
+    const int end = c->vectors < c->positive ? c->vectors : c->positive;
+    const int begin = end > SMALLEST_EXPONENTS ? end - SMALLEST_EXPONENTS : 0;
+    return c->spectrum ? hd_spectrum_largest_error(c->spectrum, begin, end) : INFINITY;
 }
 
 double hd_carrier_error_bound(const hd_carrier *c)

@@ -79,8 +79,8 @@ hd_columns hd_carrier_vectors(const hd_carrier *carrier);
 void hd_carrier_halves(const hd_carrier *carrier, double *cos_theta, double *dp_dq_ratio);
 /** Averaged time, that of the sample under way included. */
 double hd_carrier_averaged(const hd_carrier *carrier);
-/** Largest standard error of the exponents nearest to zero; INFINITY while one is unknown, and
- * without exponents. */
+/** Largest standard error of the positive exponents nearest to zero, or of the last ones carried
+ * if those are not; INFINITY while one is unknown, and without any. */
 double hd_carrier_smallest_error(const hd_carrier *carrier);
 /** See hd_cost.error_bound; NaN before the averaging. */
 double hd_carrier_error_bound(const hd_carrier *carrier);

@@ -103,15 +103,28 @@ TEST(the_average_can_start_afresh)
     CHECK_CLOSE(hd_spectrum_time(hd_run_spectrum(run)), scene.duration, 1e-11);
 }
 
+/** Zero modes and the negative half are no exponents nearest to zero. */
 TEST(the_target_error_ends_the_run)
 {
-    hd_scene_def scene = small(12, HD_EXPONENTS_POSITIVE);
-    scene.duration = 0.0; /* endless otherwise */
-    scene.target_std_error = 0.02;
-    OWNED(hd_run) *run = finished(scene);
-    for (int col = run->carrier.vectors - 8; col < run->carrier.vectors; col++) {
-        const double error = hd_spectrum_std_error(run->carrier.spectrum, col);
-        assert_true(error > 0 && error <= 0.02);
+    static const struct {
+        int exponents, first, last;
+    } rows[] = {{HD_EXPONENTS_POSITIVE, 13, 21},
+                {HD_EXPONENTS_ALL, 13, 21},
+                {24, 13, 21}, /* up to the middle of the zero modes */
+                {30, 13, 21}, /* beyond them */
+                {10, 2, 10},  /* fewer than all positive ones */
+                {3, 0, 3}};
+    for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
+        OWNED(hd_run) *run = finished(
+            scene_from(small(12, rows[k].exponents), .duration = 5000.0, .target_std_error = 0.02));
+        double worst = 0.0;
+        for (int col = rows[k].first; col < rows[k].last; col++) {
+            const double error = hd_spectrum_std_error(run->carrier.spectrum, col);
+            assert_true(error > 0 && error <= 0.02);
+            worst = fmax(worst, error);
+        }
+        CHECK_CLOSE(hd_run_cost(run).std_error, worst, 0.0);
+        assert_true(hd_spectrum_time(run->carrier.spectrum) < 4000.0);
     }
 }
 
