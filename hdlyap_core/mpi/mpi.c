@@ -86,7 +86,6 @@ static hd_status alone(char *message, size_t size)
     if (started == 1) return HD_OK;
     MPI_Get_library_version(library, &length);
     library[strcspn(library, ",\n")] = '\0';
-    MPI_Finalize();
     snprintf(
         line, sizeof line,
         "%s = %d, but %s, which is loaded, finds a single rank: start it by the mpirun of that "
@@ -97,18 +96,23 @@ static hd_status alone(char *message, size_t size)
 
 hd_status hd_mpi_begin(hd_communicator **out, int *argc, char ***argv, char *message, size_t size)
 {
-    int provided, rank, ranks;
-    *out = NULL;
-    MPI_Init_thread(argc, argv, MPI_THREAD_SERIALIZED, &provided);
-    if (provided < MPI_THREAD_SERIALIZED)
-        return refuse(message, size, "this MPI cannot be called by several threads");
-    MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-    MPI_Comm_size(MPI_COMM_WORLD, &ranks);
-    if (ranks == 1) return alone(message, size);
+    int provided;
+    hd_status status = HD_OK;
     hd_communicator *c = calloc(1, sizeof *c);
+    *out = NULL;
     if (!c) return HD_NO_MEMORY;
-    c->rank = rank;
-    c->ranks = ranks;
+    MPI_Init_thread(argc, argv, MPI_THREAD_SERIALIZED, &provided);
+    MPI_Comm_rank(MPI_COMM_WORLD, &c->rank);
+    MPI_Comm_size(MPI_COMM_WORLD, &c->ranks);
+    if (provided < MPI_THREAD_SERIALIZED)
+        status = refuse(message, size, "this MPI cannot be called by several threads");
+    else if (c->ranks == 1)
+        status = alone(message, size);
+    if (status != HD_OK) MPI_Finalize();
+    if (status != HD_OK || c->ranks == 1) {
+        free(c);
+        return status;
+    }
     c->beside = ranks_beside();
     c->transport = &transport;
     c->context = c;

@@ -15,6 +15,7 @@
 #include "modes/circle_fields.h"
 #include "modes/harmonics.h"
 #include "modes/plane_fields.h"
+#include "scene/container.h"
 #include "scene/null_space.h"
 
 struct hd_fields {
@@ -41,19 +42,20 @@ static void subspace_add(hd_fields *fields, hd_mode_kind kind, const hd_wave *wa
         if (wave->n[d] > fields->along[d].nodes) fields->along[d].nodes = wave->n[d];
 }
 
+static void count_wave(void *to, const hd_wave *wave)
+{
+    hd_fields_count *all = to;
+    const double pairs = wave->pairs.count, t = wave->transverse.count;
+    all->subspaces += 2.0;
+    all->columns += t + 2.0 * pairs;
+    all->lp_phases += 2.0 * pairs * pairs;
+    all->t_phases += 2.0 * floor(t / 2.0) * floor(t / 2.0);
+}
+
 hd_fields_count hd_fields_count_of(const hd_scene_def *scene)
 {
-    enum { WAVES = 4096, OF_ONE = HD_TRANSVERSE_MAX + HD_FIELDS_MAX }; /* columns of a wave */
-    hd_wave wave[WAVES];
-    const int count = hd_waves(scene, wave, WAVES);
-    hd_fields_count all = {.subspaces = 2.0 * count};
-    for (int k = 0; k < count && k < WAVES; k++) {
-        const double pairs = wave[k].pairs.count, t = wave[k].transverse.count;
-        all.columns += t + 2.0 * pairs;
-        all.lp_phases += 2.0 * pairs * pairs;
-        all.t_phases += 2.0 * floor(t / 2.0) * floor(t / 2.0);
-    }
-    if (count > WAVES) all.columns = (double)OF_ONE * count;
+    hd_fields_count all = {.columns = 0.0};
+    hd_container_of(scene)->waves(scene, count_wave, &all);
     return all;
 }
 

@@ -10,9 +10,11 @@ static double fields_bytes(const hd_scene_def *scene, int ranks)
     return hd_pmode_bytes(scene->disks);
 }
 
-static hd_status fields_create(void **self, const hd_observing *with)
+static void *fields_create(const hd_observing *with, hd_status *status)
 {
-    return hd_pmode_create((hd_pmode **)self, with->scene->disks);
+    hd_pmode *made;
+    *status = hd_pmode_create(&made, with->scene->disks);
+    return made;
 }
 
 static void fields_free(void *self) { hd_pmode_free(self); }

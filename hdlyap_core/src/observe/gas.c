@@ -128,9 +128,11 @@ static double gas_bytes(const hd_scene_def *scene, int ranks)
     return sizeof(hd_gas) + hd_blocks_bytes(SERIES);
 }
 
-static hd_status gas_create(void **self, const hd_observing *with)
+static void *gas_create(const hd_observing *with, hd_status *status)
 {
-    return hd_gas_create((hd_gas **)self, with->scene, with->block);
+    hd_gas *made;
+    *status = hd_gas_create(&made, with->scene, with->block);
+    return made;
 }
 
 static void gas_free(void *self) { hd_gas_free(self); }

@@ -132,9 +132,11 @@ static double hydro_bytes(const hd_scene_def *scene, int ranks)
     return sizeof(hd_hydro_response) * 2.0 * hd_fields_count_of(scene).lp_phases;
 }
 
-static hd_status hydro_create(void **self, const hd_observing *with)
+static void *hydro_create(const hd_observing *with, hd_status *status)
 {
-    return hd_hydro_create((hd_hydro **)self, with->scene, with->part[HD_OBSERVED_steps]);
+    hd_hydro *made;
+    *status = hd_hydro_create(&made, with->scene, with->part[HD_OBSERVED_steps]);
+    return made;
 }
 
 static void hydro_free(void *self) { hd_hydro_free(self); }

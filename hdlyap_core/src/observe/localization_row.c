@@ -11,10 +11,11 @@ static double localization_bytes(const hd_scene_def *scene, int ranks)
     return hd_localization_bytes(hd_scene_vectors(scene));
 }
 
-static hd_status localization_create(void **self, const hd_observing *with)
+static void *localization_create(const hd_observing *with, hd_status *status)
 {
-    return hd_localization_create((hd_localization **)self, with->scene->disks, with->vectors,
-                                  with->threads);
+    hd_localization *made;
+    *status = hd_localization_create(&made, with->scene->disks, with->vectors, with->threads);
+    return made;
 }
 
 static void localization_free(void *self) { hd_localization_free(self); }

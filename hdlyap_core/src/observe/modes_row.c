@@ -12,9 +12,11 @@ static double modes_bytes(const hd_scene_def *scene, int ranks)
     return hd_modes_bytes(scene, hd_scene_vectors(scene));
 }
 
-static hd_status modes_create(void **self, const hd_observing *with)
+static void *modes_create(const hd_observing *with, hd_status *status)
 {
-    return hd_modes_create((hd_modes **)self, with->scene, with->vectors, with->threads);
+    hd_modes *made;
+    *status = hd_modes_create(&made, with->scene, with->vectors, with->threads);
+    return made;
 }
 
 static void modes_free(void *self) { hd_modes_free(self); }
@@ -69,9 +71,11 @@ static double steps_bytes(const hd_scene_def *scene, int ranks)
     return hd_steps_bytes(scene);
 }
 
-static hd_status steps_create(void **self, const hd_observing *with)
+static void *steps_create(const hd_observing *with, hd_status *status)
 {
-    return hd_steps_create((hd_steps **)self, with->scene, with->part[HD_OBSERVED_modes]);
+    hd_steps *made;
+    *status = hd_steps_create(&made, with->scene, with->part[HD_OBSERVED_modes]);
+    return made;
 }
 
 static void steps_free(void *self) { hd_steps_free(self); }

@@ -61,8 +61,8 @@ typedef struct hd_observable {
     unsigned needs; /**< set of HD_NEEDS_* */
     /** That it will take on each of so many ranks; on the safe side by some percent. */
     double (*bytes)(const hd_scene_def *scene, int ranks);
-    /** HD_NO_MEMORY; HD_REFUSED with a line. What it has left in *self is freed. */
-    hd_status (*create)(void **self, const hd_observing *with);
+    /** What it returns is freed, whatever the status: HD_NO_MEMORY; HD_REFUSED with a line. */
+    void *(*create)(const hd_observing *with, hd_status *status);
     void (*free)(void *self);
     /** Its averages begin here. */
     void (*clear)(void *self, const hd_view *here);

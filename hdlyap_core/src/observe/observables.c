@@ -49,7 +49,8 @@ hd_status hd_observables_create(hd_observables *o, const hd_observing *with)
         HD_TRY(hd_communicator_agree(with->communicator, create_state(o)));
     for (int k = 0; k < HD_OBSERVED; k++) {
         if (!is_asked(rows[k], with->scene)) continue;
-        const hd_status status = rows[k]->create(&o->part[k], &o->with);
+        hd_status status;
+        o->part[k] = rows[k]->create(&o->with, &status);
         HD_TRY(hd_communicator_agree(with->communicator, status));
     }
     o->with.message = NULL; /* the caller's */

@@ -15,14 +15,18 @@ static double t_bytes(const hd_scene_def *scene, int ranks)
     return hd_phases_bytes(hd_fields_count_of(scene).t_phases);
 }
 
-static hd_status lp_create(void **self, const hd_observing *with)
+static void *lp_create(const hd_observing *with, hd_status *status)
 {
-    return hd_phases_create((hd_phases **)self, with->part[HD_OBSERVED_steps], HD_MODE_LP);
+    hd_phases *made;
+    *status = hd_phases_create(&made, with->part[HD_OBSERVED_steps], HD_MODE_LP);
+    return made;
 }
 
-static hd_status t_create(void **self, const hd_observing *with)
+static void *t_create(const hd_observing *with, hd_status *status)
 {
-    return hd_phases_create((hd_phases **)self, with->part[HD_OBSERVED_steps], HD_MODE_T);
+    hd_phases *made;
+    *status = hd_phases_create(&made, with->part[HD_OBSERVED_steps], HD_MODE_T);
+    return made;
 }
 
 static void phases_free(void *self) { hd_phases_free(self); }

@@ -11,9 +11,11 @@ static double structure_bytes(const hd_scene_def *scene, int ranks)
     return hd_structure_bytes(scene, hd_scene_vectors(scene));
 }
 
-static hd_status structure_create(void **self, const hd_observing *with)
+static void *structure_create(const hd_observing *with, hd_status *status)
 {
-    return hd_structure_create((hd_structure **)self, with->scene, with->vectors, with->threads);
+    hd_structure *made;
+    *status = hd_structure_create(&made, with->scene, with->vectors, with->threads);
+    return made;
 }
 
 static void structure_free(void *self) { hd_structure_free(self); }

@@ -144,10 +144,11 @@ static void covariant_free(void *self)
 }
 
 /** Its parts are freed with it if they cannot all be made. */
-static hd_status covariant_create(void **self, const hd_observing *with)
+static void *covariant_create(const hd_observing *with, hd_status *status)
 {
-    hd_windows *windows = *self = hd_memory_alloc(1, sizeof *windows);
-    return windows ? prepare(windows, with) : HD_NO_MEMORY;
+    hd_windows *windows = hd_memory_alloc(1, sizeof *windows);
+    *status = windows ? prepare(windows, with) : HD_NO_MEMORY;
+    return windows;
 }
 
 static void covariant_resume(void *self) { ((hd_windows *)self)->due = true; }

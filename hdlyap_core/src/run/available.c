@@ -3,12 +3,13 @@
 #include "hdlyap/room.h"
 
 #include <math.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
-enum { LINE = 512, PATH = 1024 };
+enum { LINE = 4096 + 64, PATH = LINE }; /* of the longest path of Linux */
 
 static void keep_least(hd_room *room, double bytes, const char *limit)
 {
@@ -59,16 +60,29 @@ static void see_groups(hd_room *room, char *folder, size_t root, int version)
     }
 }
 
-/** A line of /proc/self/cgroup: 0::/path of version 2, or 4:memory:/path of version 1. */
+/** True if a name is among those of a list with commas. */
+static bool is_listed(const char *list, const char *name)
+{
+    const size_t length = strlen(name);
+    for (; list; list = strchr(list, ',')) {
+        list += *list == ',';
+        if (strncmp(list, name, length) == 0 && (list[length] == ',' || !list[length])) return true;
+    }
+    return false;
+}
+
+/** A line of /proc/self/cgroup: 0::/path of version 2, or 4:memory:/path of version 1. A path may
+ * hold colons. */
 static void see_group(hd_room *room, char *line)
 {
     static const char *const root[] = {"/sys/fs/cgroup/memory", "/sys/fs/cgroup"};
-    char folder[PATH], *path = strrchr(line, ':');
-    line[strcspn(line, "\n")] = '\0';
-    const int version = strncmp(line, "0::", 3) == 0;
-    if (!path || (!version && !strstr(line, ":memory:"))) return;
-    if (snprintf(folder, sizeof folder, "%s%s", root[version], path + 1) >= (int)sizeof folder)
-        return;
+    char folder[PATH], *list = strchr(line, ':'), *path = list ? strchr(list + 1, ':') : NULL;
+    if (!path) return;
+    *list++ = *path++ = '\0';
+    path[strcspn(path, "\n")] = '\0';
+    const int version = strcmp(line, "0") == 0 && !*list;
+    if (!version && !is_listed(list, "memory")) return;
+    if (snprintf(folder, sizeof folder, "%s%s", root[version], path) >= (int)sizeof folder) return;
     see_groups(room, folder, strlen(root[version]), version);
 }
 

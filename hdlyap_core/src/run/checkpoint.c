@@ -189,11 +189,11 @@ void hd_run_write(hd_run *run, hd_archive *archive, const char *label)
 static hd_status tell_writer(hd_run *run)
 {
     FILE *nowhere = fopen("/dev/null", "wb");
-    HD_TRY(hd_communicator_agree(run->communicator, nowhere ? HD_OK : HD_FILE_FAULT));
+    const hd_status all = hd_communicator_agree(run->communicator, nowhere ? HD_OK : HD_FILE_FAULT);
     hd_archive archive = hd_archive_writer(nowhere);
-    hd_run_write(run, &archive, "");
-    (void)fclose(nowhere);
-    return HD_OK;
+    if (all == HD_OK) hd_run_write(run, &archive, "");
+    if (nowhere) (void)fclose(nowhere);
+    return all;
 }
 
 static hd_status write_file(hd_run *run, const char *path, const char *label, char *message,

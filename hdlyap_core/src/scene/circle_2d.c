@@ -242,22 +242,20 @@ static hd_wave_limits circle_limits(const hd_scene_def *def)
     return limits;
 }
 
-static int circle_waves(const hd_scene_def *def, hd_wave *out, int capacity)
+static void circle_waves(const hd_scene_def *def, hd_wave_taker take, void *to)
 {
     const double reach = reach_of(def), limit = hd_wave_limit(def) * (1.0 + 1e-12);
     const int nodes = hd_wave_nodes(def, circle_limits(def).node);
-    int count = 0;
     for (int transverse = 0; transverse < 2; transverse++)
         for (int m = 0; m <= nodes; m++) {
             double root = before_roots(transverse, m);
             for (int n = 1; n <= nodes; n++) {
                 root = next_root(transverse, m, root);
                 if (root > limit * reach) break;
-                if (count < capacity) out[count] = wave_of(reach, transverse, m, n, root);
-                count++;
+                const hd_wave wave = wave_of(reach, transverse, m, n, root);
+                take(to, &wave);
             }
         }
-    return count;
 }
 
 const hd_container_row hd_circle_row = {.say = circle_say,

@@ -14,6 +14,9 @@
  * is 1e-9 but for the rounding of an edge that density and aspect give. */
 #define HD_ROOM_MIN 0.999e-9
 
+/** Takes one wave; `to` is its own. */
+typedef void (*hd_wave_taker)(void *to, const hd_wave *wave);
+
 typedef struct hd_container_row {
     /** For a refusal, what it is beside its disks and their density. */
     void (*say)(const hd_scene_def *def, char *text, size_t size);
@@ -31,7 +34,7 @@ typedef struct hd_container_row {
     /** Takes out of p[HD_DIM disks] each momentum that is conserved. */
     void (*still)(const hd_scene_def *def, const double *q, double *p);
     hd_wave_limits (*limits)(const hd_scene_def *def);
-    int (*waves)(const hd_scene_def *def, hd_wave *out, int capacity); /**< in any order */
+    void (*waves)(const hd_scene_def *def, hd_wave_taker take, void *to); /**< in any order */
 } hd_container_row;
 
 extern const hd_container_row hd_rectangle_row, hd_circle_row;

@@ -240,18 +240,15 @@ static bool next_nodes(int n[HD_DIM], const int most[HD_DIM])
     return false;
 }
 
-static int rectangle_waves(const hd_scene_def *def, hd_wave *out, int capacity)
+static void rectangle_waves(const hd_scene_def *def, hd_wave_taker take, void *to)
 {
     const double limit = hd_wave_limit(def);
-    int most[HD_DIM], n[HD_DIM] = {0}, count = 0;
+    int most[HD_DIM], n[HD_DIM] = {0};
     for (int d = 0; d < HD_DIM; d++) most[d] = hd_wave_nodes(def, nodes_within(def, d, limit));
     while (next_nodes(n, most)) {
         const hd_wave wave = wave_of(def, n);
-        if (wave.number > limit * (1.0 + 1e-12)) continue;
-        if (count < capacity) out[count] = wave;
-        count++;
+        if (!(wave.number > limit * (1.0 + 1e-12))) take(to, &wave);
     }
-    return count;
 }
 
 const hd_container_row hd_rectangle_row = {.say = rectangle_say,

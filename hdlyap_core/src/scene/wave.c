@@ -35,9 +35,22 @@ int hd_wave_nodes(const hd_scene_def *def, int most)
     return def->max_wave_number > 0 || most < wanted ? most : wanted;
 }
 
+typedef struct waves {
+    hd_wave *out;
+    int capacity, count;
+} waves;
+
+static void keep(void *to, const hd_wave *wave)
+{
+    waves *all = to;
+    if (all->count < all->capacity) all->out[all->count] = *wave;
+    all->count++;
+}
+
 int hd_waves(const hd_scene_def *def, hd_wave *out, int capacity)
 {
-    const int count = hd_container_of(def)->waves(def, out, capacity);
-    if (out && count <= capacity) qsort(out, (size_t)count, sizeof *out, compare_waves);
-    return count;
+    waves all = {out, capacity, 0};
+    hd_container_of(def)->waves(def, keep, &all);
+    if (out && all.count <= capacity) qsort(out, (size_t)all.count, sizeof *out, compare_waves);
+    return all.count;
 }

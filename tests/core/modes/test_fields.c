@@ -1,6 +1,7 @@
 /** Sampled fields against differences of the modulations, and against what a T, L or P field must
  * be. */
 #include "synthetic.h"
+#include "modes/archived.h"
 
 enum { DISKS = 60, ROWS = 2 * DISKS };
 /** Step of central differences, about the cube root of the rounding. */
@@ -217,4 +218,23 @@ TEST(dimensions_add_up)
         assert_int_equal(hd_fields_columns(s.fields) - HD_NULLS, want[k] + extra);
         hd_fields_free(s.fields);
     }
+}
+
+/** However many there are. */
+TEST(fields_are_counted_wave_by_wave)
+{
+    const hd_scene_def def = scene(.disks = 1000000, .density = 0.9, .max_wave_number = 0.5);
+    const int waves = hd_waves(&def, NULL, 0);
+    HEAP hd_wave *wave = calloc((size_t)waves, sizeof *wave);
+    assert_true(waves > 4096);
+    assert_int_equal(hd_waves(&def, wave, waves), waves);
+    double columns = 0.0, phases = 0.0;
+    for (int k = 0; k < waves; k++) {
+        columns += wave[k].transverse.count + 2.0 * wave[k].pairs.count;
+        phases += 2.0 * wave[k].pairs.count * wave[k].pairs.count;
+    }
+    const hd_fields_count count = hd_fields_count_of(&def);
+    CHECK_CLOSE(count.columns, columns, 0.0);
+    CHECK_CLOSE(count.lp_phases, phases, 0.0);
+    CHECK_CLOSE(count.subspaces, 2.0 * waves, 0.0);
 }

@@ -1,5 +1,6 @@
 /** What ranks tell each other, and the frame that they share. */
 #define _GNU_SOURCE
+#include <dlfcn.h>
 #include "hdlyap/ortho.h"
 #include "together.h"
 
@@ -207,4 +208,51 @@ TEST(what_is_dependent_is_said_by_all)
     frames_free(&f);
 }
 
-int main(int argc, char **argv) { return ranks_main(argc, argv); }
+/* ---- what begins no run --------------------------------------------------------------------- */
+
+static bool is_unthreaded;
+
+static void next(void *function, const char *name)
+{
+    void *found = dlsym(RTLD_NEXT, name);
+    assert_non_null(found);
+    memcpy(function, &found, sizeof found);
+}
+
+/** MPI's own; or one that several threads cannot call. */
+int MPI_Init_thread(int *argc, char ***argv, int wanted, int *provided)
+{
+    int (*real)(int *, char ***, int, int *);
+    next(&real, "MPI_Init_thread");
+    const int result = real(argc, argv, wanted, provided);
+    if (is_unthreaded) *provided = 0;
+    return result;
+}
+
+static void expect_ended(void)
+{
+    int (*finalized)(int *), ended = 0;
+    next(&finalized, "MPI_Finalized");
+    (void)finalized(&ended);
+    assert_true(ended);
+}
+
+static void refused_unthreaded(int argc, char **argv)
+{
+    char line[200];
+    is_unthreaded = true;
+    assert_int_equal(hd_mpi_begin(&ranks, &argc, &argv, line, sizeof line), HD_REFUSED);
+    assert_string_equal(line, "this MPI cannot be called by several threads");
+    assert_null(ranks);
+}
+
+/** After what is refused MPI has ended. */
+int main(int argc, char **argv)
+{
+    const char *how = argc > 1 ? argv[1] : "";
+    const bool unthreaded = strcmp(how, "unthreaded") == 0;
+    if (unthreaded) refused_unthreaded(argc, argv);
+    const int result = unthreaded ? 0 : ranks_main(argc, argv);
+    if (unthreaded || strcmp(how, "alone") == 0) expect_ended();
+    return result;
+}

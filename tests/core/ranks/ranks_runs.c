@@ -345,6 +345,23 @@ TEST(checkpoints_that_fail_are_said_by_all)
     if (ranks->rank == 0) (void)remove("ranks.checkpoint");
 }
 
+/** The next descriptor that is free. */
+static int next_descriptor(void)
+{
+    const int next = dup(STDERR_FILENO);
+    (void)close(next);
+    return next;
+}
+
+TEST(checkpoints_that_fail_leave_no_file_open)
+{
+    OWNED(hd_run) *run = shared(scene_of_runs(20, 0));
+    const int before = next_descriptor();
+    for (int again = 0; again < 3; again++)
+        assert_int_equal(hd_run_save(run, "no/such/folder", "", NULL, 0), HD_FILE_FAULT);
+    assert_int_equal(next_descriptor(), before);
+}
+
 /* ---- rank 0 leads --------------------------------------------------------------------------- */
 
 static const hd_parameter *parameter_named(const char *name)

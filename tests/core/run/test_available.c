@@ -59,6 +59,15 @@ TEST(of_a_group)
                      "inactive_file 7\ntotal_inactive_file 250000\n"},
                     {NULL, NULL}},
            2250000.0, "cgroup");
+    expect((text[]){{"/proc/self/cgroup", "5:cpu:/a:memory:/b\n0::/docker:/pod:memory:x\n"},
+                    {"/sys/fs/cgroup/docker:/pod:memory:x/memory.max", "1000\n"},
+                    {NULL, NULL}},
+           1000.0, "cgroup");
+    expect((text[]){{"/proc/self/cgroup", "5:cpu:/other\n4:hugetlb,memory:/a:b\n"},
+                    {"/sys/fs/cgroup/memory/a:b/memory.limit_in_bytes", "1000\n"},
+                    {"/sys/fs/cgroup/memory/other/memory.limit_in_bytes", "10\n"},
+                    {NULL, NULL}},
+           1000.0, "cgroup");
     expect((text[]){{"/proc/self/cgroup", "0::/job\n"},
                     {"/sys/fs/cgroup/job/memory.max", "1000\n"},
                     {"/sys/fs/cgroup/job/memory.current", "4000\n"},

@@ -12,10 +12,11 @@ extern "C" {
 /** Starts MPI; *out is NULL for a single rank. HD_REFUSED, with a line in message[size]: calls may
  * come from several threads, one at a time, and this MPI cannot do that; or it finds one rank where
  * another MPI has started several (hd_ranks_started), each of which would do all by itself.
- * HD_NO_MEMORY. What MPI itself finds wrong ends all ranks, as is its way. */
+ * HD_NO_MEMORY. What MPI itself finds wrong ends all ranks, as is its way.
+ * MPI is on after HD_OK alone: then it is ended by hd_mpi_end, of a single rank too. */
 HD_MUST_CHECK hd_status hd_mpi_begin(hd_communicator **out, int *argc, char ***argv, char *message,
                                      size_t size);
-/** Ends MPI; called by all ranks. */
+/** Ends MPI; called by all ranks. `c` is what hd_mpi_begin gave. */
 void hd_mpi_end(hd_communicator *c);
 
 #ifdef __cplusplus
