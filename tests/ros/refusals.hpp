@@ -21,16 +21,16 @@ struct refusal {
 const std::vector<std::string> no_number = {"x", "''", "[1.0]", "true", "1 2"};
 const std::vector<std::string> no_integer = {"1.0", "'2'",   "x",  "''",
                                              "[2]", "false", "08", "0.30000000000000004"};
-const std::vector<std::string> no_time = {"-1", "-1e-09", "2000000000000", "nan", "inf"};
-const std::vector<std::string> no_length = {"0", "-1", "0.9e-6", "2000000000000", "nan", "inf"};
-const std::vector<std::string> no_interval = {"0",  "0.0", "-1",  "2000000000000", "never",
-                                              "''", "nan", "inf", "true"};
+const std::vector<std::string> no_time = {"-1", "-1e-09", "'2000000000000'", "nan", "inf"};
+const std::vector<std::string> no_length = {"0", "-1", "0.9e-6", "'2000000000000'", "nan", "inf"};
+const std::vector<std::string> no_interval = {"0",   "0.0", "-1",  "'2000000000000'", "never", "''",
+                                              "nan", "inf", "true"};
 
 const std::vector<refusal> refusals = {
     {"scene", "a string", {"5", "[quick]", "true"}},
     {"scene", "a line that is not empty", {"''"}},
     {"disks", "an integer, without a point", no_integer},
-    {"container", "rectangle or circle", {"square", "", "1"}},
+    {"container", "rectangle or circle", {"square", "''", "1"}},
     {"disks", "an integer from 1 to 1000000", {"0", "-3", "1000001"}},
     {"density", "a number", no_number},
     {"density", "from 1e-6 to 2/sqrt(3) = 1.1547", {"0", "-0.1", "1.1548", "nan", "inf"}},
@@ -65,7 +65,7 @@ const std::vector<refusal> refusals = {
     {"accuracy", "a number", no_number},
     {"accuracy", "from 1e-12 to 1e-2", {"0", "9e-13", "0.011", "nan", "inf"}},
     {"report_interval", "a number", no_number},
-    {"report_interval", "from 1e-6 to 1e12", {"0", "-1", "2000000000000", "nan", "inf"}},
+    {"report_interval", "from 1e-6 to 1e12", {"0", "-1", "'2000000000000'", "nan", "inf"}},
     {"phase_interval", "auto, or from 1e-6 to 1e12", no_interval},
     {"observables",
      "a list out of " OBSERVABLES,
@@ -85,7 +85,7 @@ const std::vector<refusal> refusals = {
      "from 0 (the lowest T and LP steps) to 37, the vectors carried",
      {"-1", "38"}},
     {"max_wave_number", "a number", no_number},
-    {"max_wave_number", "0 (by max_mode_number) or above", {"-1", "2000000000000", "nan", "inf"}},
+    {"max_wave_number", "0 (by max_mode_number) or above", {"-1", "'2000000000000'", "nan", "inf"}},
     {"max_mode_number", "an integer, without a point", no_integer},
     {"max_mode_number", "from 0 (automatic) to 1000000", {"-1", "1000001"}},
     {"field_indices",

@@ -2,11 +2,16 @@
 """Parameters as ROS hands them on: types of the parameter server, lists of the command line, scenes
 that are started. What each may be is tested without nodes, in test_refusals.cpp."""
 
+import datetime
 import os
 import re
 import subprocess
+import tempfile
+import xmlrpc.client
 
 import rosgraph
+import roslaunch.config
+import rospkg
 import rospy
 import yaml
 
@@ -30,6 +35,8 @@ REFUSED = [
 ARGUMENTS = {
     'argument disks=5: must be _parameter:=value': 'disks=5',
     'observables = [fields, spectra]: must be a list out of ': '_observables:=[fields,spectra]',
+    'seed = 12345678901: must be a string of digits, from "0" to "18446744073709551615"; with '
+    'rosrun in two pairs of quotes, _seed:="\'..\'"': '_seed:=12345678901',
     'field_indices = [0]: must be steps or a list of integers from 1 to 37': '_field_indices:=[0]',
 }
 TAKEN = dict(
@@ -55,6 +62,62 @@ TAKEN = dict(
     checkpoint_interval=5.0,
     wait_for_subscribers=['run_info', 'state'],
 )
+
+
+# in a file and after _name:=
+SPELLINGS = dict(
+    scene="'on'",
+    disks='+20',
+    density='.7',
+    aspect='1.',
+    seed="'12345678901'",
+    equilibration='1e0',
+    warmup='1.0e0',
+    duration='2',
+    report_interval='2.5e-1',
+    pace='1.5e+3',
+    accuracy="'1e-7'",
+    exponents='08',
+    observables="[spectrum, 'state']",
+)
+# what a file must not have: it is another number, or nothing that XML-RPC carries
+MISREAD = [
+    ('seed', '010', 8),
+    ('seed', '12345678901', OverflowError),
+    ('duration', '-12345678901', OverflowError),
+    ('disks', '0x14', 20),
+    ('disks', '0b11', 3),
+    ('disks', '1_000', 1000),
+    ('warmup', '1:30', 90),
+    ('warmup', '1:30.5', 90.5),
+    ('pace', '1_0.5', 10.5),
+    ('pace', '.5_0', 0.5),
+    ('scene', '2026-01-01', datetime.date(2026, 1, 1)),
+    ('scene', 'deg(180)', 3.141592653589793),
+    ('scene', '', TypeError),
+]
+
+
+def of_roslaunch(text):
+    """Parameters that it gives the node of run.launch with a scene file of this text; what it dies
+    of, when XML-RPC does not carry them."""
+    launch = os.path.join(rospkg.RosPack().get_path('hdlyap'), 'launch', 'run.launch')
+    with tempfile.NamedTemporaryFile('w', suffix='.yaml') as file:
+        file.write(text)
+        file.flush()
+        config = roslaunch.config.load_config_default([(launch, ['scene:=' + file.name])], 0)
+    return {
+        name.rpartition('/')[2]: param.value
+        for name, param in config.params.items()
+        if name.startswith('/hdlyap/')
+    }
+
+
+def carried(value):
+    try:
+        return xmlrpc.client.loads(xmlrpc.client.dumps((value,)))[0][0]
+    except (OverflowError, TypeError) as error:
+        return type(error)
 
 
 class Parameters(harness.Case):
@@ -119,6 +182,50 @@ class Parameters(harness.Case):
         self.assertEqual(
             (message.observables, message.field_indices), (['fields', 'state'], '[1, 7]')
         )
+
+    def checked(self, text, *arguments):
+        with tempfile.NamedTemporaryFile('w', suffix='.yaml') as file:
+            file.write(text)
+            file.flush()
+            return subprocess.run(
+                [harness.executable(), '--check', file.name, *arguments],
+                text=True,
+                capture_output=True,
+                timeout=harness.PATIENCE,
+            )
+
+    def test_one_reading(self):
+        """Of a file by --check and by roslaunch, and of _name:=value."""
+        text = ''.join(f'{name}: {value}\n' for name, value in SPELLINGS.items())
+        done = self.checked(text)
+        self.assertEqual((done.returncode, done.stderr), (0, ''))
+        self.assertIn('scene     on is valid: 20 disks in 5.34522 x 5.34522, 8 vect', done.stdout)
+        given = [f'_{name}:={value}' for name, value in SPELLINGS.items()]
+        said = [
+            self.told(self.start(dict(params, **HEARD), args=args), self.listen('run_info'))
+            for params, args in ((of_roslaunch(text), []), ({}, given))
+        ]
+        for name in SPELLINGS:
+            self.assertEqual(getattr(said[0], name), getattr(said[1], name), name)
+        self.assertEqual((said[0].seed, said[0].duration), ('12345678901', 2.0))
+
+    def test_misread(self):
+        """Refused by --check, by name; and roslaunch does read something else."""
+        for name, value, read in MISREAD:
+            with self.subTest(name=name, value=value):
+                done = self.checked(f'aspect: 1.0\n{name}: {value}\n')
+                self.assertEqual((done.returncode, done.stdout), (2, ''))
+                self.assertRegex(
+                    done.stderr, re.escape(f': line 2: {name} = {value}: must be ') + '.+$'
+                )
+                found = of_roslaunch(f'{name}: {value}')[name]
+                self.assertEqual(found if found == read else carried(found), read)
+
+    def test_arguments_of_check(self):
+        """Are no YAML, as those of rosrun and roslaunch are not."""
+        done = self.checked('aspect: 1.0', 'disks:=010', 'seed:=12345678901')
+        self.assertEqual((done.returncode, done.stderr), (0, ''))
+        self.assertIn('10 disks', done.stdout)
 
     def test_scenes(self):
         """Some of them start as they are written; without parameters it is paper_periodic."""

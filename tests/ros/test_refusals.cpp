@@ -205,7 +205,7 @@ static const std::vector<std::pair<std::string, std::string>> refused_together =
     {"{covariant, covariant_transient: -1}", "covariant_transient = -1: must be from 1e-6 to 1e12"},
     {"{covariant, covariant_sampling: nan}",
      "covariant_sampling = nan: must be from 1e-6 to covariant_window"},
-    {"{covariant, covariant_window: 2000000000000}",
+    {"{covariant, covariant_window: '2000000000000'}",
      "covariant_window = 2000000000000: must be from 1e-6 to 1e12"},
     {"{covariant, covariant_memory: 0.0009}",
      "covariant_memory = 0.0009: must be from 0.001 to 1e6 [GB]"},
@@ -280,8 +280,10 @@ TEST(Parameters, Defaults)
 /** As rosparam would hand it over: YAML 1.1, also within a list that rosrun has as one text. */
 TEST(Parameters, OfYaml)
 {
-    expect_said("disks: 0x28", "disks: 40");
-    expect_said("disks: 050", "disks: 40");
+    expect_said("disks: +40", "disks: 40");
+    expect_said("{duration: .5, accuracy: 1.0e-7}", "duration: 0.5, accuracy: 1e-07");
+    expect_said("{duration: 1., warmup: 1.0e1}", "duration: 1, warmup: 10");
+    expect_said("{seed: '010', scene: 'on'}", "seed: 10, scene: on");
     expect_said("seed: !!str 7", "seed: 7");
     expect_said("scene: &name 'y'\nresume: ''", "scene: y");
     expect_said("observables: \"[spectrum, 'state']\"", "observables: [spectrum, state]");

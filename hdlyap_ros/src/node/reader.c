@@ -65,6 +65,18 @@ static bool parse_unsigned(uint64_t *out, const char *text, uint64_t max)
 
 /* ---- of the scene -------------------------------------------------------------------------- */
 
+/** Of a number without quotes that was too long for an integer, as rosrun hands it over. */
+static bool refuse_seed(const reader *r, const parameter *p)
+{
+    char allowed[PARAMETER_ALLOWED];
+    double number = 0.0;
+    const bool is_long = !text_of(r) && hdr_param_double(r->params, r->name, &number) == HDR_OK &&
+                         number > INT32_MAX;
+    snprintf(allowed, sizeof allowed, "%s%s", p->allowed,
+             is_long ? "; with rosrun in two pairs of quotes, _seed:=\"'..'\"" : "");
+    return reader_refuse(r, allowed);
+}
+
 /** A string, because integers have 32 bits on the parameter server; short ones are taken too. */
 static bool read_seed(const reader *r, const parameter *p, uint64_t *seed)
 {
@@ -73,7 +85,7 @@ static bool read_seed(const reader *r, const parameter *p, uint64_t *seed)
     const hdr_status as_string = hdr_param_string(r->params, r->name, &text);
     if (as_string == HDR_MISSING) return true;
     const bool typed = as_string == HDR_OK || hdr_param_int(r->params, r->name, &number) == HDR_OK;
-    return (typed && parse_unsigned(seed, text, UINT64_MAX)) || reader_refuse(r, p->allowed);
+    return (typed && parse_unsigned(seed, text, UINT64_MAX)) || refuse_seed(r, p);
 }
 
 /** A word stands for what no number says; a number may also be a string of digits. */

@@ -1,6 +1,7 @@
 /** Private parameters: the master's XML-RPC struct -> typed values. */
 #include "hdlyap_ros/params.h"
 
+#include <cerrno>
 #include <cstdlib>
 #include <map>
 #include <sstream>
@@ -17,13 +18,14 @@ using XmlRpc::XmlRpcValue;
 
 namespace
 {
-/** rosrun's _name:=[a, b] arrives as a string: a list of its items. Anything else as it is. */
+/** rosrun's _name:=[a, b] arrives as a string: a list of its items; so does _name:="'5'": a string
+ * without the quotes. Anything else as it is. */
 XmlRpcValue listed(XmlRpcValue &value)
 {
     if (value.getType() != XmlRpcValue::TypeString) return value;
     const std::string text = value;
-    const bool is_list = text.size() > 1 && text.front() == '[' && text.back() == ']';
-    return is_list ? scene_file_value(text) : value;
+    const std::string ends = text.size() > 1 ? std::string{text.front(), text.back()} : "";
+    return ends == "[]" || ends == "''" || ends == "\"\"" ? scene_file_value(text) : value;
 }
 
 /** In as few digits as tell it from every other number. */
@@ -137,13 +139,28 @@ std::unique_ptr<hdr_params> made_of(XmlRpcValue &all)
     return params;
 }
 
+/** As rosrun and run.launch take what is given to them: no YAML, 010 is 10. A whole number that ROS
+ * does not carry stays a text. */
+XmlRpcValue argument_value(const std::string &text)
+{
+    char *end = nullptr;
+    errno = 0;
+    const long whole = std::strtol(text.c_str(), &end, 10);
+    double real = 0.0;
+    if (text == "true" || text == "false") return XmlRpcValue(text == "true");
+    if (!text.empty() && !*end && !errno && whole == static_cast<int>(whole))
+        return XmlRpcValue(static_cast<int>(whole));
+    if (text.find('.') != std::string::npos && number_parse(text, &real)) return XmlRpcValue(real);
+    return XmlRpcValue(text);
+}
+
 /** name:=value or _name:=value. */
 void replace(XmlRpcValue &all, const std::string &argument)
 {
     const size_t first = argument.compare(0, 1, "_") == 0, sign = argument.find(":=");
     if (sign == std::string::npos || sign == first)
         throw std::runtime_error("argument " + argument + ": must be parameter:=value");
-    all[argument.substr(first, sign - first)] = scene_file_scalar(argument.substr(sign + 2));
+    all[argument.substr(first, sign - first)] = argument_value(argument.substr(sign + 2));
 }
 
 std::unique_ptr<hdr_params> fetch(const std::string &name)

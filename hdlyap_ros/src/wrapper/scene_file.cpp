@@ -1,9 +1,13 @@
 /** YAML -> XML-RPC values. */
 #include "scene_file.hpp"
 
+#include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <fstream>
+#include <regex>
 #include <stdexcept>
+#include <vector>
 
 #include <yaml-cpp/yaml.h>
 
@@ -11,12 +15,62 @@ using XmlRpc::XmlRpcValue;
 
 namespace
 {
+/** Words without quotes that YAML 1.1, and so roslaunch, takes for something else than what they
+ * look like: no file may have them. Every number of it that is not decimal is among them. */
+const struct {
+    std::regex word;
+    const char *must_be;
+} refused[] = {
+    {std::regex("[-+]?(0[0-7_]+|0b[01_]+|0x[0-9a-fA-F_]+|[0-9][0-9_]*(:[0-5]?[0-9])+(\\.[0-9_]*)?|"
+                "[0-9][0-9_]*_[0-9_]*|[0-9][0-9_]*\\.[0-9_]*([eE][-+][0-9]+)?)|\\.[0-9][0-9_]*([eE]"
+                "[-+][0-9]+)?"),
+     "decimal digits; a text is in quotes: roslaunch (YAML 1.1) reads another number"},
+    {std::regex("[0-9]{4}-[0-9]{1,2}-[0-9]{1,2}.*|(deg|rad)\\([^)]*\\)|<<|="),
+     "in quotes: roslaunch (YAML 1.1) reads something else"},
+    {std::regex("~|null|Null|NULL|"), "a value; an empty text is ''"},
+};
+
+const std::regex whole("[-+]?(0|[1-9][0-9]*)");
+const std::regex real("[-+]?[0-9]+\\.[0-9]*([eE][-+][0-9]+)?|\\.[0-9]+([eE][-+][0-9]+)?");
+const std::regex infinite("([-+]?)\\.(inf|Inf|INF)"), no_number("\\.(nan|NaN|NAN)");
+
+[[noreturn]] void refuse(const std::string &text, const char *must_be)
+{
+    throw std::invalid_argument(text + ": must be " + must_be);
+}
+
+XmlRpcValue integer_of(const std::string &text)
+{
+    const long long number = std::strtoll(text.c_str(), nullptr, 10); /* the nearest if too long */
+    if (number != static_cast<int>(number))
+        refuse(text, "in quotes: ROS carries no integer of more than 32 bits");
+    return XmlRpcValue(static_cast<int>(number));
+}
+
+/** What roslaunch takes a text without quotes for; std::invalid_argument if it is refused. */
+XmlRpcValue word_of(const std::string &text)
+{
+    bool truth = false;
+    if (text.size() > 1 && YAML::convert<bool>::decode(YAML::Node(text), truth))
+        return XmlRpcValue(truth);
+    if (std::regex_match(text, whole)) return integer_of(text);
+    if (std::regex_match(text, real)) return XmlRpcValue(std::strtod(text.c_str(), nullptr));
+    if (std::regex_match(text, no_number)) return XmlRpcValue(std::nan(""));
+    if (std::regex_match(text, infinite)) return XmlRpcValue(text[0] == '-' ? -HUGE_VAL : HUGE_VAL);
+    for (const auto &row : refused)
+        if (std::regex_match(text, row.word)) refuse(text, row.must_be);
+    return XmlRpcValue(text);
+}
+
 XmlRpcValue scalar_of(const YAML::Node &node)
 {
+    const std::string tag = node.Tag(), text = node.IsNull() ? "" : node.Scalar();
     if (!node.IsScalar() && !node.IsNull())
         throw YAML::Exception(node.Mark(), "a parameter is a number, a word or a list of these");
-    const bool is_quoted = node.Tag() == "!";
-    return is_quoted ? XmlRpcValue(node.Scalar()) : scene_file_scalar(node.Scalar());
+    if (tag == "!" || tag == "tag:yaml.org,2002:str") return XmlRpcValue(text); /* in quotes */
+    if (!tag.empty() && tag != "?")
+        throw YAML::Exception(node.Mark(), "a parameter has no tag, but it has " + tag);
+    return word_of(text);
 }
 
 XmlRpcValue value_of(const YAML::Node &node)
@@ -37,31 +91,29 @@ XmlRpcValue members_of(const YAML::Node &root)
     for (const auto &pair : root) {
         if (!pair.first.IsScalar())
             throw YAML::Exception(pair.first.Mark(), "a name of a parameter is a word");
-        all[pair.first.Scalar()] = value_of(pair.second);
+        const std::string name = pair.first.Scalar();
+        try {
+            all[name] = value_of(pair.second);
+        } catch (const std::invalid_argument &error) {
+            throw YAML::Exception(pair.first.Mark(), name + " = " + error.what());
+        }
     }
     return all;
 }
-} // namespace
 
-/** yaml-cpp knows more words than YAML 1.1 (y, n), and numbers (1e5, without a point). */
-XmlRpcValue scene_file_scalar(const std::string &text)
+XmlRpcValue members_of_all(const std::vector<YAML::Node> &documents)
 {
-    const YAML::Node node(text);
-    bool truth = false;
-    int number = 0;
-    double real = 0.0;
-    if (text.size() > 1 && YAML::convert<bool>::decode(node, truth)) return XmlRpcValue(truth);
-    if (YAML::convert<int>::decode(node, number)) return XmlRpcValue(number);
-    if (text.find('.') != std::string::npos && YAML::convert<double>::decode(node, real))
-        return XmlRpcValue(real);
-    return XmlRpcValue(text);
+    if (documents.size() > 1)
+        throw YAML::Exception(documents[1].Mark(), "must be one document, without ---");
+    return members_of(documents.empty() ? YAML::Node() : documents[0]);
 }
+} // namespace
 
 XmlRpcValue scene_file_value(const std::string &text)
 {
     try {
         return value_of(YAML::Load(text));
-    } catch (const YAML::Exception &) {
+    } catch (const std::exception &) {
         return XmlRpcValue(text);
     }
 }
@@ -72,7 +124,7 @@ XmlRpcValue scene_file_read(const std::string &path)
     if (file.peek() == EOF && !file.eof())
         throw std::runtime_error(path + ": there is no such file, or it cannot be read");
     try {
-        return members_of(YAML::Load(file));
+        return members_of_all(YAML::LoadAll(file));
     } catch (const YAML::Exception &error) {
         const std::string line = std::to_string(error.mark.line + 1);
         throw std::runtime_error(path + ": line " + line + ": " + error.msg);

@@ -6,11 +6,9 @@
 #include <XmlRpcValue.h>
 
 /** Members by name; a value is a scalar or a list of scalars. Throws std::runtime_error with a line
- * that names the file. */
+ * that names the file: also of words that YAML 1.1, and so roslaunch, takes for something else than
+ * what they look like, and of numbers that it cannot hand over. */
 XmlRpc::XmlRpcValue scene_file_read(const std::string &path);
 
-/** What YAML 1.1, and so rosparam, takes a text without quotes for. */
-XmlRpc::XmlRpcValue scene_file_scalar(const std::string &text);
-
-/** The same, or a list of such; the text itself where it is neither. */
+/** A text in quotes, or a list; the text itself where it is neither. */
 XmlRpc::XmlRpcValue scene_file_value(const std::string &text);
