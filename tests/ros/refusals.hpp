@@ -103,7 +103,6 @@ const std::vector<refusal> refusals = {
     {"resume", "a string", {"5", "true", "[file]"}},
     {"table", "a number", no_number},
     {"table", "from 0 (none) to 1e12", no_time},
-    {"bag", "a string", {"5", "true", "[file]"}},
     {"covariant_window", "a number", no_number},
     {"covariant_transient", "a number", no_number},
     {"covariant_sampling", "a number", no_number},

@@ -111,10 +111,13 @@ class Recorded(harness.Case):
         folder = tempfile.TemporaryDirectory()
         cls.addClassCleanup(folder.cleanup)
         cls.folder, cls.bag = folder.name, os.path.join(folder.name, 'run.bag')
-        recorder = launch(cls.folder, 'record.launch', 'bag:=run.bag')
+        rospy.set_param('/use_sim_time', True)  # left over: nobody has a clock
+        recorder = launch(cls.folder, 'record.launch', 'bag:=run')
         cls.addClassCleanup(end, recorder)
         cls.counts = [cls.run_of(params) for params in (FIRST, RUN)]
+        rospy.delete_param('/use_sim_time')
         end(recorder)
+        cls.said = recorder.text()
         cls.messages = read(cls.bag)
         # a latched one comes twice to whom connects while it is published, by roscpp
         infos = unpacked(cls.messages['/hdlyap/run_info'])
@@ -153,6 +156,8 @@ class Recorded(harness.Case):
         self.assertGreater(self.counts[1]['fields'], 0)
         self.assertEqual(len(self.messages['/hdlyap/state']), 4 + REPORTS)  # and of no other run
         self.assertEqual([info.seed for info in self.infos], ['7', '11'])
+        ours = [of for topic, of in self.messages.items() if topic.startswith('/hdlyap/')]
+        self.assertIn(f'the bag is {self.bag}: {sum(map(len, ours))} messages;', self.said)
 
     def test_first_report(self):
         """The runs have waited for the recorder."""

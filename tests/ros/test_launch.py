@@ -112,6 +112,8 @@ class Launch(harness.Case):
         """With one line of what is wrong; no bag is touched."""
         refused = {
             'duration:=-1': 'duration = -1: must be from 0',
+            'min_space:=99999999G': 'less than min_space = 99999999G is free in '
+            + tempfile.gettempdir(),
             'params:={disk: 50}': 'disk = 50: must be removed: there is no parameter of this name',
         }
         with tempfile.TemporaryDirectory() as folder:

@@ -370,8 +370,7 @@ void check_scene(const std::string &file)
         char usual[PARAMETER_TEXT];
         parameter_usual(usual, &p);
         EXPECT_TRUE(file == "paper_periodic.yaml" || value != usual) << file << ": " << name;
-        static const std::set<std::string> others{"threads", "changes", "table", "bag",
-                                                  "boundary_z"};
+        static const std::set<std::string> others{"threads", "changes", "table", "boundary_z"};
         if (others.count(name)) continue; /* of the machine; none; of the log; of spheres */
         if (value == "auto" && name != "warmup") {
             EXPECT_NE(said().find("\n" + name + ": 0\n"), std::string::npos) << file << name;

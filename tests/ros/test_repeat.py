@@ -26,8 +26,7 @@ def complete(name):
     for path in ('paper_periodic.yaml', name):
         with open(os.path.join(SCENES, path)) as file:
             scene.update(yaml.safe_load(file))
-    for name in 'table', 'bag':  # of the log: they do not belong to the run
-        scene.pop(name)
+    scene.pop('table')  # of the log: it does not belong to the run
     if scene['dimensions'] == 2:
         for name in 'aspect_z', 'boundary_z':
             scene.pop(name)

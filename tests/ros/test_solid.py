@@ -389,8 +389,8 @@ class Runs(unittest.TestCase):
         ), mock.patch.object(one, 'write'), mock.patch.object(work.os, 'makedirs'), mock.patch(
             'builtins.open', mock.mock_open()
         ):
-            work.Job(one, '/nowhere', '/nowhere/log')
-        self.assertIn('dimensions:=3', tree.call_args[0][0])
+            work.Job(one, '/nowhere', '/nowhere/log', '500M')
+        self.assertLess({'dimensions:=3', 'min_space:=500M'}, set(tree.call_args[0][0]))
 
     def test_run(self):
         """By the scene, unless an argument says it."""

@@ -15,9 +15,8 @@ def heeded():
 
 
 @contextlib.contextmanager
-def held():
-    """A list that each of them which comes meanwhile is added to; the first one's exit follows at
-    the end."""
+def caught():
+    """A list that each of them which comes meanwhile is added to."""
     came, before = [], {}
     for number in heeded():
         before[number] = signal.signal(number, lambda number, _: came.append(number))
@@ -26,6 +25,16 @@ def held():
     finally:
         for number, handler in before.items():
             signal.signal(number, handler)
+
+
+@contextlib.contextmanager
+def held():
+    """The same; the first one's exit follows at the end."""
+    came = []
+    try:
+        with caught() as came:
+            yield came
+    finally:
         if came:
             leave(came[0])
 

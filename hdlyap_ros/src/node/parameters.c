@@ -171,16 +171,6 @@ static const parameter rows[] = {
         .text = "Wall time at least between two tables of the steps in the log. One is printed "
                 "when the averages have doubled or more steps are known, and one at the end.",
     },
-    {
-        .name = "bag",
-        .kind = FILE_PATH,
-        .offset = offsetof(settings, bag),
-        .usual = "",
-        .allowed = "a path in one line",
-        .unit = "",
-        .may_differ = true,
-        .text = "File that a recorder writes, which the last lines of the log name; empty: none.",
-    },
 };
 enum { ROWS = sizeof rows / sizeof *rows };
 

@@ -38,8 +38,7 @@ typedef struct settings {
     const char *checkpoint;     /**< file, or ""; in the params, as the next but one */
     double checkpoint_interval; /**< wall seconds; 0: only at the end and when asked */
     const char *resume;         /**< file to go on from, or "" */
-    double table;    /**< wall seconds between two tables in the log, at least; 0: none */
-    const char *bag; /**< file that a recorder writes, or "" */
+    double table; /**< wall seconds between two tables in the log, at least; 0: none */
 } settings;
 
 /** The file to go on from, "" if none. False if refused. */

@@ -4,7 +4,6 @@
 #include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
-#include <unistd.h>
 
 #include "common/dimension.h"
 #include "common/numbers.h"
@@ -128,19 +127,9 @@ void table_tell(table *t, const settings *set, const hd_run *run)
     print("so far", set, run);
 }
 
-/** A recorder's file, which has another name as long as it is written. */
-static bool is_recorded(const char *bag)
-{
-    char written[TEXT + 4096];
-    snprintf(written, sizeof written, "%s.active", bag);
-    return *bag && (access(bag, F_OK) == 0 || access(written, F_OK) == 0);
-}
-
 void table_result(const settings *set, const hd_run *run)
 {
     if (set->table > 0.0 && is_averaged(run)) print("result", set, run);
-    if (is_recorded(set->bag))
-        hdr_log(HDR_INFO, "the bag is %s; hdlyap plot draws its figures", set->bag);
     if (*set->checkpoint)
         hdr_log(HDR_INFO, "the checkpoint is %s; resume:=FILE goes on from it", set->checkpoint);
 }

@@ -15,7 +15,7 @@ import sys
 import rospkg
 
 from hdlyap.plots import fits
-from hdlyap.runs import bags, work
+from hdlyap.runs import bags, recording, work
 from hdlyap.runs.scene import Refused
 from hdlyap.sweep import grid, plan, result
 
@@ -48,6 +48,12 @@ def options(parser):
     parser.add_argument('--jobs', default='', help='runs at a time; default: one for each core')
     parser.add_argument('--folder', default='', help='of bags, table and figure; default: sweep')
     parser.add_argument(
+        '--min-space',
+        default=recording.LEAST,
+        metavar='SIZE',
+        help=f'of the disk, that must be free for a bag; default: {recording.LEAST}',
+    )
+    parser.add_argument(
         '--write',
         action='store_true',
         help='do nothing but write the scene files and print the names of the runs that are not '
@@ -62,6 +68,7 @@ def understood(args, launch, cwd):
         raise Refused(f'jobs = {args.jobs}: must be 1 or more')
     folder = args.folder or 'sweep'
     path = os.path.join(cwd, folder)
+    recording.Space(args.min_space, path)  # or refused
     if os.path.exists(path) and not os.path.isdir(path):
         raise Refused(f'folder = {folder}: must be a folder')
     return (
@@ -106,7 +113,7 @@ def write(found, folder):
 def sweep(found, folder, jobs, args):
     """Exit status."""
     os.makedirs(folder, exist_ok=True)
-    wrong = work.do(found, folder, jobs)
+    wrong = work.do(found, folder, jobs, args.min_space)
     there = [run.bag(folder) for run in found if os.path.exists(run.bag(folder))]
     if args.plan:  # they may be of anything
         print(f'{len(there)} of {len(found)} runs are in {folder}', flush=True)

@@ -19,10 +19,39 @@ class MasterError(Exception):
     """One line for the user."""
 
 
-class Master:
+class Watch:
+    """Of one that is there."""
+
     def __init__(self):
         self.uri = rosgraph.get_master_uri()
-        self._own, self._due, self._heard = None, 0.0, time.monotonic()
+        self._due, self._heard = 0.0, time.monotonic()
+
+    def check(self):
+        """MasterError if it has gone. To be called often."""
+        now = time.monotonic()
+        if now >= self._due:
+            self._due = now + ASK
+            if self._answers():
+                self._heard = time.monotonic()
+        if now - self._heard > SILENCE:
+            self.fail()
+
+    def fail(self):
+        raise MasterError(f'the ROS master at {self.uri} has gone')
+
+    @staticmethod
+    def _answers():
+        try:
+            nodes.ask_master('getUri')
+            return True
+        except nodes.UNANSWERED:
+            return False
+
+
+class Master(Watch):
+    def __init__(self):
+        super().__init__()
+        self._own = None
         if not rosgraph.is_master_online():
             self._start()
 
@@ -37,22 +66,9 @@ class Master:
             time.sleep(POLL)
 
     def check(self):
-        """MasterError if it has gone. To be called often."""
-        now = time.monotonic()
-        if now >= self._due:
-            self._due = now + ASK
-            if self._answers():
-                self._heard = time.monotonic()
-        if (self._own and self._own.has_ended()) or now - self._heard > SILENCE:
-            raise MasterError(f'the ROS master at {self.uri} has gone')
-
-    @staticmethod
-    def _answers():
-        try:
-            nodes.ask_master('getUri')
-            return True
-        except nodes.UNANSWERED:
-            return False
+        super().check()
+        if self._own and self._own.has_ended():
+            self.fail()
 
     def stop(self):
         if self._own:

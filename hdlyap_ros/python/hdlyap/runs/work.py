@@ -35,7 +35,7 @@ class Job:
     """One run under way; records in a folder of its own, since what is not whole shall replace
     nothing."""
 
-    def __init__(self, run, folder, log):
+    def __init__(self, run, folder, log, min_space):
         self.run, self.log = run, log
         self._folder, self._new = folder, os.path.join(
             folder, UNDER_WAY, f'{run.name}.{os.getpid()}'
@@ -59,6 +59,7 @@ class Job:
                     f'dimensions:={run.dimensions}',
                     'record:=true',
                     f'bag:={run.bag(self._new)}',
+                    f'min_space:={min_space}',
                     'table:=0',
                 ],
                 file,
@@ -119,9 +120,9 @@ def last_words(log):
 class Work:
     """The runs, as many at a time as there is room for."""
 
-    def __init__(self, runs, folder, logs, jobs):
+    def __init__(self, runs, folder, logs, jobs, min_space):
         self.waiting, self.under_way, self.failed = list(runs), [], []
-        self._folder, self._logs, self._jobs = folder, logs, jobs
+        self._folder, self._logs, self._jobs, self._min_space = folder, logs, jobs, min_space
         self._total, self._done = sum(run.share_of(jobs) for run in runs), 0.0
 
     def progress(self):
@@ -135,9 +136,8 @@ class Work:
         """What there is room for."""
         while self.waiting and self._has_room():
             run = self.waiting.pop(0)
-            self.under_way.append(
-                Job(run, self._folder, os.path.join(self._logs, run.name + '.log'))
-            )
+            log = os.path.join(self._logs, run.name + '.log')
+            self.under_way.append(Job(run, self._folder, log, self._min_space))
 
     def _has_room(self):
         if not self.under_way:
@@ -174,7 +174,7 @@ class Work:
         end([job.tree for job in jobs], PATIENCE, is_pressed)
 
 
-def do(runs, folder, jobs):
+def do(runs, folder, jobs, min_space):
     """Those that are not done; a line for each that has failed. Nobody else may do so in this
     folder meanwhile: WorkError."""
     logs = os.path.join(folder, 'log')
@@ -189,7 +189,7 @@ def do(runs, folder, jobs):
         todo = _missing(runs, folder)
         show = Display(len(todo), len(runs) - len(todo))
         try:
-            work(Work(todo, folder, logs, jobs), show)
+            work(Work(todo, folder, logs, jobs, min_space), show)
         except WorkError as error:
             return str(error).splitlines()
     return []
