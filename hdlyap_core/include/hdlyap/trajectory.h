@@ -50,7 +50,7 @@ HD_MUST_CHECK hd_status hd_trajectory_create(hd_trajectory **out, const hd_scene
 /** A prepared state: q[HD_DIM N] inside the box (x0 y0 x1 y1 ..), p[HD_DIM N];
  * nothing is rescaled.
  * HD_REFUSED for a box that hd_scene_check refuses, positions outside it, |p| above 1e6;
- * HD_OVERLAP for disks deeper than 1e-9. */
+ * HD_OVERLAP for disks deeper than hd_trajectory_overlap_max. */
 HD_MUST_CHECK hd_status hd_trajectory_create_from(hd_trajectory **out, const hd_scene_def *def,
                                                   const double *q, const double *p);
 void hd_trajectory_free(hd_trajectory *trajectory);
@@ -87,6 +87,9 @@ double hd_trajectory_energy_rounding(const hd_trajectory *trajectory);
 /** More than rounding makes of an overlap: of some roundings in positions, of the order of the box,
  * and in times, as long as they are counted from one moment. */
 double hd_trajectory_overlap_rounding(const hd_trajectory *trajectory);
+/** Deeper than this [sigma] is a fault, HD_OVERLAP: 1e-9, or hd_trajectory_overlap_rounding where
+ * that is more: in boxes longer than some 3e5 sigma, 4e-6 in the longest of 1e9. */
+double hd_trajectory_overlap_max(const hd_trajectory *trajectory);
 /** Deepest overlap of any pair now: max(0, 1 - distance) over all pairs and images. Cost O(N). */
 double hd_trajectory_overlap(const hd_trajectory *trajectory);
 

@@ -6,7 +6,8 @@
 
 #include "hdlyap/scene.h"
 
-/** Deeper than this [sigma], an overlap is a fault and not rounding. */
+/** Deeper than this [sigma], an overlap is a fault and not rounding; in boxes whose coordinates
+ * round by more it is hd_trajectory_overlap_rounding. */
 #define HD_OVERLAP_MAX 1e-9
 
 /** q and p are those of time t (of the present epoch) and stay untouched until the disk's next

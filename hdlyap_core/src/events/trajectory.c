@@ -123,7 +123,7 @@ static hd_status collide(hd_trajectory *tr, hd_event_log *log, const hd_event *c
         approach += event.p[d] * r[d];
     }
     const double excess = square_minus_one(r);
-    if (excess < -2.0 * HD_OVERLAP_MAX) return HD_OVERLAP;
+    if (excess < -2.0 * tr->overlap_max) return HD_OVERLAP;
     hd_status status = HD_OK;
     if (exchange(a, b, r, approach, excess)) {
         tr->collisions++;
@@ -279,6 +279,7 @@ static hd_status trajectory_prepare(hd_trajectory *tr, const hd_scene_def *def)
     tr->motion.predicted = hd_memory_alloc((size_t)tr->motion.count, sizeof *tr->motion.predicted);
     if (!tr->motion.disk || !tr->motion.predicted) return HD_NO_MEMORY;
     HD_TRY(hd_cells_create(&tr->motion.cells, def));
+    tr->overlap_max = fmax(HD_OVERLAP_MAX, hd_trajectory_overlap_rounding(tr));
     return hd_queue_create(&tr->motion.queue, tr->motion.count, tr->epoch_length);
 }
 
@@ -295,11 +296,11 @@ static hd_status trajectory_start(hd_trajectory *tr, const double *q, const doub
                 return HD_REFUSED;
         }
         if (tr->motion.wall.reach > 0 &&
-            hd_round_wall_excess(&tr->motion.wall, disk->q) > HD_OVERLAP_MAX)
+            hd_round_wall_excess(&tr->motion.wall, disk->q) > tr->overlap_max)
             return HD_REFUSED;
         hd_cells_add(&tr->motion.cells, tr->motion.disk, i);
     }
-    if (hd_trajectory_overlap(tr) > HD_OVERLAP_MAX) return HD_OVERLAP;
+    if (hd_trajectory_overlap(tr) > tr->overlap_max) return HD_OVERLAP;
     for (int32_t i = 0; i < tr->motion.count; i++) hd_prediction_renew(&tr->motion, i);
     return HD_OK;
 }
@@ -440,11 +441,15 @@ double hd_trajectory_energy_rounding(const hd_trajectory *tr)
 double hd_trajectory_overlap_rounding(const hd_trajectory *tr)
 {
     const double speed_max = 16.0; /* of two disks; the mean square of a momentum is 2 */
-    const double roundings = 16.0; /* of eps/2, on the way to a contact */
+    /* of eps, on the way to a contact: each coordinate of either disk is folded, flown, shifted and
+     * subtracted, some ten times eps/2 in all, and rounding of the time moves them as much */
+    const double roundings = 16.0;
     double longest = 0.0;
     for (int d = 0; d < HD_DIM; d++) longest = fmax(longest, tr->motion.cells.box[d]);
     return roundings * DBL_EPSILON * (longest + speed_max * tr->epoch_length);
 }
+
+double hd_trajectory_overlap_max(const hd_trajectory *tr) { return tr->overlap_max; }
 
 /** Distance squared from disk i to disk j, `edges` of the box further, now; to itself infinite. */
 static double distance_squared(const hd_trajectory *tr, int32_t i, int32_t j,

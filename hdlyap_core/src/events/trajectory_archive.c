@@ -8,7 +8,8 @@
 
 /** Turns around the box within one epoch: more than any speed allows. */
 enum { WRAP_MAX = 1 << 24 };
-/** Rounding of a position; and of the energy, which walks by 1e-16 of itself in a collision. */
+/** Rounding of a position, in a long box that of its edge; and of the energy, which walks by 1e-16
+ * of itself in a collision. */
 static const double PLACE_CLOSE = 1e-6, ENERGY_CLOSE = 1e-6;
 
 static void disks_archive(hd_trajectory *tr, hd_archive *archive)
@@ -31,16 +32,17 @@ static void disks_archive(hd_trajectory *tr, hd_archive *archive)
 
 static bool in_its_cell(const hd_trajectory *tr, const hd_disk *disk)
 {
+    const double close = fmax(PLACE_CLOSE, tr->overlap_max);
     double at[HD_DIM];
     for (int d = 0; d < HD_DIM; d++) {
         const double *bound = tr->motion.cells.line[d][disk->cell[d]].bound;
         const double flight = disk->p[d] * (tr->now - tr->epoch_start - disk->t);
         const double place = disk->q[d] + flight - disk->wrap[d] * tr->motion.cells.box[d];
         at[d] = place;
-        if (!(place >= bound[0] - PLACE_CLOSE && place <= bound[1] + PLACE_CLOSE)) return false;
+        if (!(place >= bound[0] - close && place <= bound[1] + close)) return false;
     }
     const hd_round_wall *wall = &tr->motion.wall;
-    return wall->reach == 0 || hd_round_wall_excess(wall, at) <= PLACE_CLOSE;
+    return wall->reach == 0 || hd_round_wall_excess(wall, at) <= close;
 }
 
 /** What the disks' numbers are not, or NULL. Of a scene: its energy is N. */
@@ -56,7 +58,7 @@ static const char *inconsistency(const hd_trajectory *tr)
     }
     const double excess = hd_trajectory_kinetic_energy(tr) - tr->motion.count;
     if (!(fabs(excess) <= ENERGY_CLOSE * tr->motion.count)) return "the energy is wrong";
-    return hd_trajectory_overlap(tr) > HD_OVERLAP_MAX ? "disks overlap" : NULL;
+    return hd_trajectory_overlap(tr) > tr->overlap_max ? "disks overlap" : NULL;
 }
 
 static void book(hd_trajectory *tr)

@@ -11,6 +11,7 @@ struct hd_trajectory {
     hd_motion motion;
     double rate; /**< expected pair events per time unit */
     double epoch_length;
+    double overlap_max; /**< see hd_trajectory_overlap_max */
     double epoch_start; /**< simulated time, a multiple of epoch_length */
     double now;         /**< simulated time */
     uint64_t collisions, wall_events;

@@ -6,7 +6,6 @@
 #include <stdio.h>
 
 #include "base/check.h"
-#include "events/disk.h"
 #include "events/event_log.h"
 #include "tangent/conjugate.h"
 #include "tangent/interval.h"
@@ -39,7 +38,7 @@ static void expect_momentum(const hd_trajectory *tr, const hd_scene_def *scene)
 void hd_verify_disks(const hd_trajectory *tr, const hd_scene_def *scene)
 {
     const double n = hd_trajectory_disks(tr);
-    expect_at_most(hd_trajectory_overlap(tr), HD_OVERLAP_MAX, "overlap");
+    expect_at_most(hd_trajectory_overlap(tr), hd_trajectory_overlap_max(tr), "overlap");
     expect_at_most(fabs(hd_trajectory_kinetic_energy(tr) - n),
                    n * hd_trajectory_energy_rounding(tr), "energy");
     expect_momentum(tr, scene);

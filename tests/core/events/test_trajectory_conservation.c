@@ -112,6 +112,33 @@ TEST(large_coordinates)
     check_run(&def, 0.1 * MEDIUM_RUN);
 }
 
+/** The longest boxes that a scene may have, and the longest of so many disks: positions round by
+ * far more there than a short box allows an overlap. Nobody stays behind in a wrong cell either. */
+TEST(the_longest_boxes)
+{
+    enum { LOOKS = 10 };
+    static const struct {
+        int disks;
+        double length, collisions;
+    } cases[] = {{100, 1e7, 1e3}, {10000, 1e8, 200}, {1000000, 1e9, 500}};
+    for (int k = 0; k < (second_tier() ? 3 : 2); k++) {
+        const hd_scene_def def = scene(.disks = cases[k].disks, .density = 1e-6, .aspect = 1e-6,
+                                       .seed = 2);
+        double box[2], deepest = 0.0;
+        MADE(hd_trajectory, tr, &def);
+        hd_trajectory_box(tr, box);
+        CHECK_CLOSE(box[0], cases[k].length, 1e-9 * cases[k].length);
+        for (int look = 1; look <= LOOKS; look++) {
+            const double collisions = cases[k].collisions * look / LOOKS;
+            CHECK_OK(hd_trajectory_extend(tr, NULL, collisions / hd_trajectory_collision_rate(tr)));
+            deepest = fmax(deepest, hd_trajectory_overlap(tr));
+        }
+        CHECK_CLOSE(deepest, 0.0, overlap_rounding(box));
+        CHECK_CLOSE(hd_trajectory_overlap_max(tr), hd_trajectory_overlap_rounding(tr), 0.0);
+        CHECK_CLOSE(hd_trajectory_kinetic_energy(tr), def.disks, ENERGY_DRIFT * def.disks);
+    }
+}
+
 /** Long before the core gives such disks up, and not as soon as they touch. */
 TEST(an_overlap_is_more_than_rounding)
 {
@@ -124,6 +151,7 @@ TEST(an_overlap_is_more_than_rounding)
         CHECK_CLOSE(hd_trajectory_overlap(tr), below[k], 1e-15);
         assert_int_equal(hd_trajectory_overlap(tr) > hd_trajectory_overlap_rounding(tr), k);
         assert_true(hd_trajectory_overlap_rounding(tr) < 1e-9);
+        CHECK_CLOSE(hd_trajectory_overlap_max(tr), 1e-9, 0.0);
         hd_trajectory_free(tr);
     }
 }

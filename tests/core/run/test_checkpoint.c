@@ -46,12 +46,17 @@ TEST(a_resumed_run_is_the_uninterrupted_one)
     hd_scene_def rare = scene_from(kept_scene(20, 0.05, 1.0, 3, 0), .report_interval = 7.0);
     const hd_scene_def few = kept_scene(2, 0.3, 1.0, HD_EXPONENTS_ALL, KEPT_ALL);
     const hd_scene_def none = kept_scene(50, 0.7, 1.0, HD_EXPONENTS_NONE, HD_OBSERVE_GAS);
+    const hd_scene_def longest = scene_from(
+        kept_scene(100, 1e-6, 1e-6, HD_EXPONENTS_NONE, HD_OBSERVE_GAS), .duration = 2e6,
+        .report_interval = 1e5);
     expect_uninterrupted(&walls, 5, 8);
     expect_uninterrupted(&crowded, 37, 4);
     expect_uninterrupted(&looks, 7, 30);
     expect_uninterrupted(&rare, 1, 5);
     expect_uninterrupted(&few, 3, 10);
     expect_uninterrupted(&none, 2, 10);
+    expect_uninterrupted(&longest, 2, 10);
+    expect_uninterrupted(&longest, 2, 10);
 }
 
 /** Also where a watcher has stopped it in the middle of a step that is planned. */
