@@ -86,6 +86,24 @@ class Launch(harness.Case):
             with rosbag.Bag(os.path.join(folder, 'q.bag')) as bag:
                 self.assertIn('/grp/kept/steps', bag.get_type_and_topic_info()[1])
 
+    def test_the_scene_says_its_dimensions(self):
+        """The file alone, whatever its name, unless an argument says another number."""
+        lines = 'dimensions: 3\ndisks: 16\ndensity: 0.3\nduration: 2\nequilibration: 1\nwarmup: 1\n'
+        with tempfile.TemporaryDirectory() as folder:
+            with open(os.path.join(folder, 'mine.yaml'), 'w') as file:
+                file.write(lines)
+            for k, (words, said) in enumerate(
+                (
+                    ([], 'scene mine: 16 spheres in '),
+                    (['dimensions:=2'], 'scene mine: 16 disks in '),
+                    (['dimensions:=4'], 'dimensions = 4: must be 2: disks'),
+                )
+            ):
+                words += ['scene:=mine.yaml', f'__ns:=of_{k}']
+                run = self.roslaunch(folder, 'run.launch', *words)
+                run.wait()
+                self.assertIn(said, run.text())
+
     def replayed(self, *args):
         """Type of a node of replay.launch, or its command -> its arguments."""
         config = roslaunch.config.load_config_default(

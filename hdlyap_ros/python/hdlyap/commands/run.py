@@ -57,13 +57,7 @@ def main(args):
     bag = os.path.abspath(args.out if args.out.endswith('.bag') else args.out + '.bag')
     before = stamp(bag)  # a run that is refused leaves it
     command = ['roslaunch', '-p', str(ranks.free_port()), 'hdlyap', 'run.launch']
-    command += [
-        f'scene:={args.scene}',
-        f'dimensions:={dimensions}',
-        'record:=true',
-        f'bag:={bag}',
-        *args.assigned,
-    ]
+    command += [f'scene:={args.scene}', 'record:=true', f'bag:={bag}', *args.assigned]
     os.environ['ROS_HOSTNAME'] = 'localhost'  # nobody looks at it from outside
     with signals.held() as asked_to_end:
         launch = tree.Tree(command, output=None)

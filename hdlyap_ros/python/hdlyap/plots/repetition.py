@@ -100,11 +100,8 @@ def _remarks(info):
     if info.wait_for_subscribers:
         yield (
             'Waits for subscribers, as that run did: roslaunch hdlyap run.launch scene:=FILE.yaml '
-            + 'dimensions:=3 ' * space.is_solid(info)
-            + 'record:=true'
+            'record:=true'
         )
-    elif space.is_solid(info):
-        yield 'Of spheres: roslaunch hdlyap run.launch scene:=FILE.yaml dimensions:=3'
     if info.resume:
         yield (
             f'That run went on from {info.resume} at simulated time {info.resumed_time:g}; '

@@ -25,7 +25,6 @@ class Run:
         """All parameters; seconds: about, if they are known. Refused if the node does not know
         them, or it would not end."""
         _check(parameters)
-        self.dimensions = dimensions(parameters)
         self.name, self.parameters = name, parameters
         self.seconds = seconds or _estimate(parameters)
 

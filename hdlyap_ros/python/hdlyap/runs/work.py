@@ -56,7 +56,6 @@ class Job:
                     'run.launch',
                     f'__ns:={run.name}',
                     f'scene:={run.scene_file(self._new)}',
-                    f'dimensions:={run.dimensions}',
                     'record:=true',
                     f'bag:={run.bag(self._new)}',
                     f'min_space:={min_space}',

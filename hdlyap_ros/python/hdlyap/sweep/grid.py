@@ -92,16 +92,14 @@ def runs(given, launch, cwd):
         if twice:
             raise Refused(f'params = {given["params"]}: must be without {min(twice)}: it is swept')
     base = {**run.usual(dimensions), **base}
-    # run.launch tells spheres by the name, where nobody says it, as for runs.launch
-    first = ['spheres'] if dimensions == 3 else []
-    return [_run(base, chosen, first) for chosen in itertools.product(*chosen.values())]
+    return [_run(base, chosen) for chosen in itertools.product(*chosen.values())]
 
 
-def _run(parameters, chosen, first):
+def _run(parameters, chosen):
     """Runs that differ in their seeds alone have one scene."""
-    names = first + [name for name, _ in chosen]
+    names = [name for name, _ in chosen]
     same = [name for name, values in chosen if 'seed' not in values]
     for _, values in chosen:
         parameters = {**parameters, **{key: scene.fitting(v) for key, v in values.items()}}
-    parameters['scene'] = '_'.join(first + same) if same else parameters['scene']
+    parameters['scene'] = '_'.join(same) if same else parameters['scene']
     return Run('_'.join(names), parameters)
