@@ -40,8 +40,8 @@ is_run_elsewhere() {
 # A command as a user would type it, in the folder of the clone's copy.
 type_in() {
     case $1 in
-        'roslaunch hdlyap run.launch') # endless
-            says 'T\(1,0\) .*\([0-9]+\)' 'LP\(1,0\) .*\([0-9]+\)' -- roslaunch hdlyap run.launch &&
+        'hdlyap launch') # endless
+            says 'T\(1,0\) .*\([0-9]+\)' 'LP\(1,0\) .*\([0-9]+\)' -- hdlyap launch &&
                 grep -q ': result: averaged ' "$WORK/said.txt" && ! grep -q 'has died' "$WORK/said.txt"
             ;;
         'rosrun hdlyap hdlyap_node') run timeout --preserve-status -s INT 8 rosrun hdlyap hdlyap_node ;;

@@ -86,6 +86,39 @@ class Launch(harness.Case):
             with rosbag.Bag(os.path.join(folder, 'q.bag')) as bag:
                 self.assertIn('/grp/kept/steps', bag.get_type_and_topic_info()[1])
 
+    def test_refused_before_anything_starts(self):
+        """In one line: what roslaunch ignores, or dies of in many lines."""
+        no_quotes = 'seed = 12345678901: must be a text in quotes, a number with a point or one of'
+        refused = {
+            'densty:=0.5': 'densty = 0.5: must be an argument of run.launch; is density meant?',
+            'warmup:=5': 'warmup = 5: must be in params:="{warmup: ..}", as run.launch has no',
+            'xyz:=5': 'xyz = 5: must be an argument of run.launch\n',
+            'file:=5': 'file = 5: must be an argument of run.launch',
+            'scene:=quikc': 'scene = quikc: must be one of circle, circle_quick, covariant, ',
+            'scene:=no.yaml': 'scene = no.yaml: must be a YAML file of parameters: ',
+            'params:={warmup=5}': 'params = {warmup=5}: must be {parameter: value, ..}',
+            'params:={seed: 12345678901}': no_quotes,
+            'duration:=12345678901': 'duration = 12345678901: must be a text in quotes, a number',
+        }
+        for word, said in refused.items():
+            for begin in (['launch'], ['run', 'quick', '--out', 'no.bag']):
+                if begin[0] == 'run' and word.startswith('scene'):
+                    continue
+                with self.subTest(word=word, begin=begin):
+                    done = self.process([*harness.command(begin[0]), *begin[1:], word])
+                    self.assertEqual(done.wait(), 2, done.text())
+                    self.assertTrue(done.text().startswith(f'hdlyap {begin[0]}: {said}'))
+                    self.assertEqual(len(done.text().splitlines()), 1, done.text())
+
+    def test_launch(self):
+        """What is right is handed on, as remappings are; relative paths too."""
+        with tempfile.TemporaryDirectory() as folder:
+            with open(os.path.join(folder, 'mine.yaml'), 'w') as file:
+                file.write('disks: 20\naspect: 1.0\nduration: 2\nequilibration: 1\nwarmup: 1\n')
+            words = ['scene:=mine.yaml', 'density:=0.5', 'params:={accuracy: 1e-7}', '__ns:=grp']
+            run = self.process([*harness.command('launch'), *words], PWD=folder)
+            self.ends(run, 0, 'scene mine: 20 disks in 6.32456 x 6.32456', '/grp/hdlyap/accuracy')
+
     def test_the_scene_says_its_dimensions(self):
         """The file alone, whatever its name, unless an argument says another number."""
         lines = 'dimensions: 3\ndisks: 16\ndensity: 0.3\nduration: 2\nequilibration: 1\nwarmup: 1\n'

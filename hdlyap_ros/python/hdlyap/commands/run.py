@@ -17,7 +17,7 @@ import time
 import rospkg
 
 from hdlyap import signals
-from hdlyap.runs import ranks, run, scene, tree
+from hdlyap.runs import arguments, ranks, run, scene, tree
 from hdlyap.runs.scene import Refused
 
 PATIENCE = 60.0  # seconds that all may take to end, the last checkpoint included
@@ -37,11 +37,12 @@ def stamp(path):
 
 
 def asked(args):
-    """Dimensions: those of an argument, else of the scene."""
+    """Dimensions: those of an argument, else of the scene. Refused if anything else is wrong."""
+    launch = os.path.join(rospkg.RosPack().get_path('hdlyap'), 'launch')
+    arguments.check([f'scene:={args.scene}', *args.assigned], launch, os.getcwd())
     said = [word.partition(':=')[2] for word in args.assigned if word.startswith('dimensions:=')]
     if said:
         return run.dimensions({'dimensions': scene.typed(said[-1])})
-    launch = os.path.join(rospkg.RosPack().get_path('hdlyap'), 'launch')
     return run.dimensions(scene.scene_file(args.scene, launch, os.getcwd()))
 
 

@@ -33,7 +33,7 @@ def mapping(name, text):
         found = yaml.safe_load(text) if text else {}
     except yaml.YAMLError as error:
         raise Refused(f'{name} = {text}: must be {{parameter: value, ..}}: {in_line(error)}')
-    if not isinstance(found, dict):
+    if not isinstance(found, dict) or None in found.values():  # {warmup=5} is a name without one
         raise Refused(f'{name} = {text}: must be {{parameter: value, ..}}')
     return found
 

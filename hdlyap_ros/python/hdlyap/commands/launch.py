@@ -1,0 +1,30 @@
+"""A run, as roslaunch hdlyap run.launch starts it, once what is given is looked at.
+
+hdlyap launch
+hdlyap launch scene:=mine.yaml disks:=200 params:="{warmup: 80}" record:=true bag:=mine.bag
+
+Arguments are those of run.launch: roslaunch ignores one that it does not know, here it is refused.
+
+Exit status: 2 refused; else that of roslaunch."""
+
+import os
+import sys
+
+import rospkg
+
+from hdlyap.runs import arguments
+from hdlyap.runs.scene import Refused
+
+
+def options(parser):
+    parser.usage = '%(prog)s [ARGUMENT:=VALUE]..'
+
+
+def main(args):
+    launch = os.path.join(rospkg.RosPack().get_path('hdlyap'), 'launch')
+    try:
+        arguments.check(args.assigned, launch, os.environ.get('PWD', os.getcwd()))
+    except Refused as refused:
+        print(f'hdlyap launch: {refused}', file=sys.stderr)
+        return 2
+    os.execvp('roslaunch', ['roslaunch', 'hdlyap', 'run.launch', *args.assigned])
