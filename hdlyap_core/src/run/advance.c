@@ -6,17 +6,19 @@
 
 #include "base/check.h"
 #include "run/schedule.h"
-#include "scene/container.h"
 
 /** No advance is planned shorter: simulated time must move. */
 static const double SHORTEST = 1e-12;
 
 /** Pair and wall events of one disk per time unit, roughly: it meets walls as with a momentum of 1
- * across the box. */
+ * across the box, or the box around a circle. Where plans begin: what they grow to is learnt. */
 static double events_per_disk(const hd_advance *advance, const hd_scene_def *scene)
 {
-    return 2.0 * hd_trajectory_collision_rate(advance->trajectory) / scene->disks +
-           hd_container_of(scene)->wall_rate(scene);
+    double box[HD_DIM], rate = 2.0 * hd_trajectory_collision_rate(advance->trajectory) / scene->disks;
+    hd_scene_box(scene, box);
+    for (int d = 0; d < HD_DIM; d++)
+        if (hd_scene_boundary(scene, d) != HD_PERIODIC) rate += 1.0 / (box[d] - 1.0);
+    return rate;
 }
 
 hd_status hd_advance_create(hd_advance *advance, const hd_scene_def *scene)

@@ -24,9 +24,6 @@ static void circle_box(const hd_scene_def *def, double box[HD_DIM])
 
 static double circle_area(const hd_scene_def *def) { return PI * reach_of(def) * reach_of(def); }
 
-/** Half the circumference to the area, as two walls have it in a box. */
-static double circle_wall_rate(const hd_scene_def *def) { return 1.0 / reach_of(def); }
-
 /** Energy and time; rotation and angular momentum. */
 static int circle_symmetries(const hd_scene_def *def)
 {
@@ -262,7 +259,6 @@ const hd_container_row hd_circle_row = {.say = circle_say,
                                         .check = circle_check,
                                         .box = circle_box,
                                         .area = circle_area,
-                                        .wall_rate = circle_wall_rate,
                                         .symmetries = circle_symmetries,
                                         .start_distance = circle_start_distance,
                                         .density_max = circle_density_max,

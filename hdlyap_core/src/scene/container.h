@@ -24,8 +24,6 @@ typedef struct hd_container_row {
     hd_status (*check)(const hd_scene_def *def, char *message, size_t size);
     void (*box)(const hd_scene_def *def, double box[HD_DIM]); /**< edges of the box around it */
     double (*area)(const hd_scene_def *def);                  /**< that centres can reach */
-    /** Collisions with walls of one disk per time unit and mean momentum across them. */
-    double (*wall_rate)(const hd_scene_def *def);
     /** Pairs of zero exponents: of energy and time, and of each conserved momentum. */
     int (*symmetries)(const hd_scene_def *def);
     double (*start_distance)(const hd_scene_def *def); /**< least, of the densest start positions */

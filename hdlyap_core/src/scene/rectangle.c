@@ -73,15 +73,6 @@ static double rectangle_area(const hd_scene_def *def)
     return area;
 }
 
-static double rectangle_wall_rate(const hd_scene_def *def)
-{
-    double box[HD_DIM], rate = 0.0;
-    rectangle_box(def, box);
-    for (int d = 0; d < HD_DIM; d++)
-        if (has_walls(def, d)) rate += 1.0 / (box[d] - 1.0);
-    return rate;
-}
-
 /** Energy and time; a uniform motion and its momentum along each periodic direction. */
 static int rectangle_symmetries(const hd_scene_def *def)
 {
@@ -255,7 +246,6 @@ const hd_container_row hd_rectangle_row = {.say = rectangle_say,
                                            .check = rectangle_check,
                                            .box = rectangle_box,
                                            .area = rectangle_area,
-                                           .wall_rate = rectangle_wall_rate,
                                            .symmetries = rectangle_symmetries,
                                            .start_distance = rectangle_start_distance,
                                            .density_max = rectangle_density_max,
