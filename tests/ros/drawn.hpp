@@ -104,9 +104,9 @@ struct scene {
                 a_step(HDR_MODE_LP, 0, 1, 0.3, 0, 0, 0.0, 0.0)};
         step[2].resolved = false;
         steps.steps = {step.data(), static_cast<uint32_t>(step.size())};
-        steps.t_points = 2, steps.c_t = 3.2, steps.c_t_error = 0.1;
+        steps.t_points = 2, steps.c_t = 3.2, steps.c_t_error = 0.1, steps.t_misfit = 6.53;
         steps.c_t2 = 0.2, steps.c_t3 = 0.5;
-        steps.l_points = 1, steps.c_l = 4.2, steps.c_l_error = -1;
+        steps.l_points = 1, steps.c_l = 4.2, steps.c_l_error = -1, steps.l_misfit = -1;
         steps.c_l2 = steps.c_l3 = NAN;
         p.steps = &steps;
     }

@@ -255,6 +255,7 @@ def steps(made, averaged_time=50.0, run_id='one'):
         v_k_max=1.40496,
         v=1.612,
         v_error=0.023,
+        v_sampling_error=0.0092,
         v_misfit=2.5,
     )
 

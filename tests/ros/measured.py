@@ -64,7 +64,8 @@ def _modes(message):
 def _steps(message):
     for k, step in enumerate(message.steps):
         alone = ('gap',) if step.sharing == step.SHARING_ALONE else ()
-        alone += ('scatter',) if step.kind == Mode.ZERO else ()
+        unrelated = step.kind == Mode.LP and math.isnan(message.l_long_c2)  # in a circle
+        alone += ('scatter',) if step.kind == Mode.ZERO or unrelated else ()
         for name in alone if step.resolved else OF_STEPS:
             yield f'steps[{k}].{name}'
         has_begun = step.omega_error >= 0 or not math.isnan(step.omega)
@@ -79,6 +80,9 @@ def _steps(message):
             f'{letter}_k_max',
         ]
         yield from names if points < 1 else []
+    if math.isnan(message.l_box_error):
+        assert message.l_points == 0
+        yield from ('l_long_c2', 'l_long_c2_error', 'l_long_c3', 'l_long_c3_error', 'l_box_error')
     if message.v_phases == 0:
         yield from ('v', 'v_k_min', 'v_k_max')
 

@@ -4,6 +4,7 @@
 import numpy as np
 
 import harness
+import measured
 from hdlyap.msg import LpPhase, Mode
 from hdlyap.plots import repetition, waves
 
@@ -60,6 +61,9 @@ class Circle(harness.Case):
         self.assertEqual((lp.first_index, lp.last_index, lp.expected), (235, 238, 4))
         for key, root in (((Mode.LP, 1, 1), 1.84118), ((Mode.T, 2, 1), 4.61256)):
             self.assertAlmostEqual(named[key].wave_number * reach, root, places=4)
+        self.assertEqual(self.messages['steps'][-1].l_points, 0)
+        self.assertGreater(self.messages['steps'][-1].t_points, 0)
+        measured.check(self, self.messages['steps'])
         bits = {phase.modulation for phase in self.messages['lp_phases'][-1].phases}
         self.assertEqual(bits, set(BITS))
         self.assertEqual(waves.plain_formula(2, 1, LpPhase.SIN_M), 'J2(kr) sin 2theta')

@@ -1,6 +1,8 @@
 /** Plots and caption of the pictures for rviz. */
 #include "drawn.hpp"
 
+#include <algorithm>
+
 extern "C" {
 #include "common/numbers.h"
 }
@@ -134,14 +136,21 @@ TEST(curves, the_caption_says_what_is_known)
     expect({"t = 12.5, averaging (25 %), averaged 8.2"});
     s.measure(40);
     s.p.lambda_max = 5.262, s.p.lambda_max_error = 0.0095;
-    expect({"lambda_max 5.2620(95)", "c_T 3.20(10)", "c_L 4.2000 ", "v unknown",
+    expect({"lambda_max 5.2620(95)", "c_T 3.20(10), misfit 6.5  ", "c_L 4.2000  ", "v unknown",
             "a scene: 10 disks, x reflecting, y reflecting"});
-    s.steps.v_phases = 8, s.steps.v = 1.612, s.steps.v_error = 0.023;
+    s.steps.v_phases = 8, s.steps.v = 1.612, s.steps.v_error = 0.023, s.steps.v_misfit = 0.04;
     s.p.periodic[1] = true;
     s.p.note = "(nothing new since 14:03:27)";
-    expect({"v 1.612(23)", "x reflecting, y periodic", "   (nothing new since 14:03:27)\n"});
+    expect({"v 1.612(23), misfit 0.0", "x reflecting, y periodic",
+            "   (nothing new since 14:03:27)\n"});
     s.p.round = true;
-    expect({"a scene: 10 disks, in a circle"});
+    s.steps.l_points = 0, s.steps.l_long_c2 = NAN; // LP steps follow no relation
+    expect({"a scene: 10 disks, in a circle", "misfit 6.5    v 1.612"});
+    EXPECT_EQ(3u, in(on.of(s.p), "dispersion", Marker::LINE_LIST).size()); // axes, T, errors
+    const auto texts = in(on.of(s.p), "dispersion", Marker::TEXT_VIEW_FACING);
+    EXPECT_TRUE(std::any_of(texts.begin(), texts.end(), [](const Marker &m) {
+        return m.text == "dispersion: T blue, LP (no relation) orange";
+    }));
     s.p.time = -1.0, s.p.x.count = s.p.y.count = 0; // described, and not begun
     expect({"waiting for its first message", "a scene: 10 disks"});
 }

@@ -1,11 +1,14 @@
 """hdlyap.load of several bags: parts of one run, runs of several seeds, and what does not belong
 together."""
 
+import contextlib
+import io
 import os
 import re
 import shutil
 import unittest
 import warnings
+from unittest import mock
 
 import numpy as np
 import rosbag
@@ -232,9 +235,46 @@ class SeveralSeeds(Loaded):
             self.messages(1, 0.0), self.messages(2, 0.4), self.messages(3, 0.8, resolved=False)
         )
         self.assertEqual(list(seeds.steps.runs), [3, 2])
+        self.assertTrue(seeds.steps.resolved.all())
         self.assertAlmostEqual(seeds.steps.exponent['LP(1,0)'], 2.2)
         self.assertIn('c_T', seeds.results.index)
         self.assertNotIn('c_L', seeds.results.index)
+
+    def test_steps_have_the_columns_of_one_run(self):
+        """README's ten lines do with several seeds what they do with one; a step that no run has is
+        there, and not resolved."""
+        seeds = self.seeds(*(self.messages(k, 0.2 * k, resolved=False) for k in (1, 2)))
+        one = seeds.runs[0].steps
+        self.assertLessEqual(set(one), set(seeds.steps))
+        self.assertEqual(list(seeds.steps.index), list(one.index))
+        self.assertEqual(seeds.steps.attrs['units']['wave_number'], '1/sigma')
+        self.assertEqual(list(seeds.steps.resolved), [True, False])
+        self.assertEqual(list(seeds.steps.runs), [2, 0])
+        self.assertTrue(np.isnan(seeds.steps.exponent['LP(1,0)']))
+        step = seeds.steps[seeds.steps.resolved].loc['T(1,0)']
+        self.assertEqual((step.first_index, step.last_index, step.expected), (36, 37, 2))
+        self.assertAlmostEqual(step.exponent, 1.3)
+        with open(os.path.join(SOURCES, 'README.md')) as file:
+            program = file.read().split('## Ten lines of Python')[1].split('```python\n')[1]
+        load, printed = mock.Mock(return_value=seeds), io.StringIO()
+        with mock.patch('hdlyap.load', load), contextlib.redirect_stdout(printed):
+            exec(program.split('```')[0], {})
+        self.assertIn('T(1,0)   k = 0.993  lambda = 1.3000 +- 0.14', printed.getvalue())
+
+    def test_misfits(self):
+        """Of all runs together; what they share beyond sampling is not averaged away."""
+        runs = [self.messages(k, 0.0) for k in (1, 2)]
+        for messages, misfit in zip(runs, (1.0, 7.0)):
+            messages[2].v_misfit = misfit
+        seeds = self.seeds(*runs)
+        self.assertAlmostEqual(seeds.results.misfit['v'], 5.0)
+        self.assertTrue(np.isnan(seeds.results.misfit['c_L']))
+        of_form = np.hypot(0.0092 / np.sqrt(2), np.sqrt(0.023**2 - 0.0092**2))
+        self.assertAlmostEqual(seeds.results.std_error['v'], of_form)
+        self.assertAlmostEqual(seeds.results.sampling_error['v'], 0.0092 / np.sqrt(2))
+        message = seeds.last('steps')
+        self.assertAlmostEqual(message.v_misfit, 5.0)
+        self.assertEqual(message.l_misfit, -1.0)
 
     def test_errors_are_not_known(self):
         """Of one of two runs: it is left out. Of all: they are too few to tell it."""

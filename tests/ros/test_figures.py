@@ -153,7 +153,7 @@ class Figures(Bags):
             self.shows(line, k, c[0] * k + c[1] * k**2 + c[2] * k**3)
             self.assertEqual(line.get_color(), KIND_COLOURS[name])
         labels = [line.get_label() for line in curves]
-        self.assertEqual(labels, ['LP: $c_{L}=1.500(20)$', 'T: $c_{T}=1.400(12)$'])
+        self.assertEqual(labels, ['LP: $c_{L}=1.500(20)$', 'T: $c_{T}=1.400(12)$, misfit 1.2'])
         np.testing.assert_allclose(upper.get_xticks(), [made.K, 2**0.5 * made.K])
         self.assertEqual(upper.get_xlim(), axes.get_xlim())
         self.assertEqual([one.get_text() for one in upper.get_xticklabels()], ['(1,0)', '(1,1)'])
@@ -164,6 +164,17 @@ class Figures(Bags):
             k = line.get_xdata()
             self.shows(line, k, c * k + c2 * k**2)
         self.assertEqual(len(published), 2)
+
+    def test_dispersion_of_a_circle(self):
+        """Its LP steps are points alone, and it is said why."""
+        round_steps = made.steps([LOW, HIGH])
+        round_steps.l_points, round_steps.l_long_c2 = 0, np.nan
+        axes, _ = self.draw(dispersion, round_steps, info=made.run_info(disks=400, density=0.4))
+        self.assertEqual(len(axes.containers), 2)
+        self.assertEqual([len(line.get_xdata()) for line in axes.lines].count(100), 2)  # T
+        labels = [text.get_text() for text in axes.get_legend().get_texts()]
+        self.assertIn('LP steps, which follow no relation', labels)
+        self.assertIn('T steps', labels)
 
     def test_steps(self):
         """What was found in % of what is expected, and each exponent from their mean in %."""

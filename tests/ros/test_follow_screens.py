@@ -114,8 +114,11 @@ class Screens(unittest.TestCase):
             self.assertRegex(text, r'T\(1,0\) +36-37 +1\.98 +2 +0\.99346 +1\.4895\(20\)')
             self.assertRegex(text, r'ortho +█+.? +55 %')
             self.assertRegex(text, r'other +▋ +10 %')
-        self.says(self.text(view()), 'c_T 1.400(12)   c_L 1.500(20)   v 1.612(23)\n')
-        form = 'c_T 1.400(12) (c k + c2 k^2 + c3 k^3 over 3 wave numbers 0.9935 .. 1.987 (lever arm'
+        fits = 'c_T 1.400(12), misfit 1.2   c_L 1.500(20)   v 1.612(23), misfit 2.5\n'
+        self.says(self.text(view()), fits)
+        form = (
+            'c_T 1.400(12), misfit 1.2 (c k + c2 k^2 + c3 k^3 over 3 wave numbers 0.9935 .. 1.987'
+        )
         self.says(self.text(view(), (140, 30)), form)
         self.assertTrue(self.text(view(), plain=True).isascii())
 
@@ -160,7 +163,7 @@ class Screens(unittest.TestCase):
         shown.steps.c_l = shown.cost.condition = float('nan')
         shown.phases.phases[0].a = shown.phases.phases[1].omega_error = float('nan')
         text = self.text(shown)
-        self.says(text, 'lambda_max 9.00000 ', 'sum of exponents 12.00000 ', 'c_T 1.40000 ')
+        self.says(text, 'lambda_max 9.00000 ', 'sum of exponents 12.00000 ', 'c_T 1.40000, ')
         self.says(text, 'c_L -', 'condition nan')
         self.assertNotIn('-1.0', text)
 

@@ -1,5 +1,7 @@
 """hdlyap plot against bags that are made here: the table that it prints."""
 
+import math
+
 import numpy as np
 
 from hdlyap.msg import Step
@@ -111,6 +113,8 @@ class Table(Bags):
         self.assertIn('c_L   not known: no step resolved', text)
         self.assertNotIn('c_L2', lines)
         self.assertEqual(lines['v'], ['not', 'known'])
+        _, text = self.run_with(LOW, l_points=0, l_long_c2=math.nan)
+        self.assertIn('c_L   none: LP steps of a circle follow no relation\n', text)
         self.assertNotIn('steps', self.run_with(LOW, averaged_time=0.0)[1])
 
     def test_paper_values_beside_the_fits(self):

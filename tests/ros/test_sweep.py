@@ -5,6 +5,7 @@ of themselves. How runs are done is test_work.py's."""
 import argparse
 import glob
 import os
+import re
 import tempfile
 import unittest
 from math import nan
@@ -27,6 +28,8 @@ from hdlyap.plots.figures.style import plt
 from hdlyap.sweep import figure, grid, plan, points, table
 
 LAUNCH = os.path.join(rospkg.RosPack().get_path('hdlyap'), 'launch')
+ERRORS = 'errors of the means over seeds, of which the larger one is above:'
+CHI2 = 'chi^2/(seeds - 1)'
 PLAN = os.path.join(LAUNCH, '../doc/reproduction/runs.yaml')
 
 
@@ -251,13 +254,14 @@ class Results(InFolder):
         found = self.read(self.bag('b', 0.5), self.bag('a', 0.4), self.bag('c', 0.6, **one_wave))
         lines = list(table.text(found))
         self.assertEqual(lines[0], 'the same in all: disks 20, aspect 1, boundary periodic')
-        fits = '1.400(12) [1] 1.500(20) [2] 1.612(23) [3]'
+        of_t = '1.400(12), misfit 1.2'
+        fits = f'{of_t} [1] 1.500(20) [2] 1.612(23), misfit 2.5 [3]'
         relation, long = 'c k + c2 k^2 + c3 k^3', '% of the curvature from long boxes'
         self.assertEqual(
             [line.split() for line in lines[2:5]],
             [
                 f'{density} 9.000(10) {fitted} 1 50'.split()
-                for density, fitted in (('0.4', fits), ('0.5', fits), ('0.6', '1.400(12) [4]'))
+                for density, fitted in (('0.4', fits), ('0.5', fits), ('0.6', of_t + ' [4]'))
             ],
         )
         self.assertEqual(
@@ -312,7 +316,13 @@ class Results(InFolder):
         self.assertRegex(lines[2], r'^periodic +9\.200\(58\) .* 3 +150$')
         self.assertRegex(lines[3], r'^reflecting +9\.0000\(71\) +unlike +1\.500')
         self.assertIn('unlike: fits of the seeds have not the same form or wave numbers', lines)
-        self.assertRegex(lines[-4], r'^periodic +0\.0058 0\.058 1e\+02 ')
+        head, *rows = (re.split('  +', line) for line in lines[lines.index(ERRORS) + 1 :])
+        self.assertEqual(
+            head, ['boundary', 'quantity', 'from those stated', 'from the scatter', CHI2]
+        )
+        self.assertIn(['periodic', 'lambda_max', '0.0058', '0.058', '1e+02'], rows)
+        self.assertIn(['reflecting', 'c_L', '0.019', '0.017', '0'], rows)
+        self.assertNotIn('c_T', [row[1] for row in rows if row[0] == 'reflecting'])
         results = hdlyap.load(*paths).results
         for name, shown, factor in (('lambda_max', 'lambda_max', 1), ('h_KS', 'h_KS/N', 1 / 20)):
             value, expected = found[0].values[shown], results.loc[name]

@@ -61,10 +61,12 @@ typedef struct hd_velocity {
     int phases; /**< tracked phases that went into it; 0: nothing known */
     double k_min,
         k_max;         /**< smallest and largest wave number of their steps; 0 without [1/sigma] */
-    double v, v_error; /**< error negative if not yet known; it knows how the steps turn together */
+    double v, v_error; /**< error negative if not yet known; times the misfit if that is above 1 */
+    double v_sampling_error; /**< what another run of the same box may differ by; it knows how the
+                                steps turn together. Negative if not yet known */
     double misfit; /**< root mean square deviation of the steps from v, per degree of freedom, in
                       their standard errors; negative if there is one step. Far above 1: they have
-                      not the same velocity */
+                      not the same velocity, and v_error has grown with it */
 } hd_velocity;
 hd_velocity hd_phases_velocity(const hd_phases *phases);
 

@@ -45,7 +45,8 @@ typedef struct hd_step {
     double gap_error; /**< of it; negative if not yet known, 0 if alone */
 } hd_step;
 
-/** What long boxes at all densities say of lambda(k) = c k + c2 k^2 + c3 k^3 in any box [T12]. */
+/** What long boxes at all densities say of lambda(k) = c k + c2 k^2 + c3 k^3 in any box [T12]. All
+ * NaN where steps follow no relation: LP in a circle. */
 typedef struct hd_relation {
     double c2, c2_error; /**< of c2 / c, its standard error as an estimate [sigma] */
     double c3, c3_error; /**< of c3 / c [sigma^2] */
@@ -56,11 +57,12 @@ typedef struct hd_relation {
 /** kind: HD_MODE_T or HD_MODE_LP. */
 hd_relation hd_relation_of(const hd_scene_def *def, hd_mode_kind kind);
 /** What c of such a box is left open by, however long it is averaged, as a part of it: from its
- * longest wave of this kind, well resolved; INFINITY if the scene asks for none. */
+ * longest wave of this kind, well resolved; INFINITY if the scene asks for none, or they follow no
+ * relation. */
 double hd_relation_open(const hd_scene_def *def, hd_mode_kind kind);
 
-/** The error is a standard error with all that the form of the relation leaves open; negative if
- * not yet known. */
+/** The error is a standard error with all that the form of the relation leaves open, times the
+ * misfit if that is above 1; negative if not yet known. */
 typedef struct hd_coefficient {
     double value, error;
 } hd_coefficient;
@@ -69,7 +71,8 @@ typedef struct hd_coefficient {
  * long boxes as two more observations: one formula for one wave number and for many. Each step
  * weighs by its standard error and its scatter. c is that of waves longer than the box. */
 typedef struct hd_dispersion {
-    int points;          /**< distinct wave numbers; 0: no fit, all below is 0 or unknown */
+    int points;          /**< distinct wave numbers; 0: no fit, all below is 0 or unknown. None
+                            where steps follow no relation */
     double k_min, k_max; /**< smallest and largest wave number; 0 without one [1/sigma] */
     double prior_share;  /**< of c2 and c3, the part that long boxes say: 1 from one wave number,
                             towards 0 where the steps tell them by themselves */
@@ -80,7 +83,8 @@ typedef struct hd_dispersion {
     const hd_relation *in_long_boxes; /**< what it stands on beside the steps */
     double misfit; /**< root mean square deviation of the steps from the relation, per degree of
                       freedom, in units of error and scatter of a step; negative of a single step or
-                      if errors are not known. Far above 1: the relation does not hold so far */
+                      if errors are not known. Far above 1: the relation does not hold so far, and
+                      the errors of c, c2 and c3 have grown with it */
 } hd_dispersion;
 
 typedef struct hd_steps hd_steps;
@@ -125,7 +129,7 @@ double hd_steps_error_of_sum(const hd_steps *steps, const hd_spectrum *spectrum,
 /** For the scene of the steps. kind: HD_MODE_T or HD_MODE_LP. */
 const hd_relation *hd_steps_relation(const hd_steps *steps, hd_mode_kind kind);
 /** By which a resolved T or LP step may stray from the relation, as a part of its exponent: more if
- * multiplicity is missing, or weight lies in the columns of other steps. */
+ * multiplicity is missing, or weight lies in the columns of other steps. NaN without a relation. */
 double hd_steps_scatter(const hd_steps *steps, const hd_step *step);
 
 /** Of the steps found with this spectrum. kind: HD_MODE_T or HD_MODE_LP. */

@@ -68,12 +68,14 @@ static void row_of(const fit *f, double k, double out[TERMS])
     out[2] = f->unit[2] * k * k * k;
 }
 
-/** Which steps there are, and c with the curvature of long boxes, the unit of its errors. */
+/** Which steps there are, and c with the curvature of long boxes, the unit of its errors. No points
+ * where steps follow no relation. */
 static fit begin(const hd_steps *steps, hd_mode_kind kind)
 {
     fit f = {
         .prior = hd_steps_relation(steps, kind), .kind = kind, .steps = steps, .weighted = true};
     double squares = 0.0, products = 0.0;
+    if (isnan(f.prior->c2)) return f;
     for (int i = 0; i < hd_steps_count(steps); i++)
         if (counts(hd_steps_step(steps, i), kind))
             f.weighted &= hd_steps_step(steps, i)->std_error > 0;
@@ -142,7 +144,8 @@ static double share_of_step(const hd_step *step, const void *context)
     return sum * weight_of(r->of, step);
 }
 
-/** One coefficient; of its error, that of sampling with the weights held fixed. */
+/** One coefficient, its error without what is common to all steps; of that, the error of sampling
+ * with the weights held fixed. */
 static hd_coefficient coefficient(const fit *f, const hd_spectrum *spectrum, int term,
                                   double *sampling)
 {
@@ -155,7 +158,6 @@ static hd_coefficient coefficient(const fit *f, const hd_spectrum *spectrum, int
         out.value += part * step->exponent;
         if (part != 0) square += pow(part * stray(f, step), 2.0);
     }
-    square += pow(f->prior->box_error * out.value, 2.0);
     *sampling = hd_steps_error_of_sum(f->steps, spectrum, share_of_step, &r);
     if (*sampling >= 0) out.error = hypot(*sampling, sqrt(square));
     return out;
@@ -177,6 +179,14 @@ static double misfit_of(const fit *f, const hd_dispersion *d)
         steps++;
     }
     return steps > 1 && f->weighted ? sqrt(chi2 / (steps - 1)) : -1.0;
+}
+
+/** All that chi^2 is over grows with the misfit, if that is above 1; what moves all steps alike is
+ * not in it. */
+static void widen(const fit *f, double misfit, hd_coefficient *c)
+{
+    if (c->error >= 0)
+        c->error = hypot(fmax(1.0, misfit) * c->error, f->prior->box_error * c->value);
 }
 
 hd_dispersion hd_steps_dispersion(const hd_steps *steps, const hd_spectrum *spectrum,
@@ -202,5 +212,8 @@ hd_dispersion hd_steps_dispersion(const hd_steps *steps, const hd_spectrum *spec
     d.c2 = coefficient(&f, spectrum, 1, &of_curvature);
     d.c3 = coefficient(&f, spectrum, 2, &of_curvature);
     d.misfit = misfit_of(&f, &d);
+    widen(&f, d.misfit, &d.c);
+    widen(&f, d.misfit, &d.c2);
+    widen(&f, d.misfit, &d.c3);
     return d;
 }

@@ -175,34 +175,57 @@ bool hd_phases_rate(const hd_phases *phases, int step, double *omega, double *er
     return false;
 }
 
-/** Mean over the steps, weighted with their errors; its own error knows how they turn together. */
-hd_velocity hd_phases_velocity(const hd_phases *phases)
+/** omega / k of a rotor that has turned. */
+static double velocity_of(const hd_rotor *r) { return r->turned / r->turning / r->wave_number; }
+
+/** 1 / error^2 of that; 0 while the error is not known. */
+static double weight_of(const hd_rotor *r)
 {
-    hd_velocity out = {.v_error = -1.0, .misfit = -1.0};
-    double weights = 0.0, squares = 0.0, rounding = 0.0, deviation[HD_BLOCKS_MAX] = {0.0};
-    int first = HD_BLOCKS_MAX, steps = 0;
+    const double error = rate_error(r) / r->wave_number;
+    return error < 0 ? 0.0 : 1.0 / fmax(error * error, VARIANCE_MIN);
+}
+
+/** sqrt(chi^2 / freedom) of the steps about one velocity; negative of a single step. */
+static double misfit_of(const hd_phases *phases, double v)
+{
+    double chi2 = 0.0;
+    int steps = 0;
     for (int k = 0; k < phases->rotors; k++) {
         const hd_rotor *r = &phases->rotor[k];
-        const double error = rate_error(r) / r->wave_number;
-        if (error < 0) continue;
-        const double rate = r->turned / r->turning / r->wave_number;
-        const double w = 1.0 / (error * error < VARIANCE_MIN ? VARIANCE_MIN : error * error);
+        const double w = weight_of(r);
+        chi2 += w > 0 ? w * pow(fabs(velocity_of(r)) - v, 2.0) : 0.0;
+        steps += w > 0;
+    }
+    return steps > 1 ? sqrt(chi2 / (steps - 1)) : -1.0;
+}
+
+/** Mean over the steps, weighted with their errors; its own error knows how they turn together, and
+ * grows with the misfit. */
+hd_velocity hd_phases_velocity(const hd_phases *phases)
+{
+    hd_velocity out = {.v_error = -1.0, .v_sampling_error = -1.0, .misfit = -1.0};
+    double weights = 0.0, rounding = 0.0, deviation[HD_BLOCKS_MAX] = {0.0};
+    int first = HD_BLOCKS_MAX;
+    for (int k = 0; k < phases->rotors; k++) {
+        const hd_rotor *r = &phases->rotor[k];
+        const double w = weight_of(r);
+        if (w == 0) continue;
         out.phases += hd_rotor_tracked(r);
-        out.k_min = steps == 0 ? r->wave_number : fmin(out.k_min, r->wave_number);
+        out.k_min = weights == 0 ? r->wave_number : fmin(out.k_min, r->wave_number);
         out.k_max = fmax(out.k_max, r->wave_number);
         weights += w;
-        steps++;
-        out.v += w * fabs(rate);
-        squares += w * rate * rate;
-        rounding += add_deviations(r, copysign(w / r->wave_number, rate), deviation);
+        out.v += w * fabs(velocity_of(r));
+        rounding += add_deviations(r, copysign(w / r->wave_number, velocity_of(r)), deviation);
         if (first_block(r) < first) first = first_block(r);
     }
     if (weights == 0) return out;
     out.v /= weights;
     const double error = hd_deviations_error(deviation + first, phases->blocks.count - first,
                                              rounding);
-    out.v_error = error < 0 ? error : error / weights;
-    if (steps > 1) out.misfit = sqrt(fmax(squares - weights * out.v * out.v, 0.0) / (steps - 1));
+    out.misfit = misfit_of(phases, out.v);
+    if (error < 0) return out;
+    out.v_sampling_error = error / weights;
+    out.v_error = fmax(1.0, out.misfit) * out.v_sampling_error;
     return out;
 }
 

@@ -22,9 +22,10 @@ static const bend BENDS[2][2] = {
 static const double OFF = HD_DIM == 2 ? 0.1 : 0.15;
 /** Walls move c by about WALL sigma / edge, and each step by WALL_OWN of that for itself. */
 static const double WALL = 0.25, WALL_OWN = 0.6;
-/** In a circle LP steps lie below the relation of boxes, by 31 % (LP(1,1), density 0.4) to nothing
- * (LP(0,1)); T steps by up to 1.5 %. */
-static const double ROUND_LP = 0.2, ROUND_T = 0.015;
+/** In a circle T steps lie below the relation of boxes by up to 1.5 %. LP steps follow none: they
+ * lie below it by 31 % (LP(1,1), density 0.4) to nothing (LP(0,1)). */
+static const double ROUND_T = 0.015;
+static const hd_relation NONE = {NAN, NAN, NAN, NAN, NAN, NAN};
 /** Dense disks in a narrow box stand in rows, which fit its edge or do not: CROWDED (sigma /
  * edge)^4 at the density DENSE. */
 static const double CROWDED = 7.0, DENSE = 0.8;
@@ -42,7 +43,8 @@ static double walls_of(const hd_scene_def *def, const double box[HD_DIM])
 
 hd_relation hd_relation_of(const hd_scene_def *def, hd_mode_kind kind)
 {
-    const bool t = kind == HD_MODE_T;
+    const bool t = kind == HD_MODE_T, curved = hd_scene_boundary(def, 0) == HD_CURVED;
+    if (curved && !t) return NONE;
     const bend *b = &BENDS[HD_DIM - 2][t];
     const double l = hd_scene_mean_free_path(def);
     double box[HD_DIM], edge = INFINITY;
@@ -59,7 +61,7 @@ hd_relation hd_relation_of(const hd_scene_def *def, hd_mode_kind kind)
         .scatter = hypot(t ? 0.001 : 0.002, WALL_OWN * walls),
     };
     r.c3_error = OFF * r.c3 + b->c3_error;
-    if (hd_scene_boundary(def, 0) == HD_CURVED) r.scatter = r.box_error = t ? ROUND_T : ROUND_LP;
+    if (curved) r.scatter = r.box_error = ROUND_T;
     return r;
 }
 
@@ -82,6 +84,7 @@ double hd_relation_open(const hd_scene_def *def, hd_mode_kind kind)
 {
     const hd_relation r = hd_relation_of(def, kind);
     const double k = longest_of(def, kind);
+    if (isnan(r.c2)) return INFINITY;
     const double curved = hypot(r.c2_error * k, r.c3_error * k * k);
     return hypot(r.box_error, hypot(r.scatter, curved));
 }

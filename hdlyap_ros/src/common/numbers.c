@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 enum { PLACES_MAX = 9 }; /* with more, only the size of a number can be read */
 
@@ -24,4 +25,11 @@ void number_with_error(char *text, size_t size, double value, double error)
         snprintf(text, size, "%.*f(%.*f)", places, value, places, error);
     else
         snprintf(text, size, "%.*f(%.0f)", places, value, error * pow(10.0, places));
+}
+
+void number_of_fit(char *text, size_t size, double value, double error, double misfit)
+{
+    number_with_error(text, size, value, error);
+    const size_t end = strlen(text);
+    if (misfit >= 0.0) snprintf(text + end, size - end, ", misfit %.1f", misfit);
 }

@@ -35,13 +35,12 @@ static void print_step(const hd_step *step)
             alone ? "" : hdr_step_sharing_text(step->sharing));
 }
 
-static void print_fit(const char *name, hd_coefficient c, int count, const char *of, double from,
+/** number: of `count` wave numbers or phases. */
+static void print_fit(const char *name, const char *number, int count, const char *of, double from,
                       double to)
 {
-    char text[TEXT];
     if (count == 0) return;
-    number_with_error(text, sizeof text, c.value, c.error);
-    hdr_log(HDR_INFO, "  %-4s %s over %d %s%s, k from %.4g to %.4g", name, text, count, of,
+    hdr_log(HDR_INFO, "  %-4s %s over %d %s%s, k from %.4g to %.4g", name, number, count, of,
             count > 1 ? "s" : "", from, to);
 }
 
@@ -51,13 +50,16 @@ static void print_fits(const hd_run *run, const hd_steps *steps)
         const char *name;
         hd_mode_kind kind;
     } fits[] = {{"c_T", HD_MODE_T}, {"c_L", HD_MODE_LP}};
+    char number[TEXT];
     for (int k = 0; k < 2; k++) {
         const hd_dispersion fit = hd_steps_dispersion(steps, hd_run_spectrum(run), fits[k].kind);
-        print_fit(fits[k].name, fit.c, fit.points, "wave number", fit.k_min, fit.k_max);
+        number_of_fit(number, sizeof number, fit.c.value, fit.c.error, fit.misfit);
+        print_fit(fits[k].name, number, fit.points, "wave number", fit.k_min, fit.k_max);
     }
     if (!hd_run_phases(run)) return;
     const hd_velocity v = hd_phases_velocity(hd_run_phases(run));
-    print_fit("v", (hd_coefficient){v.v, v.v_error}, v.phases, "LP phase", v.k_min, v.k_max);
+    number_of_fit(number, sizeof number, v.v, v.v_error, v.misfit);
+    print_fit("v", number, v.phases, "LP phase", v.k_min, v.k_max);
 }
 
 /** Smallest exponent first. */

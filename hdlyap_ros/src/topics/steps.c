@@ -63,7 +63,7 @@ hd_status topic_publish_steps(const moment *now)
     const hd_run *run = now->run;
     const hd_steps *steps = hd_run_steps(run);
     const hd_phases *phases = hd_run_phases(run);
-    const hd_velocity none = {.v_error = -1.0, .misfit = -1.0},
+    const hd_velocity none = {.v_error = -1.0, .v_sampling_error = -1.0, .misfit = -1.0},
                       v = phases ? hd_phases_velocity(phases) : none;
     const hd_dispersion of_t = hd_steps_dispersion(steps, hd_run_spectrum(run), HD_MODE_T);
     const hd_dispersion of_l = hd_steps_dispersion(steps, hd_run_spectrum(run), HD_MODE_LP);
@@ -86,6 +86,7 @@ hd_status topic_publish_steps(const moment *now)
         .v_k_max = v.k_max,
         .v = v.v,
         .v_error = v.v_error,
+        .v_sampling_error = v.v_sampling_error,
         .v_misfit = v.misfit,
     };
     return topic_send_steps(now->out, &message);

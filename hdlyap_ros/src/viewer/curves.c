@@ -178,11 +178,17 @@ static void step_points(const plot *axes, const hdr_steps *steps)
     }
 }
 
+/** LP steps in a circle are not. */
+static bool is_related(const hdr_steps *steps) { return !isnan(steps->l_long_c2); }
+
 void curves_dispersion(canvas *on, const layout *l, const picture *p)
 {
     plot axes = {on, "dispersion", l->dispersion, l->unit, {0.0, 0.0}, {1.0, 1.0}};
     dispersion_range(&axes, p);
-    plot_axes(&axes, "dispersion: T blue, LP orange", "k [1/sigma]", "lambda");
+    plot_axes(&axes,
+              p->steps && !is_related(p->steps) ? "dispersion: T blue, LP (no relation) orange"
+                                                : "dispersion: T blue, LP orange",
+              "k [1/sigma]", "lambda");
     if (!p->steps) return;
     const hdr_steps *s = p->steps;
     if (s->t_points > 0) fit_curve(&axes, s->c_t, s->c_t2, s->c_t3, HDR_MODE_T);
@@ -193,12 +199,12 @@ void curves_dispersion(canvas *on, const layout *l, const picture *p)
 
 /* ---- the caption --------------------------------------------------------------------------- */
 
-/** "c_T 3.2304(37)    "; without what is not known. */
-static size_t write_number(char *text, size_t size, const char *name, bool known, double value,
-                           double error)
+/** "c_T 3.2304(37), misfit 0.5    "; without what is not known. */
+static size_t write_fit(char *text, size_t size, const char *name, bool known, double value,
+                        double error, double misfit)
 {
-    char number[48] = "unknown";
-    if (known) number_with_error(number, sizeof number, value, error);
+    char number[64] = "unknown";
+    if (known) number_of_fit(number, sizeof number, value, error, misfit);
     return (size_t)snprintf(text, size, "%s %s    ", name, number);
 }
 
@@ -208,12 +214,15 @@ static void write_results(char *text, size_t size, const picture *p)
     const hdr_steps *s = p->steps;
     size_t n = 0;
     if (p->has_exponents)
-        n += write_number(text, size, "lambda_max", p->exponents.count > 0, p->lambda_max,
-                          p->lambda_max_error);
+        n += write_fit(text, size, "lambda_max", p->exponents.count > 0, p->lambda_max,
+                       p->lambda_max_error, -1.0);
     if (!s) return;
-    n += write_number(text + n, size - n, "c_T", s->t_points > 0, s->c_t, s->c_t_error);
-    n += write_number(text + n, size - n, "c_L", s->l_points > 0, s->c_l, s->c_l_error);
-    write_number(text + n, size - n, "v", s->v_phases > 0, s->v, s->v_error);
+    n += (size_t)snprintf(text + n, size - n, "\n");
+    n += write_fit(text + n, size - n, "c_T", s->t_points > 0, s->c_t, s->c_t_error, s->t_misfit);
+    if (is_related(s))
+        n += write_fit(text + n, size - n, "c_L", s->l_points > 0, s->c_l, s->c_l_error,
+                       s->l_misfit);
+    write_fit(text + n, size - n, "v", s->v_phases > 0, s->v, s->v_error, s->v_misfit);
 }
 
 /** Where the run is. */

@@ -4,7 +4,7 @@
 #include <math.h>
 
 /** In units of the text's height. */
-static const double WIDTH_UNITS = 64.0, GAP = 3.0, TITLE = 3.5, AXIS = 6.0, CAPTION = 6.0;
+static const double WIDTH_UNITS = 64.0, GAP = 3.0, TITLE = 3.5, AXIS = 6.0, CAPTION = 7.5;
 static const double ARROW = 2.6;        /* the longest, in mean distances of disks */
 static const double LONG = 2.5;         /* boxes this much longer than high lie above each other */
 static const double TOO_LONG = 40.0;    /* arrows of neighbours would cover each other */

@@ -258,7 +258,8 @@ TEST(velocity_is_the_weighted_mean_of_the_steps)
         const hd_velocity got = velocity_of(&ch, omega, noise);
         assert_int_equal(got.phases, 4);
         square += pow(got.v - v, 2.0) / REPEATS;
-        stated += got.v_error / REPEATS;
+        stated += got.v_sampling_error / REPEATS;
+        assert_true(got.v_error == got.v_sampling_error * fmax(1.0, got.misfit));
     }
     const double best = noise[0] / sqrt(200.0) / ch.k[0];
     CHECK_CLOSE(sqrt(square) / stated, 1.0, 0.25); /* 7 % from 100 repetitions */
@@ -306,7 +307,8 @@ TEST(a_step_that_comes_late_knows_its_error_late)
     assert_true(error[0] >= 0 && error[1] < 0);
 }
 
-/** Steps that contradict each other by 0.5, of errors of 0.001 / sqrt(200) and more. */
+/** Steps that contradict each other by 0.5, of errors of 0.001 / sqrt(200) and more: then the error
+ * of v is what they contradict each other by. */
 TEST(contradictions_are_a_misfit)
 {
     HELD(channel) ch = channel_create();
@@ -321,12 +323,16 @@ TEST(contradictions_are_a_misfit)
         error[n] /= ch.k[n];
     }
     assert_true(v.v > 3.0 && v.v < 3.5);
-    assert_true(v.v_error > 0 && v.v_error < 0.001);
+    assert_true(v.v_sampling_error > 0 && v.v_sampling_error < 0.001);
     /* chi^2 of two steps, w1 w2 / (w1 + w2) (v1 - v2)^2, over one freedom; a small difference of
        squares: some hundred times their rounding */
     const double misfit = fabs(rate[0] - rate[1]) / hypot(error[0], error[1]);
     assert_true(misfit > 1000.0);
     CHECK_CLOSE(v.misfit, misfit, 1e3 * DBL_EPSILON * misfit);
+    /* of independent steps w^(-1/2), w = w1 + w2; errors of the steps are known to 15 % each */
+    const double alone = 1.0 / hypot(1.0 / error[0], 1.0 / error[1]);
+    CHECK_CLOSE(v.v_error, misfit * alone, 0.4 * misfit * alone);
+    CHECK_WITHIN(v.v_error, 0.1, 0.4);
     CHECK_CLOSE(v.k_min, ch.k[0], 0.0);
     CHECK_CLOSE(v.k_max, ch.k[1], 0.0);
 }

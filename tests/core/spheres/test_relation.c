@@ -39,5 +39,8 @@ TEST(branches_bend_as_measured_and_not_as_those_of_disks)
                       (int)b->kind, got, want, sampling, form);
         CHECK_CLOSE(got, want, OFF);
         CHECK_CLOSE(got, want, form + sampling);
+        /* of c3 / c 15 %, which these few densities cannot tell, and what free fits leave open */
+        const double open = b->kind == HD_MODE_T ? 0.02 : 0.05;
+        CHECK_CLOSE(r.c3_error, 0.15 * r.c3 + open, 4.0 * DBL_EPSILON);
     }
 }

@@ -86,7 +86,7 @@ static void add_velocity(list *l, const hd_run *run)
         const hd_phase *phase = hd_phases_phase(hd_run_phases(run), k);
         if (phase->state == HD_PHASE_TRACKED && phase->step < waves(run)) of |= bit(phase->step);
     }
-    add(l, "v", (number){v.v, v.v_error, v.phases > 0 ? of : 0});
+    add(l, "v", (number){v.v, v.v_sampling_error, v.phases > 0 ? of : 0});
 }
 
 static void add_steps(list *l, const hd_run *run)

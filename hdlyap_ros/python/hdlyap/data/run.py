@@ -125,25 +125,25 @@ class Run:
     @cached_property
     def results(self):
         """lambda_max, the sum of the positive exponents, and the fits over steps if there were
-        any, with what they stand on. Of the error of c, sampling_error is what another run of the
-        same box may differ by."""
+        any, with what they stand on. Of the error of c and v, sampling_error is what another run of
+        the same box may differ by; the rest grows with the misfit."""
         last = self._averages.last
         about = common.Run()
         about.info, about.spectrum = self.info, last
         rate, none = fields.of(last)['lambda_max'].unit, ''
         rows = [
-            ('lambda_max', last.lambda_max, *[last.std_errors[0]] * 2, rate, none),
-            (about.sum_name, last.ks_entropy, *[about.sum_error] * 2, rate, none),
+            ('lambda_max', last.lambda_max, *[last.std_errors[0]] * 2, -1.0, rate, none),
+            (about.sum_name, last.ks_entropy, *[about.sum_error] * 2, -1.0, rate, none),
         ]
         units = fields.of(msg.Steps)
         rows += [
-            (*of_value, sampling, units[of_value[0].lower()].unit, fit.basis)
+            (*of_value, sampling, fit.misfit, units[of_value[0].lower()].unit, fit.basis)
             for fit in self.fits
             for of_value, sampling in zip(fit.values, fit.sampling_errors)
         ]
-        names = ['quantity', 'value', 'std_error', 'sampling_error', 'unit', 'basis']
-        made = pandas.DataFrame(rows, columns=names)
-        for name in ('std_error', 'sampling_error'):
+        unknown = 'std_error', 'sampling_error', 'misfit'
+        made = pandas.DataFrame(rows, columns=['quantity', 'value', *unknown, 'unit', 'basis'])
+        for name in unknown:
             made[name] = known(made[name])
         return made.set_index('quantity')
 

@@ -97,16 +97,18 @@ class Seeds:
 
     @cached_property
     def steps(self):
-        """Those that are resolved in at least one run; means over the runs in which they are."""
-        frames = [run.steps[run.steps['resolved']] for run in self.runs]
-        names = list(dict.fromkeys(name for one in frames for name in one.index))
-        about = pandas.concat(frames)
-        columns = [name for name in ('kind', 'nx', 'ny', 'nz', 'wave_number') if name in about]
-        about = about[~about.index.duplicated()].loc[names, columns]
-        made = self._mean(frames, 'exponent', index=about.index)
-        multiplicity = self._mean(frames, 'multiplicity', index=about.index)['multiplicity']
+        """The columns of one run, and those of means. A step is resolved if it is in at least one
+        run; exponent and multiplicity are means over those runs, all else is of the first of them.
+        `scatter` is that of the runs, here too."""
+        frames = [run.steps for run in self.runs]
+        found = [one[one['resolved']] for one in frames]
+        about = pandas.concat([*found, frames[0]])
+        about = about[~about.index.duplicated()].loc[frames[0].index]
+        made = self._mean(found, 'exponent', index=about.index)
+        multiplicity = self._mean(found, 'multiplicity', index=about.index)['multiplicity']
         columns = {**about, 'multiplicity': multiplicity, **made}
-        return tables.frame(columns, {'wave_number': '1/sigma', **made.attrs['units']}, made.index)
+        units = {**frames[0].attrs['units'], **made.attrs['units']}
+        return tables.frame(columns, units, made.index)
 
     @cached_property
     def results(self):
@@ -123,6 +125,8 @@ class Seeds:
         made['sampling_error'] = np.fmax(made['std_error'], made['scatter'])
         for name in ('std_error', 'scatter'):
             made[name] = np.hypot(made[name], of_form)
+        # of chi^2 and freedom of all runs together
+        made['misfit'] = np.sqrt(np.mean([one['misfit'] ** 2 for one in frames], axis=0))
         return made.join(frames[0][['unit', 'basis']])
 
     @cached_property
@@ -162,10 +166,10 @@ class Seeds:
                     found.setdefault(name, step)
         names = self.runs[0].steps.index
         message.steps = [found.get(name, step) for name, step in zip(names, message.steps)]
-        for name, error in errors(self.steps).items():
+        for name, step in found.items():
             mean = self.steps.loc[name]
-            found[name].exponent, found[name].std_error = mean['exponent'], error
-            found[name].multiplicity = mean['multiplicity']
+            step.exponent, step.std_error = mean['exponent'], errors(mean)
+            step.multiplicity = mean['multiplicity']
         for symbol, points in (('c_T', 't_points'), ('c_L', 'l_points'), ('v', 'v_phases')):
             if symbol not in self.results.index:
                 setattr(message, points, 0)
@@ -175,7 +179,9 @@ class Seeds:
             setattr(message, field + '_error', error)
             if hasattr(message, field + '_sampling_error'):
                 setattr(message, field + '_sampling_error', row['sampling_error'])
-        message.t_misfit = message.l_misfit = message.v_misfit = -1.0
+        for symbol, letter in (('c_T', 't'), ('c_L', 'l'), ('v', 'v')):
+            misfit = self.results['misfit'].get(symbol, np.nan)
+            setattr(message, f'{letter}_misfit', misfit if np.isfinite(misfit) else -1.0)
 
     def _is_in_all(self, fit):
         return all(any(fit.is_like(other) for other in run.fits) for run in self.runs)

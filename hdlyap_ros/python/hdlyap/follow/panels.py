@@ -112,7 +112,7 @@ def _fits(view, with_waves):
     for fit in fits.of(_averaged_steps(view)):
         if fit.count:
             basis = f' ({fit.basis})' if with_waves else ''
-            yield f'{fit.symbol} {_measured(*fit.values[0][1:])}{basis}'
+            yield f'{fit.symbol} {_measured(*fit.values[0][1:])}{fit.beside}{basis}'
 
 
 def table(view, width):

@@ -57,7 +57,8 @@ class LongBoxes(namedtuple('LongBoxes', 'c2 c2_error c3 c3_error box_error')):
 
 class WithLongBoxes:
     """The fit of the node [T12], of independent steps: least squares over the steps, each with its
-    error and its scatter, and two more observations, c2 / c and c3 / c of long boxes."""
+    error and its scatter, and two more observations, c2 / c and c3 / c of long boxes. All of these
+    errors are multiplied by the misfit where that exceeds 1."""
 
     terms = TERMS
 
@@ -75,19 +76,15 @@ class WithLongBoxes:
         inverse = np.linalg.inv(_powers(k).T @ (weights[:, None] * _powers(k)) + rows.T @ rows)
         shares = inverse @ _powers(k).T * weights
         self.coefficients = shares @ exponents
-        form = (
-            np.diag(inverse)
-            - (shares**2) @ errors**2
-            + (long.box_error * self.coefficients) ** 2
-        )
-        sampling = np.sqrt((shares**2) @ errors**2)
-        self.errors = np.sqrt(sampling**2 + form) if is_known else np.full(TERMS, -1.0)
-        self.c_sampling_error = sampling[0] if is_known else -1.0
+        self.c_sampling_error = np.sqrt(shares[0] ** 2 @ errors**2) if is_known else -1.0
         left = np.diag(rows @ inverse @ rows.T)  # of the widths in long boxes
         self.prior_share = float(left.mean())
         off = np.append(exponents - _powers(k) @ self.coefficients, rows @ self.coefficients)
         chi2 = float(np.append(weights, (1.0, 1.0)) @ off**2)
         self.misfit = np.sqrt(chi2 / (len(k) - 1)) if len(k) > 1 and is_known else -1.0
+        own = max(1.0, self.misfit) ** 2 * np.diag(inverse)
+        of_box = (long.box_error * self.coefficients) ** 2
+        self.errors = np.sqrt(own + of_box) if is_known else np.full(TERMS, -1.0)
 
 
 def number_of(k):

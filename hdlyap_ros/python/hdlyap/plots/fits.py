@@ -42,9 +42,13 @@ class Fit:
             for name in names
         ]
         self.sampling_errors = [error for _, _, error in self.values]
-        if not isnan(self.prior_share):
+        if letter == 'v' and self.count:
+            self.sampling_errors = [getattr(message, 'v_sampling_error', message.v_error)]
+        elif not isnan(self.prior_share):
             sampling = getattr(message, f'c_{letter}_sampling_error')
             self.sampling_errors = [sampling, nan, nan][: self.terms]
+        # of LP steps in a circle, which follow no relation
+        self.is_unrelated = letter != 'v' and isnan(getattr(message, f'{letter}_long_c2', 0.0))
 
     @property
     def form(self):
@@ -68,8 +72,13 @@ class Fit:
 
     @property
     def measured(self):
-        """Its first coefficient."""
-        return with_error(*self.values[0][1:])
+        """Its first coefficient, beside its misfit."""
+        return with_error(*self.values[0][1:]) + self.beside
+
+    @property
+    def beside(self):
+        """', misfit 6.5'; nothing while it is not known."""
+        return f', misfit {self.misfit:.1f}' if self.misfit >= 0 else ''
 
     def _has(self, k):
         return self.k_min * (1 - SAME) <= k <= self.k_max * (1 + SAME)
@@ -160,10 +169,10 @@ def _fit(message, letter, found, terms):
     }
     for name in _names(letter):
         made.update({name: nan, f'{name}_error': -1.0})
-    if not found:
-        return made
-    if terms == 3:
-        long = dispersion.LongBoxes.of(message, letter)
+    long = dispersion.LongBoxes.of(message, letter) if terms == 3 else None
+    if not found or long is not None and isnan(long.c2):
+        return {**made, f'{letter}_points': 0}
+    if long is not None:
         curve = dispersion.WithLongBoxes(*_columns(found), [step.scatter for step in found], long)
         made[f'{letter}_prior_share'] = curve.prior_share
     else:

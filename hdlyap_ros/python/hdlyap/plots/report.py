@@ -45,7 +45,8 @@ def _means(recording):
     lines = [f'means over {number}, weighted with their averaged times', HEAD]
     lines += [_mean(name, row, 'value', row['basis']) for name, row in of_all.results.iterrows()]
     if recording.steps is not None:
-        lines += [_mean(name, row, 'exponent') for name, row in of_all.steps.iterrows()]
+        found = of_all.steps[of_all.steps['resolved']]
+        lines += [_mean(name, row, 'exponent') for name, row in found.iterrows()]
     lost = [fit.symbol for fit in of_all.runs[0].fits if fit.symbol not in of_all.results.index]
     if lost:
         lines.append(f'  {", ".join(lost)}: of other forms or wave numbers in other runs')

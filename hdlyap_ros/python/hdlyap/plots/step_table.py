@@ -156,16 +156,20 @@ def _fits(recording):
 def _fit_lines(fit):
     """What it stands on, and its coefficients."""
     if not fit.count:
-        why = '' if fit.symbol == 'v' else ': no step resolved'
-        return [f'  {fit.symbol:<5} not known{why}']
+        return [f'  {fit.symbol:<5} {_why_none(fit)}']
     basis = (
         f'{fit.basis}, {fit.count} of them'
         if fit.symbol == 'v'
         else f'{steps.NAMES[fit.kind]} steps: {fit.basis}'
     )
-    misfit = f', misfit {fit.misfit:.1f}' if fit.misfit >= 0 else ''
     values = [f'  {name:<5} {with_error(value, error)}' for name, value, error in fit.values]
-    return [f'  {basis}{misfit}', *values]
+    return [f'  {basis}{fit.beside}', *values]
+
+
+def _why_none(fit):
+    if fit.is_unrelated:
+        return 'none: LP steps of a circle follow no relation'
+    return 'not known' if fit.symbol == 'v' else 'not known: no step resolved'
 
 
 def _beside_paper(fit, curve, branch):

@@ -23,9 +23,9 @@ FITTED = ('c_T', 'c_L', 'v')
 NAN = float('nan')
 
 
-class Value(namedtuple('Value', 'value std_error scatter chi2 runs fit')):
+class Value(namedtuple('Value', 'value std_error scatter chi2 runs misfit fit')):
     """A mean over so many runs. Errors: from those that the runs state, from the scatter of the
-    runs; NaN while not known. fit: plots.fits.Fit that it comes from, or None."""
+    runs; NaN while not known, as the misfit. fit: plots.fits.Fit that it comes from, or None."""
 
     @property
     def error(self):
@@ -78,6 +78,7 @@ class Point:
             float(several['scatter']) * factor,
             float(several['chi2']),
             int(several['runs']),
+            float(row['misfit']),
             fit,
         )
 

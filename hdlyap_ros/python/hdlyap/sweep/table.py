@@ -6,7 +6,7 @@ from hdlyap.plots import space
 from hdlyap.plots.numbers import with_error
 from hdlyap.runs import files
 
-from .points import FITTED, QUANTITIES, varied
+from .points import FITTED, NAN, QUANTITIES, varied
 
 UNLIKELY = 4.0  # standard deviations of chi^2 beyond its degrees of freedom
 
@@ -38,7 +38,6 @@ def text(points):
     """Lines."""
     names, fixed = varied(points)
     marks = Marks(points)
-    has_seeds = any(len(point.runs) > 1 for point in points)
     yield 'the same in all: ' + ', '.join(f'{name} {_plain(x)}' for name, x in fixed.items())
     yield from _table(
         [*names, *QUANTITIES, 'seeds', 'averaged time'],
@@ -56,17 +55,16 @@ def text(points):
     yield from (line for point in points for line in point.left_out)
     if any(point.unlike for point in points):
         yield 'unlike: fits of the seeds have not the same form or wave numbers'
-    if has_seeds:
-        yield (
-            'errors over the seeds, of which the larger one is above: from those stated, from the '
-            'scatter; chi^2/(seeds - 1)'
-        )
+    several = [point for point in points if len(point.runs) > 1]
+    if several:
+        yield 'errors of the means over seeds, of which the larger one is above:'
         yield from _table(
-            [*names, *QUANTITIES],
+            [*names, 'quantity', 'from those stated', 'from the scatter', 'chi^2/(seeds - 1)'],
             [
-                [*_of_system(point, names), *(_errors(point, name) for name in QUANTITIES)]
-                for point in points
-                if len(point.runs) > 1
+                [*_of_system(point, names), name, *_errors(point.values[name])]
+                for point in several
+                for name in QUANTITIES
+                if name in point.values
             ],
         )
         yield from _scattered(points, names)
@@ -99,15 +97,13 @@ def _cell(point, name, marks):
     if name not in point.values:
         return ''
     value = point.values[name]
-    return with_error(value.value, value.error) + marks.of(value.fit)
+    misfit = f', misfit {value.misfit:.1f}' if isfinite(value.misfit) else ''
+    return with_error(value.value, value.error) + misfit + marks.of(value.fit)
 
 
-def _errors(point, name):
-    value = point.values.get(name)
-    if value is None:
-        return ''
-    chi2 = _digits(value.chi2 / (value.runs - 1)) if value.runs > 1 else '-'
-    return ' '.join([*map(_digits, (value.std_error, value.scatter)), chi2])
+def _errors(value):
+    chi2 = value.chi2 / (value.runs - 1) if value.runs > 1 else NAN
+    return map(_digits, (value.std_error, value.scatter, chi2))
 
 
 def _digits(error):
@@ -128,7 +124,7 @@ def csv(points, path):
     head += ['seeds', 'averaged time [time units]']
     for name, unit in QUANTITIES.items():
         head += [f'{name} [{unit}]', f'{name} std_error', f'{name} scatter', f'{name} chi2']
-        head += [f'{name} basis'] if name in FITTED else []
+        head += [f'{name} misfit', f'{name} basis'] if name in FITTED else []
     files.write_csv(path, head, map(_row, points))
 
 
@@ -136,8 +132,10 @@ def _row(point):
     row = [*map(_plain, point.system.values()), ' '.join(point.seeds), f'{point.averaged_time:g}']
     for name in QUANTITIES:
         value = point.values.get(name)
-        numbers = (value.value, value.std_error, value.scatter, value.chi2) if value else [''] * 4
-        row += [repr(x) if x != '' and isfinite(x) else '' for x in numbers]
+        numbers = value[:4] if value else [NAN] * 4
+        if name in FITTED:
+            numbers = [*numbers, value.misfit if value else NAN]
+        row += [repr(x) if isfinite(x) else '' for x in numbers]
         if name in FITTED:
             row.append(value.fit.basis if value else '')
     return row

@@ -31,7 +31,7 @@ def draw(recording):
     axes.set_xlabel(r'wave number $k$  [1/$\sigma$]')
     axes.set_ylabel(r'$\lambda$  [1/time unit]')
     _wave_axis(axes, recording.info, [step for _, step in points], end)
-    _legend(axes, [block for block, _ in points])
+    _legend(axes, [block for block, _ in points], of_l.is_unrelated)
     return titled(figure, recording.info)
 
 
@@ -61,7 +61,7 @@ def _branch(axes, info, fit, end):
         line = sum(value * k**power for power, (_, value, _) in enumerate(fit.values, start=1))
         axes.plot(k, line, color=colour, label=f'{kind}: {_fit_label(fit)}')
     published = paper.branches(info).get(kind)
-    if published is not None:
+    if published is not None and not fit.is_unrelated:
         k = np.linspace(0, end if published.c2 else min(end, PUBLISHED_UP_TO), 100)
         axes.plot(
             k,
@@ -74,9 +74,9 @@ def _branch(axes, info, fit, end):
 
 
 def _fit_label(fit):
-    """Its slope; another form than the usual says that it is one."""
+    """Its slope and misfit; another form than the usual says that it is one."""
     name, value, error = fit.values[0]
-    label = f'${name[0]}_{{{name[2:]}}}={with_error(value, error, decimals=3)}$'
+    label = f'${name[0]}_{{{name[2:]}}}={with_error(value, error, decimals=3)}${fit.beside}'
     return label + (f' by {fit.form}' if fit.terms < 3 else '')
 
 
@@ -112,12 +112,13 @@ def _joined(names):
     return ' '.join(names[:NAMES]) + (' ..' if len(names) > NAMES else '')
 
 
-def _legend(axes, blocks):
+def _legend(axes, blocks, is_unrelated):
     handles, labels = axes.get_legend_handles_labels()
     for kind in (steps.LP, steps.T):
         if any(step.kind == kind for block in blocks for step in block.steps):
             handles.append(_marker(kind, kind_colour(kind)))
-            labels.append(f'{steps.kind_name(kind)} steps')
+            said = ', which follow no relation' if kind == steps.LP and is_unrelated else ''
+            labels.append(f'{steps.kind_name(kind)} steps{said}')
     shared = [block.steps for block in blocks if len(block.steps) > 1]
     if shared:
         handles.append(_marker(shared[0][0].kind, 'white'))
