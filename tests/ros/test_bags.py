@@ -290,7 +290,7 @@ def expected_sizes(disks, vectors, steps, phases, t_phases, waves):
     return dict(
         spectrum=begin + 8 + 8 + 5 * 8 + 4 + 5 * 4 + 40 * vectors,
         modes=begin + 8 + 4 + 4 + 101 * vectors,
-        steps=begin + 8 + 8 + 4 + 124 * steps + 2 * 132 + 4 + 5 * 8,
+        steps=begin + 8 + 8 + 4 + 124 * steps + 2 * 132 + 4 + 6 * 8,
         lp_phases=begin + 4 + 86 * phases,
         t_phases=begin + 4 + 94 * t_phases,
         structure=begin + 4 + 9 * 4 + 16 * waves + 68 * vectors,
