@@ -55,7 +55,7 @@ class Launch(harness.Case):
         result = run.text().split('result: ')[-1]
         self.assertRegex(result, r'averaged %s.* time units, lambda_max [0-9.]+' % averaged)
         self.assertRegex(result, r' T\(1,0\) .* [0-9.]+')
-        self.assertRegex(result, r' c_T  [0-9.()]+ over \d+ wave number')
+        self.assertRegex(result, r' c_T  [0-9.()]+(, misfit [0-9.]+)? over \d+ wave number')
         for word in words:
             self.assertIn(word, result)
 

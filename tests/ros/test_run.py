@@ -152,17 +152,19 @@ class Run(harness.Case):
             said.startswith(f'averaged 400 of 400 time units, lambda_max {largest}\x1b'), said
         )
         fits = [
-            ('c_T', last.c_t, last.c_t_error, last.t_points, 'wave number'),
-            ('c_L', last.c_l, last.c_l_error, last.l_points, 'wave number'),
-            ('v', last.v, last.v_error, last.v_phases, 'LP phase'),
+            ('c_T', last.c_t, last.c_t_error, last.t_misfit, last.t_points, 'wave number'),
+            ('c_L', last.c_l, last.c_l_error, last.l_misfit, last.l_points, 'wave number'),
+            ('v', last.v, last.v_error, last.v_misfit, last.v_phases, 'LP phase'),
         ]
         waves = (last.t_k_min, last.t_k_max), (last.l_k_min, last.l_k_max)
-        for (name, value, error, count, of), ends in zip(
+        for (name, value, error, misfit, count, of), ends in zip(
             fits, [*waves, (last.v_k_min, last.v_k_max)]
         ):
             self.assertGreater(ends[1], ends[0])
             of += 's' * (count > 1)
-            line = f'  {name:<4} {self.number(value, error)} over {count} {of}, k from %.4g to %.4g'
+            self.assertGreaterEqual(misfit, 0.0)
+            number = f'{self.number(value, error)}, misfit {misfit:.1f}'
+            line = f'  {name:<4} {number} over {count} {of}, k from %.4g to %.4g'
             self.assertIn(line % ends, said)
         self.check_rows(said, last)
 
