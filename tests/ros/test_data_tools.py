@@ -3,6 +3,7 @@ harm."""
 
 import json
 import os
+import sys
 import unittest
 from unittest import mock
 
@@ -12,7 +13,7 @@ import pandas
 import hdlyap
 from hdlyap.msg import Structure
 import made
-from bags import tool
+from bags import process, tool
 from made import LP, T
 from test_data import Loaded
 from test_data_joined import HALF, numbered
@@ -265,6 +266,24 @@ class Hostile(Tools):
         self.assertEqual(done.status, 2)
         said = 'makes no sense here: IndexError: list index out of range ('
         self.assertIn(said, done.error)
+
+    def test_latex_that_is_not_there(self):
+        """Is not the bag's fault."""
+        bag = self.write(made.small_run())
+        with open(self.path('matplotlibrc'), 'w') as file:
+            file.write('text.usetex: True')
+        env = dict(os.environ, PATH='/nowhere', MATPLOTLIBRC=self.path('matplotlibrc'))
+        done = process('plot', bag, '--out', self.path('out'), env=env)
+        self.assertEqual(done.status, 1)
+        said = 'hdlyap plot: text.usetex of matplotlibrc does not work here: RuntimeError: .*latex'
+        self.assertRegex(done.error, said)
+
+    def test_another_python(self):
+        """Without numpy: which one it was, and which one to take."""
+        del sys.modules['hdlyap.data'], hdlyap.data
+        with mock.patch.dict(sys.modules, {'numpy': None, 'hdlyap.data.seeds': None}):
+            with self.assertRaisesRegex(ImportError, f'in {sys.executable}: .* /usr/bin/python3'):
+                hdlyap.load('a.bag')
 
     def test_bytes(self):
         """Single bytes of a bag, and pieces of it, are others."""

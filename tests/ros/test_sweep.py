@@ -336,11 +336,12 @@ class Results(InFolder):
         with open(self.path('broken.bag'), 'wb') as file:
             file.write(b'#ROSBAG V2.0\n' + bytes(500))
         program = Process(
-            [*harness.command('table'), self.bag('a'), self.path('broken.bag'), 'none.bag'],
+            [*harness.command('table'), self.bag('a'), self.path('broken.bag'), 'x.bag.active'],
             PWD=self.folder,
         )
         self.assertEqual(program.wait(), 1, program.text())
         self.assertEqual(len(program.lines('hdlyap table: ')), 2, program.text())
+        self.assertEqual(len(program.lines('hdlyap table: x.bag.active: ')), 1, program.text())
         self.assertEqual(len(program.lines('9.000(10)')), 1, program.text())
         self.assertIsNone(figure.draw(self.read(self.bag('a'))))
 

@@ -32,7 +32,8 @@ static const parameter rows[] = {
         .unit = "",
         .text =
             "Topics that are computed and published, beside run_info, status, cost and "
-            "/diagnostics. A topic costs nothing while nobody subscribes to it. With exponents: "
+            "/diagnostics. A topic costs nothing while nobody subscribes to it; the table of the log "
+            "asks for steps and lp_phases, too. With exponents: "
             "none there are only gas and state. A resumed run may have other ones of spectrum and "
             "state.",
     },

@@ -15,6 +15,7 @@ import warnings
 from hdlyap import signals
 
 PROGRAM = 'hdlyap'
+TEX = 'texmanager.py', 'dviread.py'  # of matplotlib, which call latex
 
 
 def main(words):
@@ -90,9 +91,12 @@ def _ended(name, module, args):
     except Exception as error:  # what no check has foreseen: a bag may say anything
         if fault is None:
             raise
-        place = traceback.extract_tb(error.__traceback__)[-1]
+        frames = traceback.extract_tb(error.__traceback__)
+        place = frames[-1]
         where = f'{os.path.basename(place.filename)}, line {place.lineno}'
         what = f'{type(error).__name__}: {error} ({where})'
-        text = f'what is recorded makes no sense here: {what}'
+        of_tex = any(os.path.basename(frame.filename) in TEX for frame in frames)
+        whose = 'text.usetex of matplotlibrc does not work' if of_tex else 'what is recorded makes no sense'
+        text = f'{whose} here: {what}'
     print(f'{PROGRAM} {name}: {plain(text, 8192)}', file=sys.stderr)
     return fault or 1

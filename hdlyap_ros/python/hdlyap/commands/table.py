@@ -97,7 +97,7 @@ def wait_for(groups):
 
 
 def main(args):
-    groups = [name for name in args.runs if not name.endswith('.bag')]
+    groups = [name for name in args.runs if '.' not in name]  # which no name of ROS has
     if groups:
         wait_for(groups)
     bags = [
