@@ -13,6 +13,8 @@ from harness import SHORT
 
 DOCUMENT = os.path.join(os.path.dirname(os.path.abspath(__file__)), '../../doc/survival.md')
 LONG = dict(SHORT, duration=0.0, threads=1)
+# as accurate as each orthonormalisation is asked to be (`accuracy`)
+RUN_ACCURACY = 1e-8
 RUN = dict(harness.REPEATABLE, observables=harness.OBSERVABLES)
 
 
@@ -53,6 +55,19 @@ class Checkpoint(harness.Case):
                 both = measured.bits(first[topic]) + measured.bits(second[topic])
                 self.assertGreater(len(second[topic]), 0)
                 self.assertEqual(both, measured.bits(whole[topic]))
+
+    def test_made_longer(self):
+        """Its first end had one orthonormalisation more: disks are the same bits, exponents close."""
+        whole = self.recorded(RUN)
+        self.recorded(dict(RUN, checkpoint=self.file, duration=20.0))
+        more = self.recorded(dict(RUN, resume=self.file))
+        count = len(more['state'])
+        self.assertGreater(count, 10)
+        self.assertEqual(measured.bits(more['state']), measured.bits(whole['state'])[-count:])
+        last, wanted = more['spectrum'][-1], whole['spectrum'][-1]
+        self.assertEqual(last.collisions, wanted.collisions)
+        for got, other in zip(last.exponents, wanted.exponents):
+            self.assertAlmostEqual(got, other, delta=RUN_ACCURACY)
 
     def test_what_is_not_given_is_as_in_the_file(self):
         params = dict(RUN, scene='kept', exponents=7, checkpoint=self.file)
