@@ -149,7 +149,7 @@ TEST(curves, the_caption_says_what_is_known)
     EXPECT_EQ(3u, in(on.of(s.p), "dispersion", Marker::LINE_LIST).size()); // axes, T, errors
     const auto texts = in(on.of(s.p), "dispersion", Marker::TEXT_VIEW_FACING);
     EXPECT_TRUE(std::any_of(texts.begin(), texts.end(), [](const Marker &m) {
-        return m.text == "dispersion: T blue, LP (no relation) orange";
+        return m.text == "T blue, LP orange (no relation)";
     }));
     s.p.time = -1.0, s.p.x.count = s.p.y.count = 0; // described, and not begun
     expect({"waiting for its first message", "a scene: 10 disks"});

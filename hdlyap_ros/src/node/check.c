@@ -172,12 +172,13 @@ static void print_open(const char *begin, const hd_scene_def *def, hd_mode_kind 
 
 static void print_errors(const settings *set, const hd_estimate *t)
 {
+    const bool has_c_l = hd_relation_open(&set->def, HD_MODE_LP) < INFINITY;
     printf("errors    of exponents of steps below 1 %% when they are first stated, after %.3g time "
            "units of averaging (",
            t->errors_after);
     print_seconds("", (t->before + t->errors_after) * t->seconds);
-    printf(" from the start);\n          of c_T and c_L about 1 %% of sampling after %.3g (",
-           t->slopes_after);
+    printf(" from the start);\n          of %s about 1 %% of sampling after %.3g (",
+           has_c_l ? "c_T and c_L" : "c_T", t->slopes_after);
     print_seconds("", (t->before + t->slopes_after) * t->seconds);
     printf("). An estimate, from runs of 780 disks.\n");
     print_open("          Beside it, of c_T", &set->def, HD_MODE_T);

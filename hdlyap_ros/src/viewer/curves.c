@@ -186,7 +186,7 @@ void curves_dispersion(canvas *on, const layout *l, const picture *p)
     plot axes = {on, "dispersion", l->dispersion, l->unit, {0.0, 0.0}, {1.0, 1.0}};
     dispersion_range(&axes, p);
     plot_axes(&axes,
-              p->steps && !is_related(p->steps) ? "dispersion: T blue, LP (no relation) orange"
+              p->steps && !is_related(p->steps) ? "T blue, LP orange (no relation)"
                                                 : "dispersion: T blue, LP orange",
               "k [1/sigma]", "lambda");
     if (!p->steps) return;
