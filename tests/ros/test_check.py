@@ -81,6 +81,9 @@ class Check(harness.Case):
         done = checked(file)
         self.assertIn('\n          Beside it, of c_T some 3.4 %, which this box', done.stdout)
         self.assertIn(f'scene     {os.path.basename(file)[:-5]} is valid: ', done.stdout)
+        done = checked(self.file_of(dict(disks=160, density=0.7, container='circle')))
+        self.assertIn('\n          of c_T about 1 % of sampling after ', done.stdout)
+        self.assertNotIn('c_L', done.stdout)
 
     def test_scenes(self):
         """With all kinds of stages; those that are large are made small."""
