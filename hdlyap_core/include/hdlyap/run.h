@@ -74,8 +74,12 @@ HD_MUST_CHECK hd_status hd_run_create_shared(hd_run **out, const hd_scene_def *d
 void hd_run_free(hd_run *run);
 
 /** Goes on by one interval; short enough (a fraction of a second for N below 1000) to be
- * interrupted between two calls. Does nothing once HD_FINISHED. */
+ * interrupted between two calls. Does nothing once HD_FINISHED. A run that has failed is of no use
+ * any more: each later call says the same status, and it is not saved. */
 HD_MUST_CHECK hd_status hd_run_advance(hd_run *run);
+/** HD_OK; or what the run has failed with, in hd_run_advance, hd_run_reset_average, or on the way
+ * back that hd_run_save ends. */
+hd_status hd_run_status(const hd_run *run);
 
 /** True if the last call ended at a multiple of the report interval. Spectrum, modes and steps are
  * then those of the last measured state, hd_spectrum_time after the averaging began: some
@@ -85,8 +89,9 @@ bool hd_run_report_due(const hd_run *run);
 
 /** Fields are due with the first report at or after each multiple of so many time units since the
  * averaging began, 0 included, and with the last one; with 0 (as at first) at every report. The
- * first call holds at once, another one from hd_run_change_time on. A run that goes on from a
- * checkpoint has them as often as before, until its first call. */
+ * interval is 0 or more, and finite. The first call holds at once, another one from
+ * hd_run_change_time on. A run that goes on from a checkpoint has them as often as before, until
+ * its first call. */
 void hd_run_fields_every(hd_run *run, double interval);
 
 /** Of several ranks, each knows the vectors of the steps where fields are due: and from now on all

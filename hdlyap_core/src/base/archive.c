@@ -25,7 +25,7 @@ void hd_archive_fail(hd_archive *archive, hd_status status, const char *name, co
 
 void hd_archive_refuse(hd_archive *archive, const char *name, const char *fault)
 {
-    if (!archive->writing) hd_archive_fail(archive, HD_FILE_FAULT, name, fault);
+    hd_archive_fail(archive, HD_FILE_FAULT, name, fault);
 }
 
 void hd_archive_expect(hd_archive *archive, bool condition, const char *name, const char *fault)
@@ -35,7 +35,8 @@ void hd_archive_expect(hd_archive *archive, bool condition, const char *name, co
 
 hd_status hd_archive_end(hd_archive *archive)
 {
-    hd_archive_expect(archive, archive->bytes == 0, "end", "there is more than expected");
+    hd_archive_expect(archive, archive->writing || archive->bytes == 0, "end",
+                      "there is more than expected");
     return archive->status;
 }
 
@@ -97,9 +98,9 @@ static void pass_head(hd_archive *archive, const char *name, const char *type, s
 static int64_t pass_integer(hd_archive *archive, int64_t value, int64_t min, int64_t max)
 {
     pass(archive, &value, sizeof value);
-    if (archive->writing || (value >= min && value <= max)) return value;
+    if (value >= min && value <= max) return value;
     hd_archive_refuse(archive, archive->name, "a number is out of its range");
-    return min;
+    return archive->writing ? value : min;
 }
 
 void hd_archive_next_int(hd_archive *archive, int *x, int min, int max)

@@ -32,13 +32,14 @@ hd_archive hd_archive_writer(FILE *file);
 hd_archive hd_archive_reader(FILE *file, uint64_t bytes);
 
 /** What is read must be used only if this is HD_OK: HD_FILE_FAULT, HD_NO_MEMORY, or HD_NOT_FINITE
- * when a number to be written is none. The reason is in name and fault. */
+ * when a number to be written is none. What is read and what is written has the same conditions.
+ * The reason is in name and fault. */
 HD_MUST_CHECK hd_status hd_archive_end(hd_archive *archive);
 
 /** The archive fails, unless it has failed before. */
 void hd_archive_fail(hd_archive *archive, hd_status status, const char *name, const char *fault);
 
-/** What was read cannot be: the archive fails, unless it has failed before or is being written. */
+/** What was read cannot be, or what is to be written: the archive fails, unless it has before. */
 void hd_archive_refuse(hd_archive *archive, const char *name, const char *fault);
 /** hd_archive_refuse unless the condition holds. */
 void hd_archive_expect(hd_archive *archive, bool condition, const char *name, const char *fault);
@@ -46,7 +47,7 @@ void hd_archive_expect(hd_archive *archive, bool condition, const char *name, co
 /** True while what is read can be relied on. */
 static inline bool hd_archive_good(const hd_archive *archive) { return archive->status == HD_OK; }
 
-/* Whole arrays. Numbers that are read are finite, integers from min to max. */
+/* Whole arrays. Numbers are finite, integers from min to max, or the archive fails. */
 
 void hd_archive_double(hd_archive *archive, const char *name, double *x);
 void hd_archive_doubles(hd_archive *archive, const char *name, double *x, size_t count);

@@ -82,11 +82,11 @@ void hd_trajectory_archive(hd_trajectory *tr, hd_archive *archive)
     hd_archive_bits(archive, "trajectory wall events", &tr->wall_events);
     hd_archive_doubles(archive, "trajectory virial", tr->virial, HD_DIM);
     disks_archive(tr, archive);
-    if (archive->writing || !hd_archive_good(archive)) return;
-    book(tr);
+    if (!hd_archive_good(archive)) return;
+    if (!archive->writing) book(tr);
     const char *fault = inconsistency(tr);
     if (fault) hd_archive_refuse(archive, "trajectory", fault);
-    if (hd_archive_good(archive)) predict(tr);
+    if (!archive->writing && hd_archive_good(archive)) predict(tr);
 }
 
 uint32_t hd_trajectory_fingerprint(const hd_trajectory *tr)

@@ -1,4 +1,6 @@
 /** What is asked for while a run goes on: value -> what the agenda takes up where it holds. */
+#include <math.h>
+
 #include "base/check.h"
 #include "hdlyap/parameters.h"
 #include "run/order.h"
@@ -41,6 +43,7 @@ hd_status hd_run_change(hd_run *run, const hd_parameter *row, double value, char
 
 void hd_run_fields_every(hd_run *run, double interval)
 {
+    HD_ASSERT(interval >= 0.0 && interval < INFINITY);
     hd_order_tell(run->communicator, (hd_order){.kind = HD_ORDER_FIELDS_EVERY, .number = interval});
     hd_agenda_ask_fields(&run->agenda, interval, run->carrier.frame);
 }

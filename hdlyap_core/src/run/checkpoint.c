@@ -132,17 +132,24 @@ static void parts_archive(hd_run *run, hd_archive *archive)
     hd_observables_archive(&run->observables, archive, true, now);
 }
 
+/** Nothing that is planned is later: of a duration that has become shorter it is cut. */
+static double last_time(const hd_run *run)
+{
+    return fmax(hd_run_time(run), hd_schedule_stage_end(&run->agenda.schedule));
+}
+
 static void plan_expect(const hd_run *run, hd_archive *archive)
 {
     const hd_advance_plan *plan = &run->advance.plan;
+    const double planned = fmin(plan->end, last_time(run));
     const double cut = run->agenda.schedule.stage == HD_FINISHED
                            ? hd_run_time(run)
                            : hd_schedule_cut(&run->agenda.schedule);
     const bool pending = run->carrier.log && run->carrier.log->duration > 0;
     const double end = fmax(hd_run_time(run), pending ? fmin(cut, run->agenda.interval_end) : cut);
     const uint64_t events = hd_advance_events(&run->advance);
-    hd_archive_expect(archive, plan->begin <= hd_run_time(run) && plan->end <= end,
-                      "run advance end", "it does not fit the time");
+    hd_archive_expect(archive, plan->begin <= hd_run_time(run) && planned <= end, "run advance end",
+                      "it does not fit the time");
     hd_archive_expect(archive, plan->events <= events, "run advance events",
                       "there were not so many");
 }
@@ -158,12 +165,12 @@ static void times_expect(const hd_run *run, hd_archive *archive)
                       "schedule", "it does not go on from this time");
     const bool pending = run->carrier.log && run->carrier.log->duration > 0;
     const double last = s->stage == HD_FINISHED ? now : hd_schedule_stage_end(s);
-    const double end = fmax(now, fmin(last, now + run->advance.bound));
+    const double end = fmax(now, fmin(last, now + run->advance.bound)),
+                 planned = fmin(run->agenda.interval_end, last_time(run));
     hd_archive_expect(archive, run->agenda.sample_begin <= now && run->followed <= now,
                       "run sample begin", "it does not fit the time");
-    hd_archive_expect(
-        archive, run->agenda.interval_end <= end && (!pending || run->agenda.interval_end >= now),
-        "run interval end", "it does not fit the time");
+    hd_archive_expect(archive, planned <= end && (!pending || planned >= now), "run interval end",
+                      "it does not fit the time");
     hd_archive_expect(archive,
                       !run->carrier.log ||
                           (run->carrier.log->duration >= 0 && run->carrier.log->duration <= now),
@@ -183,15 +190,20 @@ void hd_run_write(hd_run *run, hd_archive *archive, const char *label)
     hd_archive_int(archive, "run threads", &threads, 1, INT_MAX);
     numbers_archive(run, archive);
     parts_archive(run, archive);
+    times_expect(run, archive);
+    plan_expect(run, archive);
 }
 
 /** What rank 0 writes, the others tell it. */
 static hd_status tell_writer(hd_run *run)
 {
     FILE *nowhere = fopen("/dev/null", "wb");
-    const hd_status all = hd_communicator_agree(run->communicator, nowhere ? HD_OK : HD_FILE_FAULT);
+    hd_status all = hd_communicator_agree(run->communicator, nowhere ? HD_OK : HD_FILE_FAULT);
     hd_archive archive = hd_archive_writer(nowhere);
-    if (all == HD_OK) hd_run_write(run, &archive, "");
+    if (all == HD_OK) {
+        hd_run_write(run, &archive, "");
+        all = hd_communicator_agree(run->communicator, archive.status);
+    }
     if (nowhere) (void)fclose(nowhere);
     return all;
 }
@@ -201,20 +213,24 @@ static hd_status write_file(hd_run *run, const char *path, const char *label, ch
 {
     hd_checkpoint_file file;
     const hd_status begun = hd_checkpoint_file_begin(&file, path, message, size);
-    const hd_status all = hd_communicator_agree(run->communicator, begun);
+    hd_status all = hd_communicator_agree(run->communicator, begun);
     if (all != HD_OK && begun == HD_OK) hd_checkpoint_file_drop(&file);
     if (all != HD_OK) return all;
     hd_archive archive = hd_archive_writer(file.file);
     hd_run_write(run, &archive, label);
+    all = hd_communicator_agree(run->communicator, archive.status);
+    if (all != HD_OK) hd_archive_fail(&archive, all, "run", "another rank cannot write it");
     return hd_checkpoint_file_end(&file, &archive, message, size);
 }
 
 hd_status hd_run_save(hd_run *run, const char *path, const char *label, char *message, size_t size)
 {
     hd_order_tell(run->communicator, (hd_order){.kind = HD_ORDER_SAVE});
-    const hd_status settled = hd_run_settle(run);
+    const hd_status settled = hd_communicator_agree(run->communicator, hd_run_settle(run));
     if (settled != HD_OK) {
-        (void)hd_refuse(message, size, "%s", hd_status_text(settled));
+        char reason[128];
+        snprintf(reason, sizeof reason, "the run has failed: %s", hd_status_text(settled));
+        hd_checkpoint_file_line(message, size, path, reason);
         return settled;
     }
     const bool writes = hd_communicator_rank(run->communicator) == 0;
@@ -328,10 +344,8 @@ static hd_status restore(hd_run *run, hd_archive *archive, const hd_checkpoint *
     take_up_scene(run, &kept->scene);
     HD_TRY(reopen(run, message, size));
     hd_carrier_save_accuracy(&run->carrier, hd_run_stage(run) == HD_AVERAGING);
-    const double last = fmax(hd_run_time(run), hd_schedule_stage_end(&run->agenda.schedule));
-    run->agenda.interval_end = fmin(run->agenda.interval_end,
-                                    last); /* of a duration that has become shorter */
-    run->advance.plan.end = fmin(run->advance.plan.end, last);
+    run->agenda.interval_end = fmin(run->agenda.interval_end, last_time(run));
+    run->advance.plan.end = fmin(run->advance.plan.end, last_time(run));
     times_expect(run, archive);
     plan_expect(run, archive);
     /* no file may ask for an advance without end */

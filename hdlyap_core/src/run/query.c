@@ -14,6 +14,7 @@ static void *part(const hd_run *run, hd_observed row)
 
 bool hd_run_report_due(const hd_run *run) { return is_due(run, HD_DUE_REPORT); }
 bool hd_run_fields_due(const hd_run *run) { return is_due(run, HD_DUE_FIELDS); }
+hd_status hd_run_status(const hd_run *run) { return run->status; }
 hd_stage hd_run_stage(const hd_run *run) { return hd_agenda_stage(&run->agenda); }
 double hd_run_time(const hd_run *run) { return hd_advance_now(&run->advance); }
 const hd_scene_def *hd_run_scene(const hd_run *run) { return &run->scene; }

@@ -359,7 +359,11 @@ static hd_status go_back(hd_run *run, bool to_its_end)
     return HD_OK;
 }
 
-hd_status hd_run_settle(hd_run *run) { return go_back(run, true); }
+hd_status hd_run_settle(hd_run *run)
+{
+    if (run->status == HD_OK) run->status = go_back(run, true);
+    return run->status;
+}
 
 /* ---- from one time to the next ------------------------------------------------------------- */
 
@@ -425,9 +429,8 @@ static hd_status go_on(hd_run *run)
     return HD_OK;
 }
 
-hd_status hd_run_advance(hd_run *run)
+static hd_status advance(hd_run *run)
 {
-    hd_order_tell(run->communicator, (hd_order){.kind = HD_ORDER_ADVANCE});
     if (hd_agenda_is_due(&run->agenda, HD_DUE_REPORT) && is_averaging(run) && run->carrier.spectrum)
         hd_spectrum_local_restart(run->carrier.spectrum);
     hd_agenda_begin(&run->agenda);
@@ -440,12 +443,25 @@ hd_status hd_run_advance(hd_run *run)
     return go_on(run);
 }
 
-hd_status hd_run_reset_average(hd_run *run)
+hd_status hd_run_advance(hd_run *run)
 {
-    hd_order_tell(run->communicator, (hd_order){.kind = HD_ORDER_RESET});
+    hd_order_tell(run->communicator, (hd_order){.kind = HD_ORDER_ADVANCE});
+    if (run->status == HD_OK) run->status = advance(run);
+    return run->status;
+}
+
+static hd_status reset_average(hd_run *run)
+{
     if (!is_averaging(run)) return HD_OK;
     if (run->carrier.frame) hd_blas_use_threads(run->carrier.threads);
     if (run->carrier.frame) HD_TRY(orthonormalise(run, true));
     enter_stage(run, HD_AVERAGING);
     return HD_OK;
+}
+
+hd_status hd_run_reset_average(hd_run *run)
+{
+    hd_order_tell(run->communicator, (hd_order){.kind = HD_ORDER_RESET});
+    if (run->status == HD_OK) run->status = reset_average(run);
+    return run->status;
 }

@@ -26,6 +26,7 @@ typedef struct hd_clocks {
 
 struct hd_run {
     hd_communicator *communicator; /**< NULL: a single rank */
+    hd_status status;              /**< of the call that failed: then the rest is of no use */
     hd_scene_def scene;            /**< as it is asked for now */
     hd_agenda agenda;
     hd_advance advance;

@@ -63,14 +63,41 @@ hd_status hd_covariant_step(hd_covariant *covariant)
     return step_fails ? HD_NO_MEMORY : real(covariant);
 }
 
+/** For good, and the file that is there stays. */
 TEST(a_way_back_that_fails_is_said)
+{
+    static const char path[] = "windows.test";
+    char message[200] = "";
+    hd_checkpoint kept;
+    OWNED(hd_run) *run = created(small());
+    step_to(run, 10.0);
+    const double time = hd_run_time(run);
+    CHECK_OK(hd_run_save(run, path, "", NULL, 0));
+    step_to_the_way_back(run);
+    CHECK_OK(hd_run_status(run));
+    step_fails = true;
+    assert_int_equal(hd_run_advance(run), HD_NO_MEMORY);
+    step_fails = false;
+    assert_int_equal(hd_run_advance(run), HD_NO_MEMORY);
+    assert_int_equal(hd_run_reset_average(run), HD_NO_MEMORY);
+    assert_int_equal(hd_run_status(run), HD_NO_MEMORY);
+    assert_int_equal(hd_run_save(run, path, "", message, sizeof message), HD_NO_MEMORY);
+    assert_string_equal(message, "windows.test: the run has failed: out of memory");
+    CHECK_OK(hd_checkpoint_read(&kept, path, NULL, 0));
+    CHECK_CLOSE(kept.time, time, 0.0);
+    assert_int_equal(remove(path), 0);
+}
+
+/** What a checkpoint waits for, too. */
+TEST(a_way_back_that_fails_is_not_saved)
 {
     OWNED(hd_run) *run = created(small());
     step_to_the_way_back(run);
     step_fails = true;
-    assert_int_equal(hd_run_advance(run), HD_NO_MEMORY);
+    assert_int_equal(hd_run_save(run, "windows.test", "", NULL, 0), HD_NO_MEMORY);
     step_fails = false;
-    CHECK_OK(hd_run_advance(run));
+    assert_int_equal(hd_run_advance(run), HD_NO_MEMORY);
+    assert_null(fopen("windows.test", "rb"));
 }
 
 /** As many as fit with the last one's transient; all are done before the run is finished. */

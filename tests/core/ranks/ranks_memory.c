@@ -130,4 +130,28 @@ TEST(what_one_does_not_get_ends_all)
     }
 }
 
+/** In mid-run: all of them say so for good, and the file that is there stays. */
+TEST(what_one_does_not_get_later_ends_all_for_good)
+{
+    static const char path[] = "ranks_memory.checkpoint";
+    const hd_scene_def scene = short_scene(16, 0);
+    OWNED(hd_run) *run = NULL;
+    OWNED(hd_run) *resumed = NULL;
+    hd_status status = HD_OK;
+    CHECK_OK(hd_run_create_shared(&run, &scene, ranks, NULL, 0));
+    CHECK_OK(hd_run_save(run, path, "", NULL, 0));
+    if (ranks->rank == ranks->ranks - 1) ledger_refuse(0, 1);
+    while (status == HD_OK && hd_run_stage(run) != HD_FINISHED) status = hd_run_advance(run);
+    ledger_refuse(0, 0);
+    assert_int_equal(status, HD_NO_MEMORY);
+    assert_int_equal(hd_run_status(run), HD_NO_MEMORY);
+    assert_int_equal(hd_run_advance(run), HD_NO_MEMORY);
+    assert_int_equal(hd_run_save(run, path, "", NULL, 0), HD_NO_MEMORY);
+    CHECK_OK(hd_run_resume_shared(&resumed, path, NULL, ranks, NULL, 0));
+    CHECK_CLOSE(hd_run_time(resumed), 0.0, 0.0);
+    finish(resumed);
+    CHECK_OK(hd_communicator_agree(ranks, HD_OK)); /* all have read it */
+    if (ranks->rank == 0) (void)remove(path);
+}
+
 int main(int argc, char **argv) { return ranks_main(argc, argv); }

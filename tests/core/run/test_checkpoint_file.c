@@ -7,6 +7,7 @@
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
+#include "events/trajectory_state.h"
 #include "run/checkpoint_file.h"
 #include "kept.h"
 #include "run/run_state.h"
@@ -179,6 +180,45 @@ TEST(a_run_that_is_no_number_is_not_written)
     assert_int_equal(hd_run_save(run, PATH, KEPT_LABEL, message, sizeof message), HD_NOT_FINITE);
     assert_non_null(strstr(message, "frame vectors: a number is not finite"));
     expect_as_before(&before);
+    free(before.data);
+}
+
+typedef struct broken {
+    double *number;
+    double value;
+    const char *word;
+} broken;
+
+/** What resuming would refuse is refused when it is written: the good file stays. */
+TEST(what_no_run_could_resume_is_not_written)
+{
+    OWNED(hd_run) *run = kept_run(kept_scene(30, 0.7, 1.0, HD_EXPONENTS_POSITIVE, 0));
+    kept_steps(run, 30);
+    hd_run_free(kept_and_resumed(run, PATH, NULL));
+    const bytes before = kept_file(PATH);
+    const broken cases[] = {
+        {&run->agenda.field_interval, -1.0, "run fields: it is negative"},
+        {&run->agenda.in_force.target_std_error, -1.0, "run fields: it is negative"},
+        {&run->agenda.interval_end, 1.0, "run interval end: it does not fit the time"},
+        {&run->advance.plan.begin, 1e9, "run advance end: it does not fit the time"},
+        {&run->advance.longest, 0.0, "run advance longest: it is not positive"},
+        {&run->agenda.schedule.start, 1e9, "schedule: it does not go on from this time"},
+        {&run->carrier.interval.last, -1.0, "interval: it is negative"},
+        {&run->carrier.log->event[0].t, 1e9, "log: an event comes after the end"},
+        {&run->advance.trajectory->now, 1e9, "trajectory: the time is outside its epoch"},
+        {&run->advance.trajectory->motion.disk[0].p[0], 9.0, "trajectory: "},
+    };
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        char message[512] = "";
+        const double good = *cases[k].number;
+        *cases[k].number = cases[k].value;
+        const hd_status status = hd_run_save(run, PATH, KEPT_LABEL, message, sizeof message);
+        if (status != HD_FILE_FAULT || !strstr(message, cases[k].word))
+            fail_msg("%d, \"%s\" without \"%s\"", status, message, cases[k].word);
+        *cases[k].number = good;
+        expect_as_before(&before);
+    }
+    hd_run_free(kept_and_resumed(run, PATH, NULL));
     free(before.data);
 }
 

@@ -43,7 +43,7 @@ bytes kept_bytes(hd_run *run)
     FILE *file = open_memstream(&b.data, &b.size);
     hd_archive archive = hd_archive_writer(file);
     hd_run_write(run, &archive, KEPT_LABEL);
-    CHECK_OK(hd_archive_end(&archive));
+    if (hd_archive_end(&archive) != HD_OK) fail_msg("%s: %s", archive.name, archive.fault);
     fclose(file);
     return b;
 }
