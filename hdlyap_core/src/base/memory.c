@@ -18,13 +18,13 @@ static atomic_size_t allocations;
 void *hd_memory_alloc(size_t count, size_t size)
 {
     if (size != 0 && count > (SIZE_MAX - HUGE_PAGE) / size) return NULL;
-    const size_t wanted = count * size;
-    const size_t align = wanted >= HUGE_PAGE / 2 ? HUGE_PAGE : CACHE_LINE;
-    const size_t bytes = (wanted + align) / align * align; /* never 0 */
-    void *block = aligned_alloc(align, bytes);
-    if (!block) return NULL;
+    const size_t bytes = count * size, huge = bytes / HUGE_PAGE * HUGE_PAGE;
+    void *block;
+    if (posix_memalign(&block, huge > 0 ? HUGE_PAGE : CACHE_LINE, bytes > 0 ? bytes : 1) != 0)
+        return NULL;
 #if defined(__linux__) && defined(MADV_HUGEPAGE)
-    if (align == HUGE_PAGE) (void)madvise(block, bytes, MADV_HUGEPAGE); /* a hint; may fail */
+    /* a hint, which may fail; none for the rest, which would take a whole page */
+    if (huge > 0) (void)madvise(block, huge, MADV_HUGEPAGE);
 #endif
     memset(block, 0, bytes);
     atomic_fetch_add(&allocations, 1);

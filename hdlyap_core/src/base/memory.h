@@ -4,8 +4,8 @@
 
 #include <stddef.h>
 
-/** count * size bytes, zeroed, on a cache line (large ones on huge pages); NULL when out of memory
- * or when the product overflows. */
+/** count * size bytes, zeroed, on a cache line (of large ones what fills huge pages on these: no
+ * more is taken than is asked for); NULL when out of memory or when the product overflows. */
 void *hd_memory_alloc(size_t count, size_t size);
 void hd_memory_free(void *block);
 

@@ -16,6 +16,7 @@
 #include "base/memory.h"
 #include "tangent/conjugate.h"
 #include "tangent/product.h"
+#include "tangent/archived.h"
 
 enum { PANEL = 96 };
 
@@ -24,6 +25,12 @@ struct hd_coupling {
     hd_frame *frame; /**< of J Q */
     double *y;       /**< [half * half] */
 };
+
+double hd_coupling_bytes(int disks, int threads)
+{
+    const double half = (double)HD_DIM * disks;
+    return sizeof(double) * half * half + hd_frame_bytes(disks, half, threads);
+}
 
 hd_status hd_coupling_create(hd_coupling **out, int disks, int threads)
 {

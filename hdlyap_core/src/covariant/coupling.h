@@ -8,6 +8,7 @@ typedef struct hd_coupling hd_coupling;
 
 /** Of frames of 2N vectors. HD_NO_MEMORY: they take as much room as a frame, and 8 (HD_DIM N)^2
  * bytes. */
+double hd_coupling_bytes(int disks, int threads);
 HD_MUST_CHECK hd_status hd_coupling_create(hd_coupling **out, int disks, int threads);
 void hd_coupling_free(hd_coupling *coupling);
 

@@ -9,6 +9,7 @@
 #include <cblas.h>
 #include <limits.h>
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "averages/archived.h"
@@ -20,8 +21,10 @@
 #include "covariant/history.h"
 #include "covariant/starts.h"
 #include "hdlyap/localization.h"
-#include "scene/null_space.h"
 #include "modes/archived.h"
+#include "scene/container.h"
+#include "scene/fluid.h"
+#include "scene/null_space.h"
 #include "tangent/archived.h"
 
 /** Intervals that there is room for, over those that are expected: they vary. */
@@ -51,8 +54,8 @@ struct hd_covariant {
     double *frame, *q, *p; /**< vectors [rows * vectors], state of a look */
     double window, due;    /**< start of the window; time of the next look */
     double grown_time;
-    double now; /**< of the forward pass */
-    double bytes;
+    double now;                 /**< of the forward pass */
+    double bytes, events, rate; /**< taken; events that there is room for; of a time unit */
     way way;
     long at;   /**< interval that is next on the way back */
     long last; /**< interval that the window ends with */
@@ -64,7 +67,13 @@ struct hd_covariant {
 
 /* ---- creation ------------------------------------------------------------------------------ */
 
-static hd_history_def past_of(const hd_scene_def *def, double interval)
+/** Pair and wall events of a time unit, as kinetic theory has them. */
+static double event_rate(const hd_scene_def *def)
+{
+    return def->disks * (0.5 * hd_fluid_rate(def->density) + hd_container_of(def)->wall_rate(def));
+}
+
+static hd_history_def past_of(const hd_scene_def *def, double interval, double rate, int threads)
 {
     /* each ends with a look, and so does an interval where one is due */
     const double both = def->covariant_window + def->covariant_transient +
@@ -75,24 +84,47 @@ static hd_history_def past_of(const hd_scene_def *def, double interval)
     const double most = 1e9; /* far beyond any room */
     return (hd_history_def){.disks = def->disks,
                             .vectors = hd_scene_carried(def),
+                            .threads = threads > 0 ? threads : 1,
                             .conjugate = hd_scene_carried(def) < hd_scene_vectors(def),
                             .intervals = (long)fmin(intervals, most),
                             .snapshots = (long)fmin(looks, most),
-                            .recompute = def->covariant_storage == HD_STORAGE_RECOMPUTE};
+                            .recompute = def->covariant_storage == HD_STORAGE_RECOMPUTE,
+                            .events = SPARE * both * rate};
+}
+
+/** How it would fit, if the other way of keeping triangles needs less than there is. */
+static void say_other(const hd_scene_def *def, const hd_history_def *past, char *text, size_t size)
+{
+    hd_history_def other = *past;
+    other.recompute = !past->recompute;
+    const double gigabytes = 1e-9 * hd_history_bytes(&other);
+    if (gigabytes <= def->covariant_memory)
+        snprintf(text, size, "; covariant_storage = %s needs %.3g GB",
+                 other.recompute ? "recompute" : "memory", gigabytes);
+}
+
+static hd_status check_room(const hd_scene_def *def, const hd_history_def *past, char *message,
+                            size_t size)
+{
+    const double gigabytes = 1e-9 * hd_history_bytes(past);
+    char events[40] = "", other[80] = "";
+    if (gigabytes <= def->covariant_memory) return HD_OK;
+    if (past->recompute) snprintf(events, sizeof events, " and %.3g events", past->events);
+    say_other(def, past, other, sizeof other);
+    return hd_refuse(message, size,
+                     "covariant_window = %.15g with covariant_transient = %.15g: %ld triangles and "
+                     "%ld frames of %d vectors%s need %.3g GB, must be at most covariant_memory = "
+                     "%.3g GB%s",
+                     def->covariant_window, def->covariant_transient, past->intervals,
+                     past->snapshots, past->vectors, events, gigabytes, def->covariant_memory,
+                     other);
 }
 
 hd_status hd_covariant_check_room(const hd_scene_def *def, double interval, char *message,
                                   size_t size)
 {
-    const hd_history_def past = past_of(def, interval);
-    const double gigabytes = 1e-9 * hd_history_bytes(&past);
-    if (gigabytes <= def->covariant_memory) return HD_OK;
-    return hd_refuse(message, size,
-                     "covariant_window = %.15g with covariant_transient = %.15g: %ld triangles and "
-                     "%ld frames of %d vectors need %.3g GB, must be at most covariant_memory = "
-                     "%.3g GB",
-                     def->covariant_window, def->covariant_transient, past.intervals,
-                     past.snapshots, past.vectors, gigabytes, def->covariant_memory);
+    const hd_history_def past = past_of(def, interval, event_rate(def), def->threads);
+    return check_room(def, &past, message, size);
 }
 
 static hd_status allocate_arrays(hd_covariant *c)
@@ -153,6 +185,7 @@ hd_status hd_covariant_create(hd_covariant **out, const hd_scene_def *def, int t
     c->rows = HD_ROWS * def->disks;
     c->vectors = hd_scene_vectors(def);
     c->carried = hd_scene_carried(def);
+    c->rate = event_rate(def);
     c->centre = c->vectors >= positive + zero ? zero : 0;
     c->unstable = c->centre > 0 ? positive
                                 : c->vectors; /* a part of the centre is no space of its own */
@@ -198,13 +231,13 @@ static hd_status begin_window(hd_covariant *c, hd_columns frame, double time)
 /** Room for what this interval asks for. */
 static hd_status take_room(hd_covariant *c, double interval)
 {
-    hd_history_def past = past_of(&c->scene, interval);
-    past.threads = c->threads;
-    if (c->past && past.intervals <= c->intervals) return HD_OK;
-    if (hd_covariant_check_room(&c->scene, interval, NULL, 0) != HD_OK) return HD_NO_ROOM;
+    const hd_history_def past = past_of(&c->scene, interval, c->rate, c->threads);
+    if (c->past && past.intervals <= c->intervals && past.events <= c->events) return HD_OK;
+    if (check_room(&c->scene, &past, NULL, 0) != HD_OK) return HD_NO_ROOM;
     hd_history_free(c->past);
     c->past = NULL;
     c->intervals = past.intervals;
+    c->events = past.events;
     c->bytes = hd_history_bytes(&past);
     return hd_history_create(&c->past, &past);
 }
@@ -259,9 +292,10 @@ static void begin_way_back(hd_covariant *c)
     c->way = THROUGH_TRANSIENT;
 }
 
-/** The next one gets room for intervals like those of this one, if there is so much. */
+/** The next one gets room for intervals and events like those of this one, if there is so much. */
 static hd_status lose_window(hd_covariant *c, hd_columns frame, double time)
 {
+    c->rate = fmax(c->rate, hd_history_events(c->past) / (c->now - c->window));
     const double count = (double)(hd_history_end(c->past) - hd_history_first(c->past) + 1);
     const hd_status status = hd_covariant_begin(c, frame, time, (time - c->window) / count);
     c->lost++;

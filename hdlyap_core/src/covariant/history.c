@@ -55,16 +55,22 @@ static hd_recompute_def recompute_of(const hd_history_def *def)
                               .threads = def->threads,
                               .conjugate = def->conjugate,
                               .slots = (def->intervals + 2 * stretch - 1) / stretch * stretch,
-                              .stretch = stretch};
+                              .stretch = stretch,
+                              .events = def->events *
+                                        (1.0 + (double)stretch / (double)def->intervals)};
 }
 
 double hd_history_bytes(const hd_history_def *def)
 {
-    const double snapshots = (double)def->snapshots * (double)record_size(def);
     const hd_recompute_def again = recompute_of(def);
-    const double triangles = def->recompute ? hd_recompute_doubles(&again)
-                                            : (double)def->intervals * (double)triangle_size(def);
-    return (snapshots + triangles) * sizeof(double);
+    const double snapshots = hd_store_bytes(record_size(def), def->snapshots);
+    const double triangles = def->recompute ? hd_recompute_bytes(&again)
+                                            : hd_store_bytes(triangle_size(def), def->intervals);
+    const long slots = def->recompute ? again.slots : def->intervals;
+    const double coupling = def->conjugate && !def->recompute
+                                ? hd_coupling_bytes(def->disks, def->threads)
+                                : 0.0;
+    return snapshots + triangles + coupling + (double)slots * sizeof(interval_kept);
 }
 
 static hd_status allocate(hd_history *past)
@@ -132,7 +138,13 @@ hd_status hd_history_begin(hd_history *past, hd_columns frame, double time)
 
 bool hd_history_is_full(const hd_history *past)
 {
-    return past->end - past->first >= past->def.intervals;
+    return past->end - past->first >= past->def.intervals ||
+           (past->recompute && hd_recompute_is_full(past->recompute));
+}
+
+double hd_history_events(const hd_history *past)
+{
+    return past->recompute ? hd_recompute_events_kept(past->recompute) : 0.0;
 }
 
 static hd_status keep_triangle(hd_history *past, const double *factor, long slot)
@@ -186,6 +198,8 @@ hd_status hd_history_snapshot(hd_history *past, hd_columns frame, const double *
 void hd_history_drop(hd_history *past, double time)
 {
     while (past->first < past->end && kept_at(past, past->first)->time <= time) past->first++;
+    if (past->recompute && past->first < past->end)
+        hd_recompute_forget(past->recompute, past->first % past->slots);
 }
 
 /* ---- what is there ------------------------------------------------------------------------- */

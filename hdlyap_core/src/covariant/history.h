@@ -13,10 +13,11 @@ typedef struct hd_history_def {
     bool conjugate; /**< half of the vectors are carried: triangles are R and Y [T18] */
     long intervals; /**< of which triangles are kept, at most */
     long snapshots; /**< at most */
-    bool recompute; /**< triangles are computed again instead of being kept */
+    bool recompute; /**< triangles are computed again instead of being kept: from the events */
+    double events;  /**< of these intervals, at most; only of recomputed ones */
 } hd_history_def;
 
-/** Bytes that it keeps at most; of recomputed ones without the events, some tens of bytes each. */
+/** Bytes that it takes at most. */
 double hd_history_bytes(const hd_history_def *def);
 
 typedef struct hd_history hd_history;
@@ -38,6 +39,8 @@ HD_MUST_CHECK hd_status hd_history_add(hd_history *past, const double *factor,
  * from them. */
 bool hd_history_keeps_next(const hd_history *past);
 bool hd_history_is_full(const hd_history *past);
+/** Events that are kept; 0 unless triangles are recomputed. */
+double hd_history_events(const hd_history *past);
 
 /** Keeps the frame and the state of the end of the last interval: q[HD_DIM N], p[HD_DIM N]. */
 HD_MUST_CHECK hd_status hd_history_snapshot(hd_history *past, hd_columns frame, const double *q,

@@ -16,6 +16,7 @@
 #include "covariant/store.h"
 #include "events/event_log.h"
 #include "hdlyap/ortho.h"
+#include "tangent/archived.h"
 #include "tangent/interval.h"
 
 /** Of the condition: what the forward pass accepts at most. */
@@ -23,12 +24,26 @@ static const hd_ortho_limits LIMITS = {HD_CONDITION_MAX, 1e-6, HD_NORM_FULL};
 /** To rounding, as Y takes both ends to be [T18]. */
 static const hd_ortho_limits LIMITS_COUPLED = {HD_CONDITION_MAX, 1e-12, HD_NORM_FULL};
 
+/** Events of a chunk of the ring, and chunks beyond what it is full with: an interval may begin
+ * before it is. */
+enum { CHUNK = 256, CHUNKS_BEYOND = 4, CHUNK_DOUBLES = CHUNK * sizeof(hd_event) / sizeof(double) };
+
+/** The events of a slot, in the ring. */
+typedef struct stored {
+    uint64_t first, end;
+    double duration;
+} stored;
+
 struct hd_recompute {
     hd_recompute_def def;
     hd_store *frames;    /**< of the first slot of each stretch */
     hd_store *triangles; /**< packed, of one stretch */
     long from, to;       /**< slots whose triangles are there: from <= slot < to */
-    hd_event_log **log;  /**< [slots] */
+    hd_store *events;    /**< a ring of chunks: event k is in chunk k / CHUNK, mod chunks */
+    stored *stored;      /**< [slots] */
+    uint64_t tail, head; /**< events from tail on, before head, are there */
+    long next;           /**< slot that is to be written */
+    hd_event_log *log;   /**< of the slot that is replayed */
     hd_frame *frame;
     hd_ortho *ortho;
     hd_coupling *coupling; /**< NULL where all vectors are carried */
@@ -46,18 +61,30 @@ static size_t triangle_size(const hd_recompute_def *def)
     return (def->conjugate ? 2 : 1) * hd_triangle_size(def->vectors);
 }
 
-double hd_recompute_doubles(const hd_recompute_def *def)
+/** Up to twice what an interval has on average comes before the ring is seen to be full. */
+static long chunks_of(const hd_recompute_def *def)
 {
-    const double frame = (double)def->rows * def->vectors,
-                 frames = (double)def->slots / (double)def->stretch;
-    /* beside those of the stretches: one or two to replay with, in two copies */
-    const double replayed = def->conjugate ? 4.0 : 2.0;
-    return (frames + replayed) * frame + (double)def->stretch * (double)triangle_size(def);
+    const double of_slot = def->events / (double)def->slots;
+    return (long)ceil((def->events + 2.0 * of_slot) / CHUNK) + CHUNKS_BEYOND;
 }
 
-static size_t frame_size(const hd_recompute *r)
+static size_t frame_of(const hd_recompute_def *def)
 {
-    return (size_t)r->def.rows * (size_t)r->def.vectors;
+    return (size_t)def->rows * (size_t)def->vectors;
+}
+
+double hd_recompute_bytes(const hd_recompute_def *def)
+{
+    const int disks = def->rows / HD_ROWS;
+    const double kept = hd_store_bytes(frame_of(def), def->slots / def->stretch) +
+                        hd_store_bytes(triangle_size(def), def->stretch);
+    const double replayed = hd_frame_bytes(disks, def->vectors, def->threads) +
+                            hd_ortho_bytes(def->rows, def->vectors, 1) +
+                            2.0 * sizeof(double) * def->vectors * def->vectors + /* its factors */
+                            (def->conjugate ? hd_coupling_bytes(disks, def->threads) : 0.0);
+    const double log = fmax(HD_EVENTS_FIRST, 2.0 * def->events / (double)def->slots);
+    return kept + replayed + hd_store_bytes(CHUNK_DOUBLES, chunks_of(def)) +
+           (double)def->slots * sizeof(stored) + log * sizeof(hd_event);
 }
 
 static hd_status allocate(hd_recompute *r)
@@ -65,13 +92,15 @@ static hd_status allocate(hd_recompute *r)
     const hd_recompute_def *def = &r->def;
     const size_t triangle = triangle_size(def);
     if (def->conjugate) HD_TRY(hd_coupling_create(&r->coupling, def->rows / HD_ROWS, def->threads));
-    HD_TRY(hd_store_create(&r->frames, frame_size(r), def->slots / def->stretch));
+    HD_TRY(hd_store_create(&r->frames, frame_of(def), def->slots / def->stretch));
     HD_TRY(hd_store_create(&r->triangles, triangle, def->stretch));
     HD_TRY(hd_frame_create(&r->frame, def->rows / HD_ROWS, def->vectors, 1, def->threads));
     HD_TRY(hd_ortho_create(&r->ortho, def->rows, def->vectors));
     HD_TRY(hd_ortho_keep_factor(r->ortho));
-    r->log = hd_memory_alloc((size_t)def->slots, sizeof *r->log);
-    return r->log ? HD_OK : HD_NO_MEMORY;
+    HD_TRY(hd_store_create(&r->events, CHUNK_DOUBLES, chunks_of(def)));
+    HD_TRY(hd_event_log_create(&r->log));
+    r->stored = hd_memory_alloc((size_t)def->slots, sizeof *r->stored);
+    return r->stored ? HD_OK : HD_NO_MEMORY;
 }
 
 hd_status hd_recompute_create(hd_recompute **out, const hd_recompute_def *def)
@@ -92,8 +121,9 @@ hd_status hd_recompute_create(hd_recompute **out, const hd_recompute_def *def)
 void hd_recompute_free(hd_recompute *r)
 {
     if (!r) return;
-    for (long slot = 0; r->log && slot < r->def.slots; slot++) hd_event_log_free(r->log[slot]);
-    hd_memory_free(r->log);
+    hd_event_log_free(r->log);
+    hd_memory_free(r->stored);
+    hd_store_free(r->events);
     hd_store_free(r->frames);
     hd_store_free(r->triangles);
     hd_frame_free(r->frame);
@@ -125,24 +155,58 @@ static bool is_within(const hd_event_log *log, double t, double t_begin, double 
     return t >= t_begin && (t < t_end || t_end == log->duration);
 }
 
+/** The place of an event in the ring; NULL without memory. */
+static hd_event *place(hd_recompute *r, uint64_t event)
+{
+    const uint64_t chunks = (uint64_t)chunks_of(&r->def);
+    hd_event *chunk = (void *)hd_store_put(r->events, (long)(event / CHUNK % chunks));
+    return chunk ? chunk + event % CHUNK : NULL;
+}
+
+/** A slot that does not follow the one before it begins anew; else what it held is no more. */
+static void turn_to(hd_recompute *r, long slot)
+{
+    const uint64_t before = r->stored[slot].end;
+    if (slot >= r->from && slot < r->to) r->from = r->to = 0; /* written anew */
+    if (slot != r->next) {
+        memset(r->stored, 0, (size_t)r->def.slots * sizeof *r->stored);
+        r->tail = r->head = 0;
+    } else if (before > r->tail) {
+        r->tail = before;
+    }
+    r->next = (slot + 1) % r->def.slots;
+}
+
+bool hd_recompute_is_full(const hd_recompute *r)
+{
+    return (double)(r->head - r->tail) > r->def.events;
+}
+
+double hd_recompute_events_kept(const hd_recompute *r) { return (double)(r->head - r->tail); }
+
+void hd_recompute_forget(hd_recompute *r, long slot)
+{
+    const long first = slot / r->def.stretch * r->def.stretch;
+    if (r->stored[first].first > r->tail) r->tail = r->stored[first].first;
+}
+
 hd_status hd_recompute_events(hd_recompute *r, long slot, const hd_event_log *log, double t_begin,
                               double t_end)
 {
-    if (slot >= r->from && slot < r->to) r->from = r->to = 0; /* written anew */
-    if (!r->log[slot]) HD_TRY(hd_event_log_create(&r->log[slot]));
-    hd_event_log *kept = r->log[slot];
-    size_t count = 0;
-    for (size_t k = 0; k < log->count; k++)
-        count += is_within(log, log->event[k].t, t_begin, t_end);
-    hd_event_log_clear(kept);
-    HD_TRY(hd_event_log_reserve(kept, count));
-    for (size_t k = 0; k < log->count; k++)
-        if (is_within(log, log->event[k].t, t_begin, t_end)) {
-            hd_event *event = &kept->event[kept->count++];
-            *event = log->event[k];
-            event->t -= t_begin;
-        }
-    kept->duration = t_end - t_begin;
+    const uint64_t most = CHUNK * (uint64_t)chunks_of(&r->def);
+    turn_to(r, slot);
+    r->stored[slot].first = r->head;
+    for (size_t k = 0; k < log->count; k++) {
+        if (!is_within(log, log->event[k].t, t_begin, t_end)) continue;
+        if (r->head - r->tail == most) return HD_NO_ROOM;
+        hd_event *event = place(r, r->head);
+        if (!event) return HD_NO_MEMORY;
+        *event = log->event[k];
+        event->t -= t_begin;
+        r->head++;
+    }
+    r->stored[slot].end = r->head;
+    r->stored[slot].duration = t_end - t_begin;
     return HD_OK;
 }
 
@@ -156,9 +220,23 @@ static void load_frame(hd_recompute *r, const double *vectors)
                (size_t)r->def.vectors * sizeof(double));
 }
 
+/** The slot's events as a log. */
+static hd_status load_log(hd_recompute *r, long slot)
+{
+    const stored *kept = &r->stored[slot];
+    HD_ASSERT(kept->first >= r->tail);
+    hd_event_log_clear(r->log);
+    HD_TRY(hd_event_log_reserve(r->log, (size_t)(kept->end - kept->first)));
+    for (uint64_t k = kept->first; k < kept->end; k++)
+        r->log->event[r->log->count++] = *place(r, k);
+    r->log->duration = kept->duration;
+    return HD_OK;
+}
+
 static hd_status recompute_slot(hd_recompute *r, long slot)
 {
-    const hd_event_log *log = r->log[slot];
+    HD_TRY(load_log(r, slot));
+    const hd_event_log *log = r->log;
     const hd_ortho_limits limits = r->coupling ? LIMITS_COUPLED : LIMITS;
     HD_TRY(hd_frame_replay(r->frame, log, 0.0, log->duration));
     if (hd_ortho_step(r->ortho, r->frame, limits) == HD_ILL_CONDITIONED) {

@@ -12,6 +12,9 @@ typedef struct hd_store hd_store;
 HD_MUST_CHECK hd_status hd_store_create(hd_store **out, size_t doubles, long most);
 void hd_store_free(hd_store *store);
 
+/** Bytes that it takes once all are put. */
+double hd_store_bytes(size_t doubles, long most);
+
 /** Record 0 .. most - 1, to be filled: [doubles]; NULL without memory. */
 double *hd_store_put(hd_store *store, long record);
 /** One that was put. */

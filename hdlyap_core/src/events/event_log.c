@@ -38,8 +38,7 @@ void hd_event_log_clear(hd_event_log *log)
 
 hd_status hd_event_log_reserve(hd_event_log *log, size_t count)
 {
-    enum { EVENTS_FIRST = 4096 };
-    size_t capacity = log->capacity ? log->capacity : EVENTS_FIRST;
+    size_t capacity = log->capacity ? log->capacity : HD_EVENTS_FIRST;
     while (capacity < count) capacity *= 2;
     if (capacity == log->capacity) return HD_OK;
     hd_event *grown = hd_memory_alloc(capacity, sizeof *grown);

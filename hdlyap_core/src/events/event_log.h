@@ -4,6 +4,9 @@
 
 #include "hdlyap/trajectory.h"
 
+/** Events that the first room is for. */
+enum { HD_EVENTS_FIRST = 4096 };
+
 /** Room for so many events in all, at least; it at least doubles. HD_NO_MEMORY. */
 HD_MUST_CHECK hd_status hd_event_log_reserve(hd_event_log *log, size_t count);
 

@@ -53,3 +53,28 @@ TEST(allocations_are_counted)
     hd_memory_free(second);
     assert_int_equal(hd_memory_allocations(), before + 2);
 }
+
+static double resident_bytes(void)
+{
+    unsigned long pages = 0;
+    FILE *file = fopen("/proc/self/statm", "re");
+    assert_non_null(file);
+    assert_int_equal(fscanf(file, "%*u %lu", &pages), 1);
+    fclose(file);
+    return (double)pages * 4096.0;
+}
+
+/** What is taken is what is asked for, whatever part of a huge page it ends with. */
+TEST(no_more_is_taken_than_asked_for)
+{
+    enum { BLOCKS = 32 };
+    static const size_t sizes[] = {(5u << 20) / 4, 1u << 21, (5u << 20) / 2};
+    if (HD_SANITIZED) skip();
+    for (size_t k = 0; k < sizeof sizes / sizeof *sizes; k++) {
+        void *block[BLOCKS];
+        const double before = resident_bytes(), asked = (double)(BLOCKS * sizes[k]);
+        for (int b = 0; b < BLOCKS; b++) block[b] = hd_memory_alloc(sizes[k], 1);
+        CHECK_WITHIN((resident_bytes() - before) / asked, 0.9, 1.05);
+        for (int b = 0; b < BLOCKS; b++) hd_memory_free(block[b]);
+    }
+}

@@ -15,8 +15,12 @@ static hd_scene_def small(int exponents)
 
 static hd_recompute *created(int disks, int vectors, long slots, long stretch)
 {
-    const hd_recompute_def def = {
-        .rows = 4 * disks, .vectors = vectors, .threads = 1, .slots = slots, .stretch = stretch};
+    const hd_recompute_def def = {.rows = 4 * disks,
+                                  .vectors = vectors,
+                                  .threads = 1,
+                                  .slots = slots,
+                                  .stretch = stretch,
+                                  .events = 1e4};
     hd_recompute *r;
     CHECK_OK(hd_recompute_create(&r, &def));
     return r;
@@ -222,6 +226,35 @@ TEST(a_grazing_slot_takes_the_stable_step)
     }
 }
 
+/** It is full with more events than it was made for; far more of them in one interval have no room.
+ * What is forgotten makes room. */
+TEST(a_ring_of_events_is_full)
+{
+    const double times[] = {0.1, 0.3, 0.5, 0.7, 0.8, 0.9};
+    const hd_recompute_def def = {.rows = 4 * PAIR,
+                                  .vectors = WIDE,
+                                  .threads = 1,
+                                  .slots = 1000,
+                                  .stretch = 10,
+                                  .events = 600.0};
+    hd_recompute *r;
+    hd_event_log log;
+    hd_status status = HD_OK;
+    long slot = 0;
+    write_log(&log, times, 6, 1.0, 0.8);
+    CHECK_OK(hd_recompute_create(&r, &def));
+    for (; !hd_recompute_is_full(r); slot++) CHECK_OK(hd_recompute_events(r, slot, &log, 0.0, 1.0));
+    assert_int_equal(slot, 101);
+    CHECK_CLOSE(hd_recompute_events_kept(r), 606.0, 0.0);
+    hd_recompute_forget(r, 25);
+    assert_false(hd_recompute_is_full(r));
+    CHECK_CLOSE(hd_recompute_events_kept(r), 606.0 - 6.0 * 20.0, 0.0);
+    for (; status == HD_OK; slot++) status = hd_recompute_events(r, slot, &log, 0.0, 1.0);
+    assert_int_equal(status, HD_NO_ROOM);
+    assert_true(hd_recompute_events_kept(r) * sizeof(hd_event) < hd_recompute_bytes(&def));
+    hd_recompute_free(r);
+}
+
 /** Twice the stretch or half of it needs more. */
 TEST(the_stretch_needs_the_fewest_numbers)
 {
@@ -231,11 +264,11 @@ TEST(the_stretch_needs_the_fewest_numbers)
             const long best = hd_recompute_stretch(slots, def.rows, vectors);
             assert_true(best >= 1 && best <= slots);
             def.stretch = best;
-            const double least = hd_recompute_doubles(&def);
+            const double least = hd_recompute_bytes(&def);
             def.stretch = 2 * best;
-            assert_true(hd_recompute_doubles(&def) > least);
+            assert_true(hd_recompute_bytes(&def) > least);
             def.stretch = (best + 1) / 2;
-            assert_true(best == 1 || hd_recompute_doubles(&def) > least);
+            assert_true(best == 1 || hd_recompute_bytes(&def) > least);
         }
     assert_int_equal(hd_recompute_stretch(2, 400, 1), 2);
 }

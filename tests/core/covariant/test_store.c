@@ -30,5 +30,5 @@ TEST(memory_is_taken_as_needed)
     MADE(hd_store, store, DOUBLES, 1000000);
     const size_t before = hd_memory_allocations();
     for (long k = 0; k < 20; k++) assert_non_null(hd_store_put(store, k % 10));
-    assert_int_equal(hd_memory_allocations() - before, 10);
+    assert_int_equal(hd_memory_allocations() - before, 3); /* 4 of 8 kB share a block */
 }

@@ -236,13 +236,17 @@ TEST(too_long_a_window_is_refused)
     char message[400] = "";
     hd_scene_def scene = small();
     hd_run *run = NULL;
-    /* 512 triangles of 2176 bytes, couplings included, and 46 frames of 4352 */
+    /* 512 triangles of 2176 bytes, couplings included, 46 frames of 4352, 13 kB beside them */
     scene.covariant_memory = 1.3e-3;
     assert_int_equal(hd_run_create(&run, &scene, message, sizeof message), HD_REFUSED);
     assert_null(run);
-    const char *numbers[] = {
-        "covariant_window = 20 ",  "covariant_transient = 60:", "512 triangles",
-        "46 frames of 16 vectors", "need 0.00131 GB",           "covariant_memory = 0.0013 GB"};
+    const char *numbers[] = {"covariant_window = 20 ",
+                             "covariant_transient = 60:",
+                             "512 triangles",
+                             "46 frames of 16 vectors",
+                             "need 0.00134 GB",
+                             "covariant_memory = 0.0013 GB",
+                             "covariant_storage = recompute needs 0.0"};
     for (size_t k = 0; k < sizeof numbers / sizeof *numbers; k++)
         if (!strstr(message, numbers[k])) fail_msg("%s: not in: %s", numbers[k], message);
     assert_int_equal(hd_run_create(&run, &scene, NULL, 0), HD_REFUSED);
