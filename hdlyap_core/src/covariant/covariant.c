@@ -22,7 +22,6 @@
 #include "covariant/starts.h"
 #include "hdlyap/localization.h"
 #include "modes/archived.h"
-#include "scene/container.h"
 #include "scene/fluid.h"
 #include "scene/null_space.h"
 #include "tangent/archived.h"
@@ -67,10 +66,15 @@ struct hd_covariant {
 
 /* ---- creation ------------------------------------------------------------------------------ */
 
-/** Pair and wall events of a time unit, as kinetic theory has them. */
+/** Pair and wall events of a time unit, as kinetic theory has them: walls are met as with a
+ * momentum of 1 across the box. */
 static double event_rate(const hd_scene_def *def)
 {
-    return def->disks * (0.5 * hd_fluid_rate(def->density) + hd_container_of(def)->wall_rate(def));
+    double box[HD_DIM], rate = 0.5 * hd_fluid_rate(def->density);
+    hd_scene_box(def, box);
+    for (int d = 0; d < HD_DIM; d++)
+        if (hd_scene_boundary(def, d) != HD_PERIODIC) rate += 1.0 / (box[d] - 1.0);
+    return def->disks * rate;
 }
 
 static hd_history_def past_of(const hd_scene_def *def, double interval, double rate, int threads)
