@@ -138,12 +138,13 @@ TEST(Conditions, EachHasItsLevelAndMessage)
     const hdr_lag prompt = {"", 0, 0, 0}, behind = {"/b/fields", 12.34, 5, 0},
                   losing = {"/b/fields", 0.5, 1001, 42};
     worker_state fault = healthy(), unkept = healthy(), deep = healthy(), warm = healthy(),
-                 stalled = healthy();
+                 stalled = healthy(), lost = healthy();
     fault.status = HD_ILL_CONDITIONED;
     unkept.checkpoint.failed = true;
     snprintf(unkept.checkpoint.message, sizeof unkept.checkpoint.message, "disk full");
     deep.disks.overlap = 1e-12;
     warm.disks.energy_error = NAN;
+    lost.lost = 12.3;
     stalled.last.averaged = 32;
     stalled.last.cost.std_error = stalled.last.cost.stalled_error = 0.5;
     stalled.last.cost.stalled_since = 4;
@@ -160,6 +161,8 @@ TEST(Conditions, EachHasItsLevelAndMessage)
         {&warm, &prompt, HDR_DIAGNOSTIC_ERROR, "energy is off by nan, rounding explains 1e-12"},
         {&stalled, &prompt, HDR_DIAGNOSTIC_WARN,
          "errors of the smallest exponents do not fall: 0.5 after 4 averaged, 0.5 after 32"},
+        {&lost, &prompt, HDR_DIAGNOSTIC_WARN,
+         "nobody can subscribe: no ROS master has known this node for 12 s"},
         {&well, &behind, HDR_DIAGNOSTIC_WARN, "a subscriber of /b/fields is 12.3 s behind"},
         {&well, &losing, HDR_DIAGNOSTIC_WARN, "subscribers of /b/fields have lost 42 messages"},
     };

@@ -4,13 +4,14 @@ that is restarted: none of them slows the node, fills its memory or keeps it fro
 
 import os
 import random
+import signal
 import socket
-
 
 import harness
 import links
 from harness import MODES, OBSERVABLES, SHORT, TYPES
 
+LOST = 30.0  # seconds within which who waits in vain has ended
 BOUND = 1.0  # seconds from a request to stop to the end, the contract
 MB = 1 << 20
 QUEUE_BYTES = 128e6  # of one topic at most, see topics/publishers.c
@@ -132,6 +133,43 @@ class Subscribers(harness.Case):
         self.stop(node)
         self.assertEqual(cost.gaps(), 0)
 
+    def master(self):
+        """One of its own, and what finds it."""
+        master = harness.Master()
+        self.addCleanup(master.stop)
+        return master, dict(ROS_MASTER_URI=master.uri)
+
+    def test_nobody_can_come(self):
+        """Who waits for subscribers, or for a node to record, ends when the master is killed, or
+        hangs; a run that is under way goes on, and all of them say so."""
+        killed, of_killed = self.master()
+        hanging, of_hanging = self.master()
+        self.addCleanup(hanging.send, signal.SIGCONT)
+        kept = os.path.join(self.new_folder(), 'kept')
+        waiting = dict(SHORT, wait_for_subscribers='all')
+        nodes = [
+            self.start(dict(waiting, checkpoint=kept), name='one', **of_killed),
+            self.start(waiting, name='two', **of_hanging),
+        ]
+        runs = self.start(dict(SHORT, duration=0.0, pace=5.0), name='three', **of_killed)
+        recorder = self.process([harness.program('record'), '_bag:=' + kept], **of_killed)
+        for node in nodes:
+            self.sees(lambda: node.lines('waiting for subscribers'), node)
+        self.sees(lambda: runs.lines('scene '), runs)
+        self.sees(lambda: recorder.lines('nobody publishes'), recorder)
+        killed.stop()
+        hanging.send(signal.SIGSTOP)
+        with harness.within(self, LOST):
+            for node in nodes:
+                self.ends(node, 5, 'does not answer: subscribers that are connected stay so')
+                self.assertEqual(len(node.lines('FATAL')), 1, node.text())
+            self.ends(recorder, 1, 'nobody can tell of a node to record')
+        self.assertTrue(os.path.exists(kept))
+        self.assertEqual(len(runs.lines('nobody finds this node')), 1, runs.text())
+        self.assertTrue(runs.running())
+        self.stop(runs)
+        hanging.send(signal.SIGCONT)
+
     def test_master_restarted(self):
         """Connections outlive it; the node ends in an orderly way. The new master does not know the
         node."""
@@ -155,6 +193,7 @@ class Subscribers(harness.Case):
             self.addCleanup(master.stop)
         late = self.link(port, 'cost', '/late')
         late.greet()
+        self.sees(lambda: node.lines('does not know this node'), node)
         self.stop(node)
         self.assertEqual([link.gaps() for link in some], [0, 0])
         self.assertEqual(len(node.lines('stopped at simulated time')), 1, node.text())

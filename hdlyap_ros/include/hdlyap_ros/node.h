@@ -31,13 +31,19 @@ typedef enum hdr_level { HDR_DEBUG, HDR_INFO, HDR_WARN, HDR_ERROR, HDR_FATAL } h
 HDR_MUST_CHECK hdr_status hdr_node_create(hdr_node **out, int *argc, char **argv, const char *name,
                                           double stop_seconds, int memory_status);
 
-/** Changes stop_seconds, before a stop is requested. */
-void hdr_node_stop_within(double stop_seconds);
+/** Changes stop_seconds and the status of a process that has not ended by then, before a stop is
+ * requested. */
+void hdr_node_stop_within(double stop_seconds, int status);
 
 /** Ends this node's own subscribers, waits until all subscribers of its topics have been handed
  * their last message, at most linger seconds (a fraction of a second once a stop was requested),
  * then leaves the graph. NULL is allowed. */
 void hdr_node_free(hdr_node *node, double linger);
+
+/** Seconds for which the master has not said that it knows this node, as it is asked to every
+ * second; 0 up to five. Nobody can subscribe meanwhile, nor for ever if the master is another one:
+ * a WARN line says so, an INFO line when it is over. By one thread, now and then. */
+double hdr_node_lost(hdr_node *node);
 
 const char *hdr_node_name(const hdr_node *node); /**< resolved, e.g. /hdlyap */
 

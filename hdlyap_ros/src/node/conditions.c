@@ -51,6 +51,9 @@ static void add_warnings(conditions *all, const worker_state *state, const hdr_l
             "%.3g",
             last->cost.stalled_error, last->cost.stalled_since, last->cost.std_error,
             last->averaged);
+    if (state->lost > 0.0)
+        add(all, level, "nobody can subscribe: no ROS master has known this node for %.0f s",
+            state->lost);
     if (slowest->seconds >= behind_seconds)
         add(all, level, "a subscriber of %s is %.1f s behind", slowest->topic, slowest->seconds);
     if (slowest->lost > 0)

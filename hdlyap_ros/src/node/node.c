@@ -19,7 +19,7 @@
 #include "table.h"
 #include "worker.h"
 
-enum { EXIT_REFUSED = 2, EXIT_NUMERICAL_FAULT = 3, EXIT_FILE_FAULT = 4 };
+enum { EXIT_REFUSED = 2, EXIT_NUMERICAL_FAULT = 3, EXIT_FILE_FAULT = 4, EXIT_LOST = 5 };
 
 /** Seconds from a request to stop to the end of the process, whatever happens. */
 static const double stop_seconds = 0.8;
@@ -31,6 +31,8 @@ static const double stop_keeping_seconds = 12.0, stop_step_keeping_seconds = 10.
 /** How long the last messages of a finished run may take to reach a slow subscriber. */
 static const double linger_seconds = 5.0;
 static const double poll_seconds = 0.02;
+/** Without the master; then who is waited for does not come. */
+static const double lost_seconds = 15.0;
 /** Entries of a frame whose beginning is announced. */
 static const double ENTRIES_MANY = 2e7;
 
@@ -47,6 +49,7 @@ typedef struct app {
     report *rep;
     worker *work;
     diagnostics diag;
+    bool lost; /**< it has ended since nobody can subscribe */
 } app;
 
 static int refuse(const char *message)
@@ -134,7 +137,7 @@ static int create_run(app *a)
                                       sizeof message);
     else if (status == HD_OK)
         status = hd_run_create_shared(&a->run, &set->def, a->ranks, message, sizeof message);
-    if (*set->checkpoint || a->ranks) hdr_node_stop_within(stop_keeping_seconds);
+    if (*set->checkpoint || a->ranks) hdr_node_stop_within(stop_keeping_seconds, EXIT_SUCCESS);
     if (status == HD_OK) hd_run_fields_every(a->run, set->field_interval);
     if (status == HD_OK) hd_run_fields_from(a->run, first_field(set));
     if (status == HD_OK)
@@ -199,13 +202,26 @@ static void log_end(const worker_state *state)
                 last->collisions, last->cost.orthonormalisations, last->cost.repairs);
 }
 
+/** It waits for subscribers that cannot come any more. */
+static void end_if_lost(app *a, const worker_state *state)
+{
+    a->lost = state->stage == WORKER_WAITING && state->lost >= lost_seconds;
+    if (!a->lost) return;
+    hdr_log(HDR_FATAL,
+            "ends: without the ROS master the subscribers do not come that it waits for");
+    hdr_node_stop_within(stop_seconds, EXIT_LOST); /* roscpp may wait for a master that hangs */
+    hdr_stop_request();
+}
+
 /** Until the worker has ended or a stop was requested; true if the worker has ended. */
 static bool look_after(app *a)
 {
     bool ended = false;
     while (!ended && !hdr_stop_requested()) {
         ended = worker_wait(a->work, poll_seconds);
-        const worker_state state = worker_state_now(a->work);
+        worker_state state = worker_state_now(a->work);
+        state.lost = hdr_node_lost(a->ros);
+        end_if_lost(a, &state);
         if (diagnostics_update(&a->diag, &state)) worker_examine(a->work); /* for the next one */
     }
     worker_stop(a->work);
@@ -250,9 +266,10 @@ static int run(app *a)
     if (status != EXIT_SUCCESS) return status;
     log_start(a);
     status = failed_status(advertise(a));
-    if (status != EXIT_SUCCESS) return status;
+    if (status != EXIT_SUCCESS) return hdr_node_lost(a->ros) > 0.0 ? EXIT_LOST : status;
     const bool ended = look_after(a);
     status = finish(a, ended);
+    if (a->lost) status = EXIT_LOST;
     if (ended) return status;
     hdr_node_free(a->ros, linger_seconds); /* a step under way still uses everything else */
     _exit(status);                         /* mpirun ends the other ranks of that step */

@@ -29,6 +29,7 @@ typedef struct worker_state {
     examination disks; /**< as of the last worker_examine */
     kept checkpoint;
     bool saving; /**< one is being written */
+    double lost; /**< hdr_node_lost, of who asks that */
 } worker_state;
 
 typedef struct worker worker;

@@ -292,6 +292,7 @@ static hdr_status look_after(viewer *v)
     while (status == HDR_OK) {
         status = follow(v, seconds_now());
         tend(v);
+        hdr_node_lost(v->ros); /* says so */
         if (!hdr_node_wait(poll_seconds)) break;
     }
     return status;

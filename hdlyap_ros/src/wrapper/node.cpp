@@ -49,11 +49,13 @@ void on_rosnode_kill(XmlRpc::XmlRpcValue &params, XmlRpc::XmlRpcValue &result)
 hdr_node *node_start()
 {
     if (!master_wait()) return nullptr;
+    ros::master::setRetryTimeout(ros::WallDuration(master_patience));
     ros::start();
     ros::XMLRPCManager::instance()->unbind("shutdown");
     ros::XMLRPCManager::instance()->bind("shutdown", on_rosnode_kill);
     std::unique_ptr<hdr_node> node(new hdr_node);
     node->name = ros::this_node::getName();
+    node->watch.reset(new hdr_master_watch);
     node->spinner.start();
     return node.release();
 }
@@ -172,6 +174,7 @@ void hdr_node_free(hdr_node *node, double linger)
         drain(*node, linger);
         node->readers.say_lost();
         node->readers.end();
+        node->watch.reset();
         node->spinner.stop();
         ros::shutdown();
     });

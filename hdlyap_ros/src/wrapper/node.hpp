@@ -12,6 +12,7 @@
 
 #include "backlog.hpp"
 #include "hdlyap_ros/node.h"
+#include "master.hpp"
 #include "readers.hpp"
 
 struct hdr_publisher {
@@ -41,6 +42,7 @@ struct hdr_node {
     ros::AsyncSpinner spinner{1};
     std::string name;
     hdr_readers readers;
+    std::unique_ptr<hdr_master_watch> watch; /**< once it is known by name */
     std::vector<std::unique_ptr<hdr_publisher>> publishers;
     std::vector<ros::ServiceServer> services;
     ros::Publisher frame; /**< of /tf_static */

@@ -59,9 +59,11 @@ hdr_status advertise(hdr_publisher **out, hdr_node *node, const char *topic, int
         made->node = node;
         const uint32_t length = queue_length(made->topic, queue);
         made->backlog = std::make_shared<hdr_backlog>(length, latch);
-        made->publisher = node->handle.advertise<type>(
-            made->topic, length, queue > 1 ? on_connect : ros::SubscriberStatusCallback(), {}, {},
-            latch);
+        made->publisher = master_registered([&] {
+            return node->handle.advertise<type>(
+                made->topic, length, queue > 1 ? on_connect : ros::SubscriberStatusCallback(), {},
+                {}, latch);
+        });
         if (!made->publisher) throw_of_another_type(made->topic, made->datatype);
         node->publishers.push_back(std::move(made));
         *out = node->publishers.back().get();

@@ -26,7 +26,8 @@ hdr_status advertise(hdr_node *node, const char *name, const Answer &answer)
         return true;
     };
     return hdr_guard([&] {
-        node->services.push_back(node->handle.advertiseService(ros::names::resolve(name), serve));
+        node->services.push_back(master_registered(
+            [&] { return node->handle.advertiseService(ros::names::resolve(name), serve); }));
     });
 }
 } // namespace

@@ -30,12 +30,13 @@ itimerspec watchdog_time{};
 int stop_event =
     -1; /**< can be read from the request on: it is never read, and wakes everybody who waits */
 int status_without_memory;
+int status_late; /**< of a process that has not ended in time */
 
 void on_stop(int) { hdr_stop_request(); }
 /** SIGALRM of somebody else's is none of ours. */
 void on_watchdog(int)
 {
-    if (hdr_stop_requested()) _exit(0);
+    if (hdr_stop_requested()) _exit(status_late);
 }
 
 bool is_ignored(int signal)
@@ -96,7 +97,7 @@ void stop_handlers_install(double stop_seconds)
     event.sigev_signo = SIGALRM;
     if (timer_create(CLOCK_MONOTONIC, &event, &watchdog))
         throw std::system_error(errno, std::generic_category(), "timer_create");
-    hdr_node_stop_within(stop_seconds);
+    hdr_node_stop_within(stop_seconds, 0);
     stop_event = eventfd(0, EFD_CLOEXEC);
     if (stop_event < 0) throw std::system_error(errno, std::generic_category(), "eventfd");
     handle(SIGALRM, on_watchdog);
@@ -112,8 +113,9 @@ void stop_without_memory(int status) noexcept
     std::set_terminate(on_terminate);
 }
 
-void hdr_node_stop_within(double stop_seconds)
+void hdr_node_stop_within(double stop_seconds, int status)
 {
+    status_late = status;
     watchdog_time.it_value = timespec_of(stop_seconds);
 }
 

@@ -29,9 +29,11 @@ template <class Message>
 void connect(hdr_subscriber &subscriber, int queue, callback_of<Message> callback, void *context)
 {
     try {
-        subscriber.subscriber = subscriber.node->handle.subscribe<hdlyap_ros::received<Message>>(
-            subscriber.topic, queue_length(subscriber.topic, queue),
-            caller(subscriber, callback, context));
+        subscriber.subscriber = master_registered([&] {
+            return subscriber.node->handle.subscribe<hdlyap_ros::received<Message>>(
+                subscriber.topic, queue_length(subscriber.topic, queue),
+                caller(subscriber, callback, context));
+        });
     } catch (const ros::ConflictingSubscriptionException &) {
     }
     if (!subscriber.subscriber) throw_of_another_type(subscriber.topic, subscriber.datatype);

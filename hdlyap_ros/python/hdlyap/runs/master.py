@@ -20,10 +20,11 @@ class MasterError(Exception):
 
 
 class Watch:
-    """Of one that is there."""
+    """Of one that is there: a question to it is answered now and then."""
 
-    def __init__(self):
+    def __init__(self, *question):
         self.uri = rosgraph.get_master_uri()
+        self._question = question or ('getUri',)
         self._due, self._heard = 0.0, time.monotonic()
 
     def check(self):
@@ -39,10 +40,9 @@ class Watch:
     def fail(self):
         raise MasterError(f'the ROS master at {self.uri} has gone')
 
-    @staticmethod
-    def _answers():
+    def _answers(self):
         try:
-            nodes.ask_master('getUri')
+            nodes.ask_master(*self._question)
             return True
         except nodes.UNANSWERED:
             return False
