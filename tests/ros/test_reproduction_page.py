@@ -11,7 +11,7 @@ from unittest import mock
 import made
 from hdlyap.msg import RunStatus
 from hdlyap.plots.figures import plt
-from reproduced import FRONT as FRONT_PAGE, PARTS, plan
+from reproduced import FRONT as FRONT_PAGE, PARTS, info_of, plan
 import tables
 from study import bags, files, page, table
 from study.row import HEADER, Claim, Row
@@ -173,7 +173,8 @@ class Table(unittest.TestCase):
     def test_every_statement_says_what_it_is_judged_by(self):
         for part in PARTS:
             for one in part.entries:
-                self.assertTrue(callable(getattr(part.module, one['measure'])), one['claim'])
+                name, *_ = table.flat([one['measure']])
+                self.assertTrue(callable(getattr(part.module, name)), one['claim'])
                 if one['kind'] != table.BESIDE:
                     self.assertIn(one['of'], ('the paper', 'inferred from the paper', 'ours'))
                 if one['kind'] == table.STATEMENT:
@@ -189,6 +190,14 @@ class Table(unittest.TestCase):
 
     def test_every_run_is_planned_and_needed(self):
         self.assertEqual(set(table.runs_of(PARTS)), set(plan()))
+
+    def test_wave_numbers_of_the_aspect_ratios(self):
+        """All 0.2, within what the rounding of N moves: k falls as N^-1/2."""
+        for name in plan():
+            if name.startswith('aspect_'):
+                info, nodes = info_of(name), (1, int(name.endswith('walls_t')))
+                k = made.wave_number(info, *nodes)
+                self.assertAlmostEqual(k / 0.2, 1, delta=0.5 / info.disks)
 
 
 if __name__ == '__main__':

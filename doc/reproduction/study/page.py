@@ -56,9 +56,9 @@ def write(parts, front, bags, results, suffix=''):
 
 def _part(part, bags, results):
     """Its claims; its figures and tables are written."""
-    for name, figure in part.module.figures(bags):
+    for name, figure in part.figures(bags):
         save(figure, results, f'{part.number:02d}_{name}', DPI)
-    for name, header, lines in part.module.tables(bags):
+    for name, header, lines in part.tables(bags):
         files.write_csv(os.path.join(results, f'{part.number:02d}_{name}.csv'), header, lines)
     return part.claims(bags)
 

@@ -16,21 +16,29 @@ class Part:
 
     def __init__(self, number, entry):
         self.number, self.title, self.name = number, entry['title'], entry['module']
-        self.runs, self.entries = _flat(entry['runs']), entry['claims']
+        self.runs, self.entries = flat(entry['runs']), entry['claims']
         self.module = importlib.import_module(f'study.parts.{self.name}')
+        self.tables = self.module.tables
         for one in self.entries:
             usual = entry.get('kind', STATEMENT) if 'criterion' in one else BESIDE
             one.setdefault('kind', usual)
+            if 'criterion' in one:
+                one.setdefault('of', 'ours')
+
+    def figures(self, bags):
+        """(name, figure) of what there is to draw."""
+        return (one for one in self.module.figures(bags) if one[1] is not None)
 
     def claims(self, bags):
         """One for each entry."""
         return [Claim(self.number, one, self._measured(one, bags)) for one in self.entries]
 
     def _measured(self, entry, bags):
-        return getattr(self.module, entry['measure'])(bags, *entry.get('with', ()))
+        name, *given = flat([entry['measure']])
+        return getattr(self.module, name)(bags, *given)
 
 
-def _flat(names):
+def flat(names):
     """Lists of names in a list are one."""
     found = ([one] if isinstance(one, str) else one for one in names)
     return [name for some in found for name in some]

@@ -69,6 +69,8 @@ def figures(bags):
 
 def tables(bags):
     spectrum = bags[RUN].recording.spectrum
+    if spectrum is None:
+        return
     numbered = enumerate(zip(spectrum.exponents, spectrum.std_errors), spectrum.first_index)
     yield 'exponents', ('index', 'exponent', 'std_error'), [
         cells('s .7g .2g', index, *one) for index, one in numbered

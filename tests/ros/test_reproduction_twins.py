@@ -1,21 +1,25 @@
-"""The velocity that the pressure of a box gives, against limits that are known."""
+"""What the reproduction computes by itself, against limits that are known: the velocity that the
+pressure of a box gives, and how many exponents a step has."""
 # Second tier: tests/run.sh --all
 
+import itertools
 import unittest
 
 import numpy as np
 
-import recorded
 from hdlyap.plots import equation
-import reproduced  # noqa: F401, finds the study
+from made import LP, T
+from reproduced import box
 from study import pressure
+from study.parts import multiplicities
 
+PERIODIC = 'periodic'
 WALLS = ('reflecting', 'reflecting')
 
 
 class Pressure(unittest.TestCase):
     def test_without_walls(self):
-        info = recorded.info(780, 0.4, 0.867)
+        info = box(780, 0.4, 0.867)
         expected = float(equation.compressibility(0.4)) / 2**0.5
         for nodes in ((1, 0), (0, 1), (2, 1)):
             self.assertAlmostEqual(pressure.velocity(info, *nodes), expected, 12)
@@ -24,14 +28,14 @@ class Pressure(unittest.TestCase):
     def test_walls_do_nothing_to_an_ideal_gas(self):
         """But that it is denser where centres can be."""
         for boundaries in (WALLS, ('periodic', 'reflecting'), ('reflecting', 'periodic')):
-            info = recorded.info(40, 1e-4, 0.5, boundaries)
+            info = box(40, 1e-4, 0.5, boundaries)
             for nodes in ((1, 0), (1, 1), (0, 1)):
                 self.assertAlmostEqual(pressure.velocity(info, *nodes) * 2**0.5, 1, 3)
         self.assertAlmostEqual(pressure.adsorbed(1e-4) / -0.5e-4, 1, 3)
 
     def test_all_disks_are_somewhere(self):
         for density in (0.1, 0.4, 0.8):
-            info = recorded.info(100, density, 0.5, WALLS)
+            info = box(100, density, 0.5, WALLS)
             inside, length = pressure.inside(info), 2 * (info.box_x + info.box_y)
             self.assertGreater(inside, density)
             total = inside * info.box_x * info.box_y + pressure.adsorbed(inside) * length
@@ -39,7 +43,7 @@ class Pressure(unittest.TestCase):
 
     def test_forces(self):
         """By hand, and the wave vector's direction between them."""
-        info = recorded.info(100, 0.5, 0.5, ('periodic', 'reflecting'))
+        info = box(100, 0.5, 0.5, ('periodic', 'reflecting'))
         rho, lx, ly = pressure.inside(info), info.box_x, info.box_y
         p, gamma = pressure.HENDERSON.pressure(rho), pressure.tension(rho)
         along = (p * ly - 2 * gamma) * lx / 100 / 2**0.5
@@ -53,8 +57,8 @@ class Pressure(unittest.TestCase):
 
     def test_large_boxes_have_no_walls(self):
         found = [
-            pressure.velocity(recorded.info(disks, 0.6, 1.0, WALLS), 1, 0)
-            / pressure.velocity(recorded.info(disks, 0.6, 1.0), 1, 0)
+            pressure.velocity(box(disks, 0.6, 1.0, WALLS), 1, 0)
+            / pressure.velocity(box(disks, 0.6, 1.0), 1, 0)
             - 1
             for disks in (100, 10**4, 10**6)
         ]
@@ -97,9 +101,9 @@ class Pressure(unittest.TestCase):
             (1.8, 'periodic', False),
         ):
             box_x = 200.0
-            info = recorded.info(150, 150 / box_x / height, height / box_x, ('periodic', boundary))
+            info = box(150, 150 / box_x / height, height / box_x, ('periodic', boundary))
             self.assertEqual(pressure.is_row(info), expected)
-        narrow = recorded.info(150, 0.5, 0.0075, ('periodic', 'reflecting'))
+        narrow = box(150, 0.5, 0.0075, ('periodic', 'reflecting'))
         self.assertAlmostEqual(pressure.velocity(narrow, 1, 0), pressure.of_row(0.75, 0.5, True), 9)
 
     def test_measured(self):
@@ -114,13 +118,59 @@ class Pressure(unittest.TestCase):
             self.assertAlmostEqual(state.over_henderson(density)[1], error)
             over = state.pressure(density) / pressure.HENDERSON.pressure(density)
             self.assertAlmostEqual(over, quotient)
-        info = recorded.info(780, 0.8, 0.867)
+        info = box(780, 0.8, 0.867)
         over = pressure.velocity(info, 1, 0, state) / pressure.velocity(info, 1, 0)
         self.assertAlmostEqual(over, 0.97)
         self.assertAlmostEqual(pressure.error(info, state), 0.002 / 0.97)
-        row = recorded.info(150, 0.5, 0.0075)
+        row = box(150, 0.5, 0.0075)
         self.assertEqual(pressure.error(row, state), 0.0)
         self.assertEqual(pressure.velocity(row, 1, 0, state), pressure.velocity(row, 1, 0))
+
+
+def sampled_rank(info, kind, nx, ny):
+    """Dimension of the fields of a step at many disks: derivatives of A by hand, and p A."""
+    rng = np.random.default_rng(1)
+    x, y = rng.uniform(0, 1, (2, 300))
+    p = rng.normal(size=(2, 300))
+    fields = []
+    for (a, da), (b, db) in itertools.product(
+        _functions(nx, info.boundary_x, kind, x), _functions(ny, info.boundary_y, kind, y)
+    ):
+        gradient = np.array([da * b, a * db])
+        fields += [[gradient[1], -gradient[0]]] if kind == T else [gradient, p * (a * b)]
+    if not fields:
+        return 0
+    return np.linalg.matrix_rank(np.reshape(fields, (len(fields), -1)), tol=1e-9)
+
+
+def _functions(n, boundary, kind, q):
+    """(A, dA/dq) of one coordinate in 0 .. 1."""
+    k = (2 if boundary == PERIODIC else 1) * np.pi * n
+    cosine = np.cos(k * q) + 0 * q, -k * np.sin(k * q)
+    sine = np.sin(k * q), k * np.cos(k * q)
+    if boundary == PERIODIC:
+        return [cosine, sine]
+    return [sine] if kind == T else [cosine]
+
+
+class Rule(unittest.TestCase):
+    def test_against_the_rank_of_sampled_fields(self):
+        for boundaries in itertools.product((PERIODIC, 'reflecting'), repeat=2):
+            info = box(400, 0.4, 0.867, boundaries)
+            for kind, nx, ny in itertools.product((T, LP), range(3), range(3)):
+                if nx or ny:
+                    self.assertEqual(
+                        multiplicities.prescribed(info, kind, nx, ny),
+                        sampled_rank(info, kind, nx, ny),
+                        (boundaries, kind, nx, ny),
+                    )
+
+    def test_narrow(self):
+        info = box(150, 0.5, 0.0075)
+        counts = [
+            multiplicities.prescribed(info, *one) for one in ((LP, 3, 0), (LP, 0, 1), (T, 1, 1))
+        ]
+        self.assertEqual(counts, [4, 0, 0])
 
 
 if __name__ == '__main__':
