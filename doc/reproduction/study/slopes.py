@@ -6,10 +6,11 @@ import numpy as np
 from hdlyap.plots import dispersion, phases, steps
 from hdlyap.plots.numbers import known
 
+from .files import cells
 from .stairs import stairs
 
 SAME = 1e-9  # relative: wave numbers of a square box
-COLUMNS = 'wave_number', 'exponent', 'std_error', 'slope', 'slope_error'  # of Point.numbers
+COLUMNS = 'wave_number', 'exponent', 'std_error', 'slope', 'slope_error'
 
 
 class Point:
@@ -49,8 +50,10 @@ class Point:
         return self.error / self.wave_number if self.error > 0 else -1.0
 
     @property
-    def numbers(self):
-        return self.wave_number, self.exponent, self.error, self.slope, self.slope_error
+    def cells(self):
+        """As in COLUMNS."""
+        slope = self.slope, self.slope_error
+        return cells('.6g .6g .2g .6g .2g', self.wave_number, self.exponent, self.error, *slope)
 
 
 def find(recording, kind, nx, ny):
@@ -203,6 +206,23 @@ def curve(points):
 def own(points):
     """Those of this branch alone, with known errors."""
     return [point for point in points if point is not None and point.error > 0 and not point.shares]
+
+
+def above(curves, spans):
+    """(percent by which the second curve is above the first one, its error, ends of the wave
+    numbers that both have); None if they have none."""
+    (low, high), curves = common(spans), list(curves)
+    if None in curves or low >= high:
+        return None
+    difference, error = dispersion.mean_difference(*curves, low, high)
+    return 100 * difference, 100 * error, low, high
+
+
+def common(spans):
+    """The range that two ranges have in common; its end before its beginning if there is none."""
+    if None in spans:
+        return 1.0, 0.0
+    return max(low for low, _ in spans), min(high for _, high in spans)
 
 
 def span(points):

@@ -5,7 +5,6 @@ from hdlyap.plots import paper, steps
 from hdlyap.plots.figures.style import KIND_COLOURS, plt
 
 from .. import averages, draw, slopes
-from ..files import cells
 from ..row import Scatter
 
 ASPECTS = ('025', '050', '075', '100')
@@ -111,14 +110,15 @@ def _figure(series):
 
 
 def tables(bags):
+    missing = 'not resolved', *4 * ('',)
     yield 'aspect', ('boundaries', 'step', 'aspect', 'disks', *slopes.COLUMNS), [
-        (one.boundary, one.step, f'{info.aspect:g}', info.disks, *_cells(point))
+        (
+            one.boundary,
+            one.step,
+            f'{info.aspect:g}',
+            info.disks,
+            *(point.cells if point else missing),
+        )
         for one in _series(bags)
         for info, point in zip(one.infos, one.points)
     ]
-
-
-def _cells(point):
-    if point is None:
-        return 'not resolved', '', '', '', ''
-    return cells('.6g .6g .2g .6g .2g', *point.numbers)

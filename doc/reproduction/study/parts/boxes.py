@@ -29,9 +29,8 @@ COLOURS = {PERIODIC: BLUE, WALLS: VERMILION}
 
 
 def state(bags):
-    """The pressures of part 17, as far as they are in the bags."""
-    known = [gas.State(bags[name]) for name in densities.RUNS if name in bags]
-    found = [(one.density, *one.z) for one in known if one.gas is not None]
+    """The pressures of part 17."""
+    found = [(one.density, *one.z) for one in gas.read(bags)]
     return pressure.Equation(
         (density, z / henderson, error / henderson)
         for density, z, error in found
@@ -79,7 +78,6 @@ def waves(bags, names):
     found = [
         Wave(name, bags[name].info, one, measured)
         for name in names
-        if name in bags
         for one in rotation.read(bags[name]).values()
     ]
     return [one for one in found if one.is_known]
@@ -90,8 +88,7 @@ def group(bags, density, boundary):
     if density == 0.8:
         return waves(bags, [DENSE[boundary]])
     many = dict.fromkeys([*smallest.runs(), *aspect.runs()])
-    of = [name for name in many if name in bags and _boundary(bags[name].info) == boundary]
-    return waves(bags, of)
+    return waves(bags, [name for name in many if _boundary(bags[name].info) == boundary])
 
 
 def _boundary(info):
@@ -171,13 +168,12 @@ def alike(bags):
     for density in AT_ZERO:
         row = Row(f'v: walls over periodic at equal k, less 1, density {density:g}', 0.0, unit='%')
         both = [group(bags, density, boundary) for boundary in DENSE]
-        curves = [curve(ones) for ones in both]
         ks = [[one.k for one in ones] for ones in both]
-        low, high = smallest.common([(min(k), max(k)) if k else None for k in ks])
-        if None not in curves and low < high:
-            difference = dispersion.mean_difference(*curves, low, high)
-            row.measured, row.error = (100 * one for one in difference)
-            row.remark = f'mean of the lines from k = {low:.3f} to {high:.3f}'
+        spans = [(min(k), max(k)) if k else None for k in ks]
+        found = slopes.above([curve(ones) for ones in both], spans)
+        if found:
+            row.measured, row.error, *ends = found
+            row.remark = 'mean of the lines from k = {:.3f} to {:.3f}'.format(*ends)
         yield row
 
 
@@ -198,18 +194,16 @@ def denser(bags):
     for density in AT_ZERO:
         names = _t_runs(bags, density)
         both = [_t_points(bags, names[boundary]) for boundary in DENSE]
-        curves = [slopes.curve(points) for points in both]
-        low, high = smallest.common([slopes.span(points) for points in both])
+        found = slopes.above(map(slopes.curve, both), [slopes.span(points) for points in both])
         quantity = f'lambda_T: walls over periodic at equal k, less 1, density {density:g}'
         row = Row(quantity, 0.0, unit='%')
-        if None not in curves and low < high:
+        if found:
             infos = [bags[name].info for name in names[WALLS] if _t_points(bags, [name])]
             row.published = float(np.mean([higher(info) for info in infos]))
             row.left_open, row.count = 0.5 * row.published, 1
-            difference = dispersion.mean_difference(*curves, low, high)
-            row.measured, row.error = (100 * one for one in difference)
+            row.measured, row.error, *ends = found
             inside = ', '.join(sorted({f'{pressure.inside(info):.3f}' for info in infos}))
-            fits = f'mean of the fits from k = {low:.3f} to {high:.3f}'
+            fits = 'mean of the fits from k = {:.3f} to {:.3f}'.format(*ends)
             row.remark = f'{fits}; density inside {inside}'
         yield row
 

@@ -30,9 +30,7 @@ def _fit(fit, name):
 
 
 def figures(bags):
-    figure = figure_of_dispersion.draw(bags[RUN].recording)
-    if figure is not None:
-        yield 'dispersion', figure
+    yield 'dispersion', figure_of_dispersion.draw(bags[RUN].recording)
 
 
 def tables(bags):

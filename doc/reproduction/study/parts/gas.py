@@ -61,7 +61,7 @@ def _all(bags):
     return [State(bags[name]) for name in RUNS]
 
 
-def _known(bags):
+def read(bags):
     return [one for one in _all(bags) if one.gas is not None]
 
 
@@ -83,7 +83,7 @@ def collisions(bags):
 
 
 def beside(bags):
-    known = _known(bags)
+    known = read(bags)
     for one, sound in zip(known, _sounds(known)):
         v = f'v {one.modes.v:.3f}, {one.modes.v / sound[0]:.3f} of it; ' if one.moves else ''
         remark = f'{v}by Henderson {equation.sound_velocity(one.density):.3f}'
@@ -119,7 +119,7 @@ def _sounds(known):
 
 
 def figures(bags):
-    known = _known(bags)
+    known = read(bags)
     if known:
         yield 'gas', _figure(known)
 
@@ -147,7 +147,7 @@ def _figure(known):
 
 
 def tables(bags):
-    known = _known(bags)
+    known = read(bags)
     sounds = _sounds(known) or [(None, None)] * len(known)
     names = 'density', 'z', 'z_error', 'collision_rate', 'collision_rate_error'
     yield 'gas', (*names, 'mean_free_path', 'sound', 'sound_error'), [

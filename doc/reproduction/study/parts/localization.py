@@ -84,9 +84,7 @@ def beside(bags):
 
 
 def figures(bags):
-    figure = figure_of_localization.draw(bags[RUN].recording)
-    if figure is not None:
-        yield 'widths', figure
+    yield 'widths', figure_of_localization.draw(bags[RUN].recording)
 
 
 def tables(bags):

@@ -131,9 +131,7 @@ def _root(squares, independent):
 def figures(bags):
     speeds = {one.name: one.velocity() for one in _turning(bags)}
     known = {name: v for name, v in speeds.items() if v[0]}
-    figure = figure_of_phases.draw(bags[RUN].recording, known)
-    if figure is not None:
-        yield 'phases', figure
+    yield 'phases', figure_of_phases.draw(bags[RUN].recording, known)
     found = standing.read(bags[RUN])
     if found:
         yield 'standing', _figure_of_standing(bags[RUN], found)

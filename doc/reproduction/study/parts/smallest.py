@@ -6,11 +6,10 @@ from math import hypot
 from matplotlib import ticker
 import numpy as np
 
-from hdlyap.plots import dispersion, paper, steps
+from hdlyap.plots import paper, steps
 from hdlyap.plots.figures.style import KIND_COLOURS
 
 from .. import averages, draw, slopes
-from ..files import cells
 from ..row import Row, Scatter
 
 BOXES = ('400_05', '400_1', '600_075', '780_05', '780_0867', '780_1')
@@ -135,8 +134,6 @@ def alike_elsewhere(bags, density):
 
 
 def _all(bags, name, kind):
-    if name not in bags:
-        return []
     recording = bags[name].recording
     found = [one for one in steps.resolved(recording.steps).values() if one.kind == kind]
     return slopes.own([slopes.find(recording, kind, one.nx, one.ny) for one in found])
@@ -145,11 +142,12 @@ def _all(bags, name, kind):
 def _alike(symbol, periodic, walls, where=''):
     row = Row(f'{symbol}: reflecting over periodic at equal k, less 1{where}', 0.0, unit='%')
     curves = [slopes.curve(found) for found in (periodic, walls)]
-    low, high = common([slopes.span(found) for found in (periodic, walls)])
-    if None not in curves and low < high:
-        difference = dispersion.mean_difference(*curves, low, high)
-        row.measured, row.error = (100 * one for one in difference)
-        row.remark = f'mean of the fits from k = {low:.4f} to {high:.4f}'
+    spans = [slopes.span(found) for found in (periodic, walls)]
+    low, high = slopes.common(spans)
+    found = slopes.above(curves, spans)
+    if found:
+        row.measured, row.error, *ends = found
+        row.remark = 'mean of the fits from k = {:.4f} to {:.4f}'.format(*ends)
     elif curves[0] is not None and curves[1] is None and low == high:
         row.measured, row.error = _beside(curves[0], slopes.own(walls))
         row.remark = f'of the fit at k = {low:.4f}'
@@ -161,13 +159,6 @@ def _beside(curve, points):
     exponent, error, _ = averages.weighted(*zip(*[(one.exponent, one.error) for one in points]))
     quotient = averages.quotient((exponent, error), curve.at(points[0].wave_number))
     return 100 * (quotient[0] - 1), 100 * quotient[1]
-
-
-def common(spans):
-    """The range that two ranges have in common; its end before its beginning if there is none."""
-    if None in spans:
-        return 1.0, 0.0
-    return max(low for low, _ in spans), min(high for _, high in spans)
 
 
 # ---- figure and table ----------------------------------------------------------------------------
@@ -235,4 +226,4 @@ def tables(bags):
 def _cells(point):
     if point is None:
         return ('none resolved', *6 * ('',))
-    return (point.name, *cells('.6g .6g .2g .6g .2g', *point.numbers), point.remark)
+    return (point.name, *point.cells, point.remark)

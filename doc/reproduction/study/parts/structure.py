@@ -115,9 +115,7 @@ def _line(course, block):
 
 def figures(bags):
     for name in RUNS:
-        figure = figure_of_structure.draw(bags[name].recording)
-        if figure is not None:
-            yield name, figure
+        yield name, figure_of_structure.draw(bags[name].recording)
 
 
 def tables(bags):

@@ -49,8 +49,6 @@ def single(bags):
 def _of_the_whole_side(bags):
     """What 3.20 would be of the periodic v, and the whole side for half of a wave length."""
     row = Row('L_x / 2 v, v of the periodic run', unit=UNIT)
-    if PERIODIC not in bags:
-        return row
     recording = bags[PERIODIC].recording
     v, error, count = slopes.velocity(recording, 1, 0)
     if count and isfinite(error):
@@ -69,7 +67,7 @@ def strength(bags):
 
 def signs(bags):
     """An L mode turns to P if omega > 0."""
-    for name in (one for one in (RUN, PERIODIC) if one in bags):
+    for name in (RUN, PERIODIC):
         for one in rotation.read(bags[name]).values():
             omega, error = one.omega()
             yield Row(f'omega of {one.name}, {name}', None, omega, error, 'rad/time unit')
