@@ -720,7 +720,7 @@ class Everything(unittest.TestCase):
             before = file.read().splitlines()
         now = list(written())
         off = [f'{one}\n  now: {two}' for one, two in zip(before, now) if not is_alike(one, two)]
-        self.assertEqual(off, [])
+        self.assertEqual(off, [], '--write makes it anew, once each of these is understood')
         self.assertEqual(len(before), len(now))
 
     def test_what_is_alike(self):
