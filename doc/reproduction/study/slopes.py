@@ -78,6 +78,11 @@ def smallest(recording, kind):
     )
 
 
+def every(recording, kind):
+    """All steps of this kind that have vectors of their own."""
+    return own([find(recording, kind, one.nx, one.ny) for one in _resolved(recording, kind)])
+
+
 def noted(points):
     """How many of the points share vectors, or are not the smallest step of their run; empty if
     none does."""

@@ -219,14 +219,7 @@ def _mean_row(name, found):
 
 
 def _t_points(bags, names):
-    """All T steps that have vectors of their own."""
-    found = []
-    for name in names:
-        recording = bags[name].recording
-        for step in steps.resolved(recording.steps).values():
-            if step.kind == steps.T:
-                found.append(slopes.find(recording, steps.T, step.nx, step.ny))
-    return slopes.own(found)
+    return [point for name in names for point in slopes.every(bags[name].recording, steps.T)]
 
 
 def _t_runs(bags, density):

@@ -129,14 +129,8 @@ def alike(bags, kind):
 def alike_elsewhere(bags, density):
     """Of all steps that have vectors of their own."""
     for kind, symbol in SYMBOLS.items():
-        both = [_all(bags, name, KINDS[kind]) for name in ELSEWHERE[density]]
+        both = [slopes.every(bags[name].recording, KINDS[kind]) for name in ELSEWHERE[density]]
         yield _alike(symbol, *both, f', density {density}')
-
-
-def _all(bags, name, kind):
-    recording = bags[name].recording
-    found = [one for one in steps.resolved(recording.steps).values() if one.kind == kind]
-    return slopes.own([slopes.find(recording, kind, one.nx, one.ny) for one in found])
 
 
 def _alike(symbol, periodic, walls, where=''):
