@@ -105,6 +105,7 @@ def spectrum(exponents, averaged_time, run_id='one', error=0.01, pairing_error=-
         collisions=1000,
         lambda_max=exponents[0],
         pairing_error=pairing_error,
+        lambda_max_error=error,
         ks_entropy=sum(e for e in exponents if e > 0),
         ks_entropy_error=error * n if error >= 0 else -1.0,
         first_index=1,

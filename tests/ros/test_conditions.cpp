@@ -138,7 +138,7 @@ TEST(Conditions, EachHasItsLevelAndMessage)
     const hdr_lag prompt = {"", 0, 0, 0}, behind = {"/b/fields", 12.34, 5, 0},
                   losing = {"/b/fields", 0.5, 1001, 42};
     worker_state fault = healthy(), unkept = healthy(), deep = healthy(), warm = healthy(),
-                 stalled = healthy(), lost = healthy();
+                 stalled = healthy(), lost = healthy(), open = healthy();
     fault.status = HD_ILL_CONDITIONED;
     unkept.checkpoint.failed = true;
     snprintf(unkept.checkpoint.message, sizeof unkept.checkpoint.message, "disk full");
@@ -148,6 +148,7 @@ TEST(Conditions, EachHasItsLevelAndMessage)
     stalled.last.averaged = 32;
     stalled.last.cost.std_error = stalled.last.cost.stalled_error = 0.5;
     stalled.last.cost.stalled_since = 4;
+    open.last.cost.target = {"c_L", 3.0, 0.07, 0.03, 0.05, INFINITY, false};
     const worker_state well = healthy();
     const struct {
         const worker_state *state;
@@ -163,6 +164,8 @@ TEST(Conditions, EachHasItsLevelAndMessage)
          "errors of the smallest exponents do not fall: 0.5 after 4 averaged, 0.5 after 32"},
         {&lost, &prompt, HDR_DIAGNOSTIC_WARN,
          "nobody can subscribe: no ROS master has known this node for 12 s"},
+        {&open, &prompt, HDR_DIAGNOSTIC_WARN,
+         "c_L is not known to 0.03 by any averaging: 0.05 stays open in this box"},
         {&well, &behind, HDR_DIAGNOSTIC_WARN, "a subscriber of /b/fields is 12.3 s behind"},
         {&well, &losing, HDR_DIAGNOSTIC_WARN, "subscribers of /b/fields have lost 42 messages"},
     };

@@ -95,7 +95,7 @@ class Fields(harness.Case):
     def test_target_reached(self):
         """The last report has fields also where nobody knew that it would be the last."""
         messages = self.fields(
-            duration=0.0, field_indices=[5], field_interval=1.0e3, target_std_error=0.05
+            duration=0.0, field_indices=[5], field_interval=1.0e3, target="smallest 0.05"
         )
         times = [field.sim_time for field in messages['fields']]
         self.assertEqual(times, [messages['modes'][0].sim_time, messages['modes'][-1].sim_time])

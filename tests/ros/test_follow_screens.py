@@ -199,8 +199,10 @@ class Screens(unittest.TestCase):
         self.assertNotIn('sum', one)
         endless = self.text(view(status=status(progress=0.0, remaining_seconds=-1.0)))
         self.assertNotIn('left', endless)
-        aimed = view(info=made.run_info(observables=OBSERVED, target_std_error=0.01))
-        self.says(self.text(aimed), 'std error ? of 0.01')
+        aims = dict(target='c_T', target_error=0.0123, target_wanted=0.0098)
+        self.says(self.text(view(status=status(**aims))), 'c_T to 0.012 of 0.0098')
+        aims.update(target_error=-1.0)
+        self.says(self.text(view(status=status(**aims))), 'c_T to ? of 0.0098')
 
     def test_every_size(self):
         info = made.run_info(observables=OBSERVED)

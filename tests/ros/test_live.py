@@ -9,7 +9,7 @@ import subprocess
 
 import rosbag
 import rospy
-from std_srvs.srv import SetBool
+from std_srvs.srv import SetBool, Trigger
 import yaml
 
 from hdlyap.srv import Set
@@ -55,8 +55,9 @@ class Live(harness.Case):
         self.assertIn('%s = %s from simulated time ' % (name, value), answer.message)
         self.sees(lambda: len(self.changes()) > before)
         change = self.changes()[-1]
-        self.assertEqual((change.name, change.value), (name, float(value)))
-        self.assertEqual(getattr(self.info(), name), float(value))
+        self.assertEqual((change.name, change.value), (name, value))
+        now = getattr(self.info(), name)
+        self.assertEqual(now, type(now)(value))
         return change
 
     def info(self):
@@ -84,7 +85,7 @@ class Live(harness.Case):
         node = self.started(dict(RUN, pace=SLOW))
         self.until(BEGIN + 2.0)
         reports = self.changed('report_interval=0.25')
-        self.assertEqual(reports.before, 1.0)
+        self.assertEqual(reports.before, '1')
         self.until(reports.sim_time)
         fields = self.changed('field_interval=2')
         self.until(fields.sim_time + 3.0)
@@ -107,7 +108,7 @@ class Live(harness.Case):
             [change.name for change in self.changes()],
             ['report_interval', 'field_interval', 'duration', 'pace'],
         )
-        self.assertEqual(duration.before, 0.0)
+        self.assertEqual(duration.before, '0')
         runs = {info.run_id for info in self.heard['run_info'].messages}
         self.assertEqual(len(runs), 1)
 
@@ -141,10 +142,36 @@ class Live(harness.Case):
         node = self.started(dict(SHORT, observables=['spectrum'], threads=1, duration=0.0))
         self.assertTrue(self.heard['cost'].wait_for(lambda cost: cost.sim_time > 10.0))
         self.assertTrue(self.heard['status'].wait_for(lambda status: status.std_error > 0.0))
-        change = self.changed('target_std_error=1000')
+        change = self.changed('target=smallest 1000, lambda_max 50%')
         self.heard_of(node)
         self.assertIn('finished at simulated time', node.text())
         self.assertGreaterEqual(self.times('status')[-1], change.sim_time - CLOSE)
+
+    def test_stop(self):
+        """As the end of the duration; a pause does not hold it."""
+        kept = os.path.join(self.folder, 'stopped.checkpoint')
+        node = self.started(dict(RUN, pace=SLOW, checkpoint=kept))
+        stop = harness.service('stop', Trigger)
+        self.until(BEGIN + 2.0)
+        self.assertTrue(harness.service('pause', SetBool)(True).success)
+        answer = stop()
+        self.assertTrue(answer.success, answer.message)
+        self.heard_of(node)
+        last = self.heard['status'].messages[-1]
+        self.assertEqual((last.stage, last.progress), (last.FINISHED, 1.0))
+        self.assertEqual(answer.message, 'ends at simulated time %.6g' % last.sim_time)
+        self.assertIn('finished at simulated time', node.text())
+        self.assertTrue(os.path.exists(kept))
+        self.assertEqual([change.name for change in self.changes()], ['duration'])
+
+    def test_stop_before_the_averaging(self):
+        node = self.started(dict(RUN, warmup=1.0e6))
+        self.until(30.0)
+        answer = harness.service('stop', Trigger)()
+        self.assertFalse(answer.success)
+        self.assertIn('nothing has been averaged yet', answer.message)
+        node.send(signal.SIGINT)
+        self.heard_of(node)
 
     def test_refused(self):
         node = self.started(dict(RUN, observables=['state'], wait_for_subscribers=['state']))
@@ -159,7 +186,9 @@ class Live(harness.Case):
             'pace=': 'must be from 0',
             'pace=1 2': 'must be from 0',
             'report_interval=0': 'must be from 1e-6',
-            'target_std_error=-1': 'must be from 0',
+            'target=lambda_max -1': 'target = lambda_max -1: must be quantities with their errors',
+            'target=c_T 1%': 'target = c_T 1%: must be without c_T: ',
+            'target_std_error=1': 'it is written target: smallest 0.01 now',
             'duration=5': 'duration = 5: must be 0 or at least',
             'field_interval=-5': 'must be from 0',
             'paces=5': 'paces=5: there is no parameter of this name; is pace meant?',
@@ -239,7 +268,7 @@ class Live(harness.Case):
         self.assertEqual((info.report_interval, info.duration), (0.3, 60.0))
         self.assertEqual(len(info.changes), 0)
         changes = first['run_info'][-1].changes
-        texts = ['%r %s=%r' % (c.sim_time, c.name, c.value) for c in changes]
+        texts = ['%r %s=%s' % (c.sim_time, c.name, c.value) for c in changes]
         params.update(duration=50.0, report_interval=1.0, changes=texts)
         whole = self.heard_of(self.started(dict(params, checkpoint=end)))
         self.same({topic: first[topic] + second[topic] for topic in TOPICS}, whole)

@@ -99,11 +99,12 @@ class Repeat(Bags):
         """What was changed is as it was at the start, and is changed again; each run_info of the
         run says a little more, and that of a second file of the bag, the first one, nothing."""
         changes = [
-            Change(sim_time=0.1 + 0.2, name='pace', before=2.0, value=1e-7),
-            Change(sim_time=1e3, name='duration', before=0.0, value=100.0),
-            Change(sim_time=1e3, name='pace', before=1e-7, value=3.0),
+            Change(sim_time=0.1 + 0.2, name='pace', before='2', value='1e-07'),
+            Change(sim_time=1e3, name='duration', before='0', value='100'),
+            Change(sim_time=1e3, name='pace', before='1e-07', value='3'),
+            Change(sim_time=2e3, name='target', before='v 1%', value='h_KS 2, c_T 1%'),
         ]
-        now = dict(pace=3.0, duration=100.0)
+        now = dict(pace=3.0, duration=100.0, target='h_KS 2, c_T 1%')
         infos = [
             made.run_info(pace=2.0),
             made.run_info(pace=1e-7, changes=changes[:1]),
@@ -112,10 +113,15 @@ class Repeat(Bags):
         ]
         self.write(infos)
         got = self.repeated()
-        self.assertEqual((got['pace'], got['duration']), (2.0, 0.0))
+        self.assertEqual((got['pace'], got['duration'], got['target']), (2.0, 0.0, 'v 1%'))
         self.assertEqual(
             got['changes'],
-            ['0.30000000000000004 pace=1e-07', '1000.0 duration=100.0', '1000.0 pace=3.0'],
+            [
+                '0.30000000000000004 pace=1e-07',
+                '1000.0 duration=100',
+                '1000.0 pace=3',
+                '2000.0 target=h_KS 2, c_T 1%',
+            ],
         )
         self.write(infos[:1])
         self.assertEqual(self.repeated()['changes'], [])

@@ -86,6 +86,7 @@ class Grid(unittest.TestCase):
             (dict(densities='0.1 0.10'), 'densities = 0.1 0.10: must be each once'),
             (dict(seeds='1', scene='nix'), 'scene = nix: must be one of'),
             (dict(seeds='1', duration='0'), 'duration = 0: must be above 0, or it never ends'),
+            (dict(seeds='1', duration='0', params='{target: ""}'), 'never ends without a target'),
             (dict(seeds='1', params='{seed: 2}'), 'must be without seed: it is swept'),
             (dict(seeds='1', params='{lyap: 2}'), 'lyap = 2: must be a parameter of hdlyap_node'),
             (dict(seeds='1', params='{checkpoint: a}'), 'checkpoint = a: must be empty'),

@@ -44,6 +44,8 @@ extern "C" bool changes_ask(changes *, settings *, hd_run *, const char *assignm
     return true;
 }
 
+extern "C" bool changes_end(changes *, settings *, hd_run *, char *, size_t) { return false; }
+
 /** The state is told meanwhile; the asker stays longer than it would have waited for the step. */
 TEST(Worker, isFreeWhileAChangeIsMade)
 {

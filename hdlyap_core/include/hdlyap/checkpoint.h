@@ -14,7 +14,7 @@
 extern "C" {
 #endif
 
-enum { HD_CHECKPOINT_FORMAT = 13, HD_CHECKPOINT_LABEL = 64 };
+enum { HD_CHECKPOINT_FORMAT = 14, HD_CHECKPOINT_LABEL = 64 };
 
 /** What a checkpoint says of itself. */
 typedef struct hd_checkpoint {

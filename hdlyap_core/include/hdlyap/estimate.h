@@ -31,6 +31,9 @@ typedef struct hd_estimate {
     double before;       /**< time units before the averaging */
     double errors_after; /**< averaged time until errors are first stated; those of exponents of
                               steps are below 1 % then. 0 without exponents, as the next */
+    double target_after; /**< averaged time until the target is reached, errors_after or more, as
+                            the errors of the trial say; NaN if they are not known by its end, or
+                              there is no target; INFINITY if it never is */
     double slopes_after; /**< averaged time until c_T and c_L are known to about 1 % of sampling */
     hd_extent extent;
 } hd_estimate;
@@ -42,6 +45,9 @@ typedef struct hd_estimate {
  * `message`. */
 HD_MUST_CHECK hd_status hd_estimate_run(hd_estimate *out, const hd_scene_def *def,
                                         double fields_every, char *message, size_t size);
+
+/** errors_after alone, without a trial, of all disks. HD_NO_MEMORY. */
+HD_MUST_CHECK hd_status hd_estimate_errors(double *after, const hd_scene_def *def);
 
 #ifdef __cplusplus
 }

@@ -20,6 +20,7 @@ typedef enum hd_parameter_kind {
     HD_PARAMETER_SEED,      /**< a uint64_t, by its digits */
     HD_PARAMETER_EXPONENTS, /**< an int or a word; what is allowed depends on the disks */
     HD_PARAMETER_INTERVAL,  /**< a double or a word */
+    HD_PARAMETER_TEXT,      /**< an hd_text */
     HD_PARAMETER_SET        /**< a set of bits; the user says it in another way */
 } hd_parameter_kind;
 
@@ -52,10 +53,15 @@ typedef struct hd_parameter {
 /** All of them, [count]. */
 const hd_parameter *hd_scene_parameters(int *count);
 
-/** Value in a scene; of a seed it may be rounded. */
+/** Value in a scene; of a seed it may be rounded, of a text it is 0 if that is empty, else 1. */
 double hd_parameter_value(const hd_parameter *row, const hd_scene_def *def);
-/** The row's kind must be able to hold the value. */
+/** The row's kind must be able to hold the value; a text becomes empty. */
 void hd_parameter_assign(const hd_parameter *row, hd_scene_def *def, double value);
+/** The value that a number of this text is, from end to end, or a text; false if it is none, or too
+ * long. Of a row that is live. */
+bool hd_parameter_read(const hd_parameter *row, hd_scene_def *def, const char *text);
+/** True if both scenes have the same value. */
+bool hd_parameter_same(const hd_parameter *row, const hd_scene_def *a, const hd_scene_def *b);
 
 /** The word for a value; NULL if it has none. */
 const char *hd_parameter_word_of(const hd_parameter *row, int value);

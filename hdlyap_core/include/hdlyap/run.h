@@ -22,6 +22,22 @@
 extern "C" {
 #endif
 
+/** Room for the name of a quantity, as T(1,0) or c_T. */
+enum { HD_QUANTITY_NAME = 32 };
+
+/** Of the quantities of a target, the one whose error is farthest from what is asked for. */
+typedef struct hd_standing {
+    char name[HD_QUANTITY_NAME]; /**< "": there is no target, and nothing else is said */
+    double value;                /**< 0 while nothing is known, and of the smallest exponents */
+    double error;                /**< standard error; negative while not known */
+    double wanted; /**< error that is asked for, in the same unit; negative while it is a
+                      part of a value that is not known */
+    double open;   /**< part of the error that no averaging takes away; 0 but of c_T, c_L and v */
+    double left;   /**< averaged time still to come until all are reached, as errors fall with its
+                      root; INFINITY while that is not known, or if it is never */
+    bool reached;  /**< all of them are */
+} hd_standing;
+
 /** What the run pays for, since its start unless said otherwise. What is not measured (yet) is
  * NaN. */
 typedef struct hd_cost {
@@ -48,7 +64,7 @@ typedef struct hd_cost {
     long slow_vector_samples; /**< samples that ended early for who watches the vectors */
     long repairs;             /**< intervals that turned out too long and were replayed in pieces */
     /** largest of the eight positive exponents nearest to zero, or of the last ones carried if
-     * fewer are, which target_std_error is for; negative if unknown */
+     * fewer are; negative if unknown */
     double std_error;
     /** Averaged time since which std_error does not fall as it does in a stationary run, an eighth
      * of the averaged time or less; negative while it falls, or that cannot be said yet */
@@ -56,13 +72,20 @@ typedef struct hd_cost {
     double stalled_error; /**< std_error then */
     double progress;      /**< 0 .. 1 of the time asked for, or to the target; negative if
                               unknown */
-    double remaining;     /**< predicted wall seconds to the end, or to target_std_error;
-                              negative if unknown */
+    double remaining;     /**< predicted wall seconds to the end, or to the target; negative if
+                              unknown */
+    hd_standing target;   /**< the quantity of the target whose error is farthest from what is
+                              asked for */
 } hd_cost;
 
 typedef struct hd_run hd_run;
 
-/** HD_REFUSED with its line in `message` as by hd_scene_check (`message` may be NULL). */
+/** Of a checked scene. HD_REFUSED with one line in `message`: the target cannot be read, or names
+ * what such a run never knows. */
+HD_MUST_CHECK hd_status hd_target_check(const hd_scene_def *def, char *message, size_t size);
+
+/** HD_REFUSED with its line in `message` as by hd_scene_check and hd_target_check (`message` may be
+ * NULL). */
 HD_MUST_CHECK hd_status hd_run_create(hd_run **out, const hd_scene_def *def, char *message,
                                       size_t size);
 /** A run that several ranks carry: they make this and all later calls together, in the same order.
@@ -98,15 +121,20 @@ void hd_run_fields_every(hd_run *run, double interval);
  * others from this column on. */
 void hd_run_fields_from(hd_run *run, int first);
 
-/** Asks for another value of a parameter of the scene whose row is a live one. It holds from
+/** Asks for another value of a parameter of the scene whose row is a live one, a number from end to
+ * end or a text. It holds from
  * hd_run_change_time on, and hd_run_scene has it at once. HD_REFUSED with one line in `message`: it
  * is read at the start, or the value is not allowed; a duration must not be shorter than what will
  * have been averaged by then. */
-HD_MUST_CHECK hd_status hd_run_change(hd_run *run, const hd_parameter *row, double value,
+HD_MUST_CHECK hd_status hd_run_change(hd_run *run, const hd_parameter *row, const char *value,
                                       char *message, size_t size);
 /** Simulated time from which on a change holds that is asked for now: while averages are taken the
  * end of the present interval between orthonormalisations, else at once. */
 double hd_run_change_time(const hd_run *run);
+
+/** The shortest duration that the run can still be given: it ends as soon as it can then. NaN but
+ * while averages are taken. */
+double hd_run_shortest_duration(const hd_run *run);
 
 /** True if the last call ended at such a report: if they are looked at (HD_OBSERVE_FIELDS), the
  * frame is orthonormalised at this very time. */

@@ -67,6 +67,12 @@ typedef enum hd_storage {
     HD_STORAGE_RECOMPUTE /**< they are computed again, from some frames and the events */
 } hd_storage;
 
+/** What a user says in words, in one line, "" for nothing; zeros behind it. */
+enum { HD_TEXT = 256 };
+typedef struct hd_text {
+    char line[HD_TEXT];
+} hd_text;
+
 /** Each parameter's default, range, unit and text stands in parameters.inc, which declares those
  * that are plain numbers. */
 typedef struct hd_scene_def {
@@ -79,6 +85,7 @@ typedef struct hd_scene_def {
     double phase_interval; /**< the same */
     unsigned observe;      /**< a set of HD_OBSERVE_*, 0 = none */
     hd_storage covariant_storage;
+    hd_text target; /**< what ends the run, see hd_target_check */
 #define HD_INT(name, ...) int name;
 #define HD_REAL(name, ...) double name;
 #define HD_OTHER(...)
@@ -92,7 +99,8 @@ typedef struct hd_scene_def {
 /** The paper's periodic scene: 780 disks, density 0.8, aspect 0.867. */
 hd_scene_def hd_scene_def_default(void);
 
-/** HD_OK, or HD_REFUSED with one line in `message`: the parameter, its value, what is allowed. */
+/** HD_OK, or HD_REFUSED with one line in `message`: the parameter, its value, what is allowed; of a
+ * target hd_target_check says it. */
 HD_MUST_CHECK hd_status hd_scene_check(const hd_scene_def *def, char *message, size_t size);
 
 /** Box edges [sigma]: Lx = sqrt(N / (rho A)), Ly = A Lx, with A = aspect; of spheres Lx = cbrt(N /

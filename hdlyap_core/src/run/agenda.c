@@ -32,7 +32,7 @@ hd_agenda hd_agenda_of(const hd_scene_def *scene, double rate)
     const double sample = COLLISIONS_PER_SAMPLE / rate, collision = sample / COLLISIONS_PER_SAMPLE;
     const double sound = hd_scene_sound_crossing(scene);
     return (hd_agenda){.schedule = hd_schedule_of(scene),
-                       .in_force.target_std_error = scene->target_std_error,
+                       .in_force.target = scene->target,
                        .sample_max = sample,
                        .block = fmax(COLLISIONS_PER_BLOCK * collision, sound)};
 }
@@ -236,8 +236,7 @@ bool hd_agenda_can_last(const hd_agenda *a, double duration, double from)
 bool hd_agenda_change(hd_agenda *a, const hd_scene_def *scene, double now)
 {
     if (!a->in_force.changing) return false;
-    a->in_force = (hd_wanted){.target_std_error = scene->target_std_error,
-                              .field_interval = a->field_interval};
+    a->in_force = (hd_wanted){.target = scene->target, .field_interval = a->field_interval};
     hd_schedule_change(&a->schedule, scene, now);
     return true;
 }
@@ -250,4 +249,4 @@ void hd_agenda_end_averaging(hd_agenda *a, bool reached, double now)
         a->due |= HD_DUE_REPORT | HD_DUE_FIELDS | HD_DUE_STAGE;
 }
 
-double hd_agenda_target(const hd_agenda *a) { return a->in_force.target_std_error; }
+const hd_text *hd_agenda_target(const hd_agenda *a) { return &a->in_force.target; }

@@ -16,7 +16,8 @@ enum {
 
 /** What may change while a run goes on. */
 typedef struct hd_wanted {
-    double target_std_error, field_interval;
+    hd_text target;
+    double field_interval;
     bool changing; /**< something else has been asked for */
 } hd_wanted;
 
@@ -111,6 +112,6 @@ bool hd_agenda_can_last(const hd_agenda *agenda, double duration, double from);
 bool hd_agenda_change(hd_agenda *agenda, const hd_scene_def *scene, double now);
 /** The averaging is over, as the time is or the target is reached: reports and fields are due. */
 void hd_agenda_end_averaging(hd_agenda *agenda, bool reached, double now);
-double hd_agenda_target(const hd_agenda *agenda); /**< that is in force; 0: none */
+const hd_text *hd_agenda_target(const hd_agenda *agenda); /**< that is in force */
 
 #endif

@@ -43,7 +43,7 @@ static const double ORTHONORMAL = 1e-10;
 /** Collisions of each disk between two orthonormalisations that no accuracy and no density exceed.
  */
 static const double COLLISIONS_MOST = 60.0;
-/** Positive exponents nearest to zero, which target_std_error is for. */
+/** Positive exponents nearest to zero, which a target calls smallest. */
 enum { SMALLEST_EXPONENTS = 8 };
 /** Kept for a half that is no number. */
 static const double NO_HALF = -2.0;

@@ -21,20 +21,22 @@ static hd_status check_duration(const hd_run *run, double duration, char *messag
                      duration, from - hd_agenda_stage_begin(&run->agenda));
 }
 
-hd_status hd_run_change(hd_run *run, const hd_parameter *row, double value, char *message,
+hd_status hd_run_change(hd_run *run, const hd_parameter *row, const char *value, char *message,
                         size_t size)
 {
     hd_scene_def asked = run->scene;
     int count;
     hd_order_tell(run->communicator, (hd_order){.kind = HD_ORDER_CHANGE,
                                                 .integer = (int)(row - hd_scene_parameters(&count)),
-                                                .number = value});
+                                                .text = value});
     if (!row->live)
-        return hd_refuse(message, size, "%s = %.15g: is read at the start", row->name, value);
+        return hd_refuse(message, size, "%s = %s: is read at the start", row->name, value);
     if (hd_run_stage(run) == HD_FINISHED || hd_agenda_is_due(&run->agenda, HD_DUE_STAGE))
-        return hd_refuse(message, size, "%s = %.15g: the run has ended", row->name, value);
-    hd_parameter_assign(row, &asked, value);
+        return hd_refuse(message, size, "%s = %s: the run has ended", row->name, value);
+    if (!hd_parameter_read(row, &asked, value))
+        return hd_refuse(message, size, "%s = %s: must be %s", row->name, value, row->allowed);
     HD_TRY(hd_scene_check(&asked, message, size));
+    HD_TRY(hd_target_check(&asked, message, size));
     HD_TRY(check_duration(run, asked.duration, message, size));
     run->scene = asked;
     hd_agenda_ask(&run->agenda, run->carrier.frame);
@@ -56,7 +58,7 @@ void hd_run_fields_from(hd_run *run, int first)
 
 void hd_run_observe(hd_run *run, unsigned stages)
 {
-    const unsigned now = stages & run->scene.observe;
+    const unsigned now = hd_target_stages(&run->scene, stages) & run->scene.observe;
     if (now == hd_observables_looked_at(&run->observables)) return;
     hd_order_tell(run->communicator, (hd_order){.kind = HD_ORDER_OBSERVE, .integer = (int)now});
     hd_observables_look(&run->observables, now);

@@ -5,6 +5,7 @@
 #include <limits.h>
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "averages/archived.h"
 #include "base/check.h"
@@ -74,15 +75,17 @@ static void in_force_archive(hd_run *run, hd_archive *archive)
     hd_agenda *agenda = &run->agenda;
     hd_wanted *now = &agenda->in_force;
     int changing = now->changing;
-    hd_archive_double(archive, "run target", &now->target_std_error);
+    hd_archive_text(archive, "run target", now->target.line, sizeof now->target);
     hd_archive_double(archive, "run fields", &now->field_interval);
     hd_archive_double(archive, "run fields asked", &agenda->field_interval);
     hd_archive_int(archive, "run changing", &changing, 0, 1);
     now->changing = changing;
-    hd_archive_expect(archive,
-                      now->target_std_error >= 0 && now->field_interval >= 0 &&
-                          agenda->field_interval >= 0,
+    hd_archive_expect(archive, now->field_interval >= 0 && agenda->field_interval >= 0,
                       "run fields", "it is negative");
+    hd_scene_def asked = run->scene;
+    asked.target = now->target;
+    hd_archive_expect(archive, hd_target_check(&asked, NULL, 0) == HD_OK, "run target",
+                      "it cannot be reached");
 }
 
 static void numbers_archive(hd_run *run, hd_archive *archive)
@@ -269,10 +272,8 @@ static hd_status check_same(const hd_scene_def *asked, const hd_scene_def *kept,
     const hd_parameter *rows = hd_scene_parameters(&count);
     for (int k = 0; k < count; k++) {
         const hd_parameter *r = &rows[k];
-        const bool same = r->kind == HD_PARAMETER_SEED
-                              ? asked->seed == kept->seed
-                              : hd_parameter_value(r, asked) == hd_parameter_value(r, kept);
-        if (!same && !r->may_differ) return refuse_other(r, asked, kept, message, size);
+        if (!r->may_differ && !hd_parameter_same(r, asked, kept))
+            return refuse_other(r, asked, kept, message, size);
     }
     return HD_OK;
 }
@@ -305,10 +306,8 @@ static int threads_of(int asked, int before)
 /** A run that had finished goes on if it has become longer. */
 static hd_status reopen(hd_run *run, char *message, size_t size)
 {
-    const double averaged = hd_run_time(run) - run->agenda.schedule.start,
-                 target = run->scene.target_std_error;
-    const bool finished = run->agenda.schedule.stage == HD_FINISHED && run->carrier.spectrum;
-    if (finished && target > 0 && hd_carrier_smallest_error(&run->carrier) <= target) return HD_OK;
+    const double averaged = hd_run_time(run) - run->agenda.schedule.start;
+    if (run->agenda.schedule.stage == HD_FINISHED && hd_target_reached(run)) return HD_OK;
     if (run->agenda.schedule.stage < HD_AVERAGING ||
         hd_schedule_reopen(&run->agenda.schedule, hd_run_time(run)))
         return HD_OK;
@@ -323,14 +322,13 @@ static void take_up_scene(hd_run *run, const hd_scene_def *kept)
     int count;
     const hd_parameter *rows = hd_scene_parameters(&count);
     for (int k = 0; k < count; k++)
-        if (rows[k].live &&
-            hd_parameter_value(&rows[k], &run->scene) != hd_parameter_value(&rows[k], kept))
+        if (rows[k].live && !hd_parameter_same(&rows[k], &run->scene, kept))
             run->agenda.in_force.changing = true;
     if (run->scene.duration != kept->duration)
         run->agenda.schedule.length[HD_AVERAGING] =
             hd_schedule_of(&run->scene).length[HD_AVERAGING];
-    if (run->scene.target_std_error != kept->target_std_error)
-        run->agenda.in_force.target_std_error = run->scene.target_std_error;
+    if (strcmp(run->scene.target.line, kept->target.line) != 0)
+        run->agenda.in_force.target = run->scene.target;
 }
 
 static hd_status restore(hd_run *run, hd_archive *archive, const hd_checkpoint *kept, char *message,
@@ -436,7 +434,7 @@ hd_status hd_run_resume_shared(hd_run **out, const char *path, const hd_scene_de
     uint64_t bytes;
     char line[512] = "";
     *out = NULL;
-    hd_order_tell(communicator, (hd_order){.kind = HD_ORDER_RESUME, .scene = scene, .path = path});
+    hd_order_tell(communicator, (hd_order){.kind = HD_ORDER_RESUME, .scene = scene, .text = path});
     const hd_status opened = hd_checkpoint_file_open(&file, &bytes, path, message, size);
     const hd_status all = hd_communicator_agree(communicator, opened);
     if (all != HD_OK && opened == HD_OK) {

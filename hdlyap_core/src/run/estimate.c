@@ -9,6 +9,7 @@
 #include "base/check.h"
 #include "base/clock.h"
 #include "base/memory.h"
+#include "run/run_state.h"
 
 /** How long the trial goes on, at least [s]. */
 static const double TRIAL_SECONDS = 1.0;
@@ -93,6 +94,17 @@ static hd_scene_def smaller(const hd_scene_def *def)
     return hd_scene_check(&scene, NULL, 0) == HD_OK ? scene : *def;
 }
 
+hd_status hd_estimate_errors(double *after, const hd_scene_def *def)
+{
+    double collision = 0.0;
+    *after = 0.0;
+    if (hd_scene_vectors(def) == 0) return HD_OK;
+    HD_TRY(collision_time(&collision, def));
+    const hd_agenda agenda = hd_agenda_of(def, 1.0 / collision);
+    *after = HD_SPECTRUM_BLOCKS_MIN * hd_agenda_block(&agenda);
+    return HD_OK;
+}
+
 static hd_status trial_scene(hd_scene_def *out, const hd_scene_def *def)
 {
     double collision = 0.0;
@@ -100,7 +112,8 @@ static hd_status trial_scene(hd_scene_def *out, const hd_scene_def *def)
     *out = *def;
     out->equilibration = collision;
     out->warmup = WARMUP_COLLISIONS * collision;
-    out->duration = out->target_std_error = 0.0;
+    out->duration = 0.0;
+    out->target = (hd_text){""};
     out->observe &= ~(unsigned)HD_OBSERVE_COVARIANT; /* a window is longer than a trial */
     *out = smaller(out);
     return HD_OK;
@@ -124,6 +137,17 @@ static hd_status measure(hd_estimate *out, hd_run *run)
     return HD_OK;
 }
 
+/** Averaged time of the target, of a run that has averaged as the scene would. */
+static double target_after(const hd_run *run, const hd_scene_def *def)
+{
+    const bool same = hd_run_scene(run)->disks == def->disks;
+    if (!same || !*def->target.line) return NAN;
+    const hd_standing end = hd_target_standing(run, &def->target);
+    const double averaged = hd_run_time(run) - hd_agenda_stage_begin(&run->agenda);
+    const double after = fmax(averaged + end.left, hd_run_errors_after(run));
+    return end.error < 0.0 ? NAN : end.reached ? hd_run_errors_after(run) : after;
+}
+
 /** What a trial of fewer disks says of all of them: a frame takes N^3, an error the time of sound
  * through the box. */
 static void enlarge(hd_estimate *e, const hd_scene_def *tried, const hd_scene_def *def)
@@ -144,6 +168,7 @@ hd_status hd_estimate_run(hd_estimate *out, const hd_scene_def *def, double fiel
     HD_TRY(hd_run_create(&run, &tried, message, size));
     hd_run_fields_every(run, fields_every);
     const hd_status status = measure(out, run);
+    out->target_after = target_after(run, def);
     enlarge(out, &tried, def);
     out->slopes_after = OF_SLOPES * out->errors_after;
     out->extent = hd_extent_of(def, run);

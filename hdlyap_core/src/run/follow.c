@@ -23,7 +23,7 @@ static hd_status change(hd_run *run, const hd_order *order)
     int count;
     const hd_parameter *rows = hd_scene_parameters(&count);
     HD_ASSERT(order->integer >= 0 && order->integer < count);
-    return hd_run_change(run, &rows[order->integer], order->number, NULL, 0);
+    return hd_run_change(run, &rows[order->integer], order->text, NULL, 0);
 }
 
 static void free_run(hd_run **run)
@@ -37,7 +37,7 @@ static hd_status obey(hd_run **run, hd_communicator *c, const hd_order *o)
 {
     switch (o->kind) {
     case HD_ORDER_CREATE: return hd_run_create_shared(run, o->scene, c, NULL, 0);
-    case HD_ORDER_RESUME: return hd_run_resume_shared(run, o->path, o->scene, c, NULL, 0);
+    case HD_ORDER_RESUME: return hd_run_resume_shared(run, o->text, o->scene, c, NULL, 0);
     case HD_ORDER_FREE: free_run(run); break;
     case HD_ORDER_ADVANCE: return hd_run_advance(*run);
     case HD_ORDER_OBSERVE: hd_run_observe(*run, (unsigned)o->integer); break;

@@ -26,13 +26,13 @@ typedef struct hd_order {
     int integer; /**< stages, a column, a row of the table of parameters */
     double number;
     const hd_scene_def *scene; /**< NULL: none */
-    const char *path;          /**< NULL: none */
+    const char *text;          /**< a path, a value; NULL: none */
 } hd_order;
 
-/** Where an order that was heard keeps its scene and its path. */
+/** Where an order that was heard keeps its scene and its text. */
 typedef struct hd_order_room {
     hd_scene_def scene;
-    char path[HD_CHECKPOINT_PATH];
+    char text[HD_CHECKPOINT_PATH];
 } hd_order_room;
 
 /** Tells it to the other ranks; nothing unless this rank leads. */

@@ -67,25 +67,19 @@ double hd_run_errors_after(const hd_run *run)
     return run->carrier.spectrum ? HD_SPECTRUM_BLOCKS_MIN * block : 0.0;
 }
 
-/** Simulated time until the target is reached, as errors fall with the root of the time; INFINITY
- * if it is none, or not yet known. */
-static double target_left(const hd_run *run)
+double hd_run_shortest_duration(const hd_run *run)
 {
-    const hd_spectrum *spectrum = run->carrier.spectrum;
-    if (run->scene.target_std_error == 0 || hd_run_stage(run) != HD_AVERAGING || !spectrum)
-        return INFINITY;
-    const double error = hd_carrier_smallest_error(&run->carrier);
-    const double ratio = error / run->scene.target_std_error;
-    return hd_spectrum_time(spectrum) * fmax(ratio * ratio - 1.0, 0.0);
+    const double begin = hd_agenda_stage_begin(&run->agenda);
+    return hd_run_stage(run) == HD_AVERAGING ? hd_run_change_time(run) - begin : NAN;
 }
 
-/** Simulated time still to come; INFINITY for an endless run. */
-static double time_left(const hd_run *run)
+/** Simulated time still to come, the target so much; INFINITY for an endless run. */
+static double time_left(const hd_run *run, double target)
 {
     const hd_scene_def *scene = &run->scene;
     const hd_stage stage = hd_run_stage(run);
     if (stage == HD_FINISHED) return 0.0;
-    double left = fmin(hd_agenda_stage_end(&run->agenda) - hd_run_time(run), target_left(run));
+    double left = fmin(hd_agenda_stage_end(&run->agenda) - hd_run_time(run), target);
     if (stage == HD_EQUILIBRATING) left += scene->warmup;
     if (stage < HD_AVERAGING) left += scene->duration > 0 ? scene->duration : INFINITY;
     return left;
@@ -94,7 +88,8 @@ static double time_left(const hd_run *run)
 static void add_progress(hd_cost *cost, const hd_run *run)
 {
     const hd_clocks *clocks = &run->clocks;
-    const double now = hd_clock_now(), left = time_left(run), time = hd_run_time(run);
+    const double now = hd_clock_now(), left = time_left(run, cost->target.left),
+                 time = hd_run_time(run);
     const double carried = time - clocks->frame_start_time; /* equilibration is no measure of it */
     const bool known = clocks->frame_started != 0 && carried > 0 && left < INFINITY;
     cost->wall = now - clocks->created;
@@ -119,6 +114,7 @@ hd_cost hd_run_cost(const hd_run *run)
     const hd_traffic traffic = hd_communicator_traffic(run->communicator);
     const double error = hd_carrier_smallest_error(&run->carrier);
     const double collisions = (double)hd_trajectory_collisions(run->advance.trajectory);
+    cost.target = hd_target_standing(run, hd_agenda_target(&run->agenda));
     add_progress(&cost, run);
     add_trend(&cost, run);
     cost.covariant = windows ? *hd_windows_seconds(windows) : 0.0;

@@ -143,6 +143,7 @@ hd_status hd_run_make(hd_run **out, const hd_scene_def *def, hd_communicator *co
 {
     *out = NULL;
     HD_TRY(hd_ranks_check(def, communicator, message, size));
+    HD_TRY(hd_target_check(def, message, size));
     hd_run *run = hd_memory_alloc(1, sizeof *run);
     const hd_status found = hd_communicator_agree(communicator, run ? HD_OK : HD_NO_MEMORY);
     if (found != HD_OK) {
@@ -181,12 +182,6 @@ void hd_run_drop(hd_run *run)
 
 /* ---- what is due --------------------------------------------------------------------------- */
 
-static bool target_reached(const hd_run *run)
-{
-    const double target = hd_agenda_target(&run->agenda);
-    return target > 0 && hd_carrier_smallest_error(&run->carrier) <= target;
-}
-
 /** Takes up what has been asked for since, if it holds from now on. The averaging may end with it.
  */
 static void take_changes(hd_run *run)
@@ -194,7 +189,7 @@ static void take_changes(hd_run *run)
     const double now = hd_run_time(run);
     if (now < hd_run_change_time(run) || !hd_agenda_change(&run->agenda, &run->scene, now)) return;
     hd_advance_stop(&run->advance, hd_agenda_next_report(&run->agenda));
-    hd_agenda_end_averaging(&run->agenda, target_reached(run), now);
+    hd_agenda_end_averaging(&run->agenda, hd_target_reached(run), now);
 }
 
 /** Longest time from one measured state to the next; as somebody asks for it, if there is anything
@@ -317,10 +312,10 @@ static bool needs_state(const hd_run *run)
 
 static hd_status report(hd_run *run)
 {
-    bool reached = is_averaging(run) && target_reached(run);
+    bool reached = is_averaging(run) && hd_target_reached(run);
     if (reached && !is_measured(run)) { /* with the sample that ends here it may not be any more */
         HD_TRY(end_early(run));
-        reached = target_reached(run);
+        reached = hd_target_reached(run);
     }
     hd_agenda_pass_report(&run->agenda, reached);
     HD_TRY(hd_ranks_compare(run->communicator, run->advance.trajectory));

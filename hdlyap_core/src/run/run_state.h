@@ -1,5 +1,5 @@
 /** What a run holds, for the files that make it up: run.c goes on, query.c tells, change.c takes
- * what is asked for, checkpoint.c keeps.
+ * what is asked for, target.c says whether it is reached, checkpoint.c keeps.
  */
 #ifndef HD_RUN_STATE_H
 #define HD_RUN_STATE_H
@@ -52,5 +52,12 @@ HD_MUST_CHECK hd_status hd_run_settle(hd_run *run);
 
 /** The way back of covariant vectors, where they are wanted of what is carried now; else NULL. */
 hd_windows *hd_run_windows(const hd_run *run);
+
+/** Of a target that hd_target_check has passed. */
+hd_standing hd_target_standing(const hd_run *run, const hd_text *target);
+/** That the target which is in force is: false without one. */
+bool hd_target_reached(const hd_run *run);
+/** These stages, and those without which the scene's target would never be known. */
+unsigned hd_target_stages(const hd_scene_def *def, unsigned stages);
 
 #endif

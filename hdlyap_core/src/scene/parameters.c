@@ -1,6 +1,7 @@
 /** parameters.inc -> rows, and values by them. */
 #include "hdlyap/parameters.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 static const hd_parameter_word hd_container_words[] = {{"rectangle", HD_RECTANGLE},
@@ -61,6 +62,7 @@ double hd_parameter_value(const hd_parameter *row, const hd_scene_def *def)
     case HD_PARAMETER_REAL:
     case HD_PARAMETER_INTERVAL: return memcpy(&real, field, sizeof real), real;
     case HD_PARAMETER_SEED: return memcpy(&bits, field, sizeof bits), (double)bits;
+    case HD_PARAMETER_TEXT: return *field != '\0';
     default: return memcpy(&whole, field, sizeof whole), whole;
     }
 }
@@ -72,8 +74,32 @@ void hd_parameter_assign(const hd_parameter *row, hd_scene_def *def, double valu
     case HD_PARAMETER_REAL:
     case HD_PARAMETER_INTERVAL: memcpy(field, &value, sizeof value); break;
     case HD_PARAMETER_SEED: memcpy(field, &(uint64_t){(uint64_t)value}, sizeof(uint64_t)); break;
+    case HD_PARAMETER_TEXT: memset(field, 0, HD_TEXT); break;
     default: memcpy(field, &(int){(int)value}, sizeof(int));
     }
+}
+
+bool hd_parameter_read(const hd_parameter *row, hd_scene_def *def, const char *text)
+{
+    char *end, *field = (char *)def + row->offset;
+    if (row->kind == HD_PARAMETER_TEXT) {
+        if (strlen(text) >= HD_TEXT) return false;
+        memset(field, 0, HD_TEXT);
+        memcpy(field, text, strlen(text));
+        return true;
+    }
+    const double value = strtod(text, &end);
+    if (row->kind != HD_PARAMETER_REAL || end == text || end[strspn(end, " ")]) return false;
+    hd_parameter_assign(row, def, value);
+    return true;
+}
+
+bool hd_parameter_same(const hd_parameter *row, const hd_scene_def *a, const hd_scene_def *b)
+{
+    const char *of_a = (const char *)a + row->offset, *of_b = (const char *)b + row->offset;
+    if (row->kind == HD_PARAMETER_SEED) return memcmp(of_a, of_b, sizeof(uint64_t)) == 0;
+    if (row->kind == HD_PARAMETER_TEXT) return strncmp(of_a, of_b, HD_TEXT) == 0;
+    return hd_parameter_value(row, a) == hd_parameter_value(row, b);
 }
 
 const char *hd_parameter_word_of(const hd_parameter *row, int value)

@@ -100,6 +100,9 @@ void hd_scene_archive(hd_scene_def *def, hd_archive *archive)
         int whole;
         switch (r->kind) {
         case HD_PARAMETER_SEED: hd_archive_bits(archive, r->record, &def->seed); continue;
+        case HD_PARAMETER_TEXT:
+            hd_archive_text(archive, r->record, (char *)def + r->offset, HD_TEXT);
+            continue;
         case HD_PARAMETER_REAL:
         case HD_PARAMETER_INTERVAL: hd_archive_double(archive, r->record, &real); break;
         default:

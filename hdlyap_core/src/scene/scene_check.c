@@ -27,7 +27,9 @@ static hd_status refuse_value(const hd_parameter *row, const hd_scene_def *def, 
 /** What has a range of its own, whatever the others are. The negated comparison refuses NaN too. */
 static bool is_in_range(const hd_parameter *row, double value)
 {
-    if (row->kind == HD_PARAMETER_SEED || row->kind == HD_PARAMETER_EXPONENTS) return true;
+    if (row->kind == HD_PARAMETER_SEED || row->kind == HD_PARAMETER_EXPONENTS ||
+        row->kind == HD_PARAMETER_TEXT)
+        return true;
     if (row->kind == HD_PARAMETER_INTERVAL && hd_parameter_is_word(row, value)) return true;
     return value >= row->least && value <= row->most;
 }

@@ -33,3 +33,12 @@ void number_of_fit(char *text, size_t size, double value, double error, double m
     const size_t end = strlen(text);
     if (misfit >= 0.0) snprintf(text + end, size - end, ", misfit %.1f", misfit);
 }
+
+void number_text(char *text, size_t size, double value)
+{
+    enum { FEW = 6, ENOUGH = 17 };
+    for (int digits = FEW; digits <= ENOUGH; digits++) {
+        snprintf(text, size, "%.*g", digits, value);
+        if (strtod(text, NULL) == value) return;
+    }
+}

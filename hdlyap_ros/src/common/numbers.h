@@ -10,4 +10,7 @@ void number_with_error(char *text, size_t size, double value, double error);
 /** Of a fit: 3.49(11), misfit 6.5; without the misfit while that is not known (negative). */
 void number_of_fit(char *text, size_t size, double value, double error, double misfit);
 
+/** In as few digits as tell it from every other number. */
+void number_text(char *text, size_t size, double value);
+
 #endif

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "common/numbers.h"
 #include "parameters.h"
 #include "reader.h"
 
@@ -18,13 +19,16 @@ bool change_refuse(char *message, size_t size, const char *what, const char *why
     return false;
 }
 
-/** A number from end to end and in the row's range. */
-static bool parse_value(double *value, const char *text, const parameter *p)
+/** A number from end to end and in the row's range; or a text, which the core judges. */
+static bool parse_value(char value[HD_TEXT], const char *text, const parameter *p)
 {
     char *end;
     const double least = p->row ? p->row->least : p->least, most = p->row ? p->row->most : p->most;
-    *value = strtod(text, &end);
-    return end != text && !end[strspn(end, " ")] && *value >= least && *value <= most;
+    if (p->row && p->row->kind == HD_PARAMETER_TEXT)
+        return snprintf(value, HD_TEXT, "%s", text + strspn(text, " ")) < HD_TEXT;
+    const double number = strtod(text, &end);
+    number_text(value, HD_TEXT, number);
+    return end != text && !end[strspn(end, " ")] && number >= least && number <= most;
 }
 
 bool change_parse(change *out, const char *assignment, char *message, size_t size)
@@ -44,7 +48,7 @@ bool change_parse(change *out, const char *assignment, char *message, size_t siz
     out->name = p.name;
     if (!p.live) return change_refuse(message, size, assignment, "is read at the start");
     snprintf(why, sizeof why, "must be %s", p.allowed);
-    return parse_value(&out->value, sign + 1, &p) || change_refuse(message, size, assignment, why);
+    return parse_value(out->value, sign + 1, &p) || change_refuse(message, size, assignment, why);
 }
 
 bool change_parse_timed(change *out, const char *text, char *message, size_t size)

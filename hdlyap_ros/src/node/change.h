@@ -5,10 +5,12 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "hdlyap/scene.h"
+
 typedef struct change {
-    const char *name;     /**< of the parameter's row */
-    double time;          /**< simulated, from which on it holds */
-    double before, value; /**< until then, and since */
+    const char *name;                     /**< of the parameter's row */
+    double time;                          /**< simulated, from which on it holds */
+    char before[HD_TEXT], value[HD_TEXT]; /**< until then, and since */
 } change;
 
 /** "NAME=VALUE" -> name and value, which the row allows. False if that is no change of a live

@@ -1,10 +1,12 @@
 /** Changes -> another value in the run and in the settings. Called by the thread that steps it. */
 #include "changes.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "common/numbers.h"
 #include "hdlyap_ros/node.h"
 #include "parameters.h"
 
@@ -24,19 +26,18 @@ static void put_to_made(changes *all, int k)
     all->list[all->made++] = made;
 }
 
-/** Of a live parameter, all of which are real numbers. */
-static double *value_of(settings *set, const parameter *p)
+/** In the settings alone. Of live parameters those that are no text are real numbers. */
+static void assign(change *c, settings *set, const parameter *p)
 {
-    return (double *)((char *)set + p->offset + (p->row ? p->row->offset : 0));
-}
-
-/** In the settings alone. */
-static double *assign(change *c, settings *set, const parameter *p)
-{
-    double *value = value_of(set, p);
-    c->before = *value;
-    *value = c->value;
-    return value;
+    char *field = (char *)set + p->offset + (p->row ? p->row->offset : 0);
+    if (p->row && p->row->kind == HD_PARAMETER_TEXT)
+        snprintf(c->before, sizeof c->before, "%s", field);
+    else
+        number_text(c->before, sizeof c->before, *(double *)field);
+    if (p->row)
+        (void)hd_parameter_read(p->row, &set->def, c->value);
+    else
+        *(double *)field = strtod(c->value, NULL);
 }
 
 /** The first of those that wait for no later time than this; -1 if there is none. */
@@ -60,7 +61,7 @@ bool changes_create(changes *out, settings *set, double since)
                                  sizeof message);
     for (int k; (k = first_until(out, since * (1.0 + CLOSE))) >= 0;) {
         const parameter p = parameters_named(out->list[k].name);
-        (void)assign(&out->list[k], set, &p);
+        assign(&out->list[k], set, &p);
         put_to_made(out, k);
     }
     return true;
@@ -81,10 +82,11 @@ static bool make(change *c, settings *set, hd_run *run, char *message, size_t si
     if (is_ended(run, message, size, c->name)) return false;
     c->time = p.at_once ? hd_run_time(run) : hd_run_change_time(run);
     if (p.row && hd_run_change(run, p.row, c->value, message, size) != HD_OK) return false;
-    const double *value = assign(c, set, &p);
-    if (value == &set->field_interval) hd_run_fields_every(run, *value);
-    snprintf(message, size, "%s = %.15g from simulated time %.6g on, was %.15g", c->name, c->value,
-             c->time, c->before);
+    const double every = set->field_interval;
+    assign(c, set, &p);
+    if (set->field_interval != every) hd_run_fields_every(run, set->field_interval);
+    snprintf(message, size, "%s = %s from simulated time %.6g on, was %s", c->name, c->value,
+             c->time, *c->before ? c->before : "none");
     return true;
 }
 
@@ -102,6 +104,20 @@ bool changes_ask(changes *all, settings *set, hd_run *run, const char *assignmen
     return true;
 }
 
+bool changes_end(changes *all, settings *set, hd_run *run, char *message, size_t size)
+{
+    char assignment[64];
+    const double duration = hd_run_shortest_duration(run);
+    if (is_ended(run, message, size, "~stop")) return false;
+    if (isnan(duration))
+        return change_refuse(message, size, "~stop",
+                             "nothing has been averaged yet; rosnode kill ends the node at once");
+    snprintf(assignment, sizeof assignment, "duration=%.17g", duration);
+    if (!changes_ask(all, set, run, assignment, message, size)) return false;
+    snprintf(message, size, "ends at simulated time %.6g", all->list[all->made - 1].time);
+    return true;
+}
+
 static bool is_due(const change *c, const hd_run *run)
 {
     const parameter p = parameters_named(c->name);
@@ -113,7 +129,7 @@ bool changes_take(changes *all, settings *set, hd_run *run)
 {
     const int made = all->made;
     for (int k = all->made; k < all->count;) {
-        char message[256];
+        char message[3 * HD_TEXT];
         if (!is_due(&all->list[k], run)) {
             k++;
         } else if (make(&all->list[k], set, run, message, sizeof message)) {

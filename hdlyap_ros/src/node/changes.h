@@ -23,6 +23,10 @@ void changes_clear(changes *all);
 bool changes_ask(changes *all, settings *set, hd_run *run, const char *assignment, char *message,
                  size_t size);
 
+/** Changes the duration so that the averaging ends as soon as it can. False as changes_ask, and
+ * before the averaging. */
+bool changes_end(changes *all, settings *set, hd_run *run, char *message, size_t size);
+
 /** Makes those that wait whose time has come, before the next step. True if there were any; what is
  * refused now is in the log. */
 bool changes_take(changes *all, settings *set, hd_run *run);

@@ -187,6 +187,26 @@ static void print_errors(const settings *set, const hd_estimate *t)
         printf("          The duration is too short for any error.\n");
 }
 
+/** In simulated time of averaging, and in that of the wall. */
+static void print_target(const settings *set, const hd_estimate *t)
+{
+    const hd_scene_def *def = &set->def;
+    const bool known = t->target_after < INFINITY; /* NaN is not */
+    const double after = known ? t->target_after : t->errors_after;
+    if (!*def->target.line) return;
+    printf("target    %s\n          ", def->target.line);
+    if (isinf(t->target_after)) {
+        printf("never reached: this box and its waves leave more open, see above\n");
+        return;
+    }
+    printf(known ? "reached after some %.3g time units of averaging ("
+                 : "not before %.3g time units of averaging, when errors are first stated (",
+           after);
+    print_seconds("", (t->before + after) * t->seconds);
+    printf(" from the start)%s\n", known ? ", as the errors of the trial say" : "");
+    if (def->duration > 0 && def->duration < after) printf("          The duration ends before.\n");
+}
+
 static void print_all(const settings *set, const hd_estimate *t, hd_room room)
 {
     const hd_scene_def *def = &set->def;
@@ -200,6 +220,7 @@ static void print_all(const settings *set, const hd_estimate *t, hd_room room)
     if (!hd_scene_vectors(def)) return;
     if (def->observe & STAGES_OF_MODES) print_waves(set);
     print_errors(set, t);
+    print_target(set, t);
 }
 
 static int refused(int status, const char *message)
@@ -218,31 +239,57 @@ static const char *name_of(const char *path, char *name, size_t size)
     return name;
 }
 
-int check_scene(int count, char *const *arguments)
+/** Prints what it finds out of settings that are right; the exit status. */
+typedef int printer(settings *set, const char *path, const hdr_params *params);
+
+static int of_file(int count, char *const *arguments, printer *print)
 {
-    char message[512] = "", name[256];
+    char message[512] = "";
     hdr_params *params;
     settings set;
-    hd_estimate t = {.disks = 0};
     if (count < 1) return refused(REFUSED, "--check: must be followed by a scene file");
     if (hdr_params_read(&params, arguments[0], count - 1, arguments + 1) != HDR_OK)
         return refused(REFUSED, hdr_error_text());
-    int status = EXIT_SUCCESS;
-    if (!settings_read(&set, params, NULL, message, sizeof message)) {
-        status = refused(REFUSED, message);
-    } else {
-        const hd_room room = hd_room_available();
-        if (!*hdr_param_text(params, "scene")) set.scene = name_of(arguments[0], name, sizeof name);
-        hd_status tried = hd_room_check(&set.def, room, message, sizeof message);
-        if (tried == HD_OK)
-            tried = hd_estimate_run(&t, &set.def, set.field_interval, message, sizeof message);
-        t.extent = extent_of(&set, t.extent);
-        if (tried == HD_OK)
-            print_all(&set, &t, room);
-        else
-            status = refused(tried == HD_REFUSED ? REFUSED : FAULT,
-                             *message ? message : hd_status_text(tried));
-    }
+    const bool right = settings_read(&set, params, NULL, message, sizeof message);
+    const int status = right ? print(&set, arguments[0], params) : refused(REFUSED, message);
     hdr_params_free(params);
     return fflush(stdout) == 0 ? status : FAULT;
+}
+
+static int fault(hd_status status, const char *message)
+{
+    return refused(status == HD_REFUSED ? REFUSED : FAULT,
+                   *message ? message : hd_status_text(status));
+}
+
+static int try_scene(settings *set, const char *path, const hdr_params *params)
+{
+    char message[512] = "", name[256];
+    hd_estimate t = {.disks = 0};
+    const hd_room room = hd_room_available();
+    if (!*hdr_param_text(params, "scene")) set->scene = name_of(path, name, sizeof name);
+    hd_status tried = hd_room_check(&set->def, room, message, sizeof message);
+    if (tried == HD_OK)
+        tried = hd_estimate_run(&t, &set->def, set->field_interval, message, sizeof message);
+    if (tried != HD_OK) return fault(tried, message);
+    t.extent = extent_of(set, t.extent);
+    print_all(set, &t, room);
+    return EXIT_SUCCESS;
+}
+
+static int tell_errors(settings *set, const char *path, const hdr_params *params)
+{
+    double after;
+    (void)path, (void)params;
+    const hd_status status = hd_estimate_errors(&after, &set->def);
+    if (status != HD_OK) return fault(status, "");
+    printf("%.6g\n", after);
+    return EXIT_SUCCESS;
+}
+
+int check_scene(int count, char *const *arguments) { return of_file(count, arguments, try_scene); }
+
+int check_errors(int count, char *const *arguments)
+{
+    return of_file(count, arguments, tell_errors);
 }

@@ -6,4 +6,7 @@
  * is refused, as the node would say it. The node's exit status. */
 int check_scene(int count, char *const *arguments);
 
+/** Prints the averaged time from which its errors are stated; the same arguments and statuses. */
+int check_errors(int count, char *const *arguments);
+
 #endif

@@ -44,6 +44,7 @@ static void add_errors(conditions *all, const worker_state *state)
 static void add_warnings(conditions *all, const worker_state *state, const hdr_lag *slowest)
 {
     const progress *last = &state->last;
+    const hd_standing *at = &last->cost.target;
     const uint8_t level = HDR_DIAGNOSTIC_WARN;
     if (last->cost.stalled_since >= 0.0)
         add(all, level,
@@ -54,6 +55,9 @@ static void add_warnings(conditions *all, const worker_state *state, const hdr_l
     if (state->lost > 0.0)
         add(all, level, "nobody can subscribe: no ROS master has known this node for %.0f s",
             state->lost);
+    if (*at->name && at->error >= 0.0 && at->open >= at->wanted)
+        add(all, level, "%s is not known to %.2g by any averaging: %.2g stays open in this box",
+            at->name, at->wanted, at->open);
     if (slowest->seconds >= behind_seconds)
         add(all, level, "a subscriber of %s is %.1f s behind", slowest->topic, slowest->seconds);
     if (slowest->lost > 0)

@@ -318,6 +318,7 @@ int main(int argc, char **argv)
     if (answered >= 0) return answered;
     hd_blas_restart_if_slow(argv);
     if (argc > 1 && strcmp(argv[1], "--check") == 0) return check_scene(argc - 2, argv + 2);
+    if (argc > 1 && strcmp(argv[1], "--errors") == 0) return check_errors(argc - 2, argv + 2);
     if (!ranks_join(&a.ranks, &argc, &argv, message, sizeof message))
         return *message ? refuse(message) : EXIT_SUCCESS;
     const int status = a.ranks && a.ranks->rank > 0 ? follow(&a) : lead(&a, argc, argv);

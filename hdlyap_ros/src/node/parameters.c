@@ -32,7 +32,8 @@ static const parameter rows[] = {
         .unit = "",
         .text =
             "Topics that are computed and published, beside run_info, status, cost and "
-            "/diagnostics. A topic costs nothing while nobody subscribes to it; the table of the log "
+            "/diagnostics. A topic costs nothing while nobody subscribes to it; the table of the "
+            "log "
             "asks for steps and lp_phases, too. With exponents: "
             "none there are only gas and state. A resumed run may have other ones of spectrum and "
             "state.",
@@ -239,6 +240,10 @@ void parameters_unknown(char text[PARAMETER_UNKNOWN], const char *name)
 {
     const char *meant = NULL;
     size_t fewest = 3;
+    if (strcmp(name, "target_std_error") == 0) { /* of before */
+        snprintf(text, PARAMETER_UNKNOWN, "it is written target: smallest 0.01 now");
+        return;
+    }
     for (int k = 0; k < parameters_count(); k++) {
         const char *other = parameters_at(k).name;
         const size_t n = slips(name, other);
@@ -260,6 +265,7 @@ parameter parameters_named(const char *name)
 void parameter_usual(char text[PARAMETER_TEXT], const parameter *p)
 {
     const char *word = p->row ? hd_parameter_word_of(p->row, (int)p->row->usual) : p->usual;
+    if (p->row && p->row->kind == HD_PARAMETER_TEXT) word = "";
     if (word)
         snprintf(text, PARAMETER_TEXT, "%s", word);
     else

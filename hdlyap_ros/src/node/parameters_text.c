@@ -57,7 +57,7 @@ static void write_value(char *out, size_t size, const parameter *p)
     char usual[PARAMETER_TEXT];
     const hd_parameter_kind kind = p->row ? p->row->kind : HD_PARAMETER_WORD;
     parameter_usual(usual, p);
-    if (kind == HD_PARAMETER_SEED || p->kind == FILE_PATH)
+    if (kind == HD_PARAMETER_SEED || kind == HD_PARAMETER_TEXT || p->kind == FILE_PATH)
         snprintf(out, size, "\"%s\"", usual);
     else if (p->kind == TOPICS_OBSERVED || p->kind == TOPICS_AWAITED || p->kind == CHANGES)
         snprintf(out, size, "[%s]", usual);
@@ -87,6 +87,8 @@ int parameters_print_help(void)
         "                         says, without a run, whether it is valid, what memory and time "
         "it\n"
         "                         takes, how large its bag becomes and which waves are looked for\n"
+        "  " NODE_NAME " --errors scene.yaml [parameter:=value ...]\n"
+        "                         prints the averaged time from which it states errors\n"
         "  " NODE_NAME " --parameters\n"
         "                         prints a scene file with all parameters and their defaults\n"
         "  " NODE_NAME " --version\n\n"

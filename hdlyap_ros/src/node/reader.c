@@ -122,6 +122,14 @@ static bool read_word(const reader *r, const parameter *p, int *value)
            reader_refuse(r, p->allowed);
 }
 
+static bool read_text(const reader *r, const parameter *p, hd_scene_def *def)
+{
+    const char *text = NULL;
+    const hdr_status status = hdr_param_string(r->params, r->name, &text);
+    return status == HDR_MISSING || (status == HDR_OK && hd_parameter_read(p->row, def, text)) ||
+           reader_refuse(r, p->allowed);
+}
+
 static bool read_of_scene(const reader *r, const parameter *p, hd_scene_def *def)
 {
     double real = hd_parameter_value(p->row, def);
@@ -129,6 +137,7 @@ static bool read_of_scene(const reader *r, const parameter *p, hd_scene_def *def
     bool read = true;
     switch (p->row->kind) {
     case HD_PARAMETER_SEED: return read_seed(r, p, &def->seed);
+    case HD_PARAMETER_TEXT: return read_text(r, p, def);
     case HD_PARAMETER_INTERVAL: read = read_interval(r, p, &real); break;
     case HD_PARAMETER_REAL:
         read = accepts(r, hdr_param_double(r->params, r->name, &real), "a number");

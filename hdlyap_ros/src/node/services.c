@@ -47,6 +47,12 @@ static bool on_set(void *context, const char *assignment, char *message, size_t 
     return worker_set(w, answer_seconds, assignment, message, size);
 }
 
+static bool on_stop(void *context, char *message, size_t size)
+{
+    worker *w = context;
+    return worker_end_averaging(w, answer_seconds, message, size);
+}
+
 hdr_status services_advertise(hdr_node *ros, worker *w)
 {
     const hdr_status status = hdr_service_set_bool(ros, "~pause", on_pause, w);
@@ -55,5 +61,7 @@ hdr_status services_advertise(hdr_node *ros, worker *w)
     if (reset != HDR_OK) return reset;
     const hdr_status keep = hdr_service_trigger(ros, "~checkpoint", on_checkpoint, w);
     if (keep != HDR_OK) return keep;
+    const hdr_status stop = hdr_service_trigger(ros, "~stop", on_stop, w);
+    if (stop != HDR_OK) return stop;
     return hdr_service_set(ros, "~set", on_set, w);
 }

@@ -252,6 +252,11 @@ bool settings_read(settings *out, const hdr_params *params, const hd_checkpoint 
         !check_needs(out, &r))
         return false;
     write_texts(out);
-    return hd_scene_check(&out->def, message, size) == HD_OK && check_field_indices(out, &r) &&
-           check_slow_vectors(out, &r) && check_changes(out, message, size);
+    if (hd_scene_check(&out->def, message, size) != HD_OK ||
+        hd_target_check(&out->def, message, size) != HD_OK) {
+        make_one_line(message);
+        return false;
+    }
+    return check_field_indices(out, &r) && check_slow_vectors(out, &r) &&
+           check_changes(out, message, size);
 }

@@ -87,16 +87,22 @@ static void print_steps(const hd_run *run)
 static void print(const char *what, const settings *set, const hd_run *run)
 {
     const hd_spectrum *spectrum = hd_run_spectrum(run);
-    const double remaining = progress_of(run, set->pace).cost.remaining;
-    char of[TEXT] = "", lambda[TEXT], left[TEXT] = "";
+    char of[TEXT] = "", lambda[TEXT], left[TEXT] = "", target[2 * TEXT] = "";
+    const progress now = progress_of(run, set->pace);
+    const hd_standing *at = &now.cost.target;
     number_with_error(lambda, sizeof lambda, hd_spectrum_exponent(spectrum, 0),
                       hd_spectrum_std_error(spectrum, 0));
     if (set->def.duration > 0.0) snprintf(of, sizeof of, " of %.6g", set->def.duration);
+    const double remaining = now.cost.remaining;
+    if (at->error >= 0.0)
+        snprintf(target, sizeof target, ", %s to %.2g of %.2g", at->name, at->error, at->wanted);
+    else if (*at->name)
+        snprintf(target, sizeof target, ", error of %s not yet known", at->name);
     if (remaining > 0.0)
         snprintf(left, sizeof left, ", %.0f:%02.0f left", floor(remaining / 60.0),
                  floor(fmod(remaining, 60.0)));
-    hdr_log(HDR_INFO, "%s: averaged %.6g%s time units, lambda_max %s%s", what,
-            hd_spectrum_time(spectrum), of, lambda, left);
+    hdr_log(HDR_INFO, "%s: averaged %.6g%s time units, lambda_max %s%s%s", what,
+            hd_spectrum_time(spectrum), of, lambda, target, left);
     print_steps(run);
 }
 

@@ -25,7 +25,7 @@ static const double examination_share = 0.01;
 /** A change that is asked for, and what the worker says to it. */
 typedef struct set_request {
     bool waits, taken, made; /**< taken: the worker is at it, and its asker stays for the answer */
-    const char *assignment;  /**< the asker's, as the next */
+    const char *assignment;  /**< the asker's, as the next; NULL: the averaging is to end */
     char *message;
     size_t size;
 } set_request;
@@ -96,10 +96,13 @@ static void answer_set(worker *w)
     set_request *r = &w->set_asked;
     r->taken = true;
     pthread_mutex_unlock(&w->lock);
-    const bool made = changes_ask(w->changes, w->set, w->run, r->assignment, r->message, r->size);
+    const bool made = r->assignment ? changes_ask(w->changes, w->set, w->run, r->assignment,
+                                                  r->message, r->size)
+                                    : changes_end(w->changes, w->set, w->run, r->message, r->size);
     if (made) hdr_log(HDR_INFO, "set: %s", r->message);
     pthread_mutex_lock(&w->lock);
     r->made = made;
+    if (made && !r->assignment) w->pause = false;
     r->waits = r->taken = false;
     w->due = 0.0; /* of another pace */
     pthread_cond_broadcast(&w->changed);
@@ -422,7 +425,8 @@ static bool wait_for_answer(worker *w, double until)
     return wait_until(w, until) || w->set_asked.taken;
 }
 
-bool worker_set(worker *w, double seconds, const char *assignment, char *message, size_t size)
+/** assignment NULL: the averaging is to end. */
+static bool answered(worker *w, double seconds, const char *assignment, char *message, size_t size)
 {
     const double until = clock_seconds() + seconds;
     pthread_mutex_lock(&w->lock);
@@ -438,6 +442,16 @@ bool worker_set(worker *w, double seconds, const char *assignment, char *message
     const bool made = w->set_asked.made;
     pthread_mutex_unlock(&w->lock);
     return made;
+}
+
+bool worker_set(worker *w, double seconds, const char *assignment, char *message, size_t size)
+{
+    return answered(w, seconds, assignment, message, size);
+}
+
+bool worker_end_averaging(worker *w, double seconds, char *message, size_t size)
+{
+    return answered(w, seconds, NULL, message, size);
 }
 
 void worker_stop(worker *w) { ask(w, &w->stop, true); }

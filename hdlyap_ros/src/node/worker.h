@@ -63,6 +63,9 @@ bool worker_checkpoint(worker *w, double seconds, char *message, size_t size);
  * that begins. False with the reason in message: nothing has changed then, nor will. */
 bool worker_set(worker *w, double seconds, const char *assignment, char *message, size_t size);
 
+/** The same of changes_end; a run that pauses goes on to its end. */
+bool worker_end_averaging(worker *w, double seconds, char *message, size_t size);
+
 /** Waits at most that long for the end; true if it has come. */
 bool worker_wait(worker *w, double seconds);
 /** Asks the thread to end after the step that it is in. */

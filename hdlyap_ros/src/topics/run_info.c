@@ -71,6 +71,7 @@ static void fill_scene(hdr_run_info *info, const settings *set)
     info->seed = set->seed;
     info->exponents = set->exponents;
     info->zero_exponents = (uint32_t)hd_scene_zero_exponents(def);
+    info->target = def->target.line;
     info->interval = def->interval;
     info->phase_interval = def->phase_interval;
     info->warmup = hd_scene_warmup(def);

@@ -22,6 +22,7 @@ hd_status topic_publish_spectrum(const moment *now)
         .averaged_time = hd_spectrum_time(spectrum),
         .collisions = hd_trajectory_collisions(hd_run_trajectory(run)),
         .lambda_max = hd_spectrum_lambda_max(spectrum),
+        .lambda_max_error = hd_spectrum_std_error(spectrum, 0),
         .ks_entropy = hd_spectrum_ks_entropy(spectrum),
         .ks_entropy_error = hd_spectrum_ks_entropy_error(spectrum),
         .pairing_error = hd_spectrum_pairing_error(spectrum),

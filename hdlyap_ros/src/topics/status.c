@@ -12,6 +12,9 @@ hd_status topic_publish_status(const moment *now)
         .progress = last->cost.progress,
         .remaining_seconds = last->cost.remaining,
         .std_error = last->cost.std_error,
+        .target = last->cost.target.name,
+        .target_error = last->cost.target.error,
+        .target_wanted = last->cost.target.wanted,
     };
     return topic_send_status(now->out, &message);
 }

@@ -398,8 +398,10 @@ static double lead(hd_communicator *c)
     until_time(run, 35.0);
     hd_run_watch(run, INFINITY, hd_run_vectors(run));
     hd_run_observe(run, HD_OBSERVE_STEPS);
-    CHECK_OK(hd_run_change(run, parameter_named("duration"), 50.0, message, 300));
-    assert_int_equal(hd_run_change(run, parameter_named("duration"), -1.0, message, 300),
+    CHECK_OK(
+        hd_run_change(run, parameter_named("target"), "smallest 1e-9, T(1,0) 1e-9%", message, 300));
+    CHECK_OK(hd_run_change(run, parameter_named("duration"), "50", message, 300));
+    assert_int_equal(hd_run_change(run, parameter_named("duration"), "-1", message, 300),
                      HD_REFUSED);
     until_time(run, 45.0);
     CHECK_OK(hd_run_reset_average(run));

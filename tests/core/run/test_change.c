@@ -12,21 +12,34 @@ static const hd_parameter *row_of(const char *name)
     return row;
 }
 
-static void change(hd_run *run, const char *name, double value)
+static void change_to(hd_run *run, const char *name, const char *value)
 {
     char message[256] = "";
     if (hd_run_change(run, row_of(name), value, message, sizeof message) != HD_OK)
         fail_msg("%s", message);
 }
 
-static void expect_refused(hd_run *run, const char *name, double value, const char *line)
+static void change(hd_run *run, const char *name, double value)
+{
+    char text[40];
+    snprintf(text, sizeof text, "%.17g", value);
+    change_to(run, name, text);
+}
+
+static void expect_text_refused(hd_run *run, const char *name, const char *value, const char *line)
 {
     char message[256] = "";
     const hd_scene_def before = *hd_run_scene(run);
     assert_int_equal(hd_run_change(run, row_of(name), value, message, sizeof message), HD_REFUSED);
     if (!strstr(message, line)) fail_msg("%s: not in: %s", line, message);
-    CHECK_CLOSE(hd_parameter_value(row_of(name), hd_run_scene(run)),
-                hd_parameter_value(row_of(name), &before), 0.0);
+    assert_true(hd_parameter_same(row_of(name), hd_run_scene(run), &before));
+}
+
+static void expect_refused(hd_run *run, const char *name, double value, const char *line)
+{
+    char text[40];
+    snprintf(text, sizeof text, "%.17g", value);
+    expect_text_refused(run, name, text, line);
 }
 
 /** In the averaging, in the middle of a sample. */
@@ -147,12 +160,30 @@ TEST(at_the_end_it_is_too_late)
 TEST(the_target_changes)
 {
     OWNED(hd_run) *run = kept_run(scene_from(kept_scene(30, 0.7, 1.0, 5, 0), .duration = 400.0));
+    expect_text_refused(run, "target", "c_T 1%", "target = c_T 1%: must be without c_T");
+    expect_text_refused(run, "target", "lambda_max", "target = lambda_max: must be");
+    expect_text_refused(run, "duration", "5 time units", "duration = 5 time units: must be from 0");
     while (hd_run_cost(run).std_error < 0) kept_steps(run, 1);
     const double from = hd_run_change_time(run);
-    change(run, "target_std_error", 1e3); /* was reached long ago */
+    change_to(run, "target", "smallest 1000, lambda_max 99%"); /* was reached long ago */
     while (hd_run_stage(run) != HD_FINISHED) kept_steps(run, 1);
     CHECK_CLOSE(hd_run_time(run), from, 1e-9);
     assert_true(hd_run_report_due(run) && hd_run_fields_due(run)); /* of an end, as any other */
+}
+
+/** The shortest duration that is allowed ends the run where a change would hold, with its last
+ * report and fields. */
+TEST(the_shortest_duration_ends_it)
+{
+    OWNED(hd_run) *run = kept_run(scene_from(kept_scene(30, 0.7, 1.0, 5, 0), .duration = 0.0));
+    assert_true(isnan(hd_run_shortest_duration(run)));
+    while (hd_run_stage(run) != HD_AVERAGING || hd_run_time(run) < 60.0) kept_steps(run, 1);
+    const double from = hd_run_change_time(run);
+    change(run, "duration", hd_run_shortest_duration(run));
+    while (hd_run_stage(run) != HD_FINISHED) kept_steps(run, 1);
+    CHECK_CLOSE(hd_run_time(run), from, 1e-9);
+    assert_true(hd_run_report_due(run) && hd_run_fields_due(run));
+    assert_true(isnan(hd_run_shortest_duration(run)));
 }
 
 /** Before and after any change of the reports (none if they stay as they are) the first of them at

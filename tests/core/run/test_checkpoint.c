@@ -195,14 +195,14 @@ TEST(phases_too_short_for_the_time_to_move_are_kept)
 TEST(what_the_target_has_ended_stays_ended)
 {
     hd_scene_def def = scene_from(kept_scene(20, 0.7, 1.0, HD_EXPONENTS_POSITIVE, 0),
-                                  .duration = 0.0, .target_std_error = 0.05);
+                                  .duration = 0.0, .target = (hd_text){"smallest 0.05"});
     OWNED(hd_run) *run = kept_run(def);
     kept_steps(run, 100000);
     assert_int_equal(hd_run_stage(run), HD_FINISHED);
     OWNED(hd_run) *again = kept_and_resumed(run, PATH, &def);
     assert_int_equal(hd_run_stage(again), HD_FINISHED);
     hd_run_free(again);
-    def.target_std_error = 0.02;
+    def.target = (hd_text){"smallest 0.02"};
     again = kept_and_resumed(run, PATH, &def);
     assert_int_equal(hd_run_stage(again), HD_AVERAGING);
 }
@@ -217,7 +217,8 @@ TEST(another_target_holds_at_once)
     while (!(hd_run_cost(run).std_error > 0)) CHECK_OK(hd_run_advance(run));
     while (!hd_run_report_due(run) || hd_agenda_is_measured(&run->agenda, hd_run_time(run)))
         CHECK_OK(hd_run_advance(run));
-    const hd_scene_def asked = scene_from(def, .target_std_error = 2 * hd_run_cost(run).std_error);
+    hd_scene_def asked = def;
+    snprintf(asked.target.line, HD_TEXT, "smallest %.17g", 2 * hd_run_cost(run).std_error);
     OWNED(hd_run) *other = kept_and_resumed(run, PATH, &asked);
     const double now = hd_run_time(other);
     assert_true(other->agenda.interval_end > now + 2 * def.report_interval);
@@ -270,6 +271,7 @@ static hd_scene_def with_another(const hd_scene_def *def, const hd_parameter *ro
         hd_parameter_assign(row, &other, value == 0.0 ? 0.5 : 1.01 * value);
         break;
     case HD_PARAMETER_WORD: hd_parameter_assign(row, &other, 1.0 - value); break;
+    case HD_PARAMETER_TEXT: assert_true(hd_parameter_read(row, &other, "lambda_max 1e-9")); break;
     default: hd_parameter_assign(row, &other, value < row->most ? value + 1.0 : value - 1.0);
     }
     return other;

@@ -141,15 +141,15 @@ TEST(a_target_is_not_met_by_luck)
     const double truth = 5.1067, of_truth = 0.0021; /* 40 runs of 4000 time units */
     int beyond_two = 0, beyond_three = 0;
     for (int seed = 1; seed <= TIMES; seed++) {
-        hd_scene_def scene = scene_from(box(10, 0.7, hd_scene_def_default().aspect, P),
-                                        .equilibration = 5.0, .warmup = 10.0, .exponents = 1,
-                                        .observe = 0, .duration = 20000.0, .target_std_error = 0.1,
-                                        .seed = (uint64_t)seed);
+        hd_scene_def scene = scene_from(
+            box(10, 0.7, hd_scene_def_default().aspect, P), .equilibration = 5.0, .warmup = 10.0,
+            .exponents = 1, .observe = 0, .duration = 20000.0,
+            .target = (hd_text){"lambda_max 0.1"}, .seed = (uint64_t)seed);
         OWNED(hd_run) *run = finished(scene);
         const hd_spectrum *spectrum = hd_run_spectrum(run);
         const double error = hd_spectrum_std_error(spectrum, 0);
         const double off = fabs(hd_spectrum_exponent(spectrum, 0) - truth);
-        assert_true(hd_spectrum_time(spectrum) < 2000.0 && error <= scene.target_std_error);
+        assert_true(hd_spectrum_time(spectrum) < 2000.0 && error <= 0.1);
         beyond_two += off > 2.0 * hypot(error, of_truth);
         beyond_three += off > 3.0 * hypot(error, of_truth);
     }

@@ -42,7 +42,6 @@ static const struct {
     {"equilibration", 1e-3, 1},
     {"warmup", 1e-3, 1},
     {"duration", 0.1, 100},
-    {"target_std_error", 1e-3, 1},
     {"interval", 0.01, 10},
     {"report_interval", 0.1, 10},
     {"phase_interval", 0.05, 10},
@@ -151,14 +150,14 @@ static hd_scene_def drawn(hd_random *random)
 static void print_scene(int number, const hd_scene_def *def)
 {
     print_error("set %d: disks %d density %a aspect %a boundaries %d %d seed %llu exponents %d\n"
-                "  equilibration %a warmup %a duration %a target %a interval %a accuracy %a\n"
+                "  equilibration %a warmup %a duration %a target %s interval %a accuracy %a\n"
                 "  report_interval %a phase_interval %a observe %x max_wave_number %a "
                 "max_mode_number %d threads %d\n",
                 number, def->disks, def->density, def->aspect, (int)def->boundary[0],
                 (int)def->boundary[1], (unsigned long long)def->seed, def->exponents,
-                def->equilibration, def->warmup, def->duration, def->target_std_error,
-                def->interval, def->accuracy, def->report_interval, def->phase_interval,
-                def->observe, def->max_wave_number, def->max_mode_number, def->threads);
+                def->equilibration, def->warmup, def->duration, def->target.line, def->interval,
+                def->accuracy, def->report_interval, def->phase_interval, def->observe,
+                def->max_wave_number, def->max_mode_number, def->threads);
 }
 
 /* ---- what becomes of them ------------------------------------------------------------------ */

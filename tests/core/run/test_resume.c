@@ -29,9 +29,19 @@ static double drawn_report_interval(hd_random *random)
     return chance(random, 0.6) ? log_uniform(random, 0.05, 10.0) : log_uniform(random, 10.0, 1e12);
 }
 
-static double drawn_target(hd_random *random)
+/** Quantities that a scene may have, or not. */
+static hd_text drawn_target(hd_random *random)
 {
-    return chance(random, 0.5) ? 0.0 : log_uniform(random, 1e-3, 1.0);
+    static const char *const names[] = {"smallest", "lambda_max", "h_KS",     "T(1,0)", "c_T",
+                                        "c_L",      "v",          "pressure", "LP(0,1)"};
+    hd_text text = {""};
+    for (int k = chance(random, 0.5) ? 0 : 1 + one_of(random, 2); k > 0; k--) {
+        const size_t length = strlen(text.line);
+        const int name = chance(random, 0.5) ? 0 : one_of(random, 9);
+        snprintf(text.line + length, HD_TEXT - length, "%s%s %.3g%s", length > 0 ? ", " : "",
+                 names[name], log_uniform(random, 1e-3, 1.0), name && k % 2 ? "%" : "");
+    }
+    return text;
 }
 
 /** Of so many disks. */
@@ -67,7 +77,7 @@ static hd_scene_def drawn(hd_random *random)
     def.warmup = chance(random, 0.2) ? 0.0 : log_uniform(random, 0.1, 10.0);
     def.duration = chance(random, 0.3) ? 0.0 : log_uniform(random, 0.5, 300.0);
     def.report_interval = drawn_report_interval(random);
-    def.target_std_error = drawn_target(random);
+    def.target = drawn_target(random);
     if (chance(random, 0.2)) def.interval = log_uniform(random, 0.05, 5.0);
     if (chance(random, 0.3)) def.accuracy = log_uniform(random, 1e-10, 1e-3);
     def.threads = 1;
@@ -77,14 +87,15 @@ static hd_scene_def drawn(hd_random *random)
     def.covariant_sampling = log_uniform(random, 0.3, def.covariant_window);
     def.warmup = def.covariant_transient;
     def.duration = log_uniform(random, 1.0, 4.0) * (def.covariant_window + def.covariant_transient);
-    def.target_std_error = 0.0;
+    def.target = (hd_text){""};
     return def;
 }
 
 static hd_scene_def drawn_possible(hd_random *random)
 {
     hd_scene_def def = drawn(random);
-    while (hd_scene_check(&def, NULL, 0) != HD_OK) def = drawn(random);
+    while (hd_scene_check(&def, NULL, 0) != HD_OK || hd_target_check(&def, NULL, 0) != HD_OK)
+        def = drawn(random);
     return def;
 }
 
@@ -110,10 +121,14 @@ static double drawn_duration(hd_random *random, const hd_run *run)
     }
 }
 
-static double drawn_value(hd_random *random, const hd_parameter *row, const hd_run *run)
+static hd_text drawn_value(hd_random *random, const hd_parameter *row, const hd_run *run)
 {
-    if (strcmp(row->name, "report_interval") == 0) return drawn_report_interval(random);
-    return strcmp(row->name, "duration") == 0 ? drawn_duration(random, run) : drawn_target(random);
+    hd_text text;
+    if (row->kind == HD_PARAMETER_TEXT) return drawn_target(random);
+    const bool reports = strcmp(row->name, "report_interval") == 0;
+    snprintf(text.line, HD_TEXT, "%.17g",
+             reports ? drawn_report_interval(random) : drawn_duration(random, run));
+    return text;
 }
 
 /** Another value for one of the live parameters, or what is refused alike. */
@@ -122,10 +137,10 @@ static void change(twins *t, hd_random *random)
     int count;
     const hd_parameter *row = hd_scene_parameters(&count);
     for (int live = one_of(random, 3); !row->live || live-- > 0; row++) continue;
-    const double value = drawn_value(random, row, t->alone);
+    const hd_text value = drawn_value(random, row, t->alone);
     char line[2][256] = {"", ""};
-    assert_int_equal(hd_run_change(t->alone, row, value, line[0], sizeof line[0]),
-                     hd_run_change(t->other, row, value, line[1], sizeof line[1]));
+    assert_int_equal(hd_run_change(t->alone, row, value.line, line[0], sizeof line[0]),
+                     hd_run_change(t->other, row, value.line, line[1], sizeof line[1]));
     assert_string_equal(line[0], line[1]);
 }
 
@@ -173,10 +188,9 @@ static void expect_same_step(const twins *t)
 /** A run has ended at its end, or where its target was reached. */
 static void expect_ended(const hd_run *run)
 {
-    const double target = hd_run_scene(run)->target_std_error, end = hd_run_time(run);
+    const double end = hd_run_time(run);
     assert_true(hd_run_report_due(run));
-    if (hd_run_spectrum(run) && target > 0 && hd_carrier_smallest_error(&run->carrier) <= target)
-        return;
+    if (hd_run_cost(run).target.reached) return;
     CHECK_CLOSE(end, run->agenda.schedule.start + hd_run_scene(run)->duration, ROUNDING * end);
 }
 

@@ -115,8 +115,8 @@ TEST(the_target_error_ends_the_run)
                 {10, 2, 10},  /* fewer than all positive ones */
                 {3, 0, 3}};
     for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
-        OWNED(hd_run) *run = finished(
-            scene_from(small(12, rows[k].exponents), .duration = 5000.0, .target_std_error = 0.02));
+        OWNED(hd_run) *run = finished(scene_from(small(12, rows[k].exponents), .duration = 5000.0,
+                                                 .target = (hd_text){"smallest 0.02"}));
         double worst = 0.0;
         for (int col = rows[k].first; col < rows[k].last; col++) {
             const double error = hd_spectrum_std_error(run->carrier.spectrum, col);
@@ -134,7 +134,7 @@ static double predicted_over_taken(uint64_t seed)
     static double averaged[20000], total[20000];
     OWNED(hd_run) *run = until(
         created(scene_from(small(16, HD_EXPONENTS_POSITIVE), .warmup = 50.0, .duration = 0.0,
-                           .target_std_error = 0.005, .seed = seed)),
+                           .target = (hd_text){"smallest 0.005"}, .seed = seed)),
         HD_AVERAGING);
     int count = 0, tenth = 0;
     while (going_on(run)) {

@@ -4,6 +4,7 @@
 
 static size_t size_of(const hd_parameter *row)
 {
+    if (row->kind == HD_PARAMETER_TEXT) return sizeof(hd_text);
     const bool wide = row->kind == HD_PARAMETER_REAL || row->kind == HD_PARAMETER_INTERVAL ||
                       row->kind == HD_PARAMETER_SEED;
     return wide ? 8 : sizeof(int);

@@ -110,9 +110,29 @@ def write(found, folder):
     return 0
 
 
+def warnings(found, folder):
+    """A line for each scene, whatever its seeds, that will end before its errors are stated."""
+    told = set()
+    for run in found:
+        scene, duration = repr({**run.parameters, 'seed': ''}), run.parameters['duration']
+        if scene in told or not duration > 0 or not run.lacks(folder):
+            continue
+        told.add(scene)
+        run.write(folder)
+        after = run.errors_after(folder)
+        if after is not None and duration < after:
+            yield (
+                f'{run.name} will have no errors: they are stated after {after:g} time units of '
+                f'averaging, and its duration is {duration:g}; with duration: 0 and a target, as '
+                'lambda_max 1%, it goes on until they are known'
+            )
+
+
 def sweep(found, folder, jobs, args):
     """Exit status."""
     os.makedirs(folder, exist_ok=True)
+    for line in warnings(found, folder):
+        print(f'hdlyap sweep: {line}', file=sys.stderr, flush=True)
     wrong = work.do(found, folder, jobs, args.min_space)
     there = [run.bag(folder) for run in found if os.path.exists(run.bag(folder))]
     if args.plan:  # they may be of anything

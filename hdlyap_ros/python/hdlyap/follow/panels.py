@@ -77,8 +77,8 @@ def _times(view):
     if view.is_averaged:
         whole = f' of {info.duration:g}' if info and info.duration > 0 else ''
         yield f'averaged {view.spectrum.averaged_time:.1f}{whole}'
-    if info and info.target_std_error > 0:
-        yield f'std error {_number(status.std_error)} of {info.target_std_error:g}'
+    if status.target:
+        yield f'{status.target} to {_number(status.target_error)} of {status.target_wanted:.2g}'
     if view.cost is not None:
         yield f'wall time {clock(view.cost.wall_seconds)}'
     if view.speed is not None:

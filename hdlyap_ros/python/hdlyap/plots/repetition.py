@@ -36,7 +36,7 @@ OF_A_BOX = ('aspect', 'boundary_x', 'boundary_y')  # which a circle has not
 # a word, or a list of numbers as text
 LISTS = ('field_indices',)
 # bags of before these parameters
-OLDER = dict(field_interval=0.0, wait_for_subscribers=[], changes=[])
+OLDER = dict(field_interval=0.0, wait_for_subscribers=[], changes=[], target='')
 
 
 def chosen(path, node=None, number=None):
@@ -72,14 +72,23 @@ def parameters(info):
         resume='',
     )
     changes = asked.get('changes', [])
-    asked.update({change.name: change.before for change in reversed(changes)})  # as it began
+    before = {change.name: change.before for change in reversed(changes)}  # as it began
+    asked.update({name: _typed(asked[name], value) for name, value in before.items()})
+    smallest = asked.pop('target_std_error', 0.0)  # of before
+    if smallest > 0:
+        asked['target'] = f'smallest {smallest!r}'
     asked.update(changes=[_change(change) for change in changes])
     return {**asked, **{name: value for name, value in OLDER.items() if name not in asked}}
 
 
+def _typed(now, text):
+    """As the parameter is now."""
+    return type(now)(text)
+
+
 def _change(change):
     """As the parameter changes has it, to the last bit."""
-    return f'{change.sim_time!r} {change.name}={change.value!r}'
+    return f'{change.sim_time!r} {change.name}={change.value}'
 
 
 def _list_of(text):

@@ -107,7 +107,7 @@ def _short(value):
 def _word(element):
     """Of a list; of changes when, what, and to which value."""
     if hasattr(element, 'sim_time'):
-        return f'{element.sim_time:g} {element.name}={element.value:g}'
+        return f'{element.sim_time:g} {element.name}={element.value}'
     return str(element)
 
 

@@ -35,11 +35,12 @@ class Run:
 
     def share_done(self, status):
         """Of the whole run, 0 .. 1, in simulated time with tangent vectors: without them it goes
-        fast. Of the averaging alone if the warmup is not known. status: its last one, or None."""
+        fast. Of the averaging alone if the warmup is not known, or it is to reach a target.
+        status: its last one, or None."""
         if status is None:
             return 0.0
         warmup = self.parameters['warmup']
-        if warmup == AUTO:
+        if warmup == AUTO or self.parameters['target']:
             return min(1.0, max(0.0, status.progress))
         spent = status.sim_time - self.parameters['equilibration']
         return min(1.0, max(0.0, spent / (warmup + self.parameters['duration'])))
@@ -66,6 +67,17 @@ class Run:
         if files.read(self.scene_file(folder)) != text:
             files.write(self.scene_file(folder), text)
 
+    def errors_after(self, folder):
+        """Averaged time from which it states errors, as the node says of its scene file there; None
+        if the node refuses it, which it says when it runs."""
+        said = subprocess.run(
+            [ranks.node(self.dimensions), '--errors', self.scene_file(folder)],
+            stdout=subprocess.PIPE,
+            stderr=subprocess.DEVNULL,
+            text=True,
+        )
+        return float(said.stdout) if said.returncode == 0 else None
+
     def lacks(self, folder):
         """What its bag there lacks to be all of it, in words; '' if nothing: it is done."""
         bag = Bag(self.bag(folder))
@@ -85,8 +97,11 @@ def _check(parameters):
         is_chosen = name == 'warmup' and parameters[name] == AUTO  # by the node
         if not (is_chosen or is_number(parameters[name])):
             raise Refused(f'{name} = {parameters[name]}: must be a number')
-    if not parameters['duration'] > 0:
-        raise Refused(f'duration = {parameters["duration"]}: must be above 0, or it never ends')
+    if not (parameters['duration'] > 0 or parameters['target']):
+        raise Refused(
+            f'duration = {parameters["duration"]}: must be above 0, or it never ends without a '
+            'target'
+        )
 
 
 def _estimate(parameters):
