@@ -288,7 +288,7 @@ def expected_sizes(disks, vectors, steps, phases, t_phases, waves):
     means: what the guide says, and single numbers."""
     begin = 4 + 8 + 8  # seq, stamp, sim_time
     return dict(
-        spectrum=begin + 8 + 8 + 5 * 8 + 4 + 5 * 4 + 40 * vectors,
+        spectrum=begin + 8 + 8 + 6 * 8 + 4 + 5 * 4 + 40 * vectors,
         modes=begin + 8 + 4 + 4 + 101 * vectors,
         steps=begin + 8 + 8 + 4 + 124 * steps + 2 * 132 + 4 + 6 * 8,
         lp_phases=begin + 4 + 86 * phases,
