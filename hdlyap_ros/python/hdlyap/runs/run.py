@@ -71,7 +71,7 @@ class Run:
         """Averaged time from which it states errors, as the node says of its scene file there; None
         if the node refuses it, which it says when it runs."""
         said = subprocess.run(
-            [ranks.node(self.dimensions), '--errors', self.scene_file(folder)],
+            [ranks.node(dimensions(self.parameters)), '--errors', self.scene_file(folder)],
             stdout=subprocess.PIPE,
             stderr=subprocess.DEVNULL,
             text=True,
