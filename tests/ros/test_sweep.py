@@ -38,6 +38,18 @@ class Grid(unittest.TestCase):
         usual = dict(scene='quick', threads='1', params='', observables='[spectrum]')
         return grid.runs({**usual, **given}, LAUNCH, '/')
 
+    def test_without_errors(self):
+        """One line for each scene that ends before, whatever its seeds; none with a target."""
+        found = self.runs(disks='20 24', seeds='1 2', duration='2')
+        found += self.runs(disks='30', duration='5000')
+        found += self.runs(disks='40', duration='0', params='{target: lambda_max 1%}')
+        with tempfile.TemporaryDirectory() as folder:
+            lines = list(sweep.warnings(found, folder))
+        self.assertEqual(
+            [line.split(':')[0] for line in lines],
+            ['disks_20_seed_1 will have no errors', 'disks_24_seed_1 will have no errors'],
+        )
+
     def test_product(self):
         """Each with a name of its values, the seeds last."""
         runs = self.runs(
