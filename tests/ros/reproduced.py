@@ -14,16 +14,15 @@ import made
 import made_fields
 import test_structure
 from made import LP, T
-from hdlyap.data.reader import FIELD
 from hdlyap.msg import Hydro, HydroMode, LpPhase, LpPhases, RunStatus
 from hdlyap.plots import equation, paper, waves
-from hdlyap.plots.recorded import Recorded
 
 ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), '../..')
 STUDY = os.path.join(ROOT, 'doc/reproduction')
 sys.path.append(STUDY)
 
-from study import bags, pressure, table  # noqa: E402
+from remembered import Bag  # noqa: E402
+from study import pressure, table  # noqa: E402
 
 PARTS, FRONT = table.read()
 NODES = ((1, 0), (0, 1), (1, 1), (2, 0), (0, 2), (2, 1), (1, 2), (2, 2))
@@ -52,44 +51,6 @@ def _read(*names):
 def plan():
     """{run: what is asked of it}, of the runs that the study needs."""
     return _read('doc/reproduction/runs.yaml')
-
-
-# ---- bags in memory ------------------------------------------------------------------------------
-
-
-class Data:
-    """In place of data.run.Run."""
-
-    def __init__(self, messages):
-        self.info, self._of = messages[0], {}
-        for message in messages:
-            for name, value in zip(
-                message.__slots__, map(message.__getattribute__, message.__slots__)
-            ):
-                if isinstance(value, (list, tuple)) and value and not hasattr(value[0], '_type'):
-                    setattr(message, name, np.array(value))
-            self._of.setdefault(bags.TOPICS.get(message._type), []).append(message)
-
-    def messages(self, topic):
-        return iter(self._of.get(topic, ()))
-
-    def last(self, topic, numpy=None):
-        return self._of[topic][-1]
-
-    def has(self, topic):
-        return topic in self._of
-
-    @property
-    def fields(self):
-        found = {one.index: one for one in self.messages(bags.TOPICS[FIELD])}
-        return dict(sorted(found.items()))
-
-
-class Bag(bags.Bag):
-    def __init__(self, messages):
-        super().__init__('')
-        self.run = Data(list(messages))
-        self.recording = Recorded(self.run)
 
 
 # ---- what all runs have --------------------------------------------------------------------------
@@ -508,6 +469,10 @@ def messages_of(name):
     return make(Run(name))
 
 
-def world(names=None):
-    """{run: messages}"""
-    return {name: messages_of(name) for name in (names or plan())}
+@functools.lru_cache(None)
+def world():
+    return {name: Bag(messages_of(name)) for name in plan()}
+
+
+def of_part(part, found):
+    return {name: found[name] for name in part.runs}
