@@ -85,6 +85,23 @@ class Check(harness.Case):
         self.assertIn('\n          of c_T about 1 % of sampling after ', done.stdout)
         self.assertNotIn('c_L', done.stdout)
 
+    def test_exponents_that_reach_no_step(self):
+        """780 disks: 234 fields of waves up to 1.75 times (2,2) among the last of 1557."""
+        said = (
+            'warning   exponents = %d: none of them belongs to a step, which modes, steps, '
+            'lp_phases need; fewer than 1324 reach none, positive (1557) reaches all\n'
+        )
+        scene = dict(observables=['spectrum', 'modes', 'steps', 'lp_phases'], duration=1.0)
+        for exponents in (120, 1323, 1324):
+            done = checked(self.file_of(dict(scene, exponents=exponents)))
+            self.assertEqual(said % exponents in done.stdout, exponents < 1324)
+            self.assertEqual('c_T' in done.stdout, exponents == 1324)
+            self.assertEqual('waves  ' in done.stdout, exponents == 1324)
+        for observables in (['spectrum'], ['structure', 'localization']):
+            done = checked(self.file_of(dict(exponents=120, observables=observables)))
+            self.assertNotIn('warning', done.stdout)
+            self.assertNotIn('c_T', done.stdout)
+
     def test_scenes(self):
         """With all kinds of stages; those that are large are made small."""
         for name in ('covariant', 'narrow', 'quick', 'trajectory_only'):

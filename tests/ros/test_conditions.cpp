@@ -119,6 +119,7 @@ worker_state healthy()
 {
     worker_state state = {};
     state.status = HD_OK;
+    state.warning = "";
     state.last.cost.stalled_since = -1.0;
     state.disks = {true, 1e-16, 1e-13, 1e-15, 1e-12};
     return state;
@@ -138,7 +139,8 @@ TEST(Conditions, EachHasItsLevelAndMessage)
     const hdr_lag prompt = {"", 0, 0, 0}, behind = {"/b/fields", 12.34, 5, 0},
                   losing = {"/b/fields", 0.5, 1001, 42};
     worker_state fault = healthy(), unkept = healthy(), deep = healthy(), warm = healthy(),
-                 stalled = healthy(), lost = healthy(), open = healthy();
+                 stalled = healthy(), lost = healthy(), open = healthy(), empty = healthy();
+    empty.warning = "none of them belongs to a step";
     fault.status = HD_ILL_CONDITIONED;
     unkept.checkpoint.failed = true;
     snprintf(unkept.checkpoint.message, sizeof unkept.checkpoint.message, "disk full");
@@ -166,6 +168,7 @@ TEST(Conditions, EachHasItsLevelAndMessage)
          "nobody can subscribe: no ROS master has known this node for 12 s"},
         {&open, &prompt, HDR_DIAGNOSTIC_WARN,
          "c_L is not known to 0.03 by any averaging: 0.05 stays open in this box"},
+        {&empty, &prompt, HDR_DIAGNOSTIC_WARN, "none of them belongs to a step"},
         {&well, &behind, HDR_DIAGNOSTIC_WARN, "a subscriber of /b/fields is 12.3 s behind"},
         {&well, &losing, HDR_DIAGNOSTIC_WARN, "subscribers of /b/fields have lost 42 messages"},
     };

@@ -10,7 +10,7 @@ import rospy
 
 import harness
 import links
-from harness import SHORT
+from harness import MODES, SHORT
 
 OK, WARN, ERROR = DiagnosticStatus.OK, DiagnosticStatus.WARN, DiagnosticStatus.ERROR
 LIVE = dict(SHORT, duration=0.0, pace=20.0, threads=1)
@@ -68,6 +68,14 @@ class Diagnostics(harness.Case):
         self.assertLess(averaged, float(values['simulated time']) - 99)
         told = re.search('averaged, 0.25 after ([^;]*)', values['message']).group(1)
         self.assertAlmostEqual(float(told) / averaged, 1.0, delta=0.01)
+
+    def test_exponents_that_reach_no_step(self):
+        """In the log once, too."""
+        node = self.start(dict(MODES, exponents=4, duration=0.0, pace=20.0))
+        said = 'exponents = 4: none of them belongs to a step, which modes, '
+        self.said(WARN, said, ' reaches all')
+        node.stop()
+        self.assertEqual(node.text().count(said), 1)
 
     def test_subscriber_behind(self):
         """One that does not read for seconds; and then does."""

@@ -61,6 +61,11 @@ hd_relation hd_relation_of(const hd_scene_def *def, hd_mode_kind kind);
  * relation. */
 double hd_relation_open(const hd_scene_def *def, hd_mode_kind kind);
 
+/** Fewest exponents of which one may belong to a step of the waves that the scene asks for, 0 if it
+ * asks for none: each field of a wave in the box that can have a smaller exponent is a vector below
+ * it. All of them are within hd_scene_positive_exponents. */
+int hd_steps_exponents_least(const hd_scene_def *def);
+
 /** The error is a standard error with all that the form of the relation leaves open, times the
  * misfit if that is above 1; negative if not yet known. */
 typedef struct hd_coefficient {

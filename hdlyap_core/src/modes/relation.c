@@ -7,6 +7,7 @@
 
 #include <math.h>
 
+#include "modes/archived.h"
 #include "scene/container.h"
 
 /** c2 / c = c2 + c2_l l, its error alike; c3 / c = c3 + c3_l2 l^2, its error besides OFF times c3.
@@ -32,6 +33,10 @@ static const double CROWDED = 7.0, DENSE = 0.8;
 /** A step strays by MISSING times the square of the part of its multiplicity that is missing, and
  * by ELSEWHERE times the part of its weight that lies in the columns of other steps. */
 static const double MISSING = 0.02, ELSEWHERE = 0.006;
+
+/** T exponents that lie below an LP step are of wave numbers up to 1.6 times its own, where it is
+ * highest: c_L / c_T is 1.36 at most, and LP bends more. */
+static const double BELOW_STEP = 1.75;
 
 static double walls_of(const hd_scene_def *def, const double box[HD_DIM])
 {
@@ -87,6 +92,24 @@ double hd_relation_open(const hd_scene_def *def, hd_mode_kind kind)
     if (isnan(r.c2)) return INFINITY;
     const double curved = hypot(r.c2_error * k, r.c3_error * k * k);
     return hypot(r.box_error, hypot(r.scatter, curved));
+}
+
+static void raise_to(void *shortest, const hd_wave *wave)
+{
+    double *number = shortest;
+    *number = fmax(*number, wave->number);
+}
+
+int hd_steps_exponents_least(const hd_scene_def *def)
+{
+    hd_scene_def all = *def;
+    double shortest = 0.0;
+    hd_container_of(def)->waves(def, raise_to, &shortest);
+    if (shortest == 0.0) return 0;
+    all.max_mode_number = 0;
+    all.max_wave_number = BELOW_STEP * shortest;
+    const double fields = hd_fields_count_of(&all).columns;
+    return (int)fmax(hd_scene_positive_exponents(def) - fields + 1.0, 1.0);
 }
 
 double hd_steps_scatter(const hd_steps *steps, const hd_step *step)

@@ -170,19 +170,26 @@ static void print_open(const char *begin, const hd_scene_def *def, hd_mode_kind 
         printf("%s some %.2g %%, which this box and its waves leave open.\n", begin, 100.0 * open);
 }
 
-static void print_errors(const settings *set, const hd_estimate *t)
+static void print_slopes(const settings *set, const hd_estimate *t)
 {
     const bool has_c_l = hd_relation_open(&set->def, HD_MODE_LP) < INFINITY;
-    printf("errors    of exponents of steps below 1 %% when they are first stated, after %.3g time "
-           "units of averaging (",
-           t->errors_after);
-    print_seconds("", (t->before + t->errors_after) * t->seconds);
-    printf(" from the start);\n          of %s about 1 %% of sampling after %.3g (",
-           has_c_l ? "c_T and c_L" : "c_T", t->slopes_after);
+    printf("          of %s about 1 %% of sampling after %.3g (", has_c_l ? "c_T and c_L" : "c_T",
+           t->slopes_after);
     print_seconds("", (t->before + t->slopes_after) * t->seconds);
     printf("). An estimate, from runs of 780 disks.\n");
     print_open("          Beside it, of c_T", &set->def, HD_MODE_T);
     print_open("          Beside it, of c_L", &set->def, HD_MODE_LP);
+}
+
+static void print_errors(const settings *set, const hd_estimate *t)
+{
+    const bool steps = hd_scene_vectors(&set->def) >= hd_steps_exponents_least(&set->def);
+    printf("errors    %s after %.3g time units of averaging (",
+           steps ? "of exponents of steps below 1 % when they are first stated," : "first stated",
+           t->errors_after);
+    print_seconds("", (t->before + t->errors_after) * t->seconds);
+    printf(steps ? " from the start);\n" : " from the start)\n");
+    if (steps) print_slopes(set, t);
     if (set->def.duration > 0 && set->def.duration < t->errors_after)
         printf("          The duration is too short for any error.\n");
 }
@@ -218,7 +225,10 @@ static void print_all(const settings *set, const hd_estimate *t, hd_room room)
     print_speed(set, t);
     print_bag(set, t);
     if (!hd_scene_vectors(def)) return;
-    if (def->observe & STAGES_OF_MODES) print_waves(set);
+    if (*set->warning)
+        printf("warning   %s\n", set->warning);
+    else if (def->observe & STAGES_OF_MODES)
+        print_waves(set);
     print_errors(set, t);
     print_target(set, t);
 }

@@ -46,6 +46,7 @@ static void add_warnings(conditions *all, const worker_state *state, const hdr_l
     const progress *last = &state->last;
     const hd_standing *at = &last->cost.target;
     const uint8_t level = HDR_DIAGNOSTIC_WARN;
+    if (*state->warning) add(all, level, "%s", state->warning);
     if (last->cost.stalled_since >= 0.0)
         add(all, level,
             "errors of the smallest exponents do not fall: %.2g after %.3g averaged, %.2g after "

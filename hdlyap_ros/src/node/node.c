@@ -184,6 +184,7 @@ static void log_start(const app *a)
             a->set.scene, def->disks, container, hd_run_vectors(a->run), hd_run_threads(a->run),
             blas.library, blas.kernel, blas.threads);
     warn_of_threads(a->run);
+    if (*a->set.warning) hdr_log(HDR_WARN, "%s", a->set.warning);
     if (*a->set.resume)
         hdr_log(HDR_INFO, "goes on from simulated time %.6g of %s", hd_run_time(a->run),
                 a->set.resume);

@@ -241,6 +241,22 @@ static settings defaults(const hd_checkpoint *kept)
     return set;
 }
 
+/** Largest exponents alone hold no mode. */
+static void warn_of_steps(settings *set)
+{
+    const hd_scene_def *def = &set->def;
+    const int least = hd_steps_exponents_least(def), vectors = hd_scene_vectors(def);
+    const unsigned empty = set->observables & topics_of_stages(STAGES_OF_STEPS);
+    char names[PARAMETER_TEXT];
+    if (!empty || vectors == 0 || vectors >= least) return;
+    topic_names(names, sizeof names, empty);
+    snprintf(
+        set->warning, sizeof set->warning,
+        "exponents = %d: none of them belongs to a step, which %s need; fewer than %d reach none, "
+        "positive (%d) reaches all",
+        vectors, names, least, hd_scene_positive_exponents(def));
+}
+
 bool settings_read(settings *out, const hdr_params *params, const hd_checkpoint *kept,
                    char *message, size_t size)
 {
@@ -257,6 +273,7 @@ bool settings_read(settings *out, const hdr_params *params, const hd_checkpoint 
         make_one_line(message);
         return false;
     }
+    warn_of_steps(out);
     return check_field_indices(out, &r) && check_slow_vectors(out, &r) &&
            check_changes(out, message, size);
 }

@@ -38,6 +38,7 @@ typedef struct settings {
     const char *checkpoint;     /**< file, or ""; in the params, as the next but one */
     double checkpoint_interval; /**< wall seconds; 0: only at the end and when asked */
     const char *resume;         /**< file to go on from, or "" */
+    char warning[256];          /**< of what is right and tells nothing; "" if there is none */
     double table; /**< wall seconds between two tables in the log, at least; 0: none */
 } settings;
 

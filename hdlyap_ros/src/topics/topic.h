@@ -27,7 +27,9 @@ enum {
     /** In a set of awaited topics: whatever the others are */
     ALL_PUBLISHED = 1u << TOPICS,
     /** Stages of the modes */
-    STAGES_OF_MODES = HD_OBSERVE_WAVES & ~HD_OBSERVE_COVARIANT
+    STAGES_OF_MODES = HD_OBSERVE_WAVES & ~HD_OBSERVE_COVARIANT,
+    /** Those that tell nothing unless steps are carried: structure is of any vector. */
+    STAGES_OF_STEPS = STAGES_OF_MODES & ~HD_OBSERVE_STRUCTURE
 };
 
 /** As in `observables` and `wait_for_subscribers`; the topic is "~" and this. */

@@ -157,3 +157,34 @@ TEST(structure_factors_see_the_classified_waves)
     check_line(P);
     check_line(R);
 }
+
+/** With fewer exponents than it says none is of a step: each step that is found lies within what is
+ * needed for waves as short as its own. And the last of all is one. */
+TEST(no_step_lies_before_the_first_that_is_expected)
+{
+    const hd_scene_def scenes[] = {
+        scene(.disks = 60, .density = 0.8, .aspect = 0.06, .max_mode_number = 6),
+        scene(.disks = 120, .density = 0.7, .aspect = 0.1, .max_mode_number = 6),
+        scene(.disks = 100, .density = 0.7, .container = HD_CIRCLE, .max_mode_number = 2)};
+    int found = 0;
+    for (int k = 0; k < 3; k++) {
+        OWNED(hd_run) *run = finished(scene_from(scenes[k], .equilibration = 10.0, .warmup = 150.0,
+                                                 .duration = 50.0, .observe = HD_OBSERVE_STEPS,
+                                                 .threads = 1));
+        int last = 0;
+        for (int s = 0; s < hd_steps_count(hd_run_steps(run)); s++) {
+            const hd_step *step = hd_steps_step(hd_run_steps(run), s);
+            const int end = step->col + step->count;
+            if (!step->resolved || step->kind == HD_MODE_ZERO) continue;
+            const hd_scene_def as_short = scene_from(scenes[k], .max_mode_number = 0,
+                                                     .max_wave_number = step->wave.number);
+            assert_true(hd_steps_exponents_least(&as_short) <= end);
+            last = end > last ? end : last;
+            found++;
+        }
+        assert_int_equal(last, hd_scene_positive_exponents(&scenes[k]));
+    }
+    assert_true(found >= 9);
+    hd_scene_def none = scene(.disks = 6, .density = 0.2, .aspect = 1.0, .max_wave_number = 0.1);
+    assert_int_equal(hd_steps_exponents_least(&none), 0);
+}
