@@ -102,6 +102,11 @@ class Check(harness.Case):
             self.assertNotIn('warning', done.stdout)
             self.assertNotIn('c_T', done.stdout)
 
+    def test_places_that_are_kept(self):
+        for density, said in ((0.87, False), (1.0, True)):
+            done = checked(self.file_of(dict(disks=16, density=density)))
+            self.assertEqual('disks may keep their places at this density' in done.stdout, said)
+
     def test_scenes(self):
         """With all kinds of stages; those that are large are made small."""
         for name in ('covariant', 'narrow', 'quick', 'trajectory_only'):

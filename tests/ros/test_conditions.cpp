@@ -139,7 +139,7 @@ TEST(Conditions, EachHasItsLevelAndMessage)
     const hdr_lag prompt = {"", 0, 0, 0}, behind = {"/b/fields", 12.34, 5, 0},
                   losing = {"/b/fields", 0.5, 1001, 42};
     worker_state fault = healthy(), unkept = healthy(), deep = healthy(), warm = healthy(),
-                 stalled = healthy(), lost = healthy(), open = healthy(), empty = healthy();
+                 stalled = healthy(), lost = healthy(), open = healthy(), empty = healthy(), caged = healthy();
     empty.warning = "none of them belongs to a step";
     fault.status = HD_ILL_CONDITIONED;
     unkept.checkpoint.failed = true;
@@ -151,6 +151,7 @@ TEST(Conditions, EachHasItsLevelAndMessage)
     stalled.last.cost.std_error = stalled.last.cost.stalled_error = 0.5;
     stalled.last.cost.stalled_since = 4;
     open.last.cost.target = {"c_L", 3.0, 0.07, 0.03, 0.05, INFINITY, false};
+    caged.last.caged = true;
     const worker_state well = healthy();
     const struct {
         const worker_state *state;
@@ -169,6 +170,8 @@ TEST(Conditions, EachHasItsLevelAndMessage)
         {&open, &prompt, HDR_DIAGNOSTIC_WARN,
          "c_L is not known to 0.03 by any averaging: 0.05 stays open in this box"},
         {&empty, &prompt, HDR_DIAGNOSTIC_WARN, "none of them belongs to a step"},
+        {&caged, &prompt, HDR_DIAGNOSTIC_WARN,
+         "disks keep their places: errors are those of this one state"},
         {&well, &behind, HDR_DIAGNOSTIC_WARN, "a subscriber of /b/fields is 12.3 s behind"},
         {&well, &losing, HDR_DIAGNOSTIC_WARN, "subscribers of /b/fields have lost 42 messages"},
     };

@@ -57,6 +57,7 @@ void make_known(hdlyap::Modes &message)
 }
 void make_known(hdlyap::ModeField &message) { message.kind = message.pairs = 1; }
 void make_known(hdlyap::Cost &message) { message.orthonormalisations = 1; }
+void make_known(hdlyap::RunStatus &message) { message.caged = 1; }
 template <class Other> void make_known(Other &) {}
 
 template <class Message> typename message_of<Message>::type filled()

@@ -41,6 +41,14 @@ class Table(Bags):
         self.assertIn('zero modes not carried', text)
         self.assertNotRegex(text, r'resolved \(|Eckmann|LP dynamics')
 
+    def test_disks_that_keep_their_places(self):
+        said = 'disks have kept their places since the averaging began: errors are those'
+        for caged in (False, True):
+            with self.subTest(caged=caged):
+                status = made.status(50.0, caged=caged)
+                _, text = self.lines(INFO, made.spectrum(HALF, 50.0), status)
+                self.assertEqual(said in text, caged)
+
     def test_steps_that_share_a_set(self):
         shared = dict(set=7, members=2, expected=4)
         unknown = dict(shared, sharing=Step.SHARING_UNKNOWN)

@@ -137,6 +137,20 @@ class Run(harness.Case):
                 found = [averaged(message) for message in listener.messages]
                 self.assertTrue(any(now < last for last, now in zip(found, found[1:])), found)
 
+    def test_disks_that_keep_their_places(self):
+        """In a crystal, once errors are stated; in the log, too."""
+        said = 'disks have kept their places since the averaging began'
+        for density, caged in ((0.5, False), (1.0, True)):
+            with self.subTest(density=density):
+                box = dict(SHORT, disks=36, aspect=0.867, density=density)
+                params = dict(box, exponents=1, duration=60.0, table=1.0)
+                status = self.listen('status')
+                node = self.start(dict(params, wait_for_subscribers=['status']))
+                messages = status.all_of(node)
+                self.ends(node)
+                self.assertEqual([messages[0].caged, messages[-1].caged], [False, caged])
+                self.assertEqual(any(said in line for line in node.lines('WARN')), caged)
+
     def test_table(self):
         """What the log says at the end are the numbers of the last messages."""
         topics = ['spectrum', 'steps']
@@ -229,7 +243,8 @@ class Run(harness.Case):
         self.assertEqual(calls.pop('run_info_publish'), 1)
         self.assertEqual(calls.pop('run_status_publish'), 4)
         self.assertEqual(calls.pop('state_publish'), 4)
-        self.assertEqual(calls.pop('trajectory_state'), 4)
+        # at the start of the averaging, and at two reports, whether they keep their places
+        self.assertEqual(calls.pop('trajectory_state'), 4 + 1 + 2)
         self.assertEqual(set(calls.values()), {0}, calls)
 
     def fault(self, **probe):

@@ -197,6 +197,10 @@ hd_localization *hd_run_localization(const hd_run *run);
 hd_cost hd_run_cost(const hd_run *run);
 /** Averaged time from which standard errors are stated [T8]; 0 without exponents. */
 double hd_run_errors_after(const hd_run *run);
+/** True if averages have been taken for so long (without exponents, as long as with them) and less
+ * than a tenth of the disks was seen away from its place since: all errors are those of this one
+ * state of the disks, as of a crystal [T8]. */
+bool hd_run_is_caged(const hd_run *run);
 
 #ifdef __cplusplus
 }

@@ -21,6 +21,9 @@ typedef struct hd_part {
 HD_MUST_CHECK hd_status hd_spectrum_create(hd_spectrum **out, int rows, int vectors, double block);
 void hd_spectrum_free(hd_spectrum *spectrum);
 void hd_spectrum_clear(hd_spectrum *spectrum);
+/** Clears it, for vectors that have been carried from a random start for so long: errors then count
+ * with zero modes that outgrow small exponents [T8]. */
+void hd_spectrum_begin(hd_spectrum *spectrum, double age);
 
 /** Adds ln diag R of one orthonormalisation, dt >= 0 after the one before, to the sample that has
  * begun; log_stretch[n]. What is read below is of whole samples. */

@@ -17,6 +17,7 @@ struct hd_spectrum {
     double *local_sum;  /**< [vectors], over the samples since the last hd_spectrum_local_restart */
     hd_part *parts;     /**< [vectors], workspace */
     double time, sample_time, local_time;
+    double age;       /**< of the vectors where time is 0; negative: no zero mode is in their way */
     hd_blocks blocks; /**< of ln R_ll; their weight is time */
 };
 
@@ -45,6 +46,7 @@ hd_status hd_spectrum_create(hd_spectrum **out, int rows, int vectors, double bl
     if (!spectrum) return HD_NO_MEMORY;
     spectrum->rows = rows;
     spectrum->vectors = vectors;
+    spectrum->age = -1.0;
     const hd_status status = spectrum_allocate(spectrum, block);
     if (status == HD_OK)
         *out = spectrum;
@@ -69,8 +71,16 @@ void hd_spectrum_clear(hd_spectrum *spectrum)
     for (int col = 0; col < spectrum->vectors; col++)
         spectrum->sum[col] = spectrum->sample_sum[col] = 0.0;
     spectrum->time = spectrum->sample_time = 0.0;
+    spectrum->age = -1.0;
     hd_spectrum_local_restart(spectrum);
     hd_blocks_restart(&spectrum->blocks);
+}
+
+void hd_spectrum_begin(hd_spectrum *spectrum, double age)
+{
+    HD_ASSERT(age >= 0);
+    hd_spectrum_clear(spectrum);
+    spectrum->age = age;
 }
 
 void hd_spectrum_add(hd_spectrum *spectrum, const double *log_stretch, double dt)
@@ -109,15 +119,34 @@ double hd_spectrum_exponent(const hd_spectrum *spectrum, int col)
     return spectrum->time > 0 ? spectrum->sum[col] / spectrum->time : 0.0;
 }
 
+/** By how much a zero mode may have outgrown a vector of this exponent at that age. */
+static double outgrown(double exponent, double age)
+{
+    return fmax(log1p(age) - fabs(exponent) * age, 0.0);
+}
+
+/** How far the mean of a column may be off, as a zero mode had its place at the begin or has it now
+ * [T8]. */
+static double displaced(const hd_spectrum *spectrum, int col)
+{
+    const double exponent = hd_spectrum_exponent(spectrum, col), age = spectrum->age;
+    if (age < 0 || spectrum->time == 0) return 0.0;
+    return fmax(outgrown(exponent, age), outgrown(exponent, age + spectrum->time)) / spectrum->time;
+}
+
 double hd_spectrum_std_error(const hd_spectrum *spectrum, int col)
 {
     HD_ASSERT(col >= 0 && col < spectrum->vectors);
-    return hd_blocks_error(&spectrum->blocks, &(hd_part){col, 1.0}, 1);
+    return hd_spectrum_error_of_sum(spectrum, &(hd_part){col, 1.0}, 1);
 }
 
 double hd_spectrum_error_of_sum(const hd_spectrum *spectrum, const hd_part *parts, int count)
 {
-    return hd_blocks_error(&spectrum->blocks, parts, count);
+    const double error = hd_blocks_error(&spectrum->blocks, parts, count);
+    double bias = 0.0;
+    for (int p = 0; p < count; p++)
+        bias += fabs(parts[p].factor) * displaced(spectrum, parts[p].series);
+    return error < 0 ? error : hypot(error, bias);
 }
 
 double hd_spectrum_largest_error(const hd_spectrum *spectrum, int begin, int end)
@@ -156,7 +185,7 @@ double hd_spectrum_ks_entropy_error(const hd_spectrum *spectrum)
     int count = 0;
     for (int col = 0; col < spectrum->vectors; col++)
         if (hd_spectrum_exponent(spectrum, col) > 0) spectrum->parts[count++] = (hd_part){col, 1.0};
-    return hd_blocks_error(&spectrum->blocks, spectrum->parts, count);
+    return hd_spectrum_error_of_sum(spectrum, spectrum->parts, count);
 }
 
 double hd_spectrum_pairing_error(const hd_spectrum *spectrum)
@@ -175,6 +204,7 @@ void hd_spectrum_archive(hd_spectrum *spectrum, hd_archive *archive)
     hd_archive_double(archive, "spectrum time", &spectrum->time);
     hd_archive_double(archive, "spectrum sample time", &spectrum->sample_time);
     hd_archive_double(archive, "spectrum local time", &spectrum->local_time);
+    hd_archive_double(archive, "spectrum age", &spectrum->age);
     hd_archive_doubles(archive, "spectrum sum", spectrum->sum, n);
     hd_archive_doubles(archive, "spectrum sample sum", spectrum->sample_sum, n);
     hd_archive_doubles(archive, "spectrum local sum", spectrum->local_sum, n);

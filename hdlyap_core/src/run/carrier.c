@@ -375,9 +375,9 @@ hd_status hd_carrier_sample(hd_carrier *c, bool averaging)
     return HD_OK;
 }
 
-void hd_carrier_clear(hd_carrier *c)
+void hd_carrier_clear(hd_carrier *c, double age)
 {
-    if (c->spectrum) hd_spectrum_clear(c->spectrum);
+    if (c->spectrum) hd_spectrum_begin(c->spectrum, age);
     c->rounding.sum = HD_ROUNDING * c->rounding.condition_max;
 }
 

@@ -68,8 +68,8 @@ HD_MUST_CHECK hd_status hd_carrier_orthonormalise(hd_carrier *carrier, hd_carryi
 /** Halves are those of this measured state, and the spectrum takes its sample up. */
 HD_MUST_CHECK hd_status hd_carrier_sample(hd_carrier *carrier, bool averaging);
 
-/** The averages begin here. */
-void hd_carrier_clear(hd_carrier *carrier);
+/** The averages begin here, of vectors that have been carried for so long. */
+void hd_carrier_clear(hd_carrier *carrier, double age);
 /** Tells the interval how much of the accuracy the averaging has not used up. */
 void hd_carrier_save_accuracy(hd_carrier *carrier, bool averaging);
 

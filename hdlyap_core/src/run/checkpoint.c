@@ -123,6 +123,7 @@ static void parts_archive(hd_run *run, hd_archive *archive)
     hd_carrier *c = &run->carrier;
     const hd_trajectory *now = run->advance.trajectory;
     hd_trajectory_archive(run->advance.trajectory, archive);
+    hd_cages_archive(&run->cages, now, archive);
     hd_schedule_archive(&run->agenda.schedule, archive);
     hd_interval_archive(&c->interval, archive);
     hd_observables_archive(&run->observables, archive, false, now);

@@ -67,6 +67,11 @@ double hd_run_errors_after(const hd_run *run)
     return run->carrier.spectrum ? HD_SPECTRUM_BLOCKS_MIN * block : 0.0;
 }
 
+bool hd_run_is_caged(const hd_run *run)
+{
+    return hd_cages_hold(&run->cages, HD_SPECTRUM_BLOCKS_MIN * hd_agenda_block(&run->agenda));
+}
+
 double hd_run_shortest_duration(const hd_run *run)
 {
     const double begin = hd_agenda_stage_begin(&run->agenda);

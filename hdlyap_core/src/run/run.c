@@ -98,6 +98,7 @@ static hd_status prepare(hd_run *run, char *message, size_t size)
 {
     const hd_scene_def *scene = &run->scene;
     HD_TRY(hd_communicator_agree(run->communicator, hd_advance_create(&run->advance, scene)));
+    HD_TRY(hd_communicator_agree(run->communicator, hd_cages_create(&run->cages, scene->disks)));
     const double rate = 2.0 * hd_trajectory_collision_rate(run->advance.trajectory) / scene->disks;
     run->cost.limit = HD_LIMIT_NONE;
     run->agenda = hd_agenda_of(scene, rate);
@@ -115,15 +116,17 @@ static void enter_stage(hd_run *run, hd_stage stage)
     hd_advance_stop(&run->advance, now);
     if (stage != HD_FINISHED)
         run->followed = -1.0; /* a run that is made longer goes on from there */
+    if (hd_agenda_stage(&run->agenda) != HD_EQUILIBRATING && run->clocks.frame_started == 0) {
+        run->clocks.frame_started = hd_clock_now();
+        run->clocks.frame_start_time = now;
+    }
     if (is_averaging(run)) {
-        hd_carrier_clear(&run->carrier);
+        hd_carrier_clear(&run->carrier, now - run->clocks.frame_start_time);
+        hd_cages_begin(&run->cages, run->advance.trajectory);
         run->errors = (hd_error_trend){.first = 0.0};
         hd_observables_clear(&run->observables, &(hd_view){.trajectory = run->advance.trajectory});
     }
     hd_carrier_save_accuracy(&run->carrier, is_averaging(run));
-    if (hd_agenda_stage(&run->agenda) == HD_EQUILIBRATING || run->clocks.frame_started != 0) return;
-    run->clocks.frame_started = hd_clock_now();
-    run->clocks.frame_start_time = now;
 }
 
 hd_status hd_run_create(hd_run **out, const hd_scene_def *def, char *message, size_t size)
@@ -176,6 +179,7 @@ void hd_run_drop(hd_run *run)
     hd_observables_free(&run->observables);
     hd_carrier_free(&run->carrier);
     hd_gathered_free(&run->gathered);
+    hd_cages_clear(&run->cages);
     hd_advance_clear(&run->advance);
     hd_memory_free(run);
 }
@@ -319,6 +323,7 @@ static hd_status report(hd_run *run)
     }
     hd_agenda_pass_report(&run->agenda, reached);
     HD_TRY(hd_ranks_compare(run->communicator, run->advance.trajectory));
+    if (is_averaging(run)) hd_cages_look(&run->cages, run->advance.trajectory, &run->scene);
     if (!is_framed(run) || !needs_state(run)) return HD_OK;
     HD_TRY(is_measured(run) ? gather(run) : end_early(run));
     if (!is_needed(run, HD_NEEDS_REPORTS)) return HD_OK;

@@ -9,6 +9,7 @@
 #include "observe/observables.h"
 #include "run/advance.h"
 #include "run/agenda.h"
+#include "run/cages.h"
 #include "run/carrier.h"
 #include "run/gathered.h"
 
@@ -31,6 +32,7 @@ struct hd_run {
     hd_agenda agenda;
     hd_advance advance;
     hd_carrier carrier;
+    hd_cages cages;
     hd_observables observables;
     hd_gathered gathered;
     hd_watch watch;

@@ -17,6 +17,8 @@ enum { REFUSED = 2, FAULT = 3 };
 
 /** The recorder is sent no more reports a second. */
 static const double reports_per_second = 960.0;
+/** From here on disks have been seen to keep their places [T8]. */
+static const double density_of_cages = HD_DIM == 2 ? 0.88 : 0.9;
 
 /* ---- what is printed ------------------------------------------------------------------------ */
 
@@ -192,6 +194,11 @@ static void print_errors(const settings *set, const hd_estimate *t)
     if (steps) print_slopes(set, t);
     if (set->def.duration > 0 && set->def.duration < t->errors_after)
         printf("          The duration is too short for any error.\n");
+    if (set->def.density >= density_of_cages)
+        printf("          " DISKS
+               " may keep their places at this density, as in a crystal: then errors are "
+               "those of one state,\n          and other seeds may differ by more (~status: "
+               "caged).\n");
 }
 
 /** In simulated time of averaging, and in that of the wall. */

@@ -59,6 +59,8 @@ static void add_warnings(conditions *all, const worker_state *state, const hdr_l
     if (*at->name && at->error >= 0.0 && at->open >= at->wanted)
         add(all, level, "%s is not known to %.2g by any averaging: %.2g stays open in this box",
             at->name, at->wanted, at->open);
+    if (last->caged)
+        add(all, level, DISKS " keep their places: errors are those of this one state");
     if (slowest->seconds >= behind_seconds)
         add(all, level, "a subscriber of %s is %.1f s behind", slowest->topic, slowest->seconds);
     if (slowest->lost > 0)

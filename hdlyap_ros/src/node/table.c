@@ -104,6 +104,10 @@ static void print(const char *what, const settings *set, const hd_run *run)
     hdr_log(HDR_INFO, "%s: averaged %.6g%s time units, lambda_max %s%s%s", what,
             hd_spectrum_time(spectrum), of, lambda, target, left);
     print_steps(run);
+    if (hd_run_is_caged(run))
+        hdr_log(HDR_WARN,
+                "  " DISKS " have kept their places since the averaging began: errors are "
+                "those of this one state, other seeds may differ by more");
 }
 
 static bool is_averaged(const hd_run *run)

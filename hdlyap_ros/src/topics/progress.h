@@ -12,6 +12,7 @@ typedef struct progress {
     hd_cost cost;
     double averaged;    /**< time; 0 without exponents */
     int resolved_steps; /**< -1 while nobody looks at them */
+    bool caged;         /**< see hd_run_is_caged */
 } progress;
 
 /** pace: simulated time per wall second at most, which is waited for; 0: none. */

@@ -56,6 +56,7 @@ progress progress_of(const hd_run *run, double pace)
         .cost = cost,
         .averaged = spectrum ? hd_spectrum_time(spectrum) : 0.0,
         .resolved_steps = resolved_steps(run),
+        .caged = hd_run_is_caged(run),
     };
 }
 

@@ -15,6 +15,7 @@ hd_status topic_publish_status(const moment *now)
         .target = last->cost.target.name,
         .target_error = last->cost.target.error,
         .target_wanted = last->cost.target.wanted,
+        .caged = last->caged,
     };
     return topic_send_status(now->out, &message);
 }

@@ -79,3 +79,43 @@ TEST(the_error_is_that_of_the_samples)
     CHECK_CLOSE(hd_spectrum_exponent(s, 0), 63.0 / 64.0, 1e-14);
     assert_true(hd_spectrum_std_error(s, 0) > 0 && hd_spectrum_std_error(s, 0) < 0.2);
 }
+
+/** 64 samples of 0.5 that fluctuate about these means. */
+static void fill(hd_spectrum *s, const double mean[2])
+{
+    for (int k = 0; k < 64; k++) {
+        const double off = 0.1 * ((k * 37 % 64) / 63.0 - 0.5);
+        hd_spectrum_add(s, (const double[]){0.5 * (mean[0] + off), 0.5 * (mean[1] + off)}, 0.5);
+        hd_spectrum_sample(s);
+    }
+}
+
+/** ln(1 + 9) - 0.1 * 9 as it begins, more than ln(1 + 41) - 0.1 * 41 as it ends; and -0.01 at its
+ * end. A zero mode is far behind an exponent of 1. What was clear of them has no such part. */
+TEST(zero_modes_may_have_the_place_of_a_small_exponent)
+{
+    const struct {
+        double exponent, age, bias;
+    } cases[] = {{0.1, 9.0, (log(10.0) - 0.9) / 32.0},
+                 {-0.01, 9.0, (log(42.0) - 0.41) / 32.0},
+                 {0.0, 0.0, log(33.0) / 32.0},
+                 {1.0, 9.0, 0.0}};
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        MADE(hd_spectrum, plain, 4, 2, 0.0);
+        MADE(hd_spectrum, s, 4, 2, 0.0);
+        const double mean[2] = {2.0, cases[k].exponent};
+        const hd_part sum[2] = {{0, 3.0}, {1, -2.0}};
+        hd_spectrum_begin(s, cases[k].age);
+        fill(plain, mean);
+        assert_true(hd_spectrum_std_error(s, 1) < 0); /* not known remains so */
+        fill(s, mean);
+        CHECK_CLOSE(hd_spectrum_std_error(s, 0), hd_spectrum_std_error(plain, 0), 1e-15);
+        CHECK_CLOSE(hd_spectrum_std_error(s, 1),
+                    hypot(hd_spectrum_std_error(plain, 1), cases[k].bias), 1e-9);
+        CHECK_CLOSE(hd_spectrum_error_of_sum(s, sum, 2),
+                    hypot(hd_spectrum_error_of_sum(plain, sum, 2), 2.0 * cases[k].bias), 1e-9);
+        hd_spectrum_clear(s);
+        fill(s, mean);
+        CHECK_CLOSE(hd_spectrum_std_error(s, 1), hd_spectrum_std_error(plain, 1), 0.0);
+    }
+}

@@ -199,3 +199,20 @@ TEST(covariant_vectors_have_the_same_exponents)
     CHECK_WITHIN(hd_covariant_null(c), 0.0, 1e-6);
     CHECK_WITHIN(hd_covariant_start_mismatch(c).centre, 0.0, 1e-6);
 }
+
+/** A cube that walls make too narrow for its spheres, a crystal; and a fluid. */
+TEST(spheres_leave_their_places_in_a_fluid_alone)
+{
+    const struct {
+        hd_scene_def scene;
+        bool caged;
+    } cases[] = {{spheres_of(16, 0.9, 1.0, 1.0, 6, 1), true},
+                 {spheres_of(108, 1.1, 1.0, 1.0, 0, 1), true},
+                 {spheres_of(32, 0.9, 1.0, 1.0, 0, 1), false}};
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        OWNED(hd_run) *run = finished(scene_from(cases[k].scene, .exponents = HD_EXPONENTS_NONE,
+                                                 .equilibration = 50.0, .warmup = 0.0,
+                                                 .duration = 50.0, .threads = 1));
+        assert_int_equal(hd_run_is_caged(run), cases[k].caged);
+    }
+}

@@ -61,6 +61,14 @@ class Recorded(Run):
         return list(range(max(self.spectrum.first_index, end - SMALLEST + 1), end + 1))
 
     @property
+    def is_caged(self):
+        """As the last status said; those of older bags say nothing."""
+        last = None
+        for last in self.data.messages('status'):
+            continue
+        return getattr(last, 'caged', False)
+
+    @property
     def began(self):
         """Simulated time of the first status of each stage."""
         found = {}

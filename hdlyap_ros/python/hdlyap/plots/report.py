@@ -27,6 +27,11 @@ def report(recording):
         )
     if recording.covariant is not None:
         blocks += covariant_table.blocks(recording)
+    if recording.is_caged:
+        blocks.append(
+            f'{space.particle(recording.info)}s have kept their places since the averaging began: '
+            'errors are those\nof this one state, other seeds may differ by more'
+        )
     return '\n\n'.join(blocks)
 
 

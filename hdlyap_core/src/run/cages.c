@@ -1,0 +1,84 @@
+/** Positions at reports -> whether a tenth of the disks has been away from its place [T8].
+ * Displacements are those to the nearest image: who has gone around the box once looks as if it had
+ * stayed, but not all do so at each report. */
+#include "run/cages.h"
+
+#include <math.h>
+
+#include "base/memory.h"
+
+/** Of the mean distance of neighbours: a disk that is farther from its start has left. Vibrations
+ * of a crystal reach half of it. */
+static const double PLACE = 0.7;
+/** One in so many disks: a few hop in each crystal that has gaps. */
+enum { FEW = 10 };
+
+hd_status hd_cages_create(hd_cages *cages, int disks)
+{
+    const size_t count = HD_DIM * (size_t)disks;
+    *cages = (hd_cages){.start = hd_memory_alloc(count, sizeof(double)),
+                        .now = hd_memory_alloc(count, sizeof(double))};
+    return cages->start && cages->now ? HD_OK : HD_NO_MEMORY;
+}
+
+void hd_cages_clear(hd_cages *cages)
+{
+    hd_memory_free(cages->start);
+    hd_memory_free(cages->now);
+    *cages = (hd_cages){.start = NULL};
+}
+
+void hd_cages_begin(hd_cages *cages, const hd_trajectory *trajectory)
+{
+    hd_trajectory_state(trajectory, cages->start, NULL);
+    cages->begin = cages->end = hd_trajectory_time(trajectory);
+    cages->left = false;
+}
+
+static double square_moved(const double *from, const double *to, const double *box,
+                           const hd_boundary *boundary)
+{
+    double square = 0.0;
+    for (int d = 0; d < HD_DIM; d++) {
+        double moved = to[d] - from[d];
+        if (boundary[d] == HD_PERIODIC) moved -= box[d] * rint(moved / box[d]);
+        square += moved * moved;
+    }
+    return square;
+}
+
+void hd_cages_look(hd_cages *cages, const hd_trajectory *trajectory, const hd_scene_def *scene)
+{
+    hd_boundary boundary[HD_DIM];
+    double box[HD_DIM];
+    const double place = PLACE * pow(scene->density, -1.0 / HD_DIM);
+    int away = 0;
+    cages->end = hd_trajectory_time(trajectory);
+    if (cages->left) return;
+    for (int d = 0; d < HD_DIM; d++) boundary[d] = hd_scene_boundary(scene, d);
+    hd_trajectory_box(trajectory, box);
+    hd_trajectory_state(trajectory, cages->now, NULL);
+    for (int i = 0; i < scene->disks; i++)
+        away += square_moved(cages->start + HD_DIM * i, cages->now + HD_DIM * i, box, boundary) >
+                place * place;
+    cages->left = away * FEW >= scene->disks;
+}
+
+bool hd_cages_hold(const hd_cages *cages, double least)
+{
+    return !cages->left && cages->end > cages->begin && cages->end - cages->begin >= least;
+}
+
+void hd_cages_archive(hd_cages *cages, const hd_trajectory *trajectory, hd_archive *archive)
+{
+    const double now = hd_trajectory_time(trajectory);
+    int left = cages->left;
+    hd_archive_double(archive, "cages begin", &cages->begin);
+    hd_archive_double(archive, "cages end", &cages->end);
+    hd_archive_int(archive, "cages left", &left, 0, 1);
+    hd_archive_doubles(archive, "cages start", cages->start,
+                       HD_DIM * (size_t)hd_trajectory_disks(trajectory));
+    hd_archive_expect(archive, cages->begin <= cages->end && cages->end <= now, "cages end",
+                      "it does not fit the time");
+    cages->left = left;
+}
