@@ -139,7 +139,8 @@ TEST(Conditions, EachHasItsLevelAndMessage)
     const hdr_lag prompt = {"", 0, 0, 0}, behind = {"/b/fields", 12.34, 5, 0},
                   losing = {"/b/fields", 0.5, 1001, 42};
     worker_state fault = healthy(), unkept = healthy(), deep = healthy(), warm = healthy(),
-                 stalled = healthy(), lost = healthy(), open = healthy(), empty = healthy(), caged = healthy();
+                 stalled = healthy(), lost = healthy(), open = healthy(), empty = healthy(),
+                 caged = healthy();
     empty.warning = "none of them belongs to a step";
     fault.status = HD_ILL_CONDITIONED;
     unkept.checkpoint.failed = true;

@@ -198,7 +198,7 @@ TEST(what_no_run_could_resume_is_not_written)
     const bytes before = kept_file(PATH);
     const broken cases[] = {
         {&run->agenda.field_interval, -1.0, "run fields: it is negative"},
-        {&run->agenda.in_force.target_std_error, -1.0, "run fields: it is negative"},
+        {&run->agenda.in_force.field_interval, -1.0, "run fields: it is negative"},
         {&run->agenda.interval_end, 1.0, "run interval end: it does not fit the time"},
         {&run->advance.plan.begin, 1e9, "run advance end: it does not fit the time"},
         {&run->advance.longest, 0.0, "run advance longest: it is not positive"},
