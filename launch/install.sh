@@ -24,7 +24,7 @@ message_packages() {
 
 run_packages() {
     message_packages "$1"
-    echo pkg-config procps python3-paramiko libopenblas-openmp-dev liblapacke-dev libyaml-cpp-dev zlib1g-dev
+    echo pkg-config procps python3-paramiko python3-tk libopenblas-openmp-dev liblapacke-dev libyaml-cpp-dev zlib1g-dev
     case $1 in
         debian)
             echo ros-std-srvs libstd-srvs-dev python3-std-srvs ros-diagnostic-msgs libdiagnostic-msgs-dev \

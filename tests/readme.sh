@@ -51,8 +51,10 @@ type_in() {
             sed 's/^disks: .*/disks: 40/' "$ROOT/launch/scenes/covariant.yaml" >few.yaml
             run bash -ec "${1/scene:=covariant/scene:=$PWD/few.yaml}"
             ;;
-        *rviz:=true*) opens_rviz bash -ec "$1" ;;
-        *rviz.launch) beside_a_node opens_rviz bash -ec "$1" ;;
+        *rviz:=true*) opens rviz bash -ec "$1" ;;
+        *plot:=true*) opens plot bash -ec "$1" ;;
+        *'plot --live') beside_a_node opens plot bash -ec "$1" ;;
+        *rviz.launch) beside_a_node opens rviz bash -ec "$1" ;;
         rosservice*)
             beside_a_node bash -ec "until rosservice info /hdlyap/set; do sleep 0.1; done; timeout 60 $1 | tee /dev/stderr | grep -q 'success: True'"
             ;;
@@ -62,9 +64,10 @@ type_in() {
     esac
 }
 
-# opens_rviz COMMAND...: on a screen without a monitor; then both are stopped.
-opens_rviz() {
-    local screen command waited status=1
+# opens NAME COMMAND...: a node NAME_.. on a screen without a monitor; then both are stopped.
+opens() {
+    local name=$1 screen command waited status=1
+    shift
     mkfifo "$WORK/screen"
     start Xvfb -displayfd 3 -screen 0 1400x1000x24 3<>"$WORK/screen" 2>/dev/null
     screen=$CHILD
@@ -74,7 +77,7 @@ opens_rviz() {
     command=$CHILD
     for ((waited = 0; waited < 600 && status; waited++)); do
         sleep 0.1
-        ! rosnode list 2>/dev/null | grep -q '^/rviz_' || status=0
+        ! rosnode list 2>/dev/null | grep -q "^/${name}_" || status=0
     done
     stop "$command"
     finish "$command" || true

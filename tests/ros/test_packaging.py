@@ -66,6 +66,7 @@ OF_SYSTEM = {
     'yaml-cpp': 'libyaml-cpp-dev',
     'python3-scipy': 'python3-scipy',
     'python3-setuptools': 'python3-setuptools',
+    'python3-tk': 'python3-tk',
     'python3-yaml': 'python3-yaml',
     'xvfb': 'xvfb',
     'zlib': 'zlib1g-dev',

@@ -4,11 +4,8 @@ says so, live and to who comes late."""
 
 import os
 import signal
-import subprocess
-import tempfile
 import time
 
-import matplotlib.image
 import numpy as np
 import rosgraph
 import rospy
@@ -19,42 +16,12 @@ from visualization_msgs.msg import Marker, MarkerArray
 
 import harness
 from hdlyap.commands import view as view_command
+from screen import SIZE as SCREEN, Screen
 
 VIEW = harness.command('view')
-SCREEN = (1360, 960)
 PAPER = (250, 251, 255)  # a background that nothing else has
 # steps within seconds, then slow enough to look on
 SCENE = dict(harness.MODES, warmup=40.0, duration=0.0, pace=2.0)
-
-
-class Screen:
-    """Xvfb with rviz in it."""
-
-    def __init__(self):
-        read, write = os.pipe()
-        # without -noreset a picture, its only client, would close it to who comes just then
-        self.server = subprocess.Popen(
-            ['Xvfb', '-noreset', '-displayfd', str(write), '-screen', '0', '%dx%dx24' % SCREEN],
-            pass_fds=[write],
-            stderr=subprocess.DEVNULL,
-        )
-        os.close(write)
-        with os.fdopen(read) as number:
-            self.env = dict(DISPLAY=':' + number.readline().strip(), LIBGL_ALWAYS_SOFTWARE='1')
-
-    def shot(self):
-        """Pixels of the screen, [row, column, colour]."""
-        with tempfile.NamedTemporaryFile(suffix='.png') as file:
-            subprocess.run(
-                ['import', '-window', 'root', 'png24:' + file.name],
-                check=True,
-                env=dict(os.environ, **self.env),
-            )
-            return np.rint(255 * matplotlib.image.imread(file.name)[:, :, :3]).astype(int)
-
-    def close(self):
-        self.server.terminate()
-        self.server.wait()
 
 
 def config(folder, name='hdlyap.rviz'):

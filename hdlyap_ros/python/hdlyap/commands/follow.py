@@ -7,9 +7,6 @@ Exit status: 0 the run has finished, or q; 1 no node; 3 the node went away befor
 run; 130 interrupted."""
 
 import sys
-import time
-
-import rospy
 
 from hdlyap.follow import dashboard, line, nodes, screen
 
@@ -39,12 +36,7 @@ def main(args):
 
 
 def follow(args):
-    deadline = time.monotonic() + args.timeout
-    nodes.wait_for_master(deadline)
-    rospy.init_node('follow', anonymous=True)
-    node = nodes.wait_for_node(args.node and '/' + args.node.strip('/'), deadline)
-    if node is None:
-        sys.exit(130 if rospy.is_shutdown() else 'hdlyap follow: no hdlyap_node is running')
+    node = nodes.chosen('follow', args.node, args.timeout)
     status = (
         line.follow(node)
         if args.line or not screen.is_usable()

@@ -1,6 +1,8 @@
 """A film of modes with the disks moving, from a recorded bag.
 
-Needs neither a master nor rviz."""
+Needs neither a master nor rviz.
+
+Exit status: 0; 1 if the bag cannot be used or the film cannot be written; 2 for a wrong option."""
 
 import argparse
 import os

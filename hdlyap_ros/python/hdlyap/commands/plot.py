@@ -3,9 +3,15 @@
 Several bags are parts of one run (split, or resumed from a checkpoint), or runs of several seeds,
 whose means are drawn.
 
-Exit status: 0; 1 if a bag cannot be used or a file cannot be written; 2 for a wrong option."""
+With --live instead a window of a running node's spectrum, steps, dispersion, phases and
+convergence, until it is closed.
+
+Exit status: 0; 1 if a bag cannot be used, a file cannot be written, or no node is there; 2 for a
+wrong option, or no display for the window; 3 if the node had gone before the end of its run when
+the window was closed."""
 
 import os
+import sys
 
 from hdlyap.data import export
 from hdlyap.plots import figures, fits, recorded, report
@@ -13,10 +19,18 @@ from hdlyap.plots.progress import Progress
 
 
 FAULT = 1
+PATIENCE = 30.0  # seconds for a master and a node to appear
 
 
 def options(parser):
-    parser.add_argument('bags', nargs='+', metavar='BAG', help='file recorded by rosbag')
+    parser.add_argument('bags', nargs='*', metavar='BAG', help='file recorded by rosbag')
+    parser.add_argument(
+        '--live',
+        nargs='?',
+        const='',
+        metavar='NODE',
+        help='a window of this running node (default: the only one)',
+    )
     parser.add_argument(
         '--out', default='.', metavar='DIR', help='folder of the figures (default: the current one)'
     )
@@ -43,8 +57,35 @@ def exported(run, args):
     return files + ([export.npz(run, args.npz)] if args.npz else [])
 
 
+def live(args, form, k):
+    """Exit status. What a window needs is not asked for by those who have bags."""
+    if args.bags or any((args.node, args.run, args.only, args.pdf, args.csv, args.npz)):
+        args.error('--live takes no bag, and no option but those of the fits')
+    try:
+        import tkinter
+        from hdlyap.plots.window import Window
+    except ImportError as error:
+        return refused(f'--live needs tkinter (python3-tk): {error}')
+    try:
+        window = Window('hdlyap plot')
+    except tkinter.TclError as error:
+        return refused(f'--live needs a screen: {error}')
+    from hdlyap.follow import live as following, nodes
+
+    return following.follow(nodes.chosen('plot', args.live, PATIENCE), window, form=form, k=k)
+
+
+def refused(why):
+    print(f'hdlyap plot: {why}', file=sys.stderr)
+    return 2
+
+
 def main(args):
     form, k = fits.choice(args)
+    if args.live is not None:
+        return live(args, form, k)
+    if not args.bags:
+        args.error('the following arguments are required: BAG')
     run = recorded.read(*args.bags, node=args.node, run=args.run, form=form, k=k)
     print(report.report(run), flush=True)
     if run.spectrum is None:

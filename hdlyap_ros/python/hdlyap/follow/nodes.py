@@ -28,17 +28,28 @@ UNANSWERED = (
 )
 
 
-def wait_for_master(deadline):
+def chosen(command, name, patience):
+    """Name of the node that publishes hdlyap/RunStatus: this one, or the only one; for a command
+    of hdlyap, whose node is started. Waits so many seconds; exits without one."""
+    deadline = time.monotonic() + patience
+    _wait_for_master(command, deadline)
+    rospy.init_node(command, anonymous=True)
+    node = _wait_for_node(command, name and rospy.resolve_name(name.rstrip('/')), deadline)
+    if node is None:
+        sys.exit(130 if rospy.is_shutdown() else f'hdlyap {command}: no hdlyap_node is running')
+    return node
+
+
+def _wait_for_master(command, deadline):
     """Says at once that there is none."""
     uri = rosgraph.get_master_uri()
-    missing = f'hdlyap follow: no master at {uri}'
+    missing = f'hdlyap {command}: no master at {uri}'
     if not _wait(lambda: answers(uri, SOON), deadline, lambda: missing):
         sys.exit(missing)
 
 
-def wait_for_node(name, deadline):
-    """Name of the node that publishes hdlyap/RunStatus; None after the deadline. Says at once that
-    there is none."""
+def _wait_for_node(command, name, deadline):
+    """None after the deadline. Says at once that there is none."""
     found = set()
 
     def look():
@@ -51,12 +62,12 @@ def wait_for_node(name, deadline):
 
     def missing():
         others = f'; there is {listed()}' if found else ''
-        return f'hdlyap follow: no {name or "hdlyap_node"} that publishes a run_info{others}'
+        return f'hdlyap {command}: no {name or "hdlyap_node"} that publishes a run_info{others}'
 
     if not _wait(look, deadline, missing):
         return None
     if name is None and len(found) > 1:
-        sys.exit(f'hdlyap follow: several nodes, choose one with --node: {listed()}')
+        sys.exit(f'hdlyap {command}: several nodes, choose one: {listed()}')
     return name or found.pop()
 
 

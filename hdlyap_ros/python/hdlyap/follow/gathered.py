@@ -1,0 +1,62 @@
+"""A node's topics -> what a bag of them would have held by now: data.run.Run reads it like one."""
+
+import threading
+
+from hdlyap.data.reader import RUN_INFO, Packed
+from hdlyap.plots.recorded import Recorded
+from hdlyap.data.run import Run
+
+from .watch import ALWAYS, COMPUTED, Watch
+
+MOST = 512  # messages of a topic that are kept: more points cannot be seen
+LAST = 'status', 'cost', 'steps'  # topics of which figures want the last one alone
+
+
+class Kept:
+    """Messages of one run as data.joined.Joined has them."""
+
+    runs = 1
+
+    def __init__(self, node, info, messages):
+        self.name, self.paths, self.info = node, [node], info
+        self._messages = messages
+
+    def packed(self, kinds):
+        found = [packed for kind in kinds for packed in self._messages.get(kind, ())]
+        return (packed for packed in found if packed.run_id == self.info.run_id)
+
+    in_time = packed
+
+
+class Gathered(Watch):
+    """Listens to all that the figures need, also to what the node computes for listeners alone."""
+
+    def __init__(self, node):
+        self._kept, self._lock = {}, threading.Lock()
+        self.count = 0  # of messages that can change a figure
+        super().__init__(node)
+        self.toggle_computed()
+
+    def _hear(self, message, topic):
+        name = topic.rpartition('/')[2]
+        kind = {**ALWAYS, **COMPUTED}[name]
+        packed = Packed(self._node, kind._type, message.data, kind, None)
+        with self._lock:
+            self._keep(packed, 1 if name in LAST else MOST)
+        self.count += name in ('spectrum', 'steps')
+        super()._hear(message, topic)
+
+    def _keep(self, packed, most):
+        """Thinned out as it grows: the first and the last one stay."""
+        kept = self._kept.setdefault(packed.kind, [])
+        if most == 1 or kept and kept[-1].run_id != packed.run_id:
+            kept.clear()
+        if len(kept) >= most > 1:
+            del kept[1:-1:2]
+        kept.append(packed)
+
+    def recorded(self, info, form=None, k=None):
+        """As tables and figures take it."""
+        with self._lock:
+            messages = {kind: list(kept) for kind, kept in self._kept.items() if kind != RUN_INFO}
+        return Recorded(Run(Kept(self._node, info, messages), form, k))
