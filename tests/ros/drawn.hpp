@@ -32,25 +32,10 @@ inline MarkerArray received(const hdr_markers &markers)
     return message;
 }
 
-/** Resolved, with vectors of its own. */
-inline hdr_step a_step(uint8_t kind, uint32_t nx, uint32_t ny, double k, uint32_t first,
-                       uint32_t last, double exponent, double error)
-{
-    hdr_step step = {};
-    step.kind = kind, step.nx = nx, step.ny = ny, step.wave_number = k;
-    step.resolved = true, step.members = 1;
-    step.first_index = first, step.last_index = last;
-    step.expected = last - first + 1, step.multiplicity = 0.9 * step.expected;
-    step.exponent = exponent, step.std_error = error, step.omega_error = -1.0;
-    return step;
-}
-
 /** A picture and all that it points to. */
 struct scene {
     picture p = {};
-    std::vector<double> q, exponents, vectors;
-    std::vector<hdr_step> step;
-    hdr_steps steps = {};
+    std::vector<double> q, vectors;
 
     scene(double width, double height, int disks, int modes, unsigned seed)
     {
@@ -92,31 +77,6 @@ struct scene {
             m.dx = {vectors.data() + 2 * disks * k, disks, 2};
             m.dy = {vectors.data() + 2 * disks * k + 1, disks, 2};
         }
-    }
-
-    void measure(uint32_t n)
-    {
-        for (uint32_t k = 0; k < n; k++) exponents.push_back(6.0 - 5.0 * k / n);
-        p.has_exponents = true;
-        p.exponents = {exponents.data(), n, 1};
-        step = {a_step(HDR_MODE_T, 1, 0, 0.2, n - 1, n, 1.05, 0.01),
-                a_step(HDR_MODE_LP, 1, 0, 0.2, n - 5, n - 2, 1.1, -1.0),
-                a_step(HDR_MODE_LP, 0, 1, 0.3, 0, 0, 0.0, 0.0)};
-        step[2].resolved = false;
-        steps.steps = {step.data(), static_cast<uint32_t>(step.size())};
-        steps.t_points = 2, steps.c_t = 3.2, steps.c_t_error = 0.1, steps.t_misfit = 6.53;
-        steps.c_t2 = 0.2, steps.c_t3 = 0.5;
-        steps.l_points = 1, steps.c_l = 4.2, steps.c_l_error = -1, steps.l_misfit = -1;
-        steps.c_l2 = steps.c_l3 = NAN;
-        p.steps = &steps;
-    }
-
-    /** Of one vector each, below those of measure. */
-    void more_steps(uint32_t count)
-    {
-        for (uint32_t k = 0; k < count; k++)
-            step.push_back(a_step(HDR_MODE_T, 2, k, 0.3, 90 - k, 90 - k, 1.2 + 0.05 * k, 0.01));
-        steps.steps = {step.data(), static_cast<uint32_t>(step.size())};
     }
 };
 

@@ -10,6 +10,19 @@ extern "C" {
 
 static const uint32_t DISKS = 3;
 
+/** Resolved, with vectors of its own. */
+inline hdr_step a_step(uint8_t kind, uint32_t nx, uint32_t ny, double k, uint32_t first,
+                       uint32_t last, double exponent, double error)
+{
+    hdr_step step = {};
+    step.kind = kind, step.nx = nx, step.ny = ny, step.wave_number = k;
+    step.resolved = true, step.members = 1;
+    step.first_index = first, step.last_index = last;
+    step.expected = last - first + 1, step.multiplicity = 0.9 * step.expected;
+    step.exponent = exponent, step.std_error = error, step.omega_error = -1.0;
+    return step;
+}
+
 /** What a viewer has heard, and the arrays of what it hears. */
 struct hearing {
     heard h = {};
@@ -38,8 +51,8 @@ struct hearing {
 
     void steps(bool resolved)
     {
-        step = {drawn::a_step(HDR_MODE_T, 1, 0, 0.6, 7, 8, 1.5, 0.25),
-                drawn::a_step(HDR_MODE_LP, 0, 1, 0.6, 5, 6, 1.8, -1.0)};
+        step = {a_step(HDR_MODE_T, 1, 0, 0.6, 7, 8, 1.5, 0.25),
+                a_step(HDR_MODE_LP, 0, 1, 0.6, 5, 6, 1.8, -1.0)};
         for (hdr_step &one : step) one.resolved = resolved;
         hdr_steps message = {};
         message.run_id = "run", message.steps = {step.data(), 2};

@@ -146,8 +146,8 @@ TEST(heard, slow_vectors_of_spheres_that_do_not_fit)
 TEST(heard, waves_along_z_are_waves_of_their_own)
 {
     hearing_spheres on;
-    on.step = {drawn::a_step(HDR_MODE_LP, 1, 0, 0.6, 7, 8, 1.5, 0.25),
-               drawn::a_step(HDR_MODE_LP, 1, 0, 0.9, 5, 6, 1.8, 0.5)};
+    on.step = {a_step(HDR_MODE_LP, 1, 0, 0.6, 7, 8, 1.5, 0.25),
+               a_step(HDR_MODE_LP, 1, 0, 0.9, 5, 6, 1.8, 0.5)};
     on.step[1].nz = 1;
     hdr_steps steps = {};
     steps.run_id = "run", steps.steps = {on.step.data(), 2};

@@ -4,7 +4,29 @@
 
 #include "drawn.hpp"
 
+extern "C" {
+#include "common/numbers.h"
+}
+
 using namespace drawn;
+
+/** As the tables of hdlyap plot have them. */
+TEST(markers, numbers_with_errors)
+{
+    const struct {
+        double value, error;
+        const char *text;
+    } cases[] = {{0.61252, 0.00067, "0.61252(67)"},   {5.262, 0.0095, "5.2620(95)"},
+                 {5.262, 0.00996, "5.262(10)"},       {12.34, 1.52, "12.3(1.5)"},
+                 {1234.0, 15.2, "1234(15)"},          {0.61252, -1.0, "0.6125"},
+                 {-0.00128, 0.00047, "-0.00128(47)"}, {1.5, 1e-12, "1.5e+00"},
+                 {6.5, 0.099951, "6.50(10)"},         {12.34, 1.0, "12.3(1.0)"}};
+    for (const auto &c : cases) {
+        char text[48];
+        number_with_error(text, sizeof text, c.value, c.error);
+        EXPECT_STREQ(c.text, text);
+    }
+}
 
 TEST(markers, bytes)
 {
@@ -61,51 +83,41 @@ TEST(markers, bytes)
     EXPECT_STREQ(ros::message_traits::md5sum<MarkerArray>(), ros::message_traits::md5sum(out));
 }
 
-/** Boxes of all shapes, hardly any disks, many modes and steps: rviz takes what is drawn, and
- * nothing of it is left out. */
+/** Boxes of all shapes, hardly any disks, many modes: rviz takes what is drawn, and nothing of it
+ * is left out. */
 TEST(markers, rviz_takes_every_picture)
 {
     for (const double shape : {0.01, 0.3, 0.867, 1.0, 3.0, 80.0})
         for (const int modes : {0, 1, 2, 3, 8})
-            for (const bool measured : {false, true}) {
-                scene s(30.0 / std::sqrt(shape), 30.0 * std::sqrt(shape), measured ? 50 : 2, modes,
-                        1);
-                if (measured) s.measure(97);
-                if (measured) s.more_steps(20);
+            for (const int disks : {2, 50}) {
+                scene s(30.0 / std::sqrt(shape), 30.0 * std::sqrt(shape), disks, modes, 1);
                 const MarkerArray array = drawing().of(s.p);
                 expect_shown(array);
-                EXPECT_LE(array.markers.size(), 150u);
+                // box, disks, caption; of each mode arrows and title, of one in two its dials
+                EXPECT_EQ(3u + 2u * modes + 2u * (modes / 2), array.markers.size());
                 EXPECT_EQ(1u, in(array, "caption", Marker::TEXT_VIEW_FACING).size());
-                int names = 0; // of steps
-                for (const Marker &m : in(array, "spectrum", Marker::TEXT_VIEW_FACING))
-                    names += m.text.find('(') != std::string::npos;
-                EXPECT_EQ(measured ? 12 : 0, names);
             }
 }
 
-/** Steps are looked for and none is found: rviz takes an empty list for an error. */
-TEST(markers, nothing_is_found_yet)
+/** Of two lines. */
+TEST(markers, the_caption_says_what_is_known)
 {
-    scene s(20.0, 20.0, 10, 2, 9);
-    s.measure(40);
-    for (hdr_step &step : s.step) step.resolved = false;
-    const MarkerArray array = drawing().of(s.p);
-    expect_shown(array);
-    EXPECT_TRUE(in(array, "dispersion", Marker::POINTS).empty());
-}
-
-/** As after a reset of the averages. */
-TEST(markers, errors_that_are_known_no_more_are_deleted)
-{
-    scene s(20.0, 20.0, 10, 2, 9);
+    scene s(20.0, 20.0, 10, 0, 7);
     drawing on;
-    s.measure(40);
-    const int id = in(on.of(s.p), "dispersion", Marker::LINE_LIST).back().id;
-    for (hdr_step &step : s.step) step.std_error = -1.0;
-    const MarkerArray array = on.of(s.p);
-    EXPECT_TRUE(std::any_of(array.markers.begin(), array.markers.end(), [id](const Marker &m) {
-        return m.ns == "dispersion" && m.id == id && m.action == Marker::DELETE;
-    }));
+    const auto expect = [&](const std::string &text) {
+        const MarkerArray array = on.of(s.p);
+        EXPECT_EQ(text, in(array, "caption", Marker::TEXT_VIEW_FACING).at(0).text);
+        expect_shown(array);
+    };
+    expect("a scene: 10 disks, x reflecting, y reflecting\nt = 12.5, averaging (25 %)");
+    s.p.periodic[1] = true;
+    s.p.note = "(nothing new since 14:03:27)";
+    expect("a scene: 10 disks, x reflecting, y periodic\n"
+           "t = 12.5, averaging (25 %)   (nothing new since 14:03:27)");
+    s.p.round = true, s.p.note = "", s.p.progress = -1.0;
+    expect("a scene: 10 disks, in a circle\nt = 12.5, averaging");
+    s.p.time = -1.0, s.p.x.count = s.p.y.count = 0; // described, and not begun
+    expect("a scene: 10 disks, in a circle\nwaiting for its first message");
 }
 
 TEST(markers, a_round_wall_takes_the_place_of_the_box)
@@ -201,7 +213,6 @@ TEST(markers, no_arrow_crosses_a_text)
         for (const double shape : {0.2, 0.867, 3.0}) {
             scene s(30.0 / std::sqrt(shape), 30.0 * std::sqrt(shape), disks, 6, 11);
             for (size_t k = 0; k < s.vectors.size(); k += 7) s.vectors[k] *= 20.0; // are cut
-            s.measure(97);
             const MarkerArray array = drawing().of(s.p);
             for (const Marker &m : array.markers) {
                 if (m.type != Marker::TEXT_VIEW_FACING) continue;
@@ -215,32 +226,6 @@ TEST(markers, no_arrow_crosses_a_text)
                             << m.text;
                 }
             }
-        }
-}
-
-/** A box too long for arrows: each component against x, in proportion, below the box and above the
- * plots. */
-TEST(markers, the_field_of_a_long_box_is_plotted)
-{
-    scene s(200.0, 1.5, 60, 2, 8);
-    s.measure(97);
-    const MarkerArray array = drawing().of(s.p);
-    const Marker boxes = in(array, "box", Marker::LINE_LIST).at(0);
-    const std::vector<Marker> dots = in(array, "mode/LP(1,1)", Marker::POINTS);
-    const double left = boxes.points[16].x, bottom = boxes.points[24].y, top = boxes.points[28].y;
-    ASSERT_EQ(32u, boxes.points.size());
-    ASSERT_EQ(2u, dots.size()); // across, along
-    EXPECT_TRUE(in(array, "mode/LP(1,1)", Marker::TRIANGLE_LIST).empty());
-    EXPECT_LT(top, boxes.points[16].y);
-    EXPECT_GT(bottom, in(array, "spectrum", Marker::LINE_LIST).at(0).points[3].y);
-    double square = 0;
-    for (int k = 120; k < 240; k++) square += s.vectors[k] * s.vectors[k] / 60;
-    for (int i = 0; i < 60; i++)
-        for (const int along : {0, 1}) {
-            const auto &point = dots[along].points[i];
-            const double wanted = 0.3 * s.vectors[120 + 2 * i + 1 - along] / std::sqrt(square);
-            EXPECT_NEAR(left + s.q[2 * i], point.x, 1e-9);
-            EXPECT_NEAR(wanted, (2 * point.y - top - bottom) / (top - bottom), 1e-9);
         }
 }
 

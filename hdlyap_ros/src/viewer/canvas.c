@@ -6,15 +6,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-/** The largest picture has some 110. */
-enum { LAYERS_MAX = 160, SEEN_MAX = 300, NAME_SIZE = 32, TEXT_SIZE = 400 };
+/** The largest picture has 43. */
+enum { LAYERS_MAX = 64, SEEN_MAX = 300, NAME_SIZE = 32, TEXT_SIZE = 400 };
 
 /** One marker; its points are [begin, begin + count) of the canvas. */
 typedef struct layer {
     char ns[NAME_SIZE], text[TEXT_SIZE];
     hdr_marker marker;
     size_t begin;
-    bool coloured;
+    bool unlit;
 } layer;
 
 typedef struct name {
@@ -74,7 +74,7 @@ void canvas_layer(canvas *c, const char *ns, int type, hdr_colour colour, double
     snprintf(l->ns, sizeof l->ns, "%s", ns);
     l->text[0] = '\0';
     l->begin = c->used;
-    l->coloured = false;
+    l->unlit = false;
     l->marker = (hdr_marker){
         .id = next_id(c, l->ns),
         .type = type,
@@ -85,7 +85,7 @@ void canvas_layer(canvas *c, const char *ns, int type, hdr_colour colour, double
     c->count++;
 }
 
-void canvas_unlit(canvas *c) { c->layers[c->count - 1].coloured = true; }
+void canvas_unlit(canvas *c) { c->layers[c->count - 1].unlit = true; }
 
 static bool grow(canvas *c)
 {
@@ -98,23 +98,14 @@ static bool grow(canvas *c)
     return points && colours;
 }
 
-void canvas_coloured(canvas *c, double x, double y, double z, hdr_colour colour)
+void canvas_point(canvas *c, double x, double y, double z)
 {
     if (c->used == c->room && !c->failed) c->failed = !grow(c);
     if (c->failed) return;
-    layer *l = &c->layers[c->count - 1];
+    hdr_marker *m = &c->layers[c->count - 1].marker;
     c->points[c->used] = (hdr_point){x, y, z};
-    c->colours[c->used++] = colour;
-    l->marker.count++;
-    l->coloured = true;
-}
-
-void canvas_point(canvas *c, double x, double y, double z)
-{
-    layer *l = &c->layers[c->count - 1];
-    const bool coloured = l->coloured;
-    canvas_coloured(c, x, y, z, l->marker.colour);
-    l->coloured = coloured;
+    c->colours[c->used++] = m->colour;
+    m->count++;
 }
 
 void canvas_line(canvas *c, double x0, double y0, double x1, double y1)
@@ -188,7 +179,7 @@ static uint32_t gather_drawn(canvas *c, hdr_marker *out)
         l->marker.ns = l->ns;
         l->marker.text = l->text;
         l->marker.points = c->points + l->begin;
-        l->marker.colours = l->coloured ? c->colours + l->begin : NULL;
+        l->marker.colours = l->unlit ? c->colours + l->begin : NULL;
         out[count++] = l->marker;
     }
     return count;

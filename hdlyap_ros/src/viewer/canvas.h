@@ -25,8 +25,6 @@ void canvas_layer(canvas *c, const char *ns, int type, hdr_colour colour, double
  * without, which turns those black that are seen from their dark side. */
 void canvas_unlit(canvas *c);
 void canvas_point(canvas *c, double x, double y, double z);
-/** A point of its own colour: all of a layer, or none. */
-void canvas_coloured(canvas *c, double x, double y, double z, hdr_colour colour);
 void canvas_line(canvas *c, double x0, double y0, double x1, double y1);
 
 /** A text round (x, y), in a marker of its own; format as for printf. */

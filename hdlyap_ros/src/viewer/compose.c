@@ -171,7 +171,6 @@ picture compose(const heard *h, const mode_choice *asked, const char *note)
         .periodic = {h->periodic[0], h->periodic[1], h->periodic[2]},
         .round = h->round,
         .time = h->time >= 0.0 ? h->time : h->status_time,
-        .averaged = h->averaged,
         .progress = h->progress,
         .note = note,
         .x = array_of(h->x, disks),
@@ -181,11 +180,6 @@ picture compose(const heard *h, const mode_choice *asked, const char *note)
         .at_x = array_of(h->at_x, h->disks),
         .at_y = array_of(h->at_y, h->disks),
         .at_z = depth_of(h, h->at_z, h->disks),
-        .has_exponents = h->has_exponents,
-        .exponents = array_of(h->exponents, h->exponents_count),
-        .lambda_max = h->lambda_max,
-        .lambda_max_error = h->lambda_max_error,
-        .steps = h->has_steps ? &h->steps : NULL,
     };
     fill_modes(&p, h, asked);
     return p;

@@ -11,7 +11,6 @@ void heard_clear(heard *h)
 {
     for (int k = 0; k < HEARD_VECTORS_MAX; k++) free(h->vector[k].dx);
     free(h->x);
-    free(h->exponents);
     free((void *)h->steps.steps.data);
     free((void *)h->phases.phases.data);
     *h = (heard){.time = -1.0, .status_time = -1.0, .vector_time = -1.0};
@@ -69,8 +68,6 @@ static void begin(heard *h, const hdr_run_info *info)
     h->disks = info->disks;
     h->stage = UINT8_MAX;
     begin_box(h, info);
-    h->has_exponents = info->vectors > 0;
-    h->has_steps = is_in(&info->observables, "steps");
     for (size_t k = 0; k < sizeof of_modes / sizeof *of_modes; k++)
         h->has_lp |= info->wave_nx.count > 0 && is_in(&info->observables, of_modes[k]);
     h->has_t = h->has_lp && has_transverse(h, info);
@@ -292,20 +289,7 @@ void heard_slow_vectors(heard *h, const hdr_slow_vectors *slow)
     }
 }
 
-/* ---- averages -------------------------------------------------------------------------------- */
-
-void heard_spectrum(heard *h, const hdr_spectrum *spectrum)
-{
-    if (!is_ours(h, spectrum->run_id)) return;
-    double *exponents = replaced(h->exponents, NULL, spectrum->exponents.count * sizeof *exponents);
-    if (!exponents) return;
-    copy(exponents, &spectrum->exponents);
-    h->exponents = exponents;
-    h->exponents_count = spectrum->exponents.count;
-    h->averaged = spectrum->averaged_time;
-    h->lambda_max = spectrum->lambda_max;
-    h->lambda_max_error = spectrum->std_errors.count > 0 ? spectrum->std_errors.data[0] : -1.0;
-}
+/* ---- steps, phases, status ----------------------------------------------------------------- */
 
 void heard_steps(heard *h, const hdr_steps *steps)
 {

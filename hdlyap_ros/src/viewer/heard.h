@@ -25,8 +25,7 @@ typedef struct heard {
     uint32_t disks;
     double box[3]; /**< 0 along z of disks, spheres otherwise */
     bool periodic[3];
-    bool round;                    /**< the wall is a circle, which the box holds */
-    bool has_exponents, has_steps; /**< sooner or later, as the next two */
+    bool round;         /**< the wall is a circle, which the box holds */
     bool has_t, has_lp; /**< modes of these kinds: can be in the box, and are looked for */
     uint8_t stage;      /**< UINT8_MAX before the first status */
     double progress;
@@ -35,10 +34,7 @@ typedef struct heard {
     heard_vector vector[HEARD_VECTORS_MAX];
     int vectors;
     double vector_time, *at_x, *at_y,
-        *at_z; /**< of the vectors: where the disks were then, behind z */
-    double *exponents, averaged;
-    double lambda_max, lambda_max_error; /**< the error is -1 while it is not known */
-    uint32_t exponents_count;
+        *at_z;       /**< of the vectors: where the disks were then, behind z */
     hdr_steps steps; /**< of an own array, as the next */
     hdr_lp_phases phases;
     bool changed; /**< since the caller took that back: a picture would show something else */
@@ -57,7 +53,6 @@ void heard_slow_vectors(heard *h, const hdr_slow_vectors *slow);
 void heard_state(heard *h, const hdr_state *state);
 /** A vector of its time; the disks are there too, unless they are further already. */
 void heard_mode_field(heard *h, const hdr_mode_field *field);
-void heard_spectrum(heard *h, const hdr_spectrum *spectrum);
 void heard_steps(heard *h, const hdr_steps *steps);
 void heard_lp_phases(heard *h, const hdr_lp_phases *phases);
 void heard_run_status(heard *h, const hdr_run_status *status);

@@ -1,16 +1,13 @@
-/** Panels side by side, or above each other where the box is long; plots in a row below them. */
+/** Panels side by side, or above each other where the box is long. */
 #include "layout.h"
 
 #include <math.h>
 
 /** In units of the text's height. */
-static const double WIDTH_UNITS = 64.0, GAP = 3.0, TITLE = 3.5, AXIS = 6.0, CAPTION = 7.5;
-static const double ARROW = 2.6;        /* the longest, in mean distances of disks */
-static const double LONG = 2.5;         /* boxes this much longer than high lie above each other */
-static const double TOO_LONG = 40.0;    /* arrows of neighbours would cover each other */
-static const double STRIP = 8.0;        /* height */
-static const double RISE = 0.7;         /* of what is above the plane, as seen from 55 degrees */
-static const double PLOT_HEIGHT = 0.65; /* of its width */
+static const double WIDTH_UNITS = 64.0, GAP = 3.0, TITLE = 3.5, CAPTION = 3.5;
+static const double ARROW = 2.6; /* the longest, in mean distances of disks */
+static const double LONG = 2.5;  /* boxes this much longer than high lie above each other */
+static const double RISE = 0.7;  /* of what is above the plane, as seen from 55 degrees */
 
 /** Of a box of spheres that is seen from above and from the front, as rviz's view begins: its
  * height on the screen, as of something flat. */
@@ -39,45 +36,25 @@ static double grid_width(const picture *p, const layout *l, int columns, double 
 /** Left to right, then downwards; panel 0 at the origin. */
 static void place_panels(layout *l, const picture *p, int columns)
 {
-    const double strip = l->strips ? (STRIP + 1.0) * l->unit : 0.0;
-    for (int k = 0; k < l->panels; k++) {
+    for (int k = 0; k < l->panels; k++)
         l->panel[k] = (rect){
             .x = k % columns * (p->box[0] + GAP * l->unit + l->arrow),
-            .y = -(k / columns) * (height_of(p) + strip + TITLE * l->unit + l->arrow),
+            .y = -(k / columns) * (height_of(p) + TITLE * l->unit + l->arrow),
             .width = p->box[0],
             .height = p->box[1],
         };
-        l->strip[k] = l->panel[k];
-        l->strip[k].y -= strip;
-        l->strip[k].height = STRIP * l->unit;
-    }
-}
-
-static void place_plots(layout *l, double width, double bottom)
-{
-    const double each = (width - 3 * AXIS * l->unit) / 3.0;
-    rect plot = {AXIS * l->unit, 0.0, each, PLOT_HEIGHT * each};
-    plot.y = bottom - TITLE * l->unit - 0.5 * l->arrow - plot.height;
-    l->spectrum = l->lowest = l->dispersion = plot;
-    l->lowest.x += each + AXIS * l->unit;
-    l->dispersion.x += 2.0 * (each + AXIS * l->unit);
 }
 
 layout layout_of(const picture *p)
 {
     const double distance = distance_of(p);
-    layout l = {.panels = p->modes > 0 ? p->modes : 1,
-                .strips = p->modes > 0 && p->box[0] > TOO_LONG * fmax(p->box[1], p->box[2]),
-                .distance = distance,
-                .arrow = ARROW * distance};
+    layout l = {
+        .panels = p->modes > 0 ? p->modes : 1, .distance = distance, .arrow = ARROW * distance};
     const int columns = columns_of(p, l.panels);
-    const double least = fmax(p->box[0],
-                              0.8 * height_of(p)); /* plots need room beside a high box too */
-    l.unit = fmax(grid_width(p, &l, columns, 0.0), least) / (WIDTH_UNITS - (columns - 1) * GAP);
-    const double width = fmax(grid_width(p, &l, columns, l.unit), WIDTH_UNITS * l.unit);
+    const double least = fmax(grid_width(p, &l, columns, 0.0), 0.8 * height_of(p));
+    l.unit = least / (WIDTH_UNITS - (columns - 1) * GAP);
     place_panels(&l, p, columns);
-    place_plots(&l, width, l.strips ? l.strip[l.panels - 1].y : l.panel[l.panels - 1].y);
-    l.caption_x = 0.5 * width;
+    l.caption_x = 0.5 * grid_width(p, &l, columns, l.unit);
     l.caption_y = p->box[1] + 0.5 * l.arrow + (TITLE + 0.5 * CAPTION) * l.unit;
     return l;
 }

@@ -15,11 +15,7 @@ typedef struct layout {
     double
         arrow; /**< length of the longest; half of it may stand out of a panel, where no text is */
     rect panel[PICTURE_MODES_MAX];
-    int panels; /**< one per mode, at least one */
-    /** The boxes are too long for arrows: their field is plotted below them */
-    bool strips;
-    rect strip[PICTURE_MODES_MAX]; /**< the same x as the panel's */
-    rect spectrum, lowest, dispersion;
+    int panels;                  /**< one per mode, at least one */
     double caption_x, caption_y; /**< middle of the caption's text */
 } layout;
 

@@ -9,12 +9,11 @@ static const hdr_colour PALETTE_T = {0.0F, 0.447F, 0.698F, 1.0F};  /* #0072B2 */
 static const hdr_colour PALETTE_LP = {0.835F, 0.369F, 0.0F, 1.0F}; /* #D55E00 */
 static const hdr_colour PALETTE_L = {0.902F, 0.624F, 0.0F,
                                      1.0F}; /* #E69F00, an LP mode that is all L */
-static const hdr_colour PALETTE_P = {0.40F, 0.12F, 0.02F, 1.0F};     /* and one that is all P */
-static const hdr_colour PALETTE_ZERO = {0.0F, 0.620F, 0.451F, 1.0F}; /* #009E73 */
+static const hdr_colour PALETTE_P = {0.40F, 0.12F, 0.02F, 1.0F}; /* and one that is all P */
 static const hdr_colour PALETTE_DISK = {0.86F, 0.86F, 0.86F, 1.0F};
 /** As of glass: arrows are seen through it. */
 static const hdr_colour PALETTE_SPHERE = {0.5F, 0.5F, 0.5F, 0.3F};
-/** Lines, numbers and exponents that are of no step: legible on white and on rviz's own dark grey.
+/** Lines and texts that are of no step: legible on white and on rviz's own dark grey.
  */
 static const hdr_colour PALETTE_INK = {0.42F, 0.42F, 0.42F, 1.0F};
 
@@ -28,8 +27,7 @@ static inline hdr_colour palette_mix(hdr_colour a, hdr_colour b, double part)
 static inline hdr_colour palette_kind(int kind)
 {
     if (kind == HDR_MODE_T) return PALETTE_T;
-    if (kind == HDR_MODE_LP) return PALETTE_LP;
-    return kind == HDR_MODE_ZERO ? PALETTE_ZERO : PALETTE_INK;
+    return kind == HDR_MODE_LP ? PALETTE_LP : PALETTE_INK;
 }
 
 #endif

@@ -18,8 +18,6 @@ static const double DIAL = 1.2, DIAL_STEP = 2.4;     /* radius and, in radii, di
 static const double TITLE = 1.8, TITLE_HEIGHT = 1.1; /* above a panel's arrows, in the same */
 static const double PALE = 0.3; /* part of white in what is not of the picture's time */
 enum { DIALS = 4, DIAL_SIDES = 32, WALL_SIDES = 128 };
-/** Of a strip: part of its half height that the root mean square takes; size of a dot. */
-static const double STRIP_SCALE = 0.3, STRIP_DOT = 0.35;
 /** Part of black in the second arrows, without which two that overlap are one blot. */
 static const double SHADE = 0.3;
 /** How a flat arrow lies. */
@@ -72,7 +70,6 @@ void panel_boxes(canvas *on, const layout *l, const picture *p)
         else
             outline(on, r);
         if (picture_has_spheres(p)) lid(on, r, p->box[2]);
-        if (l->strips) outline(on, &l->strip[k]);
     }
 }
 
@@ -195,29 +192,6 @@ static void field(canvas *on, const char *ns, const layout *l, const picture *p,
     arrows(on, l, &l->panel[k], p, &p->mode[k], which);
 }
 
-/** One component against x, between the edges of a strip. */
-static void dots(canvas *on, const rect *strip, const picture *p, const hdr_doubles *d,
-                 double scale)
-{
-    for (uint32_t i = 0; i < d->count; i++) {
-        const double off = fmax(-1.0, fmin(1.0, scale * element(d, i)));
-        canvas_point(on, strip->x + element(&p->at_x, i),
-                     strip->y + 0.5 * (1.0 + off) * strip->height, 0.0);
-    }
-}
-
-/** All components of a long box's mode: along it in colour, across it in grey. */
-static void components(canvas *on, const layout *l, const picture *p, int k, const char *ns)
-{
-    const picture_mode *m = &p->mode[k];
-    const double square = mean_square(m), scale = square > 0.0 ? STRIP_SCALE / sqrt(square) : 0.0;
-    canvas_layer(on, ns, HDR_MARKER_POINTS, PALETTE_INK, STRIP_DOT * l->unit);
-    dots(on, &l->strip[k], p, &m->dy, scale);
-    dots(on, &l->strip[k], p, &m->dz, scale);
-    canvas_layer(on, ns, HDR_MARKER_POINTS, colour_of_field(p, m), STRIP_DOT * l->unit);
-    dots(on, &l->strip[k], p, &m->dx, scale);
-}
-
 /** Eight dials, of spheres, take no more room than four. */
 static double smaller(uint32_t pairs) { return pairs > DIALS ? (double)DIALS / pairs : 1.0; }
 
@@ -238,16 +212,14 @@ static void dials(canvas *on, double x, double y, double unit, const picture_mod
 }
 
 /** Which vector is drawn, and of which time if that is not the picture's. */
-static void write_vector(char *text, size_t size, const layout *l, const picture *p,
-                         const picture_mode *m)
+static void write_vector(char *text, size_t size, const picture *p, const picture_mode *m)
 {
-    const char *strips = l->strips ? "; below: dq along the box, across it grey" : "";
     if (!m->known)
         snprintf(text, size, "vector %u not received", (unsigned)m->index);
     else if (is_of_before(p))
-        snprintf(text, size, "vector %u of t = %.1f%s", (unsigned)m->index, p->vector_time, strips);
+        snprintf(text, size, "vector %u of t = %.1f", (unsigned)m->index, p->vector_time);
     else
-        snprintf(text, size, "vector %u%s", (unsigned)m->index, strips);
+        snprintf(text, size, "vector %u", (unsigned)m->index);
 }
 
 /** Two lines round (x, y). */
@@ -257,7 +229,7 @@ static void title(canvas *on, const char *ns, double x, double y, const layout *
     char number[48], vector[96];
     const double height = TITLE_HEIGHT * l->unit;
     number_with_error(number, sizeof number, m->exponent, m->error);
-    write_vector(vector, sizeof vector, l, p, m);
+    write_vector(vector, sizeof vector, p, m);
     if (m->found)
         canvas_text(on, ns, x, y, height, palette_kind(m->kind), "%s   lambda = %s\n%s", m->name,
                     number, vector);
@@ -275,12 +247,8 @@ void panel_mode(canvas *on, const layout *l, const picture *p, int k)
     const double row = pairs * DIAL_STEP * DIAL * l->unit * smaller(pairs); /* of dials */
     char ns[PICTURE_NAME_SIZE + 5];
     snprintf(ns, sizeof ns, "mode/%s", m->box);
-    if (m->known && l->strips) {
-        components(on, l, p, k, ns);
-    } else if (m->known) {
-        field(on, ns, l, p, k, LEVEL);
-        if (picture_has_spheres(p)) field(on, ns, l, p, k, UPRIGHT);
-    }
+    if (m->known) field(on, ns, l, p, k, LEVEL);
+    if (m->known && picture_has_spheres(p)) field(on, ns, l, p, k, UPRIGHT);
     canvas_level(on, p->box[2]);
     if (pairs > 0) dials(on, r->x + r->width, top, l->unit, m);
     title(on, ns, r->x + 0.5 * (r->width - row), top, l, p, m);

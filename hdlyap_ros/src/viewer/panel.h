@@ -9,8 +9,7 @@
 void panel_boxes(canvas *on, const layout *l, const picture *p);
 void panel_disks(canvas *on, const layout *l, const picture *p);
 
-/** Arrows of mode k (in a box too long for them its components against x), its title, and of an LP
- * mode its phases: its name's check box. */
+/** Arrows of mode k, its title, and of an LP mode its phases: its name's check box. */
 void panel_mode(canvas *on, const layout *l, const picture *p, int k);
 
 #endif

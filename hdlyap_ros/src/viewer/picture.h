@@ -35,17 +35,13 @@ typedef struct picture {
     uint32_t disks;            /**< 1 or more */
     double box[3];             /**< [sigma]; 0 along z of disks, spheres otherwise */
     bool periodic[3];
-    bool round;                          /**< the wall is a circle, which the box holds */
-    double time, averaged;               /**< [time units]; time is -1 before the first message */
-    double progress;                     /**< 0 .. 1; negative if unknown */
-    const char *note;                    /**< why it may not be what is now; "" otherwise */
-    hdr_doubles x, y, z;                 /**< [N] positions [sigma]; count 0 while there are none */
-    double vector_time;                  /**< of the vectors of all modes */
-    hdr_doubles at_x, at_y, at_z;        /**< [N] positions at that time */
-    bool has_exponents;                  /**< now or later */
-    hdr_doubles exponents;               /**< of index 1, 2 ..; count 0 while there are none */
-    double lambda_max, lambda_max_error; /**< with exponents; the error is -1 if not known */
-    const hdr_steps *steps;              /**< NULL unless they are observed */
+    bool round;                   /**< the wall is a circle, which the box holds */
+    double time;                  /**< [time units]; -1 before the first message */
+    double progress;              /**< 0 .. 1; negative if unknown */
+    const char *note;             /**< why it may not be what is now; "" otherwise */
+    hdr_doubles x, y, z;          /**< [N] positions [sigma]; count 0 while there are none */
+    double vector_time;           /**< of the vectors of all modes */
+    hdr_doubles at_x, at_y, at_z; /**< [N] positions at that time */
     picture_mode mode[PICTURE_MODES_MAX];
     int modes;
 } picture;

@@ -27,7 +27,7 @@ static const double again_seconds = 1.0;
 static const double still_seconds = 3.0;
 
 /** What is listened to, and freed, together. */
-enum { AVERAGES, STAND_INS, SUBSCRIBERS_MAX = 4 };
+enum { AVERAGES, STAND_INS, SUBSCRIBERS_MAX = 3 };
 
 typedef struct viewer {
     hdr_node *ros;
@@ -172,7 +172,6 @@ ON(slow_vectors, , show(v))
 /* With a message of a later time what was heard is whole, also where a bag has no status. */
 ON(state, if (message->sim_time != v->said.time) show(v), )
 ON(mode_field, if (message->sim_time > v->said.time) show(v), )
-ON(spectrum, , )
 ON(steps, , )
 ON(lp_phases, , )
 ON(run_status, , show(v)) /* the last message of a report */
@@ -213,12 +212,9 @@ static const char *topic(const viewer *v, const char *name)
 static hdr_status hear_averages(viewer *v)
 {
     hdr_subscriber **s = v->others[AVERAGES];
-    hdr_status status = hdr_spectrum_subscribe(&s[0], v->ros, topic(v, "spectrum"), QUEUE,
-                                               on_spectrum, v);
+    hdr_status status = hdr_steps_subscribe(&s[0], v->ros, topic(v, "steps"), QUEUE, on_steps, v);
     if (status == HDR_OK)
-        status = hdr_steps_subscribe(&s[1], v->ros, topic(v, "steps"), QUEUE, on_steps, v);
-    if (status == HDR_OK)
-        status = hdr_run_status_subscribe(&s[2], v->ros, topic(v, "status"), QUEUE, on_run_status,
+        status = hdr_run_status_subscribe(&s[1], v->ros, topic(v, "status"), QUEUE, on_run_status,
                                           v);
     if (status == HDR_OK)
         status = hdr_slow_vectors_subscribe(&v->slow, v->ros, topic(v, "slow_vectors"), 1,

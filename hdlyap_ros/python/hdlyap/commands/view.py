@@ -16,9 +16,6 @@ from visualization_msgs.msg import Marker, MarkerArray
 DOCK, BARS = 380, 92  # pixels of the window beside the picture: its list of displays, its bars
 MARGIN = 1.02
 LETTER, LINE = 0.5, 1.2  # width and height of rviz's letters, as parts of a text's height
-# A drag with the left button adds to the angle of rviz's view, a 32-bit float, which would turn the
-# picture but not its text. To so large an angle nothing can be added; it is none but for 2e-7.
-LOCKED = 1111175296
 FIELD_OF_VIEW = math.radians(45)  # of rviz, from the lower to the upper edge
 
 
@@ -72,7 +69,7 @@ def drawn(picture):
 
 
 def is_in_space(picture):
-    """Of spheres: disks and plots lie in a plane."""
+    """Of spheres: disks lie in a plane."""
     return any(point.z > 0 for marker in drawn(picture) for point in marker.points)
 
 
@@ -98,7 +95,7 @@ def from_above(view, room, points):
     """All of a plane picture."""
     (x, width), (y, height), _ = map(middle_and_size, zip(*points))
     scale = min(room[0] / (MARGIN * width), room[1] / (MARGIN * height))
-    view.update(X=x, Y=y, Angle=LOCKED, Scale=scale)
+    view.update(X=x, Y=y, Scale=scale)
 
 
 def seen(view, point):

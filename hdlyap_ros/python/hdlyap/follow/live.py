@@ -32,7 +32,7 @@ def follow(node, window, **fits):
 
 
 def _words(view):
-    at = f'{view.node}: t = {view.status.sim_time:.4g}'
+    at = f'{view.node}: t = {view.status.sim_time:.1f}'
     if view.is_finished:
         return f'{at}, the run has finished: its last figures'
     if view.is_gone:
