@@ -9,10 +9,13 @@ import argparse
 import os
 import sys
 
+import matplotlib
+
 from study import bags, page, table
 
 
 def main():
+    matplotlib.use('Agg')
     parts, front = table.read()
     args = parser(len(parts)).parse_args()
     chosen = [part for part in parts if part.number in (args.part or range(1, len(parts) + 1))]

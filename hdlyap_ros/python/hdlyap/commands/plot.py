@@ -13,6 +13,8 @@ the window was closed."""
 import os
 import sys
 
+import matplotlib
+
 from hdlyap.data import export
 from hdlyap.plots import figures, fits, recorded, report
 from hdlyap.plots.progress import Progress
@@ -81,6 +83,7 @@ def refused(why):
 
 
 def main(args):
+    matplotlib.use('Agg')
     form, k = fits.choice(args)
     if args.live is not None:
         return live(args, form, k)

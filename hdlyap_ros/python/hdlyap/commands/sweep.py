@@ -12,6 +12,7 @@ ended by a signal."""
 import os
 import sys
 
+import matplotlib
 import rospkg
 
 from hdlyap.plots import fits
@@ -145,6 +146,7 @@ def sweep(found, folder, jobs, args):
 
 
 def main(args):
+    matplotlib.use('Agg')
     os.environ.pop('ROS_NAMESPACE', None)  # roslaunch would put the nodes below it
     launch = os.path.join(rospkg.RosPack().get_path('hdlyap'), 'launch')
     try:

@@ -8,6 +8,7 @@ import sys
 import time
 import xmlrpc.client
 
+import matplotlib
 from roslaunch import netapi
 import rospy
 
@@ -97,6 +98,7 @@ def wait_for(groups):
 
 
 def main(args):
+    matplotlib.use('Agg')
     groups = [name for name in args.runs if '.' not in name]  # which no name of ROS has
     if groups:
         wait_for(groups)

@@ -63,7 +63,6 @@ class Film:
     within: its first and last simulated time, None: from when all modes are found, to the last."""
 
     def __init__(self, paths, names=None, node=None, number=None, within=(None, None)):
-        self.which = paths, node, number
         self._run = joined.one(paths, node, number)
         self.info = self._run.info
         self.steps = steps.resolved(Recorded(run.Run(self._run)).steps, self.info)

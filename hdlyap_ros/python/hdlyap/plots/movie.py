@@ -1,13 +1,11 @@
 """Frames -> a film of modes with the disks moving: an MP4 or a GIF."""
 
-import contextlib
-import itertools
-import json
 import os
-import subprocess
-import sys
+from subprocess import CalledProcessError
 
 import numpy as np
+from matplotlib import rc_context
+from matplotlib.animation import FFMpegWriter
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.collections import LineCollection
 from matplotlib.colors import to_rgb
@@ -32,7 +30,6 @@ ARROW, LONGEST = 1.3, 2.6  # root mean square and longest, in mean distances of 
 ALL_L, ALL_P = to_rgb('#E69F00'), to_rgb('#661F05')  # an LP mode, as in rviz
 DISK = '#DCDCDC'
 SPHERE, DOT = '#8C8C8C', 0.3  # drawn smaller, as those in front would hide the others [sigma]
-DRAW = 'import hdlyap.tool; from hdlyap.plots import movie; movie.draw_part()'
 PALE = 0.3  # part of white in a vector that is of an earlier time
 CODECS = {
     '.mp4': (
@@ -47,10 +44,6 @@ CODECS = {
         ],
     ),
 }
-
-
-class MovieError(RecordingError):
-    """One line for the user: why there is no film."""
 
 
 class Panel:
@@ -201,70 +194,17 @@ class Picture:
 def write(film, path, pace, fps, width=None):
     """The number of frames. Complete films only: an older one is replaced in one step."""
     suffix = os.path.splitext(path)[1]
-    width, every = width or WIDTH[suffix], pace / fps
-    total = film.count(every)
-    size = Picture(film, width).figure.canvas.get_width_height()
-    with whole.written(path) as unfinished:
-        words = command(size, fps, CODECS[suffix], unfinished)
-        with contextlib.closing(_pixels(film, every, width, total, size)) as pixels:
-            said = _filmed(Progress('drawing').over(pixels, total), words)
-        if said:
-            raise MovieError(f'{path}: ffmpeg failed: {said}')
+    every, picture = pace / fps, Picture(film, width or WIDTH[suffix])
+    if not FFMpegWriter.isAvailable():
+        raise RecordingError('there is no ffmpeg; install it (Debian and Ubuntu: ffmpeg)')
+    codec, options = CODECS[suffix]
+    writer, total = FFMpegWriter(fps, codec, extra_args=options), film.count(every)
+    try:
+        with rc_context({'savefig.bbox': None}), whole.written(path) as unfinished:
+            with writer.saving(picture.figure, unfinished, picture.figure.dpi):
+                for frame in Progress('drawing').over(film.frames(every), total):
+                    picture.show(frame)
+                    writer.grab_frame()
+    except CalledProcessError as error:
+        raise RecordingError(f'{path}: ffmpeg failed: {error.stderr or error}')
     return total
-
-
-def command(size, fps, codec, path):
-    name, options = codec
-    pixels = ['-f', 'rawvideo', '-pix_fmt', 'rgba', '-s', '%dx%d' % size, '-r', str(fps)]
-    return ['ffmpeg', '-v', 'error', *pixels, '-i', '-', '-c:v', name, *options, '-y', path]
-
-
-def _filmed(pixels, words):
-    """What ffmpeg says if it fails."""
-    try:
-        ffmpeg = subprocess.Popen(words, stdin=subprocess.PIPE, stderr=subprocess.PIPE)
-    except FileNotFoundError:
-        raise MovieError('there is no ffmpeg; install it (Debian and Ubuntu: ffmpeg)')
-    with ffmpeg:
-        try:
-            for one in pixels:
-                ffmpeg.stdin.write(one)
-        except BrokenPipeError:
-            pass  # it says why
-        said = ffmpeg.communicate()[1].decode(errors='replace').strip()
-    return said or f'status {ffmpeg.returncode}' if ffmpeg.returncode else ''
-
-
-def _pixels(film, every, width, total, size):
-    """Of one frame after the other. Each of as many processes as cores reads the bag and draws
-    every so-manieth, no farther ahead than its pipe holds."""
-    count = min(os.cpu_count() or 1, total)
-    what = [film.which, film.names, [film.begin, film.end], every, width, count]
-    draw = [sys.executable, '-c', DRAW]
-    length = 4 * size[0] * size[1]
-    parts = [
-        subprocess.Popen([*draw, json.dumps([*what, k])], stdout=subprocess.PIPE)
-        for k in range(count)
-    ]
-    try:
-        for number in range(total):
-            one = parts[number % count].stdout.read(length)
-            if len(one) < length:
-                raise MovieError(f'{film.name}: a process that draws has failed')
-            yield one
-    finally:
-        for part in parts:
-            part.kill()
-            part.wait()
-            part.stdout.close()
-
-
-def draw_part():
-    """In a process of its own, which its first argument tells what."""
-    which, names, within, every, width, count, k = json.loads(sys.argv[1])
-    film = frames.Film(which[0], names, which[1], which[2], within)
-    picture = Picture(film, width)
-    for frame in itertools.islice(film.frames(every), k, None, count):
-        picture.show(frame)
-        picture.figure.canvas.draw()
-        sys.stdout.buffer.write(picture.figure.canvas.buffer_rgba())

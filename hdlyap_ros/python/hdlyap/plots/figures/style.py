@@ -2,18 +2,15 @@
 
 import os
 
-import matplotlib
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib import ticker
 
-matplotlib.use('Agg')
-import matplotlib.pyplot as plt  # noqa: E402
-import numpy as np  # noqa: E402
-from matplotlib import ticker  # noqa: E402
+from hdlyap import whole
 
-from hdlyap import whole  # noqa: E402
-
-from ..numbers import known  # noqa: E402
-from .. import space, steps  # noqa: E402
-from ..waves import is_round  # noqa: E402
+from .. import space, steps
+from ..numbers import known
+from ..waves import is_round
 
 POINTS = 2000  # of a curve; more cannot be seen
 # Okabe and Ito's palette, safe for colour-blind readers
