@@ -1,6 +1,5 @@
 """compare against bags that are made here: what it finds, what it says, what it refuses."""
 
-import re
 import unittest
 from math import atan, cos, pi, sin, sqrt
 
@@ -11,7 +10,7 @@ import made
 from bags import Bags, process, tool
 from made import LP, T
 from hdlyap.data.reader import RecordingError
-from hdlyap.plots import fits, recorded, verdict
+from hdlyap.plots import recorded, verdict
 from hdlyap.plots.comparison import Comparison
 from hdlyap.plots.deviation import Deviation, chance_of_largest, unlikeliest
 
@@ -310,32 +309,6 @@ class Fits(Pairs):
         comparison = self.compared(*pair)
         self.assertEqual(comparison.apart, [])
         self.assertEqual(len(comparison.fits), 7)
-
-    def test_of_a_bag_of_before(self):
-        """Its form follows from its wave numbers, and is said not to be recorded."""
-
-        class Before:
-            """What its Steps had."""
-
-            def __init__(self, message):
-                for name in message.__slots__:
-                    if not re.search(r'_(k_min|k_max|prior_share)$|_[tl]3', name):
-                        setattr(self, name, getattr(message, name))
-
-        waves = [made.step(INFO, T, n, 0, 38 - 2 * n, 39 - 2 * n) for n in (1, 2)]
-        message = made.steps(waves)
-        message.t_points, message.t_k_max, message.l_points = 2, waves[1].wave_number, 0
-        message.t_k_min, message.c_t3 = waves[0].wave_number, np.nan
-        (new, *_), (old, *_) = fits.of(message), fits.of(Before(message))
-        self.assertTrue(new.is_like(old) and old.is_like(new))
-        self.assertEqual(
-            old.basis, 'form not recorded, over 2 wave numbers 0.9935 .. 1.987 (lever arm 2)'
-        )
-        self.assertEqual(old.values, new.values)
-        message.t_points, message.steps = 1, waves[:1]
-        line = fits.of(Before(message))[0]
-        self.assertEqual([name for name, _, _ in line.values], ['c_T'])
-        self.assertFalse(line.is_like(new))
 
 
 class UnknownErrors(Pairs):

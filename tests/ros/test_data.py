@@ -39,12 +39,6 @@ def state(sim_time, run_id='one'):
     return State(run_id=run_id, sim_time=sim_time, x=x, y=y, px=px, py=py)
 
 
-def without(message, kinds, names):
-    """As bags of before have it, that lack these fields."""
-    lines = rf'(?m)^({kinds}) ({names}) .*\n'
-    return made.defined(message, lambda text: re.sub(lines, '', text))
-
-
 class Loaded(Bags):
     def load(self, messages):
         return hdlyap.load(self.write(messages))
@@ -281,39 +275,20 @@ class NotMeasured(Loaded):
                 self.assertEqual(found, dict(enumerate(words.split(', '))))
         self.assertEqual(fields.words(hdlyap.msg.Step, 'kind'), {1: 'zero', 2: 'T', 3: 'LP'})
 
-    def test_messages_of_before(self):
-        """They lack what came later."""
-        later = r'float64|uint8', r'ks_entropy_error|\w_misfit|sharing|set_time|own_part|gap\w*'
-        info = made.run_info()
-        new = [made.spectrum([3.0, 1.0], 5.0), made.steps([made.step(info, T, 1, 0, 1, 2)])]
-        run = self.load([info, *(without(one, *later) for one in new)])
-        self.assertNotIn('gap', run.steps)
-        self.assertEqual(run.steps.exponent['T(1,0)'], new[1].steps[0].exponent)
-        self.assertEqual(run.spectrum.exponent[2], 1.0)
-        self.assertTrue(np.isnan(run.results.std_error['sum of exponents']))
-
 
 class Samples(Loaded):
     """Each once, with its length."""
 
     def test_samples(self):
-        """Of before: the first message has none, others repeat. With lengths one that equals the
-        one before is a sample."""
+        """One that equals the one before is a sample; one of no length is none."""
         local = [(0.0, 0.0), (1.0, 2.0), (1.0, 2.0), (3.0, 4.0), (3.0, 4.0)]
-        lengths = 0.0, 0.5, 0.75, 0.0, 0.5
         messages = [made.spectrum([3.0, 1.0], t) for t in range(1, 6)]
-        for message, one, length in zip(messages, local, lengths):
+        for message, one, length in zip(messages, local, (0.0, 0.5, 0.75, 0.0, 0.5)):
             message.local_exponents, message.local_time = one, length
-        older = [without(one, 'float64', 'local_time') for one in messages]
-        of_before = self.load([made.run_info(), *older]).local
-        found = self.load([made.run_info(), *messages]).local
-        for samples, times, wanted, known in (
-            (of_before, [102, 104], [(1.0, 2.0), (3.0, 4.0)], [np.nan] * 2),
-            (found, [102, 103, 105], [(1.0, 2.0), (1.0, 2.0), (3.0, 4.0)], [0.5, 0.75, 0.5]),
-        ):
-            np.testing.assert_array_equal(samples.times, times)
-            np.testing.assert_array_equal(samples.exponents, wanted)
-            np.testing.assert_array_equal(samples.lengths, known)
+        samples = self.load([made.run_info(), *messages]).local
+        np.testing.assert_array_equal(samples.times, [102, 103, 105])
+        np.testing.assert_array_equal(samples.exponents, [(1.0, 2.0), (1.0, 2.0), (3.0, 4.0)])
+        np.testing.assert_array_equal(samples.lengths, [0.5, 0.75, 0.5])
         none = self.load([made.run_info(), messages[0]]).local
         self.assertEqual((len(none.times), none.exponents.shape), (0, (0, 2)))
 

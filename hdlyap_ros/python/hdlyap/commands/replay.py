@@ -16,8 +16,7 @@ import rosgraph
 import rospy
 from std_srvs.srv import SetBool, SetBoolResponse
 
-from hdlyap.data import definitions, reader
-from hdlyap.plots import version
+from hdlyap.data import reader
 from hdlyap.plots.numbers import positive
 
 PATIENCE = 30.0  # seconds that nobody may look
@@ -76,9 +75,8 @@ def raw_class(connection):
 class Message:
     """As it is in the bag; of a topic of others, run and simulated time are those before it."""
 
-    def __init__(self, topic, kind, data, recorded, stamp, before):
+    def __init__(self, topic, kind, data, stamp, before):
         self.topic, self.data, self.wall = topic, data, stamp.to_sec()
-        self.recorded = recorded  # class of then
         self.is_info = kind == reader.RUN_INFO
         self.run, self.time = (before.run, before.time) if before else (None, -1.0)
         if kind.startswith('hdlyap/'):
@@ -90,8 +88,8 @@ class Message:
 
 def as_recorded(bag):
     message = None
-    for topic, (kind, data, *_, recorded), stamp in reader.recorded(bag):
-        message = Message(topic, kind, data, recorded, stamp, message)
+    for topic, (kind, data, *_), stamp in reader.recorded(bag):
+        message = Message(topic, kind, data, stamp, message)
         yield message
 
 
@@ -147,29 +145,23 @@ class Player:
         self._pause(args.pause)
         self._publishers = {}
         warnings.filterwarnings('ignore', message='.*queue_size')
-        older, connections = set(), list(bag._get_connections())
-        definitions.check(connections)
+        connections = list(bag._get_connections())
+        reader.refuse_others(bag, connections)
         for connection in connections:
-            if not rosgraph.names.is_legal_name(connection.topic):
-                raise reader.RecordingError(
-                    '%s: damaged: a topic %s, which is no name' % (args.bag, connection.topic)
-                )
-            today = version.today(connection.datatype, connection.md5sum)
-            older.update([connection.datatype] if today else [])
+            for what, name in (('topic', connection.topic), ('type', connection.datatype)):
+                if not rosgraph.names.is_legal_name(name):
+                    raise reader.RecordingError(
+                        '%s: damaged: a %s %s, which is no name' % (args.bag, what, name)
+                    )
             if connection.topic not in self._publishers:
                 self._publishers[connection.topic] = rospy.Publisher(
                     connection.topic,
-                    today or raw_class(connection),
+                    raw_class(connection),
                     queue_size=None,  # waits for who reads slowly; rospy warns of it
                     # rosbag filter forgets it
                     latch=connection.datatype == reader.RUN_INFO
                     or connection.header.get('latching') in (b'1', '1'),
                 )
-        if older:
-            print(
-                'hdlyap replay: of an earlier version, what they lack is -1: '
-                + ' '.join(sorted(older))
-            )
         rospy.Service('~pause_playback', SetBool, lambda request: self._pause(request.data))
 
     def _pause(self, yes):
@@ -220,13 +212,9 @@ class Player:
 
     def _publish(self, message):
         publisher = self._publishers[message.topic]
-        if issubclass(publisher.data_class, rospy.AnyMsg):
-            raw = publisher.data_class()
-            raw._buff = message.data
-            publisher.publish(raw)
-        else:
-            old = message.recorded().deserialize(message.data)
-            publisher.publish(version.translated(old, publisher.data_class))
+        raw = publisher.data_class()
+        raw._buff = message.data
+        publisher.publish(raw)
 
     def _wait_for_looks(self):
         node = '/' + self._args.look.strip('/')

@@ -1,5 +1,5 @@
 """Message -> what its definition says of its fields: their units, which are -1 while unknown, and
-the names of the constants that they hold. A bag has the definitions that it was recorded with."""
+the names of the constants that they hold."""
 
 import re
 from collections import namedtuple

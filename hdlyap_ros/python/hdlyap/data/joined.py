@@ -126,8 +126,6 @@ def different(a, b, names):
     """(name, value of a, value of b) of each of them in which two run_infos differ."""
     for name in names:
         values = [_value(info, name) for info in (a, b)]
-        if None in values:  # bags of another version
-            continue
         both = all(isinstance(value, float) for value in values)
         same = math.isclose(*values, rel_tol=SAME) if both else values[0] == values[1]
         if not same:
@@ -135,8 +133,8 @@ def different(a, b, names):
 
 
 def _value(info, name):
-    value = getattr(info, name, None)
-    if name != 'observables' or value is None:
+    value = getattr(info, name)
+    if name != 'observables':
         return value
     return [topic for topic in value if topic not in UNSEEN]
 
@@ -151,7 +149,7 @@ def _refuse_others(parts, names, why):
 
 def _in_order(parts):
     """Of one seed: each up to the checkpoint that the next one was resumed from."""
-    begun = {part.run_id: getattr(part.info, 'resumed_time', -1.0) for part in parts}
+    begun = {part.run_id: part.info.resumed_time for part in parts}
     anew = [part for part in parts if begun[part.run_id] < 0]
     if len({part.run_id for part in anew}) > 1:
         raise RecordingError(

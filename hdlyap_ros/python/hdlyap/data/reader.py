@@ -5,16 +5,17 @@ come without control characters and cut, because they are anybody's."""
 import contextlib
 import math
 import os
+import re
 import stat
 import struct
 
 import rosbag
 
+from hdlyap import topics
 from hdlyap.plots import space
 from hdlyap.plots.progress import Progress
 
-from . import definitions
-
+TYPES = {message._type: message for message in topics.RECORDED.values()}
 RUN_INFO, SPECTRUM = 'hdlyap/RunInfo', 'hdlyap/Spectrum'
 STATUS, COST = 'hdlyap/RunStatus', 'hdlyap/Cost'
 MODES, STEPS = 'hdlyap/Modes', 'hdlyap/Steps'
@@ -22,10 +23,9 @@ PHASES, T_PHASES = 'hdlyap/LpPhases', 'hdlyap/TPhases'
 FIELD, STATE = 'hdlyap/ModeField', 'hdlyap/State'
 COVARIANT, HYDRO, STRUCTURE = 'hdlyap/Covariant', 'hdlyap/Hydro', 'hdlyap/Structure'
 LOCALIZATION, GAS = 'hdlyap/Localization', 'hdlyap/Gas'
-TYPES = (RUN_INFO, SPECTRUM, STATUS, COST, MODES, STEPS, PHASES, T_PHASES)
-TYPES += (FIELD, STATE, COVARIANT, HYDRO, STRUCTURE, LOCALIZATION, GAS)
 NAME, PATH, LINE, LIST = 200, 4096, 8192, 4096  # longest text, path, error; most elements of a list
 PATHS = ('checkpoint', 'resume')
+VERSION = re.compile(r'\d[\w.+~-]{0,30}', re.ASCII)
 FIRST_LINE = 100  # bytes that the first line of a bag (#ROSBAG V2.0) never has
 # arrays of as many elements as the first of them
 ALIKE = {
@@ -68,9 +68,9 @@ class Packed:
     """A serialised message of ours. To unpack a field of every mode only to throw it away would
     cost more than all else; header, run_id and sim_time begin every message but run_info."""
 
-    def __init__(self, path, kind, data, pytype, recorded):
+    def __init__(self, path, kind, data, recorded):
         self.path, self.kind, self.recorded = path, kind, recorded  # its type, its time in the bag
-        self._data, self._pytype = data, pytype
+        self._data = data
         _, after_frame = self._string(12)  # seq and stamp
         self.run_id, self._after_run_id = self._string(after_frame)
 
@@ -91,6 +91,11 @@ class Packed:
         """Of a Spectrum: it follows sim_time."""
         return struct.unpack_from('<d', self._data, self._after_run_id + 8)[0]
 
+    @property
+    def version(self):
+        """Of a RunInfo: it follows run_id."""
+        return self._string(self._after_run_id)[0]
+
     def field_index(self):
         """Lyapunov index of a ModeField: it follows sim_time."""
         return struct.unpack_from('<I', self._data, self._after_run_id + 8)[0]
@@ -102,7 +107,7 @@ class Packed:
     def message(self, numpy=None):
         """Its arrays are lists; with the module numpy they are its arrays, which share memory with
         what is packed."""
-        blank = self._pytype()
+        blank = TYPES[self.kind]()
         try:
             if numpy:
                 blank.deserialize_numpy(self._data, numpy)
@@ -117,7 +122,7 @@ class Packed:
 def check(kind, message):
     """What all that reads a message relies on; Damaged if it does not hold."""
     lengths, of_spheres = (
-        {len(getattr(message, name)) for name in names.get(kind, ()) if hasattr(message, name)}
+        {len(getattr(message, name)) for name in names.get(kind, ())}
         for names in (ALIKE, OF_SPHERES)
     )
     if of_spheres != {0}:
@@ -132,7 +137,7 @@ def check(kind, message):
         n, waves = len(message.peak), len(message.nx)
         means = {len(message.along), len(message.across)}
         now = [len(getattr(message, name)) for name in AMPLITUDES]
-        solid = waves and len(getattr(message, 'nz', ()))
+        solid = waves and len(message.nz)
         if means not in ({0}, {n * waves}) or now != ([8 * n, 16 * n] if solid else [4 * n, 4 * n]):
             raise Damaged(
                 f'{kind}: {sorted(means | set(now))} elements of {n} vectors, {waves} waves'
@@ -143,10 +148,6 @@ def check(kind, message):
             sizes += [message.aspect_z, message.box_z]
         if not (message.disks and all(math.isfinite(size) and size > 0 for size in sizes)):
             raise Damaged(f'{kind}: {message.disks} disks, density, aspect and box {tuple(sizes)}')
-        if message.container == 'circle' and not hasattr(message, 'dimensions'):
-            raise Damaged(
-                f'{kind}: of a circle, of before modulations had the numbers that they have'
-            )
 
 
 def run_infos(path, node=None):
@@ -166,8 +167,8 @@ def run_infos(path, node=None):
 
 
 def changes(info):
-    """How many parameters were changed while the run went on; bags of before do not say."""
-    return len(getattr(info, 'changes', ()))
+    """How many parameters were changed while the run went on."""
+    return len(info.changes)
 
 
 def _cleaned(info):
@@ -179,7 +180,7 @@ def _cleaned(info):
             setattr(info, name, [plain(text, longest) for text in value[:LIST]])
         elif kind.endswith('[]'):
             setattr(info, name, value[:LIST])
-    for change in getattr(info, 'changes', ()):
+    for change in getattr(info, 'changes', ()):  # which have none themselves
         _cleaned(change)
     return info
 
@@ -198,11 +199,22 @@ def start(path, node, run_id):
 
 
 def recorded(bag, topics=None, at=None):
-    """(topic, raw message, time), in the order in which they came: rosbag itself goes by times, and
-    mixes them where the clock was set back."""
+    """(topic, (type, data, ..), time), in the order in which they came: rosbag itself goes by
+    times, and mixes them where the clock was set back."""
     index = bag._get_entries(bag._get_connections(topics))
     places = sorted(entry.position for entry in index if at is None or entry.time == at)
-    return (bag._read_message(place, raw=True) for place in places)
+    return (_read(bag, place) for place in places)
+
+
+def _read(bag, place):
+    """rosbag would write a program of the definition that stands in the bag, and run it: a bag must
+    not be its author. Ours are read with the definitions that are installed."""
+    made = rosbag.bag._get_message_type
+    rosbag.bag._get_message_type = lambda connection: None
+    try:
+        return bag._read_message(place, raw=True)
+    finally:
+        rosbag.bag._get_message_type = made
 
 
 @contextlib.contextmanager
@@ -256,9 +268,9 @@ def _unfinished(path):
 def _topics(bag, path, node, kinds):
     """Topics with messages of these types, below one node's name."""
     nodes = {}
-    for topic, entry in bag.get_type_and_topic_info().topics.items():
-        if entry.msg_type in TYPES:
-            nodes.setdefault(topic.rpartition('/')[0], {})[topic] = entry.msg_type
+    for one in bag._get_connections():
+        if one.datatype in TYPES:
+            nodes.setdefault(one.topic.rpartition('/')[0], []).append(one)
     if not nodes:
         raise RecordingError(f'{path}: nothing in it was published by hdlyap_node')
     names = ', '.join(sorted(nodes))
@@ -267,13 +279,32 @@ def _topics(bag, path, node, kinds):
     wanted = next(iter(nodes)) if node is None else '/' + node.strip('/')
     if wanted not in nodes:
         raise RecordingError(f'{path}: no node {node} in it, only {names}')
-    return [topic for topic, kind in nodes[wanted].items() if kind in kinds]
+    refuse_others(bag, nodes[wanted])
+    return list(dict.fromkeys(one.topic for one in nodes[wanted] if one.datatype in kinds))
+
+
+def refuse_others(bag, connections):
+    """Of messages of ours with another definition than the one that is installed."""
+    for one in connections:
+        if one.datatype in TYPES and one.md5sum != TYPES[one.datatype]._md5sum:
+            raise RecordingError(
+                f'{bag.filename}: {_writer(bag, connections)}, whose {one.datatype} is another one '
+                'than that of this version; read it with that version'
+            )
+
+
+def _writer(bag, connections):
+    infos = [one.topic for one in connections if one.datatype == RUN_INFO]
+    with contextlib.suppress(Exception):  # whatever it had in their place
+        _, raw, time = next(iter(recorded(bag, infos)))
+        found = VERSION.fullmatch(Packed(bag.filename, RUN_INFO, raw[1], time).version)
+        return f'written by hdlyap {found.group()}'
+    return 'written by another version of hdlyap'
 
 
 def _packed(bag, topics, at=None):
     """Of these topics; none without a topic."""
     if topics:
-        definitions.check(bag._get_connections(topics))
         found = recorded(bag, topics, at)
         for _, raw, time in Progress('reading').over(found, bag.get_message_count(topics)):
-            yield Packed(bag.filename, raw[0], raw[1], raw[-1], time)
+            yield Packed(bag.filename, raw[0], raw[1], time)

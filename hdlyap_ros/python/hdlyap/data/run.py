@@ -39,7 +39,7 @@ ARRAYS = {
     'momenta': (msg.State, 'px'),
 }
 Averages = namedtuple('Averages', 'times averaged_times exponents std_errors local last')
-# samples: their ends, lengths (NaN if unknown) and exponents; no time is in two of them
+# samples: their ends, lengths and exponents; no time is in two of them
 Local = namedtuple('Local', 'times lengths exponents')
 
 
@@ -87,16 +87,14 @@ class Run:
 
     @cached_property
     def _averages(self):
-        rows, samples, before = [], [], None
+        rows, samples = [], []
         for message in self.messages('spectrum'):
             if message.averaged_time > 0:
                 if rows and message.averaged_time < rows[-1].averaged_time:
                     rows, samples = [], []  # the averages were reset
                 rows.append(message)
-                length = _new_length(message, before)
-                if length != 0:
-                    samples.append((message.sim_time, length, message.local_exponents))
-            before = message.local_exponents
+                if message.local_time != 0:  # else the sample is that of the message before
+                    samples.append((message.sim_time, message.local_time, message.local_exponents))
         if not rows:
             raise self._missing('spectrum')
         return Averages(
@@ -251,17 +249,6 @@ class Run:
     def _missing(self, topic):
         what = 'averaged spectrum' if topic == 'spectrum' else f'message of {topic}'
         return Missing(f'{self._joined.name}: no {what} in it')
-
-
-def _new_length(message, before):
-    """Of the sample in it; 0 if there is none that was not in the message before. In bags of
-    before the length is not known, and a sample that is not new is like the one before."""
-    length = getattr(message, 'local_time', None)
-    if length is not None:
-        return length
-    local = message.local_exponents
-    is_new = np.any(local != 0) and (before is None or not np.array_equal(local, before))
-    return np.nan if is_new else 0.0
 
 
 def _no_samples(message):

@@ -139,8 +139,7 @@ def of_phases(message, info=None, kind='LP'):
     if phases:
         made['step'] = [steps.wave_name(kind, phase, info) for phase in phases]
         made['modulation'] = [
-            waves.plain_formula(phase.nx, phase.ny, phase.modulation, getattr(phase, 'nz', 0))
-            for phase in phases
+            waves.plain_formula(phase.nx, phase.ny, phase.modulation, phase.nz) for phase in phases
         ]
     return made
 

@@ -93,9 +93,9 @@ def numbers(view, width, height):
 def _numbers(view):
     spectrum, message = view.spectrum, _averaged_steps(view)
     if view.is_averaged and len(spectrum.exponents):
-        yield f'lambda_max {_measured(spectrum.lambda_max, spectrum.std_errors[0])}'
+        yield f'lambda_max {with_error(spectrum.lambda_max, spectrum.std_errors[0])}'
         if len(spectrum.exponents) > 1 and view.info:
-            yield f'{view.sum_name} {_measured(spectrum.ks_entropy, view.sum_error)}'
+            yield f'{view.sum_name} {with_error(spectrum.ks_entropy, view.sum_error)}'
         if spectrum.pairing_error >= 0:
             yield f'pairing error {spectrum.pairing_error:.1e}'
     if message is not None:
@@ -112,7 +112,7 @@ def _fits(view, with_waves):
     for fit in fits.of(_averaged_steps(view)):
         if fit.count:
             basis = f' ({fit.basis})' if with_waves else ''
-            yield f'{fit.symbol} {_measured(*fit.values[0][1:])}{fit.beside}{basis}'
+            yield f'{fit.symbol} {with_error(*fit.values[0][1:])}{fit.beside}{basis}'
 
 
 def table(view, width):
@@ -190,9 +190,9 @@ def _phase_cells(phase, info, glyphs):
     turn = atan2(b, a) / (2 * pi) % 1 if isfinite(a) and isfinite(b) else 0.0
     omega, v = STATES.get(phase.state, ''), ''
     if phase.state == LpPhase.TRACKED:
-        omega = _measured(phase.omega, phase.omega_error)
+        omega = with_error(phase.omega, phase.omega_error)
         error = phase.velocity * phase.omega_error / abs(phase.omega) if phase.omega else -1.0
-        v = _measured(phase.velocity, error)
+        v = with_error(phase.velocity, error)
     return (
         steps.wave_name('LP', phase, info),
         waves.plain_formula(phase.nx, phase.ny, phase.modulation, phase.nz),
@@ -267,10 +267,6 @@ def _without(view, topic):
 
 def _note(name, text):
     return [[(f'  {name}: {text}', 'faint')]]
-
-
-def _measured(value, error):
-    return with_error(value, error) if isfinite(value) else '-'
 
 
 def _number(value):

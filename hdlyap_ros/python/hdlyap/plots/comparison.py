@@ -55,9 +55,8 @@ class Comparison:
     def parameters(self):
         """(name, value of a, value of b) where they differ."""
         a, b = (run.info for run in self.runs)
-        for name in dict.fromkeys([*a.__slots__, *b.__slots__]):
-            # bags of other versions do not know every parameter
-            values = [getattr(info, name, '-') for info in (a, b)]
+        for name in a.__slots__:
+            values = [getattr(info, name) for info in (a, b)]
             if name not in OWN and values[0] != values[1]:
                 yield name, *values
 

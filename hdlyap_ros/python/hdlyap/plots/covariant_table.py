@@ -44,18 +44,14 @@ def _exponents(recording):
         if means is not None:
             forward, forward_error, backward, backward_error, deviation = means
             lines.append(
-                f'  {name:<18} {block.indices:<11} {_value(forward, forward_error):>13} '
-                f'{_value(backward, backward_error):>13} {_deviation(deviation):>9}'
+                f'  {name:<18} {block.indices:<11} {with_error(forward, forward_error):>13} '
+                f'{with_error(backward, backward_error):>13} {_deviation(deviation):>9}'
             )
     return '\n'.join([*lines, *_all_deviations(compared)])
 
 
 def _chosen(recording):
     return list(covariant.blocks(recording))[:STEPS]
-
-
-def _value(value, error):
-    return with_error(value, error) if isfinite(value) else '-'
 
 
 def _deviation(deviation):

@@ -8,7 +8,7 @@ from math import isclose, isnan, nan
 from hdlyap.data.reader import RecordingError
 
 from . import dispersion, steps
-from .numbers import stated, with_error
+from .numbers import with_error
 
 SAME = 1e-9  # relative: wave numbers of one box
 # by the number of terms: the node fits three, with what long boxes say of c2 and c3
@@ -24,15 +24,13 @@ class Fit:
         self.kind = kind
         self.symbol = letter if letter == 'v' else f'c_{letter.upper()}'
         self.count = getattr(message, 'v_phases' if letter == 'v' else f'{letter}_points')
-        self.misfit = stated(message, f'{letter}_misfit')
-        waves = _waves(message, kind)
-        self.is_recorded = hasattr(message, f'{letter}_k_min')
-        # older bags: of all steps that could be in it
-        self.k_min = getattr(message, f'{letter}_k_min', min(waves, default=0.0))
-        self.k_max = getattr(message, f'{letter}_k_max', max(waves, default=0.0))
-        self.prior_share = getattr(message, f'{letter}_prior_share', nan)
+        self.misfit = getattr(message, f'{letter}_misfit')
+        self.k_min = getattr(message, f'{letter}_k_min')
+        self.k_max = getattr(message, f'{letter}_k_max')
+        self.prior_share = nan if letter == 'v' else getattr(message, f'{letter}_prior_share')
         # those of v are in LpPhases
-        self.waves = [] if letter == 'v' else [k for k in waves if self._has(k)]
+        waves = [] if letter == 'v' else _waves(message, kind)
+        self.waves = [k for k in waves if self._has(k)]
         names = _coefficients(message, letter, self.count)
         self.terms = len(names)
         # (name, value, error) of each, and what another run of the same box may differ by; NaN of
@@ -43,19 +41,19 @@ class Fit:
         ]
         self.sampling_errors = [error for _, _, error in self.values]
         if letter == 'v' and self.count:
-            self.sampling_errors = [getattr(message, 'v_sampling_error', message.v_error)]
+            self.sampling_errors = [message.v_sampling_error]
         elif not isnan(self.prior_share):
             sampling = getattr(message, f'c_{letter}_sampling_error')
             self.sampling_errors = [sampling, nan, nan][: self.terms]
         # of LP steps in a circle, which follow no relation
-        self.is_unrelated = letter != 'v' and isnan(getattr(message, f'{letter}_long_c2', 0.0))
+        self.is_unrelated = letter != 'v' and isnan(getattr(message, f'{letter}_long_c2'))
 
     @property
     def form(self):
         """In words; v has only one."""
         if self.symbol == 'v':
             return ''
-        return RELATIONS.get(self.terms, '?') if self.is_recorded else 'form not recorded'
+        return RELATIONS.get(self.terms, '?')
 
     @property
     def basis(self):
@@ -63,8 +61,7 @@ class Fit:
         if self.symbol == 'v':
             return f'|omega| / k of the LP phases at {self._range()}'
         waves = 'wave number' + ('s' if self.count > 1 else '')
-        comma = '' if self.is_recorded else ','
-        basis = f'{self.form}{comma} over {self.count} {waves} {self._range()}'
+        basis = f'{self.form} over {self.count} {waves} {self._range()}'
         if self.count > 1:
             basis += f' (lever arm {self.k_max / self.k_min:.3g})'
         share = 100 * self.prior_share
@@ -88,8 +85,7 @@ class Fit:
         return ' .. '.join(ends)
 
     def is_like(self, other):
-        """Whether both are of one kind, form and set of wave numbers. The form that an older bag
-        does not tell follows from the number of wave numbers."""
+        """Whether both are of one kind, form and set of wave numbers."""
         mine, others = ([fit.k_min, fit.k_max, *fit.waves] for fit in (self, other))
         return (
             (self.symbol, self.terms) == (other.symbol, other.terms)
@@ -126,7 +122,7 @@ def chosen(message, form=None, k=None):
     if k is not None and not 0 <= k[0] <= k[1]:
         raise RecordingError(f'k from {k[0]:g} to {k[1]:g}: must go up, from 0 or above')
     terms = {words: number for number, words in RELATIONS.items()}.get(form, 3)
-    if k is None and terms == 3 and hasattr(message, 'c_t3'):  # the node's own
+    if k is None and terms == 3:  # the node's own
         return message
     message = copy.copy(message)
     for letter, kind in KINDS.items():
@@ -190,13 +186,11 @@ def _names(letter):
 
 
 def _coefficients(message, letter, count):
-    """Names of those that are fitted; of older bags two, of one wave number one."""
-    if letter == 'v':
+    """Names of those that are fitted."""
+    if letter == 'v' or not count:
         return ['v'][:count]
-    if hasattr(message, f'c_{letter}3'):
-        c, *others = _names(letter)
-        return [c, *(name for name in others if not isnan(getattr(message, name)))][: 3 * count]
-    return _names(letter)[: getattr(message, f'{letter}_terms', min(count, 2))][:count]
+    c, *others = _names(letter)
+    return [c, *(name for name in others if not isnan(getattr(message, name)))]
 
 
 def _fitted(message, kind, k=None):

@@ -15,7 +15,7 @@ from matplotlib.patches import Circle
 from hdlyap import whole
 from hdlyap.data.reader import RecordingError
 
-from . import frames, space, steps
+from . import space, steps
 from .figures.box import arrows, disks
 from .figures.style import BLUE, GREY, VERMILION, scene
 from .figures.view import View

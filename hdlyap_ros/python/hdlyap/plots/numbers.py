@@ -8,14 +8,11 @@ import numpy as np
 PLACES = 9  # with more, only the size of a number can be read
 
 
-def stated(message, name):
-    """A number that bags of an earlier version may lack: -1, not known."""
-    return getattr(message, name, -1.0)
-
-
 def with_error(value, error, decimals=5):
     """0.61252(67): the error in units of the last digits, two of them; the value alone, to so
-    many decimals, while its error is not known."""
+    many decimals, while its error is not known; - without a value."""
+    if not isfinite(value):
+        return '-'
     if not (isfinite(error) and error > 0):
         return f'{value:.{decimals}f}'
     # as rounded: 0.00996 has its two digits one place further to the left

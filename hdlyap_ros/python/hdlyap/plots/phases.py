@@ -3,7 +3,7 @@
 import numpy as np
 
 from .course import Course
-from .numbers import known, stated
+from .numbers import known
 
 SHORTEST = 3  # points of a curve
 
@@ -56,27 +56,8 @@ def regression(time, phase):
 
 def turning(step, phases):
     """(|omega|, its error, number of tracked phases) of a step and its phases."""
-    if stated(step, 'omega') == -1.0:
-        return mean_omega(phases)
     tracked = sum(phase.state == phase.TRACKED for phase in phases)
     return abs(step.omega), float(known(step.omega_error)), tracked
-
-
-def mean_omega(phases):
-    """Of bags whose steps do not say it: over the slopes of the tracked phases, weighted with their
-    errors. The vectors of a step move together, so their errors do not average out."""
-    omega = np.array(
-        [[abs(phase.omega), phase.omega_error] for phase in phases if phase.state == phase.TRACKED]
-    ).reshape(-1, 2)
-    omega = omega[np.isfinite(omega[:, 0])]  # not of those whose tracking has only begun
-    if not len(omega):
-        return np.nan, np.nan, 0
-    errors = known(omega[:, 1])
-    if not (errors > 0).any():
-        return omega[:, 0].mean(), np.nan, len(omega)
-    trusted = errors > 0
-    mean, total = np.average(omega[trusted, 0], weights=errors[trusted] ** -2, returned=True)
-    return mean, np.sqrt(trusted.sum() / total), len(omega)
 
 
 def apart(phases, ranked):

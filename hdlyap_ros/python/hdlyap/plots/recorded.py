@@ -62,11 +62,11 @@ class Recorded(Run):
 
     @property
     def is_caged(self):
-        """As the last status said; those of older bags say nothing."""
+        """As the last status said."""
         last = None
         for last in self.data.messages('status'):
             continue
-        return getattr(last, 'caged', False)
+        return last is not None and last.caged
 
     @property
     def began(self):
@@ -103,11 +103,10 @@ class Recorded(Run):
 
     def cost(self):
         """Wall seconds since the start against simulated time, by part; None if unrecorded."""
-        # older bags do not know every part
         names = ['sim_time', 'wall_seconds', *(part + '_seconds' for part in PARTS)]
         course, last, before = Course(), np.zeros(len(names)), np.zeros(len(names))
         for message in self.data.messages('cost'):
-            now = np.array([getattr(message, name, 0.0) for name in names])
+            now = np.array([getattr(message, name) for name in names])
             before += np.where(now < last, last, 0.0)  # a run that goes on may count from 0
             last = now
             course.add(before + now)

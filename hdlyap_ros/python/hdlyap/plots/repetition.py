@@ -28,15 +28,11 @@ RESULTS = (
     'blas_library',
     'blas_kernel',
     'blas_threading',
-    'marker_modes',  # of bags of before: parameters of the viewer now
-    'marker_rate',
 )
 OF_SPHERES = ('aspect_z', 'boundary_z')  # which disks have not
 OF_A_BOX = ('aspect', 'boundary_x', 'boundary_y')  # which a circle has not
 # a word, or a list of numbers as text
 LISTS = ('field_indices',)
-# bags of before these parameters
-OLDER = dict(field_interval=0.0, wait_for_subscribers=[], changes=[], target='')
 
 
 def chosen(path, node=None, number=None):
@@ -65,20 +61,15 @@ def parameters(info):
     names = [name for name in info.__slots__ if name not in results]
     asked = {name: getattr(info, name) for name in names}
     asked.update(
-        {name: _list_of(asked[name]) for name in LISTS if name in asked},
+        {name: _list_of(asked[name]) for name in LISTS},
         interval=info.interval or 'auto',
-        phase_interval=getattr(info, 'phase_interval', 0.0) or 'auto',
+        phase_interval=info.phase_interval or 'auto',
         checkpoint='',
         resume='',
     )
-    changes = asked.get('changes', [])
-    before = {change.name: change.before for change in reversed(changes)}  # as it began
+    before = {change.name: change.before for change in reversed(info.changes)}  # as it began
     asked.update({name: _typed(asked[name], value) for name, value in before.items()})
-    smallest = asked.pop('target_std_error', 0.0)  # of before
-    if smallest > 0:
-        asked['target'] = f'smallest {smallest!r}'
-    asked.update(changes=[_change(change) for change in changes])
-    return {**asked, **{name: value for name, value in OLDER.items() if name not in asked}}
+    return {**asked, 'changes': [_change(change) for change in info.changes]}
 
 
 def _typed(now, text):

@@ -1,7 +1,6 @@
 """What is known of one run, whether it was recorded or still goes on."""
 
 from . import space
-from .numbers import stated
 
 
 class Run:
@@ -35,4 +34,4 @@ class Run:
     @property
     def sum_error(self):
         """Of that sum; -1 while not yet known."""
-        return stated(self.spectrum, 'ks_entropy_error')
+        return self.spectrum.ks_entropy_error

@@ -1,12 +1,12 @@
 """Disks or spheres -> the directions that what a run_info or a message says has: x, y and of
-spheres z. Bags of before spheres know nothing of z."""
+spheres z."""
 
 import numpy as np
 
 
 def is_solid(info):
     """Whether it is of spheres; None is of disks."""
-    return getattr(info, 'dimensions', 2) == 3
+    return info is not None and info.dimensions == 3
 
 
 def axes(info):
@@ -26,7 +26,7 @@ def nodes(wave, info):
 def vectors(message, name=''):
     """Rows along x, y and of spheres z, of positions, or of what has a name before the axis, as dq
     and p_."""
-    rows = (getattr(message, name + axis, ()) for axis in 'xyz')
+    rows = (getattr(message, name + axis) for axis in 'xyz')
     return np.array([row for row in rows if len(row)])
 
 

@@ -6,7 +6,7 @@ from hdlyap.data.fields import words
 from hdlyap.msg import Step
 
 from . import fits, paper, steps
-from .numbers import stated, with_error
+from .numbers import with_error
 from .phases import turning
 
 WIDTH = 100  # of a line with a list of names
@@ -79,7 +79,7 @@ def zero_cells(run):
 
 
 def _shared_cells(block):
-    known = {stated(step, 'sharing') for step in block.steps} - {Step.SHARING_UNKNOWN}
+    known = {step.sharing for step in block.steps} - {Step.SHARING_UNKNOWN}
     said = sorted({SHARING.get(value, '') for value in known} - {''})
     return [
         block.name,

@@ -75,7 +75,7 @@ def means_of(msg):
 
 def amplitudes(msg, direction):
     """A row for each modulation, a column for each vector; across of spheres twice as many."""
-    solid = len(getattr(msg, 'nz', ())) > 0
+    solid = len(msg.nz) > 0
     rows = 8 * (1 + DIRECTIONS.index(direction)) if solid else 4
     return np.array(getattr(msg, 'amplitude_' + direction)).reshape(rows, len(msg.peak))
 

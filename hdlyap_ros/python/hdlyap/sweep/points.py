@@ -6,7 +6,7 @@ from collections import namedtuple
 import numpy as np
 
 from hdlyap.data import reader, seeds
-from hdlyap.data.joined import MEASURED, OF_SPHERES
+from hdlyap.data.joined import MEASURED
 from hdlyap.data.reader import RecordingError
 from hdlyap.plots import space
 from hdlyap.plots.waves import is_round
@@ -114,11 +114,6 @@ def varied(points):
     return [name for name in values if name not in fixed], fixed
 
 
-def _measured(info):
-    """Of disks without what bags of before spheres lack."""
-    return [name for name in MEASURED if space.is_solid(info) or name not in OF_SPHERES]
-
-
 def read(paths, choice=(None, None)):
     """([Point] in the order of their systems, a line for each bag or system that cannot be
     read)"""
@@ -130,7 +125,7 @@ def read(paths, choice=(None, None)):
             if space.is_solid(info) != space.is_solid(first):
                 what, others = (space.particle(one) + 's' for one in (info, first))
                 raise RecordingError(f'{path}: of {what}, in a table of {others}')
-            same = [str(getattr(info, name, None)) for name in _measured(info)]
+            same = [str(getattr(info, name)) for name in MEASURED]
             systems.setdefault((*system(info).values(), *same), []).append(path)
         except RecordingError as error:
             wrong.append(str(error))
