@@ -40,7 +40,7 @@ class Gathered(Watch):
     def _hear(self, message, topic):
         name = topic.rpartition('/')[2]
         kind = {**ALWAYS, **COMPUTED}[name]
-        packed = Packed(self._node, kind._type, message.data, kind, None)
+        packed = Packed(self._node, kind._type, message.data, None)
         with self._lock:
             self._keep(packed, 1 if name in LAST else MOST)
         self.count += name in ('spectrum', 'steps')
