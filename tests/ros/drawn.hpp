@@ -32,69 +32,78 @@ inline MarkerArray received(const hdr_markers &markers)
     return message;
 }
 
-/** A picture and all that it points to. */
+/** A picture and all that it points to; point() after a change of q, z, vectors or dz. */
 struct scene {
+    heard h = {};
     picture p = {};
-    std::vector<double> q, vectors;
+    std::vector<double> q, z, vectors, dz; // [N][2], [N], [modes][N][2], [modes][N]
+    std::vector<hdr_point> places;
+    std::vector<std::vector<hdr_point>> fields;
 
     scene(double width, double height, int disks, int modes, unsigned seed)
     {
         std::mt19937_64 random(seed);
         std::uniform_real_distribution<double> part(0.0, 1.0);
-        p.scene = "a scene";
-        p.stage = "averaging";
+        std::snprintf(h.scene, sizeof h.scene, "a scene");
+        h.stage = HDR_RUN_STATUS_AVERAGING;
+        h.disks = static_cast<uint32_t>(disks);
+        h.box[0] = width;
+        h.box[1] = height;
+        h.time = h.vector_time = 12.5;
+        h.status_time = -1.0;
+        h.progress = 0.25;
+        p.run = &h;
         p.note = "";
-        p.disks = static_cast<uint32_t>(disks);
-        p.box[0] = width;
-        p.box[1] = height;
-        p.time = p.vector_time = 12.5;
-        p.progress = 0.25;
         p.modes = modes;
         for (int i = 0; i < disks; i++) {
             q.push_back(width * part(random));
             q.push_back(height * part(random));
         }
         for (int k = 0; k < 2 * disks * modes; k++) vectors.push_back(part(random) - 0.5);
+        z.resize(disks), dz.resize(disks * modes);
+        for (int k = 0; k < modes; k++) set_mode(k);
         point();
+    }
+    scene(const scene &) = delete;
+
+    void set_mode(int k)
+    {
+        picture_mode &m = p.mode[k];
+        std::snprintf(m.name, sizeof m.name, k % 2 ? "LP(%d,1)" : "T(%d,0)", k);
+        std::memcpy(m.box, m.name, sizeof m.box);
+        m.exponent = 0.61252, m.error = 0.00067, m.momentum = k % 2 ? 0.25 : -1.0;
+        m.kind = k % 2 ? HDR_MODE_LP : HDR_MODE_T;
+        m.found = true;
+        m.index = 7;
+        m.pairs = k % 2 ? 2 : 0;
+        m.a[0] = 0.6, m.b[0] = 0.3, m.a[1] = -0.4, m.b[1] = 0.1;
     }
 
     void point()
     {
-        const auto disks = static_cast<uint32_t>(q.size() / 2);
-        p.x = {q.data(), disks, 2};
-        p.y = {q.data() + 1, disks, 2};
-        p.at_x = p.x, p.at_y = p.y;
-        for (int k = 0; k < p.modes; k++) {
-            picture_mode &m = p.mode[k];
-            std::snprintf(m.name, sizeof m.name, k % 2 ? "LP(%d,1)" : "T(%d,0)", k);
-            std::memcpy(m.box, m.name, sizeof m.box);
-            m.exponent = 0.61252, m.error = 0.00067, m.momentum = k % 2 ? 0.25 : -1.0;
-            m.kind = k % 2 ? HDR_MODE_LP : HDR_MODE_T;
-            m.found = m.known = true;
-            m.index = 7;
-            m.pairs = k % 2 ? 2 : 0;
-            m.a[0] = 0.6, m.b[0] = 0.3, m.a[1] = -0.4, m.b[1] = 0.1;
-            m.dx = {vectors.data() + 2 * disks * k, disks, 2};
-            m.dy = {vectors.data() + 2 * disks * k + 1, disks, 2};
+        const size_t n = z.size();
+        places.clear(), fields.assign(p.modes, {});
+        for (size_t i = 0; i < n; i++) places.push_back({q[2 * i], q[2 * i + 1], z[i]});
+        h.q = h.at = places.data();
+        for (size_t k = 0; k < fields.size(); k++) {
+            for (size_t i = k * n; i < (k + 1) * n; i++)
+                fields[k].push_back({vectors[2 * i], vectors[2 * i + 1], dz[i]});
+            p.mode[k].d = fields[k].data();
         }
     }
 };
 
 /** The same of spheres, in a box that is so high. */
 struct spheres : scene {
-    std::vector<double> z, dz;
-
     spheres(double width, double height, double depth, int count, int modes, unsigned seed)
         : scene(width, height, count, modes, seed)
     {
         std::mt19937_64 random(seed + 1);
         std::uniform_real_distribution<double> part(0.0, 1.0);
-        p.box[2] = depth;
-        for (int i = 0; i < count; i++) z.push_back(depth * part(random));
-        for (int k = 0; k < count * modes; k++) dz.push_back(part(random) - 0.5);
-        const auto each = static_cast<uint32_t>(count);
-        p.z = p.at_z = {z.data(), each, 1};
-        for (int k = 0; k < modes; k++) p.mode[k].dz = {dz.data() + count * k, each, 1};
+        h.box[2] = depth;
+        for (double &one : z) one = depth * part(random);
+        for (double &one : dz) one = part(random) - 0.5;
+        point();
     }
 };
 

@@ -52,10 +52,11 @@ struct hearing {
     void steps(bool resolved)
     {
         step = {a_step(HDR_MODE_T, 1, 0, 0.6, 7, 8, 1.5, 0.25),
-                a_step(HDR_MODE_LP, 0, 1, 0.6, 5, 6, 1.8, -1.0)};
+                a_step(HDR_MODE_LP, 0, 1, 0.6, 5, 6, 1.8, -1.0),
+                a_step(HDR_MODE_T, 2, 0, 1.2, 3, 4, 2.9, 0.25)}; // not the lowest
         for (hdr_step &one : step) one.resolved = resolved;
         hdr_steps message = {};
-        message.run_id = "run", message.steps = {step.data(), 2};
+        message.run_id = "run", message.steps = {step.data(), 3};
         heard_steps(&h, &message);
     }
 

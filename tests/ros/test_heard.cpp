@@ -1,6 +1,19 @@
 /** What of a run is drawn: messages heard -> a picture. */
 #include "hearing.hpp"
 
+namespace
+{
+std::vector<drawn::Marker> disks_of(const picture &p)
+{
+    return drawn::in(drawn::drawing().of(p), "disks", drawn::Marker::SPHERE_LIST);
+}
+
+std::string caption_of(const picture &p)
+{
+    return drawn::in(drawn::drawing().of(p), "caption", drawn::Marker::TEXT_VIEW_FACING).at(0).text;
+}
+} // namespace
+
 /** Between two fields of a bag, or before the first: a mode that is resolved says so. */
 TEST(heard, a_resolved_mode_is_found_without_its_vector)
 {
@@ -15,7 +28,7 @@ TEST(heard, a_resolved_mode_is_found_without_its_vector)
     EXPECT_STREQ("LP(0,1)", p.mode[1].name);
     for (const int k : {0, 1}) {
         EXPECT_TRUE(p.mode[k].found);
-        EXPECT_FALSE(p.mode[k].known);
+        EXPECT_FALSE(p.mode[k].d);
     }
     EXPECT_EQ(7u, p.mode[0].index);
     EXPECT_EQ(1.5, p.mode[0].exponent);
@@ -49,8 +62,7 @@ TEST(heard, where_the_run_is)
     status.stage = HDR_RUN_STATUS_WARMING_UP;
     heard_run_status(&on.h, &status);
     const picture p = on.drawn();
-    EXPECT_TRUE(p.progress == 0.25 && p.time == 2.0);
-    EXPECT_STREQ("warming up", p.stage);
+    EXPECT_NE(std::string::npos, caption_of(p).find("\nt = 2.0, warming up (25 %)"));
     on.state(2.0);
     on.h.changed = false;
     heard_run_status(&on.h, &status);
@@ -66,15 +78,17 @@ TEST(heard, before_the_first_message)
     hearing on;
     EXPECT_TRUE(on.h.changed);
     picture p = on.drawn();
-    EXPECT_EQ(-1.0, p.time);
-    EXPECT_EQ(0u, p.x.count);
-    EXPECT_EQ(DISKS, p.disks);
+    EXPECT_EQ(-1.0, p.run->time);
+    EXPECT_TRUE(disks_of(p).empty());
+    EXPECT_EQ(DISKS, p.run->disks);
     hdr_run_status status = {};
     status.run_id = "run", status.sim_time = 2.0; // a bag without places
     heard_run_status(&on.h, &status);
     p = on.drawn();
-    EXPECT_EQ(2.0, p.time);
-    EXPECT_EQ(0u, p.x.count);
+    EXPECT_NE(std::string::npos, caption_of(p).find("\nt = 2.0, "));
+    EXPECT_TRUE(disks_of(p).empty());
+    on.state(3.0);
+    EXPECT_EQ(1u, disks_of(on.drawn()).size());
 }
 
 /** Fields are drawn where the disks were at their time, until the next ones; the disks go on. */
@@ -83,16 +97,16 @@ TEST(heard, fields_of_a_bag)
     hearing on;
     on.steps(true);
     on.state(9.0);
-    EXPECT_EQ(0.00, on.drawn().x.data[0]);
+    EXPECT_EQ(0.00, on.drawn().run->q[0].x);
     on.field(10.0, HDR_MODE_T, 1, 7);
     on.field(10.0, HDR_MODE_LP, 0, 5);
     picture p = on.drawn();
-    EXPECT_TRUE(p.time == 10.0 && p.vector_time == 10.0);
-    EXPECT_TRUE(p.x.data[0] == 0.20 && p.at_x.data[0] == 0.20);
-    EXPECT_TRUE(p.mode[0].known && p.mode[1].known);
-    EXPECT_TRUE(p.y.data[1] == 0.31 && p.at_y.data[1] == 0.31);
-    EXPECT_TRUE(p.mode[0].dx.data[0] == 0.07 && p.mode[0].dy.data[2] == 0.42);
-    EXPECT_TRUE(p.mode[1].dx.data[1] == 0.06 && p.mode[1].dy.data[0] == 0.40);
+    EXPECT_TRUE(p.run->time == 10.0 && p.run->vector_time == 10.0);
+    EXPECT_TRUE(p.run->q[0].x == 0.20 && p.run->at[0].x == 0.20);
+    EXPECT_TRUE(p.mode[0].d && p.mode[1].d);
+    EXPECT_TRUE(p.run->q[1].y == 0.31 && p.run->at[1].y == 0.31);
+    EXPECT_TRUE(p.mode[0].d[0].x == 0.07 && p.mode[0].d[2].y == 0.42);
+    EXPECT_TRUE(p.mode[1].d[1].x == 0.06 && p.mode[1].d[0].y == 0.40);
     EXPECT_EQ(0u, p.mode[1].pairs);
     on.phase(10.0, 0.5, -0.25);
     p = on.drawn();
@@ -103,9 +117,9 @@ TEST(heard, fields_of_a_bag)
     on.state(11.0);
     EXPECT_TRUE(on.h.changed);
     p = on.drawn();
-    EXPECT_TRUE(p.time == 11.0 && p.vector_time == 10.0);
-    EXPECT_TRUE(p.x.data[0] == 0.00 && p.at_x.data[0] == 0.20);
-    EXPECT_TRUE(p.mode[0].known && p.mode[1].known);
+    EXPECT_TRUE(p.run->time == 11.0 && p.run->vector_time == 10.0);
+    EXPECT_TRUE(p.run->q[0].x == 0.00 && p.run->at[0].x == 0.20);
+    EXPECT_TRUE(p.mode[0].d && p.mode[1].d);
     EXPECT_EQ(-0.25, p.mode[1].b[0]); // the last that is known
     on.phase(11.0, 0.25, 0.5);
     p = on.drawn();
@@ -113,12 +127,12 @@ TEST(heard, fields_of_a_bag)
     EXPECT_DOUBLE_EQ(0.2, p.mode[1].momentum); // of the arrows'
     on.field(20.0, HDR_MODE_T, 1, 7);          // the other one has not come yet
     p = on.drawn();
-    EXPECT_EQ(20.0, p.time);
-    EXPECT_TRUE(p.mode[0].known);
-    EXPECT_TRUE(p.mode[1].found && !p.mode[1].known);
+    EXPECT_EQ(20.0, p.run->time);
+    EXPECT_TRUE(p.mode[0].d);
+    EXPECT_TRUE(p.mode[1].found && !p.mode[1].d);
     on.state(3.0); // played again
-    EXPECT_EQ(3.0, on.drawn().time);
-    EXPECT_FALSE(on.drawn().mode[0].known);
+    EXPECT_EQ(3.0, on.h.time);
+    EXPECT_FALSE(on.drawn().mode[0].d);
 }
 
 TEST(heard, slow_vectors)
@@ -135,11 +149,11 @@ TEST(heard, slow_vectors)
     m.a = on.array(16), m.b = on.array(16, 20), m.dqx = on.array(12, 50), m.dqy = on.array(12, 70);
     heard_slow_vectors(&on.h, &m); // before any message of steps
     picture p = on.drawn();
-    EXPECT_EQ(2.5, p.time);
+    EXPECT_EQ(2.5, p.run->time);
     EXPECT_STREQ("T(1,0)", p.mode[0].name);
     EXPECT_EQ(8u, p.mode[0].index);
     EXPECT_EQ(0.02, p.mode[0].exponent);
-    EXPECT_TRUE(p.mode[0].dx.data[0] == 0.56 && p.mode[0].dy.data[0] == 0.76); // the third
+    EXPECT_TRUE(p.mode[0].d[0].x == 0.56 && p.mode[0].d[0].y == 0.76); // the third
     EXPECT_STREQ("LP(0,1)", p.mode[1].name);
     EXPECT_EQ(6u, p.mode[1].index); // the first of the two
     EXPECT_TRUE(p.mode[1].a[0] == 0.00 && p.mode[1].b[0] == 0.20);
@@ -147,19 +161,19 @@ TEST(heard, slow_vectors)
     ASSERT_TRUE(mode_name_parse(&on.lowest.mode[0], "LP(0,1)"));
     ASSERT_TRUE(mode_name_parse(&on.lowest.mode[1], "T(0,1)"));
     p = on.drawn();
-    EXPECT_TRUE(p.mode[0].known);
+    EXPECT_TRUE(p.mode[0].d);
     EXPECT_FALSE(p.mode[1].found);
     EXPECT_STREQ("T(0,1)", p.mode[1].name);
     m.dqx.count = m.dqy.count = 0; // at rest
     heard_slow_vectors(&on.h, &m);
-    EXPECT_TRUE(on.drawn().mode[0].found && !on.drawn().mode[0].known);
+    EXPECT_TRUE(on.drawn().mode[0].found && !on.drawn().mode[0].d);
     m.sim_time = 3.5, m.nx.count = 3; // arrays that do not fit
     heard_slow_vectors(&on.h, &m);
     m.nx.count = 4, m.dqx.count = 12;
     heard_slow_vectors(&on.h, &m);
     m.dqy.count = 12, m.run_id = "another";
     heard_slow_vectors(&on.h, &m);
-    EXPECT_EQ(2.5, on.drawn().time);
+    EXPECT_EQ(2.5, on.h.time);
 }
 
 /** Of a step whose set it shares, and where no vector is its own: the first of the set. */
@@ -170,15 +184,15 @@ TEST(heard, a_step_without_a_vector_of_its_own)
     on.field(10.0, HDR_MODE_LP, 0, 7);
     const picture p = on.drawn();
     EXPECT_STREQ("T(1,0)", p.mode[0].name);
-    EXPECT_TRUE(p.mode[0].known);
-    EXPECT_EQ(0.07, p.mode[0].dx.data[0]);
+    EXPECT_TRUE(p.mode[0].d);
+    EXPECT_EQ(0.07, p.mode[0].d[0].x);
 }
 
 TEST(heard, only_modes_that_there_can_be)
 {
     hearing walls("reflecting");
     EXPECT_TRUE(walls.h.has_t); // (0,1) has a node between them
-    EXPECT_TRUE(walls.drawn().periodic[0] && !walls.drawn().periodic[1]);
+    EXPECT_TRUE(walls.h.periodic[0] && !walls.h.periodic[1]);
     walls.info.run_id = "narrow", walls.info.wave_nx.count = walls.info.wave_ny.count = 1;
     EXPECT_TRUE(heard_run_info(&walls.h, &walls.info));
     EXPECT_FALSE(walls.h.has_t);
@@ -212,5 +226,5 @@ TEST(heard, pairs_are_no_more_than_their_numbers)
     m.dqx = on.array(DISKS, 50), m.dqy = on.array(DISKS, 60);
     heard_slow_vectors(&on.h, &m);
     EXPECT_EQ(4u, on.drawn().mode[1].pairs);
-    EXPECT_EQ(0u, on.drawn().mode[1].dz.count);
+    EXPECT_EQ(0.0, on.drawn().mode[1].d[0].z);
 }

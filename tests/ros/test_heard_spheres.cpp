@@ -58,46 +58,44 @@ struct slow_spheres : hearing_spheres {
 TEST(heard, spheres_have_a_third_coordinate)
 {
     hearing_spheres on;
-    EXPECT_EQ(0u, on.drawn().z.count); // before the first message
+    EXPECT_EQ(-1.0, on.h.time); // before the first message
     on.state(9.0, DISKS);
     picture p = on.drawn();
-    EXPECT_TRUE(picture_has_spheres(&p));
-    EXPECT_TRUE(p.box[2] == 10.0 && p.periodic[2]);
-    ASSERT_EQ(DISKS, p.z.count);
-    EXPECT_TRUE(p.z.data[0] == 0.50 && p.z.data[2] == 0.52);
+    EXPECT_TRUE(heard_has_spheres(p.run));
+    EXPECT_TRUE(p.run->box[2] == 10.0 && p.run->periodic[2]);
+    EXPECT_TRUE(p.run->q[0].z == 0.50 && p.run->q[2].z == 0.52);
     const hdr_mode_field field = on.field_message(10.0);
     heard_mode_field(&on.h, &field);
     p = on.drawn();
     EXPECT_STREQ("T(0,0,1)", p.mode[0].name);
-    ASSERT_TRUE(p.mode[0].known);
-    ASSERT_TRUE(p.at_z.count == DISKS && p.mode[0].dz.count == DISKS);
-    EXPECT_TRUE(p.z.data[0] == 0.60 && p.at_z.data[1] == 0.61);
-    EXPECT_TRUE(p.mode[0].dx.data[0] == 0.07 && p.mode[0].dy.data[0] == 0.40);
-    EXPECT_TRUE(p.mode[0].dz.data[0] == 0.75 && p.mode[0].dz.data[2] == 0.77);
+    ASSERT_TRUE(p.mode[0].d);
+    EXPECT_TRUE(p.run->q[0].z == 0.60 && p.run->at[1].z == 0.61);
+    EXPECT_TRUE(p.mode[0].d[0].x == 0.07 && p.mode[0].d[0].y == 0.40);
+    EXPECT_TRUE(p.mode[0].d[0].z == 0.75 && p.mode[0].d[2].z == 0.77);
 }
 
 TEST(heard, numbers_along_z_that_do_not_fit)
 {
     hearing_spheres on;
     for (const uint32_t count : {0u, DISKS - 1, DISKS + 1}) on.state(9.0, count);
-    EXPECT_EQ(-1.0, on.drawn().time);
+    EXPECT_EQ(-1.0, on.h.time);
     hdr_mode_field field = on.field_message(10.0);
     field.dqz.count = 0;
     heard_mode_field(&on.h, &field);
     field = on.field_message(10.0);
     field.z.count = 2;
     heard_mode_field(&on.h, &field);
-    EXPECT_TRUE(on.drawn().time == -1.0 && !on.drawn().mode[0].known);
+    EXPECT_TRUE(on.h.time == -1.0 && !on.drawn().mode[0].d);
     hearing_spheres flat("periodic", 0.0); // no box of spheres: as disks
     flat.state(9.0, DISKS);
-    EXPECT_EQ(-1.0, flat.drawn().time);
+    EXPECT_EQ(-1.0, flat.h.time);
     flat.state(9.0, 0);
-    EXPECT_EQ(9.0, flat.drawn().time);
+    EXPECT_EQ(9.0, flat.h.time);
     const picture p = flat.drawn();
-    EXPECT_TRUE(!picture_has_spheres(&p) && p.z.count == 0 && !p.periodic[2]);
+    EXPECT_TRUE(!heard_has_spheres(p.run) && p.run->q[0].z == 0.0 && !p.run->periodic[2]);
     flat.info.run_id = "disks", flat.info.dimensions = 2, flat.info.box_z = 10.0;
     EXPECT_TRUE(heard_run_info(&flat.h, &flat.info));
-    EXPECT_EQ(0.0, flat.drawn().box[2]);
+    EXPECT_EQ(0.0, flat.h.box[2]);
 }
 
 TEST(heard, slow_vectors_of_spheres)
@@ -108,9 +106,9 @@ TEST(heard, slow_vectors_of_spheres)
     const picture p = on.drawn();
     EXPECT_STREQ("T(0,1,1)", p.mode[0].name);
     EXPECT_STREQ("LP(0,0,1)", p.mode[1].name);
-    EXPECT_TRUE(p.z.data[0] == 0.20 && p.at_z.data[2] == 0.22);
-    EXPECT_TRUE(p.mode[0].dx.data[0] == 0.53 && p.mode[0].dy.data[0] == 0.63);
-    EXPECT_TRUE(p.mode[0].dz.data[0] == 0.87 && p.mode[1].dz.data[0] == 0.84);
+    EXPECT_TRUE(p.run->q[0].z == 0.20 && p.run->at[2].z == 0.22);
+    EXPECT_TRUE(p.mode[0].d[0].x == 0.53 && p.mode[0].d[0].y == 0.63);
+    EXPECT_TRUE(p.mode[0].d[0].z == 0.87 && p.mode[1].d[0].z == 0.84);
     ASSERT_EQ(8u, p.mode[1].pairs);
     EXPECT_TRUE(p.mode[1].a[7] == 0.07 && p.mode[1].b[7] == 0.27);
     double l = 0.0, all = 0.0;
@@ -125,7 +123,7 @@ TEST(heard, slow_vectors_of_spheres_that_do_not_fit)
     const auto is_heard = [&] {
         heard_slow_vectors(&on.h, &m);
         m = on.message();
-        return on.drawn().time == 2.5;
+        return on.h.time == 2.5;
     };
     m.a.count = m.b.count = 8; // as disks have them
     EXPECT_FALSE(is_heard());
@@ -139,7 +137,7 @@ TEST(heard, slow_vectors_of_spheres_that_do_not_fit)
     EXPECT_FALSE(is_heard());
     m.dqx.count = m.dqy.count = m.dqz.count = 0; // at rest
     EXPECT_TRUE(is_heard());
-    EXPECT_FALSE(on.drawn().mode[0].known);
+    EXPECT_FALSE(on.drawn().mode[0].d);
 }
 
 /** Steps, vectors and phases that only nz tells apart. */
@@ -161,10 +159,10 @@ TEST(heard, waves_along_z_are_waves_of_their_own)
     on.phase(10.0, 0.5, -0.25); // of LP(0,1,0)
     picture p = on.drawn();
     EXPECT_STREQ("LP(1,0,1)", p.mode[0].name);
-    EXPECT_TRUE(p.mode[0].exponent == 1.8 && p.mode[0].known && p.mode[0].pairs == 0);
+    EXPECT_TRUE(p.mode[0].exponent == 1.8 && p.mode[0].d && p.mode[0].pairs == 0);
     EXPECT_STREQ("LP(1,0,0)", p.mode[1].name);
     EXPECT_STREQ("LP(1,0,0)", p.mode[1].box);
-    EXPECT_TRUE(p.mode[1].exponent == 1.5 && !p.mode[1].known && !p.mode[1].absent);
+    EXPECT_TRUE(p.mode[1].exponent == 1.5 && !p.mode[1].d && !p.mode[1].absent);
     EXPECT_TRUE(p.mode[2].absent);
     hdr_lp_phase phase = {};
     phase.nx = 1, phase.index = 5, phase.a = 0.75;

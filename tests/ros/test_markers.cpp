@@ -110,20 +110,20 @@ TEST(markers, the_caption_says_what_is_known)
         expect_shown(array);
     };
     expect("a scene: 10 disks, x reflecting, y reflecting\nt = 12.5, averaging (25 %)");
-    s.p.periodic[1] = true;
+    s.h.periodic[1] = true;
     s.p.note = "(nothing new since 14:03:27)";
     expect("a scene: 10 disks, x reflecting, y periodic\n"
            "t = 12.5, averaging (25 %)   (nothing new since 14:03:27)");
-    s.p.round = true, s.p.note = "", s.p.progress = -1.0;
+    s.h.round = true, s.p.note = "", s.h.progress = -1.0;
     expect("a scene: 10 disks, in a circle\nt = 12.5, averaging");
-    s.p.time = -1.0, s.p.x.count = s.p.y.count = 0; // described, and not begun
+    s.h.time = -1.0; // described, and not begun
     expect("a scene: 10 disks, in a circle\nwaiting for its first message");
 }
 
 TEST(markers, a_round_wall_takes_the_place_of_the_box)
 {
     scene s(20.0, 20.0, 40, 2, 2);
-    s.p.round = true;
+    s.h.round = true;
     const std::vector<Marker> walls = in(drawing().of(s.p), "box", Marker::LINE_LIST);
     ASSERT_EQ(1u, walls.size());
     for (size_t k = 0; k < walls[0].points.size() / 2; k++) // of the first panel, at (0, 0)
@@ -189,10 +189,9 @@ TEST(markers, vectors_of_before_say_so)
     scene s(20.0, 15.0, 60, 1, 3);
     drawing on;
     EXPECT_EQ("T(0,0)   lambda = 0.61252(67)\nvector 7", title(on.of(s.p), "mode/T(0,0)").text);
-    std::vector<double> before(s.q.rbegin(), s.q.rend());
-    for (size_t k = 0; k < before.size(); k++) before[k] *= k % 2 ? 20.0 / 15.0 : 15.0 / 20.0;
-    s.p.at_x.data = before.data() + 1, s.p.at_y.data = before.data();
-    s.p.vector_time = 10.0;
+    std::vector<hdr_point> before(s.places.rbegin(), s.places.rend());
+    s.h.at = before.data();
+    s.h.vector_time = 10.0;
     const MarkerArray array = on.of(s.p);
     EXPECT_EQ("T(0,0)   lambda = 0.61252(67)\nvector 7 of t = 10.0",
               title(array, "mode/T(0,0)").text);
@@ -201,8 +200,8 @@ TEST(markers, vectors_of_before_say_so)
     const Marker disks = in(array, "disks", Marker::SPHERE_LIST).at(0);
     for (int i = 0; i < 60; i++) {
         EXPECT_EQ(s.q[2 * i], disks.points[i].x);
-        EXPECT_NEAR(before[2 * i + 1], arrows[i].x, 1e-12);
-        EXPECT_NEAR(before[2 * i], arrows[i].y, 1e-12);
+        EXPECT_NEAR(before[i].x, arrows[i].x, 1e-12);
+        EXPECT_NEAR(before[i].y, arrows[i].y, 1e-12);
     }
 }
 
@@ -213,6 +212,7 @@ TEST(markers, no_arrow_crosses_a_text)
         for (const double shape : {0.2, 0.867, 3.0}) {
             scene s(30.0 / std::sqrt(shape), 30.0 * std::sqrt(shape), disks, 6, 11);
             for (size_t k = 0; k < s.vectors.size(); k += 7) s.vectors[k] *= 20.0; // are cut
+            s.point();
             const MarkerArray array = drawing().of(s.p);
             for (const Marker &m : array.markers) {
                 if (m.type != Marker::TEXT_VIEW_FACING) continue;
@@ -251,7 +251,7 @@ TEST(markers, an_lp_mode_shows_its_phase)
     EXPECT_FLOAT_EQ(0.902F, red(0.0)); // all L
     EXPECT_FLOAT_EQ(0.40F, red(1.0));  // all P
     EXPECT_FLOAT_EQ(0.651F, red(0.5));
-    s.p.vector_time = 2.5; // pale: of another time
+    s.h.vector_time = 2.5; // pale: of another time
     EXPECT_FLOAT_EQ(0.75570F, red(0.5));
 }
 
@@ -262,7 +262,7 @@ TEST(markers, what_is_gone_is_deleted)
     drawing on;
     EXPECT_EQ(1u, in(on.of(s.p), "mode/LP(1,1)", Marker::TRIANGLE_LIST).size());
     std::snprintf(s.p.mode[0].name, sizeof s.p.mode[0].name, "T(0,1)");
-    s.p.mode[1].found = s.p.mode[1].known = false;
+    s.p.mode[1].found = false, s.p.mode[1].d = nullptr;
     for (int again = 0; again < 2; again++) { // and stays so for who has missed it
         const MarkerArray array = on.of(s.p);
         std::map<std::string, int> deleted;
@@ -284,7 +284,7 @@ TEST(markers, a_mode_without_its_vector_keeps_its_number)
 {
     scene s(20.0, 20.0, 10, 2, 6);
     drawing on;
-    s.p.mode[1].known = false;
+    s.p.mode[1].d = nullptr;
     const MarkerArray array = on.of(s.p);
     expect_shown(array);
     EXPECT_TRUE(in(array, "mode/LP(1,1)", Marker::TRIANGLE_LIST).empty());

@@ -112,7 +112,7 @@ TEST(spheres, an_arrow_may_stand_upright)
 {
     spheres s(20.0, 15.0, 12.0, 1, 1, 3);
     s.vectors = {0.0, 0.0}, s.dz[0] = -0.5;
-    s.p.mode[0].dx.data = s.p.mode[0].dy.data = s.vectors.data();
+    s.point();
     const MarkerArray array = drawing().of(s.p);
     expect_shown(array);
     for (const Marker &m : arrows(array)) {
@@ -201,7 +201,7 @@ TEST(spheres, eight_pairs_have_a_dial_each)
 TEST(spheres, the_caption_has_the_box)
 {
     spheres s(20.158737, 5.0, 10.25, 10, 0, 2);
-    s.p.periodic[2] = true;
+    s.h.periodic[2] = true;
     const MarkerArray array = drawing().of(s.p);
     const std::string text = in(array, "caption", Marker::TEXT_VIEW_FACING).at(0).text;
     EXPECT_EQ("a scene: 10 spheres, 20.16 x 5 x 10.25, x reflecting, y reflecting, z periodic\n",

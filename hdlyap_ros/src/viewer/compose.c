@@ -6,8 +6,6 @@
 
 #include "common/nodes.h"
 
-_Static_assert((int)PICTURE_PAIRS_MAX == (int)HEARD_PAIRS_MAX, "pairs as they are heard");
-
 bool mode_name_parse(mode_name *out, const char *text)
 {
     const bool is_lp = strncmp(text, "LP", 2) == 0;
@@ -71,17 +69,6 @@ static const heard_vector *vector_of_step(const heard *h, const hdr_step *step)
     return found;
 }
 
-static hdr_doubles array_of(const double *data, uint32_t count)
-{
-    return (hdr_doubles){.data = data, .count = count, .stride = 1};
-}
-
-/** Along z of spheres, and empty of disks. */
-static hdr_doubles depth_of(const heard *h, const double *data, uint32_t count)
-{
-    return array_of(data, heard_has_spheres(h) ? count : 0);
-}
-
 static double momentum_of(const heard_vector *v)
 {
     double l = 0.0, p = 0.0;
@@ -106,11 +93,8 @@ static void fill_pairs(picture_mode *mode, const heard *h, const heard_vector *v
 static void fill_vector(picture_mode *mode, const heard *h, const heard_vector *v)
 {
     mode->index = v->index;
-    mode->known = v->known;
     if (!v->known) return;
-    mode->dx = array_of(v->dx, h->disks);
-    mode->dy = array_of(v->dy, h->disks);
-    mode->dz = depth_of(h, v->dz, h->disks);
+    mode->d = v->d;
     if (mode->kind == HDR_MODE_LP && v->kind == HDR_MODE_LP) fill_pairs(mode, h, v);
 }
 
@@ -162,25 +146,7 @@ static void fill_modes(picture *p, const heard *h, const mode_choice *asked)
 
 picture compose(const heard *h, const mode_choice *asked, const char *note)
 {
-    const uint32_t disks = h->time >= 0.0 ? h->disks : 0;
-    picture p = {
-        .scene = h->scene,
-        .stage = h->stage < UINT8_MAX ? hdr_run_status_stage_text(h->stage) : "stage unknown",
-        .disks = h->disks,
-        .box = {h->box[0], h->box[1], h->box[2]},
-        .periodic = {h->periodic[0], h->periodic[1], h->periodic[2]},
-        .round = h->round,
-        .time = h->time >= 0.0 ? h->time : h->status_time,
-        .progress = h->progress,
-        .note = note,
-        .x = array_of(h->x, disks),
-        .y = array_of(h->y, disks),
-        .z = depth_of(h, h->z, disks),
-        .vector_time = h->vector_time,
-        .at_x = array_of(h->at_x, h->disks),
-        .at_y = array_of(h->at_y, h->disks),
-        .at_z = depth_of(h, h->at_z, h->disks),
-    };
+    picture p = {.run = h, .note = note};
     fill_modes(&p, h, asked);
     return p;
 }

@@ -2,7 +2,6 @@
 #ifndef HDLYAP_COMPOSE_H
 #define HDLYAP_COMPOSE_H
 
-#include "heard.h"
 #include "picture.h"
 
 /** A mode by its name. */

@@ -9,8 +9,8 @@
 
 void heard_clear(heard *h)
 {
-    for (int k = 0; k < HEARD_VECTORS_MAX; k++) free(h->vector[k].dx);
-    free(h->x);
+    for (int k = 0; k < HEARD_VECTORS_MAX; k++) free(h->vector[k].d);
+    free(h->q);
     free((void *)h->steps.steps.data);
     free((void *)h->phases.phases.data);
     *h = (heard){.time = -1.0, .status_time = -1.0, .vector_time = -1.0};
@@ -78,13 +78,9 @@ bool heard_run_info(heard *h, const hdr_run_info *info)
 {
     if (h->begun && strcmp(h->run_id, info->run_id) == 0) return false;
     heard_clear(h);
-    h->x = malloc(6 * (size_t)info->disks * sizeof *h->x + 1);
-    if (!h->x) return false;
-    h->y = h->x + info->disks;
-    h->z = h->y + info->disks;
-    h->at_x = h->z + info->disks;
-    h->at_y = h->at_x + info->disks;
-    h->at_z = h->at_y + info->disks;
+    h->q = malloc(2 * (size_t)info->disks * sizeof *h->q + 1);
+    if (!h->q) return false;
+    h->at = h->q + info->disks;
     begin(h, info);
     h->changed = true;
     return true;
@@ -95,9 +91,16 @@ static bool is_ours(const heard *h, const char *run_id)
     return h->begun && strcmp(h->run_id, run_id) == 0;
 }
 
-static void copy(double *to, const hdr_doubles *array)
+static double element(const hdr_doubles *array, uint32_t i)
 {
-    for (uint32_t k = 0; k < array->count; k++) to[k] = array->data[(size_t)k * array->stride];
+    return array->data[(size_t)i * array->stride];
+}
+
+/** 0 along z of disks. */
+static void copy(hdr_point *to, const hdr_doubles *x, const hdr_doubles *y, const hdr_doubles *z)
+{
+    for (uint32_t i = 0; i < x->count; i++)
+        to[i] = (hdr_point){element(x, i), element(y, i), z->count > 0 ? element(z, i) : 0.0};
 }
 
 /** A block of `bytes` in place of an old one, or NULL: the old one is then as it was. */
@@ -125,9 +128,7 @@ static bool move(heard *h, double time, const hdr_doubles *x, const hdr_doubles 
                  const hdr_doubles *z)
 {
     if (!are_of_each(h, 1, x, y, z)) return false;
-    copy(h->x, x);
-    copy(h->y, y);
-    copy(h->z, z);
+    copy(h->q, x, y, z);
     h->time = time;
     h->changed = true;
     return true;
@@ -138,9 +139,7 @@ static bool begin_vectors(heard *h, double time, const hdr_doubles *x, const hdr
                           const hdr_doubles *z)
 {
     if (!are_of_each(h, 1, x, y, z)) return false;
-    copy(h->at_x, x);
-    copy(h->at_y, y);
-    copy(h->at_z, z);
+    copy(h->at, x, y, z);
     h->vector_time = time;
     h->vectors = 0;
     return true;
@@ -161,12 +160,10 @@ static heard_vector *add(heard *h, const heard_vector *what)
 {
     if (h->vectors == HEARD_VECTORS_MAX) return NULL;
     heard_vector *v = &h->vector[h->vectors];
-    double *block = v->dx ? v->dx : malloc(3 * (size_t)h->disks * sizeof *block + 1);
+    hdr_point *block = v->d ? v->d : malloc((size_t)h->disks * sizeof *block + 1);
     if (!block) return NULL;
     *v = *what;
-    v->dx = block;
-    v->dy = v->dx + h->disks;
-    v->dz = v->dy + h->disks;
+    v->d = block;
     h->vectors++;
     return v;
 }
@@ -219,9 +216,7 @@ void heard_mode_field(heard *h, const hdr_mode_field *field)
     heard_vector *v = with_index(h, field->index);
     if (!v) v = add(h, &what);
     if (!v) return;
-    copy(v->dx, &field->dqx);
-    copy(v->dy, &field->dqy);
-    copy(v->dz, &field->dqz);
+    copy(v->d, &field->dqx, &field->dqy, &field->dqz);
     note_pairs(h);
     h->changed = true;
 }
@@ -269,9 +264,10 @@ static bool is_whole(const heard *h, const hdr_slow_vectors *m)
 }
 
 /** Vector k of all; nothing along z of disks. */
-static void copy_vector(double *to, const hdr_doubles *all, uint32_t k, uint32_t disks)
+static hdr_doubles part(const hdr_doubles *all, uint32_t k, uint32_t disks)
 {
-    if (all->count > 0) memcpy(to, all->data + (size_t)k * disks, disks * sizeof *to);
+    if (all->count == 0) return *all;
+    return (hdr_doubles){all->data + (size_t)k * disks * all->stride, disks, all->stride};
 }
 
 void heard_slow_vectors(heard *h, const hdr_slow_vectors *slow)
@@ -283,9 +279,9 @@ void heard_slow_vectors(heard *h, const hdr_slow_vectors *slow)
         const heard_vector what = vector_of(h, slow, k);
         heard_vector *v = is_wanted(h, &what) ? add(h, &what) : NULL;
         if (!v || !v->known) continue;
-        copy_vector(v->dx, &slow->dqx, k, h->disks);
-        copy_vector(v->dy, &slow->dqy, k, h->disks);
-        copy_vector(v->dz, &slow->dqz, k, h->disks);
+        const hdr_doubles dx = part(&slow->dqx, k, h->disks), dy = part(&slow->dqy, k, h->disks),
+                          dz = part(&slow->dqz, k, h->disks);
+        copy(v->d, &dx, &dy, &dz);
     }
 }
 

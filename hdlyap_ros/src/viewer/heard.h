@@ -4,6 +4,7 @@
 
 #include <stdbool.h>
 
+#include "hdlyap_ros/markers.h"
 #include "hdlyap_ros/messages.h"
 
 enum { HEARD_VECTORS_MAX = 64, HEARD_PAIRS_MAX = 8 };
@@ -15,8 +16,8 @@ typedef struct heard_vector {
     double exponent;
     uint32_t pairs; /**< of which a and b are known with the vector */
     double a[HEARD_PAIRS_MAX], b[HEARD_PAIRS_MAX];
-    bool known;           /**< the vector itself, at its place and time: */
-    double *dx, *dy, *dz; /**< [N] each, in one block at dx; dz of spheres, as all of z */
+    bool known;   /**< the vector itself, at its place and time: */
+    hdr_point *d; /**< [N] its dq half */
 } heard_vector;
 
 typedef struct heard {
@@ -29,13 +30,14 @@ typedef struct heard {
     bool has_t, has_lp; /**< modes of these kinds: can be in the box, and are looked for */
     uint8_t stage;      /**< UINT8_MAX before the first status */
     double progress;
-    double status_time;      /**< of the last status; -1 before the first */
-    double time, *x, *y, *z; /**< of the disks; in one block at x; time is -1 before the first */
+    double status_time; /**< of the last status; -1 before the first */
+    double time;        /**< of the disks; -1 before the first */
+    hdr_point *q;       /**< [N] where they are; z is 0 of disks */
     heard_vector vector[HEARD_VECTORS_MAX];
     int vectors;
-    double vector_time, *at_x, *at_y,
-        *at_z;       /**< of the vectors: where the disks were then, behind z */
-    hdr_steps steps; /**< of an own array, as the next */
+    double vector_time; /**< of the vectors */
+    hdr_point *at;      /**< [N] where the disks were then, behind q */
+    hdr_steps steps;    /**< of an own array, as the next */
     hdr_lp_phases phases;
     bool changed; /**< since the caller took that back: a picture would show something else */
 } heard;

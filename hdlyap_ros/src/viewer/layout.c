@@ -11,50 +11,51 @@ static const double RISE = 0.7;  /* of what is above the plane, as seen from 55 
 
 /** Of a box of spheres that is seen from above and from the front, as rviz's view begins: its
  * height on the screen, as of something flat. */
-static double height_of(const picture *p) { return p->box[1] + RISE * p->box[2]; }
+static double height_of(const heard *h) { return h->box[1] + RISE * h->box[2]; }
 
-static double distance_of(const picture *p)
+static double distance_of(const heard *h)
 {
-    return picture_has_spheres(p) ? cbrt(p->box[0] * p->box[1] * p->box[2] / p->disks)
-                                  : sqrt(p->box[0] * p->box[1] / p->disks);
+    return heard_has_spheres(h) ? cbrt(h->box[0] * h->box[1] * h->box[2] / h->disks)
+                                : sqrt(h->box[0] * h->box[1] / h->disks);
 }
 
 /** Columns of a grid of panels that is not much higher than wide. */
-static int columns_of(const picture *p, int panels)
+static int columns_of(const heard *h, int panels)
 {
-    const double shape = p->box[0] / height_of(p);
+    const double shape = h->box[0] / height_of(h);
     if (shape > LONG) return 1;
     const int columns = (int)ceil(sqrt(1.5 * panels / shape));
     return columns < panels ? columns : panels;
 }
 
-static double grid_width(const picture *p, const layout *l, int columns, double unit)
+static double grid_width(const heard *h, const layout *l, int columns, double unit)
 {
-    return columns * p->box[0] + (columns - 1) * (GAP * unit + l->arrow);
+    return columns * h->box[0] + (columns - 1) * (GAP * unit + l->arrow);
 }
 
 /** Left to right, then downwards; panel 0 at the origin. */
-static void place_panels(layout *l, const picture *p, int columns)
+static void place_panels(layout *l, const heard *h, int columns)
 {
     for (int k = 0; k < l->panels; k++)
         l->panel[k] = (rect){
-            .x = k % columns * (p->box[0] + GAP * l->unit + l->arrow),
-            .y = -(k / columns) * (height_of(p) + TITLE * l->unit + l->arrow),
-            .width = p->box[0],
-            .height = p->box[1],
+            .x = k % columns * (h->box[0] + GAP * l->unit + l->arrow),
+            .y = -(k / columns) * (height_of(h) + TITLE * l->unit + l->arrow),
+            .width = h->box[0],
+            .height = h->box[1],
         };
 }
 
 layout layout_of(const picture *p)
 {
-    const double distance = distance_of(p);
+    const heard *h = p->run;
+    const double distance = distance_of(h);
     layout l = {
         .panels = p->modes > 0 ? p->modes : 1, .distance = distance, .arrow = ARROW * distance};
-    const int columns = columns_of(p, l.panels);
-    const double least = fmax(grid_width(p, &l, columns, 0.0), 0.8 * height_of(p));
+    const int columns = columns_of(h, l.panels);
+    const double least = fmax(grid_width(h, &l, columns, 0.0), 0.8 * height_of(h));
     l.unit = least / (WIDTH_UNITS - (columns - 1) * GAP);
-    place_panels(&l, p, columns);
-    l.caption_x = 0.5 * grid_width(p, &l, columns, l.unit);
-    l.caption_y = p->box[1] + 0.5 * l.arrow + (TITLE + 0.5 * CAPTION) * l.unit;
+    place_panels(&l, h, columns);
+    l.caption_x = 0.5 * grid_width(h, &l, columns, l.unit);
+    l.caption_y = h->box[1] + 0.5 * l.arrow + (TITLE + 0.5 * CAPTION) * l.unit;
     return l;
 }

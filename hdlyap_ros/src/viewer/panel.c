@@ -65,35 +65,23 @@ void panel_boxes(canvas *on, const layout *l, const picture *p)
     canvas_layer(on, "box", HDR_MARKER_LINE_LIST, PALETTE_INK, LINE * l->unit);
     for (int k = 0; k < l->panels; k++) {
         const rect *r = &l->panel[k];
-        if (p->round)
+        if (p->run->round)
             circle(on, r->x + 0.5 * r->width, r->y + 0.5 * r->height, 0.5 * r->width, WALL_SIDES);
         else
             outline(on, r);
-        if (picture_has_spheres(p)) lid(on, r, p->box[2]);
+        if (heard_has_spheres(p->run)) lid(on, r, p->run->box[2]);
     }
-}
-
-static double element(const hdr_doubles *array, uint32_t i)
-{
-    return array->data[(size_t)i * array->stride];
-}
-
-/** Element i along each direction; 0 along z of disks. */
-static hdr_point triple(const hdr_doubles *x, const hdr_doubles *y, const hdr_doubles *z,
-                        uint32_t i)
-{
-    return (hdr_point){element(x, i), element(y, i), z->count > 0 ? element(z, i) : 0.0};
 }
 
 void panel_disks(canvas *on, const layout *l, const picture *p)
 {
-    const bool spheres = picture_has_spheres(p);
+    const bool spheres = heard_has_spheres(p->run);
     const double z = spheres ? 0.0 : DISKS_Z;
     canvas_layer(on, spheres ? "spheres" : "disks", HDR_MARKER_SPHERE_LIST,
                  spheres ? PALETTE_SPHERE : PALETTE_DISK, 1.0);
     for (int k = 0; k < l->panels; k++)
-        for (uint32_t i = 0; i < p->x.count; i++) {
-            const hdr_point at = triple(&p->x, &p->y, &p->z, i);
+        for (uint32_t i = 0; i < p->run->disks && p->run->time >= 0.0; i++) {
+            const hdr_point at = p->run->q[i];
             canvas_point(on, l->panel[k].x + at.x, l->panel[k].y + at.y, z + at.z);
         }
 }
@@ -149,7 +137,7 @@ static hdr_colour colour_of(const picture_mode *m)
     return m->momentum >= 0.0 ? palette_mix(PALETTE_L, PALETTE_P, m->momentum) : PALETTE_LP;
 }
 
-static bool is_of_before(const picture *p) { return p->vector_time != p->time; }
+static bool is_of_before(const picture *p) { return p->run->vector_time != p->run->time; }
 
 static hdr_colour colour_of_field(const picture *p, const picture_mode *m)
 {
@@ -157,26 +145,23 @@ static hdr_colour colour_of_field(const picture *p, const picture_mode *m)
     return is_of_before(p) ? palette_mix(colour, white, PALE) : colour;
 }
 
-static double mean_square(const picture_mode *m)
+static double mean_square(const hdr_point *d, uint32_t count)
 {
     double sum = 0.0;
-    for (uint32_t i = 0; i < m->dx.count; i++) {
-        const hdr_point d = triple(&m->dx, &m->dy, &m->dz, i);
-        sum += d.x * d.x + d.y * d.y + d.z * d.z;
-    }
-    return m->dx.count > 0 ? sum / m->dx.count : 0.0;
+    for (uint32_t i = 0; i < count; i++) sum += d[i].x * d[i].x + d[i].y * d[i].y + d[i].z * d[i].z;
+    return sum / count;
 }
 
 static void arrows(canvas *on, const layout *l, const rect *r, const picture *p,
                    const picture_mode *m, facing which)
 {
-    const double most = l->arrow, square = mean_square(m);
+    const double most = l->arrow, square = mean_square(m->d, p->run->disks);
     const double scale = square > 0.0 ? ARROW * most / sqrt(square) : 0.0;
     const hdr_point zero = {0.0, 0.0, 0.0}, corner_of = {r->x, r->y, 0.0};
-    for (uint32_t i = 0; i < m->dx.count; i++) {
-        const hdr_point d = along(zero, scale, triple(&m->dx, &m->dy, &m->dz, i));
+    for (uint32_t i = 0; i < p->run->disks; i++) {
+        const hdr_point d = along(zero, scale, m->d[i]);
         const double shorter = fmin(1.0, most / fmax(length_of(d), 1e-300));
-        const hdr_point at = along(corner_of, 1.0, triple(&p->at_x, &p->at_y, &p->at_z, i));
+        const hdr_point at = along(corner_of, 1.0, p->run->at[i]);
         arrow(on, at, along(zero, shorter, d), l->distance, which);
     }
 }
@@ -188,7 +173,7 @@ static void field(canvas *on, const char *ns, const layout *l, const picture *p,
     const hdr_colour black = {0.0F, 0.0F, 0.0F, 1.0F}, colour = colour_of_field(p, &p->mode[k]);
     canvas_layer(on, ns, HDR_MARKER_TRIANGLE_LIST,
                  which == LEVEL ? colour : palette_mix(colour, black, SHADE), 1.0);
-    if (picture_has_spheres(p)) canvas_unlit(on);
+    if (heard_has_spheres(p->run)) canvas_unlit(on);
     arrows(on, l, &l->panel[k], p, &p->mode[k], which);
 }
 
@@ -214,10 +199,10 @@ static void dials(canvas *on, double x, double y, double unit, const picture_mod
 /** Which vector is drawn, and of which time if that is not the picture's. */
 static void write_vector(char *text, size_t size, const picture *p, const picture_mode *m)
 {
-    if (!m->known)
+    if (!m->d)
         snprintf(text, size, "vector %u not received", (unsigned)m->index);
     else if (is_of_before(p))
-        snprintf(text, size, "vector %u of t = %.1f", (unsigned)m->index, p->vector_time);
+        snprintf(text, size, "vector %u of t = %.1f", (unsigned)m->index, p->run->vector_time);
     else
         snprintf(text, size, "vector %u", (unsigned)m->index);
 }
@@ -243,13 +228,13 @@ void panel_mode(canvas *on, const layout *l, const picture *p, int k)
     const picture_mode *m = &p->mode[k];
     const rect *r = &l->panel[k];
     const double top = r->y + r->height + 0.5 * l->arrow + TITLE * l->unit;
-    const uint32_t pairs = m->known ? m->pairs : 0;
+    const uint32_t pairs = m->d ? m->pairs : 0;
     const double row = pairs * DIAL_STEP * DIAL * l->unit * smaller(pairs); /* of dials */
     char ns[PICTURE_NAME_SIZE + 5];
     snprintf(ns, sizeof ns, "mode/%s", m->box);
-    if (m->known) field(on, ns, l, p, k, LEVEL);
-    if (m->known && picture_has_spheres(p)) field(on, ns, l, p, k, UPRIGHT);
-    canvas_level(on, p->box[2]);
+    if (m->d) field(on, ns, l, p, k, LEVEL);
+    if (m->d && heard_has_spheres(p->run)) field(on, ns, l, p, k, UPRIGHT);
+    canvas_level(on, p->run->box[2]);
     if (pairs > 0) dials(on, r->x + r->width, top, l->unit, m);
     title(on, ns, r->x + 0.5 * (r->width - row), top, l, p, m);
     canvas_level(on, 0.0);

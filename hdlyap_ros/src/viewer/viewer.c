@@ -83,7 +83,7 @@ static void send_picture(viewer *v)
     v->said.changed = false;
     v->sent_at = seconds_now();
     if (!draw(v->on, &markers, &p, "box"))
-        hdr_log(HDR_ERROR, "t = %g not drawn: out of memory", p.time);
+        hdr_log(HDR_ERROR, "t = %g not drawn: out of memory", v->said.time);
     else if (hdr_markers_publish(v->markers, &markers) != HDR_OK)
         hdr_log(HDR_ERROR, "picture not sent: %s", hdr_error_text());
 }
