@@ -157,13 +157,21 @@ class OnAScreen(harness.Case):
 
 class Refused(harness.Case):
     def test_what_is_missing(self):
-        for words, env, said in (
+        """A screen, tkinter; and bags, which it does not take."""
+        folder = self.new_folder()
+        with open(os.path.join(folder, 'tkinter.py'), 'w') as file:
+            file.write('raise ImportError("not installed")')
+        path = os.pathsep.join([folder, os.environ['PYTHONPATH']])
+        cases = (
             ([], {'DISPLAY': ''}, 'hdlyap plot: --live needs a screen: '),
-            (['/hdlyap', '--pdf', 'a.pdf'], {}, 'error: --live takes no bag, and no option'),
-        ):
-            plot = self.process([*PLOT, *words], **env)
+            ([], {'PYTHONPATH': path}, 'hdlyap plot: --live needs tkinter (python3-tk): not '),
+            (['/hdlyap', '--out', 'a'], {}, 'error: --live takes no bag, and no option'),
+        )
+        started = [self.process([*PLOT, *words], **env) for words, env, _ in cases]
+        for plot, (*_, said) in zip(started, cases):
             self.assertEqual(plot.wait(), 2)
             self.assertIn(said, plot.text().splitlines()[-1])
+            self.assertNotIn('Traceback', plot.text())
 
 
 if __name__ == '__main__':

@@ -21,6 +21,7 @@ from hdlyap.plots.progress import Progress
 
 
 FAULT = 1
+HERE = '.'  # folder of the figures
 PATIENCE = 30.0  # seconds for a master and a node to appear
 
 
@@ -34,7 +35,10 @@ def options(parser):
         help='a window of this running node (default: the only one)',
     )
     parser.add_argument(
-        '--out', default='.', metavar='DIR', help='folder of the figures (default: the current one)'
+        '--out',
+        default=HERE,
+        metavar='DIR',
+        help='folder of the figures (default: the current one)',
     )
     parser.add_argument('--node', metavar='NAME', help='which node, if several are in the bag')
     parser.add_argument(
@@ -61,7 +65,9 @@ def exported(run, args):
 
 def live(args, form, k):
     """Exit status. What a window needs is not asked for by those who have bags."""
-    if args.bags or any((args.node, args.run, args.only, args.pdf, args.csv, args.npz)):
+    if args.bags or any(
+        (args.node, args.run, args.only, args.pdf, args.csv, args.npz, args.out != HERE)
+    ):
         args.error('--live takes no bag, and no option but those of the fits')
     try:
         import tkinter
