@@ -265,4 +265,5 @@ const hd_container_row hd_circle_row = {.say = circle_say,
                                         .start = circle_start,
                                         .still = circle_still,
                                         .limits = circle_limits,
-                                        .waves = circle_waves};
+                                        .waves = circle_waves,
+                                        .waves_usual = 12};

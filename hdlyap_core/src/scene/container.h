@@ -17,6 +17,8 @@
 /** Takes one wave; `to` is its own. */
 typedef void (*hd_wave_taker)(void *to, const hd_wave *wave);
 
+enum { HD_WAVES_USUAL_MAX = 26 };
+
 typedef struct hd_container_row {
     /** For a refusal, what it is beside its disks and their density. */
     void (*say)(const hd_scene_def *def, char *text, size_t size);
@@ -33,6 +35,9 @@ typedef struct hd_container_row {
     void (*still)(const hd_scene_def *def, const double *q, double *p);
     hd_wave_limits (*limits)(const hd_scene_def *def);
     void (*waves)(const hd_scene_def *def, hd_wave_taker take, void *to); /**< in any order */
+    /** So many of the longest waves, and those as long as the last one, are classified if the scene
+     * does not say: steps of shorter ones seldom part from the rest. HD_WAVES_USUAL_MAX at most. */
+    int waves_usual;
 } hd_container_row;
 
 extern const hd_container_row hd_rectangle_row, hd_circle_row;

@@ -252,4 +252,5 @@ const hd_container_row hd_rectangle_row = {.say = rectangle_say,
                                            .start = rectangle_start,
                                            .still = rectangle_still,
                                            .limits = rectangle_limits,
-                                           .waves = rectangle_waves};
+                                           .waves = rectangle_waves,
+                                           .waves_usual = HD_DIM == 2 ? 8 : 26};

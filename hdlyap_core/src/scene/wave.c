@@ -6,9 +6,6 @@
 
 #include "scene/container.h"
 
-/** Nodes that are classified if the scene does not say. */
-enum { NODE_DEFAULT = 2 };
-
 static int compare_waves(const void *a, const void *b)
 {
     const hd_wave *x = a, *y = b;
@@ -23,16 +20,47 @@ hd_wave_limits hd_wave_limits_of(const hd_scene_def *def)
     return hd_container_of(def)->limits(def);
 }
 
+/** Wave numbers of the longest waves, ascending; those that were not taken are INFINITY. */
+typedef struct longest {
+    double number[HD_WAVES_USUAL_MAX];
+    int count;
+} longest;
+
+static void take_longer(void *to, const hd_wave *wave)
+{
+    longest *l = to;
+    double number = wave->number;
+    for (int k = 0; k < l->count; k++) {
+        const double other = l->number[k];
+        l->number[k] = fmin(other, number);
+        number = fmax(other, number);
+    }
+}
+
+/** Wave number of the last of the waves that are usual in this container. None of them has more
+ * nodes along a direction than there are of them: so many longer ones lie along it. */
+static double usual_limit(const hd_scene_def *def)
+{
+    const hd_container_row *container = hd_container_of(def);
+    longest l = {.count = container->waves_usual};
+    hd_scene_def few = *def;
+    few.max_mode_number = l.count;
+    for (int k = 0; k < l.count; k++) l.number[k] = INFINITY;
+    container->waves(&few, take_longer, &l);
+    return l.number[l.count - 1];
+}
+
 double hd_wave_limit(const hd_scene_def *def)
 {
     const double sampled = hd_wave_limits_of(def).largest;
-    return def->max_wave_number > 0 ? fmin(def->max_wave_number, sampled) : sampled;
+    if (def->max_wave_number > 0) return fmin(def->max_wave_number, sampled);
+    return def->max_mode_number > 0 ? sampled : fmin(usual_limit(def), sampled);
 }
 
 int hd_wave_nodes(const hd_scene_def *def, int most)
 {
-    const int wanted = def->max_mode_number > 0 ? def->max_mode_number : NODE_DEFAULT;
-    return def->max_wave_number > 0 || most < wanted ? most : wanted;
+    const int wanted = def->max_mode_number;
+    return wanted > 0 && wanted < most ? wanted : most;
 }
 
 typedef struct waves {

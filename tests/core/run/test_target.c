@@ -58,7 +58,7 @@ TEST(what_is_never_known_is_refused_by_name)
 {
     static const struct {
         const char *target, *word;
-    } rows[] = {{"v 1%, T(3,0) 1%", "must be without T(3,0): it is not among the waves"},
+    } rows[] = {{"v 1%, T(9,0) 1%", "must be without T(9,0): it is not among the waves"},
                 {"T(0,5) 1%", "must be without T(0,5): it is not among the waves"},
                 {"omega(9,1) 1%", "must be without omega(9,1): it is not among the waves"},
                 {"lambda(118) 1", "it is a zero mode"}, /* 117 of 120 are positive */

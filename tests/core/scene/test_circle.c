@@ -114,7 +114,7 @@ TEST(wave_numbers_are_published_roots)
         {2, 2, 2, 0, 6.70613}, {0, 2, 1, 0, 7.01559}, {2, 2, 0, 2, 8.15781}, {0, 2, 0, 1, 8.41724},
     };
     enum { KNOWN = sizeof known / sizeof *known };
-    const hd_scene_def def = circle(400, 0.5);
+    const hd_scene_def def = scene_from(circle(400, 0.5), .max_mode_number = 2);
     const double reach = radius_of(&def) - 0.5;
     hd_wave wave[2 * KNOWN];
     assert_int_equal(hd_waves(&def, wave, 2 * KNOWN), KNOWN);

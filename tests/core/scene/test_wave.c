@@ -67,8 +67,7 @@ static bool wanted(const hd_scene_def *def, int nx, int ny)
         const double k = hd_wave_component(def, d, n[d]);
         square += k * k;
         if (n[d] > 0 && box[d] < 2.0) return false;
-        const int most = def->max_mode_number > 0 ? def->max_mode_number : 2;
-        if (def->max_wave_number == 0 && n[d] > most) return false;
+        if (def->max_mode_number > 0 && n[d] > def->max_mode_number) return false;
     }
     if (def->max_wave_number > 0 && sqrt(square) > def->max_wave_number * above) return false;
     return nx + ny > 0 && sqrt(square) <= sampled * above;
@@ -107,8 +106,8 @@ TEST(every_wave_within_the_limits_once)
     for (int k = 0; k < 4; k++) {
         hd_scene_def def = scene_of(300, 0.6, k < 2 ? 0.7 : 1.0, k & 1 ? R : P, k & 2 ? R : P, 1);
         const hd_wave_limits limits = hd_wave_limits_of(&def);
-        const int nodes[] = {0, 1, 3, limits.node};
-        for (int m = 0; m < 4; m++) {
+        const int nodes[] = {1, 3, limits.node};
+        for (int m = 0; m < 3; m++) {
             def.max_mode_number = nodes[m];
             check_waves(&def);
         }
@@ -118,6 +117,29 @@ TEST(every_wave_within_the_limits_once)
             check_waves(&def);
         }
     }
+}
+
+/** If the scene does not say, the eight longest of all that are sampled, and those as long as the
+ * last of them: in a long box all lie along it. */
+TEST(the_longest_waves_are_usual)
+{
+    for (int k = 0; k < 12; k++) {
+        const double aspect[] = {1.0, 0.867, 0.1};
+        hd_scene_def def = scene_of(k < 8 ? 120 : 12, 0.7, aspect[k % 3], k & 1 ? R : P, P, 1);
+        static hd_wave usual[WAVES_MAX], all[WAVES_MAX];
+        const int count = hd_waves(&def, usual, WAVES_MAX);
+        def.max_wave_number = hd_wave_limits_of(&def).largest;
+        const int sampled = hd_waves(&def, all, WAVES_MAX);
+        assert_true(sampled <= WAVES_MAX && count >= (sampled < 8 ? sampled : 8));
+        assert_memory_equal(usual, all, (size_t)count * sizeof *all);
+        for (int w = 8; w < count; w++)
+            CHECK_CLOSE(usual[w].number, usual[7].number, ROUNDING * usual[7].number);
+        assert_true(count == sampled || all[count].number > usual[count - 1].number);
+    }
+    hd_wave wave[8];
+    const hd_scene_def first = scene_of(120, 0.7, 0.1, P, P, 1);
+    assert_int_equal(hd_waves(&first, wave, 8), 8);
+    for (int w = 0; w < 8; w++) assert_true(wave[w].n[0] == w + 1 && wave[w].n[1] == 0);
 }
 
 /** A limit that is the wave number itself counts, whatever its rounding. */
@@ -135,7 +157,7 @@ TEST(the_limit_itself_is_within)
 
 TEST(the_paper_s_scene)
 {
-    const int n[][2] = {{1, 0}, {0, 1}, {1, 1}, {2, 0}, {0, 2}, {2, 1}, {1, 2}, {2, 2}};
+    const int n[][2] = {{1, 0}, {0, 1}, {1, 1}, {2, 0}, {0, 2}, {2, 1}, {1, 2}, {3, 0}};
     const hd_scene_def def = hd_scene_def_default();
     hd_wave wave[8];
     assert_int_equal(hd_waves(&def, wave, 8), 8);
