@@ -193,7 +193,7 @@ class Subscribers(harness.Case):
             self.addCleanup(master.stop)
         late = self.link(port, 'cost', '/late')
         late.greet()
-        self.sees(lambda: node.lines('does not know this node'), node)
+        self.sees(lambda: node.lines('nobody finds this node any more'), node)
         self.stop(node)
         self.assertEqual([link.gaps() for link in some], [0, 0])
         self.assertEqual(len(node.lines('stopped at simulated time')), 1, node.text())
