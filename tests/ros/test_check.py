@@ -27,6 +27,16 @@ COVARIANT = dict(
     covariant_sampling=0.5,
     observables=['covariant'],
 )
+LARGE_WINDOW = dict(
+    disks=4,
+    exponents=2,
+    observables=['covariant'],
+    covariant_window=10000.0,
+    covariant_transient=10000.0,
+    covariant_sampling=1.0,
+    covariant_memory=0.01,
+    duration=0.0,
+)
 NO_MASTER = dict(os.environ, ROS_MASTER_URI='http://localhost:1')
 
 
@@ -208,6 +218,7 @@ class Check(harness.Case):
             dict(observables=['spectrum', 'x']),
             dict(seed=1.5),
             dict(disks=1000000),
+            dict(LARGE_WINDOW, covariant_storage='recompute'),
         )
         nodes = [self.start(params, name='refused_%d' % k) for k, params in enumerate(some)]
         numbers = re.compile(r'there are .*')  # memory goes up and down

@@ -158,6 +158,14 @@ static void enlarge(hd_estimate *e, const hd_scene_def *tried, const hd_scene_de
     e->errors_after *= hd_scene_sound_crossing(def) / hd_scene_sound_crossing(tried);
 }
 
+/** Windows of covariant vectors, which a trial leaves out, are refused as the run itself would. */
+static hd_status check_windows(const hd_scene_def *def, const hd_run *trial, char *message,
+                               size_t size)
+{
+    if (!(def->observe & HD_OBSERVE_COVARIANT)) return HD_OK;
+    return hd_covariant_check_room(def, hd_carrier_longest(&trial->carrier), message, size);
+}
+
 hd_status hd_estimate_run(hd_estimate *out, const hd_scene_def *def, double fields_every,
                           char *message, size_t size)
 {
@@ -167,7 +175,8 @@ hd_status hd_estimate_run(hd_estimate *out, const hd_scene_def *def, double fiel
     HD_TRY(trial_scene(&tried, def));
     HD_TRY(hd_run_create(&run, &tried, message, size));
     hd_run_fields_every(run, fields_every);
-    const hd_status status = measure(out, run);
+    hd_status status = check_windows(def, run, message, size);
+    if (status == HD_OK) status = measure(out, run);
     out->target_after = target_after(run, def);
     enlarge(out, &tried, def);
     out->slopes_after = OF_SLOPES * out->errors_after;
