@@ -28,7 +28,7 @@ from hdlyap.msg import (
     TPhases,
 )
 from hdlyap import topics
-from hdlyap.plots import waves
+from hdlyap.data import waves
 
 SCRIPTS = os.path.join(os.path.dirname(os.path.abspath(__file__)), '../../hdlyap_ros/scripts')
 T, LP, ZERO = Step.T, Step.LP, Step.ZERO

@@ -3,7 +3,7 @@
 import numpy as np
 
 from hdlyap.msg import ModeField, Step
-from hdlyap.plots import waves
+from hdlyap.data import waves
 
 
 def disks(info, seed=1):

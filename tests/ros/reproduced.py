@@ -15,7 +15,8 @@ import made_fields
 import test_structure
 from made import LP, T
 from hdlyap.msg import Hydro, HydroMode, LpPhase, LpPhases, RunStatus
-from hdlyap.plots import equation, paper, waves
+from hdlyap.data import waves
+from hdlyap.plots import equation, paper
 
 ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), '../..')
 STUDY = os.path.join(ROOT, 'doc/reproduction')

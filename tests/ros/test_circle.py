@@ -6,7 +6,8 @@ import numpy as np
 import harness
 import measured
 from hdlyap.msg import LpPhase, Mode
-from hdlyap.plots import repetition, waves
+from hdlyap.data import waves
+from hdlyap.plots import repetition
 
 TOPICS = ['run_info', 'spectrum', 'modes', 'steps', 'lp_phases', 'fields', 'gas', 'state']
 SCENE = dict(container='circle', disks=120, density=0.7, equilibration=20.0, warmup=40.0)

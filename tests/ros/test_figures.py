@@ -9,7 +9,8 @@ import made
 import made_fields
 from bags import Bags
 from made import LP, T
-from hdlyap.plots import report, waves
+from hdlyap.data import waves
+from hdlyap.plots import report
 from hdlyap.plots.figures import (
     box,
     convergence,

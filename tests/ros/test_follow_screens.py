@@ -14,7 +14,7 @@ from made import LP, T
 from hdlyap.follow import dashboard, line, panels
 from hdlyap.follow.layout import length, wrapped
 from hdlyap.follow.watch import Speed, View, fill, lazy
-from hdlyap.plots.glyphs import Glyphs
+from hdlyap.glyphs import Glyphs
 
 SIZES = (80, 24), (120, 40), (200, 60), (60, 15), (30, 5), (7, 2), (1, 1)
 FEW = SIZES[:2] + SIZES[-1:]

@@ -9,7 +9,7 @@ import harness
 import measured
 from harness import MODES, OBSERVABLES
 from hdlyap.msg import LpPhase, Mode
-from hdlyap.plots import fits
+from hdlyap.data import fits
 
 REPORTS = 20  # of MODES, while averaging
 ROUNDING = 1e-9

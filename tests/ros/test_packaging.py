@@ -198,6 +198,43 @@ class Noetic(unittest.TestCase):
             self.assertFalse(os.stat(os.path.join(ROOT, program)).st_mode & 0o111, program)
 
 
+class Layers(unittest.TestCase):
+    """Of the Python package: a folder imports from those before it; what reads bags draws nothing."""
+
+    ORDER = 'data', 'plots', 'follow', 'runs', 'sweep', 'commands'
+    DRAWING = 'plots', 'sweep', 'commands'
+
+    def test_imports(self):
+        root, count = os.path.join(ROOT, 'hdlyap_ros/python/hdlyap'), 0
+        for path in files('.py'):
+            name = os.path.relpath(path, root)
+            if name.startswith('..') or name == '__init__.py':  # which imports data when it is asked
+                continue
+            folder = name.split('/')[0]
+            place = self.ORDER.index(folder) if folder in self.ORDER else -1
+            text = text_of(path)
+            for module in imported(text, ['hdlyap', *name.split('/')[:-1]]):
+                first, below = (module.split('.') + [''])[:2]
+                if first == 'hdlyap':
+                    self.assertNotIn(below, self.ORDER[place + 1 :], (name, module))
+                if first == 'matplotlib':
+                    self.assertIn(folder, self.DRAWING, name)
+                count += first == 'hdlyap'
+            self.assertTrue('matplotlib.use(' not in text or folder == 'commands', name)
+        self.assertGreater(count, 100)
+
+
+def imported(text, package):
+    """Names of modules, and of what is taken from them."""
+    for node in ast.walk(ast.parse(text)):
+        if isinstance(node, ast.Import):
+            yield from (alias.name for alias in node.names)
+        elif isinstance(node, ast.ImportFrom):
+            above = package[: len(package) - node.level + 1] if node.level else []
+            module = [*above, *([node.module] if node.module else [])]
+            yield from ('.'.join([*module, alias.name]) for alias in node.names)
+
+
 class Messages(unittest.TestCase):
     def test_every_field_is_explained(self):
         count = 0

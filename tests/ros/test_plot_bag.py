@@ -18,10 +18,11 @@ import made_fields
 from bags import Bags, files, process, tool
 from made import LP, T
 from hdlyap.data.reader import RecordingError
-from hdlyap.plots import paper, recorded, report, waves
+from hdlyap.data import waves
+from hdlyap.plots import paper, recorded, report
 from hdlyap.plots.course import LIMIT, Course
 from hdlyap.plots.figures import phases, plt
-from hdlyap.plots.numbers import with_error
+from hdlyap.numbers import with_error
 from hdlyap.plots.phases import PhaseCourse
 
 INFO = made.run_info()

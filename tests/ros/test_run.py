@@ -7,7 +7,7 @@ from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 import rospy
 from std_srvs.srv import SetBool, Trigger
 
-from hdlyap.plots.numbers import with_error
+from hdlyap.numbers import with_error
 
 import harness
 import measured

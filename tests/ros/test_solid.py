@@ -16,13 +16,13 @@ from made import LP, T
 from hdlyap.commands import run as command
 from hdlyap.follow.panels import phases as phase_lines
 from hdlyap.msg import LpPhase, State, Structure
-from hdlyap.plots import covariant, equation, frames, movie, paper, space
-from hdlyap.plots import repetition, structure
+from hdlyap.data import factors, space
+from hdlyap.plots import covariant, equation, frames, movie, paper, repetition
 from hdlyap.plots.figures import dispersion, modes, p_mode, plt, spectrum
 from hdlyap.plots.figures.style import scene
 from hdlyap.plots.figures.view import View
-from hdlyap.plots.glyphs import Glyphs
-from hdlyap.plots.run import Run as Live
+from hdlyap.glyphs import Glyphs
+from hdlyap.data.last import Last as Live
 from hdlyap.runs import ranks, run, work
 from hdlyap.runs.scene import Refused
 from hdlyap.sweep import grid, points, table
@@ -118,7 +118,7 @@ class Arrays(Solid):
         self.assertEqual(list(loaded.structure.peaks['nz']), [1, 1, 1])
         self.assertEqual(loaded.amplitudes([2], 'along')[2].iloc[0, 7], 7 * 3 + 1)
         self.assertEqual(loaded.amplitudes([2], 'across')[2].shape, (1, 16))
-        self.assertEqual(structure.amplitudes(message, 'across')[15, 2], 47)
+        self.assertEqual(factors.amplitudes(message, 'across')[15, 2], 47)
         message.amplitude_across = np.arange(24.0)
         with self.assertRaisesRegex(hdlyap.data.reader.RecordingError, 'elements of 3 vectors'):
             self.load(message).structure

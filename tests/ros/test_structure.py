@@ -11,7 +11,8 @@ import hdlyap
 import made
 from bags import Bags
 from hdlyap.msg import Structure
-from hdlyap.plots import figures, recorded, structure
+from hdlyap.data import factors
+from hdlyap.plots import figures, recorded
 
 OMEGA = made.VELOCITY  # times k
 WAVES = np.array([(1, 0), (0, 1), (1, 1), (2, 0)])
@@ -33,7 +34,7 @@ class Lines(unittest.TestCase):
         """At any distance of the times; far below the distance of two frequencies."""
         for omega, uneven in itertools.product((0.2, 0.77, 2.0), (0.0, 0.3)):
             times = self.times(uneven=uneven)
-            found = structure.line(times, self.turning(times, omega))
+            found = factors.line(times, self.turning(times, omega))
             self.assertAlmostEqual(found.omega, omega, delta=0.3 * 2 * np.pi / np.ptp(times))
             self.assertLess(found.error, 0.05 * omega)
 
@@ -42,7 +43,7 @@ class Lines(unittest.TestCase):
         off, stated = [], []
         for _ in range(40):
             times = self.times(200)
-            found = structure.line(times, self.turning(times, 0.8, diffusion=0.01))
+            found = factors.line(times, self.turning(times, 0.8, diffusion=0.01))
             off.append(found.omega - 0.8)
             stated.append(found.error)
         ratio = np.sqrt(np.mean(np.square(off)) / np.mean(np.square(stated)))
@@ -50,21 +51,21 @@ class Lines(unittest.TestCase):
 
     def test_what_stands_still_is_at_zero(self):
         times = self.times()
-        found = structure.line(times, self.turning(times, 0.0, diffusion=1e-4))
+        found = factors.line(times, self.turning(times, 0.0, diffusion=1e-4))
         self.assertEqual(found, (0.0, 4 * np.pi / np.ptp(times)))
-        slow = structure.line(times, self.turning(times, 2 * found.error))
+        slow = factors.line(times, self.turning(times, 2 * found.error))
         self.assertAlmostEqual(slow.omega, 2 * found.error, delta=0.2 * found.error)
 
     def test_power_is_the_mean_square(self):
         times = self.times()
         series = self.turning(times, 0.8) + 0.1 * self.random.normal(size=(400, 2))
         omega = 2 * np.pi / np.ptp(times) * np.arange(-200, 200)
-        total = structure.power(times, series, omega).sum()
+        total = factors.power(times, series, omega).sum()
         self.assertAlmostEqual(total, (series**2).sum(axis=1).mean(), delta=0.03)
 
     def test_no_line_without_a_course(self):
-        times = self.times(structure.REPORTS - 1)
-        self.assertIsNone(structure.line(times, self.turning(times, 0.8)))
+        times = self.times(factors.REPORTS - 1)
+        self.assertIsNone(factors.line(times, self.turning(times, 0.8)))
 
 
 def message(info, sim_time, found, vectors=37, means=True, omega=(OMEGA, 0.0)):
@@ -184,7 +185,7 @@ class Recorded(Bags):
         self.assertAlmostEqual(found[phases].get_xdata()[0], 1.612 * made.K)  # of made.steps
 
     def test_a_wave_that_changes_begins_the_course_anew(self):
-        course = structure.StructureCourse()
+        course = factors.StructureCourse()
         for t, one in enumerate(self.messages):
             one.peak = np.array(one.peak)
             one.peak[32] = 2 if t < 7 else 1

@@ -10,7 +10,7 @@ from terminal import Terminal
 
 PROGRESS = '''
 import itertools, time
-from hdlyap.plots.progress import Progress
+from hdlyap.progress import Progress
 ticks = itertools.count()
 time.monotonic = lambda: 0.1 * next(ticks)
 for number in Progress('reading').over(range(1000), 1000):

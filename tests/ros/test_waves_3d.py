@@ -8,7 +8,8 @@ import made
 import made_fields
 from made import LP, T
 from hdlyap.msg import LpPhase
-from hdlyap.plots import expected, waves
+from hdlyap.data import waves
+from hdlyap.plots import expected
 
 INFO = made.spheres()
 FIRST = made.step(INFO, T, 1, 0, 53, 56)

@@ -3,7 +3,7 @@ a time t, times t. It does not depend on t once t is long against what the growt
 
 import numpy as np
 
-from hdlyap.plots import steps
+from hdlyap.data import steps
 from hdlyap.data.reader import SPECTRUM
 
 from . import blocks

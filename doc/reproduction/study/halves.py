@@ -20,7 +20,7 @@ from collections import namedtuple
 
 import numpy as np
 
-from hdlyap.plots.numbers import with_error
+from hdlyap.numbers import with_error
 
 from . import averages
 from .row import Row

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from hdlyap.plots import waves
+from hdlyap.data import waves
 
 
 def columns(info, field, letter):

@@ -4,10 +4,10 @@ import numpy as np
 
 from hdlyap.msg import LpPhase
 
-from hdlyap.plots import waves
+from hdlyap.data import waves
 from hdlyap.plots.phases import goes_on
 from hdlyap.data.reader import PHASES
-from hdlyap.plots.steps import wave_name
+from hdlyap.data.steps import wave_name
 
 from . import blocks
 from .bags import once

@@ -4,7 +4,7 @@ each with its error and the smallest wrong value that would have been caught."""
 from math import isfinite, sqrt
 from numbers import Integral, Real
 
-from hdlyap.plots.numbers import with_error
+from hdlyap.numbers import with_error
 
 SIGMAS = 3.0  # standard errors of ours that numbers may be apart, beyond what is left open
 SEEN = 2.0  # more of them: a truth that far off turns a row red in 97.7 % of all repetitions

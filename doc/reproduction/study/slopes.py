@@ -3,8 +3,9 @@ errors. And fits through such steps of several runs."""
 
 import numpy as np
 
-from hdlyap.plots import dispersion, phases, steps
-from hdlyap.plots.numbers import known
+from hdlyap.data import dispersion, steps
+from hdlyap.plots import phases
+from hdlyap.numbers import known
 
 from .files import cells
 from .stairs import stairs

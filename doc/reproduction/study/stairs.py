@@ -3,7 +3,7 @@ projection."""
 
 import numpy as np
 
-from hdlyap.plots.numbers import known
+from hdlyap.numbers import known
 
 LEAST = 0.01  # of the exponent: smaller differences of neighbours are none
 SIGMAS = 3.0  # combined standard errors of a difference that is none

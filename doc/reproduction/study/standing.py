@@ -5,7 +5,7 @@ import numpy as np
 
 from hdlyap.msg import LpPhase
 
-from hdlyap.plots import steps, waves
+from hdlyap.data import steps, waves
 from hdlyap.plots.phases import goes_on
 
 T_PHASES = 'hdlyap/TPhases'

@@ -3,7 +3,8 @@ the fields."""
 
 from math import sqrt
 
-from hdlyap.plots import equation, paper, steps
+from hdlyap.data import steps
+from hdlyap.plots import equation, paper
 
 from . import averages
 from .row import Row

@@ -1,7 +1,8 @@
 """Part 10: slopes against the aspect ratio at density 0.4 and one wave number, periodic and between
 walls."""
 
-from hdlyap.plots import paper, steps
+from hdlyap.data import steps
+from hdlyap.plots import paper
 from hdlyap.plots.figures.style import KIND_COLOURS, plt
 
 from .. import averages, draw, slopes

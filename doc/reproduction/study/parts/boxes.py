@@ -5,7 +5,8 @@ from collections import namedtuple
 
 import numpy as np
 
-from hdlyap.plots import dispersion, equation, paper, steps
+from hdlyap.data import dispersion, steps
+from hdlyap.plots import equation, paper
 from hdlyap.plots.figures.style import BLUE, GREY, VERMILION
 
 from .. import averages, blocks, draw, pressure, rotation, slopes, velocity

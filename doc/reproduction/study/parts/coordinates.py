@@ -4,9 +4,9 @@ lengths."""
 import numpy as np
 from matplotlib import ticker
 
-from hdlyap.data import reader
-from hdlyap.plots import paper, steps
-from hdlyap.plots.numbers import known
+from hdlyap.data import reader, steps
+from hdlyap.plots import paper
+from hdlyap.numbers import known
 from hdlyap.plots.figures.style import BLUE, GREY, VERMILION, ZERO, plt, scene
 
 from .. import averages, draw, zeros

@@ -4,9 +4,10 @@ from math import hypot, isfinite
 
 import numpy as np
 
-from hdlyap.plots import paper, steps
+from hdlyap.data import steps
+from hdlyap.plots import paper
 from hdlyap.plots.figures.style import GREEN, GREY, KIND_COLOURS, plt
-from hdlyap.plots.numbers import with_error
+from hdlyap.numbers import with_error
 
 from .. import averages, crossing, draw, relations, scales, slopes, velocity
 from ..files import cells

@@ -1,6 +1,6 @@
 """Part 2: the dispersion relation of 780 disks, both branches, to second order."""
 
-from hdlyap.plots import fits, steps
+from hdlyap.data import fits, steps
 from hdlyap.plots.figures import dispersion as figure_of_dispersion
 
 from ..files import cells

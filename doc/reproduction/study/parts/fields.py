@@ -3,8 +3,7 @@ scalar patterns."""
 
 import numpy as np
 
-from hdlyap.data import reader
-from hdlyap.plots import steps, waves
+from hdlyap.data import reader, steps, waves
 from hdlyap.plots.figures import modes
 from hdlyap.plots.figures.pattern import pattern
 from hdlyap.plots.figures.style import GREEN, INK, KIND_COLOURS, plt, scene

@@ -5,7 +5,7 @@ from matplotlib import ticker
 import numpy as np
 
 from hdlyap.plots.figures.style import BLUE, GREEN, GREY, VERMILION
-from hdlyap.plots.numbers import with_error
+from hdlyap.numbers import with_error
 
 from .. import draw, growth, relations
 from ..bags import once

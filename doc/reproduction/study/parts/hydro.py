@@ -6,9 +6,9 @@ import numpy as np
 
 from hdlyap.msg import LpPhase, Mode
 
-from hdlyap.plots import waves
+from hdlyap.data import waves
 from hdlyap.plots.figures.style import BLUE, GREY, VERMILION, plt, scene
-from hdlyap.plots.numbers import with_error
+from hdlyap.numbers import with_error
 from hdlyap.data.reader import PHASES
 
 from .. import blocks, halves

@@ -6,8 +6,7 @@ import math
 import numpy as np
 
 from hdlyap.msg import RunStatus
-from hdlyap.data import reader
-from hdlyap.plots import steps
+from hdlyap.data import reader, steps
 from hdlyap.plots.figures.style import GREY, MEMBER_COLOURS, plt, scene
 
 from .. import averages

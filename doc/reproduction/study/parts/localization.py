@@ -4,7 +4,7 @@ from math import e, exp
 
 import numpy as np
 
-from hdlyap.plots import steps
+from hdlyap.data import steps
 from hdlyap.plots.figures import localization as figure_of_localization
 
 from .. import averages

@@ -3,7 +3,7 @@ those are."""
 
 import numpy as np
 
-from hdlyap.plots import steps
+from hdlyap.data import steps
 from hdlyap.plots.figures.style import GREY, INK, bars, kind_colour
 
 from .. import draw, zeros

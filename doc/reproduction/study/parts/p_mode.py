@@ -2,8 +2,7 @@
 
 import numpy as np
 
-from hdlyap.data import reader
-from hdlyap.plots import steps
+from hdlyap.data import reader, steps
 from hdlyap.plots.figures import p_mode
 
 from .. import averages

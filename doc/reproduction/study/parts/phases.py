@@ -3,10 +3,10 @@ its wave number; T modes stay where they are."""
 
 import numpy as np
 
-from hdlyap.plots import steps, waves
+from hdlyap.data import steps, waves
 from hdlyap.plots.figures import phases as figure_of_phases
 from hdlyap.plots.figures.style import GREY, INK, MEMBER_COLOURS, plt, scene
-from hdlyap.plots.numbers import with_error
+from hdlyap.numbers import with_error
 from hdlyap.plots.phases import regression
 
 from .. import averages, rotation, standing

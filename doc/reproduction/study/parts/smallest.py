@@ -6,7 +6,8 @@ from math import hypot
 from matplotlib import ticker
 import numpy as np
 
-from hdlyap.plots import paper, steps
+from hdlyap.data import steps
+from hdlyap.plots import paper
 from hdlyap.plots.figures.style import KIND_COLOURS
 
 from .. import averages, draw, slopes

@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from hdlyap.plots import paper, steps
+from hdlyap.data import steps
+from hdlyap.plots import paper
 from hdlyap.plots.figures import spectrum as figure_of_spectrum
 
 from .. import averages

@@ -5,7 +5,7 @@ from math import isfinite
 
 import numpy as np
 
-from hdlyap.plots import steps, structure
+from hdlyap.data import factors, steps
 from hdlyap.plots.figures import structure as figure_of_structure
 from hdlyap.plots.figures.structure import OF_KIND
 
@@ -91,12 +91,12 @@ def _seen(run):
 
 def _peaks(means, block):
     """(of each vector its wave and direction, mean S there, largest mean S at another wave)"""
-    both = np.stack([getattr(means, direction) for direction in structure.DIRECTIONS])
+    both = np.stack([getattr(means, direction) for direction in factors.DIRECTIONS])
     factors = both[:, :, block.first - 1 : block.last]
     vectors = range(factors.shape[2])
     places = [np.unravel_index(np.argmax(factors[..., one]), factors.shape[:2]) for one in vectors]
     peaks = [
-        f'({means.nx[wave]},{means.ny[wave]}) {structure.DIRECTIONS[direction]}'
+        f'({means.nx[wave]},{means.ny[wave]}) {factors.DIRECTIONS[direction]}'
         for direction, wave in places
     ]
     mean = factors.mean(axis=2)
@@ -107,7 +107,7 @@ def _peaks(means, block):
 
 def _line(course, block):
     indices = range(block.first, block.last + 1)
-    return structure.line(*course.of(indices, OF_KIND[block.kind]))
+    return factors.line(*course.of(indices, OF_KIND[block.kind]))
 
 
 # ---- figures and table ---------------------------------------------------------------------------

@@ -3,7 +3,7 @@
 import numpy as np
 
 from hdlyap.plots.figures.style import BLUE, INK, VERMILION, scene
-from hdlyap.plots.waves import SIN_X
+from hdlyap.data.waves import SIN_X
 
 from .. import blocks, draw, rotation
 from ..files import cells

@@ -6,9 +6,9 @@ import numpy as np
 
 from hdlyap.plots.figures import modes
 from hdlyap.plots.figures.style import BLUE, GREY, VERMILION, plt, scene
-from hdlyap.plots.numbers import with_error
+from hdlyap.numbers import with_error
 from hdlyap.data.reader import FIELD
-from hdlyap.plots.steps import LP, name as step_name
+from hdlyap.data.steps import LP, name as step_name
 
 from .. import blocks, rotation, slopes
 from ..files import cells

@@ -10,9 +10,9 @@ import time
 import numpy as np
 import rospy
 
+from hdlyap.data.dispersion import Curve, number_of
+from hdlyap.data.fits import RELATIONS
 from hdlyap.msg import Step, Steps
-from hdlyap.plots.dispersion import Curve, number_of
-from hdlyap.plots.fits import RELATIONS
 
 PERIOD = 1.0  # seconds between two lines
 PATIENCE = 10.0  # seconds of silence before it says again what it waits for

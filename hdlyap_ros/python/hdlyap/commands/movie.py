@@ -8,8 +8,9 @@ import argparse
 import os
 import re
 
-from hdlyap.plots import frames, movie, space
-from hdlyap.plots.numbers import positive
+from hdlyap.data import space
+from hdlyap.numbers import positive
+from hdlyap.plots import frames, movie
 
 FAULT = 1
 FPS = 10.0

@@ -15,10 +15,9 @@ import sys
 
 import matplotlib
 
-from hdlyap.data import export
-from hdlyap.plots import figures, fits, recorded, report
-from hdlyap.plots.progress import Progress
-
+from hdlyap.data import export, fits
+from hdlyap.plots import figures, recorded, report
+from hdlyap.progress import Progress
 
 FAULT = 1
 HERE = '.'  # folder of the figures

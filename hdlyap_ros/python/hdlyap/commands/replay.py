@@ -17,7 +17,7 @@ import rospy
 from std_srvs.srv import SetBool, SetBoolResponse
 
 from hdlyap.data import reader
-from hdlyap.plots.numbers import positive
+from hdlyap.numbers import positive
 
 PATIENCE = 30.0  # seconds that nobody may look
 DRAWN = 'state', 'fields', 'spectrum', 'steps', 'lp_phases', 'status'  # what a viewer listens to

@@ -15,11 +15,10 @@ import sys
 import matplotlib
 import rospkg
 
-from hdlyap.plots import fits
+from hdlyap.data import fits
 from hdlyap.runs import bags, recording, work
 from hdlyap.runs.scene import Refused
 from hdlyap.sweep import grid, plan, result
-
 
 FAULT = 1
 OF_GRID = (

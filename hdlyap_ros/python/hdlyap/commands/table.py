@@ -12,8 +12,8 @@ import matplotlib
 from roslaunch import netapi
 import rospy
 
+from hdlyap.data import fits
 from hdlyap.follow import nodes
-from hdlyap.plots import fits
 from hdlyap.sweep import result
 
 FAULT = 1

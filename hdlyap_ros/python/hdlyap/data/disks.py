@@ -2,9 +2,7 @@
 
 import numpy as np
 
-from hdlyap.plots import space
-
-from . import reader
+from . import reader, space
 
 
 class Disks:

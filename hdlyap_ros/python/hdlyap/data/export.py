@@ -6,8 +6,8 @@ import os
 import numpy as np
 
 from hdlyap import whole
-from hdlyap.plots import space
 
+from . import space
 from .reader import Missing
 
 FRAMES = ('results', 'spectrum', 'steps', 'modes', 'phases', 't_phases', 'covariant')

@@ -12,8 +12,9 @@ import struct
 import rosbag
 
 from hdlyap import topics
-from hdlyap.plots import space
-from hdlyap.plots.progress import Progress
+from hdlyap.progress import Progress
+
+from . import space
 
 TYPES = {message._type: message for message in topics.RECORDED.values()}
 RUN_INFO, SPECTRUM = 'hdlyap/RunInfo', 'hdlyap/Spectrum'

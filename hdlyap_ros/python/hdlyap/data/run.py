@@ -9,11 +9,11 @@ import numpy as np
 import pandas
 
 from hdlyap import msg, topics
-from hdlyap.plots import fits, run as common, space
-from hdlyap.plots.numbers import known
+from hdlyap.numbers import known
 
-from . import fields, reader, structure, tables
+from . import fields, fits, reader, space, structure, tables
 from .disks import Disks
+from .last import Last
 from .reader import Missing
 
 TOPICS = {name: message._type for name, message in topics.RECORDED.items()}
@@ -59,7 +59,7 @@ class Run:
 
     def __init__(self, joined, form=None, k=None):
         self._joined = joined
-        self._form, self._k = form, k  # of the fits, see plots.fits.chosen
+        self._form, self._k = form, k  # of the fits, see data.fits.chosen
         self.info, self.paths = joined.info, joined.paths
         self.runs_in_bag = joined.runs  # of the last part
 
@@ -126,7 +126,7 @@ class Run:
         any, with what they stand on. Of the error of c and v, sampling_error is what another run of
         the same box may differ by; the rest grows with the misfit."""
         last = self._averages.last
-        about = common.Run()
+        about = Last()
         about.info, about.spectrum = self.info, last
         rate, none = fields.of(last)['lambda_max'].unit, ''
         rows = [
@@ -147,7 +147,7 @@ class Run:
 
     @cached_property
     def fits(self):
-        """plots.fits.Fit of each kind that there is."""
+        """data.fits.Fit of each kind that there is."""
         found = fits.of(self.last('steps')) if self.has('steps') else []
         return [fit for fit in found if fit.count]
 

@@ -6,9 +6,7 @@ from functools import cached_property
 import numpy as np
 import pandas
 
-from hdlyap.plots import space
-
-from . import joined, tables
+from . import joined, space, tables
 from .reader import Missing, RecordingError
 from .run import Run
 

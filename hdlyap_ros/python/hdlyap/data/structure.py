@@ -3,9 +3,7 @@
 import numpy as np
 import pandas
 
-from hdlyap.plots import structure
-
-from . import fields, tables
+from . import factors, fields, tables
 
 NODES = ['nx', 'ny', 'nz']
 
@@ -16,7 +14,7 @@ class Structure:
     together are largest."""
 
     def __init__(self, message):
-        means = structure.means_of(message)
+        means = factors.means_of(message)
         index = pandas.RangeIndex(1, means.along.shape[1] + 1, name='index')
         unit = {'wave_number': fields.of(message)['wave_number'].unit}
         self.samples = means.samples
@@ -51,7 +49,7 @@ def amplitudes(messages, indices, direction):
         if len(columns) and not 0 <= columns.min() <= columns.max() < most:
             raise IndexError(f'indices {list(indices)}: must be from 1 to {most}')
         times.append(message.sim_time)
-        rows.append(structure.amplitudes(message, direction)[:, columns])
+        rows.append(factors.amplitudes(message, direction)[:, columns])
         peaks.append(np.array(message.peak)[columns])
     shown = (np.array(peaks) == peaks[-1]) & (np.array(peaks) > 0)  # 0: no wave yet
     rows = np.where(shown[:, np.newaxis], rows, np.nan)

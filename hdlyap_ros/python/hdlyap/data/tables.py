@@ -6,10 +6,9 @@ import numpy as np
 import pandas
 
 from hdlyap.msg import LpPhase, Mode, Step
-from hdlyap.plots import space, stages, steps, waves
-from hdlyap.plots.numbers import known
+from hdlyap.numbers import known
 
-from . import fields
+from . import fields, space, stages, steps, waves
 from .fields import words
 
 OF_SPHERES = 'nz', 'null_z'  # columns

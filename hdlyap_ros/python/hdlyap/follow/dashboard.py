@@ -4,7 +4,7 @@ import sys
 
 import rospy
 
-from hdlyap.plots import glyphs
+from hdlyap import glyphs
 
 from . import panels
 from .layout import arranged, wrapped

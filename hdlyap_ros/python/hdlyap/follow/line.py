@@ -9,8 +9,8 @@ from math import inf
 import rospy
 
 from hdlyap.data.reader import plain
-from hdlyap.plots.numbers import clock
-from hdlyap.plots.stages import LIMITS, STAGES
+from hdlyap.data.stages import LIMITS, STAGES
+from hdlyap.numbers import clock
 
 from .layout import flow, wrapped
 from .panels import nonsense

@@ -10,8 +10,8 @@ from collections import deque
 import rospy
 
 from diagnostic_msgs.msg import DiagnosticArray
+from hdlyap.data.last import Last
 from hdlyap.msg import Cost, LpPhases, RunInfo, RunStatus, Spectrum, Steps
-from hdlyap.plots.run import Run
 
 from .nodes import UNANSWERED, address, answers, ask_master
 
@@ -24,7 +24,7 @@ SPEED_OVER = 10.0  # wall seconds
 FOLLOWER = re.compile(r'/follow_\d+_\d+$')  # names that rospy gives to our like
 
 
-class View(Run):
+class View(Last):
     """What is shown; None for what is not known. `silence`: seconds since the node's last word;
     `diagnosis`: its DiagnosticStatus; `others`: topics of COMPUTED that somebody else listens to;
     `wanted`: whether the user has asked for all of them."""

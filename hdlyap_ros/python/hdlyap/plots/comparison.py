@@ -5,10 +5,10 @@ import io
 
 import numpy as np
 
+from hdlyap.data import fits, space, steps
 from hdlyap.data.joined import SYSTEM, different
 from hdlyap.data.reader import RecordingError
 
-from . import fits, space, steps
 from .deviation import Deviation
 
 OWN = ('header', 'run_id')  # of every message, also of bit-identical runs

@@ -5,11 +5,10 @@ from math import pi
 
 import numpy as np
 
+from hdlyap.data import space, steps
 from hdlyap.data.fields import words
 from hdlyap.msg import CovariantAngle
-
-from . import space, steps
-from .numbers import known
+from hdlyap.numbers import known
 
 SPACES = words(CovariantAngle, 'spaces')
 RIGHT_ANGLE = pi / 2

@@ -4,8 +4,10 @@ from math import isfinite
 
 import numpy as np
 
-from . import covariant, steps
-from .numbers import with_error
+from hdlyap.data import steps
+from hdlyap.numbers import with_error
+
+from . import covariant
 
 STEPS = 12  # steps and conjugate steps in a table
 UNRESOLVED = 4  # waves without a step

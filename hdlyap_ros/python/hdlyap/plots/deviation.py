@@ -3,7 +3,7 @@
 import numpy as np
 from scipy.special import stdtr
 
-from .numbers import known
+from hdlyap.numbers import known
 
 FREEDOM = 7  # of an error, as of 8 blocks: the node asks 16, which may remember each other
 

@@ -10,7 +10,7 @@ from math import pi, sqrt
 
 import numpy as np
 
-from . import space
+from hdlyap.data import space
 
 MOST = 0.7  # density; disks freeze near 0.88
 

@@ -3,7 +3,7 @@ P, by least squares."""
 
 import numpy as np
 
-from . import space, steps, waves
+from hdlyap.data import space, steps, waves
 
 
 class Expected:

@@ -4,10 +4,9 @@ from math import isfinite
 
 import numpy as np
 
-from hdlyap.data import joined, run
-from hdlyap.data.reader import FIELD, PHASES, STATE, RecordingError
+from hdlyap.data import joined, run, space, steps
+from hdlyap.data.reader import FIELD, PHASES, RecordingError, STATE
 
-from . import space, steps
 from .recorded import Recorded
 
 MOST = 1e6  # frames of a film: ten of them a second are a day

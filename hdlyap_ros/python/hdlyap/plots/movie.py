@@ -13,14 +13,14 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Circle
 
 from hdlyap import whole
+from hdlyap.data import space, steps
 from hdlyap.data.reader import RecordingError
+from hdlyap.numbers import known, with_error
+from hdlyap.progress import Progress
 
-from . import space, steps
 from .figures.box import arrows, disks
 from .figures.style import BLUE, GREY, VERMILION, scene
 from .figures.view import View
-from .numbers import known, with_error
-from .progress import Progress
 
 WIDTH = {'.mp4': 1280, '.gif': 480}  # pixels, of the kinds of files that there are
 INCHES = 5.0  # of that width

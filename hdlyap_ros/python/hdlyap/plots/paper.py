@@ -5,7 +5,7 @@ branches, and at density 0.4 their curvature."""
 from collections import namedtuple
 from math import hypot, isclose, pi
 
-from . import space
+from hdlyap.data import space
 
 DISKS, DENSITY, ASPECT = 780, 0.8, 0.867
 FIT_ACCURACY = 0.03  # ours: how well slopes are taken to be described by the fits

@@ -2,8 +2,9 @@
 
 import numpy as np
 
+from hdlyap.numbers import known
+
 from .course import Course
-from .numbers import known
 
 SHORTEST = 3  # points of a curve
 

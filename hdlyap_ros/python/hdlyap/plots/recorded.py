@@ -6,13 +6,13 @@ from functools import cached_property
 import numpy as np
 
 from hdlyap.data import seeds
+from hdlyap.data.factors import StructureCourse
+from hdlyap.data.last import Last
+from hdlyap.data.stages import PARTS
+from hdlyap.numbers import known
 
 from .course import Course
-from .numbers import known
 from .phases import PhaseCourse
-from .run import Run
-from .stages import PARTS
-from .structure import StructureCourse
 
 SMALLEST = 4  # exponents whose course is drawn, counted back from the last positive one
 
@@ -22,7 +22,7 @@ def read(*bags, **which):
     return Recorded(seeds.load(*bags, **which))
 
 
-class Recorded(Run):
+class Recorded(Last):
     """Of a data.run.Run, or of data.seeds.Seeds, whose spectrum, steps and fits are means. Each
     message is the last one, None if there is none; what was averaged before ~reset_average does not
     count. Nothing is read before it is asked for."""

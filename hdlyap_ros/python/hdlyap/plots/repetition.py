@@ -4,10 +4,8 @@ import re
 
 import yaml
 
-from hdlyap.data import reader
-
-from . import space
-from .waves import is_round
+from hdlyap.data import reader, space
+from hdlyap.data.waves import is_round
 
 # of run_info, what is no parameter: what follows from them, and what the run ran on
 RESULTS = (

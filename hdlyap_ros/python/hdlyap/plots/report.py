@@ -2,11 +2,11 @@
 
 import numpy as np
 
-from hdlyap.data import seeds
+from hdlyap.data import seeds, space
+from hdlyap.data.waves import is_round
+from hdlyap.numbers import known, with_error
 
-from . import covariant_table, equation, paper, space, step_table
-from .numbers import known, with_error
-from .waves import is_round
+from . import covariant_table, equation, paper, step_table
 
 TAIL = 64  # exponents in the table
 COLUMNS = 3

@@ -3,11 +3,11 @@
 import textwrap
 from math import inf
 
+from hdlyap.data import steps
 from hdlyap.data.reader import RecordingError
+from hdlyap.numbers import with_error
 
-from . import steps
 from .deviation import FREEDOM, chance_of_largest, unlikeliest
-from .numbers import with_error
 from .report import origin, system
 
 AGREE, DIFFER = 0, 1  # exit status

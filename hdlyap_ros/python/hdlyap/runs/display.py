@@ -6,7 +6,7 @@ import sys
 import time
 
 from hdlyap.follow.line import Display as Line
-from hdlyap.plots.numbers import clock
+from hdlyap.numbers import clock
 
 ESTIMATED = 60.0  # seconds of work that the estimate counts for, beside what has been seen
 

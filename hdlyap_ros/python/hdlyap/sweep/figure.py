@@ -2,11 +2,11 @@
 
 import itertools
 
-from hdlyap.plots import space
+from hdlyap.data import space
 from hdlyap.plots.figures.style import GREY, MEMBER_COLOURS, plt
-import numpy as np
 
 from .points import FITTED, QUANTITIES, varied
+import numpy as np
 
 LABELS = {
     'disks': 'number of disks $N$',

@@ -5,11 +5,10 @@ from collections import namedtuple
 
 import numpy as np
 
-from hdlyap.data import reader, seeds
+from hdlyap.data import reader, seeds, space
 from hdlyap.data.joined import MEASURED
 from hdlyap.data.reader import RecordingError
-from hdlyap.plots import space
-from hdlyap.plots.waves import is_round
+from hdlyap.data.waves import is_round
 
 # name in a frame of results -> its unit; as the columns of a table
 QUANTITIES = {
@@ -25,7 +24,7 @@ NAN = float('nan')
 
 class Value(namedtuple('Value', 'value std_error scatter chi2 runs misfit fit')):
     """A mean over so many runs. Errors: from those that the runs state, from the scatter of the
-    runs; NaN while not known, as the misfit. fit: plots.fits.Fit that it comes from, or None."""
+    runs; NaN while not known, as the misfit. fit: data.fits.Fit that it comes from, or None."""
 
     @property
     def error(self):

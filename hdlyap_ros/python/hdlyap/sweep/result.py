@@ -11,7 +11,7 @@ NAME = 'sweep'
 
 
 def write(paths, folder=None, choice=(None, None)):
-    """Of these bags, files only into a folder; choice: of the fits, see plots.fits.chosen. A line
+    """Of these bags, files only into a folder; choice: of the fits, see data.fits.chosen. A line
     for each that cannot be used."""
     found, wrong = points.read(paths, choice)
     if not found:

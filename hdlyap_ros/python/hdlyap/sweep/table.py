@@ -2,8 +2,8 @@
 
 from math import isfinite, sqrt
 
-from hdlyap.plots import space
-from hdlyap.plots.numbers import with_error
+from hdlyap.data import space
+from hdlyap.numbers import with_error
 from hdlyap.runs import files
 
 from .points import FITTED, NAN, QUANTITIES, varied

@@ -3,7 +3,8 @@
 from matplotlib.collections import EllipseCollection
 from matplotlib.patches import Circle
 
-from ..waves import is_round
+from hdlyap.data.waves import is_round
+
 from .view import View
 
 WALL = dict(fill=False, edgecolor='black', linewidth=0.8)

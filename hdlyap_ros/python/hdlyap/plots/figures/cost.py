@@ -2,9 +2,9 @@
 
 import numpy as np
 
+from hdlyap.data.stages import LABELS, PARTS, STAGES
 from hdlyap.msg import RunStatus
 
-from ..stages import LABELS, PARTS, STAGES
 from .style import BLUE, GREEN, INK, ORANGE, PURPLE, SKY, VERMILION, plt, thinned, titled
 
 PART_COLOURS = {

@@ -1,7 +1,9 @@
 """Weights of the lowest waves' fields in the vectors round the zero modes: Gram-Schmidt beside
 covariant ones."""
 
-from .. import covariant, steps
+from hdlyap.data import steps
+
+from .. import covariant
 from .over_index import level, near_zero, shade
 from .style import GREY, INK, kind_colour, plt, titled
 

@@ -2,9 +2,11 @@
 
 import numpy as np
 
-from .. import fits, paper, space, steps
-from ..numbers import with_error
-from ..waves import is_round
+from hdlyap.data import fits, space, steps
+from hdlyap.data.waves import is_round
+from hdlyap.numbers import with_error
+
+from .. import paper
 from .style import GREY, KIND_COLOURS, bars, kind_colour, plt, titled
 
 MARKERS = {steps.T: 'o', steps.LP: 's'}

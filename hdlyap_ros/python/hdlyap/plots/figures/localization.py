@@ -3,7 +3,8 @@ exponents, which are localised; beside covariant ones, where there are."""
 
 import numpy as np
 
-from .. import space
+from hdlyap.data import space
+
 from .style import BLUE, GREY, INK, bars, index_axis, plt, titled
 
 LARGEST = 48  # vectors in the magnified panel

@@ -3,7 +3,8 @@ Of spheres see solid_modes."""
 
 import numpy as np
 
-from .. import space, steps
+from hdlyap.data import space, steps
+
 from . import solid_modes
 from .box import arrows, disks
 from .style import GREY, LIGHT, MEMBER_COLOURS, kind_colour, plt, titled

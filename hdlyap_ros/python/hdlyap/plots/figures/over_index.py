@@ -3,7 +3,9 @@ steps."""
 
 import numpy as np
 
-from .. import covariant, steps
+from hdlyap.data import steps
+
+from .. import covariant
 from .style import GREY, index_axis, kind_colour, plt, titled
 
 LEAST, MOST = 16, 40  # vectors of the positive half in the magnified panels

@@ -3,7 +3,8 @@ momenta."""
 
 import numpy as np
 
-from .. import space, steps, waves
+from hdlyap.data import space, steps, waves
+
 from .box import enclose
 from .pattern import pattern
 from .style import BLUE, GREY, VERMILION, plt, titled

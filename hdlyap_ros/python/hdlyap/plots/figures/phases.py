@@ -2,9 +2,10 @@
 
 import numpy as np
 
-from .. import steps
+from hdlyap.data import steps
+from hdlyap.numbers import with_error
+
 from ..phases import apart, regression, turning
-from ..numbers import with_error
 from .style import GREEN, INK, ORANGE, PURPLE, SKY, plt, thinned, titled
 
 COLOURS = GREEN, PURPLE, SKY, INK, ORANGE  # of steps; T and LP have others

@@ -3,7 +3,8 @@ waves that the boundaries prescribe."""
 
 import numpy as np
 
-from .. import space, steps
+from hdlyap.data import space, steps
+
 from ..expected import Expected
 from .box import arrows, disks
 from .style import BLUE, GREEN, GREY, VERMILION, plt

@@ -3,7 +3,9 @@
 from matplotlib import patches
 import numpy as np
 
-from .. import paper, steps
+from hdlyap.data import steps
+
+from .. import paper
 from .style import (
     GREY,
     INK,

@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from .. import steps
+from hdlyap.data import steps
+
 from .style import GREY, INK, bars, kind_colour, plt, titled
 
 MOST = 24  # steps shown: the names of more would not fit

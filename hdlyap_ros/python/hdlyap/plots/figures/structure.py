@@ -4,9 +4,10 @@ steps in S(k, omega)."""
 import numpy as np
 from matplotlib.colors import LogNorm
 
-from .. import steps
-from ..numbers import with_error
-from ..structure import DIRECTIONS, frequencies, line, power
+from hdlyap.data import steps
+from hdlyap.data.factors import DIRECTIONS, frequencies, line, power
+from hdlyap.numbers import with_error
+
 from .style import INK, kind_colour, plt, titled
 
 NOISE = 0.5  # structure factor of a random vector

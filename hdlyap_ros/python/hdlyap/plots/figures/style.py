@@ -7,10 +7,9 @@ import numpy as np
 from matplotlib import ticker
 
 from hdlyap import whole
-
-from .. import space, steps
-from ..numbers import known
-from ..waves import is_round
+from hdlyap.data import space, steps
+from hdlyap.data.waves import is_round
+from hdlyap.numbers import known
 
 POINTS = 2000  # of a curve; more cannot be seen
 # Okabe and Ito's palette, safe for colour-blind readers

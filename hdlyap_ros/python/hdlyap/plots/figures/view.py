@@ -7,7 +7,8 @@ import numpy as np
 from matplotlib.collections import LineCollection
 from matplotlib.colors import to_rgb
 
-from .. import space
+from hdlyap.data import space
+
 from .style import GREY, INK
 
 RIGHT, ABOVE = np.radians([20, 18])

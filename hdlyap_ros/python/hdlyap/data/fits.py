@@ -6,9 +6,9 @@ import copy
 from math import isclose, isnan, nan
 
 from hdlyap.data.reader import RecordingError
+from hdlyap.numbers import with_error
 
 from . import dispersion, steps
-from .numbers import with_error
 
 SAME = 1e-9  # relative: wave numbers of one box
 # by the number of terms: the node fits three, with what long boxes say of c2 and c3

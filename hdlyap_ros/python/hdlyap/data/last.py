@@ -3,7 +3,7 @@
 from . import space
 
 
-class Run:
+class Last:
     """Its run_info, its last spectrum (None without exponents), its last steps, covariant
     vectors, widths and gas (None if nobody listened)."""
 
