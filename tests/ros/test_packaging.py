@@ -199,7 +199,7 @@ class Noetic(unittest.TestCase):
 
 
 class Layers(unittest.TestCase):
-    """Of the Python package: a folder imports from those before it; what reads bags draws nothing."""
+    """Of the Python package: a folder imports from those before it alone."""
 
     ORDER = 'data', 'plots', 'follow', 'runs', 'sweep', 'commands'
     DRAWING = 'plots', 'sweep', 'commands'
@@ -208,7 +208,7 @@ class Layers(unittest.TestCase):
         root, count = os.path.join(ROOT, 'hdlyap_ros/python/hdlyap'), 0
         for path in files('.py'):
             name = os.path.relpath(path, root)
-            if name.startswith('..') or name == '__init__.py':  # which imports data when it is asked
+            if name.startswith('..') or name == '__init__.py':  # whose load() imports data
                 continue
             folder = name.split('/')[0]
             place = self.ORDER.index(folder) if folder in self.ORDER else -1

@@ -92,14 +92,14 @@ def _seen(run):
 def _peaks(means, block):
     """(of each vector its wave and direction, mean S there, largest mean S at another wave)"""
     both = np.stack([getattr(means, direction) for direction in factors.DIRECTIONS])
-    factors = both[:, :, block.first - 1 : block.last]
-    vectors = range(factors.shape[2])
-    places = [np.unravel_index(np.argmax(factors[..., one]), factors.shape[:2]) for one in vectors]
+    both = both[:, :, block.first - 1 : block.last]
+    vectors = range(both.shape[2])
+    places = [np.unravel_index(np.argmax(both[..., one]), both.shape[:2]) for one in vectors]
     peaks = [
         f'({means.nx[wave]},{means.ny[wave]}) {factors.DIRECTIONS[direction]}'
         for direction, wave in places
     ]
-    mean = factors.mean(axis=2)
+    mean = both.mean(axis=2)
     at = np.unravel_index(np.argmax(mean), mean.shape)
     others = np.delete(mean, at[1], axis=1)
     return peaks, float(mean[at]), float(others.max())
