@@ -298,7 +298,7 @@ def expected_sizes(disks, vectors, steps, phases, t_phases, waves):
         localization=begin + 4 + 4 + 3 * 4 + 24 * vectors,
         gas=begin + 12 * 8,
         state=begin + 8 + 6 * 4 + 32 * disks,
-        status=begin + 2 + 3 * 8 + 4 + 2 * 8,
+        status=begin + 2 + 3 * 8 + 4 + 2 * 8 + 4,
         cost=begin + 137 + 3 * 8,
     )
 

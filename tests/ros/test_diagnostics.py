@@ -11,6 +11,7 @@ import rospy
 import harness
 import links
 from harness import MODES, SHORT
+from hdlyap.msg import RunStatus
 
 OK, WARN, ERROR = DiagnosticStatus.OK, DiagnosticStatus.WARN, DiagnosticStatus.ERROR
 LIVE = dict(SHORT, duration=0.0, pace=20.0, threads=1)
@@ -70,10 +71,11 @@ class Diagnostics(harness.Case):
         self.assertAlmostEqual(float(told) / averaged, 1.0, delta=0.01)
 
     def test_exponents_that_reach_no_step(self):
-        """In the log once, too."""
+        """In the log once, and in status, too."""
         node = self.start(dict(MODES, exponents=4, duration=0.0, pace=20.0))
         said = 'exponents = 4: none of them belongs to a step, which modes, '
         self.said(WARN, said, ' reaches all')
+        self.assertIn(said, rospy.wait_for_message('/hdlyap/status', RunStatus).warning)
         node.stop()
         self.assertEqual(node.text().count(said), 1)
 

@@ -16,6 +16,7 @@ hd_status topic_publish_status(const moment *now)
         .target_error = last->cost.target.error,
         .target_wanted = last->cost.target.wanted,
         .caged = last->caged,
+        .warning = now->set->warning,
     };
     return topic_send_status(now->out, &message);
 }
