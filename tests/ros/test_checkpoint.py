@@ -57,7 +57,7 @@ class Checkpoint(harness.Case):
                 self.assertEqual(both, measured.bits(whole[topic]))
 
     def test_made_longer(self):
-        """One orthonormalisation more, at its first end: disks have the same bits, exponents not."""
+        """An orthonormalisation more at its first end: disks have the same bits, exponents not."""
         whole = self.recorded(RUN)
         self.recorded(dict(RUN, checkpoint=self.file, duration=20.0))
         more = self.recorded(dict(RUN, resume=self.file))
