@@ -20,14 +20,12 @@
 #include "covariant/backward.h"
 #include "covariant/history.h"
 #include "covariant/starts.h"
+#include "covariant/window_room.h"
 #include "hdlyap/localization.h"
 #include "modes/archived.h"
-#include "scene/fluid.h"
 #include "scene/null_space.h"
 #include "tangent/archived.h"
 
-/** Intervals that there is room for, over those that are expected: they vary. */
-static const double SPARE = 1.5;
 /** Times that are this close, as a part of what lies between two looks, are one. */
 static const double CLOSE = 1e-6;
 
@@ -66,69 +64,12 @@ struct hd_covariant {
 
 /* ---- creation ------------------------------------------------------------------------------ */
 
-/** Pair and wall events of a time unit, as kinetic theory has them: walls are met as with a
- * momentum of 1 across the box. */
-static double event_rate(const hd_scene_def *def)
-{
-    double box[HD_DIM], rate = 0.5 * hd_fluid_rate(def->density);
-    hd_scene_box(def, box);
-    for (int d = 0; d < HD_DIM; d++)
-        if (hd_scene_boundary(def, d) != HD_PERIODIC) rate += 1.0 / (box[d] - 1.0);
-    return def->disks * rate;
-}
-
-static hd_history_def past_of(const hd_scene_def *def, double interval, double rate, int threads)
-{
-    /* each ends with a look, and so does an interval where one is due */
-    const double both = def->covariant_window + def->covariant_transient +
-                        2.0 * def->covariant_sampling;
-    const double of_look = fmax(1.0, ceil(def->covariant_sampling / interval));
-    const double intervals = ceil(SPARE * both / def->covariant_sampling * of_look) + 8.0,
-                 looks = ceil(both / def->covariant_sampling) + 4.0;
-    const double most = 1e9; /* far beyond any room */
-    return (hd_history_def){.disks = def->disks,
-                            .vectors = hd_scene_carried(def),
-                            .threads = threads > 0 ? threads : 1,
-                            .conjugate = hd_scene_carried(def) < hd_scene_vectors(def),
-                            .intervals = (long)fmin(intervals, most),
-                            .snapshots = (long)fmin(looks, most),
-                            .recompute = def->covariant_storage == HD_STORAGE_RECOMPUTE,
-                            .events = SPARE * both * rate};
-}
-
-/** How it would fit, if the other way of keeping triangles needs less than there is. */
-static void say_other(const hd_scene_def *def, const hd_history_def *past, char *text, size_t size)
-{
-    hd_history_def other = *past;
-    other.recompute = !past->recompute;
-    const double gigabytes = 1e-9 * hd_history_bytes(&other);
-    if (gigabytes <= def->covariant_memory)
-        snprintf(text, size, "; covariant_storage = %s needs %.3g GB",
-                 other.recompute ? "recompute" : "memory", gigabytes);
-}
-
-static hd_status check_room(const hd_scene_def *def, const hd_history_def *past, char *message,
-                            size_t size)
-{
-    const double gigabytes = 1e-9 * hd_history_bytes(past);
-    char events[40] = "", other[80] = "";
-    if (gigabytes <= def->covariant_memory) return HD_OK;
-    if (past->recompute) snprintf(events, sizeof events, " and %.3g events", past->events);
-    say_other(def, past, other, sizeof other);
-    return hd_refuse(message, size,
-                     "covariant_window = %.15g with covariant_transient = %.15g: %ld triangles and "
-                     "%ld frames of %d vectors%s need %.3g GB, must be at most covariant_memory = "
-                     "%.3g GB%s",
-                     def->covariant_window, def->covariant_transient, past->intervals,
-                     past->snapshots, past->vectors, events, gigabytes, def->covariant_memory,
-                     other);
-}
-
 hd_status hd_covariant_check_room(const hd_scene_def *def, double interval, char *message,
                                   size_t size)
 {
-    const hd_history_def past = past_of(def, interval, event_rate(def), def->threads);
-    return check_room(def, &past, message, size);
+    const hd_history_def past = hd_window_history(def, interval, hd_window_event_rate(def),
+                                                  def->threads);
+    return hd_window_check_room(def, &past, message, size);
 }
 
 static hd_status allocate_arrays(hd_covariant *c)
@@ -189,7 +130,7 @@ hd_status hd_covariant_create(hd_covariant **out, const hd_scene_def *def, int t
     c->rows = HD_ROWS * def->disks;
     c->vectors = hd_scene_vectors(def);
     c->carried = hd_scene_carried(def);
-    c->rate = event_rate(def);
+    c->rate = hd_window_event_rate(def);
     c->centre = c->vectors >= positive + zero ? zero : 0;
     c->unstable = c->centre > 0 ? positive
                                 : c->vectors; /* a part of the centre is no space of its own */
@@ -235,9 +176,9 @@ static hd_status begin_window(hd_covariant *c, hd_columns frame, double time)
 /** Room for what this interval asks for. */
 static hd_status take_room(hd_covariant *c, double interval)
 {
-    const hd_history_def past = past_of(&c->scene, interval, c->rate, c->threads);
+    const hd_history_def past = hd_window_history(&c->scene, interval, c->rate, c->threads);
     if (c->past && past.intervals <= c->intervals && past.events <= c->events) return HD_OK;
-    if (check_room(&c->scene, &past, NULL, 0) != HD_OK) return HD_NO_ROOM;
+    if (hd_window_check_room(&c->scene, &past, NULL, 0) != HD_OK) return HD_NO_ROOM;
     hd_history_free(c->past);
     c->past = NULL;
     c->intervals = past.intervals;

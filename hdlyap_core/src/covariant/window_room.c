@@ -1,0 +1,68 @@
+/** Scene, length of an interval -> what a window of covariant vectors and its transient leave to be
+ * kept, and whether covariant_memory is enough for it. */
+#include "covariant/window_room.h"
+
+#include <math.h>
+#include <stdio.h>
+
+#include "base/check.h"
+#include "scene/fluid.h"
+
+/** Intervals that there is room for, over those that are expected: they vary. */
+static const double SPARE = 1.5;
+
+double hd_window_event_rate(const hd_scene_def *def)
+{
+    double box[HD_DIM], rate = 0.5 * hd_fluid_rate(def->density);
+    hd_scene_box(def, box);
+    for (int d = 0; d < HD_DIM; d++)
+        if (hd_scene_boundary(def, d) != HD_PERIODIC) rate += 1.0 / (box[d] - 1.0);
+    return def->disks * rate;
+}
+
+hd_history_def hd_window_history(const hd_scene_def *def, double interval, double rate, int threads)
+{
+    /* each ends with a look, and so does an interval where one is due */
+    const double both = def->covariant_window + def->covariant_transient +
+                        2.0 * def->covariant_sampling;
+    const double of_look = fmax(1.0, ceil(def->covariant_sampling / interval));
+    const double intervals = ceil(SPARE * both / def->covariant_sampling * of_look) + 8.0,
+                 looks = ceil(both / def->covariant_sampling) + 4.0;
+    const double most = 1e9; /* far beyond any room */
+    return (hd_history_def){.disks = def->disks,
+                            .vectors = hd_scene_carried(def),
+                            .threads = threads > 0 ? threads : 1,
+                            .conjugate = hd_scene_carried(def) < hd_scene_vectors(def),
+                            .intervals = (long)fmin(intervals, most),
+                            .snapshots = (long)fmin(looks, most),
+                            .recompute = def->covariant_storage == HD_STORAGE_RECOMPUTE,
+                            .events = SPARE * both * rate};
+}
+
+/** How it would fit, if the other way of keeping triangles needs less than there is. */
+static void say_other(const hd_scene_def *def, const hd_history_def *past, char *text, size_t size)
+{
+    hd_history_def other = *past;
+    other.recompute = !past->recompute;
+    const double gigabytes = 1e-9 * hd_history_bytes(&other);
+    if (gigabytes <= def->covariant_memory)
+        snprintf(text, size, "; covariant_storage = %s needs %.3g GB",
+                 other.recompute ? "recompute" : "memory", gigabytes);
+}
+
+hd_status hd_window_check_room(const hd_scene_def *def, const hd_history_def *past, char *message,
+                               size_t size)
+{
+    const double gigabytes = 1e-9 * hd_history_bytes(past);
+    char events[40] = "", other[80] = "";
+    if (gigabytes <= def->covariant_memory) return HD_OK;
+    if (past->recompute) snprintf(events, sizeof events, " and %.3g events", past->events);
+    say_other(def, past, other, sizeof other);
+    return hd_refuse(message, size,
+                     "covariant_window = %.15g with covariant_transient = %.15g: %ld triangles and "
+                     "%ld frames of %d vectors%s need %.3g GB, must be at most covariant_memory = "
+                     "%.3g GB%s",
+                     def->covariant_window, def->covariant_transient, past->intervals,
+                     past->snapshots, past->vectors, events, gigabytes, def->covariant_memory,
+                     other);
+}

@@ -1,0 +1,20 @@
+/** What a window of covariant vectors takes. */
+#ifndef HD_WINDOW_ROOM_H
+#define HD_WINDOW_ROOM_H
+
+#include "covariant/history.h"
+#include "hdlyap/scene.h"
+
+/** Pair and wall events of a time unit, as kinetic theory has them: walls are met as with a
+ * momentum of 1 across the box. */
+double hd_window_event_rate(const hd_scene_def *def);
+
+/** Of intervals of this length [time units], with so many events in a time unit. */
+hd_history_def hd_window_history(const hd_scene_def *def, double interval, double rate,
+                                 int threads);
+
+/** HD_REFUSED, with its line, if that takes more than covariant_memory. */
+HD_MUST_CHECK hd_status hd_window_check_room(const hd_scene_def *def, const hd_history_def *past,
+                                             char *message, size_t size);
+
+#endif
