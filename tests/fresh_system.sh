@@ -1,5 +1,5 @@
 # Fresh minimal Debian systems in a folder, of another release or for another kind of processor, and what is done in them; for
-# other_releases.sh, other_machine.sh and packages.sh. Sourced after launch/common.sh. Needs root and debootstrap.
+# other_releases.sh and packages.sh. Sourced after launch/common.sh. Needs root and debootstrap.
 # The mirror is that of apt, or HDLYAP_MIRROR. HDLYAP_RELEASES (/var/tmp/hdlyap_releases) keeps base systems and packages for
 # the next time, the logs, and a system itself if something failed in it.
 # shellcheck shell=bash
@@ -34,14 +34,13 @@ fresh_system() {
     git clone -q --no-hardlinks "$ROOT" "$SYSTEM$CLONE"
 }
 
-# make_base RELEASE[.ARCHITECTURE]
+# make_base RELEASE
 make_base() {
-    local base=$FOLDER/$1.base from=${HDLYAP_MIRROR:-$(mirror)} arch
+    local base=$FOLDER/$1.base from=${HDLYAP_MIRROR:-$(mirror)}
     [[ -n $from ]] || die "apt names no mirror of Debian: set HDLYAP_MIRROR"
-    [[ $1 != *.* ]] || arch=${1#*.}
     say "base system of $1 in $base"
     rm -rf "$base.new"
-    debootstrap --variant=minbase ${arch:+"--arch=$arch"} "${1%%.*}" "$base.new" "$from" >"$base.log" 2>&1 ||
+    debootstrap --variant=minbase "$1" "$base.new" "$from" >"$base.log" 2>&1 ||
         die "debootstrap failed; its log is $base.log: $(tail -n 1 "$base.log")"
     mv "$base.new" "$base"
 }

@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # The two commands of README in a fresh minimal system of another Debian release, from a clean clone of what is committed. Ends
 # with a row for doc/platforms.md; fails if anything did. As root, with debootstrap; no part of the suite.
-#   other_releases.sh bullseye|bookworm|trixie [demo] [tests] [compilers] [noetic]    which steps; demo and tests if none is named
-# compilers: core, its tests, node and viewer with each gcc and clang of the release; a warning fails. noetic: see
-# tests/noetic.sh, on bullseye alone and as the last step. HDLYAP_MIRROR and HDLYAP_RELEASES: see tests/fresh_system.sh.
+#   other_releases.sh bullseye|bookworm|trixie [demo] [tests] [compilers]    which steps; demo and tests if none is named
+# compilers: core, its tests, node and viewer with each gcc and clang of the release; a warning fails.
+# HDLYAP_MIRROR and HDLYAP_RELEASES: see tests/fresh_system.sh.
 set -euo pipefail
 # shellcheck source=launch/common.sh
 source "$(dirname "${BASH_SOURCE[0]}")/../launch/common.sh"
@@ -47,21 +47,15 @@ compilers() {
     done
 }
 
-noetic() {
-    NOETIC_CHECKS=failed
-    step noetic inside tests/noetic.sh && NOETIC_CHECKS="$(grep -c '^ok ' "$(log_of noetic)") passed, $SAID"
-}
-
-[[ ${1:-} == @(bullseye|bookworm|trixie) ]] || die "usage: other_releases.sh bullseye|bookworm|trixie [demo] [tests] [compilers] [noetic]" 2
-choose_steps 'demo tests compilers noetic' "${@:2}"
+[[ ${1:-} == @(bullseye|bookworm|trixie) ]] || die "usage: other_releases.sh bullseye|bookworm|trixie [demo] [tests] [compilers]" 2
+choose_steps 'demo tests compilers' "${@:2}"
 ((${#STEPS[@]})) || STEPS=(demo tests)
-[[ " ${STEPS[*]} " != *' noetic '* || $1 == bullseye ]] || die "noetic needs GCC 9, which bullseye has" 2
 stop_at_exit
 fresh_system "$1"
 for word in "${STEPS[@]}"; do "$word" || true; done
-row 'roscpp | GCC | CMake | Python | OpenBLAS | demo | tests | without warnings | as Noetic' \
+row 'roscpp | GCC | CMake | Python | OpenBLAS | demo | tests | without warnings' \
     "$(version libroscpp-dev)" "$(first_number gcc -dumpfullversion)" "$(first_number cmake --version)" \
     "$(first_number python3 --version)" "$(version libopenblas-openmp-dev)" \
-    "${DEMO:-not run}" "${TESTS:-not run}" "${COMPILERS:-not run}" "${NOETIC_CHECKS:-not run}"
+    "${DEMO:-not run}" "${TESTS:-not run}" "${COMPILERS:-not run}"
 leave_system
 exit "$FAILED"

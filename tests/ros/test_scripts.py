@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """What the scripts of launch/ do before they build: packages that are missing, folders that cannot
-be written, a home that is not there. tests/users.sh has the whole of it. Needs no ROS master."""
+be written, a home that is not there. Needs no ROS master."""
 
 import os
 import shutil
