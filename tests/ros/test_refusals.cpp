@@ -273,7 +273,7 @@ TEST(Parameters, Defaults)
     EXPECT_EQ(begun("", true), "");
     expect_has(
         "scene: paper_periodic, disks: 780, density: 0.8, aspect: 0.867, exponents: positive, "
-        "zero_exponents: 6, wave_nx: [1, 0, 1, 2, 0, 2, 1, 2], wave_ny: [0, 1, 1, 0, 2, 1, 2, 2]");
+        "zero_exponents: 6, wave_nx: [1, 0, 1, 2, 0, 2, 1, 3], wave_ny: [0, 1, 1, 0, 2, 1, 2, 0]");
     EXPECT_NEAR(published.warmup, 97.48, 0.01); /* 3 / (0.05 c_T k), c_T = 3.285 */
 }
 
