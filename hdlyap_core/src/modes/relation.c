@@ -79,7 +79,8 @@ static double longest_of(const hd_scene_def *def, hd_mode_kind kind)
     first.max_mode_number = 1;
     first.max_wave_number = 0.0;
     const int count = hd_waves(&first, wave, LONG);
-    for (int k = 0; k < count && wave[k].number <= hd_wave_limit(def); k++)
+    const double limit = hd_wave_limit(def);
+    for (int k = 0; k < count && wave[k].number <= limit; k++)
         if ((kind == HD_MODE_T ? wave[k].transverse : wave[k].pairs).count > 0)
             return wave[k].number;
     return INFINITY;
