@@ -274,15 +274,21 @@ def whole_run(params, topics):
 
 
 @contextlib.contextmanager
+def telling(*where):
+    """Of a subTest or a setUpClass that fails rosunit counts the failure, and tells neither which
+    nor why."""
+    try:
+        yield
+    except Exception:
+        print(*where, file=sys.stderr)
+        traceback.print_exc()
+        raise
+
+
+@contextlib.contextmanager
 def told(self, *args, _subtest=unittest.TestCase.subTest, **named):
-    """subTest: of one that fails rosunit counts the failure, and tells neither which nor why."""
-    with _subtest(self, *args, **named):
-        try:
-            yield
-        except Exception:
-            print(self.id(), *args, named, file=sys.stderr)
-            traceback.print_exc()
-            raise
+    with _subtest(self, *args, **named), telling(self.id(), *args, named):
+        yield
 
 
 unittest.TestCase.subTest = told
@@ -290,6 +296,10 @@ unittest.TestCase.subTest = told
 
 class Case(unittest.TestCase):
     """Nodes, other processes, listeners and folders that end with the test."""
+
+    def __init_subclass__(cls):
+        if 'setUpClass' in vars(cls):
+            cls.setUpClass = classmethod(telling(cls, 'setUpClass')(cls.setUpClass.__func__))
 
     def start(self, params, **how):
         node = start(params, **how)

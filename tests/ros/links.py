@@ -1,6 +1,7 @@
 """Subscribers without rospy: bare connections to the node's topics, many of them in one process,
 which are read as fast as they come, or not at all."""
 
+import http.client
 import selectors
 import signal
 import socket
@@ -20,23 +21,23 @@ def answers(uri, pid):
     try:
         with xmlrpc.client.ServerProxy(uri) as proxy:
             return proxy.getPid('/links')[2] == pid
-    except OSError:  # one that has ended
+    except (OSError, http.client.HTTPException):  # one that ends, or whose port another has by now
         return False
 
 
-def node_uri(node, master=None, name=harness.NODE):
+def node_uri(node, master=None):
     """Of a node that has just been started: its name may still belong to the one before."""
     known = rosgraph.Master('/links', master)
 
     def found():
         try:
-            uri = known.lookupNode('/' + name)
+            uri = known.lookupNode('/' + harness.NODE)
         except (OSError, rosgraph.MasterError):
             return None
         return uri if answers(uri, node.process.pid) else None
 
-    uri = harness.wait_until(found)
-    assert uri, node.text()
+    uri = harness.wait_until(lambda: found() or not node.running())
+    assert isinstance(uri, str), node.text()
     return uri
 
 
