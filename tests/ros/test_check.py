@@ -10,6 +10,7 @@ import tempfile
 import rosbag
 import yaml
 
+import golden
 import harness
 from harness import MODES, OBSERVABLES
 
@@ -36,6 +37,17 @@ LARGE_WINDOW = dict(
     covariant_sampling=1.0,
     covariant_memory=0.01,
     duration=0.0,
+)
+EVERY_LINE = dict(
+    COVARIANT,
+    scene='golden',
+    disks=60,
+    density=0.8,
+    aspect=0.06,
+    boundary_y='reflecting',
+    duration=2000.0,
+    threads=1,
+    observables=[topic for topic in OBSERVABLES if topic != 'gas'] + ['covariant'],
 )
 NO_MASTER = dict(os.environ, ROS_MASTER_URI='http://localhost:1')
 
@@ -83,6 +95,27 @@ class Check(harness.Case):
             self.addCleanup(os.unlink, file.name)
             file.write(params if isinstance(params, str) else yaml.safe_dump(params))
         return file.name
+
+    def test_whole(self):
+        """But for what a machine is and does in a second."""
+        done = checked(self.file_of(EVERY_LINE))
+        self.assertEqual((done.returncode, done.stderr), (0, ''))
+        said = re.sub(r'(there are) \S+ GB \(\w+\)', r'\1 # GB', done.stdout)
+        said = re.sub(r'interval \S+;', 'interval #;', said)
+        said = re.sub(r'\S+ GB an hour', '# GB an hour', said)
+        golden.check(self, 'check.txt', re.sub(r'[\d.e+-]+ (s|min|h)\b', '# s', said))
+
+    def test_target(self):
+        """Four times as late if it is to be half as large; beyond the duration it says so."""
+        after = []
+        for target in ('lambda_max 0.2%', 'lambda_max 0.1%'):
+            said = checked(self.file_of(dict(MODES, target=target))).stdout
+            pattern = (
+                rf'(?m)^target    {target}\n +reached after some (\S+) time units .*\n +The dur'
+            )
+            self.assertRegex(said, pattern)
+            after.append(float(re.search(pattern, said).group(1)))
+        self.assertAlmostEqual(after[1] / after[0], 4.0, delta=2.0)  # two trials of a second
 
     def test_what_averaging_does_not_take_away(self):
         """Walls 8.66 apart, k = 0.41: 2.89 % of both, 1.73 % of a step, 0.45 % of curvature."""
@@ -201,6 +234,8 @@ class Check(harness.Case):
         cost = harness.whole_run(dict(params, wait_for_subscribers=['cost']), ['cost'])['cost'][-1]
         taken = cost.wall_seconds / cost.sim_time
         self.assertTrue(0.1 < seconds / taken < 10.0, (seconds, taken))
+        interval = (cost.sim_time - params['equilibration']) / cost.orthonormalisations
+        self.assert_near(float(re.search(r'interval (\S+)\n', said).group(1)), interval, 0.3)
 
     def test_time_of_a_recorder(self):
         """It takes 960 reports a second: 200 time units of ten thousand each."""
@@ -243,12 +278,6 @@ class Check(harness.Case):
         done = checked(self.file_of(''), 'disks=40')
         self.assertEqual(done.returncode, 2)
         self.assertIn('disks=40: must be parameter:=value', done.stderr)
-
-    def test_types_are_those_of_yaml(self):
-        """A whole number is no text, nor is what is in quotes a number of a list."""
-        for value, good in (('"40"', False), ('40', True), ('4e1', False), ('40.0', False)):
-            done = checked(self.file_of(f'disks: {value}\nobservables: [spectrum]'))
-            self.assertEqual(done.returncode, 0 if good else 2, (value, done.stderr))
 
 
 if __name__ == '__main__':

@@ -351,7 +351,6 @@ class Refusals(Pairs):
         self.cannot_compare('exponents 1-37 and 1-36', run(), run(EXPONENTS[:-1]))
         self.cannot_compare('no averaged spectrum in the second bag', run(), bare)
         self.cannot_compare('no averaged spectrum in the first bag', bare[:1], run())
-        self.cannot_compare('no run_info', run()[1:], run())
 
     def test_one_of_several_nodes(self):
         paths = self.bags(run(), run())

@@ -9,9 +9,12 @@ from unittest import mock
 
 import numpy as np
 import pandas
+import rosbag
+import rospy
 
 import hdlyap
 from hdlyap.msg import Structure
+from std_msgs.msg import String
 import made
 from bags import process, tool
 from made import LP, T
@@ -218,6 +221,58 @@ class Export(Tools):
         squares = np.array([0.3125, 0.0625, 0.1875]) ** 2
         self.assertAlmostEqual(mean.scatter['pressure'], np.sqrt(squares @ [1, 1, 2] / (4 * 2)))
         self.assertEqual(mean.unit['pressure'], '1/sigma^2')
+
+
+class Refused(Tools):
+    """Each tool says in one line what is wrong with a bag."""
+
+    def refused(self, reason):
+        for done in self.all_tools(self.path('a')):
+            self.assertRegex(done.error, reason)
+        self.assertFalse(os.path.exists(self.out))
+
+    def content(self, data):
+        with open(self.path('a'), 'wb') as file:
+            file.write(data)
+
+    def test_no_bag_of_a_run(self):
+        self.refused('No such file')
+        for content in b'', b'something else entirely\n' * 10:
+            self.content(content)
+            self.refused('a.bag: not a readable bag')
+        self.write([made.spectrum([3.0], 1.0), made.steps([])], 'a')
+        self.refused('a.bag: no run_info')
+        with rosbag.Bag(self.path('a'), 'w') as bag:
+            bag.write('/chatter', String('hello'), rospy.Time(1))
+        self.refused('nothing in it was published by hdlyap_node')
+
+    def test_several_nodes(self):
+        """Until it is said which one."""
+        for node, value, mode in (('/hdlyap', 3.0, 'w'), ('/far/away', 4.0, 'a')):
+            self.write([made.run_info(), made.spectrum([value], 1.0)], 'a', node=node, mode=mode)
+        self.refused('choose one with --node: /far/away, /hdlyap')
+        self.refuses('no node other in it', 'plot', self.path('a'), '--node', 'other')
+        self.assertIn('lambda_max      4.0', self.plot(self.path('a'), '--node', 'far/away'))
+
+    def test_unfinished(self):
+        bag = rosbag.Bag(self.path('a'), 'w')
+        bag.write('/hdlyap/run_info', made.run_info(), rospy.Time(1))
+        bag.flush()
+        with open(self.path('a'), 'rb') as file:
+            content = file.read()
+        bag.close()
+        self.content(content)
+        self.refused('rosbag reindex')
+        os.rename(self.path('a'), self.path('a') + '.active')
+        self.refused(r'a\.bag\.active is there: .* rosbag reindex .*\.active$')
+        self.write([made.run_info(), made.spectrum(HALF, 5.0)], 'a')
+        with open(self.path('a'), 'rb') as file:
+            content = file.read()
+        for length in (1, 100, len(content) // 2, len(content) - 1):
+            self.content(content[:length])
+            self.refused('rosbag reindex|not a readable bag')
+        self.content(content.replace(b'\3\0\0\0one', b'\3\0\0\0\xff\xff\xff'))  # is no text
+        self.refused('a.bag: damaged')
 
 
 class Hostile(Tools):

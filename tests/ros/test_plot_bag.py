@@ -7,11 +7,8 @@ import tracemalloc
 import unittest
 
 import numpy as np
-import rosbag
-import rospy
 
 from hdlyap.msg import LpPhases, ModeField, Steps
-from std_msgs.msg import String
 
 import made
 import made_fields
@@ -47,19 +44,8 @@ def cases():
     """Messages, files that are written, what is printed, what is not."""
     costs = [made.cost(1), made.cost(2)]
     spectra = [made.spectrum(HALF, t) for t in range(1, 30)]
-    yield [INFO, *spectra, *costs], SPECTRUM + COST, (
-        'the last 37 exponents before the zeros',
-        r'    37   1\.00000  0\.01000',
-        r'h_KS            74\.0000 \+- 0\.3700',
-        r'h_KS / N        3\.700000 \+- 0\.018500',
-        'averaged time   29\n',
-        'collisions      1000\n',
-    ), 'pairing|steps'
+    yield [INFO, *spectra, *costs], SPECTRUM + COST, ('averaged time   29\n',), 'pairing|steps'
     wave = made.step(INFO, T, 1, 0, 36, 37)
-    yield [INFO, made.spectrum(WHOLE, 1.0, pairing_error=2e-5)], SPECTRUM, (
-        'the last 37 exponents before the zeros',
-        'pairing error   2.00e-05',
-    ), None
     yield [INFO, made.spectrum([3.5], 1.0, error=-1.0)], SPECTRUM, (
         r'     1   3\.50000        -',
         r'lambda_max      3\.500000\n',
@@ -68,15 +54,6 @@ def cases():
         r'sum of the 2 exponents carried 4\.5000 \+- 0\.0200',
     ), 'h_KS'
     yield [INFO, *costs], COST, ('no averaged spectrum',), 'gas'
-    # (1 + eta^2 / 8) / (1 - eta)^2, eta = pi / 8
-    yield [INFO, made.gas(20.0), made.gas(50.0), *costs], COST, (
-        'gas, averaged over 50\n',
-        r'collision rate  3\.250000 \+- 0\.020000 per disk and time unit\n',
-        r'pressure        1\.250000 \+- 0\.010000 per sigma\^2\n',
-        r'of px, py     1\.500000, 1\.000000\n',
-        r'Z = p A / N     2\.500000 \+- 0\.020000\n',
-        r' 2\.763657 by Henderson',
-    ), None
     walls = made.run_info(boundary_x='reflecting')
     yield [walls, made.gas(error=-1.0), *costs], COST, (
         r'pressure        1\.250000 per sigma\^2\n',
@@ -93,9 +70,8 @@ def cases():
     yield [INFO, made.spectrum(HALF, 1.0), made.steps(unresolved)], SPECTRUM, (
         r'not resolved \(1\): LP\(1,0\)',
     ), None
-    mirrored = made.step(INFO, T, 1, 0, 44, 45, conjugate=True, exponent=-wave.exponent)
-    both = made.steps([wave, mirrored, made.zero_modes(38)])
-    yield [INFO, made.spectrum(WHOLE, 1.0), both], SPECTRUM + STEPS, ('1 of 1 resolved',), None
+    both = made.steps([wave, made.zero_modes(38)])
+    yield [INFO, made.spectrum(WHOLE, 1.0), both], SPECTRUM + STEPS, (), None
     channel = dict(aspect=0.0375, box_x=40.0, box_y=1.5, boundary_y='reflecting')
     for info, nx, ny, bits in (
         (made.run_info(zero_exponents=4, **channel), 1, 0, (0, 1)),
@@ -162,52 +138,6 @@ class Command(Bags):
             else:
                 with open(path) as file:
                     self.assertIn('</svg>', file.read()[-10:])
-
-    def test_several_nodes(self):
-        self.write([INFO, made.spectrum([3.0], 1.0)], node='/hdlyap')
-        self.write([INFO, made.spectrum([4.0], 1.0)], node='/far/away', mode='a')
-        self.refuse('choose one with --node: /far/away, /hdlyap')
-        self.refuse('no node other in it', '--node', 'other')
-        self.assertIn('lambda_max      4.0', self.plot(SPECTRUM, '--node', 'far/away'))
-
-    def refuse(self, reason, *arguments, how=tool):
-        self.refuses(reason, 'plot', self.path(), '--out', self.out, *arguments, how=how)
-        self.assertFalse(os.path.exists(self.out))
-
-    def content(self, data):
-        with open(self.path(), 'wb') as file:
-            file.write(data)
-
-    def test_refusals(self):
-        self.refuse('No such file', how=process)
-        self.write([made.spectrum([3.0], 1.0), made.steps([])])
-        self.refuse('no run_info')
-        for content in b'', b'something else entirely\n' * 10:
-            self.content(content)
-            self.refuse('not a readable bag')
-        with rosbag.Bag(self.path(), 'w') as bag:
-            bag.write('/chatter', String('hello'), rospy.Time(1))
-        self.refuse('nothing in it was published by hdlyap_node')
-
-    def test_unfinished_bags(self):
-        bag = rosbag.Bag(self.path(), 'w')
-        bag.write('/hdlyap/run_info', INFO, rospy.Time(1))
-        bag.flush()
-        with open(self.path(), 'rb') as file:
-            content = file.read()
-        bag.close()
-        self.content(content)
-        self.refuse('rosbag reindex')
-        os.rename(self.path(), self.path() + '.active')
-        self.refuse(r'run\.bag\.active is there: .* rosbag reindex .*\.active$')
-        self.write([INFO, made.spectrum(HALF, 5.0)])
-        with open(self.path(), 'rb') as file:
-            content = file.read()
-        for length in (1, 100, len(content) // 2, len(content) - 1):
-            self.content(content[:length])
-            self.refuse('rosbag reindex|not a readable bag')
-        self.content(content.replace(b'\3\0\0\0one', b'\3\0\0\0\xff\xff\xff'))  # is no text
-        self.refuse('run.bag: damaged')
 
 
 class Kept(Bags):

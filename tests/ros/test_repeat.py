@@ -152,17 +152,8 @@ class Repeat(Bags):
     def test_several_nodes(self):
         self.write([made.run_info(seed='1')], node='/one')
         self.write([made.run_info(seed='2')], node='/group/two', mode='a')
-        self.assertIn('choose one with --node: /group/two, /one', self.refused())
         self.assertEqual(self.repeated('/group/two')['seed'], '2')
         self.assertEqual(self.repeated('one')['seed'], '1')
-
-    def test_refused(self):
-        self.assertIn('No such file', self.refused())
-        self.write([made.cost(1.0)])
-        self.assertIn('no run_info in it', self.refused())
-        with open(self.path(), 'wb') as file:
-            file.write(b'no bag')
-        self.assertIn('not a readable bag', self.refused())
 
 
 if __name__ == '__main__':
