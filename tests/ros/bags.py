@@ -14,7 +14,7 @@ from unittest import mock
 
 import made
 from hdlyap import commands
-from hdlyap.plots import recorded
+from hdlyap.data import seeds
 
 Done = namedtuple('Done', 'status out error')
 
@@ -82,7 +82,7 @@ class Bags(unittest.TestCase):
     def recorded(self, messages, **which):
         """Is read when it is asked: each has a bag of its own."""
         name = f'recorded_{len(os.listdir(self.folder))}'
-        return recorded.read(self.write(messages, name), **which)
+        return seeds.load(self.write(messages, name), **which).said
 
     def succeeds(self, name, *arguments, status=0, how=tool):
         """What it prints."""

@@ -3,12 +3,14 @@
 import numpy as np
 
 from hdlyap.data.reader import FIELD
-from hdlyap.plots.recorded import Recorded
+from hdlyap.data.said import Said
 from study import bags
 
 
 class Data:
     """In place of data.run.Run."""
+
+    is_mean, left_out = False, ()
 
     def __init__(self, messages):
         self.info, self._of = messages[0], {}
@@ -39,4 +41,4 @@ class Bag(bags.Bag):
     def __init__(self, messages):
         super().__init__('')
         self.run = Data(list(messages))
-        self.recording = Recorded(self.run)
+        self.recording = Said(self.run)

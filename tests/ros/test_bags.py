@@ -16,7 +16,8 @@ import rospy
 from std_srvs.srv import SetBool
 
 import harness
-from hdlyap.plots import recorded, report
+import hdlyap
+from hdlyap.plots import report
 import measured
 import links
 from harness import MODES, NODE, OBSERVABLES, SHORT, TYPES, Process
@@ -348,7 +349,7 @@ class Stopped(harness.Case):
         messages = read(paths[0])
         self.assertEqual(len(messages['/hdlyap/run_info']), 1)
         self.assertFalse({'/hdlyap/markers', '/hdlyap/slow_vectors'} & set(messages))
-        self.assertIn('lambda_max', report.report(recorded.read(paths[0])))
+        self.assertIn('lambda_max', report.report(hdlyap.load(paths[0]).said))
 
 
 if __name__ == '__main__':

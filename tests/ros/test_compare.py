@@ -6,11 +6,12 @@ from math import atan, cos, pi, sin, sqrt
 import numpy as np
 import rospy
 
+import hdlyap
 import made
 from bags import Bags, process, tool
 from made import LP, T
 from hdlyap.data.reader import RecordingError
-from hdlyap.plots import recorded, verdict
+from hdlyap.plots import verdict
 from hdlyap.plots.comparison import Comparison
 from hdlyap.plots.deviation import Deviation, chance_of_largest, unlikeliest
 
@@ -58,7 +59,7 @@ class Pairs(Bags):
         return self.write(a, 'a'), self.write(b, 'b')
 
     def compared(self, a, b):
-        return Comparison(*map(recorded.read, self.bags(a, b)))
+        return Comparison(*(hdlyap.load(bag).said for bag in self.bags(a, b)))
 
     def compare(self, a, b, status=0, how=tool):
         """What it prints."""

@@ -14,6 +14,7 @@ import rospy
 from matplotlib.colors import to_rgb
 from hdlyap.msg import LpPhase, LpPhases, State
 
+import hdlyap
 import made
 import made_fields
 from bags import Bags, process, tool
@@ -85,17 +86,17 @@ class Frames(Films):
         with self.assertRaisesRegex(
             RecordingError, r'T\(9,9\) is not resolved in it, only T\(1,0\), LP\(1,0\)'
         ):
-            frames.Film(self.bag, ['T(9,9)'])
+            frames.Film(hdlyap.load(self.bag), ['T(9,9)'])
 
     def test_begins_when_all_modes_are_found(self):
         write(self.bag, lp_from=BEGIN + FIELD)
-        film = frames.Film(self.bag)
+        film = frames.Film(hdlyap.load(self.bag))
         self.assertEqual((film.begin, film.end), (BEGIN + FIELD, END))
         self.assertEqual(set(next(film.frames(1.0)).fields), {'T(1,0)', 'LP(1,0)'})
 
     def test_what_is_known_at_a_time(self):
         """Disks of each report; vectors of the last field, and phases of the report."""
-        film = frames.Film(self.bag)
+        film = frames.Film(hdlyap.load(self.bag))
         self.assertEqual(film.names, ['T(1,0)', 'LP(1,0)'])
         self.assertEqual((film.begin, film.end), (BEGIN, END))
         self.assertEqual((film.report, film.field_interval), (1.0, FIELD))
@@ -119,17 +120,18 @@ class Frames(Films):
 
     def test_film_without_end(self):
         with self.assertRaisesRegex(RecordingError, r'in 8e\+09 frames: must be less than'):
-            frames.Film(self.bag).count(1e-9)
+            frames.Film(hdlyap.load(self.bag)).count(1e-9)
 
     def test_between_two_reports(self):
         """What is known then: the report before."""
-        times = [frame.time for frame in frames.Film(self.bag).frames(0.5)]
+        times = [frame.time for frame in frames.Film(hdlyap.load(self.bag)).frames(0.5)]
         self.assertEqual(times, [BEGIN + k // 2 for k in range(17)])
 
     def test_without_states(self):
         write(self.bag, but=('state',))
         self.assertEqual(
-            [frame.time for frame in frames.Film(self.bag).frames(FIELD)], [10.0, 14.0, 18.0]
+            [frame.time for frame in frames.Film(hdlyap.load(self.bag)).frames(FIELD)],
+            [10.0, 14.0, 18.0],
         )
 
 
@@ -138,7 +140,7 @@ class Drawn(Films):
         return np.c_[panel._arrows.U, panel._arrows.V]
 
     def test_t_stands_and_lp_turns(self):
-        film = frames.Film(self.bag)
+        film = frames.Film(hdlyap.load(self.bag))
         picture = movie.Picture(film, 400)
         t, lp = picture._panels
         drawn, colours, places = [], [], []
@@ -163,7 +165,7 @@ class Drawn(Films):
         self.assertGreater(abs(places[1] - places[0]).max(), 0.1)
 
     def test_says_of_which_time_a_vector_is(self):
-        film = frames.Film(self.bag)
+        film = frames.Film(hdlyap.load(self.bag))
         picture = movie.Picture(film, 400)
         for frame, words in zip(film.frames(1.0), ('vector 36', 'vector 36 of $t=10.0$')):
             picture.show(frame)
@@ -174,7 +176,7 @@ class Drawn(Films):
 
     def test_of_a_mode_without_a_vector(self):
         write(self.bag, but=('fields',))
-        film = frames.Film(self.bag, ['T(1,0)'])
+        film = frames.Film(hdlyap.load(self.bag), ['T(1,0)'])
         picture = movie.Picture(film, 400)
         picture.show(next(film.frames(1.0)))
         self.assertEqual(picture._panels[0]._title.get_text(), 'T(1,0): not resolved yet')

@@ -10,17 +10,18 @@ import numpy as np
 
 from hdlyap.msg import LpPhases, ModeField, Steps
 
+import hdlyap
 import made
 import made_fields
 from bags import Bags, files, process, tool
 from made import LP, T
 from hdlyap.data.reader import RecordingError
 from hdlyap.data import waves
-from hdlyap.plots import paper, recorded, report
-from hdlyap.plots.course import LIMIT, Course
+from hdlyap.data.course import LIMIT, Course
+from hdlyap.data.phases import PhaseCourse
+from hdlyap.plots import paper, report
 from hdlyap.plots.figures import phases, plt
 from hdlyap.numbers import with_error
-from hdlyap.plots.phases import PhaseCourse
 
 INFO = made.run_info()
 HALF = np.linspace(3, 1, 37)
@@ -238,7 +239,7 @@ class Kept(Bags):
         self.assertGreater(os.path.getsize(self.path()), 100 * one)
         tracemalloc.start()
         try:
-            run = recorded.read(self.path())
+            run = hdlyap.load(self.path()).said
             self.assertEqual(len(list(run.fields())), 1)
             self.assertEqual(len(run.steps.steps), 1)
             _, peak = tracemalloc.get_traced_memory()

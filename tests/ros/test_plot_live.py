@@ -15,10 +15,10 @@ from matplotlib.colors import to_rgb
 
 from hdlyap.follow import live
 from hdlyap.follow.gathered import MOST, Gathered
-from hdlyap.plots import recorded
 from hdlyap.plots.figures.style import BLUE, VERMILION
 from hdlyap.plots.window import Window
 import harness
+import hdlyap
 import made
 from screen import Screen
 
@@ -84,7 +84,7 @@ class Heard(harness.Case):
         heard = self.gathered(messages)
         bag = os.path.join(self.new_folder(), 'run.bag')
         made.write(bag, messages)
-        live_run, bag_run = heard.recorded(heard.view().info), recorded.read(bag)
+        live_run, bag_run = heard.run(heard.view().info).said, hdlyap.load(bag).said
         ours, theirs = list(arrays(live_run)), list(arrays(bag_run))
         self.assertEqual(len(ours), len(theirs))
         for one, other in zip(ours, theirs):
@@ -103,13 +103,13 @@ class Heard(harness.Case):
 
         for number in range(1, 3 * MOST + 1):
             hear('one', number)
-        times = heard.recorded(made.run_info()).course()['time']
+        times = heard.run(made.run_info()).said.course()['time']
         self.assertLessEqual(len(times), MOST)
         self.assertGreater(len(times), MOST // 2)
         self.assertEqual((times[0], times[-1]), (1, 3 * MOST))
         hear('two', 5.0)
-        self.assertIsNone(heard.recorded(made.run_info()).spectrum)
-        after = heard.recorded(made.run_info(run_id='two')).course()['time']
+        self.assertIsNone(heard.run(made.run_info()).said.spectrum)
+        after = heard.run(made.run_info(run_id='two')).said.course()['time']
         self.assertEqual(list(after), [5.0])
 
 

@@ -14,6 +14,7 @@ import made_fields
 from bags import Bags
 from made import LP, T
 from hdlyap.commands import run as command
+from hdlyap.follow import watch
 from hdlyap.follow.panels import phases as phase_lines
 from hdlyap.msg import LpPhase, State, Structure
 from hdlyap.data import factors, space
@@ -22,7 +23,6 @@ from hdlyap.plots.figures import dispersion, modes, p_mode, plt, spectrum
 from hdlyap.plots.figures.style import scene
 from hdlyap.plots.figures.view import View
 from hdlyap.glyphs import Glyphs
-from hdlyap.data.last import Last as Live
 from hdlyap.runs import ranks, run, work
 from hdlyap.runs.scene import Refused
 from hdlyap.sweep import grid, points, table
@@ -149,7 +149,7 @@ class Arrays(Solid):
 class Numbers(Solid):
     def test_sizes(self):
         """6N exponents, of which 8 vanish; the mean distance from a volume."""
-        live = Live()
+        live = watch.View()
         live.info = INFO
         self.assertEqual((space.phase_space(INFO), live.positive_end), (120, 56))
         self.assertAlmostEqual(space.distance(INFO), 2 ** (1 / 3))
@@ -332,7 +332,7 @@ class Films(Solid):
         field = made_fields.ball_field(INFO, found[0], transverse())
         other = made_fields.ball_field(INFO, found[1], transverse()[[2, 1, 0]])
         path = self.write([INFO, state(140.0), made.steps(found), state(150.0), field, other])
-        film = frames.Film(path, ['T(1,0,0)'])
+        film = frames.Film(hdlyap.load(path), ['T(1,0,0)'])
         self.assertEqual(film.begin, 150)  # when the mode is found
         (frame,) = film.frames(1.0)
         self.assertEqual(list(frame.fields), ['T(1,0,0)'])
@@ -350,7 +350,7 @@ class Films(Solid):
         self.assertRaisesRegex(
             hdlyap.data.reader.RecordingError,
             r'T\(1,0\) is not resolved in it, only T\(1,0,0\), T\(0,0,1\)',
-            *(frames.Film, path, ['T(1,0)']),
+            *(frames.Film, hdlyap.load(path), ['T(1,0)']),
         )
 
 

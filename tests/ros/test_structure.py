@@ -12,7 +12,7 @@ import made
 from bags import Bags
 from hdlyap.msg import Structure
 from hdlyap.data import factors
-from hdlyap.plots import figures, recorded
+from hdlyap.plots import figures
 
 OMEGA = made.VELOCITY  # times k
 WAVES = np.array([(1, 0), (0, 1), (1, 1), (2, 0)])
@@ -150,11 +150,11 @@ class Recorded(Bags):
         self.write([*self.head(), *(message(self.info, t, [], means=False) for t in times)])
         with self.assertRaisesRegex(Exception, 'no message of structure with means in it'):
             hdlyap.load(self.bag).structure
-        self.assertIsNone(figures.structure.draw(recorded.read(self.bag)))
+        self.assertIsNone(figures.structure.draw(hdlyap.load(self.bag).said))
 
     def test_figure(self):
         """The map has the numbers, the lines are at v k and at 0."""
-        figure = figures.structure.draw(recorded.read(self.bag))
+        figure = figures.structure.draw(hdlyap.load(self.bag).said)
         self.addCleanup(plt.close, figure)
         along, across, *others = figure.axes
         (lines,) = (one for one in others if one.get_title(loc='left').startswith('(c)'))

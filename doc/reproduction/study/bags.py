@@ -6,7 +6,6 @@ from functools import cached_property, wraps
 import hdlyap
 from hdlyap import topics
 from hdlyap.msg import RunStatus
-from hdlyap.plots import recorded
 
 TOPICS = {message._type: name for name, message in topics.RECORDED.items()}
 
@@ -24,7 +23,7 @@ class Bag:
     @cached_property
     def recording(self):
         """Its last messages and courses, as figures take them."""
-        return recorded.read(self.path)
+        return self.run.said
 
     @property
     def info(self):

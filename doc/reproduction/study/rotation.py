@@ -5,7 +5,7 @@ import numpy as np
 from hdlyap.msg import LpPhase
 
 from hdlyap.data import waves
-from hdlyap.plots.phases import goes_on
+from hdlyap.data.phases import goes_on
 from hdlyap.data.reader import PHASES
 from hdlyap.data.steps import wave_name
 

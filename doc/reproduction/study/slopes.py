@@ -3,8 +3,7 @@ errors. And fits through such steps of several runs."""
 
 import numpy as np
 
-from hdlyap.data import dispersion, steps
-from hdlyap.plots import phases
+from hdlyap.data import dispersion, phases, steps
 from hdlyap.numbers import known
 
 from .files import cells

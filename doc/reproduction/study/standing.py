@@ -6,7 +6,7 @@ import numpy as np
 from hdlyap.msg import LpPhase
 
 from hdlyap.data import steps, waves
-from hdlyap.plots.phases import goes_on
+from hdlyap.data.phases import goes_on
 
 T_PHASES = 'hdlyap/TPhases'
 

@@ -4,10 +4,10 @@ its wave number; T modes stay where they are."""
 import numpy as np
 
 from hdlyap.data import steps, waves
+from hdlyap.data.phases import regression
 from hdlyap.plots.figures import phases as figure_of_phases
 from hdlyap.plots.figures.style import GREY, INK, MEMBER_COLOURS, plt, scene
 from hdlyap.numbers import with_error
-from hdlyap.plots.phases import regression
 
 from .. import averages, rotation, standing
 from ..files import cells

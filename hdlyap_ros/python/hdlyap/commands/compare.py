@@ -8,7 +8,8 @@ several seeds, whose means are compared.
 
 Exit status: 0 they agree or are identical, 1 they differ, 2 they cannot be compared."""
 
-from hdlyap.plots import comparison, recorded, verdict
+from hdlyap.data import seeds
+from hdlyap.plots import comparison, verdict
 
 FAULT = 2
 
@@ -25,7 +26,7 @@ def main(args):
     sides = (args.a, args.b) if args.b else (args.a[:1], args.a[1:])
     if not args.b and len(args.a) != 2:
         args.error(f'{len(args.a)} bags: two, or --with between those of both sides')
-    runs = [recorded.read(*paths, node=args.node) for paths in sides]
+    runs = [seeds.load(*paths, node=args.node).said for paths in sides]
     compared = comparison.Comparison(*runs)
     text, status = verdict.verdict(compared)
     print(verdict.report(compared), text, sep='\n\n', flush=True)

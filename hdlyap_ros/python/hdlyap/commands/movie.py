@@ -8,7 +8,7 @@ import argparse
 import os
 import re
 
-from hdlyap.data import space
+from hdlyap.data import seeds, space
 from hdlyap.numbers import positive
 from hdlyap.plots import frames, movie
 
@@ -76,8 +76,8 @@ def options(parser):
 
 
 def main(args):
-    within = args.begin, args.end
-    film = frames.Film(args.bags, args.modes, args.node, args.run, within)
+    run = seeds.one(*args.bags, node=args.node, run=args.run)
+    film = frames.Film(run, args.modes, (args.begin, args.end))
     pace = args.pace or args.fps * (film.report or 1.0)
     if film.field_interval > 2 * film.report > 0:
         print(

@@ -15,8 +15,8 @@ import sys
 
 import matplotlib
 
-from hdlyap.data import export, fits
-from hdlyap.plots import figures, recorded, report
+from hdlyap.data import export, fits, seeds
+from hdlyap.plots import figures, report
 from hdlyap.progress import Progress
 
 FAULT = 1
@@ -94,7 +94,7 @@ def main(args):
         return live(args, form, k)
     if not args.bags:
         args.error('the following arguments are required: BAG')
-    run = recorded.read(*args.bags, node=args.node, run=args.run, form=form, k=k)
+    run = seeds.load(*args.bags, node=args.node, run=args.run, form=form, k=k).said
     print(report.report(run), flush=True)
     if run.spectrum is None:
         print('\nno averaged spectrum in this bag: only the cost can be drawn')

@@ -65,4 +65,4 @@ def main(args):
         while not launch.is_gone() and not asked_to_end:
             time.sleep(tree.POLL)
         tree.end([launch], PATIENCE)
-    return 0 if stamp(bag) != before and ranks.is_complete(bag) else 1
+    return 0 if stamp(bag) != before and run.complete(bag) else 1

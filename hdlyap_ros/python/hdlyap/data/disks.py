@@ -9,11 +9,11 @@ class Disks:
     """`times` of the messages; what is said of a time is of the message nearest to it. Iterates
     over (time, positions, momenta), arrays of N rows, x, y and of spheres z in each."""
 
-    def __init__(self, joined):
-        self._joined = joined
+    def __init__(self, run):
+        self._run = run
         found = [
             (packed.sim_time, packed.path, packed.recorded, packed.run_id)
-            for packed in joined.packed((reader.STATE,))
+            for packed in run.packed((reader.STATE,))
         ]
         self.times = np.array([time for time, *_ in found])
         self._places = [place for _, *place in found]
@@ -22,7 +22,7 @@ class Disks:
         return len(self.times)
 
     def __iter__(self):
-        for packed in self._joined.packed((reader.STATE,)):
+        for packed in self._run.packed((reader.STATE,)):
             message = packed.message(np)
             yield message.sim_time, _rows(message), _rows(message, 'p')
 
@@ -37,7 +37,7 @@ class Disks:
     def _nearest(self, time):
         number = int(np.argmin(abs(self.times - time)))
         path, recorded, run_id = self._places[number]
-        node = self._joined.parts[0].node
+        node = self._run.parts[0].node
         return next(
             packed.message(np)
             for packed in reader.messages(path, node, (reader.STATE,), recorded)

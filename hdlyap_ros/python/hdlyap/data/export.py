@@ -69,7 +69,7 @@ def npz(run, path):
 
 def _origin(run):
     info = run.info
-    seeds = ' '.join(getattr(run, 'seeds', [info.seed]))
+    seeds = ' '.join(run.seeds)
     box = ' x '.join(f'{edge:.6g}' for edge in space.along(info, 'box_'))
     spheres = ' spheres' if space.is_solid(info) else ''
     return (

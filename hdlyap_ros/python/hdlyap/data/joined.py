@@ -1,7 +1,6 @@
 """bags -> the runs that they hold. Files of a recording that was split, and runs that were resumed
 from a checkpoint, are parts of one run; other seeds are other runs of the same system."""
 
-import heapq
 import math
 import os
 from collections import namedtuple
@@ -24,42 +23,23 @@ SAME = 1e-9  # relative: parameters that were given as the same decimal number
 Part = namedtuple('Part', 'path node run_id info until')
 
 
-class Joined:
-    """Parts of one run, in their order; how many runs are in the last one's bag."""
-
-    def __init__(self, parts, runs=1):
-        self.parts, self.runs = parts, runs
-        last = [part.info for part in parts if part.run_id == parts[-1].run_id]
-        self.info = max(last, key=reader.changes)
-        self.paths = list(dict.fromkeys(part.path for part in parts))
-
-    @property
-    def name(self):
-        """For a message."""
-        return ', '.join(self.paths)
-
-    def packed(self, kinds):
-        """Messages of these types but run_info, each once: a resumed run says again what the one
-        before said after its checkpoint."""
-        last = {}  # (run_id, type): the last number of a file before
-        averages = _Averages()
-        for part in self.parts:
-            newest = {}
-            for packed in reader.messages(part.path, part.node, kinds):
-                key = packed.run_id, packed.kind
-                if packed.run_id != part.run_id or packed.kind == reader.RUN_INFO:
-                    continue
-                if packed.sim_time <= part.until and packed.seq > last.get(key, -1):
-                    newest[key] = packed.seq
-                    if packed.kind == reader.SPECTRUM:
-                        averages.add(part, packed)
-                    yield packed
-            last.update(newest)
-
-    def in_time(self, kinds):
-        """The same in the order of simulated time: a recorder mixes topics a little."""
-        streams = (self.packed((kind,)) for kind in kinds)
-        return heapq.merge(*streams, key=lambda packed: packed.sim_time)
+def packed(parts, kinds):
+    """Messages of these types but run_info, each once: a resumed run says again what the one before
+    said after its checkpoint."""
+    last = {}  # (run_id, type): the last number of a file before
+    averages = _Averages()
+    for part in parts:
+        newest = {}
+        for one in reader.messages(part.path, part.node, kinds):
+            key = one.run_id, one.kind
+            if one.run_id != part.run_id or one.kind == reader.RUN_INFO:
+                continue
+            if one.sim_time <= part.until and one.seq > last.get(key, -1):
+                newest[key] = one.seq
+                if one.kind == reader.SPECTRUM:
+                    averages.add(part, one)
+                yield one
+        last.update(newest)
 
 
 class _Averages:
@@ -85,32 +65,20 @@ class _Averages:
 
 
 def runs(paths, node=None, number=None):
-    """[Joined] of one bag or several, one for each seed: of each bag its last run, or the one of
-    that number, from 1."""
-    paths = [
-        os.fspath(path) for path in ([paths] if isinstance(paths, (str, os.PathLike)) else paths)
-    ]
+    """[(parts in their order, number of runs in the bag)] of one bag or several, one for each seed:
+    of each bag its last run, or the one of that number, from 1."""
     if not paths:
         raise RecordingError('no bag: name one or several')
-    paths = list({os.path.realpath(path): path for path in paths}.values())
+    paths = {os.path.realpath(path): path for path in map(os.fspath, paths)}.values()
     chosen = [_chosen(path, node, number) for path in paths]
     if len(chosen) == 1:
-        return [Joined([chosen[0][0]], chosen[0][1])]
+        return [([chosen[0][0]], chosen[0][1])]
     parts = [part for part, _ in chosen]
     _refuse_others(parts, MEASURED, 'do not belong together')
     seeds = {}
     for part in parts:
         seeds.setdefault(part.info.seed, []).append(part)
-    return [Joined(_in_order(of_seed)) for of_seed in seeds.values()]
-
-
-def one(paths, node=None, number=None):
-    """The only one of them."""
-    found = runs(paths, node, number)
-    if len(found) > 1:
-        seeds = ', '.join(joined.info.seed for joined in found)
-        raise RecordingError(f'{found[0].name} ...: of several runs, with the seeds {seeds}')
-    return found[0]
+    return [(_in_order(of_seed), 1) for of_seed in seeds.values()]
 
 
 def _chosen(path, node, number):

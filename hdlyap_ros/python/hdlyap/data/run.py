@@ -1,6 +1,7 @@
-"""One run as it was recorded -> numpy arrays and pandas frames, read from the bag when they are
+"""One run as it was recorded, or said by now -> numpy arrays and pandas frames, read when they are
 first asked for."""
 
+import heapq
 from collections import namedtuple
 from functools import cached_property
 from operator import attrgetter
@@ -11,10 +12,10 @@ import pandas
 from hdlyap import msg, topics
 from hdlyap.numbers import known
 
-from . import fields, fits, reader, space, structure, tables
+from . import fields, fits, joined, reader, space, structure, tables
 from .disks import Disks
-from .last import Last
 from .reader import Missing
+from .said import Said
 
 TOPICS = {name: message._type for name, message in topics.RECORDED.items()}
 FRAMES = {
@@ -57,24 +58,58 @@ class Run:
     spheres each has z beside x and y, as fields[index].dqz, steps['nz'], gas.loc['pressure_z'].
     What was averaged before ~reset_average does not count."""
 
-    def __init__(self, joined, form=None, k=None):
-        self._joined = joined
+    def __init__(self, parts, runs_in_bag=1, form=None, k=None):
+        self.parts, self.runs_in_bag = parts, runs_in_bag
         self._form, self._k = form, k  # of the fits, see data.fits.chosen
-        self.info, self.paths = joined.info, joined.paths
-        self.runs_in_bag = joined.runs  # of the last part
+        last = [part.info for part in parts if part.run_id == parts[-1].run_id]
+        self.info = max(last, key=reader.changes)
+        self.paths = list(dict.fromkeys(part.path for part in parts))
 
     def __repr__(self):
         info, what = self.info, space.particle(self.info)
         return f'<hdlyap run {info.run_id}: {info.scene}, {info.disks} {what}s, seed {info.seed}>'
+
+    # ---- as of Seeds ------------------------------------------------------------------------
+
+    is_mean, left_out = False, ()
+    runs = property(lambda self: [self])
+    seeds = property(lambda self: [self.info.seed])
+    averaged_time = property(lambda self: float(self.averaged_times[-1]))
+    said = cached_property(Said)
+
+    # ---- messages ---------------------------------------------------------------------------
+
+    @property
+    def is_complete(self):
+        """Whether it went to its end."""
+        last = None
+        for last in self.packed((reader.STATUS,)):
+            continue
+        last = last and last.message()
+        return bool(last) and last.stage == msg.RunStatus.FINISHED and last.progress >= 1
 
     @property
     def units(self):
         """Of the arrays; those of a frame are in its attrs."""
         return {name: fields.of(kind)[field].unit for name, (kind, field) in ARRAYS.items()}
 
+    @property
+    def name(self):
+        """For a message."""
+        return ', '.join(self.paths)
+
+    def packed(self, kinds):
+        """Messages of these types but run_info, each once."""
+        return joined.packed(self.parts, kinds)
+
+    def in_time(self, kinds):
+        """The same in the order of simulated time: a recorder mixes topics a little."""
+        streams = (self.packed((kind,)) for kind in kinds)
+        return heapq.merge(*streams, key=lambda packed: packed.sim_time)
+
     def messages(self, topic):
         """Those of a topic ('spectrum', 'fields' ..) one after the other, with numpy arrays."""
-        for packed in self._joined.packed((TOPICS[topic],)):
+        for packed in self.packed((TOPICS[topic],)):
             yield packed.message(np)
 
     # ---- running means and samples ----------------------------------------------------------
@@ -126,12 +161,10 @@ class Run:
         any, with what they stand on. Of the error of c and v, sampling_error is what another run of
         the same box may differ by; the rest grows with the misfit."""
         last = self._averages.last
-        about = Last()
-        about.info, about.spectrum = self.info, last
         rate, none = fields.of(last)['lambda_max'].unit, ''
         rows = [
             ('lambda_max', last.lambda_max, *[last.std_errors[0]] * 2, -1.0, rate, none),
-            (about.sum_name, last.ks_entropy, *[about.sum_error] * 2, -1.0, rate, none),
+            (self.said.sum_name, last.ks_entropy, *[last.ks_entropy_error] * 2, -1.0, rate, none),
         ]
         units = fields.of(msg.Steps)
         rows += [
@@ -199,7 +232,7 @@ class Run:
 
     @cached_property
     def state(self):
-        found = Disks(self._joined)
+        found = Disks(self)
         if not len(found.times):
             raise self._missing('state')
         return found
@@ -207,7 +240,7 @@ class Run:
     @cached_property
     def fields(self):
         """{Lyapunov index: ModeField}, the last one of each vector."""
-        last = {packed.field_index(): packed for packed in self._joined.packed((reader.FIELD,))}
+        last = {packed.field_index(): packed for packed in self.packed((reader.FIELD,))}
         return {index: packed.message(np) for index, packed in sorted(last.items())}
 
     # ---- messages ---------------------------------------------------------------------------
@@ -215,10 +248,8 @@ class Run:
     @cached_property
     def _lasts(self):
         """{type: Packed} of those that are small, so that the bag is read once for all."""
-        kinds = reader.MODES, reader.STEPS, reader.PHASES, reader.T_PHASES, reader.COVARIANT
-        kinds += reader.LOCALIZATION, reader.GAS, reader.SPECTRUM
         last = {}
-        for packed in self._joined.packed(kinds):
+        for packed in self.packed([TOPICS[topic] for topic in FRAMES]):
             if packed.kind == reader.SPECTRUM:
                 before = last.get(reader.SPECTRUM, packed)
                 if packed.averaged_time <= 0:
@@ -248,7 +279,7 @@ class Run:
 
     def _missing(self, topic):
         what = 'averaged spectrum' if topic == 'spectrum' else f'message of {topic}'
-        return Missing(f'{self._joined.name}: no {what} in it')
+        return Missing(f'{self.name}: no {what} in it')
 
 
 def _no_samples(message):

@@ -9,6 +9,7 @@ import pandas
 from . import joined, space, tables
 from .reader import Missing, RecordingError
 from .run import Run
+from .said import Said
 
 # The scatter of so many runs, the longest at most RATIO times the shortest, is an error where none
 # states one: known as well as compare takes one to be (plots.deviation.FREEDOM).
@@ -20,8 +21,17 @@ def load(*bags, node=None, run=None, form=None, k=None):
     checkpoint); Seeds of bags of several seeds. Others are refused. node, run: which, if there are
     several in a bag; run counts from 1, without it the last one is taken. form, k: fits of another
     form ('c k', 'c k + c2 k^2') than the node's, or over wave numbers from k[0] to k[1] alone."""
-    found = [Run(one, form, k) for one in joined.runs(bags, node, run)]
+    found = [Run(*of_one, form, k) for of_one in joined.runs(bags, node, run)]
     return found[0] if len(found) == 1 else Seeds(found)
+
+
+def one(*bags, node=None, run=None):
+    """A Run; RecordingError of several."""
+    found = load(*bags, node=node, run=run)
+    if found.is_mean:
+        seeds = ', '.join(run.info.seed for run in found.every)
+        raise RecordingError(f'{found.every[0].name} ...: of several runs, with the seeds {seeds}')
+    return found
 
 
 class Seeds:
@@ -32,8 +42,11 @@ class Seeds:
     the runs are further apart than their errors allow. A run that is too short to know any of its
     errors is in no mean: `left_out` names it."""
 
+    is_mean, runs_in_bag = True, 1
+    said = cached_property(Said)
+
     def __init__(self, runs):
-        self._all = runs
+        self.every = runs  # also those that are left out
         self.paths = [path for run in runs for path in run.paths]
 
     @property
@@ -55,11 +68,11 @@ class Seeds:
     @cached_property
     def _split(self):
         """(runs that know an error, or all if none does; a line for each of the others)"""
-        taken = [run for run in self._all if _knows_errors(run)] or self._all
+        taken = [run for run in self.every if _knows_errors(run)] or self.every
         lines = [
             f'{", ".join(run.paths)}, seed {run.info.seed}, is left out: averaged over '
             f'{_measured(run)[1]:.3g}, too short to know its errors'
-            for run in self._all
+            for run in self.every
             if run not in taken
         ]
         for line in lines:

@@ -1,9 +1,10 @@
-"""A node's topics -> what a bag of them would have held by now: data.run.Run reads it like one."""
+"""A node's topics -> what a bag of them would have held by now: a run like a recorded one."""
 
+import math
 import threading
 
 from hdlyap.data.reader import RUN_INFO, Packed
-from hdlyap.plots.recorded import Recorded
+from hdlyap.data.joined import Part
 from hdlyap.data.run import Run
 
 from .watch import ALWAYS, COMPUTED, Watch
@@ -12,20 +13,16 @@ MOST = 512  # messages of a topic that are kept: more points cannot be seen
 LAST = 'status', 'cost', 'steps'  # topics of which figures want the last one alone
 
 
-class Kept:
-    """Messages of one run as data.joined.Joined has them."""
+class Live(Run):
+    """{type: messages} so far, of this run or of one before."""
 
-    runs = 1
-
-    def __init__(self, node, info, messages):
-        self.name, self.paths, self.info = node, [node], info
+    def __init__(self, node, info, messages, *fits):
+        super().__init__([Part(node, node, info.run_id, info, math.inf)], 1, *fits)
         self._messages = messages
 
     def packed(self, kinds):
         found = [packed for kind in kinds for packed in self._messages.get(kind, ())]
         return (packed for packed in found if packed.run_id == self.info.run_id)
-
-    in_time = packed
 
 
 class Gathered(Watch):
@@ -55,8 +52,7 @@ class Gathered(Watch):
             del kept[1:-1:2]
         kept.append(packed)
 
-    def recorded(self, info, form=None, k=None):
-        """As tables and figures take it."""
+    def run(self, info, form=None, k=None):
         with self._lock:
             messages = {kind: list(kept) for kind, kept in self._kept.items() if kind != RUN_INFO}
-        return Recorded(Run(Kept(self._node, info, messages), form, k))
+        return Live(self._node, info, messages, form, k)

@@ -3,11 +3,11 @@
 from math import atan2, hypot, inf, isfinite, pi
 
 from hdlyap.data import fits, steps, waves
+from hdlyap.data.phases import apart
 from hdlyap.data.stages import LIMITS, STAGES, seconds
 from hdlyap.msg import LpPhase
 from hdlyap.numbers import clock, with_error
 from hdlyap.plots import paper, step_table
-from hdlyap.plots.phases import apart
 from hdlyap.plots.report import system
 
 from .layout import MORE, flow

@@ -10,7 +10,7 @@ from collections import deque
 import rospy
 
 from diagnostic_msgs.msg import DiagnosticArray
-from hdlyap.data.last import Last
+from hdlyap.data.said import Said
 from hdlyap.msg import Cost, LpPhases, RunInfo, RunStatus, Spectrum, Steps
 
 from .nodes import UNANSWERED, address, answers, ask_master
@@ -24,14 +24,17 @@ SPEED_OVER = 10.0  # wall seconds
 FOLLOWER = re.compile(r'/follow_\d+_\d+$')  # names that rospy gives to our like
 
 
-class View(Last):
+class View(Said):
     """What is shown; None for what is not known. `silence`: seconds since the node's last word;
     `diagnosis`: its DiagnosticStatus; `others`: topics of COMPUTED that somebody else listens to;
     `wanted`: whether the user has asked for all of them."""
 
-    status = cost = phases = diagnosis = speed = None
+    info = spectrum = steps = status = cost = phases = diagnosis = speed = None
     node, silence, others, wanted = '', 0.0, frozenset(), False
     is_gone = is_master_gone = False
+
+    def __init__(self):
+        """Of no run as yet."""
 
     @property
     def is_finished(self):

@@ -1,2 +1,2 @@
-"""From a recorded bag of hdlyap_node to tables and figures: recorded -> report, figures. Public, as
-the studies below doc/ use them: equation, paper, phases, recorded, figures."""
+"""What was said of a run, or of several seeds (data.said) -> tables and figures: report, figures.
+Public, as the studies below doc/ use them: equation, paper, figures."""

@@ -1,13 +1,11 @@
-"""bag files -> frames of a movie: disks and the vectors of some modes, one time after the other."""
+"""Run -> frames of a movie: disks and the vectors of some modes, one time after the other."""
 
 from math import isfinite
 
 import numpy as np
 
-from hdlyap.data import joined, run, space, steps
+from hdlyap.data import space, steps
 from hdlyap.data.reader import FIELD, PHASES, RecordingError, STATE
-
-from .recorded import Recorded
 
 MOST = 1e6  # frames of a film: ten of them a second are a day
 
@@ -58,26 +56,24 @@ class Frame:
 
 
 class Film:
-    """Of the last run of a bag, or of the one of that number; of several that belong to one run.
-    within: its first and last simulated time, None: from when all modes are found, to the last."""
+    """Of a data.run.Run. within: its first and last simulated time, None: from when all modes are
+    found, to the last."""
 
-    def __init__(self, paths, names=None, node=None, number=None, within=(None, None)):
-        self._run = joined.one(paths, node, number)
-        self.info = self._run.info
-        self.steps = steps.resolved(Recorded(run.Run(self._run)).steps, self.info)
+    def __init__(self, run, names=None, within=(None, None)):
+        self._run, self.info = run, run.info
+        self.steps = steps.resolved(run.said.steps, self.info)
         self.names = names or lowest(self.steps)
         if not self.names:
-            raise RecordingError(f'{self._run.name}: no step is resolved in it')
+            raise RecordingError(f'{run.name}: no step is resolved in it')
         missing = [name for name in self.names if name not in self.steps]
         if missing:
             raise RecordingError(
-                f'{self._run.name}: {missing[0]} is not resolved in it, only '
-                + ', '.join(self.steps)
+                f'{run.name}: {missing[0]} is not resolved in it, only ' + ', '.join(self.steps)
             )
         places, fields, begin = self._times()
         if len(places) == 0:
             raise RecordingError(
-                f'{self._run.name}: neither state nor fields in it: there are no '
+                f'{run.name}: neither state nor fields in it: there are no '
                 f'{space.particle(self.info)}s'
             )
         self.begin, self.end = self._cut(places, begin, *within)
@@ -100,10 +96,6 @@ class Film:
     def _wave_name(self, packed):
         kind, *nodes = packed.field_wave(len(space.axes(self.info)))
         return wave_name(kind, nodes)
-
-    @property
-    def name(self):
-        return self._run.name
 
     def _cut(self, places, found, begin, end):
         if begin is None:

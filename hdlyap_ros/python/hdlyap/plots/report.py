@@ -1,4 +1,4 @@
-"""recorded.Recorded -> the text that hdlyap plot prints."""
+"""data.said.Said -> the text that hdlyap plot prints."""
 
 import numpy as np
 
@@ -72,7 +72,7 @@ def _mean(name, row, column, remark=''):
 
 def _head(recording):
     head = f'scene {recording.info.scene}: {system(recording.info)}\n{origin(recording.info)}'
-    runs = 1 if recording.is_mean else recording.data.runs_in_bag
+    runs = recording.data.runs_in_bag
     if runs > 1:
         head += f'\none of {runs} runs in the bag; --run 1 .. {runs} chooses'
     return head

@@ -4,11 +4,11 @@ from math import isfinite
 
 from hdlyap.data import fits, steps
 from hdlyap.data.fields import words
+from hdlyap.data.phases import turning
 from hdlyap.msg import Step
 from hdlyap.numbers import with_error
 
 from . import paper
-from .phases import turning
 
 WIDTH = 100  # of a line with a list of names
 COLUMNS = (

@@ -5,8 +5,6 @@ import socket
 
 import roslib.packages
 
-from .bag import Bag
-
 # as Open MPI, PMIx, Slurm and MPICH call it
 NUMBERS = 'OMPI_COMM_WORLD_RANK', 'PMIX_RANK', 'SLURM_PROCID', 'PMI_RANK'
 
@@ -35,8 +33,3 @@ def free_port():
     with socket.socket() as listening:
         listening.bind(('', 0))
         return listening.getsockname()[1]
-
-
-def is_complete(bag):
-    """Whether a run that went to its end is in it."""
-    return os.path.exists(bag) and Bag(bag).is_complete()

@@ -8,14 +8,19 @@ import subprocess
 
 import yaml
 
+import hdlyap
+from hdlyap.data.reader import RecordingError
+from hdlyap.plots import repetition
+
 from . import files, ranks
-from .bag import Bag
 from .scene import Refused
 
 ABOUT = 'A run of hdlyap sweep.'  # first line of its scene file
 AUTO = 'auto'  # what the node chooses itself
 TIMES = 'equilibration', 'warmup', 'duration'
 OF_ONE = 'checkpoint', 'resume'  # parameters that runs cannot share
+# those that make no difference to what is measured, or that run_info has as they were resolved
+HERE = ('threads', 'wait_for_subscribers', *OF_ONE)
 # seconds, about: to come up; of a time unit with 200 disks on one core, as their square
 BEGIN, STEP, DISKS = 5.0, 0.03, 200
 
@@ -80,10 +85,37 @@ class Run:
 
     def lacks(self, folder):
         """What its bag there lacks to be all of it, in words; '' if nothing: it is done."""
-        bag = Bag(self.bag(folder))
-        if not bag.is_complete():
-            return 'the run has not come to its end'
-        return bag.differs_from(self.parameters)
+        there = complete(self.bag(folder))
+        return self._differs(there.info) if there else 'the run has not come to its end'
+
+    def _differs(self, info):
+        """In which parameter of the node, in words; '' in none."""
+        asked = repetition.parameters(info)
+        for name, value in self.parameters.items():
+            is_chosen = name == 'warmup' and value == AUTO  # and in run_info as it was
+            if name in HERE or name not in asked or is_chosen or _same(asked[name], value):
+                continue
+            return f'it was run with {name} = {asked[name]}, not {value}'
+        return ''
+
+
+def complete(bag):
+    """The data.run.Run in it, if it is there and went to its end; else None."""
+    try:
+        there = hdlyap.load(bag)
+        return there if there.is_complete else None
+    except RecordingError:
+        return None
+
+
+def _same(one, other):
+    """400 and 400.0 are, as 5 and '5'; lists in their order."""
+    if str(one) == str(other):
+        return True
+    try:
+        return float(one) == float(other)
+    except (TypeError, ValueError):
+        return False
 
 
 def _check(parameters):

@@ -100,7 +100,7 @@ def _panel(axes, name, x, series):
         axes.set_xticklabels(
             [word.replace(',', ',\n') if word.count(',') > 1 else word for word in words]
         )
-    axes.set_xlabel(_label(x, every[0].info))
+    axes.set_xlabel(_label(x, every[0].data.info))
     axes.set_ylabel(NAMES[name])
 
 

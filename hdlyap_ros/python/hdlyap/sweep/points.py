@@ -37,31 +37,17 @@ class Point:
 
     def __init__(self, paths, choice=(None, None)):
         """RecordingError if they have no averages, or do not belong together."""
-        self._system = seeds.load(*paths, form=choice[0], k=choice[1])
-        self.info = self._system.info
-        self.runs = getattr(self._system, 'runs', [self._system])
+        self.data = seeds.load(*paths, form=choice[0], k=choice[1])
+        self.runs = self.data.runs
+        self.system = system(self.data.info)
         self.values = self._values()  # {quantity: Value} of those that were measured
-
-    @property
-    def seeds(self):
-        return [run.info.seed for run in self.runs]
-
-    @property
-    def averaged_time(self):
-        """Of all together."""
-        return float(sum(run.averaged_times[-1] for run in self.runs))
-
-    @property
-    def system(self):
-        """{name: value} of SYSTEM, with both boundaries as one."""
-        return system(self.info)
 
     def _values(self):
         """The sum of a part of the positive exponents is none."""
-        frame = self._system.results
+        frame = self.data.results
         found = {'lambda_max': self._value(frame.loc['lambda_max'])}
         if 'h_KS' in frame.index:
-            found['h_KS/N'] = self._value(frame.loc['h_KS'], 1 / self.info.disks)
+            found['h_KS/N'] = self._value(frame.loc['h_KS'], 1 / self.data.info.disks)
         for fit in self.runs[0].fits:
             if fit.symbol in frame.index:
                 found[fit.symbol] = self._value(frame.loc[fit.symbol], fit=fit)
@@ -80,11 +66,6 @@ class Point:
             float(row['misfit']),
             fit,
         )
-
-    @property
-    def left_out(self):
-        """A line for each run that is in no mean."""
-        return getattr(self._system, 'left_out', [])
 
     @property
     def unlike(self):

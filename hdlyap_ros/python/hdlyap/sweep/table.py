@@ -46,13 +46,13 @@ def text(points):
                 *_of_system(point, names),
                 *(_cell(point, name, marks) for name in QUANTITIES),
                 str(len(point.runs)),
-                f'{point.averaged_time:g}',
+                f'{point.data.averaged_time:g}',
             ]
             for point in points
         ],
     )
     yield from marks.explained()
-    yield from (line for point in points for line in point.left_out)
+    yield from (line for point in points for line in point.data.left_out)
     if any(point.unlike for point in points):
         yield 'unlike: fits of the seeds have not the same form or wave numbers'
     several = [point for point in points if len(point.runs) > 1]
@@ -119,7 +119,7 @@ def _table(head, rows):
 
 def csv(points, path):
     """All digits; nothing where something is not known. The units stand in the head."""
-    units = {'density': f' [1/sigma^{len(space.axes(points[0].info))}]'}
+    units = {'density': f' [1/sigma^{len(space.axes(points[0].data.info))}]'}
     head = [name + units.get(name, '') for name in points[0].system]
     head += ['seeds', 'averaged time [time units]']
     for name, unit in QUANTITIES.items():
@@ -129,7 +129,11 @@ def csv(points, path):
 
 
 def _row(point):
-    row = [*map(_plain, point.system.values()), ' '.join(point.seeds), f'{point.averaged_time:g}']
+    row = [
+        *map(_plain, point.system.values()),
+        ' '.join(point.data.seeds),
+        f'{point.data.averaged_time:g}',
+    ]
     for name in QUANTITIES:
         value = point.values.get(name)
         numbers = value[:4] if value else [NAN] * 4

@@ -3,9 +3,9 @@
 import numpy as np
 
 from hdlyap.data import steps
+from hdlyap.data.phases import apart, regression, turning
 from hdlyap.numbers import with_error
 
-from ..phases import apart, regression, turning
 from .style import GREEN, INK, ORANGE, PURPLE, SKY, plt, thinned, titled
 
 COLOURS = GREEN, PURPLE, SKY, INK, ORANGE  # of steps; T and LP have others

@@ -1,37 +1,32 @@
-"""Recorded runs as tables and figures take them: messages, and the courses of what they draw."""
+"""What was said of a run, as tables and figures take it: messages, and the courses of what they
+draw."""
 
 import copy
 from functools import cached_property
 
 import numpy as np
 
-from hdlyap.data import seeds
-from hdlyap.data.factors import StructureCourse
-from hdlyap.data.last import Last
-from hdlyap.data.stages import PARTS
 from hdlyap.numbers import known
 
+from . import space
 from .course import Course
+from .factors import StructureCourse
 from .phases import PhaseCourse
+from .stages import PARTS
 
 SMALLEST = 4  # exponents whose course is drawn, counted back from the last positive one
 
 
-def read(*bags, **which):
-    """Of these bags: see data.seeds.load."""
-    return Recorded(seeds.load(*bags, **which))
-
-
-class Recorded(Last):
+class Said:
     """Of a data.run.Run, or of data.seeds.Seeds, whose spectrum, steps and fits are means. Each
     message is the last one, None if there is none; what was averaged before ~reset_average does not
     count. Nothing is read before it is asked for."""
 
     def __init__(self, data):
         self.data, self.info = data, data.info
-        self.is_mean = hasattr(data, 'seeds')
+        self.is_mean, self.left_out = data.is_mean, data.left_out
         if self.is_mean:
-            self.info, self.left_out = copy.copy(data.info), data.left_out
+            self.info = copy.copy(data.info)
             self.info.seed, self.info.run_id = ', '.join(data.seeds), ''
 
     spectrum = cached_property(lambda self: self._averaged('spectrum'))
@@ -39,6 +34,31 @@ class Recorded(Last):
     gas = cached_property(lambda self: self._averaged('gas'))
     localization = cached_property(lambda self: self._last('localization'))
     covariant = cached_property(lambda self: self._averaged('covariant'))  # of at least one window
+
+    @property
+    def positive_end(self):
+        """Lyapunov index of the last positive exponent."""
+        return (self.phase_space - self.info.zero_exponents) // 2
+
+    @property
+    def phase_space(self):
+        """Its dimension: exponents in all."""
+        return space.phase_space(self.info)
+
+    @property
+    def last_index(self):
+        """Lyapunov index of the last exponent carried."""
+        return self.spectrum.first_index + len(self.spectrum.exponents) - 1
+
+    @property
+    def sum_name(self):
+        """Of the sum of the positive exponents carried."""
+        return 'h_KS' if self.last_index >= self.positive_end else 'sum of exponents'
+
+    @property
+    def sum_error(self):
+        """Of that sum; -1 while not yet known."""
+        return self.spectrum.ks_entropy_error
 
     @cached_property
     def phases(self):
