@@ -3,31 +3,21 @@
 from matplotlib import ticker
 import numpy as np
 
-from .style import BLUE, GREY, INK, ORANGE, SKY, VERMILION, plt, thinned, titled
+from .style import BLUE, GREY, INK, ORANGE, SKY, VERMILION, instead, panels, thinned, titled
 
 
 def draw(recording):
     if recording.spectrum is None:
         return None
-    figure, (top, middle, bottom) = plt.subplots(
-        3, 1, figsize=(5.2, 6.6), sharex=True, constrained_layout=True
-    )
+    figure, (top, middle, bottom) = panels(3, 1, 5.2, 6.6, sharex=True)
     course = recording.course()
     kept = thinned(len(course['time']))
     time = course['time'][kept]
     _with_error(top, time, course['lambda_max'][kept], course['lambda_max_error'][kept], INK)
     top.set_ylabel(r'$\lambda_{\max}$  [1/time unit]')
-    for column, (index, colour) in enumerate(
-        zip(recording.smallest, (SKY, BLUE, ORANGE, VERMILION))
-    ):
-        _with_error(
-            middle,
-            time,
-            course['small'][kept, column],
-            course['small_errors'][kept, column],
-            colour,
-            rf'$\ell={index}$',
-        )
+    means, errors = course['small'][kept].T, course['small_errors'][kept].T
+    for index, *of_one in zip(recording.smallest, means, errors, (SKY, BLUE, ORANGE, VERMILION)):
+        _with_error(middle, time, *of_one, rf'$\ell={index}$')
     middle.set_ylabel(r'$\lambda_\ell$  [1/time unit]')
     middle.legend(ncol=2)
     _error(bottom, time, course['error'][kept])
@@ -54,22 +44,13 @@ def _mark(time):
 def _error(axes, time, error):
     measured = np.isfinite(error)
     if not measured.any():
-        axes.annotate('not yet known', (0.5, 0.5), xycoords='axes fraction', ha='center')
+        instead(axes, 'not yet known')
         return
-    axes.loglog(
-        time[measured],
-        error[measured],
-        _mark(time[measured]),
-        color=INK,
-        label='of all exponents, root mean square',
-    )
-    axes.loglog(
-        time[measured],
-        error[measured][-1] * np.sqrt(time[-1] / time[measured]),
-        '--',
-        color=GREY,
-        label=r'$\propto 1/\sqrt{t}$',
-    )
+    last, time, error = time[-1], time[measured], error[measured]
+    label = 'of all exponents, root mean square'
+    axes.loglog(time, error, _mark(time), color=INK, label=label)
+    slope = error[-1] * np.sqrt(last / time)
+    axes.loglog(time, slope, '--', color=GREY, label=r'$\propto 1/\sqrt{t}$')
     axes.yaxis.set_major_locator(ticker.LogLocator(subs=(1, 2, 5)))
     axes.yaxis.set_major_formatter(ticker.FormatStrFormatter('%g'))
     axes.yaxis.set_minor_formatter(ticker.NullFormatter())

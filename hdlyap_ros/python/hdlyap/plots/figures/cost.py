@@ -5,7 +5,7 @@ import numpy as np
 from hdlyap.data.stages import LABELS, PARTS, STAGES
 from hdlyap.msg import RunStatus
 
-from .style import BLUE, GREEN, INK, ORANGE, PURPLE, SKY, VERMILION, plt, thinned, titled
+from .style import BLUE, GREEN, INK, ORANGE, PURPLE, SKY, VERMILION, beside, panels, thinned, titled
 
 PART_COLOURS = {
     'events': BLUE,
@@ -27,9 +27,8 @@ def draw(recording):
     cost = recording.cost()
     if cost is None:
         return None
-    figure, (course, share) = plt.subplots(
-        1, 2, figsize=(7.2, 3.2), constrained_layout=True, gridspec_kw={'width_ratios': [1.5, 1]}
-    )
+    widths = {'width_ratios': [1.5, 1]}
+    figure, (course, share) = panels(1, 2, 7.2, 3.2, gridspec_kw=widths)
     other = np.maximum(0, cost['wall'] - sum(cost[part] for part in PARTS))
     cost['start'] = np.minimum(other, other[0])  # all that came before the first report
     cost['other'] = other - cost['start']
@@ -51,16 +50,8 @@ def _course(axes, cost, began):
     for (time, stage), end in zip(stages, ends):
         axes.axvline(time, color=INK, linewidth=0.6, linestyle=':')
         if end - time > NAMED * cost['time'][-1]:
-            axes.annotate(
-                STAGES[stage],
-                (time, 1),
-                xycoords=('data', 'axes fraction'),
-                xytext=(6, -3),
-                textcoords='offset points',
-                rotation=90,
-                fontsize=7,
-                va='top',
-            )
+            place = {'xycoords': ('data', 'axes fraction'), 'rotation': 90, 'va': 'top'}
+            beside(axes, STAGES[stage], (time, 1), (6, -3), fontsize=7, **place)
     axes.margins(0)
     axes.set_xlim(left=0)
     axes.set_xlabel('simulated time  [time units]')
@@ -73,14 +64,8 @@ def _shares(axes, cost):
     rows = np.arange(len(seconds))
     axes.barh(rows, seconds, color=list(PART_COLOURS.values()))
     for row, value in zip(rows, seconds):
-        axes.annotate(
-            f'{value:.3g} s ({100 * value / cost["wall"][-1]:.1f} %)',
-            (value, row),
-            xytext=(3, 0),
-            textcoords='offset points',
-            va='center',
-            fontsize=8,
-        )
+        text = f'{value:.3g} s ({100 * value / cost["wall"][-1]:.1f} %)'
+        beside(axes, text, (value, row), (3, 0), va='center', fontsize=8)
     axes.set_yticks(rows)
     axes.set_yticklabels(NAMES.values())
     axes.tick_params(axis='y', length=0)

@@ -3,7 +3,7 @@
 import numpy as np
 
 from .. import covariant
-from .style import BLUE, GREEN, VERMILION, plt, titled
+from .style import BLUE, GREEN, VERMILION, panels, titled
 
 COLOURS = (VERMILION, BLUE, GREEN)  # of the pairs of spaces
 ROOM = 1.4  # above the curves, for what is said
@@ -13,7 +13,7 @@ def draw(run):
     message = run.covariant
     if message is None or not message.angles:
         return None
-    figure, (left, right) = plt.subplots(1, 2, figsize=(7.2, 3.4), constrained_layout=True)
+    figure, (left, right) = panels(1, 2, 7.2, 3.4)
     for axes, counts, title in (
         (left, 'smallest_counts', '(a) smallest angle'),
         (right, 'all_counts', '(b) all principal angles'),
@@ -37,14 +37,9 @@ def _histograms(axes, angles, name):
         if at:
             axes.plot([], [], linestyle='', label=_said(angle, at))
         elif sum(counts):
-            axes.step(
-                covariant.edges(counts),
-                np.append(covariant.density(counts), 0),
-                where='post',
-                color=colour,
-                linewidth=1,
-                label=covariant.SPACES[angle.spaces],
-            )
+            label, height = covariant.SPACES[angle.spaces], np.append(covariant.density(counts), 0)
+            style = {'color': colour, 'linewidth': 1, 'label': label}
+            axes.step(covariant.edges(counts), height, where='post', **style)
     if axes.get_legend_handles_labels()[0]:
         axes.legend(loc='upper left', handlelength=1, borderaxespad=0.2, fontsize=7)
 

@@ -12,22 +12,15 @@ def draw(run):
     message = run.covariant
     if message is None or len(message.exponents) < 2:
         return None
-    places, violated = covariant.between(message), np.array(
-        message.domination_violations, dtype=float
-    )
+    places = covariant.between(message)
+    violated = np.array(message.domination_violations, dtype=float)
     panels = Panels(run, 2, 4.8)
     panels.plot(0, places, message.violations, color=BLUE, label='next one grew more')
     panels.plot(1, places, violated, color=INK, label='of all times')
     isolated = violated == 0
-    panels.plot(
-        1,
-        places[isolated],
-        violated[isolated],
-        fmt='v',
-        color=GREEN,
-        markersize=4.5,
-        label=f'never ({isolated.sum()} dominated splittings)',
-    )
+    style = {'fmt': 'v', 'color': GREEN, 'markersize': 4.5}
+    label = f'never ({isolated.sum()} dominated splittings)'
+    panels.plot(1, places[isolated], violated[isolated], label=label, **style)
     for axes, highest in zip(panels.grid, (1.04, 1.3)):
         for panel in axes:
             panel.set_ylim(-0.04, highest)

@@ -5,7 +5,9 @@ import numpy as np
 
 from ..covariant import Compared
 from .over_index import Panels, level
-from .style import INK, LIGHT, VERMILION, ZERO
+from .style import INK, LIGHT, VERMILION, ZERO, instead
+
+HOLLOW = {'fmt': 'o', 'markersize': 4, 'markerfacecolor': 'none', 'markeredgewidth': 0.6}
 
 
 def draw(run):
@@ -14,33 +16,20 @@ def draw(run):
         return None
     compared = Compared(run)
     panels = Panels(run, 2, 5.0)
-    panels.plot(
-        0,
-        compared.indices,
-        message.local_exponents,
-        color=LIGHT,
-        label='backward, between two samples',
-    )
-    panels.plot(
-        0,
-        compared.indices,
-        compared.forward,
-        compared.forward_error,
-        fmt='o',
-        color=INK,
-        markersize=4,
-        markerfacecolor='none',
-        markeredgewidth=0.6,
-        label='forward (Gram-Schmidt)',
-    )
-    panels.plot(
-        0,
-        compared.indices,
-        compared.backward,
-        compared.backward_error,
-        color=VERMILION,
-        label='backward (covariant)',
-    )
+    for label, style, *values in (
+        ('backward, between two samples', {'color': LIGHT}, message.local_exponents),
+        (
+            'forward (Gram-Schmidt)',
+            {'color': INK, **HOLLOW},
+            *(compared.forward, compared.forward_error),
+        ),
+        (
+            'backward (covariant)',
+            {'color': VERMILION},
+            *(compared.backward, compared.backward_error),
+        ),
+    ):
+        panels.plot(0, compared.indices, *values, label=label, **style)
     _deviations(panels, compared)
     panels.grid[0, 0].legend(loc='lower left', handletextpad=0.4)
     return panels.finish(r'$\lambda_\ell$  [1/time unit]', 'backward - forward\n[combined errors]')
@@ -49,15 +38,12 @@ def draw(run):
 def _deviations(panels, compared):
     if not np.isfinite(compared.deviation).any():
         for axes in panels.grid[1]:
-            axes.annotate('errors not yet known', (0.5, 0.5), xycoords='axes fraction', ha='center')
+            instead(axes, 'errors not yet known')
         return
-    for chosen, colour, label in (
-        (~compared.is_zero, INK, 'difference'),
-        (compared.is_zero, ZERO, 'zero modes'),
-    ):
-        panels.plot(
-            1, compared.indices[chosen], compared.deviation[chosen], color=colour, label=label
-        )
+    for of_zero, colour, label in ((False, INK, 'difference'), (True, ZERO, 'zero modes')):
+        chosen = compared.is_zero == of_zero
+        places, values = compared.indices[chosen], compared.deviation[chosen]
+        panels.plot(1, places, values, color=colour, label=label)
     for axes in panels.grid[1]:
         level(axes, 0)
         for two in (-2, 2):

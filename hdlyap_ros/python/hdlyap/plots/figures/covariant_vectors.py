@@ -21,19 +21,11 @@ def draw(run):
     panels.plot(2, places, message.neighbour_angles, color=VERMILION, label='mean')
     panels.plot(2, places, message.least_neighbour_angles, color=SKY, label='smallest so far')
     apart = np.array(message.start_mismatch, dtype=float)
-    panels.plot(
-        3,
-        indices,
-        np.where(apart > 0, np.maximum(apart, ROUNDING), np.nan),
-        color=INK,
-        label='apart',
-    )
-    for axes in panels.grid[0]:
-        axes.set_ylim(0, 1.04)
-    for axes in panels.grid[1]:
-        axes.set_ylim(0, 1.04)
-    for axes in panels.grid[2]:
-        axes.set_ylim(0, 1.3 * covariant.RIGHT_ANGLE)  # room for the legend
+    apart = np.where(apart > 0, np.maximum(apart, ROUNDING), np.nan)
+    panels.plot(3, indices, apart, color=INK, label='apart')
+    for row, high in zip(panels.grid, (1.04, 1.04, 1.3 * covariant.RIGHT_ANGLE)):
+        for axes in row:  # of the last one with room for the legend
+            axes.set_ylim(0, high)
     if (apart > 0).any():
         for axes in panels.grid[3]:
             axes.set_yscale('log')

@@ -5,7 +5,7 @@ from hdlyap.data import steps
 
 from .. import covariant
 from .over_index import level, near_zero, shade
-from .style import GREY, INK, kind_colour, plt, titled
+from .style import GREY, INK, kind_colour, panels, titled
 
 PANELS = 4
 
@@ -19,15 +19,8 @@ def draw(run):
     first, last = near_zero(run, indices)
     columns = min(2, len(shown))
     rows = -(-len(shown) // columns)
-    figure, grid = plt.subplots(
-        rows,
-        columns,
-        sharex=True,
-        sharey=True,
-        squeeze=False,
-        figsize=(3.8 * columns, 2.6 * rows + 0.6),
-        constrained_layout=True,
-    )
+    alike = {'sharex': True, 'sharey': True, 'squeeze': False}
+    figure, grid = panels(rows, columns, 3.8 * columns, 2.6 * rows + 0.6, **alike)
     for axes, weight in zip(grid.flat, shown):
         _panel(axes, run, weight, indices)
         shade([axes], run, first, last)
@@ -44,40 +37,17 @@ def draw(run):
 
 
 def _panel(axes, run, weight, indices):
-    axes.plot(
-        indices,
-        weight.dq,
-        'o',
-        color=kind_colour(weight.kind),
-        markersize=3,
-        label=r'covariant, $\delta q$',
-    )
-    axes.plot(
-        indices,
-        weight.dp,
-        'x',
-        color=GREY,
-        markersize=3.5,
-        markeredgewidth=0.8,
-        label=r'covariant, $\delta p$',
-    )
-    axes.plot(
-        indices,
-        weight.gram_schmidt,
-        'o',
-        color=INK,
-        markerfacecolor='none',
-        markersize=5,
-        markeredgewidth=0.7,
-        label=r'Gram-Schmidt, $\delta q$',
-    )
+    solid, cross, hollow = ({'color': c} for c in (kind_colour(weight.kind), GREY, INK))
+    solid.update(marker='o', markersize=3)
+    cross.update(marker='x', markersize=3.5, markeredgewidth=0.8)
+    hollow.update(marker='o', markersize=5, markeredgewidth=0.7, markerfacecolor='none')
+    for values, style, label in (
+        (weight.dq, solid, r'covariant, $\delta q$'),
+        (weight.dp, cross, r'covariant, $\delta p$'),
+        (weight.gram_schmidt, hollow, r'Gram-Schmidt, $\delta q$'),
+    ):
+        axes.plot(indices, values, linestyle='', label=label, **style)
     level(axes, covariant.chance(run, weight), 'by chance')
     axes.set_ylim(-0.03, 1.03)
-    axes.annotate(
-        steps.name(weight, run.info),
-        (0.03, 0.95),
-        xycoords='axes fraction',
-        va='top',
-        weight='bold',
-        fontsize=8,
-    )
+    name, look = steps.name(weight, run.info), {'weight': 'bold', 'fontsize': 8}
+    axes.annotate(name, (0.03, 0.95), xycoords='axes fraction', va='top', **look)

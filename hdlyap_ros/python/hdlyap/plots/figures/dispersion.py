@@ -7,12 +7,13 @@ from hdlyap.data.waves import is_round
 from hdlyap.numbers import with_error
 
 from .. import paper
-from .style import GREY, KIND_COLOURS, bars, kind_colour, plt, titled
+from .style import FEW, GREY, KIND_COLOURS, bars, kind_colour, panels, plt, titled
 
 MARKERS = {steps.T: 'o', steps.LP: 's'}
 CLOSE = 0.028  # of the width of the axes: nearer names stand behind one another
 NAMES = 3  # that stand behind one another
 MARGIN = 1.08
+PUBLISHED = {'linewidth': 0.8, 'dashes': (2, 2)}
 PUBLISHED_UP_TO = 0.3  # wave numbers for which slopes without curvature are meant
 
 
@@ -21,7 +22,7 @@ def draw(recording):
     points = [(block, step) for block in found for step in block.steps]
     if not points:
         return None
-    figure, axes = plt.subplots(figsize=(5.2, 4.4), constrained_layout=True)
+    figure, axes = panels(1, 1, 5.2, 4.4)
     end = MARGIN * max(step.wave_number for _, step in points)
     of_t, of_l, _ = fits.of(recording.steps)
     for fit in (of_l, of_t):
@@ -40,18 +41,9 @@ def draw(recording):
 def _point(axes, step, alone):
     """Open where the step shares its vectors with another."""
     colour = kind_colour(step.kind)
-    axes.errorbar(
-        step.wave_number,
-        step.exponent,
-        bars(step.std_error),
-        fmt=MARKERS.get(step.kind, 'D'),
-        color=colour,
-        markerfacecolor=colour if alone else 'white',
-        markersize=4.5,
-        elinewidth=0.9,
-        capsize=2,
-        zorder=3,
-    )
+    look = {'color': colour, 'markerfacecolor': colour if alone else 'white', **FEW}
+    values = step.wave_number, step.exponent, bars(step.std_error)
+    axes.errorbar(*values, fmt=MARKERS.get(step.kind, 'D'), zorder=3, **look)
 
 
 def _branch(axes, info, fit, end):
@@ -65,14 +57,8 @@ def _branch(axes, info, fit, end):
     published = paper.branches(info).get(kind)
     if published is not None and not fit.is_unrelated:
         k = np.linspace(0, end if published.c2 else min(end, PUBLISHED_UP_TO), 100)
-        axes.plot(
-            k,
-            published.c * k + (published.c2 or 0) * k**2,
-            color=colour,
-            linewidth=0.8,
-            dashes=(2, 2),
-            label='_published',
-        )
+        line = published.c * k + (published.c2 or 0) * k**2
+        axes.plot(k, line, color=colour, label='_published', **PUBLISHED)
 
 
 def _fit_label(fit):
@@ -92,15 +78,8 @@ def _wave_axis(axes, info, points, end):
             groups[-1][1].setdefault(name)
         else:
             groups.append((step.wave_number, {name: None}))
-        axes.vlines(
-            step.wave_number,
-            step.exponent,
-            axes.get_ylim()[1],
-            color=GREY,
-            linewidth=0.4,
-            alpha=0.4,
-            zorder=0,
-        )
+        look = {'color': GREY, 'linewidth': 0.4, 'alpha': 0.4, 'zorder': 0}
+        axes.vlines(step.wave_number, step.exponent, axes.get_ylim()[1], **look)
     axes.tick_params(top=False)
     upper = axes.twiny()
     upper.set_xlim(axes.get_xlim())
@@ -126,18 +105,12 @@ def _legend(axes, blocks, is_unrelated):
         handles.append(_marker(shared[0][0].kind, 'white'))
         labels.append('steps that share a set')
     if any(line.get_label() == '_published' for line in axes.get_lines()):
-        handles.append(plt.Line2D([], [], color=GREY, linewidth=0.8, dashes=(2, 2)))
+        handles.append(plt.Line2D([], [], color=GREY, **PUBLISHED))
         labels.append('Eckmann et al. 2005')
     axes.legend(handles, labels, loc='lower right')  # below the branches
 
 
 def _marker(kind, face):
-    return plt.Line2D(
-        [],
-        [],
-        linestyle='',
-        marker=MARKERS.get(kind, 'D'),
-        markersize=4.5,
-        color=kind_colour(kind) if face != 'white' else GREY,
-        markerfacecolor=face,
-    )
+    look = {'marker': MARKERS.get(kind, 'D'), 'markersize': FEW['markersize']}
+    colour = kind_colour(kind) if face != 'white' else GREY
+    return plt.Line2D([], [], linestyle='', color=colour, markerfacecolor=face, **look)

@@ -5,7 +5,7 @@ import numpy as np
 
 from hdlyap.data import space
 
-from .style import BLUE, GREY, INK, bars, index_axis, plt, titled
+from .style import BLUE, GREY, INK, MANY, bars, index_axis, panels, titled
 
 LARGEST = 48  # vectors in the magnified panel
 
@@ -15,9 +15,7 @@ def draw(recording):
     if message is None:
         return None
     many = len(message.widths) > 1.5 * LARGEST
-    figure, grid = plt.subplots(
-        1, 1 + many, squeeze=False, figsize=(7.6 if many else 4.6, 3.4), constrained_layout=True
-    )
+    figure, grid = panels(1, 1 + many, 7.6 if many else 4.6, 3.4, squeeze=False)
     for axes, count in zip(grid[0], (None, LARGEST)):
         _panel(axes, recording, count)
     grid[0, 0].set_ylabel('localisation width $e^S/N$')
@@ -36,16 +34,9 @@ def _panel(axes, recording, count):
         _dots(axes, covariant, count, fmt='x', color=INK, label='covariant', zorder=2)
     least = 1.0 / recording.info.disks
     axes.axhline(least, color=GREY, linewidth=0.6, linestyle='--')
-    axes.text(
-        0.99,
-        least,
-        f'one {space.particle(recording.info)}',
-        transform=axes.get_yaxis_transform(),
-        ha='right',
-        va='bottom',
-        color=GREY,
-        fontsize=7,
-    )
+    name, across = f'one {space.particle(recording.info)}', axes.get_yaxis_transform()
+    look = {'ha': 'right', 'va': 'bottom', 'color': GREY, 'fontsize': 7}
+    axes.text(0.99, least, name, transform=across, **look)
     axes.set_ylim(bottom=0)
     index_axis(axes)
 
@@ -55,13 +46,4 @@ def _dots(axes, message, count, **style):
     widths = message.widths[:count]
     indices = np.arange(message.first_index, message.first_index + len(widths))
     errors = bars(message.std_errors[:count]) if hasattr(message, 'widths_now') else None
-    axes.errorbar(
-        indices,
-        widths,
-        errors,
-        ecolor=GREY,
-        markersize=2.4,
-        elinewidth=0.7,
-        rasterized=True,
-        **style,
-    )
+    axes.errorbar(indices, widths, errors, markersize=2.4, **MANY, **style)

@@ -7,7 +7,7 @@ from hdlyap.data import space, steps
 
 from . import solid_modes
 from .box import arrows, disks
-from .style import GREY, LIGHT, MEMBER_COLOURS, kind_colour, plt, titled
+from .style import GREY, LIGHT, MEMBER_COLOURS, kind_colour, panels as grid_of, titled
 
 PANELS = 6
 WIDTH = 7.2  # of the figure [inch]
@@ -31,7 +31,7 @@ class Panel:
 
     @property
     def title(self):
-        return f'{self.name}, $\\ell={self.field.index}$, ' f'$\\lambda={self.field.exponent:.4f}$'
+        return f'{self.name}, $\\ell={self.field.index}$, $\\lambda={self.field.exponent:.4f}$'
 
     @property
     def colour(self):
@@ -88,9 +88,7 @@ def draw_panels(panels, info):
     rows = -(-len(panels) // columns)
     width = WIDTH if len(panels) > 1 else ALONE
     height = rows * (width / columns * info.box_y / info.box_x + 0.3) + 0.5
-    figure, grid = plt.subplots(
-        rows, columns, figsize=(width, min(height, TALLEST)), squeeze=False, constrained_layout=True
-    )
+    figure, grid = grid_of(rows, columns, width, min(height, TALLEST), squeeze=False)
     for axes, panel in zip(grid.flat, panels):
         _arrows(axes, panel, info, as_pixels=len(panels) * info.disks > MANY)
     for axes in grid[:, 0]:
@@ -129,37 +127,21 @@ def _arrows(axes, panel, info, as_pixels):
 
 def _channel(panels, info):
     """In a channel: both components along it, normalised to a mean square of one."""
-    figure, rows = plt.subplots(
-        len(panels),
-        1,
-        figsize=(WIDTH, 1.35 * len(panels) + 0.6),
-        sharex=True,
-        sharey=True,
-        squeeze=False,
-        constrained_layout=True,
-    )
+    alike = {'sharex': True, 'sharey': True, 'squeeze': False}
+    figure, rows = grid_of(len(panels), 1, WIDTH, 1.35 * len(panels) + 0.6, **alike)
     along = 'x' if info.box_x >= info.box_y else 'y'
     for axes, panel in zip(rows.flat, panels):
         field = panel.field
-        dq = np.array([field.dqx, field.dqy]) * np.sqrt(
-            len(field.x) / np.sum(np.square([field.dqx, field.dqy]))
-        )
-        place = getattr(field, along)
+        dq = np.array([field.dqx, field.dqy])
+        dq *= np.sqrt(len(field.x) / np.sum(np.square(dq)))
         for component, axis, colour, marker in zip(dq, 'xy', MEMBER_COLOURS, 'os'):
-            axes.plot(
-                place, component, marker, markersize=3, color=colour, label=rf'$\delta q_{axis}$'
-            )
+            look = {'markersize': 3, 'color': colour, 'label': rf'$\delta q_{axis}$'}
+            axes.plot(getattr(field, along), component, marker, **look)
         axes.axhline(0, color=GREY, linewidth=0.5)
         axes.set_title(panel.title, fontsize=8)
         axes.set_xlim(0, max(info.box_x, info.box_y))
         axes.set_ylabel(r'$\delta q$ / rms', fontsize=7)
-    rows.flat[0].legend(
-        ncol=2,
-        loc='lower right',
-        bbox_to_anchor=(1, 0.97),
-        borderpad=0,
-        handletextpad=0.2,
-        columnspacing=1,
-    )
+    close = {'borderpad': 0, 'handletextpad': 0.2, 'columnspacing': 1}
+    rows.flat[0].legend(ncol=2, loc='lower right', bbox_to_anchor=(1, 0.97), **close)
     rows.flat[-1].set_xlabel(rf'${along}$  [$\sigma$]')
     return figure

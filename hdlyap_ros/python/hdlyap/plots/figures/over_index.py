@@ -6,7 +6,7 @@ import numpy as np
 from hdlyap.data import steps
 
 from .. import covariant
-from .style import GREY, index_axis, kind_colour, plt, titled
+from .style import GREY, UPRIGHT, beside, index_axis, kind_colour, panels, titled
 
 LEAST, MOST = 16, 40  # vectors of the positive half in the magnified panels
 
@@ -19,14 +19,9 @@ class Panels:
         self._run, self._indices = run, covariant.indices(message)
         whole, near = (self._indices[0], self._indices[-1]), near_zero(run, self._indices)
         self.ranges = [whole] if whole == near else [whole, near]
-        self.figure, self.grid = plt.subplots(
-            rows,
-            len(self.ranges),
-            sharex='col',
-            squeeze=False,
-            figsize=(4.6 if len(self.ranges) == 1 else 7.6, height),
-            constrained_layout=True,
-        )
+        size = 4.6 if len(self.ranges) == 1 else 7.6, height
+        shared = {'sharex': 'col', 'squeeze': False}
+        self.figure, self.grid = panels(rows, len(self.ranges), *size, **shared)
         windows = f'{message.windows} window' + ('s' if message.windows != 1 else '')
         titled(self.figure, run.info, more=f', covariant vectors of {windows}')
 
@@ -66,26 +61,15 @@ def shade(column, run, first, last):
             continue
         colour = kind_colour(block.kind)
         for axes in column:
-            axes.axvspan(
-                block.first - 0.5, block.last + 0.5, color=colour, alpha=0.13, linewidth=0, zorder=0
-            )
+            look = {'color': colour, 'alpha': 0.13, 'linewidth': 0, 'zorder': 0}
+            axes.axvspan(block.first - 0.5, block.last + 0.5, **look)
         # the conjugate half has the colours of its steps in reverse
         if not name.startswith('conj.'):
-            column[0].annotate(
-                name.replace('+', '\n+'),
-                (0.5 * (block.first + block.last), 1),
-                xycoords=('data', 'axes fraction'),
-                xytext=(0, 3),
-                textcoords='offset points',
-                fontsize=6,
-                rotation=90,
-                ha='center',
-                va='bottom',
-                color=colour,
-            )
+            text, place = name.replace('+', '\n+'), (0.5 * (block.first + block.last), 1)
+            look = {'xycoords': ('data', 'axes fraction'), 'fontsize': 6, 'color': colour}
+            beside(column[0], text, place, (0, 3), **look, **UPRIGHT)
 
 
 def level(axes, value, label=None):
-    axes.axhline(
-        value, color=GREY, linewidth=0.6, linestyle=':' if label else '-', label=label, zorder=0
-    )
+    style = ':' if label else '-'
+    axes.axhline(value, color=GREY, linewidth=0.6, linestyle=style, label=label, zorder=0)

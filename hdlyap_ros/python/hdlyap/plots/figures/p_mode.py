@@ -7,7 +7,7 @@ from hdlyap.data import space, steps, waves
 
 from .box import enclose
 from .pattern import pattern
-from .style import BLUE, GREY, VERMILION, plt, titled
+from .style import BLUE, GREY, VERMILION, panels, titled
 
 CUT = 2.5  # amplitudes shown: where a momentum is tiny, the quotient is not
 EPSILON = 1e-2  # of the mean square of a momentum component, in the quotients: HD_PMODE_EPSILON
@@ -21,25 +21,15 @@ def draw(recording):
         return None
     mode = PMode(field, clearest(field), recording.info)
     directions = space.axes(recording.info)
-    figure, grid = plt.subplots(
-        2,
-        len(directions),
-        figsize=(7.2 if len(directions) == 2 else 9.6, 4.6 if mode.along else 6.2),
-        sharex=True,
-        sharey='row' if mode.along else True,
-        constrained_layout=True,
-    )
+    size = 7.2 if len(directions) == 2 else 9.6, 4.6 if mode.along else 6.2
+    shared = {'sharex': True, 'sharey': 'row' if mode.along else True}
+    figure, grid = panels(2, len(directions), *size, **shared)
     panel = _curve if mode.along else _map
     for column, axis in enumerate(directions):
         panel(grid[0, column], mode, mode.raw[column], NOISE, f'$\\phi_{{P,{axis}}}$')
         amplitude = mode.amplitude(column)
-        panel(
-            grid[1, column],
-            mode,
-            mode.divided[column],
-            CUT,
-            f'$\\phi_{{P,{axis}}} / p_{axis}$, fit ${amplitude:.2f}\\,{mode.formula[1:]}',
-        )
+        name = f'$\\phi_{{P,{axis}}} / p_{axis}$, fit ${amplitude:.2f}\\,{mode.formula[1:]}'
+        panel(grid[1, column], mode, mode.divided[column], CUT, name)
         if mode.along:
             _modulation(grid[1, column], mode, amplitude)
     _label(grid, mode)

@@ -6,7 +6,7 @@ from hdlyap.data import steps
 from hdlyap.data.phases import apart, regression, turning
 from hdlyap.numbers import with_error
 
-from .style import GREEN, INK, ORANGE, PURPLE, SKY, plt, thinned, titled
+from .style import GREEN, INK, ORANGE, PURPLE, SKY, panels, thinned, titled
 
 COLOURS = GREEN, PURPLE, SKY, INK, ORANGE  # of steps; T and LP have others
 
@@ -19,9 +19,7 @@ def draw(recording, speeds=None):
     shown = chosen(recording)
     if not shown:
         return None
-    figure, (top, bottom) = plt.subplots(
-        2, 1, figsize=(5.6, 5.6), sharex=True, constrained_layout=True
-    )
+    figure, (top, bottom) = panels(2, 1, 5.6, 5.6, sharex=True)
     for (step, numbers), colour in zip(shown, COLOURS):
         for number in numbers:
             for time, phase in recording.phases.curves(number):

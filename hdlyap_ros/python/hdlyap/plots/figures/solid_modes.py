@@ -7,7 +7,7 @@ from hdlyap.data import space, steps
 
 from ..expected import Expected
 from .box import arrows, disks
-from .style import BLUE, GREEN, GREY, VERMILION, plt
+from .style import BLUE, GREEN, GREY, VERMILION, panels as grid_of
 from .view import View
 
 WIDTH, TALLEST = 7.6, 10.0  # of the figure [inch]
@@ -26,14 +26,8 @@ def draw_panels(panels, info):
     left = 0.6 * WIDTH
     high = max(ROW, left * view.size[1] / view.size[0] + 0.3)
     high = min(high, TALLEST / len(panels))
-    figure, rows = plt.subplots(
-        len(panels),
-        2,
-        squeeze=False,
-        figsize=(WIDTH, len(panels) * high + 0.6),
-        gridspec_kw={'width_ratios': [3, 2]},
-        constrained_layout=True,
-    )
+    how = {'squeeze': False, 'gridspec_kw': {'width_ratios': [3, 2]}}
+    figure, rows = grid_of(len(panels), 2, WIDTH, len(panels) * high + 0.6, **how)
     for (in_space, beside), panel in zip(rows, panels):
         _arrows(in_space, panel, info, view)
         _component(beside, panel, info)

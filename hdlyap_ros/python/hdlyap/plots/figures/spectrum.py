@@ -6,19 +6,8 @@ import numpy as np
 from hdlyap.data import steps
 
 from .. import paper
-from .style import (
-    GREY,
-    INK,
-    KIND_COLOURS,
-    MIXED,
-    VERMILION,
-    ZERO,
-    bars,
-    index_axis,
-    kind_colour,
-    plt,
-    titled,
-)
+from .style import GREY, INK, KIND_COLOURS, MANY, MIXED, SMALL, UPRIGHT, VERMILION, ZERO
+from .style import bars, beside, index_axis, kind_colour, panels, plt, titled
 
 # Smallest exponents in the second panel: so many at least, and at most if the steps need them; with
 # more, their names would not fit
@@ -29,15 +18,10 @@ def draw(recording):
     if recording.spectrum is None:
         return None
     if _magnified_range(recording) == (recording.spectrum.first_index, recording.last_index):
-        figure, small = plt.subplots(figsize=(4.6, 4.0), constrained_layout=True)
+        figure, small = panels(1, 1, 4.6, 4.0)
     else:
-        figure, (whole, small) = plt.subplots(
-            1,
-            2,
-            figsize=(7.6, 4.0),
-            constrained_layout=True,
-            gridspec_kw={'width_ratios': [1, 1.7]},
-        )
+        widths = {'width_ratios': [1, 1.7]}
+        figure, (whole, small) = panels(1, 2, 7.6, 4.0, gridspec_kw=widths)
         _whole(whole, recording)
         small.set_title('(b) smallest exponents', loc='left')
     _small(small, recording)
@@ -48,17 +32,8 @@ def draw(recording):
 def _whole(axes, recording):
     spectrum = recording.spectrum
     indices = np.arange(spectrum.first_index, recording.last_index + 1)
-    axes.errorbar(
-        indices,
-        spectrum.exponents,
-        bars(spectrum.std_errors),
-        fmt='.',
-        color=INK,
-        ecolor=GREY,
-        markersize=2,
-        elinewidth=0.7,
-        rasterized=True,
-    )
+    look = {'fmt': '.', 'color': INK, 'markersize': 2, **MANY}
+    axes.errorbar(indices, spectrum.exponents, bars(spectrum.std_errors), **look)
     _exponent_axes(axes)
     axes.set_title('(a) all exponents carried', loc='left')
     _frame_magnified(axes, recording)
@@ -76,17 +51,8 @@ def _frame_magnified(axes, recording):
     offset = recording.spectrum.first_index
     inside = recording.spectrum.exponents[first - offset : last + 1 - offset]
     low, high = min(0, *inside), max(inside)
-    axes.add_patch(
-        plt.Rectangle(
-            (first, low),
-            last - first,
-            high - low,
-            fill=False,
-            edgecolor=VERMILION,
-            linewidth=0.8,
-            zorder=4,
-        )
-    )
+    look = {'fill': False, 'edgecolor': VERMILION, 'linewidth': 0.8, 'zorder': 4}
+    axes.add_patch(plt.Rectangle((first, low), last - first, high - low, **look))
 
 
 def _magnified_range(recording):
@@ -110,16 +76,8 @@ def _small(axes, recording):
     colours = _colours(recording, first, last)
     for index in range(first, last + 1):
         i = index - spectrum.first_index
-        axes.errorbar(
-            index,
-            spectrum.exponents[i],
-            bars(spectrum.std_errors[i]),
-            fmt='o',
-            color=colours.get(index, INK),
-            markersize=2.6,
-            elinewidth=0.8,
-            capsize=1.5,
-        )
+        error, colour = bars(spectrum.std_errors[i]), colours.get(index, INK)
+        axes.errorbar(index, spectrum.exponents[i], error, color=colour, **SMALL)
     shown = [
         block
         for block in steps.all_blocks(recording.steps, recording.info)
@@ -156,17 +114,8 @@ def _name_block(axes, spectrum, block):
     inside = slice(block.first - spectrum.first_index, block.last + 1 - spectrum.first_index)
     highest = max(np.add(spectrum.exponents[inside], np.maximum(0, spectrum.std_errors[inside])))
     name = 'zero modes' if block.kind == steps.ZERO else block.name.replace('+', '\n+')
-    axes.annotate(
-        name,
-        (0.5 * (block.first + block.last), highest),
-        xytext=(0, 6),
-        textcoords='offset points',
-        color=kind_colour(block.kind),
-        fontsize=7,
-        rotation=90,
-        ha='center',
-        va='bottom',
-    )
+    place, colour = (0.5 * (block.first + block.last), highest), kind_colour(block.kind)
+    beside(axes, name, place, (0, 6), color=colour, fontsize=7, **UPRIGHT)
 
 
 def _room_for_names(axes):
@@ -179,20 +128,11 @@ def _draw_band(axes, step, named):
     measured step has one."""
     colour = KIND_COLOURS[step.kind]
     low, high = (step.fitted * (1 + sign * paper.FIT_ACCURACY) for sign in (-1, 1))
-    axes.fill_between(
-        [step.first - 1.2, step.last + 1.2], low, high, color=colour, alpha=0.2, linewidth=0
-    )
+    ends = step.first - 1.2, step.last + 1.2
+    axes.fill_between(ends, low, high, color=colour, alpha=0.2, linewidth=0)
     if named:
-        axes.annotate(
-            step.name,
-            (step.first - 1.2, step.fitted),
-            xytext=(-3, 0),
-            textcoords='offset points',
-            color=colour,
-            fontsize=7,
-            ha='right',
-            va='center',
-        )
+        look = {'color': colour, 'fontsize': 7, 'ha': 'right', 'va': 'center'}
+        beside(axes, step.name, (ends[0], step.fitted), (-3, 0), **look)
 
 
 def _legend(axes, blocks, bands):

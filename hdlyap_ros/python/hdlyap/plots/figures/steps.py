@@ -4,7 +4,7 @@ import numpy as np
 
 from hdlyap.data import steps
 
-from .style import GREY, INK, bars, kind_colour, plt, titled
+from .style import GREY, INK, SMALL, bars, beside, kind_colour, panels, titled
 
 MOST = 24  # steps shown: the names of more would not fit
 ROOM = 4  # for so many at least
@@ -14,20 +14,14 @@ def draw(recording):
     blocks = steps.blocks(recording.steps, recording.info)[:MOST]
     if not blocks or recording.spectrum is None:
         return None
-    figure, (top, bottom) = plt.subplots(
-        2, 1, figsize=(5.6, 5.2), sharex=True, constrained_layout=True
-    )
+    figure, (top, bottom) = panels(2, 1, 5.6, 5.2, sharex=True)
     for place, block in enumerate(blocks):
         _found(top, place, block)
         _degeneracy(bottom, place, block, recording.spectrum)
     top.axhline(100, color=GREY, linewidth=0.6)
-    top.axhline(
-        100 * recording.steps.threshold,
-        color=INK,
-        linewidth=0.8,
-        linestyle=':',
-        label='least for a step (beyond chance)',
-    )
+    label = 'least for a step (beyond chance)'
+    least = 100 * recording.steps.threshold
+    top.axhline(least, color=INK, linewidth=0.8, linestyle=':', label=label)
     top.set_ylim(0, 108)
     top.set_ylabel('multiplicity found  [% of expected]')
     top.legend(loc='lower right', bbox_to_anchor=(1, 1), borderpad=0)
@@ -44,19 +38,11 @@ def draw(recording):
 
 def _found(axes, place, block):
     """Of steps that share a set, of all together."""
-    axes.bar(
-        place, 100 * block.multiplicity / block.expected, width=0.7, color=kind_colour(block.kind)
-    )
-    axes.annotate(
-        f'{block.multiplicity:.1f}/{block.expected}',
-        (place, 100 * block.multiplicity / block.expected),
-        xytext=(0, -3),
-        textcoords='offset points',
-        ha='center',
-        va='top',
-        fontsize=6,
-        color='white',
-    )
+    share = 100 * block.multiplicity / block.expected
+    axes.bar(place, share, width=0.7, color=kind_colour(block.kind))
+    text = f'{block.multiplicity:.1f}/{block.expected}'
+    look = {'ha': 'center', 'va': 'top', 'fontsize': 6, 'color': 'white'}
+    beside(axes, text, (place, share), (0, -3), **look)
 
 
 def _degeneracy(axes, place, block, spectrum):
@@ -66,13 +52,6 @@ def _degeneracy(axes, place, block, spectrum):
     errors = bars(spectrum.std_errors[inside])
     mean = exponents.mean()
     spread = np.linspace(-0.3, 0.3, len(exponents)) if len(exponents) > 1 else [0.0]
-    axes.errorbar(
-        np.add(place, spread),
-        100 * (exponents / mean - 1),
-        None if errors is None else 100 * errors / abs(mean),
-        fmt='o',
-        markersize=2.6,
-        elinewidth=0.8,
-        capsize=1.5,
-        color=kind_colour(block.kind),
-    )
+    errors = None if errors is None else 100 * errors / abs(mean)
+    off, colour = 100 * (exponents / mean - 1), kind_colour(block.kind)
+    axes.errorbar(np.add(place, spread), off, errors, color=colour, **SMALL)

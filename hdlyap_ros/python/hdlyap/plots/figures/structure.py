@@ -21,9 +21,8 @@ def draw(recording):
         return None
     figure = plt.figure(figsize=(7, 6.2), constrained_layout=True)
     grid = figure.add_gridspec(2, 2)
-    found = [
-        block for block in steps.blocks(recording.steps, recording.info) if len(block.steps) == 1
-    ]
+    blocks = steps.blocks(recording.steps, recording.info)
+    found = [block for block in blocks if len(block.steps) == 1]
     for column, direction in enumerate(DIRECTIONS):
         axes = figure.add_subplot(grid[0, column])
         image = _ridge(axes, means, direction)
@@ -50,14 +49,10 @@ def _ridge(axes, means, direction):
     k, largest = shells(means, direction)
     around = np.concatenate(([0], k, [2 * k[-1] - (k[-2] if len(k) > 1 else 0)]))
     edges = 0.5 * (around[1:] + around[:-1])
-    image = axes.pcolormesh(
-        np.arange(largest.shape[1] + 1) + 0.5,
-        edges,
-        np.maximum(largest, 1e-3),
-        norm=LogNorm(NOISE / 2, max(largest.max(), 2 * NOISE)),
-        cmap='magma_r',
-        rasterized=True,
-    )
+    places, values = np.arange(largest.shape[1] + 1) + 0.5, np.maximum(largest, 1e-3)
+    norm = LogNorm(NOISE / 2, max(largest.max(), 2 * NOISE))
+    look = {'norm': norm, 'cmap': 'magma_r', 'rasterized': True}
+    image = axes.pcolormesh(places, edges, values, **look)
     axes.set_ylim(0, edges[-1])
     return image
 
@@ -66,14 +61,9 @@ def _classified(axes, found, direction):
     """Rings where a step of this direction says that its vectors are."""
     for block in found:
         if OF_KIND.get(block.kind) == direction:
-            axes.plot(
-                0.5 * (block.first + block.last),
-                block.steps[0].wave_number,
-                'o',
-                markersize=6,
-                markerfacecolor='none',
-                markeredgecolor=kind_colour(block.kind),
-            )
+            place = 0.5 * (block.first + block.last), block.steps[0].wave_number
+            colour = kind_colour(block.kind)
+            axes.plot(*place, 'o', markersize=6, markerfacecolor='none', markeredgecolor=colour)
 
 
 def _lines(axes, recording, found):
@@ -92,12 +82,9 @@ def _lines(axes, recording, found):
         label = rf'{block.name}: $\omega = {with_error(*found_line, decimals=4)}$'
         axes.semilogy(omega, values, color=kind_colour(kind), label=label)
         if kind == steps.LP and recording.steps.v_phases > 0:
-            axes.axvline(
-                recording.steps.v * block.steps[0].wave_number,
-                color=INK,
-                linestyle=':',
-                label=f'$v k$ of the phases, {block.name}',
-            )
+            label = f'$v k$ of the phases, {block.name}'
+            v_k = recording.steps.v * block.steps[0].wave_number
+            axes.axvline(v_k, color=INK, linestyle=':', label=label)
         shown.add(kind)
     axes.set_title('(c) lines of the lowest steps', loc='left')
     axes.set_xlabel(r'$\omega$  [rad/time unit]')

@@ -42,6 +42,27 @@ STYLE = {
     'mathtext.fontset': 'dejavusans',
     'svg.hashsalt': 'hdlyap',
 }
+# error bars of points: of a few, of many small ones, of a great many
+FEW = {'markersize': 4.5, 'elinewidth': 0.9, 'capsize': 2}
+SMALL = {'fmt': 'o', 'markersize': 2.6, 'elinewidth': 0.8, 'capsize': 1.5}
+MANY = {'ecolor': GREY, 'elinewidth': 0.7, 'rasterized': True}
+UPRIGHT = {'rotation': 90, 'ha': 'center', 'va': 'bottom'}  # text above a place
+
+
+def panels(rows, columns, width, height, **how):
+    """(figure, axes)"""
+    size = width, height
+    return plt.subplots(rows, columns, figsize=size, constrained_layout=True, **how)
+
+
+def beside(axes, text, place, aside, **look):
+    """Text so many points to the right and above a place."""
+    axes.annotate(text, place, xytext=aside, textcoords='offset points', **look)
+
+
+def instead(axes, text):
+    """Of what cannot be drawn."""
+    axes.annotate(text, (0.5, 0.5), xycoords='axes fraction', ha='center')
 
 
 def save(figure, folder, name, dpi=250):

@@ -9,7 +9,7 @@ from matplotlib.colors import to_rgb
 
 from hdlyap.data import space
 
-from .style import GREY, INK
+from .style import GREY, INK, beside
 
 RIGHT, ABOVE = np.radians([20, 18])
 ALONG = np.array([-np.sin(RIGHT), np.cos(RIGHT), 0])  # the line of sight, before it is lowered
@@ -86,22 +86,12 @@ class View:
                 continue
             ends = np.array([start, start + np.eye(3)[d]]).T
             behind = all(start[c] == hidden[c] for c in range(3) if c != d)
-            line = LineCollection(
-                [self.places(self._at(ends)).T],
-                colors=GREY,
-                linewidths=0.6,
-                linestyles=':' if behind else '-',
-                zorder=0.5 if behind else 4,
+            look = (
+                {'linestyles': ':', 'zorder': 0.5} if behind else {'linestyles': '-', 'zorder': 4}
             )
-            axes.add_collection(line)
+            line = [self.places(self._at(ends)).T]
+            axes.add_collection(LineCollection(line, colors=GREY, linewidths=0.6, **look))
         for axis, place, aside, across, up in NAMES:
-            axes.annotate(
-                f'${axis}$',
-                self.places(self._at(np.array([place]).T))[:, 0],
-                xytext=aside,
-                textcoords='offset points',
-                ha=across,
-                va=up,
-                fontsize=7,
-                color=INK,
-            )
+            (where,) = self.places(self._at(np.array([place]).T)).T
+            look = {'ha': across, 'va': up, 'fontsize': 7, 'color': INK}
+            beside(axes, f'${axis}$', where, aside, **look)
