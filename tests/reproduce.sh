@@ -21,7 +21,7 @@ refuses() {
 
 writes_results() {
     local file
-    for file in halves.bag results/{03_coordinates.png,03_ratios.csv,results_03.txt,rows_03.csv}; do
+    for file in halves.bag results/{03_coordinates.png,03_coordinates.csv,results_03.txt,rows_03.csv}; do
         [[ -s $WORK/out/$file ]] || { echo "no $file" && return 1; }
     done
     grep -q '^3\. ' "$WORK/out/results/results_03.txt"

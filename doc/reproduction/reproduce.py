@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """The figures and tables of the paper (Eckmann, Forster, Posch, Zabey 2005), measured again: from a
 folder of bags, NAME.bag for each run of runs.yaml, to FOLDER/results: a page of published beside
-measured numbers, rows.csv with the same, figures, and the numbers behind them.
+measured numbers, rows.csv with the same, figures, and the numbers that they show.
 
 Exit status: 0 nothing has failed; 1 a part has failed; 2 a wrong option."""
 

@@ -38,7 +38,7 @@ class Data:
 
 
 class Bag(bags.Bag):
-    def __init__(self, messages):
-        super().__init__('')
+    def __init__(self, messages, name=''):
+        super().__init__(f'{name}.bag')
         self.run = Data(list(messages))
         self.recording = Said(self.run)

@@ -472,7 +472,7 @@ def messages_of(name):
 
 @functools.lru_cache(None)
 def world():
-    return {name: Bag(messages_of(name)) for name in plan()}
+    return {name: Bag(messages_of(name), name) for name in plan()}
 
 
 def of_part(part, found):

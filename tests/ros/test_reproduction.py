@@ -1,5 +1,5 @@
-"""The reproduction over a made world: numbers are those of the world; every number, table and
-figure stays what it is in reproduction_made.txt
+"""The reproduction over a made world: numbers are those of the world; every number and figure
+stays what it is in reproduction_made.txt
 (test_reproduction.py --write writes it anew)."""
 # Second tier: tests/run.sh --all
 
@@ -14,7 +14,7 @@ import numpy as np
 import damaged
 import made
 import reproduced
-from drawn import digest, means
+from drawn import digest
 from hdlyap.plots import paper
 from hdlyap.plots.figures.style import STYLE, plt
 from reproduced import PARTS, Bag, of_part, plan, world
@@ -89,15 +89,13 @@ class Numbers(unittest.TestCase):
     def test_of_a_bag_without_its_topics(self):
         """Nothing is measured, drawn or judged."""
         known = {'width of a random vector'}
-        bags = {name: Bag([bag.info, made.cost(1.0)]) for name, bag in world().items()}
+        bags = {name: Bag([bag.info, made.cost(1.0)], name) for name, bag in world().items()}
         for part in PARTS:
             of_it = of_part(part, bags)
             rows = [row for one in part.claims(of_it) for row in one.rows]
             names = {row.quantity for row in rows if row.verdict != 'not measured'}
             self.assertLessEqual(names, known, part.title)
             self.assertEqual(list(part.figures(of_it)), [])
-            for _, header, lines in part.tables(of_it):
-                self.assertEqual({len(line) for line in lines} - {len(header)}, set())
 
 
 # ---- all that is said, written and drawn ---------------------------------------------------------
@@ -112,25 +110,14 @@ def summary(bags):
             for claim in part.claims(of_it):
                 yield f'{claim.verdict}: {claim.name} ({claim.values})'
                 yield from ('  ' + ' | '.join(map(str, row.values())) for row in claim.rows)
-            for name, header, lines in part.tables(of_it):
-                yield f'table {name}: {len(lines)}'
-                yield from (f'  {one}: {_column(cells)}' for one, *cells in zip(header, *lines))
             for name, figure in part.figures(of_it):
                 yield f'figure {name}'
                 yield from digest(figure)
                 plt.close(figure)
 
 
-def _column(cells):
-    """Mean of its numbers and of neighbours' products; how many texts."""
-    texts = [str(one) for one in cells if not NUMBER.fullmatch(str(one))]
-    numbers = np.array([float(one) for one in cells if NUMBER.fullmatch(str(one))])
-    said = f'{len(numbers)} {means(numbers)}' if len(numbers) else ''
-    return f'{said} {" ".join(dict.fromkeys(texts))[:60]}'.strip()
-
-
 def written():
-    worlds = world(), {name: Bag(damaged.messages(name)) for name in plan()}
+    worlds = world(), {name: Bag(damaged.messages(name), name) for name in plan()}
     for bags in worlds:
         yield from (line.rstrip().replace('\n', '; ') for line in summary(bags))
 

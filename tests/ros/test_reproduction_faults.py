@@ -336,7 +336,7 @@ def turned_by(fault):
     """{statement: its verdict} of those that turn red, or from red to green."""
     _, pattern, change, _ = fault
     names = touched(pattern)
-    bags = {**world(), **{name: Bag(change(messages_of(name))) for name in names}}
+    bags = {**world(), **{name: Bag(change(messages_of(name)), name) for name in names}}
     found = verdicts(bags, [part for part in PARTS if set(names) & set(part.runs)])
     turned = {name: one for name, one in found.items() if one != usual()[name]}
     return {name: one for name, one in turned.items() if one in (AGREES, DIFFERS)}

@@ -11,7 +11,7 @@ from hdlyap.plots import equation
 from made import LP, T
 from reproduced import box
 from study import pressure
-from study.parts import multiplicities
+from study.measures import counts
 
 PERIODIC = 'periodic'
 WALLS = ('reflecting', 'reflecting')
@@ -160,17 +160,17 @@ class Rule(unittest.TestCase):
             for kind, nx, ny in itertools.product((T, LP), range(3), range(3)):
                 if nx or ny:
                     self.assertEqual(
-                        multiplicities.prescribed(info, kind, nx, ny),
+                        counts.prescribed(info, kind, nx, ny),
                         sampled_rank(info, kind, nx, ny),
                         (boundaries, kind, nx, ny),
                     )
 
     def test_narrow(self):
         info = box(150, 0.5, 0.0075)
-        counts = [
-            multiplicities.prescribed(info, *one) for one in ((LP, 3, 0), (LP, 0, 1), (T, 1, 1))
+        found = [
+            counts.prescribed(info, *one) for one in ((LP, 3, 0), (LP, 0, 1), (T, 1, 1))
         ]
-        self.assertEqual(counts, [4, 0, 0])
+        self.assertEqual(found, [4, 0, 0])
 
 
 if __name__ == '__main__':

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+UNKNOWN = None, 0.0  # value and error of what is not in the bags
 BLOCKS = 10  # longer than what fluctuates, and still enough of them for an error
 LEAST = 4
 
@@ -24,6 +25,11 @@ def weighted(values, errors):
     chi2 = np.sum(weights * (values - mean) ** 2)
     wider = max(1.0, chi2 / max(1, len(values) - 1))
     return float(mean), float(np.sqrt(wider / weights.sum())), float(chi2)
+
+
+def difference(one, other):
+    """(value, its standard error) of two (value, error) that do not know of each other."""
+    return float(one[0] - other[0]), float(np.hypot(one[1], other[1]))
 
 
 def quotient(above, below):

@@ -14,7 +14,7 @@ class Bag:
     """Of one run."""
 
     def __init__(self, path):
-        self.path = path
+        self.path, self.name = path, os.path.basename(path).rpartition('.')[0]
 
     @cached_property
     def run(self):

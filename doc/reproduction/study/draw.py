@@ -1,10 +1,12 @@
-"""What several figures have in common."""
+"""What several figures have in common, and the numbers that one shows."""
 
 import numpy as np
+from matplotlib.container import ErrorbarContainer
 
 from hdlyap.plots.figures.style import plt
 
 SIGMA_UNIT = r'[$\sigma$/time unit]'
+SHOWN = 'panel', 'curve', 'x', 'y', 'error'
 
 
 def bars(axes, points, marker='o', colour=None, label='_', **style):
@@ -39,3 +41,37 @@ def band(axes, x, y, share, colour, **style):
 def legend(axes, **how):
     if axes.get_legend_handles_labels()[0]:
         axes.legend(**how)
+
+
+def numbers(figure):
+    """As in SHOWN: the points of all its curves and bars, with their errors."""
+    for panel, axes in enumerate(figure.axes, start=1):
+        for number, (name, *points) in enumerate(_curves(axes), start=1):
+            name = f'curve {number}' if not name or name.startswith('_') else name
+            for one in zip(*points):
+                yield panel, name, *('' if value is None else f'{value:.7g}' for value in one)
+
+
+def _curves(axes):
+    """(name, x, y, errors, None of what is not known) of each"""
+    caps, bars = set(), {}
+    for one in axes.containers:
+        if isinstance(one, ErrorbarContainer):
+            caps |= set(one.lines[1])
+            bars[one.lines[0]] = one
+        else:
+            middles = [bar.get_x() + bar.get_width() / 2 for bar in one]
+            heights = [bar.get_height() for bar in one]
+            yield one.get_label(), middles, heights, _lengths(one.errorbar, len(middles))
+    for line in axes.lines:
+        if line not in caps:
+            x, y = line.get_data()
+            yield bars.get(line, line).get_label(), x, y, _lengths(bars.get(line), len(x))
+
+
+def _lengths(container, count):
+    """Half of each bar."""
+    if container is None:
+        return count * [None]
+    found = [np.ptp(ends[:, 1]) / 2 for ends in container.lines[2][0].get_segments()]
+    return [value if value > 0 else None for value in found]

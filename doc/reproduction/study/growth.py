@@ -11,7 +11,8 @@ from . import blocks
 SAME = 1e-9  # relative: wave numbers of a square box
 SHORT = 0.2  # of the median length: shorter samples may not have forgotten what was before them
 LARGEST, MIDDLE, LAST_T, LAST_LP = 'lambda_1', 'bulk', 'smallest T', 'smallest LP'
-GROUPS = (LARGEST, MIDDLE, LAST_T, LAST_LP)
+STEPS = (LAST_T, LAST_LP)
+GROUPS = (LARGEST, MIDDLE, *STEPS)
 BULK = (0.4, 0.6)  # of the positive exponents: their middle
 
 
@@ -48,11 +49,6 @@ class Growth:
         """t (growth - its mean)^2 of each sample and index: their mean is the variance times t."""
         mean = np.average(self.local, axis=0, weights=self.time)
         return self.time[:, None] * (self.local - mean) ** 2 * self.samples / (self.samples - 1)
-
-    def spread(self):
-        """Variance times t of each index, and its error if samples were independent and normal."""
-        value = self.squares().mean(axis=0)
-        return value, value * np.sqrt(2 / (self.samples - 1))
 
     def of(self, indices):
         """(mean of the variance times t over these Lyapunov indices, its standard error from blocks

@@ -5,7 +5,7 @@ import traceback
 
 from hdlyap.plots.figures.style import STYLE, plt, save
 
-from . import files, row, table
+from . import draw, files, row, table
 
 DPI = 130  # of PNG files small enough to be kept
 COLUMNS = ('', 'published', 'measured', 'unit', 'verdict', 'caught', 'remark')
@@ -55,11 +55,13 @@ def write(parts, front, bags, results, suffix=''):
 
 
 def _part(part, bags, results):
-    """Its claims; its figures and tables are written."""
+    """Its claims; its figures and the numbers that they show are written."""
     for name, figure in part.figures(bags):
-        save(figure, results, f'{part.number:02d}_{name}', DPI)
-    for name, header, lines in part.tables(bags):
-        files.write_csv(os.path.join(results, f'{part.number:02d}_{name}.csv'), header, lines)
+        name = f'{part.number:02d}_{name}'
+        lines = list(draw.numbers(figure))
+        if lines:
+            files.write_csv(os.path.join(results, f'{name}.csv'), draw.SHOWN, lines)
+        save(figure, results, name, DPI)
     return part.claims(bags)
 
 

@@ -58,6 +58,11 @@ def velocity(info, nx, ny, state=HENDERSON):
     return float(along @ _velocities(info, lengths, state) / along.sum())
 
 
+def of_fields(density):
+    """[T13]: Z / sqrt(2), with Henderson's Z = P / (density kT)."""
+    return float(equation.compressibility(density)) / sqrt(2)
+
+
 def error(info, state=HENDERSON):
     """Of it, relative: that of the pressure; a row is known exactly."""
     if is_row(info):

@@ -6,6 +6,8 @@ from numbers import Integral, Real
 
 from hdlyap.numbers import with_error
 
+from .averages import weighted
+
 SIGMAS = 3.0  # standard errors of ours that numbers may be apart, beyond what is left open
 SEEN = 2.0  # more of them: a truth that far off turns a row red in 97.7 % of all repetitions
 # of the published number: agreeing says little if only a larger deviation would have been seen
@@ -164,6 +166,15 @@ class Scatter(Row):
         if self.is_measured:
             measured = f'{self.measured:.1f} for {self.published}'
         return (name, f'below {self.published + self.left_open:.1f}', measured, *others)
+
+
+def about_mean(quantity, pairs, remark):
+    """Scatter of (value, error) about their weighted mean; remark(mean)."""
+    if len(pairs) < 2:
+        return Scatter(quantity)
+    mean, _, chi2 = weighted(*zip(*pairs))
+    errors = [100 * error / mean for _, error in pairs]
+    return Scatter(quantity, chi2, len(pairs) - 1, errors, remark(mean))
 
 
 def critical(freedom):

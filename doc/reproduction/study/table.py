@@ -12,36 +12,55 @@ STATEMENT, FINDING, BESIDE = KINDS = 'the paper', 'ours', 'beside'
 
 
 class Part:
-    """Of the table: number, title, runs, entries; module: what measures and draws."""
+    """Of the table: number, title, entries; runs: names of all that it needs."""
 
     def __init__(self, number, entry):
-        self.number, self.title, self.name = number, entry['title'], entry['module']
-        self.runs, self.entries = flat(entry['runs']), entry['claims']
-        self.module = importlib.import_module(f'study.parts.{self.name}')
-        self.tables = self.module.tables
+        self.number, self.title, self.entries = number, entry['title'], entry['claims']
+        self._runs, self._pictures = entry['runs'], entry.get('pictures', {})
         for one in self.entries:
             usual = entry.get('kind', STATEMENT) if 'criterion' in one else BESIDE
             one.setdefault('kind', usual)
+            one.setdefault('runs', self._runs)
             if 'criterion' in one:
                 one.setdefault('of', 'ours')
+        every = [name for one in self.entries for name in flat(one['runs'])]
+        self.runs = list(dict.fromkeys([*flat(self._runs), *every]))
 
     def figures(self, bags):
         """(name, figure) of what there is to draw."""
-        return (one for one in self.module.figures(bags) if one[1] is not None)
+        for name, what in self._pictures.items():
+            figure = measured(what, self._runs, bags)
+            if figure is not None:
+                yield name, figure
 
     def claims(self, bags):
         """One for each entry."""
-        return [Claim(self.number, one, self._measured(one, bags)) for one in self.entries]
+        return [
+            Claim(self.number, one, measured(one['measure'], one['runs'], bags))
+            for one in self.entries
+        ]
 
-    def _measured(self, entry, bags):
-        name, *given = flat([entry['measure']])
-        return getattr(self.module, name)(bags, *given)
+
+def measured(what, runs, bags):
+    """What a measure gives of these runs: its name, or a list of that and what it is given."""
+    name, *given = [what] if isinstance(what, str) else what
+    return function(name)(of_runs(runs, bags), *given)
+
+
+def function(name):
+    """Of study/measures: `module.function`."""
+    module, _, name = name.partition('.')
+    return getattr(importlib.import_module(f'study.measures.{module}'), name)
+
+
+def of_runs(names, bags):
+    """The bag of a name; lists as they are."""
+    return bags[names] if isinstance(names, str) else [of_runs(one, bags) for one in names]
 
 
 def flat(names):
-    """Lists of names in a list are one."""
-    found = ([one] if isinstance(one, str) else one for one in names)
-    return [name for some in found for name in some]
+    """Names in lists of lists."""
+    return [names] if isinstance(names, str) else [name for some in names for name in flat(some)]
 
 
 def read(path=PATH):

@@ -1,0 +1,1 @@
+"""What claims.yaml names: measures, bags -> rows, and pictures, bags -> a figure."""
