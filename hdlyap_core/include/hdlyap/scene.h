@@ -24,6 +24,10 @@ extern "C" {
 /** Components of a vector of tangent space at one disk: dq, then dp. */
 enum { HD_ROWS = 2 * HD_DIM };
 
+/** Of the spaces that particles move in; arrays with one entry for each direction have room for so
+ * many. */
+enum { HD_DIMENSION_MAX = 3 };
+
 /** What holds the disks: a box with edges along the axes, or in two dimensions a circle. */
 typedef enum hd_container { HD_RECTANGLE, HD_CIRCLE } hd_container;
 
@@ -103,10 +107,15 @@ hd_scene_def hd_scene_def_default(void);
  * target hd_target_check says it. */
 HD_MUST_CHECK hd_status hd_scene_check(const hd_scene_def *def, char *message, size_t size);
 
-/** Box edges [sigma]: Lx = sqrt(N / (rho A)), Ly = A Lx, with A = aspect; of spheres Lx = cbrt(N /
- * (rho A B)), Lz = B Lx, with B = aspect_z; of the square around a circle 2 R, with R = sqrt(N /
- * (pi rho)). */
-void hd_scene_box(const hd_scene_def *def, double box[HD_DIM]);
+/** Of the space that the particles move in: directions. */
+int hd_scene_dimension(const hd_scene_def *def);
+/** Of one particle: components of its dq, and of its dp. */
+int hd_scene_coordinates(const hd_scene_def *def);
+
+/** Box edges, one for each direction [sigma]: Lx = sqrt(N / (rho A)), Ly = A Lx, with A = aspect;
+ * of spheres Lx = cbrt(N / (rho A B)), Lz = B Lx, with B = aspect_z; of the square around a circle
+ * 2 R, with R = sqrt(N / (pi rho)). */
+void hd_scene_box(const hd_scene_def *def, double *box);
 
 /** What the ends of direction d are. */
 hd_boundary hd_scene_boundary(const hd_scene_def *def, int d);

@@ -24,8 +24,8 @@ enum { HD_COS_M = 16, HD_SIN_M = 17 };
 
 /** Products; transverse fields of them; fields of the largest subspace, of LP two for each A. */
 enum {
-    HD_MODULATIONS_MAX = 1 << HD_DIM,
-    HD_TRANSVERSE_MAX = HD_MODULATIONS_MAX * (HD_DIM - 1),
+    HD_MODULATIONS_MAX = 1 << HD_DIMENSION_MAX,
+    HD_TRANSVERSE_MAX = HD_MODULATIONS_MAX * (HD_DIMENSION_MAX - 1),
     HD_FIELDS_MAX = 2 * HD_MODULATIONS_MAX
 };
 
@@ -39,18 +39,18 @@ typedef struct hd_modulations {
 /** In a box of n[d] nodes along each direction, not all 0; in a circle J_m(k r) of m =
  * n[0] with the n[1]th root of its kind at the wall: T and LP fields have waves of their own. */
 typedef struct hd_wave {
-    int n[HD_DIM];
-    double k[HD_DIM]; /**< components of the wave vector, >= 0; in a circle |k|, 0 [1/sigma] */
-    double number;    /**< |k| [1/sigma] */
+    int n[HD_DIMENSION_MAX];
+    double k[HD_DIMENSION_MAX]; /**< components of the wave vector, >= 0; in a circle |k|, 0
+                                   [1/sigma] */
+    double number;              /**< |k| [1/sigma] */
     /** Of the transverse fields: sine and n >= 1 along a reflecting direction; of spheres see
      * [T22].
      */
     hd_modulations transverse;
     hd_modulations pairs; /**< of the LP pairs: cosine along a reflecting direction */
-#if HD_DIM == 3
-    double across[2][HD_DIM]; /**< unit vectors of the transverse fields, without HD_SECOND and with
-                                 it; zeros where there are none [T22] */
-#endif
+    /** Of spheres unit vectors of the transverse fields, without HD_SECOND and with it; zeros where
+     * there are none [T22]. */
+    double across[2][HD_DIMENSION_MAX];
 } hd_wave;
 
 /** k along direction d of a box for n nodes: 2 pi n / L periodic, pi n / (L - 1) reflecting.

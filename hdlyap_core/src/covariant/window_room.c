@@ -13,7 +13,7 @@ static const double SPARE = 1.5;
 
 double hd_window_event_rate(const hd_scene_def *def)
 {
-    double box[HD_DIM], rate = 0.5 * hd_fluid_rate(def->density);
+    double box[HD_DIM], rate = 0.5 * hd_fluid_of(def)->rate(def->density);
     hd_scene_box(def, box);
     for (int d = 0; d < HD_DIM; d++)
         if (hd_scene_boundary(def, d) != HD_PERIODIC) rate += 1.0 / (box[d] - 1.0);

@@ -272,7 +272,7 @@ static double epoch_for(double rate_per_disk)
 static hd_status trajectory_prepare(hd_trajectory *tr, const hd_scene_def *def)
 {
     tr->motion.count = def->disks;
-    tr->rate = 0.5 * hd_fluid_rate(def->density) * def->disks;
+    tr->rate = 0.5 * hd_fluid_of(def)->rate(def->density) * def->disks;
     tr->epoch_length = epoch_for(2.0 * tr->rate / def->disks);
     tr->motion.wall = hd_round_wall_of(def);
     tr->motion.disk = hd_memory_alloc((size_t)tr->motion.count + 1, sizeof *tr->motion.disk);

@@ -24,20 +24,20 @@ typedef struct hd_container_row {
     void (*say)(const hd_scene_def *def, char *text, size_t size);
     /** That one disk has room, and that no parameter is given which it does not have. */
     hd_status (*check)(const hd_scene_def *def, char *message, size_t size);
-    void (*box)(const hd_scene_def *def, double box[HD_DIM]); /**< edges of the box around it */
-    double (*area)(const hd_scene_def *def);                  /**< that centres can reach */
+    void (*box)(const hd_scene_def *def, double *box); /**< edges of the box around it */
+    double (*area)(const hd_scene_def *def);           /**< that centres can reach */
     /** Pairs of zero exponents: of energy and time, and of each conserved momentum. */
     int (*symmetries)(const hd_scene_def *def);
     double (*start_distance)(const hd_scene_def *def); /**< least, of the densest start positions */
     double (*density_max)(const hd_scene_def *def);    /**< that these can hold; 0 for none */
-    void (*start)(const hd_scene_def *def, double *q); /**< q[HD_DIM disks] */
-    /** Takes out of p[HD_DIM disks] each momentum that is conserved. */
+    void (*start)(const hd_scene_def *def, double *q); /**< positions */
+    /** Takes out of the momenta p each momentum that is conserved. */
     void (*still)(const hd_scene_def *def, const double *q, double *p);
     hd_wave_limits (*limits)(const hd_scene_def *def);
     void (*waves)(const hd_scene_def *def, hd_wave_taker take, void *to); /**< in any order */
     /** So many of the longest waves, and those as long as the last one, are classified if the scene
      * does not say: steps of shorter ones seldom part from the rest. HD_WAVES_USUAL_MAX at most. */
-    int waves_usual;
+    int (*waves_usual)(const hd_scene_def *def);
 } hd_container_row;
 
 extern const hd_container_row hd_rectangle_row, hd_circle_row;

@@ -4,18 +4,19 @@
 
 #include "hdlyap/scene.h"
 
-/** kT of many: twice the kinetic energy over the directions. */
-#define HD_FLUID_TEMPERATURE (2.0 / HD_DIM)
+typedef struct hd_fluid {
+    double temperature; /**< kT of many: twice the kinetic energy over the directions */
+    double density_max; /**< closest packing */
+    double (*contact)(double density);    /**< pair correlation at contact */
+    double (*rate)(double density);       /**< collisions of one disk per time unit, Enskog */
+    double (*free_path)(double density);  /**< mean path between two of them [sigma] */
+    double (*sound)(double density);      /**< velocity of sound */
+    double (*transverse)(double density); /**< lambda / k of the transverse modes of long waves, as
+                                             measured, to some percent */
+} hd_fluid;
 
-/** Pair correlation at contact. */
-double hd_fluid_contact(double density);
-/** Collisions of one disk per time unit, Enskog. */
-double hd_fluid_rate(double density);
-/** Mean path between two of them [sigma]. */
-double hd_fluid_free_path(double density);
-/** Velocity of sound. */
-double hd_fluid_sound(double density);
-/** lambda / k of the transverse modes of long waves, as measured, to some percent. */
-double hd_fluid_transverse(double density);
+extern const hd_fluid hd_fluid_disks, hd_fluid_spheres;
+
+const hd_fluid *hd_fluid_of(const hd_scene_def *def);
 
 #endif

@@ -4,7 +4,7 @@
 
 #include "hdlyap/wave.h"
 
-/** e[2]: unit vectors across k that the walls allow, or zeros. */
-void hd_polarisations(double e[2][HD_DIM], const hd_wave *wave, const hd_scene_def *def);
+/** Of a wave in space; e: unit vectors across k that the walls allow, or zeros. */
+void hd_polarisations(double e[2][3], const hd_wave *wave, const hd_scene_def *def);
 
 #endif

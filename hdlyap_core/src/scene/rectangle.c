@@ -4,17 +4,20 @@
 
 #include "base/check.h"
 #include "scene/container.h"
-#include "scene/lattice.h"
+#include "scene/fluid.h"
+#include "scene/plane_lattice.h"
 #include "scene/polarisation.h"
+#include "scene/space_lattice.h"
 
 static const double PI = 3.14159265358979323846;
 
 /** A direction in which disks cannot pass each other has no waves of its own. */
 static const double NARROW = 2.0;
 
+static bool is_flat(const hd_scene_def *def) { return hd_scene_dimension(def) == 2; }
+
 static bool has_walls(const hd_scene_def *def, int d) { return def->boundary[d] == HD_REFLECTING; }
 
-#if HD_DIM == 3
 /** By Newton's method, from above: the same bits everywhere. */
 static double cube_root(double x)
 {
@@ -22,22 +25,20 @@ static double cube_root(double x)
     for (double next = root; (next = root - (root - x / (root * root)) / 3.0) < root;) root = next;
     return root;
 }
-#endif
 
-static void rectangle_box(const hd_scene_def *def, double box[HD_DIM])
+static void rectangle_box(const hd_scene_def *def, double *box)
 {
-#if HD_DIM == 2
-    box[0] = sqrt((double)def->disks / (def->density * def->aspect));
-#else
-    box[0] = cube_root((double)def->disks / (def->density * def->aspect * def->aspect_z));
-    box[2] = def->aspect_z * box[0];
-#endif
+    const double square = (double)def->disks / (def->density * def->aspect);
+    box[0] = is_flat(def)
+                 ? sqrt(square)
+                 : cube_root((double)def->disks / (def->density * def->aspect * def->aspect_z));
     box[1] = def->aspect * box[0];
+    if (!is_flat(def)) box[2] = def->aspect_z * box[0];
 }
 
 static void rectangle_say(const hd_scene_def *def, char *text, size_t size)
 {
-    if (HD_DIM == 2)
+    if (is_flat(def))
         snprintf(text, size, "aspect = %.15g and these boundaries", def->aspect);
     else
         snprintf(text, size, "aspect = %.15g, aspect_z = %.15g and these boundaries", def->aspect,
@@ -46,16 +47,16 @@ static void rectangle_say(const hd_scene_def *def, char *text, size_t size)
 
 static hd_status rectangle_check(const hd_scene_def *def, char *message, size_t size)
 {
-    double box[HD_DIM];
+    double box[HD_DIMENSION_MAX];
     rectangle_box(def, box);
     if (def->disks < 2)
         return hd_refuse(message, size,
                          "disks = %d: must be an integer from 2 to 1000000 in a rectangle",
                          def->disks);
-    for (int d = 0; d < HD_DIM; d++) {
+    for (int d = 0; d < hd_scene_dimension(def); d++) {
         if (has_walls(def, d) ? box[d] - 1.0 >= HD_ROOM_MIN : box[d] > 1.0) continue;
         char said[24 + 24] = "";
-        if (HD_DIM == 3) snprintf(said, sizeof said, ", aspect_z = %.15g", def->aspect_z);
+        if (!is_flat(def)) snprintf(said, sizeof said, ", aspect_z = %.15g", def->aspect_z);
         return hd_refuse(message, size,
                          "density = %.15g with disks = %d, aspect = %.15g%s: the box edge L%c = "
                          "%.15g must be above the disk diameter 1%s",
@@ -67,9 +68,9 @@ static hd_status rectangle_check(const hd_scene_def *def, char *message, size_t 
 
 static double rectangle_area(const hd_scene_def *def)
 {
-    double box[HD_DIM], area = 1.0;
+    double box[HD_DIMENSION_MAX], area = 1.0;
     rectangle_box(def, box);
-    for (int d = 0; d < HD_DIM; d++) area *= box[d] - has_walls(def, d);
+    for (int d = 0; d < hd_scene_dimension(def); d++) area *= box[d] - has_walls(def, d);
     return area;
 }
 
@@ -77,36 +78,41 @@ static double rectangle_area(const hd_scene_def *def)
 static int rectangle_symmetries(const hd_scene_def *def)
 {
     int periodic = 0;
-    for (int d = 0; d < HD_DIM; d++) periodic += !has_walls(def, d);
+    for (int d = 0; d < hd_scene_dimension(def); d++) periodic += !has_walls(def, d);
     return 1 + periodic;
 }
 
 /* ---- start ---------------------------------------------------------------------------------- */
 
-static hd_lattice lattice_of(const hd_scene_def *def)
+static double rectangle_start_distance(const hd_scene_def *def)
 {
-    double box[HD_DIM];
+    double box[HD_DIMENSION_MAX];
     rectangle_box(def, box);
-    return hd_lattice_best(def->disks, box, def->boundary);
+    return is_flat(def) ? hd_plane_lattice_best(def->disks, box, def->boundary).distance
+                        : hd_space_lattice_best(def->disks, box, def->boundary).distance;
 }
-
-static double rectangle_start_distance(const hd_scene_def *def) { return lattice_of(def).distance; }
 
 static void rectangle_start(const hd_scene_def *def, double *q)
 {
-    const hd_lattice lattice = lattice_of(def);
-    double box[HD_DIM];
+    double box[HD_DIMENSION_MAX];
     rectangle_box(def, box);
-    hd_lattice_fill(&lattice, q, def->disks, box, def->boundary);
+    if (is_flat(def)) {
+        const hd_plane_lattice best = hd_plane_lattice_best(def->disks, box, def->boundary);
+        hd_plane_lattice_fill(&best, q, def->disks, box, def->boundary);
+    } else {
+        const hd_space_lattice best = hd_space_lattice_best(def->disks, box, def->boundary);
+        hd_space_lattice_fill(&best, q, def->disks, box, def->boundary);
+    }
 }
 
 static void rectangle_still(const hd_scene_def *def, const double *q, double *p)
 {
-    double mean[HD_DIM] = {0};
+    const int dimension = hd_scene_dimension(def);
+    double mean[HD_DIMENSION_MAX] = {0};
     (void)q;
-    for (int k = 0; k < HD_DIM * def->disks; k++) mean[k % HD_DIM] += p[k];
-    for (int k = 0; k < HD_DIM * def->disks; k++)
-        if (!has_walls(def, k % HD_DIM)) p[k] -= mean[k % HD_DIM] / def->disks;
+    for (int k = 0; k < dimension * def->disks; k++) mean[k % dimension] += p[k];
+    for (int k = 0; k < dimension * def->disks; k++)
+        if (!has_walls(def, k % dimension)) p[k] -= mean[k % dimension] / def->disks;
 }
 
 /** The densest that the lattice can hold with these N, aspects and boundaries. */
@@ -114,13 +120,13 @@ static double rectangle_density_max(const hd_scene_def *def)
 {
     enum { BISECTIONS = 30 };
     hd_scene_def trial = *def;
-    double low = 0.0, high = (HD_DIM == 2 ? 2.0 / sqrt(3.0) : sqrt(2.0)) * (1.0 + 1e-9);
+    double low = 0.0, high = hd_fluid_of(def)->density_max * (1.0 + 1e-9);
     for (int k = 0; k < BISECTIONS; k++) {
-        double box[HD_DIM];
+        double box[HD_DIMENSION_MAX];
         trial.density = 0.5 * (low + high);
         rectangle_box(&trial, box);
         bool fits = true;
-        for (int d = 0; d < HD_DIM; d++) fits &= box[d] > 1.0;
+        for (int d = 0; d < hd_scene_dimension(def); d++) fits &= box[d] > 1.0;
         fits = fits && rectangle_start_distance(&trial) >= HD_START_DISTANCE_MIN;
         *(fits ? &low : &high) = trial.density;
     }
@@ -131,7 +137,7 @@ static double rectangle_density_max(const hd_scene_def *def)
 
 double hd_wave_component(const hd_scene_def *def, int d, int n)
 {
-    double box[HD_DIM];
+    double box[HD_DIMENSION_MAX];
     rectangle_box(def, box);
     return has_walls(def, d) ? PI * n / (box[d] - 1.0) : 2.0 * PI * n / box[d];
 }
@@ -144,37 +150,31 @@ static unsigned functions(const hd_scene_def *def, int d, int n, bool transverse
 }
 
 /** Products of functions of all coordinates, from the set of each. */
-static hd_modulations products(const unsigned of[HD_DIM])
+static hd_modulations products(const unsigned *of, int dimension)
 {
     hd_modulations out = {0};
-    for (unsigned bits = 0; bits < HD_MODULATIONS_MAX; bits++) {
+    for (unsigned bits = 0; bits < 1u << dimension; bits++) {
         bool there = true;
-        for (int d = 0; d < HD_DIM; d++) there &= of[d] >> (bits >> d & 1u) & 1u;
+        for (int d = 0; d < dimension; d++) there &= of[d] >> (bits >> d & 1u) & 1u;
         if (there) out.bits[out.count++] = (unsigned char)bits;
     }
     return out;
 }
 
-static hd_modulations modulations(const hd_scene_def *def, const int n[HD_DIM], bool transverse)
+static hd_modulations modulations(const hd_scene_def *def, const int *n, bool transverse)
 {
-    unsigned of[HD_DIM];
-    for (int d = 0; d < HD_DIM; d++) of[d] = functions(def, d, n[d], transverse);
-    return products(of);
+    unsigned of[HD_DIMENSION_MAX];
+    for (int d = 0; d < hd_scene_dimension(def); d++) of[d] = functions(def, d, n[d], transverse);
+    return products(of, hd_scene_dimension(def));
 }
 
-#if HD_DIM == 2
-static hd_modulations transverse_fields(const hd_scene_def *def, const int n[HD_DIM])
-{
-    return modulations(def, n, true);
-}
-#else
 /** Of each modulation of the pairs one field less than there are components that may be: a wall
  * forbids the one across it that has no nodes [T22]. */
-static hd_modulations transverse_fields(const hd_scene_def *def, const int n[HD_DIM])
+static hd_modulations transverse_in_space(const hd_scene_def *def, const int *n)
 {
     const hd_modulations scalar = modulations(def, n, false);
     int components = 0;
-    for (int d = 0; d < HD_DIM; d++) components += n[d] > 0 || !has_walls(def, d);
+    for (int d = 0; d < 3; d++) components += n[d] > 0 || !has_walls(def, d);
     hd_modulations out = {.count = scalar.count * (components - 1)};
     for (int c = 0; c < HD_TRANSVERSE_MAX && c < out.count; c++) {
         const int second = c < scalar.count ? 0 : HD_SECOND;
@@ -182,12 +182,11 @@ static hd_modulations transverse_fields(const hd_scene_def *def, const int n[HD_
     }
     return out;
 }
-#endif
 
 /** Largest number of nodes along d whose wave is not longer than `limit`. */
 static int nodes_within(const hd_scene_def *def, int d, double limit)
 {
-    double box[HD_DIM];
+    double box[HD_DIMENSION_MAX];
     rectangle_box(def, box);
     if (box[d] < NARROW) return 0;
     return (int)fmin(floor(limit * (1.0 + 1e-12) / hd_wave_component(def, d, 1)), 1e6);
@@ -195,9 +194,9 @@ static int nodes_within(const hd_scene_def *def, int d, double limit)
 
 static hd_wave_limits rectangle_limits(const hd_scene_def *def)
 {
-    const double distances = HD_DIM == 2 ? sqrt(def->density) : cbrt(def->density);
+    const double distances = is_flat(def) ? sqrt(def->density) : cbrt(def->density);
     hd_wave_limits limits = {INFINITY, PI * distances, 0};
-    for (int d = 0; d < HD_DIM; d++) {
+    for (int d = 0; d < hd_scene_dimension(def); d++) {
         const int nodes = nodes_within(def, d, limits.largest);
         if (nodes > limits.node) limits.node = nodes;
         if (nodes > 0) limits.smallest = fmin(limits.smallest, hd_wave_component(def, d, 1));
@@ -205,26 +204,24 @@ static hd_wave_limits rectangle_limits(const hd_scene_def *def)
     return limits;
 }
 
-static hd_wave wave_of(const hd_scene_def *def, const int n[HD_DIM])
+static hd_wave wave_of(const hd_scene_def *def, const int *n)
 {
     hd_wave wave = {.number = 0.0};
-    for (int d = 0; d < HD_DIM; d++) {
+    for (int d = 0; d < hd_scene_dimension(def); d++) {
         wave.n[d] = n[d];
         wave.k[d] = hd_wave_component(def, d, n[d]);
         wave.number = hypot(wave.number, wave.k[d]);
     }
-    wave.transverse = transverse_fields(def, n);
+    wave.transverse = is_flat(def) ? modulations(def, n, true) : transverse_in_space(def, n);
     wave.pairs = modulations(def, n, false);
-#if HD_DIM == 3
-    hd_polarisations(wave.across, &wave, def);
-#endif
+    if (!is_flat(def)) hd_polarisations(wave.across, &wave, def);
     return wave;
 }
 
 /** The next numbers of nodes, x first; false after the last ones. */
-static bool next_nodes(int n[HD_DIM], const int most[HD_DIM])
+static bool next_nodes(int *n, const int *most, int dimension)
 {
-    for (int d = 0; d < HD_DIM; d++) {
+    for (int d = 0; d < dimension; d++) {
         if (n[d]++ < most[d]) return true;
         n[d] = 0;
     }
@@ -234,13 +231,16 @@ static bool next_nodes(int n[HD_DIM], const int most[HD_DIM])
 static void rectangle_waves(const hd_scene_def *def, hd_wave_taker take, void *to)
 {
     const double limit = hd_wave_limit(def);
-    int most[HD_DIM], n[HD_DIM] = {0};
-    for (int d = 0; d < HD_DIM; d++) most[d] = hd_wave_nodes(def, nodes_within(def, d, limit));
-    while (next_nodes(n, most)) {
+    int most[HD_DIMENSION_MAX], n[HD_DIMENSION_MAX] = {0};
+    for (int d = 0; d < hd_scene_dimension(def); d++)
+        most[d] = hd_wave_nodes(def, nodes_within(def, d, limit));
+    while (next_nodes(n, most, hd_scene_dimension(def))) {
         const hd_wave wave = wave_of(def, n);
         if (!(wave.number > limit * (1.0 + 1e-12))) take(to, &wave);
     }
 }
+
+static int rectangle_waves_usual(const hd_scene_def *def) { return is_flat(def) ? 8 : 26; }
 
 const hd_container_row hd_rectangle_row = {.say = rectangle_say,
                                            .check = rectangle_check,
@@ -253,4 +253,4 @@ const hd_container_row hd_rectangle_row = {.say = rectangle_say,
                                            .still = rectangle_still,
                                            .limits = rectangle_limits,
                                            .waves = rectangle_waves,
-                                           .waves_usual = HD_DIM == 2 ? 8 : 26};
+                                           .waves_usual = rectangle_waves_usual};

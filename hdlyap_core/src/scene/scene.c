@@ -18,18 +18,20 @@ hd_scene_def hd_scene_def_default(void)
     return def;
 }
 
-void hd_scene_box(const hd_scene_def *def, double box[HD_DIM])
-{
-    hd_container_of(def)->box(def, box);
-}
+int hd_scene_dimension(const hd_scene_def *def) { return def->dimensions; }
+
+int hd_scene_coordinates(const hd_scene_def *def) { return def->dimensions; }
+
+void hd_scene_box(const hd_scene_def *def, double *box) { hd_container_of(def)->box(def, box); }
 
 const hd_container_row *hd_container_of(const hd_scene_def *def)
 {
-#if HD_DIM == 2
-    if (def->container == HD_CIRCLE) return &hd_circle_row;
-#endif
-    (void)def;
-    return &hd_rectangle_row;
+    return def->container == HD_CIRCLE ? &hd_circle_row : &hd_rectangle_row;
+}
+
+const hd_fluid *hd_fluid_of(const hd_scene_def *def)
+{
+    return hd_scene_dimension(def) == 2 ? &hd_fluid_disks : &hd_fluid_spheres;
 }
 
 hd_boundary hd_scene_boundary(const hd_scene_def *def, int d)
@@ -39,22 +41,30 @@ hd_boundary hd_scene_boundary(const hd_scene_def *def, int d)
 
 double hd_scene_sound_crossing(const hd_scene_def *def)
 {
-    double box[HD_DIM], longest = 0.0;
+    double box[HD_DIMENSION_MAX], longest = 0.0;
     hd_scene_box(def, box);
-    for (int d = 0; d < HD_DIM; d++) longest = fmax(longest, box[d]);
-    return longest / hd_fluid_sound(def->density);
+    for (int d = 0; d < hd_scene_dimension(def); d++) longest = fmax(longest, box[d]);
+    return longest / hd_fluid_of(def)->sound(def->density);
 }
 
-double hd_scene_mean_free_path(const hd_scene_def *def) { return hd_fluid_free_path(def->density); }
+double hd_scene_mean_free_path(const hd_scene_def *def)
+{
+    return hd_fluid_of(def)->free_path(def->density);
+}
 
 int hd_scene_zero_exponents(const hd_scene_def *def)
 {
     return 2 * hd_container_of(def)->symmetries(def);
 }
 
+static int all_exponents(const hd_scene_def *def)
+{
+    return 2 * hd_scene_coordinates(def) * def->disks;
+}
+
 int hd_scene_vectors(const hd_scene_def *def)
 {
-    const int all = HD_ROWS * def->disks;
+    const int all = all_exponents(def);
     if (def->exponents <= HD_EXPONENTS_ALL) return all;
     if (def->exponents == HD_EXPONENTS_POSITIVE) return hd_scene_positive_exponents(def);
     return def->exponents;
@@ -62,7 +72,7 @@ int hd_scene_vectors(const hd_scene_def *def)
 
 int hd_scene_positive_exponents(const hd_scene_def *def)
 {
-    return (HD_ROWS * def->disks - hd_scene_zero_exponents(def)) / 2;
+    return (all_exponents(def) - hd_scene_zero_exponents(def)) / 2;
 }
 
 int hd_scene_carried(const hd_scene_def *def)
@@ -83,7 +93,7 @@ double hd_scene_warmup(const hd_scene_def *def)
     if (def->exponents == HD_EXPONENTS_NONE) return 0.0;
     const bool leading = hd_scene_vectors(def) < hd_scene_positive_exponents(def);
     const double k = hd_wave_limits_of(def).smallest; /* INFINITY: no step, nothing parts */
-    const double parting = FOLDS / (GAP * hd_fluid_transverse(def->density) * k);
+    const double parting = FOLDS / (GAP * hd_fluid_of(def)->transverse(def->density) * k);
     const double time = leading ? WARMUP_LEADING : fmax(parting, WARMUP_MIN);
     return def->observe & HD_OBSERVE_COVARIANT ? fmax(time, def->covariant_transient) : time;
 }

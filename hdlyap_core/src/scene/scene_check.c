@@ -11,11 +11,10 @@
 enum { SAID = 96 }; /* of a container */
 
 /** Mean distance of two disks: 1 over this of the density. */
-#if HD_DIM == 2
-#define ROOT "sqrt"
-#else
-#define ROOT "cbrt"
-#endif
+static const char *root(const hd_scene_def *def)
+{
+    return hd_scene_dimension(def) == 2 ? "sqrt" : "cbrt";
+}
 
 static hd_status refuse_value(const hd_parameter *row, const hd_scene_def *def, char *message,
                               size_t size)
@@ -50,10 +49,10 @@ static hd_status check_ranges(const hd_scene_def *def, bool covariant, char *mes
 static hd_status check_dimensions(const hd_scene_def *def, char *message, size_t size)
 {
     const hd_scene_def usual = hd_scene_def_default();
-    if (HD_DIM == 2 && def->aspect_z != usual.aspect_z)
+    if (hd_scene_dimension(def) == 2 && def->aspect_z != usual.aspect_z)
         return hd_refuse(message, size, "aspect_z = %.15g: must not be given with dimensions = 2",
                          def->aspect_z);
-    if (HD_DIM == 2 && def->boundary[2] != usual.boundary[2])
+    if (hd_scene_dimension(def) == 2 && def->boundary[2] != usual.boundary[2])
         return hd_refuse(message, size,
                          "boundary_z = reflecting: must not be given with dimensions = 2");
     return HD_OK;
@@ -80,15 +79,14 @@ static hd_status check_waves(const hd_scene_def *def, char *message, size_t size
         return hd_refuse(
             message, size,
             "max_mode_number = %d: must be at most %d with disks = %d, density = %.15g, %s: a "
-            "shorter wave than two mean distances, 2 / " ROOT "(density), is not sampled",
-            def->max_mode_number, limits.node, def->disks, def->density, said);
+            "shorter wave than two mean distances, 2 / %s(density), is not sampled",
+            def->max_mode_number, limits.node, def->disks, def->density, said, root(def));
     const double k = def->max_wave_number;
     if (k > 0 && !(k >= limits.smallest && k <= limits.largest))
         return hd_refuse(message, size,
                          "max_wave_number = %.15g: must be from %.6g, the longest wave, to %.6g: "
-                         "a shorter one than two mean distances, 2 / " ROOT
-                         "(density), is not sampled",
-                         k, limits.smallest, limits.largest);
+                         "a shorter one than two mean distances, 2 / %s(density), is not sampled",
+                         k, limits.smallest, limits.largest, root(def));
     return HD_OK;
 }
 
@@ -124,13 +122,14 @@ static hd_status check_covariant(const hd_scene_def *def, char *message, size_t 
 hd_status hd_scene_check(const hd_scene_def *def, char *message, size_t size)
 {
     const hd_container_row *container = hd_container_of(def);
+    const int of_disk = 2 * hd_scene_coordinates(def);
     HD_TRY(hd_scene_check_box(def, message, size));
-    if (def->exponents < HD_EXPONENTS_ALL_INDEPENDENT || def->exponents > HD_ROWS * def->disks)
+    if (def->exponents < HD_EXPONENTS_ALL_INDEPENDENT || def->exponents > of_disk * def->disks)
         return hd_refuse(
             message, size,
             "exponents = %d: must be positive, all, all_independent, none or from 1 to %d "
             "disks = %d",
-            def->exponents, HD_ROWS, HD_ROWS * def->disks);
+            def->exponents, of_disk, of_disk * def->disks);
     if (def->exponents == HD_EXPONENTS_POSITIVE && hd_scene_vectors(def) == 0)
         return hd_refuse(message, size,
                          "exponents = positive: must be all, all_independent, none or from 1 to 4 "

@@ -10,7 +10,7 @@ static int compare_waves(const void *a, const void *b)
 {
     const hd_wave *x = a, *y = b;
     if (x->number != y->number) return x->number < y->number ? -1 : 1;
-    int d = HD_DIM - 1;
+    int d = HD_DIMENSION_MAX - 1; /* of disks all are 0 there */
     while (d > 0 && x->n[d] == y->n[d]) d--;
     return x->n[d] - y->n[d];
 }
@@ -42,7 +42,7 @@ static void take_longer(void *to, const hd_wave *wave)
 static double usual_limit(const hd_scene_def *def)
 {
     const hd_container_row *container = hd_container_of(def);
-    longest l = {.count = container->waves_usual};
+    longest l = {.count = container->waves_usual(def)};
     hd_scene_def few = *def;
     few.max_mode_number = l.count;
     for (int k = 0; k < l.count; k++) l.number[k] = INFINITY;

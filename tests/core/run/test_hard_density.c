@@ -2,7 +2,7 @@
  * twin has them, energy, overlap, collision rate, and a whole spectrum that is finite, sums to zero
  * and pairs. */
 #include "runs.h"
-#include "scene/lattice.h"
+#include "scene/plane_lattice.h"
 #include "prepared.h"
 #include "base/random.h"
 #include "twin.h"

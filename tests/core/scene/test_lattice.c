@@ -1,6 +1,6 @@
 /** Lattice: exactly N disks inside the box, none closer than a diameter, as dense as promised. */
 #include "scene/container.h"
-#include "scene/lattice.h"
+#include "scene/plane_lattice.h"
 #include "testing.h"
 
 /** A site is a product and a sum of numbers up to L. */
@@ -45,11 +45,11 @@ static double check_lattice(const hd_scene_def *def)
 {
     double box[2];
     hd_scene_box(def, box);
-    const hd_lattice best = hd_lattice_best(def->disks, box, def->boundary);
+    const hd_plane_lattice best = hd_plane_lattice_best(def->disks, box, def->boundary);
     HEAP double *q = calloc(2 * (size_t)def->disks + 1, sizeof *q);
     assert_non_null(q);
     for (int k = 0; k <= 2 * def->disks; k++) q[k] = NAN;
-    hd_lattice_fill(&best, q, def->disks, box, def->boundary);
+    hd_plane_lattice_fill(&best, q, def->disks, box, def->boundary);
     check_sites(q, def, box);
     const double distance = smallest_distance(q, def->disks, box, def->boundary);
     if (!(distance >= best.distance - position_rounding(box)))
@@ -94,7 +94,7 @@ TEST(maximum_is_where_disks_touch)
             def.density = densest * (1.0 + close);
             hd_scene_box(&def, box);
             const int wide = box[0] > 1.0 && box[1] > 1.0;
-            assert_true(!wide || hd_lattice_best(n, box, def.boundary).distance < 1.0);
+            assert_true(!wide || hd_plane_lattice_best(n, box, def.boundary).distance < 1.0);
             def.density = densest;
             CHECK_CLOSE(check_lattice(&def), 1.0, wide ? close : INFINITY);
         }
@@ -143,11 +143,12 @@ TEST(papers_scenes_fit)
 TEST(spare_sites_are_spread)
 {
     const hd_scene_def def = scene_of(61, 0.4, 1.0, P, P, 1);
-    const hd_lattice lattice = {.along = 0, .rows = 8, .columns = 8, .column = 1.5, .row = 1.5};
+    const hd_plane_lattice lattice = {
+        .along = 0, .rows = 8, .columns = 8, .column = 1.5, .row = 1.5};
     const double box[2] = {12.0, 12.0};
     double q[2 * 61];
     int in_half = 0;
-    hd_lattice_fill(&lattice, q, 61, box, def.boundary);
+    hd_plane_lattice_fill(&lattice, q, 61, box, def.boundary);
     for (int i = 0; i < 61; i++) in_half += q[2 * i + 1] < 6.0;
     assert_true(in_half == 30 || in_half == 31);
 }

@@ -1,7 +1,7 @@
 /** Start lattices of spheres: exactly N of them inside the box, none closer than a diameter, as
  * dense as promised; and the box itself. */
 #include "scene/container.h"
-#include "scene/lattice.h"
+#include "scene/space_lattice.h"
 #include "testing.h"
 
 enum { MAX = 500 };
@@ -29,9 +29,9 @@ static double check_lattice(const hd_scene_def *def)
 {
     double box[3], q[3 * MAX + 1];
     hd_scene_box(def, box);
-    const hd_lattice best = hd_lattice_best(def->disks, box, def->boundary);
+    const hd_space_lattice best = hd_space_lattice_best(def->disks, box, def->boundary);
     for (int k = 0; k <= 3 * def->disks; k++) q[k] = NAN;
-    hd_lattice_fill(&best, q, def->disks, box, def->boundary);
+    hd_space_lattice_fill(&best, q, def->disks, box, def->boundary);
     assert_true(isnan(q[3 * def->disks])); /* not one more than asked for */
     for (int k = 0; k < 3 * def->disks; k++) {
         const double reach = def->boundary[k % 3] == R ? 0.5 : 0.0;
@@ -85,8 +85,8 @@ TEST(maximum_is_where_spheres_touch)
             def.density = most + close;
             hd_scene_box(&def, box);
             const bool wide = fmin(box[0], fmin(box[1], box[2])) > 1.0;
-            assert_true(!wide ||
-                        hd_lattice_best(n, box, def.boundary).distance < HD_START_DISTANCE_MIN);
+            assert_true(!wide || hd_space_lattice_best(n, box, def.boundary).distance <
+                                     HD_START_DISTANCE_MIN);
             def.density = most;
             CHECK_CLOSE(check_lattice(&def), 1.0, wide ? close * (1.0 + 1.0 / most) : INFINITY);
         }

@@ -1,6 +1,6 @@
 /** Scene -> start positions of spheres: grids of about the same spacing along all directions, of
  * which the sites of one kind of lattice are taken. Arithmetic is + - * / sqrt only. */
-#include "scene/lattice.h"
+#include "scene/space_lattice.h"
 
 #include <math.h>
 #include <stdint.h>
@@ -15,7 +15,7 @@ static bool is_site(int kind, int x, int y, int z)
     return kind == HD_LATTICE_SIMPLE || (x % 2 == y % 2 && y % 2 == z % 2);
 }
 
-static int64_t site_count(int kind, const int n[HD_DIM])
+static int64_t site_count(int kind, const int *n)
 {
     const int64_t all = (int64_t)n[0] * n[1] * n[2];
     const int64_t even = (int64_t)((n[0] + 1) / 2) * ((n[1] + 1) / 2) * ((n[2] + 1) / 2);
@@ -32,21 +32,21 @@ static double spacing(double length, int count, hd_boundary boundary)
 }
 
 /** Of two sites that differ by so many points, where both can be. */
-static double apart(const hd_lattice *l, const int step[HD_DIM], const hd_boundary boundary[HD_DIM])
+static double apart(const hd_space_lattice *l, const int *step, const hd_boundary *boundary)
 {
     double square = 0.0;
-    for (int d = 0; d < HD_DIM; d++) {
+    for (int d = 0; d < 3; d++) {
         if (step[d] >= l->size[d] && boundary[d] != HD_PERIODIC) return INFINITY;
         square += step[d] * step[d] * l->spacing[d] * l->spacing[d];
     }
     return sqrt(square);
 }
 
-static double smallest_distance(const hd_lattice *l, const hd_boundary boundary[HD_DIM])
+static double smallest_distance(const hd_space_lattice *l, const hd_boundary *boundary)
 {
     double least = INFINITY;
     for (int k = 1; k < 27; k++) {
-        const int step[HD_DIM] = {k % 3, k / 3 % 3, k / 9};
+        const int step[3] = {k % 3, k / 3 % 3, k / 9};
         if (is_site(l->kind, step[0], step[1], step[2]))
             least = fmin(least, apart(l, step, boundary));
     }
@@ -54,19 +54,19 @@ static double smallest_distance(const hd_lattice *l, const hd_boundary boundary[
 }
 
 /** Every other point must meet its likes through the image. */
-static bool is_even(const hd_lattice *l, const hd_boundary boundary[HD_DIM])
+static bool is_even(const hd_space_lattice *l, const hd_boundary *boundary)
 {
-    for (int d = 0; d < HD_DIM; d++)
+    for (int d = 0; d < 3; d++)
         if (l->kind != HD_LATTICE_SIMPLE && boundary[d] == HD_PERIODIC && l->size[d] % 2 != 0)
             return false;
     return true;
 }
 
-static void try_size(hd_lattice *best, int disks, int kind, const int size[HD_DIM],
-                     const double box[HD_DIM], const hd_boundary boundary[HD_DIM])
+static void try_size(hd_space_lattice *best, int disks, int kind, const int *size,
+                     const double *box, const hd_boundary *boundary)
 {
-    hd_lattice l = {.kind = kind};
-    for (int d = 0; d < HD_DIM; d++) {
+    hd_space_lattice l = {.kind = kind};
+    for (int d = 0; d < 3; d++) {
         if (size[d] < 1) return;
         l.size[d] = size[d];
         l.spacing[d] = spacing(box[d], size[d], boundary[d]);
@@ -82,10 +82,9 @@ typedef struct held {
 } held;
 
 /** Points of the finest grid whose spacing is not below `least`. */
-static void size_of(int size[HD_DIM], double least, held h, const double box[HD_DIM],
-                    const hd_boundary boundary[HD_DIM])
+static void size_of(int *size, double least, held h, const double *box, const hd_boundary *boundary)
 {
-    for (int d = 0; d < HD_DIM; d++) {
+    for (int d = 0; d < 3; d++) {
         const double room = boundary[d] == HD_PERIODIC ? box[d] / least
                                                        : (box[d] - 1.0) / least + 1;
         size[d] = d == h.axis ? h.points : (int)fmax(1.0, fmin(floor(room), 4e6));
@@ -93,14 +92,14 @@ static void size_of(int size[HD_DIM], double least, held h, const double box[HD_
 }
 
 /** A spacing at which just enough sites of a kind fit. */
-static double spacing_of(int disks, int kind, held h, const double box[HD_DIM],
-                         const hd_boundary boundary[HD_DIM])
+static double spacing_of(int disks, int kind, held h, const double *box,
+                         const hd_boundary *boundary)
 {
     enum { BISECTIONS = 60 };
     double low = 0.0, high = fmax(box[0], fmax(box[1], box[2]));
     for (int k = 0; k < BISECTIONS; k++) {
         const double middle = 0.5 * (low + high);
-        int size[HD_DIM];
+        int size[3];
         size_of(size, middle, h, box, boundary);
         const double sites = (double)size[0] * size[1] * size[2];
         const bool enough = sites > 8.0 * disks || site_count(kind, size) >= disks;
@@ -109,57 +108,56 @@ static double spacing_of(int disks, int kind, held h, const double box[HD_DIM],
     return low;
 }
 
-static void try_around(hd_lattice *best, int disks, int kind, held h, const double box[HD_DIM],
-                       const hd_boundary boundary[HD_DIM])
+static void try_around(hd_space_lattice *best, int disks, int kind, held h, const double *box,
+                       const hd_boundary *boundary)
 {
     enum { AROUND = 3, WIDTH = 2 * AROUND + 1 }; /* points more or fewer along each direction */
-    int size[HD_DIM];
+    int size[3];
     size_of(size, spacing_of(disks, kind, h, box, boundary), h, box, boundary);
     for (int k = 0; k < WIDTH * WIDTH * WIDTH; k++) {
-        const int near[HD_DIM] = {size[0] + k % WIDTH - AROUND,
-                                  size[1] + k / WIDTH % WIDTH - AROUND,
-                                  size[2] + k / (WIDTH * WIDTH) - AROUND};
+        const int near[3] = {size[0] + k % WIDTH - AROUND, size[1] + k / WIDTH % WIDTH - AROUND,
+                             size[2] + k / (WIDTH * WIDTH) - AROUND};
         if (h.axis < 0 || near[h.axis] == h.points)
             try_size(best, disks, kind, near, box, boundary);
     }
 }
 
 /** Between walls a few layers may lie farther apart than their sites. */
-hd_lattice hd_lattice_best(int disks, const double box[HD_DIM], const hd_boundary boundary[HD_DIM])
+hd_space_lattice hd_space_lattice_best(int disks, const double *box, const hd_boundary *boundary)
 {
     enum { LAYERS = 6 };
-    hd_lattice best = {.distance = -1.0};
+    hd_space_lattice best = {.distance = -1.0};
     for (int kind = 0; kind < KINDS; kind++) {
         try_around(&best, disks, kind, (held){-1, 0}, box, boundary);
-        for (int axis = 0; axis < HD_DIM; axis++)
+        for (int axis = 0; axis < 3; axis++)
             for (int layers = 1; layers <= LAYERS && boundary[axis] != HD_PERIODIC; layers++)
                 try_around(&best, disks, kind, (held){axis, layers}, box, boundary);
     }
     return best;
 }
 
-static void place(const hd_lattice *l, double q[HD_DIM], const int at[HD_DIM],
-                  const double box[HD_DIM], const hd_boundary boundary[HD_DIM])
+static void place(const hd_space_lattice *l, double *q, const int *at, const double *box,
+                  const hd_boundary *boundary)
 {
-    for (int d = 0; d < HD_DIM; d++) {
+    for (int d = 0; d < 3; d++) {
         const bool periodic = boundary[d] == HD_PERIODIC;
         const double along = (at[d] + (periodic ? 0.5 : 0.0)) * l->spacing[d];
         q[d] = periodic ? along : fmin(0.5 + along, box[d] - 0.5); /* rounding of the last */
     }
 }
 
-void hd_lattice_fill(const hd_lattice *l, double *q, int disks, const double box[HD_DIM],
-                     const hd_boundary boundary[HD_DIM])
+void hd_space_lattice_fill(const hd_space_lattice *l, double *q, int disks, const double *box,
+                           const hd_boundary *boundary)
 {
     const int64_t sites = site_count(l->kind, l->size);
     int64_t site = 0;
-    int at[HD_DIM];
+    int at[3];
     for (at[2] = 0; at[2] < l->size[2]; at[2]++)
         for (at[1] = 0; at[1] < l->size[1]; at[1]++)
             for (at[0] = 0; at[0] < l->size[0]; at[0]++) {
                 if (!is_site(l->kind, at[0], at[1], at[2])) continue;
                 if (hd_site_is_spare(site++, sites, disks)) continue;
                 place(l, q, at, box, boundary);
-                q += HD_DIM;
+                q += 3;
             }
 }

@@ -1,6 +1,6 @@
 /** Scene -> start positions of disks. All kinds of rows are tried; arithmetic is + - * / sqrt only.
  */
-#include "scene/lattice.h"
+#include "scene/plane_lattice.h"
 
 #include <math.h>
 #include <stdint.h>
@@ -22,7 +22,7 @@ static double spacing(double length, int64_t count, int half, hd_boundary bounda
     return gaps > 0 ? (length - 1.0) / gaps : length;
 }
 
-static double smallest_distance(const hd_lattice *l, hd_boundary across)
+static double smallest_distance(const hd_plane_lattice *l, hd_boundary across)
 {
     double d = l->columns > 1 ? l->column : INFINITY;
     if (l->rows == 1) return d;
@@ -34,11 +34,12 @@ static double smallest_distance(const hd_lattice *l, hd_boundary across)
     return d;
 }
 
-static void try_rows(hd_lattice *best, int disks, int rows, int along, int kind,
-                     const double box[HD_DIM], const hd_boundary boundary[HD_DIM])
+static void try_rows(hd_plane_lattice *best, int disks, int rows, int along, int kind,
+                     const double *box, const hd_boundary *boundary)
 {
     const hd_boundary in_row = boundary[along], across = boundary[1 - along];
-    hd_lattice l = {.along = along, .rows = rows, .staggered = kind > 0, .odd_short = kind == 2};
+    hd_plane_lattice l = {
+        .along = along, .rows = rows, .staggered = kind > 0, .odd_short = kind == 2};
     int64_t columns = (disks + rows - 1) / rows;
     if (site_count(rows, columns, l.odd_short) < disks) columns++;
     if (l.odd_short && (in_row == HD_PERIODIC || columns < 2)) return;
@@ -49,10 +50,10 @@ static void try_rows(hd_lattice *best, int disks, int rows, int along, int kind,
     if (l.distance > best->distance) *best = l;
 }
 
-hd_lattice hd_lattice_best(int disks, const double box[HD_DIM], const hd_boundary boundary[HD_DIM])
+hd_plane_lattice hd_plane_lattice_best(int disks, const double *box, const hd_boundary *boundary)
 {
     enum { ROW_KINDS = 3 }; /* in line, staggered, staggered with short odd rows */
-    hd_lattice best = {.distance = -1.0};
+    hd_plane_lattice best = {.distance = -1.0};
     for (int along = 0; along < 2; along++)
         for (int rows = 1; rows <= disks; rows++)
             for (int kind = 0; kind < ROW_KINDS; kind++)
@@ -60,8 +61,8 @@ hd_lattice hd_lattice_best(int disks, const double box[HD_DIM], const hd_boundar
     return best;
 }
 
-static void place(const hd_lattice *l, double q[HD_DIM], int row, int column,
-                  const double box[HD_DIM], const hd_boundary boundary[HD_DIM])
+static void place(const hd_plane_lattice *l, double *q, int row, int column, const double *box,
+                  const hd_boundary *boundary)
 {
     const int along = l->along, across = 1 - along;
     const double shift = l->staggered && row % 2 ? 0.5 : 0.0;
@@ -69,13 +70,13 @@ static void place(const hd_lattice *l, double q[HD_DIM], int row, int column,
     const double off_row = (double)row * l->row;
     q[along] = boundary[along] == HD_PERIODIC ? in_row + 0.25 * l->column : 0.5 + in_row;
     q[across] = boundary[across] == HD_PERIODIC ? off_row + 0.5 * l->row : 0.5 + off_row;
-    for (int d = 0; d < HD_DIM; d++)
+    for (int d = 0; d < 2; d++)
         if (boundary[d] == HD_REFLECTING)
             q[d] = fmin(q[d], box[d] - 0.5); /* rounding of the last */
 }
 
-void hd_lattice_fill(const hd_lattice *lattice, double *q, int disks, const double box[HD_DIM],
-                     const hd_boundary boundary[HD_DIM])
+void hd_plane_lattice_fill(const hd_plane_lattice *lattice, double *q, int disks, const double *box,
+                           const hd_boundary *boundary)
 {
     const int64_t sites = site_count(lattice->rows, lattice->columns, lattice->odd_short);
     int64_t site = 0;

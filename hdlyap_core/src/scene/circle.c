@@ -17,7 +17,7 @@ double hd_circle_radius(const hd_scene_def *def) { return sqrt(def->disks / (PI 
 
 static double reach_of(const hd_scene_def *def) { return hd_circle_radius(def) - 0.5; }
 
-static void circle_box(const hd_scene_def *def, double box[HD_DIM])
+static void circle_box(const hd_scene_def *def, double *box)
 {
     box[0] = box[1] = 2.0 * hd_circle_radius(def);
 }
@@ -44,7 +44,7 @@ static hd_status check_parameters(const hd_scene_def *def, char *message, size_t
     if (def->aspect != usual.aspect)
         return hd_refuse(message, size, "aspect = %.15g: must not be given with container = circle",
                          def->aspect);
-    for (int d = 0; d < HD_DIM; d++)
+    for (int d = 0; d < 2; d++)
         if (def->boundary[d] != usual.boundary[d])
             return hd_refuse(message, size,
                              "boundary_%c = reflecting: must not be given with container = circle, "
@@ -104,7 +104,7 @@ static double sites_within(const hexagons *h, double square)
 static hexagons densest(int disks)
 {
     enum { POINTS = 3, BISECTIONS = 100 };
-    static const double point[POINTS][HD_DIM] = {{0, 0}, {0.5, 0}, {0.5, 0.28867513459481288225}};
+    static const double point[POINTS][2] = {{0, 0}, {0.5, 0}, {0.5, 0.28867513459481288225}};
     hexagons best = {.square = INFINITY};
     for (int k = 0; k < POINTS; k++) {
         hexagons h = {point[k][0], point[k][1], 0.0};
@@ -162,13 +162,13 @@ static void circle_still(const hd_scene_def *def, const double *q, double *p)
 {
     const double centre = hd_circle_radius(def);
     double angular = 0.0, inertia = 0.0;
-    for (int k = 0; k < HD_DIM * def->disks; k += HD_DIM) {
+    for (int k = 0; k < 2 * def->disks; k += 2) {
         const double x = q[k] - centre, y = q[k + 1] - centre;
         angular += x * p[k + 1] - y * p[k];
         inertia += x * x + y * y;
     }
     const double rate = inertia > 0 ? angular / inertia : 0.0;
-    for (int k = 0; k < HD_DIM * def->disks; k += HD_DIM) {
+    for (int k = 0; k < 2 * def->disks; k += 2) {
         p[k] += rate * (q[k + 1] - centre);
         p[k + 1] -= rate * (q[k] - centre);
     }
@@ -255,6 +255,12 @@ static void circle_waves(const hd_scene_def *def, hd_wave_taker take, void *to)
         }
 }
 
+static int circle_waves_usual(const hd_scene_def *def)
+{
+    (void)def;
+    return 12;
+}
+
 const hd_container_row hd_circle_row = {.say = circle_say,
                                         .check = circle_check,
                                         .box = circle_box,
@@ -266,4 +272,4 @@ const hd_container_row hd_circle_row = {.say = circle_say,
                                         .still = circle_still,
                                         .limits = circle_limits,
                                         .waves = circle_waves,
-                                        .waves_usual = 12};
+                                        .waves_usual = circle_waves_usual};

@@ -3,34 +3,34 @@
 
 #include <math.h>
 
-static void cross(double out[HD_DIM], const double a[HD_DIM], const double b[HD_DIM])
+static void cross(double *out, const double *a, const double *b)
 {
-    for (int d = 0; d < HD_DIM; d++)
+    for (int d = 0; d < 3; d++)
         out[d] = a[(d + 1) % 3] * b[(d + 2) % 3] - a[(d + 2) % 3] * b[(d + 1) % 3];
 }
 
 /** A vector of no length stays as it is. */
-static double normalise(double a[HD_DIM])
+static double normalise(double *a)
 {
     const double length = hypot(hypot(a[0], a[1]), a[2]);
-    for (int d = 0; d < HD_DIM && length > 0; d++) a[d] /= length;
+    for (int d = 0; d < 3 && length > 0; d++) a[d] /= length;
     return length;
 }
 
 /** Nothing goes through a wall: across the direction of one that has no nodes, and then there is no
  * second one; else the first is across z. */
-void hd_polarisations(double e[2][HD_DIM], const hd_wave *wave, const hd_scene_def *def)
+void hd_polarisations(double e[2][3], const hd_wave *wave, const hd_scene_def *def)
 {
-    double unit[HD_DIM] = {0.0};
-    int axis = HD_DIM - 1, forbidden = 0;
-    for (int d = 0; d < HD_DIM; d++)
+    double unit[3] = {0.0};
+    int axis = 2, forbidden = 0;
+    for (int d = 0; d < 3; d++)
         if (wave->n[d] == 0 && def->boundary[d] == HD_REFLECTING) axis = d, forbidden++;
     unit[axis] = 1.0;
     cross(e[0], unit, wave->k);
     if (normalise(e[0]) == 0) e[0][0] = 1.0;
     cross(e[1], wave->k, e[0]);
     normalise(e[1]);
-    for (int d = 0; d < HD_DIM; d++) {
+    for (int d = 0; d < 3; d++) {
         if (forbidden > 0) e[1][d] = 0.0;
         if (forbidden > 1) e[0][d] = 0.0;
     }

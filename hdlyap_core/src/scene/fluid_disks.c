@@ -6,25 +6,25 @@
 
 static const double PI = 3.14159265358979323846;
 
-double hd_fluid_contact(double density)
+static double contact_of(double density)
 {
     const double eta = 0.25 * PI * density, free = 1.0 - eta;
     return (1.0 - 7.0 / 16.0 * eta) / (free * free);
 }
 
 /** Near the closest packing as at eta = 0.9. */
-double hd_fluid_rate(double density)
+static double rate_of(double density)
 {
-    return 2.0 * sqrt(PI) * density * hd_fluid_contact(fmin(density, 3.6 / PI));
+    return 2.0 * sqrt(PI) * density * contact_of(fmin(density, 3.6 / PI));
 }
 
-double hd_fluid_free_path(double density)
+static double free_path_of(double density)
 {
-    return 1.0 / (2.0 * sqrt(2.0) * density * hd_fluid_contact(density));
+    return 1.0 / (2.0 * sqrt(2.0) * density * contact_of(density));
 }
 
 /** p = rho Z: c^2 = d(rho Z)/d rho + Z^2, as a disk has two degrees of freedom and kT = 1. */
-double hd_fluid_sound(double density)
+static double sound_of(double density)
 {
     const double eta = 0.25 * PI * density, free = 1.0 - eta;
     const double z = (1.0 + eta * eta / 8.0) / (free * free);
@@ -33,8 +33,16 @@ double hd_fluid_sound(double density)
 }
 
 /** Eckmann et al. (2005), to 3 % for densities up to 0.8. */
-double hd_fluid_transverse(double density)
+static double transverse_of(double density)
 {
     const double square = density * density;
     return 0.902 + 1.050 * density - 0.053 * square + 3.85 * square * square;
 }
+
+const hd_fluid hd_fluid_disks = {.temperature = 1.0,
+                                 .density_max = 1.1547005383792517,
+                                 .contact = contact_of,
+                                 .rate = rate_of,
+                                 .free_path = free_path_of,
+                                 .sound = sound_of,
+                                 .transverse = transverse_of};
