@@ -1,10 +1,11 @@
 /** Every parameter as a scene file gives it, read, checked and run by the node's own functions in
- * this process: what is refused, with exactly which words, and what run_info says of the rest. */
+ * this process: what is refused, by name, value and what is allowed, and what run_info says of the
+ * rest. */
 #include <gtest/gtest.h>
 
 #include <dirent.h>
 
-#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <fstream>
@@ -21,10 +22,6 @@
 
 #include "begin.h"
 #include "refusals.hpp"
-
-extern "C" {
-#include "node/parameters.h"
-}
 
 namespace
 {
@@ -121,149 +118,162 @@ std::string shown(const std::string &value)
     return std::regex_replace(bare, std::regex("\\.0\\b"), "");
 }
 
-/** A later line of the same name replaces an earlier one. */
-TEST(Parameters, RefusedWithTheirWords)
+/** They are refused as `name = value: must`, and then each of the words. A later line of the
+ * same name replaces an earlier one. */
+void expect_refused(const std::string &lines, const std::string &what,
+                    const std::vector<std::string> &words)
 {
-    std::set<std::string> names;
-    for (const refusal &r : refusals) {
-        names.insert(r.name);
-        for (const std::string &value : r.values)
-            EXPECT_EQ(begun(scene + r.name + ": " + value),
-                      r.name + (" = " + shown(value)) + ": must be " + r.must_be);
-    }
-    for (int k = 0; k < parameters_count(); k++) EXPECT_EQ(names.count(parameters_at(k).name), 1u);
+    const std::string line = begun(lines), begin = what + ": must ";
+    EXPECT_EQ(line.substr(0, begin.size()), begin) << lines;
+    for (const std::string &word : words) EXPECT_NE(line.find(word), std::string::npos) << line;
+    EXPECT_EQ(line.find('\n'), std::string::npos) << line;
 }
 
-#define OF_VECTORS "modes, steps, lp_phases, t_phases, fields, hydro, structure, covariant"
-#define OF_PUBLISHED "out of run_info, status, cost and the observables"
-#define WITHOUT_EXPONENTS "a list out of gas, state when exponents = none"
-#define UNSAMPLED_ONE "a shorter one than two mean distances, 2 / sqrt(density), is not sampled"
-#define UNSAMPLED "a shorter wave than two mean distances, 2 / sqrt(density), is not sampled"
+/** Whether a text has a number that is rounded as it is there. */
+bool says_number(std::string text, double number)
+{
+    for (size_t at; (at = text.find_first_of("0123456789")) != std::string::npos;) {
+        size_t length;
+        const double found = std::stod(text.substr(at), &length);
+        if (std::fabs(found - number) <= 1e-4 * std::fabs(number)) return true;
+        text = text.substr(at + length);
+    }
+    return false;
+}
 
-static const std::vector<std::pair<std::string, std::string>> refused_together = {
-    {"aspect_z: 0.5", "aspect_z = 0.5: must not be given with dimensions = 2"},
-    {"boundary_z: reflecting", "boundary_z = reflecting: must not be given with dimensions = 2"},
-    {"density: 1.1", "density = 1.1: must be at most 0.868056 with disks = 20, aspect = 1 and "
-                     "these boundaries (densest start lattice)"},
-    {"{disks: 100, aspect: 0.0001}",
-     "density = 0.7 with disks = 100, aspect = 0.0001: the box edge Ly = 0.119522860933439 "
-     "must be above the disk diameter 1"},
-    {"{disks: 2, density: 1.01}", "density = 1.01: must be at most 1 with disks = 2, aspect = "
-                                  "1 and these boundaries (densest start lattice)"},
-    {"{disks: 5, exponents: 21}",
-     "exponents = 21: must be positive, all, all_independent, none or from 1 to 4 disks = 20"},
-    {"{exponents: none, observables: [spectrum]}",
-     "observables = [spectrum]: must be " WITHOUT_EXPONENTS},
-    {"{exponents: none, observables: [state, modes]}",
-     "observables = [state, modes]: must be " WITHOUT_EXPONENTS},
-    {"{exponents: none, observables: [hydro]}",
-     "observables = [hydro]: must be " WITHOUT_EXPONENTS},
+/** All rows, by what the values of their kind cannot be and by the ends of their ranges, which
+ * their words say. */
+TEST(Parameters, RefusedByTheirRows)
+{
+    for (int k = 0; k < parameters_count(); k++) {
+        const parameter p = parameters_at(k);
+        const std::string base = scene + (p.needs == 1u << TOPIC_covariant ? window : ""),
+                          line = base + p.name + ": ";
+        char allowed[PARAMETER_ALLOWED];
+        parameter_allowed(allowed, &p);
+        const bool by_word = p.kind == OF_SCENE && p.row->kind == HD_PARAMETER_INTERVAL;
+        for (const kind_of_wrong &wrong : wrong_values(p))
+            for (const std::string &value : wrong.values)
+                expect_refused(line + value, std::string(p.name) + " = " + shown(value),
+                               {by_word || wrong.words.empty() ? allowed : wrong.words});
+        for (const double end : ends_of(p)) {
+            if (end > 0.0 && (std::strstr(allowed, "or above") || std::strstr(allowed, "_window")))
+                continue;
+            EXPECT_EQ(begun(line + quoted(p, end), true).find(allowed), std::string::npos) << end;
+            EXPECT_TRUE(says_number(allowed, end)) << p.name << end;
+        }
+    }
+}
+
+struct refused {
+    const char *lines, *what;
+    std::vector<std::string> words;
+};
+
+static const std::vector<refused> refused_together = {
+    {"thickness: 0.8", "thickness = 0.8", {"removed: there is no parameter of this name"}},
+    {"densty: 0.8", "densty = 0.8", {"removed: there is no", "; is density meant?"}},
+    {"Disks: 100", "Disks = 100", {"; is disks meant?"}},
+    {"warmpu: 100", "warmpu = 100", {"; is warmup meant?"}},
+    {"aspect_z: 0.5", "aspect_z = 0.5", {"not be given", "dimensions = 2"}},
+    {"boundary_z: reflecting", "boundary_z = reflecting", {"not be given", "dimensions = 2"}},
+    {"density: 1.1", "density = 1.1", {"at most 0.868056", "disks = 20", "aspect = 1"}},
+    {"{disks: 2, density: 1.01}", "density = 1.01", {"at most 1 ", "disks = 2", "aspect = 1"}},
+    {"exponents: 81", "exponents = 81", {"from 1 to 4 disks = 80"}},
+    {"exponents: '81'", "exponents = 81", {"from 1 to 4 disks = 80"}},
+    {"{exponents: none, observables: [spectrum]}", "observables = [spectrum]", {NO_EXPONENTS}},
+    {"{exponents: none, observables: [hydro]}", "observables = [hydro]", {NO_EXPONENTS}},
     {"{exponents: none, observables: [state, covariant]}",
-     "observables = [state, covariant]: must be " WITHOUT_EXPONENTS},
+     "observables = [state, covariant]",
+     {NO_EXPONENTS}},
     {"{phase_interval: 1.0, observables: [steps]}",
-     "phase_interval = 1: must be auto without an observable out of lp_phases, t_phases"},
+     "phase_interval = 1",
+     {"auto", "lp_phases, t_phases"}},
     {"{max_mode_number: 1, max_wave_number: 1.5}",
-     "max_mode_number = 1: must be 0 when max_wave_number = 1.5 is given"},
+     "max_mode_number = 1",
+     {"0", "max_wave_number = 1.5"}},
     {"{max_mode_number: 3, aspect: 0.9}",
-     "max_mode_number = 3: must be at most 2 with disks = 20, density = 0.7, aspect = 0.9 and "
-     "these boundaries: " UNSAMPLED},
-    {"max_mode_number: 3", "max_mode_number = 3: must be at most 2 with disks = 20, density = "
-                           "0.7, aspect = 1 and these boundaries: " UNSAMPLED},
-    {"max_wave_number: 1.1", "max_wave_number = 1.1: must be from 1.17548, the longest wave, "
-                             "to 2.62844: " UNSAMPLED_ONE},
-    {"max_wave_number: 2.7", "max_wave_number = 2.7: must be from 1.17548, the longest wave, "
-                             "to 2.62844: " UNSAMPLED_ONE},
+     "max_mode_number = 3",
+     {"at most 2", "disks = 20", "density = 0.7", "aspect = 0.9", "2 / sqrt(density)"}},
+    {"max_mode_number: 3", "max_mode_number = 3", {"at most 2", "2 / sqrt(density)"}},
+    {"max_wave_number: 1.1", "max_wave_number = 1.1", {"1.17548", "2.62844", "longest"}},
+    {"max_wave_number: 2.7", "max_wave_number = 2.7", {"1.17548", "2.62844", "longest"}},
     {"{max_mode_number: 1, observables: [spectrum, state]}",
-     "max_mode_number = 1: must be 0 without an observable out of " OF_VECTORS},
-    {"{max_mode_number: 1, exponents: none}",
-     "max_mode_number = 1: must be 0 without an observable out of " OF_VECTORS},
-    {"{max_wave_number: 1.5, observables: []}",
-     "max_wave_number = 1.5: must be 0 without an observable out of " OF_VECTORS},
-    {"covariant_window: 49.0",
-     "covariant_window = 49: must be 50 unless covariant is an observable"},
-    {"covariant_transient: 99.0",
-     "covariant_transient = 99: must be 100 unless covariant is an observable"},
-    {"covariant_sampling: 4.0",
-     "covariant_sampling = 4: must be 5 unless covariant is an observable"},
-    {"covariant_memory: 3.0", "covariant_memory = 3: must be 4 unless covariant is an observable"},
-    {"covariant_storage: recompute",
-     "covariant_storage = recompute: must be memory unless covariant is an observable"},
+     "max_mode_number = 1",
+     {"0", OF_VECTORS}},
+    {"{max_mode_number: 1, exponents: none}", "max_mode_number = 1", {"0", OF_VECTORS}},
+    {"{max_wave_number: 1.5, observables: []}", "max_wave_number = 1.5", {"0", OF_VECTORS}},
+    {"covariant_window: 49.0", "covariant_window = 49", {"50 ", UNSEEN}},
+    {"covariant_transient: 99.0", "covariant_transient = 99", {"100 ", UNSEEN}},
+    {"covariant_sampling: 4.0", "covariant_sampling = 4", {"5 ", UNSEEN}},
+    {"covariant_memory: 3.0", "covariant_memory = 3", {"4 ", UNSEEN}},
+    {"covariant_storage: recompute", "covariant_storage = recompute", {"memory ", UNSEEN}},
     {"{field_indices: [1], observables: [modes, steps]}",
-     "field_indices = [1]: must be steps unless fields is an observable"},
-    {"{field_indices: [1], exponents: none}",
-     "field_indices = [1]: must be steps unless fields is an observable"},
-    {"{field_indices: [3], exponents: 2}", "field_indices = [3]: must be steps or a list of "
-                                           "integers from 1 to 2, the vectors carried"},
-    {"{slow_vectors_count: 3, exponents: 2}",
-     "slow_vectors_count = 3: must be from 0 (the lowest T and LP steps) to 2, the vectors "
-     "carried"},
+     "field_indices = [1]",
+     {"steps", "unless fields is an observable"}},
+    {"{field_indices: [1], exponents: none}", "field_indices = [1]", {"steps", "fields"}},
+    {"{field_indices: [3], exponents: 2}", "field_indices = [3]", {"steps", "from 1 to 2,"}},
+    {"field_indices: [0]", "field_indices = [0]", {"steps", "from 1 to 37,"}},
+    {"field_indices: [-1]", "field_indices = [-1]", {"steps", "from 1 to 37,"}},
+    {"field_indices: [38]", "field_indices = [38]", {"steps", "from 1 to 37,"}},
+    {"slow_vectors_count: -1", "slow_vectors_count = -1", {"from 0 ", "to 37, the vectors"}},
+    {"slow_vectors_count: 38", "slow_vectors_count = 38", {"from 0 ", "to 37, the vectors"}},
+    {"{slow_vectors_count: 3, exponents: 2}", "slow_vectors_count = 3", {"to 2, the vectors"}},
     {"{observables: [state], wait_for_subscribers: [spectrum]}",
-     "wait_for_subscribers = [spectrum]: must be " OF_PUBLISHED},
+     "wait_for_subscribers = [spectrum]",
+     {"run_info, status, cost and the observables"}},
     {"{exponents: none, wait_for_subscribers: [spectrum]}",
-     "wait_for_subscribers = [spectrum]: must be " OF_PUBLISHED},
-    {"{covariant, covariant_window: 0}", "covariant_window = 0: must be from 1e-6 to 1e12"},
-    {"{covariant, covariant_transient: -1}", "covariant_transient = -1: must be from 1e-6 to 1e12"},
-    {"{covariant, covariant_sampling: nan}",
-     "covariant_sampling = nan: must be from 1e-6 to covariant_window"},
-    {"{covariant, covariant_window: '2000000000000'}",
-     "covariant_window = 2000000000000: must be from 1e-6 to 1e12"},
-    {"{covariant, covariant_memory: 0.0009}",
-     "covariant_memory = 0.0009: must be from 0.001 to 1e6 [GB]"},
-    {"{covariant, covariant_memory: 1100000}",
-     "covariant_memory = 1100000: must be from 0.001 to 1e6 [GB]"},
-    {"{covariant, covariant_sampling: 1.5}",
-     "covariant_sampling = 1.5: must be from 1e-6 to covariant_window"},
-    {"{covariant, covariant_transient: 1.5}",
-     "warmup = 1: must be at least covariant_transient = 1.5: vectors converge forwards no "
-     "faster than backwards"},
+     "wait_for_subscribers = [spectrum]",
+     {"run_info, status, cost and the observables"}},
+    {"{covariant, covariant_sampling: 1.5}", "covariant_sampling = 1.5", {"to covariant_window"}},
+    {"{covariant, covariant_transient: 1.5}", "warmup = 1", {"at least covariant_transient = 1.5"}},
     {"{covariant, covariant_window: 1.5}",
-     "duration = 2: must be 0 or at least covariant_window + covariant_transient = 2.5"},
-    {"{covariant, field_indices: [1]}",
-     "field_indices = [1]: must be steps unless fields is an observable"},
-    {"{covariant, disks: 400, duration: 1000000.0, covariant_window: 100000.0}",
-     "covariant_window = 100000 with covariant_transient = 1: 150013 triangles and 100007 "
-     "frames of 797 vectors need 1.4e+03 GB, must be at most covariant_memory = 4 GB"},
+     "duration = 2",
+     {"0 or at least covariant_window + covariant_transient = 2.5"}},
 };
 
 TEST(Parameters, RefusedTogether)
 {
-    for (const auto &one : refused_together)
-        EXPECT_EQ(begun(with(one.first)), one.second) << one.first;
+    for (const refused &one : refused_together)
+        expect_refused(with(one.lines), one.what, one.words);
+    /* by more than one of them: all are named */
+    EXPECT_EQ(begun(with("{disks: 100, aspect: 0.0001}")),
+              "density = 0.7 with disks = 100, aspect = 0.0001: the box edge Ly = "
+              "0.119522860933439 must be above the disk diameter 1");
+    EXPECT_EQ(begun(with("{covariant, disks: 400, duration: 1000000.0, covariant_window: "
+                         "100000.0}")),
+              "covariant_window = 100000 with covariant_transient = 1: 150013 triangles and "
+              "100007 frames of 797 vectors need 1.4e+03 GB, must be at most covariant_memory = 4 "
+              "GB");
 }
-
-#define NO_TIME "must be a simulated time and NAME=VALUE, such as 120 report_interval=5"
 
 TEST(Parameters, RefusedChanges)
 {
-    const struct {
-        std::string given, first_bad, why;
-    } refused[] = {
-        {"[5pace=1]", "5pace=1", "5pace=1: " NO_TIME},
-        {"[pace=1]", "pace=1", "pace=1: " NO_TIME},
-        {"['']", "", ": " NO_TIME},
-        {"['-5 pace=1']", "-5 pace=1", "-5 pace=1: " NO_TIME},
-        {"['nan pace=1']", "nan pace=1", "nan pace=1: " NO_TIME},
-        {"['inf pace=1']", "inf pace=1", "inf pace=1: " NO_TIME},
-        {"['5 pace']", "5 pace", "pace: must be one NAME=VALUE, such as pace=1.5"},
-        {"['5 pace=-1']", "5 pace=-1", "pace=-1: must be from 0 (as fast as it goes) to 1e12"},
-        {"['5 pace=nan']", "5 pace=nan", "pace=nan: must be from 0 (as fast as it goes) to 1e12"},
-        {"['5 pace=1', '6 disks=50']", "6 disks=50", "disks=50: is read at the start"},
-        {"['5 paces=1']", "5 paces=1",
-         "paces=1: there is no parameter of this name; is pace meant?"},
+    const refused changes[] = {
+        {"[5pace=1]", "5pace=1", {"a simulated time and NAME=VALUE"}},
+        {"[pace=1]", "pace=1", {"a simulated time and NAME=VALUE"}},
+        {"['']", "", {"a simulated time and NAME=VALUE"}},
+        {"['-5 pace=1']", "-5 pace=1", {"a simulated time and NAME=VALUE"}},
+        {"['nan pace=1']", "nan pace=1", {"a simulated time and NAME=VALUE"}},
+        {"['inf pace=1']", "inf pace=1", {"a simulated time and NAME=VALUE"}},
+        {"['5 pace']", "5 pace", {"pace: must be one NAME=VALUE, such as pace=1.5"}},
+        {"['5 pace=-1']", "5 pace=-1", {"pace=-1: must be from 0 ", " to 1e12"}},
+        {"['5 pace=nan']", "5 pace=nan", {"pace=nan: must be from 0 ", " to 1e12"}},
+        {"['5 pace=1', '6 disks=50']", "6 disks=50", {"disks=50: is read at the start"}},
+        {"['5 paces=1']", "5 paces=1", {"paces=1: there is no parameter", "; is pace meant?"}},
     };
-    for (const auto &one : refused)
-        EXPECT_EQ(begun(with("changes: " + one.given)),
-                  "changes = " + one.first_bad +
-                      ": must be changes that ~set can make: " + one.why);
+    for (refused one : changes) {
+        one.words.push_back("changes that ~set can make: ");
+        expect_refused(with(std::string("changes: ") + one.lines),
+                       std::string("changes = ") + one.what, one.words);
+    }
 }
 
 TEST(Parameters, ANameAloneChoosesNoScene)
 {
-    const std::string why =
-        "scene = quick: must be given with its dimensions, container, disks, density, aspects or "
-        "boundaries: a name chooses none of them, roslaunch hdlyap run.launch scene:=.. does";
-    EXPECT_EQ(begun("scene: quick"), why);
-    EXPECT_EQ(begun("scene: quick\nduration: 5.0"), why);
+    for (const char *lines : {"scene: quick", "scene: quick\nduration: 5.0"})
+        expect_refused(lines, "scene = quick",
+                       {"given with its dimensions, container, disks, density, aspects or bound"});
     expect_said("", "scene: unnamed");
     expect_said("scene: mine", "scene: mine");
 }
