@@ -10,7 +10,9 @@ extern "C" {
 #include "topics/topic.h"
 }
 
-#define OF_VECTORS "modes, steps, lp_phases, t_phases, fields, hydro, structure, covariant"
+#define OF_VECTORS                                                                                 \
+    "0 without an observable out of modes, steps, lp_phases, t_phases, fields, hydro, structure, " \
+    "covariant"
 #define NO_EXPONENTS "a list out of gas, state when exponents = none"
 #define UNSEEN "unless covariant is an observable"
 
