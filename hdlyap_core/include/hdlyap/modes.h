@@ -19,8 +19,8 @@ HD_MUST_CHECK hd_status hd_modes_create(hd_modes **out, const hd_scene_def *def,
                                         int threads);
 void hd_modes_free(hd_modes *modes);
 
-/** Measures orthonormal vectors (all of them, or some: the others keep their snapshot) at q[HD_DIM
- * N], p[HD_DIM N]: a snapshot, without averaging. HD_NOT_FINITE. Cost 4 N columns flops per vector
+/** Measures orthonormal vectors (all of them, or some: the others keep their snapshot) at positions
+ * q and momenta p: a snapshot, without averaging. HD_NOT_FINITE. Cost 4 N columns flops per vector
  * as dgemm, and one reading of the vectors. */
 HD_MUST_CHECK hd_status hd_modes_measure(hd_modes *modes, hd_columns vectors, const double *q,
                                          const double *p);

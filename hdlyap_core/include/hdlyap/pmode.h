@@ -12,7 +12,7 @@ extern "C" {
 typedef struct hd_pmode hd_pmode;
 
 /** For N disks. HD_NO_MEMORY. */
-HD_MUST_CHECK hd_status hd_pmode_create(hd_pmode **out, int disks);
+HD_MUST_CHECK hd_status hd_pmode_create(hd_pmode **out, const hd_scene_def *def);
 void hd_pmode_free(hd_pmode *pmode);
 
 /** Best combinations of the normalised dq halves psi of the step's set for its normalised fields:
@@ -22,7 +22,7 @@ bool hd_pmode_reconstruct(hd_pmode *pmode, const hd_step *step, const hd_modes *
                           hd_columns vectors);
 
 int hd_pmode_pairs(const hd_pmode *pmode); /**< d */
-/** phi_L of pair c for c < d, phi_P of pair c - d beyond; [HD_DIM N]: x0 y0 x1 y1 .. */
+/** phi_L of pair c for c < d, phi_P of pair c - d beyond; x0 y0 x1 y1 .., of all disks */
 const double *hd_pmode_field(const hd_pmode *pmode, int c);
 /** |phi - field|: distance of field c from what the vectors span, 0 .. 1. */
 double hd_pmode_residual(const hd_pmode *pmode, int c);
@@ -30,9 +30,9 @@ double hd_pmode_residual(const hd_pmode *pmode, int c);
  * from a rotation. */
 double hd_pmode_rotation_distance(const hd_pmode *pmode);
 
-/** P field divided by the momenta, phi p / (p^2 + eps) component by component, p[HD_DIM N]: all
+/** P field divided by the momenta, phi p / (p^2 + eps) component by component, of momenta p: all
  * components are the modulation A itself, of amplitude 1 but for what the residual and eps take
- * away. out[HD_DIM N]. */
+ * away. out as a field. */
 void hd_pmode_divide(const hd_pmode *pmode, double *out, int c, const double *p);
 
 /** eps in units of the mean square of a momentum component. */

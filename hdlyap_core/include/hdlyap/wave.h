@@ -28,6 +28,10 @@ enum {
     HD_TRANSVERSE_MAX = HD_MODULATIONS_MAX * (HD_DIMENSION_MAX - 1),
     HD_FIELDS_MAX = 2 * HD_MODULATIONS_MAX
 };
+/** The same in a space of two directions or three. */
+#define HD_MODULATIONS_IN(dimension) (1 << (dimension))
+#define HD_TRANSVERSE_IN(dimension) (HD_MODULATIONS_IN(dimension) * ((dimension)-1))
+#define HD_FIELDS_IN(dimension) (2 * HD_MODULATIONS_IN(dimension))
 
 /** Bits of the modulations of one kind of field at a wave vector, or HD_COS_M and HD_SIN_M;
  * ascending. */

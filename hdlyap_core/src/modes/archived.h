@@ -18,7 +18,7 @@ double hd_modes_bytes(const hd_scene_def *scene, double vectors);
 double hd_steps_bytes(const hd_scene_def *scene);
 double hd_structure_bytes(const hd_scene_def *scene, double vectors);
 double hd_phases_bytes(double phases);
-double hd_pmode_bytes(double disks);
+double hd_pmode_bytes(const hd_scene_def *def);
 
 void hd_modes_archive(hd_modes *modes, hd_archive *archive);
 void hd_steps_archive(hd_steps *steps, hd_archive *archive);

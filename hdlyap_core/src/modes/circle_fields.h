@@ -24,7 +24,7 @@ void hd_circle_modulations(hd_circle_modulation out[2], const hd_circle_wave *wa
 
 /** row[d][..]: component d of all columns at q, where the momentum is p; round[subspaces] are the
  * waves of the subspaces of a circle about (centre, centre). */
-void hd_circle_fields_fill(double *const row[HD_DIM], const hd_subspace *subspace,
+void hd_circle_fields_fill(double *const *row, const hd_subspace *subspace,
                            const hd_circle_wave *round, int subspaces, double centre,
                            const double *q, const double *p);
 

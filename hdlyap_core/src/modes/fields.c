@@ -1,7 +1,8 @@
 /** Positions and momenta -> sampled fields [T10], [T22].
  *
- * Row-major, HD_DIM rows of each disk: the right-hand factor of a dgemm against the rows of the
- * frame. The functions of one coordinate are tabulated per disk, each field is a product of them.
+ * Row-major, a row for each component of each disk: the right-hand factor of a dgemm against the
+ * rows of the frame. The functions of one coordinate are tabulated per disk, each field is a
+ * product of them.
  */
 #include "hdlyap/fields.h"
 
@@ -19,12 +20,12 @@
 #include "scene/null_space.h"
 
 struct hd_fields {
-    int disks, columns, stride, subspaces;
-    hd_harmonics along[HD_DIM];
+    int dimension, disks, columns, stride, subspaces;
+    hd_harmonics along[HD_DIMENSION_MAX];
     hd_null_space null;
     hd_subspace *subspace; /**< [subspaces] */
     hd_circle_wave *round; /**< [subspaces], of a circle; NULL in a rectangle */
-    double *data;          /**< [HD_DIM disks * stride] */
+    double *data;          /**< [dimension * disks * stride] */
     double *norm;          /**< [stride], of the columns as sampled */
 };
 
@@ -38,7 +39,7 @@ static void subspace_add(hd_fields *fields, hd_mode_kind kind, const hd_wave *wa
     fields->subspace[fields->subspaces++] = (hd_subspace){kind, *wave, modulations, fields->columns,
                                                           dimension};
     fields->columns += dimension;
-    for (int d = 0; d < HD_DIM; d++)
+    for (int d = 0; d < fields->dimension; d++)
         if (wave->n[d] > fields->along[d].nodes) fields->along[d].nodes = wave->n[d];
 }
 
@@ -77,7 +78,6 @@ static hd_status subspaces_create(hd_fields *fields, const hd_scene_def *def)
     return HD_OK;
 }
 
-#if HD_DIM == 2
 static hd_status round_create(hd_fields *fields)
 {
     fields->round = hd_memory_alloc((size_t)fields->subspaces + 1, sizeof *fields->round);
@@ -86,21 +86,22 @@ static hd_status round_create(hd_fields *fields)
         fields->round[s] = hd_circle_wave_of(&fields->subspace[s].wave, fields->null.centre - 0.5);
     return HD_OK;
 }
-#endif
+
+static size_t components(const hd_fields *fields)
+{
+    return (size_t)fields->dimension * (size_t)fields->disks;
+}
 
 static hd_status fields_prepare(hd_fields *fields, const hd_scene_def *def)
 {
     HD_TRY(subspaces_create(fields, def));
     fields->null = hd_null_space_of(def);
-#if HD_DIM == 2
     if (fields->null.curved) HD_TRY(round_create(fields));
-#endif
-    for (int d = 0; d < HD_DIM && !fields->null.curved; d++)
+    for (int d = 0; d < fields->dimension && !fields->null.curved; d++)
         HD_TRY(hd_harmonics_create(&fields->along[d], def, d, fields->along[d].nodes));
-    fields->columns += HD_NULLS;
+    fields->columns += hd_fields_nulls(fields);
     fields->stride = (fields->columns + 7) / 8 * 8;
-    fields->data = hd_memory_alloc(HD_DIM * (size_t)fields->disks * (size_t)fields->stride,
-                                   sizeof(double));
+    fields->data = hd_memory_alloc(components(fields) * (size_t)fields->stride, sizeof(double));
     fields->norm = hd_memory_alloc((size_t)fields->stride, sizeof(double));
     return fields->data && fields->norm ? HD_OK : HD_NO_MEMORY;
 }
@@ -110,6 +111,7 @@ hd_status hd_fields_create(hd_fields **out, const hd_scene_def *def)
     hd_fields *fields = hd_memory_alloc(1, sizeof *fields);
     *out = NULL;
     if (!fields) return HD_NO_MEMORY;
+    fields->dimension = hd_scene_dimension(def);
     fields->disks = def->disks;
     const hd_status status = fields_prepare(fields, def);
     if (status == HD_OK)
@@ -122,7 +124,7 @@ hd_status hd_fields_create(hd_fields **out, const hd_scene_def *def)
 void hd_fields_free(hd_fields *fields)
 {
     if (!fields) return;
-    for (int d = 0; d < HD_DIM; d++) hd_harmonics_clear(&fields->along[d]);
+    for (int d = 0; d < HD_DIMENSION_MAX; d++) hd_harmonics_clear(&fields->along[d]);
     hd_memory_free(fields->subspace);
     hd_memory_free(fields->round);
     hd_memory_free(fields->data);
@@ -132,28 +134,27 @@ void hd_fields_free(hd_fields *fields)
 
 /* ---- sampling ------------------------------------------------------------------------------ */
 
-static void sample_box(hd_fields *fields, double *const row[HD_DIM], const double *q,
-                       const double *p)
+static void sample_box(hd_fields *fields, double *const *row, const double *q, const double *p)
 {
-    for (int d = 0; d < HD_DIM; d++) hd_harmonics_fill(&fields->along[d], q[d]);
+    for (int d = 0; d < fields->dimension; d++) hd_harmonics_fill(&fields->along[d], q[d]);
     for (int s = 0; s < fields->subspaces; s++)
-        hd_plane_fields_fill(row, &fields->subspace[s], fields->along, p);
+        if (fields->dimension == 2)
+            hd_plane_fields_fill(row, &fields->subspace[s], fields->along, p);
+        else
+            hd_space_fields_fill(row, &fields->subspace[s], fields->along, p);
 }
 
-static void sample_disk(hd_fields *fields, double *const row[HD_DIM], const double *q,
-                        const double *p)
+static void sample_disk(hd_fields *fields, double *const *row, const double *q, const double *p)
 {
-    const int null = fields->columns - HD_NULLS;
-#if HD_DIM == 2
+    const int null = fields->columns - hd_fields_nulls(fields);
     if (fields->round)
         hd_circle_fields_fill(row, fields->subspace, fields->round, fields->subspaces,
                               fields->null.centre, q, p);
     else
-#endif
         sample_box(fields, row, q, p);
     for (int k = 0; k < fields->null.count; k++) {
         const int axis = fields->null.axis[k];
-        for (int d = 0; d < HD_DIM; d++)
+        for (int d = 0; d < fields->dimension; d++)
             row[d][null + axis] = hd_null_entry(&fields->null, axis, d, q, p);
     }
 }
@@ -161,7 +162,7 @@ static void sample_disk(hd_fields *fields, double *const row[HD_DIM], const doub
 /** A column that vanishes at every disk stays zero. */
 static void normalise(hd_fields *fields)
 {
-    const size_t rows = HD_DIM * (size_t)fields->disks, stride = (size_t)fields->stride;
+    const size_t rows = components(fields), stride = (size_t)fields->stride;
     for (int c = 0; c < fields->columns; c++) fields->norm[c] = 0.0;
     for (size_t row = 0; row < rows; row++)
         for (int c = 0; c < fields->columns; c++) {
@@ -176,16 +177,17 @@ static void normalise(hd_fields *fields)
 
 void hd_fields_sample(hd_fields *fields, const double *q, const double *p)
 {
-    const size_t stride = (size_t)fields->stride;
-    for (int j = 0; j < fields->disks; j++) {
-        double *row[HD_DIM];
-        for (size_t d = 0; d < HD_DIM; d++)
-            row[d] = fields->data + (HD_DIM * (size_t)j + d) * stride;
-        sample_disk(fields, row, q + HD_DIM * j, p + HD_DIM * j);
+    const size_t stride = (size_t)fields->stride, dimension = (size_t)fields->dimension;
+    for (size_t j = 0; j < (size_t)fields->disks; j++) {
+        double *row[HD_DIMENSION_MAX];
+        for (size_t d = 0; d < dimension; d++) row[d] = fields->data + (dimension * j + d) * stride;
+        sample_disk(fields, row, q + dimension * j, p + dimension * j);
     }
     normalise(fields);
 }
 
+int hd_fields_dimension(const hd_fields *fields) { return fields->dimension; }
+int hd_fields_nulls(const hd_fields *fields) { return fields->dimension + 1; }
 int hd_fields_columns(const hd_fields *fields) { return fields->columns; }
 int hd_fields_stride(const hd_fields *fields) { return fields->stride; }
 const double *hd_fields_data(const hd_fields *fields) { return fields->data; }

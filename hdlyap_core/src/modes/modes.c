@@ -1,10 +1,10 @@
 /** Frame -> weights of every vector in every subspace [T11].
  *
- * With B (HD_DIM N x D, row-major) the sampled fields of all subspaces and U (HD_DIM N x n) the dq
- * halves, the overlaps B^T U are HD_DIM products, over the x, the y, .. rows of the frame where
- * they lie. Least squares on one subspace: its Gram matrix G = E L E^T (dgesvd), coefficients c =
- * G^+ B^T u, weight = |L^(-1/2) E^T B^T u|^2; directions that the disks do not sample (L below
- * RANK) are left out. The vectors stay in columns throughout. */
+ * With B (D columns, row-major) the sampled fields of all subspaces and U (n columns) the dq
+ * halves, the overlaps B^T U are a product for each direction, over the x, the y, .. rows of the
+ * frame where they lie. Least squares on one subspace: its Gram matrix G = E L E^T (dgesvd),
+ * coefficients c = G^+ B^T u, weight = |L^(-1/2) E^T B^T u|^2; directions that the disks do not
+ * sample (L below RANK) are left out. The vectors stay in columns throughout. */
 #include "hdlyap/modes.h"
 
 #include <cblas.h>
@@ -28,46 +28,52 @@ enum { DIMENSION_MAX = HD_FIELDS_MAX, BLOCK = 128 };
 struct hd_modes {
     hd_fields *fields;
     int disks, vectors, threads;
-    size_t stride;       /**< of every array over the vectors */
-    double *gram;        /**< [columns][DIMENSION_MAX]: with those of its own subspace */
-    double *coefficient; /**< [columns][stride]: overlaps, then coefficients */
-    double *work;        /**< [DIMENSION_MAX][stride] */
-    double *dq_norm;     /**< [stride] */
-    double *null_dp;     /**< [HD_NULLS][stride]: overlaps of the dp halves with the null fields */
-    double *snapshot;    /**< [subspaces * HD_WEIGHTS + HD_NULLS][stride] */
-    double *average;     /**< same, over samples */
+    int dimension, coordinates; /**< of the space, of a disk */
+    int widest;                 /**< fields of the largest subspace that there may be */
+    size_t stride;              /**< of every array over the vectors */
+    double *gram;               /**< [columns][widest]: with those of its own subspace */
+    double *coefficient;        /**< [columns][stride]: overlaps, then coefficients */
+    double *work;               /**< [widest][stride] */
+    double *dq_norm;            /**< [stride] */
+    double *null_dp;  /**< [nulls][stride]: overlaps of the dp halves with the null fields */
+    double *snapshot; /**< [subspaces * HD_WEIGHTS + nulls][stride] */
+    double *average;  /**< same, over samples */
     long samples;
 };
 
 /* ---- creation ------------------------------------------------------------------------------ */
 
+static size_t nulls_of(const hd_modes *modes) { return (size_t)hd_fields_nulls(modes->fields); }
+
 static size_t weight_rows(const hd_modes *modes)
 {
-    return (size_t)hd_fields_subspaces(modes->fields) * HD_WEIGHTS + HD_NULLS;
+    return (size_t)hd_fields_subspaces(modes->fields) * HD_WEIGHTS + nulls_of(modes);
 }
 
 double hd_modes_bytes(const hd_scene_def *scene, double vectors)
 {
     const hd_fields_count count = hd_fields_count_of(scene);
-    const double columns = count.columns + HD_NULLS, rows = count.subspaces * HD_WEIGHTS + HD_NULLS,
-                 fields = (double)HD_DIM * scene->disks * (columns + 4.0);
-    return sizeof(double) * (fields + DIMENSION_MAX * columns +
-                             (columns + DIMENSION_MAX + 1.0 + HD_NULLS + 2.0 * rows) * vectors);
+    const double dimension = hd_scene_dimension(scene), nulls = dimension + 1.0,
+                 widest = HD_FIELDS_IN(hd_scene_dimension(scene));
+    const double columns = count.columns + nulls, rows = count.subspaces * HD_WEIGHTS + nulls,
+                 fields = dimension * scene->disks * (columns + 4.0);
+    return sizeof(double) *
+           (fields + widest * columns + (columns + widest + 1.0 + nulls + 2.0 * rows) * vectors);
 }
 
 static hd_status modes_allocate(hd_modes *modes, const hd_scene_def *def)
 {
     HD_TRY(hd_fields_create(&modes->fields, def));
     const size_t columns = (size_t)hd_fields_columns(modes->fields), rows = weight_rows(modes);
-    const size_t n = modes->stride;
+    const size_t n = modes->stride, widest = (size_t)modes->widest;
     struct {
         double **array;
         size_t size;
-    } wanted[] = {{&modes->gram, columns * DIMENSION_MAX},
+    } wanted[] = {{&modes->gram, columns * widest},
                   {&modes->coefficient, columns * n},
-                  {&modes->work, DIMENSION_MAX * n},
+                  {&modes->work, widest * n},
                   {&modes->dq_norm, n},
-                  {&modes->null_dp, HD_NULLS * n},
+                  {&modes->null_dp, nulls_of(modes) * n},
                   {&modes->snapshot, rows * n},
                   {&modes->average, rows * n}};
     for (size_t k = 0; k < sizeof wanted / sizeof *wanted; k++)
@@ -83,6 +89,9 @@ hd_status hd_modes_create(hd_modes **out, const hd_scene_def *def, int vectors, 
     *out = NULL;
     if (!modes) return HD_NO_MEMORY;
     modes->disks = def->disks;
+    modes->dimension = hd_scene_dimension(def);
+    modes->coordinates = hd_scene_coordinates(def);
+    modes->widest = HD_FIELDS_IN(modes->dimension);
     modes->vectors = vectors;
     modes->threads = threads;
     modes->stride = (size_t)(vectors + 7) / 8 * 8;
@@ -110,22 +119,22 @@ void hd_modes_free(hd_modes *modes)
 
 /* ---- one snapshot -------------------------------------------------------------------------- */
 
-/** out[count][stride] = (fields from `column` on)^T times the dq (half 0) or dp (half HD_DIM) rows.
- */
+/** out[count][stride] = (fields from `column` on)^T times the dq or dp rows, from row `half` of a
+ * disk on. */
 static void overlaps(const hd_modes *modes, hd_columns v, int half, int column, int count,
                      double *out)
 {
-    const int fields = hd_fields_stride(modes->fields);
-    for (int d = 0; d < HD_DIM; d++)
+    const int fields = hd_fields_stride(modes->fields), rows = 2 * modes->coordinates;
+    for (int d = 0; d < modes->dimension; d++)
         hd_dgemm(CblasNoTrans, CblasTrans, v.count, count, modes->disks, 1.0,
-                 v.data + (size_t)(half + d) * (size_t)v.stride, HD_ROWS * v.stride,
+                 v.data + (size_t)(half + d) * (size_t)v.stride, rows * v.stride,
                  hd_fields_data(modes->fields) + (size_t)d * (size_t)fields + column,
-                 HD_DIM * fields, d > 0, out + v.first, (int)modes->stride);
+                 modes->dimension * fields, d > 0, out + v.first, (int)modes->stride);
 }
 
 static double *gram_of(const hd_modes *modes, const hd_subspace *s)
 {
-    return modes->gram + (size_t)s->column * DIMENSION_MAX;
+    return modes->gram + (size_t)s->column * (size_t)modes->widest;
 }
 
 /** Subspace by subspace: the products of fields of two are not needed. Row by row, as they lie. */
@@ -133,27 +142,28 @@ static void gram_fill(hd_modes *modes)
 {
     const size_t columns = (size_t)hd_fields_columns(modes->fields);
     const size_t stride = (size_t)hd_fields_stride(modes->fields),
-                 rows = HD_DIM * (size_t)modes->disks;
-    memset(modes->gram, 0, columns * DIMENSION_MAX * sizeof *modes->gram);
+                 rows = (size_t)modes->dimension * (size_t)modes->disks;
+    const int widest = modes->widest;
+    memset(modes->gram, 0, columns * (size_t)widest * sizeof *modes->gram);
     for (size_t row = 0; row < rows; row++)
         for (int k = 0; k < hd_fields_subspaces(modes->fields); k++) {
             const hd_subspace *s = hd_fields_subspace(modes->fields, k);
             const double *x = hd_fields_data(modes->fields) + row * stride + s->column;
             double *gram = gram_of(modes, s);
             for (int a = 0; a < s->dimension; a++)
-                for (int b = 0; b < s->dimension; b++) gram[a * DIMENSION_MAX + b] += x[a] * x[b];
+                for (int b = 0; b < s->dimension; b++) gram[a * widest + b] += x[a] * x[b];
         }
 }
 
 static void dq_norms(hd_modes *modes, hd_columns v)
 {
-    const int n = v.count, rows = HD_ROWS * modes->disks;
+    const int n = v.count, half = modes->coordinates, rows = 2 * half * modes->disks;
 #pragma omp parallel for schedule(static) num_threads(modes->threads) if (modes->threads > 1)
     for (int col = 0; col < n; col += BLOCK) {
         const int end = col + BLOCK < n ? col + BLOCK : n;
         double *sum = modes->dq_norm + v.first;
         for (int l = col; l < end; l++) sum[l] = 0.0;
-        for (int row = 0; row < rows; row += row % HD_ROWS == HD_DIM - 1 ? HD_DIM + 1 : 1)
+        for (int row = 0; row < rows; row += row % (2 * half) == half - 1 ? half + 1 : 1)
             for (int l = col; l < end; l++) {
                 const double dq = v.data[(size_t)row * (size_t)v.stride + (size_t)l];
                 sum[l] += dq * dq;
@@ -175,9 +185,10 @@ static void add_squares(double *sum, const double *row, int n)
 /** Whole vectors are orthonormal, and so are the null fields: plain overlaps. */
 static void measure_null(hd_modes *modes, hd_columns v)
 {
-    const size_t from = (size_t)(hd_fields_columns(modes->fields) - HD_NULLS);
-    for (size_t k = 0; k < HD_NULLS; k++) {
-        double *out = row_of(modes->snapshot, weight_rows(modes) - HD_NULLS + k, modes) + v.first;
+    const size_t from = (size_t)hd_fields_columns(modes->fields) - nulls_of(modes);
+    for (size_t k = 0; k < nulls_of(modes); k++) {
+        double *out = row_of(modes->snapshot, weight_rows(modes) - nulls_of(modes) + k, modes) +
+                      v.first;
         memset(out, 0, (size_t)v.count * sizeof *out);
         add_squares(out, row_of(modes->coefficient, from + k, modes) + v.first, v.count);
         add_squares(out, row_of(modes->null_dp, k, modes) + v.first, v.count);
@@ -195,7 +206,7 @@ static void whitening(const hd_modes *modes, const hd_subspace *s, double *white
     double value[DIMENSION_MAX], work[64 * DIMENSION_MAX], none;
     for (int a = 0; a < d; a++)
         for (int b = a; b < d; b++)
-            gram[a * d + b] = gram[b * d + a] = products[a * DIMENSION_MAX + b];
+            gram[a * d + b] = gram[b * d + a] = products[a * modes->widest + b];
     const int failed = LAPACKE_dgesvd_work(LAPACK_COL_MAJOR, 'A', 'N', d, d, gram, d, value,
                                            vectors, d, &none, 1, work,
                                            (int)(sizeof work / sizeof *work));
@@ -214,7 +225,7 @@ static void part_weight(const hd_modes *modes, const hd_subspace *s, int from, i
     memset(out, 0, (size_t)v.count * sizeof *out);
     for (int a = from; a < to; a++)
         for (int b = a; b < to; b++) {
-            const double g = gram[a * DIMENSION_MAX + b] * (a == b ? 1.0 : 2.0);
+            const double g = gram[a * modes->widest + b] * (a == b ? 1.0 : 2.0);
             const double *x = hd_modes_coefficients(modes, s->column + a) + v.first;
             const double *y = hd_modes_coefficients(modes, s->column + b) + v.first;
             for (int l = 0; l < v.count; l++) out[l] += g * x[l] * y[l];
@@ -244,7 +255,7 @@ static void measure_subspace(hd_modes *modes, int index, hd_columns v)
  * has no weights. */
 static void normalise(hd_modes *modes, hd_columns v)
 {
-    const size_t columns = (size_t)(hd_fields_columns(modes->fields) - HD_NULLS);
+    const size_t columns = (size_t)hd_fields_columns(modes->fields) - nulls_of(modes);
     for (size_t c = 0; c < columns; c++) {
         double *row = row_of(modes->coefficient, c, modes);
         for (int l = v.first; l < v.first + v.count; l++)
@@ -255,13 +266,13 @@ static void normalise(hd_modes *modes, hd_columns v)
 hd_status hd_modes_measure(hd_modes *modes, hd_columns v, const double *q, const double *p)
 {
     HD_ASSERT(v.first >= 0 && v.first + v.count <= modes->vectors);
-    const int columns = hd_fields_columns(modes->fields);
+    const int columns = hd_fields_columns(modes->fields), nulls = hd_fields_nulls(modes->fields);
     hd_fields_sample(modes->fields, q, p);
     gram_fill(modes);
-    if (!hd_all_finite(modes->gram, (size_t)columns * DIMENSION_MAX)) return HD_NOT_FINITE;
+    if (!hd_all_finite(modes->gram, (size_t)columns * (size_t)modes->widest)) return HD_NOT_FINITE;
     dq_norms(modes, v);
     overlaps(modes, v, 0, 0, columns, modes->coefficient);
-    overlaps(modes, v, HD_DIM, columns - HD_NULLS, HD_NULLS, modes->null_dp);
+    overlaps(modes, v, modes->coordinates, columns - nulls, nulls, modes->null_dp);
     measure_null(modes, v);
     normalise(modes, v);
     for (int s = 0; s < hd_fields_subspaces(modes->fields); s++) measure_subspace(modes, s, v);
@@ -311,8 +322,8 @@ static const double *weight_of(const hd_modes *modes, const double *rows, int s,
 
 static const double *null_of(const hd_modes *modes, const double *rows, int null)
 {
-    HD_ASSERT(null >= 0 && null < HD_NULLS);
-    return rows + (weight_rows(modes) - HD_NULLS + (size_t)null) * modes->stride;
+    HD_ASSERT(null >= 0 && null < hd_fields_nulls(modes->fields));
+    return rows + (weight_rows(modes) - nulls_of(modes) + (size_t)null) * modes->stride;
 }
 
 long hd_modes_samples(const hd_modes *modes) { return modes->samples; }

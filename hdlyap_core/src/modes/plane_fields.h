@@ -5,9 +5,12 @@
 #include "hdlyap/fields.h"
 #include "modes/harmonics.h"
 
-/** row[d][..]: component d of all columns of the subspace; `along` are filled there, p[HD_DIM] is
- * the momentum. */
-void hd_plane_fields_fill(double *const row[HD_DIM], const hd_subspace *s,
-                          const hd_harmonics along[HD_DIM], const double *p);
+/** row[d][..]: component d of all columns of the subspace; `along` are filled there, p is the
+ * momentum. */
+void hd_plane_fields_fill(double *const *row, const hd_subspace *s, const hd_harmonics *along,
+                          const double *p);
+/** The same in space. */
+void hd_space_fields_fill(double *const *row, const hd_subspace *s, const hd_harmonics *along,
+                          const double *p);
 
 #endif

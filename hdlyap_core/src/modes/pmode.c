@@ -1,8 +1,9 @@
 /** Vectors of an LP step -> its L and P modes [T14].
  *
- * With B (HD_DIM N x 2d) the normalised fields and psi (HD_DIM N x 2d) the normalised dq halves, Q
- * solves psi Q = B by least squares; the modes are psi Q. In the terms of what is measured already,
- * psi^T B = overlaps, so Q = (psi^T psi)^-1 psi^T B (dposv on 2d x 2d; psi is nearly orthonormal).
+ * With B (M x 2d) the normalised fields, M components of all disks, and psi (M x 2d) the normalised
+ * dq halves, Q solves psi Q = B by least squares; the modes are psi Q. In the terms of what is
+ * measured already, psi^T B = overlaps, so Q = (psi^T psi)^-1 psi^T B (dposv on 2d x 2d; psi is
+ * nearly orthonormal).
  */
 #include "hdlyap/pmode.h"
 
@@ -17,27 +18,35 @@
 enum { DIMENSION_MAX = HD_FIELDS_MAX };
 
 struct hd_pmode {
-    int disks, dimension; /**< 2d */
-    double *psi;          /**< [DIMENSION_MAX][HD_DIM N] */
-    double *field;        /**< [DIMENSION_MAX][HD_DIM N] */
+    int disks, space; /**< dimension of the space */
+    int dimension;    /**< 2d */
+    double *psi;      /**< [HD_FIELDS_IN(space)][space * disks] */
+    double *field;    /**< same */
     double q[DIMENSION_MAX * DIMENSION_MAX];
     double residual[DIMENSION_MAX];
     double norm[DIMENSION_MAX]; /**< of the fields as sampled */
     double distance;
 };
 
-double hd_pmode_bytes(double disks)
+static size_t size_of(const hd_scene_def *def)
 {
-    return sizeof(hd_pmode) + 2.0 * DIMENSION_MAX * HD_DIM * disks * sizeof(double);
+    const int space = hd_scene_dimension(def);
+    return (size_t)(HD_FIELDS_IN(space) * space) * (size_t)def->disks;
 }
 
-hd_status hd_pmode_create(hd_pmode **out, int disks)
+double hd_pmode_bytes(const hd_scene_def *def)
 {
-    const size_t size = (size_t)DIMENSION_MAX * HD_DIM * (size_t)disks;
+    return sizeof(hd_pmode) + 2.0 * (double)size_of(def) * sizeof(double);
+}
+
+hd_status hd_pmode_create(hd_pmode **out, const hd_scene_def *def)
+{
+    const size_t size = size_of(def);
     hd_pmode *pmode = hd_memory_alloc(1, sizeof *pmode);
     *out = NULL;
     if (!pmode) return HD_NO_MEMORY;
-    pmode->disks = disks;
+    pmode->disks = def->disks;
+    pmode->space = hd_scene_dimension(def);
     pmode->psi = hd_memory_alloc(size, sizeof(double));
     pmode->field = hd_memory_alloc(size, sizeof(double));
     if (!pmode->psi || !pmode->field) {
@@ -56,9 +65,12 @@ void hd_pmode_free(hd_pmode *pmode)
     hd_memory_free(pmode);
 }
 
+/** Components of all disks. */
+static int components(const hd_pmode *pmode) { return pmode->space * pmode->disks; }
+
 static double *row_of(double *rows, int row, const hd_pmode *pmode)
 {
-    return rows + HD_DIM * (size_t)row * (size_t)pmode->disks;
+    return rows + (size_t)row * (size_t)components(pmode);
 }
 
 static double dot(const double *a, const double *b, int n)
@@ -72,30 +84,31 @@ static double dot(const double *a, const double *b, int n)
 static void psi_load(hd_pmode *pmode, hd_columns vectors, int col)
 {
     const size_t stride = (size_t)vectors.stride;
+    const int space = pmode->space;
     for (int m = 0; m < pmode->dimension; m++) {
         double *psi = row_of(pmode->psi, m, pmode);
         const double *v = vectors.data + (col - vectors.first) + m;
         for (int j = 0; j < pmode->disks; j++)
-            for (int d = 0; d < HD_DIM; d++)
-                psi[HD_DIM * j + d] = v[(size_t)(HD_ROWS * j + d) * stride];
-        const double norm = sqrt(dot(psi, psi, HD_DIM * pmode->disks));
+            for (int d = 0; d < space; d++)
+                psi[space * j + d] = v[(size_t)(2 * space * j + d) * stride];
+        const double norm = sqrt(dot(psi, psi, components(pmode)));
         const double scale = norm > HD_MODES_DQ_MIN ? 1.0 / norm
                                                     : 0.0; /* then dependent: refused */
-        for (int k = 0; k < HD_DIM * pmode->disks; k++) psi[k] *= scale;
+        for (int k = 0; k < components(pmode); k++) psi[k] *= scale;
     }
 }
 
-static void field_column(double *out, const hd_fields *fields, int column, int disks)
+static void field_column(double *out, const hd_fields *fields, int column, int rows)
 {
     const size_t stride = (size_t)hd_fields_stride(fields);
-    for (int row = 0; row < HD_DIM * disks; row++)
+    for (int row = 0; row < rows; row++)
         out[row] = hd_fields_data(fields)[(size_t)row * stride + (size_t)column];
 }
 
 /** q <- (psi^T psi)^-1 psi^T B, with B in field. False if the vectors are dependent. */
 static bool solve(hd_pmode *pmode)
 {
-    const int n = pmode->dimension, rows = HD_DIM * pmode->disks;
+    const int n = pmode->dimension, rows = components(pmode);
     double gram[DIMENSION_MAX * DIMENSION_MAX];
     for (int m = 0; m < n; m++)
         for (int c = 0; c < n; c++) {
@@ -109,7 +122,7 @@ static bool solve(hd_pmode *pmode)
 /** field c: psi Q e_c in the place of B e_c, whose distance is the residual. */
 static void combine(hd_pmode *pmode, int c)
 {
-    const int n = pmode->dimension, rows = HD_DIM * pmode->disks;
+    const int n = pmode->dimension, rows = components(pmode);
     double *field = row_of(pmode->field, c, pmode), distance2 = 0.0;
     for (int k = 0; k < rows; k++) {
         double sum = 0.0;
@@ -142,7 +155,7 @@ bool hd_pmode_reconstruct(hd_pmode *pmode, const hd_step *step, const hd_modes *
     pmode->dimension = step->expected;
     psi_load(pmode, vectors, step->col);
     for (int c = 0; c < pmode->dimension; c++) {
-        field_column(row_of(pmode->field, c, pmode), fields, column + c, pmode->disks);
+        field_column(row_of(pmode->field, c, pmode), fields, column + c, components(pmode));
         pmode->norm[c] = hd_fields_norm(fields, column + c);
     }
     if (!solve(pmode)) return false;
@@ -156,7 +169,7 @@ int hd_pmode_pairs(const hd_pmode *pmode) { return pmode->dimension / 2; }
 const double *hd_pmode_field(const hd_pmode *pmode, int c)
 {
     HD_ASSERT(c >= 0 && c < pmode->dimension);
-    return pmode->field + HD_DIM * (size_t)c * (size_t)pmode->disks;
+    return pmode->field + (size_t)c * (size_t)components(pmode);
 }
 
 double hd_pmode_residual(const hd_pmode *pmode, int c)
@@ -169,7 +182,7 @@ double hd_pmode_rotation_distance(const hd_pmode *pmode) { return pmode->distanc
 
 void hd_pmode_divide(const hd_pmode *pmode, double *out, int c, const double *p)
 {
-    const int rows = HD_DIM * pmode->disks;
+    const int rows = components(pmode);
     const double *field = hd_pmode_field(pmode, c);
     const double eps = HD_PMODE_EPSILON * dot(p, p, rows) / rows;
     for (int k = 0; k < rows; k++) out[k] = pmode->norm[c] * field[k] * p[k] / (p[k] * p[k] + eps);

@@ -19,8 +19,8 @@ typedef struct bend {
 static const bend BENDS[2][2] = {
     {{0.11, 0.16, 0.02, 0.02, 0.55, 2.0, 0.0}, {0.02, 0.0, 0.007, 0.0, 0.05, 1.3, 0.01}},
     {{0.05, 0.17, 0.03, 0.04, 0.18, 0.8, 0.05}, {0.02, 0.0, 0.015, 0.0, 0.01, 0.87, 0.02}}};
-/** Of c3 / c: how far densities lie off the formulae. */
-static const double OFF = HD_DIM == 2 ? 0.1 : 0.15;
+/** Of c3 / c, of disks and of spheres: how far densities lie off the formulae. */
+static const double OFF[2] = {0.1, 0.15};
 /** Walls move c by about WALL sigma / edge, and each step by WALL_OWN of that for itself. */
 static const double WALL = 0.25, WALL_OWN = 0.6;
 /** In a circle T steps lie below the relation of boxes by up to 1.5 %. LP steps follow none: they
@@ -38,10 +38,10 @@ static const double MISSING = 0.02, ELSEWHERE = 0.006;
  * highest: c_L / c_T is 1.36 at most, and LP bends more. */
 static const double BELOW_STEP = 1.75;
 
-static double walls_of(const hd_scene_def *def, const double box[HD_DIM])
+static double walls_of(const hd_scene_def *def, const double *box)
 {
     double square = 0.0;
-    for (int d = 0; d < HD_DIM; d++)
+    for (int d = 0; d < hd_scene_dimension(def); d++)
         if (hd_scene_boundary(def, d) == HD_REFLECTING) square += WALL * WALL / (box[d] * box[d]);
     return sqrt(square);
 }
@@ -50,11 +50,12 @@ hd_relation hd_relation_of(const hd_scene_def *def, hd_mode_kind kind)
 {
     const bool t = kind == HD_MODE_T, curved = hd_scene_boundary(def, 0) == HD_CURVED;
     if (curved && !t) return NONE;
-    const bend *b = &BENDS[HD_DIM - 2][t];
+    const int spheres = hd_scene_dimension(def) - 2;
+    const bend *b = &BENDS[spheres][t];
     const double l = hd_scene_mean_free_path(def);
-    double box[HD_DIM], edge = INFINITY;
+    double box[HD_DIMENSION_MAX], edge = INFINITY;
     hd_scene_box(def, box);
-    for (int d = 0; d < HD_DIM; d++) edge = fmin(edge, box[d]);
+    for (int d = 0; d < hd_scene_dimension(def); d++) edge = fmin(edge, box[d]);
     const double walls = walls_of(def, box), square = edge * edge;
     const double rows = CROWDED * pow(def->density / DENSE, 8.0) / (square * square);
     const double narrow = hypot((t ? 0.1 : 0.25) / square, rows);
@@ -65,7 +66,7 @@ hd_relation hd_relation_of(const hd_scene_def *def, hd_mode_kind kind)
         .box_error = hypot(walls, narrow),
         .scatter = hypot(t ? 0.001 : 0.002, WALL_OWN * walls),
     };
-    r.c3_error = OFF * r.c3 + b->c3_error;
+    r.c3_error = OFF[spheres] * r.c3 + b->c3_error;
     if (curved) r.scatter = r.box_error = ROUND_T;
     return r;
 }

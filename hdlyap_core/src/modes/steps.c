@@ -43,7 +43,9 @@ static void step_define(hd_step *step, const hd_fields *fields, int s, bool conj
 double hd_steps_bytes(const hd_scene_def *scene)
 {
     const double n = hd_scene_vectors(scene), subspaces = hd_fields_count_of(scene).subspaces;
-    const double count = subspaces * (n == HD_ROWS * (double)scene->disks ? 2.0 : 1.0) + 1.0;
+    const double count = subspaces *
+                             (n == 2.0 * hd_scene_coordinates(scene) * scene->disks ? 2.0 : 1.0) +
+                         1.0;
     const double of_a_vector = sizeof(double) + sizeof(hd_part);
     return count * (sizeof(hd_step) + sizeof(hd_company) + HD_SET_VECTORS_MAX * of_a_vector) +
            n * (sizeof(int) + sizeof(double));
@@ -67,7 +69,7 @@ static int smaller(int a, int b) { return a < b ? a : b; }
 /** Where the halves and the zero modes lie; a frame need not reach so far. */
 static void place(hd_steps *steps, const hd_scene_def *def)
 {
-    const int n = steps->vectors, all = HD_ROWS * def->disks;
+    const int n = steps->vectors, all = 2 * hd_scene_coordinates(def) * def->disks;
     const int positive = hd_scene_positive_exponents(def);
     steps->positive = (hd_half){0, smaller(n, positive)};
     steps->zero_first = smaller(n, positive);
@@ -83,12 +85,12 @@ hd_status hd_steps_create(hd_steps **out, const hd_scene_def *def, const hd_mode
     const hd_fields *fields = hd_modes_fields(modes);
     steps->modes = modes;
     steps->vectors = hd_modes_vectors(modes);
-    steps->rows = HD_ROWS * def->disks;
+    steps->rows = 2 * hd_scene_coordinates(def) * def->disks;
     steps->warmup = hd_scene_warmup(def);
     steps->of_t = hd_relation_of(def, HD_MODE_T);
     steps->of_lp = hd_relation_of(def, HD_MODE_LP);
     steps->subspaces = hd_fields_subspaces(fields);
-    const bool all = steps->vectors == HD_ROWS * def->disks;
+    const bool all = steps->vectors == steps->rows;
     steps->count = steps->subspaces * (all ? 2 : 1) + 1;
     place(steps, def);
     const hd_status status = steps_allocate(steps);
@@ -231,8 +233,9 @@ static void half_find(hd_steps *steps, const hd_spectrum *spectrum, hd_half half
 
 static double null_weight(const hd_steps *steps, int col)
 {
+    const int nulls = hd_fields_nulls(hd_modes_fields(steps->modes));
     double sum = 0.0;
-    for (int k = 0; k < HD_NULLS; k++) sum += hd_modes_null_average(steps->modes, k)[col];
+    for (int k = 0; k < nulls; k++) sum += hd_modes_null_average(steps->modes, k)[col];
     return sum;
 }
 

@@ -1,8 +1,9 @@
 /** Frame -> structure factors of every vector at every wave vector [T20].
  *
  * The sums over the disks of dq_x, dq_y, .. times products of a cosine or sine of each coordinate
- * are HD_DIM matrix products, over the x, the y, .. rows of the frame where they lie, some waves at
- * a time: the sums of those stay in cache until they are amplitudes along and across k. */
+ * are a matrix product for each direction, over the x, the y, .. rows of the frame where they lie,
+ * some waves at a time: the sums of those stay in cache until they are amplitudes along and across
+ * k. */
 #include "hdlyap/structure.h"
 
 #include <limits.h>
@@ -18,35 +19,35 @@
 #include "modes/structure_terms.h"
 #include "tangent/product.h"
 
-enum {
-    AT_ONCE = 16,
-    FUNCTIONS = HD_MODULATIONS_MAX,
-    AMPLITUDES = HD_TRANSVERSE_MAX,
-    WIDTH = AT_ONCE * FUNCTIONS
-};
+enum { AT_ONCE = 16 };
 
 /** A wave vector, and for each component of dq the columns of its functions: -1 where no amplitude
  * needs one. */
 typedef struct planned {
     hd_wave wave;
     hd_modulations modulations[HD_DIRECTIONS];
-    int column[HD_DIM][FUNCTIONS]; /**< by the bits of the function, among those of AT_ONCE waves */
-    double root;                   /**< of 2 for each direction with walls and nodes */
+    /** By the bits of the function, among those of AT_ONCE waves. */
+    int column[HD_DIMENSION_MAX][HD_MODULATIONS_MAX];
+    double root; /**< of 2 for each direction with walls and nodes */
 } planned;
 
 struct hd_structure {
     int disks, vectors, waves, threads;
-    hd_harmonics along[HD_DIM];
-    planned *plan;         /**< [waves] */
-    size_t stride;         /**< of every array over the vectors */
-    double *value[HD_DIM]; /**< [disks][2 (nodes + 1)]: harmonics of each disk */
-    double *factor;        /**< [disks][WIDTH]: of one component and some waves */
-    double *sum[HD_DIM];   /**< [WIDTH][stride]: of dq_x, dq_y, .. times these */
-    double *snapshot;      /**< [waves][HD_DIRECTIONS][stride] */
-    double *mean;          /**< same, over samples */
-    double *amplitude;     /**< [HD_DIRECTIONS][AMPLITUDES][stride] */
-    double *work;          /**< [AT_ONCE][stride] */
-    int *peak, *shown;     /**< [vectors]: of the mean now, and when the snapshot was taken */
+    int dimension, coordinates; /**< of the space, of a disk */
+    size_t functions;           /**< of a wave */
+    size_t amplitudes;          /**< that a direction may have */
+    size_t width;               /**< functions of the waves that are taken at once */
+    hd_harmonics along[HD_DIMENSION_MAX];
+    planned *plan;                   /**< [waves] */
+    size_t stride;                   /**< of every array over the vectors */
+    double *value[HD_DIMENSION_MAX]; /**< [disks][2 (nodes + 1)]: harmonics of each disk */
+    double *factor;                  /**< [disks][width]: of one component and some waves */
+    double *sum[HD_DIMENSION_MAX];   /**< [width][stride]: of dq_x, dq_y, .. times these */
+    double *snapshot;                /**< [waves][HD_DIRECTIONS][stride] */
+    double *mean;                    /**< same, over samples */
+    double *amplitude;               /**< [HD_DIRECTIONS][amplitudes][stride] */
+    double *work;                    /**< [AT_ONCE][stride] */
+    int *peak, *shown; /**< [vectors]: of the mean now, and when the snapshot was taken */
     long samples;
 };
 
@@ -67,13 +68,13 @@ int hd_structure_waves_of(const hd_scene_def *def)
     return hd_waves(&all, NULL, 0);
 }
 
-static void plan_columns(planned *p, int used[HD_DIM])
+static void plan_columns(planned *p, int *used, int dimension)
 {
     memset(p->column, -1, sizeof p->column);
     for (hd_direction e = HD_ALONG; e < HD_DIRECTIONS; e++)
         for (int c = 0; c < p->modulations[e].count; c++)
-            for (int d = 0; d < HD_DIM; d++) {
-                const hd_structure_term term = hd_structure_term_of(&p->wave, e,
+            for (int d = 0; d < dimension; d++) {
+                const hd_structure_term term = hd_structure_term_of(dimension, &p->wave, e,
                                                                     p->modulations[e].bits[c], d);
                 int *column = &p->column[d][term.function];
                 if (*column < 0 && term.factor != 0) *column = used[d]++;
@@ -84,7 +85,7 @@ static void plan_columns(planned *p, int used[HD_DIM])
 static void plan_root(planned *p, const hd_scene_def *def)
 {
     p->root = 1.0;
-    for (int d = 0; d < HD_DIM; d++)
+    for (int d = 0; d < hd_scene_dimension(def); d++)
         if (def->boundary[d] == HD_REFLECTING && p->wave.n[d] > 0) p->root *= sqrt(2.0);
 }
 
@@ -98,12 +99,12 @@ static hd_status plan_waves(hd_structure *s, const hd_scene_def *def)
         return HD_NO_MEMORY;
     }
     (void)hd_waves(&all, wave, s->waves);
-    for (int w = 0, used[HD_DIM]; w < s->waves; w++) {
+    for (int w = 0, used[HD_DIMENSION_MAX]; w < s->waves; w++) {
         if (w % AT_ONCE == 0) memset(used, 0, sizeof used);
         s->plan[w] = (planned){.wave = wave[w], .modulations = {wave[w].pairs, wave[w].transverse}};
         plan_root(&s->plan[w], def);
-        plan_columns(&s->plan[w], used);
-        for (int d = 0; d < HD_DIM; d++)
+        plan_columns(&s->plan[w], used, s->dimension);
+        for (int d = 0; d < s->dimension; d++)
             if (wave[w].n[d] > s->along[d].nodes) s->along[d].nodes = wave[w].n[d];
     }
     hd_memory_free(wave);
@@ -114,31 +115,34 @@ double hd_structure_bytes(const hd_scene_def *scene, double vectors)
 {
     const double waves = hd_structure_waves_of(scene), longer = hd_wave_limits_of(scene).node + 1.0,
                  shorter = waves / longer + 1.0;
+    const int dimension = hd_scene_dimension(scene);
+    const double width = AT_ONCE * HD_MODULATIONS_IN(dimension),
+                 amplitudes = HD_TRANSVERSE_IN(dimension);
     return sizeof(double) *
            (2.0 * HD_DIRECTIONS * waves * vectors +
-            (HD_DIM * (double)WIDTH + AT_ONCE + HD_DIRECTIONS * AMPLITUDES + 1.0) * vectors +
-            scene->disks * (WIDTH + 2.0 * (longer + (HD_DIM - 1) * shorter)));
+            (dimension * width + AT_ONCE + HD_DIRECTIONS * amplitudes + 1.0) * vectors +
+            scene->disks * (width + 2.0 * (longer + (dimension - 1) * shorter)));
 }
 
 static hd_status prepare(hd_structure *s, const hd_scene_def *def)
 {
     const size_t disks = (size_t)def->disks, waves = (size_t)s->waves, n = s->stride;
     HD_TRY(plan_waves(s, def));
-    for (int d = 0; d < HD_DIM; d++) {
+    for (int d = 0; d < s->dimension; d++) {
         const size_t functions = 2 * ((size_t)s->along[d].nodes + 1);
         HD_TRY(hd_harmonics_create(&s->along[d], def, d, s->along[d].nodes));
         s->value[d] = hd_memory_alloc(disks * functions, sizeof(double));
-        s->sum[d] = hd_memory_alloc(WIDTH * n, sizeof(double));
+        s->sum[d] = hd_memory_alloc(s->width * n, sizeof(double));
         if (!s->value[d] || !s->sum[d]) return HD_NO_MEMORY;
     }
     struct {
         double **array;
         size_t size;
-    } wanted[] = {{&s->factor, disks * WIDTH},
+    } wanted[] = {{&s->factor, disks * s->width},
                   {&s->work, AT_ONCE * n},
                   {&s->snapshot, waves * HD_DIRECTIONS * n + 1},
                   {&s->mean, waves * HD_DIRECTIONS * n + 1},
-                  {&s->amplitude, HD_DIRECTIONS * AMPLITUDES * n}};
+                  {&s->amplitude, HD_DIRECTIONS * s->amplitudes * n}};
     for (size_t k = 0; k < sizeof wanted / sizeof *wanted; k++)
         if (!(*wanted[k].array = hd_memory_alloc(wanted[k].size, sizeof(double))))
             return HD_NO_MEMORY;
@@ -156,6 +160,11 @@ hd_status hd_structure_create(hd_structure **out, const hd_scene_def *def, int v
     *out = NULL;
     if (!s) return HD_NO_MEMORY;
     s->disks = def->disks;
+    s->dimension = hd_scene_dimension(def);
+    s->coordinates = hd_scene_coordinates(def);
+    s->functions = HD_MODULATIONS_IN(s->dimension);
+    s->amplitudes = (size_t)HD_TRANSVERSE_IN(s->dimension);
+    s->width = AT_ONCE * s->functions;
     s->vectors = vectors;
     s->threads = threads;
     s->waves = hd_structure_waves_of(def);
@@ -171,7 +180,7 @@ hd_status hd_structure_create(hd_structure **out, const hd_scene_def *def, int v
 void hd_structure_free(hd_structure *s)
 {
     if (!s) return;
-    for (int d = 0; d < HD_DIM; d++) {
+    for (int d = 0; d < HD_DIMENSION_MAX; d++) {
         hd_harmonics_clear(&s->along[d]);
         hd_memory_free(s->value[d]);
         hd_memory_free(s->sum[d]);
@@ -191,10 +200,10 @@ void hd_structure_free(hd_structure *s)
 
 static void fill_values(hd_structure *s, const double *q)
 {
-    for (int d = 0; d < HD_DIM; d++) {
+    for (int d = 0; d < s->dimension; d++) {
         const size_t size = 2 * ((size_t)s->along[d].nodes + 1);
         for (int j = 0; j < s->disks; j++) {
-            hd_harmonics_fill(&s->along[d], q[HD_DIM * j + d]);
+            hd_harmonics_fill(&s->along[d], q[s->dimension * j + d]);
             memcpy(s->value[d] + (size_t)j * size, s->along[d].value, size * sizeof(double));
         }
     }
@@ -203,25 +212,25 @@ static void fill_values(hd_structure *s, const double *q)
 /** A function at the wave: the product of one of each coordinate, of all disks. */
 static void fill_factor(hd_structure *s, const planned *p, unsigned bits, int column)
 {
-    const double *of[HD_DIM];
-    size_t size[HD_DIM];
-    for (int d = 0; d < HD_DIM; d++) {
+    const double *of[HD_DIMENSION_MAX];
+    size_t size[HD_DIMENSION_MAX];
+    for (int d = 0; d < s->dimension; d++) {
         of[d] = s->value[d] + 2 * p->wave.n[d] + (bits >> d & 1);
         size[d] = 2 * ((size_t)s->along[d].nodes + 1);
     }
     for (size_t j = 0; j < (size_t)s->disks; j++) {
         double product = of[0][j * size[0]];
-        for (int d = 1; d < HD_DIM; d++) product *= of[d][j * size[d]];
-        s->factor[j * WIDTH + (size_t)column] = product;
+        for (int d = 1; d < s->dimension; d++) product *= of[d][j * size[d]];
+        s->factor[j * s->width + (size_t)column] = product;
     }
 }
 
-/** factor[disks][WIDTH] of component d at waves [from, to); returns how many columns there are. */
+/** factor[disks][width] of component d at waves [from, to); returns how many columns there are. */
 static int fill_factors(hd_structure *s, int d, int from, int to)
 {
     int columns = 0;
     for (int w = from; w < to; w++)
-        for (unsigned bits = 0; bits < FUNCTIONS; bits++) {
+        for (unsigned bits = 0; bits < s->functions; bits++) {
             const int column = s->plan[w].column[d][bits];
             if (column < 0) continue;
             fill_factor(s, &s->plan[w], bits, column);
@@ -232,12 +241,12 @@ static int fill_factors(hd_structure *s, int d, int from, int to)
 
 static void sum_up(hd_structure *s, hd_columns v, int from, int to)
 {
-    for (int d = 0; d < HD_DIM; d++) {
+    for (int d = 0; d < s->dimension; d++) {
         const int columns = fill_factors(s, d, from, to);
         if (columns == 0) continue;
         hd_dgemm(CblasNoTrans, CblasTrans, v.count, columns, s->disks, 1.0,
-                 v.data + (size_t)d * (size_t)v.stride, HD_ROWS * v.stride, s->factor, WIDTH, 0.0,
-                 s->sum[d] + v.first, (int)s->stride);
+                 v.data + (size_t)d * (size_t)v.stride, 2 * s->coordinates * v.stride, s->factor,
+                 (int)s->width, 0.0, s->sum[d] + v.first, (int)s->stride);
     }
 }
 
@@ -246,8 +255,8 @@ static void amplitudes(const hd_structure *s, double *out, const planned *p, hd_
                        unsigned bits, hd_columns v)
 {
     memset(out, 0, (size_t)v.count * sizeof *out);
-    for (int d = 0; d < HD_DIM; d++) {
-        const hd_structure_term term = hd_structure_term_of(&p->wave, e, bits, d);
+    for (int d = 0; d < s->dimension; d++) {
+        const hd_structure_term term = hd_structure_term_of(s->dimension, &p->wave, e, bits, d);
         if (term.factor == 0) continue;
         const double *row = s->sum[d] + (size_t)p->column[d][term.function] * s->stride;
         for (int l = 0; l < v.count; l++) out[l] += term.factor * row[v.first + l];
@@ -269,7 +278,7 @@ static void measure_wave(hd_structure *s, double *work, int w, hd_columns v, con
         double *out = snapshot_of(s, s->snapshot, w, e) + v.first;
         memset(out, 0, (size_t)v.count * sizeof *out);
         for (int c = 0; c < m->count; c++) {
-            double *kept = s->amplitude + ((size_t)e * AMPLITUDES + m->bits[c]) * s->stride;
+            double *kept = s->amplitude + ((size_t)e * s->amplitudes + m->bits[c]) * s->stride;
             amplitudes(s, work, &s->plan[w], e, m->bits[c], v);
             for (int l = 0; l < v.count; l++) {
                 const double norm = dq_norm[v.first + l];
@@ -295,7 +304,7 @@ hd_status hd_structure_measure(hd_structure *s, hd_columns v, const double *q,
     const size_t size = (size_t)s->waves * HD_DIRECTIONS * s->stride;
     memcpy(s->shown, s->peak, (size_t)s->vectors * sizeof *s->shown);
     fill_values(s, q);
-    for (size_t row = 0; row < HD_DIRECTIONS * AMPLITUDES; row++)
+    for (size_t row = 0; row < HD_DIRECTIONS * s->amplitudes; row++)
         memset(s->amplitude + row * s->stride + v.first, 0, (size_t)v.count * sizeof(double));
     for (int from = 0; from < s->waves; from += AT_ONCE) {
         const int to = from + AT_ONCE < s->waves ? from + AT_ONCE : s->waves;
@@ -310,7 +319,7 @@ hd_status hd_structure_share(hd_structure *s, hd_communicator *communicator, int
     const size_t rows = (size_t)s->waves * HD_DIRECTIONS, n = (size_t)s->vectors;
     hd_shared own = {rows, s->stride, (size_t)width, (size_t)carried, 0};
     HD_TRY(hd_communicator_share_halves(communicator, s->snapshot, own, n));
-    own.rows = HD_DIRECTIONS * AMPLITUDES;
+    own.rows = HD_DIRECTIONS * s->amplitudes;
     return hd_communicator_share_halves(communicator, s->amplitude, own, n);
 }
 
@@ -377,8 +386,8 @@ int hd_structure_peak(const hd_structure *s, int col)
 
 const double *hd_structure_amplitude(const hd_structure *s, hd_direction e, unsigned modulation)
 {
-    HD_ASSERT(e < HD_DIRECTIONS && modulation < AMPLITUDES);
-    return s->amplitude + ((size_t)e * AMPLITUDES + modulation) * s->stride;
+    HD_ASSERT(e < HD_DIRECTIONS && modulation < s->amplitudes);
+    return s->amplitude + ((size_t)e * s->amplitudes + modulation) * s->stride;
 }
 
 /** The snapshot belongs to this time alone. */

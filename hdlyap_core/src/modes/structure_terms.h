@@ -12,6 +12,7 @@ typedef struct hd_structure_term {
 } hd_structure_term;
 
 /** Of component d in the amplitude of modulation `bits` of the wave. */
-hd_structure_term hd_structure_term_of(const hd_wave *wave, hd_direction e, unsigned bits, int d);
+hd_structure_term hd_structure_term_of(int dimension, const hd_wave *wave, hd_direction e,
+                                       unsigned bits, int d);
 
 #endif

@@ -7,13 +7,13 @@
 static double fields_bytes(const hd_scene_def *scene, int ranks)
 {
     (void)ranks;
-    return hd_pmode_bytes(scene->disks);
+    return hd_pmode_bytes(scene);
 }
 
 static void *fields_create(const hd_observing *with, hd_status *status)
 {
     hd_pmode *made;
-    *status = hd_pmode_create(&made, with->scene->disks);
+    *status = hd_pmode_create(&made, with->scene);
     return made;
 }
 

@@ -52,9 +52,9 @@ static reconstruction reconstruction_of(int nx, int ny, bool on_lattice, double 
 {
     reconstruction r = {.dimension = nx && ny ? 8 : 4};
     const double exponents[DIMENSION_MAX] = {1, 1, 1, 1, 1, 1, 1, 1};
-    r.w = world_create(
-        scene(.disks = DISKS, .density = 0.5, .aspect = 0.8, .seed = 8, .max_mode_number = 1),
-        r.dimension, 1);
+    const hd_scene_def def = scene(.disks = DISKS, .density = 0.5, .aspect = 0.8, .seed = 8,
+                                   .max_mode_number = 1);
+    r.w = world_create(def, r.dimension, 1);
     r.subspace = hd_fields_subspace(r.w.fields, world_subspace(&r.w, HD_MODE_LP, nx, ny));
     r.step = world_step(&r.w, HD_MODE_LP, nx, ny);
     if (on_lattice) lattice(&r.w);
@@ -62,7 +62,7 @@ static reconstruction reconstruction_of(int nx, int ny, bool on_lattice, double 
     write_vectors(&r, noise);
     world_find(&r.w, exponents);
     assert_true(r.step->resolved && r.step->members == 1);
-    CHECK_OK(hd_pmode_create(&r.pmode, DISKS));
+    CHECK_OK(hd_pmode_create(&r.pmode, &def));
     return r;
 }
 

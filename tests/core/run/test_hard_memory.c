@@ -34,7 +34,7 @@ static hd_status live(world *w, const hd_scene_def *scene)
 {
     hd_status status = w->resumed ? hd_run_resume(&w->run, w->resumed, scene, NULL, 0)
                                   : hd_run_create(&w->run, scene, NULL, 0);
-    if (status == HD_OK && scene->observe) status = hd_pmode_create(&w->pmode, scene->disks);
+    if (status == HD_OK && scene->observe) status = hd_pmode_create(&w->pmode, scene);
     if (status == HD_OK && scene->observe)
         status = hd_hydro_create(&w->hydro, scene, hd_run_steps(w->run));
     while (status == HD_OK && hd_run_stage(w->run) != HD_FINISHED) status = hd_run_advance(w->run);

@@ -98,7 +98,7 @@ TEST(fields_are_counted)
 {
     const hd_scene_def scene = short_run(300, 10, HD_OBSERVE_FIELDS);
     const size_t before = ledger_now().live;
-    MADE(hd_pmode, pmode, scene.disks);
+    MADE(hd_pmode, pmode, &scene);
     const double asked = (double)(ledger_now().live - before);
     const double stated = hd_fields_row.bytes(&scene, 1);
     CHECK_WITHIN(stated / asked, 0.93, 1.07);

@@ -114,7 +114,7 @@ static void check_fields(const hd_run *run)
     const int rows = 2 * hd_run_scene(run)->disks;
     double *state = malloc(3 * (size_t)rows * sizeof *state), *p = state + rows, *out = p + rows;
     hd_trajectory_state(hd_run_trajectory(run), state, p);
-    MADE(hd_pmode, pmode, rows / 2);
+    MADE(hd_pmode, pmode, hd_run_scene(run));
     MADE(hd_hydro, hydro, hd_run_scene(run), steps);
     for (int k = 0; k < hd_steps_count(steps); k++) {
         const hd_step *step = hd_steps_step(steps, k);

@@ -6,13 +6,11 @@
 #include "modes/plane_fields.h"
 
 /** A, and s. */
-static double products(double s[HD_DIM], const hd_wave *wave, const hd_harmonics along[HD_DIM],
-                       unsigned bits)
+static double products(double *s, const hd_wave *wave, const hd_harmonics *along, unsigned bits)
 {
-    double value[HD_DIM];
-    for (int d = 0; d < HD_DIM; d++)
-        value[d] = along[d].value[2 * wave->n[d] + (int)(bits >> d & 1)];
-    for (int d = 0; d < HD_DIM; d++) {
+    double value[3];
+    for (int d = 0; d < 3; d++) value[d] = along[d].value[2 * wave->n[d] + (int)(bits >> d & 1)];
+    for (int d = 0; d < 3; d++) {
         const double derived = along[d].derivative[2 * wave->n[d] + (int)(bits >> d & 1)];
         s[d] = (wave->n[d] > 0 ? derived / wave->k[d] : value[d]) * value[(d + 1) % 3] *
                value[(d + 2) % 3];
@@ -20,29 +18,28 @@ static double products(double s[HD_DIM], const hd_wave *wave, const hd_harmonics
     return value[0] * value[1] * value[2];
 }
 
-static void fill_transverse(double *const row[HD_DIM], const hd_subspace *s,
-                            const hd_harmonics along[HD_DIM])
+static void fill_transverse(double *const *row, const hd_subspace *s, const hd_harmonics *along)
 {
-    double product[HD_DIM];
+    double product[3];
     for (int c = 0; c < s->modulations.count; c++) {
         const unsigned bits = s->modulations.bits[c];
         products(product, &s->wave, along, bits & (HD_SECOND - 1));
-        for (int d = 0; d < HD_DIM; d++)
+        for (int d = 0; d < 3; d++)
             row[d][s->column + c] = s->wave.across[(bits & HD_SECOND) != 0][d] * product[d];
     }
 }
 
-void hd_plane_fields_fill(double *const row[HD_DIM], const hd_subspace *s,
-                          const hd_harmonics along[HD_DIM], const double *p)
+void hd_space_fields_fill(double *const *row, const hd_subspace *s, const hd_harmonics *along,
+                          const double *p)
 {
     if (s->kind == HD_MODE_T) {
         fill_transverse(row, s, along);
         return;
     }
     for (int c = 0; c < s->modulations.count; c++) {
-        double product[HD_DIM];
+        double product[3];
         const double a = products(product, &s->wave, along, s->modulations.bits[c]);
-        for (int d = 0; d < HD_DIM; d++) {
+        for (int d = 0; d < 3; d++) {
             row[d][s->column + c] = s->wave.k[d] * product[d];
             row[d][s->column + c + s->modulations.count] = p[d] * a;
         }

@@ -1,8 +1,8 @@
 /** Cosines and sines of x and y -> T = curl A, L = grad A and P = p A of A = f(x) g(y) [T10]. */
 #include "modes/plane_fields.h"
 
-void hd_plane_fields_fill(double *const row[HD_DIM], const hd_subspace *s,
-                          const hd_harmonics along[HD_DIM], const double *p)
+void hd_plane_fields_fill(double *const *row, const hd_subspace *s, const hd_harmonics *along,
+                          const double *p)
 {
     double *x = row[0], *y = row[1];
     for (int c = 0; c < s->modulations.count; c++) {

@@ -1,0 +1,27 @@
+/** What components of dq add to amplitudes [T20], [T22]. */
+#include "modes/structure_terms.h"
+
+/** Along (A_x, A_y), across (A_y, -A_x). */
+static hd_structure_term in_plane(const hd_wave *wave, hd_direction e, unsigned bits, int d)
+{
+    const int derived = e == HD_ALONG ? d : 1 - d;
+    const unsigned bit = derived == 0 ? HD_SIN_X : HD_SIN_Y;
+    const double part = wave->k[derived] / wave->number, slope = bits & bit ? part : -part;
+    return (hd_structure_term){bits ^ bit, e == HD_ACROSS && d == 1 ? -slope : slope};
+}
+
+/** Along k and the directions across it: (e_d s_d). */
+static hd_structure_term in_space(const hd_wave *wave, hd_direction e, unsigned bits, int d)
+{
+    const unsigned scalar = bits & (HD_SECOND - 1u), bit = 1u << d;
+    const double part = e == HD_ALONG ? wave->k[d] / wave->number
+                                      : wave->across[(bits & HD_SECOND) != 0][d];
+    if (wave->n[d] == 0) return (hd_structure_term){scalar, part};
+    return (hd_structure_term){scalar ^ bit, scalar & bit ? part : -part};
+}
+
+hd_structure_term hd_structure_term_of(int dimension, const hd_wave *wave, hd_direction e,
+                                       unsigned bits, int d)
+{
+    return dimension == 2 ? in_plane(wave, e, bits, d) : in_space(wave, e, bits, d);
+}
