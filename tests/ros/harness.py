@@ -77,9 +77,12 @@ def defaults():
     return yaml.safe_load(subprocess.check_output([executable(), '--parameters'], text=True))
 
 
-def probe_library():
-    """Is built beside the node."""
-    return os.path.join(os.path.dirname(executable()), 'hdlyap_probe.so')
+def probed(command=None):
+    """Environment in which probe.c, built beside the node, stands before the functions of a command
+    (None: of the node, whose core then hides none)."""
+    folder = os.path.dirname(executable())
+    names = ['hdlyap_probe.so'] if command else ['hdlyap_probe.so', 'open/libhdlyap_core.so.0']
+    return {'LD_PRELOAD': ':'.join(os.path.join(folder, name) for name in names)}
 
 
 def free_port():
@@ -181,7 +184,7 @@ def start(params, name=NODE, probe=None, args=(), command=None, **env):
     master = rosgraph.Master('/harness', env.get('ROS_MASTER_URI'))
     master.setParam('/' + name, params)
     if probe is not None:
-        env.update(probe, LD_PRELOAD=probe_library())
+        env.update(probe, **probed(command))
     return Process([*(command or [executable(params)]), '__name:=' + name, *args], **env)
 
 

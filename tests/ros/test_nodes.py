@@ -172,7 +172,7 @@ class Nodes(harness.Case):
 
     def check_clock(self, jump, kept):
         params = dict(RUN, duration=0.0, pace=PACE, checkpoint=kept, checkpoint_interval=0.2)
-        jumps = dict(LD_PRELOAD=harness.probe_library(), PROBE_CLOCK_JUMP=str(jump))
+        jumps = dict(harness.probed(), PROBE_CLOCK_JUMP=str(jump))
         heard = self.hear('/diagnostics', DiagnosticArray)
         run = Run(self, params, '/jump_%s' % ('ahead' if jump > 0 else 'back'), **jumps)
         begin = time.monotonic()

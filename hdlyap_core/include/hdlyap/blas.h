@@ -4,9 +4,7 @@
 
 #include "hdlyap/status.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+HD_API_BEGIN
 
 typedef struct hd_blas {
     const char *library;   /**< as it describes itself, e.g. "OpenBLAS 0.3.21 ..." */
@@ -43,7 +41,5 @@ int hd_blas_threads_granted(int threads);
  * buffers: OpenBLAS would ask for it for ever, and OpenMP would end the process. Takes none. */
 HD_MUST_CHECK hd_status hd_blas_room(int threads);
 
-#ifdef __cplusplus
-}
-#endif
+HD_API_END
 #endif

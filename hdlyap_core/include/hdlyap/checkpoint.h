@@ -10,9 +10,7 @@
 
 #include "hdlyap/run.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+HD_API_BEGIN
 
 enum { HD_CHECKPOINT_FORMAT = 14, HD_CHECKPOINT_LABEL = 64 };
 
@@ -56,7 +54,5 @@ HD_MUST_CHECK hd_status hd_run_resume_shared(hd_run **out, const char *path,
                                              hd_communicator *communicator, char *message,
                                              size_t size);
 
-#ifdef __cplusplus
-}
-#endif
+HD_API_END
 #endif

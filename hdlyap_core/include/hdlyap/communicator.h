@@ -9,9 +9,7 @@
 
 #include "hdlyap/status.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+HD_API_BEGIN
 
 typedef struct hd_communicator hd_communicator;
 
@@ -79,7 +77,5 @@ HD_MUST_CHECK hd_status hd_communicator_share_halves(hd_communicator *c, double 
 /** The status of the first rank that has another one than HD_OK: all then go on, or none. */
 HD_MUST_CHECK hd_status hd_communicator_agree(hd_communicator *c, hd_status mine);
 
-#ifdef __cplusplus
-}
-#endif
+HD_API_END
 #endif

@@ -15,9 +15,7 @@
 #include "hdlyap/spectrum.h"
 #include "hdlyap/splitting.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+HD_API_BEGIN
 
 typedef struct hd_covariant hd_covariant;
 
@@ -106,7 +104,5 @@ const hd_modes *hd_covariant_of_frame(const hd_covariant *covariant);
 const double *hd_covariant_widths(const hd_covariant *covariant);
 const double *hd_covariant_cosines(const hd_covariant *covariant);
 
-#ifdef __cplusplus
-}
-#endif
+HD_API_END
 #endif

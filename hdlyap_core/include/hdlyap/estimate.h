@@ -5,9 +5,7 @@
 
 #include "hdlyap/run.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+HD_API_BEGIN
 
 /** How many there are of what a run tells. What the scene does not ask for is 0. */
 typedef struct hd_extent {
@@ -49,7 +47,5 @@ HD_MUST_CHECK hd_status hd_estimate_run(hd_estimate *out, const hd_scene_def *de
 /** errors_after alone, without a trial, of all disks. HD_NO_MEMORY. */
 HD_MUST_CHECK hd_status hd_estimate_errors(double *after, const hd_scene_def *def);
 
-#ifdef __cplusplus
-}
-#endif
+HD_API_END
 #endif

@@ -4,9 +4,7 @@
 
 #include "hdlyap/wave.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+HD_API_BEGIN
 
 typedef enum hd_mode_kind { HD_MODE_NONE, HD_MODE_ZERO, HD_MODE_T, HD_MODE_LP } hd_mode_kind;
 
@@ -44,7 +42,5 @@ double hd_fields_norm(const hd_fields *fields, int column);
 int hd_fields_subspaces(const hd_fields *fields);
 const hd_subspace *hd_fields_subspace(const hd_fields *fields, int s);
 
-#ifdef __cplusplus
-}
-#endif
+HD_API_END
 #endif

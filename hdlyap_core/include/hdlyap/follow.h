@@ -5,9 +5,7 @@
 
 #include "hdlyap/communicator.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+HD_API_BEGIN
 
 /** On rank 0: from now on each call of a run with this communicator is told to the others. */
 void hd_run_lead(hd_communicator *communicator);
@@ -17,7 +15,5 @@ void hd_run_dismiss(hd_communicator *communicator);
  * fails here alike; rank 0 says so. */
 void hd_run_follow(hd_communicator *communicator);
 
-#ifdef __cplusplus
-}
-#endif
+HD_API_END
 #endif

@@ -5,9 +5,7 @@
 #include "hdlyap/communicator.h"
 #include "hdlyap/trajectory.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+HD_API_BEGIN
 
 /** HD_ROWS rows of each disk, dq_x, dq_y, dp_x, dp_y, of spheres dq_x .. dp_z; row-major with
  * leading dimension hd_frame_stride, rows aligned to 64 bytes, columns beyond those of vectors
@@ -72,7 +70,5 @@ void hd_frame_rewind(hd_frame *frame);
  * |dp| / |dq|, NaN if dq vanishes; of this rank's, as many as hd_frame_columns has, each. */
 void hd_frame_halves(const hd_frame *frame, double *cos_theta, double *dp_dq_ratio);
 
-#ifdef __cplusplus
-}
-#endif
+HD_API_END
 #endif

@@ -5,9 +5,7 @@
 
 #include "hdlyap/trajectory.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+HD_API_BEGIN
 
 /** Means over all whole samples since hd_gas_begin. Errors are standard errors [T8]; negative while
  * they cannot be known. */
@@ -46,7 +44,5 @@ double hd_gas_area(const hd_scene_def *def);
  * but for 1 / N it is 1, of spheres 2/3 [energy]. */
 double hd_gas_temperature(const hd_scene_def *def);
 
-#ifdef __cplusplus
-}
-#endif
+HD_API_END
 #endif

@@ -5,9 +5,7 @@
 
 #include "hdlyap/steps.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+HD_API_BEGIN
 
 /** Response of sums over the disks to one normalised vector (|dq|^2 + |dp|^2 = 1), at one
  * modulation A of its step's wave vector, over sqrt(N/2): density, of sum A, over k; momentum
@@ -37,7 +35,5 @@ void hd_hydro_measure(hd_hydro *hydro, const hd_steps *steps, hd_columns vectors
 int hd_hydro_count(const hd_hydro *hydro);
 const hd_hydro_response *hd_hydro_at(const hd_hydro *hydro, int index);
 
-#ifdef __cplusplus
-}
-#endif
+HD_API_END
 #endif

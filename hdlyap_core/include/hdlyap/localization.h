@@ -4,9 +4,7 @@
 
 #include "hdlyap/frame.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+HD_API_BEGIN
 
 typedef struct hd_localization hd_localization;
 
@@ -38,7 +36,5 @@ double hd_localization_width_now(const hd_localization *shape, int col);
 /** Mean |cos| of the angle between the dq and dp halves; [n]. */
 const double *hd_localization_cosines(const hd_localization *shape);
 
-#ifdef __cplusplus
-}
-#endif
+HD_API_END
 #endif

@@ -5,9 +5,7 @@
 #include "hdlyap/fields.h"
 #include "hdlyap/frame.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+HD_API_BEGIN
 
 /** A dq half shorter than this counts as none: its squares are no longer known to rounding. */
 #define HD_MODES_DQ_MIN 1e-145
@@ -59,7 +57,5 @@ const double *hd_modes_dq_norms(const hd_modes *modes);
  * at a column of hd_fields; [n]. */
 const double *hd_modes_coefficients(const hd_modes *modes, int column);
 
-#ifdef __cplusplus
-}
-#endif
+HD_API_END
 #endif

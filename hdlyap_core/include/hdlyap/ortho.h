@@ -5,9 +5,7 @@
 
 #include "hdlyap/frame.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+HD_API_BEGIN
 
 typedef struct hd_ortho hd_ortho;
 
@@ -65,7 +63,5 @@ hd_norm hd_ortho_norm(const hd_ortho *ortho); /**< of the last step */
 /** Measured max |Q^T Q - 1| in a norm; costs a dsyrk. For tests and verification. */
 double hd_ortho_defect_measured(hd_ortho *ortho, hd_frame *frame, hd_norm norm);
 
-#ifdef __cplusplus
-}
-#endif
+HD_API_END
 #endif

@@ -8,9 +8,7 @@
 
 #include "hdlyap/scene.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+HD_API_BEGIN
 
 /** What is stored in hd_scene_def, and how a user says it. */
 typedef enum hd_parameter_kind {
@@ -70,7 +68,5 @@ bool hd_parameter_is_word(const hd_parameter *row, double value);
 /** False if there is no such word. */
 bool hd_parameter_value_of(int *value, const hd_parameter *row, const char *word);
 
-#ifdef __cplusplus
-}
-#endif
+HD_API_END
 #endif

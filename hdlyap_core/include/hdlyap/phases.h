@@ -6,9 +6,7 @@
 
 #include "hdlyap/steps.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+HD_API_BEGIN
 
 typedef enum hd_phase_state {
     HD_PHASE_UNRESOLVED, /**< the step is not resolved: nothing else is known */
@@ -75,7 +73,5 @@ hd_velocity hd_phases_velocity(const hd_phases *phases);
  * falls when phases scatter more. */
 double hd_phases_sampling(const hd_phases *phases, const hd_steps *steps);
 
-#ifdef __cplusplus
-}
-#endif
+HD_API_END
 #endif

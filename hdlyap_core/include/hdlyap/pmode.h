@@ -5,9 +5,7 @@
 
 #include "hdlyap/steps.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+HD_API_BEGIN
 
 typedef struct hd_pmode hd_pmode;
 
@@ -38,7 +36,5 @@ void hd_pmode_divide(const hd_pmode *pmode, double *out, int c, const double *p)
 /** eps in units of the mean square of a momentum component. */
 #define HD_PMODE_EPSILON 1e-2
 
-#ifdef __cplusplus
-}
-#endif
+HD_API_END
 #endif

@@ -4,9 +4,7 @@
 
 #include "hdlyap/scene.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+HD_API_BEGIN
 
 /** Bytes that the core asks for on each of some ranks (1: a single one) in a run of a checked
  * scene, within some percent, with so many threads. Not in it: libraries, what the caller makes of
@@ -29,7 +27,5 @@ hd_room hd_room_available(void);
 HD_MUST_CHECK hd_status hd_room_check(const hd_scene_def *def, hd_room room, char *message,
                                       size_t size);
 
-#ifdef __cplusplus
-}
-#endif
+HD_API_END
 #endif

@@ -18,9 +18,7 @@
 #include "hdlyap/steps.h"
 #include "hdlyap/structure.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+HD_API_BEGIN
 
 /** Room for the name of a quantity, as T(1,0) or c_T. */
 enum { HD_QUANTITY_NAME = 32 };
@@ -202,7 +200,5 @@ double hd_run_errors_after(const hd_run *run);
  * state of the disks, as of a crystal [T8]. */
 bool hd_run_is_caged(const hd_run *run);
 
-#ifdef __cplusplus
-}
-#endif
+HD_API_END
 #endif

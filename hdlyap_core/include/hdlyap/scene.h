@@ -8,9 +8,7 @@
 
 #include "hdlyap/status.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+HD_API_BEGIN
 
 /** Components of a position: 2, disks, or 3, spheres, which are called disks as well. Each has a
  * library of its own, and who uses the one for spheres compiles with -DHD_DIM=3. */
@@ -148,7 +146,5 @@ int hd_scene_vectors(const hd_scene_def *def);
 /** Number of tangent vectors that are carried for them: half for all of them [T18]. */
 int hd_scene_carried(const hd_scene_def *def);
 
-#ifdef __cplusplus
-}
-#endif
+HD_API_END
 #endif

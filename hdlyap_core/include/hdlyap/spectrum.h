@@ -4,9 +4,7 @@
 
 #include "hdlyap/status.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+HD_API_BEGIN
 
 typedef struct hd_spectrum hd_spectrum;
 
@@ -64,7 +62,5 @@ double hd_spectrum_pairing_error(const hd_spectrum *spectrum);
 
 enum { HD_SPECTRUM_BLOCKS_MIN = 16 };
 
-#ifdef __cplusplus
-}
-#endif
+HD_API_END
 #endif

@@ -5,9 +5,7 @@
 
 #include "hdlyap/status.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+HD_API_BEGIN
 
 /** Pairs of the spaces of positive, vanishing and negative exponents. */
 typedef enum hd_pair_of_spaces {
@@ -57,7 +55,5 @@ const double *hd_splitting_violations(const hd_splitting *splitting);
  * the splitting there is dominated, so that what is on either side is isolated from the other. */
 const double *hd_splitting_domination_violations(const hd_splitting *splitting);
 
-#ifdef __cplusplus
-}
-#endif
+HD_API_END
 #endif

@@ -3,9 +3,28 @@
 #ifndef HDLYAP_STATUS_H
 #define HDLYAP_STATUS_H
 
-#ifdef __cplusplus
-extern "C" {
+#if defined(__GNUC__)
+#define HD_MUST_CHECK __attribute__((warn_unused_result))
+#define HD_VISIBLE _Pragma("GCC visibility push(default)")
+#define HD_VISIBLE_END _Pragma("GCC visibility pop")
+#else
+#define HD_MUST_CHECK
+#define HD_VISIBLE
+#define HD_VISIBLE_END
 #endif
+
+/** What is declared in between is seen by who uses the library; in C++, too. */
+/* clang-format off */
+#ifdef __cplusplus
+#define HD_API_BEGIN HD_VISIBLE extern "C" {
+#define HD_API_END } HD_VISIBLE_END
+#else
+#define HD_API_BEGIN HD_VISIBLE
+#define HD_API_END HD_VISIBLE_END
+#endif
+/* clang-format on */
+
+HD_API_BEGIN
 
 /** name, text */
 #define HD_STATUS_LIST(X)                                                                          \
@@ -25,12 +44,6 @@ typedef enum hd_status {
 #undef HD_STATUS_NAME
 } hd_status;
 
-#if defined(__GNUC__)
-#define HD_MUST_CHECK __attribute__((warn_unused_result))
-#else
-#define HD_MUST_CHECK
-#endif
-
 /** One line of English for a status; never NULL. */
 const char *hd_status_text(hd_status status);
 
@@ -41,7 +54,5 @@ typedef void (*hd_assert_handler)(const char *condition, const char *file, int l
 /** Replaces the handler (default: print to stderr and abort); NULL restores the default. */
 void hd_assert_handler_replace(hd_assert_handler handler);
 
-#ifdef __cplusplus
-}
-#endif
+HD_API_END
 #endif

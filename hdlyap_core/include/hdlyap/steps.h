@@ -6,9 +6,7 @@
 #include "hdlyap/modes.h"
 #include "hdlyap/spectrum.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+HD_API_BEGIN
 
 /** Of a step with others in one set: do their exponents coincide, or do vectors mix that differ? */
 typedef enum hd_sharing {
@@ -141,7 +139,5 @@ double hd_steps_scatter(const hd_steps *steps, const hd_step *step);
 hd_dispersion hd_steps_dispersion(const hd_steps *steps, const hd_spectrum *spectrum,
                                   hd_mode_kind kind);
 
-#ifdef __cplusplus
-}
-#endif
+HD_API_END
 #endif

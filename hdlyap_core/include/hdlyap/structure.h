@@ -7,9 +7,7 @@
 #include "hdlyap/frame.h"
 #include "hdlyap/wave.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+HD_API_BEGIN
 
 typedef struct hd_structure hd_structure;
 
@@ -61,7 +59,5 @@ int hd_structure_peak(const hd_structure *structure, int col);
 const double *hd_structure_amplitude(const hd_structure *structure, hd_direction e,
                                      unsigned modulation);
 
-#ifdef __cplusplus
-}
-#endif
+HD_API_END
 #endif

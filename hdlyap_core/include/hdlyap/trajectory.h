@@ -8,9 +8,7 @@
 
 #include "hdlyap/scene.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+HD_API_BEGIN
 
 /** hd_event.j of a wall event: HD_WALL_X, HD_WALL_Y or of spheres HD_WALL_Z (the direction of the
  * wall's normal), or HD_WALL_ROUND. */
@@ -93,7 +91,5 @@ double hd_trajectory_overlap_max(const hd_trajectory *trajectory);
 /** Deepest overlap of any pair now: max(0, 1 - distance) over all pairs and images. Cost O(N). */
 double hd_trajectory_overlap(const hd_trajectory *trajectory);
 
-#ifdef __cplusplus
-}
-#endif
+HD_API_END
 #endif

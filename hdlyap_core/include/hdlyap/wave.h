@@ -7,9 +7,7 @@
 
 #include "hdlyap/scene.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+HD_API_BEGIN
 
 /** A is a product of a function of each coordinate; a set bit: sine, otherwise cosine (1 for n =
  * 0).
@@ -75,7 +73,5 @@ hd_wave_limits hd_wave_limits_of(const hd_scene_def *def);
  * their number; with capacity 0 only counts. */
 int hd_waves(const hd_scene_def *def, hd_wave *out, int capacity);
 
-#ifdef __cplusplus
-}
-#endif
+HD_API_END
 #endif

@@ -1,6 +1,5 @@
 /** Covariant vectors of whole runs: when windows begin, what gives them up, and what a run refuses
  * for them. */
-#include <dlfcn.h>
 #include <errno.h>
 #include "base/memory.h"
 #include "runs.h"
@@ -55,12 +54,10 @@ static void check_windows(const hd_run *run, long windows, double start)
 static bool step_fails;
 
 /** The core's own, or one that finds no memory. */
-hd_status hd_covariant_step(hd_covariant *covariant)
+hd_status __real_hd_covariant_step(hd_covariant *covariant);
+hd_status __wrap_hd_covariant_step(hd_covariant *covariant)
 {
-    hd_status (*real)(hd_covariant *);
-    void *found = dlsym(RTLD_NEXT, "hd_covariant_step");
-    memcpy(&real, &found, sizeof real);
-    return step_fails ? HD_NO_MEMORY : real(covariant);
+    return step_fails ? HD_NO_MEMORY : __real_hd_covariant_step(covariant);
 }
 
 /** For good, and the file that is there stays. */

@@ -1,6 +1,5 @@
 /** What each of several ranks asks for, and what becomes of a run if one of them does not get it.
  */
-#include <dlfcn.h>
 #include "ledger.h"
 #include "runs.h"
 #include "together.h"
@@ -8,7 +7,7 @@
 static double room_of_machine = 1e15;
 
 /** What a machine leaves to all of its ranks. */
-hd_room hd_room_available(void) { return (hd_room){room_of_machine, "machine", 1}; }
+hd_room __wrap_hd_room_available(void) { return (hd_room){room_of_machine, "machine", 1}; }
 
 static hd_scene_def short_scene(int disks, unsigned observe)
 {
@@ -59,12 +58,10 @@ TEST(gathered_vectors_are_estimated)
 
 static bool other_kernels;
 
-hd_blas hd_blas_query(void)
+hd_blas __real_hd_blas_query(void);
+hd_blas __wrap_hd_blas_query(void)
 {
-    hd_blas (*real)(void);
-    void *found = dlsym(RTLD_NEXT, "hd_blas_query");
-    memcpy(&real, &found, sizeof real);
-    hd_blas blas = real();
+    hd_blas blas = __real_hd_blas_query();
     if (other_kernels) blas.kernel = "others";
     return blas;
 }

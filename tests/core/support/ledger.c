@@ -1,9 +1,7 @@
-/** Counts and hands on to the core's own allocation, the next of that name. One thread. */
+/** Counts and hands on to the core's own allocation. One thread. */
 #include "ledger.h"
 
-#include <dlfcn.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "base/memory.h"
 
@@ -17,21 +15,16 @@ static size_t count;
 static ledger book;
 static size_t asked, refused_from, refused_count; /* allocations asked for, had or not */
 
-/** The core's own function of that name, into the pointer that `function` is the address of. */
-static void next(void *function, const char *name)
-{
-    void *found = dlsym(RTLD_NEXT, name);
-    if (!found || count == BLOCKS_MAX) abort();
-    memcpy(function, &found, sizeof found);
-}
+/* The linker puts the ones with __wrap_ where the core calls hd_memory_*, which are __real_. */
+void *__real_hd_memory_alloc(size_t number, size_t size);
+void __real_hd_memory_free(void *block);
 
-void *hd_memory_alloc(size_t number, size_t size)
+void *__wrap_hd_memory_alloc(size_t number, size_t size)
 {
-    void *(*real)(size_t, size_t);
-    next(&real, "hd_memory_alloc");
+    if (count == BLOCKS_MAX) abort();
     const size_t now = asked++;
     if (now >= refused_from && now - refused_from < refused_count) return NULL;
-    void *block = real(number, size);
+    void *block = __real_hd_memory_alloc(number, size);
     if (!block) return NULL;
     blocks[count].at = block;
     blocks[count++].bytes = number * size;
@@ -41,17 +34,15 @@ void *hd_memory_alloc(size_t number, size_t size)
     return block;
 }
 
-void hd_memory_free(void *block)
+void __wrap_hd_memory_free(void *block)
 {
-    void (*real)(void *);
-    next(&real, "hd_memory_free");
     for (size_t k = 0; block && k < count; k++) {
         if (blocks[k].at != block) continue;
         book.live -= blocks[k].bytes;
         blocks[k] = blocks[--count];
         break;
     }
-    real(block);
+    __real_hd_memory_free(block);
 }
 
 ledger ledger_now(void) { return book; }

@@ -1,4 +1,4 @@
-/** Every block that the core asks for: stands before its allocation by having the same name. */
+/** Every block that the core asks for: the linker puts it before the core's allocation. */
 #ifndef HD_LEDGER_H
 #define HD_LEDGER_H
 

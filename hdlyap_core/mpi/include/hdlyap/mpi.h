@@ -5,9 +5,7 @@
 
 #include "hdlyap/communicator.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+HD_API_BEGIN
 
 /** Starts MPI; *out is NULL for a single rank. HD_REFUSED, with a line in message[size]: calls may
  * come from several threads, one at a time, and this MPI cannot do that; or it finds one rank where
@@ -19,7 +17,5 @@ HD_MUST_CHECK hd_status hd_mpi_begin(hd_communicator **out, int *argc, char ***a
 /** Ends MPI; called by all ranks. `c` is what hd_mpi_begin gave. */
 void hd_mpi_end(hd_communicator *c);
 
-#ifdef __cplusplus
-}
-#endif
+HD_API_END
 #endif
