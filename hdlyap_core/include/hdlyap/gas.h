@@ -13,12 +13,12 @@ typedef struct hd_gas_means {
     double time;                 /**< averaged time [time units]; without it all else is NaN */
     double collision_rate;       /**< 2 pair events / (N t): of each disk [1/time unit] */
     double collision_rate_error; /**< negative if not yet known, as the next ones */
-    double pressure;             /**< mean of all directions [energy/sigma^HD_DIM] */
+    double pressure;             /**< mean of all directions [energy/sigma^d in d dimensions] */
     double pressure_error;
-    double pressure_of[HD_DIM]; /**< momentum along x that crosses a line (of spheres a plane)
-                              across it, per length (area) and time; along y, .. */
-    double pressure_of_error[HD_DIM];
-    double compressibility; /**< Z = pressure area HD_DIM / (2 N), 1 without collisions */
+    double pressure_of[HD_DIMENSION_MAX]; /**< momentum along x that crosses a line (of spheres a
+                              plane) across it, per length (area) and time; along y, .. */
+    double pressure_of_error[HD_DIMENSION_MAX];
+    double compressibility; /**< Z = pressure area d / (2 N), 1 without collisions */
 } hd_gas_means;
 
 typedef struct hd_gas hd_gas;
@@ -38,7 +38,7 @@ void hd_gas_add(hd_gas *gas, const hd_trajectory *trajectory);
 hd_gas_means hd_gas_read(const hd_gas *gas);
 
 /** Area, of spheres volume, in which centres move: between walls L - 1 instead of L
- * [sigma^HD_DIM]. */
+ * [sigma^d]. */
 double hd_gas_area(const hd_scene_def *def);
 /** kT: twice the kinetic energy over the momenta that are free, those less that are conserved;
  * but for 1 / N it is 1, of spheres 2/3 [energy]. */

@@ -9,19 +9,20 @@
 #include "scene/container.h"
 
 /** Series that are averaged: per time unit; of the virial one for each direction. */
-enum { COLLISIONS, VIRIAL_X, SERIES = VIRIAL_X + HD_DIM };
+enum { COLLISIONS, VIRIAL_X, SERIES_MAX = VIRIAL_X + HD_DIMENSION_MAX };
 
 /** What a trajectory has counted. */
 typedef struct counts {
-    double time, virial[HD_DIM];
+    double time, virial[HD_DIMENSION_MAX];
     uint64_t collisions;
 } counts;
 
 struct hd_gas {
+    int dimension, series;
     double disks, area;
-    double kinetic[HD_DIM];   /**< twice the mean kinetic energy along each direction */
-    counts last;              /**< where the last sample ended */
-    double time, sum[SERIES]; /**< since the beginning */
+    double kinetic[HD_DIMENSION_MAX]; /**< twice the mean kinetic energy along each direction */
+    counts last;                      /**< where the last sample ended */
+    double time, sum[SERIES_MAX];     /**< since the beginning */
     hd_blocks blocks;
 };
 
@@ -45,7 +46,7 @@ static double momenta(const hd_scene_def *def, int d)
 double hd_gas_temperature(const hd_scene_def *def)
 {
     double all = 0.0;
-    for (int d = 0; d < HD_DIM; d++) all += momenta(def, d);
+    for (int d = 0; d < hd_scene_dimension(def); d++) all += momenta(def, d);
     return 2.0 * def->disks / all;
 }
 
@@ -56,10 +57,13 @@ hd_status hd_gas_create(hd_gas **out, const hd_scene_def *def, double block)
     hd_gas *gas = hd_memory_alloc(1, sizeof *gas);
     *out = NULL;
     if (!gas) return HD_NO_MEMORY;
+    gas->dimension = hd_scene_dimension(def);
+    gas->series = VIRIAL_X + gas->dimension;
     gas->disks = def->disks;
     gas->area = hd_gas_area(def);
-    for (int d = 0; d < HD_DIM; d++) gas->kinetic[d] = momenta(def, d) * hd_gas_temperature(def);
-    const hd_status status = hd_blocks_create(&gas->blocks, SERIES, block);
+    for (int d = 0; d < gas->dimension; d++)
+        gas->kinetic[d] = momenta(def, d) * hd_gas_temperature(def);
+    const hd_status status = hd_blocks_create(&gas->blocks, gas->series, block);
     if (status == HD_OK)
         *out = gas;
     else
@@ -78,7 +82,7 @@ void hd_gas_begin(hd_gas *gas, const hd_trajectory *trajectory)
 {
     gas->last = counts_of(trajectory);
     gas->time = 0.0;
-    for (int s = 0; s < SERIES; s++) gas->sum[s] = 0.0;
+    for (int s = 0; s < gas->series; s++) gas->sum[s] = 0.0;
     hd_blocks_restart(&gas->blocks);
 }
 
@@ -86,10 +90,10 @@ void hd_gas_add(hd_gas *gas, const hd_trajectory *trajectory)
 {
     const counts now = counts_of(trajectory), last = gas->last;
     const double dt = now.time - last.time;
-    double sample[SERIES] = {[COLLISIONS] = (double)(now.collisions - last.collisions)};
-    for (int d = 0; d < HD_DIM; d++) sample[VIRIAL_X + d] = now.virial[d] - last.virial[d];
+    double sample[SERIES_MAX] = {[COLLISIONS] = (double)(now.collisions - last.collisions)};
+    for (int d = 0; d < gas->dimension; d++) sample[VIRIAL_X + d] = now.virial[d] - last.virial[d];
     if (!(dt > 0)) return;
-    for (int s = 0; s < SERIES; s++) gas->sum[s] += sample[s];
+    for (int s = 0; s < gas->series; s++) gas->sum[s] += sample[s];
     gas->time += dt;
     gas->last = now;
     hd_blocks_add(&gas->blocks, sample, dt);
@@ -98,7 +102,7 @@ void hd_gas_add(hd_gas *gas, const hd_trajectory *trajectory)
 /** Standard error of factor times the sum of series first .. last, per time. */
 static double error_of(const hd_gas *gas, int first, int last, double factor)
 {
-    hd_part parts[SERIES];
+    hd_part parts[SERIES_MAX];
     for (int s = first; s <= last; s++) parts[s - first] = (hd_part){s, factor};
     return hd_blocks_error(&gas->blocks, parts, last - first + 1);
 }
@@ -106,17 +110,18 @@ static double error_of(const hd_gas *gas, int first, int last, double factor)
 hd_gas_means hd_gas_read(const hd_gas *gas)
 {
     const double t = gas->time > 0 ? gas->time : NAN, each = 2.0 / gas->disks, a = gas->area;
-    hd_gas_means m = {.time = gas->time,
-                      .collision_rate = each * gas->sum[COLLISIONS] / t,
-                      .collision_rate_error = error_of(gas, COLLISIONS, COLLISIONS, each),
-                      .pressure_error = error_of(gas, VIRIAL_X, SERIES - 1, 1.0 / HD_DIM / a)};
-    for (int d = 0; d < HD_DIM; d++) {
+    hd_gas_means m = {
+        .time = gas->time,
+        .collision_rate = each * gas->sum[COLLISIONS] / t,
+        .collision_rate_error = error_of(gas, COLLISIONS, COLLISIONS, each),
+        .pressure_error = error_of(gas, VIRIAL_X, gas->series - 1, 1.0 / gas->dimension / a)};
+    for (int d = 0; d < gas->dimension; d++) {
         m.pressure_of[d] = (gas->kinetic[d] + gas->sum[VIRIAL_X + d] / t) / a;
         m.pressure_of_error[d] = error_of(gas, VIRIAL_X + d, VIRIAL_X + d, 1.0 / a);
     }
-    for (int d = 0; d < HD_DIM; d++) m.pressure += m.pressure_of[d];
-    m.pressure /= HD_DIM;
-    m.compressibility = m.pressure * a / gas->disks * (HD_DIM / 2.0);
+    for (int d = 0; d < gas->dimension; d++) m.pressure += m.pressure_of[d];
+    m.pressure /= gas->dimension;
+    m.compressibility = m.pressure * a / gas->disks * (gas->dimension / 2.0);
     return m;
 }
 
@@ -124,8 +129,8 @@ hd_gas_means hd_gas_read(const hd_gas *gas)
 
 static double gas_bytes(const hd_scene_def *scene, int ranks)
 {
-    (void)scene, (void)ranks;
-    return sizeof(hd_gas) + hd_blocks_bytes(SERIES);
+    (void)ranks;
+    return sizeof(hd_gas) + hd_blocks_bytes(VIRIAL_X + hd_scene_dimension(scene));
 }
 
 static void *gas_create(const hd_observing *with, hd_status *status)
@@ -148,10 +153,10 @@ static void gas_archive(void *self, hd_archive *archive, const hd_trajectory *no
 {
     hd_gas *gas = self;
     hd_archive_double(archive, "gas last time", &gas->last.time);
-    hd_archive_doubles(archive, "gas last virial", gas->last.virial, HD_DIM);
+    hd_archive_doubles(archive, "gas last virial", gas->last.virial, (size_t)gas->dimension);
     hd_archive_bits(archive, "gas last collisions", &gas->last.collisions);
     hd_archive_double(archive, "gas time", &gas->time);
-    hd_archive_doubles(archive, "gas sum", gas->sum, SERIES);
+    hd_archive_doubles(archive, "gas sum", gas->sum, (size_t)gas->series);
     hd_archive_expect(archive, gas->last.time >= 0 && gas->last.time <= hd_trajectory_time(now),
                       "gas last time", "it does not fit the time");
     hd_archive_expect(archive, gas->last.collisions <= hd_trajectory_collisions(now),

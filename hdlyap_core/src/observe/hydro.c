@@ -1,6 +1,6 @@
 /** Vectors of the steps -> response of density, momentum and energy [T15].
  *
- * Each response is a linear functional of (dq, dp): its coefficients at one disk are HD_ROWS
+ * Each response is a linear functional of (dq, dp): its coefficients at one disk are
  * numbers, which meet the rows of the disk in the frame for all vectors of the step at once. */
 #include "hdlyap/hydro.h"
 
@@ -16,8 +16,8 @@
 
 /** One response for each vector of each step and each modulation: see entries_of. */
 struct hd_hydro {
-    hd_boundary boundary[HD_DIM];
-    int disks, count;
+    hd_boundary boundary[HD_DIMENSION_MAX];
+    int dimension, disks, count;
     hd_hydro_response *response; /**< [count] */
 };
 
@@ -35,6 +35,7 @@ hd_status hd_hydro_create(hd_hydro **out, const hd_scene_def *def, const hd_step
     *out = NULL;
     if (!hydro) return HD_NO_MEMORY;
     memcpy(hydro->boundary, def->boundary, sizeof hydro->boundary);
+    hydro->dimension = hd_scene_dimension(def);
     hydro->disks = def->disks;
     for (int k = 0; k < hd_steps_count(steps); k++)
         hydro->count += entries_of(hd_steps_step(steps, k));
@@ -54,20 +55,22 @@ void hd_hydro_free(hd_hydro *hydro)
     hd_memory_free(hydro);
 }
 
-/** sum[HD_FUNCTIONALS][HD_SET_VECTORS_MAX]: of the vectors of a step at one modulation. */
-static void measure(const hd_hydro *hydro, double sum[HD_FUNCTIONALS][HD_SET_VECTORS_MAX],
+/** sum[functionals][HD_SET_VECTORS_MAX]: of the vectors of a step at one modulation. */
+static void measure(const hd_hydro *hydro, double sum[HD_FUNCTIONALS_MAX][HD_SET_VECTORS_MAX],
                     const hd_step *step, unsigned bits, hd_columns vectors, const double *q,
                     const double *p)
 {
     const size_t stride = (size_t)vectors.stride;
-    memset(sum, 0, HD_FUNCTIONALS * sizeof *sum);
+    const int dimension = hydro->dimension, rows = 2 * dimension;
+    memset(sum, 0, HD_FUNCTIONALS_MAX * sizeof *sum);
     for (int j = 0; j < hydro->disks; j++) {
-        const double *row = vectors.data + HD_ROWS * (size_t)j * stride +
+        const double *row = vectors.data + (size_t)(rows * j) * stride +
                             (step->col - vectors.first);
-        double f[HD_FUNCTIONALS][HD_ROWS];
-        hd_functionals_at(f, &step->wave, bits, hydro->boundary, q + HD_DIM * j, p + HD_DIM * j);
-        for (int r = 0; r < HD_FUNCTIONALS; r++)
-            for (int d = 0; d < HD_ROWS; d++)
+        hd_functionals f;
+        hd_functionals_at(f, dimension, &step->wave, bits, hydro->boundary, q + dimension * j,
+                          p + dimension * j);
+        for (int r = 0; r < HD_FUNCTIONALS_IN(dimension); r++)
+            for (int d = 0; d < rows; d++)
                 for (int v = 0; v < step->count; v++)
                     sum[r][v] += f[r][d] * row[(size_t)d * stride + (size_t)v];
     }
@@ -80,7 +83,7 @@ static void step_measure(hd_hydro *hydro, hd_hydro_response *out, const hd_steps
     const hd_step *step = hd_steps_step(steps, index);
     const hd_modulations m = step->wave.pairs;
     const double scale = 1.0 / sqrt(0.5 * hydro->disks);
-    double sum[HD_FUNCTIONALS][HD_SET_VECTORS_MAX];
+    double sum[HD_FUNCTIONALS_MAX][HD_SET_VECTORS_MAX];
     for (int c = 0; c < m.count; c++) {
         int found = 0;
         measure(hydro, sum, step, m.bits[c], vectors, q, p);
@@ -88,9 +91,11 @@ static void step_measure(hd_hydro *hydro, hd_hydro_response *out, const hd_steps
             if (hd_steps_of_vector(steps, step->col + v) != index) continue;
             hd_hydro_response *r = &out[found++ * m.count + c];
             double *const of[] = {&r->density, &r->along, &r->across,
-                                  HD_DIM == 3 ? &r->across_second : &r->energy, &r->energy};
+                                  hydro->dimension == 3 ? &r->across_second : &r->energy,
+                                  &r->energy};
             r->col = step->col + v;
-            for (int k = 0; k < HD_FUNCTIONALS; k++) *of[k] = scale * sum[k][v];
+            for (int k = 0; k < HD_FUNCTIONALS_IN(hydro->dimension); k++)
+                *of[k] = scale * sum[k][v];
         }
     }
 }

@@ -52,7 +52,7 @@ typedef struct hd_view {
      * if only half of the vectors are carried. */
     hd_columns vectors[2];
     const double *q,
-        *p; /**< [HD_DIM N] each, to measure and report; NULL unless modes are looked at */
+        *p; /**< positions and momenta, to measure and report; NULL unless modes are looked at */
 } hd_view;
 
 /** Functions may be NULL: then there is nothing to do. `self` is what `create` made. */

@@ -24,10 +24,16 @@ static bool is_asked(const hd_observable *row, const hd_scene_def *scene)
            (!(row->needs & HD_NEEDS_FRAME) || hd_scene_vectors(scene) > 0);
 }
 
+/** Of all disks. */
+static size_t coordinates(const hd_scene_def *scene)
+{
+    return (size_t)hd_scene_dimension(scene) * (size_t)scene->disks;
+}
+
 double hd_observables_bytes(const hd_scene_def *scene, int ranks)
 {
     const bool seen = scene->observe & HD_OBSERVE_OF_MODES && hd_scene_vectors(scene) > 0;
-    double bytes = seen ? 2.0 * HD_DIM * scene->disks * sizeof(double) : 0.0; /* q and p */
+    double bytes = seen ? 2.0 * (double)coordinates(scene) * sizeof(double) : 0.0; /* q and p */
     for (int k = 0; k < HD_OBSERVED; k++)
         if (is_asked(rows[k], scene)) bytes += rows[k]->bytes(scene, ranks);
     return bytes;
@@ -35,7 +41,7 @@ double hd_observables_bytes(const hd_scene_def *scene, int ranks)
 
 static hd_status create_state(hd_observables *o)
 {
-    const size_t size = HD_DIM * (size_t)o->with.scene->disks;
+    const size_t size = coordinates(o->with.scene);
     o->q = hd_memory_alloc(size, sizeof *o->q);
     o->p = hd_memory_alloc(size, sizeof *o->p);
     return o->q && o->p ? HD_OK : HD_NO_MEMORY;

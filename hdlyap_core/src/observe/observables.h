@@ -9,7 +9,7 @@ typedef struct hd_observables {
     hd_observing with;
     void *part[HD_OBSERVED]; /**< NULL: not asked for */
     unsigned looked_at;      /**< set of HD_OBSERVE_* */
-    double *q, *p;           /**< [HD_DIM N] each; NULL unless modes are asked for */
+    double *q, *p;           /**< positions and momenta; NULL unless modes are asked for */
 } hd_observables;
 
 /** What the scene asks for; without exponents, of the disks alone. Ranks agree. Fails as its

@@ -18,10 +18,10 @@ static const double GO_SECONDS = 0.1;
 struct hd_windows {
     hd_covariant *covariant;
     hd_communicator *communicator; /**< NULL: a single rank; all of them go the same way back */
-    double *gathered; /**< [HD_ROWS N * n], vectors of all ranks; NULL of a single one */
-    double sampling;  /**< from the beginning of a window to its first look */
-    bool due;         /**< a window begins with the next interval */
-    double seconds;   /**< wall seconds spent here */
+    double *gathered;              /**< [rows * n], vectors of all ranks; NULL of a single one */
+    double sampling;               /**< from the beginning of a window to its first look */
+    bool due;                      /**< a window begins with the next interval */
+    double seconds;                /**< wall seconds spent here */
 };
 
 const hd_covariant *hd_windows_covariant(const hd_windows *windows) { return windows->covariant; }
@@ -114,7 +114,7 @@ hd_status hd_windows_go(hd_windows *windows, bool to_its_end)
 static double covariant_bytes(const hd_scene_def *scene, int ranks)
 {
     const double n = hd_scene_vectors(scene), carried = hd_scene_carried(scene),
-                 vectors = HD_ROWS * (double)scene->disks * n;
+                 vectors = 2.0 * hd_scene_coordinates(scene) * scene->disks * n;
     const double factors = 2.0 * carried * carried, ways = (carried < n ? 8.25 : 5.0) * n * n;
     const double gathered = ranks > 1 ? vectors : 0.0;
     return sizeof(double) * (factors + ways + vectors + gathered) + 3.0 * hd_modes_bytes(scene, n) +
@@ -123,7 +123,8 @@ static double covariant_bytes(const hd_scene_def *scene, int ranks)
 
 static hd_status prepare(hd_windows *windows, const hd_observing *with)
 {
-    const size_t vectors = HD_ROWS * (size_t)with->scene->disks * (size_t)with->vectors;
+    const size_t vectors = 2 * (size_t)hd_scene_coordinates(with->scene) *
+                           (size_t)with->scene->disks * (size_t)with->vectors;
     HD_TRY(hd_covariant_check_room(with->scene, with->longest, with->message, with->size));
     HD_TRY(hd_ortho_keep_factor(with->ortho));
     if (with->communicator &&

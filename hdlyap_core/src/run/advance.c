@@ -14,10 +14,10 @@ static const double SHORTEST = 1e-12;
  * across the box, or the box around a circle. Where plans begin: what they grow to is learnt. */
 static double events_per_disk(const hd_advance *advance, const hd_scene_def *scene)
 {
-    double box[HD_DIM],
+    double box[HD_DIMENSION_MAX],
         rate = 2.0 * hd_trajectory_collision_rate(advance->trajectory) / scene->disks;
     hd_scene_box(scene, box);
-    for (int d = 0; d < HD_DIM; d++)
+    for (int d = 0; d < hd_scene_dimension(scene); d++)
         if (hd_scene_boundary(scene, d) != HD_PERIODIC) rate += 1.0 / (box[d] - 1.0);
     return rate;
 }

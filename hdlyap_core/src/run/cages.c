@@ -13,10 +13,11 @@ static const double PLACE = 0.7;
 /** One in so many disks: a few hop in each crystal that has gaps. */
 enum { FEW = 10 };
 
-hd_status hd_cages_create(hd_cages *cages, int disks)
+hd_status hd_cages_create(hd_cages *cages, const hd_scene_def *scene)
 {
-    const size_t count = HD_DIM * (size_t)disks;
-    *cages = (hd_cages){.start = hd_memory_alloc(count, sizeof(double)),
+    const size_t count = (size_t)hd_scene_dimension(scene) * (size_t)scene->disks;
+    *cages = (hd_cages){.count = count,
+                        .start = hd_memory_alloc(count, sizeof(double)),
                         .now = hd_memory_alloc(count, sizeof(double))};
     return cages->start && cages->now ? HD_OK : HD_NO_MEMORY;
 }
@@ -36,10 +37,10 @@ void hd_cages_begin(hd_cages *cages, const hd_trajectory *trajectory)
 }
 
 static double square_moved(const double *from, const double *to, const double *box,
-                           const hd_boundary *boundary)
+                           const hd_boundary *boundary, int dimension)
 {
     double square = 0.0;
-    for (int d = 0; d < HD_DIM; d++) {
+    for (int d = 0; d < dimension; d++) {
         double moved = to[d] - from[d];
         if (boundary[d] == HD_PERIODIC) moved -= box[d] * rint(moved / box[d]);
         square += moved * moved;
@@ -49,18 +50,19 @@ static double square_moved(const double *from, const double *to, const double *b
 
 void hd_cages_look(hd_cages *cages, const hd_trajectory *trajectory, const hd_scene_def *scene)
 {
-    hd_boundary boundary[HD_DIM];
-    double box[HD_DIM];
-    const double place = PLACE * pow(scene->density, -1.0 / HD_DIM);
+    const int dimension = hd_scene_dimension(scene);
+    hd_boundary boundary[HD_DIMENSION_MAX];
+    double box[HD_DIMENSION_MAX];
+    const double place = PLACE * pow(scene->density, -1.0 / dimension);
     int away = 0;
     cages->end = hd_trajectory_time(trajectory);
     if (cages->left) return;
-    for (int d = 0; d < HD_DIM; d++) boundary[d] = hd_scene_boundary(scene, d);
-    hd_trajectory_box(trajectory, box);
+    for (int d = 0; d < dimension; d++) boundary[d] = hd_scene_boundary(scene, d);
+    hd_scene_box(scene, box);
     hd_trajectory_state(trajectory, cages->now, NULL);
     for (int i = 0; i < scene->disks; i++)
-        away += square_moved(cages->start + HD_DIM * i, cages->now + HD_DIM * i, box, boundary) >
-                place * place;
+        away += square_moved(cages->start + dimension * i, cages->now + dimension * i, box,
+                             boundary, dimension) > place * place;
     cages->left = away * FEW >= scene->disks;
 }
 
@@ -76,8 +78,7 @@ void hd_cages_archive(hd_cages *cages, const hd_trajectory *trajectory, hd_archi
     hd_archive_double(archive, "cages begin", &cages->begin);
     hd_archive_double(archive, "cages end", &cages->end);
     hd_archive_int(archive, "cages left", &left, 0, 1);
-    hd_archive_doubles(archive, "cages start", cages->start,
-                       HD_DIM * (size_t)hd_trajectory_disks(trajectory));
+    hd_archive_doubles(archive, "cages start", cages->start, cages->count);
     hd_archive_expect(archive, cages->begin <= cages->end && cages->end <= now, "cages end",
                       "it does not fit the time");
     cages->left = left;

@@ -8,13 +8,14 @@
 
 /** The fields are cages.c's. */
 typedef struct hd_cages {
-    double *start, *now; /**< [HD_DIM N], positions as the averaging began; workspace */
+    size_t count;        /**< of coordinates */
+    double *start, *now; /**< [count], positions as the averaging began; workspace */
     double begin, end;   /**< simulated times: of the start, and of the last look */
     bool left;           /**< seen at a look since */
 } hd_cages;
 
 /** HD_NO_MEMORY. It takes no more than the start of a trajectory has given back. */
-HD_MUST_CHECK hd_status hd_cages_create(hd_cages *cages, int disks);
+HD_MUST_CHECK hd_status hd_cages_create(hd_cages *cages, const hd_scene_def *scene);
 void hd_cages_clear(hd_cages *cages);
 
 /** The averages begin here. */

@@ -52,6 +52,11 @@ static const double EVENTS_OF_A_DISK = 30.0;
 
 /* ---- creation ------------------------------------------------------------------------------ */
 
+static int rows_of(const hd_scene_def *scene)
+{
+    return 2 * hd_scene_coordinates(scene) * scene->disks;
+}
+
 static hd_status agree(const hd_carrier *c, hd_status status)
 {
     return hd_communicator_agree(c->communicator, status);
@@ -79,7 +84,7 @@ static hd_status create_frame(hd_carrier *c, uint64_t seed)
 int hd_carrier_threads_most(const hd_scene_def *scene, const hd_communicator *communicator)
 {
     const int wanted = scene->threads, cores = hd_blas_query().cores;
-    const int most = hd_threads_most(wanted, HD_ROWS * scene->disks, hd_scene_carried(scene));
+    const int most = hd_threads_most(wanted, rows_of(scene), hd_scene_carried(scene));
     if (!communicator || wanted > 0) return most;
     const int own = cores / communicator->beside; /* ranks share the cores of their machine */
     return own < 1 ? 1 : own < most ? own : most;
@@ -109,7 +114,7 @@ static hd_status prepare_conjugate(hd_carrier *c, const hd_scene_def *scene)
 {
     const int here = c->communicator ? hd_frame_stride(c->frame) : c->carried;
     if (c->carried == c->vectors) return HD_OK;
-    return hd_conjugate_create(&c->conjugate, HD_ROWS * c->disks, completed(scene, here));
+    return hd_conjugate_create(&c->conjugate, hd_frame_rows(c->frame), completed(scene, here));
 }
 
 /** Keeps the halves of a frame that is orthonormal in the whole norm: the next one may be so in the
@@ -130,7 +135,7 @@ static hd_status keep_halves(hd_carrier *c)
 
 static hd_status prepare(hd_carrier *c, const hd_scene_def *scene, double block)
 {
-    const int rows = HD_ROWS * c->disks, n = c->vectors;
+    const int rows = rows_of(scene), n = c->vectors;
     HD_TRY(agree(c, hd_event_log_create(&c->log)));
     HD_TRY(hd_ortho_create_shared(&c->ortho, rows, c->carried, c->communicator));
     HD_TRY(agree(c, prepare_threads(c, scene)));
@@ -178,10 +183,10 @@ double hd_carrier_bytes(const hd_scene_def *scene, int threads, int ranks)
     if (n == 0) return 0.0;
     const double log = hd_event_log_bytes(fmin(HD_EVENTS_MAX, EVENTS_OF_A_DISK * disks));
     const double frame = hd_frame_bytes(disks, here, threads);
-    const double ortho = hd_ortho_bytes(HD_ROWS * (double)disks, carried, ranks);
-    const double conjugate = carried < n ? hd_conjugate_bytes(HD_ROWS * (double)disks,
-                                                              completed(scene, (int)here))
-                                         : 0.0;
+    const double ortho = hd_ortho_bytes(rows_of(scene), carried, ranks);
+    const double conjugate = carried < n
+                                 ? hd_conjugate_bytes(rows_of(scene), completed(scene, (int)here))
+                                 : 0.0;
     return log + frame + ortho + conjugate + hd_spectrum_bytes(n) + 2.0 * sizeof(double) * n;
 }
 

@@ -357,7 +357,9 @@ static hd_status restore(hd_run *run, hd_archive *archive, const hd_checkpoint *
 /** No room is asked for that the file could not fill. */
 static bool holds(hd_archive *archive, const hd_scene_def *scene)
 {
-    const double least = 8.0 * scene->disks * (9.0 + HD_ROWS * (double)hd_scene_carried(scene));
+    const double least = 8.0 * scene->disks *
+                         (9.0 +
+                          2.0 * hd_scene_coordinates(scene) * (double)hd_scene_carried(scene));
     hd_archive_expect(archive, least <= (double)archive->bytes, "scene",
                       "the rest is too short for it");
     return hd_archive_good(archive);

@@ -10,7 +10,8 @@ void hd_gathered_free(hd_gathered *g) { hd_memory_free(g->room); }
 /** Where a half is carried: both halves, and the half as it is gathered. */
 double hd_gathered_bytes(const hd_scene_def *scene, int ranks)
 {
-    const double rows = HD_ROWS * (double)scene->disks, carried = hd_scene_carried(scene);
+    const double rows = 2.0 * hd_scene_coordinates(scene) * scene->disks,
+                 carried = hd_scene_carried(scene);
     const bool wanted = scene->observe & (HD_OBSERVE_HYDRO | HD_OBSERVE_FIELDS);
     if (ranks == 1 || !wanted || carried == hd_scene_vectors(scene)) return 0.0;
     return sizeof(double) * rows * 3.0 * carried;

@@ -21,7 +21,8 @@ double hd_room_needed(const hd_scene_def *def, int threads, int ranks)
 
 static bool fits(const hd_scene_def *def, hd_room room)
 {
-    const int threads = hd_threads_most(def->threads, HD_ROWS * def->disks, hd_scene_carried(def));
+    const int threads = hd_threads_most(def->threads, 2 * hd_scene_coordinates(def) * def->disks,
+                                        hd_scene_carried(def));
     return hd_room_needed(def, threads, room.ranks) <= room.bytes;
 }
 
@@ -64,7 +65,8 @@ static int about(int number)
 hd_status hd_room_check(const hd_scene_def *def, hd_room room, char *message, size_t size)
 {
     const int n = hd_scene_vectors(def);
-    const int threads = hd_threads_most(def->threads, HD_ROWS * def->disks, hd_scene_carried(def));
+    const int threads = hd_threads_most(def->threads, 2 * hd_scene_coordinates(def) * def->disks,
+                                        hd_scene_carried(def));
     char fitting[96] = "nothing of it would fit";
     if (fits(def, room)) return HD_OK;
     const int exponents = n > 0 ? about(exponents_that_fit(def, room)) : 0;

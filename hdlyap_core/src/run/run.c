@@ -98,7 +98,7 @@ static hd_status prepare(hd_run *run, char *message, size_t size)
 {
     const hd_scene_def *scene = &run->scene;
     HD_TRY(hd_communicator_agree(run->communicator, hd_advance_create(&run->advance, scene)));
-    HD_TRY(hd_communicator_agree(run->communicator, hd_cages_create(&run->cages, scene->disks)));
+    HD_TRY(hd_communicator_agree(run->communicator, hd_cages_create(&run->cages, scene)));
     const double rate = 2.0 * hd_trajectory_collision_rate(run->advance.trajectory) / scene->disks;
     run->cost.limit = HD_LIMIT_NONE;
     run->agenda = hd_agenda_of(scene, rate);

@@ -18,8 +18,9 @@ enum { WHY = 160, GOALS_MOST = 16 };
 /** One of a target. */
 typedef struct aim {
     const struct quantity *quantity;
-    int number[HD_DIM]; /**< nodes of a step, or an index */
-    double wanted;      /**< standard error, or if relative its part of the value */
+    int number[HD_DIMENSION_MAX]; /**< nodes of a step, or an index */
+    int count;                    /**< of numbers */
+    double wanted;                /**< standard error, or if relative its part of the value */
     bool relative;
 } aim;
 
@@ -36,8 +37,7 @@ typedef struct stated {
 
 typedef struct quantity {
     const char *name;
-    const char *numbers; /**< as a user says them; NULL: none */
-    int count;           /**< of them */
+    enum { NOTHING, INDEX, NODES } of; /**< whose numbers stand behind the name */
     hd_mode_kind kind;
     unsigned needs;   /**< HD_OBSERVE_* of which one is enough; 0: exponents alone */
     const char *from; /**< the observable that has it */
@@ -198,37 +198,37 @@ static stated read_pressure(const hd_run *run, const aim *goal)
     return (stated){means.pressure, means.pressure_error, 0.0};
 }
 
-#if HD_DIM == 2
-#define NODES .numbers = "(nx,ny)", .count = 2
-#else
-#define NODES .numbers = "(nx,ny,nz)", .count = 3
-#endif
 #define STEPS .needs = HD_OBSERVE_OF_MODES, .from = "steps"
 #define PHASES .needs = HD_OBSERVE_PHASES, .from = "lp_phases"
 #define GAS .needs = HD_OBSERVE_GAS, .from = "gas"
 static const quantity quantities[] = {
     {.name = "smallest", .possible = smallest_possible, .read = read_smallest},
     {.name = "lambda_max", .read = read_lambda_max},
-    {.name = "lambda",
-     .numbers = "(index)",
-     .count = 1,
-     .possible = index_possible,
-     .read = read_index},
+    {.name = "lambda", .of = INDEX, .possible = index_possible, .read = read_index},
     {.name = "h_KS", .read = read_ks_entropy},
-    {.name = "T", NODES, .kind = HD_MODE_T, STEPS, .possible = step_possible, .read = read_step},
-    {.name = "LP", NODES, .kind = HD_MODE_LP, STEPS, .possible = step_possible, .read = read_step},
+    {.name = "T",
+     .of = NODES,
+     .kind = HD_MODE_T,
+     STEPS,
+     .possible = step_possible,
+     .read = read_step},
+    {.name = "LP",
+     .of = NODES,
+     .kind = HD_MODE_LP,
+     STEPS,
+     .possible = step_possible,
+     .read = read_step},
     {.name = "c_T", .kind = HD_MODE_T, STEPS, .possible = slope_possible, .read = read_slope},
     {.name = "c_L", .kind = HD_MODE_LP, STEPS, .possible = slope_possible, .read = read_slope},
     {.name = "v", PHASES, .read = read_velocity},
     {.name = "omega",
-     NODES,
+     .of = NODES,
      .kind = HD_MODE_LP,
      PHASES,
      .possible = step_possible,
      .read = read_omega},
     {.name = "collision_rate", GAS, .read = read_collision_rate},
     {.name = "pressure", GAS, .read = read_pressure}};
-#undef NODES
 #undef STEPS
 #undef PHASES
 #undef GAS
@@ -254,27 +254,29 @@ static const quantity *quantity_of(const char *text, size_t length)
 static const char *skipped(const char *at, const char *what) { return at + strspn(at, what); }
 
 /** "(1,0)"; NULL if there are not so many. */
-static const char *read_numbers(aim *goal, const char *at)
+static const char *read_numbers(aim *goal, const char *at, int dimension)
 {
-    for (int k = 0; k < goal->quantity->count; k++) {
+    const int of[] = {[NOTHING] = 0, [INDEX] = 1, [NODES] = dimension};
+    goal->count = of[goal->quantity->of];
+    for (int k = 0; k < goal->count; k++) {
         char *end;
         if (*at++ != (k == 0 ? '(' : ',')) return NULL;
         const long number = strtol(at, &end, 10);
-        if (end == at || number < 0 || number > HD_ROWS * 1000000L) return NULL;
+        if (end == at || number < 0 || number > 2 * HD_DIMENSION_MAX * 1000000L) return NULL;
         goal->number[k] = (int)number;
         at = skipped(end, " ");
     }
-    if (goal->quantity->count == 0) return at;
+    if (goal->count == 0) return at;
     return *at == ')' ? at + 1 : NULL;
 }
 
 /** "c_T 1%"; NULL if it is none. */
-static const char *read_goal(aim *goal, const char *at)
+static const char *read_goal(aim *goal, const char *at, int dimension)
 {
     char *end;
     const size_t length = strcspn(at, " (:0123456789");
     *goal = (aim){.quantity = quantity_of(at, length)};
-    if (!goal->quantity || !(at = read_numbers(goal, at + length))) return NULL;
+    if (!goal->quantity || !(at = read_numbers(goal, at + length, dimension))) return NULL;
     at = skipped(at, " :");
     goal->wanted = strtod(at, &end);
     if (end == at || !(goal->wanted > 0.0 && goal->wanted < DBL_MAX)) return NULL;
@@ -284,23 +286,23 @@ static const char *read_goal(aim *goal, const char *at)
     return skipped(at + goal->relative, " ");
 }
 
-/** False if the text is none. */
-static bool read_all(aims *out, const hd_text *text)
+/** False if the text is none, in a space of that dimension. */
+static bool read_all(aims *out, const hd_text *text, int dimension)
 {
     const char *at = skipped(text->line, " ");
     *out = (aims){.count = 0};
     while (at && *at) {
-        at = out->count < GOALS_MOST ? read_goal(&out->goal[out->count++], at) : NULL;
+        at = out->count < GOALS_MOST ? read_goal(&out->goal[out->count++], at, dimension) : NULL;
         if (at && *at) at = *at == ',' && at[1] ? skipped(at + 1, " ") : NULL;
     }
     return at;
 }
 
 /** Of a text that hd_target_check has passed. */
-static aims aims_of(const hd_text *text)
+static aims aims_of(const hd_scene_def *def, const hd_text *text)
 {
     aims all;
-    HD_ASSERT(read_all(&all, text));
+    HD_ASSERT(read_all(&all, text, hd_scene_dimension(def)));
     return all;
 }
 
@@ -308,28 +310,31 @@ static void name_of(char name[HD_QUANTITY_NAME], const aim *goal)
 {
     const int room = HD_QUANTITY_NAME, *n = goal->number;
     int length = snprintf(name, (size_t)room, "%s", goal->quantity->name);
-    for (int k = 0; k < goal->quantity->count && length < room; k++)
+    for (int k = 0; k < goal->count && length < room; k++)
         length += snprintf(name + length, (size_t)(room - length), "%c%d", k == 0 ? '(' : ',',
                            n[k]);
-    if (goal->quantity->count > 0 && length < room)
-        snprintf(name + length, (size_t)(room - length), ")");
+    if (goal->count > 0 && length < room) snprintf(name + length, (size_t)(room - length), ")");
 }
 
 /* ---- can it be reached? ---------------------------------------------------------------------- */
 
-static hd_status refuse_text(const hd_text *text, char *message, size_t size)
+static hd_status refuse_text(const hd_scene_def *def, char *message, size_t size)
 {
+    const char *const numbers[] = {[NOTHING] = "",
+                                   [INDEX] = "(index)",
+                                   [NODES] = hd_scene_dimension(def) == 2 ? "(nx,ny)"
+                                                                          : "(nx,ny,nz)"};
     char names[WHY] = "";
     for (int k = 0; k < QUANTITIES; k++) {
         const size_t length = strlen(names);
         snprintf(names + length, sizeof names - length, "%s%s%s", k == 0 ? "" : ", ",
-                 quantities[k].name, quantities[k].count > 0 ? quantities[k].numbers : "");
+                 quantities[k].name, numbers[quantities[k].of]);
     }
     return hd_refuse(
         message, size,
         "target = %.80s: must be quantities with their errors, as lambda_max 0.01, c_T "
         "1%%, up to %d out of %s",
-        text->line, GOALS_MOST, names);
+        def->target.line, GOALS_MOST, names);
 }
 
 static bool is_possible(const hd_scene_def *def, const aim *goal, char why[WHY])
@@ -348,7 +353,8 @@ hd_status hd_target_check(const hd_scene_def *def, char *message, size_t size)
 {
     aims target;
     char name[HD_QUANTITY_NAME], why[WHY];
-    if (!read_all(&target, &def->target)) return refuse_text(&def->target, message, size);
+    if (!read_all(&target, &def->target, hd_scene_dimension(def)))
+        return refuse_text(def, message, size);
     for (int k = 0; k < target.count; k++) {
         if (is_possible(def, &target.goal[k], why)) continue;
         name_of(name, &target.goal[k]);
@@ -360,7 +366,7 @@ hd_status hd_target_check(const hd_scene_def *def, char *message, size_t size)
 
 unsigned hd_target_stages(const hd_scene_def *def, unsigned stages)
 {
-    const aims target = aims_of(&def->target);
+    const aims target = aims_of(def, &def->target);
     for (int k = 0; k < target.count; k++) {
         const unsigned able = target.goal[k].quantity->needs & def->observe;
         const unsigned simplest = able & HD_OBSERVE_STEPS ? HD_OBSERVE_STEPS : able;
@@ -402,7 +408,7 @@ static double distance(const hd_standing *s)
 
 hd_standing hd_target_standing(const hd_run *run, const hd_text *target)
 {
-    const aims asked = aims_of(target);
+    const aims asked = aims_of(&run->scene, target);
     const double averaged = hd_run_time(run) - hd_agenda_stage_begin(&run->agenda);
     hd_standing all = {.error = -1.0, .wanted = -1.0, .left = INFINITY};
     for (int k = 0; k < asked.count; k++) {

@@ -36,7 +36,7 @@ TEST(a_tenth_that_goes_seven_tenths_of_the_way)
         hd_cages cages;
         hd_trajectory *trajectory = flying(&def, moving);
         const bool enough = moving * 10 >= FLYING;
-        CHECK_OK(hd_cages_create(&cages, FLYING));
+        CHECK_OK(hd_cages_create(&cages, &def));
         hd_cages_begin(&cages, trajectory);
         assert_false(hd_cages_hold(&cages, 0.0)); /* nobody has looked */
         look_at(&cages, trajectory, &def, place - 0.01);
@@ -60,7 +60,7 @@ TEST(around_the_box_is_no_way)
     hd_scene_def def;
     hd_cages cages;
     hd_trajectory *trajectory = flying(&def, FLYING);
-    CHECK_OK(hd_cages_create(&cages, FLYING));
+    CHECK_OK(hd_cages_create(&cages, &def));
     hd_cages_begin(&cages, trajectory);
     look_at(&cages, trajectory, &def, 40.0 - 1.0);
     assert_true(hd_cages_hold(&cages, 1.0));

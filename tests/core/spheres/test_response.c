@@ -48,11 +48,10 @@ static double modulation(const state *s, const hd_wave *wave, unsigned bits, con
 }
 
 /** What one sphere adds to the sums, in their order. */
-static void sums(double out[HD_FUNCTIONALS], const state *s, const hd_wave *wave, unsigned bits,
-                 const double x[6])
+static void sums(double *out, const state *s, const hd_wave *wave, unsigned bits, const double x[6])
 {
     const double *q = x, *p = x + 3, a = modulation(s, wave, bits, q, -1);
-    for (int f = 0; f < HD_FUNCTIONALS; f++) out[f] = 0.0;
+    for (int f = 0; f < HD_FUNCTIONALS_IN(3); f++) out[f] = 0.0;
     out[0] = a / wave->number;
     for (int d = 0; d < 3; d++) {
         const double slope = modulation(s, wave, bits, q, d);
@@ -66,16 +65,18 @@ static void sums(double out[HD_FUNCTIONALS], const state *s, const hd_wave *wave
 
 static void check_functionals(const state *s, const hd_wave *wave, unsigned bits, int sphere)
 {
-    double got[HD_FUNCTIONALS][HD_ROWS], x[6], up[HD_FUNCTIONALS], down[HD_FUNCTIONALS];
+    hd_functionals got;
+    double x[6], up[HD_FUNCTIONALS_MAX], down[HD_FUNCTIONALS_MAX];
     memcpy(x, s->q + 3 * sphere, 3 * sizeof *x);
     memcpy(x + 3, s->p + 3 * sphere, 3 * sizeof *x);
-    hd_functionals_at(got, wave, bits, s->scene.boundary, x, x + 3);
+    hd_functionals_at(got, 3, wave, bits, s->scene.boundary, x, x + 3);
     for (int row = 0; row < HD_ROWS; row++) {
         const double at = x[row];
         x[row] = at + STEP, sums(up, s, wave, bits, x);
         x[row] = at - STEP, sums(down, s, wave, bits, x);
         x[row] = at;
-        for (int f = 0; f < HD_FUNCTIONALS; f++) /* third derivatives are below k^3, k < 2.2 */
+        for (int f = 0; f < HD_FUNCTIONALS_IN(3);
+             f++) /* third derivatives are below k^3, k < 2.2 */
             CHECK_CLOSE(got[f][row], (up[f] - down[f]) / (2.0 * STEP), 100.0 * STEP * STEP);
     }
 }

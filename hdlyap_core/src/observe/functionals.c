@@ -1,4 +1,4 @@
-/** One disk -> coefficients of the functionals [T15]. */
+/** One disk -> coefficients of the functionals [T15]; of a sphere functionals_in_space.c. */
 #include "observe/functionals.h"
 
 #include <math.h>
@@ -18,8 +18,8 @@ static void function_at(double *value, double *derivative, double k, double u, b
     *derivative = k * (sine ? cos(k * u) : -sin(k * u));
 }
 
-static modulation modulation_at(const hd_boundary boundary[HD_DIM], const hd_wave *wave,
-                                unsigned bits, const double *q)
+static modulation modulation_at(const hd_boundary *boundary, const hd_wave *wave, unsigned bits,
+                                const double *q)
 {
     double f, df, g, dg;
     const double u = q[0] - (boundary[0] == HD_REFLECTING ? 0.5 : 0.0);
@@ -30,12 +30,12 @@ static modulation modulation_at(const hd_boundary boundary[HD_DIM], const hd_wav
 }
 
 /** [T15]; A of the density, B of the transverse momentum. A_xx = -kx^2 A, A_yy = -ky^2 A. */
-static void fill(double out[HD_FUNCTIONALS][HD_ROWS], const hd_wave *wave, const modulation *A,
-                 const modulation *B, const double *p)
+static void fill(hd_functionals out, const hd_wave *wave, const modulation *A, const modulation *B,
+                 const double *p)
 {
     const double k = wave->number, kx2 = wave->k[0] * wave->k[0], ky2 = wave->k[1] * wave->k[1];
     const double p2 = p[0] * p[0] + p[1] * p[1];
-    const double here[HD_FUNCTIONALS][HD_ROWS] = {
+    const double here[4][4] = {
         {A->x / k, A->y / k, 0.0, 0.0},
         {(-kx2 * p[0] * A->a + p[1] * A->xy) / k, (p[0] * A->xy - ky2 * p[1] * A->a) / k, A->x / k,
          A->y / k},
@@ -43,21 +43,30 @@ static void fill(double out[HD_FUNCTIONALS][HD_ROWS], const hd_wave *wave, const
          -B->x / k},
         {p2 * A->x, p2 * A->y, 2.0 * p[0] * A->a, 2.0 * p[1] * A->a},
     };
-    memcpy(out, here, sizeof here);
+    for (int r = 0; r < 4; r++) memcpy(out[r], here[r], sizeof here[r]);
 }
 
 /** A with sines along reflecting directions: what a transverse field with this wave vector has. */
-static unsigned transverse_bits(const hd_boundary boundary[HD_DIM], unsigned bits)
+static unsigned transverse_bits(const hd_boundary *boundary, unsigned bits)
 {
     if (boundary[0] == HD_REFLECTING) bits |= HD_SIN_X;
     if (boundary[1] == HD_REFLECTING) bits |= HD_SIN_Y;
     return bits;
 }
 
-void hd_functionals_at(double out[HD_FUNCTIONALS][HD_ROWS], const hd_wave *wave, unsigned bits,
-                       const hd_boundary boundary[HD_DIM], const double *q, const double *p)
+static void in_plane(hd_functionals out, const hd_wave *wave, unsigned bits,
+                     const hd_boundary *boundary, const double *q, const double *p)
 {
     const modulation a = modulation_at(boundary, wave, bits, q);
     const modulation b = modulation_at(boundary, wave, transverse_bits(boundary, bits), q);
     fill(out, wave, &a, &b, p);
+}
+
+void hd_functionals_at(hd_functionals out, int dimension, const hd_wave *wave, unsigned bits,
+                       const hd_boundary *boundary, const double *q, const double *p)
+{
+    if (dimension == 2)
+        in_plane(out, wave, bits, boundary, q, p);
+    else
+        hd_functionals_in_space(out, wave, bits, boundary, q, p);
 }

@@ -19,34 +19,33 @@ static factor factor_at(double k, double u, bool sine)
     return (factor){value, slope, slope / k, -k * value};
 }
 
-/** A, or s_i, or their derivative along j; i = HD_DIM: A; j = HD_DIM: none. */
-static double product(const factor f[HD_DIM], int i, int j)
+/** A, or s_i, or their derivative along j; i = 3: A; j = 3: none. */
+static double product(const factor *f, int i, int j)
 {
     double all = 1.0;
-    for (int d = 0; d < HD_DIM; d++)
+    for (int d = 0; d < 3; d++)
         all *= d == i ? (d == j ? f[d].own_slope : f[d].own) : (d == j ? f[d].slope : f[d].value);
     return all;
 }
 
 /** Of the momentum along (e_i s_i). */
-static void fill_momentum(double out[HD_ROWS], const factor f[HD_DIM], const double e[HD_DIM],
-                          const double *p)
+static void fill_momentum(double *out, const factor *f, const double *e, const double *p)
 {
-    for (int j = 0; j < HD_DIM; j++) {
+    for (int j = 0; j < 3; j++) {
         out[j] = 0.0;
-        for (int i = 0; i < HD_DIM; i++) out[j] += p[i] * e[i] * product(f, i, j);
-        out[HD_DIM + j] = e[j] * product(f, j, HD_DIM);
+        for (int i = 0; i < 3; i++) out[j] += p[i] * e[i] * product(f, i, j);
+        out[3 + j] = e[j] * product(f, j, 3);
     }
 }
 
-void hd_functionals_at(double out[HD_FUNCTIONALS][HD_ROWS], const hd_wave *wave, unsigned bits,
-                       const hd_boundary boundary[HD_DIM], const double *q, const double *p)
+void hd_functionals_in_space(hd_functionals out, const hd_wave *wave, unsigned bits,
+                             const hd_boundary *boundary, const double *q, const double *p)
 {
     enum { DENSITY, ALONG, ACROSS, ENERGY = ACROSS + 2 };
-    factor f[HD_DIM];
-    double along[HD_DIM];
+    factor f[3];
+    double along[3];
     double p2 = 0.0;
-    for (int d = 0; d < HD_DIM; d++) {
+    for (int d = 0; d < 3; d++) {
         const bool wall = boundary[d] == HD_REFLECTING;
         f[d] = factor_at(wave->k[d], q[d] - (wall ? 0.5 : 0.0), bits >> d & 1);
         along[d] = wave->k[d] / wave->number;
@@ -55,11 +54,11 @@ void hd_functionals_at(double out[HD_FUNCTIONALS][HD_ROWS], const hd_wave *wave,
     fill_momentum(out[ALONG], f, along, p);
     fill_momentum(out[ACROSS], f, wave->across[0], p);
     fill_momentum(out[ACROSS + 1], f, wave->across[1], p);
-    for (int d = 0; d < HD_DIM; d++) {
-        const double slope = product(f, HD_DIM, d);
+    for (int d = 0; d < 3; d++) {
+        const double slope = product(f, 3, d);
         out[DENSITY][d] = slope / wave->number;
-        out[DENSITY][HD_DIM + d] = 0.0;
+        out[DENSITY][3 + d] = 0.0;
         out[ENERGY][d] = p2 * slope;
-        out[ENERGY][HD_DIM + d] = 2.0 * p[d] * product(f, HD_DIM, HD_DIM);
+        out[ENERGY][3 + d] = 2.0 * p[d] * product(f, 3, 3);
     }
 }
