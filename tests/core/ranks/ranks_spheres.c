@@ -5,7 +5,7 @@
 
 static hd_scene_def scene_of_runs(int exponents)
 {
-    return scene_from(spheres_of(30, 0.5, 0.3, 0.4, 4, 3), .equilibration = 5.0, .warmup = 20.0,
+    return scene_from(box_of(30, 0.5, 0.3, 0.4, 4, 3), .equilibration = 5.0, .warmup = 20.0,
                       .duration = 20.0, .threads = 1, .exponents = exponents,
                       .observe = HD_OBSERVE_STEPS | HD_OBSERVE_LOCALIZATION | HD_OBSERVE_GAS);
 }

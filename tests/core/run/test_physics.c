@@ -59,34 +59,3 @@ TEST(four_disks_have_five_positive_and_six_zero_exponents)
         CHECK_CLOSE(hd_spectrum_exponent(spectrum, col), 0.0,
                     2.0 * log(scene.duration) / scene.duration);
 }
-
-/** Exact symmetry lambda_l = -lambda_(4N+1-l); finite times leave O(1) / t. */
-TEST(the_full_spectrum_pairs)
-{
-    OWNED(hd_run) *run = finished(scene_from(small_scene(16, 0.7, 0.8660),
-                                             .exponents = HD_EXPONENTS_ALL_INDEPENDENT,
-                                             .duration = 2000.0));
-    const double error = hd_spectrum_pairing_error(hd_run_spectrum(run));
-    CHECK_WITHIN(error, 0.0, 1e-4);
-}
-
-static int vanishing_exponents(hd_boundary x, hd_boundary y)
-{
-    hd_scene_def scene = scene_from(small_scene(12, 0.5, 1.0), .exponents = HD_EXPONENTS_ALL,
-                                    .boundary[0] = x, .boundary[1] = y, .duration = 2000.0);
-    OWNED(hd_run) *run = finished(scene);
-    const double zero = 4.0 * log(scene.duration) / scene.duration; /* they fall like ln t / t */
-    int count = 0;
-    for (int col = 0; col < hd_run_vectors(run); col++)
-        count += fabs(hd_spectrum_exponent(hd_run_spectrum(run), col)) < zero;
-    assert_int_equal(count, hd_scene_zero_exponents(&scene));
-    return count;
-}
-
-TEST(each_boundary_has_its_zero_exponents)
-{
-    assert_int_equal(vanishing_exponents(P, P), 6);
-    assert_int_equal(vanishing_exponents(P, R), 4);
-    assert_int_equal(vanishing_exponents(R, P), 4);
-    assert_int_equal(vanishing_exponents(R, R), 2);
-}

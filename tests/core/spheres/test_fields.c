@@ -16,7 +16,7 @@ typedef struct sample {
 
 static sample sampled(int walls)
 {
-    sample s = {.scene = spheres_of(DISKS, 0.3, 0.8, 1.3, walls, 1)};
+    sample s = {.scene = box_of(DISKS, 0.3, 0.8, 1.3, walls, 1)};
     hd_random random = hd_random_seeded(5, 0);
     s.scene.max_mode_number = 2;
     hd_scene_box(&s.scene, s.box);
@@ -202,7 +202,7 @@ typedef struct world {
 /** Spheres in the fluid; the frame is random. */
 static world world_of(int walls, int vectors)
 {
-    world w = {.scene = spheres_of(MANY, 0.4, 0.5, 0.5, walls, 3)};
+    world w = {.scene = box_of(MANY, 0.4, 0.5, 0.5, walls, 3)};
     w.scene.max_mode_number = 1;
     MADE(hd_trajectory, tr, &w.scene);
     CHECK_OK(hd_trajectory_extend(tr, NULL, 20.0));

@@ -40,7 +40,7 @@ static hd_gas_means averaged(const hd_scene_def *def, int samples, double each)
 TEST(momentum_and_energy_stay)
 {
     for (int walls = 0; walls < 8; walls++) {
-        const hd_scene_def def = spheres_of(50, 0.5, 0.9, 1.2, walls, 3);
+        const hd_scene_def def = box_of(50, 0.5, 0.9, 1.2, walls, 3);
         OWNED(hd_trajectory) *tr = equilibrated(&def);
         double sum[3];
         hd_trajectory_momentum(tr, sum);
@@ -78,7 +78,7 @@ static sums summed(const hd_event_log *log)
 TEST(numbers_are_sums_over_the_events)
 {
     for (int walls = 0; walls < 8; walls++) {
-        const hd_scene_def def = spheres_of(40, 0.4, 0.8, 1.3, walls, 5);
+        const hd_scene_def def = box_of(40, 0.4, 0.8, 1.3, walls, 5);
         const double n = 40.0, t = 30.0, rounding = 1e-11;
         double box[3], momenta[3], volume = 1.0, all = 0.0;
         OWNED(hd_trajectory) *tr = equilibrated(&def);
@@ -113,7 +113,7 @@ TEST(numbers_are_sums_over_the_events)
 TEST(walls_feel_the_pressure)
 {
     enum { BLOCKS = 40 };
-    const hd_scene_def def = spheres_of(60, 0.3, 0.8, 1.3, 7, 6);
+    const hd_scene_def def = box_of(60, 0.3, 0.8, 1.3, 7, 6);
     const double t = HD_SANITIZED ? 10.0 : 60.0;
     double box[3], off[3] = {0}, square[3] = {0}, pressure = 0.0;
     OWNED(hd_trajectory) *tr = equilibrated(&def);
@@ -157,7 +157,7 @@ TEST(impact_is_exact)
     static const int disks[] = {2, 4, 16, 100};
     static const double density[] = {0.3, 0.2, 0.8, 0.5};
     for (int k = 0; k < 4; k++) {
-        const hd_scene_def def = spheres_of(disks[k], density[k], 1.0, 0.9, 0, 23);
+        const hd_scene_def def = box_of(disks[k], density[k], 1.0, 0.9, 0, 23);
         double mean = 0.0, square = 0.0, rates = 0.0;
         OWNED(hd_trajectory) *tr = equilibrated(&def);
         OWNED(hd_event_log) *log = new_log();
@@ -190,7 +190,7 @@ TEST(carnahan_and_starling)
 {
     static const double density[] = {0.1, 0.5, 0.9, 0.3, 0.7};
     for (int k = 0; k < (second_tier() ? 5 : 3); k++) {
-        const hd_scene_def def = spheres_of(500, density[k], 1.0, 1.0, 0, 21);
+        const hd_scene_def def = box_of(500, density[k], 1.0, 1.0, 0, 21);
         const double eta = PI * density[k] / 6.0, cube = pow(1.0 - eta, 3.0), allowed = 0.01;
         const double kt = 2.0 / 3.0 * 500 / 499, contact = (1.0 - 0.5 * eta) / cube;
         const double rate = 4.0 * sqrt(PI * kt) * density[k] * contact;
@@ -215,7 +215,7 @@ TEST(carnahan_and_starling)
 TEST(sound_crosses_the_longest_edge)
 {
     for (double density = 1e-4; density < 1.0; density += 0.2) {
-        const hd_scene_def def = spheres_of(500, density, 0.5, 3.0, 0, 1);
+        const hd_scene_def def = box_of(500, density, 0.5, 3.0, 0, 1);
         double box[3], z[3];
         for (int k = 0; k < 3; k++) {
             const double eta = PI / 6.0 * density * (1.0 + (k - 1) * 1e-5);

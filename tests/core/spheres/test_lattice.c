@@ -52,7 +52,7 @@ TEST(sites_keep_their_distance)
     int checked = 0;
     for (int n = 2; n < 120; n += 1 + n / 6)
         for (int k = 0; k < 8 * ASPECTS; k++) {
-            hd_scene_def def = spheres_of(n, 1.0, ASPECT[k / 8][0], ASPECT[k / 8][1], k % 8, 1);
+            hd_scene_def def = box_of(n, 1.0, ASPECT[k / 8][0], ASPECT[k / 8][1], k % 8, 1);
             const double most = densest(&def);
             if (most <= 0) continue;
             for (int f = 0; f < 3; f++) {
@@ -68,7 +68,7 @@ TEST(any_count)
 {
     for (int n = 2; n < 130; n++)
         for (int walls = 0; walls < 8; walls += 7) {
-            const hd_scene_def def = spheres_of(n, 0.3, 0.8, 0.7, walls, 1);
+            const hd_scene_def def = box_of(n, 0.3, 0.8, 0.7, walls, 1);
             check_lattice(&def);
         }
 }
@@ -79,7 +79,7 @@ TEST(maximum_is_where_spheres_touch)
     const double close = 3e-9;
     for (int n = 4; n < 120; n += 1 + n / 3)
         for (int k = 0; k < 4 * 8; k++) {
-            hd_scene_def def = spheres_of(n, 1.0, ASPECT[k / 8][0], ASPECT[k / 8][1], k % 8, 1);
+            hd_scene_def def = box_of(n, 1.0, ASPECT[k / 8][0], ASPECT[k / 8][1], k % 8, 1);
             double box[3];
             const double most = densest(&def);
             def.density = most + close;
@@ -98,8 +98,8 @@ TEST(maximum_knows_no_direction)
     for (int n = 4; n < 110; n += 7)
         for (int walls = 0; walls < 8; walls++) {
             const int turned = (walls << 1 & 7) | walls >> 2; /* x -> y -> z -> x */
-            const hd_scene_def one = spheres_of(n, 1.0, 0.8, 1.3, walls, 1);
-            const hd_scene_def other = spheres_of(n, 1.0, 1.0 / 1.3, 0.8 / 1.3, turned, 1);
+            const hd_scene_def one = box_of(n, 1.0, 0.8, 1.3, walls, 1);
+            const hd_scene_def other = box_of(n, 1.0, 1.0 / 1.3, 0.8 / 1.3, turned, 1);
             CHECK_CLOSE(densest(&other), densest(&one), 1e-8);
         }
 }
@@ -110,14 +110,14 @@ TEST(known_packings)
 {
     const double close = 1e-6;
     for (int k = 1; k < 6; k++) {
-        const hd_scene_def faces = spheres_of(4 * k * k * k, 1.0, 1.0, 1.0, 0, 1);
-        const hd_scene_def body = spheres_of(2 * k * k * k, 1.0, 1.0, 1.0, 0, 1);
-        const hd_scene_def simple = spheres_of(8 * k * k * k, 1.0, 1.0, 1.0, 7, 1);
+        const hd_scene_def faces = box_of(4 * k * k * k, 1.0, 1.0, 1.0, 0, 1);
+        const hd_scene_def body = box_of(2 * k * k * k, 1.0, 1.0, 1.0, 0, 1);
+        const hd_scene_def simple = box_of(8 * k * k * k, 1.0, 1.0, 1.0, 7, 1);
         CHECK_CLOSE(densest(&faces), sqrt(2.0), close);
         CHECK_WITHIN(densest(&body), 0.75 * sqrt(3.0) - close, sqrt(2.0));
         CHECK_WITHIN(densest(&simple), 1.0 - close, sqrt(2.0));
     }
-    const hd_scene_def two = spheres_of(2, 1.0, 1.0, 1.0, 0, 1);
+    const hd_scene_def two = box_of(2, 1.0, 1.0, 1.0, 0, 1);
     CHECK_CLOSE(densest(&two), 0.75 * sqrt(3.0), close);
 }
 
@@ -127,7 +127,7 @@ TEST(boxes_hold_their_density)
     for (double density = 1e-6; density < 1.3; density *= 3.7)
         for (int k = 0; k < ASPECTS; k++)
             for (int n = 2; n <= 1000000; n *= 7) {
-                const hd_scene_def def = spheres_of(n, density, ASPECT[k][0], ASPECT[k][1], 0, 1);
+                const hd_scene_def def = box_of(n, density, ASPECT[k][0], ASPECT[k][1], 0, 1);
                 double box[3];
                 hd_scene_box(&def, box);
                 const double volume = n / density;

@@ -9,7 +9,7 @@ static void check_line(hd_scene_def def, const char *want)
     assert_string_equal(line, want);
 }
 
-static hd_scene_def usual(void) { return spheres_of(32, 0.5, 1.0, 1.0, 0, 1); }
+static hd_scene_def usual(void) { return box_of(32, 0.5, 1.0, 1.0, 0, 1); }
 
 TEST(what_is_of_disks_alone)
 {
@@ -40,10 +40,10 @@ TEST(values_out_of_range)
 /** Each direction by its own name, behind walls and without. */
 TEST(edges_below_a_diameter)
 {
-    check_line(spheres_of(2, 2.0 / 3.375, 1.0, 0.5, 0, 1), /* Lx^3 = 6.75 */
+    check_line(box_of(2, 2.0 / 3.375, 1.0, 0.5, 0, 1), /* Lx^3 = 6.75 */
                "density = 0.592592592592593 with disks = 2, aspect = 1, aspect_z = 0.5: the box "
                "edge Lz = 0.944940787421155 must be above the disk diameter 1");
-    check_line(spheres_of(2, 1.0 / 8.0, 0.25, 1.0, 2, 1), /* 4 x 1 x 4 */
+    check_line(box_of(2, 1.0 / 8.0, 0.25, 1.0, 2, 1), /* 4 x 1 x 4 */
                "density = 0.125 with disks = 2, aspect = 0.25, aspect_z = 1: the box edge Ly = 1 "
                "must be above the disk diameter 1 by 1e-9");
 }
@@ -53,7 +53,7 @@ TEST(denser_than_the_densest_lattice)
 {
     for (int walls = 0; walls < 8; walls++)
         for (int n = 5; n < 60; n += 11) {
-            hd_scene_def def = spheres_of(n, 1.414, 1.1, 0.9, walls, 1);
+            hd_scene_def def = box_of(n, 1.414, 1.1, 0.9, walls, 1);
             char line[512] = "", *number;
             assert_int_equal(hd_scene_check(&def, line, sizeof line), HD_REFUSED);
             if (strstr(line, "the box edge")) continue;
@@ -72,7 +72,7 @@ TEST(denser_than_the_densest_lattice)
 TEST(closest_packing_is_allowed)
 {
     for (int k = 1; k < 5; k++) {
-        const hd_scene_def closest = spheres_of(4 * k * k * k, 1.41421, 1.0, 1.0, 0, 1);
+        const hd_scene_def closest = box_of(4 * k * k * k, 1.41421, 1.0, 1.0, 0, 1);
         CHECK_OK(hd_scene_check(&closest, NULL, 0));
     }
 }
@@ -80,7 +80,7 @@ TEST(closest_packing_is_allowed)
 TEST(waves_shorter_than_two_distances)
 {
     check_line(
-        scene_from(spheres_of(64, 0.5, 0.5, 1.0, 0, 1), .max_mode_number = 4),
+        scene_from(box_of(64, 0.5, 0.5, 1.0, 0, 1), .max_mode_number = 4),
         "max_mode_number = 4: must be at most 2 with disks = 64, density = 0.5, aspect = 0.5, "
         "aspect_z = 1 and these boundaries: a shorter wave than two mean distances, 2 / "
         "cbrt(density), is not sampled");
@@ -89,7 +89,7 @@ TEST(waves_shorter_than_two_distances)
 /** A prepared state that overlaps through an image across an edge or a corner, or is outside. */
 TEST(states_that_cannot_be)
 {
-    const hd_scene_def def = spheres_in_box(2, 5.0, 6.0, 7.0, 0, 1);
+    const hd_scene_def def = box_with(2, 5.0, 6.0, 7.0, 0, 1);
     const double p[6] = {0.1, 0.2, 0.3, -0.1, -0.2, -0.3};
     double q[6] = {0.2, 0.3, 0.1, 4.8, 5.8, 6.7};
     hd_trajectory *tr = NULL;

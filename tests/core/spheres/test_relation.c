@@ -29,7 +29,7 @@ TEST(branches_bend_as_measured_and_not_as_those_of_disks)
 {
     for (size_t m = 0; m < sizeof BRANCHES / sizeof *BRANCHES; m++) {
         const measured *b = &BRANCHES[m];
-        const hd_scene_def def = spheres_of(300, b->density, 0.125, 0.125, 0, 1);
+        const hd_scene_def def = box_of(300, b->density, 0.125, 0.125, 0, 1);
         const hd_relation r = hd_relation_of(&def, b->kind);
         const double got = over_c(&r, b->k[1]) / over_c(&r, b->k[0]);
         const double want = b->value[1] / b->value[0], from = b->k[0], to = b->k[1];

@@ -17,7 +17,7 @@ typedef struct state {
 
 static state drawn(int walls)
 {
-    state s = {.scene = spheres_of(SPHERES, 0.3, 0.8, 1.3, walls, 1)};
+    state s = {.scene = box_of(SPHERES, 0.3, 0.8, 1.3, walls, 1)};
     hd_random random = hd_random_seeded(7, (uint64_t)walls);
     double box[3];
     s.scene.max_mode_number = 2;

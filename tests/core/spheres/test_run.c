@@ -9,7 +9,7 @@ static const double Z = 3.0;
 /** 128 spheres in a box of 4 : 1 : 1. */
 static hd_scene_def long_box(void)
 {
-    return scene_from(spheres_of(128, 0.5, 0.25, 0.25, 0, 2), .equilibration = 20.0, .warmup = 60.0,
+    return scene_from(box_of(128, 0.5, 0.25, 0.25, 0, 2), .equilibration = 20.0, .warmup = 60.0,
                       .duration = HD_SANITIZED ? 20.0 : 300.0, .threads = 1,
                       .observe = HD_OBSERVE_STEPS | HD_OBSERVE_PHASES | HD_OBSERVE_T_PHASES |
                                  HD_OBSERVE_GAS | HD_OBSERVE_LOCALIZATION);
@@ -107,9 +107,8 @@ TEST(a_long_box_has_its_steps_and_its_sound)
 
 static hd_scene_def short_run(int disks, int walls, int exponents, unsigned observe)
 {
-    return scene_from(spheres_of(disks, 0.5, 0.3, 0.4, walls, 7), .equilibration = 3.0,
-                      .warmup = 10.0, .duration = 15.0, .threads = 1, .exponents = exponents,
-                      .observe = observe);
+    return scene_from(box_of(disks, 0.5, 0.3, 0.4, walls, 7), .equilibration = 3.0, .warmup = 10.0,
+                      .duration = 15.0, .threads = 1, .exponents = exponents, .observe = observe);
 }
 
 static void expect_uninterrupted(hd_scene_def def, int every)
@@ -179,7 +178,7 @@ TEST(two_threads_give_what_one_gives)
 TEST(covariant_vectors_have_the_same_exponents)
 {
     const hd_scene_def def = scene_from(
-        spheres_of(6, 0.4, 1.0, 1.0, 0, 3), .exponents = HD_EXPONENTS_ALL, .warmup = 100.0,
+        box_of(6, 0.4, 1.0, 1.0, 0, 3), .exponents = HD_EXPONENTS_ALL, .warmup = 100.0,
         .duration = 700.0, .observe = HD_OBSERVE_COVARIANT, .covariant_window = 100.0,
         .covariant_transient = 100.0, .covariant_sampling = 10.0, .threads = 1);
     OWNED(hd_run) *run = finished(def);
@@ -206,9 +205,9 @@ TEST(spheres_leave_their_places_in_a_fluid_alone)
     const struct {
         hd_scene_def scene;
         bool caged;
-    } cases[] = {{spheres_of(16, 0.9, 1.0, 1.0, 6, 1), true},
-                 {spheres_of(108, 1.1, 1.0, 1.0, 0, 1), true},
-                 {spheres_of(32, 0.9, 1.0, 1.0, 0, 1), false}};
+    } cases[] = {{box_of(16, 0.9, 1.0, 1.0, 6, 1), true},
+                 {box_of(108, 1.1, 1.0, 1.0, 0, 1), true},
+                 {box_of(32, 0.9, 1.0, 1.0, 0, 1), false}};
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         OWNED(hd_run) *run = finished(scene_from(cases[k].scene, .exponents = HD_EXPONENTS_NONE,
                                                  .equilibration = 50.0, .warmup = 0.0,

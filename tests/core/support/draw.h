@@ -6,6 +6,7 @@
 #include <stdbool.h>
 
 #include "base/random.h"
+#include "scenes.h"
 
 static inline double uniform(hd_random *random)
 {
@@ -23,6 +24,33 @@ static inline double log_uniform(hd_random *random, double least, double most)
 {
     const double x = exp(log(least) + uniform(random) * log(most / least));
     return fmin(fmax(x, least), most);
+}
+
+/** A unit vector. */
+static inline void draw_direction(hd_random *random, double out[DIM])
+{
+    double square = 2.0;
+    while (square > 1.0 || square < 0.1) {
+        square = 0.0;
+        for (int d = 0; d < DIM; d++) out[d] = hd_random_symmetric(random);
+        for (int d = 0; d < DIM; d++) square += out[d] * out[d];
+    }
+    for (int d = 0; d < DIM; d++) out[d] /= sqrt(square);
+}
+
+/** A unit vector across a direction. */
+static inline void draw_across(hd_random *random, double out[DIM], const double e[DIM])
+{
+    double square = 0.0;
+    while (square < 0.01) {
+        double along = 0.0;
+        square = 0.0;
+        draw_direction(random, out);
+        for (int d = 0; d < DIM; d++) along += out[d] * e[d];
+        for (int d = 0; d < DIM; d++) out[d] -= along * e[d];
+        for (int d = 0; d < DIM; d++) square += out[d] * out[d];
+    }
+    for (int d = 0; d < DIM; d++) out[d] /= sqrt(square);
 }
 
 #endif

@@ -34,13 +34,13 @@ static golden golden_scene(int scene)
 static golden golden_scene(int scene)
 {
     const golden all[GOLDEN_SCENES] = {
-        {spheres_of(500, 0.8, 1.0, 1.0, 0, 1), 30000, 0xc261628e6babd33au},
-        {spheres_of(2, 0.3, 1.0, 1.0, 0, 2), 5000, 0xd11151fa097e2ba0u},
-        {spheres_of(16, 0.7, 0.9, 0.8, 7, 3), 20000, 0xf9fe38bbd9c2c68cu},
-        {spheres_of(100, 0.05, 0.3, 0.5, 4, 12345678901234567890u), 10000, 0x350f791558565328u},
-        {spheres_in_box(4, 1.6, 1.7, 1.8, 2, 4), 10000, 0xbe93c799f43a9a81u},
-        {spheres_of(108, 1.35, 1.0, 1.0, 0, 5), 10000, 0x016cd45fe53c6fcfu},
-        {spheres_of(20000, 0.6, 0.8, 0.7, 1, 6), 60000,
+        {box_of(500, 0.8, 1.0, 1.0, 0, 1), 30000, 0xc261628e6babd33au},
+        {box_of(2, 0.3, 1.0, 1.0, 0, 2), 5000, 0xd11151fa097e2ba0u},
+        {box_of(16, 0.7, 0.9, 0.8, 7, 3), 20000, 0xf9fe38bbd9c2c68cu},
+        {box_of(100, 0.05, 0.3, 0.5, 4, 12345678901234567890u), 10000, 0x350f791558565328u},
+        {box_with(4, 1.6, 1.7, 1.8, 2, 4), 10000, 0xbe93c799f43a9a81u},
+        {box_of(108, 1.35, 1.0, 1.0, 0, 5), 10000, 0x016cd45fe53c6fcfu},
+        {box_of(20000, 0.6, 0.8, 0.7, 1, 6), 60000,
          0x25cdd5a1319ff59fu}, /* larger than the caches */
     };
     return all[scene];

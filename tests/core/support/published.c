@@ -64,7 +64,7 @@ static void check_structure(const hd_structure *s)
     for (hd_direction e = HD_ALONG; e < HD_DIRECTIONS; e++) {
         for (int w = 0; w < hd_structure_waves(s); w++)
             check_numbers(hd_structure_mean(s, w, e), n, "structure factor");
-        for (unsigned bits = 0; bits < 4; bits++)
+        for (unsigned bits = 0; bits < WALL_SETS; bits++)
             check_numbers(hd_structure_amplitude(s, e, bits), n, "amplitude");
     }
 }
@@ -111,7 +111,7 @@ static void check_phases(const hd_phases *phases)
 static void check_fields(const hd_run *run)
 {
     const hd_steps *steps = hd_run_steps(run);
-    const int rows = 2 * hd_run_scene(run)->disks;
+    const int rows = DIM * hd_run_scene(run)->disks;
     double *state = malloc(3 * (size_t)rows * sizeof *state), *p = state + rows, *out = p + rows;
     hd_trajectory_state(hd_run_trajectory(run), state, p);
     MADE(hd_pmode, pmode, hd_run_scene(run));

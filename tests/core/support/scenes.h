@@ -74,21 +74,27 @@ static inline hd_scene_def scene_in_box(int disks, double lx, double ly, hd_boun
     return scene_of(disks, disks / (lx * ly), ly / lx, x, y, seed);
 }
 
-/** Of spheres; walls: 1 of x, 2 of y, 4 of z. */
-static inline hd_scene_def spheres_of(int disks, double density, double aspect, double aspect_z,
-                                      int walls, uint64_t seed)
+/** Disks or spheres: the dimension of the core that the test is linked with, here alone. */
+enum { DIM = HD_DIM, ROWS_OF_ONE = 2 * DIM, WALL_SETS = 1 << DIM, ALL_WALLS = WALL_SETS - 1 };
+
+/** A box of disks or of spheres; walls: 1 of x, 2 of y, 4 of z. Disks know no z. */
+static inline hd_scene_def box_of(int disks, double density, double aspect, double aspect_z,
+                                  int walls, uint64_t seed)
 {
-    return scene(.disks = disks, .density = density, .aspect = aspect, .aspect_z = aspect_z,
-                 .boundary[0] = (hd_boundary)(walls & 1),
-                 .boundary[1] = (hd_boundary)(walls >> 1 & 1),
-                 .boundary[2] = (hd_boundary)(walls >> 2 & 1), .seed = seed);
+    hd_scene_def def = scene_of(disks, density, aspect, (hd_boundary)(walls & 1),
+                                (hd_boundary)(walls >> 1 & 1), seed);
+    if (DIM == 2) return def;
+    def.aspect_z = aspect_z;
+    def.boundary[2] = (hd_boundary)(walls >> 2 & 1);
+    return def;
 }
 
 /** The same by the edges of the box. */
-static inline hd_scene_def spheres_in_box(int disks, double lx, double ly, double lz, int walls,
-                                          uint64_t seed)
+static inline hd_scene_def box_with(int disks, double lx, double ly, double lz, int walls,
+                                    uint64_t seed)
 {
-    return spheres_of(disks, disks / (lx * ly * lz), ly / lx, lz / lx, walls, seed);
+    return box_of(disks, disks / (DIM == 2 ? lx * ly : lx * ly * lz), ly / lx, lz / lx, walls,
+                  seed);
 }
 
 #endif

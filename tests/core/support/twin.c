@@ -13,13 +13,13 @@ enum { PAIR, WALL };
 
 typedef struct contact {
     double t;
-    int32_t image[2]; /**< box edges to add to the position of the disk of higher index */
+    int32_t image[DIM]; /**< box edges to add to the position of the disk of higher index */
 } contact;
 
 struct twin {
     int n;
-    double box[2];
-    hd_boundary boundary[2];
+    double box[DIM];
+    hd_boundary boundary[DIM];
     double epoch_length, epoch_start;
     hd_disk *disk;
     contact *pair; /**< [i * n + j], i < j */
@@ -33,72 +33,72 @@ typedef struct candidate {
 
 /* ---- prediction ---------------------------------------------------------------------------- */
 
-static contact contact_through(const twin *t, int i, int j, int32_t mx, int32_t my)
-{
-    const double shift[2] = {mx * t->box[0], my * t->box[1]};
-    const double time = one_contact(&t->disk[i], &t->disk[j], shift);
-    return time < INFINITY ? (contact){time, {mx, my}} : (contact){.t = INFINITY};
-}
-
+/** Of images that touch at the same time the lower one in the last direction is first. */
 static bool sooner(const contact *a, const contact *b)
 {
+    int d = DIM - 1;
     if (a->t != b->t) return a->t < b->t;
-    if (a->image[1] != b->image[1]) return a->image[1] < b->image[1];
-    return a->image[0] < b->image[0];
+    while (d > 0 && a->image[d] == b->image[d]) d--;
+    return a->image[d] < b->image[d];
 }
 
-typedef struct line {
-    /** Separation along one direction at the window's zero, and its velocity */
-    double r, p;
-    double from, to; /**< window of time */
-    double box;
-    hd_boundary boundary;
-} line;
+/** Two disks, and what is known of their images so far. */
+typedef struct encounter {
+    const twin *t;
+    const hd_disk *a, *b;
+    double r[DIM], p[DIM]; /**< separation at the window's zero, and its velocity */
+    contact now, *best;
+} encounter;
 
-/** Images m for which r + p t + m box touches [-1, 1] within the window. */
-static void image_range(int32_t range[2], const line *l)
+/** Images m for which r + p t + m box touches [-1, 1] along d within the window. */
+static void image_range(int32_t range[2], const encounter *e, int d, const double window[2])
 {
-    const double a = l->r + l->p * l->from, b = l->r + l->p * l->to;
+    const double a = e->r[d] + e->p[d] * window[0], b = e->r[d] + e->p[d] * window[1];
     range[0] = range[1] = 0;
-    if (l->boundary == R) return;
-    range[0] = (int32_t)ceil((-1.0 - IMAGE_MARGIN - fmax(a, b)) / l->box);
-    range[1] = (int32_t)floor((1.0 + IMAGE_MARGIN - fmin(a, b)) / l->box);
+    if (e->t->boundary[d] == R) return;
+    range[0] = (int32_t)ceil((-1.0 - IMAGE_MARGIN - fmax(a, b)) / e->t->box[d]);
+    range[1] = (int32_t)floor((1.0 + IMAGE_MARGIN - fmin(a, b)) / e->t->box[d]);
 }
 
-/** The part [from, to] of the window [0, length] in which |r + p t| <= 1. */
-static void touching_window(double window[2], double r, double p, double length)
+/** The part of the window in which |r + p t| <= 1. */
+static void touching_window(double part[2], double r, double p, const double window[2])
 {
     const double reach = 1.0 + IMAGE_MARGIN;
-    window[0] = 0;
-    window[1] = length;
+    memcpy(part, window, 2 * sizeof *part);
     if (p == 0) return;
-    const double in = (-copysign(reach, p) - r) / p, out = (copysign(reach, p) - r) / p;
-    window[0] = fmin(fmax(in, 0.0), length);
-    window[1] = fmin(fmax(out, 0.0), length);
+    part[0] = fmin(fmax((-copysign(reach, p) - r) / p, window[0]), window[1]);
+    part[1] = fmin(fmax((copysign(reach, p) - r) / p, window[0]), window[1]);
+}
+
+/** Every image along d and the directions behind it. */
+static void try_images(encounter *e, int d, const double window[2])
+{
+    int32_t m[2];
+    if (d == DIM) {
+        double shift[DIM];
+        for (int c = 0; c < DIM; c++) shift[c] = e->now.image[c] * e->t->box[c];
+        e->now.t = one_contact(e->a, e->b, shift);
+        if (e->now.t < INFINITY && sooner(&e->now, e->best)) *e->best = e->now;
+        return;
+    }
+    image_range(m, e, d, window);
+    for (int32_t k = m[0]; k <= m[1]; k++) {
+        double part[2];
+        touching_window(part, e->r[d] + k * e->t->box[d], e->p[d], window);
+        e->now.image[d] = k;
+        try_images(e, d + 1, part);
+    }
 }
 
 static void predict_pair(twin *t, int i, int j)
 {
-    const hd_disk *a = &t->disk[i], *b = &t->disk[j];
-    const double now = fmax(a->t, b->t), length = t->epoch_length - now;
-    contact *best = &t->pair[i * t->n + j];
-    *best = (contact){.t = INFINITY};
-    const double here[2] = {0, 0};
-    double r[2];
-    hd_contact_separation(r, a, b, here, now);
-    const line x = {r[0], b->p[0] - a->p[0], 0, length, t->box[0], t->boundary[0]};
-    int32_t mx[2], my[2];
-    image_range(mx, &x);
-    for (int32_t m = mx[0]; m <= mx[1]; m++) {
-        double window[2];
-        touching_window(window, r[0] + m * t->box[0], x.p, length);
-        const line y = {r[1], b->p[1] - a->p[1], window[0], window[1], t->box[1], t->boundary[1]};
-        image_range(my, &y);
-        for (int32_t k = my[0]; k <= my[1]; k++) {
-            const contact found = contact_through(t, i, j, m, k);
-            if (sooner(&found, best)) *best = found;
-        }
-    }
+    encounter e = {.t = t, .a = &t->disk[i], .b = &t->disk[j], .best = &t->pair[i * t->n + j]};
+    const double now = fmax(e.a->t, e.b->t), here[DIM] = {0},
+                 window[2] = {0, t->epoch_length - now};
+    *e.best = (contact){.t = INFINITY};
+    hd_contact_separation(e.r, e.a, e.b, here, now);
+    for (int d = 0; d < DIM; d++) e.p[d] = e.b->p[d] - e.a->p[d];
+    try_images(&e, 0, window);
 }
 
 static void predict_all_of(twin *t, int i)
@@ -125,7 +125,7 @@ static bool before(const candidate *a, const candidate *b)
     if (a->t != b->t) return a->t < b->t;
     if (a->kind != b->kind) return a->kind < b->kind;
     if (a->i != b->i) return a->i < b->i;
-    if (a->kind == WALL) return a->j > b->j; /* a disk in a corner: HD_WALL_X, then HD_WALL_Y */
+    if (a->kind == WALL) return a->j > b->j; /* a disk in a corner: HD_WALL_X first */
     return a->j < b->j;
 }
 
@@ -133,9 +133,8 @@ static candidate earliest(const twin *t)
 {
     candidate best = {.t = INFINITY};
     for (int i = 0; i < t->n; i++) {
-        for (int d = 0; d < 2; d++) {
-            const candidate wall = {wall_time(t, &t->disk[i], d), WALL, i,
-                                    d ? HD_WALL_Y : HD_WALL_X};
+        for (int d = 0; d < DIM; d++) {
+            const candidate wall = {wall_time(t, &t->disk[i], d), WALL, i, HD_WALL_X - d};
             if (before(&wall, &best)) best = wall;
         }
         for (int j = i + 1; j < t->n; j++) {
@@ -150,33 +149,48 @@ static candidate earliest(const twin *t)
 
 static void move(hd_disk *disk, double to)
 {
-    for (int d = 0; d < 2; d++) disk->q[d] += disk->p[d] * (to - disk->t);
+    for (int d = 0; d < DIM; d++) disk->q[d] += disk->p[d] * (to - disk->t);
     disk->t = to;
 }
 
 static void fold(const twin *t, hd_disk *disk)
 {
-    for (int d = 0; d < 2; d++)
+    for (int d = 0; d < DIM; d++)
         if (t->boundary[d] == P) disk->q[d] -= floor(disk->q[d] / t->box[d]) * t->box[d];
 }
 
 /** r.r - 1 as a double and the correction lost in it, added last. */
-static double excess_of(const double r[2])
+static double excess_of(const double r[DIM])
 {
-    const double xx = r[0] * r[0], yy = r[1] * r[1], sum = xx + yy, back = sum - xx;
-    const double lost = (xx - (sum - back)) + (yy - back);
-    return (sum - 1.0) + (lost + fma(r[0], r[0], -xx) + fma(r[1], r[1], -yy));
+    double all = r[0] * r[0], lost = 0.0;
+    for (int d = 1; d < DIM; d++) {
+        const double square = r[d] * r[d], sum = all + square, part = sum - all;
+        lost += (all - (sum - part)) + (square - part);
+        all = sum;
+    }
+    for (int d = 0; d < DIM; d++) lost += fma(r[d], r[d], -(r[d] * r[d]));
+    return (all - 1.0) + lost;
 }
 
 /** An approach by less than this is rounding of the momenta. */
 static double lost_by(const hd_disk *a, const hd_disk *b)
 {
-    return 8.0 * DBL_EPSILON * (fabs(a->p[0]) + fabs(a->p[1]) + fabs(b->p[0]) + fabs(b->p[1]));
+    double size = 0.0;
+    for (int k = 0; k < 2 * DIM; k++) size += fabs(k < DIM ? a->p[k] : b->p[k - DIM]);
+    return 8.0 * DBL_EPSILON * size;
 }
 
-static void push(hd_disk *a, hd_disk *b, const double along[2], double impulse)
+/** The longest component of r alone, as a unit vector. */
+static void longest_of(double u[DIM], const double r[DIM])
 {
-    for (int d = 0; d < 2; d++) {
+    int most = 0;
+    for (int d = 1; d < DIM; d++) most = fabs(r[d]) > fabs(r[most]) ? d : most;
+    for (int d = 0; d < DIM; d++) u[d] = d == most ? copysign(1.0, r[d]) : 0.0;
+}
+
+static void push(hd_disk *a, hd_disk *b, const double along[DIM], double impulse)
+{
+    for (int d = 0; d < DIM; d++) {
         a->p[d] += impulse * along[d];
         b->p[d] -= impulse * along[d];
     }
@@ -187,26 +201,23 @@ static bool collide(twin *t, hd_event *event, const candidate *c)
 {
     hd_disk *a = &t->disk[c->i], *b = &t->disk[c->j];
     const contact *how = &t->pair[c->i * t->n + c->j];
-    const double shift[2] = {how->image[0] * t->box[0], how->image[1] * t->box[1]};
+    double shift[DIM], r[DIM], u[DIM];
+    for (int d = 0; d < DIM; d++) shift[d] = how->image[d] * t->box[d];
     move(a, c->t);
     move(b, c->t);
-    double r[2];
     hd_contact_separation(r, a, b, shift, c->t);
-    const double distance = sqrt(r[0] * r[0] + r[1] * r[1]);
-    for (int d = 0; d < 2; d++) {
+    const double distance = sqrt(hd_contact_dot(r, r));
+    for (int d = 0; d < DIM; d++) {
         event->n[d] = r[d] / distance;
         event->p[d] = b->p[d] - a->p[d];
     }
-    const double approach = event->p[0] * r[0] + event->p[1] * r[1];
-    const double lost = lost_by(a, b);
+    const double approach = hd_contact_dot(event->p, r), lost = lost_by(a, b);
     const bool exchanged = approach < -lost;
+    longest_of(u, r);
     if (exchanged)
         push(a, b, r, approach - approach * excess_of(r));
     else if (approach < 0)
-        push(a, b,
-             fabs(r[1]) > fabs(r[0]) ? (const double[2]){0, copysign(1, r[1])}
-                                     : (const double[2]){copysign(1, r[0]), 0},
-             -lost);
+        push(a, b, u, -lost);
     fold(t, a);
     fold(t, b);
     predict_all_of(t, c->i);
@@ -217,12 +228,11 @@ static bool collide(twin *t, hd_event *event, const candidate *c)
 static void reflect(twin *t, hd_event *event, const candidate *c)
 {
     hd_disk *disk = &t->disk[c->i];
-    const int d = c->j == HD_WALL_Y;
+    const int d = HD_WALL_X - c->j;
     move(disk, c->t);
     disk->q[d] = wall_at(t, disk, d);
     event->n[d] = 1.0;
-    event->p[0] = disk->p[0];
-    event->p[1] = disk->p[1];
+    memcpy(event->p, disk->p, sizeof event->p);
     disk->p[d] = -disk->p[d];
     fold(t, disk);
     predict_all_of(t, c->i);
@@ -258,15 +268,21 @@ bool twin_next(twin *t, hd_event *event, double t_begin, double t_end)
 
 /* ---- creation ------------------------------------------------------------------------------ */
 
-/** The least power of two that holds 32 of a disk's collisions at Enskog's rate [T2]. */
+/** Collisions of a disk in a time unit: Enskog's rate [T2], of spheres with what Carnahan and
+ * Starling say of a contact. */
+static double enskog(double density)
+{
+    const double eta = DIM == 2 ? fmin(PI * density / 4.0, 0.9) : PI * density / 6.0;
+    const double free = 1.0 - eta;
+    if (DIM == 2) return 2.0 * sqrt(PI) * density * (1.0 - 7.0 * eta / 16.0) / (free * free);
+    return 4.0 * sqrt(PI * 2.0 / 3.0) * density * (1.0 - 0.5 * eta) / (free * free * free);
+}
+
+/** The least power of two that holds 32 of a disk's collisions; of a thin gas it is shorter. */
 static double epoch_for(const hd_scene_def *def)
 {
-    const double pi = 3.14159265358979323846, eta = fmin(pi * def->density / 4.0, 0.9);
-    const double at_contact = (1.0 - 7.0 * eta / 16.0) / ((1.0 - eta) * (1.0 - eta));
     int exponent;
-    const double collisions = 32.0 / (2.0 * sqrt(pi) * def->density * at_contact);
-    const double part = frexp(fmin(collisions, 16384.0),
-                              &exponent); /* a thin gas: shorter epochs */
+    const double part = frexp(fmin(32.0 / enskog(def->density), 16384.0), &exponent);
     return ldexp(1.0, part == 0.5 ? exponent - 1 : exponent);
 }
 
@@ -275,7 +291,8 @@ twin *twin_create(const hd_scene_def *def, const double *q, const double *p)
     const size_t n = (size_t)def->disks;
     twin *t = calloc(1, sizeof *t);
     if (!t) return NULL;
-    *t = (twin){.n = def->disks, .boundary = {def->boundary[0], def->boundary[1]}};
+    t->n = def->disks;
+    memcpy(t->boundary, def->boundary, sizeof t->boundary);
     hd_scene_box(def, t->box);
     t->epoch_length = epoch_for(def);
     t->disk = calloc(n, sizeof *t->disk);
@@ -284,9 +301,9 @@ twin *twin_create(const hd_scene_def *def, const double *q, const double *p)
         twin_free(t);
         return NULL;
     }
-    for (size_t k = 0; k < 2 * n; k++) {
-        t->disk[k / 2].q[k % 2] = q[k];
-        t->disk[k / 2].p[k % 2] = p[k];
+    for (size_t k = 0; k < DIM * n; k++) {
+        t->disk[k / DIM].q[k % DIM] = q[k];
+        t->disk[k / DIM].p[k % DIM] = p[k];
     }
     for (int i = 0; i < t->n; i++) predict_all_of(t, i);
     return t;

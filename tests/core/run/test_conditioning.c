@@ -15,12 +15,15 @@ enum { VERIFIES = 0 };
 /* ---- whole runs ---------------------------------------------------------------------------- */
 
 /** Few vectors: extended precision is slow. */
-static hd_scene_def small_scene(int disks, int exponents, uint64_t seed)
+static hd_scene_def small_scene(int disks, int walls, int exponents, uint64_t seed)
 {
-    return scene(.disks = disks, .density = disks < 5 ? 0.3 : 0.6, .aspect = 1.0, .seed = seed,
-                 .exponents = exponents, .equilibration = 10.0, .warmup = 50.0, .duration = 50.0,
-                 .report_interval = 50.0, .threads = 1);
+    return scene_from(box_of(disks, disks < 5 ? 0.3 : 0.6, 1.0, 1.0, walls, seed),
+                      .exponents = exponents, .equilibration = 10.0, .warmup = 50.0,
+                      .duration = 50.0, .report_interval = 50.0, .threads = 1);
 }
+
+/** Of spheres half as many: they have as many vectors. */
+enum { TEN = 10 / (DIM - 1) };
 
 /** Every step goes on in time. */
 static hd_status finish_forced(hd_run *run, double forced)
@@ -67,18 +70,21 @@ static long check_forced(hd_scene_def scene, const double *exact, double forced)
 TEST(any_forced_interval_gives_the_exact_spectrum)
 {
     static const struct {
-        int disks, exponents;
+        int disks, walls, exponents;
         uint64_t seed;
-    } scenes[] = {{3, HD_EXPONENTS_POSITIVE, 1},
-                  {3, HD_EXPONENTS_ALL, 2},
-                  {10, HD_EXPONENTS_POSITIVE, 2},
-                  {10, HD_EXPONENTS_ALL, 2}};
+    } scenes[] = {{3, 0, HD_EXPONENTS_POSITIVE, 1},
+                  {3, ALL_WALLS, HD_EXPONENTS_ALL, 2},
+                  {TEN, 0, HD_EXPONENTS_POSITIVE, 2},
+                  {TEN, 0, HD_EXPONENTS_ALL, 2},
+                  {3, 0, HD_EXPONENTS_ALL_INDEPENDENT, 3}};
     static const double forced[] = {0.0, 0.01, 0.1, 0.3, 1.0, 2.0, 8.0, 25.0, 50.0};
     static const double accuracies[] = {1e-3, 1e-8, 1e-12};
     double exact[VECTORS_MAX];
     for (size_t s = 0; s < sizeof scenes / sizeof *scenes; s++) {
-        hd_scene_def scene = small_scene(scenes[s].disks, scenes[s].exponents, scenes[s].seed);
+        hd_scene_def scene = small_scene(scenes[s].disks, scenes[s].walls, scenes[s].exponents,
+                                         scenes[s].seed);
         exact_spectrum(&scene, exact);
+        assert_true(exact[0] > 0.1);
         for (int a = 0; a < 3; a++) {
             long repairs = 0;
             scene.accuracy = accuracies[a];
@@ -91,10 +97,11 @@ TEST(any_forced_interval_gives_the_exact_spectrum)
 
 TEST(a_circle_has_the_exact_spectrum)
 {
+    if (DIM == 3) skip();
     static const int exponents[] = {HD_EXPONENTS_POSITIVE, HD_EXPONENTS_ALL};
     double exact[VECTORS_MAX];
     for (int k = 0; k < 2; k++) {
-        const hd_scene_def small = small_scene(10, exponents[k], 3);
+        const hd_scene_def small = small_scene(10, 0, exponents[k], 3);
         const hd_scene_def scene = scene_from(small, .container = HD_CIRCLE,
                                               .aspect = hd_scene_def_default().aspect);
         exact_spectrum(&scene, exact);
@@ -103,35 +110,14 @@ TEST(a_circle_has_the_exact_spectrum)
     }
 }
 
-/** What is not carried changes places with the last vector, too [T6]. Which runs do depends on the
- * last bits, so on the processor: with four of OpenBLAS's kernels 2 to 4 of 100 were seen; of 20,
- * 1 to 2. */
-TEST(few_vectors_rarely_exceed_the_bound)
-{
-    const uint64_t runs = 100;
-    int above = 0;
-    double exact[VECTORS_MAX];
-    for (uint64_t seed = 1; seed <= runs; seed++) {
-        hd_scene_def scene = small_scene(5, seed % 2 ? 4 : 2, seed);
-        scene.density = 0.85;
-        scene.boundary[0] = scene.boundary[1] = R;
-        exact_spectrum(&scene, exact);
-        OWNED(hd_run) *run = created(scene);
-        CHECK_OK(finish_forced(run, 0.0));
-        const double off = deviation(run, exact), bound = hd_run_cost(run).error_bound;
-        above += off > bound;
-        assert_true(off <= fmin(scene.accuracy, 10.0 * bound));
-    }
-    assert_true(above <= (int)runs / 20);
-}
-
 /** Grazing collisions shorten an interval, which must not make the next one look too long: ever
  * shorter ones only add up more rounding. Seen: 0.74 to 0.86 collisions of a disk, and 0.08 to 0.13
  * where they went on shrinking. */
 TEST(intervals_grow_again_after_grazing_collisions)
 {
     for (uint64_t seed = 1; seed <= 5; seed++) {
-        hd_scene_def scene = scene_from(small_scene(10, HD_EXPONENTS_ALL, seed), .accuracy = 1e-12);
+        hd_scene_def scene = scene_from(small_scene(TEN, 0, HD_EXPONENTS_ALL, seed),
+                                        .accuracy = 1e-12);
         OWNED(hd_run) *run = created(scene);
         CHECK_OK(finish_forced(run, 0.0));
         const double per_disk = 2.0 * (double)hd_trajectory_collisions(run->advance.trajectory) /
@@ -147,7 +133,7 @@ TEST(pieces_are_no_shorter_than_helps)
     long most = 0;
     for (uint64_t seed = 1; seed <= 5; seed++) {
         OWNED(hd_run) *run = created(
-            scene_from(small_scene(10, HD_EXPONENTS_ALL_INDEPENDENT, seed), .accuracy = 1e-12));
+            scene_from(small_scene(TEN, 0, HD_EXPONENTS_ALL_INDEPENDENT, seed), .accuracy = 1e-12));
         const double collision = run->carrier.collision;
         while (hd_run_stage(run) != HD_FINISHED) {
             const long before = run->cost.orthonormalisations;
@@ -172,6 +158,22 @@ TEST(no_crumb_of_rounding_stops_the_run)
                                        .accuracy = 1e-12, .threads = 1));
     CHECK_OK(finish_forced(run, 0.0));
     assert_true(run->cost.repairs > 0);
+}
+
+/** Each of these has an interval whose eighth stretches by more than 1e13. */
+TEST(several_grazes_in_an_interval_are_divided)
+{
+    const uint64_t seeds[] = {159, 284};
+    if (DIM == 3) skip();
+    for (int k = 0; k < 2; k++) {
+        hd_scene_def scene = scene_of(3, 0.001, 1.0, P, P, seeds[k]);
+        const double time = 300.0 / (3.5 * scene.density);
+        scene.exponents = HD_EXPONENTS_ALL_INDEPENDENT;
+        scene.equilibration = scene.warmup = 0.0;
+        scene.duration = scene.report_interval = time;
+        OWNED(hd_run) *run = finished(scene);
+        CHECK_CLOSE(hd_spectrum_pairing_error(hd_run_spectrum(run)) * time, 0.0, 12.0);
+    }
 }
 
 /** A frame whose second vector leans into the first to within delta: the spans are the same, so is
@@ -201,8 +203,8 @@ TEST(nearly_dependent_start_vectors_are_separated_or_refused)
     double exact[VECTORS_MAX];
     const int frames = VERIFIES ? 1 : 2; /* all vectors together have a volume */
     for (int all = 0; all < frames; all++) {
-        const hd_scene_def scene = small_scene(10, all ? HD_EXPONENTS_ALL : HD_EXPONENTS_POSITIVE,
-                                               4);
+        const hd_scene_def scene = small_scene(TEN, 0,
+                                               all ? HD_EXPONENTS_ALL : HD_EXPONENTS_POSITIVE, 4);
         exact_spectrum(&scene, exact);
         for (int k = 1; k <= 16; k++) {
             const double off = leaning_start(&scene, exact, k < 16 ? pow(10.0, -k) : 0.0);
@@ -259,7 +261,8 @@ TEST(a_broken_frame_is_a_named_fault)
     if (VERIFIES) skip();
     for (int all = 0; all < 2; all++)
         for (breakage how = 0; how < BREAKAGES; how++) {
-            hd_scene_def scene = small_scene(10, all ? HD_EXPONENTS_ALL : HD_EXPONENTS_POSITIVE, 1);
+            hd_scene_def scene = small_scene(TEN, 0, all ? HD_EXPONENTS_ALL : HD_EXPONENTS_POSITIVE,
+                                             1);
             scene.report_interval = 1.0;
             OWNED(hd_run) *run = created(scene);
             double before[VECTORS_MAX];
@@ -279,7 +282,7 @@ TEST(a_broken_frame_is_a_named_fault)
 
 /* ---- single factorisations ----------------------------------------------------------------- */
 
-enum { DISKS = 12, ROWS = 4 * DISKS, COLUMNS = 20 }; /* panels of 8 */
+enum { DISKS = 12, ROWS = ROWS_OF_ONE * DISKS, COLUMNS = 20 }; /* panels of 8 */
 
 typedef struct factors {
     hd_frame *frame;
@@ -356,36 +359,6 @@ TEST(nearly_dependent_vectors_are_right_or_refused)
                 if (digits <= 6 || (stable && digits <= 11)) assert_true(right);
                 if (digits >= 15) assert_false(right);
             }
-}
-
-TEST(lost_rank_is_refused)
-{
-    for (int stable = 0; stable < 2; stable++)
-        for (breakage how = ZERO_COLUMN; how <= ALL_ZERO; how++) {
-            HELD(factors) f = factors_create();
-            break_frame(f.frame, how);
-            assert_int_equal(factor(&f, stable), HD_ILL_CONDITIONED);
-        }
-}
-
-static hd_status factor_with_entry(double value, int row, int col, bool stable)
-{
-    HELD(factors) f = factors_create();
-    hd_frame_data(f.frame)[row * hd_frame_stride(f.frame) + col] = value;
-    const hd_status status = factor(&f, stable);
-    for (int k = 0; status == HD_OK && k < COLUMNS; k++)
-        assert_true(isfinite(hd_ortho_log_stretch(f.ortho)[k]));
-    return status;
-}
-
-TEST(what_is_no_number_is_refused_wherever_it_stands)
-{
-    static const double values[] = {NAN, INFINITY, -INFINITY, 1e155, 1e200, 1e300, -1e300, DBL_MAX};
-    for (size_t k = 0; k < sizeof values / sizeof *values; k++)
-        for (int stable = 0; stable < 2; stable++)
-            for (int col = 0; col < COLUMNS; col++)
-                assert_int_equal(factor_with_entry(values[k], 7 * col % ROWS, col, stable),
-                                 HD_ILL_CONDITIONED);
 }
 
 /** The whole frame times 10^digits: logarithms move by as much, up to where squares leave the

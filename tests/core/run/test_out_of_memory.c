@@ -4,7 +4,7 @@
 #include "runs.h"
 
 enum { EVERYTHING = 31 | HD_OBSERVE_GAS | HD_OBSERVE_LOCALIZATION };
-static const char FILE_NAME[] = "hard_memory.test";
+static const char FILE_NAME[] = "out_of_memory.test";
 
 /** Everything that a node makes of a scene. */
 typedef struct world {

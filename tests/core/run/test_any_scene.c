@@ -1,8 +1,13 @@
-/** Thousands of random scenes, possible and impossible: each runs, or is refused by the name of a
- * parameter. */
+/** Random scenes, possible and impossible, of disks and of spheres: each is refused by the name of
+ * a parameter, or its events are those of its slow twin, the same at any time, and its run
+ * publishes numbers. A case that fails is said; HDLYAP_CASE=number tries it alone. */
 #include <limits.h>
 #include "draw.h"
+#include "prepared.h"
+#include "published.h"
 #include "runs.h"
+#include "scene/container.h"
+#include "twin.h"
 
 enum { LINE = 256 };
 
@@ -13,6 +18,9 @@ enum { STEPS_MAX = 60, EVENTS_ENOUGH = 3000 };
 static const double EVENTS_OF_A_STEP_MAX = 1e6;
 /** Of more disks it is only asked whether they are refused: a frame would take gigabytes. */
 enum { DISKS_RUN = 200 };
+/** Beside the twin, which tries every image of every pair. */
+enum { DISKS_TWIN = 20, EVENTS_TWIN = 60, PIECES_TWIN = 42 };
+static const double IMAGES_TWIN = 1e4;
 
 /** Relative error of N additions of products and of so many collisions, which conserve it to
  * rounding each. */
@@ -35,9 +43,10 @@ static const struct {
     const char *name;
     double low, high;
 } USUAL[] = {
-    {"disks", 2, 30},
+    {"disks", 2, 9},
     {"density", 0.01, 0.8},
     {"aspect", 0.1, 10},
+    {"aspect_z", 0.1, 10},
     {"exponents", -2, 8},
     {"equilibration", 1e-3, 1},
     {"warmup", 1e-3, 1},
@@ -118,46 +127,57 @@ static void put_usual(hd_random *random, hd_scene_def *def, const hd_parameter *
 /** A channel hardly wider than a disk, down to the last bit. */
 static void make_narrow(hd_random *random, hd_scene_def *def)
 {
-    const double width = 1.0 + log_uniform(random, DBL_EPSILON, 1.0);
-    def->aspect = width * width * def->density / def->disks;
+    const double width = 1.0 + log_uniform(random, DBL_EPSILON, 1.0), area = width * width;
+    def->aspect = area * (DIM == 2 ? 1.0 : width) * def->density / def->disks;
     if (chance(random, 0.5)) def->aspect = 1.0 / def->aspect;
 }
 
-/** Covariant vectors are left out: on their way back steps take no simulated time. Half of the
- * scenes have wild values; the others are possible one by one, if not together. */
+/** Up to the last lattice that holds them. */
+static void make_dense(hd_random *random, hd_scene_def *def)
+{
+    const double most = hd_container_of(def)->density_max(def);
+    if (most > 0.0) def->density = most * (1.0 - log_uniform(random, 1e-9, 0.5));
+}
+
+static bool is_left_out(hd_random *random, const hd_parameter *p)
+{
+    /* covariant vectors: on their way back steps take no simulated time */
+    if (p->kind == HD_PARAMETER_SEED || p->needs == HD_OBSERVE_COVARIANT) return true;
+    if (is_named(p, "dimensions") || (DIM == 2 && is_of_spheres(p))) return chance(random, 0.98);
+    if (is_named(p, "max_mode_number") || is_named(p, "container")) return chance(random, 0.5);
+    return is_named(p, "max_wave_number") && chance(random, 0.8);
+}
+
+/** A third of the scenes have wild values; the others are possible one by one, if not together. */
 static hd_scene_def drawn(hd_random *random)
 {
     hd_scene_def def = hd_scene_def_default();
-    const bool wild = chance(random, 0.5);
+    const bool wild = chance(random, 0.3);
     int count;
     const hd_parameter *rows = hd_scene_parameters(&count);
     for (int k = 0; k < count; k++) {
         const hd_parameter *p = &rows[k];
-        if (p->kind == HD_PARAMETER_SEED || p->needs == HD_OBSERVE_COVARIANT) continue;
-        if (is_of_spheres(p) && chance(random, 0.98)) continue;
-        if (is_named(p, "max_mode_number") && chance(random, 0.5)) continue;
-        if (is_named(p, "max_wave_number") && chance(random, 0.8)) continue;
+        if (is_left_out(random, p)) continue;
         put_usual(random, &def, p);
         if (p->kind != HD_PARAMETER_SET && chance(random, is_costly(p) ? 0.005 : 0.1))
             put_within(random, &def, p, p->least, p->most);
         if (wild && chance(random, 0.1)) put_wild(random, &def, p);
     }
+    if (chance(random, 0.05)) def.disks = 1; /* in a circle */
     if (chance(random, 0.05)) make_narrow(random, &def);
+    if (hd_scene_check(&def, NULL, 0) == HD_OK && chance(random, 0.2)) make_dense(random, &def);
     def.seed = bits(random);
     return def;
 }
 
 static void print_scene(int number, const hd_scene_def *def)
 {
-    print_error("set %d: disks %d density %a aspect %a boundaries %d %d seed %llu exponents %d\n"
-                "  equilibration %a warmup %a duration %a target %s interval %a accuracy %a\n"
-                "  report_interval %a phase_interval %a observe %x max_wave_number %a "
-                "max_mode_number %d threads %d\n",
-                number, def->disks, def->density, def->aspect, (int)def->boundary[0],
-                (int)def->boundary[1], (unsigned long long)def->seed, def->exponents,
-                def->equilibration, def->warmup, def->duration, def->target.line, def->interval,
-                def->accuracy, def->report_interval, def->phase_interval, def->observe,
-                def->max_wave_number, def->max_mode_number, def->threads);
+    int count;
+    const hd_parameter *rows = hd_scene_parameters(&count);
+    print_error("HDLYAP_CASE=%d tries it alone: seed %llu", number, (unsigned long long)def->seed);
+    for (int k = 0; k < count; k++)
+        print_error(" %s %a", rows[k].name, hd_parameter_value(&rows[k], def));
+    print_error("\n");
 }
 
 /* ---- what becomes of them ------------------------------------------------------------------ */
@@ -207,6 +227,22 @@ static const char *step_once(hd_run *run)
     return NULL;
 }
 
+/** Volume is kept: if all are carried they add up to nothing, each known to the stated bound, and
+ * the logarithms of the stretches to rounding. */
+static const char *spectrum_fault(const hd_run *run)
+{
+    const hd_spectrum *spectrum = hd_run_spectrum(run);
+    const double time = spectrum ? hd_spectrum_time(spectrum) : 0.0;
+    const int n = hd_run_vectors(run);
+    double sum = 0.0;
+    for (int col = 0; time > 0 && col < n; col++) sum += time * hd_spectrum_exponent(spectrum, col);
+    if (!isfinite(sum)) return "an exponent is not finite";
+    const double known = hd_run_cost(run).error_bound * time + 1e-12;
+    if (hd_run_scene(run)->exponents == HD_EXPONENTS_ALL_INDEPENDENT && fabs(sum) > n * known)
+        return "the volume is not kept";
+    return NULL;
+}
+
 static const char *state_fault(const hd_run *run)
 {
     const hd_trajectory *trajectory = hd_run_trajectory(run);
@@ -214,27 +250,90 @@ static const char *state_fault(const hd_run *run)
     if (!(fabs(hd_trajectory_kinetic_energy(trajectory) - disks) <= ENERGY_ERROR * disks))
         return "the energy is not conserved";
     if (!(hd_trajectory_overlap(trajectory) <= OVERLAP_MAX)) return "disks overlap";
-    const hd_spectrum *spectrum = hd_run_spectrum(run);
-    for (int col = 0; spectrum && col < hd_run_vectors(run); col++)
-        if (hd_spectrum_time(spectrum) > 0 && !isfinite(hd_spectrum_exponent(spectrum, col)))
-            return "an exponent is not finite";
-    return NULL;
+    return spectrum_fault(run);
 }
 
+/** What is seen of a run; a stage may be asked for whose length is no normal number. */
+static void look_at(const hd_run *run)
+{
+    if (hd_run_time(run) > 1e-280) check_published(run);
+}
+
+/** Looked at now and then, and at the end. */
 static const char *run_fault(hd_run *run)
 {
     const char *fault = NULL;
     for (int step = 0; !fault && step < STEPS_MAX && events_of(run) < EVENTS_ENOUGH &&
                        hd_run_stage(run) != HD_FINISHED;
-         step++)
+         step++) {
         fault = step_once(run);
+        if (!fault && step % 8 == 0) look_at(run);
+    }
+    if (!fault) look_at(run);
     return fault ? fault : state_fault(run);
 }
 
 /** How often a scene was what. */
 typedef struct tally {
     int run, refused, averaged;
+    size_t events; /**< beside the twin */
 } tally;
+
+/** Images of a pair in an epoch, at a speed of 4. */
+static double images_of(const hd_scene_def *def, const hd_trajectory *tr)
+{
+    double box[3] = {INFINITY, INFINITY, INFINITY};
+    hd_scene_box(def, box);
+    return 8.0 * tr->epoch_length / fmin(box[0], fmin(box[1], box[2]));
+}
+
+/** What no lattice starts with: some at rest, some that hardly move or fast ones, some along an
+ * axis. */
+static hd_trajectory *with_odd_momenta(hd_random *random, const hd_scene_def *def)
+{
+    const double scale[] = {0.0, -0.0, 1e-300, 1e-155, 1e-3, 30.0};
+    double q[DIM * DISKS_TWIN], p[DIM * DISKS_TWIN];
+    OWNED(hd_trajectory) *tr = trajectory_of(*def);
+    hd_trajectory_state(tr, q, p);
+    for (int k = 0; k < DIM * def->disks; k++)
+        if (chance(random, 0.3)) p[k] *= scale[one_of(random, sizeof scale / sizeof *scale)];
+    return started(def, q, p);
+}
+
+/** The clock alone is set: the same events from t = 0 and from t = 2^20, bit for bit. Pieces are
+ * parts of an epoch: their sums are exact. */
+static const char *late_fault(const hd_scene_def *def)
+{
+    OWNED(hd_trajectory) *early = trajectory_of(*def), *late = trajectory_of(*def);
+    OWNED(hd_event_log) *log = new_log(), *other = new_log();
+    const double begin = ldexp(1.0, 20);
+    late->epoch_start = late->now = begin;
+    size_t events = 0;
+    for (int k = 20; k >= 0 && events < EVENTS_TWIN; k--) {
+        const double end = ldexp(early->epoch_length, 1 - k);
+        CHECK_OK(trajectory_to(early, log, end));
+        CHECK_OK(trajectory_to(late, other, begin + end));
+        events += log->count;
+        if (log->count != other->count ||
+            memcmp(log->event, other->event, log->count * sizeof *log->event) != 0)
+            return "it goes on otherwise at another time";
+    }
+    return NULL;
+}
+
+/** Of a box; what holds in a circle is seen in test_round_wall.c. */
+static const char *events_fault(hd_random *random, const hd_scene_def *def, tally *seen)
+{
+    if (def->container == HD_CIRCLE || def->disks > DISKS_TWIN) return NULL;
+    OWNED(hd_trajectory) *fast = chance(random, 0.3) ? with_odd_momenta(random, def)
+                                                     : trajectory_of(*def);
+    if (images_of(def, fast) > IMAGES_TWIN) return NULL;
+    const double energy = hd_trajectory_kinetic_energy(fast);
+    seen->events += twin_follow(fast, def, EVENTS_TWIN, PIECES_TWIN);
+    if (!(fabs(hd_trajectory_kinetic_energy(fast) - energy) <= ENERGY_ERROR * energy))
+        return "the energy is not conserved";
+    return late_fault(def);
+}
 
 static const char *refusal_fault(hd_random *random, const hd_scene_def *def, const char *line,
                                  tally *seen)
@@ -254,29 +353,40 @@ static const char *scene_fault(hd_random *random, const hd_scene_def *def, tally
     if (status == HD_OK) status = hd_run_create(&run, def, line, sizeof line);
     if (status == HD_REFUSED) return refusal_fault(random, def, line, seen);
     if (status != HD_OK) return hd_status_text(status);
-    const char *fault = *line ? line : run_fault(run);
+    const char *fault = *line ? line : events_fault(random, def, seen);
+    if (!fault) fault = run_fault(run);
     seen->run++;
     seen->averaged += hd_run_stage(run) >= HD_AVERAGING;
     return fault;
 }
 
-TEST(each_runs_or_is_refused_by_name)
+/** The case and its scene, for main to say if its test fails. */
+static int number;
+static hd_scene_def tried;
+
+static void try_case(int case_number, tally *seen)
 {
-    hd_random random = hd_random_seeded(20260801, 0);
-    const int sets = HD_SANITIZED ? 2000 : second_tier() ? 10000 : 4000;
+    hd_random random = hd_random_seeded(20260801, (uint64_t)case_number);
+    number = case_number;
+    tried = drawn(&random);
+    const char *fault = scene_fault(&random, &tried, seen);
+    if (fault) fail_msg("%s", fault);
+}
+
+TEST(each_is_refused_by_name_or_runs_as_its_twin)
+{
+    const int cases = HD_SANITIZED ? 2000 : second_tier() ? 20000 : 4000;
+    const char *alone = getenv("HDLYAP_CASE");
     tally seen = {0};
-    int faults = 0;
-    for (int number = 0; number < sets; number++) {
-        const hd_scene_def def = drawn(&random);
-        const char *fault = scene_fault(&random, &def, &seen);
-        if (!fault) continue;
-        print_scene(number, &def);
-        print_error("  %s\n", fault);
-        faults++;
+    if (alone) {
+        try_case(atoi(alone), &seen);
+        return;
     }
-    assert_int_equal(faults, 0);
-    assert_true(seen.run >= sets / 10 && seen.refused >= sets / 10);
-    assert_true(seen.averaged >= sets / 20);
+    for (int k = 0; k < cases; k++) try_case(k, &seen);
+    assert_true(seen.run >= cases / 8 && seen.refused >= cases / 10);
+    assert_true(seen.averaged >= cases / 20 && seen.events >= 10 * (size_t)cases);
+    print_message("%d run, %d refused, %zu events beside the twin\n", seen.run, seen.refused,
+                  seen.events);
 }
 
 /** Steps until the run ends; fails if one goes nowhere, or takes more events than it should. */
@@ -287,9 +397,7 @@ static int steps_to_the_end(const hd_scene_def *def)
     run = created(*def);
     for (; hd_run_stage(run) != HD_FINISHED; steps++) {
         const char *fault = step_once(run);
-        if (!fault) continue;
-        print_scene(steps, def);
-        fail_msg("%s", fault);
+        if (fault) fail_msg("step %d: %s", steps, fault);
     }
     assert_null(state_fault(run));
     return steps;
@@ -301,12 +409,10 @@ TEST(phases_without_length_pass)
 {
     const double lengths[] = {DBL_TRUE_MIN, DBL_MIN, 1e-300, 1e-30, 1e-17, 1e-15, 1e-12};
     for (size_t k = 0; k < 3 * 7; k++) {
-        hd_scene_def def = scene(.disks = 5, .density = 0.5, .aspect = 1.0,
-                                 .boundary[0] = (hd_boundary)(k % 2), .seed = k,
-                                 .equilibration = k / 7 == 0 ? lengths[k % 7] : 1.0,
-                                 .warmup = k / 7 == 1 ? lengths[k % 7] : 1.0,
-                                 .duration = k / 7 == 2 ? lengths[k % 7] : 1.0,
-                                 .observe = HD_OBSERVE_STEPS);
+        hd_scene_def def = scene_from(
+            box_of(5, 0.5, 1.0, 1.0, k % 2, k), .equilibration = k / 7 == 0 ? lengths[k % 7] : 1.0,
+            .warmup = k / 7 == 1 ? lengths[k % 7] : 1.0,
+            .duration = k / 7 == 2 ? lengths[k % 7] : 1.0, .observe = HD_OBSERVE_STEPS);
         assert_true(steps_to_the_end(&def) < 200);
     }
 }
@@ -319,11 +425,16 @@ TEST(narrow_channels_keep_steps_short)
     enum {
         STEPS = 18
     }; /* 1e-12 time units at first, each four times the one before, up to 2e5 events */
-    hd_scene_def def = scene_in_box(4, 40.0, 1.0 + 1e-9, P, R, 1);
-    OWNED(hd_run) *run = NULL;
-    def.equilibration = 1.0;
-    run = created(def);
+    OWNED(hd_run) *run = created(
+        scene_from(box_with(4, 40.0, 1.0 + 1e-9, 1.5, 6, 1), .equilibration = 1.0));
     for (int step = 0; step < STEPS; step++) assert_null(step_once(run));
     assert_true(events_of(run) > 2e5);
     assert_null(state_fault(run));
+}
+
+int main(int argc, char **argv)
+{
+    const int failures = tests_run(argc > 1 ? argv[1] : NULL);
+    if (failures) print_scene(number, &tried);
+    return failures;
 }
