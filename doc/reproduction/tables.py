@@ -6,7 +6,7 @@ import csv
 import os
 import re
 
-from study import files, page, row, table
+from study import page, row, table
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 PAGE, ROWS = os.path.join(HERE, '../reproduction.md'), os.path.join(HERE, 'rows.csv')
@@ -112,7 +112,8 @@ def _span(texts):
 def main():
     with open(PAGE) as file:
         text = file.read()
-    files.write(PAGE, written(text, claims(), table.read()[1]))
+    with open(PAGE, 'w') as file:
+        file.write(written(text, claims(), table.read()[1]))
 
 
 if __name__ == '__main__':

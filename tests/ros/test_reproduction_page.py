@@ -13,7 +13,7 @@ from hdlyap.msg import RunStatus
 from hdlyap.plots.figures import plt
 from reproduced import FRONT as FRONT_PAGE, PARTS, info_of, plan
 import tables
-from study import bags, files, page, table
+from study import bags, page, table
 from study.row import HEADER, Claim, Row
 
 FRONT = [
@@ -138,14 +138,6 @@ class Page(unittest.TestCase):
         self.assertIn('\n2. a part\n', text)
         self.assertIn('Traceback', said.getvalue())
         self.assertEqual(self.read('01_one.csv'), before)
-
-    def test_files_are_whole(self):
-        path = self.path('x.txt')
-        files.write(path, 'good')
-        with mock.patch('os.replace', side_effect=OSError), self.assertRaises(OSError):
-            files.write(path, 'bad')
-        with open(path) as file:
-            self.assertEqual(file.read(), 'good')
 
 
 class Document(unittest.TestCase):

@@ -1,11 +1,13 @@
 """What the parts have found -> results: the figures, small CSV files, and one page of text."""
 
+import csv
 import os
 import traceback
 
+from hdlyap import whole
 from hdlyap.plots.figures.style import STYLE, plt, save
 
-from . import draw, files, row, table
+from . import draw, row, table
 
 DPI = 130  # of PNG files small enough to be kept
 COLUMNS = ('', 'published', 'measured', 'unit', 'verdict', 'caught', 'remark')
@@ -47,20 +49,27 @@ def write(parts, front, bags, results, suffix=''):
             claims += found
             blocks.append(_block(part, found))
     lines = [line for one in claims for line in one.lines()]
-    files.write_csv(os.path.join(results, f'rows{suffix}.csv'), row.HEADER, lines)
+    _write_csv(os.path.join(results, f'rows{suffix}.csv'), [row.HEADER, *lines])
     ends = ['\n'.join(left_out + failed)] if left_out + failed else []
     text = '\n\n'.join([ABOUT, *summary(claims, front), *blocks, *ends]) + '\n'
-    files.write(os.path.join(results, f'results{suffix}.txt'), text)
+    path = os.path.join(results, f'results{suffix}.txt')
+    with whole.written(path) as unfinished, open(unfinished, 'w') as file:
+        file.write(text)
     return text, failed
+
+
+def _write_csv(path, lines):
+    with whole.written(path) as unfinished, open(unfinished, 'w', newline='') as file:
+        csv.writer(file, lineterminator='\n').writerows(lines)
 
 
 def _part(part, bags, results):
     """Its claims; its figures and the numbers that they show are written."""
     for name, figure in part.figures(bags):
         name = f'{part.number:02d}_{name}'
-        lines = list(draw.numbers(figure))
-        if lines:
-            files.write_csv(os.path.join(results, f'{name}.csv'), draw.SHOWN, lines)
+        shown = list(draw.numbers(figure))
+        if shown:
+            _write_csv(os.path.join(results, f'{name}.csv'), [draw.SHOWN, *shown])
         save(figure, results, name, DPI)
     return part.claims(bags)
 

@@ -10,9 +10,11 @@ from hdlyap.data.reader import PHASES
 from hdlyap.data.steps import wave_name
 
 from . import blocks
+from .averages import UNKNOWN
 from .bags import once
 
 QUARTER = np.pi / 2
+TABLE = 'a b phase tracked_time index state'
 
 
 class Rotation:
@@ -23,6 +25,7 @@ class Rotation:
     """
 
     def __init__(self, info, first, time, table):
+        """table: as TABLE, of each time and phase."""
         self.nx, self.ny, self.time = first[0].nx, first[0].ny, time
         self.name = wave_name('LP', first[0])
         self.wave_number = float(np.hypot(*waves.wave_vector(info, self.nx, self.ny)))
@@ -38,10 +41,6 @@ class Rotation:
     @property
     def is_tracked(self):
         return np.isfinite(self.phase).any()
-
-    def of_pair(self, bits):
-        """Columns of the vectors at one modulation."""
-        return np.flatnonzero(self.modulation == bits)
 
     def turns(self):
         """Turn from each report to the next, NaN if unknown: the mean over the phases that are
@@ -61,11 +60,8 @@ class Rotation:
     def velocity(self):
         """|omega| / k and its standard error."""
         omega, error = self.omega()
-        return (
-            (None, 0.0)
-            if omega is None
-            else (abs(omega) / self.wave_number, error / self.wave_number)
-        )
+        k = self.wave_number
+        return (abs(omega) / k, error / k) if omega is not None else UNKNOWN
 
     def strength(self):
         """Mean over the vectors of a^2 + b^2, added up over the pairs, and its standard error;
@@ -74,7 +70,7 @@ class Rotation:
         whole = np.where(measured, self.a**2 + self.b**2, np.nan)
         per_vector = whole.reshape(len(whole), -1, self.pairs).sum(axis=2)
         known = np.isfinite(per_vector).any(axis=1)
-        return blocks.mean(np.nanmean(per_vector[known], axis=1)) if known.any() else (None, 0.0)
+        return blocks.mean(np.nanmean(per_vector[known], axis=1)) if known.any() else UNKNOWN
 
 
 @once
@@ -84,26 +80,15 @@ def read(bag):
     messages = list({message.sim_time: message for message in bag.messages(PHASES)}.values())
     if not messages:
         return {}
-    time = np.array([message.sim_time for message in messages])
-    table = np.array(
-        [
-            [
-                (phase.a, phase.b, phase.phase, phase.tracked_time, phase.index, phase.state)
-                for phase in message.phases
-            ]
-            for message in messages
-        ]
-    ).reshape(len(messages), -1, 6)
     columns = {}
     for column, phase in enumerate(messages[0].phases):
         columns.setdefault((phase.nx, phase.ny), []).append(column)
-    info = bag.info
-    found = {
-        wave: Rotation(
-            info, [messages[0].phases[column] for column in which], time, table[:, which]
-        )
-        for wave, which in columns.items()
-    }
+    time, names = np.array([message.sim_time for message in messages]), TABLE.split()
+    table = [[[getattr(one, name) for name in names] for one in some.phases] for some in messages]
+    table, found = np.array(table, dtype=float).reshape(len(messages), -1, len(names)), {}
+    for wave, which in columns.items():
+        first = [messages[0].phases[column] for column in which]
+        found[wave] = Rotation(bag.info, first, time, table[:, which])
     return {wave: one for wave, one in found.items() if one.is_tracked}
 
 

@@ -1,64 +1,46 @@
 """TPhases messages of a run -> how fast the waves of its T steps move, if they do, and how they
 diffuse."""
 
-import numpy as np
+from collections import namedtuple
 
-from hdlyap.msg import LpPhase
+import numpy as np
 
 from hdlyap.data import steps, waves
 from hdlyap.data.phases import goes_on
+from hdlyap.msg import LpPhase
+
+from .averages import UNKNOWN
 
 T_PHASES = 'hdlyap/TPhases'
-
-
-class Standing:
-    """One T step that has its vectors for itself. Its vectors and pairs share one space of few
-    dimensions and move together: the errors of means over them are those of one. Known: those
-    numbers of its phases that have an error."""
-
-    def __init__(self, info, phases):
-        self.nx, self.ny = phases[0].nx, phases[0].ny
-        self.name = steps.wave_name('T', phases[0])
-        self.wave_number = float(np.hypot(*waves.wave_vector(info, self.nx, self.ny)))
-        self._phases = [phase for phase in phases if phase.state == LpPhase.TRACKED]
-
-    def velocity(self):
-        """Mean omega / k with its sign, and its standard error; (None, 0) while not known."""
-        omega, error = self._mean('omega')
-        return (
-            (None, 0.0) if omega is None else (omega / self.wave_number, error / self.wave_number)
-        )
-
-    def diffusion(self):
-        """(D, its standard error) [rad^2/time unit]"""
-        return self._mean('diffusion')
-
-    def _mean(self, name):
-        known = [
-            (getattr(phase, name), getattr(phase, name + '_error'))
-            for phase in self._phases
-            if getattr(phase, name + '_error') > 0
-        ]
-        return tuple(map(float, np.mean(known, axis=0))) if known else (None, 0.0)
+# one T step that has its vectors for itself; velocity: mean omega / k with its sign, diffusion: D
+# [rad^2/time unit], each with its standard error
+Standing = namedtuple('Standing', 'name velocity diffusion')
 
 
 def read(bag):
     """{(nx, ny): Standing} as the last message has them: of the resolved T steps alone."""
-    message, alone = bag.last(T_PHASES), _alone(bag.recording.steps)
-    found = {}
+    message, found = bag.last(T_PHASES), {}
+    alone = [one for one in steps.blocks(bag.recording.steps) if len(one.steps) == 1]
+    nodes = {(one.steps[0].nx, one.steps[0].ny) for one in alone if one.kind == steps.T}
     for phase in message.phases if message is not None else ():
-        if (phase.nx, phase.ny) in alone:
+        if (phase.nx, phase.ny) in nodes:
             found.setdefault((phase.nx, phase.ny), []).append(phase)
-    return {wave: Standing(bag.info, phases) for wave, phases in found.items()}
+    return {wave: _standing(bag.info, wave, phases) for wave, phases in found.items()}
 
 
-def _alone(message):
-    """Nodes of the T steps whose vectors are no others'."""
-    return {
-        (block.steps[0].nx, block.steps[0].ny)
-        for block in steps.blocks(message)
-        if len(block.steps) == 1 and block.name.startswith('T')
-    }
+def _standing(info, wave, phases):
+    k, (omega, error) = float(np.hypot(*waves.wave_vector(info, *wave))), _mean(phases, 'omega')
+    velocity = UNKNOWN if omega is None else (omega / k, error / k)
+    return Standing(steps.wave_name('T', phases[0]), velocity, _mean(phases, 'diffusion'))
+
+
+def _mean(phases, name):
+    """Of those that have an error. Vectors and pairs of a step share one space of few dimensions
+    and move together: the errors of means over them are those of one."""
+    tracked = [phase for phase in phases if phase.state == LpPhase.TRACKED]
+    both = [(getattr(one, name), getattr(one, f'{name}_error')) for one in tracked]
+    known = [pair for pair in both if pair[1] > 0]
+    return tuple(map(float, np.mean(known, axis=0))) if known else UNKNOWN
 
 
 def course(bag, wave):

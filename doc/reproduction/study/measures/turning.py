@@ -279,10 +279,10 @@ def still(bag):
     found, slowest = standing.read(bag).values(), _slowest(bag)
     telling = slowest and TELLING * slowest[2][0]
     for one in found:
-        diffusion = one.diffusion()
-        about = f'D of its phase {with_error(*diffusion)} rad^2/time unit' if diffusion[0] else ''
+        known = one.diffusion[0] is not None
+        about = f'D of its phase {with_error(*one.diffusion)} rad^2/time unit' if known else ''
         quantity = f'omega / k of {one.name}'
-        yield Row(quantity, 0.0, *one.velocity(), SPEED, about, telling=telling)
+        yield Row(quantity, 0.0, *one.velocity, SPEED, about, telling=telling)
     if not found:
         yield Row('omega / k of the T steps', 0.0, unit=SPEED)
 
