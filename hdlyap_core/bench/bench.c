@@ -160,14 +160,13 @@ static double memory_rate(void)
     return best;
 }
 
-/** One exponent of many disks: what its replay must move per event, a logged event and a tangent
+/** One exponent of many disks: what its replay must move per event, a recorded event and a tangent
  * map in and out, the vector's numbers of two disks in and out, against copying as many
  * bytes. */
 static void one_exponent(int disks, double memory)
 {
-    const double of_map = HD_DIM == 2 ? 64.0 : 104.0;
-    const double bytes_per_event = (double)sizeof(hd_event) + 2.0 * of_map +
-                                   2.0 * 2.0 * HD_ROWS * 8.0;
+    const double of_event = HD_DIM == 2 ? 48.0 : 64.0, of_map = HD_DIM == 2 ? 64.0 : 104.0;
+    const double bytes_per_event = of_event + 2.0 * of_map + 2.0 * 2.0 * HD_ROWS * 8.0;
     hd_scene_def scene = hd_scene_def_default();
     scene.disks = disks;
     scene.density = 0.7;

@@ -1,10 +1,11 @@
-/** Scene -> event log and first frame of a window -> exponents. */
+/** Scene -> record and first frame of a window -> exponents. */
 #include "window.h"
 
 #include <hdlyap/run.h>
 #include <string.h>
 
 #include "base/check.h"
+#include "events/events.h"
 #include "timing.h"
 
 /** The frame at which the tightest run of this scene begins to average. */
@@ -30,11 +31,12 @@ static void record_events(window *w)
 {
     const double begin = w->scene.equilibration + w->scene.warmup;
     hd_trajectory *trajectory;
-    require(hd_event_log_create(&w->log), "window");
+    require(hd_record_create(&w->record, hd_events_entry()), "window");
     require(hd_trajectory_create(&trajectory, &w->scene), "window");
     require(hd_trajectory_extend(trajectory, NULL, begin), "window");
-    hd_event_log_clear(w->log);
-    require(hd_trajectory_extend(trajectory, w->log, begin + WINDOW_LONGEST * w->length), "window");
+    hd_record_clear(w->record);
+    require(hd_trajectory_extend(trajectory, w->record, begin + WINDOW_LONGEST * w->length),
+            "window");
     hd_trajectory_free(trajectory);
 }
 
@@ -48,30 +50,9 @@ window window_create(const hd_scene_def *scene)
 
 void window_free(window *w)
 {
-    hd_event_log_free(w->log);
+    hd_record_free(w->record);
     hd_frame_free(w->frame);
     free(w->start);
-}
-
-/** The log from its first event not before t on: a replay then need not look for it. */
-static hd_event_log log_from(const hd_event_log *log, double t)
-{
-    size_t low = 0, high = log->count;
-    while (low < high) {
-        const size_t middle = (low + high) / 2;
-        if (log->event[middle].t < t)
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    return (hd_event_log){log->event + low, log->count - low, 0, log->duration};
-}
-
-static hd_status replay_piece(window *w, double begin, double end)
-{
-    hd_event_log log = log_from(w->log, begin);
-    log.count -= log_from(w->log, end).count;
-    return hd_frame_replay(w->frame, &log, begin, end);
 }
 
 /** dgemm at every second piece, and at the first. */
@@ -94,7 +75,7 @@ hd_status window_exponents(window *w, factor *f, int pieces, const watch *beside
     for (int k = 0; k < pieces; k++) {
         const double begin = w->length * k / pieces, end = w->length * (k + 1) / pieces;
         const double start = seconds();
-        HD_TRY(replay_piece(w, begin, end));
+        HD_TRY(hd_frame_replay(w->frame, w->record, begin, end));
         spent->replay += seconds() - start;
         HD_TRY(factor_step(f, w->frame, w->length / pieces, k == pieces - 1));
         for (int l = 0; l < w->vectors; l++) exponents[l] += factor_log_stretch(f)[l] / w->length;

@@ -14,7 +14,7 @@ typedef struct window {
     hd_scene_def scene;
     double length; /**< time units; may be changed, up to WINDOW_LONGEST times as much */
     int rows, vectors;
-    hd_event_log *log;
+    hd_record *record;
     hd_frame *frame;
     double *start; /**< [rows * stride], orthonormal to rounding */
 } window;

@@ -37,12 +37,12 @@ void hd_covariant_clear(hd_covariant *covariant);
 HD_MUST_CHECK hd_status hd_covariant_begin(hd_covariant *covariant, hd_columns frame, double time,
                                            double interval);
 
-/** After an orthonormalisation: the interval from t_begin to t_end of the log, through which the
+/** After an orthonormalisation: the interval from t_begin to t_end of the record, through which the
  * frame was replayed; with its vectors, of all ranks, if they are wanted. HD_NO_MEMORY,
  * HD_FILE_FAULT. */
 HD_MUST_CHECK hd_status hd_covariant_add(hd_covariant *covariant, const hd_ortho *ortho,
                                          const hd_frame *frame, hd_columns vectors,
-                                         const hd_event_log *log, double t_begin, double t_end);
+                                         const hd_record *record, double t_begin, double t_end);
 bool hd_covariant_wants_vectors(const hd_covariant *covariant);
 
 /** Keeps frame and disks after the last of them, if they are due (hd_covariant_wants_state). */

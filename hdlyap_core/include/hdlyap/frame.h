@@ -1,4 +1,4 @@
-/** The tangent frame: HD_ROWS N x n vectors, carried along by replaying an event log [T1]-[T4]. */
+/** The tangent frame: HD_ROWS N x n vectors, carried along by replaying a record [T1]-[T4]. */
 #ifndef HDLYAP_FRAME_H
 #define HDLYAP_FRAME_H
 
@@ -53,12 +53,11 @@ int hd_frame_neighbours(const hd_frame *frame, int col);
 /** Copies vectors of any rank to all of them, row-major: x[HD_ROWS N][count]. */
 void hd_frame_gather(const hd_frame *frame, int first, int count, double *x);
 
-/** Carries the vectors from t_begin to t_end (times as in the log) through the logged events with
- * t_begin <= t < t_end, and keeps the vectors of t_begin for hd_frame_rewind. All cores; a block
- * of columns stays in cache. t_end = log->duration includes events at that very time. HD_NO_MEMORY
- * if the room for the maps could not grow. Cost about 40 n flops and 128 n bytes of cache traffic
- * per pair event. */
-HD_MUST_CHECK hd_status hd_frame_replay(hd_frame *frame, const hd_event_log *log, double t_begin,
+/** Carries the vectors from t_begin to t_end (times as in the record) through what happened from
+ * t_begin to t_end (hd_record_within), and keeps the vectors of t_begin for hd_frame_rewind. All
+ * cores; a block of columns stays in cache. HD_NO_MEMORY if the room for the maps could not grow.
+ * Cost about 40 n flops and 128 n bytes of cache traffic per pair event. */
+HD_MUST_CHECK hd_status hd_frame_replay(hd_frame *frame, const hd_record *record, double t_begin,
                                         double t_end);
 
 /** The vectors before the last replay, until the next one. */

@@ -15,6 +15,7 @@
 /* averages */
 #include "hdlyap/spectrum.h"
 /* events */
+#include "hdlyap/record.h"
 #include "hdlyap/trajectory.h"
 #include "hdlyap/gas.h"
 /* tangent */

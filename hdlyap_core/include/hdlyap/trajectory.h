@@ -1,4 +1,4 @@
-/** The disks: exact event-driven motion, and the log of its events that everything else is built
+/** The disks: exact event-driven motion, and the record of its events that everything else is built
  * on. */
 #ifndef HDLYAP_TRAJECTORY_H
 #define HDLYAP_TRAJECTORY_H
@@ -6,38 +6,10 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "hdlyap/record.h"
 #include "hdlyap/scene.h"
 
 HD_API_BEGIN
-
-/** hd_event.j of a wall event: HD_WALL_X, HD_WALL_Y or of spheres HD_WALL_Z (the direction of the
- * wall's normal), or HD_WALL_ROUND. */
-enum { HD_WALL_X = -1, HD_WALL_Y = -2, HD_WALL_Z = -3, HD_WALL_ROUND = -1 - HD_DIM };
-
-/** One event; self-contained: with the disks' order in the log it fixes the tangent map [T3]. */
-typedef struct hd_event {
-    double t;  /**< since the start of the log [time units] */
-    int32_t i; /**< disk, 0-based; i < j for a pair */
-    int32_t j; /**< other disk, or HD_WALL_* */
-    /** Unit vector from i to j at contact; for a wall its axis, for a round one the outward normal
-     * as long as the radius of its curvature. */
-    double n[HD_DIM];
-    double p[HD_DIM]; /**< p_j - p_i before the collision; for a wall the momentum before it */
-} hd_event;
-
-/** Events of one interval in their total order: time, pairs before flat walls, i, j; of one disk
- * pairs before the round wall; in a corner the x wall before the y wall before the z wall; one
- * pair through two images at once: the lower image in z, then in y, then in x. */
-typedef struct hd_event_log {
-    hd_event *event; /**< [count] */
-    size_t count, capacity;
-    double duration; /**< length of the interval [time units] */
-} hd_event_log;
-
-HD_MUST_CHECK hd_status hd_event_log_create(hd_event_log **out);
-void hd_event_log_free(hd_event_log *log);
-/** Empties the log: it starts anew where the disks are. */
-void hd_event_log_clear(hd_event_log *log);
 
 typedef struct hd_trajectory hd_trajectory;
 
@@ -53,12 +25,12 @@ HD_MUST_CHECK hd_status hd_trajectory_create_from(hd_trajectory **out, const hd_
                                                   const double *q, const double *p);
 void hd_trajectory_free(hd_trajectory *trajectory);
 
-/** Moves the disks to simulated time t_end (>= now) and adds the events on the way to the log,
- * which ends at the present time (hd_event_log_clear begins it anew); `log` may be NULL. The events
+/** Moves the disks to simulated time t_end (>= now) and adds the events on the way to the record,
+ * which ends at the present time (hd_record_clear begins it anew) and may be NULL. The events
  * do not depend on where the intervals are cut. Fails with HD_OVERLAP, HD_NOT_FINITE, HD_NO_MEMORY.
  * Cost O(1) per event, and O(N) in the time of tens of collisions of a disk of energy 1, unless all
  * disks are at rest. */
-HD_MUST_CHECK hd_status hd_trajectory_extend(hd_trajectory *trajectory, hd_event_log *log,
+HD_MUST_CHECK hd_status hd_trajectory_extend(hd_trajectory *trajectory, hd_record *record,
                                              double t_end);
 
 double hd_trajectory_time(const hd_trajectory *trajectory); /**< simulated time */

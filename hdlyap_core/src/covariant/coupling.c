@@ -102,12 +102,12 @@ static void mirror(hd_coupling *c, int first, int width, int col, int count)
 }
 
 hd_status hd_coupling_measure(hd_coupling *c, const hd_frame *frame, const double *factor,
-                              const hd_event_log *log, double t_begin, double t_end)
+                              const hd_record *record, double t_begin, double t_end)
 {
     const int n = c->half;
     HD_ASSERT(hd_frame_vectors(frame) == n && hd_frame_stride(frame) == hd_frame_stride(c->frame));
     load(c, frame);
-    HD_TRY(hd_frame_replay(c->frame, log, t_begin, t_end));
+    HD_TRY(hd_frame_replay(c->frame, record, t_begin, t_end));
     for (int first = (n - 1) / PANEL * PANEL; first >= 0; first -= PANEL) {
         const int width = n - first < PANEL ? n - first : PANEL, later = first + width;
         panel_block(c, frame, factor, first, width, later, n - later);

@@ -12,11 +12,11 @@ double hd_coupling_bytes(int disks, int threads);
 HD_MUST_CHECK hd_status hd_coupling_create(hd_coupling **out, int disks, int threads);
 void hd_coupling_free(hd_coupling *coupling);
 
-/** Of the interval from t_begin to t_end of the log: the frame has been replayed through it and
+/** Of the interval from t_begin to t_end of the record: the frame has been replayed through it and
  * orthonormalised, with this R [2N * 2N], row-major; both its ends are orthonormal to rounding.
  * HD_NO_MEMORY. Cost of a replay and 8/3 (2N)^3 flops. */
 HD_MUST_CHECK hd_status hd_coupling_measure(hd_coupling *coupling, const hd_frame *frame,
-                                            const double *factor, const hd_event_log *log,
+                                            const double *factor, const hd_record *record,
                                             double t_begin, double t_end);
 
 /** Y = R^-1 X of the last one, where S J Q = Q' X + J Q' R^-T: [2N * 2N], symmetric. */

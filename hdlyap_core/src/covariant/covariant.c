@@ -253,12 +253,12 @@ bool hd_covariant_wants_vectors(const hd_covariant *c)
 }
 
 hd_status hd_covariant_add(hd_covariant *c, const hd_ortho *ortho, const hd_frame *frame,
-                           hd_columns vectors, const hd_event_log *log, double t_begin,
+                           hd_columns vectors, const hd_record *record, double t_begin,
                            double t_end)
 {
     HD_ASSERT(c->way == FORWARD);
     if (hd_history_is_full(c->past)) return lose_window(c, vectors, c->now + t_end - t_begin);
-    HD_TRY(hd_history_add(c->past, hd_ortho_factor(ortho), frame, vectors, log, t_begin, t_end));
+    HD_TRY(hd_history_add(c->past, hd_ortho_factor(ortho), frame, vectors, record, t_begin, t_end));
     c->now = hd_history_time(c->past, hd_history_end(c->past) - 1);
     return HD_OK;
 }

@@ -16,7 +16,7 @@
 
 typedef struct interval_kept {
     double time, length;
-    long snapshot; /**< record; -1: none */
+    long snapshot; /**< its number; -1: none */
 } interval_kept;
 
 struct hd_history {
@@ -32,7 +32,7 @@ struct hd_history {
     double time;
 };
 
-static size_t record_size(const hd_history_def *def)
+static size_t snapshot_size(const hd_history_def *def)
 {
     return HD_ROWS * (size_t)def->disks * ((size_t)def->vectors + 1);
 }
@@ -56,6 +56,7 @@ static hd_recompute_def recompute_of(const hd_history_def *def)
                               .conjugate = def->conjugate,
                               .slots = (def->intervals + 2 * stretch - 1) / stretch * stretch,
                               .stretch = stretch,
+                              .entry = def->entry,
                               .events = def->events *
                                         (1.0 + (double)stretch / (double)def->intervals)};
 }
@@ -63,7 +64,7 @@ static hd_recompute_def recompute_of(const hd_history_def *def)
 double hd_history_bytes(const hd_history_def *def)
 {
     const hd_recompute_def again = recompute_of(def);
-    const double snapshots = hd_store_bytes(record_size(def), def->snapshots);
+    const double snapshots = hd_store_bytes(snapshot_size(def), def->snapshots);
     const double triangles = def->recompute ? hd_recompute_bytes(&again)
                                             : hd_store_bytes(triangle_size(def), def->intervals);
     const long slots = def->recompute ? again.slots : def->intervals;
@@ -76,7 +77,7 @@ double hd_history_bytes(const hd_history_def *def)
 static hd_status allocate(hd_history *past)
 {
     const hd_history_def *def = &past->def;
-    const size_t triangle = triangle_size(def), record = record_size(def);
+    const size_t triangle = triangle_size(def), record = snapshot_size(def);
     past->kept = hd_memory_alloc((size_t)past->slots, sizeof *past->kept);
     if (!past->kept) return HD_NO_MEMORY;
     HD_TRY(hd_store_create(&past->snapshots, record, def->snapshots));
@@ -164,14 +165,14 @@ bool hd_history_keeps_next(const hd_history *past)
 }
 
 hd_status hd_history_add(hd_history *past, const double *factor, const hd_frame *frame,
-                         hd_columns vectors, const hd_event_log *log, double t_begin, double t_end)
+                         hd_columns vectors, const hd_record *record, double t_begin, double t_end)
 {
     HD_ASSERT(!hd_history_is_full(past));
     const long slot = past->end % past->slots;
     if (past->coupling)
-        HD_TRY(hd_coupling_measure(past->coupling, frame, factor, log, t_begin, t_end));
+        HD_TRY(hd_coupling_measure(past->coupling, frame, factor, record, t_begin, t_end));
     if (past->recompute)
-        HD_TRY(hd_recompute_events(past->recompute, slot, log, t_begin, t_end));
+        HD_TRY(hd_recompute_events(past->recompute, slot, record, t_begin, t_end));
     else
         HD_TRY(keep_triangle(past, factor, slot));
     past->time += t_end - t_begin;

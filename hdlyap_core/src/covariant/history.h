@@ -14,6 +14,7 @@ typedef struct hd_history_def {
     long intervals; /**< of which triangles are kept, at most */
     long snapshots; /**< at most */
     bool recompute; /**< triangles are computed again instead of being kept: from the events */
+    size_t entry;   /**< bytes of an entry of the record */
     double events;  /**< of these intervals, at most; only of recomputed ones */
 } hd_history_def;
 
@@ -29,12 +30,12 @@ void hd_history_free(hd_history *past);
 /** Forgets everything; the frame is that of the start. */
 HD_MUST_CHECK hd_status hd_history_begin(hd_history *past, hd_columns frame, double time);
 
-/** What an orthonormalisation leaves: R of the interval from t_begin to t_end of the log, the frame
- * that was replayed through it, and its vectors now, if they are to be kept. There must be room
- * (hd_history_is_full). */
+/** What an orthonormalisation leaves: R of the interval from t_begin to t_end of the record, the
+ * frame that was replayed through it, and its vectors now, if they are to be kept. There must be
+ * room (hd_history_is_full). */
 HD_MUST_CHECK hd_status hd_history_add(hd_history *past, const double *factor,
                                        const hd_frame *frame, hd_columns vectors,
-                                       const hd_event_log *log, double t_begin, double t_end);
+                                       const hd_record *record, double t_begin, double t_end);
 /** True if the vectors after the next interval are to be kept: what comes then is computed again
  * from them. */
 bool hd_history_keeps_next(const hd_history *past);

@@ -14,7 +14,6 @@
 #include "covariant/backward.h"
 #include "covariant/coupling.h"
 #include "covariant/store.h"
-#include "events/event_log.h"
 #include "hdlyap/ortho.h"
 #include "tangent/archived.h"
 #include "tangent/interval.h"
@@ -26,7 +25,7 @@ static const hd_ortho_limits LIMITS_COUPLED = {HD_CONDITION_MAX, 1e-12, HD_NORM_
 
 /** Events of a chunk of the ring, and chunks beyond what it is full with: an interval may begin
  * before it is. */
-enum { CHUNK = 256, CHUNKS_BEYOND = 4, CHUNK_DOUBLES = CHUNK * sizeof(hd_event) / sizeof(double) };
+enum { CHUNK = 256, CHUNKS_BEYOND = 4 };
 
 /** The events of a slot, in the ring. */
 typedef struct stored {
@@ -43,7 +42,7 @@ struct hd_recompute {
     stored *stored;      /**< [slots] */
     uint64_t tail, head; /**< events from tail on, before head, are there */
     long next;           /**< slot that is to be written */
-    hd_event_log *log;   /**< of the slot that is replayed */
+    hd_record *record;   /**< of the slot that is replayed */
     hd_frame *frame;
     hd_ortho *ortho;
     hd_coupling *coupling; /**< NULL where all vectors are carried */
@@ -68,6 +67,11 @@ static long chunks_of(const hd_recompute_def *def)
     return (long)ceil((def->events + 2.0 * of_slot) / CHUNK) + CHUNKS_BEYOND;
 }
 
+static size_t chunk_doubles(const hd_recompute_def *def)
+{
+    return CHUNK * def->entry / sizeof(double);
+}
+
 static size_t frame_of(const hd_recompute_def *def)
 {
     return (size_t)def->rows * (size_t)def->vectors;
@@ -82,9 +86,9 @@ double hd_recompute_bytes(const hd_recompute_def *def)
                             hd_ortho_bytes(def->rows, def->vectors, 1) +
                             2.0 * sizeof(double) * def->vectors * def->vectors + /* its factors */
                             (def->conjugate ? hd_coupling_bytes(disks, def->threads) : 0.0);
-    const double log = fmax(HD_EVENTS_FIRST, 2.0 * def->events / (double)def->slots);
-    return kept + replayed + hd_store_bytes(CHUNK_DOUBLES, chunks_of(def)) +
-           (double)def->slots * sizeof(stored) + log * sizeof(hd_event);
+    const double record = hd_record_bytes(2.0 * def->events / (double)def->slots, def->entry);
+    return kept + replayed + hd_store_bytes(chunk_doubles(def), chunks_of(def)) +
+           (double)def->slots * sizeof(stored) + record;
 }
 
 static hd_status allocate(hd_recompute *r)
@@ -97,8 +101,8 @@ static hd_status allocate(hd_recompute *r)
     HD_TRY(hd_frame_create(&r->frame, def->rows / HD_ROWS, def->vectors, 1, def->threads));
     HD_TRY(hd_ortho_create(&r->ortho, def->rows, def->vectors));
     HD_TRY(hd_ortho_keep_factor(r->ortho));
-    HD_TRY(hd_store_create(&r->events, CHUNK_DOUBLES, chunks_of(def)));
-    HD_TRY(hd_event_log_create(&r->log));
+    HD_TRY(hd_store_create(&r->events, chunk_doubles(def), chunks_of(def)));
+    HD_TRY(hd_record_create(&r->record, def->entry));
     r->stored = hd_memory_alloc((size_t)def->slots, sizeof *r->stored);
     return r->stored ? HD_OK : HD_NO_MEMORY;
 }
@@ -121,7 +125,7 @@ hd_status hd_recompute_create(hd_recompute **out, const hd_recompute_def *def)
 void hd_recompute_free(hd_recompute *r)
 {
     if (!r) return;
-    hd_event_log_free(r->log);
+    hd_record_free(r->record);
     hd_memory_free(r->stored);
     hd_store_free(r->events);
     hd_store_free(r->frames);
@@ -149,18 +153,12 @@ hd_status hd_recompute_frame(hd_recompute *r, long slot, hd_columns columns)
     return HD_OK;
 }
 
-/** As hd_frame_replay chooses them. */
-static bool is_within(const hd_event_log *log, double t, double t_begin, double t_end)
-{
-    return t >= t_begin && (t < t_end || t_end == log->duration);
-}
-
 /** The place of an event in the ring; NULL without memory. */
-static hd_event *place(hd_recompute *r, uint64_t event)
+static double *place(hd_recompute *r, uint64_t event)
 {
     const uint64_t chunks = (uint64_t)chunks_of(&r->def);
-    hd_event *chunk = (void *)hd_store_put(r->events, (long)(event / CHUNK % chunks));
-    return chunk ? chunk + event % CHUNK : NULL;
+    double *chunk = hd_store_put(r->events, (long)(event / CHUNK % chunks));
+    return chunk ? chunk + event % CHUNK * (r->def.entry / sizeof(double)) : NULL;
 }
 
 /** A slot that does not follow the one before it begins anew; else what it held is no more. */
@@ -190,19 +188,19 @@ void hd_recompute_forget(hd_recompute *r, long slot)
     if (r->stored[first].first > r->tail) r->tail = r->stored[first].first;
 }
 
-hd_status hd_recompute_events(hd_recompute *r, long slot, const hd_event_log *log, double t_begin,
+hd_status hd_recompute_events(hd_recompute *r, long slot, const hd_record *record, double t_begin,
                               double t_end)
 {
     const uint64_t most = CHUNK * (uint64_t)chunks_of(&r->def);
     turn_to(r, slot);
     r->stored[slot].first = r->head;
-    for (size_t k = 0; k < log->count; k++) {
-        if (!is_within(log, log->event[k].t, t_begin, t_end)) continue;
+    const hd_entries those = hd_record_within(record, t_begin, t_end);
+    for (size_t k = those.first; k < those.end; k++) {
         if (r->head - r->tail == most) return HD_NO_ROOM;
-        hd_event *event = place(r, r->head);
+        double *event = place(r, r->head);
         if (!event) return HD_NO_MEMORY;
-        *event = log->event[k];
-        event->t -= t_begin;
+        memcpy(event, hd_record_entry(record, k), r->def.entry);
+        *event -= t_begin; /* its time */
         r->head++;
     }
     r->stored[slot].end = r->head;
@@ -220,28 +218,28 @@ static void load_frame(hd_recompute *r, const double *vectors)
                (size_t)r->def.vectors * sizeof(double));
 }
 
-/** The slot's events as a log. */
-static hd_status load_log(hd_recompute *r, long slot)
+/** The slot's events as a record. */
+static hd_status load_record(hd_recompute *r, long slot)
 {
     const stored *kept = &r->stored[slot];
     HD_ASSERT(kept->first >= r->tail);
-    hd_event_log_clear(r->log);
-    HD_TRY(hd_event_log_reserve(r->log, (size_t)(kept->end - kept->first)));
+    hd_record_clear(r->record);
     for (uint64_t k = kept->first; k < kept->end; k++)
-        r->log->event[r->log->count++] = *place(r, k);
-    r->log->duration = kept->duration;
+        HD_TRY(hd_record_put(r->record, place(r, k)));
+    hd_record_end(r->record, kept->duration);
     return HD_OK;
 }
 
 static hd_status recompute_slot(hd_recompute *r, long slot)
 {
-    HD_TRY(load_log(r, slot));
-    const hd_event_log *log = r->log;
+    HD_TRY(load_record(r, slot));
+    const hd_record *record = r->record;
+    const double duration = hd_record_duration(record);
     const hd_ortho_limits limits = r->coupling ? LIMITS_COUPLED : LIMITS;
-    HD_TRY(hd_frame_replay(r->frame, log, 0.0, log->duration));
+    HD_TRY(hd_frame_replay(r->frame, record, 0.0, duration));
     if (hd_ortho_step(r->ortho, r->frame, limits) == HD_ILL_CONDITIONED) {
         hd_frame_rewind(r->frame);
-        HD_TRY(hd_frame_replay(r->frame, log, 0.0, log->duration));
+        HD_TRY(hd_frame_replay(r->frame, record, 0.0, duration));
         HD_TRY(hd_ortho_step_stable(r->ortho, r->frame, 1.0 / DBL_EPSILON));
     }
     double *triangle = hd_store_put(r->triangles, slot % r->def.stretch);
@@ -249,7 +247,7 @@ static hd_status recompute_slot(hd_recompute *r, long slot)
     const double *factor = hd_ortho_factor(r->ortho);
     hd_triangle_pack(triangle, factor, r->def.vectors);
     if (!r->coupling) return HD_OK;
-    HD_TRY(hd_coupling_measure(r->coupling, r->frame, factor, log, 0.0, log->duration));
+    HD_TRY(hd_coupling_measure(r->coupling, r->frame, factor, record, 0.0, duration));
     hd_triangle_pack(triangle + hd_triangle_size(r->def.vectors), hd_coupling_read(r->coupling),
                      r->def.vectors);
     return HD_OK;

@@ -18,7 +18,8 @@ typedef struct hd_recompute_def {
     int rows, vectors, threads;
     bool conjugate;      /**< half of the vectors are carried: a triangle is R and Y [T18] */
     long slots, stretch; /**< a frame is kept for every `stretch` slots, which divides `slots` */
-    double events;       /**< with which it is full */
+    size_t entry;        /**< bytes of an entry of the record */
+    double events;       /**< with which it is full: entries */
 } hd_recompute_def;
 
 /** Bytes that it takes at most. */
@@ -31,10 +32,10 @@ void hd_recompute_free(hd_recompute *recompute);
 bool hd_recompute_keeps(const hd_recompute *recompute, long slot);
 /** The frame where the slot begins, if it is kept. HD_NO_MEMORY. */
 HD_MUST_CHECK hd_status hd_recompute_frame(hd_recompute *recompute, long slot, hd_columns columns);
-/** The slot's events: those of the log from t_begin to t_end. HD_NO_MEMORY; HD_NO_ROOM for an
+/** The slot's events: those of the record from t_begin to t_end. HD_NO_MEMORY; HD_NO_ROOM for an
  * interval of far more events than there should be. */
 HD_MUST_CHECK hd_status hd_recompute_events(hd_recompute *recompute, long slot,
-                                            const hd_event_log *log, double t_begin, double t_end);
+                                            const hd_record *record, double t_begin, double t_end);
 double hd_recompute_events_kept(const hd_recompute *recompute);
 /** True with more events than there should be. */
 bool hd_recompute_is_full(const hd_recompute *recompute);

@@ -6,6 +6,7 @@
 #include <stdio.h>
 
 #include "base/check.h"
+#include "events/events.h"
 #include "scene/fluid.h"
 
 /** Intervals that there is room for, over those that are expected: they vary. */
@@ -36,6 +37,7 @@ hd_history_def hd_window_history(const hd_scene_def *def, double interval, doubl
                             .intervals = (long)fmin(intervals, most),
                             .snapshots = (long)fmin(looks, most),
                             .recompute = def->covariant_storage == HD_STORAGE_RECOMPUTE,
+                            .entry = hd_events_entry(),
                             .events = SPARE * both * rate};
 }
 

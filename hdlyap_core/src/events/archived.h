@@ -1,4 +1,4 @@
-/** What a checkpoint holds of disks and events, and bytes that they take. */
+/** What a checkpoint holds of disks, and bytes that they take. */
 #ifndef HD_EVENTS_ARCHIVED_H
 #define HD_EVENTS_ARCHIVED_H
 
@@ -9,8 +9,5 @@ void hd_trajectory_archive(hd_trajectory *trajectory, hd_archive *archive);
 /** Of positions and momenta to the last bit. */
 uint32_t hd_trajectory_fingerprint(const hd_trajectory *trajectory);
 double hd_trajectory_bytes(double disks);
-void hd_event_log_archive(hd_event_log *log, hd_archive *archive, const hd_scene_def *scene);
-/** Of so many events: in the log, which doubles when it is full, and as tangent maps. */
-double hd_event_log_bytes(double events);
 
 #endif

@@ -5,7 +5,7 @@
 #include <stdbool.h>
 
 #include "events/disk.h"
-#include "hdlyap/trajectory.h"
+#include "events/event.h"
 
 /** Centres of disks stay within `reach` of (centre, centre); reach 0: there is no such wall. */
 typedef struct hd_round_wall {

@@ -1,4 +1,4 @@
-/** Scene -> event log: event-driven motion of hard disks between periodic or reflecting edges.
+/** Scene -> record: event-driven motion of hard disks between periodic or reflecting edges.
  *
  * Every disk keeps the state of its last collision; contacts are predicted from two such states
  * alone (contact.h), so the events do not depend on cells, queue or the cutting into intervals.
@@ -17,8 +17,9 @@
 #include "base/memory.h"
 #include "events/archived.h"
 #include "base/random.h"
-#include "events/event_log.h"
+#include "events/event.h"
 #include "events/prefetch.h"
+#include "events/record_state.h"
 #include "events/trajectory_state.h"
 #include "scene/container.h"
 #include "scene/fluid.h"
@@ -46,11 +47,11 @@ static void move_to(hd_disk *disk, double t)
     disk->t = t;
 }
 
-static hd_status log_append(hd_event_log *log, const hd_event *event)
+static hd_status write(hd_record *record, const hd_event *event)
 {
-    if (!log) return HD_OK;
-    if (log->count == log->capacity) HD_TRY(hd_event_log_reserve(log, log->count + 1));
-    log->event[log->count++] = *event;
+    if (!record) return HD_OK;
+    if (record->count == record->capacity) HD_TRY(hd_record_reserve(record, record->count + 1));
+    ((hd_event *)record->entry)[record->count++] = *event;
     return HD_OK;
 }
 
@@ -103,7 +104,7 @@ static bool exchange(hd_disk *a, hd_disk *b, const double r[HD_DIM], double appr
 }
 
 /** Pair contact [T3]: moves both disks to the contact and exchanges their normal momenta. */
-static hd_status collide(hd_trajectory *tr, hd_event_log *log, const hd_event *contact,
+static hd_status collide(hd_trajectory *tr, hd_record *record, const hd_event *contact,
                          int32_t found_by, double t)
 {
     hd_event event = *contact;
@@ -128,7 +129,7 @@ static hd_status collide(hd_trajectory *tr, hd_event_log *log, const hd_event *c
     if (exchange(a, b, r, approach, excess)) {
         tr->collisions++;
         for (int d = 0; d < HD_DIM; d++) tr->virial[d] -= approach * event.n[d] * event.n[d];
-        status = log_append(log, &event);
+        status = write(record, &event);
     }
     a->collisions++;
     b->collisions++;
@@ -140,7 +141,7 @@ static hd_status collide(hd_trajectory *tr, hd_event_log *log, const hd_event *c
 }
 
 /** Reflection at a flat wall [T4]. */
-static hd_status reflect(hd_trajectory *tr, hd_event_log *log, hd_event *event, double t)
+static hd_status reflect(hd_trajectory *tr, hd_record *record, hd_event *event, double t)
 {
     hd_disk *disk = &tr->motion.disk[event->i];
     const prediction *how = &tr->motion.predicted[event->i];
@@ -155,11 +156,11 @@ static hd_status reflect(hd_trajectory *tr, hd_event_log *log, hd_event *event, 
     fold(tr, disk);
     tr->wall_events++;
     hd_prediction_renew(&tr->motion, event->i);
-    return log_append(log, event);
+    return write(record, event);
 }
 
 /** Reflection at a round wall [T21]. */
-static hd_status reflect_round(hd_trajectory *tr, hd_event_log *log, hd_event *event, double t)
+static hd_status reflect_round(hd_trajectory *tr, hd_record *record, hd_event *event, double t)
 {
     hd_disk *disk = &tr->motion.disk[event->i];
     move_to(disk, t);
@@ -167,7 +168,7 @@ static hd_status reflect_round(hd_trajectory *tr, hd_event_log *log, hd_event *e
     disk->collisions++;
     tr->wall_events += reflected;
     hd_prediction_renew(&tr->motion, event->i);
-    return reflected ? log_append(log, event) : HD_OK;
+    return reflected ? write(record, event) : HD_OK;
 }
 
 /** Over a cell edge: only the cells at that side come into reach. */
@@ -178,22 +179,22 @@ static void cross(hd_trajectory *tr, int32_t i)
     hd_prediction_extend(&tr->motion, i, d, side);
 }
 
-/** The event at the head of the queue; log_start is the interval's start in this epoch's time. */
-static hd_status take_event(hd_trajectory *tr, hd_event_log *log, int32_t i, double log_start)
+/** The event at the head of the queue; begin is the record's start in this epoch's time. */
+static hd_status take_event(hd_trajectory *tr, hd_record *record, int32_t i, double begin)
 {
     const hd_queue_key key = tr->motion.queue.entry[i].key;
-    hd_event event = {.t = key.t > log_start ? key.t - log_start : 0.0,
+    hd_event event = {.t = key.t > begin ? key.t - begin : 0.0,
                       .i = hd_queue_i(key.order),
                       .j = hd_queue_j(key.order)};
     switch (hd_queue_kind(key.order)) {
-    case WALL: return reflect(tr, log, &event, key.t);
+    case WALL: return reflect(tr, record, &event, key.t);
     case EDGE: cross(tr, i); return HD_OK;
     default: break;
     }
     const prediction *next = &tr->motion.predicted[i];
-    if (next->partner == tr->motion.count) return reflect_round(tr, log, &event, key.t);
+    if (next->partner == tr->motion.count) return reflect_round(tr, record, &event, key.t);
     if (next->partner_collisions == tr->motion.disk[next->partner].collisions)
-        return collide(tr, log, &event, i, key.t);
+        return collide(tr, record, &event, i, key.t);
     hd_prediction_renew(&tr->motion, i); /* stale */
     return HD_OK;
 }
@@ -234,18 +235,18 @@ static hd_status turn_epochs(hd_trajectory *tr, double t_end)
     return HD_OK;
 }
 
-hd_status hd_trajectory_extend(hd_trajectory *tr, hd_event_log *log, double t_end)
+hd_status hd_trajectory_extend(hd_trajectory *tr, hd_record *record, double t_end)
 {
     HD_ASSERT(t_end >= tr->now);
-    const double t_begin = log ? tr->now - log->duration : tr->now;
-    if (log) log->duration = t_end - t_begin;
+    const double t_begin = record ? tr->now - record->duration : tr->now;
+    if (record) record->duration = t_end - t_begin;
     for (;;) {
         const double end = t_end - tr->epoch_start;
         const int32_t bucket = tr->motion.queue.now, i = hd_queue_next(&tr->motion.queue);
         if (tr->motion.queue.now != bucket) hd_prefetch_ahead(&tr->motion, bucket);
         if (i >= 0 && tr->motion.queue.entry[i].key.t < end &&
             tr->motion.queue.entry[i].key.t < tr->epoch_length) {
-            HD_TRY(take_event(tr, log, i, t_begin - tr->epoch_start));
+            HD_TRY(take_event(tr, record, i, t_begin - tr->epoch_start));
         } else if (end > tr->epoch_length) {
             HD_TRY(turn_epochs(tr, t_end));
         } else {

@@ -57,7 +57,7 @@ hd_status hd_windows_start(hd_windows *windows, const hd_frame *frame, double be
 }
 
 hd_status hd_windows_add(hd_windows *windows, const hd_ortho *ortho, const hd_frame *frame,
-                         const hd_event_log *log, double t_begin, double t_end)
+                         const hd_record *record, double t_begin, double t_end)
 {
     const double start = hd_clock_now();
     const hd_columns none = {NULL, 0, 0, 0};
@@ -65,8 +65,9 @@ hd_status hd_windows_add(hd_windows *windows, const hd_ortho *ortho, const hd_fr
     const hd_columns vectors = hd_covariant_wants_vectors(windows->covariant)
                                    ? all_of(windows, frame)
                                    : none;
-    return timed(windows, start,
-                 hd_covariant_add(windows->covariant, ortho, frame, vectors, log, t_begin, t_end));
+    return timed(
+        windows, start,
+        hd_covariant_add(windows->covariant, ortho, frame, vectors, record, t_begin, t_end));
 }
 
 hd_status hd_windows_end(hd_windows *windows, const hd_frame *frame,

@@ -24,7 +24,7 @@ HD_MUST_CHECK hd_status hd_windows_start(hd_windows *windows, const hd_frame *fr
                                          double expected);
 /** An orthonormalisation, and the part of the log before it. */
 HD_MUST_CHECK hd_status hd_windows_add(hd_windows *windows, const hd_ortho *ortho,
-                                       const hd_frame *frame, const hd_event_log *log,
+                                       const hd_frame *frame, const hd_record *record,
                                        double t_begin, double t_end);
 /** The whole interval is done. */
 HD_MUST_CHECK hd_status hd_windows_end(hd_windows *windows, const hd_frame *frame,

@@ -1,4 +1,4 @@
-/** Trajectory -> event log, one advance at a time. */
+/** Trajectory -> record, one advance at a time. */
 #include "run/advance.h"
 
 #include <float.h>
@@ -86,11 +86,11 @@ static void learn(hd_advance *advance)
     if (length > 0) advance->longest = fmin(grown, advance->bound);
 }
 
-hd_status hd_advance_on(hd_advance *advance, hd_event_log *log, double most)
+hd_status hd_advance_on(hd_advance *advance, hd_record *record, double most)
 {
     const double end = end_of_part(hd_advance_now(advance), advance->plan.end,
                                    fmax(most, hd_advance_shortest(advance)));
-    HD_TRY(hd_trajectory_extend(advance->trajectory, log, end));
+    HD_TRY(hd_trajectory_extend(advance->trajectory, record, end));
     if (hd_advance_is_done(advance)) learn(advance);
     return HD_OK;
 }

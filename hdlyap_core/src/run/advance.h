@@ -1,4 +1,4 @@
-/** How far the disks go at a time: short enough for the log and for whoever waits. */
+/** How far the disks go at a time: short enough for the record and for whoever waits. */
 #ifndef HD_ADVANCE_H
 #define HD_ADVANCE_H
 
@@ -45,8 +45,8 @@ void hd_advance_stop(hd_advance *advance, double end);
 /** True at the end of what was planned. */
 bool hd_advance_is_done(const hd_advance *advance);
 
-/** Moves the disks on towards the end of the plan, by at most `most`; the log may be NULL. Fails as
- * hd_trajectory_extend. */
-HD_MUST_CHECK hd_status hd_advance_on(hd_advance *advance, hd_event_log *log, double most);
+/** Moves the disks on towards the end of the plan, by at most `most`; the record may be NULL. Fails
+ * as hd_trajectory_extend. */
+HD_MUST_CHECK hd_status hd_advance_on(hd_advance *advance, hd_record *record, double most);
 
 #endif

@@ -1,6 +1,6 @@
-/** Log -> frame -> orthonormal frame, spectrum, and what the next interval may be. An interval that
- * turned out too long is taken back and replayed in pieces; a shortest piece that is still too much
- * holds a grazing collision and is factored by repeated passes. */
+/** Record -> frame -> orthonormal frame, spectrum, and what the next interval may be. An interval
+ * that turned out too long is taken back and replayed in pieces; a shortest piece that is still too
+ * much holds a grazing collision and is factored by repeated passes. */
 #include "run/carrier.h"
 
 #include <float.h>
@@ -10,7 +10,7 @@
 #include "base/check.h"
 #include "base/clock.h"
 #include "base/memory.h"
-#include "events/archived.h"
+#include "events/events.h"
 #include "hdlyap/blas.h"
 #include "observe/observable.h"
 #include "run/advance.h"
@@ -47,7 +47,7 @@ static const double COLLISIONS_MOST = 60.0;
 enum { SMALLEST_EXPONENTS = 8 };
 /** Kept for a half that is no number. */
 static const double NO_HALF = -2.0;
-/** Events of each disk between two orthonormalisations, for the memory of the log. */
+/** Events of each disk between two orthonormalisations, for the memory of the record. */
 static const double EVENTS_OF_A_DISK = 30.0;
 
 /* ---- creation ------------------------------------------------------------------------------ */
@@ -136,7 +136,7 @@ static hd_status keep_halves(hd_carrier *c)
 static hd_status prepare(hd_carrier *c, const hd_scene_def *scene, double block)
 {
     const int rows = rows_of(scene), n = c->vectors;
-    HD_TRY(agree(c, hd_event_log_create(&c->log)));
+    HD_TRY(agree(c, hd_record_create(&c->record, hd_events_entry())));
     HD_TRY(hd_ortho_create_shared(&c->ortho, rows, c->carried, c->communicator));
     HD_TRY(agree(c, prepare_threads(c, scene)));
     HD_TRY(agree(c, hd_spectrum_create(&c->spectrum, rows, n, block)));
@@ -168,7 +168,7 @@ hd_status hd_carrier_create(hd_carrier *c, const hd_scene_def *scene, double col
 
 void hd_carrier_free(hd_carrier *c)
 {
-    hd_event_log_free(c->log);
+    hd_record_free(c->record);
     hd_frame_free(c->frame);
     hd_ortho_free(c->ortho);
     hd_conjugate_free(c->conjugate);
@@ -181,32 +181,32 @@ double hd_carrier_bytes(const hd_scene_def *scene, int threads, int ranks)
     const double disks = scene->disks, n = hd_scene_vectors(scene),
                  carried = hd_scene_carried(scene), here = ceil(carried / ranks);
     if (n == 0) return 0.0;
-    const double log = hd_event_log_bytes(fmin(HD_EVENTS_MAX, EVENTS_OF_A_DISK * disks));
+    const double record = hd_events_bytes(fmin(HD_EVENTS_MAX, EVENTS_OF_A_DISK * disks));
     const double frame = hd_frame_bytes(disks, here, threads);
     const double ortho = hd_ortho_bytes(rows_of(scene), carried, ranks);
     const double conjugate = carried < n
                                  ? hd_conjugate_bytes(rows_of(scene), completed(scene, (int)here))
                                  : 0.0;
-    return log + frame + ortho + conjugate + hd_spectrum_bytes(n) + 2.0 * sizeof(double) * n;
+    return record + frame + ortho + conjugate + hd_spectrum_bytes(n) + 2.0 * sizeof(double) * n;
 }
 
 /* ---- from one orthonormalisation to the next ------------------------------------------------ */
 
-/** Carries the frame from t_begin to t_end of the log. */
+/** Carries the frame from t_begin to t_end of the record. */
 static hd_status replay(hd_carrier *c, double t_begin, double t_end)
 {
     hd_symplectic before;
     if (HD_VERIFIES) before = hd_verify_sample(c->frame);
-    HD_TRY(hd_frame_replay(c->frame, c->log, t_begin, t_end));
-    if (HD_VERIFIES) hd_verify_symplectic(c->frame, &before, (double)c->log->count);
+    HD_TRY(hd_frame_replay(c->frame, c->record, t_begin, t_end));
+    if (HD_VERIFIES) hd_verify_symplectic(c->frame, &before, (double)hd_record_count(c->record));
     return HD_OK;
 }
 
-/** Pieces of the log that are factored by repeated passes: a collision of each disk, or an eighth
- * of an interval that is only a few collisions long. */
+/** Pieces of the record that are factored by repeated passes: a collision of each disk, or an
+ * eighth of an interval that is only a few collisions long. */
 static double shortest_piece(const hd_carrier *c)
 {
-    return fmin(c->log->duration / PIECES_MAX, c->collision);
+    return fmin(hd_record_duration(c->record) / PIECES_MAX, c->collision);
 }
 
 hd_norm hd_carrier_norm(const hd_carrier *c, bool windowing)
@@ -233,14 +233,14 @@ static hd_status keep_isotropic(hd_carrier *c, hd_windows *windows)
     return HD_OK;
 }
 
-/** Carries the frame from t_begin to t_end of the log and orthonormalises it. */
+/** Carries the frame from t_begin to t_end of the record and orthonormalises it. */
 static hd_status frame_piece(hd_carrier *c, double t_begin, double t_end, hd_ortho_limits limits,
                              hd_windows *windows)
 {
     const double start = hd_clock_now(), length = t_end - t_begin;
     HD_TRY(replay(c, t_begin, t_end));
     const double replayed = hd_clock_now();
-    limits.condition = hd_interval_piece_max(&c->interval, length, c->log->duration);
+    limits.condition = hd_interval_piece_max(&c->interval, length, hd_record_duration(c->record));
     hd_status status = length > shortest_piece(c)
                            ? hd_ortho_step(c->ortho, c->frame, limits)
                            : hd_ortho_step_stable(c->ortho, c->frame, HD_CONDITION_STABLE);
@@ -294,7 +294,8 @@ static hd_status window_starts(hd_carrier *c, const hd_carrying *how)
     if (!how->windows) return HD_OK;
     if (c->conjugate && hd_windows_begins(how->windows)) HD_TRY(hd_conjugate_start(c->frame));
     return hd_windows_start(how->windows, c->frame,
-                            hd_trajectory_time(how->trajectory) - c->log->duration, how->expected);
+                            hd_trajectory_time(how->trajectory) - hd_record_duration(c->record),
+                            how->expected);
 }
 
 /** A frame that is orthonormal in the norm of dq alone becomes so in the whole norm, at the same
@@ -317,13 +318,13 @@ static double defect_allowed(const hd_carrier *c, const hd_carrying *how, hd_nor
     const bool looked_at = norm == HD_NORM_FULL && (how->windows || how->observed);
     if (how->windows && c->conjugate) return DEFECT_COUPLED;
     return fmin(looked_at ? DEFECT_MEASURED : DEFECT_LOOSE,
-                sqrt(DEFECT_SHARE * c->accuracy * c->log->duration));
+                sqrt(DEFECT_SHARE * c->accuracy * hd_record_duration(c->record)));
 }
 
-/** A part of the log, if the conditioning allows it. */
+/** A part of the record, if the conditioning allows it. */
 static hd_status carry_piece(hd_carrier *c, const hd_carrying *how, double t_begin, double t_end)
 {
-    const bool whole = how->measured && t_end >= c->log->duration;
+    const bool whole = how->measured && t_end >= hd_record_duration(c->record);
     const hd_norm norm = whole ? HD_NORM_FULL : hd_carrier_norm(c, how->windows);
     c->interval.norm = norm;
     return frame_piece(c, t_begin, t_end,
@@ -331,18 +332,18 @@ static hd_status carry_piece(hd_carrier *c, const hd_carrying *how, double t_beg
                        how->windows);
 }
 
-/** A part of the log has been carried through. */
+/** A part of the record has been carried through. */
 static hd_status take_piece(hd_carrier *c, const hd_carrying *how, double t_begin, double t_end)
 {
     piece_accepted(c, t_end - t_begin, how->averaging);
     c->whole = hd_ortho_norm(c->ortho) == HD_NORM_FULL;
     if (!how->windows) return HD_OK;
-    return hd_windows_add(how->windows, c->ortho, c->frame, c->log, t_begin, t_end);
+    return hd_windows_add(how->windows, c->ortho, c->frame, c->record, t_begin, t_end);
 }
 
 static hd_status carry_through(hd_carrier *c, const hd_carrying *how)
 {
-    const double duration = c->log->duration;
+    const double duration = hd_record_duration(c->record);
     double begin = 0.0, end = duration;
     HD_TRY(window_starts(c, how));
     while (begin < duration) {
@@ -363,13 +364,13 @@ static hd_status carry_through(hd_carrier *c, const hd_carrying *how)
         hd_frame_rewind(c->frame);
         end = begin + 0.5 * piece;
     }
-    hd_event_log_clear(c->log);
+    hd_record_clear(c->record);
     return how->windows ? hd_windows_end(how->windows, c->frame, how->trajectory) : HD_OK;
 }
 
 hd_status hd_carrier_orthonormalise(hd_carrier *c, hd_carrying how)
 {
-    if (c->log->duration > 0) return carry_through(c, &how);
+    if (hd_record_duration(c->record) > 0) return carry_through(c, &how);
     return how.measured ? complete_norm(c, how.averaging) : HD_OK;
 }
 

@@ -1,4 +1,4 @@
-/** What carries the tangent vectors of a run: the log of the events since the last
+/** What carries the tangent vectors of a run: the record of the events since the last
  * orthonormalisation, the frame, and what its orthonormalisations tell: spectrum, conditioning,
  * halves.
  */
@@ -22,7 +22,7 @@ typedef struct hd_carrier {
     hd_communicator *communicator; /**< NULL: a single rank */
     int disks, vectors, carried, positive, threads, threads_denied;
     double accuracy, collision; /**< asked of an exponent; time between two collisions of a disk */
-    hd_event_log *log;
+    hd_record *record;
     hd_frame *frame;
     hd_ortho *ortho;
     hd_conjugate *conjugate; /**< NULL where all vectors are carried */
@@ -34,7 +34,7 @@ typedef struct hd_carrier {
     hd_cost *cost;
 } hd_carrier;
 
-/** How a log is to be carried through. */
+/** How a record is to be carried through. */
 typedef struct hd_carrying {
     bool averaging;      /**< the spectrum takes it up */
     bool measured;       /**< the frame becomes orthonormal in the whole norm */
@@ -62,8 +62,8 @@ hd_norm hd_carrier_norm(const hd_carrier *carrier, bool windowing);
 /** The longest that intervals between orthonormalisations can become. */
 double hd_carrier_longest(const hd_carrier *carrier);
 
-/** Carries the frame through the whole log and orthonormalises it. HD_ILL_CONDITIONED if no piece
- * is short enough. */
+/** Carries the frame through the whole record and orthonormalises it. HD_ILL_CONDITIONED if no
+ * piece is short enough. */
 HD_MUST_CHECK hd_status hd_carrier_orthonormalise(hd_carrier *carrier, hd_carrying how);
 /** Halves are those of this measured state, and the spectrum takes its sample up. */
 HD_MUST_CHECK hd_status hd_carrier_sample(hd_carrier *carrier, bool averaging);

@@ -11,6 +11,7 @@
 #include "base/check.h"
 #include "base/clock.h"
 #include "events/archived.h"
+#include "events/events.h"
 #include "hdlyap/blas.h"
 #include "hdlyap/parameters.h"
 #include "run/checkpoint.h"
@@ -128,7 +129,7 @@ static void parts_archive(hd_run *run, hd_archive *archive)
     hd_interval_archive(&c->interval, archive);
     hd_observables_archive(&run->observables, archive, false, now);
     if (!c->frame || hd_communicator_agree(run->communicator, archive->status) != HD_OK) return;
-    hd_event_log_archive(c->log, archive, &run->scene);
+    hd_events_archive(c->record, archive, &run->scene);
     const hd_status status = hd_frame_archive(c->frame, archive);
     if (status != HD_OK) hd_archive_fail(archive, status, "frame vectors", NULL);
     hd_archive_doubles(archive, "run halves", c->halves, 2 * (size_t)c->vectors);
@@ -149,8 +150,10 @@ static void plan_expect(const hd_run *run, hd_archive *archive)
     const double cut = run->agenda.schedule.stage == HD_FINISHED
                            ? hd_run_time(run)
                            : hd_schedule_cut(&run->agenda.schedule);
-    const bool pending = run->carrier.log && run->carrier.log->duration > 0;
-    const double end = fmax(hd_run_time(run), pending ? fmin(cut, run->agenda.interval_end) : cut);
+    const hd_record *record = run->carrier.record;
+    const double pending = record ? hd_record_duration(record) : 0.0;
+    const double end = fmax(hd_run_time(run),
+                            pending > 0 ? fmin(cut, run->agenda.interval_end) : cut);
     const uint64_t events = hd_advance_events(&run->advance);
     hd_archive_expect(archive, plan->begin <= hd_run_time(run) && planned <= end, "run advance end",
                       "it does not fit the time");
@@ -167,18 +170,17 @@ static void times_expect(const hd_run *run, hd_archive *archive)
     const bool ahead = s->stage == HD_FINISHED || cut > now || no_more;
     hd_archive_expect(archive, s->start >= 0 && s->start <= s->origin && s->origin <= now && ahead,
                       "schedule", "it does not go on from this time");
-    const bool pending = run->carrier.log && run->carrier.log->duration > 0;
+    const hd_record *record = run->carrier.record;
+    const double pending = record ? hd_record_duration(record) : 0.0;
     const double last = s->stage == HD_FINISHED ? now : hd_schedule_stage_end(s);
     const double end = fmax(now, fmin(last, now + run->advance.bound)),
                  planned = fmin(run->agenda.interval_end, last_time(run));
     hd_archive_expect(archive, run->agenda.sample_begin <= now && run->followed <= now,
                       "run sample begin", "it does not fit the time");
-    hd_archive_expect(archive, planned <= end && (!pending || planned >= now), "run interval end",
+    hd_archive_expect(archive, planned <= end && (pending <= 0 || planned >= now),
+                      "run interval end", "it does not fit the time");
+    hd_archive_expect(archive, pending >= 0 && pending <= now, "log duration",
                       "it does not fit the time");
-    hd_archive_expect(archive,
-                      !run->carrier.log ||
-                          (run->carrier.log->duration >= 0 && run->carrier.log->duration <= now),
-                      "log duration", "it does not fit the time");
     hd_archive_expect(archive, run->advance.longest > 0, "run advance longest",
                       "it is not positive");
 }

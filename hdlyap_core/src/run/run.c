@@ -1,10 +1,10 @@
 /** Scene -> spectrum and observables, one interval at a time.
  *
  * The agenda says when something is due. The disks go there; then what is due is done, in the order
- * of go_on. The frame goes from one orthonormalisation to the next, and the log of the events since
- * the last one waits until then. A sample ends with a measured state: the frame is orthonormal in
- * the whole norm, and all averages take it up. A report in between states them as of the last one,
- * unless somebody needs the vectors: then the sample ends with it. */
+ * of go_on. The frame goes from one orthonormalisation to the next, and the record of the events
+ * since the last one waits until then. A sample ends with a measured state: the frame is
+ * orthonormal in the whole norm, and all averages take it up. A report in between states them as of
+ * the last one, unless somebody needs the vectors: then the sample ends with it. */
 #include "hdlyap/run.h"
 
 #include <math.h>
@@ -227,7 +227,7 @@ static hd_status orthonormalise(hd_run *run, bool measured)
         .expected = hd_agenda_interval_expected(&run->agenda, &run->carrier.interval, at_reports,
                                                 sampling_expected(run)),
         .trajectory = run->advance.trajectory};
-    const bool carried = run->carrier.log->duration > 0;
+    const bool carried = hd_record_duration(run->carrier.record) > 0;
     HD_TRY(hd_carrier_orthonormalise(&run->carrier, how));
     if (!carried) return HD_OK;
     hd_agenda_pass_interval(&run->agenda, hd_run_time(run));
@@ -399,13 +399,13 @@ static hd_pace plan(hd_run *run)
 static hd_status move_disks(hd_run *run, double end)
 {
     const double start = hd_clock_now();
-    hd_event_log *log = is_framed(run) ? run->carrier.log : NULL;
+    hd_record *record = is_framed(run) ? run->carrier.record : NULL;
     if (hd_advance_is_done(&run->advance)) hd_advance_make_plan(&run->advance, end);
     HD_TRY(hd_communicator_agree(run->communicator,
-                                 hd_advance_on(&run->advance, log, run->watch.interval)));
+                                 hd_advance_on(&run->advance, record, run->watch.interval)));
     run->cost.events += hd_clock_now() - start;
     if (HD_VERIFIES) hd_verify_disks(run->advance.trajectory, &run->scene);
-    if (HD_VERIFIES && log) hd_verify_log(log, &run->scene);
+    if (HD_VERIFIES && record) hd_verify_record(record, &run->scene);
     return HD_OK;
 }
 

@@ -47,8 +47,7 @@ static hd_status frame_allocate(hd_frame *frame)
         if (!(frame->copy[k] = hd_memory_alloc(size, sizeof(double)))) return HD_NO_MEMORY;
     const size_t block = (size_t)frame->rows * (size_t)frame->width;
     frame->buffer = hd_memory_alloc(block * (size_t)frame->threads, sizeof(double));
-    frame->since = hd_memory_alloc((size_t)frame->disks, sizeof(double));
-    return frame->buffer && frame->since ? HD_OK : HD_NO_MEMORY;
+    return frame->buffer ? hd_maps_create(&frame->maps, frame->disks) : HD_NO_MEMORY;
 }
 
 /** An equal part of them for each rank, or less for the last ones. */
@@ -112,8 +111,7 @@ void hd_frame_free(hd_frame *frame)
     hd_memory_free(frame->copy[0]);
     hd_memory_free(frame->copy[1]);
     hd_memory_free(frame->buffer);
-    hd_memory_free(frame->map);
-    hd_memory_free(frame->since);
+    hd_maps_free(frame->maps);
     hd_memory_free(frame);
 }
 

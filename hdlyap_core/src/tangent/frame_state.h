@@ -5,10 +5,8 @@
 
 #include <stdbool.h>
 
+#include "events/maps.h"
 #include "hdlyap/frame.h"
-
-/** Columns that a thread carries at once, and their bytes in its cache. */
-enum { HD_BLOCK_BYTES = 512 * 1024, HD_BLOCK_WIDTH_MAX = 64 };
 
 struct hd_frame {
     hd_communicator *communicator; /**< NULL: all vectors are here */
@@ -19,11 +17,8 @@ struct hd_frame {
     int width;       /**< of a block: 1, 2, 4, 8, 16, 32 or 64 columns */
     double *copy[2]; /**< [rows * stride] */
     int current;
-    double *buffer;             /**< [threads][rows * width] */
-    struct hd_tangent_map *map; /**< [map_capacity], of the interval being replayed */
-    size_t map_capacity;
-    bool walls;    /**< some of them are of wall events */
-    double *since; /**< [disks], time of each disk's last event, then its last flight */
+    double *buffer; /**< [threads][rows * width] */
+    hd_maps *maps;  /**< of what is being replayed */
 };
 
 #endif

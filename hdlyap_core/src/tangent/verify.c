@@ -6,7 +6,7 @@
 #include <stdio.h>
 
 #include "base/check.h"
-#include "events/event_log.h"
+#include "events/events.h"
 #include "tangent/conjugate.h"
 #include "tangent/interval.h"
 
@@ -44,10 +44,10 @@ void hd_verify_disks(const hd_trajectory *tr, const hd_scene_def *scene)
     expect_momentum(tr, scene);
 }
 
-void hd_verify_log(const hd_event_log *log, const hd_scene_def *scene)
+void hd_verify_record(const hd_record *record, const hd_scene_def *scene)
 {
-    const char *fault = hd_event_log_fault(log, scene);
-    if (fault) fprintf(stderr, "hdlyap: verify: event log: %s\n", fault);
+    const char *fault = hd_events_fault(record, scene);
+    if (fault) fprintf(stderr, "hdlyap: verify: events: %s\n", fault);
     HD_ASSERT(!fault);
 }
 

@@ -17,8 +17,8 @@ enum { HD_VERIFIES = 0 };
  * of roundings. */
 void hd_verify_disks(const hd_trajectory *trajectory, const hd_scene_def *scene);
 
-/** Order, disks, normals, approach: see hd_event_log_fault. */
-void hd_verify_log(const hd_event_log *log, const hd_scene_def *scene);
+/** Order, disks, normals, approach: see hd_events_fault. */
+void hd_verify_record(const hd_record *record, const hd_scene_def *scene);
 
 enum { HD_VERIFY_PAIRS = 4 };
 

@@ -127,16 +127,16 @@ TEST(starts_meet_as_their_exponents_say)
 }
 
 /** The log backwards in time: all momenta reversed, those of a contact as they were after it. */
-static void reverse(hd_event_log *into, const hd_event_log *log)
+static void reverse(hd_record *into, const hd_record *log)
 {
     *into = *log;
-    into->event = malloc((log->count + 1) * sizeof *into->event);
+    into->entry = malloc((log->count + 1) * sizeof(hd_event));
     for (size_t k = 0; k < log->count; k++) {
-        hd_event event = log->event[log->count - 1 - k];
+        hd_event event = events_in(log)[log->count - 1 - k];
         const double normal = event.p[0] * event.n[0] + event.p[1] * event.n[1];
         event.t = log->duration - event.t;
         for (int d = 0; d < 2; d++) event.p[d] = 2.0 * normal * event.n[d] - event.p[d];
-        into->event[k] = event;
+        events_in(into)[k] = event;
     }
 }
 
@@ -149,10 +149,10 @@ static exact_frame *converged(const passage *x, int at, bool backwards)
     if (!backwards)
         for (int k = 0; k < at; k++) exact_replay(v, &x->log[k]);
     for (int k = x->count - 1; backwards && k >= at; k--) {
-        hd_event_log log;
+        hd_record log;
         reverse(&log, &x->log[k]);
         exact_replay(v, &log);
-        free(log.event);
+        free(log.entry);
     }
     return v;
 }

@@ -15,6 +15,7 @@ static hd_history_def def_of(int way, int vectors)
                             .intervals = INTERVALS,
                             .snapshots = SNAPSHOTS,
                             .recompute = way == 1,
+                            .entry = hd_events_entry(),
                             .events = 1e4};
 }
 
@@ -67,7 +68,7 @@ static void freed(forward *x)
 /** One interval: from t_begin to t_end of the log, which the frame is yet to be carried through. */
 static void add_piece(forward *x, double t_begin, double t_end, bool snapshot)
 {
-    const hd_event_log *log = x->f.log;
+    const hd_record *log = x->f.log;
     left *new = &x->left[x->end++];
     CHECK_OK(hd_frame_replay(x->f.frame, log, t_begin, t_end));
     forward_factor(&x->f);

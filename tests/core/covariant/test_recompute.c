@@ -20,6 +20,7 @@ static hd_recompute *created(int disks, int vectors, long slots, long stretch)
                                   .threads = 1,
                                   .slots = slots,
                                   .stretch = stretch,
+                                  .entry = hd_events_entry(),
                                   .events = 1e4};
     hd_recompute *r;
     CHECK_OK(hd_recompute_create(&r, &def));
@@ -133,8 +134,7 @@ TEST(what_passed_passes_again)
 
 /** Two disks that meet at these times, a normal turned a little further each time; `graze` is -p.n
  * of the second. */
-static void write_log(hd_event_log *log, const double *times, int count, double duration,
-                      double graze)
+static void write_log(hd_record *log, const double *times, int count, double duration, double graze)
 {
     static hd_event event[8];
     for (int k = 0; k < count; k++) {
@@ -145,8 +145,7 @@ static void write_log(hd_event_log *log, const double *times, int count, double 
                               .n = {nx, ny},
                               .p = {b * nx - 0.9 * ny, b * ny + 0.9 * nx}};
     }
-    *log = (hd_event_log){
-        .event = event, .count = (size_t)count, .capacity = (size_t)count, .duration = duration};
+    *log = record_of(event, (size_t)count, duration);
 }
 
 typedef struct pair {
@@ -181,7 +180,7 @@ TEST(an_event_at_a_cut_is_the_next_piece_s)
 {
     const double times[] = {0.0, 0.25, 0.5, 1.0}, cut[] = {0.0, 0.5, 1.0};
     HELD(pair) p = pair_created();
-    hd_event_log log;
+    hd_record log;
     double *want[2], found[WIDE * WIDE];
     write_log(&log, times, 4, 1.0, 0.8);
     for (int slot = 0; slot < 2; slot++) {
@@ -203,7 +202,7 @@ TEST(a_grazing_slot_takes_the_stable_step)
 {
     const double times[] = {0.2, 0.5, 0.8};
     HELD(pair) p = pair_created();
-    hd_event_log log;
+    hd_record log;
     double *want[2], found[WIDE * WIDE];
     for (int slot = 0; slot < 2; slot++) {
         write_log(&log, times, 3, 1.0, slot == 0 ? 1e-5 : 0.8);
@@ -236,9 +235,10 @@ TEST(a_ring_of_events_is_full)
                                   .threads = 1,
                                   .slots = 1000,
                                   .stretch = 10,
+                                  .entry = hd_events_entry(),
                                   .events = 600.0};
     hd_recompute *r;
-    hd_event_log log;
+    hd_record log;
     hd_status status = HD_OK;
     long slot = 0;
     write_log(&log, times, 6, 1.0, 0.8);
@@ -260,7 +260,11 @@ TEST(the_stretch_needs_the_fewest_numbers)
 {
     for (long slots = 64; slots <= 65536; slots *= 32)
         for (int vectors = 50; vectors <= 400; vectors *= 2) {
-            hd_recompute_def def = {.rows = 400, .vectors = vectors, .threads = 1, .slots = slots};
+            hd_recompute_def def = {.rows = 400,
+                                    .vectors = vectors,
+                                    .threads = 1,
+                                    .slots = slots,
+                                    .entry = hd_events_entry()};
             const long best = hd_recompute_stretch(slots, def.rows, vectors);
             assert_true(best >= 1 && best <= slots);
             def.stretch = best;

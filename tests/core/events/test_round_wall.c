@@ -113,7 +113,7 @@ static void check_twin(int disks, double density)
 {
     enum { EVENTS = 60 };
     const hd_scene_def def = circle(disks, density);
-    OWNED(hd_event_log) *log = new_log();
+    OWNED(hd_record) *log = new_log();
     OWNED(hd_trajectory) *tr = trajectory_of(def);
     slow s = {.disks = disks, .reach = reach_of(&def)};
     CHECK_OK(hd_trajectory_extend(tr, NULL, 30.0));
@@ -122,7 +122,7 @@ static void check_twin(int disks, double density)
     CHECK_OK(trajectory_to(tr, log, 30.0 + EVENTS / hd_trajectory_collision_rate(tr)));
     double t = 0.0;
     for (size_t k = 0; k < log->count && k < EVENTS; k++) {
-        const hd_event *event = &log->event[k];
+        const hd_event *event = &events_in(log)[k];
         int i = -1, j = -1;
         t += slow_step(&s, &i, &j);
         assert_int_equal(event->i, i);
@@ -179,7 +179,7 @@ TEST(pressure_at_the_wall_is_that_of_the_virial)
         hd_scene_def def = circle(100, density[k]);
         def.observe = HD_OBSERVE_GAS;
         const double reach = reach_of(&def), length = second_tier() ? 4000.0 : 1000.0;
-        OWNED(hd_event_log) *log = new_log();
+        OWNED(hd_record) *log = new_log();
         OWNED(hd_trajectory) *tr = trajectory_of(def);
         CHECK_OK(hd_trajectory_extend(tr, NULL, 50.0));
         double before[2], after[2], pushed = 0.0, virial = 0.0;
@@ -187,7 +187,7 @@ TEST(pressure_at_the_wall_is_that_of_the_virial)
         for (int piece = 1; piece <= 100; piece++) {
             CHECK_OK(trajectory_to(tr, log, 50.0 + piece * length / 100));
             for (size_t e = 0; e < log->count; e++) {
-                const hd_event *event = &log->event[e];
+                const hd_event *event = &events_in(log)[e];
                 if (event->j != HD_WALL_ROUND) continue;
                 pushed += 2.0 * (event->p[0] * event->n[0] + event->p[1] * event->n[1]) / reach;
             }

@@ -8,11 +8,11 @@
 
 /* ---- however it is cut --------------------------------------------------------------------- */
 
-static void check_same_events(const hd_event_log *got, const hd_event_log *want)
+static void check_same_events(const hd_record *got, const hd_record *want)
 {
     assert_int_equal(got->count, want->count);
     for (size_t k = 0; k < got->count; k++) {
-        const hd_event *a = &got->event[k], *b = &want->event[k];
+        const hd_event *a = &events_in(got)[k], *b = &events_in(want)[k];
         assert_true(a->i == b->i && a->j == b->j);
         assert_memory_equal(a->n, b->n, sizeof a->n);
         assert_memory_equal(a->p, b->p, sizeof a->p);
@@ -22,13 +22,13 @@ static void check_same_events(const hd_event_log *got, const hd_event_log *want)
 
 /** Just before, at and just after each of the instants in the log. */
 static void check_cut_at_events(const hd_scene_def *def, const double *q, const double *p,
-                                const hd_event_log *whole)
+                                const hd_record *whole)
 {
     OWNED(hd_trajectory) *tr = started(def, q, p);
-    OWNED(hd_event_log) *log = new_log();
+    OWNED(hd_record) *log = new_log();
     for (size_t k = 0; k < whole->count; k++) {
-        const double t = whole->event[k].t;
-        if (k > 0 && t == whole->event[k - 1].t) continue;
+        const double t = events_in(whole)[k].t;
+        if (k > 0 && t == events_in(whole)[k - 1].t) continue;
         const double cut[] = {nextafter(t, 0.0), t, nextafter(t, INFINITY)};
         for (int c = 0; c < 3; c++)
             if (cut[c] >= hd_trajectory_time(tr)) CHECK_OK(hd_trajectory_extend(tr, log, cut[c]));
@@ -38,11 +38,11 @@ static void check_cut_at_events(const hd_scene_def *def, const double *q, const 
 }
 
 /** Largest number of events of one instant; times of one instant are the same bits. */
-static long most_at_once(const hd_event_log *log)
+static long most_at_once(const hd_record *log)
 {
     long most = 0, now = 0;
     for (size_t k = 0; k < log->count; k++) {
-        now = k > 0 && log->event[k].t == log->event[k - 1].t ? now + 1 : 1;
+        now = k > 0 && events_in(log)[k].t == events_in(log)[k - 1].t ? now + 1 : 1;
         if (now > most) most = now;
     }
     return most;
@@ -65,9 +65,9 @@ static long check_all(const hd_scene_def *def, const double *q, const double *p,
     for (int k = 0; k < 2 * def->disks; k++) sum[k % 2] += after[k] - p[k];
     for (int d = 0; d < 2; d++)
         if (def->boundary[d] == P) CHECK_CLOSE(sum[d], 0.0, rounding);
-    OWNED(hd_event_log) *log = log_of(def, q, p, t_end), *again = log_of(def, q, p, t_end);
+    OWNED(hd_record) *log = log_of(def, q, p, t_end), *again = log_of(def, q, p, t_end);
     assert_true(events > 0 && (double)log->count == events && log->count == again->count);
-    assert_memory_equal(log->event, again->event, log->count * sizeof *log->event);
+    assert_memory_equal(events_in(log), events_in(again), log->count * sizeof(hd_event));
     check_cut_at_events(def, q, p, log);
     twin_compare(started(def, q, p), def, log->count / 2);
     return most_at_once(log);
@@ -219,12 +219,12 @@ static void check_at(const hd_scene_def *def, const double *q, const double *p, 
     for (int side = -1; side <= 1; side++) {
         const double cut = side < 0 ? nextafter(t, 0.0) : side > 0 ? nextafter(t, INFINITY) : t;
         OWNED(hd_trajectory) *tr = started(def, q, p);
-        OWNED(hd_event_log) *log = new_log();
+        OWNED(hd_record) *log = new_log();
         CHECK_OK(trajectory_to(tr, log, cut));
         assert_int_equal(log->count, side > 0 ? events : 0);
         CHECK_OK(trajectory_to(tr, log, t + 0.25));
         assert_int_equal(log->count, side > 0 ? 0 : events);
-        for (size_t k = 0; k < log->count; k++) assert_true(log->event[k].t == t - cut);
+        for (size_t k = 0; k < log->count; k++) assert_true(events_in(log)[k].t == t - cut);
     }
     check_all(def, q, p, 4.0 * t);
 }
@@ -301,13 +301,13 @@ TEST(ties_go_by_index)
 {
     const hd_scene_def def = scene_in_box(3, 16.0, 8.0, P, P, 1);
     const double q[] = {4.0, 3.25, 4.0, 4.75, 8.0, 4.0}, p[] = {1, 0, 1, 0, -1, 0};
-    OWNED(hd_event_log) *log = log_of(&def, q, p, 2.0);
+    OWNED(hd_record) *log = log_of(&def, q, p, 2.0);
     assert_true(log->count >= 2);
-    assert_true(log->event[0].t == log->event[1].t);
-    assert_int_equal(log->event[0].i, 0);
-    assert_int_equal(log->event[1].i, 1);
-    assert_int_equal(log->event[0].j, 2);
-    assert_int_equal(log->event[1].j, 2);
+    assert_true(events_in(log)[0].t == events_in(log)[1].t);
+    assert_int_equal(events_in(log)[0].i, 0);
+    assert_int_equal(events_in(log)[1].i, 1);
+    assert_int_equal(events_in(log)[0].j, 2);
+    assert_int_equal(events_in(log)[1].j, 2);
 }
 
 /** Into a corner along the diagonal: both walls at once, out again the way it came. */
@@ -320,13 +320,13 @@ TEST(disk_in_a_corner)
         const double p[] = {sign[k][0], sign[k][1], 0.0, 0.0};
         double after[4];
         OWNED(hd_trajectory) *tr = started(&def, q, p);
-        OWNED(hd_event_log) *log = new_log();
+        OWNED(hd_record) *log = new_log();
         CHECK_OK(trajectory_to(tr, log, 1.5));
         hd_trajectory_state(tr, NULL, after);
         assert_int_equal(log->count, 2);
-        assert_int_equal(log->event[0].j, HD_WALL_X);
-        assert_int_equal(log->event[1].j, HD_WALL_Y);
-        assert_true(log->event[0].t == 1.0 && log->event[1].t == 1.0);
+        assert_int_equal(events_in(log)[0].j, HD_WALL_X);
+        assert_int_equal(events_in(log)[1].j, HD_WALL_Y);
+        assert_true(events_in(log)[0].t == 1.0 && events_in(log)[1].t == 1.0);
         assert_true(after[0] == -p[0] && after[1] == -p[1]);
         check_all(&def, q, p, 80.0);
     }
@@ -337,11 +337,11 @@ TEST(pair_goes_before_wall)
 {
     const hd_scene_def def = scene_in_box(3, 8.0, 8.0, R, R, 1);
     const double q[] = {1.5, 2.0, 4.0, 4.0, 7.0, 4.0}, p[] = {-1, 0, 1, 0, -1, 0};
-    OWNED(hd_event_log) *log = log_of(&def, q, p, 1.5);
+    OWNED(hd_record) *log = log_of(&def, q, p, 1.5);
     assert_int_equal(log->count, 2);
-    assert_true(log->event[0].t == 1.0 && log->event[1].t == 1.0);
-    assert_int_equal(log->event[0].i, 1);
-    assert_int_equal(log->event[0].j, 2);
-    assert_int_equal(log->event[1].j, HD_WALL_X);
+    assert_true(events_in(log)[0].t == 1.0 && events_in(log)[1].t == 1.0);
+    assert_int_equal(events_in(log)[0].i, 1);
+    assert_int_equal(events_in(log)[0].j, 2);
+    assert_int_equal(events_in(log)[1].j, HD_WALL_X);
     check_all(&def, q, p, 40.0);
 }

@@ -22,7 +22,7 @@ static hd_scene_def scene_number(int k)
 typedef struct whole {
     hd_scene_def def;
     double t_end;
-    hd_event_log *log;
+    hd_record *log;
     double *state; /**< q[2N], p[2N] at t_end */
 } whole;
 
@@ -48,7 +48,7 @@ static whole whole_run(int scene, double events)
 
 static void whole_free(whole *w)
 {
-    hd_event_log_free(w->log);
+    hd_record_free(w->log);
     free(w->state);
 }
 
@@ -65,7 +65,7 @@ static void check_same_event(const hd_event *got, const hd_event *want, double t
 static void check_cut(const whole *w, const double *cut, size_t count)
 {
     OWNED(hd_trajectory) *tr = trajectory_of(w->def);
-    OWNED(hd_event_log) *log = new_log();
+    OWNED(hd_record) *log = new_log();
     size_t number = 0;
     double t = 0;
     for (size_t k = 0; k <= count; k++) {
@@ -74,8 +74,8 @@ static void check_cut(const whole *w, const double *cut, size_t count)
         assert_true(hd_trajectory_time(tr) == t_next && log->duration == t_next - t);
         for (size_t e = 0; e < log->count; e++) {
             assert_true(number < w->log->count);
-            assert_true(log->event[e].t >= 0 && log->event[e].t <= log->duration);
-            check_same_event(&log->event[e], &w->log->event[number++], t);
+            assert_true(events_in(log)[e].t >= 0 && events_in(log)[e].t <= log->duration);
+            check_same_event(&events_in(log)[e], &events_in(w->log)[number++], t);
         }
         t = t_next;
     }
@@ -111,7 +111,7 @@ TEST(intervals_cut_at_events)
         size_t count = 0;
         assert_non_null(cut);
         for (size_t e = 0; e < w.log->count; e += 3) {
-            const double t = w.log->event[e].t;
+            const double t = events_in(w.log)[e].t;
             if (count && t < cut[count - 1]) continue; /* same instant as the event before */
             cut[count++] = t;
             if (e % 2) cut[count++] = t; /* an empty interval */
@@ -126,14 +126,14 @@ TEST(event_at_the_end_belongs_to_the_next_interval)
     const hd_scene_def def = scene_in_box(2, 8.0, 8.0, P, P, 1);
     const double q[] = {2.0, 2.0, 5.0, 2.0}, p[] = {1, 0, -1, 0};
     OWNED(hd_trajectory) *tr = NULL;
-    OWNED(hd_event_log) *log = new_log();
+    OWNED(hd_record) *log = new_log();
     CHECK_OK(hd_trajectory_create_from(&tr, &def, q, p));
     CHECK_OK(trajectory_to(tr, log, 1.0));
     assert_int_equal(log->count, 0);
     CHECK_OK(trajectory_to(tr, log, 1.0));
     assert_true(log->count == 0 && log->duration == 0);
     CHECK_OK(trajectory_to(tr, log, 1.5));
-    assert_true(log->count == 1 && log->event[0].t == 0);
+    assert_true(log->count == 1 && events_in(log)[0].t == 0);
 }
 
 /** Epochs are a power of two long: cuts at all multiples of every candidate, and a bit around them.
@@ -185,7 +185,7 @@ TEST(events_are_approaching_unit_contacts)
 {
     for (int k = 0; k < SCENES; k++) {
         HELD(whole) w = whole_run(k, 20000.0);
-        for (size_t e = 0; e < w.log->count; e++) check_unit_vectors(&w.log->event[e]);
+        for (size_t e = 0; e < w.log->count; e++) check_unit_vectors(&events_in(w.log)[e]);
     }
 }
 
@@ -323,7 +323,7 @@ TEST(refused_scenes_give_nothing)
     assert_int_equal(hd_trajectory_create(&tr, &def), HD_REFUSED);
     assert_null(tr);
     hd_trajectory_free(NULL);
-    hd_event_log_free(NULL);
+    hd_record_free(NULL);
 }
 
 /* ---- memory and size ----------------------------------------------------------------------- */
@@ -332,7 +332,7 @@ TEST(warm_log_allocates_nothing)
 {
     for (int k = 0; k < SCENES; k++) {
         OWNED(hd_trajectory) *tr = trajectory_of(scene_number(k));
-        OWNED(hd_event_log) *log = new_log();
+        OWNED(hd_record) *log = new_log();
         const double piece = 1000.0 / hd_trajectory_collision_rate(tr);
         double t = 4.0 * piece;
         CHECK_OK(trajectory_to(tr, log, t)); /* grows to more than it will need */
@@ -345,7 +345,7 @@ TEST(warm_log_allocates_nothing)
 TEST(a_million_disks)
 {
     OWNED(hd_trajectory) *tr = trajectory_of(scene_of(1000000, 0.7, 0.8, P, R, 1));
-    OWNED(hd_event_log) *log = new_log();
+    OWNED(hd_record) *log = new_log();
     const double t = 5e5 / hd_trajectory_collision_rate(tr);
     CHECK_OK(trajectory_to(tr, log, t));
     assert_true(hd_trajectory_overlap(tr) < 1e-9);

@@ -109,7 +109,7 @@ static void check_encounter(const encounter *e)
     const hd_scene_def def = box_with(2, BOX[0], BOX[1], BOX[2], 0, 1);
     double after[2 * DIM], box[DIM];
     OWNED(hd_trajectory) *tr = started(&def, e->q, e->p);
-    OWNED(hd_event_log) *log = new_log();
+    OWNED(hd_record) *log = new_log();
     hd_trajectory_box(tr, box);
     CHECK_CLOSE(box[0], BOX[0], 2.0 * DBL_EPSILON * BOX[0]); /* root of a rounded density */
     CHECK_OK(trajectory_to(tr, log, PASSAGE));
@@ -117,7 +117,7 @@ static void check_encounter(const encounter *e)
     const int meets = e->miss < 1;
     if ((int)log->count != meets) fail_msg("miss %.17Lg: %zu events", e->miss, log->count);
     if (meets) {
-        check_event(e, &log->event[0]);
+        check_event(e, &events_in(log)[0]);
         check_outcome(e, after);
     }
 }
@@ -164,13 +164,13 @@ static void check_wall(const hd_scene_def *def, int direction, int high, double 
     q[DIM + direction] = high ? 1.0 : BOX[direction] - 1.0; /* behind */
     p[direction] = sign * cos(angle);
     OWNED(hd_trajectory) *tr = started(def, q, p);
-    OWNED(hd_event_log) *log = new_log();
+    OWNED(hd_record) *log = new_log();
     const long double reach = 0.5L * BOX[direction] - 0.5L,
                       t = reach / fabsl((long double)p[direction]);
     CHECK_OK(trajectory_to(tr, log, (double)t * 1.01));
     hd_trajectory_state(tr, NULL, after);
     assert_int_equal(log->count, 1);
-    const hd_event *event = &log->event[0];
+    const hd_event *event = &events_in(log)[0];
     CHECK_CLOSE(event->t, (double)t, POSITION_ROUNDING * (double)(BOX[0] * t / reach));
     assert_int_equal(event->i, 0);
     assert_int_equal(event->j, HD_WALL_X - direction);

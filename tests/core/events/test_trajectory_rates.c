@@ -99,13 +99,13 @@ static estimate mean_impact(const hd_scene_def *def, double pair_events)
     OWNED(hd_trajectory) *tr = equilibrated(def);
     const double piece = pair_events / BLOCKS / hd_trajectory_collision_rate(tr);
     double block[BLOCKS];
-    OWNED(hd_event_log) *log = new_log();
+    OWNED(hd_record) *log = new_log();
     for (int k = 0; k < BLOCKS; k++) {
         CHECK_OK(trajectory_to(tr, log, hd_trajectory_time(tr) + piece));
         double sum = 0;
         for (size_t e = 0; e < log->count; e++)
-            sum -= log->event[e].n[0] * log->event[e].p[0] +
-                   log->event[e].n[1] * log->event[e].p[1];
+            sum -= events_in(log)[e].n[0] * events_in(log)[e].p[0] +
+                   events_in(log)[e].n[1] * events_in(log)[e].p[1];
         block[k] = sum / (double)log->count;
     }
     return estimate_of(block);

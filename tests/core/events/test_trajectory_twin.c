@@ -107,12 +107,12 @@ TEST(lower_images_come_first)
         const hd_scene_def def = box_with(2, edge[0], edge[1], edge[2], 0, 1);
         hd_scene_box(&def, box);
         for (int d = 0; d < DIM; d++) CHECK_CLOSE(box[d], edge[d], 0.0); /* else they are no ties */
-        OWNED(hd_event_log) *log = log_of(&def, q, p, 1.9);
+        OWNED(hd_record) *log = log_of(&def, q, p, 1.9);
         assert_true(log->count >= 2);
         const int low = along == 0 ? 1 : 0, high = along == DIM - 1 ? DIM - 2 : DIM - 1;
         for (int d = 0; d < DIM; d++)
-            if (d != along) CHECK_CLOSE(log->event[0].n[d], -0.625, 16 * DBL_EPSILON);
-        CHECK_CLOSE(log->event[1].n[low], 0.625, 16 * DBL_EPSILON);
-        if (high != low) CHECK_CLOSE(log->event[1].n[high], -0.625, 16 * DBL_EPSILON);
+            if (d != along) CHECK_CLOSE(events_in(log)[0].n[d], -0.625, 16 * DBL_EPSILON);
+        CHECK_CLOSE(events_in(log)[1].n[low], 0.625, 16 * DBL_EPSILON);
+        if (high != low) CHECK_CLOSE(events_in(log)[1].n[high], -0.625, 16 * DBL_EPSILON);
     }
 }

@@ -83,14 +83,14 @@ static void follow(sums *s, hd_trajectory *tr, double t)
 {
     const int n = hd_trajectory_disks(tr);
     double at = 0.0;
-    OWNED(hd_event_log) *log = new_log();
+    OWNED(hd_record) *log = new_log();
     hd_trajectory_state(tr, NULL, s->p);
     add_moment(s, tr, -1.0);
     CHECK_OK(hd_trajectory_extend(tr, log, hd_trajectory_time(tr) + t));
     for (size_t k = 0; k < log->count; k++) {
-        add_flight(s, n, log->event[k].t - at);
-        add_event(s, &log->event[k]);
-        at = log->event[k].t;
+        add_flight(s, n, events_in(log)[k].t - at);
+        add_event(s, &events_in(log)[k]);
+        at = events_in(log)[k].t;
     }
     add_flight(s, n, t - at);
     add_moment(s, tr, 1.0);

@@ -305,7 +305,7 @@ static hd_trajectory *with_odd_momenta(hd_random *random, const hd_scene_def *de
 static const char *late_fault(const hd_scene_def *def)
 {
     OWNED(hd_trajectory) *early = trajectory_of(*def), *late = trajectory_of(*def);
-    OWNED(hd_event_log) *log = new_log(), *other = new_log();
+    OWNED(hd_record) *log = new_log(), *other = new_log();
     const double begin = ldexp(1.0, 20);
     late->epoch_start = late->now = begin;
     size_t events = 0;
@@ -315,7 +315,7 @@ static const char *late_fault(const hd_scene_def *def)
         CHECK_OK(trajectory_to(late, other, begin + end));
         events += log->count;
         if (log->count != other->count ||
-            memcmp(log->event, other->event, log->count * sizeof *log->event) != 0)
+            memcmp(events_in(log), events_in(other), log->count * sizeof(hd_event)) != 0)
             return "it goes on otherwise at another time";
     }
     return NULL;

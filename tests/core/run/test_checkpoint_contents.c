@@ -44,7 +44,7 @@ TEST(contents_that_no_run_has_are_refused)
         kept_scene(60, 0.8, 0.06, HD_EXPONENTS_POSITIVE, KEPT_ALL), .report_interval = 0.1)),
                   *again = NULL;
     char message[512] = "";
-    while (hd_run_time(run) < 42.0 || run->carrier.log->count < 10) kept_steps(run, 1);
+    while (hd_run_time(run) < 42.0 || run->carrier.record->count < 10) kept_steps(run, 1);
     const bytes b = kept_bytes(run);
     static const nonsense_case cases[] = {
         {"scene disks", 0, 0, 61, "another array"},
@@ -130,7 +130,7 @@ TEST(reports_are_not_passed_twice)
     OWNED(hd_run) *run = kept_run(kept_scene(4, 0.3, 0.3, HD_EXPONENTS_ALL, 0)), *again = NULL;
     char message[512] = "";
     while (hd_run_stage(run) < HD_AVERAGING || run->agenda.schedule.reports == 0 ||
-           run->carrier.log->duration > 0)
+           run->carrier.record->duration > 0)
         kept_steps(run, 1);
     const bytes b = kept_bytes(run);
     const nonsense_case backwards = {"log duration", 0, -1.0, 0, "log duration"};

@@ -204,7 +204,7 @@ TEST(what_no_run_could_resume_is_not_written)
         {&run->advance.longest, 0.0, "run advance longest: it is not positive"},
         {&run->agenda.schedule.start, 1e9, "schedule: it does not go on from this time"},
         {&run->carrier.interval.last, -1.0, "interval: it is negative"},
-        {&run->carrier.log->event[0].t, 1e9, "log: an event comes after the end"},
+        {&events_in(run->carrier.record)[0].t, 1e9, "log: an event comes after the end"},
         {&run->advance.trajectory->now, 1e9, "trajectory: the time is outside its epoch"},
         {&run->advance.trajectory->motion.disk[0].p[0], 9.0, "trajectory: "},
     };

@@ -137,7 +137,7 @@ TEST(pieces_are_no_shorter_than_helps)
         const double collision = run->carrier.collision;
         while (hd_run_stage(run) != HD_FINISHED) {
             const long before = run->cost.orthonormalisations;
-            const double begin = hd_run_time(run) - run->carrier.log->duration;
+            const double begin = hd_run_time(run) - run->carrier.record->duration;
             CHECK_OK(hd_run_advance(run));
             const double length = hd_run_time(run) - begin;
             const long pieces = run->cost.orthonormalisations - before;

@@ -128,7 +128,7 @@ TEST(a_window_begins_anew_where_isotropy_is_lost)
 {
     OWNED(hd_run) *run = until(created(windowed(HD_EXPONENTS_ALL, P, P)), HD_AVERAGING);
     until_time(run, hd_run_time(run) + 20.0);
-    while (run->carrier.log->duration > 0) CHECK_OK(hd_run_advance(run));
+    while (run->carrier.record->duration > 0) CHECK_OK(hd_run_advance(run));
     disturb(run->carrier.frame, 1e-4);
     finish(run);
     const double rounding = 400.0 * DBL_EPSILON * run->carrier.rounding.condition_max;

@@ -27,14 +27,14 @@ typedef struct reference {
 static reference reference_of(hd_trajectory *tr, const hd_frame *frame, double duration)
 {
     reference r = {.x = exact_create(frame), .least = 1.0};
-    OWNED(hd_event_log) *log = new_log();
+    OWNED(hd_record) *log = new_log();
     while (hd_trajectory_time(tr) < duration) {
         CHECK_OK(trajectory_to(tr, log, fmin(duration, hd_trajectory_time(tr) + 8.0)));
         exact_replay(r.x, log);
         for (size_t k = 0; k < log->count; k++) {
-            if (log->event[k].j < 0) continue;
-            r.near += impact_of(&log->event[k]) < NEAR;
-            r.least = fmin(r.least, impact_of(&log->event[k]));
+            if (events_in(log)[k].j < 0) continue;
+            r.near += impact_of(&events_in(log)[k]) < NEAR;
+            r.least = fmin(r.least, impact_of(&events_in(log)[k]));
         }
     }
     hd_trajectory_free(tr);

@@ -60,11 +60,11 @@ typedef struct sums {
     double pairs, virial[3], impulse[3];
 } sums;
 
-static sums summed(const hd_event_log *log)
+static sums summed(const hd_record *log)
 {
     sums s = {0};
     for (size_t k = 0; k < log->count; k++) {
-        const hd_event *e = &log->event[k];
+        const hd_event *e = &events_in(log)[k];
         const double b = dot3(e->p, e->n);
         if (e->j < 0) s.impulse[-1 - e->j] += 2.0 * fabs(b);
         if (e->j < 0) continue;
@@ -82,7 +82,7 @@ TEST(numbers_are_sums_over_the_events)
         const double n = 40.0, t = 30.0, rounding = 1e-11;
         double box[3], momenta[3], volume = 1.0, all = 0.0;
         OWNED(hd_trajectory) *tr = equilibrated(&def);
-        OWNED(hd_event_log) *log = new_log();
+        OWNED(hd_record) *log = new_log();
         MADE(hd_gas, gas, &def, 0.0);
         hd_gas_begin(gas, tr);
         CHECK_OK(trajectory_to(tr, log, hd_trajectory_time(tr) + t));
@@ -117,7 +117,7 @@ TEST(walls_feel_the_pressure)
     const double t = HD_SANITIZED ? 10.0 : 60.0;
     double box[3], off[3] = {0}, square[3] = {0}, pressure = 0.0;
     OWNED(hd_trajectory) *tr = equilibrated(&def);
-    OWNED(hd_event_log) *log = new_log();
+    OWNED(hd_record) *log = new_log();
     hd_scene_box(&def, box);
     const double volume = hd_gas_area(&def);
     for (int k = 0; k < BLOCKS; k++) {
@@ -160,7 +160,7 @@ TEST(impact_is_exact)
         const hd_scene_def def = box_of(disks[k], density[k], 1.0, 0.9, 0, 23);
         double mean = 0.0, square = 0.0, rates = 0.0;
         OWNED(hd_trajectory) *tr = equilibrated(&def);
-        OWNED(hd_event_log) *log = new_log();
+        OWNED(hd_record) *log = new_log();
         const double t = (HD_SANITIZED ? 200 : 4000) / hd_trajectory_collision_rate(tr);
         MADE(hd_gas, gas, &def, 0.0);
         hd_gas_begin(gas, tr);

@@ -12,7 +12,7 @@ enum { HALF, WHOLE };
 typedef struct conjugates {
     int disks, rows;
     hd_trajectory *trajectory;
-    hd_event_log *log;
+    hd_record *log;
     hd_frame *frame[2];
     hd_ortho *ortho[2];
     hd_conjugate *conjugate;
@@ -36,7 +36,7 @@ static inline conjugates conjugates_of(hd_scene_def scene)
     conjugates x = {.disks = scene.disks, .rows = 4 * scene.disks, .condition = 1.0};
     CHECK_OK(hd_trajectory_create(&x.trajectory, &scene));
     CHECK_OK(hd_trajectory_extend(x.trajectory, NULL, 10.0));
-    CHECK_OK(hd_event_log_create(&x.log));
+    CHECK_OK(hd_record_create(&x.log, hd_events_entry()));
     CHECK_OK(hd_conjugate_create(&x.conjugate, x.rows, x.rows / 2));
     for (int k = 0; k < 2; k++) {
         const int vectors = k == HALF ? x.rows / 2 : x.rows;
@@ -56,7 +56,7 @@ static inline void conjugates_free(conjugates *x)
         hd_ortho_free(x->ortho[k]);
     }
     hd_conjugate_free(x->conjugate);
-    hd_event_log_free(x->log);
+    hd_record_free(x->log);
     hd_trajectory_free(x->trajectory);
 }
 

@@ -144,11 +144,11 @@ static void reflect(hd_exact *disk, int n, int d)
     }
 }
 
-void exact_replay(exact_frame *x, const hd_event_log *log)
+void exact_replay(exact_frame *x, const hd_record *log)
 {
     double t = 0.0;
     for (size_t k = 0; k < log->count; k++) {
-        const hd_event *event = &log->event[k];
+        const hd_event *event = &events_in(log)[k];
         hd_exact *i = rows_of(x, event->i);
         fly(x, (hd_exact)event->t - t);
         if (event->j >= 0)
@@ -165,7 +165,7 @@ void exact_replay(exact_frame *x, const hd_event_log *log)
 }
 
 /** In pieces, so that the log stays short. */
-static void carry(exact_frame *x, hd_trajectory *trajectory, hd_event_log *log, double length)
+static void carry(exact_frame *x, hd_trajectory *trajectory, hd_record *log, double length)
 {
     const double begin = hd_trajectory_time(trajectory);
     const int pieces = (int)ceil(length);
@@ -199,11 +199,11 @@ static hd_frame *first_frame(const hd_scene_def *scene)
 void exact_spectrum(const hd_scene_def *scene, double *out)
 {
     hd_trajectory *trajectory;
-    hd_event_log *log;
+    hd_record *log;
     hd_frame *frame;
     const int n = hd_scene_vectors(scene);
     CHECK_OK(hd_trajectory_create(&trajectory, scene));
-    CHECK_OK(hd_event_log_create(&log));
+    CHECK_OK(hd_record_create(&log, hd_events_entry()));
     frame = first_frame(scene);
     CHECK_OK(hd_trajectory_extend(trajectory, NULL, scene->equilibration));
     exact_frame *x = exact_create(frame);
@@ -213,6 +213,6 @@ void exact_spectrum(const hd_scene_def *scene, double *out)
     for (int col = 0; col < n; col++) out[col] = exact_log_stretch(x, col) / scene->duration;
     exact_free(x);
     hd_frame_free(frame);
-    hd_event_log_free(log);
+    hd_record_free(log);
     hd_trajectory_free(trajectory);
 }

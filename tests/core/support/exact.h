@@ -21,7 +21,7 @@ void exact_free(exact_frame *x);
 const hd_exact *exact_read(const exact_frame *x);
 
 /** Carries them through all of the log. */
-void exact_replay(exact_frame *x, const hd_event_log *log);
+void exact_replay(exact_frame *x, const hd_record *log);
 
 /** Sum of ln R_ll since the start, or since it was begun anew, column col. */
 double exact_log_stretch(const exact_frame *x, int col);

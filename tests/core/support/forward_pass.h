@@ -7,7 +7,7 @@
 
 typedef struct forward_pass {
     hd_trajectory *trajectory;
-    hd_event_log *log;
+    hd_record *log;
     hd_frame *frame;
     hd_ortho *ortho;
     double worst; /**< largest condition so far */
@@ -36,7 +36,7 @@ static inline forward_pass forward_started(hd_scene_def scene, uint64_t seed)
     const int n = hd_scene_vectors(&scene);
     scene.observe = 0; /* what a run would refuse is not asked for here */
     CHECK_OK(hd_trajectory_create(&f.trajectory, &scene));
-    CHECK_OK(hd_event_log_create(&f.log));
+    CHECK_OK(hd_record_create(&f.log, hd_events_entry()));
     CHECK_OK(hd_frame_create(&f.frame, scene.disks, n, seed, 1));
     CHECK_OK(hd_ortho_create(&f.ortho, 4 * scene.disks, n));
     CHECK_OK(hd_ortho_keep_factor(f.ortho));
@@ -48,7 +48,7 @@ static inline forward_pass forward_started(hd_scene_def scene, uint64_t seed)
 static inline void forward_pass_free(forward_pass *f)
 {
     hd_trajectory_free(f->trajectory);
-    hd_event_log_free(f->log);
+    hd_record_free(f->log);
     hd_frame_free(f->frame);
     hd_ortho_free(f->ortho);
 }

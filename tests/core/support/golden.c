@@ -4,6 +4,7 @@
 #include <stddef.h>
 #include <string.h>
 
+#include "records.h"
 #include "scenes.h"
 #include "interval.h"
 
@@ -54,11 +55,11 @@ static uint64_t hash_bytes(uint64_t hash, const void *data, size_t size)
     return hash;
 }
 
-static uint64_t hash_log(const hd_event_log *log)
+static uint64_t hash_log(const hd_record *log)
 {
     uint64_t hash = 0xcbf29ce484222325u;
     for (size_t k = 0; k < log->count; k++) {
-        const hd_event *e = &log->event[k];
+        const hd_event *e = &events_in(log)[k];
         const int32_t disks[] = {e->i, e->j};
         hash = hash_bytes(hash, disks, sizeof disks);
         hash = hash_bytes(hash, e->n, sizeof e->n);
@@ -71,14 +72,15 @@ uint64_t golden_hash(int scene)
 {
     const golden g = golden_scene(scene);
     hd_trajectory *tr = NULL;
-    hd_event_log *log = NULL;
+    hd_record *log = NULL;
     uint64_t hash = 0;
-    if (hd_event_log_create(&log) == HD_OK && hd_trajectory_create(&tr, &g.def) == HD_OK) {
+    if (hd_record_create(&log, hd_events_entry()) == HD_OK &&
+        hd_trajectory_create(&tr, &g.def) == HD_OK) {
         const double t_end = g.pair_events / hd_trajectory_collision_rate(tr);
         if (trajectory_to(tr, log, t_end) == HD_OK && log->count > 1000) hash = hash_log(log);
     }
     hd_trajectory_free(tr);
-    hd_event_log_free(log);
+    hd_record_free(log);
     return hash;
 }
 

@@ -5,10 +5,10 @@
 #include "hdlyap/trajectory.h"
 
 /** Moves the disks to t_end; the log (or NULL) has the events on the way, and no others. */
-HD_MUST_CHECK static inline hd_status trajectory_to(hd_trajectory *trajectory, hd_event_log *log,
+HD_MUST_CHECK static inline hd_status trajectory_to(hd_trajectory *trajectory, hd_record *log,
                                                     double t_end)
 {
-    if (log) hd_event_log_clear(log);
+    if (log) hd_record_clear(log);
     return hd_trajectory_extend(trajectory, log, t_end);
 }
 

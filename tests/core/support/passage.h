@@ -13,21 +13,21 @@ typedef struct passage {
     double **factor;       /**< [count], row-major */
     double **q;            /**< [count + 1], vectors, row-major without padding */
     double (*stretch)[64]; /**< [count]: ln R_ll */
-    hd_event_log *log;     /**< [count] */
+    hd_record *log;        /**< [count] */
     double condition;      /**< mean of the intervals */
 } passage;
 
 static inline void passage_keep(passage *x, forward_pass *f, double length)
 {
-    hd_event_log *log = &x->log[x->count];
+    hd_record *log = &x->log[x->count];
     forward_interval(f, length);
     x->condition += hd_ortho_condition(f->ortho);
     x->factor[x->count] = triangle_copy(hd_ortho_factor(f->ortho), x->vectors);
     memcpy(x->stretch[x->count], hd_ortho_log_stretch(f->ortho),
            (size_t)x->vectors * sizeof(double));
     *log = *f->log;
-    log->event = malloc((f->log->count + 1) * sizeof *log->event);
-    memcpy(log->event, f->log->event, f->log->count * sizeof *log->event);
+    log->entry = malloc((f->log->count + 1) * sizeof(hd_event));
+    memcpy(events_in(log), events_in(f->log), f->log->count * sizeof(hd_event));
     x->count++;
     x->q[x->count] = forward_copy(f);
 }
@@ -56,7 +56,7 @@ static inline void passage_free(passage *x)
     for (int k = 0; k <= x->count; k++) {
         free(x->factor[k]);
         free(x->q[k]);
-        free(x->log[k].event);
+        free(x->log[k].entry);
     }
     free(x->factor);
     free(x->q);

@@ -22,10 +22,10 @@ static inline hd_trajectory *trajectory_of(hd_scene_def def)
 }
 
 /** All events before t_end. */
-static inline hd_event_log *log_of(const hd_scene_def *def, const double *q, const double *p,
-                                   double t_end)
+static inline hd_record *log_of(const hd_scene_def *def, const double *q, const double *p,
+                                double t_end)
 {
-    hd_event_log *log = new_log();
+    hd_record *log = new_log();
     OWNED(hd_trajectory) *tr = started(def, q, p);
     CHECK_OK(trajectory_to(tr, log, t_end));
     return log;

@@ -51,7 +51,7 @@ static inline void check_same_exponents(const hd_run *a, const hd_run *b, double
  * stage. */
 static inline void force_interval(hd_run *run, double length)
 {
-    if (run->carrier.log->duration > 0) return;
+    if (run->carrier.record->duration > 0) return;
     run->agenda.interval_end = fmin(hd_run_time(run) + length,
                                     hd_schedule_stage_end(&run->agenda.schedule));
     run->agenda.sample_ends = true;

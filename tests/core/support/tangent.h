@@ -42,7 +42,7 @@ static inline double symplectic(const double *a, const double *b, int rows)
 /** S of the log, applied to the unit vectors, is finite and S^T J S = J. Of one event a column of S
  * is computed by products whose largest is at most |S|, some ten in a row: it is known to 16 eps
  * |S|, and enters with the other column. Returns |S|. */
-static inline double check_symplectic_map(const hd_event_log *log, int disks)
+static inline double check_symplectic_map(const hd_record *log, int disks)
 {
     enum { MAX = 16 };
     const int rows = HD_ROWS * disks;

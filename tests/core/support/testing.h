@@ -17,6 +17,7 @@
 #include <cmocka.h>
 
 #include "hdlyap/hdlyap.h"
+#include "records.h"
 #include "scenes.h"
 
 static const double PI = 3.14159265358979323846;
@@ -79,7 +80,7 @@ static inline bool second_tier(void) { return getenv("HDLYAP_SECOND_TIER") != NU
 #define OWNABLE(type)                                                                              \
     static inline void type##_given_back(type **object) { type##_free(*object); }
 OWNABLE(hd_covariant)
-OWNABLE(hd_event_log)
+OWNABLE(hd_record)
 OWNABLE(hd_fields)
 OWNABLE(hd_frame)
 OWNABLE(hd_gas)
@@ -97,10 +98,10 @@ OWNABLE(hd_trajectory)
 
 static inline void heap_given_back(void *pointer) { free(*(void **)pointer); }
 
-static inline hd_event_log *new_log(void)
+static inline hd_record *new_log(void)
 {
-    hd_event_log *log;
-    CHECK_OK(hd_event_log_create(&log));
+    hd_record *log;
+    CHECK_OK(hd_record_create(&log, hd_events_entry()));
     return log;
 }
 

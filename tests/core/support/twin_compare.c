@@ -23,15 +23,15 @@ static void fail_at(const hd_scene_def *def, size_t number, const hd_event *got,
     fail();
 }
 
-static void compare_interval(const hd_scene_def *def, twin *slow, const hd_event_log *log,
+static void compare_interval(const hd_scene_def *def, twin *slow, const hd_record *log,
                              size_t before, double t_begin, double t_end)
 {
     hd_event want;
     for (size_t k = 0; k < log->count; k++) {
         if (!twin_next(slow, &want, t_begin, t_end))
             fail_msg("event %zu is not in the twin's log", before + k);
-        if (memcmp(&log->event[k], &want, sizeof want) != 0)
-            fail_at(def, before + k, &log->event[k], &want);
+        if (memcmp(&events_in(log)[k], &want, sizeof want) != 0)
+            fail_at(def, before + k, &events_in(log)[k], &want);
     }
     if (twin_next(slow, &want, t_begin, t_end))
         fail_msg("event %zu is missing", before + log->count);
@@ -45,7 +45,7 @@ size_t twin_follow(hd_trajectory *fast, const hd_scene_def *def, size_t events, 
     hd_trajectory_state(fast, q, p);
     twin *slow = twin_create(def, q, p);
     assert_non_null(slow);
-    OWNED(hd_event_log) *log = new_log();
+    OWNED(hd_record) *log = new_log();
     /* between close walls or near closest packing events may be 1e9 times denser than the estimate
      * of the collision rate: the pieces grow from far below it */
     double unit = 1e-9 / hd_trajectory_collision_rate(fast), t = 0;

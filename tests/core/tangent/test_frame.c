@@ -73,7 +73,7 @@ static void check_shadow(hd_scene_def def)
         *frame_entry(frame, row, 0) = v[row] = cos(1 + 7 * row);
     MADE(hd_trajectory, tr, &def);
     const double time = 1.6 * def.disks / hd_trajectory_collision_rate(tr);
-    OWNED(hd_event_log) *log = log_of(&def, s.q, s.p, time);
+    OWNED(hd_record) *log = log_of(&def, s.q, s.p, time);
     assert_true(log->count >= (size_t)def.disks / 2);
     CHECK_OK(hd_frame_replay(frame, log, 0.0, time));
     frame_column(frame, 0, later);
@@ -110,7 +110,7 @@ TEST(one_collision_is_symplectic)
             draw_across(&random, across, event.n);
             for (int d = 0; d < DIM; d++)
                 event.p[d] = speed[k % 3] * (slope * across[d] - event.n[d]) / hypot(1.0, slope);
-            const hd_event_log log = {&event, 1, 1, 0.5};
+            const hd_record log = record_of(&event, 1, 0.5);
             const double grown = check_symplectic_map(&log, 2), want = 2.0 * speed[k % 3] * slope;
             if (slope > 1e6) CHECK_WITHIN(grown, 0.9 * want, 2.3 * want);
         }
@@ -121,7 +121,7 @@ TEST(one_wall_is_symplectic)
     for (int d = 0; d < DIM; d++) {
         hd_event event = {.t = 0.4, .i = 1, .j = -1 - d, .p = {0.3, -0.7}};
         event.n[d] = 1.0;
-        const hd_event_log log = {&event, 1, 1, 1.0};
+        const hd_record log = record_of(&event, 1, 1.0);
         check_symplectic_map(&log, 2);
     }
 }
@@ -133,7 +133,7 @@ TEST(many_events_are_symplectic)
         enum { ROWS = ROWS_OF_ONE * 10 };
         const hd_scene_def def = small(walls);
         const state s = fluid(&def);
-        OWNED(hd_event_log) *log = log_of(&def, s.q, s.p, 1.0);
+        OWNED(hd_record) *log = log_of(&def, s.q, s.p, 1.0);
         double before[ROWS][ROWS], a[ROWS], b[ROWS];
         MADE(hd_frame, frame, 10, ROWS, 3, 1);
         for (int k = 0; k < ROWS; k++)
@@ -161,7 +161,7 @@ TEST(zero_modes_stay_zero_modes)
     for (int walls = 0; walls < WALL_SETS; walls++) {
         const hd_scene_def def = small(walls);
         const state s = fluid(&def), end = carried(&def, &s, time);
-        OWNED(hd_event_log) *log = log_of(&def, s.q, s.p, time);
+        OWNED(hd_record) *log = log_of(&def, s.q, s.p, time);
         MADE(hd_frame, frame, def.disks, COLUMNS, 3, 1);
         for (int row = 0; row < ROWS_OF_ONE * def.disks; row++)
             for (int col = 0; col < COLUMNS; col++) *frame_entry(frame, row, col) = 0.0;
@@ -210,11 +210,11 @@ static double miss(const hd_scene_def *def, const state *s, double time)
 static void check_order(const hd_scene_def *def, const state *s, double time)
 {
     const state there = carried(def, s, time), turned = reversed(there);
-    OWNED(hd_event_log) *forth = log_of(def, s->q, s->p, time);
-    OWNED(hd_event_log) *back = log_of(def, turned.q, turned.p, time);
+    OWNED(hd_record) *forth = log_of(def, s->q, s->p, time);
+    OWNED(hd_record) *back = log_of(def, turned.q, turned.p, time);
     assert_true(forth->count > 2 * (size_t)def->disks && back->count == forth->count);
     for (size_t k = 0; k < forth->count; k++) {
-        const hd_event *a = &forth->event[k], *b = &back->event[back->count - 1 - k];
+        const hd_event *a = &events_in(forth)[k], *b = &events_in(back)[back->count - 1 - k];
         assert_true(a->i == b->i && a->j == b->j);
         CHECK_CLOSE(a->t + b->t, time, 1e-7);
     }
@@ -225,7 +225,7 @@ static double stretched(const hd_scene_def *def, const state *s, double time)
 {
     double v[ROWS_MAX];
     const int rows = ROWS_OF_ONE * def->disks;
-    OWNED(hd_event_log) *events = log_of(def, s->q, s->p, time);
+    OWNED(hd_record) *events = log_of(def, s->q, s->p, time);
     MADE(hd_frame, frame, def->disks, 1, 4, 1);
     frame_column(frame, 0, v);
     const double before = dot(v, v, rows);
@@ -262,7 +262,7 @@ TEST(the_way_back_misses_by_what_rounding_grows)
 
 typedef struct scene_log {
     hd_scene_def scene;
-    hd_event_log *log;
+    hd_record *log;
 } scene_log;
 
 static scene_log logged(int disks, int walls, double time)
@@ -309,14 +309,14 @@ TEST(columns_do_not_know_of_each_other)
         replayed(&s, counts[k], 3, whole, last, one);
         assert_memory_equal(one, other, sizeof one); /* threads: the same bits */
     }
-    hd_event_log_free(s.log);
+    hd_record_free(s.log);
 }
 
 TEST(pieces_make_the_whole)
 {
     enum { DISKS = 40, ROWS = ROWS_OF_ONE * DISKS };
     scene_log s = logged(DISKS, 0, 1.0);
-    const double at_event = s.log->event[s.log->count / 2].t;
+    const double at_event = events_in(s.log)[s.log->count / 2].t;
     const double whole[] = {1.0, 0.0}, two[] = {0.3, 1.0, 0.0}, event[] = {at_event, 1.0, 0.0};
     double one[ROWS], other[ROWS];
     replayed(&s, 8, 1, whole, 7, one);
@@ -324,7 +324,7 @@ TEST(pieces_make_the_whole)
     check_same(one, other, ROWS, 1e3 * DBL_EPSILON);
     replayed(&s, 8, 1, event, 7, other);
     check_same(one, other, ROWS, 1e3 * DBL_EPSILON);
-    hd_event_log_free(s.log);
+    hd_record_free(s.log);
 }
 
 TEST(rewind_brings_the_vectors_back)
@@ -339,7 +339,7 @@ TEST(rewind_brings_the_vectors_back)
     assert_memory_not_equal(before, hd_frame_data(frame), size);
     hd_frame_rewind(frame);
     assert_memory_equal(before, hd_frame_data(frame), size);
-    hd_event_log_free(s.log);
+    hd_record_free(s.log);
 }
 
 /** Neither an angle to nothing, nor a ratio to it. */

@@ -39,7 +39,7 @@ static void check_round_wall(double impact, double angle, double radius)
                       .j = HD_WALL_ROUND,
                       .n = {radius * n[0], radius * n[1]},
                       .p = {impact * n[0] - pt * n[1], impact * n[1] + pt * n[0]}};
-    const hd_event_log log = {.event = &event, .count = 1, .capacity = 1, .duration = 0.5};
+    const hd_record log = record_of(&event, 1, 0.5);
     const double size = check_symplectic_map(&log, 1), stretch = 2.0 / (radius * impact);
     if (stretch > 1e3) assert_true(size > 0.9 * stretch && size < 1.6 * stretch);
 }
@@ -101,7 +101,7 @@ static void check_encounter(const graze *g, double wait, double drift)
     check_passage(&def, q, p, wait, g->impact);
     if (drift <= 1.0)
         twin_compare(started(&def, q, p), &def, 3); /* else it tries a thousand images */
-    OWNED(hd_event_log) *log = log_of(&def, q, p, wait + 0.5);
+    OWNED(hd_record) *log = log_of(&def, q, p, wait + 0.5);
     if (log->count > 0) check_symplectic_map(log, 2);
 }
 

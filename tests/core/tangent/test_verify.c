@@ -98,17 +98,17 @@ TEST(the_log_is_checked)
                                 {0.5, 0, HD_WALL_X, {1, 0}, {1, 3}}}; /* there is none */
     hd_event event[2];
     for (volatile size_t k = 0; k < sizeof at_wall / sizeof *at_wall; k++) {
-        const hd_event_log one = {event, 1, 1, 1.0};
+        const hd_record one = record_of(event, 1, 1.0);
         event[0] = at_wall[k];
-        EXPECT_BROKEN(k > 0, hd_verify_log(&one, &round));
+        EXPECT_BROKEN(k > 0, hd_verify_record(&one, &round));
     }
-    const hd_event_log log = {event, 2, 2, 1.0};
+    const hd_record log = record_of(event, 2, 1.0);
     memcpy(event, right, sizeof event);
-    EXPECT_BROKEN(false, hd_verify_log(&log, &box));
+    EXPECT_BROKEN(false, hd_verify_record(&log, &box));
     for (volatile size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         memcpy(event, right, sizeof event);
         event[cases[k].event] = cases[k].wrong;
-        EXPECT_BROKEN(true, hd_verify_log(&log, &box));
+        EXPECT_BROKEN(true, hd_verify_record(&log, &box));
     }
 }
 

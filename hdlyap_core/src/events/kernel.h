@@ -3,7 +3,7 @@
 #ifndef HD_KERNEL_H
 #define HD_KERNEL_H
 
-#include "hdlyap/trajectory.h"
+#include "events/event.h"
 
 #define HD_KERNEL static inline __attribute__((always_inline))
 

@@ -5,7 +5,7 @@
 
 #include <math.h>
 
-#include "tangent/kernel.h"
+#include "events/kernel.h"
 
 /** Free flights of its disks since their last events, then the collision. */
 typedef struct hd_tangent_map {

@@ -3,7 +3,7 @@
 #ifndef HD_KERNEL_3D_H
 #define HD_KERNEL_3D_H
 
-#include "tangent/kernel.h"
+#include "events/kernel.h"
 
 /** Free flights of its spheres since their last events, then the collision. */
 typedef struct hd_tangent_map {

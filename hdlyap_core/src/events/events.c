@@ -1,54 +1,23 @@
-/** Storage of an interval's events; it only grows. */
-#include "events/event_log.h"
+/** Record of hard bodies -> what is wrong with it, and a file. */
+#include "events/events.h"
 
 #include <float.h>
 #include <math.h>
 #include <stdbool.h>
-#include <string.h>
 
-#include "base/memory.h"
-#include "events/archived.h"
 #include "events/contact.h"
+#include "events/record_state.h"
 #include "events/round_wall.h"
 
-double hd_event_log_bytes(double events)
+double hd_events_bytes(double events)
 {
     static const double OF_AN_EVENT = HD_DIM == 2 ? 130.0 : 170.0;
     return OF_AN_EVENT * events;
 }
 
-hd_status hd_event_log_create(hd_event_log **out)
-{
-    *out = hd_memory_alloc(1, sizeof **out);
-    return *out ? HD_OK : HD_NO_MEMORY;
-}
+size_t hd_events_entry(void) { return sizeof(hd_event); }
 
-void hd_event_log_free(hd_event_log *log)
-{
-    if (!log) return;
-    hd_memory_free(log->event);
-    hd_memory_free(log);
-}
-
-void hd_event_log_clear(hd_event_log *log)
-{
-    log->count = 0;
-    log->duration = 0.0;
-}
-
-hd_status hd_event_log_reserve(hd_event_log *log, size_t count)
-{
-    size_t capacity = log->capacity ? log->capacity : HD_EVENTS_FIRST;
-    while (capacity < count) capacity *= 2;
-    if (capacity == log->capacity) return HD_OK;
-    hd_event *grown = hd_memory_alloc(capacity, sizeof *grown);
-    if (!grown) return HD_NO_MEMORY;
-    if (log->count) memcpy(grown, log->event, log->count * sizeof *grown);
-    hd_memory_free(log->event);
-    log->event = grown;
-    log->capacity = capacity;
-    return HD_OK;
-}
+const hd_event *hd_events(const hd_record *record) { return record->entry; }
 
 /* ---- checks -------------------------------------------------------------------------------- */
 
@@ -82,14 +51,14 @@ static bool approach(const hd_event *event)
     return hd_contact_dot(event->n, event->p) <= 4.0 * DBL_EPSILON * speed;
 }
 
-const char *hd_event_log_fault(const hd_event_log *log, const hd_scene_def *scene)
+const char *hd_events_fault(const hd_record *record, const hd_scene_def *scene)
 {
     const double reach = hd_round_wall_of(scene).reach;
     double before = 0.0;
-    for (size_t k = 0; k < log->count; k++) {
-        const hd_event *event = &log->event[k];
+    for (size_t k = 0; k < record->count; k++) {
+        const hd_event *event = hd_events(record) + k;
         if (!(event->t >= before)) return "an event comes before the one before it";
-        if (!(event->t <= log->duration)) return "an event comes after the end";
+        if (!(event->t <= record->duration)) return "an event comes after the end";
         if (!disks_exist(event, scene->disks)) return "there is no such disk";
         if (!wall_exists(event, reach)) return "there is no such wall";
         if (!is_normal(event, reach)) return "a normal has not the length that it should";
@@ -109,25 +78,26 @@ static void event_archive(hd_event *event, hd_archive *archive)
     hd_archive_next_doubles(archive, event->p, HD_DIM);
 }
 
-void hd_event_log_archive(hd_event_log *log, hd_archive *archive, const hd_scene_def *scene)
+void hd_events_archive(hd_record *record, hd_archive *archive, const hd_scene_def *scene)
 {
-    size_t count = log->count;
-    hd_archive_double(archive, "log duration", &log->duration);
-    hd_archive_count(archive, "log count", &count, sizeof *log->event);
+    size_t count = record->count;
+    hd_archive_double(archive, "log duration", &record->duration);
+    hd_archive_count(archive, "log count", &count, record->size);
     if (!archive->writing) {
-        const hd_status status = hd_event_log_reserve(log, count);
+        const hd_status status = hd_record_reserve(record, count);
         if (status != HD_OK)
             hd_archive_fail(archive, status, "log count", "there is no room for so many");
         if (!hd_archive_good(archive)) return;
-        log->count = count;
+        record->count = count;
     }
     hd_archive_of_doubles(archive, "log t n p", (1 + 2 * HD_DIM) * count);
-    for (size_t k = 0; k < count; k++) event_archive(&log->event[k], archive);
+    hd_event *event = record->entry;
+    for (size_t k = 0; k < count; k++) event_archive(&event[k], archive);
     hd_archive_of_ints(archive, "log i j", 2 * count);
     for (size_t k = 0; k < count; k++) {
-        hd_archive_next_int(archive, &log->event[k].i, 0, scene->disks - 1);
-        hd_archive_next_int(archive, &log->event[k].j, HD_WALL_ROUND, scene->disks - 1);
+        hd_archive_next_int(archive, &event[k].i, 0, scene->disks - 1);
+        hd_archive_next_int(archive, &event[k].j, HD_WALL_ROUND, scene->disks - 1);
     }
-    const char *fault = hd_event_log_fault(log, scene);
+    const char *fault = hd_events_fault(record, scene);
     if (fault) hd_archive_refuse(archive, "log", fault);
 }

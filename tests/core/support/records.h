@@ -1,0 +1,16 @@
+/** Records of hard bodies, looked into. */
+#ifndef TEST_RECORDS_H
+#define TEST_RECORDS_H
+
+#include "events/events.h"
+#include "events/record_state.h"
+
+static inline hd_event *events_in(const hd_record *record) { return record->entry; }
+
+/** Of events that somebody else keeps. */
+static inline hd_record record_of(hd_event *event, size_t count, double duration)
+{
+    return (hd_record){event, sizeof *event, count, count, duration};
+}
+
+#endif
