@@ -17,20 +17,25 @@ PERIODIC = 'periodic'
 WALLS = ('reflecting', 'reflecting')
 
 
+def velocity(info, nx=1, ny=0, *state):
+    """Over that of an ideal gas."""
+    return pressure.velocity(info, nx, ny, *state) * 2**0.5
+
+
 class Pressure(unittest.TestCase):
     def test_without_walls(self):
         info = box(780, 0.4, 0.867)
-        expected = float(equation.compressibility(0.4)) / 2**0.5
         for nodes in ((1, 0), (0, 1), (2, 1)):
-            self.assertAlmostEqual(pressure.velocity(info, *nodes), expected, 12)
+            expected = float(equation.compressibility(0.4))
+            self.assertAlmostEqual(velocity(info, *nodes), expected, 12)
         self.assertEqual(pressure.inside(info), 780 / (info.box_x * info.box_y))
 
     def test_walls_do_nothing_to_an_ideal_gas(self):
         """But that it is denser where centres can be."""
-        for boundaries in (WALLS, ('periodic', 'reflecting'), ('reflecting', 'periodic')):
+        for boundaries in (WALLS, (PERIODIC, 'reflecting'), ('reflecting', PERIODIC)):
             info = box(40, 1e-4, 0.5, boundaries)
             for nodes in ((1, 0), (1, 1), (0, 1)):
-                self.assertAlmostEqual(pressure.velocity(info, *nodes) * 2**0.5, 1, 3)
+                self.assertAlmostEqual(velocity(info, *nodes), 1, 3)
         self.assertAlmostEqual(pressure.adsorbed(1e-4) / -0.5e-4, 1, 3)
 
     def test_all_disks_are_somewhere(self):
@@ -43,34 +48,31 @@ class Pressure(unittest.TestCase):
 
     def test_forces(self):
         """By hand, and the wave vector's direction between them."""
-        info = box(100, 0.5, 0.5, ('periodic', 'reflecting'))
+        info = box(100, 0.5, 0.5, (PERIODIC, 'reflecting'))
         rho, lx, ly = pressure.inside(info), info.box_x, info.box_y
         p, gamma = pressure.HENDERSON.pressure(rho), pressure.tension(rho)
-        along = (p * ly - 2 * gamma) * lx / 100 / 2**0.5
-        across = p * lx * (ly - 1) / 100 / 2**0.5
-        self.assertAlmostEqual(pressure.velocity(info, 1, 0), along, 12)
-        self.assertAlmostEqual(pressure.velocity(info, 0, 1), across, 12)
+        along, across = (p * ly - 2 * gamma) * lx / 100, p * lx * (ly - 1) / 100
         x, y = (1 / lx) ** 2, (1 / (ly - 1)) ** 2
-        self.assertAlmostEqual(
-            pressure.velocity(info, 1, 1), (x * along + y * across) / (x + y), 12
-        )
+        for nodes, expected in (
+            ((1, 0), along),
+            ((0, 1), across),
+            ((1, 1), (x * along + y * across) / (x + y)),
+        ):
+            self.assertAlmostEqual(velocity(info, *nodes), expected, 12)
 
     def test_large_boxes_have_no_walls(self):
-        found = [
-            pressure.velocity(box(disks, 0.6, 1.0, WALLS), 1, 0)
-            / pressure.velocity(box(disks, 0.6, 1.0), 1, 0)
-            - 1
+        off = [
+            velocity(box(disks, 0.6, 1.0, WALLS)) / velocity(box(disks, 0.6, 1.0)) - 1
             for disks in (100, 10**4, 10**6)
         ]
-        self.assertAlmostEqual(found[1] / found[2], 10, delta=0.5)  # as circumference over area
-        self.assertGreater(found[0], found[1])
+        self.assertAlmostEqual(off[1] / off[2], 10, delta=0.5)  # as circumference over area
+        self.assertGreater(off[0], off[1])
 
     def test_rods(self):
         """On a line, Tonks: P = rho / (1 - rho)."""
-        for number in (0.1, 0.5, 0.9):
-            for is_reflecting in (True, False):
-                v = pressure.of_row(number, 1e-6, is_reflecting)
-                self.assertAlmostEqual(v * 2**0.5 * (1 - number), 1, 6)
+        for number, is_reflecting in itertools.product((0.1, 0.5, 0.9), (True, False)):
+            v = pressure.of_row(number, 1e-6, is_reflecting)
+            self.assertAlmostEqual(v * 2**0.5 * (1 - number), 1, 6)
 
     def test_row(self):
         """Against the largest eigenvalue itself, at other places across."""
@@ -94,37 +96,24 @@ class Pressure(unittest.TestCase):
         self.assertAlmostEqual((1 / force + mean) * number, 1, 3)
 
     def test_what_is_a_row(self):
-        for height, boundary, expected in (
-            (1.5, 'reflecting', True),
-            (1.9, 'reflecting', False),
-            (1.5, 'periodic', True),
-            (1.8, 'periodic', False),
-        ):
-            box_x = 200.0
-            info = box(150, 150 / box_x / height, height / box_x, ('periodic', boundary))
+        ends = ('reflecting', 1.5, True), ('reflecting', 1.9, False)
+        for boundary, height, expected in (*ends, (PERIODIC, 1.5, True), (PERIODIC, 1.8, False)):
+            info = box(150, 150 / 200 / height, height / 200, (PERIODIC, boundary))
             self.assertEqual(pressure.is_row(info), expected)
-        narrow = box(150, 0.5, 0.0075, ('periodic', 'reflecting'))
+        narrow = box(150, 0.5, 0.0075, (PERIODIC, 'reflecting'))
         self.assertAlmostEqual(pressure.velocity(narrow, 1, 0), pressure.of_row(0.75, 0.5, True), 9)
 
     def test_measured(self):
         """Over Henderson's; straight between densities, with its error."""
         state = pressure.Equation([(0.8, 0.97, 0.002), (0.4, 1.01, 0.001)])
-        for density, quotient, error in (
-            (0.1, 1.01, 0.001),
-            (0.6, 0.99, 0.0015),
-            (0.9, 0.97, 0.002),
-        ):
-            self.assertAlmostEqual(state.over_henderson(density)[0], quotient)
-            self.assertAlmostEqual(state.over_henderson(density)[1], error)
+        for density, *quotient in ((0.1, 1.01, 0.001), (0.6, 0.99, 0.0015), (0.9, 0.97, 0.002)):
+            np.testing.assert_allclose(state.over_henderson(density), quotient, rtol=1e-7)
             over = state.pressure(density) / pressure.HENDERSON.pressure(density)
-            self.assertAlmostEqual(over, quotient)
-        info = box(780, 0.8, 0.867)
-        over = pressure.velocity(info, 1, 0, state) / pressure.velocity(info, 1, 0)
-        self.assertAlmostEqual(over, 0.97)
-        self.assertAlmostEqual(pressure.error(info, state), 0.002 / 0.97)
-        row = box(150, 0.5, 0.0075)
-        self.assertEqual(pressure.error(row, state), 0.0)
-        self.assertEqual(pressure.velocity(row, 1, 0, state), pressure.velocity(row, 1, 0))
+            self.assertAlmostEqual(over, quotient[0])
+        dense, row = box(780, 0.8, 0.867), box(150, 0.5, 0.0075)
+        for info, factor, error in ((dense, 0.97, 0.002 / 0.97), (row, 1.0, 0.0)):
+            self.assertAlmostEqual(velocity(info, 1, 0, state) / velocity(info), factor)
+            self.assertAlmostEqual(pressure.error(info, state), error)
 
 
 def sampled_rank(info, kind, nx, ny):
@@ -167,9 +156,7 @@ class Rule(unittest.TestCase):
 
     def test_narrow(self):
         info = box(150, 0.5, 0.0075)
-        found = [
-            counts.prescribed(info, *one) for one in ((LP, 3, 0), (LP, 0, 1), (T, 1, 1))
-        ]
+        found = [counts.prescribed(info, *one) for one in ((LP, 3, 0), (LP, 0, 1), (T, 1, 1))]
         self.assertEqual(found, [4, 0, 0])
 
 

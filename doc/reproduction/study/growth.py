@@ -3,12 +3,10 @@ a time t, times t. It does not depend on t once t is long against what the growt
 
 import numpy as np
 
-from hdlyap.data import steps
 from hdlyap.data.reader import SPECTRUM
 
-from . import blocks
+from . import blocks, points
 
-SAME = 1e-9  # relative: wave numbers of a square box
 SHORT = 0.2  # of the median length: shorter samples may not have forgotten what was before them
 LARGEST, MIDDLE, LAST_T, LAST_LP = 'lambda_1', 'bulk', 'smallest T', 'smallest LP'
 STEPS = (LAST_T, LAST_LP)
@@ -53,18 +51,13 @@ class Growth:
     def of(self, indices):
         """(mean of the variance times t over these Lyapunov indices, its standard error from blocks
         of time); (None, 0) of fewer samples than blocks."""
-        columns = np.asarray(indices) - self.first_index
-        if self.samples < blocks.BLOCKS or not len(columns):
-            return None, 0.0
-        return blocks.mean(self.squares()[:, columns].mean(axis=1))
+        squares = self.squares()[:, np.asarray(indices) - self.first_index]
+        return blocks.mean(squares.mean(axis=1))
 
     def memory(self, indices):
         """(Mean correlation of neighbouring samples, its standard error): 0 of independent ones."""
-        columns = np.asarray(indices) - self.first_index
-        if self.samples < blocks.BLOCKS or not len(columns):
-            return None, 0.0
-        mean = np.average(self.local, axis=0, weights=self.time)
-        off = (self.local - mean)[:, columns]
+        off = self.local - np.average(self.local, axis=0, weights=self.time)
+        off = off[:, np.asarray(indices) - self.first_index]
         shared = (off[1:] * off[:-1]).mean(axis=1)
         return blocks.quotient(shared, (off[1:] ** 2).mean(axis=1))
 
@@ -72,9 +65,7 @@ class Growth:
 def read(bag):
     """Growth of a run; None if its messages do not say how long samples are, or if there are too
     few of them."""
-    messages = [
-        message for message in bag.messages(SPECTRUM) if getattr(message, 'local_time', 0.0) > 0
-    ]
+    messages = [message for message in bag.messages(SPECTRUM) if message.local_time > 0]
     if not messages:
         return None
     last = messages[-1]
@@ -92,27 +83,9 @@ def indices(recording):
     spectrum = recording.spectrum
     half = recording.positive_end
     carried = range(spectrum.first_index, recording.last_index + 1)
-    wanted = {
-        LARGEST: range(1, 2),
-        MIDDLE: range(int(BULK[0] * half) + 1, int(BULK[1] * half) + 1),
-        LAST_T: _of_step(recording, steps.T),
-        LAST_LP: _of_step(recording, steps.LP),
-    }
+    wanted = {LARGEST: range(1, 2), MIDDLE: range(int(BULK[0] * half) + 1, int(BULK[1] * half) + 1)}
+    for name, kind in zip(STEPS, points.KINDS):
+        point = points.smallest(recording, kind)
+        wanted[name] = point.indices if point and not point.shares else ()
     found = {name: [one for one in some if one in carried] for name, some in wanted.items()}
     return {name: some for name, some in found.items() if some}
-
-
-def _of_step(recording, kind):
-    """Indices of the steps of this kind with the smallest wave number; none if they share vectors
-    with others."""
-    resolved = list(steps.resolved(recording.steps).values())
-    numbers = [step.wave_number for step in resolved if step.kind == kind]
-    own = [
-        step
-        for step in resolved
-        if step.kind == kind and step.wave_number <= min(numbers) * (1 + SAME)
-    ]
-    sets = {step.set for step in own}
-    if any(step.set in sets and step not in own for step in resolved):
-        return []
-    return sorted({index for step in own for index in range(step.first_index, step.last_index + 1)})

@@ -16,10 +16,10 @@ KINDS = {'T': steps.T, 'LP': steps.LP}
 COUNTS = {'T': 2, 'LP': 4}  # exponents of the smallest steps of a periodic box that is not square
 
 
-class Point(namedtuple('Point', 'name k exponent error note shares skipped')):
-    """A step of one run. shares: steps of another kind or wave number that have its vectors too, so
-    that its exponent is a mixture. skipped: steps of its kind with a smaller wave number that were
-    not resolved, where the smallest was asked for."""
+class Point(namedtuple('Point', 'name k exponent error indices note shares skipped')):
+    """A step of one run. indices: of its vectors. shares: steps of another kind or wave number that
+    have them too, so that its exponent is a mixture. skipped: steps of its kind with a smaller wave
+    number that were not resolved, where the smallest was asked for."""
 
     @property
     def slope(self):
@@ -81,6 +81,7 @@ def _point(recording, found, skipped=()):
         found[0].wave_number,
         float(np.average([step.exponent for step in found], weights=weights)),
         max(one.std_error for one in found),
+        sorted({i for one in found for i in range(one.first_index, one.last_index + 1)}),
         *('', sorted(others), skipped),
     )
 
@@ -126,7 +127,8 @@ def _of_stair(spectrum, wave, stair):
     error = float(errors.max()) if np.isfinite(errors).all() else -1.0
     note = f'not resolved; by its {stair.count} equal exponents {stair.first}-{stair.last}'
     exponent = float(np.mean(spectrum.exponents[inside]))
-    return Point(steps.name(wave), wave.wave_number, exponent, error, note, (), ())
+    indices = range(stair.first, stair.last + 1)
+    return Point(steps.name(wave), wave.wave_number, exponent, error, indices, note, (), ())
 
 
 # ---- several of them -----------------------------------------------------------------------------

@@ -1,7 +1,7 @@
 """Numbers beside ours -> verdicts: a statement of claims.yaml, and the measured values behind it,
 each with its error and the smallest wrong value that would have been caught."""
 
-from math import isfinite, sqrt
+from math import inf, isfinite, sqrt
 from numbers import Integral, Real
 
 from hdlyap.numbers import with_error
@@ -16,11 +16,10 @@ SMALL = 1e-3  # without an error: below, the usual decimals would show little of
 AGREES, DIFFERS, MISSING, SHOWN = 'agrees', 'differs', 'not measured', ''
 UNDECIDED = 'not decided'  # not apart, but a wrong value would not have been, either
 EQUAL, ABOVE, BELOW = '', 'above ', 'below '
-ABOUT = 'part', 'kind', 'where', 'words', 'claim', 'criterion', 'criterion_of', 'claim_verdict'
-HEADER = ABOUT + (
-    *('quantity', 'published', 'left_open', 'measured', 'error', 'unit', 'verdict'),
-    *('caught', 'remark'),
-)
+HEADER = (
+    'part kind where words claim criterion criterion_of claim_verdict '
+    'quantity published left_open measured error unit verdict caught remark'
+).split()
 
 
 class Row:
@@ -54,25 +53,19 @@ class Row:
 
     @property
     def is_measured(self):
-        return self.measured is not None and (
-            isinstance(self.measured, str) or isfinite(self.measured)
-        )
+        is_word = isinstance(self.measured, str)
+        return self.measured is not None and (is_word or isfinite(self.measured))
 
     @property
     def _is_word(self):
         return isinstance(self.published, str) or isinstance(self.measured, str)
 
     @property
-    def _known_error(self):
-        """Not known yet: none to forgive."""
-        return self.error if isfinite(self.error) and self.error > 0 else 0.0
-
-    @property
     def power(self):
         """The smallest deviation of the truth from what is published that would have made the row
         differ, but for one repetition in 44; infinite while the error is not known."""
         is_known = isfinite(self.error) and self.error >= 0
-        return (self.left_open or 0.0) + (SIGMAS + SEEN) * self.error if is_known else float('inf')
+        return (self.left_open or 0.0) + (SIGMAS + SEEN) * self.error if is_known else inf
 
     @property
     def telling(self):
@@ -88,18 +81,18 @@ class Row:
             return SHOWN
         if self._is_word:
             return AGREES if self.published == self.measured else DIFFERS
-        return self._beside_a_limit() if self.sense else self._beside_a_number()
+        # not known yet: none to forgive
+        sure = SIGMAS * self.error if isfinite(self.error) and self.error > 0 else 0.0
+        return self._beside_a_limit(sure) if self.sense else self._beside_a_number(sure)
 
-    def _beside_a_limit(self):
+    def _beside_a_limit(self, sure):
         off = (self.measured - self.published) * (1 if self.sense == ABOVE else -1)
-        sure = SIGMAS * self._known_error
         if off < -sure:
             return DIFFERS
         return AGREES if off > sure and isfinite(self.power) else UNDECIDED
 
-    def _beside_a_number(self):
-        allowed = (self.left_open or 0.0) + SIGMAS * self._known_error
-        if abs(self.measured - self.published) > allowed:
+    def _beside_a_number(self, sure):
+        if abs(self.measured - self.published) > (self.left_open or 0.0) + sure:
             return DIFFERS
         return AGREES if self.power <= self.telling else UNDECIDED
 
@@ -118,12 +111,9 @@ class Row:
 
     def cells(self):
         """As text, for the page."""
-        return (
-            self.quantity,
-            self.sense + _bounded(self.published, self.left_open),
-            _number(self.measured, self.error),
-            *(self.unit, self.verdict, self.caught, self.remark),
-        )
+        published = self.sense + _bounded(self.published, self.left_open)
+        numbers = self.quantity, published, _number(self.measured, self.error)
+        return (*numbers, self.unit, self.verdict, self.caught, self.remark)
 
     def values(self):
         """As in HEADER from `quantity` on, for the CSV file."""
@@ -142,18 +132,18 @@ class Scatter(Row):
         self.left_open = critical(freedom) - freedom if freedom else 0.0
         self.errors = errors
 
-    def _beside_a_number(self):
+    def _beside_a_number(self, sure):
         """Less than expected is no difference: values may fluctuate together."""
-        if self.measured < self.published:
-            return AGREES if self.power <= self.telling else UNDECIDED
-        return super()._beside_a_number()
+        if self.measured > self.published + self.left_open:
+            return DIFFERS
+        return AGREES if self.power <= self.telling else UNDECIDED
 
     @property
     def power(self):
         """Percent by which the least known value alone must be off. It adds x to the mean of
         chi^2, whose root then scatters by 1."""
         if not len(self.errors) or not self.published:
-            return float('inf')
+            return inf
         x = (sqrt(critical(self.published)) + SEEN) ** 2 - (self.published - 1)
         return max(self.errors) * sqrt(x * len(self.errors) / self.published)
 

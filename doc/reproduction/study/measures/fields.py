@@ -65,16 +65,16 @@ def _mean(quantity, times, number, published=None, remark='', **more):
     return Row(quantity, published, *value, remark=remark if means else '', **more)
 
 
-def _weight(bag, quantity, letters, times, **more):
-    chance = projection.chance(bag.info, times[0][0], letters) if times else 0.0
-    remark = f'{len(times)} snapshots; by chance {chance:.4f}'
-    if more and times:
-        more['left_open'] = chance  # no more than that
+def _weight(bag, quantity, letters, times, published=None):
+    """Where none is published, no more than by chance."""
+    chance = projection.chance(bag.info, times[0][0], letters) if times else None
+    remark = f'{len(times)} snapshots; by chance {chance:.4f}' if times else ''
+    left_open = chance if published == 0 else None
 
     def weight(field):
         return projection.weight(bag.info, field, letters)
 
-    return _mean(quantity, times, weight, remark=remark, **more)
+    return _mean(quantity, times, weight, published, remark, left_open=left_open)
 
 
 def inside(bag):

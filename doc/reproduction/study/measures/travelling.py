@@ -80,9 +80,8 @@ def _read(bag):
     """(the Rotation of LP(1,0), the front that runs the farthest for the least part of the other
     direction); None without."""
     turning = rotation.read(bag).get((1, 0))
-    found = fronts(turning) if turning else ()
-    key = lambda one: one.length * abs(one.handedness)  # noqa: E731
-    return turning, max(found, default=None, key=key)
+    found = [(one.length * abs(one.handedness), one) for one in fronts(turning)] if turning else []
+    return turning, max(found, default=(0, None), key=lambda pair: pair[0])[1]
 
 
 def one_way(turning):
