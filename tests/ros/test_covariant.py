@@ -221,11 +221,7 @@ class Windows(harness.Case):
 
 class Choices(Case):
     def test_positive_ones(self):
-        for exponents, vectors in (
-            ('positive', POSITIVE),
-            (1, 1),
-            (POSITIVE + CENTRE, POSITIVE + CENTRE),
-        ):
+        for exponents, vectors in (('positive', POSITIVE), (POSITIVE + CENTRE,) * 2):
             message = self.run_of(exponents=exponents, duration=40.0)[-1]
             self.assertEqual(message.windows, 4)
             self.assertEqual({len(getattr(message, name)) for name in OF_VECTORS}, {vectors})

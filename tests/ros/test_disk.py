@@ -16,7 +16,7 @@ from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 import rospy
 
 import harness
-from harness import SHORT
+
 
 FILE_FAULT = 4  # exit status
 AT_ONCE = 4  # nodes that run at the same time
@@ -102,57 +102,6 @@ class Disk(harness.Case):
         self.sees(lambda: node.lines('checkpoint not written'), node)
         self.assertIn(message, node.lines('checkpoint not written')[0])
         self.sees(lambda: self.diagnostic(message), node)
-
-    # ---- paths that cannot be written ----
-
-    def test_refused_before_the_run(self):
-        plain, link, pipe = self.path('plain'), self.path('link'), self.path('pipe')
-        with open(plain, 'w') as file:
-            file.write('mine')
-        os.symlink(plain, link)
-        os.mkfifo(pipe)
-        os.mkdir(self.path('taken.part'))
-        os.symlink(plain, self.path('led.part'))
-        paths = [
-            link,
-            pipe,
-            self.folder,
-            plain + '/below',
-            self.path('x' * 300),
-            self.path('taken'),
-            self.path('led'),
-            '/dev/full',
-            '/dev/null',
-            '/proc/self/status',
-            '/sys/new',
-            self.path('no/such/folder'),
-        ]
-        for first in range(0, len(paths), AT_ONCE):
-            some = paths[first : first + AT_ONCE]
-            nodes = [
-                self.start(dict(SHORT, checkpoint=path), name='refused_%d' % k)
-                for k, path in enumerate(some)
-            ]
-            for path, node in zip(some, nodes):
-                with self.subTest(path=path):
-                    self.ends(node, FILE_FAULT)
-                    self.assertEqual(len(node.text().splitlines()), 1, node.text())
-                    self.assertIn(path[-100:], node.text())
-        with open(plain) as file:
-            self.assertEqual(file.read(), 'mine')
-        self.assertEqual(
-            sorted(os.listdir(self.folder)), ['led.part', 'link', 'pipe', 'plain', 'taken.part']
-        )
-
-    def test_resume_from_what_is_no_file(self):
-        """Without waiting for somebody to write."""
-        pipe = self.path('pipe')
-        os.mkfifo(pipe)
-        for path in (pipe, self.folder, '/dev/zero', '/dev/full', '/etc/passwd'):
-            with self.subTest(path=path):
-                node = self.start(dict(resume=path))
-                self.ends(node, FILE_FAULT)
-                self.assertIn(path, node.text())
 
     # ---- full disks ----
 

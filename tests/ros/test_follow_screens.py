@@ -164,6 +164,9 @@ class Screens(unittest.TestCase):
         unknown.steps.c_t_error = -1.0
         unknown.steps.c_l = unknown.cost.condition = float('nan')
         unknown.phases.phases[0].a = unknown.phases.phases[1].omega_error = float('nan')
+        finished = view(
+            status=status(stage=RunStatus.FINISHED), is_gone=True, diagnosis=diagnosis()
+        )
         asked = dict(target='c_T', target_wanted=0.0098, target_error=-1.0)
         of_target, endless = status(**asked), status(progress=0.0, remaining_seconds=-1.0)
         for shown, said, not_said in (
@@ -188,7 +191,7 @@ class Screens(unittest.TestCase):
             (view(is_gone=True), ['GONE  /hdlyap does not answer'], 'finished'),
             (view(silence=63.0), ['no message for 1:03'], 'GONE'),
             (view(is_master_gone=True), ['no master'], 'GONE'),
-            (view(status=status(stage=RunStatus.FINISHED), is_gone=True), ['run has fini'], 'GONE'),
+            (finished, ['finished  █', 'the run has finished'], 'GONE|averaging'),
         ):
             text = self.text(shown)
             self.says(text, *said)
