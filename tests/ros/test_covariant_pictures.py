@@ -158,46 +158,15 @@ class Table(Bags):
             found.setdefault(name, []).append(rest.split())
         return found, text
 
-    def test_rows(self):
-        """Errors of 0.01 in both passes: combined 0.01414."""
-        lines, text = self.lines()
-        lowest = FORWARD[35:37].mean()
-        right = ['all', 'within', '89', '..', '90', 'degrees']
-        exponents = ['36-37', f'{lowest:.3f}(10)', f'{lowest + 0.03:.3f}(10)', '+2.12']
-        for name, row in (
-            ('T(1,0)', exponents),
-            ('T(1,0)', ['36-37', '0.930', '0.810', '0.270', '0.050']),
-            ('LP(1,0)', ['32-35', '0.550', '0.630', '0.190', '0.100']),
-            ('conj. T(1,0)', ['44-45', '0.730', '0.770', '0.020', '0.050']),
-            ('zero modes', ['38-43', '0.000(10)', '-0.100(10)', '-7.07']),
-            ('unstable-stable', ['0.3290(60)', '0.21000', '1.10000']),
-            ('unstable-centre', ['1.57080', '1.57080', '1.10000', *right]),
-        ):
-            self.assertIn(row, lines[name])
-        self.assertEqual(lines['conj. T(1,0)'][0][-1], '+2.12')
-        self.assertLess(text.index('T(1,0)  '), text.index('conj. T(1,0)'))
-        self.assertNotIn('too short', text)
-
     def test_lines(self):
-        """made.cost: 0.2 and 0.55 of the time are replay and orthonormalisation. Also where all
-        pairs are dominated, and none."""
-        rms = np.sqrt((73 * 3.0**2 + 6.0**2) / 74 / 2)
-        frame = 'the tangent frame forwards (replay and orthonormalisation) 375.0 s'
+        """Of everything they are in golden/steps.txt; here of few windows, where all pairs are
+        dominated, and none, where starts have not met, and of no cost."""
         for fields, said in (
-            ({}, 'covariant vectors: 200 time units in 4 windows, 40 samples (standard errors)'),
             (dict(windows=1, lost_windows=3), 'in 1 window, 3 lost for want of room, 40 samples'),
-            ({}, f'without zero modes, 74 in all: root mean square {rms:.2f}, largest +4.24 at 5'),
-            ({}, 'zero modes, 6 in all: root mean square 7.07, largest -7.07 at 38'),
-            ({}, 'centre to exact null space: 4.0e-13 at the last sample, 7.0e-13 at most'),
-            ({}, '78 of 79 pairs of neighbours ever changed it, 24.7 % of the time'),
-            ({}, 'dominated splittings (2): behind 7 37'),
             (dominated(0.0), 'dominated splittings (79): behind 1 2 3 4 5 6 7 8 and 71 more'),
             (dominated(0.1), 'dominated splittings (0)\n'),
-            ({}, 'sine 1.0e-09 in the middle, 1.0e+00 at most'),
-            ({}, 'spaces: centre 3.0e-12, stable 5.0e-11 rad'),
             (dict(centre_start_mismatch=0.3), ' rad: covariant_transient is too short'),
             (dict(stable_start_mismatch=0.3), ' rad: covariant_transient is too short'),
-            ({}, f'covariant vectors took 12.5 s, {frame}, the run 500.0 s'),
         ):
             self.assertIn(said, report.report(self.changed(**fields)))
         apart = dict(centre_start_mismatch=-1.0, stable_start_mismatch=-1.0)

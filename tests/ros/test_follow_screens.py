@@ -267,24 +267,18 @@ class Screens(unittest.TestCase):
         self.assertEqual({*styles[0].values()}, {'strong'})
         self.assertEqual({*styles[1].values(), *styles[2].values()}, {'T'})
 
-    def test_numbers_that_nobody_expects(self):
-        """No word of a node takes the screen away."""
-        numbers = float('inf'), float('nan'), -1.0, 1e300
+    def test_what_nobody_expects(self):
+        """No number of a node, and no kind of another version, takes the screen away."""
+        numbers = [(float, each) for each in (float('inf'), float('nan'), -1.0, 1e300)]
+        numbers += [(int, each) for each in (0, 77, 255)]
         names = 'status', 'cost', 'spectrum', 'steps', 'phases'
-        for number, name in itertools.product(numbers, names):
+        for (kind, number), name in itertools.product(numbers, names):
             with np.errstate(all='ignore'):
                 shown = view()
-                with_all(getattr(shown, name), float, number)
+                with_all(getattr(shown, name), kind, number)
                 for size in FEW:
                     self.text(shown, size)
                 line.parts(shown)
-
-    def test_kinds_of_another_version(self):
-        for name, number in itertools.product(('status', 'cost', 'steps', 'phases'), (0, 77, 255)):
-            shown = view()
-            with_all(getattr(shown, name), int, number)
-            for size in FEW:
-                self.text(shown, size)
         shown = view()
         shown.steps.steps[0].kind = 77
         self.says(self.text(shown), 'kind 77(1,0)')
