@@ -351,6 +351,18 @@ class Case(unittest.TestCase):
         return folder.name
 
 
+class InFolder(unittest.TestCase):
+    """A folder that goes with the test."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+
+    def path(self, *names):
+        return os.path.join(self.folder, *names)
+
+
 class Traced(unittest.TestCase):
     """Processes that begin others: those are found by what they inherit."""
 

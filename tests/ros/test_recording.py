@@ -3,13 +3,13 @@
 import os
 import shlex
 import signal
-import tempfile
 import unittest
 from unittest import mock
 
 from diagnostic_msgs.msg import DiagnosticArray
 import rosbag
 
+import harness
 import made
 from bags import process
 from hdlyap.runs import recording
@@ -36,17 +36,12 @@ ENDS = (
 UNTIL_ASKED = 'trap "%s; exit 0" INT; echo > {stem}.ready; while true; do sleep 0.05; done' % CLOSED
 
 
-class Recording(unittest.TestCase):
+class Recording(harness.InFolder):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = folder.name
+        super().setUp()
         made.write(self.path('made'), [made.run_info(), made.spectrum([1.0], 1.0)])
         with rosbag.Bag(self.path('foreign'), 'w') as bag:
             bag.write('/diagnostics', DiagnosticArray(), made.rospy.Time(1))
-
-    def path(self, name):
-        return os.path.join(self.folder, name)
 
     def recorded(self, name, does, came=(), least='0'):
         """(exit status, what is said last) of a program in place of rosbag."""

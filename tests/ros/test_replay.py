@@ -2,7 +2,6 @@
 """hdlyap replay: when it says what a bag holds, for whom it waits, and what it refuses."""
 
 import os
-import tempfile
 import threading
 import time
 import types
@@ -41,9 +40,7 @@ def run(run_id):
 
 class Replayed(harness.Case):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.bag = os.path.join(folder.name, 'run.bag')
+        self.bag = os.path.join(self.new_folder(), 'run.bag')
         self.heard = []  # (wall time, type, simulated time)
 
     def record(self, *runs, ahead=0):

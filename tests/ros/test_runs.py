@@ -11,7 +11,6 @@ import re
 import signal
 import subprocess
 import sys
-import tempfile
 import types
 import unittest
 from unittest import mock
@@ -29,15 +28,7 @@ GUIDE = os.path.join(os.path.dirname(os.path.abspath(__file__)), '../../doc/user
 LAUNCH = os.path.join(rospkg.RosPack().get_path('hdlyap'), 'launch')
 
 
-class InFolder(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = folder.name
-
-    def path(self, name):
-        return os.path.join(self.folder, name)
-
+class InFolder(harness.InFolder):
     def write(self, name, text=''):
         with open(self.path(name), 'w') as file:
             file.write(text)

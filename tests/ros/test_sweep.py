@@ -16,7 +16,7 @@ import yaml
 import hdlyap
 import harness
 import made
-from harness import Process
+from harness import InFolder, Process
 from made import LP, T
 from hdlyap.commands import sweep
 from hdlyap.runs import run
@@ -103,16 +103,6 @@ class Grid(unittest.TestCase):
             with self.subTest(given=given), self.assertRaises(Refused) as caught:
                 self.runs(**given)
             self.assertIn(what, str(caught.exception))
-
-
-class InFolder(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = folder.name
-
-    def path(self, *names):
-        return os.path.join(self.folder, *names)
 
 
 class Plan(InFolder):

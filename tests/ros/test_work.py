@@ -8,7 +8,6 @@ import os
 import shutil
 import signal
 import sys
-import tempfile
 
 import rosbag
 import yaml
@@ -34,16 +33,11 @@ IMPATIENT = (
 )
 
 
-class InFolder(harness.Traced):
+class InFolder(harness.Traced, harness.InFolder):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = folder.name
+        super().setUp()
         self.out = self.path('o u t')
         self.trace()
-
-    def path(self, *names):
-        return os.path.join(self.folder, *names)
 
     def start(self, *command, **env):
         return Process(command, PWD=self.folder, HDLYAP_MARK=self.mark, **env)
