@@ -1,6 +1,8 @@
 """Files that are whole or not there."""
 
 import contextlib
+import csv
+import io
 import os
 import uuid
 
@@ -18,3 +20,14 @@ def written(path):
     finally:
         if os.path.exists(unfinished):
             os.remove(unfinished)
+
+
+def write(path, text):
+    with written(path) as unfinished, open(unfinished, 'w', encoding='utf-8') as file:
+        file.write(text)
+
+
+def write_csv(path, header, lines):
+    text = io.StringIO()
+    csv.writer(text, lineterminator='\n').writerows([header, *lines])
+    write(path, text.getvalue())

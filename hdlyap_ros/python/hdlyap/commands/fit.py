@@ -7,52 +7,28 @@ import sys
 import threading
 import time
 
-import numpy as np
 import rospy
 
-from hdlyap.data.dispersion import Curve, number_of
-from hdlyap.data.fits import RELATIONS
-from hdlyap.msg import Step, Steps
+from hdlyap.data import fits
+from hdlyap.msg import Steps
 
 PERIOD = 1.0  # seconds between two lines
 PATIENCE = 10.0  # seconds of silence before it says again what it waits for
 
 
-def fit(steps, kind):
-    """c, its standard error and the number of wave numbers, by weighted least squares; None without
-    a step whose error is known."""
-    chosen = [
-        s for s in steps if s.kind == kind and s.resolved and not s.conjugate and s.std_error > 0
-    ]
-    if not chosen:
-        return None
-    k, exponents, errors = np.array([(s.wave_number, s.exponent, s.std_error) for s in chosen]).T
-    curve = Curve(k, exponents, errors)
-    return curve.c, curve.c_error, number_of(k)
-
-
-def describe(name, fitted, c, error):
-    if fitted is None or error <= 0:
-        return '%s: not yet' % name
-    own, own_error, waves = fitted
-    return '%s = %.4f +- %.4f by %s over %d k, node: %.4f +- %.4f' % (
-        name,
-        own,
-        own_error,
-        RELATIONS[min(waves, 2)],
-        waves,
-        c,
-        error,
-    )
-
-
 def line(message):
     """A report in words."""
-    return 't = %.6g: %s; %s' % (
-        message.averaged_time,
-        describe('c_T', fit(message.steps, Step.T), message.c_t, message.c_t_error),
-        describe('c_L', fit(message.steps, Step.LP), message.c_l, message.c_l_error),
-    )
+    own = fits.chosen(message, fits.RELATIONS[2])
+    words = [describe(*both) for both in zip(fits.of(own), fits.of(message))]
+    return f't = {message.averaged_time:.6g}: {words[0]}; {words[1]}'
+
+
+def describe(own, node):
+    """Fits to the steps of one kind."""
+    if min(fit.values[0][2] if fit.count else -1.0 for fit in (own, node)) <= 0:
+        return f'{own.symbol}: not yet'
+    values = [f'{c:.4f} +- {error:.4f}' for _, c, error in (own.values[0], node.values[0])]
+    return f'{own.symbol} = {values[0]} by {own.form} over {own.count} k, node: {values[1]}'
 
 
 class Newest:

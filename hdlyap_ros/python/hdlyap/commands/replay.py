@@ -6,7 +6,6 @@ Service: ~pause_playback (std_srvs/SetBool)."""
 
 import heapq
 import math
-import struct
 import sys
 import threading
 import time
@@ -22,7 +21,6 @@ from hdlyap.numbers import positive
 PATIENCE = 30.0  # seconds that nobody may look
 DRAWN = 'state', 'fields', 'spectrum', 'steps', 'lp_phases', 'status'  # what a viewer listens to
 CONNECTING = 3.0  # seconds at most: some who have subscribed may be gone
-AFTER_STAMP = 12  # bytes of a header; then come frame_id, run_id, and the simulated time
 DISORDER = 1.0  # seconds at most by which a recorder mixes topics: their messages come as they can
 
 
@@ -60,16 +58,9 @@ def options(parser):
 
 def raw_class(connection):
     """Of messages as they are in the bag, of one topic: a publisher asks it for their type."""
-    return type(
-        'Raw',
-        (rospy.AnyMsg,),
-        dict(
-            _type=connection.datatype,
-            _md5sum=connection.md5sum,
-            _full_text=connection.msg_def,
-            _has_header=False,  # rospy would count it anew
-        ),
-    )
+    about = {'_type': connection.datatype, '_md5sum': connection.md5sum}
+    about.update(_full_text=connection.msg_def, _has_header=False)  # rospy would count it anew
+    return type('Raw', (rospy.AnyMsg,), about)
 
 
 class Message:
@@ -80,10 +71,8 @@ class Message:
         self.is_info = kind == reader.RUN_INFO
         self.run, self.time = (before.run, before.time) if before else (None, -1.0)
         if kind.startswith('hdlyap/'):
-            at = AFTER_STAMP + 4 + struct.unpack_from('<I', data, AFTER_STAMP)[0]
-            end = at + 4 + struct.unpack_from('<I', data, at)[0]
-            self.run = data[at + 4 : end]
-            self.time = -1.0 if self.is_info else struct.unpack_from('<d', data, end)[0]
+            packed = reader.Packed(topic, kind, data, stamp)
+            self.run, self.time = packed.run_id, -1.0 if self.is_info else packed.sim_time
 
 
 def as_recorded(bag):

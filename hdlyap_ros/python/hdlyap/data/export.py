@@ -34,11 +34,8 @@ def csv(run, folder):
     paths = []
     for name, frame in tables(run).items():
         paths.append(os.path.join(folder, name + '.csv'))
-        with whole.written(paths[-1]) as unfinished, open(
-            unfinished, 'w', encoding='utf-8'
-        ) as file:
-            file.write(f'# {_origin(run)}\n# units: {_units(frame)}\n')
-            frame.to_csv(file)
+        head = f'# {_origin(run)}\n# units: {_units(frame)}\n'
+        whole.write(paths[-1], head + frame.to_csv())
     return paths
 
 
@@ -60,10 +57,8 @@ def npz(run, path):
             if unit:
                 arrays['units'][key] = unit
     arrays['units'] = json.dumps(arrays['units'])
-    with whole.written(path) as unfinished, open(
-        unfinished, 'wb'
-    ) as file:  # savez would add .npz to a name without it
-        np.savez_compressed(file, **arrays)
+    with whole.written(path) as unfinished, open(unfinished, 'wb') as file:
+        np.savez_compressed(file, **arrays)  # it would add .npz to a name without it
     return path
 
 

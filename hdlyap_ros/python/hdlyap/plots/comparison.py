@@ -72,9 +72,8 @@ def _bits(message):
 def _refuse_other_systems(a, b):
     others = [f'{name} {one} and {other}' for name, one, other in different(a, b, SYSTEM)]
     if others:
-        raise RecordingError(
-            'the runs are of different systems and are not compared: ' + ', '.join(others)
-        )
+        why = 'the runs are of different systems and are not compared'
+        raise RecordingError(f'{why}: {", ".join(others)}')
 
 
 def _refuse_without_exponents(a, b):
@@ -83,28 +82,20 @@ def _refuse_without_exponents(a, b):
             raise RecordingError(f'no averaged spectrum in the {which} bag')
     carried = [(run.spectrum.first_index, run.last_index) for run in (a, b)]
     if carried[0] != carried[1]:
-        raise RecordingError(
-            'the runs cannot be compared: exponents {}-{} and {}-{}'.format(
-                *carried[0], *carried[1]
-            )
-        )
+        ranges = '{}-{} and {}-{}'.format(*carried[0], *carried[1])
+        raise RecordingError(f'the runs cannot be compared: exponents {ranges}')
 
 
 def _exponents(a, b):
     zeros = range(a.positive_end + 1, a.positive_end + a.info.zero_exponents + 1)
-    columns = zip(
-        a.spectrum.exponents, b.spectrum.exponents, a.spectrum.std_errors, b.spectrum.std_errors
-    )
-    return [
-        Deviation(
-            'lambda_max' if index == 1 else f'lambda_{index}',
-            values[:2],
-            values[2:],
-            # they fall like 1/t, and their errors are not those of a mean
-            judged=index not in zeros,
-        )
-        for index, values in enumerate(columns, start=a.spectrum.first_index)
-    ]
+    values = zip(a.spectrum.exponents, b.spectrum.exponents)
+    columns = zip(values, zip(a.spectrum.std_errors, b.spectrum.std_errors))
+    found = []
+    for index, measured in enumerate(columns, start=a.spectrum.first_index):
+        name = 'lambda_max' if index == 1 else f'lambda_{index}'
+        # zeros fall like 1/t, and their errors are not those of a mean
+        found.append(Deviation(name, *measured, judged=index not in zeros))
+    return found
 
 
 def _sum(a, b):
@@ -130,17 +121,12 @@ def _step_name(step, info):
 def _steps(a, b):
     """Deviations of the steps that both runs resolve; their origins are the two Steps."""
     in_a, in_b = _resolved(a), _resolved(b)
-    pairs = [(in_a[key], in_b[key]) for key in in_a if key in in_b]
-    return [
-        Deviation(
-            _step_name(pair[0], a.info),
-            [step.exponent for step in pair],
-            [step.std_error for step in pair],
-            judged=pair[0].kind != steps.ZERO,
-            origins=pair,
-        )
-        for pair in pairs
-    ]
+    found = []
+    for pair in [(in_a[key], in_b[key]) for key in in_a if key in in_b]:
+        values, errors = zip(*((step.exponent, step.std_error) for step in pair))
+        judged = pair[0].kind != steps.ZERO
+        found.append(Deviation(_step_name(pair[0], a.info), values, errors, judged, pair))
+    return found
 
 
 def _pairs_of_fits(a, b):
@@ -153,9 +139,8 @@ def _fits(pair):
     sampling where they are stated: what the form leaves open is the same in both. The fits are
     their origins."""
     found = []
-    for place, ((name, value, error), (_, other, others)) in enumerate(
-        zip(*(f.values for f in pair))
-    ):
+    both = enumerate(zip(*(fit.values for fit in pair)))
+    for place, ((name, value, error), (_, other, others)) in both:
         sampling = [fit.sampling_errors[place] for fit in pair]
         errors = (error, others) if np.isnan(sampling).any() else sampling
         found.append(Deviation(name, (value, other), errors, origins=pair))

@@ -56,18 +56,11 @@ class Compared:
         if inside is None:
             return None
         # members of a step fluctuate together, so their errors do not average out
-        forward, forward_error, backward, backward_error = (
-            float(values[inside].mean())
-            for values in (self.forward, self.forward_error, self.backward, self.backward_error)
-        )
+        of_all = self.forward, self.forward_error, self.backward, self.backward_error
+        means = [float(values[inside].mean()) for values in of_all]
+        forward, forward_error, backward, backward_error = means
         combined = np.hypot(forward_error, backward_error)
-        return (
-            forward,
-            forward_error,
-            backward,
-            backward_error,
-            float(_ratio(np.array(backward - forward), np.array(combined))),
-        )
+        return (*means, float(_ratio(np.array(backward - forward), np.array(combined))))
 
 
 def _ratio(difference, error):

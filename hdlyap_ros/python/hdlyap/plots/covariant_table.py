@@ -13,6 +13,8 @@ STEPS = 12  # steps and conjugate steps in a table
 UNRESOLVED = 4  # waves without a step
 LISTED = 8  # indices in a line
 ROUNDING = 1e-9  # of an angle [rad]
+ROW = '  {:<18} {:<11} {:>13} {:>13} '
+WEIGHTS = ROW + '{:>13} {:>13}'
 MET = 1e-3  # angle between spaces of two starts that are taken for one [rad]
 
 
@@ -36,19 +38,13 @@ def _head(message):
 
 def _exponents(recording):
     compared = covariant.Compared(recording)
-    lines = [
-        _head(recording.covariant),
-        f'  {"exponents":<18} {"indices":<11} {"forward":>13} {"backward":>13} '
-        'deviation in combined errors',
-    ]
+    head = ROW.format('exponents', 'indices', 'forward', 'backward')
+    lines = [_head(recording.covariant), head + 'deviation in combined errors']
     for name, block in _chosen(recording):
         means = compared.over(block)
         if means is not None:
-            forward, forward_error, backward, backward_error, deviation = means
-            lines.append(
-                f'  {name:<18} {block.indices:<11} {with_error(forward, forward_error):>13} '
-                f'{with_error(backward, backward_error):>13} {_deviation(deviation):>9}'
-            )
+            both = with_error(*means[:2]), with_error(*means[2:4])
+            lines.append(ROW.format(name, block.indices, *both) + f'{_deviation(means[4]):>9}')
     return '\n'.join([*lines, *_all_deviations(compared)])
 
 
@@ -63,10 +59,8 @@ def _deviation(deviation):
 def _all_deviations(compared):
     """The zero modes for themselves: what is left of them falls with the time of a window, not with
     an average."""
-    for what, chosen in (
-        ('without zero modes', ~compared.is_zero),
-        ('zero modes', compared.is_zero),
-    ):
+    zero = compared.is_zero
+    for what, chosen in (('without zero modes', ~zero), ('zero modes', zero)):
         off = np.where(chosen, compared.deviation, np.nan)
         count = int(np.isfinite(off).sum())
         if count:
@@ -85,31 +79,24 @@ def _weights(recording):
             _weight_row(half + steps.name(step, recording.info), block.indices, weights)
             for step, weights in covariant.weights_over(recording, block)
         ]
-    remark = []
-    for weight, indices, weights in list(covariant.unresolved_weights(recording))[:UNRESOLVED]:
+    without = list(covariant.unresolved_weights(recording))[:UNRESOLVED]
+    for weight, indices, weights in without:
+        name = steps.name(weight, recording.info) + ' *'
+        rows.append(_weight_row(name, _listed(indices), weights))
+    if without:
         rows.append(
-            _weight_row(steps.name(weight, recording.info) + ' *', _listed(indices), weights)
-        )
-        remark = [
             '  * no step found: as many vectors as its fields have dimensions, '
             'those with the largest dq weights'
-        ]
-    if rows:
-        yield '\n'.join(
-            [
-                'weights in the fields of the step, means over its vectors (halves normalised)',
-                f'  {"step":<18} {"indices":<11} {"Gram-Schmidt":>13} {"covariant dq":>13} '
-                f'{"covariant dp":>13} {"by chance":>13}',
-                *rows,
-                *remark,
-            ]
         )
+    if rows:
+        columns = 'Gram-Schmidt', 'covariant dq', 'covariant dp', 'by chance'
+        title = 'weights in the fields of the step, means over its vectors (halves normalised)'
+        yield '\n'.join([title, WEIGHTS.format('step', 'indices', *columns), *rows])
 
 
 def _weight_row(name, indices, weights):
-    return f'  {name:<18} {indices:<11} ' + ' '.join(
-        f'{weight:>13.3f}' if isfinite(weight) else f'{"-":>13}' for weight in weights
-    )
+    cells = (f'{weight:.3f}' if isfinite(weight) else '-' for weight in weights)
+    return WEIGHTS.format(name, indices, *cells)
 
 
 def _listed(indices):
@@ -128,11 +115,7 @@ def _spaces(recording):
     ]
     for angle in message.angles:
         at = covariant.only_bin(angle.all_counts)
-        remark = (
-            f'   all within {np.degrees(at[0]):.0f} .. {np.degrees(at[1]):.0f} degrees'
-            if at
-            else ''
-        )
+        remark = '   all within {:.0f} .. {:.0f} degrees'.format(*np.degrees(at)) if at else ''
         lines.append(
             f'  {covariant.SPACES[angle.spaces]:<16} {_angle(angle):>15} '
             f'{angle.least:>9.5f} {angle.mean_of_all:>10.5f}{remark}'
@@ -158,14 +141,11 @@ def _order(recording):
     isolated = covariant.isolated(message)
     names = ' '.join(map(str, isolated[:LISTED]))
     more = f' and {len(isolated) - LISTED} more' if len(isolated) > LISTED else ''
-    changed = int((violations > 0).sum())
-    return '\n'.join(
-        [
-            f'order of finite-time exponents: {changed} of {len(violations)} pairs of neighbours '
-            f'ever changed it, {100 * violations.mean():.1f} % of the time on average',
-            f'  dominated splittings ({len(isolated)})'
-            + (f': behind {names}{more}' if names else ''),
-        ]
+    behind = f': behind {names}{more}' if names else ''
+    return (
+        f'order of finite-time exponents: {(violations > 0).sum()} of {len(violations)} pairs of '
+        f'neighbours ever changed it, {100 * violations.mean():.1f} % of the time on average\n'
+        f'  dominated splittings ({len(isolated)}){behind}'
     )
 
 
@@ -177,21 +157,12 @@ def _convergence(recording):
         f'  vectors: sine {np.median(apart):.1e} in the middle, {apart.max():.1e} at most '
         '(those of equal exponents never meet)',
     ]
-    spaces = {
-        name: value
-        for name, value in (
-            ('centre', message.centre_start_mismatch),
-            ('stable', message.stable_start_mismatch),
-        )
-        if value >= 0
-    }
+    both = ('centre', message.centre_start_mismatch), ('stable', message.stable_start_mismatch)
+    spaces = {name: value for name, value in both if value >= 0}
     if spaces:
-        lines.append(
-            '  spaces: '
-            + ', '.join(f'{name} {value:.1e}' for name, value in spaces.items())
-            + ' rad'
-            + (': covariant_transient is too short' if max(spaces.values()) > MET else '')
-        )
+        said = ', '.join(f'{name} {value:.1e}' for name, value in spaces.items())
+        short = ': covariant_transient is too short' if max(spaces.values()) > MET else ''
+        lines.append(f'  spaces: {said} rad{short}')
     return '\n'.join([*lines, _seconds(recording)])
 
 

@@ -101,17 +101,12 @@ def _sums(recording):
         f'collisions      {spectrum.collisions}',
         f'lambda_max      {spectrum.lambda_max:.6f}{_error(spectrum.std_errors[0])}',
     ]
+    error, each = recording.sum_error, spectrum.ks_entropy / disks
+    total = f'{spectrum.ks_entropy:.4f}{_error(error, 4)}'
     if recording.last_index >= recording.positive_end:
-        lines += [
-            f'h_KS            {spectrum.ks_entropy:.4f}' + _error(recording.sum_error, 4),
-            f'h_KS / N        {spectrum.ks_entropy / disks:.6f}'
-            + _error(recording.sum_error / disks),
-        ]
+        lines += [f'h_KS            {total}', f'h_KS / N        {each:.6f}{_error(error / disks)}']
     elif len(spectrum.exponents) > 1:
-        lines.append(
-            f'sum of the {len(spectrum.exponents)} exponents carried {spectrum.ks_entropy:.4f}'
-            + _error(recording.sum_error, 4)
-        )
+        lines.append(f'sum of the {len(spectrum.exponents)} exponents carried {total}')
     if spectrum.pairing_error >= 0:
         lines.append(f'pairing error   {spectrum.pairing_error:.2e}')
     return '\n'.join(lines)
@@ -122,19 +117,15 @@ def _gas(recording):
     known = gas.pressure_error >= 0 and gas.pressure > 0
     relative = gas.pressure_error / gas.pressure if known else -1.0
     periodic = set(space.along(info, 'boundary_')) == {'periodic'}
-    axes, solid = space.axes(info), space.is_solid(info)
+    axes = space.axes(info)
+    of_z = 'Z = p V / N kT' if space.is_solid(info) else 'Z = p A / N'
     each = ', '.join(f'{getattr(gas, "pressure_" + axis):.6f}' for axis in axes)
     per = f'per {space.particle(info)} and time unit'
     rows = [
         ('collision rate', gas.collision_rate, gas.collision_rate_error, per),
         ('pressure', gas.pressure, gas.pressure_error, f'per sigma^{len(axes)}'),
         ('  of ' + ', '.join('p' + axis for axis in axes), each, -1.0, ''),
-        (
-            'Z = p V / N kT' if solid else 'Z = p A / N',
-            gas.compressibility,
-            relative * gas.compressibility,
-            '',
-        ),
+        (of_z, gas.compressibility, relative * gas.compressibility, ''),
     ]
     lines = [f'gas, averaged over {gas.averaged_time:g}']
     for name, value, error, unit in rows:
@@ -182,15 +173,10 @@ def _paper_block(recording):
         for step in paper.steps(recording.info)
         if spectrum.first_index <= step.first and step.last <= recording.last_index
     ]
-    if not steps:
-        return
-    yield '\n'.join(
-        [
-            'steps beside the ' + paper.FITS + ' (+-3 %)',
-            '  step     indices      k [1/sigma]  mean exponent      error    c k     ' 'deviation',
-            *(_paper_line(spectrum, step) for step in steps),
-        ]
-    )
+    head = '  step     indices      k [1/sigma]  mean exponent      error    c k     deviation'
+    lines = [_paper_line(spectrum, step) for step in steps]
+    if lines:
+        yield '\n'.join([f'steps beside the {paper.FITS} (+-3 %)', head, *lines])
 
 
 def _paper_line(spectrum, step):

@@ -67,22 +67,14 @@ def _length_in_slowest(run):
 
 def report(comparison):
     """All but the verdict."""
-    return '\n\n'.join(
-        [
-            _head(comparison),
-            *_parameters(comparison),
-            *_remarks(comparison),
-            *_quantities(comparison),
-            *_exponents(comparison),
-            *_largest(comparison),
-        ]
-    )
+    parts = _head, _parameters, _remarks, _quantities, _exponents, _largest
+    return '\n\n'.join(block for part in parts for block in part(comparison))
 
 
 def _head(comparison):
     a, b = comparison.runs
     lines = [f'{letter}  {origin(run.info)}' + _length(run) for letter, run in zip('ab', (a, b))]
-    return '\n'.join([*lines, f'both  {system(a.info)}'])
+    yield '\n'.join([*lines, f'both  {system(a.info)}'])
 
 
 def _length(run):
@@ -143,20 +135,17 @@ def _quantities(comparison):
 
 def _row(one, remark=''):
     z = f'{one.z:+.2f}' if one.is_known else '-'
-    measured = (with_error(value, error) for value, error in zip(one.values, one.errors))
+    measured = [with_error(value, error) for value, error in zip(one.values, one.errors)]
+    measured.append(with_error(one.difference, one.error))
     remark += '' if one.judged else ' (not judged)'
-    return ROW.format(
-        one.name, *measured, with_error(one.difference, one.error), z, remark
-    ).rstrip()
+    return ROW.format(one.name, *measured, z, remark).rstrip()
 
 
 def _of_step(one):
     a, b = one.origins
     indices = dict.fromkeys(steps.Block([step]).indices for step in (a, b))
-    return (
-        f'{" and ".join(indices)}: {a.multiplicity:.2f} and {b.multiplicity:.2f} '
-        f'of {a.expected}'
-    )
+    found = f'{a.multiplicity:.2f} and {b.multiplicity:.2f} of {a.expected}'
+    return f'{" and ".join(indices)}: {found}'
 
 
 def _of_fit(one):
@@ -176,19 +165,12 @@ def _exponents(comparison):
     )
     if seen:
         mean = sum(one.z**2 for one in seen) / len(seen)
-        text += (
-            f'\n  chi^2 / exponent {mean:.2f}; no test, because neighbours fluctuate ' 'together'
-        )
+        text += f'\n  chi^2 / exponent {mean:.2f}; no test, because neighbours fluctuate together'
     yield text
 
 
 def _largest(comparison):
-    rows = [
-        _row(one, f'{one.chance:.1e}')
-        for one in unlikeliest(comparison.deviations, LARGEST)
-        if one.z
-    ]
-    if rows:
-        yield '\n'.join(
-            ['largest deviations, and the probability of each alone', HEAD.format('chance'), *rows]
-        )
+    largest = [one for one in unlikeliest(comparison.deviations, LARGEST) if one.z]
+    rows = [HEAD.format('chance'), *(_row(one, f'{one.chance:.1e}') for one in largest)]
+    if largest:
+        yield '\n'.join(['largest deviations, and the probability of each alone', *rows])

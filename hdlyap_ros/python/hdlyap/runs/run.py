@@ -1,6 +1,7 @@
 """One run of many: its name, the parameters of its node, whether it is done, and about how many
 seconds it takes: on all of two cores if it is wide, else on one."""
 
+import contextlib
 import functools
 from math import isfinite
 import os
@@ -9,10 +10,11 @@ import subprocess
 import yaml
 
 import hdlyap
+from hdlyap import whole
 from hdlyap.data.reader import RecordingError
 from hdlyap.plots import repetition
 
-from . import files, ranks
+from . import ranks
 from .scene import Refused
 
 ABOUT = 'A run of hdlyap sweep.'  # first line of its scene file
@@ -69,8 +71,11 @@ class Run:
         text = f'# {ABOUT}\n' + yaml.safe_dump(
             self.parameters, sort_keys=False, default_flow_style=None
         )
-        if files.read(self.scene_file(folder)) != text:
-            files.write(self.scene_file(folder), text)
+        path = self.scene_file(folder)
+        with contextlib.suppress(OSError, UnicodeDecodeError), open(path) as file:
+            if file.read() == text:
+                return
+        whole.write(path, text)
 
     def errors_after(self, folder):
         """Averaged time from which it states errors, as the node says of its scene file there; None

@@ -2,11 +2,12 @@
 
 import itertools
 
+import numpy as np
+
 from hdlyap.data import space
-from hdlyap.plots.figures.style import GREY, MEMBER_COLOURS, plt
+from hdlyap.plots.figures.style import FEW, GREY, MEMBER_COLOURS, plt
 
 from .points import FITTED, QUANTITIES, varied
-import numpy as np
 
 LABELS = {
     'disks': 'number of disks $N$',
@@ -15,6 +16,7 @@ LABELS = {
     'aspect_z': 'aspect ratio $L_z/L_x$',
     'boundary': 'boundary',
 }
+SHORT = {'disks': '$N$', 'density': r'$\rho$', 'aspect': '$L_y/L_x$', 'aspect_z': '$L_z/L_x$'}
 NAMES = {
     'lambda_max': r'$\lambda_{max}$  [1/time unit]',
     'h_KS/N': r'$h_{KS}/N$  [1/time unit]',
@@ -54,14 +56,7 @@ def _count(points, name):
 
 
 def _said(name, value):
-    short = {
-        'disks': '$N$',
-        'density': r'$\rho$',
-        'aspect': '$L_y/L_x$',
-        'aspect_z': '$L_z/L_x$',
-        'boundary': '',
-    }
-    return f'{short[name]} = {value:g}' if short[name] else value
+    return f'{SHORT[name]} = {value:g}' if name in SHORT else value
 
 
 def _series(points, names):
@@ -118,18 +113,9 @@ def _point(axes, place, value, number):
     """Open if the fit is c k or c k + c2 k^2 alone, which have the rest of the curvature in c; a
     cross if nothing is known of its error."""
     colour, marker = _look(number)
-    marker = marker if np.isfinite(value.error) else 'x'
-    axes.errorbar(
-        place,
-        value.value,
-        value.error if np.isfinite(value.error) else None,
-        fmt=marker,
-        color=colour,
-        markerfacecolor='white' if _is_open(value) else colour,
-        markersize=4.5,
-        elinewidth=0.9,
-        capsize=2,
-    )
+    marker, error = (marker, value.error) if np.isfinite(value.error) else ('x', None)
+    face = 'white' if _is_open(value) else colour
+    axes.errorbar(place, value.value, error, fmt=marker, color=colour, markerfacecolor=face, **FEW)
 
 
 def _is_open(value):
@@ -149,12 +135,9 @@ def _explain(figure, panels, series, points):
     if any(map(_is_open, values)):
         lines.append('open: the rest of the curvature is in c; the form is in sweep.txt')
     handles = []
-    if len(series) > 1:
-        for number, label in enumerate(series):
-            colour, marker = _look(number)
-            handles.append(
-                plt.Line2D([], [], linestyle='', marker=marker, color=colour, label=label)
-            )
+    for number, label in enumerate(series if len(series) > 1 else ()):
+        look = dict(zip(('color', 'marker'), _look(number)))
+        handles.append(plt.Line2D([], [], linestyle='', label=label, **look))
     columns = min(4, len(handles))
     rows = -(-len(handles) // columns) if handles else 0
     height = figure.get_figheight()

@@ -55,17 +55,11 @@ class Point:
 
     @staticmethod
     def _value(row, factor=1.0, fit=None):
-        of_one = {'scatter': NAN, 'chi2': NAN, 'runs': 1}
-        several = {name: row.get(name, of_one[name]) for name in of_one}
-        return Value(
-            float(row['value']) * factor,
-            float(row['std_error']) * factor,
-            float(several['scatter']) * factor,
-            float(several['chi2']),
-            int(several['runs']),
-            float(row['misfit']),
-            fit,
-        )
+        """Of one run there is no scatter."""
+        names = 'value', 'std_error', 'scatter'
+        scaled = (float(row.get(name, NAN)) * factor for name in names)
+        chi2, misfit = float(row.get('chi2', NAN)), float(row['misfit'])
+        return Value(*scaled, chi2, int(row.get('runs', 1)), misfit, fit)
 
     @property
     def unlike(self):

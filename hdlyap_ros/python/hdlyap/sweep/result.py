@@ -2,8 +2,8 @@
 
 import os
 
+from hdlyap import whole
 from hdlyap.plots.figures.style import STYLE, plt, save
-from hdlyap.runs import files
 
 from . import figure, points, table
 
@@ -21,7 +21,7 @@ def write(paths, folder=None, choice=(None, None)):
     if not folder:
         return wrong
     made = [os.path.join(folder, f'{NAME}.{ending}') for ending in ('txt', 'csv')]
-    files.write(made[0], lines + '\n')
+    whole.write(made[0], lines + '\n')
     table.csv(found, made[1])
     with plt.rc_context(STYLE):
         drawn = figure.draw(found)

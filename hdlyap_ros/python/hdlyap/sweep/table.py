@@ -2,9 +2,9 @@
 
 from math import isfinite, sqrt
 
+from hdlyap import whole
 from hdlyap.data import space
 from hdlyap.numbers import with_error
-from hdlyap.runs import files
 
 from .points import FITTED, NAN, QUANTITIES, varied
 
@@ -39,18 +39,11 @@ def text(points):
     names, fixed = varied(points)
     marks = Marks(points)
     yield 'the same in all: ' + ', '.join(f'{name} {_plain(x)}' for name, x in fixed.items())
-    yield from _table(
-        [*names, *QUANTITIES, 'seeds', 'averaged time'],
-        [
-            [
-                *_of_system(point, names),
-                *(_cell(point, name, marks) for name in QUANTITIES),
-                str(len(point.runs)),
-                f'{point.data.averaged_time:g}',
-            ]
-            for point in points
-        ],
-    )
+    rows = []
+    for point in points:
+        rows.append([*_of_system(point, names), *(_cell(point, q, marks) for q in QUANTITIES)])
+        rows[-1] += [str(len(point.runs)), f'{point.data.averaged_time:g}']
+    yield from _table([*names, *QUANTITIES, 'seeds', 'averaged time'], rows)
     yield from marks.explained()
     yield from (line for point in points for line in point.data.left_out)
     if any(point.unlike for point in points):
@@ -58,15 +51,13 @@ def text(points):
     several = [point for point in points if len(point.runs) > 1]
     if several:
         yield 'errors of the means over seeds, of which the larger one is above:'
-        yield from _table(
-            [*names, 'quantity', 'from those stated', 'from the scatter', 'chi^2/(seeds - 1)'],
-            [
-                [*_of_system(point, names), name, *_errors(point.values[name])]
-                for point in several
-                for name in QUANTITIES
-                if name in point.values
-            ],
-        )
+        head = 'quantity', 'from those stated', 'from the scatter', 'chi^2/(seeds - 1)'
+        rows = [
+            [*_of_system(point, names), name, *_errors(value)]
+            for point in several
+            for name, value in point.values.items()
+        ]
+        yield from _table([*names, *head], rows)
         yield from _scattered(points, names)
 
 
@@ -125,7 +116,7 @@ def csv(points, path):
     for name, unit in QUANTITIES.items():
         head += [f'{name} [{unit}]', f'{name} std_error', f'{name} scatter', f'{name} chi2']
         head += [f'{name} misfit', f'{name} basis'] if name in FITTED else []
-    files.write_csv(path, head, map(_row, points))
+    whole.write_csv(path, head, map(_row, points))
 
 
 def _row(point):
