@@ -96,11 +96,7 @@ def _ended(name, module, args):
         where = f'{os.path.basename(place.filename)}, line {place.lineno}'
         what = f'{type(error).__name__}: {error} ({where})'
         of_tex = any(os.path.basename(frame.filename) in TEX for frame in frames)
-        whose = (
-            'text.usetex of matplotlibrc does not work'
-            if of_tex
-            else 'what is recorded makes no sense'
-        )
-        text = f'{whose} here: {what}'
+        tex = 'text.usetex of matplotlibrc does not work'
+        text = f'{tex if of_tex else "what is recorded makes no sense"} here: {what}'
     print(f'{PROGRAM} {name}: {plain(text, 8192)}', file=sys.stderr)
     return fault or 1

@@ -37,11 +37,8 @@ def main(args):
 
 def follow(args):
     node = nodes.chosen('follow', args.node, args.timeout)
-    status = (
-        line.follow(node)
-        if args.line or not screen.is_usable()
-        else dashboard.follow(node, args.plain)
-    )
+    in_a_line = args.line or not screen.is_usable()
+    status = line.follow(node) if in_a_line else dashboard.follow(node, args.plain)
     if status == 3:
         print(f'hdlyap follow: {node} went away before the end of its run', file=sys.stderr)
     return status

@@ -47,7 +47,7 @@ def options(parser):
         help='which run, if several are in the bag, from 1 (default: the last)',
     )
     fits.add_arguments(parser)
-    names = [figures.name(kind) for kind in figures.FIGURES]
+    names = list(figures.FIGURES)
     parser.add_argument(
         '--only', nargs='+', choices=names, metavar='FIGURE', help='out of ' + ', '.join(names)
     )
@@ -99,9 +99,9 @@ def main(args):
     if run.spectrum is None:
         print('\nno averaged spectrum in this bag: only the cost can be drawn')
     os.makedirs(args.out, exist_ok=True)
-    kinds = figures.OF_MEANS if run.is_mean else figures.FIGURES
-    kinds = [kind for kind in kinds if not args.only or figures.name(kind) in args.only]
-    files = figures.draw_all(run, args.out, Progress('drawing'), kinds, args.pdf)
+    names = figures.OF_MEANS if run.is_mean else figures.FIGURES
+    names = [name for name in names if not args.only or name in args.only]
+    files = figures.draw_all(run, args.out, Progress('drawing'), names, args.pdf)
     drawn = {os.path.basename(file).partition('.')[0] for file in files}
     if args.csv or args.npz:
         files += exported(run.data, args)

@@ -143,14 +143,12 @@ class Player:
                         '%s: damaged: a %s %s, which is no name' % (args.bag, what, name)
                     )
             if connection.topic not in self._publishers:
-                self._publishers[connection.topic] = rospy.Publisher(
-                    connection.topic,
-                    raw_class(connection),
-                    queue_size=None,  # waits for who reads slowly; rospy warns of it
-                    # rosbag filter forgets it
-                    latch=connection.datatype == reader.RUN_INFO
-                    or connection.header.get('latching') in (b'1', '1'),
-                )
+                latching = connection.header.get('latching')  # which rosbag filter forgets
+                latch = connection.datatype == reader.RUN_INFO or latching in (b'1', '1')
+                # queue_size=None waits for who reads slowly; rospy warns of it
+                how = {'queue_size': None, 'latch': latch}
+                of_topic = rospy.Publisher(connection.topic, raw_class(connection), **how)
+                self._publishers[connection.topic] = of_topic
         rospy.Service('~pause_playback', SetBool, lambda request: self._pause(request.data))
 
     def _pause(self, yes):
@@ -163,12 +161,13 @@ class Player:
             self._wait_until(lambda: all(map(is_heard, self._publishers.values())))
         end = time.monotonic() + CONNECTING
         subscribers = dict(rosgraph.Master(rospy.get_name()).getSystemState()[1])
+        wanted = {
+            publisher: len(subscribers.get(publisher.resolved_name, ()))
+            for publisher in self._publishers.values()
+        }
         self._wait_until(
             lambda: time.monotonic() > end
-            or all(
-                publisher.get_num_connections() >= len(subscribers.get(publisher.resolved_name, ()))
-                for publisher in self._publishers.values()
-            )
+            or all(one.get_num_connections() >= count for one, count in wanted.items())
         )
         while not rospy.is_shutdown():
             self._play_once()
@@ -192,11 +191,8 @@ class Player:
                 return
             self._publish(message)
         if not played:
-            raise reader.RecordingError(
-                '%s: nothing from t = %g on' % (self._args.bag, self._args.begin)
-                if message
-                else '%s: an empty bag' % self._args.bag
-            )
+            nothing = 'nothing from t = %g on' % self._args.begin if message else 'an empty bag'
+            raise reader.RecordingError('%s: %s' % (self._args.bag, nothing))
         print('hdlyap replay: at the end, t = %g' % message.time)
 
     def _publish(self, message):

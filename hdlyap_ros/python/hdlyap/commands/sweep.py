@@ -71,11 +71,8 @@ def understood(args, launch, cwd):
     recording.Space(args.min_space, path)  # or refused
     if os.path.exists(path) and not os.path.isdir(path):
         raise Refused(f'folder = {folder}: must be a folder')
-    return (
-        chosen(runs(args, launch, cwd), args.only),
-        path,
-        int(args.jobs or len(os.sched_getaffinity(0))),
-    )
+    jobs = int(args.jobs or len(os.sched_getaffinity(0)))
+    return chosen(runs(args, launch, cwd), args.only), path, jobs
 
 
 def runs(args, launch, cwd):

@@ -45,14 +45,10 @@ class Nodes:
 
     def look(self):
         """To be called before each round of questions."""
-        processes = [
-            (process.is_alive, '/' + process.name.rpartition('-')[0])
-            for process in netapi.list_processes()
-        ]
-        alive, dead = (
-            {name for is_alive, name in processes if is_alive == wanted} for wanted in (True, False)
-        )
-        self._dead = dead - alive
+        found = {True: set(), False: set()}
+        for process in netapi.list_processes():
+            found[process.is_alive].add('/' + process.name.rpartition('-')[0])
+        self._dead = found[False] - found[True]
 
     def has_ended(self, node):
         return node in self._dead or self._is_silent(node)
@@ -70,9 +66,8 @@ class Nodes:
 
 def stop(node):
     try:
-        xmlrpc.client.ServerProxy(nodes.address(node)).shutdown(
-            rospy.get_name(), 'the run has ended'
-        )
+        there = xmlrpc.client.ServerProxy(nodes.address(node))
+        there.shutdown(rospy.get_name(), 'the run has ended')
     except nodes.UNANSWERED:
         pass  # it is about to end
 

@@ -65,12 +65,17 @@ class Block:
         )
 
 
+def _half(message, conjugate):
+    """Steps of one half of the spectrum without the zero modes; none without a message."""
+    every = message.steps if message is not None else ()
+    return [step for step in every if step.kind != ZERO and step.conjugate == conjugate]
+
+
 def blocks(message, info=None, conjugate=False):
-    """Resolved steps of one half of the spectrum without the zero modes, smallest |lambda| first;
-    none without a message."""
+    """Resolved steps of one half, smallest |lambda| first."""
     sets = {}
-    for step in message.steps if message is not None else ():
-        if step.resolved and step.kind != ZERO and step.conjugate == conjugate:
+    for step in _half(message, conjugate):
+        if step.resolved:
             sets.setdefault(step.set, []).append(step)
     found = (Block(steps, info) for steps in sets.values())
     return sorted(found, key=lambda block: abs(block.height))
@@ -78,31 +83,25 @@ def blocks(message, info=None, conjugate=False):
 
 def all_blocks(message, info=None):
     """Of the zero modes, if they are resolved, and of both halves; none without a message."""
-    zero = zero_modes(message) if message is not None else None
+    zero = zero_modes(message)
     found = [Block([zero])] if zero is not None and zero.resolved else []
     return found + blocks(message, info) + blocks(message, info, conjugate=True)
 
 
 def resolved(message, info=None, conjugate=False):
-    """{name: step} of one half of the spectrum without the zero modes; empty without a message."""
-    return {
-        name(step, info): step
-        for step in (message.steps if message is not None else ())
-        if step.resolved and step.kind != ZERO and step.conjugate == conjugate
-    }
+    """{name: step} of one half."""
+    return {name(step, info): step for step in _half(message, conjugate) if step.resolved}
 
 
-def unresolved(message, conjugate=False):
-    return [
-        step
-        for step in message.steps
-        if not step.resolved and step.kind != ZERO and step.conjugate == conjugate
-    ]
+def unresolved(message):
+    """Of the positive half."""
+    return [step for step in _half(message, False) if not step.resolved]
 
 
 def zero_modes(message):
-    """The step of the zero modes; None if the message has none."""
-    return next((step for step in message.steps if step.kind == ZERO), None)
+    """The step of the zero modes; None if there is none."""
+    every = message.steps if message is not None else ()
+    return next((step for step in every if step.kind == ZERO), None)
 
 
 def resolved_lp(message):

@@ -132,9 +132,8 @@ class Film:
 
 def wave_name(kind, nodes):
     """T(1,0); None of a vector that is of no such step."""
-    return (
-        f'{steps.NAMES[kind]}({",".join(map(str, nodes))})' if kind in (steps.T, steps.LP) else None
-    )
+    named = kind in (steps.T, steps.LP)
+    return f'{steps.NAMES[kind]}({",".join(map(str, nodes))})' if named else None
 
 
 def _apart(times):

@@ -70,9 +70,8 @@ class Panel:
             return
         dq = space.vectors(field, 'dq')
         dq *= ARROW * self._distance / np.sqrt(np.mean(np.sum(dq**2, axis=0)))
-        dq *= np.minimum(
-            1, LONGEST * self._distance / np.maximum(np.linalg.norm(dq, axis=0), 1e-300)
-        )
+        lengths = np.maximum(np.linalg.norm(dq, axis=0), 1e-300)
+        dq *= np.minimum(1, LONGEST * self._distance / lengths)
         q = space.vectors(field)
         order = self._view.order(q)
         q, dq = q[:, order], dq[:, order]
@@ -97,11 +96,9 @@ class Panel:
         step = self._film.steps.get(self._name)
         if field is None:
             return f'{self._name}: not resolved yet'
-        number = (
-            with_error(step.exponent, known(step.std_error))
-            if step is not None
-            else f'{field.exponent:.4f}'
-        )
+        number = f'{field.exponent:.4f}'
+        if step is not None:
+            number = with_error(step.exponent, known(step.std_error))
         of = f' of $t={field.sim_time:.1f}$' if field.sim_time != frame.time else ''
         return f'{self._name}   $\\lambda={number}$\nvector {field.index}{of}'
 
@@ -120,9 +117,8 @@ def dial(axes, number):
     box = axes.figure.transFigure.inverted().transform_bbox(axes.get_window_extent())
     size = 0.22 / axes.figure.get_figheight()
     across = size * axes.figure.get_figheight() / axes.figure.get_figwidth()
-    inset = axes.figure.add_axes(
-        [box.x1 - (number + 1) * 1.35 * across, box.y1 + 0.25 * size, across, size]
-    )
+    left = box.x1 - (number + 1) * 1.35 * across
+    inset = axes.figure.add_axes([left, box.y1 + 0.25 * size, across, size])
     inset.set_axis_off()
     inset.set_xlim(-1.05, 1.05)
     inset.set_ylim(-1.05, 1.05)
@@ -158,32 +154,21 @@ class Picture:
         across = (INCHES - GAP * (columns + 1)) / columns
         high = across * tall / wide
         height = TOP + rows * (high + TITLE)
-        self.figure = Figure(
-            figsize=(INCHES, height), dpi=(width + 0.5) / INCHES
-        )  # cut to a whole number
+        dpi = (width + 0.5) / INCHES  # cut to a whole number
+        self.figure, look = Figure(figsize=(INCHES, height), dpi=dpi), {'va': 'top', 'fontsize': 8}
         FigureCanvasAgg(self.figure)
-        self._title = self.figure.text(
-            0.5, 1 - 0.08 / height, '', ha='center', va='top', fontsize=8
-        )
+        self._title = self.figure.text(0.5, 1 - 0.08 / height, '', ha='center', **look)
         for mode, colour, place in (('L', ALL_L, INCHES - GAP - 0.3), ('P', ALL_P, INCHES - GAP)):
             if any(name.startswith('LP') for name in film.names):
-                self.figure.text(
-                    *(place / INCHES, 1 - 0.22 / height),
-                    f'\u25cf {mode}',
-                    color=colour,
-                    ha='right',
-                    va='top',
-                    fontsize=8,
-                )
+                at = place / INCHES, 1 - 0.22 / height
+                self.figure.text(*at, f'\u25cf {mode}', color=colour, ha='right', **look)
         self._film, self._panels = film, []
         for k, name in enumerate(film.names):
             row, column = divmod(k, columns)
             left = GAP + column * (across + GAP)
             bottom = height - TOP - (row + 1) * (high + TITLE) + GAP
-            axes = self.figure.add_axes(
-                [left / INCHES, bottom / height, across / INCHES, high / height]
-            )
-            self._panels.append(Panel(axes, name, film))
+            room = left / INCHES, bottom / height, across / INCHES, high / height
+            self._panels.append(Panel(self.figure.add_axes(room), name, film))
 
     def show(self, frame):
         self._title.set_text(f'{scene(self._film.info)}\n$t={frame.time:.1f}$')

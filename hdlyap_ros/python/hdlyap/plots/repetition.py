@@ -8,25 +8,9 @@ from hdlyap.data import reader, space
 from hdlyap.data.waves import is_round
 
 # of run_info, what is no parameter: what follows from them, and what the run ran on
-RESULTS = (
-    'header',
-    'run_id',
-    'version',
-    'box_x',
-    'box_y',
-    'box_z',
-    'vectors',
-    'zero_exponents',
-    'wave_nx',
-    'wave_ny',
-    'wave_nz',
-    'resumed_time',
-    'ranks',
-    'blas_threads',
-    'blas_library',
-    'blas_kernel',
-    'blas_threading',
-)
+RESULTS = ('header', 'run_id', 'version', 'box_x', 'box_y', 'box_z', 'vectors', 'zero_exponents')
+RESULTS += ('wave_nx', 'wave_ny', 'wave_nz', 'resumed_time', 'ranks')
+RESULTS += ('blas_threads', 'blas_library', 'blas_kernel', 'blas_threading')
 OF_SPHERES = ('aspect_z', 'boundary_z')  # which disks have not
 OF_A_BOX = ('aspect', 'boundary_x', 'boundary_y')  # which a circle has not
 # a word, or a list of numbers as text
@@ -58,13 +42,8 @@ def parameters(info):
     results += () if space.is_solid(info) else OF_SPHERES
     names = [name for name in info.__slots__ if name not in results]
     asked = {name: getattr(info, name) for name in names}
-    asked.update(
-        {name: _list_of(asked[name]) for name in LISTS},
-        interval=info.interval or 'auto',
-        phase_interval=info.phase_interval or 'auto',
-        checkpoint='',
-        resume='',
-    )
+    asked.update({name: _list_of(asked[name]) for name in LISTS}, checkpoint='', resume='')
+    asked.update({name: asked[name] or 'auto' for name in ('interval', 'phase_interval')})
     before = {change.name: change.before for change in reversed(info.changes)}  # as it began
     asked.update({name: _typed(asked[name], value) for name, value in before.items()})
     return {**asked, 'changes': [_change(change) for change in info.changes]}

@@ -168,13 +168,10 @@ def _in_columns(head, cells):
 def _paper_block(recording):
     """Of a run that did not look for steps, those that the paper has at the same indices."""
     spectrum = recording.spectrum
-    steps = [
-        step
-        for step in paper.steps(recording.info)
-        if spectrum.first_index <= step.first and step.last <= recording.last_index
-    ]
     head = '  step     indices      k [1/sigma]  mean exponent      error    c k     deviation'
-    lines = [_paper_line(spectrum, step) for step in steps]
+    first, last = spectrum.first_index, recording.last_index
+    steps = paper.steps(recording.info)
+    lines = [_paper_line(spectrum, s) for s in steps if first <= s.first and s.last <= last]
     if lines:
         yield '\n'.join([f'steps beside the {paper.FITS} (+-3 %)', head, *lines])
 

@@ -37,9 +37,8 @@ def _steps(recording):
         f'steps: at least {100 * message.threshold:.0f} % of the expected multiplicity found '
         '(standard errors)'
     )
-    rows = [zero_cells(recording)] + [
-        cells for cells, _ in block_rows(message, fitted, recording.info)
-    ]
+    rows = [cells for cells, _ in block_rows(message, fitted, recording.info)]
+    rows.insert(0, zero_cells(recording))
     if fitted:
         title += f'\nc k: {paper.FITS} (+-3 %)'
     remarks = _remarks(message, recording.info)
@@ -69,40 +68,25 @@ def zero_cells(run):
     if zero is None or not zero.resolved:
         carried = run.last_index > run.positive_end
         return ['zero modes', 'not found' if carried else 'not carried']
-    return [
-        'zero modes',
-        steps.Block([zero]).indices,
-        f'{zero.multiplicity:.2f}',
-        str(zero.expected),
-        '',
-        with_error(zero.exponent, zero.std_error),
-    ]
+    indices, exponent = steps.Block([zero]).indices, with_error(zero.exponent, zero.std_error)
+    return ['zero modes', indices, *_found(zero), '', exponent]
+
+
+def _found(step):
+    """And expected, of a step or of a block."""
+    return f'{step.multiplicity:.2f}', str(step.expected)
 
 
 def _shared_cells(block):
     known = {step.sharing for step in block.steps} - {Step.SHARING_UNKNOWN}
     said = sorted({SHARING.get(value, '') for value in known} - {''})
-    return [
-        block.name,
-        block.indices,
-        f'{block.multiplicity:.2f}',
-        str(block.expected),
-        '',
-        ', '.join(said),
-    ]
+    return [block.name, block.indices, *_found(block), '', ', '.join(said)]
 
 
 def _cells(block, step, name, fitted):
     """A step that shares its set is indented below the names of all."""
-    shared = len(block.steps) > 1
-    cells = [
-        '  ' + name if shared else name,
-        '' if shared else block.indices,
-        f'{step.multiplicity:.2f}',
-        str(step.expected),
-        f'{step.wave_number:.5f}',
-        with_error(step.exponent, step.std_error),
-    ]
+    cells = ['  ' + name, ''] if len(block.steps) > 1 else [name, block.indices]
+    cells += [*_found(step), f'{step.wave_number:.5f}', with_error(step.exponent, step.std_error)]
     if name in fitted:
         cells += [f'{fitted[name]:.4f}', f'{100 * (step.exponent / fitted[name] - 1):+.2f} %']
     return cells
@@ -133,13 +117,9 @@ def _conjugates(message, half, info):
     """The negative half in a line: found as often, and how far it is from a mirror image."""
     found = [step for step in half if step.resolved]
     line = f'conjugate steps of the negative half: {len(found)} of {len(half)} resolved'
-    mirror = {
-        steps.name(step, info): step.exponent
-        for step in message.steps
-        if step.resolved and not step.conjugate
-    }
+    mirror = steps.resolved(message, info)
     names = ((steps.name(step, info), step.exponent) for step in found)
-    sums = [abs(exponent + mirror[name]) for name, exponent in names if name in mirror]
+    sums = [abs(exponent + mirror[name].exponent) for name, exponent in names if name in mirror]
     return line + (f', largest |sum with its partner| {max(sums):.1e}' if sums else '')
 
 
@@ -158,11 +138,9 @@ def _fit_lines(fit):
     """What it stands on, and its coefficients."""
     if not fit.count:
         return [f'  {fit.symbol:<5} {_why_none(fit)}']
-    basis = (
-        f'{fit.basis}, {fit.count} of them'
-        if fit.symbol == 'v'
-        else f'{steps.NAMES[fit.kind]} steps: {fit.basis}'
-    )
+    basis = f'{steps.NAMES[fit.kind]} steps: {fit.basis}'
+    if fit.symbol == 'v':
+        basis = f'{fit.basis}, {fit.count} of them'
     values = [f'  {name:<5} {with_error(value, error)}' for name, value, error in fit.values]
     return [f'  {basis}{fit.beside}', *values]
 

@@ -6,16 +6,16 @@ import tkinter
 from matplotlib.backends.backend_tkagg import FigureCanvasTkAgg
 from matplotlib.figure import Figure
 
-from .figures import convergence, dispersion, name, phases, spectrum, steps
+from .figures import FIGURES
 from .figures.style import STYLE, plt
 
 # figure: row, column, rows
 PLACES = {
-    spectrum: (0, 0, 1),
-    dispersion: (1, 0, 1),
-    steps: (0, 1, 1),
-    phases: (1, 1, 1),
-    convergence: (0, 2, 2),
+    'spectrum': (0, 0, 1),
+    'dispersion': (1, 0, 1),
+    'steps': (0, 1, 1),
+    'phases': (1, 1, 1),
+    'convergence': (0, 2, 2),
 }
 COLUMNS, ROWS = (7, 6, 5), (1, 1)  # how they share the window
 INCHES = 10.6  # that its height counts for: letters grow with the window
@@ -35,7 +35,7 @@ class Window:
         self._root.protocol('WM_DELETE_WINDOW', self.close)
         self._root.bind('q', lambda _: self.close())
         self._words = tkinter.StringVar(self._root)
-        self._canvases = {kind: self._canvas(*place) for kind, place in PLACES.items()}
+        self._canvases = {name: self._canvas(*place) for name, place in PLACES.items()}
         self._share()
         self.is_open = True
 
@@ -78,9 +78,9 @@ class Window:
         self._words.set(words)
 
     def draw(self, recorded):
-        for kind, canvas in self._canvases.items():
+        for name, canvas in self._canvases.items():
             with plt.rc_context(STYLE):
-                self._show(canvas, kind.draw(recorded) or _none(name(kind)))
+                self._show(canvas, FIGURES[name].draw(recorded) or _none(name))
 
     def _show(self, canvas, figure):
         plt.close(figure)  # of pyplot's list alone

@@ -52,9 +52,9 @@ class Display:
 
 def _fitting(count, shares, rest):
     """As many of the runs as a terminal has room for; the rest is what one wants to know."""
-    width = (
-        os.get_terminal_size(sys.stdout.fileno()).columns - 1 if sys.stdout.isatty() else 10**6
-    )
+    width = 10**6
+    if sys.stdout.isatty():
+        width = os.get_terminal_size(sys.stdout.fileno()).columns - 1
     for shown in range(len(shares), -1, -1):
         others = [f'{len(shares) - shown} more'] if shown < len(shares) else []
         line = '  '.join([count, *shares[:shown], *others, rest])

@@ -38,10 +38,8 @@ class Space:
         return self.free < self._least
 
     def __str__(self):
-        return (
-            f'less than min_space = {self.text} is free in {self._folder}: '
-            f'{self.free / UNITS["M"]:.0f}M'
-        )
+        free = f'{self.free / UNITS["M"]:.0f}M'
+        return f'less than min_space = {self.text} is free in {self._folder}: {free}'
 
 
 def record(program, path, space, words, came):

@@ -68,9 +68,8 @@ class Run:
 
     def write(self, folder):
         """The scene file, if it is not there with these very parameters."""
-        text = f'# {ABOUT}\n' + yaml.safe_dump(
-            self.parameters, sort_keys=False, default_flow_style=None
-        )
+        text = yaml.safe_dump(self.parameters, sort_keys=False, default_flow_style=None)
+        text = f'# {ABOUT}\n{text}'
         path = self.scene_file(folder)
         with contextlib.suppress(OSError, UnicodeDecodeError), open(path) as file:
             if file.read() == text:
@@ -80,12 +79,8 @@ class Run:
     def errors_after(self, folder):
         """Averaged time from which it states errors, as the node says of its scene file there; None
         if the node refuses it, which it says when it runs."""
-        said = subprocess.run(
-            [ranks.node(dimensions(self.parameters)), '--errors', self.scene_file(folder)],
-            stdout=subprocess.PIPE,
-            stderr=subprocess.DEVNULL,
-            text=True,
-        )
+        asked = [ranks.node(dimensions(self.parameters)), '--errors', self.scene_file(folder)]
+        said = subprocess.run(asked, capture_output=True, text=True)
         return float(said.stdout) if said.returncode == 0 else None
 
     def lacks(self, folder):
@@ -150,10 +145,8 @@ def _estimate(parameters):
 @functools.lru_cache(maxsize=None)
 def usual(dimensions=2):
     """The default of every parameter, as the node of disks or of spheres says."""
-    said = subprocess.run(
-        [ranks.node(dimensions), '--parameters'], check=True, stdout=subprocess.PIPE
-    ).stdout
-    return yaml.safe_load(said)
+    asked = [ranks.node(dimensions), '--parameters']
+    return yaml.safe_load(subprocess.run(asked, check=True, stdout=subprocess.PIPE).stdout)
 
 
 def dimensions(parameters):

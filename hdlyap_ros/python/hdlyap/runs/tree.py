@@ -18,14 +18,9 @@ class Tree:
     def __init__(self, command, output=subprocess.DEVNULL):
         mark = uuid.uuid4().hex
         self._entry = f'{MARK}={mark}'.encode()
-        self._process = subprocess.Popen(
-            ['setpriv', '--pdeathsig', 'INT', *command],
-            stdin=subprocess.DEVNULL,
-            stdout=output,
-            stderr=subprocess.STDOUT,
-            start_new_session=True,
-            env={**os.environ, MARK: mark},
-        )
+        streams = {'stdin': subprocess.DEVNULL, 'stdout': output, 'stderr': subprocess.STDOUT}
+        how = {'start_new_session': True, 'env': {**os.environ, MARK: mark}, **streams}
+        self._process = subprocess.Popen(['setpriv', '--pdeathsig', 'INT', *command], **how)
 
     def has_ended(self):
         """Whether the command has."""
@@ -50,11 +45,8 @@ class Tree:
     def _members(self):
         """Processes; not those that are dead but for their parents' wait, which have no
         environment."""
-        return [
-            int(entry)
-            for entry in os.listdir('/proc')
-            if entry.isdecimal() and self._entry in _environment(entry)
-        ]
+        processes = filter(str.isdecimal, os.listdir('/proc'))
+        return [int(number) for number in processes if self._entry in _environment(number)]
 
 
 def end(trees, patience, is_pressed=lambda: False):
@@ -62,11 +54,9 @@ def end(trees, patience, is_pressed=lambda: False):
     for tree in trees:
         tree.ask()
     deadline = time.monotonic() + patience
-    while (
-        not all(tree.is_gone() for tree in trees)
-        and time.monotonic() < deadline
-        and not is_pressed()
-    ):
+    while time.monotonic() < deadline and not is_pressed():
+        if all(tree.is_gone() for tree in trees):
+            break
         time.sleep(POLL)
     for tree in trees:
         tree.insist()

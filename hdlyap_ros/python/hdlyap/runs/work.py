@@ -37,32 +37,19 @@ class Job:
 
     def __init__(self, run, folder, log, min_space):
         self.run, self.log = run, log
-        self._folder, self._new = folder, os.path.join(
-            folder, UNDER_WAY, f'{run.name}.{os.getpid()}'
-        )
+        self._folder = folder
+        self._new = os.path.join(folder, UNDER_WAY, f'{run.name}.{os.getpid()}')
         self.status = None  # its last message
         self._began = time.monotonic()
         os.makedirs(self._new, exist_ok=True)
         run.write(folder)
         run.write(self._new)
-        self._subscriber = rospy.Subscriber(
-            run.node + '/status', RunStatus, self._hear, queue_size=10
-        )
+        topic = run.node + '/status'
+        self._subscriber = rospy.Subscriber(topic, RunStatus, self._hear, queue_size=10)
+        words = [f'__ns:={run.name}', f'scene:={run.scene_file(self._new)}', 'record:=true']
+        words += [f'bag:={run.bag(self._new)}', f'min_space:={min_space}', 'table:=0']
         with open(log, 'w') as file:
-            self.tree = Tree(
-                [
-                    'roslaunch',
-                    'hdlyap',
-                    'run.launch',
-                    f'__ns:={run.name}',
-                    f'scene:={run.scene_file(self._new)}',
-                    'record:=true',
-                    f'bag:={run.bag(self._new)}',
-                    f'min_space:={min_space}',
-                    'table:=0',
-                ],
-                file,
-            )
+            self.tree = Tree(['roslaunch', 'hdlyap', 'run.launch', *words], file)
 
     def _hear(self, message):
         self.status = message
@@ -86,17 +73,15 @@ class Job:
         """After its end. WorkError if the run did not go to its end."""
         why = self._failure()
         if why:
-            raise WorkError(
-                f'{self.run.name}: {why}; {last_words(self.log)}all that it said is in {self.log}'
-            )
+            said = f'{last_words(self.log)}all that it said is in {self.log}'
+            raise WorkError(f'{self.run.name}: {why}; {said}')
         os.replace(self.run.bag(self._new), self.run.bag(self._folder))
 
     def _failure(self):
         """'' of a bag that is whole."""
         lacks = self.run.lacks(self._new)
-        return (
-            f'no word of its node within {SILENCE:.0f} s' if lacks and self.is_silent() else lacks
-        )
+        silent = f'no word of its node within {SILENCE:.0f} s'
+        return silent if lacks and self.is_silent() else lacks
 
     def leave(self):
         """No trace but the log, and the bag if it is whole."""
@@ -126,10 +111,8 @@ class Work:
 
     def progress(self):
         """Seconds of work done, of all."""
-        return (
-            self._done + sum(job.share * job.run.share_of(self._jobs) for job in self.under_way),
-            self._total,
-        )
+        of_jobs = sum(job.share * job.run.share_of(self._jobs) for job in self.under_way)
+        return self._done + of_jobs, self._total
 
     def begin(self):
         """What there is room for."""
@@ -141,10 +124,8 @@ class Work:
     def _has_room(self):
         if not self.under_way:
             return True
-        return (
-            not (self.waiting[0].is_wide or self.under_way[0].run.is_wide)
-            and len(self.under_way) < self._jobs
-        )
+        is_wide = self.waiting[0].is_wide or self.under_way[0].run.is_wide
+        return not is_wide and len(self.under_way) < self._jobs
 
     def close(self):
         """Those that have ended; what went wrong, in a line each."""
