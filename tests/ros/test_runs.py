@@ -175,7 +175,7 @@ class Done(InFolder):
     """Whether the bag is all of a run."""
 
     def of(self, **changed):
-        return run.Run('one', {**run.usual(), 'scene': 'one', 'duration': 7.0, **changed})
+        return run.Planned('one', {**run.usual(), 'scene': 'one', 'duration': 7.0, **changed})
 
     def lacks(self, stage=RunStatus.FINISHED, progress=1.0, of=None, **said):
         """Of a made bag, whose run_info says what it was run with."""

@@ -14,6 +14,7 @@ from hdlyap.plots import frames, movie
 
 FAULT = 1
 FPS = 10.0
+NAME = re.compile(r'(T|LP)\(\d+,\d+(,\d+)?\)')
 
 
 def film_file(path):
@@ -32,9 +33,7 @@ def width(text):
 def modes(text):
     """Names with spaces between; None: the lowest ones."""
     names = text.split()
-    if text != 'lowest' and not all(
-        re.fullmatch(r'(T|LP)\(\d+,\d+(,\d+)?\)', name) for name in names
-    ):
+    if text != 'lowest' and not all(map(NAME.fullmatch, names)):
         raise argparse.ArgumentTypeError(
             '%s: must be lowest or names such as "T(1,0) LP(1,1)", with spaces between' % text
         )
@@ -51,24 +50,15 @@ def options(parser):
     parser.add_argument(
         '--modes', type=modes, metavar='NAMES', help='"T(1,0) LP(1,1)"; default: lowest'
     )
-    parser.add_argument(
-        '--pace',
-        type=positive,
-        metavar='TIME',
-        help='simulated time units per second (default: a report in each frame)',
-    )
+    text = 'simulated time units per second (default: a report in each frame)'
+    parser.add_argument('--pace', type=positive, metavar='TIME', help=text)
     parser.add_argument(
         '--fps', type=positive, default=FPS, metavar='NUMBER', help='frames per second'
     )
     parser.add_argument('--begin', type=float, metavar='TIME', help='simulated time of the first')
     parser.add_argument('--end', type=float, metavar='TIME', help='and of the last frame')
-    parser.add_argument(
-        '--width',
-        type=width,
-        metavar='PIXELS',
-        help='default: %s'
-        % ', '.join('%d of %s' % (movie.WIDTH[kind], kind) for kind in movie.WIDTH),
-    )
+    text = 'default: ' + ', '.join('%d of %s' % (movie.WIDTH[kind], kind) for kind in movie.WIDTH)
+    parser.add_argument('--width', type=width, metavar='PIXELS', help=text)
     parser.add_argument('--node', metavar='NAME', help='which node, if several are in the bag')
     parser.add_argument(
         '--run', type=int, metavar='NUMBER', help='which run, from 1 (default: the last)'

@@ -26,26 +26,13 @@ PATIENCE = 30.0  # seconds for a master and a node to appear
 
 def options(parser):
     parser.add_argument('bags', nargs='*', metavar='BAG', help='file recorded by rosbag')
-    parser.add_argument(
-        '--live',
-        nargs='?',
-        const='',
-        metavar='NODE',
-        help='a window of this running node (default: the only one)',
-    )
-    parser.add_argument(
-        '--out',
-        default=HERE,
-        metavar='DIR',
-        help='folder of the figures (default: the current one)',
-    )
+    text = 'a window of this running node (default: the only one)'
+    parser.add_argument('--live', nargs='?', const='', metavar='NODE', help=text)
+    text = 'folder of the figures (default: the current one)'
+    parser.add_argument('--out', default=HERE, metavar='DIR', help=text)
     parser.add_argument('--node', metavar='NAME', help='which node, if several are in the bag')
-    parser.add_argument(
-        '--run',
-        type=int,
-        metavar='NUMBER',
-        help='which run, if several are in the bag, from 1 (default: the last)',
-    )
+    text = 'which run, if several are in the bag, from 1 (default: the last)'
+    parser.add_argument('--run', type=int, metavar='NUMBER', help=text)
     fits.add_arguments(parser)
     names = list(figures.FIGURES)
     parser.add_argument(

@@ -27,19 +27,10 @@ DISORDER = 1.0  # seconds at most by which a recorder mixes topics: their messag
 def options(parser):
     parser.add_argument('bag', help='file recorded by record.launch or rosbag')
     speed = parser.add_mutually_exclusive_group()
-    speed.add_argument(
-        '--rate',
-        type=positive,
-        default=1.0,
-        metavar='FACTOR',
-        help='how much faster than it was recorded (default: 1)',
-    )
-    speed.add_argument(
-        '--pace',
-        type=positive,
-        metavar='TIME',
-        help='simulated time units per second of wall time, instead',
-    )
+    text = 'how much faster than it was recorded (default: 1)'
+    speed.add_argument('--rate', type=positive, default=1.0, metavar='FACTOR', help=text)
+    text = 'simulated time units per second of wall time, instead'
+    speed.add_argument('--pace', type=positive, metavar='TIME', help=text)
     parser.add_argument(
         '--begin', type=float, default=-math.inf, metavar='TIME', help='simulated time to begin at'
     )

@@ -38,21 +38,14 @@ def options(parser):
         )
     for name, _, text in OF_GRID:
         parser.add_argument('--' + name, default='', help=text)
-    parser.add_argument(
-        '--plan',
-        metavar='FILE',
-        help='instead of all that: runs {name: {base: scene, parameter: value, ..}, ..}',
-    )
+    text = 'instead of all that: runs {name: {base: scene, parameter: value, ..}, ..}'
+    parser.add_argument('--plan', metavar='FILE', help=text)
     parser.add_argument('--quick', action='store_true', help='the quick runs of the plan')
     parser.add_argument('--only', default='', metavar='"NAME .."', help='no other runs than these')
     parser.add_argument('--jobs', default='', help='runs at a time; default: one for each core')
     parser.add_argument('--folder', default='', help='of bags, table and figure; default: sweep')
-    parser.add_argument(
-        '--min-space',
-        default=recording.LEAST,
-        metavar='SIZE',
-        help=f'of the disk, that must be free for a bag; default: {recording.LEAST}',
-    )
+    text = f'of the disk, that must be free for a bag; default: {recording.LEAST}'
+    parser.add_argument('--min-space', default=recording.LEAST, metavar='SIZE', help=text)
     parser.add_argument(
         '--write',
         action='store_true',

@@ -23,12 +23,8 @@ SURE = 3  # questions in a row that a node which was there has not answered
 
 
 def options(parser):
-    parser.add_argument(
-        'runs',
-        nargs='+',
-        metavar='BAG|GROUP',
-        help='a bag; or the namespace of a running hdlyap, whose bag is DIR/GROUP.bag',
-    )
+    text = 'a bag; or the namespace of a running hdlyap, whose bag is DIR/GROUP.bag'
+    parser.add_argument('runs', nargs='+', metavar='BAG|GROUP', help=text)
     parser.add_argument('--folder', metavar='DIR', default='.', help='of GROUP.bag')
     parser.add_argument(
         '--out', metavar='DIR', help='writes the table, also as CSV, and a figure there'

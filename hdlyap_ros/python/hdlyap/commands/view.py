@@ -136,11 +136,8 @@ def fitted(config, topic, picture):
 
 def options(parser):
     parser.add_argument('--node', default='/hdlyap', metavar='NAME', help='default: %(default)s')
-    parser.add_argument(
-        '--config',
-        metavar='FILE',
-        help='a view of your own instead of rviz/hdlyap.rviz, or hdlyap_3d.rviz of spheres',
-    )
+    text = 'a view of your own instead of rviz/hdlyap.rviz, or hdlyap_3d.rviz of spheres'
+    parser.add_argument('--config', metavar='FILE', help=text)
 
 
 def main(args):

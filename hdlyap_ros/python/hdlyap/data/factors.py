@@ -63,14 +63,8 @@ def means_of(msg):
     if not len(msg.along):
         return None
     shape, nodes = (len(msg.nx), len(msg.peak)), space.vectors(msg, 'n').astype(int)
-    return Means(
-        msg.samples,
-        *nodes[:2],
-        np.array(msg.wave_number),
-        np.array(msg.along).reshape(shape),
-        np.array(msg.across).reshape(shape),
-        nodes,
-    )
+    factors = (np.array(getattr(msg, name)).reshape(shape) for name in DIRECTIONS)
+    return Means(msg.samples, *nodes[:2], np.array(msg.wave_number), *factors, nodes)
 
 
 def amplitudes(msg, direction):

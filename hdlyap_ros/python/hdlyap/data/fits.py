@@ -29,8 +29,7 @@ class Fit:
         self.k_max = getattr(message, f'{letter}_k_max')
         self.prior_share = nan if letter == 'v' else getattr(message, f'{letter}_prior_share')
         # those of v are in LpPhases
-        waves = [] if letter == 'v' else _waves(message, kind)
-        self.waves = [k for k in waves if self._has(k)]
+        self.waves = [] if letter == 'v' else _waves(message, kind, (self.k_min, self.k_max))
         names = _coefficients(message, letter, self.count)
         self.terms = len(names)
         # (name, value, error) of each, and what another run of the same box may differ by; NaN of
@@ -76,9 +75,6 @@ class Fit:
     def beside(self):
         """', misfit 6.5'; nothing while it is not known."""
         return f', misfit {self.misfit:.1f}' if self.misfit >= 0 else ''
-
-    def _has(self, k):
-        return self.k_min * (1 - SAME) <= k <= self.k_max * (1 + SAME)
 
     def _range(self):
         ends = dict.fromkeys(f'{k:.4g}' for k in (self.k_min, self.k_max))
@@ -134,18 +130,10 @@ def chosen(message, form=None, k=None):
 
 def add_arguments(parser):
     """--form and --k of a command; choice(args) is then what chosen() takes."""
-    parser.add_argument(
-        '--form',
-        choices=list(RELATIONS.values()),
-        help='of the fits to steps (default: %(choices)s, the last with what long boxes say)',
-    )
-    parser.add_argument(
-        '--k',
-        nargs=2,
-        type=float,
-        metavar=('FROM', 'TO'),
-        help='fits over wave numbers in this range alone [1/sigma]',
-    )
+    text = 'of the fits to steps (default: %(choices)s, the last with what long boxes say)'
+    parser.add_argument('--form', choices=list(RELATIONS.values()), help=text)
+    text = 'fits over wave numbers in this range alone [1/sigma]'
+    parser.add_argument('--k', nargs=2, type=float, metavar=('FROM', 'TO'), help=text)
 
 
 def choice(args):
@@ -209,9 +197,9 @@ def _columns(found):
     return zip(*((step.wave_number, step.exponent, step.std_error) for step in found))
 
 
-def _waves(message, kind):
-    """Distinct wave numbers of the resolved steps of the positive half, smallest first."""
-    found = sorted(step.wave_number for step in _fitted(message, kind))
+def _waves(message, kind, k):
+    """Distinct wave numbers of the steps of a fit, smallest first."""
+    found = sorted(step.wave_number for step in _fitted(message, kind, k))
     return [
         k
         for place, k in enumerate(found)

@@ -188,16 +188,13 @@ class Run:
         """{name: frame} of the running means, their errors and the samples: a column for each
         Lyapunov index."""
         index = pandas.Index(self.spectrum.index, name='index')
-        rows = pandas.MultiIndex.from_arrays(
-            [self.times, self.averaged_times], names=['sim_time', 'averaged_time']
-        )
-        samples = pandas.MultiIndex.from_arrays(
-            [self.local.times, self.local.lengths], names=['sim_time', 'length']
-        )
+        of_two, times, local = pandas.MultiIndex.from_arrays, self.times, self.local
+        rows = of_two([times, self.averaged_times], names=['sim_time', 'averaged_time'])
+        samples = of_two([local.times, local.lengths], names=['sim_time', 'length'])
         return {
             'exponents': pandas.DataFrame(self.exponents, rows, index),
             'std_errors': pandas.DataFrame(self.std_errors, rows, index),
-            'local_exponents': pandas.DataFrame(self.local.exponents, samples, index),
+            'local_exponents': pandas.DataFrame(local.exponents, samples, index),
         }
 
     @cached_property

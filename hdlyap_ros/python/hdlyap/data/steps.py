@@ -65,10 +65,14 @@ class Block:
         )
 
 
+def _every(message):
+    """None without a message."""
+    return message.steps if message is not None else ()
+
+
 def _half(message, conjugate):
-    """Steps of one half of the spectrum without the zero modes; none without a message."""
-    every = message.steps if message is not None else ()
-    return [step for step in every if step.kind != ZERO and step.conjugate == conjugate]
+    """Steps of one half of the spectrum without the zero modes."""
+    return [s for s in _every(message) if s.kind != ZERO and s.conjugate == conjugate]
 
 
 def blocks(message, info=None, conjugate=False):
@@ -100,15 +104,14 @@ def unresolved(message):
 
 def zero_modes(message):
     """The step of the zero modes; None if there is none."""
-    every = message.steps if message is not None else ()
-    return next((step for step in every if step.kind == ZERO), None)
+    return next((step for step in _every(message) if step.kind == ZERO), None)
 
 
 def resolved_lp(message):
     """(number, step) of the resolved LP steps of the positive half, smallest exponent first."""
     found = [
         (number, step)
-        for number, step in enumerate(message.steps)
+        for number, step in enumerate(_every(message))
         if step.resolved and step.kind == LP and not step.conjugate
     ]
     return sorted(found, key=lambda pair: pair[1].exponent)

@@ -26,16 +26,10 @@ class Structure:
         self.across = pandas.DataFrame(means.across.T, index, names)
         largest = np.argmax(means.along + means.across, axis=0)
         vectors = np.arange(len(index))
-        self.peaks = tables.frame(
-            {
-                **dict(zip(NODES, means.nodes[:, largest])),
-                'wave_number': means.wave_number[largest],
-                'along': means.along[largest, vectors],
-                'across': means.across[largest, vectors],
-            },
-            unit,
-            index,
-        )
+        at_peak = dict(zip(NODES, means.nodes[:, largest]), wave_number=means.wave_number[largest])
+        for name in factors.DIRECTIONS:
+            at_peak[name] = getattr(means, name)[largest, vectors]
+        self.peaks = tables.frame(at_peak, unit, index)
 
 
 def amplitudes(messages, indices, direction):

@@ -38,11 +38,10 @@ def round_modulation(info, wave_number, order, bits, x, y):
 
 def wave_vector(info, nx, ny, nz=0):
     """Along a reflecting direction the wave fits into what a disk's centre can reach."""
+    walls = zip((nx, ny, nz), space.along(info, 'box_'), space.along(info, 'boundary_'))
     return [
         2 * np.pi * n / box if boundary == 'periodic' else np.pi * n / (box - 1)
-        for n, box, boundary in zip(
-            (nx, ny, nz), space.along(info, 'box_'), space.along(info, 'boundary_')
-        )
+        for n, box, boundary in walls
     ]
 
 
@@ -152,8 +151,5 @@ def _times(count):
 
 
 def _factors(nodes, bits):
-    return [
-        ('sin' if bits & sine else 'cos', axis)
-        for (axis, sine), n in zip(SINES.items(), nodes)
-        if n
-    ]
+    axes = [sine for sine, n in zip(SINES.items(), nodes) if n]
+    return [('sin' if bits & sine else 'cos', axis) for axis, sine in axes]

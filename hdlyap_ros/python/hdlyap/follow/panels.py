@@ -194,16 +194,10 @@ def _phase_cells(phase, info, glyphs):
         omega = with_error(phase.omega, phase.omega_error)
         error = phase.velocity * phase.omega_error / abs(phase.omega) if phase.omega else -1.0
         v = with_error(phase.velocity, error)
-    return (
-        steps.wave_name('LP', phase, info),
-        waves.plain_formula(phase.nx, phase.ny, phase.modulation, phase.nz),
-        phase.index,
-        f'{hypot(a, b):.2f}',
-        glyphs.dial(turn),
-        f'{turn:.2f}',
-        omega,
-        v,
-    )
+    name = steps.wave_name('LP', phase, info)
+    formula = waves.plain_formula(phase.nx, phase.ny, phase.modulation, phase.nz)
+    hand = f'{hypot(a, b):.2f}', glyphs.dial(turn), f'{turn:.2f}'
+    return (name, formula, phase.index, *hand, omega, v)
 
 
 def cost(view, width, glyphs):

@@ -69,14 +69,8 @@ class Watch:
 
     def view(self):
         view = View()
-        fill(
-            view,
-            {
-                _name(topic): message.unpacked()
-                for topic, message in dict(self._last).items()
-                if topic in self._ears
-            },
-        )
+        heard = [one for one in dict(self._last).items() if one[0] in self._ears]
+        fill(view, {_name(topic): message.unpacked() for topic, message in heard})
         view.node, view.silence = self._node, self._silence()
         view.diagnosis, view.speed = self._diagnosis, self._speed.add(view.cost)
         view.wanted, view.others = self._wanted, self._others

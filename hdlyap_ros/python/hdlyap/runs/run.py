@@ -27,7 +27,7 @@ HERE = ('threads', 'wait_for_subscribers', *OF_ONE)
 BEGIN, STEP, DISKS = 5.0, 0.03, 200
 
 
-class Run:
+class Planned:
     def __init__(self, name, parameters, seconds=None):
         """All parameters; seconds: about, if they are known. Refused if the node does not know
         them, or it would not end."""

@@ -7,7 +7,7 @@ import re
 import yaml
 
 from hdlyap.runs import run, scene
-from hdlyap.runs.run import Run
+from hdlyap.runs.run import Planned
 from hdlyap.runs.scene import Refused
 
 OF_SPHERES = (
@@ -102,4 +102,4 @@ def _run(parameters, chosen):
     for _, values in chosen:
         parameters = {**parameters, **{key: scene.fitting(v) for key, v in values.items()}}
     parameters['scene'] = '_'.join(same) if same else parameters['scene']
-    return Run('_'.join(names), parameters)
+    return Planned('_'.join(names), parameters)

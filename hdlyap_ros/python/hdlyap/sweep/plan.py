@@ -10,7 +10,7 @@ import re
 import yaml
 
 from hdlyap.runs import run, scene
-from hdlyap.runs.run import Run
+from hdlyap.runs.run import Planned
 from hdlyap.runs.scene import Refused
 
 OWN = 'base', 'quick', 'full', 'seconds'  # of an entry, what is no parameter of the node
@@ -18,7 +18,7 @@ ENTRY = '{base: scene, parameter: value, ..}'
 
 
 def runs(path, quick, launch):
-    """[Run] in their order; scenes that are files lie where the plan says, from its own folder;
+    """[Planned] in their order; scenes that are files lie where the plan says, from its own folder;
     launch: folder of the launch files."""
     entries = scene.load(path, f'plan = {path}', f'runs, {{name: {ENTRY}, ..}}')
     if not entries:
@@ -50,7 +50,7 @@ def _run(path, name, entry, quick, launch):
         usual = run.usual(run.dimensions({**base, **asked}))
         parameters = {**usual, **base, 'threads': 1, 'scene': name, **asked}
         parameters = {str(key): scene.fitting(value) for key, value in parameters.items()}
-        return Run(name, parameters, _seconds(entry, quick))
+        return Planned(name, parameters, _seconds(entry, quick))
     except Refused as refused:
         raise Refused(f'plan = {path}: {name}: {refused}')
 

@@ -43,14 +43,8 @@ def draw(recording):
 def chosen(recording):
     """The field with P modes of the lowest resolved LP step; a wave along an axis, if any, is
     clearer."""
-    numbers = (
-        {
-            space.nodes(step, recording.info): order
-            for order, (_, step) in enumerate(steps.resolved_lp(recording.steps))
-        }
-        if recording.steps is not None
-        else {}
-    )
+    lowest = [step for _, step in steps.resolved_lp(recording.steps)]
+    numbers = {space.nodes(step, recording.info): order for order, step in enumerate(lowest)}
 
     def nodes(field):
         return space.nodes(field, recording.info)

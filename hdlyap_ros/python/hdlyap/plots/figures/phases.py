@@ -35,15 +35,13 @@ def draw(recording, speeds=None):
 def chosen(recording):
     """[(number of a step, numbers of its phases)]: lowest resolved steps first, and of each the
     phases of different vectors and pairs that were tracked longest."""
-    if recording.phases.last is None or recording.steps is None:
+    if recording.phases.last is None:
         return []
     shown = []
     for number, _ in steps.resolved_lp(recording.steps):
         tracked = {phase: _tracked(recording, phase) for phase in recording.phases.of_step(number)}
-        ranked = sorted(
-            (phase for phase in tracked if tracked[phase] > 0),
-            key=lambda phase: (-tracked[phase], phase),
-        )
+        ranked = [(-time, phase) for phase, time in tracked.items() if time > 0]
+        ranked = [phase for _, phase in sorted(ranked)]
         if ranked:
             shown.append((number, apart(recording.phases.last.phases, ranked)[:PER_STEP]))
     return shown[:STEPS]
