@@ -19,11 +19,10 @@ from . import space
 TYPES = {message._type: message for message in topics.RECORDED.values()}
 RUN_INFO, SPECTRUM = 'hdlyap/RunInfo', 'hdlyap/Spectrum'
 STATUS, COST = 'hdlyap/RunStatus', 'hdlyap/Cost'
-MODES, STEPS = 'hdlyap/Modes', 'hdlyap/Steps'
 PHASES, T_PHASES = 'hdlyap/LpPhases', 'hdlyap/TPhases'
 FIELD, STATE = 'hdlyap/ModeField', 'hdlyap/State'
 COVARIANT, HYDRO, STRUCTURE = 'hdlyap/Covariant', 'hdlyap/Hydro', 'hdlyap/Structure'
-LOCALIZATION, GAS = 'hdlyap/Localization', 'hdlyap/Gas'
+LOCALIZATION = 'hdlyap/Localization'
 NAME, PATH, LINE, LIST = 200, 4096, 8192, 4096  # longest text, path, error; most elements of a list
 PATHS = ('checkpoint', 'resume')
 VERSION = re.compile(r'\d[\w.+~-]{0,30}', re.ASCII)

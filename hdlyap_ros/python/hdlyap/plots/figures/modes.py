@@ -38,9 +38,8 @@ class Panel:
         return kind_colour(self.block.kind) if self.block else GREY
 
 
-def draw(recording, names=None):
-    """names: of the steps to be shown, in their order; without, the smallest."""
-    panels = chosen(recording) if names is None else named(recording, names)
+def draw(recording):
+    panels = chosen(recording)
     if not panels:
         return None
     info = recording.info
