@@ -1,147 +1,192 @@
-/** Lattice: exactly N disks inside the box, none closer than a diameter, as dense as promised. */
+/** Start lattices of disks and of spheres: exactly N of them inside the box, none closer than a
+ * diameter, as dense as promised; and the box itself. */
 #include "scene/container.h"
 #include "scene/plane_lattice.h"
+#include "scene/space_lattice.h"
 #include "testing.h"
 
-/** A site is a product and a sum of numbers up to L. */
-static double position_rounding(const double box[2])
+static double densest(const hd_scene_def *def) { return hd_container_of(def)->density_max(def); }
+
+/** The smallest distance that the best lattice promises; fills q. */
+static double best_distance(double *q, const hd_scene_def *def, const double *box)
 {
-    return 4.0 * DBL_EPSILON * fmax(box[0], box[1]);
+    if (DIM == 2) {
+        const hd_plane_lattice best = hd_plane_lattice_best(def->disks, box, def->boundary);
+        if (q) hd_plane_lattice_fill(&best, q, def->disks, box, def->boundary);
+        return best.distance;
+    }
+    const hd_space_lattice best = hd_space_lattice_best(def->disks, box, def->boundary);
+    if (q) hd_space_lattice_fill(&best, q, def->disks, box, def->boundary);
+    return best.distance;
 }
 
-static double square(double x) { return x * x; }
-
-/** Least distance of two sites in one direction; periodic boxes by all images that count. */
-static double least_gap(double r, double box, hd_boundary boundary)
-{
-    return boundary == P ? r - box * round(r / box) : r;
-}
-
-/** Smallest distance of any pair; a lattice's nearest image is the nearest in each direction. */
-static double smallest_distance(const double *q, int n, const double box[2],
-                                const hd_boundary boundary[2])
+/** A lattice's nearest image is the nearest in each direction. */
+static double smallest_distance(const double *q, const hd_scene_def *def, const double *box)
 {
     double least = INFINITY;
-    for (int i = 0; i < n; i++)
-        for (int j = i + 1; j < n; j++) {
-            const double x = least_gap(q[2 * j] - q[2 * i], box[0], boundary[0]);
-            const double y = least_gap(q[2 * j + 1] - q[2 * i + 1], box[1], boundary[1]);
-            least = fmin(least, square(x) + square(y));
+    for (int i = 0; i < def->disks; i++)
+        for (int j = i + 1; j < def->disks; j++) {
+            double square = 0.0;
+            for (int d = 0; d < DIM; d++) {
+                const double r = q[DIM * j + d] - q[DIM * i + d];
+                square += pow(def->boundary[d] == P ? remainder(r, box[d]) : r, 2.0);
+            }
+            least = fmin(least, square);
         }
     return sqrt(least);
 }
 
-static void check_sites(const double *q, const hd_scene_def *def, const double box[2])
-{
-    for (int k = 0; k < 2 * def->disks; k++) {
-        const double reach = def->boundary[k % 2] == R ? 0.5 : 0.0;
-        assert_true(q[k] >= reach && q[k] <= box[k % 2] - reach);
-    }
-    assert_true(isnan(q[2 * def->disks])); /* not one more than asked for */
-}
-
-/** Distance and number of the best lattice at the scene's density; returns its distance. */
+/** Returns the promised distance. A site is a product and a sum of numbers up to L. */
 static double check_lattice(const hd_scene_def *def)
 {
-    double box[2];
+    double box[3] = {0}, longest = 0.0;
+    HEAP double *q = calloc(DIM * (size_t)def->disks + 1, sizeof *q);
     hd_scene_box(def, box);
-    const hd_plane_lattice best = hd_plane_lattice_best(def->disks, box, def->boundary);
-    HEAP double *q = calloc(2 * (size_t)def->disks + 1, sizeof *q);
-    assert_non_null(q);
-    for (int k = 0; k <= 2 * def->disks; k++) q[k] = NAN;
-    hd_plane_lattice_fill(&best, q, def->disks, box, def->boundary);
-    check_sites(q, def, box);
-    const double distance = smallest_distance(q, def->disks, box, def->boundary);
-    if (!(distance >= best.distance - position_rounding(box)))
-        fail_msg("N %d boundary %d %d density %.17g: distance %.17g promised %.17g", def->disks,
-                 (int)def->boundary[0], (int)def->boundary[1], def->density, distance,
-                 best.distance);
-    return best.distance;
+    for (int k = 0; k <= DIM * def->disks; k++) q[k] = NAN;
+    const double promised = best_distance(q, def, box);
+    assert_true(isnan(q[DIM * def->disks])); /* not one more than asked for */
+    for (int k = 0; k < DIM * def->disks; k++) {
+        const double reach = def->boundary[k % DIM] == R ? 0.5 : 0.0;
+        assert_true(q[k] >= reach && q[k] <= box[k % DIM] - reach);
+    }
+    for (int d = 0; d < DIM; d++) longest = fmax(longest, box[d]);
+    CHECK_WITHIN(smallest_distance(q, def, box), promised - 8 * DBL_EPSILON * longest, INFINITY);
+    return promised;
 }
+
+static const double ASPECT[][2] = {{1.0, 1.0}, {0.25, 0.25}, {0.05, 2.0},
+                                   {1.7, 0.6}, {13.0, 5.0},  {0.867, 1.0}};
+enum { ASPECTS = sizeof ASPECT / sizeof *ASPECT };
 
 TEST(sites_keep_their_distance)
 {
-    const double aspect[] = {0.05, 0.3, 0.867, 1.0, 1.7, 13.0}, fraction[] = {1e-3, 0.2, 0.8, 1.0};
-    for (int n = 2; n < 150; n += 1 + n / 12)
-        for (int k = 0; k < 6 * 4 * 4; k++) {
-            hd_scene_def def = scene_of(n, 0.1, aspect[k / 16], (hd_boundary)(k & 1),
-                                        (hd_boundary)(k >> 1 & 1), 1);
-            def.density = fraction[k / 4 % 4] * hd_container_of(&def)->density_max(&def);
-            if (def.density > 0) assert_true(check_lattice(&def) >= 1.0);
+    static const double fraction[] = {1e-3, 0.2, 0.8, 1.0};
+    int checked = 0;
+    for (int n = 2; n < 150; n += 1 + n / 8)
+        for (int k = 0; k < WALL_SETS * ASPECTS; k++) {
+            hd_scene_def def = box_of(n, 1.0, ASPECT[k / WALL_SETS][0], ASPECT[k / WALL_SETS][1],
+                                      k % WALL_SETS, 1);
+            const double most = densest(&def);
+            if (most <= 0) continue;
+            for (int f = 0; f < 4; f++) {
+                def.density = fraction[f] * most;
+                assert_true(check_lattice(&def) >= HD_START_DISTANCE_MIN);
+            }
+            checked++;
         }
+    assert_true(checked > 400);
 }
 
-TEST(any_count_up_to_a_few_hundred)
+TEST(any_count)
 {
-    for (int n = 2; n < 300; n++)
-        for (int b = 0; b < 4; b++) {
-            const hd_scene_def def = scene_of(n, 0.5, 0.6, (hd_boundary)(b & 1),
-                                              (hd_boundary)(b >> 1), 1);
+    for (int n = 2; n < (DIM == 2 ? 300 : 130); n++)
+        for (int walls = 0; walls < WALL_SETS; walls += ALL_WALLS) {
+            const hd_scene_def def = box_of(n, 0.4, 0.6, 0.7, walls, 1);
             check_lattice(&def);
         }
 }
 
-/** The maximum is where the best lattice just touches. */
-TEST(maximum_is_where_disks_touch)
+/** The maximum is where the best lattice just touches, but for 30 bisections of 1 or sqrt(2). */
+TEST(maximum_is_where_they_touch)
 {
-    const double aspect[] = {0.1, 0.867, 1.0, 3.0}, close = 1e-8; /* 30 bisections of about 1 */
-    for (int n = 2; n < 200; n += 1 + n / 8)
-        for (int k = 0; k < 16; k++) {
-            hd_scene_def def = scene_of(n, 0.1, aspect[k / 4], (hd_boundary)(k & 1),
-                                        (hd_boundary)(k >> 1 & 1), 1);
-            double box[2];
-            const double densest = hd_container_of(&def)->density_max(&def);
-            def.density = densest * (1.0 + close);
+    const double close = 1e-8;
+    for (int n = 2 * DIM - 2; n < 120; n += 1 + n / 3)
+        for (int k = 0; k < 4 * WALL_SETS; k++) {
+            hd_scene_def def = box_of(n, 1.0, ASPECT[k / WALL_SETS][0], ASPECT[k / WALL_SETS][1],
+                                      k % WALL_SETS, 1);
+            double box[3] = {INFINITY, INFINITY, INFINITY};
+            const double most = densest(&def);
+            if (most <= 0) continue;
+            def.density = most + close;
             hd_scene_box(&def, box);
-            const int wide = box[0] > 1.0 && box[1] > 1.0;
-            assert_true(!wide || hd_plane_lattice_best(n, box, def.boundary).distance < 1.0);
-            def.density = densest;
-            CHECK_CLOSE(check_lattice(&def), 1.0, wide ? close : INFINITY);
+            const bool wide = fmin(box[0], fmin(box[1], box[2])) > 1.0;
+            assert_true(!wide || best_distance(NULL, &def, box) < HD_START_DISTANCE_MIN);
+            def.density = most;
+            CHECK_CLOSE(check_lattice(&def), 1.0, wide ? close * (1.0 + 1.0 / most) : INFINITY);
         }
 }
 
-/** Rows go along either direction: x and y may be exchanged. */
-TEST(maximum_is_the_same_lying_and_standing)
+/** Directions may be exchanged: x becomes y, y becomes z, the last one x. */
+TEST(maximum_knows_no_direction)
 {
-    const double aspect[] = {0.1, 0.5, 0.867, 3.0}, close = 1e-8;
-    for (int n = 2; n < 60; n++)
-        for (int k = 0; k < 16; k++) {
-            const hd_boundary x = (hd_boundary)(k & 1), y = (hd_boundary)(k >> 1 & 1);
-            const hd_scene_def lying = scene_of(n, 0.1, aspect[k / 4], x, y, 1);
-            const hd_scene_def standing = scene_of(n, 0.1, 1.0 / aspect[k / 4], y, x, 1);
-            CHECK_CLOSE(hd_container_of(&standing)->density_max(&standing),
-                        hd_container_of(&lying)->density_max(&lying), close);
+    for (int n = 2; n < 110; n += 5)
+        for (int walls = 0; walls < WALL_SETS; walls++) {
+            const int turned = (walls << 1 & ALL_WALLS) | walls >> (DIM - 1);
+            const hd_scene_def one = box_of(n, 1.0, 0.8, 1.3, walls, 1);
+            const hd_scene_def other = DIM == 2 ? box_of(n, 1.0, 1.0 / 0.8, 1.0, turned, 1)
+                                                : box_of(n, 1.0, 1.0 / 1.3, 0.8 / 1.3, turned, 1);
+            CHECK_CLOSE(densest(&other), densest(&one), 1e-8);
         }
 }
 
 /** Commensurate boxes hold closest packing; 8 x 8 in a square holds the square lattice at least. */
-TEST(known_packings)
+static void check_packings_of_disks(double close)
 {
-    const double closest = 2.0 / sqrt(3.0), close = 1e-6;
-    const hd_scene_def hexagonal = scene_of(64, 0.5, sqrt(0.75), P, P, 1);
+    const hd_scene_def lying = scene_of(64, 0.5, sqrt(0.75), P, P, 1);
     const hd_scene_def upright = scene_of(64, 0.5, 1.0 / sqrt(0.75), P, P, 1);
     const hd_scene_def in_a_square = scene_of(64, 0.5, 1.0, P, P, 1);
     const hd_scene_def two_in_a_box = scene_of(2, 0.5, 0.5, R, R, 1);
-    CHECK_CLOSE(hd_container_of(&hexagonal)->density_max(&hexagonal), closest, close);
-    CHECK_CLOSE(hd_container_of(&upright)->density_max(&upright), closest, close);
-    assert_true(hd_container_of(&in_a_square)->density_max(&in_a_square) > 1.0 - close);
-    CHECK_CLOSE(hd_container_of(&two_in_a_box)->density_max(&two_in_a_box), 1.0, close);
+    CHECK_CLOSE(densest(&lying), 2.0 / sqrt(3.0), close);
+    CHECK_CLOSE(densest(&upright), 2.0 / sqrt(3.0), close);
+    CHECK_WITHIN(densest(&in_a_square), 1.0 - close, 2.0 / sqrt(3.0));
+    CHECK_CLOSE(densest(&two_in_a_box), 1.0, close);
+}
+
+/** N = 4 k^3 in a cube is closest packing, N = 2 k^3 body-centred (3 sqrt(3) / 4), N = k^3 at least
+ * the simple cubic one; between walls N = k^3 touches in a cube of k diameters. */
+static void check_packings_of_spheres(double close)
+{
+    for (int k = 1; k < 6; k++) {
+        const hd_scene_def faces = box_of(4 * k * k * k, 1.0, 1.0, 1.0, 0, 1);
+        const hd_scene_def body = box_of(2 * k * k * k, 1.0, 1.0, 1.0, 0, 1);
+        const hd_scene_def simple = box_of(8 * k * k * k, 1.0, 1.0, 1.0, 7, 1);
+        CHECK_CLOSE(densest(&faces), sqrt(2.0), close);
+        CHECK_WITHIN(densest(&body), 0.75 * sqrt(3.0) - close, sqrt(2.0));
+        CHECK_WITHIN(densest(&simple), 1.0 - close, sqrt(2.0));
+    }
+    const hd_scene_def two = box_of(2, 1.0, 1.0, 1.0, 0, 1);
+    CHECK_CLOSE(densest(&two), 0.75 * sqrt(3.0), close);
+}
+
+TEST(known_packings)
+{
+    if (DIM == 2)
+        check_packings_of_disks(1e-6);
+    else
+        check_packings_of_spheres(1e-6);
 }
 
 /** The paper's densities must be possible. */
 TEST(papers_scenes_fit)
 {
-    for (int b = 0; b < 4; b++) {
-        const hd_scene_def def = scene_of(780, 0.8, 0.867, (hd_boundary)(b & 1),
-                                          (hd_boundary)(b >> 1), 1);
+    for (int walls = 0; walls < WALL_SETS && DIM == 2; walls++) {
+        const hd_scene_def def = box_of(780, 0.8, 0.867, 1.0, walls, 1);
         assert_true(check_lattice(&def) > 1.0);
-        assert_true(hd_container_of(&def)->density_max(&def) > 1.0);
+        assert_true(densest(&def) > 1.0);
     }
+}
+
+/** Its root by itself, from 1e-18 to 1e18. */
+TEST(boxes_hold_their_density)
+{
+    for (double density = 1e-6; density < 1.3; density *= 3.7)
+        for (int k = 0; k < ASPECTS; k++)
+            for (int n = 2; n <= 1000000; n *= 7) {
+                const hd_scene_def def = box_of(n, density, ASPECT[k][0], ASPECT[k][1], 0, 1);
+                double box[3] = {1.0, 1.0, 1.0};
+                const double volume = n / density;
+                hd_scene_box(&def, box);
+                if (box[0] < 1.0) continue; /* no box of spheres */
+                CHECK_CLOSE(box[0] * box[1] * box[2], volume, 12 * DBL_EPSILON * volume);
+                for (int d = 1; d < DIM; d++)
+                    CHECK_CLOSE(box[d], ASPECT[k][d - 1] * box[0], 2 * DBL_EPSILON * box[d]);
+            }
 }
 
 /** Without spare sites every site is used; with them the gaps are spread, not left at the end. */
 TEST(spare_sites_are_spread)
 {
+    if (DIM == 3) skip();
     const hd_scene_def def = scene_of(61, 0.4, 1.0, P, P, 1);
     const hd_plane_lattice lattice = {
         .along = 0, .rows = 8, .columns = 8, .column = 1.5, .row = 1.5};
