@@ -30,10 +30,7 @@ NODES = ((1, 0), (0, 1), (1, 1), (2, 0), (0, 2), (2, 1), (1, 2), (2, 2))
 KINDS = {T: 'T', LP: 'LP'}
 SLOPES = {T: paper.slope_t, LP: paper.slope_l}
 RELATIVE = 8e-4  # errors of exponents
-START, FALL = (
-    0.9895,
-    0.02,
-)  # v over that of the pressure is START - FALL k at density 0.4, elsewhere a tenth of FALL
+START, FALL = 0.9895, 0.02  # v over that of the pressure is START - FALL k at density 0.4
 TREMBLE = 0.012  # of a phase, from a report to the next [rad]
 LARGEST_K = 0.45  # of a wave that is followed
 SWAY = 0.03
@@ -91,25 +88,14 @@ def truth(info, kind, k):
     if abs(info.density - 0.4) < 1e-9:
         curve = paper.CURVES[KINDS[kind]]
         return curve.c * k + curve.c2 * k * k
-    steeper = (
-        1.015 if kind == LP and info.density > 0.75 else 1.0
-    )  # so that v is nearly linear in c_L
+    # so that v is nearly linear in c_L
+    steeper = 1.015 if kind == LP and info.density > 0.75 else 1.0
     return steeper * SLOPES[kind](info.density) * k
 
 
-@functools.lru_cache(None)
-def _of_row(disks, box_x, box_y, boundary):
-    walls = boundary == 'reflecting'
-    return pressure.of_row(disks / box_x, box_y - walls, walls)
-
-
 def velocity(info, nodes):
-    of_pressure = (
-        _of_row(info.disks, info.box_x, info.box_y, info.boundary_y)
-        if pressure.is_row(info)
-        else pressure.velocity(info, *nodes)
-    )
-    fall = FALL if info.density < 0.45 else 0.1 * FALL
+    of_pressure = pressure.velocity(info, *nodes)
+    fall = FALL if info.density < 0.45 else 0.1 * FALL  # elsewhere a tenth
     return (START - fall * made.wave_number(info, *nodes)) * of_pressure
 
 
@@ -117,11 +103,8 @@ class Run:
     """Info, steps and spectrum of a run; its own random numbers."""
 
     def __init__(self, name, waves_kept=10):
-        self.name, self.info, self.rng = (
-            name,
-            info_of(name),
-            np.random.default_rng(zlib.crc32(name.encode())),
-        )
+        self.name, self.info = name, info_of(name)
+        self.rng = np.random.default_rng(zlib.crc32(name.encode()))
         self.end = (4 * self.info.disks - self.info.zero_exponents) // 2
         self.steps = []
         found = [
@@ -179,9 +162,8 @@ class Run:
             [*self.steps, made.unresolved(self.info, LP, 3, 3, 8), made.zero_modes()], time
         )
         known = [one for one in self.steps if one.kind == LP]
-        message.v = (
-            float(np.mean([one.omega / one.wave_number for one in known])) if known else np.nan
-        )
+        v = [one.omega / one.wave_number for one in known]
+        message.v = float(np.mean(v)) if known else np.nan
         message.v_error = 2e-3 * message.v
         return message
 
@@ -195,27 +177,23 @@ class Run:
             total += time
             yield self.spectrum(total, local_time=time, local_exponents=self.exponents + noise)
 
-    def turning(self, times, vectors=1, strength=STRENGTH, way=1):
+    def turning(self, times, vectors=1):
         """LpPhases of the waves that are followed; all of a step tremble together."""
-        walks, known = {}, [
-            one for one in self.steps if one.kind == LP and one.wave_number < LARGEST_K
-        ]
-        amplitudes = {}
-        for step in known:
-            nodes = step.nx, step.ny
-            bits = waves.modulations(self.info, *nodes)
-            walks[nodes] = way * step.omega * times + TREMBLE * np.cumsum(
-                self.rng.normal(size=len(times))
-            )
-            size = sqrt(strength / len(bits))
-            shape = vectors + nodes[1], len(bits)  # more of them along y
-            amplitudes[nodes] = size * np.exp(2j * np.pi * self.rng.uniform(size=shape))
+        followed = []
+        for number, step in enumerate(self.steps):
+            if step.kind == LP and step.wave_number < LARGEST_K:
+                bits = waves.modulations(self.info, step.nx, step.ny)
+                trembling = TREMBLE * np.cumsum(self.rng.normal(size=len(times)))
+                shape = vectors + step.ny, len(bits)  # more of them along y
+                phases = np.exp(2j * np.pi * self.rng.uniform(size=shape))
+                turned = step.omega * times + trembling
+                followed.append((number, step, turned, sqrt(STRENGTH / len(bits)) * phases))
         for row, t in enumerate(times):
-            phases = []
-            for number, step in enumerate(self.steps):
-                if (step.nx, step.ny) in walks and step in known:
-                    turned = walks[step.nx, step.ny][row]
-                    phases += self._phases(number, step, t, turned, amplitudes[step.nx, step.ny])
+            phases = [
+                phase
+                for number, step, turned, amplitudes in followed
+                for phase in self._phases(number, step, t, turned[row], amplitudes)
+            ]
             yield LpPhases(run_id='one', sim_time=t, phases=phases)
 
     def _phases(self, number, step, t, turned, amplitudes):
@@ -267,11 +245,8 @@ def periodic(run):
     for phase in standing[-1].phases:
         phase.omega, phase.omega_error = 3e-4, 4e-4 * (1 + phase.nx)
     shown = [(kind, *nodes) for nodes in NODES[:3] for kind in (T, LP)]
-    return (
-        told
-        + standing
-        + [_field(run, run.step(*one), t) for t in (110.0, 130.0, 150.0) for one in shown]
-    )
+    times = 110.0, 130.0, 150.0
+    return told + standing + [_field(run, run.step(*one), t) for t in times for one in shown]
 
 
 def _field(run, step, time):
@@ -285,10 +260,8 @@ def _field(run, step, time):
     one.residual_l = [0.1 + 0.02 * n for n in range(one.pairs)]
     one.residual_p = [0.2 + 0.02 * n for n in range(one.pairs)]
     for name in ('p_over_px', 'p_over_py') if one.pairs else ():
-        over = getattr(one, name)
-        setattr(
-            one, name, over * (1 + 0.01 * run.rng.normal()) + 0.1 * run.rng.normal(size=len(over))
-        )
+        over = getattr(one, name) * (1 + 0.01 * run.rng.normal())
+        setattr(one, name, over + 0.1 * run.rng.normal(size=len(over)))
     return one
 
 
@@ -412,11 +385,7 @@ def interval(run, off=3e-9):
     told, asked = [run.info], run.info.interval
     for number, (stage, in_use) in enumerate(((0, 9.0), (1, 5.0), (2, 2.5), (2, 0.75), (3, 0.5))):
         cost = made.cost(100.0 + number)
-        cost.interval, cost.orthonormalisations, cost.error_bound = (
-            min(in_use, asked),
-            4 * number,
-            3e-10,
-        )
+        cost.interval, cost.orthonormalisations = min(in_use, asked), 4 * number
         told += [cost, made.status(100.0 + number, stage=stage)]
     times = (10.0, 20.0) if asked < 8 else (10.0, 20.0, 20.5)
     told += [run.spectrum(time, exponents=run.exponents + 0.1 / time) for time in times]
@@ -431,10 +400,8 @@ def independent(run):
     for one in run.steps:
         one.exponent, one.std_error = factor * one.exponent, 2e-3 * one.exponent
     spectrum = run.spectrum(20.0, exponents=factor * run.exponents, std_errors=2e-3 * run.exponents)
-    spectrum.ks_entropy, spectrum.ks_entropy_error = (
-        factor * spectrum.ks_entropy,
-        2e-3 * spectrum.ks_entropy,
-    )
+    spectrum.ks_entropy_error = 2e-3 * spectrum.ks_entropy
+    spectrum.ks_entropy *= factor
     return [run.info, made.status(100.0, stage=RunStatus.AVERAGING), cost, spectrum, run.last()]
 
 
@@ -452,21 +419,12 @@ def structure(run, reports=300, omega=None):
     ]
 
 
-MAKERS = {
-    'periodic': periodic,
-    'reflecting': reflecting,
-    'travelling': travelling,
-    'halves': halves,
-    'hydro': hydro,
-    'zeros': zeros,
-    'interval': interval,
-    'independent': independent,
-    'structure': structure,
-}
+MAKERS = periodic, reflecting, travelling, halves, hydro, zeros, interval, independent, structure
+MAKERS = {make.__name__: make for make in MAKERS}
 
 
 def messages_of(name):
-    make = MAKERS.get(name if name in MAKERS else name.partition('_')[0], plain)
+    make = MAKERS.get(name.partition('_')[0], plain)
     return make(Run(name))
 
 
