@@ -100,7 +100,10 @@ class Check(harness.Case):
         """But for what a machine is and does in a second."""
         done = checked(self.file_of(EVERY_LINE))
         self.assertEqual((done.returncode, done.stderr), (0, ''))
-        said = re.sub(r'(there are) \S+ GB \(\w+\)', r'\1 # GB', done.stdout)
+        memory = float(re.search(r'memory +(\S+) GB', done.stdout).group(1))
+        self.assertAlmostEqual(memory, 0.0086, delta=0.0005)  # of one compiler and another
+        said = re.sub(r'(memory +)\S+', r'\1#', done.stdout)
+        said = re.sub(r'(there are) \S+ GB \(\w+\)', r'\1 # GB', said)
         said = re.sub(r'interval \S+;', 'interval #;', said)
         said = re.sub(r'\S+ GB an hour', '# GB an hour', said)
         golden.check(self, 'check.txt', re.sub(r'[\d.e+-]+ (s|min|h)\b', '# s', said))

@@ -1,13 +1,14 @@
 /** How many there are of what messages list -> bytes. */
 #include "topics/extent.h"
 
+#include "common/dimension.h"
 #include "hdlyap_ros/messages.h"
 
 hd_extent extent_of(const settings *set, hd_extent of_run)
 {
     if (set->fields.count == 0) return of_run;
     of_run.examples = set->fields.count; /* of steps that are not known yet */
-    of_run.pairs = HD_MODULATIONS_MAX * set->fields.count;
+    of_run.pairs = MODULATIONS * set->fields.count;
     return of_run;
 }
 

@@ -6,7 +6,7 @@
 
 #include "node/clock.h"
 
-enum { PAIRS_MAX = HD_MODULATIONS_MAX };
+enum { PAIRS_MAX = MODULATIONS };
 
 /** A message this old is as good as new for a run that stands still [s]. */
 static const double rest_seconds = 1.0;

@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-enum { ALONG = HD_MODULATIONS_MAX, ACROSS = HD_TRANSVERSE_MAX };
+enum { ALONG = MODULATIONS, ACROSS = TRANSVERSES };
 
 static void gather_means(double *mean, const hd_structure *s, size_t waves, size_t vectors)
 {
