@@ -46,6 +46,7 @@ EVERY_LINE = dict(
     aspect=0.06,
     boundary_y='reflecting',
     duration=2000.0,
+    report_interval=5.0,  # so that computing takes longer than recording, everywhere
     threads=1,
     observables=[topic for topic in OBSERVABLES if topic != 'gas'] + ['covariant'],
 )
