@@ -46,7 +46,7 @@ static void course_end(course *c, int block, const hd_run *run)
     const hd_gas_means gas = hd_gas_read(hd_run_gas(run));
     const double time = hd_spectrum_time(s);
     c->blocks = block;
-    c->entropy[block] = time * hd_spectrum_ks_entropy(s);
+    c->entropy[block] = time * hd_spectrum_sum_up(s).ks_entropy;
     c->largest[block] = time * hd_spectrum_exponent(s, 0);
     c->collisions[block] = gas.time * gas.collision_rate;
 }

@@ -10,6 +10,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "events/trajectory.h"
 #include "gemm.h"
 #include "options.h"
 #include "progress.h"

@@ -6,7 +6,7 @@
 
 #include <cblas.h>
 #include <float.h>
-#include <hdlyap/ortho.h>
+#include "tangent/ortho.h"
 #include <lapacke.h>
 #include <math.h>
 

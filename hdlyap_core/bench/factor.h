@@ -3,6 +3,7 @@
 #define HD_BENCH_FACTOR_H
 
 #include <hdlyap/frame.h>
+#include "tangent/frame.h"
 
 typedef enum factor_method {
     FACTOR_OURS,           /**< hd_ortho_step as hd_run calls it */

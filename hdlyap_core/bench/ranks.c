@@ -9,6 +9,7 @@
 #include <string.h>
 #include <sys/resource.h>
 
+#include "base/communicator.h"
 #include "options.h"
 #include "sample.h"
 #include "timing.h"

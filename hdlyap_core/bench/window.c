@@ -7,6 +7,7 @@
 #include "base/check.h"
 #include "events/events.h"
 #include "timing.h"
+#include "run/run.h"
 
 /** The frame at which the tightest run of this scene begins to average. */
 static void record_start(window *w)

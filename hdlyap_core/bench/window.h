@@ -3,10 +3,12 @@
 #ifndef HD_BENCH_WINDOW_H
 #define HD_BENCH_WINDOW_H
 
+#include "events/trajectory.h"
 #include "factor.h"
 #include "gemm.h"
 #include "progress.h"
 #include "sample.h"
+#include "tangent/frame.h"
 
 #define WINDOW_LONGEST 2.0
 

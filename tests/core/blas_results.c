@@ -6,6 +6,7 @@
 #include <stdio.h>
 
 #include "hdlyap/hdlyap.h"
+#include "modes/modes.h"
 
 /** A channel, in which 64 disks cannot pass each other: clean steps. */
 static hd_scene_def channel(unsigned observe, int threads)
@@ -51,7 +52,7 @@ static void print_spectrum(const hd_run *run)
     const double bound = hd_run_cost(run).error_bound;
     for (int col = 0; col < hd_run_vectors(run); col++)
         print("exponent", hd_spectrum_exponent(spectrum, col), bound);
-    print("entropy", hd_spectrum_ks_entropy(spectrum), bound * hd_run_vectors(run));
+    print("entropy", hd_spectrum_sum_up(spectrum).ks_entropy, bound * hd_run_vectors(run));
 }
 
 static void print_steps(const hd_run *run)

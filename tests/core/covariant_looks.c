@@ -6,6 +6,8 @@
 #include <stdlib.h>
 
 #include "hdlyap/hdlyap.h"
+#include "modes/fields.h"
+#include "modes/modes.h"
 
 enum { DISKS_MAX = 16 };
 
@@ -73,7 +75,7 @@ static void print_state(const hd_run *run)
 static void print_scene(const hd_run *run)
 {
     double box[2];
-    const hd_fields *fields = hd_modes_fields(hd_covariant_half(hd_run_covariant(run), 0));
+    const hd_fields *fields = hd_modes_fields(hd_covariant_read(hd_run_covariant(run)).half[0]);
     hd_scene_box(hd_run_scene(run), box);
     print("", "box", box, 2);
     for (int s = 0; s < hd_fields_subspaces(fields); s++) {
@@ -103,29 +105,29 @@ static void print_modes(const char *set, const hd_modes *modes)
 /** Of growth and of shape. */
 static void print_vectors(const hd_covariant *c, int disks)
 {
-    for (int col = 0; col < hd_covariant_vectors(c); col++) {
-        const double mean = hd_spectrum_exponent(hd_covariant_spectrum(c), col),
-                     local = hd_spectrum_local(hd_covariant_spectrum(c), col),
-                     entropy = log(disks * hd_covariant_widths(c)[col]);
+    for (int col = 0; col < hd_covariant_read(c).vectors; col++) {
+        const double mean = hd_spectrum_exponent(hd_covariant_read(c).spectrum, col),
+                     local = hd_spectrum_local(hd_covariant_read(c).spectrum, col),
+                     entropy = log(disks * hd_covariant_read(c).widths[col]);
         print("", "rate.mean", &mean, 1);
         print("", "rate.now", &local, 1);
         print("", "entropy.mean", &entropy, 1);
-        print("", "cosine.mean", &hd_covariant_cosines(c)[col], 1);
-        print("", "apart.least", &hd_covariant_start_mismatch_each(c)[col], 1);
+        print("", "cosine.mean", &hd_covariant_read(c).cosines[col], 1);
+        print("", "apart.least", &hd_covariant_read(c).start_mismatch_each[col], 1);
     }
-    print_modes("dq_", hd_covariant_half(c, 0));
-    print_modes("dp_", hd_covariant_half(c, 1));
-    print_modes("frame_", hd_covariant_of_frame(c));
+    print_modes("dq_", hd_covariant_read(c).half[0]);
+    print_modes("dp_", hd_covariant_read(c).half[1]);
+    print_modes("frame_", hd_covariant_read(c).of_frame);
 }
 
 static void print_spaces(const hd_covariant *c)
 {
-    const hd_covariant_mismatch apart = hd_covariant_start_mismatch(c);
-    const double spaces[] = {apart.centre, apart.stable, hd_covariant_null_most(c)};
-    if (!hd_splitting_has_spaces(hd_covariant_splitting(c))) return;
+    const hd_covariant_mismatch apart = hd_covariant_read(c).start_mismatch;
+    const double spaces[] = {apart.centre, apart.stable, hd_covariant_read(c).null_most};
+    if (!hd_covariant_read(c).splitting.has_spaces) return;
     print("", "spaces_apart.least", spaces, 3);
     for (hd_pair_of_spaces pair = 0; pair < HD_PAIRS_OF_SPACES; pair++) {
-        const hd_angle_of_spaces *angle = hd_splitting_angle(hd_covariant_splitting(c), pair);
+        const hd_angle_of_spaces *angle = &hd_covariant_read(c).splitting.angle[pair];
         print("", "angle.now", &angle->last, 1);
         print("", "angle.mean", &angle->mean, 1);
         print("", "angle.least", &angle->least, 1);
@@ -137,14 +139,14 @@ static void print_spaces(const hd_covariant *c)
 
 static void print_window(const hd_covariant *c, int disks)
 {
-    const int pairs = hd_covariant_vectors(c) - 1;
-    const hd_splitting *splitting = hd_covariant_splitting(c);
-    printf("window %.17g %ld\n", hd_covariant_window_end(c), hd_splitting_samples(splitting));
+    const int pairs = hd_covariant_read(c).vectors - 1;
+    const hd_splitting_results splitting = hd_covariant_read(c).splitting;
+    printf("window %.17g %ld\n", hd_covariant_read(c).window_end, splitting.samples);
     print_vectors(c, disks);
-    print("", "neighbours.mean", hd_splitting_neighbours(splitting), pairs);
-    print("", "neighbours.least", hd_splitting_neighbours_least(splitting), pairs);
-    print("", "violated.mean", hd_splitting_violations(splitting), pairs);
-    print("", "entangled.mean", hd_splitting_domination_violations(splitting), pairs);
+    print("", "neighbours.mean", splitting.neighbours, pairs);
+    print("", "neighbours.least", splitting.neighbours_least, pairs);
+    print("", "violated.mean", splitting.violations, pairs);
+    print("", "entangled.mean", splitting.domination_violations, pairs);
     print_spaces(c);
 }
 
@@ -158,10 +160,10 @@ int main(int argc, char **argv)
     hd_status status = hd_run_create(&run, &scene, message, sizeof message);
     if (status == HD_OK) print_scene(run);
     while (status == HD_OK && hd_run_stage(run) != HD_FINISHED) {
-        const long windows = hd_covariant_windows(hd_run_covariant(run));
+        const long windows = hd_covariant_read(hd_run_covariant(run)).windows;
         status = hd_run_advance(run);
         if (status == HD_OK && hd_run_stage(run) != HD_EQUILIBRATING) print_state(run);
-        if (hd_covariant_windows(hd_run_covariant(run)) > windows)
+        if (hd_covariant_read(hd_run_covariant(run)).windows > windows)
             print_window(hd_run_covariant(run), scene.disks);
     }
     hd_run_free(run);

@@ -8,9 +8,7 @@ int main()
     hd_trajectory *trajectory = nullptr;
     if (hd_trajectory_create(&trajectory, &def) != HD_OK) return 1;
     hd_trajectory_free(trajectory);
-    hd_frame_free(nullptr);
-    hd_ortho_free(nullptr);
-    hd_spectrum_free(nullptr);
     hd_run_free(nullptr);
+    if (hd_waves(&def, nullptr, 0) < 0 || !(hd_steps_threshold() > 0)) return 1;
     return hd_status_text(HD_OK) == nullptr || hd_blas_query().threads < 0;
 }

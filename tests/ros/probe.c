@@ -146,11 +146,13 @@ void hd_trajectory_state(const hd_trajectory *trajectory, double *q, double *p)
 }
 
 /** PROBE_NAN_ANGLE: the one between covariant centre and null space is not a number. */
-double hd_covariant_null(const hd_covariant *covariant)
+hd_covariant_results hd_covariant_read(const hd_covariant *covariant)
 {
-    double (*real)(const hd_covariant *);
-    next(&real, "hd_covariant_null");
-    return getenv("PROBE_NAN_ANGLE") ? NAN : real(covariant);
+    hd_covariant_results (*real)(const hd_covariant *);
+    next(&real, "hd_covariant_read");
+    hd_covariant_results results = real(covariant);
+    if (getenv("PROBE_NAN_ANGLE")) results.null = NAN;
+    return results;
 }
 
 /** PROBE_NAN_PHASE: that of the followed vectors of a resolved step is not a number. */

@@ -25,7 +25,7 @@ typedef struct hd_checkpoint {
  * when it is whole and on the disk. `label` (at most HD_CHECKPOINT_LABEL - 1 bytes of it) is kept.
  * HD_FILE_FAULT with one line in `message` (the file, the reason), HD_NOT_FINITE if a number of the
  * run is none, HD_FILE_FAULT for contents with which no run could be resumed, the status of a run
- * that has failed (hd_run_status); an older file then stays as it was. Of several ranks rank 0
+ * that has failed; an older file then stays as it was. Of several ranks rank 0
  * writes, and has the line. Cost: 32 N n bytes. */
 HD_MUST_CHECK hd_status hd_run_save(hd_run *run, const char *path, const char *label, char *message,
                                     size_t size);

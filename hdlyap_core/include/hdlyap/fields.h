@@ -1,4 +1,5 @@
-/** The T, L and P fields of every wave vector, sampled at the disks [T10], [T22]. */
+/** The T, L and P fields of every wave vector, sampled at the disks [T10], [T22]. Several threads
+ * may read one at once while its run is not called. */
 #ifndef HDLYAP_FIELDS_H
 #define HDLYAP_FIELDS_H
 
@@ -19,25 +20,9 @@ typedef struct hd_subspace {
 } hd_subspace;
 
 typedef struct hd_fields hd_fields;
-
-/** HD_NO_MEMORY. Columns: those of all subspaces, in ascending k, T before LP; then the
- * null fields: of each direction (zero where it is not periodic), then of the momenta. */
-HD_MUST_CHECK hd_status hd_fields_create(hd_fields **out, const hd_scene_def *def);
-void hd_fields_free(hd_fields *fields);
-
-/** Samples every field at the positions q, where momenta are p; each column gets norm 1 (or stays
- * zero). Cost O(N * columns). */
-void hd_fields_sample(hd_fields *fields, const double *q, const double *p);
-
-int hd_fields_dimension(const hd_fields *fields);
-int hd_fields_nulls(const hd_fields *fields);   /**< null fields, dimension + 1 */
-int hd_fields_columns(const hd_fields *fields); /**< all */
-int hd_fields_stride(const hd_fields *fields);  /**< doubles from one row to the next */
+int hd_fields_stride(const hd_fields *fields); /**< doubles from one row to the next */
 /** Row-major, a row for each component of each disk: components x, y, .. there. */
 const double *hd_fields_data(const hd_fields *fields);
-
-/** Norm of a column before it was made 1. */
-double hd_fields_norm(const hd_fields *fields, int column);
 
 int hd_fields_subspaces(const hd_fields *fields);
 const hd_subspace *hd_fields_subspace(const hd_fields *fields, int s);

@@ -1,73 +1,13 @@
-/** The tangent frame: HD_ROWS N x n vectors, carried along by replaying a record [T1]-[T4]. */
+/** Vectors of the tangent frame. */
 #ifndef HDLYAP_FRAME_H
 #define HDLYAP_FRAME_H
 
-#include "hdlyap/communicator.h"
-#include "hdlyap/trajectory.h"
-
-HD_API_BEGIN
-
-/** HD_ROWS rows of each disk, dq_x, dq_y, dp_x, dp_y, of spheres dq_x .. dp_z; row-major with
- * leading dimension hd_frame_stride, rows aligned to 64 bytes, columns beyond those of vectors
- * zero. Of several ranks each has hd_frame_stride vectors, the last ones fewer; of a single one, n
- * <= hd_frame_stride. */
-typedef struct hd_frame hd_frame;
-
-/** vectors: 1 .. HD_ROWS disks. Random entries from the seed; orthonormalise before use. */
-HD_MUST_CHECK hd_status hd_frame_create(hd_frame **out, int disks, int vectors, uint64_t seed,
-                                        int threads);
-/** A frame of which each rank carries some vectors, by all of them together. HD_NO_MEMORY on all if
- * any of them has too little. */
-HD_MUST_CHECK hd_status hd_frame_create_shared(hd_frame **out, int disks, int vectors,
-                                               uint64_t seed, int threads,
-                                               hd_communicator *communicator);
-void hd_frame_free(hd_frame *frame);
-
-int hd_frame_rows(const hd_frame *frame);                /**< HD_ROWS N */
-int hd_frame_vectors(const hd_frame *frame);             /**< n, of all ranks together */
-int hd_frame_stride(const hd_frame *frame);              /**< doubles from one row to the next */
-int hd_frame_threads(const hd_frame *frame);             /**< that work on it */
-void hd_frame_use_threads(hd_frame *frame, int threads); /**< 1 .. as many as at its creation */
-double *hd_frame_data(hd_frame *frame); /**< current vectors; valid until the next replay */
-const double *hd_frame_read(const hd_frame *frame); /**< the same, to look at */
-
 /** Vectors first .. first + count - 1, wherever they are kept: data is the first one's entry of row
- * 0. */
+ * 0. Rows of each disk: dq_x, dq_y, dp_x, dp_y, of spheres dq_x .. dp_z. */
 typedef struct hd_columns {
     const double *data;
     int stride; /**< doubles from one row to the next */
     int first, count;
 } hd_columns;
-hd_columns hd_frame_columns(const hd_frame *frame); /**< all of them, of this rank */
 
-/** Exchanges with the other ranks: each has then all vectors of some of the disks instead of some
- * vectors of all, in the same room. Until hd_frame_to_columns, or a rewind. */
-void hd_frame_to_rows(hd_frame *frame);
-void hd_frame_to_columns(hd_frame *frame);
-int hd_frame_rows_here(const hd_frame *frame); /**< in between, zeros behind the last disk's */
-/** In between: entry of the first row of a vector, and the number of vectors beside it, with this
- * one, that lie in the same rows at the leading dimension hd_frame_stride. */
-double *hd_frame_vector(hd_frame *frame, int col);
-int hd_frame_neighbours(const hd_frame *frame, int col);
-
-/** Copies vectors of any rank to all of them, row-major: x[HD_ROWS N][count]. */
-void hd_frame_gather(const hd_frame *frame, int first, int count, double *x);
-
-/** Carries the vectors from t_begin to t_end (times as in the record) through what happened from
- * t_begin to t_end (hd_record_within), and keeps the vectors of t_begin for hd_frame_rewind. All
- * cores; a block of columns stays in cache. HD_NO_MEMORY if the room for the maps could not grow.
- * Cost about 40 n flops and 128 n bytes of cache traffic per pair event. */
-HD_MUST_CHECK hd_status hd_frame_replay(hd_frame *frame, const hd_record *record, double t_begin,
-                                        double t_end);
-
-/** The vectors before the last replay, until the next one. */
-const double *hd_frame_before(const hd_frame *frame);
-/** Undoes the last replay (once). */
-void hd_frame_rewind(hd_frame *frame);
-
-/** Per column: cosine of the angle between its dp and dq halves, NaN if one of them vanishes, and
- * |dp| / |dq|, NaN if dq vanishes; of this rank's, as many as hd_frame_columns has, each. */
-void hd_frame_halves(const hd_frame *frame, double *cos_theta, double *dp_dq_ratio);
-
-HD_API_END
 #endif

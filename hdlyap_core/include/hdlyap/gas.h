@@ -1,5 +1,5 @@
 /** The disks as a gas: how often they collide, and the pressure that follows, with standard errors
- * [T19]. */
+ * [T19]. Several threads may read one at once while its run is not called. */
 #ifndef HDLYAP_GAS_H
 #define HDLYAP_GAS_H
 
@@ -7,8 +7,8 @@
 
 HD_API_BEGIN
 
-/** Means over all whole samples since hd_gas_begin. Errors are standard errors [T8]; negative while
- * they cannot be known. */
+/** Means over all whole samples since the averages began. Errors are standard errors [T8]; negative
+ * while they cannot be known. */
 typedef struct hd_gas_means {
     double time;                 /**< averaged time [time units]; without it all else is NaN */
     double collision_rate;       /**< 2 pair events / (N t): of each disk [1/time unit] */
@@ -23,23 +23,9 @@ typedef struct hd_gas_means {
 
 typedef struct hd_gas hd_gas;
 
-/** block: standard errors come from blocks of the averaged time that are at least so long [time
- * units]. HD_NO_MEMORY. */
-HD_MUST_CHECK hd_status hd_gas_create(hd_gas **out, const hd_scene_def *def, double block);
-void hd_gas_free(hd_gas *gas);
-
-/** Begins anew where the disks are now. */
-void hd_gas_begin(hd_gas *gas, const hd_trajectory *trajectory);
-/** Ends a sample there: all that happened since the last call of one of the two. Samples may be of
- * any length; one without time is none. O(1). */
-void hd_gas_add(hd_gas *gas, const hd_trajectory *trajectory);
-
 /** O(blocks). */
 hd_gas_means hd_gas_read(const hd_gas *gas);
 
-/** Area, of spheres volume, in which centres move: between walls L - 1 instead of L
- * [sigma^d]. */
-double hd_gas_area(const hd_scene_def *def);
 /** kT: twice the kinetic energy over the momenta that are free, those less that are conserved;
  * but for 1 / N it is 1, of spheres 2/3 [energy]. */
 double hd_gas_temperature(const hd_scene_def *def);

@@ -15,14 +15,12 @@
 /* averages */
 #include "hdlyap/spectrum.h"
 /* events */
-#include "hdlyap/record.h"
 #include "hdlyap/trajectory.h"
 #include "hdlyap/gas.h"
 /* tangent */
 #include "hdlyap/frame.h"
 #include "hdlyap/interval.h"
 #include "hdlyap/localization.h"
-#include "hdlyap/ortho.h"
 /* modes */
 #include "hdlyap/fields.h"
 #include "hdlyap/modes.h"

@@ -1,5 +1,5 @@
 /** Linear response of the Fourier sums of density, momentum and energy to a Lyapunov vector [T15].
- */
+ * Several threads may read one at once while its run is not called. */
 #ifndef HDLYAP_HYDRO_H
 #define HDLYAP_HYDRO_H
 
@@ -20,15 +20,6 @@ typedef struct hd_hydro_response {
 } hd_hydro_response;
 
 typedef struct hd_hydro hd_hydro;
-
-HD_MUST_CHECK hd_status hd_hydro_create(hd_hydro **out, const hd_scene_def *def,
-                                        const hd_steps *steps);
-void hd_hydro_free(hd_hydro *hydro);
-
-/** Responses of the vectors that belong to a resolved step (hd_steps_of_vector), at positions q
- * and momenta p. */
-void hd_hydro_measure(hd_hydro *hydro, const hd_steps *steps, hd_columns vectors, const double *q,
-                      const double *p);
 
 /** expected multiplicity x modulations of each step, in their order; constant. col is -1 where
  * there is none. */

@@ -58,8 +58,6 @@ void hd_parameter_assign(const hd_parameter *row, hd_scene_def *def, double valu
 /** The value that a number of this text is, from end to end, or a text; false if it is none, or too
  * long. Of a row that is live. */
 bool hd_parameter_read(const hd_parameter *row, hd_scene_def *def, const char *text);
-/** True if both scenes have the same value. */
-bool hd_parameter_same(const hd_parameter *row, const hd_scene_def *a, const hd_scene_def *b);
 
 /** The word for a value; NULL if it has none. */
 const char *hd_parameter_word_of(const hd_parameter *row, int value);

@@ -1,6 +1,7 @@
 /** How the vectors of a step move within pairs of its fields [T13]: those of an LP step rotate
  * between the L and the P field of each modulation; those of a T step stay, but for diffusion,
- * between the T fields of a cosine and of a sine. */
+ * between the T fields of a cosine and of a sine. Several threads may read one at once while its
+ * run is not called. */
 #ifndef HDLYAP_PHASES_H
 #define HDLYAP_PHASES_H
 
@@ -32,14 +33,6 @@ typedef struct hd_phase {
 
 typedef struct hd_phases hd_phases;
 
-/** Of the steps of a kind, HD_MODE_LP or HD_MODE_T. HD_NO_MEMORY. */
-HD_MUST_CHECK hd_status hd_phases_create(hd_phases **out, const hd_steps *steps, hd_mode_kind kind);
-void hd_phases_free(hd_phases *phases);
-void hd_phases_clear(hd_phases *phases);
-
-/** Goes on to the snapshot in the steps' modes, taken at simulated time `time`. */
-void hd_phases_add(hd_phases *phases, const hd_steps *steps, double time);
-
 /** 2 d^2 for each subspace of the kind with d pairs, in the order of the steps: vectors outside,
  * pairs inside. A single field (of T behind walls) is no pair. Constant. */
 int hd_phases_count(const hd_phases *phases);
@@ -67,11 +60,6 @@ typedef struct hd_velocity {
                       not the same velocity, and v_error has grown with it */
 } hd_velocity;
 hd_velocity hd_phases_velocity(const hd_phases *phases);
-
-/** Longest time from the last sample to the next that unwraps every resolved step safely; INFINITY
- * without one. Grows as the rates become known, by at most 2 from one sample to the next, and
- * falls when phases scatter more. */
-double hd_phases_sampling(const hd_phases *phases, const hd_steps *steps);
 
 HD_API_END
 #endif

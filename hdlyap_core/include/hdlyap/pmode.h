@@ -1,17 +1,14 @@
 /** The L and P modes of a step, reconstructed from its measured vectors, as the paper does [T14].
- */
+ * One thread at a time. */
 #ifndef HDLYAP_PMODE_H
 #define HDLYAP_PMODE_H
 
+#include "hdlyap/frame.h"
 #include "hdlyap/steps.h"
 
 HD_API_BEGIN
 
 typedef struct hd_pmode hd_pmode;
-
-/** For N disks. HD_NO_MEMORY. */
-HD_MUST_CHECK hd_status hd_pmode_create(hd_pmode **out, const hd_scene_def *def);
-void hd_pmode_free(hd_pmode *pmode);
 
 /** Best combinations of the normalised dq halves psi of the step's set for its normalised fields:
  * (phi_L, phi_P) = psi Q by least squares. False if the step is no resolved LP step of its own

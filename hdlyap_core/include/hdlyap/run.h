@@ -1,16 +1,18 @@
 /** A whole run of a scene: equilibration, warm-up of the frame, averaging, one interval at a time.
+ * Two threads may have a run each; one run, and all that is read of it, is one thread's at a time.
  */
 #ifndef HDLYAP_RUN_H
 #define HDLYAP_RUN_H
 
 #include <stdbool.h>
 
+#include "hdlyap/communicator.h"
 #include "hdlyap/covariant.h"
+#include "hdlyap/frame.h"
 #include "hdlyap/gas.h"
 #include "hdlyap/hydro.h"
 #include "hdlyap/interval.h"
 #include "hdlyap/localization.h"
-#include "hdlyap/ortho.h"
 #include "hdlyap/parameters.h"
 #include "hdlyap/phases.h"
 #include "hdlyap/pmode.h"
@@ -53,7 +55,7 @@ typedef struct hd_cost {
     double events_per_second; /**< pair events over seconds in the trajectory */
     double interval;          /**< time units between orthonormalisations, last used */
     hd_limit limit;           /**< why it was not longer */
-    double condition;         /**< of the last orthonormalisation, see hd_ortho_condition */
+    double condition;         /**< of the last orthonormalisation [T6] */
     double defect;            /**< predicted loss of orthogonality of the last one */
     double error_bound; /**< (sum of eps * condition, enlarged as [T6] says, + defect) / averaged
                            time: what rounding may have done to a mean */
@@ -98,9 +100,6 @@ void hd_run_free(hd_run *run);
  * interrupted between two calls. Does nothing once HD_FINISHED. A run that has failed is of no use
  * any more: each later call says the same status, and it is not saved. */
 HD_MUST_CHECK hd_status hd_run_advance(hd_run *run);
-/** HD_OK; or what the run has failed with, in hd_run_advance, hd_run_reset_average, or on the way
- * back that hd_run_save ends. */
-hd_status hd_run_status(const hd_run *run);
 
 /** True if the last call ended at a multiple of the report interval. Spectrum, modes and steps are
  * then those of the last measured state, hd_spectrum_time after the averaging began: some
@@ -157,7 +156,8 @@ hd_columns hd_run_columns(const hd_run *run);
  * of hd_run_advance. Orthonormal in the whole norm at measured states: as for fields that are due.
  * Of several ranks, those of the modes, where fields or the hydrodynamic response are due. */
 hd_columns hd_run_frame_columns(const hd_run *run);
-/** hd_frame_halves of all n vectors at the last measured state; [n] each. */
+/** Of each vector at the last measured state, [n]: cosine of the angle between its dp and dq
+ * halves, NaN if one of them vanishes, and |dp| / |dq|, NaN if dq vanishes. */
 void hd_run_halves(const hd_run *run, double *cos_theta, double *dp_dq_ratio);
 
 /** Starts the averages afresh at the present time. Fails as hd_run_advance does. */
@@ -171,8 +171,6 @@ int hd_run_ranks(const hd_run *run);          /**< 1 unless shared */
 int hd_run_threads(const hd_run *run);        /**< in use, of this rank */
 int hd_run_threads_denied(const hd_run *run); /**< wanted, but not granted by OpenMP; 0: none */
 const hd_trajectory *hd_run_trajectory(const hd_run *run);
-/** What is carried; of all 4N exponents half of the vectors [T18]. NULL without exponents */
-const hd_frame *hd_run_frame(const hd_run *run);
 const hd_spectrum *hd_run_spectrum(const hd_run *run); /**< NULL without exponents */
 const hd_modes *hd_run_modes(const hd_run *run); /**< NULL unless observed, as the two below */
 const hd_steps *hd_run_steps(const hd_run *run);
@@ -193,8 +191,6 @@ const hd_gas *hd_run_gas(const hd_run *run);
 /** NULL unless observed; up to the last measured state. */
 hd_localization *hd_run_localization(const hd_run *run);
 hd_cost hd_run_cost(const hd_run *run);
-/** Averaged time from which standard errors are stated [T8]; 0 without exponents. */
-double hd_run_errors_after(const hd_run *run);
 /** True if averages have been taken for so long (without exponents, as long as with them) and less
  * than a tenth of the disks was seen away from its place since: all errors are those of this one
  * state of the disks, as of a crystal [T8]. */

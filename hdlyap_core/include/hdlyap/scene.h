@@ -79,7 +79,7 @@ typedef struct hd_text {
  * that are plain numbers. */
 typedef struct hd_scene_def {
     hd_container container;
-    hd_boundary boundary[3]; /**< boundary_x, _y, _z, the last of spheres: see hd_scene_boundary */
+    hd_boundary boundary[3]; /**< boundary_x, _y, _z, the last of spheres; of a box alone */
     uint64_t seed;
     int exponents;         /**< number of leading ones, 1 .. HD_ROWS N, or one of HD_EXPONENTS_* */
     double warmup;         /**< HD_WARMUP_AUTO, see hd_scene_warmup [time units] */
@@ -105,28 +105,10 @@ hd_scene_def hd_scene_def_default(void);
  * target hd_target_check says it. */
 HD_MUST_CHECK hd_status hd_scene_check(const hd_scene_def *def, char *message, size_t size);
 
-/** Of the space that the particles move in: directions. */
-int hd_scene_dimension(const hd_scene_def *def);
-/** Of one particle: components of its dq, and of its dp. */
-int hd_scene_coordinates(const hd_scene_def *def);
-
 /** Box edges, one for each direction [sigma]: Lx = sqrt(N / (rho A)), Ly = A Lx, with A = aspect;
  * of spheres Lx = cbrt(N / (rho A B)), Lz = B Lx, with B = aspect_z; of the square around a circle
  * 2 R, with R = sqrt(N / (pi rho)). */
 void hd_scene_box(const hd_scene_def *def, double *box);
-
-/** What the ends of direction d are. */
-hd_boundary hd_scene_boundary(const hd_scene_def *def, int d);
-
-/** Time that sound takes through the longest edge of the box, by the equation of state of Henderson
- * (Mol. Phys. 30, 971 (1975)), of spheres that of Carnahan and Starling (J. Chem. Phys. 51, 635
- * (1969)) [time units]. */
-double hd_scene_sound_crossing(const hd_scene_def *def);
-
-/** Mean path of a disk between two collisions, by Enskog's theory with the pair correlation at
- * contact of the same authors: 1 / (2 sqrt(2) density g), of spheres 1 / (sqrt(2) pi density g)
- * [sigma]. */
-double hd_scene_mean_free_path(const hd_scene_def *def);
 
 /** Number of vanishing exponents: 2, and 2 for each periodic direction; 4 in a circle. */
 int hd_scene_zero_exponents(const hd_scene_def *def);

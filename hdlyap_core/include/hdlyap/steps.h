@@ -1,5 +1,5 @@
 /** Degenerate sets of exponents with the waves that they belong to, and the dispersion relation
- * [T12]. */
+ * [T12]. One thread at a time, to read as well: there is a workspace in it. */
 #ifndef HDLYAP_STEPS_H
 #define HDLYAP_STEPS_H
 
@@ -51,9 +51,6 @@ typedef struct hd_relation {
     double box_error;    /**< by which narrow edges and walls may move c, as a part of it */
     double scatter; /**< of a well resolved step about the relation, as a part of its exponent */
 } hd_relation;
-
-/** kind: HD_MODE_T or HD_MODE_LP. */
-hd_relation hd_relation_of(const hd_scene_def *def, hd_mode_kind kind);
 /** What c of such a box is left open by, however long it is averaged, as a part of it: from its
  * longest wave of this kind, well resolved; INFINITY if the scene asks for none, or they follow no
  * relation. */
@@ -91,15 +88,6 @@ typedef struct hd_dispersion {
 } hd_dispersion;
 
 typedef struct hd_steps hd_steps;
-
-/** For the fields of `modes`, which lives longer. HD_NO_MEMORY. */
-HD_MUST_CHECK hd_status hd_steps_create(hd_steps **out, const hd_scene_def *def,
-                                        const hd_modes *modes);
-void hd_steps_free(hd_steps *steps);
-void hd_steps_clear(hd_steps *steps);
-
-/** Finds the sets from running averages of weights and exponents. Cost O(n subspaces). */
-void hd_steps_find(hd_steps *steps, const hd_spectrum *spectrum);
 /** A step is resolved if at least this part of its expected multiplicity is found, beyond what
  * random vectors would show. */
 double hd_steps_threshold(void);
@@ -107,7 +95,6 @@ double hd_steps_threshold(void);
 /** Steps of all subspaces in their order, the zero modes, and with all 4N vectors the conjugate
  * steps in the same order; resolved or not: the number is constant. */
 int hd_steps_count(const hd_steps *steps);
-const hd_modes *hd_steps_modes(const hd_steps *steps); /**< as at creation */
 const hd_step *hd_steps_step(const hd_steps *steps, int index);
 
 /** Step to which a vector belongs: the one of its set with the largest average weight; -1 if none:
@@ -123,14 +110,6 @@ bool hd_steps_is_shown(const hd_steps *steps, int index);
  * none.
  */
 int hd_steps_lowest(const hd_steps *steps, hd_mode_kind kind);
-
-/** Standard error of the sum over the resolved steps of factor(step, context) times exponent; see
- * hd_spectrum_error_of_sum. `spectrum` as in hd_steps_find. */
-double hd_steps_error_of_sum(const hd_steps *steps, const hd_spectrum *spectrum,
-                             double (*factor)(const hd_step *, const void *), const void *context);
-
-/** For the scene of the steps. kind: HD_MODE_T or HD_MODE_LP. */
-const hd_relation *hd_steps_relation(const hd_steps *steps, hd_mode_kind kind);
 /** By which a resolved T or LP step may stray from the relation, as a part of its exponent: more if
  * multiplicity is missing, or weight lies in the columns of other steps. NaN without a relation. */
 double hd_steps_scatter(const hd_steps *steps, const hd_step *step);

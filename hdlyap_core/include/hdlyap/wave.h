@@ -67,7 +67,6 @@ typedef struct hd_wave_limits {
                           pi sqrt(density), of spheres pi cbrt(density) */
     int node; /**< largest number of nodes along a direction within that; 0 if there is no wave */
 } hd_wave_limits;
-hd_wave_limits hd_wave_limits_of(const hd_scene_def *def);
 
 /** Writes the wave vectors that the scene asks for to out[capacity], in ascending k, and returns
  * their number; with capacity 0 only counts. */

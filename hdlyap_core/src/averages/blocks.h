@@ -4,8 +4,8 @@
 #ifndef HD_BLOCKS_H
 #define HD_BLOCKS_H
 
+#include "averages/spectrum.h"
 #include "base/archive.h"
-#include "hdlyap/spectrum.h"
 
 enum { HD_BLOCKS_MAX = 96 };
 

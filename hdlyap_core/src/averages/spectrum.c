@@ -165,14 +165,7 @@ double hd_spectrum_local(const hd_spectrum *spectrum, int col)
     return spectrum->local_time > 0 ? spectrum->local_sum[col] / spectrum->local_time : NAN;
 }
 
-double hd_spectrum_local_time(const hd_spectrum *spectrum) { return spectrum->local_time; }
-
-double hd_spectrum_lambda_max(const hd_spectrum *spectrum)
-{
-    return hd_spectrum_exponent(spectrum, 0);
-}
-
-double hd_spectrum_ks_entropy(const hd_spectrum *spectrum)
+static double ks_entropy(const hd_spectrum *spectrum)
 {
     double sum = 0.0;
     for (int col = 0; col < spectrum->vectors; col++)
@@ -180,7 +173,7 @@ double hd_spectrum_ks_entropy(const hd_spectrum *spectrum)
     return sum;
 }
 
-double hd_spectrum_ks_entropy_error(const hd_spectrum *spectrum)
+static double ks_entropy_error(const hd_spectrum *spectrum)
 {
     int count = 0;
     for (int col = 0; col < spectrum->vectors; col++)
@@ -188,7 +181,7 @@ double hd_spectrum_ks_entropy_error(const hd_spectrum *spectrum)
     return hd_spectrum_error_of_sum(spectrum, spectrum->parts, count);
 }
 
-double hd_spectrum_pairing_error(const hd_spectrum *spectrum)
+static double pairing_error(const hd_spectrum *spectrum)
 {
     if (spectrum->vectors < spectrum->rows) return -1.0;
     double worst = 0.0;
@@ -196,6 +189,14 @@ double hd_spectrum_pairing_error(const hd_spectrum *spectrum)
         worst = fmax(worst, fabs(hd_spectrum_exponent(spectrum, col) +
                                  hd_spectrum_exponent(spectrum, spectrum->rows - 1 - col)));
     return worst;
+}
+
+hd_spectrum_sums hd_spectrum_sum_up(const hd_spectrum *spectrum)
+{
+    return (hd_spectrum_sums){.local_time = spectrum->local_time,
+                              .ks_entropy = ks_entropy(spectrum),
+                              .ks_entropy_error = ks_entropy_error(spectrum),
+                              .pairing_error = pairing_error(spectrum)};
 }
 
 void hd_spectrum_archive(hd_spectrum *spectrum, hd_archive *archive)

@@ -1,7 +1,7 @@
 /** Identity of the linear algebra library, and the restart with kernels that fit the processor.
  * Works with any BLAS: what is OpenBLAS's own is looked up weakly. */
 #define _GNU_SOURCE /* sched_getaffinity */
-#include "hdlyap/blas.h"
+#include "base/blas.h"
 
 #include <limits.h>
 #include <omp.h>

@@ -1,5 +1,5 @@
 /** Calls of a run's ranks -> its transport, counted. */
-#include "hdlyap/communicator.h"
+#include "base/communicator.h"
 
 #include <stdlib.h>
 #include <string.h>

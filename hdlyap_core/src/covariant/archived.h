@@ -3,6 +3,7 @@
 #define HD_COVARIANT_ARCHIVED_H
 
 #include "base/archive.h"
+#include "covariant/splitting.h"
 #include "hdlyap/covariant.h"
 
 void hd_covariant_archive(hd_covariant *covariant, hd_archive *archive);

@@ -2,7 +2,8 @@
 #ifndef HD_COUPLING_H
 #define HD_COUPLING_H
 
-#include "hdlyap/frame.h"
+#include "events/trajectory.h"
+#include "tangent/frame.h"
 
 typedef struct hd_coupling hd_coupling;
 

@@ -4,7 +4,7 @@
  * The history (history.h) reaches from the window's start to the transient's end. On the way back C
  * is that of the end of the interval that is next: there vectors are looked at if they were kept,
  * then C goes to the interval's start. */
-#include "hdlyap/covariant.h"
+#include "covariant/covariant.h"
 
 #include <cblas.h>
 #include <limits.h>
@@ -13,18 +13,21 @@
 #include <string.h>
 
 #include "averages/archived.h"
+#include "averages/spectrum.h"
 #include "base/check.h"
 #include "base/memory.h"
 #include "covariant/angles.h"
 #include "covariant/archived.h"
 #include "covariant/backward.h"
 #include "covariant/history.h"
+#include "covariant/splitting.h"
 #include "covariant/starts.h"
 #include "covariant/window_room.h"
-#include "hdlyap/localization.h"
 #include "modes/archived.h"
+#include "modes/modes.h"
 #include "scene/null_space.h"
 #include "tangent/archived.h"
+#include "tangent/localization.h"
 
 /** Times that are this close, as a part of what lies between two looks, are one. */
 static const double CLOSE = 1e-6;
@@ -428,26 +431,24 @@ hd_status hd_covariant_step(hd_covariant *c)
 /* ---- results ------------------------------------------------------------------------------- */
 
 bool hd_covariant_is_going_back(const hd_covariant *c) { return c->way != FORWARD; }
-int hd_covariant_vectors(const hd_covariant *c) { return c->vectors; }
-long hd_covariant_windows(const hd_covariant *c) { return c->windows; }
-long hd_covariant_lost(const hd_covariant *c) { return c->lost; }
 double hd_covariant_bytes(const hd_covariant *c) { return c->bytes; }
-double hd_covariant_window_end(const hd_covariant *c) { return c->window; }
-const hd_spectrum *hd_covariant_spectrum(const hd_covariant *c) { return c->spectrum; }
-const hd_splitting *hd_covariant_splitting(const hd_covariant *c) { return c->splitting; }
-hd_covariant_mismatch hd_covariant_start_mismatch(const hd_covariant *c) { return c->spaces_apart; }
-const double *hd_covariant_start_mismatch_each(const hd_covariant *c) { return c->apart; }
-double hd_covariant_null(const hd_covariant *c) { return c->null_apart; }
-double hd_covariant_null_most(const hd_covariant *c) { return c->null_apart_most; }
-const hd_modes *hd_covariant_half(const hd_covariant *c, int half) { return c->half[half]; }
-const hd_modes *hd_covariant_of_frame(const hd_covariant *c) { return c->of_frame; }
-const double *hd_covariant_widths(const hd_covariant *c)
+
+hd_covariant_results hd_covariant_read(const hd_covariant *c)
 {
-    return hd_localization_widths(c->shape);
-}
-const double *hd_covariant_cosines(const hd_covariant *c)
-{
-    return hd_localization_cosines(c->shape);
+    return (hd_covariant_results){.vectors = c->vectors,
+                                  .windows = c->windows,
+                                  .lost = c->lost,
+                                  .window_end = c->window,
+                                  .spectrum = c->spectrum,
+                                  .splitting = hd_splitting_read(c->splitting),
+                                  .start_mismatch = c->spaces_apart,
+                                  .start_mismatch_each = c->apart,
+                                  .null = c->null_apart,
+                                  .null_most = c->null_apart_most,
+                                  .half = {c->half[0], c->half[1]},
+                                  .of_frame = c->of_frame,
+                                  .widths = hd_localization_widths(c->shape),
+                                  .cosines = hd_localization_cosines(c->shape)};
 }
 
 /** The averages; the window under way is lost. */

@@ -5,7 +5,8 @@
 
 #include <stdbool.h>
 
-#include "hdlyap/frame.h"
+#include "events/trajectory.h"
+#include "tangent/frame.h"
 
 /** Where triangles are kept. */
 typedef struct hd_history_def {

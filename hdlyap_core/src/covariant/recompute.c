@@ -14,9 +14,9 @@
 #include "covariant/backward.h"
 #include "covariant/coupling.h"
 #include "covariant/store.h"
-#include "hdlyap/ortho.h"
 #include "tangent/archived.h"
 #include "tangent/interval.h"
+#include "tangent/ortho.h"
 
 /** Of the condition: what the forward pass accepts at most. */
 static const hd_ortho_limits LIMITS = {HD_CONDITION_MAX, 1e-6, HD_NORM_FULL};

@@ -5,6 +5,7 @@
 
 #include <stdbool.h>
 
+#include "events/trajectory.h"
 #include "hdlyap/frame.h"
 
 /** Slots 0 .. slots - 1 are used in turn, as a ring. */

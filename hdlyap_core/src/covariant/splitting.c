@@ -1,6 +1,6 @@
 /** C and the growth over finite times -> angles and their distributions, order of finite-time
  * exponents [T17]. */
-#include "hdlyap/splitting.h"
+#include "covariant/splitting.h"
 
 #include <limits.h>
 #include <math.h>
@@ -177,16 +177,15 @@ void hd_splitting_grow(hd_splitting *s, const double *growth)
 
 /* ---- results ------------------------------------------------------------------------------- */
 
-long hd_splitting_samples(const hd_splitting *s) { return s->samples; }
-int hd_splitting_has_spaces(const hd_splitting *s) { return s->angles != NULL; }
-const double *hd_splitting_neighbours(const hd_splitting *s) { return s->mean; }
-const double *hd_splitting_neighbours_least(const hd_splitting *s) { return s->least; }
-const double *hd_splitting_violations(const hd_splitting *s) { return s->violations; }
-const double *hd_splitting_domination_violations(const hd_splitting *s) { return s->entangled; }
-
-const hd_angle_of_spaces *hd_splitting_angle(const hd_splitting *s, hd_pair_of_spaces pair)
+hd_splitting_results hd_splitting_read(const hd_splitting *s)
 {
-    return &s->angle[pair];
+    return (hd_splitting_results){.samples = s->samples,
+                                  .has_spaces = s->angles != NULL,
+                                  .angle = s->angle,
+                                  .neighbours = s->mean,
+                                  .neighbours_least = s->least,
+                                  .violations = s->violations,
+                                  .domination_violations = s->entangled};
 }
 
 static void angle_archive(hd_angle_of_spaces *angle, hd_archive *archive)

@@ -8,6 +8,7 @@
 #include "base/check.h"
 #include "events/events.h"
 #include "scene/fluid.h"
+#include "scene/scene.h"
 
 /** Intervals that there is room for, over those that are expected: they vary. */
 static const double SPARE = 1.5;

@@ -3,7 +3,7 @@
 #define HD_EVENTS_ARCHIVED_H
 
 #include "base/archive.h"
-#include "hdlyap/trajectory.h"
+#include "events/trajectory.h"
 
 void hd_trajectory_archive(hd_trajectory *trajectory, hd_archive *archive);
 /** Of positions and momenta to the last bit. */

@@ -5,6 +5,7 @@
 
 #include "base/check.h"
 #include "base/memory.h"
+#include "scene/scene.h"
 
 /** A centre sits in the cell that it is booked in up to rounding only; this much more than a
  * diameter keeps every contact within neighbouring cells all the same. */

@@ -5,6 +5,7 @@
 #include <stdint.h>
 
 #include "hdlyap/scene.h"
+#include "events/trajectory.h"
 
 /** hd_event.j of a wall event: HD_WALL_X, HD_WALL_Y or of spheres HD_WALL_Z (the direction of the
  * wall's normal), or HD_WALL_ROUND. */

@@ -4,7 +4,8 @@
 
 #include "base/archive.h"
 #include "events/event.h"
-#include "hdlyap/record.h"
+#include "events/record.h"
+#include "events/trajectory.h"
 
 /** Bytes of an entry. */
 size_t hd_events_entry(void);

@@ -2,7 +2,7 @@
 #ifndef HD_MAPS_H
 #define HD_MAPS_H
 
-#include "hdlyap/record.h"
+#include "events/record.h"
 
 /** Columns that a thread carries at once, and their bytes in its cache. */
 enum { HD_BLOCK_BYTES = 512 * 1024, HD_BLOCK_WIDTH_MAX = 64 };

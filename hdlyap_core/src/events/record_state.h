@@ -2,7 +2,7 @@
 #ifndef HD_RECORD_STATE_H
 #define HD_RECORD_STATE_H
 
-#include "hdlyap/record.h"
+#include "events/record.h"
 
 /** Entries that the first room is for. */
 enum { HD_RECORD_FIRST = 4096 };

@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "events/contact.h"
+#include "scene/scene.h"
 
 /** A disk that glides along the wall leaves it at least so fast, as a part of its speed: or it
  * would meet the wall again within rounding of the time, for ever. It changes its energy by 1e-14.

@@ -5,7 +5,7 @@
 #include <math.h>
 
 #include "base/check.h"
-#include "hdlyap/steps.h"
+#include "modes/steps.h"
 
 enum { TERMS = 3 };
 

@@ -4,7 +4,7 @@
  * rows of the frame. The functions of one coordinate are tabulated per disk, each field is a
  * product of them.
  */
-#include "hdlyap/fields.h"
+#include "modes/fields.h"
 
 #include <float.h>
 #include <math.h>

@@ -5,7 +5,7 @@
  * frame where they lie. Least squares on one subspace: its Gram matrix G = E L E^T (dgesvd),
  * coefficients c = G^+ B^T u, weight = |L^(-1/2) E^T B^T u|^2; directions that the disks do not
  * sample (L below RANK) are left out. The vectors stay in columns throughout. */
-#include "hdlyap/modes.h"
+#include "modes/modes.h"
 
 #include <cblas.h>
 #include <lapacke.h>
@@ -15,8 +15,11 @@
 
 #include "base/arrays.h"
 #include "base/check.h"
+#include "base/communicator.h"
 #include "base/memory.h"
 #include "modes/archived.h"
+#include "modes/fields.h"
+#include "scene/scene.h"
 #include "tangent/product.h"
 
 /** Eigenvalues of a Gram matrix of unit fields below this are unsampled directions, not small ones.

@@ -3,7 +3,7 @@
  * With z = a + i b of one pair of fields (L and P; or T of a cosine and T of a sine), the vectors
  * of an LP step all turn at the same rate: z -> z exp(i omega t), those of a T step at none. A
  * rotor follows one step. The velocity is the mean rate of its tracks. */
-#include "hdlyap/phases.h"
+#include "modes/phases.h"
 
 #include <math.h>
 
@@ -11,7 +11,9 @@
 #include "base/check.h"
 #include "base/memory.h"
 #include "modes/archived.h"
+#include "modes/modes.h"
 #include "modes/rotor.h"
+#include "modes/steps.h"
 
 /** Of a velocity: rotation without any noise has a weight, too. */
 static const double VARIANCE_MIN = 1e-100;

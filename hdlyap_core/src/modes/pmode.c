@@ -5,7 +5,7 @@
  * measured already, psi^T B = overlaps, so Q = (psi^T psi)^-1 psi^T B (dposv on 2d x 2d; psi is
  * nearly orthonormal).
  */
-#include "hdlyap/pmode.h"
+#include "modes/pmode.h"
 
 #include <lapacke.h>
 #include <math.h>
@@ -14,6 +14,9 @@
 #include "base/check.h"
 #include "base/memory.h"
 #include "modes/archived.h"
+#include "modes/fields.h"
+#include "modes/modes.h"
+#include "scene/scene.h"
 
 enum { DIMENSION_MAX = HD_FIELDS_MAX };
 

@@ -3,12 +3,13 @@
  * How it bends was measured in long boxes: of disks, wide ones too, at densities from 0.2 to 0.8;
  * of spheres, 8 : 1 : 1, from 0.3 to 0.9 (doc/findings.md). In a thin gas k l decides, l the mean
  * free path, else k sigma. What edges do, of disks in boxes with walls and in narrow ones. */
-#include "hdlyap/steps.h"
+#include "modes/steps.h"
 
 #include <math.h>
 
 #include "modes/archived.h"
 #include "scene/container.h"
+#include "scene/scene.h"
 
 /** c2 / c = c2 + c2_l l, its error alike; c3 / c = c3 + c3_l2 l^2, its error besides OFF times c3.
  */

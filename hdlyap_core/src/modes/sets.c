@@ -11,6 +11,7 @@
 
 #include "base/check.h"
 #include "base/memory.h"
+#include "modes/modes.h"
 
 /** Below this part of its multiplicity a subspace is nowhere. */
 static const double CANDIDATE = 0.25;

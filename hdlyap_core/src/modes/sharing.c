@@ -7,6 +7,7 @@
 
 #include <math.h>
 
+#include "averages/spectrum.h"
 #include "modes/sets.h"
 
 /** Exponents differ beyond so many standard errors. */

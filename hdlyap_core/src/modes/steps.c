@@ -1,16 +1,20 @@
 /** Resolved sets -> steps: exponents with errors, labels of the vectors, zero modes [T12]. */
-#include "hdlyap/steps.h"
+#include "modes/steps.h"
 
 #include <float.h>
 #include <limits.h>
 #include <math.h>
 #include <string.h>
 
+#include "averages/spectrum.h"
 #include "base/check.h"
 #include "base/memory.h"
 #include "modes/archived.h"
+#include "modes/fields.h"
+#include "modes/modes.h"
 #include "modes/sets.h"
 #include "modes/sharing.h"
+#include "scene/scene.h"
 
 struct hd_steps {
     const hd_modes *modes;

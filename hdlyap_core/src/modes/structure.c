@@ -4,7 +4,7 @@
  * are a matrix product for each direction, over the x, the y, .. rows of the frame where they lie,
  * some waves at a time: the sums of those stay in cache until they are amplitudes along and across
  * k. */
-#include "hdlyap/structure.h"
+#include "modes/structure.h"
 
 #include <limits.h>
 #include <math.h>
@@ -12,11 +12,14 @@
 
 #include "base/arrays.h"
 #include "base/check.h"
+#include "base/communicator.h"
 #include "base/memory.h"
-#include "hdlyap/modes.h"
 #include "modes/archived.h"
 #include "modes/harmonics.h"
+#include "modes/modes.h"
 #include "modes/structure_terms.h"
+#include "scene/scene.h"
+#include "scene/wave.h"
 #include "tangent/product.h"
 
 enum { AT_ONCE = 16 };

@@ -1,7 +1,7 @@
 /** L and P modes as an observable: whoever reads them has them reconstructed, step by step, at
  * reports at which fields are due. */
-#include "hdlyap/pmode.h"
 #include "modes/archived.h"
+#include "modes/pmode.h"
 #include "observe/observable.h"
 
 static double fields_bytes(const hd_scene_def *scene, int ranks)

@@ -1,5 +1,5 @@
 /** Counts of the trajectory -> collision rate and pressure [T19], in samples and blocks [T8]. */
-#include "hdlyap/gas.h"
+#include "observe/gas.h"
 
 #include <math.h>
 
@@ -7,6 +7,7 @@
 #include "base/memory.h"
 #include "observe/observable.h"
 #include "scene/container.h"
+#include "scene/scene.h"
 
 /** Series that are averaged: per time unit; of the virial one for each direction. */
 enum { COLLISIONS, VIRIAL_X, SERIES_MAX = VIRIAL_X + HD_DIMENSION_MAX };

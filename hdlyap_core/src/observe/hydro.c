@@ -2,7 +2,7 @@
  *
  * Each response is a linear functional of (dq, dp): its coefficients at one disk are
  * numbers, which meet the rows of the disk in the frame for all vectors of the step at once. */
-#include "hdlyap/hydro.h"
+#include "observe/hydro.h"
 
 #include <math.h>
 #include <string.h>
@@ -13,6 +13,7 @@
 #include "modes/sets.h"
 #include "observe/functionals.h"
 #include "observe/observable.h"
+#include "scene/scene.h"
 
 /** One response for each vector of each step and each modulation: see entries_of. */
 struct hd_hydro {

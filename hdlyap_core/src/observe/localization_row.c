@@ -1,9 +1,9 @@
 /** Localisation widths as an observable: of the vectors that are carried, as partners [T18] lie on
  * the same disks. */
 #include "base/check.h"
-#include "hdlyap/localization.h"
 #include "observe/observable.h"
 #include "tangent/archived.h"
+#include "tangent/localization.h"
 
 static double localization_bytes(const hd_scene_def *scene, int ranks)
 {

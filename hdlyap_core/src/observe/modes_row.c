@@ -1,7 +1,8 @@
 /** Modes and steps as observables: the weights of all vectors, then the degenerate sets. */
 #include "base/check.h"
-#include "hdlyap/steps.h"
 #include "modes/archived.h"
+#include "modes/modes.h"
+#include "modes/steps.h"
 #include "observe/observable.h"
 
 /* ---- modes --------------------------------------------------------------------------------- */

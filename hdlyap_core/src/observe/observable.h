@@ -8,9 +8,9 @@
 #include "base/archive.h"
 #include "hdlyap/communicator.h"
 #include "hdlyap/frame.h"
-#include "hdlyap/ortho.h"
 #include "hdlyap/spectrum.h"
 #include "hdlyap/trajectory.h"
+#include "tangent/ortho.h"
 
 /** What modes are measured for. */
 enum {

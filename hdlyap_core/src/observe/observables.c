@@ -6,6 +6,7 @@
 
 #include "base/check.h"
 #include "base/memory.h"
+#include "scene/scene.h"
 
 static const hd_observable *const rows[HD_OBSERVED] = {
 #define HD_ROW(name) [HD_OBSERVED_##name] = &hd_##name##_row,

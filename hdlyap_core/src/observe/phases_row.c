@@ -1,6 +1,6 @@
 /** Phases of LP steps and of T steps: two observables of one kind. */
-#include "hdlyap/phases.h"
 #include "modes/archived.h"
+#include "modes/phases.h"
 #include "observe/observable.h"
 
 static double lp_bytes(const hd_scene_def *scene, int ranks)

@@ -1,8 +1,8 @@
 /** Structure factors of the vectors as an observable. */
 #include "base/check.h"
-#include "hdlyap/modes.h"
-#include "hdlyap/structure.h"
 #include "modes/archived.h"
+#include "modes/modes.h"
+#include "modes/structure.h"
 #include "observe/observable.h"
 
 static double structure_bytes(const hd_scene_def *scene, int ranks)

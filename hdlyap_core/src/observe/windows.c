@@ -8,8 +8,10 @@
 #include "base/clock.h"
 #include "base/memory.h"
 #include "covariant/archived.h"
+#include "covariant/covariant.h"
 #include "modes/archived.h"
 #include "observe/observable.h"
+#include "scene/scene.h"
 #include "tangent/archived.h"
 
 /** Wall seconds after which no further step of the way back begins in a call. */

@@ -2,7 +2,10 @@
 #ifndef HD_WINDOWS_H
 #define HD_WINDOWS_H
 
+#include "events/trajectory.h"
 #include "hdlyap/covariant.h"
+#include "tangent/frame.h"
+#include "tangent/ortho.h"
 
 /** The observable of HD_OBSERVED_covariant. */
 typedef struct hd_windows hd_windows;

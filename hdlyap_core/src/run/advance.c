@@ -6,6 +6,7 @@
 
 #include "base/check.h"
 #include "run/schedule.h"
+#include "scene/scene.h"
 
 /** No advance is planned shorter: simulated time must move. */
 static const double SHORTEST = 1e-12;

@@ -4,7 +4,7 @@
 
 #include <stdbool.h>
 
-#include "hdlyap/trajectory.h"
+#include "events/trajectory.h"
 
 /** Of one advance, at most: bounds memory, and the wait for an answer. */
 #define HD_EVENTS_MAX 2e5

@@ -5,6 +5,7 @@
  * many such intervals as come nearest to what it should last, or fewer, if phases cannot wait so
  * long. Without vectors it is a time alone. */
 #include "run/agenda.h"
+#include "scene/scene.h"
 
 #include <math.h>
 

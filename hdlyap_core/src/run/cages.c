@@ -6,6 +6,8 @@
 #include <math.h>
 
 #include "base/memory.h"
+#include "events/trajectory.h"
+#include "scene/scene.h"
 
 /** Of the mean distance of neighbours: a disk that is farther from its start has left. Vibrations
  * of a crystal reach half of it. */

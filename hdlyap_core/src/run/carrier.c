@@ -7,6 +7,8 @@
 #include <math.h>
 
 #include "averages/archived.h"
+#include "averages/spectrum.h"
+#include "base/blas.h"
 #include "base/check.h"
 #include "base/clock.h"
 #include "base/memory.h"
@@ -14,6 +16,7 @@
 #include "hdlyap/blas.h"
 #include "observe/observable.h"
 #include "run/advance.h"
+#include "scene/scene.h"
 #include "tangent/archived.h"
 #include "tangent/threads.h"
 #include "tangent/verify.h"

@@ -13,12 +13,13 @@
 #include "events/archived.h"
 #include "events/events.h"
 #include "hdlyap/blas.h"
-#include "hdlyap/parameters.h"
 #include "run/checkpoint.h"
 #include "run/checkpoint_file.h"
 #include "run/order.h"
 #include "run/run_state.h"
 #include "scene/archived.h"
+#include "scene/parameters.h"
+#include "scene/scene.h"
 #include "tangent/archived.h"
 
 /* ---- a run's own numbers ------------------------------------------------------------------- */

@@ -9,7 +9,10 @@
 #include "base/check.h"
 #include "base/clock.h"
 #include "base/memory.h"
+#include "modes/structure.h"
+#include "run/run.h"
 #include "run/run_state.h"
+#include "scene/scene.h"
 
 /** How long the trial goes on, at least [s]. */
 static const double TRIAL_SECONDS = 1.0;

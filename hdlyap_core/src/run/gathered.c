@@ -4,6 +4,7 @@
 #include "base/check.h"
 #include "base/memory.h"
 #include "observe/observable.h"
+#include "scene/scene.h"
 
 void hd_gathered_free(hd_gathered *g) { hd_memory_free(g->room); }
 

@@ -1,5 +1,6 @@
 /** Order of rank 0 -> the same order on the other ranks. */
 #include "run/order.h"
+#include "base/communicator.h"
 
 #include <string.h>
 

@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "base/clock.h"
+#include "run/run.h"
 #include "run/run_state.h"
 
 static bool is_due(const hd_run *run, unsigned why) { return hd_agenda_is_due(&run->agenda, why); }

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/check.h"
+#include "base/communicator.h"
 #include "base/memory.h"
 #include "events/archived.h"
 #include "hdlyap/blas.h"

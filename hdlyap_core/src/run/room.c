@@ -8,6 +8,7 @@
 #include "observe/observables.h"
 #include "run/carrier.h"
 #include "run/gathered.h"
+#include "scene/scene.h"
 #include "tangent/threads.h"
 
 double hd_room_needed(const hd_scene_def *def, int threads, int ranks)

@@ -9,10 +9,11 @@
 
 #include <math.h>
 
+#include "averages/spectrum.h"
+#include "base/blas.h"
 #include "base/check.h"
 #include "base/clock.h"
 #include "base/memory.h"
-#include "hdlyap/blas.h"
 #include "run/order.h"
 #include "run/ranks.h"
 #include "run/run_state.h"

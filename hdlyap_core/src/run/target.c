@@ -10,8 +10,10 @@
 #include "base/check.h"
 #include "base/memory.h"
 #include "hdlyap/wave.h"
+#include "modes/steps.h"
 #include "observe/observable.h"
 #include "run/run_state.h"
+#include "scene/scene.h"
 
 enum { WHY = 160, GOALS_MOST = 16 };
 
@@ -130,8 +132,8 @@ static stated read_index(const hd_run *run, const aim *goal)
 static stated read_ks_entropy(const hd_run *run, const aim *goal)
 {
     (void)goal;
-    const hd_spectrum *s = run->carrier.spectrum;
-    return (stated){hd_spectrum_ks_entropy(s), hd_spectrum_ks_entropy_error(s), 0.0};
+    const hd_spectrum_sums sums = hd_spectrum_sum_up(run->carrier.spectrum);
+    return (stated){sums.ks_entropy, sums.ks_entropy_error, 0.0};
 }
 
 /** -1: not resolved. */

@@ -4,7 +4,7 @@
 
 #include <string.h>
 
-#include "hdlyap/scene.h"
+#include "scene/scene.h"
 
 /** Those that a scene has: directions, then the momenta. */
 typedef struct hd_null_space {

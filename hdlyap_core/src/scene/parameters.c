@@ -1,5 +1,5 @@
 /** parameters.inc -> rows, and values by them. */
-#include "hdlyap/parameters.h"
+#include "scene/parameters.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -7,6 +7,7 @@
 #include "scene/fluid.h"
 #include "scene/plane_lattice.h"
 #include "scene/polarisation.h"
+#include "scene/scene.h"
 #include "scene/space_lattice.h"
 
 static const double PI = 3.14159265358979323846;

@@ -1,13 +1,13 @@
 /** Defaults of what is asked for, and what follows from it. */
-#include "hdlyap/scene.h"
+#include "scene/scene.h"
 
 #include <math.h>
 
 #include "hdlyap/parameters.h"
-#include "hdlyap/wave.h"
 #include "scene/archived.h"
 #include "scene/container.h"
 #include "scene/fluid.h"
+#include "scene/wave.h"
 
 hd_scene_def hd_scene_def_default(void)
 {

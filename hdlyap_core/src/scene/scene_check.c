@@ -5,8 +5,9 @@
 
 #include "base/check.h"
 #include "hdlyap/parameters.h"
-#include "hdlyap/wave.h"
 #include "scene/container.h"
+#include "scene/scene.h"
+#include "scene/wave.h"
 
 enum { SAID = 96 }; /* of a container */
 

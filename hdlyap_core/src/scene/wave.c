@@ -1,5 +1,5 @@
 /** Scene -> the waves that it asks for [T10]. */
-#include "hdlyap/wave.h"
+#include "scene/wave.h"
 
 #include <math.h>
 #include <stdlib.h>

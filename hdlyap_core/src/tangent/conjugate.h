@@ -8,7 +8,7 @@
 
 #include <stdbool.h>
 
-#include "hdlyap/frame.h"
+#include "tangent/frame.h"
 
 /** Entry `row` of J v is that of v at hd_turned(row), times hd_turned_sign(row). */
 static inline int hd_turned(int row)

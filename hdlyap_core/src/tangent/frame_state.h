@@ -6,7 +6,7 @@
 #include <stdbool.h>
 
 #include "events/maps.h"
-#include "hdlyap/frame.h"
+#include "tangent/frame.h"
 
 struct hd_frame {
     hd_communicator *communicator; /**< NULL: all vectors are here */

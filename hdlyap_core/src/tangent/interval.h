@@ -6,7 +6,7 @@
 #include <float.h>
 
 #include "hdlyap/interval.h"
-#include "hdlyap/ortho.h"
+#include "tangent/ortho.h"
 
 /** The rounding of V enters the sum of one interval's logarithms as at most this times its
  * condition; seen: up to 1.4 eps [T6]. */

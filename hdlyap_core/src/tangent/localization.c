@@ -1,5 +1,5 @@
 /** Vectors -> localisation widths and angles between their halves, averaged over times. */
-#include "hdlyap/localization.h"
+#include "tangent/localization.h"
 
 #include <float.h>
 #include <limits.h>

@@ -5,7 +5,8 @@
 
 #include <stdbool.h>
 
-#include "hdlyap/ortho.h"
+#include "tangent/frame.h"
+#include "tangent/ortho.h"
 
 /** |Q^T Q - 1| after one pass is at most the square of this, or of the worst panel's own condition
  * if that is larger, times eps condition; see [T7]. */

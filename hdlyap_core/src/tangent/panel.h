@@ -3,6 +3,8 @@
 #ifndef HD_PANEL_H
 #define HD_PANEL_H
 
+#include "tangent/frame.h"
+#include "tangent/ortho.h"
 #include "tangent/ortho_state.h"
 
 /** A panel wider than HD_LEAF_MAX is orthonormalised by halves. S is of HD_LATER_MAX vectors at

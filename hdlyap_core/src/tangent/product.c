@@ -6,7 +6,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "hdlyap/blas.h"
+#include "base/blas.h"
 
 /** Multiply-adds up to which OpenBLAS itself keeps to one thread. */
 static const double FEW = 262144.0;

@@ -5,9 +5,9 @@
 
 #include <math.h>
 
+#include "base/blas.h"
 #include "base/check.h"
 #include "base/clock.h"
-#include "hdlyap/blas.h"
 
 /** Entries of a frame below which one thread, and above which all of them, are used unseen. */
 static const double ENTRIES_FEW = 1e5, ENTRIES_MANY = 2e6;

@@ -2,7 +2,7 @@
 #ifndef HD_THREADS_H
 #define HD_THREADS_H
 
-#include "hdlyap/ortho.h"
+#include "tangent/ortho.h"
 
 /** The most that a frame of this size may use: `wanted` if that is not 0, else 1 or all cores. */
 int hd_threads_most(int wanted, int rows, int vectors);

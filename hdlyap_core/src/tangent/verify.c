@@ -9,6 +9,7 @@
 #include "events/events.h"
 #include "tangent/conjugate.h"
 #include "tangent/interval.h"
+#include "scene/scene.h"
 
 /** `value` is at most `limit`, and a number. */
 static void expect_at_most(double value, double limit, const char *what)

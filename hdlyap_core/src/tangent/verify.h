@@ -4,7 +4,9 @@
 #ifndef HD_VERIFY_H
 #define HD_VERIFY_H
 
-#include "hdlyap/ortho.h"
+#include "events/trajectory.h"
+#include "tangent/frame.h"
+#include "tangent/ortho.h"
 
 /** 1 where the build verifies; where it does not, the calls vanish. */
 #ifdef HD_VERIFY

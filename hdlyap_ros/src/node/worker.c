@@ -197,10 +197,11 @@ static void change_if_due(worker *w)
     pthread_mutex_unlock(&w->lock);
 }
 
-/** Of a trajectory that has begun with kinetic energy N. */
-static examination examine(const hd_trajectory *trajectory)
+/** Of disks that have begun with kinetic energy N. */
+static examination examine(const hd_run *run)
 {
-    const double disks = hd_trajectory_disks(trajectory);
+    const hd_trajectory *trajectory = hd_run_trajectory(run);
+    const double disks = hd_run_scene(run)->disks;
     return (examination){
         .made = true,
         .overlap = hd_trajectory_overlap(trajectory),
@@ -214,7 +215,7 @@ static void examine_if_asked(worker *w)
 {
     const double begin = clock_seconds();
     if (!asked(w, &w->examine) || begin < w->examinable) return;
-    const examination disks = examine(hd_run_trajectory(w->run));
+    const examination disks = examine(w->run);
     const double end = clock_seconds();
     w->examinable = end + (end - begin) / examination_share;
     pthread_mutex_lock(&w->lock);

@@ -24,14 +24,13 @@ typedef struct arrays {
 } arrays;
 
 /** False without memory. */
-static bool arrays_take(arrays *a, const moment *now)
+static bool arrays_take(arrays *a, const moment *now, const hd_covariant_results *seen)
 {
-    const hd_covariant *covariant = hd_run_covariant(now->run);
-    const hd_fields *fields = hd_modes_fields(hd_covariant_half(covariant, 0));
-    const size_t n = (size_t)hd_covariant_vectors(covariant);
+    const hd_fields *fields = hd_modes_fields(seen->half[0]);
+    const size_t n = (size_t)seen->vectors;
     a->vectors = (uint32_t)n;
     a->weights = (uint32_t)hd_fields_subspaces(fields);
-    a->angles = hd_splitting_has_spaces(hd_covariant_splitting(covariant)) ? HD_PAIRS_OF_SPACES : 0;
+    a->angles = seen->splitting.has_spaces ? HD_PAIRS_OF_SPACES : 0;
     a->exponents = moment_take(now, 3 * n, sizeof *a->exponents);
     a->weight = moment_take(now, a->weights, sizeof *a->weight);
     if (!a->exponents || !a->weight) return false;
@@ -55,10 +54,10 @@ static hdr_counts counted(uint64_t *out, const long *bins)
     return (hdr_counts){out, HD_ANGLE_BINS};
 }
 
-static void gather_angles(arrays *r, const hd_splitting *splitting)
+static void gather_angles(arrays *r, const hd_splitting_results *splitting)
 {
     for (uint32_t pair = 0; pair < r->angles; pair++) {
-        const hd_angle_of_spaces *angle = hd_splitting_angle(splitting, (hd_pair_of_spaces)pair);
+        const hd_angle_of_spaces *angle = &splitting->angle[pair];
         r->angle[pair] = (hdr_covariant_angle){
             .spaces = (uint8_t)pair,
             .last = angle->last,
@@ -72,10 +71,10 @@ static void gather_angles(arrays *r, const hd_splitting *splitting)
     }
 }
 
-static void gather_weights(arrays *r, const hd_covariant *covariant)
+static void gather_weights(arrays *r, const hd_covariant_results *seen)
 {
-    const hd_modes *dq = hd_covariant_half(covariant, 0), *dp = hd_covariant_half(covariant, 1);
-    const hd_modes *frame = hd_covariant_of_frame(covariant);
+    const hd_modes *dq = seen->half[0], *dp = seen->half[1];
+    const hd_modes *frame = seen->of_frame;
     for (uint32_t k = 0; k < r->weights; k++) {
         const int s = (int)k;
         const hd_subspace *subspace = hd_fields_subspace(hd_modes_fields(dq), s);
@@ -91,38 +90,36 @@ static void gather_weights(arrays *r, const hd_covariant *covariant)
     }
 }
 
-static hdr_covariant message_of(arrays *r, const hd_run *run)
+static hdr_covariant message_of(arrays *r, const hd_run *run, const hd_covariant_results *seen)
 {
-    const hd_covariant *covariant = hd_run_covariant(run);
-    const hd_splitting *splitting = hd_covariant_splitting(covariant);
-    const hd_covariant_mismatch apart = hd_covariant_start_mismatch(covariant);
+    const hd_splitting_results *splitting = &seen->splitting;
+    const hd_covariant_mismatch apart = seen->start_mismatch;
     const uint32_t n = r->vectors;
-    gather_exponents(r, hd_covariant_spectrum(covariant));
+    gather_exponents(r, seen->spectrum);
     gather_angles(r, splitting);
-    gather_weights(r, covariant);
+    gather_weights(r, seen);
     return (hdr_covariant){
-        .sim_time = hd_covariant_window_end(covariant),
-        .averaged_time = hd_spectrum_time(hd_covariant_spectrum(covariant)),
-        .windows = (uint32_t)hd_covariant_windows(covariant),
-        .lost_windows = (uint32_t)hd_covariant_lost(covariant),
-        .samples = (uint32_t)hd_splitting_samples(splitting),
+        .sim_time = seen->window_end,
+        .averaged_time = hd_spectrum_time(seen->spectrum),
+        .windows = (uint32_t)seen->windows,
+        .lost_windows = (uint32_t)seen->lost,
+        .samples = (uint32_t)splitting->samples,
         .seconds = hd_run_cost(run).covariant,
         .first_index = 1,
         .exponents = message_array(r->exponents, n, 1),
         .std_errors = message_array(r->std_errors, n, 1),
         .local_exponents = message_array(r->local_exponents, n, 1),
-        .start_mismatch = message_array(hd_covariant_start_mismatch_each(covariant), n, 1),
-        .neighbour_angles = message_array(hd_splitting_neighbours(splitting), n - 1, 1),
-        .least_neighbour_angles = message_array(hd_splitting_neighbours_least(splitting), n - 1, 1),
-        .violations = message_array(hd_splitting_violations(splitting), n - 1, 1),
-        .domination_violations = message_array(hd_splitting_domination_violations(splitting), n - 1,
-                                               1),
-        .widths = message_array(hd_covariant_widths(covariant), n, 1),
-        .cos_theta = message_array(hd_covariant_cosines(covariant), n, 1),
+        .start_mismatch = message_array(seen->start_mismatch_each, n, 1),
+        .neighbour_angles = message_array(splitting->neighbours, n - 1, 1),
+        .least_neighbour_angles = message_array(splitting->neighbours_least, n - 1, 1),
+        .violations = message_array(splitting->violations, n - 1, 1),
+        .domination_violations = message_array(splitting->domination_violations, n - 1, 1),
+        .widths = message_array(seen->widths, n, 1),
+        .cos_theta = message_array(seen->cosines, n, 1),
         .centre_start_mismatch = apart.centre,
         .stable_start_mismatch = apart.stable,
-        .null_angle = hd_covariant_null(covariant),
-        .largest_null_angle = hd_covariant_null_most(covariant),
+        .null_angle = seen->null,
+        .largest_null_angle = seen->null_most,
         .angles = {r->angle, r->angles},
         .weights = {r->weight, r->weights},
     };
@@ -130,12 +127,11 @@ static hdr_covariant message_of(arrays *r, const hd_run *run)
 
 /** Spaces that have not met are those of the random starts; windows that find no room are missed.
  */
-static void warn(covariant_said *before, const hd_run *run)
+static void warn(covariant_said *before, const hd_run *run, const hd_covariant_results *seen)
 {
-    const hd_covariant *covariant = hd_run_covariant(run);
-    const hd_covariant_mismatch apart = hd_covariant_start_mismatch(covariant);
+    const hd_covariant_mismatch apart = seen->start_mismatch;
     const double worst = fmax(apart.centre, apart.stable);
-    const long lost = hd_covariant_lost(covariant);
+    const long lost = seen->lost;
     if (worst > SPACES_APART && !before->warned)
         hdr_log(HDR_WARN,
                 "covariant_transient = %g: too short, spaces of two starts are %.2g rad apart "
@@ -155,13 +151,15 @@ hd_status topic_publish_covariant(const moment *now)
 {
     covariant_said *last = &now->kept->covariant;
     arrays a = {0};
-    const long windows = hd_covariant_windows(hd_run_covariant(now->run)), before = last->windows;
+    const hd_covariant_results seen = hd_covariant_read(hd_run_covariant(now->run));
+    const long windows = seen.windows, before = last->windows;
     last->windows = windows;
-    warn(last, now->run);
+    warn(last, now->run, &seen);
     /* a reset takes them back to none */
     if (windows == 0 || windows == before ||
-        !(publishers_subscribed(now->out) & topic_bit(TOPIC_covariant)) || !arrays_take(&a, now))
+        !(publishers_subscribed(now->out) & topic_bit(TOPIC_covariant)) ||
+        !arrays_take(&a, now, &seen))
         return HD_OK;
-    hdr_covariant message = message_of(&a, now->run);
+    hdr_covariant message = message_of(&a, now->run, &seen);
     return topic_send_covariant(now->out, &message);
 }

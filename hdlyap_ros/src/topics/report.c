@@ -81,7 +81,7 @@ hdr_status report_create(report **out, hdr_node *ros, const settings *set, const
     rep->set = set;
     /* windows of before, from a checkpoint, are not published again */
     if (hd_run_covariant(run))
-        rep->kept.covariant.windows = hd_covariant_windows(hd_run_covariant(run));
+        rep->kept.covariant.windows = hd_covariant_read(hd_run_covariant(run)).windows;
     const hdr_status status = advertise(rep, ros, run, asked);
     if (status == HDR_OK) return HDR_OK;
     report_free(rep);

@@ -17,19 +17,20 @@ hd_status topic_publish_spectrum(const moment *now)
         local_exponents[k] = hd_spectrum_local(spectrum, (int)k);
     }
     hd_run_halves(run, cos_theta, dp_dq_ratio);
+    const hd_spectrum_sums sums = hd_spectrum_sum_up(spectrum);
     hdr_spectrum message = {
         .sim_time = hd_run_time(run),
         .averaged_time = hd_spectrum_time(spectrum),
         .collisions = hd_trajectory_collisions(hd_run_trajectory(run)),
-        .lambda_max = hd_spectrum_lambda_max(spectrum),
+        .lambda_max = hd_spectrum_exponent(spectrum, 0),
         .lambda_max_error = hd_spectrum_std_error(spectrum, 0),
-        .ks_entropy = hd_spectrum_ks_entropy(spectrum),
-        .ks_entropy_error = hd_spectrum_ks_entropy_error(spectrum),
-        .pairing_error = hd_spectrum_pairing_error(spectrum),
+        .ks_entropy = sums.ks_entropy,
+        .ks_entropy_error = sums.ks_entropy_error,
+        .pairing_error = sums.pairing_error,
         .first_index = 1,
         .exponents = message_array(exponents, n, 1),
         .std_errors = message_array(std_errors, n, 1),
-        .local_time = hd_spectrum_local_time(spectrum),
+        .local_time = sums.local_time,
         .local_exponents = message_array(local_exponents, n, 1),
         .cos_theta = message_array(cos_theta, n, 1),
         .dp_dq_ratio = message_array(dp_dq_ratio, n, 1),

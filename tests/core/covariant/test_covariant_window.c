@@ -154,21 +154,20 @@ static const double ROUNDING = 1e-11;
 
 static void check_means(const hd_covariant *c, const twin *t)
 {
-    const hd_splitting *s = hd_covariant_splitting(c);
+    const hd_splitting_results s = hd_covariant_read(c).splitting;
     for (int col = 0; col < ROWS; col++) {
-        CHECK_CLOSE(hd_spectrum_exponent(hd_covariant_spectrum(c), col), t->exponent[col],
+        CHECK_CLOSE(hd_spectrum_exponent(hd_covariant_read(c).spectrum, col), t->exponent[col],
                     ROUNDING);
-        CHECK_CLOSE(hd_spectrum_local(hd_covariant_spectrum(c), col), t->local[col], ROUNDING);
-        CHECK_CLOSE(hd_covariant_widths(c)[col], exp(t->entropy[col]) / DISKS, ROUNDING);
-        CHECK_CLOSE(hd_covariant_cosines(c)[col], t->cosine[col], ROUNDING);
-        CHECK_CLOSE(hd_covariant_start_mismatch_each(c)[col], t->met[col], ROUNDING);
+        CHECK_CLOSE(hd_spectrum_local(hd_covariant_read(c).spectrum, col), t->local[col], ROUNDING);
+        CHECK_CLOSE(hd_covariant_read(c).widths[col], exp(t->entropy[col]) / DISKS, ROUNDING);
+        CHECK_CLOSE(hd_covariant_read(c).cosines[col], t->cosine[col], ROUNDING);
+        CHECK_CLOSE(hd_covariant_read(c).start_mismatch_each[col], t->met[col], ROUNDING);
         if (col + 1 == ROWS) break;
-        CHECK_CLOSE(hd_splitting_neighbours(s)[col], t->neighbours[col],
-                    1e-7); /* small ones by their cosine */
-        CHECK_CLOSE(hd_splitting_violations(s)[col], t->violations[col], 1e-14);
+        CHECK_CLOSE(s.neighbours[col], t->neighbours[col], 1e-7); /* small ones by their cosine */
+        CHECK_CLOSE(s.violations[col], t->violations[col], 1e-14);
     }
-    const hd_modes *const sets[] = {hd_covariant_half(c, 0), hd_covariant_half(c, 1),
-                                    hd_covariant_of_frame(c)};
+    const hd_modes *const sets[] = {hd_covariant_read(c).half[0], hd_covariant_read(c).half[1],
+                                    hd_covariant_read(c).of_frame};
     for (int set = 0; set < 3; set++)
         for (int kind = 0; kind < 2; kind++) {
             const hd_modes *modes = sets[set];
@@ -191,10 +190,10 @@ TEST(a_window_is_what_is_computed_by_hand)
     while (!windows_forward(&w)) count++;
     assert_int_equal(count, END);
     windows_back(&w);
-    assert_int_equal(hd_covariant_windows(w.c), 1);
-    assert_int_equal(hd_splitting_samples(hd_covariant_splitting(w.c)), LOOKS);
-    CHECK_CLOSE(hd_spectrum_time(hd_covariant_spectrum(w.c)), 10.0, 1e-12);
-    CHECK_CLOSE(hd_covariant_window_end(w.c), begin + 10.0, 1e-12);
+    assert_int_equal(hd_covariant_read(w.c).windows, 1);
+    assert_int_equal(hd_covariant_read(w.c).splitting.samples, LOOKS);
+    CHECK_CLOSE(hd_spectrum_time(hd_covariant_read(w.c).spectrum), 10.0, 1e-12);
+    CHECK_CLOSE(hd_covariant_read(w.c).window_end, begin + 10.0, 1e-12);
     check_means(w.c, &t);
     double halves = 0.0, kinds = 0.0; /* what would not be seen if they were the same */
     for (int col = 0; col < ROWS; col++) {

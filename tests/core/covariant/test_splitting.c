@@ -69,7 +69,7 @@ static const double ROUNDING = 1e-13;
 
 static void check_pair(const hd_splitting *s, const truth *t, int pair, double last)
 {
-    const hd_angle_of_spaces *a = hd_splitting_angle(s, (hd_pair_of_spaces)pair);
+    const hd_angle_of_spaces *a = &hd_splitting_read(s).angle[pair];
     CHECK_CLOSE(a->last, last, ROUNDING);
     CHECK_CLOSE(a->mean, t->mean[pair], ROUNDING);
     CHECK_CLOSE(a->mean_of_all, t->all[pair], ROUNDING);
@@ -88,7 +88,7 @@ static void check_errors(const hd_splitting *s)
     }
     const int pair[] = {HD_UNSTABLE_STABLE, HD_CENTRE_STABLE};
     for (int k = 0; k < 2; k++)
-        CHECK_CLOSE(hd_splitting_angle(s, (hd_pair_of_spaces)pair[k])->std_error,
+        CHECK_CLOSE(hd_splitting_read(s).angle[(hd_pair_of_spaces)pair[k]].std_error,
                     hd_blocks_error(&blocks, &(hd_part){k, 1.0}, 1), ROUNDING);
     hd_blocks_clear(&blocks);
 }
@@ -99,7 +99,7 @@ static void add_all(hd_splitting *s)
     for (int k = 0; k < SAMPLES; k++) {
         fill(c, alpha_of(k), beta_of(k), delta_of(k));
         CHECK_OK(hd_splitting_add(s, c));
-        if (k < 15) assert_true(hd_splitting_angle(s, HD_UNSTABLE_STABLE)->std_error < 0);
+        if (k < 15) assert_true(hd_splitting_read(s).angle[HD_UNSTABLE_STABLE].std_error < 0);
     }
 }
 
@@ -108,18 +108,18 @@ TEST(known_angles_are_found)
     const truth t = truth_of();
     OWNED(hd_splitting) *s = created(N, UNSTABLE, CENTRE);
     const double last[3] = {alpha_of(SAMPLES - 1), PI / 2, beta_of(SAMPLES - 1)};
-    assert_true(hd_splitting_has_spaces(s));
+    assert_true(hd_splitting_read(s).has_spaces);
     for (int again = 0; again < 2; again++) { /* as if it were new */
         add_all(s);
-        assert_int_equal(hd_splitting_samples(s), SAMPLES);
+        assert_int_equal(hd_splitting_read(s).samples, SAMPLES);
         for (int pair = 0; pair < HD_PAIRS_OF_SPACES; pair++) check_pair(s, &t, pair, last[pair]);
         check_errors(s);
         for (int col = 1; col + 1 < N; col++)
-            CHECK_CLOSE(hd_splitting_neighbours(s)[col], PI / 2, ROUNDING);
-        CHECK_CLOSE(hd_splitting_neighbours(s)[0], t.delta, ROUNDING);
-        CHECK_CLOSE(hd_splitting_neighbours_least(s)[0], t.delta_least, ROUNDING);
+            CHECK_CLOSE(hd_splitting_read(s).neighbours[col], PI / 2, ROUNDING);
+        CHECK_CLOSE(hd_splitting_read(s).neighbours[0], t.delta, ROUNDING);
+        CHECK_CLOSE(hd_splitting_read(s).neighbours_least[0], t.delta_least, ROUNDING);
         hd_splitting_clear(s);
-        assert_int_equal(hd_splitting_samples(s), 0);
+        assert_int_equal(hd_splitting_read(s).samples, 0);
     }
 }
 
@@ -129,8 +129,8 @@ TEST(small_angles_keep_their_digits)
     double c[4] = {1.0, 0.0, cos(1e-9), sin(1e-9)};
     OWNED(hd_splitting) *s = created(2, 2, 0);
     CHECK_OK(hd_splitting_add(s, c));
-    CHECK_CLOSE(hd_splitting_neighbours(s)[0], 1e-9, 1e-15);
-    assert_false(hd_splitting_has_spaces(s));
+    CHECK_CLOSE(hd_splitting_read(s).neighbours[0], 1e-9, 1e-15);
+    assert_false(hd_splitting_read(s).has_spaces);
 }
 
 TEST(dependent_vectors_are_refused)
@@ -155,8 +155,9 @@ static void check_order(const hd_splitting *s, double growth[TIMES][MANY], int t
             violated += growth[k][col] < growth[k][col + 1];
             entangled += crossed;
         }
-        CHECK_CLOSE(hd_splitting_violations(s)[col], (double)violated / times, 1e-14);
-        CHECK_CLOSE(hd_splitting_domination_violations(s)[col], (double)entangled / times, 1e-14);
+        CHECK_CLOSE(hd_splitting_read(s).violations[col], (double)violated / times, 1e-14);
+        CHECK_CLOSE(hd_splitting_read(s).domination_violations[col], (double)entangled / times,
+                    1e-14);
     }
 }
 
@@ -173,8 +174,9 @@ TEST(order_violations_are_counted)
     }
     int open = 0; /* the case tells: neither all nor none */
     for (int col = 0; col + 1 < MANY; col++)
-        open += hd_splitting_violations(s)[col] < hd_splitting_domination_violations(s)[col] &&
-                hd_splitting_domination_violations(s)[col] < 1;
+        open += hd_splitting_read(s).violations[col] <
+                    hd_splitting_read(s).domination_violations[col] &&
+                hd_splitting_read(s).domination_violations[col] < 1;
     assert_true(open > 3);
     hd_splitting_clear(s);
     hd_splitting_grow(s, growth[0]);

@@ -161,7 +161,7 @@ static void read_averages(const hd_run *run, double of[AVERAGES])
                                   hd_phases_velocity(hd_run_phases(run)).phases,
                                   hd_phases_velocity(hd_run_t_phases(run)).phases,
                                   (double)hd_localization_samples(hd_run_localization(run)),
-                                  (double)hd_covariant_windows(hd_run_covariant(run))};
+                                  (double)hd_covariant_read(hd_run_covariant(run)).windows};
     memcpy(of, now, sizeof now);
 }
 

@@ -42,13 +42,13 @@ static void go_back(const hd_run *run, int intervals)
 static void check_windows(const hd_run *run, long windows, double start)
 {
     const hd_covariant *c = hd_run_covariant(run);
-    assert_int_equal(hd_covariant_windows(c), windows);
-    CHECK_CLOSE(hd_covariant_window_end(c), start + 20.0 * (double)windows, 1e-6);
-    CHECK_CLOSE(hd_spectrum_time(hd_covariant_spectrum(c)), 20.0 * (double)windows, 1e-6);
-    assert_int_equal(hd_splitting_samples(hd_covariant_splitting(c)), 10 * windows);
-    assert_int_equal(hd_modes_samples(hd_covariant_half(c, 0)), 10 * windows);
-    assert_int_equal(hd_modes_samples(hd_covariant_half(c, 1)), 10 * windows);
-    assert_int_equal(hd_modes_samples(hd_covariant_of_frame(c)), 10 * windows);
+    assert_int_equal(hd_covariant_read(c).windows, windows);
+    CHECK_CLOSE(hd_covariant_read(c).window_end, start + 20.0 * (double)windows, 1e-6);
+    CHECK_CLOSE(hd_spectrum_time(hd_covariant_read(c).spectrum), 20.0 * (double)windows, 1e-6);
+    assert_int_equal(hd_covariant_read(c).splitting.samples, 10 * windows);
+    assert_int_equal(hd_modes_samples(hd_covariant_read(c).half[0]), 10 * windows);
+    assert_int_equal(hd_modes_samples(hd_covariant_read(c).half[1]), 10 * windows);
+    assert_int_equal(hd_modes_samples(hd_covariant_read(c).of_frame), 10 * windows);
 }
 
 static bool step_fails;
@@ -104,7 +104,7 @@ TEST(windows_are_counted)
     for (size_t k = 0; k < sizeof duration / sizeof *duration; k++) {
         OWNED(hd_run) *run = finished(scene_from(small(), .duration = duration[k]));
         check_windows(run, (long)floor((duration[k] - 60.0) / 20.0), averaging_start(run));
-        assert_int_equal(hd_covariant_lost(hd_run_covariant(run)), 0);
+        assert_int_equal(hd_covariant_read(hd_run_covariant(run)).lost, 0);
         assert_true(hd_run_cost(run).covariant > 0 &&
                     hd_run_cost(run).covariant < hd_run_cost(run).wall);
     }
@@ -149,8 +149,8 @@ TEST(a_reset_begins_anew)
         go_back(run, gone[k]);
         const double now = hd_run_time(run);
         CHECK_OK(hd_run_reset_average(run));
-        check_windows(run, 0, hd_covariant_window_end(hd_run_covariant(run)));
-        assert_true(hd_covariant_null_most(hd_run_covariant(run)) < 0);
+        check_windows(run, 0, hd_covariant_read(hd_run_covariant(run)).window_end);
+        assert_true(hd_covariant_read(hd_run_covariant(run)).null_most < 0);
         finish(run);
         CHECK_CLOSE(hd_run_time(run), now + scene.duration, 1e-6);
         check_windows(run, 12, now);
@@ -168,8 +168,8 @@ TEST(looks_come_when_they_are_due)
         if (k % 2) step_to(run, 10.0);
         if (k % 2) CHECK_OK(hd_run_reset_average(run));
         const double start = k % 2 ? hd_run_time(run) : averaging_start(run);
-        while (hd_covariant_windows(hd_run_covariant(run)) == 0) CHECK_OK(hd_run_advance(run));
-        assert_int_equal(hd_covariant_lost(hd_run_covariant(run)), 0);
+        while (hd_covariant_read(hd_run_covariant(run)).windows == 0) CHECK_OK(hd_run_advance(run));
+        assert_int_equal(hd_covariant_read(hd_run_covariant(run)).lost, 0);
         check_windows(run, 1, start);
     }
 }
@@ -218,11 +218,11 @@ TEST(other_stages_do_not_disturb)
         if (viewed) hd_run_watch(run, 0.1, 8);
         finish(run);
         const hd_covariant *c = hd_run_covariant(run);
-        assert_in_range(hd_covariant_windows(c), viewed ? 8 : 11, 12);
-        assert_int_equal(hd_covariant_lost(c), viewed);
+        assert_in_range(hd_covariant_read(c).windows, viewed ? 8 : 11, 12);
+        assert_int_equal(hd_covariant_read(c).lost, viewed);
         /* rounding turns the space by eps times the worst condition that is let pass */
         const double condition = scene.accuracy / (2.0 * DBL_EPSILON);
-        CHECK_CLOSE(hd_covariant_null_most(c), 0.0, 16.0 * DBL_EPSILON * condition);
+        CHECK_CLOSE(hd_covariant_read(c).null_most, 0.0, 16.0 * DBL_EPSILON * condition);
     }
 }
 
@@ -293,6 +293,6 @@ TEST(no_window_is_lost_to_phases)
     def.exponents = HD_EXPONENTS_ALL;
     def.observe = HD_OBSERVE_COVARIANT | HD_OBSERVE_STEPS | HD_OBSERVE_PHASES;
     OWNED(hd_run) *run = finished(def);
-    assert_int_equal(hd_covariant_lost(hd_run_covariant(run)), 0);
-    assert_true(hd_covariant_windows(hd_run_covariant(run)) > 0);
+    assert_int_equal(hd_covariant_read(hd_run_covariant(run)).lost, 0);
+    assert_true(hd_covariant_read(hd_run_covariant(run)).windows > 0);
 }

@@ -1,7 +1,7 @@
 /** What ranks tell each other, and the frame that they share. */
 #define _GNU_SOURCE
 #include <dlfcn.h>
-#include "hdlyap/ortho.h"
+#include "tangent/ortho.h"
 #include "together.h"
 
 TEST(calls_give_the_same_to_all)

@@ -125,7 +125,7 @@ TEST(the_covariant_centre_holds_the_rotation)
         def.covariant_window = 20.0;
         def.duration = def.covariant_transient + 60.0;
         OWNED(hd_run) *run = finished(def);
-        most[k] = hd_covariant_null_most(hd_run_covariant(run));
+        most[k] = hd_covariant_read(hd_run_covariant(run)).null_most;
     }
     CHECK_WITHIN(most[0], 1e-9, 1e-2);
     CHECK_WITHIN(most[1], 0.0, 1e-7);

@@ -14,7 +14,7 @@ TEST(exponents_pair_by_construction)
     const hd_spectrum *s = hd_run_spectrum(run);
     assert_int_equal(hd_run_vectors(run), 40);
     assert_int_equal(hd_frame_vectors(hd_run_frame(run)), 20);
-    assert_true(hd_spectrum_pairing_error(s) == 0.0);
+    assert_true(hd_spectrum_sum_up(s).pairing_error == 0.0);
     for (int col = 0; col < 20; col++) {
         assert_true(hd_spectrum_std_error(s, col) == hd_spectrum_std_error(s, 39 - col));
         assert_true(hd_spectrum_local(s, col) == -hd_spectrum_local(s, 39 - col));
@@ -74,27 +74,27 @@ static void check_spaces(hd_run *half, hd_run *whole)
 {
     const hd_covariant *one = hd_run_covariant(half), *other = hd_run_covariant(whole);
     const double rounding = 400.0 * DBL_EPSILON * half->carrier.rounding.condition_max;
-    const hd_splitting *a = hd_covariant_splitting(one), *b = hd_covariant_splitting(other);
+    const hd_splitting_results a = hd_covariant_read(one).splitting,
+                               b = hd_covariant_read(other).splitting;
     const double met = 1e-3; /* exp(-0.08 * 120) = 7e-5, and growth fluctuates */
     int good = 0;
-    assert_int_equal(hd_covariant_windows(one), 7);
-    assert_int_equal(hd_covariant_windows(other), 7);
-    assert_int_equal(hd_splitting_samples(a), hd_splitting_samples(b));
+    assert_int_equal(hd_covariant_read(one).windows, 7);
+    assert_int_equal(hd_covariant_read(other).windows, 7);
+    assert_int_equal(a.samples, b.samples);
     for (hd_pair_of_spaces pair = 0; pair < HD_PAIRS_OF_SPACES; pair++) {
-        const hd_angle_of_spaces *found = hd_splitting_angle(a, pair),
-                                 *want = hd_splitting_angle(b, pair);
+        const hd_angle_of_spaces *found = &a.angle[pair], *want = &b.angle[pair];
         CHECK_CLOSE(found->least, want->least, rounding);
         CHECK_CLOSE(found->mean, want->mean, rounding);
         CHECK_CLOSE(found->mean_of_all, want->mean_of_all, rounding);
     }
-    CHECK_CLOSE(hd_covariant_null_most(one), 0.0, rounding);
-    assert_true(hd_covariant_start_mismatch(one).stable < 1e-9);
+    CHECK_CLOSE(hd_covariant_read(one).null_most, 0.0, rounding);
+    assert_true(hd_covariant_read(one).start_mismatch.stable < 1e-9);
     for (int col = 0; col < 40; col++) {
         if (gap(half, col) < 0.08) continue;
         good++;
-        CHECK_CLOSE(hd_spectrum_exponent(hd_covariant_spectrum(one), col),
-                    hd_spectrum_exponent(hd_covariant_spectrum(other), col), met);
-        CHECK_CLOSE(hd_covariant_widths(one)[col], hd_covariant_widths(other)[col], met);
+        CHECK_CLOSE(hd_spectrum_exponent(hd_covariant_read(one).spectrum, col),
+                    hd_spectrum_exponent(hd_covariant_read(other).spectrum, col), met);
+        CHECK_CLOSE(hd_covariant_read(one).widths[col], hd_covariant_read(other).widths[col], met);
     }
     assert_true(good >= 8);
 }
@@ -133,8 +133,8 @@ TEST(a_window_begins_anew_where_isotropy_is_lost)
     finish(run);
     const double rounding = 400.0 * DBL_EPSILON * run->carrier.rounding.condition_max;
     assert_true(rounding < 1e-6);
-    assert_int_equal(hd_covariant_windows(hd_run_covariant(run)), 6); /* of 7 */
-    CHECK_CLOSE(hd_covariant_null_most(hd_run_covariant(run)), 0.0, rounding);
+    assert_int_equal(hd_covariant_read(hd_run_covariant(run)).windows, 6); /* of 7 */
+    CHECK_CLOSE(hd_covariant_read(hd_run_covariant(run)).null_most, 0.0, rounding);
 }
 
 /** Triangles and couplings that are computed again are the same but for rounding. */

@@ -122,7 +122,7 @@ TEST(extent_is_the_runs)
     assert_int_equal(e.vectors, hd_run_vectors(run));
     assert_int_equal(e.waves, hd_structure_waves(hd_run_structure(run)));
     assert_int_equal(e.subspaces,
-                     hd_fields_subspaces(hd_modes_fields(hd_covariant_half(covariant, 0))));
+                     hd_fields_subspaces(hd_modes_fields(hd_covariant_read(covariant).half[0])));
     assert_int_equal(e.angles, HD_PAIRS_OF_SPACES);
     assert_int_equal(e.steps, hd_steps_count(hd_run_steps(run)));
     assert_int_equal(e.examples, examples);

@@ -22,7 +22,7 @@ TEST(opposite_exponents_and_their_sum)
         assert_int_equal(n, ROWS_OF_ONE * 8);
         for (int col = 0; col < n; col++) sum += hd_spectrum_exponent(spectrum, col);
         CHECK_CLOSE(sum, 0.0, n * def.accuracy);
-        CHECK_WITHIN(hd_spectrum_pairing_error(spectrum), 0.0, 5.0 / def.duration);
+        CHECK_WITHIN(hd_spectrum_sum_up(spectrum).pairing_error, 0.0, 5.0 / def.duration);
         for (int col = 0; col < n / 2; col++)
             CHECK_CLOSE(hd_spectrum_exponent(spectrum, col) +
                             hd_spectrum_exponent(spectrum, n - 1 - col),

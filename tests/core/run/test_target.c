@@ -126,9 +126,9 @@ static double stated(const hd_run *run, int what)
     const hd_gas_means gas = hd_gas_read(hd_run_gas(run));
     const hd_velocity v = hd_phases_velocity(hd_run_phases(run));
     switch (what) {
-    case LAMBDA_MAX: return of(hd_spectrum_std_error(s, 0), hd_spectrum_lambda_max(s));
+    case LAMBDA_MAX: return of(hd_spectrum_std_error(s, 0), hd_spectrum_exponent(s, 0));
     case LAMBDA: return of(hd_spectrum_std_error(s, 9), hd_spectrum_exponent(s, 9));
-    case H_KS: return of(hd_spectrum_ks_entropy_error(s), hd_spectrum_ks_entropy(s));
+    case H_KS: return of(hd_spectrum_sum_up(s).ks_entropy_error, hd_spectrum_sum_up(s).ks_entropy);
     case T: return of_step(run, HD_MODE_T);
     case LP: return of_step(run, HD_MODE_LP);
     case C_T: return of_slope(run, HD_MODE_T);
@@ -194,7 +194,7 @@ TEST(the_farthest_of_several_is_told)
     assert_true(hd_run_cost(run).progress < 0.1);
     while (!(at.error > 0)) CHECK_OK(hd_run_advance(run)), at = hd_run_cost(run).target;
     assert_string_equal(at.name, "h_KS");
-    CHECK_CLOSE(at.wanted, 0.002 * hd_spectrum_ks_entropy(hd_run_spectrum(run)), 1e-9);
+    CHECK_CLOSE(at.wanted, 0.002 * hd_spectrum_sum_up(hd_run_spectrum(run)).ks_entropy, 1e-9);
     CHECK_CLOSE(at.left, (hd_run_time(run) - 65.0) * (pow(at.error / at.wanted, 2.0) - 1.0),
                 1e-6 * at.left);
     finish(run);

@@ -183,8 +183,8 @@ TEST(covariant_vectors_have_the_same_exponents)
         .covariant_transient = 100.0, .covariant_sampling = 10.0, .threads = 1);
     OWNED(hd_run) *run = finished(def);
     const hd_covariant *c = hd_run_covariant(run);
-    const hd_spectrum *back = hd_covariant_spectrum(c), *forward = hd_run_spectrum(run);
-    assert_int_equal(hd_covariant_windows(c), 6);
+    const hd_spectrum *back = hd_covariant_read(c).spectrum, *forward = hd_run_spectrum(run);
+    assert_int_equal(hd_covariant_read(c).windows, 6);
     for (int col = 0; col < 36; col++) {
         const double got = hd_spectrum_exponent(back, col),
                      want = hd_spectrum_exponent(forward, col);
@@ -195,8 +195,8 @@ TEST(covariant_vectors_have_the_same_exponents)
                     central ? log(2.0) / 100.0 + 5.0 * log(700.0) / 700.0
                             : Z * sqrt(2.0) * fmax(one, hd_spectrum_std_error(forward, col)));
     }
-    CHECK_WITHIN(hd_covariant_null(c), 0.0, 1e-6);
-    CHECK_WITHIN(hd_covariant_start_mismatch(c).centre, 0.0, 1e-6);
+    CHECK_WITHIN(hd_covariant_read(c).null, 0.0, 1e-6);
+    CHECK_WITHIN(hd_covariant_read(c).start_mismatch.centre, 0.0, 1e-6);
 }
 
 /** A cube that walls make too narrow for its spheres, a crystal; and a fluid. */

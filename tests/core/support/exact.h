@@ -2,7 +2,8 @@
 #ifndef HD_EXACT_H
 #define HD_EXACT_H
 
-#include "hdlyap/frame.h"
+#include "events/trajectory.h"
+#include "tangent/frame.h"
 
 typedef long double hd_exact;
 

@@ -121,12 +121,13 @@ static void add_phases(list *l, const hd_run *run)
 static void add_covariant(list *l, const hd_run *run)
 {
     const hd_covariant *covariant = hd_run_covariant(run);
-    const hd_splitting *splitting = hd_covariant_splitting(covariant);
-    const bool known = hd_covariant_windows(covariant) > 0;
+    const hd_splitting_results splitting = hd_covariant_read(covariant).splitting;
+    const bool known = hd_covariant_read(covariant).windows > 0;
     number angle = {.error = -1.0};
-    add_exponents(l, "covariant exponents", hd_covariant_spectrum(covariant), positive(run), known);
-    if (known && hd_splitting_has_spaces(splitting)) {
-        const hd_angle_of_spaces *spaces = hd_splitting_angle(splitting, HD_UNSTABLE_STABLE);
+    add_exponents(l, "covariant exponents", hd_covariant_read(covariant).spectrum, positive(run),
+                  known);
+    if (known && splitting.has_spaces) {
+        const hd_angle_of_spaces *spaces = &splitting.angle[HD_UNSTABLE_STABLE];
         angle = (number){spaces->mean, spaces->std_error, NO_STEPS};
     }
     add(l, "angle", angle);
@@ -138,8 +139,8 @@ static list list_of(const hd_run *run, number *out)
     list l = {.out = out};
     add_exponents(&l, "exponents", spectrum, positive(run), true);
     add(&l, "h_KS",
-        (number){hd_spectrum_ks_entropy(spectrum), hd_spectrum_ks_entropy_error(spectrum),
-                 NO_STEPS});
+        (number){hd_spectrum_sum_up(spectrum).ks_entropy,
+                 hd_spectrum_sum_up(spectrum).ks_entropy_error, NO_STEPS});
     if (hd_run_steps(run)) {
         add_dispersion(&l, run, "c_T", HD_MODE_T);
         add_dispersion(&l, run, "c_L", HD_MODE_LP);

@@ -22,7 +22,7 @@ static void check_spectrum(const hd_run *run)
 {
     const hd_spectrum *spectrum = hd_run_spectrum(run);
     const int n = hd_run_vectors(run);
-    const double local_time = hd_spectrum_local_time(spectrum);
+    const double local_time = hd_spectrum_sum_up(spectrum).local_time;
     check_number(local_time, "time of the local exponents");
     HEAP double *halves = malloc(2 * (size_t)n * sizeof *halves);
     for (int col = 0; col < n; col++) {
@@ -40,10 +40,10 @@ static void check_spectrum(const hd_run *run)
         assert_true(!isnan(halves[col]) || !(halves[n + col] > 1e-150 && halves[n + col] < 1e150));
     }
     check_number(hd_spectrum_time(spectrum), "averaged time");
-    check_number(hd_spectrum_lambda_max(spectrum), "lambda_max");
-    check_number(hd_spectrum_ks_entropy(spectrum), "entropy");
-    check_number(hd_spectrum_ks_entropy_error(spectrum), "error of the entropy");
-    check_number(hd_spectrum_pairing_error(spectrum), "pairing error");
+    check_number(hd_spectrum_exponent(spectrum, 0), "lambda_max");
+    check_number(hd_spectrum_sum_up(spectrum).ks_entropy, "entropy");
+    check_number(hd_spectrum_sum_up(spectrum).ks_entropy_error, "error of the entropy");
+    check_number(hd_spectrum_sum_up(spectrum).pairing_error, "pairing error");
 }
 
 static void check_modes(const hd_modes *modes)

@@ -17,6 +17,7 @@
 #include <cmocka.h>
 
 #include "hdlyap/hdlyap.h"
+#include "inside.h"
 #include "records.h"
 #include "scenes.h"
 

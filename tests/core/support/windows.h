@@ -56,7 +56,7 @@ static inline void windows_back(windows *w)
 /** Until so many windows are in the averages. */
 static inline void windows_finish(windows *w, long count)
 {
-    while (hd_covariant_windows(w->c) < count)
+    while (hd_covariant_read(w->c).windows < count)
         if (windows_forward(w)) windows_back(w);
 }
 

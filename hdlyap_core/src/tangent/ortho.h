@@ -1,19 +1,11 @@
 /** V = Q R with diag(R) > 0, by block Gram-Schmidt with Cholesky factors of its panels [T7]; the
  * condition is measured on the way [T6]. */
-#ifndef HDLYAP_ORTHO_H
-#define HDLYAP_ORTHO_H
+#ifndef HD_ORTHO_H
+#define HD_ORTHO_H
 
-#include "hdlyap/frame.h"
-
-HD_API_BEGIN
+#include "tangent/frame.h"
 
 typedef struct hd_ortho hd_ortho;
-
-HD_MUST_CHECK hd_status hd_ortho_create(hd_ortho **out, int rows, int vectors);
-/** Of frames that are shared by several ranks. */
-HD_MUST_CHECK hd_status hd_ortho_create_shared(hd_ortho **out, int rows, int vectors,
-                                               hd_communicator *communicator);
-void hd_ortho_free(hd_ortho *ortho);
 
 /** In which the vectors become orthonormal: of all rows, or of their dq halves, which at most 2N
  * vectors can be. Sums of ln R between two states that are orthonormal in the full norm do not
@@ -26,6 +18,12 @@ typedef struct hd_ortho_limits {
     double defect;    /**< above this predicted loss of orthogonality a second pass is made, > 0 */
     hd_norm norm;     /**< of lengths, condition, defect */
 } hd_ortho_limits;
+
+HD_MUST_CHECK hd_status hd_ortho_create(hd_ortho **out, int rows, int vectors);
+/** Of frames that are shared by several ranks. */
+HD_MUST_CHECK hd_status hd_ortho_create_shared(hd_ortho **out, int rows, int vectors,
+                                               hd_communicator *communicator);
+void hd_ortho_free(hd_ortho *ortho);
 
 /** Replaces the frame's vectors by Q; ln diag R is then in hd_ortho_log_stretch. Spans and the sum
  * of logarithms are right to rounding whatever the defect of Q: it cancels with the next step's
@@ -63,5 +61,4 @@ hd_norm hd_ortho_norm(const hd_ortho *ortho); /**< of the last step */
 /** Measured max |Q^T Q - 1| in a norm; costs a dsyrk. For tests and verification. */
 double hd_ortho_defect_measured(hd_ortho *ortho, hd_frame *frame, hd_norm norm);
 
-HD_API_END
 #endif

@@ -2,14 +2,12 @@
  * self-contained. Only the dynamics that wrote an entry knows what it holds; everybody else knows
  * that all of one record have the same size and begin with their time. Everything behind the
  * dynamics is a function of the record alone. */
-#ifndef HDLYAP_RECORD_H
-#define HDLYAP_RECORD_H
+#ifndef HD_RECORD_H
+#define HD_RECORD_H
 
 #include <stddef.h>
 
 #include "hdlyap/status.h"
-
-HD_API_BEGIN
 
 typedef struct hd_record hd_record;
 
@@ -41,5 +39,4 @@ HD_MUST_CHECK hd_status hd_record_put(hd_record *record, const void *entry);
 /** The record covers so many time units. */
 void hd_record_end(hd_record *record, double duration);
 
-HD_API_END
 #endif

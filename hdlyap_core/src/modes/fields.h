@@ -1,0 +1,23 @@
+/** How fields are sampled. */
+#ifndef HD_FIELDS_H
+#define HD_FIELDS_H
+
+#include "hdlyap/fields.h"
+
+/** HD_NO_MEMORY. Columns: those of all subspaces, in ascending k, T before LP; then the
+ * null fields: of each direction (zero where it is not periodic), then of the momenta. */
+HD_MUST_CHECK hd_status hd_fields_create(hd_fields **out, const hd_scene_def *def);
+void hd_fields_free(hd_fields *fields);
+
+/** Samples every field at the positions q, where momenta are p; each column gets norm 1 (or stays
+ * zero). Cost O(N * columns). */
+void hd_fields_sample(hd_fields *fields, const double *q, const double *p);
+
+int hd_fields_dimension(const hd_fields *fields);
+int hd_fields_nulls(const hd_fields *fields);   /**< null fields, dimension + 1 */
+int hd_fields_columns(const hd_fields *fields); /**< all */
+
+/** Norm of a column before it was made 1. */
+double hd_fields_norm(const hd_fields *fields, int column);
+
+#endif

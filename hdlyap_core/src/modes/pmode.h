@@ -1,0 +1,11 @@
+/** What a reconstruction is made in. */
+#ifndef HD_PMODE_H
+#define HD_PMODE_H
+
+#include "hdlyap/pmode.h"
+
+/** For N disks. HD_NO_MEMORY. */
+HD_MUST_CHECK hd_status hd_pmode_create(hd_pmode **out, const hd_scene_def *def);
+void hd_pmode_free(hd_pmode *pmode);
+
+#endif

@@ -1,0 +1,37 @@
+/** How structure factors are measured. */
+#ifndef HD_STRUCTURE_H
+#define HD_STRUCTURE_H
+
+#include "base/communicator.h"
+#include "hdlyap/frame.h"
+#include "hdlyap/structure.h"
+
+/** Vectors carried = n. HD_NO_MEMORY. */
+HD_MUST_CHECK hd_status hd_structure_create(hd_structure **out, const hd_scene_def *def,
+                                            int vectors, int threads);
+void hd_structure_free(hd_structure *structure);
+
+/** A snapshot of vectors (all of them, or some: the others keep theirs) at q[HD_DIM N], whose dq
+ * halves have these norms, [n]. HD_NOT_FINITE. Cost 16 N waves flops per vector as dgemm in
+ * periodic boxes, half of it per wall, and 2 waves numbers written. */
+HD_MUST_CHECK hd_status hd_structure_measure(hd_structure *structure, hd_columns vectors,
+                                             const double *q, const double *dq_norm);
+/** As hd_modes_share. */
+HD_MUST_CHECK hd_status hd_structure_share(hd_structure *structure, hd_communicator *communicator,
+                                           int width, int carried);
+/** Adds the snapshot to the means, and finds each vector's strongest wave anew. */
+void hd_structure_add(hd_structure *structure);
+/** Empties the means. */
+void hd_structure_clear(hd_structure *structure);
+int hd_structure_waves_of(const hd_scene_def *def); /**< the same of a scene */
+
+/** S(k) = |sum_j e.dq_j exp(-i k.q_j)|^2 with |dq| = 1, mean over k and its mirror image (k_x,
+ * -k_y); of the snapshot, or mean over samples; [n]. Where the wave has nodes between walls it is
+ * that of the box and its mirror image, per disk. Random vectors have 1/2; one that lies in the
+ * wave's fields has N over the number of their modulations, 1 .. 4. Of spheres e across k is either
+ * of two directions, and both are added up: in periodic boxes random vectors have 1/3 along k and
+ * 2/3 across. */
+const double *hd_structure_snapshot(const hd_structure *structure, int wave, hd_direction e);
+int hd_structure_vectors(const hd_structure *structure); /**< n */
+
+#endif

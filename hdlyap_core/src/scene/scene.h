@@ -1,0 +1,25 @@
+/** What the core derives from a scene. */
+#ifndef HD_SCENE_H
+#define HD_SCENE_H
+
+#include "hdlyap/scene.h"
+
+/** Of the space that the particles move in: directions. */
+int hd_scene_dimension(const hd_scene_def *def);
+/** Of one particle: components of its dq, and of its dp. */
+int hd_scene_coordinates(const hd_scene_def *def);
+
+/** What the ends of direction d are. */
+hd_boundary hd_scene_boundary(const hd_scene_def *def, int d);
+
+/** Time that sound takes through the longest edge of the box, by the equation of state of Henderson
+ * (Mol. Phys. 30, 971 (1975)), of spheres that of Carnahan and Starling (J. Chem. Phys. 51, 635
+ * (1969)) [time units]. */
+double hd_scene_sound_crossing(const hd_scene_def *def);
+
+/** Mean path of a disk between two collisions, by Enskog's theory with the pair correlation at
+ * contact of the same authors: 1 / (2 sqrt(2) density g), of spheres 1 / (sqrt(2) pi density g)
+ * [sigma]. */
+double hd_scene_mean_free_path(const hd_scene_def *def);
+
+#endif

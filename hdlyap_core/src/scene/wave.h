@@ -1,0 +1,9 @@
+/** What the core derives of waves. */
+#ifndef HD_WAVE_H
+#define HD_WAVE_H
+
+#include "hdlyap/wave.h"
+
+hd_wave_limits hd_wave_limits_of(const hd_scene_def *def);
+
+#endif

@@ -1,0 +1,28 @@
+/** All that the library hides and tests look at. */
+#ifndef HD_INSIDE_H
+#define HD_INSIDE_H
+
+#include "base/blas.h"
+#include "base/communicator.h"
+#include "scene/parameters.h"
+#include "scene/scene.h"
+#include "scene/wave.h"
+#include "averages/spectrum.h"
+#include "events/record.h"
+#include "events/trajectory.h"
+#include "tangent/frame.h"
+#include "tangent/localization.h"
+#include "tangent/ortho.h"
+#include "modes/fields.h"
+#include "modes/modes.h"
+#include "modes/phases.h"
+#include "modes/pmode.h"
+#include "modes/steps.h"
+#include "modes/structure.h"
+#include "covariant/covariant.h"
+#include "covariant/splitting.h"
+#include "observe/gas.h"
+#include "observe/hydro.h"
+#include "run/run.h"
+
+#endif
