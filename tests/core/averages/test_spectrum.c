@@ -119,3 +119,21 @@ TEST(zero_modes_may_have_the_place_of_a_small_exponent)
         CHECK_CLOSE(hd_spectrum_std_error(s, 1), hd_spectrum_std_error(plain, 1), 0.0);
     }
 }
+
+/** Zero variance: the error is zero, or not known while there are too few samples. */
+TEST(constant_series_have_no_error)
+{
+    static const double values[] = {0.0, 1.0, -3.7, 1e-300, 1e-12, 1e12};
+    enum { SERIES = sizeof values / sizeof *values };
+    MADE(hd_spectrum, spectrum, 8, SERIES, 0.0);
+    for (int samples = 1; samples <= 300; samples++) {
+        hd_spectrum_add(spectrum, values, 1.0);
+        hd_spectrum_sample(spectrum);
+        for (int col = 0; col < SERIES; col++) {
+            const double rounding = DBL_EPSILON * fabs(values[col]);
+            CHECK_CLOSE(hd_spectrum_std_error(spectrum, col),
+                        samples < HD_SPECTRUM_BLOCKS_MIN ? -1.0 : 0.0, rounding);
+            CHECK_CLOSE(hd_spectrum_exponent(spectrum, col), values[col], samples * rounding);
+        }
+    }
+}

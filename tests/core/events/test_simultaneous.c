@@ -156,6 +156,21 @@ TEST(square_lattices)
         check_lattice(1.5, 1.5, 0.0, k & 1 ? 0.5 : 0.0, (hd_boundary)(k & 1), momenta[k / 2]);
 }
 
+/** Touching rows: Newton's cradle along y in every column, closed through the edge; for epochs
+ * nothing moves along x. */
+TEST(touching_columns)
+{
+    const hd_scene_def def = scene_in_box(32, 6.0, 10.0, P, P, 1);
+    double q[64], p[64] = {0};
+    for (int k = 0; k < 32; k++) {
+        q[2 * k] = 1.5 * (k / 8) + 0.25;
+        q[2 * k + 1] = 0.5 + k % 8;
+        p[2 * k + 1] = k % 8 == 0 ? 1.0 : 0.0;
+    }
+    check_all(&def, q, p, 200.0);
+    twin_compare(started(&def, q, p), &def, 4000);
+}
+
 /* ---- clusters that touch ------------------------------------------------------------------- */
 
 /** A disk and its six neighbours, all touching, turned; momenta all inwards, or on a coarse grid:
