@@ -136,6 +136,18 @@ class BesideExponents(Gas):
         self.assertTrue(all(one == -1 or 0 < one < 0.2 for one in last.std_errors))
         self.assertGreater(np.mean(np.array(last.std_errors) > 0), 0.5)
 
+    def test_widths_are_means_of_samples(self):
+        """Of their logarithms."""
+        checked = 0
+        messages = self.messages['localization']
+        for before, now in zip(messages, messages[1:]):
+            if now.samples == before.samples + 1:
+                added = np.log(now.widths) * now.samples
+                added -= np.log(before.widths) * before.samples
+                np.testing.assert_allclose(added, np.log(now.widths_now), atol=1e-9 * now.samples)
+                checked += 1
+        self.assertGreater(checked, 20)
+
 
 if __name__ == '__main__':
     harness.main('averages')
