@@ -10,7 +10,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "events/trajectory.h"
+#include "dynamics/trajectory.h"
 #include "gemm.h"
 #include "options.h"
 #include "progress.h"

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "base/check.h"
-#include "events/events.h"
+#include "dynamics/dynamics.h"
 #include "timing.h"
 #include "run/run.h"
 
@@ -23,7 +23,8 @@ static void record_start(window *w)
     const size_t size = (size_t)w->rows * (size_t)hd_frame_stride(frame);
     w->start = room(size, sizeof(double));
     memcpy(w->start, hd_frame_read(frame), size * sizeof(double));
-    require(hd_frame_create(&w->frame, w->scene.disks, w->vectors, 1, hd_run_threads(run)),
+    require(hd_frame_create(&w->frame, hd_dynamics_of(&w->scene), w->scene.disks, w->vectors, 1,
+                            hd_run_threads(run)),
             "window");
     hd_run_free(run);
 }
@@ -32,7 +33,7 @@ static void record_events(window *w)
 {
     const double begin = w->scene.equilibration + w->scene.warmup;
     hd_trajectory *trajectory;
-    require(hd_record_create(&w->record, hd_events_entry()), "window");
+    require(hd_record_create(&w->record, hd_dynamics_of(&w->scene)->entry), "window");
     require(hd_trajectory_create(&trajectory, &w->scene), "window");
     require(hd_trajectory_extend(trajectory, NULL, begin), "window");
     hd_record_clear(w->record);

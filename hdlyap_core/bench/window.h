@@ -3,7 +3,7 @@
 #ifndef HD_BENCH_WINDOW_H
 #define HD_BENCH_WINDOW_H
 
-#include "events/trajectory.h"
+#include "dynamics/trajectory.h"
 #include "factor.h"
 #include "gemm.h"
 #include "progress.h"

@@ -3,7 +3,7 @@
 # expects the same events of every program.
 cmake_minimum_required(VERSION 3.16)
 
-file(GLOB SOURCES ${CORE}/src/base/*.c ${CORE}/src/scene/*.c ${CORE}/src/events/*.c)
+file(GLOB SOURCES ${CORE}/src/base/*.c ${CORE}/src/scene/*.c ${CORE}/src/dynamics/*.c ${CORE}/src/dynamics/hard/*.c)
 list(FILTER SOURCES EXCLUDE REGEX "/(blas|gas)\\.c$") # which no event knows of
 set(SOURCES_2 ${SOURCES}) # of disks
 list(FILTER SOURCES_2 EXCLUDE REGEX "_3d\\.c$")

@@ -4,20 +4,20 @@
 # Writes the plan of the house, which folder includes which and how often, as a graph (dot -Tpng).
 cmake_minimum_required(VERSION 3.16)
 
-set(STAGES base scene averages events tangent modes covariant observe run)
+set(STAGES base scene averages dynamics tangent modes covariant observe run)
 set(LINEAR_ALGEBRA base/blas tangent/conjugate tangent/ortho tangent/panel tangent/product modes/dispersion modes/modes modes/pmode
   covariant/backward covariant/coupling covariant/starts covariant/angles covariant/covariant)
 
 # stage_of(OUT HEADER): number of the folder of a header as it is included: FOLDER/NAME.h or hdlyap/NAME.h.
 function(stage_of out header)
-  get_filename_component(folder ${header} DIRECTORY)
+  string(REGEX REPLACE "/.*" "" folder ${header})
   get_filename_component(name ${header} NAME_WE)
   if(folder STREQUAL hdlyap AND EXISTS ${CORE}/include/${header})
     if(name STREQUAL hdlyap) # everything
       set(folder run)
     else()
-      file(GLOB source RELATIVE ${CORE}/src ${CORE}/src/*/${name}.c ${CORE}/src/*/${name}_2d.c)
-      get_filename_component(folder "${source}" DIRECTORY)
+      file(GLOB source RELATIVE ${CORE}/src ${CORE}/src/*/${name}.c)
+      string(REGEX REPLACE "/.*" "" folder "${source}")
     endif()
   elseif(NOT EXISTS ${CORE}/src/${header})
     message(SEND_ERROR "\"${header}\" is not the core's")
@@ -53,7 +53,7 @@ function(check_foreign file name header)
   endif()
 endfunction()
 
-file(GLOB FILES RELATIVE ${CORE} ${CORE}/src/*/*.[ch] ${CORE}/include/hdlyap/*.h)
+file(GLOB FILES RELATIVE ${CORE} ${CORE}/src/*/*.[ch] ${CORE}/src/*/*/*.[ch] ${CORE}/include/hdlyap/*.h)
 list(LENGTH FILES COUNT)
 if(COUNT LESS 20)
   message(FATAL_ERROR "no sources below ${CORE}")

@@ -97,13 +97,15 @@ int pthread_create(pthread_t *restrict thread, const pthread_attr_t *restrict ho
 }
 
 /** PROBE_OVERLAP: how deep disks overlap once the run has begun [sigma]. */
-double hd_trajectory_overlap(const hd_trajectory *trajectory)
+hd_examined hd_trajectory_examined(const hd_trajectory *trajectory)
 {
-    double (*real)(const hd_trajectory *);
-    next(&real, "hd_trajectory_overlap");
-    if (atomic_load(&steps) == 0) return real(trajectory);
+    hd_examined (*real)(const hd_trajectory *);
+    next(&real, "hd_trajectory_examined");
+    hd_examined examined = real(trajectory);
+    if (atomic_load(&steps) == 0) return examined;
     atomic_fetch_add(&overlaps, 1);
-    return getenv("PROBE_OVERLAP") ? number("PROBE_OVERLAP") : real(trajectory);
+    if (getenv("PROBE_OVERLAP")) examined.overlap = number("PROBE_OVERLAP");
+    return examined;
 }
 
 /** PROBE_STD_ERROR: of the positive exponents nearest to zero, at all times. */

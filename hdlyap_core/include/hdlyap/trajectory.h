@@ -32,22 +32,34 @@ HD_MUST_CHECK hd_status hd_trajectory_extend(hd_trajectory *trajectory, hd_recor
 double hd_trajectory_time(const hd_trajectory *trajectory);         /**< simulated time */
 uint64_t hd_trajectory_collisions(const hd_trajectory *trajectory); /**< pair events so far */
 /** Virial of the pair events so far, by direction: sum of |p.n| n_d^2 [sigma momentum] [T19]. */
-void hd_trajectory_virial(const hd_trajectory *trajectory, double virial[HD_DIM]);
+void hd_trajectory_virial(const hd_trajectory *trajectory, double *virial);
 /** Estimate of the pair events per time unit, by Enskog's theory [T2]. */
 double hd_trajectory_collision_rate(const hd_trajectory *trajectory);
 
-/** State now: q[HD_DIM N] inside the box, p[HD_DIM N]. Either may be NULL. Cost O(N). */
+/** State now: positions q inside the box, x0 y0 .. x1 y1 .., and momenta p. Either may be NULL.
+ * Cost O(N). */
 void hd_trajectory_state(const hd_trajectory *trajectory, double *q, double *p);
 
 double hd_trajectory_kinetic_energy(const hd_trajectory *trajectory); /**< sum p^2 / 2, = N */
-/** More than rounding makes of its relative error: each event so far rounds the energy of its disks
- * by some eps, and the roundings add up as a random walk. Seen: 0.01 of this. */
-double hd_trajectory_energy_rounding(const hd_trajectory *trajectory);
-/** More than rounding makes of an overlap: of some roundings in positions, of the order of the box,
- * and in times, as long as they are counted from one moment. */
-double hd_trajectory_overlap_rounding(const hd_trajectory *trajectory);
-/** Deepest overlap of any pair now: max(0, 1 - distance) over all pairs and images. Cost O(N). */
-double hd_trajectory_overlap(const hd_trajectory *trajectory);
+
+/** How exact the present state is. */
+typedef struct hd_examined {
+    /** More than rounding makes of the relative error of the energy: each event so far rounds the
+     * energy of its disks by some eps, and the roundings add up as a random walk. Seen: 0.01 of
+     * this. */
+    double energy_rounding;
+    double momentum[HD_DIMENSION_MAX]; /**< of all disks together */
+    double angular_momentum; /**< about the middle of the box, about z; a circle conserves it */
+    double overlap; /**< deepest of any pair now: max(0, 1 - distance) over all pairs and images */
+    /** More than rounding makes of an overlap: of some roundings in positions, of the order of the
+     * box, and in times, as long as they are counted from one moment. */
+    double overlap_rounding;
+    /** Deeper than this [sigma] is a fault, HD_OVERLAP: 1e-9, or overlap_rounding where that is
+     * more: in boxes longer than some 3e5 sigma, 4e-6 in the longest of 1e9. */
+    double overlap_max;
+} hd_examined;
+/** Cost O(N). */
+hd_examined hd_trajectory_examined(const hd_trajectory *trajectory);
 
 HD_API_END
 #endif

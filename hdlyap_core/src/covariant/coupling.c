@@ -26,21 +26,21 @@ struct hd_coupling {
     double *y;       /**< [half * half] */
 };
 
-double hd_coupling_bytes(int disks, int threads)
+double hd_coupling_bytes(int rows, int threads)
 {
-    const double half = (double)HD_DIM * disks;
-    return sizeof(double) * half * half + hd_frame_bytes(disks, half, threads);
+    const double half = rows / 2;
+    return sizeof(double) * half * half + hd_frame_bytes(rows, half, threads);
 }
 
-hd_status hd_coupling_create(hd_coupling **out, int disks, int threads)
+hd_status hd_coupling_create(hd_coupling **out, const hd_dynamics *of, int particles, int threads)
 {
     hd_coupling *c = hd_memory_alloc(1, sizeof *c);
     *out = NULL;
     if (!c) return HD_NO_MEMORY;
-    c->rows = HD_ROWS * disks;
-    c->half = HD_DIM * disks;
+    c->half = of->coordinates * particles;
+    c->rows = 2 * c->half;
     c->y = hd_memory_alloc((size_t)c->half * (size_t)c->half, sizeof(double));
-    if (!c->y || hd_frame_create(&c->frame, disks, c->half, 1, threads) != HD_OK) {
+    if (!c->y || hd_frame_create(&c->frame, of, particles, c->half, 1, threads) != HD_OK) {
         hd_coupling_free(c);
         return HD_NO_MEMORY;
     }
@@ -60,12 +60,13 @@ void hd_coupling_free(hd_coupling *coupling)
 static void load(hd_coupling *c, const hd_frame *frame)
 {
     const size_t stride = (size_t)hd_frame_stride(frame);
+    const int coordinates = hd_frame_coordinates(frame);
     const double *before = hd_frame_before(frame);
     double *to = hd_frame_data(c->frame);
     for (int row = 0; row < c->rows; row++, to += stride) {
-        const double *from = before + (size_t)hd_turned(row) * stride;
+        const double *from = before + (size_t)hd_turned(row, coordinates) * stride;
         memcpy(to, from, (size_t)c->half * sizeof *to);
-        if (hd_turned_sign(row) < 0) cblas_dscal(c->half, -1.0, to, 1);
+        if (hd_turned_sign(row, coordinates) < 0) cblas_dscal(c->half, -1.0, to, 1);
     }
 }
 

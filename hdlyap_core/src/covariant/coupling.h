@@ -2,15 +2,17 @@
 #ifndef HD_COUPLING_H
 #define HD_COUPLING_H
 
-#include "events/trajectory.h"
+#include "dynamics/trajectory.h"
 #include "tangent/frame.h"
+#include "dynamics/dynamics.h"
 
 typedef struct hd_coupling hd_coupling;
 
-/** Of frames of 2N vectors. HD_NO_MEMORY: they take as much room as a frame, and 8 (HD_DIM N)^2
- * bytes. */
-double hd_coupling_bytes(int disks, int threads);
-HD_MUST_CHECK hd_status hd_coupling_create(hd_coupling **out, int disks, int threads);
+/** Of frames of half as many vectors as rows. HD_NO_MEMORY: they take as much room as a frame, and
+ * 8 bytes for each pair of vectors. */
+double hd_coupling_bytes(int rows, int threads);
+HD_MUST_CHECK hd_status hd_coupling_create(hd_coupling **out, const hd_dynamics *of, int particles,
+                                           int threads);
 void hd_coupling_free(hd_coupling *coupling);
 
 /** Of the interval from t_begin to t_end of the record: the frame has been replayed through it and

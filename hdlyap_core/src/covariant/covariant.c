@@ -23,6 +23,7 @@
 #include "covariant/splitting.h"
 #include "covariant/starts.h"
 #include "covariant/window_room.h"
+#include "dynamics/dynamics.h"
 #include "modes/archived.h"
 #include "modes/modes.h"
 #include "scene/null_space.h"
@@ -70,7 +71,7 @@ struct hd_covariant {
 hd_status hd_covariant_check_room(const hd_scene_def *def, double interval, char *message,
                                   size_t size)
 {
-    const hd_history_def past = hd_window_history(def, interval, hd_window_event_rate(def),
+    const hd_history_def past = hd_window_history(def, interval, hd_dynamics_of(def)->entries(def),
                                                   def->threads);
     return hd_window_check_room(def, &past, message, size);
 }
@@ -119,7 +120,8 @@ static hd_status allocate(hd_covariant *c)
     HD_TRY(
         hd_spectrum_create(&c->spectrum, c->rows, c->vectors, hd_scene_sound_crossing(&c->scene)));
     HD_TRY(hd_splitting_create(&c->splitting, c->vectors, c->unstable, c->centre));
-    return hd_localization_create(&c->shape, c->scene.disks, c->vectors, c->threads);
+    return hd_localization_create(&c->shape, c->scene.disks, hd_scene_coordinates(&c->scene),
+                                  c->vectors, c->threads);
 }
 
 hd_status hd_covariant_create(hd_covariant **out, const hd_scene_def *def, int threads)
@@ -130,10 +132,10 @@ hd_status hd_covariant_create(hd_covariant **out, const hd_scene_def *def, int t
     if (!c) return HD_NO_MEMORY;
     c->scene = *def;
     c->threads = threads;
-    c->rows = HD_ROWS * def->disks;
+    c->rows = 2 * hd_scene_coordinates(def) * def->disks;
     c->vectors = hd_scene_vectors(def);
     c->carried = hd_scene_carried(def);
-    c->rate = hd_window_event_rate(def);
+    c->rate = hd_dynamics_of(def)->entries(def);
     c->centre = c->vectors >= positive + zero ? zero : 0;
     c->unstable = c->centre > 0 ? positive
                                 : c->vectors; /* a part of the centre is no space of its own */
@@ -326,10 +328,10 @@ static hd_status measure_weights(hd_covariant *c, hd_modes *weights)
 /** dq and dp change places. */
 static void swap_halves(hd_covariant *c)
 {
-    const int n = c->vectors;
-    for (int disk = 0; disk < c->scene.disks; disk++)
-        cblas_dswap(HD_DIM * n, c->frame + HD_ROWS * (size_t)disk * (size_t)n, 1,
-                    c->frame + (HD_ROWS * (size_t)disk + HD_DIM) * (size_t)n, 1);
+    const int n = c->vectors, half = hd_scene_coordinates(&c->scene);
+    for (int row = 0; row < c->rows; row += 2 * half)
+        cblas_dswap(half * n, c->frame + (size_t)row * (size_t)n, 1,
+                    c->frame + (size_t)(row + half) * (size_t)n, 1);
 }
 
 /** What the vectors grew by since the look before, which came later. */

@@ -32,9 +32,11 @@ struct hd_history {
     double time;
 };
 
+static int rows_of(const hd_history_def *def) { return 2 * def->of->coordinates * def->disks; }
+
 static size_t snapshot_size(const hd_history_def *def)
 {
-    return HD_ROWS * (size_t)def->disks * ((size_t)def->vectors + 1);
+    return (size_t)rows_of(def) * ((size_t)def->vectors + 1);
 }
 
 /** R, and Y with it. */
@@ -47,7 +49,7 @@ static size_t triangle_size(const hd_history_def *def)
  * is there. */
 static hd_recompute_def recompute_of(const hd_history_def *def)
 {
-    const int rows = HD_ROWS * def->disks;
+    const int rows = rows_of(def);
     const long stretch = hd_recompute_stretch(def->intervals, def->conjugate ? rows / 2 : rows,
                                               def->vectors);
     return (hd_recompute_def){.rows = rows,
@@ -56,7 +58,7 @@ static hd_recompute_def recompute_of(const hd_history_def *def)
                               .conjugate = def->conjugate,
                               .slots = (def->intervals + 2 * stretch - 1) / stretch * stretch,
                               .stretch = stretch,
-                              .entry = def->entry,
+                              .of = def->of,
                               .events = def->events *
                                         (1.0 + (double)stretch / (double)def->intervals)};
 }
@@ -69,7 +71,7 @@ double hd_history_bytes(const hd_history_def *def)
                                             : hd_store_bytes(triangle_size(def), def->intervals);
     const long slots = def->recompute ? again.slots : def->intervals;
     const double coupling = def->conjugate && !def->recompute
-                                ? hd_coupling_bytes(def->disks, def->threads)
+                                ? hd_coupling_bytes(rows_of(def), def->threads)
                                 : 0.0;
     return snapshots + triangles + coupling + (double)slots * sizeof(interval_kept);
 }
@@ -83,7 +85,8 @@ static hd_status allocate(hd_history *past)
     HD_TRY(hd_store_create(&past->snapshots, record, def->snapshots));
     const hd_recompute_def again = recompute_of(def);
     if (def->recompute) return hd_recompute_create(&past->recompute, &again);
-    if (def->conjugate) HD_TRY(hd_coupling_create(&past->coupling, def->disks, def->threads));
+    if (def->conjugate)
+        HD_TRY(hd_coupling_create(&past->coupling, def->of, def->disks, def->threads));
     return hd_store_create(&past->triangles, triangle, past->slots);
 }
 
@@ -94,7 +97,7 @@ hd_status hd_history_create(hd_history **out, const hd_history_def *def)
     *out = NULL;
     if (!past) return HD_NO_MEMORY;
     past->def = *def;
-    past->rows = HD_ROWS * def->disks;
+    past->rows = rows_of(def);
     past->slots = def->recompute ? recompute_of(def).slots : def->intervals;
     const hd_status status = allocate(past);
     if (status == HD_OK)
@@ -245,7 +248,8 @@ void hd_history_vectors(const hd_history *past, double *vectors, double *q, doub
     HD_ASSERT(record >= 0);
     const double *kept = hd_store_fetch(past->snapshots, record);
     if (past->def.conjugate)
-        hd_conjugate_fill(vectors, (hd_columns){kept, (int)n, 0, (int)n}, past->rows);
+        hd_conjugate_fill(vectors, (hd_columns){kept, (int)n, 0, (int)n}, past->rows,
+                          past->def.of->coordinates);
     else
         memcpy(vectors, kept, rows * n * sizeof *vectors);
     memcpy(q, kept + rows * n, half * sizeof *q);

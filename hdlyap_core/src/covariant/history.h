@@ -5,17 +5,18 @@
 
 #include <stdbool.h>
 
-#include "events/trajectory.h"
+#include "dynamics/trajectory.h"
 #include "tangent/frame.h"
+#include "dynamics/dynamics.h"
 
 /** Where triangles are kept. */
 typedef struct hd_history_def {
+    const hd_dynamics *of;
     int disks, vectors, threads;
     bool conjugate; /**< half of the vectors are carried: triangles are R and Y [T18] */
     long intervals; /**< of which triangles are kept, at most */
     long snapshots; /**< at most */
     bool recompute; /**< triangles are computed again instead of being kept: from the events */
-    size_t entry;   /**< bytes of an entry of the record */
     double events;  /**< of these intervals, at most; only of recomputed ones */
 } hd_history_def;
 
@@ -44,7 +45,7 @@ bool hd_history_is_full(const hd_history *past);
 /** Events that are kept; 0 unless triangles are recomputed. */
 double hd_history_events(const hd_history *past);
 
-/** Keeps the frame and the state of the end of the last interval: q[HD_DIM N], p[HD_DIM N]. */
+/** Keeps the frame and the state of the end of the last interval: positions q, momenta p. */
 HD_MUST_CHECK hd_status hd_history_snapshot(hd_history *past, hd_columns frame, const double *q,
                                             const double *p);
 
@@ -63,9 +64,8 @@ bool hd_history_has_snapshot(const hd_history *past, long interval); /**< at its
  * interval. */
 HD_MUST_CHECK hd_status hd_history_factor(hd_history *past, double *factor, double *coupling,
                                           long interval);
-/** Vectors [4N * n] row-major, or all [4N * 2n] where half are carried, q[HD_DIM N], p[HD_DIM N] of
- * a snapshot.
- */
+/** Vectors [4N * n] row-major, or all [4N * 2n] where half are carried, positions q and momenta p
+ * of a snapshot. */
 void hd_history_vectors(const hd_history *past, double *vectors, double *q, double *p,
                         long interval);
 

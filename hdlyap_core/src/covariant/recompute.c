@@ -69,7 +69,7 @@ static long chunks_of(const hd_recompute_def *def)
 
 static size_t chunk_doubles(const hd_recompute_def *def)
 {
-    return CHUNK * def->entry / sizeof(double);
+    return CHUNK * def->of->entry / sizeof(double);
 }
 
 static size_t frame_of(const hd_recompute_def *def)
@@ -79,14 +79,13 @@ static size_t frame_of(const hd_recompute_def *def)
 
 double hd_recompute_bytes(const hd_recompute_def *def)
 {
-    const int disks = def->rows / HD_ROWS;
     const double kept = hd_store_bytes(frame_of(def), def->slots / def->stretch) +
                         hd_store_bytes(triangle_size(def), def->stretch);
-    const double replayed = hd_frame_bytes(disks, def->vectors, def->threads) +
+    const double replayed = hd_frame_bytes(def->rows, def->vectors, def->threads) +
                             hd_ortho_bytes(def->rows, def->vectors, 1) +
                             2.0 * sizeof(double) * def->vectors * def->vectors + /* its factors */
-                            (def->conjugate ? hd_coupling_bytes(disks, def->threads) : 0.0);
-    const double record = hd_record_bytes(2.0 * def->events / (double)def->slots, def->entry);
+                            (def->conjugate ? hd_coupling_bytes(def->rows, def->threads) : 0.0);
+    const double record = hd_record_bytes(2.0 * def->events / (double)def->slots, def->of->entry);
     return kept + replayed + hd_store_bytes(chunk_doubles(def), chunks_of(def)) +
            (double)def->slots * sizeof(stored) + record;
 }
@@ -95,14 +94,15 @@ static hd_status allocate(hd_recompute *r)
 {
     const hd_recompute_def *def = &r->def;
     const size_t triangle = triangle_size(def);
-    if (def->conjugate) HD_TRY(hd_coupling_create(&r->coupling, def->rows / HD_ROWS, def->threads));
+    const int particles = def->rows / (2 * def->of->coordinates);
+    if (def->conjugate) HD_TRY(hd_coupling_create(&r->coupling, def->of, particles, def->threads));
     HD_TRY(hd_store_create(&r->frames, frame_of(def), def->slots / def->stretch));
     HD_TRY(hd_store_create(&r->triangles, triangle, def->stretch));
-    HD_TRY(hd_frame_create(&r->frame, def->rows / HD_ROWS, def->vectors, 1, def->threads));
+    HD_TRY(hd_frame_create(&r->frame, def->of, particles, def->vectors, 1, def->threads));
     HD_TRY(hd_ortho_create(&r->ortho, def->rows, def->vectors));
     HD_TRY(hd_ortho_keep_factor(r->ortho));
     HD_TRY(hd_store_create(&r->events, chunk_doubles(def), chunks_of(def)));
-    HD_TRY(hd_record_create(&r->record, def->entry));
+    HD_TRY(hd_record_create(&r->record, def->of->entry));
     r->stored = hd_memory_alloc((size_t)def->slots, sizeof *r->stored);
     return r->stored ? HD_OK : HD_NO_MEMORY;
 }
@@ -158,7 +158,7 @@ static double *place(hd_recompute *r, uint64_t event)
 {
     const uint64_t chunks = (uint64_t)chunks_of(&r->def);
     double *chunk = hd_store_put(r->events, (long)(event / CHUNK % chunks));
-    return chunk ? chunk + event % CHUNK * (r->def.entry / sizeof(double)) : NULL;
+    return chunk ? chunk + event % CHUNK * (r->def.of->entry / sizeof(double)) : NULL;
 }
 
 /** A slot that does not follow the one before it begins anew; else what it held is no more. */
@@ -199,7 +199,7 @@ hd_status hd_recompute_events(hd_recompute *r, long slot, const hd_record *recor
         if (r->head - r->tail == most) return HD_NO_ROOM;
         double *event = place(r, r->head);
         if (!event) return HD_NO_MEMORY;
-        memcpy(event, hd_record_entry(record, k), r->def.entry);
+        memcpy(event, hd_record_entry(record, k), r->def.of->entry);
         *event -= t_begin; /* its time */
         r->head++;
     }

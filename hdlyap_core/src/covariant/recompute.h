@@ -5,8 +5,9 @@
 
 #include <stdbool.h>
 
-#include "events/trajectory.h"
+#include "dynamics/trajectory.h"
 #include "hdlyap/frame.h"
+#include "dynamics/dynamics.h"
 
 /** Slots 0 .. slots - 1 are used in turn, as a ring. */
 typedef struct hd_recompute hd_recompute;
@@ -16,10 +17,10 @@ typedef struct hd_recompute hd_recompute;
 long hd_recompute_stretch(long slots, int rows, int vectors);
 
 typedef struct hd_recompute_def {
+    const hd_dynamics *of;
     int rows, vectors, threads;
     bool conjugate;      /**< half of the vectors are carried: a triangle is R and Y [T18] */
     long slots, stretch; /**< a frame is kept for every `stretch` slots, which divides `slots` */
-    size_t entry;        /**< bytes of an entry of the record */
     double events;       /**< with which it is full: entries */
 } hd_recompute_def;
 

@@ -6,21 +6,10 @@
 #include <stdio.h>
 
 #include "base/check.h"
-#include "events/events.h"
-#include "scene/fluid.h"
 #include "scene/scene.h"
 
 /** Intervals that there is room for, over those that are expected: they vary. */
 static const double SPARE = 1.5;
-
-double hd_window_event_rate(const hd_scene_def *def)
-{
-    double box[HD_DIM], rate = 0.5 * hd_fluid_of(def)->rate(def->density);
-    hd_scene_box(def, box);
-    for (int d = 0; d < HD_DIM; d++)
-        if (hd_scene_boundary(def, d) != HD_PERIODIC) rate += 1.0 / (box[d] - 1.0);
-    return def->disks * rate;
-}
 
 hd_history_def hd_window_history(const hd_scene_def *def, double interval, double rate, int threads)
 {
@@ -31,14 +20,14 @@ hd_history_def hd_window_history(const hd_scene_def *def, double interval, doubl
     const double intervals = ceil(SPARE * both / def->covariant_sampling * of_look) + 8.0,
                  looks = ceil(both / def->covariant_sampling) + 4.0;
     const double most = 1e9; /* far beyond any room */
-    return (hd_history_def){.disks = def->disks,
+    return (hd_history_def){.of = hd_dynamics_of(def),
+                            .disks = def->disks,
                             .vectors = hd_scene_carried(def),
                             .threads = threads > 0 ? threads : 1,
                             .conjugate = hd_scene_carried(def) < hd_scene_vectors(def),
                             .intervals = (long)fmin(intervals, most),
                             .snapshots = (long)fmin(looks, most),
                             .recompute = def->covariant_storage == HD_STORAGE_RECOMPUTE,
-                            .entry = hd_events_entry(),
                             .events = SPARE * both * rate};
 }
 

@@ -5,10 +5,6 @@
 #include "covariant/history.h"
 #include "hdlyap/scene.h"
 
-/** Pair and wall events of a time unit, as kinetic theory has them: walls are met as with a
- * momentum of 1 across the box. */
-double hd_window_event_rate(const hd_scene_def *def);
-
 /** Of intervals of this length [time units], with so many events in a time unit. */
 hd_history_def hd_window_history(const hd_scene_def *def, double interval, double rate,
                                  int threads);

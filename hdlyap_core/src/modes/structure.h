@@ -11,7 +11,7 @@ HD_MUST_CHECK hd_status hd_structure_create(hd_structure **out, const hd_scene_d
                                             int vectors, int threads);
 void hd_structure_free(hd_structure *structure);
 
-/** A snapshot of vectors (all of them, or some: the others keep theirs) at q[HD_DIM N], whose dq
+/** A snapshot of vectors (all of them, or some: the others keep theirs) at positions q, whose dq
  * halves have these norms, [n]. HD_NOT_FINITE. Cost 16 N waves flops per vector as dgemm in
  * periodic boxes, half of it per wall, and 2 waves numbers written. */
 HD_MUST_CHECK hd_status hd_structure_measure(hd_structure *structure, hd_columns vectors,

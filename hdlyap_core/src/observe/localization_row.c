@@ -2,6 +2,7 @@
  * the same disks. */
 #include "base/check.h"
 #include "observe/observable.h"
+#include "scene/scene.h"
 #include "tangent/archived.h"
 #include "tangent/localization.h"
 
@@ -14,7 +15,8 @@ static double localization_bytes(const hd_scene_def *scene, int ranks)
 static void *localization_create(const hd_observing *with, hd_status *status)
 {
     hd_localization *made;
-    *status = hd_localization_create(&made, with->scene->disks, with->vectors, with->threads);
+    *status = hd_localization_create(&made, with->scene->disks, hd_scene_coordinates(with->scene),
+                                     with->vectors, with->threads);
     return made;
 }
 

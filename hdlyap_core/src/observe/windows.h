@@ -2,7 +2,7 @@
 #ifndef HD_WINDOWS_H
 #define HD_WINDOWS_H
 
-#include "events/trajectory.h"
+#include "dynamics/trajectory.h"
 #include "hdlyap/covariant.h"
 #include "tangent/frame.h"
 #include "tangent/ortho.h"

@@ -4,7 +4,7 @@
 
 #include <stdbool.h>
 
-#include "events/trajectory.h"
+#include "dynamics/trajectory.h"
 
 /** Of one advance, at most: bounds memory, and the wait for an answer. */
 #define HD_EVENTS_MAX 2e5

@@ -6,7 +6,7 @@
 #include <math.h>
 
 #include "base/memory.h"
-#include "events/trajectory.h"
+#include "dynamics/trajectory.h"
 #include "scene/scene.h"
 
 /** Of the mean distance of neighbours: a disk that is farther from its start has left. Vibrations

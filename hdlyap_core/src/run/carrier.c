@@ -12,7 +12,6 @@
 #include "base/check.h"
 #include "base/clock.h"
 #include "base/memory.h"
-#include "events/events.h"
 #include "hdlyap/blas.h"
 #include "observe/observable.h"
 #include "run/advance.h"
@@ -67,7 +66,7 @@ static hd_status agree(const hd_carrier *c, hd_status status)
 
 static hd_status create_random(hd_carrier *c, uint64_t seed)
 {
-    return hd_frame_create_shared(&c->frame, c->disks, c->carried, seed, c->threads,
+    return hd_frame_create_shared(&c->frame, c->of, c->disks, c->carried, seed, c->threads,
                                   c->communicator);
 }
 
@@ -100,7 +99,7 @@ static hd_status prepare_threads(hd_carrier *c, const hd_scene_def *scene)
     const int granted = c->threads = hd_blas_threads_granted(most);
     hd_blas_use_threads(granted);
     if (scene->threads == 0 && !c->communicator)
-        HD_TRY(hd_threads_choose(&c->threads, c->ortho, c->disks, c->carried, granted));
+        HD_TRY(hd_threads_choose(&c->threads, c->ortho, c->of, c->disks, c->carried, granted));
     c->threads_denied = c->threads == granted ? most - granted : 0;
     hd_blas_use_threads(c->threads);
     return HD_OK;
@@ -117,7 +116,8 @@ static hd_status prepare_conjugate(hd_carrier *c, const hd_scene_def *scene)
 {
     const int here = c->communicator ? hd_frame_stride(c->frame) : c->carried;
     if (c->carried == c->vectors) return HD_OK;
-    return hd_conjugate_create(&c->conjugate, hd_frame_rows(c->frame), completed(scene, here));
+    return hd_conjugate_create(&c->conjugate, hd_frame_rows(c->frame), c->of->coordinates,
+                               completed(scene, here));
 }
 
 /** Keeps the halves of a frame that is orthonormal in the whole norm: the next one may be so in the
@@ -139,8 +139,9 @@ static hd_status keep_halves(hd_carrier *c)
 static hd_status prepare(hd_carrier *c, const hd_scene_def *scene, double block)
 {
     const int rows = rows_of(scene), n = c->vectors;
-    HD_TRY(agree(c, hd_record_create(&c->record, hd_events_entry())));
-    HD_TRY(hd_ortho_create_shared(&c->ortho, rows, c->carried, c->communicator));
+    HD_TRY(agree(c, hd_record_create(&c->record, c->of->entry)));
+    HD_TRY(hd_ortho_create_shared(&c->ortho, rows, 2 * c->of->coordinates, c->carried,
+                                  c->communicator));
     HD_TRY(agree(c, prepare_threads(c, scene)));
     HD_TRY(agree(c, hd_spectrum_create(&c->spectrum, rows, n, block)));
     c->halves = hd_memory_alloc(2 * (size_t)n, sizeof *c->halves);
@@ -155,6 +156,7 @@ hd_status hd_carrier_create(hd_carrier *c, const hd_scene_def *scene, double col
 {
     const double limit = scene->interval > 0 ? scene->interval : INFINITY;
     *c = (hd_carrier){.communicator = communicator,
+                      .of = hd_dynamics_of(scene),
                       .disks = scene->disks,
                       .vectors = hd_scene_vectors(scene),
                       .carried = hd_scene_carried(scene),
@@ -184,8 +186,9 @@ double hd_carrier_bytes(const hd_scene_def *scene, int threads, int ranks)
     const double disks = scene->disks, n = hd_scene_vectors(scene),
                  carried = hd_scene_carried(scene), here = ceil(carried / ranks);
     if (n == 0) return 0.0;
-    const double record = hd_events_bytes(fmin(HD_EVENTS_MAX, EVENTS_OF_A_DISK * disks));
-    const double frame = hd_frame_bytes(disks, here, threads);
+    const double record = hd_dynamics_of(scene)->record_bytes(
+        fmin(HD_EVENTS_MAX, EVENTS_OF_A_DISK * disks));
+    const double frame = hd_frame_bytes(rows_of(scene), here, threads);
     const double ortho = hd_ortho_bytes(rows_of(scene), carried, ranks);
     const double conjugate = carried < n
                                  ? hd_conjugate_bytes(rows_of(scene), completed(scene, (int)here))

@@ -20,6 +20,7 @@ typedef struct hd_rounding {
 /** The fields are carrier.c's, and of checkpoint.c. Without exponents pointers are NULL. */
 typedef struct hd_carrier {
     hd_communicator *communicator; /**< NULL: a single rank */
+    const hd_dynamics *of;
     int disks, vectors, carried, positive, threads, threads_denied;
     double accuracy, collision; /**< asked of an exponent; time between two collisions of a disk */
     hd_record *record;

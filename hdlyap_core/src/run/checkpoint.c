@@ -10,8 +10,7 @@
 #include "averages/archived.h"
 #include "base/check.h"
 #include "base/clock.h"
-#include "events/archived.h"
-#include "events/events.h"
+#include "dynamics/archived.h"
 #include "hdlyap/blas.h"
 #include "run/checkpoint.h"
 #include "run/checkpoint_file.h"
@@ -21,6 +20,7 @@
 #include "scene/parameters.h"
 #include "scene/scene.h"
 #include "tangent/archived.h"
+#include "dynamics/dynamics.h"
 
 /* ---- a run's own numbers ------------------------------------------------------------------- */
 
@@ -130,7 +130,7 @@ static void parts_archive(hd_run *run, hd_archive *archive)
     hd_interval_archive(&c->interval, archive);
     hd_observables_archive(&run->observables, archive, false, now);
     if (!c->frame || hd_communicator_agree(run->communicator, archive->status) != HD_OK) return;
-    hd_events_archive(c->record, archive, &run->scene);
+    c->of->archive_record(c->record, archive, &run->scene);
     const hd_status status = hd_frame_archive(c->frame, archive);
     if (status != HD_OK) hd_archive_fail(archive, status, "frame vectors", NULL);
     hd_archive_doubles(archive, "run halves", c->halves, 2 * (size_t)c->vectors);

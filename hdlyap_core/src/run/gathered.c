@@ -36,7 +36,7 @@ static hd_status gather_both_halves(hd_gathered *g, const hd_carrier *c)
     HD_TRY(reserve(g, c, 3 * size));
     double *half = g->room + 2 * size;
     hd_frame_gather(c->frame, 0, n, half);
-    hd_conjugate_fill(g->room, (hd_columns){half, n, 0, n}, rows);
+    hd_conjugate_fill(g->room, (hd_columns){half, n, 0, n}, rows, c->of->coordinates);
     g->columns = (hd_columns){g->room, rows, 0, rows};
     return HD_OK;
 }

@@ -7,7 +7,7 @@
 #include "base/check.h"
 #include "base/communicator.h"
 #include "base/memory.h"
-#include "events/archived.h"
+#include "dynamics/archived.h"
 #include "hdlyap/blas.h"
 #include "hdlyap/hdlyap.h"
 #include "hdlyap/room.h"

@@ -4,17 +4,18 @@
 #include <stdio.h>
 
 #include "base/check.h"
-#include "events/archived.h"
+#include "dynamics/archived.h"
 #include "observe/observables.h"
 #include "run/carrier.h"
 #include "run/gathered.h"
 #include "scene/scene.h"
 #include "tangent/threads.h"
+#include "dynamics/dynamics.h"
 
 double hd_room_needed(const hd_scene_def *def, int threads, int ranks)
 {
     const int of_ranks = ranks > 1 ? ranks : 1;
-    return hd_trajectory_bytes(def->disks) + hd_carrier_bytes(def, threads, of_ranks) +
+    return hd_dynamics_of(def)->bytes(def->disks) + hd_carrier_bytes(def, threads, of_ranks) +
            hd_observables_bytes(def, of_ranks) + hd_gathered_bytes(def, of_ranks);
 }
 

@@ -11,7 +11,7 @@
  * HD_NO_MEMORY on all of them. */
 HD_MUST_CHECK hd_status hd_frame_archive(hd_frame *frame, hd_archive *archive);
 /** Of a rank that carries so many vectors; without its tangent maps. */
-double hd_frame_bytes(double disks, double vectors, double threads);
+double hd_frame_bytes(double rows, double vectors, double threads);
 double hd_ortho_bytes(double rows, double vectors, double ranks);
 /** most: as hd_conjugate_create. */
 double hd_conjugate_bytes(double rows, double most);

@@ -18,7 +18,8 @@
 enum { PANEL = 16, PAIRS = 4 };
 
 struct hd_conjugate {
-    int rows, half;  /**< 4N, 2N */
+    int rows, half;  /**< M, M / 2 */
+    int coordinates; /**< of a particle */
     bool fresh;      /**< whole is that of the last orthonormalisation */
     double *stretch; /**< [rows] */
     double *whole;   /**< [rows * 2 most], row-major; NULL unless asked for */
@@ -33,15 +34,17 @@ double hd_conjugate_bytes(double rows, double most)
 }
 
 /** to = J from; entries of a vector in the frame's order. */
-static void turn(double *to, const double *from, int rows)
+static void turn(double *to, const double *from, int rows, int coordinates)
 {
-    for (int row = 0; row < rows; row++) to[row] = hd_turned_sign(row) * from[hd_turned(row)];
+    for (int row = 0; row < rows; row++)
+        to[row] = hd_turned_sign(row, coordinates) * from[hd_turned(row, coordinates)];
 }
 
 /* ---- the start ----------------------------------------------------------------------------- */
 
 typedef struct panel {
-    int rows, first, width; /**< rows of this rank: those of some disks */
+    int rows, first, width; /**< rows of this rank: those of some particles */
+    int coordinates;        /**< of a particle */
     double *a, *turned;     /**< [rows * width], column-major: vectors; work */
     double *part;           /**< [n * width]: coefficients */
 } panel;
@@ -68,7 +71,7 @@ static void store(const panel *x, hd_frame *frame)
 static void turn_all(const panel *x)
 {
     for (int col = 0; col < x->width; col++)
-        turn(column_of(x, x->turned, col), column_of(x, x->a, col), x->rows);
+        turn(column_of(x, x->turned, col), column_of(x, x->a, col), x->rows, x->coordinates);
 }
 
 /** Vectors before the panel that lie side by side, from one of them on. */
@@ -103,7 +106,8 @@ static void project_out(const panel *x, hd_frame *frame)
             double *a = column_of(x, x->a, col), *along = column_of(x, x->turned, col);
             if (conjugate) /* A += J Q (Q^T J A) */
                 for (int row = 0; row < x->rows; row++)
-                    a[row] += hd_turned_sign(row) * along[hd_turned(row)];
+                    a[row] += hd_turned_sign(row, x->coordinates) *
+                              along[hd_turned(row, x->coordinates)];
             else
                 cblas_daxpy(x->rows, -1.0, along, 1, a, 1);
         }
@@ -135,7 +139,7 @@ static hd_status orthonormalise_panel(const panel *x, hd_communicator *c)
             if (k % 2 == 0)
                 memcpy(along, q, (size_t)x->rows * sizeof *q);
             else
-                turn(along, q, x->rows);
+                turn(along, q, x->rows, x->coordinates);
             cblas_daxpy(x->rows, -inner(x, c, along, a), along, 1, a, 1);
         }
         const double length = length_of(x, c, a);
@@ -167,7 +171,13 @@ hd_status hd_conjugate_start(hd_frame *frame)
     if (status == HD_OK) hd_frame_to_rows(frame);
     for (int first = 0; first < n && status == HD_OK; first += PANEL) {
         const int width = n - first < PANEL ? n - first : PANEL;
-        const panel x = {rows, first, width, room, room + panels, room + 2 * panels};
+        const panel x = {rows,
+                         first,
+                         width,
+                         hd_frame_coordinates(frame),
+                         room,
+                         room + panels,
+                         room + 2 * panels};
         status = start_panel(&x, frame);
     }
     if (frame->by_rows) hd_frame_to_columns(frame);
@@ -189,12 +199,13 @@ static hd_status allocate(hd_conjugate *c)
     return c->whole ? HD_OK : HD_NO_MEMORY;
 }
 
-hd_status hd_conjugate_create(hd_conjugate **out, int rows, int most)
+hd_status hd_conjugate_create(hd_conjugate **out, int rows, int coordinates, int most)
 {
     hd_conjugate *c = hd_memory_alloc(1, sizeof *c);
     *out = NULL;
     if (!c) return HD_NO_MEMORY;
     c->rows = rows;
+    c->coordinates = coordinates;
     c->half = rows / 2;
     c->most = most;
     if (allocate(c) != HD_OK) {
@@ -228,12 +239,13 @@ const double *hd_conjugate_stretch(hd_conjugate *conjugate, const double *half)
     return conjugate->stretch;
 }
 
-void hd_conjugate_fill(double *whole, hd_columns half, int rows)
+void hd_conjugate_fill(double *whole, hd_columns half, int rows, int coordinates)
 {
     const int n = half.count;
     for (int row = 0; row < rows; row++) {
-        const double *partner = half.data + (size_t)hd_turned(row) * (size_t)half.stride;
-        const double sign = hd_turned_sign(row);
+        const double *partner = half.data +
+                                (size_t)hd_turned(row, coordinates) * (size_t)half.stride;
+        const double sign = hd_turned_sign(row, coordinates);
         double *to = whole + (size_t)row * 2 * (size_t)n;
         memcpy(to, half.data + (size_t)row * (size_t)half.stride, (size_t)n * sizeof *to);
         for (int col = 0; col < n; col++) to[2 * n - 1 - col] = sign * partner[col];
@@ -243,7 +255,8 @@ void hd_conjugate_fill(double *whole, hd_columns half, int rows)
 hd_columns hd_conjugate_complete(hd_conjugate *conjugate, hd_columns half)
 {
     HD_ASSERT(half.count <= conjugate->most);
-    if (!conjugate->fresh) hd_conjugate_fill(conjugate->whole, half, conjugate->rows);
+    if (!conjugate->fresh)
+        hd_conjugate_fill(conjugate->whole, half, conjugate->rows, conjugate->coordinates);
     conjugate->fresh = true;
     return (hd_columns){conjugate->whole, 2 * half.count, half.first, 2 * half.count};
 }
@@ -267,12 +280,12 @@ void hd_conjugate_halves(double *cos_theta, double *dp_dq_ratio, int half)
 /* ---- isotropy ------------------------------------------------------------------------------ */
 
 /** a^T J b of two vectors. */
-static double product(const double *a, const double *b, int rows)
+static double product(const double *a, const double *b, int rows, int half)
 {
     double sum = 0.0;
-    for (int row = 0; row < rows; row += HD_ROWS)
-        for (int d = 0; d < HD_DIM; d++)
-            sum += a[row + d] * b[row + HD_DIM + d] - a[row + HD_DIM + d] * b[row + d];
+    for (int row = 0; row < rows; row += 2 * half)
+        for (int d = 0; d < half; d++)
+            sum += a[row + d] * b[row + half + d] - a[row + half + d] * b[row + d];
     return sum;
 }
 
@@ -285,7 +298,7 @@ double hd_conjugate_isotropy(hd_conjugate *c, const hd_frame *frame)
     hd_communicator_sum(frame->communicator, c->sum, 2 * PAIRS * (size_t)c->rows);
     for (int k = 0; k < PAIRS; k++) {
         const double *a = c->sum + 2 * (size_t)k * (size_t)c->rows;
-        const double one = product(a, a + c->rows, c->rows);
+        const double one = product(a, a + c->rows, c->rows, c->coordinates);
         sum += one * one / PAIRS;
     }
     return sqrt(sum);
@@ -295,12 +308,14 @@ double hd_conjugate_isotropy(hd_conjugate *c, const hd_frame *frame)
 static double product_of_columns(const hd_frame *frame, int a, int b)
 {
     const size_t stride = (size_t)hd_frame_stride(frame);
-    const int disks = hd_frame_rows(frame) / HD_ROWS, step = HD_ROWS * hd_frame_stride(frame);
+    const size_t half = (size_t)hd_frame_coordinates(frame);
+    const int of_particle = 2 * (int)half, particles = hd_frame_rows(frame) / of_particle,
+              step = of_particle * hd_frame_stride(frame);
     const double *x = hd_frame_read(frame) + a, *y = hd_frame_read(frame) + b;
     double sum = 0.0;
-    for (size_t d = 0; d < HD_DIM; d++)
-        sum += cblas_ddot(disks, x + d * stride, step, y + (HD_DIM + d) * stride, step) -
-               cblas_ddot(disks, x + (HD_DIM + d) * stride, step, y + d * stride, step);
+    for (size_t d = 0; d < half; d++)
+        sum += cblas_ddot(particles, x + d * stride, step, y + (half + d) * stride, step) -
+               cblas_ddot(particles, x + (half + d) * stride, step, y + d * stride, step);
     return sum;
 }
 

@@ -10,12 +10,16 @@
 
 #include "tangent/frame.h"
 
-/** Entry `row` of J v is that of v at hd_turned(row), times hd_turned_sign(row). */
-static inline int hd_turned(int row)
+/** Entry `row` of J v is that of v at hd_turned(row), times hd_turned_sign(row); with so many
+ * coordinates of a particle. */
+static inline int hd_turned(int row, int coordinates)
 {
-    return row % HD_ROWS < HD_DIM ? row + HD_DIM : row - HD_DIM;
+    return row % (2 * coordinates) < coordinates ? row + coordinates : row - coordinates;
 }
-static inline double hd_turned_sign(int row) { return row % HD_ROWS < HD_DIM ? 1.0 : -1.0; }
+static inline double hd_turned_sign(int row, int coordinates)
+{
+    return row % (2 * coordinates) < coordinates ? 1.0 : -1.0;
+}
 
 /** Turns the 2N vectors of a frame, whatever they are, into orthonormal and isotropic ones: each
  * loses its part along those before it and along their conjugates. A random frame becomes a random
@@ -26,9 +30,10 @@ HD_MUST_CHECK hd_status hd_conjugate_start(hd_frame *frame);
 
 typedef struct hd_conjugate hd_conjugate;
 
-/** For frames of so many rows, half as many vectors. most: of these, to be completed at once; 0:
- * none will be. HD_NO_MEMORY. */
-HD_MUST_CHECK hd_status hd_conjugate_create(hd_conjugate **out, int rows, int most);
+/** For frames of so many rows, coordinates of a particle, half as many vectors. most: of these, to
+ * be completed at once; 0: none will be. HD_NO_MEMORY. */
+HD_MUST_CHECK hd_status hd_conjugate_create(hd_conjugate **out, int rows, int coordinates,
+                                            int most);
 void hd_conjugate_free(hd_conjugate *conjugate);
 
 /** After an orthonormalisation: ln diag R of all 4N [4N] from that of the half [2N]: ln R_ll and,
@@ -36,7 +41,7 @@ void hd_conjugate_free(hd_conjugate *conjugate);
 const double *hd_conjugate_stretch(hd_conjugate *conjugate, const double *half);
 
 /** whole [rows * 2n], row-major: the vectors and, from behind, those turned by J. */
-void hd_conjugate_fill(double *whole, hd_columns half, int rows);
+void hd_conjugate_fill(double *whole, hd_columns half, int rows, int coordinates);
 
 /** All 4N vectors, [4N * 4N]: they are completed once after each orthonormalisation. Valid until
  * the next one. Of the part of the half that a rank has: these, and behind them their partners. */

@@ -1,6 +1,7 @@
-/** Tangent vectors: row-major, HD_ROWS rows of each disk, dq_x dq_y (dq_z) dp_x dp_y (dp_z). Of
+/** Tangent vectors: row-major, rows of each particle, dq_x dq_y .. dp_x dp_y .. Of
  * several ranks each has some columns; for an orthonormalisation it has some rows of all, in the
- * same room: its columns of some disks are exchanged for those disks' columns of the others. */
+ * same room: its columns of some particles are exchanged for those particles' columns of the
+ * others. */
 #include "tangent/frame_state.h"
 
 #include <float.h>
@@ -34,9 +35,9 @@ static int block_width(int rows, int stride)
     return width;
 }
 
-double hd_frame_bytes(double disks, double vectors, double threads)
+double hd_frame_bytes(double rows_of_all, double vectors, double threads)
 {
-    const int rows = HD_ROWS * (int)disks, stride = padded((int)ceil(vectors));
+    const int rows = (int)rows_of_all, stride = padded((int)ceil(vectors));
     return (2.0 * stride + threads * block_width(rows, stride)) * rows * sizeof(double);
 }
 
@@ -47,7 +48,7 @@ static hd_status frame_allocate(hd_frame *frame)
         if (!(frame->copy[k] = hd_memory_alloc(size, sizeof(double)))) return HD_NO_MEMORY;
     const size_t block = (size_t)frame->rows * (size_t)frame->width;
     frame->buffer = hd_memory_alloc(block * (size_t)frame->threads, sizeof(double));
-    return frame->buffer ? hd_maps_create(&frame->maps, frame->disks) : HD_NO_MEMORY;
+    return frame->buffer ? frame->of->maps_create(&frame->maps, frame->particles) : HD_NO_MEMORY;
 }
 
 /** An equal part of them for each rank, or less for the last ones. */
@@ -71,15 +72,17 @@ static void fill_random(hd_frame *frame, uint64_t seed)
         }
 }
 
-hd_status hd_frame_create(hd_frame **out, int disks, int vectors, uint64_t seed, int threads)
+hd_status hd_frame_create(hd_frame **out, const hd_dynamics *of, int particles, int vectors,
+                          uint64_t seed, int threads)
 {
-    return hd_frame_create_shared(out, disks, vectors, seed, threads, NULL);
+    return hd_frame_create_shared(out, of, particles, vectors, seed, threads, NULL);
 }
 
-hd_status hd_frame_create_shared(hd_frame **out, int disks, int vectors, uint64_t seed, int threads,
-                                 hd_communicator *communicator)
+hd_status hd_frame_create_shared(hd_frame **out, const hd_dynamics *of, int particles, int vectors,
+                                 uint64_t seed, int threads, hd_communicator *communicator)
 {
-    HD_ASSERT(disks >= 1 && vectors >= 1 && vectors <= HD_ROWS * disks && threads >= 1);
+    const int rows = 2 * of->coordinates;
+    HD_ASSERT(particles >= 1 && vectors >= 1 && vectors <= rows * particles && threads >= 1);
     hd_frame *frame = hd_memory_alloc(1, sizeof *frame);
     *out = NULL;
     const hd_status head = hd_communicator_agree(communicator, frame ? HD_OK : HD_NO_MEMORY);
@@ -87,12 +90,13 @@ hd_status hd_frame_create_shared(hd_frame **out, int disks, int vectors, uint64_
         hd_memory_free(frame);
         return head;
     }
-    frame->disks = disks;
-    frame->rows = HD_ROWS * disks;
+    frame->of = of;
+    frame->particles = particles;
+    frame->rows = rows * particles;
     frame->vectors = vectors;
     frame->communicator = communicator;
     frame->stride = padded(part_of(frame, vectors));
-    frame->rows_kept = HD_ROWS * part_of(frame, disks) * hd_communicator_ranks(communicator);
+    frame->rows_kept = rows * part_of(frame, particles) * hd_communicator_ranks(communicator);
     frame->width = block_width(frame->rows, frame->stride);
     frame->threads = frame->threads_max = threads;
     const hd_status status = hd_communicator_agree(communicator, frame_allocate(frame));
@@ -111,11 +115,12 @@ void hd_frame_free(hd_frame *frame)
     hd_memory_free(frame->copy[0]);
     hd_memory_free(frame->copy[1]);
     hd_memory_free(frame->buffer);
-    hd_maps_free(frame->maps);
+    if (frame->maps) frame->of->maps_free(frame->maps);
     hd_memory_free(frame);
 }
 
 int hd_frame_rows(const hd_frame *frame) { return frame->rows; }
+int hd_frame_coordinates(const hd_frame *frame) { return frame->of->coordinates; }
 int hd_frame_vectors(const hd_frame *frame) { return frame->vectors; }
 int hd_frame_stride(const hd_frame *frame) { return frame->stride; }
 int hd_frame_threads(const hd_frame *frame) { return frame->threads; }
@@ -137,7 +142,7 @@ hd_columns hd_frame_columns(const hd_frame *frame)
                         left < frame->stride ? left : frame->stride};
 }
 
-/* ---- all vectors of some disks ------------------------------------------------------------- */
+/* ---- all vectors of some particles --------------------------------------------------------- */
 
 /** The part of a copy that goes to one rank, as all do: some rows of our columns. */
 static size_t part_size(const hd_frame *frame)
@@ -198,16 +203,18 @@ void hd_frame_rewind(hd_frame *frame)
 
 /* ---- what can be read ---------------------------------------------------------------------- */
 
-/** Sums over all disks of dq.dq, dp.dp and dq.dp for columns [col, col + count), count <= 64. */
+/** Sums over all particles of dq.dq, dp.dp and dq.dp for columns [col, col + count), count <= 64.
+ */
 static void halves_of_columns(const hd_frame *frame, double sum[3][HD_BLOCK_WIDTH_MAX], int col,
                               int count)
 {
     memset(sum, 0, 3 * sizeof *sum);
-    for (int row = 0; row < frame->rows; row += HD_ROWS)
-        for (int d = 0; d < HD_DIM; d++) {
+    const int half = frame->of->coordinates;
+    for (int row = 0; row < frame->rows; row += 2 * half)
+        for (int d = 0; d < half; d++) {
             const double *v = frame->copy[frame->current] + col;
             const double *dq = v + (size_t)(row + d) * (size_t)frame->stride;
-            const double *dp = dq + HD_DIM * (size_t)frame->stride;
+            const double *dp = dq + (size_t)half * (size_t)frame->stride;
             for (int k = 0; k < count; k++) {
                 sum[0][k] += dq[k] * dq[k];
                 sum[1][k] += dp[k] * dp[k];

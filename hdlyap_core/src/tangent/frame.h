@@ -1,28 +1,30 @@
-/** The tangent frame: HD_ROWS N x n vectors, carried along by replaying a record [T1]-[T4]. */
+/** The tangent frame: M x n vectors, M coordinates and momenta of all particles, carried along by
+ * replaying a record [T1]-[T4]. */
 #ifndef HD_FRAME_H
 #define HD_FRAME_H
 
 #include "base/communicator.h"
-#include "events/trajectory.h"
+#include "dynamics/dynamics.h"
 #include "hdlyap/frame.h"
 
-/** HD_ROWS rows of each disk, dq_x, dq_y, dp_x, dp_y, of spheres dq_x .. dp_z; row-major with
+/** Rows of each particle: its coordinates in dq, dq_x, dq_y, .., then in dp; row-major with
  * leading dimension hd_frame_stride, rows aligned to 64 bytes, columns beyond those of vectors
  * zero. Of several ranks each has hd_frame_stride vectors, the last ones fewer; of a single one, n
  * <= hd_frame_stride. */
 typedef struct hd_frame hd_frame;
 
-/** vectors: 1 .. HD_ROWS disks. Random entries from the seed; orthonormalise before use. */
-HD_MUST_CHECK hd_status hd_frame_create(hd_frame **out, int disks, int vectors, uint64_t seed,
-                                        int threads);
+/** vectors: 1 .. M. Random entries from the seed; orthonormalise before use. */
+HD_MUST_CHECK hd_status hd_frame_create(hd_frame **out, const hd_dynamics *of, int particles,
+                                        int vectors, uint64_t seed, int threads);
 /** A frame of which each rank carries some vectors, by all of them together. HD_NO_MEMORY on all if
  * any of them has too little. */
-HD_MUST_CHECK hd_status hd_frame_create_shared(hd_frame **out, int disks, int vectors,
-                                               uint64_t seed, int threads,
+HD_MUST_CHECK hd_status hd_frame_create_shared(hd_frame **out, const hd_dynamics *of, int particles,
+                                               int vectors, uint64_t seed, int threads,
                                                hd_communicator *communicator);
 void hd_frame_free(hd_frame *frame);
 
-int hd_frame_rows(const hd_frame *frame);                /**< HD_ROWS N */
+int hd_frame_rows(const hd_frame *frame);                /**< M */
+int hd_frame_coordinates(const hd_frame *frame);         /**< of a particle */
 int hd_frame_vectors(const hd_frame *frame);             /**< n, of all ranks together */
 int hd_frame_stride(const hd_frame *frame);              /**< doubles from one row to the next */
 int hd_frame_threads(const hd_frame *frame);             /**< that work on it */
@@ -41,7 +43,7 @@ int hd_frame_rows_here(const hd_frame *frame); /**< in between, zeros behind the
 double *hd_frame_vector(hd_frame *frame, int col);
 int hd_frame_neighbours(const hd_frame *frame, int col);
 
-/** Copies vectors of any rank to all of them, row-major: x[HD_ROWS N][count]. */
+/** Copies vectors of any rank to all of them, row-major: x[M][count]. */
 void hd_frame_gather(const hd_frame *frame, int first, int count, double *x);
 
 /** Carries the vectors from t_begin to t_end (times as in the record) through what happened from

@@ -15,7 +15,7 @@
 enum { BLOCK = 64 };
 
 struct hd_localization {
-    int disks, vectors, threads;
+    int disks, coordinates, vectors, threads;
     long samples;
     double *entropy, *cosine, *width; /**< [vectors]: means; the last one for whoever asks */
     double *measured;                 /**< [2 * vectors]: of one time: entropy; |cos| */
@@ -38,12 +38,14 @@ static hd_status allocate(hd_localization *shape)
     return hd_blocks_create(&shape->blocks, shape->vectors, 0.0);
 }
 
-hd_status hd_localization_create(hd_localization **out, int disks, int vectors, int threads)
+hd_status hd_localization_create(hd_localization **out, int disks, int coordinates, int vectors,
+                                 int threads)
 {
     hd_localization *shape = hd_memory_alloc(1, sizeof *shape);
     *out = NULL;
     if (!shape) return HD_NO_MEMORY;
     shape->disks = disks;
+    shape->coordinates = coordinates;
     shape->vectors = vectors;
     shape->threads = threads;
     const hd_status status = allocate(shape);
@@ -77,13 +79,13 @@ typedef struct sums {
     double entropy[BLOCK], dq[BLOCK], dp[BLOCK], dqdp[BLOCK];
 } sums;
 
-static void add_disk(sums *s, const double *row, size_t stride, int count)
+static void add_disk(sums *s, const double *row, size_t half, size_t stride, int count)
 {
     for (int col = 0; col < count; col++) {
         double dq = 0.0, dp = 0.0, dqdp = 0.0;
-        for (size_t d = 0; d < HD_DIM; d++) {
+        for (size_t d = 0; d < half; d++) {
             const double q = row[d * stride + (size_t)col],
-                         p = row[(HD_DIM + d) * stride + (size_t)col];
+                         p = row[(half + d) * stride + (size_t)col];
             dq += q * q;
             dp += p * p;
             dqdp += q * p;
@@ -102,8 +104,9 @@ static void measure_block(const hd_localization *shape, hd_columns v, int begin)
     const size_t stride = (size_t)v.stride;
     const int count = v.count - begin < BLOCK ? v.count - begin : BLOCK;
     double *entropy = shape->measured + v.first + begin, *cosine = entropy + shape->vectors;
+    const size_t half = (size_t)shape->coordinates;
     for (int disk = 0; disk < shape->disks; disk++)
-        add_disk(&s, v.data + HD_ROWS * (size_t)disk * stride + begin, stride, count);
+        add_disk(&s, v.data + 2 * half * (size_t)disk * stride + begin, half, stride, count);
     for (int col = 0; col < count; col++) {
         const double product = sqrt(s.dq[col]) * sqrt(s.dp[col]);
         entropy[col] = s.entropy[col];

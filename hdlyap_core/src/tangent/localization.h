@@ -6,8 +6,8 @@
 #include "hdlyap/localization.h"
 
 /** threads: that measure. HD_NO_MEMORY. */
-HD_MUST_CHECK hd_status hd_localization_create(hd_localization **out, int disks, int vectors,
-                                               int threads);
+HD_MUST_CHECK hd_status hd_localization_create(hd_localization **out, int disks, int coordinates,
+                                               int vectors, int threads);
 void hd_localization_free(hd_localization *shape);
 void hd_localization_clear(hd_localization *shape);
 

@@ -75,10 +75,10 @@ double hd_ortho_bytes(double rows, double vectors, double ranks)
 
 hd_status hd_ortho_create(hd_ortho **out, int rows, int vectors)
 {
-    return hd_ortho_create_shared(out, rows, vectors, NULL);
+    return hd_ortho_create_shared(out, rows, 1, vectors, NULL);
 }
 
-hd_status hd_ortho_create_shared(hd_ortho **out, int rows, int vectors,
+hd_status hd_ortho_create_shared(hd_ortho **out, int rows, int of_particle, int vectors,
                                  hd_communicator *communicator)
 {
     HD_ASSERT(vectors >= 1 && vectors <= rows);
@@ -91,7 +91,7 @@ hd_status hd_ortho_create_shared(hd_ortho **out, int rows, int vectors,
     }
     const int ranks = hd_communicator_ranks(communicator);
     ortho->communicator = communicator;
-    ortho->rows = HD_ROWS * ((rows / HD_ROWS + ranks - 1) / ranks);
+    ortho->rows = of_particle * ((rows / of_particle + ranks - 1) / ranks);
     ortho->vectors = vectors;
     ortho->width = panel_width(vectors);
     const hd_status status = hd_communicator_agree(communicator, ortho_allocate(ortho));
@@ -182,6 +182,7 @@ void hd_ortho_begin(hd_ortho *ortho, const hd_frame *frame, hd_norm norm)
               hd_frame_vectors(frame) == ortho->vectors);
     HD_ASSERT(norm == HD_NORM_FULL || 2 * ortho->vectors <= hd_frame_rows(frame));
     ortho->norm = norm;
+    ortho->coordinates = hd_frame_coordinates(frame);
     ortho->leaf = HD_LEAF_MAX;
     ortho->panel_condition_max = PANEL_CONDITION_MAX;
     for (int col = 0; col < ortho->vectors; col++) ortho->log_stretch[col] = 0.0;
@@ -305,6 +306,7 @@ double hd_ortho_defect_measured(hd_ortho *ortho, hd_frame *frame, hd_norm norm)
     const hd_norm of_the_step = ortho->norm;
     double worst = 0.0;
     ortho->norm = norm;
+    ortho->coordinates = hd_frame_coordinates(frame);
     hd_frame_to_rows(frame);
     for (int first = 0; first < ortho->vectors; first += ortho->width) {
         const hd_panel x = hd_panel_load(ortho, frame, first, width_at(ortho, first));

@@ -21,8 +21,8 @@ typedef struct hd_ortho_limits {
 
 HD_MUST_CHECK hd_status hd_ortho_create(hd_ortho **out, int rows, int vectors);
 /** Of frames that are shared by several ranks. */
-HD_MUST_CHECK hd_status hd_ortho_create_shared(hd_ortho **out, int rows, int vectors,
-                                               hd_communicator *communicator);
+HD_MUST_CHECK hd_status hd_ortho_create_shared(hd_ortho **out, int rows, int of_particle,
+                                               int vectors, hd_communicator *communicator);
 void hd_ortho_free(hd_ortho *ortho);
 
 /** Replaces the frame's vectors by Q; ln diag R is then in hd_ortho_log_stretch. Spans and the sum

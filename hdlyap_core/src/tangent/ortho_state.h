@@ -16,7 +16,8 @@ enum { HD_PROBES = 8 };
 
 struct hd_ortho {
     hd_communicator *communicator; /**< NULL: a single rank */
-    int rows, vectors;             /**< those of the disks of this rank; n */
+    int rows, vectors;             /**< those of the particles of this rank; n */
+    int coordinates;               /**< of a particle of the frame that is orthonormalised */
     int leaf;                      /**< vectors that are orthonormalised at once, at most */
     double panel_condition_max;
     int width;          /**< of a panel */

@@ -62,12 +62,12 @@ static double *triangle_at(double *triangle, hd_panel whole, hd_panel part)
     return triangle + (size_t)(part.first - whole.first) * (size_t)(whole.width + 1);
 }
 
-/** s <- A_y A_x^T of the disks of this rank, in the norm, column-major. That of dq sees HD_DIM
- * parts of every HD_ROWSth column of A: dq_x, dq_y, .. of the disks. */
+/** s <- A_y A_x^T of the disks of this rank, in the norm, column-major. That of dq sees
+ * the columns of A that are dq_x, dq_y, .. of the particles. */
 static void inner_products_here(const hd_ortho *ortho, double *s, int lds, hd_panel y, hd_panel x)
 {
     const bool dq = ortho->norm == HD_NORM_DQ;
-    const int parts = dq ? HD_DIM : 1, step = dq ? HD_ROWS : 1;
+    const int parts = dq ? ortho->coordinates : 1, step = dq ? 2 * parts : 1;
     for (int part = 0; part < parts; part++)
         hd_dgemm(CblasNoTrans, CblasTrans, y.width, x.width, ortho->rows / step, 1.0,
                  y.a + part * y.lda, step * y.lda, x.a + part * x.lda, step * x.lda, part > 0, s,

@@ -1,9 +1,9 @@
 /** Record -> tangent vectors carried along.
  *
  * The record is first turned into tangent maps. Then each thread takes a block of columns into a
- * buffer that stays in its cache, [disk][HD_ROWS][width], carries it through all maps, and writes
- * it to the second copy of V; so the vectors from before remain for hd_frame_rewind at no cost in
- * time. Parallel over blocks; the result does not depend on the number of threads. */
+ * buffer that stays in its cache, [particle][2 coordinates][width], carries it through all maps,
+ * and writes it to the second copy of V; so the vectors from before remain for hd_frame_rewind at
+ * no cost in time. Parallel over blocks; the result does not depend on the number of threads. */
 #include <omp.h>
 #include <string.h>
 
@@ -32,7 +32,7 @@ static void block_replay(const hd_frame *frame, double *buffer, int block)
     const int width = frame->width, col = block * width;
     const int used = col + width <= frame->stride ? width : frame->stride - col;
     block_load(frame, buffer, col, used);
-    hd_maps_carry(frame->maps, buffer, width);
+    frame->of->carry(frame->maps, buffer, width);
     block_store(frame, buffer, col, used);
 }
 
@@ -40,7 +40,7 @@ hd_status hd_frame_replay(hd_frame *frame, const hd_record *record, double t_beg
 {
     HD_ASSERT(!frame->by_rows);
     HD_TRY(hd_communicator_agree(frame->communicator,
-                                 hd_maps_fill(frame->maps, record, t_begin, t_end)));
+                                 frame->of->maps_fill(frame->maps, record, t_begin, t_end)));
     const int blocks = (frame->stride + frame->width - 1) / frame->width;
     const size_t block_size = (size_t)frame->rows * (size_t)frame->width;
 #pragma omp parallel for schedule(dynamic) num_threads(frame->threads) if (frame->threads > 1)

@@ -6,7 +6,7 @@
 #include <stdio.h>
 
 #include "base/check.h"
-#include "events/events.h"
+#include "dynamics/dynamics.h"
 #include "tangent/conjugate.h"
 #include "tangent/interval.h"
 #include "scene/scene.h"
@@ -21,33 +21,30 @@ static void expect_at_most(double value, double limit, const char *what)
 
 /* ---- disks --------------------------------------------------------------------------------- */
 
-static void expect_momentum(const hd_trajectory *tr, const hd_scene_def *scene)
+static void expect_momentum(const hd_examined *now, const hd_scene_def *scene)
 {
-    const int n = hd_trajectory_disks(tr);
-    double sum[HD_DIM];
-    hd_trajectory_momentum(tr, sum);
-    for (int d = 0; d < HD_DIM; d++)
+    const double most = scene->disks * now->energy_rounding;
+    for (int d = 0; d < hd_scene_dimension(scene); d++)
         if (hd_scene_boundary(scene, d) == HD_PERIODIC)
-            expect_at_most(fabs(sum[d]), n * hd_trajectory_energy_rounding(tr), "momentum");
+            expect_at_most(fabs(now->momentum[d]), most, "momentum");
     if (hd_scene_boundary(scene, 0) != HD_CURVED) return;
-    double box[HD_DIM];
-    hd_trajectory_box(tr, box);
-    expect_at_most(fabs(hd_trajectory_angular_momentum(tr)),
-                   n * box[0] * hd_trajectory_energy_rounding(tr), "angular momentum");
+    double box[HD_DIMENSION_MAX];
+    hd_scene_box(scene, box);
+    expect_at_most(fabs(now->angular_momentum), most * box[0], "angular momentum");
 }
 
 void hd_verify_disks(const hd_trajectory *tr, const hd_scene_def *scene)
 {
     const double n = hd_trajectory_disks(tr);
-    expect_at_most(hd_trajectory_overlap(tr), hd_trajectory_overlap_max(tr), "overlap");
-    expect_at_most(fabs(hd_trajectory_kinetic_energy(tr) - n),
-                   n * hd_trajectory_energy_rounding(tr), "energy");
-    expect_momentum(tr, scene);
+    const hd_examined now = hd_trajectory_examined(tr);
+    expect_at_most(now.overlap, now.overlap_max, "overlap");
+    expect_at_most(fabs(hd_trajectory_kinetic_energy(tr) - n), n * now.energy_rounding, "energy");
+    expect_momentum(&now, scene);
 }
 
 void hd_verify_record(const hd_record *record, const hd_scene_def *scene)
 {
-    const char *fault = hd_events_fault(record, scene);
+    const char *fault = hd_dynamics_of(scene)->fault(record, scene);
     if (fault) fprintf(stderr, "hdlyap: verify: events: %s\n", fault);
     HD_ASSERT(!fault);
 }
@@ -63,13 +60,14 @@ static int first_of(const hd_frame *frame, int k)
 /** Rows are dq_x, dq_y, .. dp_x, dp_y, .. of each disk. */
 static void pair_products(const hd_frame *frame, int a, int b, double *product, double *scale)
 {
+    const int half = hd_frame_coordinates(frame);
     const double *data = hd_frame_read(frame);
     double sum = 0.0, aa = 0.0, bb = 0.0;
     for (int row = 0; row < hd_frame_rows(frame); row++) {
         const double x = data[(size_t)row * (size_t)hd_frame_stride(frame) + (size_t)a];
         const double y = data[(size_t)row * (size_t)hd_frame_stride(frame) + (size_t)b];
-        sum += hd_turned_sign(row) * x *
-               data[(size_t)hd_turned(row) * (size_t)hd_frame_stride(frame) + (size_t)b];
+        sum += hd_turned_sign(row, half) * x *
+               data[(size_t)hd_turned(row, half) * (size_t)hd_frame_stride(frame) + (size_t)b];
         aa += x * x;
         bb += y * y;
     }

@@ -4,7 +4,7 @@
 #ifndef HD_VERIFY_H
 #define HD_VERIFY_H
 
-#include "events/trajectory.h"
+#include "dynamics/trajectory.h"
 #include "tangent/frame.h"
 #include "tangent/ortho.h"
 
@@ -19,7 +19,7 @@ enum { HD_VERIFIES = 0 };
  * of roundings. */
 void hd_verify_disks(const hd_trajectory *trajectory, const hd_scene_def *scene);
 
-/** Order, disks, normals, approach: see hd_events_fault. */
+/** Order, disks, normals, approach: see hd_dynamics. */
 void hd_verify_record(const hd_record *record, const hd_scene_def *scene);
 
 enum { HD_VERIFY_PAIRS = 4 };

@@ -202,12 +202,13 @@ static examination examine(const hd_run *run)
 {
     const hd_trajectory *trajectory = hd_run_trajectory(run);
     const double disks = hd_run_scene(run)->disks;
+    const hd_examined now = hd_trajectory_examined(trajectory);
     return (examination){
         .made = true,
-        .overlap = hd_trajectory_overlap(trajectory),
-        .overlap_max = hd_trajectory_overlap_rounding(trajectory),
+        .overlap = now.overlap,
+        .overlap_max = now.overlap_rounding,
         .energy_error = fabs(hd_trajectory_kinetic_energy(trajectory) - disks) / disks,
-        .energy_error_max = hd_trajectory_energy_rounding(trajectory),
+        .energy_error_max = now.energy_rounding,
     };
 }
 

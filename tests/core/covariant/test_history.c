@@ -15,7 +15,7 @@ static hd_history_def def_of(int way, int vectors)
                             .intervals = INTERVALS,
                             .snapshots = SNAPSHOTS,
                             .recompute = way == 1,
-                            .entry = hd_events_entry(),
+                            .of = DYNAMICS,
                             .events = 1e4};
 }
 

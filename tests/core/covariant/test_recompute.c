@@ -20,7 +20,7 @@ static hd_recompute *created(int disks, int vectors, long slots, long stretch)
                                   .threads = 1,
                                   .slots = slots,
                                   .stretch = stretch,
-                                  .entry = hd_events_entry(),
+                                  .of = DYNAMICS,
                                   .events = 1e4};
     hd_recompute *r;
     CHECK_OK(hd_recompute_create(&r, &def));
@@ -159,7 +159,7 @@ enum { PAIR = 2, WIDE = 4 * PAIR };
 static pair pair_created(void)
 {
     pair p;
-    CHECK_OK(hd_frame_create(&p.frame, PAIR, WIDE, 5, 1));
+    CHECK_OK(hd_frame_create(&p.frame, DYNAMICS, PAIR, WIDE, 5, 1));
     CHECK_OK(hd_ortho_create(&p.ortho, WIDE, WIDE));
     CHECK_OK(hd_ortho_keep_factor(p.ortho));
     CHECK_OK(hd_ortho_step(p.ortho, p.frame, FORWARD_LIMITS));
@@ -235,7 +235,7 @@ TEST(a_ring_of_events_is_full)
                                   .threads = 1,
                                   .slots = 1000,
                                   .stretch = 10,
-                                  .entry = hd_events_entry(),
+                                  .of = DYNAMICS,
                                   .events = 600.0};
     hd_recompute *r;
     hd_record log;
@@ -260,11 +260,8 @@ TEST(the_stretch_needs_the_fewest_numbers)
 {
     for (long slots = 64; slots <= 65536; slots *= 32)
         for (int vectors = 50; vectors <= 400; vectors *= 2) {
-            hd_recompute_def def = {.rows = 400,
-                                    .vectors = vectors,
-                                    .threads = 1,
-                                    .slots = slots,
-                                    .entry = hd_events_entry()};
+            hd_recompute_def def = {
+                .rows = 400, .vectors = vectors, .threads = 1, .slots = slots, .of = DYNAMICS};
             const long best = hd_recompute_stretch(slots, def.rows, vectors);
             assert_true(best >= 1 && best <= slots);
             def.stretch = best;

@@ -1,6 +1,7 @@
 /** Pressure and collision rate of disks and spheres: against sums over the events, impulses on
  * walls, exact means, virial coefficients and the spread over seeds. Seeds are fixed, so that a
  * tolerance of Z standard errors passes or fails for good. */
+#include "bodies.h"
 #include "tangent.h"
 
 static const double Z = 3.0;
@@ -71,7 +72,7 @@ static void add_moment(sums *s, const hd_trajectory *tr, double sign)
     const int n = hd_trajectory_disks(tr);
     double box[DIM];
     HEAP double *q = malloc(2 * DIM * (size_t)n * sizeof *q);
-    hd_trajectory_box(tr, box);
+    box_around(tr, box);
     hd_trajectory_state(tr, q, q + DIM * n);
     for (int k = 0; k < DIM * n; k++)
         s->moment[k % DIM] += sign * (q[k] - 0.5 * box[k % DIM]) * q[DIM * n + k];

@@ -2,6 +2,7 @@
  * a parameter, or its events are those of its slow twin, the same at any time, and its run
  * publishes numbers. A case that fails is said; HDLYAP_CASE=number tries it alone. */
 #include <limits.h>
+#include "bodies.h"
 #include "draw.h"
 #include "prepared.h"
 #include "published.h"
@@ -249,7 +250,7 @@ static const char *state_fault(const hd_run *run)
     const double disks = hd_run_scene(run)->disks;
     if (!(fabs(hd_trajectory_kinetic_energy(trajectory) - disks) <= ENERGY_ERROR * disks))
         return "the energy is not conserved";
-    if (!(hd_trajectory_overlap(trajectory) <= OVERLAP_MAX)) return "disks overlap";
+    if (!(hd_trajectory_examined(trajectory).overlap <= OVERLAP_MAX)) return "disks overlap";
     return spectrum_fault(run);
 }
 
@@ -284,7 +285,7 @@ static double images_of(const hd_scene_def *def, const hd_trajectory *tr)
 {
     double box[3] = {INFINITY, INFINITY, INFINITY};
     hd_scene_box(def, box);
-    return 8.0 * tr->epoch_length / fmin(box[0], fmin(box[1], box[2]));
+    return 8.0 * hard_in(tr)->epoch_length / fmin(box[0], fmin(box[1], box[2]));
 }
 
 /** What no lattice starts with: some at rest, some that hardly move or fast ones, some along an
@@ -307,10 +308,10 @@ static const char *late_fault(const hd_scene_def *def)
     OWNED(hd_trajectory) *early = trajectory_of(*def), *late = trajectory_of(*def);
     OWNED(hd_record) *log = new_log(), *other = new_log();
     const double begin = ldexp(1.0, 20);
-    late->epoch_start = late->now = begin;
+    hard_in(late)->epoch_start = hard_in(late)->now = begin;
     size_t events = 0;
     for (int k = 20; k >= 0 && events < EVENTS_TWIN; k--) {
-        const double end = ldexp(early->epoch_length, 1 - k);
+        const double end = ldexp(hard_in(early)->epoch_length, 1 - k);
         CHECK_OK(trajectory_to(early, log, end));
         CHECK_OK(trajectory_to(late, other, begin + end));
         events += log->count;

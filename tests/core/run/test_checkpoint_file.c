@@ -7,8 +7,8 @@
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
-#include "events/trajectory_state.h"
 #include "run/checkpoint_file.h"
+#include "bodies.h"
 #include "kept.h"
 #include "run/run_state.h"
 
@@ -205,8 +205,8 @@ TEST(what_no_run_could_resume_is_not_written)
         {&run->agenda.schedule.start, 1e9, "schedule: it does not go on from this time"},
         {&run->carrier.interval.last, -1.0, "interval: it is negative"},
         {&events_in(run->carrier.record)[0].t, 1e9, "log: an event comes after the end"},
-        {&run->advance.trajectory->now, 1e9, "trajectory: the time is outside its epoch"},
-        {&run->advance.trajectory->motion.disk[0].p[0], 9.0, "trajectory: "},
+        {&hard_in(run->advance.trajectory)->now, 1e9, "trajectory: the time is outside its epoch"},
+        {&hard_in(run->advance.trajectory)->motion.disk[0].p[0], 9.0, "trajectory: "},
     };
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         char message[512] = "";

@@ -36,11 +36,11 @@ static inline conjugates conjugates_of(hd_scene_def scene)
     conjugates x = {.disks = scene.disks, .rows = 4 * scene.disks, .condition = 1.0};
     CHECK_OK(hd_trajectory_create(&x.trajectory, &scene));
     CHECK_OK(hd_trajectory_extend(x.trajectory, NULL, 10.0));
-    CHECK_OK(hd_record_create(&x.log, hd_events_entry()));
-    CHECK_OK(hd_conjugate_create(&x.conjugate, x.rows, x.rows / 2));
+    CHECK_OK(hd_record_create(&x.log, DYNAMICS->entry));
+    CHECK_OK(hd_conjugate_create(&x.conjugate, x.rows, DIM, x.rows / 2));
     for (int k = 0; k < 2; k++) {
         const int vectors = k == HALF ? x.rows / 2 : x.rows;
-        CHECK_OK(hd_frame_create(&x.frame[k], x.disks, vectors, scene.seed, 1));
+        CHECK_OK(hd_frame_create(&x.frame[k], DYNAMICS, x.disks, vectors, scene.seed, 1));
         CHECK_OK(hd_ortho_create(&x.ortho[k], x.rows, vectors));
         CHECK_OK(hd_ortho_keep_factor(x.ortho[k]));
     }

@@ -182,11 +182,11 @@ static hd_frame *first_frame(const hd_scene_def *scene)
     const int n = hd_scene_vectors(scene), carried = hd_scene_carried(scene);
     hd_frame *frame, *all;
     hd_conjugate *conjugate;
-    CHECK_OK(hd_frame_create(&frame, scene->disks, carried, scene->seed, 1));
+    CHECK_OK(hd_frame_create(&frame, DYNAMICS, scene->disks, carried, scene->seed, 1));
     if (carried == n) return frame;
     CHECK_OK(hd_conjugate_start(frame));
-    CHECK_OK(hd_frame_create(&all, scene->disks, n, 1, 1));
-    CHECK_OK(hd_conjugate_create(&conjugate, n, n / 2));
+    CHECK_OK(hd_frame_create(&all, DYNAMICS, scene->disks, n, 1, 1));
+    CHECK_OK(hd_conjugate_create(&conjugate, n, DIM, n / 2));
     const hd_columns whole = hd_conjugate_complete(conjugate, hd_frame_columns(frame));
     for (int row = 0; row < n; row++)
         memcpy(hd_frame_data(all) + (size_t)row * (size_t)hd_frame_stride(all),
@@ -203,7 +203,7 @@ void exact_spectrum(const hd_scene_def *scene, double *out)
     hd_frame *frame;
     const int n = hd_scene_vectors(scene);
     CHECK_OK(hd_trajectory_create(&trajectory, scene));
-    CHECK_OK(hd_record_create(&log, hd_events_entry()));
+    CHECK_OK(hd_record_create(&log, DYNAMICS->entry));
     frame = first_frame(scene);
     CHECK_OK(hd_trajectory_extend(trajectory, NULL, scene->equilibration));
     exact_frame *x = exact_create(frame);

@@ -2,7 +2,7 @@
 #ifndef HD_EXACT_H
 #define HD_EXACT_H
 
-#include "events/trajectory.h"
+#include "dynamics/trajectory.h"
 #include "tangent/frame.h"
 
 typedef long double hd_exact;

@@ -36,8 +36,8 @@ static inline forward_pass forward_started(hd_scene_def scene, uint64_t seed)
     const int n = hd_scene_vectors(&scene);
     scene.observe = 0; /* what a run would refuse is not asked for here */
     CHECK_OK(hd_trajectory_create(&f.trajectory, &scene));
-    CHECK_OK(hd_record_create(&f.log, hd_events_entry()));
-    CHECK_OK(hd_frame_create(&f.frame, scene.disks, n, seed, 1));
+    CHECK_OK(hd_record_create(&f.log, DYNAMICS->entry));
+    CHECK_OK(hd_frame_create(&f.frame, DYNAMICS, scene.disks, n, seed, 1));
     CHECK_OK(hd_ortho_create(&f.ortho, 4 * scene.disks, n));
     CHECK_OK(hd_ortho_keep_factor(f.ortho));
     forward_factor(&f);

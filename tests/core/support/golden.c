@@ -74,7 +74,7 @@ uint64_t golden_hash(int scene)
     hd_trajectory *tr = NULL;
     hd_record *log = NULL;
     uint64_t hash = 0;
-    if (hd_record_create(&log, hd_events_entry()) == HD_OK &&
+    if (hd_record_create(&log, DYNAMICS->entry) == HD_OK &&
         hd_trajectory_create(&tr, &g.def) == HD_OK) {
         const double t_end = g.pair_events / hd_trajectory_collision_rate(tr);
         if (trajectory_to(tr, log, t_end) == HD_OK && log->count > 1000) hash = hash_log(log);

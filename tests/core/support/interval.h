@@ -2,7 +2,7 @@
 #ifndef INTERVAL_H
 #define INTERVAL_H
 
-#include "events/trajectory.h"
+#include "dynamics/trajectory.h"
 
 /** Moves the disks to t_end; the log (or NULL) has the events on the way, and no others. */
 HD_MUST_CHECK static inline hd_status trajectory_to(hd_trajectory *trajectory, hd_record *log,

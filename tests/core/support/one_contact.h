@@ -5,7 +5,7 @@
 
 #include <math.h>
 
-#include "events/contact.h"
+#include "dynamics/hard/contact.h"
 
 /** p^2 - |r x p|^2 */
 static inline double one_contact_square(const double r[HD_DIM], const double p[HD_DIM])

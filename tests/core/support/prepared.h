@@ -2,7 +2,7 @@
 #ifndef HD_PREPARED_H
 #define HD_PREPARED_H
 
-#include "events/trajectory_state.h"
+#include "bodies.h"
 #include "testing.h"
 #include "interval.h"
 
@@ -36,15 +36,17 @@ static inline hd_record *log_of(const hd_scene_def *def, const double *q, const 
 static inline long void_contacts(const hd_trajectory *tr)
 {
     uint64_t sum = 0;
-    for (int32_t i = 0; i < tr->motion.count; i++) sum += tr->motion.disk[i].collisions;
-    return (long)((sum - tr->wall_events) / 2 - tr->collisions);
+    for (int32_t i = 0; i < hard_in(tr)->motion.count; i++)
+        sum += hard_in(tr)->motion.disk[i].collisions;
+    return (long)((sum - hd_trajectory_wall_events(tr)) / 2 - hd_trajectory_collisions(tr));
 }
 
 /** When the next event is due, pair or not; disks that meet then touch. */
 static inline double next_event_time(hd_trajectory *tr)
 {
-    const int32_t i = hd_queue_next(&tr->motion.queue);
-    return i < 0 ? hd_trajectory_time(tr) : tr->epoch_start + tr->motion.queue.entry[i].key.t;
+    const int32_t i = hd_queue_next(&hard_in(tr)->motion.queue);
+    return i < 0 ? hd_trajectory_time(tr)
+                 : hard_in(tr)->epoch_start + hard_in(tr)->motion.queue.entry[i].key.t;
 }
 
 #endif

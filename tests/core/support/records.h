@@ -2,8 +2,16 @@
 #ifndef TEST_RECORDS_H
 #define TEST_RECORDS_H
 
-#include "events/events.h"
-#include "events/record_state.h"
+#include "dynamics/dynamics.h"
+#include "dynamics/hard/events.h"
+#include "dynamics/record_state.h"
+
+/** Of the particles that this test is of. */
+#if HD_DIM == 2
+#define DYNAMICS (&hd_hard_disks)
+#else
+#define DYNAMICS (&hd_hard_spheres)
+#endif
 
 static inline hd_event *events_in(const hd_record *record) { return record->entry; }
 

@@ -65,7 +65,7 @@ static inline bool second_tier(void) { return getenv("HDLYAP_SECOND_TIER") != NU
 /** Given back at the end of the block: by hd_run_free(run), world_free(&w), free(v).
  *
  *   OWNED(hd_run) *run = created(scene);
- *   MADE(hd_frame, frame, disks, vectors, seed, threads);   an hd_frame *frame, made of these
+ *   MADE(hd_frame, frame, of, disks, vectors, seed, threads);   an hd_frame *frame, made of these
  *   HELD(world) w = world_create(scene, vectors, 1);
  *   HEAP double *v = malloc(size);
  *
@@ -102,7 +102,7 @@ static inline void heap_given_back(void *pointer) { free(*(void **)pointer); }
 static inline hd_record *new_log(void)
 {
     hd_record *log;
-    CHECK_OK(hd_record_create(&log, hd_events_entry()));
+    CHECK_OK(hd_record_create(&log, DYNAMICS->entry));
     return log;
 }
 

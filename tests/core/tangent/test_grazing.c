@@ -84,7 +84,7 @@ static void check_passage(const hd_scene_def *def, const double *q, const double
         const double t = meets + 2.0 * impact * (2.0 * k / LOOKS - 1.0);
         if (t < 0) continue;
         CHECK_OK(hd_trajectory_extend(tr, NULL, t));
-        CHECK_CLOSE(hd_trajectory_overlap(tr), 0.0, 4.0 * DBL_EPSILON * reach);
+        CHECK_CLOSE(hd_trajectory_examined(tr).overlap, 0.0, 4.0 * DBL_EPSILON * reach);
     }
     assert_true(hd_trajectory_collisions(tr) <= 1);
     if (impact > 2e-7) assert_true(hd_trajectory_collisions(tr) == 1);
@@ -131,6 +131,6 @@ TEST(a_deep_pair_does_not_meet_for_ever)
             OWNED(hd_trajectory) *tr = started(&def, q, p);
             CHECK_OK(hd_trajectory_extend(tr, NULL, 0.5));
             assert_true(hd_trajectory_collisions(tr) <= 1 && void_contacts(tr) <= 2);
-            CHECK_CLOSE(hd_trajectory_overlap(tr), 0.0, 0.0);
+            CHECK_CLOSE(hd_trajectory_examined(tr).overlap, 0.0, 0.0);
         }
 }

@@ -6,7 +6,7 @@ enum { DISKS = 5, ROWS = 4 * DISKS, VECTORS = 3, STRIDE = 8 };
 static hd_localization *created(void)
 {
     hd_localization *shape;
-    CHECK_OK(hd_localization_create(&shape, DISKS, VECTORS, 1));
+    CHECK_OK(hd_localization_create(&shape, DISKS, DIM, VECTORS, 1));
     hd_localization_clear(shape);
     return shape;
 }

@@ -1,6 +1,6 @@
 /** The verify build's checks: silent about what is right, each of them heard when its invariant is
  * broken. */
-#include "events/trajectory_state.h"
+#include "bodies.h"
 #include "runs.h"
 #include "tangent/verify.h"
 
@@ -46,7 +46,7 @@ TEST(disks_are_checked)
 {
     OWNED(hd_run) *run = run_of(HD_EXPONENTS_POSITIVE);
     const hd_trajectory *tr = run->advance.trajectory;
-    hd_disk *disk = run->advance.trajectory->motion.disk;
+    hd_disk *disk = hard_in(run->advance.trajectory)->motion.disk;
     const hd_disk right = disk[0];
     EXPECT_BROKEN(false, hd_verify_disks(tr, &run->scene));
     disk[0].p[0] *= 1.0 + 1e-9;
@@ -54,7 +54,8 @@ TEST(disks_are_checked)
     disk[0] = right;
     for (int d = 0; d < 2;
          d++) { /* turned back where it is: the same energy, but not the same momentum */
-        disk[0].q[d] += 2.0 * disk[0].p[d] * (tr->now - tr->epoch_start - disk[0].t);
+        disk[0].q[d] += 2.0 * disk[0].p[d] *
+                        (hard_in(tr)->now - hard_in(tr)->epoch_start - disk[0].t);
         disk[0].p[d] = -disk[0].p[d];
     }
     EXPECT_BROKEN(true, hd_verify_disks(tr, &run->scene));
@@ -149,7 +150,7 @@ TEST(the_frame_is_checked_in_the_norm_of_its_step)
 TEST(a_step_asks_where_the_build_verifies)
 {
     OWNED(hd_run) *run = run_of(HD_EXPONENTS_POSITIVE);
-    hd_disk *disk = run->advance.trajectory->motion.disk;
+    hd_disk *disk = hard_in(run->advance.trajectory)->motion.disk;
     for (int i = 0; i < 16; i++) disk[i].p[0] *= 1.0 + 1e-9;
     EXPECT_BROKEN(VERIFIES, (void)!hd_run_advance(run));
 }

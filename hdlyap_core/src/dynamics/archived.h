@@ -1,0 +1,12 @@
+/** What a checkpoint holds of the particles. */
+#ifndef HD_DYNAMICS_ARCHIVED_H
+#define HD_DYNAMICS_ARCHIVED_H
+
+#include "base/archive.h"
+#include "dynamics/trajectory.h"
+
+void hd_trajectory_archive(hd_trajectory *trajectory, hd_archive *archive);
+/** Of positions and momenta to the last bit. */
+uint32_t hd_trajectory_fingerprint(const hd_trajectory *trajectory);
+
+#endif

@@ -1,0 +1,14 @@
+/** The table of what can move. */
+#include "dynamics/dynamics.h"
+
+#if HD_DIM == 2
+static const hd_dynamics *const rows[] = {&hd_hard_disks};
+#else
+static const hd_dynamics *const rows[] = {&hd_hard_spheres};
+#endif
+
+const hd_dynamics *hd_dynamics_of(const hd_scene_def *def)
+{
+    (void)def;
+    return rows[0];
+}

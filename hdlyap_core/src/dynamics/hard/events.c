@@ -1,0 +1,101 @@
+/** Record of hard bodies -> what is wrong with it, and a file. */
+#include "dynamics/hard/events.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdbool.h>
+
+#include "dynamics/hard/contact.h"
+#include "dynamics/record_state.h"
+#include "dynamics/hard/round_wall.h"
+
+double hd_events_bytes(double events)
+{
+    static const double OF_AN_EVENT = HD_DIM == 2 ? 130.0 : 170.0;
+    return OF_AN_EVENT * events;
+}
+
+const hd_event *hd_events(const hd_record *record) { return record->entry; }
+
+/* ---- checks -------------------------------------------------------------------------------- */
+
+static bool disks_exist(const hd_event *event, int disks)
+{
+    if (event->i < 0 || event->i >= disks) return false;
+    return (event->j < 0 && event->j >= HD_WALL_ROUND) || (event->j > event->i && event->j < disks);
+}
+
+/** Flat walls lie in a box, round ones in a circle. */
+static bool wall_exists(const hd_event *event, double reach)
+{
+    return event->j == HD_WALL_ROUND ? reach > 0
+                                     : event->j >= 0 || (event->j > HD_WALL_ROUND && reach == 0);
+}
+
+/** Its length is 1, or the radius of a round wall: a quotient of a vector and its length is right
+ * to an ulp or two. */
+static bool is_normal(const hd_event *event, double reach)
+{
+    const bool is_round = event->j == HD_WALL_ROUND; /* one more product */
+    const double square = is_round ? reach * reach : 1.0, roundings = is_round ? 12.0 : 8.0;
+    return fabs(hd_contact_dot(event->n, event->n) - square) <= roundings * DBL_EPSILON * square;
+}
+
+/** Within the rounding of the normal; a round wall is reached outwards. */
+static bool approach(const hd_event *event)
+{
+    const double speed = sqrt(hd_contact_dot(event->p, event->p));
+    if (event->j == HD_WALL_ROUND) return hd_contact_dot(event->n, event->p) > 0;
+    return hd_contact_dot(event->n, event->p) <= 4.0 * DBL_EPSILON * speed;
+}
+
+const char *hd_events_fault(const hd_record *record, const hd_scene_def *scene)
+{
+    const double reach = hd_round_wall_of(scene).reach;
+    double before = 0.0;
+    for (size_t k = 0; k < record->count; k++) {
+        const hd_event *event = hd_events(record) + k;
+        if (!(event->t >= before)) return "an event comes before the one before it";
+        if (!(event->t <= record->duration)) return "an event comes after the end";
+        if (!disks_exist(event, scene->disks)) return "there is no such disk";
+        if (!wall_exists(event, reach)) return "there is no such wall";
+        if (!is_normal(event, reach)) return "a normal has not the length that it should";
+        if ((event->j >= 0 || event->j == HD_WALL_ROUND) && !approach(event))
+            return "what meets there parts";
+        before = event->t;
+    }
+    return NULL;
+}
+
+/* ---- file ---------------------------------------------------------------------------------- */
+
+static void event_archive(hd_event *event, hd_archive *archive)
+{
+    hd_archive_next_doubles(archive, &event->t, 1);
+    hd_archive_next_doubles(archive, event->n, HD_DIM);
+    hd_archive_next_doubles(archive, event->p, HD_DIM);
+}
+
+void hd_events_archive(hd_record *record, hd_archive *archive, const hd_scene_def *scene)
+{
+    size_t count = record->count;
+    hd_archive_double(archive, "log duration", &record->duration);
+    hd_archive_count(archive, "log count", &count, record->size);
+    if (!archive->writing) {
+        const hd_status status = hd_record_reserve(record, count);
+        if (status != HD_OK)
+            hd_archive_fail(archive, status, "log count", "there is no room for so many");
+        if (!hd_archive_good(archive)) return;
+        record->count = count;
+    }
+    hd_archive_of_doubles(archive, "log t n p", (1 + 2 * HD_DIM) * count);
+    hd_event *event = record->entry;
+    for (size_t k = 0; k < count; k++) event_archive(&event[k], archive);
+    hd_archive_of_ints(archive, "log i j", 2 * count);
+    for (size_t k = 0; k < count; k++) {
+        hd_archive_next_int(archive, &event[k].i, 0, scene->disks - 1);
+        hd_archive_next_int(archive, &event[k].j, HD_WALL_ROUND, scene->disks - 1);
+    }
+    const char *fault = hd_events_fault(record, scene);
+    if (fault) hd_archive_refuse(archive, "log", fault);
+}

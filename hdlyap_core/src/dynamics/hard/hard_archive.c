@@ -1,0 +1,102 @@
+/** The disks <-> file. Cells, queue and predictions follow from the disks: see hard.c. */
+#include <math.h>
+#include <stdbool.h>
+#include <zlib.h>
+
+#include "dynamics/hard/hard_state.h"
+
+/** Turns around the box within one epoch: more than any speed allows. */
+enum { WRAP_MAX = 1 << 24 };
+/** Rounding of a position, in a long box that of its edge; and of the energy, which walks by 1e-16
+ * of itself in a collision. */
+static const double PLACE_CLOSE = 1e-6, ENERGY_CLOSE = 1e-6;
+
+static void disks_archive(hard *tr, hd_archive *archive)
+{
+    const size_t n = (size_t)tr->motion.count;
+    hd_archive_of_doubles(archive, "trajectory q p t", (2 * HD_DIM + 1) * n);
+    for (size_t i = 0; i < n; i++) {
+        hd_archive_next_doubles(archive, tr->motion.disk[i].q, HD_DIM);
+        hd_archive_next_doubles(archive, tr->motion.disk[i].p, HD_DIM);
+        hd_archive_next_doubles(archive, &tr->motion.disk[i].t, 1);
+    }
+    hd_archive_of_ints(archive, "trajectory wrap cell", 2 * HD_DIM * n);
+    for (size_t i = 0; i < n; i++)
+        for (int d = 0; d < HD_DIM; d++) {
+            hd_archive_next_int(archive, &tr->motion.disk[i].wrap[d], -WRAP_MAX, WRAP_MAX);
+            hd_archive_next_int(archive, &tr->motion.disk[i].cell[d], 0,
+                                tr->motion.cells.size[d] - 1);
+        }
+}
+
+static bool in_its_cell(const hard *tr, const hd_disk *disk)
+{
+    const double close = fmax(PLACE_CLOSE, tr->overlap_max);
+    double at[HD_DIM];
+    for (int d = 0; d < HD_DIM; d++) {
+        const double *bound = tr->motion.cells.line[d][disk->cell[d]].bound;
+        const double flight = disk->p[d] * (tr->now - tr->epoch_start - disk->t);
+        const double place = disk->q[d] + flight - disk->wrap[d] * tr->motion.cells.box[d];
+        at[d] = place;
+        if (!(place >= bound[0] - close && place <= bound[1] + close)) return false;
+    }
+    const hd_round_wall *wall = &tr->motion.wall;
+    return wall->reach == 0 || hd_round_wall_excess(wall, at) <= close;
+}
+
+/** What the disks' numbers are not, or NULL. Of a scene: its energy is N. */
+static const char *inconsistency(const hard *tr)
+{
+    const double since = tr->now - tr->epoch_start;
+    if (!(tr->epoch_start >= 0 && since >= 0 && since <= tr->epoch_length))
+        return "the time is outside its epoch";
+    for (int32_t i = 0; i < tr->motion.count; i++) {
+        const hd_disk *disk = &tr->motion.disk[i];
+        if (!(disk->t >= 0 && disk->t <= since)) return "a disk is ahead of its time";
+        if (!in_its_cell(tr, disk)) return "a disk is not in its cell";
+    }
+    const double excess = hd_hard_kinetic_energy(tr) - tr->motion.count;
+    if (!(fabs(excess) <= ENERGY_CLOSE * tr->motion.count)) return "the energy is wrong";
+    return hd_hard_overlap(tr) > tr->overlap_max ? "disks overlap" : NULL;
+}
+
+static void book(hard *tr)
+{
+    hd_cells_empty(&tr->motion.cells);
+    for (int32_t i = 0; i < tr->motion.count; i++)
+        hd_cells_book(&tr->motion.cells, tr->motion.disk, i);
+}
+
+static void predict(hard *tr)
+{
+    hd_queue_restart(&tr->motion.queue);
+    for (int32_t i = 0; i < tr->motion.count; i++) hd_prediction_renew(&tr->motion, i);
+}
+
+void hd_hard_archive(void *state, hd_archive *archive)
+{
+    hard *tr = state;
+    hd_archive_double(archive, "trajectory epoch start", &tr->epoch_start);
+    hd_archive_double(archive, "trajectory time", &tr->now);
+    hd_archive_bits(archive, "trajectory collisions", &tr->collisions);
+    hd_archive_bits(archive, "trajectory wall events", &tr->wall_events);
+    hd_archive_doubles(archive, "trajectory virial", tr->virial, HD_DIM);
+    disks_archive(tr, archive);
+    if (!hd_archive_good(archive)) return;
+    if (!archive->writing) book(tr);
+    const char *fault = inconsistency(tr);
+    if (fault) hd_archive_refuse(archive, "trajectory", fault);
+    if (!archive->writing && hd_archive_good(archive)) predict(tr);
+}
+
+uint32_t hd_hard_fingerprint(const void *state)
+{
+    const hard *tr = state;
+    uLong crc = 0;
+    for (int i = 0; i < tr->motion.count; i++) {
+        const hd_disk *disk = &tr->motion.disk[i];
+        crc = crc32_z(crc, (const Bytef *)disk->q, sizeof disk->q);
+        crc = crc32_z(crc, (const Bytef *)disk->p, sizeof disk->p);
+    }
+    return (uint32_t)crc;
+}

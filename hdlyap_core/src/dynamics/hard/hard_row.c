@@ -1,0 +1,162 @@
+/** What is asked of hard bodies, and their row. */
+#include <float.h>
+#include <math.h>
+
+#include "dynamics/hard/events.h"
+#include "dynamics/hard/hard_state.h"
+#include "dynamics/hard/maps.h"
+
+static double hard_time(const void *state)
+{
+    const hard *tr = state;
+    return tr->now;
+}
+
+static void hard_tell(const void *state, hd_told *told)
+{
+    const hard *tr = state;
+    *told = (hd_told){.collisions = tr->collisions, .wall_events = tr->wall_events};
+    for (int d = 0; d < HD_DIM; d++) told->virial[d] = tr->virial[d];
+}
+
+/** As it is now, in the box. */
+static hd_disk disk_now(const hard *tr, int32_t i)
+{
+    hd_disk disk = tr->motion.disk[i];
+    hd_disk_move_to(&disk, tr->now - tr->epoch_start);
+    hd_hard_fold(tr, &disk);
+    return disk;
+}
+
+static void hard_state(const void *state, double *q, double *p)
+{
+    const hard *tr = state;
+    for (int32_t i = 0; i < tr->motion.count; i++) {
+        const hd_disk disk = disk_now(tr, i);
+        for (int d = 0; d < HD_DIM; d++) {
+            if (q) q[HD_DIM * i + d] = disk.q[d];
+            if (p) p[HD_DIM * i + d] = disk.p[d];
+        }
+    }
+}
+
+static void momentum(const hard *tr, double *sum)
+{
+    for (int i = 0; i < tr->motion.count; i++)
+        for (int d = 0; d < HD_DIM; d++) sum[d] += tr->motion.disk[i].p[d];
+}
+
+static double angular_momentum(const hard *tr)
+{
+    double sum = 0.0;
+    for (int32_t i = 0; i < tr->motion.count; i++) {
+        const hd_disk disk = disk_now(tr, i);
+        sum += (disk.q[0] - 0.5 * tr->motion.cells.box[0]) * disk.p[1] -
+               (disk.q[1] - 0.5 * tr->motion.cells.box[1]) * disk.p[0];
+    }
+    return sum;
+}
+
+double hd_hard_kinetic_energy(const void *state)
+{
+    const hard *tr = state;
+    double twice = 0;
+    for (int32_t i = 0; i < tr->motion.count; i++)
+        twice += hd_contact_dot(tr->motion.disk[i].p, tr->motion.disk[i].p);
+    return 0.5 * twice;
+}
+
+static double energy_rounding(const hard *tr)
+{
+    const double events = (double)(tr->collisions + tr->wall_events);
+    return DBL_EPSILON * (64.0 + 16.0 * sqrt(events));
+}
+
+double hd_hard_overlap_rounding(const hard *tr)
+{
+    const double speed_max = 16.0; /* of two disks; the mean square of a momentum is 2 */
+    /* of eps, on the way to a contact: each coordinate of either disk is folded, flown, shifted and
+     * subtracted, some ten times eps/2 in all, and rounding of the time moves them as much */
+    const double roundings = 16.0;
+    double longest = 0.0;
+    for (int d = 0; d < HD_DIM; d++) longest = fmax(longest, tr->motion.cells.box[d]);
+    return roundings * DBL_EPSILON * (longest + speed_max * tr->epoch_length);
+}
+
+/** Distance squared from disk i to disk j, `edges` of the box further, now; to itself infinite. */
+static double distance_squared(const hard *tr, int32_t i, int32_t j, const int32_t edges[HD_DIM])
+{
+    const hd_disk *a = &tr->motion.disk[i], *b = &tr->motion.disk[j];
+    double shift[HD_DIM], r[HD_DIM];
+    for (int d = 0; d < HD_DIM; d++)
+        shift[d] = (edges[d] + a->wrap[d] - b->wrap[d]) * tr->motion.cells.box[d];
+    hd_contact_separation(r, a, b, shift, tr->now - tr->epoch_start);
+    return i == j ? INFINITY : hd_contact_dot(r, r);
+}
+
+/** Least distance squared from disk i to the disks of cell n of those around it, now. */
+static double nearest_in_cell(const hard *tr, int32_t i, int n)
+{
+    const hd_disk *disk = &tr->motion.disk[i];
+    const hd_cell *cell = hd_cells_near(&tr->motion.cells, disk, n);
+    int32_t edges[HD_DIM];
+    for (int d = 0; d < HD_DIM; d++)
+        edges[d] = tr->motion.cells.line[d][disk->cell[d]].shift[hd_cells_side(n, d)];
+    double least = INFINITY;
+    for (int k = 0; k < cell->count; k++)
+        least = fmin(least, distance_squared(tr, i, cell->disk[k], edges));
+    if (!cell->crowded) return least;
+    int32_t j = cell->disk[HD_CELL_DISKS - 1];
+    while ((j = hd_cells_next(&tr->motion.cells, j)) >= 0)
+        least = fmin(least, distance_squared(tr, i, j, edges));
+    return least;
+}
+
+double hd_hard_overlap(const hard *tr)
+{
+    double least = INFINITY;
+    for (int32_t i = 0; i < tr->motion.count; i++)
+        for (int n = 0; n < HD_CELLS_AROUND; n++) least = fmin(least, nearest_in_cell(tr, i, n));
+    return least < 1.0 ? 1.0 - sqrt(least) : 0.0;
+}
+
+static void hard_examine(const void *state, hd_examined *examined)
+{
+    const hard *tr = state;
+    *examined = (hd_examined){.energy_rounding = energy_rounding(tr),
+                              .angular_momentum = angular_momentum(tr),
+                              .overlap = hd_hard_overlap(tr),
+                              .overlap_rounding = hd_hard_overlap_rounding(tr),
+                              .overlap_max = tr->overlap_max};
+    momentum(tr, examined->momentum);
+}
+
+#if HD_DIM == 2
+#define ROW hd_hard_disks
+#else
+#define ROW hd_hard_spheres
+#endif
+const hd_dynamics ROW = {.particles = HD_DIM == 2 ? "disks" : "spheres",
+                         .dimension = HD_DIM,
+                         .coordinates = HD_DIM,
+                         .entry = sizeof(hd_event),
+                         .create = hd_hard_create,
+                         .free = hd_hard_free,
+                         .advance = hd_hard_advance,
+                         .time = hard_time,
+                         .state = hard_state,
+                         .kinetic_energy = hd_hard_kinetic_energy,
+                         .tell = hard_tell,
+                         .examine = hard_examine,
+                         .archive = hd_hard_archive,
+                         .fingerprint = hd_hard_fingerprint,
+                         .bytes = hd_hard_bytes,
+                         .fault = hd_events_fault,
+                         .archive_record = hd_events_archive,
+                         .record_bytes = hd_events_bytes,
+                         .rate = hd_hard_rate,
+                         .entries = hd_hard_entries,
+                         .maps_create = hd_maps_create,
+                         .maps_free = hd_maps_free,
+                         .maps_fill = hd_maps_fill,
+                         .carry = hd_maps_carry};

@@ -1,0 +1,26 @@
+/** The tangent map of one event, for a block of columns: what is the same of disks and of spheres.
+ */
+#ifndef HD_KERNEL_H
+#define HD_KERNEL_H
+
+#include "dynamics/hard/event.h"
+
+#define HD_KERNEL static inline __attribute__((always_inline))
+
+/** [T1] dq += tau dp; v points to the rows of a disk. */
+HD_KERNEL void hd_fly(double *restrict v, double tau, int width)
+{
+    for (int k = 0; k < HD_DIM * width; k++) v[k] += tau * v[HD_DIM * width + k];
+}
+
+/** [T4], after a flight: direction d of both halves. */
+HD_KERNEL void hd_reflect(double *restrict v, int d, double tau, int width)
+{
+    hd_fly(v, tau, width);
+    for (int k = 0; k < width; k++) {
+        v[d * width + k] = -v[d * width + k];
+        v[(HD_DIM + d) * width + k] = -v[(HD_DIM + d) * width + k];
+    }
+}
+
+#endif

@@ -1,0 +1,97 @@
+/** Tangent map of one event of disks, for a block of columns [T3], [T4], [T21]. Two vectors, n and
+ * t, turned by +90 degrees, span the plane. */
+#ifndef HD_KERNEL_2D_H
+#define HD_KERNEL_2D_H
+
+#include <math.h>
+
+#include "dynamics/hard/kernel.h"
+
+/** Free flights of its disks since their last events, then the collision. */
+typedef struct hd_tangent_map {
+    int32_t i, j; /**< as in hd_event */
+    union {
+        double flight[2]; /**< of i, of j */
+        struct {
+            double alone; /**< flight of i */
+            double bend;  /**< of a round wall, twice its curvature */
+        };
+    };
+    double n[HD_DIM];
+    double normal;     /**< b = p.n: < 0, of a round wall > 0 */
+    double tangential; /**< p_t = p.t */
+    double ratio;      /**< p_t / b */
+} hd_tangent_map;
+
+/** The normal of a round wall is as long as its radius. */
+static inline void hd_curved_fill(hd_tangent_map *map)
+{
+    const double radius = sqrt(map->n[0] * map->n[0] + map->n[1] * map->n[1]);
+    map->bend = 2.0 / radius;
+    map->n[0] /= radius;
+    map->n[1] /= radius;
+}
+
+/** All but i, j and the flights, which are there. Nothing more for a flat wall. */
+static inline void hd_map_fill(hd_tangent_map *map, const hd_event *event)
+{
+    map->n[0] = event->n[0];
+    map->n[1] = event->n[1];
+    if (event->j < 0 && event->j != HD_WALL_ROUND) return;
+    if (event->j == HD_WALL_ROUND) hd_curved_fill(map);
+    map->normal = event->p[0] * map->n[0] + event->p[1] * map->n[1];
+    map->tangential = event->p[1] * map->n[0] - event->p[0] * map->n[1];
+    map->ratio = map->tangential / map->normal;
+}
+
+/** [T3] with the free flights before it; only the tangential part s of the displacement turns n. */
+HD_KERNEL void hd_collide(double *restrict vi, double *restrict vj, const hd_tangent_map *map,
+                          int width)
+{
+    const double nx = map->n[0], ny = map->n[1], ti = map->flight[0], tj = map->flight[1];
+    const double b = map->normal, pt = map->tangential, ratio = map->ratio;
+#pragma GCC ivdep
+    for (int k = 0; k < width; k++) {
+        double *qi = vi + k, *pi = vi + 2 * width + k, *qj = vj + k, *pj = vj + 2 * width + k;
+        const double qix = qi[0] + ti * pi[0], qiy = qi[width] + ti * pi[width];
+        const double qjx = qj[0] + tj * pj[0], qjy = qj[width] + tj * pj[width];
+        const double qx = qjx - qix, qy = qjy - qiy;
+        const double px = pj[0] - pi[0], py = pj[width] - pi[width];
+        const double a = qx * nx + qy * ny;                     /* dq.n */
+        const double s = qy * nx - qx * ny - ratio * a;         /* dq.t - (p_t / b) a */
+        const double u = px * nx + py * ny + pt * s, w = b * s; /* d + p_t s, b s */
+        const double ux = u * nx - w * ny, uy = u * ny + w * nx;
+        qi[0] = qix + a * nx, qi[width] = qiy + a * ny;
+        qj[0] = qjx - a * nx, qj[width] = qjy - a * ny;
+        pi[0] += ux, pi[width] += uy;
+        pj[0] -= ux, pj[width] -= uy;
+    }
+}
+
+/** [T21]: dq.t - (p_t / b) dq.n is where along the wall the shadow meets it. */
+HD_KERNEL void hd_curve(double *restrict v, const hd_tangent_map *map, int width)
+{
+    const double nx = map->n[0], ny = map->n[1], ratio = map->ratio;
+    const double b = map->bend * map->normal, pt = map->bend * map->tangential;
+    hd_fly(v, map->flight[0], width);
+#pragma GCC ivdep
+    for (int k = 0; k < width; k++) {
+        double *q = v + k, *p = v + 2 * width + k;
+        const double a = q[0] * nx + q[width] * ny;
+        const double s = q[width] * nx - q[0] * ny - ratio * a;
+        const double u = 2.0 * (p[0] * nx + p[width] * ny) + pt * s, w = b * s;
+        q[0] -= 2.0 * a * nx, q[width] -= 2.0 * a * ny;
+        p[0] -= u * nx - w * ny, p[width] -= u * ny + w * nx;
+    }
+}
+
+/** A disk that meets a wall of either kind. */
+HD_KERNEL void hd_meet_wall(double *restrict v, const hd_tangent_map *map, int width)
+{
+    if (map->j == HD_WALL_ROUND)
+        hd_curve(v, map, width);
+    else
+        hd_reflect(v, map->j == HD_WALL_Y, map->flight[0], width);
+}
+
+#endif

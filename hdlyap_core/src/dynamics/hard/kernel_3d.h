@@ -1,0 +1,64 @@
+/** Tangent map of one event of spheres, for a block of columns [T4], [T22]: as of disks [T3], with
+ * vectors across n in the place of t. */
+#ifndef HD_KERNEL_3D_H
+#define HD_KERNEL_3D_H
+
+#include "dynamics/hard/kernel.h"
+
+/** Free flights of its spheres since their last events, then the collision. */
+typedef struct hd_tangent_map {
+    int32_t i, j;     /**< as in hd_event */
+    double flight[2]; /**< of i, of j */
+    double n[HD_DIM];
+    double normal;         /**< b = p.n < 0 */
+    double across[HD_DIM]; /**< p_t = p - b n */
+    double ratio[HD_DIM];  /**< p_t / b */
+} hd_tangent_map;
+
+/** All but i, j and the flights, which are there. Nothing more for a wall. */
+static inline void hd_map_fill(hd_tangent_map *map, const hd_event *event)
+{
+    for (int d = 0; d < HD_DIM; d++) map->n[d] = event->n[d];
+    if (event->j < 0) return;
+    for (int d = 0; d < HD_DIM; d++) map->normal += event->p[d] * map->n[d];
+    for (int d = 0; d < HD_DIM; d++) {
+        map->across[d] = event->p[d] - map->normal * map->n[d];
+        map->ratio[d] = map->across[d] / map->normal;
+    }
+}
+
+/** [T22] with the free flights before it; only the part s of the displacement across n turns n. */
+HD_KERNEL void hd_collide(double *restrict vi, double *restrict vj, const hd_tangent_map *map,
+                          int width)
+{
+    const double nx = map->n[0], ny = map->n[1], nz = map->n[2], b = map->normal;
+    const double tx = map->across[0], ty = map->across[1], tz = map->across[2];
+    const double rx = map->ratio[0], ry = map->ratio[1], rz = map->ratio[2];
+    const double ti = map->flight[0], tj = map->flight[1];
+#pragma GCC ivdep
+    for (int k = 0; k < width; k++) {
+        double *xi = vi + k, *yi = xi + width, *zi = yi + width;
+        double *xj = vj + k, *yj = xj + width, *zj = yj + width;
+        double *pxi = zi + width, *pyi = pxi + width, *pzi = pyi + width;
+        double *pxj = zj + width, *pyj = pxj + width, *pzj = pyj + width;
+        const double xa = *xi + ti * *pxi, ya = *yi + ti * *pyi, za = *zi + ti * *pzi;
+        const double xb = *xj + tj * *pxj, yb = *yj + tj * *pyj, zb = *zj + tj * *pzj;
+        const double x = xb - xa, y = yb - ya, z = zb - za;
+        const double a = x * nx + y * ny + z * nz; /* dq.n */
+        const double sx = x - a * nx - a * rx, sy = y - a * ny - a * ry, sz = z - a * nz - a * rz;
+        const double u = (*pxj - *pxi) * nx + (*pyj - *pyi) * ny + (*pzj - *pzi) * nz + tx * sx +
+                         ty * sy + tz * sz; /* dp.n + p_t.s */
+        const double ux = u * nx + b * sx, uy = u * ny + b * sy, uz = u * nz + b * sz;
+        *xi = xa + a * nx, *yi = ya + a * ny, *zi = za + a * nz;
+        *xj = xb - a * nx, *yj = yb - a * ny, *zj = zb - a * nz;
+        *pxi += ux, *pyi += uy, *pzi += uz;
+        *pxj -= ux, *pyj -= uy, *pzj -= uz;
+    }
+}
+
+HD_KERNEL void hd_meet_wall(double *restrict v, const hd_tangent_map *map, int width)
+{
+    hd_reflect(v, -1 - map->j, map->flight[0], width);
+}
+
+#endif

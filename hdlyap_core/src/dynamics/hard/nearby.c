@@ -1,0 +1,167 @@
+/** Cells -> whom a disk may meet, and when. See nearby.h. One thread. */
+#include "dynamics/hard/nearby.h"
+
+#include <string.h>
+
+#include "base/multiversion.h"
+
+/* ---- who ----------------------------------------------------------------------------------- */
+
+typedef int32_t int_quad __attribute__((vector_size(16)));
+
+static inline int_quad spread(int32_t x) { return (int_quad){x, x, x, x}; }
+
+/** Adds the disks in the places of a cell, which are seen through these images: copies the whole
+ * cell, and counts what is in it. */
+static inline void add_cell(hd_nearby *near, const hd_cell *cell, const int32_t image[HD_DIM])
+{
+    const int32_t count = near->count;
+    memcpy(&near->disk[count], cell, sizeof *cell);
+    for (int d = 0; d < HD_DIM; d++) {
+        const int_quad images = spread(image[d]);
+        memcpy(&near->image[d][count], &images, sizeof images);
+    }
+    near->count = count + cell->count;
+    near->crowded |= cell->crowded;
+}
+
+/** The cells around a disk in each direction, as it sees them: by how much to go on in the array of
+ * cells, and images. Copies: what is gathered might be these, as far as the compiler knows. */
+typedef struct around {
+    ptrdiff_t place[HD_DIM][3];
+    int32_t image[HD_DIM][3];
+} around;
+
+static inline around around_of(const hd_cells *cells, const hd_disk *disk)
+{
+    around a;
+    ptrdiff_t step = 1;
+    for (int d = 0; d < HD_DIM; d++) {
+        const hd_cell_line *line = &cells->line[d][disk->cell[d]];
+        for (int side = 0; side < 3; side++) {
+            a.place[d][side] = line->near[side] * step;
+            a.image[d][side] = line->shift[side] + disk->wrap[d];
+        }
+        step *= cells->size[d] + 1;
+    }
+    return a;
+}
+
+void hd_nearby_around(hd_nearby *near, const hd_cells *cells, const hd_disk *disk)
+{
+    const around a = around_of(cells, disk);
+    const hd_cell *first = cells->cell;
+    near->count = near->crowded = 0;
+#pragma GCC unroll 27
+    for (int k = 0; k < HD_CELLS_AROUND; k++) {
+        const hd_cell *cell = first;
+        int32_t image[HD_DIM];
+        for (int d = 0; d < HD_DIM; d++) {
+            cell += a.place[d][hd_cells_side(k, d)];
+            image[d] = a.image[d][hd_cells_side(k, d)];
+        }
+        add_cell(near, cell, image);
+    }
+}
+
+/** A third of the cells: images and places of all are not worth being prepared. The other
+ * directions than d go through their sides. */
+void hd_nearby_beside(hd_nearby *near, const hd_cells *cells, const hd_disk *disk, int d, int side)
+{
+    hd_cell_line line[HD_DIM];
+    for (int e = 0; e < HD_DIM; e++) line[e] = cells->line[e][disk->cell[e]];
+    near->count = near->crowded = 0;
+    for (int k = 0; k < HD_CELLS_BESIDE; k++) {
+        int32_t at[HD_DIM], image[HD_DIM];
+        for (int e = 0; e < HD_DIM; e++) {
+            const int here = e == d ? side : e == (d == 0) ? k % 3 : k / 3;
+            at[e] = line[e].near[here];
+            image[e] = line[e].shift[here] + disk->wrap[e];
+        }
+        add_cell(near, hd_cells_at(cells, at), image);
+    }
+}
+
+int32_t hd_nearby_listed(hd_nearby *near, const hd_cells *cells, const hd_disk *disk, int k,
+                         int32_t j)
+{
+    near->count = 0;
+    while (near->count < HD_NEARBY_MAX && (j = hd_cells_next(cells, j)) >= 0) {
+        near->disk[near->count] = j;
+        for (int d = 0; d < HD_DIM; d++)
+            near->image[d][near->count] = cells->line[d][disk->cell[d]].shift[hd_cells_side(k, d)] +
+                                          disk->wrap[d];
+        near->count++;
+    }
+    return j;
+}
+
+/* ---- when ---------------------------------------------------------------------------------- */
+
+/** Contacts in one step: two pairs, for one computation to fill the waits of the other. */
+enum { STEP = HD_NEARBY_SPARE };
+
+/** The earliest contact in each half of the pairs so far; NaN never gets in. */
+typedef struct earliest {
+    hd_pair t;
+    hd_pair_mask number, tied; /**< tied: another one was as early as the earliest up to then */
+} earliest;
+
+static inline void earliest_lower(earliest *e, hd_pair t, int64_t k)
+{
+    const hd_pair_mask less = t < e->t, number = {k, k + 1};
+    e->tied |= t == e->t;
+    e->t = hd_pair_where(less, t, e->t);
+    e->number = (less & number) | (~less & e->number);
+}
+
+static inline int earliest_number(const earliest *e)
+{
+    const int64_t number[2] = {e->number[0], e->number[1]};
+    const double t = e->t[1] < e->t[0] ? e->t[1] : e->t[0];
+    if (t == INFINITY) return HD_NEARBY_NONE;
+    if ((e->t[0] == e->t[1]) | (int)(e->tied[0] | e->tied[1])) return HD_NEARBY_TIED;
+    return (int)number[e->t[1] < e->t[0]];
+}
+
+/** Contacts of the two disks a with numbers k and k + 1. */
+static inline hd_pair contacts_with(const hd_two_disks *a, const hd_nearby *near, int k,
+                                    const hd_disk *disks, const double box[HD_DIM])
+{
+    const hd_disk *b0 = &disks[near->disk[k]], *b1 = &disks[near->disk[k + 1]];
+    const hd_two_disks b = hd_two_disks_of(b0, b1);
+    hd_pair shift[HD_DIM];
+    for (int d = 0; d < HD_DIM; d++) {
+        const int32_t *image = &near->image[d][k];
+        const hd_pair edges = {image[0] - b0->wrap[d], image[1] - b1->wrap[d]};
+        shift[d] = edges * box[d];
+    }
+    return hd_contact_times(a, &b, shift);
+}
+
+/** hd_nearby_contacts, without what fills the last step. */
+HD_MULTIVERSION
+static int contacts(double *contact, const hd_nearby *near, const hd_disk *disks, int32_t i,
+                    const double box[HD_DIM])
+{
+    const hd_two_disks a = hd_two_disks_of(&disks[i], &disks[i]);
+    earliest e = {.t = hd_pair_both(INFINITY)};
+    for (int k = 0; k < near->count; k += STEP) {
+        const hd_pair t = contacts_with(&a, near, k, disks, box);
+        const hd_pair u = contacts_with(&a, near, k + 2, disks, box);
+        memcpy(&contact[k], &t, sizeof t);
+        memcpy(&contact[k + 2], &u, sizeof u);
+        earliest_lower(&e, t, k);
+        earliest_lower(&e, u, k + 2);
+    }
+    return earliest_number(&e);
+}
+
+int hd_nearby_contacts(double *contact, hd_nearby *near, const hd_disk *disks, int32_t i,
+                       const double box[HD_DIM])
+{
+    const int_quad self = spread(i), zero = spread(0);
+    memcpy(&near->disk[near->count], &self, sizeof self); /* it never meets itself: p = 0 */
+    for (int d = 0; d < HD_DIM; d++) memcpy(&near->image[d][near->count], &zero, sizeof zero);
+    return contacts(contact, near, disks, i, box);
+}

@@ -1,0 +1,20 @@
+/** What a record holds, for the dynamics that write it. */
+#ifndef HD_RECORD_STATE_H
+#define HD_RECORD_STATE_H
+
+#include "dynamics/record.h"
+
+/** Entries that the first room is for. */
+enum { HD_RECORD_FIRST = 4096 };
+
+struct hd_record {
+    void *entry; /**< [count] */
+    size_t size; /**< bytes of an entry */
+    size_t count, capacity;
+    double duration; /**< [time units] */
+};
+
+/** Room for so many entries in all, at least; it at least doubles. HD_NO_MEMORY. */
+HD_MUST_CHECK hd_status hd_record_reserve(hd_record *record, size_t count);
+
+#endif

@@ -1,0 +1,84 @@
+/** Scene -> record: the particles of a scene, by the row of their dynamics. */
+#include "base/check.h"
+#include "base/memory.h"
+#include "dynamics/archived.h"
+#include "dynamics/trajectory_state.h"
+
+hd_status hd_trajectory_create_from(hd_trajectory **out, const hd_scene_def *def, const double *q,
+                                    const double *p)
+{
+    hd_trajectory *tr = hd_memory_alloc(1, sizeof *tr);
+    *out = NULL;
+    if (!tr) return HD_NO_MEMORY;
+    *tr = (hd_trajectory){.of = hd_dynamics_of(def), .particles = def->disks};
+    tr->rate = tr->of->rate(def);
+    const hd_status status = tr->of->create(&tr->state, def, q, p);
+    if (status == HD_OK)
+        *out = tr;
+    else
+        hd_memory_free(tr);
+    return status;
+}
+
+hd_status hd_trajectory_create(hd_trajectory **out, const hd_scene_def *def)
+{
+    return hd_trajectory_create_from(out, def, NULL, NULL);
+}
+
+void hd_trajectory_free(hd_trajectory *tr)
+{
+    if (!tr) return;
+    tr->of->free(tr->state);
+    hd_memory_free(tr);
+}
+
+hd_status hd_trajectory_extend(hd_trajectory *tr, hd_record *record, double t_end)
+{
+    return tr->of->advance(tr->state, record, t_end);
+}
+
+static hd_told told(const hd_trajectory *tr)
+{
+    hd_told all;
+    tr->of->tell(tr->state, &all);
+    return all;
+}
+
+double hd_trajectory_time(const hd_trajectory *tr) { return tr->of->time(tr->state); }
+int hd_trajectory_disks(const hd_trajectory *tr) { return tr->particles; }
+uint64_t hd_trajectory_collisions(const hd_trajectory *tr) { return told(tr).collisions; }
+uint64_t hd_trajectory_wall_events(const hd_trajectory *tr) { return told(tr).wall_events; }
+double hd_trajectory_collision_rate(const hd_trajectory *tr) { return tr->rate; }
+
+void hd_trajectory_virial(const hd_trajectory *tr, double *virial)
+{
+    const hd_told all = told(tr);
+    for (int d = 0; d < tr->of->dimension; d++) virial[d] = all.virial[d];
+}
+
+void hd_trajectory_state(const hd_trajectory *tr, double *q, double *p)
+{
+    tr->of->state(tr->state, q, p);
+}
+
+double hd_trajectory_kinetic_energy(const hd_trajectory *tr)
+{
+    return tr->of->kinetic_energy(tr->state);
+}
+
+hd_examined hd_trajectory_examined(const hd_trajectory *tr)
+{
+    hd_examined examined;
+    tr->of->examine(tr->state, &examined);
+    return examined;
+}
+
+void hd_trajectory_archive(hd_trajectory *tr, hd_archive *archive)
+{
+    tr->of->archive(tr->state, archive);
+}
+
+uint32_t hd_trajectory_fingerprint(const hd_trajectory *tr)
+{
+    return tr->of->fingerprint(tr->state);
+}

@@ -1,0 +1,16 @@
+/** What the core asks of the particles. */
+#ifndef HD_TRAJECTORY_H
+#define HD_TRAJECTORY_H
+
+#include "dynamics/record.h"
+#include "hdlyap/trajectory.h"
+
+/** A prepared state: positions q inside the box (x0 y0 .. x1 y1 ..), momenta p; nothing is
+ * rescaled. HD_REFUSED for a box that hd_scene_check refuses, positions outside it, |p| above 1e6;
+ * HD_OVERLAP for disks deeper than hd_examined.overlap_max. */
+HD_MUST_CHECK hd_status hd_trajectory_create_from(hd_trajectory **out, const hd_scene_def *def,
+                                                  const double *q, const double *p);
+uint64_t hd_trajectory_wall_events(const hd_trajectory *trajectory);
+int hd_trajectory_disks(const hd_trajectory *trajectory); /**< N */
+
+#endif

@@ -1,0 +1,15 @@
+/** What a trajectory holds. */
+#ifndef HD_TRAJECTORY_STATE_H
+#define HD_TRAJECTORY_STATE_H
+
+#include "dynamics/dynamics.h"
+#include "dynamics/trajectory.h"
+
+struct hd_trajectory {
+    const hd_dynamics *of;
+    void *state; /**< of its own kind */
+    int particles;
+    double rate; /**< pair events expected in a time unit */
+};
+
+#endif
