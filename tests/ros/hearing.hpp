@@ -5,7 +5,7 @@
 #include "drawn.hpp"
 
 extern "C" {
-#include "viewer/compose.h"
+#include "viewer/picture.h"
 }
 
 static const uint32_t DISKS = 3;
@@ -88,7 +88,7 @@ struct hearing {
         heard_lp_phases(&h, &phases);
     }
 
-    picture drawn() { return compose(&h, &lowest, ""); }
+    picture drawn() { return picture_of(&h, &lowest, ""); }
 };
 
 #endif

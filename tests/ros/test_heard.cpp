@@ -46,10 +46,10 @@ TEST(heard, a_mode_that_no_step_has_is_absent)
     asked.count = 2;
     asked.mode[0] = {HDR_MODE_LP, 0, 1, 0}, asked.mode[1] = {HDR_MODE_T, 0, 1, 0};
     on.state(1.0);
-    const picture before = compose(&on.h, &asked, "");
+    const picture before = picture_of(&on.h, &asked, "");
     EXPECT_FALSE(before.mode[0].absent || before.mode[1].absent); // no steps yet
     on.steps(false);
-    const picture p = compose(&on.h, &asked, "");
+    const picture p = picture_of(&on.h, &asked, "");
     EXPECT_FALSE(p.mode[0].absent);
     EXPECT_TRUE(p.mode[1].absent);
 }
@@ -107,11 +107,11 @@ TEST(heard, fields_of_a_bag)
     EXPECT_TRUE(p.run->q[1].y == 0.31 && p.run->at[1].y == 0.31);
     EXPECT_TRUE(p.mode[0].d[0].x == 0.07 && p.mode[0].d[2].y == 0.42);
     EXPECT_TRUE(p.mode[1].d[1].x == 0.06 && p.mode[1].d[0].y == 0.40);
-    EXPECT_EQ(0u, p.mode[1].pairs);
+    EXPECT_EQ(0u, p.mode[1].lp.pairs);
     on.phase(10.0, 0.5, -0.25);
     p = on.drawn();
-    ASSERT_EQ(1u, p.mode[1].pairs);
-    EXPECT_TRUE(p.mode[1].a[0] == 0.5 && p.mode[1].b[0] == -0.25);
+    ASSERT_EQ(1u, p.mode[1].lp.pairs);
+    EXPECT_TRUE(p.mode[1].lp.a[0] == 0.5 && p.mode[1].lp.b[0] == -0.25);
     EXPECT_DOUBLE_EQ(0.2, p.mode[1].momentum);
     on.h.changed = false;
     on.state(11.0);
@@ -120,10 +120,10 @@ TEST(heard, fields_of_a_bag)
     EXPECT_TRUE(p.run->time == 11.0 && p.run->vector_time == 10.0);
     EXPECT_TRUE(p.run->q[0].x == 0.00 && p.run->at[0].x == 0.20);
     EXPECT_TRUE(p.mode[0].d && p.mode[1].d);
-    EXPECT_EQ(-0.25, p.mode[1].b[0]); // the last that is known
+    EXPECT_EQ(-0.25, p.mode[1].lp.b[0]); // the last that is known
     on.phase(11.0, 0.25, 0.5);
     p = on.drawn();
-    EXPECT_EQ(0.5, p.mode[1].b[0]);            // of the time of the disks
+    EXPECT_EQ(0.5, p.mode[1].lp.b[0]);         // of the time of the disks
     EXPECT_DOUBLE_EQ(0.2, p.mode[1].momentum); // of the arrows'
     on.field(20.0, HDR_MODE_T, 1, 7);          // the other one has not come yet
     p = on.drawn();
@@ -156,7 +156,7 @@ TEST(heard, slow_vectors)
     EXPECT_TRUE(p.mode[0].d[0].x == 0.56 && p.mode[0].d[0].y == 0.76); // the third
     EXPECT_STREQ("LP(0,1)", p.mode[1].name);
     EXPECT_EQ(6u, p.mode[1].index); // the first of the two
-    EXPECT_TRUE(p.mode[1].a[0] == 0.00 && p.mode[1].b[0] == 0.20);
+    EXPECT_TRUE(p.mode[1].lp.a[0] == 0.00 && p.mode[1].lp.b[0] == 0.20);
     on.lowest.count = 2; // by their names
     ASSERT_TRUE(mode_name_parse(&on.lowest.mode[0], "LP(0,1)"));
     ASSERT_TRUE(mode_name_parse(&on.lowest.mode[1], "T(0,1)"));
@@ -225,6 +225,6 @@ TEST(heard, pairs_are_no_more_than_their_numbers)
     m.nx = {&nx, 1}, m.ny = {&ny, 1}, m.a = on.array(4, 5), m.b = on.array(4, 20);
     m.dqx = on.array(DISKS, 50), m.dqy = on.array(DISKS, 60);
     heard_slow_vectors(&on.h, &m);
-    EXPECT_EQ(4u, on.drawn().mode[1].pairs);
+    EXPECT_EQ(4u, on.drawn().mode[1].lp.pairs);
     EXPECT_EQ(0.0, on.drawn().mode[1].d[0].z);
 }

@@ -109,8 +109,8 @@ TEST(heard, slow_vectors_of_spheres)
     EXPECT_TRUE(p.run->q[0].z == 0.20 && p.run->at[2].z == 0.22);
     EXPECT_TRUE(p.mode[0].d[0].x == 0.53 && p.mode[0].d[0].y == 0.63);
     EXPECT_TRUE(p.mode[0].d[0].z == 0.87 && p.mode[1].d[0].z == 0.84);
-    ASSERT_EQ(8u, p.mode[1].pairs);
-    EXPECT_TRUE(p.mode[1].a[7] == 0.07 && p.mode[1].b[7] == 0.27);
+    ASSERT_EQ(8u, p.mode[1].lp.pairs);
+    EXPECT_TRUE(p.mode[1].lp.a[7] == 0.07 && p.mode[1].lp.b[7] == 0.27);
     double l = 0.0, all = 0.0;
     for (int k = 0; k < 8; k++) l += std::pow(0.01 * k, 2), all += std::pow(0.01 * (20 + k), 2);
     EXPECT_DOUBLE_EQ(all / (l + all), p.mode[1].momentum);
@@ -159,7 +159,7 @@ TEST(heard, waves_along_z_are_waves_of_their_own)
     on.phase(10.0, 0.5, -0.25); // of LP(0,1,0)
     picture p = on.drawn();
     EXPECT_STREQ("LP(1,0,1)", p.mode[0].name);
-    EXPECT_TRUE(p.mode[0].exponent == 1.8 && p.mode[0].d && p.mode[0].pairs == 0);
+    EXPECT_TRUE(p.mode[0].exponent == 1.8 && p.mode[0].d && p.mode[0].lp.pairs == 0);
     EXPECT_STREQ("LP(1,0,0)", p.mode[1].name);
     EXPECT_STREQ("LP(1,0,0)", p.mode[1].box);
     EXPECT_TRUE(p.mode[1].exponent == 1.5 && !p.mode[1].d && !p.mode[1].absent);
@@ -169,11 +169,11 @@ TEST(heard, waves_along_z_are_waves_of_their_own)
     hdr_lp_phases phases = {};
     phases.run_id = "run", phases.phases = {&phase, 1}, phases.sim_time = 10.0;
     heard_lp_phases(&on.h, &phases); // of LP(1,0,0)
-    EXPECT_EQ(0u, on.drawn().mode[0].pairs);
+    EXPECT_EQ(0u, on.drawn().mode[0].lp.pairs);
     phase.nz = 1;
     heard_lp_phases(&on.h, &phases);
     p = on.drawn();
-    EXPECT_TRUE(p.mode[0].pairs == 1 && p.mode[0].a[0] == 0.75);
+    EXPECT_TRUE(p.mode[0].lp.pairs == 1 && p.mode[0].lp.a[0] == 0.75);
 }
 
 /** Two directions along which something may go, of spheres too. */

@@ -180,7 +180,7 @@ TEST(spheres, eight_pairs_have_a_dial_each)
     spheres s(20.0, 20.0, 20.0, 40, 2, 2);
     drawing on;
     const auto width = [&](uint32_t pairs) {
-        s.p.mode[1].pairs = pairs;
+        s.p.mode[1].lp.pairs = pairs;
         const std::vector<Marker> dials = in(on.of(s.p), "phases", Marker::LINE_LIST);
         EXPECT_EQ(2 * pairs, dials.at(1).points.size());
         const auto ends = std::minmax_element(
@@ -191,7 +191,7 @@ TEST(spheres, eight_pairs_have_a_dial_each)
     const double four = width(4);
     EXPECT_GT(width(8), 0.98 * four);
     EXPECT_LT(width(8), 1.03 * four);
-    s.p.mode[1].a[7] = 0.25;
+    s.p.mode[1].lp.a[7] = 0.25;
     width(8);
     const std::vector<Marker> dials = in(on.of(s.p), "phases", Marker::LINE_LIST);
     const double radius = dials[0].points[2 * 32 * 7].x - dials[1].points[14].x;

@@ -30,7 +30,7 @@ enum {
 };
 
 /** hdr_marker.action */
-enum { HDR_MARKER_ADD = 0, HDR_MARKER_DELETE = 2 };
+enum { HDR_MARKER_ADD = 0, HDR_MARKER_DELETE = 2, HDR_MARKER_DELETE_ALL = 3 };
 
 /** visualization_msgs/Marker without rotation, for ever. */
 typedef struct hdr_marker {

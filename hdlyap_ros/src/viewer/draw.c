@@ -1,12 +1,291 @@
-/** A picture -> the markers that show it. */
+/** A picture: one panel per mode, at least one, side by side, or above each other where the box is
+ * long; the first is the box itself. Arrows are flat triangles in one list: a shaft of two, a head
+ * of one. Of spheres there is a second list, of the same arrows turned by a right angle, to be seen
+ * from all sides. */
 #include "draw.h"
 
+#include <math.h>
 #include <stdio.h>
 
-#include "palette.h"
-#include "panel.h"
+#include "common/numbers.h"
 
-static const double CAPTION_HEIGHT = 1.3; /* in units of the text's height */
+/* Colours of Okabe and Ito, safe for colour-blind readers; hue says the kind, as in the figures of
+ * hdlyap plot. */
+static const hdr_colour PALETTE_T = {0.0F, 0.447F, 0.698F, 1.0F};  /* #0072B2 */
+static const hdr_colour PALETTE_LP = {0.835F, 0.369F, 0.0F, 1.0F}; /* #D55E00 */
+/* An LP mode that is all L, #E69F00, and one that is all P: */
+static const hdr_colour PALETTE_L = {0.902F, 0.624F, 0.0F, 1.0F};
+static const hdr_colour PALETTE_P = {0.40F, 0.12F, 0.02F, 1.0F};
+static const hdr_colour PALETTE_DISK = {0.86F, 0.86F, 0.86F, 1.0F};
+/** As of glass: arrows are seen through it. */
+static const hdr_colour PALETTE_SPHERE = {0.5F, 0.5F, 0.5F, 0.3F};
+/** Of no step: legible on white and on rviz's own dark grey. */
+static const hdr_colour PALETTE_INK = {0.42F, 0.42F, 0.42F, 1.0F};
+static const hdr_colour WHITE = {1.0F, 1.0F, 1.0F, 1.0F}, BLACK = {0.0F, 0.0F, 0.0F, 1.0F};
+static const double PALE = 0.3; /* part of white in what is not of the picture's time */
+/** Part of black in the second arrows, without which two that overlap are one blot. */
+static const double SHADE = 0.3;
+
+/* In units of the text's height: the whole, spaces between panels, and in them */
+static const double WIDTH = 64.0, GAP = 3.0, ABOVE = 3.5;
+static const double CAPTION = 1.75, CAPTION_HEIGHT = 1.3, TITLE = 1.8, TITLE_HEIGHT = 1.1;
+static const double LINE = 0.12;
+static const double DIAL = 1.2, DIAL_STEP = 2.4; /* radius and, in radii, distance */
+enum { DIALS = 4, DIAL_SIDES = 32, WALL_SIDES = 128 };
+
+static const double LONG = 2.5;    /* boxes this much longer than high lie above each other */
+static const double RISE = 0.7;    /* of what is above the plane, as seen from 55 degrees */
+static const double LONGEST = 2.6; /* arrow, in mean distances of disks */
+static const double ARROW = 0.5;   /* root mean square length, as a part of the longest */
+/** Of an arrow, as parts of its length or of the mean distance. */
+static const double HEAD = 0.4, HEAD_WIDTH = 0.2, SHAFT_WIDTH = 0.07;
+static const double DISKS_Z = -1.0; /* below the arrows, which they would hide */
+static const double TURN = 6.283185307179586;
+
+/** What is drawn on, and where its parts lie, in the frame of the box [sigma]. */
+typedef struct sheet {
+    canvas *on;
+    const picture *p;
+    const heard *h;
+    bool spheres;
+    int panels, columns;
+    double unit;        /**< height of text */
+    double distance;    /**< of neighbouring disks, about */
+    double longest;     /**< arrow; half of it may stand out of a panel, where no text is */
+    double right, down; /**< from panel to panel */
+} sheet;
+
+/** Part 0 .. 1 of the way from a to b. */
+static hdr_colour mix(hdr_colour a, hdr_colour b, double part)
+{
+    const float p = (float)part;
+    return (hdr_colour){a.r + p * (b.r - a.r), a.g + p * (b.g - a.g), a.b + p * (b.b - a.b), 1.0F};
+}
+
+/** From a by part of d. */
+static hdr_point along(hdr_point a, double part, hdr_point d)
+{
+    return (hdr_point){a.x + part * d.x, a.y + part * d.y, a.z + part * d.z};
+}
+
+/* ---- panels -------------------------------------------------------------------------------- */
+
+/** Columns of a grid of panels that is not much higher than wide. */
+static int columns_of(double shape, int panels)
+{
+    if (shape > LONG) return 1;
+    const int columns = (int)ceil(sqrt(1.5 * panels / shape));
+    return columns < panels ? columns : panels;
+}
+
+static sheet sheet_of(canvas *on, const picture *p)
+{
+    const heard *h = p->run;
+    const double *box = h->box;
+    const bool spheres = heard_has_spheres(h);
+    const int panels = p->modes > 0 ? p->modes : 1;
+    /* of spheres on the screen, seen from above and from the front, as rviz's view begins */
+    const double height = box[1] + RISE * box[2];
+    const int columns = columns_of(box[0] / height, panels), gaps = columns - 1;
+    const double distance = spheres ? cbrt(box[0] * box[1] * box[2] / h->disks)
+                                    : sqrt(box[0] * box[1] / h->disks);
+    const double longest = LONGEST * distance;
+    const double least = fmax(columns * box[0] + gaps * longest, 0.8 * height);
+    const double unit = least / (WIDTH - gaps * GAP);
+    const double right = box[0] + GAP * unit + longest, down = height + ABOVE * unit + longest;
+    return (sheet){on, p, h, spheres, panels, columns, unit, distance, longest, right, down};
+}
+
+/** Its lower left corner: left to right, then downwards. */
+static hdr_point panel(const sheet *s, int k)
+{
+    return (hdr_point){k % s->columns * s->right, -(k / s->columns) * s->down, 0.0};
+}
+
+static void line(canvas *on, hdr_point from, hdr_point to)
+{
+    canvas_point(on, from);
+    canvas_point(on, to);
+}
+
+static hdr_point on_circle(hdr_point middle, double radius, double turns)
+{
+    const double angle = TURN * turns;
+    return along(middle, radius, (hdr_point){cos(angle), sin(angle), 0.0});
+}
+
+static void circle(canvas *on, hdr_point middle, double radius, int sides)
+{
+    for (int k = 0; k < sides; k++)
+        line(on, on_circle(middle, radius, (double)k / sides),
+             on_circle(middle, radius, (double)(k + 1) / sides));
+}
+
+/** Bits of k: the upper end along x, y, z. */
+static hdr_point corner(const sheet *s, hdr_point origin, int k)
+{
+    const double *box = s->h->box;
+    return along(origin, 1.0,
+                 (hdr_point){(k & 1) * box[0], (k >> 1 & 1) * box[1], (k >> 2) * box[2]});
+}
+
+static void edges(const sheet *s, hdr_point origin)
+{
+    const int end = s->spheres ? 8 : 4;
+    for (int from = 0; from < end; from++)
+        for (int d = 1; d < end; d *= 2)
+            if (!(from & d)) line(s->on, corner(s, origin, from), corner(s, origin, from | d));
+}
+
+static void draw_boxes(const sheet *s)
+{
+    canvas_layer(s->on, "box", HDR_MARKER_LINE_LIST, PALETTE_INK, LINE * s->unit);
+    for (int k = 0; k < s->panels; k++) {
+        const double radius = 0.5 * s->h->box[0];
+        if (s->h->round)
+            circle(s->on, along(panel(s, k), radius, (hdr_point){1.0, 1.0, 0.0}), radius,
+                   WALL_SIDES);
+        else
+            edges(s, panel(s, k));
+    }
+}
+
+static void draw_disks(const sheet *s)
+{
+    const hdr_point below = {0.0, 0.0, s->spheres ? 0.0 : DISKS_Z};
+    canvas_layer(s->on, s->spheres ? "spheres" : "disks", HDR_MARKER_SPHERE_LIST,
+                 s->spheres ? PALETTE_SPHERE : PALETTE_DISK, 1.0);
+    for (int k = 0; k < s->panels; k++)
+        for (uint32_t i = 0; i < s->h->disks && s->h->time >= 0.0; i++)
+            canvas_point(s->on, along(along(panel(s, k), 1.0, s->h->q[i]), 1.0, below));
+}
+
+/* ---- arrows -------------------------------------------------------------------------------- */
+
+static double length_of(hdr_point d) { return hypot(hypot(d.x, d.y), d.z); }
+
+/** From a tail by d; n: unit vector across, in whose plane with d it lies; s, h: half widths of
+ * shaft and head. */
+static void flat_arrow(canvas *on, hdr_point tail, hdr_point d, hdr_point n, double s, double h)
+{
+    const hdr_point tip = along(tail, 1.0, d), neck = along(tip, -HEAD, d);
+    const hdr_point outline[] = {
+        along(tail, -s, n), along(neck, -s, n), along(neck, s, n),  along(tail, -s, n),
+        along(neck, s, n),  along(tail, s, n),  along(neck, -h, n), tip,
+        along(neck, h, n),
+    };
+    for (size_t k = 0; k < sizeof outline / sizeof *outline; k++) canvas_point(on, outline[k]);
+}
+
+/** Unit vector across d, which is so long: in the plane of the disks, or across that and d. */
+static hdr_point across(hdr_point d, double length, bool upright)
+{
+    const double level = hypot(d.x, d.y);
+    const hdr_point n = level > 0.0 ? (hdr_point){-d.y / level, d.x / level, 0.0}
+                                    : (hdr_point){1.0, 0.0, 0.0};
+    if (!upright) return n;
+    return (hdr_point){-n.y * d.z / length, n.x * d.z / length, (n.y * d.x - n.x * d.y) / length};
+}
+
+/** Round a place; d: longer than it may be, perhaps. */
+static void arrow(const sheet *s, hdr_point at, hdr_point d, bool upright)
+{
+    const double full = length_of(d), length = fmin(full, s->longest);
+    if (!(full > 0.0)) return;
+    const hdr_point n = across(d, full, upright);
+    d = along((hdr_point){0.0, 0.0, 0.0}, length / full, d);
+    flat_arrow(s->on, along(at, -0.5, d), d, n, SHAFT_WIDTH * s->distance,
+               fmin(HEAD_WIDTH * s->distance, 0.4 * length));
+}
+
+/** Of all arrows alike: sigma per unit of the vector. */
+static double scale_of(const sheet *s, const hdr_point *d)
+{
+    double sum = 0.0;
+    for (uint32_t i = 0; i < s->h->disks; i++)
+        sum += d[i].x * d[i].x + d[i].y * d[i].y + d[i].z * d[i].z;
+    return sum > 0.0 ? ARROW * s->longest / sqrt(sum / s->h->disks) : 0.0;
+}
+
+static hdr_colour colour_of_kind(int kind) { return kind == HDR_MODE_T ? PALETTE_T : PALETTE_LP; }
+
+/** An LP mode turns from L to P: its hue says so. */
+static hdr_colour colour_of(const picture_mode *m)
+{
+    const bool is_known = m->kind == HDR_MODE_LP && m->momentum >= 0.0;
+    return is_known ? mix(PALETTE_L, PALETTE_P, m->momentum) : colour_of_kind(m->kind);
+}
+
+static bool is_of_before(const heard *h) { return h->vector_time != h->time; }
+
+/** In a layer of their own; rviz's light is for a plane. */
+static void arrows(const sheet *s, const char *ns, int k, bool upright)
+{
+    const picture_mode *m = &s->p->mode[k];
+    const hdr_point zero = {0.0, 0.0, 0.0};
+    const double scale = scale_of(s, m->d);
+    const hdr_colour colour = mix(colour_of(m), WHITE, is_of_before(s->h) ? PALE : 0.0);
+    canvas_layer(s->on, ns, HDR_MARKER_TRIANGLE_LIST, mix(colour, BLACK, upright ? SHADE : 0.0),
+                 1.0);
+    if (s->spheres) canvas_unlit(s->on);
+    for (uint32_t i = 0; i < s->h->disks; i++)
+        arrow(s, along(panel(s, k), 1.0, s->h->at[i]), along(zero, scale, m->d[i]), upright);
+}
+
+/* ---- dials and texts ------------------------------------------------------------------------- */
+
+/** Radius: eight dials, of spheres, take no more room than four. */
+static double dial_of(const sheet *s, uint32_t pairs)
+{
+    return DIAL * s->unit * (pairs > DIALS ? (double)DIALS / pairs : 1.0);
+}
+
+/** Coefficients (a, b) of each pair in their unit circle, in a row that begins at a place. */
+static void dials(const sheet *s, hdr_point at, const picture_mode *m)
+{
+    const double radius = dial_of(s, m->lp.pairs);
+    const hdr_point step = {DIAL_STEP * radius, 0.0, 0.0};
+    canvas_layer(s->on, "phases", HDR_MARKER_LINE_LIST, PALETTE_INK, LINE * s->unit);
+    for (uint32_t k = 0; k < m->lp.pairs; k++)
+        circle(s->on, along(at, k + 0.5, step), radius, DIAL_SIDES);
+    canvas_layer(s->on, "phases", HDR_MARKER_LINE_LIST, colour_of(m), 3.0 * LINE * s->unit);
+    for (uint32_t k = 0; k < m->lp.pairs; k++) {
+        const hdr_point middle = along(at, k + 0.5, step);
+        line(s->on, middle, along(middle, radius, (hdr_point){m->lp.a[k], m->lp.b[k], 0.0}));
+    }
+}
+
+/** Two lines: its exponent; which vector is drawn, and of which time if not the picture's. */
+static void title(const sheet *s, const char *ns, hdr_point at, const picture_mode *m)
+{
+    const double height = TITLE_HEIGHT * s->unit;
+    char number[48], when[32] = "";
+    number_with_error(number, sizeof number, m->exponent, m->error);
+    if (m->d && is_of_before(s->h)) snprintf(when, sizeof when, " of t = %.1f", s->h->vector_time);
+    if (m->found)
+        canvas_text(s->on, ns, at, height, colour_of_kind(m->kind), "%s   lambda = %s\nvector %u%s",
+                    m->name, number, (unsigned)m->index, m->d ? when : " not received");
+    else
+        canvas_text(s->on, ns, at, height, PALETTE_INK, "%s: %s", m->name,
+                    m->absent ? "this run looks for none" : "not resolved");
+}
+
+/** Arrows, title and phases. */
+static void draw_mode(const sheet *s, int k)
+{
+    const picture_mode *m = &s->p->mode[k];
+    const uint32_t pairs = m->d ? m->lp.pairs : 0;
+    const double *box = s->h->box, row = pairs * DIAL_STEP * dial_of(s, pairs);
+    const hdr_point above = {0.5 * (box[0] - row), box[1] + 0.5 * s->longest + TITLE * s->unit,
+                             box[2]};
+    const hdr_point at = along(panel(s, k), 1.0, above);
+    char ns[PICTURE_NAME_SIZE + 5];
+    snprintf(ns, sizeof ns, "mode/%s", m->box);
+    if (m->d) arrows(s, ns, k, false);
+    if (m->d && s->spheres) arrows(s, ns, k, true);
+    if (pairs > 0) dials(s, (hdr_point){panel(s, k).x + box[0] - row, at.y, at.z}, m);
+    title(s, ns, at, m);
+}
 
 static void write_box(char *text, size_t size, const heard *h)
 {
@@ -34,25 +313,29 @@ static void write_time(char *text, size_t size, const heard *h)
         snprintf(text, size, "waiting for its first message");
 }
 
-static void caption(canvas *on, const layout *l, const picture *p)
+static void draw_caption(const sheet *s)
 {
+    const heard *h = s->h;
+    const hdr_point at = {
+        0.5 * ((s->columns - 1) * s->right + h->box[0]),
+        h->box[1] + 0.5 * s->longest + (ABOVE + CAPTION) * s->unit,
+        h->box[2],
+    };
     char time[80], box[100];
-    write_box(box, sizeof box, p->run);
-    write_time(time, sizeof time, p->run);
-    canvas_text(on, "caption", l->caption_x, l->caption_y, CAPTION_HEIGHT * l->unit, PALETTE_INK,
-                "%.60s: %u %s, %s\n%s%s%s", p->run->scene, (unsigned)p->run->disks,
-                heard_has_spheres(p->run) ? "spheres" : "disks", box, time, *p->note ? "   " : "",
-                p->note);
+    write_box(box, sizeof box, h);
+    write_time(time, sizeof time, h);
+    canvas_text(s->on, "caption", at, CAPTION_HEIGHT * s->unit, PALETTE_INK,
+                "%.60s: %u %s, %s\n%s%s%s", h->scene, (unsigned)h->disks,
+                s->spheres ? "spheres" : "disks", box, time, *s->p->note ? "   " : "", s->p->note);
 }
 
 bool draw(canvas *on, hdr_markers *out, const picture *p, const char *frame_id)
 {
-    const layout l = layout_of(p);
+    const sheet s = sheet_of(on, p);
     canvas_clear(on);
-    panel_boxes(on, &l, p);
-    panel_disks(on, &l, p);
-    for (int k = 0; k < p->modes; k++) panel_mode(on, &l, p, k);
-    canvas_level(on, p->run->box[2]);
-    caption(on, &l, p);
+    draw_boxes(&s);
+    draw_disks(&s);
+    for (int k = 0; k < p->modes; k++) draw_mode(&s, k);
+    draw_caption(&s);
     return canvas_markers(on, out, frame_id);
 }

@@ -96,13 +96,6 @@ static double element(const hdr_doubles *array, uint32_t i)
     return array->data[(size_t)i * array->stride];
 }
 
-/** 0 along z of disks. */
-static void copy(hdr_point *to, const hdr_doubles *x, const hdr_doubles *y, const hdr_doubles *z)
-{
-    for (uint32_t i = 0; i < x->count; i++)
-        to[i] = (hdr_point){element(x, i), element(y, i), z->count > 0 ? element(z, i) : 0.0};
-}
-
 /** A block of `bytes` in place of an old one, or NULL: the old one is then as it was. */
 static void *replaced(const void *old, const void *from, size_t bytes)
 {
@@ -123,26 +116,21 @@ static bool are_of_each(const heard *h, uint64_t times, const hdr_doubles *x, co
     return x->count == all && y->count == all && z->count == (heard_has_spheres(h) ? all : 0);
 }
 
-/** Disks at a time; false if the places are not of each of them. */
-static bool move(heard *h, double time, const hdr_doubles *x, const hdr_doubles *y,
+/** Of each disk; false, and nothing is taken, if it is not. */
+static bool take(const heard *h, hdr_point *to, const hdr_doubles *x, const hdr_doubles *y,
                  const hdr_doubles *z)
 {
     if (!are_of_each(h, 1, x, y, z)) return false;
-    copy(h->q, x, y, z);
-    h->time = time;
-    h->changed = true;
+    for (uint32_t i = 0; i < h->disks; i++)
+        to[i] = (hdr_point){element(x, i), element(y, i), z->count > 0 ? element(z, i) : 0.0};
     return true;
 }
 
-/** Vectors that are heard next are of this time and these places. */
-static bool begin_vectors(heard *h, double time, const hdr_doubles *x, const hdr_doubles *y,
-                          const hdr_doubles *z)
+/** The disks have got there. */
+static void move(heard *h, double time)
 {
-    if (!are_of_each(h, 1, x, y, z)) return false;
-    copy(h->at, x, y, z);
-    h->vector_time = time;
-    h->vectors = 0;
-    return true;
+    h->time = time;
+    h->changed = true;
 }
 
 void heard_state(heard *h, const hdr_state *state)
@@ -152,7 +140,7 @@ void heard_state(heard *h, const hdr_state *state)
         h->vector_time = -1.0;
         h->vectors = 0;
     }
-    (void)move(h, state->sim_time, &state->x, &state->y, &state->z);
+    if (take(h, h->q, &state->x, &state->y, &state->z)) move(h, state->sim_time);
 }
 
 /** A vector more, with all but its arrays; NULL without room. */
@@ -176,26 +164,34 @@ static heard_vector *with_index(heard *h, uint32_t index)
     return NULL;
 }
 
-uint32_t heard_pairs(const heard *h, double time, const heard_vector *v, double *a, double *b)
+heard_lp heard_lp_at(const heard *h, double time, const heard_vector *v)
 {
-    uint32_t pairs = 0;
-    if (h->phases.sim_time != time) return 0;
-    for (uint32_t k = 0; k < h->phases.phases.count && pairs < HEARD_PAIRS_MAX; k++) {
+    heard_lp lp = {.pairs = 0};
+    if (h->phases.sim_time != time) return lp;
+    for (uint32_t k = 0; k < h->phases.phases.count && lp.pairs < HEARD_PAIRS_MAX; k++) {
         const hdr_lp_phase *phase = &h->phases.phases.data[k];
         if (phase->index != v->index || !SAME_NODES(phase, v)) continue;
-        a[pairs] = phase->a;
-        b[pairs++] = phase->b;
+        lp.a[lp.pairs] = phase->a;
+        lp.b[lp.pairs++] = phase->b;
     }
-    return pairs;
+    return lp;
 }
 
 /** Coefficients of vectors that came without, from phases of their time. */
-static void note_pairs(heard *h)
+static void note_phases(heard *h)
 {
-    for (int k = 0; k < h->vectors; k++) {
-        heard_vector *v = &h->vector[k];
-        if (v->pairs == 0) v->pairs = heard_pairs(h, h->vector_time, v, v->a, v->b);
-    }
+    for (heard_vector *v = h->vector; v < h->vector + h->vectors; v++)
+        if (v->lp.pairs == 0) v->lp = heard_lp_at(h, h->vector_time, v);
+}
+
+/** Vectors of a field's time and places, begun anew at another; false if the places do not fit. */
+static bool place_vectors(heard *h, const hdr_mode_field *field)
+{
+    if (field->sim_time == h->vector_time) return true;
+    if (!take(h, h->at, &field->x, &field->y, &field->z)) return false;
+    h->vector_time = field->sim_time;
+    h->vectors = 0;
+    return true;
 }
 
 void heard_mode_field(heard *h, const hdr_mode_field *field)
@@ -209,15 +205,14 @@ void heard_mode_field(heard *h, const hdr_mode_field *field)
                                .known = true};
     if (!is_ours(h, field->run_id)) return;
     if (!are_of_each(h, 1, &field->dqx, &field->dqy, &field->dqz)) return;
-    if (field->sim_time != h->vector_time &&
-        !begin_vectors(h, field->sim_time, &field->x, &field->y, &field->z))
-        return;
-    if (field->sim_time > h->time) (void)move(h, field->sim_time, &field->x, &field->y, &field->z);
+    if (!place_vectors(h, field)) return;
+    if (field->sim_time > h->time && take(h, h->q, &field->x, &field->y, &field->z))
+        move(h, field->sim_time);
     heard_vector *v = with_index(h, field->index);
     if (!v) v = add(h, &what);
     if (!v) return;
-    copy(v->d, &field->dqx, &field->dqy, &field->dqz);
-    note_pairs(h);
+    (void)take(h, v->d, &field->dqx, &field->dqy, &field->dqz);
+    note_phases(h);
     h->changed = true;
 }
 
@@ -246,9 +241,9 @@ static heard_vector vector_of(const heard *h, const hdr_slow_vectors *slow, uint
                       .index = slow->first_index + k,
                       .exponent = slow->exponents.data[k],
                       .known = slow->dqx.count > 0,
-                      .pairs = pairs < each ? pairs : each};
-    memcpy(v.a, slow->a.data + (size_t)each * k, each * sizeof *v.a);
-    memcpy(v.b, slow->b.data + (size_t)each * k, each * sizeof *v.b);
+                      .lp.pairs = pairs < each ? pairs : each};
+    memcpy(v.lp.a, slow->a.data + (size_t)each * k, each * sizeof *v.lp.a);
+    memcpy(v.lp.b, slow->b.data + (size_t)each * k, each * sizeof *v.lp.b);
     return v;
 }
 
@@ -273,15 +268,17 @@ static hdr_doubles part(const hdr_doubles *all, uint32_t k, uint32_t disks)
 void heard_slow_vectors(heard *h, const hdr_slow_vectors *slow)
 {
     if (!is_ours(h, slow->run_id) || !is_whole(h, slow)) return;
-    if (!move(h, slow->sim_time, &slow->x, &slow->y, &slow->z)) return;
-    (void)begin_vectors(h, slow->sim_time, &slow->x, &slow->y, &slow->z);
+    if (!take(h, h->q, &slow->x, &slow->y, &slow->z)) return;
+    memcpy(h->at, h->q, h->disks * sizeof *h->at);
+    move(h, slow->sim_time);
+    h->vector_time = slow->sim_time;
+    h->vectors = 0;
     for (uint32_t k = 0; k < slow->vectors; k++) {
         const heard_vector what = vector_of(h, slow, k);
-        heard_vector *v = is_wanted(h, &what) ? add(h, &what) : NULL;
-        if (!v || !v->known) continue;
+        const heard_vector *v = is_wanted(h, &what) ? add(h, &what) : NULL;
         const hdr_doubles dx = part(&slow->dqx, k, h->disks), dy = part(&slow->dqy, k, h->disks),
                           dz = part(&slow->dqz, k, h->disks);
-        copy(v->d, &dx, &dy, &dz);
+        if (v && v->known) (void)take(h, v->d, &dx, &dy, &dz);
     }
 }
 
@@ -305,7 +302,7 @@ void heard_lp_phases(heard *h, const hdr_lp_phases *phases)
     if (!own) return;
     h->phases = *phases;
     h->phases.phases.data = own;
-    note_pairs(h);
+    note_phases(h);
     h->changed |= phases->sim_time == h->time || phases->sim_time == h->vector_time;
 }
 

@@ -9,13 +9,18 @@
 
 enum { HEARD_VECTORS_MAX = 64, HEARD_PAIRS_MAX = 8 };
 
+/** Coefficients of the pairs of an LP mode, as in LpPhase. */
+typedef struct heard_lp {
+    uint32_t pairs;
+    double a[HEARD_PAIRS_MAX], b[HEARD_PAIRS_MAX];
+} heard_lp;
+
 /** One Lyapunov vector, of slow_vectors or of fields. */
 typedef struct heard_vector {
     uint8_t kind; /**< of its step, as in Mode, and where that lies */
     uint32_t nx, ny, nz, index;
     double exponent;
-    uint32_t pairs; /**< of which a and b are known with the vector */
-    double a[HEARD_PAIRS_MAX], b[HEARD_PAIRS_MAX];
+    heard_lp lp;  /**< as far as known with the vector */
     bool known;   /**< the vector itself, at its place and time: */
     hdr_point *d; /**< [N] its dq half */
 } heard_vector;
@@ -59,8 +64,7 @@ void heard_steps(heard *h, const hdr_steps *steps);
 void heard_lp_phases(heard *h, const hdr_lp_phases *phases);
 void heard_run_status(heard *h, const hdr_run_status *status);
 
-/** Coefficients of a vector's pairs at a time, HEARD_PAIRS_MAX at most, as phases have them; their
- * number, 0 if none are known. */
-uint32_t heard_pairs(const heard *h, double time, const heard_vector *v, double *a, double *b);
+/** Of a vector at a time, as phases have it; without pairs if they do not. */
+heard_lp heard_lp_at(const heard *h, double time, const heard_vector *v);
 
 #endif

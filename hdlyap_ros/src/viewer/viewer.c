@@ -7,7 +7,6 @@
 #include <string.h>
 #include <time.h>
 
-#include "compose.h"
 #include "draw.h"
 #include "hdlyap_ros/hdlyap_ros.h"
 #include "common/nodes.h"
@@ -26,8 +25,8 @@ static const double again_seconds = 1.0;
 /** Who has heard nothing new for so long says so in the picture. */
 static const double still_seconds = 3.0;
 
-/** What is listened to, and freed, together. */
-enum { AVERAGES, STAND_INS, SUBSCRIBERS_MAX = 3 };
+/** What is listened to, and freed, together: live slow_vectors in front. */
+enum { GROUP = 3 };
 
 typedef struct viewer {
     hdr_node *ros;
@@ -39,12 +38,10 @@ typedef struct viewer {
     hdr_publisher *markers;
     double heard_at, sent_at; /**< when something new was heard, and a picture sent */
     time_t since;             /**< the same as heard_at, by the clock on the wall */
-    char note[48];            /**< of the picture */
     /* of the main thread: */
-    hdr_subscriber *slow;
-    /** Of averages; and of state and fields, which a bag has in place of slow_vectors */
-    hdr_subscriber *others[2][SUBSCRIBERS_MAX];
-    double seen, asked; /**< when somebody looked last, and since when averages are heard */
+    hdr_subscriber *live[GROUP];
+    hdr_subscriber *stand_ins[GROUP]; /**< state and fields, in place of slow_vectors in a bag */
+    double seen, asked; /**< when somebody looked last, and since when live ones are heard */
 } viewer;
 
 static double seconds_now(void)
@@ -75,11 +72,23 @@ static bool parse_modes(mode_choice *modes, const char *text)
 
 /* ---- pictures ------------------------------------------------------------------------------- */
 
+/** Why the picture may not be what is now; "" while the run is heard of, or has ended. */
+static void write_note(char *note, size_t size, const viewer *v)
+{
+    const bool still = seconds_now() - v->heard_at > still_seconds;
+    struct tm at;
+    note[0] = '\0';
+    if (still && v->said.stage != HDR_RUN_STATUS_FINISHED && localtime_r(&v->since, &at))
+        strftime(note, size, "(nothing new since %H:%M:%S)", &at);
+}
+
 /** Of a run that has begun. */
 static void send_picture(viewer *v)
 {
+    char note[48];
     hdr_markers markers;
-    const picture p = compose(&v->said, &v->modes, v->note);
+    write_note(note, sizeof note, v);
+    const picture p = picture_of(&v->said, &v->modes, note);
     v->said.changed = false;
     v->sent_at = seconds_now();
     if (!draw(v->on, &markers, &p, "box"))
@@ -94,32 +103,20 @@ static void show(viewer *v)
     if (!v->said.begun || !v->said.changed) return;
     v->heard_at = seconds_now();
     v->since = time(NULL);
-    v->note[0] = '\0';
     send_picture(v);
 }
 
-/** Why the picture may not be what is now; "" while the run is heard of, or has ended. */
-static void write_note(char *note, size_t size, const viewer *v)
+/** Repeats the last picture for who looks, and says so when nothing new has come. True of a run
+ * that has begun. */
+static bool tend(viewer *v)
 {
-    const bool still = seconds_now() - v->heard_at > still_seconds;
-    struct tm at;
-    note[0] = '\0';
-    if (!still || v->said.stage == HDR_RUN_STATUS_FINISHED || !localtime_r(&v->since, &at)) return;
-    strftime(note, size, "(nothing new since %H:%M:%S)", &at);
-}
-
-/** Says so when nothing comes any more, and repeats the last picture for who looks. */
-static void tend(viewer *v)
-{
-    char note[sizeof v->note];
     pthread_mutex_lock(&v->lock);
-    write_note(note, sizeof note, v);
-    const bool other = strcmp(note, v->note) != 0;
-    memcpy(v->note, note, sizeof note);
-    if (v->said.begun && hdr_publisher_subscribers(v->markers) > 0 &&
-        (other || seconds_now() - v->sent_at > again_seconds))
+    const bool begun = v->said.begun;
+    if (begun && hdr_publisher_subscribers(v->markers) > 0 &&
+        seconds_now() - v->sent_at > again_seconds)
         send_picture(v);
     pthread_mutex_unlock(&v->lock);
+    return begun;
 }
 
 /* ---- callbacks ------------------------------------------------------------------------------ */
@@ -209,70 +206,56 @@ static const char *topic(const viewer *v, const char *name)
     return text;
 }
 
-static hdr_status hear_averages(viewer *v)
+/** In a function that returns a status. */
+#define HEAR(to, name, from, queue)                                                                \
+    if (status == HDR_OK)                                                                          \
+    status = hdr_##name##_subscribe(to, v->ros, topic(v, from), queue, on_##name, v)
+
+static hdr_status hear_live(viewer *v)
 {
-    hdr_subscriber **s = v->others[AVERAGES];
-    hdr_status status = hdr_steps_subscribe(&s[0], v->ros, topic(v, "steps"), QUEUE, on_steps, v);
-    if (status == HDR_OK)
-        status = hdr_run_status_subscribe(&s[1], v->ros, topic(v, "status"), QUEUE, on_run_status,
-                                          v);
-    if (status == HDR_OK)
-        status = hdr_slow_vectors_subscribe(&v->slow, v->ros, topic(v, "slow_vectors"), 1,
-                                            on_slow_vectors, v);
+    hdr_status status = HDR_OK;
+    HEAR(&v->live[1], steps, "steps", QUEUE);
+    HEAR(&v->live[2], run_status, "status", QUEUE);
+    HEAR(&v->live[0], slow_vectors, "slow_vectors", 1);
     return status;
 }
 
 static hdr_status hear_stand_ins(viewer *v)
 {
-    hdr_subscriber **s = v->others[STAND_INS];
-    hdr_status status = hdr_state_subscribe(&s[0], v->ros, topic(v, "state"), QUEUE, on_state, v);
-    if (status == HDR_OK)
-        status = hdr_lp_phases_subscribe(&s[1], v->ros, topic(v, "lp_phases"), QUEUE, on_lp_phases,
-                                         v);
-    if (status == HDR_OK)
-        status = hdr_mode_field_subscribe(&s[2], v->ros, topic(v, "fields"), QUEUE, on_mode_field,
-                                          v);
+    hdr_status status = HDR_OK;
+    HEAR(&v->stand_ins[0], state, "state", QUEUE);
+    HEAR(&v->stand_ins[1], lp_phases, "lp_phases", QUEUE);
+    HEAR(&v->stand_ins[2], mode_field, "fields", QUEUE);
     return status;
 }
 
-static void hear_no_more(hdr_subscriber **group)
+static void hear_no_more(hdr_subscriber *group[GROUP])
 {
-    for (int k = 0; k < SUBSCRIBERS_MAX; k++) {
+    for (int k = 0; k < GROUP; k++) {
         hdr_subscriber_free(group[k]);
         group[k] = NULL;
     }
 }
 
-static bool has_begun(viewer *v)
-{
-    pthread_mutex_lock(&v->lock);
-    const bool begun = v->said.begun;
-    pthread_mutex_unlock(&v->lock);
-    return begun;
-}
-
 /** Listens while somebody looks: a node works for whoever listens. Of fields in particular, where
  * there are slow_vectors. Not before the run is described: what a run that rests says once would
  * be of a run that is not known. */
-static hdr_status follow(viewer *v, double now)
+static hdr_status follow(viewer *v, double now, bool begun)
 {
     hdr_status status = HDR_OK;
     if (hdr_publisher_subscribers(v->markers) > 0) v->seen = now;
-    const bool wanted = now - v->seen < patience_seconds && has_begun(v);
-    if (wanted && !v->slow) {
+    const bool wanted = begun && now - v->seen < patience_seconds;
+    if (wanted && !*v->live) {
         v->asked = now;
-        status = hear_averages(v);
+        status = hear_live(v);
     }
-    if (!wanted && v->slow) {
-        hear_no_more(v->others[AVERAGES]);
-        hdr_subscriber_free(v->slow);
-        v->slow = NULL;
-    }
-    const bool live = v->slow && (now - v->asked < connecting_seconds ||
-                                  hdr_subscriber_publishers(v->slow) > 0);
-    const bool stand_in = wanted && !live, stands_in = v->others[STAND_INS][0];
-    if (stand_in && !stands_in && status == HDR_OK) status = hear_stand_ins(v);
-    if (!stand_in && stands_in) hear_no_more(v->others[STAND_INS]);
+    if (!wanted) hear_no_more(v->live);
+    const bool is_live = *v->live && (now - v->asked < connecting_seconds ||
+                                      hdr_subscriber_publishers(*v->live) > 0);
+    if (!wanted || is_live)
+        hear_no_more(v->stand_ins);
+    else if (!*v->stand_ins && status == HDR_OK)
+        status = hear_stand_ins(v);
     return status;
 }
 
@@ -281,13 +264,11 @@ static hdr_status look_after(viewer *v)
     hdr_subscriber *info; /* the node's, until its end */
     hdr_status status = hdr_markers_advertise(&v->markers, v->ros, topic(v, "markers"));
     if (status == HDR_OK) status = hdr_frame_publish(v->ros, "world", "box");
-    if (status == HDR_OK)
-        status = hdr_run_info_subscribe(&info, v->ros, topic(v, "run_info"), QUEUE, on_run_info, v);
+    HEAR(&info, run_info, "run_info", QUEUE);
     if (status == HDR_OK) status = hdr_service_set(v->ros, "~set", on_set, v);
     v->seen = seconds_now();
     while (status == HDR_OK) {
-        status = follow(v, seconds_now());
-        tend(v);
+        status = follow(v, seconds_now(), tend(v));
         hdr_node_lost(v->ros); /* says so */
         if (!hdr_node_wait(poll_seconds)) break;
     }

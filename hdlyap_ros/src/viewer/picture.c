@@ -1,10 +1,8 @@
 /** What was heard of a run -> a picture. */
-#include "compose.h"
+#include "picture.h"
 
 #include <stdio.h>
 #include <string.h>
-
-#include "common/nodes.h"
 
 bool mode_name_parse(mode_name *out, const char *text)
 {
@@ -69,54 +67,47 @@ static const heard_vector *vector_of_step(const heard *h, const hdr_step *step)
     return found;
 }
 
-static double momentum_of(const heard_vector *v)
+/** Part of the P fields; -1 of nothing. */
+static double momentum_of(const heard_lp *lp)
 {
     double l = 0.0, p = 0.0;
-    for (uint32_t k = 0; k < v->pairs; k++) {
-        l += v->a[k] * v->a[k];
-        p += v->b[k] * v->b[k];
+    for (uint32_t k = 0; k < lp->pairs; k++) {
+        l += lp->a[k] * lp->a[k];
+        p += lp->b[k] * lp->b[k];
     }
     return l + p > 0.0 ? p / (l + p) : -1.0;
 }
 
-/** Coefficients of a vector: of the time of the disks, or else of its own. */
-static void fill_pairs(picture_mode *mode, const heard *h, const heard_vector *v)
-{
-    mode->momentum = momentum_of(v);
-    if (h->vector_time != h->time) mode->pairs = heard_pairs(h, h->time, v, mode->a, mode->b);
-    if (mode->pairs > 0) return;
-    mode->pairs = v->pairs;
-    memcpy(mode->a, v->a, sizeof mode->a);
-    memcpy(mode->b, v->b, sizeof mode->b);
-}
-
+/** Coefficients are of the time of the disks, or else of the vector's. */
 static void fill_vector(picture_mode *mode, const heard *h, const heard_vector *v)
 {
     mode->index = v->index;
     if (!v->known) return;
     mode->d = v->d;
-    if (mode->kind == HDR_MODE_LP && v->kind == HDR_MODE_LP) fill_pairs(mode, h, v);
+    if (mode->kind != HDR_MODE_LP || v->kind != HDR_MODE_LP) return;
+    mode->momentum = momentum_of(&v->lp);
+    if (h->vector_time != h->time) mode->lp = heard_lp_at(h, h->time, v);
+    if (mode->lp.pairs == 0) mode->lp = v->lp;
 }
 
-static void write_name(char *name, size_t size, const heard *h, const mode_name *is)
+/** Without nodes of what is not known yet. */
+static void write_name(char name[PICTURE_NAME_SIZE], const heard *h, const mode_name *is)
 {
     char nodes[NODES_SIZE] = "";
     if (is->nx > 0 || is->ny > 0 || is->nz > 0)
         nodes_write(nodes, heard_has_spheres(h), is->nx, is->ny, is->nz);
-    snprintf(name, size, "%s%s", hdr_mode_kind_text(is->kind), nodes);
+    snprintf(name, PICTURE_NAME_SIZE, "%s%s", hdr_mode_kind_text(is->kind), nodes);
 }
 
 /** name: the one asked for; NULL: the lowest of the kind, as the steps say or else the vectors. */
 static picture_mode mode_of(const heard *h, uint8_t kind, const mode_name *name)
 {
     picture_mode mode = {.kind = kind, .error = -1.0, .momentum = -1.0};
+    mode_name is = name ? *name : (mode_name){.kind = kind};
     const hdr_step *step = step_of(h, kind, name);
     const heard_vector *v = step ? vector_of_step(h, step) : NULL;
-    mode_name is = name ? *name : (mode_name){.kind = kind};
-    if (name)
-        write_name(mode.box, sizeof mode.box, h, name);
-    else
-        snprintf(mode.box, sizeof mode.box, "lowest %s", hdr_mode_kind_text(kind));
+    write_name(mode.name, h, &is);
+    snprintf(mode.box, sizeof mode.box, "%s%.40s", name ? "" : "lowest ", mode.name);
     if (step) {
         is = (mode_name){kind, step->nx, step->ny, step->nz};
         mode.index = step->first_index;
@@ -130,23 +121,18 @@ static picture_mode mode_of(const heard *h, uint8_t kind, const mode_name *name)
     }
     mode.found = step || v;
     mode.absent = name && !mode.found && !is_looked_for(h, name);
-    write_name(mode.name, sizeof mode.name, h, &is);
+    write_name(mode.name, h, &is);
     if (v) fill_vector(&mode, h, v);
     return mode;
 }
 
-static void fill_modes(picture *p, const heard *h, const mode_choice *asked)
-{
-    if (!h->has_lp) return;
-    for (int k = 0; k < asked->count; k++)
-        p->mode[p->modes++] = mode_of(h, asked->mode[k].kind, &asked->mode[k]);
-    if (asked->count == 0 && h->has_t) p->mode[p->modes++] = mode_of(h, HDR_MODE_T, NULL);
-    if (asked->count == 0) p->mode[p->modes++] = mode_of(h, HDR_MODE_LP, NULL);
-}
-
-picture compose(const heard *h, const mode_choice *asked, const char *note)
+picture picture_of(const heard *h, const mode_choice *asked, const char *note)
 {
     picture p = {.run = h, .note = note};
-    fill_modes(&p, h, asked);
+    if (!h->has_lp) return p;
+    for (int k = 0; k < asked->count; k++)
+        p.mode[p.modes++] = mode_of(h, asked->mode[k].kind, &asked->mode[k]);
+    if (asked->count == 0 && h->has_t) p.mode[p.modes++] = mode_of(h, HDR_MODE_T, NULL);
+    if (asked->count == 0) p.mode[p.modes++] = mode_of(h, HDR_MODE_LP, NULL);
     return p;
 }
