@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""check_symbols.py LIBRARY FOLDER PREPROCESSOR...: what the library shows is what the headers in the
-folder declare, all of it and nothing else."""
+"""check_symbols.py LIBRARY FOLDER PREPROCESSOR...: what the library shows is what the headers in
+the folder declare, all of it and nothing else."""
 
 import glob
 import re
