@@ -130,7 +130,12 @@ TEST(heard, fields_of_a_bag)
     EXPECT_EQ(20.0, p.run->time);
     EXPECT_TRUE(p.mode[0].d);
     EXPECT_TRUE(p.mode[1].found && !p.mode[1].d);
-    on.state(3.0); // played again
+    on.state(21.0);
+    on.field(20.0, HDR_MODE_LP, 0, 5); // disks do not go back for it
+    p = on.drawn();
+    EXPECT_TRUE(p.run->time == 21.0 && p.run->q[0].x == 0.00 && p.run->at[0].x == 0.20);
+    EXPECT_TRUE(p.mode[1].d && p.mode[1].lp.pairs == 0); // phases are of before
+    on.state(3.0);                                       // played again
     EXPECT_EQ(3.0, on.h.time);
     EXPECT_FALSE(on.drawn().mode[0].d);
 }

@@ -145,6 +145,7 @@ TEST(markers, disks_and_boxes_lie_where_they_are)
     for (int i = 0; i < 40; i++) {
         EXPECT_EQ(s.q[2 * i], disks[0].points[i].x);
         EXPECT_EQ(s.q[2 * i + 1], disks[0].points[i].y);
+        EXPECT_LT(disks[0].points[i].z, -0.5); // they hide no arrow
         EXPECT_NEAR(s.q[2 * i], disks[0].points[40 + i].x - boxes[0].points[8].x, 1e-12);
     }
     EXPECT_EQ(0.0, boxes[0].points[0].x);
@@ -205,7 +206,8 @@ TEST(markers, vectors_of_before_say_so)
     }
 }
 
-/** However long, and wherever they are. */
+/** They are cut where they would be too long, wherever they are. The caption is above all titles.
+ */
 TEST(markers, no_arrow_crosses_a_text)
 {
     for (const int disks : {10, 100, 800})
@@ -214,19 +216,46 @@ TEST(markers, no_arrow_crosses_a_text)
             for (size_t k = 0; k < s.vectors.size(); k += 7) s.vectors[k] *= 20.0; // are cut
             s.point();
             const MarkerArray array = drawing().of(s.p);
+            const Marker caption = title(array, "caption");
+            std::vector<Marker> arrows;
+            for (const Marker &m : array.markers)
+                if (m.type == Marker::TRIANGLE_LIST) arrows.push_back(m);
+            ASSERT_EQ(6u, arrows.size());
             for (const Marker &m : array.markers) {
                 if (m.type != Marker::TEXT_VIEW_FACING) continue;
                 const long lines = 1 + std::count(m.text.begin(), m.text.end(), '\n');
                 const double reach = 0.6 * lines * m.scale.z, y = m.pose.position.y;
-                for (const Marker &a : array.markers) {
-                    if (a.ns.find("mode/") != 0 || a.type != Marker::TRIANGLE_LIST) continue;
+                EXPECT_TRUE(m.ns == "caption" ||
+                            y + reach < caption.pose.position.y - 1.2 * caption.scale.z);
+                for (const Marker &a : arrows)
                     for (const auto &point : a.points)
                         EXPECT_FALSE(std::fabs(point.y - y) < reach &&
                                      std::fabs(point.x - m.pose.position.x) < reach)
                             << m.text;
-                }
             }
+            for (const Marker &m : arrows)
+                for (const arrow &a : arrows_of(m))
+                    EXPECT_LT(std::hypot(a.dx, a.dy), 2.6001 * std::sqrt(900.0 / disks));
         }
+}
+
+TEST(markers, panels_stand_in_rows)
+{
+    scene s(20.0, 20.0, 50, 8, 2);
+    const MarkerArray array = drawing().of(s.p);
+    const auto box = in(array, "box", Marker::LINE_LIST).at(0).points;
+    const auto dials = in(array, "phases", Marker::LINE_LIST).at(0).points; // of the second
+    const double right = box[8 * 3].x + 20.0, radius = 0.5 * (dials[0].x - dials[32].x);
+    const double row = 4.8 * radius; // of two
+    for (int k = 0; k < 8; k++) {    // four in each, whose corners are eight points
+        const double x = box[8 * k].x;
+        EXPECT_EQ(x, box[8 * (k % 4)].x);
+        EXPECT_EQ(k < 4 ? 0.0 : box[8 * 4].y, box[8 * k].y);
+        const Marker text = title(array, std::string("mode/") + s.p.mode[k].box);
+        EXPECT_NEAR(x + 10.0 - (k % 2 ? 0.5 * row : 0.0), text.pose.position.x, 1e-9);
+    }
+    EXPECT_LT(box[8 * 4].y, -20.0);
+    EXPECT_NEAR(0.5 * right, title(array, "caption").pose.position.x, 1e-9);
 }
 
 TEST(markers, an_lp_mode_shows_its_phase)

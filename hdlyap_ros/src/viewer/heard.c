@@ -278,7 +278,7 @@ void heard_slow_vectors(heard *h, const hdr_slow_vectors *slow)
         const heard_vector *v = is_wanted(h, &what) ? add(h, &what) : NULL;
         const hdr_doubles dx = part(&slow->dqx, k, h->disks), dy = part(&slow->dqy, k, h->disks),
                           dz = part(&slow->dqz, k, h->disks);
-        if (v && v->known) (void)take(h, v->d, &dx, &dy, &dz);
+        if (v) (void)take(h, v->d, &dx, &dy, &dz);
     }
 }
 
