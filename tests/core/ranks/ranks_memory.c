@@ -94,6 +94,19 @@ TEST(ranks_share_a_machine)
     room_of_machine = 1e15;
 }
 
+/** Also where it is another rank's machine that has too little. */
+TEST(all_are_told_of_one_machine)
+{
+    const hd_scene_def scene = short_scene(50, 0);
+    const bool last = ranks->rank == ranks->ranks - 1;
+    char line[256] = "";
+    hd_run *run;
+    if (last) room_of_machine = hd_room_needed(&scene, 1, ranks->ranks);
+    assert_int_equal(hd_run_create_shared(&run, &scene, ranks, line, sizeof line), HD_NO_MEMORY);
+    assert_non_null(strstr(line, last ? "would fit" : "another rank: out of memory"));
+    room_of_machine = 1e15;
+}
+
 /** Whatever it is that the last rank does not get: all of them end, say so, and give back what they
  * had. */
 TEST(what_one_does_not_get_ends_all)

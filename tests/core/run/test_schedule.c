@@ -23,10 +23,11 @@ TEST(stages_without_length_are_skipped)
     assert_true(hd_schedule_stage_end(&s) == INFINITY);
 }
 
-/** Each cut is checked against its time; the last report may be a short one. */
+/** Each cut is checked against its time; the last report may be a short one, but not of rounding
+ * alone. */
 TEST(reports_end_at_multiples_and_with_the_stage)
 {
-    const double intervals[] = {0.05, 0.1, 0.7, 1.0, 3.0, 99.0, 100.0, 1e4};
+    const double intervals[] = {0.05, 0.1, 0.7, 1.0, 3.0, 33.33333333333, 99.0, 100.0, 1e4};
     for (size_t k = 0; k < sizeof intervals / sizeof *intervals; k++) {
         hd_schedule s = schedule_of(0.0, 100.0, intervals[k]);
         hd_schedule_enter(&s, HD_AVERAGING, 2.0);
