@@ -262,8 +262,10 @@ class Live(harness.Case):
         params.update(duration=50.0, report_interval=1.0, changes=texts)
         whole = self.heard_of(self.started(dict(params, checkpoint=end)))
         self.same({topic: first[topic] + second[topic] for topic in TOPICS}, whole)
-        ended = self.heard_of(self.started(dict(params, resume=end)))
-        self.assertEqual(ended['run_info'][0].duration, 60.0)
+        late = dict(params, resume=end, changes=[*texts, '1 pace=30'])  # in no order
+        ended = self.heard_of(self.started(late))
+        info = ended['run_info'][0]
+        self.assertEqual((info.pace, info.report_interval, info.duration), (30.0, 0.3, 60.0))
         again = self.heard_of(self.started(dict(params, resume=kept)))
         self.same(second, again)
         # the second one is of a later interval if it came late

@@ -192,6 +192,8 @@ class Agreement(harness.Case):
         self.assertTrue(step.first_index <= mode.index <= step.last_index)
         for weight in (mode.weight_l, mode.weight_p):
             self.assertEqual(weight > 0.0, mode.kind == Mode.LP)
+        if mode.kind == Mode.ZERO:
+            self.assertAlmostEqual(mode.weight_now, 1.0, delta=0.05)
 
     def test_modes_add_up_to_steps(self):
         modes = self.last('modes').modes

@@ -105,8 +105,8 @@ class Spheres(harness.Case):
         self.assertEqual((info.dimensions, info.aspect_z, info.container), (3, 0.3, 'rectangle'))
         self.assertEqual(list(self.boundaries()), ['periodic', 'reflecting', 'periodic'])
         self.assertEqual((info.zero_exponents, info.vectors), (6, 6 * 128))
-        self.assertEqual(len(info.wave_nz), len(info.wave_nx))
-        self.assertGreater(max(info.wave_nz), 0)
+        steps = {nodes(s) for s in self.messages['steps'][-1].steps if s.kind == Mode.LP}
+        self.assertEqual(steps, set(zip(info.wave_nx, info.wave_ny, info.wave_nz)))
         for state in self.messages['state']:
             q, p = of(state, 'x', 'y', 'z'), of(state, 'px', 'py', 'pz')
             self.assertEqual(q.shape, (3, 128))
@@ -173,9 +173,10 @@ class Spheres(harness.Case):
         for field in self.messages['fields']:
             if not field.pairs:
                 continue
-            rows = of(field, 'l_x', 'l_y', 'l_z').reshape(3, field.pairs, -1)
-            norms = np.sqrt(np.sum(rows**2, axis=(0, 2)))
-            np.testing.assert_allclose(norms**2, 1 - np.array(field.residual_l) ** 2, atol=1e-6)
+            for kind, residual in ('l', field.residual_l), ('p', field.residual_p):
+                rows = of(field, *(f'{kind}_{d}' for d in 'xyz')).reshape(3, field.pairs, -1)
+                norms2 = np.sum(rows**2, axis=(0, 2))
+                np.testing.assert_allclose(norms2, 1 - np.array(residual) ** 2, atol=1e-6)
             self.assertEqual(len(field.p_z), len(field.p_over_pz))
             return
         self.fail('no LP step of its own')
