@@ -161,6 +161,7 @@ class Run(harness.Case):
         self.ends(node)
         self.assertGreater(len(node.lines('so far: averaged')), 1)
         said = node.text().split('result: ')[1]
+        self.assertEqual(spectrum.lambda_max_error, spectrum.std_errors[0])
         largest = self.number(spectrum.lambda_max, spectrum.std_errors[0])
         self.assertTrue(
             said.startswith(f'averaged 400 of 400 time units, lambda_max {largest}\x1b'), said
