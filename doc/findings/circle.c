@@ -39,7 +39,7 @@ static hd_scene_def scene_of(int disks, double density, bool quick)
 
 static void choose(profiles *all, const hd_run *run)
 {
-    const hd_steps *steps = hd_run_steps(run);
+    const hd_steps *steps = hd_run_parts(run).steps;
     for (int k = 0; k < hd_steps_count(steps) && all->count < PROFILES; k++) {
         const hd_step *step = hd_steps_step(steps, k);
         const int *n = step->wave.n;
@@ -51,7 +51,7 @@ static void choose(profiles *all, const hd_run *run)
 /** Coefficients on the fields of the cosine and the sine; the P fields are the second half. */
 static double complex coefficient(const hd_run *run, const hd_step *step, int col, int half)
 {
-    const hd_modes *modes = hd_run_modes(run);
+    const hd_modes *modes = hd_run_parts(run).modes;
     const int column = hd_fields_subspace(hd_modes_fields(modes), step->subspace)->column +
                        2 * half;
     return hd_modes_coefficients(modes, column)[col] -
@@ -61,7 +61,7 @@ static double complex coefficient(const hd_run *run, const hd_step *step, int co
 /** A vector of the form (a cos + b sin of m theta) f(r) has the component (a - i b) f / 2. */
 static void add_vector(profiles *all, profile *of, const hd_run *run, hd_columns v, int col)
 {
-    const hd_step *step = hd_steps_step(hd_run_steps(run), of->step);
+    const hd_step *step = hd_steps_step(hd_run_parts(run).steps, of->step);
     const double complex z = coefficient(run, step, col, 0);
     const double complex w = step->kind == HD_MODE_LP ? coefficient(run, step, col, 1) : 0.0;
     double box[HD_DIM];
@@ -88,7 +88,7 @@ static void add_state(profiles *all, const hd_run *run)
 {
     const hd_columns v = hd_run_columns(run);
     if (v.count < hd_run_vectors(run)) return;
-    hd_trajectory_state(hd_run_trajectory(run), all->q, all->p);
+    hd_trajectory_state(hd_run_parts(run).trajectory, all->q, all->p);
     double box[HD_DIM];
     hd_scene_box(hd_run_scene(run), box);
     const double reach = 0.5 * box[0] - 0.5;
@@ -98,7 +98,7 @@ static void add_state(profiles *all, const hd_run *run)
         all->disks_in[s < SHELLS ? s : SHELLS - 1]++;
     }
     for (int k = 0; k < all->count; k++) {
-        const hd_step *step = hd_steps_step(hd_run_steps(run), all->of[k].step);
+        const hd_step *step = hd_steps_step(hd_run_parts(run).steps, all->of[k].step);
         for (int c = 0; step->resolved && step->members == 1 && c < step->count; c++)
             add_vector(all, &all->of[k], run, v, step->col + c);
     }
@@ -115,12 +115,12 @@ static void begin_row(const hd_run *run, const hd_step *step)
 
 static void print_steps(const hd_run *run)
 {
-    const double pressure = hd_gas_read(hd_run_gas(run)).pressure;
-    for (int k = 0; k < hd_steps_count(hd_run_steps(run)); k++) {
-        const hd_step *step = hd_steps_step(hd_run_steps(run), k);
+    const double pressure = hd_gas_read(hd_run_parts(run).gas).pressure;
+    for (int k = 0; k < hd_steps_count(hd_run_parts(run).steps); k++) {
+        const hd_step *step = hd_steps_step(hd_run_parts(run).steps, k);
         double omega = NAN, error = NAN;
         if (!step->resolved || step->kind == HD_MODE_ZERO) continue;
-        if (!hd_phases_rate(hd_run_phases(run), k, &omega, &error)) omega = error = NAN;
+        if (!hd_phases_rate(hd_run_parts(run).phases, k, &omega, &error)) omega = error = NAN;
         begin_row(run, step);
         printf("-1,0,0,0,%.6f,%.3f,%.5f,%.5f,%.5f,%.5f,%.5f\n", step->wave.number,
                step->multiplicity, step->exponent, step->std_error, fabs(omega), error, pressure);
@@ -134,7 +134,7 @@ static void print_profiles(const profiles *all, const hd_run *run)
         const profile *of = &all->of[k];
         for (int s = 0; s < SHELLS && of->norm > 0; s++) {
             const double each = 1.0 / (of->norm * all->disks_in[s]);
-            begin_row(run, hd_steps_step(hd_run_steps(run), of->step));
+            begin_row(run, hd_steps_step(hd_run_parts(run).steps, of->step));
             printf("%.5f,%.6f,%.6f,%.6f,0,0,0,0,0,0,0\n", sqrt((s + 0.5) / SHELLS),
                    of->radial[s] * each, of->angular[s] * each, of->momentum[s] * each);
         }
@@ -166,7 +166,7 @@ static double of_circle(int disks, double density, bool quick)
         require(hd_run_advance(run), "run");
         if (hd_run_report_due(run)) add_state(&all, run);
     }
-    const double pressure = hd_gas_read(hd_run_gas(run)).pressure;
+    const double pressure = hd_gas_read(hd_run_parts(run).gas).pressure;
     print_steps(run);
     print_profiles(&all, run);
     free(all.q);

@@ -42,8 +42,8 @@ static hd_scene_def scene_of(double density, int disks, double collisions)
 /** Spectrum and gas are averaged up to the same measured state. */
 static void course_end(course *c, int block, const hd_run *run)
 {
-    const hd_spectrum *s = hd_run_spectrum(run);
-    const hd_gas_means gas = hd_gas_read(hd_run_gas(run));
+    const hd_spectrum *s = hd_run_parts(run).spectrum;
+    const hd_gas_means gas = hd_gas_read(hd_run_parts(run).gas);
     const double time = hd_spectrum_time(s);
     c->blocks = block;
     c->entropy[block] = time * hd_spectrum_sum_up(s).ks_entropy;
@@ -57,7 +57,7 @@ static void follow(course *c, hd_run *run)
     double time = 0.0;
     while (hd_run_stage(run) < HD_FINISHED) {
         require(hd_run_advance(run), "run");
-        const double now = hd_spectrum_time(hd_run_spectrum(run));
+        const double now = hd_spectrum_time(hd_run_parts(run).spectrum);
         if (!hd_run_report_due(run) || !(now > time) || c->blocks == BLOCKS) continue;
         course_end(c, c->blocks + 1, run);
         time = now;
@@ -89,8 +89,8 @@ static void go(double density, int disks, double collisions)
     const double entropy = ratio(c.entropy, c.collisions, c.blocks, &entropy_error);
     const double largest = ratio(c.largest, c.collisions, c.blocks, &largest_error);
     printf("%g,%d,%.6g,%.6g,%.3g,%.6g,%.3g\n", density, disks,
-           hd_gas_read(hd_run_gas(run)).collision_rate, entropy / disks, entropy_error / disks,
-           largest, largest_error);
+           hd_gas_read(hd_run_parts(run).gas).collision_rate, entropy / disks,
+           entropy_error / disks, largest, largest_error);
     fflush(stdout);
     hd_run_free(run);
 }

@@ -73,7 +73,7 @@ static hd_scene_def scene_of(const box *b, int seed)
 
 static const hd_fields *fields_of(const harvest *h)
 {
-    return hd_modes_fields(hd_run_modes(h->run));
+    return hd_modes_fields(hd_run_parts(h->run).modes);
 }
 
 /** right[d][count] <- gram^-1 right, gram[d][d] of fields that are no combination of each other. */
@@ -182,8 +182,8 @@ static bool is_wanted(const hd_steps *steps, int index)
 static void report_measure(harvest *h, double since)
 {
     const int block = (int)fmin(BLOCKS - 1, BLOCKS * since / h->box.duration);
-    const hd_steps *steps = hd_run_steps(h->run);
-    hd_trajectory_state(hd_run_trajectory(h->run), NULL, h->p);
+    const hd_steps *steps = hd_run_parts(h->run).steps;
+    hd_trajectory_state(hd_run_parts(h->run).trajectory, NULL, h->p);
     for (int j = 0; j < h->box.disks; j++) h->flown += h->p[2 * j] * h->p[2 * j];
     h->reports++;
     for (int k = 0; k < STEPS && k < hd_steps_count(steps); k++) {
@@ -198,19 +198,18 @@ static void follow(harvest *h)
 {
     const hd_scene_def scene = scene_of(&h->box, h->seed);
     h->run = created(&scene);
-    double before[2], after[2];
     h->p = room(2 * (size_t)scene.disks, sizeof *h->p);
     h->sums = room(BLOCKS, sizeof *h->sums);
     for (int k = 0; k < STEPS; k++) h->known[k] = -1;
     go_on(h->run, HD_AVERAGING);
     const double start = hd_run_time(h->run);
-    hd_trajectory_virial(hd_run_trajectory(h->run), before);
+    const double before = hd_trajectory_told(hd_run_parts(h->run).trajectory).virial[0];
     while (hd_run_stage(h->run) < HD_FINISHED) {
         require(hd_run_advance(h->run), "run");
         if (hd_run_report_due(h->run)) report_measure(h, hd_run_time(h->run) - start);
     }
-    hd_trajectory_virial(hd_run_trajectory(h->run), after);
-    h->pressure = h->flown / h->reports + (after[0] - before[0]) / (hd_run_time(h->run) - start);
+    const double after = hd_trajectory_told(hd_run_parts(h->run).trajectory).virial[0];
+    h->pressure = h->flown / h->reports + (after - before) / (hd_run_time(h->run) - start);
     h->pressure /= scene.disks;
 }
 
@@ -253,7 +252,7 @@ static void sums_add(sums *s, const sums *more, double factor)
 
 static double wave_number(const harvest *h, int step)
 {
-    return hd_steps_step(hd_run_steps(h->run), step)->wave.number;
+    return hd_steps_step(hd_run_parts(h->run).steps, step)->wave.number;
 }
 
 /** P_xx / (sqrt(2) rho) for kT = 1: the velocity of the pressure alone. */
@@ -294,13 +293,13 @@ typedef struct row {
 static void row_gather(row *r, const harvest *h, int step)
 {
     for (int s = 0; s < h->box.seeds; s++) {
-        const hd_steps *steps = hd_run_steps(h[s].run);
+        const hd_steps *steps = hd_run_parts(h[s].run).steps;
         double value[NUMBERS], error[NUMBERS];
         if (!is_wanted(steps, step) || !estimate(value, error, &h[s], step)) continue;
         for (int n = 0; n < NUMBERS; n++)
             r->value[n][r->seeds] = value[n], r->error[n][r->seeds] = error[n];
         r->lambda += hd_steps_step(steps, step)->exponent;
-        r->apart += 1.0 / hd_gas_read(hd_run_gas(h[s].run)).collision_rate;
+        r->apart += 1.0 / hd_gas_read(hd_run_parts(h[s].run).gas).collision_rate;
         r->pressure += velocity_of_pressure(&h[s]);
         r->seeds++;
     }
@@ -316,7 +315,7 @@ static const char *const HEADER =
 /** The step of this index, if it stood alone in any run. */
 static void tell(const harvest *h, int step)
 {
-    const hd_step *of = hd_steps_step(hd_run_steps(h->run), step);
+    const hd_step *of = hd_steps_step(hd_run_parts(h->run).steps, step);
     const box *b = &h->box;
     row r = {0};
     double error;
@@ -346,7 +345,7 @@ int main(int argc, char **argv)
 #pragma omp parallel for schedule(dynamic)
     for (int r = 0; r < runs; r++) follow(&h[r]);
     for (int r = 0; r < runs; r += h[r].box.seeds)
-        for (int k = 0; k < STEPS && k < hd_steps_count(hd_run_steps(h[r].run)); k++)
+        for (int k = 0; k < STEPS && k < hd_steps_count(hd_run_parts(h[r].run).steps); k++)
             tell(&h[r], k);
     for (int r = 0; r < runs; r++) harvest_free(&h[r]);
     free(h);

@@ -73,10 +73,8 @@ typedef struct gas {
 
 static gas gas_at(hd_trajectory *disks)
 {
-    double virial[2];
-    hd_trajectory_virial(disks, virial);
-    const gas now = {disks, hd_trajectory_time(disks), virial[0],
-                     (double)hd_trajectory_collisions(disks)};
+    const hd_told told = hd_trajectory_told(disks);
+    const gas now = {disks, hd_trajectory_time(disks), told.virial[0], (double)told.collisions};
     return now;
 }
 
@@ -87,7 +85,7 @@ static gas settled(const box *b, int seed)
     hd_trajectory *disks;
     require(hd_trajectory_create(&disks, &scene), "sound");
     require(
-        hd_trajectory_extend(disks, NULL, 200.0 * b->disks / hd_trajectory_collision_rate(disks)),
+        hd_trajectory_extend(disks, NULL, 200.0 * b->disks / hd_trajectory_told(disks).expected),
         "sound");
     return gas_at(disks);
 }
@@ -160,7 +158,7 @@ static double mode(const box *b, int seed, double rate, double part, double *err
     scene.observe = HD_OBSERVE_STEPS | HD_OBSERVE_PHASES;
     hd_run *run = created(&scene);
     go_on(run, HD_FINISHED);
-    const hd_velocity v = hd_phases_velocity(hd_run_phases(run));
+    const hd_velocity v = hd_phases_velocity(hd_run_parts(run).phases);
     const double k = hd_wave_component(&scene, 0, 1);
     hd_run_free(run);
     *error = fmax(0.0, v.v_error);

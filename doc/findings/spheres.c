@@ -66,7 +66,7 @@ typedef struct seen {
 
 static seen look(const hd_run *run, int index)
 {
-    const hd_step *step = hd_steps_step(hd_run_steps(run), index);
+    const hd_step *step = hd_steps_step(hd_run_parts(run).steps, index);
     seen s = {.found = step->multiplicity,
               .lambda = step->exponent,
               .lambda_error = step->std_error,
@@ -75,7 +75,8 @@ static seen look(const hd_run *run, int index)
               .resolved = step->resolved,
               .members = step->members};
     double omega, error;
-    if (step->kind == HD_MODE_LP && hd_phases_rate(hd_run_phases(run), index, &omega, &error)) {
+    if (step->kind == HD_MODE_LP &&
+        hd_phases_rate(hd_run_parts(run).phases, index, &omega, &error)) {
         s.rate = fabs(omega);
         s.rate_error = fmax(error, 0.0);
     }
@@ -93,7 +94,7 @@ static void tell(const double *value, const double *stated, int count, double un
 static void tell_step(const box *b, hd_run *const run[], int index, double pressure,
                       double pressure_error)
 {
-    const hd_step *step = hd_steps_step(hd_run_steps(run[0]), index);
+    const hd_step *step = hd_steps_step(hd_run_parts(run[0]).steps, index);
     double found = 0.0, lambda[SEEDS], lambda_error[SEEDS], rate[SEEDS], rate_error[SEEDS];
     for (int s = 0; s < b->seeds; s++) {
         const seen one = look(run[s], index);
@@ -120,7 +121,7 @@ static double velocity_of_pressure(const box *b, hd_run *const run[], double *er
     const double unit = b->density * sqrt(3.0 * hd_gas_temperature(scene));
     double value[SEEDS], stated[SEEDS];
     for (int s = 0; s < b->seeds; s++) {
-        const hd_gas_means gas = hd_gas_read(hd_run_gas(run[s]));
+        const hd_gas_means gas = hd_gas_read(hd_run_parts(run[s]).gas);
         value[s] = gas.pressure_of[0] / unit;
         stated[s] = fmax(0.0, gas.pressure_of_error[0]) / unit;
     }
@@ -138,8 +139,8 @@ static void go(const box *b, bool quick)
     }
     double error;
     const double pressure = velocity_of_pressure(b, run, &error);
-    for (int index = 0; index < hd_steps_count(hd_run_steps(run[0])); index++)
-        if (hd_steps_step(hd_run_steps(run[0]), index)->kind != HD_MODE_ZERO)
+    for (int index = 0; index < hd_steps_count(hd_run_parts(run[0]).steps); index++)
+        if (hd_steps_step(hd_run_parts(run[0]).steps, index)->kind != HD_MODE_ZERO)
             tell_step(b, run, index, pressure, error);
     for (int s = 0; s < b->seeds; s++) hd_run_free(run[s]);
 }

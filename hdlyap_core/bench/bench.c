@@ -34,7 +34,7 @@ typedef struct result {
 
 static double spread_of(const hd_run *run)
 {
-    const hd_spectrum *spectrum = hd_run_spectrum(run);
+    const hd_spectrum *spectrum = hd_run_parts(run).spectrum;
     return hd_spectrum_exponent(spectrum, 0) -
            hd_spectrum_exponent(spectrum, hd_run_vectors(run) - 1);
 }
@@ -132,12 +132,12 @@ static void events_alone(int disks, double density, double collisions)
     scene.aspect = 1.0;
     hd_trajectory *trajectory;
     require(hd_trajectory_create(&trajectory, &scene), "trajectory");
-    const double length = collisions / hd_trajectory_collision_rate(trajectory);
+    const double length = collisions / hd_trajectory_told(trajectory).expected;
     require(hd_trajectory_extend(trajectory, NULL, length),
             "trajectory"); /* away from the lattice */
-    const double first = (double)hd_trajectory_collisions(trajectory), start = seconds();
+    const double first = (double)hd_trajectory_told(trajectory).collisions, start = seconds();
     require(hd_trajectory_extend(trajectory, NULL, 2.0 * length), "trajectory");
-    const double count = (double)hd_trajectory_collisions(trajectory) - first;
+    const double count = (double)hd_trajectory_told(trajectory).collisions - first;
     printf("%9d %9.2f %12.0f %22.2f\n", disks, density, count, count / (seconds() - start) * 1e-6);
     hd_trajectory_free(trajectory);
 }
@@ -179,9 +179,10 @@ static void one_exponent(int disks, double memory)
     hd_run *run = created(&scene);
     while (hd_run_stage(run) != HD_AVERAGING) require(hd_run_advance(run), "warm-up");
     const double before = hd_run_cost(run).replay;
-    const double first = (double)hd_trajectory_collisions(hd_run_trajectory(run));
+    const double first = (double)hd_trajectory_told(hd_run_parts(run).trajectory).collisions;
     while (hd_run_stage(run) != HD_FINISHED) require(hd_run_advance(run), "averaging");
-    const double count = (double)hd_trajectory_collisions(hd_run_trajectory(run)) - first;
+    const double count = (double)hd_trajectory_told(hd_run_parts(run).trajectory).collisions -
+                         first;
     const double rate = count / (hd_run_cost(run).replay - before);
     printf("%9d %12.0f %22.1f %12.1f %18.0f\n", disks, count, rate * 1e-6,
            rate * bytes_per_event * 1e-9, 100.0 * rate * bytes_per_event / memory);

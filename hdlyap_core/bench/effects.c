@@ -120,13 +120,14 @@ static void side_free(side *s)
  * them. */
 static void reconstruct(side *s)
 {
-    const hd_steps *steps = hd_run_steps(s->run);
-    hd_pmode *pmode = hd_run_pmode(s->run);
-    hd_trajectory_state(hd_run_trajectory(s->run), s->q, s->p);
+    const hd_steps *steps = hd_run_parts(s->run).steps;
+    hd_pmode *pmode = hd_run_parts(s->run).pmode;
+    hd_trajectory_state(hd_run_parts(s->run).trajectory, s->q, s->p);
     for (int k = 0; k < hd_steps_count(steps); k++) {
         const hd_step *step = hd_steps_step(steps, k);
         if (step->kind != HD_MODE_LP || !step->resolved) continue;
-        if (!hd_pmode_reconstruct(pmode, step, hd_run_modes(s->run), hd_run_frame_columns(s->run)))
+        if (!hd_pmode_reconstruct(pmode, step, hd_run_parts(s->run).modes,
+                                  hd_run_frame_columns(s->run)))
             continue;
         for (int c = hd_pmode_pairs(pmode); c < 2 * hd_pmode_pairs(pmode); c++)
             hd_pmode_divide(pmode, s->field, c, s->p);
@@ -137,7 +138,7 @@ static void reconstruct(side *s)
 static void report(side *s)
 {
     report_interval(s);
-    if (hd_run_pmode(s->run)) reconstruct(s);
+    if (hd_run_parts(s->run).pmode) reconstruct(s);
 }
 
 /** So many that each round has several orthonormalisations. */
@@ -148,7 +149,7 @@ static void round_of(side *s)
 
 static int steps_found(const side *s)
 {
-    const hd_steps *steps = hd_run_steps(s->run);
+    const hd_steps *steps = hd_run_parts(s->run).steps;
     int found = 0;
     for (int k = 0; steps && k < hd_steps_count(steps); k++)
         found += hd_steps_step(steps, k)->resolved;

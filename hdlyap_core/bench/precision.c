@@ -135,7 +135,8 @@ static void measure_fixed(study *s, factor_method method, int pieces, point *p)
 /** To the first measured state behind the window's end, measuring dgemm in between. */
 static void average(hd_run *run, gemm *g, double length, sample *speed)
 {
-    while (hd_run_stage(run) < HD_AVERAGING || hd_spectrum_time(hd_run_spectrum(run)) < length) {
+    while (hd_run_stage(run) < HD_AVERAGING ||
+           hd_spectrum_time(hd_run_parts(run).spectrum) < length) {
         require(hd_run_advance(run), "averaging");
         gemm_measure(g);
         sample_add(speed, gemm_last(g));
@@ -167,10 +168,10 @@ static void measure_chosen(study *s, double accuracy, point *p)
     average(run, s->g, length, &speed);
     const hd_cost after = hd_run_cost(run);
     const long steps = after.orthonormalisations - before.orthonormalisations;
-    s->w.length = hd_spectrum_time(hd_run_spectrum(run));
+    s->w.length = hd_spectrum_time(hd_run_parts(run).spectrum);
     *p = (point){.measured = true, .accuracy = accuracy, .interval = s->w.length / (double)steps};
     for (int l = 0; l < s->w.vectors; l++)
-        s->exponents[l] = hd_spectrum_exponent(hd_run_spectrum(run), l);
+        s->exponents[l] = hd_spectrum_exponent(hd_run_parts(run).spectrum, l);
     fill_cost(s, p, after.replay - before.replay, after.ortho - before.ortho,
               sample_median(&speed));
     hd_run_free(run);

@@ -74,9 +74,9 @@ static void tell_traffic(const counts *a, const counts *b)
 
 static void tell_steps(const hd_run *run)
 {
-    const hd_steps *steps = hd_run_steps(run);
-    printf("lambda_1 %.5f +- %.5f\n", hd_spectrum_exponent(hd_run_spectrum(run), 0),
-           hd_spectrum_std_error(hd_run_spectrum(run), 0));
+    const hd_steps *steps = hd_run_parts(run).steps;
+    printf("lambda_1 %.5f +- %.5f\n", hd_spectrum_exponent(hd_run_parts(run).spectrum, 0),
+           hd_spectrum_std_error(hd_run_parts(run).spectrum, 0));
     for (int k = 0; k < hd_steps_count(steps); k++) {
         const hd_step *s = hd_steps_step(steps, k);
         if (s->resolved && !s->conjugate && s->kind != HD_MODE_ZERO)

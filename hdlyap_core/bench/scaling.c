@@ -97,7 +97,7 @@ static double average(hd_run *run, const study *all)
 static void fill(const hd_run *run, double speed, double begin, const double before[PARTS],
                  point *p)
 {
-    const hd_spectrum *spectrum = hd_run_spectrum(run);
+    const hd_spectrum *spectrum = hd_run_parts(run).spectrum;
     const int n = hd_run_vectors(run);
     double after[PARTS];
     read_costs(run, after);

@@ -43,12 +43,12 @@ static double of_vectors(const hd_run *run)
 {
     const double ORTHOGONALITY = 1e-6;
     const hd_cost cost = hd_run_cost(run);
-    return cost.error_bound * hd_spectrum_time(hd_run_spectrum(run)) + ORTHOGONALITY;
+    return cost.error_bound * hd_spectrum_time(hd_run_parts(run).spectrum) + ORTHOGONALITY;
 }
 
 static void print_spectrum(const hd_run *run)
 {
-    const hd_spectrum *spectrum = hd_run_spectrum(run);
+    const hd_spectrum *spectrum = hd_run_parts(run).spectrum;
     const double bound = hd_run_cost(run).error_bound;
     for (int col = 0; col < hd_run_vectors(run); col++)
         print("exponent", hd_spectrum_exponent(spectrum, col), bound);
@@ -57,7 +57,7 @@ static void print_spectrum(const hd_run *run)
 
 static void print_steps(const hd_run *run)
 {
-    const hd_steps *steps = hd_run_steps(run);
+    const hd_steps *steps = hd_run_parts(run).steps;
     const double vectors = of_vectors(run);
     for (int k = 0; k < hd_steps_count(steps); k++) {
         const hd_step *step = hd_steps_step(steps, k);
@@ -67,7 +67,7 @@ static void print_steps(const hd_run *run)
         print("multiplicity", step->multiplicity, 2.0 * vectors * step->count);
         print("step_exponent", step->exponent, hd_run_cost(run).error_bound + vectors);
     }
-    const hd_modes *modes = hd_run_modes(run);
+    const hd_modes *modes = hd_run_parts(run).modes;
     for (int s = 0; s < hd_fields_subspaces(hd_modes_fields(modes)); s++)
         for (int col = 0; col < hd_modes_vectors(modes); col++)
             print("weight", hd_modes_average(modes, s, HD_WEIGHT)[col], 2.0 * vectors);
@@ -76,7 +76,7 @@ static void print_steps(const hd_run *run)
 /** More: of looks in single precision, else 0. */
 static void print_phases(const hd_run *run, double more)
 {
-    const hd_phases *phases = hd_run_phases(run);
+    const hd_phases *phases = hd_run_parts(run).phases;
     const double vectors = of_vectors(run) + more;
     for (int k = 0; k < hd_phases_count(phases); k++) {
         const hd_phase *phase = hd_phases_phase(phases, k);
@@ -102,7 +102,7 @@ static int show(unsigned observe, int threads, double more)
         fprintf(stderr, "%s\n", hd_status_text(status));
         return 1;
     }
-    print("collisions", (double)hd_trajectory_collisions(hd_run_trajectory(run)), 0.0);
+    print("collisions", (double)hd_trajectory_told(hd_run_parts(run).trajectory).collisions, 0.0);
     print_spectrum(run);
     print_steps(run);
     print_phases(run, more);

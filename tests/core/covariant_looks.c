@@ -67,7 +67,7 @@ static void print_state(const hd_run *run)
 {
     const int disks = hd_run_scene(run)->disks;
     double state[1 + 4 * DISKS_MAX] = {hd_run_time(run)};
-    hd_trajectory_state(hd_run_trajectory(run), state + 1, state + 1 + 2 * disks);
+    hd_trajectory_state(hd_run_parts(run).trajectory, state + 1, state + 1 + 2 * disks);
     print("", "state", state, 1 + 4 * disks);
 }
 
@@ -75,7 +75,8 @@ static void print_state(const hd_run *run)
 static void print_scene(const hd_run *run)
 {
     double box[2];
-    const hd_fields *fields = hd_modes_fields(hd_covariant_read(hd_run_covariant(run)).half[0]);
+    const hd_fields *fields = hd_modes_fields(
+        hd_covariant_read(hd_run_parts(run).covariant).half[0]);
     hd_scene_box(hd_run_scene(run), box);
     print("", "box", box, 2);
     for (int s = 0; s < hd_fields_subspaces(fields); s++) {
@@ -160,11 +161,11 @@ int main(int argc, char **argv)
     hd_status status = hd_run_create(&run, &scene, message, sizeof message);
     if (status == HD_OK) print_scene(run);
     while (status == HD_OK && hd_run_stage(run) != HD_FINISHED) {
-        const long windows = hd_covariant_read(hd_run_covariant(run)).windows;
+        const long windows = hd_covariant_read(hd_run_parts(run).covariant).windows;
         status = hd_run_advance(run);
         if (status == HD_OK && hd_run_stage(run) != HD_EQUILIBRATING) print_state(run);
-        if (hd_covariant_read(hd_run_covariant(run)).windows > windows)
-            print_window(hd_run_covariant(run), scene.disks);
+        if (hd_covariant_read(hd_run_parts(run).covariant).windows > windows)
+            print_window(hd_run_parts(run).covariant, scene.disks);
     }
     hd_run_free(run);
     if (status != HD_OK) fprintf(stderr, "%s %s\n", hd_status_text(status), message);

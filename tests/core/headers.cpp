@@ -9,6 +9,6 @@ int main()
     if (hd_trajectory_create(&trajectory, &def) != HD_OK) return 1;
     hd_trajectory_free(trajectory);
     hd_run_free(nullptr);
-    if (hd_waves(&def, nullptr, 0) < 0 || !(hd_steps_threshold() > 0)) return 1;
+    if (hd_waves(&def, nullptr, 0) < 0 || !(HD_STEPS_THRESHOLD > 0)) return 1;
     return hd_status_text(HD_OK) == nullptr || hd_blas_query().threads < 0;
 }

@@ -19,7 +19,7 @@ static hd_status compute(hd_run **run, double *exponents)
     hd_status status = hd_run_create(run, &def, NULL, 0);
     while (status == HD_OK && hd_run_stage(*run) != HD_FINISHED) status = hd_run_advance(*run);
     for (int col = 0; status == HD_OK && col < EXPONENTS; col++)
-        exponents[col] = hd_spectrum_exponent(hd_run_spectrum(*run), col);
+        exponents[col] = hd_spectrum_exponent(hd_run_parts(*run).spectrum, col);
     return status;
 }
 

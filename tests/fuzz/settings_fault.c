@@ -26,7 +26,7 @@ static const char *line_fault(const hdr_params *params, const char *line, size_t
 
 static const char *fields_fault(const settings *set)
 {
-    const int vectors = hd_scene_vectors(&set->def);
+    const int vectors = hd_scene_counts(&set->def).vectors;
     if (!set->fields.text || set->fields.count < 0) return "no choice of fields";
     for (int k = 0; k < set->fields.count; k++)
         if (set->fields.index[k] < 1 || set->fields.index[k] > vectors) return "no such vector";
@@ -40,7 +40,7 @@ static const char *accepted_fault(const settings *set)
     if (set->observables & ~topics_that_are(TOPIC_OBSERVABLE)) return "no such observable";
     if (set->awaited & ~published) return "waits for what is not published";
     if (set->def.observe != topic_stages(set->observables)) return "other stages than topics";
-    if (set->def.observe && hd_scene_vectors(&set->def) == 0) return "modes without vectors";
+    if (set->def.observe && hd_scene_counts(&set->def).vectors == 0) return "modes without vectors";
     if (!(set->field_interval >= 0.0 && set->field_interval <= 1e12)) return "no time";
     if (!(set->checkpoint_interval >= 0.0 && set->checkpoint_interval <= 1e12)) return "no time";
     return set->pace >= 0.0 && set->pace <= 1e12 ? fields_fault(set) : "no pace";

@@ -26,7 +26,7 @@ int main(void)
         hd_run_free(run);
         return 1;
     }
-    const hd_spectrum *spectrum = hd_run_spectrum(run);
+    const hd_spectrum *spectrum = hd_run_parts(run).spectrum;
     for (int col = 0; col < hd_run_vectors(run); col++) {
         printf("%d %.3f\n", col + 1, hd_spectrum_exponent(spectrum, col));
     }

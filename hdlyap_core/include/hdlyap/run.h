@@ -166,30 +166,29 @@ HD_MUST_CHECK hd_status hd_run_reset_average(hd_run *run);
 hd_stage hd_run_stage(const hd_run *run);
 double hd_run_time(const hd_run *run); /**< simulated time since the start */
 const hd_scene_def *hd_run_scene(const hd_run *run);
-int hd_run_vectors(const hd_run *run);        /**< n, 0 without exponents */
-int hd_run_ranks(const hd_run *run);          /**< 1 unless shared */
-int hd_run_threads(const hd_run *run);        /**< in use, of this rank */
-int hd_run_threads_denied(const hd_run *run); /**< wanted, but not granted by OpenMP; 0: none */
-const hd_trajectory *hd_run_trajectory(const hd_run *run);
-const hd_spectrum *hd_run_spectrum(const hd_run *run); /**< NULL without exponents */
-const hd_modes *hd_run_modes(const hd_run *run); /**< NULL unless observed, as the two below */
-const hd_steps *hd_run_steps(const hd_run *run);
-const hd_phases *hd_run_phases(const hd_run *run);       /**< of the LP steps */
-const hd_phases *hd_run_t_phases(const hd_run *run);     /**< NULL unless observed */
-const hd_structure *hd_run_structure(const hd_run *run); /**< NULL unless observed */
-/** NULL unless observed. Responses are those of the last report while averages are taken. */
-const hd_hydro *hd_run_hydro(const hd_run *run);
-/** NULL unless fields are observed: for whoever reconstructs modes of hd_run_frame_columns where
- * they are due. */
-hd_pmode *hd_run_pmode(const hd_run *run);
+int hd_run_vectors(const hd_run *run); /**< n, 0 without exponents */
+int hd_run_ranks(const hd_run *run);   /**< 1 unless shared */
+int hd_run_threads(const hd_run *run); /**< in use, of this rank */
+int hd_run_threads_denied(
+    const hd_run *run); /** What a run is made of; NULL what the scene does not ask for. */
+typedef struct hd_parts {
+    const hd_trajectory *trajectory; /**< always there */
+    const hd_spectrum *spectrum;     /**< NULL without exponents */
+    const hd_modes *modes;
+    const hd_steps *steps;
+    const hd_phases *phases, *t_phases; /**< of the LP steps, of the T steps */
+    const hd_structure *structure;
+    const hd_hydro *hydro; /**< responses are those of the last report while averages are taken */
+    const hd_gas *gas;
+    hd_localization *localization;
+    const hd_covariant *covariant;
+    /** For whoever reconstructs modes of hd_run_frame_columns where fields are due. */
+    hd_pmode *pmode;
+} hd_parts;
+hd_parts hd_run_parts(const hd_run *run);
+
 /** Simulated time of the phases; negative while none have been followed. */
 double hd_run_followed(const hd_run *run);
-const hd_covariant *hd_run_covariant(const hd_run *run); /**< NULL unless observed */
-/** NULL unless observed. Up to the last measured state; without exponents up to some 80 collisions
- * of each disk ago, at a report up to now. */
-const hd_gas *hd_run_gas(const hd_run *run);
-/** NULL unless observed; up to the last measured state. */
-hd_localization *hd_run_localization(const hd_run *run);
 hd_cost hd_run_cost(const hd_run *run);
 /** True if averages have been taken for so long (without exponents, as long as with them) and less
  * than a tenth of the disks was seen away from its place since: all errors are those of this one

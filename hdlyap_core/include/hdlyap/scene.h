@@ -110,12 +110,6 @@ HD_MUST_CHECK hd_status hd_scene_check(const hd_scene_def *def, char *message, s
  * 2 R, with R = sqrt(N / (pi rho)). */
 void hd_scene_box(const hd_scene_def *def, double *box);
 
-/** Number of vanishing exponents: 2, and 2 for each periodic direction; 4 in a circle. */
-int hd_scene_zero_exponents(const hd_scene_def *def);
-
-/** Number of positive exponents, (HD_ROWS N - Z) / 2. */
-int hd_scene_positive_exponents(const hd_scene_def *def);
-
 /** Directions of the null space [T9]: uniform along x, along y, of spheres along z (where
  * periodic), momenta. In a circle HD_NULL_X is a rotation about the centre. */
 enum { HD_NULL_X, HD_NULL_Y, HD_NULL_P = HD_DIM, HD_NULLS };
@@ -123,10 +117,14 @@ enum { HD_NULL_X, HD_NULL_Y, HD_NULL_P = HD_DIM, HD_NULLS };
 /** Time with the frame before the averaging, as asked for or chosen [T12]. */
 double hd_scene_warmup(const hd_scene_def *def);
 
-/** Number of exponents and tangent vectors that come out, 0 .. HD_ROWS N. */
-int hd_scene_vectors(const hd_scene_def *def);
-/** Number of tangent vectors that are carried for them: half for all of them [T18]. */
-int hd_scene_carried(const hd_scene_def *def);
+/** Numbers of exponents. */
+typedef struct hd_counts {
+    int zero;     /**< that vanish: 2, and 2 for each periodic direction; 4 in a circle */
+    int positive; /**< half of all but these */
+    int vectors;  /**< that come out, with their tangent vectors: 0 .. all, 2 for each coordinate */
+    int carried;  /**< tangent vectors that are carried for them: half for all of them [T18] */
+} hd_counts;
+hd_counts hd_scene_counts(const hd_scene_def *def);
 
 HD_API_END
 #endif

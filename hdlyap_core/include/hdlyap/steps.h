@@ -58,7 +58,7 @@ double hd_relation_open(const hd_scene_def *def, hd_mode_kind kind);
 
 /** Fewest exponents of which one may belong to a step of the waves that the scene asks for, 0 if it
  * asks for none: each field of a wave in the box that can have a smaller exponent is a vector below
- * it. All of them are within hd_scene_positive_exponents. */
+ * it. All of them are within hd_counts.positive. */
 int hd_steps_exponents_least(const hd_scene_def *def);
 
 /** The error is a standard error with all that the form of the relation leaves open, times the
@@ -90,7 +90,7 @@ typedef struct hd_dispersion {
 typedef struct hd_steps hd_steps;
 /** A step is resolved if at least this part of its expected multiplicity is found, beyond what
  * random vectors would show. */
-double hd_steps_threshold(void);
+#define HD_STEPS_THRESHOLD 0.5
 
 /** Steps of all subspaces in their order, the zero modes, and with all 4N vectors the conjugate
  * steps in the same order; resolved or not: the number is constant. */

@@ -29,12 +29,16 @@ void hd_trajectory_free(hd_trajectory *trajectory);
 HD_MUST_CHECK hd_status hd_trajectory_extend(hd_trajectory *trajectory, hd_record *record,
                                              double t_end);
 
-double hd_trajectory_time(const hd_trajectory *trajectory);         /**< simulated time */
-uint64_t hd_trajectory_collisions(const hd_trajectory *trajectory); /**< pair events so far */
-/** Virial of the pair events so far, by direction: sum of |p.n| n_d^2 [sigma momentum] [T19]. */
-void hd_trajectory_virial(const hd_trajectory *trajectory, double *virial);
-/** Estimate of the pair events per time unit, by Enskog's theory [T2]. */
-double hd_trajectory_collision_rate(const hd_trajectory *trajectory);
+double hd_trajectory_time(const hd_trajectory *trajectory); /**< simulated time */
+
+/** What has happened so far. */
+typedef struct hd_told {
+    uint64_t collisions, wall_events; /**< of pairs; with walls */
+    /** Virial of the pair events, by direction: sum of |p.n| n_d^2 [sigma momentum] [T19]. */
+    double virial[HD_DIMENSION_MAX];
+    double expected; /**< pair events in a time unit, by Enskog's theory [T2] */
+} hd_told;
+hd_told hd_trajectory_told(const hd_trajectory *trajectory);
 
 /** State now: positions q inside the box, x0 y0 .. x1 y1 .., and momenta p. Either may be NULL.
  * Cost O(N). */

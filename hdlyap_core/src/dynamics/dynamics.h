@@ -13,12 +13,6 @@
 /** Columns that a thread carries at once, and their bytes in its cache. */
 enum { HD_BLOCK_BYTES = 512 * 1024, HD_BLOCK_WIDTH_MAX = 64 };
 
-/** What a gas is told of, counted since the start. */
-typedef struct hd_told {
-    uint64_t collisions, wall_events;
-    double virial[HD_DIMENSION_MAX]; /**< of the collisions, by direction [T19] */
-} hd_told;
-
 typedef struct hd_dynamics {
     const char *particles; /**< in the plural */
     int dimension;         /**< of the space */
@@ -35,7 +29,7 @@ typedef struct hd_dynamics {
     double (*time)(const void *state);
     void (*state)(const void *state, double *q, double *p); /**< either may be NULL */
     double (*kinetic_energy)(const void *state);
-    void (*tell)(const void *state, hd_told *told);
+    void (*tell)(const void *state, hd_told *told);            /**< all but what is expected */
     void (*examine)(const void *state, hd_examined *examined); /**< cost O(N) */
     void (*archive)(void *state, hd_archive *archive);
     uint32_t (*fingerprint)(const void *state); /**< of positions and momenta to the last bit */

@@ -37,22 +37,29 @@ hd_status hd_trajectory_extend(hd_trajectory *tr, hd_record *record, double t_en
     return tr->of->advance(tr->state, record, t_end);
 }
 
-static hd_told told(const hd_trajectory *tr)
+hd_told hd_trajectory_told(const hd_trajectory *tr)
 {
-    hd_told all;
-    tr->of->tell(tr->state, &all);
-    return all;
+    hd_told told;
+    tr->of->tell(tr->state, &told);
+    told.expected = tr->rate;
+    return told;
 }
 
 double hd_trajectory_time(const hd_trajectory *tr) { return tr->of->time(tr->state); }
 int hd_trajectory_disks(const hd_trajectory *tr) { return tr->particles; }
-uint64_t hd_trajectory_collisions(const hd_trajectory *tr) { return told(tr).collisions; }
-uint64_t hd_trajectory_wall_events(const hd_trajectory *tr) { return told(tr).wall_events; }
+uint64_t hd_trajectory_collisions(const hd_trajectory *tr)
+{
+    return hd_trajectory_told(tr).collisions;
+}
+uint64_t hd_trajectory_wall_events(const hd_trajectory *tr)
+{
+    return hd_trajectory_told(tr).wall_events;
+}
 double hd_trajectory_collision_rate(const hd_trajectory *tr) { return tr->rate; }
 
 void hd_trajectory_virial(const hd_trajectory *tr, double *virial)
 {
-    const hd_told all = told(tr);
+    const hd_told all = hd_trajectory_told(tr);
     for (int d = 0; d < tr->of->dimension; d++) virial[d] = all.virial[d];
 }
 

@@ -10,7 +10,12 @@
  * HD_OVERLAP for disks deeper than hd_examined.overlap_max. */
 HD_MUST_CHECK hd_status hd_trajectory_create_from(hd_trajectory **out, const hd_scene_def *def,
                                                   const double *q, const double *p);
+/* See hd_told. */
+uint64_t hd_trajectory_collisions(const hd_trajectory *trajectory);
 uint64_t hd_trajectory_wall_events(const hd_trajectory *trajectory);
+void hd_trajectory_virial(const hd_trajectory *trajectory, double *virial);
+double hd_trajectory_collision_rate(const hd_trajectory *trajectory);
+
 int hd_trajectory_disks(const hd_trajectory *trajectory); /**< N */
 
 #endif

@@ -68,7 +68,7 @@ double hd_sets_trace(const hd_sets *sets, int s, const hd_set *set)
 double hd_sets_threshold(int rows, int d)
 {
     const double chance = 2.0 * d / rows;
-    return chance > 0.5 ? INFINITY : chance + HD_SET_THRESHOLD * (1.0 - chance);
+    return chance > 0.5 ? INFINITY : chance + HD_STEPS_THRESHOLD * (1.0 - chance);
 }
 
 /** Window of `count` columns with the largest sum of weights. */

@@ -5,10 +5,10 @@
 
 #include "hdlyap/modes.h"
 #include "hdlyap/spectrum.h"
+#include "hdlyap/steps.h"
 
 /** A set is resolved if of each of its steps at least this part of the expected multiplicity is
  * found, beyond what random vectors would show. */
-#define HD_SET_THRESHOLD 0.5
 
 /** Larger sets are not resolved. */
 enum { HD_SET_VECTORS_MAX = 64 };
@@ -47,8 +47,8 @@ double hd_sets_trace(const hd_sets *sets, int s, const hd_set *set);
 
 /** Least part of what is expected that counts as found, with d of `rows` / 2 dimensions: of a
  * vector in the fields of d dimensions, or of any subspace in a window of d columns. Random vectors
- * have chance = 2 d / rows of it on average, of the rest HD_SET_THRESHOLD is asked; INFINITY where
- * chance is above 1/2. */
+ * have chance = 2 d / rows of it on average, of the rest HD_STEPS_THRESHOLD is asked; INFINITY
+ * where chance is above 1/2. */
 double hd_sets_threshold(int rows, int d);
 
 #endif

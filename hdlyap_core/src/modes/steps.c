@@ -252,7 +252,7 @@ static void zero_find(hd_steps *steps, int *sets)
     for (int col = steps->zero_first; col < steps->zero_end; col++)
         trace += null_weight(steps, col);
     const double chance = (double)step->expected / steps->rows;
-    const double least = chance + HD_SET_THRESHOLD * (1.0 - chance);
+    const double least = chance + HD_STEPS_THRESHOLD * (1.0 - chance);
     if (count == 0 || !(trace >= least * count)) return;
     step->resolved = true;
     step->col = steps->zero_first;
@@ -281,7 +281,6 @@ void hd_steps_find(hd_steps *steps, const hd_spectrum *spectrum)
                     steps->warmup + hd_spectrum_time(spectrum));
 }
 
-double hd_steps_threshold(void) { return HD_SET_THRESHOLD; }
 int hd_steps_count(const hd_steps *steps) { return steps->count; }
 const hd_modes *hd_steps_modes(const hd_steps *steps) { return steps->modes; }
 

@@ -8,6 +8,7 @@
 #include "observe/observable.h"
 #include "scene/container.h"
 #include "scene/scene.h"
+#include "dynamics/trajectory.h"
 
 /** Series that are averaged: per time unit; of the virial one for each direction. */
 enum { COLLISIONS, VIRIAL_X, SERIES_MAX = VIRIAL_X + HD_DIMENSION_MAX };

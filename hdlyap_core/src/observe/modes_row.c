@@ -4,6 +4,7 @@
 #include "modes/modes.h"
 #include "modes/steps.h"
 #include "observe/observable.h"
+#include "scene/scene.h"
 
 /* ---- modes --------------------------------------------------------------------------------- */
 

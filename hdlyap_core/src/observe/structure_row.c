@@ -4,6 +4,7 @@
 #include "modes/modes.h"
 #include "modes/structure.h"
 #include "observe/observable.h"
+#include "scene/scene.h"
 
 static double structure_bytes(const hd_scene_def *scene, int ranks)
 {

@@ -185,7 +185,7 @@ double hd_carrier_bytes(const hd_scene_def *scene, int threads, int ranks)
 {
     const double disks = scene->disks, n = hd_scene_vectors(scene),
                  carried = hd_scene_carried(scene), here = ceil(carried / ranks);
-    if (n == 0) return 0.0;
+    if (n <= 0) return 0.0;
     const double record = hd_dynamics_of(scene)->record_bytes(
         fmin(HD_EVENTS_MAX, EVENTS_OF_A_DISK * disks));
     const double frame = hd_frame_bytes(rows_of(scene), here, threads);

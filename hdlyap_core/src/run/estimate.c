@@ -58,17 +58,17 @@ hd_extent hd_extent_of(const hd_scene_def *def, const hd_run *run)
     const int known = hd_scene_positive_exponents(def) + hd_scene_zero_exponents(def);
     hd_extent e = {.disks = def->disks, .vectors = hd_scene_vectors(def)};
     if (def->observe & HD_OBSERVE_STRUCTURE) e.waves = hd_structure_waves_of(def);
-    if (hd_run_hydro(run)) e.responses = hd_hydro_count(hd_run_hydro(run));
+    if (hd_run_parts(run).hydro) e.responses = hd_hydro_count(hd_run_parts(run).hydro);
     if (def->observe & HD_OBSERVE_COVARIANT) {
         e.subspaces = subspaces_of(def);
         if (e.vectors > known) e.angles = HD_PAIRS_OF_SPACES;
     }
-    if (hd_run_steps(run)) {
-        e.steps = hd_steps_count(hd_run_steps(run));
-        count_examples(&e, hd_run_steps(run));
+    if (hd_run_parts(run).steps) {
+        e.steps = hd_steps_count(hd_run_parts(run).steps);
+        count_examples(&e, hd_run_parts(run).steps);
     }
-    if (hd_run_phases(run)) e.phases = hd_phases_count(hd_run_phases(run));
-    if (hd_run_t_phases(run)) e.t_phases = hd_phases_count(hd_run_t_phases(run));
+    if (hd_run_parts(run).phases) e.phases = hd_phases_count(hd_run_parts(run).phases);
+    if (hd_run_parts(run).t_phases) e.t_phases = hd_phases_count(hd_run_parts(run).t_phases);
     return e;
 }
 

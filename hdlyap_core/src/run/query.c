@@ -23,26 +23,23 @@ int hd_run_vectors(const hd_run *run) { return run->carrier.vectors; }
 int hd_run_ranks(const hd_run *run) { return hd_communicator_ranks(run->communicator); }
 int hd_run_threads(const hd_run *run) { return run->carrier.threads; }
 int hd_run_threads_denied(const hd_run *run) { return run->carrier.threads_denied; }
-const hd_trajectory *hd_run_trajectory(const hd_run *run) { return run->advance.trajectory; }
 const hd_frame *hd_run_frame(const hd_run *run) { return run->carrier.frame; }
-const hd_spectrum *hd_run_spectrum(const hd_run *run) { return run->carrier.spectrum; }
-const hd_modes *hd_run_modes(const hd_run *run) { return part(run, HD_OBSERVED_modes); }
-const hd_steps *hd_run_steps(const hd_run *run) { return part(run, HD_OBSERVED_steps); }
-const hd_phases *hd_run_phases(const hd_run *run) { return part(run, HD_OBSERVED_phases); }
-const hd_phases *hd_run_t_phases(const hd_run *run) { return part(run, HD_OBSERVED_t_phases); }
-const hd_structure *hd_run_structure(const hd_run *run) { return part(run, HD_OBSERVED_structure); }
-const hd_hydro *hd_run_hydro(const hd_run *run) { return part(run, HD_OBSERVED_hydro); }
-hd_pmode *hd_run_pmode(const hd_run *run) { return part(run, HD_OBSERVED_fields); }
-const hd_gas *hd_run_gas(const hd_run *run) { return part(run, HD_OBSERVED_gas); }
-hd_localization *hd_run_localization(const hd_run *run)
-{
-    return part(run, HD_OBSERVED_localization);
-}
 
-const hd_covariant *hd_run_covariant(const hd_run *run)
+hd_parts hd_run_parts(const hd_run *run)
 {
     const hd_windows *windows = part(run, HD_OBSERVED_covariant);
-    return windows ? hd_windows_covariant(windows) : NULL;
+    return (hd_parts){.trajectory = run->advance.trajectory,
+                      .spectrum = run->carrier.spectrum,
+                      .modes = part(run, HD_OBSERVED_modes),
+                      .steps = part(run, HD_OBSERVED_steps),
+                      .phases = part(run, HD_OBSERVED_phases),
+                      .t_phases = part(run, HD_OBSERVED_t_phases),
+                      .structure = part(run, HD_OBSERVED_structure),
+                      .hydro = part(run, HD_OBSERVED_hydro),
+                      .gas = part(run, HD_OBSERVED_gas),
+                      .localization = part(run, HD_OBSERVED_localization),
+                      .covariant = windows ? hd_windows_covariant(windows) : NULL,
+                      .pmode = part(run, HD_OBSERVED_fields)};
 }
 
 double hd_run_followed(const hd_run *run) { return run->followed; }

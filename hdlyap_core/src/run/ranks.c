@@ -11,6 +11,7 @@
 #include "hdlyap/blas.h"
 #include "hdlyap/hdlyap.h"
 #include "hdlyap/room.h"
+#include "scene/scene.h"
 
 /** What must be the same on all ranks; its size is a multiple of that of a double, which is what
  * they share. */

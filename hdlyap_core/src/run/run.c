@@ -239,7 +239,7 @@ static hd_status orthonormalise(hd_run *run, bool measured)
 /** First of the vectors that somebody wants to read now; n if nobody does. */
 static int first_wanted(const hd_run *run)
 {
-    const hd_steps *steps = hd_run_steps(run);
+    const hd_steps *steps = hd_run_parts(run).steps;
     const bool fields = hd_agenda_is_due(&run->agenda, HD_DUE_FIELDS) &&
                         is_needed(run, HD_NEEDS_FIELDS | HD_NEEDS_ALL);
     const bool wanted = fields || is_needed(run, HD_NEEDS_REPORTS | HD_NEEDS_ALL);

@@ -139,7 +139,7 @@ static stated read_ks_entropy(const hd_run *run, const aim *goal)
 /** -1: not resolved. */
 static int step_of(const hd_run *run, const aim *goal)
 {
-    const hd_steps *steps = hd_run_steps(run);
+    const hd_steps *steps = hd_run_parts(run).steps;
     for (int k = 0; k < hd_steps_count(steps); k++) {
         const hd_step *step = hd_steps_step(steps, k);
         if (step->kind == goal->quantity->kind && !step->conjugate && step->resolved &&
@@ -153,7 +153,7 @@ static stated read_step(const hd_run *run, const aim *goal)
 {
     const int k = step_of(run, goal);
     if (k < 0) return UNKNOWN;
-    const hd_step *step = hd_steps_step(hd_run_steps(run), k);
+    const hd_step *step = hd_steps_step(hd_run_parts(run).steps, k);
     return (stated){step->exponent, step->std_error, 0.0};
 }
 
@@ -161,7 +161,8 @@ static stated read_omega(const hd_run *run, const aim *goal)
 {
     stated out = {.open = 0.0};
     const int k = step_of(run, goal);
-    const bool known = k >= 0 && hd_phases_rate(hd_run_phases(run), k, &out.value, &out.error);
+    const bool known = k >= 0 &&
+                       hd_phases_rate(hd_run_parts(run).phases, k, &out.value, &out.error);
     return known ? out : UNKNOWN;
 }
 
@@ -173,7 +174,7 @@ static stated with_sampling(double value, double error, double sampled)
 
 static stated read_slope(const hd_run *run, const aim *goal)
 {
-    const hd_dispersion d = hd_steps_dispersion(hd_run_steps(run), run->carrier.spectrum,
+    const hd_dispersion d = hd_steps_dispersion(hd_run_parts(run).steps, run->carrier.spectrum,
                                                 goal->quantity->kind);
     if (d.points == 0) return UNKNOWN;
     return with_sampling(d.c.value, d.c.error, d.c_sampling_error);
@@ -182,21 +183,21 @@ static stated read_slope(const hd_run *run, const aim *goal)
 static stated read_velocity(const hd_run *run, const aim *goal)
 {
     (void)goal;
-    const hd_velocity v = hd_phases_velocity(hd_run_phases(run));
+    const hd_velocity v = hd_phases_velocity(hd_run_parts(run).phases);
     return v.phases > 0 ? with_sampling(v.v, v.v_error, v.v_sampling_error) : UNKNOWN;
 }
 
 static stated read_collision_rate(const hd_run *run, const aim *goal)
 {
     (void)goal;
-    const hd_gas_means means = hd_gas_read(hd_run_gas(run));
+    const hd_gas_means means = hd_gas_read(hd_run_parts(run).gas);
     return (stated){means.collision_rate, means.collision_rate_error, 0.0};
 }
 
 static stated read_pressure(const hd_run *run, const aim *goal)
 {
     (void)goal;
-    const hd_gas_means means = hd_gas_read(hd_run_gas(run));
+    const hd_gas_means means = hd_gas_read(hd_run_parts(run).gas);
     return (stated){means.pressure, means.pressure_error, 0.0};
 }
 

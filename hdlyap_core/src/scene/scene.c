@@ -81,6 +81,14 @@ int hd_scene_carried(const hd_scene_def *def)
     return def->exponents == HD_EXPONENTS_ALL ? all / 2 : all;
 }
 
+hd_counts hd_scene_counts(const hd_scene_def *def)
+{
+    return (hd_counts){.zero = hd_scene_zero_exponents(def),
+                       .positive = hd_scene_positive_exponents(def),
+                       .vectors = hd_scene_vectors(def),
+                       .carried = hd_scene_carried(def)};
+}
+
 /** Steps that differ by this part of the smallest of all, of the transverse branch, are to part by
  * so many factors of e: most of a random start has gone. */
 static const double GAP = 0.05, FOLDS = 3.0;

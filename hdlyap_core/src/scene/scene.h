@@ -12,6 +12,13 @@ int hd_scene_coordinates(const hd_scene_def *def);
 /** What the ends of direction d are. */
 hd_boundary hd_scene_boundary(const hd_scene_def *def, int d);
 
+/* See hd_counts. */
+
+int hd_scene_zero_exponents(const hd_scene_def *def);
+int hd_scene_positive_exponents(const hd_scene_def *def);
+int hd_scene_vectors(const hd_scene_def *def);
+int hd_scene_carried(const hd_scene_def *def);
+
 /** Time that sound takes through the longest edge of the box, by the equation of state of Henderson
  * (Mol. Phys. 30, 971 (1975)), of spheres that of Carnahan and Starling (J. Chem. Phys. 51, 635
  * (1969)) [time units]. */

@@ -185,7 +185,7 @@ static void print_slopes(const settings *set, const hd_estimate *t)
 
 static void print_errors(const settings *set, const hd_estimate *t)
 {
-    const bool steps = hd_scene_vectors(&set->def) >= hd_steps_exponents_least(&set->def);
+    const bool steps = hd_scene_counts(&set->def).vectors >= hd_steps_exponents_least(&set->def);
     printf("errors    %s after %.3g time units of averaging (",
            steps ? "of exponents of steps below 1 % when they are first stated," : "first stated",
            t->errors_after);
@@ -227,11 +227,11 @@ static void print_all(const settings *set, const hd_estimate *t, hd_room room)
     char container[64];
     settings_write_container(container, sizeof container, def);
     printf("scene     %s is valid: %d " DISKS " in %s, %d vectors\n", set->scene, def->disks,
-           container, hd_scene_vectors(def));
+           container, hd_scene_counts(def).vectors);
     print_memory(set, room);
     print_speed(set, t);
     print_bag(set, t);
-    if (!hd_scene_vectors(def)) return;
+    if (!hd_scene_counts(def).vectors) return;
     if (*set->warning)
         printf("warning   %s\n", set->warning);
     else if (def->observe & STAGES_OF_MODES)

@@ -120,7 +120,7 @@ static int first_field(const settings *set)
 static void log_creation(const hd_scene_def *def)
 {
     if (hd_room_check(def, hd_room_available(), NULL, 0) != HD_OK) return;
-    const int vectors = hd_scene_carried(def);
+    const int vectors = hd_scene_counts(def).carried;
     if ((double)HD_ROWS * def->disks * vectors > ENTRIES_MANY)
         hdr_log(HDR_INFO, "makes %d vectors of %d " DISKS " orthonormal", vectors, def->disks);
 }

@@ -148,7 +148,7 @@ static bool check_needs(settings *set, reader *r)
 /** Of a scene that is right. */
 static bool check_field_indices(const settings *set, reader *r)
 {
-    const int vectors = hd_scene_vectors(&set->def);
+    const int vectors = hd_scene_counts(&set->def).vectors;
     char allowed[80];
     r->name = "field_indices";
     snprintf(allowed, sizeof allowed,
@@ -162,7 +162,7 @@ static bool check_field_indices(const settings *set, reader *r)
 /** Of a scene that is right. */
 static bool check_slow_vectors(const settings *set, reader *r)
 {
-    const int vectors = hd_scene_vectors(&set->def);
+    const int vectors = hd_scene_counts(&set->def).vectors;
     char allowed[80];
     r->name = "slow_vectors_count";
     snprintf(allowed, sizeof allowed,
@@ -245,7 +245,7 @@ static settings defaults(const hd_checkpoint *kept)
 static void warn_of_steps(settings *set)
 {
     const hd_scene_def *def = &set->def;
-    const int least = hd_steps_exponents_least(def), vectors = hd_scene_vectors(def);
+    const int least = hd_steps_exponents_least(def), vectors = hd_scene_counts(def).vectors;
     const unsigned empty = set->observables & topics_of_stages(STAGES_OF_STEPS);
     char names[PARAMETER_TEXT];
     if (!empty || vectors == 0 || vectors >= least) return;
@@ -254,7 +254,7 @@ static void warn_of_steps(settings *set)
         set->warning, sizeof set->warning,
         "exponents = %d: none of them belongs to a step, which %s need; fewer than %d reach none, "
         "positive (%d) reaches all",
-        vectors, names, least, hd_scene_positive_exponents(def));
+        vectors, names, least, hd_scene_counts(def).positive);
 }
 
 bool settings_read(settings *out, const hdr_params *params, const hd_checkpoint *kept,

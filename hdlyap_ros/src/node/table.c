@@ -52,12 +52,13 @@ static void print_fits(const hd_run *run, const hd_steps *steps)
     } fits[] = {{"c_T", HD_MODE_T}, {"c_L", HD_MODE_LP}};
     char number[TEXT];
     for (int k = 0; k < 2; k++) {
-        const hd_dispersion fit = hd_steps_dispersion(steps, hd_run_spectrum(run), fits[k].kind);
+        const hd_dispersion fit = hd_steps_dispersion(steps, hd_run_parts(run).spectrum,
+                                                      fits[k].kind);
         number_of_fit(number, sizeof number, fit.c.value, fit.c.error, fit.misfit);
         print_fit(fits[k].name, number, fit.points, "wave number", fit.k_min, fit.k_max);
     }
-    if (!hd_run_phases(run)) return;
-    const hd_velocity v = hd_phases_velocity(hd_run_phases(run));
+    if (!hd_run_parts(run).phases) return;
+    const hd_velocity v = hd_phases_velocity(hd_run_parts(run).phases);
     number_of_fit(number, sizeof number, v.v, v.v_error, v.misfit);
     print_fit("v", number, v.phases, "LP phase", v.k_min, v.k_max);
 }
@@ -65,7 +66,7 @@ static void print_fits(const hd_run *run, const hd_steps *steps)
 /** Smallest exponent first. */
 static void print_steps(const hd_run *run)
 {
-    const hd_steps *steps = hd_run_steps(run);
+    const hd_steps *steps = hd_run_parts(run).steps;
     const int count = steps ? hd_steps_count(steps) : 0;
     int missing = 0, found = 0;
     for (int k = 0; k < count; k++) {
@@ -86,7 +87,7 @@ static void print_steps(const hd_run *run)
 
 static void print(const char *what, const settings *set, const hd_run *run)
 {
-    const hd_spectrum *spectrum = hd_run_spectrum(run);
+    const hd_spectrum *spectrum = hd_run_parts(run).spectrum;
     char of[TEXT] = "", lambda[TEXT], left[TEXT] = "", target[2 * TEXT] = "";
     const progress now = progress_of(run, set->pace);
     const hd_standing *at = &now.cost.target;
@@ -112,12 +113,12 @@ static void print(const char *what, const settings *set, const hd_run *run)
 
 static bool is_averaged(const hd_run *run)
 {
-    return hd_run_spectrum(run) && hd_spectrum_time(hd_run_spectrum(run)) > 0.0;
+    return hd_run_parts(run).spectrum && hd_spectrum_time(hd_run_parts(run).spectrum) > 0.0;
 }
 
 static int known_steps(const hd_run *run)
 {
-    const hd_steps *steps = hd_run_steps(run);
+    const hd_steps *steps = hd_run_parts(run).steps;
     int known = 0;
     for (int k = 0; steps && k < hd_steps_count(steps); k++) {
         const hd_step *step = hd_steps_step(steps, k);
@@ -130,11 +131,11 @@ void table_tell(table *t, const settings *set, const hd_run *run)
 {
     const double now = clock_seconds();
     if (!(set->table > 0.0) || now < t->wall + set->table || !is_averaged(run)) return;
-    const double averaged = hd_spectrum_time(hd_run_spectrum(run));
+    const double averaged = hd_spectrum_time(hd_run_parts(run).spectrum);
     const int known = known_steps(run);
     if (averaged < t->averaged) *t = (table){.wall = t->wall}; /* the averages were reset */
     if (averaged < 2.0 * t->averaged && known <= t->known) return;
-    if (known == 0 && hd_run_steps(run)) return;
+    if (known == 0 && hd_run_parts(run).steps) return;
     *t = (table){now, averaged, known};
     print("so far", set, run);
 }

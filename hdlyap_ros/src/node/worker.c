@@ -200,7 +200,7 @@ static void change_if_due(worker *w)
 /** Of disks that have begun with kinetic energy N. */
 static examination examine(const hd_run *run)
 {
-    const hd_trajectory *trajectory = hd_run_trajectory(run);
+    const hd_trajectory *trajectory = hd_run_parts(run).trajectory;
     const double disks = hd_run_scene(run)->disks;
     const hd_examined now = hd_trajectory_examined(trajectory);
     return (examination){

@@ -20,8 +20,8 @@ static void reconstruct(pair_fields *pairs, const hd_run *run, const hd_step *st
                         const double *momenta)
 {
     const size_t length = HD_DIM * (size_t)hd_run_scene(run)->disks;
-    const hd_modes *modes = hd_run_modes(run);
-    hd_pmode *pmode = hd_run_pmode(run);
+    const hd_modes *modes = hd_run_parts(run).modes;
+    hd_pmode *pmode = hd_run_parts(run).pmode;
     if (!hd_pmode_reconstruct(pmode, step, modes, hd_run_frame_columns(run))) return;
     const int d = hd_pmode_pairs(pmode);
     const hd_subspace *subspace = hd_fields_subspace(hd_modes_fields(modes), step->subspace);
@@ -50,7 +50,7 @@ static void fill_vector(hdr_mode_field *message, const hd_run *run, int col, siz
 {
     const hd_columns frame = hd_run_frame_columns(run);
     message->index = (uint32_t)col + 1;
-    message->exponent = hd_spectrum_exponent(hd_run_spectrum(run), col);
+    message->exponent = hd_spectrum_exponent(hd_run_parts(run).spectrum, col);
     hdr_doubles *const component[] = {&message->dqx, &message->dqy,
                                       OF_SPHERES(&message->dqz, )(&message->dpx), &message->dpy,
                                       OF_SPHERES(&message->dpz)};
@@ -86,7 +86,7 @@ static void fill_pairs(hdr_mode_field *message, const pair_fields *pairs, size_t
 
 static hd_status publish_vector(const moment *now, int col)
 {
-    const hd_steps *steps = hd_run_steps(now->run);
+    const hd_steps *steps = hd_run_parts(now->run).steps;
     const int s = hd_steps_of_vector(steps, col);
     const hd_step *step = s < 0 ? NULL : hd_steps_step(steps, s);
     const size_t disks = (size_t)now->set->def.disks, length = PAIRS_MAX * HD_DIM * disks;
@@ -106,7 +106,7 @@ static hd_status publish_vector(const moment *now, int col)
 
 hd_status topic_publish_fields(const moment *now)
 {
-    const hd_steps *steps = hd_run_steps(now->run);
+    const hd_steps *steps = hd_run_parts(now->run).steps;
     const field_choice *choice = &now->set->fields;
     hd_status status = HD_OK;
     if (!hd_run_fields_due(now->run)) return HD_OK;

@@ -5,7 +5,7 @@
 
 hd_status topic_publish_gas(const moment *now)
 {
-    const hd_gas_means m = hd_gas_read(hd_run_gas(now->run));
+    const hd_gas_means m = hd_gas_read(hd_run_parts(now->run).gas);
     hdr_gas message = {
         .sim_time = hd_run_time(now->run),
         .averaged_time = m.time,

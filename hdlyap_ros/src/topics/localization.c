@@ -3,7 +3,7 @@
 
 hd_status topic_publish_localization(const moment *now)
 {
-    hd_localization *shape = hd_run_localization(now->run);
+    hd_localization *shape = hd_run_parts(now->run).localization;
     const size_t n = (size_t)hd_run_vectors(now->run);
     if (hd_localization_samples(shape) == 0) return HD_OK;
     double *std_errors = moment_take(now, 2 * n, sizeof *std_errors);

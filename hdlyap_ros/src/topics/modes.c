@@ -25,18 +25,18 @@ static void fill_kind(hdr_mode *mode, const hd_modes *modes, const hd_step *step
 
 static hdr_mode mode_of(const hd_run *run, int col)
 {
-    const hd_modes *modes = hd_run_modes(run);
-    const int s = hd_steps_of_vector(hd_run_steps(run), col);
+    const hd_modes *modes = hd_run_parts(run).modes;
+    const int s = hd_steps_of_vector(hd_run_parts(run).steps, col);
     hdr_mode mode = {
         .index = (uint32_t)col + 1,
-        .exponent = hd_spectrum_exponent(hd_run_spectrum(run), col),
+        .exponent = hd_spectrum_exponent(hd_run_parts(run).spectrum, col),
         .null_x = hd_modes_null_average(modes, HD_NULL_X)[col],
         .null_y = hd_modes_null_average(modes, HD_NULL_Y)[col],
         OF_SPHERES(.null_z = hd_modes_null_average(modes, 2)[col], ).null_p = hd_modes_null_average(
             modes, HD_NULL_P)[col],
         .step = s,
     };
-    if (s >= 0) fill_kind(&mode, modes, hd_steps_step(hd_run_steps(run), s));
+    if (s >= 0) fill_kind(&mode, modes, hd_steps_step(hd_run_parts(run).steps, s));
     return mode;
 }
 
@@ -49,8 +49,8 @@ hd_status topic_publish_modes(const moment *now)
     for (uint32_t k = 0; k < vectors; k++) mode[k] = mode_of(run, (int)k);
     hdr_modes message = {
         .sim_time = hd_run_time(run),
-        .averaged_time = hd_spectrum_time(hd_run_spectrum(run)),
-        .samples = (uint32_t)hd_modes_samples(hd_run_modes(run)),
+        .averaged_time = hd_spectrum_time(hd_run_parts(run).spectrum),
+        .samples = (uint32_t)hd_modes_samples(hd_run_parts(run).modes),
         .modes = {mode, vectors},
     };
     return topic_send_modes(now->out, &message);

@@ -38,7 +38,7 @@ bool moment_state(const moment *now, const double **q, const double **p)
         return false;
     }
     room->p = room->q + count;
-    if (!room->known) hd_trajectory_state(hd_run_trajectory(now->run), room->q, room->p);
+    if (!room->known) hd_trajectory_state(hd_run_parts(now->run).trajectory, room->q, room->p);
     room->known = true;
     *q = room->q;
     *p = room->p;

@@ -29,8 +29,8 @@ struct report {
 /** -1 while nobody looks at them. */
 static int resolved_steps(const hd_run *run)
 {
-    const hd_modes *modes = hd_run_modes(run);
-    const hd_steps *steps = hd_run_steps(run);
+    const hd_modes *modes = hd_run_parts(run).modes;
+    const hd_steps *steps = hd_run_parts(run).steps;
     int resolved = 0;
     if (!modes || hd_modes_samples(modes) == 0) return -1;
     for (int s = 0; s < hd_steps_count(steps); s++) resolved += hd_steps_step(steps, s)->resolved;
@@ -46,13 +46,13 @@ static double remaining_at(const hd_cost *cost, double time, double pace)
 
 progress progress_of(const hd_run *run, double pace)
 {
-    const hd_spectrum *spectrum = hd_run_spectrum(run);
+    const hd_spectrum *spectrum = hd_run_parts(run).spectrum;
     hd_cost cost = hd_run_cost(run);
     cost.remaining = remaining_at(&cost, hd_run_time(run), pace);
     return (progress){
         .stage = hd_run_stage(run),
         .time = hd_run_time(run),
-        .collisions = hd_trajectory_collisions(hd_run_trajectory(run)),
+        .collisions = hd_trajectory_told(hd_run_parts(run).trajectory).collisions,
         .cost = cost,
         .averaged = spectrum ? hd_spectrum_time(spectrum) : 0.0,
         .resolved_steps = resolved_steps(run),
@@ -80,8 +80,8 @@ hdr_status report_create(report **out, hdr_node *ros, const settings *set, const
     if (!rep) return HDR_NO_MEMORY;
     rep->set = set;
     /* windows of before, from a checkpoint, are not published again */
-    if (hd_run_covariant(run))
-        rep->kept.covariant.windows = hd_covariant_read(hd_run_covariant(run)).windows;
+    if (hd_run_parts(run).covariant)
+        rep->kept.covariant.windows = hd_covariant_read(hd_run_parts(run).covariant).windows;
     const hdr_status status = advertise(rep, ros, run, asked);
     if (status == HDR_OK) return HDR_OK;
     report_free(rep);
@@ -126,7 +126,7 @@ void report_demand_slow(report *rep, hd_run *run)
  * listened before. */
 static unsigned topics_due(const report *rep, const hd_run *run)
 {
-    const hd_modes *modes = hd_run_modes(run);
+    const hd_modes *modes = hd_run_parts(run).modes;
     const unsigned of_modes = topics_of_stages(STAGES_OF_MODES);
     const unsigned measured = of_modes | topics_of_stages(HD_OBSERVE_LOCALIZATION);
     unsigned set = publishers_subscribed(&rep->out) & topics_that_are(TOPIC_OBSERVABLE);

@@ -70,7 +70,7 @@ static void fill_scene(hdr_run_info *info, const settings *set)
     info->boundary_y = is_circle ? "curved" : word_of("boundary_y", def);
     info->seed = set->seed;
     info->exponents = set->exponents;
-    info->zero_exponents = (uint32_t)hd_scene_zero_exponents(def);
+    info->zero_exponents = (uint32_t)hd_scene_counts(def).zero;
     info->target = def->target.line;
     info->interval = def->interval;
     info->phase_interval = def->phase_interval;

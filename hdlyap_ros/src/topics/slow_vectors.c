@@ -41,7 +41,7 @@ static bool arrays_take(vector_arrays *of, const moment *now, size_t count, size
 /** Columns of positive exponent are before it. */
 static int end_of(const hd_run *run)
 {
-    const int positive = hd_scene_positive_exponents(hd_run_scene(run));
+    const int positive = hd_scene_counts(hd_run_scene(run)).positive;
     const int vectors = hd_run_vectors(run);
     return vectors < positive ? vectors : positive;
 }
@@ -58,7 +58,7 @@ static int lowest_of(const hd_steps *steps, hd_mode_kind kind, int end)
 /** Column of the first vector of a message; that of the end if there is none. */
 static int first_of(const settings *set, const hd_run *run)
 {
-    const hd_steps *steps = hd_run_steps(run);
+    const hd_steps *steps = hd_run_parts(run).steps;
     const int asked = set->slow_vectors_count, end = end_of(run);
     if (!steps || hd_run_stage(run) != HD_AVERAGING) return end;
     if (asked > 0) return asked < end ? end - asked : 0;
@@ -91,9 +91,9 @@ static bool is_known(hd_columns known, int first, int end)
 
 static void fill_step(vector_arrays *of, int k, const hd_run *run, int col, bool known)
 {
-    const int s = hd_steps_of_vector(hd_run_steps(run), col);
-    const hd_step *step = s < 0 ? NULL : hd_steps_step(hd_run_steps(run), s);
-    const hd_modes *modes = hd_run_modes(run);
+    const int s = hd_steps_of_vector(hd_run_parts(run).steps, col);
+    const hd_step *step = s < 0 ? NULL : hd_steps_step(hd_run_parts(run).steps, s);
+    const hd_modes *modes = hd_run_parts(run).modes;
     of->kind[k] = (uint8_t)(step ? step->kind : HD_MODE_NONE);
     for (int d = 0; d < HD_DIM; d++) of->nodes[d][k] = step ? (uint32_t)step->wave.n[d] : 0;
     of->pairs[k] = 0;
@@ -132,7 +132,7 @@ static bool fill_vectors(hdr_slow_vectors *message, const moment *now)
     vector_arrays of;
     if (!arrays_take(&of, now, count, is_here ? count : 0)) return false;
     for (int k = 0; k < end - first; k++) {
-        of.exponents[k] = hd_spectrum_exponent(hd_run_spectrum(run), first + k);
+        of.exponents[k] = hd_spectrum_exponent(hd_run_parts(run).spectrum, first + k);
         fill_step(&of, k, run, first + k, is_here);
     }
     if (is_here) fill_dq(&of, known, first, count, disks);

@@ -4,7 +4,7 @@
 hd_status topic_publish_spectrum(const moment *now)
 {
     const hd_run *run = now->run;
-    const hd_spectrum *spectrum = hd_run_spectrum(run);
+    const hd_spectrum *spectrum = hd_run_parts(run).spectrum;
     const size_t n = (size_t)hd_run_vectors(run);
     if (!(hd_spectrum_time(spectrum) > 0.0)) return HD_OK;
     double *exponents = moment_take(now, 5 * n, sizeof *exponents);
@@ -21,7 +21,7 @@ hd_status topic_publish_spectrum(const moment *now)
     hdr_spectrum message = {
         .sim_time = hd_run_time(run),
         .averaged_time = hd_spectrum_time(spectrum),
-        .collisions = hd_trajectory_collisions(hd_run_trajectory(run)),
+        .collisions = hd_trajectory_told(hd_run_parts(run).trajectory).collisions,
         .lambda_max = hd_spectrum_exponent(spectrum, 0),
         .lambda_max_error = hd_spectrum_std_error(spectrum, 0),
         .ks_entropy = sums.ks_entropy,

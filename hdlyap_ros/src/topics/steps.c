@@ -61,12 +61,12 @@ static bool fill_rate(hdr_step *out, const hd_phases *phases, int step)
 hd_status topic_publish_steps(const moment *now)
 {
     const hd_run *run = now->run;
-    const hd_steps *steps = hd_run_steps(run);
-    const hd_phases *phases = hd_run_phases(run);
+    const hd_steps *steps = hd_run_parts(run).steps;
+    const hd_phases *phases = hd_run_parts(run).phases;
     const hd_velocity none = {.v_error = -1.0, .v_sampling_error = -1.0, .misfit = -1.0},
                       v = phases ? hd_phases_velocity(phases) : none;
-    const hd_dispersion of_t = hd_steps_dispersion(steps, hd_run_spectrum(run), HD_MODE_T);
-    const hd_dispersion of_l = hd_steps_dispersion(steps, hd_run_spectrum(run), HD_MODE_LP);
+    const hd_dispersion of_t = hd_steps_dispersion(steps, hd_run_parts(run).spectrum, HD_MODE_T);
+    const hd_dispersion of_l = hd_steps_dispersion(steps, hd_run_parts(run).spectrum, HD_MODE_LP);
     const uint32_t count = (uint32_t)hd_steps_count(steps);
     hdr_step *step = moment_take(now, count, sizeof *step);
     if (!step) return HD_OK;
@@ -76,8 +76,8 @@ hd_status topic_publish_steps(const moment *now)
     }
     hdr_steps message = {
         .sim_time = hd_run_time(run),
-        .averaged_time = hd_spectrum_time(hd_run_spectrum(run)),
-        .threshold = hd_steps_threshold(),
+        .averaged_time = hd_spectrum_time(hd_run_parts(run).spectrum),
+        .threshold = HD_STEPS_THRESHOLD,
         .steps = {step, count},
         FIT(t, of_t),
         FIT(l, of_l),

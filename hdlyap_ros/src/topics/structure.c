@@ -31,7 +31,7 @@ static void gather_waves(double *number, uint32_t *nodes, const hd_structure *s,
 
 hd_status topic_publish_structure(const moment *now)
 {
-    const hd_structure *s = hd_run_structure(now->run);
+    const hd_structure *s = hd_run_parts(now->run).structure;
     const size_t waves = (size_t)hd_structure_waves(s), n = (size_t)hd_run_vectors(now->run);
     const size_t means = hd_run_fields_due(now->run) ? waves * n : 0;
     if (hd_structure_samples(s) == 0) return HD_OK;

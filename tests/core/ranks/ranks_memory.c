@@ -95,16 +95,23 @@ TEST(ranks_share_a_machine)
 }
 
 /** Also where it is another rank's machine that has too little. */
-TEST(all_are_told_of_one_machine)
+static void check_told(double room, const char *what)
 {
     const hd_scene_def scene = short_scene(50, 0);
     const bool last = ranks->rank == ranks->ranks - 1;
     char line[256] = "";
     hd_run *run;
-    if (last) room_of_machine = hd_room_needed(&scene, 1, ranks->ranks);
+    if (last) room_of_machine = room;
     assert_int_equal(hd_run_create_shared(&run, &scene, ranks, line, sizeof line), HD_NO_MEMORY);
-    assert_non_null(strstr(line, last ? "would fit" : "another rank: out of memory"));
+    assert_non_null(strstr(line, last ? what : "another rank: out of memory"));
     room_of_machine = 1e15;
+}
+
+TEST(all_are_told_of_one_machine)
+{
+    const hd_scene_def scene = short_scene(50, 0);
+    check_told(hd_room_needed(&scene, 1, ranks->ranks), "would fit");
+    check_told(1.0, "nothing of it would fit");
 }
 
 /** Whatever it is that the last rank does not get: all of them end, say so, and give back what they

@@ -15,20 +15,20 @@ static uint64_t bit(int step) { return (uint64_t)1 << step; }
 static int positive(const hd_run *run)
 {
     const hd_scene_def *scene = hd_run_scene(run);
-    const int half = (4 * scene->disks - hd_scene_zero_exponents(scene)) / 2;
+    const int half = (4 * scene->disks - hd_scene_counts(scene).zero) / 2;
     return half < hd_run_vectors(run) ? half : hd_run_vectors(run);
 }
 
 /** The waves are those of hd_fields: the zero modes and the conjugate steps come behind. */
 static int waves(const hd_run *run)
 {
-    const int count = hd_fields_subspaces(hd_modes_fields(hd_run_modes(run)));
+    const int count = hd_fields_subspaces(hd_modes_fields(hd_run_parts(run).modes));
     return count < WAVES_MAX ? count : WAVES_MAX;
 }
 
 static void name_step(const hd_run *run, int index, char *out, size_t size)
 {
-    const hd_step *step = hd_steps_step(hd_run_steps(run), index);
+    const hd_step *step = hd_steps_step(hd_run_parts(run).steps, index);
     snprintf(out, size, "%s(%d;%d)", step->kind == HD_MODE_T ? "T" : "LP", step->wave.n[0],
              step->wave.n[1]);
 }
@@ -68,10 +68,11 @@ static void add_exponents(list *l, const char *name, const hd_spectrum *spectrum
 
 static void add_dispersion(list *l, const hd_run *run, const char *name, hd_mode_kind kind)
 {
-    const hd_dispersion d = hd_steps_dispersion(hd_run_steps(run), hd_run_spectrum(run), kind);
+    const hd_dispersion d = hd_steps_dispersion(hd_run_parts(run).steps, hd_run_parts(run).spectrum,
+                                                kind);
     uint64_t of = 0;
     for (int k = 0; k < waves(run); k++) {
-        const hd_step *step = hd_steps_step(hd_run_steps(run), k);
+        const hd_step *step = hd_steps_step(hd_run_parts(run).steps, k);
         if (step->resolved && step->kind == kind) of |= bit(k);
     }
     add(l, name, (number){d.c.value, d.c_sampling_error, of});
@@ -80,10 +81,10 @@ static void add_dispersion(list *l, const hd_run *run, const char *name, hd_mode
 /** Of steps of which a phase is followed. */
 static void add_velocity(list *l, const hd_run *run)
 {
-    const hd_velocity v = hd_phases_velocity(hd_run_phases(run));
+    const hd_velocity v = hd_phases_velocity(hd_run_parts(run).phases);
     uint64_t of = 0;
-    for (int k = 0; k < hd_phases_count(hd_run_phases(run)); k++) {
-        const hd_phase *phase = hd_phases_phase(hd_run_phases(run), k);
+    for (int k = 0; k < hd_phases_count(hd_run_parts(run).phases); k++) {
+        const hd_phase *phase = hd_phases_phase(hd_run_parts(run).phases, k);
         if (phase->state == HD_PHASE_TRACKED && phase->step < waves(run)) of |= bit(phase->step);
     }
     add(l, "v", (number){v.v, v.v_sampling_error, v.phases > 0 ? of : 0});
@@ -92,12 +93,12 @@ static void add_velocity(list *l, const hd_run *run)
 static void add_steps(list *l, const hd_run *run)
 {
     for (int k = 0; k < waves(run); k++) {
-        const hd_step *step = hd_steps_step(hd_run_steps(run), k);
+        const hd_step *step = hd_steps_step(hd_run_parts(run).steps, k);
         char name[16];
         uint64_t of = 0;
         name_step(run, k, name, sizeof name);
         for (int other = 0; step->resolved && other < waves(run); other++)
-            if (hd_steps_step(hd_run_steps(run), other)->set == step->set) of |= bit(other);
+            if (hd_steps_step(hd_run_parts(run).steps, other)->set == step->set) of |= bit(other);
         add(l, name, (number){step->exponent, step->std_error, of});
     }
 }
@@ -105,8 +106,8 @@ static void add_steps(list *l, const hd_run *run)
 /** Phases that have been followed, also those that are weak just now. */
 static void add_phases(list *l, const hd_run *run)
 {
-    for (int k = 0; k < hd_phases_count(hd_run_phases(run)); k++) {
-        const hd_phase *phase = hd_phases_phase(hd_run_phases(run), k);
+    for (int k = 0; k < hd_phases_count(hd_run_parts(run).phases); k++) {
+        const hd_phase *phase = hd_phases_phase(hd_run_parts(run).phases, k);
         char name[16], omega[32];
         if (phase->step >= waves(run)) break;
         name_step(run, phase->step, name, sizeof name);
@@ -120,7 +121,7 @@ static void add_phases(list *l, const hd_run *run)
  */
 static void add_covariant(list *l, const hd_run *run)
 {
-    const hd_covariant *covariant = hd_run_covariant(run);
+    const hd_covariant *covariant = hd_run_parts(run).covariant;
     const hd_splitting_results splitting = hd_covariant_read(covariant).splitting;
     const bool known = hd_covariant_read(covariant).windows > 0;
     number angle = {.error = -1.0};
@@ -135,20 +136,20 @@ static void add_covariant(list *l, const hd_run *run)
 
 static list list_of(const hd_run *run, number *out)
 {
-    const hd_spectrum *spectrum = hd_run_spectrum(run);
+    const hd_spectrum *spectrum = hd_run_parts(run).spectrum;
     list l = {.out = out};
     add_exponents(&l, "exponents", spectrum, positive(run), true);
     add(&l, "h_KS",
         (number){hd_spectrum_sum_up(spectrum).ks_entropy,
                  hd_spectrum_sum_up(spectrum).ks_entropy_error, NO_STEPS});
-    if (hd_run_steps(run)) {
+    if (hd_run_parts(run).steps) {
         add_dispersion(&l, run, "c_T", HD_MODE_T);
         add_dispersion(&l, run, "c_L", HD_MODE_LP);
         add_velocity(&l, run);
         add_steps(&l, run);
         add_phases(&l, run);
     }
-    if (hd_run_covariant(run)) add_covariant(&l, run);
+    if (hd_run_parts(run).covariant) add_covariant(&l, run);
     return l;
 }
 
