@@ -163,6 +163,9 @@ void hd_run_halves(const hd_run *run, double *cos_theta, double *dp_dq_ratio);
 /** Starts the averages afresh at the present time. Fails as hd_run_advance does. */
 HD_MUST_CHECK hd_status hd_run_reset_average(hd_run *run);
 
+/** HD_OK; or what the run has failed with, in hd_run_advance, hd_run_reset_average, or on the way
+ * back that hd_run_save ends. */
+hd_status hd_run_status(const hd_run *run);
 hd_stage hd_run_stage(const hd_run *run);
 double hd_run_time(const hd_run *run); /**< simulated time since the start */
 const hd_scene_def *hd_run_scene(const hd_run *run);
