@@ -149,7 +149,7 @@ void hd_run_observe(hd_run *run, unsigned stages);
 void hd_run_watch(hd_run *run, double interval, int first);
 
 /** The vectors known at the very time of the last call: all of them, of several ranks those that
- * somebody wants, or none (count 0). Their coefficients are in the snapshot of hd_run_modes. */
+ * somebody wants, or none (count 0). Their coefficients are in the snapshot of the modes. */
 hd_columns hd_run_columns(const hd_run *run);
 
 /** All n vectors of the last orthonormalisation, if modes are observed; valid until the next call

@@ -46,11 +46,13 @@ static void momentum(const hard *tr, double *sum)
         for (int d = 0; d < HD_DIM; d++) sum[d] += tr->motion.disk[i].p[d];
 }
 
+/** Where walls hold the disks: none is folded. */
 static double angular_momentum(const hard *tr)
 {
     double sum = 0.0;
     for (int32_t i = 0; i < tr->motion.count; i++) {
-        const hd_disk disk = disk_now(tr, i);
+        hd_disk disk = tr->motion.disk[i];
+        hd_disk_move_to(&disk, tr->now - tr->epoch_start);
         sum += (disk.q[0] - 0.5 * tr->motion.cells.box[0]) * disk.p[1] -
                (disk.q[1] - 0.5 * tr->motion.cells.box[1]) * disk.p[0];
     }
