@@ -2,9 +2,8 @@
 #ifndef HD_COUPLING_H
 #define HD_COUPLING_H
 
-#include "dynamics/trajectory.h"
-#include "tangent/frame.h"
 #include "dynamics/dynamics.h"
+#include "tangent/frame.h"
 
 typedef struct hd_coupling hd_coupling;
 

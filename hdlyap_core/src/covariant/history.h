@@ -5,9 +5,8 @@
 
 #include <stdbool.h>
 
-#include "dynamics/trajectory.h"
-#include "tangent/frame.h"
 #include "dynamics/dynamics.h"
+#include "tangent/frame.h"
 
 /** Where triangles are kept. */
 typedef struct hd_history_def {

@@ -5,7 +5,6 @@
 
 #include <stdbool.h>
 
-#include "dynamics/trajectory.h"
 #include "hdlyap/frame.h"
 #include "dynamics/dynamics.h"
 

@@ -55,20 +55,21 @@ static void count_examples(hd_extent *e, const hd_steps *steps)
 
 hd_extent hd_extent_of(const hd_scene_def *def, const hd_run *run)
 {
+    const hd_parts parts = hd_run_parts(run);
     const int known = hd_scene_positive_exponents(def) + hd_scene_zero_exponents(def);
     hd_extent e = {.disks = def->disks, .vectors = hd_scene_vectors(def)};
     if (def->observe & HD_OBSERVE_STRUCTURE) e.waves = hd_structure_waves_of(def);
-    if (hd_run_parts(run).hydro) e.responses = hd_hydro_count(hd_run_parts(run).hydro);
+    if (parts.hydro) e.responses = hd_hydro_count(parts.hydro);
     if (def->observe & HD_OBSERVE_COVARIANT) {
         e.subspaces = subspaces_of(def);
         if (e.vectors > known) e.angles = HD_PAIRS_OF_SPACES;
     }
-    if (hd_run_parts(run).steps) {
-        e.steps = hd_steps_count(hd_run_parts(run).steps);
-        count_examples(&e, hd_run_parts(run).steps);
+    if (parts.steps) {
+        e.steps = hd_steps_count(parts.steps);
+        count_examples(&e, parts.steps);
     }
-    if (hd_run_parts(run).phases) e.phases = hd_phases_count(hd_run_parts(run).phases);
-    if (hd_run_parts(run).t_phases) e.t_phases = hd_phases_count(hd_run_parts(run).t_phases);
+    if (parts.phases) e.phases = hd_phases_count(parts.phases);
+    if (parts.t_phases) e.t_phases = hd_phases_count(parts.t_phases);
     return e;
 }
 

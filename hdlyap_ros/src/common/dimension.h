@@ -19,10 +19,6 @@
 #define OF_SPHERES(...) __VA_ARGS__
 #endif
 
-/** Sines and cosines that a wave is a product of, and its transverse fields: the most in messages.
- */
-enum { MODULATIONS = 1 << HD_DIM, TRANSVERSES = MODULATIONS * (HD_DIM - 1) };
-
 /** The numbers of nodes of a wave in a message. */
 #define NODES(wave)                                                                                \
     OF_SPHERES(.nz = (uint32_t)(wave).n[2], ).nx = (uint32_t)(wave).n[0],                          \

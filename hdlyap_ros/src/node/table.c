@@ -57,8 +57,9 @@ static void print_fits(const hd_run *run, const hd_steps *steps)
         number_of_fit(number, sizeof number, fit.c.value, fit.c.error, fit.misfit);
         print_fit(fits[k].name, number, fit.points, "wave number", fit.k_min, fit.k_max);
     }
-    if (!hd_run_parts(run).phases) return;
-    const hd_velocity v = hd_phases_velocity(hd_run_parts(run).phases);
+    const hd_phases *phases = hd_run_parts(run).phases;
+    if (!phases) return;
+    const hd_velocity v = hd_phases_velocity(phases);
     number_of_fit(number, sizeof number, v.v, v.v_error, v.misfit);
     print_fit("v", number, v.phases, "LP phase", v.k_min, v.k_max);
 }
@@ -113,7 +114,8 @@ static void print(const char *what, const settings *set, const hd_run *run)
 
 static bool is_averaged(const hd_run *run)
 {
-    return hd_run_parts(run).spectrum && hd_spectrum_time(hd_run_parts(run).spectrum) > 0.0;
+    const hd_spectrum *spectrum = hd_run_parts(run).spectrum;
+    return spectrum && hd_spectrum_time(spectrum) > 0.0;
 }
 
 static int known_steps(const hd_run *run)

@@ -8,7 +8,7 @@ hd_extent extent_of(const settings *set, hd_extent of_run)
 {
     if (set->fields.count == 0) return of_run;
     of_run.examples = set->fields.count; /* of steps that are not known yet */
-    of_run.pairs = MODULATIONS * set->fields.count;
+    of_run.pairs = HD_MODULATIONS_IN(HD_DIM) * set->fields.count;
     return of_run;
 }
 

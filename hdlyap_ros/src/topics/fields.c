@@ -5,7 +5,7 @@
 
 #include "hdlyap/pmode.h"
 
-enum { PAIRS_MAX = MODULATIONS };
+enum { PAIRS_MAX = HD_MODULATIONS_IN(HD_DIM) };
 
 /** Reconstructed modes of one step, pair by pair; arrays [pairs][HD_DIM N]: x0 y0 x1 y1 .. */
 typedef struct pair_fields {

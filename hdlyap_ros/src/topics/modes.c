@@ -23,34 +23,35 @@ static void fill_kind(hdr_mode *mode, const hd_modes *modes, const hd_step *step
     mode->weight_p = hd_modes_average(modes, step->subspace, HD_WEIGHT_P)[col];
 }
 
-static hdr_mode mode_of(const hd_run *run, int col)
+static hdr_mode mode_of(const hd_parts *of, int col)
 {
-    const hd_modes *modes = hd_run_parts(run).modes;
-    const int s = hd_steps_of_vector(hd_run_parts(run).steps, col);
+    const hd_modes *modes = of->modes;
+    const int s = hd_steps_of_vector(of->steps, col);
     hdr_mode mode = {
         .index = (uint32_t)col + 1,
-        .exponent = hd_spectrum_exponent(hd_run_parts(run).spectrum, col),
+        .exponent = hd_spectrum_exponent(of->spectrum, col),
         .null_x = hd_modes_null_average(modes, HD_NULL_X)[col],
         .null_y = hd_modes_null_average(modes, HD_NULL_Y)[col],
         OF_SPHERES(.null_z = hd_modes_null_average(modes, 2)[col], ).null_p = hd_modes_null_average(
             modes, HD_NULL_P)[col],
         .step = s,
     };
-    if (s >= 0) fill_kind(&mode, modes, hd_steps_step(hd_run_parts(run).steps, s));
+    if (s >= 0) fill_kind(&mode, modes, hd_steps_step(of->steps, s));
     return mode;
 }
 
 hd_status topic_publish_modes(const moment *now)
 {
     const hd_run *run = now->run;
+    const hd_parts of = hd_run_parts(run);
     const uint32_t vectors = (uint32_t)hd_run_vectors(run);
     hdr_mode *mode = moment_take(now, vectors, sizeof *mode);
     if (!mode) return HD_OK;
-    for (uint32_t k = 0; k < vectors; k++) mode[k] = mode_of(run, (int)k);
+    for (uint32_t k = 0; k < vectors; k++) mode[k] = mode_of(&of, (int)k);
     hdr_modes message = {
         .sim_time = hd_run_time(run),
-        .averaged_time = hd_spectrum_time(hd_run_parts(run).spectrum),
-        .samples = (uint32_t)hd_modes_samples(hd_run_parts(run).modes),
+        .averaged_time = hd_spectrum_time(of.spectrum),
+        .samples = (uint32_t)hd_modes_samples(of.modes),
         .modes = {mode, vectors},
     };
     return topic_send_modes(now->out, &message);

@@ -6,7 +6,7 @@
 
 #include "node/clock.h"
 
-enum { PAIRS_MAX = MODULATIONS };
+enum { PAIRS_MAX = HD_MODULATIONS_IN(HD_DIM) };
 
 /** A message this old is as good as new for a run that stands still [s]. */
 static const double rest_seconds = 1.0;
@@ -89,11 +89,11 @@ static bool is_known(hd_columns known, int first, int end)
 
 /* ---- the message --------------------------------------------------------------------------- */
 
-static void fill_step(vector_arrays *of, int k, const hd_run *run, int col, bool known)
+static void fill_step(vector_arrays *of, int k, const hd_parts *parts, int col, bool known)
 {
-    const int s = hd_steps_of_vector(hd_run_parts(run).steps, col);
-    const hd_step *step = s < 0 ? NULL : hd_steps_step(hd_run_parts(run).steps, s);
-    const hd_modes *modes = hd_run_parts(run).modes;
+    const int s = hd_steps_of_vector(parts->steps, col);
+    const hd_step *step = s < 0 ? NULL : hd_steps_step(parts->steps, s);
+    const hd_modes *modes = parts->modes;
     of->kind[k] = (uint8_t)(step ? step->kind : HD_MODE_NONE);
     for (int d = 0; d < HD_DIM; d++) of->nodes[d][k] = step ? (uint32_t)step->wave.n[d] : 0;
     of->pairs[k] = 0;
@@ -124,6 +124,7 @@ static void fill_dq(vector_arrays *of, hd_columns known, int first, size_t vecto
 static bool fill_vectors(hdr_slow_vectors *message, const moment *now)
 {
     const hd_run *run = now->run;
+    const hd_parts parts = hd_run_parts(run);
     const hd_columns known = hd_run_columns(run);
     const int first = first_of(now->set, run), end = end_of(run);
     const size_t disks = (size_t)now->set->def.disks, count = (size_t)(end - first);
@@ -132,8 +133,8 @@ static bool fill_vectors(hdr_slow_vectors *message, const moment *now)
     vector_arrays of;
     if (!arrays_take(&of, now, count, is_here ? count : 0)) return false;
     for (int k = 0; k < end - first; k++) {
-        of.exponents[k] = hd_spectrum_exponent(hd_run_parts(run).spectrum, first + k);
-        fill_step(&of, k, run, first + k, is_here);
+        of.exponents[k] = hd_spectrum_exponent(parts.spectrum, first + k);
+        fill_step(&of, k, &parts, first + k, is_here);
     }
     if (is_here) fill_dq(&of, known, first, count, disks);
     message->first_index = (uint32_t)first + 1;

@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-enum { ALONG = MODULATIONS, ACROSS = TRANSVERSES };
+enum { ALONG = HD_MODULATIONS_IN(HD_DIM), ACROSS = HD_TRANSVERSE_IN(HD_DIM) };
 
 static void gather_means(double *mean, const hd_structure *s, size_t waves, size_t vectors)
 {

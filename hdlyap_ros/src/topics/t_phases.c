@@ -17,13 +17,14 @@ static hdr_t_phase phase_of(const hd_phases *phases, int index, const hd_steps *
 
 hd_status topic_publish_t_phases(const moment *now)
 {
-    const hd_phases *phases = hd_run_parts(now->run).t_phases;
+    const hd_parts parts = hd_run_parts(now->run);
+    const hd_phases *phases = parts.t_phases;
     const uint32_t count = (uint32_t)hd_phases_count(phases);
     hdr_t_phase *out = moment_take(now, count, sizeof *out);
     if (!out) return HD_OK;
     for (uint32_t k = 0; k < count; k++) {
         if (!phase_is_finite(hd_phases_phase(phases, (int)k))) return HD_NOT_FINITE;
-        out[k] = phase_of(phases, (int)k, hd_run_parts(now->run).steps);
+        out[k] = phase_of(phases, (int)k, parts.steps);
     }
     hdr_t_phases message = {.sim_time = time_of_phases(now->run), .phases = {out, count}};
     return topic_send_t_phases(now->out, &message);

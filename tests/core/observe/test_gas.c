@@ -78,6 +78,28 @@ static void add_moment(sums *s, const hd_trajectory *tr, double sign)
         s->moment[k % DIM] += sign * (q[k] - 0.5 * box[k % DIM]) * q[DIM * n + k];
 }
 
+/** What is said of the state now is what its momenta and places add up to. */
+static void check_examined(const hd_trajectory *tr, const hd_scene_def *def)
+{
+    const int n = def->disks;
+    const hd_examined now = hd_trajectory_examined(tr);
+    double box[DIM], sum[DIM] = {0.0}, angular = 0.0;
+    HEAP double *q = malloc(2 * DIM * (size_t)n * sizeof *q);
+    const double *p = q + DIM * n;
+    box_around(tr, box);
+    hd_trajectory_state(tr, q, q + DIM * n);
+    for (int k = 0; k < DIM * n; k++) sum[k % DIM] += p[k];
+    for (int k = 0; k < DIM * n; k += DIM)
+        angular += (q[k] - 0.5 * box[0]) * p[k + 1] - (q[k + 1] - 0.5 * box[1]) * p[k];
+    for (int d = 0; d < DIM; d++) {
+        CHECK_CLOSE(now.momentum[d], sum[d], 16 * DBL_EPSILON * n);
+        if (def->boundary[d] == P) CHECK_CLOSE(sum[d], 0.0, n * now.energy_rounding);
+    }
+    if (def->boundary[0] != P && def->boundary[1] != P)
+        CHECK_CLOSE(now.angular_momentum, angular, 64 * DBL_EPSILON * n * (box[0] + box[1]));
+    CHECK_CLOSE(hd_trajectory_kinetic_energy(tr), n, n * now.energy_rounding);
+}
+
 static void follow(sums *s, hd_trajectory *tr, double t)
 {
     const int n = hd_trajectory_disks(tr);
@@ -108,6 +130,7 @@ TEST(numbers_are_sums_over_the_events)
         MADE(hd_gas, gas, &def, 0.0);
         hd_gas_begin(gas, tr);
         follow(&s, tr, t);
+        check_examined(tr, &def);
         hd_gas_add(gas, tr);
         const hd_gas_means m = hd_gas_read(gas);
         hd_scene_box(&def, box);
@@ -218,7 +241,7 @@ static double henderson(double density)
  * out is below 3e-4; Henderson's equation is good to a percent up to 0.7. */
 TEST(equation_of_state_is_that_of_the_literature)
 {
-    if (DIM == 3) skip(); /* spheres/test_gas.c */
+    if (DIM == 3) skip(); /* spheres/test_equation_of_state.c */
     static const double density[] = {0.05, 0.1, 0.25, 0.4, 0.55, 0.7};
     for (size_t k = 0; k < sizeof density / sizeof *density; k++) {
         const hd_scene_def def = scene_of(400, density[k], 0.9, P, P, 21);
