@@ -121,7 +121,7 @@ static void side_free(side *s)
 static void reconstruct(side *s)
 {
     const hd_steps *steps = hd_run_parts(s->run).steps;
-    hd_pmode *pmode = hd_run_parts(s->run).pmode;
+    hd_pmode *pmode = hd_run_parts(s->run).fields;
     hd_trajectory_state(hd_run_parts(s->run).trajectory, s->q, s->p);
     for (int k = 0; k < hd_steps_count(steps); k++) {
         const hd_step *step = hd_steps_step(steps, k);
@@ -138,7 +138,7 @@ static void reconstruct(side *s)
 static void report(side *s)
 {
     report_interval(s);
-    if (hd_run_parts(s->run).pmode) reconstruct(s);
+    if (hd_run_parts(s->run).fields) reconstruct(s);
 }
 
 /** So many that each round has several orthonormalisations. */

@@ -169,24 +169,18 @@ hd_status hd_run_status(const hd_run *run);
 hd_stage hd_run_stage(const hd_run *run);
 double hd_run_time(const hd_run *run); /**< simulated time since the start */
 const hd_scene_def *hd_run_scene(const hd_run *run);
-int hd_run_vectors(const hd_run *run); /**< n, 0 without exponents */
-int hd_run_ranks(const hd_run *run);   /**< 1 unless shared */
-int hd_run_threads(const hd_run *run); /**< in use, of this rank */
-int hd_run_threads_denied(
-    const hd_run *run); /** What a run is made of; NULL what the scene does not ask for. */
+int hd_run_vectors(const hd_run *run);        /**< n, 0 without exponents */
+int hd_run_ranks(const hd_run *run);          /**< 1 unless shared */
+int hd_run_threads(const hd_run *run);        /**< in use, of this rank */
+int hd_run_threads_denied(const hd_run *run); /**< wanted, but not granted by OpenMP; 0: none */
+
+/** What a run is made of. Of each observable its result, by its row in observables.inc; NULL what
+ * the scene does not ask for. */
 typedef struct hd_parts {
     const hd_trajectory *trajectory; /**< always there */
     const hd_spectrum *spectrum;     /**< NULL without exponents */
-    const hd_modes *modes;
-    const hd_steps *steps;
-    const hd_phases *phases, *t_phases; /**< of the LP steps, of the T steps */
-    const hd_structure *structure;
-    const hd_hydro *hydro; /**< responses are those of the last report while averages are taken */
-    const hd_gas *gas;
-    hd_localization *localization;
-    const hd_covariant *covariant;
-    /** For whoever reconstructs modes of hd_run_frame_columns where fields are due. */
-    hd_pmode *pmode;
+#define HD_OBSERVABLE(name, NAME, bit, of_waves, result) result *name;
+#include "hdlyap/observables.inc"
 } hd_parts;
 hd_parts hd_run_parts(const hd_run *run);
 

@@ -46,21 +46,20 @@ enum {
 /** The value of hd_scene_def.warmup that is not a plain number. */
 enum { HD_WARMUP_AUTO = -1 };
 
-/** hd_scene_def.observe: what is computed beyond the exponents. Phases, fields and hydro need
- * steps, which need modes, as structure does: these come with them. The gas needs no exponents. */
+/** hd_scene_def.observe: what is computed beyond the exponents, by the rows of observables.inc.
+ * What one is made from comes with it: phases, fields, hydro and structure need steps, and steps
+ * the modes. Covariant vectors need neither, the gas no exponents. */
 enum {
-    HD_OBSERVE_MODES = 1,          /**< weights of every vector */
-    HD_OBSERVE_STEPS = 2,          /**< degenerate sets, dispersion */
-    HD_OBSERVE_PHASES = 4,         /**< of the LP pairs */
-    HD_OBSERVE_FIELDS = 8,         /**< reconstructed P modes */
-    HD_OBSERVE_HYDRO = 16,         /**< hydrodynamic response */
-    HD_OBSERVE_COVARIANT = 32,     /**< covariant vectors; alone, it needs no modes */
-    HD_OBSERVE_T_PHASES = 64,      /**< phases of the T steps */
-    HD_OBSERVE_STRUCTURE = 128,    /**< structure factors, and amplitudes at every report */
-    HD_OBSERVE_GAS = 256,          /**< collision rate and pressure */
-    HD_OBSERVE_LOCALIZATION = 512, /**< how far the vectors spread over the disks */
-    HD_OBSERVE_ALL = 1023,         /**< all of these */
-    HD_OBSERVE_WAVES = 255         /**< those that look at wave vectors */
+#define HD_OBSERVABLE(name, NAME, bit, of_waves, result) HD_OBSERVE_##NAME = (bit),
+#include "hdlyap/observables.inc"
+    HD_OBSERVE_ALL = 0
+#define HD_OBSERVABLE(name, NAME, bit, of_waves, result) | (bit)
+#include "hdlyap/observables.inc"
+    ,
+    /** Those that look at wave vectors */
+    HD_OBSERVE_WAVES = 0
+#define HD_OBSERVABLE(name, NAME, bit, of_waves, result) | (of_waves) * (bit)
+#include "hdlyap/observables.inc"
 };
 
 /** Where the triangles that covariant vectors need wait for the way back. */

@@ -333,6 +333,16 @@ int hd_steps_lowest(const hd_steps *steps, hd_mode_kind kind)
     return lowest;
 }
 
+int hd_steps_first(const hd_steps *steps)
+{
+    int first = INT_MAX;
+    for (int s = 0; s < hd_steps_count(steps); s++) {
+        const hd_step *step = hd_steps_step(steps, s);
+        if (step->resolved && step->col < first) first = step->col;
+    }
+    return first;
+}
+
 /* ---- file ---------------------------------------------------------------------------------- */
 
 /** The rest of a step is the same in every run of its scene. */

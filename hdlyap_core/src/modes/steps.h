@@ -16,6 +16,8 @@ void hd_steps_clear(hd_steps *steps);
 /** Finds the sets from running averages of weights and exponents. Cost O(n subspaces). */
 void hd_steps_find(hd_steps *steps, const hd_spectrum *spectrum);
 const hd_modes *hd_steps_modes(const hd_steps *steps); /**< as at creation */
+/** First column of any that is resolved; INT_MAX: none is. */
+int hd_steps_first(const hd_steps *steps);
 
 /** Standard error of the sum over the resolved steps of factor(step, context) times exponent; see
  * hd_spectrum_error_of_sum. `spectrum` as in hd_steps_find. */

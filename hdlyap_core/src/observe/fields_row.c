@@ -2,6 +2,7 @@
  * reports at which fields are due. */
 #include "modes/archived.h"
 #include "modes/pmode.h"
+#include "modes/steps.h"
 #include "observe/observable.h"
 
 static double fields_bytes(const hd_scene_def *scene, int ranks)
@@ -19,9 +20,16 @@ static void *fields_create(const hd_observing *with, hd_status *status)
 
 static void fields_free(void *self) { hd_pmode_free(self); }
 
-const hd_observable hd_fields_row = {.asked = HD_OBSERVE_FIELDS,
-                                     .needs = HD_NEEDS_FRAME | HD_NEEDS_MODES | HD_NEEDS_FIELDS |
+static int fields_first(void *self, const hd_observing *with)
+{
+    (void)self;
+    return hd_steps_first(with->part[HD_OBSERVED_steps]);
+}
+
+const hd_observable hd_fields_row = {.with = HD_OBSERVE_STEPS,
+                                     .needs = HD_NEEDS_FRAME | HD_NEEDS_VECTORS | HD_NEEDS_FIELDS |
                                               HD_NEEDS_ALL,
                                      .bytes = fields_bytes,
                                      .create = fields_create,
-                                     .free = fields_free};
+                                     .free = fields_free,
+                                     .first = fields_first};

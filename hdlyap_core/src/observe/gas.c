@@ -167,8 +167,7 @@ static void gas_archive(void *self, hd_archive *archive, const hd_trajectory *no
     hd_blocks_archive(&gas->blocks, archive);
 }
 
-const hd_observable hd_gas_row = {.asked = HD_OBSERVE_GAS,
-                                  .bytes = gas_bytes,
+const hd_observable hd_gas_row = {.bytes = gas_bytes,
                                   .create = gas_create,
                                   .free = gas_free,
                                   .clear = gas_clear,

@@ -10,6 +10,7 @@
 #include "base/check.h"
 #include "base/memory.h"
 #include "modes/archived.h"
+#include "modes/steps.h"
 #include "modes/sets.h"
 #include "observe/functionals.h"
 #include "observe/observable.h"
@@ -152,10 +153,17 @@ static void hydro_report(void *self, const hd_observing *with, const hd_view *st
     hd_hydro_measure(self, with->part[HD_OBSERVED_steps], state->vectors[0], state->q, state->p);
 }
 
-const hd_observable hd_hydro_row = {.asked = HD_OBSERVE_HYDRO,
-                                    .needs = HD_NEEDS_FRAME | HD_NEEDS_MODES | HD_NEEDS_REPORTS |
-                                             HD_NEEDS_ALL,
+static int hydro_first(void *self, const hd_observing *with)
+{
+    (void)self;
+    return hd_steps_first(with->part[HD_OBSERVED_steps]);
+}
+
+const hd_observable hd_hydro_row = {.with = HD_OBSERVE_STEPS,
+                                    .needs = HD_NEEDS_FRAME | HD_NEEDS_VECTORS | HD_NEEDS_REPORTS |
+                                             HD_NEEDS_STATE | HD_NEEDS_ALL,
                                     .bytes = hydro_bytes,
                                     .create = hydro_create,
                                     .free = hydro_free,
-                                    .report = hydro_report};
+                                    .report = hydro_report,
+                                    .first = hydro_first};

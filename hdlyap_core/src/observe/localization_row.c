@@ -58,8 +58,7 @@ static void localization_archive(void *self, hd_archive *archive, const hd_traje
     hd_localization_archive(self, archive);
 }
 
-const hd_observable hd_localization_row = {.asked = HD_OBSERVE_LOCALIZATION,
-                                           .needs = HD_NEEDS_FRAME,
+const hd_observable hd_localization_row = {.needs = HD_NEEDS_FRAME,
                                            .bytes = localization_bytes,
                                            .create = localization_create,
                                            .free = localization_free,

@@ -54,8 +54,8 @@ static void modes_archive(void *self, hd_archive *archive, const hd_trajectory *
     hd_modes_archive(self, archive);
 }
 
-const hd_observable hd_modes_row = {.asked = HD_OBSERVE_OF_MODES,
-                                    .needs = HD_NEEDS_FRAME | HD_NEEDS_MODES,
+const hd_observable hd_modes_row = {.with = HD_OBSERVE_STEPS,
+                                    .needs = HD_NEEDS_FRAME | HD_NEEDS_VECTORS | HD_NEEDS_STATE,
                                     .bytes = modes_bytes,
                                     .create = modes_create,
                                     .free = modes_free,
@@ -100,8 +100,8 @@ static void steps_archive(void *self, hd_archive *archive, const hd_trajectory *
     hd_steps_archive(self, archive);
 }
 
-const hd_observable hd_steps_row = {.asked = HD_OBSERVE_OF_MODES,
-                                    .needs = HD_NEEDS_FRAME | HD_NEEDS_MODES,
+const hd_observable hd_steps_row = {.with = HD_OBSERVE_MODES,
+                                    .needs = HD_NEEDS_FRAME | HD_NEEDS_VECTORS,
                                     .bytes = steps_bytes,
                                     .create = steps_create,
                                     .free = steps_free,

@@ -1,7 +1,6 @@
-/** One thing that a scene can have observed. Its row says when it is wanted, what it needs of a
- * run, how many bytes it takes, and what is to be done with it; the rows stand in rows.inc. A run
- * knows rows alone: what is off is a row that nobody calls.
- */
+/** One thing that a scene can have observed. Its row says what it needs of a run, how many bytes it
+ * takes, and what is to be done with it; the rows stand in hdlyap/observables.inc. A run knows rows
+ * alone: what is off is a row that nobody calls. */
 #ifndef HD_OBSERVABLE_H
 #define HD_OBSERVABLE_H
 
@@ -12,21 +11,15 @@
 #include "hdlyap/trajectory.h"
 #include "tangent/ortho.h"
 
-/** What modes are measured for. */
-enum {
-    HD_OBSERVE_OF_MODES = HD_OBSERVE_MODES | HD_OBSERVE_STEPS | HD_OBSERVE_PHASES |
-                          HD_OBSERVE_FIELDS | HD_OBSERVE_HYDRO | HD_OBSERVE_T_PHASES |
-                          HD_OBSERVE_STRUCTURE
-};
-
 /** What an observable needs: a set. */
 enum {
     HD_NEEDS_FRAME = 1,   /**< vectors; else the disks alone, and it is on as long as the run */
-    HD_NEEDS_MODES = 2,   /**< the modes of all vectors, at measured states */
+    HD_NEEDS_VECTORS = 2, /**< all n at measured states, and where somebody watches */
     HD_NEEDS_REPORTS = 4, /**< a measured state at every report */
     HD_NEEDS_FIELDS = 8,  /**< a measured state where fields are due */
-    HD_NEEDS_ALL = 16,    /**< the vectors that are read at reports or fields, on each rank */
-    HD_NEEDS_CLOSE = 32   /**< measured states no farther apart than `sampling` says */
+    HD_NEEDS_ALL = 16,    /**< vectors of all ranks at these reports, on each rank */
+    HD_NEEDS_CLOSE = 32,  /**< measured states no farther apart than `sampling` says */
+    HD_NEEDS_STATE = 64   /**< positions and momenta, to measure and report */
 };
 
 /** What an observable is made from, and what it goes on to know. */
@@ -51,13 +44,12 @@ typedef struct hd_view {
     /** A single rank: all n, and none. One of several: those that it carries, and their partners,
      * if only half of the vectors are carried. */
     hd_columns vectors[2];
-    const double *q,
-        *p; /**< positions and momenta, to measure and report; NULL unless modes are looked at */
+    const double *q, *p; /**< positions and momenta, for HD_NEEDS_STATE, else NULL */
 } hd_view;
 
 /** Functions may be NULL: then there is nothing to do. `self` is what `create` made. */
 typedef struct hd_observable {
-    unsigned asked; /**< set of HD_OBSERVE_*, of which any asks for it */
+    unsigned with;  /**< set of HD_OBSERVE_* that come with it */
     unsigned needs; /**< set of HD_NEEDS_* */
     /** That it will take on each of so many ranks; on the safe side by some percent. */
     double (*bytes)(const hd_scene_def *scene, int ranks);
@@ -76,21 +68,23 @@ typedef struct hd_observable {
     /** At a report at which the vectors are known: state->vectors[0] are those that can be read, of
      * all ranks. */
     void (*report)(void *self, const hd_observing *with, const hd_view *state);
+    /** First of the vectors that it reads of all ranks; NULL: 0. */
+    int (*first)(void *self, const hd_observing *with);
     /** Longest time from this measured state to the next; INFINITY. */
     double (*sampling)(void *self, const hd_observing *with);
     void (*archive)(void *self, hd_archive *archive, const hd_trajectory *now);
+    /** What hd_run_parts gives of it; NULL: itself. */
+    void *(*result)(void *self);
 } hd_observable;
 
 /** The number of each row. */
 typedef enum hd_observed {
-#define HD_ROW(name) HD_OBSERVED_##name,
-#include "observe/rows.inc"
-#undef HD_ROW
+#define HD_OBSERVABLE(name, NAME, bit, of_waves, result) HD_OBSERVED_##name,
+#include "hdlyap/observables.inc"
     HD_OBSERVED
 } hd_observed;
 
-#define HD_ROW(name) extern const hd_observable hd_##name##_row;
-#include "observe/rows.inc"
-#undef HD_ROW
+#define HD_OBSERVABLE(name, NAME, bit, of_waves, result) extern const hd_observable hd_##name##_row;
+#include "hdlyap/observables.inc"
 
 #endif

@@ -9,20 +9,40 @@
 #include "scene/scene.h"
 
 static const hd_observable *const rows[HD_OBSERVED] = {
-#define HD_ROW(name) [HD_OBSERVED_##name] = &hd_##name##_row,
-#include "observe/rows.inc"
-#undef HD_ROW
+#define HD_OBSERVABLE(name, NAME, bit, of_waves, result) [HD_OBSERVED_##name] = &hd_##name##_row,
+#include "hdlyap/observables.inc"
+};
+static const unsigned bits[HD_OBSERVED] = {
+#define HD_OBSERVABLE(name, NAME, bit, of_waves, result) [HD_OBSERVED_##name] = (bit),
+#include "hdlyap/observables.inc"
 };
 
-/** For each row k that the run has and somebody looks at, as `row`. */
+/** For each row k that the run has and somebody looks at. */
 #define EACH_LOOKED_AT(o, k)                                                                       \
     for (int k = 0; k < HD_OBSERVED; k++)                                                          \
         if (hd_observables_has(o, (hd_observed)k))
 
-static bool is_asked(const hd_observable *row, const hd_scene_def *scene)
+unsigned hd_observables_with(unsigned set)
 {
-    return scene->observe & row->asked &&
-           (!(row->needs & HD_NEEDS_FRAME) || hd_scene_vectors(scene) > 0);
+    for (unsigned before = 0; before != set;) {
+        before = set;
+        for (int k = 0; k < HD_OBSERVED; k++)
+            if (set & bits[k]) set |= rows[k]->with;
+    }
+    return set;
+}
+
+static bool is_asked(int k, const hd_scene_def *scene)
+{
+    return hd_observables_with(scene->observe) & bits[k] &&
+           (!(rows[k]->needs & HD_NEEDS_FRAME) || hd_scene_vectors(scene) > 0);
+}
+
+bool hd_observables_asked(const hd_scene_def *scene, unsigned needs)
+{
+    for (int k = 0; k < HD_OBSERVED; k++)
+        if (is_asked(k, scene) && (rows[k]->needs & needs) == needs) return true;
+    return false;
 }
 
 /** Of all disks. */
@@ -33,10 +53,10 @@ static size_t coordinates(const hd_scene_def *scene)
 
 double hd_observables_bytes(const hd_scene_def *scene, int ranks)
 {
-    const bool seen = scene->observe & HD_OBSERVE_OF_MODES && hd_scene_vectors(scene) > 0;
+    const bool seen = hd_observables_asked(scene, HD_NEEDS_STATE);
     double bytes = seen ? 2.0 * (double)coordinates(scene) * sizeof(double) : 0.0; /* q and p */
     for (int k = 0; k < HD_OBSERVED; k++)
-        if (is_asked(rows[k], scene)) bytes += rows[k]->bytes(scene, ranks);
+        if (is_asked(k, scene)) bytes += rows[k]->bytes(scene, ranks);
     return bytes;
 }
 
@@ -48,14 +68,21 @@ static hd_status create_state(hd_observables *o)
     return o->q && o->p ? HD_OK : HD_NO_MEMORY;
 }
 
+static void look(hd_observables *o, unsigned set)
+{
+    o->looked_at = set;
+    o->seen = hd_observables_with(set);
+}
+
 hd_status hd_observables_create(hd_observables *o, const hd_observing *with)
 {
-    *o = (hd_observables){.with = *with, .looked_at = with->scene->observe};
+    *o = (hd_observables){.with = *with};
     o->with.part = o->part;
-    if (with->vectors > 0 && with->scene->observe & HD_OBSERVE_OF_MODES)
+    look(o, with->scene->observe);
+    if (hd_observables_asked(with->scene, HD_NEEDS_STATE))
         HD_TRY(hd_communicator_agree(with->communicator, create_state(o)));
     for (int k = 0; k < HD_OBSERVED; k++) {
-        if (!is_asked(rows[k], with->scene)) continue;
+        if (!is_asked(k, with->scene)) continue;
         hd_status status;
         o->part[k] = rows[k]->create(&o->with, &status);
         HD_TRY(hd_communicator_agree(with->communicator, status));
@@ -74,19 +101,25 @@ void hd_observables_free(hd_observables *o)
 
 void *hd_observables_part(const hd_observables *o, hd_observed row) { return o->part[row]; }
 
+void *hd_observables_result(const hd_observables *o, hd_observed k)
+{
+    return o->part[k] && rows[k]->result ? rows[k]->result(o->part[k]) : o->part[k];
+}
+
 unsigned hd_observables_looked_at(const hd_observables *o) { return o->looked_at; }
 
 void hd_observables_look(hd_observables *o, unsigned stages)
 {
-    const unsigned begun = stages & ~o->looked_at;
+    const unsigned before = o->seen;
+    look(o, stages);
     for (int k = 0; k < HD_OBSERVED; k++)
-        if (o->part[k] && begun & rows[k]->asked && rows[k]->resume) rows[k]->resume(o->part[k]);
-    o->looked_at = stages;
+        if (o->part[k] && o->seen & ~before & bits[k] && rows[k]->resume)
+            rows[k]->resume(o->part[k]);
 }
 
 bool hd_observables_has(const hd_observables *o, hd_observed k)
 {
-    return o->part[k] && (o->looked_at & rows[k]->asked || !(rows[k]->needs & HD_NEEDS_FRAME));
+    return o->part[k] && (o->seen & bits[k] || !(rows[k]->needs & HD_NEEDS_FRAME));
 }
 
 bool hd_observables_any(const hd_observables *o) { return hd_observables_need(o, 0); }
@@ -100,6 +133,18 @@ bool hd_observables_need(const hd_observables *o, unsigned needs)
     return false;
 }
 
+int hd_observables_first(const hd_observables *o)
+{
+    int first = o->with.vectors;
+    EACH_LOOKED_AT(o, k)
+    {
+        if (!(rows[k]->needs & HD_NEEDS_ALL)) continue;
+        const int own = rows[k]->first ? rows[k]->first(o->part[k], &o->with) : 0;
+        if (own < first) first = own;
+    }
+    return first;
+}
+
 double hd_observables_sampling(const hd_observables *o)
 {
     double longest = INFINITY;
@@ -110,11 +155,11 @@ double hd_observables_sampling(const hd_observables *o)
     return longest;
 }
 
-/** The state, with positions and momenta where modes are looked at. */
+/** The state, with positions and momenta where somebody looks at them. */
 static hd_view seen(const hd_observables *o, const hd_view *state)
 {
     hd_view view = *state;
-    if (!hd_observables_need(o, HD_NEEDS_MODES)) return view;
+    if (!hd_observables_need(o, HD_NEEDS_STATE)) return view;
     hd_trajectory_state(state->trajectory, o->q, o->p);
     view.q = o->q;
     view.p = o->p;

@@ -9,7 +9,8 @@ typedef struct hd_observables {
     hd_observing with;
     void *part[HD_OBSERVED]; /**< NULL: not asked for */
     unsigned looked_at;      /**< set of HD_OBSERVE_* */
-    double *q, *p;           /**< positions and momenta; NULL unless modes are asked for */
+    unsigned seen;           /**< and those that come with these */
+    double *q, *p;           /**< positions and momenta; NULL unless HD_NEEDS_STATE is asked for */
 } hd_observables;
 
 /** What the scene asks for; without exponents, of the disks alone. Ranks agree. Fails as its
@@ -20,8 +21,15 @@ void hd_observables_free(hd_observables *observables);
 /** Bytes of those of a scene, on each of so many ranks. */
 double hd_observables_bytes(const hd_scene_def *scene, int ranks);
 
+/** A set of HD_OBSERVE_*, and those that come with these. */
+unsigned hd_observables_with(unsigned set);
+/** True if the scene asks for one that has all of these needs (set of HD_NEEDS_*). */
+bool hd_observables_asked(const hd_scene_def *scene, unsigned needs);
+
 /** What a row's observable is; NULL unless asked for. */
 void *hd_observables_part(const hd_observables *observables, hd_observed row);
+/** What hd_run_parts gives of it. */
+void *hd_observables_result(const hd_observables *observables, hd_observed row);
 
 /** Which of them somebody looks at from now on (set of HD_OBSERVE_*); at first all. */
 void hd_observables_look(hd_observables *observables, unsigned stages);
@@ -34,6 +42,8 @@ bool hd_observables_any(const hd_observables *observables);
 bool hd_observables_need(const hd_observables *observables, unsigned needs);
 /** True if this row is one of them. */
 bool hd_observables_has(const hd_observables *observables, hd_observed row);
+/** First of the vectors that are read of all ranks; n if none are. */
+int hd_observables_first(const hd_observables *observables);
 /** Longest time from this measured state to the next, for those that follow something; INFINITY
  * without one. */
 double hd_observables_sampling(const hd_observables *observables);

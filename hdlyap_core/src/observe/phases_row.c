@@ -54,12 +54,12 @@ static void phases_archive(void *self, hd_archive *archive, const hd_trajectory 
     hd_phases_archive(self, archive, hd_trajectory_time(now));
 }
 
-#define ROW(of, its_bytes, its_create)                                                             \
+#define ROW(its_bytes, its_create)                                                                 \
     {                                                                                              \
-        .asked = (of), .needs = HD_NEEDS_FRAME | HD_NEEDS_MODES | HD_NEEDS_CLOSE,                  \
+        .with = HD_OBSERVE_STEPS, .needs = HD_NEEDS_FRAME | HD_NEEDS_VECTORS | HD_NEEDS_CLOSE,     \
         .bytes = (its_bytes), .create = (its_create), .free = phases_free, .clear = phases_clear,  \
         .resume = phases_resume, .add = phases_add, .sampling = phases_sampling,                   \
         .archive = phases_archive                                                                  \
     }
-const hd_observable hd_phases_row = ROW(HD_OBSERVE_PHASES, lp_bytes, lp_create);
-const hd_observable hd_t_phases_row = ROW(HD_OBSERVE_T_PHASES, t_bytes, t_create);
+const hd_observable hd_phases_row = ROW(lp_bytes, lp_create);
+const hd_observable hd_t_phases_row = ROW(t_bytes, t_create);

@@ -52,8 +52,9 @@ static void structure_archive(void *self, hd_archive *archive, const hd_trajecto
     hd_structure_archive(self, archive);
 }
 
-const hd_observable hd_structure_row = {.asked = HD_OBSERVE_STRUCTURE,
-                                        .needs = HD_NEEDS_FRAME | HD_NEEDS_MODES | HD_NEEDS_REPORTS,
+const hd_observable hd_structure_row = {.with = HD_OBSERVE_MODES,
+                                        .needs = HD_NEEDS_FRAME | HD_NEEDS_VECTORS |
+                                                 HD_NEEDS_REPORTS | HD_NEEDS_STATE,
                                         .bytes = structure_bytes,
                                         .create = structure_create,
                                         .free = structure_free,

@@ -26,7 +26,6 @@ struct hd_windows {
     double seconds;                /**< wall seconds spent here */
 };
 
-const hd_covariant *hd_windows_covariant(const hd_windows *windows) { return windows->covariant; }
 double *hd_windows_seconds(hd_windows *windows) { return &windows->seconds; }
 void hd_windows_lose(hd_windows *windows) { windows->due = true; }
 bool hd_windows_begins(const hd_windows *windows) { return windows->due; }
@@ -170,11 +169,13 @@ static void covariant_archive(void *self, hd_archive *archive, const hd_trajecto
     hd_covariant_archive(((hd_windows *)self)->covariant, archive);
 }
 
-const hd_observable hd_covariant_row = {.asked = HD_OBSERVE_COVARIANT,
-                                        .needs = HD_NEEDS_FRAME,
+static void *covariant_result(void *self) { return ((hd_windows *)self)->covariant; }
+
+const hd_observable hd_covariant_row = {.needs = HD_NEEDS_FRAME,
                                         .bytes = covariant_bytes,
                                         .create = covariant_create,
                                         .free = covariant_free,
                                         .clear = covariant_clear,
                                         .resume = covariant_resume,
-                                        .archive = covariant_archive};
+                                        .archive = covariant_archive,
+                                        .result = covariant_result};

@@ -10,7 +10,6 @@
 /** The observable of HD_OBSERVED_covariant. */
 typedef struct hd_windows hd_windows;
 
-const hd_covariant *hd_windows_covariant(const hd_windows *windows);
 double *hd_windows_seconds(hd_windows *windows); /**< wall seconds spent here */
 
 /* Of an interval of the averaging, while somebody looks. */

@@ -13,7 +13,7 @@
 #include "base/clock.h"
 #include "base/memory.h"
 #include "hdlyap/blas.h"
-#include "observe/observable.h"
+#include "observe/observables.h"
 #include "run/advance.h"
 #include "scene/scene.h"
 #include "tangent/archived.h"
@@ -105,11 +105,10 @@ static hd_status prepare_threads(hd_carrier *c, const hd_scene_def *scene)
     return HD_OK;
 }
 
-/** Vectors of the half that are completed at once: those that a rank has, if modes are looked at.
- */
+/** Vectors of the half that are completed at once: a rank's own, if somebody observes them. */
 static int completed(const hd_scene_def *scene, int here)
 {
-    return scene->observe & HD_OBSERVE_OF_MODES ? here : 0;
+    return hd_observables_asked(scene, HD_NEEDS_VECTORS) ? here : 0;
 }
 
 static hd_status prepare_conjugate(hd_carrier *c, const hd_scene_def *scene)

@@ -3,7 +3,7 @@
 
 #include "base/check.h"
 #include "base/memory.h"
-#include "observe/observable.h"
+#include "observe/observables.h"
 #include "scene/scene.h"
 
 void hd_gathered_free(hd_gathered *g) { hd_memory_free(g->room); }
@@ -13,7 +13,7 @@ double hd_gathered_bytes(const hd_scene_def *scene, int ranks)
 {
     const double rows = 2.0 * hd_scene_coordinates(scene) * scene->disks,
                  carried = hd_scene_carried(scene);
-    const bool wanted = scene->observe & (HD_OBSERVE_HYDRO | HD_OBSERVE_FIELDS);
+    const bool wanted = hd_observables_asked(scene, HD_NEEDS_ALL);
     if (ranks == 1 || !wanted || carried == hd_scene_vectors(scene)) return 0.0;
     return sizeof(double) * rows * 3.0 * carried;
 }

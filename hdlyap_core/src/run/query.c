@@ -27,19 +27,13 @@ const hd_frame *hd_run_frame(const hd_run *run) { return run->carrier.frame; }
 
 hd_parts hd_run_parts(const hd_run *run)
 {
-    const hd_windows *windows = part(run, HD_OBSERVED_covariant);
-    return (hd_parts){.trajectory = run->advance.trajectory,
-                      .spectrum = run->carrier.spectrum,
-                      .modes = part(run, HD_OBSERVED_modes),
-                      .steps = part(run, HD_OBSERVED_steps),
-                      .phases = part(run, HD_OBSERVED_phases),
-                      .t_phases = part(run, HD_OBSERVED_t_phases),
-                      .structure = part(run, HD_OBSERVED_structure),
-                      .hydro = part(run, HD_OBSERVED_hydro),
-                      .gas = part(run, HD_OBSERVED_gas),
-                      .localization = part(run, HD_OBSERVED_localization),
-                      .covariant = windows ? hd_windows_covariant(windows) : NULL,
-                      .pmode = part(run, HD_OBSERVED_fields)};
+    return (hd_parts){
+        .trajectory = run->advance.trajectory,
+        .spectrum = run->carrier.spectrum,
+#define HD_OBSERVABLE(name, NAME, bit, of_waves, type)                                             \
+    .name = hd_observables_result(&run->observables, HD_OBSERVED_##name),
+#include "hdlyap/observables.inc"
+    };
 }
 
 double hd_run_followed(const hd_run *run) { return run->followed; }

@@ -45,7 +45,7 @@ static bool is_needed(const hd_run *run, unsigned needs)
 /** True where a watcher wants vectors. */
 static bool is_watched(const hd_run *run)
 {
-    return is_needed(run, HD_NEEDS_MODES) && run->watch.first < run->carrier.vectors;
+    return is_needed(run, HD_NEEDS_VECTORS) && run->watch.first < run->carrier.vectors;
 }
 
 hd_windows *hd_run_windows(const hd_run *run)
@@ -69,7 +69,7 @@ static hd_view view_of(const hd_run *run)
     hd_view view = {.trajectory = run->advance.trajectory, .spectrum = c->spectrum};
     if (!c->frame) return view;
     view.carried = hd_frame_columns(c->frame);
-    if (!is_needed(run, HD_NEEDS_MODES)) return view;
+    if (!is_needed(run, HD_NEEDS_VECTORS)) return view;
     view.vectors[0] = run->communicator ? view.carried : hd_carrier_vectors(c);
     if (run->communicator && c->conjugate)
         view.vectors[1] = hd_conjugate_partners(c->conjugate, view.carried);
@@ -239,23 +239,19 @@ static hd_status orthonormalise(hd_run *run, bool measured)
 /** First of the vectors that somebody wants to read now; n if nobody does. */
 static int first_wanted(const hd_run *run)
 {
-    const hd_steps *steps = hd_run_parts(run).steps;
     const bool fields = hd_agenda_is_due(&run->agenda, HD_DUE_FIELDS) &&
                         is_needed(run, HD_NEEDS_FIELDS | HD_NEEDS_ALL);
     const bool wanted = fields || is_needed(run, HD_NEEDS_REPORTS | HD_NEEDS_ALL);
-    int first = is_watched(run) ? run->watch.first : run->carrier.vectors;
-    if (wanted && run->fields_first < first) first = run->fields_first;
-    for (int k = 0; wanted && k < hd_steps_count(steps); k++) {
-        const hd_step *step = hd_steps_step(steps, k);
-        if (step->resolved && step->col < first) first = step->col;
-    }
-    return first;
+    const int watched = is_watched(run) ? run->watch.first : run->carrier.vectors;
+    const int read = wanted ? hd_observables_first(&run->observables) : run->carrier.vectors;
+    const int first = read < watched ? read : watched;
+    return wanted && run->fields_first < first ? run->fields_first : first;
 }
 
-/** Where modes are looked at, as nobody else reads vectors. */
+/** Where all vectors are looked at, as nobody else reads them. */
 static hd_status gather(hd_run *run)
 {
-    if (!is_needed(run, HD_NEEDS_MODES)) return HD_OK;
+    if (!is_needed(run, HD_NEEDS_VECTORS)) return HD_OK;
     return hd_gather(&run->gathered, &run->carrier, first_wanted(run));
 }
 
@@ -268,7 +264,7 @@ static hd_status measure(hd_run *run, bool add)
     HD_TRY(hd_observables_measure(&run->observables, &view));
     if (add) hd_observables_add(&run->observables, &view);
     if (add && is_needed(run, HD_NEEDS_CLOSE)) run->followed = hd_run_time(run);
-    run->known = is_needed(run, HD_NEEDS_MODES);
+    run->known = is_needed(run, HD_NEEDS_VECTORS);
     HD_TRY(gather(run));
     run->cost.modes += hd_clock_now() - start;
     return HD_OK;

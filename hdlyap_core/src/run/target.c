@@ -11,7 +11,7 @@
 #include "base/memory.h"
 #include "hdlyap/wave.h"
 #include "modes/steps.h"
-#include "observe/observable.h"
+#include "observe/observables.h"
 #include "run/run_state.h"
 #include "scene/scene.h"
 
@@ -41,7 +41,7 @@ typedef struct quantity {
     const char *name;
     enum { NOTHING, INDEX, NODES } of; /**< whose numbers stand behind the name */
     hd_mode_kind kind;
-    unsigned needs;   /**< HD_OBSERVE_* of which one is enough; 0: exponents alone */
+    unsigned needs;   /**< HD_OBSERVE_*, or 0: exponents alone */
     const char *from; /**< the observable that has it */
     /** False if such a scene never knows it, with the reason; NULL: no more is to be asked. */
     bool (*possible)(const hd_scene_def *def, const aim *goal, char why[WHY]);
@@ -201,7 +201,7 @@ static stated read_pressure(const hd_run *run, const aim *goal)
     return (stated){means.pressure, means.pressure_error, 0.0};
 }
 
-#define STEPS .needs = HD_OBSERVE_OF_MODES, .from = "steps"
+#define STEPS .needs = HD_OBSERVE_STEPS, .from = "steps"
 #define PHASES .needs = HD_OBSERVE_PHASES, .from = "lp_phases"
 #define GAS .needs = HD_OBSERVE_GAS, .from = "gas"
 static const quantity quantities[] = {
@@ -345,7 +345,7 @@ static bool is_possible(const hd_scene_def *def, const aim *goal, char why[WHY])
     const quantity *q = goal->quantity;
     if (q->needs != HD_OBSERVE_GAS && hd_scene_vectors(def) == 0)
         snprintf(why, WHY, "exponents = none");
-    else if (q->needs && !(def->observe & q->needs))
+    else if (q->needs && !(hd_observables_with(def->observe) & q->needs))
         snprintf(why, WHY, "%s is no observable", q->from);
     else
         return !q->possible || q->possible(def, goal, why);
@@ -367,13 +367,23 @@ hd_status hd_target_check(const hd_scene_def *def, char *message, size_t size)
     return HD_OK;
 }
 
+/** Those of a set that this one comes with: itself, if it is one of them. */
+static unsigned simplest(unsigned set, unsigned needed)
+{
+    unsigned all = 0;
+    if (set & needed) return needed;
+    for (unsigned bit = 1; bit <= set; bit <<= 1)
+        if (set & bit && hd_observables_with(bit) & needed) all |= bit;
+    return all;
+}
+
 unsigned hd_target_stages(const hd_scene_def *def, unsigned stages)
 {
     const aims target = aims_of(def, &def->target);
     for (int k = 0; k < target.count; k++) {
-        const unsigned able = target.goal[k].quantity->needs & def->observe;
-        const unsigned simplest = able & HD_OBSERVE_STEPS ? HD_OBSERVE_STEPS : able;
-        if (!(able & stages)) stages |= simplest;
+        const unsigned needed = target.goal[k].quantity->needs;
+        if (!(hd_observables_with(stages & def->observe) & needed))
+            stages |= simplest(def->observe, needed);
     }
     return stages;
 }

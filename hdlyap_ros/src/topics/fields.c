@@ -21,7 +21,7 @@ static void reconstruct(pair_fields *pairs, const hd_run *run, const hd_step *st
 {
     const size_t length = HD_DIM * (size_t)hd_run_scene(run)->disks;
     const hd_modes *modes = hd_run_parts(run).modes;
-    hd_pmode *pmode = hd_run_parts(run).pmode;
+    hd_pmode *pmode = hd_run_parts(run).fields;
     if (!hd_pmode_reconstruct(pmode, step, modes, hd_run_frame_columns(run))) return;
     const int d = hd_pmode_pairs(pmode);
     const hd_subspace *subspace = hd_fields_subspace(hd_modes_fields(modes), step->subspace);

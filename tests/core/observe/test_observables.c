@@ -4,9 +4,12 @@
 #include "runs.h"
 
 static const hd_observable *const rows[HD_OBSERVED] = {
-#define HD_ROW(name) [HD_OBSERVED_##name] = &hd_##name##_row,
-#include "observe/rows.inc"
-#undef HD_ROW
+#define HD_OBSERVABLE(name, NAME, bit, of_waves, result) [HD_OBSERVED_##name] = &hd_##name##_row,
+#include "hdlyap/observables.inc"
+};
+static const unsigned bits[HD_OBSERVED] = {
+#define HD_OBSERVABLE(name, NAME, bit, of_waves, result) [HD_OBSERVED_##name] = (bit),
+#include "hdlyap/observables.inc"
 };
 #define OF(row) (1u << HD_OBSERVED_##row)
 
@@ -28,7 +31,7 @@ TEST(rows_are_whole)
 {
     for (int k = 0; k < HD_OBSERVED; k++) {
         const hd_observable *row = rows[k];
-        assert_true(row->asked && row->create && row->free && row->bytes);
+        assert_true(row->create && row->free && row->bytes);
         assert_true(row->clear || !(row->add || row->archive));
     }
 }
@@ -82,6 +85,15 @@ static bytes archived(const hd_run *run, int k)
     return b;
 }
 
+/** This one, and all that it comes with. */
+static unsigned without(unsigned bit)
+{
+    unsigned set = bit;
+    for (int k = 0; k < HD_OBSERVED; k++)
+        if (hd_observables_with(bits[k]) & bit) set |= bits[k];
+    return set;
+}
+
 /** One observable after the other is not looked at for a while: in a checkpoint the arrays of all
  * rows that nothing else asks for stay as they were, and all others change. Fields and hydro keep
  * none. */
@@ -90,7 +102,7 @@ TEST(what_nobody_looks_at_stays)
     OWNED(hd_run) *run = created(channel(HD_OBSERVE_ALL));
     until_time(run, 120.0);
     for (int off = 0; off < HD_OBSERVED; off++) {
-        const unsigned looked_at = HD_OBSERVE_ALL & ~rows[off]->asked;
+        const unsigned looked_at = HD_OBSERVE_ALL & ~without(bits[off]);
         bytes before[HD_OBSERVED] = {{NULL, 0}};
         CHECK_OK(hd_run_settle(run)); /* as kept_bytes does */
         hd_run_observe(run, looked_at);
@@ -99,7 +111,7 @@ TEST(what_nobody_looks_at_stays)
         until_time(run, hd_run_time(run) + 20.0);
         const bytes after = kept_bytes(run);
         for (int k = 0; k < HD_OBSERVED; k++) {
-            const bool goes_on = looked_at & rows[k]->asked || !(rows[k]->needs & HD_NEEDS_FRAME);
+            const bool goes_on = looked_at & bits[k] || !(rows[k]->needs & HD_NEEDS_FRAME);
             const void *kept = before[k].data
                                    ? memmem(after.data, after.size, before[k].data, before[k].size)
                                    : NULL;
@@ -179,9 +191,7 @@ TEST(what_is_looked_at_goes_on)
 TEST(a_reset_forgets_all_averages)
 {
     int have_some = 0;
-#define HD_ROW(name) have_some += hd_##name##_row.clear != NULL;
-#include "observe/rows.inc"
-#undef HD_ROW
+    for (int k = 0; k < HD_OBSERVED; k++) have_some += rows[k]->clear != NULL;
     assert_int_equal(have_some, AVERAGES);
     for (int looked_at = 0; looked_at < 2; looked_at++) {
         OWNED(hd_run) *run = with_everything(0.08);

@@ -30,16 +30,8 @@
     static inline type *hd_run_##name(const hd_run *run) { return hd_run_parts(run).name; }
 PART(const hd_trajectory, trajectory)
 PART(const hd_spectrum, spectrum)
-PART(const hd_modes, modes)
-PART(const hd_steps, steps)
-PART(const hd_phases, phases)
-PART(const hd_phases, t_phases)
-PART(const hd_structure, structure)
-PART(const hd_hydro, hydro)
-PART(const hd_gas, gas)
-PART(hd_localization, localization)
-PART(const hd_covariant, covariant)
-PART(hd_pmode, pmode)
+#define HD_OBSERVABLE(name, NAME, bit, of_waves, result) PART(result, name)
+#include "hdlyap/observables.inc"
 #undef PART
 
 #endif
