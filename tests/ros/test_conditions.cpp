@@ -120,6 +120,7 @@ worker_state healthy()
     worker_state state = {};
     state.status = HD_OK;
     state.warning = "";
+    state.particles = "disks";
     state.last.cost.stalled_since = -1.0;
     state.disks = {true, 1e-16, 1e-13, 1e-15, 1e-12};
     return state;

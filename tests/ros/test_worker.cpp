@@ -51,9 +51,10 @@ TEST(Worker, isFreeWhileAChangeIsMade)
 {
     using namespace std::chrono;
     checkpoint_writer keep = {};
+    settings set = {};
     worker *w;
     char message[64] = "";
-    ASSERT_TRUE(worker_create(&w, nullptr, nullptr, nullptr, nullptr, &keep));
+    ASSERT_TRUE(worker_create(&w, nullptr, nullptr, &set, nullptr, &keep));
     ASSERT_TRUE(worker_begin(w));
     auto asker = std::async(std::launch::async,
                             [&] { return worker_set(w, 3.0, "a=1", message, sizeof message); });

@@ -9,6 +9,7 @@ HD_API_BEGIN
 
 /** How many there are of what a run tells. What the scene does not ask for is 0. */
 typedef struct hd_extent {
+    int dimension; /**< of the space */
     int disks, vectors;
     int waves; /**< of the structure factors */
     int subspaces,

@@ -104,6 +104,11 @@ hd_scene_def hd_scene_def_default(void);
  * target hd_target_check says it. */
 HD_MUST_CHECK hd_status hd_scene_check(const hd_scene_def *def, char *message, size_t size);
 
+/** Of the space that the particles move in: directions. */
+int hd_scene_dimension(const hd_scene_def *def);
+/** Of one particle: components of its dq, and of its dp. */
+int hd_scene_coordinates(const hd_scene_def *def);
+
 /** Box edges, one for each direction [sigma]: Lx = sqrt(N / (rho A)), Ly = A Lx, with A = aspect;
  * of spheres Lx = cbrt(N / (rho A B)), Lz = B Lx, with B = aspect_z; of the square around a circle
  * 2 R, with R = sqrt(N / (pi rho)). */

@@ -57,7 +57,9 @@ hd_extent hd_extent_of(const hd_scene_def *def, const hd_run *run)
 {
     const hd_parts parts = hd_run_parts(run);
     const int known = hd_scene_positive_exponents(def) + hd_scene_zero_exponents(def);
-    hd_extent e = {.disks = def->disks, .vectors = hd_scene_vectors(def)};
+    hd_extent e = {.dimension = hd_scene_dimension(def),
+                   .disks = def->disks,
+                   .vectors = hd_scene_vectors(def)};
     if (def->observe & HD_OBSERVE_STRUCTURE) e.waves = hd_structure_waves_of(def);
     if (parts.hydro) e.responses = hd_hydro_count(parts.hydro);
     if (def->observe & HD_OBSERVE_COVARIANT) {

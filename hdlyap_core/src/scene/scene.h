@@ -4,11 +4,6 @@
 
 #include "hdlyap/scene.h"
 
-/** Of the space that the particles move in: directions. */
-int hd_scene_dimension(const hd_scene_def *def);
-/** Of one particle: components of its dq, and of its dp. */
-int hd_scene_coordinates(const hd_scene_def *def);
-
 /** What the ends of direction d are. */
 hd_boundary hd_scene_boundary(const hd_scene_def *def, int d);
 

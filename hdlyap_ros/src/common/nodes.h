@@ -9,6 +9,15 @@
 /** Of two that have nx, ny and nz. */
 #define SAME_NODES(a, b) ((a)->nx == (b)->nx && (a)->ny == (b)->ny && (a)->nz == (b)->nz)
 
+/** Those of a wave of the core in a message. */
+#define NODES(wave)                                                                                \
+    .nx = (uint32_t)(wave).n[0], .ny = (uint32_t)(wave).n[1], .nz = (uint32_t)(wave).n[2]
+
+/** The same, of one that is there. */
+#define PUT_NODES(message, wave)                                                                   \
+    ((message)->nx = (uint32_t)(wave).n[0], (message)->ny = (uint32_t)(wave).n[1],                 \
+     (message)->nz = (uint32_t)(wave).n[2])
+
 enum { NODES_SIZE = 40 };
 
 /** (1,0), of spheres (1,0,0); three also where disks are asked for what they have not. */

@@ -1,6 +1,5 @@
 /** Scene file -> is it valid, its memory, speed, bag and waves. Memory and speed are what the core
  * estimates; what a bag takes is what the rows of the topics say. */
-#include "common/dimension.h"
 #include "check.h"
 
 #include <math.h>
@@ -18,7 +17,10 @@ enum { REFUSED = 2, FAULT = 3 };
 /** The recorder is sent no more reports a second. */
 static const double reports_per_second = 960.0;
 /** From here on disks have been seen to keep their places [T8]. */
-static const double density_of_cages = HD_DIM == 2 ? 0.88 : 0.9;
+static double density_of_cages(const hd_scene_def *def)
+{
+    return hd_scene_dimension(def) == 2 ? 0.88 : 0.9;
+}
 
 /* ---- what is printed ------------------------------------------------------------------------ */
 
@@ -73,7 +75,7 @@ static void print_speed(const settings *set, const hd_estimate *t)
 {
     const hd_scene_def *def = &set->def;
     printf("speed     %.3g s per time unit, by a trial of a second", t->seconds);
-    if (t->disks < def->disks) printf(" of %d " DISKS ", and the cube of N", t->disks);
+    if (t->disks < def->disks) printf(" of %d %s, and the cube of N", t->disks, set->particles);
     if (!isnan(t->interval)) printf("; interval %.3g", t->interval);
     if (def->observe & HD_OBSERVE_COVARIANT) printf("; without covariant vectors");
     printf("\n");
@@ -158,7 +160,8 @@ static void print_waves(const settings *set)
     for (int k = 0; k < shown; k++) {
         const char *kinds = wave[k].transverse.count == 0 ? " LP" : " T,LP";
         char nodes[NODES_SIZE];
-        printf("%s%s", wave[k].pairs.count == 0 ? " T" : kinds, nodes_text(nodes, &wave[k]));
+        printf("%s%s", wave[k].pairs.count == 0 ? " T" : kinds,
+               settings_write_nodes(nodes, def, &wave[k]));
     }
     if (count > shown) printf(" and %d more", count - shown);
     printf("\n");
@@ -194,11 +197,11 @@ static void print_errors(const settings *set, const hd_estimate *t)
     if (steps) print_slopes(set, t);
     if (set->def.duration > 0 && set->def.duration < t->errors_after)
         printf("          The duration is too short for any error.\n");
-    if (set->def.density >= density_of_cages)
-        printf("          " DISKS
-               " may keep their places at this density, as in a crystal: then errors are "
-               "those of one state,\n          and other seeds may differ by more (~status: "
-               "caged).\n");
+    if (set->def.density >= density_of_cages(&set->def))
+        printf("          %s may keep their places at this density, as in a crystal: then errors "
+               "are those of one state,\n          and other seeds may differ by more (~status: "
+               "caged).\n",
+               set->particles);
 }
 
 /** In simulated time of averaging, and in that of the wall. */
@@ -226,8 +229,8 @@ static void print_all(const settings *set, const hd_estimate *t, hd_room room)
     const hd_scene_def *def = &set->def;
     char container[64];
     settings_write_container(container, sizeof container, def);
-    printf("scene     %s is valid: %d " DISKS " in %s, %d vectors\n", set->scene, def->disks,
-           container, hd_scene_counts(def).vectors);
+    printf("scene     %s is valid: %d %s in %s, %d vectors\n", set->scene, def->disks,
+           set->particles, container, hd_scene_counts(def).vectors);
     print_memory(set, room);
     print_speed(set, t);
     print_bag(set, t);

@@ -1,6 +1,5 @@
 /** OK while it computes and there is nothing to say. ERROR: a fault has ended it, or what it says
  * or keeps is no longer right. WARN: the numbers are right, but not what was hoped for. */
-#include "common/dimension.h"
 #include "conditions.h"
 
 #include <inttypes.h>
@@ -34,8 +33,8 @@ static void add_errors(conditions *all, const worker_state *state)
     if (state->status != HD_OK) add(all, level, "%s", hd_status_text(state->status));
     if (state->checkpoint.failed) add(all, level, "%s", state->checkpoint.message);
     if (!(disks->overlap <= disks->overlap_max))
-        add(all, level, DISKS " overlap by %.2g, rounding explains %.2g", disks->overlap,
-            disks->overlap_max);
+        add(all, level, "%s overlap by %.2g, rounding explains %.2g", state->particles,
+            disks->overlap, disks->overlap_max);
     if (!(disks->energy_error <= disks->energy_error_max))
         add(all, level, "energy is off by %.2g, rounding explains %.2g", disks->energy_error,
             disks->energy_error_max);
@@ -60,7 +59,8 @@ static void add_warnings(conditions *all, const worker_state *state, const hdr_l
         add(all, level, "%s is not known to %.2g by any averaging: %.2g stays open in this box",
             at->name, at->wanted, at->open);
     if (last->caged)
-        add(all, level, DISKS " keep their places: errors are those of this one state");
+        add(all, level, "%s keep their places: errors are those of this one state",
+            state->particles);
     if (slowest->seconds >= behind_seconds)
         add(all, level, "a subscriber of %s is %.1f s behind", slowest->topic, slowest->seconds);
     if (slowest->lost > 0)

@@ -6,7 +6,6 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "common/dimension.h"
 #include "check.h"
 #include "diagnostics.h"
 #include "hdlyap/follow.h"
@@ -117,12 +116,14 @@ static int first_field(const settings *set)
 
 /** Of some thousand disks it takes seconds, beside other jobs a minute. Not if it will be refused.
  */
-static void log_creation(const hd_scene_def *def)
+static void log_creation(const settings *set)
 {
+    const hd_scene_def *def = &set->def;
     if (hd_room_check(def, hd_room_available(), NULL, 0) != HD_OK) return;
     const int vectors = hd_scene_counts(def).carried;
-    if ((double)HD_ROWS * def->disks * vectors > ENTRIES_MANY)
-        hdr_log(HDR_INFO, "makes %d vectors of %d " DISKS " orthonormal", vectors, def->disks);
+    if (2.0 * hd_scene_coordinates(def) * def->disks * vectors > ENTRIES_MANY)
+        hdr_log(HDR_INFO, "makes %d vectors of %d %s orthonormal", vectors, def->disks,
+                set->particles);
 }
 
 /** A run whose checkpoints could not be written is not begun. */
@@ -131,7 +132,7 @@ static int create_run(app *a)
     char message[512] = "";
     const settings *set = &a->set;
     hd_status status = checkpoint_writer_check(set, message, sizeof message);
-    if (status == HD_OK) log_creation(&set->def);
+    if (status == HD_OK) log_creation(set);
     if (status == HD_OK && *set->resume)
         status = hd_run_resume_shared(&a->run, set->resume, &set->def, a->ranks, message,
                                       sizeof message);
@@ -179,10 +180,9 @@ static void log_start(const app *a)
     const hd_blas blas = hd_blas_query();
     char container[64];
     settings_write_container(container, sizeof container, def);
-    hdr_log(HDR_INFO,
-            "scene %s: %d " DISKS " in %s, %d vectors, %d threads; %s, kernel %s, %d threads",
-            a->set.scene, def->disks, container, hd_run_vectors(a->run), hd_run_threads(a->run),
-            blas.library, blas.kernel, blas.threads);
+    hdr_log(HDR_INFO, "scene %s: %d %s in %s, %d vectors, %d threads; %s, kernel %s, %d threads",
+            a->set.scene, def->disks, a->set.particles, container, hd_run_vectors(a->run),
+            hd_run_threads(a->run), blas.library, blas.kernel, blas.threads);
     warn_of_threads(a->run);
     if (*a->set.warning) hdr_log(HDR_WARN, "%s", a->set.warning);
     if (*a->set.resume)

@@ -39,14 +39,21 @@ static bool read_all(settings *out, reader *r)
 
 void settings_write_container(char *text, size_t size, const hd_scene_def *def)
 {
-    double box[HD_DIM];
+    double box[HD_DIMENSION_MAX];
     hd_scene_box(def, box);
     if (def->container == HD_CIRCLE)
         snprintf(text, size, "a circle of radius %.6g", 0.5 * box[0]);
-    else if (HD_DIM == 2)
+    else if (hd_scene_dimension(def) == 2)
         snprintf(text, size, "%.6g x %.6g", box[0], box[1]);
     else
-        snprintf(text, size, "%.6g x %.6g x %.6g", box[0], box[1], box[HD_DIM - 1]);
+        snprintf(text, size, "%.6g x %.6g x %.6g", box[0], box[1], box[2]);
+}
+
+const char *settings_write_nodes(char text[NODES_SIZE], const hd_scene_def *def,
+                                 const hd_wave *wave)
+{
+    return nodes_write(text, hd_scene_dimension(def) == 3, (uint32_t)wave->n[0],
+                       (uint32_t)wave->n[1], (uint32_t)wave->n[2]);
 }
 
 /** A name chooses no system: it must come with the one that it names, and no system has the name of
@@ -192,6 +199,7 @@ static void write_texts(settings *out)
     snprintf(out->seed, sizeof out->seed, "%" PRIu64, out->def.seed);
     snprintf(out->exponents, sizeof out->exponents, "%d", out->def.exponents);
     if (word) snprintf(out->exponents, sizeof out->exponents, "%s", word);
+    out->particles = hd_scene_dimension(&out->def) == 2 ? "disks" : "spheres";
 }
 
 bool settings_resume(const char **path, const hdr_params *params, char *message, size_t size)

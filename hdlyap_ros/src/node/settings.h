@@ -6,7 +6,9 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "common/nodes.h"
 #include "hdlyap/checkpoint.h"
+#include "hdlyap/wave.h"
 #include "hdlyap_ros/params.h"
 
 /** Vectors whose fields are published. */
@@ -24,10 +26,11 @@ typedef struct change_list {
 
 typedef struct settings {
     hd_scene_def def;
-    const char *scene;    /**< name; in the params, or in the checkpoint */
-    char seed[24];        /**< decimal */
-    char exponents[16];   /**< as asked for: positive, all, none or a number */
-    unsigned observables; /**< set of topics: all but run_info, status and cost */
+    const char *scene;     /**< name; in the params, or in the checkpoint */
+    const char *particles; /**< what moves: disks or spheres */
+    char seed[24];         /**< decimal */
+    char exponents[16];    /**< as asked for: positive, all, none or a number */
+    unsigned observables;  /**< set of topics: all but run_info, status and cost */
     field_choice fields;
     double slow_vectors_rate; /**< messages of slow_vectors per wall second, at most */
     int slow_vectors_count;   /**< vectors in each; 0: down to the lowest T and LP step */
@@ -53,5 +56,9 @@ bool settings_read(settings *out, const hdr_params *params, const hd_checkpoint 
 
 /** What holds the disks, with its size, for a line: "33.5 x 29.1". */
 void settings_write_container(char *text, size_t size, const hd_scene_def *def);
+
+/** (1,0), of spheres (1,0,0). */
+const char *settings_write_nodes(char text[NODES_SIZE], const hd_scene_def *def,
+                                 const hd_wave *wave);
 
 #endif

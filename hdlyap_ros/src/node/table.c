@@ -5,7 +5,6 @@
 #include <stdbool.h>
 #include <stdio.h>
 
-#include "common/dimension.h"
 #include "common/numbers.h"
 #include "clock.h"
 #include "hdlyap_ros/messages.h"
@@ -19,12 +18,12 @@ static bool in_table(const hd_step *step)
     return step->resolved && step->kind != HD_MODE_ZERO && !step->conjugate;
 }
 
-static void print_step(const hd_step *step)
+static void print_step(const hd_step *step, const hd_scene_def *def)
 {
     char name[2 * TEXT], nodes[NODES_SIZE], indices[TEXT], exponent[TEXT];
     const bool alone = step->sharing == HD_SHARING_ALONE;
     snprintf(name, sizeof name, "%s%s", hdr_step_kind_text(step->kind),
-             nodes_text(nodes, &step->wave));
+             settings_write_nodes(nodes, def, &step->wave));
     const int printed = snprintf(indices, sizeof indices, "%d", step->col + 1);
     if (step->count > 1)
         snprintf(indices + printed, sizeof indices - (size_t)printed, "-%d",
@@ -81,7 +80,7 @@ static void print_steps(const hd_run *run)
     for (int col = hd_run_vectors(run) - 1; col >= 0; col--)
         for (int k = 0; k < count; k++)
             if (in_table(hd_steps_step(steps, k)) && hd_steps_step(steps, k)->col == col)
-                print_step(hd_steps_step(steps, k));
+                print_step(hd_steps_step(steps, k), hd_run_scene(run));
     print_fits(run, steps);
     if (missing > 0) hdr_log(HDR_INFO, "  %d steps are not resolved", missing);
 }
@@ -108,8 +107,9 @@ static void print(const char *what, const settings *set, const hd_run *run)
     print_steps(run);
     if (hd_run_is_caged(run))
         hdr_log(HDR_WARN,
-                "  " DISKS " have kept their places since the averaging began: errors are "
-                "those of this one state, other seeds may differ by more");
+                "  %s have kept their places since the averaging began: errors are those of this "
+                "one state, other seeds may differ by more",
+                set->particles);
 }
 
 static bool is_averaged(const hd_run *run)

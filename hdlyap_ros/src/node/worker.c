@@ -336,6 +336,7 @@ bool worker_create(worker **out, hd_run *run, report *rep, settings *set, change
     w->changes = all;
     w->state.last = progress_of(run, 0.0);
     w->state.warning = set->warning;
+    w->state.particles = set->particles;
     w->keep = *keep;
     w->state.checkpoint = w->keep.state;
     locks_create(w);

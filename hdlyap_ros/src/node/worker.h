@@ -26,8 +26,9 @@ typedef struct worker_state {
     hd_status status; /**< the fault that ended it, else HD_OK */
     char fault[256];  /**< in words, with its numbers */
     progress last;
-    examination disks;   /**< as of the last worker_examine */
-    const char *warning; /**< of the settings */
+    examination disks;     /**< as of the last worker_examine */
+    const char *warning;   /**< of the settings */
+    const char *particles; /**< what moves, by name */
     kept checkpoint;
     bool saving; /**< one is being written */
     double lost; /**< hdr_node_lost, of who asks that */

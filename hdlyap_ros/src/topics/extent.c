@@ -1,14 +1,13 @@
 /** How many there are of what messages list -> bytes. */
 #include "topics/extent.h"
 
-#include "common/dimension.h"
 #include "hdlyap_ros/messages.h"
 
 hd_extent extent_of(const settings *set, hd_extent of_run)
 {
     if (set->fields.count == 0) return of_run;
     of_run.examples = set->fields.count; /* of steps that are not known yet */
-    of_run.pairs = HD_MODULATIONS_IN(HD_DIM) * set->fields.count;
+    of_run.pairs = HD_MODULATIONS_IN(of_run.dimension) * set->fields.count;
     return of_run;
 }
 

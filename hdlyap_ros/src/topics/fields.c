@@ -5,9 +5,9 @@
 
 #include "hdlyap/pmode.h"
 
-enum { PAIRS_MAX = HD_MODULATIONS_IN(HD_DIM) };
+enum { PAIRS_MAX = HD_MODULATIONS_MAX };
 
-/** Reconstructed modes of one step, pair by pair; arrays [pairs][HD_DIM N]: x0 y0 x1 y1 .. */
+/** Reconstructed modes of one step, pair by pair; arrays [pairs][dimension N]: x0 y0 x1 y1 .. */
 typedef struct pair_fields {
     uint32_t count;
     uint8_t modulation[PAIRS_MAX];
@@ -19,7 +19,8 @@ typedef struct pair_fields {
 static void reconstruct(pair_fields *pairs, const hd_run *run, const hd_step *step,
                         const double *momenta)
 {
-    const size_t length = HD_DIM * (size_t)hd_run_scene(run)->disks;
+    const size_t length = (size_t)(hd_scene_dimension(hd_run_scene(run)) *
+                                   hd_run_scene(run)->disks);
     const hd_modes *modes = hd_run_parts(run).modes;
     hd_pmode *pmode = hd_run_parts(run).fields;
     if (!hd_pmode_reconstruct(pmode, step, modes, hd_run_frame_columns(run))) return;
@@ -38,12 +39,12 @@ static void reconstruct(pair_fields *pairs, const hd_run *run, const hd_step *st
     }
 }
 
-/** Component 0 .. HD_ROWS - 1 of a vector of the frame. */
-static hdr_doubles column_of(hd_columns frame, int col, int component, size_t disks)
+/** A component of a vector of the frame, of so many at each disk. */
+static hdr_doubles column_of(hd_columns frame, int col, int component, int components, size_t disks)
 {
     const size_t stride = (size_t)frame.stride;
     return message_array(frame.data + (size_t)component * stride + (col - frame.first), disks,
-                         HD_ROWS * stride);
+                         (size_t)components * stride);
 }
 
 static void fill_vector(hdr_mode_field *message, const hd_run *run, int col, size_t disks)
@@ -51,10 +52,13 @@ static void fill_vector(hdr_mode_field *message, const hd_run *run, int col, siz
     const hd_columns frame = hd_run_frame_columns(run);
     message->index = (uint32_t)col + 1;
     message->exponent = hd_spectrum_exponent(hd_run_parts(run).spectrum, col);
-    hdr_doubles *const component[] = {&message->dqx, &message->dqy,
-                                      OF_SPHERES(&message->dqz, )(&message->dpx), &message->dpy,
-                                      OF_SPHERES(&message->dpz)};
-    for (int k = 0; k < HD_ROWS; k++) *component[k] = column_of(frame, col, k, disks);
+    const int coordinates = hd_scene_coordinates(hd_run_scene(run));
+    hdr_doubles *const dq[HD_DIMENSION_MAX] = {&message->dqx, &message->dqy, &message->dqz};
+    hdr_doubles *const dp[HD_DIMENSION_MAX] = {&message->dpx, &message->dpy, &message->dpz};
+    for (int d = 0; d < coordinates; d++) {
+        *dq[d] = column_of(frame, col, d, 2 * coordinates, disks);
+        *dp[d] = column_of(frame, col, coordinates + d, 2 * coordinates, disks);
+    }
 }
 
 static void fill_step(hdr_mode_field *message, const hd_step *step)
@@ -65,7 +69,8 @@ static void fill_step(hdr_mode_field *message, const hd_step *step)
     message->wave_number = step->wave.number;
 }
 
-static void fill_pairs(hdr_mode_field *message, const pair_fields *pairs, size_t disks)
+static void fill_pairs(hdr_mode_field *message, const pair_fields *pairs, size_t disks,
+                       int dimension)
 {
     const size_t count = pairs->count * disks;
     message->pairs = pairs->count;
@@ -73,15 +78,14 @@ static void fill_pairs(hdr_mode_field *message, const pair_fields *pairs, size_t
     message->residual_l = message_array(pairs->residual_l, pairs->count, 1);
     message->residual_p = message_array(pairs->residual_p, pairs->count, 1);
     message->rotation_distance = pairs->rotation_distance;
-    message->l_x = COMPONENT(pairs->l, 0, count);
-    message->l_y = COMPONENT(pairs->l, 1, count);
-    message->p_x = COMPONENT(pairs->p, 0, count);
-    message->p_y = COMPONENT(pairs->p, 1, count);
-    message->p_over_px = COMPONENT(pairs->ratio, 0, count);
-    message->p_over_py = COMPONENT(pairs->ratio, 1, count);
-    OF_SPHERES(message->l_z = COMPONENT(pairs->l, 2, count);)
-    OF_SPHERES(message->p_z = COMPONENT(pairs->p, 2, count);)
-    OF_SPHERES(message->p_over_pz = COMPONENT(pairs->ratio, 2, count);)
+    hdr_doubles *const l[] = {&message->l_x, &message->l_y, &message->l_z};
+    hdr_doubles *const p[] = {&message->p_x, &message->p_y, &message->p_z};
+    hdr_doubles *const ratio[] = {&message->p_over_px, &message->p_over_py, &message->p_over_pz};
+    for (int d = 0; d < dimension; d++) {
+        *l[d] = message_component(pairs->l, count, d, dimension);
+        *p[d] = message_component(pairs->p, count, d, dimension);
+        *ratio[d] = message_component(pairs->ratio, count, d, dimension);
+    }
 }
 
 static hd_status publish_vector(const moment *now, int col)
@@ -89,18 +93,21 @@ static hd_status publish_vector(const moment *now, int col)
     const hd_steps *steps = hd_run_parts(now->run).steps;
     const int s = hd_steps_of_vector(steps, col);
     const hd_step *step = s < 0 ? NULL : hd_steps_step(steps, s);
-    const size_t disks = (size_t)now->set->def.disks, length = PAIRS_MAX * HD_DIM * disks;
+    const int dimension = moment_dimension(now);
+    const size_t disks = (size_t)now->set->def.disks;
+    const size_t length = (size_t)(HD_MODULATIONS_IN(dimension) * dimension) * disks;
     const double *q, *p;
     now->room->taken = 0; /* for each anew */
     pair_fields pairs = {.l = moment_take(now, 3 * length, sizeof *pairs.l)};
     if (!pairs.l || !moment_state(now, &q, &p)) return HD_OK;
-    hdr_mode_field message = {.sim_time = hd_run_time(now->run), STATE_FIELDS(q, p, disks)};
+    hdr_mode_field message = {.sim_time = hd_run_time(now->run),
+                              STATE_FIELDS(q, p, disks, dimension)};
     pairs.p = pairs.l + length;
     pairs.ratio = pairs.p + length;
     if (step && step->kind == HD_MODE_LP) reconstruct(&pairs, now->run, step, p);
     fill_vector(&message, now->run, col, disks);
     fill_step(&message, step);
-    fill_pairs(&message, &pairs, disks);
+    fill_pairs(&message, &pairs, disks, dimension);
     return topic_send_fields(now->out, &message);
 }
 

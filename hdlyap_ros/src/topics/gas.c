@@ -6,6 +6,7 @@
 hd_status topic_publish_gas(const moment *now)
 {
     const hd_gas_means m = hd_gas_read(hd_run_parts(now->run).gas);
+    const bool has_z = moment_dimension(now) == 3;
     hdr_gas message = {
         .sim_time = hd_run_time(now->run),
         .averaged_time = m.time,
@@ -17,8 +18,8 @@ hd_status topic_publish_gas(const moment *now)
         .pressure_x_error = m.pressure_of_error[0],
         .pressure_y = m.pressure_of[1],
         .pressure_y_error = m.pressure_of_error[1],
-        .pressure_z = HD_DIM == 3 ? m.pressure_of[HD_DIM - 1] : NAN,
-        .pressure_z_error = HD_DIM == 3 ? m.pressure_of_error[HD_DIM - 1] : -1.0,
+        .pressure_z = has_z ? m.pressure_of[2] : NAN,
+        .pressure_z_error = has_z ? m.pressure_of_error[2] : -1.0,
         .compressibility = m.compressibility,
     };
     return m.time > 0.0 ? topic_send_gas(now->out, &message) : HD_OK;

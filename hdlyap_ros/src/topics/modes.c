@@ -4,7 +4,7 @@
 _Static_assert((int)HD_MODE_LP == (int)HDR_MODE_LP, "kinds as in the core");
 
 /** Weights in the fields of its step. */
-static void fill_kind(hdr_mode *mode, const hd_modes *modes, const hd_step *step)
+static void fill_kind(hdr_mode *mode, const hd_modes *modes, const hd_step *step, int dimension)
 {
     const int col = (int)mode->index - 1;
     mode->kind = (uint8_t)step->kind;
@@ -12,7 +12,7 @@ static void fill_kind(hdr_mode *mode, const hd_modes *modes, const hd_step *step
     mode->wave_number = step->wave.number;
     if (step->kind == HD_MODE_ZERO) {
         mode->weight = mode->null_x + mode->null_y + mode->null_z + mode->null_p;
-        for (int k = 0; k < HD_NULLS; k++)
+        for (int k = 0; k <= dimension; k++)
             mode->weight_now += hd_modes_null_snapshot(modes, k)[col];
         return;
     }
@@ -23,7 +23,7 @@ static void fill_kind(hdr_mode *mode, const hd_modes *modes, const hd_step *step
     mode->weight_p = hd_modes_average(modes, step->subspace, HD_WEIGHT_P)[col];
 }
 
-static hdr_mode mode_of(const hd_parts *of, int col)
+static hdr_mode mode_of(const hd_parts *of, int col, int dimension)
 {
     const hd_modes *modes = of->modes;
     const int s = hd_steps_of_vector(of->steps, col);
@@ -32,11 +32,11 @@ static hdr_mode mode_of(const hd_parts *of, int col)
         .exponent = hd_spectrum_exponent(of->spectrum, col),
         .null_x = hd_modes_null_average(modes, HD_NULL_X)[col],
         .null_y = hd_modes_null_average(modes, HD_NULL_Y)[col],
-        OF_SPHERES(.null_z = hd_modes_null_average(modes, 2)[col], ).null_p = hd_modes_null_average(
-            modes, HD_NULL_P)[col],
+        .null_z = dimension > 2 ? hd_modes_null_average(modes, 2)[col] : 0.0,
+        .null_p = hd_modes_null_average(modes, dimension)[col],
         .step = s,
     };
-    if (s >= 0) fill_kind(&mode, modes, hd_steps_step(of->steps, s));
+    if (s >= 0) fill_kind(&mode, modes, hd_steps_step(of->steps, s), dimension);
     return mode;
 }
 
@@ -47,7 +47,7 @@ hd_status topic_publish_modes(const moment *now)
     const uint32_t vectors = (uint32_t)hd_run_vectors(run);
     hdr_mode *mode = moment_take(now, vectors, sizeof *mode);
     if (!mode) return HD_OK;
-    for (uint32_t k = 0; k < vectors; k++) mode[k] = mode_of(&of, (int)k);
+    for (uint32_t k = 0; k < vectors; k++) mode[k] = mode_of(&of, (int)k, moment_dimension(now));
     hdr_modes message = {
         .sim_time = hd_run_time(run),
         .averaged_time = hd_spectrum_time(of.spectrum),

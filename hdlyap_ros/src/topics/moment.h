@@ -2,7 +2,7 @@
 #ifndef HDLYAP_MOMENT_H
 #define HDLYAP_MOMENT_H
 
-#include "common/dimension.h"
+#include "common/nodes.h"
 #include "hdlyap/run.h"
 #include "node/changes.h"
 #include "node/settings.h"
@@ -67,14 +67,25 @@ static inline hdr_doubles message_array(const double *data, size_t count, size_t
     return (hdr_doubles){.data = data, .count = (uint32_t)count, .stride = (uint32_t)stride};
 }
 
-/** One component of all disks: of positions, say. */
-#define COMPONENT(of, d, disks) message_array((of) + (d), disks, HD_DIM)
+/** Directions of the space. */
+static inline int moment_dimension(const moment *now) { return hd_scene_dimension(&now->set->def); }
+
+/** Component d of arrays [count][dimension]: positions, say. Of a direction that the space has not
+ * it is empty. */
+static inline hdr_doubles message_component(const double *data, size_t count, int d, int dimension)
+{
+    if (d >= dimension) return (hdr_doubles){.data = NULL};
+    return message_array(data + d, count, (size_t)dimension);
+}
 
 /** The fields of a message that has positions and momenta of all disks. */
-#define STATE_FIELDS(q, p, disks)                                                                  \
-    OF_SPHERES(.z = COMPONENT(q, 2, disks), .pz = COMPONENT(p, 2, disks), )                        \
-        .x = COMPONENT(q, 0, disks),                                                               \
-       .y = COMPONENT(q, 1, disks), .px = COMPONENT(p, 0, disks), .py = COMPONENT(p, 1, disks)
+#define STATE_FIELDS(q, p, disks, dimension)                                                       \
+    .x = message_component(q, disks, 0, dimension),                                                \
+    .y = message_component(q, disks, 1, dimension),                                                \
+    .z = message_component(q, disks, 2, dimension),                                                \
+    .px = message_component(p, disks, 0, dimension),                                               \
+    .py = message_component(p, disks, 1, dimension),                                               \
+    .pz = message_component(p, disks, 2, dimension)
 
 /** Sends a topic's messages by topic_send_name, if there is something to say. HD_NOT_FINITE. */
 #define TOPIC(name, ...) HD_MUST_CHECK hd_status topic_publish_##name(const moment *now);

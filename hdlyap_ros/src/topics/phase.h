@@ -4,7 +4,7 @@
 
 #include <math.h>
 
-#include "common/dimension.h"
+#include "common/nodes.h"
 #include "hdlyap/run.h"
 
 /** Simulated time of the phases. */

@@ -30,8 +30,7 @@ static bool fill_waves(hdr_run_info *info, const moment *now)
     if (!waves || !nodes) return false;
     hd_waves(def, waves, (int)count);
     for (uint32_t k = 0; k < count; k++) {
-        for (uint32_t d = 0; d < 3; d++)
-            nodes[d * count + k] = d < HD_DIM ? (uint32_t)waves[k].n[d] : 0;
+        for (uint32_t d = 0; d < 3; d++) nodes[d * count + k] = (uint32_t)waves[k].n[d];
     }
     info->wave_nx = (hdr_uints){nodes, count};
     info->wave_ny = (hdr_uints){nodes + count, count};
@@ -58,13 +57,14 @@ static void fill_scene(hdr_run_info *info, const settings *set)
 {
     const hd_scene_def *def = &set->def;
     const bool is_circle = def->container == HD_CIRCLE;
-    double box[HD_DIM];
+    const bool has_z = hd_scene_dimension(def) == 3;
+    double box[HD_DIMENSION_MAX];
     hd_scene_box(def, box);
     info->scene = set->scene;
     info->box_x = box[0];
     info->box_y = box[1];
-    OF_SPHERES(info->box_z = box[2];)
-    info->boundary_z = HD_DIM == 3 ? word_of("boundary_z", def) : "";
+    info->box_z = has_z ? box[2] : 0.0;
+    info->boundary_z = has_z ? word_of("boundary_z", def) : "";
     info->container = word_of("container", def);
     info->boundary_x = is_circle ? "curved" : word_of("boundary_x", def);
     info->boundary_y = is_circle ? "curved" : word_of("boundary_y", def);

@@ -6,8 +6,6 @@
 
 #include "node/clock.h"
 
-enum { PAIRS_MAX = HD_MODULATIONS_IN(HD_DIM) };
-
 /** A message this old is as good as new for a run that stands still [s]. */
 static const double rest_seconds = 1.0;
 /** Of the time between two messages, one may be so early: steps are somewhat shorter than that, and
@@ -16,8 +14,9 @@ static const double early = 0.5;
 
 /** What is said of each vector, [vectors] each unless said otherwise. */
 typedef struct vector_arrays {
-    double *exponents, *a, *b; /**< [vectors], [PAIRS_MAX * vectors] twice */
-    uint32_t *nodes[HD_DIM];   /**< nx, ny, .. */
+    size_t directions, pairs_most;     /**< of the space, of a step */
+    double *exponents, *a, *b;         /**< [vectors], [pairs_most * vectors] twice */
+    uint32_t *nodes[HD_DIMENSION_MAX]; /**< nx, ny, .. */
     uint8_t *kind, *pairs;
     double *dq; /**< dqx of all vectors, then dqy, .. */
 } vector_arrays;
@@ -26,14 +25,16 @@ typedef struct vector_arrays {
 static bool arrays_take(vector_arrays *of, const moment *now, size_t count, size_t known)
 {
     const size_t disks = (size_t)now->set->def.disks;
-    of->exponents = moment_take(now, (1 + 2 * PAIRS_MAX) * count, sizeof *of->exponents);
-    of->nodes[0] = moment_take(now, HD_DIM * count, sizeof *of->nodes[0]);
+    of->directions = (size_t)moment_dimension(now);
+    of->pairs_most = HD_MODULATIONS_IN(of->directions);
+    of->exponents = moment_take(now, (1 + 2 * of->pairs_most) * count, sizeof *of->exponents);
+    of->nodes[0] = moment_take(now, HD_DIMENSION_MAX * count, sizeof *of->nodes[0]);
     of->kind = moment_take(now, 2 * count, sizeof *of->kind);
-    of->dq = moment_take(now, HD_DIM * disks * known, sizeof *of->dq);
+    of->dq = moment_take(now, of->directions * disks * known, sizeof *of->dq);
     if (!of->exponents || !of->nodes[0] || !of->kind || !of->dq) return false;
     of->a = of->exponents + count;
-    of->b = of->a + PAIRS_MAX * count;
-    for (int d = 1; d < HD_DIM; d++) of->nodes[d] = of->nodes[d - 1] + count;
+    of->b = of->a + of->pairs_most * count;
+    for (size_t d = 1; d < HD_DIMENSION_MAX; d++) of->nodes[d] = of->nodes[d - 1] + count;
     of->pairs = of->kind + count;
     return true;
 }
@@ -94,27 +95,29 @@ static void fill_step(vector_arrays *of, int k, const hd_parts *parts, int col, 
     const int s = hd_steps_of_vector(parts->steps, col);
     const hd_step *step = s < 0 ? NULL : hd_steps_step(parts->steps, s);
     const hd_modes *modes = parts->modes;
+    double *a = of->a + of->pairs_most * (size_t)k, *b = of->b + of->pairs_most * (size_t)k;
     of->kind[k] = (uint8_t)(step ? step->kind : HD_MODE_NONE);
-    for (int d = 0; d < HD_DIM; d++) of->nodes[d][k] = step ? (uint32_t)step->wave.n[d] : 0;
+    for (int d = 0; d < HD_DIMENSION_MAX; d++)
+        of->nodes[d][k] = step ? (uint32_t)step->wave.n[d] : 0;
     of->pairs[k] = 0;
-    for (int c = 0; c < PAIRS_MAX; c++) of->a[PAIRS_MAX * k + c] = of->b[PAIRS_MAX * k + c] = 0.0;
+    for (size_t c = 0; c < of->pairs_most; c++) a[c] = b[c] = 0.0;
     if (!known || !step || step->kind != HD_MODE_LP) return;
     const hd_subspace *subspace = hd_fields_subspace(hd_modes_fields(modes), step->subspace);
     const int pairs = subspace->dimension / 2;
     of->pairs[k] = (uint8_t)pairs;
     for (int c = 0; c < pairs; c++) {
-        of->a[PAIRS_MAX * k + c] = hd_modes_coefficients(modes, subspace->column + c)[col];
-        of->b[PAIRS_MAX * k + c] = hd_modes_coefficients(modes, subspace->column + pairs + c)[col];
+        a[c] = hd_modes_coefficients(modes, subspace->column + c)[col];
+        b[c] = hd_modes_coefficients(modes, subspace->column + pairs + c)[col];
     }
 }
 
 /** Row-major columns -> vector by vector. */
 static void fill_dq(vector_arrays *of, hd_columns known, int first, size_t vectors, size_t disks)
 {
-    const size_t stride = (size_t)known.stride;
+    const size_t stride = (size_t)known.stride, rows = 2 * of->directions;
     for (size_t j = 0; j < disks; j++) {
-        const double *row = known.data + HD_ROWS * j * stride + (size_t)(first - known.first);
-        for (size_t d = 0; d < HD_DIM; d++)
+        const double *row = known.data + rows * j * stride + (size_t)(first - known.first);
+        for (size_t d = 0; d < of->directions; d++)
             for (size_t k = 0; k < vectors; k++)
                 of->dq[(d * vectors + k) * disks + j] = row[d * stride + k];
     }
@@ -143,13 +146,13 @@ static bool fill_vectors(hdr_slow_vectors *message, const moment *now)
     message->kind = (hdr_bytes){of.kind, (uint32_t)count};
     message->nx = (hdr_uints){of.nodes[0], (uint32_t)count};
     message->ny = (hdr_uints){of.nodes[1], (uint32_t)count};
-    OF_SPHERES(message->nz = (hdr_uints){of.nodes[2], (uint32_t)count};)
+    if (of.directions > 2) message->nz = (hdr_uints){of.nodes[2], (uint32_t)count};
     message->pairs = (hdr_bytes){of.pairs, (uint32_t)count};
-    message->a = message_array(of.a, PAIRS_MAX * count, 1);
-    message->b = message_array(of.b, PAIRS_MAX * count, 1);
+    message->a = message_array(of.a, of.pairs_most * count, 1);
+    message->b = message_array(of.b, of.pairs_most * count, 1);
     message->dqx = message_array(of.dq, numbers, 1);
     message->dqy = message_array(of.dq + numbers, numbers, 1);
-    OF_SPHERES(message->dqz = message_array(of.dq + 2 * numbers, numbers, 1);)
+    if (of.directions > 2) message->dqz = message_array(of.dq + 2 * numbers, numbers, 1);
     return true;
 }
 
@@ -158,7 +161,8 @@ static hd_status send(const moment *now)
     const size_t disks = (size_t)now->set->def.disks;
     const double *q, *p;
     if (!moment_state(now, &q, &p)) return HD_OK;
-    hdr_slow_vectors message = {.sim_time = hd_run_time(now->run), STATE_FIELDS(q, p, disks)};
+    hdr_slow_vectors message = {.sim_time = hd_run_time(now->run),
+                                STATE_FIELDS(q, p, disks, moment_dimension(now))};
     if (!fill_vectors(&message, now)) return HD_OK;
     return topic_send_slow_vectors(now->out, &message);
 }

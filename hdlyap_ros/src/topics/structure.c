@@ -3,8 +3,6 @@
 
 #include <string.h>
 
-enum { ALONG = HD_MODULATIONS_IN(HD_DIM), ACROSS = HD_TRANSVERSE_IN(HD_DIM) };
-
 static void gather_means(double *mean, const hd_structure *s, size_t waves, size_t vectors)
 {
     for (hd_direction e = HD_ALONG; e < HD_DIRECTIONS; e++)
@@ -12,11 +10,11 @@ static void gather_means(double *mean, const hd_structure *s, size_t waves, size
             memcpy(mean, hd_structure_mean(s, (int)w, e), vectors * sizeof *mean);
 }
 
-static void gather_amplitudes(double *amplitude, const hd_structure *s, size_t vectors)
+static void gather_amplitudes(double *amplitude, const hd_structure *s, size_t vectors,
+                              const size_t *modulations)
 {
     for (hd_direction e = HD_ALONG; e < HD_DIRECTIONS; e++)
-        for (unsigned bits = 0; bits < (e == HD_ALONG ? ALONG : ACROSS);
-             bits++, amplitude += vectors)
+        for (unsigned bits = 0; bits < modulations[e]; bits++, amplitude += vectors)
             memcpy(amplitude, hd_structure_amplitude(s, e, bits), vectors * sizeof *amplitude);
 }
 
@@ -24,7 +22,7 @@ static void gather_waves(double *number, uint32_t *nodes, const hd_structure *s,
 {
     for (size_t w = 0; w < waves; w++) {
         const hd_wave *wave = hd_structure_wave(s, (int)w);
-        for (size_t d = 0; d < HD_DIM; d++) nodes[d * waves + w] = (uint32_t)wave->n[d];
+        for (size_t d = 0; d < HD_DIMENSION_MAX; d++) nodes[d * waves + w] = (uint32_t)wave->n[d];
         number[w] = wave->number;
     }
 }
@@ -33,30 +31,34 @@ hd_status topic_publish_structure(const moment *now)
 {
     const hd_structure *s = hd_run_parts(now->run).structure;
     const size_t waves = (size_t)hd_structure_waves(s), n = (size_t)hd_run_vectors(now->run);
+    const int dimension = moment_dimension(now);
+    const size_t modulations[HD_DIRECTIONS] = {(size_t)HD_MODULATIONS_IN(dimension),
+                                               (size_t)HD_TRANSVERSE_IN(dimension)};
+    const size_t along = modulations[HD_ALONG] * n, across = modulations[HD_ACROSS] * n;
     const size_t means = hd_run_fields_due(now->run) ? waves * n : 0;
     if (hd_structure_samples(s) == 0) return HD_OK;
     double *number = moment_take(now, waves, sizeof *number);
     double *mean = moment_take(now, 2 * means, sizeof *mean);
-    double *amplitude = moment_take(now, (ALONG + ACROSS) * n, sizeof *amplitude);
-    uint32_t *nodes = moment_take(now, HD_DIM * waves + n, sizeof *nodes);
+    double *amplitude = moment_take(now, along + across, sizeof *amplitude);
+    uint32_t *nodes = moment_take(now, HD_DIMENSION_MAX * waves + n, sizeof *nodes);
     if (!number || !mean || !amplitude || !nodes) return HD_OK;
-    uint32_t *peak = nodes + HD_DIM * waves;
+    uint32_t *peak = nodes + HD_DIMENSION_MAX * waves;
     gather_waves(number, nodes, s, waves);
     if (means > 0) gather_means(mean, s, waves, n);
-    gather_amplitudes(amplitude, s, n);
+    gather_amplitudes(amplitude, s, n, modulations);
     for (size_t col = 0; col < n; col++) peak[col] = (uint32_t)(hd_structure_peak(s, (int)col) + 1);
     hdr_structure message = {
         .sim_time = hd_run_time(now->run),
         .samples = (uint32_t)hd_structure_samples(s),
         .nx = {nodes, (uint32_t)waves},
         .ny = {nodes + waves, (uint32_t)waves},
-        OF_SPHERES(.nz = {nodes + 2 * waves, (uint32_t)waves}, ).wave_number = message_array(
-            number, waves, 1),
+        .nz = {nodes + 2 * waves, dimension > 2 ? (uint32_t)waves : 0},
+        .wave_number = message_array(number, waves, 1),
         .along = message_array(mean, means, 1),
         .across = message_array(mean + means, means, 1),
         .peak = {peak, (uint32_t)n},
-        .amplitude_along = message_array(amplitude, ALONG * n, 1),
-        .amplitude_across = message_array(amplitude + ALONG * n, ACROSS * n, 1),
+        .amplitude_along = message_array(amplitude, along, 1),
+        .amplitude_across = message_array(amplitude + along, across, 1),
     };
     return topic_send_structure(now->out, &message);
 }
