@@ -24,11 +24,9 @@ PAPER = (250, 251, 255)  # a background that nothing else has
 SCENE = dict(harness.MODES, warmup=40.0, duration=0.0, pace=2.0)
 
 
-def config(folder, name='hdlyap.rviz'):
-    """The view that is shipped, on a paper of its own."""
-    share = os.path.join(os.path.dirname(__file__), '..', '..', 'hdlyap_ros', 'rviz', name)
-    with open(share) as file:
-        view = yaml.safe_load(file)
+def config(folder, picture):
+    """The view of a picture that is shipped, on a paper of its own."""
+    view = view_command.shipped(picture)
     view['Visualization Manager']['Global Options']['Background Color'] = '%d; %d; %d' % PAPER
     view['Window Geometry'].update(Width=SCREEN[0], Height=SCREEN[1])
     path = os.path.join(folder, 'test.rviz')
@@ -108,7 +106,7 @@ class Rviz(harness.Case):
         self.pictures = self.hear('/hdlyap/markers', MarkerArray)
 
     def open_rviz(self):
-        command = [*VIEW, '--config', config(self.folder)]
+        command = [*VIEW, '--config', config(self.folder, self.pictures[-1])]
         rviz = self.process(command, ROS_HOME=self.folder, **self.screen.env)
         self.sees(lambda: any(name.startswith('/rviz_') for name in self.subscribers()), rviz)
         with open(os.path.join(self.folder, 'view_hdlyap_markers.rviz')) as file:
@@ -190,20 +188,20 @@ class Spheres(harness.Case):
     SIZE = np.array([20.0, 6.0, 5.0])
     ROOM = SCREEN[0] - view_command.DOCK, SCREEN[1] - view_command.BARS
 
-    def shipped(self, picture):
-        return view_command.configuration(view_command.shipped(picture))
-
     def test_the_view_is_that_of_the_picture(self):
-        """It can be turned where something is above the plane, and shows all of it."""
-        flat = self.shipped(box_of_spheres(self.SIZE * [1, 1, 0]))
-        self.assertEqual(
-            flat['Visualization Manager']['Views']['Current']['Class'], 'rviz/TopDownOrtho'
-        )
+        """It can be turned where something is above the plane, and shows all of it; the other one
+        is in rviz's list."""
+        above, aside = 'rviz/TopDownOrtho', 'rviz/Orbit'
         picture = box_of_spheres(self.SIZE)
+        for height, current, saved in ((0, above, aside), (1, aside, above)):
+            shown = box_of_spheres(self.SIZE * [1, 1, height])
+            views = view_command.shipped(shown)['Visualization Manager']['Views']
+            self.assertEqual(views['Current']['Class'], current)
+            self.assertEqual([view['Class'] for view in views['Saved']], [saved])
         for yaw, pitch in ((None, None), (0.3, 0.2), (-2.0, 1.4)):
-            config = self.shipped(picture)
+            config = view_command.shipped(picture)
             view = config['Visualization Manager']['Views']['Current']
-            self.assertEqual(view['Class'], 'rviz/Orbit')
+            self.assertEqual(view['Class'], aside)
             if yaw is not None:
                 view.update(Yaw=yaw, Pitch=pitch)
             view_command.fitted(config, '/a/markers', picture)
@@ -214,6 +212,8 @@ class Spheres(harness.Case):
                 abs(seen_from(view, (p.x, p.y, p.z))) / edge for p in picture.markers[0].points
             ]
             self.assertAlmostEqual(np.max(places), 1 / view_command.MARGIN, places=9)
+            (flat,) = config['Visualization Manager']['Views']['Saved']
+            self.assertEqual((flat['X'], flat['Y']), (10.0, 3.0))
 
     def test_rviz_shows_a_box_in_space(self):
         """Its edges are where the view says that they are."""
@@ -222,7 +222,7 @@ class Spheres(harness.Case):
         publisher = rospy.Publisher('/hdlyap/markers', MarkerArray, queue_size=1, latch=True)
         picture = box_of_spheres(self.SIZE)
         publisher.publish(picture)
-        command = [*VIEW, '--config', config(folder, 'hdlyap_3d.rviz')]
+        command = [*VIEW, '--config', config(folder, picture)]
         rviz = self.process(command, ROS_HOME=folder, **screen.env)
         self.sees(lambda: self.part_seen(folder, screen, picture) > 0.8, rviz)
 

@@ -40,13 +40,19 @@ def first_picture(topic):
 
 
 def shipped(picture):
-    """rviz's configuration, in an installed package or in its source: spheres can be turned."""
-    name = 'hdlyap_3d.rviz' if is_in_space(picture) else 'hdlyap.rviz'
+    """rviz's configuration, in an installed package or in its source: what is in space is seen in
+    the view that can be turned, and the other one is in rviz's list."""
     share = rospkg.RosPack().get_path('hdlyap')
-    installed = os.path.join(share, 'rviz', name)
-    return (
-        installed if os.path.exists(installed) else os.path.join(share, 'hdlyap_ros', 'rviz', name)
+    installed, source = (
+        os.path.join(share, *folders, 'rviz', 'hdlyap.rviz') for folders in ((), ('hdlyap_ros',))
     )
+    config = configuration(installed if os.path.exists(installed) else source)
+    views = config['Visualization Manager']['Views']
+    above, (aside,) = views['Current'], views['Saved']
+    if is_in_space(picture):
+        views['Current'] = dict(aside, Name=above['Name'])
+        views['Saved'] = [dict(above, Name='from above')]
+    return config
 
 
 def configuration(path):
@@ -122,21 +128,22 @@ def from_aside(view, room, points):
 
 
 def fitted(config, topic, picture):
-    """rviz's configuration with this topic, and its view on all of the picture."""
+    """rviz's configuration with this topic, and its views on all of the picture."""
     manager, window = config['Visualization Manager'], config['Window Geometry']
     room = window['Width'] - DOCK, window['Height'] - BARS
     for display in manager['Displays']:
         if display['Class'] == 'rviz/MarkerArray':
             display['Marker Topic'] = topic
-    view = manager['Views']['Current']
-    fit = from_aside if view['Class'] == 'rviz/Orbit' else from_above
-    fit(view, room, places(picture))
+    views = manager['Views']
+    for view in (views['Current'], *(views.get('Saved') or ())):
+        fit = from_aside if view['Class'] == 'rviz/Orbit' else from_above
+        fit(view, room, places(picture))
     return config
 
 
 def options(parser):
     parser.add_argument('--node', default='/hdlyap', metavar='NAME', help='default: %(default)s')
-    text = 'a view of your own instead of rviz/hdlyap.rviz, or hdlyap_3d.rviz of spheres'
+    text = 'a view of your own instead of rviz/hdlyap.rviz'
     parser.add_argument('--config', metavar='FILE', help=text)
 
 
@@ -152,7 +159,7 @@ def main(args):
     picture = first_picture(topic)
     if picture is None:
         return 130
-    config = config or configuration(shipped(picture))
+    config = config or shipped(picture)
     own = os.path.join(rospkg.get_ros_home(), 'view' + topic.replace('/', '_') + '.rviz')
     with open(own, 'w') as file:
         yaml.safe_dump(fitted(config, topic, picture), file)
