@@ -74,6 +74,19 @@ typedef struct hd_text {
     char line[HD_TEXT];
 } hd_text;
 
+/** What moves otherwise than disks or spheres: see hdlyap/dynamics.h. */
+typedef struct hd_dynamics hd_dynamics;
+
+/** Values of the parameters of such a dynamics, each as its row says: an int or a word `whole`, a
+ * double `real`. */
+enum { HD_OWN_MAX = 16 };
+typedef union hd_own {
+    double real;
+    int whole;
+} hd_own;
+/** hd_parameter.offset of number k of them. */
+#define HD_OWN(k) (offsetof(hd_scene_def, own) + (k) * sizeof(hd_own))
+
 /** Each parameter's default, range, unit and text stands in parameters.inc, which declares those
  * that are plain numbers. */
 typedef struct hd_scene_def {
@@ -86,7 +99,9 @@ typedef struct hd_scene_def {
     double phase_interval; /**< the same */
     unsigned observe;      /**< a set of HD_OBSERVE_*, 0 = none */
     hd_storage covariant_storage;
-    hd_text target; /**< what ends the run, see hd_target_check */
+    hd_text target;              /**< what ends the run, see hd_target_check */
+    const hd_dynamics *dynamics; /**< NULL: that of the particles */
+    hd_own own[HD_OWN_MAX];
 #define HD_INT(name, ...) int name;
 #define HD_REAL(name, ...) double name;
 #define HD_OTHER(...)
@@ -99,6 +114,8 @@ typedef struct hd_scene_def {
 #endif
 /** The paper's periodic scene: 780 disks, density 0.8, aspect 0.867. */
 hd_scene_def hd_scene_def_default(void);
+/** The same of another dynamics, with the defaults of its own parameters. */
+hd_scene_def hd_scene_def_of(const hd_dynamics *dynamics);
 
 /** HD_OK, or HD_REFUSED with one line in `message`: the parameter, its value, what is allowed; of a
  * target hd_target_check says it. */

@@ -7,12 +7,10 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "hdlyap/scene.h"
+#include "hdlyap/dynamics.h"
+#include "hdlyap/record.h"
 
 HD_API_BEGIN
-
-/** What happened to them; the core alone looks at it. */
-typedef struct hd_record hd_record;
 
 typedef struct hd_trajectory hd_trajectory;
 
@@ -32,12 +30,6 @@ HD_MUST_CHECK hd_status hd_trajectory_extend(hd_trajectory *trajectory, hd_recor
 double hd_trajectory_time(const hd_trajectory *trajectory); /**< simulated time */
 
 /** What has happened so far. */
-typedef struct hd_told {
-    uint64_t collisions, wall_events; /**< of pairs; with walls */
-    /** Virial of the pair events, by direction: sum of |p.n| n_d^2 [sigma momentum] [T19]. */
-    double virial[HD_DIMENSION_MAX];
-    double expected; /**< pair events in a time unit, by Enskog's theory [T2] */
-} hd_told;
 hd_told hd_trajectory_told(const hd_trajectory *trajectory);
 
 /** State now: positions q inside the box, x0 y0 .. x1 y1 .., and momenta p. Either may be NULL.
@@ -46,23 +38,7 @@ void hd_trajectory_state(const hd_trajectory *trajectory, double *q, double *p);
 
 double hd_trajectory_kinetic_energy(const hd_trajectory *trajectory); /**< sum p^2 / 2, = N */
 
-/** How exact the present state is. */
-typedef struct hd_examined {
-    /** More than rounding makes of the relative error of the energy: each event so far rounds the
-     * energy of its disks by some eps, and the roundings add up as a random walk. Seen: 0.01 of
-     * this. */
-    double energy_rounding;
-    double momentum[HD_DIMENSION_MAX]; /**< of all disks together */
-    double angular_momentum; /**< about the middle of the box, about z; a circle conserves it */
-    double overlap; /**< deepest of any pair now: max(0, 1 - distance) over all pairs and images */
-    /** More than rounding makes of an overlap: of some roundings in positions, of the order of the
-     * box, and in times, as long as they are counted from one moment. */
-    double overlap_rounding;
-    /** Deeper than this [sigma] is a fault, HD_OVERLAP: 1e-9, or overlap_rounding where that is
-     * more: in boxes longer than some 3e5 sigma, 4e-6 in the longest of 1e9. */
-    double overlap_max;
-} hd_examined;
-/** Cost O(N). */
+/** How exact the present state is. Cost O(N). */
 hd_examined hd_trajectory_examined(const hd_trajectory *trajectory);
 
 HD_API_END

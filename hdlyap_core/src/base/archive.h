@@ -12,11 +12,11 @@
 #include <stdint.h>
 #include <stdio.h>
 
-#include "hdlyap/status.h"
+#include "hdlyap/archive.h"
 
 enum { HD_ARCHIVE_NAME = 40 };
 
-typedef struct hd_archive {
+struct hd_archive {
     FILE *file;
     bool writing;
     uint64_t bytes;    /**< written so far; of a file that is read: not yet read */
@@ -25,7 +25,7 @@ typedef struct hd_archive {
     const char *name;  /**< of the array that it happened at */
     const char *fault; /**< NULL: see error */
     int error;         /**< errno of a write that failed */
-} hd_archive;
+};
 
 hd_archive hd_archive_writer(FILE *file);
 /** `bytes` are to be read, all of them: see hd_archive_end. */
@@ -39,8 +39,6 @@ HD_MUST_CHECK hd_status hd_archive_end(hd_archive *archive);
 /** The archive fails, unless it has failed before. */
 void hd_archive_fail(hd_archive *archive, hd_status status, const char *name, const char *fault);
 
-/** What was read cannot be, or what is to be written: the archive fails, unless it has before. */
-void hd_archive_refuse(hd_archive *archive, const char *name, const char *fault);
 /** hd_archive_refuse unless the condition holds. */
 void hd_archive_expect(hd_archive *archive, bool condition, const char *name, const char *fault);
 
@@ -50,7 +48,6 @@ static inline bool hd_archive_good(const hd_archive *archive) { return archive->
 /* Whole arrays. Numbers are finite, integers from min to max, or the archive fails. */
 
 void hd_archive_double(hd_archive *archive, const char *name, double *x);
-void hd_archive_doubles(hd_archive *archive, const char *name, double *x, size_t count);
 void hd_archive_int(hd_archive *archive, const char *name, int *x, int min, int max);
 void hd_archive_long(hd_archive *archive, const char *name, long *x, long min, long max);
 /** Any 64 bits. */

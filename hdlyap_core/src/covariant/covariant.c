@@ -26,7 +26,7 @@
 #include "dynamics/dynamics.h"
 #include "modes/archived.h"
 #include "modes/modes.h"
-#include "scene/null_space.h"
+#include "scene/scene.h"
 #include "tangent/archived.h"
 #include "tangent/localization.h"
 
@@ -304,13 +304,14 @@ static void raise_to(double *most, double now)
 /** Largest angle between the covariant centre and the null space. */
 static hd_status measure_null(hd_covariant *c)
 {
+    const hd_dynamics *of = hd_dynamics_of(&c->scene);
     double *columns = c->null_columns;
-    if (c->centre == 0) return HD_OK;
+    if (c->centre == 0 || !of->null) return HD_OK;
     for (int col = 0; col < c->centre; col++)
         cblas_dcopy(c->rows, c->frame + c->unstable + col, c->vectors,
                     columns + (size_t)col * (size_t)c->rows, 1);
-    const int known = hd_null_space_fill(&c->scene, c->q, c->p,
-                                         columns + (size_t)c->centre * (size_t)c->rows);
+    const int known = of->null(&c->scene, c->q, c->p,
+                               columns + (size_t)c->centre * (size_t)c->rows);
     const hd_span covariant = {0, c->centre}, exact = {c->centre, known};
     HD_TRY(hd_angles_between(c->null, c->angle, columns, covariant, exact));
     c->null_apart = c->angle[known - 1];

@@ -3,6 +3,7 @@
 #define HD_COVARIANT_H
 
 #include "hdlyap/covariant.h"
+#include "hdlyap/trajectory.h"
 #include "tangent/ortho.h"
 
 HD_MUST_CHECK hd_status hd_covariant_create(hd_covariant **out, const hd_scene_def *def,

@@ -39,8 +39,8 @@ hd_status hd_trajectory_extend(hd_trajectory *tr, hd_record *record, double t_en
 
 hd_told hd_trajectory_told(const hd_trajectory *tr)
 {
-    hd_told told;
-    tr->of->tell(tr->state, &told);
+    hd_told told = {.collisions = 0};
+    if (tr->of->tell) tr->of->tell(tr->state, &told);
     told.expected = tr->rate;
     return told;
 }
@@ -75,8 +75,8 @@ double hd_trajectory_kinetic_energy(const hd_trajectory *tr)
 
 hd_examined hd_trajectory_examined(const hd_trajectory *tr)
 {
-    hd_examined examined;
-    tr->of->examine(tr->state, &examined);
+    hd_examined examined = {.overlap = 0.0};
+    if (tr->of->examine) tr->of->examine(tr->state, &examined);
     return examined;
 }
 

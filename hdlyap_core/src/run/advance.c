@@ -6,27 +6,21 @@
 
 #include "base/check.h"
 #include "run/schedule.h"
-#include "scene/scene.h"
 
 /** No advance is planned shorter: simulated time must move. */
 static const double SHORTEST = 1e-12;
 
-/** Pair and wall events of one disk per time unit, roughly: it meets walls as with a momentum of 1
- * across the box, or the box around a circle. Where plans begin: what they grow to is learnt. */
-static double events_per_disk(const hd_advance *advance, const hd_scene_def *scene)
+/** Events of one particle per time unit, roughly, each counted for both that meet. Where plans
+ * begin: what they grow to is learnt. */
+static double events_per_disk(const hd_scene_def *scene)
 {
-    double box[HD_DIMENSION_MAX],
-        rate = 2.0 * hd_trajectory_collision_rate(advance->trajectory) / scene->disks;
-    hd_scene_box(scene, box);
-    for (int d = 0; d < hd_scene_dimension(scene); d++)
-        if (hd_scene_boundary(scene, d) != HD_PERIODIC) rate += 1.0 / (box[d] - 1.0);
-    return rate;
+    return 2.0 * hd_dynamics_of(scene)->entries(scene) / scene->disks;
 }
 
 hd_status hd_advance_create(hd_advance *advance, const hd_scene_def *scene)
 {
     HD_TRY(hd_trajectory_create(&advance->trajectory, scene));
-    const double rate = events_per_disk(advance, scene);
+    const double rate = events_per_disk(scene);
     advance->longest = 1e-3 / rate;
     advance->bound = 8.0 * HD_EVENTS_MAX / (scene->disks * rate);
     return HD_OK;

@@ -49,8 +49,6 @@ static const double COLLISIONS_MOST = 60.0;
 enum { SMALLEST_EXPONENTS = 8 };
 /** Kept for a half that is no number. */
 static const double NO_HALF = -2.0;
-/** Events of each disk between two orthonormalisations, for the memory of the record. */
-static const double EVENTS_OF_A_DISK = 30.0;
 
 /* ---- creation ------------------------------------------------------------------------------ */
 
@@ -182,11 +180,12 @@ void hd_carrier_free(hd_carrier *c)
 
 double hd_carrier_bytes(const hd_scene_def *scene, int threads, int ranks)
 {
-    const double disks = scene->disks, n = hd_scene_vectors(scene),
-                 carried = hd_scene_carried(scene), here = ceil(carried / ranks);
+    const double n = hd_scene_vectors(scene), carried = hd_scene_carried(scene),
+                 here = ceil(carried / ranks);
     if (n <= 0) return 0.0;
-    const double record = hd_dynamics_of(scene)->record_bytes(
-        fmin(HD_EVENTS_MAX, EVENTS_OF_A_DISK * disks));
+    const double longest = COLLISIONS_MOST * hd_scene_collision_time(scene);
+    const double record = hd_record_bytes_of(
+        scene, fmin(HD_EVENTS_MAX, longest * hd_dynamics_of(scene)->entries(scene)));
     const double frame = hd_frame_bytes(rows_of(scene), here, threads);
     const double ortho = hd_ortho_bytes(rows_of(scene), carried, ranks);
     const double conjugate = carried < n
@@ -216,7 +215,7 @@ static double shortest_piece(const hd_carrier *c)
 
 hd_norm hd_carrier_norm(const hd_carrier *c, bool windowing)
 {
-    const bool many = c->carried >= HALVES_MANY && c->carried <= c->positive;
+    const bool many = c->of->dispersing && c->carried >= HALVES_MANY && c->carried <= c->positive;
     const bool aligned = c->cost->orthonormalisations >= HALVES_ALIGNED;
     return !many || !aligned || windowing ? HD_NORM_FULL : HD_NORM_DQ;
 }

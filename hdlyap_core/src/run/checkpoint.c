@@ -130,7 +130,7 @@ static void parts_archive(hd_run *run, hd_archive *archive)
     hd_interval_archive(&c->interval, archive);
     hd_observables_archive(&run->observables, archive, false, now);
     if (!c->frame || hd_communicator_agree(run->communicator, archive->status) != HD_OK) return;
-    c->of->archive_record(c->record, archive, &run->scene);
+    hd_record_archive(c->record, archive, &run->scene);
     const hd_status status = hd_frame_archive(c->frame, archive);
     if (status != HD_OK) hd_archive_fail(archive, status, "frame vectors", NULL);
     hd_archive_doubles(archive, "run halves", c->halves, 2 * (size_t)c->vectors);

@@ -77,15 +77,6 @@ hd_extent hd_extent_of(const hd_scene_def *def, const hd_run *run)
 
 /* ---- what it takes ------------------------------------------------------------------------- */
 
-static hd_status collision_time(double *time, const hd_scene_def *def)
-{
-    hd_trajectory *disks;
-    HD_TRY(hd_trajectory_create(&disks, def));
-    *time = 0.5 * def->disks / hd_trajectory_collision_rate(disks);
-    hd_trajectory_free(disks);
-    return HD_OK;
-}
-
 /** A scene of the same shape and waves whose trial is short; the scene itself if it is one, or
  * there is none. */
 static hd_scene_def smaller(const hd_scene_def *def)
@@ -102,27 +93,22 @@ static hd_scene_def smaller(const hd_scene_def *def)
 
 hd_status hd_estimate_errors(double *after, const hd_scene_def *def)
 {
-    double collision = 0.0;
     *after = 0.0;
     if (hd_scene_vectors(def) == 0) return HD_OK;
-    HD_TRY(collision_time(&collision, def));
-    const hd_agenda agenda = hd_agenda_of(def, 1.0 / collision);
+    const hd_agenda agenda = hd_agenda_of(def, 1.0 / hd_scene_collision_time(def));
     *after = HD_SPECTRUM_BLOCKS_MIN * hd_agenda_block(&agenda);
     return HD_OK;
 }
 
-static hd_status trial_scene(hd_scene_def *out, const hd_scene_def *def)
+static hd_scene_def trial_scene(const hd_scene_def *def)
 {
-    double collision = 0.0;
-    HD_TRY(collision_time(&collision, def));
-    *out = *def;
-    out->equilibration = collision;
-    out->warmup = WARMUP_COLLISIONS * collision;
-    out->duration = 0.0;
-    out->target = (hd_text){""};
-    out->observe &= ~(unsigned)HD_OBSERVE_COVARIANT; /* a window is longer than a trial */
-    *out = smaller(out);
-    return HD_OK;
+    hd_scene_def trial = *def;
+    trial.equilibration = hd_scene_collision_time(def);
+    trial.warmup = WARMUP_COLLISIONS * trial.equilibration;
+    trial.duration = 0.0;
+    trial.target = (hd_text){""};
+    trial.observe &= ~(unsigned)HD_OBSERVE_COVARIANT; /* a window is longer than a trial */
+    return smaller(&trial);
 }
 
 static hd_status measure(hd_estimate *out, hd_run *run)
@@ -175,10 +161,9 @@ static hd_status check_windows(const hd_scene_def *def, const hd_run *trial, cha
 hd_status hd_estimate_run(hd_estimate *out, const hd_scene_def *def, double fields_every,
                           char *message, size_t size)
 {
-    hd_scene_def tried;
+    const hd_scene_def tried = trial_scene(def);
     hd_run *run;
     *out = (hd_estimate){.before = def->equilibration + hd_scene_warmup(def)};
-    HD_TRY(trial_scene(&tried, def));
     HD_TRY(hd_run_create(&run, &tried, message, size));
     hd_run_fields_every(run, fields_every);
     hd_status status = check_windows(def, run, message, size);

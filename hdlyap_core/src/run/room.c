@@ -15,7 +15,7 @@
 double hd_room_needed(const hd_scene_def *def, int threads, int ranks)
 {
     const int of_ranks = ranks > 1 ? ranks : 1;
-    return hd_dynamics_of(def)->bytes(def->disks) + hd_carrier_bytes(def, threads, of_ranks) +
+    return hd_trajectory_bytes(def) + hd_carrier_bytes(def, threads, of_ranks) +
            hd_observables_bytes(def, of_ranks) + hd_gathered_bytes(def, of_ranks);
 }
 

@@ -1,22 +1,19 @@
-/** What kinetic theory says of hard disks, or of hard spheres, of kinetic energy 1 each. */
+/** What kinetic theory says of particles in a box. */
 #ifndef HD_FLUID_H
 #define HD_FLUID_H
 
-#include "hdlyap/scene.h"
+#include "hdlyap/dynamics.h"
 
-typedef struct hd_fluid {
-    double temperature; /**< kT of many: twice the kinetic energy over the directions */
-    double density_max; /**< closest packing */
-    double (*contact)(double density);    /**< pair correlation at contact */
-    double (*rate)(double density);       /**< collisions of one disk per time unit, Enskog */
-    double (*free_path)(double density);  /**< mean path between two of them [sigma] */
-    double (*sound)(double density);      /**< velocity of sound */
-    double (*transverse)(double density); /**< lambda / k of the transverse modes of long waves, as
-                                             measured, to some percent */
-} hd_fluid;
+struct hd_fluid {
+    double density_max;                            /**< closest packing */
+    double (*rate)(const hd_scene_def *def);       /**< collisions of one particle per time unit */
+    double (*free_path)(const hd_scene_def *def);  /**< mean path between two of them [sigma] */
+    double (*sound)(const hd_scene_def *def);      /**< velocity of sound */
+    double (*transverse)(const hd_scene_def *def); /**< lambda / k of the transverse modes of long
+                                                      waves, as measured, to some percent */
+};
 
+/** Of kinetic energy 1 each, by Enskog. */
 extern const hd_fluid hd_fluid_disks, hd_fluid_spheres;
-
-const hd_fluid *hd_fluid_of(const hd_scene_def *def);
 
 #endif

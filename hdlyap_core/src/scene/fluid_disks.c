@@ -13,19 +13,22 @@ static double contact_of(double density)
 }
 
 /** Near the closest packing as at eta = 0.9. */
-static double rate_of(double density)
+static double rate_of(const hd_scene_def *def)
 {
+    const double density = def->density;
     return 2.0 * sqrt(PI) * density * contact_of(fmin(density, 3.6 / PI));
 }
 
-static double free_path_of(double density)
+static double free_path_of(const hd_scene_def *def)
 {
+    const double density = def->density;
     return 1.0 / (2.0 * sqrt(2.0) * density * contact_of(density));
 }
 
 /** p = rho Z: c^2 = d(rho Z)/d rho + Z^2, as a disk has two degrees of freedom and kT = 1. */
-static double sound_of(double density)
+static double sound_of(const hd_scene_def *def)
 {
+    const double density = def->density;
     const double eta = 0.25 * PI * density, free = 1.0 - eta;
     const double z = (1.0 + eta * eta / 8.0) / (free * free);
     const double slope = (0.25 * eta + 2.0 * z * free) / (free * free); /* dZ / d eta */
@@ -33,15 +36,14 @@ static double sound_of(double density)
 }
 
 /** Eckmann et al. (2005), to 3 % for densities up to 0.8. */
-static double transverse_of(double density)
+static double transverse_of(const hd_scene_def *def)
 {
+    const double density = def->density;
     const double square = density * density;
     return 0.902 + 1.050 * density - 0.053 * square + 3.85 * square * square;
 }
 
-const hd_fluid hd_fluid_disks = {.temperature = 1.0,
-                                 .density_max = 1.1547005383792517,
-                                 .contact = contact_of,
+const hd_fluid hd_fluid_disks = {.density_max = 1.1547005383792517,
                                  .rate = rate_of,
                                  .free_path = free_path_of,
                                  .sound = sound_of,

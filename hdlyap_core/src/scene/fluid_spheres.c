@@ -12,19 +12,22 @@ static double contact_of(double density)
     return (1.0 - 0.5 * eta) / (free * free * free);
 }
 
-static double rate_of(double density)
+static double rate_of(const hd_scene_def *def)
 {
+    const double density = def->density;
     return 4.0 * sqrt(PI * TEMPERATURE) * density * contact_of(density);
 }
 
-static double free_path_of(double density)
+static double free_path_of(const hd_scene_def *def)
 {
+    const double density = def->density;
     return 1.0 / (sqrt(2.0) * PI * density * contact_of(density));
 }
 
 /** p = rho kT Z: c^2 = kT (d(rho Z)/d rho + 2/3 Z^2), as a sphere has three degrees of freedom. */
-static double sound_of(double density)
+static double sound_of(const hd_scene_def *def)
 {
+    const double density = def->density;
     const double eta = PI / 6.0 * density, free = 1.0 - eta, cube = free * free * free;
     const double z = (1.0 + eta + eta * eta - eta * eta * eta) / cube;
     const double slope = (1.0 + 2.0 * eta - 3.0 * eta * eta) / cube + 3.0 * z / free;
@@ -32,15 +35,14 @@ static double sound_of(double density)
 }
 
 /** At densities from 0.1 to 0.9, doc/findings.md. */
-static double transverse_of(double density)
+static double transverse_of(const hd_scene_def *def)
 {
+    const double density = def->density;
     const double square = density * density;
     return 0.735 + 0.907 * density + 1.166 * square + 1.488 * square * square;
 }
 
-const hd_fluid hd_fluid_spheres = {.temperature = 2.0 / 3.0,
-                                   .density_max = 1.4142135623730951,
-                                   .contact = contact_of,
+const hd_fluid hd_fluid_spheres = {.density_max = 1.4142135623730951,
                                    .rate = rate_of,
                                    .free_path = free_path_of,
                                    .sound = sound_of,

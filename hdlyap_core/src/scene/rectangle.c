@@ -121,7 +121,7 @@ static double rectangle_density_max(const hd_scene_def *def)
 {
     enum { BISECTIONS = 30 };
     hd_scene_def trial = *def;
-    double low = 0.0, high = hd_fluid_of(def)->density_max * (1.0 + 1e-9);
+    double low = 0.0, high = hd_dynamics_of(def)->fluid->density_max * (1.0 + 1e-9);
     for (int k = 0; k < BISECTIONS; k++) {
         double box[HD_DIMENSION_MAX];
         trial.density = 0.5 * (low + high);

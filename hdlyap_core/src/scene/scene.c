@@ -18,9 +18,18 @@ hd_scene_def hd_scene_def_default(void)
     return def;
 }
 
-int hd_scene_dimension(const hd_scene_def *def) { return def->dimensions; }
+hd_scene_def hd_scene_def_of(const hd_dynamics *dynamics)
+{
+    hd_scene_def def = hd_scene_def_default();
+    def.dynamics = dynamics;
+    for (int k = 0; k < dynamics->parameters; k++)
+        hd_parameter_assign(&dynamics->parameter[k], &def, dynamics->parameter[k].usual);
+    return def;
+}
 
-int hd_scene_coordinates(const hd_scene_def *def) { return def->dimensions; }
+int hd_scene_dimension(const hd_scene_def *def) { return hd_dynamics_of(def)->dimension; }
+
+int hd_scene_coordinates(const hd_scene_def *def) { return hd_dynamics_of(def)->coordinates; }
 
 void hd_scene_box(const hd_scene_def *def, double *box) { hd_container_of(def)->box(def, box); }
 
@@ -29,32 +38,40 @@ const hd_container_row *hd_container_of(const hd_scene_def *def)
     return def->container == HD_CIRCLE ? &hd_circle_row : &hd_rectangle_row;
 }
 
-const hd_fluid *hd_fluid_of(const hd_scene_def *def)
-{
-    return hd_scene_dimension(def) == 2 ? &hd_fluid_disks : &hd_fluid_spheres;
-}
-
 hd_boundary hd_scene_boundary(const hd_scene_def *def, int d)
 {
     return def->container == HD_CIRCLE ? HD_CURVED : def->boundary[d];
 }
 
+/** Blocks of averages are as many collisions of a particle long, where nothing else is known. */
+static const double BLOCK_COLLISIONS = 8.0;
+
+double hd_scene_collision_time(const hd_scene_def *def)
+{
+    return 0.5 * def->disks / hd_dynamics_of(def)->rate(def);
+}
+
 double hd_scene_sound_crossing(const hd_scene_def *def)
 {
+    const hd_dynamics *of = hd_dynamics_of(def);
     double box[HD_DIMENSION_MAX], longest = 0.0;
+    if (of->crossing) return of->crossing(def);
+    if (!of->fluid) return BLOCK_COLLISIONS * hd_scene_collision_time(def);
     hd_scene_box(def, box);
-    for (int d = 0; d < hd_scene_dimension(def); d++) longest = fmax(longest, box[d]);
-    return longest / hd_fluid_of(def)->sound(def->density);
+    for (int d = 0; d < of->dimension; d++) longest = fmax(longest, box[d]);
+    return longest / of->fluid->sound(def);
 }
 
 double hd_scene_mean_free_path(const hd_scene_def *def)
 {
-    return hd_fluid_of(def)->free_path(def->density);
+    const hd_fluid *fluid = hd_dynamics_of(def)->fluid;
+    return fluid ? fluid->free_path(def) : NAN;
 }
 
 int hd_scene_zero_exponents(const hd_scene_def *def)
 {
-    return 2 * hd_container_of(def)->symmetries(def);
+    const hd_dynamics *of = hd_dynamics_of(def);
+    return of->zeros ? of->zeros(def) : 0;
 }
 
 static int all_exponents(const hd_scene_def *def)
@@ -78,7 +95,8 @@ int hd_scene_positive_exponents(const hd_scene_def *def)
 int hd_scene_carried(const hd_scene_def *def)
 {
     const int all = hd_scene_vectors(def);
-    return def->exponents == HD_EXPONENTS_ALL ? all / 2 : all;
+    const bool half = def->exponents == HD_EXPONENTS_ALL && hd_dynamics_of(def)->symplectic;
+    return half ? all / 2 : all;
 }
 
 hd_counts hd_scene_counts(const hd_scene_def *def)
@@ -94,15 +112,23 @@ hd_counts hd_scene_counts(const hd_scene_def *def)
 static const double GAP = 0.05, FOLDS = 3.0;
 /** A frame that does not reach the steps has less to forget; none is forgotten sooner. */
 static const double WARMUP_LEADING = 50.0, WARMUP_MIN = 20.0;
+/** Collisions of a particle after which a frame without steps is taken to have forgotten. */
+static const double WARMUP_COLLISIONS = 100.0;
+
+static double warmup_of(const hd_scene_def *def)
+{
+    const hd_fluid *fluid = hd_dynamics_of(def)->fluid;
+    const double k = hd_wave_limits_of(def).smallest; /* INFINITY: no step, nothing parts */
+    if (!fluid) return WARMUP_COLLISIONS * hd_scene_collision_time(def);
+    if (hd_scene_vectors(def) < hd_scene_positive_exponents(def)) return WARMUP_LEADING;
+    return fmax(FOLDS / (GAP * fluid->transverse(def) * k), WARMUP_MIN);
+}
 
 double hd_scene_warmup(const hd_scene_def *def)
 {
     if (def->warmup != HD_WARMUP_AUTO) return def->warmup;
     if (def->exponents == HD_EXPONENTS_NONE) return 0.0;
-    const bool leading = hd_scene_vectors(def) < hd_scene_positive_exponents(def);
-    const double k = hd_wave_limits_of(def).smallest; /* INFINITY: no step, nothing parts */
-    const double parting = FOLDS / (GAP * hd_fluid_of(def)->transverse(def->density) * k);
-    const double time = leading ? WARMUP_LEADING : fmax(parting, WARMUP_MIN);
+    const double time = warmup_of(def);
     return def->observe & HD_OBSERVE_COVARIANT ? fmax(time, def->covariant_transient) : time;
 }
 

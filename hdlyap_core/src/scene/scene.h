@@ -14,14 +14,17 @@ int hd_scene_positive_exponents(const hd_scene_def *def);
 int hd_scene_vectors(const hd_scene_def *def);
 int hd_scene_carried(const hd_scene_def *def);
 
-/** Time that sound takes through the longest edge of the box, by the equation of state of Henderson
- * (Mol. Phys. 30, 971 (1975)), of spheres that of Carnahan and Starling (J. Chem. Phys. 51, 635
- * (1969)) [time units]. */
+/** Time between two collisions of a particle, as the row expects it [time units]. */
+double hd_scene_collision_time(const hd_scene_def *def);
+
+/** Time that a disturbance takes through all of them; sound, of a fluid, through the longest edge
+ * of the box, by the equation of state of Henderson (Mol. Phys. 30, 971 (1975)), of spheres that of
+ * Carnahan and Starling (J. Chem. Phys. 51, 635 (1969)) [time units]. */
 double hd_scene_sound_crossing(const hd_scene_def *def);
 
-/** Mean path of a disk between two collisions, by Enskog's theory with the pair correlation at
+/** Mean path of a disk between two collisions, by Enskog's theory, with the pair correlation at
  * contact of the same authors: 1 / (2 sqrt(2) density g), of spheres 1 / (sqrt(2) pi density g)
- * [sigma]. */
+ * [sigma]. NaN of what is no fluid. */
 double hd_scene_mean_free_path(const hd_scene_def *def);
 
 #endif

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "scene/container.h"
+#include "scene/scene.h"
 
 static int compare_waves(const void *a, const void *b)
 {
@@ -17,6 +18,7 @@ static int compare_waves(const void *a, const void *b)
 
 hd_wave_limits hd_wave_limits_of(const hd_scene_def *def)
 {
+    if (hd_scene_dimension(def) == 0) return (hd_wave_limits){.smallest = INFINITY};
     return hd_container_of(def)->limits(def);
 }
 
@@ -78,6 +80,7 @@ static void keep(void *to, const hd_wave *wave)
 int hd_waves(const hd_scene_def *def, hd_wave *out, int capacity)
 {
     waves all = {out, capacity, 0};
+    if (hd_scene_dimension(def) == 0) return 0;
     hd_container_of(def)->waves(def, keep, &all);
     if (out && all.count <= capacity) qsort(out, (size_t)all.count, sizeof *out, compare_waves);
     return all.count;

@@ -48,7 +48,8 @@ static hd_status frame_allocate(hd_frame *frame)
         if (!(frame->copy[k] = hd_memory_alloc(size, sizeof(double)))) return HD_NO_MEMORY;
     const size_t block = (size_t)frame->rows * (size_t)frame->width;
     frame->buffer = hd_memory_alloc(block * (size_t)frame->threads, sizeof(double));
-    return frame->buffer ? frame->of->maps_create(&frame->maps, frame->particles) : HD_NO_MEMORY;
+    return frame->buffer ? hd_maps_create_of(frame->of, &frame->maps, frame->particles)
+                         : HD_NO_MEMORY;
 }
 
 /** An equal part of them for each rank, or less for the last ones. */
@@ -115,7 +116,7 @@ void hd_frame_free(hd_frame *frame)
     hd_memory_free(frame->copy[0]);
     hd_memory_free(frame->copy[1]);
     hd_memory_free(frame->buffer);
-    if (frame->maps) frame->of->maps_free(frame->maps);
+    if (frame->maps) hd_maps_free_of(frame->of, frame->maps);
     hd_memory_free(frame);
 }
 

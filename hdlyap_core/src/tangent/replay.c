@@ -40,7 +40,7 @@ hd_status hd_frame_replay(hd_frame *frame, const hd_record *record, double t_beg
 {
     HD_ASSERT(!frame->by_rows);
     HD_TRY(hd_communicator_agree(frame->communicator,
-                                 frame->of->maps_fill(frame->maps, record, t_begin, t_end)));
+                                 hd_maps_fill_of(frame->of, frame->maps, record, t_begin, t_end)));
     const int blocks = (frame->stride + frame->width - 1) / frame->width;
     const size_t block_size = (size_t)frame->rows * (size_t)frame->width;
 #pragma omp parallel for schedule(dynamic) num_threads(frame->threads) if (frame->threads > 1)

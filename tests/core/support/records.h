@@ -3,6 +3,7 @@
 #define TEST_RECORDS_H
 
 #include "dynamics/dynamics.h"
+#include "scene/dynamics.h"
 #include "dynamics/hard/events.h"
 #include "dynamics/record_state.h"
 

@@ -303,12 +303,12 @@ static void momenta_fill(double *p, const hd_scene_def *def, const double *q)
 
 double hd_hard_rate(const hd_scene_def *def)
 {
-    return 0.5 * hd_fluid_of(def)->rate(def->density) * def->disks;
+    return 0.5 * hd_dynamics_of(def)->fluid->rate(def) * def->disks;
 }
 
 double hd_hard_entries(const hd_scene_def *def)
 {
-    double box[HD_DIM], rate = 0.5 * hd_fluid_of(def)->rate(def->density);
+    double box[HD_DIM], rate = 0.5 * hd_dynamics_of(def)->fluid->rate(def);
     hd_scene_box(def, box);
     for (int d = 0; d < HD_DIM; d++)
         if (hd_scene_boundary(def, d) != HD_PERIODIC) rate += 1.0 / (box[d] - 1.0);

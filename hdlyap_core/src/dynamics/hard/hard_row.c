@@ -5,6 +5,10 @@
 #include "dynamics/hard/events.h"
 #include "dynamics/hard/hard_state.h"
 #include "dynamics/hard/maps.h"
+#include "scene/container.h"
+#include "scene/dynamics.h"
+#include "scene/fluid.h"
+#include "scene/null_space.h"
 
 static double hard_time(const void *state)
 {
@@ -133,6 +137,12 @@ static void hard_examine(const void *state, hd_examined *examined)
     momentum(tr, examined->momentum);
 }
 
+/** Pairs of energy and time, and of each conserved momentum. */
+static int hard_zeros(const hd_scene_def *scene)
+{
+    return 2 * hd_container_of(scene)->symmetries(scene);
+}
+
 #if HD_DIM == 2
 #define ROW hd_hard_disks
 #else
@@ -142,6 +152,13 @@ const hd_dynamics ROW = {.particles = HD_DIM == 2 ? "disks" : "spheres",
                          .dimension = HD_DIM,
                          .coordinates = HD_DIM,
                          .entry = sizeof(hd_event),
+                         .symplectic = true,
+                         .dispersing = true,
+                         .fluid = HD_DIM == 2 ? &hd_fluid_disks : &hd_fluid_spheres,
+                         .zeros = hard_zeros,
+                         .entries = hd_hard_entries,
+                         .rate = hd_hard_rate,
+                         .null = hd_null_space_fill,
                          .create = hd_hard_create,
                          .free = hd_hard_free,
                          .advance = hd_hard_advance,
@@ -156,8 +173,6 @@ const hd_dynamics ROW = {.particles = HD_DIM == 2 ? "disks" : "spheres",
                          .fault = hd_events_fault,
                          .archive_record = hd_events_archive,
                          .record_bytes = hd_events_bytes,
-                         .rate = hd_hard_rate,
-                         .entries = hd_hard_entries,
                          .maps_create = hd_maps_create,
                          .maps_free = hd_maps_free,
                          .maps_fill = hd_maps_fill,

@@ -1,5 +1,5 @@
 /** The table of what can move. */
-#include "dynamics/dynamics.h"
+#include "scene/dynamics.h"
 
 #if HD_DIM == 2
 static const hd_dynamics *const rows[] = {&hd_hard_disks};
@@ -7,8 +7,7 @@ static const hd_dynamics *const rows[] = {&hd_hard_disks};
 static const hd_dynamics *const rows[] = {&hd_hard_spheres};
 #endif
 
-const hd_dynamics *hd_dynamics_of(const hd_scene_def *def)
+const hd_dynamics *hd_dynamics_of(const hd_scene_def *scene)
 {
-    (void)def;
-    return rows[0];
+    return scene->dynamics ? scene->dynamics : rows[0];
 }

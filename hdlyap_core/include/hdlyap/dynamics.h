@@ -1,0 +1,145 @@
+/** What can move: a row of facts and functions. Disks and spheres are such rows; a program hands
+ * another one over in hd_scene_def.dynamics, and its run has exponents with their errors,
+ * Gram-Schmidt and covariant vectors, checkpoints, ranks.
+ *
+ * Each particle has `coordinates` q, scaled so that its kinetic energy is the sum of p^2 / 2.
+ * Whoever moves them writes a record of what happens, hdlyap/record.h; tangent vectors are carried
+ * through that record and know nothing else. A row and its parameters last as long as its runs.
+ * Functions of a row are called by one thread of a run at a time, `carry` by several. */
+#ifndef HDLYAP_DYNAMICS_H
+#define HDLYAP_DYNAMICS_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "hdlyap/archive.h"
+#include "hdlyap/parameters.h"
+
+HD_API_BEGIN
+
+/** What happens, see hdlyap/record.h. */
+typedef struct hd_record hd_record;
+
+/** What has happened so far. */
+typedef struct hd_told {
+    uint64_t collisions, wall_events; /**< of pairs; with walls */
+    /** Virial of the pair events, by direction: sum of |p.n| n_d^2 [sigma momentum] [T19]. */
+    double virial[HD_DIMENSION_MAX];
+    double expected; /**< pair events in a time unit, by Enskog's theory [T2] */
+} hd_told;
+
+/** How exact the present state is. */
+typedef struct hd_examined {
+    /** More than rounding makes of the relative error of the energy: each event so far rounds the
+     * energy of its disks by some eps, and the roundings add up as a random walk. Seen: 0.01 of
+     * this. */
+    double energy_rounding;
+    double momentum[HD_DIMENSION_MAX]; /**< of all disks together */
+    double angular_momentum; /**< about the middle of the box, about z; a circle conserves it */
+    double overlap; /**< deepest of any pair now: max(0, 1 - distance) over all pairs and images */
+    /** More than rounding makes of an overlap: of some roundings in positions, of the order of the
+     * box, and in times, as long as they are counted from one moment. */
+    double overlap_rounding;
+    /** Deeper than this [sigma] is a fault, HD_OVERLAP: 1e-9, or overlap_rounding where that is
+     * more: in boxes longer than some 3e5 sigma, 4e-6 in the longest of 1e9. */
+    double overlap_max;
+} hd_examined;
+
+/** What kinetic theory says of particles in a box, to some percent; the core's own rows have it. */
+typedef struct hd_fluid hd_fluid;
+
+/** A part of a record: where a row has no maps of its own, this is what vectors are carried by. */
+typedef struct hd_passage {
+    const void *entry; /**< [count], of the row's size */
+    size_t count;
+    double begin, end; /**< since the start of the record [time units] */
+    int particles;
+} hd_passage;
+
+/** What may be left out says so: it is 0, false or NULL then. */
+struct hd_dynamics {
+    const char *particles; /**< in the plural: its name; 31 characters at most */
+    int dimension;         /**< of the box that their positions lie in, 2 or 3; 0: there is none */
+    int coordinates;       /**< of a particle: of its dq, and of its dp. The first `dimension` of
+                                them are its position in the box */
+    size_t entry; /**< bytes of an entry of the record, a multiple of 8; it begins with a double */
+    /** Maps are symplectic: exponents come in pairs, and half of all vectors say all [T18]. Without
+     * it exponents = all carries each of them. */
+    bool symplectic;
+    /** No map ever takes an unstable vector to a dq of zero, as of hard bodies, which only
+     * disperse: then the frame may be orthonormalised in dq alone, which is faster [T6]. May be
+     * left out. */
+    bool dispersing;
+
+    const hd_parameter *parameter; /**< [parameters], of its own: see HD_OWN */
+    int parameters;                /**< HD_OWN_MAX at most */
+    const hd_fluid *fluid;         /**< may be left out */
+
+    /* ---- scene */
+    /** The parameters have passed their ranges; do they fit together? HD_REFUSED with one line in
+     * `message` (NULL: it is not wanted): the parameter, its value, what is allowed. May be left
+     * out. */
+    hd_status (*check)(const hd_scene_def *scene, char *message, size_t size);
+    /** Number of exponents that vanish; may be left out: none. */
+    int (*zeros)(const hd_scene_def *scene);
+    /** Entries of the record expected in a time unit, roughly: what a record has room for. */
+    double (*entries)(const hd_scene_def *scene);
+    /** Collisions of pairs expected in a time unit; of what does not collide N / 2 over the time in
+     * which tangent vectors grow by about e. First intervals are 2 such times of one particle long,
+     * none is longer than 60, errors take blocks of 8 at least. */
+    double (*rate)(const hd_scene_def *scene);
+    /** Time that a disturbance takes through all of them: blocks of averages are no shorter. May
+     * be left out. */
+    double (*crossing)(const hd_scene_def *scene);
+    /** Vectors that stay as they are, or turn into each other, as far as they are known exactly:
+     * column[..][particle][2 coordinates] at this state, not normalised. Their number, `zeros` at
+     * most. May be left out: none is known. */
+    int (*null)(const hd_scene_def *scene, const double *q, const double *p, double *column);
+
+    /* ---- particles */
+    /** The start: the state of a checked scene at time 0. q and p [particle][coordinates] are NULL,
+     * or a prepared state (the core's own rows alone). HD_NO_MEMORY, and *state NULL, if there is
+     * no room; HD_REFUSED. */
+    hd_status (*create)(void **state, const hd_scene_def *scene, const double *q, const double *p);
+    void (*free)(void *state);
+    /** Moves them to simulated time t_end, at least the present one, and adds what happens on the
+     * way to the record, which may be NULL: hd_record_put for each entry, hd_record_end at last.
+     * What moves in steps does them where they lie whatever t_end is: those that end by then.
+     * HD_NOT_FINITE, HD_NO_MEMORY: the run has failed. */
+    hd_status (*advance)(void *state, hd_record *record, double t_end);
+    double (*time)(const void *state); /**< t_end of the last advance */
+    /** [particle][coordinates] each, positions inside the box if there is one; either may be NULL.
+     */
+    void (*state)(const void *state, double *q, double *p);
+    double (*kinetic_energy)(const void *state);
+    void (*tell)(const void *state, hd_told *told); /**< may be left out; all but `expected` */
+    void (*examine)(const void *state, hd_examined *examined); /**< may be left out */
+    /** Each array of the state, one hd_archive_doubles after the other, whether it is written or
+     * read. What follows from them is made anew. */
+    void (*archive)(void *state, hd_archive *archive);
+    uint32_t (*fingerprint)(const void *state); /**< of q and p to the last bit; may be left out */
+    double (*bytes)(double particles);          /**< of the state; may be left out */
+
+    /* ---- record; may all be left out where entries are doubles throughout */
+    const char *(*fault)(const hd_record *record, const hd_scene_def *scene); /**< or NULL */
+    void (*archive_record)(hd_record *record, hd_archive *archive, const hd_scene_def *scene);
+    double (*record_bytes)(double entries); /**< in the record, and as maps */
+
+    /* ---- tangent maps */
+    /** A part of a record made ready for `carry`. All three may be left out: it is an hd_passage
+     * then. The maps from a to b and from b to c make those from a to c: what moves in steps takes
+     * whole steps, hd_record_within. HD_NO_MEMORY. */
+    hd_status (*maps_create)(void **maps, int particles);
+    void (*maps_free)(void *maps);
+    hd_status (*maps_fill)(void *maps, const hd_record *record, double t_begin, double t_end);
+    /** Carries a block of columns through them: block[particle][2 coordinates][width], dq before
+     * dp; the width is 1, 2, 4, 8, 16, 32 or 64. */
+    void (*carry)(const void *maps, double *block, int width);
+};
+
+/** The row of a scene. */
+const hd_dynamics *hd_dynamics_of(const hd_scene_def *scene);
+
+HD_API_END
+#endif

@@ -1,0 +1,110 @@
+/** What a row of dynamics leaves out -> what is usual: maps that are a part of the record, entries
+ * that are doubles throughout. */
+#include <math.h>
+#include <stdbool.h>
+
+#include "base/check.h"
+#include "base/memory.h"
+#include "dynamics/dynamics.h"
+#include "dynamics/record_state.h"
+
+/* ---- tangent maps -------------------------------------------------------------------------- */
+
+hd_status hd_maps_create_of(const hd_dynamics *of, void **maps, int particles)
+{
+    if (of->maps_create) return of->maps_create(maps, particles);
+    hd_passage *passage = *maps = hd_memory_alloc(1, sizeof *passage);
+    if (!passage) return HD_NO_MEMORY;
+    passage->particles = particles;
+    return HD_OK;
+}
+
+void hd_maps_free_of(const hd_dynamics *of, void *maps)
+{
+    if (of->maps_free)
+        of->maps_free(maps);
+    else
+        hd_memory_free(maps);
+}
+
+hd_status hd_maps_fill_of(const hd_dynamics *of, void *maps, const hd_record *record,
+                          double t_begin, double t_end)
+{
+    if (of->maps_fill) return of->maps_fill(maps, record, t_begin, t_end);
+    hd_passage *passage = maps;
+    const hd_entries those = hd_record_within(record, t_begin, t_end);
+    passage->count = those.end - those.first;
+    passage->entry = passage->count > 0 ? hd_record_entry(record, those.first) : NULL;
+    passage->begin = t_begin;
+    passage->end = t_end;
+    return HD_OK;
+}
+
+/* ---- record -------------------------------------------------------------------------------- */
+
+static size_t doubles_of(const hd_record *record)
+{
+    return record->count * (record->size / sizeof(double));
+}
+
+static const char *usual_fault(const hd_record *record)
+{
+    const size_t step = record->size / sizeof(double);
+    const double *x = record->entry;
+    double before = 0.0;
+    for (size_t k = 0; k < doubles_of(record); k++) {
+        if (!isfinite(x[k])) return "a number is none";
+        if (k % step > 0) continue;
+        if (!(x[k] >= before)) return "an entry comes before the one before it";
+        if (!(x[k] <= record->duration)) return "an entry comes after the end";
+        before = x[k];
+    }
+    return NULL;
+}
+
+const char *hd_record_fault(const hd_record *record, const hd_scene_def *scene)
+{
+    const hd_dynamics *of = hd_dynamics_of(scene);
+    return of->fault ? of->fault(record, scene) : usual_fault(record);
+}
+
+static void usual_archive(hd_record *record, hd_archive *archive)
+{
+    size_t count = record->count;
+    hd_archive_double(archive, "log duration", &record->duration);
+    hd_archive_count(archive, "log count", &count, record->size);
+    if (!archive->writing && hd_archive_good(archive)) {
+        const hd_status status = hd_record_reserve(record, count);
+        if (status != HD_OK)
+            hd_archive_fail(archive, status, "log count", "there is no room for so many");
+        record->count = status == HD_OK ? count : 0;
+    }
+    if (!hd_archive_good(archive)) return;
+    hd_archive_doubles(archive, "log entries", record->entry, doubles_of(record));
+    const char *fault = usual_fault(record);
+    if (fault) hd_archive_refuse(archive, "log", fault);
+}
+
+void hd_record_archive(hd_record *record, hd_archive *archive, const hd_scene_def *scene)
+{
+    const hd_dynamics *of = hd_dynamics_of(scene);
+    if (of->archive_record)
+        of->archive_record(record, archive, scene);
+    else
+        usual_archive(record, archive);
+}
+
+double hd_record_bytes_of(const hd_scene_def *scene, double entries)
+{
+    const hd_dynamics *of = hd_dynamics_of(scene);
+    return of->record_bytes ? of->record_bytes(entries) : hd_record_bytes(2.0 * entries, of->entry);
+}
+
+/* ---- particles ----------------------------------------------------------------------------- */
+
+double hd_trajectory_bytes(const hd_scene_def *scene)
+{
+    const hd_dynamics *of = hd_dynamics_of(scene);
+    return of->bytes ? of->bytes(scene->disks)
+                     : 4.0 * of->coordinates * (double)scene->disks * sizeof(double);
+}
