@@ -26,10 +26,15 @@ enum { HD_ROWS = 2 * HD_DIM };
  * many. */
 enum { HD_DIMENSION_MAX = 3 };
 
-/** What holds the disks: a box with edges along the axes, or in two dimensions a circle. */
-typedef enum hd_container { HD_RECTANGLE, HD_CIRCLE } hd_container;
+/** What can hold the disks, EACH(NAME, name): a scene says its name, and hd_name_row is its row in
+ * src/scene (container.h). A box with edges along the axes; in two dimensions a circle. */
+#define HD_CONTAINERS(EACH) EACH(RECTANGLE, rectangle) EACH(CIRCLE, circle)
 
-/** Of a direction; HD_CURVED in a circle, where no scene can ask for another one. */
+#define HD_CONTAINER_VALUE(NAME, name) HD_##NAME,
+typedef enum hd_container { HD_CONTAINERS(HD_CONTAINER_VALUE) HD_CONTAINERS_END } hd_container;
+#undef HD_CONTAINER_VALUE
+
+/** Of a direction; HD_CURVED behind a curved wall, where no scene can ask for another one. */
 typedef enum hd_boundary { HD_PERIODIC, HD_REFLECTING, HD_CURVED } hd_boundary;
 
 /** Stages of a run, one after the other: disks alone; with the frame; averages are taken; done. */
@@ -130,6 +135,18 @@ int hd_scene_coordinates(const hd_scene_def *def);
  * of spheres Lx = cbrt(N / (rho A B)), Lz = B Lx, with B = aspect_z; of the square around a circle
  * 2 R, with R = sqrt(N / (pi rho)). */
 void hd_scene_box(const hd_scene_def *def, double *box);
+
+/** The container and its size in words: "20 x 30", "a circle of radius 12.5". */
+void hd_scene_describe(const hd_scene_def *def, char *text, size_t size);
+
+/** What the ends of direction d are, as in a scene: periodic or reflecting, or curved; "" of z of
+ * disks. */
+const char *hd_scene_boundary_word(const hd_scene_def *def, int d);
+
+/** Writes HD_OUTLINE corners of a curved container's outline, in their order, and returns their
+ * number; 0 of a box, whose edges it is [sigma]. */
+enum { HD_OUTLINE = 128 };
+int hd_scene_outline(const hd_scene_def *def, double *x, double *y);
 
 /** Directions of the null space [T9]: uniform along x, along y, of spheres along z (where
  * periodic), momenta. In a circle HD_NULL_X is a rotation about the centre. */

@@ -13,7 +13,7 @@
 #include "base/check.h"
 #include "base/memory.h"
 #include "modes/archived.h"
-#include "modes/circle_fields.h"
+#include "modes/curved_fields.h"
 #include "modes/harmonics.h"
 #include "modes/plane_fields.h"
 #include "scene/container.h"
@@ -23,10 +23,11 @@ struct hd_fields {
     int dimension, disks, columns, stride, subspaces;
     hd_harmonics along[HD_DIMENSION_MAX];
     hd_null_space null;
-    hd_subspace *subspace; /**< [subspaces] */
-    hd_circle_wave *round; /**< [subspaces], of a circle; NULL in a rectangle */
-    double *data;          /**< [dimension * disks * stride] */
-    double *norm;          /**< [stride], of the columns as sampled */
+    const hd_container_row *container;
+    hd_subspace *subspace;      /**< [subspaces] */
+    double (*own)[HD_WAVE_OWN]; /**< [subspaces], by the container; NULL in a box */
+    double *data;               /**< [dimension * disks * stride] */
+    double *norm;               /**< [stride], of the columns as sampled */
 };
 
 /* ---- creation ------------------------------------------------------------------------------ */
@@ -78,12 +79,18 @@ static hd_status subspaces_create(hd_fields *fields, const hd_scene_def *def)
     return HD_OK;
 }
 
-static hd_status round_create(hd_fields *fields)
+/** What sampling needs of each wave. */
+static hd_status waves_prepare(hd_fields *fields, const hd_scene_def *def)
 {
-    fields->round = hd_memory_alloc((size_t)fields->subspaces + 1, sizeof *fields->round);
-    if (!fields->round) return HD_NO_MEMORY;
+    if (!fields->container->modulations) {
+        for (int d = 0; d < fields->dimension; d++)
+            HD_TRY(hd_harmonics_create(&fields->along[d], def, d, fields->along[d].nodes));
+        return HD_OK;
+    }
+    fields->own = hd_memory_alloc((size_t)fields->subspaces + 1, sizeof *fields->own);
+    if (!fields->own) return HD_NO_MEMORY;
     for (int s = 0; s < fields->subspaces; s++)
-        fields->round[s] = hd_circle_wave_of(&fields->subspace[s].wave, fields->null.centre - 0.5);
+        fields->container->of_wave(def, &fields->subspace[s].wave, fields->own[s]);
     return HD_OK;
 }
 
@@ -96,9 +103,8 @@ static hd_status fields_prepare(hd_fields *fields, const hd_scene_def *def)
 {
     HD_TRY(subspaces_create(fields, def));
     fields->null = hd_null_space_of(def);
-    if (fields->null.curved) HD_TRY(round_create(fields));
-    for (int d = 0; d < fields->dimension && !fields->null.curved; d++)
-        HD_TRY(hd_harmonics_create(&fields->along[d], def, d, fields->along[d].nodes));
+    fields->container = hd_container_of(def);
+    HD_TRY(waves_prepare(fields, def));
     fields->columns += hd_fields_nulls(fields);
     fields->stride = (fields->columns + 7) / 8 * 8;
     fields->data = hd_memory_alloc(components(fields) * (size_t)fields->stride, sizeof(double));
@@ -126,7 +132,7 @@ void hd_fields_free(hd_fields *fields)
     if (!fields) return;
     for (int d = 0; d < HD_DIMENSION_MAX; d++) hd_harmonics_clear(&fields->along[d]);
     hd_memory_free(fields->subspace);
-    hd_memory_free(fields->round);
+    hd_memory_free(fields->own);
     hd_memory_free(fields->data);
     hd_memory_free(fields->norm);
     hd_memory_free(fields);
@@ -144,12 +150,17 @@ static void sample_box(hd_fields *fields, double *const *row, const double *q, c
             hd_space_fields_fill(row, &fields->subspace[s], fields->along, p);
 }
 
+static void sample_curved(hd_fields *fields, double *const *row, const double *q, const double *p)
+{
+    for (int s = 0; s < fields->subspaces; s++)
+        hd_curved_fields_fill(row, &fields->subspace[s], fields->container, fields->own[s], q, p);
+}
+
 static void sample_disk(hd_fields *fields, double *const *row, const double *q, const double *p)
 {
     const int null = fields->columns - hd_fields_nulls(fields);
-    if (fields->round)
-        hd_circle_fields_fill(row, fields->subspace, fields->round, fields->subspaces,
-                              fields->null.centre, q, p);
+    if (fields->own)
+        sample_curved(fields, row, q, p);
     else
         sample_box(fields, row, q, p);
     for (int k = 0; k < fields->null.count; k++) {

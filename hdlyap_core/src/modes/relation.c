@@ -24,9 +24,6 @@ static const bend BENDS[2][2] = {
 static const double OFF[2] = {0.1, 0.15};
 /** Walls move c by about WALL sigma / edge, and each step by WALL_OWN of that for itself. */
 static const double WALL = 0.25, WALL_OWN = 0.6;
-/** In a circle T steps lie below the relation of boxes by up to 1.5 %. LP steps follow none: they
- * lie below it by 31 % (LP(1,1), density 0.4) to nothing (LP(0,1)). */
-static const double ROUND_T = 0.015;
 static const hd_relation NONE = {NAN, NAN, NAN, NAN, NAN, NAN};
 /** Dense disks in a narrow box stand in rows, which fit its edge or do not: CROWDED (sigma /
  * edge)^4 at the density DENSE. */
@@ -49,8 +46,10 @@ static double walls_of(const hd_scene_def *def, const double *box)
 
 hd_relation hd_relation_of(const hd_scene_def *def, hd_mode_kind kind)
 {
-    const bool t = kind == HD_MODE_T, curved = hd_scene_boundary(def, 0) == HD_CURVED;
-    if (curved && !t) return NONE;
+    const bool t = kind == HD_MODE_T;
+    const hd_container_row *container = hd_container_of(def);
+    const double strays = t ? container->t_strays : container->lp_strays;
+    if (isnan(strays)) return NONE;
     const int spheres = hd_scene_dimension(def) - 2;
     const bend *b = &BENDS[spheres][t];
     const double l = hd_scene_mean_free_path(def);
@@ -68,7 +67,7 @@ hd_relation hd_relation_of(const hd_scene_def *def, hd_mode_kind kind)
         .scatter = hypot(t ? 0.001 : 0.002, WALL_OWN * walls),
     };
     r.c3_error = OFF[spheres] * r.c3 + b->c3_error;
-    if (curved) r.scatter = r.box_error = ROUND_T;
+    if (strays > 0) r.scatter = r.box_error = strays;
     return r;
 }
 

@@ -7,6 +7,7 @@
 #include "base/memory.h"
 #include "observe/observable.h"
 #include "scene/container.h"
+#include "scene/null_space.h"
 #include "scene/scene.h"
 #include "dynamics/trajectory.h"
 
@@ -36,13 +37,10 @@ static counts counts_of(const hd_trajectory *trajectory)
     return now;
 }
 
-/** Momenta along a direction, but for what is conserved: their sum, of a circle half of the angular
- * momentum. */
+/** Momenta along a direction, but for what is conserved. */
 static double momenta(const hd_scene_def *def, int d)
 {
-    static const double conserved[] = {
-        [HD_PERIODIC] = 1.0, [HD_REFLECTING] = 0.0, [HD_CURVED] = 0.5};
-    return def->disks - conserved[hd_scene_boundary(def, d)];
+    return def->disks - hd_null_conserved(def, d);
 }
 
 double hd_gas_temperature(const hd_scene_def *def)

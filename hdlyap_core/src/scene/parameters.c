@@ -4,11 +4,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const hd_parameter_word hd_container_words[] = {{"rectangle", HD_RECTANGLE},
-#if HD_DIM == 2
-                                                       {"circle", HD_CIRCLE},
-#endif
-                                                       {NULL, 0}};
+#define WORD(NAME, name) {#name, HD_##NAME},
+static const hd_parameter_word hd_container_words[] = {HD_CONTAINERS(WORD){NULL, 0}};
+#undef WORD
 static const hd_parameter_word hd_boundary_words[] = {
     {"periodic", HD_PERIODIC}, {"reflecting", HD_REFLECTING}, {NULL, 0}};
 static const hd_parameter_word hd_exponents_words[] = {

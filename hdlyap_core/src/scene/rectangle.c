@@ -46,6 +46,16 @@ static void rectangle_say(const hd_scene_def *def, char *text, size_t size)
                  def->aspect_z);
 }
 
+static void rectangle_describe(const hd_scene_def *def, char *text, size_t size)
+{
+    double box[HD_DIMENSION_MAX];
+    rectangle_box(def, box);
+    if (is_flat(def))
+        snprintf(text, size, "%.6g x %.6g", box[0], box[1]);
+    else
+        snprintf(text, size, "%.6g x %.6g x %.6g", box[0], box[1], box[2]);
+}
+
 static hd_status rectangle_check(const hd_scene_def *def, char *message, size_t size)
 {
     double box[HD_DIMENSION_MAX];
@@ -75,14 +85,6 @@ static double rectangle_area(const hd_scene_def *def)
     return area;
 }
 
-/** Energy and time; a uniform motion and its momentum along each periodic direction. */
-static int rectangle_symmetries(const hd_scene_def *def)
-{
-    int periodic = 0;
-    for (int d = 0; d < hd_scene_dimension(def); d++) periodic += !has_walls(def, d);
-    return 1 + periodic;
-}
-
 /* ---- start ---------------------------------------------------------------------------------- */
 
 static double rectangle_start_distance(const hd_scene_def *def)
@@ -104,16 +106,6 @@ static void rectangle_start(const hd_scene_def *def, double *q)
         const hd_space_lattice best = hd_space_lattice_best(def->disks, box, def->boundary);
         hd_space_lattice_fill(&best, q, def->disks, box, def->boundary);
     }
-}
-
-static void rectangle_still(const hd_scene_def *def, const double *q, double *p)
-{
-    const int dimension = hd_scene_dimension(def);
-    double mean[HD_DIMENSION_MAX] = {0};
-    (void)q;
-    for (int k = 0; k < dimension * def->disks; k++) mean[k % dimension] += p[k];
-    for (int k = 0; k < dimension * def->disks; k++)
-        if (!has_walls(def, k % dimension)) p[k] -= mean[k % dimension] / def->disks;
 }
 
 /** The densest that the lattice can hold with these N, aspects and boundaries. */
@@ -244,14 +236,13 @@ static void rectangle_waves(const hd_scene_def *def, hd_wave_taker take, void *t
 static int rectangle_waves_usual(const hd_scene_def *def) { return is_flat(def) ? 8 : 26; }
 
 const hd_container_row hd_rectangle_row = {.say = rectangle_say,
+                                           .describe = rectangle_describe,
                                            .check = rectangle_check,
                                            .box = rectangle_box,
                                            .area = rectangle_area,
-                                           .symmetries = rectangle_symmetries,
                                            .start_distance = rectangle_start_distance,
                                            .density_max = rectangle_density_max,
                                            .start = rectangle_start,
-                                           .still = rectangle_still,
                                            .limits = rectangle_limits,
                                            .waves = rectangle_waves,
                                            .waves_usual = rectangle_waves_usual};

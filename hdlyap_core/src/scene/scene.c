@@ -5,7 +5,6 @@
 
 #include "hdlyap/parameters.h"
 #include "scene/archived.h"
-#include "scene/container.h"
 #include "scene/fluid.h"
 #include "scene/wave.h"
 
@@ -30,18 +29,6 @@ hd_scene_def hd_scene_def_of(const hd_dynamics *dynamics)
 int hd_scene_dimension(const hd_scene_def *def) { return hd_dynamics_of(def)->dimension; }
 
 int hd_scene_coordinates(const hd_scene_def *def) { return hd_dynamics_of(def)->coordinates; }
-
-void hd_scene_box(const hd_scene_def *def, double *box) { hd_container_of(def)->box(def, box); }
-
-const hd_container_row *hd_container_of(const hd_scene_def *def)
-{
-    return def->container == HD_CIRCLE ? &hd_circle_row : &hd_rectangle_row;
-}
-
-hd_boundary hd_scene_boundary(const hd_scene_def *def, int d)
-{
-    return def->container == HD_CIRCLE ? HD_CURVED : def->boundary[d];
-}
 
 /** Blocks of averages are as many collisions of a particle long, where nothing else is known. */
 static const double BLOCK_COLLISIONS = 8.0;

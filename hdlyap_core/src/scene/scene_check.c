@@ -46,7 +46,7 @@ static hd_status check_ranges(const hd_scene_def *def, bool covariant, char *mes
     return HD_OK;
 }
 
-/** What spheres alone have. */
+/** What spheres alone have, or disks: a curved wall is in the plane. */
 static hd_status check_dimensions(const hd_scene_def *def, char *message, size_t size)
 {
     const hd_scene_def usual = hd_scene_def_default();
@@ -56,6 +56,29 @@ static hd_status check_dimensions(const hd_scene_def *def, char *message, size_t
     if (hd_scene_dimension(def) == 2 && def->boundary[2] != usual.boundary[2])
         return hd_refuse(message, size,
                          "boundary_z = reflecting: must not be given with dimensions = 2");
+    if (hd_scene_dimension(def) != 2 && hd_container_of(def)->wall)
+        return hd_refuse(message, size,
+                         "container = %s: must be rectangle (a box), in three dimensions",
+                         hd_container_name(def));
+    return HD_OK;
+}
+
+/** A curved wall leaves no boundaries to choose, and there are no plane waves. */
+static hd_status check_curved(const hd_scene_def *def, char *message, size_t size)
+{
+    const hd_scene_def usual = hd_scene_def_default();
+    const char *name = hd_container_name(def);
+    for (int d = 0; d < 2; d++)
+        if (def->boundary[d] != usual.boundary[d])
+            return hd_refuse(message, size,
+                             "boundary_%c = reflecting: must not be given with container = %s, "
+                             "whose wall reflects",
+                             "xy"[d], name);
+    if (def->observe & (HD_OBSERVE_HYDRO | HD_OBSERVE_STRUCTURE))
+        return hd_refuse(message, size,
+                         "observables = %s: must not be given with container = %s: it is of "
+                         "waves in a rectangle",
+                         def->observe & HD_OBSERVE_HYDRO ? "hydro" : "structure", name);
     return HD_OK;
 }
 
@@ -63,7 +86,8 @@ hd_status hd_scene_check_box(const hd_scene_def *def, char *message, size_t size
 {
     HD_TRY(check_ranges(def, false, message, size));
     HD_TRY(check_dimensions(def, message, size));
-    return hd_container_of(def)->check(def, message, size);
+    HD_TRY(hd_container_of(def)->check(def, message, size));
+    return hd_container_of(def)->wall ? check_curved(def, message, size) : HD_OK;
 }
 
 /** Waves that the disks do not sample have no fields. */

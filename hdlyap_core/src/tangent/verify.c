@@ -9,6 +9,7 @@
 #include "dynamics/dynamics.h"
 #include "tangent/conjugate.h"
 #include "tangent/interval.h"
+#include "scene/container.h"
 #include "scene/scene.h"
 
 /** `value` is at most `limit`, and a number. */
@@ -27,7 +28,7 @@ static void expect_momentum(const hd_examined *now, const hd_scene_def *scene)
     for (int d = 0; d < hd_scene_dimension(scene); d++)
         if (hd_scene_boundary(scene, d) == HD_PERIODIC)
             expect_at_most(fabs(now->momentum[d]), most, "momentum");
-    if (hd_scene_boundary(scene, 0) != HD_CURVED) return;
+    if (!hd_container_of(scene)->rotates) return;
     double box[HD_DIMENSION_MAX];
     hd_scene_box(scene, box);
     expect_at_most(fabs(now->angular_momentum), most * box[0], "angular momentum");

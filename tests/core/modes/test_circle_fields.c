@@ -1,13 +1,25 @@
 /** The fields of a circle [T21]: against differences of their modulations, and at the wall. */
 #define _XOPEN_SOURCE 700 /* jn */
 
-#include "modes/circle_fields.h"
+#include "scene/container.h"
 #include "testing.h"
 
 /** Central differences: truncation of h^2 / 6 times a third derivative, and rounding over h. */
 static const double STEP = 1e-5, DIFFERENCE = 1e-9;
 
 static const double REACH = 8.0;
+
+/** From the container's row; x and y from the centre. */
+static void modulations_at(hd_modulation at[2], const hd_wave *wave, double x, double y)
+{
+    const double centre = REACH + 0.5;
+    const hd_scene_def def = scene(.container = HD_CIRCLE, .disks = 100,
+                                   .density = 100.0 / (PI * centre * centre));
+    const hd_container_row *circle = hd_container_of(&def);
+    double own[HD_WAVE_OWN];
+    circle->of_wave(&def, wave, own);
+    circle->modulations(at, own, (double[2]){centre + x, centre + y});
+}
 
 static double modulation(const hd_wave *wave, int sine, double x, double y)
 {
@@ -26,9 +38,8 @@ TEST(gradients_are_those_of_the_modulations)
                 .n = {m, 1}, .number = 0.1 + 0.005 * k, .transverse = {k % 2, {0}}};
             const double r = k < 2 ? 1e-4 : REACH * fmod(0.618 * k, 1.0), x = r * cos(k),
                          y = r * sin(k);
-            const hd_circle_wave of = hd_circle_wave_of(&wave, REACH);
-            hd_circle_modulation at[2];
-            hd_circle_modulations(at, &of, x, y);
+            hd_modulation at[2];
+            modulations_at(at, &wave, x, y);
             for (int sine = 0; sine < 2; sine++) {
                 const double dx = modulation(&wave, sine, x + STEP, y) -
                                   modulation(&wave, sine, x - STEP, y);
@@ -46,9 +57,8 @@ TEST(the_centre_is_a_place_like_others)
 {
     for (int m = 0; m < 4; m++) {
         const hd_wave wave = {.n = {m, 1}, .number = 0.7};
-        const hd_circle_wave of = hd_circle_wave_of(&wave, REACH);
-        hd_circle_modulation at[2];
-        hd_circle_modulations(at, &of, 0.0, 0.0);
+        hd_modulation at[2];
+        modulations_at(at, &wave, 0.0, 0.0);
         CHECK_CLOSE(at[0].a, m == 0, 0.0);
         CHECK_CLOSE(at[0].x, m == 1 ? 0.35 : 0.0, 1e-16);
         CHECK_CLOSE(at[0].y, 0.0, 0.0);
@@ -59,9 +69,8 @@ TEST(the_centre_is_a_place_like_others)
 /** The flow of T at distance r and angle 0: through the wall, and along it. */
 static void flow(const hd_wave *wave, double r, double along[2])
 {
-    const hd_circle_wave of = hd_circle_wave_of(wave, REACH);
-    hd_circle_modulation at[2];
-    hd_circle_modulations(at, &of, r, 0.0);
+    hd_modulation at[2];
+    modulations_at(at, wave, r, 0.0);
     along[0] = at[1].y;  /* of the sine */
     along[1] = -at[0].x; /* of the cosine */
 }
@@ -133,8 +142,7 @@ TEST(fields_of_one_modulation)
     const hd_scene_def def = scene(.container = HD_CIRCLE, .disks = DISKS, .density = 0.6,
                                    .max_mode_number = 3);
     MADE(hd_trajectory, tr, &def);
-    double box[2], q[ROWS], p[ROWS];
-    hd_scene_box(&def, box);
+    double q[ROWS], p[ROWS];
     hd_trajectory_state(tr, q, p);
     MADE(hd_fields, fields, &def);
     hd_fields_sample(fields, q, p);
@@ -146,9 +154,10 @@ TEST(fields_of_one_modulation)
         for (int j = 0; j < DISKS; j++) {
             const double *x = hd_fields_data(fields) + (size_t)(2 * j * hd_fields_stride(fields));
             const double *y = x + hd_fields_stride(fields);
-            const hd_circle_wave here = hd_circle_wave_of(&of->wave, 0.5 * box[0] - 0.5);
-            hd_circle_modulation at[2];
-            hd_circle_modulations(at, &here, q[2 * j] - 0.5 * box[0], q[2 * j + 1] - 0.5 * box[1]);
+            double own[HD_WAVE_OWN];
+            hd_modulation at[2];
+            hd_container_of(&def)->of_wave(&def, &of->wave, own);
+            hd_container_of(&def)->modulations(at, own, q + 2 * j);
             for (int c = 0; c < of->modulations.count; c++) {
                 const int column = of->column + c, pair = column + of->modulations.count;
                 const double norm = hd_fields_norm(fields, column);

@@ -30,6 +30,24 @@ TEST(density_is_by_the_area_of_the_circle)
     }
 }
 
+TEST(what_it_says_of_itself)
+{
+    const hd_scene_def def = circle(100, 0.3);
+    double x[HD_OUTLINE], y[HD_OUTLINE];
+    char text[64];
+    hd_scene_describe(&def, text, sizeof text);
+    assert_string_equal(text, "a circle of radius 10.3006"); /* sqrt(100 / (0.3 pi)) */
+    assert_string_equal(hd_scene_boundary_word(&def, 0), "curved");
+    assert_string_equal(hd_scene_boundary_word(&def, 1), "curved");
+    assert_string_equal(hd_scene_boundary_word(&def, 2), "");
+    assert_int_equal(hd_scene_outline(&def, x, y), HD_OUTLINE);
+    for (int k = 0; k < HD_OUTLINE; k++) {
+        const double angle = 2.0 * PI * k / HD_OUTLINE, r = radius_of(&def);
+        CHECK_CLOSE(x[k], r + r * cos(angle), 1e-13);
+        CHECK_CLOSE(y[k], r + r * sin(angle), 1e-13);
+    }
+}
+
 TEST(what_a_circle_has_not_is_refused_by_name)
 {
     hd_scene_def def = circle(100, 0.7);

@@ -229,6 +229,20 @@ TEST(box_has_area_and_aspect)
     }
 }
 
+TEST(what_a_box_says_of_itself)
+{
+    const hd_scene_def def = scene(.disks = 100, .density = 0.25, .aspect = 0.25,
+                                   .boundary[1] = HD_REFLECTING);
+    double x[HD_OUTLINE], y[HD_OUTLINE];
+    char text[64];
+    hd_scene_describe(&def, text, sizeof text);
+    assert_string_equal(text, "40 x 10");
+    assert_string_equal(hd_scene_boundary_word(&def, 0), "periodic");
+    assert_string_equal(hd_scene_boundary_word(&def, 1), "reflecting");
+    assert_string_equal(hd_scene_boundary_word(&def, 2), "");
+    assert_int_equal(hd_scene_outline(&def, x, y), 0);
+}
+
 TEST(numbers_of_vectors)
 {
     const int zeros[] = {6, 4, 4, 2};

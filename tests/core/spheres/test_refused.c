@@ -17,7 +17,7 @@ TEST(what_is_of_disks_alone)
                "dimensions = 2: must be 3: spheres; hdlyap_node is for disks (run.launch without "
                "dimensions:=3)");
     check_line(scene_from(usual(), .container = HD_CIRCLE),
-               "container = 1: must be rectangle (a box), in three dimensions");
+               "container = circle: must be rectangle (a box), in three dimensions");
 }
 
 TEST(values_out_of_range)
@@ -46,6 +46,16 @@ TEST(edges_below_a_diameter)
     check_line(box_of(2, 1.0 / 8.0, 0.25, 1.0, 2, 1), /* 4 x 1 x 4 */
                "density = 0.125 with disks = 2, aspect = 0.25, aspect_z = 1: the box edge Ly = 1 "
                "must be above the disk diameter 1 by 1e-9");
+}
+
+TEST(a_box_in_words)
+{
+    const hd_scene_def def = box_with(8, 4.0, 6.0, 2.0, 4, 1);
+    char text[64];
+    hd_scene_describe(&def, text, sizeof text);
+    assert_string_equal(text, "4 x 6 x 2");
+    assert_string_equal(hd_scene_boundary_word(&def, 0), "periodic");
+    assert_string_equal(hd_scene_boundary_word(&def, 2), "reflecting");
 }
 
 /** The number in the line is the density up to which there is a lattice. */

@@ -25,20 +25,25 @@ static bool disks_exist(const hd_event *event, int disks)
     return (event->j < 0 && event->j >= HD_WALL_ROUND) || (event->j > event->i && event->j < disks);
 }
 
-/** Flat walls lie in a box, round ones in a circle. */
-static bool wall_exists(const hd_event *event, double reach)
+/** There are flat walls, or there is a curved one. */
+static bool wall_exists(const hd_event *event, const hd_wall *wall)
 {
-    return event->j == HD_WALL_ROUND ? reach > 0
-                                     : event->j >= 0 || (event->j > HD_WALL_ROUND && reach == 0);
+    const bool is_curved = wall->meet;
+    return event->j == HD_WALL_ROUND ? is_curved
+                                     : event->j >= 0 || (event->j > HD_WALL_ROUND && !is_curved);
 }
 
-/** Its length is 1, or the radius of a round wall: a quotient of a vector and its length is right
+/** Its length is 1, or a radius of a curved wall: a quotient of a vector and its length is right
  * to an ulp or two. */
-static bool is_normal(const hd_event *event, double reach)
+static bool is_normal(const hd_event *event, const hd_wall *wall)
 {
     const bool is_round = event->j == HD_WALL_ROUND; /* one more product */
-    const double square = is_round ? reach * reach : 1.0, roundings = is_round ? 12.0 : 8.0;
-    return fabs(hd_contact_dot(event->n, event->n) - square) <= roundings * DBL_EPSILON * square;
+    const double least = is_round ? wall->radius_least : 1.0;
+    const double most = is_round ? wall->radius_most : 1.0;
+    const double square = hd_contact_dot(event->n, event->n);
+    const double rounding = (is_round ? 12.0 : 8.0) * DBL_EPSILON;
+    return square - least * least >= -rounding * least * least &&
+           square - most * most <= rounding * most * most;
 }
 
 /** Within the rounding of the normal; a round wall is reached outwards. */
@@ -51,15 +56,15 @@ static bool approach(const hd_event *event)
 
 const char *hd_events_fault(const hd_record *record, const hd_scene_def *scene)
 {
-    const double reach = hd_round_wall_of(scene).reach;
+    const hd_wall wall = hd_wall_of(scene);
     double before = 0.0;
     for (size_t k = 0; k < record->count; k++) {
         const hd_event *event = hd_events(record) + k;
         if (!(event->t >= before)) return "an event comes before the one before it";
         if (!(event->t <= record->duration)) return "an event comes after the end";
         if (!disks_exist(event, scene->disks)) return "there is no such disk";
-        if (!wall_exists(event, reach)) return "there is no such wall";
-        if (!is_normal(event, reach)) return "a normal has not the length that it should";
+        if (!wall_exists(event, &wall)) return "there is no such wall";
+        if (!is_normal(event, &wall)) return "a normal has not the length that it should";
         if ((event->j >= 0 || event->j == HD_WALL_ROUND) && !approach(event))
             return "what meets there parts";
         before = event->t;

@@ -21,6 +21,7 @@
 #include "dynamics/record_state.h"
 #include "scene/container.h"
 #include "scene/fluid.h"
+#include "scene/null_space.h"
 #include "scene/scene.h"
 #include "scene/scene_check.h"
 
@@ -141,7 +142,7 @@ static hd_status reflect(hard *tr, hd_record *record, hd_event *event, double t)
     return write(record, event);
 }
 
-/** Reflection at a round wall [T21]. */
+/** Reflection at a curved wall [T21]. */
 static hd_status reflect_round(hard *tr, hd_record *record, hd_event *event, double t)
 {
     hd_disk *disk = &tr->motion.disk[event->i];
@@ -257,7 +258,7 @@ static hd_status prepare(hard *tr, const hd_scene_def *def)
 {
     tr->motion.count = def->disks;
     tr->epoch_length = epoch_for(2.0 * hd_hard_rate(def) / def->disks);
-    tr->motion.wall = hd_round_wall_of(def);
+    tr->motion.wall = hd_wall_of(def);
     tr->motion.disk = hd_memory_alloc((size_t)tr->motion.count + 1, sizeof *tr->motion.disk);
     tr->motion.predicted = hd_memory_alloc((size_t)tr->motion.count, sizeof *tr->motion.predicted);
     if (!tr->motion.disk || !tr->motion.predicted) return HD_NO_MEMORY;
@@ -278,9 +279,8 @@ static hd_status start(hard *tr, const double *q, const double *p)
             if (!(disk->q[d] >= reach && disk->q[d] <= tr->motion.cells.box[d] - reach))
                 return HD_REFUSED;
         }
-        if (tr->motion.wall.reach > 0 &&
-            hd_round_wall_excess(&tr->motion.wall, disk->q) > tr->overlap_max)
-            return HD_REFUSED;
+        const hd_wall *wall = &tr->motion.wall;
+        if (wall->excess && wall->excess(wall, disk->q) > tr->overlap_max) return HD_REFUSED;
         hd_cells_add(&tr->motion.cells, tr->motion.disk, i);
     }
     if (hd_hard_overlap(tr) > tr->overlap_max) return HD_OVERLAP;
@@ -295,7 +295,7 @@ static void momenta_fill(double *p, const hd_scene_def *def, const double *q)
     const int n = def->disks;
     double square = 0;
     for (int k = 0; k < HD_DIM * n; k++) p[k] = hd_random_symmetric(&random);
-    hd_container_of(def)->still(def, q, p);
+    hd_null_space_still(def, q, p);
     for (int k = 0; k < HD_DIM * n; k++) square += p[k] * p[k];
     const double scale = sqrt(2.0 * n / square);
     for (int k = 0; k < HD_DIM * n; k++) p[k] *= scale;

@@ -40,8 +40,8 @@ static bool in_its_cell(const hard *tr, const hd_disk *disk)
         at[d] = place;
         if (!(place >= bound[0] - close && place <= bound[1] + close)) return false;
     }
-    const hd_round_wall *wall = &tr->motion.wall;
-    return wall->reach == 0 || hd_round_wall_excess(wall, at) <= close;
+    const hd_wall *wall = &tr->motion.wall;
+    return !wall->excess || wall->excess(wall, at) <= close;
 }
 
 /** What the disks' numbers are not, or NULL. Of a scene: its energy is N. */

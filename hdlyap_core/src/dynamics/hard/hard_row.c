@@ -140,7 +140,8 @@ static void hard_examine(const void *state, hd_examined *examined)
 /** Pairs of energy and time, and of each conserved momentum. */
 static int hard_zeros(const hd_scene_def *scene)
 {
-    return 2 * hd_container_of(scene)->symmetries(scene);
+    int axis[HD_DIMENSION_MAX + 1];
+    return 2 * hd_null_axes(scene, axis);
 }
 
 #if HD_DIM == 2

@@ -130,7 +130,7 @@ void hd_prediction_renew(hd_motion *m, int32_t i)
 {
     m->predicted[i].contact = INFINITY;
     m->predicted[i].partner = -1;
-    if (m->wall.reach > 0) predict_round_wall(m, i);
+    if (m->wall.wait) predict_round_wall(m, i);
     predict_around(m, i);
     schedule(m, i);
 }

@@ -23,7 +23,7 @@ typedef struct prediction {
 typedef struct hd_motion {
     int32_t count;
     hd_disk *disk; /**< [count + 1]: the last one stands for the round wall, and is none */
-    hd_round_wall wall;
+    hd_wall wall;  /**< without functions of a box */
     prediction *predicted;
     hd_cells cells;
     hd_queue queue;

@@ -1,0 +1,63 @@
+/** Scene -> what its container is. */
+#include "scene/container.h"
+
+#include "scene/scene.h"
+
+/** One that is not checked yet may say anything. */
+static hd_container number_of(const hd_scene_def *def)
+{
+    return (unsigned)def->container < HD_CONTAINERS_END ? def->container : HD_RECTANGLE;
+}
+
+const hd_container_row *hd_container_of(const hd_scene_def *def)
+{
+#define ROW(NAME, name) &hd_##name##_row,
+    static const hd_container_row *const rows[] = {HD_CONTAINERS(ROW)};
+#undef ROW
+    return rows[number_of(def)];
+}
+
+const char *hd_container_name(const hd_scene_def *def)
+{
+#define NAME_OF(NAME, name) #name,
+    static const char *const names[] = {HD_CONTAINERS(NAME_OF)};
+#undef NAME_OF
+    return names[number_of(def)];
+}
+
+void hd_scene_box(const hd_scene_def *def, double *box) { hd_container_of(def)->box(def, box); }
+
+void hd_scene_describe(const hd_scene_def *def, char *text, size_t size)
+{
+    hd_container_of(def)->describe(def, text, size);
+}
+
+hd_boundary hd_scene_boundary(const hd_scene_def *def, int d)
+{
+    return hd_container_of(def)->wall ? HD_CURVED : def->boundary[d];
+}
+
+const char *hd_scene_boundary_word(const hd_scene_def *def, int d)
+{
+    static const char *const words[] = {
+        [HD_PERIODIC] = "periodic", [HD_REFLECTING] = "reflecting", [HD_CURVED] = "curved"};
+    return d < hd_scene_dimension(def) ? words[hd_scene_boundary(def, d)] : "";
+}
+
+int hd_scene_outline(const hd_scene_def *def, double *x, double *y)
+{
+    const hd_container_row *container = hd_container_of(def);
+    if (!container->outline) return 0;
+    for (int k = 0; k < HD_OUTLINE; k++) {
+        double place[2];
+        container->outline(def, (double)k / HD_OUTLINE, place);
+        x[k] = place[0], y[k] = place[1];
+    }
+    return HD_OUTLINE;
+}
+
+hd_wall hd_wall_of(const hd_scene_def *def)
+{
+    const hd_container_row *container = hd_container_of(def);
+    return container->wall ? container->wall(def) : (hd_wall){.wait = NULL};
+}

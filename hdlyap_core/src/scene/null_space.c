@@ -1,0 +1,89 @@
+/** Scene -> what is conserved, and the directions that follow from it [T9]. Of the trajectory's
+ * start
+ * + - * / only. */
+#include "scene/null_space.h"
+
+#include <string.h>
+
+#include "scene/container.h"
+
+int hd_null_axes(const hd_scene_def *def, int *axis)
+{
+    const int dimension = hd_scene_dimension(def);
+    int count = 0;
+    for (int d = 0; d < dimension; d++)
+        if (hd_scene_boundary(def, d) == HD_PERIODIC ||
+            (d == HD_NULL_X && hd_container_of(def)->rotates))
+            axis[count++] = d;
+    axis[count++] = dimension;
+    return count;
+}
+
+hd_null_space hd_null_space_of(const hd_scene_def *def)
+{
+    double box[HD_DIMENSION_MAX];
+    hd_scene_box(def, box);
+    hd_null_space null = {.dimension = hd_scene_dimension(def),
+                          .rotates = hd_container_of(def)->rotates,
+                          .centre = 0.5 * box[0]};
+    null.count = hd_null_axes(def, null.axis);
+    return null;
+}
+
+int hd_null_space_fill(const hd_scene_def *def, const double *q, const double *p, double *column)
+{
+    const hd_null_space null = hd_null_space_of(def);
+    const int dimension = null.dimension;
+    const size_t rows = 2 * (size_t)(dimension * def->disks);
+    int count = 0;
+    for (int k = 0; k < 2 * null.count; k++) {
+        const bool rotation = null.rotates && null.axis[k / 2] == HD_NULL_X;
+        if (rotation && k % 2 == 1) continue;
+        memset(column, 0, rows * sizeof *column);
+        for (int j = 0; j < dimension * def->disks; j++) {
+            const int d = j % dimension;
+            const double *at = q + (j - d), *moving = p + (j - d);
+            double *entry = column + 2 * dimension * (j / dimension) + d;
+            entry[dimension * (k % 2)] = hd_null_entry(&null, null.axis[k / 2], d, at, moving);
+            if (rotation) entry[dimension] = d == 0 ? -moving[1] : moving[0];
+        }
+        column += rows;
+        count++;
+    }
+    return count;
+}
+
+/* ---- momenta ------------------------------------------------------------------------------- */
+
+static void still_rotation(const hd_scene_def *def, const double *q, double *p)
+{
+    const double centre = hd_null_space_of(def).centre;
+    double angular = 0.0, inertia = 0.0;
+    for (int k = 0; k < 2 * def->disks; k += 2) {
+        const double x = q[k] - centre, y = q[k + 1] - centre;
+        angular += x * p[k + 1] - y * p[k];
+        inertia += x * x + y * y;
+    }
+    const double rate = inertia > 0 ? angular / inertia : 0.0;
+    for (int k = 0; k < 2 * def->disks; k += 2) {
+        p[k] += rate * (q[k + 1] - centre);
+        p[k + 1] -= rate * (q[k] - centre);
+    }
+}
+
+void hd_null_space_still(const hd_scene_def *def, const double *q, double *p)
+{
+    const int dimension = hd_scene_dimension(def);
+    double mean[HD_DIMENSION_MAX] = {0};
+    for (int k = 0; k < dimension * def->disks; k++) mean[k % dimension] += p[k];
+    for (int k = 0; k < dimension * def->disks; k++)
+        if (hd_scene_boundary(def, k % dimension) == HD_PERIODIC)
+            p[k] -= mean[k % dimension] / def->disks;
+    if (hd_container_of(def)->rotates) still_rotation(def, q, p);
+}
+
+double hd_null_conserved(const hd_scene_def *def, int d)
+{
+    if (hd_container_of(def)->rotates) return 0.5;
+    return hd_scene_boundary(def, d) == HD_PERIODIC ? 1.0 : 0.0;
+}
