@@ -47,8 +47,9 @@ typedef struct hd_cost {
     double ortho;    /**< seconds in the factorisation */
     double spectrum; /**< seconds in averages */
     double modes;    /**< seconds in classification, steps, phases, responses, widths */
-    /** Seconds in covariant vectors: what is kept for them, and the way back */
-    double covariant;
+    /** Seconds in what follows every interval: what is kept for covariant vectors, and the way back
+     */
+    double following;
     /** Seconds of the above in exchange with other ranks, waiting included; bytes that this rank
      * has handed over; calls. 0 with a single rank */
     double communication, bytes, calls;

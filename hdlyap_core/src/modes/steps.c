@@ -90,7 +90,7 @@ hd_status hd_steps_create(hd_steps **out, const hd_scene_def *def, const hd_mode
     steps->modes = modes;
     steps->vectors = hd_modes_vectors(modes);
     steps->rows = 2 * hd_scene_coordinates(def) * def->disks;
-    steps->warmup = hd_scene_warmup(def);
+    steps->warmup = hd_scene_parting(def);
     steps->of_t = hd_relation_of(def, HD_MODE_T);
     steps->of_lp = hd_relation_of(def, HD_MODE_LP);
     steps->subspaces = hd_fields_subspaces(fields);

@@ -139,6 +139,12 @@ static double hydro_bytes(const hd_scene_def *scene, int ranks)
     return sizeof(hd_hydro_response) * 2.0 * hd_fields_count_of(scene).lp_phases;
 }
 
+static void hydro_extend(hd_extent *extent, const hd_scene_def *scene, const void *self)
+{
+    (void)scene;
+    if (self) extent->responses = hd_hydro_count(self);
+}
+
 static void *hydro_create(const hd_observing *with, hd_status *status)
 {
     hd_hydro *made;
@@ -161,8 +167,9 @@ static int hydro_first(void *self, const hd_observing *with)
 
 const hd_observable hd_hydro_row = {.with = HD_OBSERVE_STEPS,
                                     .needs = HD_NEEDS_FRAME | HD_NEEDS_VECTORS | HD_NEEDS_REPORTS |
-                                             HD_NEEDS_STATE | HD_NEEDS_ALL,
+                                             HD_NEEDS_STATE | HD_NEEDS_ALL | HD_NEEDS_EDGES,
                                     .bytes = hydro_bytes,
+                                    .extend = hydro_extend,
                                     .create = hydro_create,
                                     .free = hydro_free,
                                     .report = hydro_report,

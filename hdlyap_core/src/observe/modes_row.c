@@ -73,6 +73,20 @@ static double steps_bytes(const hd_scene_def *scene, int ranks)
     return hd_steps_bytes(scene);
 }
 
+/** Each can show one vector. */
+static void steps_extend(hd_extent *extent, const hd_scene_def *scene, const void *self)
+{
+    (void)scene;
+    if (!self) return;
+    extent->steps = hd_steps_count(self);
+    for (int s = 0; s < extent->steps; s++) {
+        const hd_step *step = hd_steps_step(self, s);
+        if (step->kind == HD_MODE_ZERO || step->conjugate) continue;
+        extent->examples++;
+        if (step->kind == HD_MODE_LP) extent->pairs += step->expected / 2;
+    }
+}
+
 static void *steps_create(const hd_observing *with, hd_status *status)
 {
     hd_steps *made;
@@ -103,6 +117,7 @@ static void steps_archive(void *self, hd_archive *archive, const hd_trajectory *
 const hd_observable hd_steps_row = {.with = HD_OBSERVE_MODES,
                                     .needs = HD_NEEDS_FRAME | HD_NEEDS_VECTORS,
                                     .bytes = steps_bytes,
+                                    .extend = steps_extend,
                                     .create = steps_create,
                                     .free = steps_free,
                                     .clear = steps_clear,

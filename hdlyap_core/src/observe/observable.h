@@ -6,9 +6,11 @@
 
 #include "base/archive.h"
 #include "hdlyap/communicator.h"
+#include "hdlyap/estimate.h"
 #include "hdlyap/frame.h"
 #include "hdlyap/spectrum.h"
 #include "hdlyap/trajectory.h"
+#include "tangent/frame.h"
 #include "tangent/ortho.h"
 
 /** What an observable needs: a set. */
@@ -19,7 +21,10 @@ enum {
     HD_NEEDS_FIELDS = 8,  /**< a measured state where fields are due */
     HD_NEEDS_ALL = 16,    /**< vectors of all ranks at these reports, on each rank */
     HD_NEEDS_CLOSE = 32,  /**< measured states no farther apart than `sampling` says */
-    HD_NEEDS_STATE = 64   /**< positions and momenta, to measure and report */
+    HD_NEEDS_STATE = 64,  /**< positions and momenta, to measure and report */
+    HD_NEEDS_EDGES = 128, /**< plane waves: a box with edges, no curved wall */
+    HD_NEEDS_WHOLE = 256  /**< a frame that is always orthonormal in the whole norm; where half of
+                             the vectors are carried, to rounding [T18] */
 };
 
 /** What an observable is made from, and what it goes on to know. */
@@ -31,9 +36,7 @@ typedef struct hd_observing {
     double block;                  /**< shortest block of averages [time units] */
     hd_ortho *ortho;               /**< NULL without exponents */
     double longest;                /**< no interval between orthonormalisations will be longer */
-    char *message;                 /**< for the line that refuses, with its size; may be NULL */
-    size_t size;
-    void *const *part; /**< of each row; of those above it when one is created */
+    void *const *part;             /**< of each row; of those above it when one is created */
 } hd_observing;
 
 /** A state that is observed. */
@@ -47,13 +50,39 @@ typedef struct hd_view {
     const double *q, *p; /**< positions and momenta, for HD_NEEDS_STATE, else NULL */
 } hd_view;
 
+/** An interval of the averaging, through which the frame is carried. */
+typedef struct hd_leg {
+    enum {
+        HD_LEG_BEGINS, /**< the frame is still that of its start */
+        HD_LEG_PIECE,  /**< an orthonormalisation, after the part of the record before it */
+        HD_LEG_ENDS,
+        HD_LEG_LOST /**< the triangle of the next one is not that of the frame any more */
+    } at;
+    const hd_frame *frame;
+    const hd_ortho *ortho;
+    const hd_record *record;
+    const hd_trajectory *trajectory;
+    double from, to; /**< of a piece, in the record */
+    double expected; /**< time units that the next intervals are expected to last */
+} hd_leg;
+
 /** Functions may be NULL: then there is nothing to do. `self` is what `create` made. */
 typedef struct hd_observable {
     unsigned with;  /**< set of HD_OBSERVE_* that come with it */
     unsigned needs; /**< set of HD_NEEDS_* */
     /** That it will take on each of so many ranks; on the safe side by some percent. */
     double (*bytes)(const hd_scene_def *scene, int ranks);
-    /** What it returns is freed, whatever the status: HD_NO_MEMORY; HD_REFUSED with a line. */
+    /** Adds how many there are of what it tells; `self` is NULL where a run has none of it. */
+    void (*extend)(hd_extent *extent, const hd_scene_def *scene, const void *self);
+    /** Least time with the frame before averages, if the scene leaves it open. */
+    double (*warmup)(const hd_scene_def *scene);
+    /** HD_REFUSED with a line: what it needs of a scene; of several ranks; of intervals between
+     * orthonormalisations that may become so long. */
+    hd_status (*check)(const hd_scene_def *scene, char *message, size_t size);
+    hd_status (*check_ranks)(const hd_scene_def *scene, int ranks, char *message, size_t size);
+    hd_status (*check_longest)(const hd_scene_def *scene, double longest, char *message,
+                               size_t size);
+    /** What it returns is freed, whatever the status: HD_NO_MEMORY. */
     void *(*create)(const hd_observing *with, hd_status *status);
     void (*free)(void *self);
     /** Its averages begin here. */
@@ -72,6 +101,16 @@ typedef struct hd_observable {
     int (*first)(void *self, const hd_observing *with);
     /** Longest time from this measured state to the next; INFINITY. */
     double (*sampling)(void *self, const hd_observing *with);
+    /** Each interval, while somebody looks. HD_NO_MEMORY, HD_NO_ROOM. Ranks agree. */
+    hd_status (*follow)(void *self, const hd_leg *leg);
+    /** True if it begins to follow with the next interval: a half of the vectors that stands for
+     * all is made so to rounding before [T18]. */
+    bool (*begins)(const void *self);
+    /** Simulated time at which an interval shall end for it, of one that begins now. */
+    double (*due)(const void *self, double now);
+    /** True while it has something to do before the run may go on; a step of that. Ranks agree. */
+    bool (*is_behind)(const void *self);
+    hd_status (*catch_up)(void *self);
     void (*archive)(void *self, hd_archive *archive, const hd_trajectory *now);
     /** What hd_run_parts gives of it; NULL: itself. */
     void *(*result)(void *self);
@@ -86,5 +125,7 @@ typedef enum hd_observed {
 
 #define HD_OBSERVABLE(name, NAME, bit, of_waves, result) extern const hd_observable hd_##name##_row;
 #include "hdlyap/observables.inc"
+extern const hd_observable *const hd_observable_rows[HD_OBSERVED];
+extern const unsigned hd_observable_bits[HD_OBSERVED]; /**< HD_OBSERVE_* of each */
 
 #endif

@@ -15,6 +15,18 @@ static double t_bytes(const hd_scene_def *scene, int ranks)
     return hd_phases_bytes(hd_fields_count_of(scene).t_phases);
 }
 
+static void lp_extend(hd_extent *extent, const hd_scene_def *scene, const void *self)
+{
+    (void)scene;
+    if (self) extent->phases = hd_phases_count(self);
+}
+
+static void t_extend(hd_extent *extent, const hd_scene_def *scene, const void *self)
+{
+    (void)scene;
+    if (self) extent->t_phases = hd_phases_count(self);
+}
+
 static void *lp_create(const hd_observing *with, hd_status *status)
 {
     hd_phases *made;
@@ -54,12 +66,12 @@ static void phases_archive(void *self, hd_archive *archive, const hd_trajectory 
     hd_phases_archive(self, archive, hd_trajectory_time(now));
 }
 
-#define ROW(its_bytes, its_create)                                                                 \
+#define ROW(its_bytes, its_extend, its_create)                                                     \
     {                                                                                              \
         .with = HD_OBSERVE_STEPS, .needs = HD_NEEDS_FRAME | HD_NEEDS_VECTORS | HD_NEEDS_CLOSE,     \
-        .bytes = (its_bytes), .create = (its_create), .free = phases_free, .clear = phases_clear,  \
-        .resume = phases_resume, .add = phases_add, .sampling = phases_sampling,                   \
-        .archive = phases_archive                                                                  \
+        .bytes = (its_bytes), .extend = (its_extend), .create = (its_create), .free = phases_free, \
+        .clear = phases_clear, .resume = phases_resume, .add = phases_add,                         \
+        .sampling = phases_sampling, .archive = phases_archive                                     \
     }
-const hd_observable hd_phases_row = ROW(lp_bytes, lp_create);
-const hd_observable hd_t_phases_row = ROW(t_bytes, t_create);
+const hd_observable hd_phases_row = ROW(lp_bytes, lp_extend, lp_create);
+const hd_observable hd_t_phases_row = ROW(t_bytes, t_extend, t_create);

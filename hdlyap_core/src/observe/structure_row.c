@@ -12,6 +12,12 @@ static double structure_bytes(const hd_scene_def *scene, int ranks)
     return hd_structure_bytes(scene, hd_scene_vectors(scene));
 }
 
+static void structure_extend(hd_extent *extent, const hd_scene_def *scene, const void *self)
+{
+    (void)self;
+    extent->waves = hd_structure_waves_of(scene);
+}
+
 static void *structure_create(const hd_observing *with, hd_status *status)
 {
     hd_structure *made;
@@ -54,8 +60,9 @@ static void structure_archive(void *self, hd_archive *archive, const hd_trajecto
 
 const hd_observable hd_structure_row = {.with = HD_OBSERVE_MODES,
                                         .needs = HD_NEEDS_FRAME | HD_NEEDS_VECTORS |
-                                                 HD_NEEDS_REPORTS | HD_NEEDS_STATE,
+                                                 HD_NEEDS_REPORTS | HD_NEEDS_STATE | HD_NEEDS_EDGES,
                                         .bytes = structure_bytes,
+                                        .extend = structure_extend,
                                         .create = structure_create,
                                         .free = structure_free,
                                         .clear = structure_clear,

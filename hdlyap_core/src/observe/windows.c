@@ -1,42 +1,26 @@
-/** Orthonormalisations of a run -> covariant vectors of its windows. */
-#include "observe/windows.h"
+/** Orthonormalisations of a run -> covariant vectors of its windows: an observable that follows
+ * each interval, and stops the run to go back through a window. */
+#include "observe/observable.h"
 
 #include <math.h>
 
 #include "averages/archived.h"
 #include "base/check.h"
-#include "base/clock.h"
 #include "base/memory.h"
 #include "covariant/archived.h"
 #include "covariant/covariant.h"
 #include "modes/archived.h"
-#include "observe/observable.h"
 #include "scene/scene.h"
 #include "tangent/archived.h"
 
-/** Wall seconds after which no further step of the way back begins in a call. */
-static const double GO_SECONDS = 0.1;
-
-struct hd_windows {
+/** The observable. */
+typedef struct hd_windows {
     hd_covariant *covariant;
     hd_communicator *communicator; /**< NULL: a single rank; all of them go the same way back */
     double *gathered;              /**< [rows * n], vectors of all ranks; NULL of a single one */
     double sampling;               /**< from the beginning of a window to its first look */
     bool due;                      /**< a window begins with the next interval */
-    double seconds;                /**< wall seconds spent here */
-};
-
-double *hd_windows_seconds(hd_windows *windows) { return &windows->seconds; }
-void hd_windows_lose(hd_windows *windows) { windows->due = true; }
-bool hd_windows_begins(const hd_windows *windows) { return windows->due; }
-
-/** Adds the seconds since `start` to the cost; what one rank cannot do, none does. */
-static hd_status timed(hd_windows *windows, double start, hd_status status)
-{
-    status = hd_communicator_agree(windows->communicator, status);
-    windows->seconds += hd_clock_now() - start;
-    return status;
-}
+} hd_windows;
 
 /** Vectors of all ranks. */
 static hd_columns all_of(hd_windows *windows, const hd_frame *frame)
@@ -47,69 +31,67 @@ static hd_columns all_of(hd_windows *windows, const hd_frame *frame)
     return (hd_columns){windows->gathered, n, 0, n};
 }
 
-hd_status hd_windows_start(hd_windows *windows, const hd_frame *frame, double begin,
-                           double expected)
+/** A window begins where the record does. */
+static hd_status begin(hd_windows *windows, const hd_leg *p)
 {
-    const double start = hd_clock_now();
-    if (!windows->due) return HD_OK;
+    const double time = hd_trajectory_time(p->trajectory) - hd_record_duration(p->record);
     windows->due = false;
-    return timed(windows, start,
-                 hd_covariant_begin(windows->covariant, all_of(windows, frame), begin, expected));
+    return hd_covariant_begin(windows->covariant, all_of(windows, p->frame), time, p->expected);
 }
 
-hd_status hd_windows_add(hd_windows *windows, const hd_ortho *ortho, const hd_frame *frame,
-                         const hd_record *record, double t_begin, double t_end)
+static hd_status add(hd_windows *windows, const hd_leg *p)
 {
-    const double start = hd_clock_now();
     const hd_columns none = {NULL, 0, 0, 0};
-    if (windows->due) return HD_OK;
     const hd_columns vectors = hd_covariant_wants_vectors(windows->covariant)
-                                   ? all_of(windows, frame)
+                                   ? all_of(windows, p->frame)
                                    : none;
-    return timed(
-        windows, start,
-        hd_covariant_add(windows->covariant, ortho, frame, vectors, record, t_begin, t_end));
+    return hd_covariant_add(windows->covariant, p->ortho, p->frame, vectors, p->record, p->from,
+                            p->to);
 }
 
-hd_status hd_windows_end(hd_windows *windows, const hd_frame *frame,
-                         const hd_trajectory *trajectory)
+static hd_status end(hd_windows *windows, const hd_leg *p)
 {
-    const double start = hd_clock_now();
-    if (windows->due || !hd_covariant_wants_state(windows->covariant)) return HD_OK;
-    return timed(windows, start,
-                 hd_covariant_state(windows->covariant, all_of(windows, frame), trajectory));
+    return hd_covariant_state(windows->covariant, all_of(windows, p->frame), p->trajectory);
 }
 
-double hd_windows_due(const hd_windows *windows, double now)
+/** What one rank cannot do, none does. */
+static hd_status agreed(const hd_windows *windows, hd_status status)
 {
+    return hd_communicator_agree(windows->communicator, status);
+}
+
+/** Between a window that is lost, or has gone back, and the next one nothing is added. */
+static hd_status covariant_follow(void *self, const hd_leg *leg)
+{
+    hd_windows *windows = self;
+    if (leg->at == HD_LEG_LOST) windows->due = true;
+    if (windows->due)
+        return leg->at == HD_LEG_BEGINS ? agreed(windows, begin(windows, leg)) : HD_OK;
+    if (leg->at == HD_LEG_PIECE) return agreed(windows, add(windows, leg));
+    if (leg->at == HD_LEG_ENDS && hd_covariant_wants_state(windows->covariant))
+        return agreed(windows, end(windows, leg));
+    return HD_OK;
+}
+
+static bool covariant_begins(const void *self) { return ((const hd_windows *)self)->due; }
+
+static double covariant_due(const void *self, double now)
+{
+    const hd_windows *windows = self;
     return windows->due ? now + windows->sampling : hd_covariant_due(windows->covariant);
 }
 
-bool hd_windows_is_going(const hd_windows *windows)
+static bool covariant_is_behind(const void *self)
 {
+    const hd_windows *windows = self;
     return !windows->due && hd_covariant_is_going_back(windows->covariant);
 }
 
-/** True while a call may take another step, by the clock of rank 0. */
-static bool has_time(const hd_windows *windows, double start)
+static hd_status covariant_catch_up(void *self)
 {
-    double left = hd_clock_now() - start < GO_SECONDS;
-    hd_communicator_broadcast(windows->communicator, &left, sizeof left);
-    return left > 0;
+    const hd_windows *windows = self;
+    return agreed(windows, hd_covariant_step(windows->covariant));
 }
-
-hd_status hd_windows_go(hd_windows *windows, bool to_its_end)
-{
-    const double start = hd_clock_now();
-    hd_status status = HD_OK;
-    while (status == HD_OK && hd_windows_is_going(windows) &&
-           (to_its_end || has_time(windows, start)))
-        status = hd_communicator_agree(windows->communicator,
-                                       hd_covariant_step(windows->covariant));
-    return timed(windows, start, status);
-}
-
-/* ---- as an observable ---------------------------------------------------------------------- */
 
 /** Beside the windows themselves, which have a limit of their own (covariant_memory): triangles of
  * two passes, both ways back with their work, vectors of a look, and what is averaged. */
@@ -123,11 +105,73 @@ static double covariant_bytes(const hd_scene_def *scene, int ranks)
            hd_spectrum_bytes(n) + hd_localization_bytes(n);
 }
 
+/** Vectors converge forwards no faster than backwards. */
+static double covariant_warmup(const hd_scene_def *scene) { return scene->covariant_transient; }
+
+static hd_status covariant_check(const hd_scene_def *scene, char *message, size_t size)
+{
+    const double window = scene->covariant_window, transient = scene->covariant_transient;
+    if (hd_scene_positive_exponents(scene) < 1)
+        return hd_refuse(message, size,
+                         "observables = covariant: must not be given with disks = %d, which has no "
+                         "unstable vector",
+                         scene->disks);
+    if (scene->covariant_sampling > window)
+        return hd_refuse(message, size,
+                         "covariant_sampling = %.15g: must be from 1e-6 to covariant_window",
+                         scene->covariant_sampling);
+    if (!(hd_scene_warmup(scene) >= transient))
+        return hd_refuse(message, size,
+                         "warmup = %.15g: must be at least covariant_transient = %.15g: vectors "
+                         "converge forwards no "
+                         "faster than backwards",
+                         scene->warmup, transient);
+    if (scene->duration > 0 && !(scene->duration >= window + transient))
+        return hd_refuse(message, size,
+                         "duration = %.15g: must be 0 or at least covariant_window + "
+                         "covariant_transient = %.15g",
+                         scene->duration, window + transient);
+    return HD_OK;
+}
+
+static hd_status covariant_check_ranks(const hd_scene_def *scene, int ranks, char *message,
+                                       size_t size)
+{
+    if (ranks == 1 || hd_scene_carried(scene) == hd_scene_vectors(scene)) return HD_OK;
+    return hd_refuse(message, size,
+                     "ranks = %d: must be 1 for covariant vectors with exponents = all; "
+                     "all_independent has them on several ranks",
+                     ranks);
+}
+
+/** Kinds of fields of all wave vectors. */
+static int subspaces_of(const hd_scene_def *def)
+{
+    const int count = hd_waves(def, NULL, 0);
+    int subspaces = 0;
+    hd_wave *wave = hd_memory_alloc((size_t)count + 1, sizeof *wave);
+    if (!wave) return 2 * count;
+    hd_waves(def, wave, count);
+    for (int k = 0; k < count; k++) {
+        subspaces += wave[k].transverse.count > 0;
+        subspaces += wave[k].pairs.count > 0;
+    }
+    hd_memory_free(wave);
+    return subspaces;
+}
+
+static void covariant_extend(hd_extent *extent, const hd_scene_def *scene, const void *self)
+{
+    const int known = hd_scene_positive_exponents(scene) + hd_scene_zero_exponents(scene);
+    (void)self;
+    extent->subspaces = subspaces_of(scene);
+    if (extent->vectors > known) extent->angles = HD_PAIRS_OF_SPACES;
+}
+
 static hd_status prepare(hd_windows *windows, const hd_observing *with)
 {
     const size_t vectors = 2 * (size_t)hd_scene_coordinates(with->scene) *
                            (size_t)with->scene->disks * (size_t)with->vectors;
-    HD_TRY(hd_covariant_check_room(with->scene, with->longest, with->message, with->size));
     HD_TRY(hd_ortho_keep_factor(with->ortho));
     if (with->communicator &&
         !(windows->gathered = hd_memory_alloc(vectors, sizeof *windows->gathered)))
@@ -171,11 +215,21 @@ static void covariant_archive(void *self, hd_archive *archive, const hd_trajecto
 
 static void *covariant_result(void *self) { return ((hd_windows *)self)->covariant; }
 
-const hd_observable hd_covariant_row = {.needs = HD_NEEDS_FRAME,
+const hd_observable hd_covariant_row = {.needs = HD_NEEDS_FRAME | HD_NEEDS_WHOLE,
                                         .bytes = covariant_bytes,
+                                        .extend = covariant_extend,
+                                        .warmup = covariant_warmup,
+                                        .check = covariant_check,
+                                        .check_ranks = covariant_check_ranks,
+                                        .check_longest = hd_covariant_check_room,
                                         .create = covariant_create,
                                         .free = covariant_free,
                                         .clear = covariant_clear,
                                         .resume = covariant_resume,
+                                        .follow = covariant_follow,
+                                        .begins = covariant_begins,
+                                        .due = covariant_due,
+                                        .is_behind = covariant_is_behind,
+                                        .catch_up = covariant_catch_up,
                                         .archive = covariant_archive,
                                         .result = covariant_result};

@@ -46,7 +46,7 @@ typedef struct hd_pace {
     bool at_reports; /**< the frame shall be orthonormal at every report */
     bool at_fields;  /**< at those where fields are due */
     double phases;   /**< longest time from one measured state to the next; INFINITY */
-    double snapshot; /**< next look at covariant vectors; INFINITY */
+    double snapshot; /**< an interval shall end for who follows them; INFINITY */
     hd_norm norm;    /**< between two samples */
     hd_interval *interval;    /**< what the conditioning allows */
     double shortest, longest; /**< that the disks may move at once */

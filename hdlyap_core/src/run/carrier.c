@@ -213,11 +213,11 @@ static double shortest_piece(const hd_carrier *c)
     return fmin(hd_record_duration(c->record) / PIECES_MAX, c->collision);
 }
 
-hd_norm hd_carrier_norm(const hd_carrier *c, bool windowing)
+hd_norm hd_carrier_norm(const hd_carrier *c, bool whole)
 {
     const bool many = c->of->dispersing && c->carried >= HALVES_MANY && c->carried <= c->positive;
     const bool aligned = c->cost->orthonormalisations >= HALVES_ALIGNED;
-    return !many || !aligned || windowing ? HD_NORM_FULL : HD_NORM_DQ;
+    return !many || !aligned || whole ? HD_NORM_FULL : HD_NORM_DQ;
 }
 
 double hd_carrier_longest(const hd_carrier *c)
@@ -225,21 +225,31 @@ double hd_carrier_longest(const hd_carrier *c)
     return fmin(COLLISIONS_MOST * c->collision, c->interval.limit);
 }
 
+static hd_status follow(hd_carrier *c, const hd_carrying *how, hd_leg leg)
+{
+    leg.frame = c->frame;
+    leg.ortho = c->ortho;
+    leg.record = c->record;
+    leg.trajectory = how->trajectory;
+    leg.expected = how->expected;
+    return how->observables ? hd_observables_follow(how->observables, &leg) : HD_OK;
+}
+
 /** What is lost of isotropy decays [T18]; should it ever not, the frame gets it back. The triangle
- * of the step then is not that of the frame any more: a window begins anew. */
-static hd_status keep_isotropic(hd_carrier *c, hd_windows *windows)
+ * of the step then is not that of the frame any more. */
+static hd_status keep_isotropic(hd_carrier *c, const hd_carrying *how)
 {
     if (!(hd_conjugate_isotropy(c->conjugate, c->frame) <= ISOTROPY)) {
         HD_TRY(hd_conjugate_start(c->frame));
-        if (windows) hd_windows_lose(windows);
+        HD_TRY(follow(c, how, (hd_leg){.at = HD_LEG_LOST}));
     }
     if (HD_VERIFIES) hd_verify_isotropy(c->frame);
     return HD_OK;
 }
 
 /** Carries the frame from t_begin to t_end of the record and orthonormalises it. */
-static hd_status frame_piece(hd_carrier *c, double t_begin, double t_end, hd_ortho_limits limits,
-                             hd_windows *windows)
+static hd_status frame_piece(hd_carrier *c, const hd_carrying *how, double t_begin, double t_end,
+                             hd_ortho_limits limits)
 {
     const double start = hd_clock_now(), length = t_end - t_begin;
     HD_TRY(replay(c, t_begin, t_end));
@@ -248,7 +258,7 @@ static hd_status frame_piece(hd_carrier *c, double t_begin, double t_end, hd_ort
     hd_status status = length > shortest_piece(c)
                            ? hd_ortho_step(c->ortho, c->frame, limits)
                            : hd_ortho_step_stable(c->ortho, c->frame, HD_CONDITION_STABLE);
-    if (c->conjugate && status == HD_OK) status = keep_isotropic(c, windows);
+    if (c->conjugate && status == HD_OK) status = keep_isotropic(c, how);
     c->cost->replay += replayed - start;
     c->cost->ortho += hd_clock_now() - replayed;
     if (HD_VERIFIES && status == HD_OK) hd_verify_ortho(c->ortho, c->frame);
@@ -292,14 +302,12 @@ static void piece_accepted(hd_carrier *c, double length, bool averaging)
     cost->spectrum += hd_clock_now() - start;
 }
 
-/** A window may start, before its first orthonormalisation. */
-static hd_status window_starts(hd_carrier *c, const hd_carrying *how)
+/** Before the first orthonormalisation. */
+static hd_status begin_interval(hd_carrier *c, const hd_carrying *how)
 {
-    if (!how->windows) return HD_OK;
-    if (c->conjugate && hd_windows_begins(how->windows)) HD_TRY(hd_conjugate_start(c->frame));
-    return hd_windows_start(how->windows, c->frame,
-                            hd_trajectory_time(how->trajectory) - hd_record_duration(c->record),
-                            how->expected);
+    if (c->conjugate && how->observables && hd_observables_begin(how->observables))
+        HD_TRY(hd_conjugate_start(c->frame));
+    return follow(c, how, (hd_leg){.at = HD_LEG_BEGINS});
 }
 
 /** A frame that is orthonormal in the norm of dq alone becomes so in the whole norm, at the same
@@ -319,8 +327,8 @@ static hd_status complete_norm(hd_carrier *c, bool averaging)
 /** Loss of orthogonality that an interval may leave. */
 static double defect_allowed(const hd_carrier *c, const hd_carrying *how, hd_norm norm)
 {
-    const bool looked_at = norm == HD_NORM_FULL && (how->windows || how->observed);
-    if (how->windows && c->conjugate) return DEFECT_COUPLED;
+    const bool looked_at = norm == HD_NORM_FULL && how->observed;
+    if (how->whole && c->conjugate) return DEFECT_COUPLED;
     return fmin(looked_at ? DEFECT_MEASURED : DEFECT_LOOSE,
                 sqrt(DEFECT_SHARE * c->accuracy * hd_record_duration(c->record)));
 }
@@ -329,11 +337,10 @@ static double defect_allowed(const hd_carrier *c, const hd_carrying *how, hd_nor
 static hd_status carry_piece(hd_carrier *c, const hd_carrying *how, double t_begin, double t_end)
 {
     const bool whole = how->measured && t_end >= hd_record_duration(c->record);
-    const hd_norm norm = whole ? HD_NORM_FULL : hd_carrier_norm(c, how->windows);
+    const hd_norm norm = whole ? HD_NORM_FULL : hd_carrier_norm(c, how->whole);
     c->interval.norm = norm;
-    return frame_piece(c, t_begin, t_end,
-                       (hd_ortho_limits){.defect = defect_allowed(c, how, norm), .norm = norm},
-                       how->windows);
+    return frame_piece(c, how, t_begin, t_end,
+                       (hd_ortho_limits){.defect = defect_allowed(c, how, norm), .norm = norm});
 }
 
 /** A part of the record has been carried through. */
@@ -341,15 +348,14 @@ static hd_status take_piece(hd_carrier *c, const hd_carrying *how, double t_begi
 {
     piece_accepted(c, t_end - t_begin, how->averaging);
     c->whole = hd_ortho_norm(c->ortho) == HD_NORM_FULL;
-    if (!how->windows) return HD_OK;
-    return hd_windows_add(how->windows, c->ortho, c->frame, c->record, t_begin, t_end);
+    return follow(c, how, (hd_leg){.at = HD_LEG_PIECE, .from = t_begin, .to = t_end});
 }
 
 static hd_status carry_through(hd_carrier *c, const hd_carrying *how)
 {
     const double duration = hd_record_duration(c->record);
     double begin = 0.0, end = duration;
-    HD_TRY(window_starts(c, how));
+    HD_TRY(begin_interval(c, how));
     while (begin < duration) {
         const double piece = end - begin;
         const hd_status status = carry_piece(c, how, begin, end);
@@ -369,7 +375,7 @@ static hd_status carry_through(hd_carrier *c, const hd_carrying *how)
         end = begin + 0.5 * piece;
     }
     hd_record_clear(c->record);
-    return how->windows ? hd_windows_end(how->windows, c->frame, how->trajectory) : HD_OK;
+    return follow(c, how, (hd_leg){.at = HD_LEG_ENDS});
 }
 
 hd_status hd_carrier_orthonormalise(hd_carrier *c, hd_carrying how)

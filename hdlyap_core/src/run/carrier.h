@@ -6,7 +6,7 @@
 #define HD_CARRIER_H
 
 #include "hdlyap/run.h"
-#include "observe/windows.h"
+#include "observe/observables.h"
 #include "tangent/conjugate.h"
 #include "tangent/interval.h"
 
@@ -37,11 +37,12 @@ typedef struct hd_carrier {
 
 /** How a record is to be carried through. */
 typedef struct hd_carrying {
-    bool averaging;      /**< the spectrum takes it up */
-    bool measured;       /**< the frame becomes orthonormal in the whole norm */
-    bool observed;       /**< somebody looks at measured vectors */
-    hd_windows *windows; /**< NULL unless covariant vectors are wanted */
-    double expected;     /**< time units that the next intervals are expected to last */
+    bool averaging;              /**< the spectrum takes it up */
+    bool measured;               /**< the frame becomes orthonormal in the whole norm */
+    bool observed;               /**< somebody looks at measured vectors */
+    bool whole;                  /**< somebody needs every frame orthonormal in the whole norm */
+    hd_observables *observables; /**< that follow the interval; NULL: nobody */
+    double expected;             /**< time units that the next intervals are expected to last */
     const hd_trajectory *trajectory;
 } hd_carrying;
 
@@ -57,9 +58,9 @@ double hd_carrier_bytes(const hd_scene_def *scene, int threads, int ranks);
 /** Threads that this rank may use; communicator may be NULL. */
 int hd_carrier_threads_most(const hd_scene_def *scene, const hd_communicator *communicator);
 
-/** The norm in which the frame is orthonormalised where nobody wants its vectors; windowing:
- * covariant vectors are wanted. */
-hd_norm hd_carrier_norm(const hd_carrier *carrier, bool windowing);
+/** The norm in which the frame is orthonormalised where nobody wants its vectors; whole: somebody
+ * needs the whole one. */
+hd_norm hd_carrier_norm(const hd_carrier *carrier, bool whole);
 /** The longest that intervals between orthonormalisations can become. */
 double hd_carrier_longest(const hd_carrier *carrier);
 

@@ -34,10 +34,9 @@ static void head_archive(hd_checkpoint *head, hd_archive *archive)
 static void cost_archive(hd_run *run, hd_archive *archive)
 {
     hd_cost *c = &run->cost;
-    hd_windows *windows = hd_observables_part(&run->observables, HD_OBSERVED_covariant);
-    double none = 0.0, *seconds = windows ? hd_windows_seconds(windows) : &none;
-    double *const numbers[] = {&c->events,   &c->replay,    &c->ortho,  &c->spectrum, &c->modes,
-                               &c->interval, &c->condition, &c->defect, seconds};
+    double *const numbers[] = {&c->events,    &c->replay, &c->ortho,
+                               &c->spectrum,  &c->modes,  &c->interval,
+                               &c->condition, &c->defect, &run->observables.seconds};
     long *const counts[] = {&c->orthonormalisations, &c->second_passes, &c->slow_vector_samples,
                             &c->repairs};
     int limit = (int)c->limit;

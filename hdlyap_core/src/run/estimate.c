@@ -8,8 +8,6 @@
 
 #include "base/check.h"
 #include "base/clock.h"
-#include "base/memory.h"
-#include "modes/structure.h"
 #include "run/run.h"
 #include "run/run_state.h"
 #include "scene/scene.h"
@@ -24,55 +22,9 @@ static const double TRIAL_WORK = 800.0 * 1600.0 * 1600.0;
  * disks, doc/performance.md. */
 static const double OF_SLOPES = 2.0;
 
-/* ---- how much it tells --------------------------------------------------------------------- */
-
-/** Kinds of fields of all wave vectors. */
-static int subspaces_of(const hd_scene_def *def)
-{
-    const int count = hd_waves(def, NULL, 0);
-    int subspaces = 0;
-    hd_wave *wave = hd_memory_alloc((size_t)count + 1, sizeof *wave);
-    if (!wave) return 2 * count;
-    hd_waves(def, wave, count);
-    for (int k = 0; k < count; k++) {
-        subspaces += wave[k].transverse.count > 0;
-        subspaces += wave[k].pairs.count > 0;
-    }
-    hd_memory_free(wave);
-    return subspaces;
-}
-
-/** Those of which one vector each can be shown. */
-static void count_examples(hd_extent *e, const hd_steps *steps)
-{
-    for (int s = 0; s < hd_steps_count(steps); s++) {
-        const hd_step *step = hd_steps_step(steps, s);
-        if (step->kind == HD_MODE_ZERO || step->conjugate) continue;
-        e->examples++;
-        if (step->kind == HD_MODE_LP) e->pairs += step->expected / 2;
-    }
-}
-
 hd_extent hd_extent_of(const hd_scene_def *def, const hd_run *run)
 {
-    const hd_parts parts = hd_run_parts(run);
-    const int known = hd_scene_positive_exponents(def) + hd_scene_zero_exponents(def);
-    hd_extent e = {.dimension = hd_scene_dimension(def),
-                   .disks = def->disks,
-                   .vectors = hd_scene_vectors(def)};
-    if (def->observe & HD_OBSERVE_STRUCTURE) e.waves = hd_structure_waves_of(def);
-    if (parts.hydro) e.responses = hd_hydro_count(parts.hydro);
-    if (def->observe & HD_OBSERVE_COVARIANT) {
-        e.subspaces = subspaces_of(def);
-        if (e.vectors > known) e.angles = HD_PAIRS_OF_SPACES;
-    }
-    if (parts.steps) {
-        e.steps = hd_steps_count(parts.steps);
-        count_examples(&e, parts.steps);
-    }
-    if (parts.phases) e.phases = hd_phases_count(parts.phases);
-    if (parts.t_phases) e.t_phases = hd_phases_count(parts.t_phases);
-    return e;
+    return hd_observables_extent(def, run->observables.part);
 }
 
 /* ---- what it takes ------------------------------------------------------------------------- */
@@ -107,7 +59,7 @@ static hd_scene_def trial_scene(const hd_scene_def *def)
     trial.warmup = WARMUP_COLLISIONS * trial.equilibration;
     trial.duration = 0.0;
     trial.target = (hd_text){""};
-    trial.observe &= ~(unsigned)HD_OBSERVE_COVARIANT; /* a window is longer than a trial */
+    trial.observe = hd_observables_tried(def->observe);
     return smaller(&trial);
 }
 
@@ -150,23 +102,17 @@ static void enlarge(hd_estimate *e, const hd_scene_def *tried, const hd_scene_de
     e->errors_after *= hd_scene_sound_crossing(def) / hd_scene_sound_crossing(tried);
 }
 
-/** Windows of covariant vectors, which a trial leaves out, are refused as the run itself would. */
-static hd_status check_windows(const hd_scene_def *def, const hd_run *trial, char *message,
-                               size_t size)
-{
-    if (!(def->observe & HD_OBSERVE_COVARIANT)) return HD_OK;
-    return hd_covariant_check_room(def, hd_carrier_longest(&trial->carrier), message, size);
-}
-
 hd_status hd_estimate_run(hd_estimate *out, const hd_scene_def *def, double fields_every,
                           char *message, size_t size)
 {
     const hd_scene_def tried = trial_scene(def);
     hd_run *run;
-    *out = (hd_estimate){.before = def->equilibration + hd_scene_warmup(def)};
+    *out = (hd_estimate){.before = def->equilibration + hd_scene_warmup(def),
+                         .untried = def->observe & ~hd_observables_tried(def->observe)};
     HD_TRY(hd_run_create(&run, &tried, message, size));
     hd_run_fields_every(run, fields_every);
-    hd_status status = check_windows(def, run, message, size);
+    const double longest = hd_carrier_longest(&run->carrier);
+    hd_status status = hd_observables_check_longest(def, longest, message, size);
     if (status == HD_OK) status = measure(out, run);
     out->target_after = target_after(run, def);
     enlarge(out, &tried, def);

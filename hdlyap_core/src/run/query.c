@@ -8,11 +8,6 @@
 
 static bool is_due(const hd_run *run, unsigned why) { return hd_agenda_is_due(&run->agenda, why); }
 
-static void *part(const hd_run *run, hd_observed row)
-{
-    return hd_observables_part(&run->observables, row);
-}
-
 bool hd_run_report_due(const hd_run *run) { return is_due(run, HD_DUE_REPORT); }
 bool hd_run_fields_due(const hd_run *run) { return is_due(run, HD_DUE_FIELDS); }
 hd_status hd_run_status(const hd_run *run) { return run->status; }
@@ -107,14 +102,13 @@ static void add_trend(hd_cost *cost, const hd_run *run)
 hd_cost hd_run_cost(const hd_run *run)
 {
     hd_cost cost = run->cost;
-    hd_windows *windows = part(run, HD_OBSERVED_covariant);
     const hd_traffic traffic = hd_communicator_traffic(run->communicator);
     const double error = hd_carrier_smallest_error(&run->carrier);
     const double collisions = (double)hd_trajectory_collisions(run->advance.trajectory);
     cost.target = hd_target_standing(run, hd_agenda_target(&run->agenda));
     add_progress(&cost, run);
     add_trend(&cost, run);
-    cost.covariant = windows ? *hd_windows_seconds(windows) : 0.0;
+    cost.following = hd_observables_seconds(&run->observables);
     cost.communication = traffic.seconds;
     cost.bytes = traffic.bytes;
     cost.calls = traffic.calls;

@@ -11,7 +11,7 @@
 #include "hdlyap/blas.h"
 #include "hdlyap/hdlyap.h"
 #include "hdlyap/room.h"
-#include "scene/scene.h"
+#include "observe/observables.h"
 
 /** What must be the same on all ranks; its size is a multiple of that of a double, which is what
  * they share. */
@@ -52,12 +52,7 @@ static hd_status check(const hd_scene_def *def, hd_communicator *c, char *messag
     const int ranks = hd_communicator_ranks(c);
     HD_TRY(same_programs(c, message, size));
     HD_TRY(hd_scene_check(def, message, size));
-    if (ranks > 1 && def->observe & HD_OBSERVE_COVARIANT &&
-        hd_scene_carried(def) < hd_scene_vectors(def))
-        return hd_refuse(message, size,
-                         "ranks = %d: must be 1 for covariant vectors with exponents = all; "
-                         "all_independent has them on several ranks",
-                         ranks);
+    HD_TRY(hd_observables_check_ranks(def, ranks, message, size));
     hd_room room = hd_room_available();
     room.ranks = ranks;
     if (c) room.bytes /= c->beside;

@@ -48,18 +48,10 @@ static bool is_watched(const hd_run *run)
     return is_needed(run, HD_NEEDS_VECTORS) && run->watch.first < run->carrier.vectors;
 }
 
-hd_windows *hd_run_windows(const hd_run *run)
+/** True while an observable has something to do before time may go on. */
+static bool is_behind(const hd_run *run)
 {
-    if (!is_averaging(run) || !hd_observables_has(&run->observables, HD_OBSERVED_covariant))
-        return NULL;
-    return hd_observables_part(&run->observables, HD_OBSERVED_covariant);
-}
-
-/** True while there is a way back to go. */
-static bool is_going_back(const hd_run *run)
-{
-    const hd_windows *windows = hd_run_windows(run);
-    return windows && hd_windows_is_going(windows);
+    return is_averaging(run) && hd_observables_are_behind(&run->observables);
 }
 
 /** The present state: without vectors, if none are carried. */
@@ -89,10 +81,8 @@ static hd_status prepare_observables(hd_run *run, char *message, size_t size)
                                .communicator = run->communicator,
                                .block = hd_agenda_block(&run->agenda),
                                .ortho = c->ortho,
-                               .longest = hd_carrier_longest(c),
-                               .message = message,
-                               .size = size};
-    return hd_observables_create(&run->observables, &with);
+                               .longest = hd_carrier_longest(c)};
+    return hd_observables_create(&run->observables, &with, message, size);
 }
 
 static hd_status prepare(hd_run *run, char *message, size_t size)
@@ -224,7 +214,8 @@ static hd_status orthonormalise(hd_run *run, bool measured)
         .averaging = is_averaging(run),
         .measured = measured,
         .observed = is_needed(run, HD_NEEDS_FRAME),
-        .windows = hd_run_windows(run),
+        .whole = is_needed(run, HD_NEEDS_WHOLE),
+        .observables = is_averaging(run) ? &run->observables : NULL,
         .expected = hd_agenda_interval_expected(&run->agenda, &run->carrier.interval, at_reports,
                                                 sampling_expected(run)),
         .trajectory = run->advance.trajectory};
@@ -341,24 +332,23 @@ static hd_status look(hd_run *run)
     return end_early(run);
 }
 
-/** Once covariant vectors have gone their way back, if a stage is to end. The last one may end
- * early. */
+/** Once no observable is behind, if a stage is to end. The last one may end early. */
 static void leave_stage(hd_run *run)
 {
-    if (!hd_agenda_is_due(&run->agenda, HD_DUE_STAGE) || is_going_back(run)) return;
+    if (!hd_agenda_is_due(&run->agenda, HD_DUE_STAGE) || is_behind(run)) return;
     enter_stage(run, hd_agenda_stage(&run->agenda) + 1);
 }
 
-static hd_status go_back(hd_run *run, bool to_its_end)
+static hd_status catch_up(hd_run *run, bool to_its_end)
 {
-    if (is_going_back(run)) HD_TRY(hd_windows_go(hd_run_windows(run), to_its_end));
+    if (is_behind(run)) HD_TRY(hd_observables_catch_up(&run->observables, to_its_end));
     leave_stage(run);
     return HD_OK;
 }
 
 hd_status hd_run_settle(hd_run *run)
 {
-    if (run->status == HD_OK) run->status = go_back(run, true);
+    if (run->status == HD_OK) run->status = catch_up(run, true);
     return run->status;
 }
 
@@ -368,8 +358,7 @@ static hd_pace pace_of(hd_run *run)
 {
     const hd_observables *o = &run->observables;
     const bool averaging = is_averaging(run), framed = is_framed(run);
-    const hd_windows *windows = hd_run_windows(run);
-    const double now = hd_run_time(run), look = windows ? hd_windows_due(windows, now) : INFINITY;
+    const double now = hd_run_time(run);
     return (hd_pace){.now = now,
                      .framed = framed,
                      .sampled = averaging && !framed && hd_observables_any(o),
@@ -377,8 +366,8 @@ static hd_pace pace_of(hd_run *run)
                      .at_reports = is_needed(run, HD_NEEDS_REPORTS),
                      .at_fields = is_needed(run, HD_NEEDS_FIELDS),
                      .phases = sampling(run),
-                     .snapshot = look > now ? look : INFINITY,
-                     .norm = hd_carrier_norm(&run->carrier, windows),
+                     .snapshot = averaging ? hd_observables_due(o, now) : INFINITY,
+                     .norm = hd_carrier_norm(&run->carrier, is_needed(run, HD_NEEDS_WHOLE)),
                      .interval = &run->carrier.interval,
                      .shortest = hd_advance_shortest(&run->advance),
                      .longest = hd_advance_longest(&run->advance)};
@@ -409,7 +398,7 @@ static hd_status move_disks(hd_run *run, double end)
 static hd_status go_on(hd_run *run)
 {
     take_changes(run);
-    if (hd_agenda_is_due(&run->agenda, HD_DUE_STAGE)) return go_back(run, false);
+    if (hd_agenda_is_due(&run->agenda, HD_DUE_STAGE)) return catch_up(run, false);
     hd_pace pace = plan(run);
     HD_TRY(move_disks(run, hd_agenda_next(&run->agenda, &pace)));
     pace.now = hd_run_time(run);
@@ -435,8 +424,7 @@ static hd_status advance(hd_run *run)
     run->gathered.columns.count = 0;
     if (hd_agenda_stage(&run->agenda) == HD_FINISHED) return HD_OK;
     if (is_framed(run)) hd_blas_use_threads(run->carrier.threads); /* of the calling thread */
-    if (is_going_back(run) || hd_agenda_is_due(&run->agenda, HD_DUE_STAGE))
-        return go_back(run, false);
+    if (is_behind(run) || hd_agenda_is_due(&run->agenda, HD_DUE_STAGE)) return catch_up(run, false);
     return go_on(run);
 }
 

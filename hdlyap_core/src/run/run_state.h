@@ -49,11 +49,9 @@ HD_MUST_CHECK hd_status hd_run_make(hd_run **out, const hd_scene_def *def,
                                     hd_communicator *communicator, char *message, size_t size);
 void hd_run_drop(hd_run *run);
 
-/** Ends what a step has begun, so that the run can be kept: half of a way back is none. */
+/** Ends what a step has begun, so that the run can be kept: half of what an observable has to do
+ * first is none. */
 HD_MUST_CHECK hd_status hd_run_settle(hd_run *run);
-
-/** The way back of covariant vectors, where they are wanted of what is carried now; else NULL. */
-hd_windows *hd_run_windows(const hd_run *run);
 
 /** Of a target that hd_target_check has passed. */
 hd_standing hd_target_standing(const hd_run *run, const hd_text *target);

@@ -111,12 +111,11 @@ static double warmup_of(const hd_scene_def *def)
     return fmax(FOLDS / (GAP * fluid->transverse(def) * k), WARMUP_MIN);
 }
 
-double hd_scene_warmup(const hd_scene_def *def)
+double hd_scene_parting(const hd_scene_def *def)
 {
     if (def->warmup != HD_WARMUP_AUTO) return def->warmup;
     if (def->exponents == HD_EXPONENTS_NONE) return 0.0;
-    const double time = warmup_of(def);
-    return def->observe & HD_OBSERVE_COVARIANT ? fmax(time, def->covariant_transient) : time;
+    return warmup_of(def);
 }
 
 /** Ranges beyond what the types hold are checked with the whole of it, and so is the dimension,

@@ -14,6 +14,9 @@ int hd_scene_positive_exponents(const hd_scene_def *def);
 int hd_scene_vectors(const hd_scene_def *def);
 int hd_scene_carried(const hd_scene_def *def);
 
+/** hd_scene_warmup without what observables ask for: as long as steps take to part. */
+double hd_scene_parting(const hd_scene_def *def);
+
 /** Time between two collisions of a particle, as the row expects it [time units]. */
 double hd_scene_collision_time(const hd_scene_def *def);
 

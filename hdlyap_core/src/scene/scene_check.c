@@ -34,14 +34,12 @@ static bool is_in_range(const hd_parameter *row, double value)
     return value >= row->least && value <= row->most;
 }
 
-/** Those of covariant vectors, or all others. */
-static hd_status check_ranges(const hd_scene_def *def, bool covariant, char *message, size_t size)
+static hd_status check_ranges(const hd_scene_def *def, char *message, size_t size)
 {
     int count;
     const hd_parameter *rows = hd_scene_parameters(&count);
     for (int k = 0; k < count; k++)
-        if ((rows[k].needs == HD_OBSERVE_COVARIANT) == covariant &&
-            !is_in_range(&rows[k], hd_parameter_value(&rows[k], def)))
+        if (!is_in_range(&rows[k], hd_parameter_value(&rows[k], def)))
             return refuse_value(&rows[k], def, message, size);
     return HD_OK;
 }
@@ -74,17 +72,12 @@ static hd_status check_curved(const hd_scene_def *def, char *message, size_t siz
                              "boundary_%c = reflecting: must not be given with container = %s, "
                              "whose wall reflects",
                              "xy"[d], name);
-    if (def->observe & (HD_OBSERVE_HYDRO | HD_OBSERVE_STRUCTURE))
-        return hd_refuse(message, size,
-                         "observables = %s: must not be given with container = %s: it is of "
-                         "waves in a rectangle",
-                         def->observe & HD_OBSERVE_HYDRO ? "hydro" : "structure", name);
     return HD_OK;
 }
 
 hd_status hd_scene_check_box(const hd_scene_def *def, char *message, size_t size)
 {
-    HD_TRY(check_ranges(def, false, message, size));
+    HD_TRY(check_ranges(def, message, size));
     HD_TRY(check_dimensions(def, message, size));
     HD_TRY(hd_container_of(def)->check(def, message, size));
     return hd_container_of(def)->wall ? check_curved(def, message, size) : HD_OK;
@@ -115,36 +108,7 @@ static hd_status check_waves(const hd_scene_def *def, char *message, size_t size
     return HD_OK;
 }
 
-/** What covariant vectors need, where they are asked for. */
-static hd_status check_covariant(const hd_scene_def *def, char *message, size_t size)
-{
-    const double window = def->covariant_window, transient = def->covariant_transient;
-    if (!(def->observe & HD_OBSERVE_COVARIANT)) return HD_OK;
-    HD_TRY(check_ranges(def, true, message, size));
-    if (hd_scene_positive_exponents(def) < 1)
-        return hd_refuse(message, size,
-                         "observables = covariant: must not be given with disks = %d, which has no "
-                         "unstable vector",
-                         def->disks);
-    if (def->covariant_sampling > window)
-        return hd_refuse(message, size,
-                         "covariant_sampling = %.15g: must be from 1e-6 to covariant_window",
-                         def->covariant_sampling);
-    if (!(hd_scene_warmup(def) >= transient))
-        return hd_refuse(message, size,
-                         "warmup = %.15g: must be at least covariant_transient = %.15g: vectors "
-                         "converge forwards no "
-                         "faster than backwards",
-                         def->warmup, transient);
-    if (def->duration > 0 && !(def->duration >= window + transient))
-        return hd_refuse(message, size,
-                         "duration = %.15g: must be 0 or at least covariant_window + "
-                         "covariant_transient = %.15g",
-                         def->duration, window + transient);
-    return HD_OK;
-}
-
-hd_status hd_scene_check(const hd_scene_def *def, char *message, size_t size)
+hd_status hd_scene_check_start(const hd_scene_def *def, char *message, size_t size)
 {
     const hd_container_row *container = hd_container_of(def);
     const int of_disk = 2 * hd_scene_coordinates(def);
@@ -160,7 +124,6 @@ hd_status hd_scene_check(const hd_scene_def *def, char *message, size_t size)
                          "exponents = positive: must be all, all_independent, none or from 1 to 4 "
                          "with disks = 1, which has no positive one");
     HD_TRY(check_waves(def, message, size));
-    HD_TRY(check_covariant(def, message, size));
     char said[SAID];
     container->say(def, said, sizeof said);
     if (container->start_distance(def) < HD_START_DISTANCE_MIN)

@@ -14,7 +14,7 @@ hd_status topic_publish_cost(const moment *now)
         .ortho_seconds = cost->ortho,
         .spectrum_seconds = cost->spectrum,
         .modes_seconds = cost->modes,
-        .covariant_seconds = cost->covariant,
+        .covariant_seconds = cost->following,
         .publish_seconds = now->seconds,
         .events_per_second = cost->events_per_second,
         .interval = cost->interval,

@@ -104,7 +104,7 @@ static hdr_covariant message_of(arrays *r, const hd_run *run, const hd_covariant
         .windows = (uint32_t)seen->windows,
         .lost_windows = (uint32_t)seen->lost,
         .samples = (uint32_t)splitting->samples,
-        .seconds = hd_run_cost(run).covariant,
+        .seconds = hd_run_cost(run).following,
         .first_index = 1,
         .exponents = message_array(r->exponents, n, 1),
         .std_errors = message_array(r->std_errors, n, 1),

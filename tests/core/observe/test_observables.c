@@ -3,14 +3,8 @@
 #include "kept.h"
 #include "runs.h"
 
-static const hd_observable *const rows[HD_OBSERVED] = {
-#define HD_OBSERVABLE(name, NAME, bit, of_waves, result) [HD_OBSERVED_##name] = &hd_##name##_row,
-#include "hdlyap/observables.inc"
-};
-static const unsigned bits[HD_OBSERVED] = {
-#define HD_OBSERVABLE(name, NAME, bit, of_waves, result) [HD_OBSERVED_##name] = (bit),
-#include "hdlyap/observables.inc"
-};
+static const hd_observable *const *rows = hd_observable_rows;
+static const unsigned *bits = hd_observable_bits;
 #define OF(row) (1u << HD_OBSERVED_##row)
 
 /** A narrow channel, whose steps are soon known: after 50 time units of averages. */

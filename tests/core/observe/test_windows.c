@@ -105,8 +105,8 @@ TEST(windows_are_counted)
         OWNED(hd_run) *run = finished(scene_from(small(), .duration = duration[k]));
         check_windows(run, (long)floor((duration[k] - 60.0) / 20.0), averaging_start(run));
         assert_int_equal(hd_covariant_read(hd_run_covariant(run)).lost, 0);
-        assert_true(hd_run_cost(run).covariant > 0 &&
-                    hd_run_cost(run).covariant < hd_run_cost(run).wall);
+        assert_true(hd_run_cost(run).following > 0 &&
+                    hd_run_cost(run).following < hd_run_cost(run).wall);
     }
 }
 
@@ -123,7 +123,7 @@ static void check_forward_pass(int exponents)
     scene.observe = 0;
     OWNED(hd_run) *other = finished(scene);
     assert_null(hd_run_covariant(other));
-    assert_true(hd_run_cost(other).covariant == 0.0);
+    assert_true(hd_run_cost(other).following == 0.0);
     const double rounding = hd_run_cost(run).error_bound + hd_run_cost(other).error_bound;
     check_same_exponents(run, other, exponents == HD_EXPONENTS_ALL ? rounding : 0.0);
 }

@@ -55,7 +55,7 @@ TEST(the_warm_up_follows_from_the_smallest_step)
     CHECK_CLOSE(hd_scene_warmup(&def), 7.0, 0.0);
 }
 
-/** What has a range of its own; covariant vectors' are checked where they are observed. */
+/** What has a range of its own. */
 static bool has_range(const hd_parameter *row)
 {
     return row->kind == HD_PARAMETER_REAL || row->kind == HD_PARAMETER_INTERVAL;

@@ -35,6 +35,7 @@ static inline forward_pass forward_started(hd_scene_def scene, uint64_t seed)
     forward_pass f = {0};
     const int n = hd_scene_vectors(&scene);
     scene.observe = 0; /* what a run would refuse is not asked for here */
+    scene.covariant_memory = hd_scene_def_default().covariant_memory;
     CHECK_OK(hd_trajectory_create(&f.trajectory, &scene));
     CHECK_OK(hd_record_create(&f.log, DYNAMICS->entry));
     CHECK_OK(hd_frame_create(&f.frame, DYNAMICS, scene.disks, n, seed, 1));

@@ -1,0 +1,140 @@
+/** The table of observables -> what a scene asks for, and what it needs for that. */
+#include "observe/observables.h"
+
+#include <math.h>
+
+#include "base/check.h"
+#include "scene/container.h"
+#include "scene/scene.h"
+#include "scene/scene_check.h"
+
+const hd_observable *const hd_observable_rows[HD_OBSERVED] = {
+#define HD_OBSERVABLE(name, NAME, bit, of_waves, result) [HD_OBSERVED_##name] = &hd_##name##_row,
+#include "hdlyap/observables.inc"
+};
+
+const unsigned hd_observable_bits[HD_OBSERVED] = {
+#define HD_OBSERVABLE(name, NAME, bit, of_waves, result) [HD_OBSERVED_##name] = (bit),
+#include "hdlyap/observables.inc"
+};
+
+unsigned hd_observables_with(unsigned set)
+{
+    for (unsigned before = 0; before != set;) {
+        before = set;
+        for (int k = 0; k < HD_OBSERVED; k++)
+            if (set & hd_observable_bits[k]) set |= hd_observable_rows[k]->with;
+    }
+    return set;
+}
+
+bool hd_observable_is_asked(hd_observed k, const hd_scene_def *scene)
+{
+    return hd_observables_with(scene->observe) & hd_observable_bits[k] &&
+           (!(hd_observable_rows[k]->needs & HD_NEEDS_FRAME) || hd_scene_vectors(scene) > 0);
+}
+
+/** For each row that the scene asks for. */
+#define EACH_ASKED(scene, row)                                                                     \
+    for (int k_ = 0; k_ < HD_OBSERVED; k_++)                                                       \
+        for (const hd_observable *row =                                                            \
+                 hd_observable_is_asked((hd_observed)k_, scene) ? hd_observable_rows[k_] : NULL;   \
+             row; row = NULL)
+
+bool hd_observables_asked(const hd_scene_def *scene, unsigned needs)
+{
+    EACH_ASKED(scene, row)
+    {
+        if ((row->needs & needs) == needs) return true;
+    }
+    return false;
+}
+
+double hd_observables_bytes(const hd_scene_def *scene, int ranks)
+{
+    const double state = 2.0 * hd_scene_dimension(scene) * scene->disks * sizeof(double);
+    double bytes = hd_observables_asked(scene, HD_NEEDS_STATE) ? state : 0.0; /* q and p */
+    EACH_ASKED(scene, row) bytes += row->bytes(scene, ranks);
+    return bytes;
+}
+
+unsigned hd_observables_tried(unsigned set)
+{
+    for (int k = 0; k < HD_OBSERVED; k++)
+        if (hd_observable_rows[k]->catch_up) set &= ~hd_observable_bits[k];
+    return set;
+}
+
+hd_extent hd_observables_extent(const hd_scene_def *scene, void *const *part)
+{
+    hd_extent extent = {.dimension = hd_scene_dimension(scene),
+                        .disks = scene->disks,
+                        .vectors = hd_scene_vectors(scene)};
+    for (int k = 0; k < HD_OBSERVED; k++) {
+        const hd_observable *row = hd_observable_rows[k];
+        if (row->extend && hd_observable_is_asked((hd_observed)k, scene))
+            row->extend(&extent, scene, part[k]);
+    }
+    return extent;
+}
+
+/* ---- what may be asked for ----------------------------------------------------------------- */
+
+double hd_scene_warmup(const hd_scene_def *scene)
+{
+    double time = hd_scene_parting(scene);
+    if (scene->warmup != HD_WARMUP_AUTO) return time;
+    EACH_ASKED(scene, row)
+    {
+        if (row->warmup) time = fmax(time, row->warmup(scene));
+    }
+    return time;
+}
+
+/** By name, what a curved wall has not. */
+static hd_status check_edges(const hd_scene_def *scene, char *message, size_t size)
+{
+    static const char *const names[HD_OBSERVED] = {
+#define HD_OBSERVABLE(name, NAME, bit, of_waves, result) [HD_OBSERVED_##name] = #name,
+#include "hdlyap/observables.inc"
+    };
+    if (!hd_container_of(scene)->wall) return HD_OK;
+    for (int k = 0; k < HD_OBSERVED; k++)
+        if (scene->observe & hd_observable_bits[k] && hd_observable_rows[k]->needs & HD_NEEDS_EDGES)
+            return hd_refuse(message, size,
+                             "observables = %s: must not be given with container = %s: it is of "
+                             "waves in a rectangle",
+                             names[k], hd_container_name(scene));
+    return HD_OK;
+}
+
+hd_status hd_scene_check(const hd_scene_def *scene, char *message, size_t size)
+{
+    HD_TRY(hd_scene_check_start(scene, message, size));
+    HD_TRY(check_edges(scene, message, size));
+    EACH_ASKED(scene, row)
+    {
+        if (row->check) HD_TRY(row->check(scene, message, size));
+    }
+    return HD_OK;
+}
+
+hd_status hd_observables_check_ranks(const hd_scene_def *scene, int ranks, char *message,
+                                     size_t size)
+{
+    EACH_ASKED(scene, row)
+    {
+        if (row->check_ranks) HD_TRY(row->check_ranks(scene, ranks, message, size));
+    }
+    return HD_OK;
+}
+
+hd_status hd_observables_check_longest(const hd_scene_def *scene, double longest, char *message,
+                                       size_t size)
+{
+    EACH_ASKED(scene, row)
+    {
+        if (row->check_longest) HD_TRY(row->check_longest(scene, longest, message, size));
+    }
+    return HD_OK;
+}
