@@ -75,7 +75,7 @@ export HDLYAP_RESTARTED=1 GOMP_SPINCOUNT=2000
 if [[ $MODE == life ]]; then
     check address_node run live "$TIER" "$ADDRESS" "$(node_of "$BUILDS/$ADDRESS")"
 else
-    check thread_build build_with thread clang clang++ hdlyap_node hdlyap_core_3d "${PARALLEL[@]/#/hdlyap_test_}"
+    check thread_build build_with thread clang clang++ hdlyap_node "${PARALLEL[@]/#/hdlyap_test_}"
     check thread_core run under_threads parallel_tests
     check thread_node run under_threads live second thread "$(node_of "$BUILDS/thread")"
     check valgrind_core run core_in_valgrind

@@ -64,13 +64,13 @@ static void add_vector(profiles *all, profile *of, const hd_run *run, hd_columns
     const hd_step *step = hd_steps_step(hd_run_parts(run).steps, of->step);
     const double complex z = coefficient(run, step, col, 0);
     const double complex w = step->kind == HD_MODE_LP ? coefficient(run, step, col, 1) : 0.0;
-    double box[HD_DIM];
+    double box[HD_DIMENSION_MAX];
     hd_scene_box(hd_run_scene(run), box);
     const double centre = 0.5 * box[0], reach = centre - 0.5;
     of->norm += creal(z * conj(z));
     for (int j = 0; j < hd_run_scene(run)->disks; j++) {
         const double x = all->q[2 * j] - centre, y = all->q[2 * j + 1] - centre, r = hypot(x, y);
-        const double *row = v.data + (size_t)(HD_ROWS * j) * (size_t)v.stride + (col - v.first);
+        const double *row = v.data + (size_t)(4 * j) * (size_t)v.stride + (col - v.first);
         const double dx = row[0], dy = row[v.stride];
         const double complex turn = cexp(-I * (step->wave.n[0] * atan2(y, x))) / r;
         int s = (int)(r * r / (reach * reach) * SHELLS);
@@ -89,7 +89,7 @@ static void add_state(profiles *all, const hd_run *run)
     const hd_columns v = hd_run_columns(run);
     if (v.count < hd_run_vectors(run)) return;
     hd_trajectory_state(hd_run_parts(run).trajectory, all->q, all->p);
-    double box[HD_DIM];
+    double box[HD_DIMENSION_MAX];
     hd_scene_box(hd_run_scene(run), box);
     const double reach = 0.5 * box[0] - 0.5;
     for (int j = 0; j < hd_run_scene(run)->disks; j++) {

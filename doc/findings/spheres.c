@@ -44,6 +44,7 @@ static double slowness(double density) { return fmax(1.0, pow(0.5 / density, 1.2
 static hd_scene_def scene_of(const box *b, int seed, bool quick)
 {
     hd_scene_def scene = hd_scene_def_default();
+    scene.particles = HD_SPHERES;
     scene.disks = b->disks;
     scene.density = b->density;
     scene.aspect = scene.aspect_z = b->aspect;

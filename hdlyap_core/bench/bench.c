@@ -1,16 +1,15 @@
 /** What a run costs: its parts, and the whole as a ratio to the floor
  * F = 4 m n^2 flops at dgemm speed per ln(1e8) / (lambda_1 - lambda_n) of simulated time,
  * all measured in one run on one machine, in rounds.
- * Usage: hdlyap_bench, of spheres hdlyap_bench_3d, [--disks N] [--density RHO] [--threads N]
- * [--rounds N] [--duration TIME UNITS OF A ROUND]
- *         [--settling TIME UNITS BEFORE THE FIRST] [--whole] [--events] [--out FOLDER]
- *         [--name NAME]; with --out it writes FOLDER/NAME.csv; --whole and --events are for one
- *         part alone. */
+ * Usage: hdlyap_bench [--spheres] [--disks N] [--density RHO] [--threads N] [--rounds N]
+ *         [--duration TIME UNITS OF A ROUND] [--settling TIME UNITS BEFORE THE FIRST] [--whole]
+ *         [--events] [--out FOLDER] [--name NAME]; with --out it writes FOLDER/NAME.csv; --whole
+ *         and --events are for one part alone. */
 #include <hdlyap/hdlyap.h>
 #include <stdio.h>
 #include <string.h>
 
-#include "dynamics/trajectory.h"
+#include "dynamics/dynamics.h"
 #include "gemm.h"
 #include "options.h"
 #include "progress.h"
@@ -18,6 +17,7 @@
 #include "timing.h"
 
 typedef struct asked {
+    bool spheres;
     int disks, threads, rounds;
     double density;
     double duration;    /**< of a round [time units] */
@@ -32,6 +32,21 @@ typedef struct result {
     double taken;        /**< wall seconds of all, dgemm's own left out */
 } result;
 
+static hd_scene_def scene_of(const asked *a, int disks, double density)
+{
+    hd_scene_def scene = hd_scene_def_default();
+    scene.particles = a->spheres ? HD_SPHERES : HD_DISKS;
+    scene.disks = disks;
+    scene.density = density;
+    return scene;
+}
+
+/** Numbers of a tangent vector. */
+static int rows_of(const hd_scene_def *scene)
+{
+    return 2 * hd_scene_coordinates(scene) * scene->disks;
+}
+
 static double spread_of(const hd_run *run)
 {
     const hd_spectrum *spectrum = hd_run_parts(run).spectrum;
@@ -43,7 +58,7 @@ static double spread_of(const hd_run *run)
 static void one_round(hd_run *run, gemm *g, double duration, result *r)
 {
     const double begin = hd_run_time(run), start = seconds();
-    const int m = HD_ROWS * hd_run_scene(run)->disks, n = hd_run_vectors(run);
+    const int m = rows_of(hd_run_scene(run)), n = hd_run_vectors(run);
     double measuring = 0.0;
     sample speed = {0};
     for (int step = 0; hd_run_time(run) < begin + duration - 1e-9; step++) {
@@ -96,8 +111,9 @@ static void tell(const hd_run *run, const gemm *g, const asked *a, const result 
 {
     printf("%d %s, %d vectors, %d threads, %s kernels, dgemm %.1f GF/s, %d rounds of %g time "
            "units\n",
-           a->disks, HD_DIM == 2 ? "disks" : "spheres", hd_run_vectors(run), hd_run_threads(run),
-           hd_blas_query().kernel, gemm_rate(g) * 1e-9, a->rounds, a->duration);
+           a->disks, hd_dynamics_of(hd_run_scene(run))->particles, hd_run_vectors(run),
+           hd_run_threads(run), hd_blas_query().kernel, gemm_rate(g) * 1e-9, a->rounds,
+           a->duration);
     table *t = ratio_begin(a->out, a->name);
     ratio_tell(t, "whole run W [s/time unit]", a->disks, &r->w);
     ratio_tell(t, "floor F [s/time unit]", a->disks, &r->f);
@@ -108,27 +124,23 @@ static void tell(const hd_run *run, const gemm *g, const asked *a, const result 
 
 static void whole_run(const asked *a, char **argv)
 {
-    hd_scene_def scene = hd_scene_def_default();
-    scene.disks = a->disks;
-    scene.density = a->density;
+    hd_scene_def scene = scene_of(a, a->disks, a->density);
     scene.threads = a->threads;
     scene.equilibration = 20.0;
     scene.warmup = 30.0;
     scene.observe = HD_OBSERVE_STEPS | HD_OBSERVE_PHASES;
     hd_run *run = created(&scene);
     result r = {0};
-    gemm *g = gemm_create(HD_ROWS * scene.disks, hd_run_vectors(run));
+    gemm *g = gemm_create(rows_of(&scene), hd_run_vectors(run));
     measure(run, g, a, &r);
     tell(run, g, a, &r, argv);
     gemm_free(g);
     hd_run_free(run);
 }
 
-static void events_alone(int disks, double density, double collisions)
+static void events_alone(const asked *a, int disks, double density, double collisions)
 {
-    hd_scene_def scene = hd_scene_def_default();
-    scene.disks = disks;
-    scene.density = density;
+    hd_scene_def scene = scene_of(a, disks, density);
     scene.aspect = 1.0;
     hd_trajectory *trajectory;
     require(hd_trajectory_create(&trajectory, &scene), "trajectory");
@@ -164,13 +176,13 @@ static double memory_rate(void)
 /** One exponent of many disks: what its replay must move per event, a recorded event and a tangent
  * map in and out, the vector's numbers of two disks in and out, against copying as many
  * bytes. */
-static void one_exponent(int disks, double memory)
+static void one_exponent(const asked *a, int disks, double memory)
 {
-    const double of_event = HD_DIM == 2 ? 48.0 : 64.0, of_map = HD_DIM == 2 ? 64.0 : 104.0;
-    const double bytes_per_event = of_event + 2.0 * of_map + 2.0 * 2.0 * HD_ROWS * 8.0;
-    hd_scene_def scene = hd_scene_def_default();
-    scene.disks = disks;
-    scene.density = 0.7;
+    hd_scene_def scene = scene_of(a, disks, 0.7);
+    const double of_event = (double)hd_dynamics_of(&scene)->entry,
+                 of_map = a->spheres ? 104.0 : 64.0;
+    const double of_vector = 2.0 * 8.0 * rows_of(&scene) / disks; /* of two disks */
+    const double bytes_per_event = of_event + 2.0 * of_map + 2.0 * of_vector;
     scene.aspect = 1.0;
     scene.exponents = 1;
     scene.equilibration = 5.0;
@@ -189,22 +201,22 @@ static void one_exponent(int disks, double memory)
     hd_run_free(run);
 }
 
-static void print_events(void)
+static void print_events(const asked *a)
 {
-    printf("\nEvents alone, one core:\n%9s %9s %12s %22s\n", HD_DIM == 2 ? "disks" : "spheres",
+    printf("\nEvents alone, one core:\n%9s %9s %12s %22s\n", a->spheres ? "spheres" : "disks",
            "density", "collisions", "million collisions / s");
-    events_alone(780, 0.7, 1e6);
-    events_alone(1000, 0.7, 1e6);
-    events_alone(10000, 0.7, 1e6);
-    events_alone(100000, 0.7, 1e6);
-    events_alone(1000000, 0.7, 4e6);
-    events_alone(780, 0.01, 1e5);
+    events_alone(a, 780, 0.7, 1e6);
+    events_alone(a, 1000, 0.7, 1e6);
+    events_alone(a, 10000, 0.7, 1e6);
+    events_alone(a, 100000, 0.7, 1e6);
+    events_alone(a, 1000000, 0.7, 4e6);
+    events_alone(a, 780, 0.01, 1e5);
     const double memory = memory_rate();
     printf(
         "\nReplay of one exponent, one core; copying memory: %.1f GB/s\n%9s %12s %22s %12s %18s\n",
         memory * 1e-9, "disks", "collisions", "million collisions / s", "GB/s", "% of copying");
-    one_exponent(4000, memory);
-    one_exponent(100000, memory);
+    one_exponent(a, 4000, memory);
+    one_exponent(a, 100000, memory);
 }
 
 int main(int argc, char **argv)
@@ -215,7 +227,8 @@ int main(int argc, char **argv)
                .duration = 16.0,
                .settling = 100.0,
                .name = "whole"};
-    const option list[] = {{"--disks", .count = &a.disks, .least = 10, .most = 5000},
+    const option list[] = {{"--spheres", .flag = &a.spheres},
+                           {"--disks", .count = &a.disks, .least = 10, .most = 5000},
                            {"--density", .number = &a.density, .least = 1e-3, .most = 1.4},
                            {"--threads", .count = &a.threads, .least = 0, .most = 256},
                            {"--rounds", .count = &a.rounds, .least = 1, .most = SAMPLE_MAX},
@@ -229,6 +242,6 @@ int main(int argc, char **argv)
     options_read(argc, argv, list);
     hd_blas_restart_if_slow(argv);
     if (a.whole || !a.events) whole_run(&a, argv);
-    if (a.events || !a.whole) print_events();
+    if (a.events || !a.whole) print_events(&a);
     return 0;
 }

@@ -88,17 +88,17 @@ static void print_scene(const hd_run *run)
 static void print_modes(const char *set, const hd_modes *modes)
 {
     const hd_fields *fields = hd_modes_fields(modes);
-    const int n = hd_modes_vectors(modes);
+    const int n = hd_modes_vectors(modes), nulls = 3; /* of disks */
     for (int k = 0; k < HD_WEIGHTS * hd_fields_subspaces(fields); k++) {
         const hd_weight which = (hd_weight)(k % HD_WEIGHTS);
         print(set, "weight.now", hd_modes_snapshot(modes, k / HD_WEIGHTS, which), n);
         print(set, "weight.mean", hd_modes_average(modes, k / HD_WEIGHTS, which), n);
     }
-    for (int null = 0; null < HD_NULLS; null++) {
+    for (int null = 0; null < nulls; null++) {
         print(set, "null.now", hd_modes_null_snapshot(modes, null), n);
         print(set, "null.mean", hd_modes_null_average(modes, null), n);
     }
-    for (int column = 0; column < hd_fields_columns(fields) - HD_NULLS; column++)
+    for (int column = 0; column < hd_fields_columns(fields) - nulls; column++)
         print(set, "coefficient.now", hd_modes_coefficients(modes, column), n);
     print(set, "norm.now", hd_modes_dq_norms(modes), n);
 }

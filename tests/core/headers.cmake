@@ -1,4 +1,4 @@
-# cmake -DCORE=<hdlyap_core> -DWORK=<folder> [-DLIBRARY=<libhdlyap_core.so> -DLIBRARY_3D=<libhdlyap_core_3d.so>] -P headers.cmake
+# cmake -DCORE=<hdlyap_core> -DWORK=<folder> [-DLIBRARY=<libhdlyap_core.so>] -P headers.cmake
 # Each public header alone, as strict C and as C++; with the libraries, a C++ program that uses each.
 cmake_minimum_required(VERSION 3.16)
 
@@ -23,32 +23,20 @@ function(check_headers compiler suffix)
     set(source ${WORK}/alone_${name}.${suffix})
     file(WRITE ${source} "#include \"${header}\"\n#include \"${header}\"\nint main(void);\n")
     foreach(standard IN LISTS ARGN)
-      foreach(spheres "" -DHD_DIM=3)
-        run("${compiler} -std=${standard} ${spheres} ${header}" ${compiler} -std=${standard} ${spheres} ${WARNINGS}
-          -I${CORE}/include -fsyntax-only ${source})
-      endforeach()
+      run("${compiler} -std=${standard} ${header}" ${compiler} -std=${standard} ${WARNINGS} -I${CORE}/include
+        -fsyntax-only ${source})
     endforeach()
   endforeach()
   message("${compiler}: ${HEADERS} as ${ARGN}")
 endfunction()
 
-function(check_program compiler library) # .. and flags
+function(check_program compiler library)
   get_filename_component(folder ${library} DIRECTORY)
   get_filename_component(name ${compiler} NAME)
-  get_filename_component(linked ${library} NAME_WE)
-  set(program ${WORK}/uses_${linked}_${name})
-  run("${compiler} with ${linked}" ${compiler} -std=c++11 ${ARGN} ${WARNINGS} -I${CORE}/include
+  set(program ${WORK}/uses_${name})
+  run("${compiler} with ${library}" ${compiler} -std=c++11 ${WARNINGS} -I${CORE}/include
     ${CMAKE_CURRENT_LIST_DIR}/headers.cpp -o ${program} ${library} -Wl,-rpath,${folder})
   run("${program}" ${program})
-endfunction()
-
-# Headers of one dimension and the library of the other do not link, and the linker names why.
-function(check_mismatch compiler library) # .. and flags
-  execute_process(COMMAND ${compiler} -std=c++11 ${ARGN} -I${CORE}/include ${CMAKE_CURRENT_LIST_DIR}/headers.cpp
-    -o ${WORK}/mismatch ${library} RESULT_VARIABLE failed ERROR_VARIABLE text)
-  if(NOT failed OR NOT text MATCHES "hd_scene_def_default")
-    message(SEND_ERROR "${compiler} ${ARGN} with ${library}: must not link, and name hd_scene_def_default\n${text}")
-  endif()
 endfunction()
 
 foreach(name gcc clang)
@@ -64,9 +52,6 @@ foreach(name g++ clang++)
     check_headers(${HEADERS_${name}} cpp c++11 c++17)
     if(LIBRARY)
       check_program(${HEADERS_${name}} ${LIBRARY})
-      check_program(${HEADERS_${name}} ${LIBRARY_3D} -DHD_DIM=3)
-      check_mismatch(${HEADERS_${name}} ${LIBRARY_3D})
-      check_mismatch(${HEADERS_${name}} ${LIBRARY} -DHD_DIM=3)
     endif()
   endif()
 endforeach()

@@ -7,7 +7,7 @@
 
 bool begin_run(const hdr_params *params, bool tiny, char *line, size_t size)
 {
-    const hd_scene_def two = {.dimensions = HD_DIM,
+    const hd_scene_def two = {.particles = HD_DISKS,
                               .disks = 2,
                               .density = 0.1,
                               .aspect = 1.0,

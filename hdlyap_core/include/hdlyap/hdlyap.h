@@ -1,6 +1,5 @@
-/** Everything: hard disks, their Lyapunov spectrum and modes; in the order in which data flows.
- * With -DHD_DIM=3, for hdlyap_core_3d, of hard spheres: there are 6N and 3N where comments say 4N
- * and 2N. */
+/** Everything: hard disks and spheres, their Lyapunov spectrum and modes; in the order in which
+ * data flows. */
 #ifndef HDLYAP_HDLYAP_H
 #define HDLYAP_HDLYAP_H
 

@@ -10,17 +10,9 @@
 
 HD_API_BEGIN
 
-/** Components of a position: 2, disks, or 3, spheres, which are called disks as well. Each has a
- * library of its own, and who uses the one for spheres compiles with -DHD_DIM=3. */
-#ifndef HD_DIM
-#define HD_DIM 2
-#endif
-#if HD_DIM != 2 && HD_DIM != 3
-#error "HD_DIM: must be 2 or 3"
-#endif
-
-/** Components of a vector of tangent space at one disk: dq, then dp. */
-enum { HD_ROWS = 2 * HD_DIM };
+/** What moves: hard disks in the plane, or hard spheres in space, which are called disks as well.
+ * Where comments say 4N and 2N, there are 6N and 3N of spheres. */
+typedef enum hd_particles { HD_DISKS, HD_SPHERES } hd_particles;
 
 /** Of the spaces that particles move in; arrays with one entry for each direction have room for so
  * many. */
@@ -95,10 +87,11 @@ typedef union hd_own {
 /** Each parameter's default, range, unit and text stands in parameters.inc, which declares those
  * that are plain numbers. */
 typedef struct hd_scene_def {
+    hd_particles particles;
     hd_container container;
     hd_boundary boundary[3]; /**< boundary_x, _y, _z, the last of spheres; of a box alone */
     uint64_t seed;
-    int exponents;         /**< number of leading ones, 1 .. HD_ROWS N, or one of HD_EXPONENTS_* */
+    int exponents;         /**< number of leading ones, 1 .. all, or one of HD_EXPONENTS_* */
     double warmup;         /**< HD_WARMUP_AUTO, see hd_scene_warmup [time units] */
     double interval;       /**< 0 = auto [time units] */
     double phase_interval; /**< the same */
@@ -113,10 +106,6 @@ typedef struct hd_scene_def {
 #include "hdlyap/parameters.inc"
 } hd_scene_def;
 
-/* A program with the library of the other dimension does not link. */
-#if HD_DIM == 3
-#define hd_scene_def_default hd_scene_def_default_3d
-#endif
 /** The paper's periodic scene: 780 disks, density 0.8, aspect 0.867. */
 hd_scene_def hd_scene_def_default(void);
 /** The same of another dynamics, with the defaults of its own parameters. */
@@ -149,8 +138,9 @@ enum { HD_OUTLINE = 128 };
 int hd_scene_outline(const hd_scene_def *def, double *x, double *y);
 
 /** Directions of the null space [T9]: uniform along x, along y, of spheres along z (where
- * periodic), momenta. In a circle HD_NULL_X is a rotation about the centre. */
-enum { HD_NULL_X, HD_NULL_Y, HD_NULL_P = HD_DIM, HD_NULLS };
+ * periodic), and behind them, as number hd_scene_dimension(def), the momenta. In a circle HD_NULL_X
+ * is a rotation about the centre. */
+enum { HD_NULL_X, HD_NULL_Y, HD_NULL_Z };
 
 /** Time with the frame before the averaging, as asked for or chosen [T12]. */
 double hd_scene_warmup(const hd_scene_def *def);

@@ -118,8 +118,7 @@ double hd_scene_parting(const hd_scene_def *def)
     return warmup_of(def);
 }
 
-/** Ranges beyond what the types hold are checked with the whole of it, and so is the dimension,
- * which has then words of its own. */
+/** Ranges beyond what the types hold are checked with the whole of it. */
 void hd_scene_archive(hd_scene_def *def, hd_archive *archive)
 {
     int count;
@@ -137,10 +136,7 @@ void hd_scene_archive(hd_scene_def *def, hd_archive *archive)
         case HD_PARAMETER_INTERVAL: hd_archive_double(archive, r->record, &real); break;
         default:
             whole = (int)real;
-            if (r->offset == offsetof(hd_scene_def, dimensions))
-                hd_archive_int(archive, r->record, &whole, 2, 3);
-            else
-                hd_archive_int(archive, r->record, &whole, (int)r->least, (int)r->most);
+            hd_archive_int(archive, r->record, &whole, (int)r->least, (int)r->most);
             real = whole;
         }
         hd_parameter_assign(r, def, real);

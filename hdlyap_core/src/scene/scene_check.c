@@ -6,6 +6,7 @@
 #include "base/check.h"
 #include "hdlyap/parameters.h"
 #include "scene/container.h"
+#include "scene/fluid.h"
 #include "scene/scene.h"
 #include "scene/wave.h"
 
@@ -45,19 +46,27 @@ static hd_status check_ranges(const hd_scene_def *def, char *message, size_t siz
 }
 
 /** What spheres alone have, or disks: a curved wall is in the plane. */
-static hd_status check_dimensions(const hd_scene_def *def, char *message, size_t size)
+static hd_status check_particles(const hd_scene_def *def, char *message, size_t size)
 {
     const hd_scene_def usual = hd_scene_def_default();
-    if (hd_scene_dimension(def) == 2 && def->aspect_z != usual.aspect_z)
-        return hd_refuse(message, size, "aspect_z = %.15g: must not be given with dimensions = 2",
-                         def->aspect_z);
-    if (hd_scene_dimension(def) == 2 && def->boundary[2] != usual.boundary[2])
+    const hd_dynamics *of = hd_dynamics_of(def);
+    const bool flat = of->dimension == 2;
+    const double most = of->fluid->density_max;
+    if (def->density > most)
         return hd_refuse(message, size,
-                         "boundary_z = reflecting: must not be given with dimensions = 2");
-    if (hd_scene_dimension(def) != 2 && hd_container_of(def)->wall)
+                         "density = %.15g: must be from 1e-6 to %.5g with particles = %s",
+                         def->density, most, of->particles);
+    if (flat && def->aspect_z != usual.aspect_z)
+        return hd_refuse(message, size, "aspect_z = %.15g: must not be given with particles = %s",
+                         def->aspect_z, of->particles);
+    if (flat && def->boundary[2] != usual.boundary[2])
         return hd_refuse(message, size,
-                         "container = %s: must be rectangle (a box), in three dimensions",
-                         hd_container_name(def));
+                         "boundary_z = reflecting: must not be given with particles = %s",
+                         of->particles);
+    if (!flat && hd_container_of(def)->wall)
+        return hd_refuse(message, size,
+                         "container = %s: must be rectangle, a box, with particles = %s",
+                         hd_container_name(def), of->particles);
     return HD_OK;
 }
 
@@ -78,7 +87,7 @@ static hd_status check_curved(const hd_scene_def *def, char *message, size_t siz
 hd_status hd_scene_check_box(const hd_scene_def *def, char *message, size_t size)
 {
     HD_TRY(check_ranges(def, message, size));
-    HD_TRY(check_dimensions(def, message, size));
+    HD_TRY(check_particles(def, message, size));
     HD_TRY(hd_container_of(def)->check(def, message, size));
     return hd_container_of(def)->wall ? check_curved(def, message, size) : HD_OK;
 }

@@ -17,7 +17,7 @@ static const parameter name_row = {
     .unit = "",
     .may_differ = true,
     .text =
-        "Name of the scene, copied into run_info. It must come with dimensions, container, disks, "
+        "Name of the scene, copied into run_info. It must come with particles, container, disks, "
         "density, an aspect or a boundary: a name chooses no system. One without a name is "
         "unnamed.",
 };

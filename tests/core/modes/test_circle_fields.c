@@ -128,7 +128,7 @@ TEST(nothing_goes_through_the_wall)
             }
         }
         /* the null space: a rotation about the centre, nothing, the momenta */
-        const double *null = x + columns - HD_NULLS, *null_y = y + columns - HD_NULLS;
+        const double *null = x + columns - NULLS, *null_y = y + columns - NULLS;
         CHECK_CLOSE(null[0], -sin(j) / sqrt(DISKS), 1e-14);
         CHECK_CLOSE(null_y[0], cos(j) / sqrt(DISKS), 1e-14);
         CHECK_CLOSE(null[1], 0.0, 0.0);

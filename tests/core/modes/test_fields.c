@@ -133,14 +133,14 @@ TEST(columns_have_norm_1)
 {
     for (int k = 0; k < 4; k++) {
         const sample s = sampled(k & 1 ? R : P, k & 2 ? R : P, 2);
-        const int null = hd_fields_columns(s.fields) - HD_NULLS;
+        const int null = hd_fields_columns(s.fields) - NULLS;
         for (int c = 0; c < null; c++) {
             CHECK_CLOSE(square(s.fields, c), 1.0, NORM);
             assert_true(hd_fields_norm(s.fields, c) > 0.1); /* order sqrt(N/8), k sqrt(N/8) */
         }
         CHECK_CLOSE(square(s.fields, null + HD_NULL_X), k & 1 ? 0.0 : 1.0, NORM);
         CHECK_CLOSE(square(s.fields, null + HD_NULL_Y), k & 2 ? 0.0 : 1.0, NORM);
-        CHECK_CLOSE(square(s.fields, null + HD_NULL_P), 1.0, NORM);
+        CHECK_CLOSE(square(s.fields, null + NULL_P), 1.0, NORM);
         hd_fields_free(s.fields);
     }
 }
@@ -150,11 +150,11 @@ TEST(null_fields)
 {
     for (int k = 0; k < 4; k++) {
         const sample s = sampled(k & 1 ? R : P, k & 2 ? R : P, 1);
-        const int null = hd_fields_columns(s.fields) - HD_NULLS;
+        const int null = hd_fields_columns(s.fields) - NULLS;
         for (int row = 0; row < ROWS; row++) {
             CHECK_CLOSE(raw(s.fields, row, null + HD_NULL_X), row % 2 == 0 && !(k & 1), NORM);
             CHECK_CLOSE(raw(s.fields, row, null + HD_NULL_Y), row % 2 == 1 && !(k & 2), NORM);
-            CHECK_CLOSE(raw(s.fields, row, null + HD_NULL_P), s.p[row], NORM);
+            CHECK_CLOSE(raw(s.fields, row, null + NULL_P), s.p[row], NORM);
         }
         hd_fields_free(s.fields);
     }
@@ -200,8 +200,8 @@ TEST(columns_lie_in_order)
             else
                 assert_true(!before || before->wave.number < now->wave.number);
         }
-        assert_int_equal(hd_fields_columns(s.fields), column + HD_NULLS);
-        assert_true(hd_fields_stride(s.fields) >= column + HD_NULLS);
+        assert_int_equal(hd_fields_columns(s.fields), column + NULLS);
+        assert_true(hd_fields_stride(s.fields) >= column + NULLS);
         hd_fields_free(s.fields);
     }
 }
@@ -215,7 +215,7 @@ TEST(dimensions_add_up)
         const sample s = sampled(k & 1 ? R : P, k & 2 ? R : P, 2);
         int extra = 0; /* mixed: LP along the periodic direction has 4, not 2 */
         if (k == 1 || k == 2) extra = 2 * 2;
-        assert_int_equal(hd_fields_columns(s.fields) - HD_NULLS, want[k] + extra);
+        assert_int_equal(hd_fields_columns(s.fields) - NULLS, want[k] + extra);
         hd_fields_free(s.fields);
     }
 }

@@ -78,7 +78,7 @@ static void write_mixtures(world *w)
             dq[row] = 0.2 * random_normal(&w->random);
             dp[row] = random_normal(&w->random);
         }
-        for (int c = 0; c < hd_fields_columns(w->fields) - HD_NULLS; c++)
+        for (int c = 0; c < hd_fields_columns(w->fields) - NULLS; c++)
             world_add_field(w, dq, c, random_normal(&w->random));
         world_write(w, col, dq, dp);
     }
@@ -173,14 +173,13 @@ TEST(few_disks)
 /* ---- the null space ------------------------------------------------------------------------ */
 
 /** half[f] times null field f. */
-static void add_null(const world *w, double *out, const double half[HD_NULLS])
+static void add_null(const world *w, double *out, const double half[NULLS])
 {
-    const int null = hd_fields_columns(w->fields) - HD_NULLS;
-    for (int f = 0; f < HD_NULLS; f++) world_add_field(w, out, null + f, half[f]);
+    const int null = hd_fields_columns(w->fields) - NULLS;
+    for (int f = 0; f < NULLS; f++) world_add_field(w, out, null + f, half[f]);
 }
 
-static void write_null(world *w, const double of_dq[HD_NULLS], const double of_dp[HD_NULLS],
-                       double noise)
+static void write_null(world *w, const double of_dq[NULLS], const double of_dp[NULLS], double noise)
 {
     double dq[ROWS], dp[ROWS];
     for (int row = 0; row < ROWS; row++) {
@@ -197,15 +196,15 @@ static void check_null(const world *w, double x, double y, double p)
 {
     CHECK_CLOSE(hd_modes_null_snapshot(w->modes, HD_NULL_X)[0], x, ALGEBRA);
     CHECK_CLOSE(hd_modes_null_snapshot(w->modes, HD_NULL_Y)[0], y, ALGEBRA);
-    CHECK_CLOSE(hd_modes_null_snapshot(w->modes, HD_NULL_P)[0], p, ALGEBRA);
+    CHECK_CLOSE(hd_modes_null_snapshot(w->modes, NULL_P)[0], p, ALGEBRA);
 }
 
 TEST(zero_modes_have_their_parts)
 {
     HELD(world) w = world_create(dense(P, P), 1, 1);
-    const double none[HD_NULLS] = {0.0};
-    for (int f = 0; f < HD_NULLS; f++) {
-        double one[HD_NULLS] = {0.0};
+    const double none[NULLS] = {0.0};
+    for (int f = 0; f < NULLS; f++) {
+        double one[NULLS] = {0.0};
         one[f] = -2.0;
         write_null(&w, one, none, 0.0);
         check_null(&w, f == 0, f == 1, f == 2);
@@ -233,7 +232,7 @@ TEST(walls_take_uniform_motion_away)
     for (int k = 1; k < 4; k++) {
         HELD(world) w = world_create(dense(k & 1 ? R : P, k & 2 ? R : P), 1, 1);
         write_null(&w, (const double[]){0, 0, 1}, (const double[]){0, 0, 1}, 0.0);
-        CHECK_CLOSE(hd_modes_null_snapshot(w.modes, HD_NULL_P)[0], 1.0, ALGEBRA);
+        CHECK_CLOSE(hd_modes_null_snapshot(w.modes, NULL_P)[0], 1.0, ALGEBRA);
         write_null(&w, (const double[]){0, 0, 0}, (const double[]){0, 0, 0}, 1.0);
         if (k & 1) CHECK_CLOSE(hd_modes_null_snapshot(w.modes, HD_NULL_X)[0], 0.0, 0.0);
         if (k & 2) CHECK_CLOSE(hd_modes_null_snapshot(w.modes, HD_NULL_Y)[0], 0.0, 0.0);
@@ -257,14 +256,14 @@ TEST(averages_are_means_of_snapshots)
         for (int col = 0; col < VECTORS; col++) {
             for (int which = 0; which < HD_WEIGHTS; which++)
                 sum[col][which] += hd_modes_snapshot(w.modes, s, (hd_weight)which)[col] / SAMPLES;
-            null[col] += hd_modes_null_snapshot(w.modes, HD_NULL_P)[col] / SAMPLES;
+            null[col] += hd_modes_null_snapshot(w.modes, NULL_P)[col] / SAMPLES;
         }
     }
     assert_int_equal(hd_modes_samples(w.modes), SAMPLES);
     for (int col = 0; col < VECTORS; col++) {
         for (int which = 0; which < HD_WEIGHTS; which++)
             CHECK_CLOSE(hd_modes_average(w.modes, s, (hd_weight)which)[col], sum[col][which], MEAN);
-        CHECK_CLOSE(hd_modes_null_average(w.modes, HD_NULL_P)[col], null[col], MEAN);
+        CHECK_CLOSE(hd_modes_null_average(w.modes, NULL_P)[col], null[col], MEAN);
     }
     hd_modes_clear(w.modes);
     assert_int_equal(hd_modes_samples(w.modes), 0);

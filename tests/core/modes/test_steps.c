@@ -6,7 +6,7 @@ enum { ALL_MAX = 4 * DISKS };
 static void write_zero(world *w, int col, int null, bool of_dp)
 {
     double half[2][2 * DISKS] = {{0.0}};
-    world_add_field(w, half[of_dp], hd_fields_columns(w->fields) - HD_NULLS + null, 1.0);
+    world_add_field(w, half[of_dp], hd_fields_columns(w->fields) - NULLS + null, 1.0);
     world_write(w, col, half[0], half[1]);
 }
 
@@ -19,7 +19,7 @@ static void check_partial_zeros(hd_boundary x, hd_boundary y, int zeros, int car
                                    .boundary[1] = y, .seed = 4, .max_mode_number = 1);
     HELD(world) w = world_create(def, first + carried, 1);
     exponents_falling(&w, exponents);
-    for (int k = 0; k < carried; k++) write_zero(&w, first + k, HD_NULL_P, k % 2);
+    for (int k = 0; k < carried; k++) write_zero(&w, first + k, NULL_P, k % 2);
     world_find(&w, exponents);
     const hd_step *step = hd_steps_step(w.steps, hd_fields_subspaces(w.fields));
     assert_int_equal(step->kind, HD_MODE_ZERO);

@@ -144,7 +144,8 @@ static bool is_left_out(hd_random *random, const hd_parameter *p)
 {
     /* covariant vectors: on their way back steps take no simulated time */
     if (p->kind == HD_PARAMETER_SEED || p->needs == HD_OBSERVE_COVARIANT) return true;
-    if (is_named(p, "dimensions") || (DIM == 2 && is_of_spheres(p))) return chance(random, 0.98);
+    if (is_named(p, "particles")) return true;
+    if (DIM == 2 && is_of_spheres(p)) return chance(random, 0.98);
     if (is_named(p, "max_mode_number") || is_named(p, "container")) return chance(random, 0.5);
     return is_named(p, "max_wave_number") && chance(random, 0.8);
 }
@@ -152,7 +153,7 @@ static bool is_left_out(hd_random *random, const hd_parameter *p)
 /** A third of the scenes have wild values; the others are possible one by one, if not together. */
 static hd_scene_def drawn(hd_random *random)
 {
-    hd_scene_def def = hd_scene_def_default();
+    hd_scene_def def = usual_scene();
     const bool wild = chance(random, 0.3);
     int count;
     const hd_parameter *rows = hd_scene_parameters(&count);

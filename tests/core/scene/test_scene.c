@@ -150,12 +150,13 @@ TEST(whole_fields_out_of_range)
 /** What is of spheres alone is refused, not left aside. */
 TEST(a_third_direction)
 {
-    const hd_scene_def three = scene(.dimensions = 3), high = scene(.aspect_z = 0.5);
+    const hd_scene_def high = scene(.aspect_z = 0.5), other = scene(.particles = 2);
     const hd_scene_def walls = scene(.boundary[2] = R);
-    check_refused(&three, "dimensions", "= 3",
-                  "must be 2: disks; hdlyap_node_3d is for spheres (run.launch dimensions:=3)");
-    check_refused(&high, "aspect_z", "= 0.5", "must not be given with dimensions = 2");
-    check_refused(&walls, "boundary_z", "= reflecting", "must not be given with dimensions = 2");
+    check_refused(&other, "particles", "= 2", "disks or spheres");
+    const hd_scene_def dense = scene(.density = 1.1548);
+    check_refused(&dense, "density", "= 1.1548", "from 1e-6 to 1.1547 with particles = disks");
+    check_refused(&high, "aspect_z", "= 0.5", "must not be given with particles = disks");
+    check_refused(&walls, "boundary_z", "= reflecting", "must not be given with particles = disks");
 }
 
 TEST(exponents_out_of_range)

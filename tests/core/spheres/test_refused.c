@@ -13,19 +13,15 @@ static hd_scene_def usual(void) { return box_of(32, 0.5, 1.0, 1.0, 0, 1); }
 
 TEST(what_is_of_disks_alone)
 {
-    check_line(scene_from(usual(), .dimensions = 2),
-               "dimensions = 2: must be 3: spheres; hdlyap_node is for disks (run.launch without "
-               "dimensions:=3)");
     check_line(scene_from(usual(), .container = HD_CIRCLE),
-               "container = circle: must be rectangle (a box), in three dimensions");
+               "container = circle: must be rectangle, a box, with particles = spheres");
 }
 
 TEST(values_out_of_range)
 {
     check_line(scene_from(usual(), .density = 1.4143),
-               "density = 1.4143: must be from 1e-6 to sqrt(2) = 1.4142");
-    check_line(scene_from(usual(), .density = NAN), "density = nan: must be from 1e-6 to sqrt(2) = "
-                                                    "1.4142");
+               "density = 1.4143: must be from 1e-6 to 2/sqrt(3) = 1.1547, of spheres sqrt(2) = "
+               "1.4142");
     check_line(scene_from(usual(), .aspect_z = 0.0), "aspect_z = 0: must be from 1e-6 to 1e6");
     check_line(scene_from(usual(), .aspect_z = 2e6),
                "aspect_z = 2000000: must be from 1e-6 to 1e6");

@@ -70,7 +70,7 @@ static void check_functionals(const state *s, const hd_wave *wave, unsigned bits
     memcpy(x, s->q + 3 * sphere, 3 * sizeof *x);
     memcpy(x + 3, s->p + 3 * sphere, 3 * sizeof *x);
     hd_functionals_at(got, 3, wave, bits, s->scene.boundary, x, x + 3);
-    for (int row = 0; row < HD_ROWS; row++) {
+    for (int row = 0; row < ROWS_OF_ONE; row++) {
         const double at = x[row];
         x[row] = at + STEP, sums(up, s, wave, bits, x);
         x[row] = at - STEP, sums(down, s, wave, bits, x);
@@ -186,7 +186,7 @@ static void unit_dq(double *dq, const hd_frame *frame, int col, double *norm)
     double square = 0.0;
     for (int j = 0; j < SPHERES; j++)
         for (int d = 0; d < 3; d++) {
-            const size_t row = (size_t)(HD_ROWS * j + d);
+            const size_t row = (size_t)(ROWS_OF_ONE * j + d);
             dq[3 * j + d] = data[row * (size_t)hd_frame_stride(frame) + (size_t)col];
             square += dq[3 * j + d] * dq[3 * j + d];
         }

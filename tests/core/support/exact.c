@@ -74,13 +74,13 @@ void exact_begin_anew(exact_frame *x)
 /** The rows of one disk: dq_x, dq_y, .., dp_x, dp_y, .. */
 static hd_exact *rows_of(const exact_frame *x, int disk)
 {
-    return x->v + HD_ROWS * disk * x->vectors;
+    return x->v + ROWS_OF_ONE * disk * x->vectors;
 }
 
 static void fly(exact_frame *x, hd_exact tau)
 {
     const int n = x->vectors;
-    for (int disk = 0; tau > 0 && disk < x->rows / HD_ROWS; disk++)
+    for (int disk = 0; tau > 0 && disk < x->rows / ROWS_OF_ONE; disk++)
         for (int k = 0; k < HD_DIM * n; k++)
             rows_of(x, disk)[k] += tau * rows_of(x, disk)[HD_DIM * n + k];
 }

@@ -54,7 +54,7 @@ static void check_modes(const hd_modes *modes)
             check_numbers(hd_modes_snapshot(modes, s, which), n, "weight");
             check_numbers(hd_modes_average(modes, s, which), n, "average weight");
         }
-    for (int null = 0; null < HD_NULLS; null++)
+    for (int null = 0; null < NULLS; null++)
         check_numbers(hd_modes_null_average(modes, null), n, "part in the null space");
 }
 

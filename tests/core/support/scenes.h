@@ -21,14 +21,26 @@
 /** A parameter that has one value of disks: what spheres have. */
 static inline bool is_of_spheres(const hd_parameter *row)
 {
-    static const char *const names[] = {"dimensions", "aspect_z", "boundary_z"};
+    static const char *const names[] = {"particles", "aspect_z", "boundary_z"};
     for (int k = 0; k < 3; k++)
         if (strcmp(row->name, names[k]) == 0) return true;
     return false;
 }
 
+/** Disks or spheres: what the test is compiled for, here alone. */
+enum { DIM = HD_DIM, ROWS_OF_ONE = 2 * DIM, WALL_SETS = 1 << DIM, ALL_WALLS = WALL_SETS - 1 };
+/** Directions of the null space: of the momenta, and all of them. */
+enum { NULL_P = DIM, NULLS };
+
+static inline hd_scene_def usual_scene(void)
+{
+    hd_scene_def def = hd_scene_def_default();
+    def.particles = DIM == 2 ? HD_DISKS : HD_SPHERES;
+    return def;
+}
+
 /** The default scene but for the fields given: scene(.disks = 12, .boundary[1] = HD_REFLECTING). */
-#define scene(...) scene_from(hd_scene_def_default(), __VA_ARGS__)
+#define scene(...) scene_from(usual_scene(), __VA_ARGS__)
 
 /** As another scene but for the fields given, 16 at most. */
 #define scene_from(base, ...)                                                                      \
@@ -73,9 +85,6 @@ static inline hd_scene_def scene_in_box(int disks, double lx, double ly, hd_boun
 {
     return scene_of(disks, disks / (lx * ly), ly / lx, x, y, seed);
 }
-
-/** Disks or spheres: the dimension of the core that the test is linked with, here alone. */
-enum { DIM = HD_DIM, ROWS_OF_ONE = 2 * DIM, WALL_SETS = 1 << DIM, ALL_WALLS = WALL_SETS - 1 };
 
 /** A box of disks or of spheres; walls: 1 of x, 2 of y, 4 of z. Disks know no z. */
 static inline hd_scene_def box_of(int disks, double density, double aspect, double aspect_z,

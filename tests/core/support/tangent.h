@@ -34,7 +34,7 @@ static inline double dot(const double *a, const double *b, int rows)
 static inline double symplectic(const double *a, const double *b, int rows)
 {
     double sum = 0.0;
-    for (int i = 0; i < rows; i += HD_ROWS)
+    for (int i = 0; i < rows; i += ROWS_OF_ONE)
         for (int c = i; c < i + HD_DIM; c++) sum += a[c] * b[c + HD_DIM] - a[c + HD_DIM] * b[c];
     return sum;
 }
@@ -45,7 +45,7 @@ static inline double symplectic(const double *a, const double *b, int rows)
 static inline double check_symplectic_map(const hd_record *log, int disks)
 {
     enum { MAX = 16 };
-    const int rows = HD_ROWS * disks;
+    const int rows = ROWS_OF_ONE * disks;
     const double known = 16.0 * DBL_EPSILON * fmax(1.0, (double)log->count);
     double a[MAX], b[MAX], size[MAX], all = 0.0;
     assert_true(rows <= MAX);
@@ -60,7 +60,7 @@ static inline double check_symplectic_map(const hd_record *log, int disks)
     }
     for (int k = 0; k < rows; k++)
         for (int l = 0; l < rows; l++) {
-            const double sign = k % HD_ROWS < HD_DIM ? 1.0 : -1.0; /* of dq, of dp */
+            const double sign = k % ROWS_OF_ONE < HD_DIM ? 1.0 : -1.0; /* of dq, of dp */
             const double want = l == k + (int)sign * HD_DIM ? sign : 0.0;
             frame_column(frame, k, a);
             frame_column(frame, l, b);

@@ -4,6 +4,7 @@
 
 #include <stdint.h>
 
+#include "dynamics/hard/compiled.h"
 #include "hdlyap/scene.h"
 
 /** Deeper than this [sigma], an overlap is a fault and not rounding; in boxes whose coordinates

@@ -4,6 +4,7 @@
 
 #include <stdint.h>
 
+#include "dynamics/hard/compiled.h"
 #include "hdlyap/scene.h"
 #include "dynamics/trajectory.h"
 

@@ -3,6 +3,7 @@
 #ifndef HD_MAPS_H
 #define HD_MAPS_H
 
+#include "dynamics/hard/compiled.h"
 #include "dynamics/dynamics.h"
 
 /* Entries of the row: see hd_dynamics. */

@@ -141,8 +141,8 @@ static inline hd_pair contacts_with(const hd_two_disks *a, const hd_nearby *near
 
 /** hd_nearby_contacts, without what fills the last step. */
 HD_MULTIVERSION
-static int contacts(double *contact, const hd_nearby *near, const hd_disk *disks, int32_t i,
-                    const double box[HD_DIM])
+static int listed_contacts(double *contact, const hd_nearby *near, const hd_disk *disks, int32_t i,
+                           const double box[HD_DIM])
 {
     const hd_two_disks a = hd_two_disks_of(&disks[i], &disks[i]);
     earliest e = {.t = hd_pair_both(INFINITY)};
@@ -163,5 +163,5 @@ int hd_nearby_contacts(double *contact, hd_nearby *near, const hd_disk *disks, i
     const int_quad self = spread(i), zero = spread(0);
     memcpy(&near->disk[near->count], &self, sizeof self); /* it never meets itself: p = 0 */
     for (int d = 0; d < HD_DIM; d++) memcpy(&near->image[d][near->count], &zero, sizeof zero);
-    return contacts(contact, near, disks, i, box);
+    return listed_contacts(contact, near, disks, i, box);
 }

@@ -4,6 +4,7 @@
 #ifndef HD_QUEUE_H
 #define HD_QUEUE_H
 
+#include "dynamics/hard/compiled.h"
 #include "hdlyap/scene.h"
 
 #include <stdbool.h>

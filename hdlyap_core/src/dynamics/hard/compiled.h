@@ -1,0 +1,67 @@
+/** What the sources of hard bodies are compiled for, disks in the plane (HD_DIM = 2) and spheres in
+ * space (3). Both are in one library: each function that they share by a header has a name for
+ * each. */
+#ifndef HD_HARD_COMPILED_H
+#define HD_HARD_COMPILED_H
+
+#if HD_DIM != 2 && HD_DIM != 3
+#error "HD_DIM: must be 2 or 3"
+/* static, but clang's choice among their versions (HD_MULTIVERSION) is not */
+#define carry_block HD_COMPILED(carry_block)
+#define carry_block_with_walls HD_COMPILED(carry_block_with_walls)
+#define listed_contacts HD_COMPILED(listed_contacts)
+
+#endif
+
+/** Components of a vector of tangent space at one body: dq, then dp. */
+enum { HD_ROWS = 2 * HD_DIM };
+
+#define HD_COMPILED__(name, dimension) name##_##dimension##d
+#define HD_COMPILED_(name, dimension) HD_COMPILED__(name, dimension)
+#define HD_COMPILED(name) HD_COMPILED_(name, HD_DIM)
+
+#define hd_cells_add HD_COMPILED(hd_cells_add)
+#define hd_cells_book HD_COMPILED(hd_cells_book)
+#define hd_cells_clear HD_COMPILED(hd_cells_clear)
+#define hd_cells_create HD_COMPILED(hd_cells_create)
+#define hd_cells_cross HD_COMPILED(hd_cells_cross)
+#define hd_cells_empty HD_COMPILED(hd_cells_empty)
+#define hd_events HD_COMPILED(hd_events)
+#define hd_events_archive HD_COMPILED(hd_events_archive)
+#define hd_events_bytes HD_COMPILED(hd_events_bytes)
+#define hd_events_fault HD_COMPILED(hd_events_fault)
+#define hd_hard_advance HD_COMPILED(hd_hard_advance)
+#define hd_hard_archive HD_COMPILED(hd_hard_archive)
+#define hd_hard_bytes HD_COMPILED(hd_hard_bytes)
+#define hd_hard_create HD_COMPILED(hd_hard_create)
+#define hd_hard_entries HD_COMPILED(hd_hard_entries)
+#define hd_hard_fingerprint HD_COMPILED(hd_hard_fingerprint)
+#define hd_hard_free HD_COMPILED(hd_hard_free)
+#define hd_hard_kinetic_energy HD_COMPILED(hd_hard_kinetic_energy)
+#define hd_hard_overlap HD_COMPILED(hd_hard_overlap)
+#define hd_hard_overlap_rounding HD_COMPILED(hd_hard_overlap_rounding)
+#define hd_hard_rate HD_COMPILED(hd_hard_rate)
+#define hd_maps_carry HD_COMPILED(hd_maps_carry)
+#define hd_maps_create HD_COMPILED(hd_maps_create)
+#define hd_maps_fill HD_COMPILED(hd_maps_fill)
+#define hd_maps_free HD_COMPILED(hd_maps_free)
+#define hd_nearby_around HD_COMPILED(hd_nearby_around)
+#define hd_nearby_beside HD_COMPILED(hd_nearby_beside)
+#define hd_nearby_contacts HD_COMPILED(hd_nearby_contacts)
+#define hd_nearby_listed HD_COMPILED(hd_nearby_listed)
+#define hd_prediction_extend HD_COMPILED(hd_prediction_extend)
+#define hd_prediction_renew HD_COMPILED(hd_prediction_renew)
+#define hd_prefetch_ahead HD_COMPILED(hd_prefetch_ahead)
+#define hd_queue_clear HD_COMPILED(hd_queue_clear)
+#define hd_queue_create HD_COMPILED(hd_queue_create)
+#define hd_queue_next HD_COMPILED(hd_queue_next)
+#define hd_queue_put HD_COMPILED(hd_queue_put)
+#define hd_queue_restart HD_COMPILED(hd_queue_restart)
+#define hd_round_wall_reflect HD_COMPILED(hd_round_wall_reflect)
+
+/* static, but clang's choice among their versions (HD_MULTIVERSION) is not */
+#define carry_block HD_COMPILED(carry_block)
+#define carry_block_with_walls HD_COMPILED(carry_block_with_walls)
+#define listed_contacts HD_COMPILED(listed_contacts)
+
+#endif
