@@ -7,14 +7,11 @@
 
 bool begin_run(const hdr_params *params, bool tiny, char *line, size_t size)
 {
-    const hd_scene_def two = {.particles = HD_DISKS,
-                              .disks = 2,
-                              .density = 0.1,
-                              .aspect = 1.0,
-                              .aspect_z = 1.0,
-                              .exponents = HD_EXPONENTS_NONE,
-                              .accuracy = 1e-8,
-                              .report_interval = 1.0};
+    hd_scene_def two = hd_scene_def_default();
+    two.disks = 2;
+    two.density = 0.1;
+    two.aspect = 1.0;
+    two.exponents = HD_EXPONENTS_NONE;
     const changes none = {0};
     const publishers out = {.run_id = "begun"};
     const char *resume;

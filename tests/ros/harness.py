@@ -68,8 +68,8 @@ def command(name):
     return [shutil.which('hdlyap'), name]
 
 
-def executable(params=()):
-    return program('hdlyap_node_3d' if dict(params).get('dimensions') == 3 else 'hdlyap_node')
+def executable():
+    return program('hdlyap_node')
 
 
 def defaults():
@@ -185,7 +185,7 @@ def start(params, name=NODE, probe=None, args=(), command=None, **env):
     master.setParam('/' + name, params)
     if probe is not None:
         env.update(probe, **probed(command))
-    return Process([*(command or [executable(params)]), '__name:=' + name, *args], **env)
+    return Process([*(command or [executable()]), '__name:=' + name, *args], **env)
 
 
 def start_viewer(params=(), **how):

@@ -75,6 +75,8 @@ def run_info(**fields):
         run_id='one',
         version='0.1.0',
         scene='made',
+        particles='disks',
+        dimension=3 if fields.get('particles') == 'spheres' else 2,
         disks=20,
         density=0.5,
         aspect=1.0,
@@ -91,8 +93,8 @@ def run_info(**fields):
 
 def spheres(**fields):
     """Twenty in a box of 8 x 2.5 x 2."""
-    solid = dict(dimensions=3, disks=20, aspect=0.3125, aspect_z=0.25, box_x=8.0, box_y=2.5)
-    solid.update(box_z=2.0, boundary_z='periodic', zero_exponents=8)
+    solid = dict(particles='spheres', disks=20, aspect=0.3125, aspect_z=0.25, box_x=8.0)
+    solid.update(box_y=2.5, box_z=2.0, boundary_z='periodic', zero_exponents=8)
     return run_info(**{**solid, **fields})
 
 

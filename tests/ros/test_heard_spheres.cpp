@@ -11,7 +11,7 @@ struct hearing_spheres : hearing {
         : hearing(boundary)
     {
         heard_clear(&h);
-        info.dimensions = 3, info.box_z = height, info.boundary_z = boundary;
+        info.dimension = 3, info.box_z = height, info.boundary_z = boundary;
         info.wave_nz = {nz, 2};
         EXPECT_TRUE(heard_run_info(&h, &info));
     }
@@ -93,7 +93,7 @@ TEST(heard, numbers_along_z_that_do_not_fit)
     EXPECT_EQ(9.0, flat.h.time);
     const picture p = flat.drawn();
     EXPECT_TRUE(!heard_has_spheres(p.run) && p.run->q[0].z == 0.0 && !p.run->periodic[2]);
-    flat.info.run_id = "disks", flat.info.dimensions = 2, flat.info.box_z = 10.0;
+    flat.info.run_id = "disks", flat.info.dimension = 2, flat.info.box_z = 10.0;
     EXPECT_TRUE(heard_run_info(&flat.h, &flat.info));
     EXPECT_EQ(0.0, flat.h.box[2]);
 }

@@ -107,17 +107,18 @@ class Launch(harness.Case):
             run = self.process([*harness.command('launch'), *words], PWD=folder)
             self.ends(run, 0, 'scene mine: 20 disks in 6.32456 x 6.32456', '/grp/hdlyap/accuracy')
 
-    def test_the_scene_says_its_dimensions(self):
-        """The file alone, whatever its name, unless an argument says another number."""
-        lines = 'dimensions: 3\ndisks: 16\ndensity: 0.3\nduration: 2\nequilibration: 1\nwarmup: 1\n'
+    def test_the_scene_says_what_moves(self):
+        """The file alone, whatever its name, unless an argument says otherwise."""
+        lines = 'particles: spheres\ndisks: 16\ndensity: 0.3\nduration: 2\n'
+        lines += 'equilibration: 1\nwarmup: 1\n'
         with tempfile.TemporaryDirectory() as folder:
             with open(os.path.join(folder, 'mine.yaml'), 'w') as file:
                 file.write(lines)
             for k, (words, said) in enumerate(
                 (
                     ([], 'scene mine: 16 spheres in '),
-                    (['dimensions:=2'], 'scene mine: 16 disks in '),
-                    (['dimensions:=4'], 'dimensions = 4: must be 2: disks'),
+                    (['particles:=disks'], 'scene mine: 16 disks in '),
+                    (['particles:=cubes'], 'particles = cubes: must be disks or spheres'),
                 )
             ):
                 words += ['scene:=mine.yaml', f'__ns:=of_{k}']

@@ -175,8 +175,9 @@ static const std::vector<refused> refused_together = {
     {"densty: 0.8", "densty = 0.8", {"removed: there is no", "; is density meant?"}},
     {"Disks: 100", "Disks = 100", {"; is disks meant?"}},
     {"warmpu: 100", "warmpu = 100", {"; is warmup meant?"}},
-    {"aspect_z: 0.5", "aspect_z = 0.5", {"not be given", "dimensions = 2"}},
-    {"boundary_z: reflecting", "boundary_z = reflecting", {"not be given", "dimensions = 2"}},
+    {"dimensions: 3", "dimensions = 3", {"removed: it is called particles now: disks or spheres"}},
+    {"aspect_z: 0.5", "aspect_z = 0.5", {"not be given", "particles = disks"}},
+    {"boundary_z: reflecting", "boundary_z = reflecting", {"not be given", "particles = disks"}},
     {"density: 1.1", "density = 1.1", {"at most 0.868056", "disks = 20", "aspect = 1"}},
     {"{disks: 2, density: 1.01}", "density = 1.01", {"at most 1 ", "disks = 2", "aspect = 1"}},
     {"exponents: 81", "exponents = 81", {"from 1 to 4 disks = 80"}},
@@ -271,7 +272,7 @@ TEST(Parameters, ANameAloneChoosesNoScene)
 {
     for (const char *lines : {"scene: quick", "scene: quick\nduration: 5.0"})
         expect_refused(lines, "scene = quick",
-                       {"given with its dimensions, container, disks, density, aspects or bound"});
+                       {"given with its particles, container, disks, density, aspects or bound"});
     expect_said("", "scene: unnamed");
     expect_said("scene: mine", "scene: mine");
 }

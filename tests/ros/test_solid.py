@@ -1,5 +1,5 @@
 """Bags of spheres that are made here: z in the arrays, names of waves, the numbers of figures and
-films, which node a sweep starts."""
+films, walls of a sweep."""
 
 import os
 import unittest
@@ -13,7 +13,6 @@ import made
 import made_fields
 from bags import Bags
 from made import LP, T
-from hdlyap.commands import run as command
 from hdlyap.follow import watch
 from hdlyap.follow.panels import phases as phase_lines
 from hdlyap.msg import LpPhase, State, Structure
@@ -23,7 +22,7 @@ from hdlyap.plots.figures import dispersion, modes, p_mode, plt, spectrum
 from hdlyap.plots.figures.style import scene
 from hdlyap.plots.figures.view import View
 from hdlyap.glyphs import Glyphs
-from hdlyap.runs import ranks, run, work
+from hdlyap.runs import run, work
 from hdlyap.runs.scene import Refused
 from hdlyap.sweep import grid, points, table
 
@@ -359,29 +358,23 @@ class Runs(unittest.TestCase):
         usual = dict(scene='spheres', threads='1', params='', observables='[spectrum]')
         return grid.runs({**usual, **given}, LAUNCH, '/')
 
-    def test_node(self):
-        """That of the scene; parameters that are not given are those of its own node."""
-        found = {name: os.path.basename(ranks.node(name)) for name in (2, 3)}
-        self.assertEqual(found, {2: 'hdlyap_node', 3: 'hdlyap_node_3d'})
-        self.assertEqual([run.usual(number)['dimensions'] for number in (2, 3)], [2, 3])
-        for value in (1, 4, True, 'three'):
-            with self.assertRaisesRegex(Refused, f'dimensions = {value}: must be 2 or 3'):
-                run.dimensions({'dimensions': value})
-
     def test_sweep(self):
         one, other = self.runs(boundaries='periodic reflecting,periodic,reflecting')
         names = ['boundary_periodic', 'boundary_reflecting_periodic_reflecting']
         self.assertEqual([one.name, other.name], names)
         self.assertEqual(
-            [other.parameters[name] for name in ('dimensions', 'scene')], [3, names[1]]
+            [other.parameters[name] for name in ('particles', 'scene')], ['spheres', names[1]]
         )
         walls = [other.parameters['boundary_' + axis] for axis in 'xyz']
         self.assertEqual(walls, ['reflecting', 'periodic', 'reflecting'])
         with self.assertRaisesRegex(Refused, 'or three of them for x, y and z as reflecting,per'):
             self.runs(boundaries='periodic,reflecting')
         (flat,) = self.runs(scene='quick', seeds='1')
-        self.assertEqual((flat.name, flat.parameters['dimensions']), ('seed_1', 2))
-        self.assertEqual(self.runs(seeds='1')[0].parameters['scene'], 'spheres')
+        self.assertEqual((flat.name, flat.parameters['particles']), ('seed_1', 'disks'))
+        (solid,) = self.runs(seeds='1')
+        self.assertEqual(solid.parameters['scene'], 'spheres')
+        (flat,) = self.runs(seeds='1', params='{particles: disks}')
+        self.assertEqual((solid.seconds - run.BEGIN) / (flat.seconds - run.BEGIN), (3 / 2) ** 2)
 
     def test_started(self):
         """As roslaunch is asked to."""
@@ -394,29 +387,14 @@ class Runs(unittest.TestCase):
             work.Job(one, '/nowhere', '/nowhere/log', '500M')
         self.assertIn('min_space:=500M', tree.call_args[0][0])
 
-    def test_run(self):
-        """By the scene, unless an argument says it."""
-        for scene_name, assigned, wanted in (
-            ('spheres_cube', [], 3),
-            ('quick', [], 2),
-            ('quick', ['disks:=8', 'dimensions:=3'], 3),
-        ):
-            args = mock.Mock(scene=scene_name, assigned=assigned)
-            self.assertEqual(command.asked(args), wanted)
-            with mock.patch.object(ranks, 'number', return_value=1), mock.patch.object(
-                ranks, 'become_node', side_effect=SystemExit
-            ) as become, self.assertRaises(SystemExit):
-                command.main(args)
-            become.assert_called_with(wanted)
-
 
 class Repeated(Solid):
     def test_scene(self):
-        """With its dimensions and walls along z."""
+        """With its particles and walls along z."""
         text = repetition.scene_file(made.spheres(boundary_z='reflecting'))
-        for line in ('dimensions: 3\n', 'aspect_z: 0.25\n', 'boundary_z: reflecting\n'):
+        for line in ('particles: spheres\n', 'aspect_z: 0.25\n', 'boundary_z: reflecting\n'):
             self.assertIn('\n' + line, text)
-        for name in ('box_z', 'wave_nz'):
+        for name in ('box_z', 'wave_nz', 'dimension:'):
             self.assertNotIn(name, text)
         self.assertNotIn('boundary_z', repetition.scene_file(made.run_info()))
 

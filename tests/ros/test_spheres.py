@@ -14,10 +14,10 @@ from hdlyap.msg import Mode
 
 TOPICS = ['run_info', 'spectrum', 'modes', 'steps', 'lp_phases', 't_phases', 'fields', 'gas']
 TOPICS += ['state', 'covariant', 'hydro', 'structure']
-SCENE = dict(dimensions=3, disks=128, density=0.5, aspect=0.25, aspect_z=0.3, equilibration=10.0)
-SCENE.update(scene='balls', warmup=20.0, duration=70.0, report_interval=5.0, max_mode_number=2)
+SCENE = dict(particles='spheres', disks=128, density=0.5, aspect=0.25, aspect_z=0.3)
+SCENE.update(scene='balls', equilibration=10.0, warmup=20.0, duration=70.0, report_interval=5.0)
 SCENE.update(boundary_y='reflecting', observables=TOPICS[1:], seed='3', covariant_window=20.0)
-SCENE.update(covariant_transient=20.0, exponents='all')
+SCENE.update(covariant_transient=20.0, exponents='all', max_mode_number=2)
 SCENES = os.path.join(os.path.dirname(os.path.abspath(__file__)), '../../launch/scenes')
 ROUNDING = 1e-7
 SLOPE = 1e-4  # of central differences
@@ -102,7 +102,8 @@ class Spheres(harness.Case):
     def test_what_draws_it(self):
         info, edge = self.info, np.cbrt(128 / (0.5 * 0.25 * 0.3))
         np.testing.assert_allclose(self.box, [edge, 0.25 * edge, 0.3 * edge], rtol=1e-14)
-        self.assertEqual((info.dimensions, info.aspect_z, info.container), (3, 0.3, 'rectangle'))
+        self.assertEqual((info.particles, info.dimension), ('spheres', 3))
+        self.assertEqual((info.aspect_z, info.container), (0.3, 'rectangle'))
         self.assertEqual(list(self.boundaries()), ['periodic', 'reflecting', 'periodic'])
         self.assertEqual((info.zero_exponents, info.vectors), (6, 6 * 128))
         steps = {nodes(s) for s in self.messages['steps'][-1].steps if s.kind == Mode.LP}
@@ -249,8 +250,7 @@ class Spheres(harness.Case):
 
 class Scenes(harness.Case):
     def test_each_is_valid_and_says_nothing_twice(self):
-        program = harness.executable(dict(dimensions=3))
-        usual = yaml.safe_load(subprocess.check_output([program, '--parameters'], text=True))
+        program, usual = harness.executable(), harness.defaults()
         files = sorted(name for name in os.listdir(SCENES) if name.startswith('spheres'))
         self.assertEqual(len(files), 3)
         for name in files:
@@ -258,41 +258,29 @@ class Scenes(harness.Case):
             with open(path) as file:
                 scene = yaml.safe_load(file)
             self.assertEqual(scene.pop('scene') + '.yaml', name)
-            self.assertEqual(scene.pop('dimensions'), 3)
+            self.assertEqual(scene.pop('particles'), 'spheres')
             self.assertEqual({key for key in scene if scene[key] == usual[key]}, set())
             said = subprocess.check_output([program, '--check', path, 'disks:=108'], text=True)
             self.assertIn('is valid: 108 spheres in ', said)
             self.assertRegex(said, r'(?m)^waves +(T,)?LP\(1,0,0\)')
 
 
-class Refused(harness.Case):
-    def test_checkpoint_of_the_other(self):
-        others = {2: 'dimensions = 3: must be 2: disks', 3: 'dimensions = 2: must be 3: spheres'}
-        for dimensions, said in others.items():
+class Kept(harness.Case):
+    def test_a_checkpoint_says_what_moves(self):
+        """Alone; nobody can say otherwise."""
+        for particles, other in ('disks', 'spheres'), ('spheres', 'disks'):
             path = os.path.join(self.new_folder(), 'kept')
-            scene = dict(dimensions=5 - dimensions, disks=20, aspect=1.0, density=0.3)
+            scene = dict(particles=particles, disks=20, aspect=1.0, density=0.3)
             scene.update(exponents='none', equilibration=1.0, duration=2.0, checkpoint=path)
-            self.assertEqual(harness.start(dict(scene, observables=['state'])).wait(), 0)
-            program = harness.executable(dict(dimensions=dimensions))
-            node = harness.start(dict(resume=path), command=[program])
-            self.addCleanup(node.stop)
-            self.assertNotEqual(node.wait(), 0)
-            self.assertIn(said, node.text())
+            self.ends(harness.start(dict(scene, observables=['state'])), 0, f'20 {particles} in ')
+            self.ends(harness.start(dict(resume=path, duration=3.0)), 0, f'20 {particles} in ')
+            said = f'particles = {other}: must be {particles}'
+            self.ends(harness.start(dict(resume=path, particles=other)), 2, said)
 
-    def test_by_name(self):
-        for dimensions, given, word in (
-            (2, dict(dimensions=3), 'dimensions = 3: must be 2: disks; hdlyap_node_3d'),
-            (3, dict(dimensions=2), 'dimensions = 2: must be 3: spheres; hdlyap_node'),
-            (2, dict(aspect_z=0.5), 'aspect_z = 0.5: must not be given with dimensions = 2'),
-            (3, dict(container='circle'), 'container = circle: must be rectangle (a box)'),
-            (3, dict(density=1.5), 'density = 1.5: must be from 1e-6 to sqrt(2)'),
-            (3, dict(observables=['orbits']), '= [orbits]: must be a list out of spectrum'),
-        ):
-            program = harness.executable(dict(dimensions=dimensions))
-            node = harness.start(given, command=[program])
-            self.addCleanup(node.stop)
-            self.assertEqual(node.wait(), 2, node.text())
-            self.assertIn(word, node.text())
+    def ends(self, node, status, said):
+        self.addCleanup(node.stop)
+        self.assertEqual(node.wait(), status, node.text())
+        self.assertIn(said, node.text())
 
 
 if __name__ == '__main__':

@@ -255,16 +255,28 @@ hd_status hd_checkpoint_writable(const char *path, char *message, size_t size)
 
 /* ---- reading ------------------------------------------------------------------------------- */
 
+/** As the user says it. */
+static void write_value(char text[32], const hd_parameter *row, const hd_scene_def *def)
+{
+    const double value = hd_parameter_value(row, def);
+    if (row->kind == HD_PARAMETER_SEED)
+        snprintf(text, 32, "%llu", (unsigned long long)def->seed);
+    else if (hd_parameter_is_word(row, value))
+        snprintf(text, 32, "%s", hd_parameter_word_of(row, (int)value));
+    else
+        snprintf(text, 32, "%.15g", value);
+}
+
 static hd_status refuse_other(const hd_parameter *row, const hd_scene_def *asked,
                               const hd_scene_def *kept, char *message, size_t size)
 {
-    if (row->kind == HD_PARAMETER_SEED)
-        return hd_refuse(message, size, "seed = %llu: must be %llu, as in the checkpoint",
-                         (unsigned long long)asked->seed, (unsigned long long)kept->seed);
-    return hd_refuse(message, size, "%s = %.15g: must be %.15g, as in the checkpoint",
+    char value[32], before[32];
+    write_value(value, row, asked);
+    write_value(before, row, kept);
+    return hd_refuse(message, size, "%s = %s: must be %s, as in the checkpoint",
                      row->kind == HD_PARAMETER_SET ? "observables (as a set of HD_OBSERVE_*)"
                                                    : row->name,
-                     hd_parameter_value(row, asked), hd_parameter_value(row, kept));
+                     value, before);
 }
 
 /** What cannot change within a run. */

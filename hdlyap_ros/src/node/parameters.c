@@ -4,7 +4,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "common/dimension.h"
 #include "settings.h"
 #include "topics/topic.h"
 
@@ -12,7 +11,7 @@ static const parameter name_row = {
     .name = "scene",
     .kind = NAME,
     .offset = offsetof(settings, scene),
-    .usual = USUAL_SCENE,
+    .usual = "paper_periodic", /* with all defaults */
     .allowed = "a line that is not empty",
     .unit = "",
     .may_differ = true,
@@ -238,10 +237,15 @@ static size_t slips(const char *name, const char *other)
 
 void parameters_unknown(char text[PARAMETER_UNKNOWN], const char *name)
 {
+    static const struct {
+        const char *name, *now;
+    } before[] = {{"target_std_error", "it is written target: smallest 0.01 now"},
+                  {"dimensions", "it is called particles now: disks or spheres"}};
     const char *meant = NULL;
     size_t fewest = 3;
-    if (strcmp(name, "target_std_error") == 0) { /* of before */
-        snprintf(text, PARAMETER_UNKNOWN, "it is written target: smallest 0.01 now");
+    for (size_t k = 0; k < sizeof before / sizeof *before; k++) {
+        if (strcmp(name, before[k].name) != 0) continue;
+        snprintf(text, PARAMETER_UNKNOWN, "%s", before[k].now);
         return;
     }
     for (int k = 0; k < parameters_count(); k++) {

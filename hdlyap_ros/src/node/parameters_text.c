@@ -5,14 +5,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "common/dimension.h"
 #include "hdlyap/hdlyap.h"
 #include "parameters.h"
 
 enum { LINE_WIDTH = 100 };
 
 static const char *const head =
-    "Every parameter of " NODE_NAME ", with its default. Reduced units: disk mass 1, disk diameter "
+    "Every parameter of hdlyap_node, with its default. Reduced units: disk mass 1, disk diameter "
     "sigma = 1, kinetic energy per disk 1; the time unit follows from these. YAML reads 1e-8 as a "
     "string, which is taken too.";
 
@@ -80,20 +79,19 @@ static void write_allowed(char *out, size_t size, const parameter *p)
 int parameters_print_help(void)
 {
     printf(
-        "Hard " DISKS ", their Lyapunov exponents and modes, as ROS topics.\n\n"
-        "  " NODE_NAME " [_parameter:=value ...] [__name:=NAME]\n"
+        "Hard disks and spheres, their Lyapunov exponents and modes, as ROS topics.\n\n"
+        "  hdlyap_node [_parameter:=value ...] [__name:=NAME]\n"
         "                         runs the scene that its private parameters say; needs a master\n"
-        "  " NODE_NAME " --check scene.yaml [parameter:=value ...]\n"
+        "  hdlyap_node --check scene.yaml [parameter:=value ...]\n"
         "                         says, without a run, whether it is valid, what memory and time "
         "it\n"
         "                         takes, how large its bag becomes and which waves are looked for\n"
-        "  " NODE_NAME " --errors scene.yaml [parameter:=value ...]\n"
+        "  hdlyap_node --errors scene.yaml [parameter:=value ...]\n"
         "                         prints the averaged time from which it states errors\n"
-        "  " NODE_NAME " --parameters\n"
+        "  hdlyap_node --parameters\n"
         "                         prints a scene file with all parameters and their defaults\n"
-        "  " NODE_NAME " --version\n\n"
-        "roslaunch hdlyap run.launch scene:=" QUICK_SCENE
-        " runs a scene file with a master of its own.\n"
+        "  hdlyap_node --version\n\n"
+        "roslaunch hdlyap run.launch scene:=quick runs a scene file with a master of its own.\n"
         "Exit status: 0 finished or stopped, 2 refused, 3 a numerical fault or no memory, 4 a "
         "file fault.\n");
     return fflush(stdout) == 0 ? 0 : 1;

@@ -199,7 +199,8 @@ static void write_texts(settings *out)
     snprintf(out->seed, sizeof out->seed, "%" PRIu64, out->def.seed);
     snprintf(out->exponents, sizeof out->exponents, "%d", out->def.exponents);
     if (word) snprintf(out->exponents, sizeof out->exponents, "%s", word);
-    out->particles = hd_scene_dimension(&out->def) == 2 ? "disks" : "spheres";
+    out->particles = hd_parameter_word_of(parameters_named("particles").row,
+                                          (int)out->def.particles);
 }
 
 bool settings_resume(const char **path, const hdr_params *params, char *message, size_t size)

@@ -60,8 +60,9 @@ static void fill_scene(hdr_run_info *info, const settings *set)
     const bool has_z = hd_scene_dimension(def) == 3;
     double box[HD_DIMENSION_MAX];
     hd_scene_box(def, box);
-    info->dimensions = (uint32_t)hd_scene_dimension(def);
     info->scene = set->scene;
+    info->particles = set->particles;
+    info->dimension = (uint32_t)hd_scene_dimension(def);
     info->box_x = box[0];
     info->box_y = box[1];
     info->box_z = has_z ? box[2] : 0.0;

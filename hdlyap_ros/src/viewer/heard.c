@@ -52,7 +52,7 @@ static void begin_box(heard *h, const hdr_run_info *info)
 {
     h->box[0] = info->box_x;
     h->box[1] = info->box_y;
-    h->box[2] = info->dimensions == 3 ? info->box_z : 0.0;
+    h->box[2] = info->dimension == 3 ? info->box_z : 0.0;
     h->periodic[0] = strcmp(info->boundary_x, "periodic") == 0;
     h->periodic[1] = strcmp(info->boundary_y, "periodic") == 0;
     h->periodic[2] = heard_has_spheres(h) && strcmp(info->boundary_z, "periodic") == 0;

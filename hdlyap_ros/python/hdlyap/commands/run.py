@@ -17,7 +17,7 @@ import time
 import rospkg
 
 from hdlyap import signals
-from hdlyap.runs import arguments, ranks, run, scene, tree
+from hdlyap.runs import arguments, ranks, run, tree
 from hdlyap.runs.scene import Refused
 
 PATIENCE = 60.0  # seconds that all may take to end, the last checkpoint included
@@ -36,33 +36,24 @@ def stamp(path):
         return found.st_ino, found.st_mtime_ns
 
 
-def asked(args):
-    """Dimensions: those of an argument, else of the scene. Refused if anything else is wrong."""
-    launch = os.path.join(rospkg.RosPack().get_path('hdlyap'), 'launch')
-    arguments.check([f'scene:={args.scene}', *args.assigned], launch, os.getcwd())
-    said = [word.partition(':=')[2] for word in args.assigned if word.startswith('dimensions:=')]
-    if said:
-        return run.dimensions({'dimensions': scene.typed(said[-1])})
-    return run.dimensions(scene.scene_file(args.scene, launch, os.getcwd()))
-
-
 def main(args):
+    launch = os.path.join(rospkg.RosPack().get_path('hdlyap'), 'launch')
     try:
-        dimensions = asked(args)
+        arguments.check([f'scene:={args.scene}', *args.assigned], launch, os.getcwd())
     except Refused as refused:
         if ranks.number() == 0:
             print(f'hdlyap run: {refused}', file=sys.stderr)
         return 2
     if ranks.number() > 0:
-        ranks.become_node(dimensions)
+        ranks.become_node()
     bag = os.path.abspath(args.out if args.out.endswith('.bag') else args.out + '.bag')
     before = stamp(bag)  # a run that is refused leaves it
     command = ['roslaunch', '-p', str(ranks.free_port()), 'hdlyap', 'run.launch']
     command += [f'scene:={args.scene}', 'record:=true', f'bag:={bag}', *args.assigned]
     os.environ['ROS_HOSTNAME'] = 'localhost'  # nobody looks at it from outside
     with signals.held() as asked_to_end:
-        launch = tree.Tree(command, output=None)
-        while not launch.is_gone() and not asked_to_end:
+        started = tree.Tree(command, output=None)
+        while not started.is_gone() and not asked_to_end:
             time.sleep(tree.POLL)
-        tree.end([launch], PATIENCE)
+        tree.end([started], PATIENCE)
     return 0 if stamp(bag) != before and run.complete(bag) else 1

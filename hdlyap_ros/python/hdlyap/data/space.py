@@ -6,7 +6,7 @@ import numpy as np
 
 def is_solid(info):
     """Whether it is of spheres; None is of disks."""
-    return info is not None and info.dimensions == 3
+    return info is not None and info.dimension == 3
 
 
 def axes(info):

@@ -8,8 +8,8 @@ from hdlyap.data import reader, space
 from hdlyap.data.waves import is_round
 
 # of run_info, what is no parameter: what follows from them, and what the run ran on
-RESULTS = ('header', 'run_id', 'version', 'box_x', 'box_y', 'box_z', 'vectors', 'zero_exponents')
-RESULTS += ('wave_nx', 'wave_ny', 'wave_nz', 'resumed_time', 'ranks')
+RESULTS = ('header', 'run_id', 'version', 'dimension', 'box_x', 'box_y', 'box_z', 'vectors')
+RESULTS += ('zero_exponents', 'wave_nx', 'wave_ny', 'wave_nz', 'resumed_time', 'ranks')
 RESULTS += ('blas_threads', 'blas_library', 'blas_kernel', 'blas_threading')
 OF_SPHERES = ('aspect_z', 'boundary_z')  # which disks have not
 OF_A_BOX = ('aspect', 'boundary_x', 'boundary_y')  # which a circle has not

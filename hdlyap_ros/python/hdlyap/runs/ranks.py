@@ -17,15 +17,14 @@ def number():
     return 0
 
 
-def node(dimensions):
-    """Path of the program, of disks or of spheres."""
-    name = 'hdlyap_node_3d' if dimensions == 3 else 'hdlyap_node'
-    return roslib.packages.find_node('hdlyap', name)[0]
+def node():
+    """Path of the program."""
+    return roslib.packages.find_node('hdlyap', 'hdlyap_node')[0]
 
 
-def become_node(dimensions):
+def become_node():
     """Does not return."""
-    program = node(dimensions)
+    program = node()
     os.execv(program, [program])
 
 

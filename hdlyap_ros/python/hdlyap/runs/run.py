@@ -79,7 +79,7 @@ class Planned:
     def errors_after(self, folder):
         """Averaged time from which it states errors, as the node says of its scene file there; None
         if the node refuses it, which it says when it runs."""
-        asked = [ranks.node(dimensions(self.parameters)), '--errors', self.scene_file(folder)]
+        asked = [ranks.node(), '--errors', self.scene_file(folder)]
         said = subprocess.run(asked, capture_output=True, text=True)
         return float(said.stdout) if said.returncode == 0 else None
 
@@ -119,7 +119,7 @@ def _same(one, other):
 
 
 def _check(parameters):
-    known = usual(dimensions(parameters))
+    known = usual()
     for name, value in parameters.items():
         if name not in known:
             raise Refused(f'{name} = {value}: must be a parameter of hdlyap_node')
@@ -139,22 +139,20 @@ def _check(parameters):
 def _estimate(parameters):
     time = sum(parameters[name] for name in TIMES if is_number(parameters[name]))
     disks = parameters['disks'] if is_number(parameters['disks']) else DISKS  # it is refused
-    return BEGIN + STEP * time * (dimensions(parameters) / 2 * disks / DISKS) ** 2
+    coordinates = 3 if is_solid(parameters) else 2
+    return BEGIN + STEP * time * (coordinates / 2 * disks / DISKS) ** 2
 
 
 @functools.lru_cache(maxsize=None)
-def usual(dimensions=2):
-    """The default of every parameter, as the node of disks or of spheres says."""
-    asked = [ranks.node(dimensions), '--parameters']
+def usual():
+    """The default of every parameter, as the node says."""
+    asked = [ranks.node(), '--parameters']
     return yaml.safe_load(subprocess.run(asked, check=True, stdout=subprocess.PIPE).stdout)
 
 
-def dimensions(parameters):
-    """Of a scene; Refused if there are no such spaces."""
-    value = parameters.get('dimensions', 2)
-    if value not in (2, 3) or isinstance(value, bool):
-        raise Refused(f'dimensions = {value}: must be 2 or 3')
-    return int(value)
+def is_solid(parameters):
+    """Of spheres."""
+    return parameters.get('particles') == 'spheres'
 
 
 def is_number(value):

@@ -1,5 +1,5 @@
-"""A scene and what is given besides -> the parameters of hdlyap_node or hdlyap_node_3d, or the line
-that refuses them."""
+"""A scene and what is given besides -> the parameters of hdlyap_node, or the line that refuses
+them."""
 
 import os
 import re

@@ -19,9 +19,9 @@ PERIODIC, REFLECTING = WALLS = 'periodic', 'reflecting'
 class Swept(namedtuple('Swept', 'argument name parameters wanted')):
     """Argument, name of one value, the parameters that it says, what is allowed."""
 
-    def of(self, dimensions):
+    def of(self, parameters):
         """Of spheres a boundary has three."""
-        if self.argument != 'boundaries' or dimensions == 2:
+        if self.argument != 'boundaries' or not run.is_solid(parameters):
             return self
         return self._replace(parameters=(*self.parameters, 'boundary_z'), wanted=OF_SPHERES)
 
@@ -82,8 +82,7 @@ def runs(given, launch, cwd):
         names = ', '.join(swept.argument for swept in SWEPT)
         raise Refused(f'nothing to sweep over: must be values of at least one of {names}')
     base = scene.parameters(given, launch, cwd)
-    dimensions = run.dimensions(base)
-    chosen = {swept.of(dimensions): text for swept, text in texts.items() if text}
+    chosen = {swept.of(base): text for swept, text in texts.items() if text}
     chosen = {swept: swept.values(text) for swept, text in chosen.items()}
     if isinstance(base.get('observables'), str):
         base['observables'] = yaml.safe_load(base['observables'])
@@ -91,7 +90,7 @@ def runs(given, launch, cwd):
         twice = set(swept.parameters) & set(scene.mapping('params', given['params']))
         if twice:
             raise Refused(f'params = {given["params"]}: must be without {min(twice)}: it is swept')
-    base = {**run.usual(dimensions), **base}
+    base = {**run.usual(), **base}
     return [_run(base, chosen) for chosen in itertools.product(*chosen.values())]
 
 
