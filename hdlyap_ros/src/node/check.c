@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "hdlyap/hdlyap.h"
+#include "parameters.h"
 #include "settings.h"
 #include "topics/moment.h"
 #include "topics/topic.h"
@@ -66,7 +67,7 @@ static void print_memory(const settings *set, hd_room room)
     const double needed = hd_room_needed(&set->def, threads, 1);
     printf("memory    %.3g GB beside 0.1 GB of libraries; there are %.3g GB (%s)\n", 1e-9 * needed,
            1e-9 * room.bytes, room.limit);
-    if (set->def.observe & HD_OBSERVE_COVARIANT)
+    if (set->observables & topics_that_are(TOPIC_OF_WINDOWS))
         printf("          windows of covariant vectors: up to %.3g GB more (covariant_memory)\n",
                set->def.covariant_memory);
 }
@@ -74,10 +75,12 @@ static void print_memory(const settings *set, hd_room room)
 static void print_speed(const settings *set, const hd_estimate *t)
 {
     const hd_scene_def *def = &set->def;
+    char left_out[PARAMETER_TEXT];
     printf("speed     %.3g s per time unit, by a trial of a second", t->seconds);
     if (t->disks < def->disks) printf(" of %d %s, and the cube of N", t->disks, set->particles);
     if (!isnan(t->interval)) printf("; interval %.3g", t->interval);
-    if (def->observe & HD_OBSERVE_COVARIANT) printf("; without covariant vectors");
+    topic_names(left_out, sizeof left_out, set->observables & topics_of_stages(t->untried));
+    if (*left_out) printf("; without %s", left_out);
     printf("\n");
     print_seconds("          ", t->before * t->seconds);
     printf(" before the averaging (%.4g time units)", t->before);
@@ -237,7 +240,7 @@ static void print_all(const settings *set, const hd_estimate *t, hd_room room)
     if (!hd_scene_counts(def).vectors) return;
     if (*set->warning)
         printf("warning   %s\n", set->warning);
-    else if (def->observe & STAGES_OF_MODES)
+    else if (def->observe & HD_OBSERVE_WAVES)
         print_waves(set);
     print_errors(set, t);
     print_target(set, t);

@@ -255,7 +255,7 @@ static void warn_of_steps(settings *set)
 {
     const hd_scene_def *def = &set->def;
     const int least = hd_steps_exponents_least(def), vectors = hd_scene_counts(def).vectors;
-    const unsigned empty = set->observables & topics_of_stages(STAGES_OF_STEPS);
+    const unsigned empty = set->observables & topics_that_are(TOPIC_OF_STEPS);
     char names[PARAMETER_TEXT];
     if (!empty || vectors == 0 || vectors >= least) return;
     topic_names(names, sizeof names, empty);

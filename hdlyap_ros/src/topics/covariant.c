@@ -152,7 +152,8 @@ hd_status topic_publish_covariant(const moment *now)
     covariant_said *last = &now->kept->covariant;
     arrays a = {0};
     const hd_covariant_results seen = hd_covariant_read(hd_run_parts(now->run).covariant);
-    const long windows = seen.windows, before = last->windows;
+    const long windows = seen.windows, before = last->known ? last->windows : windows;
+    last->known = true;
     last->windows = windows;
     warn(last, now->run, &seen);
     /* a reset takes them back to none */

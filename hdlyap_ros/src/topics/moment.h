@@ -21,8 +21,9 @@ typedef struct buffers {
     bool known;    /**< they are those of now */
 } buffers;
 
-/** What covariant has said last. */
+/** What covariant has said last. Windows of before, from a checkpoint, are not published again. */
 typedef struct covariant_said {
+    bool known; /**< since the first look */
     long windows, lost;
     bool warned; /**< of a transient that is too short */
 } covariant_said;

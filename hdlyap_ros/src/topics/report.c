@@ -79,9 +79,6 @@ hdr_status report_create(report **out, hdr_node *ros, const settings *set, const
     report *rep = *out = calloc(1, sizeof *rep);
     if (!rep) return HDR_NO_MEMORY;
     rep->set = set;
-    /* windows of before, from a checkpoint, are not published again */
-    if (hd_run_parts(run).covariant)
-        rep->kept.covariant.windows = hd_covariant_read(hd_run_parts(run).covariant).windows;
     const hdr_status status = advertise(rep, ros, run, asked);
     if (status == HDR_OK) return HDR_OK;
     report_free(rep);
@@ -127,11 +124,10 @@ void report_demand_slow(report *rep, hd_run *run)
 static unsigned topics_due(const report *rep, const hd_run *run)
 {
     const hd_modes *modes = hd_run_parts(run).modes;
-    const unsigned of_modes = topics_of_stages(STAGES_OF_MODES);
-    const unsigned measured = of_modes | topics_of_stages(HD_OBSERVE_LOCALIZATION);
+    const unsigned measured = topics_of_stages(HD_OBSERVE_ALL) & topics_that_are(TOPIC_OF_VECTORS);
     unsigned set = publishers_subscribed(&rep->out) & topics_that_are(TOPIC_OBSERVABLE);
     set &= ~topics_that_are(TOPIC_OF_WINDOWS);
-    if (!modes || hd_modes_samples(modes) == 0) set &= ~of_modes;
+    if (!modes || hd_modes_samples(modes) == 0) set &= ~topics_that_are(TOPIC_OF_STEPS);
     return set & (rep->demand | ~measured);
 }
 

@@ -13,7 +13,8 @@ enum {
     TOPIC_ASIDE = 4, /**< for who looks on: its last message alone, neither awaited nor recorded */
     TOPIC_LATCHED = 8,
     TOPIC_OF_VECTORS = 16, /**< not without exponents */
-    TOPIC_OF_WINDOWS = 32  /**< published when a window of covariant vectors has ended */
+    TOPIC_OF_WINDOWS = 32, /**< published when a window of covariant vectors has ended */
+    TOPIC_OF_STEPS = 64 /**< tells nothing unless steps are carried, nor before modes are known */
 };
 
 typedef enum topic {
@@ -23,14 +24,8 @@ typedef enum topic {
     TOPICS
 } topic;
 
-enum {
-    /** In a set of awaited topics: whatever the others are */
-    ALL_PUBLISHED = 1u << TOPICS,
-    /** Stages of the modes */
-    STAGES_OF_MODES = HD_OBSERVE_WAVES & ~HD_OBSERVE_COVARIANT,
-    /** Those that tell nothing unless steps are carried: structure is of any vector. */
-    STAGES_OF_STEPS = STAGES_OF_MODES & ~HD_OBSERVE_STRUCTURE
-};
+/** In a set of awaited topics: whatever the others are */
+enum { ALL_PUBLISHED = 1u << TOPICS };
 
 /** As in `observables` and `wait_for_subscribers`; the topic is "~" and this. */
 const char *topic_name(topic t);
