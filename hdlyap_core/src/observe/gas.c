@@ -165,7 +165,27 @@ static void gas_archive(void *self, hd_archive *archive, const hd_trajectory *no
     hd_blocks_archive(&gas->blocks, archive);
 }
 
-const hd_observable hd_gas_row = {.bytes = gas_bytes,
+static hd_stated read_collision_rate(const hd_parts *parts, const hd_aim *goal)
+{
+    (void)goal;
+    const hd_gas_means means = hd_gas_read(parts->gas);
+    return (hd_stated){means.collision_rate, means.collision_rate_error, 0.0};
+}
+
+static hd_stated read_pressure(const hd_parts *parts, const hd_aim *goal)
+{
+    (void)goal;
+    const hd_gas_means means = hd_gas_read(parts->gas);
+    return (hd_stated){means.pressure, means.pressure_error, 0.0};
+}
+
+static const hd_quantity each[] = {{.name = "collision_rate", .read = read_collision_rate},
+                                   {.name = "pressure", .read = read_pressure},
+                                   {.name = NULL}};
+static const hd_quantities quantities = {"gas", each};
+
+const hd_observable hd_gas_row = {.quantities = &quantities,
+                                  .bytes = gas_bytes,
                                   .create = gas_create,
                                   .free = gas_free,
                                   .clear = gas_clear,

@@ -4,6 +4,7 @@
 #include "modes/modes.h"
 #include "modes/steps.h"
 #include "observe/observable.h"
+#include "observe/step_quantities.h"
 #include "scene/scene.h"
 
 /* ---- modes --------------------------------------------------------------------------------- */
@@ -115,6 +116,7 @@ static void steps_archive(void *self, hd_archive *archive, const hd_trajectory *
 }
 
 const hd_observable hd_steps_row = {.with = HD_OBSERVE_MODES,
+                                    .quantities = &hd_step_quantities,
                                     .needs = HD_NEEDS_FRAME | HD_NEEDS_VECTORS,
                                     .bytes = steps_bytes,
                                     .extend = steps_extend,

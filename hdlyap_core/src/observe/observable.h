@@ -10,6 +10,7 @@
 #include "hdlyap/frame.h"
 #include "hdlyap/spectrum.h"
 #include "hdlyap/trajectory.h"
+#include "observe/quantity.h"
 #include "tangent/frame.h"
 #include "tangent/ortho.h"
 
@@ -68,8 +69,9 @@ typedef struct hd_leg {
 
 /** Functions may be NULL: then there is nothing to do. `self` is what `create` made. */
 typedef struct hd_observable {
-    unsigned with;  /**< set of HD_OBSERVE_* that come with it */
-    unsigned needs; /**< set of HD_NEEDS_* */
+    unsigned with;                   /**< set of HD_OBSERVE_* that come with it */
+    unsigned needs;                  /**< set of HD_NEEDS_* */
+    const hd_quantities *quantities; /**< by which a run can be ended; NULL: none */
     /** That it will take on each of so many ranks; on the safe side by some percent. */
     double (*bytes)(const hd_scene_def *scene, int ranks);
     /** Adds how many there are of what it tells; `self` is NULL where a run has none of it. */

@@ -2,6 +2,7 @@
 #include "modes/archived.h"
 #include "modes/phases.h"
 #include "observe/observable.h"
+#include "observe/step_quantities.h"
 
 static double lp_bytes(const hd_scene_def *scene, int ranks)
 {
@@ -66,12 +67,13 @@ static void phases_archive(void *self, hd_archive *archive, const hd_trajectory 
     hd_phases_archive(self, archive, hd_trajectory_time(now));
 }
 
-#define ROW(its_bytes, its_extend, its_create)                                                     \
+#define ROW(its_quantities, its_bytes, its_extend, its_create)                                     \
     {                                                                                              \
-        .with = HD_OBSERVE_STEPS, .needs = HD_NEEDS_FRAME | HD_NEEDS_VECTORS | HD_NEEDS_CLOSE,     \
-        .bytes = (its_bytes), .extend = (its_extend), .create = (its_create), .free = phases_free, \
+        .with = HD_OBSERVE_STEPS, .quantities = (its_quantities),                                  \
+        .needs = HD_NEEDS_FRAME | HD_NEEDS_VECTORS | HD_NEEDS_CLOSE, .bytes = (its_bytes),         \
+        .extend = (its_extend), .create = (its_create), .free = phases_free,                       \
         .clear = phases_clear, .resume = phases_resume, .add = phases_add,                         \
         .sampling = phases_sampling, .archive = phases_archive                                     \
     }
-const hd_observable hd_phases_row = ROW(lp_bytes, lp_extend, lp_create);
-const hd_observable hd_t_phases_row = ROW(t_bytes, t_extend, t_create);
+const hd_observable hd_phases_row = ROW(&hd_phase_quantities, lp_bytes, lp_extend, lp_create);
+const hd_observable hd_t_phases_row = ROW(NULL, t_bytes, t_extend, t_create);

@@ -312,8 +312,7 @@ static hd_status report(hd_run *run)
     hd_agenda_pass_report(&run->agenda, reached);
     HD_TRY(hd_ranks_compare(run->communicator, run->advance.trajectory));
     if (is_averaging(run)) hd_cages_look(&run->cages, run->advance.trajectory, &run->scene);
-    if (is_framed(run) && needs_state(run))
-        HD_TRY(is_measured(run) ? gather(run) : end_early(run));
+    if (is_framed(run) && needs_state(run)) HD_TRY(is_measured(run) ? gather(run) : end_early(run));
     if (!is_needed(run, HD_NEEDS_REPORTS)) return HD_OK;
     const double start = hd_clock_now();
     hd_view view = {.trajectory = run->advance.trajectory};

@@ -8,234 +8,82 @@
 #include <string.h>
 
 #include "base/check.h"
-#include "base/memory.h"
-#include "hdlyap/wave.h"
-#include "modes/steps.h"
 #include "observe/observables.h"
 #include "run/run_state.h"
 #include "scene/scene.h"
 
-enum { WHY = 160, GOALS_MOST = 16 };
+enum { GOALS_MOST = 16 };
 
-/** One of a target. */
-typedef struct aim {
-    const struct quantity *quantity;
-    int number[HD_DIMENSION_MAX]; /**< nodes of a step, or an index */
-    int count;                    /**< of numbers */
-    double wanted;                /**< standard error, or if relative its part of the value */
-    bool relative;
-} aim;
-
-/** All of it; count 0: none. */
+/** All of a target; count 0: none. */
 typedef struct aims {
     int count;
-    aim goal[GOALS_MOST];
+    hd_aim goal[GOALS_MOST];
 } aims;
 
-/** Error negative while not known. */
-typedef struct stated {
-    double value, error, open;
-} stated;
+/* ---- of the exponents alone ------------------------------------------------------------------ */
 
-typedef struct quantity {
-    const char *name;
-    enum { NOTHING, INDEX, NODES } of; /**< whose numbers stand behind the name */
-    hd_mode_kind kind;
-    unsigned needs;   /**< HD_OBSERVE_*, or 0: exponents alone */
-    const char *from; /**< the observable that has it */
-    /** False if such a scene never knows it, with the reason; NULL: no more is to be asked. */
-    bool (*possible)(const hd_scene_def *def, const aim *goal, char why[WHY]);
-    stated (*read)(const hd_run *run, const aim *goal);
-} quantity;
-
-static const stated UNKNOWN = {.error = -1.0};
-
-/* ---- what a scene must have ------------------------------------------------------------------ */
-
-static bool smallest_possible(const hd_scene_def *def, const aim *goal, char why[WHY])
+static bool smallest_possible(const hd_scene_def *def, const hd_aim *goal, char why[HD_WHY])
 {
     const bool any = hd_scene_positive_exponents(def) > 0;
-    snprintf(why, WHY, any ? "is an absolute error, as each has its own" : "there are none");
+    snprintf(why, HD_WHY, any ? "is an absolute error, as each has its own" : "there are none");
     return any && !goal->relative;
 }
 
-static bool index_possible(const hd_scene_def *def, const aim *goal, char why[WHY])
+static bool index_possible(const hd_scene_def *def, const hd_aim *goal, char why[HD_WHY])
 {
     const int index = goal->number[0], vectors = hd_scene_vectors(def);
     const int positive = hd_scene_positive_exponents(def);
     const bool carried = index >= 1 && index <= vectors;
     const bool zero = index > positive && index <= positive + hd_scene_zero_exponents(def);
-    if (!carried) snprintf(why, WHY, "indices are from 1 to %d, the exponents computed", vectors);
-    if (carried && zero) snprintf(why, WHY, "it is a zero mode");
+    if (!carried)
+        snprintf(why, HD_WHY, "indices are from 1 to %d, the exponents computed", vectors);
+    if (carried && zero) snprintf(why, HD_WHY, "it is a zero mode");
     return carried && !zero;
 }
 
-static const hd_modulations *fields_of(const hd_wave *wave, hd_mode_kind kind)
+static hd_stated exponent_at(const hd_spectrum *s, int col)
 {
-    return kind == HD_MODE_T ? &wave->transverse : &wave->pairs;
+    return (hd_stated){hd_spectrum_exponent(s, col), hd_spectrum_std_error(s, col), 0.0};
 }
 
-/** Without memory it cannot be said, and is let pass. */
-static bool step_possible(const hd_scene_def *def, const aim *goal, char why[WHY])
-{
-    const int count = hd_waves(def, NULL, 0);
-    hd_wave *wave = hd_memory_alloc((size_t)count + 1, sizeof *wave);
-    bool found = !wave;
-    if (wave) hd_waves(def, wave, count);
-    for (int k = 0; wave && k < count; k++)
-        found |= memcmp(wave[k].n, goal->number, sizeof goal->number) == 0 &&
-                 fields_of(&wave[k], goal->quantity->kind)->count > 0;
-    hd_memory_free(wave);
-    snprintf(why, WHY, "it is not among the waves of the scene, which --check lists");
-    return found;
-}
-
-static bool slope_possible(const hd_scene_def *def, const aim *goal, char why[WHY])
-{
-    const hd_mode_kind kind = goal->quantity->kind;
-    const double open = hd_relation_of(def, kind).box_error;
-    if (!(hd_relation_open(def, kind) < INFINITY)) {
-        snprintf(why, WHY, "there are no waves of its kind, or they follow no relation");
-        return false;
-    }
-    snprintf(why, WHY, "walls and narrow edges leave %.2g %% open, however long it is averaged",
-             100.0 * open);
-    return !goal->relative || goal->wanted > open;
-}
-
-/* ---- what a run states ----------------------------------------------------------------------- */
-
-static stated read_smallest(const hd_run *run, const aim *goal)
+static hd_stated read_lambda_max(const hd_parts *parts, const hd_aim *goal)
 {
     (void)goal;
-    const double error = hd_carrier_smallest_error(&run->carrier);
-    return (stated){.error = error < INFINITY ? error : -1.0};
+    return exponent_at(parts->spectrum, 0);
 }
 
-static stated exponent_at(const hd_run *run, int col)
+static hd_stated read_index(const hd_parts *parts, const hd_aim *goal)
 {
-    const hd_spectrum *s = run->carrier.spectrum;
-    return (stated){hd_spectrum_exponent(s, col), hd_spectrum_std_error(s, col), 0.0};
+    return exponent_at(parts->spectrum, goal->number[0] - 1);
 }
 
-static stated read_lambda_max(const hd_run *run, const aim *goal)
+static hd_stated read_ks_entropy(const hd_parts *parts, const hd_aim *goal)
 {
     (void)goal;
-    return exponent_at(run, 0);
+    const hd_spectrum_sums sums = hd_spectrum_sum_up(parts->spectrum);
+    return (hd_stated){sums.ks_entropy, sums.ks_entropy_error, 0.0};
 }
 
-static stated read_index(const hd_run *run, const aim *goal)
-{
-    return exponent_at(run, goal->number[0] - 1);
-}
-
-static stated read_ks_entropy(const hd_run *run, const aim *goal)
-{
-    (void)goal;
-    const hd_spectrum_sums sums = hd_spectrum_sum_up(run->carrier.spectrum);
-    return (stated){sums.ks_entropy, sums.ks_entropy_error, 0.0};
-}
-
-/** -1: not resolved. */
-static int step_of(const hd_run *run, const aim *goal)
-{
-    const hd_steps *steps = hd_run_parts(run).steps;
-    for (int k = 0; k < hd_steps_count(steps); k++) {
-        const hd_step *step = hd_steps_step(steps, k);
-        if (step->kind == goal->quantity->kind && !step->conjugate && step->resolved &&
-            memcmp(step->wave.n, goal->number, sizeof goal->number) == 0)
-            return k;
-    }
-    return -1;
-}
-
-static stated read_step(const hd_run *run, const aim *goal)
-{
-    const int k = step_of(run, goal);
-    if (k < 0) return UNKNOWN;
-    const hd_step *step = hd_steps_step(hd_run_parts(run).steps, k);
-    return (stated){step->exponent, step->std_error, 0.0};
-}
-
-static stated read_omega(const hd_run *run, const aim *goal)
-{
-    stated out = {.open = 0.0};
-    const int k = step_of(run, goal);
-    const bool known = k >= 0 &&
-                       hd_phases_rate(hd_run_parts(run).phases, k, &out.value, &out.error);
-    return known ? out : UNKNOWN;
-}
-
-/** Of an error of which averaging takes away a part. */
-static stated with_sampling(double value, double error, double sampled)
-{
-    return (stated){value, error, sqrt(fmax(error * error - sampled * sampled, 0.0))};
-}
-
-static stated read_slope(const hd_run *run, const aim *goal)
-{
-    const hd_dispersion d = hd_steps_dispersion(hd_run_parts(run).steps, run->carrier.spectrum,
-                                                goal->quantity->kind);
-    if (d.points == 0) return UNKNOWN;
-    return with_sampling(d.c.value, d.c.error, d.c_sampling_error);
-}
-
-static stated read_velocity(const hd_run *run, const aim *goal)
-{
-    (void)goal;
-    const hd_velocity v = hd_phases_velocity(hd_run_parts(run).phases);
-    return v.phases > 0 ? with_sampling(v.v, v.v_error, v.v_sampling_error) : UNKNOWN;
-}
-
-static stated read_collision_rate(const hd_run *run, const aim *goal)
-{
-    (void)goal;
-    const hd_gas_means means = hd_gas_read(hd_run_parts(run).gas);
-    return (stated){means.collision_rate, means.collision_rate_error, 0.0};
-}
-
-static stated read_pressure(const hd_run *run, const aim *goal)
-{
-    (void)goal;
-    const hd_gas_means means = hd_gas_read(hd_run_parts(run).gas);
-    return (stated){means.pressure, means.pressure_error, 0.0};
-}
-
-#define STEPS .needs = HD_OBSERVE_STEPS, .from = "steps"
-#define PHASES .needs = HD_OBSERVE_PHASES, .from = "lp_phases"
-#define GAS .needs = HD_OBSERVE_GAS, .from = "gas"
-static const quantity quantities[] = {
-    {.name = "smallest", .possible = smallest_possible, .read = read_smallest},
+/** That of the smallest ones is the carrier's. */
+static const hd_quantity of_exponents[] = {
+    {.name = "smallest", .possible = smallest_possible},
     {.name = "lambda_max", .read = read_lambda_max},
-    {.name = "lambda", .of = INDEX, .possible = index_possible, .read = read_index},
+    {.name = "lambda", .of = HD_OF_INDEX, .possible = index_possible, .read = read_index},
     {.name = "h_KS", .read = read_ks_entropy},
-    {.name = "T",
-     .of = NODES,
-     .kind = HD_MODE_T,
-     STEPS,
-     .possible = step_possible,
-     .read = read_step},
-    {.name = "LP",
-     .of = NODES,
-     .kind = HD_MODE_LP,
-     STEPS,
-     .possible = step_possible,
-     .read = read_step},
-    {.name = "c_T", .kind = HD_MODE_T, STEPS, .possible = slope_possible, .read = read_slope},
-    {.name = "c_L", .kind = HD_MODE_LP, STEPS, .possible = slope_possible, .read = read_slope},
-    {.name = "v", PHASES, .read = read_velocity},
-    {.name = "omega",
-     .of = NODES,
-     .kind = HD_MODE_LP,
-     PHASES,
-     .possible = step_possible,
-     .read = read_omega},
-    {.name = "collision_rate", GAS, .read = read_collision_rate},
-    {.name = "pressure", GAS, .read = read_pressure}};
-#undef STEPS
-#undef PHASES
-#undef GAS
-enum { QUANTITIES = sizeof quantities / sizeof *quantities };
+    {.name = NULL}};
+
+/** Of the exponents, k = -1, or of row k; NULL: none. */
+static const hd_quantity *quantities_of(int k)
+{
+    if (k < 0) return of_exponents;
+    return hd_observable_rows[k]->quantities ? hd_observable_rows[k]->quantities->each : NULL;
+}
+
+/** HD_OBSERVE_* without which it is never known; 0: exponents alone. */
+static unsigned needed(const hd_aim *goal)
+{
+    return goal->row < 0 ? 0 : hd_observable_bits[goal->row];
+}
 
 /* ---- text ------------------------------------------------------------------------------------ */
 
@@ -247,19 +95,21 @@ static bool is_name(const char *name, const char *text, size_t length)
     return true;
 }
 
-static const quantity *quantity_of(const char *text, size_t length)
+/** Finds what is named; false if there is none. */
+static bool find_quantity(hd_aim *goal, const char *text, size_t length)
 {
-    for (int k = 0; k < QUANTITIES; k++)
-        if (is_name(quantities[k].name, text, length)) return &quantities[k];
-    return NULL;
+    for (goal->row = -1; goal->row < HD_OBSERVED; goal->row++)
+        for (const hd_quantity *q = quantities_of(goal->row); q && q->name; q++)
+            if (is_name(q->name, text, length)) return goal->quantity = q, true;
+    return false;
 }
 
 static const char *skipped(const char *at, const char *what) { return at + strspn(at, what); }
 
 /** "(1,0)"; NULL if there are not so many. */
-static const char *read_numbers(aim *goal, const char *at, int dimension)
+static const char *read_numbers(hd_aim *goal, const char *at, int dimension)
 {
-    const int of[] = {[NOTHING] = 0, [INDEX] = 1, [NODES] = dimension};
+    const int of[] = {[HD_OF_NOTHING] = 0, [HD_OF_INDEX] = 1, [HD_OF_NODES] = dimension};
     goal->count = of[goal->quantity->of];
     for (int k = 0; k < goal->count; k++) {
         char *end;
@@ -274,12 +124,13 @@ static const char *read_numbers(aim *goal, const char *at, int dimension)
 }
 
 /** "c_T 1%"; NULL if it is none. */
-static const char *read_goal(aim *goal, const char *at, int dimension)
+static const char *read_goal(hd_aim *goal, const char *at, int dimension)
 {
     char *end;
     const size_t length = strcspn(at, " (:0123456789");
-    *goal = (aim){.quantity = quantity_of(at, length)};
-    if (!goal->quantity || !(at = read_numbers(goal, at + length, dimension))) return NULL;
+    *goal = (hd_aim){.count = 0};
+    if (!find_quantity(goal, at, length) || !(at = read_numbers(goal, at + length, dimension)))
+        return NULL;
     at = skipped(at, " :");
     goal->wanted = strtod(at, &end);
     if (end == at || !(goal->wanted > 0.0 && goal->wanted < DBL_MAX)) return NULL;
@@ -309,7 +160,7 @@ static aims aims_of(const hd_scene_def *def, const hd_text *text)
     return all;
 }
 
-static void name_of(char name[HD_QUANTITY_NAME], const aim *goal)
+static void name_of(char name[HD_QUANTITY_NAME], const hd_aim *goal)
 {
     const int room = HD_QUANTITY_NAME, *n = goal->number;
     int length = snprintf(name, (size_t)room, "%s", goal->quantity->name);
@@ -323,16 +174,17 @@ static void name_of(char name[HD_QUANTITY_NAME], const aim *goal)
 
 static hd_status refuse_text(const hd_scene_def *def, char *message, size_t size)
 {
-    const char *const numbers[] = {[NOTHING] = "",
-                                   [INDEX] = "(index)",
-                                   [NODES] = hd_scene_dimension(def) == 2 ? "(nx,ny)"
-                                                                          : "(nx,ny,nz)"};
-    char names[WHY] = "";
-    for (int k = 0; k < QUANTITIES; k++) {
-        const size_t length = strlen(names);
-        snprintf(names + length, sizeof names - length, "%s%s%s", k == 0 ? "" : ", ",
-                 quantities[k].name, numbers[quantities[k].of]);
-    }
+    const char *const numbers[] = {[HD_OF_NOTHING] = "",
+                                   [HD_OF_INDEX] = "(index)",
+                                   [HD_OF_NODES] = hd_scene_dimension(def) == 2 ? "(nx,ny)"
+                                                                                : "(nx,ny,nz)"};
+    char names[HD_WHY] = "";
+    for (int k = -1; k < HD_OBSERVED; k++)
+        for (const hd_quantity *q = quantities_of(k); q && q->name; q++) {
+            const size_t length = strlen(names);
+            snprintf(names + length, sizeof names - length, "%s%s%s", length ? ", " : "", q->name,
+                     numbers[q->of]);
+        }
     return hd_refuse(
         message, size,
         "target = %.80s: must be quantities with their errors, as lambda_max 0.01, c_T "
@@ -340,13 +192,14 @@ static hd_status refuse_text(const hd_scene_def *def, char *message, size_t size
         def->target.line, GOALS_MOST, names);
 }
 
-static bool is_possible(const hd_scene_def *def, const aim *goal, char why[WHY])
+static bool is_possible(const hd_scene_def *def, const hd_aim *goal, char why[HD_WHY])
 {
-    const quantity *q = goal->quantity;
-    if (q->needs != HD_OBSERVE_GAS && hd_scene_vectors(def) == 0)
-        snprintf(why, WHY, "exponents = none");
-    else if (q->needs && !(hd_observables_with(def->observe) & q->needs))
-        snprintf(why, WHY, "%s is no observable", q->from);
+    const hd_quantity *q = goal->quantity;
+    const hd_observable *row = goal->row < 0 ? NULL : hd_observable_rows[goal->row];
+    if (hd_scene_vectors(def) == 0 && (!row || row->needs & HD_NEEDS_FRAME))
+        snprintf(why, HD_WHY, "exponents = none");
+    else if (row && !(hd_observables_with(def->observe) & needed(goal)))
+        snprintf(why, HD_WHY, "%s is no observable", row->quantities->from);
     else
         return !q->possible || q->possible(def, goal, why);
     return false;
@@ -355,7 +208,7 @@ static bool is_possible(const hd_scene_def *def, const aim *goal, char why[WHY])
 hd_status hd_target_check(const hd_scene_def *def, char *message, size_t size)
 {
     aims target;
-    char name[HD_QUANTITY_NAME], why[WHY];
+    char name[HD_QUANTITY_NAME], why[HD_WHY];
     if (!read_all(&target, &def->target, hd_scene_dimension(def)))
         return refuse_text(def, message, size);
     for (int k = 0; k < target.count; k++) {
@@ -368,12 +221,12 @@ hd_status hd_target_check(const hd_scene_def *def, char *message, size_t size)
 }
 
 /** Those of a set that this one comes with: itself, if it is one of them. */
-static unsigned simplest(unsigned set, unsigned needed)
+static unsigned simplest(unsigned set, unsigned one)
 {
     unsigned all = 0;
-    if (set & needed) return needed;
+    if (set & one) return one;
     for (unsigned bit = 1; bit <= set; bit <<= 1)
-        if (set & bit && hd_observables_with(bit) & needed) all |= bit;
+        if (set & bit && hd_observables_with(bit) & one) all |= bit;
     return all;
 }
 
@@ -381,9 +234,9 @@ unsigned hd_target_stages(const hd_scene_def *def, unsigned stages)
 {
     const aims target = aims_of(def, &def->target);
     for (int k = 0; k < target.count; k++) {
-        const unsigned needed = target.goal[k].quantity->needs;
-        if (!(hd_observables_with(stages & def->observe) & needed))
-            stages |= simplest(def->observe, needed);
+        const unsigned bit = needed(&target.goal[k]);
+        if (!(hd_observables_with(stages & def->observe) & bit))
+            stages |= simplest(def->observe, bit);
     }
     return stages;
 }
@@ -399,9 +252,17 @@ static double left_of(const hd_standing *s, double averaged)
     return s->error >= 0.0 && may > 0.0 ? averaged * (falls / may - 1.0) : INFINITY;
 }
 
-static hd_standing standing_of(const hd_run *run, const aim *goal, double averaged)
+static hd_stated smallest_error(const hd_run *run)
 {
-    const stated now = goal->quantity->read(run, goal);
+    const double error = hd_carrier_smallest_error(&run->carrier);
+    return (hd_stated){.error = error < INFINITY ? error : -1.0};
+}
+
+static hd_standing standing_of(const hd_run *run, const hd_aim *goal, double averaged)
+{
+    const hd_parts parts = hd_run_parts(run);
+    const hd_stated now = goal->quantity->read ? goal->quantity->read(&parts, goal)
+                                               : smallest_error(run);
     const double value = fabs(now.value);
     hd_standing s = {
         .value = now.value, .error = now.error, .open = now.open, .wanted = goal->wanted};

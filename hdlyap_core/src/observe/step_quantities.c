@@ -1,0 +1,114 @@
+/** Steps and their phases -> quantities by which a run can be ended. */
+#include "observe/step_quantities.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "hdlyap/phases.h"
+#include "hdlyap/wave.h"
+#include "modes/steps.h"
+#include "observe/observable.h"
+
+static const hd_stated UNKNOWN = {.error = -1.0};
+
+/* ---- what a scene must have ------------------------------------------------------------------ */
+
+static const hd_modulations *fields_of(const hd_wave *wave, hd_mode_kind kind)
+{
+    return kind == HD_MODE_T ? &wave->transverse : &wave->pairs;
+}
+
+/** Without memory it cannot be said, and is let pass. */
+static bool step_possible(const hd_scene_def *def, const hd_aim *goal, char why[HD_WHY])
+{
+    const int count = hd_waves(def, NULL, 0);
+    hd_wave *wave = hd_memory_alloc((size_t)count + 1, sizeof *wave);
+    bool found = !wave;
+    if (wave) hd_waves(def, wave, count);
+    for (int k = 0; wave && k < count; k++)
+        found |= memcmp(wave[k].n, goal->number, sizeof goal->number) == 0 &&
+                 fields_of(&wave[k], goal->quantity->kind)->count > 0;
+    hd_memory_free(wave);
+    snprintf(why, HD_WHY, "it is not among the waves of the scene, which --check lists");
+    return found;
+}
+
+static bool slope_possible(const hd_scene_def *def, const hd_aim *goal, char why[HD_WHY])
+{
+    const hd_mode_kind kind = goal->quantity->kind;
+    const double open = hd_relation_of(def, kind).box_error;
+    if (!(hd_relation_open(def, kind) < INFINITY)) {
+        snprintf(why, HD_WHY, "there are no waves of its kind, or they follow no relation");
+        return false;
+    }
+    snprintf(why, HD_WHY, "walls and narrow edges leave %.2g %% open, however long it is averaged",
+             100.0 * open);
+    return !goal->relative || goal->wanted > open;
+}
+
+/* ---- what a run states ----------------------------------------------------------------------- */
+
+/** -1: not resolved. */
+static int step_of(const hd_steps *steps, const hd_aim *goal)
+{
+    for (int k = 0; k < hd_steps_count(steps); k++) {
+        const hd_step *step = hd_steps_step(steps, k);
+        if (step->kind == goal->quantity->kind && !step->conjugate && step->resolved &&
+            memcmp(step->wave.n, goal->number, sizeof goal->number) == 0)
+            return k;
+    }
+    return -1;
+}
+
+static hd_stated read_step(const hd_parts *parts, const hd_aim *goal)
+{
+    const int k = step_of(parts->steps, goal);
+    if (k < 0) return UNKNOWN;
+    const hd_step *step = hd_steps_step(parts->steps, k);
+    return (hd_stated){step->exponent, step->std_error, 0.0};
+}
+
+static hd_stated read_omega(const hd_parts *parts, const hd_aim *goal)
+{
+    hd_stated out = {.open = 0.0};
+    const int k = step_of(parts->steps, goal);
+    const bool known = k >= 0 && hd_phases_rate(parts->phases, k, &out.value, &out.error);
+    return known ? out : UNKNOWN;
+}
+
+/** Of an error of which averaging takes away a part. */
+static hd_stated with_sampling(double value, double error, double sampled)
+{
+    return (hd_stated){value, error, sqrt(fmax(error * error - sampled * sampled, 0.0))};
+}
+
+static hd_stated read_slope(const hd_parts *parts, const hd_aim *goal)
+{
+    const hd_dispersion d = hd_steps_dispersion(parts->steps, parts->spectrum,
+                                                goal->quantity->kind);
+    if (d.points == 0) return UNKNOWN;
+    return with_sampling(d.c.value, d.c.error, d.c_sampling_error);
+}
+
+static hd_stated read_velocity(const hd_parts *parts, const hd_aim *goal)
+{
+    (void)goal;
+    const hd_velocity v = hd_phases_velocity(parts->phases);
+    return v.phases > 0 ? with_sampling(v.v, v.v_error, v.v_sampling_error) : UNKNOWN;
+}
+
+static const hd_quantity of_steps[] = {
+    {"T", HD_OF_NODES, HD_MODE_T, step_possible, read_step},
+    {"LP", HD_OF_NODES, HD_MODE_LP, step_possible, read_step},
+    {"c_T", HD_OF_NOTHING, HD_MODE_T, slope_possible, read_slope},
+    {"c_L", HD_OF_NOTHING, HD_MODE_LP, slope_possible, read_slope},
+    {.name = NULL}};
+static const hd_quantity of_phases[] = {
+    {.name = "v", .read = read_velocity},
+    {"omega", HD_OF_NODES, HD_MODE_LP, step_possible, read_omega},
+    {.name = NULL}};
+
+const hd_quantities hd_step_quantities = {"steps", of_steps};
+const hd_quantities hd_phase_quantities = {"lp_phases", of_phases};
