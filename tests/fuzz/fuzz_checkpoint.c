@@ -44,7 +44,7 @@ static void read_file(const uint8_t *bytes, size_t size)
     const int fd = memfd_create("checkpoint", 0);
     require(fd >= 0 && write(fd, bytes, size) == (ssize_t)size, "no file", "");
     snprintf(path, sizeof path, "/proc/self/fd/%d", fd);
-    check_line(hd_checkpoint_read(&checkpoint, path, line, sizeof line), line);
+    check_line(hd_checkpoint_read(&checkpoint, path, NULL, 0, line, sizeof line), line);
     close(fd);
 }
 

@@ -14,13 +14,17 @@ is_spectrum() {
     [[ $(grep -cE '^[1-5] [0-9.]+$' "$WORK/said") == 5 ]] && grep -qE '^1 3\.[0-9]+$' "$WORK/said"
 }
 
-with_pkg_config() (
+# compile SOURCE PROGRAM
+compile() (
     pc=$(find "$prefix" -name hdlyap_core.pc)
     export PKG_CONFIG_PATH=${pc%/*}
     pkg-config --cflags --libs hdlyap_core |
-        xargs cc -std=c11 -Wall -Wextra -Werror "$here/consumer.c" -o "$WORK/with_pkg_config" -Wl,-rpath,"${pc%/pkgconfig/*}" &&
-        is_spectrum env -u LD_LIBRARY_PATH "$WORK/with_pkg_config"
+        xargs cc -std=c11 -Wall -Wextra -Werror "$1" -o "$2" -lm -Wl,-rpath,"${pc%/pkgconfig/*}"
 )
+
+with_pkg_config() {
+    compile "$here/consumer.c" "$WORK/with_pkg_config" && is_spectrum env -u LD_LIBRARY_PATH "$WORK/with_pkg_config"
+}
 
 # with_cmake SOURCES FOLDER
 with_cmake() { cmake -S "$1" -B "$WORK/$2" -DCMAKE_PREFIX_PATH="$prefix" && cmake --build "$WORK/$2"; }
@@ -29,6 +33,16 @@ consumer() { with_cmake "$here" with_cmake && is_spectrum "$WORK/with_cmake/cons
 
 studies() { with_cmake "$here/../../doc/findings" studies && "$here/studies.py" "$WORK/studies"; }
 
+# The example of doc/core.md: 16 particles have 14 pairs and four zeros; with beta = 0 all of eight vanish.
+chain() {
+    compile "$prefix/share/hdlyap/examples/chain.c" "$WORK/chain" &&
+        "$WORK/chain" 16 1 | awk '{ x[$1] = $2 } END { for (k = 1; k <= 16; k++) bad += x[k] != -x[33 - k]
+            exit bad || !(NR == 32 && x[1] > 0.08 && x[1] < 0.13 && x[13] > 0.005 && x[15] < 0.005) }' &&
+        "$WORK/chain" 8 0 | awk '{ if ($2 > 0.003 || $2 < -0.003) bad = 1 } END { exit bad || NR != 16 }' &&
+        [[ $("$WORK/chain" 2) == "disks = 2: must be 3 or more with particles = chain" ]]
+}
+
+check chain chain
 check with_pkg_config with_pkg_config
 check with_cmake consumer
 check studies studies

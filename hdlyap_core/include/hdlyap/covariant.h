@@ -48,11 +48,11 @@ typedef struct hd_covariant_results {
     /** Sine of each vector, [n], at the end of the last window. A lower bound of what the start
      * still matters, as both starts lean towards the frame. */
     const double *start_mismatch_each;
-    /** Largest angle between the covariant centre and the exact null space [T9] at the last look,
-     * and of all; negative if not carried. */
+    /** Largest angle between the covariant centre and the null space [T9], as far as it is known
+     * exactly, at the last look, and of all; negative if not carried. */
     double null, null_most;
     /** Weights [T11] of the dq half and of the dp half, each normalised by itself; running averages
-     * of all looks. */
+     * of all looks. NULL of what has no positions in a box, as the next. */
     const hd_modes *half[2];
     /** Weights [T11] of the dq halves of the frame, the Gram-Schmidt vectors; of the same looks. */
     const hd_modes *of_frame;

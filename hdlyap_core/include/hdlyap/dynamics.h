@@ -98,10 +98,11 @@ struct hd_dynamics {
     int (*null)(const hd_scene_def *scene, const double *q, const double *p, double *column);
 
     /* ---- particles */
-    /** The start: the state of a checked scene at time 0. q and p [particle][coordinates] are NULL,
-     * or a prepared state (the core's own rows alone). HD_NO_MEMORY, and *state NULL, if there is
-     * no room; HD_REFUSED. */
-    hd_status (*create)(void **state, const hd_scene_def *scene, const double *q, const double *p);
+    /** The start: the state of a checked scene at time 0. HD_NO_MEMORY, and *state NULL. */
+    hd_status (*create)(void **state, const hd_scene_def *scene);
+    /** A prepared one, for tests: q and p [particle][coordinates]. May be left out. */
+    hd_status (*create_from)(void **state, const hd_scene_def *scene, const double *q,
+                             const double *p);
     void (*free)(void *state);
     /** Moves them to simulated time t_end, at least the present one, and adds what happens on the
      * way to the record, which may be NULL: hd_record_put for each entry, hd_record_end at last.
@@ -112,7 +113,7 @@ struct hd_dynamics {
     /** [particle][coordinates] each, positions inside the box if there is one; either may be NULL.
      */
     void (*state)(const void *state, double *q, double *p);
-    double (*kinetic_energy)(const void *state);
+    double (*kinetic_energy)(const void *state);    /**< may be left out */
     void (*tell)(const void *state, hd_told *told); /**< may be left out; all but `expected` */
     void (*examine)(const void *state, hd_examined *examined); /**< may be left out */
     /** Each array of the state, one hd_archive_doubles after the other, whether it is written or

@@ -4,6 +4,7 @@
 #define HDLYAP_FOLLOW_H
 
 #include "hdlyap/communicator.h"
+#include "hdlyap/scene.h"
 
 HD_API_BEGIN
 
@@ -12,8 +13,9 @@ void hd_run_lead(hd_communicator *communicator);
 /** On rank 0: they may go. Once. */
 void hd_run_dismiss(hd_communicator *communicator);
 /** On the others: makes the calls of rank 0, one run at a time, until they may go. What fails there
- * fails here alike; rank 0 says so. */
-void hd_run_follow(hd_communicator *communicator);
+ * fails here alike; rank 0 says so. Runs are of disks, spheres, or one of the dynamics own[count].
+ */
+void hd_run_follow(hd_communicator *communicator, const hd_dynamics *const *own, int count);
 
 HD_API_END
 #endif

@@ -45,7 +45,7 @@ typedef struct hd_parameter {
     bool live;           /**< may change while it runs, see hd_run_change */
     unsigned needs; /**< HD_OBSERVE_* of which one must be there for another value than usual */
     const char *text;
-    const char *record; /**< name in a checkpoint */
+    const char *record; /**< name in a checkpoint; NULL: the same */
 } hd_parameter;
 
 /** All of them, [count]. */

@@ -44,7 +44,7 @@ hd_status hd_archive_end(hd_archive *archive)
 
 static void put(hd_archive *archive, const void *data, size_t size)
 {
-    if (archive->status != HD_OK) return;
+    if (archive->status != HD_OK || size == 0) return; /* a checksum of nothing is begun anew */
     if (fwrite(data, 1, size, archive->file) != size) {
         archive->error = errno;
         hd_archive_fail(archive, HD_FILE_FAULT, archive->name, NULL);

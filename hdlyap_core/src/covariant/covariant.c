@@ -33,6 +33,8 @@
 /** Times that are this close, as a part of what lies between two looks, are one. */
 static const double CLOSE = 1e-6;
 
+enum { WEIGHTS = 3 }; /* of both halves, and of the frame */
+
 typedef enum way { FORWARD, THROUGH_TRANSIENT, THROUGH_WINDOW } way;
 
 struct hd_covariant {
@@ -43,8 +45,8 @@ struct hd_covariant {
     hd_spectrum *spectrum;
     hd_splitting *splitting;
     hd_localization *shape;
-    hd_modes *half[2];     /**< weights of the dq and of the dp halves */
-    hd_modes *of_frame;    /**< of the dq halves of the frame, at the same times */
+    hd_modes *half[2];     /**< weights of the dq and of the dp halves; NULL without a box */
+    hd_modes *of_frame;    /**< of the dq halves of the frame, at the same times; likewise */
     hd_angles *spaces;     /**< of C's rows; NULL where there is no centre, as the next two */
     hd_angles *null;       /**< of the vectors' rows */
     double *null_columns;  /**< [2 * centre][rows]: the covariant centre, the null space */
@@ -65,6 +67,11 @@ struct hd_covariant {
     hd_covariant_mismatch spaces_apart;
     double null_apart, null_apart_most;
 };
+
+static hd_modes *weights_of(const hd_covariant *c, int k)
+{
+    return k < 2 ? c->half[k] : c->of_frame;
+}
 
 /* ---- creation ------------------------------------------------------------------------------ */
 
@@ -114,9 +121,9 @@ static hd_status allocate(hd_covariant *c)
     HD_TRY(allocate_arrays(c));
     HD_TRY(allocate_spaces(c));
     HD_TRY(hd_starts_create(&c->starts, c->vectors, c->carried < c->vectors));
-    for (int k = 0; k < 2; k++)
-        HD_TRY(hd_modes_create(&c->half[k], &c->scene, c->vectors, c->threads));
-    HD_TRY(hd_modes_create(&c->of_frame, &c->scene, c->vectors, c->threads));
+    hd_modes **weights[WEIGHTS] = {&c->half[0], &c->half[1], &c->of_frame};
+    for (int k = 0; k < WEIGHTS && hd_scene_dimension(&c->scene) > 0; k++)
+        HD_TRY(hd_modes_create(weights[k], &c->scene, c->vectors, c->threads));
     HD_TRY(
         hd_spectrum_create(&c->spectrum, c->rows, c->vectors, hd_scene_sound_crossing(&c->scene)));
     HD_TRY(hd_splitting_create(&c->splitting, c->vectors, c->unstable, c->centre));
@@ -197,8 +204,8 @@ void hd_covariant_clear(hd_covariant *c)
     hd_spectrum_clear(c->spectrum);
     hd_splitting_clear(c->splitting);
     hd_localization_clear(c->shape);
-    for (int k = 0; k < 2; k++) hd_modes_clear(c->half[k]);
-    hd_modes_clear(c->of_frame);
+    for (int k = 0; k < WEIGHTS; k++)
+        if (weights_of(c, k)) hd_modes_clear(weights_of(c, k));
     c->windows = c->lost = 0;
     c->null_apart = c->null_apart_most = -1.0;
     c->spaces_apart = (hd_covariant_mismatch){-1.0, -1.0, -1.0};
@@ -321,6 +328,7 @@ static hd_status measure_null(hd_covariant *c)
 
 static hd_status measure_weights(hd_covariant *c, hd_modes *weights)
 {
+    if (!weights) return HD_OK;
     HD_TRY(hd_modes_measure(weights, vectors_of(c), c->q, c->p));
     hd_modes_add(weights);
     return HD_OK;
@@ -470,6 +478,6 @@ void hd_covariant_archive(hd_covariant *c, hd_archive *archive)
     hd_spectrum_archive(c->spectrum, archive);
     hd_splitting_archive(c->splitting, archive);
     hd_localization_archive(c->shape, archive);
-    for (int k = 0; k < 2; k++) hd_modes_archive(c->half[k], archive);
-    hd_modes_archive(c->of_frame, archive);
+    for (int k = 0; k < WEIGHTS; k++)
+        if (weights_of(c, k)) hd_modes_archive(weights_of(c, k), archive);
 }

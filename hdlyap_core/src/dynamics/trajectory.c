@@ -1,4 +1,7 @@
 /** Scene -> record: the particles of a scene, by the row of their dynamics. */
+#include <string.h>
+#include <zlib.h>
+
 #include "base/check.h"
 #include "base/memory.h"
 #include "dynamics/archived.h"
@@ -12,7 +15,8 @@ hd_status hd_trajectory_create_from(hd_trajectory **out, const hd_scene_def *def
     if (!tr) return HD_NO_MEMORY;
     *tr = (hd_trajectory){.of = hd_dynamics_of(def), .particles = def->disks};
     tr->rate = tr->of->rate(def);
-    const hd_status status = tr->of->create(&tr->state, def, q, p);
+    const hd_status status = q ? tr->of->create_from(&tr->state, def, q, p)
+                               : tr->of->create(&tr->state, def);
     if (status == HD_OK)
         *out = tr;
     else
@@ -68,9 +72,42 @@ void hd_trajectory_state(const hd_trajectory *tr, double *q, double *p)
     tr->of->state(tr->state, q, p);
 }
 
+/** Of each particle the first `dimension` of its coordinates. */
+static void keep_places(const hd_trajectory *tr, double *x)
+{
+    const size_t coordinates = (size_t)tr->of->coordinates, dimension = (size_t)tr->of->dimension;
+    for (size_t i = 0; x && i < (size_t)tr->particles; i++)
+        memmove(x + dimension * i, x + coordinates * i, dimension * sizeof *x);
+}
+
+void hd_trajectory_places(const hd_trajectory *tr, double *q, double *p)
+{
+    tr->of->state(tr->state, q, p);
+    if (tr->of->coordinates == tr->of->dimension) return;
+    keep_places(tr, q);
+    keep_places(tr, p);
+}
+
+static size_t coordinates(const hd_trajectory *tr)
+{
+    return (size_t)tr->particles * (size_t)tr->of->coordinates;
+}
+
+/** q, then p, to be freed; NULL without memory. */
+static double *coordinates_of(const hd_trajectory *tr)
+{
+    double *q = hd_memory_alloc(2 * coordinates(tr), sizeof *q);
+    if (q) tr->of->state(tr->state, q, q + coordinates(tr));
+    return q;
+}
+
 double hd_trajectory_kinetic_energy(const hd_trajectory *tr)
 {
-    return tr->of->kinetic_energy(tr->state);
+    if (tr->of->kinetic_energy) return tr->of->kinetic_energy(tr->state);
+    double *q = coordinates_of(tr), *p = q + coordinates(tr), sum = 0.0;
+    for (size_t k = 0; q && k < coordinates(tr); k++) sum += 0.5 * p[k] * p[k];
+    hd_memory_free(q);
+    return sum;
 }
 
 hd_examined hd_trajectory_examined(const hd_trajectory *tr)
@@ -87,5 +124,10 @@ void hd_trajectory_archive(hd_trajectory *tr, hd_archive *archive)
 
 uint32_t hd_trajectory_fingerprint(const hd_trajectory *tr)
 {
-    return tr->of->fingerprint(tr->state);
+    if (tr->of->fingerprint) return tr->of->fingerprint(tr->state);
+    double *q = coordinates_of(tr);
+    const size_t bytes = q ? 2 * coordinates(tr) * sizeof *q : 0;
+    const uint32_t crc = (uint32_t)crc32_z(0, (const Bytef *)q, bytes);
+    hd_memory_free(q);
+    return crc;
 }

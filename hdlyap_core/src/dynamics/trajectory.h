@@ -10,6 +10,9 @@
  * HD_OVERLAP for disks deeper than hd_examined.overlap_max. */
 HD_MUST_CHECK hd_status hd_trajectory_create_from(hd_trajectory **out, const hd_scene_def *def,
                                                   const double *q, const double *p);
+/** Positions in the box and the momenta along its directions, of what has more coordinates than
+ * these; q and p have room for hd_trajectory_state. */
+void hd_trajectory_places(const hd_trajectory *trajectory, double *q, double *p);
 /* See hd_told. */
 uint64_t hd_trajectory_collisions(const hd_trajectory *trajectory);
 uint64_t hd_trajectory_wall_events(const hd_trajectory *trajectory);

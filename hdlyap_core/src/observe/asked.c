@@ -52,7 +52,7 @@ bool hd_observables_asked(const hd_scene_def *scene, unsigned needs)
 
 double hd_observables_bytes(const hd_scene_def *scene, int ranks)
 {
-    const double state = 2.0 * hd_scene_dimension(scene) * scene->disks * sizeof(double);
+    const double state = 2.0 * hd_scene_coordinates(scene) * scene->disks * sizeof(double);
     double bytes = hd_observables_asked(scene, HD_NEEDS_STATE) ? state : 0.0; /* q and p */
     EACH_ASKED(scene, row) bytes += row->bytes(scene, ranks);
     return bytes;
@@ -91,27 +91,49 @@ double hd_scene_warmup(const hd_scene_def *scene)
     return time;
 }
 
-/** By name, what a curved wall has not. */
-static hd_status check_edges(const hd_scene_def *scene, char *message, size_t size)
+/** True if one of a set has this need. */
+static bool has_need(unsigned set, unsigned need)
+{
+    bool found = false;
+    for (int k = 0; k < HD_OBSERVED; k++)
+        found |= set & hd_observable_bits[k] && hd_observable_rows[k]->needs & need;
+    return found;
+}
+
+/** Name of the first that is asked for and has this need, or comes with one; NULL: none. */
+static const char *name_of_need(const hd_scene_def *scene, unsigned need)
 {
     static const char *const names[HD_OBSERVED] = {
 #define HD_OBSERVABLE(name, NAME, bit, of_waves, result) [HD_OBSERVED_##name] = #name,
 #include "hdlyap/observables.inc"
     };
-    if (!hd_container_of(scene)->wall) return HD_OK;
     for (int k = 0; k < HD_OBSERVED; k++)
-        if (scene->observe & hd_observable_bits[k] && hd_observable_rows[k]->needs & HD_NEEDS_EDGES)
-            return hd_refuse(message, size,
-                             "observables = %s: must not be given with container = %s: it is of "
-                             "waves in a rectangle",
-                             names[k], hd_container_name(scene));
+        if (scene->observe & hd_observable_bits[k] &&
+            has_need(hd_observables_with(hd_observable_bits[k]), need))
+            return names[k];
+    return NULL;
+}
+
+/** By name, what a curved wall has not, and what is of a box where there is none. */
+static hd_status check_space(const hd_scene_def *scene, char *message, size_t size)
+{
+    const char *of_box = name_of_need(scene, HD_NEEDS_BOX),
+               *of_edges = name_of_need(scene, HD_NEEDS_EDGES);
+    if (of_box && hd_scene_dimension(scene) == 0)
+        return hd_refuse(message, size, HD_WITHOUT_BOX, "observables", of_box,
+                         hd_dynamics_of(scene)->particles);
+    if (of_edges && hd_container_of(scene)->wall)
+        return hd_refuse(message, size,
+                         "observables = %s: must not be given with container = %s: it is of "
+                         "waves in a rectangle",
+                         of_edges, hd_container_name(scene));
     return HD_OK;
 }
 
 hd_status hd_scene_check(const hd_scene_def *scene, char *message, size_t size)
 {
     HD_TRY(hd_scene_check_start(scene, message, size));
-    HD_TRY(check_edges(scene, message, size));
+    HD_TRY(check_space(scene, message, size));
     EACH_ASKED(scene, row)
     {
         if (row->check) HD_TRY(row->check(scene, message, size));

@@ -184,7 +184,8 @@ static const hd_quantity each[] = {{.name = "collision_rate", .read = read_colli
                                    {.name = NULL}};
 static const hd_quantities quantities = {"gas", each};
 
-const hd_observable hd_gas_row = {.quantities = &quantities,
+const hd_observable hd_gas_row = {.needs = HD_NEEDS_BOX,
+                                  .quantities = &quantities,
                                   .bytes = gas_bytes,
                                   .create = gas_create,
                                   .free = gas_free,

@@ -56,7 +56,8 @@ static void modes_archive(void *self, hd_archive *archive, const hd_trajectory *
 }
 
 const hd_observable hd_modes_row = {.with = HD_OBSERVE_STEPS,
-                                    .needs = HD_NEEDS_FRAME | HD_NEEDS_VECTORS | HD_NEEDS_STATE,
+                                    .needs = HD_NEEDS_FRAME | HD_NEEDS_VECTORS | HD_NEEDS_STATE |
+                                             HD_NEEDS_BOX,
                                     .bytes = modes_bytes,
                                     .create = modes_create,
                                     .free = modes_free,

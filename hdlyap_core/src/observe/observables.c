@@ -7,6 +7,7 @@
 #include "base/check.h"
 #include "base/clock.h"
 #include "base/memory.h"
+#include "dynamics/trajectory.h"
 #include "scene/scene.h"
 
 /** Wall seconds after which no further step of catching up begins in a call. */
@@ -20,7 +21,7 @@ static const double CATCH_UP_SECONDS = 0.1;
 static hd_status create_state(hd_observables *o)
 {
     const hd_scene_def *scene = o->with.scene;
-    const size_t size = (size_t)hd_scene_dimension(scene) * (size_t)scene->disks;
+    const size_t size = (size_t)hd_scene_coordinates(scene) * (size_t)scene->disks;
     o->q = hd_memory_alloc(size, sizeof *o->q);
     o->p = hd_memory_alloc(size, sizeof *o->p);
     return o->q && o->p ? HD_OK : HD_NO_MEMORY;
@@ -127,7 +128,7 @@ static hd_view seen(const hd_observables *o, const hd_view *state)
 {
     hd_view view = *state;
     if (!hd_observables_need(o, HD_NEEDS_STATE)) return view;
-    hd_trajectory_state(state->trajectory, o->q, o->p);
+    hd_trajectory_places(state->trajectory, o->q, o->p);
     view.q = o->q;
     view.p = o->p;
     return view;

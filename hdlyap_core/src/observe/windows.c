@@ -101,8 +101,9 @@ static double covariant_bytes(const hd_scene_def *scene, int ranks)
                  vectors = 2.0 * hd_scene_coordinates(scene) * scene->disks * n;
     const double factors = 2.0 * carried * carried, ways = (carried < n ? 8.25 : 5.0) * n * n;
     const double gathered = ranks > 1 ? vectors : 0.0;
-    return sizeof(double) * (factors + ways + vectors + gathered) + 3.0 * hd_modes_bytes(scene, n) +
-           hd_spectrum_bytes(n) + hd_localization_bytes(n);
+    const double weights = hd_scene_dimension(scene) > 0 ? 3.0 * hd_modes_bytes(scene, n) : 0.0;
+    return sizeof(double) * (factors + ways + vectors + gathered) + weights + hd_spectrum_bytes(n) +
+           hd_localization_bytes(n);
 }
 
 /** Vectors converge forwards no faster than backwards. */
@@ -111,6 +112,12 @@ static double covariant_warmup(const hd_scene_def *scene) { return scene->covari
 static hd_status covariant_check(const hd_scene_def *scene, char *message, size_t size)
 {
     const double window = scene->covariant_window, transient = scene->covariant_transient;
+    const hd_dynamics *of = hd_dynamics_of(scene);
+    if (!of->symplectic)
+        return hd_refuse(message, size,
+                         "observables = covariant: must not be given with particles = %s, whose "
+                         "exponents are not in pairs",
+                         of->particles);
     if (hd_scene_positive_exponents(scene) < 1)
         return hd_refuse(message, size,
                          "observables = covariant: must not be given with disks = %d, which has no "

@@ -18,9 +18,11 @@ enum { FEW = 10 };
 hd_status hd_cages_create(hd_cages *cages, const hd_scene_def *scene)
 {
     const size_t count = (size_t)hd_scene_dimension(scene) * (size_t)scene->disks;
-    *cages = (hd_cages){.count = count,
-                        .start = hd_memory_alloc(count, sizeof(double)),
-                        .now = hd_memory_alloc(count, sizeof(double))};
+    const size_t room = (size_t)hd_scene_coordinates(scene) * (size_t)scene->disks;
+    *cages = (hd_cages){.count = count};
+    if (count == 0) return HD_OK; /* there are no places */
+    cages->start = hd_memory_alloc(room, sizeof(double));
+    cages->now = hd_memory_alloc(room, sizeof(double));
     return cages->start && cages->now ? HD_OK : HD_NO_MEMORY;
 }
 
@@ -33,9 +35,9 @@ void hd_cages_clear(hd_cages *cages)
 
 void hd_cages_begin(hd_cages *cages, const hd_trajectory *trajectory)
 {
-    hd_trajectory_state(trajectory, cages->start, NULL);
+    if (cages->start) hd_trajectory_places(trajectory, cages->start, NULL);
     cages->begin = cages->end = hd_trajectory_time(trajectory);
-    cages->left = false;
+    cages->left = !cages->start;
 }
 
 static double square_moved(const double *from, const double *to, const double *box,
@@ -61,7 +63,7 @@ void hd_cages_look(hd_cages *cages, const hd_trajectory *trajectory, const hd_sc
     if (cages->left) return;
     for (int d = 0; d < dimension; d++) boundary[d] = hd_scene_boundary(scene, d);
     hd_scene_box(scene, box);
-    hd_trajectory_state(trajectory, cages->now, NULL);
+    hd_trajectory_places(trajectory, cages->now, NULL);
     for (int i = 0; i < scene->disks; i++)
         away += square_moved(cages->start + dimension * i, cages->now + dimension * i, box,
                              boundary, dimension) > place * place;

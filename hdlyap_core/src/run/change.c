@@ -2,9 +2,9 @@
 #include <math.h>
 
 #include "base/check.h"
-#include "hdlyap/parameters.h"
 #include "run/order.h"
 #include "run/run_state.h"
+#include "scene/parameters.h"
 
 double hd_run_change_time(const hd_run *run)
 {
@@ -25,10 +25,11 @@ hd_status hd_run_change(hd_run *run, const hd_parameter *row, const char *value,
                         size_t size)
 {
     hd_scene_def asked = run->scene;
-    int count;
-    hd_order_tell(run->communicator, (hd_order){.kind = HD_ORDER_CHANGE,
-                                                .integer = (int)(row - hd_scene_parameters(&count)),
-                                                .text = value});
+    int number = 0;
+    while (hd_parameter_of(&asked, number) && hd_parameter_of(&asked, number) != row) number++;
+    HD_ASSERT(hd_parameter_of(&asked, number));
+    hd_order_tell(run->communicator,
+                  (hd_order){.kind = HD_ORDER_CHANGE, .integer = number, .text = value});
     if (!row->live)
         return hd_refuse(message, size, "%s = %s: is read at the start", row->name, value);
     if (hd_run_stage(run) == HD_FINISHED || hd_agenda_is_due(&run->agenda, HD_DUE_STAGE))

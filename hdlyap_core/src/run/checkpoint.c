@@ -21,14 +21,30 @@
 #include "scene/scene.h"
 #include "tangent/archived.h"
 #include "dynamics/dynamics.h"
+#include "scene/dynamics.h"
+
+enum { VALUE = 32 }; /* of a parameter, in words */
 
 /* ---- a run's own numbers ------------------------------------------------------------------- */
 
-static void head_archive(hd_checkpoint *head, hd_archive *archive)
+/** The dynamics is known by its name: to the core, or to who reads. */
+static bool dynamics_archive(hd_checkpoint *head, hd_archive *archive, hd_known known)
+{
+    const char *name = archive->writing ? hd_dynamics_of(&head->scene)->particles : "";
+    snprintf(head->particles, sizeof head->particles, "%s", name);
+    hd_archive_text(archive, "particles", head->particles, sizeof head->particles);
+    return archive->writing || !hd_archive_good(archive) ||
+           hd_dynamics_named(&head->scene.dynamics, head->particles, known);
+}
+
+/** False if the dynamics is not known: the scene is none. */
+static bool head_archive(hd_checkpoint *head, hd_archive *archive, hd_known known)
 {
     hd_archive_text(archive, "label", head->label, sizeof head->label);
+    if (!dynamics_archive(head, archive, known)) return false;
     hd_scene_archive(&head->scene, archive);
     hd_archive_double(archive, "time", &head->time);
+    return true;
 }
 
 static void cost_archive(hd_run *run, hd_archive *archive)
@@ -192,7 +208,7 @@ void hd_run_write(hd_run *run, hd_archive *archive, const char *label)
     hd_checkpoint head = {.scene = run->scene, .time = hd_run_time(run)};
     int threads = run->carrier.threads;
     snprintf(head.label, sizeof head.label, "%s", label);
-    head_archive(&head, archive);
+    (void)head_archive(&head, archive, (hd_known){NULL, 0});
     hd_archive_int(archive, "run threads", &threads, 1, INT_MAX);
     numbers_archive(run, archive);
     parts_archive(run, archive);
@@ -255,41 +271,25 @@ hd_status hd_checkpoint_writable(const char *path, char *message, size_t size)
 
 /* ---- reading ------------------------------------------------------------------------------- */
 
-/** As the user says it. */
-static void write_value(char text[32], const hd_parameter *row, const hd_scene_def *def)
-{
-    const double value = hd_parameter_value(row, def);
-    if (row->kind == HD_PARAMETER_SEED)
-        snprintf(text, 32, "%llu", (unsigned long long)def->seed);
-    else if (hd_parameter_is_word(row, value))
-        snprintf(text, 32, "%s", hd_parameter_word_of(row, (int)value));
-    else
-        snprintf(text, 32, "%.15g", value);
-}
-
 static hd_status refuse_other(const hd_parameter *row, const hd_scene_def *asked,
                               const hd_scene_def *kept, char *message, size_t size)
 {
-    char value[32], before[32];
-    write_value(value, row, asked);
-    write_value(before, row, kept);
+    char value[VALUE], must[VALUE];
     return hd_refuse(message, size, "%s = %s: must be %s, as in the checkpoint",
                      row->kind == HD_PARAMETER_SET ? "observables (as a set of HD_OBSERVE_*)"
                                                    : row->name,
-                     value, before);
+                     hd_parameter_say(row, asked, value, sizeof value),
+                     hd_parameter_say(row, kept, must, sizeof must));
 }
 
 /** What cannot change within a run. */
 static hd_status check_same(const hd_scene_def *asked, const hd_scene_def *kept, char *message,
                             size_t size)
 {
-    int count;
-    const hd_parameter *rows = hd_scene_parameters(&count);
-    for (int k = 0; k < count; k++) {
-        const hd_parameter *r = &rows[k];
-        if (!r->may_differ && !hd_parameter_same(r, asked, kept))
-            return refuse_other(r, asked, kept, message, size);
-    }
+    const hd_parameter *row;
+    for (int k = 0; (row = hd_parameter_of(asked, k)); k++)
+        if (!row->may_differ && !hd_parameter_same(row, asked, kept))
+            return refuse_other(row, asked, kept, message, size);
     return HD_OK;
 }
 
@@ -303,10 +303,15 @@ static hd_status inconsistent(const hd_archive *archive, char *message, size_t s
 }
 
 /** Contents of a whole file can be nonsense all the same. */
-static hd_status read_head(hd_checkpoint *out, hd_archive *archive, char *message, size_t size)
+static hd_status read_head(hd_checkpoint *out, hd_archive *archive, hd_known known, char *message,
+                           size_t size)
 {
     *out = (hd_checkpoint){.time = 0.0};
-    head_archive(out, archive);
+    if (!head_archive(out, archive, known)) {
+        (void)hd_refuse(message, size, "is of particles = %s, which this program does not know",
+                        out->particles);
+        return HD_FILE_FAULT;
+    }
     if (!hd_archive_good(archive)) return inconsistent(archive, message, size);
     return hd_scene_check(&out->scene, message, size) == HD_OK ? HD_OK : HD_FILE_FAULT;
 }
@@ -334,10 +339,9 @@ static hd_status reopen(hd_run *run, char *message, size_t size)
 /** Another duration and target hold at once, another report interval from the next change on. */
 static void take_up_scene(hd_run *run, const hd_scene_def *kept)
 {
-    int count;
-    const hd_parameter *rows = hd_scene_parameters(&count);
-    for (int k = 0; k < count; k++)
-        if (rows[k].live && !hd_parameter_same(&rows[k], &run->scene, kept))
+    const hd_parameter *row;
+    for (int k = 0; (row = hd_parameter_of(&run->scene, k)); k++)
+        if (row->live && !hd_parameter_same(row, &run->scene, kept))
             run->agenda.in_force.changing = true;
     if (run->scene.duration != kept->duration)
         run->agenda.schedule.length[HD_AVERAGING] =
@@ -384,7 +388,13 @@ static hd_status begin_reading(hd_checkpoint *head, hd_scene_def *asked, int *th
                                hd_archive *archive, const hd_scene_def *scene, char *message,
                                size_t size)
 {
-    HD_TRY(read_head(head, archive, message, size));
+    const hd_known known = {scene ? &scene->dynamics : NULL, scene && scene->dynamics};
+    const char *particles = scene ? hd_dynamics_of(scene)->particles : head->particles;
+    const hd_status status = read_head(head, archive, known, message, size);
+    if (*head->particles && strcmp(particles, head->particles) != 0)
+        return hd_refuse(message, size, "particles = %s: must be %s, as in the checkpoint",
+                         particles, head->particles);
+    HD_TRY(status);
     *asked = scene ? *scene : head->scene;
     asked->warmup = hd_scene_warmup(asked);
     hd_archive_int(archive, "run threads", threads, 1, INT_MAX);
@@ -426,14 +436,15 @@ static hd_status named(hd_status status, const char *path, const char *line, cha
     return status;
 }
 
-hd_status hd_checkpoint_read(hd_checkpoint *out, const char *path, char *message, size_t size)
+hd_status hd_checkpoint_read(hd_checkpoint *out, const char *path, const hd_dynamics *const *own,
+                             int count, char *message, size_t size)
 {
     FILE *file;
     uint64_t bytes;
     char line[512] = "";
     HD_TRY(hd_checkpoint_file_open(&file, &bytes, path, message, size));
     hd_archive archive = hd_archive_reader(file, bytes);
-    const hd_status status = read_head(out, &archive, line, sizeof line);
+    const hd_status status = read_head(out, &archive, (hd_known){own, count}, line, sizeof line);
     (void)fclose(file);
     return named(status, path, line, message, size);
 }

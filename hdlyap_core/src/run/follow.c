@@ -3,7 +3,7 @@
 
 #include "base/check.h"
 #include "hdlyap/checkpoint.h"
-#include "hdlyap/parameters.h"
+#include "scene/parameters.h"
 #include "run/order.h"
 
 void hd_run_lead(hd_communicator *communicator)
@@ -20,10 +20,9 @@ void hd_run_dismiss(hd_communicator *communicator)
 
 static hd_status change(hd_run *run, const hd_order *order)
 {
-    int count;
-    const hd_parameter *rows = hd_scene_parameters(&count);
-    HD_ASSERT(order->integer >= 0 && order->integer < count);
-    return hd_run_change(run, &rows[order->integer], order->text, NULL, 0);
+    const hd_parameter *row = hd_parameter_of(hd_run_scene(run), order->integer);
+    HD_ASSERT(row);
+    return hd_run_change(run, row, order->text, NULL, 0);
 }
 
 static void free_run(hd_run **run)
@@ -52,14 +51,14 @@ static hd_status obey(hd_run **run, hd_communicator *c, const hd_order *o)
     return HD_OK;
 }
 
-void hd_run_follow(hd_communicator *communicator)
+void hd_run_follow(hd_communicator *communicator, const hd_dynamics *const *own, int count)
 {
     hd_run *run = NULL;
     hd_order_room room;
     hd_order order;
     HD_ASSERT(communicator->rank > 0);
     do {
-        order = hd_order_hear(communicator, &room);
+        order = hd_order_hear(communicator, &room, (hd_known){own, count});
         (void)obey(&run, communicator, &order);
     } while (order.kind != HD_ORDER_END);
     free_run(&run);

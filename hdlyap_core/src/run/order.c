@@ -2,7 +2,12 @@
 #include "run/order.h"
 #include "base/communicator.h"
 
+#include <stdio.h>
 #include <string.h>
+
+#include "base/check.h"
+
+enum { PARTICLES = 32 }; /* their name */
 
 /** As it goes over the wire. Ranks of another version are refused with the first run; where this
  * has another size there, MPI ends them all before. */
@@ -10,6 +15,7 @@ typedef struct message {
     int kind, integer, with_scene, with_text;
     double number;
     hd_scene_def scene;
+    char particles[PARTICLES]; /**< the scene's pointer to its dynamics is of no use elsewhere */
 } message;
 
 void hd_order_tell(hd_communicator *c, hd_order order)
@@ -20,17 +26,20 @@ void hd_order_tell(hd_communicator *c, hd_order order)
     m.with_scene = order.scene != NULL;
     m.with_text = order.text != NULL;
     if (order.scene) m.scene = *order.scene;
+    if (order.scene)
+        snprintf(m.particles, sizeof m.particles, "%s", hd_dynamics_of(order.scene)->particles);
     if (order.text) strncpy(room.text, order.text, sizeof room.text - 1);
     hd_communicator_broadcast(c, &m, sizeof m);
     if (order.text) hd_communicator_broadcast(c, room.text, sizeof room.text);
 }
 
-hd_order hd_order_hear(hd_communicator *c, hd_order_room *room)
+hd_order hd_order_hear(hd_communicator *c, hd_order_room *room, hd_known known)
 {
     message m;
     hd_communicator_broadcast(c, &m, sizeof m);
     if (m.with_text) hd_communicator_broadcast(c, room->text, sizeof room->text);
     room->scene = m.scene;
+    if (m.with_scene) HD_ASSERT(hd_dynamics_named(&room->scene.dynamics, m.particles, known));
     return (hd_order){.kind = (hd_order_kind)m.kind,
                       .integer = m.integer,
                       .number = m.number,

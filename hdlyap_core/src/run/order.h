@@ -5,6 +5,7 @@
 #include "hdlyap/communicator.h"
 #include "hdlyap/scene.h"
 #include "run/checkpoint_file.h"
+#include "scene/dynamics.h"
 
 typedef enum hd_order_kind {
     HD_ORDER_END,
@@ -23,7 +24,7 @@ typedef enum hd_order_kind {
 
 typedef struct hd_order {
     hd_order_kind kind;
-    int integer; /**< stages, a column, a row of the table of parameters */
+    int integer; /**< stages, a column, a row of the parameters */
     double number;
     const hd_scene_def *scene; /**< NULL: none */
     const char *text;          /**< a path, a value; NULL: none */
@@ -37,7 +38,7 @@ typedef struct hd_order_room {
 
 /** Tells it to the other ranks; nothing unless this rank leads. */
 void hd_order_tell(hd_communicator *communicator, hd_order order);
-/** Waits for the next one. */
-hd_order hd_order_hear(hd_communicator *communicator, hd_order_room *room);
+/** Waits for the next one. A scene of none of the known dynamics is a bug. */
+hd_order hd_order_hear(hd_communicator *communicator, hd_order_room *room, hd_known known);
 
 #endif

@@ -1,10 +1,23 @@
 /** The table of what can move. */
 #include "scene/dynamics.h"
 
+#include <string.h>
+
 static const hd_dynamics *const rows[] = {
     [HD_DISKS] = &hd_hard_disks, [HD_SPHERES] = &hd_hard_spheres};
 
 const hd_dynamics *hd_dynamics_of(const hd_scene_def *scene)
 {
-    return scene->dynamics ? scene->dynamics : rows[scene->particles];
+    const unsigned k = (unsigned)scene->particles; /* may be anything until it has been checked */
+    return scene->dynamics ? scene->dynamics : rows[k < sizeof rows / sizeof *rows ? k : 0];
+}
+
+bool hd_dynamics_named(const hd_dynamics **out, const char *particles, hd_known known)
+{
+    *out = NULL;
+    for (size_t k = 0; k < sizeof rows / sizeof *rows; k++)
+        if (strcmp(rows[k]->particles, particles) == 0) return true;
+    for (int k = 0; k < known.count && !*out; k++)
+        if (strcmp(known.row[k]->particles, particles) == 0) *out = known.row[k];
+    return *out;
 }

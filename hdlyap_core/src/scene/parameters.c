@@ -1,6 +1,9 @@
 /** parameters.inc -> rows, and values by them. */
 #include "scene/parameters.h"
 
+#include "hdlyap/dynamics.h"
+
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -49,6 +52,15 @@ const hd_parameter *hd_scene_parameters(int *count)
 {
     *count = (int)(sizeof rows / sizeof *rows);
     return rows;
+}
+
+const hd_parameter *hd_parameter_of(const hd_scene_def *def, int k)
+{
+    int count;
+    const hd_parameter *all = hd_scene_parameters(&count);
+    const hd_dynamics *of = hd_dynamics_of(def);
+    if (k < count) return &all[k];
+    return k - count < of->parameters ? &of->parameter[k - count] : NULL;
 }
 
 /** Enumerations and sets have the size of an int. */
@@ -100,6 +112,20 @@ bool hd_parameter_same(const hd_parameter *row, const hd_scene_def *a, const hd_
     if (row->kind == HD_PARAMETER_SEED) return memcmp(of_a, of_b, sizeof(uint64_t)) == 0;
     if (row->kind == HD_PARAMETER_TEXT) return strncmp(of_a, of_b, HD_TEXT) == 0;
     return hd_parameter_value(row, a) == hd_parameter_value(row, b);
+}
+
+const char *hd_parameter_say(const hd_parameter *row, const hd_scene_def *def, char *text,
+                             size_t size)
+{
+    const double value = hd_parameter_value(row, def);
+    const bool named = hd_parameter_is_word(row, value);
+    if (row->kind == HD_PARAMETER_SEED)
+        snprintf(text, size, "%llu", (unsigned long long)def->seed);
+    else if (named)
+        snprintf(text, size, "%s", hd_parameter_word_of(row, (int)value));
+    else
+        snprintf(text, size, "%.15g", value);
+    return text;
 }
 
 const char *hd_parameter_word_of(const hd_parameter *row, int value)

@@ -3,9 +3,9 @@
 
 #include <math.h>
 
-#include "hdlyap/parameters.h"
 #include "scene/archived.h"
 #include "scene/fluid.h"
+#include "scene/parameters.h"
 #include "scene/wave.h"
 
 hd_scene_def hd_scene_def_default(void)
@@ -121,22 +121,21 @@ double hd_scene_parting(const hd_scene_def *def)
 /** Ranges beyond what the types hold are checked with the whole of it. */
 void hd_scene_archive(hd_scene_def *def, hd_archive *archive)
 {
-    int count;
-    const hd_parameter *rows = hd_scene_parameters(&count);
-    for (int k = 0; k < count; k++) {
-        const hd_parameter *r = &rows[k];
+    const hd_parameter *r;
+    for (int k = 0; (r = hd_parameter_of(def, k)); k++) {
+        const char *record = r->record ? r->record : r->name;
         double real = hd_parameter_value(r, def);
         int whole;
         switch (r->kind) {
-        case HD_PARAMETER_SEED: hd_archive_bits(archive, r->record, &def->seed); continue;
+        case HD_PARAMETER_SEED: hd_archive_bits(archive, record, &def->seed); continue;
         case HD_PARAMETER_TEXT:
-            hd_archive_text(archive, r->record, (char *)def + r->offset, HD_TEXT);
+            hd_archive_text(archive, record, (char *)def + r->offset, HD_TEXT);
             continue;
         case HD_PARAMETER_REAL:
-        case HD_PARAMETER_INTERVAL: hd_archive_double(archive, r->record, &real); break;
+        case HD_PARAMETER_INTERVAL: hd_archive_double(archive, record, &real); break;
         default:
             whole = (int)real;
-            hd_archive_int(archive, r->record, &whole, (int)r->least, (int)r->most);
+            hd_archive_int(archive, record, &whole, (int)r->least, (int)r->most);
             real = whole;
         }
         hd_parameter_assign(r, def, real);

@@ -4,13 +4,14 @@
 #include <stdbool.h>
 
 #include "base/check.h"
-#include "hdlyap/parameters.h"
+#include "hdlyap/dynamics.h"
 #include "scene/container.h"
 #include "scene/fluid.h"
+#include "scene/parameters.h"
 #include "scene/scene.h"
 #include "scene/wave.h"
 
-enum { SAID = 96 }; /* of a container */
+enum { SAID = 96, VALUE = 32 }; /* of a container; of a parameter */
 
 /** Mean distance of two disks: 1 over this of the density. */
 static const char *root(const hd_scene_def *def)
@@ -21,8 +22,9 @@ static const char *root(const hd_scene_def *def)
 static hd_status refuse_value(const hd_parameter *row, const hd_scene_def *def, char *message,
                               size_t size)
 {
-    return hd_refuse(message, size, "%s = %.15g: must be %s", row->name,
-                     hd_parameter_value(row, def), row->allowed);
+    char value[VALUE];
+    return hd_refuse(message, size, "%s = %s: must be %s", row->name,
+                     hd_parameter_say(row, def, value, sizeof value), row->allowed);
 }
 
 /** What has a range of its own, whatever the others are. The negated comparison refuses NaN too. */
@@ -37,11 +39,10 @@ static bool is_in_range(const hd_parameter *row, double value)
 
 static hd_status check_ranges(const hd_scene_def *def, char *message, size_t size)
 {
-    int count;
-    const hd_parameter *rows = hd_scene_parameters(&count);
-    for (int k = 0; k < count; k++)
-        if (!is_in_range(&rows[k], hd_parameter_value(&rows[k], def)))
-            return refuse_value(&rows[k], def, message, size);
+    const hd_parameter *row;
+    for (int k = 0; (row = hd_parameter_of(def, k)); k++)
+        if (!is_in_range(row, hd_parameter_value(row, def)))
+            return refuse_value(row, def, message, size);
     return HD_OK;
 }
 
@@ -51,11 +52,10 @@ static hd_status check_particles(const hd_scene_def *def, char *message, size_t 
     const hd_scene_def usual = hd_scene_def_default();
     const hd_dynamics *of = hd_dynamics_of(def);
     const bool flat = of->dimension == 2;
-    const double most = of->fluid->density_max;
-    if (def->density > most)
+    if (of->fluid && def->density > of->fluid->density_max)
         return hd_refuse(message, size,
                          "density = %.15g: must be from 1e-6 to %.5g with particles = %s",
-                         def->density, most, of->particles);
+                         def->density, of->fluid->density_max, of->particles);
     if (flat && def->aspect_z != usual.aspect_z)
         return hd_refuse(message, size, "aspect_z = %.15g: must not be given with particles = %s",
                          def->aspect_z, of->particles);
@@ -84,9 +84,31 @@ static hd_status check_curved(const hd_scene_def *def, char *message, size_t siz
     return HD_OK;
 }
 
+/** Parameters of a box are refused where there is none. */
+static hd_status check_without_box(const hd_scene_def *def, char *message, size_t size)
+{
+    static const size_t of_box[] = {
+        offsetof(hd_scene_def, container),      offsetof(hd_scene_def, density),
+        offsetof(hd_scene_def, aspect),         offsetof(hd_scene_def, aspect_z),
+        offsetof(hd_scene_def, boundary[0]),    offsetof(hd_scene_def, boundary[1]),
+        offsetof(hd_scene_def, boundary[2]),    offsetof(hd_scene_def, max_wave_number),
+        offsetof(hd_scene_def, max_mode_number)};
+    const hd_scene_def usual = hd_scene_def_default();
+    const char *particles = hd_dynamics_of(def)->particles;
+    char value[VALUE];
+    const hd_parameter *row;
+    for (int k = 0; (row = hd_parameter_of(def, k)); k++)
+        for (size_t b = 0; b < sizeof of_box / sizeof *of_box; b++)
+            if (row->offset == of_box[b] && !hd_parameter_same(row, def, &usual))
+                return hd_refuse(message, size, HD_WITHOUT_BOX, row->name,
+                                 hd_parameter_say(row, def, value, sizeof value), particles);
+    return HD_OK;
+}
+
 hd_status hd_scene_check_box(const hd_scene_def *def, char *message, size_t size)
 {
     HD_TRY(check_ranges(def, message, size));
+    if (hd_scene_dimension(def) == 0) return check_without_box(def, message, size);
     HD_TRY(check_particles(def, message, size));
     HD_TRY(hd_container_of(def)->check(def, message, size));
     return hd_container_of(def)->wall ? check_curved(def, message, size) : HD_OK;
@@ -117,10 +139,21 @@ static hd_status check_waves(const hd_scene_def *def, char *message, size_t size
     return HD_OK;
 }
 
+/** What is counted by pairs of exponents needs pairs. */
+static hd_status check_pairs(const hd_scene_def *def, char *message, size_t size)
+{
+    const hd_dynamics *of = hd_dynamics_of(def);
+    if (of->symplectic || def->exponents != HD_EXPONENTS_POSITIVE) return HD_OK;
+    return hd_refuse(message, size,
+                     "exponents = positive: must be all, all_independent, none or from 1 to %d "
+                     "with particles = %s, whose exponents are not in pairs",
+                     2 * of->coordinates * def->disks, of->particles);
+}
+
 hd_status hd_scene_check_start(const hd_scene_def *def, char *message, size_t size)
 {
-    const hd_container_row *container = hd_container_of(def);
-    const int of_disk = 2 * hd_scene_coordinates(def);
+    const hd_dynamics *of = hd_dynamics_of(def);
+    const int of_disk = 2 * of->coordinates;
     HD_TRY(hd_scene_check_box(def, message, size));
     if (def->exponents < HD_EXPONENTS_ALL_INDEPENDENT || def->exponents > of_disk * def->disks)
         return hd_refuse(
@@ -130,15 +163,10 @@ hd_status hd_scene_check_start(const hd_scene_def *def, char *message, size_t si
             def->exponents, of_disk, of_disk * def->disks);
     if (def->exponents == HD_EXPONENTS_POSITIVE && hd_scene_vectors(def) == 0)
         return hd_refuse(message, size,
-                         "exponents = positive: must be all, all_independent, none or from 1 to 4 "
-                         "with disks = 1, which has no positive one");
-    HD_TRY(check_waves(def, message, size));
-    char said[SAID];
-    container->say(def, said, sizeof said);
-    if (container->start_distance(def) < HD_START_DISTANCE_MIN)
-        return hd_refuse(
-            message, size,
-            "density = %.15g: must be at most %.6g with disks = %d, %s (densest start lattice)",
-            def->density, container->density_max(def), def->disks, said);
-    return HD_OK;
+                         "exponents = positive: must be all, all_independent, none or from 1 to %d "
+                         "with disks = %d, which has no positive one",
+                         of_disk * def->disks, def->disks);
+    HD_TRY(check_pairs(def, message, size));
+    if (of->dimension > 0) HD_TRY(check_waves(def, message, size));
+    return of->check ? of->check(def, message, size) : HD_OK;
 }

@@ -95,7 +95,8 @@ static int read_settings(app *a)
     if (created != HDR_OK) return failed_status(created);
     if (!settings_resume(&resume, a->params, message, sizeof message)) return refuse(message);
     if (*resume) {
-        const hd_status status = hd_checkpoint_read(&a->kept, resume, message, sizeof message);
+        const hd_status status = hd_checkpoint_read(&a->kept, resume, NULL, 0, message,
+                                                    sizeof message);
         if (status != HD_OK) return fault_logged(status, message);
     }
     if (!settings_read(&a->set, a->params, *resume ? &a->kept : NULL, message, sizeof message))

@@ -63,7 +63,7 @@ void ranks_follow(hd_communicator *ranks)
     signal(SIGINT, SIG_IGN);
     signal(SIGTERM, SIG_IGN);
     signal(SIGHUP, SIG_IGN);
-    hd_run_follow(ranks);
+    hd_run_follow(ranks, NULL, 0);
 }
 
 void ranks_leave(hd_communicator *ranks)

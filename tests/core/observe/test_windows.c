@@ -80,7 +80,7 @@ TEST(a_way_back_that_fails_is_said)
     assert_int_equal(hd_run_status(run), HD_NO_MEMORY);
     assert_int_equal(hd_run_save(run, path, "", message, sizeof message), HD_NO_MEMORY);
     assert_string_equal(message, "windows.test: the run has failed: out of memory");
-    CHECK_OK(hd_checkpoint_read(&kept, path, NULL, 0));
+    CHECK_OK(hd_checkpoint_read(&kept, path, NULL, 0, NULL, 0));
     CHECK_CLOSE(kept.time, time, 0.0);
     assert_int_equal(remove(path), 0);
 }

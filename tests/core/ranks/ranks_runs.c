@@ -419,7 +419,7 @@ static double lead(hd_communicator *c)
 TEST(others_follow)
 {
     if (ranks->rank > 0) {
-        hd_run_follow(ranks);
+        hd_run_follow(ranks, NULL, 0);
         return;
     }
     hd_run_lead(ranks);

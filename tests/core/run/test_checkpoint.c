@@ -323,10 +323,10 @@ TEST(it_says_whose_it_is)
     kept_steps(run, 12);
     memset(long_label, 'x', sizeof long_label - 1);
     CHECK_OK(hd_run_save(run, PATH, long_label, message, sizeof message));
-    CHECK_OK(hd_checkpoint_read(&found, PATH, message, sizeof message));
+    CHECK_OK(hd_checkpoint_read(&found, PATH, NULL, 0, message, sizeof message));
     assert_int_equal(strlen(found.label), HD_CHECKPOINT_LABEL - 1);
     CHECK_OK(hd_run_save(run, PATH, KEPT_LABEL, message, sizeof message));
-    CHECK_OK(hd_checkpoint_read(&found, PATH, message, sizeof message));
+    CHECK_OK(hd_checkpoint_read(&found, PATH, NULL, 0, message, sizeof message));
     assert_string_equal(found.label, KEPT_LABEL);
     for (int k = 0; k < count; k++)
         CHECK_CLOSE(hd_parameter_value(&rows[k], &found.scene), hd_parameter_value(&rows[k], &def),

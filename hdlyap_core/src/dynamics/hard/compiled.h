@@ -34,6 +34,7 @@ enum { HD_ROWS = 2 * HD_DIM };
 #define hd_hard_archive HD_COMPILED(hd_hard_archive)
 #define hd_hard_bytes HD_COMPILED(hd_hard_bytes)
 #define hd_hard_create HD_COMPILED(hd_hard_create)
+#define hd_hard_create_from HD_COMPILED(hd_hard_create_from)
 #define hd_hard_entries HD_COMPILED(hd_hard_entries)
 #define hd_hard_fingerprint HD_COMPILED(hd_hard_fingerprint)
 #define hd_hard_free HD_COMPILED(hd_hard_free)

@@ -362,9 +362,17 @@ static hd_status create_on_lattice(void **state, const hd_scene_def *def)
     return status;
 }
 
-hd_status hd_hard_create(void **state, const hd_scene_def *def, const double *q, const double *p)
+hd_status hd_hard_create(void **state, const hd_scene_def *def)
 {
     *state = NULL;
-    HD_TRY(q ? hd_scene_check_box(def, NULL, 0) : hd_scene_check_start(def, NULL, 0));
-    return q ? create_at(state, def, q, p) : create_on_lattice(state, def);
+    HD_TRY(hd_scene_check_start(def, NULL, 0));
+    return create_on_lattice(state, def);
+}
+
+hd_status hd_hard_create_from(void **state, const hd_scene_def *def, const double *q,
+                              const double *p)
+{
+    *state = NULL;
+    HD_TRY(hd_scene_check_box(def, NULL, 0));
+    return create_at(state, def, q, p);
 }

@@ -2,6 +2,7 @@
 #include <float.h>
 #include <math.h>
 
+#include "base/check.h"
 #include "dynamics/hard/events.h"
 #include "dynamics/hard/hard_state.h"
 #include "dynamics/hard/maps.h"
@@ -9,6 +10,8 @@
 #include "scene/dynamics.h"
 #include "scene/fluid.h"
 #include "scene/null_space.h"
+
+enum { SAID = 96 }; /* of a container */
 
 static double hard_time(const void *state)
 {
@@ -137,6 +140,19 @@ static void hard_examine(const void *state, hd_examined *examined)
     momentum(tr, examined->momentum);
 }
 
+/** There are start positions. */
+static hd_status hard_check(const hd_scene_def *scene, char *message, size_t size)
+{
+    const hd_container_row *container = hd_container_of(scene);
+    char said[SAID];
+    if (container->start_distance(scene) >= HD_START_DISTANCE_MIN) return HD_OK;
+    container->say(scene, said, sizeof said);
+    return hd_refuse(
+        message, size,
+        "density = %.15g: must be at most %.6g with disks = %d, %s (densest start lattice)",
+        scene->density, container->density_max(scene), scene->disks, said);
+}
+
 /** Pairs of energy and time, and of each conserved momentum. */
 static int hard_zeros(const hd_scene_def *scene)
 {
@@ -156,11 +172,13 @@ const hd_dynamics ROW = {.particles = HD_DIM == 2 ? "disks" : "spheres",
                          .symplectic = true,
                          .dispersing = true,
                          .fluid = HD_DIM == 2 ? &hd_fluid_disks : &hd_fluid_spheres,
+                         .check = hard_check,
                          .zeros = hard_zeros,
                          .entries = hd_hard_entries,
                          .rate = hd_hard_rate,
                          .null = hd_null_space_fill,
                          .create = hd_hard_create,
+                         .create_from = hd_hard_create_from,
                          .free = hd_hard_free,
                          .advance = hd_hard_advance,
                          .time = hard_time,

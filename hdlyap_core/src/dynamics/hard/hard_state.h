@@ -38,8 +38,9 @@ static inline void hd_disk_move_to(hd_disk *disk, double t)
 
 /* Entries of the row: see hd_dynamics. */
 
-HD_MUST_CHECK hd_status hd_hard_create(void **state, const hd_scene_def *def, const double *q,
-                                       const double *p);
+HD_MUST_CHECK hd_status hd_hard_create(void **state, const hd_scene_def *def);
+HD_MUST_CHECK hd_status hd_hard_create_from(void **state, const hd_scene_def *def, const double *q,
+                                            const double *p);
 void hd_hard_free(void *state);
 HD_MUST_CHECK hd_status hd_hard_advance(void *state, hd_record *record, double t_end);
 double hd_hard_bytes(double disks);

@@ -1,0 +1,376 @@
+/** A dynamics of one's own: the chain of the examples, by what is known of it, and rows made of it.
+ */
+#include "runs.h"
+
+#include "kept.h"
+#include "run/order.h"
+#include "same.h"
+
+#define main chain_main
+#include "../../../hdlyap_core/examples/chain.c"
+#undef main
+
+#define PATH "own.ckpt"
+enum { N = 8, ROWS = 2 * N };
+
+/** So much energy that gaps between exponents are wide: .63 .54 .45 .36 .25 .14 0 0 with beta = 10.
+ */
+static hd_scene_def chain_of(int count, double beta, int exponents)
+{
+    hd_scene_def scene = hd_scene_def_of(&of_chain);
+    scene.disks = count;
+    scene.own[BETA].real = beta;
+    scene.own[ENERGY].real = 10.0;
+    scene.own[STEP].real = 0.005;
+    scene.exponents = exponents;
+    scene.equilibration = 50.0;
+    scene.duration = 400.0;
+    scene.threads = 1;
+    return scene;
+}
+
+/* ---- maps ---------------------------------------------------------------------------------- */
+
+typedef struct carried {
+    hd_record *record;
+    hd_frame *frame;
+    chain *start, *end;
+} carried;
+
+static chain *copy_of(const chain *c)
+{
+    const size_t size = sizeof *c + 2 * (size_t)c->count * sizeof(double);
+    chain *copy = malloc(size);
+    memcpy(copy, c, size);
+    return copy;
+}
+
+/** The unit vectors, carried for 5 time units in two parts. */
+static carried carry_unit_vectors(double beta)
+{
+    const hd_scene_def scene = chain_of(N, beta, HD_EXPONENTS_ALL);
+    carried c;
+    void *state;
+    CHECK_OK(create(&state, &scene));
+    CHECK_OK(advance(state, NULL, 30.0));
+    c.start = copy_of(state);
+    CHECK_OK(hd_record_create(&c.record, of_chain.entry));
+    CHECK_OK(advance(state, c.record, 31.003)); /* steps do not care for the ends of advances */
+    CHECK_OK(advance(state, c.record, 35.0));
+    c.end = state;
+    CHECK_OK(hd_frame_create(&c.frame, &of_chain, N, ROWS, 1, 1));
+    for (int row = 0; row < ROWS; row++)
+        for (int col = 0; col < ROWS; col++)
+            hd_frame_data(c.frame)[row * hd_frame_stride(c.frame) + col] = row == col;
+    CHECK_OK(hd_frame_replay(c.frame, c.record, 0.0, 1.7));
+    CHECK_OK(hd_frame_replay(c.frame, c.record, 1.7, hd_record_duration(c.record)));
+    return c;
+}
+
+static void carried_free(carried *c)
+{
+    hd_record_free(c->record);
+    hd_frame_free(c->frame);
+    free(c->start);
+    free(c->end);
+}
+
+static double entry_of(const carried *c, int row, int col)
+{
+    return hd_frame_read(c->frame)[row * hd_frame_stride(c->frame) + col];
+}
+
+/** Each entry, against two shadow trajectories: their difference is right to eps^2, and to rounding
+ * over eps. */
+TEST(maps_are_those_of_shadow_trajectories)
+{
+    const double off = 1e-6, tolerance = 3e-7;
+    HELD(carried) c = carry_unit_vectors(10.0);
+    for (int col = 0; col < ROWS; col++) {
+        HEAP chain *plus = copy_of(c.start);
+        HEAP chain *minus = copy_of(c.start);
+        plus->x[col] += off;
+        minus->x[col] -= off;
+        CHECK_OK(advance(plus, NULL, 35.0));
+        CHECK_OK(advance(minus, NULL, 35.0));
+        for (int row = 0; row < ROWS; row++)
+            CHECK_CLOSE(entry_of(&c, row, col), (plus->x[row] - minus->x[row]) / (2.0 * off),
+                        tolerance);
+    }
+}
+
+/** S^T J S = J, to rounding in 250 steps. */
+TEST(maps_are_symplectic)
+{
+    HELD(carried) c = carry_unit_vectors(10.0);
+    for (int a = 0; a < ROWS; a++)
+        for (int b = 0; b < ROWS; b++) {
+            double sum = 0.0;
+            for (int i = 0; i < N; i++)
+                sum += entry_of(&c, 2 * i, a) * entry_of(&c, 2 * i + 1, b) -
+                       entry_of(&c, 2 * i + 1, a) * entry_of(&c, 2 * i, b);
+            CHECK_CLOSE(sum,
+                        a % 2 == 0 && b == a + 1   ? 1.0
+                        : a % 2 == 1 && b == a - 1 ? -1.0
+                                                   : 0.0,
+                        1e-11);
+        }
+}
+
+/* ---- exponents ----------------------------------------------------------------------------- */
+
+static double exponent_of(const hd_run *run, int col)
+{
+    return hd_spectrum_exponent(hd_run_spectrum(run), col);
+}
+
+/** Of N - 2 pairs and four zeros; half of the vectors say as much as all, and all of them have it
+ * without being told. Zeros fall with ln t / t; Verlet's energy, as h^2. */
+TEST(exponents_are_in_pairs_with_four_zeros)
+{
+    hd_scene_def scene = chain_of(N, 10.0, HD_EXPONENTS_ALL);
+    assert_int_equal(hd_scene_counts(&scene).zero, 4);
+    assert_int_equal(hd_scene_counts(&scene).positive, N - 2);
+    assert_int_equal(hd_scene_counts(&scene).carried, N);
+    scene.duration = 4000.0;
+    OWNED(hd_run) *half = finished(scene);
+    scene.exponents = HD_EXPONENTS_ALL_INDEPENDENT;
+    OWNED(hd_run) *whole = finished(scene);
+    for (int col = 0; col < N; col++) {
+        const double error = hypot(hd_spectrum_std_error(hd_run_spectrum(half), col), 2e-3);
+        CHECK_CLOSE(exponent_of(whole, col), exponent_of(half, col), 4.0 * error);
+        CHECK_CLOSE(exponent_of(whole, col) + exponent_of(whole, ROWS - 1 - col), 0.0,
+                    col < N - 2 ? hd_run_cost(whole).error_bound : 1e-4);
+    }
+    for (int col = N - 2; col < N + 2; col++) CHECK_CLOSE(exponent_of(half, col), 0.0, 3e-3);
+    CHECK_CLOSE(exponent_of(half, 0), 0.626, 0.03);
+    CHECK_CLOSE(exponent_of(half, N - 3), 0.137, 0.03);
+}
+
+TEST(without_beta_all_exponents_vanish)
+{
+    hd_scene_def scene = chain_of(N, 0.0, HD_EXPONENTS_ALL);
+    assert_int_equal(hd_scene_counts(&scene).zero, ROWS);
+    scene.duration = 2000.0;
+    OWNED(hd_run) *run = finished(scene);
+    for (int col = 0; col < ROWS; col++) CHECK_CLOSE(exponent_of(run, col), 0.0, 4e-3);
+}
+
+/** The record says when; whoever stops the run, the steps are the same bits. */
+TEST(steps_do_not_depend_on_who_watches)
+{
+    const hd_scene_def scene = chain_of(N, 10.0, 2);
+    double q[2][N], p[2][N];
+    for (int watched = 0; watched < 2; watched++) {
+        OWNED(hd_run) *run = created(scene);
+        if (watched) hd_run_watch(run, 0.37, hd_run_vectors(run));
+        finish(run);
+        hd_trajectory_state(hd_run_trajectory(run), q[watched], p[watched]);
+    }
+    assert_memory_equal(q[0], q[1], sizeof q[0]);
+    assert_memory_equal(p[0], p[1], sizeof p[0]);
+}
+
+/* ---- covariant vectors, widths ------------------------------------------------------------- */
+
+static hd_scene_def with_covariant(int exponents)
+{
+    hd_scene_def scene = chain_of(N, 10.0, exponents);
+    scene.observe = HD_OBSERVE_COVARIANT | HD_OBSERVE_LOCALIZATION;
+    scene.warmup = scene.covariant_transient = 100.0;
+    scene.covariant_window = 50.0;
+    scene.covariant_sampling = 5.0;
+    return scene;
+}
+
+TEST(covariant_vectors_grow_with_the_exponents)
+{
+    const int kinds[] = {HD_EXPONENTS_ALL, HD_EXPONENTS_ALL_INDEPENDENT};
+    for (int k = 0; k < 2; k++) {
+        hd_scene_def scene = with_covariant(kinds[k]);
+        scene.duration = 1000.0;
+        OWNED(hd_run) *run = finished(scene);
+        const hd_covariant_results found = hd_covariant_read(hd_run_covariant(run));
+        assert_true(found.windows > 5);
+        assert_null(found.of_frame);
+        CHECK_WITHIN(found.start_mismatch.stable, 0.0, 0.01);
+        for (int col = 0; col < ROWS; col++) {
+            CHECK_CLOSE(hd_spectrum_exponent(found.spectrum, col), exponent_of(run, col), 0.02);
+            CHECK_WITHIN(found.widths[col], 1.0 / N, 1.0);
+            CHECK_WITHIN(hd_localization_widths(hd_run_localization(run))[col], 1.0 / N, 1.0);
+        }
+        assert_true(found.null < 0); /* the row tells of no vector */
+    }
+}
+
+/* ---- what is refused ----------------------------------------------------------------------- */
+
+static void check_refused(hd_scene_def scene, const char *line)
+{
+    char message[256] = "";
+    hd_run *run;
+    assert_int_equal(hd_run_create(&run, &scene, message, sizeof message), HD_REFUSED);
+    assert_string_equal(message, line);
+}
+
+#define REFUSED(line, ...)                                                                         \
+    check_refused(scene_from(chain_of(N, 10.0, HD_EXPONENTS_ALL), __VA_ARGS__), line)
+#define NO_BOX ": must not be given with particles = chain, which have no positions in a box"
+
+TEST(what_needs_a_box_is_refused_by_name)
+{
+    REFUSED("observables = modes" NO_BOX, .observe = HD_OBSERVE_MODES);
+    REFUSED("observables = gas" NO_BOX, .observe = HD_OBSERVE_GAS | HD_OBSERVE_LOCALIZATION);
+    REFUSED("observables = t_phases" NO_BOX, .observe = HD_OBSERVE_T_PHASES);
+    REFUSED("density = 0.5" NO_BOX, .density = 0.5);
+    REFUSED("aspect = 1" NO_BOX, .aspect = 1.0);
+    REFUSED("container = circle" NO_BOX, .container = HD_CIRCLE);
+    REFUSED("boundary_y = reflecting" NO_BOX, .boundary[1] = HD_REFLECTING);
+    REFUSED("max_mode_number = 2" NO_BOX, .max_mode_number = 2);
+    REFUSED("target = pressure 1%: must be without pressure: gas is no observable",
+            .target = (hd_text){"pressure 1%"});
+}
+
+TEST(own_parameters_are_refused_like_others)
+{
+    REFUSED("beta = -1: must be from 0 to 1000", .own[BETA].real = -1.0);
+    REFUSED("beta = nan: must be from 0 to 1000", .own[BETA].real = NAN);
+    REFUSED("time_step = 0.5: must be from 1e-6 to 0.1", .own[STEP].real = 0.5);
+    REFUSED("disks = 2: must be 3 or more with particles = chain", .disks = 2);
+    REFUSED(
+        "exponents = 17: must be positive, all, all_independent, none or from 1 to 2 disks = 16",
+        .exponents = 17);
+}
+
+/** Friction would do: here the row only does not say that it is symplectic. */
+TEST(what_needs_pairs_is_refused_without_them)
+{
+    hd_dynamics unpaired = of_chain;
+    unpaired.symplectic = false;
+    hd_scene_def scene = chain_of(N, 10.0, HD_EXPONENTS_ALL);
+    scene.dynamics = &unpaired;
+    assert_int_equal(hd_scene_counts(&scene).carried, ROWS);
+    OWNED(hd_run) *run = finished(scene);
+    OWNED(hd_run) *each = finished(chain_of(N, 10.0, HD_EXPONENTS_ALL_INDEPENDENT));
+    check_same_exponents(run, each, 0.0);
+    scene.exponents = HD_EXPONENTS_POSITIVE;
+    check_refused(scene, "exponents = positive: must be all, all_independent, none or from 1 to "
+                         "16 with particles = chain, whose exponents are not in pairs");
+    scene.exponents = HD_EXPONENTS_ALL;
+    scene.observe = HD_OBSERVE_COVARIANT;
+    check_refused(scene, "observables = covariant: must not be given with particles = chain, "
+                         "whose exponents are not in pairs");
+}
+
+/* ---- checkpoints --------------------------------------------------------------------------- */
+
+static void check_not_resumed(const char *path, const hd_scene_def *scene, hd_status status,
+                              const char *line)
+{
+    char message[512] = "";
+    hd_run *run;
+    const hd_status found = hd_run_resume(&run, path, scene, message, sizeof message);
+    assert_string_equal(message, line);
+    assert_int_equal(found, status);
+}
+
+TEST(a_resumed_run_is_the_same)
+{
+    hd_scene_def scene = with_covariant(HD_EXPONENTS_ALL);
+    OWNED(hd_run) *alone = created(scene);
+    for (double time = 30.0; time < 600.0; time += 97.3) { /* of each stage */
+        until_time(alone, time);
+        CHECK_OK(hd_run_save(alone, PATH, "", NULL, 0));
+        hd_run *resumed;
+        CHECK_OK(hd_run_resume(&resumed, PATH, &scene, NULL, 0));
+        expect_same_state(alone, resumed);
+        for (int k = 0; k < 5; k++) {
+            CHECK_OK(hd_run_advance(resumed));
+            CHECK_OK(hd_run_advance(alone));
+        }
+        if (hd_run_stage(alone) < HD_AVERAGING) expect_same_state(alone, resumed);
+        hd_run_free(resumed);
+    }
+    (void)remove(PATH);
+}
+
+TEST(another_dynamics_is_not_resumed)
+{
+    hd_scene_def scene = chain_of(N, 10.0, 3), other = scene;
+    OWNED(hd_run) *run = created(scene);
+    until_time(run, 60.0);
+    CHECK_OK(hd_run_save(run, PATH, "", NULL, 0));
+    other.own[BETA].real = 0.5;
+    check_not_resumed(PATH, &other, HD_REFUSED, "beta = 0.5: must be 10, as in the checkpoint");
+    other = scene_from(hd_scene_def_default(), .disks = N, .density = 0.5, .aspect = 1.0);
+    check_not_resumed(PATH, &other, HD_REFUSED,
+                      "particles = disks: must be chain, as in the checkpoint");
+    check_not_resumed(PATH, NULL, HD_FILE_FAULT,
+                      PATH ": is of particles = chain, which this program does not know");
+    const hd_dynamics *const own[] = {&of_chain};
+    hd_checkpoint kept;
+    CHECK_OK(hd_checkpoint_read(&kept, PATH, own, 1, NULL, 0));
+    assert_string_equal(kept.particles, "chain");
+    assert_ptr_equal(kept.scene.dynamics, &of_chain);
+    CHECK_CLOSE(kept.scene.own[STEP].real, 0.005, 0.0);
+    assert_int_equal(hd_checkpoint_read(&kept, PATH, NULL, 0, NULL, 0), HD_FILE_FAULT);
+    OWNED(hd_run) *disks = created(other);
+    CHECK_OK(hd_run_save(disks, PATH, "", NULL, 0));
+    check_not_resumed(PATH, &scene, HD_REFUSED,
+                      "particles = chain: must be disks, as in the checkpoint");
+    (void)remove(PATH);
+}
+
+/** A row whose parameters are words, an integer, and a word or a number. */
+TEST(own_parameters_can_be_words)
+{
+    static const hd_parameter_word kinds[] = {{"soft", 3}, {"stiff", 7}, {NULL, 0}};
+    static const hd_parameter words[] = {
+        {"beta", HD_PARAMETER_REAL, NULL, HD_OWN(BETA), 1, 0, 1e3, "from 0 to 1000", "",
+         .text = ""},
+        {"energy", HD_PARAMETER_INTERVAL, kinds, HD_OWN(ENERGY), 7, 10, 20,
+         "soft, stiff or from 10 to 20", "", .text = ""},
+        {"time_step", HD_PARAMETER_REAL, NULL, HD_OWN(STEP), 0.02, 1e-6, 0.1, "from 1e-6 to 0.1",
+         "", .text = ""},
+        {"kind", HD_PARAMETER_WORD, kinds, HD_OWN(3), 3, 3, 7, "soft or stiff", "", .text = ""},
+        {"number", HD_PARAMETER_INT, NULL, HD_OWN(4), 5, 1, 9, "an integer from 1 to 9", "",
+         .text = ""}};
+    hd_dynamics of_words = of_chain;
+    of_words.parameter = words;
+    of_words.parameters = 5;
+    hd_scene_def scene = hd_scene_def_of(&of_words), other;
+    scene.disks = N;
+    scene.threads = 1;
+    assert_int_equal(scene.own[3].whole, 3);
+    assert_int_equal(scene.own[4].whole, 5);
+    OWNED(hd_run) *run = created(scene);
+    until_time(run, 20.0);
+    CHECK_OK(hd_run_save(run, PATH, "", NULL, 0));
+    other = scene;
+    other.own[3].whole = 7;
+    check_not_resumed(PATH, &other, HD_REFUSED, "kind = stiff: must be soft, as in the checkpoint");
+    other = scene;
+    other.own[ENERGY].real = 12.0;
+    check_not_resumed(PATH, &other, HD_REFUSED, "energy = 12: must be stiff, as in the checkpoint");
+    other = scene;
+    other.own[4].whole = 6;
+    check_not_resumed(PATH, &other, HD_REFUSED, "number = 6: must be 5, as in the checkpoint");
+    scene.own[ENERGY].real = 8.0;
+    check_refused(scene, "energy = 8: must be soft, stiff or from 10 to 20");
+    (void)remove(PATH);
+}
+
+/* ---- memory, trial ------------------------------------------------------------------------- */
+
+TEST(what_it_takes_is_known_before)
+{
+    char message[256] = "";
+    const hd_scene_def scene = chain_of(64, 10.0, HD_EXPONENTS_ALL);
+    hd_estimate estimate;
+    CHECK_OK(hd_estimate_run(&estimate, &scene, 0.0, message, sizeof message));
+    CHECK_WITHIN(estimate.seconds, 1e-7, 10.0);
+    CHECK_WITHIN(hd_room_needed(&scene, 1, 1), 64.0 * 128.0 * 16.0, 1e8);
+    assert_int_equal(hd_room_check(&scene, (hd_room){1e4, "machine", 1}, message, sizeof message),
+                     HD_NO_MEMORY);
+    assert_int_equal(hd_waves(&scene, NULL, 0), 0);
+}
