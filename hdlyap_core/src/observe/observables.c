@@ -13,11 +13,6 @@
 /** Wall seconds after which no further step of catching up begins in a call. */
 static const double CATCH_UP_SECONDS = 0.1;
 
-/** For each row k that the run has and somebody looks at. */
-#define EACH_LOOKED_AT(o, k)                                                                       \
-    for (int k = 0; k < HD_OBSERVED; k++)                                                          \
-        if (hd_observables_has(o, (hd_observed)k))
-
 static hd_status create_state(hd_observables *o)
 {
     const hd_scene_def *scene = o->with.scene;
@@ -81,32 +76,44 @@ void hd_observables_look(hd_observables *o, unsigned stages)
             hd_observable_rows[k]->resume(o->part[k]);
 }
 
-bool hd_observables_has(const hd_observables *o, hd_observed k)
+/* ---- those that somebody looks at ---------------------------------------------------------- */
+
+/** One of the run's observables. */
+typedef struct one {
+    int k;
+    const hd_observable *row;
+    void *self;
+} one;
+
+/** Moves on to the next one that somebody looks at; false after the last one. */
+static bool next(one *at, const hd_observables *o)
 {
-    return o->part[k] &&
-           (o->seen & hd_observable_bits[k] || !(hd_observable_rows[k]->needs & HD_NEEDS_FRAME));
+    while (++at->k < HD_OBSERVED) {
+        at->row = hd_observable_rows[at->k];
+        at->self = o->part[at->k];
+        const bool seen = o->seen & hd_observable_bits[at->k] || !(at->row->needs & HD_NEEDS_FRAME);
+        if (at->self && seen) return true;
+    }
+    return false;
 }
+
+static const one BEFORE = {.k = -1}; /**< the first one */
 
 bool hd_observables_any(const hd_observables *o) { return hd_observables_need(o, 0); }
 
 bool hd_observables_need(const hd_observables *o, unsigned needs)
 {
-    EACH_LOOKED_AT(o, k)
-    {
-        if ((hd_observable_rows[k]->needs & needs) == needs) return true;
-    }
+    for (one at = BEFORE; next(&at, o);)
+        if ((at.row->needs & needs) == needs) return true;
     return false;
 }
 
 int hd_observables_first(const hd_observables *o)
 {
     int first = o->with.vectors;
-    EACH_LOOKED_AT(o, k)
-    {
-        if (!(hd_observable_rows[k]->needs & HD_NEEDS_ALL)) continue;
-        const int own = hd_observable_rows[k]->first
-                            ? hd_observable_rows[k]->first(o->part[k], &o->with)
-                            : 0;
+    for (one at = BEFORE; next(&at, o);) {
+        if (!(at.row->needs & HD_NEEDS_ALL)) continue;
+        const int own = at.row->first ? at.row->first(at.self, &o->with) : 0;
         if (own < first) first = own;
     }
     return first;
@@ -115,11 +122,8 @@ int hd_observables_first(const hd_observables *o)
 double hd_observables_sampling(const hd_observables *o)
 {
     double longest = INFINITY;
-    EACH_LOOKED_AT(o, k)
-    {
-        if (hd_observable_rows[k]->sampling)
-            longest = fmin(longest, hd_observable_rows[k]->sampling(o->part[k], &o->with));
-    }
+    for (one at = BEFORE; next(&at, o);)
+        if (at.row->sampling) longest = fmin(longest, at.row->sampling(at.self, &o->with));
     return longest;
 }
 
@@ -136,11 +140,8 @@ static hd_view seen(const hd_observables *o, const hd_view *state)
 
 static hd_status measure_here(hd_observables *o, const hd_view *state)
 {
-    EACH_LOOKED_AT(o, k)
-    {
-        if (hd_observable_rows[k]->measure)
-            HD_TRY(hd_observable_rows[k]->measure(o->part[k], &o->with, state));
-    }
+    for (one at = BEFORE; next(&at, o);)
+        if (at.row->measure) HD_TRY(at.row->measure(at.self, &o->with, state));
     return HD_OK;
 }
 
@@ -148,30 +149,22 @@ hd_status hd_observables_measure(hd_observables *o, const hd_view *state)
 {
     const hd_view view = seen(o, state);
     HD_TRY(hd_communicator_agree(o->with.communicator, measure_here(o, &view)));
-    EACH_LOOKED_AT(o, k)
-    {
-        if (hd_observable_rows[k]->share)
-            HD_TRY(hd_observable_rows[k]->share(o->part[k], &o->with));
-    }
+    for (one at = BEFORE; next(&at, o);)
+        if (at.row->share) HD_TRY(at.row->share(at.self, &o->with));
     return HD_OK;
 }
 
 void hd_observables_add(hd_observables *o, const hd_view *state)
 {
-    EACH_LOOKED_AT(o, k)
-    {
-        if (hd_observable_rows[k]->add) hd_observable_rows[k]->add(o->part[k], &o->with, state);
-    }
+    for (one at = BEFORE; next(&at, o);)
+        if (at.row->add) at.row->add(at.self, &o->with, state);
 }
 
 void hd_observables_report(hd_observables *o, const hd_view *state)
 {
     const hd_view view = seen(o, state);
-    EACH_LOOKED_AT(o, k)
-    {
-        if (hd_observable_rows[k]->report)
-            hd_observable_rows[k]->report(o->part[k], &o->with, &view);
-    }
+    for (one at = BEFORE; next(&at, o);)
+        if (at.row->report) at.row->report(at.self, &o->with, &view);
 }
 
 /* ---- those that follow intervals ----------------------------------------------------------- */
@@ -180,11 +173,10 @@ double hd_observables_seconds(const hd_observables *o) { return o->seconds; }
 
 hd_status hd_observables_follow(hd_observables *o, const hd_leg *leg)
 {
-    EACH_LOOKED_AT(o, k)
-    {
-        if (!hd_observable_rows[k]->follow) continue;
+    for (one at = BEFORE; next(&at, o);) {
+        if (!at.row->follow) continue;
         const double start = hd_clock_now();
-        const hd_status status = hd_observable_rows[k]->follow(o->part[k], leg);
+        const hd_status status = at.row->follow(at.self, leg);
         o->seconds += hd_clock_now() - start;
         HD_TRY(status);
     }
@@ -193,36 +185,27 @@ hd_status hd_observables_follow(hd_observables *o, const hd_leg *leg)
 
 bool hd_observables_begin(const hd_observables *o)
 {
-    EACH_LOOKED_AT(o, k)
-    {
-        if (hd_observable_rows[k]->begins && hd_observable_rows[k]->begins(o->part[k])) return true;
-    }
+    for (one at = BEFORE; next(&at, o);)
+        if (at.row->begins && at.row->begins(at.self)) return true;
     return false;
 }
 
 double hd_observables_due(const hd_observables *o, double now)
 {
     double first = INFINITY;
-    EACH_LOOKED_AT(o, k)
-    {
-        const double due = hd_observable_rows[k]->due ? hd_observable_rows[k]->due(o->part[k], now)
-                                                      : INFINITY;
+    for (one at = BEFORE; next(&at, o);) {
+        const double due = at.row->due ? at.row->due(at.self, now) : INFINITY;
         if (due > now) first = fmin(first, due);
     }
     return first;
 }
 
-static bool is_behind(const hd_observables *o, int k)
-{
-    return hd_observable_rows[k]->is_behind && hd_observable_rows[k]->is_behind(o->part[k]);
-}
+static bool is_behind(const one *at) { return at->row->is_behind && at->row->is_behind(at->self); }
 
 bool hd_observables_are_behind(const hd_observables *o)
 {
-    EACH_LOOKED_AT(o, k)
-    {
-        if (is_behind(o, k)) return true;
-    }
+    for (one at = BEFORE; next(&at, o);)
+        if (is_behind(&at)) return true;
     return false;
 }
 
@@ -236,11 +219,10 @@ static bool has_time(const hd_observables *o, double start)
 
 static hd_status catch_up(hd_observables *o, bool to_its_end, double start)
 {
-    EACH_LOOKED_AT(o, k)
-    {
-        while (is_behind(o, k)) {
+    for (one at = BEFORE; next(&at, o);) {
+        while (is_behind(&at)) {
             if (!to_its_end && !has_time(o, start)) return HD_OK;
-            HD_TRY(hd_observable_rows[k]->catch_up(o->part[k]));
+            HD_TRY(at.row->catch_up(at.self));
         }
     }
     return HD_OK;

@@ -55,8 +55,6 @@ unsigned hd_observables_looked_at(const hd_observables *observables);
 bool hd_observables_any(const hd_observables *observables);
 /** True if one has all of these needs (set of HD_NEEDS_*). */
 bool hd_observables_need(const hd_observables *observables, unsigned needs);
-/** True if this row is one of them. */
-bool hd_observables_has(const hd_observables *observables, hd_observed row);
 /** First of the vectors that are read of all ranks; n if none are. */
 int hd_observables_first(const hd_observables *observables);
 /** Longest time from this measured state to the next, for those that follow something; INFINITY
