@@ -17,7 +17,7 @@ import made
 import made_fields
 from bags import Bags
 from hdlyap.data import fields
-from hdlyap.data.reader import RecordingError
+from hdlyap.data.reader import Missing, RecordingError
 from hdlyap.msg import LpPhase, Mode, Modes, Spectrum, State
 from made import T
 
@@ -88,6 +88,14 @@ class Arrays(Loaded):
         self.equal(run.local.exponents, self.column('spectrum', 'local_exponents'))
         self.assertEqual(run.units['exponents'], '1/time unit')
         self.assertEqual(run.units['times'], 'time units')
+
+    def test_last_message_of_any_topic(self):
+        for topic in 'modes', 'state', 'gas', 'cost':
+            self.assertEqual(self.run_.has(topic), topic in self.messages)
+        self.equal(self.run_.last('state').x, self.messages['state'][-1].x)
+        self.assertEqual(self.run_.last('modes').sim_time, 104.0)
+        with self.assertRaisesRegex(Missing, 'no message of gas'):
+            self.run_.last('gas')
 
     def test_spectrum(self):
         last, frame = self.messages['spectrum'][-1], self.run_.spectrum

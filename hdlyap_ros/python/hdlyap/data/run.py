@@ -2,7 +2,7 @@
 first asked for."""
 
 import heapq
-from collections import namedtuple
+from collections import deque, namedtuple
 from functools import cached_property
 from operator import attrgetter
 
@@ -256,16 +256,22 @@ class Run:
             last[packed.kind] = packed
         return last
 
+    def _last(self, topic):
+        """None: there is none."""
+        if topic in FRAMES:
+            return self._lasts.get(TOPICS[topic])
+        return next(iter(deque(self.packed((TOPICS[topic],)), maxlen=1)), None)
+
     def has(self, topic):
-        """Whether there is a message of 'modes', 'steps', 'lp_phases', 't_phases', 'covariant',
-        'localization' or 'gas', or an averaged one of 'spectrum'."""
-        return TOPICS[topic] in self._lasts
+        """Whether there is a message of a topic, of 'spectrum' an averaged one."""
+        return self._last(topic) is not None
 
     def last(self, topic, numpy=np):
-        """The last message of one of them, with arrays of numpy, or lists without it."""
-        if not self.has(topic):
+        """The last message of a topic, with arrays of numpy, or lists without it."""
+        packed = self._last(topic)
+        if packed is None:
             raise self._missing(topic)
-        message = self._lasts[TOPICS[topic]].message(numpy)
+        message = packed.message(numpy)
         return fits.chosen(message, self._form, self._k) if topic == 'steps' else message
 
     def _all(self, topic):
