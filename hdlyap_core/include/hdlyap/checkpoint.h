@@ -18,7 +18,7 @@ enum { HD_CHECKPOINT_FORMAT = 16, HD_CHECKPOINT_LABEL = 64 };
 typedef struct hd_checkpoint {
     hd_scene_def scene;              /**< as asked for */
     char label[HD_CHECKPOINT_LABEL]; /**< as given to hd_run_save */
-    char particles[32];              /**< name of the dynamics */
+    char particles[HD_PARTICLES];    /**< name of the dynamics */
     double time;                     /**< simulated time since the start */
 } hd_checkpoint;
 

@@ -57,6 +57,8 @@ typedef struct hd_passage {
     int particles;
 } hd_passage;
 
+enum { HD_PARTICLES = 32 }; /* room for a name */
+
 /** What may be left out says so: it is 0, false or NULL then. */
 struct hd_dynamics {
     const char *particles; /**< in the plural: its name; 31 characters at most */
@@ -113,8 +115,10 @@ struct hd_dynamics {
     /** [particle][coordinates] each, positions inside the box if there is one; either may be NULL.
      */
     void (*state)(const void *state, double *q, double *p);
-    double (*kinetic_energy)(const void *state);    /**< may be left out */
-    void (*tell)(const void *state, hd_told *told); /**< may be left out; all but `expected` */
+    double (*kinetic_energy)(const void *state); /**< may be left out */
+    /** All but `expected`, of particles whose kinetic energy is N: what the gas is made from. May
+     * be left out; then there is none. */
+    void (*tell)(const void *state, hd_told *told);
     void (*examine)(const void *state, hd_examined *examined); /**< may be left out */
     /** Each array of the state, one hd_archive_doubles after the other, whether it is written or
      * read. What follows from them is made anew. */

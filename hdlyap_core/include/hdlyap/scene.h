@@ -108,7 +108,8 @@ typedef struct hd_scene_def {
 
 /** The paper's periodic scene: 780 disks, density 0.8, aspect 0.867. */
 hd_scene_def hd_scene_def_default(void);
-/** The same of another dynamics, with the defaults of its own parameters. */
+/** The same of another dynamics, with the defaults of its own parameters. A row that lacks what it
+ * must have is a bug of the caller. */
 hd_scene_def hd_scene_def_of(const hd_dynamics *dynamics);
 
 /** HD_OK, or HD_REFUSED with one line in `message`: the parameter, its value, what is allowed; of a

@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "averages/blocks.h"
+#include "base/check.h"
 #include "base/memory.h"
 #include "observe/observable.h"
 #include "scene/container.h"
@@ -184,7 +185,18 @@ static const hd_quantity each[] = {{.name = "collision_rate", .read = read_colli
                                    {.name = NULL}};
 static const hd_quantities quantities = {"gas", each};
 
+static hd_status gas_check(const hd_scene_def *scene, char *message, size_t size)
+{
+    const hd_dynamics *of = hd_dynamics_of(scene);
+    if (of->tell) return HD_OK;
+    return hd_refuse(message, size,
+                     "observables = gas: must not be given with particles = %s, which tell of no "
+                     "collisions",
+                     of->particles);
+}
+
 const hd_observable hd_gas_row = {.needs = HD_NEEDS_BOX,
+                                  .check = gas_check,
                                   .quantities = &quantities,
                                   .bytes = gas_bytes,
                                   .create = gas_create,

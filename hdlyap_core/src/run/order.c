@@ -7,15 +7,13 @@
 
 #include "base/check.h"
 
-enum { PARTICLES = 32 }; /* their name */
-
 /** As it goes over the wire. Ranks of another version are refused with the first run; where this
  * has another size there, MPI ends them all before. */
 typedef struct message {
     int kind, integer, with_scene, with_text;
     double number;
     hd_scene_def scene;
-    char particles[PARTICLES]; /**< the scene's pointer to its dynamics is of no use elsewhere */
+    char particles[HD_PARTICLES]; /**< the scene's pointer to its dynamics is of no use elsewhere */
 } message;
 
 void hd_order_tell(hd_communicator *c, hd_order order)

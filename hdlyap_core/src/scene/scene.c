@@ -2,7 +2,9 @@
 #include "scene/scene.h"
 
 #include <math.h>
+#include <string.h>
 
+#include "base/check.h"
 #include "scene/archived.h"
 #include "scene/fluid.h"
 #include "scene/parameters.h"
@@ -17,8 +19,28 @@ hd_scene_def hd_scene_def_default(void)
     return def;
 }
 
+/** Only what holds a number, a word, or either. */
+static bool is_own(const hd_parameter *row)
+{
+    const bool number = row->kind == HD_PARAMETER_INT || row->kind == HD_PARAMETER_REAL ||
+                        row->kind == HD_PARAMETER_WORD || row->kind == HD_PARAMETER_INTERVAL;
+    return number && row->offset >= HD_OWN(0) && row->offset < HD_OWN(HD_OWN_MAX) &&
+           (row->offset - HD_OWN(0)) % sizeof(hd_own) == 0 && !row->live;
+}
+
+static bool is_whole(const hd_dynamics *row)
+{
+    bool own = row->parameters <= HD_OWN_MAX;
+    for (int k = 0; k < row->parameters && own; k++) own = is_own(&row->parameter[k]);
+    return own && strlen(row->particles) < HD_PARTICLES && row->coordinates >= 1 &&
+           row->coordinates >= row->dimension && row->entry > 0 &&
+           row->entry % sizeof(double) == 0 && row->entries && row->rate && row->create &&
+           row->free && row->advance && row->time && row->state && row->archive && row->carry;
+}
+
 hd_scene_def hd_scene_def_of(const hd_dynamics *dynamics)
 {
+    HD_ASSERT(is_whole(dynamics));
     hd_scene_def def = hd_scene_def_default();
     def.dynamics = dynamics;
     for (int k = 0; k < dynamics->parameters; k++)

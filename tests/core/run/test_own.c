@@ -156,6 +156,22 @@ TEST(without_beta_all_exponents_vanish)
     for (int col = 0; col < ROWS; col++) CHECK_CLOSE(exponent_of(run, col), 0.0, 4e-3);
 }
 
+/** Of what may focus, frames of many vectors are factored in the whole norm, too. */
+TEST(only_what_disperses_is_factored_in_dq_alone)
+{
+    for (int disperses = 0; disperses < 2; disperses++) {
+        hd_dynamics row = of_chain;
+        row.dispersing = disperses;
+        const hd_scene_def scene = scene_from(chain_of(80, 10.0, HD_EXPONENTS_POSITIVE),
+                                              .dynamics = &row, .equilibration = 1.0,
+                                              .warmup = 10.0, .interval = 0.5);
+        OWNED(hd_run) *run = until(created(scene), HD_AVERAGING);
+        assert_true(run->cost.orthonormalisations > 10);
+        assert_int_equal(hd_carrier_norm(&run->carrier, false),
+                         disperses ? HD_NORM_DQ : HD_NORM_FULL);
+    }
+}
+
 /** The record says when; whoever stops the run, the steps are the same bits. */
 TEST(steps_do_not_depend_on_who_watches)
 {
@@ -203,6 +219,93 @@ TEST(covariant_vectors_grow_with_the_exponents)
     }
 }
 
+/** A shift of all and their momentum stay as they are: the covariant centre holds both. */
+static int null_of_chain(const hd_scene_def *scene, const double *q, const double *p,
+                         double *column)
+{
+    (void)q, (void)p;
+    for (int k = 0; k < 2 * scene->disks; k++) {
+        column[k] = k % 2 == 0;
+        column[2 * scene->disks + k] = k % 2 == 1;
+    }
+    return 2;
+}
+
+TEST(the_centre_is_held_against_what_is_known_of_it)
+{
+    hd_dynamics known = of_chain;
+    known.null = null_of_chain;
+    hd_scene_def scene = with_covariant(HD_EXPONENTS_ALL);
+    scene.dynamics = &known;
+    OWNED(hd_run) *run = finished(scene);
+    const hd_covariant_results found = hd_covariant_read(hd_run_covariant(run));
+    CHECK_WITHIN(found.null_most, found.null, 0.1); /* pi / 2 of vectors that are none of it */
+    CHECK_WITHIN(found.null, 0.0, 0.1);
+}
+
+/* ---- in a box ------------------------------------------------------------------------------ */
+
+/** Disks as a row of one's own that leaves out all that it may. */
+static hd_scene_def plain(const hd_scene_def *scene)
+{
+    hd_scene_def def = *scene;
+    def.dynamics = NULL;
+    return def;
+}
+
+static hd_status create_disks(void **state, const hd_scene_def *scene)
+{
+    const hd_scene_def def = plain(scene);
+    return hd_hard_disks.create(state, &def);
+}
+
+static double entries_of_disks(const hd_scene_def *scene)
+{
+    const hd_scene_def def = plain(scene);
+    return hd_hard_disks.entries(&def);
+}
+
+static double rate_of_disks(const hd_scene_def *scene)
+{
+    const hd_scene_def def = plain(scene);
+    return hd_hard_disks.rate(&def);
+}
+
+static hd_dynamics disks_of_ones_own(void)
+{
+    hd_dynamics own = hd_hard_disks;
+    own.particles = "coins";
+    own.create = create_disks;
+    own.entries = entries_of_disks;
+    own.rate = rate_of_disks;
+    own.check = NULL;
+    own.create_from = NULL;
+    own.fluid = NULL;
+    own.tell = NULL;
+    own.examine = NULL;
+    own.kinetic_energy = NULL;
+    own.fingerprint = NULL;
+    own.bytes = own.record_bytes = NULL;
+    own.dispersing = false;
+    return own;
+}
+
+TEST(a_row_with_a_box_has_modes)
+{
+    const hd_dynamics own = disks_of_ones_own();
+    hd_scene_def scene = scene_from(hd_scene_def_of(&own), .disks = 30, .density = 0.5,
+                                    .aspect = 0.04, .equilibration = 20.0, .warmup = 100.0,
+                                    .duration = 100.0, .threads = 1, .observe = HD_OBSERVE_STEPS);
+    const hd_scene_def disks = plain(&scene);
+    OWNED(hd_run) *run = finished(scene);
+    OWNED(hd_run) *same = finished(disks);
+    check_same_exponents(run, same, hd_run_cost(run).error_bound + hd_run_cost(same).error_bound);
+    assert_int_equal(hd_steps_count(hd_run_steps(run)), hd_steps_count(hd_run_steps(same)));
+    assert_true(hd_steps_count(hd_run_steps(run)) > 0);
+    CHECK_CLOSE(hd_trajectory_kinetic_energy(hd_run_trajectory(run)), 30.0, 1e-9);
+    assert_false(hd_run_is_caged(run));
+}
+
 /* ---- what is refused ----------------------------------------------------------------------- */
 
 static void check_refused(hd_scene_def scene, const char *line)
@@ -240,6 +343,53 @@ TEST(own_parameters_are_refused_like_others)
     REFUSED(
         "exponents = 17: must be positive, all, all_independent, none or from 1 to 2 disks = 16",
         .exponents = 17);
+}
+
+TEST(no_gas_without_collisions)
+{
+    const hd_dynamics own = disks_of_ones_own();
+    check_refused(scene_from(hd_scene_def_of(&own), .observe = HD_OBSERVE_GAS),
+                  "observables = gas: must not be given with particles = coins, which tell of no "
+                  "collisions");
+}
+
+static jmp_buf bug;
+static void caught(const char *condition, const char *file, int line)
+{
+    (void)condition, (void)file, (void)line;
+    longjmp(bug, 1);
+}
+
+static bool is_a_bug(const hd_dynamics *row)
+{
+    volatile bool found = false;
+    hd_assert_handler_replace(caught);
+    if (setjmp(bug) == 0)
+        (void)hd_scene_def_of(row);
+    else
+        found = true;
+    hd_assert_handler_replace(NULL);
+    return found;
+}
+
+TEST(a_row_that_lacks_something_is_a_bug)
+{
+    static const hd_parameter elsewhere[] = {
+        {"beta", HD_PARAMETER_REAL, NULL, 0, 1, 0, 2, "from 0 to 2", "", .text = ""}};
+    assert_false(is_a_bug(&of_chain));
+    hd_dynamics row = of_chain;
+    row.carry = NULL;
+    assert_true(is_a_bug(&row));
+    row = of_chain;
+    row.entry = 12;
+    assert_true(is_a_bug(&row));
+    row = of_chain;
+    row.particles = "chains of more than thirty-one letters";
+    assert_true(is_a_bug(&row));
+    row = of_chain;
+    row.parameter = elsewhere;
+    row.parameters = 1;
+    assert_true(is_a_bug(&row));
 }
 
 /** Friction would do: here the row only does not say that it is symplectic. */
