@@ -6,7 +6,7 @@ import numpy as np
 import harness
 import measured
 from hdlyap.msg import LpPhase, Mode
-from hdlyap.data import waves
+from hdlyap.data import containers, waves
 from hdlyap.plots import repetition
 
 TOPICS = ['run_info', 'spectrum', 'modes', 'steps', 'lp_phases', 'fields', 'gas', 'state']
@@ -22,10 +22,10 @@ def pair(info, field, bits):
     of = (info, field.wave_number, field.nx, bits)
     x, y = np.array(field.x), np.array(field.y)
     gradient = [
-        waves.round_modulation(*of, x + dx, y + dy) - waves.round_modulation(*of, x - dx, y - dy)
+        containers.modulation(*of, x + dx, y + dy) - containers.modulation(*of, x - dx, y - dy)
         for dx, dy in ((SLOPE, 0.0), (0.0, SLOPE))
     ]
-    return np.array(gradient), np.array([field.px, field.py]) * waves.round_modulation(*of, x, y)
+    return np.array(gradient), np.array([field.px, field.py]) * containers.modulation(*of, x, y)
 
 
 class Circle(harness.Case):
@@ -41,6 +41,10 @@ class Circle(harness.Case):
             (info.container, info.boundary_x, info.boundary_y), ('circle',) + 2 * ('curved',)
         )
         np.testing.assert_allclose([info.box_x, info.box_y], 2 * radius, rtol=1e-14)
+        turned = 2 * np.pi * np.arange(len(info.outline_x)) / len(info.outline_x)
+        np.testing.assert_allclose(info.outline_x, radius * (1 + np.cos(turned)), atol=1e-12)
+        np.testing.assert_allclose(info.outline_y, radius * (1 + np.sin(turned)), atol=1e-12)
+        self.assertEqual(len(turned), 128)
         self.assertEqual((info.aspect, info.zero_exponents, info.vectors), (1.0, 4, 238))
         for state in self.messages['state']:
             distance = np.hypot(np.array(state.x) - radius, np.array(state.y) - radius)

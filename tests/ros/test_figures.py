@@ -306,18 +306,21 @@ class Figures(Bags):
         walls = made.run_info(boundary_y='reflecting')
         self.assertIn('$, x periodic, y reflecting', scene(walls))
 
-    def test_circle(self):
-        """Is named with its radius and drawn as a wall of it, without a frame; its waves have
+    def test_curved_container(self):
+        """Is named with its size and drawn by its outline, without a frame; waves of a circle have
         (m,n) and no direction."""
+        corners = [(8.0, 3.0), (4.0, 6.0), (0.0, 3.0), (4.0, 0.0)]
+        x, y = zip(*corners)
         info = made.run_info(
-            box_x=8.0, box_y=8.0, boundary_x='curved', boundary_y='curved', wave_nx=[1], wave_ny=[1]
+            **dict(container='lens', box_x=8.0, box_y=6.0, outline_x=x, outline_y=y),
+            **dict(boundary_x='curved', boundary_y='curved', wave_nx=[1], wave_ny=[1]),
         )
-        self.assertEqual(scene(info), r'made: $N=20$, $\rho=0.5$, circle, $R=4$')
-        self.assertEqual(report.system(info), 'N = 20, density 0.5, circle of radius 4.000')
+        self.assertEqual(scene(info), r'made: $N=20$, $\rho=0.5$, lens, $8\times6$')
+        self.assertEqual(report.system(info), 'N = 20, density 0.5, lens, 8.000 x 6.000')
         _, axes = plt.subplots()
         box.disks(axes, info, [4.0], [4.0])
         (wall,) = axes.patches
-        self.assertEqual((wall.center, wall.radius), ((4.0, 4.0), 4.0))
+        np.testing.assert_array_equal(wall.get_xy(), [*corners, corners[0]])
         self.assertFalse(any(spine.get_visible() for spine in axes.spines.values()))
         self.assertEqual(waves.formula(2, 1, waves.COS_M), r'$J_{2}(k r)\,\cos 2\theta$')
         self.assertEqual(waves.formula(2, 1, waves.SIN_M), r'$J_{2}(k r)\,\sin 2\theta$')

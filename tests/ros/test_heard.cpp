@@ -207,6 +207,25 @@ TEST(heard, only_modes_that_there_can_be)
     EXPECT_EQ(0, walls.drawn().modes);
 }
 
+/** Corners that both lists have; T waves may go along it. */
+TEST(heard, an_outline)
+{
+    const double x[] = {8.0, 4.0, 0.0, 4.0}, y[] = {3.0, 6.0, 3.0};
+    hearing lens("curved");
+    EXPECT_EQ(0u, lens.h.corners);
+    lens.info.run_id = lens.info.container = "lens", lens.info.boundary_x = "curved";
+    lens.info.outline_x = {x, 4, 1}, lens.info.outline_y = {y, 3, 1};
+    lens.info.wave_nx.count = lens.info.wave_ny.count = 1;
+    EXPECT_TRUE(heard_run_info(&lens.h, &lens.info));
+    ASSERT_EQ(3u, lens.h.corners);
+    EXPECT_STREQ("lens", lens.h.container);
+    for (int k = 0; k < 3; k++) {
+        EXPECT_EQ(x[k], lens.h.outline[k].x);
+        EXPECT_EQ(y[k], lens.h.outline[k].y);
+    }
+    EXPECT_TRUE(lens.h.has_t);
+}
+
 TEST(heard, names_of_modes)
 {
     mode_name name = {};

@@ -114,21 +114,30 @@ TEST(markers, the_caption_says_what_is_known)
     s.p.note = "(nothing new since 14:03:27)";
     expect("a scene: 10 disks, x reflecting, y periodic\n"
            "t = 12.5, averaging (25 %)   (nothing new since 14:03:27)");
-    s.h.round = true, s.p.note = "", s.h.progress = -1.0;
-    expect("a scene: 10 disks, in a circle\nt = 12.5, averaging");
+    s.h.corners = 1;
+    std::snprintf(s.h.container, sizeof s.h.container, "lens");
+    s.p.note = "", s.h.progress = -1.0;
+    expect("a scene: 10 disks, lens\nt = 12.5, averaging");
     s.h.time = -1.0; // described, and not begun
-    expect("a scene: 10 disks, in a circle\nwaiting for its first message");
+    expect("a scene: 10 disks, lens\nwaiting for its first message");
 }
 
-TEST(markers, a_round_wall_takes_the_place_of_the_box)
+/** From corner to corner, and back to the first one. */
+TEST(markers, an_outline_takes_the_place_of_the_box)
 {
     scene s(20.0, 20.0, 40, 2, 2);
-    s.h.round = true;
+    const hdr_point corners[] = {{20.0, 0.0, 0.0}, {10.0, 20.0, 0.0}, {0.0, 5.0, 0.0}};
+    s.h.corners = 3;
+    std::copy(corners, corners + 3, s.h.outline);
     const std::vector<Marker> walls = in(drawing().of(s.p), "box", Marker::LINE_LIST);
     ASSERT_EQ(1u, walls.size());
-    for (size_t k = 0; k < walls[0].points.size() / 2; k++) // of the first panel, at (0, 0)
-        EXPECT_NEAR(10.0, std::hypot(walls[0].points[k].x - 10.0, walls[0].points[k].y - 10.0),
-                    1e-5);
+    ASSERT_EQ(12u, walls[0].points.size()); // of two panels, the first at (0, 0)
+    for (int k = 0; k < 6; k++) {
+        EXPECT_EQ(corners[(k + 1) / 2 % 3].x, walls[0].points[k].x);
+        EXPECT_EQ(corners[(k + 1) / 2 % 3].y, walls[0].points[k].y);
+        EXPECT_NEAR(walls[0].points[6].x - walls[0].points[0].x,
+                    walls[0].points[6 + k].x - walls[0].points[k].x, 1e-12);
+    }
 }
 
 TEST(markers, disks_and_boxes_lie_where_they_are)

@@ -73,6 +73,15 @@ class Repeat(Bags):
                 for key, value in want.items():
                     self.assertIs(type(got[key]), type(value), key)
 
+    def test_what_a_curved_wall_leaves_no_choice_of(self):
+        """Its boundaries, and of a circle the aspect."""
+        curved = dict(boundary_x='curved', boundary_y='curved', outline_x=[1.0], outline_y=[2.0])
+        without = {'boundary_x', 'boundary_y', 'outline_x', 'outline_y'}
+        for container, more in (('circle', {'aspect'}), ('lens', set())):
+            info = info_of(complete('circle.yaml'), **{**curved, 'container': container})
+            asked = repetition.parameters(info)
+            self.assertEqual({'aspect', 'container', *without} - set(asked), without | more)
+
     def test_values_that_yaml_may_misread(self):
         scene = dict(
             complete('quick.yaml'),

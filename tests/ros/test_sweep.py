@@ -224,7 +224,8 @@ class Results(InFolder):
 
     def bag(self, name, density=0.5, seed='1', boundary='periodic', value=9.0, size=2, **changes):
         info = made.run_info(
-            density=density, seed=seed, run_id=name, boundary_x=boundary, boundary_y=boundary
+            **dict(density=density, seed=seed, run_id=name, boundary_x=boundary),
+            **dict(boundary_y=boundary, container='lens' if boundary == 'curved' else 'rectangle'),
         )
         message = made.steps([made.step(info, T, 1, 0, 36, 37), made.step(info, LP, 1, 0, 32, 35)])
         message.run_id = name
@@ -294,7 +295,7 @@ class Results(InFolder):
         """Is drawn as a cross; a container that is not a box has its name in the table."""
         bags = [self.bag(f'c{n}', n, boundary='curved', c_t_error=nan) for n in (0.4, 0.5)]
         found = self.read(*bags)
-        self.assertIn('boundary circle', next(iter(table.text(found))))
+        self.assertIn('boundary lens', next(iter(table.text(found))))
         drawn = figure.draw(found)
         self.addCleanup(plt.close, drawn)
         markers = {

@@ -231,7 +231,7 @@ static void print_all(const settings *set, const hd_estimate *t, hd_room room)
 {
     const hd_scene_def *def = &set->def;
     char container[64];
-    settings_write_container(container, sizeof container, def);
+    hd_scene_describe(def, container, sizeof container);
     printf("scene     %s is valid: %d %s in %s, %d vectors\n", set->scene, def->disks,
            set->particles, container, hd_scene_counts(def).vectors);
     print_memory(set, room);

@@ -180,7 +180,7 @@ static void log_start(const app *a)
     const hd_scene_def *def = &a->set.def;
     const hd_blas blas = hd_blas_query();
     char container[64];
-    settings_write_container(container, sizeof container, def);
+    hd_scene_describe(def, container, sizeof container);
     hdr_log(HDR_INFO, "scene %s: %d %s in %s, %d vectors, %d threads; %s, kernel %s, %d threads",
             a->set.scene, def->disks, a->set.particles, container, hd_run_vectors(a->run),
             hd_run_threads(a->run), blas.library, blas.kernel, blas.threads);

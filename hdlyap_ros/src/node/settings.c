@@ -37,18 +37,6 @@ static bool read_all(settings *out, reader *r)
     return true;
 }
 
-void settings_write_container(char *text, size_t size, const hd_scene_def *def)
-{
-    double box[HD_DIMENSION_MAX];
-    hd_scene_box(def, box);
-    if (def->container == HD_CIRCLE)
-        snprintf(text, size, "a circle of radius %.6g", 0.5 * box[0]);
-    else if (hd_scene_dimension(def) == 2)
-        snprintf(text, size, "%.6g x %.6g", box[0], box[1]);
-    else
-        snprintf(text, size, "%.6g x %.6g x %.6g", box[0], box[1], box[2]);
-}
-
 const char *settings_write_nodes(char text[NODES_SIZE], const hd_scene_def *def,
                                  const hd_wave *wave)
 {

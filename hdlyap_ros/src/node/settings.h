@@ -54,9 +54,6 @@ bool settings_resume(const char **path, const hdr_params *params, char *message,
 bool settings_read(settings *out, const hdr_params *params, const hd_checkpoint *kept,
                    char *message, size_t size);
 
-/** What holds the disks, with its size, for a line: "33.5 x 29.1". */
-void settings_write_container(char *text, size_t size, const hd_scene_def *def);
-
 /** (1,0), of spheres (1,0,0). */
 const char *settings_write_nodes(char text[NODES_SIZE], const hd_scene_def *def,
                                  const hd_wave *wave);

@@ -23,7 +23,7 @@ void *moment_take(const moment *now, size_t count, size_t size)
 {
     buffers *room = now->room;
     const int k = room->taken++;
-    if (grow(&room->block[k], &room->size[k], count * size)) return room->block[k];
+    if (k < BUFFERS && grow(&room->block[k], &room->size[k], count * size)) return room->block[k];
     log_lost(now);
     return NULL;
 }

@@ -56,7 +56,6 @@ static bool fill_changes(hdr_run_info *info, const moment *now)
 static void fill_scene(hdr_run_info *info, const settings *set)
 {
     const hd_scene_def *def = &set->def;
-    const bool is_circle = def->container == HD_CIRCLE;
     const bool has_z = hd_scene_dimension(def) == 3;
     double box[HD_DIMENSION_MAX];
     hd_scene_box(def, box);
@@ -66,10 +65,10 @@ static void fill_scene(hdr_run_info *info, const settings *set)
     info->box_x = box[0];
     info->box_y = box[1];
     info->box_z = has_z ? box[2] : 0.0;
-    info->boundary_z = has_z ? word_of("boundary_z", def) : "";
     info->container = word_of("container", def);
-    info->boundary_x = is_circle ? "curved" : word_of("boundary_x", def);
-    info->boundary_y = is_circle ? "curved" : word_of("boundary_y", def);
+    info->boundary_x = hd_scene_boundary_word(def, 0);
+    info->boundary_y = hd_scene_boundary_word(def, 1);
+    info->boundary_z = hd_scene_boundary_word(def, 2);
     info->seed = set->seed;
     info->exponents = set->exponents;
     info->zero_exponents = (uint32_t)hd_scene_counts(def).zero;
@@ -82,7 +81,18 @@ static void fill_scene(hdr_run_info *info, const settings *set)
 #define HD_REAL(name, ...) info->name = def->name;
 #define HD_OTHER(...)
 #include "hdlyap/parameters.inc"
-    if (is_circle) info->aspect = 1.0;
+    if (def->aspect * box[0] != box[1]) info->aspect = box[1] / box[0]; /* not asked for */
+}
+
+/** Nothing of a box. */
+static bool fill_outline(hdr_run_info *info, const moment *now)
+{
+    double *x = moment_take(now, 2 * HD_OUTLINE, sizeof *x);
+    if (!x) return false;
+    const uint32_t count = (uint32_t)hd_scene_outline(&now->set->def, x, x + HD_OUTLINE);
+    info->outline_x = (hdr_doubles){x, count, 1};
+    info->outline_y = (hdr_doubles){x + HD_OUTLINE, count, 1};
+    return true;
 }
 
 /** What it runs on. */
@@ -116,7 +126,8 @@ hd_status topic_publish_run_info(const moment *now)
         .resume = set->resume,
         .resumed_time = *set->resume ? hd_run_time(now->run) : -1.0,
     };
-    if (!fill_waves(&info, now) || !fill_changes(&info, now)) return HD_OK;
+    if (!fill_waves(&info, now) || !fill_outline(&info, now) || !fill_changes(&info, now))
+        return HD_OK;
     fill_scene(&info, set);
     fill_machine(&info, now->run);
     return topic_send_run_info(now->out, &info);

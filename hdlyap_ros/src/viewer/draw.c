@@ -31,7 +31,7 @@ static const double WIDTH = 64.0, GAP = 3.0, ABOVE = 3.5;
 static const double CAPTION = 1.75, CAPTION_HEIGHT = 1.3, TITLE = 1.8, TITLE_HEIGHT = 1.1;
 static const double LINE = 0.12;
 static const double DIAL = 1.2, DIAL_STEP = 2.4; /* radius and, in radii, distance */
-enum { DIALS = 4, DIAL_SIDES = 32, WALL_SIDES = 128 };
+enum { DIALS = 4, DIAL_SIDES = 32 };
 
 static const double LONG = 2.5;    /* boxes this much longer than high lie above each other */
 static const double RISE = 0.7;    /* of what is above the plane, as seen from 55 degrees */
@@ -114,11 +114,11 @@ static hdr_point on_circle(hdr_point middle, double radius, double turns)
     return along(middle, radius, (hdr_point){cos(angle), sin(angle), 0.0});
 }
 
-static void circle(canvas *on, hdr_point middle, double radius, int sides)
+static void circle(canvas *on, hdr_point middle, double radius)
 {
-    for (int k = 0; k < sides; k++)
-        line(on, on_circle(middle, radius, (double)k / sides),
-             on_circle(middle, radius, (double)(k + 1) / sides));
+    for (int k = 0; k < DIAL_SIDES; k++)
+        line(on, on_circle(middle, radius, (double)k / DIAL_SIDES),
+             on_circle(middle, radius, (double)(k + 1) / DIAL_SIDES));
 }
 
 /** Bits of k: the upper end along x, y, z. */
@@ -137,17 +137,22 @@ static void edges(const sheet *s, hdr_point origin)
             if (!(from & d)) line(s->on, corner(s, origin, from), corner(s, origin, from | d));
 }
 
+static void outline(const sheet *s, hdr_point origin)
+{
+    const hdr_point *at = s->h->outline;
+    for (uint32_t k = 0; k < s->h->corners; k++)
+        line(s->on, along(origin, 1.0, at[k]),
+             along(origin, 1.0, at[(k + 1) % s->h->corners]));
+}
+
 static void draw_boxes(const sheet *s)
 {
     canvas_layer(s->on, "box", HDR_MARKER_LINE_LIST, PALETTE_INK, LINE * s->unit);
-    for (int k = 0; k < s->panels; k++) {
-        const double radius = 0.5 * s->h->box[0];
-        if (s->h->round)
-            circle(s->on, along(panel(s, k), radius, (hdr_point){1.0, 1.0, 0.0}), radius,
-                   WALL_SIDES);
+    for (int k = 0; k < s->panels; k++)
+        if (s->h->corners > 0)
+            outline(s, panel(s, k));
         else
             edges(s, panel(s, k));
-    }
 }
 
 static void draw_disks(const sheet *s)
@@ -247,7 +252,7 @@ static void dials(const sheet *s, hdr_point at, const picture_mode *m)
     const hdr_point step = {DIAL_STEP * radius, 0.0, 0.0};
     canvas_layer(s->on, "phases", HDR_MARKER_LINE_LIST, PALETTE_INK, LINE * s->unit);
     for (uint32_t k = 0; k < m->lp.pairs; k++)
-        circle(s->on, along(at, k + 0.5, step), radius, DIAL_SIDES);
+        circle(s->on, along(at, k + 0.5, step), radius);
     canvas_layer(s->on, "phases", HDR_MARKER_LINE_LIST, colour_of(m), 3.0 * LINE * s->unit);
     for (uint32_t k = 0; k < m->lp.pairs; k++) {
         const hdr_point middle = along(at, k + 0.5, step);
@@ -293,8 +298,8 @@ static void write_box(char *text, size_t size, const heard *h)
     if (heard_has_spheres(h))
         snprintf(text, size, "%.4g x %.4g x %.4g, x %s, y %s, z %s", h->box[0], h->box[1],
                  h->box[2], end[h->periodic[0]], end[h->periodic[1]], end[h->periodic[2]]);
-    else if (h->round)
-        snprintf(text, size, "in a circle");
+    else if (h->corners > 0)
+        snprintf(text, size, "%s", h->container);
     else
         snprintf(text, size, "x %s, y %s", end[h->periodic[0]], end[h->periodic[1]]);
 }

@@ -38,7 +38,7 @@ static bool is_transverse(const heard *h, const hdr_run_info *info, uint32_t wav
     const hdr_uints *const along[] = {&info->wave_nx, &info->wave_ny, &info->wave_nz};
     int directions = 0;
     for (int d = 0; d < 3; d++) directions += h->periodic[d] || nodes(along[d], wave) > 0;
-    return h->round || directions >= 2;
+    return h->corners > 0 || directions >= 2;
 }
 
 static bool has_transverse(const heard *h, const hdr_run_info *info)
@@ -46,6 +46,21 @@ static bool has_transverse(const heard *h, const hdr_run_info *info)
     for (uint32_t k = 0; k < info->wave_nx.count && k < info->wave_ny.count; k++)
         if (is_transverse(h, info, k)) return true;
     return false;
+}
+
+static double element(const hdr_doubles *array, uint32_t i)
+{
+    return array->data[(size_t)i * array->stride];
+}
+
+/** As far as there is room. */
+static void begin_outline(heard *h, const hdr_run_info *info)
+{
+    while (h->corners < info->outline_x.count && h->corners < info->outline_y.count &&
+           h->corners < HEARD_CORNERS_MAX) {
+        const uint32_t k = h->corners++;
+        h->outline[k] = (hdr_point){element(&info->outline_x, k), element(&info->outline_y, k), 0.0};
+    }
 }
 
 static void begin_box(heard *h, const hdr_run_info *info)
@@ -56,7 +71,8 @@ static void begin_box(heard *h, const hdr_run_info *info)
     h->periodic[0] = strcmp(info->boundary_x, "periodic") == 0;
     h->periodic[1] = strcmp(info->boundary_y, "periodic") == 0;
     h->periodic[2] = heard_has_spheres(h) && strcmp(info->boundary_z, "periodic") == 0;
-    h->round = strcmp(info->boundary_x, "curved") == 0;
+    snprintf(h->container, sizeof h->container, "%s", info->container);
+    begin_outline(h, info);
 }
 
 static void begin(heard *h, const hdr_run_info *info)
@@ -89,11 +105,6 @@ bool heard_run_info(heard *h, const hdr_run_info *info)
 static bool is_ours(const heard *h, const char *run_id)
 {
     return h->begun && strcmp(h->run_id, run_id) == 0;
-}
-
-static double element(const hdr_doubles *array, uint32_t i)
-{
-    return array->data[(size_t)i * array->stride];
 }
 
 /** A block of `bytes` in place of an old one, or NULL: the old one is then as it was. */

@@ -7,7 +7,7 @@
 #include "hdlyap_ros/markers.h"
 #include "hdlyap_ros/messages.h"
 
-enum { HEARD_VECTORS_MAX = 64, HEARD_PAIRS_MAX = 8 };
+enum { HEARD_VECTORS_MAX = 64, HEARD_PAIRS_MAX = 8, HEARD_CORNERS_MAX = 512 };
 
 /** Coefficients of the pairs of an LP mode, as in LpPhase. */
 typedef struct heard_lp {
@@ -31,7 +31,9 @@ typedef struct heard {
     uint32_t disks;
     double box[3]; /**< 0 along z of disks, spheres otherwise */
     bool periodic[3];
-    bool round;         /**< the wall is a circle, which the box holds */
+    char container[16];
+    uint32_t corners; /**< of the outline of a curved container, which the box holds; 0 of a box */
+    hdr_point outline[HEARD_CORNERS_MAX];
     bool has_t, has_lp; /**< modes of these kinds: can be in the box, and are looked for */
     uint8_t stage;      /**< UINT8_MAX before the first status */
     double progress;

@@ -12,28 +12,7 @@ SIN_X, SIN_Y, SIN_Z, SECOND = LpPhase.SIN_COS, LpPhase.COS_SIN, LpPhase.SIN_Z, L
 COS_M, SIN_M = LpPhase.COS_M, LpPhase.SIN_M
 SINES = {'x': SIN_X, 'y': SIN_Y, 'z': SIN_Z}
 FUNCTIONS = (np.cos, np.sin)
-POINTS = 256  # of a period: enough for k r up to 100
 SLOPES = (lambda phase: -np.sin(phase), np.cos)  # their derivatives
-
-
-def is_round(info):
-    """Whether the container is a circle: its radius is half of box_x, its centre (R, R)."""
-    return info.boundary_x == 'curved'
-
-
-def bessel(order, x):
-    """J_m(x), by its integral over a period, which the sum has to the last digits."""
-    turn = 2 * np.pi * np.arange(POINTS) / POINTS
-    x = np.asarray(x)[..., np.newaxis]
-    return np.cos(order * turn - x * np.sin(turn)).mean(axis=-1)
-
-
-def round_modulation(info, wave_number, order, bits, x, y):
-    """A of L and P fields in a circle."""
-    from_centre = np.asarray(x) - info.box_x / 2 + 1j * (np.asarray(y) - info.box_y / 2)
-    turned = order * np.angle(from_centre)
-    angular = np.sin(turned) if bits == SIN_M else np.cos(turned)
-    return bessel(order, wave_number * np.abs(from_centre)) * angular
 
 
 def wave_vector(info, nx, ny, nz=0):

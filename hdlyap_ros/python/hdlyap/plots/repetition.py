@@ -4,15 +4,14 @@ import re
 
 import yaml
 
-from hdlyap.data import reader, space
-from hdlyap.data.waves import is_round
+from hdlyap.data import containers, reader, space
 
 # of run_info, what is no parameter: what follows from them, and what the run ran on
-RESULTS = ('header', 'run_id', 'version', 'dimension', 'box_x', 'box_y', 'box_z', 'vectors')
-RESULTS += ('zero_exponents', 'wave_nx', 'wave_ny', 'wave_nz', 'resumed_time', 'ranks')
+RESULTS = ('header', 'run_id', 'version', 'dimension', 'box_x', 'box_y', 'box_z', 'outline_x')
+RESULTS += ('outline_y', 'vectors', 'zero_exponents', 'wave_nx', 'wave_ny', 'wave_nz')
+RESULTS += ('resumed_time', 'ranks')
 RESULTS += ('blas_threads', 'blas_library', 'blas_kernel', 'blas_threading')
 OF_SPHERES = ('aspect_z', 'boundary_z')  # which disks have not
-OF_A_BOX = ('aspect', 'boundary_x', 'boundary_y')  # which a circle has not
 # a word, or a list of numbers as text
 LISTS = ('field_indices',)
 
@@ -38,7 +37,7 @@ def scene_file(info):
 def parameters(info):
     """By name. The run begins anew, and leaves the first one's checkpoint alone; what it was
     resumed from makes no difference to its numbers."""
-    results = RESULTS + (OF_A_BOX if is_round(info) else ())
+    results = RESULTS + containers.not_asked(info)
     results += () if space.is_solid(info) else OF_SPHERES
     names = [name for name in info.__slots__ if name not in results]
     asked = {name: getattr(info, name) for name in names}

@@ -3,7 +3,7 @@
 import numpy as np
 
 from hdlyap.data import seeds, space
-from hdlyap.data.waves import is_round
+from hdlyap.data.containers import is_curved
 from hdlyap.numbers import known, with_error
 
 from . import covariant_table, equation, paper, step_table
@@ -79,8 +79,9 @@ def _head(recording):
 
 
 def system(info):
-    if is_round(info):
-        return f'N = {info.disks}, density {info.density:g}, circle of radius {info.box_x / 2:.3f}'
+    if is_curved(info):
+        size = f'{info.box_x:.3f} x {info.box_y:.3f}'
+        return f'N = {info.disks}, density {info.density:g}, {info.container}, {size}'
     spheres = ' spheres' if space.is_solid(info) else ''
     return (
         f'N = {info.disks}{spheres}, density {info.density:g}, box '

@@ -8,7 +8,7 @@ import numpy as np
 from hdlyap.data import reader, seeds, space
 from hdlyap.data.joined import MEASURED
 from hdlyap.data.reader import RecordingError
-from hdlyap.data.waves import is_round
+from hdlyap.data.containers import is_curved
 
 # name in a frame of results -> its unit; as the columns of a table
 QUANTITIES = {
@@ -69,7 +69,7 @@ class Point:
 
 
 def system(info):
-    walls = ['circle'] if is_round(info) else space.along(info, 'boundary_')
+    walls = [info.container] if is_curved(info) else space.along(info, 'boundary_')
     walls = walls[:1] if len(set(walls)) == 1 else walls
     solid = {'aspect_z': info.aspect_z} if space.is_solid(info) else {}
     return {

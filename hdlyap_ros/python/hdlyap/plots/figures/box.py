@@ -1,9 +1,9 @@
 """The box with its disks or spheres, and a vector at each of them."""
 
 from matplotlib.collections import EllipseCollection
-from matplotlib.patches import Circle
+from matplotlib.patches import Polygon
 
-from hdlyap.data.waves import is_round
+from hdlyap.data.containers import is_curved
 
 from .view import View
 
@@ -28,11 +28,11 @@ def disks(axes, info, *q, size=1.0, **style):
 
 
 def enclose(axes, info):
-    """A round wall takes the place of the frame."""
-    if not is_round(info):
+    """A curved wall takes the place of the frame."""
+    if not is_curved(info):
         return
-    radius = info.box_x / 2
-    axes.add_patch(Circle((radius, radius), radius, clip_on=False, **WALL))
+    corners = list(zip(info.outline_x, info.outline_y))
+    axes.add_patch(Polygon(corners, clip_on=False, **WALL))
     for spine in axes.spines.values():
         spine.set_visible(False)
     axes.tick_params(top=False, right=False)

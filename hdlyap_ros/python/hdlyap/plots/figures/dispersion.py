@@ -3,7 +3,7 @@
 import numpy as np
 
 from hdlyap.data import fits, space, steps
-from hdlyap.data.waves import is_round
+from hdlyap.data.containers import is_curved
 from hdlyap.numbers import with_error
 
 from .. import paper
@@ -86,7 +86,7 @@ def _wave_axis(axes, info, points, end):
     upper.set_xticks([k for k, _ in groups])
     upper.set_xticklabels([_joined(list(names)) for _, names in groups], rotation=90, fontsize=7)
     names = ','.join(f'n_{axis}' for axis in space.axes(info))
-    upper.set_xlabel('$(m,n)$' if is_round(info) else f'nodes $({names})$', fontsize=8)
+    upper.set_xlabel('$(m,n)$' if is_curved(info) else f'nodes $({names})$', fontsize=8)
 
 
 def _joined(names):

@@ -3,7 +3,7 @@ momenta."""
 
 import numpy as np
 
-from hdlyap.data import space, steps, waves
+from hdlyap.data import containers, space, steps, waves
 
 from .box import enclose
 from .pattern import pattern
@@ -54,7 +54,7 @@ def chosen(recording):
         fields,
         default=None,
         key=lambda field: (
-            np.count_nonzero(nodes(field)) > 1 and not waves.is_round(recording.info),
+            np.count_nonzero(nodes(field)) > 1 and not containers.is_curved(recording.info),
             numbers[nodes(field)],
             -field.sim_time,
         ),
@@ -78,9 +78,9 @@ class PMode:
         self.name = steps.wave_name('LP', field, info)
         self.formula = waves.formula(*self.nodes[:2], self.bits, *self.nodes[2:])
         named = [axis for axis, n in zip('xyz', self.nodes) if n]
-        self.along = named[0] if len(named) == 1 and not waves.is_round(info) else None
+        self.along = named[0] if len(named) == 1 and not containers.is_curved(info) else None
         # of a map: two directions that it depends on
-        self.across = 'xy' if waves.is_round(info) or len(named) == 1 else named[0] + named[1]
+        self.across = 'xy' if containers.is_curved(info) or len(named) == 1 else named[0] + named[1]
         self._field, self.info = field, info
         self.q = space.vectors(field)
         self._p = space.vectors(field, 'p')
@@ -95,8 +95,8 @@ class PMode:
 
     def modulation(self, x, y, *z):
         wave, (nx, ny, *nz) = self._field, self.nodes
-        if waves.is_round(self.info):
-            return waves.round_modulation(self.info, wave.wave_number, wave.nx, self.bits, x, y)
+        if containers.is_curved(self.info):
+            return containers.modulation(self.info, wave.wave_number, wave.nx, self.bits, x, y)
         return waves.modulation(self.info, nx, ny, self.bits, x, y, *nz, *z)
 
     def amplitude(self, component):

@@ -8,7 +8,7 @@ from matplotlib import ticker
 
 from hdlyap import whole
 from hdlyap.data import space, steps
-from hdlyap.data.waves import is_round
+from hdlyap.data.containers import is_curved
 from hdlyap.numbers import known
 
 POINTS = 2000  # of a curve; more cannot be seen
@@ -82,10 +82,9 @@ def save(figure, folder, name, dpi=250):
 
 def scene(info):
     name = info.scene.replace('$', r'\$')  # which would begin a formula
-    if is_round(info):
-        return (
-            f'{name}: $N={info.disks}$, $\\rho={info.density:g}$, circle, $R={info.box_x / 2:.4g}$'
-        )
+    if is_curved(info):
+        size = f'{info.container}, ${info.box_x:.4g}\\times{info.box_y:.4g}$'
+        return f'{name}: $N={info.disks}$, $\\rho={info.density:g}$, {size}'
     walls = space.along(info, 'boundary_')
     walls = walls[:1] if len(set(walls)) == 1 else map(' '.join, zip('xyz', walls))
     box = f'$\\rho={info.density:g}$, ' + (
