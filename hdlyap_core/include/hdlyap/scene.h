@@ -18,11 +18,13 @@ typedef enum hd_particles { HD_DISKS, HD_SPHERES } hd_particles;
  * many. */
 enum { HD_DIMENSION_MAX = 3 };
 
-/** What can hold the disks, EACH(NAME, name): a scene says its name, and hd_name_row is its row in
- * src/scene (container.h). A box with edges along the axes; in two dimensions a circle. */
-#define HD_CONTAINERS(EACH) EACH(RECTANGLE, rectangle) EACH(CIRCLE, circle)
+/** What can hold the disks, EACH(NAME, name, what it is): a scene says its name, and hd_name_row is
+ * its row in src/scene (container.h). */
+#define HD_CONTAINERS(EACH)                                                                        \
+    EACH(RECTANGLE, rectangle, "edges along the axes, of spheres a box")                           \
+    EACH(CIRCLE, circle, "of disks, whose rims touch its wall; without aspect and boundaries")
 
-#define HD_CONTAINER_VALUE(NAME, name) HD_##NAME,
+#define HD_CONTAINER_VALUE(NAME, name, what) HD_##NAME,
 typedef enum hd_container { HD_CONTAINERS(HD_CONTAINER_VALUE) HD_CONTAINERS_END } hd_container;
 #undef HD_CONTAINER_VALUE
 

@@ -11,7 +11,7 @@ static hd_container number_of(const hd_scene_def *def)
 
 const hd_container_row *hd_container_of(const hd_scene_def *def)
 {
-#define ROW(NAME, name) &hd_##name##_row,
+#define ROW(NAME, name, what) &hd_##name##_row,
     static const hd_container_row *const rows[] = {HD_CONTAINERS(ROW)};
 #undef ROW
     return rows[number_of(def)];
@@ -19,7 +19,7 @@ const hd_container_row *hd_container_of(const hd_scene_def *def)
 
 const char *hd_container_name(const hd_scene_def *def)
 {
-#define NAME_OF(NAME, name) #name,
+#define NAME_OF(NAME, name, what) #name,
     static const char *const names[] = {HD_CONTAINERS(NAME_OF)};
 #undef NAME_OF
     return names[number_of(def)];

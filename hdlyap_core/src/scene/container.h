@@ -77,7 +77,7 @@ typedef struct hd_container_row {
     double t_strays, lp_strays;
 } hd_container_row;
 
-#define HD_CONTAINER_ROW(NAME, name) extern const hd_container_row hd_##name##_row;
+#define HD_CONTAINER_ROW(NAME, name, what) extern const hd_container_row hd_##name##_row;
 HD_CONTAINERS(HD_CONTAINER_ROW)
 #undef HD_CONTAINER_ROW
 

@@ -9,7 +9,7 @@
 
 static const hd_parameter_word hd_particles_words[] = {
     {"disks", HD_DISKS}, {"spheres", HD_SPHERES}, {NULL, 0}};
-#define WORD(NAME, name) {#name, HD_##NAME},
+#define WORD(NAME, name, what) {#name, HD_##NAME},
 static const hd_parameter_word hd_container_words[] = {HD_CONTAINERS(WORD){NULL, 0}};
 #undef WORD
 static const hd_parameter_word hd_boundary_words[] = {

@@ -141,8 +141,7 @@ static void outline(const sheet *s, hdr_point origin)
 {
     const hdr_point *at = s->h->outline;
     for (uint32_t k = 0; k < s->h->corners; k++)
-        line(s->on, along(origin, 1.0, at[k]),
-             along(origin, 1.0, at[(k + 1) % s->h->corners]));
+        line(s->on, along(origin, 1.0, at[k]), along(origin, 1.0, at[(k + 1) % s->h->corners]));
 }
 
 static void draw_boxes(const sheet *s)
@@ -251,8 +250,7 @@ static void dials(const sheet *s, hdr_point at, const picture_mode *m)
     const double radius = dial_of(s, m->lp.pairs);
     const hdr_point step = {DIAL_STEP * radius, 0.0, 0.0};
     canvas_layer(s->on, "phases", HDR_MARKER_LINE_LIST, PALETTE_INK, LINE * s->unit);
-    for (uint32_t k = 0; k < m->lp.pairs; k++)
-        circle(s->on, along(at, k + 0.5, step), radius);
+    for (uint32_t k = 0; k < m->lp.pairs; k++) circle(s->on, along(at, k + 0.5, step), radius);
     canvas_layer(s->on, "phases", HDR_MARKER_LINE_LIST, colour_of(m), 3.0 * LINE * s->unit);
     for (uint32_t k = 0; k < m->lp.pairs; k++) {
         const hdr_point middle = along(at, k + 0.5, step);

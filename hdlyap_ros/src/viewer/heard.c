@@ -59,7 +59,8 @@ static void begin_outline(heard *h, const hdr_run_info *info)
     while (h->corners < info->outline_x.count && h->corners < info->outline_y.count &&
            h->corners < HEARD_CORNERS_MAX) {
         const uint32_t k = h->corners++;
-        h->outline[k] = (hdr_point){element(&info->outline_x, k), element(&info->outline_y, k), 0.0};
+        h->outline[k] = (hdr_point){element(&info->outline_x, k), element(&info->outline_y, k),
+                                    0.0};
     }
 }
 

@@ -1,5 +1,5 @@
-"""run_info -> what its container is, beyond what it says itself: a curved one is drawn by its outline,
-and needs a row here if its scenes have no aspect, or if it has modes of its own."""
+"""run_info -> what its container is, beyond what it says itself. A curved one is drawn by its
+outline; it has a line here if no scene gives its aspect, or if it has modes of its own."""
 
 import numpy as np
 
