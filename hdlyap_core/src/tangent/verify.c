@@ -8,6 +8,7 @@
 #include "base/check.h"
 #include "dynamics/dynamics.h"
 #include "tangent/conjugate.h"
+#include "tangent/frame_state.h"
 #include "tangent/interval.h"
 #include "scene/container.h"
 #include "scene/scene.h"
@@ -91,6 +92,7 @@ hd_symplectic hd_verify_sample(const hd_frame *frame)
 void hd_verify_symplectic(const hd_frame *frame, const hd_symplectic *before, double events)
 {
     const hd_symplectic after = hd_verify_sample(frame);
+    if (!frame->of->symplectic) return;
     const double per_disk = 8.0 * events / hd_frame_rows(frame);
     for (int k = 0; k < HD_VERIFY_PAIRS; k++)
         expect_at_most(fabs(after.product[k] - before->product[k]),
@@ -107,6 +109,7 @@ void hd_verify_ortho(hd_ortho *ortho, hd_frame *frame)
     expect_at_most(hd_ortho_defect_measured(ortho, frame, hd_ortho_norm(ortho)),
                    fmax(defect, least), "orthogonality");
     if (hd_frame_vectors(frame) < hd_frame_rows(frame)) return; /* so with the norm of dq */
+    if (!frame->of->symplectic) return;
     double sum = 0.0;
     for (int col = 0; col < hd_frame_vectors(frame); col++) sum += hd_ortho_log_stretch(ortho)[col];
     expect_at_most(fabs(sum),

@@ -205,6 +205,7 @@ TEST(covariant_vectors_grow_with_the_exponents)
     for (int k = 0; k < 2; k++) {
         hd_scene_def scene = with_covariant(kinds[k]);
         scene.duration = 1000.0;
+        scene.covariant_storage = k == 0 ? HD_STORAGE_RECOMPUTE : HD_STORAGE_MEMORY;
         OWNED(hd_run) *run = finished(scene);
         const hd_covariant_results found = hd_covariant_read(hd_run_covariant(run));
         assert_true(found.windows > 5);
@@ -392,17 +393,36 @@ TEST(a_row_that_lacks_something_is_a_bug)
     assert_true(is_a_bug(&row));
 }
 
-/** Friction would do: here the row only does not say that it is symplectic. */
+/** Of each step; momenta lose so much of themselves. */
+static const double LOST = 5e-4;
+
+static void carry_with_friction(const void *maps, double *block, int width)
+{
+    const hd_passage *part = maps;
+    const double left = 1.0 - LOST;
+    const spring *s = part->entry;
+    for (size_t k = 0; k < part->count; k += N) {
+        const hd_passage one = {s + k, N, part->begin, part->end, N};
+        of_chain.carry(&one, block, width);
+        for (int row = 0; row < ROWS; row++)
+            for (int col = 0; col < width && row % 2 == 1; col++) block[row * width + col] *= left;
+    }
+}
+
+/** With friction S^T J S = (1 - LOST) J: pairs add up to its rate, and each vector is carried. */
 TEST(what_needs_pairs_is_refused_without_them)
 {
     hd_dynamics unpaired = of_chain;
     unpaired.symplectic = false;
+    unpaired.carry = carry_with_friction;
     hd_scene_def scene = chain_of(N, 10.0, HD_EXPONENTS_ALL);
     scene.dynamics = &unpaired;
+    scene.duration = 1000.0;
     assert_int_equal(hd_scene_counts(&scene).carried, ROWS);
     OWNED(hd_run) *run = finished(scene);
-    OWNED(hd_run) *each = finished(chain_of(N, 10.0, HD_EXPONENTS_ALL_INDEPENDENT));
-    check_same_exponents(run, each, 0.0);
+    for (int col = 0; col < N - 2; col++)
+        CHECK_CLOSE(exponent_of(run, col) + exponent_of(run, ROWS - 1 - col),
+                    log(1.0 - LOST) / scene.own[STEP].real, 1e-4); /* part of a step at the end */
     scene.exponents = HD_EXPONENTS_POSITIVE;
     check_refused(scene, "exponents = positive: must be all, all_independent, none or from 1 to "
                          "16 with particles = chain, whose exponents are not in pairs");
