@@ -48,6 +48,15 @@ TEST(what_it_says_of_itself)
     }
 }
 
+/** 2 N / kT of 2 N momenta: one less, as the angular momentum is 0. */
+TEST(its_temperature_knows_what_is_conserved)
+{
+    for (int n = 2; n < 50; n += 3) {
+        const hd_scene_def def = circle(n, 0.1);
+        CHECK_CLOSE(hd_gas_temperature(&def), 2.0 * n / (2.0 * n - 1.0), 4.0 * DBL_EPSILON);
+    }
+}
+
 TEST(what_a_circle_has_not_is_refused_by_name)
 {
     hd_scene_def def = circle(100, 0.7);
