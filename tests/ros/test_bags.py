@@ -4,6 +4,7 @@ and a bag says all of its run."""
 
 import glob
 import io
+import math
 import os
 import re
 import signal
@@ -51,6 +52,17 @@ BULKY = dict(
 )
 # of topics that the probe knows by another name
 PROBED = dict(fields='mode_field', status='run_status')
+
+
+def of_z(messages):
+    """(name, value) of all fields of these, and of what they list."""
+    for message in messages:
+        for name in message.__slots__:
+            value = getattr(message, name)
+            if name.endswith('z'):
+                yield name, tuple(value) if isinstance(value, list) else value
+            elif isinstance(value, list) and hasattr(next(iter(value), None), '__slots__'):
+                yield from of_z(value)
 
 
 def launch(folder, *args):
@@ -201,6 +213,19 @@ class Recorded(harness.Case):
                         sizes[topic] + pairs * (48 * info.disks + 17) + 16 * len(means),
                         topic,
                     )
+
+    def test_disks_have_no_z(self):
+        """Arrays of z are empty, texts too, numbers 0 or not known: but in what draws the waves."""
+        names = set()
+        for topic in TYPES:
+            for name, value in of_z(self.of_run(topic, 1)):
+                names.add(name)
+                if name == 'pressure_z':
+                    self.assertTrue(math.isnan(value))
+                elif name not in ('aspect_z', 'wave_nz'):
+                    self.assertIn(value, (0, '', ()), (topic, name))
+        self.assertLessEqual({'z', 'dpz', 'p_over_pz', 'nz', 'null_z', 'boundary_z'}, names)
+        self.assertEqual((self.infos[1].aspect_z, set(self.infos[1].wave_nz)), (1.0, {0}))
 
     def test_sizes_in_guide(self):
         """Of the paper's scene: 8 waves along an axis or not, each T and LP, and the zero modes."""

@@ -20,6 +20,8 @@ from harness import MODES, Listener
 from pictured import Pictures, are_alike, lines, modes, places, text
 
 ENDLESS = dict(MODES, duration=0.0)
+SPHERES = dict(particles='spheres', disks=128, density=0.5, aspect=0.25, aspect_z=0.3)
+SPHERES.update(equilibration=10.0, warmup=20.0, duration=0.0)
 # of a bag, with status last
 REPLAYED = ('run_info', 'state', 'steps', 'lp_phases', 'fields', 'status')
 STAND_INS = 'state', 'lp_phases', 'fields'
@@ -60,18 +62,18 @@ class Markers(harness.Case):
         return pictures
 
     def test_slow_vectors_are_those_of_the_fields(self):
-        """And their coefficients those of the phases, wherever all three are of the same time."""
+        self.check_slow_vectors(ENDLESS, 'xy', 110.0, 117)
+
+    def test_slow_vectors_of_spheres(self):
+        self.check_slow_vectors(SPHERES, 'xyz', 80.0, 380)
+
+    def check_slow_vectors(self, scene, axes, until, last):
+        """And their coefficients those of the phases, wherever all three are of the same time.
+        last: index of the last positive exponent."""
         slow, fields, phases = map(self.listen, ('slow_vectors', 'fields', 'lp_phases'))
-        node = self.start(
-            dict(
-                ENDLESS,
-                slow_vectors_rate=100.0,
-                slow_vectors_count=12,
-                field_interval=0.0,
-                pace=10.0,
-            )
-        )
-        self.assertTrue(slow.wait_for(lambda m: m.sim_time > 110.0), node.text())
+        asked = dict(slow_vectors_rate=100.0, slow_vectors_count=12, field_interval=0.0, pace=10.0)
+        node = self.start({**scene, **asked})
+        self.assertTrue(slow.wait_for(lambda m: m.sim_time > until), node.text())
         node.stop()
         by_time = {m.sim_time: m for m in slow.messages if m.dqx}
         compared = coefficients = 0
@@ -80,13 +82,17 @@ class Markers(harness.Case):
             k = field.index - m.first_index if m else -1
             if k < 0:
                 continue
-            self.assertEqual((m.vectors, m.first_index + m.vectors - 1), (12, 117))
+            self.assertEqual((m.vectors, m.first_index + m.vectors - 1), (12, last))
             disks = slice(k * len(m.x), (k + 1) * len(m.x))
-            np.testing.assert_array_equal(m.dqx[disks], field.dqx)
-            np.testing.assert_array_equal(m.dqy[disks], field.dqy)
+            for axis in axes:
+                dq, field_dq = (getattr(of, 'dq' + axis) for of in (m, field))
+                np.testing.assert_array_equal(dq[disks], field_dq)
+                self.assertEqual(getattr(m, 'n' + axis)[k], getattr(field, 'n' + axis))
             np.testing.assert_array_equal((m.x, m.py), (field.x, field.py))
-            self.assertEqual(m.exponents[k], field.exponent)
-            self.assertEqual((m.kind[k], m.nx[k], m.ny[k]), (field.kind, field.nx, field.ny))
+            self.assertEqual((m.z, m.pz), (field.z, field.pz))
+            lengths = (len(m.x), 12) if 'z' in axes else (0, 0)
+            self.assertEqual((len(m.z), len(m.nz)), lengths)
+            self.assertEqual((m.exponents[k], m.kind[k]), (field.exponent, field.kind))
             compared += 1
         for message in phases.messages:
             m = by_time.get(message.sim_time)
@@ -94,8 +100,9 @@ class Markers(harness.Case):
                 k = phase.index - m.first_index
                 if phase.index == 0 or k < 0 or m.pairs[k] == 0:
                     continue
-                self.assertIn(phase.a, m.a[4 * k : 4 * k + m.pairs[k]])
-                self.assertIn(phase.b, m.b[4 * k : 4 * k + m.pairs[k]])
+                pairs = slice(2 ** len(axes) * k, 2 ** len(axes) * k + m.pairs[k])
+                self.assertIn(phase.a, m.a[pairs])
+                self.assertIn(phase.b, m.b[pairs])
                 coefficients += 1
         self.assertGreater(compared, 20)
         self.assertGreater(coefficients, 20)

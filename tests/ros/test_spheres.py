@@ -10,13 +10,14 @@ import numpy as np
 import yaml
 
 import harness
+from test_check import checked, in_bag, shares
 from hdlyap.msg import Mode
 
 TOPICS = ['run_info', 'spectrum', 'modes', 'steps', 'lp_phases', 't_phases', 'fields', 'gas']
-TOPICS += ['state', 'covariant', 'hydro', 'structure']
+TOPICS += ['state', 'covariant', 'hydro', 'structure', 'status', 'cost']
 SCENE = dict(particles='spheres', disks=128, density=0.5, aspect=0.25, aspect_z=0.3)
 SCENE.update(scene='balls', equilibration=10.0, warmup=20.0, duration=70.0, report_interval=5.0)
-SCENE.update(boundary_y='reflecting', observables=TOPICS[1:], seed='3', covariant_window=20.0)
+SCENE.update(boundary_y='reflecting', observables=TOPICS[1:-2], seed='3', covariant_window=20.0)
 SCENE.update(covariant_transient=20.0, exponents='all', max_mode_number=2)
 SCENES = os.path.join(os.path.dirname(os.path.abspath(__file__)), '../../launch/scenes')
 ROUNDING = 1e-7
@@ -246,6 +247,28 @@ class Spheres(harness.Case):
         self.assertIn((0, 1, 1), {nodes(weight) for weight in last.weights})
         local = np.array(last.exponents) + np.array(last.exponents)[::-1]
         self.assertLess(abs(local).max(), 0.2)
+
+    def test_check(self):
+        """What it says of the bag is what it takes."""
+        path = os.path.join(self.new_folder(), 'balls.yaml')
+        with open(path, 'w') as file:
+            yaml.safe_dump(SCENE, file)
+        report, fields, window = shares(checked(path).stdout)
+        for topic in report:
+            of = [m for m in self.messages[topic] if not len(getattr(m, 'along', ()))]
+            self.near(report[topic], in_bag(topic, of) / len(of))
+        self.near(fields['structure'], 16 * len(self.messages['structure'][-1].along))
+        steps = [
+            s for s in self.messages['steps'][-1].steps if s.kind != Mode.ZERO and not s.conjugate
+        ]
+        pairs = sum(s.expected // 2 for s in steps if s.kind == Mode.LP)
+        by_pairs = {field.pairs: in_bag('fields', [field]) for field in self.messages['fields']}
+        of_pair = (by_pairs[2] - by_pairs[0]) / 2
+        self.near(fields['fields'], len(steps) * by_pairs[0] + pairs * of_pair)
+        self.near(window['covariant'], in_bag('covariant', self.messages['covariant'][-1:]))
+
+    def near(self, said, true):
+        self.assertAlmostEqual(said / true, 1.0, delta=0.02)
 
 
 class Scenes(harness.Case):

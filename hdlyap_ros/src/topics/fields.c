@@ -69,8 +69,8 @@ static void fill_step(hdr_mode_field *message, const hd_step *step)
     message->wave_number = step->wave.number;
 }
 
-static void fill_pairs(hdr_mode_field *message, const pair_fields *pairs, size_t disks,
-                       int dimension)
+static void fill_pairs(hdr_mode_field *message, const moment *now, const pair_fields *pairs,
+                       size_t disks)
 {
     const size_t count = pairs->count * disks;
     message->pairs = pairs->count;
@@ -81,10 +81,10 @@ static void fill_pairs(hdr_mode_field *message, const pair_fields *pairs, size_t
     hdr_doubles *const l[] = {&message->l_x, &message->l_y, &message->l_z};
     hdr_doubles *const p[] = {&message->p_x, &message->p_y, &message->p_z};
     hdr_doubles *const ratio[] = {&message->p_over_px, &message->p_over_py, &message->p_over_pz};
-    for (int d = 0; d < dimension; d++) {
-        *l[d] = message_component(pairs->l, count, d, dimension);
-        *p[d] = message_component(pairs->p, count, d, dimension);
-        *ratio[d] = message_component(pairs->ratio, count, d, dimension);
+    for (int d = 0; d < HD_DIMENSION_MAX; d++) {
+        *l[d] = moment_component(now, pairs->l, count, d);
+        *p[d] = moment_component(now, pairs->p, count, d);
+        *ratio[d] = moment_component(now, pairs->ratio, count, d);
     }
 }
 
@@ -100,14 +100,13 @@ static hd_status publish_vector(const moment *now, int col)
     now->room->taken = 0; /* for each anew */
     pair_fields pairs = {.l = moment_take(now, 3 * length, sizeof *pairs.l)};
     if (!pairs.l || !moment_state(now, &q, &p)) return HD_OK;
-    hdr_mode_field message = {.sim_time = hd_run_time(now->run),
-                              STATE_FIELDS(q, p, disks, dimension)};
+    hdr_mode_field message = {.sim_time = hd_run_time(now->run), STATE_FIELDS(now, q, p, disks)};
     pairs.p = pairs.l + length;
     pairs.ratio = pairs.p + length;
     if (step && step->kind == HD_MODE_LP) reconstruct(&pairs, now->run, step, p);
     fill_vector(&message, now->run, col, disks);
     fill_step(&message, step);
-    fill_pairs(&message, &pairs, disks, dimension);
+    fill_pairs(&message, now, &pairs, disks);
     return topic_send_fields(now->out, &message);
 }
 

@@ -73,20 +73,19 @@ static inline int moment_dimension(const moment *now) { return hd_scene_dimensio
 
 /** Component d of arrays [count][dimension]: positions, say. Of a direction that the space has not
  * it is empty. */
-static inline hdr_doubles message_component(const double *data, size_t count, int d, int dimension)
+static inline hdr_doubles moment_component(const moment *now, const double *data, size_t count,
+                                           int d)
 {
+    const int dimension = moment_dimension(now);
     if (d >= dimension) return (hdr_doubles){.data = NULL};
     return message_array(data + d, count, (size_t)dimension);
 }
 
 /** The fields of a message that has positions and momenta of all disks. */
-#define STATE_FIELDS(q, p, disks, dimension)                                                       \
-    .x = message_component(q, disks, 0, dimension),                                                \
-    .y = message_component(q, disks, 1, dimension),                                                \
-    .z = message_component(q, disks, 2, dimension),                                                \
-    .px = message_component(p, disks, 0, dimension),                                               \
-    .py = message_component(p, disks, 1, dimension),                                               \
-    .pz = message_component(p, disks, 2, dimension)
+#define STATE_FIELDS(now, q, p, disks)                                                             \
+    .x = moment_component(now, q, disks, 0), .y = moment_component(now, q, disks, 1),              \
+    .z = moment_component(now, q, disks, 2), .px = moment_component(now, p, disks, 0),             \
+    .py = moment_component(now, p, disks, 1), .pz = moment_component(now, p, disks, 2)
 
 /** Sends a topic's messages by topic_send_name, if there is something to say. HD_NOT_FINITE. */
 #define TOPIC(name, ...) HD_MUST_CHECK hd_status topic_publish_##name(const moment *now);

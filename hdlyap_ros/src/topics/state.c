@@ -9,7 +9,7 @@ hd_status topic_publish_state(const moment *now)
     hdr_state message = {
         .sim_time = hd_run_time(now->run),
         .kinetic_energy = hd_trajectory_kinetic_energy(hd_run_parts(now->run).trajectory),
-        STATE_FIELDS(q, p, disks, moment_dimension(now)),
+        STATE_FIELDS(now, q, p, disks),
     };
     return topic_send_state(now->out, &message);
 }
