@@ -118,7 +118,10 @@ class Launch(harness.Case):
                 (
                     ([], 'scene mine: 16 spheres in '),
                     (['particles:=disks'], 'scene mine: 16 disks in '),
-                    (['particles:=cubes'], 'particles = cubes: must be disks or spheres'),
+                    (
+                        ['particles:=cubes'],
+                        'particles = cubes: must be disks, spheres or dumbbells',
+                    ),
                 )
             ):
                 words += ['scene:=mine.yaml', f'__ns:=of_{k}']

@@ -176,6 +176,7 @@ static const std::vector<refused> refused_together = {
     {"Disks: 100", "Disks = 100", {"; is disks meant?"}},
     {"warmpu: 100", "warmpu = 100", {"; is warmup meant?"}},
     {"dimensions: 3", "dimensions = 3", {"removed: it is called particles now: disks or spheres"}},
+    {"particles: dumbbells", "particles = dumbbells", {"must be disks or spheres here"}},
     {"aspect_z: 0.5", "aspect_z = 0.5", {"not be given", "particles = disks"}},
     {"boundary_z: reflecting", "boundary_z = reflecting", {"not be given", "particles = disks"}},
     {"density: 1.1", "density = 1.1", {"at most 0.868056", "disks = 20", "aspect = 1"}},

@@ -18,7 +18,8 @@ typedef struct hd_gas_means {
     double pressure_of[HD_DIMENSION_MAX]; /**< momentum along x that crosses a line (of spheres a
                               plane) across it, per length (area) and time; along y, .. */
     double pressure_of_error[HD_DIMENSION_MAX];
-    double compressibility; /**< Z = pressure area d / (2 N), 1 without collisions */
+    double compressibility; /**< Z = pressure area / (N kT), kT = 2 / (coordinates of one): 1
+                               without collisions */
 } hd_gas_means;
 
 typedef struct hd_gas hd_gas;
@@ -27,7 +28,7 @@ typedef struct hd_gas hd_gas;
 hd_gas_means hd_gas_read(const hd_gas *gas);
 
 /** kT: twice the kinetic energy over the momenta that are free, those less that are conserved;
- * but for 1 / N it is 1, of spheres 2/3 [energy]. */
+ * but for 1 / N it is 1, of spheres and dumbbells 2/3 [energy]. */
 double hd_gas_temperature(const hd_scene_def *def);
 
 HD_API_END

@@ -10,9 +10,10 @@
 
 HD_API_BEGIN
 
-/** What moves: hard disks in the plane, or hard spheres in space, which are called disks as well.
- * Where comments say 4N and 2N, there are 6N and 3N of spheres. */
-typedef enum hd_particles { HD_DISKS, HD_SPHERES } hd_particles;
+/** What moves: hard disks in the plane, or hard spheres in space, which are called disks as well;
+ * or rigid pairs of disks, two of diameter 1 and mass 1 together. Where comments say 4N and 2N,
+ * there are 6N and 3N of spheres. */
+typedef enum hd_particles { HD_DISKS, HD_SPHERES, HD_DUMBBELLS } hd_particles;
 
 /** Of the spaces that particles move in; arrays with one entry for each direction have room for so
  * many. */
@@ -110,8 +111,8 @@ typedef struct hd_scene_def {
 
 /** The paper's periodic scene: 780 disks, density 0.8, aspect 0.867. */
 hd_scene_def hd_scene_def_default(void);
-/** The same of another dynamics, with the defaults of its own parameters. A row that lacks what it
- * must have is a bug of the caller. */
+/** The same of another dynamics, or of a row of the core, with the defaults of its own parameters.
+ * A row that lacks what it must have is a bug of the caller. */
 hd_scene_def hd_scene_def_of(const hd_dynamics *dynamics);
 
 /** HD_OK, or HD_REFUSED with one line in `message`: the parameter, its value, what is allowed; of a

@@ -65,10 +65,11 @@ static const char *usual_fault(const hd_record *record)
 const char *hd_record_fault(const hd_record *record, const hd_scene_def *scene)
 {
     const hd_dynamics *of = hd_dynamics_of(scene);
-    return of->fault ? of->fault(record, scene) : usual_fault(record);
+    const char *usual = of->archive_record ? NULL : usual_fault(record);
+    return usual || !of->fault ? usual : of->fault(record, scene);
 }
 
-static void usual_archive(hd_record *record, hd_archive *archive)
+static void usual_archive(hd_record *record, hd_archive *archive, const hd_scene_def *scene)
 {
     size_t count = record->count;
     hd_archive_double(archive, "log duration", &record->duration);
@@ -81,7 +82,7 @@ static void usual_archive(hd_record *record, hd_archive *archive)
     }
     if (!hd_archive_good(archive)) return;
     hd_archive_doubles(archive, "log entries", record->entry, doubles_of(record));
-    const char *fault = usual_fault(record);
+    const char *fault = hd_record_fault(record, scene);
     if (fault) hd_archive_refuse(archive, "log", fault);
 }
 
@@ -91,7 +92,7 @@ void hd_record_archive(hd_record *record, hd_archive *archive, const hd_scene_de
     if (of->archive_record)
         of->archive_record(record, archive, scene);
     else
-        usual_archive(record, archive);
+        usual_archive(record, archive, scene);
 }
 
 double hd_record_bytes_of(const hd_scene_def *scene, double entries)

@@ -21,10 +21,10 @@
 enum { DIMENSION_MAX = HD_FIELDS_MAX };
 
 struct hd_pmode {
-    int disks, space; /**< dimension of the space */
-    int dimension;    /**< 2d */
-    double *psi;      /**< [HD_FIELDS_IN(space)][space * disks] */
-    double *field;    /**< same */
+    int disks, space, coordinates; /**< of the space, of a disk */
+    int dimension;                 /**< 2d */
+    double *psi;                   /**< [HD_FIELDS_IN(space)][space * disks] */
+    double *field;                 /**< same */
     double q[DIMENSION_MAX * DIMENSION_MAX];
     double residual[DIMENSION_MAX];
     double norm[DIMENSION_MAX]; /**< of the fields as sampled */
@@ -50,6 +50,7 @@ hd_status hd_pmode_create(hd_pmode **out, const hd_scene_def *def)
     if (!pmode) return HD_NO_MEMORY;
     pmode->disks = def->disks;
     pmode->space = hd_scene_dimension(def);
+    pmode->coordinates = hd_scene_coordinates(def);
     pmode->psi = hd_memory_alloc(size, sizeof(double));
     pmode->field = hd_memory_alloc(size, sizeof(double));
     if (!pmode->psi || !pmode->field) {
@@ -87,13 +88,12 @@ static double dot(const double *a, const double *b, int n)
 static void psi_load(hd_pmode *pmode, hd_columns vectors, int col)
 {
     const size_t stride = (size_t)vectors.stride;
-    const int space = pmode->space;
+    const int space = pmode->space, rows = 2 * pmode->coordinates;
     for (int m = 0; m < pmode->dimension; m++) {
         double *psi = row_of(pmode->psi, m, pmode);
         const double *v = vectors.data + (col - vectors.first) + m;
         for (int j = 0; j < pmode->disks; j++)
-            for (int d = 0; d < space; d++)
-                psi[space * j + d] = v[(size_t)(2 * space * j + d) * stride];
+            for (int d = 0; d < space; d++) psi[space * j + d] = v[(size_t)(rows * j + d) * stride];
         const double norm = sqrt(dot(psi, psi, components(pmode)));
         const double scale = norm > HD_MODES_DQ_MIN ? 1.0 / norm
                                                     : 0.0; /* then dependent: refused */

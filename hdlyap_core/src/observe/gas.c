@@ -22,7 +22,7 @@ typedef struct counts {
 } counts;
 
 struct hd_gas {
-    int dimension, series;
+    int dimension, coordinates, series;
     double disks, area;
     double kinetic[HD_DIMENSION_MAX]; /**< twice the mean kinetic energy along each direction */
     counts last;                      /**< where the last sample ended */
@@ -46,8 +46,10 @@ static double momenta(const hd_scene_def *def, int d)
 
 double hd_gas_temperature(const hd_scene_def *def)
 {
-    double all = 0.0;
-    for (int d = 0; d < hd_scene_dimension(def); d++) all += momenta(def, d);
+    const int dimension = hd_scene_dimension(def);
+    double all = (hd_scene_coordinates(def) - dimension) *
+                 def->disks; /* nothing is conserved there */
+    for (int d = 0; d < dimension; d++) all += momenta(def, d);
     return 2.0 * def->disks / all;
 }
 
@@ -59,6 +61,7 @@ hd_status hd_gas_create(hd_gas **out, const hd_scene_def *def, double block)
     *out = NULL;
     if (!gas) return HD_NO_MEMORY;
     gas->dimension = hd_scene_dimension(def);
+    gas->coordinates = hd_scene_coordinates(def);
     gas->series = VIRIAL_X + gas->dimension;
     gas->disks = def->disks;
     gas->area = hd_gas_area(def);
@@ -122,7 +125,7 @@ hd_gas_means hd_gas_read(const hd_gas *gas)
     }
     for (int d = 0; d < gas->dimension; d++) m.pressure += m.pressure_of[d];
     m.pressure /= gas->dimension;
-    m.compressibility = m.pressure * a / gas->disks * (gas->dimension / 2.0);
+    m.compressibility = m.pressure * a / gas->disks * (gas->coordinates / 2.0);
     return m;
 }
 

@@ -165,9 +165,19 @@ static int hydro_first(void *self, const hd_observing *with)
     return hd_steps_first(with->part[HD_OBSERVED_steps]);
 }
 
+/** Energy is of all coordinates, and functionals know places and their momenta alone. */
+static hd_status hydro_check(const hd_scene_def *scene, char *message, size_t size)
+{
+    if (hd_scene_coordinates(scene) == hd_scene_dimension(scene)) return HD_OK;
+    return hd_refuse(message, size,
+                     "observables = hydro: must not be given with particles = %s, which turn",
+                     hd_dynamics_of(scene)->particles);
+}
+
 const hd_observable hd_hydro_row = {.with = HD_OBSERVE_STEPS,
                                     .needs = HD_NEEDS_FRAME | HD_NEEDS_VECTORS | HD_NEEDS_REPORTS |
                                              HD_NEEDS_STATE | HD_NEEDS_ALL | HD_NEEDS_EDGES,
+                                    .check = hydro_check,
                                     .bytes = hydro_bytes,
                                     .extend = hydro_extend,
                                     .create = hydro_create,

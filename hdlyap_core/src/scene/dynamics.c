@@ -3,8 +3,9 @@
 
 #include <string.h>
 
-static const hd_dynamics *const rows[] = {
-    [HD_DISKS] = &hd_hard_disks, [HD_SPHERES] = &hd_hard_spheres};
+static const hd_dynamics *const rows[] = {[HD_DISKS] = &hd_hard_disks,
+                                          [HD_SPHERES] = &hd_hard_spheres,
+                                          [HD_DUMBBELLS] = &hd_dumbbells_row};
 
 const hd_dynamics *hd_dynamics_of(const hd_scene_def *scene)
 {

@@ -4,7 +4,7 @@
 
 #include "hdlyap/dynamics.h"
 
-extern const hd_dynamics hd_hard_disks, hd_hard_spheres;
+extern const hd_dynamics hd_hard_disks, hd_hard_spheres, hd_dumbbells_row;
 
 /** Those of a program's own: row[count]. */
 typedef struct hd_known {

@@ -3,8 +3,10 @@
  * + - * / only. */
 #include "scene/null_space.h"
 
+#include <math.h>
 #include <string.h>
 
+#include "base/random.h"
 #include "scene/container.h"
 
 int hd_null_axes(const hd_scene_def *def, int *axis)
@@ -33,19 +35,19 @@ hd_null_space hd_null_space_of(const hd_scene_def *def)
 int hd_null_space_fill(const hd_scene_def *def, const double *q, const double *p, double *column)
 {
     const hd_null_space null = hd_null_space_of(def);
-    const int dimension = null.dimension;
-    const size_t rows = 2 * (size_t)(dimension * def->disks);
+    const int of_one = hd_scene_coordinates(def);
+    const size_t rows = 2 * (size_t)(of_one * def->disks);
     int count = 0;
     for (int k = 0; k < 2 * null.count; k++) {
         const bool rotation = null.rotates && null.axis[k / 2] == HD_NULL_X;
         if (rotation && k % 2 == 1) continue;
         memset(column, 0, rows * sizeof *column);
-        for (int j = 0; j < dimension * def->disks; j++) {
-            const int d = j % dimension;
+        for (int j = 0; j < of_one * def->disks; j++) {
+            const int d = j % of_one;
             const double *at = q + (j - d), *moving = p + (j - d);
-            double *entry = column + 2 * dimension * (j / dimension) + d;
-            entry[dimension * (k % 2)] = hd_null_entry(&null, null.axis[k / 2], d, at, moving);
-            if (rotation) entry[dimension] = d == 0 ? -moving[1] : moving[0];
+            double *entry = column + 2 * of_one * (j / of_one) + d;
+            entry[of_one * (k % 2)] = hd_null_entry(&null, null.axis[k / 2], d, at, moving);
+            if (rotation) entry[of_one] = d == 0 ? -moving[1] : moving[0];
         }
         column += rows;
         count++;
@@ -73,13 +75,26 @@ static void still_rotation(const hd_scene_def *def, const double *q, double *p)
 
 void hd_null_space_still(const hd_scene_def *def, const double *q, double *p)
 {
-    const int dimension = hd_scene_dimension(def);
-    double mean[HD_DIMENSION_MAX] = {0};
-    for (int k = 0; k < dimension * def->disks; k++) mean[k % dimension] += p[k];
-    for (int k = 0; k < dimension * def->disks; k++)
-        if (hd_scene_boundary(def, k % dimension) == HD_PERIODIC)
-            p[k] -= mean[k % dimension] / def->disks;
+    const int dimension = hd_scene_dimension(def), of_one = hd_scene_coordinates(def);
+    for (int d = 0; d < dimension; d++) {
+        double sum = 0.0;
+        if (hd_scene_boundary(def, d) != HD_PERIODIC) continue;
+        for (int i = 0; i < def->disks; i++) sum += p[of_one * i + d];
+        for (int i = 0; i < def->disks; i++) p[of_one * i + d] -= sum / def->disks;
+    }
     if (hd_container_of(def)->rotates) still_rotation(def, q, p);
+}
+
+void hd_null_space_momenta(const hd_scene_def *def, const double *q, double *p)
+{
+    hd_random random = hd_random_seeded(def->seed, 0);
+    const int all = hd_scene_coordinates(def) * def->disks;
+    double square = 0.0;
+    for (int k = 0; k < all; k++) p[k] = hd_random_symmetric(&random);
+    hd_null_space_still(def, q, p);
+    for (int k = 0; k < all; k++) square += p[k] * p[k];
+    const double scale = sqrt(2.0 * def->disks / square);
+    for (int k = 0; k < all; k++) p[k] *= scale;
 }
 
 double hd_null_conserved(const hd_scene_def *def, int d)

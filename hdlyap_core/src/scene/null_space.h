@@ -31,9 +31,12 @@ static inline double hd_null_entry(const hd_null_space *null, int axis, int d, c
     return d == 0 ? null->centre - q[1] : q[0] - null->centre;
 }
 
-/** column[..][2 dimension disks] of the vectors that stay as they are, exactly: each direction in
- * dq and in dp; a rotation turns q and p alike, once. Returns their number. */
+/** column[..][particle][2 coordinates] of the vectors that stay as they are, exactly: each
+ * direction in dq and in dp; a rotation turns q and p alike, once. Returns their number. */
 int hd_null_space_fill(const hd_scene_def *def, const double *q, const double *p, double *column);
+
+/** Momenta of the seed: uniform, without what is conserved at q, scaled to K = N. */
+void hd_null_space_momenta(const hd_scene_def *def, const double *q, double *p);
 
 /** Takes out of the momenta p each momentum that is conserved, at q. */
 void hd_null_space_still(const hd_scene_def *def, const double *q, double *p);

@@ -60,7 +60,7 @@ static hd_status rectangle_check(const hd_scene_def *def, char *message, size_t 
 {
     double box[HD_DIMENSION_MAX];
     rectangle_box(def, box);
-    if (def->disks < 2)
+    if (def->disks < 2 && hd_scene_coordinates(def) == hd_scene_dimension(def))
         return hd_refuse(message, size,
                          "disks = %d: must be an integer from 2 to 1000000 in a rectangle",
                          def->disks);

@@ -43,6 +43,12 @@ hd_scene_def hd_scene_def_of(const hd_dynamics *dynamics)
     HD_ASSERT(is_whole(dynamics));
     hd_scene_def def = hd_scene_def_default();
     def.dynamics = dynamics;
+    for (int k = HD_DISKS; k <= HD_DUMBBELLS; k++) {
+        const hd_scene_def core = {.particles = (hd_particles)k};
+        if (hd_dynamics_of(&core) != dynamics) continue;
+        def.particles = (hd_particles)k;
+        def.dynamics = NULL;
+    }
     for (int k = 0; k < dynamics->parameters; k++)
         hd_parameter_assign(&dynamics->parameter[k], &def, dynamics->parameter[k].usual);
     return def;

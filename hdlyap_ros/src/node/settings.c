@@ -69,6 +69,14 @@ static bool check_scene_name(settings *set, reader *r)
                   "name chooses none of them, roslaunch hdlyap run.launch scene:=.. does");
 }
 
+/** Messages hold what has as many coordinates as its space has directions. */
+static bool check_particles(const settings *set, reader *r)
+{
+    r->name = "particles";
+    return hd_scene_coordinates(&set->def) == hd_scene_dimension(&set->def) ||
+           reader_refuse(r, "disks or spheres here: others are of the core alone so far");
+}
+
 /** Those that the scene does not know of, where the row says a range. */
 static bool check_ranges(settings *set, reader *r)
 {
@@ -261,8 +269,8 @@ bool settings_read(settings *out, const hdr_params *params, const hd_checkpoint 
     *out = defaults(kept);
     if (!check_names(&r) || !read_all(out, &r)) return false;
     if (!kept && !check_scene_name(out, &r)) return false;
-    if (!check_ranges(out, &r) || !check_observables(out, &r) || !check_awaited(out, &r) ||
-        !check_needs(out, &r))
+    if (!check_particles(out, &r) || !check_ranges(out, &r) || !check_observables(out, &r) ||
+        !check_awaited(out, &r) || !check_needs(out, &r))
         return false;
     write_texts(out);
     if (hd_scene_check(&out->def, message, size) != HD_OK ||

@@ -8,7 +8,7 @@ static hd_cells created(int disks, double lx, double ly, hd_boundary boundary)
 {
     const hd_scene_def def = scene_in_box(disks, lx, ly, boundary, boundary, 1);
     hd_cells cells;
-    CHECK_OK(hd_cells_create(&cells, &def));
+    CHECK_OK(hd_cells_create(&cells, &def, 1.0));
     return cells;
 }
 
@@ -89,7 +89,7 @@ TEST(number_of_cells_follows_disks)
     for (int k = 0; k < 12; k++) {
         const hd_scene_def def = scene_of(10000, density[k % 4], aspect[k % 3], P, R, 1);
         hd_cells cells;
-        CHECK_OK(hd_cells_create(&cells, &def));
+        CHECK_OK(hd_cells_create(&cells, &def, 1.0));
         const double count = (double)cells.size[0] * cells.size[1];
         assert_true(count > 0.3 * def.disks && count < 2.0 * def.disks);
         hd_cells_clear(&cells);

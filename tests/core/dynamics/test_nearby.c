@@ -105,7 +105,7 @@ static void check_box(double lx, double ly, hd_boundary boundary, int crowd)
     const hd_scene_def def = scene_in_box(DISKS, lx, ly, boundary, boundary, 1);
     hd_random random = hd_random_seeded(3, (uint64_t)crowd);
     hd_cells cells;
-    CHECK_OK(hd_cells_create(&cells, &def));
+    CHECK_OK(hd_cells_create(&cells, &def, 1.0));
     for (int32_t i = 0; i < DISKS; i++) {
         disks[i] = (hd_disk){.q = {lx * uniform(&random), ly * uniform(&random)}};
         if (i < crowd) disks[i].q[0] = disks[i].q[1] = 1.0;
@@ -139,7 +139,7 @@ TEST(images_are_in_reach)
     hd_random random = hd_random_seeded(4, 0);
     hd_cells cells;
     hd_nearby near;
-    CHECK_OK(hd_cells_create(&cells, &def));
+    CHECK_OK(hd_cells_create(&cells, &def, 1.0));
     for (int32_t i = 0; i < DISKS; i++) {
         for (int d = 0; d < 2; d++) disks[i].q[d] = cells.box[d] * uniform(&random);
         hd_cells_add(&cells, disks, i);

@@ -284,7 +284,7 @@ TEST(contacts_on_cell_edges)
     const hd_scene_def def = scene_in_box(12, 12.0, 12.0, P, P, 1);
     const double way[][2] = {{1, 0}, {0, 1}, {1, 1}, {1, -1}, {0.5, 1}};
     hd_cells cells;
-    CHECK_OK(hd_cells_create(&cells, &def));
+    CHECK_OK(hd_cells_create(&cells, &def, 1.0));
     assert_true(cells.size[0] >= 4 && cells.size[1] >= 4);
     const double at[] = {cells.line[0][2].bound[0], cells.line[1][2].bound[0]};
     hd_cells_clear(&cells);

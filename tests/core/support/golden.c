@@ -4,7 +4,9 @@
 #include <stddef.h>
 #include <string.h>
 
+#include "dynamics/dumbbells/bump.h"
 #include "records.h"
+#include "scene/scene.h"
 #include "scenes.h"
 #include "interval.h"
 
@@ -15,6 +17,18 @@ typedef struct golden {
 } golden;
 
 #if HD_DIM == 2
+static hd_scene_def dumbbells(int count, double density, double bond, hd_boundary x, uint64_t seed)
+{
+    const hd_scene_def core = {.particles = HD_DUMBBELLS};
+    hd_scene_def def = hd_scene_def_of(hd_dynamics_of(&core));
+    def.disks = count;
+    def.density = density;
+    def.boundary[0] = x;
+    def.seed = seed;
+    def.own[0].real = bond;
+    return def;
+}
+
 static golden golden_scene(int scene)
 {
     const hd_boundary p = HD_PERIODIC, r = HD_REFLECTING;
@@ -28,6 +42,8 @@ static golden golden_scene(int scene)
         {scene_of(64, 1.1, 0.8660254, p, p, 6), 10000, 0x04072dec68dbfaecu},
         {scene_of(20000, 0.7, 0.8, p, r, 7), 60000,
          0x2d02f1c2d1469492u}, /* larger than the caches */
+        {dumbbells(100, 0.6, 0.25, p, 8), 20000, 0xf3eefeb512c093bfu},
+        {dumbbells(12, 0.2, 1.3, r, 9), 10000, 0x9532a850f380042eu},
     };
     return all[scene];
 }
@@ -55,6 +71,15 @@ static uint64_t hash_bytes(uint64_t hash, const void *data, size_t size)
     return hash;
 }
 
+static uint64_t hash_bumps(const hd_record *log)
+{
+    const size_t time = offsetof(hd_bump, i);
+    uint64_t hash = 0xcbf29ce484222325u;
+    for (size_t k = 0; k < log->count; k++)
+        hash = hash_bytes(hash, (const char *)hd_record_entry(log, k) + time, log->size - time);
+    return hash;
+}
+
 static uint64_t hash_log(const hd_record *log)
 {
     uint64_t hash = 0xcbf29ce484222325u;
@@ -74,10 +99,11 @@ uint64_t golden_hash(int scene)
     hd_trajectory *tr = NULL;
     hd_record *log = NULL;
     uint64_t hash = 0;
-    if (hd_record_create(&log, DYNAMICS->entry) == HD_OK &&
+    if (hd_record_create(&log, hd_dynamics_of(&g.def)->entry) == HD_OK &&
         hd_trajectory_create(&tr, &g.def) == HD_OK) {
         const double t_end = g.pair_events / hd_trajectory_collision_rate(tr);
-        if (trajectory_to(tr, log, t_end) == HD_OK && log->count > 1000) hash = hash_log(log);
+        if (trajectory_to(tr, log, t_end) == HD_OK && log->count > 1000)
+            hash = hd_scene_coordinates(&g.def) == HD_DIM ? hash_log(log) : hash_bumps(log);
     }
     hd_trajectory_free(tr);
     hd_record_free(log);

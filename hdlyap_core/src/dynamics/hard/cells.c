@@ -1,4 +1,4 @@
-/** Scene -> cells. Edge: a little over a diameter, or what holds about one disk if that is more. */
+/** Scene -> cells. Edge: a little over the reach, or what holds about one disk if that is more. */
 #include "dynamics/hard/cells.h"
 
 #include <math.h>
@@ -7,9 +7,9 @@
 #include "base/memory.h"
 #include "scene/scene.h"
 
-/** A centre sits in the cell that it is booked in up to rounding only; this much more than a
- * diameter keeps every contact within neighbouring cells all the same. */
-static const double EDGE_MIN = 1.0 + 1e-6;
+/** A centre sits in the cell that it is booked in up to rounding only; this much more than
+ * the reach keeps every contact within neighbouring cells all the same. */
+static const double EDGE_OF_REACH = 1.0 + 1e-6;
 static const double DISKS_PER_CELL = 0.75;
 
 static void line_fill(hd_cell_line *line, int32_t size, double length, hd_boundary boundary)
@@ -39,12 +39,12 @@ static size_t cell_count(const hd_cells *cells)
     return count;
 }
 
-hd_status hd_cells_create(hd_cells *cells, const hd_scene_def *def)
+hd_status hd_cells_create(hd_cells *cells, const hd_scene_def *def, double reach)
 {
     *cells = (hd_cells){.next = NULL};
     hd_scene_box(def, cells->box);
     const double place = DISKS_PER_CELL / def->density;
-    const double edge = fmax(EDGE_MIN, HD_DIM == 2 ? sqrt(place) : cbrt(place));
+    const double edge = fmax(EDGE_OF_REACH * reach, HD_DIM == 2 ? sqrt(place) : cbrt(place));
     for (int d = 0; d < HD_DIM; d++) {
         cells->boundary[d] = hd_scene_boundary(def, d);
         cells->size[d] = (int32_t)fmax(1.0, floor(cells->box[d] / edge));

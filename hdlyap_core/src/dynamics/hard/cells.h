@@ -1,4 +1,5 @@
-/** Cells at least a diameter wide: who can meet whom, and through which image. */
+/** Cells at least as wide as two centres that meet are apart: who can meet whom, and through which
+ * image. */
 #ifndef HD_CELLS_H
 #define HD_CELLS_H
 
@@ -33,7 +34,8 @@ typedef struct hd_cells {
     int32_t *next; /**< [disks], links of the crowded cells' lists; -1 at their ends */
 } hd_cells;
 
-HD_MUST_CHECK hd_status hd_cells_create(hd_cells *cells, const hd_scene_def *def);
+/** reach: largest distance of two centres that meet, of disks 1. */
+HD_MUST_CHECK hd_status hd_cells_create(hd_cells *cells, const hd_scene_def *def, double reach);
 void hd_cells_clear(hd_cells *cells);
 
 /** Books disk i, inside the box, into the cell of its position q. */

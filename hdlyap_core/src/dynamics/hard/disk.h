@@ -2,6 +2,8 @@
 #ifndef HD_DISK_H
 #define HD_DISK_H
 
+#include <float.h>
+#include <math.h>
 #include <stdint.h>
 
 #include "dynamics/hard/compiled.h"
@@ -21,5 +23,26 @@ typedef struct hd_disk {
     int32_t cell[HD_DIM]; /**< column, row, of spheres layer */
     uint32_t collisions;  /**< changes whenever q, p, t do; tells stale predictions */
 } hd_disk;
+
+/** Time is counted in epochs: a power of two that holds about 32 to 64 collisions of a disk; in a
+ * thin gas less, so that no flight is so long that its rounding comes near HD_OVERLAP_MAX. */
+static inline double hd_epoch_length(double rate_per_disk)
+{
+    const double wanted = fmin(32.0 / rate_per_disk, 16384.0);
+    double length = 1.0;
+    while (length < wanted) length *= 2.0;
+    while (length * 0.5 >= wanted) length *= 0.5;
+    return length;
+}
+
+/** See hd_examined; of the longest edge of the box. */
+static inline double hd_overlap_rounding(double longest, double epoch_length)
+{
+    const double speed_max = 16.0; /* of two disks; the mean square of a momentum is 2 */
+    /* of eps, on the way to a contact: each coordinate of either disk is folded, flown, shifted and
+     * subtracted, some ten times eps/2 in all, and rounding of the time moves them as much */
+    const double roundings = 16.0;
+    return roundings * DBL_EPSILON * (longest + speed_max * epoch_length);
+}
 
 #endif

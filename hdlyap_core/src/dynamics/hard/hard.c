@@ -15,7 +15,6 @@
 
 #include "base/check.h"
 #include "base/memory.h"
-#include "base/random.h"
 #include "dynamics/hard/event.h"
 #include "dynamics/hard/prefetch.h"
 #include "dynamics/record_state.h"
@@ -243,26 +242,15 @@ hd_status hd_hard_advance(void *state, hd_record *record, double t_end)
 
 /* ---- creation ------------------------------------------------------------------------------ */
 
-/** A power of two that holds about 32 to 64 collisions of a disk; in a thin gas less, so that no
- * flight is so long that its rounding comes near HD_OVERLAP_MAX. */
-static double epoch_for(double rate_per_disk)
-{
-    const double wanted = fmin(32.0 / rate_per_disk, 16384.0);
-    double length = 1.0;
-    while (length < wanted) length *= 2.0;
-    while (length * 0.5 >= wanted) length *= 0.5;
-    return length;
-}
-
 static hd_status prepare(hard *tr, const hd_scene_def *def)
 {
     tr->motion.count = def->disks;
-    tr->epoch_length = epoch_for(2.0 * hd_hard_rate(def) / def->disks);
+    tr->epoch_length = hd_epoch_length(2.0 * hd_hard_rate(def) / def->disks);
     tr->motion.wall = hd_wall_of(def);
     tr->motion.disk = hd_memory_alloc((size_t)tr->motion.count + 1, sizeof *tr->motion.disk);
     tr->motion.predicted = hd_memory_alloc((size_t)tr->motion.count, sizeof *tr->motion.predicted);
     if (!tr->motion.disk || !tr->motion.predicted) return HD_NO_MEMORY;
-    HD_TRY(hd_cells_create(&tr->motion.cells, def));
+    HD_TRY(hd_cells_create(&tr->motion.cells, def, 1.0));
     tr->overlap_max = fmax(HD_OVERLAP_MAX, hd_hard_overlap_rounding(tr));
     return hd_queue_create(&tr->motion.queue, tr->motion.count, tr->epoch_length);
 }
@@ -286,19 +274,6 @@ static hd_status start(hard *tr, const double *q, const double *p)
     if (hd_hard_overlap(tr) > tr->overlap_max) return HD_OVERLAP;
     for (int32_t i = 0; i < tr->motion.count; i++) hd_prediction_renew(&tr->motion, i);
     return HD_OK;
-}
-
-/** Momenta: uniform, without what is conserved, scaled to K = N. */
-static void momenta_fill(double *p, const hd_scene_def *def, const double *q)
-{
-    hd_random random = hd_random_seeded(def->seed, 0);
-    const int n = def->disks;
-    double square = 0;
-    for (int k = 0; k < HD_DIM * n; k++) p[k] = hd_random_symmetric(&random);
-    hd_null_space_still(def, q, p);
-    for (int k = 0; k < HD_DIM * n; k++) square += p[k] * p[k];
-    const double scale = sqrt(2.0 * n / square);
-    for (int k = 0; k < HD_DIM * n; k++) p[k] *= scale;
 }
 
 double hd_hard_rate(const hd_scene_def *def)
@@ -354,7 +329,7 @@ static hd_status create_on_lattice(void **state, const hd_scene_def *def)
     hd_status status = HD_NO_MEMORY;
     if (q && p) {
         hd_container_of(def)->start(def, q);
-        momenta_fill(p, def, q);
+        hd_null_space_momenta(def, q, p);
         status = create_at(state, def, q, p);
     }
     hd_memory_free(q);

@@ -83,13 +83,9 @@ static double energy_rounding(const hard *tr)
 
 double hd_hard_overlap_rounding(const hard *tr)
 {
-    const double speed_max = 16.0; /* of two disks; the mean square of a momentum is 2 */
-    /* of eps, on the way to a contact: each coordinate of either disk is folded, flown, shifted and
-     * subtracted, some ten times eps/2 in all, and rounding of the time moves them as much */
-    const double roundings = 16.0;
     double longest = 0.0;
     for (int d = 0; d < HD_DIM; d++) longest = fmax(longest, tr->motion.cells.box[d]);
-    return roundings * DBL_EPSILON * (longest + speed_max * tr->epoch_length);
+    return hd_overlap_rounding(longest, tr->epoch_length);
 }
 
 /** Distance squared from disk i to disk j, `edges` of the box further, now; to itself infinite. */

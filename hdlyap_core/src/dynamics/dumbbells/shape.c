@@ -1,0 +1,92 @@
+/** Scene -> what its dumbbells are like, and what is to be expected of them: disks as dense, which
+ * meet as often as the sizes and speeds of both say, to some 10 % [T23]. */
+#include "dynamics/dumbbells/shape.h"
+
+#include <math.h>
+
+static const double PI = 3.14159265358979323846;
+
+static const hd_parameter_word inertias[] = {{"disks", 0}, {"points", -1}, {NULL, 0}};
+
+const hd_parameter hd_dumbbell_own[HD_DUMBBELL_OWN] = {
+    {.name = "bond",
+     .kind = HD_PARAMETER_REAL,
+     .offset = HD_OWN(0),
+     .usual = 0.25,
+     .least = 0.01,
+     .most = 2.0,
+     .allowed = "from 0.01 to 2",
+     .unit = "sigma",
+     .text = "Distance of the centres of the two disks of a dumbbell.",
+     .record = "bond"},
+    {.name = "inertia",
+     .kind = HD_PARAMETER_INTERVAL,
+     .words = inertias,
+     .offset = HD_OWN(1),
+     .usual = 0.0,
+     .least = 1e-6,
+     .most = 1e6,
+     .allowed = "disks, points, or from 1e-6 to 1e6",
+     .unit = "sigma^2",
+     .text =
+         "Moment of inertia of a dumbbell of mass 1: disks, of two that are uniform, bond^2 / 4 "
+         "+ 1/8; points, with all mass in the two centres, bond^2 / 4; or a number.",
+     .record = "inertia"}};
+
+double hd_dumbbell_bond(const hd_scene_def *scene) { return scene->own[0].real; }
+
+double hd_dumbbell_inertia(const hd_scene_def *scene)
+{
+    const double given = scene->own[1].real,
+                 points = 0.25 * scene->own[0].real * scene->own[0].real;
+    return given > 0 ? given : given < 0 ? points : points + 0.125;
+}
+
+double hd_dumbbell_packing(const hd_scene_def *scene)
+{
+    const double half = fmin(0.5 * hd_dumbbell_bond(scene), 0.5); /* of the chord's distance */
+    const double both = 0.5 * (acos(2.0 * half) - 2.0 * half * sqrt(1.0 - 4.0 * half * half));
+    return scene->density * (0.5 * PI - both);
+}
+
+/** Disks as dense; without acos, as the length of an epoch follows. */
+static hd_scene_def like(const hd_scene_def *scene)
+{
+    hd_scene_def disks = *scene;
+    const double each = fmin(0.25 * PI + hd_dumbbell_bond(scene), 0.5 * PI);
+    disks.density = fmin(scene->density * each * 4.0 / PI, 1.15);
+    return disks;
+}
+
+/** Of momenta beside those of disks: the energy is shared with a rotation. */
+static const double SPEED = 0.81649658092772603273; /* sqrt(2/3) */
+
+static double rate_of(const hd_scene_def *scene)
+{
+    const hd_scene_def disks = like(scene);
+    const double round = 1.0 + 2.0 * hd_dumbbell_bond(scene) / PI; /* of what a centre goes round */
+    return hd_fluid_disks.rate(&disks) * (scene->density / disks.density) * round * SPEED;
+}
+
+static double free_path_of(const hd_scene_def *scene)
+{
+    return SPEED * sqrt(0.5 * PI) / rate_of(scene);
+}
+
+static double sound_of(const hd_scene_def *scene)
+{
+    const hd_scene_def disks = like(scene);
+    return SPEED * hd_fluid_disks.sound(&disks);
+}
+
+static double transverse_of(const hd_scene_def *scene)
+{
+    const hd_scene_def disks = like(scene);
+    return SPEED * hd_fluid_disks.transverse(&disks);
+}
+
+const hd_fluid hd_fluid_dumbbells = {.density_max = 1.1547005383792517,
+                                     .rate = rate_of,
+                                     .free_path = free_path_of,
+                                     .sound = sound_of,
+                                     .transverse = transverse_of};

@@ -1,0 +1,119 @@
+/** Scene -> start positions of dumbbells. Rows along either direction, in line or staggered, are
+ * tried, with bonds along the rows or across them; + - * / sqrt only. */
+#include "dynamics/dumbbells/start.h"
+
+#include <math.h>
+#include <stdbool.h>
+
+#include "dynamics/dumbbells/shape.h"
+#include "scene/container.h"
+#include "scene/scene.h"
+
+/** Of a row's distance, between the last row and a wall: what starts at a wall would touch it. */
+static const double AT_WALL = 0.1;
+
+typedef struct rows {
+    int along; /**< direction of the rows */
+    int lies;  /**< that of the bonds */
+    int rows, columns;
+    int staggered;
+    double column, row, first[2]; /**< distances; of the first site along and across the rows */
+    double gap;
+} rows;
+
+/** Distance of `count` sites, half of it more if `half`, negative without room; the first one's
+ * place. Between walls with `reach` free at each. */
+static double spacing(double *first, double length, int count, int half, hd_boundary boundary,
+                      double reach)
+{
+    const double room = length - 2.0 * reach, gaps = count - 1 + 0.5 * half + 2.0 * AT_WALL;
+    *first = boundary == HD_PERIODIC ? 0.25 * length / count : reach + room * AT_WALL / gaps;
+    return boundary == HD_PERIODIC ? length / count : room / gaps;
+}
+
+/** Of two parallel molecules whose centres are (x, y) apart, x along the bond. */
+static double gap_of(double x, double y, double bond)
+{
+    double least = INFINITY;
+    for (int k = -1; k <= 1; k++) least = fmin(least, (x + k * bond) * (x + k * bond) + y * y);
+    return sqrt(least) - 1.0;
+}
+
+/** The least gap to a site and those after it, as they come near in its row and the two next. */
+static double least_gap(const rows *r, const hd_boundary *boundary, double bond)
+{
+    const bool round[2] = {boundary[r->along] == HD_PERIODIC,
+                           boundary[1 - r->along] == HD_PERIODIC};
+    double least = INFINITY;
+    for (int n = 0; n <= 3; n++)
+        for (int c = -4; c <= 4; c++) {
+            const bool other = n > 0 || c > 0;
+            const bool is_there = (n < r->rows || round[1]) &&
+                                  ((c < r->columns && -c <= r->columns) || round[0]);
+            const double x = (c + 0.5 * (r->staggered && n % 2)) * r->column, y = n * r->row;
+            if (!other || !is_there) continue;
+            least = fmin(least, r->lies == r->along ? gap_of(x, y, bond) : gap_of(y, x, bond));
+        }
+    return least;
+}
+
+static void try_rows(rows *best, const hd_scene_def *def, const double *box, rows r)
+{
+    const double bond = hd_dumbbell_bond(def);
+    const hd_boundary *boundary = def->boundary;
+    const double reach[2] = {0.5 + (r.lies == r.along ? 0.5 * bond : 0.0),
+                             0.5 + (r.lies == r.along ? 0.0 : 0.5 * bond)};
+    r.columns = (int)(((int64_t)def->disks + r.rows - 1) / r.rows);
+    if (r.staggered && (r.rows == 1 || (boundary[1 - r.along] == HD_PERIODIC && r.rows % 2 == 1)))
+        return;
+    r.column = spacing(&r.first[0], box[r.along], r.columns, r.staggered, boundary[r.along],
+                       reach[0]);
+    r.row = spacing(&r.first[1], box[1 - r.along], r.rows, 0, boundary[1 - r.along], reach[1]);
+    r.gap = r.column > 0 && r.row > 0 ? least_gap(&r, boundary, bond) : -1.0;
+    if (r.gap > best->gap) *best = r;
+}
+
+static rows best_of(const hd_scene_def *def)
+{
+    rows best = {.gap = -1.0};
+    double box[HD_DIMENSION_MAX];
+    hd_scene_box(def, box);
+    for (int kind = 0; kind < 8; kind++)
+        for (int count = 1; count <= def->disks; count++)
+            try_rows(&best, def, box,
+                     (rows){.along = kind & 1,
+                            .lies = kind >> 1 & 1,
+                            .staggered = kind >> 2,
+                            .rows = count});
+    return best;
+}
+
+double hd_dumbbell_start_gap(const hd_scene_def *def) { return best_of(def).gap; }
+
+double hd_dumbbell_density_max(const hd_scene_def *def)
+{
+    enum { BISECTIONS = 30 };
+    hd_scene_def trial = *def;
+    double low = 0.0, high = 2.0;
+    for (int k = 0; k < BISECTIONS; k++) {
+        trial.density = 0.5 * (low + high);
+        *(best_of(&trial).gap >= HD_START_DISTANCE_MIN - 1.0 ? &low : &high) = trial.density;
+    }
+    return low;
+}
+
+void hd_dumbbell_start(const hd_scene_def *def, double *q)
+{
+    const rows r = best_of(def);
+    const int64_t sites = (int64_t)r.rows * r.columns;
+    const double turned = r.lies == 0 ? 0.0 : 1.57079632679489661923; /* a quarter */
+    int64_t site = 0;
+    for (int row = 0; row < r.rows; row++)
+        for (int column = 0; column < r.columns; column++, site++) {
+            if (hd_site_is_spare(site, sites, def->disks)) continue;
+            q[r.along] = r.first[0] + (column + 0.5 * (r.staggered && row % 2)) * r.column;
+            q[1 - r.along] = r.first[1] + row * r.row;
+            q[2] = turned * sqrt(hd_dumbbell_inertia(def));
+            q += 3;
+        }
+}

@@ -1,0 +1,262 @@
+/** Runs of dumbbells: numbers of exponents, pairs, checkpoints, what is refused, and hard cases. */
+#include "dumbbell.h"
+#include "dynamics/dumbbells/bump.h"
+#include "hdlyap/checkpoint.h"
+#include "runs.h"
+
+static hd_scene_def few(int walls)
+{
+    hd_scene_def def = dumbbells_in_box(4, 4.0, 3.0, 0.4, 0.0, walls, 3);
+    def.exponents = HD_EXPONENTS_ALL_INDEPENDENT;
+    def.equilibration = 20.0;
+    def.warmup = 50.0;
+    def.duration = 400.0;
+    return def;
+}
+
+TEST(all_exponents_come_in_pairs_and_some_vanish)
+{
+    static const int zeros[] = {6, 4, 4, 2};
+    for (int walls = 0; walls < 4; walls++) {
+        OWNED(hd_run) *run = finished(few(walls));
+        const int n = hd_run_vectors(run), first = (n - zeros[walls]) / 2;
+        const hd_spectrum *spectrum = hd_run_spectrum(run);
+        assert_int_equal(n, 6 * 4);
+        assert_int_equal(hd_scene_counts(hd_run_scene(run)).zero, zeros[walls]);
+        for (int l = 0; l < n; l++) {
+            const double exponent = hd_spectrum_exponent(spectrum, l);
+            CHECK_CLOSE(exponent + hd_spectrum_exponent(spectrum, n - 1 - l), 0.0, 2.0 / 400.0);
+            /* ln(t) / t */
+            if (l >= first && l < first + zeros[walls]) CHECK_CLOSE(exponent, 0.0, 0.03);
+        }
+        CHECK_WITHIN(hd_spectrum_exponent(spectrum, first - 1), 0.2, 10.0);
+    }
+}
+
+static hd_run *long_box(double duration)
+{
+    hd_scene_def def = dumbbells_in_box(36, 24.0, 2.5, 0.25, 0.0, 0, 1);
+    def.equilibration = 50.0;
+    def.warmup = 100.0;
+    def.duration = duration;
+    def.threads = 1;
+    def.observe = HD_OBSERVE_STEPS | HD_OBSERVE_GAS;
+    return finished(def);
+}
+
+static const hd_step *first_step(const hd_run *run, hd_mode_kind kind)
+{
+    const hd_steps *steps = hd_run_parts(run).steps;
+    for (int k = 0; k < hd_steps_count(steps); k++)
+        if (hd_steps_step(steps, k)->kind == kind) return hd_steps_step(steps, k);
+    return NULL;
+}
+
+/** 36 in 24 x 2.5, by a program of another kind, with one standard error. */
+TEST(a_long_box_has_the_numbers_of_another_program)
+{
+    static const double lp[] = {0.915, 0.900, 0.885, 0.874}, lp_error = 0.002, z = 4.0;
+    OWNED(hd_run) *run = long_box(2000.0);
+    const hd_spectrum *spectrum = hd_run_spectrum(run);
+    const hd_gas_means gas = hd_gas_read(hd_run_parts(run).gas);
+    const hd_step *t = first_step(run, HD_MODE_T), *l = first_step(run, HD_MODE_LP);
+    CHECK_CLOSE(gas.collision_rate, 9.365, z * hypot(0.013, gas.collision_rate_error));
+    CHECK_CLOSE(hd_spectrum_exponent(spectrum, 0), 5.226,
+                z * hypot(0.010, hd_spectrum_std_error(spectrum, 0)));
+    assert_int_equal(t->col, 103);
+    assert_int_equal(l->col, 99);
+    CHECK_CLOSE(t->exponent, 0.6363, z * hypot(0.0005, t->std_error));
+    for (int k = 0; k < 4; k++)
+        CHECK_CLOSE(hd_spectrum_exponent(spectrum, l->col + k), lp[k],
+                    z * hypot(lp_error, hd_spectrum_std_error(spectrum, l->col + k)));
+    CHECK_WITHIN(t->multiplicity, 1.7, 2.0);
+    CHECK_WITHIN(l->multiplicity, 2.3, 3.6);
+}
+
+/** What crosses a line, by the virial with arms, and what the walls take: impulses of their events
+ * over both walls. */
+TEST(the_pressure_is_that_of_the_walls)
+{
+    const double time = 2000.0;
+    hd_scene_def def = dumbbells_in_box(20, 7.0, 6.0, 0.6, 0.0, 3, 2);
+    double box[2], taken[2] = {0.0};
+    MADE(hd_trajectory, tr, &def);
+    OWNED(hd_record) *log = new_dumbbell_log(&def);
+    CHECK_OK(hd_trajectory_extend(tr, NULL, 50.0));
+    const hd_told before = hd_trajectory_told(tr);
+    CHECK_OK(hd_trajectory_extend(tr, log, 50.0 + time));
+    const hd_told after = hd_trajectory_told(tr);
+    hd_scene_box(&def, box);
+    for (size_t k = 0; k < hd_record_count(log); k++) {
+        const hd_bump *b = hd_record_entry(log, k);
+        const int d = b->n[0] == 0.0;
+        const double rate = b->n[d] * b->p[d] + b->across[0] * b->spin[0];
+        if (b->j < 0) taken[d] -= 2.0 * rate / (1.0 + b->across[0] * b->across[0]);
+    }
+    for (int d = 0; d < 2; d++) {
+        const double wall = taken[d] / (2.0 * time * (box[1 - d] - 1.0)),
+                     kinetic = def.disks * hd_gas_temperature(&def),
+                     line = (kinetic + (after.virial[d] - before.virial[d]) / time) /
+                            hd_gas_area(&def);
+        CHECK_CLOSE(line / wall, 1.0, 0.02);
+    }
+}
+
+TEST(a_run_goes_on_from_its_checkpoint_bit_for_bit)
+{
+    const char *path = "dumbbells.checkpoint";
+    hd_scene_def def = dumbbells_in_box(12, 8.0, 3.0, 0.3, 0.0, 2, 9);
+    char message[512] = "";
+    def.equilibration = 5.0;
+    def.warmup = 5.0;
+    def.duration = 20.0;
+    def.threads = 1;
+    def.observe = HD_OBSERVE_STEPS;
+    OWNED(hd_run) *whole = created(def), *resumed = NULL;
+    until_time(whole, 17.3);
+    CHECK_OK(hd_run_save(whole, path, "", message, sizeof message));
+    if (hd_run_resume(&resumed, path, &def, message, sizeof message) != HD_OK)
+        fail_msg("%s", message);
+    finish(whole);
+    finish(resumed);
+    for (int l = 0; l < hd_run_vectors(whole); l++)
+        assert_true(hd_spectrum_exponent(hd_run_spectrum(whole), l) ==
+                    hd_spectrum_exponent(hd_run_spectrum(resumed), l));
+    (void)remove(path);
+}
+
+static void refused(hd_scene_def def, const char *with)
+{
+    char message[512] = "";
+    assert_int_equal(hd_scene_check(&def, message, sizeof message), HD_REFUSED);
+    if (!strstr(message, with)) fail_msg("\"%s\" is not in \"%s\"", with, message);
+}
+
+TEST(what_cannot_be_is_refused_by_name)
+{
+    const hd_scene_def good = dumbbells_in_box(36, 24.0, 2.5, 0.25, 0.0, 0, 1);
+    hd_scene_def def = good;
+    CHECK_OK(hd_scene_check(&def, NULL, 0));
+    def.own[0].real = 2.5;
+    refused(def, "bond = 2.5: must be from 0.01 to 2");
+    def = good;
+    def.own[1].real = -2.0;
+    refused(def, "inertia = -2: must be disks, points, or from 1e-6 to 1e6");
+    def = good;
+    def.own[0].real = 2.0;
+    refused(def, "above the length of a dumbbell, 1 + bond = 3");
+    def = good;
+    def.density = 1.1;
+    refused(def, "density = 1.1 (packing fraction 1.136)");
+    def = good;
+    def.container = HD_CIRCLE;
+    def.aspect = usual_dumbbells().aspect;
+    def.density = 0.3;
+    refused(def, "container = circle: must be rectangle with particles = dumbbells");
+    def = good;
+    def.observe = HD_OBSERVE_HYDRO | HD_OBSERVE_STEPS;
+    refused(def, "observables = hydro: must not be given with particles = dumbbells");
+}
+
+/* ---- hard cases ---------------------------------------------------------------------------- */
+
+typedef struct contacts {
+    double pairs, walls;
+} contacts;
+
+/** All gaps stay open, and the energy is that of the start. */
+static contacts passes(const hd_scene_def *def, hd_trajectory *tr, double time)
+{
+    const double energy = hd_trajectory_kinetic_energy(tr), step = time / 50.0;
+    const hd_examined rounding = hd_trajectory_examined(tr);
+    for (int k = 1; k <= 50; k++) {
+        CHECK_OK(hd_trajectory_extend(tr, NULL, k * step));
+        const molecules now = molecules_now(tr);
+        CHECK_WITHIN(least_gap_of(def, &now), -rounding.overlap_max, 100.0);
+    }
+    const hd_examined now = hd_trajectory_examined(tr);
+    CHECK_CLOSE(hd_trajectory_kinetic_energy(tr), energy, energy * now.energy_rounding);
+    for (int d = 0; d < 2; d++)
+        if (def->boundary[d] == HD_PERIODIC)
+            CHECK_CLOSE(now.momentum[d], 0.0, 1e-12 * def->disks * sqrt(energy));
+    const hd_told told = hd_trajectory_told(tr);
+    return (contacts){(double)told.collisions, (double)told.wall_events};
+}
+
+static contacts passes_scene(hd_scene_def def, double time)
+{
+    MADE(hd_trajectory, tr, &def);
+    return passes(&def, tr, time);
+}
+
+TEST(shortest_and_longest_bonds_pass)
+{
+    for (int walls = 0; walls < 4; walls++)
+        for (int points = 0; points < 2; points++) {
+            const double inertia = points ? -1.0 : 0.0;
+            CHECK_WITHIN(
+                passes_scene(dumbbells_in_box(20, 6.0, 5.0, 0.01, inertia, walls, 4), 20.0).pairs,
+                200, 1e6);
+            CHECK_WITHIN(
+                passes_scene(dumbbells_in_box(12, 12.0, 8.0, 2.0, inertia, walls, 4), 20.0).pairs,
+                100, 1e6);
+        }
+}
+
+TEST(a_dense_crystal_passes)
+{
+    const hd_scene_def def = dumbbells_in_box(36, 7.6, 5.75, 0.25, 0.0, 0, 4);
+    CHECK_WITHIN(passes_scene(def, 10.0).pairs, 2000, 1e6);
+}
+
+TEST(one_alone_between_walls_passes)
+{
+    const hd_scene_def narrow = dumbbells_in_box(1, 2.2, 1.1, 0.5, 0.0, 3, 4),
+                       wide = dumbbells_in_box(1, 3.0, 2.0, 0.5, -1.0, 3, 4);
+    CHECK_WITHIN(passes_scene(narrow, 20.0).walls, 50, 1e6);
+    CHECK_WITHIN(passes_scene(wide, 20.0).walls, 20, 1e6);
+}
+
+static hd_trajectory *prepared(const hd_scene_def *def, const molecules *s)
+{
+    hd_trajectory *tr;
+    CHECK_OK(hd_trajectory_create_from(&tr, def, s->q, s->p));
+    return tr;
+}
+
+TEST(fast_spins_pass)
+{
+    const hd_scene_def def = dumbbells_in_box(2, 4.0, 3.0, 0.5, 0.0, 3, 4);
+    const double spin = 1e6 * root_of(&def);
+    const molecules s = {.q = {1.2, 1.5, 0.0, 2.8, 1.5, 0.3},
+                         .p = {1.0, 0.2, spin, -1.0, 0.1, -spin}};
+    OWNED(hd_trajectory) *tr = prepared(&def, &s);
+    CHECK_WITHIN(passes(&def, tr, 0.1).pairs, 1, 1e6);
+}
+
+/** Two molecules side by side, flat against each other: both disks of each meet at once. One
+ * contact takes less than all of the approach from the other. */
+TEST(both_disks_of_a_molecule_meet_at_once)
+{
+    const hd_scene_def def = dumbbells_in_box(2, 6.0, 6.0, 0.8, 0.0, 0, 4);
+    const molecules s = {
+        .q = {2.0, 3.0, 0.5 * PI * root_of(&def), 4.0, 3.0, 0.5 * PI * root_of(&def)},
+        .p = {1.0, 0.0, 0.0, -1.0, 0.0, 0.0}};
+    OWNED(hd_trajectory) *tr = prepared(&def, &s);
+    const contacts told = passes(&def, tr, 1.5);
+    CHECK_WITHIN(told.pairs, 2, 10);
+}
+
+/** By a hair: the tip of one that turns passes the other, or meets it, and nothing hangs. */
+TEST(grazing_at_arms_passes)
+{
+    const hd_scene_def def = dumbbells_in_box(2, 8.0, 8.0, 1.0, 0.0, 0, 4);
+    for (int k = -8; k <= 8; k++) {
+        const double apart = 2.0 + k * 1e-13; /* both tips point at each other when they pass */
+        const molecules s = {
+            .q = {3.0, 3.0, -0.5 * root_of(&def), 3.0, 3.0 + apart, -0.5 * root_of(&def)},
+            .p = {0.0, 0.0, root_of(&def), 0.0, 0.0, root_of(&def)}};
+        OWNED(hd_trajectory) *tr = prepared(&def, &s);
+        (void)passes(&def, tr, 6.0);
+    }
+}
