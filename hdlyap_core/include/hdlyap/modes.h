@@ -26,6 +26,11 @@ const double *hd_modes_average(const hd_modes *modes, int s, hd_weight which);
 const double *hd_modes_null_snapshot(const hd_modes *modes, int null);
 const double *hd_modes_null_average(const hd_modes *modes, int null);
 
+/** Part of the squared norm of each vector's dq half that is rotation, not of places; [n], 0 .. 1,
+ * and NULL of what does not turn. */
+const double *hd_modes_turning_snapshot(const hd_modes *modes);
+const double *hd_modes_turning_average(const hd_modes *modes);
+
 /** Snapshot of the least-squares coefficients of the normalised dq halves on the normalised field
  * at a column of hd_fields; [n]. */
 const double *hd_modes_coefficients(const hd_modes *modes, int column);

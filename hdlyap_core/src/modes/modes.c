@@ -11,6 +11,7 @@
 #include <lapacke.h>
 #include <limits.h>
 #include <math.h>
+#include <stdbool.h>
 #include <string.h>
 
 #include "base/arrays.h"
@@ -39,7 +40,7 @@ struct hd_modes {
     double *work;               /**< [widest][stride] */
     double *dq_norm;            /**< [stride] */
     double *null_dp;  /**< [nulls][stride]: overlaps of the dp halves with the null fields */
-    double *snapshot; /**< [subspaces * HD_WEIGHTS + nulls][stride] */
+    double *snapshot; /**< [subspaces * HD_WEIGHTS + nulls, turning][stride] */
     double *average;  /**< same, over samples */
     long samples;
 };
@@ -48,17 +49,28 @@ struct hd_modes {
 
 static size_t nulls_of(const hd_modes *modes) { return (size_t)hd_fields_nulls(modes->fields); }
 
+/** Where the parts in the null space begin; behind them lies that of rotation, if anything turns.
+ */
+static size_t null_row(const hd_modes *modes)
+{
+    return (size_t)hd_fields_subspaces(modes->fields) * HD_WEIGHTS;
+}
+
+static bool turns(const hd_modes *modes) { return modes->coordinates > modes->dimension; }
+
 static size_t weight_rows(const hd_modes *modes)
 {
-    return (size_t)hd_fields_subspaces(modes->fields) * HD_WEIGHTS + nulls_of(modes);
+    return null_row(modes) + nulls_of(modes) + turns(modes);
 }
 
 double hd_modes_bytes(const hd_scene_def *scene, double vectors)
 {
     const hd_fields_count count = hd_fields_count_of(scene);
     const double dimension = hd_scene_dimension(scene), nulls = dimension + 1.0,
-                 widest = HD_FIELDS_IN(hd_scene_dimension(scene));
-    const double columns = count.columns + nulls, rows = count.subspaces * HD_WEIGHTS + nulls,
+                 widest = HD_FIELDS_IN(hd_scene_dimension(scene)),
+                 turning = hd_scene_coordinates(scene) > hd_scene_dimension(scene);
+    const double columns = count.columns + nulls,
+                 rows = count.subspaces * HD_WEIGHTS + nulls + turning,
                  fields = dimension * scene->disks * (columns + 4.0);
     return sizeof(double) *
            (fields + widest * columns + (columns + widest + 1.0 + nulls + 2.0 * rows) * vectors);
@@ -190,11 +202,26 @@ static void measure_null(hd_modes *modes, hd_columns v)
 {
     const size_t from = (size_t)hd_fields_columns(modes->fields) - nulls_of(modes);
     for (size_t k = 0; k < nulls_of(modes); k++) {
-        double *out = row_of(modes->snapshot, weight_rows(modes) - nulls_of(modes) + k, modes) +
-                      v.first;
+        double *out = row_of(modes->snapshot, null_row(modes) + k, modes) + v.first;
         memset(out, 0, (size_t)v.count * sizeof *out);
         add_squares(out, row_of(modes->coefficient, from + k, modes) + v.first, v.count);
         add_squares(out, row_of(modes->null_dp, k, modes) + v.first, v.count);
+    }
+}
+
+/** Part of the squared norm of each dq half that is not of places. */
+static void measure_turning(hd_modes *modes, hd_columns v)
+{
+    const int of_one = 2 * modes->coordinates;
+    double *out = row_of(modes->snapshot, weight_rows(modes) - 1, modes);
+    memset(out + v.first, 0, (size_t)v.count * sizeof *out);
+    for (int j = 0; j < modes->disks; j++)
+        for (int d = modes->dimension; d < modes->coordinates; d++)
+            add_squares(out + v.first, v.data + (size_t)(of_one * j + d) * (size_t)v.stride,
+                        v.count);
+    for (int l = v.first; l < v.first + v.count; l++) {
+        const double norm = modes->dq_norm[l];
+        out[l] = norm > HD_MODES_DQ_MIN ? out[l] / (norm * norm) : 0.0;
     }
 }
 
@@ -277,6 +304,7 @@ hd_status hd_modes_measure(hd_modes *modes, hd_columns v, const double *q, const
     overlaps(modes, v, 0, 0, columns, modes->coefficient);
     overlaps(modes, v, modes->coordinates, columns - nulls, nulls, modes->null_dp);
     measure_null(modes, v);
+    if (turns(modes)) measure_turning(modes, v);
     normalise(modes, v);
     for (int s = 0; s < hd_fields_subspaces(modes->fields); s++) measure_subspace(modes, s, v);
     return hd_all_finite(modes->snapshot, weight_rows(modes) * modes->stride) ? HD_OK
@@ -326,7 +354,7 @@ static const double *weight_of(const hd_modes *modes, const double *rows, int s,
 static const double *null_of(const hd_modes *modes, const double *rows, int null)
 {
     HD_ASSERT(null >= 0 && null < hd_fields_nulls(modes->fields));
-    return rows + (weight_rows(modes) - nulls_of(modes) + (size_t)null) * modes->stride;
+    return rows + (null_row(modes) + (size_t)null) * modes->stride;
 }
 
 long hd_modes_samples(const hd_modes *modes) { return modes->samples; }
@@ -350,6 +378,16 @@ const double *hd_modes_null_snapshot(const hd_modes *modes, int null)
 const double *hd_modes_null_average(const hd_modes *modes, int null)
 {
     return null_of(modes, modes->average, null);
+}
+
+const double *hd_modes_turning_snapshot(const hd_modes *modes)
+{
+    return turns(modes) ? modes->snapshot + (weight_rows(modes) - 1) * modes->stride : NULL;
+}
+
+const double *hd_modes_turning_average(const hd_modes *modes)
+{
+    return turns(modes) ? modes->average + (weight_rows(modes) - 1) * modes->stride : NULL;
 }
 
 const double *hd_modes_dq_norms(const hd_modes *modes) { return modes->dq_norm; }
