@@ -21,7 +21,8 @@ typedef struct hd_subspace {
 
 typedef struct hd_fields hd_fields;
 int hd_fields_stride(const hd_fields *fields); /**< doubles from one row to the next */
-/** Row-major, a row for each component of each disk: components x, y, .. there. */
+/** Row-major, a row for each coordinate of each disk: x, y, .., and behind them what is no place,
+ * where P alone has something. */
 const double *hd_fields_data(const hd_fields *fields);
 
 int hd_fields_subspaces(const hd_fields *fields);

@@ -20,13 +20,14 @@
 #include "scene/null_space.h"
 
 struct hd_fields {
-    int dimension, disks, columns, stride, subspaces;
+    int dimension, coordinates, disks, columns, stride, subspaces;
     hd_harmonics along[HD_DIMENSION_MAX];
     hd_null_space null;
     const hd_container_row *container;
     hd_subspace *subspace;      /**< [subspaces] */
     double (*own)[HD_WAVE_OWN]; /**< [subspaces], by the container; NULL in a box */
-    double *data;               /**< [dimension * disks * stride] */
+    double **row;               /**< [coordinates], of the disk that is sampled */
+    double *data;               /**< [coordinates * disks * stride] */
     double *norm;               /**< [stride], of the columns as sampled */
 };
 
@@ -96,7 +97,7 @@ static hd_status waves_prepare(hd_fields *fields, const hd_scene_def *def)
 
 static size_t components(const hd_fields *fields)
 {
-    return (size_t)fields->dimension * (size_t)fields->disks;
+    return (size_t)fields->coordinates * (size_t)fields->disks;
 }
 
 static hd_status fields_prepare(hd_fields *fields, const hd_scene_def *def)
@@ -109,7 +110,8 @@ static hd_status fields_prepare(hd_fields *fields, const hd_scene_def *def)
     fields->stride = (fields->columns + 7) / 8 * 8;
     fields->data = hd_memory_alloc(components(fields) * (size_t)fields->stride, sizeof(double));
     fields->norm = hd_memory_alloc((size_t)fields->stride, sizeof(double));
-    return fields->data && fields->norm ? HD_OK : HD_NO_MEMORY;
+    fields->row = hd_memory_alloc((size_t)fields->coordinates, sizeof *fields->row);
+    return fields->data && fields->norm && fields->row ? HD_OK : HD_NO_MEMORY;
 }
 
 hd_status hd_fields_create(hd_fields **out, const hd_scene_def *def)
@@ -118,6 +120,7 @@ hd_status hd_fields_create(hd_fields **out, const hd_scene_def *def)
     *out = NULL;
     if (!fields) return HD_NO_MEMORY;
     fields->dimension = hd_scene_dimension(def);
+    fields->coordinates = hd_scene_coordinates(def);
     fields->disks = def->disks;
     const hd_status status = fields_prepare(fields, def);
     if (status == HD_OK)
@@ -133,6 +136,7 @@ void hd_fields_free(hd_fields *fields)
     for (int d = 0; d < HD_DIMENSION_MAX; d++) hd_harmonics_clear(&fields->along[d]);
     hd_memory_free(fields->subspace);
     hd_memory_free(fields->own);
+    hd_memory_free(fields->row);
     hd_memory_free(fields->data);
     hd_memory_free(fields->norm);
     hd_memory_free(fields);
@@ -140,14 +144,30 @@ void hd_fields_free(hd_fields *fields)
 
 /* ---- sampling ------------------------------------------------------------------------------ */
 
+/** P = p A of what is no place: the momentum is all of p. T and L are none there. */
+static void sample_other(hd_fields *fields, const hd_subspace *s, double *const *row,
+                         const double *p)
+{
+    for (int c = 0; c < s->modulations.count && s->kind == HD_MODE_LP; c++) {
+        double a = 1.0;
+        for (int d = 0; d < fields->dimension; d++)
+            a *= fields->along[d].value[2 * s->wave.n[d] + (s->modulations.bits[c] >> d & 1)];
+        for (int d = fields->dimension; d < fields->coordinates; d++)
+            row[d][s->column + s->modulations.count + c] = p[d] * a;
+    }
+}
+
 static void sample_box(hd_fields *fields, double *const *row, const double *q, const double *p)
 {
     for (int d = 0; d < fields->dimension; d++) hd_harmonics_fill(&fields->along[d], q[d]);
-    for (int s = 0; s < fields->subspaces; s++)
+    for (int s = 0; s < fields->subspaces; s++) {
         if (fields->dimension == 2)
             hd_plane_fields_fill(row, &fields->subspace[s], fields->along, p);
         else
             hd_space_fields_fill(row, &fields->subspace[s], fields->along, p);
+        if (fields->coordinates > fields->dimension)
+            sample_other(fields, &fields->subspace[s], row, p);
+    }
 }
 
 static void sample_curved(hd_fields *fields, double *const *row, const double *q, const double *p)
@@ -165,7 +185,7 @@ static void sample_disk(hd_fields *fields, double *const *row, const double *q, 
         sample_box(fields, row, q, p);
     for (int k = 0; k < fields->null.count; k++) {
         const int axis = fields->null.axis[k];
-        for (int d = 0; d < fields->dimension; d++)
+        for (int d = 0; d < fields->coordinates; d++)
             row[d][null + axis] = hd_null_entry(&fields->null, axis, d, q, p);
     }
 }
@@ -188,11 +208,11 @@ static void normalise(hd_fields *fields)
 
 void hd_fields_sample(hd_fields *fields, const double *q, const double *p)
 {
-    const size_t stride = (size_t)fields->stride, dimension = (size_t)fields->dimension;
+    const size_t stride = (size_t)fields->stride, of_one = (size_t)fields->coordinates;
     for (size_t j = 0; j < (size_t)fields->disks; j++) {
-        double *row[HD_DIMENSION_MAX];
-        for (size_t d = 0; d < dimension; d++) row[d] = fields->data + (dimension * j + d) * stride;
-        sample_disk(fields, row, q + dimension * j, p + dimension * j);
+        for (size_t d = 0; d < of_one; d++)
+            fields->row[d] = fields->data + (of_one * j + d) * stride;
+        sample_disk(fields, fields->row, q + of_one * j, p + of_one * j);
     }
     normalise(fields);
 }

@@ -71,7 +71,7 @@ double hd_modes_bytes(const hd_scene_def *scene, double vectors)
                  turning = hd_scene_coordinates(scene) > hd_scene_dimension(scene);
     const double columns = count.columns + nulls,
                  rows = count.subspaces * HD_WEIGHTS + nulls + turning,
-                 fields = dimension * scene->disks * (columns + 4.0);
+                 fields = hd_scene_coordinates(scene) * (double)scene->disks * (columns + 4.0);
     return sizeof(double) *
            (fields + widest * columns + (columns + widest + 1.0 + nulls + 2.0 * rows) * vectors);
 }
@@ -140,11 +140,11 @@ static void overlaps(const hd_modes *modes, hd_columns v, int half, int column, 
                      double *out)
 {
     const int fields = hd_fields_stride(modes->fields), rows = 2 * modes->coordinates;
-    for (int d = 0; d < modes->dimension; d++)
+    for (int d = 0; d < modes->coordinates; d++)
         hd_dgemm(CblasNoTrans, CblasTrans, v.count, count, modes->disks, 1.0,
                  v.data + (size_t)(half + d) * (size_t)v.stride, rows * v.stride,
                  hd_fields_data(modes->fields) + (size_t)d * (size_t)fields + column,
-                 modes->dimension * fields, d > 0, out + v.first, (int)modes->stride);
+                 modes->coordinates * fields, d > 0, out + v.first, (int)modes->stride);
 }
 
 static double *gram_of(const hd_modes *modes, const hd_subspace *s)
@@ -157,7 +157,7 @@ static void gram_fill(hd_modes *modes)
 {
     const size_t columns = (size_t)hd_fields_columns(modes->fields);
     const size_t stride = (size_t)hd_fields_stride(modes->fields),
-                 rows = (size_t)modes->dimension * (size_t)modes->disks;
+                 rows = (size_t)modes->coordinates * (size_t)modes->disks;
     const int widest = modes->widest;
     memset(modes->gram, 0, columns * (size_t)widest * sizeof *modes->gram);
     for (size_t row = 0; row < rows; row++)

@@ -21,10 +21,10 @@
 enum { DIMENSION_MAX = HD_FIELDS_MAX };
 
 struct hd_pmode {
-    int disks, space, coordinates; /**< of the space, of a disk */
-    int dimension;                 /**< 2d */
-    double *psi;                   /**< [HD_FIELDS_IN(space)][space * disks] */
-    double *field;                 /**< same */
+    int disks, coordinates; /**< of a disk */
+    int dimension;          /**< 2d */
+    double *psi;            /**< [HD_FIELDS_IN(dimension)][coordinates * disks] */
+    double *field;          /**< same */
     double q[DIMENSION_MAX * DIMENSION_MAX];
     double residual[DIMENSION_MAX];
     double norm[DIMENSION_MAX]; /**< of the fields as sampled */
@@ -33,8 +33,8 @@ struct hd_pmode {
 
 static size_t size_of(const hd_scene_def *def)
 {
-    const int space = hd_scene_dimension(def);
-    return (size_t)(HD_FIELDS_IN(space) * space) * (size_t)def->disks;
+    const int fields = HD_FIELDS_IN(hd_scene_dimension(def));
+    return (size_t)(fields * hd_scene_coordinates(def)) * (size_t)def->disks;
 }
 
 double hd_pmode_bytes(const hd_scene_def *def)
@@ -49,7 +49,6 @@ hd_status hd_pmode_create(hd_pmode **out, const hd_scene_def *def)
     *out = NULL;
     if (!pmode) return HD_NO_MEMORY;
     pmode->disks = def->disks;
-    pmode->space = hd_scene_dimension(def);
     pmode->coordinates = hd_scene_coordinates(def);
     pmode->psi = hd_memory_alloc(size, sizeof(double));
     pmode->field = hd_memory_alloc(size, sizeof(double));
@@ -70,7 +69,7 @@ void hd_pmode_free(hd_pmode *pmode)
 }
 
 /** Components of all disks. */
-static int components(const hd_pmode *pmode) { return pmode->space * pmode->disks; }
+static int components(const hd_pmode *pmode) { return pmode->coordinates * pmode->disks; }
 
 static double *row_of(double *rows, int row, const hd_pmode *pmode)
 {
@@ -88,12 +87,13 @@ static double dot(const double *a, const double *b, int n)
 static void psi_load(hd_pmode *pmode, hd_columns vectors, int col)
 {
     const size_t stride = (size_t)vectors.stride;
-    const int space = pmode->space, rows = 2 * pmode->coordinates;
+    const int of_one = pmode->coordinates;
     for (int m = 0; m < pmode->dimension; m++) {
         double *psi = row_of(pmode->psi, m, pmode);
         const double *v = vectors.data + (col - vectors.first) + m;
         for (int j = 0; j < pmode->disks; j++)
-            for (int d = 0; d < space; d++) psi[space * j + d] = v[(size_t)(rows * j + d) * stride];
+            for (int d = 0; d < of_one; d++)
+                psi[of_one * j + d] = v[(size_t)(2 * of_one * j + d) * stride];
         const double norm = sqrt(dot(psi, psi, components(pmode)));
         const double scale = norm > HD_MODES_DQ_MIN ? 1.0 / norm
                                                     : 0.0; /* then dependent: refused */

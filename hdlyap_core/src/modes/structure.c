@@ -206,7 +206,7 @@ static void fill_values(hd_structure *s, const double *q)
     for (int d = 0; d < s->dimension; d++) {
         const size_t size = 2 * ((size_t)s->along[d].nodes + 1);
         for (int j = 0; j < s->disks; j++) {
-            hd_harmonics_fill(&s->along[d], q[s->dimension * j + d]);
+            hd_harmonics_fill(&s->along[d], q[s->coordinates * j + d]);
             memcpy(s->value[d] + (size_t)j * size, s->along[d].value, size * sizeof(double));
         }
     }

@@ -132,7 +132,7 @@ static hd_view seen(const hd_observables *o, const hd_view *state)
 {
     hd_view view = *state;
     if (!hd_observables_need(o, HD_NEEDS_STATE)) return view;
-    hd_trajectory_places(state->trajectory, o->q, o->p);
+    hd_trajectory_state(state->trajectory, o->q, o->p);
     view.q = o->q;
     view.p = o->p;
     return view;

@@ -20,13 +20,14 @@ int hd_null_axes(const hd_scene_def *def, int *axis);
 
 hd_null_space hd_null_space_of(const hd_scene_def *def);
 
-/** Entry of a direction at component d (0: x, 1: y, 2: z) of a disk at q with momentum p; not
+/** Entry of a direction at coordinate d (0: x, 1: y, ..) of a disk at q with momentum p; not
  * normalised.
  */
 static inline double hd_null_entry(const hd_null_space *null, int axis, int d, const double *q,
                                    const double *p)
 {
     if (axis == null->dimension) return p[d];
+    if (d >= null->dimension) return 0.0;
     if (!null->rotates) return (double)(axis == d);
     return d == 0 ? null->centre - q[1] : q[0] - null->centre;
 }
