@@ -15,6 +15,8 @@ function(stage_of out header)
   if(folder STREQUAL hdlyap AND EXISTS ${CORE}/include/${header})
     if(name STREQUAL hdlyap) # everything
       set(folder run)
+    elseif(header MATCHES "\\.inc$") # names alone
+      set(folder base)
     else()
       file(GLOB source RELATIVE ${CORE}/src ${CORE}/src/*/${name}.c)
       string(REGEX REPLACE "/.*" "" folder "${source}")

@@ -3,22 +3,10 @@
 #ifndef HDLYAP_ESTIMATE_H
 #define HDLYAP_ESTIMATE_H
 
+#include "hdlyap/extent.h"
 #include "hdlyap/run.h"
 
 HD_API_BEGIN
-
-/** How many there are of what a run tells. What the scene does not ask for is 0. */
-typedef struct hd_extent {
-    int dimension; /**< of the space */
-    int disks, vectors;
-    int waves; /**< of the structure factors */
-    int subspaces,
-        angles;          /**< of covariant vectors: kinds of fields of each wave, pairs of spaces */
-    int steps;           /**< in both halves of the spectrum */
-    int examples, pairs; /**< steps that have an example, and the LP pairs of these in all */
-    int phases, t_phases; /**< followed */
-    int responses;        /**< hydrodynamic ones */
-} hd_extent;
 
 /** Of a checked scene, whose run it is; or of which it is a smaller one, with the same waves. */
 hd_extent hd_extent_of(const hd_scene_def *def, const hd_run *run);

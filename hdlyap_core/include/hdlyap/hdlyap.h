@@ -34,6 +34,7 @@
 /* run */
 #include "hdlyap/run.h"
 #include "hdlyap/room.h"
+#include "hdlyap/extent.h"
 #include "hdlyap/estimate.h"
 #include "hdlyap/checkpoint.h"
 #include "hdlyap/follow.h"

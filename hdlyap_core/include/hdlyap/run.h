@@ -22,9 +22,6 @@
 
 HD_API_BEGIN
 
-/** Room for the name of a quantity, as T(1,0) or c_T. */
-enum { HD_QUANTITY_NAME = 32 };
-
 /** Of the quantities of a target, the one whose error is farthest from what is asked for. */
 typedef struct hd_standing {
     char name[HD_QUANTITY_NAME]; /**< "": there is no target, and nothing else is said */

@@ -65,19 +65,6 @@ unsigned hd_observables_tried(unsigned set)
     return set;
 }
 
-hd_extent hd_observables_extent(const hd_scene_def *scene, void *const *part)
-{
-    hd_extent extent = {.dimension = hd_scene_dimension(scene),
-                        .disks = scene->disks,
-                        .vectors = hd_scene_vectors(scene)};
-    for (int k = 0; k < HD_OBSERVED; k++) {
-        const hd_observable *row = hd_observable_rows[k];
-        if (row->extend && hd_observable_is_asked((hd_observed)k, scene))
-            row->extend(&extent, scene, part[k]);
-    }
-    return extent;
-}
-
 /* ---- what may be asked for ----------------------------------------------------------------- */
 
 double hd_scene_warmup(const hd_scene_def *scene)
@@ -112,6 +99,15 @@ static const char *name_of_need(const hd_scene_def *scene, unsigned need)
             has_need(hd_observables_with(hd_observable_bits[k]), need))
             return names[k];
     return NULL;
+}
+
+unsigned hd_observe_of_box(void)
+{
+    unsigned set = 0;
+    for (int k = 0; k < HD_OBSERVED; k++)
+        if (has_need(hd_observables_with(hd_observable_bits[k]), HD_NEEDS_BOX))
+            set |= hd_observable_bits[k];
+    return set;
 }
 
 /** By name, what a curved wall has not, and what is of a box where there is none. */

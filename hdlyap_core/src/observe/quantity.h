@@ -5,7 +5,7 @@
 
 #include <stdbool.h>
 
-#include "hdlyap/run.h"
+#include "hdlyap/scene.h"
 
 enum { HD_WHY = 160 };
 

@@ -1,6 +1,8 @@
 /** Scene -> what its container is. */
 #include "scene/container.h"
 
+#include <stdio.h>
+
 #include "scene/scene.h"
 
 /** One that is not checked yet may say anything. */
@@ -29,7 +31,10 @@ void hd_scene_box(const hd_scene_def *def, double *box) { hd_container_of(def)->
 
 void hd_scene_describe(const hd_scene_def *def, char *text, size_t size)
 {
-    hd_container_of(def)->describe(def, text, size);
+    if (hd_scene_dimension(def) == 0)
+        snprintf(text, size, "no box");
+    else
+        hd_container_of(def)->describe(def, text, size);
 }
 
 hd_boundary hd_scene_boundary(const hd_scene_def *def, int d)

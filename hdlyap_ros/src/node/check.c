@@ -237,7 +237,7 @@ static void print_all(const settings *set, const hd_estimate *t, hd_room room)
     print_memory(set, room);
     print_speed(set, t);
     print_bag(set, t);
-    if (!hd_scene_counts(def).vectors) return;
+    if (!hd_scene_counts(def).vectors || hd_scene_dimension(def) == 0) return; /* no steps */
     if (*set->warning)
         printf("warning   %s\n", set->warning);
     else if (def->observe & HD_OBSERVE_WAVES)

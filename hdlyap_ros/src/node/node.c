@@ -10,7 +10,9 @@
 #include "diagnostics.h"
 #include "hdlyap/follow.h"
 #include "hdlyap/hdlyap.h"
+#include "hdlyap_ros/main.h"
 #include "parameters_text.h"
+#include "particles.h"
 #include "ranks.h"
 #include "topics/report.h"
 #include "services.h"
@@ -95,7 +97,9 @@ static int read_settings(app *a)
     if (created != HDR_OK) return failed_status(created);
     if (!settings_resume(&resume, a->params, message, sizeof message)) return refuse(message);
     if (*resume) {
-        const hd_status status = hd_checkpoint_read(&a->kept, resume, NULL, 0, message,
+        int count;
+        const hd_dynamics *const *brought = particles_brought(&count);
+        const hd_status status = hd_checkpoint_read(&a->kept, resume, brought, count, message,
                                                     sizeof message);
         if (status != HD_OK) return fault_logged(status, message);
     }
@@ -312,10 +316,11 @@ static int lead(app *a, int argc, char **argv)
     return status;
 }
 
-int main(int argc, char **argv)
+int hdlyap_node_main(int argc, char **argv, const hd_dynamics *const *rows, int count)
 {
     app a = {.ros = NULL};
     char message[512];
+    particles_bring(rows, count);
     const int answered = answer(argc, argv);
     if (answered >= 0) return answered;
     hd_blas_restart_if_slow(argv);

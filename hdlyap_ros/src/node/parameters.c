@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "particles.h"
 #include "settings.h"
 #include "topics/topic.h"
 
@@ -182,13 +183,11 @@ static int scene_count(void)
     return count - 1; /* without observe, for which there are observables */
 }
 
-static parameter of_scene(int k)
+static parameter of_row(const hd_parameter *row)
 {
-    int count;
-    const hd_parameter *row = hd_scene_parameters(&count);
-    for (; k > 0 || row->kind == HD_PARAMETER_SET; row++) k -= row->kind != HD_PARAMETER_SET;
     return (parameter){.name = row->name,
-                       .kind = OF_SCENE,
+                       .kind = row->offset == offsetof(hd_scene_def, particles) ? PARTICLES
+                                                                                : OF_SCENE,
                        .offset = offsetof(settings, def),
                        .allowed = row->allowed,
                        .unit = row->unit,
@@ -199,13 +198,23 @@ static parameter of_scene(int k)
                        .row = row};
 }
 
-int parameters_count(void) { return 1 + scene_count() + ROWS; }
+static parameter of_scene(int k)
+{
+    int count;
+    const hd_parameter *row = hd_scene_parameters(&count);
+    for (; k > 0 || row->kind == HD_PARAMETER_SET; row++) k -= row->kind != HD_PARAMETER_SET;
+    return of_row(row);
+}
+
+int parameters_count(void) { return 1 + scene_count() + particles_now()->parameters + ROWS; }
 
 parameter parameters_at(int k)
 {
+    const hd_dynamics *of = particles_now();
     const int own = k - 1 - scene_count();
     if (k == 0) return name_row;
-    return own < 0 ? of_scene(k - 1) : rows[own];
+    if (own < 0) return of_scene(k - 1);
+    return own < of->parameters ? of_row(&of->parameter[own]) : rows[own - of->parameters];
 }
 
 bool parameters_has(const char *name)
@@ -269,6 +278,10 @@ parameter parameters_named(const char *name)
 void parameter_usual(char text[PARAMETER_TEXT], const parameter *p)
 {
     const char *word = p->row ? hd_parameter_word_of(p->row, (int)p->row->usual) : p->usual;
+    if (p->kind == PARTICLES) {
+        const hd_scene_def usual = particles_usual();
+        word = hd_dynamics_of(&usual)->particles;
+    }
     if (p->row && p->row->kind == HD_PARAMETER_TEXT) word = "";
     if (word)
         snprintf(text, PARAMETER_TEXT, "%s", word);
@@ -284,7 +297,10 @@ unsigned parameter_topics(const parameter *p)
 
 void parameter_allowed(char text[PARAMETER_ALLOWED], const parameter *p)
 {
-    const size_t length = strlen(p->allowed);
-    snprintf(text, PARAMETER_ALLOWED, "%s", p->allowed);
+    if (p->kind == PARTICLES)
+        particles_names(text, PARAMETER_ALLOWED);
+    else
+        snprintf(text, PARAMETER_ALLOWED, "%s", p->allowed);
+    const size_t length = strlen(text);
     topic_names(text + length, PARAMETER_ALLOWED - length, parameter_topics(p));
 }

@@ -1,5 +1,5 @@
-/** Every parameter of the node, one row each: those of the scene, which the core names, and those
- * that only the node knows. */
+/** Every parameter of the node, one row each: those of the scene, which the core names, those of
+ * the particles that move (particles_now), and those that only the node knows. */
 #ifndef HDLYAP_PARAMETERS_NODE_H
 #define HDLYAP_PARAMETERS_NODE_H
 
@@ -11,6 +11,7 @@
 /** How a value is said and read. */
 typedef enum parameter_kind {
     OF_SCENE,        /**< as the scene's row says */
+    PARTICLES,       /**< of the scene, too: by the name of their row */
     REAL_NUMBER,     /**< double */
     WHOLE_NUMBER,    /**< int; what is allowed depends on the scene */
     NAME,            /**< const char *: a line that is not empty */

@@ -7,6 +7,7 @@
 #include <stdlib.h>
 
 #include "hdlyap/follow.h"
+#include "particles.h"
 
 static const char library_name[] = "libhdlyap_mpi.so.0";
 
@@ -63,7 +64,9 @@ void ranks_follow(hd_communicator *ranks)
     signal(SIGINT, SIG_IGN);
     signal(SIGTERM, SIG_IGN);
     signal(SIGHUP, SIG_IGN);
-    hd_run_follow(ranks, NULL, 0);
+    int count;
+    const hd_dynamics *const *brought = particles_brought(&count);
+    hd_run_follow(ranks, brought, count);
 }
 
 void ranks_leave(hd_communicator *ranks)

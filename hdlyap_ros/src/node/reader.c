@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "particles.h"
 #include "settings.h"
 #include "topics/topic.h"
 
@@ -155,6 +156,16 @@ static bool read_of_scene(const reader *r, const parameter *p, hd_scene_def *def
     return read;
 }
 
+static bool read_particles(const reader *r, const parameter *p, hd_scene_def *def)
+{
+    const char *name = NULL;
+    char allowed[PARAMETER_ALLOWED];
+    const hdr_status status = hdr_param_string(r->params, r->name, &name);
+    parameter_allowed(allowed, p);
+    return status == HDR_MISSING || (status == HDR_OK && particles_choose(def, name)) ||
+           reader_refuse(r, allowed);
+}
+
 /* ---- of the node --------------------------------------------------------------------------- */
 
 static bool read_line(const reader *r, const parameter *p, const char **line)
@@ -206,6 +217,7 @@ bool reader_read(const reader *r, const parameter *p, void *field)
 {
     switch (p->kind) {
     case OF_SCENE: return read_of_scene(r, p, field);
+    case PARTICLES: return read_particles(r, p, field);
     case REAL_NUMBER: return accepts(r, hdr_param_double(r->params, r->name, field), "a number");
     case WHOLE_NUMBER:
         return accepts(r, hdr_param_int(r->params, r->name, field), "an integer, without a point");

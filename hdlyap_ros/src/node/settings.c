@@ -9,6 +9,7 @@
 
 #include "change.h"
 #include "parameters.h"
+#include "particles.h"
 #include "reader.h"
 #include "topics/topic.h"
 
@@ -26,6 +27,16 @@ static bool check_names(reader *r)
 }
 
 static void *field_of(settings *set, const parameter *p) { return (char *)set + p->offset; }
+
+/** First: its own parameters are parameters, too. */
+static bool read_what_moves(settings *out, reader *r)
+{
+    const parameter p = parameters_named("particles");
+    r->name = p.name;
+    if (!reader_read(r, &p, &out->def)) return false;
+    particles_are(hd_dynamics_of(&out->def));
+    return true;
+}
 
 static bool read_all(settings *out, reader *r)
 {
@@ -52,7 +63,7 @@ static bool check_scene_name(settings *set, reader *r)
                                          "density",    "aspect",     "aspect_z",
                                          "boundary_x", "boundary_y", "boundary_z"};
     const parameter name = parameters_named("scene");
-    bool given = false, usual = true;
+    bool given = false, usual = !set->def.dynamics;
     for (size_t k = 0; k < sizeof system / sizeof *system; k++) {
         const parameter p = parameters_named(system[k]);
         if (*hdr_param_text(r->params, system[k])) given = true;
@@ -91,18 +102,39 @@ static bool check_ranges(settings *set, reader *r)
     return true;
 }
 
-/** Without exponents the defaults that need them go silently. */
+/** What such a scene has not goes silently from the defaults. */
+static bool leave_out(settings *set, reader *r, unsigned topics, const char *when,
+                      const char *value)
+{
+    char names[PARAMETER_TEXT], allowed[2 * PARAMETER_TEXT];
+    if (!(set->observables & topics)) return true;
+    topic_names(names, sizeof names, topics_that_are(TOPIC_OBSERVABLE) & ~topics);
+    snprintf(allowed, sizeof allowed, "a list out of %s when %s = %s", names, when, value);
+    if (*hdr_param_text(r->params, r->name)) return reader_refuse(r, allowed);
+    set->observables &= ~topics;
+    return true;
+}
+
+/** Topics of positions in a box, and of what is computed from them. */
+static unsigned topics_of_box(void)
+{
+    const unsigned stages = hd_observe_of_box();
+    unsigned set = topics_that_are(TOPIC_OF_BOX);
+    for (topic t = 0; t < TOPICS; t++)
+        if (topic_stages(topic_bit(t)) & stages) set |= topic_bit(t);
+    return set;
+}
+
 static bool check_observables(settings *set, reader *r)
 {
     const unsigned of_vectors = topics_that_are(TOPIC_OF_VECTORS);
+    const hd_dynamics *of = hd_dynamics_of(&set->def);
     r->name = "observables";
-    if (set->def.exponents == HD_EXPONENTS_NONE && (set->observables & of_vectors)) {
-        char names[PARAMETER_TEXT], allowed[2 * PARAMETER_TEXT];
-        topic_names(names, sizeof names, topics_that_are(TOPIC_OBSERVABLE) & ~of_vectors);
-        snprintf(allowed, sizeof allowed, "a list out of %s when exponents = none", names);
-        if (*hdr_param_text(r->params, r->name)) return reader_refuse(r, allowed);
-        set->observables &= ~of_vectors;
-    }
+    if (of->dimension == 0 && !leave_out(set, r, topics_of_box(), "particles", of->particles))
+        return false;
+    if (set->def.exponents == HD_EXPONENTS_NONE &&
+        !leave_out(set, r, of_vectors, "exponents", "none"))
+        return false;
     set->def.observe = topic_stages(set->observables);
     return true;
 }
@@ -121,6 +153,7 @@ static bool is_usual(settings *set, const parameter *p)
     const void *field = field_of(set, p);
     switch (p->kind) {
     case OF_SCENE: return hd_parameter_value(p->row, &set->def) == p->row->usual;
+    case PARTICLES: return false; /* nothing needs to be observed for it */
     case FIELD_CHOICE: return set->fields.count == 0;
     case REAL_NUMBER: return *(const double *)field == strtod(p->usual, NULL);
     case WHOLE_NUMBER: return *(const int *)field == atoi(p->usual);
@@ -195,8 +228,7 @@ static void write_texts(settings *out)
     snprintf(out->seed, sizeof out->seed, "%" PRIu64, out->def.seed);
     snprintf(out->exponents, sizeof out->exponents, "%d", out->def.exponents);
     if (word) snprintf(out->exponents, sizeof out->exponents, "%s", word);
-    out->particles = hd_parameter_word_of(parameters_named("particles").row,
-                                          (int)out->def.particles);
+    out->particles = hd_dynamics_of(&out->def)->particles;
 }
 
 bool settings_resume(const char **path, const hdr_params *params, char *message, size_t size)
@@ -220,7 +252,8 @@ static void set_default(settings *set, const parameter *p)
 {
     void *field = field_of(set, p);
     switch (p->kind) {
-    case OF_SCENE: hd_parameter_assign(p->row, field, p->row->usual); break;
+    case OF_SCENE:
+    case PARTICLES: break;
     case REAL_NUMBER: *(double *)field = strtod(p->usual, NULL); break;
     case WHOLE_NUMBER: *(int *)field = atoi(p->usual); break;
     case NAME:
@@ -234,7 +267,7 @@ static void set_default(settings *set, const parameter *p)
 
 static settings defaults(const hd_checkpoint *kept)
 {
-    settings set = {.seed = ""};
+    settings set = {.def = particles_usual(), .seed = ""};
     for (int k = 0; k < parameters_count(); k++) {
         const parameter p = parameters_at(k);
         set_default(&set, &p);
@@ -267,7 +300,7 @@ bool settings_read(settings *out, const hdr_params *params, const hd_checkpoint 
 {
     reader r = {.params = params, .message = message, .size = size};
     *out = defaults(kept);
-    if (!check_names(&r) || !read_all(out, &r)) return false;
+    if (!read_what_moves(out, &r) || !check_names(&r) || !read_all(out, &r)) return false;
     if (!kept && !check_scene_name(out, &r)) return false;
     if (!check_particles(out, &r) || !check_ranges(out, &r) || !check_observables(out, &r) ||
         !check_awaited(out, &r) || !check_needs(out, &r))

@@ -10,7 +10,7 @@
 #include "topics/progress.h"
 #include "topics/publishers.h"
 
-enum { BUFFERS = 4 }; /**< of one message, at most */
+enum { BUFFERS = 8 }; /**< of one message, at most */
 
 /** Memory that grows with what a message needs, and is used by the next one. */
 typedef struct buffers {

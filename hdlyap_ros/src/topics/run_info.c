@@ -1,6 +1,8 @@
 /** What is needed to repeat a run -> RunInfo: once, and after a change of parameters. */
 #include "topics/moment.h"
 
+#include <stdio.h>
+
 #include "hdlyap/hdlyap.h"
 #include "node/parameters.h"
 
@@ -50,6 +52,31 @@ static bool fill_changes(hdr_run_info *info, const moment *now)
     }
     info->changes = (hdr_change_list){list, (uint32_t)count};
     return list;
+}
+
+/** Parameters of what moves alone. */
+static bool fill_own(hdr_run_info *info, const moment *now)
+{
+    enum { LENGTH = 80 };
+    const hd_scene_def *def = &now->set->def;
+    const hd_dynamics *of = hd_dynamics_of(def);
+    const uint32_t count = (uint32_t)of->parameters;
+    const char **list = moment_take(now, count, sizeof *list);
+    char *text = moment_take(now, LENGTH * (size_t)count, 1);
+    if (!list || !text) return false;
+    for (uint32_t k = 0; k < count; k++, text += LENGTH) {
+        const hd_parameter *row = &of->parameter[k];
+        const double value = hd_parameter_value(row, def);
+        const char *word = hd_parameter_is_word(row, value) ? hd_parameter_word_of(row, (int)value)
+                                                            : NULL;
+        list[k] = text;
+        if (word)
+            snprintf(text, LENGTH, "%s=%s", row->name, word);
+        else
+            snprintf(text, LENGTH, "%s=%.15g", row->name, value);
+    }
+    info->own = (hdr_strings){list, count};
+    return true;
 }
 
 /** What the scene says. A parameter of it without a field in RunInfo.msg does not compile. */
@@ -126,7 +153,8 @@ hd_status topic_publish_run_info(const moment *now)
         .resume = set->resume,
         .resumed_time = *set->resume ? hd_run_time(now->run) : -1.0,
     };
-    if (!fill_waves(&info, now) || !fill_outline(&info, now) || !fill_changes(&info, now))
+    if (!fill_waves(&info, now) || !fill_outline(&info, now) || !fill_changes(&info, now) ||
+        !fill_own(&info, now))
         return HD_OK;
     fill_scene(&info, set);
     fill_machine(&info, now->run);

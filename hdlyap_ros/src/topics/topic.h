@@ -14,7 +14,8 @@ enum {
     TOPIC_LATCHED = 8,
     TOPIC_OF_VECTORS = 16, /**< not without exponents */
     TOPIC_OF_WINDOWS = 32, /**< published when a window of covariant vectors has ended */
-    TOPIC_OF_STEPS = 64 /**< tells nothing unless steps are carried, nor before modes are known */
+    TOPIC_OF_STEPS = 64, /**< tells nothing unless steps are carried, nor before modes are known */
+    TOPIC_OF_BOX = 128   /**< of positions in a box, itself: others are by their stages */
 };
 
 typedef enum topic {
