@@ -46,6 +46,34 @@ they_talk() {
     finish "$talker" && ((!failed))
 }
 
+# ---- a node of one's own ----------------------------------------------------------------------
+
+# own_launch SETUP NAME ARGUMENT...: run.launch with the downstream package's node, which moves a chain.
+own_launch() { in_space "$1" timeout 100 roslaunch hdlyap run.launch package:=hdlyap_downstream program:=chain_node "scene:=$WORK/ring.yaml" "${@:2}"; }
+
+# chain_runs SETUP: recorded, figures drawn, gone on from; its own parameters are read, refused and recorded as all others.
+chain_runs() {
+    local folder=$WORK/ring
+    rm -rf "$folder" && mkdir -p "$folder"
+    printf '%s: %s\n' disks 8 beta 2.0 exponents all duration 2000.0 observables '[spectrum, localization]' >"$WORK/ring.yaml"
+    own_launch "$1" record:=true "bag:=$folder/one.bag" "checkpoint:=$folder/kept" || return 1
+    in_space "$1" hdlyap plot "$folder/one.bag" --out "$folder" && [[ -s $folder/spectrum.png ]] || return 1
+    own_launch "$1" "resume:=$folder/kept" duration:=4000.0 scene:= record:=true "bag:=$folder/two.bag" || return 1
+    in_space "$1" python3 "$ROOT/tests/install/chain.py" "$folder/one.bag" "$folder/two.bag" || return 1
+    refused "$1" 'beta = -1: must be from 0 to 1000' beta:=-1 &&
+        refused "$1" 'betta = 1: must be removed: there is no parameter of this name; is beta meant?' betta:=1 &&
+        refused "$1" 'particles = rods: must be disks, spheres or chain' particles:=rods &&
+        refused "$1" 'density = 0.5: must not be given with particles = chain, which have no positions in a box' density:=0.5 &&
+        refused "$1" 'observables = [state]: must be a list out of spectrum, covariant, localization when particles = chain' 'observables:=[state]'
+}
+
+# refused SETUP LINE ARGUMENT
+refused() {
+    local said
+    said=$(in_space "$1" rosrun hdlyap_downstream chain_node --check "$WORK/ring.yaml" "$3" 2>&1) && return 1
+    [[ $said == *"$2"* ]] || { echo "$said" && return 1; }
+}
+
 # ---- what an installed hdlyap consists of ----------------------------------------------------
 
 # has_every_file PREFIX: of the folders whose files people open.
@@ -231,6 +259,8 @@ check builds_against_install run builds_against "$PREFIX/setup.bash" "$WORK/inst
 check talks_from_install they_talk "$WORK/installed/installed/setup.bash"
 check builds_against_devel run builds_against "$BUILD/devel/setup.bash" "$WORK/devel"
 check talks_from_devel they_talk "$WORK/devel/devel/setup.bash"
+check own_node run chain_runs "$WORK/installed/installed/setup.bash"
+check own_node_in_devel run chain_runs "$WORK/devel/devel/setup.bash"
 check builds_alone run builds_alone
 check headers_alone headers_compile "$ALONE/installed"
 check tools_alone tools_alone

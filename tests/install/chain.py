@@ -1,0 +1,23 @@
+#!/usr/bin/python3
+"""chain.py BAG BAG: a chain that a user's node has moved, and the run that went on from its end."""
+
+import sys
+
+import hdlyap
+import numpy as np
+
+
+def main():
+    one, two = (hdlyap.load(path) for path in sys.argv[1:])
+    assert one.info.particles == 'chain' and one.info.dimension == 0, one.info
+    assert list(one.info.own) == ['beta=2', 'energy=1', 'time_step=0.02'], one.info.own
+    assert two.info.own == one.info.own and two.info.resumed_time > 0
+    assert two.is_complete and two.times[-1] > 1.5 * one.times[-1]
+    exponents = two.exponents[-1]
+    assert len(exponents) == 16 and 0.05 < exponents[0] < 0.5, exponents
+    assert np.abs(exponents + exponents[::-1]).max() < 1e-7, 'pairs'
+    zeros = np.abs(exponents) < 0.1 * exponents[5]
+    assert zeros.sum() == 4 and list(np.flatnonzero(zeros)) == [6, 7, 8, 9], exponents
+
+
+main()
