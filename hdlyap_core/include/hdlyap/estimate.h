@@ -3,7 +3,6 @@
 #ifndef HDLYAP_ESTIMATE_H
 #define HDLYAP_ESTIMATE_H
 
-#include "hdlyap/extent.h"
 #include "hdlyap/run.h"
 
 HD_API_BEGIN

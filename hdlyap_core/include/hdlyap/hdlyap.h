@@ -31,10 +31,11 @@
 /* covariant */
 #include "hdlyap/splitting.h"
 #include "hdlyap/covariant.h"
+/* observe */
+#include "hdlyap/observables.h"
 /* run */
 #include "hdlyap/run.h"
 #include "hdlyap/room.h"
-#include "hdlyap/extent.h"
 #include "hdlyap/estimate.h"
 #include "hdlyap/checkpoint.h"
 #include "hdlyap/follow.h"

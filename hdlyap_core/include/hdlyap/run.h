@@ -13,6 +13,7 @@
 #include "hdlyap/hydro.h"
 #include "hdlyap/interval.h"
 #include "hdlyap/localization.h"
+#include "hdlyap/observables.h"
 #include "hdlyap/parameters.h"
 #include "hdlyap/phases.h"
 #include "hdlyap/pmode.h"
@@ -172,14 +173,6 @@ int hd_run_ranks(const hd_run *run);          /**< 1 unless shared */
 int hd_run_threads(const hd_run *run);        /**< in use, of this rank */
 int hd_run_threads_denied(const hd_run *run); /**< wanted, but not granted by OpenMP; 0: none */
 
-/** What a run is made of. Of each observable its result, by its row in observables.inc; NULL what
- * the scene does not ask for. */
-typedef struct hd_parts {
-    const hd_trajectory *trajectory; /**< always there */
-    const hd_spectrum *spectrum;     /**< NULL without exponents */
-#define HD_OBSERVABLE(name, NAME, bit, of_waves, result) result *name;
-#include "hdlyap/observables.inc"
-} hd_parts;
 hd_parts hd_run_parts(const hd_run *run);
 
 /** Simulated time of the phases; negative while none have been followed. */

@@ -87,9 +87,6 @@ typedef union hd_own {
 /** hd_parameter.offset of number k of them. */
 #define HD_OWN(k) (offsetof(hd_scene_def, own) + (k) * sizeof(hd_own))
 
-/** Room for the name of a quantity that a target may have, as T(1,0) or c_T. */
-enum { HD_QUANTITY_NAME = 32 };
-
 /** Each parameter's default, range, unit and text stands in parameters.inc, which declares those
  * that are plain numbers. */
 typedef struct hd_scene_def {
@@ -111,9 +108,6 @@ typedef struct hd_scene_def {
 #define HD_OTHER(...)
 #include "hdlyap/parameters.inc"
 } hd_scene_def;
-
-/** Those that are of positions in a box: a set of HD_OBSERVE_*. */
-unsigned hd_observe_of_box(void);
 
 /** The paper's periodic scene: 780 disks, density 0.8, aspect 0.867. */
 hd_scene_def hd_scene_def_default(void);

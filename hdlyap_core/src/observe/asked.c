@@ -65,6 +65,19 @@ unsigned hd_observables_tried(unsigned set)
     return set;
 }
 
+hd_extent hd_observables_extent(const hd_scene_def *scene, void *const *part)
+{
+    hd_extent extent = {.dimension = hd_scene_dimension(scene),
+                        .disks = scene->disks,
+                        .vectors = hd_scene_vectors(scene)};
+    for (int k = 0; k < HD_OBSERVED; k++) {
+        const hd_observable *row = hd_observable_rows[k];
+        if (row->extend && hd_observable_is_asked((hd_observed)k, scene))
+            row->extend(&extent, scene, part[k]);
+    }
+    return extent;
+}
+
 /* ---- what may be asked for ----------------------------------------------------------------- */
 
 double hd_scene_warmup(const hd_scene_def *scene)

@@ -6,7 +6,7 @@
 
 #include "base/archive.h"
 #include "hdlyap/communicator.h"
-#include "hdlyap/extent.h"
+#include "hdlyap/observables.h"
 #include "hdlyap/frame.h"
 #include "hdlyap/spectrum.h"
 #include "hdlyap/trajectory.h"

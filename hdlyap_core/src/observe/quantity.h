@@ -5,7 +5,8 @@
 
 #include <stdbool.h>
 
-#include "hdlyap/scene.h"
+#include "hdlyap/observables.h"
+#include "hdlyap/steps.h"
 
 enum { HD_WHY = 160 };
 
