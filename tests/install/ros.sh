@@ -62,7 +62,7 @@ chain_runs() {
     in_space "$1" python3 "$ROOT/tests/install/chain.py" "$folder/one.bag" "$folder/two.bag" || return 1
     refused "$1" 'beta = -1: must be from 0 to 1000' beta:=-1 &&
         refused "$1" 'betta = 1: must be removed: there is no parameter of this name; is beta meant?' betta:=1 &&
-        refused "$1" 'particles = rods: must be disks, spheres or chain' particles:=rods &&
+        refused "$1" 'particles = rods: must be disks, spheres, dumbbells or chain' particles:=rods &&
         refused "$1" 'density = 0.5: must not be given with particles = chain, which have no positions in a box' density:=0.5 &&
         refused "$1" 'observables = [state]: must be a list out of spectrum, covariant, localization when particles = chain' 'observables:=[state]'
 }

@@ -81,6 +81,14 @@ static hd_status measure(hd_estimate *out, hd_run *run)
     return HD_OK;
 }
 
+/** Averaged time at which an error was as small as wanted, of one that is smaller by now. */
+static double reached_after(const hd_standing *s, double averaged)
+{
+    const double falls = s->error * s->error - s->open * s->open;
+    const double may = s->wanted * s->wanted - s->open * s->open;
+    return may > 0.0 ? averaged * falls / may : averaged;
+}
+
 /** Averaged time of the target, of a run that has averaged as the scene would. */
 static double target_after(const hd_run *run, const hd_scene_def *def)
 {
@@ -88,8 +96,8 @@ static double target_after(const hd_run *run, const hd_scene_def *def)
     if (!same || !*def->target.line) return NAN;
     const hd_standing end = hd_target_standing(run, &def->target);
     const double averaged = hd_run_time(run) - hd_agenda_stage_begin(&run->agenda);
-    const double after = fmax(averaged + end.left, hd_run_errors_after(run));
-    return end.error < 0.0 ? NAN : end.reached ? hd_run_errors_after(run) : after;
+    const double after = end.reached ? reached_after(&end, averaged) : averaged + end.left;
+    return end.error < 0.0 ? NAN : fmax(after, hd_run_errors_after(run));
 }
 
 /** What a trial of fewer disks says of all of them: a frame takes N^3, an error the time of sound

@@ -80,12 +80,14 @@ static bool check_scene_name(settings *set, reader *r)
                   "name chooses none of them, roslaunch hdlyap run.launch scene:=.. does");
 }
 
-/** Messages hold what has as many coordinates as its space has directions. */
+/** Messages of positions hold what has as many coordinates as its space has directions. */
 static bool check_particles(const settings *set, reader *r)
 {
     r->name = "particles";
-    return hd_scene_coordinates(&set->def) == hd_scene_dimension(&set->def) ||
-           reader_refuse(r, "disks or spheres here: others are of the core alone so far");
+    const int dimension = hd_scene_dimension(&set->def);
+    return dimension == 0 || hd_scene_coordinates(&set->def) == dimension ||
+           reader_refuse(r, "what has as many coordinates as its box has directions: others are of "
+                            "the core alone so far");
 }
 
 /** Those that the scene does not know of, where the row says a range. */
