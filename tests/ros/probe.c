@@ -147,6 +147,16 @@ void hd_trajectory_state(const hd_trajectory *trajectory, double *q, double *p)
     if (p && getenv("PROBE_NAN")) p[0] = NAN;
 }
 
+/** The same in a box, as the core looks itself. */
+void hd_trajectory_places(const hd_trajectory *trajectory, double *q, double *p);
+void hd_trajectory_places(const hd_trajectory *trajectory, double *q, double *p)
+{
+    void (*real)(const hd_trajectory *, double *, double *);
+    next(&real, "hd_trajectory_places");
+    real(trajectory, q, p);
+    atomic_fetch_add(&states, 1);
+}
+
 /** PROBE_NAN_ANGLE: the one between covariant centre and null space is not a number. */
 hd_covariant_results hd_covariant_read(const hd_covariant *covariant)
 {
