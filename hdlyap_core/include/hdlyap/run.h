@@ -132,7 +132,7 @@ double hd_run_change_time(const hd_run *run);
  * while averages are taken. */
 double hd_run_shortest_duration(const hd_run *run);
 
-/** True if the last call ended at such a report: if they are looked at (HD_OBSERVE_FIELDS), the
+/** True if the last call ended at such a report: if fields are looked at, the
  * frame is orthonormalised at this very time. */
 bool hd_run_fields_due(const hd_run *run);
 
