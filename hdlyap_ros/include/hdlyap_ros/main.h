@@ -5,6 +5,7 @@
 #ifdef __cplusplus
 extern "C" {
 #endif
+#pragma GCC visibility push(default)
 
 struct hd_dynamics; /* hdlyap/dynamics.h */
 
@@ -12,9 +13,9 @@ struct hd_dynamics; /* hdlyap/dynamics.h */
  * is what moves if nobody says: rows[0], without rows disks. A row's own parameters are read from
  * the parameter server, checked and recorded as all others. Rows last as long as the process.
  * Returns the exit status (--help). */
-__attribute__((visibility("default"))) int
-hdlyap_node_main(int argc, char **argv, const struct hd_dynamics *const *rows, int count);
+int hdlyap_node_main(int argc, char **argv, const struct hd_dynamics *const *rows, int count);
 
+#pragma GCC visibility pop
 #ifdef __cplusplus
 }
 #endif
