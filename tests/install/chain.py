@@ -4,6 +4,8 @@
 import sys
 
 import hdlyap
+from hdlyap.plots import report
+from hdlyap.plots.figures import style
 import numpy as np
 
 
@@ -11,6 +13,8 @@ def main():
     one, two = (hdlyap.load(path) for path in sys.argv[1:])
     assert one.info.particles == 'chain' and one.info.dimension == 0, one.info
     assert list(one.info.own) == ['beta=2', 'energy=1', 'time_step=0.02'], one.info.own
+    assert report.system(one.info) == 'chain, N = 8, beta=2, energy=1, time_step=0.02'
+    assert style.scene(one.info) == 'ring: chain, $N=8$'
     assert two.info.own == one.info.own and two.info.resumed_time > 0
     assert two.is_complete and two.times[-1] > 1.5 * one.times[-1]
     exponents = two.exponents[-1]

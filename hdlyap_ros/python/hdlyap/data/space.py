@@ -9,6 +9,13 @@ def is_solid(info):
     return info is not None and info.dimension == 3
 
 
+def without_box(info):
+    """What is known of particles that have no positions in a box; '' of others."""
+    if info.dimension or not info.particles:
+        return ''
+    return ', '.join([f'{info.particles}, N = {info.disks}', *info.own])
+
+
 def axes(info):
     return 'xyz' if is_solid(info) else 'xy'
 

@@ -79,6 +79,8 @@ def _head(recording):
 
 
 def system(info):
+    if space.without_box(info):
+        return space.without_box(info)
     if is_curved(info):
         size = f'{info.box_x:.3f} x {info.box_y:.3f}'
         return f'N = {info.disks}, density {info.density:g}, {info.container}, {size}'

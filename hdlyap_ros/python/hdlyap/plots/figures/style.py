@@ -82,6 +82,8 @@ def save(figure, folder, name, dpi=250):
 
 def scene(info):
     name = info.scene.replace('$', r'\$')  # which would begin a formula
+    if space.without_box(info):
+        return f'{name}: {info.particles}, $N={info.disks}$'
     if is_curved(info):
         size = f'{info.container}, ${info.box_x:.4g}\\times{info.box_y:.4g}$'
         return f'{name}: $N={info.disks}$, $\\rho={info.density:g}$, {size}'
