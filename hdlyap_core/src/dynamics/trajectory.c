@@ -1,4 +1,5 @@
 /** Scene -> record: the particles of a scene, by the row of their dynamics. */
+#include <math.h>
 #include <string.h>
 #include <zlib.h>
 
@@ -104,8 +105,8 @@ static double *coordinates_of(const hd_trajectory *tr)
 double hd_trajectory_kinetic_energy(const hd_trajectory *tr)
 {
     if (tr->of->kinetic_energy) return tr->of->kinetic_energy(tr->state);
-    double *q = coordinates_of(tr), *p = q + coordinates(tr), sum = 0.0;
-    for (size_t k = 0; q && k < coordinates(tr); k++) sum += 0.5 * p[k] * p[k];
+    double *q = coordinates_of(tr), sum = q ? 0.0 : NAN; /* without memory it is not known */
+    for (size_t k = coordinates(tr); q && k < 2 * coordinates(tr); k++) sum += 0.5 * q[k] * q[k];
     hd_memory_free(q);
     return sum;
 }

@@ -47,6 +47,22 @@ static inline void check_same_exponents(const hd_run *a, const hd_run *b, double
                     hd_spectrum_exponent(hd_run_spectrum(b), col), tolerance);
 }
 
+/** Of a run that several ranks carry, and of one alone: frames differ by rounding, the record is
+ * the same bits. */
+static inline void check_same_run(const hd_run *run, const hd_run *alone)
+{
+    const hd_scene_def *scene = hd_run_scene(run);
+    const size_t count = (size_t)(hd_scene_coordinates(scene) * scene->disks);
+    HEAP double *q = calloc(2 * count, sizeof *q);
+    check_same_exponents(run, alone, hd_run_cost(run).error_bound + hd_run_cost(alone).error_bound);
+    hd_trajectory_state(hd_run_trajectory(run), q, NULL);
+    hd_trajectory_state(hd_run_trajectory(alone), q + count, NULL);
+    assert_memory_equal(q, q + count, count * sizeof *q);
+    for (int col = 0; col < hd_run_vectors(run); col++)
+        CHECK_CLOSE(hd_localization_widths(hd_run_localization(run))[col],
+                    hd_localization_widths(hd_run_localization(alone))[col], 1e-6);
+}
+
 /** Behind the controller's back: where an interval would be planned, one of this length, within the
  * stage. */
 static inline void force_interval(hd_run *run, double length)
