@@ -22,6 +22,9 @@ TEST(values_out_of_range)
     check_line(scene_from(usual(), .density = 1.4143),
                "density = 1.4143: must be from 1e-6 to 2/sqrt(3) = 1.1547, of spheres sqrt(2) = "
                "1.4142");
+    check_line(scene_from(usual(), .density = NAN),
+               "density = nan: must be from 1e-6 to 2/sqrt(3) = 1.1547, of spheres sqrt(2) = "
+               "1.4142");
     check_line(scene_from(usual(), .aspect_z = 0.0), "aspect_z = 0: must be from 1e-6 to 1e6");
     check_line(scene_from(usual(), .aspect_z = 2e6),
                "aspect_z = 2000000: must be from 1e-6 to 1e6");
