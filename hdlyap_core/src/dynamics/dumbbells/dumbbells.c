@@ -32,12 +32,6 @@ static void between(double r[2], const hd_molecules *m, const int32_t pair[2],
     for (int d = 0; d < 2; d++) r[d] += arms[1][d] - arms[0][d];
 }
 
-static void arm_of(double arm[2], const hd_molecules *m, int32_t i, int disk, double t)
-{
-    const hd_turned turned = hd_turned_at(m, i, t);
-    for (int d = 0; d < 2; d++) arm[d] = hd_sign(disk) * turned.arm[d];
-}
-
 /** Fills what the gradient needs of disk k. */
 static void turn_fill(hd_bump *bump, const hd_molecules *m, int k, int32_t i, const double arm[2])
 {
@@ -67,7 +61,7 @@ static void push(hd_molecules *m, int32_t i, double by, const double n[2], doubl
     for (int d = 0; d < 2; d++) m->disk[i].p[d] += by * n[d];
     m->spin[i].p += by * across;
     m->disk[i].collisions++;
-    hd_molecule_fold(m, i);
+    hd_molecule_fold(m, &m->disk[i], &m->spin[i]);
 }
 
 static hd_status write(hd_record *record, const hd_bump *bump)
@@ -85,8 +79,8 @@ static hd_status collide(dumbbells *all, hd_record *record, hd_bump *bump, int32
     double arms[2][2], shift[2], r[2], turning = 0.0;
     for (int d = 0; d < 2; d++) shift[d] = sign * how.image[d] * m->cells.box[d];
     for (int k = 0; k < 2; k++) {
-        hd_molecule_move_to(m, pair[k], t);
-        arm_of(arms[k], m, pair[k], how.which >> k & 1, t);
+        hd_molecule_move_to(&m->disk[pair[k]], &m->spin[pair[k]], t);
+        hd_arm_at(arms[k], m, pair[k], how.which >> k & 1, t);
         turning += fabs(m->spin[pair[k]].p / m->shape.root);
     }
     between(r, m, pair, shift, t, (const double(*)[2])arms);
@@ -119,8 +113,8 @@ static hd_status reflect(dumbbells *all, hd_record *record, hd_bump *bump, int32
     hd_molecules *m = &all->m;
     const int d = -1 - m->next[i].partner, which = m->next[i].which;
     double arm[2];
-    hd_molecule_move_to(m, i, t);
-    arm_of(arm, m, i, which & 1, t);
+    hd_molecule_move_to(&m->disk[i], &m->spin[i], t);
+    hd_arm_at(arm, m, i, which & 1, t);
     bump->j = -1.0;
     bump->n[d] = which >> 1 ? -1.0 : 1.0;
     for (int e = 0; e < 2; e++) bump->p[e] = m->disk[i].p[e];
@@ -170,8 +164,8 @@ static hd_status turn_epoch(dumbbells *all)
     hd_molecules *m = &all->m;
     for (int32_t i = 0; i < m->count; i++) {
         hd_disk *disk = &m->disk[i];
-        hd_molecule_move_to(m, i, m->epoch_length);
-        hd_molecule_fold(m, i);
+        hd_molecule_move_to(disk, &m->spin[i], m->epoch_length);
+        hd_molecule_fold(m, disk, &m->spin[i]);
         disk->t = 0.0;
         disk->collisions++;
         if (!isfinite(disk->q[0] + disk->q[1] + m->spin[i].q + momenta_of(m, i)))
@@ -212,7 +206,7 @@ static double least_between(const hd_molecules *m, const int32_t pair[2], const 
     double least = INFINITY;
     for (int which = 0; which < HD_MEETS; which++) {
         double arms[2][2], r[2];
-        for (int k = 0; k < 2; k++) arm_of(arms[k], m, pair[k], which >> k & 1, t);
+        for (int k = 0; k < 2; k++) hd_arm_at(arms[k], m, pair[k], which >> k & 1, t);
         between(r, m, pair, shift, t, (const double(*)[2])arms);
         least = fmin(least, sqrt(hd_contact_dot(r, r)) - 1.0);
     }
@@ -246,11 +240,11 @@ static double least_listed(const hd_molecules *m, int32_t i, int k, double t)
 
 static double least_at_walls(const hd_molecules *m, int32_t i, double t)
 {
-    const hd_turned turned = hd_turned_at(m, i, t);
-    double least = INFINITY;
+    double arm[2], least = INFINITY;
+    hd_arm_at(arm, m, i, 0, t);
     for (int d = 0; d < 2; d++) {
         const double at = m->disk[i].q[d] + m->disk[i].p[d] * (t - m->disk[i].t),
-                     reach = 0.5 + fabs(turned.arm[d]);
+                     reach = 0.5 + fabs(arm[d]);
         if (m->cells.boundary[d] != HD_REFLECTING) continue;
         least = fmin(least, fmin(at - reach, m->cells.box[d] - reach - at));
     }

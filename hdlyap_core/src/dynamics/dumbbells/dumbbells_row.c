@@ -76,15 +76,12 @@ static double row_time(const void *state) { return ((const dumbbells *)state)->n
 
 static void row_state(const void *state, double *q, double *p)
 {
-    dumbbells all = *(const dumbbells *)state;
-    for (int32_t i = 0; i < all.m.count; i++) {
-        hd_disk disk = all.m.disk[i];
-        hd_spin spin = all.m.spin[i];
-        hd_molecules one = all.m; /* of this molecule alone */
-        one.disk = &disk;
-        one.spin = &spin;
-        hd_molecule_move_to(&one, 0, all.now - all.epoch_start);
-        hd_molecule_fold(&one, 0);
+    const dumbbells *all = state;
+    for (int32_t i = 0; i < all->m.count; i++) {
+        hd_disk disk = all->m.disk[i];
+        hd_spin spin = all->m.spin[i];
+        hd_molecule_move_to(&disk, &spin, all->now - all->epoch_start);
+        hd_molecule_fold(&all->m, &disk, &spin);
         for (int d = 0; d < 2; d++) {
             if (q) q[3 * i + d] = disk.q[d];
             if (p) p[3 * i + d] = disk.p[d];

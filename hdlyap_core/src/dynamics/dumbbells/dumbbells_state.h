@@ -16,25 +16,17 @@ typedef struct dumbbells {
     double virial[2];
 } dumbbells;
 
-static inline void hd_molecule_move_to(hd_molecules *m, int32_t i, double t)
+static inline void hd_molecule_move_to(hd_disk *disk, hd_spin *spin, double t)
 {
-    hd_disk *disk = &m->disk[i];
-    for (int d = 0; d < 2; d++) disk->q[d] += disk->p[d] * (t - disk->t);
-    m->spin[i].q += m->spin[i].p * (t - disk->t);
-    disk->t = t;
+    spin->q += spin->p * (t - disk->t);
+    hd_disk_move_to(disk, t);
 }
 
 /** Back into the box, and into one turn; the cell that it is booked in stays. */
-static inline void hd_molecule_fold(hd_molecules *m, int32_t i)
+static inline void hd_molecule_fold(const hd_molecules *m, hd_disk *disk, hd_spin *spin)
 {
-    hd_disk *disk = &m->disk[i];
-    for (int d = 0; d < 2; d++) {
-        if (m->cells.boundary[d] != HD_PERIODIC) continue;
-        const double turns = floor(disk->q[d] / m->cells.box[d]);
-        disk->q[d] -= turns * m->cells.box[d];
-        disk->wrap[d] -= (int32_t)turns;
-    }
-    m->spin[i].q -= floor(m->spin[i].q / m->shape.turn + 0.5) * m->shape.turn;
+    hd_cells_fold(&m->cells, disk);
+    spin->q -= floor(spin->q / m->shape.turn + 0.5) * m->shape.turn;
 }
 
 /** Of all gaps and images now, the smallest; at most what cells reach. */

@@ -42,12 +42,6 @@ typedef struct hd_molecules {
     double rounding; /**< of a gap [sigma] */
 } hd_molecules;
 
-/** Where the disks of a molecule are, seen from its centre. */
-typedef struct hd_turned {
-    double angle, rate; /**< rate: of the angle */
-    double arm[2];      /**< of the second disk; that of the first one is opposite */
-} hd_turned;
-
 /** Unit vector of an angle. Within 2 eps, and the same bits everywhere: + - * / alone. */
 static inline void hd_direction(double e[2], double angle)
 {
@@ -77,16 +71,15 @@ static inline void hd_direction(double e[2], double angle)
     e[1] = quadrant >= 2 ? -s : s;
 }
 
-static inline hd_turned hd_turned_at(const hd_molecules *m, int32_t i, double t)
-{
-    const double rate = m->spin[i].p / m->shape.root;
-    hd_turned turned = {m->spin[i].q / m->shape.root + rate * (t - m->disk[i].t), rate, {0.0}};
-    hd_direction(turned.arm, turned.angle);
-    for (int d = 0; d < 2; d++) turned.arm[d] *= m->shape.arm;
-    return turned;
-}
-
 /** Of disk 0 or 1 of a molecule: -1 or 1 times the arm. */
 static inline double hd_sign(int disk) { return disk ? 1.0 : -1.0; }
+
+/** Where that disk of molecule i is, seen from its centre. */
+static inline void hd_arm_at(double arm[2], const hd_molecules *m, int32_t i, int disk, double t)
+{
+    const double rate = m->spin[i].p / m->shape.root;
+    hd_direction(arm, m->spin[i].q / m->shape.root + rate * (t - m->disk[i].t));
+    for (int d = 0; d < 2; d++) arm[d] *= hd_sign(disk) * m->shape.arm;
+}
 
 #endif

@@ -50,6 +50,17 @@ void hd_cells_empty(hd_cells *cells);
 /** Moves disk i over the low (side 0) or high (side 2) edge of its cell in direction d. */
 void hd_cells_cross(hd_cells *cells, hd_disk *disks, int32_t i, int d, int side);
 
+/** Back into the box; the cell that it is booked in stays. */
+static inline void hd_cells_fold(const hd_cells *cells, hd_disk *disk)
+{
+    for (int d = 0; d < HD_DIM; d++) {
+        if (cells->boundary[d] != HD_PERIODIC) continue;
+        const double turns = floor(disk->q[d] / cells->box[d]);
+        disk->q[d] -= turns * cells->box[d];
+        disk->wrap[d] -= (int32_t)turns;
+    }
+}
+
 /** The cell in that column, row (and layer); an empty one beyond a wall. */
 static inline hd_cell *hd_cells_at(const hd_cells *cells, const int32_t at[HD_DIM])
 {

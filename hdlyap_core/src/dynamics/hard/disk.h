@@ -24,6 +24,12 @@ typedef struct hd_disk {
     uint32_t collisions;  /**< changes whenever q, p, t do; tells stale predictions */
 } hd_disk;
 
+static inline void hd_disk_move_to(hd_disk *disk, double t)
+{
+    for (int d = 0; d < HD_DIM; d++) disk->q[d] += disk->p[d] * (t - disk->t);
+    disk->t = t;
+}
+
 /** Time is counted in epochs: a power of two that holds about 32 to 64 collisions of a disk; in a
  * thin gas less, so that no flight is so long that its rounding comes near HD_OVERLAP_MAX. */
 static inline double hd_epoch_length(double rate_per_disk)

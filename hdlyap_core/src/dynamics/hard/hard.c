@@ -115,8 +115,8 @@ static hd_status collide(hard *tr, hd_record *record, const hd_event *contact, i
     }
     a->collisions++;
     b->collisions++;
-    hd_hard_fold(tr, a);
-    hd_hard_fold(tr, b);
+    hd_cells_fold(&tr->motion.cells, a);
+    hd_cells_fold(&tr->motion.cells, b);
     hd_prediction_renew(&tr->motion, found_by); /* the head of the queue first: foreseeable */
     hd_prediction_renew(&tr->motion, event.i + event.j - found_by);
     return status;
@@ -135,7 +135,7 @@ static hd_status reflect(hard *tr, hd_record *record, hd_event *event, double t)
     for (int e = 0; e < HD_DIM; e++) event->p[e] = disk->p[e];
     disk->p[d] = -disk->p[d];
     disk->collisions++;
-    hd_hard_fold(tr, disk);
+    hd_cells_fold(&tr->motion.cells, disk);
     tr->wall_events++;
     hd_prediction_renew(&tr->motion, event->i);
     return write(record, event);
@@ -188,7 +188,7 @@ static hd_status turn_epoch(hard *tr)
         hd_disk *disk = &tr->motion.disk[i];
         hd_disk_move_to(disk, tr->epoch_length);
         disk->t = 0;
-        hd_hard_fold(tr, disk);
+        hd_cells_fold(&tr->motion.cells, disk);
         disk->collisions++;
         for (int d = 0; d < HD_DIM; d++)
             if (!isfinite(disk->q[d] + disk->p[d])) return HD_NOT_FINITE;

@@ -31,7 +31,7 @@ static hd_disk disk_now(const hard *tr, int32_t i)
 {
     hd_disk disk = tr->motion.disk[i];
     hd_disk_move_to(&disk, tr->now - tr->epoch_start);
-    hd_hard_fold(tr, &disk);
+    hd_cells_fold(&tr->motion.cells, &disk);
     return disk;
 }
 

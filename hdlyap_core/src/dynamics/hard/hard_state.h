@@ -19,23 +19,6 @@ typedef struct hard {
     double virial[HD_DIM]; /**< of the collisions */
 } hard;
 
-/** Back into the box; the cell that it is booked in stays. */
-static inline void hd_hard_fold(const hard *tr, hd_disk *disk)
-{
-    for (int d = 0; d < HD_DIM; d++) {
-        if (tr->motion.cells.boundary[d] != HD_PERIODIC) continue;
-        const double turns = floor(disk->q[d] / tr->motion.cells.box[d]);
-        disk->q[d] -= turns * tr->motion.cells.box[d];
-        disk->wrap[d] -= (int32_t)turns;
-    }
-}
-
-static inline void hd_disk_move_to(hd_disk *disk, double t)
-{
-    for (int d = 0; d < HD_DIM; d++) disk->q[d] += disk->p[d] * (t - disk->t);
-    disk->t = t;
-}
-
 /* Entries of the row: see hd_dynamics. */
 
 HD_MUST_CHECK hd_status hd_hard_create(void **state, const hd_scene_def *def);
