@@ -6,11 +6,6 @@
 
 #if HD_DIM != 2 && HD_DIM != 3
 #error "HD_DIM: must be 2 or 3"
-/* static, but clang's choice among their versions (HD_MULTIVERSION) is not */
-#define carry_block HD_COMPILED(carry_block)
-#define carry_block_with_walls HD_COMPILED(carry_block_with_walls)
-#define listed_contacts HD_COMPILED(listed_contacts)
-
 #endif
 
 /** Components of a vector of tangent space at one body: dq, then dp. */
