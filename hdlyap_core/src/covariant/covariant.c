@@ -320,6 +320,7 @@ static hd_status measure_null(hd_covariant *c)
     const int known = of->null(&c->scene, c->q, c->p,
                                columns + (size_t)c->centre * (size_t)c->rows);
     const hd_span covariant = {0, c->centre}, exact = {c->centre, known};
+    if (known == 0) return HD_OK;
     HD_TRY(hd_angles_between(c->null, c->angle, columns, covariant, exact));
     c->null_apart = c->angle[known - 1];
     raise_to(&c->null_apart_most, c->null_apart);

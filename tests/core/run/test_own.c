@@ -207,6 +207,23 @@ TEST(the_centre_is_held_against_what_is_known_of_it)
     CHECK_WITHIN(found.null, 0.0, 0.1);
 }
 
+static int null_of_nothing(const hd_scene_def *scene, const double *q, const double *p,
+                           double *column)
+{
+    (void)scene, (void)q, (void)p, (void)column;
+    return 0;
+}
+
+TEST(a_row_may_know_none_of_it)
+{
+    hd_dynamics ignorant = of_chain;
+    ignorant.null = null_of_nothing;
+    hd_scene_def scene = with_covariant(HD_EXPONENTS_ALL);
+    scene.dynamics = &ignorant;
+    OWNED(hd_run) *run = finished(scene);
+    assert_true(hd_covariant_read(hd_run_covariant(run)).null < 0);
+}
+
 /* ---- in a box ------------------------------------------------------------------------------ */
 
 /** Disks as a row of one's own that leaves out all that it may. */
