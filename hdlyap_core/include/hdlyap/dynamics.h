@@ -1,5 +1,5 @@
-/** What can move: a row of facts and functions. Disks and spheres are such rows; a program hands
- * another one over in hd_scene_def.dynamics, and its run has exponents with their errors,
+/** What can move: a row of facts and functions. Disks, spheres and dumbbells are such; a program
+ * hands another one over in hd_scene_def.dynamics, and its run has exponents with their errors,
  * Gram-Schmidt and covariant vectors, checkpoints, ranks.
  *
  * Each particle has `coordinates` q, scaled so that its kinetic energy is the sum of p^2 / 2.
@@ -57,14 +57,18 @@ typedef struct hd_passage {
     int particles;
 } hd_passage;
 
-enum { HD_PARTICLES = 32 }; /* room for a name */
+enum {
+    HD_PARTICLES = 32,        /**< room for a name */
+    HD_COORDINATES_MAX = 1000 /**< of a particle: those of all are counted by an int */
+};
 
 /** What may be left out says so: it is 0, false or NULL then. */
 struct hd_dynamics {
-    const char *particles; /**< in the plural: its name; 31 characters at most */
+    const char *particles; /**< in the plural: its name, of 31 characters at most and none of the
+                                core's */
     int dimension;         /**< of the box that their positions lie in, 2 or 3; 0: there is none */
-    int coordinates;       /**< of a particle: of its dq, and of its dp. The first `dimension` of
-                                them are its position in the box */
+    int coordinates;       /**< of a particle: of its dq, and of its dp, HD_COORDINATES_MAX at most.
+                                The first `dimension` of them are its position in the box */
     size_t entry; /**< bytes of an entry of the record, a multiple of 8; it begins with a double */
     /** Maps are symplectic: exponents come in pairs, and half of all vectors say all [T18]. Without
      * it exponents = all carries each of them. */
@@ -119,7 +123,7 @@ struct hd_dynamics {
     /** All but `expected`, of particles whose kinetic energy is N: what the gas is made from. May
      * be left out; then there is none. */
     void (*tell)(const void *state, hd_told *told);
-    void (*examine)(const void *state, hd_examined *examined); /**< may be left out */
+    void (*examine)(const void *state, hd_examined *examined); /**< of the same; may be left out */
     /** Each array of the state, one hd_archive_doubles after the other, whether it is written or
      * read. What follows from them is made anew. */
     void (*archive)(void *state, hd_archive *archive);

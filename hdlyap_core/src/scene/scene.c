@@ -32,8 +32,11 @@ static bool is_whole(const hd_dynamics *row)
 {
     bool own = row->parameters <= HD_OWN_MAX;
     for (int k = 0; k < row->parameters && own; k++) own = is_own(&row->parameter[k]);
-    return own && strlen(row->particles) < HD_PARTICLES && row->coordinates >= 1 &&
-           row->coordinates >= row->dimension && row->entry > 0 &&
+    const int box = row->dimension;
+    const bool room = (box == 0 || box == 2 || box == 3) && row->coordinates >= box;
+    const bool maps = !row->maps_create == !row->maps_free && !row->maps_free == !row->maps_fill;
+    return own && room && maps && strlen(row->particles) < HD_PARTICLES && row->coordinates >= 1 &&
+           row->coordinates <= HD_COORDINATES_MAX && row->entry > 0 &&
            row->entry % sizeof(double) == 0 && row->entries && row->rate && row->create &&
            row->free && row->advance && row->time && row->state && row->archive && row->carry;
 }
@@ -45,7 +48,9 @@ hd_scene_def hd_scene_def_of(const hd_dynamics *dynamics)
     def.dynamics = dynamics;
     for (int k = HD_DISKS; k <= HD_DUMBBELLS; k++) {
         const hd_scene_def core = {.particles = (hd_particles)k};
-        if (hd_dynamics_of(&core) != dynamics) continue;
+        const hd_dynamics *row = hd_dynamics_of(&core);
+        if (strcmp(row->particles, dynamics->particles) != 0) continue;
+        HD_ASSERT(row == dynamics); /* files and other ranks know it by its name */
         def.particles = (hd_particles)k;
         def.dynamics = NULL;
     }

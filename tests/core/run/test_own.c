@@ -359,6 +359,16 @@ TEST(a_row_that_lacks_something_is_a_bug)
     row = of_chain;
     row.particles = "chains of more than thirty-one letters";
     assert_true(is_a_bug(&row));
+    row.particles = "spheres"; /* of the core */
+    assert_true(is_a_bug(&row));
+    row = of_chain;
+    row.coordinates = 1001;
+    assert_true(is_a_bug(&row));
+    row.dimension = row.coordinates = 1;
+    assert_true(is_a_bug(&row));
+    row = of_chain;
+    row.maps_fill = hd_hard_disks.maps_fill; /* but not the rest of them */
+    assert_true(is_a_bug(&row));
     row = of_chain;
     row.parameter = elsewhere;
     row.parameters = 1;
