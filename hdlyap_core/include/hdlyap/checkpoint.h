@@ -34,19 +34,18 @@ HD_MUST_CHECK hd_status hd_run_save(hd_run *run, const char *path, const char *l
 /** HD_OK if hd_run_save could write there now; HD_FILE_FAULT with its line else. */
 HD_MUST_CHECK hd_status hd_checkpoint_writable(const char *path, char *message, size_t size);
 
-/** Reads a checkpoint, all of it, and says whose it is: that of disks or spheres, or of one of the
+/** Reads a checkpoint, all of it, and says whose it is: that of hd_particles, or of one of the
  * dynamics own[count]. HD_FILE_FAULT with one line in `message`: it is missing, no checkpoint, of a
  * newer format, of another dynamics, cut short, damaged. */
 HD_MUST_CHECK hd_status hd_checkpoint_read(hd_checkpoint *out, const char *path,
                                            const hd_dynamics *const *own, int count, char *message,
                                            size_t size);
 
-/** The run of a checkpoint goes on. `scene` (NULL: the checkpoint's, of disks or spheres) may
- * differ from the
- * checkpoint's in those parameters whose row (hd_scene_parameters) says so, with a duration not
- * shorter than what has been averaged; anything else is HD_REFUSED with its line. With 0 threads as
- * many as before, if the machine has them. A run that had finished goes on if there is more to do.
- * A window of covariant vectors that was under way is begun anew. HD_FILE_FAULT as
+/** The run of a checkpoint goes on. `scene` (NULL: the checkpoint's, of hd_particles) may differ
+ * from the checkpoint's in those parameters whose row (hd_scene_parameters) says so, with a
+ * duration not shorter than what has been averaged; anything else is HD_REFUSED with its line. With
+ * 0 threads as many as before, if the machine has them. A run that had finished goes on if there is
+ * more to do. A window of covariant vectors that was under way is begun anew. HD_FILE_FAULT as
  * hd_checkpoint_read, and for contents that no run has; HD_NO_MEMORY.
  */
 HD_MUST_CHECK hd_status hd_run_resume(hd_run **out, const char *path, const hd_scene_def *scene,

@@ -13,7 +13,7 @@ void hd_run_lead(hd_communicator *communicator);
 /** On rank 0: they may go. Once. */
 void hd_run_dismiss(hd_communicator *communicator);
 /** On the others: makes the calls of rank 0, one run at a time, until they may go. What fails there
- * fails here alike; rank 0 says so. Runs are of disks, spheres, or one of the dynamics own[count].
+ * fails here alike; rank 0 says so. Runs are of hd_particles, or of one of the dynamics own[count].
  */
 void hd_run_follow(hd_communicator *communicator, const hd_dynamics *const *own, int count);
 

@@ -45,7 +45,7 @@ typedef struct hd_cost {
     double ortho;    /**< seconds in the factorisation */
     double spectrum; /**< seconds in averages */
     double modes;    /**< seconds in classification, steps, phases, responses, widths */
-    /** Seconds in what follows every interval: what is kept for covariant vectors, and the way back
+    /** Seconds in what follows each interval: for covariant vectors what is kept, and the way back.
      */
     double following;
     /** Seconds of the above in exchange with other ranks, waiting included; bytes that this rank
@@ -132,8 +132,8 @@ double hd_run_change_time(const hd_run *run);
  * while averages are taken. */
 double hd_run_shortest_duration(const hd_run *run);
 
-/** True if the last call ended at such a report: if fields are looked at, the
- * frame is orthonormalised at this very time. */
+/** True if the last call ended at such a report: if fields are looked at, the frame is
+ * orthonormalised at this very time. */
 bool hd_run_fields_due(const hd_run *run);
 
 /** Which of the stages that the scene asks for (HD_OBSERVE_*) are needed from now on; at first all.

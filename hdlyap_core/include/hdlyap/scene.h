@@ -74,7 +74,7 @@ typedef struct hd_text {
     char line[HD_TEXT];
 } hd_text;
 
-/** What moves otherwise than disks or spheres: see hdlyap/dynamics.h. */
+/** What moves otherwise than hd_particles: see hdlyap/dynamics.h. */
 typedef struct hd_dynamics hd_dynamics;
 
 /** Values of the parameters of such a dynamics, each as its row says: an int or a word `whole`, a

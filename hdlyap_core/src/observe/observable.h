@@ -23,9 +23,9 @@ enum {
     HD_NEEDS_ALL = 16,    /**< vectors of all ranks at these reports, on each rank */
     HD_NEEDS_CLOSE = 32,  /**< measured states no farther apart than `sampling` says */
     HD_NEEDS_STATE = 64,  /**< positions and momenta, to measure and report */
-    HD_NEEDS_BOX = 512,   /**< positions in a box */
-    HD_NEEDS_EDGES = 128, /**< plane waves: a box with edges, no curved wall */
-    HD_NEEDS_WHOLE = 256  /**< a frame that is always orthonormal in the whole norm; where half of
+    HD_NEEDS_BOX = 128,   /**< positions in a box */
+    HD_NEEDS_EDGES = 256, /**< plane waves: a box with edges, no curved wall */
+    HD_NEEDS_WHOLE = 512  /**< a frame that is always orthonormal in the whole norm; where half of
                              the vectors are carried, to rounding [T18] */
 };
 

@@ -130,8 +130,7 @@ static hd_status covariant_check(const hd_scene_def *scene, char *message, size_
     if (!(hd_scene_warmup(scene) >= transient))
         return hd_refuse(message, size,
                          "warmup = %.15g: must be at least covariant_transient = %.15g: vectors "
-                         "converge forwards no "
-                         "faster than backwards",
+                         "converge forwards no faster than backwards",
                          scene->warmup, transient);
     if (scene->duration > 0 && !(scene->duration >= window + transient))
         return hd_refuse(message, size,

@@ -23,9 +23,10 @@ void hd_order_tell(hd_communicator *c, hd_order order)
     hd_order_room room = {.text = ""};
     m.with_scene = order.scene != NULL;
     m.with_text = order.text != NULL;
-    if (order.scene) m.scene = *order.scene;
-    if (order.scene)
+    if (order.scene) {
+        m.scene = *order.scene;
         snprintf(m.particles, sizeof m.particles, "%s", hd_dynamics_of(order.scene)->particles);
+    }
     if (order.text) strncpy(room.text, order.text, sizeof room.text - 1);
     hd_communicator_broadcast(c, &m, sizeof m);
     if (order.text) hd_communicator_broadcast(c, room.text, sizeof room.text);

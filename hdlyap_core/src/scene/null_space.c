@@ -1,6 +1,5 @@
 /** Scene -> what is conserved, and the directions that follow from it [T9]. Of the trajectory's
- * start
- * + - * / only. */
+ * start + - * / sqrt only. */
 #include "scene/null_space.h"
 
 #include <math.h>

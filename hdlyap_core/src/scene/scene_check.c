@@ -70,7 +70,7 @@ static hd_status check_particles(const hd_scene_def *def, char *message, size_t 
     return HD_OK;
 }
 
-/** A curved wall leaves no boundaries to choose, and there are no plane waves. */
+/** A curved wall leaves no boundaries to choose. */
 static hd_status check_curved(const hd_scene_def *def, char *message, size_t size)
 {
     const hd_scene_def usual = hd_scene_def_default();
