@@ -256,6 +256,26 @@ TEST(what_cannot_be_is_refused_by_name)
     refused(def, "observables = hydro: must not be given with particles = dumbbells");
 }
 
+/** It starts, and a little more is refused, of any boundary. */
+TEST(the_density_that_a_refusal_names_is_the_largest)
+{
+    static const double bonds[] = {0.01, 0.25, 1.0, 2.0};
+    for (int walls = 0; walls < 4; walls++)
+        for (int b = 0; b < 4; b++) {
+            hd_scene_def def = dumbbells_in_box(30, 5.6, 5.0, bonds[b], 0.0, walls, 1);
+            char message[512] = "";
+            double most = 0.0;
+            assert_int_equal(hd_scene_check(&def, message, sizeof message), HD_REFUSED);
+            const char *at = strstr(message, "must be at most ");
+            assert_true(at && sscanf(at, "must be at most %lf", &most) == 1);
+            def.density = most * (1.0 + 1e-5); /* six digits are told */
+            assert_int_equal(hd_scene_check(&def, NULL, 0), HD_REFUSED);
+            def.density = most * (1.0 - 1e-5);
+            MADE(hd_trajectory, tr, &def);
+            CHECK_OK(hd_trajectory_extend(tr, NULL, 0.5));
+        }
+}
+
 /* ---- hard cases ---------------------------------------------------------------------------- */
 
 typedef struct contacts {
