@@ -49,7 +49,7 @@ hd_relation hd_relation_of(const hd_scene_def *def, hd_mode_kind kind)
     const bool t = kind == HD_MODE_T;
     const hd_container_row *container = hd_container_of(def);
     const double strays = t ? container->t_strays : container->lp_strays;
-    if (isnan(strays)) return NONE;
+    if (hd_scene_dimension(def) == 0 || isnan(strays)) return NONE;
     const int spheres = hd_scene_dimension(def) - 2;
     const bend *b = &BENDS[spheres][t];
     const double l = hd_scene_mean_free_path(def);

@@ -47,8 +47,8 @@ static double momenta(const hd_scene_def *def, int d)
 double hd_gas_temperature(const hd_scene_def *def)
 {
     const int dimension = hd_scene_dimension(def);
-    double all = (hd_scene_coordinates(def) - dimension) *
-                 def->disks; /* nothing is conserved there */
+    const int others = hd_scene_coordinates(def) - dimension; /* of which nothing is conserved */
+    double all = (double)others * def->disks;
     for (int d = 0; d < dimension; d++) all += momenta(def, d);
     return 2.0 * def->disks / all;
 }

@@ -427,4 +427,7 @@ TEST(what_it_takes_is_known_before)
     assert_int_equal(hd_room_check(&scene, (hd_room){1e4, "machine", 1}, message, sizeof message),
                      HD_NO_MEMORY);
     assert_int_equal(hd_waves(&scene, NULL, 0), 0);
+    assert_int_equal(hd_steps_exponents_least(&scene), 0);
+    for (int kind = HD_MODE_T; kind <= HD_MODE_LP; kind++)
+        assert_true(hd_relation_open(&scene, (hd_mode_kind)kind) == INFINITY);
 }
