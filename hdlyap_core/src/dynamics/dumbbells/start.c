@@ -39,14 +39,15 @@ static double gap_of(double x, double y, double bond)
     return sqrt(least) - 1.0;
 }
 
-/** The least gap to a site and those after it, as they come near in its row and the two next. */
-static double least_gap(const rows *r, const hd_boundary *boundary, double bond)
+/** The least gap to a site and those after it, as they come near in its row and the three next; no
+ * further than to one of `lost` or less. */
+static double least_gap(const rows *r, const hd_boundary *boundary, double bond, double lost)
 {
     const bool round[2] = {boundary[r->along] == HD_PERIODIC,
                            boundary[1 - r->along] == HD_PERIODIC};
     double least = INFINITY;
-    for (int n = 0; n <= 3; n++)
-        for (int c = -4; c <= 4; c++) {
+    for (int n = 0; n <= 3 && least > lost; n++)
+        for (int c = -4; c <= 4 && least > lost; c++) {
             const bool other = n > 0 || c > 0;
             const bool is_there = (n < r->rows || round[1]) &&
                                   ((c < r->columns && -c <= r->columns) || round[0]);
@@ -69,7 +70,7 @@ static void try_rows(rows *best, const hd_scene_def *def, const double *box, row
     r.column = spacing(&r.first[0], box[r.along], r.columns, r.staggered, boundary[r.along],
                        reach[0]);
     r.row = spacing(&r.first[1], box[1 - r.along], r.rows, 0, boundary[1 - r.along], reach[1]);
-    r.gap = r.column > 0 && r.row > 0 ? least_gap(&r, boundary, bond) : -1.0;
+    r.gap = r.column > 0 && r.row > 0 ? least_gap(&r, boundary, bond, best->gap) : -1.0;
     if (r.gap > best->gap) *best = r;
 }
 
