@@ -17,7 +17,7 @@ bool hd_pmode_reconstruct(hd_pmode *pmode, const hd_step *step, const hd_modes *
                           hd_columns vectors);
 
 int hd_pmode_pairs(const hd_pmode *pmode); /**< d */
-/** phi_L of pair c for c < d, phi_P of pair c - d beyond; x0 y0 x1 y1 .., of all disks */
+/** phi_L of pair c for c < d, phi_P of pair c - d beyond; [disk][coordinates] */
 const double *hd_pmode_field(const hd_pmode *pmode, int c);
 /** |phi - field|: distance of field c from what the vectors span, 0 .. 1. */
 double hd_pmode_residual(const hd_pmode *pmode, int c);
