@@ -49,7 +49,7 @@ static void count_wave(void *to, const hd_wave *wave)
 {
     hd_fields_count *all = to;
     const double pairs = wave->pairs.count, t = wave->transverse.count;
-    all->subspaces += 2.0;
+    all->subspaces += (t > 0) + (pairs > 0);
     all->columns += t + 2.0 * pairs;
     all->lp_phases += 2.0 * pairs * pairs;
     all->t_phases += 2.0 * floor(t / 2.0) * floor(t / 2.0);

@@ -5,11 +5,11 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "base/memory.h"
 #include "hdlyap/phases.h"
 #include "hdlyap/wave.h"
 #include "modes/steps.h"
 #include "observe/observable.h"
+#include "scene/container.h"
 
 static const hd_stated UNKNOWN = {.error = -1.0};
 
@@ -20,19 +20,25 @@ static const hd_modulations *fields_of(const hd_wave *wave, hd_mode_kind kind)
     return kind == HD_MODE_T ? &wave->transverse : &wave->pairs;
 }
 
-/** Without memory it cannot be said, and is let pass. */
+/** A step of a target among the waves. */
+typedef struct search {
+    const hd_aim *goal;
+    bool found;
+} search;
+
+static void look_at(void *to, const hd_wave *wave)
+{
+    search *s = to;
+    s->found |= memcmp(wave->n, s->goal->number, sizeof s->goal->number) == 0 &&
+                fields_of(wave, s->goal->quantity->kind)->count > 0;
+}
+
 static bool step_possible(const hd_scene_def *def, const hd_aim *goal, char why[HD_WHY])
 {
-    const int count = hd_waves(def, NULL, 0);
-    hd_wave *wave = hd_memory_alloc((size_t)count + 1, sizeof *wave);
-    bool found = !wave;
-    if (wave) hd_waves(def, wave, count);
-    for (int k = 0; wave && k < count; k++)
-        found |= memcmp(wave[k].n, goal->number, sizeof goal->number) == 0 &&
-                 fields_of(&wave[k], goal->quantity->kind)->count > 0;
-    hd_memory_free(wave);
+    search s = {goal, false};
+    hd_container_of(def)->waves(def, look_at, &s);
     snprintf(why, HD_WHY, "it is not among the waves of the scene, which --check lists");
-    return found;
+    return s.found;
 }
 
 static bool slope_possible(const hd_scene_def *def, const hd_aim *goal, char why[HD_WHY])

@@ -150,27 +150,11 @@ static hd_status covariant_check_ranks(const hd_scene_def *scene, int ranks, cha
                      ranks);
 }
 
-/** Kinds of fields of all wave vectors. */
-static int subspaces_of(const hd_scene_def *def)
-{
-    const int count = hd_waves(def, NULL, 0);
-    int subspaces = 0;
-    hd_wave *wave = hd_memory_alloc((size_t)count + 1, sizeof *wave);
-    if (!wave) return 2 * count;
-    hd_waves(def, wave, count);
-    for (int k = 0; k < count; k++) {
-        subspaces += wave[k].transverse.count > 0;
-        subspaces += wave[k].pairs.count > 0;
-    }
-    hd_memory_free(wave);
-    return subspaces;
-}
-
 static void covariant_extend(hd_extent *extent, const hd_scene_def *scene, const void *self)
 {
     const int known = hd_scene_positive_exponents(scene) + hd_scene_zero_exponents(scene);
     (void)self;
-    extent->subspaces = subspaces_of(scene);
+    extent->subspaces = (int)hd_fields_count_of(scene).subspaces;
     if (extent->vectors > known) extent->angles = HD_PAIRS_OF_SPACES;
 }
 
