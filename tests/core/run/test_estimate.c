@@ -155,3 +155,24 @@ TEST(seconds_of_many_disks)
     assert_int_equal(twice.disks, e.disks);
     check_ratio("of twice as many disks", twice.seconds, 8.0 * e.seconds, SECONDS_FACTOR);
 }
+
+/** Waves of a circle have fields of one kind; some of a box with walls have no T fields. */
+TEST(kinds_of_fields_are_counted)
+{
+    const hd_scene_def scenes[] = {
+        scene(.container = HD_CIRCLE, .disks = 60, .density = 0.4, .max_mode_number = 3),
+        scene(.disks = 60, .boundary[0] = HD_REFLECTING), scene(.disks = 60)};
+    for (int k = 0; k < 3; k++) {
+        const hd_scene_def def = scene_from(scenes[k], .observe = HD_OBSERVE_COVARIANT,
+                                            .covariant_window = 10.0, .covariant_sampling = 5.0,
+                                            .covariant_transient = 50.0, .warmup = 50.0);
+        hd_wave wave[64];
+        const int count = hd_waves(&def, wave, 64);
+        int kinds = 0;
+        for (int w = 0; w < count; w++)
+            kinds += (wave[w].transverse.count > 0) + (wave[w].pairs.count > 0);
+        OWNED(hd_run) *run = created(def);
+        assert_true(count > 0 && count <= 64 && (k == 2) == (kinds == 2 * count));
+        assert_int_equal(hd_extent_of(&def, run).subspaces, kinds);
+    }
+}
