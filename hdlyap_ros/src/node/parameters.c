@@ -283,7 +283,10 @@ void parameter_usual(char text[PARAMETER_TEXT], const parameter *p)
         word = hd_dynamics_of(&usual)->particles;
     }
     if (p->row && p->row->kind == HD_PARAMETER_TEXT) word = "";
-    if (word)
+    if (p->kind == TOPICS_OBSERVED)
+        topic_names(text, PARAMETER_TEXT,
+                    topics_named(p->usual) & topics_of_particles(particles_now()));
+    else if (word)
         snprintf(text, PARAMETER_TEXT, "%s", word);
     else
         snprintf(text, PARAMETER_TEXT, "%.15g", p->row->usual);

@@ -105,37 +105,28 @@ static bool check_ranges(settings *set, reader *r)
 }
 
 /** What such a scene has not goes silently from the defaults. */
-static bool leave_out(settings *set, reader *r, unsigned topics, const char *when,
-                      const char *value)
+static bool leave_all_but(settings *set, reader *r, unsigned topics, const char *when,
+                          const char *value)
 {
     char names[PARAMETER_TEXT], allowed[2 * PARAMETER_TEXT];
-    if (!(set->observables & topics)) return true;
-    topic_names(names, sizeof names, topics_that_are(TOPIC_OBSERVABLE) & ~topics);
-    snprintf(allowed, sizeof allowed, "a list out of %s when %s = %s", names, when, value);
+    if (!(set->observables & ~topics)) return true;
+    topic_names(names, sizeof names, topics);
+    snprintf(allowed, sizeof allowed, "%s%s when %s = %s", *names ? "a list out of " : "[]", names,
+             when, value);
     if (*hdr_param_text(r->params, r->name)) return reader_refuse(r, allowed);
-    set->observables &= ~topics;
+    set->observables &= topics;
     return true;
-}
-
-/** Topics of positions in a box, and of what is computed from them. */
-static unsigned topics_of_box(void)
-{
-    const unsigned stages = hd_observe_of_box();
-    unsigned set = topics_that_are(TOPIC_OF_BOX);
-    for (topic t = 0; t < TOPICS; t++)
-        if (topic_stages(topic_bit(t)) & stages) set |= topic_bit(t);
-    return set;
 }
 
 static bool check_observables(settings *set, reader *r)
 {
-    const unsigned of_vectors = topics_that_are(TOPIC_OF_VECTORS);
     const hd_dynamics *of = hd_dynamics_of(&set->def);
+    const unsigned of_particles = topics_of_particles(of);
     r->name = "observables";
-    if (of->dimension == 0 && !leave_out(set, r, topics_of_box(), "particles", of->particles))
-        return false;
+    if (!leave_all_but(set, r, of_particles, "particles", of->particles)) return false;
     if (set->def.exponents == HD_EXPONENTS_NONE &&
-        !leave_out(set, r, of_vectors, "exponents", "none"))
+        !leave_all_but(set, r, of_particles & ~topics_that_are(TOPIC_OF_VECTORS), "exponents",
+                       "none"))
         return false;
     set->def.observe = topic_stages(set->observables);
     return true;

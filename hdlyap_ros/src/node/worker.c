@@ -197,9 +197,10 @@ static void change_if_due(worker *w)
     pthread_mutex_unlock(&w->lock);
 }
 
-/** Of disks that have begun with kinetic energy N. */
+/** Of disks that have begun with kinetic energy N; of what cannot be examined nothing is known. */
 static examination examine(const hd_run *run)
 {
+    if (!hd_dynamics_of(hd_run_scene(run))->examine) return (examination){.made = false};
     const hd_trajectory *trajectory = hd_run_parts(run).trajectory;
     const double disks = hd_run_scene(run)->disks;
     const hd_examined now = hd_trajectory_examined(trajectory);

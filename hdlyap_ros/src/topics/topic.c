@@ -4,6 +4,9 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "hdlyap/dynamics.h"
+#include "hdlyap/observables.h"
+
 static const struct {
     const char *name;
     unsigned stages, is;
@@ -60,6 +63,12 @@ unsigned topics_of_stages(unsigned stages)
     for (topic t = 0; t < TOPICS; t++)
         if (topics[t].stages & stages) set |= topic_bit(t);
     return set & topics_that_are(TOPIC_OBSERVABLE);
+}
+
+unsigned topics_of_particles(const hd_dynamics *of)
+{
+    const unsigned of_box = topics_that_are(TOPIC_OF_BOX) | topics_of_stages(hd_observe_of_box());
+    return topics_that_are(TOPIC_OBSERVABLE) & (of->dimension > 0 ? ~0u : ~of_box);
 }
 
 unsigned topic_stages(unsigned set)

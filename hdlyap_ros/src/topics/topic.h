@@ -47,6 +47,10 @@ unsigned topics_that_are(unsigned any);
 /** Observables behind which one of these stages stands. */
 unsigned topics_of_stages(unsigned stages);
 
+/** Observables that there are of such particles: without a box none of positions in it, nor of what
+ * is computed from them. */
+unsigned topics_of_particles(const hd_dynamics *of);
+
 /** Stages of the core (HD_OBSERVE_*) behind a set of topics; what these need comes by itself. */
 unsigned topic_stages(unsigned set);
 
