@@ -4,6 +4,7 @@
 import sys
 
 import hdlyap
+import rosbag
 from hdlyap.plots import report
 from hdlyap.plots.figures import style
 import numpy as np
@@ -15,6 +16,14 @@ def main():
     assert list(one.info.own) == ['beta=2', 'energy=1', 'time_step=0.02'], one.info.own
     assert report.system(one.info) == 'chain, N = 8, beta=2, energy=1, time_step=0.02'
     assert style.scene(one.info) == 'ring: chain, $N=8$'
+    assert (one.said.phase_space, one.said.positive_end) == (16, 6)
+    with rosbag.Bag(sys.argv[1]) as bag:
+        said = [
+            status.message
+            for _, heard, _ in bag.read_messages('/diagnostics')
+            for status in heard.status
+        ]
+    assert len(said) >= 4 and not any('energy' in text or 'overlap' in text for text in said), said
     assert two.info.own == one.info.own and two.info.resumed_time > 0
     assert two.is_complete and two.times[-1] > 1.5 * one.times[-1]
     exponents = two.exponents[-1]

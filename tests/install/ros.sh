@@ -56,17 +56,23 @@ chain_runs() {
     local folder=$WORK/ring
     rm -rf "$folder" && mkdir -p "$folder"
     printf '%s: %s\n' disks 8 beta 2.0 exponents all duration 2000.0 observables '[spectrum, localization]' >"$WORK/ring.yaml"
-    own_launch "$1" record:=true "bag:=$folder/one.bag" "checkpoint:=$folder/kept" || return 1
+    own_launch "$1" record:=true "bag:=$folder/one.bag" "checkpoint:=$folder/kept" pace:=400 || return 1 # 5 s: it is examined
     in_space "$1" hdlyap plot "$folder/one.bag" --out "$folder" && [[ -s $folder/spectrum.png ]] || return 1
     own_launch "$1" "resume:=$folder/kept" duration:=4000.0 scene:= record:=true "bag:=$folder/two.bag" || return 1
     rosparam delete /hdlyap # the master is everybody's here
     in_space "$1" python3 "$ROOT/tests/install/chain.py" "$folder/one.bag" "$folder/two.bag" || return 1
+    in_space "$1" hdlyap repeat "$folder/one.bag" >"$folder/again.yaml" && is_valid "$1" "$folder/again.yaml" || return 1
+    in_space "$1" rosrun hdlyap_downstream chain_node --parameters >"$folder/all.yaml" && is_valid "$1" "$folder/all.yaml" disks:=8 || return 1
     refused "$1" 'beta = -1: must be from 0 to 1000' beta:=-1 &&
         refused "$1" 'betta = 1: must be removed: there is no parameter of this name; is beta meant?' betta:=1 &&
         refused "$1" 'particles = rods: must be disks, spheres, dumbbells or chain' particles:=rods &&
         refused "$1" 'density = 0.5: must not be given with particles = chain, which have no positions in a box' density:=0.5 &&
-        refused "$1" 'observables = [state]: must be a list out of spectrum, covariant, localization when particles = chain' 'observables:=[state]'
+        refused "$1" 'observables = [state]: must be a list out of spectrum, covariant, localization when particles = chain' 'observables:=[state]' &&
+        refused "$1" 'observables = [spectrum, localization]: must be [] when exponents = none' exponents:=none
 }
+
+# is_valid SETUP SCENE [ARGUMENT]...
+is_valid() { in_space "$1" rosrun hdlyap_downstream chain_node --check "${@:2}"; }
 
 # refused SETUP LINE ARGUMENT
 refused() {

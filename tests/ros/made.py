@@ -77,6 +77,7 @@ def run_info(**fields):
         scene='made',
         particles='disks',
         dimension=3 if fields.get('particles') == 'spheres' else 2,
+        coordinates=3 if fields.get('particles') == 'spheres' else 2,
         disks=20,
         density=0.5,
         aspect=1.0,

@@ -2,6 +2,7 @@
 #include "topics/moment.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 
 #include "hdlyap/hdlyap.h"
 #include "node/parameters.h"
@@ -54,6 +55,17 @@ static bool fill_changes(hdr_run_info *info, const moment *now)
     return list;
 }
 
+/** To the last bit. */
+static void write_own(char *text, size_t size, const hd_parameter *row, double value)
+{
+    const char *word = hd_parameter_is_word(row, value) ? hd_parameter_word_of(row, (int)value)
+                                                        : NULL;
+    char digits[32];
+    snprintf(digits, sizeof digits, "%.15g", value);
+    if (strtod(digits, NULL) != value) snprintf(digits, sizeof digits, "%.17g", value);
+    snprintf(text, size, "%s=%s", row->name, word ? word : digits);
+}
+
 /** Parameters of what moves alone. */
 static bool fill_own(hdr_run_info *info, const moment *now)
 {
@@ -66,14 +78,8 @@ static bool fill_own(hdr_run_info *info, const moment *now)
     if (!list || !text) return false;
     for (uint32_t k = 0; k < count; k++, text += LENGTH) {
         const hd_parameter *row = &of->parameter[k];
-        const double value = hd_parameter_value(row, def);
-        const char *word = hd_parameter_is_word(row, value) ? hd_parameter_word_of(row, (int)value)
-                                                            : NULL;
         list[k] = text;
-        if (word)
-            snprintf(text, LENGTH, "%s=%s", row->name, word);
-        else
-            snprintf(text, LENGTH, "%s=%.15g", row->name, value);
+        write_own(text, LENGTH, row, hd_parameter_value(row, def));
     }
     info->own = (hdr_strings){list, count};
     return true;
@@ -89,6 +95,7 @@ static void fill_scene(hdr_run_info *info, const settings *set)
     info->scene = set->scene;
     info->particles = set->particles;
     info->dimension = (uint32_t)hd_scene_dimension(def);
+    info->coordinates = (uint32_t)hd_scene_coordinates(def);
     info->box_x = box[0];
     info->box_y = box[1];
     info->box_z = has_z ? box[2] : 0.0;

@@ -5,6 +5,8 @@ import numpy as np
 
 from hdlyap.msg import LpPhase
 
+from . import space
+
 POINTS = 256  # of a period: enough for k r up to 100
 
 
@@ -15,6 +17,8 @@ def is_curved(info):
 
 def not_asked(info):
     """Parameters that run_info has, but that none of its scenes may say."""
+    if space.without_box(info):
+        return OF_A_BOX
     if not is_curved(info):
         return ()
     without = ('aspect',) if info.container in WITHOUT_ASPECT else ()
@@ -41,5 +45,6 @@ def _in_a_circle(info, wave_number, order, bits, x, y):
     return _bessel(order, wave_number * np.abs(from_centre)) * angular
 
 
+OF_A_BOX = ('container', 'density', 'aspect', 'boundary_x', 'boundary_y')
 WITHOUT_ASPECT = {'circle'}
 MODULATIONS = {'circle': _in_a_circle}

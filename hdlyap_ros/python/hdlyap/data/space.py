@@ -2,11 +2,19 @@
 spheres z."""
 
 import numpy as np
+import yaml
 
 
 def is_solid(info):
     """Whether it is of spheres; None is of disks."""
     return info is not None and info.dimension == 3
+
+
+def own(info):
+    """{name: value} of the parameters of such particles alone."""
+    return {
+        name: yaml.safe_load(value) for name, _, value in (one.partition('=') for one in info.own)
+    }
 
 
 def without_box(info):
@@ -54,4 +62,4 @@ def distance(info):
 
 def phase_space(info):
     """Lyapunov exponents in all: 4N, of spheres 6N."""
-    return 2 * len(axes(info)) * info.disks
+    return 2 * info.coordinates * info.disks

@@ -9,7 +9,7 @@ from hdlyap.data import containers, reader, space
 # of run_info, what is no parameter: what follows from them, and what the run ran on
 RESULTS = ('header', 'run_id', 'version', 'dimension', 'box_x', 'box_y', 'box_z', 'outline_x')
 RESULTS += ('outline_y', 'vectors', 'zero_exponents', 'wave_nx', 'wave_ny', 'wave_nz')
-RESULTS += ('own', 'resumed_time', 'ranks')
+RESULTS += ('coordinates', 'own', 'resumed_time', 'ranks')
 RESULTS += ('blas_threads', 'blas_library', 'blas_kernel', 'blas_threading')
 OF_SPHERES = ('aspect_z', 'boundary_z')  # which disks have not
 # a word, or a list of numbers as text
@@ -43,8 +43,7 @@ def parameters(info):
     asked = {name: getattr(info, name) for name in names}
     asked.update({name: _list_of(asked[name]) for name in LISTS}, checkpoint='', resume='')
     asked.update({name: asked[name] or 'auto' for name in ('interval', 'phase_interval')})
-    for text in info.own:
-        asked.update(yaml.safe_load(text.replace('=', ': ', 1)))
+    asked.update(space.own(info))
     before = {change.name: change.before for change in reversed(info.changes)}  # as it began
     asked.update({name: _typed(asked[name], value) for name, value in before.items()})
     return {**asked, 'changes': [_change(change) for change in info.changes]}

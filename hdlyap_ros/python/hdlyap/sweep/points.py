@@ -69,6 +69,8 @@ class Point:
 
 
 def system(info):
+    if space.without_box(info):
+        return {'disks': info.disks, **space.own(info)}
     walls = [info.container] if is_curved(info) else space.along(info, 'boundary_')
     walls = walls[:1] if len(set(walls)) == 1 else walls
     solid = {'aspect_z': info.aspect_z} if space.is_solid(info) else {}
@@ -96,8 +98,8 @@ def read(paths, choice=(None, None)):
         try:
             info = list(reader.run_infos(path).values())[-1]
             first = first or info
-            if space.is_solid(info) != space.is_solid(first):
-                what, others = (space.particle(one) + 's' for one in (info, first))
+            if info.particles != first.particles:
+                what, others = info.particles, first.particles
                 raise RecordingError(f'{path}: of {what}, in a table of {others}')
             same = [str(getattr(info, name)) for name in MEASURED]
             systems.setdefault((*system(info).values(), *same), []).append(path)

@@ -1,0 +1,74 @@
+#!/usr/bin/env python3
+"""Bags of particles without positions in a box, whose parameters are their own."""
+
+import unittest
+
+import yaml
+
+import made
+from bags import Bags
+from hdlyap.data.reader import RecordingError
+from hdlyap.follow import watch
+from hdlyap.plots import repetition, report
+from hdlyap.plots.comparison import Comparison
+from hdlyap.sweep import points, table
+import hdlyap
+
+OWN = ['beta=0.30000000000000004', 'energy=1', 'start=cold']
+
+
+def chain(**fields):
+    """As a node of a chain says: eight, of which each has one coordinate."""
+    usual = dict(particles='chain', dimension=0, coordinates=1, disks=8, own=OWN)
+    usual.update(boundary_x='', boundary_y='', zero_exponents=4)
+    return made.run_info(**{**usual, **fields})
+
+
+class WithoutBox(Bags):
+    def spectrum(self, name, **fields):
+        half = [2.0 - 0.25 * k for k in range(6)]
+        exponents = half + [0.0] * 4 + [-one for one in reversed(half)]
+        return self.write([chain(**fields), made.spectrum(exponents, 50.0)], name)
+
+    def test_sizes(self):
+        """Two exponents each, half of those that do not vanish positive."""
+        view = watch.View()
+        view.info = chain()
+        self.assertEqual((view.phase_space, view.positive_end), (16, 6))
+
+    def test_report(self):
+        said = report.report(hdlyap.load(self.spectrum('a')).said)
+        self.assertIn('the last 6 exponents before the zeros', said)
+        self.assertIn('chain, N = 8, beta=0.30000000000000004, energy=1, start=cold', said)
+
+    def test_repeated(self):
+        """Nothing of a box, which the node would refuse; own parameters to the last bit."""
+        asked = yaml.safe_load(repetition.scene_file(chain()))
+        box = 'container density aspect aspect_z boundary_x boundary_y boundary_z coordinates own'
+        self.assertFalse(set(box.split()) & set(asked))
+        self.assertEqual((asked['beta'], asked['energy']), (0.1 + 0.2, 1))
+        self.assertEqual((asked['particles'], asked['start']), ('chain', 'cold'))
+
+    def test_others(self):
+        """Other own parameters make another system."""
+        paths = self.spectrum('a'), self.spectrum('b', seed='2', own=['beta=2', *OWN[1:]])
+        with self.assertRaisesRegex(RecordingError, 'do not belong together: own is .*beta=0.3'):
+            hdlyap.load(*paths)
+        with self.assertRaisesRegex(RecordingError, 'different systems .* own .*beta=2'):
+            Comparison(*(hdlyap.load(path).said for path in paths))
+
+    def test_table(self):
+        """By own parameters as numbers, not as texts; not beside disks."""
+        values = 10, 2
+        paths = [self.spectrum(f'{x}', own=[f'beta={x}', 'energy=1']) for x in values]
+        paths.append(self.write([made.run_info(), made.spectrum([2.0], 50.0)], 'disks'))
+        found, wrong = points.read(paths)
+        self.assertEqual(wrong, [f'{paths[2]}: of disks, in a table of chain'])
+        self.assertEqual([one.system['beta'] for one in found], [2, 10])
+        first, head, *_ = table.text(found)
+        self.assertEqual(first, 'the same in all: disks 8, energy 1')
+        self.assertEqual(head.split()[:2], ['beta', 'lambda_max'])
+
+
+if __name__ == '__main__':
+    unittest.main()
