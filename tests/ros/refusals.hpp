@@ -7,6 +7,7 @@
 
 extern "C" {
 #include "node/parameters.h"
+#include "node/particles.h"
 #include "topics/topic.h"
 }
 

@@ -271,6 +271,30 @@ TEST(Parameters, RefusedChanges)
     }
 }
 
+/** Of a scene, and of the node alone; a name of its own is a parameter. */
+TEST(Parameters, OwnNamesAreNobodyElses)
+{
+    const hd_scene_def usual = hd_scene_def_default();
+    for (const char *name : {"seed", "pace", "stiffness"}) {
+        hd_dynamics rods = *hd_dynamics_of(&usual);
+        hd_parameter own = {};
+        own.name = name, own.kind = HD_PARAMETER_REAL, own.offset = HD_OWN(0);
+        own.usual = 1, own.most = 10, own.allowed = "from 0 to 10", own.unit = "";
+        rods.particles = "rods", rods.parameter = &own, rods.parameters = 1;
+        const hd_dynamics *const rows[] = {&rods};
+        particles_bring(rows, 1);
+        const std::string line = begun(scene + name + ": 12\n");
+        if (std::strcmp(name, "stiffness") == 0) {
+            EXPECT_EQ(line, "stiffness = 12: must be from 0 to 10");
+        } else {
+            EXPECT_EQ(line, std::string("particles = rods: must have no parameter ") + name +
+                                ": there is another one of this name");
+        }
+    }
+    particles_bring(nullptr, 0);
+    particles_are(nullptr);
+}
+
 TEST(Parameters, ANameAloneChoosesNoScene)
 {
     for (const char *lines : {"scene: quick", "scene: quick\nduration: 5.0"})

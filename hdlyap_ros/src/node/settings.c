@@ -28,6 +28,22 @@ static bool check_names(reader *r)
 
 static void *field_of(settings *set, const parameter *p) { return (char *)set + p->offset; }
 
+/** A value would be read twice. */
+static bool check_own_names(const hd_dynamics *of, const reader *r)
+{
+    for (int k = 0; k < of->parameters; k++) {
+        int same = 0;
+        for (int other = 0; other < parameters_count(); other++)
+            same += strcmp(parameters_at(other).name, of->parameter[k].name) == 0;
+        if (same == 1) continue;
+        snprintf(r->message, r->size,
+                 "particles = %s: must have no parameter %s: there is another one of this name",
+                 of->particles, of->parameter[k].name);
+        return false;
+    }
+    return true;
+}
+
 /** First: its own parameters are parameters, too. */
 static bool read_what_moves(settings *out, reader *r)
 {
@@ -35,7 +51,7 @@ static bool read_what_moves(settings *out, reader *r)
     r->name = p.name;
     if (!reader_read(r, &p, &out->def)) return false;
     particles_are(hd_dynamics_of(&out->def));
-    return true;
+    return check_own_names(particles_now(), r);
 }
 
 static bool read_all(settings *out, reader *r)
