@@ -14,6 +14,8 @@ void particles_bring(const hd_dynamics *const *rows, int count)
 {
     brought = rows;
     brought_count = count;
+    for (int k = 0; k < count; k++)
+        (void)hd_scene_def_of(rows[k]); /* one that lacks something is a bug */
 }
 
 const hd_dynamics *const *particles_brought(int *count)
