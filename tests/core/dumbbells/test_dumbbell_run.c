@@ -1,6 +1,7 @@
 /** Runs of dumbbells: numbers of exponents, pairs, checkpoints, and what is refused. */
 #include "dumbbell.h"
 #include "dynamics/dumbbells/bump.h"
+#include "dynamics/dumbbells/start.h"
 #include "hdlyap/checkpoint.h"
 #include "hdlyap/covariant.h"
 #include "runs.h"
@@ -251,9 +252,42 @@ TEST(what_cannot_be_is_refused_by_name)
     def.aspect = usual_dumbbells().aspect;
     def.density = 0.3;
     refused(def, "container = circle: must be rectangle with particles = dumbbells");
+    hd_trajectory *tr;
+    const molecules s = {.q = {1.0, 1.0, 0.0}};
+    assert_int_equal(hd_trajectory_create_from(&tr, &def, s.q, s.p), HD_REFUSED);
     def = good;
     def.observe = HD_OBSERVE_HYDRO | HD_OBSERVE_STEPS;
     refused(def, "observables = hydro: must not be given with particles = dumbbells");
+}
+
+/** A box too narrow for a molecule is refused of prepared states, too. */
+TEST(no_prepared_molecule_meets_its_own_image)
+{
+    const molecules s = {.q = {1.0, 0.7, 0.0, 5.0, 0.7, 0.0}, .p = {1.0, 0.0, 0.0, -1.0, 0.0, 0.0}};
+    hd_trajectory *tr;
+    for (int walls = 0; walls < 4; walls++) {
+        const hd_scene_def def = dumbbells_in_box(2, 8.0, 1.45, 0.5, 0.0, walls, 1);
+        const hd_status status = hd_trajectory_create_from(&tr, &def, s.q, s.p);
+        assert_int_equal(status, walls < 2 ? HD_REFUSED : HD_OK);
+        hd_trajectory_free(tr);
+    }
+}
+
+/** Near what rows can hold at best: (d + .866) of each of short bonds, a lattice of disks without
+ * gaps at 1, sqrt(3), and rows between at 1.5. A million are refused without a wait. */
+TEST(long_bonds_interlock)
+{
+    static const struct {
+        double bond, best, close;
+    } cases[] = {{0.25, 0.8961, 0.003},
+                 {1.0, 0.57735, 0.002},
+                 {1.5, 0.50395, 0.002},
+                 {1.7320508, 0.57735, 0.005},
+                 {2.0, 0.535, 0.003}};
+    for (int k = 0; k < 5; k++) {
+        const hd_scene_def def = dumbbells_in_box(1000000, 1e3, 1e3, cases[k].bond, 0.0, 0, 1);
+        CHECK_CLOSE(hd_dumbbell_density_max(&def), cases[k].best, cases[k].close);
+    }
 }
 
 /** It starts, and a little more is refused, of any boundary. */

@@ -1,5 +1,6 @@
 /** The estimate of a run's memory against what the core asks for, and what is said where it is too
  * little. */
+#include "dumbbell.h"
 #include "ledger.h"
 #include "runs.h"
 #include "observe/observables.h"
@@ -36,6 +37,25 @@ TEST(the_estimate_is_what_is_asked_for)
     compare(scene_from(short_run(2000, 60, 0), .warmup = 10.0));
     compare(scene_from(short_run(20000, HD_EXPONENTS_NONE, 0), .warmup = 0.0, .equilibration = 0.0,
                        .duration = 0.5));
+}
+
+static hd_scene_def short_dumbbells(int count, int exponents, double warmup, double duration)
+{
+    const double edge = sqrt(count / 0.6);
+    hd_scene_def def = dumbbells_in_box(count, edge, edge, 0.25, 0.0, 0, 1);
+    def.equilibration = 0.1;
+    def.warmup = warmup;
+    def.report_interval = def.duration = duration;
+    def.exponents = exponents;
+    def.threads = 2;
+    return def;
+}
+
+TEST(the_estimate_of_dumbbells_is_what_they_ask_for)
+{
+    compare(short_dumbbells(300, HD_EXPONENTS_POSITIVE, 3.0, 3.0));
+    compare(short_dumbbells(20000, 1, 4.0, 2.0));
+    compare(short_dumbbells(20000, HD_EXPONENTS_NONE, 0.0, 0.5));
 }
 
 /** Of each field: its values at the disks, and some numbers of each vector; none of each other

@@ -90,7 +90,7 @@ static hd_status collide(dumbbells *all, hd_record *record, hd_bump *bump, int32
         bump->p[d] = m->disk[pair[1]].p[d] - m->disk[pair[0]].p[d];
     }
     for (int k = 0; k < 2; k++) turn_fill(bump, m, k, pair[k], arms[k]);
-    if (distance - 1.0 < -all->overlap_max - hd_meeting_depth(m, turning)) return HD_OVERLAP;
+    if (distance - 1.0 < -HD_OVERLAP_MAX - hd_meeting_depth(m, turning)) return HD_OVERLAP;
     const double rate = hd_contact_dot(bump->n, bump->p) + bump->across[1] * bump->spin[1] -
                         bump->across[0] * bump->spin[0];
     const double square = 2.0 * hd_contact_dot(bump->n, bump->n) +
@@ -251,6 +251,13 @@ static double least_at_walls(const hd_molecules *m, int32_t i, double t)
     return least;
 }
 
+double hd_dumbbells_rounding(const dumbbells *all)
+{
+    double fastest = 0.0;
+    for (int32_t i = 0; i < all->m.count; i++) fastest = fmax(fastest, fabs(all->m.spin[i].p));
+    return hd_meeting_depth(&all->m, 2.0 * fastest / all->m.shape.root);
+}
+
 double hd_dumbbells_gap(const dumbbells *all)
 {
     const hd_molecules *m = &all->m;
@@ -283,7 +290,6 @@ static hd_status prepare(dumbbells *all, const hd_scene_def *def)
     HD_TRY(hd_cells_create(&m->cells, def, 1.0 + 2.0 * m->shape.arm));
     for (int d = 0; d < 2; d++) longest = fmax(longest, m->cells.box[d]);
     m->rounding = fmax(1e-13, hd_overlap_rounding(longest, m->epoch_length));
-    all->overlap_max = fmax(HD_OVERLAP_MAX, m->rounding);
     return hd_queue_create(&m->queue, m->count, m->epoch_length);
 }
 
@@ -303,7 +309,7 @@ static hd_status start(dumbbells *all, const double *q, const double *p)
         m->spin[i].q -= floor(m->spin[i].q / m->shape.turn + 0.5) * m->shape.turn;
         hd_cells_add(&m->cells, m->disk, i);
     }
-    if (hd_dumbbells_gap(all) < -all->overlap_max) return HD_OVERLAP;
+    if (hd_dumbbells_gap(all) < -hd_dumbbells_overlap_max(all)) return HD_OVERLAP;
     hd_next_restart(m);
     return HD_OK;
 }
@@ -360,5 +366,6 @@ hd_status hd_dumbbells_create_from(void **state, const hd_scene_def *def, const 
 {
     *state = NULL;
     HD_TRY(hd_scene_check_box(def, NULL, 0));
+    HD_TRY(hd_dumbbells_check_box(def, NULL, 0));
     return create_at(state, def, q, p);
 }

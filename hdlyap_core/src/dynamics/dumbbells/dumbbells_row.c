@@ -18,11 +18,13 @@ enum { SAID = 96 };
 
 /* ---- scene --------------------------------------------------------------------------------- */
 
-/** A molecule that could meet its own image is no pair. */
-static hd_status check_box(const hd_scene_def *scene, char *message, size_t size)
+hd_status hd_dumbbells_check_box(const hd_scene_def *scene, char *message, size_t size)
 {
     double box[HD_DIMENSION_MAX];
     const double bond = hd_dumbbell_bond(scene);
+    if (hd_container_of(scene)->wall)
+        return hd_refuse(message, size, "container = %s: must be rectangle with particles = %s",
+                         hd_container_name(scene), hd_dumbbells_row.particles);
     hd_scene_box(scene, box);
     for (int d = 0; d < 2; d++)
         if (scene->boundary[d] == HD_PERIODIC && !(box[d] > 1.0 + bond))
@@ -37,10 +39,7 @@ static hd_status check_box(const hd_scene_def *scene, char *message, size_t size
 static hd_status row_check(const hd_scene_def *scene, char *message, size_t size)
 {
     char said[SAID];
-    if (hd_container_of(scene)->wall)
-        return hd_refuse(message, size, "container = %s: must be rectangle with particles = %s",
-                         hd_container_name(scene), hd_dumbbells_row.particles);
-    HD_TRY(check_box(scene, message, size));
+    HD_TRY(hd_dumbbells_check_box(scene, message, size));
     if (hd_dumbbell_start_gap(scene) >= HD_START_DISTANCE_MIN - 1.0) return HD_OK;
     hd_container_of(scene)->say(scene, said, sizeof said);
     return hd_refuse(message, size,
@@ -117,8 +116,8 @@ static void row_examine(const void *state, hd_examined *out)
                  t = all->now - all->epoch_start;
     *out = (hd_examined){.energy_rounding = DBL_EPSILON * (64.0 + 16.0 * sqrt(events)),
                          .overlap = fmax(0.0, -hd_dumbbells_gap(all)),
-                         .overlap_rounding = m->rounding,
-                         .overlap_max = all->overlap_max};
+                         .overlap_rounding = hd_dumbbells_rounding(all),
+                         .overlap_max = hd_dumbbells_overlap_max(all)};
     for (int32_t i = 0; i < m->count; i++) {
         const hd_disk *disk = &m->disk[i];
         double r[2];
@@ -144,7 +143,10 @@ static uint32_t row_fingerprint(const void *state)
 }
 
 /** Cells, queue, the next event. */
-static double row_bytes(double molecules) { return 330.0 * molecules; }
+static double row_bytes(double molecules) { return 290.0 * molecules; }
+
+/** In the record, which doubles when it is full, and as maps. */
+static double row_record_bytes(double entries) { return 310.0 * entries; }
 
 /* ---- file ---------------------------------------------------------------------------------- */
 
@@ -193,13 +195,13 @@ static const char *inconsistency(const dumbbells *all)
     for (int32_t i = 0; i < m->count; i++) {
         const hd_disk *disk = &m->disk[i];
         if (!(disk->t >= 0 && disk->t <= since)) return "a dumbbell is ahead of its time";
-        if (!in_its_cell(m, disk, since, fmax(PLACE_CLOSE, all->overlap_max)))
+        if (!in_its_cell(m, disk, since, fmax(PLACE_CLOSE, m->rounding)))
             return "a dumbbell is not in its cell";
         if (!(fabs(m->spin[i].q) <= m->shape.turn)) return "an angle is more than a turn";
     }
     const double excess = row_kinetic_energy(all) - m->count;
     if (!(fabs(excess) <= ENERGY_CLOSE * m->count)) return "the energy is wrong";
-    return hd_dumbbells_gap(all) < -all->overlap_max ? "dumbbells overlap" : NULL;
+    return hd_dumbbells_gap(all) < -hd_dumbbells_overlap_max(all) ? "dumbbells overlap" : NULL;
 }
 
 static void row_archive(void *state, hd_archive *archive)
@@ -262,6 +264,7 @@ const hd_dynamics hd_dumbbells_row = {.particles = "dumbbells",
                                       .fingerprint = row_fingerprint,
                                       .bytes = row_bytes,
                                       .fault = row_fault,
+                                      .record_bytes = row_record_bytes,
                                       .maps_create = hd_bump_maps_create,
                                       .maps_free = hd_bump_maps_free,
                                       .maps_fill = hd_bump_maps_fill,

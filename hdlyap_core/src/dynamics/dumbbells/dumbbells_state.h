@@ -10,7 +10,6 @@
 
 typedef struct dumbbells {
     hd_molecules m;
-    double overlap_max;      /**< see hd_examined */
     double epoch_start, now; /**< simulated time; the first is a multiple of the epoch's length */
     uint64_t collisions, wall_events;
     double virial[2];
@@ -29,6 +28,17 @@ static inline void hd_molecule_fold(const hd_molecules *m, hd_disk *disk, hd_spi
     spin->q -= floor(spin->q / m->shape.turn + 0.5) * m->shape.turn;
 }
 
+/** More than rounding makes of an overlap, see hd_examined: the faster they turn, the more. */
+double hd_dumbbells_rounding(const dumbbells *all);
+/** Deeper than this is a fault: HD_OVERLAP_MAX, or what rounding makes where that is more. */
+static inline double hd_dumbbells_overlap_max(const dumbbells *all)
+{
+    return fmax(HD_OVERLAP_MAX, hd_dumbbells_rounding(all));
+}
+
+/** A rectangle, and a molecule that could meet its own image is no pair. */
+HD_MUST_CHECK hd_status hd_dumbbells_check_box(const hd_scene_def *scene, char *message,
+                                               size_t size);
 /** Of all gaps and images now, the smallest; at most what cells reach. */
 double hd_dumbbells_gap(const dumbbells *all);
 

@@ -16,17 +16,17 @@ typedef struct rows {
     int along; /**< direction of the rows */
     int lies;  /**< that of the bonds */
     int rows, columns;
-    int staggered;
+    double shift;                 /**< of every other row, of a column's distance */
     double column, row, first[2]; /**< distances; of the first site along and across the rows */
     double gap;
 } rows;
 
-/** Distance of `count` sites, half of it more if `half`, negative without room; the first one's
- * place. Between walls with `reach` free at each. */
-static double spacing(double *first, double length, int count, int half, hd_boundary boundary,
+/** Distance of `count` sites, `more` beside it, negative without room; the first one's place.
+ * Between walls with `reach` free at each. */
+static double spacing(double *first, double length, int count, double more, hd_boundary boundary,
                       double reach)
 {
-    const double room = length - 2.0 * reach, gaps = count - 1 + 0.5 * half + 2.0 * AT_WALL;
+    const double room = length - 2.0 * reach, gaps = count - 1 + more + 2.0 * AT_WALL;
     *first = boundary == HD_PERIODIC ? 0.25 * length / count : reach + room * AT_WALL / gaps;
     return boundary == HD_PERIODIC ? length / count : room / gaps;
 }
@@ -39,19 +39,20 @@ static double gap_of(double x, double y, double bond)
     return sqrt(least) - 1.0;
 }
 
-/** The least gap to a site and those after it, as they come near in its row and the three next; no
- * further than to one of `lost` or less. */
+/** The least gap from a site to those after it that can touch it; no further than to one of `lost`
+ * or less. */
 static double least_gap(const rows *r, const hd_boundary *boundary, double bond, double lost)
 {
     const bool round[2] = {boundary[r->along] == HD_PERIODIC,
                            boundary[1 - r->along] == HD_PERIODIC};
+    const int far[2] = {2 + (int)((1.0 + bond) / r->column), 1 + (int)((1.0 + bond) / r->row)};
     double least = INFINITY;
-    for (int n = 0; n <= 3 && least > lost; n++)
-        for (int c = -4; c <= 4 && least > lost; c++) {
+    for (int n = 0; n <= far[1] && least > lost; n++)
+        for (int c = -far[0]; c <= far[0] && least > lost; c++) {
             const bool other = n > 0 || c > 0;
             const bool is_there = (n < r->rows || round[1]) &&
                                   ((c < r->columns && -c <= r->columns) || round[0]);
-            const double x = (c + 0.5 * (r->staggered && n % 2)) * r->column, y = n * r->row;
+            const double x = (c + r->shift * (n % 2)) * r->column, y = n * r->row;
             if (!other || !is_there) continue;
             least = fmin(least, r->lies == r->along ? gap_of(x, y, bond) : gap_of(y, x, bond));
         }
@@ -65,13 +66,34 @@ static void try_rows(rows *best, const hd_scene_def *def, const double *box, row
     const double reach[2] = {0.5 + (r.lies == r.along ? 0.5 * bond : 0.0),
                              0.5 + (r.lies == r.along ? 0.0 : 0.5 * bond)};
     r.columns = (int)(((int64_t)def->disks + r.rows - 1) / r.rows);
-    if (r.staggered && (r.rows == 1 || (boundary[1 - r.along] == HD_PERIODIC && r.rows % 2 == 1)))
+    if (r.shift > 0 && (r.rows == 1 || (boundary[1 - r.along] == HD_PERIODIC && r.rows % 2 == 1)))
         return;
-    r.column = spacing(&r.first[0], box[r.along], r.columns, r.staggered, boundary[r.along],
-                       reach[0]);
+    r.column = spacing(&r.first[0], box[r.along], r.columns, r.shift, boundary[r.along], reach[0]);
     r.row = spacing(&r.first[1], box[1 - r.along], r.rows, 0, boundary[1 - r.along], reach[1]);
     r.gap = r.column > 0 && r.row > 0 ? least_gap(&r, boundary, bond, best->gap) : -1.0;
     if (r.gap > best->gap) *best = r;
+}
+
+/** Rows and columns: distances of rows and of columns are within a factor of 9, as those of all
+ * that is dense are. */
+static void try_shift(rows *best, const hd_scene_def *def, const double *box, rows r)
+{
+    const double most = 9.0, square = def->disks * box[1 - r.along] / box[r.along];
+    const int least = (int)fmin(def->disks, fmax(1.0, sqrt(square / most)));
+    const int last = (int)fmin(def->disks, 1.0 + sqrt(square * most));
+    for (r.rows = least; r.rows <= last; r.rows++) try_rows(best, def, box, r);
+}
+
+/** Long bonds fit where every other row has its disks in the gaps of the one before. */
+static void interlock(rows *best, const hd_scene_def *def, const double *box, int along)
+{
+    const double bond = hd_dumbbell_bond(def);
+    for (int k = 0; k <= 8; k++) {
+        const double column = 1.0 + bond + 0.125 * k * (bond - 1.0),
+                     between = fmin(bond, column - bond);
+        try_shift(best, def, box,
+                  (rows){.along = along, .lies = along, .shift = 0.5 * between / column});
+    }
 }
 
 static rows best_of(const hd_scene_def *def)
@@ -80,12 +102,10 @@ static rows best_of(const hd_scene_def *def)
     double box[HD_DIMENSION_MAX];
     hd_scene_box(def, box);
     for (int kind = 0; kind < 8; kind++)
-        for (int count = 1; count <= def->disks; count++)
-            try_rows(&best, def, box,
-                     (rows){.along = kind & 1,
-                            .lies = kind >> 1 & 1,
-                            .staggered = kind >> 2,
-                            .rows = count});
+        try_shift(&best, def, box,
+                  (rows){.along = kind & 1, .lies = kind >> 1 & 1, .shift = kind >> 2 ? 0.5 : 0.0});
+    for (int along = 0; along < 2 && best.gap < HD_START_DISTANCE_MIN - 1.0; along++)
+        interlock(&best, def, box, along);
     return best;
 }
 
@@ -112,7 +132,7 @@ void hd_dumbbell_start(const hd_scene_def *def, double *q)
     for (int row = 0; row < r.rows; row++)
         for (int column = 0; column < r.columns; column++, site++) {
             if (hd_site_is_spare(site, sites, def->disks)) continue;
-            q[r.along] = r.first[0] + (column + 0.5 * (r.staggered && row % 2)) * r.column;
+            q[r.along] = r.first[0] + (column + r.shift * (row % 2)) * r.column;
             q[1 - r.along] = r.first[1] + row * r.row;
             q[2] = turned * sqrt(hd_dumbbell_inertia(def));
             q += 3;
