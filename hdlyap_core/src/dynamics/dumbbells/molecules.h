@@ -4,6 +4,7 @@
 #define HD_MOLECULES_H
 
 #include "dynamics/hard/cells.h"
+#include "dynamics/hard/contact.h"
 #include "dynamics/hard/queue.h"
 
 /** Third coordinate of a molecule, its angle times the root of the inertia, and the momentum of it;
@@ -42,33 +43,43 @@ typedef struct hd_molecules {
     double rounding; /**< of a gap [sigma] */
 } hd_molecules;
 
-/** Unit vector of an angle. Within 2 eps, and the same bits everywhere: + - * / alone. */
-static inline void hd_direction(double e[2], double angle)
+/** Unit vectors of two angles, (c, s). Within 2 eps, and the same bits everywhere: + - * / alone.
+ */
+static inline void hd_directions(hd_pair *c, hd_pair *s, hd_pair angle)
 {
     static const double quarter[3] = {1.57079632673412561417e+00, 6.07710050630396597660e-11,
                                       2.02226624879595063154e-21}; /* of a turn, in parts */
     const double whole = 6755399441055744.0; /* 1.5 2^52: beside it fractions are rounded away */
-    const double k = (angle * 0.63661977236758134308 + whole) - whole;
-    const double x = ((angle - k * quarter[0]) - k * quarter[1]) - k * quarter[2], z = x * x;
-    const double odd = x + x * z *
-                               (-1.66666666666666324348e-01 +
-                                z * (8.33333333332248946124e-03 +
-                                     z * (-1.98412698298579493134e-04 +
-                                          z * (2.75573137070700676789e-06 +
-                                               z * (-2.50507602534068634195e-08 +
-                                                    z * 1.58969099521155010221e-10)))));
-    const double even = 1.0 -
-                        (0.5 * z - z * z *
-                                       (4.16666666666666019037e-02 +
-                                        z * (-1.38888888888741095749e-03 +
-                                             z * (2.48015872894767294178e-05 +
-                                                  z * (-2.75573143513906633035e-07 +
-                                                       z * (2.08757232129817482790e-09 +
-                                                            z * -1.13596475577881948265e-11))))));
-    const int64_t quadrant = (int64_t)k & 3;
-    const double c = quadrant & 1 ? odd : even, s = quadrant & 1 ? even : odd;
-    e[0] = quadrant == 1 || quadrant == 2 ? -c : c;
-    e[1] = quadrant >= 2 ? -s : s;
+    const hd_pair turned = angle * 0.63661977236758134308 + whole, k = turned - whole;
+    const hd_pair x = ((angle - k * quarter[0]) - k * quarter[1]) - k * quarter[2], z = x * x;
+    const hd_pair odd = x + x * z *
+                                (-1.66666666666666324348e-01 +
+                                 z * (8.33333333332248946124e-03 +
+                                      z * (-1.98412698298579493134e-04 +
+                                           z * (2.75573137070700676789e-06 +
+                                                z * (-2.50507602534068634195e-08 +
+                                                     z * 1.58969099521155010221e-10)))));
+    const hd_pair even = 1.0 -
+                         (0.5 * z - z * z *
+                                        (4.16666666666666019037e-02 +
+                                         z * (-1.38888888888741095749e-03 +
+                                              z * (2.48015872894767294178e-05 +
+                                                   z * (-2.75573143513906633035e-07 +
+                                                        z * (2.08757232129817482790e-09 +
+                                                             z * -1.13596475577881948265e-11))))));
+    const hd_pair_mask quadrant = (hd_pair_mask)turned, swap = (quadrant & 1) != 0,
+                       sign = {INT64_MIN, INT64_MIN};
+    *c = (hd_pair)((hd_pair_mask)hd_pair_where(swap, odd, even) ^
+                   ((((quadrant + 1) & 2) != 0) & sign));
+    *s = (hd_pair)((hd_pair_mask)hd_pair_where(swap, even, odd) ^ (((quadrant & 2) != 0) & sign));
+}
+
+static inline void hd_direction(double e[2], double angle)
+{
+    hd_pair c, s;
+    hd_directions(&c, &s, hd_pair_both(angle));
+    e[0] = c[0];
+    e[1] = s[0];
 }
 
 /** Of disk 0 or 1 of a molecule: -1 or 1 times the arm. */
