@@ -16,5 +16,5 @@ left.set_ylabel('exponent [%s]' % run.units['exponents'])
 right.hist(run.local.exponents[:, 0], bins=20)  # each sample once
 right.axvline(run.results.value['lambda_max'], color='black')
 right.set_xlabel('local lambda_max [%s]' % run.units['local.exponents'])
-figure.suptitle('%s: %d disks' % (run.info.scene, run.info.disks))
+figure.suptitle('%s: %d disks' % (run.info.scene, run.info.number))
 figure.savefig(sys.argv[1])

@@ -18,7 +18,7 @@ os.makedirs(folder, exist_ok=True)
 
 
 def save(figure, name):
-    figure.suptitle('%d disks, density %g' % (run.info.disks, run.info.density))
+    figure.suptitle('%d disks, density %g' % (run.info.number, run.info.density))
     figure.savefig(os.path.join(folder, name + '.png'), dpi=150)
 
 

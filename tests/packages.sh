@@ -82,7 +82,7 @@ installs() { inside bash -c 'apt-get install -y -q --no-install-recommends /pack
 
 finds_package() { [[ $(as_user 'rospack find hdlyap') == /usr/share/hdlyap ]]; }
 
-node_runs() { beside_a_master 'rosrun hdlyap hdlyap_node _disks:=20 _aspect:=1.0 _equilibration:=1.0 _warmup:=1.0 _duration:=5.0'; }
+node_runs() { beside_a_master 'rosrun hdlyap hdlyap_node _number:=20 _aspect:=1.0 _equilibration:=1.0 _warmup:=1.0 _duration:=5.0'; }
 
 # launches ARGUMENT...: to the result.
 launches() {

@@ -48,7 +48,7 @@ type_in() {
         *bench/run.sh*) run bash -ec "$1 --quick" ;; # fifteen minutes otherwise
         build/findings/*) run bash -ec "${1/ / --quick }" ;; # minutes otherwise
         *scene:=covariant*) # a minute otherwise
-            sed 's/^disks: .*/disks: 40/' "$ROOT/launch/scenes/covariant.yaml" >few.yaml
+            sed 's/^number: .*/number: 40/' "$ROOT/launch/scenes/covariant.yaml" >few.yaml
             run bash -ec "${1/scene:=covariant/scene:=$PWD/few.yaml}"
             ;;
         *rviz:=true*) opens rviz bash -ec "$1" ;;
@@ -89,7 +89,7 @@ opens() {
 beside_a_node() {
     local node status=0
     rosparam delete /hdlyap 2>/dev/null || true # of a launch before
-    start rosrun hdlyap hdlyap_node _disks:=100 _density:=0.8 _aspect:=0.2 _duration:=2000 _pace:=300
+    start rosrun hdlyap hdlyap_node _number:=100 _density:=0.8 _aspect:=0.2 _duration:=2000 _pace:=300
     node=$CHILD
     run "$@" || status=$?
     stop "$node"
@@ -156,8 +156,8 @@ mkdir -p build/check && ln -s "${SETUP%/.install/*}" build/check/ros
 block c hdlyap/hdlyap.h "$CORE" >steps.c
 block c /hdlyap/steps "$WRAPPER" >watch_steps.c
 block python rospy "$ROOT/README.md" >watch.py
-block yaml disks: "$ROOT/doc/user_guide.md" >strip.yaml
-block yaml disks: "$ROOT/doc/first_hour.md" >mine.yaml
+block yaml number: "$ROOT/doc/user_guide.md" >strip.yaml
+block yaml number: "$ROOT/doc/first_hour.md" >mine.yaml
 block python hdlyap.load "$ROOT/doc/first_hour.md" >mine.py
 block python hdlyap.load "$ROOT/README.md" >c_t.py
 block yaml base: "$ROOT/doc/user_guide.md" >runs.yaml

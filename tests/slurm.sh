@@ -62,7 +62,7 @@ ranks_of() {
 }
 
 runs_by_mpirun() {
-    mpirun --bind-to none --oversubscribe -n 2 rosrun hdlyap hdlyap_node _disks:=20 _aspect:=1.0 _equilibration:=1.0 _warmup:=1.0 \
+    mpirun --bind-to none --oversubscribe -n 2 rosrun hdlyap hdlyap_node _number:=20 _aspect:=1.0 _equilibration:=1.0 _warmup:=1.0 \
         _duration:=5.0 | tee "$WORK/mpirun.txt" && [[ $(grep -c 'finished at' "$WORK/mpirun.txt") == 1 ]]
 }
 
@@ -77,7 +77,7 @@ refuses_what_is_no_argument() { ! srun -N 1 -n 1 hdlyap run quick --out "$WORK/n
 gone() { [[ -z $(squeue -h -j "$1" 2>/dev/null) ]]; }
 
 sweep() {
-    hdlyap sweep --seeds "1 2" --duration 20 --params "{disks: 60, aspect: 0.2, equilibration: 5.0, warmup: 20.0}" --folder "$WORK/array" "$@"
+    hdlyap sweep --seeds "1 2" --duration 20 --params "{number: 60, aspect: 0.2, equilibration: 5.0, warmup: 20.0}" --folder "$WORK/array" "$@"
 }
 
 # As doc/many_machines.md says.

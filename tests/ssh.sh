@@ -65,7 +65,7 @@ END
 }
 
 missing() {
-    hdlyap sweep --seeds "1 2" --duration 600 --params "{disks: 60, aspect: 0.2, equilibration: 5.0, warmup: 20.0}" --folder "$WORK/out" --write
+    hdlyap sweep --seeds "1 2" --duration 600 --params "{number: 60, aspect: 0.2, equilibration: 5.0, warmup: 20.0}" --folder "$WORK/out" --write
 }
 
 # The key is offered by an agent: roslaunch asks for no other.

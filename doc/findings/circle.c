@@ -27,7 +27,7 @@ typedef struct profiles {
 static hd_scene_def scene_of(int disks, double density, bool quick)
 {
     hd_scene_def scene = hd_scene_def_default();
-    scene.disks = disks;
+    scene.number = disks;
     scene.density = density;
     scene.duration = quick ? 20.0 : 400.0;
     scene.report_interval = 1.0;
@@ -68,7 +68,7 @@ static void add_vector(profiles *all, profile *of, const hd_run *run, hd_columns
     hd_scene_box(hd_run_scene(run), box);
     const double centre = 0.5 * box[0], reach = centre - 0.5;
     of->norm += creal(z * conj(z));
-    for (int j = 0; j < hd_run_scene(run)->disks; j++) {
+    for (int j = 0; j < hd_run_scene(run)->number; j++) {
         const double x = all->q[2 * j] - centre, y = all->q[2 * j + 1] - centre, r = hypot(x, y);
         const double *row = v.data + (size_t)(4 * j) * (size_t)v.stride + (col - v.first);
         const double dx = row[0], dy = row[v.stride];
@@ -92,7 +92,7 @@ static void add_state(profiles *all, const hd_run *run)
     double box[HD_DIMENSION_MAX];
     hd_scene_box(hd_run_scene(run), box);
     const double reach = 0.5 * box[0] - 0.5;
-    for (int j = 0; j < hd_run_scene(run)->disks; j++) {
+    for (int j = 0; j < hd_run_scene(run)->number; j++) {
         const double r = hypot(all->q[2 * j] - 0.5 * box[0], all->q[2 * j + 1] - 0.5 * box[0]);
         const int s = (int)(r * r / (reach * reach) * SHELLS);
         all->disks_in[s < SHELLS ? s : SHELLS - 1]++;
@@ -109,7 +109,7 @@ static void add_state(profiles *all, const hd_run *run)
 static void begin_row(const hd_run *run, const hd_step *step)
 {
     const hd_scene_def *scene = hd_run_scene(run);
-    printf("%d,%.6g,%d,%d,%d,%d,", scene->container == HD_CIRCLE, scene->density, scene->disks,
+    printf("%d,%.6g,%d,%d,%d,%d,", scene->container == HD_CIRCLE, scene->density, scene->number,
            step->kind == HD_MODE_T, step->wave.n[0], step->wave.n[1]);
 }
 

@@ -28,7 +28,7 @@ static hd_scene_def scene_of(double density, int disks, double collisions)
 {
     const double rate = 3.545 * density;
     hd_scene_def scene = hd_scene_def_default();
-    scene.disks = disks;
+    scene.number = disks;
     scene.density = density;
     scene.equilibration = 100.0 / rate;
     scene.warmup = 200.0 / rate;

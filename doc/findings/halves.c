@@ -54,7 +54,7 @@ typedef struct harvest {
 static hd_scene_def scene_of(const box *b, int seed)
 {
     hd_scene_def scene = hd_scene_def_default();
-    scene.disks = b->disks;
+    scene.number = b->disks;
     scene.density = b->density;
     scene.aspect = b->height * b->height * b->density / b->disks;
     scene.boundary[0] = b->end;
@@ -198,7 +198,7 @@ static void follow(harvest *h)
 {
     const hd_scene_def scene = scene_of(&h->box, h->seed);
     h->run = created(&scene);
-    h->p = room(2 * (size_t)scene.disks, sizeof *h->p);
+    h->p = room(2 * (size_t)scene.number, sizeof *h->p);
     h->sums = room(BLOCKS, sizeof *h->sums);
     for (int k = 0; k < STEPS; k++) h->known[k] = -1;
     go_on(h->run, HD_AVERAGING);
@@ -210,7 +210,7 @@ static void follow(harvest *h)
     }
     const double after = hd_trajectory_told(hd_run_parts(h->run).trajectory).virial[0];
     h->pressure = h->flown / h->reports + (after - before) / (hd_run_time(h->run) - start);
-    h->pressure /= scene.disks;
+    h->pressure /= scene.number;
 }
 
 static void harvest_free(harvest *h)

@@ -30,7 +30,7 @@ static double wave_number(const box *b)
 static hd_scene_def scene_of(const box *b, int seed)
 {
     hd_scene_def scene = hd_scene_def_default();
-    scene.disks = b->disks;
+    scene.number = b->disks;
     scene.density = b->density;
     scene.aspect = b->height * b->height * b->density / b->disks;
     scene.seed = (uint64_t)seed + 1;

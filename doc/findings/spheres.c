@@ -45,7 +45,7 @@ static hd_scene_def scene_of(const box *b, int seed, bool quick)
 {
     hd_scene_def scene = hd_scene_def_default();
     scene.particles = HD_SPHERES;
-    scene.disks = b->disks;
+    scene.number = b->disks;
     scene.density = b->density;
     scene.aspect = scene.aspect_z = b->aspect;
     for (int d = 0; d < 3; d++) scene.boundary[d] = b->boundary[d];

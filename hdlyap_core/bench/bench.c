@@ -36,7 +36,7 @@ static hd_scene_def scene_of(const asked *a, int disks, double density)
 {
     hd_scene_def scene = hd_scene_def_default();
     scene.particles = a->spheres ? HD_SPHERES : HD_DISKS;
-    scene.disks = disks;
+    scene.number = disks;
     scene.density = density;
     return scene;
 }
@@ -44,7 +44,7 @@ static hd_scene_def scene_of(const asked *a, int disks, double density)
 /** Numbers of a tangent vector. */
 static int rows_of(const hd_scene_def *scene)
 {
-    return 2 * hd_scene_coordinates(scene) * scene->disks;
+    return 2 * hd_scene_coordinates(scene) * scene->number;
 }
 
 static double spread_of(const hd_run *run)

@@ -71,7 +71,7 @@ typedef struct side {
 static hd_scene_def scene_of(const variant *v, int disks, double aspect)
 {
     hd_scene_def scene = hd_scene_def_default();
-    scene.disks = disks;
+    scene.number = disks;
     scene.aspect = aspect;
     scene.boundary[0] = scene.boundary[1] = v->boundary;
     scene.exponents = v->exponents;

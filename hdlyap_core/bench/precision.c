@@ -277,7 +277,7 @@ static void tell(const study *s, const char *folder, char **argv)
 static hd_scene_def scene_of(bool quick)
 {
     hd_scene_def scene = hd_scene_def_default();
-    if (quick) scene.disks = 64;
+    if (quick) scene.number = 64;
     scene.equilibration = 20.0;
     scene.warmup = 12.0;
     scene.duration = scene.report_interval = 12.0;
@@ -299,7 +299,7 @@ int main(int argc, char **argv)
     s->g = gemm_create(s->w.rows / 4, s->w.vectors);
     s->shown = progress_begin("precision", work_in_all(s));
     measure_all(s);
-    printf("%d disks, %d vectors, a window of %g time units\n", scene.disks, s->w.vectors,
+    printf("%d disks, %d vectors, a window of %g time units\n", scene.number, s->w.vectors,
            s->w.length);
     tell(s, out, argv);
     gemm_free(s->g);

@@ -108,7 +108,7 @@ static void tell(const asked *a, const hd_run *run, const sample *w, const count
 static hd_scene_def scene_of(const asked *a)
 {
     hd_scene_def scene = hd_scene_def_default();
-    scene.disks = a->disks;
+    scene.number = a->disks;
     scene.threads = a->threads;
     scene.equilibration = 5.0;
     scene.warmup = 12.0;

@@ -116,7 +116,7 @@ static void fill(const hd_run *run, double speed, double begin, const double bef
 static void measure(study *all, int which, int disks, int exponents, unsigned stages)
 {
     hd_scene_def scene = hd_scene_def_default();
-    scene.disks = disks;
+    scene.number = disks;
     scene.exponents = exponents;
     scene.observe = stages;
     scene.equilibration = 5.0;

@@ -29,20 +29,20 @@ typedef struct chain {
 
 static hd_status check(const hd_scene_def *scene, char *message, size_t size)
 {
-    if (scene->disks >= 3) return HD_OK;
-    snprintf(message, size, "disks = %d: must be 3 or more with particles = chain", scene->disks);
+    if (scene->number >= 3) return HD_OK;
+    snprintf(message, size, "number = %d: must be 3 or more with particles = chain", scene->number);
     return HD_REFUSED;
 }
 
-static int zeros(const hd_scene_def *s) { return s->own[BETA].real == 0 ? 2 * s->disks : 4; }
-static double entries(const hd_scene_def *s) { return s->disks / s->own[STEP].real; }
-static double rate(const hd_scene_def *s) { return 0.1 * s->disks; }
+static int zeros(const hd_scene_def *s) { return s->own[BETA].real == 0 ? 2 * s->number : 4; }
+static double entries(const hd_scene_def *s) { return s->number / s->own[STEP].real; }
+static double rate(const hd_scene_def *s) { return 0.1 * s->number; }
 static double now(const void *state) { return ((const chain *)state)->now; }
 
 /** At first all energy is kinetic; momenta add up to 0. */
 static hd_status create(void **state, const hd_scene_def *scene)
 {
-    const int n = scene->disks;
+    const int n = scene->number;
     chain *c = *state = calloc(1, sizeof *c + 2 * (size_t)n * sizeof(double));
     if (!c) return HD_NO_MEMORY;
     *c = (chain){.count = n, .beta = scene->own[BETA].real, .step = scene->own[STEP].real};
@@ -134,7 +134,7 @@ static const hd_dynamics of_chain = {
 int main(int argc, char **argv)
 {
     hd_scene_def scene = hd_scene_def_of(&of_chain);
-    scene.disks = argc > 1 ? atoi(argv[1]) : 16;
+    scene.number = argc > 1 ? atoi(argv[1]) : 16;
     scene.own[BETA].real = argc > 2 ? atof(argv[2]) : 1;
     scene.exponents = HD_EXPONENTS_ALL;
     scene.duration = 2000;

@@ -12,7 +12,7 @@
 static hd_scene_def channel(unsigned observe, int threads)
 {
     hd_scene_def scene = hd_scene_def_default();
-    scene.disks = 64;
+    scene.number = 64;
     scene.density = 0.5;
     scene.aspect = 0.0175;
     scene.equilibration = 50.0;

@@ -32,7 +32,7 @@ static hd_scene_def scene_of(char **argument)
     double a[ARGUMENTS];
     hd_scene_def scene = hd_scene_def_default();
     for (int k = 1; k < ARGUMENTS; k++) a[k] = strtod(argument[k], NULL);
-    scene.disks = (int)a[DISKS];
+    scene.number = (int)a[DISKS];
     scene.density = a[DENSITY];
     scene.aspect = 0.9;
     for (int d = 0; d < 2; d++) scene.boundary[d] = a[WALL_X + d] > 0 ? HD_REFLECTING : HD_PERIODIC;
@@ -65,7 +65,7 @@ static void print_counts(const char *name, const long *x)
 
 static void print_state(const hd_run *run)
 {
-    const int disks = hd_run_scene(run)->disks;
+    const int disks = hd_run_scene(run)->number;
     double state[1 + 4 * DISKS_MAX] = {hd_run_time(run)};
     hd_trajectory_state(hd_run_parts(run).trajectory, state + 1, state + 1 + 2 * disks);
     print("", "state", state, 1 + 4 * disks);
@@ -157,7 +157,7 @@ int main(int argc, char **argv)
     hd_run *run = NULL;
     if (argc != ARGUMENTS) return 2;
     const hd_scene_def scene = scene_of(argv);
-    if (scene.disks > DISKS_MAX) return 2;
+    if (scene.number > DISKS_MAX) return 2;
     hd_status status = hd_run_create(&run, &scene, message, sizeof message);
     if (status == HD_OK) print_scene(run);
     while (status == HD_OK && hd_run_stage(run) != HD_FINISHED) {
@@ -165,7 +165,7 @@ int main(int argc, char **argv)
         status = hd_run_advance(run);
         if (status == HD_OK && hd_run_stage(run) != HD_EQUILIBRATING) print_state(run);
         if (hd_covariant_read(hd_run_parts(run).covariant).windows > windows)
-            print_window(hd_run_parts(run).covariant, scene.disks);
+            print_window(hd_run_parts(run).covariant, scene.number);
     }
     hd_run_free(run);
     if (status != HD_OK) fprintf(stderr, "%s %s\n", hd_status_text(status), message);

@@ -4,7 +4,7 @@
 int main()
 {
     hd_scene_def def = hd_scene_def_default();
-    def.disks = 4;
+    def.number = 4;
     hd_trajectory *trajectory = nullptr;
     if (hd_trajectory_create(&trajectory, &def) != HD_OK) return 1;
     hd_trajectory_free(trajectory);

@@ -11,7 +11,7 @@ int main(int argc, char **argv)
     double x[8];
     if (argc != 9) return 2;
     for (int k = 0; k < 8; k++) x[k] = atof(argv[k + 1]);
-    const hd_scene_def scene = scene(.disks = (int)x[0], .density = x[1], .aspect = x[2],
+    const hd_scene_def scene = scene(.number = (int)x[0], .density = x[1], .aspect = x[2],
                                      .boundary[0] = (hd_boundary)x[3],
                                      .boundary[1] = (hd_boundary)x[4], .exponents = (int)x[5],
                                      .observe = (unsigned)x[6], .duration = x[7],

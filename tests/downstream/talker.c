@@ -11,7 +11,7 @@ enum { EXPONENTS = 5 };
 static hd_status compute(hd_run **run, double *exponents)
 {
     hd_scene_def def = hd_scene_def_default();
-    def.disks = 4;
+    def.number = 4;
     def.density = 0.5;
     def.aspect = 1.0;
     def.equilibration = def.warmup = 10.0;

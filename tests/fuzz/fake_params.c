@@ -67,7 +67,7 @@ static const char *const WORDS[] = {
     "cost",      "lp_phases",  "covariant", "",       "0",        "-1",       "1e-6",
     "nan",       "inf",        "0x10",      "1e999",  "true",     "[1]",      "a\nb",
     "%s%n",      "../../x",    "\x1b[2J",   " 1",     "\xff\xfe", "1 pace=2", "1e3 duration=5",
-    "-1 pace=2", "2 disks=5",  "2 pace=",
+    "-1 pace=2", "2 number=5", "2 pace=",
 };
 static const int INTEGERS_AT[] = {0,    1,    2,       3,  10,      37,     100,
                                   1024, 1025, 1000000, -1, INT_MAX, INT_MIN};

@@ -9,7 +9,7 @@
 static hd_scene_def scene_of(int disks, int exponents, unsigned observe)
 {
     hd_scene_def def = hd_scene_def_default();
-    def.disks = disks;
+    def.number = disks;
     def.density = 0.5;
     def.aspect = 1.0;
     def.boundary[1] = disks == 4 ? HD_REFLECTING : HD_PERIODIC;

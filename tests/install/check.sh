@@ -39,7 +39,7 @@ chain() {
         "$WORK/chain" 16 1 | awk '{ x[$1] = $2 } END { for (k = 1; k <= 16; k++) bad += x[k] != -x[33 - k]
             exit bad || !(NR == 32 && x[1] > 0.08 && x[1] < 0.13 && x[13] > 0.005 && x[15] < 0.005) }' &&
         "$WORK/chain" 8 0 | awk '{ if ($2 > 0.003 || $2 < -0.003) bad = 1 } END { exit bad || NR != 16 }' &&
-        [[ $("$WORK/chain" 2) == "disks = 2: must be 3 or more with particles = chain" ]]
+        [[ $("$WORK/chain" 2) == "number = 2: must be 3 or more with particles = chain" ]]
 }
 
 check chain chain

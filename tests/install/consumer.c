@@ -6,7 +6,7 @@
 int main(void)
 {
     hd_scene_def def = hd_scene_def_default();
-    def.disks = 4;
+    def.number = 4;
     def.density = 0.5;
     def.aspect = 1.0;
     def.equilibration = def.warmup = 10.0;

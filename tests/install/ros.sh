@@ -55,14 +55,14 @@ own_launch() { in_space "$1" timeout 100 roslaunch hdlyap run.launch package:=hd
 chain_runs() {
     local folder=$WORK/ring
     rm -rf "$folder" && mkdir -p "$folder"
-    printf '%s: %s\n' disks 8 beta 2.0 exponents all duration 2000.0 observables '[spectrum, localization]' >"$WORK/ring.yaml"
+    printf '%s: %s\n' number 8 beta 2.0 exponents all duration 2000.0 observables '[spectrum, localization]' >"$WORK/ring.yaml"
     own_launch "$1" record:=true "bag:=$folder/one.bag" "checkpoint:=$folder/kept" pace:=400 || return 1 # 5 s: it is examined
     in_space "$1" hdlyap plot "$folder/one.bag" --out "$folder" && [[ -s $folder/spectrum.png ]] || return 1
     own_launch "$1" "resume:=$folder/kept" duration:=4000.0 scene:= record:=true "bag:=$folder/two.bag" || return 1
     rosparam delete /hdlyap # the master is everybody's here
     in_space "$1" python3 "$ROOT/tests/install/chain.py" "$folder/one.bag" "$folder/two.bag" || return 1
     in_space "$1" hdlyap repeat "$folder/one.bag" >"$folder/again.yaml" && is_valid "$1" "$folder/again.yaml" || return 1
-    in_space "$1" rosrun hdlyap_downstream chain_node --parameters >"$folder/all.yaml" && is_valid "$1" "$folder/all.yaml" disks:=8 || return 1
+    in_space "$1" rosrun hdlyap_downstream chain_node --parameters >"$folder/all.yaml" && is_valid "$1" "$folder/all.yaml" number:=8 || return 1
     refused "$1" 'beta = -1: must be from 0 to 1000' beta:=-1 &&
         refused "$1" 'betta = 1: must be removed: there is no parameter of this name; is beta meant?' betta:=1 &&
         refused "$1" 'particles = rods: must be disks, spheres, dumbbells or chain' particles:=rods &&
@@ -201,7 +201,7 @@ made.write(sys.argv[1], test_compare.run())' "$bag" &&
 # A node of the whole package, which waits for those who follow it.
 follows_alone() {
     local node status=0
-    start in_prefix rosrun hdlyap hdlyap_node _disks:=20 _aspect:=1.0 _equilibration:=1.0 _warmup:=1.0 _duration:=5.0 \
+    start in_prefix rosrun hdlyap hdlyap_node _number:=20 _aspect:=1.0 _equilibration:=1.0 _warmup:=1.0 _duration:=5.0 \
         '_wait_for_subscribers:=[cost, spectrum]'
     node=$CHILD
     run in_alone timeout 60 hdlyap follow --line || status=$?

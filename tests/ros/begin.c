@@ -8,7 +8,7 @@
 bool begin_run(const hdr_params *params, bool tiny, char *line, size_t size)
 {
     hd_scene_def two = hd_scene_def_default();
-    two.disks = 2;
+    two.number = 2;
     two.density = 0.1;
     two.aspect = 1.0;
     two.exponents = HD_EXPONENTS_NONE;

@@ -28,12 +28,12 @@ from hdlyap.msg import Mode, RunStatus
 
 NODE = 'hdlyap'
 # a run of a fraction of a second
-SHORT = dict(disks=20, density=0.7, aspect=1.0, equilibration=1.0, warmup=1.0, duration=2.0)
+SHORT = dict(number=20, density=0.7, aspect=1.0, equilibration=1.0, warmup=1.0, duration=2.0)
 # a box so long that its steps are found within a second
-MODES = dict(disks=60, density=0.8, aspect=0.06, equilibration=10.0, warmup=60.0, duration=20.0)
+MODES = dict(number=60, density=0.8, aspect=0.06, equilibration=10.0, warmup=60.0, duration=20.0)
 # reports come at the same times whatever the speed; nobody's listening changes what is computed
 REPEATABLE = dict(
-    disks=60,
+    number=60,
     density=0.8,
     aspect=0.06,
     equilibration=5.0,

@@ -78,7 +78,7 @@ def run_info(**fields):
         particles='disks',
         dimension=3 if fields.get('particles') == 'spheres' else 2,
         coordinates=3 if fields.get('particles') == 'spheres' else 2,
-        disks=20,
+        number=20,
         density=0.5,
         aspect=1.0,
         box_x=40**0.5,
@@ -94,7 +94,7 @@ def run_info(**fields):
 
 def spheres(**fields):
     """Twenty in a box of 8 x 2.5 x 2."""
-    solid = dict(particles='spheres', disks=20, aspect=0.3125, aspect_z=0.25, box_x=8.0)
+    solid = dict(particles='spheres', number=20, aspect=0.3125, aspect_z=0.25, box_x=8.0)
     solid.update(box_y=2.5, box_z=2.0, boundary_z='periodic', zero_exponents=8)
     return run_info(**{**solid, **fields})
 
@@ -423,7 +423,7 @@ def t_phases(made, sim_time, began=0.0, run_id='one'):
 
 def paper_info():
     return run_info(
-        scene='paper_periodic', disks=780, density=0.8, aspect=0.867, box_x=33.535, box_y=29.074
+        scene='paper_periodic', number=780, density=0.8, aspect=0.867, box_x=33.535, box_y=29.074
     )
 
 

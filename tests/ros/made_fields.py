@@ -9,18 +9,18 @@ from hdlyap.data import waves
 def disks(info, seed=1):
     """Positions on a shaken lattice and thermal momenta: x, y, px, py."""
     rng = np.random.default_rng(seed)
-    columns = max(1, round(np.sqrt(info.disks * info.box_x / info.box_y)))
-    place = np.arange(info.disks)
-    rows = -(-info.disks // columns)
-    x = (place % columns + 0.5 + rng.uniform(-0.3, 0.3, info.disks)) * info.box_x / columns
-    y = (place // columns + 0.5 + rng.uniform(-0.3, 0.3, info.disks)) * info.box_y / rows
-    return [x, y, *rng.normal(size=(2, info.disks))]
+    columns = max(1, round(np.sqrt(info.number * info.box_x / info.box_y)))
+    place = np.arange(info.number)
+    rows = -(-info.number // columns)
+    x = (place % columns + 0.5 + rng.uniform(-0.3, 0.3, info.number)) * info.box_x / columns
+    y = (place // columns + 0.5 + rng.uniform(-0.3, 0.3, info.number)) * info.box_y / rows
+    return [x, y, *rng.normal(size=(2, info.number))]
 
 
 def balls(info, seed=1):
     """Positions anywhere and thermal momenta, rows along x, y and z of each."""
     rng = np.random.default_rng(seed)
-    q = rng.uniform(size=(3, info.disks)) * np.array([[info.box_x], [info.box_y], [info.box_z]])
+    q = rng.uniform(size=(3, info.number)) * np.array([[info.box_x], [info.box_y], [info.box_z]])
     return q, np.sqrt(2 / 3) * rng.normal(size=q.shape)
 
 
@@ -40,7 +40,7 @@ def mode_field(info, one, sim_time=150.0, modulations=(0, 1), noise=0.3, index=N
     x, y, px, py = disks(info)
     a, shape = _fields(info, one, modulations, x, y)
     dq = np.array(shape) / np.sqrt(np.mean(np.square(shape)))
-    dq = (dq + noise * rng.normal(size=dq.shape)) / np.sqrt(2 * info.disks)
+    dq = (dq + noise * rng.normal(size=dq.shape)) / np.sqrt(2 * info.number)
     p_mode = [[modulation * p for p in (px, py)] for modulation in a]
     over = [
         [modulation * p * p / (p * p + 0.01) + 0.2 * rng.normal(size=p.size) for p in (px, py)]
@@ -68,7 +68,7 @@ def mode_field(info, one, sim_time=150.0, modulations=(0, 1), noise=0.3, index=N
         made.pairs, made.modulation = len(modulations), bytes(modulations)
         made.residual_l = made.residual_p = [0.1] * len(modulations)
         made.l_x, made.l_y = np.tile(dq[0], len(a)), np.tile(dq[1], len(a))
-        made.p_x, made.p_y = (np.concatenate(part) / np.sqrt(info.disks) for part in zip(*p_mode))
+        made.p_x, made.p_y = (np.concatenate(part) / np.sqrt(info.number) for part in zip(*p_mode))
         made.p_over_px, made.p_over_py = (np.concatenate(part) for part in zip(*over))
     for name, value in fields.items():
         setattr(made, name, value)

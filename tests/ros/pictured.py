@@ -42,7 +42,7 @@ def text(picture):
 def places(picture):
     """Of the disks in the first panel."""
     points = of(picture, 'disks', Marker.SPHERE_LIST)[0].points
-    return np.array([(p.x, p.y) for p in points[: MODES['disks']]])
+    return np.array([(p.x, p.y) for p in points[: MODES['number']]])
 
 
 def lines(picture):

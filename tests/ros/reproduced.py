@@ -56,7 +56,7 @@ def plan():
 
 def box(disks, density, aspect, ends=('periodic', 'periodic'), **fields):
     box_x = sqrt(disks / (density * aspect))
-    about = dict(disks=disks, density=density, aspect=aspect, accuracy=1e-8, **fields)
+    about = dict(number=disks, density=density, aspect=aspect, accuracy=1e-8, **fields)
     about.update(boundary_x=ends[0], boundary_y=ends[1], box_x=box_x, box_y=aspect * box_x)
     return made.run_info(zero_exponents=2 + 2 * ends.count('periodic'), **about)
 
@@ -67,7 +67,7 @@ def info_of(name):
     scene = {}
     for more in (*(_read(f'launch/scenes/{base}.yaml') for base in bases), asked, asked['full']):
         scene.update(more)
-    shape = (scene[one] for one in ('disks', 'density', 'aspect'))
+    shape = (scene[one] for one in ('number', 'density', 'aspect'))
     times = {one: scene[one] for one in ('equilibration', 'warmup')}
     interval = 0.0 if scene['interval'] == 'auto' else scene['interval']
     return box(*shape, (scene['boundary_x'], scene['boundary_y']), interval=interval, **times)
@@ -105,7 +105,7 @@ class Run:
     def __init__(self, name, waves_kept=10):
         self.name, self.info = name, info_of(name)
         self.rng = np.random.default_rng(zlib.crc32(name.encode()))
-        self.end = (4 * self.info.disks - self.info.zero_exponents) // 2
+        self.end = (4 * self.info.number - self.info.zero_exponents) // 2
         self.steps = []
         found = [
             (truth(self.info, kind, made.wave_number(self.info, *nodes)), kind, nodes)
@@ -169,7 +169,7 @@ class Run:
 
     def fluctuating(self, samples=48):
         """Local exponents whose variance times t goes as 1 / N; samples of two lengths."""
-        spread = (0.2 + self.exponents / self.exponents[0]) / self.info.disks
+        spread = (0.2 + self.exponents / self.exponents[0]) / self.info.number
         total = 0.0
         for number in range(samples):
             time = (5.0 if number < samples // 2 else 10.0) * self.rng.uniform(0.9, 1.1)
@@ -285,7 +285,7 @@ def travelling(run):
 
 def halves(run):
     """All 4N vectors, which the symmetry J has in pairs: C = |dp| / |dq|, and the cosines."""
-    count, half = 4 * run.info.disks, 2 * run.info.disks
+    count, half = 4 * run.info.number, 2 * run.info.number
     zeros = run.info.zero_exponents // 2
     shrinking = 1e-3 / np.arange(1, zeros + 1)
     exponents = np.concatenate([run.exponents, shrinking, -shrinking[::-1], -run.exponents[::-1]])

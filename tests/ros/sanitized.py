@@ -33,7 +33,7 @@ WHOLE = dict(
 )
 LITTLE = dict(
     harness.SHORT,
-    disks=6,
+    number=6,
     threads=1,
     observables=['spectrum', 'modes', 'state'],
     wait_for_subscribers='all',

@@ -11,7 +11,7 @@ from hdlyap.msg import Mode
 from hdlyap.plots import equation
 
 BOX = dict(
-    disks=60, density=0.4, aspect=0.5, equilibration=20.0, threads=1, wait_for_subscribers='all'
+    number=60, density=0.4, aspect=0.5, equilibration=20.0, threads=1, wait_for_subscribers='all'
 )
 CHOSEN = [117, 1, 2, 5, 40]
 HALVES = 'dqx', 'dqy', 'dpx', 'dpy'
@@ -31,7 +31,7 @@ def exact_impact(disks, free):
 class Gas(harness.Case):
     def check_gas(self, messages, free, area):
         """What each of them says fits together; the last one has errors."""
-        disks = BOX['disks']
+        disks = BOX['number']
         for message in messages:
             self.assertAlmostEqual(
                 message.pressure, (message.pressure_x + message.pressure_y) / 2, places=12

@@ -38,7 +38,7 @@ RUN = dict(
 REPORTS, BEGIN = 90, 70.0  # of RUN; where its averaging begins
 # 64 kB a report
 BULKY = dict(
-    disks=2000,
+    number=2000,
     density=0.7,
     aspect=1.0,
     exponents=1,
@@ -201,7 +201,7 @@ class Recorded(harness.Case):
                 for topic in ('steps', 'lp_phases', 't_phases', 'structure')
             )
             counts = map(len, (steps.steps, lp.phases, t.phases, structure.nx))
-            sizes = expected_sizes(info.disks, info.vectors, *counts)
+            sizes = expected_sizes(info.number, info.vectors, *counts)
             for topic in sizes:
                 for message in self.of_run(topic, number):
                     written = io.BytesIO()
@@ -210,7 +210,7 @@ class Recorded(harness.Case):
                     names = 4 + len('box') + 4 + len(info.run_id)
                     self.assertEqual(
                         len(written.getvalue()) - names,
-                        sizes[topic] + pairs * (48 * info.disks + 17) + 16 * len(means),
+                        sizes[topic] + pairs * (48 * info.number + 17) + 16 * len(means),
                         topic,
                     )
 

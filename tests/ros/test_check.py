@@ -16,7 +16,7 @@ from harness import MODES, OBSERVABLES
 
 SCENES = os.path.join(os.path.dirname(os.path.abspath(__file__)), '../../launch/scenes')
 COVARIANT = dict(
-    disks=24,
+    number=24,
     density=0.7,
     aspect=0.15,
     exponents='all',
@@ -29,7 +29,7 @@ COVARIANT = dict(
     observables=['covariant'],
 )
 LARGE_WINDOW = dict(
-    disks=4,
+    number=4,
     exponents=2,
     observables=['covariant'],
     covariant_window=10000.0,
@@ -41,7 +41,7 @@ LARGE_WINDOW = dict(
 EVERY_LINE = dict(
     COVARIANT,
     scene='golden',
-    disks=60,
+    number=60,
     density=0.8,
     aspect=0.06,
     boundary_y='reflecting',
@@ -123,12 +123,12 @@ class Check(harness.Case):
 
     def test_what_averaging_does_not_take_away(self):
         """Walls 8.66 apart, k = 0.41: 2.89 % of both, 1.73 % of a step, 0.45 % of curvature."""
-        params = dict(disks=150, density=0.6, aspect=0.3, boundary_y='reflecting')
+        params = dict(number=150, density=0.6, aspect=0.3, boundary_y='reflecting')
         file = self.file_of(params)
         done = checked(file)
         self.assertIn('\n          Beside it, of c_T some 3.4 %, which this box', done.stdout)
         self.assertIn(f'scene     {os.path.basename(file)[:-5]} is valid: ', done.stdout)
-        done = checked(self.file_of(dict(disks=160, density=0.7, container='circle')))
+        done = checked(self.file_of(dict(number=160, density=0.7, container='circle')))
         self.assertIn('\n          of c_T about 1 % of sampling after ', done.stdout)
         self.assertNotIn('c_L', done.stdout)
 
@@ -151,7 +151,7 @@ class Check(harness.Case):
 
     def test_places_that_are_kept(self):
         for density, said in ((0.87, False), (1.0, True)):
-            done = checked(self.file_of(dict(disks=16, density=density)))
+            done = checked(self.file_of(dict(number=16, density=density)))
             self.assertEqual('disks may keep their places at this density' in done.stdout, said)
 
     def test_scenes(self):
@@ -160,7 +160,7 @@ class Check(harness.Case):
             with self.subTest(scene=name):
                 done = checked(
                     os.path.join(SCENES, name + '.yaml'),
-                    *(['disks:=40'] if name != 'narrow' else []),
+                    *(['number:=40'] if name != 'narrow' else []),
                 )
                 self.assertEqual((done.returncode, done.stderr), (0, ''))
                 self.assertIn(f'scene     {name} is valid: ', done.stdout)
@@ -173,7 +173,7 @@ class Check(harness.Case):
     @harness.more
     def test_large(self):
         """An interval of the scene itself would take minutes."""
-        done = checked(os.path.join(SCENES, 'quick.yaml'), 'disks:=4000', 'max_wave_number:=0.12')
+        done = checked(os.path.join(SCENES, 'quick.yaml'), 'number:=4000', 'max_wave_number:=0.12')
         self.assertEqual((done.returncode, done.stderr), (0, ''))
         self.assertIn('4000 disks', done.stdout)
         self.assertIn('by a trial of a second of 800 disks', done.stdout)
@@ -251,12 +251,12 @@ class Check(harness.Case):
 
     def test_refused_as_by_the_node(self):
         some = (
-            dict(disks=-1),
+            dict(number=-1),
             dict(density=2.0, aspect='x'),
             dict(no_such=1),
             dict(observables=['spectrum', 'x']),
             dict(seed=1.5),
-            dict(disks=1000000),
+            dict(number=1000000),
             dict(LARGE_WINDOW, covariant_storage='recompute'),
         )
         nodes = [self.start(params, name='refused_%d' % k) for k, params in enumerate(some)]
@@ -271,17 +271,17 @@ class Check(harness.Case):
 
     def test_refused_files(self):
         for text, said in (
-            ('disks: [1, {a: 2}]', 'line 1: a parameter is a number, a word or a list'),
+            ('number: [1, {a: 2}]', 'line 1: a parameter is a number, a word or a list'),
             ('- disks', 'must be a list of parameters, name: value'),
-            ('disks: 4\nseed: [1', 'line 2'),
+            ('number: 4\nseed: [1', 'line 2'),
         ):
             done = checked(self.file_of(text))
             self.assertEqual((done.returncode, done.stdout), (2, ''))
             self.assertIn(said, done.stderr)
         self.assertIn('there is no such file', checked('/no/such.yaml').stderr)
-        done = checked(self.file_of(''), 'disks=40')
+        done = checked(self.file_of(''), 'number=40')
         self.assertEqual(done.returncode, 2)
-        self.assertIn('disks=40: must be parameter:=value', done.stderr)
+        self.assertIn('number=40: must be parameter:=value', done.stderr)
 
 
 if __name__ == '__main__':

@@ -77,7 +77,7 @@ class Checkpoint(harness.Case):
         self.ends(self.start(again), 0, 'finished at simulated time 31')
         self.assertTrue(info.wait_for(lambda message: True))
         message = info.messages[0]
-        self.assertEqual((message.scene, message.disks, message.exponents), ('kept', 60, '7'))
+        self.assertEqual((message.scene, message.number, message.exponents), ('kept', 60, '7'))
         self.assertCountEqual(message.observables, RUN["observables"])
         self.assertEqual(message.duration, 6.0)
 
@@ -90,7 +90,7 @@ class Checkpoint(harness.Case):
         exec(program, found)
         arrays = dict(found['arrays'](self.file))
         self.assertEqual(b''.join(arrays['label']).rstrip(b'\0').decode(), 'unnamed')
-        self.assertEqual(arrays['scene disks'], [60])
+        self.assertEqual(arrays['scene number'], [60])
         self.assertEqual(arrays['frame vectors'].size, 240 * 117)
         exponents = arrays['spectrum sum'] / arrays['spectrum time']
         self.assertEqual(list(exponents), list(said.exponents))
@@ -98,7 +98,7 @@ class Checkpoint(harness.Case):
     def test_refused(self):
         self.ends(self.start(dict(RUN, resume=self.file)), 4, self.file, 'No such file')
         self.recorded(dict(RUN, checkpoint=self.file, duration=5.0))
-        self.ends(self.start(dict(resume=self.file, disks=61)), 2, 'disks = 61: must be 60')
+        self.ends(self.start(dict(resume=self.file, number=61)), 2, 'number = 61: must be 60')
         self.ends(
             self.start(dict(resume=self.file, duration=4.0)), 2, 'duration = 4: must be at least 5'
         )

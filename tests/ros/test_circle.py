@@ -10,7 +10,7 @@ from hdlyap.data import containers, waves
 from hdlyap.plots import repetition
 
 TOPICS = ['run_info', 'spectrum', 'modes', 'steps', 'lp_phases', 'fields', 'gas', 'state']
-SCENE = dict(container='circle', disks=120, density=0.7, equilibration=20.0, warmup=40.0)
+SCENE = dict(container='circle', number=120, density=0.7, equilibration=20.0, warmup=40.0)
 SCENE.update(scene='round', duration=60.0, report_interval=5.0, observables=TOPICS[1:])
 SLOPE = 1e-5  # of central differences
 ROUNDING = 1e-7
@@ -36,7 +36,7 @@ class Circle(harness.Case):
 
     def test_what_draws_it(self):
         info = self.info
-        radius = np.sqrt(info.disks / (np.pi * info.density))
+        radius = np.sqrt(info.number / (np.pi * info.density))
         self.assertEqual(
             (info.container, info.boundary_x, info.boundary_y), ('circle',) + 2 * ('curved',)
         )
@@ -93,7 +93,9 @@ class Circle(harness.Case):
     def test_gas(self):
         gas = self.messages['gas'][-1]
         area = np.pi * (0.5 * self.info.box_x - 0.5) ** 2
-        self.assertAlmostEqual(gas.compressibility, gas.pressure * area / self.info.disks, places=9)
+        self.assertAlmostEqual(
+            gas.compressibility, gas.pressure * area / self.info.number, places=9
+        )
         self.assertAlmostEqual(gas.compressibility, 5.25, delta=0.15)  # with 480 disks 5.175
 
 

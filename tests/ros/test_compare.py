@@ -336,16 +336,16 @@ class UnknownErrors(Pairs):
 class Refusals(Pairs):
     def test_other_systems(self):
         for name, value in (
-            ('disks', 40),
+            ('number', 40),
             ('density', 0.51),
             ('aspect', 0.9),
             ('boundary_x', 'reflecting'),
             ('boundary_y', 'reflecting'),
         ):
             self.cannot_compare(f'{name} .* and {value}$', run(), run(**{name: value}))
-        said = 'disks 20 and 40, density 0.5 and 0.6'
+        said = 'number 20 and 40, density 0.5 and 0.6'
         said = 'hdlyap compare: the runs are of different systems and are not compared: ' + said
-        self.refuses(said, 'compare', *self.bags(run(), run(density=0.6, disks=40)), status=2)
+        self.refuses(said, 'compare', *self.bags(run(), run(density=0.6, number=40)), status=2)
 
     def test_what_is_not_there(self):
         bare = [INFO, made.cost(1)]

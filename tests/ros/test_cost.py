@@ -9,9 +9,9 @@ from harness import SHORT
 from hdlyap.msg import Cost
 
 STAGES = ['events', 'replay', 'ortho', 'spectrum', 'modes', 'covariant', 'publish']
-BOX = dict(SHORT, disks=100, threads=1)
+BOX = dict(SHORT, number=100, threads=1)
 WINDOW = dict(
-    disks=16,
+    number=16,
     exponents='all',
     observables=['covariant'],
     warmup=20.0,
@@ -22,7 +22,7 @@ WINDOW = dict(
 NO_EXPONENTS = dict(exponents='none', observables=['state'])
 # runs of which so large a share is the stage's, so that a stage told twice or half as long shows
 SHARES = dict(
-    events=(0.6, dict(NO_EXPONENTS, disks=400, duration=200.0, report_interval=20.0)),
+    events=(0.6, dict(NO_EXPONENTS, number=400, duration=200.0, report_interval=20.0)),
     replay=(
         0.08,
         dict(exponents=100, observables=['spectrum'], duration=400.0, report_interval=50.0),
@@ -30,7 +30,7 @@ SHARES = dict(
     ortho=(0.6, dict(interval=0.02, observables=['spectrum'], duration=4.0)),
     modes=(0.1, dict(max_mode_number=4, observables=['modes'], duration=45.0, report_interval=0.1)),
     covariant=(0.4, dict(WINDOW, duration=60.0)),
-    publish=(0.6, dict(NO_EXPONENTS, disks=2000, density=0.1, report_interval=0.002)),
+    publish=(0.6, dict(NO_EXPONENTS, number=2000, density=0.1, report_interval=0.002)),
 )
 WHOLE = 0.93  # of the wall time, at least, in all stages together
 ROUNDING = 1e-9

@@ -11,7 +11,7 @@ from hdlyap.msg import CovariantAngle, Mode
 
 START, WINDOW, TRANSIENT, SAMPLING, DURATION = 30.0, 5.0, 20.0, 1.0, 200.0
 SCENE = dict(
-    disks=16,
+    number=16,
     density=0.7,
     aspect=0.866,
     exponents='all',

@@ -78,7 +78,7 @@ class Arrays(Loaded):
 
     def test_running_means(self):
         run = self.run_
-        self.assertEqual(run.info.disks, DISKS)
+        self.assertEqual(run.info.number, DISKS)
         self.equal(run.times, self.column('spectrum', 'sim_time'))
         self.equal(run.averaged_times, self.column('spectrum', 'averaged_time'))
         self.equal(run.exponents, self.column('spectrum', 'exponents'))

@@ -38,7 +38,7 @@ def numbered(messages):
 
 def run(times, run_id='one', **info):
     """Messages of a run that averages since 100, each of them known by its time."""
-    messages = [made.run_info(run_id=run_id, resumed_time=-1.0, disks=20)]
+    messages = [made.run_info(run_id=run_id, resumed_time=-1.0, number=20)]
     for name, value in info.items():
         setattr(messages[0], name, value)
     for time in times:
@@ -163,7 +163,7 @@ class OneRun(Loaded):
         a = self.write(run([1, 2]), 'a')
         for name, value, said in (
             ('density', 0.6, 'density is 0.5 and 0.6'),
-            ('disks', 30, 'disks is 20 and 30'),
+            ('number', 30, 'number is 20 and 30'),
             ('boundary_y', 'reflecting', 'boundary_y is periodic and reflecting'),
             ('wave_nx', [1, 2], r'wave_nx is \(\) and \(1, 2\)'),
         ):

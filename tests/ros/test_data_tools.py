@@ -186,7 +186,7 @@ class Export(Tools):
             ):
                 np.testing.assert_array_equal(arrays[name], values)
             self.assertEqual(list(arrays['steps.step']), list(run_.steps.index))
-            self.assertEqual(json.loads(str(arrays['info']))['disks'], 20)
+            self.assertEqual(json.loads(str(arrays['info']))['number'], 20)
             units = json.loads(str(arrays['units']))
         self.assertEqual(units['exponents'], '1/time unit')
         self.assertEqual(units['cost.wall_seconds'], 's')
@@ -303,7 +303,7 @@ class Hostile(Tools):
         for said, count, messages in (
             ('its arrays have [36, 37] elements', 2, [info, short]),
             ('no exponents', 2, [info, empty]),
-            ('0 disks', 2, [made.run_info(disks=0), good]),
+            ('0 disks', 2, [made.run_info(number=0), good]),
             ('nan', 2, [made.run_info(box_x=float('nan')), good]),
             ('hdlyap/Structure: [0, 8] elements of 2 vectors', 1, [info, good, unlike]),
         ):

@@ -29,7 +29,7 @@ REPORTS, AVERAGED_REPORTS = 408, 400
 # it has not looked at
 FLOOD_TOPICS = ('spectrum', 'modes', 'steps', 'state')
 FLOOD = dict(
-    disks=100,
+    number=100,
     density=0.4,
     aspect=1.0,
     exponents=20,

@@ -17,7 +17,7 @@ OK, WARN, ERROR = DiagnosticStatus.OK, DiagnosticStatus.WARN, DiagnosticStatus.E
 LIVE = dict(SHORT, duration=0.0, pace=20.0, threads=1)
 # more than the buffers of a socket hold, in a second
 BULKY = dict(
-    disks=20000,
+    number=20000,
     density=0.1,
     exponents='none',
     observables=['state'],

@@ -23,7 +23,7 @@ AT_ONCE = 4  # nodes that run at the same time
 KILLS = 60
 # all that a file can hold, 200 kB of it
 KEPT = dict(
-    disks=60,
+    number=60,
     density=0.8,
     aspect=0.06,
     equilibration=1.0,

@@ -22,7 +22,7 @@ MB = 1 << 20
 AT_ONCE = 5  # nodes that run at the same time
 # all stages, with two threads: OpenBLAS and OpenMP start theirs
 THREADED = dict(MODES, warmup=10.0, duration=5.0, observables=OBSERVABLES, threads=2)
-ENDLESS = dict(SHORT, disks=100, duration=0.0)
+ENDLESS = dict(SHORT, number=100, duration=0.0)
 LIMITS = [limit * MB for limit in range(160, 1360, 60)]
 ENOUGH = 1600 * MB  # of address space, for two threads
 STOPS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
@@ -130,7 +130,11 @@ class Faults(harness.Case):
         """Not a byte more than it has. Messages that find no room are named, the run goes on."""
         node, cost = self.running(
             dict(
-                disks=20000, exponents='none', equilibration=0.1, duration=0.0, report_interval=0.02
+                number=20000,
+                exponents='none',
+                equilibration=0.1,
+                duration=0.0,
+                report_interval=0.02,
             )
         )
         deaf = links.Link(links.node_port(node), 'state', '/deaf')

@@ -158,7 +158,7 @@ class Figures(Bags):
         np.testing.assert_allclose(upper.get_xticks(), [made.K, 2**0.5 * made.K])
         self.assertEqual(upper.get_xlim(), axes.get_xlim())
         self.assertEqual([one.get_text() for one in upper.get_xticklabels()], ['(1,0)', '(1,1)'])
-        info = made.run_info(disks=400, density=0.4)  # the paper has curves of it
+        info = made.run_info(number=400, density=0.4)  # the paper has curves of it
         axes, _ = self.draw(dispersion, made.steps([LOW]), info=info)
         published = [line for line in axes.lines if line.get_label() == '_published']
         for line, c, c2 in zip(published, (1.422, 1.412), (0.55, 0.086)):
@@ -170,7 +170,7 @@ class Figures(Bags):
         """Its LP steps are points alone, and it is said why."""
         round_steps = made.steps([LOW, HIGH])
         round_steps.l_points, round_steps.l_long_c2 = 0, np.nan
-        axes, _ = self.draw(dispersion, round_steps, info=made.run_info(disks=400, density=0.4))
+        axes, _ = self.draw(dispersion, round_steps, info=made.run_info(number=400, density=0.4))
         self.assertEqual(len(axes.containers), 2)
         self.assertEqual([len(line.get_xdata()) for line in axes.lines].count(100), 2)  # T
         labels = [text.get_text() for text in axes.get_legend().get_texts()]
@@ -288,7 +288,7 @@ class Figures(Bags):
         np.testing.assert_allclose(bars(axes.containers[0]), [widths - 0.01, widths + 0.01])
         self.assertEqual(axes.lines[-1].get_ydata()[0], 1 / 20)  # one disk
         many = list(np.linspace(0.1, 0.8, 80))
-        info = made.run_info(disks=43)
+        info = made.run_info(number=43)
         whole, part = self.draw(
             localization, made.localization(many), made.covariant(many), info=info
         )

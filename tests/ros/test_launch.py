@@ -31,7 +31,7 @@ class Launch(harness.Case):
             with rosbag.Bag(bag) as file:
                 (info,) = (message for _, message, _ in file.read_messages('/hdlyap/run_info'))
                 self.assertEqual(file.get_message_count('/hdlyap/state'), 70)
-            self.assertEqual((info.seed, info.duration, info.disks), (seed, 30.0, 100))
+            self.assertEqual((info.seed, info.duration, info.number), (seed, 30.0, 100))
             self.check_result(run, 30, 'the bag is ' + bag, 'the checkpoint is ' + kept)
             self.assertEqual(sorted(os.listdir(folder)), ['kept', 'q.bag', 'q.bag.old'])
             self.assertEqual(len(run.lines('q.bag was there already')), 1, run.text())
@@ -102,14 +102,14 @@ class Launch(harness.Case):
         """What is right is handed on, as remappings are; relative paths too."""
         with tempfile.TemporaryDirectory() as folder:
             with open(os.path.join(folder, 'mine.yaml'), 'w') as file:
-                file.write('disks: 20\naspect: 1.0\nduration: 2\nequilibration: 1\nwarmup: 1\n')
+                file.write('number: 20\naspect: 1.0\nduration: 2\nequilibration: 1\nwarmup: 1\n')
             words = ['scene:=mine.yaml', 'density:=0.5', 'params:={accuracy: 1e-7}', '__ns:=grp']
             run = self.process([*harness.command('launch'), *words], PWD=folder)
             self.ends(run, 0, 'scene mine: 20 disks in 6.32456 x 6.32456', '/grp/hdlyap/accuracy')
 
     def test_the_scene_says_what_moves(self):
         """The file alone, whatever its name, unless an argument says otherwise."""
-        lines = 'particles: spheres\ndisks: 16\ndensity: 0.3\nduration: 2\n'
+        lines = 'particles: spheres\nnumber: 16\ndensity: 0.3\nduration: 2\n'
         lines += 'equilibration: 1\nwarmup: 1\n'
         with tempfile.TemporaryDirectory() as folder:
             with open(os.path.join(folder, 'mine.yaml'), 'w') as file:

@@ -177,7 +177,7 @@ class Live(harness.Case):
         node = self.started(dict(RUN, observables=['state'], wait_for_subscribers=['state']))
         self.until(BEGIN + 10.0)
         for assignment, why in {
-            'disks=50': 'disks=50: is read at the start',
+            'number=50': 'number=50: is read at the start',
             'observables=[state]': 'is read at the start',
             'pace=fast': 'pace=fast: must be from 0',
             'pace=': 'must be from 0',

@@ -22,7 +22,7 @@ class Errors(harness.Case):
     @classmethod
     def setUpClass(cls):
         topics = ['spectrum', 'steps', 'lp_phases', 'cost']
-        scene = dict(disks=200, density=0.7, aspect=0.2, equilibration=20.0, warmup=50.0)
+        scene = dict(number=200, density=0.7, aspect=0.2, equilibration=20.0, warmup=50.0)
         scene.update(duration=140.0, report_interval=10.0, max_mode_number=3)
         messages = harness.whole_run(dict(scene, wait_for_subscribers=topics), topics)
         cls.spectrum, cls.steps = messages['spectrum'][-1], messages['steps'][-1]

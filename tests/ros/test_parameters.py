@@ -33,7 +33,7 @@ REFUSED = [
     ('scene', 'quick'),
 ]
 ARGUMENTS = {
-    'argument disks=5: must be _parameter:=value': 'disks=5',
+    'argument number=5: must be _parameter:=value': 'number=5',
     'observables = [fields, spectra]: must be a list out of ': '_observables:=[fields,spectra]',
     'seed = 12345678901: must be a string of digits, from "0" to "18446744073709551615"; with '
     'rosrun in two pairs of quotes, _seed:="\'..\'"': '_seed:=12345678901',
@@ -41,7 +41,7 @@ ARGUMENTS = {
 }
 TAKEN = dict(
     scene='mine',
-    disks=30,
+    number=30,
     density=0.6,
     aspect=0.5,
     boundary_x='reflecting',
@@ -67,7 +67,7 @@ TAKEN = dict(
 # in a file and after _name:=
 SPELLINGS = dict(
     scene="'on'",
-    disks='+20',
+    number='+20',
     density='.7',
     aspect='1.',
     seed="'12345678901'",
@@ -85,9 +85,9 @@ MISREAD = [
     ('seed', '010', 8),
     ('seed', '12345678901', OverflowError),
     ('duration', '-12345678901', OverflowError),
-    ('disks', '0x14', 20),
-    ('disks', '0b11', 3),
-    ('disks', '1_000', 1000),
+    ('number', '0x14', 20),
+    ('number', '0b11', 3),
+    ('number', '1_000', 1000),
     ('warmup', '1:30', 90),
     ('warmup', '1:30.5', 90.5),
     ('pace', '1_0.5', 10.5),
@@ -149,13 +149,13 @@ class Parameters(harness.Case):
         """Known before the first block is asked for: how much, how much there is, what fits."""
         for disks in (40000, 1000000):
             with self.subTest(disks=disks):
-                node = self.start(dict(disks=disks))
+                node = self.start(dict(number=disks))
                 self.ends(node, 3)
                 self.assertEqual(len(node.text().splitlines()), 1, node.text())
                 self.assertRegex(
                     node.text(),
-                    rf'out of memory: disks = {disks} with {2 * disks - 3} exponents need \S+ GB, '
-                    r'there are \S+ GB \(\w+\); exponents = \d+ would fit, or disks = \d+',
+                    rf'out of memory: number = {disks} with {2 * disks - 3} exponents need \S+ GB, '
+                    r'there are \S+ GB \(\w+\); exponents = \d+ would fit, or number = \d+',
                 )
 
     def told(self, node, info):
@@ -223,7 +223,7 @@ class Parameters(harness.Case):
 
     def test_arguments_of_check(self):
         """Are no YAML, as those of rosrun and roslaunch are not."""
-        done = self.checked('aspect: 1.0', 'disks:=010', 'seed:=12345678901')
+        done = self.checked('aspect: 1.0', 'number:=010', 'seed:=12345678901')
         self.assertEqual((done.returncode, done.stderr), (0, ''))
         self.assertIn('10 disks', done.stdout)
 
@@ -240,7 +240,7 @@ class Parameters(harness.Case):
                 for name, value in params.items():
                     self.assertEqual(str(getattr(message, name)), str(value), name)
                 self.assertAlmostEqual(
-                    message.box_x * message.box_y * message.density, message.disks
+                    message.box_x * message.box_y * message.density, message.number
                 )
 
     def test_without_a_master(self):
@@ -248,7 +248,7 @@ class Parameters(harness.Case):
         for argument, said in (
             ('--help', 'Exit status: 0 finished or stopped, 2 refused'),
             ('--version', r'^hdlyap \d+\.\d+\.\d+$'),
-            ('--parameters', '(?m)^disks: 780$'),
+            ('--parameters', '(?m)^number: 780$'),
         ):
             done = subprocess.run(
                 [harness.executable(), argument],

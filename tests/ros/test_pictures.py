@@ -20,7 +20,7 @@ from harness import MODES, Listener
 from pictured import Pictures, are_alike, lines, modes, places, text
 
 ENDLESS = dict(MODES, duration=0.0)
-SPHERES = dict(particles='spheres', disks=128, density=0.5, aspect=0.25, aspect_z=0.3)
+SPHERES = dict(particles='spheres', number=128, density=0.5, aspect=0.25, aspect_z=0.3)
 SPHERES.update(equilibration=10.0, warmup=20.0, duration=0.0)
 # of a bag, with status last
 REPLAYED = ('run_info', 'state', 'steps', 'lp_phases', 'fields', 'status')
@@ -164,7 +164,7 @@ class Markers(harness.Case):
         for name, values in dict(
             modes=('', 'T(1,0', 'T(1,0)x', 'P(1,0)', 'T(1,0),T(2,0)', nine, 3, ['T(1,0)']),
             node=('', 3),
-            disks=(10,),
+            number=(10,),
         ).items():
             for value in values:
                 viewer = harness.start_viewer({name: value})
@@ -215,7 +215,7 @@ class Markers(harness.Case):
         for topic in STAND_INS:
             publisher(topic, harness.TYPES[topic])
         info = publisher('run_info', harness.TYPES['run_info'], latch=True)
-        info.publish(RunInfo(run_id='made up', disks=1, box_x=2.0, box_y=2.0))
+        info.publish(RunInfo(run_id='made up', number=1, box_x=2.0, box_y=2.0))
         pictures = self.look()
         self.sees(lambda: 'slow_vectors' in came and pictures.empty)
         time.sleep(1.5)  # the viewer asks ten times in a second
@@ -325,7 +325,7 @@ class Markers(harness.Case):
     @harness.more
     def test_no_memory(self):
         """Said again and again, while the program goes on: of the viewer, and of the node."""
-        many = dict(ENDLESS, disks=20000, aspect=1.0, exponents='none', warmup=0.0, pace=1.0)
+        many = dict(ENDLESS, number=20000, aspect=1.0, exponents='none', warmup=0.0, pace=1.0)
         pictures = self.look(probe={'PROBE_GROWTH': '300000'})
         self.start(dict(many, equilibration=0.1))
         params = dict(ENDLESS, slow_vectors_count=117, pace=10.0)

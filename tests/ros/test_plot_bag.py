@@ -231,9 +231,9 @@ class Kept(Bags):
         self.assertEqual([time[0] for time, _ in course.curves(0)], [0, LIMIT])
 
     def test_memory(self):
-        info = made.run_info(disks=2000, box_x=63.2, box_y=63.2)
+        info = made.run_info(number=2000, box_x=63.2, box_y=63.2)
         step = made.step(info, LP, 1, 0, 3994, 3997)
-        one = 8 * 20 * info.disks  # bytes: vectors and two pairs
+        one = 8 * 20 * info.number  # bytes: vectors and two pairs
         fields = itertools.repeat(made_fields.mode_field(info, step), 100)
         self.write(itertools.chain([info], fields, itertools.repeat(made.steps([step]), 1000)))
         self.assertGreater(os.path.getsize(self.path()), 100 * one)

@@ -128,7 +128,7 @@ class Table(Bags):
             (0.7, 399, None),
             (0.81, 780, None),
         ):
-            info = made.run_info(disks=disks, density=density)
+            info = made.run_info(number=disks, density=density)
             waves = [made.step(info, T, n, 0, 38 - 2 * n, 39 - 2 * n) for n in (1, 2)]
             for wave in waves:
                 wave.exponent = (2.3 + 0.2 * wave.wave_number) * wave.wave_number

@@ -16,7 +16,7 @@ from harness import MODES, REPEATABLE, SHORT
 RANKS = 2
 # kernels of OpenBLAS that run on every processor of this kind, and that hardly one gets by itself
 OTHER_KERNELS = 'thunderx' if platform.machine() == 'aarch64' else 'Nehalem'
-ENDLESS = dict(SHORT, disks=60, duration=0.0, report_interval=0.5, threads=1)
+ENDLESS = dict(SHORT, number=60, duration=0.0, report_interval=0.5, threads=1)
 # root may, more ranks than cores may, and mpirun insists after two seconds
 ENVIRONMENT = {
     'OMPI_ALLOW_RUN_AS_ROOT': '1',
@@ -183,7 +183,7 @@ class Ranks(harness.Case):
 
     @harness.more
     def test_no_room(self):
-        status, said = self.unlike('prlimit', '--as=900000000', disks=3000)
+        status, said = self.unlike('prlimit', '--as=900000000', number=3000)
         self.assertEqual(status, 3, said)
         self.assertIn('another rank: out of memory', said)
 
@@ -207,7 +207,7 @@ class Ranks(harness.Case):
         """Kept by two, it goes on with one."""
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, 'kept')
-            params = dict(SHORT, disks=40, threads=1)
+            params = dict(SHORT, number=40, threads=1)
             node = self.on_ranks(dict(params, checkpoint=path))
             self.ends(node)
             node = self.runs(dict(params, resume=path, duration=4.0))

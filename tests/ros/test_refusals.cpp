@@ -39,7 +39,7 @@ extern "C" hdr_status hdr_run_info_publish(hdr_publisher *, const hdr_run_info *
 
 namespace
 {
-const std::string scene = "disks: 20\ndensity: 0.7\naspect: 1.0\n"
+const std::string scene = "number: 20\ndensity: 0.7\naspect: 1.0\n"
                           "equilibration: 1.0\nwarmup: 1.0\nduration: 2.0\n";
 
 const std::string window = "observables: [covariant]\ncovariant_transient: 1.0\n"
@@ -173,18 +173,19 @@ struct refused {
 static const std::vector<refused> refused_together = {
     {"thickness: 0.8", "thickness = 0.8", {"removed: there is no parameter of this name"}},
     {"densty: 0.8", "densty = 0.8", {"removed: there is no", "; is density meant?"}},
-    {"Disks: 100", "Disks = 100", {"; is disks meant?"}},
+    {"Number: 100", "Number = 100", {"; is number meant?"}},
     {"warmpu: 100", "warmpu = 100", {"; is warmup meant?"}},
     {"dimensions: 3", "dimensions = 3", {"removed: it is called particles now: disks or spheres"}},
+    {"disks: 20", "disks = 20", {"removed: it is called number now"}},
     {"particles: dumbbells",
      "particles = dumbbells",
      {"must be what has as many coordinates as its box has directions"}},
     {"aspect_z: 0.5", "aspect_z = 0.5", {"not be given", "particles = disks"}},
     {"boundary_z: reflecting", "boundary_z = reflecting", {"not be given", "particles = disks"}},
-    {"density: 1.1", "density = 1.1", {"at most 0.868056", "disks = 20", "aspect = 1"}},
-    {"{disks: 2, density: 1.01}", "density = 1.01", {"at most 1 ", "disks = 2", "aspect = 1"}},
-    {"exponents: 81", "exponents = 81", {"from 1 to 4 disks = 80"}},
-    {"exponents: '81'", "exponents = 81", {"from 1 to 4 disks = 80"}},
+    {"density: 1.1", "density = 1.1", {"at most 0.868056", "number = 20", "aspect = 1"}},
+    {"{number: 2, density: 1.01}", "density = 1.01", {"at most 1 ", "number = 2", "aspect = 1"}},
+    {"exponents: 81", "exponents = 81", {"from 1 to 4 N = 80"}},
+    {"exponents: '81'", "exponents = 81", {"from 1 to 4 N = 80"}},
     {"{exponents: none, observables: [spectrum]}", "observables = [spectrum]", {NO_EXPONENTS}},
     {"{exponents: none, observables: [hydro]}", "observables = [hydro]", {NO_EXPONENTS}},
     {"{exponents: none, observables: [state, covariant]}",
@@ -198,7 +199,7 @@ static const std::vector<refused> refused_together = {
      {"0", "max_wave_number = 1.5"}},
     {"{max_mode_number: 3, aspect: 0.9}",
      "max_mode_number = 3",
-     {"at most 2", "disks = 20", "density = 0.7", "aspect = 0.9", "2 / sqrt(density)"}},
+     {"at most 2", "number = 20", "density = 0.7", "aspect = 0.9", "2 / sqrt(density)"}},
     {"max_mode_number: 3", "max_mode_number = 3", {"at most 2", "2 / sqrt(density)"}},
     {"max_wave_number: 1.1", "max_wave_number = 1.1", {"1.17548", "2.62844", "longest"}},
     {"max_wave_number: 2.7", "max_wave_number = 2.7", {"1.17548", "2.62844", "longest"}},
@@ -239,10 +240,10 @@ TEST(Parameters, RefusedTogether)
     for (const refused &one : refused_together)
         expect_refused(with(one.lines), one.what, one.words);
     /* by more than one of them: all are named */
-    EXPECT_EQ(begun(with("{disks: 100, aspect: 0.0001}")),
-              "density = 0.7 with disks = 100, aspect = 0.0001: the box edge Ly = "
+    EXPECT_EQ(begun(with("{number: 100, aspect: 0.0001}")),
+              "density = 0.7 with number = 100, aspect = 0.0001: the box edge Ly = "
               "0.119522860933439 must be above the disk diameter 1");
-    EXPECT_EQ(begun(with("{covariant, disks: 400, duration: 1000000.0, covariant_window: "
+    EXPECT_EQ(begun(with("{covariant, number: 400, duration: 1000000.0, covariant_window: "
                          "100000.0}")),
               "covariant_window = 100000 with covariant_transient = 1: 150013 triangles and "
               "100007 frames of 797 vectors need 1.4e+03 GB, must be at most covariant_memory = 4 "
@@ -261,7 +262,7 @@ TEST(Parameters, RefusedChanges)
         {"['5 pace']", "5 pace", {"pace: must be one NAME=VALUE, such as pace=1.5"}},
         {"['5 pace=-1']", "5 pace=-1", {"pace=-1: must be from 0 ", " to 1e12"}},
         {"['5 pace=nan']", "5 pace=nan", {"pace=nan: must be from 0 ", " to 1e12"}},
-        {"['5 pace=1', '6 disks=50']", "6 disks=50", {"disks=50: is read at the start"}},
+        {"['5 pace=1', '6 number=50']", "6 number=50", {"number=50: is read at the start"}},
         {"['5 paces=1']", "5 paces=1", {"paces=1: there is no parameter", "; is pace meant?"}},
     };
     for (refused one : changes) {
@@ -299,7 +300,7 @@ TEST(Parameters, ANameAloneChoosesNoScene)
 {
     for (const char *lines : {"scene: quick", "scene: quick\nduration: 5.0"})
         expect_refused(lines, "scene = quick",
-                       {"given with its particles, container, disks, density, aspects or bound"});
+                       {"given with its particles, container, number, density, aspects or bound"});
     expect_said("", "scene: unnamed");
     expect_said("scene: mine", "scene: mine");
 }
@@ -308,7 +309,7 @@ TEST(Parameters, Defaults)
 {
     EXPECT_EQ(begun("", true), "");
     expect_has(
-        "scene: paper_periodic, disks: 780, density: 0.8, aspect: 0.867, exponents: positive, "
+        "scene: paper_periodic, number: 780, density: 0.8, aspect: 0.867, exponents: positive, "
         "zero_exponents: 6, wave_nx: [1, 0, 1, 2, 0, 2, 1, 3], wave_ny: [0, 1, 1, 0, 2, 1, 2, 0]");
     EXPECT_NEAR(published.warmup, 97.48, 0.01); /* 3 / (0.05 c_T k), c_T = 3.285 */
 }
@@ -316,7 +317,7 @@ TEST(Parameters, Defaults)
 /** As rosparam would hand it over: YAML 1.1, also within a list that rosrun has as one text. */
 TEST(Parameters, OfYaml)
 {
-    expect_said("disks: +40", "disks: 40");
+    expect_said("number: +40", "number: 40");
     expect_said("{duration: .5, accuracy: 1.0e-7}", "duration: 0.5, accuracy: 1e-07");
     expect_said("{duration: 1., warmup: 1.0e1}", "duration: 1, warmup: 10");
     expect_said("{seed: '010', scene: 'on'}", "seed: 10, scene: on");
@@ -357,8 +358,8 @@ TEST(Parameters, Taken)
         {"boundary_y: reflecting",
          "boundary_x: periodic, boundary_y: reflecting, zero_exponents: 4"},
         {"{boundary_x: reflecting, boundary_y: reflecting, density: 0.3}", "zero_exponents: 2"},
-        {"{disks: 30, density: 0.5, aspect: 0.6}",
-         "disks: 30, density: 0.5, aspect: 0.6, box_x: 10, box_y: 6"},
+        {"{number: 30, density: 0.5, aspect: 0.6}",
+         "number: 30, density: 0.5, aspect: 0.6, box_x: 10, box_y: 6"},
         {"max_mode_number: 1", "max_mode_number: 1, wave_nx: [1, 0, 1], wave_ny: [0, 1, 1]"},
         {"max_wave_number: '1.2'", "max_wave_number: 1.2, wave_nx: [1, 0], wave_ny: [0, 1]"},
         {"{max_wave_number: 0, max_mode_number: 0, observables: [spectrum]}",

@@ -137,11 +137,11 @@ class Repeat(Bags):
 
     def test_what_it_ran_on(self):
         """Beside the parameters; texts of a bag cannot add any."""
-        self.write([made.run_info(blas_kernel='Zen\ndisks: 5', version='1.2.3')])
+        self.write([made.run_info(blas_kernel='Zen\nnumber: 5', version='1.2.3')])
         first, second, third = self.text().splitlines()[:3]
         self.assertEqual(first, '# Repeats the run one.')
         self.assertIn('(1.2.3)', second)
-        self.assertIn('(OPENBLAS_CORETYPE=Zen disks: 5)', second)
+        self.assertIn('(OPENBLAS_CORETYPE=Zen number: 5)', second)
         self.assertEqual(third, 'scene: made')
 
     def test_several_runs(self):

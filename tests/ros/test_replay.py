@@ -24,7 +24,7 @@ REPORTS = 30  # of a run, a time unit apart; recorded within milliseconds
 
 def run(run_id):
     """(topic, message) as a recorder meets them that looks into one topic after the other."""
-    info = made.run_info(run_id=run_id, disks=1)
+    info = made.run_info(run_id=run_id, number=1)
     states = [State(run_id=run_id, sim_time=t, x=[0.5], y=[0.5]) for t in range(1, REPORTS + 1)]
     statuses = [made.status(float(t), run_id) for t in range(1, REPORTS + 1)]
     statuses[-1].stage = RunStatus.FINISHED

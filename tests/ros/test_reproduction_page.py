@@ -38,7 +38,7 @@ class Part:
 
     def claims(self, bags):
         (name,) = self.runs
-        rows = [Row('disks', 20, bags[name].info.disks), Row('seed', None, None)]
+        rows = [Row('number', 20, bags[name].info.number), Row('seed', None, None)]
         usual = {'criterion': 'the same', 'of': 'ours', 'kind': 'the paper'}
         own = {'kind': 'ours', 'claim': f'it is large, {name}'}
         return [
@@ -190,7 +190,7 @@ class Table(unittest.TestCase):
             if name.startswith('aspect_'):
                 info, nodes = info_of(name), (1, int(name.endswith('walls_t')))
                 k = made.wave_number(info, *nodes)
-                self.assertAlmostEqual(k / 0.2, 1, delta=0.5 / info.disks)
+                self.assertAlmostEqual(k / 0.2, 1, delta=0.5 / info.number)
 
 
 if __name__ == '__main__':

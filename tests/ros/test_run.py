@@ -15,7 +15,7 @@ from harness import SHORT, is_last
 
 # at least two waves of each kind
 TWO_WAVES = dict(
-    disks=120, density=0.7, aspect=0.1, equilibration=20.0, warmup=50.0, duration=400.0
+    number=120, density=0.7, aspect=0.1, equilibration=20.0, warmup=50.0, duration=400.0
 )
 ENDLESS = dict(SHORT, duration=0.0, pace=20.0, report_interval=0.5)
 
@@ -142,7 +142,7 @@ class Run(harness.Case):
         said = 'disks have kept their places since the averaging began'
         for density, caged in ((0.5, False), (1.0, True)):
             with self.subTest(density=density):
-                box = dict(SHORT, disks=36, aspect=0.867, density=density)
+                box = dict(SHORT, number=36, aspect=0.867, density=density)
                 params = dict(box, exponents=1, duration=60.0, table=1.0)
                 status = self.listen('status')
                 node = self.start(dict(params, wait_for_subscribers=['status']))

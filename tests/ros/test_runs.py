@@ -51,7 +51,7 @@ class Parameters(InFolder):
         """Numbers are numbers, a text is left to the node, which knows what it must be."""
         found = self.of(
             scene='quick',
-            disks='50',
+            number='50',
             density='0.55',
             aspect='1e-1',
             duration='abc',
@@ -64,7 +64,7 @@ class Parameters(InFolder):
             found,
             dict(
                 scene='quick',
-                disks=50,
+                number=50,
                 density=0.55,
                 aspect='1e-1',
                 duration='abc',
@@ -78,19 +78,19 @@ class Parameters(InFolder):
 
     def test_long_numbers_become_strings(self):
         """Which the master's integers do not hold."""
-        self.write('own.yaml', 'disks: 5000000000\n')
+        self.write('own.yaml', 'number: 5000000000\n')
         found = self.of(scene='own.yaml', params='{seed: 18446744073709551615}')
-        self.assertEqual((found['disks'], found['seed']), ('5000000000', '18446744073709551615'))
+        self.assertEqual((found['number'], found['seed']), ('5000000000', '18446744073709551615'))
 
     def test_a_file_without_a_name_is_named_after_itself(self):
-        self.write('own.yaml', 'disks: 50\n')
-        self.assertEqual(self.of(scene='own.yaml'), dict(scene='own', disks=50))
+        self.write('own.yaml', 'number: 50\n')
+        self.assertEqual(self.of(scene='own.yaml'), dict(scene='own', number=50))
         self.assertEqual(self.of(scene=self.path('own.yaml'))['scene'], 'own')
         self.write('own.yaml', 'scene: other\n')
         self.assertEqual(self.of(scene='own.yaml'), dict(scene='other'))
 
     def test_refused(self):
-        self.write('broken.yaml', 'disks: 5\n  aspect: {\n')
+        self.write('broken.yaml', 'number: 5\n  aspect: {\n')
         self.write('list.yaml', '[1]\n')
         self.refused('scene', 'covariant, dense,', scene='quik')
         self.refused('scene', 'No such file', scene='quik.yaml')
@@ -98,7 +98,7 @@ class Parameters(InFolder):
         self.refused('scene', 'YAML file of parameters', scene='list.yaml')
         self.refused('params', 'line 1', scene='quick', params='{warmup: 20')
         self.refused('params', '{parameter: value', scene='quick', params='warmup')
-        self.refused('params', 'without disks', scene='quick', params='{disks: 20}', disks='30')
+        self.refused('params', 'without number', scene='quick', params='{number: 20}', number='30')
 
 
 class Scenes(unittest.TestCase):
@@ -110,7 +110,7 @@ class Scenes(unittest.TestCase):
         disks = {}
         for name in os.listdir(os.path.join(LAUNCH, 'scenes')):
             values = scene.scene_file(name[: -len('.yaml')], LAUNCH, '.')
-            disks[values['scene']] = str(values.get('disks', 780))
+            disks[values['scene']] = str(values.get('number', 780))
         self.assertEqual(stated, disks)
 
 
@@ -208,7 +208,7 @@ class Done(InFolder):
         self.assertEqual(self.lacks(of=of, **same), '')
         for name, value in dict(
             duration=7.5,
-            disks=21,
+            number=21,
             seed='2',
             scene='two',
             interval=0.0,

@@ -183,7 +183,7 @@ class Numbers(Solid):
 
     def test_no_paper(self):
         """Its slopes and steps are of disks."""
-        alike = dict(disks=780, density=0.8, aspect=0.867)
+        alike = dict(number=780, density=0.8, aspect=0.867)
         self.assertEqual(
             (paper.branches(made.spheres(**alike)), paper.steps(made.spheres(**alike))), ({}, [])
         )
@@ -265,7 +265,7 @@ class Figures(Solid):
 
     def test_slab(self):
         """Of many spheres the arrows in front alone: 2.6 * 8 * 2 of 400."""
-        info = made.spheres(disks=400)
+        info = made.spheres(number=400)
         q, _ = made_fields.balls(info)
         field = made_fields.ball_field(info, FIRST, np.ones((3, 400)))
         messages = made.spectrum(np.linspace(9, 3, 56), 50.0), made.steps(FOUND)
@@ -415,7 +415,9 @@ class Tables(Solid):
         table.csv(found, os.path.join(self.folder, 'sweep.csv'))
         with open(os.path.join(self.folder, 'sweep.csv')) as lines:
             head, first, _ = lines
-        self.assertTrue(head.startswith('disks,density [1/sigma^3],aspect,aspect_z,boundary,seeds'))
+        self.assertTrue(
+            head.startswith('number,density [1/sigma^3],aspect,aspect_z,boundary,seeds')
+        )
         self.assertTrue(first.startswith('20,0.5,0.3125,0.25,periodic,1,50'))
 
 

@@ -15,7 +15,7 @@ from hdlyap.msg import Mode
 
 TOPICS = ['run_info', 'spectrum', 'modes', 'steps', 'lp_phases', 't_phases', 'fields', 'gas']
 TOPICS += ['state', 'covariant', 'hydro', 'structure', 'status', 'cost']
-SCENE = dict(particles='spheres', disks=128, density=0.5, aspect=0.25, aspect_z=0.3)
+SCENE = dict(particles='spheres', number=128, density=0.5, aspect=0.25, aspect_z=0.3)
 SCENE.update(scene='balls', equilibration=10.0, warmup=20.0, duration=70.0, report_interval=5.0)
 SCENE.update(boundary_y='reflecting', observables=TOPICS[1:-2], seed='3', covariant_window=20.0)
 SCENE.update(covariant_transient=20.0, exponents='all', max_mode_number=2)
@@ -283,7 +283,7 @@ class Scenes(harness.Case):
             self.assertEqual(scene.pop('scene') + '.yaml', name)
             self.assertEqual(scene.pop('particles'), 'spheres')
             self.assertEqual({key for key in scene if scene[key] == usual[key]}, set())
-            said = subprocess.check_output([program, '--check', path, 'disks:=108'], text=True)
+            said = subprocess.check_output([program, '--check', path, 'number:=108'], text=True)
             self.assertIn('is valid: 108 spheres in ', said)
             self.assertRegex(said, r'(?m)^waves +(T,)?LP\(1,0,0\)')
 
@@ -293,7 +293,7 @@ class Kept(harness.Case):
         """Alone; nobody can say otherwise."""
         for particles, other in ('disks', 'spheres'), ('spheres', 'disks'):
             path = os.path.join(self.new_folder(), 'kept')
-            scene = dict(particles=particles, disks=20, aspect=1.0, density=0.3)
+            scene = dict(particles=particles, number=20, aspect=1.0, density=0.3)
             scene.update(exponents='none', equilibration=1.0, duration=2.0, checkpoint=path)
             self.ends(harness.start(dict(scene, observables=['state'])), 0, f'20 {particles} in ')
             self.ends(harness.start(dict(resume=path, duration=3.0)), 0, f'20 {particles} in ')

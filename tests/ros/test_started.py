@@ -99,7 +99,7 @@ class Started(harness.Traced, harness.Case):
     # ---- programs --------------------------------------------------------------------------------
 
     def test_node(self):
-        quiet = ['_disks:=20', '_density:=0.5', '_exponents:=none', '_pace:=1.0']
+        quiet = ['_number:=20', '_density:=0.5', '_exponents:=none', '_pace:=1.0']
         self.check(
             BOTH,
             lambda k: [harness.executable(), '__name:=n%d' % k, *quiet],

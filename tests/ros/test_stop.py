@@ -12,7 +12,7 @@ import links
 from harness import SHORT, is_last
 
 BOUND = 1.0  # seconds, the contract
-ENDLESS = dict(SHORT, disks=100, duration=0.0)
+ENDLESS = dict(SHORT, number=100, duration=0.0)
 
 
 class Stop(harness.Case):
@@ -63,7 +63,7 @@ class Stop(harness.Case):
 
     def test_during_creation(self):
         """Of a frame so large that it is announced."""
-        node = self.start(dict(disks=2000, exponents='all', threads=1))
+        node = self.start(dict(number=2000, exponents='all', threads=1))
         self.sees(lambda: node.lines('makes 4000 vectors of 2000 disks'))
         self.stop(node)
         self.assertEqual(node.lines('scene '), [])
@@ -113,7 +113,7 @@ class Stop(harness.Case):
     @harness.more
     def test_without_master(self):
         uri = 'http://localhost:%d' % harness.free_port()
-        for args in ([], ['_disks:=100']):
+        for args in ([], ['_number:=100']):
             with self.subTest(args=args):
                 node = self.process([harness.executable(), *args], ROS_MASTER_URI=uri)
                 self.sees(lambda: node.lines('master at'), node)

@@ -26,7 +26,7 @@ EVERY_TOPIC = dict(
 )
 # messages of 160 kB, thousands of them in a second
 BULKY = dict(
-    disks=5000, exponents='none', observables=['state'], report_interval=0.02, duration=0.0
+    number=5000, exponents='none', observables=['state'], report_interval=0.02, duration=0.0
 )
 
 
@@ -65,7 +65,7 @@ class Subscribers(harness.Case):
         before = resident(node)
         cost = self.link(port, 'cost')
         self.read([cost])
-        reports = int(2 * QUEUE_BYTES / (4 * 8 * BULKY['disks']))
+        reports = int(2 * QUEUE_BYTES / (4 * 8 * BULKY['number']))
         self.sees(lambda: len(cost.seqs) > reports)
         self.assertEqual(cost.gaps(), 0)
         self.assertLess(resident(node) - before, QUEUE_BYTES + SLACK)
@@ -75,7 +75,7 @@ class Subscribers(harness.Case):
     def test_flood(self):
         """Thousands of reports in a second, on all topics, nothing else to do."""
         times = dict(equilibration=0.1, warmup=0.1, duration=0.0, report_interval=1.0e-4)
-        params = dict(times, disks=2, density=0.3, aspect=1.0, exponents='all')
+        params = dict(times, number=2, density=0.3, aspect=1.0, exponents='all')
         node = self.start(dict(params, observables=OBSERVABLES, wait_for_subscribers='all'))
         port = links.node_port(node)
         every = {topic: self.link(port, topic) for topic in TYPES}

@@ -37,28 +37,28 @@ class Grid(unittest.TestCase):
 
     def test_without_errors(self):
         """One line for each scene that ends before, whatever its seeds; none with a target."""
-        found = self.runs(disks='20 24', seeds='1 2', duration='2')
-        found += self.runs(disks='30', duration='5000')
-        found += self.runs(disks='40', duration='0', params='{target: lambda_max 1%}')
+        found = self.runs(numbers='20 24', seeds='1 2', duration='2')
+        found += self.runs(numbers='30', duration='5000')
+        found += self.runs(numbers='40', duration='0', params='{target: lambda_max 1%}')
         with tempfile.TemporaryDirectory() as folder:
             lines = list(sweep.warnings(found, folder))
         self.assertEqual(
             [line.split(':')[0] for line in lines],
-            ['disks_20_seed_1 will have no errors', 'disks_24_seed_1 will have no errors'],
+            ['number_20_seed_1 will have no errors', 'number_24_seed_1 will have no errors'],
         )
 
     def test_product(self):
         """Each with a name of its values, the seeds last."""
         runs = self.runs(
-            seeds='1 02', boundaries='reflecting,periodic periodic', densities='0.1', disks='20'
+            seeds='1 02', boundaries='reflecting,periodic periodic', densities='0.1', numbers='20'
         )
         names = [
-            f'disks_20_density_0_1_boundary_{walls}_seed_{seed}'
+            f'number_20_density_0_1_boundary_{walls}_seed_{seed}'
             for walls in ('reflecting_periodic', 'periodic')
             for seed in (1, 2)
         ]
         self.assertEqual([run.name for run in runs], names)
-        wanted = dict(disks=20, density=0.1, boundary_y='periodic', aspect=1.0, threads=1)
+        wanted = dict(number=20, density=0.1, boundary_y='periodic', aspect=1.0, threads=1)
         for one, wall, seed in zip(runs, ('reflecting',) * 2 + ('periodic',) * 2, '1212'):
             found = one.parameters
             self.assertEqual({name: found[name] for name in wanted}, wanted)
@@ -71,24 +71,24 @@ class Grid(unittest.TestCase):
         (run,) = self.runs(aspects='0.5', duration='7', params='{warmup: 3.0, exponents: 10}')
         found = run.parameters
         self.assertEqual(
-            [found[name] for name in ('duration', 'warmup', 'exponents', 'aspect', 'disks')],
+            [found[name] for name in ('duration', 'warmup', 'exponents', 'aspect', 'number')],
             [7, 3.0, 10, 0.5, 100],
         )
         self.assertEqual(self.runs(seeds='3')[0].parameters['scene'], 'quick')
 
     def test_large_systems_are_most_of_the_work(self):
         """By which progress and the time that is left are told."""
-        small, large = (one.seconds - run.BEGIN for one in self.runs(disks='100 200'))
+        small, large = (one.seconds - run.BEGIN for one in self.runs(numbers='100 200'))
         self.assertGreater(small, 0)
         self.assertAlmostEqual(large, 4 * small)
 
     def test_refused(self):
         for given, what in (
-            ({}, 'nothing to sweep over: must be values of at least one of disks, densities, '),
+            ({}, 'nothing to sweep over: must be values of at least one of numbers, densities, '),
             (dict(densities='0.1 x'), 'densities = 0.1 x: must be positive numbers, with spaces'),
             (dict(densities='0'), 'densities = 0: must be positive'),
             (dict(aspects='inf'), 'aspects = inf: must be positive'),
-            (dict(disks='1e2'), 'disks = 1e2: must be whole numbers'),
+            (dict(numbers='1e2'), 'numbers = 1e2: must be whole numbers'),
             (dict(seeds='-1'), 'seeds = -1: must be decimal numbers'),
             (dict(boundaries='open'), 'boundaries = open: must be periodic or reflecting, or two'),
             (dict(boundaries='periodic,periodic,periodic'), 'must be periodic or'),
@@ -106,7 +106,7 @@ class Grid(unittest.TestCase):
 
 
 class Plan(InFolder):
-    ENTRY = '''{base: quick, duration: 7.0, disks: 30, full: {disks: 20}, quick: {disks: 10},
+    ENTRY = '''{base: quick, duration: 7.0, number: 30, full: {number: 20}, quick: {number: 10},
                 seconds: [4, 9]}'''
 
     def runs(self, text, quick=False):
@@ -123,7 +123,7 @@ class Plan(InFolder):
             one = self.runs('one: ' + self.ENTRY, quick)['one']
             self.assertEqual(
                 one.parameters,
-                {**scene, 'threads': 1, 'duration': 7.0, 'disks': disks, 'scene': 'one'},
+                {**scene, 'threads': 1, 'duration': 7.0, 'number': disks, 'scene': 'one'},
             )
             self.assertEqual(
                 (one.seconds, one.share_of(2), one.is_wide), (seconds, seconds / 2, False)
@@ -135,12 +135,12 @@ class Plan(InFolder):
     def test_one_like_another(self):
         """By YAML's own anchors; scenes lie beside the plan, too."""
         with open(self.path('own.yaml'), 'w') as file:
-            file.write('{disks: 40, duration: 1.0}')
+            file.write('{number: 40, duration: 1.0}')
         found = self.runs(
             'a: &a {base: own.yaml, density: 0.3}\n'
-            'b: {<<: *a, disks: 50, threads: 0, seed: 18446744073709551615}\n'
+            'b: {<<: *a, number: 50, threads: 0, seed: 18446744073709551615}\n'
         )
-        names = 'disks', 'density', 'threads', 'seed', 'scene'
+        names = 'number', 'density', 'threads', 'seed', 'scene'
         self.assertEqual(
             [[one.parameters[name] for name in names] for one in found.values()],
             [[40, 0.3, 1, '1', 'a'], [50, 0.3, 0, '18446744073709551615', 'b']],
@@ -171,7 +171,7 @@ class Plan(InFolder):
             ('a/b: {base: quick, duration: 1}', 'a/b: must be named with letters'),
             ('1: {base: quick, duration: 1}', '1: must be named with letters'),
             ('one: {base: quick}\none: {base: quick}', 'must have one once'),
-            ('one: {base: quick, disks: 9, disks: 8}', 'must have disks once'),
+            ('one: {base: quick, number: 9, number: 8}', 'must have number once'),
             ('- a\n', 'must be a YAML file of runs, {name: {base: scene, parameter: value, ..}'),
             ('a: [\n', 'must be a YAML file of runs'),
             ('', 'must have runs'),
@@ -254,7 +254,7 @@ class Results(InFolder):
         one_wave.update(c_t2=nan, c_t3=nan)
         found = self.read(self.bag('b', 0.5), self.bag('a', 0.4), self.bag('c', 0.6, **one_wave))
         lines = list(table.text(found))
-        self.assertEqual(lines[0], 'the same in all: disks 20, aspect 1, boundary periodic')
+        self.assertEqual(lines[0], 'the same in all: number 20, aspect 1, boundary periodic')
         of_t = '1.400(12), misfit 1.2'
         fits = f'{of_t} [1] 1.500(20) [2] 1.612(23), misfit 2.5 [3]'
         relation, long = 'c k + c2 k^2 + c3 k^3', '% of the curvature from long boxes'

@@ -74,7 +74,7 @@ class Waves(unittest.TestCase):
 
     def test_expected(self):
         """Of fields alone all, at other places, too; of noise beside them the rest."""
-        info = made.spheres(disks=400)
+        info = made.spheres(number=400)
         q, p = made_fields.balls(info)
         phase = 2 * np.pi * q[0] / 8
         dq = np.array([0 * phase, 3 * np.sin(phase), 4 * np.cos(phase)])

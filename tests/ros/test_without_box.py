@@ -19,7 +19,7 @@ OWN = ['beta=0.30000000000000004', 'energy=1', 'start=cold']
 
 def chain(**fields):
     """As a node of a chain says: eight, of which each has one coordinate."""
-    usual = dict(particles='chain', dimension=0, coordinates=1, disks=8, own=OWN)
+    usual = dict(particles='chain', dimension=0, coordinates=1, number=8, own=OWN)
     usual.update(boundary_x='', boundary_y='', zero_exponents=4)
     return made.run_info(**{**usual, **fields})
 
@@ -66,7 +66,7 @@ class WithoutBox(Bags):
         self.assertEqual(wrong, [f'{paths[2]}: of disks, in a table of chain'])
         self.assertEqual([one.system['beta'] for one in found], [2, 10])
         first, head, *_ = table.text(found)
-        self.assertEqual(first, 'the same in all: disks 8, energy 1')
+        self.assertEqual(first, 'the same in all: number 8, energy 1')
         self.assertEqual(head.split()[:2], ['beta', 'lambda_max'])
 
 

@@ -20,7 +20,7 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 SBATCH = os.path.join(HERE, '../../launch/runs.sbatch')
 # of less than a second of computation
 TINY = dict(
-    base='quick', disks=20, equilibration=1.0, warmup=1.0, duration=2.0, observables=['spectrum']
+    base='quick', number=20, equilibration=1.0, warmup=1.0, duration=2.0, observables=['spectrum']
 )
 LONG = dict(TINY, duration=1e6)
 REFUSED = dict(TINY, density=2.5)
@@ -116,7 +116,7 @@ class Work(InFolder):
             'roslaunch', 'hdlyap', 'runs.launch', 'runs:=one two', f'folder:={self.out}'
         )
         self.assertEqual(launch.wait(LATEST), 0, launch.text())
-        self.assertEqual(len(launch.lines('the same in all: disks 20')), 1, launch.text())
+        self.assertEqual(len(launch.lines('the same in all: number 20')), 1, launch.text())
         # a task that is refused has failed, whatever is there already
         shutil.copy(os.path.join(self.out, 'one.bag'), os.path.join(self.out, 'refused.bag'))
         tasks = [
@@ -288,7 +288,7 @@ class Grid(InFolder):
     def check_row(self, row, results):
         self.assertIn('c_T', results.index)
         units = {'lambda_max': '1/time unit', 'c_T': 'sigma/time unit'}
-        for name, factor in (('lambda_max', 1), ('c_T', 1), ('h_KS', MODES['disks'])):
+        for name, factor in (('lambda_max', 1), ('c_T', 1), ('h_KS', MODES['number'])):
             shown = name if name in units else 'h_KS/N'
             columns = [f'{shown} [{units.get(name, "1/time unit")}]']
             columns += [f'{shown} {error}' for error in ('std_error', 'scatter')]

@@ -52,7 +52,7 @@ HENDERSON = Equation()
 def velocity(info, nx, ny, state=HENDERSON):
     """Along the wave vector of these nodes [sigma/time unit]."""
     if is_row(info):
-        return of_row(info.disks / info.box_x, _height(info), _walls(info)[1])
+        return of_row(info.number / info.box_x, _height(info), _walls(info)[1])
     lengths = [side - wall for side, wall in zip((info.box_x, info.box_y), _walls(info))]
     along = np.array([nx / lengths[0], ny / lengths[1]]) ** 2
     return float(along @ _velocities(info, lengths, state) / along.sum())
@@ -80,12 +80,12 @@ def is_row(info):
 def inside(info, state=HENDERSON):
     """Density away from the walls, of N disks in all; without walls the density."""
     area = info.box_x * info.box_y
-    mean = info.disks / area
+    mean = info.number / area
     if not any(_walls(info)):
         return mean
 
     def excess(density):
-        return density * area + adsorbed(density, state) * _length(info) - info.disks
+        return density * area + adsorbed(density, state) * _length(info) - info.number
 
     return brentq(excess, mean, FULL)
 
@@ -127,7 +127,7 @@ def _velocities(info, lengths, state):
     density, (wall_x, wall_y) = inside(info, state), _walls(info)
     p, gamma = state.pressure(density), tension(density)
     forces = p * info.box_y - 2 * gamma * wall_y, p * info.box_x - 2 * gamma * wall_x
-    return np.array(forces) * lengths / (sqrt(2) * info.disks)
+    return np.array(forces) * lengths / (sqrt(2) * info.number)
 
 
 def _walls(info):

@@ -12,7 +12,7 @@
 
 HD_API_BEGIN
 
-enum { HD_CHECKPOINT_FORMAT = 16, HD_CHECKPOINT_LABEL = 64 };
+enum { HD_CHECKPOINT_FORMAT = 17, HD_CHECKPOINT_LABEL = 64 };
 
 /** What a checkpoint says of itself. */
 typedef struct hd_checkpoint {

@@ -127,7 +127,7 @@ static hd_status allocate(hd_covariant *c)
     HD_TRY(
         hd_spectrum_create(&c->spectrum, c->rows, c->vectors, hd_scene_sound_crossing(&c->scene)));
     HD_TRY(hd_splitting_create(&c->splitting, c->vectors, c->unstable, c->centre));
-    return hd_localization_create(&c->shape, c->scene.disks, hd_scene_coordinates(&c->scene),
+    return hd_localization_create(&c->shape, c->scene.number, hd_scene_coordinates(&c->scene),
                                   c->vectors, c->threads);
 }
 
@@ -139,7 +139,7 @@ hd_status hd_covariant_create(hd_covariant **out, const hd_scene_def *def, int t
     if (!c) return HD_NO_MEMORY;
     c->scene = *def;
     c->threads = threads;
-    c->rows = 2 * hd_scene_coordinates(def) * def->disks;
+    c->rows = 2 * hd_scene_coordinates(def) * def->number;
     c->vectors = hd_scene_vectors(def);
     c->carried = hd_scene_carried(def);
     c->rate = hd_dynamics_of(def)->entries(def);

@@ -14,7 +14,7 @@ hd_status hd_trajectory_create_from(hd_trajectory **out, const hd_scene_def *def
     hd_trajectory *tr = hd_memory_alloc(1, sizeof *tr);
     *out = NULL;
     if (!tr) return HD_NO_MEMORY;
-    *tr = (hd_trajectory){.of = hd_dynamics_of(def), .particles = def->disks};
+    *tr = (hd_trajectory){.of = hd_dynamics_of(def), .particles = def->number};
     tr->rate = tr->of->rate(def);
     const hd_status status = q ? tr->of->create_from(&tr->state, def, q, p)
                                : tr->of->create(&tr->state, def);

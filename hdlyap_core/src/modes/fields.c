@@ -121,7 +121,7 @@ hd_status hd_fields_create(hd_fields **out, const hd_scene_def *def)
     if (!fields) return HD_NO_MEMORY;
     fields->dimension = hd_scene_dimension(def);
     fields->coordinates = hd_scene_coordinates(def);
-    fields->disks = def->disks;
+    fields->disks = def->number;
     const hd_status status = fields_prepare(fields, def);
     if (status == HD_OK)
         *out = fields;

@@ -71,7 +71,7 @@ double hd_modes_bytes(const hd_scene_def *scene, double vectors)
                  turning = hd_scene_coordinates(scene) > hd_scene_dimension(scene);
     const double columns = count.columns + nulls,
                  rows = count.subspaces * HD_WEIGHTS + nulls + turning,
-                 fields = hd_scene_coordinates(scene) * (double)scene->disks * (columns + 4.0);
+                 fields = hd_scene_coordinates(scene) * (double)scene->number * (columns + 4.0);
     return sizeof(double) *
            (fields + widest * columns + (columns + widest + 1.0 + nulls + 2.0 * rows) * vectors);
 }
@@ -103,7 +103,7 @@ hd_status hd_modes_create(hd_modes **out, const hd_scene_def *def, int vectors, 
     hd_modes *modes = hd_memory_alloc(1, sizeof *modes);
     *out = NULL;
     if (!modes) return HD_NO_MEMORY;
-    modes->disks = def->disks;
+    modes->disks = def->number;
     modes->dimension = hd_scene_dimension(def);
     modes->coordinates = hd_scene_coordinates(def);
     modes->widest = HD_FIELDS_IN(modes->dimension);

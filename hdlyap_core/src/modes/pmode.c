@@ -34,7 +34,7 @@ struct hd_pmode {
 static size_t size_of(const hd_scene_def *def)
 {
     const int fields = HD_FIELDS_IN(hd_scene_dimension(def));
-    return (size_t)(fields * hd_scene_coordinates(def)) * (size_t)def->disks;
+    return (size_t)(fields * hd_scene_coordinates(def)) * (size_t)def->number;
 }
 
 double hd_pmode_bytes(const hd_scene_def *def)
@@ -48,7 +48,7 @@ hd_status hd_pmode_create(hd_pmode **out, const hd_scene_def *def)
     hd_pmode *pmode = hd_memory_alloc(1, sizeof *pmode);
     *out = NULL;
     if (!pmode) return HD_NO_MEMORY;
-    pmode->disks = def->disks;
+    pmode->disks = def->number;
     pmode->coordinates = hd_scene_coordinates(def);
     pmode->psi = hd_memory_alloc(size, sizeof(double));
     pmode->field = hd_memory_alloc(size, sizeof(double));

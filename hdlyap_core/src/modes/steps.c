@@ -48,7 +48,7 @@ double hd_steps_bytes(const hd_scene_def *scene)
 {
     const double n = hd_scene_vectors(scene), subspaces = hd_fields_count_of(scene).subspaces;
     const double count = subspaces *
-                             (n == 2.0 * hd_scene_coordinates(scene) * scene->disks ? 2.0 : 1.0) +
+                             (n == 2.0 * hd_scene_coordinates(scene) * scene->number ? 2.0 : 1.0) +
                          1.0;
     const double of_a_vector = sizeof(double) + sizeof(hd_part);
     return count * (sizeof(hd_step) + sizeof(hd_company) + HD_SET_VECTORS_MAX * of_a_vector) +
@@ -73,7 +73,7 @@ static int smaller(int a, int b) { return a < b ? a : b; }
 /** Where the halves and the zero modes lie; a frame need not reach so far. */
 static void place(hd_steps *steps, const hd_scene_def *def)
 {
-    const int n = steps->vectors, all = 2 * hd_scene_coordinates(def) * def->disks;
+    const int n = steps->vectors, all = 2 * hd_scene_coordinates(def) * def->number;
     const int positive = hd_scene_positive_exponents(def);
     steps->positive = (hd_half){0, smaller(n, positive)};
     steps->zero_first = smaller(n, positive);
@@ -89,7 +89,7 @@ hd_status hd_steps_create(hd_steps **out, const hd_scene_def *def, const hd_mode
     const hd_fields *fields = hd_modes_fields(modes);
     steps->modes = modes;
     steps->vectors = hd_modes_vectors(modes);
-    steps->rows = 2 * hd_scene_coordinates(def) * def->disks;
+    steps->rows = 2 * hd_scene_coordinates(def) * def->number;
     steps->warmup = hd_scene_parting(def);
     steps->of_t = hd_relation_of(def, HD_MODE_T);
     steps->of_lp = hd_relation_of(def, HD_MODE_LP);

@@ -124,12 +124,12 @@ double hd_structure_bytes(const hd_scene_def *scene, double vectors)
     return sizeof(double) *
            (2.0 * HD_DIRECTIONS * waves * vectors +
             (dimension * width + AT_ONCE + HD_DIRECTIONS * amplitudes + 1.0) * vectors +
-            scene->disks * (width + 2.0 * (longer + (dimension - 1) * shorter)));
+            scene->number * (width + 2.0 * (longer + (dimension - 1) * shorter)));
 }
 
 static hd_status prepare(hd_structure *s, const hd_scene_def *def)
 {
-    const size_t disks = (size_t)def->disks, waves = (size_t)s->waves, n = s->stride;
+    const size_t disks = (size_t)def->number, waves = (size_t)s->waves, n = s->stride;
     HD_TRY(plan_waves(s, def));
     for (int d = 0; d < s->dimension; d++) {
         const size_t functions = 2 * ((size_t)s->along[d].nodes + 1);
@@ -162,7 +162,7 @@ hd_status hd_structure_create(hd_structure **out, const hd_scene_def *def, int v
     hd_structure *s = hd_memory_alloc(1, sizeof *s);
     *out = NULL;
     if (!s) return HD_NO_MEMORY;
-    s->disks = def->disks;
+    s->disks = def->number;
     s->dimension = hd_scene_dimension(def);
     s->coordinates = hd_scene_coordinates(def);
     s->functions = HD_MODULATIONS_IN(s->dimension);

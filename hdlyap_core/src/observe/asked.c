@@ -52,7 +52,7 @@ bool hd_observables_asked(const hd_scene_def *scene, unsigned needs)
 
 double hd_observables_bytes(const hd_scene_def *scene, int ranks)
 {
-    const double state = 2.0 * hd_scene_coordinates(scene) * scene->disks * sizeof(double);
+    const double state = 2.0 * hd_scene_coordinates(scene) * scene->number * sizeof(double);
     double bytes = hd_observables_asked(scene, HD_NEEDS_STATE) ? state : 0.0; /* q and p */
     EACH_ASKED(scene, row) bytes += row->bytes(scene, ranks);
     return bytes;
@@ -68,7 +68,7 @@ unsigned hd_observables_tried(unsigned set)
 hd_extent hd_observables_extent(const hd_scene_def *scene, void *const *part)
 {
     hd_extent extent = {.dimension = hd_scene_dimension(scene),
-                        .disks = scene->disks,
+                        .disks = scene->number,
                         .vectors = hd_scene_vectors(scene)};
     for (int k = 0; k < HD_OBSERVED; k++) {
         const hd_observable *row = hd_observable_rows[k];

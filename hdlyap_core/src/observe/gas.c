@@ -41,16 +41,16 @@ static counts counts_of(const hd_trajectory *trajectory)
 /** Momenta along a direction, but for what is conserved. */
 static double momenta(const hd_scene_def *def, int d)
 {
-    return def->disks - hd_null_conserved(def, d);
+    return def->number - hd_null_conserved(def, d);
 }
 
 double hd_gas_temperature(const hd_scene_def *def)
 {
     const int dimension = hd_scene_dimension(def);
     const int others = hd_scene_coordinates(def) - dimension; /* of which nothing is conserved */
-    double all = (double)others * def->disks;
+    double all = (double)others * def->number;
     for (int d = 0; d < dimension; d++) all += momenta(def, d);
-    return 2.0 * def->disks / all;
+    return 2.0 * def->number / all;
 }
 
 double hd_gas_area(const hd_scene_def *def) { return hd_container_of(def)->area(def); }
@@ -63,7 +63,7 @@ hd_status hd_gas_create(hd_gas **out, const hd_scene_def *def, double block)
     gas->dimension = hd_scene_dimension(def);
     gas->coordinates = hd_scene_coordinates(def);
     gas->series = VIRIAL_X + gas->dimension;
-    gas->disks = def->disks;
+    gas->disks = def->number;
     gas->area = hd_gas_area(def);
     for (int d = 0; d < gas->dimension; d++)
         gas->kinetic[d] = momenta(def, d) * hd_gas_temperature(def);

@@ -38,7 +38,7 @@ hd_status hd_hydro_create(hd_hydro **out, const hd_scene_def *def, const hd_step
     if (!hydro) return HD_NO_MEMORY;
     memcpy(hydro->boundary, def->boundary, sizeof hydro->boundary);
     hydro->dimension = hd_scene_dimension(def);
-    hydro->disks = def->disks;
+    hydro->disks = def->number;
     for (int k = 0; k < hd_steps_count(steps); k++)
         hydro->count += entries_of(hd_steps_step(steps, k));
     hydro->response = hd_memory_alloc((size_t)hydro->count + 1, sizeof *hydro->response);

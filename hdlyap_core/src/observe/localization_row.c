@@ -15,7 +15,7 @@ static double localization_bytes(const hd_scene_def *scene, int ranks)
 static void *localization_create(const hd_observing *with, hd_status *status)
 {
     hd_localization *made;
-    *status = hd_localization_create(&made, with->scene->disks, hd_scene_coordinates(with->scene),
+    *status = hd_localization_create(&made, with->scene->number, hd_scene_coordinates(with->scene),
                                      with->vectors, with->threads);
     return made;
 }

@@ -16,7 +16,7 @@ static const double CATCH_UP_SECONDS = 0.1;
 static hd_status create_state(hd_observables *o)
 {
     const hd_scene_def *scene = o->with.scene;
-    const size_t size = (size_t)hd_scene_coordinates(scene) * (size_t)scene->disks;
+    const size_t size = (size_t)hd_scene_coordinates(scene) * (size_t)scene->number;
     o->q = hd_memory_alloc(size, sizeof *o->q);
     o->p = hd_memory_alloc(size, sizeof *o->p);
     return o->q && o->p ? HD_OK : HD_NO_MEMORY;

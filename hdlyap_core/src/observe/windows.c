@@ -98,7 +98,7 @@ static hd_status covariant_catch_up(void *self)
 static double covariant_bytes(const hd_scene_def *scene, int ranks)
 {
     const double n = hd_scene_vectors(scene), carried = hd_scene_carried(scene),
-                 vectors = 2.0 * hd_scene_coordinates(scene) * scene->disks * n;
+                 vectors = 2.0 * hd_scene_coordinates(scene) * scene->number * n;
     const double factors = 2.0 * carried * carried, ways = (carried < n ? 8.25 : 5.0) * n * n;
     const double gathered = ranks > 1 ? vectors : 0.0;
     const double weights = hd_scene_dimension(scene) > 0 ? 3.0 * hd_modes_bytes(scene, n) : 0.0;
@@ -119,10 +119,11 @@ static hd_status covariant_check(const hd_scene_def *scene, char *message, size_
                          "exponents are not in pairs",
                          of->particles);
     if (hd_scene_positive_exponents(scene) < 1)
-        return hd_refuse(message, size,
-                         "observables = covariant: must not be given with disks = %d, which has no "
-                         "unstable vector",
-                         scene->disks);
+        return hd_refuse(
+            message, size,
+            "observables = covariant: must not be given with number = %d, which has no "
+            "unstable vector",
+            scene->number);
     if (scene->covariant_sampling > window)
         return hd_refuse(message, size,
                          "covariant_sampling = %.15g: must be from 1e-6 to covariant_window",
@@ -161,7 +162,7 @@ static void covariant_extend(hd_extent *extent, const hd_scene_def *scene, const
 static hd_status prepare(hd_windows *windows, const hd_observing *with)
 {
     const size_t vectors = 2 * (size_t)hd_scene_coordinates(with->scene) *
-                           (size_t)with->scene->disks * (size_t)with->vectors;
+                           (size_t)with->scene->number * (size_t)with->vectors;
     HD_TRY(hd_ortho_keep_factor(with->ortho));
     if (with->communicator &&
         !(windows->gathered = hd_memory_alloc(vectors, sizeof *windows->gathered)))

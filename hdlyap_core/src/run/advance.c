@@ -14,7 +14,7 @@ static const double SHORTEST = 1e-12;
  * begin: what they grow to is learnt. */
 static double events_per_disk(const hd_scene_def *scene)
 {
-    return 2.0 * hd_dynamics_of(scene)->entries(scene) / scene->disks;
+    return 2.0 * hd_dynamics_of(scene)->entries(scene) / scene->number;
 }
 
 hd_status hd_advance_create(hd_advance *advance, const hd_scene_def *scene)
@@ -22,7 +22,7 @@ hd_status hd_advance_create(hd_advance *advance, const hd_scene_def *scene)
     HD_TRY(hd_trajectory_create(&advance->trajectory, scene));
     const double rate = events_per_disk(scene);
     advance->longest = 1e-3 / rate;
-    advance->bound = 8.0 * HD_EVENTS_MAX / (scene->disks * rate);
+    advance->bound = 8.0 * HD_EVENTS_MAX / (scene->number * rate);
     return HD_OK;
 }
 

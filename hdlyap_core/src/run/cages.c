@@ -17,8 +17,8 @@ enum { FEW = 10 };
 
 hd_status hd_cages_create(hd_cages *cages, const hd_scene_def *scene)
 {
-    const size_t count = (size_t)hd_scene_dimension(scene) * (size_t)scene->disks;
-    const size_t room = (size_t)hd_scene_coordinates(scene) * (size_t)scene->disks;
+    const size_t count = (size_t)hd_scene_dimension(scene) * (size_t)scene->number;
+    const size_t room = (size_t)hd_scene_coordinates(scene) * (size_t)scene->number;
     *cages = (hd_cages){.count = count};
     if (count == 0) return HD_OK; /* there are no places */
     cages->start = hd_memory_alloc(room, sizeof(double));
@@ -64,10 +64,10 @@ void hd_cages_look(hd_cages *cages, const hd_trajectory *trajectory, const hd_sc
     for (int d = 0; d < dimension; d++) boundary[d] = hd_scene_boundary(scene, d);
     hd_scene_box(scene, box);
     hd_trajectory_places(trajectory, cages->now, NULL);
-    for (int i = 0; i < scene->disks; i++)
+    for (int i = 0; i < scene->number; i++)
         away += square_moved(cages->start + dimension * i, cages->now + dimension * i, box,
                              boundary, dimension) > place * place;
-    cages->left = away * FEW >= scene->disks;
+    cages->left = away * FEW >= scene->number;
 }
 
 bool hd_cages_hold(const hd_cages *cages, double least)

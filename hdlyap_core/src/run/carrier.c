@@ -54,7 +54,7 @@ static const double NO_HALF = -2.0;
 
 static int rows_of(const hd_scene_def *scene)
 {
-    return 2 * hd_scene_coordinates(scene) * scene->disks;
+    return 2 * hd_scene_coordinates(scene) * scene->number;
 }
 
 static hd_status agree(const hd_carrier *c, hd_status status)
@@ -154,7 +154,7 @@ hd_status hd_carrier_create(hd_carrier *c, const hd_scene_def *scene, double col
     const double limit = scene->interval > 0 ? scene->interval : INFINITY;
     *c = (hd_carrier){.communicator = communicator,
                       .of = hd_dynamics_of(scene),
-                      .disks = scene->disks,
+                      .disks = scene->number,
                       .vectors = hd_scene_vectors(scene),
                       .carried = hd_scene_carried(scene),
                       .positive = hd_scene_positive_exponents(scene),

@@ -375,7 +375,7 @@ static hd_status restore(hd_run *run, hd_archive *archive, const hd_checkpoint *
 /** No room is asked for that the file could not fill. */
 static bool holds(hd_archive *archive, const hd_scene_def *scene)
 {
-    const double least = 8.0 * scene->disks *
+    const double least = 8.0 * scene->number *
                          (9.0 +
                           2.0 * hd_scene_coordinates(scene) * (double)hd_scene_carried(scene));
     hd_archive_expect(archive, least <= (double)archive->bytes, "scene",

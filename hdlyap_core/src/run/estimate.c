@@ -33,11 +33,11 @@ hd_extent hd_extent_of(const hd_scene_def *def, const hd_run *run)
  * there is none. */
 static hd_scene_def smaller(const hd_scene_def *def)
 {
-    const double vectors = hd_scene_carried(def), work = def->disks * vectors * vectors;
+    const double vectors = hd_scene_carried(def), work = def->number * vectors * vectors;
     const double part = cbrt(TRIAL_WORK / fmax(work, TRIAL_WORK));
     hd_scene_def scene = *def;
     if (part >= 1.0) return scene;
-    scene.disks = (int)(part * def->disks);
+    scene.number = (int)(part * def->number);
     if (def->exponents > 0) scene.exponents = (int)(part * vectors); /* a number of them */
     scene.max_wave_number /= sqrt(part);
     return hd_scene_check(&scene, NULL, 0) == HD_OK ? scene : *def;
@@ -92,7 +92,7 @@ static double reached_after(const hd_standing *s, double averaged)
 /** Averaged time of the target, of a run that has averaged as the scene would. */
 static double target_after(const hd_run *run, const hd_scene_def *def)
 {
-    const bool same = hd_run_scene(run)->disks == def->disks;
+    const bool same = hd_run_scene(run)->number == def->number;
     if (!same || !*def->target.line) return NAN;
     const hd_standing end = hd_target_standing(run, &def->target);
     const double averaged = hd_run_time(run) - hd_agenda_stage_begin(&run->agenda);
@@ -104,9 +104,9 @@ static double target_after(const hd_run *run, const hd_scene_def *def)
  * through the box. */
 static void enlarge(hd_estimate *e, const hd_scene_def *tried, const hd_scene_def *def)
 {
-    e->disks = tried->disks;
-    if (tried->disks == def->disks) return;
-    e->seconds *= pow((double)def->disks / tried->disks, 3.0);
+    e->disks = tried->number;
+    if (tried->number == def->number) return;
+    e->seconds *= pow((double)def->number / tried->number, 3.0);
     e->errors_after *= hd_scene_sound_crossing(def) / hd_scene_sound_crossing(tried);
 }
 

@@ -11,7 +11,7 @@ void hd_gathered_free(hd_gathered *g) { hd_memory_free(g->room); }
 /** Where a half is carried: both halves, and the half as it is gathered. */
 double hd_gathered_bytes(const hd_scene_def *scene, int ranks)
 {
-    const double rows = 2.0 * hd_scene_coordinates(scene) * scene->disks,
+    const double rows = 2.0 * hd_scene_coordinates(scene) * scene->number,
                  carried = hd_scene_carried(scene);
     const bool wanted = hd_observables_asked(scene, HD_NEEDS_ALL);
     if (ranks == 1 || !wanted || carried == hd_scene_vectors(scene)) return 0.0;

@@ -23,7 +23,7 @@ double hd_room_needed(const hd_scene_def *def, int threads, int ranks)
 
 static bool fits(const hd_scene_def *def, hd_room room)
 {
-    const int threads = hd_threads_most(def->threads, 2 * hd_scene_coordinates(def) * def->disks,
+    const int threads = hd_threads_most(def->threads, 2 * hd_scene_coordinates(def) * def->number,
                                         hd_scene_carried(def));
     return hd_room_needed(def, threads, room.ranks) <= room.bytes;
 }
@@ -53,7 +53,7 @@ static int exponents_that_fit(const hd_scene_def *def, hd_room room)
 static int disks_that_fit(const hd_scene_def *def, hd_room room)
 {
     hd_scene_def copy = *def;
-    return most_that_fits(&copy, room, &copy.disks);
+    return most_that_fits(&copy, room, &copy.number);
 }
 
 /** Rounded down to two digits: it is an estimate. */
@@ -67,20 +67,20 @@ static int about(int number)
 hd_status hd_room_check(const hd_scene_def *def, hd_room room, char *message, size_t size)
 {
     const int n = hd_scene_vectors(def);
-    const int threads = hd_threads_most(def->threads, 2 * hd_scene_coordinates(def) * def->disks,
+    const int threads = hd_threads_most(def->threads, 2 * hd_scene_coordinates(def) * def->number,
                                         hd_scene_carried(def));
     char fitting[96] = "nothing of it would fit";
     if (fits(def, room)) return HD_OK;
     const int exponents = n > 0 ? about(exponents_that_fit(def, room)) : 0;
     const int disks = about(disks_that_fit(def, room));
     if (exponents > 0)
-        snprintf(fitting, sizeof fitting, "exponents = %d would fit, or disks = %d", exponents,
+        snprintf(fitting, sizeof fitting, "exponents = %d would fit, or number = %d", exponents,
                  disks);
     else if (disks > 0)
-        snprintf(fitting, sizeof fitting, "disks = %d would fit", disks);
+        snprintf(fitting, sizeof fitting, "number = %d would fit", disks);
     (void)hd_refuse(
-        message, size, "%s: disks = %d with %d exponents need %.3g GB, there are %.3g GB (%s); %s",
-        hd_status_text(HD_NO_MEMORY), def->disks, n,
+        message, size, "%s: number = %d with %d exponents need %.3g GB, there are %.3g GB (%s); %s",
+        hd_status_text(HD_NO_MEMORY), def->number, n,
         1e-9 * hd_room_needed(def, threads, room.ranks), 1e-9 * room.bytes, room.limit, fitting);
     return HD_NO_MEMORY;
 }

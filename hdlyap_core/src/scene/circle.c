@@ -11,7 +11,7 @@
 
 static const double PI = 3.14159265358979323846;
 
-double hd_circle_radius(const hd_scene_def *def) { return sqrt(def->disks / (PI * def->density)); }
+double hd_circle_radius(const hd_scene_def *def) { return sqrt(def->number / (PI * def->density)); }
 
 double hd_circle_reach(const hd_scene_def *def) { return hd_circle_radius(def) - 0.5; }
 
@@ -43,9 +43,9 @@ static hd_status circle_check(const hd_scene_def *def, char *message, size_t siz
                          def->aspect);
     if (!(hd_circle_reach(def) >= HD_ROOM_MIN))
         return hd_refuse(message, size,
-                         "density = %.15g with disks = %d: the radius %.15g of the container must "
+                         "density = %.15g with number = %d: the radius %.15g of the container must "
                          "be above that of a disk, 1/2, by 1e-9",
-                         def->density, def->disks, hd_circle_radius(def));
+                         def->density, def->number, hd_circle_radius(def));
     return HD_OK;
 }
 
@@ -107,24 +107,24 @@ static double spacing_of(const hexagons *h, double reach)
 
 static double circle_start_distance(const hd_scene_def *def)
 {
-    const hexagons h = densest(def->disks);
-    return def->disks > 1 ? spacing_of(&h, hd_circle_reach(def)) : INFINITY;
+    const hexagons h = densest(def->number);
+    return def->number > 1 ? spacing_of(&h, hd_circle_reach(def)) : INFINITY;
 }
 
 static double circle_density_max(const hd_scene_def *def)
 {
-    const hexagons h = densest(def->disks);
+    const hexagons h = densest(def->number);
     const double spacing = HD_START_DISTANCE_MIN * (1.0 + 16.0 * DBL_EPSILON);
-    const double radius = 0.5 + (def->disks > 1 ? spacing * sqrt(h.square) : 1e-9);
-    return def->disks / (PI * radius * radius);
+    const double radius = 0.5 + (def->number > 1 ? spacing * sqrt(h.square) : 1e-9);
+    return def->number / (PI * radius * radius);
 }
 
 /** Spare sites are left empty evenly. */
 static void circle_start(const hd_scene_def *def, double *q)
 {
-    const hexagons h = densest(def->disks);
+    const hexagons h = densest(def->number);
     const double centre = hd_circle_radius(def), spacing = spacing_of(&h, hd_circle_reach(def));
-    const int64_t sites = (int64_t)sites_within(&h, h.square), disks = def->disks;
+    const int64_t sites = (int64_t)sites_within(&h, h.square), disks = def->number;
     const int rows = rows_of(h.square);
     int64_t site = 0;
     for (int j = -rows; j <= rows; j++) {

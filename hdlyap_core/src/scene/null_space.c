@@ -35,13 +35,13 @@ int hd_null_space_fill(const hd_scene_def *def, const double *q, const double *p
 {
     const hd_null_space null = hd_null_space_of(def);
     const int of_one = hd_scene_coordinates(def);
-    const size_t rows = 2 * (size_t)(of_one * def->disks);
+    const size_t rows = 2 * (size_t)(of_one * def->number);
     int count = 0;
     for (int k = 0; k < 2 * null.count; k++) {
         const bool rotation = null.rotates && null.axis[k / 2] == HD_NULL_X;
         if (rotation && k % 2 == 1) continue;
         memset(column, 0, rows * sizeof *column);
-        for (int j = 0; j < of_one * def->disks; j++) {
+        for (int j = 0; j < of_one * def->number; j++) {
             const int d = j % of_one;
             const double *at = q + (j - d), *moving = p + (j - d);
             double *entry = column + 2 * of_one * (j / of_one) + d;
@@ -60,13 +60,13 @@ static void still_rotation(const hd_scene_def *def, const double *q, double *p)
 {
     const double centre = hd_null_space_of(def).centre;
     double angular = 0.0, inertia = 0.0;
-    for (int k = 0; k < 2 * def->disks; k += 2) {
+    for (int k = 0; k < 2 * def->number; k += 2) {
         const double x = q[k] - centre, y = q[k + 1] - centre;
         angular += x * p[k + 1] - y * p[k];
         inertia += x * x + y * y;
     }
     const double rate = inertia > 0 ? angular / inertia : 0.0;
-    for (int k = 0; k < 2 * def->disks; k += 2) {
+    for (int k = 0; k < 2 * def->number; k += 2) {
         p[k] += rate * (q[k + 1] - centre);
         p[k + 1] -= rate * (q[k] - centre);
     }
@@ -78,8 +78,8 @@ void hd_null_space_still(const hd_scene_def *def, const double *q, double *p)
     for (int d = 0; d < dimension; d++) {
         double sum = 0.0;
         if (hd_scene_boundary(def, d) != HD_PERIODIC) continue;
-        for (int i = 0; i < def->disks; i++) sum += p[of_one * i + d];
-        for (int i = 0; i < def->disks; i++) p[of_one * i + d] -= sum / def->disks;
+        for (int i = 0; i < def->number; i++) sum += p[of_one * i + d];
+        for (int i = 0; i < def->number; i++) p[of_one * i + d] -= sum / def->number;
     }
     if (hd_container_of(def)->rotates) still_rotation(def, q, p);
 }
@@ -87,12 +87,12 @@ void hd_null_space_still(const hd_scene_def *def, const double *q, double *p)
 void hd_null_space_momenta(const hd_scene_def *def, const double *q, double *p)
 {
     hd_random random = hd_random_seeded(def->seed, 0);
-    const int all = hd_scene_coordinates(def) * def->disks;
+    const int all = hd_scene_coordinates(def) * def->number;
     double square = 0.0;
     for (int k = 0; k < all; k++) p[k] = hd_random_symmetric(&random);
     hd_null_space_still(def, q, p);
     for (int k = 0; k < all; k++) square += p[k] * p[k];
-    const double scale = sqrt(2.0 * def->disks / square);
+    const double scale = sqrt(2.0 * def->number / square);
     for (int k = 0; k < all; k++) p[k] *= scale;
 }
 

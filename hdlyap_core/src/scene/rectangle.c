@@ -29,10 +29,10 @@ static double cube_root(double x)
 
 static void rectangle_box(const hd_scene_def *def, double *box)
 {
-    const double square = (double)def->disks / (def->density * def->aspect);
+    const double square = (double)def->number / (def->density * def->aspect);
     box[0] = is_flat(def)
                  ? sqrt(square)
-                 : cube_root((double)def->disks / (def->density * def->aspect * def->aspect_z));
+                 : cube_root((double)def->number / (def->density * def->aspect * def->aspect_z));
     box[1] = def->aspect * box[0];
     if (!is_flat(def)) box[2] = def->aspect_z * box[0];
 }
@@ -60,18 +60,18 @@ static hd_status rectangle_check(const hd_scene_def *def, char *message, size_t 
 {
     double box[HD_DIMENSION_MAX];
     rectangle_box(def, box);
-    if (def->disks < 2 && hd_scene_coordinates(def) == hd_scene_dimension(def))
+    if (def->number < 2 && hd_scene_coordinates(def) == hd_scene_dimension(def))
         return hd_refuse(message, size,
-                         "disks = %d: must be an integer from 2 to 1000000 in a rectangle",
-                         def->disks);
+                         "number = %d: must be an integer from 2 to 1000000 in a rectangle",
+                         def->number);
     for (int d = 0; d < hd_scene_dimension(def); d++) {
         if (has_walls(def, d) ? box[d] - 1.0 >= HD_ROOM_MIN : box[d] > 1.0) continue;
         char said[24 + 24] = "";
         if (!is_flat(def)) snprintf(said, sizeof said, ", aspect_z = %.15g", def->aspect_z);
         return hd_refuse(message, size,
-                         "density = %.15g with disks = %d, aspect = %.15g%s: the box edge L%c = "
+                         "density = %.15g with number = %d, aspect = %.15g%s: the box edge L%c = "
                          "%.15g must be above the disk diameter 1%s",
-                         def->density, def->disks, def->aspect, said, "xyz"[d], box[d],
+                         def->density, def->number, def->aspect, said, "xyz"[d], box[d],
                          has_walls(def, d) ? " by 1e-9" : "");
     }
     return HD_OK;
@@ -91,8 +91,8 @@ static double rectangle_start_distance(const hd_scene_def *def)
 {
     double box[HD_DIMENSION_MAX];
     rectangle_box(def, box);
-    return is_flat(def) ? hd_plane_lattice_best(def->disks, box, def->boundary).distance
-                        : hd_space_lattice_best(def->disks, box, def->boundary).distance;
+    return is_flat(def) ? hd_plane_lattice_best(def->number, box, def->boundary).distance
+                        : hd_space_lattice_best(def->number, box, def->boundary).distance;
 }
 
 static void rectangle_start(const hd_scene_def *def, double *q)
@@ -100,11 +100,11 @@ static void rectangle_start(const hd_scene_def *def, double *q)
     double box[HD_DIMENSION_MAX];
     rectangle_box(def, box);
     if (is_flat(def)) {
-        const hd_plane_lattice best = hd_plane_lattice_best(def->disks, box, def->boundary);
-        hd_plane_lattice_fill(&best, q, def->disks, box, def->boundary);
+        const hd_plane_lattice best = hd_plane_lattice_best(def->number, box, def->boundary);
+        hd_plane_lattice_fill(&best, q, def->number, box, def->boundary);
     } else {
-        const hd_space_lattice best = hd_space_lattice_best(def->disks, box, def->boundary);
-        hd_space_lattice_fill(&best, q, def->disks, box, def->boundary);
+        const hd_space_lattice best = hd_space_lattice_best(def->number, box, def->boundary);
+        hd_space_lattice_fill(&best, q, def->number, box, def->boundary);
     }
 }
 

@@ -68,7 +68,7 @@ static const double BLOCK_COLLISIONS = 8.0;
 
 double hd_scene_collision_time(const hd_scene_def *def)
 {
-    return 0.5 * def->disks / hd_dynamics_of(def)->rate(def);
+    return 0.5 * def->number / hd_dynamics_of(def)->rate(def);
 }
 
 double hd_scene_sound_crossing(const hd_scene_def *def)
@@ -96,7 +96,7 @@ int hd_scene_zero_exponents(const hd_scene_def *def)
 
 static int all_exponents(const hd_scene_def *def)
 {
-    return 2 * hd_scene_coordinates(def) * def->disks;
+    return 2 * hd_scene_coordinates(def) * def->number;
 }
 
 int hd_scene_vectors(const hd_scene_def *def)

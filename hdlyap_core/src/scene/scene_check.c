@@ -127,9 +127,9 @@ static hd_status check_waves(const hd_scene_def *def, char *message, size_t size
     if (def->max_mode_number > limits.node)
         return hd_refuse(
             message, size,
-            "max_mode_number = %d: must be at most %d with disks = %d, density = %.15g, %s: a "
+            "max_mode_number = %d: must be at most %d with number = %d, density = %.15g, %s: a "
             "shorter wave than two mean distances, 2 / %s(density), is not sampled",
-            def->max_mode_number, limits.node, def->disks, def->density, said, root(def));
+            def->max_mode_number, limits.node, def->number, def->density, said, root(def));
     const double k = def->max_wave_number;
     if (k > 0 && !(k >= limits.smallest && k <= limits.largest))
         return hd_refuse(message, size,
@@ -147,7 +147,7 @@ static hd_status check_pairs(const hd_scene_def *def, char *message, size_t size
     return hd_refuse(message, size,
                      "exponents = positive: must be all, all_independent, none or from 1 to %d "
                      "with particles = %s, whose exponents are not in pairs",
-                     2 * of->coordinates * def->disks, of->particles);
+                     2 * of->coordinates * def->number, of->particles);
 }
 
 hd_status hd_scene_check_start(const hd_scene_def *def, char *message, size_t size)
@@ -155,17 +155,17 @@ hd_status hd_scene_check_start(const hd_scene_def *def, char *message, size_t si
     const hd_dynamics *of = hd_dynamics_of(def);
     const int of_disk = 2 * of->coordinates;
     HD_TRY(hd_scene_check_box(def, message, size));
-    if (def->exponents < HD_EXPONENTS_ALL_INDEPENDENT || def->exponents > of_disk * def->disks)
+    if (def->exponents < HD_EXPONENTS_ALL_INDEPENDENT || def->exponents > of_disk * def->number)
         return hd_refuse(
             message, size,
             "exponents = %d: must be positive, all, all_independent, none or from 1 to %d "
-            "disks = %d",
-            def->exponents, of_disk, of_disk * def->disks);
+            "N = %d",
+            def->exponents, of_disk, of_disk * def->number);
     if (def->exponents == HD_EXPONENTS_POSITIVE && hd_scene_vectors(def) == 0)
         return hd_refuse(message, size,
                          "exponents = positive: must be all, all_independent, none or from 1 to %d "
-                         "with disks = %d, which has no positive one",
-                         of_disk * def->disks, def->disks);
+                         "with number = %d, which has no positive one",
+                         of_disk * def->number, def->number);
     HD_TRY(check_pairs(def, message, size));
     if (of->dimension > 0) HD_TRY(check_waves(def, message, size));
     return of->check ? of->check(def, message, size) : HD_OK;

@@ -25,7 +25,7 @@ static void expect_at_most(double value, double limit, const char *what)
 
 static void expect_momentum(const hd_examined *now, const hd_scene_def *scene)
 {
-    const double most = scene->disks * now->energy_rounding;
+    const double most = scene->number * now->energy_rounding;
     for (int d = 0; d < hd_scene_dimension(scene); d++)
         if (hd_scene_boundary(scene, d) == HD_PERIODIC)
             expect_at_most(fabs(now->momentum[d]), most, "momentum");

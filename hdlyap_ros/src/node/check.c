@@ -77,7 +77,7 @@ static void print_speed(const settings *set, const hd_estimate *t)
     const hd_scene_def *def = &set->def;
     char left_out[PARAMETER_TEXT];
     printf("speed     %.3g s per time unit, by a trial of a second", t->seconds);
-    if (t->disks < def->disks) printf(" of %d %s, and the cube of N", t->disks, set->particles);
+    if (t->disks < def->number) printf(" of %d %s, and the cube of N", t->disks, set->particles);
     if (!isnan(t->interval)) printf("; interval %.3g", t->interval);
     topic_names(left_out, sizeof left_out, set->observables & topics_of_stages(t->untried));
     if (*left_out) printf("; without %s", left_out);
@@ -232,7 +232,7 @@ static void print_all(const settings *set, const hd_estimate *t, hd_room room)
     const hd_scene_def *def = &set->def;
     char container[64];
     hd_scene_describe(def, container, sizeof container);
-    printf("scene     %s is valid: %d %s in %s, %d vectors\n", set->scene, def->disks,
+    printf("scene     %s is valid: %d %s in %s, %d vectors\n", set->scene, def->number,
            set->particles, container, hd_scene_counts(def).vectors);
     print_memory(set, room);
     print_speed(set, t);

@@ -126,8 +126,8 @@ static void log_creation(const settings *set)
     const hd_scene_def *def = &set->def;
     if (hd_room_check(def, hd_room_available(), NULL, 0) != HD_OK) return;
     const int vectors = hd_scene_counts(def).carried;
-    if (2.0 * hd_scene_coordinates(def) * def->disks * vectors > ENTRIES_MANY)
-        hdr_log(HDR_INFO, "makes %d vectors of %d %s orthonormal", vectors, def->disks,
+    if (2.0 * hd_scene_coordinates(def) * def->number * vectors > ENTRIES_MANY)
+        hdr_log(HDR_INFO, "makes %d vectors of %d %s orthonormal", vectors, def->number,
                 set->particles);
 }
 
@@ -186,7 +186,7 @@ static void log_start(const app *a)
     char container[64];
     hd_scene_describe(def, container, sizeof container);
     hdr_log(HDR_INFO, "scene %s: %d %s in %s, %d vectors, %d threads; %s, kernel %s, %d threads",
-            a->set.scene, def->disks, a->set.particles, container, hd_run_vectors(a->run),
+            a->set.scene, def->number, a->set.particles, container, hd_run_vectors(a->run),
             hd_run_threads(a->run), blas.library, blas.kernel, blas.threads);
     warn_of_threads(a->run);
     if (*a->set.warning) hdr_log(HDR_WARN, "%s", a->set.warning);

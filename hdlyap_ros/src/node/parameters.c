@@ -17,7 +17,7 @@ static const parameter name_row = {
     .unit = "",
     .may_differ = true,
     .text =
-        "Name of the scene, copied into run_info. It must come with particles, container, disks, "
+        "Name of the scene, copied into run_info. It must come with particles, container, number, "
         "density, an aspect or a boundary: a name chooses no system. One without a name is "
         "unnamed.",
 };
@@ -249,7 +249,8 @@ void parameters_unknown(char text[PARAMETER_UNKNOWN], const char *name)
     static const struct {
         const char *name, *now;
     } before[] = {{"target_std_error", "it is written target: smallest 0.01 now"},
-                  {"dimensions", "it is called particles now: disks or spheres"}};
+                  {"dimensions", "it is called particles now: disks or spheres"},
+                  {"disks", "it is called number now"}};
     const char *meant = NULL;
     size_t fewest = 3;
     for (size_t k = 0; k < sizeof before / sizeof *before; k++) {

@@ -75,7 +75,7 @@ const char *settings_write_nodes(char text[NODES_SIZE], const hd_scene_def *def,
  * the usual one but that itself. */
 static bool check_scene_name(settings *set, reader *r)
 {
-    static const char *const system[] = {"particles",  "container",  "disks",
+    static const char *const system[] = {"particles",  "container",  "number",
                                          "density",    "aspect",     "aspect_z",
                                          "boundary_x", "boundary_y", "boundary_z"};
     const parameter name = parameters_named("scene");
@@ -92,7 +92,7 @@ static bool check_scene_name(settings *set, reader *r)
     }
     return given || strcmp(set->scene, name.usual) == 0 ||
            reader_refuse(
-               r, "given with its particles, container, disks, density, aspects or boundaries: a "
+               r, "given with its particles, container, number, density, aspects or boundaries: a "
                   "name chooses none of them, roslaunch hdlyap run.launch scene:=.. does");
 }
 

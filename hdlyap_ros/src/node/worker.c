@@ -202,7 +202,7 @@ static examination examine(const hd_run *run)
 {
     if (!hd_dynamics_of(hd_run_scene(run))->examine) return (examination){.made = false};
     const hd_trajectory *trajectory = hd_run_parts(run).trajectory;
-    const double disks = hd_run_scene(run)->disks;
+    const double disks = hd_run_scene(run)->number;
     const hd_examined now = hd_trajectory_examined(trajectory);
     return (examination){
         .made = true,

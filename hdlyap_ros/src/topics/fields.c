@@ -20,7 +20,7 @@ static void reconstruct(pair_fields *pairs, const hd_run *run, const hd_step *st
                         const double *momenta)
 {
     const size_t length = (size_t)(hd_scene_dimension(hd_run_scene(run)) *
-                                   hd_run_scene(run)->disks);
+                                   hd_run_scene(run)->number);
     const hd_modes *modes = hd_run_parts(run).modes;
     hd_pmode *pmode = hd_run_parts(run).fields;
     if (!hd_pmode_reconstruct(pmode, step, modes, hd_run_frame_columns(run))) return;
@@ -94,7 +94,7 @@ static hd_status publish_vector(const moment *now, int col)
     const int s = hd_steps_of_vector(steps, col);
     const hd_step *step = s < 0 ? NULL : hd_steps_step(steps, s);
     const int dimension = moment_dimension(now);
-    const size_t disks = (size_t)now->set->def.disks;
+    const size_t disks = (size_t)now->set->def.number;
     const size_t length = (size_t)(HD_MODULATIONS_IN(dimension) * dimension) * disks;
     const double *q, *p;
     now->room->taken = 0; /* for each anew */

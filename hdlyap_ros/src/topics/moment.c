@@ -31,7 +31,7 @@ void *moment_take(const moment *now, size_t count, size_t size)
 bool moment_state(const moment *now, const double **q, const double **p)
 {
     buffers *room = now->room;
-    const size_t count = (size_t)(moment_dimension(now) * now->set->def.disks);
+    const size_t count = (size_t)(moment_dimension(now) * now->set->def.number);
     if (!room->q) room->q = malloc(2 * count * sizeof *room->q);
     if (!room->q) {
         log_lost(now);

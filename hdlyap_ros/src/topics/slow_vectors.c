@@ -24,7 +24,7 @@ typedef struct vector_arrays {
 /** False without memory. */
 static bool arrays_take(vector_arrays *of, const moment *now, size_t count, size_t known)
 {
-    const size_t disks = (size_t)now->set->def.disks;
+    const size_t disks = (size_t)now->set->def.number;
     of->directions = (size_t)moment_dimension(now);
     of->pairs_most = HD_MODULATIONS_IN(of->directions);
     of->exponents = moment_take(now, (1 + 2 * of->pairs_most) * count, sizeof *of->exponents);
@@ -130,7 +130,7 @@ static bool fill_vectors(hdr_slow_vectors *message, const moment *now)
     const hd_parts parts = hd_run_parts(run);
     const hd_columns known = hd_run_columns(run);
     const int first = first_of(now->set, run), end = end_of(run);
-    const size_t disks = (size_t)now->set->def.disks, count = (size_t)(end - first);
+    const size_t disks = (size_t)now->set->def.number, count = (size_t)(end - first);
     const bool is_here = is_known(known, first, end);
     const size_t numbers = is_here ? disks * count : 0;
     vector_arrays of;
@@ -158,7 +158,7 @@ static bool fill_vectors(hdr_slow_vectors *message, const moment *now)
 
 static hd_status send(const moment *now)
 {
-    const size_t disks = (size_t)now->set->def.disks;
+    const size_t disks = (size_t)now->set->def.number;
     const double *q, *p;
     if (!moment_state(now, &q, &p)) return HD_OK;
     hdr_slow_vectors message = {.sim_time = hd_run_time(now->run), STATE_FIELDS(now, q, p, disks)};

@@ -3,7 +3,7 @@
 
 hd_status topic_publish_state(const moment *now)
 {
-    const size_t disks = (size_t)now->set->def.disks;
+    const size_t disks = (size_t)now->set->def.number;
     const double *q, *p;
     if (!moment_state(now, &q, &p)) return HD_OK;
     hdr_state message = {

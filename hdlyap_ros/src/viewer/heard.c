@@ -82,7 +82,7 @@ static void begin(heard *h, const hdr_run_info *info)
                                            "fields", "hydro", "structure"};
     snprintf(h->run_id, sizeof h->run_id, "%s", info->run_id);
     snprintf(h->scene, sizeof h->scene, "%s", info->scene);
-    h->disks = info->disks;
+    h->disks = info->number;
     h->stage = UINT8_MAX;
     begin_box(h, info);
     for (size_t k = 0; k < sizeof of_modes / sizeof *of_modes; k++)
@@ -95,9 +95,9 @@ bool heard_run_info(heard *h, const hdr_run_info *info)
 {
     if (h->begun && strcmp(h->run_id, info->run_id) == 0) return false;
     heard_clear(h);
-    h->q = malloc(2 * (size_t)info->disks * sizeof *h->q + 1);
+    h->q = malloc(2 * (size_t)info->number * sizeof *h->q + 1);
     if (!h->q) return false;
-    h->at = h->q + info->disks;
+    h->at = h->q + info->number;
     begin(h, info);
     h->changed = true;
     return true;

@@ -7,7 +7,7 @@ OWNABLE(hd_backward)
 
 static hd_scene_def few(int disks, hd_boundary x, hd_boundary y)
 {
-    return scene(.disks = disks, .density = 0.5, .aspect = 0.9, .boundary[0] = x, .boundary[1] = y,
+    return scene(.number = disks, .density = 0.5, .aspect = 0.9, .boundary[0] = x, .boundary[1] = y,
                  .seed = 3, .exponents = HD_EXPONENTS_ALL_INDEPENDENT);
 }
 

@@ -37,7 +37,8 @@ static forward *started(int exponents)
 {
     forward *x = calloc(1, sizeof *x);
     x->f = forward_started(
-        scene(.disks = DISKS, .density = 0.5, .aspect = 0.9, .seed = 3, .exponents = exponents), 1);
+        scene(.number = DISKS, .density = 0.5, .aspect = 0.9, .seed = 3, .exponents = exponents),
+        1);
     for (int warmup = 0; warmup < 20; warmup++) forward_interval(&x->f, 0.5);
     for (int way = 0; way < PASTS; way++) {
         const hd_history_def def = def_of(way, forward_vectors(&x->f));

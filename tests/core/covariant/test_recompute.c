@@ -9,7 +9,7 @@ enum { DISKS = 8, STRETCH = 4, SLOTS = 5 * STRETCH, KEPT = SLOTS - STRETCH, INTE
 
 static hd_scene_def small(int exponents)
 {
-    return scene(.disks = DISKS, .density = 0.5, .aspect = 0.9, .boundary[1] = R, .seed = 3,
+    return scene(.number = DISKS, .density = 0.5, .aspect = 0.9, .boundary[1] = R, .seed = 3,
                  .exponents = exponents);
 }
 

@@ -99,7 +99,7 @@ TEST(what_turns_is_a_part_of_each_vector)
         CHECK_CLOSE(hd_modes_turning_snapshot(modes)[l], want[l], 1e-14);
         CHECK_CLOSE(hd_modes_turning_average(modes)[l], want[l], 1e-14);
     }
-    const hd_scene_def disks = scene(.disks = 16);
+    const hd_scene_def disks = scene(.number = 16);
     MADE(hd_modes, of_disks, &disks, VECTORS, 1);
     assert_null(hd_modes_turning_average(of_disks));
 }
@@ -170,7 +170,7 @@ TEST(the_pressure_is_that_of_the_walls)
     }
     for (int d = 0; d < 2; d++) {
         const double wall = taken[d] / (2.0 * time * (box[1 - d] - 1.0)),
-                     kinetic = def.disks * hd_gas_temperature(&def),
+                     kinetic = def.number * hd_gas_temperature(&def),
                      line = (kinetic + (after.virial[d] - before.virial[d]) / time) /
                             hd_gas_area(&def);
         CHECK_CLOSE(line / wall, 1.0, 0.02);

@@ -107,15 +107,15 @@ static void slice_agrees(seen *all, hd_trajectory *tr, hd_record *log, const hd_
         assert_true(events < hd_record_count(log));
         const hd_bump *bump = hd_record_entry(log, events++);
         CHECK_CLOSE(at + t, bump->t, TIME_CLOSE / fast);
-        fly_for(&s, def->disks, t);
+        fly_for(&s, def->number, t);
         check_is_of(bump, def, &s, &f);
         bounce(def, &s, &f);
         at += t;
     }
     assert_int_equal(events, hd_record_count(log));
-    fly_for(&s, def->disks, slice - at);
+    fly_for(&s, def->number, slice - at);
     const molecules now = molecules_now(tr);
-    for (int k = 0; k < D * def->disks; k++) CHECK_CLOSE(now.p[k], s.p[k], MOMENTA_CLOSE * fast);
+    for (int k = 0; k < D * def->number; k++) CHECK_CLOSE(now.p[k], s.p[k], MOMENTA_CLOSE * fast);
     all->least = fmin(all->least, least_gap_of(def, &now));
     all->events += (int)events;
 }
@@ -130,7 +130,7 @@ static void agrees(seen *all, hd_trajectory *tr, const hd_scene_def *def, int sl
     CHECK_CLOSE(hd_trajectory_kinetic_energy(tr), energy, energy * now.energy_rounding);
     for (int d = 0; d < 2; d++)
         if (def->boundary[d] == HD_PERIODIC)
-            CHECK_CLOSE(now.momentum[d], 0.0, 1e-12 * def->disks * sqrt(energy));
+            CHECK_CLOSE(now.momentum[d], 0.0, 1e-12 * def->number * sqrt(energy));
     CHECK_WITHIN(all->least, -1e-12, 10.0);
 }
 
@@ -261,7 +261,7 @@ static void at_once(const hd_scene_def *def, const molecules *start, const facin
     molecules s = *start;
     CHECK_OK(hd_trajectory_extend(tr, log, 0.9));
     assert_int_equal(hd_record_count(log), contacts);
-    fly_for(&s, def->disks, 0.5);
+    fly_for(&s, def->number, 0.5);
     for (int k = 0; k < contacts; k++) {
         const hd_bump *bump = hd_record_entry(log, (size_t)k);
         double arm[2];
@@ -273,9 +273,9 @@ static void at_once(const hd_scene_def *def, const molecules *start, const facin
         bounce(def, &s, f);
     }
     const molecules now = molecules_now(tr);
-    for (int k = 0; k < D * def->disks; k++) CHECK_CLOSE(now.p[k], s.p[k], 1e-14);
+    for (int k = 0; k < D * def->number; k++) CHECK_CLOSE(now.p[k], s.p[k], 1e-14);
     if (def->own[1].real < 0) /* of points one does not feel the other */
-        for (int k = 0; k < D * def->disks; k++) CHECK_CLOSE(now.p[k], -start->p[k], 1e-14);
+        for (int k = 0; k < D * def->number; k++) CHECK_CLOSE(now.p[k], -start->p[k], 1e-14);
 }
 
 /** Flat against each other, or against a wall. The first contact takes all approach from the second
@@ -317,11 +317,11 @@ static void grazes(const hd_scene_def *def, const molecules *start, const facing
     if (k >= 0) return;
     const hd_bump *bump = hd_record_entry(log, 0);
     CHECK_CLOSE(bump->t, 0.5 + asin(sine), 1e-8); /* 1e-15 over a rate of 3e-7 or more */
-    fly_for(&s, def->disks, bump->t);
+    fly_for(&s, def->number, bump->t);
     check_is_of(bump, def, &s, f);
     bounce(def, &s, f);
     const molecules now = molecules_now(tr);
-    for (int c = 0; c < D * def->disks; c++) CHECK_CLOSE(now.p[c], s.p[c], 1e-8);
+    for (int c = 0; c < D * def->number; c++) CHECK_CLOSE(now.p[c], s.p[c], 1e-8);
 }
 
 /** Tips of bonds of 1 that turn once in 2 pi, from half a radian before they point at each other or

@@ -91,7 +91,7 @@ TEST(number_of_cells_follows_disks)
         hd_cells cells;
         CHECK_OK(hd_cells_create(&cells, &def, 1.0));
         const double count = (double)cells.size[0] * cells.size[1];
-        assert_true(count > 0.3 * def.disks && count < 2.0 * def.disks);
+        assert_true(count > 0.3 * def.number && count < 2.0 * def.number);
         hd_cells_clear(&cells);
     }
 }

@@ -4,7 +4,7 @@
 
 static hd_scene_def circle(int disks, double density)
 {
-    return scene(.container = HD_CIRCLE, .disks = disks, .density = density);
+    return scene(.container = HD_CIRCLE, .number = disks, .density = density);
 }
 
 static double reach_of(const hd_scene_def *def)
@@ -195,7 +195,7 @@ TEST(pressure_at_the_wall_is_that_of_the_virial)
         for (int d = 0; d < 2; d++) virial += after[d] - before[d];
         /* 2 K + sum of r.F over pairs and wall is 0 on average, exactly */
         const double p = pushed / (2.0 * PI * reach * length);
-        const double by_virial = (2.0 * def.disks + virial / length) / (2.0 * PI * reach * reach);
+        const double by_virial = (2.0 * def.number + virial / length) / (2.0 * PI * reach * reach);
         CHECK_CLOSE(p, by_virial, 0.01 * p);
     }
 }

@@ -63,7 +63,7 @@ static long check_all(const hd_scene_def *def, const double *q, const double *p,
     const double rounding = 8.0 * DBL_EPSILON * energy * events;
     CHECK_CLOSE(hd_trajectory_kinetic_energy(tr), energy, rounding);
     hd_trajectory_state(tr, NULL, after);
-    for (int k = 0; k < 2 * def->disks; k++) sum[k % 2] += after[k] - p[k];
+    for (int k = 0; k < 2 * def->number; k++) sum[k % 2] += after[k] - p[k];
     for (int d = 0; d < 2; d++)
         if (def->boundary[d] == P) CHECK_CLOSE(sum[d], 0.0, rounding);
     OWNED(hd_record) *log = log_of(def, q, p, t_end), *again = log_of(def, q, p, t_end);

@@ -81,7 +81,7 @@ static void check_cut(const whole *w, const double *cut, size_t count)
     }
     assert_int_equal(number, w->log->count);
     HEAP double *state = state_of(tr);
-    assert_memory_equal(state, w->state, 4 * (size_t)w->def.disks * sizeof *state);
+    assert_memory_equal(state, w->state, 4 * (size_t)w->def.number * sizeof *state);
 }
 
 static void check_equal_pieces(const whole *w, size_t pieces)
@@ -141,7 +141,7 @@ TEST(event_at_the_end_belongs_to_the_next_interval)
 TEST(intervals_cut_at_epochs)
 {
     for (int k = 0; k < SCENES; k++) {
-        HELD(whole) w = whole_run(k, 200.0 * scene_number(k).disks);
+        HELD(whole) w = whole_run(k, 200.0 * scene_number(k).number);
         for (double epoch = ldexp(1.0, -4); epoch < w.t_end; epoch *= 2.0) {
             const size_t count = (size_t)(w.t_end / epoch);
             HEAP double *cut = calloc(3 * count, sizeof *cut);
@@ -165,7 +165,7 @@ TEST(log_may_be_left_out)
         CHECK_OK(hd_trajectory_extend(tr, NULL, 0.3 * w.t_end));
         CHECK_OK(hd_trajectory_extend(tr, NULL, w.t_end));
         HEAP double *end = state_of(tr);
-        assert_memory_equal(end, w.state, 4 * (size_t)w.def.disks * sizeof *end);
+        assert_memory_equal(end, w.state, 4 * (size_t)w.def.number * sizeof *end);
         assert_true(hd_trajectory_collisions(tr) + hd_trajectory_wall_events(tr) == w.log->count);
     }
 }
@@ -196,13 +196,13 @@ TEST(starts_at_rest_of_the_centre)
     for (int k = 0; k < SCENES; k++) {
         const hd_scene_def def = scene_number(k);
         OWNED(hd_trajectory) *tr = trajectory_of(def);
-        double *q = state_of(tr), *p = q + 2 * def.disks, sum[2] = {0, 0};
-        const double rounding = 4.0 * DBL_EPSILON * def.disks;
-        for (int i = 0; i < 2 * def.disks; i++) sum[i % 2] += p[i];
+        double *q = state_of(tr), *p = q + 2 * def.number, sum[2] = {0, 0};
+        const double rounding = 4.0 * DBL_EPSILON * def.number;
+        for (int i = 0; i < 2 * def.number; i++) sum[i % 2] += p[i];
         for (int d = 0; d < 2; d++)
             if (def.boundary[d] == P) CHECK_CLOSE(sum[d], 0.0, rounding);
-        CHECK_CLOSE(hd_trajectory_kinetic_energy(tr), def.disks, rounding);
-        assert_true(hd_trajectory_time(tr) == 0 && hd_trajectory_disks(tr) == def.disks);
+        CHECK_CLOSE(hd_trajectory_kinetic_energy(tr), def.number, rounding);
+        assert_true(hd_trajectory_time(tr) == 0 && hd_trajectory_disks(tr) == def.number);
         assert_true(hd_trajectory_collisions(tr) == 0 && hd_trajectory_wall_events(tr) == 0);
         free(q);
     }
@@ -216,7 +216,7 @@ TEST(seeds_differ_and_repeat)
         OWNED(hd_trajectory) *tr = trajectory_of(scene_from(scene_number(2), .seed = seed[k]));
         p[k] = state_of(tr);
     }
-    const size_t bytes = 4 * (size_t)scene_number(2).disks * sizeof *p[0];
+    const size_t bytes = 4 * (size_t)scene_number(2).number * sizeof *p[0];
     assert_memory_equal(p[0], p[1], bytes);
     assert_memory_not_equal(p[0], p[2], bytes);
     for (int k = 0; k < 3; k++) free(p[k]);

@@ -38,7 +38,7 @@ static void check_inside(const hd_trajectory *tr, const hd_scene_def *def, doubl
     double box[2];
     box_around(tr, box);
     hd_trajectory_state(tr, q, NULL);
-    for (int k = 0; k < 2 * def->disks; k++) {
+    for (int k = 0; k < 2 * def->number; k++) {
         const double reach = def->boundary[k % 2] == R ? 0.5 : 0.0;
         const double slack = DBL_EPSILON *
                              box[k % 2]; /* on its way to a wall, just before the event */
@@ -48,19 +48,19 @@ static void check_inside(const hd_trajectory *tr, const hd_scene_def *def, doubl
 
 static void check_run(const hd_scene_def *def, double collisions)
 {
-    double *work = calloc(2 * (size_t)def->disks, sizeof *work), box[2], sum[2];
+    double *work = calloc(2 * (size_t)def->number, sizeof *work), box[2], sum[2];
     assert_non_null(work);
     MADE(hd_trajectory, tr, def);
     box_around(tr, box);
     const double energy = hd_trajectory_kinetic_energy(tr);
     const double summed = DBL_EPSILON *
-                          pow(def->disks, 1.5); /* of N partial sums, N / 2 in the mean */
-    CHECK_CLOSE(energy, def->disks, ENERGY_DRIFT * def->disks);
+                          pow(def->number, 1.5); /* of N partial sums, N / 2 in the mean */
+    CHECK_CLOSE(energy, def->number, ENERGY_DRIFT * def->number);
     double t = 0;
     while (t == 0 || (double)hd_trajectory_collisions(tr) < collisions) {
         t += collisions / SAMPLES / hd_trajectory_collision_rate(tr);
         CHECK_OK(hd_trajectory_extend(tr, NULL, t));
-        const double walked = Z * sqrt((double)hd_trajectory_collisions(tr) + def->disks);
+        const double walked = Z * sqrt((double)hd_trajectory_collisions(tr) + def->number);
         CHECK_CLOSE(hd_trajectory_kinetic_energy(tr), energy, summed + ENERGY_STEP * walked);
         CHECK_CLOSE(hd_trajectory_examined(tr).overlap, 0.0, overlap_rounding(box));
         assert_true(overlap_rounding(box) < hd_trajectory_examined(tr).overlap_rounding);
@@ -68,7 +68,7 @@ static void check_run(const hd_scene_def *def, double collisions)
         momentum_of(tr, work, sum);
         for (int d = 0; d < 2; d++)
             if (def->boundary[d] == P)
-                CHECK_CLOSE(sum[d], 0.0, MOMENTUM_START * def->disks + MOMENTUM_STEP * walked);
+                CHECK_CLOSE(sum[d], 0.0, MOMENTUM_START * def->number + MOMENTUM_STEP * walked);
     }
     free(work);
 }
@@ -123,7 +123,7 @@ TEST(the_longest_boxes)
         double length, collisions;
     } cases[] = {{100, 1e7, 1e3}, {10000, 1e8, 200}, {1000000, 1e9, 500}};
     for (int k = 0; k < (second_tier() ? 3 : 2); k++) {
-        const hd_scene_def def = scene(.disks = cases[k].disks, .density = 1e-6, .aspect = 1e-6,
+        const hd_scene_def def = scene(.number = cases[k].disks, .density = 1e-6, .aspect = 1e-6,
                                        .seed = 2);
         double box[2], deepest = 0.0;
         MADE(hd_trajectory, tr, &def);
@@ -137,7 +137,7 @@ TEST(the_longest_boxes)
         CHECK_CLOSE(deepest, 0.0, overlap_rounding(box));
         CHECK_CLOSE(hd_trajectory_examined(tr).overlap_max,
                     hd_trajectory_examined(tr).overlap_rounding, 0.0);
-        CHECK_CLOSE(hd_trajectory_kinetic_energy(tr), def.disks, ENERGY_DRIFT * def.disks);
+        CHECK_CLOSE(hd_trajectory_kinetic_energy(tr), def.number, ENERGY_DRIFT * def.number);
     }
 }
 
@@ -145,7 +145,7 @@ TEST(the_longest_boxes)
 TEST(an_overlap_is_more_than_rounding)
 {
     static const double below[] = {32.0 * DBL_EPSILON, 5e-10};
-    const hd_scene_def def = scene(.disks = 2, .density = 0.3, .aspect = 1.0);
+    const hd_scene_def def = scene(.number = 2, .density = 0.3, .aspect = 1.0);
     for (int k = 0; k < 2; k++) {
         const double q[] = {0.1, 1.0, 1.1 - below[k], 1.0}, p[] = {-1.0, 0.0, 0.0, sqrt(3.0)};
         hd_trajectory *tr;

@@ -26,7 +26,7 @@ static hd_trajectory *equilibrated(const hd_scene_def *def)
 {
     hd_trajectory *tr;
     CHECK_OK(hd_trajectory_create(&tr, def));
-    const double per_disk = 2.0 * hd_trajectory_collision_rate(tr) / def->disks;
+    const double per_disk = 2.0 * hd_trajectory_collision_rate(tr) / def->number;
     CHECK_OK(hd_trajectory_extend(tr, NULL, EQUILIBRATION / per_disk));
     return tr;
 }
@@ -41,7 +41,7 @@ static estimate rate_per_disk(const hd_scene_def *def, double pair_events)
         const uint64_t before = hd_trajectory_collisions(tr);
         CHECK_OK(hd_trajectory_extend(tr, NULL, hd_trajectory_time(tr) + piece));
         const double events = (double)(hd_trajectory_collisions(tr) - before);
-        block[k] = 2.0 * events / (def->disks * piece);
+        block[k] = 2.0 * events / (def->number * piece);
     }
     return estimate_of(block);
 }

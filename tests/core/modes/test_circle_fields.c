@@ -13,7 +13,7 @@ static const double REACH = 8.0;
 static void modulations_at(hd_modulation at[2], const hd_wave *wave, double x, double y)
 {
     const double centre = REACH + 0.5;
-    const hd_scene_def def = scene(.container = HD_CIRCLE, .disks = 100,
+    const hd_scene_def def = scene(.container = HD_CIRCLE, .number = 100,
                                    .density = 100.0 / (PI * centre * centre));
     const hd_container_row *circle = hd_container_of(&def);
     double own[HD_WAVE_OWN];
@@ -101,7 +101,7 @@ enum { DISKS = 90, ROWS = 2 * DISKS };
 /** Disks all along the wall: no field but P has a component through it. */
 TEST(nothing_goes_through_the_wall)
 {
-    const hd_scene_def def = scene(.container = HD_CIRCLE, .disks = DISKS, .density = 0.6,
+    const hd_scene_def def = scene(.container = HD_CIRCLE, .number = DISKS, .density = 0.6,
                                    .max_mode_number = 4);
     double box[2], q[ROWS], p[ROWS];
     hd_scene_box(&def, box);
@@ -139,7 +139,7 @@ TEST(nothing_goes_through_the_wall)
 /** P is p times the modulation whose gradient L is, and T that gradient turned. */
 TEST(fields_of_one_modulation)
 {
-    const hd_scene_def def = scene(.container = HD_CIRCLE, .disks = DISKS, .density = 0.6,
+    const hd_scene_def def = scene(.container = HD_CIRCLE, .number = DISKS, .density = 0.6,
                                    .max_mode_number = 3);
     MADE(hd_trajectory, tr, &def);
     double q[ROWS], p[ROWS];

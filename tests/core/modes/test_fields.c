@@ -223,7 +223,7 @@ TEST(dimensions_add_up)
 /** However many there are. */
 TEST(fields_are_counted_wave_by_wave)
 {
-    const hd_scene_def def = scene(.disks = 1000000, .density = 0.9, .max_wave_number = 0.5);
+    const hd_scene_def def = scene(.number = 1000000, .density = 0.9, .max_wave_number = 0.5);
     const int waves = hd_waves(&def, NULL, 0);
     HEAP hd_wave *wave = calloc((size_t)waves, sizeof *wave);
     assert_true(waves > 4096);

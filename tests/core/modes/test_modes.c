@@ -10,7 +10,7 @@ static const double ALGEBRA = 10.0 * ROWS * DBL_EPSILON / 0.3;
 
 static hd_scene_def dense(hd_boundary x, hd_boundary y)
 {
-    return scene(.disks = DISKS, .density = 0.5, .aspect = 0.8, .boundary[0] = x, .boundary[1] = y,
+    return scene(.number = DISKS, .density = 0.5, .aspect = 0.8, .boundary[0] = x, .boundary[1] = y,
                  .seed = 3, .max_mode_number = 2);
 }
 
@@ -162,7 +162,7 @@ TEST(fields_that_coincide_count_once)
 /** 8 disks: eight fields in 16 dimensions. */
 TEST(few_disks)
 {
-    const hd_scene_def def = scene(.disks = 8, .density = 0.3, .aspect = 1.0, .seed = 2,
+    const hd_scene_def def = scene(.number = 8, .density = 0.3, .aspect = 1.0, .seed = 2,
                                    .max_mode_number = 1);
     HELD(world) w = world_create(def, 12, 1);
     write_mixtures(&w);

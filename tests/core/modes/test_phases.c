@@ -50,7 +50,7 @@ TEST(time_is_what_it_is_told)
 /** Vectors outside, pairs inside, all LP steps one after the other. */
 TEST(phases_lie_in_order)
 {
-    const hd_scene_def def = scene(.disks = 60, .density = 0.5, .aspect = 0.8, .boundary[1] = R,
+    const hd_scene_def def = scene(.number = 60, .density = 0.5, .aspect = 0.8, .boundary[1] = R,
                                    .seed = 9, .max_mode_number = 1);
     HELD(world) w = world_create(def, 10, 1);
     double rate, error;

@@ -52,7 +52,7 @@ static reconstruction reconstruction_of(int nx, int ny, bool on_lattice, double 
 {
     reconstruction r = {.dimension = nx && ny ? 8 : 4};
     const double exponents[DIMENSION_MAX] = {1, 1, 1, 1, 1, 1, 1, 1};
-    const hd_scene_def def = scene(.disks = DISKS, .density = 0.5, .aspect = 0.8, .seed = 8,
+    const hd_scene_def def = scene(.number = DISKS, .density = 0.5, .aspect = 0.8, .seed = 8,
                                    .max_mode_number = 1);
     r.w = world_create(def, r.dimension, 1);
     r.subspace = hd_fields_subspace(r.w.fields, world_subspace(&r.w, HD_MODE_LP, nx, ny));

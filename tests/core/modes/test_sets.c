@@ -83,7 +83,7 @@ TEST(weak_steps_are_not_resolved)
 /** Few disks: random vectors already have d / 2N = 1/4 of 8 fields, of the rest half is asked. */
 TEST(chance_does_not_resolve_a_step)
 {
-    hd_scene_def def = scene(.disks = 16, .density = 0.5, .aspect = 0.8, .seed = 4,
+    hd_scene_def def = scene(.number = 16, .density = 0.5, .aspect = 0.8, .seed = 4,
                              .max_mode_number = 1);
     double exponents[VECTORS];
     int between = 0, resolved = 0;
@@ -110,7 +110,7 @@ TEST(chance_does_not_resolve_a_step)
 TEST(chance_grows_with_the_window)
 {
     enum { DRAWS = 400, COLUMNS = 12 };
-    const hd_scene_def def = scene(.disks = 12, .density = 0.5, .aspect = 0.8, .seed = 4,
+    const hd_scene_def def = scene(.number = 12, .density = 0.5, .aspect = 0.8, .seed = 4,
                                    .max_mode_number = 1);
     HELD(world) w = world_create(def, COLUMNS, 1);
     for (int k = 0; k < PLACES; k++) {
@@ -130,7 +130,7 @@ TEST(chance_grows_with_the_window)
  * chance alone. Were each held against its own 2, 4 or 8 dimensions, 2517 steps would be found. */
 TEST(chance_resolves_no_shared_set)
 {
-    const hd_scene_def def = scene(.disks = 12, .density = 0.5, .aspect = 0.8, .seed = 4,
+    const hd_scene_def def = scene(.number = 12, .density = 0.5, .aspect = 0.8, .seed = 4,
                                    .max_mode_number = 1);
     HELD(world) w = world_create(def, 21, 1);
     double exponents[VECTORS];

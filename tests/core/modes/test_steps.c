@@ -15,7 +15,7 @@ static void check_partial_zeros(hd_boundary x, hd_boundary y, int zeros, int car
 {
     const int first = (4 * 20 - zeros) / 2;
     static double exponents[ALL_MAX];
-    const hd_scene_def def = scene(.disks = 20, .density = 0.5, .aspect = 0.8, .boundary[0] = x,
+    const hd_scene_def def = scene(.number = 20, .density = 0.5, .aspect = 0.8, .boundary[0] = x,
                                    .boundary[1] = y, .seed = 4, .max_mode_number = 1);
     HELD(world) w = world_create(def, first + carried, 1);
     exponents_falling(&w, exponents);
@@ -48,7 +48,7 @@ TEST(zero_modes_stand_in_the_middle)
 TEST(noise_in_the_middle_is_no_zero_mode)
 {
     static double exponents[ALL_MAX];
-    const hd_scene_def def = scene(.disks = 20, .density = 0.5, .aspect = 0.8, .seed = 4,
+    const hd_scene_def def = scene(.number = 20, .density = 0.5, .aspect = 0.8, .seed = 4,
                                    .max_mode_number = 1);
     HELD(world) w = world_create(def, 40, 1);
     exponents_falling(&w, exponents);

@@ -44,7 +44,7 @@ static double with_images(const world *w, const double *dq, const hd_wave *wave,
 {
     const double k[2] = {wave->k[0], sign * wave->k[1]}, number = wave->number;
     const double unit[2][2] = {{k[0] / number, k[1] / number}, {-k[1] / number, k[0] / number}};
-    int images[2], disks = w->scene.disks;
+    int images[2], disks = w->scene.number;
     double norm = 0.0;
     double complex sum = 0.0;
     for (int d = 0; d < 2; d++) images[d] = w->scene.boundary[d] == R && wave->n[d] > 0 ? 2 : 1;
@@ -99,7 +99,7 @@ TEST(they_are_the_sums_over_disks_and_images)
 /** All that are sampled, in ascending k: more than those that are classified. */
 TEST(waves_are_all_that_disks_sample)
 {
-    hd_scene_def def = scene(.disks = 70, .density = 0.6, .aspect = 0.8, .boundary[1] = R,
+    hd_scene_def def = scene(.number = 70, .density = 0.6, .aspect = 0.8, .boundary[1] = R,
                              .seed = 11, .max_mode_number = 1);
     HELD(looked) x = looked_of(def, 1);
     double box[2];

@@ -19,7 +19,7 @@ TEST(a_turn_would_be_seen)
 static void write_wave(rotating *r, int col, double s, unsigned bits)
 {
     double dq[ROWS_MAX], at[2], a[3];
-    for (int j = 0; j < r->w.scene.disks; j++) {
+    for (int j = 0; j < r->w.scene.number; j++) {
         at[0] = r->w.q[2 * j] - s;
         at[1] = r->w.q[2 * j + 1];
         modulation_at(&r->w.scene, a, &r->step->wave, bits, at);
@@ -58,7 +58,7 @@ TEST(the_phase_is_where_the_wave_stands)
  * phase. */
 static void check_order(hd_boundary x, hd_boundary y, int count)
 {
-    const hd_scene_def def = scene(.disks = 60, .density = 0.5, .aspect = 0.8, .boundary[0] = x,
+    const hd_scene_def def = scene(.number = 60, .density = 0.5, .aspect = 0.8, .boundary[0] = x,
                                    .boundary[1] = y, .seed = 9, .max_mode_number = 1);
     HELD(world) w = world_create(def, 10, 1);
     int index = 0;

@@ -16,7 +16,7 @@ static hd_trajectory *equilibrated(const hd_scene_def *def, double collisions)
 {
     hd_trajectory *tr;
     CHECK_OK(hd_trajectory_create(&tr, def));
-    const double rate = 2.0 * hd_trajectory_collision_rate(tr) / def->disks;
+    const double rate = 2.0 * hd_trajectory_collision_rate(tr) / def->number;
     CHECK_OK(hd_trajectory_extend(tr, NULL, collisions / rate));
     return tr;
 }
@@ -25,7 +25,7 @@ static hd_trajectory *equilibrated(const hd_scene_def *def, double collisions)
 static hd_gas_means averaged(const hd_scene_def *def, int samples, double each)
 {
     OWNED(hd_trajectory) *tr = equilibrated(def, 200.0);
-    const double dt = each * def->disks / (2.0 * hd_trajectory_collision_rate(tr));
+    const double dt = each * def->number / (2.0 * hd_trajectory_collision_rate(tr));
     MADE(hd_gas, gas, def, 0.0);
     hd_gas_begin(gas, tr);
     for (int k = 0; k < samples; k++) {
@@ -81,7 +81,7 @@ static void add_moment(sums *s, const hd_trajectory *tr, double sign)
 /** What is said of the state now is what its momenta and places add up to. */
 static void check_examined(const hd_trajectory *tr, const hd_scene_def *def)
 {
-    const int n = def->disks;
+    const int n = def->number;
     const hd_examined now = hd_trajectory_examined(tr);
     double box[DIM], sum[DIM] = {0.0}, angular = 0.0;
     HEAP double *q = malloc(2 * DIM * (size_t)n * sizeof *q);
@@ -123,9 +123,9 @@ TEST(numbers_are_sums_over_the_events)
     static const int disks[] = {2, 17, 100};
     for (int k = 0; k < 3 * WALL_SETS; k++) {
         const hd_scene_def def = scene_with(k % WALL_SETS, disks[k / WALL_SETS], 0.4, 5);
-        const double n = def.disks, t = 40.0, rounding = 1e-11;
+        const double n = def.number, t = 40.0, rounding = 1e-11;
         double momenta[DIM], reach[DIM], box[3], all = 0.0, volume = 1.0, virial = 0.0, walls = 0.0;
-        sums s = {.p = malloc(DIM * (size_t)def.disks * sizeof *s.p)};
+        sums s = {.p = malloc(DIM * (size_t)def.number * sizeof *s.p)};
         OWNED(hd_trajectory) *tr = equilibrated(&def, 50.0);
         MADE(hd_gas, gas, &def, 0.0);
         hd_gas_begin(gas, tr);
@@ -182,9 +182,9 @@ TEST(nothing_is_said_of_nothing)
  * them, and contacts come in proportion to |p.n|. */
 static double exact_impact(const hd_scene_def *def)
 {
-    double m = DIM * def->disks;
+    double m = DIM * def->number;
     for (int d = 0; d < DIM; d++) m -= def->boundary[d] == P;
-    return sqrt(4.0 * PI * def->disks) / m * exp(lgamma(0.5 * m + 0.5) - lgamma(0.5 * m));
+    return sqrt(4.0 * PI * def->number) / m * exp(lgamma(0.5 * m + 0.5) - lgamma(0.5 * m));
 }
 
 /** The rate that the pressure says, over the rate that is counted, is 1: of few disks and many,

@@ -4,7 +4,7 @@
 
 static hd_scene_def scene_with(int exponents, unsigned observe)
 {
-    return scene(.disks = 30, .density = 0.6, .aspect = 0.9, .boundary[1] = R, .seed = 4,
+    return scene(.number = 30, .density = 0.6, .aspect = 0.9, .boundary[1] = R, .seed = 4,
                  .exponents = exponents, .observe = observe, .equilibration = 5.0,
                  .warmup = exponents == HD_EXPONENTS_NONE ? 0.0 : 10.0, .duration = 150.0,
                  .threads = 1);

@@ -69,7 +69,7 @@ static void check_response(const world *w, const hd_hydro_response *r)
 /** All steps of one node at the end of the frame; dp at random. */
 static world all_steps(hd_boundary x, hd_boundary y, double *exponents, int vectors)
 {
-    world w = world_create(scene(.disks = DISKS, .density = 0.5, .aspect = 0.8, .boundary[0] = x,
+    world w = world_create(scene(.number = DISKS, .density = 0.5, .aspect = 0.8, .boundary[0] = x,
                                  .boundary[1] = y, .seed = 5, .max_mode_number = 1),
                            vectors, 1);
     exponents_falling(&w, exponents);
@@ -161,7 +161,7 @@ TEST(vectors_of_a_shared_set_respond_once)
     double exponents[VECTORS];
     HELD(world)
     w = world_create(
-        scene(.disks = DISKS, .density = 0.5, .aspect = 0.8, .seed = 5, .max_mode_number = 1),
+        scene(.number = DISKS, .density = 0.5, .aspect = 0.8, .seed = 5, .max_mode_number = 1),
         VECTORS, 1);
     const int shared[] = {world_subspace(&w, HD_MODE_T, 1, 0),
                           world_subspace(&w, HD_MODE_LP, 1, 0)};
@@ -225,7 +225,7 @@ static void add_responses(table *sum, const hd_hydro *hydro, const int subspace[
 static void average(table *sum, int nx, int ny, double *k)
 {
     const int modulations = nx && ny ? 4 : 2, vectors = 3 * modulations;
-    const hd_scene_def def = scene(.disks = DISKS, .density = 0.5, .aspect = 0.8, .seed = 5,
+    const hd_scene_def def = scene(.number = DISKS, .density = 0.5, .aspect = 0.8, .seed = 5,
                                    .max_mode_number = 1);
     HELD(world) w = world_create(def, vectors, 1);
     const int subspace[] = {world_subspace(&w, HD_MODE_T, nx, ny),

@@ -5,7 +5,7 @@ enum { DISKS = 40, VECTORS_MAX = 4 * DISKS, SAMPLES_MAX = 1000 };
 
 static hd_scene_def scene_with(int exponents, unsigned observe)
 {
-    return scene(.disks = DISKS, .density = 0.6, .aspect = 0.4, .seed = 6, .exponents = exponents,
+    return scene(.number = DISKS, .density = 0.6, .aspect = 0.4, .seed = 6, .exponents = exponents,
                  .observe = observe, .equilibration = 5.0, .warmup = 20.0, .duration = 120.0,
                  .threads = 2);
 }
@@ -74,7 +74,7 @@ TEST(errors_are_those_of_seeds)
     int n = 0;
     for (int seed = 0; seed < SEEDS; seed++) {
         OWNED(hd_run) *run = finished(
-            scene(.disks = 8, .density = 0.4, .aspect = 0.5, .seed = (uint64_t)seed + 1,
+            scene(.number = 8, .density = 0.4, .aspect = 0.5, .seed = (uint64_t)seed + 1,
                   .observe = HD_OBSERVE_LOCALIZATION, .exponents = HD_EXPONENTS_POSITIVE,
                   .warmup = 20.0, .duration = 200.0));
         hd_localization *shape = hd_run_localization(run);

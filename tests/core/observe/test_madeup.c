@@ -36,7 +36,7 @@ static void madeup_clear(void *self, const hd_view *here)
 static void madeup_report(void *self, const hd_observing *with, const hd_view *state)
 {
     madeup *m = self;
-    const int dimension = hd_scene_dimension(with->scene), disks = with->scene->disks;
+    const int dimension = hd_scene_dimension(with->scene), disks = with->scene->number;
     double sum = 0.0;
     for (int i = 0; i < disks; i++) {
         double square = 0.0;
@@ -68,7 +68,7 @@ const hd_observable hd_madeup_row = {.needs = HD_NEEDS_REPORTS | HD_NEEDS_STATE,
 
 static hd_scene_def scene_with(int exponents, unsigned observe)
 {
-    return scene(.disks = 20, .density = 0.3, .exponents = exponents, .observe = observe,
+    return scene(.number = 20, .density = 0.3, .exponents = exponents, .observe = observe,
                  .equilibration = 5.0, .warmup = exponents ? 5.0 : 0.0, .duration = 30.0,
                  .report_interval = 0.5, .threads = 1);
 }

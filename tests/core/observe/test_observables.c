@@ -10,7 +10,7 @@ static const unsigned *bits = hd_observable_bits;
 /** A narrow channel, whose steps are soon known: after 50 time units of averages. */
 static hd_scene_def channel(unsigned observe)
 {
-    hd_scene_def scene = scene(.disks = 40, .density = 0.5, .aspect = 0.08, .threads = 1,
+    hd_scene_def scene = scene(.number = 40, .density = 0.5, .aspect = 0.08, .threads = 1,
                                .exponents = HD_EXPONENTS_ALL_INDEPENDENT, .equilibration = 20.0,
                                .warmup = 50.0, .duration = 1000.0, .observe = observe);
     if (!(observe & HD_OBSERVE_COVARIANT)) return scene;
@@ -59,7 +59,7 @@ TEST(a_run_has_what_it_needs)
             if (cases[c].parts >> k & 1) sum += rows[k]->bytes(&scene, 1);
         }
         assert_int_equal(parts, cases[c].parts);
-        if (parts & OF(modes)) sum += 4.0 * scene.disks * sizeof(double); /* q and p */
+        if (parts & OF(modes)) sum += 4.0 * scene.number * sizeof(double); /* q and p */
         CHECK_CLOSE(hd_observables_bytes(&scene, 1), sum, 1e-6);
         assert_int_equal(run->observables.q != NULL, (parts & OF(modes)) != 0);
         if (cases[c].observe != HD_OBSERVE_ALL) tried |= cases[c].observe;

@@ -9,7 +9,7 @@ static const unsigned EVERYTHING = HD_OBSERVE_MODES | HD_OBSERVE_STEPS | HD_OBSE
 /** A channel, Lx = 66.7, Ly = 1.5, in which disks cannot pass each other. */
 static hd_scene_def channel(hd_boundary x, hd_boundary y)
 {
-    return scene(.disks = DISKS, .density = 0.5, .aspect = 0.0225, .boundary[0] = x,
+    return scene(.number = DISKS, .density = 0.5, .aspect = 0.0225, .boundary[0] = x,
                  .boundary[1] = y, .equilibration = 100.0, .warmup = 400.0, .duration = 600.0,
                  .observe = EVERYTHING);
 }
@@ -258,7 +258,7 @@ static double tracked_for(const hd_run *run, const hd_step *step)
  * tracked for never falls. */
 TEST(rarer_looks_lose_no_phase)
 {
-    OWNED(hd_run) *run = created(scene(.disks = 200, .aspect = 0.2, .warmup = 50.0,
+    OWNED(hd_run) *run = created(scene(.number = 200, .aspect = 0.2, .warmup = 50.0,
                                        .duration = 150.0, .report_interval = 2.0,
                                        .observe = EVERYTHING));
     const hd_step *step = step_of(run, HD_MODE_LP, 1, 0, false);

@@ -9,7 +9,7 @@ enum { VECTORS = 32 };
 /** Looks fall on multiples of the interval. */
 static hd_scene_def small(void)
 {
-    return scene(.disks = VECTORS / 4, .density = 0.5, .exponents = HD_EXPONENTS_ALL,
+    return scene(.number = VECTORS / 4, .density = 0.5, .exponents = HD_EXPONENTS_ALL,
                  .equilibration = 10.0, .warmup = 100.0, .duration = 300.0, .report_interval = 1.0,
                  .interval = 0.25, .observe = HD_OBSERVE_COVARIANT, .covariant_window = 20.0,
                  .covariant_transient = 60.0, .covariant_sampling = 2.0, .threads = 1);
@@ -287,7 +287,7 @@ TEST(later_windows_take_no_memory)
 /** Phases that are wanted close together end intervals early: there is room for all of them. */
 TEST(no_window_is_lost_to_phases)
 {
-    hd_scene_def def = scene(.disks = 60, .density = 0.8, .aspect = 0.06, .warmup = 60.0,
+    hd_scene_def def = scene(.number = 60, .density = 0.8, .aspect = 0.06, .warmup = 60.0,
                              .phase_interval = 0.2, .covariant_window = 60.0,
                              .covariant_transient = 20.0, .duration = 90.0);
     def.exponents = HD_EXPONENTS_ALL;

@@ -11,7 +11,7 @@ hd_room __wrap_hd_room_available(void) { return (hd_room){room_of_machine, "mach
 
 static hd_scene_def short_scene(int disks, unsigned observe)
 {
-    return scene(.disks = disks, .density = 0.7, .aspect = 0.3, .seed = 3, .equilibration = 0.1,
+    return scene(.number = disks, .density = 0.7, .aspect = 0.3, .seed = 3, .equilibration = 0.1,
                  .warmup = 2.0, .duration = 2.0, .threads = 1, .observe = observe);
 }
 

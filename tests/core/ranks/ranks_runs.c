@@ -7,7 +7,7 @@
 
 static hd_scene_def scene_of_runs(int disks, unsigned observe)
 {
-    return scene(.disks = disks, .density = 0.7, .aspect = 0.3, .seed = 3, .equilibration = 5.0,
+    return scene(.number = disks, .density = 0.7, .aspect = 0.3, .seed = 3, .equilibration = 5.0,
                  .warmup = 20.0, .duration = 40.0, .report_interval = 1.0, .threads = 1,
                  .observe = observe);
 }

@@ -13,7 +13,7 @@ static void next_interval(hd_agenda *agenda, hd_pace *pace)
 /** Of a run whose samples should last 1000 / 32, at intervals of 4. */
 static hd_pace averaging(hd_agenda *agenda, hd_interval *interval, double phases)
 {
-    const hd_scene_def scene = scene(.disks = 30, .density = 0.6, .equilibration = 0.0,
+    const hd_scene_def scene = scene(.number = 30, .density = 0.6, .equilibration = 0.0,
                                      .warmup = 0.0, .duration = 1000.0, .report_interval = 1000.0);
     const hd_pace pace = {.framed = true,
                           .phases = phases,

@@ -44,7 +44,7 @@ static const struct {
     const char *name;
     double low, high;
 } USUAL[] = {
-    {"disks", 2, 9},
+    {"number", 2, 9},
     {"density", 0.01, 0.8},
     {"aspect", 0.1, 10},
     {"aspect_z", 0.1, 10},
@@ -114,7 +114,7 @@ static bool is_named(const hd_parameter *p, const char *name) { return strcmp(p-
 /** Threads are a machine's, and large boxes take long: seldom. */
 static bool is_costly(const hd_parameter *p)
 {
-    return is_named(p, "disks") || is_named(p, "threads");
+    return is_named(p, "number") || is_named(p, "threads");
 }
 
 static void put_usual(hd_random *random, hd_scene_def *def, const hd_parameter *p)
@@ -129,7 +129,7 @@ static void put_usual(hd_random *random, hd_scene_def *def, const hd_parameter *
 static void make_narrow(hd_random *random, hd_scene_def *def)
 {
     const double width = 1.0 + log_uniform(random, DBL_EPSILON, 1.0), area = width * width;
-    def->aspect = area * (DIM == 2 ? 1.0 : width) * def->density / def->disks;
+    def->aspect = area * (DIM == 2 ? 1.0 : width) * def->density / def->number;
     if (chance(random, 0.5)) def->aspect = 1.0 / def->aspect;
 }
 
@@ -165,7 +165,7 @@ static hd_scene_def drawn(hd_random *random)
             put_within(random, &def, p, p->least, p->most);
         if (wild && chance(random, 0.1)) put_wild(random, &def, p);
     }
-    if (chance(random, 0.05)) def.disks = 1; /* in a circle */
+    if (chance(random, 0.05)) def.number = 1; /* in a circle */
     if (chance(random, 0.05)) make_narrow(random, &def);
     if (hd_scene_check(&def, NULL, 0) == HD_OK && chance(random, 0.2)) make_dense(random, &def);
     def.seed = bits(random);
@@ -248,7 +248,7 @@ static const char *spectrum_fault(const hd_run *run)
 static const char *state_fault(const hd_run *run)
 {
     const hd_trajectory *trajectory = hd_run_trajectory(run);
-    const double disks = hd_run_scene(run)->disks;
+    const double disks = hd_run_scene(run)->number;
     if (!(fabs(hd_trajectory_kinetic_energy(trajectory) - disks) <= ENERGY_ERROR * disks))
         return "the energy is not conserved";
     if (!(hd_trajectory_examined(trajectory).overlap <= OVERLAP_MAX)) return "disks overlap";
@@ -297,7 +297,7 @@ static hd_trajectory *with_odd_momenta(hd_random *random, const hd_scene_def *de
     double q[DIM * DISKS_TWIN], p[DIM * DISKS_TWIN];
     OWNED(hd_trajectory) *tr = trajectory_of(*def);
     hd_trajectory_state(tr, q, p);
-    for (int k = 0; k < DIM * def->disks; k++)
+    for (int k = 0; k < DIM * def->number; k++)
         if (chance(random, 0.3)) p[k] *= scale[one_of(random, sizeof scale / sizeof *scale)];
     return started(def, q, p);
 }
@@ -327,7 +327,7 @@ static const char *late_fault(const hd_scene_def *def)
 /** Of a box; what holds in a circle is seen in test_round_wall.c. */
 static const char *events_fault(hd_random *random, const hd_scene_def *def, tally *seen)
 {
-    if (def->container == HD_CIRCLE || def->disks > DISKS_TWIN) return NULL;
+    if (def->container == HD_CIRCLE || def->number > DISKS_TWIN) return NULL;
     OWNED(hd_trajectory) *fast = chance(random, 0.3) ? with_odd_momenta(random, def)
                                                      : trajectory_of(*def);
     if (images_of(def, fast) > IMAGES_TWIN) return NULL;
@@ -352,7 +352,7 @@ static const char *scene_fault(hd_random *random, const hd_scene_def *def, tally
     char line[LINE] = "";
     OWNED(hd_run) *run = NULL;
     hd_status status = hd_scene_check(def, line, sizeof line);
-    if (status == HD_OK && def->disks > DISKS_RUN) return NULL;
+    if (status == HD_OK && def->number > DISKS_RUN) return NULL;
     if (status == HD_OK) status = hd_run_create(&run, def, line, sizeof line);
     if (status == HD_REFUSED) return refusal_fault(random, def, line, seen);
     if (status != HD_OK) return hd_status_text(status);

@@ -85,10 +85,10 @@ TEST(fluids_flow_and_crystals_do_not)
                  {scene_of(36, 0.8, 0.867, P, P, 1), false},
                  {scene_of(36, 0.7, 0.5, R, R, 1), false},
                  {scene_of(60, 0.8, 0.03, P, P, 1), false}, /* in single file */
-                 {scene(.container = HD_CIRCLE, .disks = 60, .density = 0.8), false},
+                 {scene(.container = HD_CIRCLE, .number = 60, .density = 0.8), false},
                  {scene_of(100, 1.0, 0.867, P, P, 1), true},
                  {scene_of(36, 1.05, 0.867, P, P, 1), true},
-                 {scene(.container = HD_CIRCLE, .disks = 100, .density = 1.0), true}};
+                 {scene(.container = HD_CIRCLE, .number = 100, .density = 1.0), true}};
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++)
         for (uint64_t seed = 1; seed <= 3; seed++) {
             OWNED(hd_run) *run = finished(scene_from(moving(cases[k].scene), .seed = seed));

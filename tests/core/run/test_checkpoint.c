@@ -210,7 +210,7 @@ TEST(what_the_target_has_ended_stays_ended)
 /** Not with the interval that is under way. */
 TEST(another_target_holds_at_once)
 {
-    const hd_scene_def def = scene(.disks = 20, .density = 0.1, .exponents = 3, .threads = 1,
+    const hd_scene_def def = scene(.number = 20, .density = 0.1, .exponents = 3, .threads = 1,
                                    .equilibration = 5.0, .warmup = 20.0, .duration = 1e4,
                                    .report_interval = 0.05);
     OWNED(hd_run) *run = kept_run(def);

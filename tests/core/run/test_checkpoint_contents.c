@@ -47,9 +47,9 @@ TEST(contents_that_no_run_has_are_refused)
     while (hd_run_time(run) < 42.0 || run->carrier.record->count < 10) kept_steps(run, 1);
     const bytes b = kept_bytes(run);
     static const nonsense_case cases[] = {
-        {"scene disks", 0, 0, 61, "another array"},
-        {"scene disks", 0, 0, 1000000, "too short"},
-        {"scene disks", 0, 0, 1, "in a rectangle"},
+        {"scene number", 0, 0, 61, "another array"},
+        {"scene number", 0, 0, 1000000, "too short"},
+        {"scene number", 0, 0, 1, "in a rectangle"},
         {"scene density", 0, NAN, 0, "not finite"},
         {"scene density", 0, 5.0, 0, "density"},
         {"scene observe", 0, 0, 1024, "out of its range"},

@@ -79,7 +79,7 @@ TEST(a_flipped_bit_is_noticed)
 TEST(what_is_no_checkpoint_is_refused)
 {
     const bytes whole = checkpoint_bytes();
-    const char text[] = "disks: 780\ndensity: 0.8\naspect: 0.867\nboundary_x: periodic\nseed: 1\n";
+    const char text[] = "number: 780\ndensity: 0.8\naspect: 0.867\nboundary_x: periodic\nseed: 1\n";
     file_write(PATH, text, sizeof text);
     expect_refused("no checkpoint");
     char *longer = malloc(whole.size + 1);

@@ -3,7 +3,7 @@
 
 static hd_scene_def circle(int disks, double density)
 {
-    return scene(.container = HD_CIRCLE, .disks = disks, .density = density, .equilibration = 20.0,
+    return scene(.container = HD_CIRCLE, .number = disks, .density = density, .equilibration = 20.0,
                  .warmup = 20.0, .seed = 3, .threads = 1);
 }
 

@@ -143,7 +143,7 @@ TEST(intervals_grow_again_after_grazing_collisions)
         OWNED(hd_run) *run = created(scene);
         CHECK_OK(finish_forced(run, 0.0));
         const double per_disk = 2.0 * (double)hd_trajectory_collisions(run->advance.trajectory) /
-                                scene.disks * 100.0 / 110.0;
+                                scene.number * 100.0 / 110.0;
         const double between = per_disk / (double)run->cost.orthonormalisations;
         assert_true(between > 0.25);
     }
@@ -174,7 +174,7 @@ TEST(pieces_are_no_shorter_than_helps)
  * 4e-16, and the next interval, twice as long, did not move the time: a run that hung. */
 TEST(no_crumb_of_rounding_stops_the_run)
 {
-    OWNED(hd_run) *run = created(scene(.disks = 24, .density = 0.7, .aspect = 1.0,
+    OWNED(hd_run) *run = created(scene(.number = 24, .density = 0.7, .aspect = 1.0,
                                        .exponents = HD_EXPONENTS_ALL_INDEPENDENT,
                                        .equilibration = 10.0, .warmup = 20.0, .duration = 10.0,
                                        .accuracy = 1e-12, .threads = 1));

@@ -3,7 +3,7 @@
 
 static hd_scene_def few(int exponents, hd_boundary x, hd_boundary y)
 {
-    return scene(.disks = 10, .density = 0.5, .aspect = 0.9, .boundary[0] = x, .boundary[1] = y,
+    return scene(.number = 10, .density = 0.5, .aspect = 0.9, .boundary[0] = x, .boundary[1] = y,
                  .seed = 3, .exponents = exponents, .equilibration = 20.0, .warmup = 200.0,
                  .duration = 400.0, .threads = 1);
 }

@@ -19,7 +19,7 @@ static hd_run *started(double by)
 {
     now = SINCE;
     tick = by;
-    return created(scene(.disks = 20, .density = 0.7, .aspect = 1.0,
+    return created(scene(.number = 20, .density = 0.7, .aspect = 1.0,
                          .exponents = HD_EXPONENTS_POSITIVE, .equilibration = EQUILIBRATION,
                          .warmup = 10.0, .duration = END - 10.0 - EQUILIBRATION,
                          .report_interval = 1.0));
@@ -50,7 +50,7 @@ TEST(observables_have_their_seconds)
     long samples = 0, reports = 0;
     now = SINCE;
     tick = 1.0;
-    OWNED(hd_run) *run = created(scene(.disks = 20, .density = 0.7, .aspect = 1.0,
+    OWNED(hd_run) *run = created(scene(.number = 20, .density = 0.7, .aspect = 1.0,
                                        .exponents = HD_EXPONENTS_POSITIVE, .equilibration = 1.0,
                                        .warmup = 10.0, .duration = 20.0, .report_interval = 1.0,
                                        .observe = HD_OBSERVE_HYDRO));
@@ -93,7 +93,7 @@ double __wrap_hd_spectrum_largest_error(const hd_spectrum *spectrum, int begin, 
 /** The run knows since when its errors do not fall; not any more once its averages begin anew. */
 TEST(errors_that_do_not_fall_are_told)
 {
-    hd_scene_def def = scene(.disks = 20, .density = 0.7, .aspect = 1.0,
+    hd_scene_def def = scene(.number = 20, .density = 0.7, .aspect = 1.0,
                              .exponents = HD_EXPONENTS_POSITIVE, .equilibration = 1.0,
                              .warmup = 10.0, .duration = 2000.0, .report_interval = 1.0);
     hd_run *run = until(created(def), HD_AVERAGING);

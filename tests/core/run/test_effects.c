@@ -6,7 +6,7 @@ enum { DISKS = 100, HALF = 2 * DISKS - 3, EVERYTHING = 223 };
 
 static hd_scene_def small(int exponents, unsigned observe)
 {
-    return scene(.disks = DISKS, .density = 0.7, .aspect = 1.0, .exponents = exponents,
+    return scene(.number = DISKS, .density = 0.7, .aspect = 1.0, .exponents = exponents,
                  .observe = observe, .equilibration = 5.0, .warmup = 5.0, .duration = 100.0,
                  .threads = 1);
 }
@@ -118,7 +118,7 @@ TEST(a_long_run_allocates_nothing)
     for (size_t k = 0; k < 2 * (sizeof modes / sizeof *modes); k++) {
         OWNED(hd_run) *run = created(scene_from(small(modes[k / 2].exponents, modes[k / 2].observe),
                                                 .boundary[0] = k % 2 ? R : P,
-                                                .boundary[1] = k % 2 ? R : P, .disks = 40));
+                                                .boundary[1] = k % 2 ? R : P, .number = 40));
         until_time(run, 60.0);
         const size_t before = ledger_now().allocations;
         until_time(run, HUGE_VAL);

@@ -20,7 +20,7 @@ typedef struct harvest {
 
 static hd_scene_def box(int disks, double density, double aspect, hd_boundary boundary)
 {
-    return scene(.disks = disks, .density = density, .aspect = aspect, .boundary[0] = boundary,
+    return scene(.number = disks, .density = density, .aspect = aspect, .boundary[0] = boundary,
                  .boundary[1] = boundary, .equilibration = 50.0, .warmup = 25.0,
                  .observe = HD_OBSERVE_STEPS | HD_OBSERVE_PHASES, .threads = 1);
 }

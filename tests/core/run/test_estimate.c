@@ -62,13 +62,13 @@ static void compare(const hd_scene_def *def)
     CHECK_CLOSE(e.before, def->equilibration + def->warmup, 0.0);
     CHECK_CLOSE(e.errors_after, hd_run_errors_after(run), 0.0);
     CHECK_CLOSE(e.slopes_after, 2.0 * hd_run_errors_after(run), 0.0);
-    assert_int_equal(e.disks, def->disks);
+    assert_int_equal(e.disks, def->number);
     hd_run_free(run);
 }
 
 static hd_scene_def usual(double duration)
 {
-    hd_scene_def def = scene(.disks = 100, .density = 0.7, .aspect = 0.1, .equilibration = 1.0,
+    hd_scene_def def = scene(.number = 100, .density = 0.7, .aspect = 0.1, .equilibration = 1.0,
                              .warmup = 60.0, .report_interval = 1.0, .threads = 1);
     def.duration = duration;
     return def;
@@ -99,7 +99,7 @@ TEST(seconds_of_disks_alone)
 /** How much a run tells is what it has; of covariant vectors, which are not tried, too. */
 TEST(extent_is_the_runs)
 {
-    hd_scene_def def = scene(.disks = 24, .density = 0.7, .aspect = 0.15, .equilibration = 1.0,
+    hd_scene_def def = scene(.number = 24, .density = 0.7, .aspect = 0.15, .equilibration = 1.0,
                              .warmup = 25.0, .duration = 40.0, .threads = 1,
                              .exponents = HD_EXPONENTS_ALL, .observe = HD_OBSERVE_ALL);
     def.covariant_window = 10.0;
@@ -139,7 +139,7 @@ TEST(seconds_of_many_disks)
 {
     hd_scene_def def = usual(20.0);
     if (!second_tier()) skip();
-    def.disks = 1000;
+    def.number = 1000;
     def.aspect = 1.0;
     def.warmup = 12.0;
     def.observe = 0;
@@ -150,7 +150,7 @@ TEST(seconds_of_many_disks)
     double interval;
     check_ratio("seconds per time unit", e.seconds, taken(run, &interval), 2.0);
     hd_run_free(run);
-    def.disks = 2000; /* the same trial: another power than the cube is off by 2 and more */
+    def.number = 2000; /* the same trial: another power than the cube is off by 2 and more */
     const hd_estimate twice = estimated(&def);
     assert_int_equal(twice.disks, e.disks);
     check_ratio("of twice as many disks", twice.seconds, 8.0 * e.seconds, SECONDS_FACTOR);
@@ -160,8 +160,8 @@ TEST(seconds_of_many_disks)
 TEST(kinds_of_fields_are_counted)
 {
     const hd_scene_def scenes[] = {
-        scene(.container = HD_CIRCLE, .disks = 60, .density = 0.4, .max_mode_number = 3),
-        scene(.disks = 60, .boundary[0] = HD_REFLECTING), scene(.disks = 60)};
+        scene(.container = HD_CIRCLE, .number = 60, .density = 0.4, .max_mode_number = 3),
+        scene(.number = 60, .boundary[0] = HD_REFLECTING), scene(.number = 60)};
     for (int k = 0; k < 3; k++) {
         const hd_scene_def def = scene_from(scenes[k], .observe = HD_OBSERVE_COVARIANT,
                                             .covariant_window = 10.0, .covariant_sampling = 5.0,

@@ -11,7 +11,7 @@ static int expected(void)
 TEST(runs_go_on_with_what_is_granted)
 {
     for (int asked = 0; asked <= 2; asked += 2) {
-        OWNED(hd_run) *run = finished(scene(.disks = 120, .aspect = 1.0, .equilibration = 0.1,
+        OWNED(hd_run) *run = finished(scene(.number = 120, .aspect = 1.0, .equilibration = 0.1,
                                             .warmup = 0.5, .duration = 0.5, .report_interval = 0.5,
                                             .threads = asked)); /* worth a trial */
         if (asked == 2) assert_int_equal(hd_run_threads(run), expected());

@@ -56,7 +56,7 @@ static double deviation(const hd_run *run, const reference *r)
 /** All exponents of four disks, averaged from the start. */
 static hd_scene_def averaged_at_once(hd_boundary boundary, double duration)
 {
-    return scene(.disks = 4, .density = 0.5, .aspect = 1.0, .boundary[0] = boundary,
+    return scene(.number = 4, .density = 0.5, .aspect = 1.0, .boundary[0] = boundary,
                  .boundary[1] = boundary, .seed = 3, .exponents = HD_EXPONENTS_ALL_INDEPENDENT,
                  .equilibration = 0.0, .warmup = 0.0, .duration = duration, .report_interval = 10.0,
                  .threads = 1);

@@ -4,7 +4,7 @@
 
 static hd_scene_def scene_of_disks(int disks, double report_interval)
 {
-    return scene(.disks = disks, .density = 0.8, .aspect = 1.0, .equilibration = 2.0,
+    return scene(.number = disks, .density = 0.8, .aspect = 1.0, .equilibration = 2.0,
                  .warmup = 40.0, .duration = 0.0, .observe = 0, .report_interval = report_interval);
 }
 

@@ -34,7 +34,7 @@ enum { BOXES = sizeof boxes / sizeof boxes[0] };
 
 static hd_run *run_of(int box)
 {
-    return finished(scene(.disks = boxes[box].disks, .density = boxes[box].density,
+    return finished(scene(.number = boxes[box].disks, .density = boxes[box].density,
                           .aspect = boxes[box].aspect, .boundary[0] = boxes[box].x,
                           .boundary[1] = boxes[box].y, .duration = 500.0,
                           .observe = HD_OBSERVE_STEPS, .threads = 1));

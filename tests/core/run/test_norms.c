@@ -6,7 +6,7 @@ enum { DISKS = 40, VECTORS = 2 * DISKS - 3 };
 
 static hd_scene_def endless(unsigned observe)
 {
-    return scene(.disks = DISKS, .density = 0.7, .aspect = 1.0, .equilibration = 10.0,
+    return scene(.number = DISKS, .density = 0.7, .aspect = 1.0, .equilibration = 10.0,
                  .warmup = 20.0, .duration = 400.0, .report_interval = 0.5, .observe = observe,
                  .threads = 1);
 }

@@ -17,7 +17,7 @@ typedef struct world {
 /** With phases found from the slowest vectors alone, which takes 64 vectors. */
 static hd_scene_def all_observables(void)
 {
-    return scene(.disks = 34, .density = 0.7, .aspect = 1.0, .observe = EVERYTHING,
+    return scene(.number = 34, .density = 0.7, .aspect = 1.0, .observe = EVERYTHING,
                  .equilibration = 2.0, .warmup = 2.0, .duration = 2.0, .threads = 1);
 }
 
@@ -25,7 +25,7 @@ static hd_scene_def all_observables(void)
  */
 static hd_scene_def growing_log(void)
 {
-    return scene(.disks = 2000, .density = 0.7, .aspect = 1.0, .boundary[1] = R, .exponents = 1,
+    return scene(.number = 2000, .density = 0.7, .aspect = 1.0, .boundary[1] = R, .exponents = 1,
                  .equilibration = 0.1, .warmup = 2.0, .duration = 2.0, .report_interval = 2.0,
                  .threads = 1);
 }

@@ -190,9 +190,9 @@ static int null_of_chain(const hd_scene_def *scene, const double *q, const doubl
                          double *column)
 {
     (void)q, (void)p;
-    for (int k = 0; k < known * scene->disks; k++) {
+    for (int k = 0; k < known * scene->number; k++) {
         column[k] = k % 2 == 0;
-        column[2 * scene->disks + k] = k % 2 == 1;
+        column[2 * scene->number + k] = k % 2 == 1;
     }
     return known;
 }
@@ -262,7 +262,7 @@ static hd_dynamics disks_of_ones_own(void)
 TEST(a_row_with_a_box_has_modes)
 {
     const hd_dynamics own = disks_of_ones_own();
-    hd_scene_def scene = scene_from(hd_scene_def_of(&own), .disks = 30, .density = 0.5,
+    hd_scene_def scene = scene_from(hd_scene_def_of(&own), .number = 30, .density = 0.5,
                                     .aspect = 0.04, .equilibration = 20.0, .warmup = 100.0,
                                     .duration = 100.0, .threads = 1, .observe = HD_OBSERVE_STEPS);
     const hd_scene_def disks = plain(&scene);
@@ -300,10 +300,9 @@ TEST(own_parameters_are_refused_like_others)
     REFUSED("beta = -1: must be from 0 to 1000", .own[BETA].real = -1.0);
     REFUSED("beta = nan: must be from 0 to 1000", .own[BETA].real = NAN);
     REFUSED("time_step = 0.5: must be from 1e-6 to 0.1", .own[STEP].real = 0.5);
-    REFUSED("disks = 2: must be 3 or more with particles = chain", .disks = 2);
-    REFUSED(
-        "exponents = 17: must be positive, all, all_independent, none or from 1 to 2 disks = 16",
-        .exponents = 17);
+    REFUSED("number = 2: must be 3 or more with particles = chain", .number = 2);
+    REFUSED("exponents = 17: must be positive, all, all_independent, none or from 1 to 2 N = 16",
+            .exponents = 17);
 }
 
 TEST(no_gas_without_collisions)

@@ -43,7 +43,7 @@ TEST(another_dynamics_is_not_resumed)
     CHECK_OK(hd_run_save(run, PATH, "", NULL, 0));
     other.own[BETA].real = 0.5;
     check_not_resumed(PATH, &other, HD_REFUSED, "beta = 0.5: must be 10, as in the checkpoint");
-    other = scene_from(hd_scene_def_default(), .disks = N, .density = 0.5, .aspect = 1.0);
+    other = scene_from(hd_scene_def_default(), .number = N, .density = 0.5, .aspect = 1.0);
     check_not_resumed(PATH, &other, HD_REFUSED,
                       "particles = disks: must be chain, as in the checkpoint");
     check_not_resumed(PATH, NULL, HD_FILE_FAULT,
@@ -80,7 +80,7 @@ TEST(own_parameters_can_be_words)
     of_words.parameter = words;
     of_words.parameters = 5;
     hd_scene_def scene = hd_scene_def_of(&of_words), other;
-    scene.disks = N;
+    scene.number = N;
     scene.threads = 1;
     assert_int_equal(scene.own[3].whole, 3);
     assert_int_equal(scene.own[4].whole, 5);

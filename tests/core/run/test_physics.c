@@ -9,7 +9,7 @@ static const double PART = HD_SANITIZED ? 0.1 : 1.0;
 
 static hd_scene_def small_scene(int disks, double density, double aspect)
 {
-    return scene(.disks = disks, .density = density, .aspect = aspect, .equilibration = 200.0,
+    return scene(.number = disks, .density = density, .aspect = aspect, .equilibration = 200.0,
                  .warmup = 200.0, .threads = 1);
 }
 

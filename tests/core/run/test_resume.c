@@ -62,14 +62,14 @@ static unsigned drawn_observables(hd_random *random, const hd_scene_def *def)
 
 static hd_scene_def drawn(hd_random *random)
 {
-    hd_scene_def def = scene(.disks = 2 + (int)(28.0 * pow(uniform(random), 2.0)),
+    hd_scene_def def = scene(.number = 2 + (int)(28.0 * pow(uniform(random), 2.0)),
                              .density = log_uniform(random, 0.02, 0.9),
                              .aspect = log_uniform(random, 0.1, 10.0));
     for (int d = 0; d < 2; d++) def.boundary[d] = (hd_boundary)one_of(random, 2);
     if (chance(random, 0.15))
-        def = scene(.container = HD_CIRCLE, .disks = def.disks, .density = def.density);
+        def = scene(.container = HD_CIRCLE, .number = def.number, .density = def.density);
     def.seed = (uint64_t)one_of(random, 1 << 30);
-    def.exponents = drawn_exponents(random, def.disks);
+    def.exponents = drawn_exponents(random, def.number);
     def.observe = drawn_observables(random, &def);
     if (def.container == HD_CIRCLE)
         def.observe &= ~(unsigned)(HD_OBSERVE_HYDRO | HD_OBSERVE_STRUCTURE);
@@ -250,7 +250,7 @@ static void a_resumed_run_is_the_uninterrupted_one(void **state)
     twins t = {.alone = kept_run(def), .other = kept_run(def), .watch_interval = INFINITY};
     if (chance(&random, 0.5)) t.field_interval = log_uniform(&random, 0.1, 100.0);
     if (chance(&random, 0.2)) t.watch_interval = log_uniform(&random, 0.02, 1.0);
-    t.watch_first = chance(&random, 0.5) ? hd_run_vectors(t.alone) * 3 / 4 : 4 * def.disks;
+    t.watch_first = chance(&random, 0.5) ? hd_run_vectors(t.alone) * 3 / 4 : 4 * def.number;
     tell(&t, t.alone);
     tell(&t, t.other);
     if (hd_run_covariant(t.alone))

@@ -18,8 +18,8 @@ static void compare(hd_scene_def scene)
 /** Intervals become as long as they do. */
 static hd_scene_def short_run(int disks, int exponents, unsigned observe)
 {
-    return scene(.disks = disks, .density = 0.8, .aspect = 1.0, .equilibration = 0.1, .warmup = 3.0,
-                 .duration = 3.0, .report_interval = 3.0, .exponents = exponents,
+    return scene(.number = disks, .density = 0.8, .aspect = 1.0, .equilibration = 0.1,
+                 .warmup = 3.0, .duration = 3.0, .report_interval = 3.0, .exponents = exponents,
                  .observe = observe, .threads = 2);
 }
 
@@ -90,18 +90,19 @@ TEST(what_is_too_much_is_said)
     const hd_scene_def large = short_run(20000, HD_EXPONENTS_POSITIVE, HD_OBSERVE_ALL & 31);
     int exponents = 0, disks = 0;
     assert_int_equal(hd_room_check(&large, room, line, sizeof line), HD_NO_MEMORY);
-    assert_true(strncmp(line, "out of memory: disks = 20000 with 39997 exponents need 5", 56) == 0);
+    assert_true(strncmp(line, "out of memory: number = 20000 with 39997 exponents need 5", 56) ==
+                0);
     assert_non_null(strstr(line, "there are 8 GB (machine)"));
     const char *fits = strstr(line, "exponents = ");
     assert_non_null(fits);
-    assert_int_equal(sscanf(fits, "exponents = %d would fit, or disks = %d", &exponents, &disks),
+    assert_int_equal(sscanf(fits, "exponents = %d would fit, or number = %d", &exponents, &disks),
                      2);
     assert_true(exponents > 100 && exponents % 100 == 0); /* two digits: it is an estimate */
     hd_scene_def one = scene_from(large, .exponents = exponents);
     CHECK_OK(hd_room_check(&one, room, NULL, 0));
     assert_true(hd_room_needed(&one, 2, 1) > 0.9 * room.bytes * 0.9);
     one = large;
-    one.disks = disks;
+    one.number = disks;
     CHECK_OK(hd_room_check(&one, room, NULL, 0));
     assert_true(hd_room_needed(&one, 2, 1) > 0.7 * room.bytes);
 }

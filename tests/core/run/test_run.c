@@ -5,7 +5,7 @@
 
 static hd_scene_def small(int disks, int exponents)
 {
-    return scene(.disks = disks, .density = 0.7, .aspect = 1.0, .exponents = exponents,
+    return scene(.number = disks, .density = 0.7, .aspect = 1.0, .exponents = exponents,
                  .equilibration = 10.0, .warmup = 10.0, .duration = 20.0);
 }
 
@@ -43,7 +43,7 @@ TEST(the_bound_keeps_to_the_accuracy)
         uint64_t seed;
     } cases[] = {{0.2, 10.0, 1e-8, 4}, {0.8, 1.0, 1e-8, 3}, {0.8, 1.0, 1e-10, 3}};
     for (int k = 0; k < 3; k++) {
-        hd_scene_def scene = scene(.disks = 100, .density = cases[k].density,
+        hd_scene_def scene = scene(.number = 100, .density = cases[k].density,
                                    .report_interval = cases[k].report,
                                    .accuracy = cases[k].accuracy, .seed = cases[k].seed,
                                    .duration = 100.0);

@@ -56,7 +56,7 @@ TEST(of_the_positive_half)
 {
     const hd_scene_def alone = paper(HD_EXPONENTS_NONE), with = paper(HD_EXPONENTS_POSITIVE);
     const peak disks = peak_of(&alone), whole = peak_of(&with);
-    const double n = whole.vectors, unit = 8.0 * 4.0 * with.disks * n + 8.0 * n * n;
+    const double n = whole.vectors, unit = 8.0 * 4.0 * with.number * n + 8.0 * n * n;
     const double asked = (whole.asked - disks.asked) / unit;
     const double resident = (whole.resident - disks.resident) / unit;
     assert_true(asked > 1.0 && resident > 1.0); /* both see the frame */

@@ -5,7 +5,7 @@
 /** A box of some waves, whose T(1,0) and LP(1,0) stand alone. */
 static hd_scene_def long_box(void)
 {
-    return scene(.disks = 60, .density = 0.7, .aspect = 0.25, .equilibration = 5.0, .warmup = 60.0,
+    return scene(.number = 60, .density = 0.7, .aspect = 0.25, .equilibration = 5.0, .warmup = 60.0,
                  .threads = 1, .duration = 20000.0,
                  .observe = HD_OBSERVE_STEPS | HD_OBSERVE_PHASES | HD_OBSERVE_GAS);
 }

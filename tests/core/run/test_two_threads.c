@@ -9,7 +9,7 @@ enum { DISKS = 70, VECTORS = 2 * DISKS - 3 };
 static hd_run *run_with(int threads)
 {
     hd_run *run = NULL;
-    run = created(scene(.disks = DISKS, .density = 0.8, .aspect = 0.06, .equilibration = 5.0,
+    run = created(scene(.number = DISKS, .density = 0.8, .aspect = 0.06, .equilibration = 5.0,
                         .warmup = 15.0, .duration = 8.0, .report_interval = 0.1,
                         .observe = HD_OBSERVE_STEPS | HD_OBSERVE_PHASES, .threads = threads));
     hd_run_watch(run, 0.5, VECTORS - 8);
@@ -47,7 +47,7 @@ TEST(two_threads_give_what_one_gives)
 static void expect_repeatable(int disks)
 {
     hd_run *run[2];
-    hd_scene_def scene = scene(.disks = disks, .density = 0.8, .aspect = 1.0, .equilibration = 0.0,
+    hd_scene_def scene = scene(.number = disks, .density = 0.8, .aspect = 1.0, .equilibration = 0.0,
                                .warmup = 0.0, .duration = 0.2, .report_interval = 0.2);
     for (int k = 0; k < 2; k++) {
         if (k == 1) scene.threads = hd_run_threads(run[0]);

@@ -7,7 +7,7 @@ enum { WANTED = 12 };
 /** A long box whose steps are found within seconds. */
 static hd_scene_def long_box(double duration)
 {
-    return scene(.disks = 100, .density = 0.8, .aspect = 0.2, .seed = 3, .equilibration = 5.0,
+    return scene(.number = 100, .density = 0.8, .aspect = 0.2, .seed = 3, .equilibration = 5.0,
                  .warmup = 40.0, .duration = duration, .observe = EVERYTHING, .threads = 1);
 }
 
@@ -83,7 +83,7 @@ TEST(each_step_ends_with_the_vectors_wanted)
     OWNED(hd_run) *run = created(scene);
     scene.observe |= HD_OBSERVE_FIELDS;
     OWNED(hd_run) *twin = created(scene);
-    const int n = hd_run_vectors(run), rows = 4 * scene.disks;
+    const int n = hd_run_vectors(run), rows = 4 * scene.number;
     int compared = 0;
     begin_to_look(run);
     while (hd_run_stage(run) != HD_FINISHED) {

@@ -6,7 +6,7 @@ enum { DISKS = 50 };
 /** A channel, Lx = 66.7, Ly = 1.5, in which disks cannot pass each other. */
 static hd_scene_def channel(unsigned observe)
 {
-    return scene(.disks = DISKS, .density = 0.5, .aspect = 0.0225, .equilibration = 100.0,
+    return scene(.number = DISKS, .density = 0.5, .aspect = 0.0225, .equilibration = 100.0,
                  .warmup = 400.0, .duration = 1500.0, .report_interval = 50.0, .observe = observe);
 }
 
@@ -163,9 +163,9 @@ TEST(structure_factors_see_the_classified_waves)
 TEST(no_step_lies_before_the_first_that_is_expected)
 {
     const hd_scene_def scenes[] = {
-        scene(.disks = 60, .density = 0.8, .aspect = 0.06, .max_mode_number = 6),
-        scene(.disks = 120, .density = 0.7, .aspect = 0.1, .max_mode_number = 6),
-        scene(.disks = 100, .density = 0.7, .container = HD_CIRCLE, .max_mode_number = 2)};
+        scene(.number = 60, .density = 0.8, .aspect = 0.06, .max_mode_number = 6),
+        scene(.number = 120, .density = 0.7, .aspect = 0.1, .max_mode_number = 6),
+        scene(.number = 100, .density = 0.7, .container = HD_CIRCLE, .max_mode_number = 2)};
     int found = 0;
     for (int k = 0; k < 3; k++) {
         OWNED(hd_run) *run = finished(scene_from(scenes[k], .equilibration = 10.0, .warmup = 150.0,
@@ -185,6 +185,6 @@ TEST(no_step_lies_before_the_first_that_is_expected)
         assert_int_equal(last, hd_scene_positive_exponents(&scenes[k]));
     }
     assert_true(found >= 9);
-    hd_scene_def none = scene(.disks = 6, .density = 0.2, .aspect = 1.0, .max_wave_number = 0.1);
+    hd_scene_def none = scene(.number = 6, .density = 0.2, .aspect = 1.0, .max_wave_number = 0.1);
     assert_int_equal(hd_steps_exponents_least(&none), 0);
 }

@@ -3,7 +3,7 @@
 
 static hd_scene_def circle(int disks, double density)
 {
-    return scene(.container = HD_CIRCLE, .disks = disks, .density = density);
+    return scene(.container = HD_CIRCLE, .number = disks, .density = density);
 }
 
 static double radius_of(const hd_scene_def *def)
@@ -66,11 +66,11 @@ TEST(what_a_circle_has_not_is_refused_by_name)
     check_refused(scene_from(def, .boundary[1] = R), "boundary_y = reflecting: must not be given");
     check_refused(scene_from(def, .observe = HD_OBSERVE_HYDRO), "hydro");
     check_refused(scene_from(def, .observe = HD_OBSERVE_STRUCTURE), "structure");
-    check_refused(scene(.disks = 1), "disks = 1: must be");
+    check_refused(scene(.number = 1), "number = 1: must be");
     check_refused(circle(1, 0.5), "exponents = positive: must be all");
     check_refused(
         scene_from(circle(1, 0.5), .exponents = HD_EXPONENTS_ALL, .observe = HD_OBSERVE_COVARIANT),
-        "observables = covariant: must not be given with disks = 1");
+        "observables = covariant: must not be given with number = 1");
     check_refused(scene_from(def, .max_mode_number = 40), "density = 0.7, container = circle: a");
 }
 

@@ -11,12 +11,12 @@ static double densest(const hd_scene_def *def) { return hd_container_of(def)->de
 static double best_distance(double *q, const hd_scene_def *def, const double *box)
 {
     if (DIM == 2) {
-        const hd_plane_lattice best = hd_plane_lattice_best(def->disks, box, def->boundary);
-        if (q) hd_plane_lattice_fill(&best, q, def->disks, box, def->boundary);
+        const hd_plane_lattice best = hd_plane_lattice_best(def->number, box, def->boundary);
+        if (q) hd_plane_lattice_fill(&best, q, def->number, box, def->boundary);
         return best.distance;
     }
-    const hd_space_lattice best = hd_space_lattice_best(def->disks, box, def->boundary);
-    if (q) hd_space_lattice_fill(&best, q, def->disks, box, def->boundary);
+    const hd_space_lattice best = hd_space_lattice_best(def->number, box, def->boundary);
+    if (q) hd_space_lattice_fill(&best, q, def->number, box, def->boundary);
     return best.distance;
 }
 
@@ -24,8 +24,8 @@ static double best_distance(double *q, const hd_scene_def *def, const double *bo
 static double smallest_distance(const double *q, const hd_scene_def *def, const double *box)
 {
     double least = INFINITY;
-    for (int i = 0; i < def->disks; i++)
-        for (int j = i + 1; j < def->disks; j++) {
+    for (int i = 0; i < def->number; i++)
+        for (int j = i + 1; j < def->number; j++) {
             double square = 0.0;
             for (int d = 0; d < DIM; d++) {
                 const double r = q[DIM * j + d] - q[DIM * i + d];
@@ -40,12 +40,12 @@ static double smallest_distance(const double *q, const hd_scene_def *def, const 
 static double check_lattice(const hd_scene_def *def)
 {
     double box[3] = {0}, longest = 0.0;
-    HEAP double *q = calloc(DIM * (size_t)def->disks + 1, sizeof *q);
+    HEAP double *q = calloc(DIM * (size_t)def->number + 1, sizeof *q);
     hd_scene_box(def, box);
-    for (int k = 0; k <= DIM * def->disks; k++) q[k] = NAN;
+    for (int k = 0; k <= DIM * def->number; k++) q[k] = NAN;
     const double promised = best_distance(q, def, box);
-    assert_true(isnan(q[DIM * def->disks])); /* not one more than asked for */
-    for (int k = 0; k < DIM * def->disks; k++) {
+    assert_true(isnan(q[DIM * def->number])); /* not one more than asked for */
+    for (int k = 0; k < DIM * def->number; k++) {
         const double reach = def->boundary[k % DIM] == R ? 0.5 : 0.0;
         assert_true(q[k] >= reach && q[k] <= box[k % DIM] - reach);
     }

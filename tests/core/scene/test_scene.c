@@ -39,14 +39,14 @@ TEST(the_warm_up_follows_from_the_smallest_step)
     hd_scene_def def = hd_scene_def_default();
     const double box = 33.535, slope = 3.28, first = 60.0 * box / (2.0 * 3.14159265 * slope);
     CHECK_CLOSE(hd_scene_warmup(&def), first, 0.01 * first);
-    def.disks *= 4; /* twice as long */
+    def.number *= 4; /* twice as long */
     CHECK_CLOSE(hd_scene_warmup(&def), 2.0 * first, 0.02 * first);
     def.exponents = 3;
     CHECK_CLOSE(hd_scene_warmup(&def), 50.0, 0.0);
     def.exponents = HD_EXPONENTS_NONE;
     CHECK_CLOSE(hd_scene_warmup(&def), 0.0, 0.0);
     def.exponents = HD_EXPONENTS_ALL;
-    def.disks = 2; /* too few for any step */
+    def.number = 2; /* too few for any step */
     def.density = 0.2;
     CHECK_CLOSE(hd_scene_warmup(&def), 20.0, 0.0);
     def.observe = HD_OBSERVE_COVARIANT;
@@ -128,9 +128,9 @@ TEST(whole_fields_out_of_range)
     const int disks[] = {1, 0, -1, -780, 1000001, INT32_MAX, INT32_MIN}, threads[] = {-1, 1025};
     for (size_t k = 0; k < sizeof disks / sizeof *disks; k++) {
         char value[32];
-        hd_scene_def def = scene(.disks = disks[k]);
+        hd_scene_def def = scene(.number = disks[k]);
         snprintf(value, sizeof value, "= %d", disks[k]);
-        check_refused(&def, "disks", value,
+        check_refused(&def, "number", value,
                       disks[k] == 1 ? "from 2 to 1000000 in a rectangle"
                                     : "an integer from 1 to 1000000");
     }
@@ -166,7 +166,7 @@ TEST(exponents_out_of_range)
         char value[32];
         hd_scene_def def = scene(.exponents = refused[k]);
         snprintf(value, sizeof value, "= %d", refused[k]);
-        check_refused(&def, "exponents", value, "4 disks = 3120");
+        check_refused(&def, "exponents", value, "4 N = 3120");
     }
     for (size_t k = 0; k < sizeof accepted / sizeof *accepted; k++) {
         hd_scene_def def = scene(.exponents = accepted[k]);
@@ -222,7 +222,7 @@ TEST(box_has_area_and_aspect)
     const double density[] = {1e-6, 0.3, 1.1}, aspect[] = {1e-3, 0.867, 1.0, 77.0};
     for (int k = 0; k < 12; k++) {
         const hd_scene_def def = scene_of(50 * (k + 1), density[k % 3], aspect[k % 4], P, P, 1);
-        const double area = def.disks / def.density, rounding = 4.0 * DBL_EPSILON;
+        const double area = def.number / def.density, rounding = 4.0 * DBL_EPSILON;
         double box[2];
         hd_scene_box(&def, box);
         CHECK_CLOSE(box[0] * box[1], area, rounding * area);
@@ -232,7 +232,7 @@ TEST(box_has_area_and_aspect)
 
 TEST(what_a_box_says_of_itself)
 {
-    const hd_scene_def def = scene(.disks = 100, .density = 0.25, .aspect = 0.25,
+    const hd_scene_def def = scene(.number = 100, .density = 0.25, .aspect = 0.25,
                                    .boundary[1] = HD_REFLECTING);
     double x[HD_OUTLINE], y[HD_OUTLINE];
     char text[64];

@@ -10,7 +10,7 @@ static hd_trajectory *equilibrated(const hd_scene_def *def)
 {
     hd_trajectory *tr;
     CHECK_OK(hd_trajectory_create(&tr, def));
-    CHECK_OK(hd_trajectory_extend(tr, NULL, 50.0 * def->disks / hd_trajectory_collision_rate(tr)));
+    CHECK_OK(hd_trajectory_extend(tr, NULL, 50.0 * def->number / hd_trajectory_collision_rate(tr)));
     return tr;
 }
 
@@ -18,7 +18,7 @@ static hd_trajectory *equilibrated(const hd_scene_def *def)
 static hd_gas_means averaged(const hd_scene_def *def, int samples, double each)
 {
     OWNED(hd_trajectory) *tr = equilibrated(def);
-    const double dt = 0.5 * each * def->disks / hd_trajectory_collision_rate(tr);
+    const double dt = 0.5 * each * def->number / hd_trajectory_collision_rate(tr);
     MADE(hd_gas, gas, def, 0.0);
     hd_gas_begin(gas, tr);
     for (int k = 0; k < samples; k++) {

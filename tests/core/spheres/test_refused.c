@@ -30,20 +30,20 @@ TEST(values_out_of_range)
                "aspect_z = 2000000: must be from 1e-6 to 1e6");
     check_line(scene_from(usual(), .boundary[2] = HD_CURVED),
                "boundary_z = 2: must be periodic or reflecting");
-    check_line(scene_from(usual(), .exponents = 193),
-               "exponents = 193: must be positive, all, all_independent, none or from 1 to 6 disks "
-               "= 192");
-    assert_int_equal(hd_scene_vectors(&(hd_scene_def){.disks = 32, .exponents = 192}), 192);
+    check_line(
+        scene_from(usual(), .exponents = 193),
+        "exponents = 193: must be positive, all, all_independent, none or from 1 to 6 N = 192");
+    assert_int_equal(hd_scene_vectors(&(hd_scene_def){.number = 32, .exponents = 192}), 192);
 }
 
 /** Each direction by its own name, behind walls and without. */
 TEST(edges_below_a_diameter)
 {
     check_line(box_of(2, 2.0 / 3.375, 1.0, 0.5, 0, 1), /* Lx^3 = 6.75 */
-               "density = 0.592592592592593 with disks = 2, aspect = 1, aspect_z = 0.5: the box "
+               "density = 0.592592592592593 with number = 2, aspect = 1, aspect_z = 0.5: the box "
                "edge Lz = 0.944940787421155 must be above the disk diameter 1");
     check_line(box_of(2, 1.0 / 8.0, 0.25, 1.0, 2, 1), /* 4 x 1 x 4 */
-               "density = 0.125 with disks = 2, aspect = 0.25, aspect_z = 1: the box edge Ly = 1 "
+               "density = 0.125 with number = 2, aspect = 0.25, aspect_z = 1: the box edge Ly = 1 "
                "must be above the disk diameter 1 by 1e-9");
 }
 
@@ -90,7 +90,7 @@ TEST(waves_shorter_than_two_distances)
 {
     check_line(
         scene_from(box_of(64, 0.5, 0.5, 1.0, 0, 1), .max_mode_number = 4),
-        "max_mode_number = 4: must be at most 2 with disks = 64, density = 0.5, aspect = 0.5, "
+        "max_mode_number = 4: must be at most 2 with number = 64, density = 0.5, aspect = 0.5, "
         "aspect_z = 1 and these boundaries: a shorter wave than two mean distances, 2 / "
         "cbrt(density), is not sampled");
 }

@@ -15,7 +15,7 @@ enum { N = 8, ROWS = 2 * N };
 static inline hd_scene_def chain_of(int count, double beta, int exponents)
 {
     hd_scene_def scene = hd_scene_def_of(&of_chain);
-    scene.disks = count;
+    scene.number = count;
     scene.own[BETA].real = beta;
     scene.own[ENERGY].real = 10.0;
     scene.own[STEP].real = 0.005;

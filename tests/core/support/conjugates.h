@@ -33,7 +33,7 @@ static inline void conjugates_copy(conjugates *x)
 
 static inline conjugates conjugates_of(hd_scene_def scene)
 {
-    conjugates x = {.disks = scene.disks, .rows = 4 * scene.disks, .condition = 1.0};
+    conjugates x = {.disks = scene.number, .rows = 4 * scene.number, .condition = 1.0};
     CHECK_OK(hd_trajectory_create(&x.trajectory, &scene));
     CHECK_OK(hd_trajectory_extend(x.trajectory, NULL, 10.0));
     CHECK_OK(hd_record_create(&x.log, DYNAMICS->entry));

@@ -21,7 +21,7 @@ static inline hd_scene_def dumbbells_in_box(int count, double lx, double ly, dou
                                             double inertia, int walls, uint64_t seed)
 {
     hd_scene_def def = usual_dumbbells();
-    def.disks = count;
+    def.number = count;
     def.density = count / (lx * ly);
     def.aspect = ly / lx;
     def.boundary[0] = (hd_boundary)(walls & 1);
@@ -128,12 +128,12 @@ static inline int facings_of(facing *out, int most, const hd_scene_def *def, con
     hd_scene_box(def, box);
     for (int d = 0; d < 2; d++)
         far[d] = def->boundary[d] == HD_PERIODIC ? 1 + (int)((reach + 1.0) / box[d]) : 0;
-    for (int i = 0; i < def->disks; i++) {
+    for (int i = 0; i < def->number; i++) {
         for (int disk = 0; disk < 2; disk++)
             for (int wall = 0; wall < 4; wall++)
                 if (def->boundary[wall % 2] == HD_REFLECTING && count < most)
                     out[count++] = (facing){i, -1 - wall, {0, 0}, {disk, 0}};
-        for (int j = i + 1; j < def->disks; j++)
+        for (int j = i + 1; j < def->number; j++)
             for (int x = -far[0]; x <= far[0]; x++)
                 for (int y = -far[1]; y <= far[1]; y++) {
                     const double rx = s->q[D * j] - s->q[D * i] + x * box[0],

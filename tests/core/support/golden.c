@@ -21,7 +21,7 @@ static hd_scene_def dumbbells(int count, double density, double bond, hd_boundar
 {
     const hd_scene_def core = {.particles = HD_DUMBBELLS};
     hd_scene_def def = hd_scene_def_of(hd_dynamics_of(&core));
-    def.disks = count;
+    def.number = count;
     def.density = density;
     def.boundary[0] = x;
     def.seed = seed;

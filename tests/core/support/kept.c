@@ -5,7 +5,7 @@
 
 hd_scene_def kept_scene(int disks, double density, double aspect, int exponents, unsigned observe)
 {
-    return scene(.disks = disks, .density = density, .aspect = aspect, .seed = 7,
+    return scene(.number = disks, .density = density, .aspect = aspect, .seed = 7,
                  .exponents = exponents, .observe = observe, .equilibration = 3.0, .warmup = 20.0,
                  .duration = 20.0, .threads = 1);
 }

@@ -15,7 +15,7 @@ static uint64_t bit(int step) { return (uint64_t)1 << step; }
 static int positive(const hd_run *run)
 {
     const hd_scene_def *scene = hd_run_scene(run);
-    const int half = (4 * scene->disks - hd_scene_counts(scene).zero) / 2;
+    const int half = (4 * scene->number - hd_scene_counts(scene).zero) / 2;
     return half < hd_run_vectors(run) ? half : hd_run_vectors(run);
 }
 

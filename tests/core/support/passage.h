@@ -37,7 +37,7 @@ static inline passage passage_of(hd_scene_def scene, uint64_t seed, int warmup, 
                                  double length)
 {
     HELD(forward_pass) f = forward_started(scene, seed);
-    passage x = {.rows = 4 * scene.disks, .vectors = forward_vectors(&f)};
+    passage x = {.rows = 4 * scene.number, .vectors = forward_vectors(&f)};
     const size_t points = (size_t)count + 1;
     assert_true(x.vectors <= 64);
     x.factor = calloc(points, sizeof *x.factor);

@@ -5,7 +5,8 @@ const place places[PLACES] = {{HD_MODE_T, 1, 0, 58, 2, 0.20}, {HD_MODE_LP, 1, 0,
                               {HD_MODE_T, 1, 1, 44, 4, 0.45}, {HD_MODE_LP, 1, 1, 36, 8, 0.55}};
 hd_scene_def scene_of_places(double aspect)
 {
-    return scene(.disks = DISKS, .density = 0.5, .aspect = aspect, .seed = 4, .max_mode_number = 1);
+    return scene(.number = DISKS, .density = 0.5, .aspect = aspect, .seed = 4,
+                 .max_mode_number = 1);
 }
 
 int subspace_of(const world *w, int k)

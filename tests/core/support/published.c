@@ -111,7 +111,7 @@ static void check_phases(const hd_phases *phases)
 static void check_fields(const hd_run *run)
 {
     const hd_steps *steps = hd_run_steps(run);
-    const int rows = DIM * hd_run_scene(run)->disks;
+    const int rows = DIM * hd_run_scene(run)->number;
     double *state = malloc(3 * (size_t)rows * sizeof *state), *p = state + rows, *out = p + rows;
     hd_trajectory_state(hd_run_trajectory(run), state, p);
     MADE(hd_pmode, pmode, hd_run_scene(run));

@@ -114,7 +114,7 @@ rotating pairs(int d) { return pairs_of(d, d == 4 ? 60 : 30); }
 rotating t_pairs(int d)
 {
     return rotating_create(
-        scene(.disks = 60, .density = 0.5, .aspect = 0.8, .seed = 9, .max_mode_number = 1),
+        scene(.number = 60, .density = 0.5, .aspect = 0.8, .seed = 9, .max_mode_number = 1),
         HD_MODE_T, 1, d - 1, 2 * d, 2.4);
 }
 

@@ -52,7 +52,7 @@ static inline void check_same_exponents(const hd_run *a, const hd_run *b, double
 static inline void check_same_run(const hd_run *run, const hd_run *alone)
 {
     const hd_scene_def *scene = hd_run_scene(run);
-    const size_t count = (size_t)(hd_scene_coordinates(scene) * scene->disks);
+    const size_t count = (size_t)(hd_scene_coordinates(scene) * scene->number);
     HEAP double *q = calloc(2 * count, sizeof *q);
     check_same_exponents(run, alone, hd_run_cost(run).error_bound + hd_run_cost(alone).error_bound);
     hd_trajectory_state(hd_run_trajectory(run), q, NULL);

@@ -39,7 +39,8 @@ static inline hd_scene_def usual_scene(void)
     return def;
 }
 
-/** The default scene but for the fields given: scene(.disks = 12, .boundary[1] = HD_REFLECTING). */
+/** The default scene but for the fields given: scene(.number = 12, .boundary[1] = HD_REFLECTING).
+ */
 #define scene(...) scene_from(usual_scene(), __VA_ARGS__)
 
 /** As another scene but for the fields given, 16 at most. */
@@ -75,7 +76,7 @@ static inline hd_scene_def usual_scene(void)
 static inline hd_scene_def scene_of(int disks, double density, double aspect, hd_boundary x,
                                     hd_boundary y, uint64_t seed)
 {
-    return scene(.disks = disks, .density = density, .aspect = aspect, .boundary[0] = x,
+    return scene(.number = disks, .density = density, .aspect = aspect, .boundary[0] = x,
                  .boundary[1] = y, .seed = seed);
 }
 

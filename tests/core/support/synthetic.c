@@ -11,16 +11,16 @@ static void take_state(world *w)
 world world_create(hd_scene_def scene, int vectors, int threads)
 {
     world w = {.scene = scene, .random = hd_random_seeded(scene.seed, 77)};
-    const size_t size = 2 * (size_t)scene.disks * sizeof(double);
+    const size_t size = 2 * (size_t)scene.number * sizeof(double);
     hd_blas_use_threads(threads); /* more would only wait for each other */
     w.q = malloc(size);
     w.p = malloc(size);
     CHECK_OK(hd_trajectory_create(&w.trajectory, &scene));
     CHECK_OK(hd_fields_create(&w.fields, &scene));
-    CHECK_OK(hd_frame_create(&w.frame, DYNAMICS, scene.disks, vectors, scene.seed, threads));
+    CHECK_OK(hd_frame_create(&w.frame, DYNAMICS, scene.number, vectors, scene.seed, threads));
     CHECK_OK(hd_modes_create(&w.modes, &scene, vectors, threads));
     CHECK_OK(hd_steps_create(&w.steps, &scene, w.modes));
-    CHECK_OK(hd_spectrum_create(&w.spectrum, 4 * scene.disks, vectors, 0.0));
+    CHECK_OK(hd_spectrum_create(&w.spectrum, 4 * scene.number, vectors, 0.0));
     CHECK_OK(hd_trajectory_extend(w.trajectory, NULL, 20.0));
     take_state(&w);
     world_noise(&w);
@@ -88,7 +88,7 @@ void random_rotation(hd_random *random, double *out, int n)
     orthonormalise(out, n, n);
 }
 
-int world_rows(const world *w) { return 2 * w->scene.disks; }
+int world_rows(const world *w) { return 2 * w->scene.number; }
 
 int world_subspace(const world *w, hd_mode_kind kind, int nx, int ny)
 {

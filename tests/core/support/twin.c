@@ -288,10 +288,10 @@ static double epoch_for(const hd_scene_def *def)
 
 twin *twin_create(const hd_scene_def *def, const double *q, const double *p)
 {
-    const size_t n = (size_t)def->disks;
+    const size_t n = (size_t)def->number;
     twin *t = calloc(1, sizeof *t);
     if (!t) return NULL;
-    t->n = def->disks;
+    t->n = def->number;
     memcpy(t->boundary, def->boundary, sizeof t->boundary);
     hd_scene_box(def, t->box);
     t->epoch_length = epoch_for(def);

@@ -15,8 +15,8 @@ static void print_event(const char *whose, const hd_event *e)
 static void fail_at(const hd_scene_def *def, size_t number, const hd_event *got,
                     const hd_event *want)
 {
-    print_error("N %d density %.17g aspect %.17g %.17g boundary %d %d %d, event %zu:\n", def->disks,
-                def->density, def->aspect, def->aspect_z, (int)def->boundary[0],
+    print_error("N %d density %.17g aspect %.17g %.17g boundary %d %d %d, event %zu:\n",
+                def->number, def->density, def->aspect, def->aspect_z, (int)def->boundary[0],
                 (int)def->boundary[1], (int)def->boundary[2], number);
     print_event("got ", got);
     print_event("want", want);
@@ -39,8 +39,8 @@ static void compare_interval(const hd_scene_def *def, twin *slow, const hd_recor
 
 size_t twin_follow(hd_trajectory *fast, const hd_scene_def *def, size_t events, int pieces)
 {
-    HEAP double *q = calloc(2 * DIM * (size_t)def->disks, sizeof *q);
-    double *p = q + DIM * def->disks;
+    HEAP double *q = calloc(2 * DIM * (size_t)def->number, sizeof *q);
+    double *p = q + DIM * def->number;
     assert_non_null(q);
     hd_trajectory_state(fast, q, p);
     twin *slow = twin_create(def, q, p);

@@ -14,7 +14,7 @@ typedef struct windows {
 
 static inline hd_scene_def windows_scene(int disks, hd_boundary x, hd_boundary y)
 {
-    return scene(.disks = disks, .density = 0.5, .aspect = 0.9, .boundary[0] = x, .boundary[1] = y,
+    return scene(.number = disks, .density = 0.5, .aspect = 0.9, .boundary[0] = x, .boundary[1] = y,
                  .seed = 9, .exponents = HD_EXPONENTS_ALL_INDEPENDENT,
                  .observe = HD_OBSERVE_COVARIANT, .covariant_window = 10.0,
                  .covariant_transient = 20.0, .covariant_sampling = 2.0);

@@ -40,7 +40,7 @@ static state shadow_of(const hd_scene_def *def, const state *s, const double *v,
                        double time)
 {
     state moved = *s;
-    for (int k = 0; k < DIM * def->disks; k++) {
+    for (int k = 0; k < DIM * def->number; k++) {
         moved.q[k] += epsilon * v[row_of(k)];
         moved.p[k] += epsilon * v[row_of(k) + DIM];
     }
@@ -54,12 +54,12 @@ static double shadow_error(const hd_scene_def *def, const state *s, const double
     double box[DIM], off = 0.0;
     const state a = shadow_of(def, s, v, epsilon, time), b = shadow_of(def, s, v, -epsilon, time);
     hd_scene_box(def, box);
-    for (int k = 0; k < DIM * def->disks; k++) {
+    for (int k = 0; k < DIM * def->number; k++) {
         const double dq = remainder(a.q[k] - b.q[k], box[k % DIM]) / (2.0 * epsilon);
         const double dp = (a.p[k] - b.p[k]) / (2.0 * epsilon);
         off = hypot(off, hypot(dq - later[row_of(k)], dp - later[row_of(k) + DIM]));
     }
-    return off / sqrt(dot(later, later, ROWS_OF_ONE * def->disks));
+    return off / sqrt(dot(later, later, ROWS_OF_ONE * def->number));
 }
 
 /** Over a sweep of offsets the deviation falls as epsilon^2, down to rounding / epsilon; some three
@@ -68,13 +68,13 @@ static void check_shadow(hd_scene_def def)
 {
     const state s = fluid(&def);
     double v[ROWS_MAX], later[ROWS_MAX], error[4];
-    MADE(hd_frame, frame, DYNAMICS, def.disks, 1, 1, 1);
-    for (int row = 0; row < ROWS_OF_ONE * def.disks; row++)
+    MADE(hd_frame, frame, DYNAMICS, def.number, 1, 1, 1);
+    for (int row = 0; row < ROWS_OF_ONE * def.number; row++)
         *frame_entry(frame, row, 0) = v[row] = cos(1 + 7 * row);
     MADE(hd_trajectory, tr, &def);
-    const double time = 1.6 * def.disks / hd_trajectory_collision_rate(tr);
+    const double time = 1.6 * def.number / hd_trajectory_collision_rate(tr);
     OWNED(hd_record) *log = log_of(&def, s.q, s.p, time);
-    assert_true(log->count >= (size_t)def.disks / 2);
+    assert_true(log->count >= (size_t)def.number / 2);
     CHECK_OK(hd_frame_replay(frame, log, 0.0, time));
     frame_column(frame, 0, later);
     for (int k = 0; k < 4; k++)
@@ -89,8 +89,8 @@ TEST(maps_are_the_derivative_of_the_flow)
     for (int walls = 0; walls < WALL_SETS; walls++) check_shadow(small(walls));
     check_shadow(box_of(30, 0.7, 0.8, 0.9, 0, 1));
     if (DIM == 3) return;
-    check_shadow(scene(.container = HD_CIRCLE, .disks = 12, .density = 0.3));
-    check_shadow(scene(.container = HD_CIRCLE, .disks = 30, .density = 0.7));
+    check_shadow(scene(.container = HD_CIRCLE, .number = 12, .density = 0.3));
+    check_shadow(scene(.container = HD_CIRCLE, .number = 30, .density = 0.7));
 }
 
 /* ---- invariants ---------------------------------------------------------------------------- */
@@ -162,17 +162,17 @@ TEST(zero_modes_stay_zero_modes)
         const hd_scene_def def = small(walls);
         const state s = fluid(&def), end = carried(&def, &s, time);
         OWNED(hd_record) *log = log_of(&def, s.q, s.p, time);
-        MADE(hd_frame, frame, DYNAMICS, def.disks, COLUMNS, 3, 1);
-        for (int row = 0; row < ROWS_OF_ONE * def.disks; row++)
+        MADE(hd_frame, frame, DYNAMICS, def.number, COLUMNS, 3, 1);
+        for (int row = 0; row < ROWS_OF_ONE * def.number; row++)
             for (int col = 0; col < COLUMNS; col++) *frame_entry(frame, row, col) = 0.0;
-        for (int k = 0; k < DIM * def.disks; k++) {
+        for (int k = 0; k < DIM * def.number; k++) {
             *frame_entry(frame, row_of(k), 2 * (k % DIM)) = 1.0;
             *frame_entry(frame, row_of(k) + DIM, 2 * (k % DIM) + 1) = 1.0;
             *frame_entry(frame, row_of(k), OF_P) = s.p[k];
             *frame_entry(frame, row_of(k) + DIM, OF_P + 1) = s.p[k];
         }
         CHECK_OK(hd_frame_replay(frame, log, 0.0, time));
-        for (int k = 0; k < DIM * def.disks; k++)
+        for (int k = 0; k < DIM * def.number; k++)
             for (int col = 0; col < COLUMNS; col++) {
                 const bool of_p = col >= OF_P, in_dp = col % 2;
                 if (!of_p && walls >> col / 2 & 1) continue;
@@ -201,7 +201,7 @@ static double miss(const hd_scene_def *def, const state *s, double time)
     const state back = reversed(carried(def, &turned, time));
     double box[DIM], sum = 0.0;
     hd_scene_box(def, box);
-    for (int k = 0; k < DIM * def->disks; k++)
+    for (int k = 0; k < DIM * def->number; k++)
         sum += pow(remainder(back.q[k] - s->q[k], box[k % DIM]), 2.0) +
                pow(back.p[k] - s->p[k], 2.0);
     return sqrt(sum);
@@ -212,7 +212,7 @@ static void check_order(const hd_scene_def *def, const state *s, double time)
     const state there = carried(def, s, time), turned = reversed(there);
     OWNED(hd_record) *forth = log_of(def, s->q, s->p, time);
     OWNED(hd_record) *back = log_of(def, turned.q, turned.p, time);
-    assert_true(forth->count > 2 * (size_t)def->disks && back->count == forth->count);
+    assert_true(forth->count > 2 * (size_t)def->number && back->count == forth->count);
     for (size_t k = 0; k < forth->count; k++) {
         const hd_event *a = &events_in(forth)[k], *b = &events_in(back)[back->count - 1 - k];
         assert_true(a->i == b->i && a->j == b->j);
@@ -224,9 +224,9 @@ static void check_order(const hd_scene_def *def, const state *s, double time)
 static double stretched(const hd_scene_def *def, const state *s, double time)
 {
     double v[ROWS_MAX];
-    const int rows = ROWS_OF_ONE * def->disks;
+    const int rows = ROWS_OF_ONE * def->number;
     OWNED(hd_record) *events = log_of(def, s->q, s->p, time);
-    MADE(hd_frame, frame, DYNAMICS, def->disks, 1, 4, 1);
+    MADE(hd_frame, frame, DYNAMICS, def->number, 1, 4, 1);
     frame_column(frame, 0, v);
     const double before = dot(v, v, rows);
     CHECK_OK(hd_frame_replay(frame, events, 0.0, time));
@@ -278,7 +278,7 @@ static scene_log logged(int disks, int walls, double time)
 static void replayed(const scene_log *s, int vectors, int threads, const double *cuts, int col,
                      double *out)
 {
-    MADE(hd_frame, frame, DYNAMICS, s->scene.disks, vectors, 1, threads);
+    MADE(hd_frame, frame, DYNAMICS, s->scene.number, vectors, 1, threads);
     for (int row = 0; row < hd_frame_rows(frame); row++)
         for (int k = 0; k < vectors; k++) *frame_entry(frame, row, k) = cos(row * 1.7 + k * 0.3);
     double begin = 0.0;

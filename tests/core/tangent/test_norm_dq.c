@@ -209,7 +209,7 @@ static void chain_step(chain *c, hd_ortho_limits other)
 static chain chain_started(hd_boundary x, hd_boundary y)
 {
     chain c = {0};
-    c.f = forward_started(scene(.disks = DISKS, .density = 0.7, .aspect = 1.0, .boundary[0] = x,
+    c.f = forward_started(scene(.number = DISKS, .density = 0.7, .aspect = 1.0, .boundary[0] = x,
                                 .boundary[1] = y, .seed = 3, .exponents = HD_EXPONENTS_POSITIVE),
                           5);
     c.n = forward_vectors(&c.f);

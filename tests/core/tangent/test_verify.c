@@ -35,7 +35,7 @@ static volatile bool broken;
 
 static hd_run *run_of(int exponents)
 {
-    hd_run *run = created(scene(.disks = 16, .density = 0.7, .aspect = 1.0, .seed = 3,
+    hd_run *run = created(scene(.number = 16, .density = 0.7, .aspect = 1.0, .seed = 3,
                                 .exponents = exponents, .equilibration = 2.0, .warmup = 10.0,
                                 .duration = 10.0));
     for (int k = 0; k < 20; k++) CHECK_OK(hd_run_advance(run));
@@ -70,7 +70,7 @@ TEST(disks_are_checked)
 
 TEST(the_log_is_checked)
 {
-    const hd_scene_def box = scene(.disks = 3, .density = 0.5);
+    const hd_scene_def box = scene(.number = 3, .density = 0.5);
     const hd_event right[2] = {{0.5, 0, 1, {1, 0}, {-1, 0}}, {0.7, 2, HD_WALL_Y, {0, 1}, {1, 2}}};
     const struct {
         int event;
@@ -90,7 +90,7 @@ TEST(the_log_is_checked)
         {0, {0.5, 0, 1, {1, 0}, {NAN, 0}}},
     };
     /* one disk in a circle of reach 2 */
-    const hd_scene_def round = scene(.container = HD_CIRCLE, .disks = 1,
+    const hd_scene_def round = scene(.container = HD_CIRCLE, .number = 1,
                                      .density = 1.0 / (PI * 2.5 * 2.5));
     const hd_event at_wall[] = {{0.5, 0, HD_WALL_ROUND, {2, 0}, {1, 3}},
                                 {0.5, 0, HD_WALL_ROUND, {1, 0}, {1, 3}},  /* of another radius */

@@ -23,7 +23,7 @@ class Box:
 
     def __init__(self, bag):
         recording = bag.recording
-        self.disks, self.half = recording.info.disks, recording.positive_end
+        self.disks, self.half = recording.info.number, recording.positive_end
         self.growth = growth.read(bag) if recording.spectrum else None
         self.indices = growth.indices(recording) if self.growth else {}
 

@@ -32,9 +32,9 @@ class Halves:
         self.recording = run = bag.recording
         self.info, self.positive_end = run.info, run.positive_end
         self.zeros = zeros.indices(run.info, run.spectrum) if run.spectrum is not None else []
-        self.count = 4 * run.info.disks
+        self.count = 4 * run.info.number
         self.behind_zeros = self.count + 1 - self.positive_end  # index of the first negative one
-        self.is_of_paper = run.info.disks == paper.DISKS
+        self.is_of_paper = run.info.number == paper.DISKS
         self.is_known = bool(messages) and len(messages[-1].cos_theta) == self.count
         if self.is_known:
             self._measure(messages)

@@ -45,7 +45,7 @@ def _row(name, message, indices, published=None, **sense):
 
 def localised(bag):
     """Beside half of a random vector's width."""
-    run, half = bag.recording, HALF * random_width(bag.info.disks)
+    run, half = bag.recording, HALF * random_width(bag.info.number)
     found = [('vector 1', [1], BELOW)]
     found += [(name, _indices(run, name), ABOVE) for name in ('T(1,0)', 'LP(1,0)')]
     for name, indices, sense in found:
@@ -74,4 +74,4 @@ def beside(bag):
         last = message.first_index + len(message.widths) - 1
         for index in sorted({min(index, last) for index in (3, 10, 30, 100, last // 2)}):
             yield _row(f'vector {index}', message, [index])
-    yield Row('width of a random vector', None, random_width(bag.info.disks), unit=UNIT)
+    yield Row('width of a random vector', None, random_width(bag.info.number), unit=UNIT)

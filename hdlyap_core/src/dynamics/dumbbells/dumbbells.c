@@ -278,7 +278,7 @@ static hd_status prepare(dumbbells *all, const hd_scene_def *def)
 {
     hd_molecules *m = &all->m;
     double longest = 0.0;
-    m->count = def->disks;
+    m->count = def->number;
     m->shape.arm = 0.5 * hd_dumbbell_bond(def);
     m->shape.root = sqrt(hd_dumbbell_inertia(def));
     m->shape.turn = 6.28318530717958647693 * m->shape.root;
@@ -341,8 +341,8 @@ static hd_status create_at(void **state, const hd_scene_def *def, const double *
 
 static hd_status create_on_lattice(void **state, const hd_scene_def *def)
 {
-    double *q = hd_memory_alloc(3 * (size_t)def->disks, sizeof *q);
-    double *p = hd_memory_alloc(3 * (size_t)def->disks, sizeof *p);
+    double *q = hd_memory_alloc(3 * (size_t)def->number, sizeof *q);
+    double *p = hd_memory_alloc(3 * (size_t)def->number, sizeof *p);
     hd_status status = HD_NO_MEMORY;
     if (q && p) {
         hd_dumbbell_start(def, q);

@@ -29,9 +29,9 @@ hd_status hd_dumbbells_check_box(const hd_scene_def *scene, char *message, size_
     for (int d = 0; d < 2; d++)
         if (scene->boundary[d] == HD_PERIODIC && !(box[d] > 1.0 + bond))
             return hd_refuse(message, size,
-                             "density = %.15g with disks = %d, aspect = %.15g: the box edge L%c = "
+                             "density = %.15g with number = %d, aspect = %.15g: the box edge L%c = "
                              "%.15g must be above the length of a dumbbell, 1 + bond = %.15g",
-                             scene->density, scene->disks, scene->aspect, "xy"[d], box[d],
+                             scene->density, scene->number, scene->aspect, "xy"[d], box[d],
                              1.0 + bond);
     return HD_OK;
 }
@@ -43,15 +43,15 @@ static hd_status row_check(const hd_scene_def *scene, char *message, size_t size
     if (hd_dumbbell_start_gap(scene) >= HD_START_DISTANCE_MIN - 1.0) return HD_OK;
     hd_container_of(scene)->say(scene, said, sizeof said);
     return hd_refuse(message, size,
-                     "density = %.15g (packing fraction %.4g): must be at most %.6g with disks = "
+                     "density = %.15g (packing fraction %.4g): must be at most %.6g with number = "
                      "%d, bond = %.15g, %s (densest start lattice)",
                      scene->density, hd_dumbbell_packing(scene), hd_dumbbell_density_max(scene),
-                     scene->disks, hd_dumbbell_bond(scene), said);
+                     scene->number, hd_dumbbell_bond(scene), said);
 }
 
 static double row_rate(const hd_scene_def *scene)
 {
-    return 0.5 * scene->disks * hd_fluid_dumbbells.rate(scene);
+    return 0.5 * scene->number * hd_fluid_dumbbells.rate(scene);
 }
 
 static double row_entries(const hd_scene_def *scene)
@@ -60,7 +60,7 @@ static double row_entries(const hd_scene_def *scene)
     hd_scene_box(scene, box);
     for (int d = 0; d < 2; d++)
         if (scene->boundary[d] != HD_PERIODIC) walls += 1.0 / (box[d] - 1.0);
-    return row_rate(scene) + scene->disks * walls;
+    return row_rate(scene) + scene->number * walls;
 }
 
 static int row_zeros(const hd_scene_def *scene)
@@ -230,8 +230,8 @@ static const char *row_fault(const hd_record *record, const hd_scene_def *scene)
         const hd_bump *bump = hd_record_entry(record, k);
         const double i = bump->i, j = bump->j,
                      n2 = bump->n[0] * bump->n[0] + bump->n[1] * bump->n[1];
-        if (!(i >= 0 && i < scene->disks && i == floor(i))) return "there is no such dumbbell";
-        if (!(j == -1 || (j > i && j < scene->disks && j == floor(j))))
+        if (!(i >= 0 && i < scene->number && i == floor(i))) return "there is no such dumbbell";
+        if (!(j == -1 || (j > i && j < scene->number && j == floor(j))))
             return "there is no such partner";
         if (!(fabs(n2 - 1.0) <= 8.0 * DBL_EPSILON)) return "a normal has not the length 1";
     }

@@ -65,7 +65,7 @@ static void try_rows(rows *best, const hd_scene_def *def, const double *box, row
     const hd_boundary *boundary = def->boundary;
     const double reach[2] = {0.5 + (r.lies == r.along ? 0.5 * bond : 0.0),
                              0.5 + (r.lies == r.along ? 0.0 : 0.5 * bond)};
-    r.columns = (int)(((int64_t)def->disks + r.rows - 1) / r.rows);
+    r.columns = (int)(((int64_t)def->number + r.rows - 1) / r.rows);
     if (r.shift > 0 && (r.rows == 1 || (boundary[1 - r.along] == HD_PERIODIC && r.rows % 2 == 1)))
         return;
     r.column = spacing(&r.first[0], box[r.along], r.columns, r.shift, boundary[r.along], reach[0]);
@@ -78,9 +78,9 @@ static void try_rows(rows *best, const hd_scene_def *def, const double *box, row
  * that is dense are. */
 static void try_shift(rows *best, const hd_scene_def *def, const double *box, rows r)
 {
-    const double most = 9.0, square = def->disks * box[1 - r.along] / box[r.along];
-    const int least = (int)fmin(def->disks, fmax(1.0, sqrt(square / most)));
-    const int last = (int)fmin(def->disks, 1.0 + sqrt(square * most));
+    const double most = 9.0, square = def->number * box[1 - r.along] / box[r.along];
+    const int least = (int)fmin(def->number, fmax(1.0, sqrt(square / most)));
+    const int last = (int)fmin(def->number, 1.0 + sqrt(square * most));
     for (r.rows = least; r.rows <= last; r.rows++) try_rows(best, def, box, r);
 }
 
@@ -131,7 +131,7 @@ void hd_dumbbell_start(const hd_scene_def *def, double *q)
     int64_t site = 0;
     for (int row = 0; row < r.rows; row++)
         for (int column = 0; column < r.columns; column++, site++) {
-            if (hd_site_is_spare(site, sites, def->disks)) continue;
+            if (hd_site_is_spare(site, sites, def->number)) continue;
             q[r.along] = r.first[0] + (column + r.shift * (row % 2)) * r.column;
             q[1 - r.along] = r.first[1] + row * r.row;
             q[2] = turned * sqrt(hd_dumbbell_inertia(def));

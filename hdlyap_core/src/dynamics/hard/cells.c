@@ -53,7 +53,7 @@ hd_status hd_cells_create(hd_cells *cells, const hd_scene_def *def, double reach
         line_fill(cells->line[d], cells->size[d], cells->box[d], cells->boundary[d]);
     }
     cells->cell = hd_memory_alloc(cell_count(cells), sizeof *cells->cell);
-    cells->next = hd_memory_alloc((size_t)def->disks, sizeof *cells->next);
+    cells->next = hd_memory_alloc((size_t)def->number, sizeof *cells->next);
     return cells->cell && cells->next ? HD_OK : HD_NO_MEMORY;
 }
 

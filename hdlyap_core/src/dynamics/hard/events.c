@@ -62,7 +62,7 @@ const char *hd_events_fault(const hd_record *record, const hd_scene_def *scene)
         const hd_event *event = hd_events(record) + k;
         if (!(event->t >= before)) return "an event comes before the one before it";
         if (!(event->t <= record->duration)) return "an event comes after the end";
-        if (!disks_exist(event, scene->disks)) return "there is no such disk";
+        if (!disks_exist(event, scene->number)) return "there is no such disk";
         if (!wall_exists(event, &wall)) return "there is no such wall";
         if (!is_normal(event, &wall)) return "a normal has not the length that it should";
         if ((event->j >= 0 || event->j == HD_WALL_ROUND) && !approach(event))
@@ -98,8 +98,8 @@ void hd_events_archive(hd_record *record, hd_archive *archive, const hd_scene_de
     for (size_t k = 0; k < count; k++) event_archive(&event[k], archive);
     hd_archive_of_ints(archive, "log i j", 2 * count);
     for (size_t k = 0; k < count; k++) {
-        hd_archive_next_int(archive, &event[k].i, 0, scene->disks - 1);
-        hd_archive_next_int(archive, &event[k].j, HD_WALL_ROUND, scene->disks - 1);
+        hd_archive_next_int(archive, &event[k].i, 0, scene->number - 1);
+        hd_archive_next_int(archive, &event[k].j, HD_WALL_ROUND, scene->number - 1);
     }
     const char *fault = hd_events_fault(record, scene);
     if (fault) hd_archive_refuse(archive, "log", fault);

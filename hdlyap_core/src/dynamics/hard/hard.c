@@ -244,8 +244,8 @@ hd_status hd_hard_advance(void *state, hd_record *record, double t_end)
 
 static hd_status prepare(hard *tr, const hd_scene_def *def)
 {
-    tr->motion.count = def->disks;
-    tr->epoch_length = hd_epoch_length(2.0 * hd_hard_rate(def) / def->disks);
+    tr->motion.count = def->number;
+    tr->epoch_length = hd_epoch_length(2.0 * hd_hard_rate(def) / def->number);
     tr->motion.wall = hd_wall_of(def);
     tr->motion.disk = hd_memory_alloc((size_t)tr->motion.count + 1, sizeof *tr->motion.disk);
     tr->motion.predicted = hd_memory_alloc((size_t)tr->motion.count, sizeof *tr->motion.predicted);
@@ -278,7 +278,7 @@ static hd_status start(hard *tr, const double *q, const double *p)
 
 double hd_hard_rate(const hd_scene_def *def)
 {
-    return 0.5 * hd_dynamics_of(def)->fluid->rate(def) * def->disks;
+    return 0.5 * hd_dynamics_of(def)->fluid->rate(def) * def->number;
 }
 
 double hd_hard_entries(const hd_scene_def *def)
@@ -287,7 +287,7 @@ double hd_hard_entries(const hd_scene_def *def)
     hd_scene_box(def, box);
     for (int d = 0; d < HD_DIM; d++)
         if (hd_scene_boundary(def, d) != HD_PERIODIC) rate += 1.0 / (box[d] - 1.0);
-    return def->disks * rate;
+    return def->number * rate;
 }
 
 double hd_hard_bytes(double disks)
@@ -324,8 +324,8 @@ static hd_status create_at(void **state, const hd_scene_def *def, const double *
 /** On the start lattice, with momenta of the seed. */
 static hd_status create_on_lattice(void **state, const hd_scene_def *def)
 {
-    double *q = hd_memory_alloc(HD_DIM * (size_t)def->disks, sizeof *q);
-    double *p = hd_memory_alloc(HD_DIM * (size_t)def->disks, sizeof *p);
+    double *q = hd_memory_alloc(HD_DIM * (size_t)def->number, sizeof *q);
+    double *p = hd_memory_alloc(HD_DIM * (size_t)def->number, sizeof *p);
     hd_status status = HD_NO_MEMORY;
     if (q && p) {
         hd_container_of(def)->start(def, q);

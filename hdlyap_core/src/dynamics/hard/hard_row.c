@@ -145,8 +145,8 @@ static hd_status hard_check(const hd_scene_def *scene, char *message, size_t siz
     container->say(scene, said, sizeof said);
     return hd_refuse(
         message, size,
-        "density = %.15g: must be at most %.6g with disks = %d, %s (densest start lattice)",
-        scene->density, container->density_max(scene), scene->disks, said);
+        "density = %.15g: must be at most %.6g with number = %d, %s (densest start lattice)",
+        scene->density, container->density_max(scene), scene->number, said);
 }
 
 /** Pairs of energy and time, and of each conserved momentum. */

@@ -1,7 +1,7 @@
 """A run, as roslaunch hdlyap run.launch starts it, once what is given is looked at.
 
 hdlyap launch
-hdlyap launch scene:=mine.yaml disks:=200 params:="{warmup: 80}" record:=true bag:=mine.bag
+hdlyap launch scene:=mine.yaml number:=200 params:="{warmup: 80}" record:=true bag:=mine.bag
 
 Arguments are those of run.launch: roslaunch ignores one that it does not know, here it is refused.
 

@@ -68,7 +68,7 @@ def _origin(run):
     box = ' x '.join(f'{edge:.6g}' for edge in space.along(info, 'box_'))
     spheres = ' spheres' if space.is_solid(info) else ''
     return (
-        f'hdlyap {info.version}, scene {info.scene}, N = {info.disks}{spheres}, '
+        f'hdlyap {info.version}, scene {info.scene}, N = {info.number}{spheres}, '
         f'density {info.density:g}, box {box}, seed {seeds}'
     )
 

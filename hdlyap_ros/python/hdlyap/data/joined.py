@@ -10,7 +10,7 @@ from .reader import RecordingError
 
 # what bags that belong together have in common: all that decides what is measured
 OF_SPHERES = ('particles', 'aspect_z', 'boundary_z', 'wave_nz')  # alike of all disks
-SYSTEM = ('container', 'disks', 'density', 'aspect', 'boundary_x', 'boundary_y', 'own')
+SYSTEM = ('container', 'number', 'density', 'aspect', 'boundary_x', 'boundary_y', 'own')
 SYSTEM += OF_SPHERES[:3]
 MEASURED = SYSTEM + ('vectors', 'wave_nx', 'wave_ny', 'wave_nz')
 # what a resumed run has as before (HD_AS_BEFORE of hdlyap/parameters.inc), so parts of one run, too

@@ -146,8 +146,8 @@ def check(kind, message):
         sizes = [message.density, message.aspect, message.box_x, message.box_y]
         if space.is_solid(message):
             sizes += [message.aspect_z, message.box_z]
-        if not (message.disks and all(math.isfinite(size) and size > 0 for size in sizes)):
-            raise Damaged(f'{kind}: {message.disks} disks, density, aspect and box {tuple(sizes)}')
+        if not (message.number and all(math.isfinite(size) and size > 0 for size in sizes)):
+            raise Damaged(f'{kind}: {message.number} disks, density, aspect and box {tuple(sizes)}')
 
 
 def run_infos(path, node=None):

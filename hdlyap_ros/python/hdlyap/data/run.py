@@ -67,7 +67,7 @@ class Run:
 
     def __repr__(self):
         info, what = self.info, space.particle(self.info)
-        return f'<hdlyap run {info.run_id}: {info.scene}, {info.disks} {what}s, seed {info.seed}>'
+        return f'<hdlyap run {info.run_id}: {info.scene}, {info.number} {what}s, seed {info.seed}>'
 
     # ---- as of Seeds ------------------------------------------------------------------------
 

@@ -81,7 +81,7 @@ class Seeds:
 
     def __repr__(self):
         what = space.particle(self.info)
-        return f'<hdlyap runs of {self.info.disks} {what}s, seeds {", ".join(self.seeds)}>'
+        return f'<hdlyap runs of {self.info.number} {what}s, seeds {", ".join(self.seeds)}>'
 
     def __getattr__(self, name):
         if not name.startswith('_') and hasattr(Run, name):

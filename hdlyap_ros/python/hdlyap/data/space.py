@@ -21,7 +21,7 @@ def without_box(info):
     """What is known of particles that have no positions in a box; '' of others."""
     if info.dimension or not info.particles:
         return ''
-    return ', '.join([f'{info.particles}, N = {info.disks}', *info.own])
+    return ', '.join([f'{info.particles}, N = {info.number}', *info.own])
 
 
 def axes(info):
@@ -57,9 +57,9 @@ def size(info):
 
 def distance(info):
     """Mean one of neighbours."""
-    return (size(info) / info.disks) ** (1 / len(axes(info)))
+    return (size(info) / info.number) ** (1 / len(axes(info)))
 
 
 def phase_space(info):
     """Lyapunov exponents in all: 4N, of spheres 6N."""
-    return 2 * info.coordinates * info.disks
+    return 2 * info.coordinates * info.number

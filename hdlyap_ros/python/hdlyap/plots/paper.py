@@ -72,9 +72,9 @@ def branches(info):
     """{kind: Branch} where the paper's fits hold for the run, else none."""
     if space.is_solid(info):
         return {}
-    if isclose(info.density, CURVES_DENSITY, rel_tol=1e-6) and _within(info.disks, CURVES_DISKS):
+    if isclose(info.density, CURVES_DENSITY, rel_tol=1e-6) and _within(info.number, CURVES_DISKS):
         return CURVES
-    if info.density <= DENSITY * (1 + 1e-6) and info.disks >= 400:
+    if info.density <= DENSITY * (1 + 1e-6) and info.number >= 400:
         return {'T': Branch(slope_t(info.density), None), 'LP': Branch(slope_l(info.density), None)}
     return {}
 
@@ -86,7 +86,7 @@ def _within(value, ends):
 def _is_periodic_scene(info):
     return (
         not space.is_solid(info)
-        and info.disks == DISKS
+        and info.number == DISKS
         and isclose(info.density, DENSITY, rel_tol=1e-6)
         and isclose(info.aspect, ASPECT, rel_tol=1e-6)
         and info.boundary_x == info.boundary_y == 'periodic'

@@ -83,10 +83,10 @@ def system(info):
         return space.without_box(info)
     if is_curved(info):
         size = f'{info.box_x:.3f} x {info.box_y:.3f}'
-        return f'N = {info.disks}, density {info.density:g}, {info.container}, {size}'
+        return f'N = {info.number}, density {info.density:g}, {info.container}, {size}'
     spheres = ' spheres' if space.is_solid(info) else ''
     return (
-        f'N = {info.disks}{spheres}, density {info.density:g}, box '
+        f'N = {info.number}{spheres}, density {info.density:g}, box '
         + ' x '.join(f'{edge:.3f}' for edge in space.along(info, 'box_'))
         + ''.join(f', {axis} {getattr(info, "boundary_" + axis)}' for axis in space.axes(info))
     )
@@ -98,7 +98,7 @@ def origin(info):
 
 
 def _sums(recording):
-    spectrum, disks = recording.spectrum, recording.info.disks
+    spectrum, disks = recording.spectrum, recording.info.number
     lines = [
         f'averaged time   {spectrum.averaged_time:g}',
         f'collisions      {spectrum.collisions}',

@@ -138,7 +138,7 @@ def _check(parameters):
 
 def _estimate(parameters):
     time = sum(parameters[name] for name in TIMES if is_number(parameters[name]))
-    disks = parameters['disks'] if is_number(parameters['disks']) else DISKS  # it is refused
+    disks = parameters['number'] if is_number(parameters['number']) else DISKS  # it is refused
     coordinates = 3 if is_solid(parameters) else 2
     return BEGIN + STEP * time * (coordinates / 2 * disks / DISKS) ** 2
 

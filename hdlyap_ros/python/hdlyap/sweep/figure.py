@@ -10,13 +10,13 @@ from hdlyap.plots.figures.style import FEW, GREY, MEMBER_COLOURS, plt
 from .points import FITTED, QUANTITIES, varied
 
 LABELS = {
-    'disks': 'number of disks $N$',
+    'number': 'number of disks $N$',
     'density': r'density $\rho$  [1/$\sigma^2$]',
     'aspect': 'aspect ratio $L_y/L_x$',
     'aspect_z': 'aspect ratio $L_z/L_x$',
     'boundary': 'boundary',
 }
-SHORT = {'disks': '$N$', 'density': r'$\rho$', 'aspect': '$L_y/L_x$', 'aspect_z': '$L_z/L_x$'}
+SHORT = {'number': '$N$', 'density': r'$\rho$', 'aspect': '$L_y/L_x$', 'aspect_z': '$L_z/L_x$'}
 NAMES = {
     'lambda_max': r'$\lambda_{max}$  [1/time unit]',
     'h_KS/N': r'$h_{KS}/N$  [1/time unit]',

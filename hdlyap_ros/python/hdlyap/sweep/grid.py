@@ -56,11 +56,11 @@ class Swept(namedtuple('Swept', 'argument name parameters wanted')):
             return number if 0 < number < float('inf') else None
         if not re.fullmatch('[0-9]+', word):
             return None
-        return int(word) if self.argument == 'disks' else str(int(word))
+        return int(word) if self.argument == 'numbers' else str(int(word))
 
 
 SWEPT = (
-    Swept('disks', 'disks', ('disks',), 'whole numbers'),
+    Swept('numbers', 'number', ('number',), 'whole numbers'),
     Swept('densities', 'density', ('density',), 'positive numbers'),
     Swept('aspects', 'aspect', ('aspect',), 'positive numbers'),
     Swept(

@@ -47,7 +47,7 @@ class Point:
         frame = self.data.results
         found = {'lambda_max': self._value(frame.loc['lambda_max'])}
         if 'h_KS' in frame.index:
-            found['h_KS/N'] = self._value(frame.loc['h_KS'], 1 / self.data.info.disks)
+            found['h_KS/N'] = self._value(frame.loc['h_KS'], 1 / self.data.info.number)
         for fit in self.runs[0].fits:
             if fit.symbol in frame.index:
                 found[fit.symbol] = self._value(frame.loc[fit.symbol], fit=fit)
@@ -70,12 +70,12 @@ class Point:
 
 def system(info):
     if space.without_box(info):
-        return {'disks': info.disks, **space.own(info)}
+        return {'number': info.number, **space.own(info)}
     walls = [info.container] if is_curved(info) else space.along(info, 'boundary_')
     walls = walls[:1] if len(set(walls)) == 1 else walls
     solid = {'aspect_z': info.aspect_z} if space.is_solid(info) else {}
     return {
-        'disks': info.disks,
+        'number': info.number,
         'density': info.density,
         'aspect': info.aspect,
         **solid,

@@ -32,7 +32,7 @@ def _panel(axes, recording, count):
     _dots(axes, message, count, fmt='o', color=BLUE, label='Gram-Schmidt', zorder=3)
     if covariant is not None:
         _dots(axes, covariant, count, fmt='x', color=INK, label='covariant', zorder=2)
-    least = 1.0 / recording.info.disks
+    least = 1.0 / recording.info.number
     axes.axhline(least, color=GREY, linewidth=0.6, linestyle='--')
     name, across = f'one {space.particle(recording.info)}', axes.get_yaxis_transform()
     look = {'ha': 'right', 'va': 'bottom', 'color': GREY, 'fontsize': 7}

@@ -89,7 +89,7 @@ def draw_panels(panels, info):
     height = rows * (width / columns * info.box_y / info.box_x + 0.3) + 0.5
     figure, grid = grid_of(rows, columns, width, min(height, TALLEST), squeeze=False)
     for axes, panel in zip(grid.flat, panels):
-        _arrows(axes, panel, info, as_pixels=len(panels) * info.disks > MANY)
+        _arrows(axes, panel, info, as_pixels=len(panels) * info.number > MANY)
     for axes in grid[:, 0]:
         axes.set_ylabel(r'$y$  [$\sigma$]', fontsize=7)
     for column, lowest in zip(grid.T, _lowest(len(panels), columns)):

@@ -37,7 +37,7 @@ def draw_panels(panels, info):
 def _arrows(axes, panel, info, view):
     q, dq = space.vectors(panel.field), space.vectors(panel.field, 'dq')
     dq = dq * ARROW / np.sqrt(np.mean(np.sum(dq**2, axis=0)))
-    share = min(1.0, MOST * info.box_x * info.box_z / info.disks)
+    share = min(1.0, MOST * info.box_x * info.box_z / info.number)
     order = [k for k in view.order(q) if share == 1 or q[1, k] < share * info.box_y]
     q, dq = q[:, order], dq[:, order]
     disks(axes, info, *q, size=DOT, facecolors=view.pale(GREY, q))

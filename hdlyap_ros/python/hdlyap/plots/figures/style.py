@@ -83,16 +83,16 @@ def save(figure, folder, name, dpi=250):
 def scene(info):
     name = info.scene.replace('$', r'\$')  # which would begin a formula
     if space.without_box(info):
-        return f'{name}: {info.particles}, $N={info.disks}$'
+        return f'{name}: {info.particles}, $N={info.number}$'
     if is_curved(info):
         size = f'{info.container}, ${info.box_x:.4g}\\times{info.box_y:.4g}$'
-        return f'{name}: $N={info.disks}$, $\\rho={info.density:g}$, {size}'
+        return f'{name}: $N={info.number}$, $\\rho={info.density:g}$, {size}'
     walls = space.along(info, 'boundary_')
     walls = walls[:1] if len(set(walls)) == 1 else map(' '.join, zip('xyz', walls))
     box = f'$\\rho={info.density:g}$, ' + (
         _edges(info) if space.is_solid(info) else f'$L_y/L_x={info.aspect:g}$'
     )
-    return f'{name}: $N={info.disks}$, {box}, ' + ', '.join(walls)
+    return f'{name}: $N={info.number}$, {box}, ' + ', '.join(walls)
 
 
 def _edges(info):
