@@ -7,16 +7,16 @@
 
 #define HD_KERNEL static inline __attribute__((always_inline))
 
-/** [T1] dq += tau dp; v points to the rows of a disk. */
-HD_KERNEL void hd_fly(double *restrict v, double tau, int width)
+/** [T1] dq += tau dp; v points to the rows of a disk, `half` numbers of dq before those of dp. */
+HD_KERNEL void hd_fly(double *restrict v, double tau, int half)
 {
-    for (int k = 0; k < HD_DIM * width; k++) v[k] += tau * v[HD_DIM * width + k];
+    for (int k = 0; k < half; k++) v[k] += tau * v[half + k];
 }
 
 /** [T4], after a flight: direction d of both halves. */
 HD_KERNEL void hd_reflect(double *restrict v, int d, double tau, int width)
 {
-    hd_fly(v, tau, width);
+    hd_fly(v, tau, HD_DIM * width);
     for (int k = 0; k < width; k++) {
         v[d * width + k] = -v[d * width + k];
         v[(HD_DIM + d) * width + k] = -v[(HD_DIM + d) * width + k];

@@ -73,7 +73,7 @@ HD_KERNEL void hd_curve(double *restrict v, const hd_tangent_map *map, int width
 {
     const double nx = map->n[0], ny = map->n[1], ratio = map->ratio;
     const double b = map->bend * map->normal, pt = map->bend * map->tangential;
-    hd_fly(v, map->flight[0], width);
+    hd_fly(v, map->flight[0], HD_DIM * width);
 #pragma GCC ivdep
     for (int k = 0; k < width; k++) {
         double *q = v + k, *p = v + 2 * width + k;

@@ -1,14 +1,7 @@
-/** Record of hard bodies -> tangent maps -> blocks of columns carried along.
- *
- * Free flight is lazy: only disks that collide are brought up to date. Maps and kernels are those
- * of disks or of spheres [T1], [T3], [T4], [T21], [T22]. */
+/** Record of hard bodies -> tangent maps -> blocks of columns carried along: those of disks or of
+ * spheres [T1], [T3], [T4], [T21], [T22]. */
 #include "dynamics/hard/maps.h"
 
-#include <stdbool.h>
-
-#include "base/check.h"
-#include "base/memory.h"
-#include "base/multiversion.h"
 #include "dynamics/hard/event.h"
 #if HD_DIM == 2
 #include "dynamics/hard/kernel_2d.h"
@@ -16,149 +9,16 @@
 #include "dynamics/hard/kernel_3d.h"
 #endif
 
-/** Events that are fetched ahead, where the disks of a block outgrow the cache. */
-enum { FETCH_AHEAD = 12, LINE = 64 / sizeof(double) };
+enum { HD_HALF = HD_DIM };
+typedef hd_event hd_entry;
+#include "dynamics/hard/carry.h"
 
-typedef struct hd_maps {
-    int disks;
-    hd_tangent_map *map; /**< [count] */
-    size_t count, capacity;
-    bool walls;    /**< some of them are of wall events */
-    double *since; /**< [disks], time of each disk's last event, then its last flight */
-} hd_maps;
+hd_status hd_maps_create(void **maps, int disks) { return maps_create(maps, disks); }
+void hd_maps_free(void *maps) { maps_free(maps); }
 
-hd_status hd_maps_create(void **out, int disks)
+hd_status hd_maps_fill(void *maps, const hd_record *record, double t_begin, double t_end)
 {
-    hd_maps *maps = *out = hd_memory_alloc(1, sizeof *maps);
-    if (!maps) return HD_NO_MEMORY;
-    maps->disks = disks;
-    maps->since = hd_memory_alloc((size_t)disks, sizeof *maps->since);
-    return maps->since ? HD_OK : HD_NO_MEMORY;
+    return maps_fill(maps, record, t_begin, t_end);
 }
 
-void hd_maps_free(void *made)
-{
-    hd_maps *maps = made;
-    if (!maps) return;
-    hd_memory_free(maps->map);
-    hd_memory_free(maps->since);
-    hd_memory_free(maps);
-}
-
-/* ---- events as tangent maps ---------------------------------------------------------------- */
-
-static double flight(double *since, int32_t disk, double t)
-{
-    const double tau = t - since[disk];
-    since[disk] = t;
-    return tau;
-}
-
-static void map_fill(hd_tangent_map *map, const hd_event *event, double *since)
-{
-    *map = (hd_tangent_map){.i = event->i, .j = event->j};
-    map->flight[0] = flight(since, event->i, event->t);
-    if (event->j >= 0) map->flight[1] = flight(since, event->j, event->t);
-    hd_map_fill(map, event);
-}
-
-static hd_status reserve(hd_maps *maps, size_t count)
-{
-    if (count <= maps->capacity) return HD_OK;
-    hd_memory_free(maps->map);
-    maps->capacity = count + count / 2;
-    maps->map = hd_memory_alloc(maps->capacity, sizeof *maps->map);
-    if (maps->map) return HD_OK;
-    maps->capacity = 0;
-    return HD_NO_MEMORY;
-}
-
-hd_status hd_maps_fill(void *made, const hd_record *record, double t_begin, double t_end)
-{
-    hd_maps *maps = made;
-    const hd_entries those = hd_record_within(record, t_begin, t_end);
-    const hd_event *event = (const hd_event *)hd_record_entry(record, those.first);
-    maps->count = 0;
-    maps->walls = false;
-    HD_TRY(reserve(maps, those.end - those.first));
-    for (int i = 0; i < maps->disks; i++) maps->since[i] = t_begin;
-    for (size_t k = 0; k < those.end - those.first; k++) {
-        maps->walls |= event[k].j < 0;
-        map_fill(&maps->map[maps->count++], &event[k], maps->since);
-    }
-    for (int i = 0; i < maps->disks; i++) maps->since[i] = t_end - maps->since[i];
-    return HD_OK;
-}
-
-/* ---- a block of columns -------------------------------------------------------------------- */
-
-/** The rows of both disks, into the cache. A wall fetches those of i alone. */
-static inline __attribute__((always_inline)) void fetch(const double *buffer,
-                                                        const hd_tangent_map *map, int width)
-{
-    const size_t disk = HD_ROWS * (size_t)width;
-    const double *vi = buffer + disk * (size_t)map->i;
-    const double *vj = map->j >= 0 ? buffer + disk * (size_t)map->j : vi;
-    for (size_t k = 0; k < disk; k += LINE) {
-        __builtin_prefetch(vi + k, 1);
-        __builtin_prefetch(vj + k, 1);
-    }
-}
-
-/** At the first `fetching` maps, those FETCH_AHEAD later are fetched. */
-static inline __attribute__((always_inline)) void
-carry_width(double *buffer, const hd_maps *m, size_t fetching, bool walls, int width)
-{
-    const size_t disk = HD_ROWS * (size_t)width;
-    const hd_tangent_map *map = m->map;
-    for (size_t e = 0; e < m->count; e++) {
-        if (e < fetching) fetch(buffer, &map[e + FETCH_AHEAD], width);
-        double *vi = buffer + disk * (size_t)map[e].i;
-        if (!walls || map[e].j >= 0)
-            hd_collide(vi, buffer + disk * (size_t)map[e].j, &map[e], width);
-        else
-            hd_meet_wall(vi, &map[e], width);
-    }
-}
-
-/** The widths are spelled out so that the compiler unrolls and vectorises each. */
-static inline __attribute__((always_inline)) void carry_any(double *buffer, const hd_maps *m,
-                                                            size_t fetching, bool walls, int width)
-{
-    switch (width) {
-    case 1: carry_width(buffer, m, fetching, walls, 1); break;
-    case 2: carry_width(buffer, m, fetching, walls, 2); break;
-    case 4: carry_width(buffer, m, fetching, walls, 4); break;
-    case 8: carry_width(buffer, m, fetching, walls, 8); break;
-    case 16: carry_width(buffer, m, fetching, walls, 16); break;
-    case 32: carry_width(buffer, m, fetching, walls, 32); break;
-    default: carry_width(buffer, m, fetching, walls, HD_BLOCK_WIDTH_MAX); break;
-    }
-}
-
-/** Without wall events. */
-HD_MULTIVERSION
-static void carry_block(double *buffer, const hd_maps *m, size_t fetching, int width)
-{
-    carry_any(buffer, m, fetching, false, width);
-}
-
-HD_MULTIVERSION
-static void carry_block_with_walls(double *buffer, const hd_maps *m, size_t fetching, int width)
-{
-    carry_any(buffer, m, fetching, true, width);
-}
-
-void hd_maps_carry(const void *made, double *block, int width)
-{
-    const hd_maps *maps = made;
-    const size_t disk = HD_ROWS * (size_t)width;
-    const bool is_far = disk * (size_t)maps->disks * sizeof(double) > HD_BLOCK_BYTES &&
-                        maps->count > FETCH_AHEAD;
-    const size_t fetching = is_far ? maps->count - FETCH_AHEAD : 0;
-    if (maps->walls)
-        carry_block_with_walls(block, maps, fetching, width);
-    else
-        carry_block(block, maps, fetching, width);
-    for (int i = 0; i < maps->disks; i++) hd_fly(block + disk * (size_t)i, maps->since[i], width);
-}
+void hd_maps_carry(const void *maps, double *block, int width) { maps_carry(maps, block, width); }
