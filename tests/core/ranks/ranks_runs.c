@@ -1,5 +1,6 @@
 /** Whole runs of several ranks. */
 #define _GNU_SOURCE
+#include "dumbbell.h"
 #include "runs.h"
 #include "together.h"
 
@@ -132,16 +133,39 @@ TEST(widths_and_gas_are_those_of_one_rank)
     CHECK_CLOSE(a.pressure, b.pressure, 1e-9);
 }
 
-/** The same on every rank, and once more the same: with other delays. */
-TEST(bits_are_the_same)
+static hd_scene_def dumbbells(int exponents)
 {
-    const hd_scene_def scene = scene_of_runs(30, HD_OBSERVE_STEPS | HD_OBSERVE_PHASES);
-    double kept[2 * 30];
-    int n = 0;
+    hd_scene_def scene = dumbbells_in_box(24, 14.0, 3.0, 0.25, 0.0, 2, 3);
+    scene.equilibration = 5.0;
+    scene.warmup = scene.duration = 20.0;
+    scene.threads = 1;
+    scene.exponents = exponents;
+    scene.observe = HD_OBSERVE_STEPS | HD_OBSERVE_LOCALIZATION | HD_OBSERVE_GAS;
+    return scene;
+}
+
+TEST(dumbbells_are_those_of_one_rank)
+{
+    static const int exponents[] = {HD_EXPONENTS_POSITIVE, HD_EXPONENTS_ALL};
+    for (int k = 0; k < 2; k++) {
+        OWNED(hd_run) *run = finish(shared(dumbbells(exponents[k]))),
+                      *alone = finished(dumbbells(exponents[k]));
+        check_same_run(run, alone);
+        for (int col = 0; col < hd_run_vectors(run); col++)
+            CHECK_CLOSE(hd_modes_turning_snapshot(hd_run_modes(run))[col],
+                        hd_modes_turning_snapshot(hd_run_modes(alone))[col], 1e-6);
+    }
+}
+
+/** The same on every rank, and once more the same: with other delays. */
+static void expect_same_bits(hd_scene_def scene)
+{
+    enum { VECTORS_MAX = 100 };
+    double kept[VECTORS_MAX];
     for (int again = 0; again < 2; again++) {
         OWNED(hd_run) *run = finish(shared(scene));
-        n = hd_run_vectors(run);
-        for (int col = 0; col < n; col++) {
+        assert_true(hd_run_vectors(run) <= VECTORS_MAX);
+        for (int col = 0; col < hd_run_vectors(run); col++) {
             double here = hd_spectrum_exponent(hd_run_spectrum(run), col), first = here;
             hd_communicator_broadcast(ranks, &first, sizeof first);
             CHECK_CLOSE(here, first, 0.0);
@@ -149,6 +173,12 @@ TEST(bits_are_the_same)
             kept[col] = here;
         }
     }
+}
+
+TEST(bits_are_the_same)
+{
+    expect_same_bits(scene_of_runs(30, HD_OBSERVE_STEPS | HD_OBSERVE_PHASES));
+    expect_same_bits(dumbbells(HD_EXPONENTS_POSITIVE));
 }
 
 static void expect_same_response(const hd_hydro_response *a, const hd_hydro_response *b)
