@@ -1,7 +1,8 @@
 /** What a run costs: its parts, and the whole as a ratio to the floor
  * F = 4 m n^2 flops at dgemm speed per ln(1e8) / (lambda_1 - lambda_n) of simulated time,
  * all measured in one run on one machine, in rounds.
- * Usage: hdlyap_bench [--spheres] [--disks N] [--density RHO] [--threads N] [--rounds N]
+ * Usage: hdlyap_bench [--spheres | --dumbbells] [--disks N] [--density RHO] [--threads N] [--rounds
+ * N]
  *         [--duration TIME UNITS OF A ROUND] [--settling TIME UNITS BEFORE THE FIRST] [--whole]
  *         [--events] [--out FOLDER] [--name NAME]; with --out it writes FOLDER/NAME.csv; --whole
  *         and --events are for one part alone. */
@@ -17,7 +18,7 @@
 #include "timing.h"
 
 typedef struct asked {
-    bool spheres;
+    bool spheres, dumbbells;
     int disks, threads, rounds;
     double density;
     double duration;    /**< of a round [time units] */
@@ -34,8 +35,10 @@ typedef struct result {
 
 static hd_scene_def scene_of(const asked *a, int disks, double density)
 {
-    hd_scene_def scene = hd_scene_def_default();
-    scene.particles = a->spheres ? HD_SPHERES : HD_DISKS;
+    const hd_scene_def core = {.particles = a->spheres     ? HD_SPHERES
+                                            : a->dumbbells ? HD_DUMBBELLS
+                                                           : HD_DISKS};
+    hd_scene_def scene = hd_scene_def_of(hd_dynamics_of(&core));
     scene.number = disks;
     scene.density = density;
     return scene;
@@ -138,7 +141,8 @@ static void whole_run(const asked *a, char **argv)
     hd_run_free(run);
 }
 
-static void events_alone(const asked *a, int disks, double density, double collisions)
+/** Million collisions a second; told but for the end of the line. */
+static double events_alone(const asked *a, int disks, double density, double collisions)
 {
     hd_scene_def scene = scene_of(a, disks, density);
     scene.aspect = 1.0;
@@ -149,9 +153,27 @@ static void events_alone(const asked *a, int disks, double density, double colli
             "trajectory"); /* away from the lattice */
     const double first = (double)hd_trajectory_told(trajectory).collisions, start = seconds();
     require(hd_trajectory_extend(trajectory, NULL, 2.0 * length), "trajectory");
-    const double count = (double)hd_trajectory_told(trajectory).collisions - first;
-    printf("%9d %9.2f %12.0f %22.2f\n", disks, density, count, count / (seconds() - start) * 1e-6);
+    const double count = (double)hd_trajectory_told(trajectory).collisions - first,
+                 rate = count / (seconds() - start) * 1e-6;
+    printf("%9d %-9s %9.2f %12.0f %22.2f", disks, hd_dynamics_of(&scene)->particles, density, count,
+           rate);
     hd_trajectory_free(trajectory);
+    return rate;
+}
+
+static void events_of(const asked *a, int disks, double density, double collisions)
+{
+    (void)events_alone(a, disks, density, collisions);
+    printf("\n");
+}
+
+/** After disks that cover as much. */
+static void dumbbells_beside_disks(const asked *a, int count, double collisions)
+{
+    const asked of_disks = {.spheres = false};
+    const double rate = events_alone(&of_disks, count, 0.79, 3.0 * collisions);
+    printf("\n");
+    printf(", %.2f of that\n", events_alone(a, count, 0.6, collisions) / rate);
 }
 
 /** Bytes per second, read and written, of copying a block far larger than the caches; the best of a
@@ -178,16 +200,17 @@ static double memory_rate(void)
  * bytes. */
 static void one_exponent(const asked *a, int disks, double memory)
 {
-    hd_scene_def scene = scene_of(a, disks, 0.7);
-    const double of_event = (double)hd_dynamics_of(&scene)->entry,
-                 of_map = a->spheres ? 104.0 : 64.0;
+    hd_scene_def scene = scene_of(a, disks, a->dumbbells ? 0.6 : 0.7);
+    const double of_event = (double)hd_dynamics_of(&scene)->entry, of_map = a->spheres     ? 104.0
+                                                                            : a->dumbbells ? 144.0
+                                                                                           : 64.0;
     const double of_vector = 2.0 * 8.0 * rows_of(&scene) / disks; /* of two disks */
     const double bytes_per_event = of_event + 2.0 * of_map + 2.0 * of_vector;
     scene.aspect = 1.0;
     scene.exponents = 1;
     scene.equilibration = 5.0;
     scene.warmup = 5.0;
-    scene.duration = 4e6 / disks;
+    scene.duration = (a->dumbbells ? 1e6 : 4e6) / disks;
     hd_run *run = created(&scene);
     while (hd_run_stage(run) != HD_AVERAGING) require(hd_run_advance(run), "warm-up");
     const double before = hd_run_cost(run).replay;
@@ -203,18 +226,24 @@ static void one_exponent(const asked *a, int disks, double memory)
 
 static void print_events(const asked *a)
 {
-    printf("\nEvents alone, one core:\n%9s %9s %12s %22s\n", a->spheres ? "spheres" : "disks",
-           "density", "collisions", "million collisions / s");
-    events_alone(a, 780, 0.7, 1e6);
-    events_alone(a, 1000, 0.7, 1e6);
-    events_alone(a, 10000, 0.7, 1e6);
-    events_alone(a, 100000, 0.7, 1e6);
-    events_alone(a, 1000000, 0.7, 4e6);
-    events_alone(a, 780, 0.01, 1e5);
+    printf("\nEvents alone, one core:\n%19s %9s %12s %22s\n", "", "density", "collisions",
+           "million collisions / s");
+    if (a->dumbbells) {
+        dumbbells_beside_disks(a, 64, 3e5);
+        dumbbells_beside_disks(a, 1000, 3e5);
+        dumbbells_beside_disks(a, 10000, 3e5);
+    } else {
+        events_of(a, 780, 0.7, 1e6);
+        events_of(a, 1000, 0.7, 1e6);
+        events_of(a, 10000, 0.7, 1e6);
+        events_of(a, 100000, 0.7, 1e6);
+        events_of(a, 1000000, 0.7, 4e6);
+        events_of(a, 780, 0.01, 1e5);
+    }
     const double memory = memory_rate();
     printf(
         "\nReplay of one exponent, one core; copying memory: %.1f GB/s\n%9s %12s %22s %12s %18s\n",
-        memory * 1e-9, "disks", "collisions", "million collisions / s", "GB/s", "% of copying");
+        memory * 1e-9, "number", "collisions", "million collisions / s", "GB/s", "% of copying");
     one_exponent(a, 4000, memory);
     one_exponent(a, 100000, memory);
 }
@@ -228,6 +257,7 @@ int main(int argc, char **argv)
                .settling = 100.0,
                .name = "whole"};
     const option list[] = {{"--spheres", .flag = &a.spheres},
+                           {"--dumbbells", .flag = &a.dumbbells},
                            {"--disks", .count = &a.disks, .least = 10, .most = 5000},
                            {"--density", .number = &a.density, .least = 1e-3, .most = 1.4},
                            {"--threads", .count = &a.threads, .least = 0, .most = 256},
