@@ -75,6 +75,7 @@ def run_info(**fields):
         run_id='one',
         version='0.1.0',
         scene='made',
+        container='rectangle',
         particles='disks',
         dimension=3 if fields.get('particles') == 'spheres' else 2,
         coordinates=3 if fields.get('particles') == 'spheres' else 2,

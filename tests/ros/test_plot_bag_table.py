@@ -122,13 +122,19 @@ class Table(Bags):
         """By its form, c k alone or with the curvature: of exponents 2.3 k + 0.2 k^2."""
         slopes = r'by c k alone over the same waves\n  c_T   2\.6\d+\(\d+\) +Eck.*: 2\.535 \+-3 %\n'
         curves = r'by c k \+ c2 k\^2 alone .*\n  c_T   2\.300.* 1\.412\n  c_T2  0\.2.* 0\.086\n'
-        for density, disks, there in (
-            (0.7, 400, slopes),
-            (0.4, 780, curves),
-            (0.7, 399, None),
-            (0.81, 780, None),
+        for density, disks, there, fields in (
+            (0.7, 400, slopes, {}),
+            (0.7, 4000, slopes, dict(aspect=0.5, boundary_y='reflecting')),
+            (0.4, 780, curves, {}),
+            (0.7, 399, None, {}),
+            (0.81, 780, None, {}),
+            (0.09, 780, None, {}),
+            (0.7, 400, None, dict(aspect=0.49)),
+            (0.4, 780, None, dict(aspect=1.01)),
+            (0.4, 780, None, dict(container='circle')),
+            (0.7, 400, None, dict(particles='dumbbells')),
         ):
-            info = made.run_info(number=disks, density=density)
+            info = made.run_info(number=disks, density=density, **fields)
             waves = [made.step(info, T, n, 0, 38 - 2 * n, 39 - 2 * n) for n in (1, 2)]
             for wave in waves:
                 wave.exponent = (2.3 + 0.2 * wave.wave_number) * wave.wave_number

@@ -3,7 +3,7 @@
 branches, and at density 0.4 their curvature."""
 
 from collections import namedtuple
-from math import hypot, isclose, pi
+from math import hypot, inf, isclose, pi
 
 from hdlyap.data import space
 
@@ -37,7 +37,8 @@ class Branch(namedtuple('Branch', 'c c2')):
 
 CURVES = {'T': Branch(1.412, 0.086), 'LP': Branch(1.422, 0.55)}
 CURVES_DENSITY = 0.4
-CURVES_DISKS = (400, 800)  # from, to
+# Its boxes, from .. to: beside others none of its slopes stands.
+CURVES_DISKS, FIT_DISKS, FIT_DENSITIES, ASPECTS = (400, 800), (400, inf), (0.1, DENSITY), (0.5, 1.0)
 
 
 class Step:
@@ -70,11 +71,11 @@ def steps(info):
 
 def branches(info):
     """{kind: Branch} where the paper's fits hold for the run, else none."""
-    if space.is_solid(info):
+    if not _is_rectangle(info) or not _within(info.aspect, ASPECTS):
         return {}
     if isclose(info.density, CURVES_DENSITY, rel_tol=1e-6) and _within(info.number, CURVES_DISKS):
         return CURVES
-    if info.density <= DENSITY * (1 + 1e-6) and info.number >= 400:
+    if _within(info.density, FIT_DENSITIES) and _within(info.number, FIT_DISKS):
         return {'T': Branch(slope_t(info.density), None), 'LP': Branch(slope_l(info.density), None)}
     return {}
 
@@ -83,9 +84,13 @@ def _within(value, ends):
     return ends[0] * (1 - 1e-6) <= value <= ends[1] * (1 + 1e-6)
 
 
+def _is_rectangle(info):
+    return info.particles == 'disks' and info.container == 'rectangle'
+
+
 def _is_periodic_scene(info):
     return (
-        not space.is_solid(info)
+        _is_rectangle(info)
         and info.number == DISKS
         and isclose(info.density, DENSITY, rel_tol=1e-6)
         and isclose(info.aspect, ASPECT, rel_tol=1e-6)
