@@ -5,8 +5,6 @@ branches, and at density 0.4 their curvature."""
 from collections import namedtuple
 from math import hypot, inf, isclose, pi
 
-from hdlyap.data import space
-
 DISKS, DENSITY, ASPECT = 780, 0.8, 0.867
 FIT_ACCURACY = 0.03  # ours: how well slopes are taken to be described by the fits
 FITS = 'fits of Eckmann, Forster, Posch, Zabey 2005'
