@@ -69,6 +69,7 @@ def message_of(kind, fields, /, **usual):
 
 
 def run_info(**fields):
+    solid = fields.get('particles') == 'spheres'
     return message_of(
         RunInfo,
         fields,
@@ -77,10 +78,11 @@ def run_info(**fields):
         scene='made',
         container='rectangle',
         particles='disks',
-        dimension=3 if fields.get('particles') == 'spheres' else 2,
-        coordinates=3 if fields.get('particles') == 'spheres' else 2,
+        dimension=3 if solid else 2,
+        coordinates=3 if solid else 2,
         number=20,
         density=0.5,
+        packing_fraction=fields.get('density', 0.5) * math.pi / (6 if solid else 4),
         aspect=1.0,
         box_x=40**0.5,
         box_y=40**0.5,

@@ -309,15 +309,15 @@ def expected_sizes(disks, vectors, steps, phases, t_phases, waves):
     begin = 4 + 8 + 8  # seq, stamp, sim_time
     return dict(
         spectrum=begin + 8 + 8 + 6 * 8 + 4 + 5 * 4 + 40 * vectors,
-        modes=begin + 8 + 4 + 4 + 101 * vectors,
+        modes=begin + 8 + 4 + 4 + 109 * vectors,
         steps=begin + 8 + 8 + 4 + 124 * steps + 2 * 132 + 4 + 6 * 8,
         lp_phases=begin + 4 + 86 * phases,
         t_phases=begin + 4 + 94 * t_phases,
         structure=begin + 4 + 9 * 4 + 16 * waves + 68 * vectors,
-        fields=begin + 33 + 12 * 4 + 64 * disks + 4 + 3 * 4 + 8 + 9 * 4,
+        fields=begin + 33 + 16 * 4 + 64 * disks + 4 + 3 * 4 + 8 + 9 * 4,
         localization=begin + 4 + 4 + 3 * 4 + 24 * vectors,
         gas=begin + 12 * 8,
-        state=begin + 8 + 6 * 4 + 32 * disks,
+        state=begin + 8 + 8 * 4 + 32 * disks,
         status=begin + 2 + 3 * 8 + 4 + 2 * 8 + 4,
         cost=begin + 137 + 3 * 8,
     )

@@ -199,7 +199,10 @@ class Parameters(harness.Case):
         text = ''.join(f'{name}: {value}\n' for name, value in SPELLINGS.items())
         done = self.checked(text)
         self.assertEqual((done.returncode, done.stderr), (0, ''))
-        self.assertIn('scene     on is valid: 20 disks in 5.34522 x 5.34522, 8 vect', done.stdout)
+        self.assertIn(
+            'scene     on is valid: 20 disks in 5.34522 x 5.34522, packing fraction 0.55, 8 vect',
+            done.stdout,
+        )
         given = [f'_{name}:={value}' for name, value in SPELLINGS.items()]
         said = [
             self.told(self.start(dict(params, **HEARD), args=args), self.listen('run_info'))

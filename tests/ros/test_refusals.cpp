@@ -177,9 +177,17 @@ static const std::vector<refused> refused_together = {
     {"warmpu: 100", "warmpu = 100", {"; is warmup meant?"}},
     {"dimensions: 3", "dimensions = 3", {"removed: it is called particles now: disks or spheres"}},
     {"disks: 20", "disks = 20", {"removed: it is called number now"}},
-    {"particles: dumbbells",
-     "particles = dumbbells",
-     {"must be what has as many coordinates as its box has directions"}},
+    {"{particles: dumbbells, bond: 3}", "bond = 3", {"from 0.01 to 2"}},
+    {"{particles: dumbbells, inertia: round}", "inertia = round", {"disks, points, or from 1e-6"}},
+    {"{particles: dumbbells, container: circle, density: 0.3, aspect: 0.867}",
+     "container = circle",
+     {"must be rectangle with particles = dumbbells"}},
+    {"{particles: dumbbells, density: 0.5, observables: [steps, hydro]}",
+     "observables = hydro",
+     {"not be given with particles = dumbbells"}},
+    {"{particles: dumbbells, density: 1.1}",
+     "density = 1.1 (packing fraction 1.136)",
+     {"at most 0.", "number = 20, bond = 0.25"}},
     {"aspect_z: 0.5", "aspect_z = 0.5", {"not be given", "particles = disks"}},
     {"boundary_z: reflecting", "boundary_z = reflecting", {"not be given", "particles = disks"}},
     {"density: 1.1", "density = 1.1", {"at most 0.868056", "number = 20", "aspect = 1"}},
@@ -292,6 +300,24 @@ TEST(Parameters, OwnNamesAreNobodyElses)
                                 ": there is another one of this name");
         }
     }
+    particles_bring(nullptr, 0);
+    particles_are(nullptr);
+}
+
+/** A coordinate that no message has, and one that is an angle. */
+TEST(Parameters, MoreCoordinatesNeedAnInertia)
+{
+    hd_scene_def usual = hd_scene_def_default();
+    usual.particles = HD_DUMBBELLS;
+    hd_dynamics rods = *hd_dynamics_of(&usual);
+    const hd_dynamics *const rows[] = {&rods};
+    rods.particles = "rods";
+    particles_bring(rows, 1);
+    EXPECT_EQ(begun(scene + "density: 0.5\nparticles: rods\n"), "");
+    rods.inertia = nullptr;
+    EXPECT_EQ(begun(scene + "density: 0.5\nparticles: rods\n"),
+              "particles = rods: must be what has as many coordinates as its box has directions, "
+              "or turns and has one more, with its inertia: others are of the core alone");
     particles_bring(nullptr, 0);
     particles_are(nullptr);
 }

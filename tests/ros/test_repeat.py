@@ -27,7 +27,7 @@ def complete(name):
         with open(os.path.join(SCENES, path)) as file:
             scene.update(yaml.safe_load(file))
     scene.pop('table')  # of the log: it does not belong to the run
-    if scene['particles'] == 'disks':
+    if scene['particles'] != 'spheres':
         for name in 'aspect_z', 'boundary_z':
             scene.pop(name)
     return scene

@@ -103,6 +103,13 @@ struct hd_dynamics {
      * most. May be left out: none is known. */
     int (*null)(const hd_scene_def *scene, const double *q, const double *p, double *column);
 
+    /** Moment of inertia of a particle of mass 1 that turns in the plane [sigma^2]: it has one
+     * coordinate more than its box has directions, sqrt(inertia) times an angle. May be left out:
+     * none turns. */
+    double (*inertia)(const hd_scene_def *scene);
+    /** Area or volume of a particle. May be left out: it is not known. */
+    double (*size)(const hd_scene_def *scene);
+
     /* ---- particles */
     /** The start: the state of a checked scene at time 0. HD_NO_MEMORY, and *state NULL. */
     hd_status (*create)(void **state, const hd_scene_def *scene);

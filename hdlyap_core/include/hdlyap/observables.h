@@ -24,7 +24,7 @@ typedef struct hd_parts {
 
 /** How many there are of what a run tells. What the scene does not ask for is 0. */
 typedef struct hd_extent {
-    int dimension; /**< of the space */
+    int dimension, coordinates; /**< of the space, of a particle */
     int disks, vectors;
     int waves; /**< of the structure factors */
     int subspaces,

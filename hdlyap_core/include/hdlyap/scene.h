@@ -123,6 +123,10 @@ HD_MUST_CHECK hd_status hd_scene_check(const hd_scene_def *def, char *message, s
 int hd_scene_dimension(const hd_scene_def *def);
 /** Of one particle: components of its dq, and of its dp. */
 int hd_scene_coordinates(const hd_scene_def *def);
+/** Moment of inertia of a particle that turns; 0 of what does not [sigma^2]. */
+double hd_scene_inertia(const hd_scene_def *def);
+/** Part of the box that the particles cover; NaN where they do not say. */
+double hd_scene_packing(const hd_scene_def *def);
 
 /** Box edges, one for each direction [sigma]: Lx = sqrt(N / (rho A)), Ly = A Lx, with A = aspect;
  * of spheres Lx = cbrt(N / (rho A B)), Lz = B Lx, with B = aspect_z; of the square around a circle

@@ -35,8 +35,9 @@ static bool is_whole(const hd_dynamics *row)
     const int box = row->dimension;
     const bool room = (box == 0 || box == 2 || box == 3) && row->coordinates >= box;
     const bool maps = !row->maps_create == !row->maps_free && !row->maps_free == !row->maps_fill;
-    return own && room && maps && strlen(row->particles) < HD_PARTICLES && row->coordinates >= 1 &&
-           row->coordinates <= HD_COORDINATES_MAX && row->entry > 0 &&
+    const bool turns = !row->inertia || (box == 2 && row->coordinates == 3);
+    return own && room && maps && turns && strlen(row->particles) < HD_PARTICLES &&
+           row->coordinates >= 1 && row->coordinates <= HD_COORDINATES_MAX && row->entry > 0 &&
            row->entry % sizeof(double) == 0 && row->entries && row->rate && row->create &&
            row->free && row->advance && row->time && row->state && row->archive && row->carry;
 }
@@ -62,6 +63,18 @@ hd_scene_def hd_scene_def_of(const hd_dynamics *dynamics)
 int hd_scene_dimension(const hd_scene_def *def) { return hd_dynamics_of(def)->dimension; }
 
 int hd_scene_coordinates(const hd_scene_def *def) { return hd_dynamics_of(def)->coordinates; }
+
+double hd_scene_inertia(const hd_scene_def *def)
+{
+    const hd_dynamics *of = hd_dynamics_of(def);
+    return of->inertia ? of->inertia(def) : 0.0;
+}
+
+double hd_scene_packing(const hd_scene_def *def)
+{
+    const hd_dynamics *of = hd_dynamics_of(def);
+    return of->size ? def->density * of->size(def) : NAN;
+}
 
 /** Blocks of averages are as many collisions of a particle long, where nothing else is known. */
 static const double BLOCK_COLLISIONS = 8.0;

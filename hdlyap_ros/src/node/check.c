@@ -230,10 +230,9 @@ static void print_target(const settings *set, const hd_estimate *t)
 static void print_all(const settings *set, const hd_estimate *t, hd_room room)
 {
     const hd_scene_def *def = &set->def;
-    char container[64];
-    hd_scene_describe(def, container, sizeof container);
-    printf("scene     %s is valid: %d %s in %s, %d vectors\n", set->scene, def->number,
-           set->particles, container, hd_scene_counts(def).vectors);
+    char system[SYSTEM_SIZE];
+    printf("scene     %s is valid: %s, %d vectors\n", set->scene,
+           settings_write_system(system, set), hd_scene_counts(def).vectors);
     print_memory(set, room);
     print_speed(set, t);
     print_bag(set, t);

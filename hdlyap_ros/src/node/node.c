@@ -181,12 +181,10 @@ static void warn_of_threads(const hd_run *run)
 
 static void log_start(const app *a)
 {
-    const hd_scene_def *def = &a->set.def;
     const hd_blas blas = hd_blas_query();
-    char container[64];
-    hd_scene_describe(def, container, sizeof container);
-    hdr_log(HDR_INFO, "scene %s: %d %s in %s, %d vectors, %d threads; %s, kernel %s, %d threads",
-            a->set.scene, def->number, a->set.particles, container, hd_run_vectors(a->run),
+    char system[SYSTEM_SIZE];
+    hdr_log(HDR_INFO, "scene %s: %s, %d vectors, %d threads; %s, kernel %s, %d threads",
+            a->set.scene, settings_write_system(system, &a->set), hd_run_vectors(a->run),
             hd_run_threads(a->run), blas.library, blas.kernel, blas.threads);
     warn_of_threads(a->run);
     if (*a->set.warning) hdr_log(HDR_WARN, "%s", a->set.warning);

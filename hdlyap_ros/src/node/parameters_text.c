@@ -7,6 +7,7 @@
 
 #include "hdlyap/hdlyap.h"
 #include "parameters.h"
+#include "particles.h"
 
 enum { LINE_WIDTH = 100 };
 
@@ -79,7 +80,7 @@ static void write_allowed(char *out, size_t size, const parameter *p)
 int parameters_print_help(void)
 {
     printf(
-        "Hard disks and spheres, their Lyapunov exponents and modes, as ROS topics.\n\n"
+        "Hard disks, spheres and dumbbells, their Lyapunov exponents and modes, as ROS topics.\n\n"
         "  hdlyap_node [_parameter:=value ...] [__name:=NAME]\n"
         "                         runs the scene that its private parameters say; needs a master\n"
         "  hdlyap_node --check scene.yaml [parameter:=value ...]\n"
@@ -103,21 +104,46 @@ int parameters_print_version(void)
     return fflush(stdout) == 0 ? 0 : 1;
 }
 
+/** One of other particles than the usual ones has their name. */
+typedef void printer(const parameter *p, const char *particles);
+
+/** Parameters as they are usually, then those of other particles alone. */
+static int print_all(printer *print)
+{
+    const hd_dynamics *usual = particles_now();
+    for (int k = 0; k < parameters_count(); k++) {
+        const parameter p = parameters_at(k);
+        print(&p, NULL);
+    }
+    for (int r = 0; particles_at(r); r++) {
+        const hd_dynamics *of = particles_at(r);
+        particles_are(of);
+        for (int k = 0; of != usual && k < of->parameters; k++) {
+            const parameter p = parameters_named(of->parameter[k].name);
+            print(&p, of->particles);
+        }
+    }
+    particles_are(usual);
+    return fflush(stdout) == 0 ? 0 : 1;
+}
+
+static void print_lines(const parameter *p, const char *particles)
+{
+    char allowed[PARAMETER_ALLOWED + 20], value[PARAMETER_TEXT + 8], text[400];
+    write_allowed(allowed, sizeof allowed, p);
+    write_value(value, sizeof value, p);
+    snprintf(text, sizeof text, "Allowed: %s. Default: %s.", allowed, value);
+    printf("\n");
+    if (particles) printf("# Of %s alone.\n", particles);
+    print_comment(p->text);
+    print_comment(text);
+    printf("%s%s: %s\n", particles ? "# " : "", p->name, value);
+}
+
 int parameters_print_scene(void)
 {
     print_comment(head);
-    for (int k = 0; k < parameters_count(); k++) {
-        const parameter p = parameters_at(k);
-        char allowed[PARAMETER_ALLOWED + 20], value[PARAMETER_TEXT + 8], text[400];
-        write_allowed(allowed, sizeof allowed, &p);
-        write_value(value, sizeof value, &p);
-        snprintf(text, sizeof text, "Allowed: %s. Default: %s.", allowed, value);
-        printf("\n");
-        print_comment(p.text);
-        print_comment(text);
-        printf("%s: %s\n", p.name, value);
-    }
-    return fflush(stdout) == 0 ? 0 : 1;
+    return print_all(print_lines);
 }
 
 /** A bar would end the cell. */
@@ -128,23 +154,27 @@ static void print_cell(const char *text)
     printf(" ");
 }
 
+static void print_row(const parameter *p, const char *particles)
+{
+    char allowed[PARAMETER_ALLOWED + 20], value[PARAMETER_TEXT + 8], name[PARAMETER_TEXT];
+    char text[1024];
+    write_allowed(allowed, sizeof allowed, p);
+    write_value(value, sizeof value, p);
+    snprintf(name, sizeof name, "`%s`", p->name);
+    print_cell(name);
+    print_cell(allowed);
+    print_cell(value);
+    print_cell(p->may_differ ? "may differ" : "as before");
+    print_cell(p->live ? "`~set`" : "");
+    snprintf(text, sizeof text, "%s%s%s%s", particles ? "Of " : "", particles ? particles : "",
+             particles ? " alone. " : "", p->text);
+    print_cell(text);
+    printf("|\n");
+}
+
 int parameters_print_table(void)
 {
     printf("| parameter | allowed | default | in a resumed run | while it runs | what |\n"
            "| --- | --- | --- | --- | --- | --- |\n");
-    for (int k = 0; k < parameters_count(); k++) {
-        const parameter p = parameters_at(k);
-        char allowed[PARAMETER_ALLOWED + 20], value[PARAMETER_TEXT + 8], name[PARAMETER_TEXT];
-        write_allowed(allowed, sizeof allowed, &p);
-        write_value(value, sizeof value, &p);
-        snprintf(name, sizeof name, "`%s`", p.name);
-        print_cell(name);
-        print_cell(allowed);
-        print_cell(value);
-        print_cell(p.may_differ ? "may differ" : "as before");
-        print_cell(p.live ? "`~set`" : "");
-        print_cell(p.text);
-        printf("|\n");
-    }
-    return fflush(stdout) == 0 ? 0 : 1;
+    return print_all(print_row);
 }

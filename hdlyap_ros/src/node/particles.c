@@ -45,6 +45,14 @@ static const hd_parameter *row_of_core(void)
     return row;
 }
 
+const hd_dynamics *particles_at(int k)
+{
+    const int core = (int)row_of_core()->most + 1;
+    if (k >= core) return k - core < brought_count ? brought[k - core] : NULL;
+    const hd_scene_def scene = {.particles = (hd_particles)k};
+    return hd_dynamics_of(&scene);
+}
+
 bool particles_choose(hd_scene_def *def, const char *name)
 {
     const hd_dynamics *before = hd_dynamics_of(def), *of = brought_named(name);

@@ -11,6 +11,9 @@
 void particles_bring(const hd_dynamics *const *rows, int count);
 const hd_dynamics *const *particles_brought(int *count);
 
+/** Each of them, by its number from 0; NULL behind the last. */
+const hd_dynamics *particles_at(int k);
+
 /** A scene of what moves if nobody says, with the defaults of its parameters. */
 hd_scene_def particles_usual(void);
 /** The scene is of the particles of this name, whose own parameters have their defaults unless it

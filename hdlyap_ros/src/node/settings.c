@@ -3,6 +3,7 @@
 #include "settings.h"
 
 #include <inttypes.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -71,6 +72,18 @@ const char *settings_write_nodes(char text[NODES_SIZE], const hd_scene_def *def,
                        (uint32_t)wave->n[1], (uint32_t)wave->n[2]);
 }
 
+const char *settings_write_system(char text[SYSTEM_SIZE], const settings *set)
+{
+    const double packing = hd_scene_packing(&set->def);
+    char container[64];
+    hd_scene_describe(&set->def, container, sizeof container);
+    const int length = snprintf(text, SYSTEM_SIZE, "%d %s in %s", set->def.number, set->particles,
+                                container);
+    if (!isnan(packing))
+        snprintf(text + length, SYSTEM_SIZE - (size_t)length, ", packing fraction %.3g", packing);
+    return text;
+}
+
 /** A name chooses no system: it must come with the one that it names, and no system has the name of
  * the usual one but that itself. */
 static bool check_scene_name(settings *set, reader *r)
@@ -96,14 +109,15 @@ static bool check_scene_name(settings *set, reader *r)
                   "name chooses none of them, roslaunch hdlyap run.launch scene:=.. does");
 }
 
-/** Messages of positions hold what has as many coordinates as its space has directions. */
+/** Messages of positions hold what has as many coordinates as its space has directions, and an
+ * angle of what turns. */
 static bool check_particles(const settings *set, reader *r)
 {
     r->name = "particles";
-    const int dimension = hd_scene_dimension(&set->def);
-    return dimension == 0 || hd_scene_coordinates(&set->def) == dimension ||
-           reader_refuse(r, "what has as many coordinates as its box has directions: others are of "
-                            "the core alone so far");
+    const hd_dynamics *of = hd_dynamics_of(&set->def);
+    return of->dimension == 0 || of->coordinates == of->dimension + (of->inertia != NULL) ||
+           reader_refuse(r, "what has as many coordinates as its box has directions, or turns and "
+                            "has one more, with its inertia: others are of the core alone");
 }
 
 /** Those that the scene does not know of, where the row says a range. */

@@ -54,6 +54,10 @@ bool settings_resume(const char **path, const hdr_params *params, char *message,
 bool settings_read(settings *out, const hdr_params *params, const hd_checkpoint *kept,
                    char *message, size_t size);
 
+/** What moves, and where: "36 dumbbells in 24 x 2.5, packing fraction 0.62". */
+enum { SYSTEM_SIZE = 160 };
+const char *settings_write_system(char text[SYSTEM_SIZE], const settings *set);
+
 /** (1,0), of spheres (1,0,0). */
 const char *settings_write_nodes(char text[NODES_SIZE], const hd_scene_def *def,
                                  const hd_wave *wave);

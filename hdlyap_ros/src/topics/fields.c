@@ -7,7 +7,7 @@
 
 enum { PAIRS_MAX = HD_MODULATIONS_MAX };
 
-/** Reconstructed modes of one step, pair by pair; arrays [pairs][dimension N]: x0 y0 x1 y1 .. */
+/** Reconstructed modes of one step, pair by pair; arrays [pairs][coordinates N]: x0 y0 x1 y1 .. */
 typedef struct pair_fields {
     uint32_t count;
     uint8_t modulation[PAIRS_MAX];
@@ -19,7 +19,7 @@ typedef struct pair_fields {
 static void reconstruct(pair_fields *pairs, const hd_run *run, const hd_step *step,
                         const double *momenta)
 {
-    const size_t length = (size_t)(hd_scene_dimension(hd_run_scene(run)) *
+    const size_t length = (size_t)(hd_scene_coordinates(hd_run_scene(run)) *
                                    hd_run_scene(run)->number);
     const hd_modes *modes = hd_run_parts(run).modes;
     hd_pmode *pmode = hd_run_parts(run).fields;
@@ -53,8 +53,11 @@ static void fill_vector(hdr_mode_field *message, const hd_run *run, int col, siz
     message->index = (uint32_t)col + 1;
     message->exponent = hd_spectrum_exponent(hd_run_parts(run).spectrum, col);
     const int coordinates = hd_scene_coordinates(hd_run_scene(run));
-    hdr_doubles *const dq[HD_DIMENSION_MAX] = {&message->dqx, &message->dqy, &message->dqz};
-    hdr_doubles *const dp[HD_DIMENSION_MAX] = {&message->dpx, &message->dpy, &message->dpz};
+    const bool turns = hd_scene_inertia(hd_run_scene(run)) > 0; /* the last one, in the plane */
+    hdr_doubles *const dq[] = {&message->dqx, &message->dqy,
+                               turns ? &message->dq_angle : &message->dqz};
+    hdr_doubles *const dp[] = {&message->dpx, &message->dpy,
+                               turns ? &message->dp_angle : &message->dpz};
     for (int d = 0; d < coordinates; d++) {
         *dq[d] = column_of(frame, col, d, 2 * coordinates, disks);
         *dp[d] = column_of(frame, col, coordinates + d, 2 * coordinates, disks);
@@ -93,9 +96,10 @@ static hd_status publish_vector(const moment *now, int col)
     const hd_steps *steps = hd_run_parts(now->run).steps;
     const int s = hd_steps_of_vector(steps, col);
     const hd_step *step = s < 0 ? NULL : hd_steps_step(steps, s);
-    const int dimension = moment_dimension(now);
     const size_t disks = (size_t)now->set->def.number;
-    const size_t length = (size_t)(HD_MODULATIONS_IN(dimension) * dimension) * disks;
+    const size_t length = (size_t)(HD_MODULATIONS_IN(moment_dimension(now)) *
+                                   moment_coordinates(now)) *
+                          disks;
     const double *q, *p;
     now->room->taken = 0; /* for each anew */
     pair_fields pairs = {.l = moment_take(now, 3 * length, sizeof *pairs.l)};

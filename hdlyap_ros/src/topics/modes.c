@@ -26,6 +26,7 @@ static void fill_kind(hdr_mode *mode, const hd_modes *modes, const hd_step *step
 static hdr_mode mode_of(const hd_parts *of, int col, int dimension)
 {
     const hd_modes *modes = of->modes;
+    const double *turning = hd_modes_turning_average(modes);
     const int s = hd_steps_of_vector(of->steps, col);
     hdr_mode mode = {
         .index = (uint32_t)col + 1,
@@ -34,6 +35,7 @@ static hdr_mode mode_of(const hd_parts *of, int col, int dimension)
         .null_y = hd_modes_null_average(modes, HD_NULL_Y)[col],
         .null_z = dimension > 2 ? hd_modes_null_average(modes, 2)[col] : 0.0,
         .null_p = hd_modes_null_average(modes, dimension)[col],
+        .rotation = turning ? turning[col] : 0.0,
         .step = s,
     };
     if (s >= 0) fill_kind(&mode, modes, hd_steps_step(of->steps, s), dimension);

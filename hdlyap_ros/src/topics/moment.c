@@ -1,6 +1,7 @@
 /** Memory that messages are made in. */
 #include "topics/moment.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 /** What was in it is lost. False without memory. */
@@ -28,17 +29,33 @@ void *moment_take(const moment *now, size_t count, size_t size)
     return NULL;
 }
 
+/** Angles and angular velocities, behind the momenta. */
+static void turn(const moment *now, buffers *room, size_t count)
+{
+    static const double whole = 6.28318530717958647693;
+    const size_t step = (size_t)moment_coordinates(now), last = step - 1;
+    const double root = sqrt(hd_scene_inertia(&now->set->def));
+    room->angle = room->p + step * count;
+    for (size_t j = 0; j < count; j++) {
+        const double angle = room->q[step * j + last] / root;
+        room->angle[j] = angle - whole * floor(angle / whole);
+        room->angle[count + j] = room->p[step * j + last] / root;
+    }
+}
+
 bool moment_state(const moment *now, const double **q, const double **p)
 {
     buffers *room = now->room;
-    const size_t count = (size_t)(moment_dimension(now) * now->set->def.number);
-    if (!room->q) room->q = malloc(2 * count * sizeof *room->q);
+    const size_t count = (size_t)(moment_coordinates(now) * now->set->def.number),
+                 angles = moment_turns(now) ? (size_t)now->set->def.number : 0;
+    if (!room->q) room->q = malloc(2 * (count + angles) * sizeof *room->q);
     if (!room->q) {
         log_lost(now);
         return false;
     }
     room->p = room->q + count;
     if (!room->known) hd_trajectory_state(hd_run_parts(now->run).trajectory, room->q, room->p);
+    if (!room->known && angles > 0) turn(now, room, angles);
     room->known = true;
     *q = room->q;
     *p = room->p;

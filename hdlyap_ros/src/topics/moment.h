@@ -17,7 +17,8 @@ typedef struct buffers {
     void *block[BUFFERS];
     size_t size[BUFFERS];
     int taken;
-    double *q, *p; /**< [2N] each, in one block at q; NULL until somebody asks */
+    double *q, *p; /**< [coordinates N] each, in one block at q; NULL until somebody asks */
+    double *angle; /**< [2 N] of what turns: angles, then angular velocities; otherwise NULL */
     bool known;    /**< they are those of now */
 } buffers;
 
@@ -56,8 +57,8 @@ typedef struct moment {
  * none. */
 void *moment_take(const moment *now, size_t count, size_t size);
 
-/** Positions and momenta of all disks, [2N] each, x0 y0 x1 y1 ..; false without memory, with a line
- * in the log. */
+/** Positions and momenta of all disks, [coordinates N] each, x0 y0 x1 y1 ..; false without memory,
+ * with a line in the log. */
 bool moment_state(const moment *now, const double **q, const double **p);
 
 void buffers_clear(buffers *room);
@@ -71,21 +72,37 @@ static inline hdr_doubles message_array(const double *data, size_t count, size_t
 /** Directions of the space. */
 static inline int moment_dimension(const moment *now) { return hd_scene_dimension(&now->set->def); }
 
-/** Component d of arrays [count][dimension]: positions, say. Of a direction that the space has not
- * it is empty. */
+/** Of one particle. */
+static inline int moment_coordinates(const moment *now)
+{
+    return hd_scene_coordinates(&now->set->def);
+}
+
+/** Its last coordinate is an angle, then. */
+static inline bool moment_turns(const moment *now) { return hd_scene_inertia(&now->set->def) > 0; }
+
+/** Component d of arrays [count][coordinates]: positions, say. Of a direction that the space has
+ * not it is empty. */
 static inline hdr_doubles moment_component(const moment *now, const double *data, size_t count,
                                            int d)
 {
-    const int dimension = moment_dimension(now);
-    if (d >= dimension) return (hdr_doubles){.data = NULL};
-    return message_array(data + d, count, (size_t)dimension);
+    if (d >= moment_dimension(now)) return (hdr_doubles){.data = NULL};
+    return message_array(data + d, count, (size_t)moment_coordinates(now));
+}
+
+/** Angles, or number 1: angular velocities; empty of what does not turn. moment_state before. */
+static inline hdr_doubles moment_angle(const moment *now, size_t disks, size_t number)
+{
+    const double *angle = now->room->angle;
+    return angle ? message_array(angle + number * disks, disks, 1) : (hdr_doubles){.data = NULL};
 }
 
 /** The fields of a message that has positions and momenta of all disks. */
 #define STATE_FIELDS(now, q, p, disks)                                                             \
     .x = moment_component(now, q, disks, 0), .y = moment_component(now, q, disks, 1),              \
     .z = moment_component(now, q, disks, 2), .px = moment_component(now, p, disks, 0),             \
-    .py = moment_component(now, p, disks, 1), .pz = moment_component(now, p, disks, 2)
+    .py = moment_component(now, p, disks, 1), .pz = moment_component(now, p, disks, 2),            \
+    .angle = moment_angle(now, disks, 0), .spin = moment_angle(now, disks, 1)
 
 /** Sends a topic's messages by topic_send_name, if there is something to say. HD_NOT_FINITE. */
 #define TOPIC(name, ...) HD_MUST_CHECK hd_status topic_publish_##name(const moment *now);

@@ -96,6 +96,8 @@ static void fill_scene(hdr_run_info *info, const settings *set)
     info->particles = set->particles;
     info->dimension = (uint32_t)hd_scene_dimension(def);
     info->coordinates = (uint32_t)hd_scene_coordinates(def);
+    info->inertia = hd_scene_inertia(def);
+    info->packing_fraction = hd_scene_packing(def);
     info->box_x = box[0];
     info->box_y = box[1];
     info->box_z = has_z ? box[2] : 0.0;

@@ -14,11 +14,12 @@ static const double early = 0.5;
 
 /** What is said of each vector, [vectors] each unless said otherwise. */
 typedef struct vector_arrays {
-    size_t directions, pairs_most;     /**< of the space, of a step */
+    size_t directions, coordinates;    /**< of the space, of a particle */
+    size_t pairs_most;                 /**< of a step */
     double *exponents, *a, *b;         /**< [vectors], [pairs_most * vectors] twice */
     uint32_t *nodes[HD_DIMENSION_MAX]; /**< nx, ny, .. */
     uint8_t *kind, *pairs;
-    double *dq; /**< dqx of all vectors, then dqy, .. */
+    double *dq; /**< dqx of all vectors, then dqy, .., of each coordinate */
 } vector_arrays;
 
 /** False without memory. */
@@ -26,11 +27,12 @@ static bool arrays_take(vector_arrays *of, const moment *now, size_t count, size
 {
     const size_t disks = (size_t)now->set->def.number;
     of->directions = (size_t)moment_dimension(now);
+    of->coordinates = (size_t)moment_coordinates(now);
     of->pairs_most = HD_MODULATIONS_IN(of->directions);
     of->exponents = moment_take(now, (1 + 2 * of->pairs_most) * count, sizeof *of->exponents);
     of->nodes[0] = moment_take(now, HD_DIMENSION_MAX * count, sizeof *of->nodes[0]);
     of->kind = moment_take(now, 2 * count, sizeof *of->kind);
-    of->dq = moment_take(now, of->directions * disks * known, sizeof *of->dq);
+    of->dq = moment_take(now, of->coordinates * disks * known, sizeof *of->dq);
     if (!of->exponents || !of->nodes[0] || !of->kind || !of->dq) return false;
     of->a = of->exponents + count;
     of->b = of->a + of->pairs_most * count;
@@ -114,10 +116,10 @@ static void fill_step(vector_arrays *of, int k, const hd_parts *parts, int col, 
 /** Row-major columns -> vector by vector. */
 static void fill_dq(vector_arrays *of, hd_columns known, int first, size_t vectors, size_t disks)
 {
-    const size_t stride = (size_t)known.stride, rows = 2 * of->directions;
+    const size_t stride = (size_t)known.stride, rows = 2 * of->coordinates;
     for (size_t j = 0; j < disks; j++) {
         const double *row = known.data + rows * j * stride + (size_t)(first - known.first);
-        for (size_t d = 0; d < of->directions; d++)
+        for (size_t d = 0; d < of->coordinates; d++)
             for (size_t k = 0; k < vectors; k++)
                 of->dq[(d * vectors + k) * disks + j] = row[d * stride + k];
     }
@@ -152,7 +154,8 @@ static bool fill_vectors(hdr_slow_vectors *message, const moment *now)
     message->b = message_array(of.b, of.pairs_most * count, 1);
     message->dqx = message_array(of.dq, numbers, 1);
     message->dqy = message_array(of.dq + numbers, numbers, 1);
-    if (of.directions > 2) message->dqz = message_array(of.dq + 2 * numbers, numbers, 1);
+    hdr_doubles *const last = of.directions > 2 ? &message->dqz : &message->dq_angle;
+    if (of.coordinates > 2) *last = message_array(of.dq + 2 * numbers, numbers, 1);
     return true;
 }
 

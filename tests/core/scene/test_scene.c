@@ -33,6 +33,30 @@ TEST(default_is_the_papers)
     assert_int_equal(hd_scene_vectors(&def), 1557);
 }
 
+/** Of a circle by its area; two disks of a dumbbell share a lens, and none from a bond of 1 on. */
+TEST(packing_is_what_particles_cover)
+{
+    const double pi = 3.14159265358979323846;
+    hd_scene_def def = scene(.number = 50, .density = 0.6);
+    CHECK_CLOSE(hd_scene_packing(&def), 0.6 * pi / 4.0, 1e-15);
+    def.container = HD_CIRCLE;
+    CHECK_CLOSE(hd_scene_packing(&def), 0.6 * pi / 4.0, 1e-15);
+    def.container = HD_RECTANGLE;
+    def.particles = HD_SPHERES;
+    CHECK_CLOSE(hd_scene_packing(&def), 0.6 * pi / 6.0, 1e-15);
+    assert_true(hd_scene_inertia(&def) == 0.0);
+    def.particles = HD_DUMBBELLS;
+    def.own[0].real = 0.5; /* the lens: pi / 6 - sqrt(3) / 8 */
+    CHECK_CLOSE(hd_scene_packing(&def), 0.6 * (pi / 2.0 - pi / 6.0 + sqrt(3.0) / 8.0), 1e-15);
+    CHECK_CLOSE(hd_scene_inertia(&def), 0.0625 + 0.125, 1e-15);
+    def.own[0].real = 1.5;
+    CHECK_CLOSE(hd_scene_packing(&def), 0.6 * pi / 2.0, 1e-15);
+    hd_dynamics other = *hd_dynamics_of(&def);
+    other.size = NULL;
+    def.dynamics = &other;
+    assert_true(isnan(hd_scene_packing(&def)));
+}
+
 /** 3 / (0.05 c_T k): 100 time units in the paper's scene, more in larger boxes. */
 TEST(the_warm_up_follows_from_the_smallest_step)
 {

@@ -45,7 +45,7 @@ static hd_status row_check(const hd_scene_def *scene, char *message, size_t size
     return hd_refuse(message, size,
                      "density = %.15g (packing fraction %.4g): must be at most %.6g with number = "
                      "%d, bond = %.15g, %s (densest start lattice)",
-                     scene->density, hd_dumbbell_packing(scene), hd_dumbbell_density_max(scene),
+                     scene->density, hd_scene_packing(scene), hd_dumbbell_density_max(scene),
                      scene->number, hd_dumbbell_bond(scene), said);
 }
 
@@ -251,6 +251,8 @@ const hd_dynamics hd_dumbbells_row = {.particles = "dumbbells",
                                       .entries = row_entries,
                                       .rate = row_rate,
                                       .null = hd_null_space_fill,
+                                      .inertia = hd_dumbbell_inertia,
+                                      .size = hd_dumbbell_size,
                                       .create = hd_dumbbells_create,
                                       .create_from = hd_dumbbells_create_from,
                                       .free = hd_dumbbells_free,

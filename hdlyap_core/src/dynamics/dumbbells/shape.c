@@ -42,11 +42,11 @@ double hd_dumbbell_inertia(const hd_scene_def *scene)
     return given > 0 ? given : given < 0 ? points : points + 0.125;
 }
 
-double hd_dumbbell_packing(const hd_scene_def *scene)
+double hd_dumbbell_size(const hd_scene_def *scene)
 {
     const double half = fmin(0.5 * hd_dumbbell_bond(scene), 0.5); /* of the chord's distance */
     const double both = 0.5 * (acos(2.0 * half) - 2.0 * half * sqrt(1.0 - 4.0 * half * half));
-    return scene->density * (0.5 * PI - both);
+    return 0.5 * PI - both;
 }
 
 /** Disks that leave as little room: what two circles and the strip between them cover, of long

@@ -13,6 +13,6 @@ extern const hd_fluid hd_fluid_dumbbells;
 
 double hd_dumbbell_bond(const hd_scene_def *scene);    /**< distance of the two centres [sigma] */
 double hd_dumbbell_inertia(const hd_scene_def *scene); /**< [sigma^2], of mass 1 */
-double hd_dumbbell_packing(const hd_scene_def *scene); /**< part of the area that disks cover */
+double hd_dumbbell_size(const hd_scene_def *scene);    /**< area of both disks together */
 
 #endif

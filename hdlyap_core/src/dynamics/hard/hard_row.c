@@ -156,6 +156,13 @@ static int hard_zeros(const hd_scene_def *scene)
     return 2 * hd_null_axes(scene, axis);
 }
 
+/** pi / 4 of a disk, pi / 6 of a sphere. */
+static double hard_size(const hd_scene_def *scene)
+{
+    (void)scene;
+    return 3.14159265358979323846 / (2 * HD_DIM);
+}
+
 #if HD_DIM == 2
 #define ROW hd_hard_disks
 #else
@@ -173,6 +180,7 @@ const hd_dynamics ROW = {.particles = HD_DIM == 2 ? "disks" : "spheres",
                          .entries = hd_hard_entries,
                          .rate = hd_hard_rate,
                          .null = hd_null_space_fill,
+                         .size = hard_size,
                          .create = hd_hard_create,
                          .create_from = hd_hard_create_from,
                          .free = hd_hard_free,

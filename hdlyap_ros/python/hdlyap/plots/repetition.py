@@ -9,7 +9,7 @@ from hdlyap.data import containers, reader, space
 # of run_info, what is no parameter: what follows from them, and what the run ran on
 RESULTS = ('header', 'run_id', 'version', 'dimension', 'box_x', 'box_y', 'box_z', 'outline_x')
 RESULTS += ('outline_y', 'vectors', 'zero_exponents', 'wave_nx', 'wave_ny', 'wave_nz')
-RESULTS += ('coordinates', 'own', 'resumed_time', 'ranks')
+RESULTS += ('coordinates', 'own', 'inertia', 'packing_fraction', 'resumed_time', 'ranks')
 RESULTS += ('blas_threads', 'blas_library', 'blas_kernel', 'blas_threading')
 OF_SPHERES = ('aspect_z', 'boundary_z')  # which disks have not
 # a word, or a list of numbers as text
