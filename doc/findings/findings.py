@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 """Tables of the studies -> the pictures of doc/findings.md, and the fits that it quotes.
 
-Usage: findings.py TABLE.csv.. of halves, sound, dilute, circle, spheres: prints the fits, draws
-TABLE.png beside it.
+Usage: findings.py TABLE.csv.. of halves, sound, dilute, circle, spheres, dumbbells: prints the
+fits, draws TABLE.png beside it.
 """
 
 import sys
@@ -14,6 +14,7 @@ import matplotlib.pyplot as plt  # noqa: E402
 
 import circle  # noqa: E402
 import dilute  # noqa: E402
+import dumbbells  # noqa: E402
 import halves  # noqa: E402
 import sound  # noqa: E402
 import spheres  # noqa: E402
@@ -24,6 +25,7 @@ STUDIES = {  # a column that only this one has: fits, picture
     'sound': (sound.lines, sound.draw),
     'lambda_1 over it': (dilute.lines, dilute.draw),
     'u_theta': (circle.lines, circle.draw),
+    'trembling': (dumbbells.lines, dumbbells.draw),
     'boundaries': (spheres.lines, spheres.draw),
 }
 
@@ -31,7 +33,8 @@ STUDIES = {  # a column that only this one has: fits, picture
 def main(arguments):
     if not arguments or not all(path.endswith('.csv') for path in arguments):
         print(
-            'findings.py: needs tables of halves, sound, dilute, circle, spheres, each a .csv',
+            'findings.py: needs tables of halves, sound, dilute, circle, spheres, dumbbells, '
+            'each a .csv',
             file=sys.stderr,
         )
         return 2

@@ -25,7 +25,7 @@ STYLE = {
 }
 RATE = 'P_xx / (sqrt(2) rho)'  # of the rotation over k, as the pressure has it
 BAR = 3  # standard errors
-WORDS = 'ends of x', 'boundaries', 'kind'  # columns of them
+WORDS = 'ends of x', 'boundaries', 'kind', 'inertia'  # columns of them
 
 
 def rows_of(path):

@@ -56,9 +56,11 @@ def drawn(test, *studies):
     return [line for line in done.stdout.splitlines() if not line.endswith('.png')]
 
 
+WORDS = 'periodic', 'reflecting', 'none', 'disks', 'points', 'pp', 'exponent', 'T', 'LP'
+
+
 def number(text):
-    """Of all columns but one."""
-    return text if text in ('periodic', 'reflecting') else float(text)
+    return text if text in WORDS else float(text)
 
 
 class Studies(unittest.TestCase):
@@ -114,6 +116,34 @@ class Studies(unittest.TestCase):
         self.assertGreater(table[-1]['lambda_1 over it'], 13)
         self.assertEqual(drawn(self, 'dilute'), [])  # one size is no line in 1 / N
 
+    def test_dumbbells(self):
+        """Exponents of a step part as their ln R trembles, a sixth of an LP vector turns, and v is
+        that of the pressure with three coordinates; of disks nothing turns."""
+        table = numbers('dumbbells')
+        exponents = [row for row in table if row['kind'] == 'exponent']
+        ours = [row for row in exponents if row['bond']]
+        self.assertEqual((len(ours), len(exponents) - len(ours)), (3 * 36 - 3, 2 * 36 - 3))
+        self.assertEqual(sum(row['rotation'] for row in exponents if not row['bond']), 0)
+        error = math.hypot(0.004, ours[0]['lambda error'])
+        self.assertAlmostEqual(ours[0]['lambda'], 5.238, delta=4 * error)
+        (t,), (lp,) = (
+            [row for row in table if row['bond'] and (row['kind'], row['nx']) == (kind, 1)]
+            for kind in ('T', 'LP')
+        )
+        self.assertAlmostEqual(t['rotation'], 0.018, delta=0.004)
+        self.assertAlmostEqual(lp['rotation'], 0.184, delta=0.01)
+        four = [row['lambda'] for row in ours if lp['index'] <= row['index'] < lp['index'] + 4]
+        self.assertAlmostEqual(lp['apart'], (four[0] - four[3]) / 3, 5)
+        error = math.hypot(lp['apart error'], lp['trembling error'])
+        self.assertAlmostEqual(lp['apart'], lp['trembling'], delta=4 * error)
+        velocity = lp['omega'] / lp['k'] * 0.6 * math.sqrt(3 * lp['kT'])
+        self.assertAlmostEqual(velocity / lp['P_xx'], 0.986, delta=0.02)
+        said = '\n'.join(drawn(self, 'dumbbells'))
+        self.assertIn(
+            f'LP of dumbbells: distance over trembling {lp["apart"] / lp["trembling"]:.3f}', said
+        )
+        self.assertIn(f'over that of the pressure {velocity / lp["P_xx"]:.4f}', said)
+
     def test_fits_are_those_of_least_squares(self):
         """Made-up tables: B = 1.4 - 1 / N with errors of 0.01, one value of eight off by three."""
         path = os.path.join(PROGRAMS, 'made_up.csv')
@@ -138,7 +168,7 @@ class Studies(unittest.TestCase):
         self.assertAlmostEqual(found[-2], 9 * (1 - leverage), 1)
 
     def test_a_bad_argument_gives_one_line_and_status_2(self):
-        for name in ('halves', 'sound', 'dilute'):
+        for name in ('halves', 'sound', 'dilute', 'dumbbells'):
             done = run(os.path.join(PROGRAMS, name), '--nonsense')
             self.assertEqual((done.returncode, done.stderr.count('\n')), (2, 1), name)
 
