@@ -48,10 +48,14 @@ def ratios(rows, kind, disks):
 
 
 def free_rotors(row):
-    """Exponent of rotors that collisions only turn: the root of the rate of their mean kick."""
+    """Exponent of rotors that collisions only turn: the root of the rate of their mean kick, less
+    what its fluctuation takes."""
     inertia = row['bond'] ** 2 / 4 + (0.125 if row['inertia'] == 'disks' else 0)
-    found = math.sqrt(row['rate'] * row['bond'] * math.sqrt(row['kT'] / math.pi) / inertia)
-    return found, found * row['rate error'] / row['rate'] / 2
+    root = math.sqrt(row['rate'] * row['bond'] * math.sqrt(row['kT'] / math.pi) / inertia)
+    return (
+        root * (1 - math.pi * root / (16 * row['rate'])),
+        root * row['rate error'] / row['rate'] / 2,
+    )
 
 
 def rotation(exponents):

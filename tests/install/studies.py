@@ -138,7 +138,10 @@ class Studies(unittest.TestCase):
         self.assertAlmostEqual(lp['apart'], lp['trembling'], delta=4 * error)
         velocity = lp['omega'] / lp['k'] * 0.6 * math.sqrt(3 * lp['kT'])
         self.assertAlmostEqual(velocity / lp['P_xx'], 0.986, delta=0.02)
+        kicks = lp['rate'] * 0.25 * math.sqrt(lp['kT'] / math.pi) / (0.25**2 / 4 + 0.125)
+        rotor = math.sqrt(kicks) - math.pi * kicks / (16 * lp['rate'])
         said = '\n'.join(drawn(self, 'dumbbells'))
+        self.assertIn(f'of free rotors {rotor:.4f}', said)
         self.assertIn(
             f'LP of dumbbells: distance over trembling {lp["apart"] / lp["trembling"]:.3f}', said
         )
