@@ -18,13 +18,13 @@ from test_ranks import ENVIRONMENT, mpirun
 from hdlyap.msg import LpPhase, Mode
 
 TOPICS = ['run_info', 'spectrum', 'modes', 'steps', 'lp_phases', 't_phases', 'fields', 'structure']
-TOPICS += ['covariant', 'localization', 'gas', 'state', 'slow_vectors', 'status', 'cost']
+TOPICS += ['covariant', 'localization', 'gas', 'state', 'status', 'cost']
 N, BOND = 36, 0.4
 SCENE = dict(particles='dumbbells', number=N, density=0.5, aspect=0.1, bond=BOND, seed='2')
 SCENE.update(scene='pairs', exponents='all', equilibration=10.0, warmup=60.0, duration=60.0)
 SCENE.update(report_interval=2.0, field_interval=0.0, max_mode_number=3, threads=1)
 SCENE.update(covariant_window=20.0, covariant_transient=20.0, covariant_sampling=2.0)
-SCENE.update(observables=TOPICS[1:-3])
+SCENE.update(observables=TOPICS[1:-2])
 SCENES = os.path.join(os.path.dirname(os.path.abspath(__file__)), '../../launch/scenes')
 VECTOR = 'dqx', 'dqy', 'dq_angle', 'dpx', 'dpy', 'dp_angle'
 ROUNDING = 1e-9  # of sums over all of them
@@ -39,8 +39,7 @@ def of(message, *names):
 class Dumbbells(harness.Case):
     @classmethod
     def setUpClass(cls):
-        awaited = [topic for topic in TOPICS if topic != 'slow_vectors']
-        cls.messages = harness.whole_run(dict(SCENE, wait_for_subscribers=awaited), TOPICS)
+        cls.messages = harness.whole_run(dict(SCENE, wait_for_subscribers=TOPICS), TOPICS)
         cls.info = cls.messages['run_info'][-1]
         cls.box = np.array([cls.info.box_x, cls.info.box_y])
 
@@ -57,7 +56,7 @@ class Dumbbells(harness.Case):
     def test_states(self):
         """Angles are those of the bonds: no two disks overlap, of neighbours that touch often."""
         least = np.inf
-        for state in [*self.messages['state'], *self.messages['slow_vectors']]:
+        for state in self.messages['state']:
             q, p = of(state, 'x', 'y'), of(state, 'px', 'py')
             angle, spin = of(state, 'angle', 'spin')
             self.assertEqual((len(state.z), len(state.pz), angle.shape), (0, 0, (N,)))
@@ -67,7 +66,6 @@ class Dumbbells(harness.Case):
             self.assertAlmostEqual(energy, N, delta=ROUNDING)
             np.testing.assert_allclose(p.sum(axis=1), 0.0, atol=ROUNDING)
             least = min(least, self.nearest(q, angle))
-        for state in self.messages['state']:
             self.assertAlmostEqual(state.kinetic_energy, N, delta=ROUNDING)
         self.assertGreater(least, 1 - ROUNDING)
         self.assertLess(least, 1.001)
@@ -126,17 +124,6 @@ class Dumbbells(harness.Case):
         self.assertLess(max(t[-2:]), 0.1)
         self.assertGreater(last[N].rotation, 0.2)
 
-    def test_slow_vectors(self):
-        """Those of a time at which they are published as fields, too, would be the same: here their
-        norms, which are all but dp's."""
-        known = [m for m in self.messages['slow_vectors'] if m.vectors and len(m.dqx)]
-        self.assertTrue(known)
-        for message in known:
-            dq = of(message, 'dqx', 'dqy', 'dq_angle').reshape(3, message.vectors, N)
-            norms = np.sum(dq**2, axis=(0, 2))
-            self.assertTrue(((norms > 0.3) & (norms < 1)).all(), norms)
-            self.assertEqual(len(message.dqz), 0)
-
     def test_spectrum(self):
         last = self.messages['spectrum'][-1]
         exponents = np.array(last.exponents)
@@ -183,12 +170,37 @@ class Dumbbells(harness.Case):
         said = checked(path).stdout
         self.assertIn(f'{N} dumbbells in 26.8328 x 2.68328, packing fraction 0.587, 216 vec', said)
         report, fields, _ = shares(said)
+        by_pairs = {field.pairs: in_bag('fields', [field]) for field in self.messages['fields']}
+        steps = 3 * by_pairs[0] + 3 * by_pairs[2]  # T and LP of three waves
+        self.assertAlmostEqual(fields['fields'] / steps, 1.0, delta=0.02)
         for topic in 'state', 'modes', 'spectrum':
             self.assertAlmostEqual(
                 report[topic] * len(self.messages[topic]) / in_bag(topic, self.messages[topic]),
                 1.0,
                 delta=0.02,
             )
+
+
+class Slow(harness.Case):
+    def test_slow_vectors(self):
+        """Those of T(1,0) lie in its fields, angles all but still."""
+        scene = dict(SCENE, observables=['steps'], pace=60.0, slow_vectors_rate=50.0)
+        scene = {name: value for name, value in scene.items() if not name.startswith('covariant')}
+        messages = harness.whole_run(scene, ['run_info', 'slow_vectors'])
+        box_x, found = messages['run_info'][-1].box_x, 0
+        for message in messages['slow_vectors']:
+            self.assertEqual(len(message.dqz), 0)
+            dq = of(message, 'dqx', 'dqy', 'dq_angle').reshape(3, -1, N)
+            phase = 2 * np.pi * np.array(message.x) / box_x
+            fields = np.sqrt(2 / N) * np.array([np.cos(phase), np.sin(phase)])
+            for k in range(dq.shape[1]):
+                if (message.kind[k], message.nx[k], message.ny[k]) != (Mode.T, 1, 0):
+                    continue
+                whole = np.sum(dq[:, k] ** 2)
+                self.assertGreater(np.sum((fields @ dq[1, k]) ** 2), 0.7 * whole)
+                self.assertLess(np.sum(dq[2, k] ** 2), 0.1 * whole)
+                found += 1
+        self.assertGreater(found, 20)
 
 
 class Flight(harness.Case):
