@@ -55,7 +55,10 @@ def check_title(figure, name):
     from hdlyap.plots.figures import plt
 
     title = figure._suptitle.get_text() if figure._suptitle is not None else ''
-    if not re.match(r'.+: \$N=\d+\$, \$\\rho=[0-9.]+\$, .+, (x )?(periodic|reflecting)', title):
+    system = (
+        r'.+: \$N=\d+\$( dumbbells, [^$]+\n|, )\$\\rho=[0-9.]+\$, .+, (x )?(periodic|reflecting)'
+    )
+    if not re.match(system, title):
         raise AssertionError(f'{name}: its title is {title!r}')
     plt.close(figure)
 

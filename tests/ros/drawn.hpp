@@ -45,6 +45,7 @@ struct scene {
         std::mt19937_64 random(seed);
         std::uniform_real_distribution<double> part(0.0, 1.0);
         std::snprintf(h.scene, sizeof h.scene, "a scene");
+        std::snprintf(h.particles, sizeof h.particles, "disks");
         h.stage = HDR_RUN_STATUS_AVERAGING;
         h.disks = static_cast<uint32_t>(disks);
         h.box[0] = width;
@@ -101,9 +102,29 @@ struct spheres : scene {
         std::mt19937_64 random(seed + 1);
         std::uniform_real_distribution<double> part(0.0, 1.0);
         h.box[2] = depth;
+        std::snprintf(h.particles, sizeof h.particles, "spheres");
         for (double &one : z) one = depth * part(random);
         for (double &one : dz) one = part(random) - 0.5;
         point();
+    }
+};
+
+/** The same of dumbbells. */
+struct dumbbells : scene {
+    std::vector<double> angle, spin, turn; // [N], [N], [modes][N]
+
+    dumbbells(double width, double height, int count, int modes, unsigned seed)
+        : scene(width, height, count, modes, seed)
+    {
+        std::mt19937_64 random(seed + 2);
+        std::uniform_real_distribution<double> part(0.0, 1.0);
+        std::snprintf(h.particles, sizeof h.particles, "dumbbells");
+        h.bond = 0.5, h.inertia = 0.1875;
+        for (int i = 0; i < count; i++) angle.push_back(6.28 * part(random));
+        for (int i = 0; i < count; i++) spin.push_back(6.0 * part(random) - 3.0);
+        for (int k = 0; k < count * modes; k++) turn.push_back(part(random) - 0.5);
+        h.angle = angle.data(), h.spin = spin.data();
+        for (int k = 0; k < modes; k++) p.mode[k].turn = &turn[k * count];
     }
 };
 

@@ -37,7 +37,7 @@ struct hearing {
     {
         heard_clear(&h);
         for (int k = 0; k < 100; k++) numbers.push_back(0.01 * k);
-        info.run_id = "run", info.scene = "a scene", info.number = DISKS;
+        info.run_id = "run", info.scene = "a scene", info.particles = "disks", info.number = DISKS;
         info.box_x = info.box_y = 10.0, info.boundary_x = "periodic", info.boundary_y = boundary;
         info.vectors = 9, info.container = "rectangle";
         info.observables = {topics, 2};

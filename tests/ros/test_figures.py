@@ -318,7 +318,7 @@ class Figures(Bags):
         self.assertEqual(scene(info), r'made: $N=20$, $\rho=0.5$, lens, $8\times6$')
         self.assertEqual(report.system(info), 'N = 20, density 0.5, lens, 8.000 x 6.000')
         _, axes = plt.subplots()
-        box.disks(axes, info, [4.0], [4.0])
+        box.Particles(axes, info, np.array([[4.0], [4.0]]))
         (wall,) = axes.patches
         np.testing.assert_array_equal(wall.get_xy(), [*corners, corners[0]])
         self.assertFalse(any(spine.get_visible() for spine in axes.spines.values()))

@@ -20,6 +20,7 @@ import made_fields
 from bags import Bags, process, tool
 from hdlyap.data.reader import RecordingError
 from hdlyap.plots import frames, movie
+from hdlyap.plots.figures import turning
 from hdlyap.plots.figures.style import BLUE, VERMILION
 
 VIEWER = os.path.join(made.SCRIPTS, '../src/viewer')
@@ -148,7 +149,7 @@ class Drawn(Films):
             picture.show(frame)
             drawn.append((self.arrows(t).copy(), self.arrows(lp).copy()))
             colours.append(lp._arrows.get_facecolor()[0][:3])
-            places.append(np.array(t._disks.get_offsets()))
+            places.append(np.array(t._particles.disks.get_offsets()))
             for panel in (t, lp):  # an arrow's middle is at its disk
                 middle = panel._arrows.get_offsets() + 0.5 * self.arrows(panel)
                 np.testing.assert_allclose(middle, places[-1])
@@ -196,6 +197,7 @@ class BesideTheViewer(unittest.TestCase):
     def test_panels_look_alike(self):
         """What both draw stands in two languages."""
         colours = dict(T=BLUE, LP=VERMILION, L=movie.ALL_L, P=movie.ALL_P, DISK=movie.DISK)
+        colours.update(LEFT=turning.LEFT, RIGHT=turning.RIGHT)
         said = self.said(['PALETTE_' + name for name in colours])
         for name, colour in colours.items():
             np.testing.assert_allclose(

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/** The largest picture has 44. */
+/** The largest picture has 53. */
 enum { MARKERS_MAX = 64, NAME_SIZE = 32, TEXT_SIZE = 400 };
 
 /** What a marker points to; its points begin there in those of the canvas. */

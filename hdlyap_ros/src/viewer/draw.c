@@ -17,6 +17,9 @@ static const hdr_colour PALETTE_LP = {0.835F, 0.369F, 0.0F, 1.0F}; /* #D55E00 */
 static const hdr_colour PALETTE_L = {0.902F, 0.624F, 0.0F, 1.0F};
 static const hdr_colour PALETTE_P = {0.40F, 0.12F, 0.02F, 1.0F};
 static const hdr_colour PALETTE_DISK = {0.86F, 0.86F, 0.86F, 1.0F};
+/** As much to the left, counterclockwise, or to the right as is shown. */
+static const hdr_colour PALETTE_LEFT = {0.50F, 0.75F, 0.48F, 1.0F};  /* #7FBF7B */
+static const hdr_colour PALETTE_RIGHT = {0.69F, 0.55F, 0.76F, 1.0F}; /* #AF8DC3 */
 /** As of glass: arrows are seen through it. */
 static const hdr_colour PALETTE_SPHERE = {0.5F, 0.5F, 0.5F, 0.3F};
 /** Of no step: legible on white and on rviz's own dark grey. */
@@ -31,7 +34,7 @@ static const double WIDTH = 64.0, GAP = 3.0, ABOVE = 3.5;
 static const double CAPTION = 1.75, CAPTION_HEIGHT = 1.3, TITLE = 1.8, TITLE_HEIGHT = 1.1;
 static const double LINE = 0.12;
 static const double DIAL = 1.2, DIAL_STEP = 2.4; /* radius and, in radii, distance */
-enum { DIALS = 4, DIAL_SIDES = 32 };
+enum { DIALS = 4, DIAL_SIDES = 32, SHADES = 4 };
 
 static const double LONG = 2.5;    /* boxes this much longer than high lie above each other */
 static const double RISE = 0.7;    /* of what is above the plane, as seen from 55 degrees */
@@ -40,6 +43,10 @@ static const double ARROW = 0.5;   /* root mean square length, as a part of the 
 /** Of an arrow, as parts of its length or of the mean distance. */
 static const double HEAD = 0.4, HEAD_WIDTH = 0.2, SHAFT_WIDTH = 0.07;
 static const double DISKS_Z = -1.0; /* below the arrows, which they would hide */
+static const double UNDER = -0.1;   /* the other disk of a dumbbell, or both would shine through */
+static const double BOND_Z = -0.48; /* just above the disks */
+static const double BOND = 0.12;    /* thickness [sigma] */
+static const double KT = 2.0 / 3.0; /* of what turns in the plane */
 static const double TURN = 6.283185307179586;
 
 /** What is drawn on, and where its parts lie, in the frame of the box [sigma]. */
@@ -154,14 +161,101 @@ static void draw_boxes(const sheet *s)
             edges(s, panel(s, k));
 }
 
+/** Root mean square of a vector at a particle, with what turns it. */
+static double strength_of(const heard *h, const picture_mode *m)
+{
+    double sum = 0.0;
+    for (uint32_t i = 0; i < h->disks; i++) {
+        sum += m->d[i].x * m->d[i].x + m->d[i].y * m->d[i].y + m->d[i].z * m->d[i].z;
+        if (heard_turns(h)) sum += m->turn[i] * m->turn[i];
+    }
+    return sqrt(sum / h->disks);
+}
+
+/** How the particles of a panel turn, and what has the full colour: of a vector what is as strong
+ * as all of it, else twice the thermal spin. */
+typedef struct turns {
+    const double *of;
+    double full;
+} turns;
+
+static turns turns_of(const sheet *s, int k)
+{
+    const picture_mode *m = &s->p->mode[k];
+    if (m->d) return (turns){m->turn, strength_of(s->h, m)};
+    return (turns){s->h->spin, 2.0 * sqrt(KT / s->h->inertia)};
+}
+
+/** -SHADES .. SHADES, to the left if positive. */
+static int shade_of(turns t, uint32_t i)
+{
+    const double part = t.full > 0.0 ? t.of[i] / t.full : 0.0;
+    return (int)round(SHADES * fmax(-1.0, fmin(part, 1.0)));
+}
+
+/** From the middle of a dumbbell to one of its disks. */
+static hdr_point arm(const heard *h, uint32_t i)
+{
+    return on_circle((hdr_point){0.0, 0.0, 0.0}, 0.5 * h->bond, h->angle[i] / TURN);
+}
+
+/** The disks of panel k that are of this shade. */
+static void disks_of_shade(const sheet *s, int k, int shade)
+{
+    const heard *h = s->h;
+    const turns t = turns_of(s, k);
+    const hdr_point below = {0.0, 0.0, DISKS_Z}, under = {0.0, 0.0, UNDER};
+    for (uint32_t i = 0; i < h->disks; i++) {
+        if (shade_of(t, i) != shade) continue;
+        const hdr_point at = along(along(panel(s, k), 1.0, h->q[i]), 1.0, below);
+        canvas_point(s->on, along(at, 1.0, arm(h, i)));
+        if (h->bond > 0.0) canvas_point(s->on, along(along(at, -1.0, arm(h, i)), 1.0, under));
+    }
+}
+
+/** A layer for each shade: rviz has spheres with colours of their own as of glass. */
+static void turning_disks(const sheet *s, const char *ns)
+{
+    for (int shade = -SHADES; shade <= SHADES; shade++) {
+        const hdr_colour full = shade > 0 ? PALETTE_LEFT : PALETTE_RIGHT;
+        canvas_layer(s->on, ns, HDR_MARKER_SPHERE_LIST,
+                     mix(PALETTE_DISK, full, fabs((double)shade / SHADES)), 1.0);
+        for (int k = 0; k < s->panels; k++) disks_of_shade(s, k, shade);
+    }
+}
+
+/** Of dumbbells: from centre to centre. */
+static void draw_bonds(const sheet *s, const char *ns)
+{
+    canvas_layer(s->on, ns, HDR_MARKER_LINE_LIST, PALETTE_INK, BOND);
+    for (int k = 0; k < s->panels; k++)
+        for (uint32_t i = 0; i < s->h->disks; i++) {
+            const hdr_point above = {0.0, 0.0, BOND_Z},
+                            at = along(along(panel(s, k), 1.0, s->h->q[i]), 1.0, above);
+            line(s->on, along(at, -1.0, arm(s->h, i)), along(at, 1.0, arm(s->h, i)));
+        }
+}
+
 static void draw_disks(const sheet *s)
 {
     const hdr_point below = {0.0, 0.0, s->spheres ? 0.0 : DISKS_Z};
     canvas_layer(s->on, s->spheres ? "spheres" : "disks", HDR_MARKER_SPHERE_LIST,
                  s->spheres ? PALETTE_SPHERE : PALETTE_DISK, 1.0);
     for (int k = 0; k < s->panels; k++)
-        for (uint32_t i = 0; i < s->h->disks && s->h->time >= 0.0; i++)
+        for (uint32_t i = 0; i < s->h->disks; i++)
             canvas_point(s->on, along(along(panel(s, k), 1.0, s->h->q[i]), 1.0, below));
+}
+
+static void draw_particles(const sheet *s)
+{
+    const bool pairs = s->h->bond > 0.0;
+    if (s->h->time < 0.0) return;
+    if (!heard_turns(s->h)) {
+        draw_disks(s);
+        return;
+    }
+    turning_disks(s, pairs ? "dumbbells" : "disks");
+    if (pairs) draw_bonds(s, "dumbbells");
 }
 
 /* ---- arrows -------------------------------------------------------------------------------- */
@@ -203,12 +297,10 @@ static void arrow(const sheet *s, hdr_point at, hdr_point d, bool upright)
 }
 
 /** Of all arrows alike: sigma per unit of the vector. */
-static double scale_of(const sheet *s, const hdr_point *d)
+static double scale_of(const sheet *s, const picture_mode *m)
 {
-    double sum = 0.0;
-    for (uint32_t i = 0; i < s->h->disks; i++)
-        sum += d[i].x * d[i].x + d[i].y * d[i].y + d[i].z * d[i].z;
-    return sum > 0.0 ? ARROW * s->longest / sqrt(sum / s->h->disks) : 0.0;
+    const double strength = strength_of(s->h, m);
+    return strength > 0.0 ? ARROW * s->longest / strength : 0.0;
 }
 
 static hdr_colour colour_of_kind(int kind) { return kind == HDR_MODE_T ? PALETTE_T : PALETTE_LP; }
@@ -227,7 +319,7 @@ static void arrows(const sheet *s, const char *ns, int k, bool upright)
 {
     const picture_mode *m = &s->p->mode[k];
     const hdr_point zero = {0.0, 0.0, 0.0};
-    const double scale = scale_of(s, m->d);
+    const double scale = scale_of(s, m);
     const hdr_colour colour = mix(colour_of(m), WHITE, is_of_before(s->h) ? PALE : 0.0);
     canvas_layer(s->on, ns, HDR_MARKER_TRIANGLE_LIST, mix(colour, BLACK, upright ? SHADE : 0.0),
                  1.0);
@@ -316,20 +408,46 @@ static void write_time(char *text, size_t size, const heard *h)
         snprintf(text, size, "waiting for its first message");
 }
 
+/** 36 dumbbells of bond 0.25; and what their colours say, in a line of its own. */
+static void write_particles(char *text, size_t size, const heard *h)
+{
+    const int end = snprintf(text, size, "%u %s", (unsigned)h->disks, h->particles);
+    if (h->bond > 0.0 && end < (int)size)
+        snprintf(text + end, size - (size_t)end, " of bond %.4g", h->bond);
+}
+
+/** What the colours of the particles say; "" of what does not turn. */
+static const char *legend(const sheet *s)
+{
+    bool any = false, all = s->p->modes > 0;
+    if (!heard_turns(s->h) || s->h->time < 0.0) return "";
+    for (int k = 0; k < s->p->modes; k++) {
+        any |= s->p->mode[k].d != NULL;
+        all &= s->p->mode[k].d != NULL;
+    }
+    return all   ? "\ngreen: the vector turns it to the left, purple: to the right"
+           : any ? "\ngreen: the vector, or the spin where there is none, turns it to the left, "
+                   "purple: to the right"
+                 : "\ngreen: spins to the left, purple: to the right";
+}
+
 static void draw_caption(const sheet *s)
 {
     const heard *h = s->h;
+    const char *colours = legend(s);
+    const double more = *colours ? 0.5 * CAPTION_HEIGHT : 0.0; /* half a line */
     const hdr_point at = {
         0.5 * ((s->columns - 1) * s->right + h->box[0]),
-        h->box[1] + 0.5 * s->longest + (ABOVE + CAPTION) * s->unit,
+        h->box[1] + 0.5 * s->longest + (ABOVE + CAPTION + more) * s->unit,
         h->box[2],
     };
-    char time[80], box[100];
+    char time[80], box[100], particles[80];
+    write_particles(particles, sizeof particles, h);
     write_box(box, sizeof box, h);
     write_time(time, sizeof time, h);
     canvas_text(s->on, "caption", at, CAPTION_HEIGHT * s->unit, PALETTE_INK,
-                "%.60s: %u %s, %s\n%s%s%s", h->scene, (unsigned)h->disks,
-                s->spheres ? "spheres" : "disks", box, time, *s->p->note ? "   " : "", s->p->note);
+                "%.60s: %s, %s\n%s%s%s%s", h->scene, particles, box, time, *s->p->note ? "   " : "",
+                s->p->note, colours);
 }
 
 bool draw(canvas *on, hdr_markers *out, const picture *p, const char *frame_id)
@@ -337,7 +455,7 @@ bool draw(canvas *on, hdr_markers *out, const picture *p, const char *frame_id)
     const sheet s = sheet_of(on, p);
     canvas_clear(on);
     draw_boxes(&s);
-    draw_disks(&s);
+    draw_particles(&s);
     for (int k = 0; k < p->modes; k++) draw_mode(&s, k);
     draw_caption(&s);
     return canvas_markers(on, out, frame_id);

@@ -1,6 +1,7 @@
 /** Messages -> what a picture is made of. */
 #include "heard.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -53,6 +54,25 @@ static double element(const hdr_doubles *array, uint32_t i)
     return array->data[(size_t)i * array->stride];
 }
 
+/** Of those of such particles alone; 0 without it. */
+static double own_number(const hdr_run_info *info, const char *name)
+{
+    const size_t length = strlen(name);
+    double number = 0.0;
+    for (uint32_t k = 0; k < info->own.count; k++)
+        if (strncmp(info->own.data[k], name, length) == 0 && info->own.data[k][length] == '=')
+            number = strtod(info->own.data[k] + length + 1, NULL);
+    return isfinite(number) ? number : 0.0;
+}
+
+static void begin_particles(heard *h, const hdr_run_info *info)
+{
+    snprintf(h->particles, sizeof h->particles, "%s", info->particles);
+    h->disks = info->number;
+    h->inertia = info->inertia;
+    if (strcmp(info->particles, "dumbbells") == 0) h->bond = own_number(info, "bond");
+}
+
 /** As far as there is room. */
 static void begin_outline(heard *h, const hdr_run_info *info)
 {
@@ -82,7 +102,7 @@ static void begin(heard *h, const hdr_run_info *info)
                                            "fields", "hydro", "structure"};
     snprintf(h->run_id, sizeof h->run_id, "%s", info->run_id);
     snprintf(h->scene, sizeof h->scene, "%s", info->scene);
-    h->disks = info->number;
+    begin_particles(h, info);
     h->stage = UINT8_MAX;
     begin_box(h, info);
     for (size_t k = 0; k < sizeof of_modes / sizeof *of_modes; k++)
@@ -95,9 +115,11 @@ bool heard_run_info(heard *h, const hdr_run_info *info)
 {
     if (h->begun && strcmp(h->run_id, info->run_id) == 0) return false;
     heard_clear(h);
-    h->q = malloc(2 * (size_t)info->number * sizeof *h->q + 1);
+    h->q = malloc(2 * (size_t)info->number * (sizeof *h->q + sizeof *h->angle) + 1);
     if (!h->q) return false;
     h->at = h->q + info->number;
+    h->angle = (double *)(h->at + info->number);
+    h->spin = h->angle + info->number;
     begin(h, info);
     h->changed = true;
     return true;
@@ -128,6 +150,12 @@ static bool are_of_each(const heard *h, uint64_t times, const hdr_doubles *x, co
     return x->count == all && y->count == all && z->count == (heard_has_spheres(h) ? all : 0);
 }
 
+/** So many numbers of each that turns, and none of others. */
+static bool turn_each(const heard *h, uint64_t times, const hdr_doubles *angle)
+{
+    return angle->count == (heard_turns(h) ? times * h->disks : 0);
+}
+
 /** Of each disk; false, and nothing is taken, if it is not. */
 static bool take(const heard *h, hdr_point *to, const hdr_doubles *x, const hdr_doubles *y,
                  const hdr_doubles *z)
@@ -138,11 +166,27 @@ static bool take(const heard *h, hdr_point *to, const hdr_doubles *x, const hdr_
     return true;
 }
 
-/** The disks have got there. */
-static void move(heard *h, double time)
+static void take_turns(double *to, const hdr_doubles *angle)
 {
+    for (uint32_t i = 0; i < angle->count; i++) to[i] = element(angle, i);
+}
+
+/** What a message says of where they are. */
+typedef struct places {
+    const hdr_doubles *x, *y, *z, *angle, *spin;
+} places;
+#define PLACES(m) ((places){&(m)->x, &(m)->y, &(m)->z, &(m)->angle, &(m)->spin})
+
+/** The disks have got there; false, and they have not, if something is not of each. */
+static bool move(heard *h, double time, places to)
+{
+    if (!turn_each(h, 1, to.angle) || !turn_each(h, 1, to.spin)) return false;
+    if (!take(h, h->q, to.x, to.y, to.z)) return false;
+    take_turns(h->angle, to.angle);
+    take_turns(h->spin, to.spin);
     h->time = time;
     h->changed = true;
+    return true;
 }
 
 void heard_state(heard *h, const hdr_state *state)
@@ -152,7 +196,7 @@ void heard_state(heard *h, const hdr_state *state)
         h->vector_time = -1.0;
         h->vectors = 0;
     }
-    if (take(h, h->q, &state->x, &state->y, &state->z)) move(h, state->sim_time);
+    (void)move(h, state->sim_time, PLACES(state));
 }
 
 /** A vector more, with all but its arrays; NULL without room. */
@@ -160,10 +204,12 @@ static heard_vector *add(heard *h, const heard_vector *what)
 {
     if (h->vectors == HEARD_VECTORS_MAX) return NULL;
     heard_vector *v = &h->vector[h->vectors];
-    hdr_point *block = v->d ? v->d : malloc((size_t)h->disks * sizeof *block + 1);
+    hdr_point *block = v->d;
+    if (!block) block = malloc((size_t)h->disks * (sizeof *block + sizeof *v->turn) + 1);
     if (!block) return NULL;
     *v = *what;
     v->d = block;
+    v->turn = (double *)(block + h->disks);
     h->vectors++;
     return v;
 }
@@ -217,13 +263,13 @@ void heard_mode_field(heard *h, const hdr_mode_field *field)
                                .known = true};
     if (!is_ours(h, field->run_id)) return;
     if (!are_of_each(h, 1, &field->dqx, &field->dqy, &field->dqz)) return;
-    if (!place_vectors(h, field)) return;
-    if (field->sim_time > h->time && take(h, h->q, &field->x, &field->y, &field->z))
-        move(h, field->sim_time);
+    if (!turn_each(h, 1, &field->dq_angle) || !place_vectors(h, field)) return;
+    if (field->sim_time > h->time) (void)move(h, field->sim_time, PLACES(field));
     heard_vector *v = with_index(h, field->index);
     if (!v) v = add(h, &what);
     if (!v) return;
     (void)take(h, v->d, &field->dqx, &field->dqy, &field->dqz);
+    take_turns(v->turn, &field->dq_angle);
     note_phases(h);
     h->changed = true;
 }
@@ -259,6 +305,12 @@ static heard_vector vector_of(const heard *h, const hdr_slow_vectors *slow, uint
     return v;
 }
 
+/** So many numbers of each particle. */
+static bool has_vectors(const heard *h, const hdr_slow_vectors *m, uint64_t times)
+{
+    return are_of_each(h, times, &m->dqx, &m->dqy, &m->dqz) && turn_each(h, times, &m->dq_angle);
+}
+
 /** Its arrays are as long as it says. */
 static bool is_whole(const heard *h, const hdr_slow_vectors *m)
 {
@@ -266,8 +318,7 @@ static bool is_whole(const heard *h, const hdr_slow_vectors *m)
     return m->exponents.count == n && m->kind.count == n && m->nx.count == n && m->ny.count == n &&
            m->pairs.count == n && m->a.count == pairs && m->b.count == pairs &&
            (m->nz.count == n || !heard_has_spheres(h)) &&
-           (are_of_each(h, n, &m->dqx, &m->dqy, &m->dqz) ||
-            are_of_each(h, 0, &m->dqx, &m->dqy, &m->dqz));
+           (has_vectors(h, m, n) || has_vectors(h, m, 0));
 }
 
 /** Vector k of all; nothing along z of disks. */
@@ -280,17 +331,19 @@ static hdr_doubles part(const hdr_doubles *all, uint32_t k, uint32_t disks)
 void heard_slow_vectors(heard *h, const hdr_slow_vectors *slow)
 {
     if (!is_ours(h, slow->run_id) || !is_whole(h, slow)) return;
-    if (!take(h, h->q, &slow->x, &slow->y, &slow->z)) return;
+    if (!move(h, slow->sim_time, PLACES(slow))) return;
     memcpy(h->at, h->q, h->disks * sizeof *h->at);
-    move(h, slow->sim_time);
     h->vector_time = slow->sim_time;
     h->vectors = 0;
     for (uint32_t k = 0; k < slow->vectors; k++) {
         const heard_vector what = vector_of(h, slow, k);
         const heard_vector *v = is_wanted(h, &what) ? add(h, &what) : NULL;
         const hdr_doubles dx = part(&slow->dqx, k, h->disks), dy = part(&slow->dqy, k, h->disks),
-                          dz = part(&slow->dqz, k, h->disks);
-        if (v) (void)take(h, v->d, &dx, &dy, &dz);
+                          dz = part(&slow->dqz, k, h->disks),
+                          turn = part(&slow->dq_angle, k, h->disks);
+        if (!v) continue;
+        (void)take(h, v->d, &dx, &dy, &dz);
+        take_turns(v->turn, &turn);
     }
 }
 

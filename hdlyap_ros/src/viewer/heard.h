@@ -23,13 +23,17 @@ typedef struct heard_vector {
     heard_lp lp;  /**< as far as known with the vector */
     bool known;   /**< the vector itself, at its place and time: */
     hdr_point *d; /**< [N] its dq half */
+    double *turn; /**< [N] of what turns: the part of it that turns each to the left */
 } heard_vector;
 
 typedef struct heard {
     bool begun; /**< run_info is known: box, names and what follows */
     char run_id[96], scene[64];
+    char particles[32];
     uint32_t disks;
-    double box[3]; /**< 0 along z of disks, spheres otherwise */
+    double bond;    /**< of a dumbbell's two disks; 0 of one disk [sigma] */
+    double inertia; /**< of what turns; 0 of what does not [sigma^2] */
+    double box[3];  /**< 0 along z of disks, spheres otherwise */
     bool periodic[3];
     char container[16];
     uint32_t corners; /**< of the outline of a curved container, which the box holds; 0 of a box */
@@ -40,6 +44,8 @@ typedef struct heard {
     double status_time; /**< of the last status; -1 before the first */
     double time;        /**< of the disks; -1 before the first */
     hdr_point *q;       /**< [N] where they are; z is 0 of disks */
+    double *angle;      /**< [N] of what turns, from the x axis, behind q as the next */
+    double *spin;       /**< [N] of what turns [rad/time unit] */
     heard_vector vector[HEARD_VECTORS_MAX];
     int vectors;
     double vector_time; /**< of the vectors */
@@ -52,6 +58,7 @@ typedef struct heard {
 void heard_clear(heard *h); /**< frees; {0} before the first use */
 
 static inline bool heard_has_spheres(const heard *h) { return h->box[2] > 0.0; }
+static inline bool heard_turns(const heard *h) { return h->inertia > 0.0; }
 
 /* Each copies what is needed; what is of another run, or no memory is left for, is passed over. */
 

@@ -84,6 +84,7 @@ static void fill_vector(picture_mode *mode, const heard *h, const heard_vector *
     mode->index = v->index;
     if (!v->known) return;
     mode->d = v->d;
+    mode->turn = v->turn;
     if (mode->kind != HDR_MODE_LP || v->kind != HDR_MODE_LP) return;
     mode->momentum = momentum_of(&v->lp);
     if (h->vector_time != h->time) mode->lp = heard_lp_at(h, h->time, v);

@@ -32,6 +32,7 @@ typedef struct picture_mode {
     double exponent;    /**< of its step, or else of the vector [1/time unit] */
     double error;       /**< of it; -1 while not known */
     const hdr_point *d; /**< [N] dq half of the vector; NULL: not known, nor the rest */
+    const double *turn; /**< [N] of what turns: its part in the angles */
     heard_lp lp;        /**< of an LP mode, at the time of the picture if that is known */
     double momentum;    /**< part of the vector in the P fields, 0 .. 1; -1 if not known */
 } picture_mode;

@@ -33,6 +33,7 @@ class Mode:
         part = slice(pair * len(field.x), (pair + 1) * len(field.x))
         both = (field.l_x, field.l_y) if letter == 'L' else (field.p_x, field.p_y)
         self.dqx, self.dqy = both[0][part], both[1][part]
+        self.z = self.dqz = self.angle = self.dq_angle = ()  # of disks
         self.name = f'{letter}({field.nx},{field.ny})'
         self.title = f'{self.name}, $A=${waves.formula(field.nx, field.ny, bits)}'
         self.colour = KIND_COLOURS['LP'] if letter == 'L' else GREEN

@@ -1,4 +1,5 @@
-"""The topic ~state of a run -> positions and momenta of disks or spheres, one message at a time."""
+"""The topic ~state of a run -> positions and momenta of disks, spheres or dumbbells, one message at
+a time."""
 
 import numpy as np
 
@@ -7,7 +8,8 @@ from . import reader, space
 
 class Disks:
     """`times` of the messages; what is said of a time is of the message nearest to it. Iterates
-    over (time, positions, momenta), arrays of N rows, x, y and of spheres z in each."""
+    over (time, positions, momenta), arrays of N rows, x, y and of spheres z in each. What turns has
+    angles and spins as well: N numbers, none of others."""
 
     def __init__(self, run):
         self._run = run
@@ -33,6 +35,12 @@ class Disks:
     def momenta(self, time):
         message = self._nearest(time)
         return _rows(message, 'p')
+
+    def angles(self, time):
+        return self._nearest(time).angle
+
+    def spins(self, time):
+        return self._nearest(time).spin
 
     def _nearest(self, time):
         number = int(np.argmin(abs(self.times - time)))

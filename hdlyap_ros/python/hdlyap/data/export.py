@@ -66,9 +66,8 @@ def _origin(run):
     info = run.info
     seeds = ' '.join(run.seeds)
     box = ' x '.join(f'{edge:.6g}' for edge in space.along(info, 'box_'))
-    spheres = ' spheres' if space.is_solid(info) else ''
     return (
-        f'hdlyap {info.version}, scene {info.scene}, N = {info.number}{spheres}, '
+        f'hdlyap {info.version}, scene {info.scene}, N = {info.number}{space.named(info)}, '
         f'density {info.density:g}, box {box}, seed {seeds}'
     )
 

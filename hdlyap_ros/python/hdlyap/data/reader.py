@@ -36,8 +36,9 @@ ALIKE = {
     COVARIANT: ('exponents', 'std_errors', 'start_mismatch', 'widths', 'cos_theta'),
     LOCALIZATION: ('widths', 'std_errors', 'widths_now'),
 }
-# as many again of spheres, none of disks
+# as many again of spheres, and of what turns; none of disks
 OF_SPHERES = {STATE: ('z', 'pz'), FIELD: ('z', 'pz', 'dqz', 'dpz'), STRUCTURE: ('nz',)}
+OF_TURNING = {STATE: ('angle', 'spin'), FIELD: ('angle', 'spin', 'dq_angle', 'dp_angle')}
 AMPLITUDES = 'amplitude_along', 'amplitude_across'
 
 
@@ -121,12 +122,12 @@ class Packed:
 
 def check(kind, message):
     """What all that reads a message relies on; Damaged if it does not hold."""
-    lengths, of_spheres = (
+    lengths, *of_some = (
         {len(getattr(message, name)) for name in names.get(kind, ())}
-        for names in (ALIKE, OF_SPHERES)
+        for names in (ALIKE, OF_SPHERES, OF_TURNING)
     )
-    if of_spheres != {0}:
-        lengths |= of_spheres
+    for found in of_some:
+        lengths |= found if found != {0} else set()
     if len(lengths) > 1:
         raise Damaged(f'{kind}: its arrays have {sorted(lengths)} elements')
     if kind == SPECTRUM and not len(message.exponents):

@@ -56,6 +56,8 @@ class Run:
     `localization`, `gas`, `results`; or of all: `cost`, `status`, `course(topic)`. `structure` has
     structure factors, `state` positions and momenta, `fields` the last field of each vector. Of
     spheres each has z beside x and y, as fields[index].dqz, steps['nz'], gas.loc['pressure_z'].
+    Of dumbbells `own` has the bond, info.inertia is a number, and they turn: state.angles(time),
+    modes['rotation'], fields[index].dq_angle.
     What was averaged before ~reset_average does not count."""
 
     def __init__(self, parts, runs_in_bag=1, form=None, k=None):
@@ -76,6 +78,11 @@ class Run:
     seeds = property(lambda self: [self.info.seed])
     averaged_time = property(lambda self: float(self.averaged_times[-1]))
     said = cached_property(Said)
+
+    @property
+    def own(self):
+        """{name: value} of the parameters of such particles alone."""
+        return space.own(self.info)
 
     # ---- messages ---------------------------------------------------------------------------
 

@@ -32,6 +32,7 @@ class Said:
     spectrum = cached_property(lambda self: self._averaged('spectrum'))
     steps = cached_property(lambda self: self._averaged('steps'))
     gas = cached_property(lambda self: self._averaged('gas'))
+    modes = cached_property(lambda self: self._last('modes'))
     localization = cached_property(lambda self: self._last('localization'))
     covariant = cached_property(lambda self: self._averaged('covariant'))  # of at least one window
 

@@ -1,5 +1,5 @@
-"""Disks or spheres -> the directions that what a run_info or a message says has: x, y and of
-spheres z."""
+"""Disks, spheres, dumbbells or others -> the directions that what a run_info or a message says has,
+x, y and of spheres z; what they are called, and where the disks of dumbbells are."""
 
 import numpy as np
 import yaml
@@ -8,6 +8,15 @@ import yaml
 def is_solid(info):
     """Whether it is of spheres; None is of disks."""
     return info is not None and info.dimension == 3
+
+
+def is_disks(info):
+    return info.particles == 'disks'
+
+
+def turns(info):
+    """Whether each has an angle beside its place; None is of disks."""
+    return info is not None and info.inertia > 0
 
 
 def own(info):
@@ -47,7 +56,27 @@ def vectors(message, name=''):
 
 def particle(info):
     """What it is called."""
-    return 'sphere' if is_solid(info) else 'disk'
+    name = info.particles
+    return name[:-1] if name.endswith('s') else 'particle'
+
+
+def named(info):
+    """Behind their number, if it is not of disks: what they are, and what is their own."""
+    own_ones = [f'{name} {_short(value)}' for name, value in own(info).items()]
+    return '' if is_disks(info) else ', '.join([f' {info.particles}', *own_ones])
+
+
+def _short(value):
+    return f'{value:g}' if isinstance(value, float) else value
+
+
+def disks(info, q, angle=()):
+    """Rows of places as vectors() gives them, once; of dumbbells twice, for each of both disks."""
+    bond = own(info).get('bond', 0.0) if info.particles == 'dumbbells' else 0.0
+    if not bond:
+        return [q]
+    arm = 0.5 * bond * np.array([np.cos(angle), np.sin(angle)])
+    return [q - arm, q + arm]
 
 
 def size(info):

@@ -1,6 +1,6 @@
 """Messages -> pandas frames. Columns have the names of the fields (of an array: in the singular),
-attrs['units'] their units; those of z are of spheres alone. What is not known or not measured is
-NaN, also in bags whose messages said 0 or -1."""
+attrs['units'] their units; those of z are of spheres alone, rotation of what turns. What is not
+known or not measured is NaN, also in bags whose messages said 0 or -1."""
 
 import numpy as np
 import pandas
@@ -11,7 +11,7 @@ from hdlyap.numbers import known
 from . import fields, space, stages, steps, waves
 from .fields import words
 
-OF_SPHERES = 'nz', 'null_z'  # columns
+OF_SPHERES, OF_TURNING = ('nz', 'null_z'), ('rotation',)  # columns
 NUMBERED = 'exponents', 'widths'  # arrays with an element for each Lyapunov index
 NUMBERS = {'bool': bool, 'float64': float}  # others are integers
 # columns whose numbers have names
@@ -106,7 +106,8 @@ def of_steps(message, info=None):
 
 
 def _left_out(info):
-    return () if space.is_solid(info) else OF_SPHERES
+    of_others = () if space.is_solid(info) else OF_SPHERES
+    return of_others if space.turns(info) else of_others + OF_TURNING
 
 
 def of_modes(message, info=None):

@@ -10,8 +10,6 @@ from math import pi, sqrt
 
 import numpy as np
 
-from hdlyap.data import space
-
 MOST = 0.7  # density; disks freeze near 0.88
 
 
@@ -28,12 +26,15 @@ def compressibility_of_spheres(density):
 
 
 Reference = namedtuple('Reference', 'compressibility most by')
-DISKS = Reference(compressibility, MOST, 'Henderson (1975)')
-SPHERES = Reference(compressibility_of_spheres, 0.9, 'Carnahan and Starling (1969)')
+REFERENCES = {
+    'disks': Reference(compressibility, MOST, 'Henderson (1975)'),
+    'spheres': Reference(compressibility_of_spheres, 0.9, 'Carnahan and Starling (1969)'),
+}
 
 
 def of(info):
-    return SPHERES if space.is_solid(info) else DISKS
+    """None of other particles."""
+    return REFERENCES.get(info.particles)
 
 
 def contact_value(z, density):

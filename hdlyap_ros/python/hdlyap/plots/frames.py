@@ -16,6 +16,7 @@ class Frame:
     def __init__(self, info=None):
         self._info = info
         self.time, self.places = None, None  # rows along each direction
+        self.angles = self.spins = ()  # of what turns
         self.fields = {}  # name of the mode -> ModeField
         self.phases = None  # LpPhases
         self.turned = {}  # name of the mode -> pairs (a, b) at the time of its field
@@ -25,6 +26,7 @@ class Frame:
             self.phases = message
         else:
             self.time, self.places = message.sim_time, space.vectors(message)
+            self.angles, self.spins = message.angle, message.spin
         if kind == FIELD:
             self._add_field(message, names)
         self._note_pairs()

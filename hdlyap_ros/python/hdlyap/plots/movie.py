@@ -18,13 +18,15 @@ from hdlyap.data.reader import RecordingError
 from hdlyap.numbers import known, with_error
 from hdlyap.progress import Progress
 
-from .figures.box import arrows, disks
+from .figures.box import Particles, arrows
 from .figures.style import BLUE, GREY, VERMILION, scene
+from .figures.turning import LEFT, RIGHT, of_spins, of_vector, strength
 from .figures.view import View
 
 WIDTH = {'.mp4': 1280, '.gif': 480}  # pixels, of the kinds of files that there are
 INCHES = 5.0  # of that width
 TOP, TITLE, GAP = 0.4, 0.45, 0.12  # inches: the film's title, a panel's, and between
+LINE = 0.14  # and one more of the film's title
 LONG = 2.5  # boxes this much longer than high lie above each other
 ARROW, LONGEST = 1.3, 2.6  # root mean square and longest, in mean distances of disks
 ALL_L, ALL_P = to_rgb('#E69F00'), to_rgb('#661F05')  # an LP mode, as in rviz
@@ -54,7 +56,7 @@ class Panel:
         self._axes, self._name, self._film = axes, name, film
         self._distance, self._view = space.distance(info), View(info)
         style = dict(size=DOT) if self._view.is_solid else dict(facecolors=DISK, antialiaseds=False)
-        self._disks = disks(axes, info, *np.zeros((len(space.axes(info)), 1)), **style)
+        self._particles = Particles(axes, info, np.zeros((len(space.axes(info)), 1)), [0], **style)
         self._arrows = None
         self._colour = BLUE if name.startswith('T') else VERMILION
         axes.set_xticks([])
@@ -63,13 +65,13 @@ class Panel:
         self._dials = []
 
     def show(self, frame):
-        self._show_disks(frame.places)
         field = frame.fields.get(self._name)
+        self._show_particles(frame, field)
         self._title.set_text(self._text(frame, field))
         if field is None:
             return
         dq = space.vectors(field, 'dq')
-        dq *= ARROW * self._distance / np.sqrt(np.mean(np.sum(dq**2, axis=0)))
+        dq *= ARROW * self._distance / strength(field)
         lengths = np.maximum(np.linalg.norm(dq, axis=0), 1e-300)
         dq *= np.minimum(1, LONGEST * self._distance / lengths)
         q = space.vectors(field)
@@ -86,11 +88,17 @@ class Panel:
         self._arrows.set_color(self._view.pale(colour_now, q))
         self._show_dials(frame, field, colour)
 
-    def _show_disks(self, q):
-        q = q[:, self._view.order(q)]
-        self._disks.set_offsets(self._view.places(q).T)
+    def _show_particles(self, frame, field):
+        """Of what turns: as the vector turns it, without one as it spins."""
+        info, q = self._film.info, frame.places[:, self._view.order(frame.places)]
+        self._particles.move(q, frame.angles)
         if self._view.is_solid:
-            self._disks.set_facecolors(self._view.pale(SPHERE, q))
+            self._particles.paint(self._view.pale(SPHERE, q))
+        elif space.turns(info):
+            known = field is not None
+            self._particles.paint(
+                of_vector(field, DISK) if known else of_spins(info, frame.spins, DISK)
+            )
 
     def _text(self, frame, field):
         step = self._film.steps.get(self._name)
@@ -153,22 +161,32 @@ class Picture:
         rows, columns = (count, 1) if wide > LONG * tall else (1, count)
         across = (INCHES - GAP * (columns + 1)) / columns
         high = across * tall / wide
-        height = TOP + rows * (high + TITLE)
+        top = TOP + LINE * scene(film.info).count('\n')
+        height = top + rows * (high + TITLE)
         dpi = (width + 0.5) / INCHES  # cut to a whole number
         self.figure, look = Figure(figsize=(INCHES, height), dpi=dpi), {'va': 'top', 'fontsize': 8}
         FigureCanvasAgg(self.figure)
         self._title = self.figure.text(0.5, 1 - 0.08 / height, '', ha='center', **look)
-        for mode, colour, place in (('L', ALL_L, INCHES - GAP - 0.3), ('P', ALL_P, INCHES - GAP)):
-            if any(name.startswith('LP') for name in film.names):
-                at = place / INCHES, 1 - 0.22 / height
-                self.figure.text(*at, f'\u25cf {mode}', color=colour, ha='right', **look)
+        for name, colour, place in self._legend(film):
+            at = place / INCHES, 1 - 0.22 / height
+            self.figure.text(*at, f'\u25cf {name}', color=colour, ha='right', **look)
         self._film, self._panels = film, []
         for k, name in enumerate(film.names):
             row, column = divmod(k, columns)
             left = GAP + column * (across + GAP)
-            bottom = height - TOP - (row + 1) * (high + TITLE) + GAP
+            bottom = height - top - (row + 1) * (high + TITLE) + GAP
             room = left / INCHES, bottom / height, across / INCHES, high / height
             self._panels.append(Panel(self.figure.add_axes(room), name, film))
+
+    @staticmethod
+    def _legend(film):
+        """(what, its colour, right end [inch])"""
+        if any(name.startswith('LP') for name in film.names):
+            yield 'L', ALL_L, INCHES - GAP - 0.3
+            yield 'P', ALL_P, INCHES - GAP
+        if space.turns(film.info):
+            yield 'turns left', LEFT, GAP + 0.6
+            yield 'right', RIGHT, GAP + 1.05
 
     def show(self, frame):
         self._title.set_text(f'{scene(self._film.info)}\n$t={frame.time:.1f}$')

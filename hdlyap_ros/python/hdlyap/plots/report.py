@@ -84,9 +84,9 @@ def system(info):
     if is_curved(info):
         size = f'{info.box_x:.3f} x {info.box_y:.3f}'
         return f'N = {info.number}, density {info.density:g}, {info.container}, {size}'
-    spheres = ' spheres' if space.is_solid(info) else ''
+    packing = f', packing {info.packing_fraction:.4g}' if space.turns(info) else ''
     return (
-        f'N = {info.number}{spheres}, density {info.density:g}, box '
+        f'N = {info.number}{space.named(info)}, density {info.density:g}{packing}, box '
         + ' x '.join(f'{edge:.3f}' for edge in space.along(info, 'box_'))
         + ''.join(f', {axis} {getattr(info, "boundary_" + axis)}' for axis in space.axes(info))
     )
@@ -121,7 +121,8 @@ def _gas(recording):
     relative = gas.pressure_error / gas.pressure if known else -1.0
     periodic = set(space.along(info, 'boundary_')) == {'periodic'}
     axes = space.axes(info)
-    of_z = 'Z = p V / N kT' if space.is_solid(info) else 'Z = p A / N'
+    of_z = f'Z = p {"V" if space.is_solid(info) else "A"} / N'
+    of_z += ' kT' if info.coordinates == 3 else ''  # kT is 1 of disks
     each = ', '.join(f'{getattr(gas, "pressure_" + axis):.6f}' for axis in axes)
     per = f'per {space.particle(info)} and time unit'
     rows = [
@@ -135,7 +136,7 @@ def _gas(recording):
         text = value if isinstance(value, str) else f'{value:.6f}{_error(error)}'
         lines.append(f'{name:<15} {text} {unit}'.rstrip())
     reference = equation.of(info)
-    if periodic and info.density <= reference.most:
+    if reference and periodic and info.density <= reference.most:
         lines.append(f'{"":<15} {reference.compressibility(info.density):.6f} by {reference.by}')
     return '\n'.join(lines)
 

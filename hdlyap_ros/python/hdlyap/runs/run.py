@@ -139,7 +139,7 @@ def _check(parameters):
 def _estimate(parameters):
     time = sum(parameters[name] for name in TIMES if is_number(parameters[name]))
     disks = parameters['number'] if is_number(parameters['number']) else DISKS  # it is refused
-    coordinates = 3 if is_solid(parameters) else 2
+    coordinates = 2 if parameters.get('particles') == 'disks' else 3
     return BEGIN + STEP * time * (coordinates / 2 * disks / DISKS) ** 2
 
 

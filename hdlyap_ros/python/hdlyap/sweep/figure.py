@@ -34,7 +34,7 @@ def draw(points):
     shown = [name for name in QUANTITIES if any(name in point.values for point in points)]
     if not names or not shown:
         return None
-    x = max(names, key=lambda name: (name != 'boundary', _count(points, name)))
+    x = max(names, key=lambda name: (not _are_words(points, name), _count(points, name)))
     series = _series(points, [name for name in names if name != x])
     columns = 2 if len(shown) in (2, 4) else min(3, len(shown))
     rows = -(-len(shown) // columns)
@@ -55,8 +55,14 @@ def _count(points, name):
     return len({point.system[name] for point in points})
 
 
+def _are_words(points, name):
+    return any(isinstance(point.system[name], str) for point in points)
+
+
 def _said(name, value):
-    return f'{SHORT[name]} = {value:g}' if name in SHORT else value
+    if name == 'boundary':
+        return value
+    return f'{SHORT.get(name, name)} = {value if isinstance(value, str) else format(value, "g")}'
 
 
 def _series(points, names):
@@ -70,9 +76,10 @@ def _series(points, names):
 
 def _places(points, x):
     """Of values on an axis; words stand beside each other."""
+    if _are_words(points, x):
+        words = sorted({str(point.system[x]) for point in points})
+        return {word: place for place, word in enumerate(words)}, words
     values = sorted({point.system[x] for point in points})
-    if x == 'boundary':
-        return {value: place for place, value in enumerate(values)}, values
     return {value: value for value in values}, None
 
 
@@ -85,7 +92,7 @@ def _panel(axes, name, x, series):
         for point in points:
             if name in point.values:
                 value = point.values[name]
-                place = places[point.system[x]] + shift
+                place = places[str(point.system[x]) if words else point.system[x]] + shift
                 _point(axes, place, value, number)
     axes.margins(y=0.12)
     axes.set_xlim(*_limits(list(places.values()), words))
@@ -100,7 +107,7 @@ def _panel(axes, name, x, series):
 
 
 def _label(x, info):
-    label = LABELS[x].replace('disks', space.particle(info) + 's')
+    label = LABELS.get(x, x).replace('disks', space.particle(info) + 's')
     return label.replace('^2', f'^{len(space.axes(info))}')
 
 

@@ -79,6 +79,7 @@ def system(info):
         'density': info.density,
         'aspect': info.aspect,
         **solid,
+        **space.own(info),
         'boundary': ','.join(walls),
     }
 
@@ -88,6 +89,10 @@ def varied(points):
     values = {name: {point.system[name] for point in points} for name in points[0].system}
     fixed = {name: found.pop() for name, found in values.items() if len(found) == 1}
     return [name for name in values if name not in fixed], fixed
+
+
+def _numbers_first(found):
+    return [(isinstance(value, str), value) for value in found[0]]
 
 
 def read(paths, choice=(None, None)):
@@ -106,7 +111,7 @@ def read(paths, choice=(None, None)):
         except RecordingError as error:
             wrong.append(str(error))
     points = []
-    for _, of_one in sorted(systems.items()):
+    for _, of_one in sorted(systems.items(), key=_numbers_first):
         try:
             points.append(Point(of_one, choice))
         except RecordingError as error:

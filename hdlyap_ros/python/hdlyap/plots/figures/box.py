@@ -1,26 +1,56 @@
-"""The box with its disks or spheres, and a vector at each of them."""
+"""The box with its particles, and a vector at each of them."""
 
-from matplotlib.collections import EllipseCollection
+import numpy as np
+from matplotlib.collections import EllipseCollection, LineCollection
 from matplotlib.patches import Polygon
 
+from hdlyap.data import space
 from hdlyap.data.containers import is_curved
 
+from .style import GREY, INK
 from .view import View
 
 WALL = dict(fill=False, edgecolor='black', linewidth=0.8)
+RIM = 1.2  # line round dumbbells, half of which is seen [points]
 
 
-def disks(axes, info, *q, size=1.0, **style):
-    """One outline, repeated: much less of a file than one for each disk. q: x, y and of spheres
-    z."""
-    view = View(info)
-    view.fit(axes)
-    enclose(axes, info)
+class Particles:
+    """Disks, spheres, or dumbbells: both disks, one rim round both, the bond. `disks` is one
+    outline, repeated: much less of a file than one for each."""
+
+    def __init__(self, axes, info, q, angle=(), size=1.0, **style):
+        """q: rows along x, y and of spheres z; angle: of what turns."""
+        self._info, self._view = info, View(info)
+        self._view.fit(axes)
+        enclose(axes, info)
+        self._ends = len(space.disks(info, q, angle))
+        self._rims = self._bonds = None
+        if self._ends > 1:
+            style.update(edgecolors='none')
+            self._rims = _outlines(axes, size, edgecolors=GREY, facecolors='none', linewidths=RIM)
+            self._bonds = LineCollection([], colors=INK, linewidths=0.7)
+            axes.add_collection(self._bonds)
+        self.disks = _outlines(axes, size, **style)
+        self.move(q, angle)
+
+    def move(self, q, angle=()):
+        ends = [self._view.places(end).T for end in space.disks(self._info, q, angle)]
+        for circles in filter(None, (self._rims, self.disks)):
+            circles.set_offsets(np.concatenate(ends))
+        if self._bonds is not None:
+            self._bonds.set_segments(np.stack(ends, axis=1))
+
+    def paint(self, colours):
+        """A row for each particle."""
+        self.disks.set_facecolors(np.tile(colours, (self._ends, 1)))
+
+
+def _outlines(axes, size, **style):
     # matplotlib 3.6 has given it another name
     new = hasattr(EllipseCollection, 'set_offset_transform')
     place = {
         'offset_transform' if new else 'transOffset': axes.transData,
-        'offsets': view.places(q).T,
+        'offsets': np.zeros((1, 2)),
     }
     found = EllipseCollection([size], [size], [0.0], units='xy', **place, **style)
     axes.add_collection(found)

@@ -1,13 +1,14 @@
-"""Vector fields of the modes with the smallest exponents, one of each step, at the disks.
-Of spheres see solid_modes."""
+"""Vector fields of the modes with the smallest exponents, one of each step, at the disks, or
+dumbbells. Of spheres see solid_modes."""
 
 import numpy as np
 
 from hdlyap.data import space, steps
 
 from . import solid_modes
-from .box import arrows, disks
+from .box import Particles, arrows
 from .style import GREY, LIGHT, MEMBER_COLOURS, kind_colour, panels as grid_of, titled
+from .turning import of_vector, strength
 
 PANELS = 6
 WIDTH = 7.2  # of the figure [inch]
@@ -49,7 +50,9 @@ def draw(recording):
         figure = _channel(panels, info)
     else:
         figure = draw_panels(panels, info)
-    return titled(figure, info, more=f'\n$t={panels[0].field.sim_time:g}$: $\\delta q$')
+    colours = ', the vector turns green ones to the left, purple ones to the right'
+    more = f'\n$t={panels[0].field.sim_time:g}$: $\\delta q$' + colours * space.turns(info)
+    return titled(figure, info, more=more)
 
 
 def chosen(recording):
@@ -116,9 +119,11 @@ def _lowest(count, columns):
 
 def _arrows(axes, panel, info, as_pixels):
     field = panel.field
-    dq = np.array([field.dqx, field.dqy])
-    dq = dq * ARROW / np.sqrt(np.mean(np.sum(dq**2, axis=0)))
-    disks(axes, info, field.x, field.y, facecolors='none', edgecolors=LIGHT, linewidths=0.4)
+    dq = space.vectors(field, 'dq') * ARROW / strength(field)
+    look = {'facecolors': 'none', 'edgecolors': LIGHT, 'linewidths': 0.4}
+    drawn = Particles(axes, info, space.vectors(field), field.angle, **look)
+    if space.turns(info):
+        drawn.paint(of_vector(field, 'white'))
     arrows(axes, field.x, field.y, dq, width=0.13, color=panel.colour, rasterized=as_pixels)
     axes.set_title(panel.title, fontsize=8 if len(panel.name) < LONG else 6)
     axes.tick_params(labelsize=6, length=2)

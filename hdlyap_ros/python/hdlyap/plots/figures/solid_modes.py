@@ -6,8 +6,9 @@ import numpy as np
 from hdlyap.data import space, steps
 
 from ..expected import Expected
-from .box import arrows, disks
+from .box import Particles, arrows
 from .style import BLUE, GREEN, GREY, VERMILION, panels as grid_of
+from .turning import strength
 from .view import View
 
 WIDTH, TALLEST = 7.6, 10.0  # of the figure [inch]
@@ -36,11 +37,11 @@ def draw_panels(panels, info):
 
 def _arrows(axes, panel, info, view):
     q, dq = space.vectors(panel.field), space.vectors(panel.field, 'dq')
-    dq = dq * ARROW / np.sqrt(np.mean(np.sum(dq**2, axis=0)))
+    dq = dq * ARROW / strength(panel.field)
     share = min(1.0, MOST * info.box_x * info.box_z / info.number)
     order = [k for k in view.order(q) if share == 1 or q[1, k] < share * info.box_y]
     q, dq = q[:, order], dq[:, order]
-    disks(axes, info, *q, size=DOT, facecolors=view.pale(GREY, q))
+    Particles(axes, info, q, size=DOT, facecolors=view.pale(GREY, q))
     start = view.places(q - 0.5 * dq)
     arrows(axes, *start, view.vectors(dq), width=0.13, color=view.pale(panel.colour, q))
     slab = rf', $y<{share * info.box_y:.2g}\,\sigma$' if share < 1 else ''

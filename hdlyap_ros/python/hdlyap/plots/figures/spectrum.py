@@ -1,12 +1,13 @@
-"""All exponents, and magnified the smallest ones with the steps that were measured."""
+"""All exponents, and magnified the smallest ones with the steps that were measured; of what
+turns the share of rotation of each vector below."""
 
 from matplotlib import patches
 import numpy as np
 
-from hdlyap.data import steps
+from hdlyap.data import space, steps
 
 from .. import paper
-from .style import GREY, INK, KIND_COLOURS, MANY, MIXED, SMALL, UPRIGHT, VERMILION, ZERO
+from .style import GREY, INK, KIND_COLOURS, LIGHT, MANY, MIXED, SMALL, UPRIGHT, VERMILION, ZERO
 from .style import bars, beside, index_axis, kind_colour, panels, plt, titled
 
 # Smallest exponents in the second panel: so many at least, and at most if the steps need them; with
@@ -17,14 +18,21 @@ MAGNIFIED, MAGNIFIED_MOST = 40, 64
 def draw(recording):
     if recording.spectrum is None:
         return None
-    if _magnified_range(recording) == (recording.spectrum.first_index, recording.last_index):
-        figure, small = panels(1, 1, 4.6, 4.0)
-    else:
-        widths = {'width_ratios': [1, 1.7]}
-        figure, (whole, small) = panels(1, 2, 7.6, 4.0, gridspec_kw=widths)
-        _whole(whole, recording)
-        small.set_title('(b) smallest exponents', loc='left')
-    _small(small, recording)
+    carried = recording.spectrum.first_index, recording.last_index
+    ranges = [carried, _magnified_range(recording)]
+    ranges = ranges[ranges[0] == ranges[1] :]
+    turning = space.turns(recording.info) and recording.modes is not None
+    ratios = {'width_ratios': [1, 1.7][-len(ranges) :], 'height_ratios': [3, 1][: 1 + turning]}
+    size = 4.6 if len(ranges) == 1 else 7.6, 4.0 + 1.4 * turning
+    how = {'sharex': 'col', 'squeeze': False, 'gridspec_kw': ratios}
+    figure, rows = panels(1 + turning, len(ranges), *size, **how)
+    if len(ranges) > 1:
+        _whole(rows[0, 0], recording)
+        rows[0, 1].set_title('(b) smallest exponents', loc='left')
+    _small(rows[0, -1], recording)
+    for axes, above, within in zip(rows[-1], rows[0], ranges if turning else ()):
+        above.set_xlabel('')
+        _rotation(axes, recording, *within)
     averaged = f', averaged over {recording.spectrum.averaged_time:g} time units'
     return titled(figure, recording.info, more=averaged)
 
@@ -37,6 +45,21 @@ def _whole(axes, recording):
     _exponent_axes(axes)
     axes.set_title('(a) all exponents carried', loc='left')
     _frame_magnified(axes, recording)
+
+
+def _rotation(axes, recording, first, last):
+    """Share of dq in the angles, beside that of a vector without any preference."""
+    chance, colours = 1 / recording.info.coordinates, _colours(recording, first, last)
+    found = [mode for mode in recording.modes.modes if first <= mode.index <= last]
+    shares, small = [mode.rotation for mode in found], last - first < MAGNIFIED_MOST
+    axes.plot([mode.index for mode in found], shares, color=LIGHT, linewidth=0.8, zorder=1)
+    for mode in found:
+        look = {'color': colours.get(mode.index, INK), 'markersize': 2.2 if small else 1}
+        axes.plot(mode.index, mode.rotation, 'o', **look)
+    axes.axhline(chance, color=GREY, linewidth=0.6, linestyle='--')
+    axes.set_ylim(0, 1.1 * max([chance, *shares]))
+    axes.set_ylabel('share of rotation')
+    index_axis(axes, 8)
 
 
 def _exponent_axes(axes):

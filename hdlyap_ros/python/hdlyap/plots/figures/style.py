@@ -92,7 +92,8 @@ def scene(info):
     box = f'$\\rho={info.density:g}$, ' + (
         _edges(info) if space.is_solid(info) else f'$L_y/L_x={info.aspect:g}$'
     )
-    return f'{name}: $N={info.number}$, {box}, ' + ', '.join(walls)
+    what = space.named(info) + '\n' if info.own else ', '  # too long for one line
+    return f'{name}: $N={info.number}${what}{box}, ' + ', '.join(walls)
 
 
 def _edges(info):
