@@ -7,6 +7,7 @@ import os
 import re
 import tempfile
 import unittest
+from unittest import mock
 from math import nan
 
 import numpy as np
@@ -244,9 +245,33 @@ class Results(InFolder):
         """Four largest exponents, each 9 +- 0.01; then one that is ten errors off."""
         same = [self.bag(f's{n}', 0.4, str(n)) for n in range(1, 5)]
         other = [self.bag(f'o{n}', 0.5, str(n), value=9.0 + 0.1 * (n == 4)) for n in range(1, 5)]
-        lines = [line for line in table.text(self.read(*same, *other)) if 'differ by more' in line]
+        lines = [
+            line for line in table.text(self.read(*same, *other)) if 'the seeds differ' in line
+        ]
         self.assertEqual(len(lines), 1, lines)
-        self.assertTrue(lines[0].startswith('lambda_max (density 0.5): the seeds differ'), lines)
+        said = 'lambda_max (density 0.5): the seeds differ by 5.0 times their errors, which chance does'
+        self.assertTrue(lines[0].startswith(said), lines)
+
+    def test_seeds_that_agree_are_seldom_said_to_differ(self):
+        """Errors of eight blocks, five seeds, ten values of each table: one in fifty at most, and of
+        seeds that are three errors further apart than they say nearly all."""
+        random, fewer, more = np.random.default_rng(3), 0, 0
+        for _ in range(400):
+            blocks = random.normal(size=(10, 5, 8))
+            stated = np.sqrt((blocks.std(axis=-1, ddof=1) ** 2 / 8).sum(axis=-1)) / 5
+            scatter = blocks.mean(axis=-1).std(axis=-1, ddof=1) / np.sqrt(5)
+            fewer += self.says(stated, scatter)
+            more += self.says(stated, 3 * scatter)
+        self.assertLessEqual(fewer, 16)
+        self.assertGreater(more, 380)
+
+    def says(self, stated, scatter):
+        """Whether any of these values is said to differ."""
+        values = {
+            str(n): points.Value(9.0, *errors, nan, 5, nan, None)
+            for n, errors in enumerate(zip(stated, scatter))
+        }
+        return any(table._scattered([mock.Mock(values=values, system={})], []))
 
     def test_fits_on_different_bases_are_marked(self):
         """Of one form over the same wave numbers they share their number; a line explains each."""

@@ -5,33 +5,70 @@ import io
 
 import numpy as np
 
-from hdlyap.data import fits, space, steps
+from hdlyap.data import fits, seeds, space, steps
+from hdlyap.data.fluctuations import Fluctuations
 from hdlyap.data.joined import SYSTEM, different
 from hdlyap.data.reader import RecordingError
+
+from hdlyap.numbers import known
 
 from .deviation import Deviation
 
 OWN = ('header', 'run_id')  # of every message, also of bit-identical runs
+SLOPES = 'c_T', 'c_L', 'v'
+SUMS = 'h_KS', 'sum of exponents'
+GAS = {'collision_rate': 'collision rate', 'pressure': 'pressure'}
 
 
 class Comparison:
-    """Of the runs a and b of one system: exponents, h_KS, steps, fits. `apart`: (fit of a, fit of
-    b) where they have not the same form and wave numbers."""
+    """Of the runs a and b of one system: exponents, h_KS, steps, fits, gas. `apart`: (fit of a,
+    fit of b) where they have not the same form and wave numbers. What decides is fixed beforehand:
+    the resolved `steps`, a few `numbers`, and the spectrum as a whole."""
 
     def __init__(self, a, b):
         self.runs = a, b
         _refuse_other_systems(a.info, b.info)
         _refuse_without_exponents(a, b)
+        self._fluctuations = _fluctuations(a, b)
         self.exponents = _exponents(a, b)
-        self.sums = [_sum(a, b)] if len(self.exponents) > 1 else []
-        self.steps = _steps(a, b)
+        self.exponents[0] = self._together(self.exponents[0], [0])
+        positive = range(a.positive_end + 1 - a.spectrum.first_index)
+        self.sums = [self._together(_sum(a, b), positive)] if len(self.exponents) > 1 else []
+        self.steps = [self._together(one, _members(one, a)) for one in _steps(a, b)]
+        self.gas = _gas(a, b)
         pairs = _pairs_of_fits(a, b)
         self.fits = [one for pair in pairs if pair[0].is_like(pair[1]) for one in _fits(pair)]
         self.apart = [pair for pair in pairs if not pair[0].is_like(pair[1])]
 
     @property
     def deviations(self):
-        return [*self.exponents, *self.sums, *self.steps, *self.fits]
+        return [*self.exponents, *self.sums, *self.steps, *self.fits, *self.gas]
+
+    @property
+    def numbers(self):
+        """lambda_max, h_KS, c_T, c_L, v, collision rate, pressure."""
+        slopes = [one for one in self.fits if one.name in SLOPES]
+        return [*self.exponents[:1], *self.sums, *slopes, *self.gas]
+
+    @property
+    def spectra(self):
+        """(T^2, groups, chance) of the spectra as wholes; None if too few samples were recorded."""
+        if not self._fluctuations.is_known:
+            return None
+        taken = [place for place, one in enumerate(self.exponents) if one.judged]
+        difference = np.array([one.difference for one in self.exponents])
+        return self._fluctuations.spectra(difference, taken, _times(self.runs))
+
+    def _together(self, one, members):
+        """A mean of exponents or their sum, whose error is that of both runs' blocks; as it is
+        where that is not known."""
+        if not self._fluctuations.is_known or not len(members) or not one.is_known:
+            return one
+        weights = np.zeros(len(self.exponents))
+        weights[members] = 1.0 if one.name in SUMS else 1 / len(members)
+        error = self._fluctuations.error(weights, _times(self.runs))
+        joint = error, self._fluctuations.freedom
+        return Deviation(one.name, one.values, one.errors, one.judged, one.origins, joint)
 
     @property
     def is_identical(self):
@@ -84,6 +121,41 @@ def _refuse_without_exponents(a, b):
     if carried[0] != carried[1]:
         ranges = '{}-{} and {}-{}'.format(*carried[0], *carried[1])
         raise RecordingError(f'the runs cannot be compared: exponents {ranges}')
+
+
+def _times(runs):
+    return [run.spectrum.averaged_time for run in runs]
+
+
+def _fluctuations(a, b):
+    """Of exponents that are both known and fluctuate."""
+    times = np.array(_times((a, b)))[:, None]
+    errors = known([run.spectrum.std_errors for run in (a, b)])
+    return Fluctuations([run.data.runs for run in (a, b)], (errors**2 * times).mean(axis=0))
+
+
+def _members(one, run):
+    """Places of the exponents of a step that are its alone, and the same in both runs."""
+    a, b = one.origins
+    if (a.first_index, a.last_index) != (b.first_index, b.last_index) or max(
+        a.members, b.members
+    ) > 1:
+        return []
+    return range(
+        a.first_index - run.spectrum.first_index, a.last_index + 1 - run.spectrum.first_index
+    )
+
+
+def _gas(a, b):
+    """Collision rate and pressure, of runs that all have them."""
+    if not all(one.has('gas') for run in (a, b) for one in run.data.runs):
+        return []
+    frames = [run.data.gas.loc[list(GAS)] for run in (a, b)]
+    values = zip(*(frame['value'] for frame in frames))
+    errors = zip(
+        *(seeds.errors(frame) if 'scatter' in frame else frame['std_error'] for frame in frames)
+    )
+    return [Deviation(*of_one) for of_one in zip(GAS.values(), values, errors)]
 
 
 def _exponents(a, b):

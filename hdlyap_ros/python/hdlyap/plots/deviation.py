@@ -11,15 +11,16 @@ FREEDOM = 7  # of an error, as of 8 blocks: the node asks 16, which may remember
 class Deviation:
     """A quantity of the runs a and b. Its z is the difference in standard errors; NaN while one of
     the errors is not known. What is not judged is only shown, unless it is no number: that never
-    agrees, whatever its error. What the two values come from is in `origins`."""
+    agrees, whatever its error. What the two values come from is in `origins`. joint: (error of
+    the difference, its degrees of freedom) where it is better known than by both errors."""
 
-    def __init__(self, name, values, errors, judged=True, origins=()):
+    def __init__(self, name, values, errors, judged=True, origins=(), joint=None):
         self.name, self.values = name, values
         self.is_number = bool(np.isfinite(values).all())
         self.judged, self.origins = judged or not self.is_number, origins
         self.errors = known(errors)
         self.difference = values[1] - values[0]
-        self.error = float(np.hypot(*self.errors))
+        self.error, self._freedom = joint or (float(np.hypot(*self.errors)), None)
         self.z = self._in_errors()
 
     @property
@@ -31,8 +32,10 @@ class Deviation:
         """Probability of a difference as large between means over few blocks (Welch)."""
         if self.z == 0 or np.isinf(self.z):
             return float(self.z == 0)
-        shares = (self.errors / self.error) ** 2  # their squares may be too large for a number
-        freedom = FREEDOM / float(np.sum(shares**2))
+        freedom = self._freedom
+        if not freedom:
+            shares = (self.errors / self.error) ** 2  # their squares may be too large for a number
+            freedom = FREEDOM / float(np.sum(shares**2))
         return 2 * float(stdtr(freedom, -abs(self.z)))  # both tails of Student's t
 
     def _in_errors(self):
@@ -49,11 +52,3 @@ def unlikeliest(deviations, count=1):
     """Those that are judged and least likely by chance, the least first."""
     judged = [one for one in deviations if one.judged and one.is_known]
     return sorted(judged, key=lambda one: (one.chance, -abs(one.z)))[:count]
-
-
-def chance_of_largest(deviations):
-    """(bound, number judged). The probability that chance alone makes one of them as unlikely as
-    the least likely is: at most their number times its own, however they fluctuate together
-    (Bonferroni)."""
-    judged = sum(one.judged and one.is_known for one in deviations)
-    return min(1.0, judged * unlikeliest(deviations)[0].chance), judged

@@ -4,15 +4,17 @@ import textwrap
 from math import inf
 
 from hdlyap.data import steps
+from hdlyap.data.fluctuations import FEWEST
 from hdlyap.data.reader import RecordingError
 from hdlyap.numbers import with_error
 
-from .deviation import FREEDOM, chance_of_largest, unlikeliest
+from .deviation import unlikeliest
 from .report import origin, system
 
 AGREE, DIFFER = 0, 1  # exit status
-# Of two runs of one system at most one pair in a hundred is said to differ.
-CHANCE = 0.01
+# Of runs of one system at most two pairs in a hundred are said to differ, of which these are due to
+# any of the steps, to any of the numbers, and to the spectrum.
+CHANCE, STEPS, NUMBERS, SPECTRUM = 0.02, 0.012, 0.004, 0.004
 LARGEST = 8  # deviations in the list
 # Averaged time in units of 1 / the smallest positive exponent below which the blocks of an error
 # may be shorter than what fluctuates.
@@ -30,20 +32,39 @@ def verdict(comparison):
         return f'differ: no number in a or b: {_short(odd)}', DIFFER
     if comparison.is_identical:
         return 'identical: the last spectrum and steps of both are the same in every bit', AGREE
-    if not unlikeliest(deviations):
+    reasons = list(_reasons(comparison))
+    if not reasons:
         raise RecordingError('nothing can be compared: no quantity has a known error in both bags')
-    chance, judged = chance_of_largest(deviations)
-    (one,) = unlikeliest(deviations)
-    found = (
-        f'farthest apart of {judged} numbers: {one.name}, by {abs(one.z):.2f} of its errors; '
-        f'probability by itself {one.chance:.1e}\n'
-        f'probability that chance takes any of {judged} so far: at most {chance:.2g} '
-        f'(Bonferroni; Student\'s t, errors of {FREEDOM + 1} blocks)'
+    chance, reason = min(reasons, key=lambda one: min(1.0, one[0]))
+    found = f'{reason}; chance alone makes two runs as unlike in {_percent(chance)} of comparisons'
+    said, status = ('agree', AGREE) if chance >= CHANCE else ('differ', DIFFER)
+    limit = 'not below' if status == AGREE else 'below'
+    return (
+        '\n'.join([*_warnings(comparison), f'{said}: {found}, {limit} {_percent(CHANCE)}']),
+        status,
     )
-    found = '\n'.join([found, *_warnings(comparison)])
-    if chance >= CHANCE:
-        return f'{found}\nagree within their errors: that is not below {CHANCE:g}', AGREE
-    return f'{found}\ndiffer: that is below {CHANCE:g}', DIFFER
+
+
+def _reasons(comparison):
+    """(chance, what it is of): of the one step and the one number that is least alike, and of the
+    spectrum. A chance counts as often as there are such, however they fluctuate together
+    (Bonferroni), over the share of it."""
+    kinds = (NUMBERS, 'numbers', comparison.numbers), (STEPS, 'steps', comparison.steps)
+    for share, what, all_of in kinds:
+        count = sum(one.judged and one.is_known for one in all_of)
+        for one in unlikeliest(all_of):
+            farthest = (
+                f'{one.name} is {abs(one.z):.2f} errors apart, the farthest of {count} {what}'
+            )
+            yield one.chance * count * CHANCE / share, farthest
+    if comparison.spectra:
+        t2, groups, chance = comparison.spectra
+        said = f'the spectra are apart by chi^2 = {t2:.3g} in {groups} groups of exponents'
+        yield chance * CHANCE / SPECTRUM, said
+
+
+def _percent(chance):
+    return f'{100 * min(1.0, chance):.2g} %'.replace('1e+02', '100')
 
 
 def _warnings(comparison):
@@ -121,6 +142,7 @@ def _quantities(comparison):
     rows = [_row(one) for one in comparison.exponents[:1] + comparison.sums]
     rows += [_row(one, _of_step(one)) for one in comparison.steps]
     rows += [_row(one, _of_fit(one)) for one in comparison.fits]
+    rows += [_row(one) for one in comparison.gas]
     once = [
         f'  resolved in {letter} alone: {" ".join(names)}'
         for letter, names in zip('ab', comparison.found_once)
@@ -165,8 +187,16 @@ def _exponents(comparison):
     )
     if seen:
         mean = sum(one.z**2 for one in seen) / len(seen)
-        text += f'\n  chi^2 / exponent {mean:.2f}; no test, because neighbours fluctuate together'
+        text += f'\n  mean square of b - a in errors {mean:.2f}; neighbours fluctuate together: '
+        text += _of_spectra(comparison.spectra)
     yield text
+
+
+def _of_spectra(found):
+    if not found:
+        return f'no chi^2 of less than {FEWEST} samples'
+    t2, groups, chance = found
+    return f'chi^2 = {t2:.3g} in {groups} groups, of which the probability is {chance:.2g}'
 
 
 def _largest(comparison):

@@ -2,13 +2,16 @@
 
 from math import isfinite, sqrt
 
+from scipy.special import fdtrc
+
 from hdlyap import whole
 from hdlyap.data import space
 from hdlyap.numbers import with_error
+from hdlyap.plots.deviation import FREEDOM
 
 from .points import FITTED, NAN, QUANTITIES, varied
 
-UNLIKELY = 4.0  # standard deviations of chi^2 beyond its degrees of freedom
+CHANCE = 0.02  # of a table of seeds that agree to say of any value that they do not
 
 
 class Marks:
@@ -62,16 +65,20 @@ def text(points):
 
 
 def _scattered(points, names):
-    """Where the seeds differ by more than they state."""
-    for point in points:
-        for name, value in point.values.items():
-            freedom = value.runs - 1
-            if freedom > 0 and value.chi2 > freedom + UNLIKELY * sqrt(2 * freedom):
-                where = ', '.join(map(' '.join, zip(names, _of_system(point, names))))
-                yield (
-                    f'{name} ({where}): the seeds differ by more than their errors, which are too '
-                    'small; steps of some of them may mix: see their runs'
-                )
+    """Where the seeds differ by more than they state: over their errors the scatter of seeds that
+    know them by FREEDOM has the F distribution. A chance counts as often as there are values."""
+    all_of = [(point, *one) for point in points for one in point.values.items()]
+    known = [one for one in all_of if one[-1].scatter > 0 and one[-1].std_error > 0]
+    for point, name, value in known:
+        ratio = (value.scatter / value.std_error) ** 2
+        chance = len(known) * float(fdtrc(value.runs - 1, FREEDOM * value.runs, ratio))
+        if chance < CHANCE:
+            where = ', '.join(map(' '.join, zip(names, _of_system(point, names))))
+            yield (
+                f'{name} ({where}): the seeds differ by {sqrt(ratio):.1f} times their errors, which '
+                f'chance does in {100 * chance:.1g} % of such tables; steps of some of them may '
+                'mix: see their runs'
+            )
 
 
 def _plain(value):

@@ -1,0 +1,75 @@
+"""Samples of two runs of one system -> how sums of their exponents fluctuate together, and by that
+whether their spectra are one."""
+
+import numpy as np
+from scipy.special import betainc
+
+MOST = 100  # blocks of a run
+FEWEST = 8  # blocks of both runs together: of fewer nothing is said
+FREEDOM_OF_GROUP = 6  # degrees of freedom for each group of exponents
+GROUPS = 16  # at most
+
+
+class Fluctuations:
+    """Of the exponents of two sides, each a list of data.run.Run: samples are gathered into blocks
+    of about equal length, whose deviations from the mean of their run, times the root of the
+    length, are alike in both. Where errors that a run states (`stated`: std_error^2 times averaged
+    time of each exponent) are larger than those of blocks, blocks remember each other, and count
+    for as much less."""
+
+    def __init__(self, sides, stated):
+        rows = [block for runs in sides for run in runs for block in _deviations(run)]
+        self.freedom = len(rows) - sum(len(runs) for runs in sides)
+        self.is_known = len(rows) >= FEWEST and self.freedom > 0
+        if self.is_known:
+            self._rows = np.array(rows)
+            squares = (self._rows**2).sum(axis=0) / self.freedom
+            self._rows *= _memory(squares, stated)
+            self.is_known = bool((squares > 0).all())
+
+    def error(self, weights, times):
+        """Of the difference of sum(weights * exponents) between sides of these averaged times."""
+        square = ((self._rows @ weights) ** 2).sum() / self.freedom
+        return float(np.sqrt(square * np.sum(1 / np.asarray(times))))
+
+    def spectra(self, difference, taken, times):
+        """(Hotelling's T^2, groups, chance) of the difference between two spectra, of those
+        exponents that are `taken`, as means over as many groups of neighbours as there are blocks
+        for: of Gaussian blocks T^2 (f - g + 1) / (f g) has the F distribution of g and f - g + 1
+        degrees of freedom (Hotelling 1931)."""
+        f = self.freedom
+        g = min(len(taken), GROUPS, max(1, f // FREEDOM_OF_GROUP))
+        groups = np.zeros((len(difference), g))
+        for group, members in zip(groups.T, np.array_split(taken, g)):
+            group[members] = 1 / len(members)
+        # by Q R of the deviations: what is nearly singular keeps its digits
+        r = np.linalg.qr(self._rows @ groups / np.sqrt(f), mode='r')
+        by_error = np.linalg.lstsq(r.T, groups.T @ difference, rcond=None)[0]
+        t2 = float(by_error @ by_error / np.sum(1 / np.asarray(times)))
+        x = t2 / (t2 + f)  # of the beta distribution: the F one, written by its incomplete integral
+        return t2, g, float(betainc((f - g + 1) / 2, g / 2, 1 - x))
+
+
+def _deviations(run):
+    lengths, exponents = run.local.lengths, run.local.exponents
+    there = np.isfinite(exponents).all(axis=1) if len(exponents) else []
+    lengths, exponents = lengths[there], exponents[there]
+    if len(lengths) < 2:
+        return []
+    ends = np.cumsum(lengths)
+    places = np.minimum(ends * (MOST / ends[-1]) - 1e-9, MOST - 1).astype(int)
+    begins = np.flatnonzero(np.diff(places, prepend=-1))
+    of_block = np.add.reduceat(lengths, begins)
+    means = np.add.reduceat(exponents * lengths[:, None], begins) / of_block[:, None]
+    mean = of_block @ means / ends[-1]
+    return list((means - mean) * np.sqrt(of_block)[:, None])
+
+
+def _memory(squares, stated):
+    """By how much more than blocks say each exponent fluctuates, as seen of its neighbours, too."""
+    with np.errstate(divide='ignore', invalid='ignore'):
+        ratios = np.sqrt(stated / squares)
+    ratios = np.where(np.isfinite(ratios), ratios, 1.0)
+    near = max(1, len(ratios) // GROUPS)
+    groups = np.array_split(np.arange(len(ratios)), max(1, len(ratios) // near))
+    return np.concatenate([np.full(len(g), max(1.0, np.median(ratios[g]))) for g in groups])
