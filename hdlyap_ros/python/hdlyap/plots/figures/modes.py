@@ -7,12 +7,13 @@ from hdlyap.data import space, steps
 
 from . import solid_modes
 from .box import Particles, arrows
-from .style import GREY, LIGHT, MEMBER_COLOURS, kind_colour, panels as grid_of, titled
+from .style import GREY, LIGHT, MEMBER_COLOURS, kind_colour, panels as grid_of, scene, titled
 from .turning import of_vector, strength
 
 PANELS = 6
 WIDTH = 7.2  # of the figure [inch]
 TALLEST = 9.0
+LINE = 0.2  # of a longer title [inch]
 LONG = 26  # names do not fit over a panel in the usual size
 ALONE = 4.2  # of a figure with one panel [inch]
 MANY = 10000  # arrows, as curves, would fill megabytes of an SVG file
@@ -90,6 +91,7 @@ def draw_panels(panels, info):
     rows = -(-len(panels) // columns)
     width = WIDTH if len(panels) > 1 else ALONE
     height = rows * (width / columns * info.box_y / info.box_x + 0.3) + 0.5
+    height += LINE * scene(info).count('\n')
     figure, grid = grid_of(rows, columns, width, min(height, TALLEST), squeeze=False)
     for axes, panel in zip(grid.flat, panels):
         _arrows(axes, panel, info, as_pixels=len(panels) * info.number > MANY)
