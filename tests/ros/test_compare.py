@@ -120,10 +120,10 @@ class Agreeing(Pairs):
             fr'\n  lambda_max +9\.000\(10\) .* {z[0]:+.2f}',
             r'\n  T\(1,0\) .* \+0\.00  36-37: 1\.98 and 1\.98 of 2\n',
             r'\n  c_T +1\.4000\(40\) .* over 3 wave numbers 0\.9935 \.\. 1\.987 .*\n',
-            fr'square of b - a in errors {np.mean(z * z):.2f}; .*: no chi\^2 of less than 8 samples',
+            fr'of b - a in errors {np.mean(z * z):.2f}; .*: no chi\^2 of less than 8 samples',
             'exponents: 37 of 37 compared, 0 of unknown error, 0 zero',
-            r'\nagree: lambda_max is \d\.\d\d errors apart, the farthest of 5 numbers; chance alone makes two '
-            r'runs as unlike in 100 % of comparisons, not below 2 %\n',
+            r'\nagree: lambda_max is \d\.\d\d errors apart, the farthest of 5 numbers; '
+            r'chance alone makes two runs as unlike in 100 % of comparisons, not below 2 %\n',
         ):
             self.assertRegex(text, said)
         self.assertNotIn('the same seed', text)

@@ -249,12 +249,12 @@ class Results(InFolder):
             line for line in table.text(self.read(*same, *other)) if 'the seeds differ' in line
         ]
         self.assertEqual(len(lines), 1, lines)
-        said = 'lambda_max (density 0.5): the seeds differ by 5.0 times their errors, which chance does'
+        said = 'lambda_max (density 0.5): the seeds differ by 5.0 times their errors, which'
         self.assertTrue(lines[0].startswith(said), lines)
 
     def test_seeds_that_agree_are_seldom_said_to_differ(self):
-        """Errors of eight blocks, five seeds, ten values of each table: one in fifty at most, and of
-        seeds that are three errors further apart than they say nearly all."""
+        """Errors of eight blocks, five seeds, ten values of each table: one in fifty at most, and
+        of seeds that are three errors further apart than they say nearly all."""
         random, fewer, more = np.random.default_rng(3), 0, 0
         for _ in range(400):
             blocks = random.normal(size=(10, 5, 8))

@@ -76,8 +76,8 @@ def _scattered(points, names):
             where = ', '.join(map(' '.join, zip(names, _of_system(point, names))))
             yield (
                 f'{name} ({where}): the seeds differ by {sqrt(ratio):.1f} times their errors, '
-                f'which chance does in {100 * chance:.1g} % of such tables; steps of some of them may '
-                'mix: see their runs'
+                f'which chance does in {100 * chance:.1g} % of such tables; steps of some of '
+                'them may mix: see their runs'
             )
 
 
