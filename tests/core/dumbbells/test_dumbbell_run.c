@@ -273,6 +273,18 @@ TEST(no_prepared_molecule_meets_its_own_image)
     }
 }
 
+TEST(a_long_rest_takes_no_time)
+{
+    const hd_scene_def def = dumbbells_in_box(2, 8.0, 6.0, 0.5, 0.0, 0, 1);
+    const molecules s = {.q = {1.0, 1.0, 0.3, 5.0, 3.0, -0.2}};
+    hd_trajectory *tr;
+    CHECK_OK(hd_trajectory_create_from(&tr, &def, s.q, s.p));
+    CHECK_OK(hd_trajectory_extend(tr, NULL, 1e12));
+    const molecules now = molecules_now(tr);
+    for (int k = 0; k < 2 * D; k++) CHECK_CLOSE(now.q[k], s.q[k], 0.0);
+    hd_trajectory_free(tr);
+}
+
 /** Near what rows can hold at best: (d + .866) of each of short bonds, a lattice of disks without
  * gaps at 1, sqrt(3), and rows between at 1.5. A million are refused without a wait. */
 TEST(long_bonds_interlock)

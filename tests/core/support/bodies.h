@@ -2,7 +2,7 @@
 #ifndef TEST_BODIES_H
 #define TEST_BODIES_H
 
-#include "dynamics/hard/hard_state.h"
+#include "dynamics/hard/hard.h"
 #include "dynamics/trajectory_state.h"
 
 static inline hard *hard_in(const hd_trajectory *trajectory) { return trajectory->state; }

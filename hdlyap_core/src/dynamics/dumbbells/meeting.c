@@ -137,7 +137,7 @@ static double turning(const path *way) { return fabs(way->omega[0]) + fabs(way->
 static void turn_to(path *way, const hd_molecules *m, int k, int32_t i, double t)
 {
     way->omega[k] = m->spin[i].p / m->shape.root;
-    way->angle[k] = m->spin[i].q / m->shape.root + way->omega[k] * (t - m->disk[i].t);
+    way->angle[k] = m->spin[i].q / m->shape.root + way->omega[k] * (t - m->hard.motion.disk[i].t);
     way->bend += way->arm * way->omega[k] * way->omega[k];
 }
 
@@ -150,14 +150,14 @@ static double march_pair(const path *way, double from, double until, int32_t *wh
 double hd_meeting_of_pair(const hd_molecules *m, int32_t a, int32_t b, const int32_t image[2],
                           double until, int32_t *which)
 {
-    const hd_disk *at = &m->disk[a], *to = &m->disk[b];
+    const hd_disk *at = &m->hard.motion.disk[a], *to = &m->hard.motion.disk[b];
     const double t = at->t > to->t ? at->t : to->t;
     path way = {.arm = m->shape.arm};
     double from, end;
     for (int d = 0; d < 2; d++) {
         way.v[d] = to->p[d] - at->p[d];
         way.r[d] = to->q[d] + to->p[d] * (t - to->t) - (at->q[d] + at->p[d] * (t - at->t)) +
-                   image[d] * m->cells.box[d];
+                   image[d] * m->hard.motion.cells.box[d];
     }
     if (!within_reach(&from, &end, &way) || from > until - t) return INFINITY;
     turn_to(&way, m, 0, a, t);
@@ -168,8 +168,8 @@ double hd_meeting_of_pair(const hd_molecules *m, int32_t a, int32_t b, const int
 
 double hd_meeting_of_wall(const hd_molecules *m, int32_t i, int d, double until, int32_t *which)
 {
-    const hd_disk *at = &m->disk[i];
-    path way = {.arm = m->shape.arm, .d = d, .length = m->cells.box[d] - 1.0};
+    const hd_disk *at = &m->hard.motion.disk[i];
+    path way = {.arm = m->shape.arm, .d = d, .length = m->hard.motion.cells.box[d] - 1.0};
     way.v[0] = at->p[d];
     way.r[0] = at->q[d] - 0.5;
     turn_to(&way, m, 0, i, at->t);

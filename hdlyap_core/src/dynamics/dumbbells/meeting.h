@@ -18,7 +18,7 @@ double hd_meeting_of_wall(const hd_molecules *m, int32_t i, int d, double until,
 /** Deeper than this [sigma] no rounding lets two molecules, or one and a wall, meet. */
 static inline double hd_meeting_depth(const hd_molecules *m, double turning)
 {
-    return m->rounding + 4.0 * DBL_EPSILON * m->shape.arm * turning * m->epoch_length;
+    return m->rounding + 4.0 * DBL_EPSILON * m->shape.arm * turning * m->hard.epoch_length;
 }
 
 #endif

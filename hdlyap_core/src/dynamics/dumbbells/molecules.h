@@ -3,9 +3,8 @@
 #ifndef HD_MOLECULES_H
 #define HD_MOLECULES_H
 
-#include "dynamics/hard/cells.h"
 #include "dynamics/hard/contact.h"
-#include "dynamics/hard/queue.h"
+#include "dynamics/hard/hard.h"
 
 /** Third coordinate of a molecule, its angle times the root of the inertia, and the momentum of it;
  * of the time of its centre. */
@@ -21,27 +20,32 @@ typedef struct hd_shape {
 
 enum { HD_MEETS = 4 }; /* two disks with two disks, or with two walls */
 
-/** The earliest event of a molecule. */
-typedef struct hd_next {
-    double contact;              /**< time of its earliest known contact, or INFINITY */
-    int32_t partner;             /**< a molecule, or -1 - direction of a wall */
-    int32_t which;               /**< of HD_MEETS, seen from the lower number */
-    uint32_t partner_collisions; /**< when it was predicted */
-    int32_t image[HD_DIM];       /**< box edges to add to the partner's position */
-    int32_t direction, side;     /**< of the next cell edge */
-} hd_next;
-
 typedef struct hd_molecules {
-    int32_t count;
+    hard hard; /**< their centres; first, as what is the same of all hard bodies has only this */
     hd_shape shape;
-    hd_disk *disk; /**< [count], the centres */
-    hd_spin *spin; /**< [count] */
-    hd_next *next; /**< [count] */
-    hd_cells cells;
-    hd_queue queue;
-    double epoch_length;
+    hd_spin *spin;   /**< [count] */
+    int32_t *which;  /**< [count], HD_MEETS of the next contact, seen from the lower number */
     double rounding; /**< of a gap [sigma] */
 } hd_molecules;
+
+static inline void hd_molecule_move_to(hd_molecules *m, int32_t i, double t)
+{
+    hd_disk *disk = &m->hard.motion.disk[i];
+    m->spin[i].q += m->spin[i].p * (t - disk->t);
+    hd_disk_move_to(disk, t);
+}
+
+static inline double hd_one_turn(const hd_molecules *m, double q)
+{
+    return q - floor(q / m->shape.turn + 0.5) * m->shape.turn;
+}
+
+/** Back into the box, and into one turn; the cell that it is booked in stays. */
+static inline void hd_molecule_fold(hd_molecules *m, int32_t i)
+{
+    hd_cells_fold(&m->hard.motion.cells, &m->hard.motion.disk[i]);
+    m->spin[i].q = hd_one_turn(m, m->spin[i].q);
+}
 
 /** Unit vectors of two angles, (c, s). Within 2 eps, and the same bits everywhere: + - * / alone.
  */
@@ -89,7 +93,7 @@ static inline double hd_sign(int disk) { return disk ? 1.0 : -1.0; }
 static inline void hd_arm_at(double arm[2], const hd_molecules *m, int32_t i, int disk, double t)
 {
     const double rate = m->spin[i].p / m->shape.root;
-    hd_direction(arm, m->spin[i].q / m->shape.root + rate * (t - m->disk[i].t));
+    hd_direction(arm, m->spin[i].q / m->shape.root + rate * (t - m->hard.motion.disk[i].t));
     for (int d = 0; d < 2; d++) arm[d] *= hd_sign(disk) * m->shape.arm;
 }
 

@@ -4,8 +4,6 @@
 
 #include "dynamics/dumbbells/molecules.h"
 
-enum { HD_MEETING, HD_MEETING_WALL, HD_EDGE }; /* kinds, in the order in which they are taken */
-
 /** Predicts all that molecule i can meet, from its present state, and hands the earliest to the
  * queue. A contact later than the one that its partner knows of is left out: the partner looks
  * again then. */

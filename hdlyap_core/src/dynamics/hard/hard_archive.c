@@ -3,7 +3,7 @@
 #include <stdbool.h>
 #include <zlib.h>
 
-#include "dynamics/hard/hard_state.h"
+#include "dynamics/hard/hard.h"
 
 /** Turns around the box within one epoch: more than any speed allows. */
 enum { WRAP_MAX = 1 << 24 };
@@ -44,20 +44,18 @@ static bool in_its_cell(const hard *tr, const hd_disk *disk)
     return !wall->excess || wall->excess(wall, at) <= close;
 }
 
-/** What the disks' numbers are not, or NULL. Of a scene: its energy is N. */
-static const char *inconsistency(const hard *tr)
+const char *hd_hard_inconsistency(const hard *tr, double energy)
 {
     const double since = tr->now - tr->epoch_start;
     if (!(tr->epoch_start >= 0 && since >= 0 && since <= tr->epoch_length))
         return "the time is outside its epoch";
     for (int32_t i = 0; i < tr->motion.count; i++) {
         const hd_disk *disk = &tr->motion.disk[i];
-        if (!(disk->t >= 0 && disk->t <= since)) return "a disk is ahead of its time";
-        if (!in_its_cell(tr, disk)) return "a disk is not in its cell";
+        if (!(disk->t >= 0 && disk->t <= since)) return "a particle is ahead of its time";
+        if (!in_its_cell(tr, disk)) return "a particle is not in its cell";
     }
-    const double excess = hd_hard_kinetic_energy(tr) - tr->motion.count;
-    if (!(fabs(excess) <= ENERGY_CLOSE * tr->motion.count)) return "the energy is wrong";
-    return hd_hard_overlap(tr) > tr->overlap_max ? "disks overlap" : NULL;
+    const double excess = energy - tr->motion.count;
+    return fabs(excess) <= ENERGY_CLOSE * tr->motion.count ? NULL : "the energy is wrong";
 }
 
 static void book(hard *tr)
@@ -73,18 +71,24 @@ static void predict(hard *tr)
     for (int32_t i = 0; i < tr->motion.count; i++) hd_prediction_renew(&tr->motion, i);
 }
 
-void hd_hard_archive(void *state, hd_archive *archive)
+void hd_hard_keep(hard *tr, hd_archive *archive)
 {
-    hard *tr = state;
     hd_archive_double(archive, "trajectory epoch start", &tr->epoch_start);
     hd_archive_double(archive, "trajectory time", &tr->now);
     hd_archive_bits(archive, "trajectory collisions", &tr->collisions);
     hd_archive_bits(archive, "trajectory wall events", &tr->wall_events);
     hd_archive_doubles(archive, "trajectory virial", tr->virial, HD_DIM);
     disks_archive(tr, archive);
+    if (!archive->writing && hd_archive_good(archive)) book(tr);
+}
+
+void hd_hard_archive(void *state, hd_archive *archive)
+{
+    hard *tr = state;
+    hd_hard_keep(tr, archive);
     if (!hd_archive_good(archive)) return;
-    if (!archive->writing) book(tr);
-    const char *fault = inconsistency(tr);
+    const char *fault = hd_hard_inconsistency(tr, hd_hard_kinetic_energy(tr));
+    if (!fault && hd_hard_overlap(tr) > tr->overlap_max) fault = "disks overlap";
     if (fault) hd_archive_refuse(archive, "trajectory", fault);
     if (!archive->writing && hd_archive_good(archive)) predict(tr);
 }

@@ -4,7 +4,7 @@
 
 #include "base/check.h"
 #include "dynamics/hard/events.h"
-#include "dynamics/hard/hard_state.h"
+#include "dynamics/hard/hard.h"
 #include "dynamics/hard/maps.h"
 #include "scene/container.h"
 #include "scene/dynamics.h"
@@ -13,13 +13,13 @@
 
 enum { SAID = 96 }; /* of a container */
 
-static double hard_time(const void *state)
+double hd_hard_time(const void *state)
 {
     const hard *tr = state;
     return tr->now;
 }
 
-static void hard_tell(const void *state, hd_told *told)
+void hd_hard_tell(const void *state, hd_told *told)
 {
     const hard *tr = state;
     *told = (hd_told){.collisions = tr->collisions, .wall_events = tr->wall_events};
@@ -88,52 +88,69 @@ double hd_hard_overlap_rounding(const hard *tr)
     return hd_overlap_rounding(longest, tr->epoch_length);
 }
 
-/** Distance squared from disk i to disk j, `edges` of the box further, now; to itself infinite. */
-static double distance_squared(const hard *tr, int32_t i, int32_t j, const int32_t edges[HD_DIM])
-{
-    const hd_disk *a = &tr->motion.disk[i], *b = &tr->motion.disk[j];
-    double shift[HD_DIM], r[HD_DIM];
-    for (int d = 0; d < HD_DIM; d++)
-        shift[d] = (edges[d] + a->wrap[d] - b->wrap[d]) * tr->motion.cells.box[d];
-    hd_contact_separation(r, a, b, shift, tr->now - tr->epoch_start);
-    return i == j ? INFINITY : hd_contact_dot(r, r);
-}
-
-/** Least distance squared from disk i to the disks of cell n of those around it, now. */
-static double nearest_in_cell(const hard *tr, int32_t i, int n)
+/** Of disk i with the disks of cell n of those around it. */
+static double least_in_cell(const hard *tr, int32_t i, int n,
+                            double (*of)(const hard *, int32_t, int32_t, const double[HD_DIM]))
 {
     const hd_disk *disk = &tr->motion.disk[i];
     const hd_cell *cell = hd_cells_near(&tr->motion.cells, disk, n);
-    int32_t edges[HD_DIM];
-    for (int d = 0; d < HD_DIM; d++)
-        edges[d] = tr->motion.cells.line[d][disk->cell[d]].shift[hd_cells_side(n, d)];
     double least = INFINITY;
-    for (int k = 0; k < cell->count; k++)
-        least = fmin(least, distance_squared(tr, i, cell->disk[k], edges));
-    if (!cell->crowded) return least;
-    int32_t j = cell->disk[HD_CELL_DISKS - 1];
-    while ((j = hd_cells_next(&tr->motion.cells, j)) >= 0)
-        least = fmin(least, distance_squared(tr, i, j, edges));
+    int32_t j = cell->count > 0 ? cell->disk[0] : -1;
+    for (int k = 0; j >= 0;) {
+        double shift[HD_DIM];
+        for (int d = 0; d < HD_DIM; d++) {
+            const int32_t edges =
+                tr->motion.cells.line[d][disk->cell[d]].shift[hd_cells_side(n, d)];
+            shift[d] = (edges + disk->wrap[d] - tr->motion.disk[j].wrap[d]) *
+                       tr->motion.cells.box[d];
+        }
+        least = fmin(least, of(tr, i, j, shift));
+        if (++k < cell->count)
+            j = cell->disk[k];
+        else
+            j = cell->crowded ? hd_cells_next(&tr->motion.cells, j) : -1;
+    }
     return least;
+}
+
+double hd_hard_least(const hard *tr,
+                     double (*of)(const hard *, int32_t, int32_t, const double[HD_DIM]))
+{
+    double least = INFINITY;
+    for (int32_t i = 0; i < tr->motion.count; i++)
+        for (int n = 0; n < HD_CELLS_AROUND; n++) least = fmin(least, least_in_cell(tr, i, n, of));
+    return least;
+}
+
+/** To itself infinite. */
+static double distance_squared(const hard *tr, int32_t i, int32_t j, const double shift[HD_DIM])
+{
+    double r[HD_DIM];
+    hd_contact_separation(r, &tr->motion.disk[i], &tr->motion.disk[j], shift,
+                          tr->now - tr->epoch_start);
+    return i == j ? INFINITY : hd_contact_dot(r, r);
 }
 
 double hd_hard_overlap(const hard *tr)
 {
-    double least = INFINITY;
-    for (int32_t i = 0; i < tr->motion.count; i++)
-        for (int n = 0; n < HD_CELLS_AROUND; n++) least = fmin(least, nearest_in_cell(tr, i, n));
+    const double least = hd_hard_least(tr, distance_squared);
     return least < 1.0 ? 1.0 - sqrt(least) : 0.0;
+}
+
+void hd_hard_examine(const hard *tr, hd_examined *examined)
+{
+    examined->energy_rounding = energy_rounding(tr);
+    examined->angular_momentum = angular_momentum(tr);
+    momentum(tr, examined->momentum);
 }
 
 static void hard_examine(const void *state, hd_examined *examined)
 {
     const hard *tr = state;
-    *examined = (hd_examined){.energy_rounding = energy_rounding(tr),
-                              .angular_momentum = angular_momentum(tr),
-                              .overlap = hd_hard_overlap(tr),
+    *examined = (hd_examined){.overlap = hd_hard_overlap(tr),
                               .overlap_rounding = hd_hard_overlap_rounding(tr),
                               .overlap_max = tr->overlap_max};
-    momentum(tr, examined->momentum);
+    hd_hard_examine(tr, examined);
 }
 
 /** There are start positions. */
@@ -150,7 +167,7 @@ static hd_status hard_check(const hd_scene_def *scene, char *message, size_t siz
 }
 
 /** Pairs of energy and time, and of each conserved momentum. */
-static int hard_zeros(const hd_scene_def *scene)
+int hd_hard_zeros(const hd_scene_def *scene)
 {
     int axis[HD_DIMENSION_MAX + 1];
     return 2 * hd_null_axes(scene, axis);
@@ -176,7 +193,7 @@ const hd_dynamics ROW = {.particles = HD_DIM == 2 ? "disks" : "spheres",
                          .dispersing = true,
                          .fluid = HD_DIM == 2 ? &hd_fluid_disks : &hd_fluid_spheres,
                          .check = hard_check,
-                         .zeros = hard_zeros,
+                         .zeros = hd_hard_zeros,
                          .entries = hd_hard_entries,
                          .rate = hd_hard_rate,
                          .null = hd_null_space_fill,
@@ -185,10 +202,10 @@ const hd_dynamics ROW = {.particles = HD_DIM == 2 ? "disks" : "spheres",
                          .create_from = hd_hard_create_from,
                          .free = hd_hard_free,
                          .advance = hd_hard_advance,
-                         .time = hard_time,
+                         .time = hd_hard_time,
                          .state = hard_state,
                          .kinetic_energy = hd_hard_kinetic_energy,
-                         .tell = hard_tell,
+                         .tell = hd_hard_tell,
                          .examine = hard_examine,
                          .archive = hd_hard_archive,
                          .fingerprint = hd_hard_fingerprint,

@@ -1,80 +1,17 @@
-/** States of the disks -> the earliest event of each. See trajectory.c for the scheme. One thread.
- */
+/** States of the disks -> the earliest event of each. See hard.c for the scheme. One thread. */
 #include "dynamics/hard/prediction.h"
 
-#include <math.h>
-#include <stdbool.h>
-
-#include "dynamics/hard/nearby.h"
-
-/** The order of two contacts of disk i at the same time: by partner, then by image as seen from the
- * disk with the lower number. */
-static bool comes_first(int32_t i, int32_t j, const int32_t image[HD_DIM], const prediction *other)
-{
-    if (j != other->partner) return j < other->partner;
-    const int32_t sign = i < j ? 1 : -1;
-    int d = HD_DIM - 1;
-    while (d > 0 && image[d] == other->image[d]) d--;
-    return sign * image[d] < sign * other->image[d];
-}
-
-/** Lowers the prediction of disk i to its contact with number k of those nearby, if that is
- * earlier. */
-static void predict_contact(hd_motion *m, int32_t i, const hd_nearby *near, int k, double contact)
-{
-    prediction *best = &m->predicted[i];
-    const int32_t j = near->disk[k];
-    const hd_disk *b = &m->disk[j];
-    int32_t image[HD_DIM];
-    for (int d = 0; d < HD_DIM; d++) image[d] = near->image[d][k] - b->wrap[d];
-    if (!(contact < INFINITY && contact <= best->contact)) return;
-    if (contact == best->contact && !comes_first(i, j, image, best)) return;
-    best->contact = contact;
-    best->partner = j;
-    best->partner_collisions = b->collisions;
-    for (int d = 0; d < HD_DIM; d++) best->image[d] = image[d];
-}
+enum { HD_WALL_CONTACTS = 0 };
+#include "dynamics/hard/predict.h"
 
 /** Lowers the prediction of disk i by its contacts with those nearby. */
 static void predict_nearby(hd_motion *m, int32_t i, hd_nearby *near)
 {
     double contact[HD_NEARBY_MAX + HD_NEARBY_SPARE];
     const int first = hd_nearby_contacts(contact, near, m->disk, i, m->cells.box);
-    if (first >= 0) predict_contact(m, i, near, first, contact[first]);
+    if (first >= 0) (void)predict_contact(m, i, near, first, contact[first]);
     if (first != HD_NEARBY_TIED) return;
-    for (int k = 0; k < near->count; k++) predict_contact(m, i, near, k, contact[k]);
-}
-
-/** Lowers the prediction of disk i by its contacts with those that have no place in cell number k
- * of those around. */
-static void predict_listed(hd_motion *m, int32_t i, int k)
-{
-    const hd_disk *disk = &m->disk[i];
-    const hd_cell *cell = hd_cells_near(&m->cells, disk, k);
-    if (!cell->crowded) return;
-    hd_nearby near;
-    for (int32_t j = cell->disk[HD_CELL_DISKS - 1]; j >= 0;) {
-        j = hd_nearby_listed(&near, &m->cells, disk, k, j);
-        predict_nearby(m, i, &near);
-    }
-}
-
-static void predict_around(hd_motion *m, int32_t i)
-{
-    hd_nearby near;
-    hd_nearby_around(&near, &m->cells, &m->disk[i]);
-    predict_nearby(m, i, &near);
-    if (near.crowded)
-        for (int k = 0; k < HD_CELLS_AROUND; k++) predict_listed(m, i, k);
-}
-
-static void predict_beside(hd_motion *m, int32_t i, int d, int side)
-{
-    hd_nearby near;
-    hd_nearby_beside(&near, &m->cells, &m->disk[i], d, side);
-    predict_nearby(m, i, &near);
-    if (near.crowded)
-        for (int k = 0; k < HD_CELLS_BESIDE; k++) predict_listed(m, i, hd_cells_beside(k, d, side));
+    for (int k = 0; k < near->count; k++) (void)predict_contact(m, i, near, k, contact[k]);
 }
 
 /** The first contact of disk i: pairs at the same time come before it, by its number. */
@@ -82,48 +19,6 @@ static void predict_round_wall(hd_motion *m, int32_t i)
 {
     m->predicted[i] = (prediction){.contact = hd_round_wall_time(&m->wall, &m->disk[i]),
                                    .partner = m->count};
-}
-
-/** Time at which the disk reaches the edge of its cell (or the wall) in direction d. */
-static double edge_time(const hd_motion *m, const hd_disk *disk, int d)
-{
-    const hd_cell_line *line = &m->cells.line[d][disk->cell[d]];
-    const double edge = line->bound[disk->p[d] > 0] + disk->wrap[d] * m->cells.box[d];
-    const double wait = (edge - disk->q[d]) / disk->p[d];
-    const double t = disk->t + (wait > 0 ? wait : 0.0); /* 0: already there within rounding */
-    return disk->p[d] == 0 ? INFINITY : t;
-}
-
-static bool is_wall(const hd_motion *m, const hd_disk *disk, int d, int32_t side)
-{
-    return m->cells.line[d][disk->cell[d]].near[side] == m->cells.size[d];
-}
-
-/** Predicts the next edge and hands the disk's earliest event to the queue; no branch depends on
- * it. */
-static void schedule(hd_motion *m, int32_t i)
-{
-    const hd_disk *disk = &m->disk[i];
-    prediction *next = &m->predicted[i];
-    double edge[HD_DIM];
-    int32_t side[HD_DIM];
-    int wall[HD_DIM], d = 0;
-    for (int e = 0; e < HD_DIM; e++) {
-        edge[e] = edge_time(m, disk, e);
-        side[e] = HIGH * (disk->p[e] > 0);
-        wall[e] = is_wall(m, disk, e, side[e]);
-    }
-    for (int e = 1; e < HD_DIM; e++) {
-        const int first = (edge[e] < edge[d]) | ((edge[e] == edge[d]) & (wall[e] > wall[d]));
-        d += first * (e - d);
-    }
-    const int32_t j = next->partner;
-    next->direction = d;
-    next->side = side[d];
-    const hd_queue_key key[2] = {
-        {edge[d], hd_queue_order(wall[d] ? WALL : EDGE, i, -1 - d)},
-        {next->contact, hd_queue_order(PAIR, i < j ? i : j, i < j ? j : i)}};
-    hd_queue_put(&m->queue, i, key[(next->contact < INFINITY) & (next->contact <= edge[d])]);
 }
 
 void hd_prediction_renew(hd_motion *m, int32_t i)

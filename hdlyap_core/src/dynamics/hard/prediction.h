@@ -1,4 +1,4 @@
-/** The earliest event of each disk, from the states of its neighbours. See trajectory.c for the
+/** The earliest event of each disk, from the states of its neighbours. See hard.c for the
  * scheme. */
 #ifndef HD_PREDICTION_H
 #define HD_PREDICTION_H
@@ -13,7 +13,7 @@ enum { LOW = 0, HIGH = 2 }; /* sides of a cell, as in hd_cell_line */
 
 typedef struct prediction {
     double contact;              /**< time of the earliest known contact, or INFINITY */
-    int32_t partner;             /**< hd_motion.count: the round wall */
+    int32_t partner;             /**< hd_motion.count: the round wall; see HD_WALL_CONTACTS */
     uint32_t partner_collisions; /**< when it was predicted */
     int32_t image[HD_DIM];       /**< box edges to add to the partner's position */
     int32_t direction, side;     /**< of the next cell edge or wall */
