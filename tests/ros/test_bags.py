@@ -227,6 +227,16 @@ class Recorded(harness.Case):
         self.assertLessEqual({'z', 'dpz', 'p_over_pz', 'nz', 'null_z', 'boundary_z'}, names)
         self.assertEqual((self.infos[1].aspect_z, set(self.infos[1].wave_nz)), (1.0, {0}))
 
+    def test_disks_do_not_turn(self):
+        """They have no angles; numbers of these are 0."""
+        state, field = self.of_run('state', 1)[-1], self.of_run('fields', 1)[-1]
+        arrays = [state.angle, state.spin, field.angle, field.spin, field.dq_angle, field.dp_angle]
+        self.assertEqual(set(map(len, arrays)), {0})
+        self.assertEqual({mode.rotation for mode in self.of_run('modes', 1)[-1].modes}, {0.0})
+        info = self.infos[1]
+        self.assertEqual(info.inertia, 0.0)
+        self.assertAlmostEqual(info.packing_fraction, info.density * math.pi / 4, places=14)
+
     def test_sizes_in_guide(self):
         """Of the paper's scene: 8 waves along an axis or not, each T and LP, and the zero modes."""
         with open(GUIDE) as file:

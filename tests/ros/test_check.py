@@ -153,6 +153,9 @@ class Check(harness.Case):
         for density, said in ((0.87, False), (1.0, True)):
             done = checked(self.file_of(dict(number=16, density=density)))
             self.assertEqual('disks may keep their places at this density' in done.stdout, said)
+        for density, said in ((0.74, False), (0.76, True)):
+            done = checked(self.file_of(dict(number=16, density=density, particles='dumbbells')))
+            self.assertEqual('dumbbells may keep their places' in done.stdout, said)
 
     def test_scenes(self):
         """With all kinds of stages; those that are large are made small."""

@@ -81,6 +81,7 @@ class Launch(harness.Case):
             'densty:=0.5': 'densty = 0.5: must be an argument of run.launch; is density meant?',
             'warmup:=5': 'warmup = 5: must be in params:="{warmup: ..}", as run.launch has no',
             'xyz:=5': 'xyz = 5: must be an argument of run.launch\n',
+            'bond:=0.5': 'bond = 0.5: must be in params:="{bond: ..}", as run.launch has no',
             'file:=5': 'file = 5: must be an argument of run.launch',
             'scene:=quikc': 'scene = quikc: must be one of circle, circle_quick, covariant, ',
             'scene:=no.yaml': 'scene = no.yaml: must be a YAML file of parameters: ',

@@ -77,6 +77,15 @@ class Grid(unittest.TestCase):
         )
         self.assertEqual(self.runs(seeds='3')[0].parameters['scene'], 'quick')
 
+    def test_of_dumbbells(self):
+        """Their own parameters are given in params, or have their defaults; disks have none."""
+        how = dict(scene='dumbbells', seeds='1', params='{bond: 0.5}')
+        (one,) = self.runs(**how)
+        self.assertEqual((one.parameters['bond'], one.parameters['inertia']), (0.5, 'disks'))
+        self.assertNotIn('bond', self.runs(seeds='1')[0].parameters)
+        with self.assertRaisesRegex(Refused, 'bond = 0.5: must be a parameter of hdlyap_node'):
+            self.runs(seeds='1', params='{bond: 0.5}')
+
     def test_large_systems_are_most_of_the_work(self):
         """By which progress and the time that is left are told."""
         small, large = (one.seconds - run.BEGIN for one in self.runs(numbers='100 200'))

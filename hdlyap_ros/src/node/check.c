@@ -17,10 +17,11 @@ enum { REFUSED = 2, FAULT = 3 };
 
 /** The recorder is sent no more reports a second. */
 static const double reports_per_second = 960.0;
-/** From here on disks have been seen to keep their places [T8]. */
-static double density_of_cages(const hd_scene_def *def)
+/** As dense as disks, spheres and what turns have been seen to keep their places [T8]. */
+static bool may_be_caged(const hd_scene_def *def)
 {
-    return hd_scene_dimension(def) == 2 ? 0.88 : 0.9;
+    if (hd_scene_inertia(def) > 0) return hd_scene_packing(def) >= 0.78;
+    return def->density >= (hd_scene_dimension(def) == 2 ? 0.88 : 0.9);
 }
 
 /* ---- what is printed ------------------------------------------------------------------------ */
@@ -200,7 +201,7 @@ static void print_errors(const settings *set, const hd_estimate *t)
     if (steps) print_slopes(set, t);
     if (set->def.duration > 0 && set->def.duration < t->errors_after)
         printf("          The duration is too short for any error.\n");
-    if (set->def.density >= density_of_cages(&set->def))
+    if (may_be_caged(&set->def))
         printf("          %s may keep their places at this density, as in a crystal: then errors "
                "are those of one state,\n          and other seeds may differ by more (~status: "
                "caged).\n",

@@ -32,9 +32,10 @@ def _names(path):
 
 
 def _wanted(name, known):
-    if name in run.usual():
+    all_of_node = {*run.usual(), *(own for one in run.own().values() for own in one)}
+    if name in all_of_node:
         return f'in params:="{{{name}: ..}}", as run.launch has no argument of this name'
-    meant = difflib.get_close_matches(name, [*known, *run.usual()], 1)
+    meant = difflib.get_close_matches(name, [*known, *all_of_node], 1)
     return 'an argument of run.launch' + ''.join(f'; is {close} meant?' for close in meant)
 
 

@@ -5,6 +5,7 @@ import contextlib
 import functools
 from math import isfinite
 import os
+import re
 import subprocess
 
 import yaml
@@ -25,6 +26,7 @@ OF_ONE = 'checkpoint', 'resume'  # parameters that runs cannot share
 HERE = ('threads', 'wait_for_subscribers', *OF_ONE)
 # seconds, about: to come up; of a time unit with 200 disks on one core, as their square
 BEGIN, STEP, DISKS = 5.0, 0.03, 200
+OWN = re.compile(r'^# Of (\w+) alone\.\n(?:# .*\n)*?# (\w+): (\S+)$', re.MULTILINE)
 
 
 class Planned:
@@ -119,7 +121,7 @@ def _same(one, other):
 
 
 def _check(parameters):
-    known = usual()
+    known = completed({'particles': parameters['particles']})
     for name, value in parameters.items():
         if name not in known:
             raise Refused(f'{name} = {value}: must be a parameter of hdlyap_node')
@@ -144,10 +146,30 @@ def _estimate(parameters):
 
 
 @functools.lru_cache(maxsize=None)
+def _said():
+    asked = [ranks.node(), '--parameters']
+    return subprocess.run(asked, check=True, stdout=subprocess.PIPE, text=True).stdout
+
+
+@functools.lru_cache(maxsize=None)
 def usual():
     """The default of every parameter, as the node says."""
-    asked = [ranks.node(), '--parameters']
-    return yaml.safe_load(subprocess.run(asked, check=True, stdout=subprocess.PIPE).stdout)
+    return yaml.safe_load(_said())
+
+
+@functools.lru_cache(maxsize=None)
+def own():
+    """{particles: {name: default}} of the parameters of particles alone."""
+    found = {}
+    for particles, name, value in OWN.findall(_said()):
+        found.setdefault(particles, {})[name] = yaml.safe_load(value)
+    return found
+
+
+def completed(given):
+    """With the defaults of all others."""
+    particles = given.get('particles', usual()['particles'])
+    return {**usual(), **own().get(particles, {}), **given}
 
 
 def is_solid(parameters):

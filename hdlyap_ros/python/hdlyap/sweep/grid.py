@@ -90,7 +90,7 @@ def runs(given, launch, cwd):
         twice = set(swept.parameters) & set(scene.mapping('params', given['params']))
         if twice:
             raise Refused(f'params = {given["params"]}: must be without {min(twice)}: it is swept')
-    base = {**run.usual(), **base}
+    base = run.completed(base)
     return [_run(base, chosen) for chosen in itertools.product(*chosen.values())]
 
 

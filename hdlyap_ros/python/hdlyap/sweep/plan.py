@@ -47,7 +47,7 @@ def _run(path, name, entry, quick, launch):
         base = scene.scene_file(str(entry['base']), launch, os.path.dirname(os.path.abspath(path)))
         asked = {key: value for key, value in entry.items() if key not in OWN}
         asked.update(entry.get('quick' if quick else 'full', {}))
-        parameters = {**run.usual(), **base, 'threads': 1, 'scene': name, **asked}
+        parameters = run.completed({**base, 'threads': 1, 'scene': name, **asked})
         parameters = {str(key): scene.fitting(value) for key, value in parameters.items()}
         return Planned(name, parameters, _seconds(entry, quick))
     except Refused as refused:
