@@ -33,6 +33,7 @@ ALL_L, ALL_P = to_rgb('#E69F00'), to_rgb('#661F05')  # an LP mode, as in rviz
 DISK = '#DCDCDC'
 SPHERE, DOT = '#8C8C8C', 0.3  # drawn smaller, as those in front would hide the others [sigma]
 PALE = 0.3  # part of white in a vector that is of an earlier time
+COLOURS, SHADES = 24, 64  # of a GIF, and of one of what turns
 CODECS = {
     '.mp4': (
         'libx264',
@@ -42,7 +43,7 @@ CODECS = {
         'gif',
         [
             '-filter_complex',
-            'split [a][b]; [a] palettegen=max_colors=24 [p]; [b][p] paletteuse=dither=none',
+            'split [a][b]; [a] palettegen=max_colors={colours} [p]; [b][p] paletteuse=dither=none',
         ],
     ),
 }
@@ -201,6 +202,7 @@ def write(film, path, pace, fps, width=None):
     if not FFMpegWriter.isAvailable():
         raise RecordingError('there is no ffmpeg; install it (Debian and Ubuntu: ffmpeg)')
     codec, options = CODECS[suffix]
+    options = [one.format(colours=SHADES if space.turns(film.info) else COLOURS) for one in options]
     writer, total = FFMpegWriter(fps, codec, extra_args=options), film.count(every)
     try:
         with rc_context({'savefig.bbox': None}), whole.written(path) as unfinished:
