@@ -12,9 +12,9 @@ from .deviation import unlikeliest
 from .report import origin, system
 
 AGREE, DIFFER = 0, 1  # exit status
-# Of runs of one system at most two pairs in a hundred are said to differ, of which these are due to
+# Of pairs of runs of one system at most so many are said to differ, of which these are due to
 # any of the steps, to any of the numbers, and to the spectrum.
-CHANCE, STEPS, NUMBERS, SPECTRUM = 0.02, 0.012, 0.004, 0.004
+CHANCE, STEPS, NUMBERS, SPECTRUM = 0.015, 0.01, 0.003, 0.002
 LARGEST = 8  # deviations in the list
 # Averaged time in units of 1 / the smallest positive exponent below which the blocks of an error
 # may be shorter than what fluctuates.
