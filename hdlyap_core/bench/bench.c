@@ -9,8 +9,11 @@
 #include <hdlyap/hdlyap.h>
 #include <stdio.h>
 #include <string.h>
+#include <time.h>
 
+#include "dynamics/dumbbells/next.h"
 #include "dynamics/dynamics.h"
+#include "dynamics/trajectory_state.h"
 #include "gemm.h"
 #include "options.h"
 #include "progress.h"
@@ -141,6 +144,21 @@ static void whole_run(const asked *a, char **argv)
     hd_run_free(run);
 }
 
+/** Of the process: what other jobs take does not count. */
+static double busy_seconds(void) { return (double)clock() / CLOCKS_PER_SEC; }
+
+/** Seconds in which both molecules of a collision are predicted anew, with all searches for their
+ * contacts: of a state, the mean of all. */
+static double predicting(const hd_trajectory *trajectory)
+{
+    hd_molecules *m = trajectory->state;
+    const int32_t count = m->hard.motion.count, rounds = 1 + 200000 / count;
+    const double start = busy_seconds();
+    for (int32_t k = 0; k < rounds; k++)
+        for (int32_t i = 0; i < count; i++) hd_next_renew(m, i);
+    return 2.0 * (busy_seconds() - start) / ((double)rounds * count);
+}
+
 /** Million collisions a second; told but for the end of the line. */
 static double events_alone(const asked *a, int disks, double density, double collisions)
 {
@@ -151,12 +169,15 @@ static double events_alone(const asked *a, int disks, double density, double col
     const double length = collisions / hd_trajectory_told(trajectory).expected;
     require(hd_trajectory_extend(trajectory, NULL, length),
             "trajectory"); /* away from the lattice */
-    const double first = (double)hd_trajectory_told(trajectory).collisions, start = seconds();
+    const double first = (double)hd_trajectory_told(trajectory).collisions, start = seconds(),
+                 began = busy_seconds();
     require(hd_trajectory_extend(trajectory, NULL, 2.0 * length), "trajectory");
     const double count = (double)hd_trajectory_told(trajectory).collisions - first,
-                 rate = count / (seconds() - start) * 1e-6;
+                 rate = count / (seconds() - start) * 1e-6, busy = busy_seconds() - began;
     printf("%9d %-9s %9.2f %12.0f %22.2f", disks, hd_dynamics_of(&scene)->particles, density, count,
            rate);
+    if (hd_dynamics_of(&scene)->coordinates > hd_scene_dimension(&scene))
+        printf(" %4.0f %% of it predicting", 100.0 * count * predicting(trajectory) / busy);
     hd_trajectory_free(trajectory);
     return rate;
 }

@@ -50,8 +50,8 @@ ALWAYS void pair_gaps(gaps *out, const path *way, double h)
 {
     const quad a = {-1, 1, -1, 1}, b = {-1, -1, 1, 1};
     hd_pair c, s;
-    hd_directions(&c, &s,
-                  (hd_pair){way->angle[0] + way->omega[0] * h, way->angle[1] + way->omega[1] * h});
+    hd_headings(&c, &s,
+                (hd_pair){way->angle[0] + way->omega[0] * h, way->angle[1] + way->omega[1] * h});
     const double rx = way->r[0] + way->v[0] * h, ry = way->r[1] + way->v[1] * h;
     const double ex = way->arm * c[0], ey = way->arm * s[0], fx = way->arm * c[1],
                  fy = way->arm * s[1], eo = way->omega[0], fo = way->omega[1];
@@ -67,7 +67,7 @@ ALWAYS void pair_gaps(gaps *out, const path *way, double h)
 ALWAYS void wall_gaps(gaps *out, const path *way, double h)
 {
     double e[2];
-    hd_direction(e, way->angle[0] + way->omega[0] * h);
+    hd_heading(e, way->angle[0] + way->omega[0] * h);
     const double at = way->r[0] + way->v[0] * h, arm = way->arm * e[way->d],
                  turns = way->arm * way->omega[0] * (way->d == 0 ? -e[1] : e[0]), v = way->v[0],
                  low = at - arm, high = at + arm;

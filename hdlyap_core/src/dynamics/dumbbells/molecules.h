@@ -49,7 +49,7 @@ static inline void hd_molecule_fold(hd_molecules *m, int32_t i)
 
 /** Unit vectors of two angles, (c, s). Within 2 eps, and the same bits everywhere: + - * / alone.
  */
-static inline void hd_directions(hd_pair *c, hd_pair *s, hd_pair angle)
+static inline void hd_headings(hd_pair *c, hd_pair *s, hd_pair angle)
 {
     static const double quarter[3] = {1.57079632673412561417e+00, 6.07710050630396597660e-11,
                                       2.02226624879595063154e-21}; /* of a turn, in parts */
@@ -78,10 +78,10 @@ static inline void hd_directions(hd_pair *c, hd_pair *s, hd_pair angle)
     *s = (hd_pair)((hd_pair_mask)hd_pair_where(swap, even, odd) ^ (((quadrant & 2) != 0) & sign));
 }
 
-static inline void hd_direction(double e[2], double angle)
+static inline void hd_heading(double e[2], double angle)
 {
     hd_pair c, s;
-    hd_directions(&c, &s, hd_pair_both(angle));
+    hd_headings(&c, &s, hd_pair_both(angle));
     e[0] = c[0];
     e[1] = s[0];
 }
@@ -93,7 +93,7 @@ static inline double hd_sign(int disk) { return disk ? 1.0 : -1.0; }
 static inline void hd_arm_at(double arm[2], const hd_molecules *m, int32_t i, int disk, double t)
 {
     const double rate = m->spin[i].p / m->shape.root;
-    hd_direction(arm, m->spin[i].q / m->shape.root + rate * (t - m->hard.motion.disk[i].t));
+    hd_heading(arm, m->spin[i].q / m->shape.root + rate * (t - m->hard.motion.disk[i].t));
     for (int d = 0; d < 2; d++) arm[d] *= hd_sign(disk) * m->shape.arm;
 }
 
