@@ -210,6 +210,16 @@ class Figures(Dumbbells):
         np.testing.assert_allclose(arrows.get_offsets().T, [X, Y])
         self.assertIn('green ones to the left', axes.figure._suptitle.get_text())
 
+    def test_channel(self):
+        """Three components, the mean square of all together being one."""
+        info, one = dumbbells(box_x=25.0, box_y=1.6), field()
+        messages = made.spectrum(np.linspace(9, 3, 57), 50.0), made.steps(FOUND)
+        (axes,) = modes.draw(self.recorded([info, *messages, one])).axes
+        for line, name in zip(axes.lines, ('x', 'y', 'angle')):
+            values = np.array(getattr(one, 'dq' + (name if len(name) == 1 else '_' + name)))
+            np.testing.assert_allclose(line.get_ydata(), values / strength(one))
+        self.assertNotIn('green', axes.figure._suptitle.get_text())
+
 
 class Films(Dumbbells):
     def test_molecules(self):

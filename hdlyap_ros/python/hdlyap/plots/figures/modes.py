@@ -44,15 +44,15 @@ def draw(recording):
     panels = chosen(recording)
     if not panels:
         return None
-    info = recording.info
+    info, more = recording.info, f'\n$t={panels[0].field.sim_time:g}$: $\\delta q$'
     if space.is_solid(info):
         figure = solid_modes.draw_panels(panels, info)
     elif min(info.box_x, info.box_y) < CHANNEL:
         figure = _channel(panels, info)
     else:
         figure = draw_panels(panels, info)
-    colours = ', the vector turns green ones to the left, purple ones to the right'
-    more = f'\n$t={panels[0].field.sim_time:g}$: $\\delta q$' + colours * space.turns(info)
+        colours = ', the vector turns green ones to the left, purple ones to the right'
+        more += colours if space.turns(info) else ''
     return titled(figure, info, more=more)
 
 
@@ -132,22 +132,23 @@ def _arrows(axes, panel, info, as_pixels):
 
 
 def _channel(panels, info):
-    """In a channel: both components along it, normalised to a mean square of one."""
+    """In a channel: the components along it, normalised to a mean square of one."""
     alike = {'sharex': True, 'sharey': True, 'squeeze': False}
     figure, rows = grid_of(len(panels), 1, WIDTH, 1.35 * len(panels) + 0.6, **alike)
     along = 'x' if info.box_x >= info.box_y else 'y'
     for axes, panel in zip(rows.flat, panels):
         field = panel.field
-        dq = np.array([field.dqx, field.dqy])
-        dq *= np.sqrt(len(field.x) / np.sum(np.square(dq)))
-        for component, axis, colour, marker in zip(dq, 'xy', MEMBER_COLOURS, 'os'):
-            look = {'markersize': 3, 'color': colour, 'label': rf'$\delta q_{axis}$'}
+        dq = np.array([field.dqx, field.dqy, *[field.dq_angle] * space.turns(info)])
+        names = 'x', 'y', r'\phi'
+        for component, name, colour, marker in zip(dq, names, MEMBER_COLOURS, 'os^'):
+            component /= strength(field)
+            look = {'markersize': 3, 'color': colour, 'label': rf'$\delta q_{{{name}}}$'}
             axes.plot(getattr(field, along), component, marker, **look)
         axes.axhline(0, color=GREY, linewidth=0.5)
         axes.set_title(panel.title, fontsize=8)
         axes.set_xlim(0, max(info.box_x, info.box_y))
         axes.set_ylabel(r'$\delta q$ / rms', fontsize=7)
     close = {'borderpad': 0, 'handletextpad': 0.2, 'columnspacing': 1}
-    rows.flat[0].legend(ncol=2, loc='lower right', bbox_to_anchor=(1, 0.97), **close)
+    rows.flat[0].legend(ncol=3, loc='lower right', bbox_to_anchor=(1, 0.97), **close)
     rows.flat[-1].set_xlabel(rf'${along}$  [$\sigma$]')
     return figure
