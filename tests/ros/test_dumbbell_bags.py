@@ -208,7 +208,7 @@ class Figures(Dumbbells):
         np.testing.assert_allclose(circles.get_facecolors()[:, :3], np.tile(wanted, (2, 1)))
         np.testing.assert_allclose(arrows.U, modes.ARROW * one.dqx / strength(one))
         np.testing.assert_allclose(arrows.get_offsets().T, [X, Y])
-        self.assertIn('green ones to the left', axes.figure._suptitle.get_text())
+        self.assertIn('turns green to the left', axes.figure._suptitle.get_text())
 
     def test_channel(self):
         """Three components, the mean square of all together being one."""

@@ -51,7 +51,7 @@ def draw(recording):
         figure = _channel(panels, info)
     else:
         figure = draw_panels(panels, info)
-        colours = ', the vector turns green ones to the left, purple ones to the right'
+        colours = ', turns green to the left, purple to the right'
         more += colours if space.turns(info) else ''
     return titled(figure, info, more=more)
 
