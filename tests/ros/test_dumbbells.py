@@ -124,6 +124,25 @@ class Dumbbells(harness.Case):
         self.assertLess(max(t[-2:]), 0.1)
         self.assertGreater(last[N].rotation, 0.2)
 
+    def test_reconstructed_modes(self):
+        """Their places alone are no farther from the fields than all: P has A times spin, too."""
+        root, compared = math.sqrt(self.info.inertia), 0
+        for field in self.messages['fields']:
+            phase = 2 * np.pi * field.nx * np.array(field.x) / self.box[0]
+            p = of(field, 'px', 'py', 'spin') * [[1], [1], [root]]
+            for pair in range(field.pairs if field.ny == 0 else 0):
+                sine, own = field.modulation[pair], slice(pair * N, (pair + 1) * N)
+                a, along = (
+                    (np.sin(phase), np.cos(phase)) if sine else (np.cos(phase), -np.sin(phase))
+                )
+                wanted = np.array([along, 0 * a]), (a * p)
+                for name, want, residual in zip('lp', wanted, (field.residual_l, field.residual_p)):
+                    want = (want / np.linalg.norm(want))[:2]
+                    got = of(field, name + '_x', name + '_y')[:, own]
+                    self.assertLessEqual(np.linalg.norm(got - want), residual[pair] + ROUNDING)
+                    compared += 1
+        self.assertGreater(compared, 20)
+
     def test_spectrum(self):
         last = self.messages['spectrum'][-1]
         exponents = np.array(last.exponents)
