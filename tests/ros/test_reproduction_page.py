@@ -83,7 +83,7 @@ class Page(unittest.TestCase):
             '\n1. a part\n'
             '               published  measured  unit  verdict       caught     remark\n'
             '  agrees: it is small, one (1 value; criterion, ours: the same)\n'
-            '      disks    20         20              agrees        any other\n'
+            '      number   20         20              agrees        any other\n'
             '      seed     -          -               not measured\n'
             '  differs: it is large, one (1 value; criterion, ours: the same)\n'
             '      vectors  5          4               differs       any other\n'
