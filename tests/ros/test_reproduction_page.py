@@ -102,7 +102,7 @@ class Page(unittest.TestCase):
         lines = self.read('rows.csv').splitlines()
         self.assertEqual(lines[0], ','.join(HEADER))
         first = (
-            '1,the paper,,,"it is small, one",the same,ours,agrees,disks,20,,20,,,agrees,any other,'
+            '1,the paper,,,"it is small, one",the same,ours,agrees,number,20,,20,,,agrees,any other,'
         )
         self.assertEqual([lines[1], lines[4]], [first, '1,beside,,,more,,,,seed,,,1,,,,,'])
 
