@@ -3,7 +3,7 @@
 # expects the same events of every program.
 cmake_minimum_required(VERSION 3.16)
 
-file(GLOB SOURCES ${CORE}/src/base/*.c ${CORE}/src/scene/*.c ${CORE}/src/dynamics/*.c)
+file(GLOB SOURCES ${CORE}/src/base/*.c ${CORE}/src/scene/*.c ${CORE}/src/dynamics/*.c ${CORE}/src/dynamics/soft/*.c)
 list(FILTER SOURCES EXCLUDE REGEX "/(blas|gas)\\.c$") # which no event knows of
 file(GLOB HARD ${CORE}/src/dynamics/hard/*.c)
 file(GLOB DUMBBELLS ${CORE}/src/dynamics/dumbbells/*.c)

@@ -121,7 +121,8 @@ class Launch(harness.Case):
                     (['particles:=disks'], 'scene mine: 16 disks in '),
                     (
                         ['particles:=cubes'],
-                        'particles = cubes: must be disks, spheres or dumbbells',
+                        'particles = cubes: must be disks, spheres, dumbbells, '
+                        'soft_disks or soft_spheres',
                     ),
                 )
             ):

@@ -31,6 +31,7 @@ typedef struct hd_told {
 
 /** How exact the present state is. */
 typedef struct hd_examined {
+    double energy_error; /**< relative, of the energy; the row's function of that name has it */
     /** More than rounding makes of the relative error of the energy: each event so far rounds the
      * energy of its disks by some eps, and the roundings add up as a random walk. Seen: 0.01 of
      * this. */
@@ -77,6 +78,9 @@ struct hd_dynamics {
      * disperse: then the frame may be orthonormalised in dq alone, which is faster [T6]. May be
      * left out. */
     bool dispersing;
+    /** Momenta only set the pace, as of hard bodies: (p, 0) and (0, p) are null vectors, and the
+     * null space is orthogonal to all others [T9]. May be left out. */
+    bool paces;
 
     const hd_parameter *parameter; /**< [parameters], of its own: see HD_OWN */
     int parameters;                /**< HD_OWN_MAX at most */
@@ -95,6 +99,8 @@ struct hd_dynamics {
      * which tangent vectors grow by about e. First intervals are 2 such times of one particle long,
      * none is longer than 60, errors take blocks of 8 at least. */
     double (*rate)(const hd_scene_def *scene);
+    /** Of what moves in steps their length [time units]. May be left out. */
+    double (*step)(const hd_scene_def *scene);
     /** Time that a disturbance takes through all of them: blocks of averages are no shorter. May
      * be left out. */
     double (*crossing)(const hd_scene_def *scene);
@@ -131,6 +137,8 @@ struct hd_dynamics {
      * be left out; then there is none. */
     void (*tell)(const void *state, hd_told *told);
     void (*examine)(const void *state, hd_examined *examined); /**< of the same; may be left out */
+    /** Relative error of the energy now; may be left out where all is kinetic and N. */
+    double (*energy_error)(const void *state);
     /** Each array of the state, one hd_archive_doubles after the other, whether it is written or
      * read. What follows from them is made anew. */
     void (*archive)(void *state, hd_archive *archive);

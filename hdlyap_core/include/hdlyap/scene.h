@@ -11,9 +11,16 @@
 HD_API_BEGIN
 
 /** What moves: hard disks in the plane, or hard spheres in space, which are called disks as well;
- * or rigid pairs of disks, two of diameter 1 and mass 1 together. Where comments say 4N and 2N,
+ * or rigid pairs of disks, two of diameter 1 and mass 1 together; or what pulls and pushes each
+ * other smoothly, in the plane and in space, and moves in steps. Where comments say 4N and 2N,
  * there are 6N and 3N of spheres. */
-typedef enum hd_particles { HD_DISKS, HD_SPHERES, HD_DUMBBELLS } hd_particles;
+typedef enum hd_particles {
+    HD_DISKS,
+    HD_SPHERES,
+    HD_DUMBBELLS,
+    HD_SOFT_DISKS,
+    HD_SOFT_SPHERES
+} hd_particles;
 
 /** Of the spaces that particles move in; arrays with one entry for each direction have room for so
  * many. */

@@ -36,7 +36,8 @@ HD_API_BEGIN
     X(HD_OVERLAP, "two disks overlap by more than rounding")                                       \
     X(HD_FILE_FAULT, "a file could not be read or written")                                        \
     X(HD_NO_ROOM, "windows of covariant vectors do not fit covariant_memory")                      \
-    X(HD_RANKS_APART, "ranks have computed different trajectories")
+    X(HD_RANKS_APART, "ranks have computed different trajectories")                                \
+    X(HD_ENERGY_LOST, "the energy is not conserved: the time step is too long")
 
 typedef enum hd_status {
 #define HD_STATUS_NAME(name, text) name,

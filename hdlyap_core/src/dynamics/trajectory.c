@@ -114,7 +114,11 @@ double hd_trajectory_kinetic_energy(const hd_trajectory *tr)
 hd_examined hd_trajectory_examined(const hd_trajectory *tr)
 {
     hd_examined examined = {.overlap = 0.0};
-    if (tr->of->examine) tr->of->examine(tr->state, &examined);
+    if (!tr->of->examine) return examined;
+    tr->of->examine(tr->state, &examined);
+    examined.energy_error = tr->of->energy_error
+                                ? tr->of->energy_error(tr->state)
+                                : hd_trajectory_kinetic_energy(tr) / tr->particles - 1.0;
     return examined;
 }
 

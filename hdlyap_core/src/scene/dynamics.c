@@ -5,7 +5,9 @@
 
 static const hd_dynamics *const rows[] = {[HD_DISKS] = &hd_hard_disks,
                                           [HD_SPHERES] = &hd_hard_spheres,
-                                          [HD_DUMBBELLS] = &hd_dumbbells_row};
+                                          [HD_DUMBBELLS] = &hd_dumbbells_row,
+                                          [HD_SOFT_DISKS] = &hd_soft_disks,
+                                          [HD_SOFT_SPHERES] = &hd_soft_spheres};
 
 const hd_dynamics *hd_dynamics_of(const hd_scene_def *scene)
 {

@@ -4,7 +4,8 @@
 
 #include "hdlyap/dynamics.h"
 
-extern const hd_dynamics hd_hard_disks, hd_hard_spheres, hd_dumbbells_row;
+extern const hd_dynamics hd_hard_disks, hd_hard_spheres, hd_dumbbells_row, hd_soft_disks,
+    hd_soft_spheres;
 
 /** Those of a program's own: row[count]. */
 typedef struct hd_known {

@@ -7,6 +7,7 @@
 
 #include "base/random.h"
 #include "scene/container.h"
+#include "scene/dynamics.h"
 
 int hd_null_axes(const hd_scene_def *def, int *axis)
 {
@@ -16,7 +17,7 @@ int hd_null_axes(const hd_scene_def *def, int *axis)
         if (hd_scene_boundary(def, d) == HD_PERIODIC ||
             (d == HD_NULL_X && hd_container_of(def)->rotates))
             axis[count++] = d;
-    axis[count++] = dimension;
+    if (hd_dynamics_of(def)->paces) axis[count++] = dimension;
     return count;
 }
 

@@ -6,10 +6,10 @@
 
 #include "scene/scene.h"
 
-/** Those that a scene has: directions, then the momenta. */
+/** Those that a scene has: directions, then the momenta where they are one. */
 typedef struct hd_null_space {
     int dimension; /**< of the space, and the number of the momenta among the axes */
-    int count;     /**< half of hd_scene_zero_exponents */
+    int count;     /**< half of hd_scene_zero_exponents, or one less */
     int axis[HD_DIMENSION_MAX + 1];
     bool rotates;  /**< HD_NULL_X is a rotation */
     double centre; /**< about (centre, centre) */

@@ -107,6 +107,20 @@ int parameters_print_version(void)
 /** One of other particles than the usual ones has their name. */
 typedef void printer(const parameter *p, const char *particles);
 
+/** Particles with the same parameters of their own as row r, which is the first of them, or false.
+ */
+static bool particles_alike(char *names, size_t size, int r)
+{
+    const hd_dynamics *of = particles_at(r), *other;
+    int length = snprintf(names, size, "%s", of->particles);
+    for (int k = 0; (other = particles_at(k)); k++) {
+        if (other->parameter != of->parameter || k == r || of->parameters == 0) continue;
+        if (k < r) return false;
+        length += snprintf(names + length, size - (size_t)length, " and %s", other->particles);
+    }
+    return true;
+}
+
 /** Parameters as they are usually, then those of other particles alone. */
 static int print_all(printer *print)
 {
@@ -117,10 +131,12 @@ static int print_all(printer *print)
     }
     for (int r = 0; particles_at(r); r++) {
         const hd_dynamics *of = particles_at(r);
+        char names[2 * HD_PARTICLES + 8];
         particles_are(of);
-        for (int k = 0; of != usual && k < of->parameters; k++) {
+        if (of == usual || !particles_alike(names, sizeof names, r)) continue;
+        for (int k = 0; k < of->parameters; k++) {
             const parameter p = parameters_named(of->parameter[k].name);
-            print(&p, of->particles);
+            print(&p, names);
         }
     }
     particles_are(usual);

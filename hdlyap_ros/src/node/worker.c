@@ -197,18 +197,17 @@ static void change_if_due(worker *w)
     pthread_mutex_unlock(&w->lock);
 }
 
-/** Of disks that have begun with kinetic energy N; of what cannot be examined nothing is known. */
+/** Of what cannot be examined nothing is known. */
 static examination examine(const hd_run *run)
 {
     if (!hd_dynamics_of(hd_run_scene(run))->examine) return (examination){.made = false};
     const hd_trajectory *trajectory = hd_run_parts(run).trajectory;
-    const double disks = hd_run_scene(run)->number;
     const hd_examined now = hd_trajectory_examined(trajectory);
     return (examination){
         .made = true,
         .overlap = now.overlap,
         .overlap_max = now.overlap_rounding,
-        .energy_error = fabs(hd_trajectory_kinetic_energy(trajectory) - disks) / disks,
+        .energy_error = fabs(now.energy_error),
         .energy_error_max = now.energy_rounding,
     };
 }

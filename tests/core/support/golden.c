@@ -4,7 +4,6 @@
 #include <stddef.h>
 #include <string.h>
 
-#include "dynamics/dumbbells/bump.h"
 #include "records.h"
 #include "scene/scene.h"
 #include "scenes.h"
@@ -15,6 +14,17 @@ typedef struct golden {
     double pair_events; /**< expected ones; how long to run */
     uint64_t hash;
 } golden;
+
+static hd_scene_def soft(int count, double density, int potential, int integrator)
+{
+    const hd_scene_def core = {.particles = HD_DIM == 2 ? HD_SOFT_DISKS : HD_SOFT_SPHERES};
+    hd_scene_def def = hd_scene_def_of(hd_dynamics_of(&core));
+    def.number = count;
+    def.density = density;
+    def.own[0].whole = potential;
+    def.own[3].whole = integrator;
+    return def;
+}
 
 #if HD_DIM == 2
 static hd_scene_def dumbbells(int count, double density, double bond, hd_boundary x, uint64_t seed)
@@ -44,6 +54,8 @@ static golden golden_scene(int scene)
          0x2d02f1c2d1469492u}, /* larger than the caches */
         {dumbbells(100, 0.6, 0.25, p, 8), 20000, 0xd24231f41fa984b9u},
         {dumbbells(12, 0.2, 1.3, r, 9), 10000, 0xced0dc82b541f34cu},
+        {soft(64, 0.7, 1, 0), 30, 0x7b99e81605d05dbfu},
+        {soft(200, 0.6, 2, 1), 20, 0x04182d0ea279e21au},
     };
     return all[scene];
 }
@@ -59,6 +71,7 @@ static golden golden_scene(int scene)
         {box_of(108, 1.35, 1.0, 1.0, 0, 5), 10000, 0x016cd45fe53c6fcfu},
         {box_of(20000, 0.6, 0.8, 0.7, 1, 6), 60000,
          0x25cdd5a1319ff59fu}, /* larger than the caches */
+        {soft(100, 0.5, 0, 2), 100, 0x851626661636dfa6u},
     };
     return all[scene];
 }
@@ -71,9 +84,9 @@ static uint64_t hash_bytes(uint64_t hash, const void *data, size_t size)
     return hash;
 }
 
-static uint64_t hash_bumps(const hd_record *log)
+static uint64_t hash_entries(const hd_record *log)
 {
-    const size_t time = offsetof(hd_bump, i);
+    const size_t time = sizeof(double);
     uint64_t hash = 0xcbf29ce484222325u;
     for (size_t k = 0; k < log->count; k++)
         hash = hash_bytes(hash, (const char *)hd_record_entry(log, k) + time, log->size - time);
@@ -103,7 +116,7 @@ uint64_t golden_hash(int scene)
         hd_trajectory_create(&tr, &g.def) == HD_OK) {
         const double t_end = g.pair_events / hd_trajectory_collision_rate(tr);
         if (trajectory_to(tr, log, t_end) == HD_OK && log->count > 1000)
-            hash = hd_scene_coordinates(&g.def) == HD_DIM ? hash_log(log) : hash_bumps(log);
+            hash = log->size == sizeof(hd_event) ? hash_log(log) : hash_entries(log);
     }
     hd_trajectory_free(tr);
     hd_record_free(log);

@@ -7,10 +7,10 @@
 
 #include "hdlyap/scene.h"
 
-enum { GOLDEN_SCENES = HD_DIM == 2 ? 10 : 7 };
+enum { GOLDEN_SCENES = HD_DIM == 2 ? 12 : 8 };
 
-/** FNV-1a over i, j and the bits of n and p, of dumbbells of all but the time, of the scene's first
- * events; 0 if it could not run. */
+/** FNV-1a over i, j and the bits of n and p, of dumbbells and soft particles of all but the time,
+ * of the scene's first events; 0 if it could not run. */
 uint64_t golden_hash(int scene);
 
 /** What it must be. */

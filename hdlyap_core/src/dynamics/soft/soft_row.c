@@ -1,0 +1,289 @@
+/** What is asked of soft particles, and their rows: in the plane and in space. */
+#include <math.h>
+#include <string.h>
+
+#include "base/check.h"
+#include "dynamics/soft/kick.h"
+#include "dynamics/soft/kick_maps.h"
+#include "dynamics/soft/soft_state.h"
+#include "scene/container.h"
+#include "scene/dynamics.h"
+#include "scene/scene.h"
+
+/* ---- what is asked ------------------------------------------------------------------------- */
+
+static const hd_parameter_word potential_words[] = {
+    {"power", HD_POWER}, {"wca", HD_WCA}, {"lennard_jones", HD_LENNARD_JONES}, {NULL, 0}};
+static const hd_parameter_word integrator_words[] = {
+    {"verlet", HD_VERLET}, {"pefrl", HD_PEFRL}, {"forest_ruth", HD_FOREST_RUTH}, {NULL, 0}};
+
+const hd_parameter hd_soft_own[HD_SOFT_OWN] = {
+    {.name = "potential",
+     .kind = HD_PARAMETER_WORD,
+     .words = potential_words,
+     .offset = HD_OWN(HD_SOFT_POTENTIAL),
+     .usual = HD_WCA,
+     .most = HD_POTENTIALS - 1,
+     .allowed = "power, wca or lennard_jones",
+     .unit = "",
+     .text =
+         "Of a pair, by its distance r: power, 100 (1 - r^2)^4; wca, 4 (r^-12 - r^-6) + 1 up to "
+         "2^(1/6); lennard_jones, 4 (r^-12 - r^-6), smoothly cut from 2 to 2.5."},
+    {.name = "energy",
+     .kind = HD_PARAMETER_REAL,
+     .offset = HD_OWN(HD_SOFT_ENERGY),
+     .usual = 1.0,
+     .least = -10.0,
+     .most = 1e6,
+     .allowed = "from -10 to 1e6",
+     .unit = "epsilon",
+     .text = "Kinetic and potential energy per particle; above that of the start lattice."},
+    {.name = "time_step",
+     .kind = HD_PARAMETER_REAL,
+     .offset = HD_OWN(HD_SOFT_TIME_STEP),
+     .most = 10.0,
+     .allowed = "from 0 to 10",
+     .unit = "time units",
+     .text = "Of the integrator; 0: chosen by potential and energy, so that the relative "
+             "error of the energy is near the accuracy, but 1e-6 at least, and of wca some 1e-4."},
+    {.name = "integrator",
+     .kind = HD_PARAMETER_WORD,
+     .words = integrator_words,
+     .offset = HD_OWN(HD_SOFT_INTEGRATOR),
+     .usual = HD_PEFRL,
+     .most = HD_INTEGRATORS - 1,
+     .allowed = "verlet, pefrl or forest_ruth",
+     .unit = "",
+     .text = "verlet is of order 2, with a kick in each step; pefrl of order 4, with four; "
+             "forest_ruth of order 4, with three. wca bends too sharply for order 4."}};
+
+const hd_potential *hd_soft_potential(const hd_scene_def *scene)
+{
+    const unsigned k = (unsigned)scene->own[HD_SOFT_POTENTIAL].whole; /* until it is checked */
+    return &hd_potentials[k < HD_POTENTIALS ? k : 0];
+}
+
+const hd_integrator *hd_soft_integrator(const hd_scene_def *scene)
+{
+    const unsigned k = (unsigned)scene->own[HD_SOFT_INTEGRATOR].whole;
+    return &hd_integrators[k < HD_INTEGRATORS ? k : 0];
+}
+
+/** Of what lies in a well energies near 0 are no measure. */
+static double usual_energy(const hd_scene_def *scene)
+{
+    return fmax(fabs(scene->own[HD_SOFT_ENERGY].real), hd_soft_potential(scene)->depth);
+}
+
+double hd_soft_speed(const hd_scene_def *scene) { return sqrt(usual_energy(scene)); }
+
+double hd_soft_pairs(const hd_scene_def *scene)
+{
+    static const double PI = 3.14159265358979323846;
+    const double cut = hd_soft_potential(scene)->cut;
+    const double around = hd_scene_dimension(scene) == 2 ? PI * cut * cut
+                                                         : 4.0 / 3.0 * PI * cut * cut * cut;
+    return 0.5 * scene->number * scene->density * around;
+}
+
+/** The fastest that a pair swings when it comes as near as four times the usual energy lets it, or
+ * flies through. */
+static double fastest(const hd_scene_def *scene)
+{
+    enum { HALVINGS = 60, LOOKS = 64 };
+    const hd_potential *potential = hd_soft_potential(scene);
+    const double cut = potential->cut * potential->cut;
+    double near = 0.0, far = cut, most = 16.0 * usual_energy(scene);
+    for (int k = 0; k < HALVINGS; k++) {
+        const double middle = 0.5 * (near + far);
+        *(potential->at(middle).v > 4.0 * usual_energy(scene) ? &near : &far) = middle;
+    }
+    for (int k = 0; k < LOOKS; k++) {
+        const double u = far + (cut - far) * k / LOOKS;
+        const hd_pull pull = potential->at(u);
+        most = fmax(most, pull.b + pull.c * u);
+    }
+    return sqrt(most);
+}
+
+double hd_soft_time_step(const hd_scene_def *scene)
+{
+    static const double angle[HD_INTEGRATORS] = {
+        [HD_VERLET] = 3.0, [HD_PEFRL] = 3.0, [HD_FOREST_RUTH] = 1.5};
+    const double asked = scene->own[HD_SOFT_TIME_STEP].real, aim = fmax(scene->accuracy, 1e-6);
+    if (asked > 0) return asked;
+    return angle[hd_soft_integrator(scene) - hd_integrators] *
+           (hd_soft_integrator(scene)->order == 2 ? sqrt(aim) : sqrt(sqrt(aim))) / fastest(scene);
+}
+
+static hd_status row_check(const hd_scene_def *scene, char *message, size_t size)
+{
+    const char *particles = hd_dynamics_of(scene)->particles;
+    const hd_potential *potential = hd_soft_potential(scene);
+    const double energy = scene->own[HD_SOFT_ENERGY].real;
+    double box[HD_DIMENSION_MAX], lattice;
+    if (hd_container_of(scene)->wall)
+        return hd_refuse(message, size, "container = %s: must be rectangle with particles = %s",
+                         hd_container_name(scene), particles);
+    hd_scene_box(scene, box);
+    for (int d = 0; d < hd_scene_dimension(scene); d++) {
+        if (scene->boundary[d] != HD_PERIODIC)
+            return hd_refuse(message, size,
+                             "boundary_%c = %s: must be periodic with particles = %s", "xyz"[d],
+                             hd_scene_boundary_word(scene, d), particles);
+        if (!(box[d] > 2.0 * potential->cut))
+            return hd_refuse(message, size,
+                             "density = %.15g with number = %d: the box edge L%c = %.15g must be "
+                             "above %.6g, twice the range of potential = %s",
+                             scene->density, scene->number, "xyz"[d], box[d],
+                             2.0 * potential -> cut, potential -> name);
+    }
+    HD_TRY(hd_soft_lattice_energy(&lattice, scene));
+    if (energy * scene->number > lattice) return HD_OK;
+    return hd_refuse(message, size,
+                     "energy = %.15g: must be above %.6g, the potential energy per particle of the "
+                     "start lattice with potential = %s, density = %.15g, number = %d",
+                     energy, lattice / scene->number, potential->name, scene->density,
+                     scene->number);
+}
+
+/* ---- what is expected ---------------------------------------------------------------------- */
+
+static int row_zeros(const hd_scene_def *scene) { return 2 * hd_scene_dimension(scene) + 2; }
+
+/** Vectors grow by e in the time that one collides in, about: seen for the first two potentials at
+ * all densities. */
+static double row_rate(const hd_scene_def *scene)
+{
+    return 0.5 * scene->number * hd_soft_speed(scene) * (1.0 + 3.0 * scene->density);
+}
+
+static double row_entries(const hd_scene_def *scene)
+{
+    const double kicks = hd_soft_integrator(scene)->kicks;
+    return (1.0 + 1.2 * kicks * hd_soft_pairs(scene)) / hd_soft_time_step(scene);
+}
+
+/** Of sound, some times the usual speed. */
+static double row_crossing(const hd_scene_def *scene)
+{
+    double box[HD_DIMENSION_MAX], longest = 0.0;
+    hd_scene_box(scene, box);
+    for (int d = 0; d < hd_scene_dimension(scene); d++) longest = fmax(longest, box[d]);
+    return longest / (hd_soft_speed(scene) * (1.5 + 8.0 * scene->density));
+}
+
+/** Force on particle i, from all of them. */
+static void force_on(double *force, const hd_scene_def *scene, const double *q, int i)
+{
+    const int dimension = hd_scene_dimension(scene);
+    const hd_potential *potential = hd_soft_potential(scene);
+    double box[HD_DIMENSION_MAX];
+    hd_scene_box(scene, box);
+    for (int d = 0; d < dimension; d++) force[d] = 0.0;
+    for (int j = 0; j < scene->number; j++) {
+        double r[HD_DIMENSION_MAX], square = 0.0;
+        for (int d = 0; d < dimension; d++) {
+            r[d] = hd_nearest(q[dimension * j + d] - q[dimension * i + d], box[d]);
+            square += r[d] * r[d];
+        }
+        if (i == j || !(square < potential->cut * potential->cut)) continue;
+        for (int d = 0; d < dimension; d++) force[d] += potential->at(square).b * r[d];
+    }
+}
+
+/** Translations, their momenta, and the flow (p, F). What energy belongs to is not known. */
+static int row_null(const hd_scene_def *scene, const double *q, const double *p, double *column)
+{
+    const int dimension = hd_scene_dimension(scene), count = 2 * dimension + 1;
+    const size_t of_one = 2 * (size_t)dimension, rows = of_one * (size_t)scene->number;
+    memset(column, 0, (size_t)count * rows * sizeof *column);
+    for (int i = 0; i < scene->number; i++) {
+        double *one = column + of_one * (size_t)i, *flow = one + 2 * (size_t)dimension * rows;
+        for (int k = 0; k < 2 * dimension; k++) one[(size_t)k * rows + (size_t)k] = 1.0;
+        memcpy(flow, p + dimension * i, (size_t)dimension * sizeof *p);
+        force_on(flow + dimension, scene, q, i);
+    }
+    return count;
+}
+
+/* ---- state --------------------------------------------------------------------------------- */
+
+static double row_time(const void *state) { return ((const soft *)state)->now; }
+
+static void row_state(const void *state, double *q, double *p)
+{
+    const soft *s = state;
+    const size_t bytes = (size_t)(s->count * s->dimension) * sizeof *q;
+    if (q) memcpy(q, s->q, bytes);
+    if (p) memcpy(p, s->p, bytes);
+}
+
+static void row_examine(const void *state, hd_examined *out)
+{
+    const soft *s = state;
+    *out = (hd_examined){.energy_rounding = HD_SOFT_LOST};
+    for (int k = 0; k < s->count * s->dimension; k++) out->momentum[k % s->dimension] += s->p[k];
+}
+
+static double row_energy_error(const void *state) { return ((const soft *)state)->error; }
+
+static double row_bytes(double particles) { return 200.0 * particles; }
+
+static const char *inconsistency(const soft *s)
+{
+    for (int k = 0; k < s->count * s->dimension; k++)
+        if (!(s->q[k] >= 0 && s->q[k] <= s->near.box[k % s->dimension]))
+            return "a particle is outside the box";
+    return NULL;
+}
+
+static void row_archive(void *state, hd_archive *archive)
+{
+    soft *s = state;
+    const size_t all = (size_t)(s->count * s->dimension);
+    hd_archive_double(archive, "trajectory time", &s->now);
+    hd_archive_bits(archive, "trajectory steps", &s->steps);
+    hd_archive_double(archive, "trajectory energy", &s->energy);
+    hd_archive_doubles(archive, "trajectory q", s->q, all);
+    hd_archive_doubles(archive, "trajectory p", s->p, all);
+    if (!hd_archive_good(archive)) return;
+    const double since = s->now - (double)s->steps * s->step;
+    const char *fault = since >= 0 && since < 2.0 * s->step ? inconsistency(s)
+                                                            : "the time is not that of the steps";
+    hd_neighbours_forget(&s->near);
+    if (!fault && hd_soft_look(s) != HD_OK) fault = "the energy is wrong";
+    if (fault) hd_archive_refuse(archive, "trajectory", fault);
+}
+
+/** What is wrong with entries beyond their being numbers. */
+static const char *row_fault(const hd_record *record, const hd_scene_def *scene)
+{
+    const double step = hd_soft_time_step(scene);
+    for (size_t k = 0; k < hd_record_count(record); k++) {
+        const hd_kick *kick = hd_record_entry(record, k);
+        const bool begins = kick->i == -1.0;
+        if (k == 0 && !begins) return "no step begins it";
+        if (begins && kick->at != step) return "a step is as long as no other";
+        if (!begins && !(kick->i >= 0 && kick->i < scene->number && kick->i == floor(kick->i)))
+            return "there is no such particle";
+        if (!begins && !(kick->j > kick->i && kick->j < scene->number && kick->j == floor(kick->j)))
+            return "there is no such partner";
+    }
+    return NULL;
+}
+
+/* clang-format off */
+#define SOFT(name, in, of_one, bends)                                                              \
+    {.particles = (name), .dimension = (of_one), .coordinates = (of_one),                          \
+     .entry = HD_KICK_BYTES(bends), .symplectic = true, .parameter = hd_soft_own,                  \
+     .parameters = HD_SOFT_OWN, .check = row_check, .zeros = row_zeros, .entries = row_entries,    \
+     .rate = row_rate, .step = hd_soft_time_step, .crossing = row_crossing, .null = row_null, .create = hd_soft_create,       \
+     .create_from = hd_soft_create_from, .free = hd_soft_free, .advance = hd_soft_advance,         \
+     .time = row_time, .state = row_state, .kinetic_energy = hd_soft_kinetic_energy,               \
+     .examine = row_examine, .energy_error = row_energy_error, .archive = row_archive, .bytes = row_bytes, .fault = row_fault,       \
+     .maps_create = hd_kick_maps_create_##in, .maps_free = hd_kick_maps_free,                      \
+     .maps_fill = hd_kick_maps_fill, .carry = hd_kick_maps_carry}
+/* clang-format on */
+const hd_dynamics hd_soft_disks = SOFT("soft_disks", plane, 2, HD_BENDS_PLANE);
+const hd_dynamics hd_soft_spheres = SOFT("soft_spheres", space, 3, HD_BENDS_SPACE);
