@@ -159,7 +159,7 @@ class Differing(Pairs):
         self.assertRegex(after_head, r'  lambda_max +.* -10\.00  \d\.\de-0\d')
 
     def test_two_in_a_hundred(self):
-        """Of two steps, as Student's t with 14 degrees of freedom: 0.005 of each is that of 3.33."""
+        """Of two steps, as Student's t with 14 degrees of freedom: each 0.005, of 3.33."""
         for off, status in ((3.25, verdict.AGREE), (3.4, verdict.DIFFER)):
             far = made.exponent(INFO, T, 1, 0) + off * sqrt(2) * made.ERROR
             comparison = self.compared(run(), run(made_steps=found(exponent=far), seed='2'))
