@@ -85,6 +85,9 @@ class Grid(unittest.TestCase):
         self.assertNotIn('bond', self.runs(seeds='1')[0].parameters)
         with self.assertRaisesRegex(Refused, 'bond = 0.5: must be a parameter of hdlyap_node'):
             self.runs(seeds='1', params='{bond: 0.5}')
+        for particles in 'soft_disks', 'soft_spheres':
+            (one,) = self.runs(seeds='1', params=f'{{particles: {particles}, energy: 2}}')
+            self.assertEqual([one.parameters[name] for name in ('energy', 'potential')], [2, 'wca'])
 
     def test_large_systems_are_most_of_the_work(self):
         """By which progress and the time that is left are told."""

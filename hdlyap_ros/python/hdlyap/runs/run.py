@@ -26,7 +26,7 @@ OF_ONE = 'checkpoint', 'resume'  # parameters that runs cannot share
 HERE = ('threads', 'wait_for_subscribers', *OF_ONE)
 # seconds, about: to come up; of a time unit with 200 disks on one core, as their square
 BEGIN, STEP, DISKS = 5.0, 0.03, 200
-OWN = re.compile(r'^# Of (\w+) alone\.\n(?:# .*\n)*?# (\w+): (\S+)$', re.MULTILINE)
+OWN = re.compile(r'^# Of (\w+(?: and \w+)*) alone\.\n(?:# .*\n)*?# (\w+): (\S+)$', re.MULTILINE)
 
 
 class Planned:
@@ -141,7 +141,7 @@ def _check(parameters):
 def _estimate(parameters):
     time = sum(parameters[name] for name in TIMES if is_number(parameters[name]))
     disks = parameters['number'] if is_number(parameters['number']) else DISKS  # it is refused
-    coordinates = 2 if parameters.get('particles') == 'disks' else 3
+    coordinates = 2 if parameters.get('particles') in ('disks', 'soft_disks') else 3
     return BEGIN + STEP * time * (coordinates / 2 * disks / DISKS) ** 2
 
 
@@ -161,8 +161,9 @@ def usual():
 def own():
     """{particles: {name: default}} of the parameters of particles alone."""
     found = {}
-    for particles, name, value in OWN.findall(_said()):
-        found.setdefault(particles, {})[name] = yaml.safe_load(value)
+    for those, name, value in OWN.findall(_said()):
+        for particles in those.split(' and '):
+            found.setdefault(particles, {})[name] = yaml.safe_load(value)
     return found
 
 
@@ -173,8 +174,8 @@ def completed(given):
 
 
 def is_solid(parameters):
-    """Of spheres."""
-    return parameters.get('particles') == 'spheres'
+    """Of spheres, hard or soft."""
+    return parameters.get('particles') in ('spheres', 'soft_spheres')
 
 
 def is_number(value):
