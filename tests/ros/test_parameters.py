@@ -203,6 +203,12 @@ class Parameters(harness.Case):
             'scene     on is valid: 20 disks in 5.34522 x 5.34522, packing fraction 0.55, 8 vect',
             done.stdout,
         )
+        soft = 'particles: soft_disks\nnumber: 36\ndensity: 0.5\naspect: 1\ntime_step: '
+        for step, said in (('0.003', '0.003'), ('0', r'0\.00\d+')):
+            self.assertRegex(
+                self.checked(soft + step).stdout,
+                f'is valid: 36 soft_disks in 8.48528 x 8.48528, steps of {said}, 69 vectors',
+            )
         given = [f'_{name}:={value}' for name, value in SPELLINGS.items()]
         said = [
             self.told(self.start(dict(params, **HEARD), args=args), self.listen('run_info'))

@@ -77,10 +77,14 @@ const char *settings_write_system(char text[SYSTEM_SIZE], const settings *set)
     const double packing = hd_scene_packing(&set->def);
     char container[64];
     hd_scene_describe(&set->def, container, sizeof container);
+    const hd_dynamics *of = hd_dynamics_of(&set->def);
     const int length = snprintf(text, SYSTEM_SIZE, "%d %s in %s", set->def.number, set->particles,
                                 container);
     if (!isnan(packing))
         snprintf(text + length, SYSTEM_SIZE - (size_t)length, ", packing fraction %.3g", packing);
+    else if (of->step)
+        snprintf(text + length, SYSTEM_SIZE - (size_t)length, ", steps of %.4g",
+                 of->step(&set->def));
     return text;
 }
 

@@ -54,7 +54,8 @@ bool settings_resume(const char **path, const hdr_params *params, char *message,
 bool settings_read(settings *out, const hdr_params *params, const hd_checkpoint *kept,
                    char *message, size_t size);
 
-/** What moves, and where: "36 dumbbells in 24 x 2.5, packing fraction 0.62". */
+/** What moves, and where: "36 dumbbells in 24 x 2.5, packing fraction 0.62", or "36
+ * soft_disks in 24 x 2.5, steps of 0.0026". */
 enum { SYSTEM_SIZE = 160 };
 const char *settings_write_system(char text[SYSTEM_SIZE], const settings *set);
 
