@@ -22,7 +22,7 @@ const double *hd_modes_average(const hd_modes *modes, int s, hd_weight which);
 
 /** Squared norms of the orthogonal projections of the whole vectors onto the exact null space [T9],
  * its parts apart: N_x, N_y, N_z (uniform dq or dp along a periodic direction), N_p (dq = p or dp =
- * p); [n]. */
+ * p; 0 where hd_dynamics.paces is false); [n]. */
 const double *hd_modes_null_snapshot(const hd_modes *modes, int null);
 const double *hd_modes_null_average(const hd_modes *modes, int null);
 

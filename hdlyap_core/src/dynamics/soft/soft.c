@@ -70,7 +70,7 @@ KERNEL hd_status kick_all(soft *s, const kick *k, int dimension)
     return HD_OK;
 }
 
-hd_status hd_soft_potential_energy(double *energy, soft *s)
+static hd_status potential_energy(double *energy, soft *s)
 {
     const double cut = s->potential->cut * s->potential->cut;
     double sum = 0.0, r[HD_DIMENSION_MAX];
@@ -95,7 +95,7 @@ double hd_soft_kinetic_energy(const void *state)
 hd_status hd_soft_look(soft *s)
 {
     double potential;
-    const hd_status status = hd_soft_potential_energy(&potential, s);
+    const hd_status status = potential_energy(&potential, s);
     const double kinetic = hd_soft_kinetic_energy(s);
     if (status == HD_NOT_FINITE) return HD_ENERGY_LOST;
     s->error = (kinetic + potential - s->energy) / (kinetic + fabs(potential));
@@ -188,7 +188,7 @@ static hd_status allocate(soft **out, const hd_scene_def *scene)
 /** As they are: their energy is what is conserved. */
 static hd_status begin(soft *s, const hd_scene_def *scene)
 {
-    HD_TRY(hd_soft_potential_energy(&s->energy, s));
+    HD_TRY(potential_energy(&s->energy, s));
     s->energy += hd_soft_kinetic_energy(s);
     s->step = hd_soft_time_step(scene);
     return isfinite(s->energy) ? HD_OK : HD_NOT_FINITE;
@@ -199,7 +199,7 @@ static hd_status start_on_lattice(soft *s, const hd_scene_def *scene)
 {
     double potential;
     hd_container_of(scene)->start(scene, s->q);
-    HD_TRY(hd_soft_potential_energy(&potential, s));
+    HD_TRY(potential_energy(&potential, s));
     hd_null_space_momenta(scene, s->q, s->p);
     const double kinetic = scene->own[HD_SOFT_ENERGY].real * s->count - potential;
     if (!(kinetic > 0)) return HD_REFUSED;
@@ -248,7 +248,7 @@ hd_status hd_soft_lattice_energy(double *energy, const hd_scene_def *scene)
     hd_status status = allocate(&s, scene);
     if (status == HD_OK) {
         hd_container_of(scene)->start(scene, s->q);
-        status = hd_soft_potential_energy(energy, s);
+        status = potential_energy(energy, s);
     }
     hd_soft_free(s);
     return status;

@@ -9,7 +9,6 @@
 
 /** Parameters of their own. */
 enum { HD_SOFT_POTENTIAL, HD_SOFT_ENERGY, HD_SOFT_TIME_STEP, HD_SOFT_INTEGRATOR, HD_SOFT_OWN };
-extern const hd_parameter hd_soft_own[HD_SOFT_OWN];
 
 /** Part of the energy whose loss makes the rest of no use. */
 #define HD_SOFT_LOST 0.5
@@ -31,10 +30,6 @@ const hd_potential *hd_soft_potential(const hd_scene_def *scene);
 const hd_integrator *hd_soft_integrator(const hd_scene_def *scene);
 /** As asked for, or chosen [time units]. */
 double hd_soft_time_step(const hd_scene_def *scene);
-/** A typical speed in units of the one at energy 1. */
-double hd_soft_speed(const hd_scene_def *scene);
-/** Pairs nearer than the cut, expected. */
-double hd_soft_pairs(const hd_scene_def *scene);
 
 /** Potential energy of the start lattice; *energy. HD_NO_MEMORY. */
 HD_MUST_CHECK hd_status hd_soft_lattice_energy(double *energy, const hd_scene_def *scene);
@@ -46,8 +41,6 @@ void hd_soft_free(void *state);
 /** HD_ENERGY_LOST, too. */
 HD_MUST_CHECK hd_status hd_soft_advance(void *state, hd_record *record, double t_end);
 
-/** Of the particles as they are; potential energy from all pairs of the list. */
-HD_MUST_CHECK hd_status hd_soft_potential_energy(double *energy, soft *s);
 double hd_soft_kinetic_energy(const void *state);
 /** Measures s->error: of kinetic and potential energy, as a part of both. HD_ENERGY_LOST if it is
  * more than can be of use. */
