@@ -1,6 +1,6 @@
 /** Record of soft particles -> tangent maps -> blocks of columns carried along [T24]. Free flight
- * is lazy: before a kick those fly that take part in it. A kick goes through its pairs by their
- * first particle, whose rows stay in registers. */
+ * is lazy: a particle flies when a kick comes to it, which goes through its pairs by their first
+ * particle, whose rows stay in registers. */
 #include "dynamics/soft/kick_maps.h"
 
 #include "base/check.h"
@@ -8,28 +8,23 @@
 #include "base/multiversion.h"
 #include "dynamics/soft/kick.h"
 
-typedef struct flight {
-    int32_t i;
-    double time;
-} flight;
-
 /** A particle and its partners in a kick: `pairs` of them follow the former run's. */
 typedef struct run {
     int32_t i, pairs;
+    double flight; /**< of i before, since it was moved */
 } run;
 
-typedef struct kick {
-    int32_t flights, runs; /**< which follow those of the former kick */
-} kick;
+typedef struct partner {
+    int32_t j;
+    double flight;
+} partner;
 
 typedef struct maps {
     int particles, dimension, bends;
     double *since; /**< [particles]: when each one was moved, then its last flight */
-    size_t kicks, runs, flights, pairs, capacity;
-    kick *kick;       /**< [kicks] */
-    flight *flight;   /**< [flights] */
+    size_t runs, pairs, capacity;
     run *run;         /**< [runs] */
-    int32_t *partner; /**< [pairs] */
+    partner *partner; /**< [pairs] */
     double *bend;     /**< [pairs][bends] */
 } maps;
 
@@ -49,8 +44,6 @@ hd_status hd_kick_maps_create_space(void **out, int particles) { return create(o
 
 static void release(maps *all)
 {
-    hd_memory_free(all->kick);
-    hd_memory_free(all->flight);
     hd_memory_free(all->run);
     hd_memory_free(all->partner);
     hd_memory_free(all->bend);
@@ -67,44 +60,35 @@ void hd_kick_maps_free(void *made)
 
 /* ---- steps as maps ------------------------------------------------------------------------- */
 
-/** For so many pairs: of these each may be a kick, a run, and two flights. */
+/** For so many pairs, each of which may be a run. */
 static hd_status reserve(maps *all, size_t pairs)
 {
     if (pairs <= all->capacity) return HD_OK;
     const size_t room = pairs + pairs / 2;
     release(all);
     all->capacity = 0;
-    all->kick = hd_memory_alloc(room, sizeof *all->kick);
-    all->flight = hd_memory_alloc(2 * room, sizeof *all->flight);
     all->run = hd_memory_alloc(room, sizeof *all->run);
     all->partner = hd_memory_alloc(room, sizeof *all->partner);
     all->bend = hd_memory_alloc(room * (size_t)all->bends, sizeof *all->bend);
-    if (!all->kick || !all->flight || !all->run || !all->partner || !all->bend) return HD_NO_MEMORY;
+    if (!all->run || !all->partner || !all->bend) return HD_NO_MEMORY;
     all->capacity = room;
     return HD_OK;
 }
 
-/** Up to `now`, of the passage; it has flown in this kick if that is when it was moved. */
-static void fly_to(maps *all, int32_t i, double now)
+/** Until `now`, of the passage: none if it has taken part in this kick. */
+static double flight(maps *all, int32_t i, double now)
 {
     const double time = now - all->since[i];
-    if (time == 0) return;
-    all->flight[all->flights++] = (flight){i, time};
-    all->kick[all->kicks - 1].flights++;
     all->since[i] = now;
+    return time;
 }
 
 static void add_pair(maps *all, const hd_kick *entry, bool same_run, double now)
 {
     const int32_t i = (int32_t)entry->i, j = (int32_t)entry->j;
-    fly_to(all, i, now);
-    fly_to(all, j, now);
-    if (!same_run) {
-        all->run[all->runs++] = (run){i, 0};
-        all->kick[all->kicks - 1].runs++;
-    }
+    if (!same_run) all->run[all->runs++] = (run){i, 0, flight(all, i, now)};
     all->run[all->runs - 1].pairs++;
-    all->partner[all->pairs] = j;
+    all->partner[all->pairs] = (partner){j, flight(all, j, now)};
     for (int k = 0; k < all->bends; k++)
         all->bend[all->pairs * (size_t)all->bends + (size_t)k] = entry->bend[k];
     all->pairs++;
@@ -122,7 +106,6 @@ static double add_steps(maps *all, const hd_record *record, hd_entries those)
             at = i = -1.0;
             continue;
         }
-        if (entry->at != at) all->kick[all->kicks++] = (kick){0, 0};
         add_pair(all, entry, entry->at == at && entry->i == i, begin + entry->at);
         at = entry->at;
         i = entry->i;
@@ -134,7 +117,7 @@ hd_status hd_kick_maps_fill(void *made, const hd_record *record, double t_begin,
 {
     maps *all = made;
     const hd_entries those = hd_record_within(record, t_begin, t_end);
-    all->kicks = all->runs = all->flights = all->pairs = 0;
+    all->runs = all->pairs = 0;
     HD_TRY(reserve(all, those.end - those.first));
     for (int i = 0; i < all->particles; i++) all->since[i] = 0.0;
     const double end = add_steps(all, record, those);
@@ -182,25 +165,30 @@ KERNEL int place(int d, int e, int of_one)
 }
 
 /** A pair: bend (dq_j - dq_i) is added to dp_i and taken from dp_j. */
-KERNEL void pull(lanes *p, const lanes *q, double *other, const double *bend, int of_one, int width)
+KERNEL void pull(lanes *p, const lanes *q, double *other, double flight, const double *bend,
+                 int of_one, int width)
 {
-    lanes r[3], theirs;
+    lanes r[3], theirs[3];
     for (int d = 0; d < of_one; d++) {
         load(&r[d], other + d * width, width);
-        r[d] -= q[d];
+        load(&theirs[d], other + (of_one + d) * width, width);
     }
+    for (int d = 0; d < of_one && flight != 0; d++) {
+        r[d] += flight * theirs[d];
+        store(other + d * width, &r[d], width);
+    }
+    for (int d = 0; d < of_one; d++) r[d] -= q[d];
     for (int d = 0; d < of_one; d++) {
         lanes f = bend[place(d, 0, of_one)] * r[0];
         for (int e = 1; e < of_one; e++) f += bend[place(d, e, of_one)] * r[e];
-        load(&theirs, other + (of_one + d) * width, width);
         p[d] += f;
-        theirs -= f;
-        store(other + (of_one + d) * width, &theirs, width);
+        theirs[d] -= f;
+        store(other + (of_one + d) * width, &theirs[d], width);
     }
 }
 
 /** Columns from `block` on, as many as LANES, of a particle with its partners. */
-KERNEL void pull_run(double *block, const run *r, const int32_t *partner, const double *bend,
+KERNEL void pull_run(double *block, const run *r, const partner *with, const double *bend,
                      int of_one, int width)
 {
     const size_t one = 2 * (size_t)(of_one * width), bends = of_one == 2 ? 3 : 6;
@@ -209,26 +197,22 @@ KERNEL void pull_run(double *block, const run *r, const int32_t *partner, const 
     for (int d = 0; d < of_one; d++) {
         load(&q[d], own + d * width, width);
         load(&p[d], own + (of_one + d) * width, width);
+        q[d] += r->flight * p[d];
+        store(own + d * width, &q[d], width);
     }
     for (int32_t n = 0; n < r->pairs; n++)
-        pull(p, q, block + one * (size_t)partner[n], bend + bends * (size_t)n, of_one, width);
+        pull(p, q, block + one * (size_t)with[n].j, with[n].flight, bend + bends * (size_t)n,
+             of_one, width);
     for (int d = 0; d < of_one; d++) store(own + (of_one + d) * width, &p[d], width);
 }
 
 KERNEL void carry_width(double *block, const maps *all, int of_one, int width)
 {
     const size_t one = 2 * (size_t)(of_one * width), bends = of_one == 2 ? 3 : 6;
-    const flight *f = all->flight;
-    const run *r = all->run;
     size_t pair = 0;
-    for (const kick *k = all->kick; k < all->kick + all->kicks; k++) {
-        for (const flight *end = f + k->flights; f < end; f++)
-            fly(block + one * (size_t)f->i, f->time, of_one, width);
-        for (const run *end = r + k->runs; r < end; pair += (size_t)r++->pairs)
-            for (int c = 0; c < width; c += LANES)
-                pull_run(block + c, r, all->partner + pair, all->bend + bends * pair, of_one,
-                         width);
-    }
+    for (const run *r = all->run; r < all->run + all->runs; pair += (size_t)r++->pairs)
+        for (int c = 0; c < width; c += LANES)
+            pull_run(block + c, r, all->partner + pair, all->bend + bends * pair, of_one, width);
     for (int i = 0; i < all->particles; i++)
         fly(block + one * (size_t)i, all->since[i], of_one, width);
 }
