@@ -101,7 +101,8 @@ class Page(unittest.TestCase):
         self.assertEqual(self.read('01_one.csv').splitlines(), SHOWN)
         lines = self.read('rows.csv').splitlines()
         self.assertEqual(lines[0], ','.join(HEADER))
-        first = '1,the paper,,,"it is small, one",the same,ours,agrees,number,20,,20,,,agrees,any other,'
+        words = '1,the paper,,,"it is small, one",the same,ours,agrees,'
+        first = words + 'number,20,,20,,,agrees,any other,'
         self.assertEqual([lines[1], lines[4]], [first, '1,beside,,,more,,,,seed,,,1,,,,,'])
 
     def test_two_counts_and_what_holds(self):
