@@ -141,7 +141,7 @@ TEST(Conditions, EachHasItsLevelAndMessage)
                   losing = {"/b/fields", 0.5, 1001, 42};
     worker_state fault = healthy(), unkept = healthy(), deep = healthy(), warm = healthy(),
                  stalled = healthy(), lost = healthy(), open = healthy(), empty = healthy(),
-                 caged = healthy();
+                 caged = healthy(), split = healthy();
     empty.warning = "none of them belongs to a step";
     fault.status = HD_ILL_CONDITIONED;
     unkept.checkpoint.failed = true;
@@ -154,6 +154,7 @@ TEST(Conditions, EachHasItsLevelAndMessage)
     stalled.last.cost.stalled_since = 4;
     open.last.cost.target = {"c_L", 3.0, 0.07, 0.03, 0.05, INFINITY, false};
     caged.last.caged = true;
+    split.last.split = {true, 0.07, 0.015, 0.01, 0.00099};
     const worker_state well = healthy();
     const struct {
         const worker_state *state;
@@ -174,6 +175,9 @@ TEST(Conditions, EachHasItsLevelAndMessage)
         {&empty, &prompt, HDR_DIAGNOSTIC_WARN, "none of them belongs to a step"},
         {&caged, &prompt, HDR_DIAGNOSTIC_WARN,
          "disks keep their places: errors are those of this one state"},
+        {&split, &prompt, HDR_DIAGNOSTIC_WARN,
+         "time_step = 0.01 is too long for the zero exponents: the largest is 0.07, not 0.015; "
+         "0.00099 would do"},
         {&well, &behind, HDR_DIAGNOSTIC_WARN, "a subscriber of /b/fields is 12.3 s behind"},
         {&well, &losing, HDR_DIAGNOSTIC_WARN, "subscribers of /b/fields have lost 42 messages"},
     };

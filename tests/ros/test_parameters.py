@@ -207,7 +207,8 @@ class Parameters(harness.Case):
         for step, said in (('0.003', '0.003'), ('0', r'0\.00\d+')):
             self.assertRegex(
                 self.checked(soft + step).stdout,
-                f'is valid: 36 soft_disks in 8.48528 x 8.48528, steps of {said}, 69 vectors',
+                'is valid: 36 soft_disks in 8.48528 x 8.48528, potential wca, energy 1, '
+                f'time_step {said}, integrator pefrl, 69 vectors',
             )
         given = [f'_{name}:={value}' for name, value in SPELLINGS.items()]
         said = [

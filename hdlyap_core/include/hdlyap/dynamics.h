@@ -101,6 +101,9 @@ struct hd_dynamics {
     double (*rate)(const hd_scene_def *scene);
     /** Of what moves in steps their length [time units]. May be left out. */
     double (*step)(const hd_scene_def *scene);
+    /** Power of the step by which the zero exponents split that no null vector holds, about. May be
+     * left out: they do not. */
+    double (*split)(const hd_scene_def *scene);
     /** Time that a disturbance takes through all of them: blocks of averages are no shorter. May
      * be left out. */
     double (*crossing)(const hd_scene_def *scene);

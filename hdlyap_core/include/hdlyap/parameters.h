@@ -46,6 +46,8 @@ typedef struct hd_parameter {
     unsigned needs; /**< HD_OBSERVE_* of which one must be there for another value than usual */
     const char *text;
     const char *record; /**< name in a checkpoint; NULL: the same */
+    /** What stands for it in a scene; NULL: its value. */
+    double (*chosen)(const hd_scene_def *def);
 } hd_parameter;
 
 /** All of them, [count]. */
@@ -53,6 +55,8 @@ const hd_parameter *hd_scene_parameters(int *count);
 
 /** Value in a scene; of a seed it may be rounded, of a text it is 0 if that is empty, else 1. */
 double hd_parameter_value(const hd_parameter *row, const hd_scene_def *def);
+/** The same, or what is chosen for it. */
+double hd_parameter_effect(const hd_parameter *row, const hd_scene_def *def);
 /** The row's kind must be able to hold the value; a text becomes empty. */
 void hd_parameter_assign(const hd_parameter *row, hd_scene_def *def, double value);
 /** The value that a number of this text is, from end to end, or a text; false if it is none, or too

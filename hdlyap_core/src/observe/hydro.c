@@ -165,13 +165,16 @@ static int hydro_first(void *self, const hd_observing *with)
     return hd_steps_first(with->part[HD_OBSERVED_steps]);
 }
 
-/** Energy is of all coordinates, and functionals know places and their momenta alone. */
+/** Energy is of all coordinates and of nothing else, and functionals know places and their momenta
+ * alone. */
 static hd_status hydro_check(const hd_scene_def *scene, char *message, size_t size)
 {
-    if (hd_scene_coordinates(scene) == hd_scene_dimension(scene)) return HD_OK;
+    const hd_dynamics *of = hd_dynamics_of(scene);
+    const bool turn = hd_scene_coordinates(scene) > hd_scene_dimension(scene);
+    if (!turn && of->paces) return HD_OK;
     return hd_refuse(message, size,
-                     "observables = hydro: must not be given with particles = %s, which turn",
-                     hd_dynamics_of(scene)->particles);
+                     "observables = hydro: must not be given with particles = %s, %s",
+                     of->particles, turn ? "which turn" : "whose energy is not kinetic alone");
 }
 
 const hd_observable hd_hydro_row = {.with = HD_OBSERVE_STEPS,

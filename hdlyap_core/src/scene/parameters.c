@@ -40,7 +40,8 @@ static const hd_parameter_word hd_storage_words[] = {
      changes == HD_LIVE,                                                                           \
      needs,                                                                                        \
      text,                                                                                         \
-     "scene " #name},
+     "scene " #name,                                                                               \
+     NULL},
 static const hd_parameter rows[] = {
 #define HD_INT(name, ...) ROW(name, name, HD_PARAMETER_INT, NULL, __VA_ARGS__)
 #define HD_REAL(name, ...) ROW(name, name, HD_PARAMETER_REAL, NULL, __VA_ARGS__)
@@ -78,6 +79,11 @@ double hd_parameter_value(const hd_parameter *row, const hd_scene_def *def)
     case HD_PARAMETER_TEXT: return *field != '\0';
     default: return memcpy(&whole, field, sizeof whole), whole;
     }
+}
+
+double hd_parameter_effect(const hd_parameter *row, const hd_scene_def *def)
+{
+    return row->chosen ? row->chosen(def) : hd_parameter_value(row, def);
 }
 
 void hd_parameter_assign(const hd_parameter *row, hd_scene_def *def, double value)

@@ -98,7 +98,7 @@ double hd_scene_sound_crossing(const hd_scene_def *def)
 double hd_scene_mean_free_path(const hd_scene_def *def)
 {
     const hd_fluid *fluid = hd_dynamics_of(def)->fluid;
-    return fluid ? fluid->free_path(def) : NAN;
+    return fluid ? fluid->free_path(def) : hd_scene_collision_time(def); /* at speed 1 */
 }
 
 int hd_scene_zero_exponents(const hd_scene_def *def)

@@ -27,7 +27,7 @@ double hd_scene_sound_crossing(const hd_scene_def *def);
 
 /** Mean path of a disk between two collisions, by Enskog's theory, with the pair correlation at
  * contact of the same authors: 1 / (2 sqrt(2) density g), of spheres 1 / (sqrt(2) pi density g)
- * [sigma]. NaN of what is no fluid. */
+ * [sigma]. Of what is no fluid the path at speed 1 in the collision time. */
 double hd_scene_mean_free_path(const hd_scene_def *def);
 
 #endif

@@ -20,6 +20,7 @@ static const double reports_per_second = 960.0;
 /** As dense as disks, spheres and what turns have been seen to keep their places [T8]. */
 static bool may_be_caged(const hd_scene_def *def)
 {
+    if (!hd_dynamics_of(def)->fluid) return false; /* nobody has looked */
     if (hd_scene_inertia(def) > 0) return hd_scene_packing(def) >= 0.78;
     return def->density >= (hd_scene_dimension(def) == 2 ? 0.88 : 0.9);
 }
@@ -192,7 +193,9 @@ static void print_slopes(const settings *set, const hd_estimate *t)
 
 static void print_errors(const settings *set, const hd_estimate *t)
 {
-    const bool steps = hd_scene_counts(&set->def).vectors >= hd_steps_exponents_least(&set->def);
+    const bool known = hd_dynamics_of(&set->def)->fluid; /* what to expect of their steps */
+    const bool steps = known &&
+                       hd_scene_counts(&set->def).vectors >= hd_steps_exponents_least(&set->def);
     printf("errors    %s after %.3g time units of averaging (",
            steps ? "of exponents of steps below 1 % when they are first stated," : "first stated",
            t->errors_after);

@@ -10,6 +10,14 @@
 /** A subscriber that is so far behind does not only take its time [s]. */
 static const double behind_seconds = 3.0;
 
+void split_write(char *text, size_t size, const split_zeros *split)
+{
+    snprintf(text, size,
+             "time_step = %.4g is too long for the zero exponents: the largest is %.2g, not %.2g; "
+             "%.2g would do",
+             split->step, split->exponent, split->expected, split->step_wanted);
+}
+
 /** Errors are added before warnings. */
 __attribute__((format(printf, 3, 4))) static void add(conditions *all, uint8_t level,
                                                       const char *format, ...)
@@ -45,6 +53,7 @@ static void add_warnings(conditions *all, const worker_state *state, const hdr_l
     const progress *last = &state->last;
     const hd_standing *at = &last->cost.target;
     const uint8_t level = HDR_DIAGNOSTIC_WARN;
+    char split[CONDITION_SPLIT];
     if (*state->warning) add(all, level, "%s", state->warning);
     if (last->cost.stalled_since >= 0.0)
         add(all, level,
@@ -61,6 +70,10 @@ static void add_warnings(conditions *all, const worker_state *state, const hdr_l
     if (last->caged)
         add(all, level, "%s keep their places: errors are those of this one state",
             state->particles);
+    if (last->split.are) {
+        split_write(split, sizeof split, &last->split);
+        add(all, level, "%s", split);
+    }
     if (slowest->seconds >= behind_seconds)
         add(all, level, "a subscriber of %s is %.1f s behind", slowest->topic, slowest->seconds);
     if (slowest->lost > 0)

@@ -9,6 +9,10 @@ typedef struct conditions {
     char message[1024]; /**< of each of them, the worst first; "" if there is none */
 } conditions;
 
+/** In one line what is, and the step that would do. */
+enum { CONDITION_SPLIT = 160 };
+void split_write(char *text, size_t size, const split_zeros *split);
+
 /** The levels are in doc/reference.md. */
 conditions conditions_of(const worker_state *state, const hdr_lag *slowest);
 

@@ -73,7 +73,8 @@ static void fill_keys(diagnostics *d, key_list *list, const worker_state *state,
     add_text(list, "interval limited by", hdr_cost_interval_limit_text(cost->limit));
     add_number(list, "condition", cost->condition);
     add_number(list, "repairs", (double)cost->repairs);
-    add_number(list, "collisions per second", collision_rate(d, &state->last, now));
+    if (state->last.collides)
+        add_number(list, "collisions per second", collision_rate(d, &state->last, now));
     add_text(list, "blas kernel", d->blas_kernel);
     if (state->checkpoint.time >= 0)
         add_number(list, "checkpoint of simulated time", state->checkpoint.time);
@@ -87,7 +88,7 @@ static void fill_watched(key_list *list, const worker_state *state, const hdr_la
     const examination *disks = &state->disks;
     const double error = state->last.cost.std_error;
     if (disks->made) {
-        add_number(list, "overlap", disks->overlap);
+        if (disks->overlap_max > 0.0) add_number(list, "overlap", disks->overlap);
         add_number(list, "energy error", disks->energy_error);
     }
     if (error >= 0.0) {

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "check.h"
+#include "conditions.h"
 #include "diagnostics.h"
 #include "hdlyap/follow.h"
 #include "hdlyap/hdlyap.h"
@@ -196,14 +197,20 @@ static void log_start(const app *a)
 static void log_end(const worker_state *state)
 {
     const progress *last = &state->last;
+    char collisions[48] = "";
+    if (last->collides)
+        snprintf(collisions, sizeof collisions, "%" PRIu64 " collisions, ", last->collisions);
     if (state->status != HD_OK)
         hdr_log(HDR_FATAL, "ended by a fault at simulated time %.6g: %s", last->time, state->fault);
     else
         hdr_log(HDR_INFO,
-                "%s at simulated time %.6g after %.1f s: %" PRIu64 " collisions, "
-                "%ld orthonormalisations, %ld repairs",
+                "%s at simulated time %.6g after %.1f s: %s%ld orthonormalisations, %ld repairs",
                 last->stage == HD_FINISHED ? "finished" : "stopped", last->time, last->cost.wall,
-                last->collisions, last->cost.orthonormalisations, last->cost.repairs);
+                collisions, last->cost.orthonormalisations, last->cost.repairs);
+    if (!last->split.are) return;
+    char split[CONDITION_SPLIT];
+    split_write(split, sizeof split, &last->split);
+    hdr_log(HDR_WARN, "%s", split);
 }
 
 /** It waits for subscribers that cannot come any more. */
@@ -243,6 +250,8 @@ static int finish(app *a, bool ended)
     diagnostics_publish(&a->diag, &state);
     log_end(&state);
     if (ended) table_result(&a->set, a->run);
+    if (ended && state.checkpoint.time >= 0)
+        hdr_log(HDR_INFO, "the checkpoint is %s; resume:=FILE goes on from it", a->set.checkpoint);
     if (state.saving) hdr_log(HDR_ERROR, "checkpoint not written: the disk does not answer");
     if (*a->set.checkpoint && state.status == HD_OK && state.checkpoint.time != state.last.time)
         hdr_log(HDR_WARN, "the checkpoint is not of the end, but of simulated time %.6g",

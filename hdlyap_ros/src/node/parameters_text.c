@@ -13,8 +13,8 @@ enum { LINE_WIDTH = 100 };
 
 static const char *const head =
     "Every parameter of hdlyap_node, with its default. Reduced units: disk mass 1, disk diameter "
-    "sigma = 1, kinetic energy per disk 1; the time unit follows from these. YAML reads 1e-8 as a "
-    "string, which is taken too.";
+    "sigma = 1, kinetic energy per disk 1 (soft ones have an energy); the time unit follows from "
+    "these. YAML reads 1e-8 as a string, which is taken too.";
 
 /** A comment of several lines. */
 static void print_comment(const char *text)
@@ -80,7 +80,8 @@ static void write_allowed(char *out, size_t size, const parameter *p)
 int parameters_print_help(void)
 {
     printf(
-        "Hard disks, spheres and dumbbells, their Lyapunov exponents and modes, as ROS topics.\n\n"
+        "Disks, spheres and dumbbells, hard or soft, their Lyapunov exponents and modes, as ROS "
+        "topics.\n\n"
         "  hdlyap_node [_parameter:=value ...] [__name:=NAME]\n"
         "                         runs the scene that its private parameters say; needs a master\n"
         "  hdlyap_node --check scene.yaml [parameter:=value ...]\n"

@@ -72,19 +72,33 @@ const char *settings_write_nodes(char text[NODES_SIZE], const hd_scene_def *def,
                        (uint32_t)wave->n[1], (uint32_t)wave->n[2]);
 }
 
+/** Of what moves in steps its own parameters, of which they follow. */
+static void write_steps(char *text, size_t size, const hd_scene_def *def)
+{
+    const hd_dynamics *of = hd_dynamics_of(def);
+    for (int k = 0; k < of->parameters; k++) {
+        const hd_parameter *row = &of->parameter[k];
+        const double value = hd_parameter_effect(row, def);
+        const size_t length = strlen(text);
+        if (hd_parameter_is_word(row, value))
+            snprintf(text + length, size - length, ", %s %s", row->name,
+                     hd_parameter_word_of(row, (int)value));
+        else
+            snprintf(text + length, size - length, ", %s %.4g", row->name, value);
+    }
+}
+
 const char *settings_write_system(char text[SYSTEM_SIZE], const settings *set)
 {
     const double packing = hd_scene_packing(&set->def);
     char container[64];
     hd_scene_describe(&set->def, container, sizeof container);
-    const hd_dynamics *of = hd_dynamics_of(&set->def);
     const int length = snprintf(text, SYSTEM_SIZE, "%d %s in %s", set->def.number, set->particles,
                                 container);
     if (!isnan(packing))
         snprintf(text + length, SYSTEM_SIZE - (size_t)length, ", packing fraction %.3g", packing);
-    else if (of->step)
-        snprintf(text + length, SYSTEM_SIZE - (size_t)length, ", steps of %.4g",
-                 of->step(&set->def));
+    else if (hd_dynamics_of(&set->def)->step)
+        write_steps(text, SYSTEM_SIZE, &set->def);
     return text;
 }
 

@@ -145,6 +145,4 @@ void table_tell(table *t, const settings *set, const hd_run *run)
 void table_result(const settings *set, const hd_run *run)
 {
     if (set->table > 0.0 && is_averaged(run)) print("result", set, run);
-    if (*set->checkpoint)
-        hdr_log(HDR_INFO, "the checkpoint is %s; resume:=FILE goes on from it", set->checkpoint);
 }

@@ -287,6 +287,9 @@ static void explain(worker *w, hd_status status)
     char *fault = w->state.fault;
     const size_t size = sizeof w->state.fault;
     snprintf(fault, size, "%s", hd_status_text(status));
+    if (status == HD_ENERGY_LOST)
+        snprintf(fault, size, "%s, %.4g", hd_status_text(status),
+                 hd_dynamics_of(scene)->step(scene));
     if (status == HD_NO_ROOM && hd_covariant_check_room(scene, interval, fault, size) == HD_OK)
         snprintf(fault, size, "%s = %.3g GB, orthonormalised more often than every %.3g time units",
                  hd_status_text(status), scene->covariant_memory, interval);

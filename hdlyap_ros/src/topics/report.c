@@ -44,6 +44,25 @@ static double remaining_at(const hd_cost *cost, double time, double pace)
     return fmax(cost->remaining, time * (1.0 / cost->progress - 1.0) / pace);
 }
 
+/** Once errors are known, of vectors that reach them. */
+static split_zeros split_of(const hd_run *run, const hd_cost *cost)
+{
+    const hd_scene_def *scene = hd_run_scene(run);
+    const hd_dynamics *of = hd_dynamics_of(scene);
+    const hd_spectrum *spectrum = hd_run_parts(run).spectrum;
+    const int first = hd_scene_counts(scene).positive;
+    split_zeros split = {.are = false};
+    if (!of->split || !spectrum || first >= hd_run_vectors(run) || cost->std_error < 0.0)
+        return split;
+    const double time = hd_spectrum_time(spectrum), own = log(time) / time;
+    split.exponent = hd_spectrum_exponent(spectrum, first);
+    split.expected = fmax(own, scene->accuracy);
+    split.step = of->step(scene);
+    split.step_wanted = split.step * pow(split.expected / split.exponent, 1.0 / of->split(scene));
+    split.are = time > exp(1.0) && split.exponent > own + scene->accuracy;
+    return split;
+}
+
 progress progress_of(const hd_run *run, double pace)
 {
     const hd_spectrum *spectrum = hd_run_parts(run).spectrum;
@@ -52,11 +71,13 @@ progress progress_of(const hd_run *run, double pace)
     return (progress){
         .stage = hd_run_stage(run),
         .time = hd_run_time(run),
+        .collides = hd_dynamics_of(hd_run_scene(run))->tell != NULL,
         .collisions = hd_trajectory_told(hd_run_parts(run).trajectory).collisions,
         .cost = cost,
         .averaged = spectrum ? hd_spectrum_time(spectrum) : 0.0,
         .resolved_steps = resolved_steps(run),
         .caged = hd_run_is_caged(run),
+        .split = split_of(run, &cost),
     };
 }
 

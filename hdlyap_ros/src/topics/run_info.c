@@ -79,7 +79,7 @@ static bool fill_own(hdr_run_info *info, const moment *now)
     for (uint32_t k = 0; k < count; k++, text += LENGTH) {
         const hd_parameter *row = &of->parameter[k];
         list[k] = text;
-        write_own(text, LENGTH, row, hd_parameter_value(row, def));
+        write_own(text, LENGTH, row, hd_parameter_effect(row, def));
     }
     info->own = (hdr_strings){list, count};
     return true;

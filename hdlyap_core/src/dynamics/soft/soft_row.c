@@ -42,6 +42,7 @@ static const hd_parameter own[HD_SOFT_OWN] = {
      .kind = HD_PARAMETER_REAL,
      .offset = HD_OWN(HD_SOFT_TIME_STEP),
      .most = 10.0,
+     .chosen = hd_soft_time_step,
      .allowed = "from 0 to 10",
      .unit = "time units",
      .text = "Of the integrator; 0: chosen by potential and energy, so that the relative "
@@ -115,6 +116,12 @@ double hd_soft_time_step(const hd_scene_def *scene)
     if (asked > 0) return asked;
     return angle[hd_soft_integrator(scene) - hd_integrators] *
            (hd_soft_integrator(scene)->order == 2 ? sqrt(aim) : sqrt(sqrt(aim))) / fastest(scene);
+}
+
+/** The cube root of what a jump at the cut does [T24], or as the integrator's order lets it. */
+static double row_split(const hd_scene_def *scene)
+{
+    return fmin(2.0 / 3.0 * hd_soft_potential(scene)->smooth, hd_soft_integrator(scene)->order);
 }
 
 static hd_status row_check(const hd_scene_def *scene, char *message, size_t size)
@@ -279,7 +286,7 @@ static const char *row_fault(const hd_record *record, const hd_scene_def *scene)
     {.particles = (name), .dimension = (of_one), .coordinates = (of_one),                          \
      .entry = HD_KICK_BYTES(bends), .symplectic = true, .parameter = own,                  \
      .parameters = HD_SOFT_OWN, .check = row_check, .zeros = row_zeros, .entries = row_entries,    \
-     .rate = row_rate, .step = hd_soft_time_step, .crossing = row_crossing, .null = row_null, .create = hd_soft_create,       \
+     .rate = row_rate, .step = hd_soft_time_step, .split = row_split, .crossing = row_crossing, .null = row_null, .create = hd_soft_create,       \
      .create_from = hd_soft_create_from, .free = hd_soft_free, .advance = hd_soft_advance,         \
      .time = row_time, .state = row_state, .kinetic_energy = hd_soft_kinetic_energy,               \
      .examine = row_examine, .energy_error = row_energy_error, .archive = row_archive, .bytes = row_bytes, .fault = row_fault,       \

@@ -1,0 +1,251 @@
+#!/usr/bin/env python3
+"""A run of soft disks: what a subscriber gets, held against what must be so of steps in time."""
+
+import math
+import os
+import re
+
+import numpy as np
+import yaml
+
+import harness
+import test_dumbbells
+from test_check import checked
+from hdlyap.msg import Mode
+
+TOPICS = ['run_info', 'spectrum', 'modes', 'steps', 'lp_phases', 't_phases', 'fields', 'structure']
+TOPICS += ['covariant', 'localization', 'state', 'status', 'cost']
+N, CHOSEN = 36, [1, 66, 69]
+SCENE = dict(particles='soft_disks', potential='power', number=N, density=0.2, aspect=0.05)
+SCENE.update(scene='soft', seed='2', exponents='all', equilibration=10.0, warmup=60.0)
+SCENE.update(duration=200.0, report_interval=2.0, field_interval=0.0, max_mode_number=1)
+SCENE.update(covariant_window=20.0, covariant_transient=60.0, covariant_sampling=2.0, threads=1)
+SCENE.update(observables=TOPICS[1:-2], field_indices=CHOSEN)
+SCENES = test_dumbbells.SCENES
+ZEROS = slice(2 * N - 3, 2 * N)  # of the positive half
+ROUNDING = 1e-9  # of sums over all of them
+ORTHONORMAL = 1e-7
+SMALL = dict(particles='soft_disks', number=16, density=0.4, aspect=1.0, seed='3', threads=1)
+SMALL.update(equilibration=5.0, warmup=20.0, observables=['spectrum'])
+CUT = dict(power=1.0, wca=2 ** (1 / 6), lennard_jones=2.5)
+
+
+def pair_energy(potential, r):
+    if potential == 'power':
+        return 100 * (1 - r**2) ** 4
+    energy = 4 * (r**-12 - r**-6)
+    if potential == 'wca':
+        return energy + 1
+    x = np.clip((r**2 - 4) / 2.25, 0, 1)
+    return energy * (1 - 10 * x**3 + 15 * x**4 - 6 * x**5)
+
+
+def of(message, *names):
+    """[names, N]"""
+    return np.array([getattr(message, name) for name in names])
+
+
+def energy(state, info, potential):
+    """Of a particle, all pairs by their nearest images."""
+    q, box = of(state, 'x', 'y'), np.array([info.box_x, info.box_y])[:, None]
+    apart = q[:, :, None] - q[:, None, :]
+    apart -= box[:, None] * np.round(apart / box[:, None])
+    r = np.sqrt(np.sum(apart**2, axis=0))[np.triu_indices(info.number, 1)]
+    kinetic = np.sum(of(state, 'px', 'py') ** 2) / 2
+    return (kinetic + np.sum(pair_energy(potential, r[r < CUT[potential]]))) / info.number
+
+
+class Soft(harness.Case):
+    @classmethod
+    def setUpClass(cls):
+        cls.messages = harness.whole_run(dict(SCENE, wait_for_subscribers=TOPICS), TOPICS)
+        cls.info = cls.messages['run_info'][-1]
+
+    def test_what_they_are(self):
+        """A step that is chosen is said, to its last bit."""
+        info = self.info
+        self.assertEqual((info.particles, info.dimension, info.coordinates), ('soft_disks', 2, 2))
+        potential, each, step, integrator = info.own
+        self.assertEqual(
+            (potential, each, integrator), ('potential=power', 'energy=1', 'integrator=pefrl')
+        )
+        self.assertRegex(step, r'^time_step=0\.00\d+$')
+        self.assertTrue(math.isnan(info.packing_fraction))
+        self.assertEqual((info.zero_exponents, info.vectors, info.inertia), (6, 4 * N, 0))
+
+    def test_states(self):
+        """Of the energy a part is that of pairs, which is another one at each report."""
+        kinetic = [state.kinetic_energy for state in self.messages['state']]
+        self.assertGreater(len(kinetic), 130)
+        for state in self.messages['state']:
+            q, p = of(state, 'x', 'y'), of(state, 'px', 'py')
+            box = np.array([[self.info.box_x], [self.info.box_y]])
+            self.assertTrue(((q >= 0) & (q <= box)).all())
+            self.assertAlmostEqual(energy(state, self.info, 'power'), 1.0, delta=1e-5)
+            self.assertAlmostEqual(np.sum(p**2) / 2, state.kinetic_energy, delta=ROUNDING)
+            np.testing.assert_allclose(p.sum(axis=1), 0.0, atol=ROUNDING)
+        self.assertLess(np.mean(kinetic), 0.99 * N)
+        self.assertGreater(np.std(kinetic), 0.01 * N)
+
+    def test_spectrum(self):
+        """Zeros are as small as a shear lets them be: well below ln t / t."""
+        last = self.messages['spectrum'][-1]
+        exponents = np.array(last.exponents)
+        self.assertEqual((len(exponents), last.pairing_error, last.collisions), (4 * N, 0.0, 0))
+        np.testing.assert_array_equal(exponents, -exponents[::-1])
+        own = math.log(last.averaged_time) / last.averaged_time
+        self.assertLess(abs(exponents[ZEROS]).max(), own)
+        self.assertGreater(exponents[2 * N - 4], 2 * own)
+
+    def test_steps_and_phases(self):
+        """T(1,0) and LP(1,0) share a set of six; nothing of what is not found is stated."""
+        steps = {(s.kind, s.nx): s for s in self.messages['steps'][-1].steps if not s.conjugate}
+        t, lp, zero = steps[Mode.T, 1], steps[Mode.LP, 1], steps[Mode.ZERO, 0]
+        self.assertEqual((t.expected, lp.expected, zero.expected), (2, 4, 6))
+        self.assertTrue(zero.resolved)
+        self.assertEqual((zero.first_index, zero.last_index), (2 * N - 2, 2 * N + 3))
+        found = [s for message in self.messages['steps'] for s in message.steps if s.resolved]
+        self.assertIn((Mode.T, 1), {(s.kind, s.nx) for s in found})
+        for s in [s for message in self.messages['steps'] for s in message.steps]:
+            if not s.resolved:
+                self.assertTrue(math.isnan(s.exponent) and math.isnan(s.multiplicity))
+                self.assertEqual((s.first_index, s.members, s.set), (0, 0, -1))
+            elif s.kind != Mode.ZERO:
+                self.assertGreater(s.multiplicity, 0.4 * s.expected)
+        self.assertGreater(len(self.messages['lp_phases']), 90)
+        self.assertGreater(len(self.messages['t_phases']), 90)
+
+    def test_vectors(self):
+        """Of one time they are orthonormal, and of the states that they come with."""
+        states = {state.sim_time: state for state in self.messages['state']}
+        together = {}
+        for field in self.messages['fields']:
+            vector = of(field, 'dqx', 'dqy', 'dpx', 'dpy')
+            self.assertEqual((vector.shape, len(field.dq_angle)), ((4, N), 0))
+            self.assertEqual(field.x, states[field.sim_time].x)
+            together.setdefault(field.sim_time, []).append(vector.ravel())
+        for vectors in together.values():
+            products = np.array(vectors) @ np.array(vectors).T
+            np.testing.assert_allclose(products, np.eye(len(vectors)), atol=ORTHONORMAL)
+            self.assertEqual(len(vectors), len(CHOSEN))
+        self.assertGreater(len(together), 90)
+
+    def test_covariant(self):
+        """Pairs of them, too; those of the centre have the exponent zero."""
+        last = self.messages['covariant'][-1]
+        exponents = np.array(last.exponents)
+        self.assertEqual(len(exponents), 4 * N)
+        self.assertLess(abs(exponents + exponents[::-1]).max(), 0.2)
+        self.assertLess(abs(exponents[2 * N - 3 : 2 * N + 3]).max(), 0.05)
+        self.assertGreater(last.samples, 10)
+
+    def test_others(self):
+        widths = np.array(self.messages['localization'][-1].widths)
+        self.assertEqual(len(widths), 4 * N)
+        self.assertTrue(((widths > 1 / N) & (widths <= 1)).all())
+        self.assertEqual(len(self.messages['structure'][-1].peak), 4 * N)
+
+    def test_check(self):
+        """It says what they are moved by, and nothing that is known of hard ones alone."""
+        path = os.path.join(self.new_folder(), 'soft.yaml')
+        with open(path, 'w') as file:
+            yaml.safe_dump(dict(SCENE, density=0.95, aspect=0.2), file)
+        said = checked(path).stdout
+        self.assertRegex(
+            said,
+            rf'is valid: {N} soft_disks in .*, potential power, energy 1, time_step 0\.00\d+, '
+            'integrator pefrl, 144 vectors',
+        )
+        for hard in 'packing', 'keep their places', 'c_T', 'of steps', '780':
+            self.assertNotIn(hard, said)
+
+
+class Energies(harness.Case):
+    def test_each_potential(self):
+        """As given, and as exact as THEORY says of the step that is chosen."""
+        for potential, own, error in (
+            ('wca', 0.7, 5e-4),
+            ('lennard_jones', -0.5, 1e-5),
+            ('power', 2.5, 1e-5),
+        ):
+            scene = dict(SMALL, number=36, potential=potential, energy=own, exponents='none')
+            scene.update(duration=20.0, observables=['state'])
+            heard = ['run_info', 'state']
+            messages = harness.whole_run(dict(scene, wait_for_subscribers=heard), heard)
+            with self.subTest(potential=potential):
+                for state in messages['state']:
+                    got = energy(state, messages['run_info'][0], potential)
+                    self.assertAlmostEqual(got, own, delta=error * max(abs(own), 1.0))
+
+    def test_pairs(self):
+        """All of them are carried: nothing follows by construction."""
+        scene = dict(SMALL, exponents='all_independent', duration=100.0, time_step=0.02)
+        spectrum = harness.whole_run(
+            dict(scene, wait_for_subscribers=['spectrum']), ['spectrum', 'cost']
+        )
+        last = spectrum['spectrum'][-1]
+        self.assertGreater(last.pairing_error, 0.0)
+        self.assertLess(last.pairing_error, 0.04)
+
+
+class Steps(harness.Case):
+    """What a step that is too long does, and what is said of it."""
+
+    def test_zeros_that_split(self):
+        said = {}
+        for potential in 'wca', 'power':
+            scene = dict(SMALL, potential=potential, time_step=0.01, exponents='all')
+            scene.update(duration=400.0, integrator='verlet')
+            text = self.runs(scene).text()
+            said[potential] = re.findall('time_step = .* would do', text)
+            self.assertNotIn('collisions', text)
+        self.assertEqual(said['power'], [])
+        (line,) = said['wca']
+        numbers = re.fullmatch(
+            'time_step = (.*) is too long for the zero exponents: the largest is (.*), not (.*); '
+            '(.*) would do',
+            line,
+        )
+        step, largest, own, wanted = map(float, numbers.groups())
+        self.assertEqual((step, own), (0.01, 0.015))  # ln 400 / 400
+        self.assertGreater(largest, 0.03)
+        self.assertAlmostEqual(wanted / (step * (own / largest) ** 1.5), 1.0, delta=0.1)
+
+    def test_energy_that_is_lost(self):
+        """Named, with the step; what was computed stays, and no checkpoint is said that is not."""
+        kept = os.path.join(self.new_folder(), 'kept')
+        states = self.listen('state')
+        scene = dict(SMALL, exponents='none', time_step=0.035, integrator='verlet')
+        scene.update(observables=['state'], wait_for_subscribers=['state'], checkpoint=kept)
+        scene.update(equilibration=0.0, duration=1e4)
+        node = self.start(scene)
+        heard = states.all_of(node)
+        self.ends(node, 3, 'the energy is not conserved: the time step is too long, 0.035')
+        self.assertGreater(len(heard), 5)
+        self.assertEqual('the checkpoint is' in node.text(), os.path.exists(kept))
+
+
+class Again(test_dumbbells.Again):
+    RUN = {name: value for name, value in SCENE.items() if not name.startswith('covariant')}
+    RUN.update(observables=[name for name in SCENE['observables'] if name != 'covariant'])
+    RUN.update(wait_for_subscribers='all', duration=40.0, report_interval=1.0)
+    RUN.update(equilibration=10.0, warmup=60.0)
+
+
+class Scenes(harness.Case):
+    def test_each_is_valid_and_says_nothing_twice(self):
+        usual = harness.defaults()
+        files = sorted(name for name in os.listdir(SCENES) if name.startswith('soft'))
+        self.assertEqual(files, ['soft.yaml', 'soft_dense.yaml'])
+        for name in files:
+            path = os.path.join(SCENES, name)
+            with open(path) as file:
+                scene = yaml.safe_load(file)
+            self.assertEqual(scene.pop('scene') + '.yaml', name)
+            self.assertEqual(scene.pop('particles'), 'soft_disks')
+            self.assertEqual({key for key in scene if scene[key] == usual.get(key)}, set())
+            self.assertRegex(checked(path, 'number:=60').stdout, r'(?m)^waves +T,LP\(1,0\)')
+
+
+if __name__ == '__main__':
+    harness.main('soft')
