@@ -243,6 +243,20 @@ TEST(dumbbells, what_is_not_of_each_is_passed_over)
     EXPECT_EQ(-1.0, flat.h.time);
 }
 
+/** In words; numbers in four digits. */
+TEST(dumbbells, others_say_their_own)
+{
+    hearing on;
+    static const char *const own[] = {"potential=lennard_jones", "energy=1",
+                                      "time_step=0.0044274919805363921"};
+    heard_clear(&on.h);
+    on.info.particles = "soft_disks", on.info.own = {own, 3};
+    ASSERT_TRUE(heard_run_info(&on.h, &on.info));
+    EXPECT_STREQ("soft disks", on.h.particles);
+    EXPECT_STREQ("potential lennard jones, energy 1, time step 0.004427", on.h.own);
+    EXPECT_STREQ("", hearing_dumbbells().h.own);
+}
+
 /** Anybody's bag: no length that cannot be drawn, and none of what only has that name. */
 TEST(dumbbells, a_bond_is_a_number_of_dumbbells)
 {

@@ -12,6 +12,8 @@ import harness
 import test_dumbbells
 from test_check import checked
 from hdlyap.msg import Mode
+from hdlyap.plots import repetition, report
+from hdlyap.plots.figures import style
 
 TOPICS = ['run_info', 'spectrum', 'modes', 'steps', 'lp_phases', 't_phases', 'fields', 'structure']
 TOPICS += ['covariant', 'localization', 'state', 'status', 'cost']
@@ -144,6 +146,18 @@ class Soft(harness.Case):
         self.assertEqual(len(widths), 4 * N)
         self.assertTrue(((widths > 1 / N) & (widths <= 1)).all())
         self.assertEqual(len(self.messages['structure'][-1].peak), 4 * N)
+
+    def test_words(self):
+        """Titles, reports and the scene file that repeats the run have what moves them."""
+        own = 'potential power, energy 1, time step 0.004427, integrator pefrl'
+        self.assertEqual(
+            style.scene(self.info),
+            f'soft: $N={N}$ soft disks\n{own}\n' r'$\rho=0.2$, $L_y/L_x=0.05$, periodic',
+        )
+        self.assertIn(f'N = {N} soft disks, {own}, density 0.2, box 60', report.system(self.info))
+        again = yaml.safe_load(repetition.scene_file(self.info))
+        self.assertEqual(again['potential'], 'power')
+        self.assertEqual(f"time_step={again['time_step']:.17g}", self.info.own[2])
 
     def test_check(self):
         """It says what they are moved by, and nothing that is known of hard ones alone."""

@@ -435,7 +435,8 @@ static void draw_caption(const sheet *s)
 {
     const heard *h = s->h;
     const char *colours = legend(s);
-    const double more = *colours ? 0.5 * CAPTION_HEIGHT : 0.0; /* half a line */
+    const int lines = (*colours != 0) + (*h->own != 0);
+    const double more = 0.5 * CAPTION_HEIGHT * lines; /* half of them */
     const hdr_point at = {
         0.5 * ((s->columns - 1) * s->right + h->box[0]),
         h->box[1] + 0.5 * s->longest + (ABOVE + CAPTION + more) * s->unit,
@@ -446,8 +447,8 @@ static void draw_caption(const sheet *s)
     write_box(box, sizeof box, h);
     write_time(time, sizeof time, h);
     canvas_text(s->on, "caption", at, CAPTION_HEIGHT * s->unit, PALETTE_INK,
-                "%.60s: %s, %s\n%s%s%s%s", h->scene, particles, box, time, *s->p->note ? "   " : "",
-                s->p->note, colours);
+                "%.60s: %s, %s\n%s%s%s%s%s%s", h->scene, particles, box, h->own,
+                *h->own ? "\n" : "", time, *s->p->note ? "   " : "", s->p->note, colours);
 }
 
 bool draw(canvas *on, hdr_markers *out, const picture *p, const char *frame_id)

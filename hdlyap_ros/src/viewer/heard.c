@@ -65,12 +65,43 @@ static double own_number(const hdr_run_info *info, const char *name)
     return isfinite(number) ? number : 0.0;
 }
 
+/** time_step: time step. */
+static void in_words(char *name)
+{
+    for (char *c = name; *c; c++)
+        if (*c == '_') *c = ' ';
+}
+
+/** "potential wca, energy 1": names in words, numbers in four digits. */
+static void write_own(char *text, size_t size, const hdr_strings *own)
+{
+    *text = '\0';
+    for (uint32_t k = 0; k < own->count; k++) {
+        const size_t length = strlen(text);
+        const int name = (int)strcspn(own->data[k], "=");
+        const char *value = own->data[k] + name + (own->data[k][name] == '=');
+        char *end;
+        const double number = strtod(value, &end);
+        if (end > value && !*end)
+            snprintf(text + length, size - length, "%s%.*s %.4g", k > 0 ? ", " : "", name,
+                     own->data[k], number);
+        else
+            snprintf(text + length, size - length, "%s%.*s %s", k > 0 ? ", " : "", name,
+                     own->data[k], value);
+    }
+    in_words(text);
+}
+
 static void begin_particles(heard *h, const hdr_run_info *info)
 {
     snprintf(h->particles, sizeof h->particles, "%s", info->particles);
+    in_words(h->particles);
     h->disks = info->number;
     h->inertia = info->inertia;
-    if (strcmp(info->particles, "dumbbells") == 0) h->bond = own_number(info, "bond");
+    if (strcmp(info->particles, "dumbbells") == 0)
+        h->bond = own_number(info, "bond");
+    else
+        write_own(h->own, sizeof h->own, &info->own);
 }
 
 /** As far as there is room. */

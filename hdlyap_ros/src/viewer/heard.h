@@ -31,6 +31,7 @@ typedef struct heard {
     char run_id[96], scene[64];
     char particles[32];
     uint32_t disks;
+    char own[160];  /**< of what else moves its own parameters; "" without any */
     double bond;    /**< of a dumbbell's two disks; 0 of one disk [sigma] */
     double inertia; /**< of what turns; 0 of what does not [sigma^2] */
     double box[3];  /**< 0 along z of disks, spheres otherwise */

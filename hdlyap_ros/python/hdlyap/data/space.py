@@ -56,18 +56,22 @@ def vectors(message, name=''):
 
 def particle(info):
     """What it is called."""
-    name = info.particles
+    name = _words(info.particles)
     return name[:-1] if name.endswith('s') else 'particle'
 
 
 def named(info):
     """Behind their number, if it is not of disks: what they are, and what is their own."""
-    own_ones = [f'{name} {_short(value)}' for name, value in own(info).items()]
-    return '' if is_disks(info) else ', '.join([f' {info.particles}', *own_ones])
+    own_ones = [f'{_words(name)} {_short(value)}' for name, value in own(info).items()]
+    return '' if is_disks(info) else ', '.join([f' {_words(info.particles)}', *own_ones])
+
+
+def _words(name):
+    return name.replace('_', ' ')
 
 
 def _short(value):
-    return f'{value:g}' if isinstance(value, float) else value
+    return f'{value:.4g}' if isinstance(value, float) else _words(f'{value}')
 
 
 def disks(info, q, angle=()):

@@ -101,7 +101,7 @@ def _sums(recording):
     spectrum, disks = recording.spectrum, recording.info.number
     lines = [
         f'averaged time   {spectrum.averaged_time:g}',
-        f'collisions      {spectrum.collisions}',
+        *([f'collisions      {spectrum.collisions}'] if spectrum.collisions else []),
         f'lambda_max      {spectrum.lambda_max:.6f}{_error(spectrum.std_errors[0])}',
     ]
     error, each = recording.sum_error, spectrum.ks_entropy / disks

@@ -91,3 +91,6 @@ def _lines(axes, recording, found):
     axes.set_ylabel(r'$S(k, \omega)$')
     if shown:
         axes.legend()
+    else:
+        axes.text(0.5, 0.5, 'none is known', ha='center', va='center', transform=axes.transAxes)
+        axes.set(xticks=[], yticks=[])

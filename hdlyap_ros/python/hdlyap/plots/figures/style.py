@@ -12,6 +12,7 @@ from hdlyap.data.containers import is_curved
 from hdlyap.numbers import known
 
 POINTS = 2000  # of a curve; more cannot be seen
+TITLE = 60  # characters of what is in a line with the name of the scene
 # Okabe and Ito's palette, safe for colour-blind readers
 BLUE, ORANGE, GREEN, VERMILION, PURPLE, SKY = (
     '#0072B2',
@@ -93,6 +94,8 @@ def scene(info):
         _edges(info) if space.is_solid(info) else f'$L_y/L_x={info.aspect:g}$'
     )
     what = space.named(info) + '\n' if info.own else ', '  # too long for one line
+    if len(what) > TITLE:
+        what = what.replace(', ', '\n', 1)
     return f'{name}: $N={info.number}${what}{box}, ' + ', '.join(walls)
 
 
