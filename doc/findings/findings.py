@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 """Tables of the studies -> the pictures of doc/findings.md, and the fits that it quotes.
 
-Usage: findings.py TABLE.csv.. of halves, sound, dilute, circle, spheres, dumbbells: prints the
-fits, draws TABLE.png beside it.
+Usage: findings.py TABLE.csv.. of halves, sound, dilute, circle, spheres, dumbbells, soft,
+time_steps: prints the fits, draws TABLE.png beside it.
 """
 
 import sys
@@ -16,8 +16,10 @@ import circle  # noqa: E402
 import dilute  # noqa: E402
 import dumbbells  # noqa: E402
 import halves  # noqa: E402
+import soft  # noqa: E402
 import sound  # noqa: E402
 import spheres  # noqa: E402
+import time_steps  # noqa: E402
 from study import STYLE, rows_of  # noqa: E402
 
 STUDIES = {  # a column that only this one has: fits, picture
@@ -26,6 +28,8 @@ STUDIES = {  # a column that only this one has: fits, picture
     'lambda_1 over it': (dilute.lines, dilute.draw),
     'u_theta': (circle.lines, circle.draw),
     'trembling': (dumbbells.lines, dumbbells.draw),
+    'climb': (soft.lines, soft.draw),
+    'third zero': (time_steps.lines, time_steps.draw),
     'boundaries': (spheres.lines, spheres.draw),
 }
 
@@ -33,8 +37,8 @@ STUDIES = {  # a column that only this one has: fits, picture
 def main(arguments):
     if not arguments or not all(path.endswith('.csv') for path in arguments):
         print(
-            'findings.py: needs tables of halves, sound, dilute, circle, spheres, dumbbells, '
-            'each a .csv',
+            'findings.py: needs tables of halves, sound, dilute, circle, spheres, dumbbells, soft, '
+            'time_steps, each a .csv',
             file=sys.stderr,
         )
         return 2

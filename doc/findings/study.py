@@ -25,7 +25,15 @@ STYLE = {
 }
 RATE = 'P_xx / (sqrt(2) rho)'  # of the rotation over k, as the pressure has it
 BAR = 3  # standard errors
-WORDS = 'ends of x', 'boundaries', 'kind', 'inertia'  # columns of them
+WORDS = (
+    'ends of x',
+    'boundaries',
+    'kind',
+    'inertia',
+    'potential',
+    'integrator',
+    'particles',
+)  # columns of them
 
 
 def rows_of(path):

@@ -56,7 +56,12 @@ def drawn(test, *studies):
     return [line for line in done.stdout.splitlines() if not line.endswith('.png')]
 
 
-WORDS = 'periodic', 'reflecting', 'none', 'disks', 'points', 'pp', 'exponent', 'T', 'LP'
+WORDS = {'periodic', 'reflecting', 'none', 'disks', 'points', 'pp', 'exponent', 'T', 'LP'} | {
+    'power',
+    'wca',
+    'lennard_jones',
+    'verlet',
+}
 
 
 def number(text):
@@ -147,6 +152,49 @@ class Studies(unittest.TestCase):
         )
         self.assertIn(f'over that of the pressure {velocity / lp["P_xx"]:.4f}', said)
 
+    def test_soft_disks(self):
+        """At density 0.2 six vectors hold most of T and LP, most of the flow lies in the span of
+        the unstable vectors and none of the gradient, and the pressure is above that of a gas."""
+        table = numbers('soft')
+        self.assertEqual(len(table), 2 * 64 - 3)
+        first = table[0]
+        self.assertAlmostEqual(first['k'], 2 * math.pi * 0.2 * 5.2 / 64, delta=1e-5)
+        self.assertAlmostEqual(first['kinetic'], 0.973, delta=0.004)
+        gas = 0.2 * first['kinetic'] * 64 / 63  # rho kT; of disks by Henderson 1.39 times that
+        self.assertAlmostEqual(first['P_xx'] / gas, 1.2, delta=0.1)
+        self.assertLess(first['climb'], 0.1)
+        flow = sum(row['flow'] for row in table)
+        self.assertAlmostEqual(flow, 0.77, delta=0.12)
+        cosine = sum(row['cos Theta'] for row in table[-6:]) / 6
+        self.assertAlmostEqual(cosine, 0.52, delta=0.12)
+        both = sorted(row['T'] + row['L'] + row['P'] for row in table)
+        self.assertAlmostEqual(sum(both), 6, delta=1)  # of fields that all but zero modes hold
+        held = sum(both[-6:]) / 6
+        self.assertTrue(0.4 < held < 0.9, held)
+        covariant = sorted(sum(row['covariant ' + name] for name in 'TLP') for row in table)
+        self.assertTrue(0.4 < sum(covariant[-6:]) / 6 < 0.95, covariant[-6:])
+        said = '\n'.join(drawn(self, 'soft'))
+        self.assertIn(f'flow {flow:.3f}', said)
+        self.assertIn(f'both held {held:.2f}', said)
+
+    def test_time_steps(self):
+        """Verlet's error of the energy is of second order; a step that is too long is said to be
+        one; the third zero of wca stands out."""
+        table = numbers('time_steps')
+        power, wca, pulling = (table[first : first + 2] for first in (0, 2, 4))
+        self.assertEqual([row['step'] for row in power], [0.016, 0.008])
+        ratio = power[0]['energy error'] / power[1]['energy error']
+        self.assertTrue(2.5 < ratio < 5, ratio)
+        for rows, known in ((power, 2.718), (wca, 3.02), (pulling[1:], 4.71)):
+            for row in rows:
+                error = math.hypot(0.01, row['lambda_1 error'])
+                self.assertAlmostEqual(row['lambda_1'], known, delta=4 * error)
+        self.assertGreater(wca[1]['third zero'], 2 * power[1]['third zero'])
+        self.assertTrue(math.isnan(pulling[0]['lambda_1']))
+        said = '\n'.join(drawn(self, 'time_steps'))
+        self.assertIn('lennard_jones, verlet, step 0.016: the energy is lost', said)
+        self.assertIn(f'power, verlet, step 0.008: energy {power[1]["energy error"]:.1e}', said)
+
     def test_fits_are_those_of_least_squares(self):
         """Made-up tables: B = 1.4 - 1 / N with errors of 0.01, one value of eight off by three."""
         path = os.path.join(PROGRAMS, 'made_up.csv')
@@ -171,7 +219,7 @@ class Studies(unittest.TestCase):
         self.assertAlmostEqual(found[-2], 9 * (1 - leverage), 1)
 
     def test_a_bad_argument_gives_one_line_and_status_2(self):
-        for name in ('halves', 'sound', 'dilute', 'dumbbells'):
+        for name in ('halves', 'sound', 'dilute', 'dumbbells', 'soft', 'time_steps'):
             done = run(os.path.join(PROGRAMS, name), '--nonsense')
             self.assertEqual((done.returncode, done.stderr.count('\n')), (2, 1), name)
 
