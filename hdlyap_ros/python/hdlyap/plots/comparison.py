@@ -94,7 +94,8 @@ class Comparison:
         a, b = (run.info for run in self.runs)
         for name in a.__slots__:
             values = [getattr(info, name) for info in (a, b)]
-            if name not in OWN and values[0] != values[1]:
+            unknown = all(value != value for value in values)  # not a number, of both
+            if name not in OWN and values[0] != values[1] and not unknown:
                 yield name, *values
 
 
