@@ -352,6 +352,17 @@ class Refusals(Pairs):
         said = 'hdlyap compare: the runs are of different systems and are not compared: ' + said
         self.refuses(said, 'compare', *self.bags(run(), run(density=0.6, number=40)), status=2)
 
+    def test_steps_of_another_length(self):
+        """Are the same system: that is how one sees what they cost."""
+        soft = [
+            run(own=[f'potential={potential}', f'time_step={step}'])
+            for potential, step in (('wca', 0.01), ('wca', 0.005), ('power', 0.01))
+        ]
+        text = self.compare(*soft[:2])
+        self.assertRegex(text, r'(?m)^parameters that differ\n  time_step +0\.01 +0\.005$')
+        self.assertNotIn('time step', text)  # of both
+        self.cannot_compare('own .*wca.*power', *soft[1:])
+
     def test_what_is_not_there(self):
         bare = [INFO, made.cost(1)]
         self.cannot_compare('exponents 1-37 and 1-36', run(), run(EXPONENTS[:-1]))

@@ -17,6 +17,7 @@ from .deviation import Deviation
 OWN = ('header', 'run_id')  # of every message, also of bit-identical runs
 SLOPES = 'c_T', 'c_L', 'v'
 SUMS = 'h_KS', 'sum of exponents'
+STEPPED = 'time_step', 'integrator'  # how exactly it is moved, and not what
 GAS = {'collision_rate': 'collision rate', 'pressure': 'pressure'}
 
 
@@ -95,8 +96,26 @@ class Comparison:
         for name in a.__slots__:
             values = [getattr(info, name) for info in (a, b)]
             unknown = all(value != value for value in values)  # not a number, of both
-            if name not in OWN and values[0] != values[1] and not unknown:
+            if name == 'own':
+                yield from _own_ones(a, b)
+            elif name not in OWN and values[0] != values[1] and not unknown:
                 yield name, *values
+
+    @property
+    def system(self):
+        """run_info of a, as far as it is that of b, too."""
+        a, b = (run.info for run in self.runs)
+        shared = copy.copy(a)
+        shared.own = [one for one in a.own if one in b.own]
+        return shared
+
+
+def _own_ones(a, b):
+    """As parameters: of what moves alone."""
+    one, other = space.own(a), space.own(b)
+    for name in one:
+        if one[name] != other.get(name):
+            yield name, one[name], other.get(name)
 
 
 def _bits(message):
@@ -107,8 +126,16 @@ def _bits(message):
     return buffer.getvalue()
 
 
+def _what_moves(own):
+    return [one for one in own if one.partition('=')[0] not in STEPPED]
+
+
 def _refuse_other_systems(a, b):
-    others = [f'{name} {one} and {other}' for name, one, other in different(a, b, SYSTEM)]
+    others = [
+        f'{name} {one} and {other}'
+        for name, one, other in different(a, b, SYSTEM)
+        if name != 'own' or _what_moves(one) != _what_moves(other)
+    ]
     if others:
         why = 'the runs are of different systems and are not compared'
         raise RecordingError(f'{why}: {", ".join(others)}')

@@ -95,7 +95,7 @@ def report(comparison):
 def _head(comparison):
     a, b = comparison.runs
     lines = [f'{letter}  {origin(run.info)}' + _length(run) for letter, run in zip('ab', (a, b))]
-    yield '\n'.join([*lines, f'both  {system(a.info)}'])
+    yield '\n'.join([*lines, f'both  {system(comparison.system)}'])
 
 
 def _length(run):
