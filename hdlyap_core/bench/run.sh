@@ -80,7 +80,7 @@ run_all() {
     local -a whole=(--whole --out "$OUT") small=()
     local with_effects=0
     if ((${#QUICK[@]})); then
-        small=(--number 64)
+        small=(--disks 64)
     elif [[ -x $PROGRAMS/hdlyap_effects ]]; then
         with_effects=1
     fi
@@ -90,7 +90,7 @@ run_all() {
     stage 300 'how cost grows' "$PROGRAMS/hdlyap_scaling" --out "$OUT" "${QUICK[@]}"
     stage 15 'a whole run to its floor' "$PROGRAMS/hdlyap_bench" "${whole[@]}" "${small[@]}"
     stage 5 'the same, N = 100, one thread' "$PROGRAMS/hdlyap_bench" "${whole[@]}" --name whole_small \
-        --number 100 --threads 1 --duration 40
+        --disks 100 --threads 1 --duration 40
     if [[ $(uname -m) == x86_64 ]]; then
         stage 30 "the same on OpenBLAS's oldest kernels" fallback "${whole[@]}" "${small[@]}" --duration 8 \
             --name whole_fallback
