@@ -67,6 +67,8 @@ class Soft(harness.Case):
         """A step that is chosen is said, to its last bit."""
         info = self.info
         self.assertEqual((info.particles, info.dimension, info.coordinates), ('soft_disks', 2, 2))
+        null = [mode.null_p for mode in self.messages['modes'][-1].modes]
+        self.assertEqual((len(null), max(null)), (4 * N, 0.0))
         potential, each, step, integrator = info.own
         self.assertEqual(
             (potential, each, integrator), ('potential=power', 'energy=1', 'integrator=pefrl')
