@@ -6,7 +6,7 @@ import unittest
 
 import yaml
 
-from hdlyap.msg import Change
+from hdlyap.msg import Change, RunInfo
 import made
 from bags import Bags, process, tool
 from hdlyap.data.reader import RecordingError
@@ -38,7 +38,10 @@ def info_of(scene, **others):
     values = {name: text_of(scene[name]) for name in ('exponents', 'field_indices')}
     for name in 'interval', 'phase_interval':
         values[name] = 0.0 if scene[name] == 'auto' else scene[name]
-    return made.run_info(**{**scene, **values, 'threads': 2, **others})
+    own = {name: value for name, value in scene.items() if name not in RunInfo.__slots__}
+    said = {name: value for name, value in scene.items() if name not in own}
+    said['own'] = [f'{name}={value}' for name, value in own.items()]
+    return made.run_info(**{**said, **values, 'threads': 2, **others})
 
 
 class Repeat(Bags):
