@@ -135,16 +135,17 @@ static hd_status row_check(const hd_scene_def *scene, char *message, size_t size
                          hd_container_name(scene), particles);
     hd_scene_box(scene, box);
     for (int d = 0; d < hd_scene_dimension(scene); d++) {
+        const char axis = "xyz"[d];
         if (scene->boundary[d] != HD_PERIODIC)
             return hd_refuse(message, size,
-                             "boundary_%c = %s: must be periodic with particles = %s", "xyz"[d],
+                             "boundary_%c = %s: must be periodic with particles = %s", axis,
                              hd_scene_boundary_word(scene, d), particles);
         if (!(box[d] > 2.0 * potential->cut))
             return hd_refuse(message, size,
                              "density = %.15g with number = %d: the box edge L%c = %.15g must be "
                              "above %.6g, twice the range of potential = %s",
-                             scene->density, scene->number, "xyz"[d], box[d],
-                             2.0 * potential -> cut, potential -> name);
+                             scene->density, scene->number, axis, box[d], 2.0 * potential->cut,
+                             potential->name);
     }
     HD_TRY(hd_soft_lattice_energy(&lattice, scene));
     if (energy * scene->number > lattice) return HD_OK;
@@ -195,7 +196,8 @@ static void force_on(double *force, const hd_scene_def *scene, const double *q, 
             square += r[d] * r[d];
         }
         if (i == j || !(square < potential->cut * potential->cut)) continue;
-        for (int d = 0; d < dimension; d++) force[d] += potential->at(square).b * r[d];
+        const double b = potential->at(square).b;
+        for (int d = 0; d < dimension; d++) force[d] += b * r[d];
     }
 }
 
@@ -281,17 +283,19 @@ static const char *row_fault(const hd_record *record, const hd_scene_def *scene)
     return NULL;
 }
 
-/* clang-format off */
 #define SOFT(name, in, of_one, bends)                                                              \
-    {.particles = (name), .dimension = (of_one), .coordinates = (of_one),                          \
-     .entry = HD_KICK_BYTES(bends), .symplectic = true, .parameter = own,                  \
-     .parameters = HD_SOFT_OWN, .check = row_check, .zeros = row_zeros, .entries = row_entries,    \
-     .rate = row_rate, .step = hd_soft_time_step, .split = row_split, .crossing = row_crossing, .null = row_null, .create = hd_soft_create,       \
-     .create_from = hd_soft_create_from, .free = hd_soft_free, .advance = hd_soft_advance,         \
-     .time = row_time, .state = row_state, .kinetic_energy = hd_soft_kinetic_energy,               \
-     .examine = row_examine, .energy_error = row_energy_error, .archive = row_archive, .bytes = row_bytes, .fault = row_fault,       \
-     .maps_create = hd_kick_maps_create_##in, .maps_free = hd_kick_maps_free,                      \
-     .maps_fill = hd_kick_maps_fill, .carry = hd_kick_maps_carry}
-/* clang-format on */
+    {                                                                                              \
+        .particles = (name), .dimension = (of_one), .coordinates = (of_one),                       \
+        .entry = HD_KICK_BYTES(bends), .symplectic = true, .parameter = own,                       \
+        .parameters = HD_SOFT_OWN, .check = row_check, .zeros = row_zeros, .entries = row_entries, \
+        .rate = row_rate, .step = hd_soft_time_step, .split = row_split, .crossing = row_crossing, \
+        .null = row_null, .create = hd_soft_create, .create_from = hd_soft_create_from,            \
+        .free = hd_soft_free, .advance = hd_soft_advance, .time = row_time, .state = row_state,    \
+        .kinetic_energy = hd_soft_kinetic_energy, .examine = row_examine,                          \
+        .energy_error = row_energy_error, .archive = row_archive, .bytes = row_bytes,              \
+        .fault = row_fault, .maps_create = hd_kick_maps_create_##in,                               \
+        .maps_free = hd_kick_maps_free, .maps_fill = hd_kick_maps_fill,                            \
+        .carry = hd_kick_maps_carry                                                                \
+    }
 const hd_dynamics hd_soft_disks = SOFT("soft_disks", plane, 2, HD_BENDS_PLANE);
 const hd_dynamics hd_soft_spheres = SOFT("soft_spheres", space, 3, HD_BENDS_SPACE);
