@@ -305,23 +305,31 @@ TEST(both_disks_of_a_molecule_meet_at_once)
         }
 }
 
+/** The first contact since `start` is that one, at `t`, and nothing came after it. */
+static void met_once(const hd_trajectory *tr, const hd_record *log, const hd_scene_def *def,
+                     const molecules *start, const facing *f, double t, double close)
+{
+    const hd_bump *bump = hd_record_entry(log, 0);
+    molecules s = *start;
+    assert_int_equal(hd_record_count(log), 1);
+    CHECK_CLOSE(bump->t, t, close);
+    fly_for(&s, def->number, bump->t);
+    check_is_of(bump, def, &s, f);
+    bounce(def, &s, f);
+    const molecules now = molecules_now(tr);
+    for (int c = 0; c < D * def->number; c++) CHECK_CLOSE(now.p[c], s.p[c], close);
+}
+
 /** A tip passes by a hair, k 1e-13, or meets by as much, at 0.5 + asin(sine). */
 static void grazes(const hd_scene_def *def, const molecules *start, const facing *f, int k,
                    double sine)
 {
     OWNED(hd_record) *log = new_dumbbell_log(def);
     OWNED(hd_trajectory) *tr = prepared(def, start);
-    molecules s = *start;
     CHECK_OK(hd_trajectory_extend(tr, log, 4.0));
-    if (k != 0) assert_int_equal(hd_record_count(log), k < 0);
-    if (k >= 0) return;
-    const hd_bump *bump = hd_record_entry(log, 0);
-    CHECK_CLOSE(bump->t, 0.5 + asin(sine), 1e-8); /* 1e-15 over a rate of 3e-7 or more */
-    fly_for(&s, def->number, bump->t);
-    check_is_of(bump, def, &s, f);
-    bounce(def, &s, f);
-    const molecules now = molecules_now(tr);
-    for (int c = 0; c < D * def->number; c++) CHECK_CLOSE(now.p[c], s.p[c], 1e-8);
+    if (k > 0) assert_int_equal(hd_record_count(log), 0);
+    if (k < 0) /* 1e-15 over a rate of 3e-7 or more */
+        met_once(tr, log, def, start, f, 0.5 + asin(sine), 1e-8);
 }
 
 /** Tips of bonds of 1 that turn once in 2 pi, from half a radian before they point at each other or
@@ -345,4 +353,43 @@ TEST(grazing_at_arms_is_told_from_passing)
             grazes(&def, &s, &(facing){0, -1 - wall, {0, 0}, {1, 0}}, k, 2.0 * away - 1.0);
         }
     }
+}
+
+/** The first gap that closes is this one, open at `low` and closed at `high`. */
+static void meets(const hd_scene_def *def, const molecules *start, const facing *f, double low,
+                  double high)
+{
+    OWNED(hd_record) *log = new_dumbbell_log(def);
+    OWNED(hd_trajectory) *tr = prepared(def, start);
+    CHECK_OK(hd_trajectory_extend(tr, log, high));
+    met_once(tr, log, def, start, f, crossing(def, start, f, low, high), TIME_CLOSE);
+}
+
+/** A disk that touches another from within a bond of 2 leaves it at a small rate, and the turn
+ * brings the other one after it, with almost all of the bend that the search expects. */
+TEST(what_opens_slowly_is_met_again)
+{
+    const double phi = 0.3, c = cos(phi), s = sin(phi);
+    for (int walls = 0; walls < 4; walls++)
+        for (double rate = 1e-4; rate < 0.2; rate *= 10.0) {
+            const hd_scene_def def = dumbbells_in_box(2, 8.0, 8.0, 2.0, 0.0, walls, 4);
+            const double root = root_of(&def);
+            const molecules start = {.q = {3.0, 3.0, 0.0, 4.0 - c, 4.0 + s, 0.5 * PI * root},
+                                     .p = {0.0, 0.0, root, -rate * c, 1.0 + rate * s, 0.0}};
+            meets(&def, &start, &(facing){0, 1, {0, 0}, {1, 0}}, rate / c, 3.0 * rate / c);
+        }
+}
+
+/** Tips that part slower than they turn meet just before the circles around both molecules do. */
+TEST(the_end_of_a_passage_is_searched)
+{
+    const double passage = 2.8;
+    for (int walls = 0; walls < 4; walls++)
+        for (double v = 0.01; v > 1e-4; v *= 0.25) {
+            const hd_scene_def def = dumbbells_in_box(2, 8.0, 8.0, 1.0, 0.0, walls, 4);
+            const double root = root_of(&def), turned = passage * root;
+            const molecules start = {.q = {3.0, 3.0, -turned, 5.0 - v * passage, 3.0, turned},
+                                     .p = {0.0, 0.0, root, v, 0.0, -root}};
+            meets(&def, &start, &(facing){0, 1, {0, 0}, {1, 0}}, passage - 3.0 * v, passage - v);
+        }
 }
