@@ -1,33 +1,19 @@
 /** Scene -> what is known of lambda(k) before its steps are measured [T12].
  *
- * How it bends was measured in long boxes: of disks, wide ones too, at densities from 0.2 to 0.8;
- * of spheres, 8 : 1 : 1, from 0.3 to 0.9 (doc/findings.md). Of dumbbells in five boxes of 160,
- * densities 0.3 and 0.6, bonds 0.25 and 0.5. What else moves is taken to bend as disks and spheres
- * do, but for OTHERS times their errors. In a thin gas k
- * l decides, l the mean free path, else k sigma. What edges do, of disks in boxes with walls and in
- * narrow ones. */
+ * How it bends was measured in long boxes (doc/findings.md), and stands with the fluid of what
+ * moves. What is no fluid is taken to bend as disks and spheres do, but for OTHERS times their
+ * errors. In a thin gas k l decides, l the mean free path, else k sigma. What edges do was seen of
+ * disks in boxes with walls and in narrow ones. */
 #include "modes/steps.h"
 
 #include <math.h>
 
+#include "dynamics/dynamics.h"
 #include "modes/archived.h"
 #include "scene/container.h"
+#include "scene/fluid.h"
 #include "scene/scene.h"
 
-/** c2 / c = c2 + c2_l l, its error alike; c3 / c = c3 + c3_l2 l^2, its error besides OFF times c3.
- */
-typedef struct bend {
-    double c2, c2_l, error, error_l, c3, c3_l2, c3_error;
-} bend;
-/** Of LP and of T. */
-static const bend BENDS[][2] = {[HD_DISKS] = {{0.11, 0.16, 0.02, 0.02, 0.55, 2.0, 0.0},
-                                              {0.02, 0.0, 0.007, 0.0, 0.05, 1.3, 0.01}},
-                                [HD_SPHERES] = {{0.05, 0.17, 0.03, 0.04, 0.18, 0.8, 0.05},
-                                                {0.02, 0.0, 0.015, 0.0, 0.01, 0.87, 0.02}},
-                                [HD_DUMBBELLS] = {{0.11, 0.16, 0.02, 0.02, 0.28, 2.0, 0.1},
-                                                  {0.02, 0.0, 0.007, 0.0, 0.06, 1.3, 0.03}}};
-/** Of c3 / c: how far densities lie off the formulae. */
-static const double OFF[] = {[HD_DISKS] = 0.1, [HD_SPHERES] = 0.15, [HD_DUMBBELLS] = 0.1};
 static const double OTHERS = 3.0;
 /** Walls move c by about WALL sigma / edge, and each step by WALL_OWN of that for itself. */
 static const double WALL = 0.25, WALL_OWN = 0.6;
@@ -51,11 +37,14 @@ static double walls_of(const hd_scene_def *def, const double *box)
     return sqrt(square);
 }
 
-/** Those whose branches are known, and near those of what moves. */
-static hd_particles bends_as(const hd_scene_def *def)
+static hd_bend bend_of(const hd_scene_def *def, bool t)
 {
-    if (!def->dynamics && def->particles <= HD_DUMBBELLS) return def->particles;
-    return hd_scene_dimension(def) == 2 ? HD_DISKS : HD_SPHERES;
+    const hd_fluid *own = hd_dynamics_of(def)->fluid;
+    const hd_fluid *like = hd_scene_dimension(def) == 2 ? &hd_fluid_disks : &hd_fluid_spheres;
+    hd_bend bend = t ? (own ? own : like)->t : (own ? own : like)->lp;
+    if (own) return bend;
+    bend.error *= OTHERS, bend.error_l *= OTHERS, bend.c3_error *= OTHERS, bend.off *= OTHERS;
+    return bend;
 }
 
 hd_relation hd_relation_of(const hd_scene_def *def, hd_mode_kind kind)
@@ -64,8 +53,7 @@ hd_relation hd_relation_of(const hd_scene_def *def, hd_mode_kind kind)
     const hd_container_row *container = hd_container_of(def);
     const double strays = t ? container->t_strays : container->lp_strays;
     if (hd_scene_dimension(def) == 0 || isnan(strays)) return NONE;
-    const hd_particles as = bends_as(def);
-    const bend *b = &BENDS[as][t];
+    const hd_bend b = bend_of(def, t);
     const double l = hd_scene_mean_free_path(def);
     double box[HD_DIMENSION_MAX], edge = INFINITY;
     hd_scene_box(def, box);
@@ -74,14 +62,13 @@ hd_relation hd_relation_of(const hd_scene_def *def, hd_mode_kind kind)
     const double rows = CROWDED * pow(def->density / DENSE, 8.0) / (square * square);
     const double narrow = hypot((t ? 0.1 : 0.25) / square, rows);
     hd_relation r = {
-        .c2 = b->c2 + b->c2_l * l,
-        .c2_error = b->error + b->error_l * l,
-        .c3 = b->c3 + b->c3_l2 * l * l,
+        .c2 = b.c2 + b.c2_l * l,
+        .c2_error = b.error + b.error_l * l,
+        .c3 = b.c3 + b.c3_l2 * l * l,
         .box_error = hypot(walls, narrow),
         .scatter = hypot(t ? 0.001 : 0.002, WALL_OWN * walls),
     };
-    r.c3_error = OFF[as] * r.c3 + b->c3_error;
-    if (def->dynamics || as != def->particles) r.c2_error *= OTHERS, r.c3_error *= OTHERS;
+    r.c3_error = b.off * r.c3 + b.c3_error;
     if (strays > 0) r.scatter = r.box_error = strays;
     return r;
 }

@@ -4,6 +4,13 @@
 
 #include "hdlyap/dynamics.h"
 
+/** How the branch of a kind of modes bends, lambda = c k + c2 k^2 + c3 k^3, as measured in long
+ * boxes [T12]; l is the mean free path: c2 / c = c2 + c2_l l, its error alike; c3 / c = c3 + c3_l2
+ * l^2, its error besides `off` times that, by which densities lie off these formulae. */
+typedef struct hd_bend {
+    double c2, c2_l, error, error_l, c3, c3_l2, c3_error, off;
+} hd_bend;
+
 struct hd_fluid {
     double density_max;                            /**< closest packing */
     double (*rate)(const hd_scene_def *def);       /**< collisions of one particle per time unit */
@@ -11,6 +18,7 @@ struct hd_fluid {
     double (*sound)(const hd_scene_def *def);      /**< velocity of sound */
     double (*transverse)(const hd_scene_def *def); /**< lambda / k of the transverse modes of long
                                                       waves, as measured, to some percent */
+    hd_bend lp, t;
 };
 
 /** Of kinetic energy 1 each, by Enskog. */

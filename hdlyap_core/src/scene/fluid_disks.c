@@ -47,4 +47,7 @@ const hd_fluid hd_fluid_disks = {.density_max = 1.1547005383792517,
                                  .rate = rate_of,
                                  .free_path = free_path_of,
                                  .sound = sound_of,
-                                 .transverse = transverse_of};
+                                 .transverse = transverse_of,
+                                 /* densities from 0.2 to 0.8, wide boxes too */
+                                 .lp = {0.11, 0.16, 0.02, 0.02, 0.55, 2.0, 0.0, 0.1},
+                                 .t = {0.02, 0.0, 0.007, 0.0, 0.05, 1.3, 0.01, 0.1}};

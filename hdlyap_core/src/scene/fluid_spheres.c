@@ -46,4 +46,7 @@ const hd_fluid hd_fluid_spheres = {.density_max = 1.4142135623730951,
                                    .rate = rate_of,
                                    .free_path = free_path_of,
                                    .sound = sound_of,
-                                   .transverse = transverse_of};
+                                   .transverse = transverse_of,
+                                   /* boxes of 8 : 1 : 1, densities from 0.3 to 0.9 */
+                                   .lp = {0.05, 0.17, 0.03, 0.04, 0.18, 0.8, 0.05, 0.15},
+                                   .t = {0.02, 0.0, 0.015, 0.0, 0.01, 0.87, 0.02, 0.15}};

@@ -158,8 +158,7 @@ hd_status hd_scene_check_start(const hd_scene_def *def, char *message, size_t si
     if (def->exponents < HD_EXPONENTS_ALL_INDEPENDENT || def->exponents > of_disk * def->number)
         return hd_refuse(
             message, size,
-            "exponents = %d: must be positive, all, all_independent, none or from 1 to %d "
-            "N = %d",
+            "exponents = %d: must be positive, all, all_independent, none or from 1 to %d N = %d",
             def->exponents, of_disk, of_disk * def->number);
     if (def->exponents == HD_EXPONENTS_POSITIVE && hd_scene_vectors(def) == 0)
         return hd_refuse(message, size,

@@ -49,3 +49,18 @@ TEST(branches_bend_as_measured_and_lp_less_than_that_of_disks)
         CHECK_CLOSE(r.c3_error, 0.1 * r.c3 + open, 4.0 * DBL_EPSILON);
     }
 }
+
+TEST(what_nobody_has_measured_bends_as_disks_with_three_times_their_errors)
+{
+    const hd_scene_def core = {.particles = HD_SOFT_DISKS};
+    const hd_scene_def soft = hd_scene_def_of(hd_dynamics_of(&core));
+    const hd_relation t = hd_relation_of(&soft, HD_MODE_T), lp = hd_relation_of(&soft, HD_MODE_LP);
+    const double l = (lp.c2 - 0.11) / 0.16;
+    assert_true(l > 0.0);
+    CHECK_CLOSE(t.c2, 0.02, 0.0);
+    CHECK_CLOSE(t.c2_error, 3.0 * 0.007, 4.0 * DBL_EPSILON);
+    CHECK_CLOSE(t.c3_error, 3.0 * (0.1 * t.c3 + 0.01), 4.0 * DBL_EPSILON);
+    CHECK_CLOSE(lp.c2_error, 3.0 * (0.02 + 0.02 * l), 64.0 * DBL_EPSILON);
+    CHECK_CLOSE(lp.c3, 0.55 + 2.0 * l * l, 64.0 * DBL_EPSILON);
+    CHECK_CLOSE(lp.c3_error, 3.0 * 0.1 * lp.c3, 4.0 * DBL_EPSILON);
+}

@@ -95,4 +95,7 @@ const hd_fluid hd_fluid_dumbbells = {.density_max = 1.1547005383792517,
                                      .rate = rate_of,
                                      .free_path = free_path_of,
                                      .sound = sound_of,
-                                     .transverse = transverse_of};
+                                     .transverse = transverse_of,
+                                     /* five boxes of 160: densities 0.3 and 0.6, bonds 0.25, 0.5 */
+                                     .lp = {0.11, 0.16, 0.02, 0.02, 0.28, 2.0, 0.1, 0.1},
+                                     .t = {0.02, 0.0, 0.007, 0.0, 0.06, 1.3, 0.03, 0.1}};
