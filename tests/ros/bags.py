@@ -12,6 +12,7 @@ import unittest
 from collections import namedtuple
 from unittest import mock
 
+import hdlyap
 import made
 from hdlyap import commands
 from hdlyap.data import seeds
@@ -98,3 +99,25 @@ class Bags(unittest.TestCase):
         done = how(name, *arguments)
         self.assertEqual((done.status, done.error.count('\n')), (status, 1), done)
         self.assertRegex(done.error, reason)
+
+
+class Figures(Bags):
+    """Closed with the test, of bags that begin with `info` unless another one is given."""
+
+    info = None
+
+    def setUp(self):
+        super().setUp()
+        from hdlyap.plots.figures import plt
+
+        self.addCleanup(plt.close, 'all')
+
+    def load(self, *messages, info=None):
+        return hdlyap.load(self.write([info or self.info, *messages]))
+
+    def draw(self, kind, *messages, info=None):
+        """Axes of the figure, which can be drawn to the end."""
+        figure = kind.draw(self.recorded([info or self.info, *messages]))
+        figure.set_dpi(30)
+        figure.canvas.draw()
+        return figure.axes

@@ -105,11 +105,7 @@ def dominated(violations):
     return dict(domination_violations=[violations] * (ALL - 1))
 
 
-class Bags(bags.Bags):
-    def setUp(self):
-        super().setUp()
-        self.addCleanup(plt.close, 'all')
-
+class Bags(bags.Figures):
     def changed(self, **fields):
         """A run of everything, with other fields of the covariant message."""
         messages = everything()

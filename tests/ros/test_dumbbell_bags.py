@@ -7,16 +7,16 @@ import unittest
 import numpy as np
 from matplotlib.colors import to_rgb
 
+import bags
 import hdlyap
 import made
 import made_fields
-from bags import Bags
 from made import LP, T
 from hdlyap.data import space
 from hdlyap.data.reader import RecordingError
 from hdlyap.msg import Mode, Modes, State
 from hdlyap.plots import equation, frames, movie, paper, repetition
-from hdlyap.plots.figures import dispersion, modes, plt, spectrum
+from hdlyap.plots.figures import dispersion, modes, spectrum
 from hdlyap.plots.figures.style import scene
 from hdlyap.plots.figures.turning import LEFT, RIGHT
 from hdlyap.sweep import figure, points, table
@@ -69,13 +69,8 @@ def strength(one):
     return np.sqrt(np.mean(np.array([one.dqx, one.dqy, one.dq_angle]) ** 2) * 3)
 
 
-class Dumbbells(Bags):
-    def setUp(self):
-        super().setUp()
-        self.addCleanup(plt.close, 'all')
-
-    def load(self, *messages, info=INFO):
-        return hdlyap.load(self.write([info, *messages]))
+class Dumbbells(bags.Figures):
+    info = INFO
 
 
 class Arrays(Dumbbells):
@@ -167,12 +162,6 @@ class Texts(Dumbbells):
 
 
 class Figures(Dumbbells):
-    def draw(self, kind, *messages):
-        drawn = kind.draw(self.recorded([INFO, *messages]))
-        drawn.set_dpi(30)
-        drawn.canvas.draw()
-        return drawn.axes
-
     def test_rotation(self):
         """Of each vector, below its exponent, with that of a vector without preference."""
         messages = made.spectrum(np.linspace(9, 3, 57), 50.0), made.steps(FOUND)

@@ -5,9 +5,9 @@ import unittest
 
 import numpy as np
 
+import bags
 import made
 import made_fields
-from bags import Bags
 from made import LP, T
 from hdlyap.data import waves
 from hdlyap.plots import report
@@ -37,17 +37,8 @@ def bars(container):
     return np.array([one[:, 1] for one in container.lines[2][0].get_segments()]).T
 
 
-class Figures(Bags):
-    def setUp(self):
-        super().setUp()
-        self.addCleanup(plt.close, 'all')
-
-    def draw(self, kind, *messages, info=INFO):
-        """Axes of the figure, which can be drawn to the end."""
-        figure = kind.draw(self.recorded([info, *messages]))
-        figure.set_dpi(30)
-        figure.canvas.draw()
-        return figure.axes
+class Figures(bags.Figures):
+    info = INFO
 
     def shows(self, line, x, y):
         np.testing.assert_allclose(line.get_xydata(), np.transpose([x, y]), rtol=1e-9)

@@ -8,17 +8,17 @@ from unittest import mock
 import numpy as np
 import rospkg
 
+import bags
 import hdlyap
 import made
 import made_fields
-from bags import Bags
 from made import LP, T
 from hdlyap.follow import watch
 from hdlyap.follow.panels import phases as phase_lines
 from hdlyap.msg import LpPhase, State, Structure
 from hdlyap.data import factors, space
 from hdlyap.plots import covariant, equation, frames, movie, paper, repetition
-from hdlyap.plots.figures import dispersion, modes, p_mode, plt, spectrum
+from hdlyap.plots.figures import dispersion, modes, p_mode, spectrum
 from hdlyap.plots.figures.style import scene
 from hdlyap.plots.figures.view import View
 from hdlyap.glyphs import Glyphs
@@ -58,13 +58,8 @@ def longitudinal():
     return np.array([np.cos(phase), 0 * phase, 0 * phase]) + 0.5 * P * np.cos(phase)
 
 
-class Solid(Bags):
-    def setUp(self):
-        super().setUp()
-        self.addCleanup(plt.close, 'all')
-
-    def load(self, *messages, info=INFO):
-        return hdlyap.load(self.write([info, *messages]))
+class Solid(bags.Figures):
+    info = INFO
 
 
 class Arrays(Solid):
@@ -210,12 +205,6 @@ class Numbers(Solid):
 
 
 class Figures(Solid):
-    def draw(self, kind, *messages):
-        figure = kind.draw(self.recorded([INFO, *messages]))
-        figure.set_dpi(30)
-        figure.canvas.draw()
-        return figure.axes
-
     def test_title(self):
         self.assertEqual(
             scene(INFO),
