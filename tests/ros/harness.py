@@ -3,6 +3,7 @@
 import contextlib
 import functools
 import glob
+import itertools
 import os
 import shutil
 import signal
@@ -23,6 +24,7 @@ import rospy
 import rostest
 import yaml
 
+import measured
 from hdlyap import topics
 from hdlyap.msg import Mode, RunStatus
 
@@ -319,6 +321,25 @@ class Case(unittest.TestCase):
         node = self.start(params, **how)
         self.ends(node)
         return node
+
+    def recorded(self, params, stop_after=None, **how):
+        """{topic: messages} of a run, interrupted from a simulated time on if there is one."""
+        topics = ['run_info', 'status', 'cost', *params['observables']]
+        listeners = {topic: self.listen(topic) for topic in topics}
+        node = self.start(params, **how)
+        if stop_after:
+            listeners['state'].wait_for(lambda message: message.sim_time >= stop_after)
+            node.send(signal.SIGINT)
+        messages = {topic: listener.all_of(node) for topic, listener in listeners.items()}
+        self.ends(node)
+        return messages
+
+    def assert_same_bits(self, messages, wanted):
+        """But for what the clock and the run's name are; assertEqual would look for the difference
+        of so long bytes for hours."""
+        pairs = itertools.zip_longest(measured.bits(messages), measured.bits(wanted))
+        differ = [number for number, (one, other) in enumerate(pairs) if one != other]
+        self.assertEqual(differ[:1], [], f'first of {len(differ)} that differ')
 
     def ends(self, process, status=0, *words):
         self.assertEqual(process.wait(), status, process.text())

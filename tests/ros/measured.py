@@ -5,11 +5,18 @@ import copy
 import io
 import math
 
+import numpy as np
+
 from hdlyap.msg import Cost, LpPhase, Mode, RunStatus
 
 OF_STEPS = ('multiplicity', 'exponent', 'scatter', 'set_time', 'own_part', 'gap')
 OF_RESPONSES = ('density', 'along', 'across', 'across_second', 'energy')
 OF_LP = ('weight_l', 'weight_p')
+
+
+def of(message, *names):
+    """[names, N]: arrays of a message, or numbers."""
+    return np.array([getattr(message, name) for name in names])
 
 
 def nans(message, path=''):

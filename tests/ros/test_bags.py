@@ -19,7 +19,6 @@ from std_srvs.srv import SetBool
 import harness
 import hdlyap
 from hdlyap.plots import report
-import measured
 import links
 from harness import MODES, NODE, OBSERVABLES, SHORT, TYPES, Process
 
@@ -304,8 +303,8 @@ class Recorded(harness.Case):
         repeated = read(os.path.join(self.folder, 'again.bag'))
         for topic in OBSERVABLES:
             with self.subTest(topic=topic):
-                got = measured.bits(unpacked(repeated['/hdlyap/' + topic]))
-                self.assertEqual(got, measured.bits(self.of_run(topic, 1)))
+                got = unpacked(repeated['/hdlyap/' + topic])
+                self.assert_same_bits(got, self.of_run(topic, 1))
         compare = Process(
             [*harness.command('compare'), self.bag, os.path.join(self.folder, 'again.bag')]
         )

@@ -13,6 +13,7 @@ import yaml
 import golden
 import harness
 from harness import MODES, OBSERVABLES
+from hdlyap.runs import run
 
 SCENES = os.path.join(os.path.dirname(os.path.abspath(__file__)), '../../launch/scenes')
 COVARIANT = dict(
@@ -61,6 +62,34 @@ def checked(path, *replaced):
         capture_output=True,
         timeout=harness.PATIENCE,
     )
+
+
+def said_of(case, scene):
+    """Of these parameters, in a file of a harness.Case."""
+    path = os.path.join(case.new_folder(), 'scene.yaml')
+    with open(path, 'w') as file:
+        yaml.safe_dump(scene, file)
+    return checked(path).stdout
+
+
+def check_scenes(case, particles, count, number, *lines):
+    """So many scenes are of such particles. Each is valid, says nothing that it need not, and
+    --check of it has the lines."""
+    usual, found = run.completed({'particles': particles}), 0
+    for name in sorted(os.listdir(SCENES)):
+        path = os.path.join(SCENES, name)
+        with open(path) as file:
+            scene = yaml.safe_load(file)
+        if scene.pop('particles', 'disks') != particles:
+            continue
+        case.assertEqual(scene.pop('scene') + '.yaml', name)
+        case.assertEqual({key for key in scene if scene[key] == usual[key]}, set())
+        said = checked(path, f'number:={number}').stdout
+        case.assertIn(f'is valid: {number} {particles} in ', said)
+        for line in lines:
+            case.assertRegex(said, line)
+        found += 1
+    case.assertEqual(found, count)
 
 
 def said_by_node(node):

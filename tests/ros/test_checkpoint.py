@@ -8,7 +8,6 @@ from diagnostic_msgs.msg import DiagnosticArray
 from std_srvs.srv import SetBool, Trigger
 
 import harness
-import measured
 from harness import SHORT
 
 DOCUMENT = os.path.join(os.path.dirname(os.path.abspath(__file__)), '../../doc/survival.md')
@@ -29,18 +28,6 @@ class Checkpoint(harness.Case):
         """By a report or more from now."""
         self.assertTrue(self.listen('state').wait_for(lambda message: True))
 
-    def recorded(self, params, stop_after=None):
-        """All messages of a run by topic, without what the clock and the run's name are."""
-        topics = ['run_info', 'status', 'cost', *RUN['observables']]
-        listeners = {topic: self.listen(topic) for topic in topics}
-        node = self.start(params)
-        if stop_after:
-            listeners['state'].wait_for(lambda message: message.sim_time >= stop_after)
-            node.send(signal.SIGINT)
-        messages = {topic: listener.all_of(node) for topic, listener in listeners.items()}
-        self.ends(node)
-        return messages
-
     def test_resumed_run_publishes_what_the_uninterrupted_one_does(self):
         whole = self.recorded(RUN)
         first = self.recorded(dict(RUN, checkpoint=self.file, pace=20.0), stop_after=40.0)
@@ -52,9 +39,8 @@ class Checkpoint(harness.Case):
         self.assertEqual(whole['run_info'][0].resumed_time, -1.0)
         for topic in RUN['observables']:
             with self.subTest(topic=topic):
-                both = measured.bits(first[topic]) + measured.bits(second[topic])
                 self.assertGreater(len(second[topic]), 0)
-                self.assertEqual(both, measured.bits(whole[topic]))
+                self.assert_same_bits(first[topic] + second[topic], whole[topic])
 
     def test_made_longer(self):
         """An orthonormalisation more at its first end: disks have the same bits, exponents not."""
@@ -63,7 +49,7 @@ class Checkpoint(harness.Case):
         more = self.recorded(dict(RUN, resume=self.file))
         count = len(more['state'])
         self.assertGreater(count, 10)
-        self.assertEqual(measured.bits(more['state']), measured.bits(whole['state'])[-count:])
+        self.assert_same_bits(more['state'], whole['state'][-count:])
         last, wanted = more['spectrum'][-1], whole['spectrum'][-1]
         self.assertEqual(last.collisions, wanted.collisions)
         for got, other in zip(last.exponents, wanted.exponents):

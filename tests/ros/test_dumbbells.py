@@ -4,16 +4,13 @@
 import math
 import os
 import shutil
-import signal
-import subprocess
 import unittest
 
 import numpy as np
-import yaml
 
 import harness
-import measured
-from test_check import checked, in_bag, shares
+from measured import of
+from test_check import check_scenes, in_bag, said_of, shares
 from test_ranks import ENVIRONMENT, mpirun
 from hdlyap.msg import LpPhase, Mode
 
@@ -25,15 +22,9 @@ SCENE.update(scene='pairs', exponents='all', equilibration=10.0, warmup=60.0, du
 SCENE.update(report_interval=2.0, field_interval=0.0, max_mode_number=3, threads=1)
 SCENE.update(covariant_window=20.0, covariant_transient=20.0, covariant_sampling=2.0)
 SCENE.update(observables=TOPICS[1:-2])
-SCENES = os.path.join(os.path.dirname(os.path.abspath(__file__)), '../../launch/scenes')
 VECTOR = 'dqx', 'dqy', 'dq_angle', 'dpx', 'dpy', 'dp_angle'
 ROUNDING = 1e-9  # of sums over all of them
 ORTHONORMAL = 1e-7
-
-
-def of(message, *names):
-    """[names, N]"""
-    return np.array([getattr(message, name) for name in names])
 
 
 class Dumbbells(harness.Case):
@@ -183,10 +174,7 @@ class Dumbbells(harness.Case):
 
     def test_check(self):
         """What it says of the bag is what it takes."""
-        path = os.path.join(self.new_folder(), 'pairs.yaml')
-        with open(path, 'w') as file:
-            yaml.safe_dump(SCENE, file)
-        said = checked(path).stdout
+        said = said_of(self, SCENE)
         self.assertIn(f'{N} dumbbells in 26.8328 x 2.68328, packing fraction 0.587, 216 vec', said)
         report, fields, _ = shares(said)
         by_pairs = {field.pairs: in_bag('fields', [field]) for field in self.messages['fields']}
@@ -246,36 +234,24 @@ class Again(harness.Case):
     RUN.update(observables=[name for name in SCENE['observables'] if name != 'covariant'])
     RUN.update(wait_for_subscribers='all', duration=40.0, report_interval=1.0)
 
-    def recorded(self, stop_after=None, **how):
-        listeners = {topic: self.listen(topic) for topic in self.RUN['observables']}
-        listeners.update({topic: self.listen(topic) for topic in ('run_info', 'status', 'cost')})
-        node = self.start(**how)
-        if stop_after:
-            listeners['state'].wait_for(lambda message: message.sim_time >= stop_after)
-            node.send(signal.SIGINT)
-        messages = {topic: listener.all_of(node) for topic, listener in listeners.items()}
-        self.ends(node)
-        return messages
-
     def test_a_resumed_run_is_the_uninterrupted_one(self):
         kept = os.path.join(self.new_folder(), 'run.checkpoint')
-        whole = self.recorded(params=self.RUN)
-        first = self.recorded(90.0, params=dict(self.RUN, checkpoint=kept, pace=20.0))
-        second = self.recorded(params=dict(self.RUN, resume=kept))
+        whole = self.recorded(self.RUN)
+        first = self.recorded(dict(self.RUN, checkpoint=kept, pace=20.0), stop_after=90.0)
+        second = self.recorded(dict(self.RUN, resume=kept))
         self.assertLess(second['run_info'][0].resumed_time, 105.0)
         for topic in self.RUN['observables']:
             with self.subTest(topic=topic):
                 self.assertTrue(second[topic])
-                both = measured.bits(first[topic]) + measured.bits(second[topic])
-                self.assertTrue(both == measured.bits(whole[topic]))
+                self.assert_same_bits(first[topic] + second[topic], whole[topic])
 
     @unittest.skipUnless(shutil.which('mpirun'), 'one rank')
     def test_two_ranks_are_as_one(self):
         """The same dumbbells, and the same exponents, parts of rotation to what these are known."""
-        one = self.recorded(params=self.RUN)
-        two = self.recorded(params=self.RUN, command=mpirun(), **ENVIRONMENT)
+        one = self.recorded(self.RUN)
+        two = self.recorded(self.RUN, command=mpirun(), **ENVIRONMENT)
         self.assertEqual(two['run_info'][0].ranks, 2)
-        self.assertTrue(measured.bits(two['state']) == measured.bits(one['state']))
+        self.assert_same_bits(two['state'], one['state'])
         bound = one['cost'][-1].error_bound + two['cost'][-1].error_bound
         np.testing.assert_allclose(
             two['spectrum'][-1].exponents, one['spectrum'][-1].exponents, rtol=0, atol=bound
@@ -299,21 +275,8 @@ class Kept(harness.Case):
 
 class Scenes(harness.Case):
     def test_each_is_valid_and_says_nothing_twice(self):
-        usual = harness.defaults()
-        files = sorted(name for name in os.listdir(SCENES) if name.startswith('dumbbells'))
-        self.assertEqual(len(files), 2)
-        for name in files:
-            path = os.path.join(SCENES, name)
-            with open(path) as file:
-                scene = yaml.safe_load(file)
-            self.assertEqual(scene.pop('scene') + '.yaml', name)
-            self.assertEqual(scene.pop('particles'), 'dumbbells')
-            self.assertEqual({key for key in scene if scene[key] == usual.get(key)}, set())
-            said = subprocess.check_output(
-                [harness.executable(), '--check', path, 'number:=60'], text=True
-            )
-            self.assertRegex(said, r'is valid: 60 dumbbells in .*, packing fraction 0\.')
-            self.assertRegex(said, r'(?m)^waves +T,LP\(1,0\)')
+        lines = r', packing fraction 0\.', r'(?m)^waves +T,LP\(1,0\)'
+        check_scenes(self, 'dumbbells', 2, 60, *lines)
 
 
 if __name__ == '__main__':

@@ -15,7 +15,6 @@ import yaml
 from hdlyap.srv import Set
 import harness
 from harness import NODE, SHORT
-import measured
 
 RUN = dict(harness.REPEATABLE, duration=0.0, report_interval=1.0, field_interval=1000.0)
 TOPICS = RUN['observables']
@@ -79,7 +78,7 @@ class Live(harness.Case):
         for topic in TOPICS:
             with self.subTest(topic=topic):
                 self.assertGreater(len(one[topic]), 0)
-                self.assertTrue(measured.bits(one[topic]) == measured.bits(other[topic]))
+                self.assert_same_bits(one[topic], other[topic])
 
     def test_reports_fields_and_duration(self):
         node = self.started(dict(RUN, pace=SLOW))

@@ -10,7 +10,8 @@ import yaml
 
 import harness
 import test_dumbbells
-from test_check import checked
+from measured import of
+from test_check import check_scenes, said_of
 from hdlyap.msg import Mode
 from hdlyap.plots import repetition, report
 from hdlyap.plots.figures import style
@@ -23,7 +24,6 @@ SCENE.update(scene='soft', seed='2', exponents='all', equilibration=10.0, warmup
 SCENE.update(duration=200.0, report_interval=2.0, field_interval=0.0, max_mode_number=1)
 SCENE.update(covariant_window=20.0, covariant_transient=60.0, covariant_sampling=2.0, threads=1)
 SCENE.update(observables=TOPICS[1:-2], field_indices=CHOSEN)
-SCENES = test_dumbbells.SCENES
 ZEROS = slice(2 * N - 3, 2 * N)  # of the positive half
 ROUNDING = 1e-9  # of sums over all of them
 ORTHONORMAL = 1e-7
@@ -40,11 +40,6 @@ def pair_energy(potential, r):
         return energy + 1
     x = np.clip((r**2 - 4) / 2.25, 0, 1)
     return energy * (1 - 10 * x**3 + 15 * x**4 - 6 * x**5)
-
-
-def of(message, *names):
-    """[names, N]"""
-    return np.array([getattr(message, name) for name in names])
 
 
 def energy(state, info, potential):
@@ -163,10 +158,7 @@ class Soft(harness.Case):
 
     def test_check(self):
         """It says what they are moved by, and nothing that is known of hard ones alone."""
-        path = os.path.join(self.new_folder(), 'soft.yaml')
-        with open(path, 'w') as file:
-            yaml.safe_dump(dict(SCENE, density=0.95, aspect=0.2), file)
-        said = checked(path).stdout
+        said = said_of(self, dict(SCENE, density=0.95, aspect=0.2))
         self.assertRegex(
             said,
             rf'is valid: {N} soft_disks in .*, potential power, energy 1, time_step 0\.00\d+, '
@@ -250,17 +242,7 @@ class Again(test_dumbbells.Again):
 
 class Scenes(harness.Case):
     def test_each_is_valid_and_says_nothing_twice(self):
-        usual = harness.defaults()
-        files = sorted(name for name in os.listdir(SCENES) if name.startswith('soft'))
-        self.assertEqual(files, ['soft.yaml', 'soft_dense.yaml'])
-        for name in files:
-            path = os.path.join(SCENES, name)
-            with open(path) as file:
-                scene = yaml.safe_load(file)
-            self.assertEqual(scene.pop('scene') + '.yaml', name)
-            self.assertEqual(scene.pop('particles'), 'soft_disks')
-            self.assertEqual({key for key in scene if scene[key] == usual.get(key)}, set())
-            self.assertRegex(checked(path, 'number:=60').stdout, r'(?m)^waves +T,LP\(1,0\)')
+        check_scenes(self, 'soft_disks', 2, 60, r'(?m)^waves +T,LP\(1,0\)')
 
 
 if __name__ == '__main__':

@@ -4,13 +4,12 @@
 import copy
 import itertools
 import os
-import subprocess
 
 import numpy as np
-import yaml
 
 import harness
-from test_check import checked, in_bag, shares
+from measured import of
+from test_check import check_scenes, in_bag, said_of, shares
 from hdlyap.msg import Mode
 
 TOPICS = ['run_info', 'spectrum', 'modes', 'steps', 'lp_phases', 't_phases', 'fields', 'gas']
@@ -19,15 +18,9 @@ SCENE = dict(particles='spheres', number=128, density=0.5, aspect=0.25, aspect_z
 SCENE.update(scene='balls', equilibration=10.0, warmup=20.0, duration=70.0, report_interval=5.0)
 SCENE.update(boundary_y='reflecting', observables=TOPICS[1:-2], seed='3', covariant_window=20.0)
 SCENE.update(covariant_transient=20.0, exponents='all', max_mode_number=2)
-SCENES = os.path.join(os.path.dirname(os.path.abspath(__file__)), '../../launch/scenes')
 ROUNDING = 1e-7
 SLOPE = 1e-4  # of central differences
 VECTOR = 'dqx', 'dqy', 'dqz', 'dpx', 'dpy', 'dpz'
-
-
-def of(message, *names):
-    """[names, disks]"""
-    return np.array([getattr(message, name) for name in names])
 
 
 def nodes(message):
@@ -250,10 +243,7 @@ class Spheres(harness.Case):
 
     def test_check(self):
         """What it says of the bag is what it takes."""
-        path = os.path.join(self.new_folder(), 'balls.yaml')
-        with open(path, 'w') as file:
-            yaml.safe_dump(SCENE, file)
-        report, fields, window = shares(checked(path).stdout)
+        report, fields, window = shares(said_of(self, SCENE))
         for topic in report:
             of = [m for m in self.messages[topic] if not len(getattr(m, 'along', ()))]
             self.near(report[topic], in_bag(topic, of) / len(of))
@@ -273,19 +263,7 @@ class Spheres(harness.Case):
 
 class Scenes(harness.Case):
     def test_each_is_valid_and_says_nothing_twice(self):
-        program, usual = harness.executable(), harness.defaults()
-        files = sorted(name for name in os.listdir(SCENES) if name.startswith('spheres'))
-        self.assertEqual(len(files), 3)
-        for name in files:
-            path = os.path.join(SCENES, name)
-            with open(path) as file:
-                scene = yaml.safe_load(file)
-            self.assertEqual(scene.pop('scene') + '.yaml', name)
-            self.assertEqual(scene.pop('particles'), 'spheres')
-            self.assertEqual({key for key in scene if scene[key] == usual[key]}, set())
-            said = subprocess.check_output([program, '--check', path, 'number:=108'], text=True)
-            self.assertIn('is valid: 108 spheres in ', said)
-            self.assertRegex(said, r'(?m)^waves +(T,)?LP\(1,0,0\)')
+        check_scenes(self, 'spheres', 3, 108, r'(?m)^waves +(T,)?LP\(1,0,0\)')
 
 
 class Kept(harness.Case):
@@ -295,15 +273,10 @@ class Kept(harness.Case):
             path = os.path.join(self.new_folder(), 'kept')
             scene = dict(particles=particles, number=20, aspect=1.0, density=0.3)
             scene.update(exponents='none', equilibration=1.0, duration=2.0, checkpoint=path)
-            self.ends(harness.start(dict(scene, observables=['state'])), 0, f'20 {particles} in ')
-            self.ends(harness.start(dict(resume=path, duration=3.0)), 0, f'20 {particles} in ')
+            self.ends(self.start(dict(scene, observables=['state'])), 0, f'20 {particles} in ')
+            self.ends(self.start(dict(resume=path, duration=3.0)), 0, f'20 {particles} in ')
             said = f'particles = {other}: must be {particles}'
-            self.ends(harness.start(dict(resume=path, particles=other)), 2, said)
-
-    def ends(self, node, status, said):
-        self.addCleanup(node.stop)
-        self.assertEqual(node.wait(), status, node.text())
-        self.assertIn(said, node.text())
+            self.ends(self.start(dict(resume=path, particles=other)), 2, said)
 
 
 if __name__ == '__main__':
