@@ -434,6 +434,26 @@ class Power(unittest.TestCase):
         self.assertEqual(status, verdict.DIFFER)
         self.assertRegex(text, 'differ: the spectra are apart by chi.2 = .* in 16 groups')
 
+    def test_opposite_exponents_tell_nothing_more(self):
+        """They are those of the positive half, up to rounding."""
+        world = trials.World(60)
+        halves = [world.run(40) for _ in 'ab']
+        rounding = 1e-15 * world.random.normal(size=halves[0].shape)
+        wholes = [np.concatenate([one, rounding - one[:, ::-1]], axis=1) for one in halves]
+        of_half, of_all = (
+            Comparison(*(world.said([one]) for one in some)) for some in (halves, wholes)
+        )
+        for one, other in zip(of_half.spectra, of_all.spectra):
+            self.assertAlmostEqual(one, other, delta=1e-9 * one)
+        self.assertAlmostEqual(of_half.sums[0].error, of_all.sums[0].error, 12)
+
+    def test_a_few_exponents(self):
+        world = trials.World(60)
+        world.steps = []
+        pair = [world.said([world.run(40)[:, :10]]) for _ in 'ab']
+        numbers = Comparison(*pair).numbers
+        self.assertEqual([0 < one.chance < 1 for one in numbers], [True, True])
+
     def test_blocks_that_remember_each_other(self):
         """Stated errors are larger then, and the fluctuations grow to them."""
         world = trials.World(20)

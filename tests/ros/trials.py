@@ -57,7 +57,9 @@ class World:
 
         spectrum = made.spectrum(values, count * LENGTH)
         spectrum.std_errors = [error(column) for column in deviations.T]
-        spectrum.ks_entropy, spectrum.ks_entropy_error = values.sum(), error(deviations.sum(axis=1))
+        positive = slice(0, self.count)
+        spectrum.ks_entropy = values[positive].sum()
+        spectrum.ks_entropy_error = error(deviations[:, positive].sum(axis=1))
         steps = [
             made.step(
                 self.info, kind, n, 0, first + 1, end,
@@ -73,7 +75,7 @@ class World:
         ]
         return SimpleNamespace(
             info=self.info, spectrum=spectrum, steps=message, left_out=(),
-            positive_end=self.count, last_index=self.count, sum_name='h_KS',
+            positive_end=self.count, last_index=len(values), sum_name='h_KS',
             sum_error=spectrum.ks_entropy_error, data=SimpleNamespace(runs=runs),
         )  # fmt: skip
 

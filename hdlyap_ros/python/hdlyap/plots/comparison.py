@@ -33,8 +33,9 @@ class Comparison:
         self._fluctuations = _fluctuations(a, b)
         self.exponents = _exponents(a, b)
         self.exponents[0] = self._together(self.exponents[0], [0])
-        positive = range(a.positive_end + 1 - a.spectrum.first_index)
-        self.sums = [self._together(_sum(a, b), positive)] if len(self.exponents) > 1 else []
+        self._positive = range(min(a.positive_end, a.last_index) + 1 - a.spectrum.first_index)
+        is_sum = len(self.exponents) > 1
+        self.sums = [self._together(_sum(a, b), self._positive)] if is_sum else []
         self.steps = [self._together(one, _members(one, a)) for one in _steps(a, b)]
         self.gas = _gas(a, b)
         pairs = _pairs_of_fits(a, b)
@@ -53,10 +54,11 @@ class Comparison:
 
     @property
     def spectra(self):
-        """(T^2, groups, chance) of the spectra as wholes; None if too few samples were recorded."""
-        if not self._fluctuations.is_known:
+        """(T^2, groups, chance) of the spectra as wholes; None if too few samples were recorded.
+        Of the positive exponents: the others are their opposites and tell nothing more."""
+        taken = self._positive
+        if not self._fluctuations.is_known or not len(taken):
             return None
-        taken = [place for place, one in enumerate(self.exponents) if one.judged]
         difference = np.array([one.difference for one in self.exponents])
         return self._fluctuations.spectra(difference, taken, _times(self.runs))
 
