@@ -184,6 +184,15 @@ class Recorded(Bags):
         )
         self.assertAlmostEqual(found[phases].get_xdata()[0], 1.612 * made.K)  # of made.steps
 
+    def test_no_line_is_known(self):
+        """Where no step is found the panel says it; where there are lines it does not."""
+        self.write([*self.head(), *self.messages], 'without')
+        for name, said in (('without', ['none is known']), ('run', [])):
+            figure = figures.structure.draw(hdlyap.load(self.path(name)).said)
+            self.addCleanup(plt.close, figure)
+            (lines,) = (one for one in figure.axes if one.get_title(loc='left').startswith('(c)'))
+            self.assertEqual([text.get_text() for text in lines.texts], said)
+
     def test_a_wave_that_changes_begins_the_course_anew(self):
         course = factors.StructureCourse()
         for t, one in enumerate(self.messages):
