@@ -14,10 +14,8 @@ from hdlyap.data.run import Local
 from hdlyap.plots import verdict
 from hdlyap.plots.comparison import Comparison
 
-NEIGHBOURS, ALL = (
-    0.6,
-    0.1,
-)  # correlation of neighbours; part of the variance that all have in common
+NEIGHBOURS = 0.6  # their correlation
+ALL = 0.1  # part of the variance that all have in common
 LENGTH = 5.0  # of a block
 MOST_STEPS = 6
 

@@ -10,10 +10,6 @@ def is_solid(info):
     return info is not None and info.dimension == 3
 
 
-def is_disks(info):
-    return info.particles == 'disks'
-
-
 def turns(info):
     """Whether each has an angle beside its place; None is of disks."""
     return info is not None and info.inertia > 0
@@ -62,8 +58,10 @@ def particle(info):
 
 def named(info):
     """Behind their number, if it is not of disks: what they are, and what is their own."""
+    if info.particles == 'disks':
+        return ''
     own_ones = [f'{_words(name)} {_short(value)}' for name, value in own(info).items()]
-    return '' if is_disks(info) else ', '.join([f' {_words(info.particles)}', *own_ones])
+    return ', '.join([f' {_words(info.particles)}', *own_ones])
 
 
 def _words(name):
