@@ -21,7 +21,7 @@ typedef struct soft {
     double now;
     uint64_t steps; /**< so many have been done */
     double energy;  /**< at the start */
-    double error;   /**< of the energy now, see hd_soft_energy_error */
+    double error;   /**< of the energy now, see hd_soft_look */
     double *q, *p;  /**< [particle][dimension] after the last step, q in the box */
     hd_neighbours near;
 } soft;
