@@ -25,7 +25,7 @@ from screen import Screen
 PLOT = [*harness.command('plot'), '--live']
 HEARD = 'spectrum', 'steps', 'lp_phases', 'status'
 GAP = 0.02  # seconds between two messages of a topic: none is replaced by the next
-SCENE = dict(harness.MODES, wait_for_subscribers=['status'])
+SCENE = dict(harness.MODES, wait_for_subscribers=list(HEARD))  # it runs for moments only
 PLACES = 40  # pixels of a colour, if something is drawn with it
 
 
