@@ -1,4 +1,4 @@
-/** What a checkpoint holds of a spectrum, and bytes that it takes. */
+/** The spectrum in a checkpoint, and the bytes that it takes there. */
 #ifndef HD_AVERAGES_ARCHIVED_H
 #define HD_AVERAGES_ARCHIVED_H
 

@@ -1,4 +1,4 @@
-/** Samples -> blocks -> standard errors that see how long they remember [T8]. */
+/** Samples -> blocks -> standard errors that account for correlation between blocks [T8]. */
 #include "averages/blocks.h"
 
 #include <math.h>
@@ -8,17 +8,18 @@
 #include "base/check.h"
 #include "base/memory.h"
 
-/** Ends that are this close, as a part of a block, are one. */
+/** A block is full, too, if its weight is short of the end by this part: that is rounding. */
 static const double CLOSE = 1e-9;
-/** Part of the least weight that is enough: samples are not laid out for blocks. */
+/** A block may end once it has this part of the least weight: samples rarely end exactly there. */
 static const double NEARLY = 0.92;
-/** Neighbours are correlated if their correlation exceeds so many of its standard deviations. */
+/** Neighbouring blocks count as correlated if their correlation exceeds this many of its standard
+ * deviations. */
 static const double SIGNIFICANT = 1.0;
-/** Fewer blocks than this are not joined any more. */
+/** With fewer blocks than this, neighbours are not joined any more. */
 enum { FEW = 48 };
-/** Blocks that remember more than this of the one before are too short to tell an error. */
+/** No error is stated if the correlation of neighbouring blocks exceeds this. */
 static const double MEMORY_MAX = 0.75;
-/** Least part of the variance of turns that is left to their diffusion. */
+/** Diffusion makes at least this part of the variance of phase increments. */
 static const double TREMBLING_MIN = 0.25;
 
 /* ---- history ------------------------------------------------------------------------------- */
@@ -69,7 +70,7 @@ static double whole_weight(const hd_blocks *blocks)
     return sum;
 }
 
-/** Two become one: a block is never longer than that needs. */
+/** Joins each pair of neighbouring blocks into one. */
 static void join(hd_blocks *blocks)
 {
     for (int k = 0; 2 * k < HD_BLOCKS_MAX; k++) {
@@ -83,7 +84,7 @@ static void join(hd_blocks *blocks)
     begin(blocks, blocks->count);
 }
 
-/** A block ends where no later end of a sample like this one would be nearer to its length. */
+/** Ends the block if another sample of this weight would only take it further from its length. */
 void hd_blocks_add(hd_blocks *blocks, const double *sum, double weight)
 {
     HD_ASSERT(weight > 0);
@@ -118,7 +119,7 @@ static double sum_of_squares(const double *x, int count)
     return sum;
 }
 
-/** Part of a deviation that the next one repeats. */
+/** The correlation of each deviation with the next one, -1 .. 1. */
 static double correlation(const double *x, int count)
 {
     double products = 0.0;
@@ -138,7 +139,7 @@ static double variance_of(const double *x, int count)
     return sum_of_squares(x, count) * count / (count - 1.0);
 }
 
-/** Neighbours become one; an odd one stays. */
+/** Adds neighbours up in pairs; the last one of an odd number stays. Returns how many are left. */
 static int joined(double *x, int count)
 {
     for (int k = 0; 2 * k < count; k++) x[k] = x[2 * k] + (2 * k + 1 < count ? x[2 * k + 1] : 0.0);
@@ -158,11 +159,11 @@ double hd_deviations_error(double *deviation, int count, double rounding)
         count = joined(deviation, count);
     const double variance = variance_of(deviation, count);
     const double memory = count < FEW ? memory_of(deviation, count) : 0.0;
-    if (!(memory > 1.0 / sqrt(count))) return sqrt(variance); /* no number stays none */
+    if (!(memory > 1.0 / sqrt(count))) return sqrt(variance); /* true of NaN, which is returned */
     return memory <= MEMORY_MAX ? sqrt(variance * (1.0 + memory) / (1.0 - memory)) : -1.0;
 }
 
-/** deviation[count] of a sum from the mean per weight; returns the size that rounding may have. */
+/** deviation[count] of each block's sum from its mean; returns how much of it may be rounding. */
 static double deviations_of(const hd_blocks *blocks, const hd_part *parts, int count,
                             double *deviation)
 {

@@ -1,17 +1,17 @@
-/** The rule: over eight times the averaged time an error falls to 0.35, over 32 times to 0.18 of
- * what it was. Errors from few blocks are uncertain themselves, most of all the first ones: without
- * them, the error has fallen to 0.55 or less in all of 420 runs of 15 scenes and many seeds, with
- * them to 2.1 in one. */
+/** In a stationary run an error falls to 0.35 of its value over eight times the averaged time, to
+ * 0.18 over 32 times. Errors from few blocks are uncertain themselves, so the first ones do not
+ * count: without them the ratio was 0.55 or less in all of 420 runs (15 scenes, many seeds), with
+ * them it reached 2.1 in one. */
 #include "averages/error_trend.h"
 
 #include <math.h>
 
 static const double GROWTH = 8.0;
-/** Of the earlier error: more is no matter of chance. */
+/** An error that is still above this part of the earlier one has not fallen as it should. */
 static const double STALLED_RATIO = 0.8;
-/** Averaged time of errors that are believed, in that of the first one. */
+/** Errors count from this many times the averaged time at which the first error was known. */
 static const double SETTLING = 4.0;
-/** Binary exponent of the shortest averaged time that has a mark of its own. */
+/** The first mark is of an averaged time of 2 to this power. */
 enum { FIRST_EXPONENT = -20 };
 
 static int mark_of(double time)

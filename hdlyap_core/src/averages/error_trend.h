@@ -11,7 +11,7 @@ typedef struct hd_error_at {
     double time, error; /**< averaged time; its standard error */
 } hd_error_at;
 
-/** Zero: nothing known. */
+/** All zeros: nothing is known yet. */
 typedef struct hd_error_trend {
     hd_error_at
         mark[HD_ERROR_TREND_MARKS]; /**< the first of each doubling of the time; time 0: none */
@@ -19,12 +19,12 @@ typedef struct hd_error_trend {
     double first; /**< time of the first error known */
 } hd_error_trend;
 
-/** What is known at that averaged time; an error below 0 is not known. A time that has gone back
- * begins anew. */
+/** Adds the error at an averaged time; a negative error is not known yet. A time before the last
+ * one starts the trend anew. */
 void hd_error_trend_add(hd_error_trend *trend, double time, double error);
 
-/** True if the error is not what it should be against `since`, an eighth of the time ago or more;
- * false too while the trend is too short to say. */
+/** Whether the error has failed to fall since `since`, when the averaged time was an eighth of
+ * today's or less. False while the averaged time is too short to tell. */
 bool hd_error_trend_stalled(const hd_error_trend *trend, hd_error_at *since);
 
 #endif

@@ -1,4 +1,4 @@
-/** ln diag R -> exponents, their errors, and what is summed up from them [T5] [T8]. One thread. */
+/** ln diag R -> exponents with their errors, and sums of exponents [T5] [T8]. One thread. */
 #include "hdlyap/spectrum.h"
 
 #include <math.h>
@@ -12,13 +12,13 @@
 
 struct hd_spectrum {
     int rows, vectors;
-    double *sum;        /**< [vectors], of ln R_ll over all whole samples */
-    double *sample_sum; /**< [vectors], since the last sample */
-    double *local_sum;  /**< [vectors], over the samples since the last hd_spectrum_local_restart */
+    double *sum;        /**< [vectors]: ln R_ll, summed over all whole samples */
+    double *sample_sum; /**< [vectors]: ln R_ll, summed since the last sample ended */
+    double *local_sum;  /**< [vectors]: ln R_ll, summed since hd_spectrum_local_restart */
     hd_part *parts;     /**< [vectors], workspace */
     double time, sample_time, local_time;
-    double age;       /**< of the vectors where time is 0; negative: no zero mode is in their way */
-    hd_blocks blocks; /**< of ln R_ll; their weight is time */
+    double age;       /**< age of the vectors at time 0; negative: no zero mode displaces them */
+    hd_blocks blocks; /**< blocks of ln R_ll; their weight is time */
 };
 
 double hd_spectrum_bytes(double vectors)
@@ -119,14 +119,13 @@ double hd_spectrum_exponent(const hd_spectrum *spectrum, int col)
     return spectrum->time > 0 ? spectrum->sum[col] / spectrum->time : 0.0;
 }
 
-/** By how much a zero mode may have outgrown a vector of this exponent at that age. */
+/** Logarithm by which a zero mode may have outgrown a vector of this exponent at this age. */
 static double outgrown(double exponent, double age)
 {
     return fmax(log1p(age) - fabs(exponent) * age, 0.0);
 }
 
-/** How far the mean of a column may be off, as a zero mode had its place at the begin or has it now
- * [T8]. */
+/** Bias of a column's mean if a zero mode was in its place at the start, or is in it now [T8]. */
 static double displaced(const hd_spectrum *spectrum, int col)
 {
     const double exponent = hd_spectrum_exponent(spectrum, col), age = spectrum->age;
@@ -154,7 +153,7 @@ double hd_spectrum_largest_error(const hd_spectrum *spectrum, int begin, int end
     double worst = begin < end ? 0.0 : INFINITY;
     for (int col = begin; col < end; col++) {
         const double error = hd_spectrum_std_error(spectrum, col);
-        worst = error >= 0 ? fmax(worst, error) : INFINITY; /* NaN is not known either */
+        worst = error >= 0 ? fmax(worst, error) : INFINITY; /* NaN counts as not known */
     }
     return worst;
 }

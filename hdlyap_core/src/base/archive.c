@@ -44,7 +44,8 @@ hd_status hd_archive_end(hd_archive *archive)
 
 static void put(hd_archive *archive, const void *data, size_t size)
 {
-    if (archive->status != HD_OK || size == 0) return; /* a checksum of nothing is begun anew */
+    if (archive->status != HD_OK || size == 0)
+        return; /* crc32 of no bytes would restart the checksum */
     if (fwrite(data, 1, size, archive->file) != size) {
         archive->error = errno;
         hd_archive_fail(archive, HD_FILE_FAULT, archive->name, NULL);
@@ -53,7 +54,7 @@ static void put(hd_archive *archive, const void *data, size_t size)
     archive->bytes += size;
 }
 
-/** Zeros after a failure: nothing stays undefined. */
+/** Reads bytes; after a failure it fills in zeros, so that nothing stays undefined. */
 static void take(hd_archive *archive, void *data, size_t size)
 {
     if (archive->status == HD_OK && size > archive->bytes)
@@ -66,7 +67,7 @@ static void take(hd_archive *archive, void *data, size_t size)
         archive->bytes -= size;
 }
 
-/** Either way; what is written stays as it is. */
+/** Reads or writes the data; writing does not change them. */
 static void pass(hd_archive *archive, void *data, size_t size)
 {
     if (archive->writing)

@@ -1,5 +1,5 @@
-/** Named arrays in a file. One function of each part of a run both writes and reads its state: so
- * what is written and what is read cannot differ.
+/** Named arrays in a file. Each part of a run has one function that both writes and reads its
+ * state, so that the two cannot differ.
  *
  * Each array is a record: name (HD_ARCHIVE_NAME bytes, zeros behind it), type (8 bytes: f8, i8 or
  * S1 with zeros behind it, as numpy calls them), number of elements (i8), and the elements; in the
@@ -19,24 +19,24 @@ enum { HD_ARCHIVE_NAME = 40 };
 struct hd_archive {
     FILE *file;
     bool writing;
-    uint64_t bytes;    /**< written so far; of a file that is read: not yet read */
-    uint32_t crc;      /**< of what was written (CRC-32) */
+    uint64_t bytes;    /**< writing: bytes so far; reading: bytes that are left */
+    uint32_t crc;      /**< CRC-32 of the bytes so far */
     hd_status status;  /**< the first failure; after it nothing is read or written any more */
-    const char *name;  /**< of the array that it happened at */
-    const char *fault; /**< NULL: see error */
-    int error;         /**< errno of a write that failed */
+    const char *name;  /**< the array at which it failed */
+    const char *fault; /**< why it failed; NULL: error says it */
+    int error;         /**< errno of a failed write */
 };
 
 hd_archive hd_archive_writer(FILE *file);
-/** `bytes` are to be read, all of them: see hd_archive_end. */
+/** Reads exactly `bytes`; hd_archive_end checks that none is left. */
 hd_archive hd_archive_reader(FILE *file, uint64_t bytes);
 
-/** What is read must be used only if this is HD_OK: HD_FILE_FAULT, HD_NO_MEMORY, or HD_NOT_FINITE
- * when a number to be written is none. What is read and what is written has the same conditions.
- * The reason is in name and fault. */
+/** What was read may be used only if this returns HD_OK. Else it returns HD_FILE_FAULT,
+ * HD_NO_MEMORY, or HD_NOT_FINITE for a number that is not finite; name and fault say where and why.
+ * The same conditions hold for reading and writing. */
 HD_MUST_CHECK hd_status hd_archive_end(hd_archive *archive);
 
-/** The archive fails, unless it has failed before. */
+/** Marks the archive as failed, with this reason, unless it has failed before. */
 void hd_archive_fail(hd_archive *archive, hd_status status, const char *name, const char *fault);
 
 /** hd_archive_refuse unless the condition holds. */
@@ -50,11 +50,11 @@ static inline bool hd_archive_good(const hd_archive *archive) { return archive->
 void hd_archive_double(hd_archive *archive, const char *name, double *x);
 void hd_archive_int(hd_archive *archive, const char *name, int *x, int min, int max);
 void hd_archive_long(hd_archive *archive, const char *name, long *x, long min, long max);
-/** Any 64 bits. */
+/** Reads or writes 64 bits of any value. */
 void hd_archive_bits(hd_archive *archive, const char *name, uint64_t *x);
-/** Of elements of `size` bytes that are still to come. */
+/** Reads or writes the number of elements of `size` bytes that follow. */
 void hd_archive_count(hd_archive *archive, const char *name, size_t *x, size_t size);
-/** In size bytes, zeros behind it. */
+/** Reads or writes a text in `size` bytes, padded with zeros. */
 void hd_archive_text(hd_archive *archive, const char *name, char *text, size_t size);
 
 /* An array in parts: its head, then all of its elements. */

@@ -1,4 +1,4 @@
-/** What is done to whole arrays of numbers. */
+/** Operations on whole arrays of numbers. */
 #ifndef HD_ARRAYS_H
 #define HD_ARRAYS_H
 
@@ -6,7 +6,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/** The mean of each entry takes up x, which is one of so many. */
+/** Adds x to the running mean of each entry; `samples` counts x, too. */
 static inline void hd_mean_add(double *mean, const double *x, size_t count, long samples)
 {
     for (size_t k = 0; k < count; k++) mean[k] += (x[k] - mean[k]) / (double)samples;

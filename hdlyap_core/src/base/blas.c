@@ -1,5 +1,5 @@
 /** Identity of the linear algebra library, and the restart with kernels that fit the processor.
- * Works with any BLAS: what is OpenBLAS's own is looked up weakly. */
+ * Works with any BLAS: functions that only OpenBLAS has are weak symbols. */
 #define _GNU_SOURCE /* sched_getaffinity */
 #include "base/blas.h"
 
@@ -47,7 +47,7 @@ void hd_blas_use_threads(int threads)
 
 int hd_blas_threads_to_share(void) { return uses_openmp() ? omp_get_max_threads() : 1; }
 
-/** Asks rather than tries: threads that are begun for a trial take the room of those to come. */
+/** Reads OpenMP's limits. Starting threads as a trial would take the memory of the real ones. */
 int hd_blas_threads_granted(int threads)
 {
     omp_set_dynamic(0);
@@ -59,10 +59,10 @@ hd_status hd_blas_room(int threads)
 {
 #if defined(__linux__)
     const size_t buffer = (size_t)128 << 20; /* the largest of any version */
-    /* of two pools, the caller's and the run's: stacks, and the arena that malloc gives a thread */
+    /* stacks and malloc's arenas of two pools of threads, the caller's and the run's */
     const size_t stacks = (size_t)96 << 20;
-    /* of the caller's other threads that have not begun, roscpp's too; 2 to 8 threads took up to 34
-     * MiB of it. OpenBLAS before 0.3.30 asks for a buffer for ever if there is no room. */
+    /* for the caller's other threads that have not started, as roscpp's; 2 to 8 threads took up to
+     * 34 MiB of it. OpenBLAS before 0.3.30 retries for ever if there is no room for its buffer. */
     const size_t others = (size_t)160 << 20;
     const size_t bytes = (size_t)threads * (buffer + stacks) + others;
     void *room = mmap(NULL, bytes, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
@@ -104,10 +104,10 @@ static const char *better_kernel_here(void)
 #endif
 }
 
-/** Sets how idle threads wait, unless the user did: on a busy machine threads that spin wait for
- * each other's time slices, and a factorisation took up to thirty times longer. With two pools,
- * OpenBLAS's pthreads and OpenMP's, they must not spin at all; one pool may for some microseconds.
- * False if nothing was set. */
+/** Sets how idle threads wait, unless the user did. On a busy machine spinning threads take time
+ * slices from working ones: a factorisation took up to thirty times longer. With two pools
+ * (OpenBLAS's pthreads and OpenMP's) threads must not spin at all; those of one pool may spin for
+ * some microseconds. Returns false if nothing was set. */
 static bool calm_threads(void)
 {
     const char *threading = hd_blas_query().threading;
@@ -117,8 +117,8 @@ static bool calm_threads(void)
 }
 
 #if defined(__linux__)
-/** By its path, whose last part is what ps and killall call the process; by what it is where that
- * path leads to nothing any more. */
+/** Executes the program again by its path, because ps and killall show the last part of it; by
+ * /proc/self/exe if that path is no longer there. */
 static void restart(char **argv)
 {
     static const char self[] = "/proc/self/exe";

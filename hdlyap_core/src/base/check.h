@@ -13,7 +13,7 @@ void hd_assert_fail(const char *condition, const char *file, int line);
         if (!(condition)) hd_assert_fail(#condition, __FILE__, __LINE__);                          \
     } while (0)
 
-/** Writes the line that refuses, if there is room for one; returns HD_REFUSED. */
+/** Writes the line that says why something is refused, if there is room; returns HD_REFUSED. */
 #if defined(__GNUC__)
 __attribute__((format(printf, 3, 4)))
 #endif

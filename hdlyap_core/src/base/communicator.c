@@ -1,4 +1,4 @@
-/** Calls of a run's ranks -> its transport, counted. */
+/** What ranks exchange -> calls of the transport (MPI), which are counted. */
 #include "base/communicator.h"
 
 #include <stdlib.h>
@@ -7,11 +7,11 @@
 #include "base/clock.h"
 #include "base/memory.h"
 
-/** Rows that are shared at once: room for them, not for all, is taken beside them. */
+/** Rows that one exchange shares: the buffer has room for so many, not for all. */
 enum { ROWS_AT_ONCE = 32 };
 
-/** Open MPI, and what speaks PMI or PMIx, as MPICH and srun do. The first one that is set: mpirun
- * may start one process within a step of srun. */
+/** Knows the variables of Open MPI and of PMI and PMIx (MPICH, srun). The first one that is set
+ * counts: mpirun may start one process within a step of srun. */
 int hd_ranks_started(const char **variable)
 {
     static const char *const sizes[] = {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "SLURM_STEP_NUM_TASKS"};
@@ -86,7 +86,7 @@ static size_t part_of(size_t rank, size_t width, size_t size)
     return first >= size ? 0 : size - first < width ? size - first : width;
 }
 
-/** The entries of a rank in some rows, into its place among the parts, or out of it. */
+/** Copies a rank's entries of some rows into its place in the buffer `parts`, or out of it. */
 static void pack(double *parts, double *x, size_t rank, size_t rows, hd_shared s, int out)
 {
     const size_t part = part_of(rank, s.width, s.count);
@@ -131,7 +131,7 @@ hd_status hd_communicator_agree(hd_communicator *c, hd_status mine)
     double all[2] = {mine != HD_OK, 0.0};
     hd_communicator_sum(c, all, 1);
     if (all[0] == 0.0) return HD_OK;
-    /* rare: who is the first, and what has it got? */
+    /* a failure is rare: find the first rank that failed, and its status */
     for (int rank = 0; rank < ranks && all[1] == 0.0; rank++) {
         all[1] = rank == c->rank ? (double)mine : 0.0;
         hd_communicator_sum(c, all + 1, 1);

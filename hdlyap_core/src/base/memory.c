@@ -1,5 +1,5 @@
-/** Aligned, zeroed, counted allocation. The counter is the core's only global: it counts, it steers
- * nothing. */
+/** Aligned, zeroed, counted allocation. The counter is the core's only global variable; nothing
+ * depends on it. */
 #define _DEFAULT_SOURCE /* madvise */
 #include "base/memory.h"
 
@@ -23,7 +23,7 @@ void *hd_memory_alloc(size_t count, size_t size)
     if (posix_memalign(&block, huge > 0 ? HUGE_PAGE : CACHE_LINE, bytes > 0 ? bytes : 1) != 0)
         return NULL;
 #if defined(__linux__) && defined(MADV_HUGEPAGE)
-    /* a hint, which may fail; none for the rest, which would take a whole page */
+    /* a hint, which may fail; not for the rest, which would take a whole huge page */
     if (huge > 0) (void)madvise(block, huge, MADV_HUGEPAGE);
 #endif
     memset(block, 0, bytes);

@@ -4,12 +4,14 @@
 
 #include <stddef.h>
 
-/** count * size bytes, zeroed, on a cache line (of large ones what fills huge pages on these: no
- * more is taken than is asked for); NULL when out of memory or when the product overflows. */
+/** Allocates count * size bytes, zeroed and aligned to a cache line. A large block uses huge pages
+ * where it fills them, so that it takes no more than asked. NULL if there is no memory or the
+ * product overflows. */
 void *hd_memory_alloc(size_t count, size_t size);
 void hd_memory_free(void *block);
 
-/** Allocations since the start of the program; a test holds the main loop to none. */
+/** Number of allocations since the program started; a test asserts that the main loop makes none.
+ */
 size_t hd_memory_allocations(void);
 
 #endif

@@ -8,7 +8,7 @@ typedef struct hd_random {
     uint64_t s[4];
 } hd_random;
 
-/** Any seed is good; stream separates uses of one seed. */
+/** Every seed is allowed; different streams of one seed are independent. */
 hd_random hd_random_seeded(uint64_t seed, uint64_t stream);
 
 /** Uniform in [-1, 1), a multiple of 2^-52. */

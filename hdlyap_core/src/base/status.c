@@ -41,5 +41,5 @@ void hd_assert_handler_replace(hd_assert_handler handler)
 void hd_assert_fail(const char *condition, const char *file, int line)
 {
     assert_handler(condition, file, line);
-    abort(); /* a handler that returns must not let the caller go on */
+    abort(); /* the caller must not go on even if the handler returns */
 }
