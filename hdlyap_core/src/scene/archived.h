@@ -1,4 +1,4 @@
-/** What a checkpoint holds of a scene. */
+/** The scene in a checkpoint. */
 #ifndef HD_SCENE_ARCHIVED_H
 #define HD_SCENE_ARCHIVED_H
 

@@ -1,5 +1,5 @@
-/** A circular container: size, start positions, its wall, and its row [T21]. Of the trajectory
- * + - * / sqrt only. */
+/** A circular container: size, start positions, its wall, and its row [T21]. What the trajectory
+ * uses has only + - * / sqrt. */
 #include "scene/circle.h"
 
 #include <float.h>
@@ -80,7 +80,7 @@ static double sites_within(const hexagons *h, double square)
     return sites;
 }
 
-/** The least circle about one of the points of symmetry with at least so many sites. */
+/** The smallest circle about a point of symmetry that holds at least `disks` sites. */
 static hexagons densest(int disks)
 {
     enum { POINTS = 3, BISECTIONS = 100 };
@@ -88,7 +88,8 @@ static hexagons densest(int disks)
     hexagons best = {.square = INFINITY};
     for (int k = 0; k < POINTS; k++) {
         hexagons h = {point[k][0], point[k][1], 0.0};
-        double low = 0.0, high = disks + 2.0; /* sites lie at least as dense as their squares */
+        double low = 0.0, high = disks + 2.0; /* a circle of this squared radius has sites enough:
+                                                 they are denser than a square lattice */
         for (int b = 0; b < BISECTIONS && low < high; b++) {
             const double middle = 0.5 * (low + high);
             *(sites_within(&h, middle) >= disks ? &high : &low) = middle;
@@ -99,7 +100,7 @@ static hexagons densest(int disks)
     return best;
 }
 
-/** Spacing of sites; a little less than fits, for the rounding of the outermost. */
+/** Spacing of sites, a little less than fits, so that rounding puts no disk beyond the wall. */
 static double spacing_of(const hexagons *h, double reach)
 {
     return reach / sqrt(h->square) * (1.0 - 8.0 * DBL_EPSILON);
@@ -119,7 +120,7 @@ static double circle_density_max(const hd_scene_def *def)
     return def->number / (PI * radius * radius);
 }
 
-/** Spare sites are left empty evenly. */
+/** Start positions; sites that are not needed stay empty, evenly spread. */
 static void circle_start(const hd_scene_def *def, double *q)
 {
     const hexagons h = densest(def->number);
@@ -140,12 +141,12 @@ static void circle_start(const hd_scene_def *def, double *q)
 
 /* ---- wall ----------------------------------------------------------------------------------- */
 
-/** Of the wall: centres stay within REACH of (CENTRE, CENTRE). */
+/** Entries of hd_wall.own: centres stay within REACH of (CENTRE, CENTRE). */
 enum { CENTRE, REACH };
 
 static double dot(const double *a, const double *b) { return a[0] * b[0] + a[1] * b[1]; }
 
-/** From the centre to q; returns its length. */
+/** r: the vector from the centre to q; returns its length. */
 static double from_centre(double *r, const hd_wall *wall, const double *q)
 {
     for (int d = 0; d < 2; d++) r[d] = q[d] - wall->own[CENTRE];
@@ -158,8 +159,9 @@ static double wall_excess(const hd_wall *wall, const double *q)
     return from_centre(r, wall, q) - wall->own[REACH];
 }
 
-/** |r + p s| = reach: the later root s, by the sum that does not cancel. p^2 reach^2 - (r x p)^2 is
- * the square of r.p at the wall; a disk there within rounding has it by r.p itself. */
+/** The later root s of |r + p s| = reach, by the form that does not cancel. p^2 reach^2 - (r x p)^2
+ * is the square of r.p at the wall; if the disk is at the wall within rounding, r.p itself serves.
+ */
 static double wall_wait(const hd_wall *wall, const double *q, const double *p)
 {
     double at[2];
@@ -197,8 +199,8 @@ static void circle_outline(const hd_scene_def *def, double turn, double *place)
     place[1] = radius + radius * sin(angle);
 }
 
-/** T steps lie below the relation of boxes by up to 1.5 %; LP steps by 31 % (LP(1,1), density 0.4)
- * to nothing (LP(0,1)). */
+/** T steps lie up to 1.5 % below the dispersion relation of boxes. LP steps lie below it by 31 %
+ * (LP(1,1), density 0.4) down to nothing (LP(0,1)), so they follow none. */
 const hd_container_row hd_circle_row = {.say = circle_say,
                                         .describe = circle_describe,
                                         .check = circle_check,

@@ -13,7 +13,7 @@ double hd_circle_reach(const hd_scene_def *def);
 hd_wave_limits hd_circle_limits(const hd_scene_def *def);
 void hd_circle_waves(const hd_scene_def *def, hd_wave_taker take, void *to);
 int hd_circle_waves_usual(const hd_scene_def *def);
-/** Of A(r) = J_m(k r) - harmonic (r / reach)^m: cosine and sine. */
+/** Cosine and sine parts of A(r) = J_m(k r) - harmonic (r / reach)^m, for one wave. */
 void hd_circle_of_wave(const hd_scene_def *def, const hd_wave *wave, double *own);
 void hd_circle_modulations(hd_modulation *out, const double *own, const double *q);
 

@@ -1,4 +1,4 @@
-/** Waves of a circle -> their numbers; a place -> Bessel functions and their gradients [T21]. */
+/** Waves of a circle -> wave numbers; a place -> Bessel functions and their gradients [T21]. */
 #define _XOPEN_SOURCE 700 /* jn */
 
 #include <complex.h>
@@ -10,16 +10,15 @@ static const double PI = 3.14159265358979323846;
 
 /* ---- wave numbers --------------------------------------------------------------------------- */
 
-/** T: no tangential stress at the wall, of the flow that hd_circle_modulations gives. LP: J_m',
- * nothing through the wall. Up to a factor. */
+/** The function whose roots are the wave numbers, up to a factor. T: the tangential stress at the
+ * wall of the flow of hd_circle_modulations. LP: J_m', the flow through the wall. */
 static double at_wall(bool transverse, int m, double x)
 {
     if (transverse) return m > 0 ? m * jn(m, x) - jn(m + 2, x) : jn(2, x);
     return m > 0 ? jn(m - 1, x) - jn(m + 1, x) : jn(1, x);
 }
 
-/** The next root above x; roots are more than pi / 2 apart. By chords, of which an end that stays
- * counts half the next time (Illinois). */
+/** The next root above x, by the Illinois method; roots are more than pi / 2 apart. */
 static double next_root(bool transverse, int m, double x)
 {
     const double STEP = 0.5, CLOSE = 1e-14;
@@ -42,8 +41,9 @@ static double next_root(bool transverse, int m, double x)
     return fabs(below) < fabs(above) ? low : high;
 }
 
-/** Where to begin: the first root of J_m' is above m, that of T above m + 1; J_0' = -J_1 has one at
- * 0, which is none. T of m = 1 has those of LP of 2, to the last bit. */
+/** Where the search begins. The first root of J_m' is above m, the first one of T above m + 1. The
+ * root of J_0' = -J_1 at 0 does not count. T of m = 1 has the roots of LP of m = 2, to the last
+ * bit. */
 static double before_roots(bool transverse, int m) { return transverse ? m + 1 : fmax(m, 0.1); }
 
 static hd_modulations modulations_of(int m)
@@ -51,7 +51,7 @@ static hd_modulations modulations_of(int m)
     return (hd_modulations){m > 0 ? 2 : 1, {HD_COS_M, HD_SIN_M}};
 }
 
-/** A wave with fields of one kind; n[0] = m, n[1]: which root of it. */
+/** A wave with fields of one kind; n[0] = m, n[1]: the number of the root, from 1. */
 static hd_wave wave_of(double reach, bool transverse, int m, int n, double root)
 {
     const double k = root / reach;
@@ -60,7 +60,7 @@ static hd_wave wave_of(double reach, bool transverse, int m, int n, double root)
     return wave;
 }
 
-/** Of the waves with m nodes LP has the longest. */
+/** Among the waves with m nodes the longest one is an LP wave. */
 hd_wave_limits hd_circle_limits(const hd_scene_def *def)
 {
     hd_wave_limits limits = {INFINITY, PI * sqrt(def->density), 0};
@@ -97,7 +97,8 @@ int hd_circle_waves_usual(const hd_scene_def *def)
 
 /* ---- modulations ---------------------------------------------------------------------------- */
 
-/** Of a wave: HARMONIC is 0 of L and P fields; of T fields J_m(k reach): A vanishes at the wall. */
+/** Entries of own[HD_WAVE_OWN]. HARMONIC is 0 for L and P fields, and J_m(k reach) for T fields, so
+ * that their A vanishes at the wall. */
 enum { M, K, CENTRE, REACH, HARMONIC };
 
 /** A radial function, its derivative, and m times its quotient by r. */
@@ -105,8 +106,8 @@ typedef struct radial {
     double value, along, across;
 } radial;
 
-/** By J_(m-1) and J_(m+1), which need no quotient by r: J_m' is half their difference, m J_m(x) / x
- * half their sum. */
+/** Computed from J_(m-1) and J_(m+1) without division by r: J_m' is half their difference, and
+ * m J_m(x) / x half their sum. */
 static radial bessel(int m, double k, double r)
 {
     const double below = m > 0 ? jn(m - 1, k * r) : -jn(1, k * r), above = jn(m + 1, k * r);
@@ -123,7 +124,7 @@ void hd_circle_of_wave(const hd_scene_def *def, const hd_wave *wave, double *own
     own[HARMONIC] = wave->transverse.count > 0 ? jn(wave->n[0], k * reach) : 0.0;
 }
 
-/** Less the harmonic function. */
+/** The Bessel function minus the harmonic one. */
 static radial at(const double *own, double r)
 {
     const int m = (int)own[M];

@@ -1,11 +1,11 @@
-/** Scene -> what its container is. */
+/** Scene -> the row of its container. */
 #include "scene/container.h"
 
 #include <stdio.h>
 
 #include "scene/scene.h"
 
-/** One that is not checked yet may say anything. */
+/** The scene may not have been checked yet: a wrong number counts as a rectangle. */
 static hd_container number_of(const hd_scene_def *def)
 {
     return (unsigned)def->container < HD_CONTAINERS_END ? def->container : HD_RECTANGLE;

@@ -1,4 +1,5 @@
-/** What holds the disks. Each kind is a file with a row of functions; who asks knows rows alone. */
+/** What holds the disks. Each container is a file with a row of functions; callers know rows alone.
+ */
 #ifndef HD_CONTAINER_ROW_H
 #define HD_CONTAINER_ROW_H
 
@@ -7,11 +8,11 @@
 
 #include "hdlyap/wave.h"
 
-/** Least distance of two start positions: disks that all touch can never move. */
+/** Smallest distance of two start positions: disks that all touch could never move. */
 #define HD_START_DISTANCE_MIN (1.0 + 1e-9)
 
-/** Room of centres between walls: less is crossed more often than there are times to tell apart. It
- * is 1e-9 but for the rounding of an edge that density and aspect give. */
+/** Smallest room of centres between two walls. Disks would cross less room more often than times
+ * can be told apart. It is 1e-9, less what rounding an edge takes. */
 #define HD_ROOM_MIN 0.999e-9
 
 /** Takes one wave; `to` is its own. */
@@ -25,7 +26,7 @@ enum { HD_WAVES_USUAL_MAX = 26 };
 typedef struct hd_wall hd_wall;
 struct hd_wall {
     double own[4];                    /**< what its functions need */
-    double radius_least, radius_most; /**< of its curvature */
+    double radius_least, radius_most; /**< range of its radius of curvature */
     /** How far beyond the wall q is; negative inside. */
     double (*excess)(const hd_wall *wall, const double *q);
     /** Time until q with velocity p leaves through it: 0 there, and beyond it, on the way out;
@@ -44,36 +45,37 @@ typedef struct hd_modulation {
 enum { HD_WAVE_OWN = 6 };
 
 typedef struct hd_container_row {
-    /** For a refusal, what it is beside its disks and their density. */
+    /** Words for a refusal that describe the container, without its disks and their density. */
     void (*say)(const hd_scene_def *def, char *text, size_t size);
     /** See hd_scene_describe. */
     void (*describe)(const hd_scene_def *def, char *text, size_t size);
-    /** That one disk has room, and that no parameter is given which it does not have. */
+    /** Checks that one disk has room, and that no parameter is given that this container lacks. */
     hd_status (*check)(const hd_scene_def *def, char *message, size_t size);
     void (*box)(const hd_scene_def *def, double *box); /**< edges of the box around it */
-    double (*area)(const hd_scene_def *def);           /**< that centres can reach */
-    bool rotates; /**< about the middle of its box: angular momentum is conserved there */
-    double (*start_distance)(const hd_scene_def *def); /**< least, of the densest start positions */
-    double (*density_max)(const hd_scene_def *def);    /**< that these can hold; 0 for none */
+    double (*area)(const hd_scene_def *def);           /**< area that centres can reach */
+    bool rotates; /**< symmetric under rotation about its middle: angular momentum is conserved */
+    double (*start_distance)(const hd_scene_def *def); /**< smallest one of the densest start */
+    double (*density_max)(const hd_scene_def *def);    /**< highest density of a start; 0: none */
     void (*start)(const hd_scene_def *def, double *q); /**< positions */
 
-    /* Of a curved wall; NULL of a box. Its boundaries are HD_CURVED, and no scene gives others. */
+    /* The two entries of a curved wall; NULL for a box. Boundaries are HD_CURVED then. */
     hd_wall (*wall)(const hd_scene_def *def);
-    /** Part `turn`, 0 .. 1, of the way round, where rims touch it. */
+    /** The place on the outline, which rims touch, at the part `turn`, 0 .. 1, of the way round. */
     void (*outline)(const hd_scene_def *def, double turn, double *place);
 
     hd_wave_limits (*limits)(const hd_scene_def *def);
     void (*waves)(const hd_scene_def *def, hd_wave_taker take, void *to); /**< in any order */
-    /** So many of the longest waves, and those as long as the last one, are classified if the scene
-     * does not say: steps of shorter ones seldom part from the rest. HD_WAVES_USUAL_MAX at most. */
+    /** Number of the longest waves that are classified if the scene does not give one, at most
+     * HD_WAVES_USUAL_MAX; waves as long as the last one are added. Steps of shorter waves are
+     * seldom resolved. */
     int (*waves_usual)(const hd_scene_def *def);
-    /** NULL of a box, whose modulations are products of functions of each coordinate. of_wave
-     * writes own[HD_WAVE_OWN], by which modulations are computed: out[..] for the bits of the wave,
-     * in their order, at q. */
+    /** Both are NULL for a box, whose modulations are products of functions of each coordinate.
+     * of_wave writes own[HD_WAVE_OWN]; with it, modulations writes out[..], one for each bit of the
+     * wave in order, at q. */
     void (*of_wave)(const hd_scene_def *def, const hd_wave *wave, double *own);
     void (*modulations)(hd_modulation *out, const double *own, const double *q);
-    /** By which part of themselves T and LP steps stray from the relation of boxes [T12]: 0 as
-     * those of boxes; NAN: they follow none. */
+    /** Relative distance of T and LP steps from the dispersion relation of boxes [T12]: 0 if they
+     * follow it, NAN if they follow no relation. */
     double t_strays, lp_strays;
 } hd_container_row;
 
@@ -82,19 +84,21 @@ HD_CONTAINERS(HD_CONTAINER_ROW)
 #undef HD_CONTAINER_ROW
 
 const hd_container_row *hd_container_of(const hd_scene_def *def);
-/** As a scene says it. */
+/** The container's name, as a scene file has it. */
 const char *hd_container_name(const hd_scene_def *def);
 
-/** Its wall; without functions of a box. */
+/** The curved wall; its functions are NULL for a box. */
 hd_wall hd_wall_of(const hd_scene_def *def);
 
-/** Of more sites than disks some are left empty, evenly. */
+/** Whether a site stays empty: if there are more sites than disks, the empty ones are spread
+ * evenly. */
 static inline bool hd_site_is_spare(int64_t site, int64_t sites, int64_t disks)
 {
     return (site + 1) * disks / sites == site * disks / sites;
 }
 
-/** Largest number of nodes that the scene asks for, of `most` within the limits. */
+/** Largest number of nodes that the scene asks for; `most` is that of the waves within its limits.
+ */
 int hd_wave_nodes(const hd_scene_def *def, int most);
 /** Wave number up to which the scene asks for waves. */
 double hd_wave_limit(const hd_scene_def *def);

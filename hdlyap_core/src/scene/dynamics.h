@@ -7,13 +7,14 @@
 extern const hd_dynamics hd_hard_disks, hd_hard_spheres, hd_dumbbells_row, hd_soft_disks,
     hd_soft_spheres;
 
-/** Those of a program's own: row[count]. */
+/** Rows that a program brings itself: row[count]. */
 typedef struct hd_known {
     const hd_dynamics *const *row;
     int count;
 } hd_known;
 
-/** What hd_scene_def.dynamics is for particles of this name; false if there are none. */
+/** Finds the value of hd_scene_def.dynamics for the particles of this name; false if there are
+ * none. */
 bool hd_dynamics_named(const hd_dynamics **out, const char *particles, hd_known known);
 
 #endif

@@ -1,12 +1,12 @@
-/** What kinetic theory says of particles in a box. */
+/** What kinetic theory predicts for particles in a box. */
 #ifndef HD_FLUID_H
 #define HD_FLUID_H
 
 #include "hdlyap/dynamics.h"
 
-/** How the branch of a kind of modes bends, lambda = c k + c2 k^2 + c3 k^3, as measured in long
- * boxes [T12]; l is the mean free path: c2 / c = c2 + c2_l l, its error alike; c3 / c = c3 + c3_l2
- * l^2, its error besides `off` times that, by which densities lie off these formulae. */
+/** The curvature of a branch, lambda = c k + c2 k^2 + c3 k^3, as measured in long boxes [T12]. With
+ * the mean free path l, c2 / c = c2 + c2_l l and c3 / c = c3 + c3_l2 l^2. Errors have the same
+ * form; `off` is the part of c3 / c by which single densities differ from the formula. */
 typedef struct hd_bend {
     double c2, c2_l, error, error_l, c3, c3_l2, c3_error, off;
 } hd_bend;
@@ -21,7 +21,7 @@ struct hd_fluid {
     hd_bend lp, t;
 };
 
-/** Of kinetic energy 1 each, by Enskog. */
+/** Hard disks and spheres of kinetic energy 1 each, by Enskog's theory. */
 extern const hd_fluid hd_fluid_disks, hd_fluid_spheres;
 
 #endif

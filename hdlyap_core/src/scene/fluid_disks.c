@@ -12,7 +12,7 @@ static double contact_of(double density)
     return (1.0 - 7.0 / 16.0 * eta) / (free * free);
 }
 
-/** Near the closest packing as at eta = 0.9. */
+/** Packing fractions above 0.9, where the formula diverges, count as 0.9. */
 static double rate_of(const hd_scene_def *def)
 {
     const double density = def->density;
@@ -25,7 +25,7 @@ static double free_path_of(const hd_scene_def *def)
     return 1.0 / (2.0 * sqrt(2.0) * density * contact_of(density));
 }
 
-/** p = rho Z: c^2 = d(rho Z)/d rho + Z^2, as a disk has two degrees of freedom and kT = 1. */
+/** From p = rho Z, c^2 = d(rho Z)/d rho + Z^2: a disk has two degrees of freedom and kT = 1. */
 static double sound_of(const hd_scene_def *def)
 {
     const double density = def->density;
@@ -35,7 +35,7 @@ static double sound_of(const hd_scene_def *def)
     return sqrt(z + eta * slope + z * z);
 }
 
-/** Eckmann et al. (2005), to 3 % for densities up to 0.8. */
+/** The values of Eckmann et al. (2005), right to 3 % for densities up to 0.8. */
 static double transverse_of(const hd_scene_def *def)
 {
     const double density = def->density;

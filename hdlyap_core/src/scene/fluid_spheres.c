@@ -24,7 +24,8 @@ static double free_path_of(const hd_scene_def *def)
     return 1.0 / (sqrt(2.0) * PI * density * contact_of(density));
 }
 
-/** p = rho kT Z: c^2 = kT (d(rho Z)/d rho + 2/3 Z^2), as a sphere has three degrees of freedom. */
+/** From p = rho kT Z, c^2 = kT (d(rho Z)/d rho + 2/3 Z^2): a sphere has three degrees of freedom.
+ */
 static double sound_of(const hd_scene_def *def)
 {
     const double density = def->density;
@@ -34,7 +35,7 @@ static double sound_of(const hd_scene_def *def)
     return sqrt(TEMPERATURE * (z + eta * slope + 2.0 / 3.0 * z * z));
 }
 
-/** At densities from 0.1 to 0.9, doc/findings.md. */
+/** Measured at densities from 0.1 to 0.9, see doc/findings.md. */
 static double transverse_of(const hd_scene_def *def)
 {
     const double density = def->density;

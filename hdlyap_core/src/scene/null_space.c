@@ -1,5 +1,5 @@
-/** Scene -> what is conserved, and the directions that follow from it [T9]. Of the trajectory's
- * start + - * / sqrt only. */
+/** Scene -> conserved quantities, and the null directions that follow from them [T9]. What the
+ * start of the trajectory uses has only + - * / sqrt. */
 #include "scene/null_space.h"
 
 #include <math.h>

@@ -65,7 +65,7 @@ const hd_parameter *hd_parameter_of(const hd_scene_def *def, int k)
     return k - count < of->parameters ? &of->parameter[k - count] : NULL;
 }
 
-/** Enumerations and sets have the size of an int. */
+/** The value as a number; enumerations and sets are read as int. */
 double hd_parameter_value(const hd_parameter *row, const hd_scene_def *def)
 {
     const char *field = (const char *)def + row->offset;

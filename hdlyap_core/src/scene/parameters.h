@@ -1,14 +1,14 @@
-/** What the core does with parameters. */
+/** Functions on parameters that only the core calls. */
 #ifndef HD_PARAMETERS_H
 #define HD_PARAMETERS_H
 
 #include "hdlyap/parameters.h"
 
-/** Row k of all that a scene has: those of every scene, then those of its dynamics; NULL behind the
- * last one. */
+/** Row k of a scene's parameters: first those that every scene has, then those of its dynamics;
+ * NULL after the last one. */
 const hd_parameter *hd_parameter_of(const hd_scene_def *def, int k);
 
-/** Its value in words, as a user says it; returns text. Of a set, and of a number, the number. */
+/** Writes the value as a user writes it, and returns text; a set is written as its number. */
 const char *hd_parameter_say(const hd_parameter *row, const hd_scene_def *def, char *text,
                              size_t size);
 

@@ -1,5 +1,4 @@
-/** Scene -> start positions of disks. All kinds of rows are tried; arithmetic is + - * / sqrt only.
- */
+/** Scene -> start positions of disks. Tries all kinds of rows; arithmetic is + - * / sqrt only. */
 #include "scene/plane_lattice.h"
 
 #include <math.h>
@@ -72,7 +71,7 @@ static void place(const hd_plane_lattice *l, double *q, int row, int column, con
     q[across] = boundary[across] == HD_PERIODIC ? off_row + 0.5 * l->row : 0.5 + off_row;
     for (int d = 0; d < 2; d++)
         if (boundary[d] == HD_REFLECTING)
-            q[d] = fmin(q[d], box[d] - 0.5); /* rounding of the last */
+            q[d] = fmin(q[d], box[d] - 0.5); /* the last site, rounded, may lie beyond the wall */
 }
 
 void hd_plane_lattice_fill(const hd_plane_lattice *lattice, double *q, int disks, const double *box,

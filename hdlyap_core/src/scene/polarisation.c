@@ -9,7 +9,7 @@ static void cross(double *out, const double *a, const double *b)
         out[d] = a[(d + 1) % 3] * b[(d + 2) % 3] - a[(d + 2) % 3] * b[(d + 1) % 3];
 }
 
-/** A vector of no length stays as it is. */
+/** Scales a to length 1; a zero vector stays zero. */
 static double normalise(double *a)
 {
     const double length = hypot(hypot(a[0], a[1]), a[2]);
@@ -17,8 +17,8 @@ static double normalise(double *a)
     return length;
 }
 
-/** Nothing goes through a wall: across the direction of one that has no nodes, and then there is no
- * second one; else the first is across z. */
+/** No transverse field goes through a wall. If the wave has no nodes along a direction with walls,
+ * the only field is across that direction; else there are two, and the first is across z. */
 void hd_polarisations(double e[2][3], const hd_wave *wave, const hd_scene_def *def)
 {
     double unit[3] = {0.0};

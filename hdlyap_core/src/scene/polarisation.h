@@ -4,7 +4,7 @@
 
 #include "hdlyap/wave.h"
 
-/** Of a wave in space; e: unit vectors across k that the walls allow, or zeros. */
+/** e: the unit vectors across k, for a wave in space, that walls allow; a missing one is zero. */
 void hd_polarisations(double e[2][3], const hd_wave *wave, const hd_scene_def *def);
 
 #endif

@@ -1,4 +1,4 @@
-/** A rectangular container, of spheres a box: each direction is periodic or has walls. */
+/** A rectangle (for spheres, a box): each direction is periodic or has walls. */
 #include <math.h>
 #include <stdio.h>
 
@@ -12,14 +12,14 @@
 
 static const double PI = 3.14159265358979323846;
 
-/** A direction in which disks cannot pass each other has no waves of its own. */
+/** An edge [sigma] below this lets no two disks pass each other: no wave lies along it. */
 static const double NARROW = 2.0;
 
 static bool is_flat(const hd_scene_def *def) { return hd_scene_dimension(def) == 2; }
 
 static bool has_walls(const hd_scene_def *def, int d) { return def->boundary[d] == HD_REFLECTING; }
 
-/** By Newton's method, from above: the same bits everywhere. */
+/** The cube root by Newton's method from above, whose bits are the same everywhere. */
 static double cube_root(double x)
 {
     double root = fmax(x, 1.0);
@@ -108,7 +108,7 @@ static void rectangle_start(const hd_scene_def *def, double *q)
     }
 }
 
-/** The densest that the lattice can hold with these N, aspects and boundaries. */
+/** The highest density at which the lattice holds these N with these aspects and boundaries. */
 static double rectangle_density_max(const hd_scene_def *def)
 {
     enum { BISECTIONS = 30 };
@@ -135,14 +135,14 @@ double hd_wave_component(const hd_scene_def *def, int d, int n)
     return has_walls(def, d) ? PI * n / (box[d] - 1.0) : 2.0 * PI * n / box[d];
 }
 
-/** Functions of one coordinate as a set: bit 0 cosine, bit 1 sine. */
+/** The set of functions of one coordinate: bit 0 is the cosine, bit 1 the sine. */
 static unsigned functions(const hd_scene_def *def, int d, int n, bool transverse)
 {
     if (has_walls(def, d)) return transverse ? (n > 0 ? 2u : 0u) : 1u;
     return n > 0 ? 3u : 1u;
 }
 
-/** Products of functions of all coordinates, from the set of each. */
+/** The set of products of one function of each coordinate; of[d] is the set of coordinate d. */
 static hd_modulations products(const unsigned *of, int dimension)
 {
     hd_modulations out = {0};
@@ -161,8 +161,8 @@ static hd_modulations modulations(const hd_scene_def *def, const int *n, bool tr
     return products(of, hd_scene_dimension(def));
 }
 
-/** Of each modulation of the pairs one field less than there are components that may be: a wall
- * forbids the one across it that has no nodes [T22]. */
+/** Modulations of transverse fields in space. Each has one field less than it has components; a
+ * wall forbids the component across it if that has no nodes [T22]. */
 static hd_modulations transverse_in_space(const hd_scene_def *def, const int *n)
 {
     const hd_modulations scalar = modulations(def, n, false);
@@ -176,7 +176,7 @@ static hd_modulations transverse_in_space(const hd_scene_def *def, const int *n)
     return out;
 }
 
-/** Largest number of nodes along d whose wave is not longer than `limit`. */
+/** Largest number of nodes along d whose wave number is at most `limit`. */
 static int nodes_within(const hd_scene_def *def, int d, double limit)
 {
     double box[HD_DIMENSION_MAX];

@@ -1,4 +1,4 @@
-/** Defaults of what is asked for, and what follows from it. */
+/** Defaults of a scene, and what is derived from a scene. */
 #include "scene/scene.h"
 
 #include <math.h>
@@ -19,7 +19,7 @@ hd_scene_def hd_scene_def_default(void)
     return def;
 }
 
-/** Only what holds a number, a word, or either. */
+/** Whether a row fits a parameter of a user's dynamics: a number, a word, or either. */
 static bool is_own(const hd_parameter *row)
 {
     const bool number = row->kind == HD_PARAMETER_INT || row->kind == HD_PARAMETER_REAL ||
@@ -51,7 +51,7 @@ hd_scene_def hd_scene_def_of(const hd_dynamics *dynamics)
         const hd_scene_def core = {.particles = (hd_particles)k};
         const hd_dynamics *row = hd_dynamics_of(&core);
         if (strcmp(row->particles, dynamics->particles) != 0) continue;
-        HD_ASSERT(row == dynamics); /* files and other ranks know it by its name */
+        HD_ASSERT(row == dynamics); /* files and other ranks find the row by its name */
         def.particles = (hd_particles)k;
         def.dynamics = NULL;
     }
@@ -76,7 +76,7 @@ double hd_scene_packing(const hd_scene_def *def)
     return of->size ? def->density * of->size(def) : NAN;
 }
 
-/** Blocks of averages are as many collisions of a particle long, where nothing else is known. */
+/** Blocks of averages last this many collisions of a particle if nothing better is known. */
 static const double BLOCK_COLLISIONS = 8.0;
 
 double hd_scene_collision_time(const hd_scene_def *def)
@@ -140,18 +140,19 @@ hd_counts hd_scene_counts(const hd_scene_def *def)
                        .carried = hd_scene_carried(def)};
 }
 
-/** Steps that differ by this part of the smallest of all, of the transverse branch, are to part by
- * so many factors of e: most of a random start has gone. */
+/** The warm-up separates two steps that differ by GAP times the smallest T step by FOLDS factors of
+ * e, so that most of the random start has gone. */
 static const double GAP = 0.05, FOLDS = 3.0;
-/** A frame that does not reach the steps has less to forget; none is forgotten sooner. */
+/** Warm-up of a frame that is too small to reach the steps, and the shortest warm-up of all [time
+ * units]. */
 static const double WARMUP_LEADING = 50.0, WARMUP_MIN = 20.0;
-/** Collisions of a particle after which a frame without steps is taken to have forgotten. */
+/** Warm-up, in collisions of a particle, if there are no steps. */
 static const double WARMUP_COLLISIONS = 100.0;
 
 static double warmup_of(const hd_scene_def *def)
 {
     const hd_fluid *fluid = hd_dynamics_of(def)->fluid;
-    const double k = hd_wave_limits_of(def).smallest; /* INFINITY: no step, nothing parts */
+    const double k = hd_wave_limits_of(def).smallest; /* INFINITY: there are no steps to separate */
     if (!fluid) return WARMUP_COLLISIONS * hd_scene_collision_time(def);
     if (hd_scene_vectors(def) < hd_scene_positive_exponents(def)) return WARMUP_LEADING;
     return fmax(FOLDS / (GAP * fluid->transverse(def) * k), WARMUP_MIN);
@@ -164,7 +165,7 @@ double hd_scene_parting(const hd_scene_def *def)
     return warmup_of(def);
 }
 
-/** Ranges beyond what the types hold are checked with the whole of it. */
+/** Reading checks only that types can hold the values; ranges are checked with the whole scene. */
 void hd_scene_archive(hd_scene_def *def, hd_archive *archive)
 {
     const hd_parameter *r;

@@ -1,4 +1,4 @@
-/** What can be asked for: ranges, and what fits together. */
+/** Checks of a scene: ranges of parameters, and which of them fit together. */
 #include "scene/scene_check.h"
 
 #include <stdbool.h>
@@ -11,9 +11,9 @@
 #include "scene/scene.h"
 #include "scene/wave.h"
 
-enum { SAID = 96, VALUE = 32 }; /* of a container; of a parameter */
+enum { SAID = 96, VALUE = 32 }; /* bytes of a container's words, and of a parameter's value */
 
-/** Mean distance of two disks: 1 over this of the density. */
+/** Name of the root of the density that is 1 over the mean distance of two particles. */
 static const char *root(const hd_scene_def *def)
 {
     return hd_scene_dimension(def) == 2 ? "sqrt" : "cbrt";
@@ -27,7 +27,7 @@ static hd_status refuse_value(const hd_parameter *row, const hd_scene_def *def, 
                      hd_parameter_say(row, def, value, sizeof value), row->allowed);
 }
 
-/** What has a range of its own, whatever the others are. The negated comparison refuses NaN too. */
+/** Whether a value is in the range of its own row. The negated comparison refuses NaN, too. */
 static bool is_in_range(const hd_parameter *row, double value)
 {
     if (row->kind == HD_PARAMETER_SEED || row->kind == HD_PARAMETER_EXPONENTS ||
@@ -46,7 +46,7 @@ static hd_status check_ranges(const hd_scene_def *def, char *message, size_t siz
     return HD_OK;
 }
 
-/** What spheres alone have, or disks: a curved wall is in the plane. */
+/** Refuses parameters of spheres for disks, and a curved wall for spheres: it lies in the plane. */
 static hd_status check_particles(const hd_scene_def *def, char *message, size_t size)
 {
     const hd_scene_def usual = hd_scene_def_default();
@@ -70,7 +70,7 @@ static hd_status check_particles(const hd_scene_def *def, char *message, size_t 
     return HD_OK;
 }
 
-/** A curved wall leaves no boundaries to choose. */
+/** Refuses boundaries and an aspect in a container with a curved wall. */
 static hd_status check_curved(const hd_scene_def *def, char *message, size_t size)
 {
     const hd_scene_def usual = hd_scene_def_default();
@@ -84,7 +84,7 @@ static hd_status check_curved(const hd_scene_def *def, char *message, size_t siz
     return HD_OK;
 }
 
-/** Parameters of a box are refused where there is none. */
+/** Refuses parameters of a box if the dynamics has no box. */
 static hd_status check_without_box(const hd_scene_def *def, char *message, size_t size)
 {
     static const size_t of_box[] = {
@@ -114,7 +114,7 @@ hd_status hd_scene_check_box(const hd_scene_def *def, char *message, size_t size
     return hd_container_of(def)->wall ? check_curved(def, message, size) : HD_OK;
 }
 
-/** Waves that the disks do not sample have no fields. */
+/** Refuses waves that are too short to be sampled by the particles. */
 static hd_status check_waves(const hd_scene_def *def, char *message, size_t size)
 {
     const hd_wave_limits limits = hd_wave_limits_of(def);
@@ -139,7 +139,7 @@ static hd_status check_waves(const hd_scene_def *def, char *message, size_t size
     return HD_OK;
 }
 
-/** What is counted by pairs of exponents needs pairs. */
+/** Refuses what needs exponents in pairs of opposite sign if the maps are not symplectic. */
 static hd_status check_pairs(const hd_scene_def *def, char *message, size_t size)
 {
     const hd_dynamics *of = hd_dynamics_of(def);

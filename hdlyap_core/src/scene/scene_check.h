@@ -4,13 +4,13 @@
 
 #include "hdlyap/scene.h"
 
-/** The line that refuses what is of a box where there is none: what, its value, the particles. */
+/** Format of the line that refuses a parameter of a box: its name, its value, the particles. */
 #define HD_WITHOUT_BOX                                                                             \
     "%s = %s: must not be given with particles = %s, which have no positions in a box"
 
-/** But for what observables ask of a scene. */
+/** hd_scene_check without the conditions of observables. */
 HD_MUST_CHECK hd_status hd_scene_check_start(const hd_scene_def *def, char *message, size_t size);
-/** Without a start lattice, too: every range, and a box wider than a disk. */
+/** Checks every range, and that the box is wider than a disk, but not that a start lattice fits. */
 HD_MUST_CHECK hd_status hd_scene_check_box(const hd_scene_def *def, char *message, size_t size);
 
 #endif

@@ -1,5 +1,5 @@
-/** Scene -> start positions of spheres: grids of about the same spacing along all directions, of
- * which the sites of one kind of lattice are taken. Arithmetic is + - * / sqrt only. */
+/** Scene -> start positions of spheres: the sites of a cubic lattice on a grid whose spacing is
+ * about the same in all directions. Arithmetic is + - * / sqrt only. */
 #include "scene/space_lattice.h"
 
 #include <math.h>
@@ -24,14 +24,14 @@ static int64_t site_count(int kind, const int *n)
     return kind == HD_LATTICE_FACES ? (all + 1) / 2 : all;
 }
 
-/** Of `count` points that must fit into `length`; one point alone has no neighbour. */
+/** Spacing of `count` points in `length`; a single point has no neighbour. */
 static double spacing(double length, int count, hd_boundary boundary)
 {
     if (boundary == HD_PERIODIC) return length / count;
     return count > 1 ? (length - 1.0) / (count - 1) : length;
 }
 
-/** Of two sites that differ by so many points, where both can be. */
+/** Distance of two sites that are step[d] points apart along each direction. */
 static double apart(const hd_space_lattice *l, const int *step, const hd_boundary *boundary)
 {
     double square = 0.0;
@@ -53,7 +53,7 @@ static double smallest_distance(const hd_space_lattice *l, const hd_boundary *bo
     return least;
 }
 
-/** Every other point must meet its likes through the image. */
+/** Whether taking every other point agrees with the periodic images: numbers of points are even. */
 static bool is_even(const hd_space_lattice *l, const hd_boundary *boundary)
 {
     for (int d = 0; d < 3; d++)
@@ -76,7 +76,7 @@ static void try_size(hd_space_lattice *best, int disks, int kind, const int *siz
     if (l.distance > best->distance) *best = l;
 }
 
-/** The same number of points along one direction whatever the spacing is; axis -1: along none. */
+/** A number of points that stays fixed along one axis whatever the spacing is; axis -1: none. */
 typedef struct held {
     int axis, points;
 } held;
@@ -91,7 +91,7 @@ static void size_of(int *size, double least, held h, const double *box, const hd
     }
 }
 
-/** A spacing at which just enough sites of a kind fit. */
+/** The spacing at which just enough sites of this kind fit. */
 static double spacing_of(int disks, int kind, held h, const double *box,
                          const hd_boundary *boundary)
 {
@@ -122,7 +122,7 @@ static void try_around(hd_space_lattice *best, int disks, int kind, held h, cons
     }
 }
 
-/** Between walls a few layers may lie farther apart than their sites. */
+/** Also tries grids with few layers between walls, which may lie farther apart than their sites. */
 hd_space_lattice hd_space_lattice_best(int disks, const double *box, const hd_boundary *boundary)
 {
     enum { LAYERS = 6 };
@@ -142,7 +142,9 @@ static void place(const hd_space_lattice *l, double *q, const int *at, const dou
     for (int d = 0; d < 3; d++) {
         const bool periodic = boundary[d] == HD_PERIODIC;
         const double along = (at[d] + (periodic ? 0.5 : 0.0)) * l->spacing[d];
-        q[d] = periodic ? along : fmin(0.5 + along, box[d] - 0.5); /* rounding of the last */
+        q[d] = periodic ? along
+                        : fmin(0.5 + along,
+                               box[d] - 0.5); /* the last site, rounded, may lie beyond the wall */
     }
 }
 

@@ -11,7 +11,7 @@ enum { HD_LATTICE_SIMPLE, HD_LATTICE_FACES, HD_LATTICE_BODY };
 typedef struct hd_space_lattice {
     int kind; /**< HD_LATTICE_SIMPLE .. */
     int size[3];
-    double spacing[3]; /**< of the points [sigma] */
+    double spacing[3]; /**< spacing of the grid's points [sigma] */
     double distance;   /**< smallest between two sites, images included */
 } hd_space_lattice;
 

@@ -11,7 +11,7 @@ static int compare_waves(const void *a, const void *b)
 {
     const hd_wave *x = a, *y = b;
     if (x->number != y->number) return x->number < y->number ? -1 : 1;
-    int d = HD_DIMENSION_MAX - 1; /* of disks all are 0 there */
+    int d = HD_DIMENSION_MAX - 1; /* disks have 0 there */
     while (d > 0 && x->n[d] == y->n[d]) d--;
     return x->n[d] - y->n[d];
 }
@@ -39,8 +39,8 @@ static void take_longer(void *to, const hd_wave *wave)
     }
 }
 
-/** Wave number of the last of the waves that are usual in this container. None of them has more
- * nodes along a direction than there are of them: so many longer ones lie along it. */
+/** Wave number of the last of the container's waves_usual waves. None of them has more nodes along
+ * a direction than there are waves, because that many longer waves lie along it. */
 static double usual_limit(const hd_scene_def *def)
 {
     const hd_container_row *container = hd_container_of(def);

@@ -1,4 +1,4 @@
-/** What the core derives of waves. */
+/** Functions on waves that only the core calls. */
 #ifndef HD_WAVE_H
 #define HD_WAVE_H
 
