@@ -1,4 +1,4 @@
-/** What a checkpoint holds of the frame and its intervals, and bytes that they take. */
+/** The frame and its intervals in a checkpoint, and the bytes that they take there. */
 #ifndef HD_TANGENT_ARCHIVED_H
 #define HD_TANGENT_ARCHIVED_H
 
@@ -7,10 +7,10 @@
 #include "hdlyap/localization.h"
 #include "tangent/interval.h"
 
-/** Of several ranks each reads all of a file, and the one that writes gets all vectors;
- * HD_NO_MEMORY on all of them. */
+/** With several ranks each one reads the whole file, and the rank that writes gets all vectors.
+ * Fails with HD_NO_MEMORY on all ranks. */
 HD_MUST_CHECK hd_status hd_frame_archive(hd_frame *frame, hd_archive *archive);
-/** Of a rank that carries so many vectors; without its tangent maps. */
+/** Bytes of a frame of this many vectors on one rank, without its tangent maps. */
 double hd_frame_bytes(double rows, double vectors, double threads);
 double hd_ortho_bytes(double rows, double vectors, double ranks);
 /** most: as hd_conjugate_create. */

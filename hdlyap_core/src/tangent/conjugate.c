@@ -1,7 +1,7 @@
-/** Half of the vectors -> all of them, 2N -> 4N of disks, by J (dq, dp) = (dp, -dq) [T18].
+/** Half of the vectors -> all of them (for disks 2N -> 4N), by J (dq, dp) = (dp, -dq) [T18].
  *
  * Q is row-major (stride >= n), for BLAS the column-major Q^T with its first rows the first
- * vectors. Panels, and what is turned by J, are column-major with a column for each vector. */
+ * vectors. Panels, and vectors turned by J, are column-major with a column for each vector. */
 #include "tangent/conjugate.h"
 
 #include <cblas.h>
@@ -43,7 +43,7 @@ static void turn(double *to, const double *from, int rows, int coordinates)
 /* ---- the start ----------------------------------------------------------------------------- */
 
 typedef struct panel {
-    int rows, first, width; /**< rows of this rank: those of some particles */
+    int rows, first, width; /**< rows on this rank (some particles); first vector; vectors */
     int coordinates;        /**< of a particle */
     double *a, *turned;     /**< [rows * width], column-major: vectors; work */
     double *part;           /**< [n * width]: coefficients */
@@ -74,14 +74,14 @@ static void turn_all(const panel *x)
         turn(column_of(x, x->turned, col), column_of(x, x->a, col), x->rows, x->coordinates);
 }
 
-/** Vectors before the panel that lie side by side, from one of them on. */
+/** Number of vectors before the panel that lie side by side, from vector col on. */
 static int beside(const panel *x, const hd_frame *frame, int col)
 {
     const int count = hd_frame_neighbours(frame, col);
     return count < x->first - col ? count : x->first - col;
 }
 
-/** turned <- Q Q^T of, for the vectors before the panel. */
+/** turned <- Q Q^T `of`, with the vectors Q before the panel. */
 static void project(const panel *x, hd_frame *frame, const double *of)
 {
     const int stride = hd_frame_stride(frame);
@@ -114,7 +114,7 @@ static void project_out(const panel *x, hd_frame *frame)
     }
 }
 
-/** Of two vectors of all ranks. */
+/** The inner product of two vectors, summed over all ranks. */
 static double inner(const panel *x, hd_communicator *c, const double *a, const double *b)
 {
     double sum = cblas_ddot(x->rows, a, 1, b, 1);
@@ -127,8 +127,8 @@ static double length_of(const panel *x, hd_communicator *c, const double *a)
     return c ? sqrt(inner(x, c, a, a)) : cblas_dnrm2(x->rows, a, 1);
 }
 
-/** Each vector of the panel loses its part along those before it in the panel and along their
- * conjugates, and gets length 1. */
+/** Removes from each vector of the panel its part along the vectors before it in the panel and
+ * along their conjugates, and scales it to length 1. */
 static hd_status orthonormalise_panel(const panel *x, hd_communicator *c)
 {
     for (int col = 0; col < x->width; col++) {
@@ -149,7 +149,7 @@ static hd_status orthonormalise_panel(const panel *x, hd_communicator *c)
     return HD_OK;
 }
 
-/** Twice is enough, as the first time leaves hardly anything to cancel. */
+/** Projects twice, which is enough: the first time leaves hardly anything to cancel. */
 static hd_status start_panel(const panel *x, hd_frame *frame)
 {
     load(x, frame);

@@ -1,7 +1,6 @@
-/** Tangent vectors: row-major, rows of each particle, dq_x dq_y .. dp_x dp_y .. Of
- * several ranks each has some columns; for an orthonormalisation it has some rows of all, in the
- * same room: its columns of some particles are exchanged for those particles' columns of the
- * others. */
+/** Tangent vectors, row-major; the rows of a particle are dq_x dq_y .. dp_x dp_y .. With several
+ * ranks each one has some of the columns. For an orthonormalisation it has all columns of some
+ * particles instead, in the same memory. */
 #include "tangent/frame_state.h"
 
 #include <float.h>
@@ -13,7 +12,7 @@
 #include "base/random.h"
 #include "tangent/archived.h"
 
-/** Sums of squares below are no longer known to rounding: such a half counts as none. */
+/** A sum of squares below this is not known to rounding: that half counts as zero. */
 static const double SQUARE_MIN = DBL_MIN / DBL_EPSILON;
 
 /* ---- creation ------------------------------------------------------------------------------ */
@@ -52,14 +51,14 @@ static hd_status frame_allocate(hd_frame *frame)
                          : HD_NO_MEMORY;
 }
 
-/** An equal part of them for each rank, or less for the last ones. */
+/** Number of items of a rank if `all` are shared equally; the last ranks may have fewer. */
 static int part_of(const hd_frame *frame, int all)
 {
     const int ranks = hd_communicator_ranks(frame->communicator);
     return (all + ranks - 1) / ranks;
 }
 
-/** Entries of the whole frame from the seed; those of our columns are kept. */
+/** Draws the entries of the whole frame from the seed, and keeps those of this rank's columns. */
 static void fill_random(hd_frame *frame, uint64_t seed)
 {
     const hd_columns own = hd_frame_columns(frame);
@@ -145,7 +144,7 @@ hd_columns hd_frame_columns(const hd_frame *frame)
 
 /* ---- all vectors of some particles --------------------------------------------------------- */
 
-/** The part of a copy that goes to one rank, as all do: some rows of our columns. */
+/** Number of entries that go to each rank: some rows of this rank's columns. */
 static size_t part_size(const hd_frame *frame)
 {
     return (size_t)hd_frame_rows_here(frame) * (size_t)frame->stride;
@@ -240,7 +239,7 @@ void hd_frame_halves(const hd_frame *frame, double *cos_theta, double *dp_dq_rat
     }
 }
 
-/** Our part of some rows of the whole frame, into them or out of them. */
+/** Copies this rank's columns into some rows of the whole frame, or out of them. */
 static void copy_rows(hd_frame *frame, double *rows, int first, int count, bool out)
 {
     const hd_columns own = hd_frame_columns(frame);
@@ -251,7 +250,7 @@ static void copy_rows(hd_frame *frame, double *rows, int first, int count, bool 
     }
 }
 
-/** Some rows of the whole frame at a time. */
+/** Reads or writes some rows of the whole frame at a time. */
 static hd_status archive_shared(hd_frame *frame, hd_archive *archive)
 {
     enum { ROWS = 32 };

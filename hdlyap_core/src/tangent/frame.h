@@ -7,17 +7,17 @@
 #include "dynamics/dynamics.h"
 #include "hdlyap/frame.h"
 
-/** Rows of each particle: its coordinates in dq, dq_x, dq_y, .., then in dp; row-major with
- * leading dimension hd_frame_stride, rows aligned to 64 bytes, columns beyond those of vectors
- * zero. Of several ranks each has hd_frame_stride vectors, the last ones fewer; of a single one, n
- * <= hd_frame_stride. */
+/** The rows of a particle are its coordinates dq_x, dq_y, .., then dp_x, dp_y, .. Storage is
+ * row-major with leading dimension hd_frame_stride; rows are aligned to 64 bytes, and columns that
+ * are no vectors are zero. A single rank has all n <= hd_frame_stride vectors; of several ranks
+ * each has hd_frame_stride, the last ones fewer. */
 typedef struct hd_frame hd_frame;
 
 /** vectors: 1 .. M. Random entries from the seed; orthonormalise before use. */
 HD_MUST_CHECK hd_status hd_frame_create(hd_frame **out, const hd_dynamics *of, int particles,
                                         int vectors, uint64_t seed, int threads);
-/** A frame of which each rank carries some vectors, by all of them together. HD_NO_MEMORY on all if
- * any of them has too little. */
+/** Creates a frame of which each rank carries some vectors; all ranks call it together. Fails with
+ * HD_NO_MEMORY on all ranks if any of them has too little. */
 HD_MUST_CHECK hd_status hd_frame_create_shared(hd_frame **out, const hd_dynamics *of, int particles,
                                                int vectors, uint64_t seed, int threads,
                                                hd_communicator *communicator);
@@ -27,23 +27,23 @@ int hd_frame_rows(const hd_frame *frame);                /**< M */
 int hd_frame_coordinates(const hd_frame *frame);         /**< of a particle */
 int hd_frame_vectors(const hd_frame *frame);             /**< n, of all ranks together */
 int hd_frame_stride(const hd_frame *frame);              /**< doubles from one row to the next */
-int hd_frame_threads(const hd_frame *frame);             /**< that work on it */
+int hd_frame_threads(const hd_frame *frame);             /**< threads in use */
 void hd_frame_use_threads(hd_frame *frame, int threads); /**< 1 .. as many as at its creation */
 double *hd_frame_data(hd_frame *frame); /**< current vectors; valid until the next replay */
 const double *hd_frame_read(const hd_frame *frame); /**< the same, to look at */
 hd_columns hd_frame_columns(const hd_frame *frame); /**< all of them, of this rank */
 
-/** Exchanges with the other ranks: each has then all vectors of some of the disks instead of some
- * vectors of all, in the same room. Until hd_frame_to_columns, or a rewind. */
+/** Exchanges entries with the other ranks: until hd_frame_to_columns or a rewind, each rank has all
+ * vectors of some particles, in the same memory, instead of some vectors of all particles. */
 void hd_frame_to_rows(hd_frame *frame);
 void hd_frame_to_columns(hd_frame *frame);
-int hd_frame_rows_here(const hd_frame *frame); /**< in between, zeros behind the last disk's */
-/** In between: entry of the first row of a vector, and the number of vectors beside it, with this
- * one, that lie in the same rows at the leading dimension hd_frame_stride. */
+int hd_frame_rows_here(const hd_frame *frame); /**< after it; zeros follow the last particle's */
+/** After hd_frame_to_rows: the entry of a vector in the first row; and the number of vectors, with
+ * this one, that lie side by side from there on, at the leading dimension hd_frame_stride. */
 double *hd_frame_vector(hd_frame *frame, int col);
 int hd_frame_neighbours(const hd_frame *frame, int col);
 
-/** Copies vectors of any rank to all of them, row-major: x[M][count]. */
+/** Copies `count` vectors, whichever rank has them, to all ranks, row-major: x[M][count]. */
 void hd_frame_gather(const hd_frame *frame, int first, int count, double *x);
 
 /** Carries the vectors from t_begin to t_end (times as in the record) through what happened from
@@ -53,13 +53,13 @@ void hd_frame_gather(const hd_frame *frame, int first, int count, double *x);
 HD_MUST_CHECK hd_status hd_frame_replay(hd_frame *frame, const hd_record *record, double t_begin,
                                         double t_end);
 
-/** The vectors before the last replay, until the next one. */
+/** The vectors as they were before the last replay; valid until the next one. */
 const double *hd_frame_before(const hd_frame *frame);
 /** Undoes the last replay (once). */
 void hd_frame_rewind(hd_frame *frame);
 
-/** Per column: cosine of the angle between its dp and dq halves, NaN if one of them vanishes, and
- * |dp| / |dq|, NaN if dq vanishes; of this rank's, as many as hd_frame_columns has, each. */
+/** For each of this rank's columns (hd_frame_columns): the cosine of the angle between its dp and
+ * dq halves, NaN if one of them vanishes; and |dp| / |dq|, NaN if dq vanishes. */
 void hd_frame_halves(const hd_frame *frame, double *cos_theta, double *dp_dq_ratio);
 
 #endif

@@ -1,5 +1,4 @@
-/** What a frame holds, for the files that make it up: frame.c keeps it, replay.c carries it along.
- */
+/** The members of a frame. frame.c keeps them, replay.c carries the vectors. */
 #ifndef HD_FRAME_STATE_H
 #define HD_FRAME_STATE_H
 
@@ -12,14 +11,14 @@ struct hd_frame {
     hd_communicator *communicator; /**< NULL: all vectors are here */
     const hd_dynamics *of;
     int particles, rows, vectors, stride;
-    int rows_kept; /**< with zeros behind, so that the particles fall into equal parts */
+    int rows_kept; /**< rows with the zeros that make all ranks' parts equal */
     bool by_rows;
     int threads, threads_max;
     int width;       /**< of a block: 1, 2, 4, 8, 16, 32 or 64 columns */
     double *copy[2]; /**< [rows * stride] */
     int current;
     double *buffer; /**< [threads][rows * width] */
-    void *maps;     /**< of what is being replayed, as the dynamics has them */
+    void *maps;     /**< the tangent maps of the present replay; the dynamics knows what they are */
 };
 
 #endif

@@ -7,19 +7,20 @@
 
 #include "tangent/archived.h"
 
-/** A few collisions alone can make as much: shorter intervals would not lower it, only add up more
- * of it. */
+/** A condition below this is always allowed: a few collisions make as much, so shorter intervals
+ * would not lower it, and more of them would add up. */
 static const double CONDITION_MIN = 1e3;
 /** Standard deviations of ln(condition) kept free below the maximum: few intervals are then
  * repaired, which costs less than shorter intervals would. At least a factor of 2. */
 static const double MARGIN = 2.0, HEADROOM_MIN = 0.7;
-/** A column may grow to e^150 before its square comes near overflow. */
+/** Largest logarithm by which a column may grow: the square of e^150 is still far from overflow. */
 static const double STRETCH_MAX = 150.0;
-/** A remainder that is longer by this factor is taken at once: a repair now and then costs less
- * than halves would. */
+/** A remaining time that is longer than the interval by up to this factor is taken at once: a
+ * repair now and then costs less than two halves would. */
 static const double STRAIN = 1.06;
-/** An interval's shares of the accuracy: what one may use however much is saved; if nothing is; and
- * before the averaging, where the largest alone counts: eight intervals make up for it. */
+/** How many usual shares of the accuracy one interval may use: at most; if nothing is saved; and
+ * before the averaging, where only the largest one counts, because eight intervals make up for it.
+ */
 static const double SHARES_MAX = 20.0, SHARES_MIN = 0.5, SHARES_BEFORE = 4.0;
 static const double AIM_MIN = 0.3; /* of ln(condition) */
 static const double GROW_MAX = 2.0, FORGET = 0.1, VARIANCE_FIRST = 0.5;
@@ -33,7 +34,7 @@ hd_interval hd_interval_first(double first, double limit, double accuracy)
                          .saved = INFINITY};
 }
 
-/** In a norm that has shown nothing yet it is as in the other. */
+/** Growth of the condition in a norm; as long as nothing is known of it, that in the other norm. */
 static hd_growth growth_of(const hd_interval *interval, hd_norm norm)
 {
     const hd_norm other = norm == HD_NORM_FULL ? HD_NORM_DQ : HD_NORM_FULL;
@@ -45,7 +46,7 @@ double hd_interval_counted(double condition, hd_norm norm)
     return norm == HD_NORM_DQ ? HD_ROUNDING_OF_DQ * condition : condition;
 }
 
-/** That uses up the accuracy's share of so many time units. */
+/** The condition that uses up the accuracy's share of this many time units. */
 static double condition_of(const hd_interval *interval, double time)
 {
     const double counted = interval->accuracy * time / (HD_ENLARGED * HD_ROUNDING);
@@ -69,9 +70,9 @@ double hd_interval_piece_max(const hd_interval *interval, double length, double 
 
 static double follow(double old, double seen) { return fmax(seen, old + FORGET * (seen - old)); }
 
-/** The condition grows exponentially but for a factor that grazing collisions make: that scatters
- * alike at all lengths, so it is kept apart. The first interval, and a much longer one, start the
- * mean anew; what a much shorter one shows says little of usual ones. */
+/** The condition grows exponentially, times a factor from grazing collisions. That factor scatters
+ * in the same way at all lengths, so it is kept apart. The first interval and a much longer one
+ * start the mean anew; a much shorter one says little about usual ones. */
 void hd_interval_learn(hd_interval *interval, double length, double condition, double stretch)
 {
     const double seen = log(condition), slope = seen / length;
@@ -86,7 +87,7 @@ void hd_interval_learn(hd_interval *interval, double length, double condition, d
     interval->last = follow(interval->last, length);
 }
 
-/** As if it had been seen at the maximum. */
+/** Learns as if the condition had been measured at the maximum. */
 void hd_interval_failed(hd_interval *interval, double length)
 {
     hd_growth growth = growth_of(interval, interval->norm);
@@ -105,7 +106,7 @@ static void shorten(hd_interval_length *chosen, double length, hd_limit limit)
     if (length < chosen->length) *chosen = (hd_interval_length){length, limit};
 }
 
-/** Longest interval of which few exceed the condition that is allowed, and what else limits it. */
+/** The longest interval that rarely exceeds the allowed condition, and what limits it. */
 hd_interval_length hd_interval_longest(const hd_interval *interval)
 {
     const hd_growth growth = growth_of(interval, interval->norm);

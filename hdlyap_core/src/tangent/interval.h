@@ -12,57 +12,59 @@
  * condition; seen: up to 1.4 eps [T6]. */
 #define HD_ROUNDING (2.0 * DBL_EPSILON)
 
-/** What a condition in the norm of dq counts: it is so much smaller, the error is not [T6]. */
+/** Factor by which a condition in the norm of dq counts: it is smaller by this, but the error is
+ * not [T6]. */
 #define HD_ROUNDING_OF_DQ 2.5
 
-/** Neighbouring vectors that change places enlarge that: seen up to 18 times [T6]. */
+/** Factor by which the error grows if neighbouring vectors change places: up to 18 was seen [T6].
+ */
 #define HD_ENLARGED 20.0
 
-/** Most that an orthonormalisation by products may leave: beyond, block Gram-Schmidt may meet
+/** Largest condition for an orthonormalisation by products: above it block Gram-Schmidt may meet
  * panels that Cholesky cannot factor. */
 #define HD_CONDITION_MAX 1e12
 
-/** Most that repeated passes are asked to factor: they stay right to eps * condition, 1e-3 of one
- * interval, once. */
+/** Largest condition that repeated passes are given to factor: they are right to eps * condition,
+ * 1e-3 in a single interval. */
 #define HD_CONDITION_STABLE 1e13
 
-/** Of ln(condition), in one norm. */
+/** How ln(condition) grows, in one norm. */
 typedef struct hd_growth {
-    double slope;    /**< per time unit, mean of the last ones */
-    double variance; /**< about slope * length, likewise */
+    double slope;    /**< per time unit, mean over the last intervals */
+    double variance; /**< about slope * length, over the last intervals */
 } hd_growth;
 
 /** Adapts to ln(condition) per time unit as it is measured [T6]. */
 typedef struct hd_interval {
-    double limit;        /**< never longer [time units] */
-    double accuracy;     /**< of an exponent that rounding may spoil [1/time unit] */
-    hd_norm norm;        /**< of the next step, and of what is learnt */
+    double limit;        /**< longest interval that is allowed [time units] */
+    double accuracy;     /**< error of an exponent that rounding may make [1/time unit] */
+    hd_norm norm;        /**< norm of the next orthonormalisation */
     hd_growth growth[2]; /**< in each norm */
     double stretch;      /**< largest |ln R_ll| per time unit: rises at once, falls slowly */
     double last;         /**< longest of the last intervals, or the first guess; falls slowly */
-    /** Averaged time whose share of the accuracy is not used up; negative: used in advance;
-     * INFINITY before the averaging */
+    /** Averaged time whose share of the accuracy has not been used; negative: more was used than
+     * was there; INFINITY before the averaging */
     double saved;
 } hd_interval;
 
 hd_interval hd_interval_first(double first, double limit, double accuracy);
 
-/** A condition as it counts for rounding, whatever its norm. */
+/** The condition that counts for rounding, from one measured in this norm. */
 double hd_interval_counted(double condition, hd_norm norm);
 
-/** Largest condition that leaves the means as accurate as asked, with what is saved, after an
- * interval this long; some part of the share of one as long as usual is always given. */
+/** Largest condition of an interval this long that keeps the means as accurate as the scene asks
+ * for, with the share that is saved. Part of a usual interval's share is always allowed. */
 double hd_interval_condition_max(const hd_interval *interval, double length);
 
-/** Largest condition that a piece of an interval of `whole` may have: it uses no more than the
- * share of a usual interval. Intervals that were not taken back mostly stay far below what they are
- * allowed, pieces of the others just below. */
+/** Largest condition of a piece of an interval of length `whole` that is repaired: a piece uses no
+ * more than the share of a usual interval. Intervals mostly stay far below their limit, but pieces
+ * of repaired ones come close to it. */
 double hd_interval_piece_max(const hd_interval *interval, double length, double whole);
 
-/** What an interval of `length` showed. */
+/** Adds the condition and growth that an interval of `length` showed. */
 void hd_interval_learn(hd_interval *interval, double length, double condition, double stretch);
 
-/** An interval of `length` turned out too long: its condition was not even measured. */
+/** An interval of `length` turned out too long, and its condition could not be measured. */
 void hd_interval_failed(hd_interval *interval, double length);
 
 /** Condition to be expected after `length`, in the whole norm. */
@@ -70,14 +72,14 @@ double hd_interval_condition(const hd_interval *interval, double length);
 
 typedef struct hd_interval_length {
     double length;
-    hd_limit limit; /**< why not longer */
+    hd_limit limit; /**< why it is not longer */
 } hd_interval_length;
 
-/** What the conditioning allows the next interval to be. */
+/** The longest next interval that conditioning allows. */
 hd_interval_length hd_interval_longest(const hd_interval *interval);
 
-/** The next interval: an equal share of `remaining`, as few shares as the conditioning allows; all
- * of it (HD_LIMIT_SCHEDULE) if it can. */
+/** The next interval: `remaining` divided into as few equal shares as conditioning allows; the
+ * whole of it (HD_LIMIT_SCHEDULE) if possible. */
 hd_interval_length hd_interval_next(const hd_interval *interval, double remaining);
 
 #endif

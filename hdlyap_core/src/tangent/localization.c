@@ -17,9 +17,9 @@ enum { BLOCK = 64 };
 struct hd_localization {
     int disks, coordinates, vectors, threads;
     long samples;
-    double *entropy, *cosine, *width; /**< [vectors]: means; the last one for whoever asks */
-    double *measured;                 /**< [2 * vectors]: of one time: entropy; |cos| */
-    hd_blocks blocks;                 /**< of the entropies; their weight is their number */
+    double *entropy, *cosine, *width; /**< [vectors]: means; width is filled when it is read */
+    double *measured;                 /**< [2 * vectors], at one time: entropy, then |cos| */
+    hd_blocks blocks;                 /**< blocks of entropies; the weight is their number */
 };
 
 double hd_localization_bytes(double vectors)
@@ -74,7 +74,7 @@ void hd_localization_clear(hd_localization *shape)
     hd_blocks_restart(&shape->blocks);
 }
 
-/** Of some columns: entropy; dq.dq, dp.dp, dq.dp. */
+/** Sums of some columns: entropy; dq.dq, dp.dp, dq.dp. */
 typedef struct sums {
     double entropy[BLOCK], dq[BLOCK], dp[BLOCK], dqdp[BLOCK];
 } sums;
@@ -147,7 +147,7 @@ const double *hd_localization_widths(hd_localization *shape)
     return shape->width;
 }
 
-/** d exp(S) = exp(S) dS. */
+/** Uses d exp(S) = exp(S) dS. */
 double hd_localization_width_error(const hd_localization *shape, int col)
 {
     const double error = hd_blocks_error(&shape->blocks, &(hd_part){col, 1.0}, 1);

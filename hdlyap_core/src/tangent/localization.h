@@ -5,19 +5,19 @@
 #include "hdlyap/frame.h"
 #include "hdlyap/localization.h"
 
-/** threads: that measure. HD_NO_MEMORY. */
+/** threads: how many measure. Fails with HD_NO_MEMORY. */
 HD_MUST_CHECK hd_status hd_localization_create(hd_localization **out, int disks, int coordinates,
                                                int vectors, int threads);
 void hd_localization_free(hd_localization *shape);
 void hd_localization_clear(hd_localization *shape);
 
-/** Measures vectors of length 1, of all disks; others stay as they were measured. Cost O(N) for
- * each vector, a logarithm for each disk. */
+/** Measures these vectors, which have length 1; the values of other vectors stay. Cost O(N) and N
+ * logarithms for each vector. */
 void hd_localization_measure(hd_localization *shape, hd_columns columns);
-/** What has been measured, [2][n]: S, |cos| of the angle between the halves. To be completed by who
- * did not measure all vectors. */
+/** The values measured last, [2][n]: S, and |cos| of the angle between the halves. A caller that
+ * did not measure all vectors has to complete them. */
 double *hd_localization_measured(hd_localization *shape);
-/** The averages take up what has been measured. */
+/** Adds the values measured last to the averages. */
 void hd_localization_add(hd_localization *shape);
 
 /** Mean |cos| of the angle between the dq and dp halves; [n]. */

@@ -2,13 +2,13 @@
  *
  * V (rows m, vectors n, row-major) is for BLAS the column-major n x m matrix A = V^T. The vectors
  * are taken in panels: a panel is orthonormalised, and then taken out of all later ones: S = A_rest
- * A_p^T, A_rest -= S A_p (dgemm). By itself it is dealt with in the same way by halves, down to
- * narrow parts, which are orthonormalised by Cholesky of their Gram matrix: G = A_p A_p^T = L L^T,
+ * A_p^T, A_rest -= S A_p (dgemm). A panel itself is halved in the same way, down to narrow parts,
+ * which are orthonormalised by Cholesky of their Gram matrix: G = A_p A_p^T = L L^T,
  * A_p <- L^-1 A_p (dgemm, dpotrf, dtrtri, dtrmm). That is 2 m n^2 flops nearly all in dgemm, and,
  * as in the modified Gram-Schmidt process, each panel meets vectors that the earlier ones have
  * cleaned: it loses orthogonality in proportion to the condition, where one Cholesky factorisation
- * of all loses its square. diag(L) > 0, so Q and R = L^T are unique; R is used up on the way unless
- * somebody keeps it. In the norm of dq the inner products G and S are those of the dq halves, which
+ * of all loses its square. diag(L) > 0, so Q and R = L^T are unique; R is kept only if
+ * hd_ortho_keep_factor was called. In the norm of dq G and S are products of the dq halves, which
  * for BLAS are two matrices with a leading dimension of four strides; that is 1.5 m n^2 flops.
  * Equations [T5]-[T7]. */
 #include <cblas.h>
@@ -25,13 +25,13 @@
 
 /** Cholesky of a Gram matrix breaks down near 1 / sqrt(16 eps) = 2e7. */
 static const double PANEL_CONDITION_MAX = 1e7;
-/** Loss of orthogonality that repeated passes come down to. */
+/** Repeated passes go on until the loss of orthogonality is below this. */
 static const double REPEATED = 1e-13;
-/** Condition that a second pass may find: of what a first one has left. */
+/** Largest condition that a second pass may find in what the first one has left. */
 static const double CONDITION_AGAIN = 2.0;
 
-/** PANELS of them if there are that many vectors: the last half of the flops then falls into wide
- * products. */
+/** Number of panels if there are vectors enough, and their widths: the last half of the flops then
+ * falls into wide products. */
 enum { PANELS = 8, PANEL_MIN = 8, PANEL_MAX = 160 };
 
 static hd_status ortho_allocate(hd_ortho *ortho)
@@ -68,7 +68,7 @@ double hd_ortho_bytes(double rows, double vectors, double ranks)
 {
     const double width = panel_width((int)vectors), later = fmin(vectors, HD_LATER_MAX);
     const double copied = ranks > 1 ? width * (width + rows / ranks) : 0.0;
-    const double blocked = 32.0 * vectors; /* that LAPACK wants, as seen */
+    const double blocked = 32.0 * vectors; /* workspace that LAPACK was seen to ask for */
     return sizeof(double) *
            (width * width + fmax(later * width, blocked) + (HD_PROBES + 3.0) * vectors + copied);
 }
@@ -154,7 +154,7 @@ void hd_ortho_probes_clear(hd_ortho *ortho)
     memset(ortho->probe, 0, (size_t)ortho->vectors * HD_PROBES * sizeof *ortho->probe);
 }
 
-/** Of the panel that begins there. */
+/** Width of the panel that begins at vector `first`. */
 static int width_at(const hd_ortho *ortho, int first)
 {
     const int left = ortho->vectors - first;
@@ -189,7 +189,7 @@ void hd_ortho_begin(hd_ortho *ortho, const hd_frame *frame, hd_norm norm)
     ortho->passes = 0;
 }
 
-/** V = Q (L_1 L_2)^T. */
+/** Multiplies the factors of both passes: V = Q (L_1 L_2)^T. */
 static void factors_multiply(const hd_ortho *ortho)
 {
     const int n = ortho->vectors;
@@ -205,8 +205,8 @@ static double defect_foreseen(const hd_ortho *ortho)
     return DBL_EPSILON * ortho->condition * ortho->panel_condition * ortho->panel_condition;
 }
 
-/** The norm of dq does not see a NaN in a dp half. Each vector is subtracted from all later ones,
- * so the last one shows it. */
+/** Looks for NaN in dp halves, which the norm of dq does not see. Each vector is subtracted from
+ * all later ones, so the last one shows it. */
 static hd_status unseen_check(const hd_ortho *ortho, hd_frame *frame)
 {
     const double *last = hd_frame_vector(frame, ortho->vectors - 1);
@@ -239,10 +239,10 @@ hd_status hd_ortho_step(hd_ortho *ortho, hd_frame *frame, hd_ortho_limits limits
     return status;
 }
 
-/** With one vector at a time no factor of Cholesky can break down: what a pass leaves is rounding
- * times the condition, and the next one finds vectors that are nearly orthonormal. If it does not,
- * the first one has left nothing but rounding of some vector, and its condition was higher than it
- * could tell. */
+/** Orthonormalises one vector at a time, so that no Cholesky factorisation can break down. A pass
+ * leaves rounding times the condition, and the next pass finds vectors that are nearly orthonormal.
+ * If it does not, the first pass has left only rounding of some vector: its condition was higher
+ * than it could measure. */
 static hd_status repeat_by_rows(hd_ortho *ortho, hd_frame *frame, double condition_max)
 {
     enum { PASSES_MAX = 4 };

@@ -7,30 +7,30 @@
 
 typedef struct hd_ortho hd_ortho;
 
-/** In which the vectors become orthonormal: of all rows, or of their dq halves, which at most 2N
- * vectors can be. Sums of ln R between two states that are orthonormal in the full norm do not
- * depend on the norms in between [T5]. */
+/** The norm in which vectors become orthonormal: of all rows, or of dq halves alone (at most 2N
+ * vectors). Sums of ln R between two states that are orthonormal in the full norm do not depend on
+ * the norms in between [T5]. */
 typedef enum hd_norm { HD_NORM_FULL = 0, HD_NORM_DQ } hd_norm;
 
 /** What a step may accept. */
 typedef struct hd_ortho_limits {
     double condition; /**< largest hd_ortho_condition, > 1 */
     double defect;    /**< above this predicted loss of orthogonality a second pass is made, > 0 */
-    hd_norm norm;     /**< of lengths, condition, defect */
+    hd_norm norm;     /**< the norm of lengths, condition and defect */
 } hd_ortho_limits;
 
 HD_MUST_CHECK hd_status hd_ortho_create(hd_ortho **out, int rows, int vectors);
-/** Of frames that are shared by several ranks. */
+/** Creates one for frames that several ranks share. */
 HD_MUST_CHECK hd_status hd_ortho_create_shared(hd_ortho **out, int rows, int of_particle,
                                                int vectors, hd_communicator *communicator);
 void hd_ortho_free(hd_ortho *ortho);
 
 /** Replaces the frame's vectors by Q; ln diag R is then in hd_ortho_log_stretch. Spans and the sum
  * of logarithms are right to rounding whatever the defect of Q: it cancels with the next step's
- * [T5]. HD_ILL_CONDITIONED (frame's contents undefined: rewind it) when the condition is above the
- * limit, the Gram matrix of a panel is numerically not positive definite, or an entry overflowed.
- * Cost per pass: 2 m n^2 flops for m rows and n vectors, in the norm of dq 1.5 m n^2, nearly all in
- * dgemm. */
+ * [T5]. Fails with HD_ILL_CONDITIONED (the frame's contents are then undefined: rewind it) if the
+ * condition is above the limit, a panel's Gram matrix is not positive definite, or an entry
+ * overflowed. Cost per pass: 2 m n^2 flops for m rows and n vectors, in the norm of dq 1.5 m n^2,
+ * nearly all in dgemm. */
 HD_MUST_CHECK hd_status hd_ortho_step(hd_ortho *ortho, hd_frame *frame, hd_ortho_limits limits);
 
 /** hd_ortho_step in the full norm, one vector at a time and repeatedly: orthonormal to rounding,
@@ -40,9 +40,9 @@ HD_MUST_CHECK hd_status hd_ortho_step(hd_ortho *ortho, hd_frame *frame, hd_ortho
 HD_MUST_CHECK hd_status hd_ortho_step_stable(hd_ortho *ortho, hd_frame *frame,
                                              double condition_max);
 
-const double *hd_ortho_log_stretch(const hd_ortho *ortho); /**< [n], of the last step */
+const double *hd_ortho_log_stretch(const hd_ortho *ortho); /**< [n]: ln R_ll of the last step */
 
-/** From now on each step leaves its R, too; HD_NO_MEMORY (16 n^2 bytes). */
+/** From now on each step keeps its R, too (16 n^2 bytes). Fails with HD_NO_MEMORY. */
 HD_MUST_CHECK hd_status hd_ortho_keep_factor(hd_ortho *ortho);
 /** R of the last accepted step, V = Q R: [n * n] row-major, defined from the diagonal on; NULL
  * unless kept. */

@@ -1,5 +1,5 @@
-/** What an orthonormaliser holds, for the files that make it up: ortho.c takes the panels one after
- * the other, panel.c orthonormalises one. */
+/** The members of an orthonormaliser: ortho.c takes the panels one after the other, panel.c
+ * orthonormalises one. */
 #ifndef HD_ORTHO_STATE_H
 #define HD_ORTHO_STATE_H
 
@@ -16,16 +16,16 @@ enum { HD_PROBES = 8 };
 
 struct hd_ortho {
     hd_communicator *communicator; /**< NULL: a single rank */
-    int rows, vectors;             /**< those of the particles of this rank; n */
+    int rows, vectors;             /**< rows of this rank's particles; n */
     int coordinates;               /**< of a particle of the frame that is orthonormalised */
-    int leaf;                      /**< vectors that are orthonormalised at once, at most */
+    int leaf;                      /**< most vectors that are orthonormalised at once */
     double panel_condition_max;
     int width;          /**< of a panel */
     double *gram;       /**< [width * width], column-major, lower triangle: G, then L */
     double *projection; /**< [later * width], column-major: S */
-    double *inverse;    /**< L^-1, as gram; in the room of S, which comes later */
-    double *sum;        /**< [width * width], of all ranks; NULL with a single one */
-    /** [vectors], |V e_k|^2, of a panel complete when its turn comes */
+    double *inverse;    /**< L^-1, stored as gram is, in the memory of S, which comes later */
+    double *sum;        /**< [width * width], sum over all ranks; NULL with a single rank */
+    /** [vectors]: |V e_k|^2; complete for a panel when its turn comes */
     double *norm2;
     double *scale;       /**< [width], diagonal of G */
     double *probe;       /**< [HD_PROBES][vectors]: R^-T D x, see hd_ortho_condition_from_probes */
@@ -43,8 +43,8 @@ struct hd_ortho {
 /** Entry of a fixed matrix of random signs (a bit of the row's hash). */
 double hd_probe_sign(int row, int probe);
 
-/** True if a sum of squares is known to rounding: neither zero, as BLAS libraries differ in what
- * they make of that, nor near the smallest numbers, nor overflown. */
+/** True if a sum of squares is known to rounding: not zero (BLAS libraries treat zero differently),
+ * not near the smallest numbers, not overflown. */
 bool hd_is_square(double sum);
 
 /** See hd_ortho_condition: with D = diag |V e_k| and random signs x the entries of y = R^-T D x

@@ -1,5 +1,5 @@
-/** Some neighbouring vectors -> orthonormal ones, taken out of all later ones. Storage and
- * equations as in ortho.c. */
+/** Some neighbouring vectors -> orthonormal ones, which are taken out of all later vectors. Storage
+ * and equations are those of ortho.c. */
 #include "tangent/panel.h"
 
 #include <cblas.h>
@@ -10,11 +10,11 @@
 #include "base/check.h"
 #include "tangent/product.h"
 
-/** A panel that is worse conditioned by itself gets a second Cholesky pass: its loss of
- * orthogonality, eps condition^2, multiplies what the later panels are cleaned of. */
+/** A panel with a condition above this gets a second Cholesky pass, because its loss of
+ * orthogonality, eps condition^2, spoils the projection of later panels. */
 static const double PANEL_CONDITION_GOOD = 16.0;
 
-/** From a vector on, `most` of them, or fewer if the next ones lie elsewhere. */
+/** The panel of `most` vectors from `first` on; of fewer if the next ones lie elsewhere. */
 static hd_panel panel_at(hd_frame *frame, int first, int most)
 {
     const int left = hd_frame_neighbours(frame, first);
@@ -22,7 +22,7 @@ static hd_panel panel_at(hd_frame *frame, int first, int most)
                       left < most ? left : most};
 }
 
-/** Between a panel's copy and its vectors, wherever they are. */
+/** Copies a panel's vectors, wherever they are, into its copy, or back. */
 static void copy(const hd_ortho *ortho, hd_frame *frame, hd_panel x, bool back)
 {
     for (int col = 0; col < x.width;) {
@@ -56,14 +56,14 @@ int hd_panel_later_width(int later)
     return pieces > 1 ? ((later + pieces - 1) / pieces + 7) / 8 * 8 : later;
 }
 
-/** The square of a panel's triangle that belongs to a part of it. */
+/** The square block of a panel's triangle that belongs to a part of the panel. */
 static double *triangle_at(double *triangle, hd_panel whole, hd_panel part)
 {
     return triangle + (size_t)(part.first - whole.first) * (size_t)(whole.width + 1);
 }
 
-/** s <- A_y A_x^T of the disks of this rank, in the norm, column-major. That of dq sees
- * the columns of A that are dq_x, dq_y, .. of the particles. */
+/** s <- A_y A_x^T over the particles of this rank, in the norm, column-major. The norm of dq uses
+ * only the columns of A that are dq_x, dq_y, .. */
 static void inner_products_here(const hd_ortho *ortho, double *s, int lds, hd_panel y, hd_panel x)
 {
     const bool dq = ortho->norm == HD_NORM_DQ;
@@ -74,7 +74,7 @@ static void inner_products_here(const hd_ortho *ortho, double *s, int lds, hd_pa
                  lds);
 }
 
-/** s <- A_y A_x^T of the disks of all ranks, in the norm, column-major. */
+/** s <- A_y A_x^T over the particles of all ranks, in the norm, column-major. */
 static void inner_products(const hd_ortho *ortho, double *s, int lds, hd_panel y, hd_panel x)
 {
     const size_t height = (size_t)y.width, width = (size_t)x.width;
@@ -93,14 +93,14 @@ static void take_out(const hd_ortho *ortho, const double *s, int lds, hd_panel y
              1.0, y.a, y.lda);
 }
 
-/** Entry of L of the present pass at a row and the panel's first column: of the first one, or of
- * the one that follows and is multiplied with it. */
+/** The entry of L at a row and the panel's first column, in the factor of the present pass. */
 static double *factor_at(const hd_ortho *ortho, hd_panel x, int row)
 {
     return ortho->factor[ortho->passes > 0] + (size_t)x.first * (size_t)ortho->vectors + row;
 }
 
-/** The panel's own triangle in gram, of its first or second time: L = L_1 L_2. */
+/** Keeps the panel's own triangle, which is in gram; again: the second Cholesky pass, L = L_1 L_2.
+ */
 static void keep_panel(const hd_ortho *ortho, hd_panel x, bool again)
 {
     if (!ortho->factor[0]) return;
@@ -117,7 +117,7 @@ static void keep_panel(const hd_ortho *ortho, hd_panel x, bool again)
         }
 }
 
-/** S, the rows of L of some later vectors. */
+/** Keeps S, the rows of L that belong to some later vectors. */
 static void keep_projection(const hd_ortho *ortho, hd_panel x, int first, int count)
 {
     if (!ortho->factor[0]) return;
@@ -126,7 +126,8 @@ static void keep_projection(const hd_ortho *ortho, hd_panel x, int first, int co
                ortho->projection + (size_t)col * (size_t)count, (size_t)count * sizeof(double));
 }
 
-/** A narrow part of a panel: gram <- L of G = A_p A_p^T, inverse <- L^-1, A_p <- L^-1 A_p. */
+/** Orthonormalises a narrow part of a panel: gram <- L of G = A_p A_p^T, inverse <- L^-1,
+ * A_p <- L^-1 A_p. */
 static hd_status cholesky(hd_ortho *ortho, hd_panel whole, hd_panel x)
 {
     double *l = triangle_at(ortho->gram, whole, x),
@@ -146,7 +147,8 @@ static hd_status cholesky(hd_ortho *ortho, hd_panel whole, hd_panel x)
     return HD_OK;
 }
 
-/** With both halves in their squares: L^-1 below the first is -L_2^-1 S L_1^-1. */
+/** Fills the block of L^-1 below the first half, -L_2^-1 S L_1^-1; both halves are there already.
+ */
 static void invert_corner(hd_ortho *ortho, hd_panel whole, hd_panel first, hd_panel second)
 {
     const double *one = triangle_at(ortho->inverse, whole, first);
@@ -163,8 +165,8 @@ static void invert_corner(hd_ortho *ortho, hd_panel whole, hd_panel first, hd_pa
                 first.width, 1.0, one, ld, inverse, ld);
 }
 
-/** A part of any width: as `cholesky` leaves it, by its first half, which is then taken out of the
- * second. Most of the work is thus in dgemm. */
+/** Does what `cholesky` does for a part of any width: orthonormalises its first half and takes that
+ * out of the second. Thus most of the work is in dgemm. */
 static hd_status by_halves(hd_ortho *ortho, hd_panel whole, hd_panel x)
 {
     if (x.width <= ortho->leaf) return cholesky(ortho, whole, x);
@@ -191,7 +193,7 @@ static void panel_scale(hd_ortho *ortho, int width)
         }
 }
 
-/** Condition of the panel by itself. INFINITY if not finite. */
+/** Condition of the panel alone; INFINITY if it is not finite. */
 static double panel_condition(const hd_ortho *ortho, int width)
 {
     double worst = 0.0;
@@ -207,7 +209,7 @@ static double panel_condition(const hd_ortho *ortho, int width)
     return sqrt(worst);
 }
 
-/** The probes' rows of this panel are complete but for D x itself. */
+/** Completes the probes' rows of this panel, which lacked only D x. */
 static void probe_panel(hd_ortho *ortho, hd_panel x)
 {
     for (int k = 0; k < x.width; k++) ortho->norm2[x.first + k] += ortho->scale[k];

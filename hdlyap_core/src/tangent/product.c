@@ -1,6 +1,6 @@
-/** Product -> pieces, each of which one thread computes by itself. The threads of OpenBLAS wait for
- * each other many times within a product, from version 0.3.27 on without giving up the processor:
- * beside other jobs a product then took several times as long. Pieces wait only at the end. */
+/** Cuts a product into pieces, each of which one thread computes alone. OpenBLAS's own threads wait
+ * for each other many times within a product, since version 0.3.27 without giving up the processor;
+ * beside other jobs a product took several times as long. Pieces wait for each other only once. */
 #include "tangent/product.h"
 
 #include <stdbool.h>
@@ -8,22 +8,22 @@
 
 #include "base/blas.h"
 
-/** Multiply-adds up to which OpenBLAS itself keeps to one thread. */
+/** Up to this many multiply-adds OpenBLAS itself uses one thread. */
 static const double FEW = 262144.0;
-/** Entries of a piece that may be cut once more, so that a thread which is late holds up less. */
+/** A piece with more entries than this may be cut once more, so that a late thread delays less. */
 static const double ENTRIES_MANY = 65536.0;
 enum { FINER = 4, EDGE = 16 /* rows and columns that kernels take at once, or a multiple */ };
 
 static int least(int a, int b) { return a < b ? a : b; }
 
-/** Of `size` cut into so many. */
+/** Edge of a piece if `size` is cut into this many. */
 static int edge_of(int size, int pieces)
 {
     return ((size + pieces - 1) / pieces + EDGE - 1) / EDGE * EDGE;
 }
 
-/** Into how many the columns are cut, and the rows into count over it: the squarer a piece, the
- * less of a and b it reads. */
+/** Number of cuts of the columns; rows are cut into `count` over it. A square piece reads least of
+ * a and b. */
 static int cuts_of_columns(int m, int n, int count)
 {
     int best = 1;

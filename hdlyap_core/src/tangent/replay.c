@@ -2,15 +2,15 @@
  *
  * The record is first turned into tangent maps. Then each thread takes a block of columns into a
  * buffer that stays in its cache, [particle][2 coordinates][width], carries it through all maps,
- * and writes it to the second copy of V; so the vectors from before remain for hd_frame_rewind at
- * no cost in time. Parallel over blocks; the result does not depend on the number of threads. */
+ * and writes it to the second copy of V. So hd_frame_rewind finds the vectors from before, at no
+ * cost in time. Parallel over blocks; the result does not depend on the number of threads. */
 #include <omp.h>
 #include <string.h>
 
 #include "base/check.h"
 #include "tangent/frame_state.h"
 
-/** Columns [col, col + used) of V into the buffer, or back. */
+/** Copies columns [col, col + used) of V into the buffer, or back. */
 static void block_load(const hd_frame *frame, double *buffer, int col, int used)
 {
     const double *v = frame->copy[frame->current] + col;

@@ -1,6 +1,6 @@
-/** Frame -> number of threads. More of them must never cost: each pass over a small frame is
- * shorter than a thread takes to wake up, and on a machine that is busy otherwise this holds for
- * larger ones too. */
+/** Frame -> number of threads. More threads must never make it slower: a pass over a small frame is
+ * shorter than the time a thread takes to wake up, and on a busy machine so is one over larger
+ * frames. */
 #include "tangent/threads.h"
 
 #include <math.h>
@@ -9,9 +9,10 @@
 #include "base/check.h"
 #include "base/clock.h"
 
-/** Entries of a frame below which one thread, and above which all of them, are used unseen. */
+/** Below the first number of entries a frame uses one thread, above the second all, without a
+ * trial. */
 static const double ENTRIES_FEW = 1e5, ENTRIES_MANY = 2e6;
-/** More threads than one must be faster by this factor. */
+/** All threads are used if they are faster than one by this factor. */
 static const double WORTH = 1.05;
 enum { TRIALS = 3 };
 
@@ -27,7 +28,7 @@ static void use(hd_frame *frame, int threads)
     hd_frame_use_threads(frame, threads);
 }
 
-/** Shortest of some orthonormalisations. */
+/** Seconds of the shortest of some orthonormalisations. */
 static hd_status seconds_of(double *seconds, hd_ortho *ortho, hd_frame *frame, int threads)
 {
     const hd_ortho_limits limits = {1e7, 1.0, HD_NORM_FULL};
@@ -41,7 +42,7 @@ static hd_status seconds_of(double *seconds, hd_ortho *ortho, hd_frame *frame, i
     return HD_OK;
 }
 
-/** Seconds with `most` threads and with one, of an orthonormal frame that is nobody's. */
+/** Seconds with `most` threads and with one, of an orthonormal frame made for the trial. */
 static hd_status try_both(double *all, double *one, hd_ortho *ortho, hd_frame *frame, int most)
 {
     HD_TRY(hd_ortho_step(ortho, frame, (hd_ortho_limits){1e7, 1.0, HD_NORM_FULL}));
@@ -59,7 +60,7 @@ hd_status hd_threads_choose(int *threads, hd_ortho *ortho, const hd_dynamics *of
     HD_TRY(hd_frame_create(&frame, of, disks, vectors, 1, most));
     const hd_status status = try_both(&all, &one, ortho, frame, most);
     hd_frame_free(frame);
-    if (status == HD_ILL_CONDITIONED) return HD_OK; /* random vectors hardly ever are */
+    if (status == HD_ILL_CONDITIONED) return HD_OK; /* random vectors are hardly ever dependent */
     if (status == HD_OK && one < WORTH * all) *threads = 1;
     return status;
 }

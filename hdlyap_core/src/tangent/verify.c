@@ -1,4 +1,4 @@
-/** A run's parts -> nothing, or an assertion. */
+/** Checks parts of a run; a broken invariant is an assertion. */
 #include "tangent/verify.h"
 
 #include <float.h>
@@ -13,7 +13,7 @@
 #include "tangent/frame_state.h"
 #include "tangent/interval.h"
 
-/** `value` is at most `limit`, and a number. */
+/** Asserts that `value` is a number and at most `limit`. */
 static void expect_at_most(double value, double limit, const char *what)
 {
     const bool holds = value <= limit;
@@ -53,7 +53,8 @@ void hd_verify_record(const hd_record *record, const hd_scene_def *scene)
 
 /* ---- frame --------------------------------------------------------------------------------- */
 
-/** First vector of pair k: spread over those of this rank; the second is the last of them. */
+/** The first vector of pair k, spread over this rank's vectors; the second one is the last of them.
+ */
 static int first_of(const hd_frame *frame, int k)
 {
     return (int)((long)hd_frame_columns(frame).count * k / HD_VERIFY_PAIRS);
@@ -86,8 +87,7 @@ hd_symplectic hd_verify_sample(const hd_frame *frame)
     return s;
 }
 
-/** Every event rounds what it changes, at most all of a vector, as often as a disk takes part;
- * vectors grow. */
+/** The limit: every event rounds the entries that it changes, of a vector that grows. */
 void hd_verify_symplectic(const hd_frame *frame, const hd_symplectic *before, double events)
 {
     if (!frame->of->symplectic) return;
@@ -100,15 +100,15 @@ void hd_verify_symplectic(const hd_frame *frame, const hd_symplectic *before, do
                        "symplectic product");
 }
 
-/** A defect enters the volume with its square, for each pair of vectors [T5]. Products of many rows
- * round as a random walk. */
+/** A defect changes the volume by its square, for each pair of vectors [T5]. Products of many rows
+ * are rounded as a random walk. */
 void hd_verify_ortho(hd_ortho *ortho, hd_frame *frame)
 {
     const double n = hd_frame_vectors(frame), defect = hd_ortho_defect(ortho);
     const double least = fmax(64.0, sqrt(hd_frame_rows(frame))) * DBL_EPSILON;
     expect_at_most(hd_ortho_defect_measured(ortho, frame, hd_ortho_norm(ortho)),
                    fmax(defect, least), "orthogonality");
-    if (hd_frame_vectors(frame) < hd_frame_rows(frame)) return; /* so with the norm of dq */
+    if (hd_frame_vectors(frame) < hd_frame_rows(frame)) return; /* always so in the norm of dq */
     if (!frame->of->symplectic) return;
     double sum = 0.0;
     for (int col = 0; col < hd_frame_vectors(frame); col++) sum += hd_ortho_log_stretch(ortho)[col];
@@ -117,7 +117,7 @@ void hd_verify_ortho(hd_ortho *ortho, hd_frame *frame)
                    "volume");
 }
 
-/** As much as a run lets it lack, and what an estimate from few pairs may miss. */
+/** The limit is what a run allows, times what an estimate from few pairs may miss. */
 void hd_verify_isotropy(const hd_frame *frame)
 {
     expect_at_most(hd_conjugate_isotropy_measured(frame), 1e-5, "isotropy");
