@@ -1,8 +1,8 @@
 /** Two sets of columns -> principal angles between what they span, by Bjoerck and Golub [T17].
  *
  * Q_a, Q_b: orthonormal bases by dgeqrf. The singular values of Q_a^T Q_b are the cosines; those
- * of Q_b - Q_a (Q_a^T Q_b) are the sines, from which angles below pi / 4 are taken, as cosines near
- * 1 do not know them. */
+ * of Q_b - Q_a (Q_a^T Q_b) are the sines. Angles below pi / 4 are taken from sines, because cosines
+ * near 1 have lost their digits. */
 #include "covariant/angles.h"
 
 #include <float.h>
@@ -18,12 +18,13 @@ struct hd_angles {
     int rows, widest;
     double *basis[2]; /**< [rows * widest] each */
     double *product;  /**< [widest * widest] */
-    double *value[2]; /**< [widest]: sines, cosines; the latter also scalars of reflectors */
+    double
+        *value[2]; /**< [widest]: sines; cosines, whose memory also holds scalars of reflectors */
     double *work;
     int lwork;
 };
 
-/** Entries of workspace that LAPACK wants. */
+/** Workspace that LAPACK asks for, in entries. */
 static int workspace(int rows, int widest)
 {
     double qr = 0.0, q = 0.0, svd = 0.0, unused = 0.0;
@@ -69,7 +70,8 @@ void hd_angles_free(hd_angles *angles)
     hd_memory_free(angles);
 }
 
-/** basis <- orthonormal, of the same span. Columns of numbers: LAPACK does not like others. */
+/** basis <- an orthonormal basis of the span. Refuses columns that are not finite, which LAPACK
+ * does not handle. */
 static hd_status orthonormalise(hd_angles *angles, double *basis, const double *c, hd_span span)
 {
     const int rows = angles->rows;
@@ -92,7 +94,7 @@ static hd_status orthonormalise(hd_angles *angles, double *basis, const double *
     return HD_OK;
 }
 
-/** value <- singular values, largest first; the matrix is used up. */
+/** value <- singular values, largest first; overwrites the matrix. */
 static hd_status singular_values(hd_angles *angles, double *value, double *matrix, int rows,
                                  int columns)
 {

@@ -1,4 +1,4 @@
-/** What a checkpoint holds of the averages of covariant vectors. */
+/** The averages of covariant vectors in a checkpoint. */
 #ifndef HD_COVARIANT_ARCHIVED_H
 #define HD_COVARIANT_ARCHIVED_H
 

@@ -50,7 +50,7 @@ static double *column_of(const hd_backward *backward, int col)
     return backward->c + (size_t)col * (size_t)backward->vectors;
 }
 
-/** Length of the column before; its entries may be anything. */
+/** Scales a column to length 1, whatever its entries are; returns its length before. */
 static double normalise(double *column, int count)
 {
     const double length = cblas_dnrm2(count, column, 1);
@@ -83,7 +83,7 @@ hd_status hd_backward_step(hd_backward *backward, double *growth, const double *
     for (int col = 0; col < n; col++) {
         double *column = column_of(backward, col);
         const double length = normalise(column, col + 1);
-        const bool is_new = column[col] != 0.0; /* not in the span of those before it */
+        const bool is_new = column[col] != 0.0; /* not in the span of the columns before it */
         if (!(length > 0 && length < INFINITY) || !is_new) return HD_ILL_CONDITIONED;
         growth[col] = -log(length);
     }

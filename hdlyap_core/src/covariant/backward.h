@@ -1,5 +1,4 @@
-/** Covariant vectors, carried backwards in time through the triangles that Gram-Schmidt left [T16].
- */
+/** Covariant vectors, carried backwards in time through the triangles of Gram-Schmidt [T16]. */
 #ifndef HD_BACKWARD_H
 #define HD_BACKWARD_H
 
@@ -15,15 +14,14 @@ typedef struct hd_backward hd_backward;
 HD_MUST_CHECK hd_status hd_backward_create(hd_backward **out, int vectors);
 void hd_backward_free(hd_backward *backward);
 
-/** A random C, well conditioned: each column leans out of the span of those before it by 60
- * degrees, as those of a triangle of equally random entries do not. That one is exponentially
- * ill-conditioned, its last columns are but rounding. */
+/** Makes a random, well-conditioned C: each column is at 60 degrees to the span of the columns
+ * before it. A triangle of independent random entries would be exponentially ill-conditioned, and
+ * its last columns only rounding. */
 void hd_backward_start(hd_backward *backward, uint64_t seed, uint64_t stream);
 
-/** From the end of an interval to its start, C <- R^-1 C D with D > 0 diagonal; `factor` is the
- * interval's R, as hd_ortho_factor gives it. growth[n]: ln of how much each vector grows from the
- * start to the end. HD_ILL_CONDITIONED (C undefined) where that is no number. Cost n^3 / 3 flops.
- */
+/** Carries C from the end of an interval to its start: C <- R^-1 C D with D > 0 diagonal; `factor`
+ * is the interval's R (hd_ortho_factor). growth[n]: logarithm of each vector's growth from start to
+ * end. Fails with HD_ILL_CONDITIONED (C undefined) if that is not finite. Cost n^3 / 3 flops. */
 HD_MUST_CHECK hd_status hd_backward_step(hd_backward *backward, double *growth,
                                          const double *factor);
 

@@ -1,12 +1,12 @@
 /** (Q before an interval, its events, Q and R after it) -> the symmetric Y = R^-1 X [T18].
  *
- * J Q is replayed as Q was: W = S J Q, X = Q'^T W. As Y is symmetric, the part of X from its
- * diagonal on tells all of it, panel by panel of rows, from the last one on:
+ * J Q is replayed as Q was: W = S J Q, X = Q'^T W. Y is symmetric, so the upper triangle of X
+ * determines it, panel by panel of rows, from the last panel on:
  *
  *     Y_pq = R_pp^-1 (X_pq - R_pl Y_lq),   l: later than p;  q: first later than p, then p itself
  *
- * That half is the better known one, too: row i of X is known to eps |W e_j|, and R_ii, which
- * divides it, is largest in the first rows. All row-major. */
+ * The upper triangle is also the more accurate one: row i of X is known to eps |W e_j| and is
+ * divided by R_ii, which is largest in the first rows. All matrices are row-major. */
 #include "covariant/coupling.h"
 
 #include <cblas.h>
@@ -56,7 +56,7 @@ void hd_coupling_free(hd_coupling *coupling)
     hd_memory_free(coupling);
 }
 
-/** Its vectors become J Q of those before the last replay of the other. */
+/** Loads J Q into the own frame; Q are the other frame's vectors before its last replay. */
 static void load(hd_coupling *c, const hd_frame *frame)
 {
     const size_t stride = (size_t)hd_frame_stride(frame);
@@ -70,7 +70,7 @@ static void load(hd_coupling *c, const hd_frame *frame)
     }
 }
 
-/** Rows first .. first + width - 1 of Y, columns `col` .. col + count - 1. */
+/** Computes rows first .. first + width - 1 of Y, columns `col` .. col + count - 1. */
 static void panel_block(hd_coupling *c, const hd_frame *frame, const double *factor, int first,
                         int width, int col, int count)
 {
@@ -87,7 +87,8 @@ static void panel_block(hd_coupling *c, const hd_frame *frame, const double *fac
                 r + first, n, y, n);
 }
 
-/** What stands on the other side of the diagonal; of the panel's own block the mean of both. */
+/** Copies a block to the other side of the diagonal; the panel's own block becomes the mean of
+ * both. */
 static void mirror(hd_coupling *c, int first, int width, int col, int count)
 {
     const size_t n = (size_t)c->half;

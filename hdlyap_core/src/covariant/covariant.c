@@ -1,9 +1,9 @@
-/** Triangles of the forward pass -> covariant vectors of a window, and what is measured of them
+/** Triangles of the forward pass -> covariant vectors of a window -> angles, weights and orders
  * [T16] [T17].
  *
  * The history (history.h) reaches from the window's start to the transient's end. On the way back C
- * is that of the end of the interval that is next: there vectors are looked at if they were kept,
- * then C goes to the interval's start. */
+ * belongs to the end of the next interval: if vectors were kept there they are measured; then C is
+ * carried to the interval's start. */
 #include "covariant/covariant.h"
 
 #include <cblas.h>
@@ -30,10 +30,10 @@
 #include "tangent/archived.h"
 #include "tangent/localization.h"
 
-/** Times that are this close, as a part of what lies between two looks, are one. */
+/** Two times that differ by less than this part of covariant_sampling are the same. */
 static const double CLOSE = 1e-6;
 
-enum { WEIGHTS = 3 }; /* of both halves, and of the frame */
+enum { WEIGHTS = 3 }; /* of dq halves, of dp halves, of the frame */
 
 typedef enum way { FORWARD, THROUGH_TRANSIENT, THROUGH_WINDOW } way;
 
@@ -41,7 +41,7 @@ struct hd_covariant {
     hd_scene_def scene;
     int rows, vectors, carried, threads, unstable, centre;
     hd_history *past;
-    hd_starts *starts; /**< two through the transient, the first through the window */
+    hd_starts *starts; /**< two starts through the transient, the first one through the window */
     hd_spectrum *spectrum;
     hd_splitting *splitting;
     hd_localization *shape;
@@ -104,7 +104,7 @@ static hd_status allocate_arrays(hd_covariant *c)
     return HD_OK;
 }
 
-/** Spaces of both starts, and the centre beside the null space. */
+/** Allocates what compares the spaces of both starts, and the centre with the null space. */
 static hd_status allocate_spaces(hd_covariant *c)
 {
     const int stable = c->vectors - c->unstable - c->centre;
@@ -145,7 +145,7 @@ hd_status hd_covariant_create(hd_covariant **out, const hd_scene_def *def, int t
     c->rate = hd_dynamics_of(def)->entries(def);
     c->centre = c->vectors >= positive + zero ? zero : 0;
     c->unstable = c->centre > 0 ? positive
-                                : c->vectors; /* a part of the centre is no space of its own */
+                                : c->vectors; /* part of a centre is not measured as a space */
     const hd_status status = allocate(c);
     if (status != HD_OK) {
         hd_covariant_free(c);
@@ -176,7 +176,7 @@ void hd_covariant_free(hd_covariant *c)
 
 /* ---- forward ------------------------------------------------------------------------------- */
 
-/** The first window of a stretch without gaps. */
+/** Begins the first window of a stretch without gaps. */
 static hd_status begin_window(hd_covariant *c, hd_columns frame, double time)
 {
     c->way = FORWARD;
@@ -185,7 +185,7 @@ static hd_status begin_window(hd_covariant *c, hd_columns frame, double time)
     return hd_history_begin(c->past, frame, time);
 }
 
-/** Room for what this interval asks for. */
+/** Makes room for intervals of this length. */
 static hd_status take_room(hd_covariant *c, double interval)
 {
     const hd_history_def past = hd_window_history(&c->scene, interval, c->rate, c->threads);
@@ -217,8 +217,8 @@ hd_status hd_covariant_begin(hd_covariant *c, hd_columns frame, double time, dou
     return begin_window(c, frame, time);
 }
 
-/** The interval that the window ends with, at the first look at which it is as long as asked; the
- * past's end if that is yet to come. */
+/** The last interval of the window: it ends at the first sample at which the window is long enough.
+ * The end of the history if there is none yet. */
 static long window_last(const hd_covariant *c)
 {
     const double asked = c->window + c->scene.covariant_window -
@@ -230,7 +230,7 @@ static long window_last(const hd_covariant *c)
     return last;
 }
 
-/** The transient is that from the window's last look on. */
+/** Whether the history reaches a transient beyond the window's last sample. */
 static bool is_complete(const hd_covariant *c)
 {
     const long last = window_last(c);
@@ -245,11 +245,12 @@ static void begin_way_back(hd_covariant *c)
     c->streams += 2;
     c->at = hd_history_end(c->past) - 1;
     c->last = window_last(c);
-    c->grown_time = 0.0; /* a way back may have been given up */
+    c->grown_time = 0.0; /* an earlier way back may not have ended */
     c->way = THROUGH_TRANSIENT;
 }
 
-/** The next one gets room for intervals and events like those of this one, if there is so much. */
+/** Gives up this window. The next one gets room for intervals and events like those of this one, if
+ * covariant_memory allows it. */
 static hd_status lose_window(hd_covariant *c, hd_columns frame, double time)
 {
     c->rate = fmax(c->rate, hd_history_events(c->past) / (c->now - c->window));
@@ -289,7 +290,7 @@ hd_status hd_covariant_state(hd_covariant *c, hd_columns frame, const hd_traject
         return HD_OK;
     hd_trajectory_state(trajectory, c->q, c->p);
     HD_TRY(hd_history_snapshot(c->past, frame, c->q, c->p));
-    /* at once: a step can be less than rounding of the time */
+    /* in one step: adding one sampling time could be less than rounding of the time */
     c->due += sampling * (floor((c->now - c->due) / sampling + CLOSE) + 1.0);
     if (is_complete(c)) begin_way_back(c);
     return HD_OK;
@@ -302,7 +303,7 @@ static hd_columns vectors_of(const hd_covariant *c)
     return (hd_columns){c->frame, c->vectors, 0, c->vectors};
 }
 
-/** NaN stays, which fmax would drop. */
+/** Raises *most to `now`, also if that is NaN, which fmax would drop. */
 static void raise_to(double *most, double now)
 {
     if (!(now <= *most) && !isnan(*most)) *most = now;
@@ -335,7 +336,7 @@ static hd_status measure_weights(hd_covariant *c, hd_modes *weights)
     return HD_OK;
 }
 
-/** dq and dp change places. */
+/** Exchanges dq and dp of all vectors. */
 static void swap_halves(hd_covariant *c)
 {
     const int n = c->vectors, half = hd_scene_coordinates(&c->scene);
@@ -344,7 +345,7 @@ static void swap_halves(hd_covariant *c)
                     c->frame + (size_t)(row + half) * (size_t)n, 1);
 }
 
-/** What the vectors grew by since the look before, which came later. */
+/** Adds the vectors' growth from this sample to the one measured before, which is later in time. */
 static void end_growth(hd_covariant *c)
 {
     const double *grown = hd_starts_growth(c->starts);
@@ -356,7 +357,7 @@ static void end_growth(hd_covariant *c)
     c->grown_time = 0.0;
 }
 
-/** C is that of the end of the interval; V = Q C. */
+/** Measures a sample: C belongs to the end of the interval, and V = Q C. */
 static hd_status look(hd_covariant *c, long interval)
 {
     const double *coefficients;
@@ -377,7 +378,7 @@ static hd_status look(hd_covariant *c, long interval)
 
 /* ---- the way back -------------------------------------------------------------------------- */
 
-/** Largest angle between the spaces of columns first .. first + count - 1 of both starts. */
+/** Largest angle between the spaces that columns first .. first + count - 1 of both starts span. */
 static hd_status spaces_apart(hd_covariant *c, double *angle, const double *const both[2],
                               int first, int count)
 {
@@ -390,7 +391,7 @@ static hd_status spaces_apart(hd_covariant *c, double *angle, const double *cons
     return HD_OK;
 }
 
-/** At the window's end: how far the two starts have met; the worst of all windows is kept. */
+/** Measures, at the window's end, how far the two starts agree; keeps the worst of all windows. */
 static hd_status meet(hd_covariant *c)
 {
     hd_covariant_mismatch *apart = &c->spaces_apart;
@@ -398,7 +399,7 @@ static hd_status meet(hd_covariant *c)
     const double *both[2];
     double now;
     HD_TRY(hd_starts_meet(c->starts, both));
-    (void)hd_starts_growth(c->starts); /* of the transient */
+    (void)hd_starts_growth(c->starts); /* drops the growth through the transient */
     apart->most = 0.0;
     for (int col = 0; col < c->vectors; col++) {
         const size_t first = (size_t)col * (size_t)c->vectors;
@@ -463,7 +464,7 @@ hd_covariant_results hd_covariant_read(const hd_covariant *c)
                                   .cosines = hd_localization_cosines(c->shape)};
 }
 
-/** The averages; the window under way is lost. */
+/** Reads or writes the averages; the window under way is lost. */
 void hd_covariant_archive(hd_covariant *c, hd_archive *archive)
 {
     double *const numbers[] = {

@@ -1,4 +1,4 @@
-/** Orthonormalisations, one after the other -> triangles and snapshots, for whoever goes back.
+/** Orthonormalisations, one after the other -> triangles and snapshots, for the way back.
  *
  * Rings: interval k is in slot k mod intervals. Triangles are kept packed, or computed again
  * (recompute.h). */
@@ -39,14 +39,14 @@ static size_t snapshot_size(const hd_history_def *def)
     return (size_t)rows_of(def) * ((size_t)def->vectors + 1);
 }
 
-/** R, and Y with it. */
+/** Entries that R takes, or R and Y. */
 static size_t triangle_size(const hd_history_def *def)
 {
     return (def->conjugate ? 2 : 1) * hd_triangle_size(def->vectors);
 }
 
-/** Whole stretches, and one more: where one begins there must be a frame while any of its intervals
- * is there. */
+/** Room for whole stretches and one more, because a stretch's first frame must stay as long as any
+ * of its intervals. */
 static hd_recompute_def recompute_of(const hd_history_def *def)
 {
     const int rows = rows_of(def);
@@ -126,7 +126,7 @@ static interval_kept *kept_at(const hd_history *past, long interval)
     return &past->kept[interval % past->slots];
 }
 
-/** The frame at the start of the next interval. */
+/** Keeps the frame at the start of the next interval. */
 static hd_status keep_frame(hd_history *past, hd_columns frame)
 {
     return past->recompute ? hd_recompute_frame(past->recompute, past->end % past->slots, frame)

@@ -1,4 +1,4 @@
-/** What the forward pass leaves for the way back: the triangle of each interval, and the vectors of
+/** What the forward pass keeps for the way back: the triangle of each interval, and the vectors at
  * chosen times. */
 #ifndef HD_HISTORY_H
 #define HD_HISTORY_H
@@ -8,14 +8,14 @@
 #include "dynamics/dynamics.h"
 #include "tangent/frame.h"
 
-/** Where triangles are kept. */
+/** How much is kept, and how. */
 typedef struct hd_history_def {
     const hd_dynamics *of;
     int disks, vectors, threads;
     bool conjugate; /**< half of the vectors are carried: triangles are R and Y [T18] */
     long intervals; /**< of which triangles are kept, at most */
     long snapshots; /**< at most */
-    bool recompute; /**< triangles are computed again instead of being kept: from the events */
+    bool recompute; /**< triangles are not kept, but computed again from the events */
     double events;  /**< of these intervals, at most; only of recomputed ones */
 } hd_history_def;
 
@@ -28,30 +28,31 @@ typedef struct hd_history hd_history;
 HD_MUST_CHECK hd_status hd_history_create(hd_history **out, const hd_history_def *def);
 void hd_history_free(hd_history *past);
 
-/** Forgets everything; the frame is that of the start. */
+/** Forgets everything and begins with this frame. */
 HD_MUST_CHECK hd_status hd_history_begin(hd_history *past, hd_columns frame, double time);
 
-/** What an orthonormalisation leaves: R of the interval from t_begin to t_end of the record, the
- * frame that was replayed through it, and its vectors now, if they are to be kept. There must be
- * room (hd_history_is_full). */
+/** Adds an interval of the record, from t_begin to t_end: its R, the frame that was replayed
+ * through it, and the vectors at its end if hd_history_keeps_next. There must be room
+ * (hd_history_is_full). */
 HD_MUST_CHECK hd_status hd_history_add(hd_history *past, const double *factor,
                                        const hd_frame *frame, hd_columns vectors,
                                        const hd_record *record, double t_begin, double t_end);
-/** True if the vectors after the next interval are to be kept: what comes then is computed again
- * from them. */
+/** True if the vectors after the next interval will be kept, because later triangles are computed
+ * again from them. */
 bool hd_history_keeps_next(const hd_history *past);
 bool hd_history_is_full(const hd_history *past);
-/** Events that are kept; 0 unless triangles are recomputed. */
+/** Number of events that are kept; 0 unless triangles are recomputed. */
 double hd_history_events(const hd_history *past);
 
-/** Keeps the frame and the state of the end of the last interval: positions q, momenta p. */
+/** Keeps the frame, positions q and momenta p at the end of the last interval. */
 HD_MUST_CHECK hd_status hd_history_snapshot(hd_history *past, hd_columns frame, const double *q,
                                             const double *p);
 
 /** Forgets the intervals that end at or before that time. */
 void hd_history_drop(hd_history *past, double time);
 
-/* Intervals are numbered since the beginning; those from first on, before end, are there. */
+/* Intervals are numbered from the beginning; those from hd_history_first to before hd_history_end
+ * are there. */
 
 long hd_history_first(const hd_history *past);
 long hd_history_end(const hd_history *past);
@@ -59,12 +60,12 @@ double hd_history_time(const hd_history *past, long interval); /**< of its end *
 double hd_history_length(const hd_history *past, long interval);
 bool hd_history_has_snapshot(const hd_history *past, long interval); /**< at its end */
 
-/** R [n * n] and Y [n * n] (NULL where all are carried), row-major from the diagonal on, of one
- * interval. */
+/** Fills in R [n * n] and Y [n * n] (NULL if all vectors are carried) of one interval, row-major
+ * from the diagonal on. */
 HD_MUST_CHECK hd_status hd_history_factor(hd_history *past, double *factor, double *coupling,
                                           long interval);
-/** Vectors [4N * n] row-major, or all [4N * 2n] where half are carried, positions q and momenta p
- * of a snapshot. */
+/** Fills in a snapshot: vectors [4N * n], row-major, or all [4N * 2n] if half are carried;
+ * positions q and momenta p. */
 void hd_history_vectors(const hd_history *past, double *vectors, double *q, double *p,
                         long interval);
 

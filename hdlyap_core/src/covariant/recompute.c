@@ -1,7 +1,7 @@
 /** (frame at the start of a stretch, events since) -> the triangles of the stretch.
  *
- * The same frame, the same events, the same cuts: the triangles are those of the forward pass to
- * rounding, and the vectors of the next frame that was kept are met again. */
+ * Frame, events and cuts are the same as in the forward pass, so triangles are the same to
+ * rounding, and the way through a stretch ends at the next frame that was kept. */
 #include "covariant/recompute.h"
 
 #include <float.h>
@@ -18,16 +18,16 @@
 #include "tangent/interval.h"
 #include "tangent/ortho.h"
 
-/** Of the condition: what the forward pass accepts at most. */
+/** The largest condition that the forward pass accepts. */
 static const hd_ortho_limits LIMITS = {HD_CONDITION_MAX, 1e-6, HD_NORM_FULL};
-/** To rounding, as Y takes both ends to be [T18]. */
+/** Orthonormal to rounding, because Y needs both ends to be so [T18]. */
 static const hd_ortho_limits LIMITS_COUPLED = {HD_CONDITION_MAX, 1e-12, HD_NORM_FULL};
 
-/** Events of a chunk of the ring, and chunks beyond what it is full with: an interval may begin
- * before it is. */
+/** Events of a chunk of the ring; and chunks beyond a full ring, for an interval that begins before
+ * the ring is full. */
 enum { CHUNK = 256, CHUNKS_BEYOND = 4 };
 
-/** The events of a slot, in the ring. */
+/** Where a slot's events are in the ring. */
 typedef struct stored {
     uint64_t first, end;
     double duration;
@@ -37,7 +37,7 @@ struct hd_recompute {
     hd_recompute_def def;
     hd_store *frames;    /**< of the first slot of each stretch */
     hd_store *triangles; /**< packed, of one stretch */
-    long from, to;       /**< slots whose triangles are there: from <= slot < to */
+    long from, to;       /**< triangles of slots from <= slot < to are there */
     hd_store *events;    /**< a ring of chunks: event k is in chunk k / CHUNK, mod chunks */
     stored *stored;      /**< [slots] */
     uint64_t tail, head; /**< events from tail on, before head, are there */
@@ -54,13 +54,14 @@ long hd_recompute_stretch(long slots, int rows, int vectors)
     return (long)fmax(1.0, fmin(round(stretch), (double)slots));
 }
 
-/** R, and Y with it. */
+/** Entries that R takes, or R and Y. */
 static size_t triangle_size(const hd_recompute_def *def)
 {
     return (def->conjugate ? 2 : 1) * hd_triangle_size(def->vectors);
 }
 
-/** Up to twice what an interval has on average comes before the ring is seen to be full. */
+/** Chunks of the ring. Up to twice an average interval's events may come before it counts as full.
+ */
 static long chunks_of(const hd_recompute_def *def)
 {
     const double of_slot = def->events / (double)def->slots;
@@ -161,7 +162,8 @@ static double *place(hd_recompute *r, uint64_t event)
     return chunk ? chunk + event % CHUNK * (r->def.of->entry / sizeof(double)) : NULL;
 }
 
-/** A slot that does not follow the one before it begins anew; else what it held is no more. */
+/** Turns to a slot and forgets what it held; if it does not follow the slot before it, forgets all.
+ */
 static void turn_to(hd_recompute *r, long slot)
 {
     const uint64_t before = r->stored[slot].end;
@@ -218,7 +220,7 @@ static void load_frame(hd_recompute *r, const double *vectors)
                (size_t)r->def.vectors * sizeof(double));
 }
 
-/** The slot's events as a record. */
+/** Copies a slot's events into the record. */
 static hd_status load_record(hd_recompute *r, long slot)
 {
     const stored *kept = &r->stored[slot];

@@ -1,4 +1,4 @@
-/** C and the growth over finite times -> angles and their distributions, order of finite-time
+/** C and growth over finite times -> angles with their distributions, and the order of finite-time
  * exponents [T17]. */
 #include "covariant/splitting.h"
 

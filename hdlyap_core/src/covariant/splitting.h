@@ -7,16 +7,17 @@
 
 typedef struct hd_splitting hd_splitting;
 
-/** `unstable` first columns, then `centre`; the others are stable. Without stable ones there are no
- * pairs of spaces. */
+/** The first `unstable` columns are unstable, the next `centre` belong to the centre, the others
+ * are stable. Without stable columns there are no pairs of spaces. */
 HD_MUST_CHECK hd_status hd_splitting_create(hd_splitting **out, int vectors, int unstable,
                                             int centre);
 void hd_splitting_free(hd_splitting *splitting);
 void hd_splitting_clear(hd_splitting *splitting);
 
-/** Vectors of one time: C [n * n], column-major, of columns of length 1. HD_ILL_CONDITIONED. */
+/** Adds the vectors of one time: C [n * n], column-major, columns of length 1. Fails with
+ * HD_ILL_CONDITIONED. */
 HD_MUST_CHECK hd_status hd_splitting_add(hd_splitting *splitting, const double *c);
-/** Growth of each vector over one finite time; [n]. */
+/** Adds the growth [n] of each vector over one finite time. */
 void hd_splitting_grow(hd_splitting *splitting, const double *growth);
 
 hd_splitting_results hd_splitting_read(const hd_splitting *splitting);

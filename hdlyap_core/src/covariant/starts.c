@@ -1,10 +1,10 @@
-/** (triangles of intervals) -> C of two starts, how much the first one's vectors grow [T16].
+/** Triangles of intervals -> C of two starts, and the growth of the first one's vectors [T16].
  *
  * Where all vectors are carried, a start is a triangle (backward.h). Where half of them are, it is
  * the triangle C_11 of that half and the symmetric Z of the stable space, the graph of Z in the
- * coordinates (Q, J Q) [T18]. Everything else is made of these when it is looked at. Z is kept with
- * both indices reversed, column-major, upper triangle, for dsygst. The second Z is the first one
- * and a part of a few random directions, W sign W^T. */
+ * coordinates (Q, J Q) [T18]; C is computed from them when it is read. Z is kept with both indices
+ * reversed, column-major, upper triangle, for dsygst. The second Z is the first one plus W sign
+ * W^T, of a few random directions W. */
 #include "covariant/starts.h"
 
 #include <cblas.h>
@@ -78,10 +78,10 @@ void hd_starts_free(hd_starts *s)
     hd_memory_free(s);
 }
 
-/** Entries as those of C. */
+/** Draws both Z, with entries of the size of C's. */
 static void begin_spaces(hd_starts *s, uint64_t seed, uint64_t stream)
 {
-    const uint64_t apart = (uint64_t)1 << 32; /* from the streams of C */
+    const uint64_t apart = (uint64_t)1 << 32; /* keeps these streams apart from those of C */
     const size_t m = (size_t)s->half;
     const double scale = 1.0 / sqrt(s->vectors);
     const double part = sqrt(scale / sqrt(3.0 * PROBES)) * sqrt(3.0); /* the same mean square */
@@ -152,7 +152,7 @@ static hd_status fill_dual(hd_starts *s, double *whole, const double *c11)
     return HD_OK;
 }
 
-/** C = ((C_11, Z C_22), (0, C_22)), columns of length 1. */
+/** Computes C = ((C_11, Z C_22), (0, C_22)) with columns of length 1. */
 static hd_status complete(hd_starts *s, double *whole, const double *c11, const double *z)
 {
     const size_t m = (size_t)s->half, n = (size_t)s->vectors;
@@ -173,7 +173,7 @@ static hd_status complete(hd_starts *s, double *whole, const double *c11, const 
     return HD_OK;
 }
 
-/** What the diagonals of triangles say of growth but for those of C [T16]. */
+/** Completes the growth, which diagonals of triangles give except for those of C [T16]. */
 static void end_growth(hd_starts *s)
 {
     for (int col = s->half; col < s->vectors; col++) {
@@ -193,7 +193,7 @@ hd_status hd_starts_look(hd_starts *s, const double **c)
     return HD_OK;
 }
 
-/** Z and the part that the second one has more; upper triangle, reversed. */
+/** The second Z: the first one plus W sign W^T; upper triangle, reversed. */
 static double *other_space(hd_starts *s)
 {
     const int m = s->half;

@@ -1,11 +1,10 @@
-/** Numbers -> records in memory, which grow with the need, and back. Small records share a block.
- */
+/** Keeps records of numbers in memory that grows as records are added. Small ones share a block. */
 #include "covariant/store.h"
 
 #include "base/check.h"
 #include "base/memory.h"
 
-/** Bytes of a block, unless a record is larger: what an allocation takes beside is little. */
+/** Bytes of a block, unless a record is larger; an allocation's overhead is small beside it. */
 enum { BLOCK = 1 << 15 };
 
 struct hd_store {

@@ -1,5 +1,5 @@
-/** Scene, length of an interval -> what a window of covariant vectors and its transient leave to be
- * kept, and whether covariant_memory is enough for it. */
+/** Scene and length of an interval -> what a window of covariant vectors and its transient keep,
+ * and whether covariant_memory is enough for it. */
 #include "covariant/window_room.h"
 
 #include <math.h>
@@ -8,7 +8,7 @@
 #include "base/check.h"
 #include "scene/scene.h"
 
-/** Intervals that there is room for, over those that are expected: they vary. */
+/** Room is made for this many times the expected intervals, because their length varies. */
 static const double SPARE = 1.5;
 
 hd_history_def hd_window_history(const hd_scene_def *def, double interval, double rate, int threads)
@@ -31,7 +31,7 @@ hd_history_def hd_window_history(const hd_scene_def *def, double interval, doubl
                             .events = SPARE * both * rate};
 }
 
-/** How it would fit, if the other way of keeping triangles needs less than there is. */
+/** Says that the other covariant_storage would fit, if it would. */
 static void say_other(const hd_scene_def *def, const hd_history_def *past, char *text, size_t size)
 {
     hd_history_def other = *past;

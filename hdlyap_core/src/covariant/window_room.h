@@ -1,15 +1,16 @@
-/** What a window of covariant vectors takes. */
+/** Memory that a window of covariant vectors takes. */
 #ifndef HD_WINDOW_ROOM_H
 #define HD_WINDOW_ROOM_H
 
 #include "covariant/history.h"
 #include "hdlyap/scene.h"
 
-/** Of intervals of this length [time units], with so many events in a time unit. */
+/** What the history keeps with intervals of this length [time units] and this rate of events per
+ * time unit. */
 hd_history_def hd_window_history(const hd_scene_def *def, double interval, double rate,
                                  int threads);
 
-/** HD_REFUSED, with its line, if that takes more than covariant_memory. */
+/** Returns HD_REFUSED, with a line that says why, if that takes more than covariant_memory. */
 HD_MUST_CHECK hd_status hd_window_check_room(const hd_scene_def *def, const hd_history_def *past,
                                              char *message, size_t size);
 
