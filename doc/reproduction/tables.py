@@ -60,7 +60,8 @@ def _line(lines):
     one = lines[0]
     judged = [line for line in lines if line['published'] and line['verdict'] != row.MISSING]
     says = [one['where'], one['words']] if one['kind'] == table.STATEMENT else [one['claim']]
-    criterion = f'{one["criterion"]} ({one["criterion_of"]})'
+    criterion, of = one['criterion'], one['criterion_of']
+    criterion += '' if of == 'ours' else f' ({of})'
     verdict = one['claim_verdict']
     verdict = f'**{verdict}**' if verdict == row.DIFFERS else verdict
     caught = _span([line['caught'] for line in judged])

@@ -151,6 +151,8 @@ class Document(unittest.TestCase):
         usual = dict.fromkeys(HEADER, '')
         usual.update(part='3', kind='ours', claim='so', criterion='3 %', criterion_of='ours')
         names = 'published', 'measured', 'error', 'claim_verdict', 'caught'
+        paper = dict(usual, claim_verdict='agrees', criterion_of='the paper')
+        self.assertEqual(tables._line([paper])[:28], '| 3 | so | 3 % (the paper) |')
         seven = [('2', f'{2 + off}', '0.01', 'agrees', f'{9 + off} %') for off in range(7)]
         for values, cells in (
             ([('1.0', '1.01', '0.002', 'agrees', '3 %')], '1.0100(20) | 3 % | agrees'),
@@ -159,7 +161,7 @@ class Document(unittest.TestCase):
             (seven, '7 values, 2.000(10) of 2 to 8.000(10) of 2 | 9 % to 15 % | agrees'),
         ):
             said = tables._line([dict(usual, **dict(zip(names, one))) for one in values])
-            self.assertEqual(said, f'| 3 | so | 3 % (ours) | {cells} |')
+            self.assertEqual(said, f'| 3 | so | 3 % | {cells} |')
 
 
 class Table(unittest.TestCase):
