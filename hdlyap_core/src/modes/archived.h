@@ -1,5 +1,4 @@
-/** What a checkpoint holds of modes, steps, phases and structure factors, and bytes that they take.
- */
+/** Modes, steps, phases and structure factors in a checkpoint, and the bytes that they take. */
 #ifndef HD_MODES_ARCHIVED_H
 #define HD_MODES_ARCHIVED_H
 
@@ -7,7 +6,7 @@
 #include "hdlyap/phases.h"
 #include "hdlyap/structure.h"
 
-/** What there is in the fields of a scene; allocates nothing. */
+/** The size of a scene's fields; computing it allocates nothing. */
 typedef struct hd_fields_count {
     double columns, subspaces; /**< without the null fields; T and LP subspaces */
     double lp_phases, t_phases;

@@ -1,6 +1,6 @@
 /** Steps -> dispersion relation lambda = c k + c2 k^2 + c3 k^3, with what long boxes say of c2 / c
- * and c3 / c as two more observations [T12]. Results are sums of factors times exponents, so their
- * errors are those of such sums, and what the form leaves open. */
+ * and c3 / c as two more observations [T12]. Results are sums of factors times exponents; their
+ * errors are those of such sums, with what the form of the fit leaves open. */
 #include <lapacke.h>
 #include <math.h>
 
@@ -9,8 +9,8 @@
 
 enum { TERMS = 3 };
 
-/** Of the unknowns x: lambda = x_0 B(k) + x_1 k^2 + x_2 k^3, with B the relation of long boxes and
- * x_1, x_2 in units of their widths there, where they are 0 +- 1. */
+/** A fit for the unknowns x: lambda = x_0 B(k) + x_1 k^2 + x_2 k^3. B is the relation of long
+ * boxes; x_1 and x_2 are in units of their widths there, so that long boxes say 0 +- 1. */
 typedef struct fit {
     const hd_relation *prior;
     hd_mode_kind kind;
@@ -23,7 +23,7 @@ typedef struct fit {
     bool weighted; /**< all errors are known */
 } fit;
 
-/** An exponent below this is none: weights are up to 1e6 over its square. */
+/** An exponent below this does not count: weights are up to 1e6 over its square. */
 static const double SMALLEST = 1e-100;
 
 static bool counts(const hd_step *step, hd_mode_kind kind)
@@ -31,7 +31,7 @@ static bool counts(const hd_step *step, hd_mode_kind kind)
     return step->resolved && step->kind == kind && !step->conjugate && step->exponent > SMALLEST;
 }
 
-/** Square boxes have one wave number twice. */
+/** Whether no step before has this wave number: square boxes have one twice. */
 static bool is_new(const hd_steps *steps, int index)
 {
     const hd_step *step = hd_steps_step(steps, index);
@@ -44,7 +44,7 @@ static bool is_new(const hd_steps *steps, int index)
     return true;
 }
 
-/** What a step strays by for itself [1/time unit]. */
+/** How far a step may lie off the relation independently of other steps [1/time unit]. */
 static double stray(const fit *f, const hd_step *step)
 {
     return hd_steps_scatter(f->steps, step) * step->exponent;
@@ -68,8 +68,8 @@ static void row_of(const fit *f, double k, double out[TERMS])
     out[2] = f->unit[2] * k * k * k;
 }
 
-/** Which steps there are, and c with the curvature of long boxes, the unit of its errors. No points
- * where steps follow no relation. */
+/** Collects the steps, and finds c with the curvature of long boxes, which is the unit of errors.
+ * The fit has no points if steps follow no relation. */
 static fit begin(const hd_steps *steps, hd_mode_kind kind)
 {
     fit f = {
@@ -96,7 +96,7 @@ static fit begin(const hd_steps *steps, hd_mode_kind kind)
     return f;
 }
 
-/** Normal equations, with both observations of long boxes, and their inverse. */
+/** Solves the normal equations, with the two observations from long boxes; keeps their inverse. */
 static void solve(fit *f)
 {
     double *n = f->inverse;
@@ -112,12 +112,12 @@ static void solve(fit *f)
     }
     int info = LAPACKE_dpotrf_work(LAPACK_COL_MAJOR, 'L', TERMS, n, TERMS);
     if (info == 0) info = LAPACKE_dpotri_work(LAPACK_COL_MAJOR, 'L', TERMS, n, TERMS);
-    HD_ASSERT(info == 0); /* squares, and 1 on two diagonals */
+    HD_ASSERT(info == 0); /* positive definite: sums of squares, and 1 on two diagonals */
     for (int a = 0; a < TERMS; a++)
         for (int b = 0; b < a; b++) n[a * TERMS + b] = n[b * TERMS + a];
 }
 
-/** Which result: the combination of unknowns that is c, c2 or c3. */
+/** A result: the combination of unknowns that is c, c2 or c3. */
 typedef struct result {
     const fit *of;
     double factor[TERMS]; /**< times the inverse */
@@ -144,8 +144,8 @@ static double share_of_step(const hd_step *step, const void *context)
     return sum * weight_of(r->of, step);
 }
 
-/** One coefficient, its error without what is common to all steps; of that, the error of sampling
- * with the weights held fixed. */
+/** One coefficient; its error without the part that is common to all steps; and the part of that
+ * error that is sampling, with weights held fixed. */
 static hd_coefficient coefficient(const fit *f, const hd_spectrum *spectrum, int term,
                                   double *sampling)
 {
@@ -163,7 +163,7 @@ static hd_coefficient coefficient(const fit *f, const hd_spectrum *spectrum, int
     return out;
 }
 
-/** Of steps and of both observations of long boxes. */
+/** The misfit of the steps and of the two observations from long boxes. */
 static double misfit_of(const fit *f, const hd_dispersion *d)
 {
     const double off[] = {(d->c2.value - f->prior->c2 * d->c.value) / f->unit[1],
@@ -181,8 +181,8 @@ static double misfit_of(const fit *f, const hd_dispersion *d)
     return steps > 1 && f->weighted ? sqrt(chi2 / (steps - 1)) : -1.0;
 }
 
-/** All that chi^2 is over grows with the misfit, if that is above 1; what moves all steps alike is
- * not in it. */
+/** Multiplies errors by a misfit above 1, except for the part that moves all steps alike, which
+ * chi^2 does not see. */
 static void widen(const fit *f, double misfit, hd_coefficient *c)
 {
     if (c->error >= 0)
@@ -193,7 +193,8 @@ hd_dispersion hd_steps_dispersion(const hd_steps *steps, const hd_spectrum *spec
                                   hd_mode_kind kind)
 {
     const hd_coefficient none = {0.0, -1.0};
-    double of_curvature; /* of that the form decides: weights, which fluctuate, count as much */
+    double
+        of_curvature; /* error of what the form decides; weights, which fluctuate, count as much */
     fit f = begin(steps, kind);
     hd_dispersion d = {.points = f.points,
                        .k_min = f.k_min,

@@ -26,9 +26,9 @@ struct hd_fields {
     const hd_container_row *container;
     hd_subspace *subspace;      /**< [subspaces] */
     double (*own)[HD_WAVE_OWN]; /**< [subspaces], by the container; NULL in a box */
-    double **row;               /**< [coordinates], of the disk that is sampled */
+    double **row;               /**< [coordinates]: rows of the particle that is sampled */
     double *data;               /**< [coordinates * disks * stride] */
-    double *norm;               /**< [stride], of the columns as sampled */
+    double *norm;               /**< [stride]: norms of the columns before they were made 1 */
 };
 
 /* ---- creation ------------------------------------------------------------------------------ */
@@ -80,7 +80,7 @@ static hd_status subspaces_create(hd_fields *fields, const hd_scene_def *def)
     return HD_OK;
 }
 
-/** What sampling needs of each wave. */
+/** Prepares what sampling needs of each wave. */
 static hd_status waves_prepare(hd_fields *fields, const hd_scene_def *def)
 {
     if (!fields->container->modulations) {
@@ -144,7 +144,8 @@ void hd_fields_free(hd_fields *fields)
 
 /* ---- sampling ------------------------------------------------------------------------------ */
 
-/** P = p A of what is no place: the momentum is all of p. T and L are none there. */
+/** Samples coordinates that are no place, as an angle: P = p A has their momenta, T and L vanish.
+ */
 static void sample_other(hd_fields *fields, const hd_subspace *s, double *const *row,
                          const double *p)
 {
@@ -190,7 +191,7 @@ static void sample_disk(hd_fields *fields, double *const *row, const double *q, 
     }
 }
 
-/** A column that vanishes at every disk stays zero. */
+/** Scales columns to norm 1; a column that vanishes at every particle stays zero. */
 static void normalise(hd_fields *fields)
 {
     const size_t rows = components(fields), stride = (size_t)fields->stride;

@@ -4,8 +4,9 @@
 
 #include "hdlyap/fields.h"
 
-/** HD_NO_MEMORY. Columns: those of all subspaces, in ascending k, T before LP; then the
- * null fields: of each direction (zero where it is not periodic), then of the momenta. */
+/** Creates the fields of a scene. Columns are those of all subspaces, in ascending k, T before LP;
+ * then the null fields of each direction (zero if it is not periodic) and of the momenta. Fails
+ * with HD_NO_MEMORY. */
 HD_MUST_CHECK hd_status hd_fields_create(hd_fields **out, const hd_scene_def *def);
 void hd_fields_free(hd_fields *fields);
 

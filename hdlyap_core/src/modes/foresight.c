@@ -1,4 +1,4 @@
-/** Turns of a step and misses of its phases -> how far ahead they are foreseen [T13].
+/** Turns of a step and misses of its phases -> how far ahead its phases can be predicted [T13].
  *
  * A phase diffuses about omega t. Its mean square miss after dt is D dt, and omega, the mean over
  * a time T, is known to D / T: together D dt (1 + dt / T). Misses of all dt give one D, weighted
@@ -8,25 +8,26 @@
 #include <limits.h>
 #include <math.h>
 
-/** Foreseen as far as phases are expected to be off by this: for one pair a quarter of the radian
- * at which two vectors that turn together seem to change places; of several pairs another vector
- * looks less like a turned one [rad]. */
+/** Phases are predicted as far ahead as their expected miss is below this [rad]. With one pair it
+ * is a quarter of the radian at which two vectors that turn together seem to change places; with
+ * several pairs another vector looks less like a turned one. */
 static const double OFF_ONE_PAIR = 0.25, OFF = 0.4;
-/** A whole that is off by this is asked once more; a phase may be weak as long as it is expected to
- * be off by no more [rad]. */
+/** If the whole step is off by this, the next sample comes early, to check it; a phase may be weak
+ * as long as its expected miss is below this [rad]. */
 static const double FAR_OFF = 0.75;
-/** The next sample is at most so many times as far away as those that have shown the misses. */
+/** The next sample is at most this many times as far away as the samples that have shown misses. */
 static const double GROWTH = 2.0;
-/** In times that need no foresight: longest between samples, and of a phase that is weak. */
+/** Longest time between samples, and longest time for which a phase may be weak, in units of the
+ * time that needs no prediction. */
 static const double MOST = 10.0, GAP_MAX = 21.0;
-/** A sample may come later than foreseen by this. */
+/** A sample may come later than planned by this part. */
 static const double LATE = 1.0 / HD_FORESIGHT_PART;
-/** Misses are forgotten within so many samples of mean length. */
+/** Misses are forgotten over this many samples of mean length. */
 static const double MEMORY = 48.0;
-/** Samples that show how large misses are; turns of the whole far off, one after the other, that no
- * scatter explains. */
+/** Samples needed to know how large misses are; and how many turns of the whole, one after the
+ * other, may be far off before the rate counts as lost. */
 enum { SHOWN = 16, LOST = 2 };
-/** Rotation without any noise has misses, too. */
+/** Smallest diffusion, so that rotation without any noise can be divided by it. */
 static const double DIFFUSION_MIN = 1e-100;
 
 void hd_foresight_clear(hd_foresight *f, int pairs)
@@ -34,7 +35,7 @@ void hd_foresight_clear(hd_foresight *f, int pairs)
     *f = (hd_foresight){.off = pairs > 1 ? OFF : OFF_ONE_PAIR};
 }
 
-/** Mean time that the misses are of, longer ones counting more; 0 if there is none. */
+/** Mean time between the samples of the misses, weighted with that time; 0 if there are none. */
 static double span(const hd_foresight *f) { return f->time > 0 ? f->times / f->time : 0.0; }
 
 void hd_foresight_sample(hd_foresight *f, double dt)

@@ -1,43 +1,43 @@
-/** How far ahead the turns of one step are foreseen: its mean rate, and by how much its phases
- * have missed it [T13]. `unseen` is the longest time between samples without any
- * foresight. */
+/** How far ahead the turns of one step can be predicted, from its mean rate and from how much its
+ * phases have missed it [T13]. `unseen` is the longest time between samples without prediction. */
 #ifndef HD_FORESIGHT_H
 #define HD_FORESIGHT_H
 
 #include "base/archive.h"
 
-/** Part of the time since the last sample that must have been foreseen: a sample that comes later
- * is too late. */
+/** The predicted time must be at least this part of the time since the last sample; otherwise the
+ * sample came too late. */
 #define HD_FORESIGHT_PART 0.75
 
 typedef struct hd_foresight {
-    double off;      /**< that phases may be expected to be [rad] */
+    double off;      /**< largest expected miss of a phase [rad] */
     double omega;    /**< mean turn of the whole step per time */
-    double averaged; /**< over so long */
-    /** Sums over phases, of which older ones are forgotten: dt, dt^2, dt miss^2, each times a^2 +
-     * b^2. */
+    double averaged; /**< time over which omega is the mean */
+    /** Sums over phases of dt, dt^2 and dt miss^2, each times a^2 + b^2; older ones are forgotten.
+     */
     double time, times, squares;
-    long samples; /**< that have been held against omega */
-    int far_off;  /**< last turns of the whole that were far from what had been foreseen */
+    long samples; /**< samples that were compared with omega */
+    int far_off;  /**< how many of the last turns of the whole were far from the prediction */
 } hd_foresight;
 
-/** Knows nothing of a step with so many pairs. */
+/** Starts anew, for a step with this many pairs. */
 void hd_foresight_clear(hd_foresight *f, int pairs);
 
-/** After dt > 0 there is a sample that is to be held against omega: forgets as much of the older
- * ones. */
+/** Announces a sample, dt > 0 after the last one, whose phases will be compared with omega; forgets
+ * older misses accordingly. */
 void hd_foresight_sample(hd_foresight *f, double dt);
-/** The whole step has turned by `turn` in dt > 0. If that is far off, the next sample is to come as
- * early as if nothing were foreseen. */
+/** Adds a turn of the whole step by `turn` in dt > 0. If that is far off the prediction, the next
+ * sample has to come as early as without prediction. */
 void hd_foresight_turn(hd_foresight *f, double turn, double dt);
-/** One phase was off by `miss` from what omega had foreseen for dt > 0; strength: its a^2 + b^2. */
+/** Adds one phase's miss: its difference from what omega predicted for dt > 0; strength: its
+ * a^2 + b^2. */
 void hd_foresight_miss(hd_foresight *f, double miss, double dt, double strength);
 
 /** Longest time to the next sample; at least `unseen`. */
 double hd_foresight_sampling(const hd_foresight *f, double unseen);
-/** Longest time that a phase may be weak before it is begun anew. */
+/** Longest time for which a phase may be weak before it is started anew. */
 double hd_foresight_gap(const hd_foresight *f, double unseen);
-/** True if the whole was far off, and once more when it was asked again: omega is not its rate. */
+/** True if the whole was far off twice in a row: omega is not its rate. */
 bool hd_foresight_is_lost(const hd_foresight *f);
 
 void hd_foresight_archive(hd_foresight *f, hd_archive *archive);

@@ -1,4 +1,4 @@
-/** A coordinate -> cosines and sines of it [T10]. */
+/** A coordinate -> its cosines and sines [T10]. */
 #include "modes/harmonics.h"
 
 #include <math.h>

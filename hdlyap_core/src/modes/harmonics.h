@@ -6,14 +6,14 @@
 
 /** cos(k u), sin(k u) and their derivatives, for nodes 0 .. nodes along one direction. */
 typedef struct hd_harmonics {
-    double offset; /**< of the coordinate: 1/2 behind a wall */
+    double offset; /**< coordinate at which u = 0: 1/2 behind a wall */
     int nodes;
-    double k;           /**< of one node */
+    double k;           /**< wave number of one node */
     double *value;      /**< [2 (nodes + 1)]: cosine, sine of each node */
     double *derivative; /**< same */
 } hd_harmonics;
 
-/** Along direction d; all zero before. HD_NO_MEMORY. */
+/** Fills h, which is all zero, for direction d. Fails with HD_NO_MEMORY. */
 HD_MUST_CHECK hd_status hd_harmonics_create(hd_harmonics *h, const hd_scene_def *def, int d,
                                             int nodes);
 void hd_harmonics_clear(hd_harmonics *h);

@@ -1,10 +1,10 @@
 /** Frame -> weights of every vector in every subspace [T11].
  *
  * With B (D columns, row-major) the sampled fields of all subspaces and U (n columns) the dq
- * halves, the overlaps B^T U are a product for each direction, over the x, the y, .. rows of the
- * frame where they lie. Least squares on one subspace: its Gram matrix G = E L E^T (dgesvd),
- * coefficients c = G^+ B^T u, weight = |L^(-1/2) E^T B^T u|^2; directions that the disks do not
- * sample (L below RANK) are left out. The vectors stay in columns throughout. */
+ * halves, the overlaps B^T U are one product for the x rows of the frame, one for the y rows, and
+ * so on, without copying. Least squares on one subspace: its Gram matrix G = E L E^T (dgesvd),
+ * coefficients c = G^+ B^T u, weight = |L^(-1/2) E^T B^T u|^2; directions that the particles do not
+ * sample (L below RANK) are left out. */
 #include "modes/modes.h"
 
 #include <cblas.h>
@@ -35,7 +35,7 @@ struct hd_modes {
     int dimension, coordinates; /**< of the space, of a disk */
     int widest;                 /**< fields of the largest subspace that there may be */
     size_t stride;              /**< of every array over the vectors */
-    double *gram;               /**< [columns][widest]: with those of its own subspace */
+    double *gram;               /**< [columns][widest]: products with the own subspace's fields */
     double *coefficient;        /**< [columns][stride]: overlaps, then coefficients */
     double *work;               /**< [widest][stride] */
     double *dq_norm;            /**< [stride] */
@@ -49,8 +49,8 @@ struct hd_modes {
 
 static size_t nulls_of(const hd_modes *modes) { return (size_t)hd_fields_nulls(modes->fields); }
 
-/** Where the parts in the null space begin; behind them lies that of rotation, if anything turns.
- */
+/** The first row of the parts in the null space; the row of rotation follows them if particles
+ * turn. */
 static size_t null_row(const hd_modes *modes)
 {
     return (size_t)hd_fields_subspaces(modes->fields) * HD_WEIGHTS;
@@ -134,8 +134,8 @@ void hd_modes_free(hd_modes *modes)
 
 /* ---- one snapshot -------------------------------------------------------------------------- */
 
-/** out[count][stride] = (fields from `column` on)^T times the dq or dp rows, from row `half` of a
- * disk on. */
+/** out[count][stride] = (fields from `column` on)^T times the dq rows (half = 0) or the dp rows
+ * (half = coordinates). */
 static void overlaps(const hd_modes *modes, hd_columns v, int half, int column, int count,
                      double *out)
 {
@@ -152,7 +152,8 @@ static double *gram_of(const hd_modes *modes, const hd_subspace *s)
     return modes->gram + (size_t)s->column * (size_t)modes->widest;
 }
 
-/** Subspace by subspace: the products of fields of two are not needed. Row by row, as they lie. */
+/** Fills Gram matrices, subspace by subspace: products of fields of two subspaces are not needed.
+ */
 static void gram_fill(hd_modes *modes)
 {
     const size_t columns = (size_t)hd_fields_columns(modes->fields);
@@ -197,7 +198,8 @@ static void add_squares(double *sum, const double *row, int n)
     for (int l = 0; l < n; l++) sum[l] += row[l] * row[l];
 }
 
-/** Whole vectors are orthonormal, and so are the null fields: plain overlaps. */
+/** Measures the parts in the null space. Whole vectors and null fields are orthonormal, so plain
+ * overlaps serve. */
 static void measure_null(hd_modes *modes, hd_columns v)
 {
     const size_t from = (size_t)hd_fields_columns(modes->fields) - nulls_of(modes);
@@ -209,7 +211,7 @@ static void measure_null(hd_modes *modes, hd_columns v)
     }
 }
 
-/** Part of the squared norm of each dq half that is not of places. */
+/** Measures the part of each dq half's squared norm that turns particles. */
 static void measure_turning(hd_modes *modes, hd_columns v)
 {
     const int of_one = 2 * modes->coordinates;
@@ -225,9 +227,9 @@ static void measure_turning(hd_modes *modes, hd_columns v)
     }
 }
 
-/** whiten[d * d] = E L^(-1/2), d x d row-major, zero columns for unsampled directions. The singular
- * values of G are its eigenvalues; dsyev would ask all of OpenBLAS's threads for every product with
- * a vector of 8. */
+/** whiten[d * d] = E L^(-1/2), row-major, with zero columns for unsampled directions. The singular
+ * values of G are its eigenvalues; dsyev would wake all of OpenBLAS's threads for every product
+ * with a vector of 8. */
 static void whitening(const hd_modes *modes, const hd_subspace *s, double *whiten)
 {
     const int d = s->dimension;
@@ -247,7 +249,7 @@ static void whitening(const hd_modes *modes, const hd_subspace *s, double *white
     }
 }
 
-/** Squared norm of the part of the projection that columns [from, to) of s make up. */
+/** Squared norm of the part of the projection that lies in columns [from, to) of s. */
 static void part_weight(const hd_modes *modes, const hd_subspace *s, int from, int to, hd_columns v,
                         double *out)
 {
@@ -281,8 +283,7 @@ static void measure_subspace(hd_modes *modes, int index, hd_columns v)
     part_weight(modes, s, d / 2, d, v, out + HD_WEIGHT_P * modes->stride);
 }
 
-/** Overlaps with the fields of all subspaces, of normalised dq halves. A vector without a dq half
- * has no weights. */
+/** Makes overlaps those of normalised dq halves. A vector without a dq half has no weights. */
 static void normalise(hd_modes *modes, hd_columns v)
 {
     const size_t columns = (size_t)hd_fields_columns(modes->fields) - nulls_of(modes);
@@ -311,7 +312,7 @@ hd_status hd_modes_measure(hd_modes *modes, hd_columns v, const double *q, const
                                                                               : HD_NOT_FINITE;
 }
 
-/** What is computed for each vector; all of it, for vectors that any rank has. */
+/** Shares every row of the snapshot. */
 hd_status hd_modes_share(hd_modes *modes, hd_communicator *communicator, int width, int carried)
 {
     const struct {
@@ -398,7 +399,7 @@ const double *hd_modes_coefficients(const hd_modes *modes, int column)
     return modes->coefficient + (size_t)column * modes->stride;
 }
 
-/** With the snapshot: reports go on to state it until the next one. */
+/** Reads or writes the averages, and the snapshot, which reports state until the next one. */
 void hd_modes_archive(hd_modes *modes, hd_archive *archive)
 {
     const size_t n = modes->stride, rows = weight_rows(modes) * n;

@@ -1,8 +1,8 @@
-/** Coefficients of the LP or the T steps' vectors -> phases and angular velocities [T13].
+/** Coefficients of the vectors of LP or T steps -> phases and angular velocities [T13].
  *
  * With z = a + i b of one pair of fields (L and P; or T of a cosine and T of a sine), the vectors
- * of an LP step all turn at the same rate: z -> z exp(i omega t), those of a T step at none. A
- * rotor follows one step. The velocity is the mean rate of its tracks. */
+ * of an LP step all turn at the same rate, z -> z exp(i omega t); those of a T step do not turn. A
+ * rotor follows one step; its rate is the mean rate of its tracks. */
 #include "modes/phases.h"
 
 #include <math.h>
@@ -15,7 +15,7 @@
 #include "modes/rotor.h"
 #include "modes/steps.h"
 
-/** Of a velocity: rotation without any noise has a weight, too. */
+/** Smallest variance of a velocity, so that rotation without any noise has a weight. */
 static const double VARIANCE_MIN = 1e-100;
 
 struct hd_phases {
@@ -131,7 +131,7 @@ double hd_phases_diffusion(const hd_phases *phases, int index, double *error)
     return hd_blocks_diffusion(&phases->track[index].turns, error);
 }
 
-/** First block in which the rotor turned; their number if there is none. */
+/** The first block in which the rotor turned; the number of blocks if there is none. */
 static int first_block(const hd_rotor *r)
 {
     int k = 0;
@@ -156,7 +156,7 @@ static double add_deviations(const hd_rotor *r, double factor, double *deviation
     return turning > 0 ? HD_BLOCKS_ROUNDING * fabs(factor) * size / turning : 0.0;
 }
 
-/** Of the mean rate; negative if not yet known. */
+/** Standard error of the mean rate; negative if it is not yet known. */
 static double rate_error(const hd_rotor *r)
 {
     double deviation[HD_BLOCKS_MAX] = {0.0};
@@ -180,7 +180,7 @@ bool hd_phases_rate(const hd_phases *phases, int step, double *omega, double *er
 /** omega / k of a rotor that has turned. */
 static double velocity_of(const hd_rotor *r) { return r->turned / r->turning / r->wave_number; }
 
-/** 1 / error^2 of that; 0 while the error is not known. */
+/** 1 / error^2 of the rotor's velocity; 0 while the error is not known. */
 static double weight_of(const hd_rotor *r)
 {
     const double error = rate_error(r) / r->wave_number;
@@ -201,8 +201,8 @@ static double misfit_of(const hd_phases *phases, double v)
     return steps > 1 ? sqrt(chi2 / (steps - 1)) : -1.0;
 }
 
-/** Mean over the steps, weighted with their errors; its own error knows how they turn together, and
- * grows with the misfit. */
+/** The mean over the steps, weighted with their errors. Its error accounts for how steps turn
+ * together, and grows with the misfit. */
 hd_velocity hd_phases_velocity(const hd_phases *phases)
 {
     hd_velocity out = {.v_error = -1.0, .v_sampling_error = -1.0, .misfit = -1.0};

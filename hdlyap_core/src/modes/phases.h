@@ -4,17 +4,17 @@
 
 #include "hdlyap/phases.h"
 
-/** Of the steps of a kind, HD_MODE_LP or HD_MODE_T. HD_NO_MEMORY. */
+/** Follows the steps of a kind, HD_MODE_LP or HD_MODE_T. Fails with HD_NO_MEMORY. */
 HD_MUST_CHECK hd_status hd_phases_create(hd_phases **out, const hd_steps *steps, hd_mode_kind kind);
 void hd_phases_free(hd_phases *phases);
 void hd_phases_clear(hd_phases *phases);
 
-/** Goes on to the snapshot in the steps' modes, taken at simulated time `time`. */
+/** Adds the present snapshot of the steps' modes, taken at simulated time `time`. */
 void hd_phases_add(hd_phases *phases, const hd_steps *steps, double time);
 
 /** Longest time from the last sample to the next that unwraps every resolved step safely; INFINITY
- * without one. Grows as the rates become known, by at most 2 from one sample to the next, and
- * falls when phases scatter more. */
+ * if there is no resolved step. Grows as the rates become known, by at most a factor of 2 from one
+ * sample to the next, and falls when phases scatter more. */
 double hd_phases_sampling(const hd_phases *phases, const hd_steps *steps);
 
 #endif

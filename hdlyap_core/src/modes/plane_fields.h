@@ -5,8 +5,8 @@
 #include "hdlyap/fields.h"
 #include "modes/harmonics.h"
 
-/** row[d][..]: component d of all columns of the subspace; `along` are filled there, p is the
- * momentum. */
+/** Fills row[d][..], component d of all columns of the subspace. `along` are the harmonics of the
+ * place, p is the momentum. */
 void hd_plane_fields_fill(double *const *row, const hd_subspace *s, const hd_harmonics *along,
                           const double *p);
 /** The same in space. */

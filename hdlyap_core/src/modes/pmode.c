@@ -1,9 +1,8 @@
 /** Vectors of an LP step -> its L and P modes [T14].
  *
  * With B (M x 2d) the normalised fields, M components of all disks, and psi (M x 2d) the normalised
- * dq halves, Q solves psi Q = B by least squares; the modes are psi Q. In the terms of what is
- * measured already, psi^T B = overlaps, so Q = (psi^T psi)^-1 psi^T B (dposv on 2d x 2d; psi is
- * nearly orthonormal).
+ * dq halves, Q solves psi Q = B by least squares; the modes are psi Q. Q = (psi^T psi)^-1 psi^T B
+ * by dposv of a 2d x 2d matrix; psi is nearly orthonormal.
  */
 #include "modes/pmode.h"
 
@@ -27,7 +26,7 @@ struct hd_pmode {
     double *field;          /**< same */
     double q[DIMENSION_MAX * DIMENSION_MAX];
     double residual[DIMENSION_MAX];
-    double norm[DIMENSION_MAX]; /**< of the fields as sampled */
+    double norm[DIMENSION_MAX]; /**< norms of the sampled fields */
     double distance;
 };
 
@@ -68,7 +67,7 @@ void hd_pmode_free(hd_pmode *pmode)
     hd_memory_free(pmode);
 }
 
-/** Components of all disks. */
+/** Number of components of all particles. */
 static int components(const hd_pmode *pmode) { return pmode->coordinates * pmode->disks; }
 
 static double *row_of(double *rows, int row, const hd_pmode *pmode)
@@ -95,8 +94,9 @@ static void psi_load(hd_pmode *pmode, hd_columns vectors, int col)
             for (int d = 0; d < of_one; d++)
                 psi[of_one * j + d] = v[(size_t)(2 * of_one * j + d) * stride];
         const double norm = sqrt(dot(psi, psi, components(pmode)));
-        const double scale = norm > HD_MODES_DQ_MIN ? 1.0 / norm
-                                                    : 0.0; /* then dependent: refused */
+        const double scale = norm > HD_MODES_DQ_MIN
+                                 ? 1.0 / norm
+                                 : 0.0; /* dependent vectors: solve refuses them */
         for (int k = 0; k < components(pmode); k++) psi[k] *= scale;
     }
 }
@@ -122,7 +122,7 @@ static bool solve(hd_pmode *pmode)
     return LAPACKE_dposv_work(LAPACK_COL_MAJOR, 'U', n, n, gram, n, pmode->q, n) == 0;
 }
 
-/** field c: psi Q e_c in the place of B e_c, whose distance is the residual. */
+/** Replaces field c, B e_c, by psi Q e_c; their distance is the residual. */
 static void combine(hd_pmode *pmode, int c)
 {
     const int n = pmode->dimension, rows = components(pmode);
@@ -136,7 +136,7 @@ static void combine(hd_pmode *pmode, int c)
     pmode->residual[c] = sqrt(distance2);
 }
 
-/** The singular values of Q against 1. */
+/** Measures how far the singular values of Q are from 1. */
 static void finish(hd_pmode *pmode)
 {
     const int n = pmode->dimension;

@@ -1,4 +1,4 @@
-/** What a reconstruction is made in. */
+/** How P modes are reconstructed. */
 #ifndef HD_PMODE_H
 #define HD_PMODE_H
 

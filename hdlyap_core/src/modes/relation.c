@@ -1,9 +1,9 @@
 /** Scene -> what is known of lambda(k) before its steps are measured [T12].
  *
- * How it bends was measured in long boxes (doc/findings.md), and stands with the fluid of what
- * moves. What is no fluid is taken to bend as disks and spheres do, but for OTHERS times their
- * errors. In a thin gas k l decides, l the mean free path, else k sigma. What edges do was seen of
- * disks in boxes with walls and in narrow ones. */
+ * The curvature was measured in long boxes (doc/findings.md) and is a member of hd_fluid. Particles
+ * without a fluid are taken to have the curvature of disks or spheres, with errors OTHERS times as
+ * large. In a thin gas the scale is the mean free path l, else sigma. The effect of edges was
+ * measured for disks in boxes with walls and in narrow boxes. */
 #include "modes/steps.h"
 
 #include <math.h>
@@ -15,18 +15,18 @@
 #include "scene/scene.h"
 
 static const double OTHERS = 3.0;
-/** Walls move c by about WALL sigma / edge, and each step by WALL_OWN of that for itself. */
+/** Walls change c by about WALL sigma / edge, and each step independently by WALL_OWN of that. */
 static const double WALL = 0.25, WALL_OWN = 0.6;
 static const hd_relation NONE = {NAN, NAN, NAN, NAN, NAN, NAN};
-/** Dense disks in a narrow box stand in rows, which fit its edge or do not: CROWDED (sigma /
- * edge)^4 at the density DENSE. */
+/** Dense disks in a narrow box stand in rows, which fit its edge or do not. That changes c by
+ * CROWDED (sigma / edge)^4 at the density DENSE. */
 static const double CROWDED = 7.0, DENSE = 0.8;
-/** A step strays by MISSING times the square of the part of its multiplicity that is missing, and
- * by ELSEWHERE times the part of its weight that lies in the columns of other steps. */
+/** A step lies off the relation by MISSING times the square of the part of its multiplicity that
+ * was not found, and by ELSEWHERE times the part of its weight in the columns of other steps. */
 static const double MISSING = 0.02, ELSEWHERE = 0.006;
 
-/** T exponents that lie below an LP step are of wave numbers up to 1.6 times its own, where it is
- * highest: c_L / c_T is 1.36 at most, and LP bends more. */
+/** T steps with exponents below that of an LP step have wave numbers below this many times its own:
+ * up to 1.6 was seen, as c_L / c_T is 1.36 at most and LP bends more. */
 static const double BELOW_STEP = 1.75;
 
 static double walls_of(const hd_scene_def *def, const double *box)

@@ -1,5 +1,4 @@
-/** Snapshots of one step's vectors -> the phases of all of them, and the rate of the whole [T13].
- */
+/** Snapshots of one step's vectors -> phases of all its vectors, and the rate of the step [T13]. */
 #include "modes/rotor.h"
 
 #include <limits.h>
@@ -8,13 +7,14 @@
 #include "base/check.h"
 
 static const double PI = 3.14159265358979323846;
-/** |omega| / lambda is at most about this: v / c_L is 1.14 at density 0.8, 1.26 for long waves. */
+/** Largest |omega| / lambda, about: v / c_L is 1.14 at density 0.8, 1.26 for long waves. */
 static const double RATE_PER_EXPONENT = 1.25;
-/** Sampling is refined when a step may turn by more than this part of pi, unless it is foreseen. */
+/** Between samples a step may turn by at most this part of pi, unless its turn is predicted. */
 static const double SAFE = 0.75;
 enum { LEARN = 4 };
 
-/** T fields whose modulations are the same are no cosine and sine: of spheres between walls. */
+/** T fields of spheres between walls that have the same modulation are no cosine and sine, so they
+ * have no phase. */
 int hd_rotor_pairs(const hd_step *step, hd_mode_kind kind)
 {
     const unsigned char *bits = step->wave.transverse.bits;
@@ -23,7 +23,8 @@ int hd_rotor_pairs(const hd_step *step, hd_mode_kind kind)
     return step->expected / 2;
 }
 
-/** L fields stand before P fields, each T field of a sine behind that of the cosine. */
+/** In a subspace L fields come before P fields, and each T field of a sine follows that of its
+ * cosine. */
 hd_status hd_rotor_create(hd_rotor *r, hd_track *tracks, const hd_step *step, int index, int column)
 {
     const int pairs = step->expected / 2;
@@ -76,8 +77,8 @@ static double strength_of(const hd_rotor *r, const hd_modes *modes, int col)
     return sum;
 }
 
-/** Each slot takes a vector of the set; of a set shared with other steps the ones most of this one.
- */
+/** Gives each slot a vector of the set; if steps share the set, the vectors with most weight in
+ * this step. */
 static void slots_fill(hd_rotor *r, const hd_step *step, const hd_modes *modes)
 {
     const double *weight = hd_modes_average(modes, step->subspace, HD_WEIGHT);
@@ -94,7 +95,7 @@ static void slots_fill(hd_rotor *r, const hd_step *step, const hd_modes *modes)
     }
 }
 
-/** How well column col continues slot v: 1 for exactly, -1 for exactly with the other sign. */
+/** How well column col continues slot v: 1 exactly, -1 exactly but with the other sign. */
 static double continuation(const hd_rotor *r, const hd_modes *modes, int v, int col, double dt)
 {
     const double complex turn = cexp(-I * r->ahead.omega * dt);
@@ -108,8 +109,8 @@ static double continuation(const hd_rotor *r, const hd_modes *modes, int v, int 
     return product / fmax(sqrt(before * now), 1e-300);
 }
 
-/** Vectors of a degenerate step can change places: best continuations first; a vector that goes on
- * by itself is not asked. */
+/** Assigns vectors to slots, the best continuations first, because vectors of a degenerate step can
+ * change places. A vector that clearly continues its own slot stays there. */
 static void slots_match(hd_rotor *r, const hd_step *step, const hd_modes *modes, double dt)
 {
     const double GOES_ON = 0.7, PREFERENCE = 0.3; /* for staying */
@@ -138,7 +139,7 @@ static void slots_match(hd_rotor *r, const hd_step *step, const hd_modes *modes,
     }
 }
 
-/** Turn of the whole step since the last sample; from the vectors that are there. */
+/** Turn of the whole step since the last sample, from all its vectors together. */
 static void rotor_turn(hd_rotor *r, const hd_modes *modes, double dt)
 {
     double complex sum = 0.0;
@@ -159,8 +160,8 @@ static double unseen(const hd_step *step)
     return SAFE * PI / (RATE_PER_EXPONENT * fabs(step->exponent));
 }
 
-/** Mean rate of the tracks: unlike the turn of the whole, where longer vectors weigh more, it has
- * no bias if |z| depends on the phase. */
+/** Adds to the mean rate of the tracks. Unlike the turn of the whole, in which longer vectors weigh
+ * more, it has no bias if |z| depends on the phase. */
 static void rotor_rate(hd_rotor *r, double sum, int count, double dt)
 {
     if (count == 0) return;
@@ -170,8 +171,8 @@ static void rotor_rate(hd_rotor *r, double sum, int count, double dt)
     r->turning += dt;
 }
 
-/** Takes over the snapshot as the last sample; `foreseen` was its rate. A vector that is something
- * else for a while goes on as predicted: it is recognised when it comes back. */
+/** Keeps the snapshot as the last sample; `foreseen` was the predicted rate. A vector that leaves
+ * the step for a while goes on as predicted, so that it is recognised when it comes back. */
 static void rotor_store(hd_rotor *r, const hd_modes *modes, double time, double foreseen,
                         double gap)
 {
@@ -189,7 +190,7 @@ static void rotor_store(hd_rotor *r, const hd_modes *modes, double time, double 
             r->z[v][c] = away ? r->z[v][c] * turn : r->sign[v] * z;
             if (hd_track_add(t, r->sign[v] * z, time, omega, gap)) {
                 sum += t->rate_now, count++;
-                if (judged && t->dt_now <= dt) /* it was not weak before */
+                if (judged && t->dt_now <= dt) /* the phase was not weak before */
                     hd_foresight_miss(&r->ahead, (t->rate_now - foreseen) * dt, dt,
                                       creal(z * conj(z)));
             }
@@ -203,7 +204,7 @@ static void rotor_store(hd_rotor *r, const hd_modes *modes, double time, double 
     r->samples++;
 }
 
-/** Follows the vectors of the step from here on. */
+/** Starts to follow the vectors of the step. */
 static void rotor_take_up(hd_rotor *r, const hd_step *step, const hd_modes *modes)
 {
     hd_rotor_restart(r, HD_PHASE_WEAK);
@@ -251,7 +252,7 @@ double hd_rotor_sampling(const hd_rotor *r, const hd_step *step)
 
 /* ---- file ---------------------------------------------------------------------------------- */
 
-/** The vectors in the slots are those of the set. */
+/** Reads or writes a rotor; the vectors in its slots are those of the set. */
 void hd_rotor_archive(hd_rotor *r, hd_archive *archive, int vectors, double now)
 {
     hd_archive_int(archive, "rotor col", &r->col, -1, vectors - 1);

@@ -3,8 +3,8 @@
  * A set starts as the window of columns, as long as a subspace has dimensions, with the largest
  * trace of that subspace. Sets whose windows overlap, or which have much of their weight in each
  * other's windows, are merged: there the steps coincide and the vectors mix. A set is resolved if
- * every member is found in its window and its exponents are flat; one that is not loses its weakest
- * member, and all begins anew. */
+ * every member is found in its window and its exponents are flat. A set that is not loses its
+ * weakest member, and the search begins anew. */
 #include "modes/sets.h"
 
 #include <math.h>
@@ -13,11 +13,11 @@
 #include "base/memory.h"
 #include "modes/modes.h"
 
-/** Below this part of its multiplicity a subspace is nowhere. */
+/** A subspace of which less than this part of its multiplicity is found has no set. */
 static const double CANDIDATE = 0.25;
-/** Weight of a set in another's window, over that in its own, from which on they mix. */
+/** Two sets mix if the weight of one in the other's window, relative to its own, is above this. */
 static const double LEAK = 0.25;
-/** Largest deviation of an exponent from the mean of its set, beside 3 standard errors. */
+/** Exponents of a set may differ from their mean by this part, plus 3 standard errors. */
 static const double FLAT = 0.1;
 
 hd_status hd_sets_create(hd_sets *sets, const hd_modes *modes, int rows)
@@ -115,7 +115,7 @@ static bool overlap(const hd_set *a, const hd_set *b)
     return a->col < b->col + b->count && b->col < a->col + a->count;
 }
 
-/** The set that set a mixes with, -1 if none. a is weighed. */
+/** The set that set a mixes with, -1 if none. a has been weighed. */
 static int partner(const hd_sets *sets, const hd_spectrum *spectrum, int a)
 {
     const hd_set *own = &sets->set[a];
@@ -129,8 +129,7 @@ static int partner(const hd_sets *sets, const hd_spectrum *spectrum, int a)
     return -1;
 }
 
-/** Set b takes in set a and moves to its new window; more vectors than there are cannot be named.
- */
+/** Merges set a into set b and moves b to its new window, at most as wide as there are vectors. */
 static void absorb(hd_sets *sets, hd_half half, int a, int b)
 {
     const int count = sets->set[a].count + sets->set[b].count;
@@ -142,7 +141,7 @@ static void absorb(hd_sets *sets, hd_half half, int a, int b)
     sets->set[b] = fits ? best_window(sets->weight, half, count) : (hd_set){0};
 }
 
-/** One set per subspace that is somewhere, numbered like it. */
+/** Makes one set, of the same number, for each subspace that is found anywhere. */
 static void begin(hd_sets *sets, hd_half half)
 {
     for (int s = 0; s < sets->subspaces; s++) {
@@ -157,7 +156,7 @@ static void begin(hd_sets *sets, hd_half half)
     }
 }
 
-/** Until no set mixes with another. */
+/** Merges sets until none mixes with another. */
 static void merge(hd_sets *sets, const hd_spectrum *spectrum, hd_half half)
 {
     for (int a = 0; a < sets->subspaces; a++) {
@@ -166,7 +165,7 @@ static void merge(hd_sets *sets, const hd_spectrum *spectrum, hd_half half)
         const int b = partner(sets, spectrum, a);
         if (b < 0) continue;
         absorb(sets, half, a, b);
-        a = -1; /* once more from the first */
+        a = -1; /* starts again with the first set */
     }
 }
 
@@ -183,7 +182,7 @@ static bool is_flat(const hd_spectrum *spectrum, const hd_set *set)
     return true;
 }
 
-/** The member of a set that is found worst, as a part of what its threshold asks for. */
+/** The member of a set of which least was found, relative to its threshold. */
 static int weakest(const hd_sets *sets, int set, double *part)
 {
     const double least = hd_sets_threshold(sets->rows, sets->set[set].count);

@@ -7,8 +7,8 @@
 #include "hdlyap/spectrum.h"
 #include "hdlyap/steps.h"
 
-/** A set is resolved if of each of its steps at least this part of the expected multiplicity is
- * found, beyond what random vectors would show. */
+/** A set is resolved if, for each of its steps, at least this part of the expected multiplicity is
+ * found beyond what random vectors would show. */
 
 /** Larger sets are not resolved. */
 enum { HD_SET_VECTORS_MAX = 64 };
@@ -21,14 +21,14 @@ typedef struct hd_half {
 /** A set of vectors; count 0: none. */
 typedef struct hd_set {
     int col, count; /**< columns [col, col + count) */
-    double trace;   /**< of all its members over them */
+    double trace;   /**< weight of all members in these columns */
 } hd_set;
 
 typedef struct hd_sets {
     const hd_modes *modes;
     int subspaces, rows; /**< rows: 4N */
     hd_set *set;         /**< [subspaces], by the number of a member */
-    int *of;             /**< [subspaces]: set that each subspace is a member of, -1: of none */
+    int *of;             /**< [subspaces]: the set of each subspace; -1: none */
     bool *absent;        /**< [subspaces]: found too weak in its set, and left out */
     double *weight;      /**< [vectors], see hd_sets_weigh */
 } hd_sets;
@@ -39,16 +39,16 @@ void hd_sets_clear(hd_sets *sets);
 /** Finds the resolved sets of one half from average weights and exponents. */
 void hd_sets_find(hd_sets *sets, const hd_spectrum *spectrum, hd_half half);
 
-/** sets->weight[col] = average weight of every vector of the half in all members of a set. */
+/** Sets sets->weight[col] to the average weight of each vector of the half in all members of a set.
+ */
 void hd_sets_weigh(hd_sets *sets, int set, hd_half half);
 
 /** Trace of the projection onto subspace s over a set. */
 double hd_sets_trace(const hd_sets *sets, int s, const hd_set *set);
 
-/** Least part of what is expected that counts as found, with d of `rows` / 2 dimensions: of a
- * vector in the fields of d dimensions, or of any subspace in a window of d columns. Random vectors
- * have chance = 2 d / rows of it on average, of the rest HD_STEPS_THRESHOLD is asked; INFINITY
- * where chance is above 1/2. */
+/** The part of a multiplicity that must be found, for a window of d columns (or fields of d
+ * dimensions) out of rows / 2. Random vectors have chance = 2 d / rows on average; of the rest
+ * HD_STEPS_THRESHOLD is required. INFINITY if chance is above 1/2. */
 double hd_sets_threshold(int rows, int d);
 
 #endif

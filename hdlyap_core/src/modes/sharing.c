@@ -1,8 +1,8 @@
 /** Steps that share a set -> whether they coincide or still mix [T12].
  *
- * Columns are in the order of their exponents whoever's vectors they hold. So the members of a set,
- * in the order of their exponents, each have columns of their own: as many as they have dimensions.
- * The exponents of these columns differ if those of the members do, even while the vectors mix. */
+ * Columns are in the order of their exponents, whatever vectors they hold. So each member of a set,
+ * in the order of the members' exponents, has columns of its own: as many as it has dimensions. The
+ * exponents of these columns differ if those of the members do, even while the vectors mix. */
 #include "modes/sharing.h"
 
 #include <math.h>
@@ -10,15 +10,15 @@
 #include "averages/spectrum.h"
 #include "modes/sets.h"
 
-/** Exponents differ beyond so many standard errors. */
+/** Exponents differ if their difference exceeds this many standard errors. */
 static const double DIFFERENT = 3.0;
-/** Of the exponent: what three standard errors of a gap must be below to call exponents the same.
- */
+/** Exponents are called the same only if three standard errors of their gap are below this part of
+ * the exponent. */
 static const double PRECISE = 0.03;
-/** Vectors part like exp(-gap t): beyond so many gap t they had the time. */
+/** Vectors separate like exp(-gap t): once gap t exceeds this they have had the time. */
 static const double FOLDS = 10.0;
 
-/** Columns of a member's own; count 0: no member. */
+/** A member's own columns; count 0: no member. */
 typedef struct group {
     int col, count;
 } group;
@@ -30,7 +30,7 @@ static bool before(const hd_step *step, int a, int b)
     return a < b;
 }
 
-/** Own columns of step k, and the members that come next to it (-1: none). */
+/** The own columns of step k; next: the members before and after it (-1: none). */
 static group own_columns(const hd_step *step, int count, int k, int next[2])
 {
     group own = {step[k].col, step[k].expected};
@@ -51,7 +51,7 @@ static double group_mean(const hd_spectrum *spectrum, group g)
     return sum / g.count;
 }
 
-/** Of the difference of two such means. */
+/** Standard error of the difference of two members' mean exponents. */
 static double gap_error(const hd_spectrum *spectrum, group a, group b)
 {
     hd_part parts[2 * HD_SET_VECTORS_MAX];

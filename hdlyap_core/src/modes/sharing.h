@@ -5,14 +5,15 @@
 #include "base/archive.h"
 #include "hdlyap/steps.h"
 
-/** Since when a step has been in the same company. */
+/** Which steps share a step's set, and since when. */
 typedef struct hd_company {
     uint64_t members; /**< which steps share its set, 0: none */
     double since;     /**< averaged time */
 } hd_company;
 
-/** Fills what step[count] say about sharing; sets, exponents and errors are known. company[count]
- * is kept from one call to the next, zero at first. age: of the frame, in time units. */
+/** Fills the members of step[count] that tell about sharing; sets, exponents and errors must be
+ * known. The caller keeps company[count] from one call to the next, zero at first. age: time for
+ * which the frame has been carried [time units]. */
 void hd_sharing_find(hd_step *step, hd_company *company, int count, const hd_modes *modes,
                      const hd_spectrum *spectrum, double age);
 

@@ -5,7 +5,7 @@
  * field. */
 #include "modes/plane_fields.h"
 
-/** A, and s. */
+/** Returns A, and fills s. */
 static double products(double *s, const hd_wave *wave, const hd_harmonics *along, unsigned bits)
 {
     double value[3];

@@ -25,10 +25,10 @@ struct hd_steps {
     int rows;            /**< 4N */
     hd_step *step;       /**< [count] */
     int *of_vector;      /**< [vectors] */
-    double *share;       /**< [count][HD_SET_VECTORS_MAX]: of each vector of the set in this step */
+    double *share;       /**< [count][HD_SET_VECTORS_MAX]: share of the step in each vector */
     hd_part *parts;      /**< [count * HD_SET_VECTORS_MAX], workspace */
     hd_company *company; /**< [count] */
-    double warmup;       /**< of the frame, before any average */
+    double warmup;       /**< time for which the frame was carried before averaging */
     hd_relation of_t, of_lp;
 };
 
@@ -70,7 +70,7 @@ static hd_status steps_allocate(hd_steps *steps)
 
 static int smaller(int a, int b) { return a < b ? a : b; }
 
-/** Where the halves and the zero modes lie; a frame need not reach so far. */
+/** Finds the columns of the two halves and of the zero modes, as far as the frame reaches. */
 static void place(hd_steps *steps, const hd_scene_def *def)
 {
     const int n = steps->vectors, all = 2 * hd_scene_coordinates(def) * def->number;
@@ -150,7 +150,8 @@ void hd_steps_clear(hd_steps *steps)
 
 /* ---- steps --------------------------------------------------------------------------------- */
 
-/** The mean over the set of a step, each vector by its share, times factor. */
+/** Writes the parts of factor times the mean over a step's set, each vector weighted by its share.
+ */
 static int mean_parts(const hd_steps *steps, int k, double factor, hd_part *parts)
 {
     const hd_step *step = &steps->step[k];
@@ -185,7 +186,7 @@ double hd_steps_error_of_sum(const hd_steps *steps, const hd_spectrum *spectrum,
     return hd_spectrum_error_of_sum(spectrum, steps->parts, count);
 }
 
-/** A vector takes the label of the member that it is most of. */
+/** Labels a vector with the member in which it has most weight. */
 static void label(hd_steps *steps, int col, int k, const double *weight)
 {
     const int now = steps->of_vector[col];
@@ -196,7 +197,7 @@ static void label(hd_steps *steps, int col, int k, const double *weight)
     steps->of_vector[col] = k;
 }
 
-/** Fills step k, of subspace s in a resolved set, which is weighed. */
+/** Fills step k, of subspace s in a resolved set, which has been weighed. */
 static void step_fill(hd_steps *steps, int k, int s, int set)
 {
     const hd_set *w = &steps->sets.set[set];
@@ -217,7 +218,7 @@ static void step_fill(hd_steps *steps, int k, int s, int set)
     }
 }
 
-/** offset: of the half's steps among all. */
+/** Finds the steps of one half; offset: the number of its first step. */
 static void half_find(hd_steps *steps, const hd_spectrum *spectrum, hd_half half, int offset,
                       int *number)
 {
@@ -243,7 +244,7 @@ static double null_weight(const hd_steps *steps, int col)
     return sum;
 }
 
-/** The zero modes lie where the spectrum is symmetric, as far as the frame reaches. */
+/** Fills the step of zero modes, in the middle of the spectrum, as far as the frame reaches. */
 static void zero_find(hd_steps *steps, int *sets)
 {
     const int k = steps->subspaces, count = steps->zero_end - steps->zero_first;
@@ -345,7 +346,7 @@ int hd_steps_first(const hd_steps *steps)
 
 /* ---- file ---------------------------------------------------------------------------------- */
 
-/** The rest of a step is the same in every run of its scene. */
+/** Reads or writes the members of a step that are not determined by its scene. */
 static void step_archive(hd_steps *steps, hd_step *step, hd_archive *archive)
 {
     int resolved = step->resolved;
@@ -372,7 +373,7 @@ static void step_archive(hd_steps *steps, hd_step *step, hd_archive *archive)
                       "it has not the vectors that it needs");
 }
 
-/** Sets are found anew from the averages whenever they are needed. */
+/** Reads or writes steps without their sets, which are found again from the averages. */
 void hd_steps_archive(hd_steps *steps, hd_archive *archive)
 {
     const size_t count = (size_t)steps->count;

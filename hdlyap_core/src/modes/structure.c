@@ -1,9 +1,9 @@
 /** Frame -> structure factors of every vector at every wave vector [T20].
  *
- * The sums over the disks of dq_x, dq_y, .. times products of a cosine or sine of each coordinate
- * are a matrix product for each direction, over the x, the y, .. rows of the frame where they lie,
- * some waves at a time: the sums of those stay in cache until they are amplitudes along and across
- * k. */
+ * Sums over the particles of dq_x, dq_y, .. times products of a cosine or sine of each coordinate
+ * are one matrix product for the x rows of the frame, one for the y rows, and so on. Some waves are
+ * taken at a time, so that their sums stay in cache until they are amplitudes along and across k.
+ */
 #include "modes/structure.h"
 
 #include <limits.h>
@@ -24,21 +24,21 @@
 
 enum { AT_ONCE = 16 };
 
-/** A wave vector, and for each component of dq the columns of its functions: -1 where no amplitude
+/** A wave vector and, for each component of dq, the columns of its functions; -1 if no amplitude
  * needs one. */
 typedef struct planned {
     hd_wave wave;
     hd_modulations modulations[HD_DIRECTIONS];
-    /** By the bits of the function, among those of AT_ONCE waves. */
+    /** Column of each function, by its bits, among those of AT_ONCE waves. */
     int column[HD_DIMENSION_MAX][HD_MODULATIONS_MAX];
-    double root; /**< of 2 for each direction with walls and nodes */
+    double root; /**< product of sqrt(2) for each direction with walls and nodes */
 } planned;
 
 struct hd_structure {
     int disks, vectors, waves, threads;
     int dimension, coordinates; /**< of the space, of a disk */
-    size_t functions;           /**< of a wave */
-    size_t amplitudes;          /**< that a direction may have */
+    size_t functions;           /**< functions of a wave */
+    size_t amplitudes;          /**< most amplitudes of a direction */
     size_t width;               /**< functions of the waves that are taken at once */
     hd_harmonics along[HD_DIMENSION_MAX];
     planned *plan;                   /**< [waves] */
@@ -50,13 +50,13 @@ struct hd_structure {
     double *mean;                    /**< same, over samples */
     double *amplitude;               /**< [HD_DIRECTIONS][amplitudes][stride] */
     double *work;                    /**< [AT_ONCE][stride] */
-    int *peak, *shown; /**< [vectors]: of the mean now, and when the snapshot was taken */
+    int *peak, *shown; /**< [vectors]: strongest wave of the mean now, and at the snapshot */
     long samples;
 };
 
 /* ---- creation ------------------------------------------------------------------------------ */
 
-/** All waves that are sampled. */
+/** The scene, but with all waves that the particles sample. */
 static hd_scene_def sampled(const hd_scene_def *def)
 {
     hd_scene_def all = *def;
@@ -84,7 +84,7 @@ static void plan_columns(planned *p, int *used, int dimension)
             }
 }
 
-/** What walls make of squares. */
+/** Sets the root by which amplitudes between walls are multiplied. */
 static void plan_root(planned *p, const hd_scene_def *def)
 {
     p->root = 1.0;
@@ -212,7 +212,8 @@ static void fill_values(hd_structure *s, const double *q)
     }
 }
 
-/** A function at the wave: the product of one of each coordinate, of all disks. */
+/** Fills a column with one function of a wave, a product of functions of each coordinate, at all
+ * particles. */
 static void fill_factor(hd_structure *s, const planned *p, unsigned bits, int column)
 {
     const double *of[HD_DIMENSION_MAX];
@@ -228,7 +229,8 @@ static void fill_factor(hd_structure *s, const planned *p, unsigned bits, int co
     }
 }
 
-/** factor[disks][width] of component d at waves [from, to); returns how many columns there are. */
+/** Fills factor[disks][width] for component d and waves [from, to); returns the number of columns.
+ */
 static int fill_factors(hd_structure *s, int d, int from, int to)
 {
     int columns = 0;
@@ -253,7 +255,7 @@ static void sum_up(hd_structure *s, hd_columns v, int from, int to)
     }
 }
 
-/** Amplitudes of one modulation, of vectors not yet normalised. */
+/** Amplitudes of one modulation, for vectors that are not yet normalised. */
 static void amplitudes(const hd_structure *s, double *out, const planned *p, hd_direction e,
                        unsigned bits, hd_columns v)
 {
@@ -271,7 +273,7 @@ static double *snapshot_of(const hd_structure *s, double *rows, int wave, hd_dir
     return rows + ((size_t)wave * HD_DIRECTIONS + (size_t)e) * s->stride;
 }
 
-/** Squares of one wave's amplitudes; they are kept for the vectors that have their peak there.
+/** Sums the squares of one wave's amplitudes; keeps the amplitudes of vectors whose peak it is.
  * work[count]. */
 static void measure_wave(hd_structure *s, double *work, int w, hd_columns v, const double *dq_norm)
 {
@@ -393,7 +395,7 @@ const double *hd_structure_amplitude(const hd_structure *s, hd_direction e, unsi
     return s->amplitude + ((size_t)e * s->amplitudes + modulation) * s->stride;
 }
 
-/** The snapshot belongs to this time alone. */
+/** Reads or writes the means; the snapshot is not kept. */
 void hd_structure_archive(hd_structure *s, hd_archive *archive)
 {
     const size_t size = (size_t)s->waves * HD_DIRECTIONS * s->stride;

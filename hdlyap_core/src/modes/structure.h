@@ -6,14 +6,14 @@
 #include "hdlyap/frame.h"
 #include "hdlyap/structure.h"
 
-/** Vectors carried = n. HD_NO_MEMORY. */
+/** vectors: n, those carried. Fails with HD_NO_MEMORY. */
 HD_MUST_CHECK hd_status hd_structure_create(hd_structure **out, const hd_scene_def *def,
                                             int vectors, int threads);
 void hd_structure_free(hd_structure *structure);
 
-/** A snapshot of vectors (all of them, or some: the others keep theirs) at positions q, whose dq
- * halves have these norms, [n]. HD_NOT_FINITE. Cost 16 N waves flops per vector as dgemm in
- * periodic boxes, half of it per wall, and 2 waves numbers written. */
+/** Takes a snapshot of vectors at positions q, whose dq halves have these norms [n]; vectors that
+ * are not given keep theirs. Fails with HD_NOT_FINITE. Cost 16 N waves flops per vector as dgemm in
+ * periodic boxes, half of it for each direction with walls. */
 HD_MUST_CHECK hd_status hd_structure_measure(hd_structure *structure, hd_columns vectors,
                                              const double *q, const double *dq_norm);
 /** As hd_modes_share. */

@@ -1,7 +1,7 @@
-/** What components of dq add to amplitudes [T20], [T22]. */
+/** What each component of dq contributes to amplitudes [T20], [T22]. */
 #include "modes/structure_terms.h"
 
-/** Along (A_x, A_y), across (A_y, -A_x). */
+/** In the plane e is along (A_x, A_y) or across (A_y, -A_x). */
 static hd_structure_term in_plane(const hd_wave *wave, hd_direction e, unsigned bits, int d)
 {
     const int derived = e == HD_ALONG ? d : 1 - d;
@@ -10,7 +10,7 @@ static hd_structure_term in_plane(const hd_wave *wave, hd_direction e, unsigned 
     return (hd_structure_term){bits ^ bit, e == HD_ACROSS && d == 1 ? -slope : slope};
 }
 
-/** Along k and the directions across it: (e_d s_d). */
+/** In space the field is (e_d s_d), with e along k or across it. */
 static hd_structure_term in_space(const hd_wave *wave, hd_direction e, unsigned bits, int d)
 {
     const unsigned scalar = bits & (HD_SECOND - 1u), bit = 1u << d;
