@@ -52,16 +52,13 @@ def save_nothing(figure, folder, name):
 
 
 def check_title(figure, name):
-    """A figure names its system: scene, disks, density, walls. It is not needed any more."""
-    from hdlyap.plots.figures import plt
-
+    """A figure names its system: scene, disks, density, walls."""
     title = figure._suptitle.get_text() if figure._suptitle is not None else ''
     system = (
         r'.+: \$N=\d+\$( dumbbells, [^$]+\n|, )\$\\rho=[0-9.]+\$, .+, (x )?(periodic|reflecting)'
     )
     if not re.match(system, title):
         raise AssertionError(f'{name}: its title is {title!r}')
-    plt.close(figure)
 
 
 def files(*names):
@@ -102,22 +99,16 @@ class Bags(unittest.TestCase):
 
 
 class Figures(Bags):
-    """Closed with the test, of bags that begin with `info` unless another one is given."""
+    """Of bags that begin with `info` unless another one is given."""
 
     info = None
-
-    def setUp(self):
-        super().setUp()
-        from hdlyap.plots.figures import plt
-
-        self.addCleanup(plt.close, 'all')
 
     def load(self, *messages, info=None):
         return hdlyap.load(self.write([info or self.info, *messages]))
 
     def draw(self, kind, *messages, info=None):
         """Axes of the figure, which can be drawn to the end."""
-        figure = kind.draw(self.recorded([info or self.info, *messages]))
+        figure = kind.draw(self.recorded([info or self.info, *messages])).figure
         figure.set_dpi(30)
         figure.canvas.draw()
         return figure.axes

@@ -17,7 +17,6 @@ from hdlyap.plots.figures import (
     covariant_exponents,
     covariant_vectors,
     covariant_weights,
-    plt,
 )
 
 FIGURES = {
@@ -297,10 +296,10 @@ class Partly(Bags):
         """All figures but the missing ones, and the text."""
         text = report.report(run)
         drawn = {name: kind.draw(run) for name, kind in FIGURES.items()}
-        for name, figure in drawn.items():
-            self.assertEqual(figure is None, name in missing, name)
-            if figure is not None:
-                bags.check_title(figure, name)
+        for name, page in drawn.items():
+            self.assertEqual(page is None, name in missing, name)
+            if page is not None:
+                bags.check_title(page.figure, name)
         return text
 
     def test_runs(self):
@@ -374,12 +373,11 @@ class Command(Bags):
         """Each can be drawn to the end."""
         run = self.changed()
         for name, kind in FIGURES.items():
-            figure = kind.draw(run)
+            figure = kind.draw(run).figure
             figure.set_dpi(30)
             figure.canvas.draw()
             dark = np.asarray(figure.canvas.buffer_rgba())[..., :3] < 128
             self.assertTrue(dark.any(), name)
-            plt.close(figure)
 
 
 if __name__ == '__main__':

@@ -5,12 +5,15 @@ import json
 import os
 import sys
 import unittest
+import xmlrpc.client
 from unittest import mock
 
 import numpy as np
 import pandas
 import rosbag
 import rospy
+from matplotlib.figure import Figure
+from matplotlib.image import imread
 
 import hdlyap
 from hdlyap.msg import Structure
@@ -313,25 +316,53 @@ class Hostile(Tools):
                 self.assertIn('a.bag: damaged: ', one.error)
                 self.assertIn(said, one.error)
 
-    def test_what_nobody_has_foreseen(self):
-        """Of compare 1 says that runs differ; a mistake in it is no difference."""
+    def test_who_is_to_blame(self):
+        """Of compare 1 says that runs differ; a mistake in it is no difference. A bag is blamed for
+        what a bag can do alone."""
         bag = self.write([made.run_info(), made.spectrum(HALF, 50.0)])
-        with mock.patch('hdlyap.plots.verdict.report', lambda _: [][0]):
-            done = self.check('compare', bag, bag)
-        self.assertEqual(done.status, 2)
-        said = 'makes no sense here: IndexError: list index out of range ('
-        self.assertIn(said, done.error)
 
-    def test_latex_that_is_not_there(self):
-        """Is not the bag's fault."""
+        def missing_attribute(_):
+            return None.verdict
+
+        def draughtsman(_):
+            Figure(figsize=(-1, 1))
+
+        def nobody(_):
+            xmlrpc.client.ServerProxy('http://localhost:1').getPid()
+
+        def too_large(_):
+            raise MemoryError('of a test')
+
+        for fault, said in (
+            (lambda _: [][0], 'what is recorded makes no sense here, or hdlyap has a fault: Index'),
+            (missing_attribute, 'a fault of hdlyap, not of what is recorded: AttributeError: '),
+            (draughtsman, 'cannot be drawn: ValueError: figure size must be positive'),
+            (nobody, r'a node or the ROS master has not answered: \[Errno 111\] Connection refused'),
+            (too_large, 'needs more memory than there is: MemoryError'),
+        ):
+            with mock.patch('hdlyap.plots.verdict.report', fault):
+                done = self.check('compare', bag, bag)
+            self.assertEqual(done.status, 2)
+            self.assertRegex(done.error, r'\Ahdlyap compare: ' + said)
+
+    def test_matplotlibrc_of_the_user(self):
+        """Figures are as without it, whatever latex or backend there is not."""
         bag = self.write(made.small_run())
         with open(self.path('matplotlibrc'), 'w') as file:
-            file.write('text.usetex: True')
-        env = dict(os.environ, PATH='/nowhere', MATPLOTLIBRC=self.path('matplotlibrc'))
-        done = process('plot', bag, '--out', self.path('out'), env=env)
-        self.assertEqual(done.status, 1)
-        said = 'hdlyap plot: text.usetex of matplotlibrc does not work here: RuntimeError: .*latex'
-        self.assertRegex(done.error, said)
+            file.write('text.usetex: True\nbackend: pgf\nfigure.facecolor: 0.2\nfont.size: 30\n')
+        rc = dict(os.environ, PATH='/nowhere', MATPLOTLIBRC=self.path('matplotlibrc'))
+        plain, odd = self.path('plain'), self.path('odd')
+        for out, more in ((plain, os.environ), (odd, dict(rc, MPLBACKEND='nonsense'))):
+            done = process('plot', bag, '--out', out, '--pdf', out + '.pdf', env=more)
+            self.assertEqual((done.status, done.error), (0, ''))
+        for name in filter(lambda name: name.endswith('.png'), os.listdir(plain)):
+            ours, other = (imread(os.path.join(folder, name)) for folder in (plain, odd))
+            np.testing.assert_array_equal(ours, other, name)
+        with open(self.path('matplotlibrc'), 'wb') as file:
+            file.write(b'font.family: \xff\n')
+        done = process('plot', bag, env=rc)
+        self.assertEqual((done.status, done.error.count('Traceback')), (1, 0), done)
+        self.assertIn("hdlyap plot: cannot start: 'utf-8' codec", done.error)
 
     def test_another_python(self):
         """Without numpy: which one it was, and which one to take."""

@@ -247,14 +247,19 @@ class Tables(Dumbbells):
         first, head, *_ = table.text(found)
         self.assertIn('density 0.5', first)
         self.assertEqual(head.split()[:2], ['bond', 'inertia'])
-        drawn = figure.draw(found)
+        drawn = figure.draw(found).figure
         self.assertEqual(drawn.axes[0].get_xlabel(), 'bond')
         (labels,) = [one.get_texts() for one in drawn.legends]
         self.assertEqual(
             [text.get_text() for text in labels],
             ['inertia = points', 'inertia = 0.5', 'inertia = disks'],
         )
-        words = figure.draw(found[1:])  # of one bond
+        shifted = 'points are shifted along x'
+        self.assertIn(shifted, drawn.texts[-1].get_text())
+        places = sorted({one.lines[0].get_xdata()[0] for one in drawn.axes[0].containers})
+        np.testing.assert_allclose(places, [0.1 - 0.0018, 0.25, 0.25 + 0.0018])
+        words = figure.draw(found[1:]).figure  # of one bond
+        self.assertNotIn(shifted, words.texts[-1].get_text())
         ticks = [text.get_text() for text in words.axes[0].get_xticklabels()]
         self.assertEqual(ticks, ['0.5', 'disks'])
 

@@ -19,8 +19,8 @@ from hdlyap.plots.figures import (
     localization,
     modes,
     p_mode,
+    page,
     phases,
-    plt,
     spectrum,
     steps,
 )
@@ -308,7 +308,7 @@ class Figures(bags.Figures):
         )
         self.assertEqual(scene(info), r'made: $N=20$, $\rho=0.5$, lens, $8\times6$')
         self.assertEqual(report.system(info), 'N = 20, density 0.5, lens, 8.000 x 6.000')
-        _, axes = plt.subplots()
+        axes = page.Page().panels(1, 1, 3, 3)
         box.Particles(axes, info, np.array([[4.0], [4.0]]))
         (wall,) = axes.patches
         np.testing.assert_array_equal(wall.get_xy(), [*corners, corners[0]])

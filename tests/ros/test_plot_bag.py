@@ -7,6 +7,7 @@ import tracemalloc
 import unittest
 
 import numpy as np
+from matplotlib.image import imread
 
 from hdlyap.msg import LpPhases, ModeField, Steps
 
@@ -20,7 +21,7 @@ from hdlyap.data import waves
 from hdlyap.data.course import LIMIT, Course
 from hdlyap.data.phases import PhaseCourse
 from hdlyap.plots import paper, report
-from hdlyap.plots.figures import phases, plt
+from hdlyap.plots.figures import phases
 from hdlyap.numbers import with_error
 
 INFO = made.run_info()
@@ -135,7 +136,7 @@ class Command(Bags):
             path = os.path.join(self.out, name)
             self.assertIn(path, text)
             if name.endswith('.png'):
-                self.assertGreater(np.std(plt.imread(path)), 0.01, name)
+                self.assertGreater(np.std(imread(path)), 0.01, name)
             else:
                 with open(path) as file:
                     self.assertIn('</svg>', file.read()[-10:])

@@ -8,7 +8,6 @@ import signal
 import time
 from unittest import mock
 
-import matplotlib
 import numpy as np
 import rospy
 from matplotlib.colors import to_rgb
@@ -115,7 +114,6 @@ class Heard(harness.Case):
 
 class OnAScreen(harness.Case):
     def setUp(self):
-        matplotlib.use('Agg')  # as the command does
         self.screen = Screen()
         self.addCleanup(self.screen.close)
 

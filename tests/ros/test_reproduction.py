@@ -11,6 +11,7 @@ import zlib
 from math import isfinite, sqrt
 from numbers import Real
 
+import matplotlib.pyplot as plt
 import numpy as np
 
 import damaged
@@ -18,7 +19,7 @@ import made
 import reproduced
 from drawn import digest
 from hdlyap.plots import paper
-from hdlyap.plots.figures.style import STYLE, plt
+from hdlyap.plots.figures.style import STYLE
 from reproduced import PARTS, Bag, of_part, plan, world
 
 GOLDEN = os.path.join(os.path.dirname(os.path.abspath(__file__)), 'reproduction_made.txt')

@@ -8,9 +8,10 @@ import tempfile
 import unittest
 from unittest import mock
 
+import matplotlib.pyplot as plt
+
 import made
 from hdlyap.msg import RunStatus
-from hdlyap.plots.figures import plt
 from reproduced import FRONT as FRONT_PAGE, PARTS, info_of, plan
 import tables
 from study import bags, page, table

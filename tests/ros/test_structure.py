@@ -4,7 +4,6 @@
 import itertools
 import unittest
 
-import matplotlib.pyplot as plt
 import numpy as np
 
 import hdlyap
@@ -154,8 +153,7 @@ class Recorded(Bags):
 
     def test_figure(self):
         """The map has the numbers, the lines are at v k and at 0."""
-        figure = figures.structure.draw(hdlyap.load(self.bag).said)
-        self.addCleanup(plt.close, figure)
+        figure = figures.structure.draw(hdlyap.load(self.bag)).figure
         along, across, *others = figure.axes
         (lines,) = (one for one in others if one.get_title(loc='left').startswith('(c)'))
         image = along.collections[0].get_array().reshape(-1, 37)
@@ -188,8 +186,7 @@ class Recorded(Bags):
         """Where no step is found the panel says it; where there are lines it does not."""
         self.write([*self.head(), *self.messages], 'without')
         for name, said in (('without', ['none is known']), ('run', [])):
-            figure = figures.structure.draw(hdlyap.load(self.path(name)).said)
-            self.addCleanup(plt.close, figure)
+            figure = figures.structure.draw(hdlyap.load(self.path(name))).figure
             (lines,) = (one for one in figure.axes if one.get_title(loc='left').startswith('(c)'))
             self.assertEqual([text.get_text() for text in lines.texts], said)
 

@@ -22,7 +22,6 @@ from made import LP, T
 from hdlyap.commands import sweep
 from hdlyap.runs import run
 from hdlyap.runs.scene import Refused
-from hdlyap.plots.figures.style import plt
 from hdlyap.sweep import figure, grid, plan, points, table
 
 LAUNCH = os.path.join(rospkg.RosPack().get_path('hdlyap'), 'launch')
@@ -316,7 +315,6 @@ class Results(InFolder):
     def assert_drawn(self, found, wanted):
         """So many points of each quantity, those of c k alone open."""
         drawn = figure.draw(found)
-        self.addCleanup(plt.close, drawn)
         panels = {axes.get_ylabel(): axes for axes in drawn.axes}
         self.assertEqual(len(panels), len(wanted))
         for name, count in wanted.items():
@@ -334,7 +332,6 @@ class Results(InFolder):
         found = self.read(*bags)
         self.assertIn('boundary lens', next(iter(table.text(found))))
         drawn = figure.draw(found)
-        self.addCleanup(plt.close, drawn)
         markers = {
             axes.get_ylabel(): [line.get_marker() for line in axes.lines] for axes in drawn.axes
         }

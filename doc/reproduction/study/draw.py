@@ -1,9 +1,9 @@
 """What several figures have in common, and the numbers that one shows."""
 
+import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.container import ErrorbarContainer
 
-from hdlyap.plots.figures.style import plt
 
 SIGMA_UNIT = r'[$\sigma$/time unit]'
 SHOWN = 'panel', 'curve', 'x', 'y', 'error'

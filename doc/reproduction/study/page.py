@@ -4,8 +4,9 @@ import csv
 import os
 import traceback
 
+import matplotlib.pyplot as plt
 from hdlyap import whole
-from hdlyap.plots.figures.style import STYLE, plt, save
+from hdlyap.plots.figures.style import ours, save
 
 from . import draw, row, table
 
@@ -34,7 +35,7 @@ def write(parts, front, bags, results, suffix=''):
     """
     os.makedirs(results, exist_ok=True)
     blocks, claims, left_out, failed = [], [], [], []
-    with plt.rc_context(STYLE):
+    with ours():
         for part in parts:
             absent = [name for name in part.runs if name not in bags]
             if absent:
@@ -71,6 +72,7 @@ def _part(part, bags, results):
         if shown:
             _write_csv(os.path.join(results, f'{name}.csv'), [draw.SHOWN, *shown])
         save(figure, results, name, DPI)
+        plt.close(figure)
     return part.claims(bags)
 
 

@@ -1,11 +1,12 @@
 """Steps of several boxes, periodic and between walls: one curve through the smallest of each, and
 slopes at one wave number."""
 
+import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib import ticker
 
 from hdlyap.plots import paper
-from hdlyap.plots.figures.style import KIND_COLOURS, plt
+from hdlyap.plots.figures.style import KIND_COLOURS
 
 from .. import averages, draw, points, row
 from ..averages import UNKNOWN

@@ -3,12 +3,13 @@ of each run."""
 
 from math import isfinite
 
+import matplotlib.pyplot as plt
 import numpy as np
 from scipy.optimize import brentq
 
 from hdlyap.numbers import with_error
 from hdlyap.plots import paper
-from hdlyap.plots.figures.style import GREEN, GREY, KIND_COLOURS, plt
+from hdlyap.plots.figures.style import GREEN, GREY, KIND_COLOURS
 
 from .. import averages, draw, points, pressure
 from ..averages import UNKNOWN

@@ -1,13 +1,15 @@
 """Recorded vectors as fields: how much of them lies in the T, L and P fields of their wave vector,
 and the P mode before and after division by the momenta."""
 
+import matplotlib.pyplot as plt
 import numpy as np
 
 from hdlyap.data import steps, waves
 from hdlyap.data.reader import FIELD
 from hdlyap.plots.figures import modes, p_mode
+from hdlyap.plots.figures.page import Page
 from hdlyap.plots.figures.pattern import pattern
-from hdlyap.plots.figures.style import GREEN, INK, KIND_COLOURS, plt, scene
+from hdlyap.plots.figures.style import GREEN, INK, KIND_COLOURS, scene
 
 from .. import averages, projection
 from ..averages import UNKNOWN
@@ -121,10 +123,11 @@ def pictures(bag):
             panels += [Mode(panel.field, one, 0) for one in ('LP' if panel.field.pairs else '')]
     if not panels:
         return None
-    figure = modes.draw_panels(panels, run.info)
+    page = Page()
+    modes.draw_panels(page, panels, run.info)
     what = r'$\delta q$ of T; L and P modes, from all vectors of LP'
-    figure.suptitle(f'{scene(run.info)}, $t={panels[0].field.sim_time:g}$: {what}', fontsize=9)
-    return figure
+    page.figure.suptitle(f'{scene(run.info)}, $t={panels[0].field.sim_time:g}$: {what}', fontsize=9)
+    return page.figure
 
 
 def patterns(bag):
@@ -232,4 +235,4 @@ def _shown(bag):
 
 
 def picture_of_p(bag):
-    return p_mode.draw(bag.recording) if _shown(bag) is not None else None
+    return p_mode.draw(bag.recording).figure if _shown(bag) is not None else None

@@ -1,13 +1,14 @@
 """The dq and the dp half of every vector of the run that carries all 4N: the angle between them,
 and the ratio of their lengths."""
 
+import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib import ticker
 
 from hdlyap.data import reader, steps
 from hdlyap.numbers import known
 from hdlyap.plots import paper
-from hdlyap.plots.figures.style import BLUE, GREY, VERMILION, ZERO, plt, scene
+from hdlyap.plots.figures.style import BLUE, GREY, VERMILION, ZERO, scene
 
 from .. import averages, draw, points, zeros
 from ..averages import UNKNOWN

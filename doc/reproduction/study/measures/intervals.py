@@ -4,11 +4,12 @@ with a long one."""
 
 import math
 
+import matplotlib.pyplot as plt
 import numpy as np
 
 from hdlyap.data import reader, steps
 from hdlyap.msg import RunStatus
-from hdlyap.plots.figures.style import GREY, MEMBER_COLOURS, plt, scene
+from hdlyap.plots.figures.style import GREY, MEMBER_COLOURS, scene
 
 from .. import averages
 from ..bags import once

@@ -19,13 +19,14 @@ no number.
 
 from collections import namedtuple
 
+import matplotlib.pyplot as plt
 import numpy as np
 
 from hdlyap.data import waves
 from hdlyap.data.reader import PHASES
 from hdlyap.msg import LpPhase, Mode
 from hdlyap.numbers import with_error
-from hdlyap.plots.figures.style import BLUE, GREY, VERMILION, plt, scene
+from hdlyap.plots.figures.style import BLUE, GREY, VERMILION, scene
 
 from .. import averages, blocks
 from ..bags import once

@@ -17,7 +17,8 @@ UNITS = {False: 'sigma/time unit', True: 'sigma^2/time unit'}
 
 def picture(bag, name):
     """A figure that hdlyap makes of any run."""
-    return importlib.import_module(f'hdlyap.plots.figures.{name}').draw(bag.recording)
+    page = importlib.import_module(f'hdlyap.plots.figures.{name}').draw(bag.recording)
+    return page and page.figure
 
 
 def _blocks(bag):

@@ -94,4 +94,5 @@ def _line_of_t(one):
 
 
 def picture(bags, number):
-    return figure_of_structure.draw(bags[number].recording)
+    page = figure_of_structure.draw(bags[number].recording)
+    return page and page.figure

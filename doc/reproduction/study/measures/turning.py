@@ -2,6 +2,7 @@
 
 from math import isfinite
 
+import matplotlib.pyplot as plt
 import numpy as np
 
 from hdlyap.data import steps, waves
@@ -11,7 +12,8 @@ from hdlyap.numbers import with_error
 from hdlyap.plots import paper
 from hdlyap.plots.figures import modes
 from hdlyap.plots.figures import phases as figure_of_phases
-from hdlyap.plots.figures.style import BLUE, GREY, INK, MEMBER_COLOURS, VERMILION, plt, scene
+from hdlyap.plots.figures.page import Page
+from hdlyap.plots.figures.style import BLUE, GREY, INK, MEMBER_COLOURS, VERMILION, scene
 
 from .. import averages, blocks, points, rotation, standing
 from ..averages import UNKNOWN
@@ -190,10 +192,11 @@ def quarters(bags):
     shown = [one for wave in WAVES if wave in turning for one in _snapshots(bag, turning[wave])]
     if not shown:
         return None
-    figure = modes.draw_panels(shown, bag.info)
+    page = Page()
+    modes.draw_panels(page, shown, bag.info)
     apart = f'fields {QUARTER:.2f} apart, the nearest to L and P that were recorded'
-    figure.suptitle(f'{scene(bag.info)}, {apart}', fontsize=9)
-    return figure
+    page.figure.suptitle(f'{scene(bag.info)}, {apart}', fontsize=9)
+    return page.figure
 
 
 def _snapshots(bag, one):
@@ -334,7 +337,8 @@ def _root(squares, independent):
 def phases(bag):
     """Picture of the phases of LP modes."""
     known = {name: v for name, _, v in _velocities(bag) if v[0]}
-    return figure_of_phases.draw(bag.recording, known)
+    page = figure_of_phases.draw(bag.recording, speeds=known)
+    return page and page.figure
 
 
 def phases_of_t(bag):

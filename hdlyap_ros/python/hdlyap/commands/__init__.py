@@ -15,7 +15,13 @@ import warnings
 from hdlyap import signals
 
 PROGRAM = 'hdlyap'
-TEX = 'texmanager.py', 'dviread.py'  # of matplotlib, which call latex
+# what no bag makes of a program that is right
+OURS = AttributeError, TypeError, NameError, ImportError, AssertionError, NotImplementedError
+# who else may have failed, by the packages on the way to it
+OTHERS = {
+    'matplotlib': 'cannot be drawn',
+    'rospy rosgraph roslaunch xmlrpc http': 'a node or the ROS master has not answered',
+}
 
 
 def main(words):
@@ -29,10 +35,13 @@ def main(words):
     )
     parser.add_argument('command', choices=_names(), metavar='COMMAND', help=argparse.SUPPRESS)
     chosen = parser.parse_args(words[:1] or ['--help']).command
+    os.environ.pop('MPLBACKEND', None)  # no figure of ours needs one, and it may be none
     try:
         module = importlib.import_module(f'{__name__}.{chosen}')
     except ImportError as error:  # messages and tools were installed alone
         sys.exit(f'{PROGRAM} {chosen}: {error}; it needs all of hdlyap')
+    except (OSError, ValueError) as error:  # of a matplotlibrc that cannot be read
+        sys.exit(f'{PROGRAM} {chosen}: cannot start: {error}')
     signals.exit_on_all(but=_rospy_answers)
     return _ended(chosen, module, _parsed(chosen, module, words[1:]))
 
@@ -72,7 +81,8 @@ def _rospy_answers():
 
 
 def _ended(name, module, args):
-    """Whatever is wrong with bags is one line, and the tool's own exit status."""
+    """Whatever is wrong with bags, or while they are read, is one line, and the tool's own exit
+    status."""
     from hdlyap.data.reader import RecordingError, plain
 
     logging.getLogger('rosout').addHandler(logging.NullHandler())  # genpy's, of texts that are none
@@ -87,16 +97,26 @@ def _ended(name, module, args):
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 128 + signal.SIGPIPE
     except (RecordingError, OSError) as error:
-        text = str(error)
+        text = f'{_whose(error)}: {error}' if isinstance(error, ConnectionError) else str(error)
     except Exception as error:  # what no check has foreseen: a bag may say anything
         if fault is None:
             raise
-        frames = traceback.extract_tb(error.__traceback__)
-        place = frames[-1]
+        place = traceback.extract_tb(error.__traceback__)[-1]
         where = f'{os.path.basename(place.filename)}, line {place.lineno}'
-        what = f'{type(error).__name__}: {error} ({where})'
-        of_tex = any(os.path.basename(frame.filename) in TEX for frame in frames)
-        tex = 'text.usetex of matplotlibrc does not work'
-        text = f'{tex if of_tex else "what is recorded makes no sense"} here: {what}'
+        text = f'{_whose(error)}: {type(error).__name__}: {error} ({where})'
     print(f'{PROGRAM} {name}: {plain(text, 8192)}', file=sys.stderr)
     return fault or 1
+
+
+def _whose(error):
+    """Who is to blame: a bag only for what a bag can do."""
+    if isinstance(error, OURS):
+        return 'a fault of hdlyap, not of what is recorded'
+    if isinstance(error, MemoryError):
+        return 'needs more memory than there is'
+    frames = traceback.extract_tb(error.__traceback__)
+    passed = {part for frame in frames for part in frame.filename.split(os.sep)[:-1]}
+    for packages, said in OTHERS.items():
+        if passed & set(packages.split()):
+            return said
+    return 'what is recorded makes no sense here, or hdlyap has a fault'

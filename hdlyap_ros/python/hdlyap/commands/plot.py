@@ -13,8 +13,6 @@ the window was closed."""
 import os
 import sys
 
-import matplotlib
-
 from hdlyap.data import export, fits, seeds
 from hdlyap.plots import figures, report
 from hdlyap.progress import Progress
@@ -75,7 +73,6 @@ def refused(why):
 
 
 def main(args):
-    matplotlib.use('Agg')
     form, k = fits.choice(args)
     if args.live is not None:
         return live(args, form, k)

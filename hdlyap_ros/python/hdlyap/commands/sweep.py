@@ -12,7 +12,6 @@ ended by a signal."""
 import os
 import sys
 
-import matplotlib
 import rospkg
 
 from hdlyap.data import fits
@@ -135,7 +134,6 @@ def sweep(found, folder, jobs, args):
 
 
 def main(args):
-    matplotlib.use('Agg')
     os.environ.pop('ROS_NAMESPACE', None)  # roslaunch would put the nodes below it
     launch = os.path.join(rospkg.RosPack().get_path('hdlyap'), 'launch')
     try:

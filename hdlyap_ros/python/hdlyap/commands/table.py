@@ -8,7 +8,6 @@ import sys
 import time
 import xmlrpc.client
 
-import matplotlib
 from roslaunch import netapi
 import rospy
 
@@ -80,7 +79,8 @@ def has_ended(group, nodes_now):
 
 
 def wait_for(groups):
-    rospy.init_node('table')
+    if groups:
+        rospy.init_node('table')
     nodes_now = Nodes()
     while groups and not rospy.is_shutdown():
         time.sleep(POLL)
@@ -89,10 +89,11 @@ def wait_for(groups):
 
 
 def main(args):
-    matplotlib.use('Agg')
     groups = [name for name in args.runs if '.' not in name]  # which no name of ROS has
-    if groups:
+    try:
         wait_for(groups)
+    except rospy.ROSInitException:  # interrupted while there was no master
+        return 130
     bags = [
         os.path.join(args.folder, name + '.bag') if name in groups else name for name in args.runs
     ]

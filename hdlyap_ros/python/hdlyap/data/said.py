@@ -29,6 +29,7 @@ class Said:
             self.info = copy.copy(data.info)
             self.info.seed, self.info.run_id = ', '.join(data.seeds), ''
 
+    said = property(lambda self: self)  # as of a run
     spectrum = cached_property(lambda self: self._averaged('spectrum'))
     steps = cached_property(lambda self: self._averaged('steps'))
     gas = cached_property(lambda self: self._averaged('gas'))

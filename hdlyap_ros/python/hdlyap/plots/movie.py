@@ -3,8 +3,8 @@
 import os
 from subprocess import CalledProcessError
 
+import matplotlib.style
 import numpy as np
-from matplotlib import rc_context
 from matplotlib.animation import FFMpegWriter
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.collections import LineCollection
@@ -198,14 +198,16 @@ class Picture:
 def write(film, path, pace, fps, width=None):
     """The number of frames. Complete films only: an older one is replaced in one step."""
     suffix = os.path.splitext(path)[1]
-    every, picture = pace / fps, Picture(film, width or WIDTH[suffix])
+    every = pace / fps
     if not FFMpegWriter.isAvailable():
         raise RecordingError('there is no ffmpeg; install it (Debian and Ubuntu: ffmpeg)')
     codec, options = CODECS[suffix]
     options = [one.format(colours=SHADES if space.turns(film.info) else COLOURS) for one in options]
     writer, total = FFMpegWriter(fps, codec, extra_args=options), film.count(every)
     try:
-        with rc_context({'savefig.bbox': None}), whole.written(path) as unfinished:
+        # whatever a matplotlibrc says
+        with matplotlib.style.context('default'), whole.written(path) as unfinished:
+            picture = Picture(film, width or WIDTH[suffix])
             with writer.saving(picture.figure, unfinished, picture.figure.dpi):
                 for frame in Progress('drawing').over(film.frames(every), total):
                     picture.show(frame)

@@ -7,7 +7,7 @@ from matplotlib.backends.backend_tkagg import FigureCanvasTkAgg
 from matplotlib.figure import Figure
 
 from .figures import FIGURES
-from .figures.style import STYLE, plt
+from .figures.style import ours
 
 # figure: row, column, rows
 PLACES = {
@@ -79,11 +79,11 @@ class Window:
 
     def draw(self, recorded):
         for name, canvas in self._canvases.items():
-            with plt.rc_context(STYLE):
-                self._show(canvas, FIGURES[name].draw(recorded) or _none(name))
+            with ours():
+                page = FIGURES[name].draw(recorded)
+                self._show(canvas, page.figure if page else _none(name))
 
     def _show(self, canvas, figure):
-        plt.close(figure)  # of pyplot's list alone
         widget = canvas.get_tk_widget()
         dpi = self._root.winfo_height() / INCHES
         figure.set_dpi(dpi)

@@ -3,9 +3,11 @@
 import itertools
 
 import numpy as np
+from matplotlib.lines import Line2D
 
 from hdlyap.data import space
-from hdlyap.plots.figures.style import FEW, GREY, MEMBER_COLOURS, plt
+from hdlyap.plots.figures.page import Page
+from hdlyap.plots.figures.style import FEW, GREY, MEMBER_COLOURS
 
 from .points import FITTED, QUANTITIES, varied
 
@@ -28,8 +30,9 @@ MARKERS = 'os^Dv<>p'
 APART = 0.012  # between series, of the width of a panel: error bars would hide each other
 
 
-def draw(points):
-    """None of a single point, nor without anything measured."""
+def draw(points, ax=None, **look):
+    """A panel for each quantity; None of a single point, nor without anything measured. ax, look:
+    see figures.page.figure."""
     names, fixed = varied(points)
     shown = [name for name in QUANTITIES if any(name in point.values for point in points)]
     if not names or not shown:
@@ -38,17 +41,18 @@ def draw(points):
     series = _series(points, [name for name in names if name != x])
     columns = 2 if len(shown) in (2, 4) else min(3, len(shown))
     rows = -(-len(shown) // columns)
-    figure, panels = plt.subplots(
-        rows, columns, figsize=(3.1 * columns, 2.7 * rows + 0.9), squeeze=False
-    )
+    page, size = Page(ax), (3.1 * columns, 2.7 * rows + 0.9)
+    panels = page.panels(rows, columns, *size, constrained_layout=False, squeeze=False)
     for name, axes in zip(shown, panels.flat):
-        _panel(axes, name, x, series)
+        _panel(axes, name, x, series, look)
     for axes in panels.flat[len(shown) :]:
         axes.remove()
-    figure.suptitle(', '.join(_said(name, value) for name, value in fixed.items()), fontsize=9)
-    bottom = _explain(figure, panels, series, points)
-    figure.tight_layout(rect=(0, bottom, 1, 1))
-    return figure
+    if page.is_own:
+        said = ', '.join(_said(name, value) for name, value in fixed.items())
+        page.figure.suptitle(said, fontsize=9)
+        bottom = _explain(page.figure, series, points)
+        page.figure.tight_layout(rect=(0, bottom, 1, 1))
+    return page.drawn()
 
 
 def _count(points, name):
@@ -83,7 +87,7 @@ def _places(points, x):
     return {value: value for value in values}, None
 
 
-def _panel(axes, name, x, series):
+def _panel(axes, name, x, series, look):
     every = list(itertools.chain(*series.values()))
     places, words = _places(every, x)
     width = max(places.values()) - min(places.values())
@@ -93,7 +97,7 @@ def _panel(axes, name, x, series):
             if name in point.values:
                 value = point.values[name]
                 place = places[str(point.system[x]) if words else point.system[x]] + shift
-                _point(axes, place, value, number)
+                _point(axes, place, value, number, look)
     axes.margins(y=0.12)
     axes.set_xlim(*_limits(list(places.values()), words))
     if words:
@@ -116,13 +120,14 @@ def _limits(places, words):
     return min(places) - margin, max(places) + margin
 
 
-def _point(axes, place, value, number):
+def _point(axes, place, value, number, look):
     """Open if the fit is c k or c k + c2 k^2 alone, which have the rest of the curvature in c; a
     cross if nothing is known of its error."""
     colour, marker = _look(number)
     marker, error = (marker, value.error) if np.isfinite(value.error) else ('x', None)
     face = 'white' if _is_open(value) else colour
-    axes.errorbar(place, value.value, error, fmt=marker, color=colour, markerfacecolor=face, **FEW)
+    style = {'fmt': marker, 'color': colour, 'markerfacecolor': face, **FEW, **look}
+    axes.errorbar(place, value.value, error, **style)
 
 
 def _is_open(value):
@@ -133,9 +138,13 @@ def _look(number):
     return MEMBER_COLOURS[number % len(MEMBER_COLOURS)], MARKERS[number % len(MARKERS)]
 
 
-def _explain(figure, panels, series, points):
+def _explain(figure, series, points):
     """The legend below the panels, and what the looks of points say; the height that it takes."""
     lines = ['error bars: one standard error, over seeds the larger one of stated and scatter']
+    if len(series) > 1:
+        lines.append(
+            'points are shifted along x, each series by itself: bars would hide each other'
+        )
     values = [point.values[name] for point in points for name in FITTED if name in point.values]
     if any(not np.isfinite(v.error) for point in points for v in point.values.values()):
         lines.append('cross: the error is not known, the run was too short')
@@ -144,7 +153,7 @@ def _explain(figure, panels, series, points):
     handles = []
     for number, label in enumerate(series if len(series) > 1 else ()):
         look = dict(zip(('color', 'marker'), _look(number)))
-        handles.append(plt.Line2D([], [], linestyle='', label=label, **look))
+        handles.append(Line2D([], [], linestyle='', label=label, **look))
     columns = min(4, len(handles))
     rows = -(-len(handles) // columns) if handles else 0
     height = figure.get_figheight()

@@ -3,7 +3,7 @@
 import os
 
 from hdlyap import whole
-from hdlyap.plots.figures.style import STYLE, plt, save
+from hdlyap.plots.figures.style import ours, save
 
 from . import figure, points, table
 
@@ -23,8 +23,8 @@ def write(paths, folder=None, choice=(None, None)):
     made = [os.path.join(folder, f'{NAME}.{ending}') for ending in ('txt', 'csv')]
     whole.write(made[0], lines + '\n')
     table.csv(found, made[1])
-    with plt.rc_context(STYLE):
-        drawn = figure.draw(found)
-        made += save(drawn, folder, NAME) if drawn else []
+    with ours():
+        page = figure.draw(found)
+        made += save(page.figure, folder, NAME) if page else []
     print('written: ' + ', '.join(made), flush=True)
     return wrong

@@ -1,4 +1,5 @@
-"""Recording -> figures, as PNG, SVG and pages of a PDF: one file here for each."""
+"""Recording -> figures, as PNG, SVG and pages of a PDF: one file here for each, with draw(run,
+ax=None, **look), see page.figure."""
 
 import contextlib
 import importlib
@@ -7,7 +8,7 @@ from matplotlib.backends.backend_pdf import PdfPages
 
 from hdlyap import whole
 
-from .style import STYLE, plt, save
+from .style import ours, save
 
 # in the order in which hdlyap plot names them; each gives None where the bag has nothing for it
 NAMES = 'spectrum convergence steps dispersion modes p_mode phases localization structure '
@@ -21,14 +22,14 @@ def draw_all(recording, folder, progress, names=tuple(FIGURES), pdf=None):
     """Each of them that the recording has data for; the names of the files written. pdf: one more
     file, that has them all."""
     files, pages = [], None
-    with plt.rc_context(STYLE), contextlib.ExitStack() as stack:
+    with ours(), contextlib.ExitStack() as stack:
         for name in progress.over(names, len(names)):
-            figure = FIGURES[name].draw(recording)
-            if figure is None:
+            page = FIGURES[name].draw(recording)
+            if page is None:
                 continue
             if pdf and not pages:
                 pages = stack.enter_context(PdfPages(stack.enter_context(whole.written(pdf))))
             if pdf:
-                pages.savefig(figure)
-            files += save(figure, folder, name)
+                pages.savefig(page.figure)
+            files += save(page.figure, folder, name)
     return files + ([pdf] if pdf and files else [])

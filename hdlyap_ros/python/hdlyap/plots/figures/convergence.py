@@ -3,37 +3,45 @@
 from matplotlib import ticker
 import numpy as np
 
-from .style import BLUE, GREY, INK, ORANGE, SKY, VERMILION, instead, panels, thinned, titled
+from . import page
+from .style import BLUE, GREY, INK, ORANGE, SKY, VERMILION, instead, thinned
 
 
-def draw(recording):
+@page.figure
+def draw(page, recording, **look):
     if recording.spectrum is None:
-        return None
-    figure, (top, middle, bottom) = panels(3, 1, 5.2, 6.6, sharex=True)
+        return
+    grid = page.panels(3, 1, 5.2, 6.6, squeeze=False, sharex=True)
+    top, middle, bottom = grid.flat
     course = recording.course()
     kept = thinned(len(course['time']))
     time = course['time'][kept]
-    _with_error(top, time, course['lambda_max'][kept], course['lambda_max_error'][kept], INK)
+    of_largest = course['lambda_max'][kept], course['lambda_max_error'][kept]
+    _with_error(top, time, *of_largest, **{'color': INK, **look})
     top.set_ylabel(r'$\lambda_{\max}$  [1/time unit]')
     means, errors = course['small'][kept].T, course['small_errors'][kept].T
-    for index, *of_one in zip(recording.smallest, means, errors, (SKY, BLUE, ORANGE, VERMILION)):
-        _with_error(middle, time, *of_one, rf'$\ell={index}$')
+    colours = SKY, BLUE, ORANGE, VERMILION
+    for index, mean, error, colour in zip(recording.smallest, means, errors, colours):
+        named = {'color': colour, **look, 'label': rf'$\ell={index}$'}
+        _with_error(middle, time, mean, error, **named)
     middle.set_ylabel(r'$\lambda_\ell$  [1/time unit]')
     middle.legend(ncol=2)
-    _error(bottom, time, course['error'][kept])
+    _error(bottom, time, course['error'][kept], **look)
     bottom.set_ylabel('standard error  [1/time unit]')
-    bottom.set_xlabel('averaged time  [time units]')
-    bottom.set_xscale('log')
+    for axes in grid.flat:
+        axes.set_xlabel('averaged time  [time units]')
+        axes.set_xscale('log')
     top.set_title('largest exponent', loc='left')
     middle.set_title('smallest exponents', loc='left')
     bottom.set_title('standard errors', loc='left')
-    return titled(figure, recording.info, top, middle, bottom)
+    page.outer(grid)
+    page.title(recording.info, top, middle, bottom)
 
 
-def _with_error(axes, time, mean, error, colour, label=None):
+def _with_error(axes, time, mean, error, color, **look):
     if np.isfinite(error).any():
-        axes.fill_between(time, mean - error, mean + error, color=colour, alpha=0.25, linewidth=0)
-    axes.plot(time, mean, _mark(time), color=colour, label=label)
+        axes.fill_between(time, mean - error, mean + error, color=color, alpha=0.25, linewidth=0)
+    axes.plot(time, mean, _mark(time), color=color, **look)
 
 
 def _mark(time):
@@ -41,14 +49,14 @@ def _mark(time):
     return 'o' if len(time) == 1 else '-'
 
 
-def _error(axes, time, error):
+def _error(axes, time, error, **look):
     measured = np.isfinite(error)
     if not measured.any():
         instead(axes, 'not yet known')
         return
     last, time, error = time[-1], time[measured], error[measured]
     label = 'of all exponents, root mean square'
-    axes.loglog(time, error, _mark(time), color=INK, label=label)
+    axes.loglog(time, error, _mark(time), **{'color': INK, 'label': label, **look})
     slope = error[-1] * np.sqrt(last / time)
     axes.loglog(time, slope, '--', color=GREY, label=r'$\propto 1/\sqrt{t}$')
     axes.yaxis.set_major_locator(ticker.LogLocator(subs=(1, 2, 5)))

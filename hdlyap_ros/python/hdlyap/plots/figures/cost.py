@@ -5,7 +5,8 @@ import numpy as np
 from hdlyap.data.stages import LABELS, PARTS, STAGES
 from hdlyap.msg import RunStatus
 
-from .style import BLUE, GREEN, INK, ORANGE, PURPLE, SKY, VERMILION, beside, panels, thinned, titled
+from . import page
+from .style import BLUE, GREEN, INK, ORANGE, PURPLE, SKY, VERMILION, beside, thinned
 
 PART_COLOURS = {
     'events': BLUE,
@@ -23,27 +24,27 @@ NAMES = {**LABELS, 'start': 'start, wait for recorder'}
 NAMED = 0.04  # part of the run from which a stage has room for its name
 
 
-def draw(recording):
+@page.figure
+def draw(page, recording, **look):
     cost = recording.cost()
     if cost is None:
-        return None
+        return
     widths = {'width_ratios': [1.5, 1]}
-    figure, (course, share) = panels(1, 2, 7.2, 3.2, gridspec_kw=widths)
+    course, share = page.panels(1, 2, 7.2, 3.2, gridspec_kw=widths)
     other = np.maximum(0, cost['wall'] - sum(cost[part] for part in PARTS))
     cost['start'] = np.minimum(other, other[0])  # all that came before the first report
     cost['other'] = other - cost['start']
-    _course(course, cost, recording.began)
-    _shares(share, cost)
-    return titled(figure, recording.info)
+    _course(course, cost, recording.began, look)
+    _shares(share, cost, look)
+    page.title(recording.info, course, share)
 
 
-def _course(axes, cost, began):
+def _course(axes, cost, began, look):
     kept = thinned(len(cost['time']))
     axes.stackplot(
         cost['time'][kept],
         *(cost[part][kept] for part in NAMES),
-        colors=list(PART_COLOURS.values()),
-        linewidth=0,
+        **{'colors': list(PART_COLOURS.values()), 'linewidth': 0, **look},
     )
     stages = sorted((time, stage) for stage, time in began.items() if stage != RunStatus.FINISHED)
     ends = [time for time, _ in stages[1:]] + [cost['time'][-1]]
@@ -56,13 +57,12 @@ def _course(axes, cost, began):
     axes.set_xlim(left=0)
     axes.set_xlabel('simulated time  [time units]')
     axes.set_ylabel('wall time since the start  [s]')
-    axes.set_title('(a)', loc='left')
 
 
-def _shares(axes, cost):
+def _shares(axes, cost, look):
     seconds = np.array([cost[part][-1] for part in NAMES])
     rows = np.arange(len(seconds))
-    axes.barh(rows, seconds, color=list(PART_COLOURS.values()))
+    axes.barh(rows, seconds, **{'color': list(PART_COLOURS.values()), **look})
     for row, value in zip(rows, seconds):
         text = f'{value:.3g} s ({100 * value / cost["wall"][-1]:.1f} %)'
         beside(axes, text, (value, row), (3, 0), va='center', fontsize=8)
@@ -72,4 +72,4 @@ def _shares(axes, cost):
     axes.invert_yaxis()
     axes.set_xlim(0, 1.9 * max(seconds))
     axes.set_xlabel('wall time  [s]')
-    axes.set_title('(b) whole run', loc='left')
+    axes.set_title('whole run', loc='left')

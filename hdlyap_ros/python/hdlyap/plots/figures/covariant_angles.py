@@ -3,33 +3,36 @@
 import numpy as np
 
 from .. import covariant
-from .style import BLUE, GREEN, VERMILION, panels, titled
+from . import page
+from .style import BLUE, GREEN, VERMILION
 
 COLOURS = (VERMILION, BLUE, GREEN)  # of the pairs of spaces
 ROOM = 1.4  # above the curves, for what is said
 
 
-def draw(run):
+@page.figure
+def draw(page, run, **look):
     message = run.covariant
     if message is None or not message.angles:
-        return None
-    figure, (left, right) = panels(1, 2, 7.2, 3.4)
+        return
+    left, right = page.panels(1, 2, 7.2, 3.4)
     for axes, counts, title in (
-        (left, 'smallest_counts', '(a) smallest angle'),
-        (right, 'all_counts', '(b) all principal angles'),
+        (left, 'smallest_counts', 'smallest angle'),
+        (right, 'all_counts', 'all principal angles'),
     ):
-        _histograms(axes, message.angles, counts)
+        _histograms(axes, message.angles, counts, look)
         axes.set_title(title, loc='left')
         axes.set_xlim(0, covariant.RIGHT_ANGLE)
         axes.set_ylim(0, ROOM * axes.get_ylim()[1])
         axes.set_xticks(covariant.RIGHT_ANGLE * np.linspace(0, 1, 5))
         axes.set_xticklabels(['0', r'$\pi/8$', r'$\pi/4$', r'$3\pi/8$', r'$\pi/2$'])
         axes.set_xlabel('angle  [rad]')
-    left.set_ylabel('probability density  [1/rad]')
-    return titled(figure, run.info, more=f', {message.samples} samples')
+        axes.set_ylabel('probability density  [1/rad]')
+    page.outer(np.array([[left, right]]))
+    page.title(run.info, left, right, more=f', {message.samples} samples')
 
 
-def _histograms(axes, angles, name):
+def _histograms(axes, angles, name, look):
     """What is all in one bin is said instead of drawn: its peak would hide the others."""
     for angle in angles:
         counts, colour = getattr(angle, name), COLOURS[angle.spaces]
@@ -38,7 +41,7 @@ def _histograms(axes, angles, name):
             axes.plot([], [], linestyle='', label=_said(angle, at))
         elif sum(counts):
             label, height = covariant.SPACES[angle.spaces], np.append(covariant.density(counts), 0)
-            style = {'color': colour, 'linewidth': 1, 'label': label}
+            style = {'color': colour, 'linewidth': 1, **look, 'label': label}
             axes.step(covariant.edges(counts), height, where='post', **style)
     if axes.get_legend_handles_labels()[0]:
         axes.legend(loc='upper left', handlelength=1, borderaxespad=0.2, fontsize=7)

@@ -4,17 +4,19 @@ an index."""
 import numpy as np
 
 from .. import covariant
+from . import page
 from .over_index import Panels
 from .style import BLUE, GREEN, INK
 
 
-def draw(run):
+@page.figure
+def draw(page, run, **look):
     message = run.covariant
     if message is None or len(message.exponents) < 2:
-        return None
+        return
     places = covariant.between(message)
     violated = np.array(message.domination_violations, dtype=float)
-    panels = Panels(run, 2, 4.8)
+    panels = Panels(page, run, 2, 4.8, look)
     panels.plot(0, places, message.violations, color=BLUE, label='next one grew more')
     panels.plot(1, places, violated, color=INK, label='of all times')
     isolated = violated == 0
@@ -28,7 +30,7 @@ def draw(run):
     panels.grid[1, 0].legend(
         loc='upper left', ncol=2, handletextpad=0.2, columnspacing=1, fontsize=7
     )
-    return panels.finish(
+    panels.finish(
         'the next vector grew more\n[fraction of times]',
         'any later one more than\nany up to it  [fraction]',
     )

@@ -4,18 +4,20 @@ error."""
 import numpy as np
 
 from ..covariant import Compared
+from . import page
 from .over_index import Panels, level
 from .style import INK, LIGHT, VERMILION, ZERO, instead
 
 HOLLOW = {'fmt': 'o', 'markersize': 4, 'markerfacecolor': 'none', 'markeredgewidth': 0.6}
 
 
-def draw(run):
+@page.figure
+def draw(page, run, **look):
     message = run.covariant
     if message is None:
-        return None
+        return
     compared = Compared(run)
-    panels = Panels(run, 2, 5.0)
+    panels = Panels(page, run, 2, 5.0, look)
     for label, style, *values in (
         ('backward, between two samples', {'color': LIGHT}, message.local_exponents),
         (
@@ -32,7 +34,7 @@ def draw(run):
         panels.plot(0, compared.indices, *values, label=label, **style)
     _deviations(panels, compared)
     panels.grid[0, 0].legend(loc='lower left', handletextpad=0.4)
-    return panels.finish(r'$\lambda_\ell$  [1/time unit]', 'backward - forward\n[combined errors]')
+    panels.finish(r'$\lambda_\ell$  [1/time unit]', 'backward - forward\n[combined errors]')
 
 
 def _deviations(panels, compared):

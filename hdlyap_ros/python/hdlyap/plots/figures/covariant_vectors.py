@@ -4,18 +4,20 @@ known."""
 import numpy as np
 
 from .. import covariant
+from . import page
 from .over_index import Panels
 from .style import BLUE, INK, SKY, VERMILION
 
 ROUNDING = 1e-16  # what is less is no more known
 
 
-def draw(run):
+@page.figure
+def draw(page, run, **look):
     message = run.covariant
     if message is None:
-        return None
+        return
     indices, places = covariant.indices(message), covariant.between(message)
-    panels = Panels(run, 4, 7.4)
+    panels = Panels(page, run, 4, 7.4, look)
     panels.plot(0, indices, message.widths, color=INK, label='width')
     panels.plot(1, indices, message.cos_theta, color=BLUE, label='cosine')
     panels.plot(2, places, message.neighbour_angles, color=VERMILION, label='mean')
@@ -30,7 +32,7 @@ def draw(run):
         for axes in panels.grid[3]:
             axes.set_yscale('log')
     panels.grid[2, 0].legend(loc='upper left', ncol=2, handletextpad=0.2, fontsize=7)
-    return panels.finish(
+    panels.finish(
         'localisation width\n$e^S/N$',
         r'$|\cos\Theta|$ of $\delta q$, $\delta p$',
         'angle to the next\n[rad]',

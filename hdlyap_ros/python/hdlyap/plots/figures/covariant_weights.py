@@ -4,39 +4,40 @@ covariant ones."""
 from hdlyap.data import steps
 
 from .. import covariant
+from . import page
 from .over_index import level, near_zero, shade
-from .style import GREY, INK, kind_colour, panels, titled
+from .style import GREY, INK, kind_colour
 
 PANELS = 4
 
 
-def draw(run):
+@page.figure
+def draw(page, run, **look):
     message = run.covariant
     if message is None or not message.weights:
-        return None
+        return
     shown = message.weights[:PANELS]
     indices = covariant.indices(message)
     first, last = near_zero(run, indices)
     columns = min(2, len(shown))
     rows = -(-len(shown) // columns)
     alike = {'sharex': True, 'sharey': True, 'squeeze': False}
-    figure, grid = panels(rows, columns, 3.8 * columns, 2.6 * rows + 0.6, **alike)
+    grid = page.panels(rows, columns, 3.8 * columns, 2.6 * rows + 0.6, **alike)
     for axes, weight in zip(grid.flat, shown):
-        _panel(axes, run, weight, indices)
+        _panel(axes, run, weight, indices, look)
         shade([axes], run, first, last)
         axes.set_xlim(first - 0.8, last + 0.8)
+        axes.set_xlabel(r'index $\ell$')
+        axes.set_ylabel('weight')
     for axes in list(grid.flat)[len(shown) :]:
         axes.set_axis_off()
-    for axes in grid[:, 0]:
-        axes.set_ylabel('weight')
-    for axes in grid[-1]:
-        axes.set_xlabel(r'index $\ell$')
+    page.outer(grid)
     # far from its step the weights are small
     grid[0, 0].legend(loc='upper left', bbox_to_anchor=(0, 0.92), fontsize=6.5, handletextpad=0.2)
-    return titled(figure, run.info, more=f', covariant vectors of {message.samples} samples')
+    page.title(run.info, more=f', covariant vectors of {message.samples} samples')
 
 
-def _panel(axes, run, weight, indices):
+def _panel(axes, run, weight, indices, look):
     solid, cross, hollow = ({'color': c} for c in (kind_colour(weight.kind), GREY, INK))
     solid.update(marker='o', markersize=3)
     cross.update(marker='x', markersize=3.5, markeredgewidth=0.8)
@@ -46,7 +47,7 @@ def _panel(axes, run, weight, indices):
         (weight.dp, cross, r'covariant, $\delta p$'),
         (weight.gram_schmidt, hollow, r'Gram-Schmidt, $\delta q$'),
     ):
-        axes.plot(indices, values, linestyle='', label=label, **style)
+        axes.plot(indices, values, **{'linestyle': '', **style, **look, 'label': label})
     level(axes, covariant.chance(run, weight), 'by chance')
     axes.set_ylim(-0.03, 1.03)
     name, look = steps.name(weight, run.info), {'weight': 'bold', 'fontsize': 8}

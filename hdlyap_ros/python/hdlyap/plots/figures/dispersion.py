@@ -1,13 +1,15 @@
 """Exponents of the steps against the wave number, with the fitted branches."""
 
 import numpy as np
+from matplotlib.lines import Line2D
 
 from hdlyap.data import fits, space, steps
 from hdlyap.data.containers import is_curved
 from hdlyap.numbers import with_error
 
 from .. import paper
-from .style import FEW, GREY, KIND_COLOURS, bars, kind_colour, panels, plt, titled
+from . import page
+from .style import FEW, GREY, KIND_COLOURS, bars, kind_colour
 
 MARKERS = {steps.T: 'o', steps.LP: 's'}
 CLOSE = 0.028  # of the width of the axes: nearer names stand behind one another
@@ -17,39 +19,41 @@ PUBLISHED = {'linewidth': 0.8, 'dashes': (2, 2)}
 PUBLISHED_UP_TO = 0.3  # wave numbers for which slopes without curvature are meant
 
 
-def draw(recording):
+@page.figure
+def draw(page, recording, **look):
     found = steps.blocks(recording.steps, recording.info)
     points = [(block, step) for block in found for step in block.steps]
     if not points:
-        return None
-    figure, axes = panels(1, 1, 5.2, 4.4)
+        return
+    axes = page.panels(1, 1, 5.2, 4.4)
     end = MARGIN * max(step.wave_number for _, step in points)
     of_t, of_l, _ = fits.of(recording.steps)
     for fit in (of_l, of_t):
-        _branch(axes, recording.info, fit, end)
+        _branch(axes, recording.info, fit, end, look)
     for block, step in points:
-        _point(axes, step, alone=len(block.steps) == 1)
+        _point(axes, step, len(block.steps) == 1, look)
+        look.pop('label', None)  # once
     axes.set_xlim(0, end)
     axes.set_ylim(0, MARGIN * max(step.exponent for _, step in points))
     axes.set_xlabel(r'wave number $k$  [1/$\sigma$]')
     axes.set_ylabel(r'$\lambda$  [1/time unit]')
     _wave_axis(axes, recording.info, [step for _, step in points], end)
     _legend(axes, [block for block, _ in points], of_l.is_unrelated)
-    return titled(figure, recording.info)
+    page.title(recording.info)
 
 
-def _point(axes, step, alone):
+def _point(axes, step, alone, look):
     """Open where the step shares its vectors with another."""
-    colour = kind_colour(step.kind)
-    look = {'color': colour, 'markerfacecolor': colour if alone else 'white', **FEW}
-    values = step.wave_number, step.exponent, bars(step.std_error)
-    axes.errorbar(*values, fmt=MARKERS.get(step.kind, 'D'), zorder=3, **look)
+    colour = look.get('color', kind_colour(step.kind))
+    face, marker = colour if alone else 'white', MARKERS.get(step.kind, 'D')
+    style = {'fmt': marker, 'color': colour, 'markerfacecolor': face, 'zorder': 3, **FEW, **look}
+    axes.errorbar(step.wave_number, step.exponent, bars(step.std_error), **style)
 
 
-def _branch(axes, info, fit, end):
+def _branch(axes, info, fit, end, look):
     """The fit of the run, and thin the paper's where it holds."""
     kind = steps.NAMES[fit.kind]
-    colour = KIND_COLOURS[kind]
+    colour = look.get('color', KIND_COLOURS[kind])
     if fit.count:
         k = np.linspace(0, end, 100)
         line = sum(value * k**power for power, (_, value, _) in enumerate(fit.values, start=1))
@@ -105,7 +109,7 @@ def _legend(axes, blocks, is_unrelated):
         handles.append(_marker(shared[0][0].kind, 'white'))
         labels.append('steps that share a set')
     if any(line.get_label() == '_published' for line in axes.get_lines()):
-        handles.append(plt.Line2D([], [], color=GREY, **PUBLISHED))
+        handles.append(Line2D([], [], color=GREY, **PUBLISHED))
         labels.append('Eckmann et al. 2005')
     axes.legend(handles, labels, loc='lower right')  # below the branches
 
@@ -113,4 +117,4 @@ def _legend(axes, blocks, is_unrelated):
 def _marker(kind, face):
     look = {'marker': MARKERS.get(kind, 'D'), 'markersize': FEW['markersize']}
     colour = kind_colour(kind) if face != 'white' else GREY
-    return plt.Line2D([], [], linestyle='', color=colour, markerfacecolor=face, **look)
+    return Line2D([], [], linestyle='', color=colour, markerfacecolor=face, **look)

@@ -5,33 +5,38 @@ import numpy as np
 
 from hdlyap.data import space
 
-from .style import BLUE, GREY, INK, MANY, bars, index_axis, panels, titled
+from . import page
+from .style import BLUE, GREY, INK, MANY, bars, index_axis
 
 LARGEST = 48  # vectors in the magnified panel
 
 
-def draw(recording):
+@page.figure
+def draw(page, recording, **look):
     message = recording.localization
     if message is None:
-        return None
+        return
     many = len(message.widths) > 1.5 * LARGEST
-    figure, grid = panels(1, 1 + many, 7.6 if many else 4.6, 3.4, squeeze=False)
+    grid = page.panels(1, 1 + many, 7.6 if many else 4.6, 3.4, squeeze=False)
     for axes, count in zip(grid[0], (None, LARGEST)):
-        _panel(axes, recording, count)
-    grid[0, 0].set_ylabel('localisation width $e^S/N$')
+        _panel(axes, recording, count, look)
+        axes.set_ylabel('localisation width $e^S/N$')
+    page.outer(grid)
     if many:
-        grid[0, 0].set_title('(a) all vectors carried', loc='left')
-        grid[0, 1].set_title('(b) largest exponents', loc='left')
+        grid[0, 0].set_title('all vectors carried', loc='left')
+        grid[0, 1].set_title('largest exponents', loc='left')
     if recording.covariant is not None:
         grid[0, -1].legend(loc='lower right', handletextpad=0.2)
-    return titled(figure, recording.info, more=f', {message.samples} samples')
+    page.title(recording.info, *grid[0, : 2 * many], more=f', {message.samples} samples')
 
 
-def _panel(axes, recording, count):
+def _panel(axes, recording, count, look):
     message, covariant = recording.localization, recording.covariant
-    _dots(axes, message, count, fmt='o', color=BLUE, label='Gram-Schmidt', zorder=3)
+    style = {'fmt': 'o', 'color': BLUE, 'label': 'Gram-Schmidt', 'zorder': 3, **look}
+    _dots(axes, message, count, style)
     if covariant is not None:
-        _dots(axes, covariant, count, fmt='x', color=INK, label='covariant', zorder=2)
+        style = {'fmt': 'x', 'color': INK, 'zorder': 2, **look, 'label': 'covariant'}
+        _dots(axes, covariant, count, style)
     least = 1.0 / recording.info.number
     axes.axhline(least, color=GREY, linewidth=0.6, linestyle='--')
     name, across = f'one {space.particle(recording.info)}', axes.get_yaxis_transform()
@@ -41,9 +46,9 @@ def _panel(axes, recording, count):
     index_axis(axes)
 
 
-def _dots(axes, message, count, **style):
+def _dots(axes, message, count, style):
     """Of the first `count` vectors; only widths of Gram-Schmidt vectors have errors."""
     widths = message.widths[:count]
     indices = np.arange(message.first_index, message.first_index + len(widths))
     errors = bars(message.std_errors[:count]) if hasattr(message, 'widths_now') else None
-    axes.errorbar(indices, widths, errors, markersize=2.4, **MANY, **style)
+    axes.errorbar(indices, widths, errors, **{'markersize': 2.4, **MANY, **style})

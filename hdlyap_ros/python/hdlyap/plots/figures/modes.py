@@ -5,9 +5,9 @@ import numpy as np
 
 from hdlyap.data import space, steps
 
-from . import solid_modes
+from . import page, solid_modes
 from .box import Particles, arrows
-from .style import GREY, LIGHT, MEMBER_COLOURS, kind_colour, panels as grid_of, scene, titled
+from .style import GREY, LIGHT, MEMBER_COLOURS, kind_colour, scene
 from .turning import of_vector, strength
 
 PANELS = 6
@@ -40,20 +40,21 @@ class Panel:
         return kind_colour(self.block.kind) if self.block else GREY
 
 
-def draw(recording):
+@page.figure
+def draw(page, recording, **look):
     panels = chosen(recording)
     if not panels:
-        return None
+        return
     info, more = recording.info, f'\n$t={panels[0].field.sim_time:g}$: $\\delta q$'
     if space.is_solid(info):
-        figure = solid_modes.draw_panels(panels, info)
+        solid_modes.draw_panels(page, panels, info, look)
     elif min(info.box_x, info.box_y) < CHANNEL:
-        figure = _channel(panels, info)
+        _channel(page, panels, info, look)
     else:
-        figure = draw_panels(panels, info)
+        draw_panels(page, panels, info, look)
         colours = ', turns green to the left, purple to the right'
         more += colours if space.turns(info) else ''
-    return titled(figure, info, more=more)
+    page.title(info, more=more)
 
 
 def chosen(recording):
@@ -85,23 +86,23 @@ def _latest(recording):
     return [latest[block.first] for block in blocks if block.first in latest], others
 
 
-def draw_panels(panels, info):
+def draw_panels(page, panels, info, look=()):
     """The arrows of each, beside and below one another."""
     columns = _columns(len(panels), info)
     rows = -(-len(panels) // columns)
     width = WIDTH if len(panels) > 1 else ALONE
     height = rows * (width / columns * info.box_y / info.box_x + 0.3) + 0.5
     height += LINE * scene(info).count('\n')
-    figure, grid = grid_of(rows, columns, width, min(height, TALLEST), squeeze=False)
+    grid = page.panels(rows, columns, width, min(height, TALLEST), squeeze=False)
     for axes, panel in zip(grid.flat, panels):
-        _arrows(axes, panel, info, as_pixels=len(panels) * info.number > MANY)
-    for axes in grid[:, 0]:
+        _arrows(axes, panel, info, {'rasterized': len(panels) * info.number > MANY, **dict(look)})
+        axes.set_xlabel(r'$x$  [$\sigma$]', fontsize=7)
         axes.set_ylabel(r'$y$  [$\sigma$]', fontsize=7)
+    page.outer(grid)
     for column, lowest in zip(grid.T, _lowest(len(panels), columns)):
         column[lowest].set_xlabel(r'$x$  [$\sigma$]', fontsize=7)
     for axes in grid.flat[len(panels) :]:
         axes.set_axis_off()
-    return figure
 
 
 def _columns(count, info):
@@ -119,22 +120,22 @@ def _lowest(count, columns):
     return [(count - 1 - column) // columns for column in range(columns)]
 
 
-def _arrows(axes, panel, info, as_pixels):
+def _arrows(axes, panel, info, look):
     field = panel.field
     dq = space.vectors(field, 'dq') * ARROW / strength(field)
-    look = {'facecolors': 'none', 'edgecolors': LIGHT, 'linewidths': 0.4}
-    drawn = Particles(axes, info, space.vectors(field), field.angle, **look)
+    rims = {'facecolors': 'none', 'edgecolors': LIGHT, 'linewidths': 0.4}
+    drawn = Particles(axes, info, space.vectors(field), field.angle, **rims)
     if space.turns(info):
         drawn.paint(of_vector(field, 'white'))
-    arrows(axes, field.x, field.y, dq, width=0.13, color=panel.colour, rasterized=as_pixels)
+    arrows(axes, field.x, field.y, dq, **{'width': 0.13, 'color': panel.colour, **look})
     axes.set_title(panel.title, fontsize=8 if len(panel.name) < LONG else 6)
     axes.tick_params(labelsize=6, length=2)
 
 
-def _channel(panels, info):
+def _channel(page, panels, info, look):
     """In a channel: the components along it, normalised to a mean square of one."""
     alike = {'sharex': True, 'sharey': True, 'squeeze': False}
-    figure, rows = grid_of(len(panels), 1, WIDTH, 1.35 * len(panels) + 0.6, **alike)
+    rows = page.panels(len(panels), 1, WIDTH, 1.35 * len(panels) + 0.6, **alike)
     along = 'x' if info.box_x >= info.box_y else 'y'
     for axes, panel in zip(rows.flat, panels):
         field = panel.field
@@ -142,13 +143,13 @@ def _channel(panels, info):
         names = 'x', 'y', r'\phi'
         for component, name, colour, marker in zip(dq, names, MEMBER_COLOURS, 'os^'):
             component /= strength(field)
-            look = {'markersize': 3, 'color': colour, 'label': rf'$\delta q_{{{name}}}$'}
-            axes.plot(getattr(field, along), component, marker, **look)
+            style = {'markersize': 3, 'color': colour, **look, 'label': rf'$\delta q_{{{name}}}$'}
+            axes.plot(getattr(field, along), component, marker, **style)
         axes.axhline(0, color=GREY, linewidth=0.5)
         axes.set_title(panel.title, fontsize=8)
         axes.set_xlim(0, max(info.box_x, info.box_y))
         axes.set_ylabel(r'$\delta q$ / rms', fontsize=7)
+        axes.set_xlabel(rf'${along}$  [$\sigma$]')
     close = {'borderpad': 0, 'handletextpad': 0.2, 'columnspacing': 1}
     rows.flat[0].legend(ncol=3, loc='lower right', bbox_to_anchor=(1, 0.97), **close)
-    rows.flat[-1].set_xlabel(rf'${along}$  [$\sigma$]')
-    return figure
+    page.outer(rows)

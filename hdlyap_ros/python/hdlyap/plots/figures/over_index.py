@@ -6,7 +6,7 @@ import numpy as np
 from hdlyap.data import steps
 
 from .. import covariant
-from .style import GREY, UPRIGHT, beside, index_axis, kind_colour, panels, titled
+from .style import GREY, UPRIGHT, beside, index_axis, kind_colour
 
 LEAST, MOST = 16, 40  # vectors of the positive half in the magnified panels
 
@@ -14,20 +14,22 @@ LEAST, MOST = 16, 40  # vectors of the positive half in the magnified panels
 class Panels:
     """rows of panels; a second column if there are many vectors."""
 
-    def __init__(self, run, rows, height):
+    def __init__(self, page, run, rows, height, look):
         message = run.covariant
+        self._page, self._look = page, look
         self._run, self._indices = run, covariant.indices(message)
         whole, near = (self._indices[0], self._indices[-1]), near_zero(run, self._indices)
         self.ranges = [whole] if whole == near else [whole, near]
         size = 4.6 if len(self.ranges) == 1 else 7.6, height
         shared = {'sharex': 'col', 'squeeze': False}
-        self.figure, self.grid = panels(rows, len(self.ranges), *size, **shared)
+        self.grid = page.panels(rows, len(self.ranges), *size, **shared)
         windows = f'{message.windows} window' + ('s' if message.windows != 1 else '')
-        titled(self.figure, run.info, more=f', covariant vectors of {windows}')
+        page.title(run.info, more=f', covariant vectors of {windows}')
 
     def plot(self, row, places, values, error=None, **style):
         """In every column what lies in its range."""
-        style = {'fmt': '.', 'markersize': 3, 'elinewidth': 0.7, **style}
+        named = {'label': style['label']}
+        style = {'fmt': '.', 'markersize': 3, 'elinewidth': 0.7, **style, **self._look, **named}
         places, values = np.asarray(places), np.asarray(values, dtype=float)
         for axes, (first, last) in zip(self.grid[row], self.ranges):
             inside = (places >= first - 0.5) & (places <= last + 0.5) & np.isfinite(values)
@@ -36,13 +38,13 @@ class Panels:
 
     def finish(self, *labels):
         """Names of the rows; the steps of what is magnified, or of the only column."""
-        for axes, label in zip(self.grid[:, 0], labels):
-            axes.set_ylabel(label)
-        for axes, (first, last) in zip(self.grid[-1], self.ranges):
-            index_axis(axes)
-            axes.set_xlim(first - 0.8, last + 0.8)
+        for row, label in zip(self.grid, labels):
+            for axes, (first, last) in zip(row, self.ranges):
+                axes.set_ylabel(label)
+                index_axis(axes)
+                axes.set_xlim(first - 0.8, last + 0.8)
+        self._page.outer(self.grid)
         shade(self.grid[:, -1], self._run, *self.ranges[-1])
-        return self.figure
 
 
 def near_zero(run, indices):

@@ -5,9 +5,10 @@ import numpy as np
 
 from hdlyap.data import containers, space, steps, waves
 
+from . import page
 from .box import enclose
 from .pattern import pattern
-from .style import BLUE, GREY, VERMILION, panels, titled
+from .style import BLUE, GREY, VERMILION
 
 CUT = 2.5  # amplitudes shown: where a momentum is tiny, the quotient is not
 EPSILON = 1e-2  # of the mean square of a momentum component, in the quotients: HD_PMODE_EPSILON
@@ -15,29 +16,31 @@ TINY = 1e-30  # a momentum of 0 has no weight, as its quotient is 0 too
 NOISE = 4.0  # root mean squares shown of the mode itself
 
 
-def draw(recording):
+@page.figure
+def draw(page, recording, **look):
     field = chosen(recording)
     if field is None:
-        return None
+        return
     mode = PMode(field, clearest(field), recording.info)
     directions = space.axes(recording.info)
     size = 7.2 if len(directions) == 2 else 9.6, 4.6 if mode.along else 6.2
     shared = {'sharex': True, 'sharey': 'row' if mode.along else True}
-    figure, grid = panels(2, len(directions), *size, **shared)
+    grid = page.panels(2, len(directions), *size, **shared)
     panel = _curve if mode.along else _map
     for column, axis in enumerate(directions):
-        panel(grid[0, column], mode, mode.raw[column], NOISE, f'$\\phi_{{P,{axis}}}$')
+        panel(grid[0, column], mode, mode.raw[column], NOISE, f'$\\phi_{{P,{axis}}}$', look)
         amplitude = mode.amplitude(column)
         name = f'$\\phi_{{P,{axis}}} / p_{axis}$, fit ${amplitude:.2f}\\,{mode.formula[1:]}'
-        panel(grid[1, column], mode, mode.divided[column], CUT, name)
+        panel(grid[1, column], mode, mode.divided[column], CUT, name, look)
         if mode.along:
             _modulation(grid[1, column], mode, amplitude)
     _label(grid, mode)
+    page.outer(grid)
     said = (
         f', {mode.name}, $t={field.sim_time:g}$: P mode with $A={mode.formula[1:]}\n'
         'above as measured, below divided by the momenta'
     )
-    return titled(figure, recording.info, more=said)
+    page.title(recording.info, more=said)
 
 
 def chosen(recording):
@@ -126,11 +129,11 @@ class Fit:
         self.scatter = np.sqrt(rest / np.sum(weights * values**2))
 
 
-def _curve(axes, mode, values, limit, name):
+def _curve(axes, mode, values, limit, name, look):
     """Against the coordinate along the wave."""
     axes.axhline(0, color=GREY, linewidth=0.5)
     size = min(6.0, max(1.0, 2.5 * np.sqrt(780 / len(values))))
-    axes.plot(mode.place, values, '.', color=BLUE, markersize=size)
+    axes.plot(mode.place, values, '.', **{'color': BLUE, 'markersize': size, **look})
     axes.set_ylim(-limit, limit)
     axes.set_xlim(0, mode.length)
     outside = int(np.sum(np.abs(values) > limit))
@@ -143,15 +146,14 @@ def _modulation(axes, mode, amplitude):
     axes.plot(place, amplitude * mode.modulation(*[place] * len(mode.q)), color=VERMILION)
 
 
-def _map(axes, mode, values, limit, name):
+def _map(axes, mode, values, limit, name, look):
     x, y = (mode.q['xyz'.index(axis)] for axis in mode.across)
-    pattern(axes, x, y, values, limit)
+    pattern(axes, x, y, values, limit, **look)
     enclose(axes, mode.info)
     axes.set_title(name, loc='left', fontsize=8)
 
 
 def _label(grid, mode):
-    for axes in grid[-1]:
+    for axes in grid.flat:
         axes.set_xlabel(rf'${mode.along or mode.across[0]}$  [$\sigma$]')
-    for row in grid if not mode.along else ():
-        row[0].set_ylabel(rf'${mode.across[1]}$  [$\sigma$]')
+        axes.set_ylabel('' if mode.along else rf'${mode.across[1]}$  [$\sigma$]')

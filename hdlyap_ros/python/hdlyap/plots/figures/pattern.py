@@ -5,9 +5,10 @@ from .style import INK
 SIZE = 9  # of a dot [square points]
 
 
-def pattern(axes, x, y, values, limit, size=SIZE):
+def pattern(axes, x, y, values, limit, size=SIZE, **look):
     """With a bar of colours from -limit to limit."""
     colours = {'c': values, 'cmap': 'RdBu_r', 'vmin': -limit, 'vmax': limit}
-    picture = axes.scatter(x, y, s=size, edgecolors=INK, linewidths=0.15, **colours)
+    rims = {'edgecolors': INK, 'linewidths': 0.15}
+    picture = axes.scatter(x, y, s=size, **{**colours, **rims, **look})
     axes.set_aspect('equal')
     return axes.figure.colorbar(picture, ax=axes, shrink=0.8)

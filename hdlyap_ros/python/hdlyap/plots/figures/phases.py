@@ -6,7 +6,8 @@ from hdlyap.data import steps
 from hdlyap.data.phases import apart, regression, turning
 from hdlyap.numbers import with_error
 
-from .style import GREEN, INK, ORANGE, PURPLE, SKY, panels, thinned, titled
+from . import page
+from .style import GREEN, INK, ORANGE, PURPLE, SKY, thinned
 
 COLOURS = GREEN, PURPLE, SKY, INK, ORANGE  # of steps; T and LP have others
 
@@ -14,22 +15,27 @@ STEPS = 4  # are shown
 PER_STEP = 2  # phases of each: more would hide one another
 
 
-def draw(recording, speeds=None):
+@page.figure
+def draw(page, recording, speeds=None, **look):
     """speeds: {name of a step: (v, its error)}, if they are known better than from its phases."""
     shown = chosen(recording)
     if not shown:
-        return None
-    figure, (top, bottom) = panels(2, 1, 5.6, 5.6, sharex=True)
+        return
+    grid = page.panels(2, 1, 5.6, 5.6, squeeze=False, sharex=True)
+    top, bottom = grid.flat
     for (step, numbers), colour in zip(shown, COLOURS):
         for number in numbers:
             for time, phase in recording.phases.curves(number):
-                _curve(top, bottom, time, phase, colour)
-        top.plot([], [], color=colour, label=_label(recording, step, speeds or {}))
+                _curve(top, bottom, time, phase, {'color': colour, **look, 'label': None})
+        named = {'label': _label(recording, step, speeds or {})}
+        top.plot([], [], **{'color': colour, **look, **named})
     top.set_ylabel(r'phase $\varphi / 2\pi$')
     top.legend(loc='lower right', bbox_to_anchor=(1, 1), ncol=2)
     bottom.set_ylabel(r'deviation from even turning  [% of $2\pi$]')
-    bottom.set_xlabel('simulated time  [time units]')
-    return titled(figure, recording.info, top, bottom)
+    for axes in grid.flat:
+        axes.set_xlabel('simulated time  [time units]')
+    page.outer(grid)
+    page.title(recording.info, top, bottom)
 
 
 def chosen(recording):
@@ -52,11 +58,11 @@ def _tracked(recording, number):
     return sum(time[-1] - time[0] for time, _ in recording.phases.curves(number))
 
 
-def _curve(top, bottom, time, phase, colour):
+def _curve(top, bottom, time, phase, look):
     kept = thinned(len(time))
-    top.plot(time[kept], phase[kept] / (2 * np.pi), color=colour)
+    top.plot(time[kept], phase[kept] / (2 * np.pi), **look)
     off = 100 * (phase - regression(time, phase)) / (2 * np.pi)
-    bottom.plot(time[kept], off[kept], color=colour, linewidth=0.8, alpha=0.8)
+    bottom.plot(time[kept], off[kept], **{'linewidth': 0.8, 'alpha': 0.8, **look})
 
 
 def _label(recording, number, speeds):

@@ -7,7 +7,7 @@ from hdlyap.data import space, steps
 
 from ..expected import Expected
 from .box import Particles, arrows
-from .style import BLUE, GREEN, GREY, VERMILION, panels as grid_of
+from .style import BLUE, GREEN, GREY, VERMILION
 from .turning import strength
 from .view import View
 
@@ -21,21 +21,20 @@ LONG = 42  # letters do not fit over a panel in the usual size
 AXES, COLOURS = 'xyz', (VERMILION, BLUE, GREEN)
 
 
-def draw_panels(panels, info):
+def draw_panels(page, panels, info, look):
     """Of modes.Panel."""
     view = View(info)
     left = 0.6 * WIDTH
     high = max(ROW, left * view.size[1] / view.size[0] + 0.3)
     high = min(high, TALLEST / len(panels))
     how = {'squeeze': False, 'gridspec_kw': {'width_ratios': [3, 2]}}
-    figure, rows = grid_of(len(panels), 2, WIDTH, len(panels) * high + 0.6, **how)
+    rows = page.panels(len(panels), 2, WIDTH, len(panels) * high + 0.6, **how)
     for (in_space, beside), panel in zip(rows, panels):
-        _arrows(in_space, panel, info, view)
+        _arrows(in_space, panel, info, view, look)
         _component(beside, panel, info)
-    return figure
 
 
-def _arrows(axes, panel, info, view):
+def _arrows(axes, panel, info, view, look):
     q, dq = space.vectors(panel.field), space.vectors(panel.field, 'dq')
     dq = dq * ARROW / strength(panel.field)
     share = min(1.0, MOST * info.box_x * info.box_z / info.number)
@@ -43,7 +42,8 @@ def _arrows(axes, panel, info, view):
     q, dq = q[:, order], dq[:, order]
     Particles(axes, info, q, size=DOT, facecolors=view.pale(GREY, q))
     start = view.places(q - 0.5 * dq)
-    arrows(axes, *start, view.vectors(dq), width=0.13, color=view.pale(panel.colour, q))
+    style = {'width': 0.13, 'color': view.pale(panel.colour, q), **look}
+    arrows(axes, *start, view.vectors(dq), **style)
     slab = rf', $y<{share * info.box_y:.2g}\,\sigma$' if share < 1 else ''
     axes.set_title(panel.title + slab, fontsize=8, loc='left')
 

@@ -2,22 +2,25 @@
 turns the share of rotation of each vector below."""
 
 from matplotlib import patches
+from matplotlib.lines import Line2D
 import numpy as np
 
 from hdlyap.data import space, steps
 
 from .. import paper
+from . import page
 from .style import GREY, INK, KIND_COLOURS, LIGHT, MANY, MIXED, SMALL, UPRIGHT, VERMILION, ZERO
-from .style import bars, beside, index_axis, kind_colour, panels, plt, titled
+from .style import bars, beside, index_axis, kind_colour
 
 # Smallest exponents in the second panel: so many at least, and at most if the steps need them; with
 # more, their names would not fit
 MAGNIFIED, MAGNIFIED_MOST = 40, 64
 
 
-def draw(recording):
+@page.figure
+def draw(page, recording, **look):
     if recording.spectrum is None:
-        return None
+        return
     carried = recording.spectrum.first_index, recording.last_index
     ranges = [carried, _magnified_range(recording)]
     ranges = ranges[ranges[0] == ranges[1] :]
@@ -25,25 +28,26 @@ def draw(recording):
     ratios = {'width_ratios': [1, 1.7][-len(ranges) :], 'height_ratios': [3, 1][: 1 + turning]}
     size = 4.6 if len(ranges) == 1 else 7.6, 4.0 + 1.4 * turning
     how = {'sharex': 'col', 'squeeze': False, 'gridspec_kw': ratios}
-    figure, rows = panels(1 + turning, len(ranges), *size, **how)
+    rows = page.panels(1 + turning, len(ranges), *size, **how)
     if len(ranges) > 1:
-        _whole(rows[0, 0], recording)
-        rows[0, 1].set_title('(b) smallest exponents', loc='left')
-    _small(rows[0, -1], recording)
-    for axes, above, within in zip(rows[-1], rows[0], ranges if turning else ()):
-        above.set_xlabel('')
+        _whole(rows[0, 0], recording, look)
+        rows[0, 1].set_title('smallest exponents', loc='left')
+    _small(rows[0, -1], recording, dict(look))
+    for axes, within in zip(rows[-1], ranges if turning else ()):
         _rotation(axes, recording, *within)
     averaged = f', averaged over {recording.spectrum.averaged_time:g} time units'
-    return titled(figure, recording.info, more=averaged)
+    for column in rows.T:
+        page.outer(column[:, np.newaxis])
+    page.title(recording.info, *rows[0, : 2 * (len(ranges) > 1)], more=averaged)
 
 
-def _whole(axes, recording):
+def _whole(axes, recording, look):
     spectrum = recording.spectrum
     indices = np.arange(spectrum.first_index, recording.last_index + 1)
-    look = {'fmt': '.', 'color': INK, 'markersize': 2, **MANY}
-    axes.errorbar(indices, spectrum.exponents, bars(spectrum.std_errors), **look)
+    style = {'fmt': '.', 'color': INK, 'markersize': 2, **MANY, **look}
+    axes.errorbar(indices, spectrum.exponents, bars(spectrum.std_errors), **style)
     _exponent_axes(axes)
-    axes.set_title('(a) all exponents carried', loc='left')
+    axes.set_title('all exponents carried', loc='left')
     _frame_magnified(axes, recording)
 
 
@@ -75,7 +79,7 @@ def _frame_magnified(axes, recording):
     inside = recording.spectrum.exponents[first - offset : last + 1 - offset]
     low, high = min(0, *inside), max(inside)
     look = {'fill': False, 'edgecolor': VERMILION, 'linewidth': 0.8, 'zorder': 4}
-    axes.add_patch(plt.Rectangle((first, low), last - first, high - low, **look))
+    axes.add_patch(patches.Rectangle((first, low), last - first, high - low, **look))
 
 
 def _magnified_range(recording):
@@ -93,14 +97,16 @@ def _magnified_range(recording):
     return first, last
 
 
-def _small(axes, recording):
+def _small(axes, recording, look):
     spectrum = recording.spectrum
     first, last = _magnified_range(recording)
     colours = _colours(recording, first, last)
     for index in range(first, last + 1):
         i = index - spectrum.first_index
         error, colour = bars(spectrum.std_errors[i]), colours.get(index, INK)
-        axes.errorbar(index, spectrum.exponents[i], error, color=colour, **SMALL)
+        style = {'color': colour, **SMALL, **look}
+        axes.errorbar(index, spectrum.exponents[i], error, **style)
+        look.pop('label', None)  # once
     shown = [
         block
         for block in steps.all_blocks(recording.steps, recording.info)
@@ -160,7 +166,7 @@ def _draw_band(axes, step, named):
 
 def _legend(axes, blocks, bands):
     handles = [
-        plt.Line2D([], [], linestyle='', marker='o', markersize=4, color=colour, label=label)
+        Line2D([], [], linestyle='', marker='o', markersize=4, color=colour, label=label)
         for colour, label in (
             (KIND_COLOURS['T'], 'T, transverse'),
             (KIND_COLOURS['LP'], 'LP, longitudinal and momentum'),

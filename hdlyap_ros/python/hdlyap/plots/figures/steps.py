@@ -4,20 +4,22 @@ import numpy as np
 
 from hdlyap.data import steps
 
-from .style import GREY, INK, SMALL, bars, beside, kind_colour, panels, titled
+from . import page
+from .style import GREY, INK, SMALL, bars, beside, kind_colour
 
 MOST = 24  # steps shown: the names of more would not fit
 ROOM = 4  # for so many at least
 
 
-def draw(recording):
+@page.figure
+def draw(page, recording, **look):
     blocks = steps.blocks(recording.steps, recording.info)[:MOST]
     if not blocks or recording.spectrum is None:
-        return None
-    figure, (top, bottom) = panels(2, 1, 5.6, 5.2, sharex=True)
+        return
+    top, bottom = page.panels(2, 1, 5.6, 5.2, sharex=True)
     for place, block in enumerate(blocks):
-        _found(top, place, block)
-        _degeneracy(bottom, place, block, recording.spectrum)
+        _found(top, place, block, look)
+        _degeneracy(bottom, place, block, recording.spectrum, look)
     top.axhline(100, color=GREY, linewidth=0.6)
     label = 'least for a step (beyond chance)'
     least = 100 * recording.steps.threshold
@@ -27,25 +29,25 @@ def draw(recording):
     top.legend(loc='lower right', bbox_to_anchor=(1, 1), borderpad=0)
     bottom.axhline(0, color=GREY, linewidth=0.6)
     bottom.set_ylabel('exponents less their mean  [%]')
-    bottom.set_xticks(range(len(blocks)))
-    bottom.set_xticklabels([block.name.replace('+', '\n+') for block in blocks], rotation=90)
-    bottom.set_xlim(-0.7, max(len(blocks), ROOM) - 0.3)
     for axes in (top, bottom):
+        axes.set_xticks(range(len(blocks)))
+        axes.set_xticklabels([block.name.replace('+', '\n+') for block in blocks], rotation=90)
+        axes.set_xlim(-0.7, max(len(blocks), ROOM) - 0.3)
         axes.tick_params(axis='x', length=0)
     averaged = f'\naveraged over {recording.steps.averaged_time:g} time units'
-    return titled(figure, recording.info, top, bottom, more=averaged)
+    page.title(recording.info, top, bottom, more=averaged)
 
 
-def _found(axes, place, block):
+def _found(axes, place, block, look):
     """Of steps that share a set, of all together."""
     share = 100 * block.multiplicity / block.expected
-    axes.bar(place, share, width=0.7, color=kind_colour(block.kind))
+    axes.bar(place, share, **{'width': 0.7, 'color': kind_colour(block.kind), **look})
     text = f'{block.multiplicity:.1f}/{block.expected}'
-    look = {'ha': 'center', 'va': 'top', 'fontsize': 6, 'color': 'white'}
-    beside(axes, text, (place, share), (0, -3), **look)
+    words = {'ha': 'center', 'va': 'top', 'fontsize': 6, 'color': 'white'}
+    beside(axes, text, (place, share), (0, -3), **words)
 
 
-def _degeneracy(axes, place, block, spectrum):
+def _degeneracy(axes, place, block, spectrum, look):
     """Of each vector, from the first index to the last."""
     inside = slice(block.first - spectrum.first_index, block.last + 1 - spectrum.first_index)
     exponents = np.array(spectrum.exponents[inside])
@@ -54,4 +56,4 @@ def _degeneracy(axes, place, block, spectrum):
     spread = np.linspace(-0.3, 0.3, len(exponents)) if len(exponents) > 1 else [0.0]
     errors = None if errors is None else 100 * errors / abs(mean)
     off, colour = 100 * (exponents / mean - 1), kind_colour(block.kind)
-    axes.errorbar(np.add(place, spread), off, errors, color=colour, **SMALL)
+    axes.errorbar(np.add(place, spread), off, errors, **{'color': colour, **SMALL, **look})

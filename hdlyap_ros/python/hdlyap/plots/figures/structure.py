@@ -8,31 +8,40 @@ from hdlyap.data import steps
 from hdlyap.data.factors import DIRECTIONS, frequencies, line, power
 from hdlyap.numbers import with_error
 
-from .style import INK, kind_colour, plt, titled
+from . import page
+from .style import INK, kind_colour
 
 NOISE = 0.5  # structure factor of a random vector
-TITLES = {'along': '(a) along $k$', 'across': '(b) across $k$'}
+TITLES = {'along': 'along $k$', 'across': 'across $k$'}
 OF_KIND = {steps.LP: 'along', steps.T: 'across'}
 
 
-def draw(recording):
+@page.figure
+def draw(page, recording, **look):
     means = recording.structure.means
     if means is None:
-        return None
-    figure = plt.figure(figsize=(7, 6.2), constrained_layout=True)
-    grid = figure.add_gridspec(2, 2)
+        return
+    sheet = page.sheet(7, 6.2)
+    grid = sheet.add_gridspec(2, 2)
+    places = grid[0, 0], grid[0, 1], grid[1, :]
+    *ridges, lines = page.taken([sheet.add_subplot(place) for place in places])
     blocks = steps.blocks(recording.steps, recording.info)
     found = [block for block in blocks if len(block.steps) == 1]
-    for column, direction in enumerate(DIRECTIONS):
-        axes = figure.add_subplot(grid[0, column])
-        image = _ridge(axes, means, direction)
+    for axes, direction in zip(ridges, DIRECTIONS):
+        image = _ridge(axes, means, direction, look)
         _classified(axes, found, direction)
         axes.set_title(TITLES[direction], loc='left')
         axes.set_xlabel('Lyapunov index')
-        axes.set_ylabel(r'wave number $k$  [$1/\sigma$]' if column == 0 else '')
-    figure.colorbar(image, ax=figure.axes[:2], label=r'$S(k)$')
-    _lines(figure.add_subplot(grid[1, :]), recording, found)
-    return titled(figure, recording.info)
+        axes.set_ylabel(r'wave number $k$  [$1/\sigma$]')
+        if not page.is_own:
+            axes.figure.colorbar(image, ax=axes, label=r'$S(k)$')
+    if page.is_own:
+        page.figure.colorbar(image, ax=ridges, label=r'$S(k)$')
+        sheet.delaxes(lines)
+        sheet.add_axes(lines)  # panels are counted in their order, and it is the last one
+    page.outer(np.array([ridges]))
+    _lines(lines, recording, found)
+    page.title(recording.info, *ridges, lines)
 
 
 def shells(means, direction):
@@ -45,14 +54,14 @@ def shells(means, direction):
     return k, largest
 
 
-def _ridge(axes, means, direction):
+def _ridge(axes, means, direction, look):
     k, largest = shells(means, direction)
     around = np.concatenate(([0], k, [2 * k[-1] - (k[-2] if len(k) > 1 else 0)]))
     edges = 0.5 * (around[1:] + around[:-1])
     places, values = np.arange(largest.shape[1] + 1) + 0.5, np.maximum(largest, 1e-3)
     norm = LogNorm(NOISE / 2, max(largest.max(), 2 * NOISE))
-    look = {'norm': norm, 'cmap': 'magma_r', 'rasterized': True}
-    image = axes.pcolormesh(places, edges, values, **look)
+    style = {'norm': norm, 'cmap': 'magma_r', 'rasterized': True, **look}
+    image = axes.pcolormesh(places, edges, values, **style)
     axes.set_ylim(0, edges[-1])
     return image
 
@@ -86,7 +95,7 @@ def _lines(axes, recording, found):
             v_k = recording.steps.v * block.steps[0].wave_number
             axes.axvline(v_k, color=INK, linestyle=':', label=label)
         shown.add(kind)
-    axes.set_title('(c) lines of the lowest steps', loc='left')
+    axes.set_title('lines of the lowest steps', loc='left')
     axes.set_xlabel(r'$\omega$  [rad/time unit]')
     axes.set_ylabel(r'$S(k, \omega)$')
     if shown:

@@ -2,7 +2,7 @@
 
 import os
 
-import matplotlib.pyplot as plt
+import matplotlib.style
 import numpy as np
 from matplotlib import ticker
 
@@ -50,10 +50,9 @@ MANY = {'ecolor': GREY, 'elinewidth': 0.7, 'rasterized': True}
 UPRIGHT = {'rotation': 90, 'ha': 'center', 'va': 'bottom'}  # text above a place
 
 
-def panels(rows, columns, width, height, **how):
-    """(figure, axes)"""
-    size = width, height
-    return plt.subplots(rows, columns, figsize=size, constrained_layout=True, **how)
+def ours():
+    """In it figures look as these, whatever a matplotlibrc says."""
+    return matplotlib.style.context(['default', STYLE])
 
 
 def beside(axes, text, place, aside, **look):
@@ -77,7 +76,6 @@ def save(figure, folder, name, dpi=250):
         with whole.written(path) as unfinished:
             figure.savefig(unfinished, **options)
         files.append(path)
-    plt.close(figure)
     return files
 
 
@@ -102,14 +100,6 @@ def scene(info):
 def _edges(info):
     edges = r'\times '.join(f'{edge:.2f}' for edge in space.along(info, 'box_'))
     return rf'${edges}\,\sigma^3$'
-
-
-def titled(figure, info, *panels, more=''):
-    """The scene above it, and a letter above each of its panels, before what stands there."""
-    for axes, letter in zip(panels, 'abc'):
-        axes.set_title(f'({letter}) {axes.get_title(loc="left")}'.rstrip(), loc='left')
-    figure.suptitle(scene(info) + more, fontsize=9)
-    return figure
 
 
 def index_axis(axes, nbins=6):
