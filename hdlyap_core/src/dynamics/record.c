@@ -1,4 +1,4 @@
-/** Storage of what happened; it only grows. */
+/** Memory of a record; it only grows. */
 #include <math.h>
 #include <string.h>
 

@@ -1,10 +1,10 @@
-/** What a record holds, for the dynamics that write it. */
+/** The members of a record, for the dynamics that write it. */
 #ifndef HD_RECORD_STATE_H
 #define HD_RECORD_STATE_H
 
 #include "dynamics/record.h"
 
-/** Entries that the first room is for. */
+/** Entries for which a new record has room. */
 enum { HD_RECORD_FIRST = 4096 };
 
 struct hd_record {
@@ -14,7 +14,8 @@ struct hd_record {
     double duration; /**< [time units] */
 };
 
-/** Room for so many entries in all, at least; it at least doubles. HD_NO_MEMORY. */
+/** Makes room for at least `count` entries in all, and at least twice the room. Fails with
+ * HD_NO_MEMORY. */
 HD_MUST_CHECK hd_status hd_record_reserve(hd_record *record, size_t count);
 
 #endif

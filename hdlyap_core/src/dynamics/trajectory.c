@@ -1,4 +1,4 @@
-/** Scene -> record: the particles of a scene, by the row of their dynamics. */
+/** Scene -> record: moves the particles of a scene by the row of their dynamics. */
 #include <math.h>
 #include <string.h>
 #include <zlib.h>
@@ -73,7 +73,7 @@ void hd_trajectory_state(const hd_trajectory *tr, double *q, double *p)
     tr->of->state(tr->state, q, p);
 }
 
-/** Of each particle the first `dimension` of its coordinates. */
+/** Keeps the first `dimension` coordinates of each particle. */
 static void keep_places(const hd_trajectory *tr, double *x)
 {
     const size_t coordinates = (size_t)tr->of->coordinates, dimension = (size_t)tr->of->dimension;
@@ -94,7 +94,7 @@ static size_t coordinates(const hd_trajectory *tr)
     return (size_t)tr->particles * (size_t)tr->of->coordinates;
 }
 
-/** q, then p, to be freed; NULL without memory. */
+/** A new array of q, then p, for the caller to free; NULL if there is no memory. */
 static double *coordinates_of(const hd_trajectory *tr)
 {
     double *q = hd_memory_alloc(2 * coordinates(tr), sizeof *q);
@@ -105,7 +105,7 @@ static double *coordinates_of(const hd_trajectory *tr)
 double hd_trajectory_kinetic_energy(const hd_trajectory *tr)
 {
     if (tr->of->kinetic_energy) return tr->of->kinetic_energy(tr->state);
-    double *q = coordinates_of(tr), sum = q ? 0.0 : NAN; /* without memory it is not known */
+    double *q = coordinates_of(tr), sum = q ? 0.0 : NAN; /* NaN if there is no memory */
     for (size_t k = coordinates(tr); q && k < 2 * coordinates(tr); k++) sum += 0.5 * q[k] * q[k];
     hd_memory_free(q);
     return sum;

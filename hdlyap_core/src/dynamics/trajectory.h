@@ -1,17 +1,17 @@
-/** What the core asks of the particles. */
+/** Functions on the particles that only the core calls. */
 #ifndef HD_TRAJECTORY_H
 #define HD_TRAJECTORY_H
 
 #include "dynamics/record.h"
 #include "hdlyap/trajectory.h"
 
-/** A prepared state: positions q inside the box (x0 y0 .. x1 y1 ..), momenta p; nothing is
- * rescaled. HD_REFUSED for a box that hd_scene_check refuses, positions outside it, |p| above 1e6;
- * HD_OVERLAP for disks deeper than hd_examined.overlap_max. */
+/** Starts from a given state: positions q inside the box (x0 y0 .. x1 y1 ..) and momenta p; nothing
+ * is rescaled. Fails with HD_REFUSED for a box that hd_scene_check refuses, positions outside it,
+ * or |p| above 1e6; with HD_OVERLAP if disks overlap deeper than hd_examined.overlap_max. */
 HD_MUST_CHECK hd_status hd_trajectory_create_from(hd_trajectory **out, const hd_scene_def *def,
                                                   const double *q, const double *p);
-/** Positions in the box and the momenta along its directions, of what has more coordinates than
- * these; q and p have room for hd_trajectory_state. */
+/** Positions in the box and momenta along its directions, without other coordinates, as angles; q
+ * and p have room for hd_trajectory_state. */
 void hd_trajectory_places(const hd_trajectory *trajectory, double *q, double *p);
 /* See hd_told. */
 uint64_t hd_trajectory_collisions(const hd_trajectory *trajectory);

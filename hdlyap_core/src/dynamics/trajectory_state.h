@@ -1,4 +1,4 @@
-/** What a trajectory holds. */
+/** The members of a trajectory. */
 #ifndef HD_TRAJECTORY_STATE_H
 #define HD_TRAJECTORY_STATE_H
 
@@ -7,7 +7,7 @@
 
 struct hd_trajectory {
     const hd_dynamics *of;
-    void *state; /**< of its own kind */
+    void *state; /**< only the dynamics knows what it holds */
     int particles;
     double rate; /**< pair events expected in a time unit */
 };

@@ -1,5 +1,5 @@
-/** What a row of dynamics leaves out -> what is usual: maps that are a part of the record, entries
- * that are doubles throughout. */
+/** The usual functions, for what a row of dynamics leaves out: its maps are a part of the record,
+ * and its entries are doubles. */
 #include <math.h>
 #include <stdbool.h>
 

@@ -1,4 +1,4 @@
-/** The table of observables -> what a scene asks for, and what it needs for that. */
+/** The table of observables -> which of them a scene asks for, and what these need. */
 #include "observe/observables.h"
 
 #include <math.h>
@@ -34,7 +34,7 @@ bool hd_observable_is_asked(hd_observed k, const hd_scene_def *scene)
            (!(hd_observable_rows[k]->needs & HD_NEEDS_FRAME) || hd_scene_vectors(scene) > 0);
 }
 
-/** For each row that the scene asks for. */
+/** Loops over the rows that the scene asks for. */
 #define EACH_ASKED(scene, row)                                                                     \
     for (int k_ = 0; k_ < HD_OBSERVED; k_++)                                                       \
         for (const hd_observable *row =                                                            \
@@ -92,7 +92,7 @@ double hd_scene_warmup(const hd_scene_def *scene)
     return time;
 }
 
-/** True if one of a set has this need. */
+/** True if an observable of the set has this need. */
 static bool has_need(unsigned set, unsigned need)
 {
     bool found = false;
@@ -101,7 +101,8 @@ static bool has_need(unsigned set, unsigned need)
     return found;
 }
 
-/** Name of the first that is asked for and has this need, or comes with one; NULL: none. */
+/** Name of the first observable that the scene asks for and that has this need, or brings one that
+ * has; NULL: none. */
 static const char *name_of_need(const hd_scene_def *scene, unsigned need)
 {
     static const char *const names[HD_OBSERVED] = {
@@ -124,7 +125,8 @@ unsigned hd_observe_of_box(void)
     return set;
 }
 
-/** By name, what a curved wall has not, and what is of a box where there is none. */
+/** Refuses, by its name, an observable that needs edges at a curved wall, or a box where there is
+ * none. */
 static hd_status check_space(const hd_scene_def *scene, char *message, size_t size)
 {
     const char *of_box = name_of_need(scene, HD_NEEDS_BOX),

@@ -1,4 +1,4 @@
-/** L and P modes as an observable: whoever reads them has them reconstructed, step by step, at
+/** L and P modes as an observable. They are reconstructed, step by step, when they are read, at
  * reports at which fields are due. */
 #include "modes/archived.h"
 #include "modes/pmode.h"

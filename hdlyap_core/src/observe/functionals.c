@@ -1,12 +1,12 @@
-/** One disk -> coefficients of the functionals [T15]; of a sphere functionals_in_space.c. */
+/** One disk -> coefficients of the functionals [T15]; functionals_in_space.c has those of a sphere.
+ */
 #include "observe/functionals.h"
 
 #include <math.h>
 #include <stdbool.h>
 #include <string.h>
 
-/** A modulation at one place: the value and the derivatives that differ from it by more than a
- * factor. */
+/** A modulation at one place: its value, and the derivatives that are not multiples of it. */
 typedef struct modulation {
     double a, x, y, xy;
 } modulation;
@@ -29,7 +29,8 @@ static modulation modulation_at(const hd_boundary *boundary, const hd_wave *wave
     return (modulation){f * g, df * g, f * dg, df * dg};
 }
 
-/** [T15]; A of the density, B of the transverse momentum. A_xx = -kx^2 A, A_yy = -ky^2 A. */
+/** Fills in the coefficients of [T15], with A of the density and B of the transverse momentum; A_xx
+ * = -kx^2 A, A_yy = -ky^2 A. */
 static void fill(hd_functionals out, const hd_wave *wave, const modulation *A, const modulation *B,
                  const double *p)
 {
@@ -46,7 +47,8 @@ static void fill(hd_functionals out, const hd_wave *wave, const modulation *A, c
     for (int r = 0; r < 4; r++) memcpy(out[r], here[r], sizeof here[r]);
 }
 
-/** A with sines along reflecting directions: what a transverse field with this wave vector has. */
+/** The bits of the modulation with sines along reflecting directions, which transverse fields have.
+ */
 static unsigned transverse_bits(const hd_boundary *boundary, unsigned bits)
 {
     if (boundary[0] == HD_REFLECTING) bits |= HD_SIN_X;

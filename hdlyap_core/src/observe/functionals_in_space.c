@@ -1,13 +1,13 @@
 /** One sphere -> coefficients of the functionals [T22].
  *
- * With a field F = (e_i s_i), e = k for L, across k for T, the momentum along it is sum p.F: it
+ * The momentum along a field F = (e_i s_i), with e = k for L and e across k for T, is sum p.F; it
  * changes by p_i d_j F_i dq_j + F_i dp_i. */
 #include "observe/functionals.h"
 
 #include <math.h>
 #include <stdbool.h>
 
-/** Functions of one coordinate: A's, and as s of its component has it; each with its derivative. */
+/** Functions of one coordinate, with their derivatives: the factor of A, and that of s_i. */
 typedef struct factor {
     double value, slope, own, own_slope;
 } factor;
@@ -19,7 +19,7 @@ static factor factor_at(double k, double u, bool sine)
     return (factor){value, slope, slope / k, -k * value};
 }
 
-/** A, or s_i, or their derivative along j; i = 3: A; j = 3: none. */
+/** s_i, or A if i = 3; its derivative along j, or the value itself if j = 3. */
 static double product(const factor *f, int i, int j)
 {
     double all = 1.0;
@@ -28,7 +28,7 @@ static double product(const factor *f, int i, int j)
     return all;
 }
 
-/** Of the momentum along (e_i s_i). */
+/** Fills in the coefficients of the momentum along (e_i s_i). */
 static void fill_momentum(double *out, const factor *f, const double *e, const double *p)
 {
     for (int j = 0; j < 3; j++) {

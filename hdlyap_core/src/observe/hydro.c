@@ -1,7 +1,7 @@
 /** Vectors of the steps -> response of density, momentum and energy [T15].
  *
- * Each response is a linear functional of (dq, dp): its coefficients at one disk are
- * numbers, which meet the rows of the disk in the frame for all vectors of the step at once. */
+ * Each response is a linear functional of (dq, dp). Its coefficients at one disk multiply the
+ * disk's rows of the frame, for all vectors of the step at once. */
 #include "observe/hydro.h"
 
 #include <math.h>
@@ -16,7 +16,7 @@
 #include "observe/observable.h"
 #include "scene/scene.h"
 
-/** One response for each vector of each step and each modulation: see entries_of. */
+/** Holds a response for each vector of each step and each modulation; see entries_of. */
 struct hd_hydro {
     hd_boundary boundary[HD_DIMENSION_MAX];
     int dimension, disks, count;
@@ -28,7 +28,7 @@ static int modulations_of(const hd_step *step)
     return step->kind == HD_MODE_ZERO ? 0 : step->wave.pairs.count;
 }
 
-/** Entries of a step: vectors outside, modulations inside. */
+/** Number of entries of a step: its vectors, and for each one its modulations. */
 static int entries_of(const hd_step *step) { return step->expected * modulations_of(step); }
 
 hd_status hd_hydro_create(hd_hydro **out, const hd_scene_def *def, const hd_steps *steps)
@@ -57,7 +57,7 @@ void hd_hydro_free(hd_hydro *hydro)
     hd_memory_free(hydro);
 }
 
-/** sum[functionals][HD_SET_VECTORS_MAX]: of the vectors of a step at one modulation. */
+/** Fills sum[functionals][HD_SET_VECTORS_MAX] for the vectors of a step, at one modulation. */
 static void measure(const hd_hydro *hydro, double sum[HD_FUNCTIONALS_MAX][HD_SET_VECTORS_MAX],
                     const hd_step *step, unsigned bits, hd_columns vectors, const double *q,
                     const double *p)
@@ -78,7 +78,7 @@ static void measure(const hd_hydro *hydro, double sum[HD_FUNCTIONALS_MAX][HD_SET
     }
 }
 
-/** The vectors that belong to the step, one after the other. */
+/** Measures the vectors that belong to a step, one after the other. */
 static void step_measure(hd_hydro *hydro, hd_hydro_response *out, const hd_steps *steps, int index,
                          hd_columns vectors, const double *q, const double *p)
 {
@@ -132,7 +132,8 @@ const hd_hydro_response *hd_hydro_at(const hd_hydro *hydro, int index)
 
 /* ---- as an observable ---------------------------------------------------------------------- */
 
-/** A wave with d pairs has 2 d vectors of LP and at most as many of T, each with d responses. */
+/** Bytes: a wave with d pairs has 2 d vectors of LP and at most as many of T, each with d
+ * responses. */
 static double hydro_bytes(const hd_scene_def *scene, int ranks)
 {
     (void)ranks;
@@ -165,8 +166,8 @@ static int hydro_first(void *self, const hd_observing *with)
     return hd_steps_first(with->part[HD_OBSERVED_steps]);
 }
 
-/** Energy is of all coordinates and of nothing else, and functionals know places and their momenta
- * alone. */
+/** Refuses particles with other coordinates than places, or with a potential: functionals know only
+ * positions, their momenta, and kinetic energy. */
 static hd_status hydro_check(const hd_scene_def *scene, char *message, size_t size)
 {
     const hd_dynamics *of = hd_dynamics_of(scene);

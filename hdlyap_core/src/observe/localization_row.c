@@ -1,5 +1,5 @@
-/** Localisation widths as an observable: of the vectors that are carried, as partners [T18] lie on
- * the same disks. */
+/** Localisation widths as an observable. Only vectors that are carried are measured, because
+ * partners [T18] lie on the same disks. */
 #include "base/check.h"
 #include "observe/observable.h"
 #include "scene/scene.h"

@@ -75,7 +75,7 @@ static double steps_bytes(const hd_scene_def *scene, int ranks)
     return hd_steps_bytes(scene);
 }
 
-/** Each can show one vector. */
+/** Adds a field for each step, which can show one vector. */
 static void steps_extend(hd_extent *extent, const hd_scene_def *scene, const void *self)
 {
     (void)scene;

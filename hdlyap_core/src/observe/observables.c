@@ -1,5 +1,5 @@
-/** The table of observables -> what a run has of them, one loop over its rows for each thing to do.
- * What a scene has of them: asked.c. */
+/** The table of observables -> those of a run, with one loop over the rows for each task. asked.c
+ * has the same for a scene. */
 #include "observe/observables.h"
 
 #include <math.h>
@@ -10,7 +10,7 @@
 #include "dynamics/trajectory.h"
 #include "scene/scene.h"
 
-/** Wall seconds after which no further step of catching up begins in a call. */
+/** A call that catches up begins no further part after this many wall seconds. */
 static const double CATCH_UP_SECONDS = 0.1;
 
 static hd_status create_state(hd_observables *o)
@@ -85,7 +85,7 @@ typedef struct one {
     void *self;
 } one;
 
-/** Moves on to the next one that somebody looks at; false after the last one. */
+/** Moves on to the next observable that somebody listens to; false after the last one. */
 static bool next(one *at, const hd_observables *o)
 {
     while (++at->k < HD_OBSERVED) {
@@ -127,7 +127,7 @@ double hd_observables_sampling(const hd_observables *o)
     return longest;
 }
 
-/** The state, with positions and momenta where somebody looks at them. */
+/** The state, with positions and momenta if an observable that needs them is listened to. */
 static hd_view seen(const hd_observables *o, const hd_view *state)
 {
     hd_view view = *state;
@@ -209,7 +209,7 @@ bool hd_observables_are_behind(const hd_observables *o)
     return false;
 }
 
-/** True while a call may take another step, by the clock of rank 0. */
+/** True while a call may begin another part, by the clock of rank 0. */
 static bool has_time(const hd_observables *o, double start)
 {
     double left = hd_clock_now() - start < CATCH_UP_SECONDS;

@@ -1,5 +1,5 @@
-/** A number with a standard error, by which a run can be ended (run/target.c): what a scene must
- * have for it, and what a run states of it. Rows of observables have theirs. */
+/** A number with a standard error that a target can name to end a run (run/target.c): what a scene
+ * needs for it, and what a run states. Rows of observables have tables of them. */
 #ifndef HD_QUANTITY_H
 #define HD_QUANTITY_H
 
@@ -10,19 +10,19 @@
 
 enum { HD_WHY = 160 };
 
-/** Error negative while not known. */
+/** The error is negative while it is not known. */
 typedef struct hd_stated {
     double value, error;
-    double open; /**< part of the error that no averaging takes away */
+    double open; /**< part of the error that averaging does not reduce */
 } hd_stated;
 
-/** One of a target. */
+/** One quantity of a target. */
 typedef struct hd_aim {
     const struct hd_quantity *quantity;
-    int row;                      /**< whose it is (hd_observed); -1: of the exponents alone */
+    int row;                      /**< its observable (hd_observed); -1: the exponents alone */
     int number[HD_DIMENSION_MAX]; /**< nodes of a step, or an index */
     int count;                    /**< of numbers */
-    double wanted;                /**< standard error, or if relative its part of the value */
+    double wanted;                /**< largest standard error; if relative, a part of the value */
     bool relative;
 } hd_aim;
 
@@ -35,7 +35,7 @@ typedef struct hd_quantity {
     hd_stated (*read)(const hd_parts *parts, const hd_aim *aim);
 } hd_quantity;
 
-/** All of an observable, up to one without a name; and as a user calls it. */
+/** All quantities of an observable, up to one without a name; and the name of the observable. */
 typedef struct hd_quantities {
     const char *from;
     const hd_quantity *each;

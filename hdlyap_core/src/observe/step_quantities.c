@@ -1,4 +1,4 @@
-/** Steps and their phases -> quantities by which a run can be ended. */
+/** Steps and their phases -> quantities that a target can name. */
 #include "observe/step_quantities.h"
 
 #include <math.h>
@@ -20,7 +20,7 @@ static const hd_modulations *fields_of(const hd_wave *wave, hd_mode_kind kind)
     return kind == HD_MODE_T ? &wave->transverse : &wave->pairs;
 }
 
-/** A step of a target among the waves. */
+/** The search for a target's step among the waves. */
 typedef struct search {
     const hd_aim *goal;
     bool found;
@@ -56,7 +56,7 @@ static bool slope_possible(const hd_scene_def *def, const hd_aim *goal, char why
 
 /* ---- what a run states ----------------------------------------------------------------------- */
 
-/** -1: not resolved. */
+/** The number of the step; -1: it is not resolved. */
 static int step_of(const hd_steps *steps, const hd_aim *goal)
 {
     for (int k = 0; k < hd_steps_count(steps); k++) {
@@ -84,7 +84,7 @@ static hd_stated read_omega(const hd_parts *parts, const hd_aim *goal)
     return known ? out : UNKNOWN;
 }
 
-/** Of an error of which averaging takes away a part. */
+/** A stated value whose error averaging reduces only in part. */
 static hd_stated with_sampling(double value, double error, double sampled)
 {
     return (hd_stated){value, error, sqrt(fmax(error * error - sampled * sampled, 0.0))};

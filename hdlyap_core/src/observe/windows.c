@@ -16,13 +16,13 @@
 /** The observable. */
 typedef struct hd_windows {
     hd_covariant *covariant;
-    hd_communicator *communicator; /**< NULL: a single rank; all of them go the same way back */
-    double *gathered;              /**< [rows * n], vectors of all ranks; NULL of a single one */
-    double sampling;               /**< from the beginning of a window to its first look */
+    hd_communicator *communicator; /**< NULL: a single rank; every rank does the whole way back */
+    double *gathered;              /**< [rows * n], vectors of all ranks; NULL for a single one */
+    double sampling;               /**< time from the start of a window to its first sample */
     bool due;                      /**< a window begins with the next interval */
 } hd_windows;
 
-/** Vectors of all ranks. */
+/** The vectors of all ranks. */
 static hd_columns all_of(hd_windows *windows, const hd_frame *frame)
 {
     const int n = hd_frame_vectors(frame);
@@ -31,7 +31,7 @@ static hd_columns all_of(hd_windows *windows, const hd_frame *frame)
     return (hd_columns){windows->gathered, n, 0, n};
 }
 
-/** A window begins where the record does. */
+/** Begins a window where the record begins. */
 static hd_status begin(hd_windows *windows, const hd_leg *p)
 {
     const double time = hd_trajectory_time(p->trajectory) - hd_record_duration(p->record);
@@ -54,13 +54,13 @@ static hd_status end(hd_windows *windows, const hd_leg *p)
     return hd_covariant_state(windows->covariant, all_of(windows, p->frame), p->trajectory);
 }
 
-/** What one rank cannot do, none does. */
+/** The status on which all ranks agree: if one fails, all do. */
 static hd_status agreed(const hd_windows *windows, hd_status status)
 {
     return hd_communicator_agree(windows->communicator, status);
 }
 
-/** Between a window that is lost, or has gone back, and the next one nothing is added. */
+/** Adds intervals to a window; not between a window that is lost or complete and the next one. */
 static hd_status covariant_follow(void *self, const hd_leg *leg)
 {
     hd_windows *windows = self;
@@ -93,8 +93,8 @@ static hd_status covariant_catch_up(void *self)
     return agreed(windows, hd_covariant_step(windows->covariant));
 }
 
-/** Beside the windows themselves, which have a limit of their own (covariant_memory): triangles of
- * two passes, both ways back with their work, vectors of a look, and what is averaged. */
+/** Bytes without the windows, which covariant_memory limits: triangles of two passes, both starts
+ * of the way back with their workspace, vectors of a sample, and averages. */
 static double covariant_bytes(const hd_scene_def *scene, int ranks)
 {
     const double n = hd_scene_vectors(scene), carried = hd_scene_carried(scene),
@@ -106,7 +106,7 @@ static double covariant_bytes(const hd_scene_def *scene, int ranks)
            hd_localization_bytes(n);
 }
 
-/** Vectors converge forwards no faster than backwards. */
+/** The warm-up is the transient: vectors converge forwards no faster than backwards. */
 static double covariant_warmup(const hd_scene_def *scene) { return scene->covariant_transient; }
 
 static hd_status covariant_check(const hd_scene_def *scene, char *message, size_t size)
@@ -181,7 +181,7 @@ static void covariant_free(void *self)
     hd_memory_free(windows);
 }
 
-/** Its parts are freed with it if they cannot all be made. */
+/** Creates it; if one part cannot be created, the caller frees all. */
 static void *covariant_create(const hd_observing *with, hd_status *status)
 {
     hd_windows *windows = hd_memory_alloc(1, sizeof *windows);
