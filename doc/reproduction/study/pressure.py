@@ -1,4 +1,4 @@
-"""Box of disks -> P / (sqrt(2) rho) along a wave: the velocity that doc/findings.md derives for LP
+"""Box of disks -> P / (sqrt(2) rho) along a wave: the velocity that [T13] derives for LP
 modes, with walls and in boxes so narrow that disks stay in a row.
 
 A wall has a line tension gamma (scaled particle theory), and beside it there are fewer disks, by
