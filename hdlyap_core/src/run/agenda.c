@@ -1,31 +1,33 @@
 /** Schedule, conditioning, and what observables need -> the next time at which something is due.
  *
  * Stages and reports end where the schedule says. The frame is orthonormalised as late as its
- * conditioning allows, and early where all vectors must be known. A sample of the averages is as
- * many such intervals as come nearest to what it should last, or fewer, if phases cannot wait so
- * long. Without vectors it is a time alone. */
+ * conditioning allows, or early where all vectors must be known. A sample is as many such intervals
+ * as come nearest to the length that it should have, or fewer if phases cannot wait so long.
+ * Without vectors a sample is a time alone. */
 #include "run/agenda.h"
 #include "scene/scene.h"
 
 #include <math.h>
 
-/** A rest that could be longer by less than this factor is an equal share. */
+/** If the interval that is allowed is under this times the remaining time, the interval's own limit
+ * is reported. */
 static const double DIVIDED = 1.25;
-/** Orthonormalisations that come earlier by this factor are cheaper than to measure every state. */
+/** Intervals are shortened down to this factor if that saves a measured state. */
 static const double WORTH_A_STATE = 0.875;
-/** Times that are this close, as a part of an interval, are one. */
+/** Two times that differ by less than this part of an interval are the same. */
 static const double CLOSE = 1e-6;
-/** A sample is no longer than so many collisions of a disk. */
+/** Longest sample, in collisions of a particle. */
 static const double COLLISIONS_PER_SAMPLE = 80.0;
-/** Collisions of each disk that growth remembers: shorter blocks tell no error. */
+/** Growth is correlated over this many collisions of each particle: shorter blocks give no error.
+ */
 static const double COLLISIONS_PER_BLOCK = 8.0;
-/** Samples of an averaging: fewer would make standard errors late and rough. */
+/** An averaging has at least this many samples: with fewer, errors would come late and be rough. */
 static const double SAMPLES_MIN = 32.0;
-/** A block is asked to be longer by this, so that samples that are a little shorter fill it. */
+/** Blocks are longer by this factor, so that samples that are a little shorter fill them. */
 static const double WHOLE_BLOCK = 1.05;
-/** Samples in a block, however short the run. */
+/** Fewest samples in a block, however short the run is. */
 static const double IN_A_BLOCK = 2.0;
-/** Intervals in a sample that need not fit it. */
+/** A sample of more intervals than this need not be a multiple of them. */
 static const double IN_A_SAMPLE = 3.0;
 
 hd_agenda hd_agenda_of(const hd_scene_def *scene, double rate)
@@ -56,8 +58,8 @@ void hd_agenda_enter(hd_agenda *a, hd_stage stage, double now)
 
 /* ---- the next interval --------------------------------------------------------------------- */
 
-/** In a run that is not much longer than errors need, samples fill the blocks of the averages: each
- * one interval, where intervals are not much shorter. */
+/** In a run that is not much longer than errors need, samples have the length of the averages'
+ * blocks, or are single intervals if these are not much shorter. */
 double hd_agenda_sample_longest(const hd_agenda *a, const hd_interval *interval)
 {
     const hd_schedule *s = &a->schedule;
@@ -78,8 +80,8 @@ double hd_agenda_interval_expected(const hd_agenda *a, const hd_interval *interv
     return fmin(hd_interval_longest(interval).length, fmin(most, phases));
 }
 
-/** The next time at which all vectors must be known: the end of the stage, or a report for which
- * somebody wants them. */
+/** The next time at which all vectors must be known: the end of the stage, or a report that needs
+ * them. */
 static double next_stop(const hd_agenda *a, const hd_pace *p)
 {
     const hd_schedule *s = &a->schedule;
@@ -89,14 +91,14 @@ static double next_stop(const hd_agenda *a, const hd_pace *p)
                         : stop;
 }
 
-/** Time until the phases must be known; INFINITY if they need not, or that time is over. */
+/** Time until phases must be known; INFINITY if they need not be, or if that time has passed. */
 static double phases_left(const hd_agenda *a, const hd_pace *p)
 {
     const double left = a->sample_begin + p->phases - p->now;
     return left > 0 ? left : INFINITY;
 }
 
-/** A little shorter, if that saves a measured state before the phases must be known. */
+/** Shortens an interval a little if that saves a measured state before phases must be known. */
 static double rounded_down(double length, double left)
 {
     if (!(left < INFINITY)) return length;
@@ -104,7 +106,7 @@ static double rounded_down(double length, double left)
     return part < length && part > WORTH_A_STATE * length ? part : length;
 }
 
-/** The next interval, up to `left` long, in this norm; why not longer. */
+/** The next interval in this norm, at most `left` long, and why it is not longer. */
 static hd_interval_length next_interval(const hd_agenda *a, const hd_pace *p, double left,
                                         hd_norm norm)
 {
@@ -122,8 +124,8 @@ static hd_interval_length next_interval(const hd_agenda *a, const hd_pace *p, do
     return next;
 }
 
-/** True if the sample should end with an interval of this length: no other end would come closer to
- * what it should be, or the phases cannot wait. */
+/** True if the sample should end with an interval of this length: no other end comes closer to the
+ * length that it should have, or phases cannot wait. */
 static bool is_last(const hd_agenda *a, const hd_pace *p, double length)
 {
     const double gone = p->now + length - a->sample_begin, close = CLOSE * length;
@@ -131,10 +133,10 @@ static bool is_last(const hd_agenda *a, const hd_pace *p, double length)
            gone + length > p->phases + close;
 }
 
-/** True if nothing but rounding would be left of it. */
+/** True if `length` takes all of `left` but for rounding. */
 static bool is_rest(double length, double left) { return length >= left * (1.0 - CLOSE); }
 
-/** Why an interval that takes all of what is left is no longer. */
+/** Why an interval that takes all of the remaining time is not longer. */
 static hd_limit limit_of_rest(const hd_agenda *a, const hd_pace *p, double left)
 {
     const hd_interval_length longest = hd_interval_longest(p->interval);
@@ -157,7 +159,7 @@ void hd_agenda_plan(hd_agenda *a, const hd_pace *p)
 
 /* ---- what is due --------------------------------------------------------------------------- */
 
-/** End of a sample of what the disks alone do; a file may say that it is overdue. */
+/** End of a sample without vectors; after a checkpoint it may be overdue. */
 static double sample_end(const hd_agenda *a, const hd_pace *p)
 {
     if (!p->sampled) return INFINITY;
@@ -203,7 +205,7 @@ void hd_agenda_pass_report(hd_agenda *a, bool reached)
 
 /* ---- changes ------------------------------------------------------------------------------- */
 
-/** While averages are taken the end of the present interval, else at once. */
+/** The end of the present interval while averages are taken, else now. */
 double hd_agenda_change_time(const hd_agenda *a, double now, bool framed)
 {
     return framed && a->schedule.stage == HD_AVERAGING ? fmax(now, a->interval_end) : now;
@@ -219,7 +221,7 @@ void hd_agenda_ask_fields(hd_agenda *a, double interval, bool framed)
 {
     const bool said = a->fields_said;
     a->fields_said = true;
-    if (interval == a->field_interval) return; /* of a run that goes on it may not hold yet */
+    if (interval == a->field_interval) return; /* in a resumed run it may not be in force yet */
     a->field_interval = interval;
     if (said)
         hd_agenda_ask(a, framed);

@@ -1,4 +1,4 @@
-/** What the machine, a control group and the process's own limits leave. Linux. */
+/** The memory that the machine, a control group and the process's own limits leave. Linux. */
 #define _DEFAULT_SOURCE
 #include "hdlyap/room.h"
 
@@ -34,7 +34,7 @@ static double number_in(const char *path, const char *name, double otherwise)
     return number;
 }
 
-/** A number of a group: in the file `name` of its folder. */
+/** A number of a control group, in the file `name` of its folder. */
 static double of_group(const char *folder, const char *name, const char *key, double otherwise)
 {
     char path[PATH];
@@ -42,8 +42,8 @@ static double of_group(const char *folder, const char *name, const char *key, do
     return number_in(path, key, otherwise);
 }
 
-/** What a group and those above it leave; `folder` loses its last parts down to `root` characters.
- * Pages of files that are not in use give way. */
+/** Limits room to what a control group and the groups above it leave. Shortens `folder`, part by
+ * part, to `root` characters. Cached pages of files count as free. */
 static void see_groups(hd_room *room, char *folder, size_t root, int version)
 {
     static const char *const limit[] = {"memory.limit_in_bytes", "memory.max"};
@@ -60,7 +60,7 @@ static void see_groups(hd_room *room, char *folder, size_t root, int version)
     }
 }
 
-/** True if a name is among those of a list with commas. */
+/** True if a name is in a list that is separated by commas. */
 static bool is_listed(const char *list, const char *name)
 {
     const size_t length = strlen(name);

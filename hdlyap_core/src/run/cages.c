@@ -1,6 +1,6 @@
-/** Positions at reports -> whether a tenth of the disks has been away from its place [T8].
- * Displacements are those to the nearest image: who has gone around the box once looks as if it had
- * stayed, but not all do so at each report. */
+/** Positions at reports -> whether a tenth of the particles has left its place [T8]. Displacements
+ * are to the nearest image: a particle that has gone around the box looks as if it had stayed, but
+ * not all do so at every report. */
 #include "run/cages.h"
 
 #include <math.h>
@@ -9,10 +9,10 @@
 #include "dynamics/trajectory.h"
 #include "scene/scene.h"
 
-/** Of the mean distance of neighbours: a disk that is farther from its start has left. Vibrations
- * of a crystal reach half of it. */
+/** A particle has left its place if it is farther from its start than this part of the mean
+ * distance of neighbours. Vibrations of a crystal reach half of it. */
 static const double PLACE = 0.7;
-/** One in so many disks: a few hop in each crystal that has gaps. */
+/** One in this many particles has to leave: a few hop in every crystal with gaps. */
 enum { FEW = 10 };
 
 hd_status hd_cages_create(hd_cages *cages, const hd_scene_def *scene)
@@ -20,7 +20,7 @@ hd_status hd_cages_create(hd_cages *cages, const hd_scene_def *scene)
     const size_t count = (size_t)hd_scene_dimension(scene) * (size_t)scene->number;
     const size_t room = (size_t)hd_scene_coordinates(scene) * (size_t)scene->number;
     *cages = (hd_cages){.count = count};
-    if (count == 0) return HD_OK; /* there are no places */
+    if (count == 0) return HD_OK; /* this dynamics has no positions */
     cages->start = hd_memory_alloc(room, sizeof(double));
     cages->now = hd_memory_alloc(room, sizeof(double));
     return cages->start && cages->now ? HD_OK : HD_NO_MEMORY;

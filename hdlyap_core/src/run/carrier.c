@@ -1,6 +1,6 @@
-/** Record -> frame -> orthonormal frame, spectrum, and what the next interval may be. An interval
- * that turned out too long is taken back and replayed in pieces; a shortest piece that is still too
- * much holds a grazing collision and is factored by repeated passes. */
+/** Record -> frame -> orthonormal frame, spectrum, and limit of the next interval. An interval that
+ * turned out too long is undone and replayed in pieces. If even the shortest piece is too much it
+ * holds a grazing collision, and is factored by repeated passes. */
 #include "run/carrier.h"
 
 #include <float.h>
@@ -20,34 +20,34 @@
 #include "tangent/threads.h"
 #include "tangent/verify.h"
 
-/** Loss of orthogonality allowed where nobody looks at the vectors, as the logarithms telescope
- * [T5]; its square enters a mean. */
+/** Loss of orthogonality that is allowed where vectors are not measured: logarithms telescope [T5],
+ * and only its square enters a mean. */
 static const double DEFECT_LOOSE = 1e-4;
-/** Loss of orthogonality allowed where somebody looks at the vectors. */
+/** Loss of orthogonality that is allowed where vectors are measured. */
 static const double DEFECT_MEASURED = 1e-6;
-/** Loss of orthogonality allowed where Y takes both ends of an interval to be orthonormal to
- * rounding [T18]: a second pass. */
+/** Loss of orthogonality that is allowed where Y needs both ends of an interval to be orthonormal
+ * to rounding [T18]: it takes a second pass. */
 static const double DEFECT_COUPLED = 1e-12;
-/** Square of the loss of orthogonality, at most, as a part of the interval's share of the accuracy:
- * it bounds a mean, too. */
+/** Largest square of the loss of orthogonality, as a part of the interval's share of the accuracy.
+ */
 static const double DEFECT_SHARE = 0.1;
-/** Pieces of an interval, beyond which dividing costs more than it saves [T6]; and beyond which
- * what even repeated passes cannot factor is given up. */
+/** Pieces of an interval above which dividing costs more than it saves [T6]; and above which an
+ * interval that even repeated passes cannot factor is given up. */
 enum { PIECES_MAX = 8, PIECES_LAST = 512 };
-/** Vectors from which on the norm of dq is worth while; and orthonormalisations after which the
- * vectors of a random start have dq halves as independent as the vectors themselves. */
+/** The norm of dq pays from this many vectors on; and after this many orthonormalisations the dq
+ * halves of a random start are as independent as the vectors. */
 enum { HALVES_MANY = 64, HALVES_ALIGNED = 8 };
-/** Loss of isotropy beyond which the frame is made isotropic again: as much as orthogonality may
- * lack where somebody looks [T18]. */
+/** The frame is made isotropic again if its loss of isotropy exceeds this, which is the loss of
+ * orthogonality that measured vectors may have [T18]. */
 static const double ISOTROPY = 1e-6;
-/** Loss of orthogonality of a random frame that does not matter; a pass leaves less. */
+/** A random frame may have this loss of orthogonality; one pass leaves less. */
 static const double ORTHONORMAL = 1e-10;
-/** Collisions of each disk between two orthonormalisations that no accuracy and no density exceed.
+/** Most collisions of each particle between two orthonormalisations, at any accuracy and density.
  */
 static const double COLLISIONS_MOST = 60.0;
-/** Positive exponents nearest to zero, which a target calls smallest. */
+/** How many positive exponents nearest to zero a target calls `smallest`. */
 enum { SMALLEST_EXPONENTS = 8 };
-/** Kept for a half that is no number. */
+/** Stands in a checkpoint for a half that is NaN. */
 static const double NO_HALF = -2.0;
 
 /* ---- creation ------------------------------------------------------------------------------ */
@@ -68,7 +68,7 @@ static hd_status create_random(hd_carrier *c, uint64_t seed)
                                   c->communicator);
 }
 
-/** A random frame, orthonormal. Random vectors are hardly ever dependent: then repeated passes. */
+/** Creates a random orthonormal frame; by repeated passes if its vectors are nearly dependent. */
 static hd_status create_frame(hd_carrier *c, uint64_t seed)
 {
     const hd_ortho_limits once = {1e7, ORTHONORMAL, HD_NORM_FULL};
@@ -93,7 +93,7 @@ int hd_carrier_threads_most(const hd_scene_def *scene, const hd_communicator *co
 static hd_status prepare_threads(hd_carrier *c, const hd_scene_def *scene)
 {
     const int most = hd_carrier_threads_most(scene, c->communicator);
-    if (most > 1) HD_TRY(hd_blas_room(most)); /* one has its buffer since the start */
+    if (most > 1) HD_TRY(hd_blas_room(most)); /* one thread has had its buffer since the start */
     const int granted = c->threads = hd_blas_threads_granted(most);
     hd_blas_use_threads(granted);
     if (scene->threads == 0 && !c->communicator)
@@ -103,7 +103,7 @@ static hd_status prepare_threads(hd_carrier *c, const hd_scene_def *scene)
     return HD_OK;
 }
 
-/** Vectors of the half that are completed at once: a rank's own, if somebody observes them. */
+/** Vectors of the half that are completed at once: a rank's own, if an observable needs them. */
 static int completed(const hd_scene_def *scene, int here)
 {
     return hd_observables_asked(scene, HD_NEEDS_VECTORS) ? here : 0;
@@ -117,8 +117,8 @@ static hd_status prepare_conjugate(hd_carrier *c, const hd_scene_def *scene)
                                completed(scene, here));
 }
 
-/** Keeps the halves of a frame that is orthonormal in the whole norm: the next one may be so in the
- * norm of dq alone. */
+/** Keeps the halves of a frame that is orthonormal in the full norm, because the next frame may be
+ * so in the norm of dq alone. */
 static hd_status keep_halves(hd_carrier *c)
 {
     const hd_shared shared = {2, (size_t)c->vectors, (size_t)hd_frame_stride(c->frame),
@@ -206,8 +206,8 @@ static hd_status replay(hd_carrier *c, double t_begin, double t_end)
     return HD_OK;
 }
 
-/** Pieces of the record that are factored by repeated passes: a collision of each disk, or an
- * eighth of an interval that is only a few collisions long. */
+/** Length of a piece of the record that is factored by repeated passes: one collision of each
+ * particle, or an eighth of an interval that is only a few collisions long. */
 static double shortest_piece(const hd_carrier *c)
 {
     return fmin(hd_record_duration(c->record) / PIECES_MAX, c->collision);
@@ -235,8 +235,8 @@ static hd_status follow(hd_carrier *c, const hd_carrying *how, hd_leg leg)
     return how->observables ? hd_observables_follow(how->observables, &leg) : HD_OK;
 }
 
-/** What is lost of isotropy decays [T18]; should it ever not, the frame gets it back. The triangle
- * of the step then is not that of the frame any more. */
+/** Makes the frame isotropic again if it has lost too much. Usually a loss decays by itself [T18].
+ * The step's triangle is then no longer that of the frame. */
 static hd_status keep_isotropic(hd_carrier *c, const hd_carrying *how)
 {
     if (!(hd_conjugate_isotropy(c->conjugate, c->frame) <= ISOTROPY)) {
@@ -276,10 +276,10 @@ void hd_carrier_save_accuracy(hd_carrier *c, bool averaging)
     c->interval.saved = averaging && c->spectrum ? hd_carrier_averaged(c) - used : INFINITY;
 }
 
-/** What an accepted orthonormalisation says about spectrum, interval and cost. */
+/** Passes the results of an accepted orthonormalisation on to spectrum, interval and cost. */
 static void piece_accepted(hd_carrier *c, double length, bool averaging)
 {
-    const hd_norm norm = hd_ortho_norm(c->ortho); /* of a stable step always the whole one */
+    const hd_norm norm = hd_ortho_norm(c->ortho); /* always the full norm after repeated passes */
     const double start = hd_clock_now();
     const double *stretch = hd_ortho_log_stretch(c->ortho);
     const double condition = hd_ortho_condition(c->ortho);
@@ -302,7 +302,7 @@ static void piece_accepted(hd_carrier *c, double length, bool averaging)
     cost->spectrum += hd_clock_now() - start;
 }
 
-/** Before the first orthonormalisation. */
+/** Prepares the first orthonormalisation of an interval. */
 static hd_status begin_interval(hd_carrier *c, const hd_carrying *how)
 {
     if (c->conjugate && how->observables && hd_observables_begin(how->observables))
@@ -310,7 +310,7 @@ static hd_status begin_interval(hd_carrier *c, const hd_carrying *how)
     return follow(c, how, (hd_leg){.at = HD_LEG_BEGINS});
 }
 
-/** A frame that is orthonormal in the norm of dq alone becomes so in the whole norm, at the same
+/** Makes a frame that is orthonormal in the norm of dq orthonormal in the full norm, at the same
  * time. */
 static hd_status complete_norm(hd_carrier *c, bool averaging)
 {
@@ -324,7 +324,7 @@ static hd_status complete_norm(hd_carrier *c, bool averaging)
     return HD_OK;
 }
 
-/** Loss of orthogonality that an interval may leave. */
+/** The loss of orthogonality that an interval may leave. */
 static double defect_allowed(const hd_carrier *c, const hd_carrying *how, hd_norm norm)
 {
     const bool looked_at = norm == HD_NORM_FULL && how->observed;
@@ -333,7 +333,7 @@ static double defect_allowed(const hd_carrier *c, const hd_carrying *how, hd_nor
                 sqrt(DEFECT_SHARE * c->accuracy * hd_record_duration(c->record)));
 }
 
-/** A part of the record, if the conditioning allows it. */
+/** Carries the frame through a part of the record, if conditioning allows it. */
 static hd_status carry_piece(hd_carrier *c, const hd_carrying *how, double t_begin, double t_end)
 {
     const bool whole = how->measured && t_end >= hd_record_duration(c->record);
@@ -343,7 +343,7 @@ static hd_status carry_piece(hd_carrier *c, const hd_carrying *how, double t_beg
                        (hd_ortho_limits){.defect = defect_allowed(c, how, norm), .norm = norm});
 }
 
-/** A part of the record has been carried through. */
+/** Passes on the results of a part of the record that the frame was carried through. */
 static hd_status take_piece(hd_carrier *c, const hd_carrying *how, double t_begin, double t_end)
 {
     piece_accepted(c, t_end - t_begin, how->averaging);
@@ -364,7 +364,7 @@ static hd_status carry_through(hd_carrier *c, const hd_carrying *how)
             HD_TRY(take_piece(c, how, begin, end));
             begin = end;
             end = duration - end < 1.5 * piece ? duration
-                                               : end + piece; /* no crumb of rounding is left */
+                                               : end + piece; /* rounding leaves no short piece */
             continue;
         }
         if (piece <= duration / PIECES_LAST) return HD_ILL_CONDITIONED;

@@ -1,7 +1,5 @@
-/** What carries the tangent vectors of a run: the record of the events since the last
- * orthonormalisation, the frame, and what its orthonormalisations tell: spectrum, conditioning,
- * halves.
- */
+/** Carries the tangent vectors of a run: the record since the last orthonormalisation, the frame,
+ * and the results of orthonormalisations, which are spectrum, conditioning and halves. */
 #ifndef HD_CARRIER_H
 #define HD_CARRIER_H
 
@@ -10,14 +8,14 @@
 #include "tangent/conjugate.h"
 #include "tangent/interval.h"
 
-/** What rounding may have done. */
+/** What rounding may have added. */
 typedef struct hd_rounding {
-    double condition_max; /**< so far: how well the start of the averaging is known */
+    double condition_max; /**< largest one so far: how well the start of the averaging is known */
     double
         sum; /**< HD_ROUNDING times condition_max as the averaging began and all conditions since */
 } hd_rounding;
 
-/** The fields are carrier.c's, and of checkpoint.c. Without exponents pointers are NULL. */
+/** Only carrier.c and checkpoint.c use the members. Without exponents pointers are NULL. */
 typedef struct hd_carrier {
     hd_communicator *communicator; /**< NULL: a single rank */
     const hd_dynamics *of;
@@ -35,54 +33,54 @@ typedef struct hd_carrier {
     hd_cost *cost;
 } hd_carrier;
 
-/** How a record is to be carried through. */
+/** How the frame is carried through a record. */
 typedef struct hd_carrying {
-    bool averaging;              /**< the spectrum takes it up */
-    bool measured;               /**< the frame becomes orthonormal in the whole norm */
-    bool observed;               /**< somebody looks at measured vectors */
-    bool whole;                  /**< somebody needs every frame orthonormal in the whole norm */
-    hd_observables *observables; /**< that follow the interval; NULL: nobody */
+    bool averaging; /**< its logarithms are added to the spectrum */
+    bool measured;  /**< the frame becomes orthonormal in the full norm */
+    bool observed;  /**< an observable reads the measured vectors */
+    bool whole;     /**< an observable needs every frame orthonormal in the full norm */
+    hd_observables *observables; /**< those that follow the interval; NULL: none */
     double expected;             /**< time units that the next intervals are expected to last */
     const hd_trajectory *trajectory;
 } hd_carrying;
 
-/** Of a scene; collision: time between two of a disk; block: shortest of the averages. What it
- * costs is added to `cost`. Without exponents only its interval is there. What one rank cannot do,
- * none does. */
+/** Creates the carrier of a scene. collision: time between two collisions of a particle; block:
+ * shortest block of the averages. Its work is added to `cost`. Without exponents it has only its
+ * interval. If one rank fails, all do. */
 HD_MUST_CHECK hd_status hd_carrier_create(hd_carrier *carrier, const hd_scene_def *scene,
                                           double collision, double block,
                                           hd_communicator *communicator, hd_cost *cost);
 void hd_carrier_free(hd_carrier *carrier);
-/** Bytes on each of so many ranks. */
+/** Bytes on each of `ranks` ranks. */
 double hd_carrier_bytes(const hd_scene_def *scene, int threads, int ranks);
 /** Threads that this rank may use; communicator may be NULL. */
 int hd_carrier_threads_most(const hd_scene_def *scene, const hd_communicator *communicator);
 
-/** The norm in which the frame is orthonormalised where nobody wants its vectors; whole: somebody
- * needs the whole one. */
+/** The norm in which the frame is orthonormalised where its vectors are not measured; whole: an
+ * observable needs the full one. */
 hd_norm hd_carrier_norm(const hd_carrier *carrier, bool whole);
 /** The longest that intervals between orthonormalisations can become. */
 double hd_carrier_longest(const hd_carrier *carrier);
 
-/** Carries the frame through the whole record and orthonormalises it. HD_ILL_CONDITIONED if no
- * piece is short enough. */
+/** Carries the frame through the whole record and orthonormalises it. Fails with HD_ILL_CONDITIONED
+ * if no piece is short enough. */
 HD_MUST_CHECK hd_status hd_carrier_orthonormalise(hd_carrier *carrier, hd_carrying how);
-/** Halves are those of this measured state, and the spectrum takes its sample up. */
+/** Takes the halves of this measured state, and ends the spectrum's sample. */
 HD_MUST_CHECK hd_status hd_carrier_sample(hd_carrier *carrier, bool averaging);
 
-/** The averages begin here, of vectors that have been carried for so long. */
+/** Starts the averages anew; age: time for which the vectors have been carried. */
 void hd_carrier_clear(hd_carrier *carrier, double age);
-/** Tells the interval how much of the accuracy the averaging has not used up. */
+/** Tells the interval how much of the accuracy the averaging has left. */
 void hd_carrier_save_accuracy(hd_carrier *carrier, bool averaging);
 
-/** All n vectors, of a single rank. */
+/** All n vectors, with a single rank. */
 hd_columns hd_carrier_vectors(const hd_carrier *carrier);
 /** hd_frame_halves of all n vectors at the last measured state; [n] each. */
 void hd_carrier_halves(const hd_carrier *carrier, double *cos_theta, double *dp_dq_ratio);
-/** Averaged time, that of the sample under way included. */
+/** Averaged time, with that of the present sample. */
 double hd_carrier_averaged(const hd_carrier *carrier);
-/** Largest standard error of the positive exponents nearest to zero, or of the last ones carried
- * if those are not; INFINITY while one is unknown, and without any. */
+/** Largest standard error of the positive exponents nearest to zero, or of the last ones carried if
+ * the frame does not reach so far; INFINITY while one is unknown, and if there are none. */
 double hd_carrier_smallest_error(const hd_carrier *carrier);
 /** See hd_cost.error_bound; NaN before the averaging. */
 double hd_carrier_error_bound(const hd_carrier *carrier);

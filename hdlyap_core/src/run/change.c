@@ -1,4 +1,4 @@
-/** What is asked for while a run goes on: value -> what the agenda takes up where it holds. */
+/** Changes that are asked for while a run goes on: value -> what the agenda puts in force later. */
 #include <math.h>
 
 #include "base/check.h"
@@ -11,7 +11,7 @@ double hd_run_change_time(const hd_run *run)
     return hd_agenda_change_time(&run->agenda, hd_run_time(run), run->carrier.frame);
 }
 
-/** Time goes on until a change holds: the averaging must last until then. */
+/** Refuses a duration that would be over before the change is in force. */
 static hd_status check_duration(const hd_run *run, double duration, char *message, size_t size)
 {
     const double from = hd_run_change_time(run);

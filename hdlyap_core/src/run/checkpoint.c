@@ -1,5 +1,5 @@
-/** A run <-> its checkpoint. Each part of the run knows its own arrays (archive.h); here is what
- * binds them together, and whether they fit the scene that is asked for. */
+/** A run <-> its checkpoint. Each part of the run knows its own arrays (archive.h); this file binds
+ * them together, and checks that they fit the scene that is asked for. */
 #include "hdlyap/checkpoint.h"
 
 #include <limits.h>
@@ -27,7 +27,7 @@ enum { VALUE = 32 }; /* of a parameter, in words */
 
 /* ---- a run's own numbers ------------------------------------------------------------------- */
 
-/** The dynamics is known by its name: to the core, or to who reads. */
+/** Reads or writes the name of the dynamics, which the core or the reading program has to know. */
 static bool dynamics_archive(hd_checkpoint *head, hd_archive *archive, hd_known known)
 {
     const char *name = archive->writing ? hd_dynamics_of(&head->scene)->particles : "";
@@ -37,7 +37,7 @@ static bool dynamics_archive(hd_checkpoint *head, hd_archive *archive, hd_known 
            hd_dynamics_named(&head->scene.dynamics, head->particles, known);
 }
 
-/** False if the dynamics is not known: the scene is none. */
+/** Reads or writes the head; false if the dynamics is not known, so that there is no scene. */
 static bool head_archive(hd_checkpoint *head, hd_archive *archive, hd_known known)
 {
     hd_archive_text(archive, "label", head->label, sizeof head->label);
@@ -65,7 +65,7 @@ static void cost_archive(hd_run *run, hd_archive *archive)
     c->limit = (hd_limit)limit;
 }
 
-/** Clocks are kept as the seconds that they have run. */
+/** Reads or writes clocks, as the seconds for which they have run. */
 static void clocks_archive(hd_run *run, hd_archive *archive)
 {
     const double now = hd_clock_now();
@@ -78,7 +78,7 @@ static void clocks_archive(hd_run *run, hd_archive *archive)
     run->clocks.frame_started = carried >= 0 ? now - carried : 0.0;
 }
 
-/** A watcher can stop a run in the middle of an advance that is planned. */
+/** Reads or writes the plan: a viewer can stop a run in the middle of a planned advance. */
 static void plan_archive(hd_advance_plan *plan, hd_archive *archive)
 {
     hd_archive_double(archive, "run advance begin", &plan->begin);
@@ -86,7 +86,7 @@ static void plan_archive(hd_advance_plan *plan, hd_archive *archive)
     hd_archive_bits(archive, "run advance events", &plan->events);
 }
 
-/** What has been asked for may not hold yet. */
+/** Reads or writes the values in force, which may differ from those asked for. */
 static void in_force_archive(hd_run *run, hd_archive *archive)
 {
     hd_agenda *agenda = &run->agenda;
@@ -153,7 +153,7 @@ static void parts_archive(hd_run *run, hd_archive *archive)
     hd_observables_archive(&run->observables, archive, true, now);
 }
 
-/** Nothing that is planned is later: of a duration that has become shorter it is cut. */
+/** The latest time that anything is planned for; a shorter duration cuts it. */
 static double last_time(const hd_run *run)
 {
     return fmax(hd_run_time(run), hd_schedule_stage_end(&run->agenda.schedule));
@@ -177,12 +177,13 @@ static void plan_expect(const hd_run *run, hd_archive *archive)
                       "there were not so many");
 }
 
-/** Times fit each other: the run can go on from here. */
+/** Expects that times fit each other, so that the run can go on. */
 static void times_expect(const hd_run *run, hd_archive *archive)
 {
     const hd_schedule *s = &run->agenda.schedule;
     const double now = hd_run_time(run), cut = hd_schedule_cut(s);
-    const bool no_more = cut >= now && hd_schedule_stage_end(s) <= now; /* a stage without length */
+    const bool no_more = cut >= now &&
+                         hd_schedule_stage_end(s) <= now; /* the stage has no length */
     const bool ahead = s->stage == HD_FINISHED || cut > now || no_more;
     hd_archive_expect(archive, s->start >= 0 && s->start <= s->origin && s->origin <= now && ahead,
                       "schedule", "it does not go on from this time");
@@ -216,7 +217,7 @@ void hd_run_write(hd_run *run, hd_archive *archive, const char *label)
     plan_expect(run, archive);
 }
 
-/** What rank 0 writes, the others tell it. */
+/** The other ranks send rank 0 what it writes. */
 static hd_status tell_writer(hd_run *run)
 {
     FILE *nowhere = fopen("/dev/null", "wb");
@@ -282,7 +283,7 @@ static hd_status refuse_other(const hd_parameter *row, const hd_scene_def *asked
                      hd_parameter_say(row, kept, must, sizeof must));
 }
 
-/** What cannot change within a run. */
+/** Refuses a difference in a parameter that cannot change within a run. */
 static hd_status check_same(const hd_scene_def *asked, const hd_scene_def *kept, char *message,
                             size_t size)
 {
@@ -302,7 +303,7 @@ static hd_status inconsistent(const hd_archive *archive, char *message, size_t s
     return archive->status;
 }
 
-/** Contents of a whole file can be nonsense all the same. */
+/** Reads and checks the head: an undamaged file can hold impossible values. */
 static hd_status read_head(hd_checkpoint *out, hd_archive *archive, hd_known known, char *message,
                            size_t size)
 {
@@ -316,14 +317,14 @@ static hd_status read_head(hd_checkpoint *out, hd_archive *archive, hd_known kno
     return hd_scene_check(&out->scene, message, size) == HD_OK ? HD_OK : HD_FILE_FAULT;
 }
 
-/** As many threads as before, unless others are asked for or there are not so many. */
+/** The number of threads: as before, unless another one is asked for or the machine has fewer. */
 static int threads_of(int asked, int before)
 {
     if (asked > 0) return asked;
     return before <= hd_blas_query().cores ? before : 0;
 }
 
-/** A run that had finished goes on if it has become longer. */
+/** Lets a finished run go on if its duration has become longer. */
 static hd_status reopen(hd_run *run, char *message, size_t size)
 {
     const double averaged = hd_run_time(run) - run->agenda.schedule.start;
@@ -336,7 +337,7 @@ static hd_status reopen(hd_run *run, char *message, size_t size)
                      run->scene.duration, averaged);
 }
 
-/** Another duration and target hold at once, another report interval from the next change on. */
+/** Puts another duration and target in force at once, and asks for another report interval. */
 static void take_up_scene(hd_run *run, const hd_scene_def *kept)
 {
     const hd_parameter *row;
@@ -365,14 +366,14 @@ static hd_status restore(hd_run *run, hd_archive *archive, const hd_checkpoint *
     run->advance.plan.end = fmin(run->advance.plan.end, last_time(run));
     times_expect(run, archive);
     plan_expect(run, archive);
-    /* no file may ask for an advance without end */
+    /* no file may make an advance endless */
     const double bound = run->advance.bound;
     run->advance.longest = fmin(run->advance.longest, bound);
     run->advance.plan.end = fmin(run->advance.plan.end, hd_run_time(run) + bound);
     return hd_archive_good(archive) ? HD_OK : inconsistent(archive, message, size);
 }
 
-/** No room is asked for that the file could not fill. */
+/** Whether the file is long enough for the scene, before memory is taken for it. */
 static bool holds(hd_archive *archive, const hd_scene_def *scene)
 {
     const double least = 8.0 * scene->number *
@@ -383,7 +384,7 @@ static bool holds(hd_archive *archive, const hd_scene_def *scene)
     return hd_archive_good(archive);
 }
 
-/** Head and scene: as asked for, which must be the checkpoint's but for what may differ. */
+/** Reads head and scene; the scene asked for may differ from the checkpoint's only where it may. */
 static hd_status begin_reading(hd_checkpoint *head, hd_scene_def *asked, int *threads,
                                hd_archive *archive, const hd_scene_def *scene, char *message,
                                size_t size)

@@ -7,7 +7,7 @@
 
 void hd_run_write(hd_run *run, hd_archive *archive, const char *label);
 
-/** As hd_run_resume; the line in message does not name the file. Whatever the bytes are. */
+/** Does what hd_run_resume does, from any bytes; the line in message does not name the file. */
 HD_MUST_CHECK hd_status hd_run_read(hd_run **out, hd_archive *archive, const hd_scene_def *scene,
                                     hd_communicator *communicator, char *message, size_t size);
 

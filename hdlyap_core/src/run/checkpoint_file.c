@@ -1,10 +1,10 @@
 /** Arrays <-> a file that is whole or not there.
  *
  * Head, 48 bytes: "hdlyap checkpoint" and zeros (24); format, and 0x01020304 in the machine's byte
- * order (4 each); length of the file (8); CRC-32 of everything behind the head, and of the head so
- * far (4 each). The part is written with a head of its first 24 bytes alone, which is filled in
- * when all else is; then it is forced to the disk, and renamed: at every moment the name belongs to
- * a whole file or to none. */
+ * order (4 each); length of the file (8); CRC-32 of everything after the head, and of the head so
+ * far (4 each). PATH.part is written first, with only the first 24 bytes of the head; the rest of
+ * the head is written last. Then the file is forced to the disk and renamed, so that at every
+ * moment the name belongs to a whole file or to none. */
 #define _POSIX_C_SOURCE 200809L
 #include "run/checkpoint_file.h"
 
@@ -26,7 +26,7 @@ typedef struct head {
     char magic[sizeof MAGIC];
     uint32_t format, order;
     uint64_t length;
-    uint32_t crc, head_crc; /**< of what comes behind the head; of the head before it */
+    uint32_t crc, head_crc; /**< checksums of what follows the head, and of the head before it */
 } head;
 
 uint32_t hd_checkpoint_head_crc(const void *file)
@@ -55,7 +55,7 @@ static hd_status fault(char *message, size_t size, const char *path, const char 
 
 /* ---- writing ------------------------------------------------------------------------------- */
 
-/** The name of the part, if the path can be that of a file. */
+/** Sets the name of the part, if the path can be that of a file. */
 static hd_status name_part(hd_checkpoint_file *f, char *message, size_t size)
 {
     struct stat now;
@@ -67,8 +67,8 @@ static hd_status name_part(hd_checkpoint_file *f, char *message, size_t size)
     return HD_OK;
 }
 
-/** True if nobody else writes there. The name may have gone to another file before the lock came.
- */
+/** Locks the part; true if nobody else writes it. The name may have passed to another file before
+ * the lock was there. */
 static int lock_part(int fd, const char *part)
 {
     struct flock whole = {.l_type = F_WRLCK, .l_whence = SEEK_SET};
@@ -77,8 +77,8 @@ static int lock_part(int fd, const char *part)
            opened.st_ino == named.st_ino && S_ISREG(opened.st_mode);
 }
 
-/** True of what a process that was killed may have left: a part that was begun, perhaps without
- * contents yet; and of no file that has another name, too. */
+/** Whether a killed process may have left this file: it is empty or has the head of a part, and it
+ * has no other name. */
 static bool is_left_over(int fd)
 {
     static const char nothing[sizeof MAGIC];
@@ -90,7 +90,7 @@ static bool is_left_over(int fd)
                                                     memcmp(found, nothing, sizeof found) == 0));
 }
 
-/** Without waiting for anybody at the other end of what is no file. */
+/** Opens the part; does not wait at a pipe or a device. */
 static hd_status open_part(hd_checkpoint_file *f, char *message, size_t size)
 {
     const int fd = open(f->part, O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0666);
@@ -132,8 +132,7 @@ void hd_checkpoint_file_drop(hd_checkpoint_file *f)
     f->file = NULL;
 }
 
-/** The folder knows its new entry. Not every file system has this: then it is as safe as it gets.
- */
+/** Forces the folder's new entry to the disk, on file systems that can. */
 static void sync_folder(const char *path)
 {
     char folder[HD_CHECKPOINT_PATH] = ".";
@@ -156,7 +155,7 @@ static int write_head(FILE *file, const hd_archive *archive)
     return fseek(file, 0, SEEK_SET) == 0 && fwrite(&h, sizeof h, 1, file) == 1;
 }
 
-/** To the disk, and under its name. */
+/** Forces the part to the disk and gives it its name. */
 static int finish(hd_checkpoint_file *f, const hd_archive *archive)
 {
     const int whole = write_head(f->file, archive) && fflush(f->file) == 0 &&
@@ -196,7 +195,7 @@ static uint32_t rest_crc(FILE *file, uint64_t *bytes)
     return (uint32_t)crc;
 }
 
-/** The order of the questions decides what a file is called that is wrong in several ways. */
+/** Checks a file; if it has several faults, the first one that is checked is named. */
 static hd_status verify(FILE *file, uint64_t *bytes, const char *path, char *message, size_t size)
 {
     head h;

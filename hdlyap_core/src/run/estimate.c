@@ -1,7 +1,8 @@
-/** Scene -> a short trial -> what a run of it will take, and how much it will tell.
+/** Scene -> a short trial -> the time and memory that a run will take, and the errors that it will
+ * reach.
  *
- * The trial is warmed up until intervals are as long as they become; then it goes on for a second,
- * and for two orthonormalisations. */
+ * The trial is warmed up until intervals have reached their length; then it goes on for a second,
+ * and for at least two orthonormalisations. */
 #include "hdlyap/estimate.h"
 
 #include <math.h>
@@ -12,14 +13,15 @@
 #include "run/run_state.h"
 #include "scene/scene.h"
 
-/** How long the trial goes on, at least [s]. */
+/** Shortest time of the trial [s]. */
 static const double TRIAL_SECONDS = 1.0;
-/** Collisions of each disk until intervals are as long as they become: they double from 2. */
+/** Collisions of each particle until intervals have reached their length: they double from 2. */
 static const double WARMUP_COLLISIONS = 120.0;
-/** Disks x vectors^2 of a trial: beyond, an interval alone takes longer than a trial may. */
+/** Largest particles x vectors^2 of a trial: above it one interval takes longer than a trial may.
+ */
 static const double TRIAL_WORK = 800.0 * 1600.0 * 1600.0;
-/** Averaged time of 1 % in c_T, in units of that from which errors are stated: as measured with 780
- * disks, doc/performance.md. */
+/** Averaged time for an error of 1 % in c_T, in units of the time from which errors are stated;
+ * measured with 780 disks, see doc/performance.md. */
 static const double OF_SLOPES = 2.0;
 
 hd_extent hd_extent_of(const hd_scene_def *def, const hd_run *run)
@@ -29,8 +31,8 @@ hd_extent hd_extent_of(const hd_scene_def *def, const hd_run *run)
 
 /* ---- what it takes ------------------------------------------------------------------------- */
 
-/** A scene of the same shape and waves whose trial is short; the scene itself if it is one, or
- * there is none. */
+/** A smaller scene of the same shape and waves whose trial is short; the scene itself if its trial
+ * is short, or if there is no such scene. */
 static hd_scene_def smaller(const hd_scene_def *def)
 {
     const double vectors = hd_scene_carried(def), work = def->number * vectors * vectors;
@@ -81,7 +83,7 @@ static hd_status measure(hd_estimate *out, hd_run *run)
     return HD_OK;
 }
 
-/** Averaged time at which an error was as small as wanted, of one that is smaller by now. */
+/** Averaged time at which an error, which is smaller by now, had the size that the target names. */
 static double reached_after(const hd_standing *s, double averaged)
 {
     const double falls = s->error * s->error - s->open * s->open;
@@ -89,7 +91,7 @@ static double reached_after(const hd_standing *s, double averaged)
     return may > 0.0 ? averaged * falls / may : averaged;
 }
 
-/** Averaged time of the target, of a run that has averaged as the scene would. */
+/** Averaged time at which a run that has averaged as long as the scene would reach the target. */
 static double target_after(const hd_run *run, const hd_scene_def *def)
 {
     const bool same = hd_run_scene(run)->number == def->number;
@@ -100,8 +102,8 @@ static double target_after(const hd_run *run, const hd_scene_def *def)
     return end.error < 0.0 ? NAN : fmax(after, hd_run_errors_after(run));
 }
 
-/** What a trial of fewer disks says of all of them: a frame takes N^3, an error the time of sound
- * through the box. */
+/** Scales a trial of fewer particles up: the work of a frame grows as N^3, the time for an error as
+ * that of sound through the box. */
 static void enlarge(hd_estimate *e, const hd_scene_def *tried, const hd_scene_def *def)
 {
     e->disks = tried->number;

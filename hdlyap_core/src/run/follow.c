@@ -1,4 +1,4 @@
-/** Orders of rank 0 -> the same calls on the other ranks. */
+/** Orders of rank 0 -> the same calls of the run on the other ranks. */
 #include "hdlyap/follow.h"
 
 #include "base/check.h"
@@ -31,7 +31,7 @@ static void free_run(hd_run **run)
     *run = NULL;
 }
 
-/** Its status is that of rank 0, which deals with it. */
+/** Carries out an order. Its status is also that of rank 0, which handles a failure. */
 static hd_status obey(hd_run **run, hd_communicator *c, const hd_order *o)
 {
     switch (o->kind) {

@@ -8,7 +8,7 @@
 
 void hd_gathered_free(hd_gathered *g) { hd_memory_free(g->room); }
 
-/** Where a half is carried: both halves, and the half as it is gathered. */
+/** If half of the vectors are carried: bytes of both halves and of the half as it is gathered. */
 double hd_gathered_bytes(const hd_scene_def *scene, int ranks)
 {
     const double rows = 2.0 * hd_scene_coordinates(scene) * scene->number,
@@ -28,7 +28,7 @@ static hd_status reserve(hd_gathered *g, const hd_carrier *c, size_t size)
     return hd_communicator_agree(c->communicator, g->size >= size ? HD_OK : HD_NO_MEMORY);
 }
 
-/** All 4N vectors, from the half that is carried. */
+/** Gathers the half that is carried, and completes it to all vectors. */
 static hd_status gather_both_halves(hd_gathered *g, const hd_carrier *c)
 {
     const int rows = hd_frame_rows(c->frame), n = c->carried;

@@ -7,13 +7,13 @@
 
 #include "base/check.h"
 
-/** As it goes over the wire. Ranks of another version are refused with the first run; where this
+/** An order as it is sent. Ranks of another version are refused with the first run; if this struct
  * has another size there, MPI ends them all before. */
 typedef struct message {
     int kind, integer, with_scene, with_text;
     double number;
     hd_scene_def scene;
-    char particles[HD_PARTICLES]; /**< the scene's pointer to its dynamics is of no use elsewhere */
+    char particles[HD_PARTICLES]; /**< names the dynamics: a pointer is valid on one rank only */
 } message;
 
 void hd_order_tell(hd_communicator *c, hd_order order)

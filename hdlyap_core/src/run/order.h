@@ -1,4 +1,4 @@
-/** A call of a run, as rank 0 tells it to the others. */
+/** A call of a run that rank 0 sends to the other ranks. */
 #ifndef HD_ORDER_H
 #define HD_ORDER_H
 
@@ -30,15 +30,15 @@ typedef struct hd_order {
     const char *text;          /**< a path, a value; NULL: none */
 } hd_order;
 
-/** Where an order that was heard keeps its scene and its text. */
+/** Memory for the scene and the text of an order that was received. */
 typedef struct hd_order_room {
     hd_scene_def scene;
     char text[HD_CHECKPOINT_PATH];
 } hd_order_room;
 
-/** Tells it to the other ranks; nothing unless this rank leads. */
+/** Sends the order to the other ranks if this rank is rank 0; else does nothing. */
 void hd_order_tell(hd_communicator *communicator, hd_order order);
-/** Waits for the next one. A scene of none of the known dynamics is a bug. */
+/** Waits for the next order. Its scene must have a known dynamics; else it is a bug. */
 hd_order hd_order_hear(hd_communicator *communicator, hd_order_room *room, hd_known known);
 
 #endif

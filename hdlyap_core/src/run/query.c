@@ -1,4 +1,4 @@
-/** A run -> what can be read of it: its parts, what it has cost, how far it is. */
+/** A run -> its parts, its cost and its progress. */
 #include <float.h>
 #include <math.h>
 
@@ -65,7 +65,7 @@ double hd_run_shortest_duration(const hd_run *run)
     return hd_run_stage(run) == HD_AVERAGING ? hd_run_change_time(run) - begin : NAN;
 }
 
-/** Simulated time still to come, the target so much; INFINITY for an endless run. */
+/** Simulated time that is left; `target`: that to the target; INFINITY for an endless run. */
 static double time_left(const hd_run *run, double target)
 {
     const hd_scene_def *scene = &run->scene;
@@ -82,7 +82,8 @@ static void add_progress(hd_cost *cost, const hd_run *run)
     const hd_clocks *clocks = &run->clocks;
     const double now = hd_clock_now(), left = time_left(run, cost->target.left),
                  time = hd_run_time(run);
-    const double carried = time - clocks->frame_start_time; /* equilibration is no measure of it */
+    const double carried = time -
+                           clocks->frame_start_time; /* equilibration runs at another speed */
     const bool known = clocks->frame_started != 0 && carried > 0 && left < INFINITY;
     cost->wall = now - clocks->created;
     cost->progress = left < INFINITY ? time / fmax(time + left, DBL_MIN) : -1.0;

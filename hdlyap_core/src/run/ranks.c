@@ -1,4 +1,4 @@
-/** Ranks of a run -> whether they can carry it together, and still do. */
+/** Ranks of a run -> whether they can carry it together, and whether they still agree. */
 #include "run/ranks.h"
 
 #include <stdio.h>
@@ -13,8 +13,8 @@
 #include "hdlyap/room.h"
 #include "observe/observables.h"
 
-/** What must be the same on all ranks; its size is a multiple of that of a double, which is what
- * they share. */
+/** Facts that must be the same on all ranks; the size is a multiple of a double's, because doubles
+ * are shared. */
 typedef struct program {
     char text[64];
 } program;
@@ -27,7 +27,8 @@ static program this_program(void)
     return own;
 }
 
-/** Other kernels round otherwise: what each computes alike would not be alike. */
+/** Refuses ranks with other BLAS kernels, which round differently: what each rank computes for
+ * itself would differ. */
 static hd_status same_programs(hd_communicator *c, char *message, size_t size)
 {
     const size_t ranks = (size_t)hd_communicator_ranks(c), words = sizeof(program) / sizeof(double);

@@ -1,4 +1,4 @@
-/** Scene -> bytes that its run takes: the sum of what its parts say of themselves. */
+/** Scene -> bytes that its run takes, which is the sum over its parts. */
 #include "hdlyap/room.h"
 
 #include <stdio.h>
@@ -28,8 +28,8 @@ static bool fits(const hd_scene_def *def, hd_room room)
     return hd_room_needed(def, threads, room.ranks) <= room.bytes;
 }
 
-/** Largest value of a number of the scene, below the one it has, with which the scene fits; 0:
- * none. `number` points into the copy. */
+/** The largest value, below its own, of a number of the scene with which the run fits into memory;
+ * 0: none. `number` points into the copy. */
 static int most_that_fits(const hd_scene_def *copy, hd_room room, int *number)
 {
     int least = 0, most = *number;
@@ -56,7 +56,7 @@ static int disks_that_fit(const hd_scene_def *def, hd_room room)
     return most_that_fits(&copy, room, &copy.number);
 }
 
-/** Rounded down to two digits: it is an estimate. */
+/** Rounds down to two digits, because it is an estimate. */
 static int about(int number)
 {
     int scale = 1;

@@ -1,10 +1,11 @@
 /** Scene -> spectrum and observables, one interval at a time.
  *
- * The agenda says when something is due. The disks go there; then what is due is done, in the order
- * of go_on. The frame goes from one orthonormalisation to the next, and the record of the events
- * since the last one waits until then. A sample ends with a measured state: the frame is
- * orthonormal in the whole norm, and all averages take it up. A report in between states them as of
- * the last one, unless somebody needs the vectors: then the sample ends with it. */
+ * The agenda says when something is due. The particles move to that time; then go_on does what is
+ * due, in one order. The frame goes from one orthonormalisation to the next; the record of what
+ * happened since the last one waits until then. A sample ends with a measured state: the frame is
+ * orthonormal in the full norm, and all averages are updated. A report between two samples states
+ * the averages of the last one, unless a listener needs the vectors: then the sample ends with the
+ * report. */
 #include "hdlyap/run.h"
 
 #include <math.h>
@@ -30,31 +31,31 @@ static bool is_framed(const hd_run *run)
     return run->carrier.frame && hd_agenda_stage(&run->agenda) != HD_EQUILIBRATING;
 }
 
-/** True where a sample has ended. */
+/** True if a sample has just ended. */
 static bool is_measured(const hd_run *run)
 {
     return hd_agenda_is_measured(&run->agenda, hd_run_time(run));
 }
 
-/** True if averages are taken, and an observable that is looked at has all of these needs. */
+/** True if averages are taken and an observable that somebody listens to has all of these needs. */
 static bool is_needed(const hd_run *run, unsigned needs)
 {
     return is_averaging(run) && hd_observables_need(&run->observables, needs);
 }
 
-/** True where a watcher wants vectors. */
+/** True if a viewer watches vectors. */
 static bool is_watched(const hd_run *run)
 {
     return is_needed(run, HD_NEEDS_VECTORS) && run->watch.first < run->carrier.vectors;
 }
 
-/** True while an observable has something to do before time may go on. */
+/** True while an observable has work to do before the run may go on. */
 static bool is_behind(const hd_run *run)
 {
     return is_averaging(run) && hd_observables_are_behind(&run->observables);
 }
 
-/** The present state: without vectors, if none are carried. */
+/** The present state, without vectors if none are carried. */
 static hd_view view_of(const hd_run *run)
 {
     const hd_carrier *c = &run->carrier;
@@ -106,7 +107,7 @@ static void enter_stage(hd_run *run, hd_stage stage)
     hd_agenda_enter(&run->agenda, stage, now);
     hd_advance_stop(&run->advance, now);
     if (stage != HD_FINISHED)
-        run->followed = -1.0; /* a run that is made longer goes on from there */
+        run->followed = -1.0; /* a run that is made longer may go on from here */
     if (hd_agenda_stage(&run->agenda) != HD_EQUILIBRATING && run->clocks.frame_started == 0) {
         run->clocks.frame_started = hd_clock_now();
         run->clocks.frame_start_time = now;
@@ -177,8 +178,7 @@ void hd_run_drop(hd_run *run)
 
 /* ---- what is due --------------------------------------------------------------------------- */
 
-/** Takes up what has been asked for since, if it holds from now on. The averaging may end with it.
- */
+/** Puts changes in force that hold from now on. The averaging may end with them. */
 static void take_changes(hd_run *run)
 {
     const double now = hd_run_time(run);
@@ -187,8 +187,7 @@ static void take_changes(hd_run *run)
     hd_agenda_end_averaging(&run->agenda, hd_target_reached(run), now);
 }
 
-/** Longest time from one measured state to the next; as somebody asks for it, if there is anything
- * to follow. */
+/** Longest time from one measured state to the next that observables allow. */
 static double sampling(const hd_run *run)
 {
     const double wanted = run->scene.phase_interval;
@@ -197,15 +196,14 @@ static double sampling(const hd_run *run)
     return wanted > 0 && needed < INFINITY ? fmin(wanted, needed) : needed;
 }
 
-/** What it will be at its shortest, as far as is known: phases that are wanted often will be there.
- */
+/** The shortest value that `sampling` is expected to have, also before phases are followed. */
 static double sampling_expected(const hd_run *run)
 {
     const double wanted = run->scene.phase_interval;
     return is_needed(run, HD_NEEDS_CLOSE) && wanted > 0 ? wanted : sampling(run);
 }
 
-/** The frame becomes orthonormal here; measured: in the whole norm. */
+/** Makes the frame orthonormal now; measured: in the full norm. */
 static hd_status orthonormalise(hd_run *run, bool measured)
 {
     const bool at_reports = hd_observables_need(&run->observables, HD_NEEDS_REPORTS) ||
@@ -227,7 +225,7 @@ static hd_status orthonormalise(hd_run *run, bool measured)
     return HD_OK;
 }
 
-/** First of the vectors that somebody wants to read now; n if nobody does. */
+/** The first vector that somebody reads now; n if nobody does. */
 static int first_wanted(const hd_run *run)
 {
     const bool fields = hd_agenda_is_due(&run->agenda, HD_DUE_FIELDS) &&
@@ -239,14 +237,14 @@ static int first_wanted(const hd_run *run)
     return wanted && run->fields_first < first ? run->fields_first : first;
 }
 
-/** Where all vectors are looked at, as nobody else reads them. */
+/** Makes readable the vectors that somebody reads now. */
 static hd_status gather(hd_run *run)
 {
     if (!is_needed(run, HD_NEEDS_VECTORS)) return HD_OK;
     return hd_gather(&run->gathered, &run->carrier, first_wanted(run));
 }
 
-/** A snapshot of this state, whoever looks; `add`: which the averages take up. */
+/** Takes a snapshot of this state; add: and adds it to the averages. */
 static hd_status measure(hd_run *run, bool add)
 {
     if (!is_averaging(run) || !hd_observables_any(&run->observables)) return HD_OK;
@@ -261,7 +259,7 @@ static hd_status measure(hd_run *run, bool add)
     return HD_OK;
 }
 
-/** Of the exponents nearest to zero, whose averages have taken a sample up. */
+/** Adds the present error of the exponents nearest to zero to its trend. */
 static void add_error(hd_run *run)
 {
     const double error = hd_carrier_smallest_error(&run->carrier);
@@ -269,10 +267,10 @@ static void add_error(hd_run *run)
                        error < INFINITY ? error : -1.0);
 }
 
-/** A state is measured here. */
+/** Ends the sample with a measured state. */
 static hd_status end_sample(hd_run *run)
 {
-    if (is_measured(run)) return HD_OK; /* an averaging can be too short for time to move */
+    if (is_measured(run)) return HD_OK; /* the averaging may be too short for time to move */
     if (is_framed(run)) HD_TRY(orthonormalise(run, true));
     hd_agenda_pass_sample(&run->agenda, hd_run_time(run));
     if (is_framed(run)) HD_TRY(hd_carrier_sample(&run->carrier, is_averaging(run)));
@@ -280,7 +278,7 @@ static hd_status end_sample(hd_run *run)
     return measure(run, true);
 }
 
-/** A sample ends here, before its interval was to end. */
+/** Ends the sample before its interval ends. */
 static hd_status end_early(hd_run *run)
 {
     run->cost.limit = HD_LIMIT_LOOK;
@@ -293,7 +291,7 @@ static hd_status end_interval(hd_run *run, bool sample_ends)
     return sample_ends || is_watched(run) ? end_sample(run) : orthonormalise(run, false);
 }
 
-/** What is due at a report needs a state that is measured here. */
+/** True if what is due at this report needs a measured state. */
 static bool needs_state(const hd_run *run)
 {
     const hd_agenda *a = &run->agenda;
@@ -305,7 +303,7 @@ static bool needs_state(const hd_run *run)
 static hd_status report(hd_run *run)
 {
     bool reached = is_averaging(run) && hd_target_reached(run);
-    if (reached && !is_measured(run)) { /* with the sample that ends here it may not be any more */
+    if (reached && !is_measured(run)) { /* with this sample the target may be missed again */
         HD_TRY(end_early(run));
         reached = hd_target_reached(run);
     }
@@ -322,7 +320,7 @@ static hd_status report(hd_run *run)
     return HD_OK;
 }
 
-/** The vectors of this very time, if a watcher wants them and they are not known. */
+/** Makes the vectors of this time known, if a viewer watches them. */
 static hd_status look(hd_run *run)
 {
     if (!is_watched(run) || run->known) return HD_OK;
@@ -331,7 +329,7 @@ static hd_status look(hd_run *run)
     return end_early(run);
 }
 
-/** Once no observable is behind, if a stage is to end. The last one may end early. */
+/** Leaves the stage if it is over and no observable is behind. */
 static void leave_stage(hd_run *run)
 {
     if (!hd_agenda_is_due(&run->agenda, HD_DUE_STAGE) || is_behind(run)) return;
@@ -372,7 +370,7 @@ static hd_pace pace_of(hd_run *run)
                      .longest = hd_advance_longest(&run->advance)};
 }
 
-/** Settles where the frame is orthonormalised next, if that is open. */
+/** Plans the next orthonormalisation of the frame, unless one is planned. */
 static hd_pace plan(hd_run *run)
 {
     const hd_pace pace = pace_of(run);
@@ -380,7 +378,7 @@ static hd_pace plan(hd_run *run)
     return pace;
 }
 
-/** Moves the disks on towards that time, as far as a watcher lets them. */
+/** Moves the particles towards that time, or to the time that a viewer watches next. */
 static hd_status move_disks(hd_run *run, double end)
 {
     const double start = hd_clock_now();
@@ -422,7 +420,7 @@ static hd_status advance(hd_run *run)
     run->known = false;
     run->gathered.columns.count = 0;
     if (hd_agenda_stage(&run->agenda) == HD_FINISHED) return HD_OK;
-    if (is_framed(run)) hd_blas_use_threads(run->carrier.threads); /* of the calling thread */
+    if (is_framed(run)) hd_blas_use_threads(run->carrier.threads); /* set for the calling thread */
     if (is_behind(run) || hd_agenda_is_due(&run->agenda, HD_DUE_STAGE)) return catch_up(run, false);
     return go_on(run);
 }

@@ -1,11 +1,12 @@
-/** What the core asks of a run. */
+/** Functions on a run that only the core calls. */
 #ifndef HD_RUN_H
 #define HD_RUN_H
 
 #include "hdlyap/run.h"
 #include "tangent/frame.h"
 
-/** What is carried; of all 4N exponents half of the vectors [T18]. NULL without exponents */
+/** The frame that is carried; for all 4N exponents half of the vectors [T18]. NULL without
+ * exponents */
 const hd_frame *hd_run_frame(const hd_run *run);
 /** Averaged time from which standard errors are stated [T8]; 0 without exponents. */
 double hd_run_errors_after(const hd_run *run);

@@ -1,6 +1,5 @@
-/** What a run holds, for the files that make it up: run.c goes on, query.c tells, change.c takes
- * what is asked for, target.c says whether it is reached, checkpoint.c keeps.
- */
+/** The members of a run: run.c goes on, query.c reads, change.c takes changes, target.c says
+ * whether the target is reached, checkpoint.c keeps. */
 #ifndef HD_RUN_STATE_H
 #define HD_RUN_STATE_H
 
@@ -13,10 +12,10 @@
 #include "run/carrier.h"
 #include "run/gathered.h"
 
-/** What somebody watches, see hd_run_watch. */
+/** What a viewer watches, see hd_run_watch. */
 typedef struct hd_watch {
-    double interval; /**< INFINITY: nobody does */
-    int first;       /**< column from which vectors are wanted */
+    double interval; /**< INFINITY: nobody watches */
+    int first;       /**< column from which on vectors are watched */
 } hd_watch;
 
 /** For estimates of the time left. */
@@ -27,8 +26,8 @@ typedef struct hd_clocks {
 
 struct hd_run {
     hd_communicator *communicator; /**< NULL: a single rank */
-    hd_status status;              /**< of the call that failed: then the rest is of no use */
-    hd_scene_def scene;            /**< as it is asked for now */
+    hd_status status;              /**< status of the call that failed; the run is then unusable */
+    hd_scene_def scene;            /**< the scene as it is asked for now */
     hd_agenda agenda;
     hd_advance advance;
     hd_carrier carrier;
@@ -44,20 +43,19 @@ struct hd_run {
     hd_error_trend errors; /**< of those nearest to zero; begins anew with a run that is resumed */
 };
 
-/** hd_run_create_shared and hd_run_free within a call that the other ranks make, too. */
+/** hd_run_create_shared and hd_run_free, called within a call that the other ranks make, too. */
 HD_MUST_CHECK hd_status hd_run_make(hd_run **out, const hd_scene_def *def,
                                     hd_communicator *communicator, char *message, size_t size);
 void hd_run_drop(hd_run *run);
 
-/** Ends what a step has begun, so that the run can be kept: half of what an observable has to do
- * first is none. */
+/** Finishes the work that an observable has begun, so that the run can be kept. */
 HD_MUST_CHECK hd_status hd_run_settle(hd_run *run);
 
-/** Of a target that hd_target_check has passed. */
+/** How far the run is from a target that hd_target_check has passed. */
 hd_standing hd_target_standing(const hd_run *run, const hd_text *target);
-/** That the target which is in force is: false without one. */
+/** True if the target in force is reached; false without one. */
 bool hd_target_reached(const hd_run *run);
-/** These stages, and those without which the scene's target would never be known. */
+/** These stages, and those that are needed to know the quantities of the scene's target. */
 unsigned hd_target_stages(const hd_scene_def *def, unsigned stages);
 
 #endif

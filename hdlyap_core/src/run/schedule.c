@@ -1,19 +1,19 @@
 /** Scene -> ends of stages and reports.
  *
  * Stages follow each other at fixed times: equilibration (trajectory alone), warm-up of the frame,
- * averaging. Reports are due at multiples of their interval and where a stage ends. They say
- * nothing of when the frame is orthonormalised. */
+ * averaging. Reports are due at multiples of their interval and where a stage ends.
+ * Orthonormalisations do not depend on them. */
 #include "run/schedule.h"
 
 #include <float.h>
 #include <limits.h>
 #include <math.h>
 
-/** Ends that are this close are one: a report and the end of its stage as a part of a report
- * interval that fits into the stage, an orthonormalisation and a cut as a part of its interval. */
+/** Two ends are the same if they differ by less than this part: of the report interval for a report
+ * and the end of its stage; of its interval for an orthonormalisation and a cut. */
 static const double CLOSE = 1e-6;
-/** The present time is the end of the stage, but for this part of it: what is left of a duration
- * with 15 digits, which is 23 eps, and of some sums. */
+/** The present time is the end of the stage if they differ by less than this part: a duration of 15
+ * digits is known to 23 eps, and some sums are rounded. */
 static const double ROUNDING = 64.0 * DBL_EPSILON;
 
 hd_schedule hd_schedule_of(const hd_scene_def *scene)
@@ -45,7 +45,7 @@ double hd_schedule_stage_end(const hd_schedule *s)
     return s->start + s->length[s->stage == HD_FINISHED ? HD_AVERAGING : s->stage];
 }
 
-/** Products, not sums: rounding does not add up. */
+/** Time of a report, as a product, so that rounding does not add up. */
 static double report_at(const hd_schedule *s, double count)
 {
     const double end = s->origin + count * s->report_interval, last = hd_schedule_stage_end(s);
@@ -61,8 +61,8 @@ double hd_schedule_snap(const hd_schedule *s, double now, double length)
     return fabs(end - cut) <= CLOSE * length ? cut : end;
 }
 
-/** A report that the end of the stage cuts short is not passed: it would go on if the stage were
- * made longer. */
+/** A report that is cut short by the end of the stage does not count as passed, because the stage
+ * may be made longer. */
 bool hd_schedule_pass(hd_schedule *s)
 {
     const double last = hd_schedule_stage_end(s);
@@ -108,8 +108,7 @@ bool hd_schedule_reopen(hd_schedule *s, double now)
     return hd_schedule_reaches(s, now);
 }
 
-/** What the scene does not say of it: another duration or report interval may have been asked for,
- * but not hold yet. */
+/** Reads or writes the schedule in force; other values may have been asked for already. */
 void hd_schedule_archive(hd_schedule *s, hd_archive *archive)
 {
     int stage = (int)s->stage;

@@ -1,5 +1,5 @@
-/** Quantities by which a run can be ended, one row each: what a scene must have for them, and what
- * a run states of them. The same numbers are published. */
+/** Quantities that a target can name, a row each: what a scene needs for them, and what a run
+ * states. The same numbers are published. */
 #include <ctype.h>
 #include <float.h>
 #include <math.h>
@@ -14,7 +14,7 @@
 
 enum { GOALS_MOST = 16 };
 
-/** All of a target; count 0: none. */
+/** All quantities of a target; count 0: none. */
 typedef struct aims {
     int count;
     hd_aim goal[GOALS_MOST];
@@ -64,7 +64,7 @@ static hd_stated read_ks_entropy(const hd_parts *parts, const hd_aim *goal)
     return (hd_stated){sums.ks_entropy, sums.ks_entropy_error, 0.0};
 }
 
-/** That of the smallest ones is the carrier's. */
+/** Quantities of exponents alone. */
 static const hd_quantity of_exponents[] = {
     {.name = "smallest", .possible = smallest_possible},
     {.name = "lambda_max", .read = read_lambda_max},
@@ -72,14 +72,14 @@ static const hd_quantity of_exponents[] = {
     {.name = "h_KS", .read = read_ks_entropy},
     {.name = NULL}};
 
-/** Of the exponents, k = -1, or of row k; NULL: none. */
+/** The quantities of exponents (k = -1) or of the observable in row k; NULL: none. */
 static const hd_quantity *quantities_of(int k)
 {
     if (k < 0) return of_exponents;
     return hd_observable_rows[k]->quantities ? hd_observable_rows[k]->quantities->each : NULL;
 }
 
-/** HD_OBSERVE_* without which it is never known; 0: exponents alone. */
+/** The HD_OBSERVE_* that a quantity needs; 0: exponents alone. */
 static unsigned needed(const hd_aim *goal)
 {
     return goal->row < 0 ? 0 : hd_observable_bits[goal->row];
@@ -95,7 +95,7 @@ static bool is_name(const char *name, const char *text, size_t length)
     return true;
 }
 
-/** Finds what is named; false if there is none. */
+/** Finds the quantity of this name; false if there is none. */
 static bool find_quantity(hd_aim *goal, const char *text, size_t length)
 {
     for (goal->row = -1; goal->row < HD_OBSERVED; goal->row++)
@@ -106,7 +106,7 @@ static bool find_quantity(hd_aim *goal, const char *text, size_t length)
 
 static const char *skipped(const char *at, const char *what) { return at + strspn(at, what); }
 
-/** "(1,0)"; NULL if there are not so many. */
+/** Reads "(1,0)"; NULL if the numbers are not as many as dimensions. */
 static const char *read_numbers(hd_aim *goal, const char *at, int dimension)
 {
     const int of[] = {[HD_OF_NOTHING] = 0, [HD_OF_INDEX] = 1, [HD_OF_NODES] = dimension};
@@ -123,7 +123,7 @@ static const char *read_numbers(hd_aim *goal, const char *at, int dimension)
     return *at == ')' ? at + 1 : NULL;
 }
 
-/** "c_T 1%"; NULL if it is none. */
+/** Reads "c_T 1%"; NULL if it is not like that. */
 static const char *read_goal(hd_aim *goal, const char *at, int dimension)
 {
     char *end;
@@ -140,7 +140,7 @@ static const char *read_goal(hd_aim *goal, const char *at, int dimension)
     return skipped(at + goal->relative, " ");
 }
 
-/** False if the text is none, in a space of that dimension. */
+/** Reads a whole target, in a space of this dimension; false if it is wrong. */
 static bool read_all(aims *out, const hd_text *text, int dimension)
 {
     const char *at = skipped(text->line, " ");
@@ -152,7 +152,7 @@ static bool read_all(aims *out, const hd_text *text, int dimension)
     return at;
 }
 
-/** Of a text that hd_target_check has passed. */
+/** The quantities of a text that hd_target_check has passed. */
 static aims aims_of(const hd_scene_def *def, const hd_text *text)
 {
     aims all;
@@ -220,7 +220,7 @@ hd_status hd_target_check(const hd_scene_def *def, char *message, size_t size)
     return HD_OK;
 }
 
-/** Those of a set that this one comes with: itself, if it is one of them. */
+/** Of a set, the observables that bring this one along; itself, if it is one of the set. */
 static unsigned simplest(unsigned set, unsigned one)
 {
     unsigned all = 0;
@@ -243,7 +243,8 @@ unsigned hd_target_stages(const hd_scene_def *def, unsigned stages)
 
 /* ---- how far is it? -------------------------------------------------------------------------- */
 
-/** Time until the part of an error that falls is as small as what is open leaves for it. */
+/** Time until the part of an error that averaging reduces is small enough beside the part that
+ * stays. */
 static double left_of(const hd_standing *s, double averaged)
 {
     const double falls = s->error * s->error - s->open * s->open;
@@ -274,7 +275,7 @@ static hd_standing standing_of(const hd_run *run, const hd_aim *goal, double ave
     return s;
 }
 
-/** What is not known is farthest. */
+/** How far an error is from its aim; unknown errors are farthest. */
 static double distance(const hd_standing *s)
 {
     return s->error >= 0.0 ? s->error / s->wanted : INFINITY;
