@@ -1,9 +1,9 @@
 /** What a run costs: its parts, and the whole as a ratio to the floor
  * F = 4 m n^2 flops at dgemm speed per ln(1e8) / (lambda_1 - lambda_n) of simulated time,
  * all measured in one run on one machine, in rounds.
- * Usage: hdlyap_bench [--spheres | --dumbbells] [--disks N] [--density RHO] [--threads N] [--rounds
- * N]
- *         [--duration TIME UNITS OF A ROUND] [--settling TIME UNITS BEFORE THE FIRST] [--whole]
+ * Usage: hdlyap_bench [--spheres | --dumbbells | --soft] [--disks N] [--density RHO] [--threads N]
+ *         [--rounds N] [--duration TIME UNITS OF A ROUND] [--settling TIME UNITS BEFORE THE FIRST]
+ * [--whole]
  *         [--events] [--out FOLDER] [--name NAME]; with --out it writes FOLDER/NAME.csv; --whole
  *         and --events are for one part alone. */
 #include <hdlyap/hdlyap.h>
@@ -21,7 +21,7 @@
 #include "timing.h"
 
 typedef struct asked {
-    bool spheres, dumbbells;
+    bool spheres, dumbbells, soft;
     int disks, threads, rounds;
     double density;
     double duration;    /**< of a round [time units] */
@@ -40,6 +40,7 @@ static hd_scene_def scene_of(const asked *a, int disks, double density)
 {
     const hd_scene_def core = {.particles = a->spheres     ? HD_SPHERES
                                             : a->dumbbells ? HD_DUMBBELLS
+                                            : a->soft      ? HD_SOFT_DISKS
                                                            : HD_DISKS};
     hd_scene_def scene = hd_scene_def_of(hd_dynamics_of(&core));
     scene.number = disks;
@@ -279,6 +280,7 @@ int main(int argc, char **argv)
                .name = "whole"};
     const option list[] = {{"--spheres", .flag = &a.spheres},
                            {"--dumbbells", .flag = &a.dumbbells},
+                           {"--soft", .flag = &a.soft},
                            {"--disks", .count = &a.disks, .least = 10, .most = 5000},
                            {"--density", .number = &a.density, .least = 1e-3, .most = 1.4},
                            {"--threads", .count = &a.threads, .least = 0, .most = 256},

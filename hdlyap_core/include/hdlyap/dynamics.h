@@ -146,7 +146,7 @@ struct hd_dynamics {
      * read. What follows from them is made anew. */
     void (*archive)(void *state, hd_archive *archive);
     uint32_t (*fingerprint)(const void *state); /**< of q and p to the last bit; may be left out */
-    double (*bytes)(double particles);          /**< of the state; may be left out */
+    double (*bytes)(const hd_scene_def *scene); /**< of the state; may be left out */
 
     /* ---- record; may all be left out where entries are doubles throughout */
     const char *(*fault)(const hd_record *record, const hd_scene_def *scene); /**< or NULL */

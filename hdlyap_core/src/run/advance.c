@@ -6,6 +6,7 @@
 
 #include "base/check.h"
 #include "run/schedule.h"
+#include "scene/scene.h"
 
 /** No advance is planned shorter: simulated time must move. */
 static const double SHORTEST = 1e-12;
@@ -17,12 +18,20 @@ static double events_per_disk(const hd_scene_def *scene)
     return 2.0 * hd_dynamics_of(scene)->entries(scene) / scene->number;
 }
 
+double hd_advance_most(const hd_scene_def *scene)
+{
+    const double each = hd_dynamics_of(scene)->step ? hd_scene_carried(scene) : 0.0;
+    return fmax(2e5, scene->number * each);
+}
+
 hd_status hd_advance_create(hd_advance *advance, const hd_scene_def *scene)
 {
     HD_TRY(hd_trajectory_create(&advance->trajectory, scene));
     const double rate = events_per_disk(scene);
+    advance->entries = hd_dynamics_of(scene)->entries(scene);
+    advance->most = hd_advance_most(scene);
     advance->longest = 1e-3 / rate;
-    advance->bound = 8.0 * HD_EVENTS_MAX / (scene->number * rate);
+    advance->bound = 8.0 * advance->most / (scene->number * rate);
     return HD_OK;
 }
 
@@ -70,14 +79,23 @@ bool hd_advance_is_done(const hd_advance *advance)
     return hd_advance_now(advance) >= advance->plan.end;
 }
 
+/** Of a plan that is done; of what tells none entries, as the record has them or is expected to. */
+static double events_in(const hd_advance *advance, double length, const hd_record *record)
+{
+    const uint64_t told = hd_advance_events(advance);
+    if (told > 0) return (double)(told - advance->plan.events);
+    return length * (record ? (double)hd_record_count(record) / hd_record_duration(record)
+                            : advance->entries);
+}
+
 /** The longest advance grows step by step, each by what the last one showed: a channel of hardly
  * more than a disk's width can have 1e9 wall events in a time unit. */
-static void learn(hd_advance *advance)
+static void learn(hd_advance *advance, const hd_record *record)
 {
     const double length = advance->plan.end - advance->plan.begin;
-    const double events = fmax(1.0, (double)(hd_advance_events(advance) - advance->plan.events));
+    const double events = fmax(1.0, events_in(advance, length, record));
     const double grown = fmin(4.0 * fmax(length, advance->longest),
-                              length * HD_EVENTS_MAX / events);
+                              length * advance->most / events);
     if (length > 0) advance->longest = fmin(grown, advance->bound);
 }
 
@@ -86,6 +104,6 @@ hd_status hd_advance_on(hd_advance *advance, hd_record *record, double most)
     const double end = end_of_part(hd_advance_now(advance), advance->plan.end,
                                    fmax(most, hd_advance_shortest(advance)));
     HD_TRY(hd_trajectory_extend(advance->trajectory, record, end));
-    if (hd_advance_is_done(advance)) learn(advance);
+    if (hd_advance_is_done(advance)) learn(advance, record);
     return HD_OK;
 }

@@ -6,8 +6,9 @@
 
 #include "dynamics/trajectory.h"
 
-/** Of one advance, at most: bounds memory, and the wait for an answer. */
-#define HD_EVENTS_MAX 2e5
+/** Entries of one advance, at most: bounds memory, and the wait for an answer. Of what moves in
+ * steps as many as take what an orthonormalisation takes, where that is more. */
+double hd_advance_most(const hd_scene_def *scene);
 
 /** The advance that the disks are in: what is learnt of it waits for its end, however often a
  * watcher stops it. */
@@ -18,9 +19,10 @@ typedef struct hd_advance_plan {
 
 typedef struct hd_advance {
     hd_trajectory *trajectory;
-    double longest; /**< time units; keeps to EVENTS_MAX, as far as the rate of events is known */
-    double
-        bound; /**< that `longest` never exceeds: several times EVENTS_MAX at this scene's rate */
+    double most;    /**< entries of one advance */
+    double longest; /**< time units; keeps to `most`, as far as the rate of events is known */
+    double bound;   /**< that `longest` never exceeds: several times `most` at this scene's rate */
+    double entries; /**< of a record, expected in a time unit */
     hd_advance_plan plan;
 } hd_advance;
 

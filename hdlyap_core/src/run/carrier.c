@@ -185,7 +185,7 @@ double hd_carrier_bytes(const hd_scene_def *scene, int threads, int ranks)
     if (n <= 0) return 0.0;
     const double longest = COLLISIONS_MOST * hd_scene_collision_time(scene);
     const double record = hd_record_bytes_of(
-        scene, fmin(HD_EVENTS_MAX, longest * hd_dynamics_of(scene)->entries(scene)));
+        scene, fmin(hd_advance_most(scene), longest * hd_dynamics_of(scene)->entries(scene)));
     const double frame = hd_frame_bytes(rows_of(scene), here, threads);
     const double ortho = hd_ortho_bytes(rows_of(scene), carried, ranks);
     const double conjugate = carried < n

@@ -254,7 +254,8 @@ static hd_dynamics disks_of_ones_own(void)
     own.examine = NULL;
     own.kinetic_energy = NULL;
     own.fingerprint = NULL;
-    own.bytes = own.record_bytes = NULL;
+    own.bytes = NULL;
+    own.record_bytes = NULL;
     own.dispersing = false;
     return own;
 }

@@ -3,6 +3,7 @@
 #include "dumbbell.h"
 #include "ledger.h"
 #include "runs.h"
+#include "soft.h"
 #include "observe/observables.h"
 
 /** To 7 %; and a run gives back what it had. */
@@ -56,6 +57,35 @@ TEST(the_estimate_of_dumbbells_is_what_they_ask_for)
     compare(short_dumbbells(300, HD_EXPONENTS_POSITIVE, 3.0, 3.0));
     compare(short_dumbbells(20000, 1, 4.0, 2.0));
     compare(short_dumbbells(20000, HD_EXPONENTS_NONE, 0.0, 0.5));
+}
+
+static hd_scene_def short_softs(int dimension, int potential, int count, int exponents,
+                                double warmup)
+{
+    const double density = dimension == 2 ? 0.7 : 0.6;
+    hd_scene_def def = soft_box(dimension, potential, HD_PEFRL, 0.004, count,
+                                pow(count / density, 1.0 / dimension));
+    def.own[HD_SOFT_ENERGY].real = 2.0;
+    def.exponents = exponents;
+    def.equilibration = 0.5;
+    def.warmup = warmup;
+    def.report_interval = def.duration = 0.5;
+    def.threads = 2;
+    return def;
+}
+
+/** Whatever they are, and where there is room for more entries, as there are so many vectors. */
+TEST(the_estimate_of_soft_particles_is_what_they_ask_for)
+{
+    static const double warmup[HD_POTENTIALS] = {
+        [HD_POWER] = 8.0, [HD_WCA] = 8.0, [HD_LENNARD_JONES] = 2.0};
+    for (int dimension = 2; dimension <= 3; dimension++)
+        for (int k = 0; k < HD_POTENTIALS; k++) {
+            compare(short_softs(dimension, k, 100, k == HD_LENNARD_JONES ? 50 : 197, warmup[k]));
+            compare(short_softs(dimension, k, 300, 10, 0.5 * warmup[k]));
+            compare(short_softs(dimension, k, 2000, HD_EXPONENTS_NONE, 0.0));
+        }
+    compare(short_softs(2, HD_WCA, 400, HD_EXPONENTS_POSITIVE, 4.0));
 }
 
 /** Of each field: its values at the disks, and some numbers of each vector; none of each other

@@ -101,10 +101,10 @@ static uint32_t row_fingerprint(const void *state)
                              (size_t)m->hard.motion.count * sizeof *m->spin);
 }
 
-static double row_bytes(double molecules)
+static double row_bytes(const hd_scene_def *scene)
 {
     const double spin_and_which = 20.0, cells = 15.0; /* there are more, as they are less dense */
-    return hd_hard_bytes(molecules) + (spin_and_which + cells) * molecules;
+    return hd_hard_bytes(scene) + (spin_and_which + cells) * scene->number;
 }
 
 /** In the record, which doubles when it is full, and as maps. */

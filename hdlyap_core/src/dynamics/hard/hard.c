@@ -249,11 +249,11 @@ double hd_hard_entries(const hd_scene_def *def)
     return def->number * rate;
 }
 
-double hd_hard_bytes(double disks)
+double hd_hard_bytes(const hd_scene_def *scene)
 {
     /* its cells, its place in the queue and its prediction */
     static const double OF_A_DISK = HD_DIM == 2 ? 255.0 : 310.0;
-    return OF_A_DISK * disks;
+    return OF_A_DISK * scene->number;
 }
 
 void hd_hard_free(void *state)

@@ -44,7 +44,7 @@ void hd_hard_tell(const void *state, hd_told *told);
 int hd_hard_zeros(const hd_scene_def *def);
 double hd_hard_rate(const hd_scene_def *def);
 double hd_hard_entries(const hd_scene_def *def);
-double hd_hard_bytes(double disks);
+double hd_hard_bytes(const hd_scene_def *scene);
 uint32_t hd_hard_fingerprint(const void *state);
 
 /* ---- of disks and spheres ------------------------------------------------------------------ */

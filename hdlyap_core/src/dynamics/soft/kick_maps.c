@@ -64,7 +64,8 @@ void hd_kick_maps_free(void *made)
 static hd_status reserve(maps *all, size_t pairs)
 {
     if (pairs <= all->capacity) return HD_OK;
-    const size_t room = pairs + pairs / 2;
+    size_t room = 4096; /* as records grow */
+    while (room < pairs) room *= 2;
     release(all);
     all->capacity = 0;
     all->run = hd_memory_alloc(room, sizeof *all->run);

@@ -237,8 +237,29 @@ static void row_examine(const void *state, hd_examined *out)
 
 static double row_energy_error(const void *state) { return ((const soft *)state)->error; }
 
-/** With a list of those within 2.5 in space. */
-static double row_bytes(double particles) { return 400.0 * particles; }
+static double row_bytes(const hd_scene_def *scene)
+{
+    const double of_one = 2.0 * sizeof(double) * hd_scene_dimension(scene);
+    return of_one * scene->number + hd_neighbours_bytes(scene, hd_soft_potential(scene)->cut);
+}
+
+/** Their room doubles; maps have another as large. */
+static double record_bytes(double entries, double entry)
+{
+    double room = 4096.0;
+    while (room < 1.1 * entries) room *= 2.0;
+    return 2.0 * room * entry;
+}
+
+static double row_record_bytes_plane(double entries)
+{
+    return record_bytes(entries, HD_KICK_BYTES(HD_BENDS_PLANE));
+}
+
+static double row_record_bytes_space(double entries)
+{
+    return record_bytes(entries, HD_KICK_BYTES(HD_BENDS_SPACE));
+}
 
 static const char *inconsistency(const soft *s)
 {
@@ -293,9 +314,9 @@ static const char *row_fault(const hd_record *record, const hd_scene_def *scene)
         .free = hd_soft_free, .advance = hd_soft_advance, .time = row_time, .state = row_state,    \
         .kinetic_energy = hd_soft_kinetic_energy, .examine = row_examine,                          \
         .energy_error = row_energy_error, .archive = row_archive, .bytes = row_bytes,              \
-        .fault = row_fault, .maps_create = hd_kick_maps_create_##in,                               \
-        .maps_free = hd_kick_maps_free, .maps_fill = hd_kick_maps_fill,                            \
-        .carry = hd_kick_maps_carry                                                                \
+        .record_bytes = row_record_bytes_##in, .fault = row_fault,                                 \
+        .maps_create = hd_kick_maps_create_##in, .maps_free = hd_kick_maps_free,                   \
+        .maps_fill = hd_kick_maps_fill, .carry = hd_kick_maps_carry                                \
     }
 const hd_dynamics hd_soft_disks = SOFT("soft_disks", plane, 2, HD_BENDS_PLANE);
 const hd_dynamics hd_soft_spheres = SOFT("soft_spheres", space, 3, HD_BENDS_SPACE);
