@@ -35,7 +35,7 @@ run_packages() {
 }
 
 test_packages() {
-    echo ccache libcmocka-dev libgtest-dev ninja-build shellcheck strace valgrind clang libomp-dev xvfb libxtst6 imagemagick libgl1-mesa-dri \
+    echo ccache python3-xarray libcmocka-dev libgtest-dev ninja-build shellcheck strace valgrind clang libomp-dev xvfb libxtst6 imagemagick libgl1-mesa-dri \
         black flake8 clang-format doxygen libopenmpi-dev openmpi-bin slurmctld slurmd slurm-client openssh-server iproute2
     case $1 in
         debian)

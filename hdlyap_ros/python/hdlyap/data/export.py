@@ -42,7 +42,7 @@ def csv(run, folder):
 def npz(run, path):
     """Writes them, a column of a frame as 'steps.exponent', and run_info and the units as JSON; its
     name."""
-    arrays = {'info': json.dumps(_plain(run.info)), 'units': {}}
+    arrays = {'info': json.dumps(plain_info(run.info)), 'units': {}}
     for name, frame in tables(run).items():
         plain = frame.reset_index()
         if name in ('exponents', 'std_errors', 'local_exponents'):
@@ -79,9 +79,12 @@ def _units(frame):
     return '; '.join(f'{name} [{unit}]' for name, unit in units.items() if unit)
 
 
-def _plain(info):
-    return {
-        name: list(value) if isinstance(value := getattr(info, name), (list, tuple)) else value
-        for name in info.__slots__
-        if name != 'header'
-    }
+def plain_info(info):
+    """run_info for JSON."""
+    return {name: _plain(getattr(info, name)) for name in info.__slots__ if name != 'header'}
+
+
+def _plain(value):
+    if isinstance(value, (list, tuple)):
+        return [_plain(one) for one in value]
+    return plain_info(value) if hasattr(value, '__slots__') else value

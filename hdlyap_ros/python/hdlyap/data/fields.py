@@ -1,5 +1,5 @@
-"""Message -> what its definition says of its fields: their units, which are -1 while unknown, and
-the names of the constants that they hold."""
+"""Message -> what its definition says of its fields: what they are, their units, which are -1 while
+unknown, and the names of the constants that they hold."""
 
 import re
 from collections import namedtuple
@@ -8,10 +8,10 @@ from functools import lru_cache
 LINE = re.compile(r'(?m)^[\w/]+(?:\[\])? +(\w+) +# *(.*)$')
 CONSTANT = re.compile(r'(?m)^\w+ +(\w+) *= *(\d+) *# *([^:\n]*)')
 CHOICE = re.compile(r'one of (\w+) \.\. (\w+)')
-UNIT = re.compile(r'\[([^\]]*)\]\s*$')
+UNIT = re.compile(r'\s*\[([^\]]*)\]\s*$')
 UNKNOWN = re.compile(r'(?:^|[;,] )-1 (?!\.\.)')
 
-Field = namedtuple('Field', 'unit unknown')
+Field = namedtuple('Field', 'unit unknown what')
 
 
 def of(message):
@@ -38,7 +38,7 @@ def _own(text):
 @lru_cache(maxsize=None)
 def _parsed(text):
     return {
-        name: Field(_unit(what), bool(UNKNOWN.search(what)))
+        name: Field(_unit(what), bool(UNKNOWN.search(what)), UNIT.sub('', what))
         for name, what in LINE.findall(_own(text))
     }
 

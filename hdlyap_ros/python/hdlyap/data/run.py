@@ -12,7 +12,7 @@ import pandas
 from hdlyap import msg, topics
 from hdlyap.numbers import known
 
-from . import fields, fits, joined, reader, space, structure, tables
+from . import dataset, fields, fits, joined, reader, space, structure, tables
 from .disks import Disks
 from .reader import Missing
 from .said import Said
@@ -203,6 +203,10 @@ class Run:
             'std_errors': pandas.DataFrame(self.std_errors, rows, index),
             'local_exponents': pandas.DataFrame(local.exponents, samples, index),
         }
+
+    def to_xarray(self):
+        """All but hydro and structure as one xarray.Dataset: see data.dataset."""
+        return dataset.of(self)
 
     @cached_property
     def cost(self):

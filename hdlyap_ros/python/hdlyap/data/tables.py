@@ -24,11 +24,12 @@ NAMES = {
 }
 
 
-def frame(columns, units, index=None):
-    """With units in attrs."""
-    made = pandas.DataFrame(columns, index=index)
-    # not assigned: pandas of before 1.0 has no such attribute
-    object.__setattr__(made, 'attrs', {'units': {name: units.get(name, '') for name in columns}})
+def frame(columns, units, index=None, long_names=()):
+    """With units in attrs, and what the columns are as far as it is said."""
+    made, long_names = pandas.DataFrame(columns, index=index), dict(long_names)
+    attrs = {'units': {name: units.get(name, '') for name in columns}}
+    attrs['long_names'] = {name: long_names[name] for name in columns if name in long_names}
+    object.__setattr__(made, 'attrs', attrs)  # pandas of before 1.0 has no such attribute
     return made
 
 
@@ -48,7 +49,7 @@ def elements(parts, index=None, without=()):
     for name in without:
         columns.pop(name, None)
     units = {name: field.unit for name, field in described.items()}
-    return frame(columns, units, index)
+    return frame(columns, units, index, {name: field.what for name, field in described.items()})
 
 
 def _column(values, kind, field):
@@ -82,7 +83,7 @@ def arrays(message, without=()):
     an index and the next one has no last element."""
     described = fields.of(message)
     size = max(len(getattr(message, slot)) for slot in NUMBERED if hasattr(message, slot))
-    columns, units = {}, {}
+    columns, units, long_names = {}, {}, {}
     for slot, kind in zip(message.__slots__, message._slot_types):
         if kind == 'float64[]' and slot not in without:
             name = slot[:-1] if slot.endswith('s') else slot
@@ -90,9 +91,10 @@ def arrays(message, without=()):
             values[: len(getattr(message, slot))] = getattr(message, slot)
             unknown = slot in described and described[slot].unknown
             columns[name] = known(values) if unknown else values
-            units[name] = described[slot].unit if slot in described else ''
+            if slot in described:
+                units[name], long_names[name] = described[slot].unit, described[slot].what
     index = pandas.RangeIndex(message.first_index, message.first_index + size, name='index')
-    return frame(columns, units, index)
+    return frame(columns, units, index, long_names)
 
 
 def of_arrays(message, info=None):

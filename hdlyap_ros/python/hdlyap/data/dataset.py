@@ -1,0 +1,139 @@
+"""A run -> one xarray.Dataset: running means over `time`, samples over `sample` (their ends), other
+topics over times of their own; `index` is the Lyapunov index, `vector` that of a field, `particle`
+counts from 1. A variable has the name of its topic before that of its field, and from the .msg file
+its unit and what it is. What is not known or not measured is NaN."""
+
+import json
+
+import numpy as np
+
+from hdlyap import msg
+
+from . import fields, reader, tables
+from .export import plain_info
+
+MISSING = 'to_xarray needs xarray: python3-xarray of Debian and Ubuntu, xarray of PyPI'
+OVER_TIME = 'spectrum', 'steps', 'gas'  # which report together
+LARGEST = 2**31 - 1  # integer of netCDF by scipy; larger ones are floats, exact up to 2^53
+PHASES = {'lp_phases': tables.of_phases, 't_phases': tables.of_t_phases}
+LAST = 'spectrum', 'modes', 'covariant', 'localization'  # by index, of their last report
+COURSES = 'cost', 'status'
+PLACES = {'state': msg.State, 'fields': msg.ModeField}
+
+
+def of(run):
+    """ImportError without xarray."""
+    try:
+        import xarray
+    except ImportError as error:
+        raise ImportError(f'{MISSING} ({error})') from error
+    parts = [_spectrum(run)] if run.has('spectrum') else []
+    parts += [_part(frame, name) for name, frame in _frames(run)]
+    parts += [_places(name, rows, first) for name, rows, first in _of_particles(run)]
+    made = xarray.merge([part for part in parts if part is not None], join='outer')
+    for name, one in list(made.data_vars.items()):
+        made[name] = one.dims, _plain(one.values), one.attrs
+    made.attrs = {'title': repr(run), 'run_info': json.dumps(plain_info(run.info))}
+    return made
+
+
+def _spectrum(run):
+    import xarray
+
+    index = run.spectrum.index.to_numpy()
+    means, samples = ('time', 'index'), ('sample', 'index')
+    arrays = {
+        'exponents': (means, run.exponents),
+        'std_errors': (means, run.std_errors),
+        'local_exponents': (samples, run.local.exponents),
+    }
+    made = xarray.Dataset(arrays, {'time': run.times, 'index': index, 'sample': run.local.times})
+    made['sample_length'] = 'sample', run.local.lengths
+    described = fields.of(msg.Spectrum)
+    for name, slot in (*((name, name) for name in arrays), ('sample_length', 'local_time')):
+        made[name].attrs = _said(described[slot].unit, described[slot].what)
+    for name in ('time', 'sample'):
+        made[name].attrs = _said(described['sim_time'].unit, 'simulated time')
+    made['index'].attrs = {'long_name': 'Lyapunov index'}
+    return made
+
+
+def _frames(run):
+    """(topic, frame)"""
+    for name in filter(run.has, OVER_TIME):
+        counting = (one for one in run.messages(name) if _counts(run, one))
+        messages = list({one.sim_time: one for one in counting}.values())
+        yield name, tables.scalars(messages).rename_axis('time')
+        if name == 'steps' and messages:
+            frame = tables.over_time(messages, tables.of_steps, run.info)
+            yield name, frame.rename_axis(index={'sim_time': 'time'})
+    for name, of_one in PHASES.items():
+        if run.has(name):
+            frame = tables.over_time(list(run.messages(name)), of_one, run.info)
+            yield name, frame.rename_axis(index={'sim_time': f'{name}_time', 'number': name[:-1]})
+    for name in filter(run.has, LAST):
+        yield name, getattr(run, name)
+    for name in filter(run.has, COURSES):
+        yield name, getattr(run, name).rename_axis(f'{name}_time')
+
+
+def _counts(run, message):
+    """Not what came before the averaging, or before it was reset."""
+    return not run.has('spectrum') or message.sim_time >= run.times[0]
+
+
+def _part(frame, topic):
+    """Columns of a frame as variables over what its index is named after."""
+    if not len(frame.columns):
+        return None
+    made = frame.to_xarray()
+    for name in frame.index.names if frame.index.nlevels > 1 else ():
+        values = frame.index.get_level_values(name).unique()  # their order, lost by unstacking
+        made = made.reindex({name: values})
+        made = made.assign_coords({name: values.to_numpy().astype(_kind(values))})
+    for name in frame.columns:
+        said = (frame.attrs[what].get(name, '') for what in ('units', 'long_names'))
+        made[name].attrs = _said(*said)
+    return made.rename({name: f'{topic}_{name}' for name in frame.columns})
+
+
+def _kind(values):
+    return str if values.dtype == object else values.dtype
+
+
+def _plain(values):
+    """Of words, empty where there are none; of what is none everywhere numbers."""
+    if values.dtype != object:
+        is_large = values.dtype.kind in 'iu' and values.size and abs(values).max() > LARGEST
+        return values.astype(float) if is_large else values
+    if any(isinstance(value, str) for value in values.flat):
+        flat = [value if isinstance(value, str) else '' for value in values.flat]
+        return np.array(flat, dtype=str).reshape(values.shape)
+    return values.astype(float)
+
+
+def _of_particles(run):
+    """(topic, messages by what they are named after, that name)"""
+    if run.has('state'):
+        yield 'state', {one.sim_time: one for one in run.messages('state')}, 'state_time'
+    if run.fields:
+        yield 'fields', run.fields, 'vector'
+
+
+def _places(topic, messages, first):
+    """What stands at each particle, and in `fields` what is said of each vector."""
+    import xarray
+
+    one, described = next(iter(messages.values())), fields.of(PLACES[topic])
+    made = xarray.Dataset(coords={first: list(messages), 'particle': np.arange(1, len(one.x) + 1)})
+    for slot, kind in zip(one.__slots__, one._slot_types):
+        values = [getattr(each, slot) for each in messages.values()]
+        if kind == 'float64' or kind == 'float64[]' and {len(one.x)} == set(map(len, values)):
+            dims = (first, 'particle')[: 1 + kind.endswith('[]')]
+            attrs = _said(described[slot].unit, described[slot].what)
+            made[f'{topic}_{slot}'] = dims, np.array(values), attrs
+    return made
+
+
+def _said(unit, what):
+    return {name: text for name, text in (('units', unit), ('long_name', what)) if text}

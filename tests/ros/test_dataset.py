@@ -1,0 +1,153 @@
+"""run.to_xarray(): what was recorded, by names of dimensions, with what the .msg files say of it."""
+
+import json
+import os
+import re
+import sys
+import unittest
+from unittest import mock
+
+import numpy as np
+import xarray
+from hdlyap.msg import Change, Spectrum, State
+
+import bags
+import hdlyap
+import made
+import test_axes
+import test_data
+
+MSG = os.path.join(os.path.dirname(os.path.abspath(__file__)), '../../msg')
+# message of the variables that begin with the name of a topic
+OF_TOPIC = dict(spectrum='Spectrum', steps='Step Steps', gas='Gas', modes='Mode', cost='Cost')
+OF_TOPIC.update(covariant='Covariant', localization='Localization', lp_phases='LpPhase')
+OF_TOPIC.update(state='State', fields='ModeField', status='RunStatus')
+MADE = ('lp_phases_step', 'lp_phases_modulation')  # named otherwise than the fields of messages
+
+
+def fields():
+    """{(message, field): (what, unit)}"""
+    found = {}
+    for name in os.listdir(MSG):
+        with open(os.path.join(MSG, name)) as file:
+            lines = re.findall(r'(?m)^\S+ +(\w+) +# (.*?)(?: ?\[([^]]*)\])?$', file.read())
+        found.update({(name[:-4], field): (what, unit) for field, what, unit in lines})
+    return found
+
+
+class Everything(bags.Bags):
+    def setUp(self):
+        super().setUp()
+        self.info, *rest = test_axes.everything()
+        self.info.changes = [Change(sim_time=101.0, name='pace', value='2', before='1')]
+        self.spectra = [made.spectrum(np.linspace(9, -9, 80) + t, t) for t in (40.0, 50.0)]
+        for one, count in zip(self.spectra, (7, 2**40)):
+            one.collisions = count
+        t, lp, *others = test_axes.test_covariant_pictures.found_steps(self.info)
+        steps = [made.steps([lp, t], one.averaged_time) for one in self.spectra]
+        steps[1].steps[1].exponent, steps[0].c_t_error = 7.5, -1.0
+        states = [test_data.state(time) for time in (140.0, 150.0)]
+        rest = [one for one in rest if not isinstance(one, (Spectrum, type(steps[0])))]
+        more = [*map(made.gas, (40.0, 50.0)), made.status(150.0)]
+        more += [test_data.modes(150.0)] + states
+        self.messages = [self.info, *rest, *self.spectra, *steps, *more]
+        self.run_ = self.recorded(self.messages).data
+        self.states = states
+        self.all = self.run_.to_xarray()
+
+    def test_values(self):
+        all_of, run = self.all, self.run_
+        for name in ('exponents', 'std_errors'):
+            self.assertEqual(all_of[name].dims, ('time', 'index'))
+            np.testing.assert_array_equal(all_of[name], getattr(run, name))
+        np.testing.assert_array_equal(all_of['time'], run.times)
+        np.testing.assert_array_equal(all_of['local_exponents'], run.local.exponents)
+        np.testing.assert_array_equal(all_of['sample_length'], run.local.lengths)
+        self.assertEqual(list(all_of['spectrum_collisions']), [7, 2**40])
+        self.assertEqual(list(all_of['step'].values), ['LP(1,0)', 'T(1,0)'])
+        exponents = all_of['steps_exponent']
+        self.assertEqual((exponents.dims, exponents.shape), (('time', 'step'), (2, 2)))
+        self.assertEqual(float(exponents.sel(step='T(1,0)').isel(time=-1)), 7.5)
+        self.assertEqual(set(all_of['steps_kind'].values.flat), {'LP', 'T'})
+        np.testing.assert_array_equal(all_of['steps_c_t_error'], [np.nan, 0.012])
+        np.testing.assert_array_equal(all_of['gas_pressure'].dims, ['time'])
+        np.testing.assert_array_equal(all_of['state_px'], [one.px for one in self.states])
+        self.assertEqual(all_of['state_px'].dims, ('state_time', 'particle'))
+        self.assertEqual(list(all_of['particle']), list(range(1, 21)))
+        np.testing.assert_array_equal(all_of['fields_dqy'].sel(vector=35), run.fields[35].dqy)
+        weights = all_of['modes_weight'].sel(index=[1, 2])  # of three vectors there are modes
+        np.testing.assert_array_equal(weights, run.modes['weight'].loc[[1, 2]])
+        self.assertEqual(all_of['modes_kind'].sel(index=4), '')
+        np.testing.assert_array_equal(all_of['covariant_width'], run.covariant['width'])
+        phase = run.course('lp_phases')['phase'].unstack()
+        np.testing.assert_array_equal(all_of['lp_phases_phase'], phase)
+        self.assertEqual(list(all_of['lp_phases_time']), list(phase.index))
+        info = json.loads(all_of.attrs['run_info'])
+        self.assertEqual((info['number'], info['changes'][0]['name']), (20, 'pace'))
+
+    def test_units_and_names_are_those_of_the_messages(self):
+        known, seen = fields(), 0
+        for name, one in self.all.data_vars.items():
+            topic = next((topic for topic in OF_TOPIC if name.startswith(topic + '_')), 'spectrum')
+            field = name[len(topic) + 1 :] if name.startswith(topic + '_') else name
+            field = 'local_time' if name == 'sample_length' else field
+            said = [
+                known[kind, slot]
+                for kind in OF_TOPIC[topic].split()
+                for slot in (field, field + 's')
+                if (kind, slot) in known
+            ]
+            if name not in MADE:
+                attrs = one.attrs.get('long_name', ''), one.attrs.get('units', '')
+                self.assertIn(attrs, [tuple(map(str.strip, pair)) for pair in said], name)
+                seen += bool(said)
+        self.assertGreater(seen, 150)
+        self.assertEqual(self.all['exponents'].attrs['units'], '1/time unit')
+        self.assertIn('simulated time', self.all['time'].attrs['long_name'])
+
+    def test_netcdf_and_back(self):
+        path = os.path.join(self.folder, 'run.nc')
+        self.all.to_netcdf(path)
+        back = xarray.load_dataset(path)
+        self.assertTrue(back.identical(self.all))
+        self.assertEqual(back['spectrum_collisions'].values[1], 2**40)
+        for name, one in self.all.variables.items():
+            kinds = back[name].dtype.kind, one.dtype.kind
+            self.assertIn(kinds, [('O', 'U'), (one.dtype.kind,) * 2], name)
+
+    def test_arrays_with_a_changed_run(self):
+        """What hdlyap plot --npz writes of a run that ~set has changed."""
+        path = os.path.join(self.folder, 'run.npz')
+        self.succeeds('plot', self.run_.paths[0], '--only', 'cost', '--out', self.out, '--npz', path)
+        info = json.loads(str(np.load(path)['info']))
+        self.assertEqual(info['changes'][0]['value'], '2')
+
+
+class Partly(bags.Bags):
+    def test_without_a_spectrum(self):
+        info, found = made.run_info(), made.steps([])
+        all_of = hdlyap.load(self.write([info, found, made.gas()])).to_xarray()
+        self.assertEqual(all_of['gas_pressure'].dims, ('time',))
+        self.assertNotIn('exponents', all_of)
+
+    def test_steps_that_come_and_go(self):
+        """Of what there was not NaN."""
+        info = made.run_info()
+        t, lp = (made.step(info, kind, 1, 0, 36, 37) for kind in (made.T, made.LP))
+        spectra = [made.spectrum([9.0] * 37, time) for time in (40.0, 50.0)]
+        steps = [made.steps([t], 40.0), made.steps([t, lp], 50.0)]
+        all_of = hdlyap.load(self.write([info, *spectra, *steps])).to_xarray()
+        self.assertEqual(list(all_of['step'].values), ['T(1,0)', 'LP(1,0)'])
+        seen = all_of['steps_resolved'].sel(step='LP(1,0)').values
+        np.testing.assert_array_equal(seen, [np.nan, 1])
+        self.assertEqual(list(all_of['steps_kind'].sel(step='LP(1,0)').values), ['', 'LP'])
+
+    def test_without_xarray(self):
+        run = hdlyap.load(self.write([made.run_info(), made.gas()]))
+        with mock.patch.dict(sys.modules, {'xarray': None}):
+            with self.assertRaisesRegex(ImportError, r'to_xarray needs xarray: python3-xarray'):
+                run.to_xarray()
+
+
+if __name__ == '__main__':
+    unittest.main()
