@@ -6,21 +6,21 @@
 #include <stdint.h>
 #include <stdio.h>
 
-/** Of two that have nx, ny and nz. */
+/** True if two messages have the same nx, ny and nz. */
 #define SAME_NODES(a, b) ((a)->nx == (b)->nx && (a)->ny == (b)->ny && (a)->nz == (b)->nz)
 
-/** Those of a wave of the core in a message. */
+/** Copies the numbers of a wave of the core into a message. */
 #define NODES(wave)                                                                                \
     .nx = (uint32_t)(wave).n[0], .ny = (uint32_t)(wave).n[1], .nz = (uint32_t)(wave).n[2]
 
-/** The same, of one that is there. */
+/** Copies the numbers of one message into another. */
 #define PUT_NODES(message, wave)                                                                   \
     ((message)->nx = (uint32_t)(wave).n[0], (message)->ny = (uint32_t)(wave).n[1],                 \
      (message)->nz = (uint32_t)(wave).n[2])
 
 enum { NODES_SIZE = 40 };
 
-/** (1,0), of spheres (1,0,0); three also where disks are asked for what they have not. */
+/** Writes (1,0), or (1,0,0) for spheres and for disks whose nz is not 0. */
 static inline const char *nodes_write(char text[NODES_SIZE], bool spheres, uint32_t nx, uint32_t ny,
                                       uint32_t nz)
 {

@@ -15,7 +15,7 @@ void number_with_error(char *text, size_t size, double value, double error)
         snprintf(text, size, "%.4f", value);
         return;
     }
-    snprintf(rounded, sizeof rounded, "%.1e", error); /* 0.00996 has its digits one place further */
+    snprintf(rounded, sizeof rounded, "%.1e", error); /* 0.00996 is rounded to 0.010 */
     const int places = 1 - (int)floor(log10(strtod(rounded, NULL)));
     if (places > PLACES_MAX)
         snprintf(text, size, "%.1e", value);

@@ -4,13 +4,15 @@
 
 #include <stddef.h>
 
-/** 0.61252(67): the error in units of the last digits, two of them, as the tables of hdlyap plot
- * have it; the value alone, with four decimals, while its error is not known (not above 0). */
+/** Writes 0.61252(67): two digits of the error, in units of the last digits, as the tables of
+ * hdlyap plot do; or the value alone, with four decimals, if its error is not known (not above 0).
+ */
 void number_with_error(char *text, size_t size, double value, double error);
-/** Of a fit: 3.49(11), misfit 6.5; without the misfit while that is not known (negative). */
+/** Writes the result of a fit: 3.49(11), misfit 6.5; without a misfit that is not known (negative).
+ */
 void number_of_fit(char *text, size_t size, double value, double error, double misfit);
 
-/** In as few digits as tell it from every other number. */
+/** Writes a number in as few digits as distinguish it from every other number. */
 void number_text(char *text, size_t size, double value);
 
 #endif

@@ -1,4 +1,5 @@
-/** Changes -> another value in the run and in the settings. Called by the thread that steps it. */
+/** Changes -> other values in the run and in the settings. Only the thread that steps the run calls
+ * this. */
 #include "changes.h"
 
 #include <math.h>
@@ -10,14 +11,15 @@
 #include "hdlyap_ros/node.h"
 #include "parameters.h"
 
-/** Times are equal to rounding: a repetition may differ in their last digits. */
+/** Two times are the same if they differ by less than this part: a repetition may round
+ * differently. */
 static const double CLOSE = 1e-9;
 
 /* ---- list ---------------------------------------------------------------------------------- */
 
 void changes_clear(changes *all) { free(all->list); }
 
-/** Moves one that waits to the end of those that are made. */
+/** Moves change k, which waits, to the end of the changes that are made. */
 static void put_to_made(changes *all, int k)
 {
     const change made = all->list[k];
@@ -26,7 +28,7 @@ static void put_to_made(changes *all, int k)
     all->list[all->made++] = made;
 }
 
-/** In the settings alone. Of live parameters those that are no text are real numbers. */
+/** Assigns the value in the settings. A live parameter is a text or a real number. */
 static void assign(change *c, settings *set, const parameter *p)
 {
     char *field = (char *)set + p->offset + (p->row ? p->row->offset : 0);
@@ -40,7 +42,7 @@ static void assign(change *c, settings *set, const parameter *p)
         *(double *)field = strtod(c->value, NULL);
 }
 
-/** The first of those that wait for no later time than this; -1 if there is none. */
+/** The first waiting change whose time is not later than this; -1 if there is none. */
 static int first_until(const changes *all, double time)
 {
     int first = -1;
@@ -75,7 +77,7 @@ static bool is_ended(const hd_run *run, char *message, size_t size, const char *
            !change_refuse(message, size, name, "the run has ended");
 }
 
-/** Lets the run know; time and value before are filled in. */
+/** Makes a change in the run; fills in its time and the value before. */
 static bool make(change *c, settings *set, hd_run *run, char *message, size_t size)
 {
     const parameter p = parameters_named(c->name);

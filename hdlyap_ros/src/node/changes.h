@@ -1,5 +1,5 @@
-/** Parameters that are changed while the run goes on: those that were asked for in advance, by the
- * parameter `changes`, and those that ~set asks for. */
+/** Parameters that change while the run goes on: those of the parameter `changes`, in advance, and
+ * those that ~set asks for. */
 #ifndef HDLYAP_CHANGES_H
 #define HDLYAP_CHANGES_H
 
@@ -9,12 +9,12 @@
 
 typedef struct changes {
     change *list; /**< [count] */
-    int made;     /**< the first of them, in the order in which they were made; the others wait */
+    int made;     /**< how many are made: the first ones, in their order; the others wait */
     int count;
 } changes;
 
-/** Those of the settings. Of a run that goes on from a simulated time (negative: of none) the
- * settings are as those up to then have made them. False without memory. */
+/** Creates the changes of the settings. For a run that is resumed at simulated time `since`
+ * (negative: it is not), makes those up to then in the settings. False if there is no memory. */
 bool changes_create(changes *out, settings *set, double since);
 void changes_clear(changes *all);
 
@@ -23,12 +23,12 @@ void changes_clear(changes *all);
 bool changes_ask(changes *all, settings *set, hd_run *run, const char *assignment, char *message,
                  size_t size);
 
-/** Changes the duration so that the averaging ends as soon as it can. False as changes_ask, and
- * before the averaging. */
+/** Changes the duration so that the averaging ends as soon as possible. False if changes_ask would
+ * fail, or before the averaging. */
 bool changes_end(changes *all, settings *set, hd_run *run, char *message, size_t size);
 
-/** Makes those that wait whose time has come, before the next step. True if there were any; what is
- * refused now is in the log. */
+/** Makes, before the next step, the waiting changes whose time has come. True if there were any;
+ * the log has those that are refused now. */
 bool changes_take(changes *all, settings *set, hd_run *run);
 
 #endif

@@ -1,5 +1,5 @@
-/** Scene file -> is it valid, its memory, speed, bag and waves. Memory and speed are what the core
- * estimates; what a bag takes is what the rows of the topics say. */
+/** Scene file -> whether it is valid, its memory, speed, bag and waves. The core estimates memory
+ * and speed; the rows of the topics give the size of a bag. */
 #include "check.h"
 
 #include <math.h>
@@ -15,32 +15,33 @@
 
 enum { REFUSED = 2, FAULT = 3 };
 
-/** The recorder is sent no more reports a second. */
+/** Most reports per second that the recorder gets. */
 static const double reports_per_second = 960.0;
-/** As dense as disks, spheres and what turns have been seen to keep their places [T8]. */
+/** Whether the scene is as dense as disks, spheres or dumbbells that were seen to keep their places
+ * [T8]. */
 static bool may_be_caged(const hd_scene_def *def)
 {
-    if (!hd_dynamics_of(def)->fluid) return false; /* nobody has looked */
+    if (!hd_dynamics_of(def)->fluid) return false; /* this has not been studied */
     if (hd_scene_inertia(def) > 0) return hd_scene_packing(def) >= 0.78;
     return def->density >= (hd_scene_dimension(def) == 2 ? 0.88 : 0.9);
 }
 
 /* ---- what is printed ------------------------------------------------------------------------ */
 
-/** What a message takes in a bag beside its own bytes: its record, and its place in the index. */
+/** Bytes that a message takes in a bag besides its own: its record and its entry in the index. */
 static const double record_bytes = 58.0;
 
-/** When messages come: with reports; with fields; with windows of covariant vectors. */
+/** When messages are published: with reports, with fields, or with windows of covariant vectors. */
 typedef enum coming { REPORTS, FIELDS, WINDOWS, COMINGS } coming;
 
-/** Bytes in a bag of a topic each time. */
+/** Bytes in a bag that a topic takes each time. */
 static double bytes_of(const settings *set, const hd_estimate *t, topic k, coming when)
 {
     const topic_size s = topic_size_of(k, &t->extent);
     const double parts[COMINGS] = {s.report, s.fields, s.window}, messages = fmax(s.messages, 1.0);
     const double texts = (double)(strlen("box") + strlen("20260101T000000.000000Z-00000-") +
                                   strlen(set->seed));
-    const bool is_part = when != REPORTS && s.report > 0.0; /* of a message of each report */
+    const bool is_part = when != REPORTS && s.report > 0.0; /* each report has a message anyway */
     if (!(parts[when] > 0.0)) return 0.0;
     return parts[when] + (is_part ? 0.0 : messages * (texts + record_bytes));
 }
@@ -101,7 +102,7 @@ static unsigned topics_recorded(const settings *set)
     return set->observables | topics_that_are(TOPIC_ALWAYS);
 }
 
-/** Time units from one to the next. */
+/** Time units between two messages. */
 static double time_between(const settings *set, coming when)
 {
     const double report = set->def.report_interval;
@@ -109,7 +110,7 @@ static double time_between(const settings *set, coming when)
     return when == WINDOWS ? set->def.covariant_window : report;
 }
 
-/** Each topic's share, in units of `unit` bytes. */
+/** Prints each topic's share, in units of `unit` bytes. */
 static void print_shares(const settings *set, const hd_estimate *t, coming when, double unit)
 {
     const char *separator = ":";
@@ -121,7 +122,7 @@ static void print_shares(const settings *set, const hd_estimate *t, coming when,
     printf("\n");
 }
 
-/** Of a whole run; before the averaging there is what needs none. */
+/** Bytes of a whole run; before the averaging only topics that need none are published. */
 static double bytes_in_all(const settings *set, const hd_estimate *t)
 {
     const unsigned of_averages = topics_that_are(TOPIC_OF_VECTORS) |
@@ -172,7 +173,7 @@ static void print_waves(const settings *set)
     printf("\n");
 }
 
-/** What no averaging takes away. */
+/** Prints the part of an error that averaging does not reduce. */
 static void print_open(const char *begin, const hd_scene_def *def, hd_mode_kind kind)
 {
     const double open = hd_relation_open(def, kind);
@@ -193,7 +194,7 @@ static void print_slopes(const settings *set, const hd_estimate *t)
 
 static void print_errors(const settings *set, const hd_estimate *t)
 {
-    const bool known = hd_dynamics_of(&set->def)->fluid; /* what to expect of their steps */
+    const bool known = hd_dynamics_of(&set->def)->fluid; /* there is a theory for their steps */
     const bool steps = known &&
                        hd_scene_counts(&set->def).vectors >= hd_steps_exponents_least(&set->def);
     printf("errors    %s after %.3g time units of averaging (",
@@ -211,11 +212,11 @@ static void print_errors(const settings *set, const hd_estimate *t)
                set->particles);
 }
 
-/** In simulated time of averaging, and in that of the wall. */
+/** Prints when the target is reached, in simulated time of averaging and in wall time. */
 static void print_target(const settings *set, const hd_estimate *t)
 {
     const hd_scene_def *def = &set->def;
-    const bool known = t->target_after < INFINITY; /* NaN is not */
+    const bool known = t->target_after < INFINITY; /* false for NaN */
     const double after = known ? t->target_after : t->errors_after;
     if (!*def->target.line) return;
     printf("target    %s\n          ", def->target.line);
@@ -255,7 +256,7 @@ static int refused(int status, const char *message)
     return status;
 }
 
-/** As run.launch calls a scene that does not name itself. */
+/** The name that run.launch gives to a scene without a name. */
 static const char *name_of(const char *path, char *name, size_t size)
 {
     const char *slash = strrchr(path, '/');
@@ -265,7 +266,7 @@ static const char *name_of(const char *path, char *name, size_t size)
     return name;
 }
 
-/** Prints what it finds out of settings that are right; the exit status. */
+/** Prints results for valid settings; returns the exit status. */
 typedef int printer(settings *set, const char *path, const hdr_params *params);
 
 static int of_file(int count, char *const *arguments, printer *print)

@@ -1,12 +1,14 @@
-/** hdlyap_node --check: what a scene file will cost, without a master and without a run. */
+/** hdlyap_node --check: what a run of a scene file will cost, without a master and without that
+ * run. */
 #ifndef HDLYAP_CHECK_H
 #define HDLYAP_CHECK_H
 
-/** arguments[count]: the file, then name:=value. To standard output; a line to standard error if it
- * is refused, as the node would say it. The node's exit status. */
+/** Prints to standard output. arguments[count]: the file, then name:=value. If the scene is
+ * refused, prints the node's line to standard error. Returns the node's exit status. */
 int check_scene(int count, char *const *arguments);
 
-/** Prints the averaged time from which its errors are stated; the same arguments and statuses. */
+/** Prints the averaged time from which errors are stated; arguments and exit status as check_scene.
+ */
 int check_errors(int count, char *const *arguments);
 
 #endif

@@ -32,8 +32,8 @@ static hd_status fault(const char *path, const char *what, char *message, size_t
 
 /* ---- one at a time ------------------------------------------------------------------------- */
 
-/** Locks the file's folder, so that whose the file is does not change between looking and writing;
- * -1 where that cannot be had soon, as anybody may lock it: then it is only looked at. */
+/** Locks the file's folder, so that no other node takes the file between looking and writing.
+ * Returns -1 if the lock cannot be had soon, because anybody may hold it; then there is no lock. */
 static int folder_lock(const char *path)
 {
     enum { TRIES = 50 };
@@ -58,7 +58,7 @@ static void folder_unlock(int folder_file)
 
 /* ---- the first file ------------------------------------------------------------------------ */
 
-/** True if there is a file of that name which is not the one that is gone on from. */
+/** True if a file of that name exists that is not the one that the run is resumed from. */
 static bool is_anothers(const settings *set)
 {
     struct stat there, resumed;
@@ -83,7 +83,7 @@ static hd_status set_aside(const char *path, char *message, size_t size)
     return fault(path, "is there already, and so are .old to .old99", message, size);
 }
 
-/** Beside what is there; which goes only when this is whole. */
+/** Writes the first file beside an old one, which is replaced only when the new one is whole. */
 static hd_status save_first(const settings *set, hd_run *run, char *message, size_t size)
 {
     char first[PATH_MAX];
@@ -99,7 +99,7 @@ static hd_status save_first(const settings *set, hd_run *run, char *message, siz
     return status;
 }
 
-/** Whose the file is: a rename makes it another one. */
+/** Remembers the identity of the file that was written. */
 static void remember(checkpoint_writer *k)
 {
     if (k->written >= 0) close(k->written);
@@ -139,8 +139,8 @@ bool checkpoint_writer_due(const checkpoint_writer *k)
     return k->changed && k->due < INFINITY && clock_seconds() >= k->due;
 }
 
-/** Two runs must not take turns with one file: each makes a new one, under the same name. What is
- * copied into the old one is not seen. */
+/** True if the file is still the one that this run has written: two runs must not write one file in
+ * turn. Each writing makes a new file under the name; a copy into the old file goes unnoticed. */
 static bool is_mine(const checkpoint_writer *k)
 {
     struct stat now, own;

@@ -1,5 +1,5 @@
-/** The run in its file: when it is written, and whether that went well. Used by one thread at a
- * time. */
+/** When the run's checkpoint is written, and whether that succeeded. One thread at a time may use
+ * it. */
 #ifndef HDLYAP_CHECKPOINT_WRITER_H
 #define HDLYAP_CHECKPOINT_WRITER_H
 
@@ -8,7 +8,7 @@
 #include "hdlyap/checkpoint.h"
 #include "settings.h"
 
-/** What others may know of it. */
+/** The state that other threads may read. */
 typedef struct kept {
     bool failed;       /**< the last attempt */
     double time;       /**< simulated time of the last file that is whole; -1: no file */
@@ -18,29 +18,30 @@ typedef struct kept {
 typedef struct checkpoint_writer {
     const settings *set;
     bool changed; /**< the run is not as in the file */
-    double due;   /**< [s of clock_seconds]; INFINITY: only when asked */
-    int written;  /**< the file as it was written, held open: its number is not given again; -1 */
+    double due;   /**< [s of clock_seconds]; INFINITY: only when a service asks */
+    int written;  /**< the file, held open so that its inode number is not reused; -1: none */
     kept state;
 } checkpoint_writer;
 
-/** Whether checkpoints could be written, if they are asked for; another run with the same file may
- * be writing it: then after that. HD_FILE_FAULT, with its line in message. */
+/** Checks that checkpoints can be written, if the settings ask for them; waits if another run is
+ * just writing the same file. Fails with HD_FILE_FAULT and a line in message. */
 HD_MUST_CHECK hd_status checkpoint_writer_check(const settings *set, char *message, size_t size);
 
-/** Writes the first file, so that what cannot be kept is not begun; does nothing without one. A
- * file of that name, unless it is the one that is gone on from, is set aside under a name of its
- * own (FILE.old, FILE.old2 ..); the log says so. Fails as hd_run_save, with its line in message;
- * all files are then as they were. */
+/** Writes the first checkpoint, so that a run that cannot be kept does not begin; does nothing if
+ * the settings ask for none. A file that has the name already is renamed to FILE.old, FILE.old2 ..,
+ * unless the run is resumed from it; the log says so. Fails as hd_run_save does, with a line in
+ * message; all files are then as before. */
 HD_MUST_CHECK hd_status checkpoint_writer_begin(checkpoint_writer *out, const settings *set,
                                                 hd_run *run, char *message, size_t size);
 
-/** The run has gone on. */
+/** Says that the run has gone on since the last writing. */
 void checkpoint_writer_touch(checkpoint_writer *k);
 
 /** True once the interval has passed since the last attempt, if there is anything new. */
 bool checkpoint_writer_due(const checkpoint_writer *k);
 
-/** Writes the run now, unless the file is as new. A failure is logged; the file of before stays. */
+/** Writes the run now, unless the file has this state already. Logs a failure; the old file stays.
+ */
 void checkpoint_writer_save(checkpoint_writer *k, hd_run *run);
 
 #endif

@@ -1,5 +1,6 @@
-/** OK while it computes and there is nothing to say. ERROR: a fault has ended it, or what it says
- * or keeps is no longer right. WARN: the numbers are right, but not what was hoped for. */
+/** State of the worker -> conditions. ERROR: a fault has ended the run, or its numbers or its
+ * checkpoint are not right. WARN: the numbers are right, but something is not as the user would
+ * want it. */
 #include "conditions.h"
 
 #include <inttypes.h>
@@ -7,7 +8,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/** A subscriber that is so far behind does not only take its time [s]. */
+/** A subscriber that is this far behind is reported [s]. */
 static const double behind_seconds = 3.0;
 
 void split_write(char *text, size_t size, const split_zeros *split)
@@ -18,7 +19,7 @@ void split_write(char *text, size_t size, const split_zeros *split)
              split->step, split->exponent, split->expected, split->step_wanted);
 }
 
-/** Errors are added before warnings. */
+/** Adds a condition; errors must be added before warnings. */
 __attribute__((format(printf, 3, 4))) static void add(conditions *all, uint8_t level,
                                                       const char *format, ...)
 {

@@ -1,15 +1,15 @@
-/** All that is wrong with a run now -> one level and one message. */
+/** Everything that is wrong with a run now -> one level and one message. */
 #ifndef HDLYAP_CONDITIONS_H
 #define HDLYAP_CONDITIONS_H
 
 #include "worker.h"
 
 typedef struct conditions {
-    uint8_t level;      /**< HDR_DIAGNOSTIC_*, of the worst of them */
-    char message[1024]; /**< of each of them, the worst first; "" if there is none */
+    uint8_t level;      /**< HDR_DIAGNOSTIC_* of the worst condition */
+    char message[1024]; /**< names all conditions, the worst first; "" if there is none */
 } conditions;
 
-/** In one line what is, and the step that would do. */
+/** Size of the line on steps in time that are too long, which names a step that would do. */
 enum { CONDITION_SPLIT = 160 };
 void split_write(char *text, size_t size, const split_zeros *split);
 

@@ -1,4 +1,5 @@
-/** What is wrong with the run (conditions.c), or what it does, and its numbers by key. */
+/** State of the worker -> /diagnostics: what is wrong (conditions.c) or what the run does, and its
+ * numbers by key. */
 #include "diagnostics.h"
 
 #include <math.h>
@@ -11,7 +12,7 @@ static const double period = 1.0;
 
 enum { KEYS = 20, TEXT_SIZE = 32 };
 
-/** Keys and the texts that they point to. */
+/** Keys, and memory for their values. */
 typedef struct key_list {
     hdr_key_value value[KEYS];
     char text[KEYS][TEXT_SIZE];
@@ -52,7 +53,7 @@ static const char *stage_name(const worker_state *state)
     return hdr_run_status_stage_text(state->last.stage);
 }
 
-/** Since the last message, which this call makes the present one. */
+/** Collisions per second since the last call. */
 static double collision_rate(diagnostics *d, const progress *last, double now)
 {
     const double seconds = now - d->measured;
@@ -82,7 +83,7 @@ static void fill_keys(diagnostics *d, key_list *list, const worker_state *state,
         add_number(list, "resolved steps", state->last.resolved_steps);
 }
 
-/** What conditions.c judges. */
+/** Fills in the values that conditions.c judges. */
 static void fill_watched(key_list *list, const worker_state *state, const hdr_lag *slowest)
 {
     const examination *disks = &state->disks;

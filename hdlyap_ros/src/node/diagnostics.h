@@ -10,8 +10,8 @@ typedef struct diagnostics {
     const report *rep;
     const char *node_name, *blas_kernel;
     double next;         /**< when to publish again [s of clock_seconds] */
-    double measured;     /**< when collisions was taken */
-    uint64_t collisions; /**< at the last message */
+    double measured;     /**< when `collisions` was read [s of clock_seconds] */
+    uint64_t collisions; /**< number at the last message */
 } diagnostics;
 
 /** The report and the string must live as long as d. */

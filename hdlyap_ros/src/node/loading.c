@@ -1,7 +1,7 @@
-/** Address space -> the exit status of a fault, before any library is initialised. OpenBLAS takes a
- * buffer for every processor while it is being loaded; where there is no room it asks for ever,
- * before main. Linux with glibc; elsewhere the loader knows no such functions and this one is never
- * called. */
+/** Ends the process with the status of a fault, before any library is initialised, if the address
+ * space is too small. OpenBLAS takes a buffer for every processor while it is loaded; without room
+ * it retries for ever, before main. For Linux with glibc; other loaders never call this function.
+ */
 #define _GNU_SOURCE /* sched_getaffinity */
 #include <sched.h>
 #include <stdio.h>
@@ -14,7 +14,7 @@
 
 enum { EXIT_FAULT = 3 };
 
-/** Value of a variable, 0 if it is not a number: getenv is not ready yet. */
+/** Number in an environment variable, 0 if it is none; getenv cannot be used yet. */
 static int number_of(char **environment, const char *name)
 {
     const size_t length = strlen(name);
@@ -47,7 +47,7 @@ static void look_for_room(int argc, char **argv, char **environment)
         line, sizeof line, "[FATAL] [%ld.%09ld]: %s: no address space for OpenBLAS, %d threads\n",
         (long)now.tv_sec, now.tv_nsec, hd_status_text(status), threads);
     const ssize_t written = write(STDERR_FILENO, line, (size_t)length);
-    (void)written; /* nobody is left to be told */
+    (void)written; /* a failure to write cannot be reported */
     _exit(EXIT_FAULT);
 }
 

@@ -1,4 +1,4 @@
-/** The node of disks and spheres. */
+/** The node with the particles that the core knows. */
 #include "hdlyap_ros/main.h"
 
 #include <stddef.h>

@@ -1,4 +1,4 @@
-/** hdlyap_node: reads the parameters, starts the worker, looks after it until the end. */
+/** hdlyap_node: reads the parameters, starts the worker, and watches it until the end. */
 #include <inttypes.h>
 #include <limits.h>
 #include <stdio.h>
@@ -25,25 +25,24 @@ enum { EXIT_REFUSED = 2, EXIT_NUMERICAL_FAULT = 3, EXIT_FILE_FAULT = 4, EXIT_LOS
 
 /** Seconds from a request to stop to the end of the process, whatever happens. */
 static const double stop_seconds = 0.8;
-/** Of them for the step that is under way. */
+/** Part of stop_seconds that the present step may take. */
 static const double stop_step_seconds = 0.25;
-/** The same where a checkpoint is to be written first: less than roslaunch waits before it insists.
- */
+/** The same two if a checkpoint has to be written first: roslaunch waits longer before it kills. */
 static const double stop_keeping_seconds = 12.0, stop_step_keeping_seconds = 10.0;
-/** How long the last messages of a finished run may take to reach a slow subscriber. */
+/** Seconds that a finished node waits for the last messages to reach slow subscribers. */
 static const double linger_seconds = 5.0;
 static const double poll_seconds = 0.02;
-/** Without the master; then who is waited for does not come. */
+/** A node that waits for subscribers ends after this many seconds without the master. */
 static const double lost_seconds = 15.0;
-/** Entries of a frame whose beginning is announced. */
+/** The log announces the creation of a frame with more entries than this. */
 static const double ENTRIES_MANY = 2e7;
 
-/** Everything that the node owns, in the order of its making. */
+/** Everything that the node owns, in the order of creation. */
 typedef struct app {
     hd_communicator *ranks; /**< NULL: a single one */
     hdr_node *ros;
     hdr_params *params;
-    hd_checkpoint kept; /**< what is gone on from */
+    hd_checkpoint kept; /**< the checkpoint that the run is resumed from */
     settings set;
     changes changes; /**< those that are still to be made and those that are made */
     hd_run *run;
@@ -73,17 +72,17 @@ static int fault_status(hd_status status)
     return status == HD_FILE_FAULT ? EXIT_FILE_FAULT : EXIT_NUMERICAL_FAULT;
 }
 
-/** Of a call of the wrapper, or of what it is the last one of. */
+/** Exit status for a failed call of the wrapper. */
 static int failed_status(hdr_status status)
 {
     if (status == HDR_OK) return EXIT_SUCCESS;
     if (status != HDR_NO_MEMORY) return refuse(hdr_error_text());
-    const char *what = hdr_error_text(); /* empty where it was not the wrapper's */
+    const char *what = hdr_error_text(); /* empty if the wrapper did not fail */
     hdr_log(HDR_FATAL, "%s%s%s", hd_status_text(HD_NO_MEMORY), *what ? ": " : "", what);
     return fault_status(HD_NO_MEMORY);
 }
 
-/** The exit status; the fault's line is in the log. */
+/** Logs a fault; returns the exit status. */
 static int fault_logged(hd_status status, const char *message)
 {
     if (status != HD_OK) hdr_log(HDR_FATAL, "%s", *message ? message : hd_status_text(status));
@@ -111,7 +110,7 @@ static int read_settings(app *a)
                : failed_status(HDR_NO_MEMORY);
 }
 
-/** Lowest column of the fields that are chosen by their number; beyond all if none is. */
+/** The lowest column of the fields that are chosen by number; beyond all columns if none is. */
 static int first_field(const settings *set)
 {
     int first = INT_MAX;
@@ -120,8 +119,8 @@ static int first_field(const settings *set)
     return first;
 }
 
-/** Of some thousand disks it takes seconds, beside other jobs a minute. Not if it will be refused.
- */
+/** Logs that a large frame is being created: with some thousand disks it takes seconds, beside
+ * other jobs a minute. Says nothing of a scene that will be refused. */
 static void log_creation(const settings *set)
 {
     const hd_scene_def *def = &set->def;
@@ -132,7 +131,7 @@ static void log_creation(const settings *set)
                 set->particles);
 }
 
-/** A run whose checkpoints could not be written is not begun. */
+/** Creates the run, unless its checkpoints could not be written. */
 static int create_run(app *a)
 {
     char message[512] = "";
@@ -152,8 +151,8 @@ static int create_run(app *a)
     return fault_logged(status, message);
 }
 
-/** From here on the node can be seen by others. The run begins once all of it is registered:
- * another node of this name that takes over would have to end for what comes later. */
+/** Makes the node visible to others. The run begins only once everything is registered, so that a
+ * node of the same name that takes over ends this one before it has begun. */
 static hdr_status advertise(app *a)
 {
     const char *kernel = hd_blas_query().kernel;
@@ -170,7 +169,7 @@ static hdr_status advertise(app *a)
     return status == HDR_OK && !worker_begin(a->work) ? HDR_NO_MEMORY : status;
 }
 
-/** What the user limits by environment variables. */
+/** Warns of threads that the user limits by environment variables. */
 static void warn_of_threads(const hd_run *run)
 {
     const int denied = hd_run_threads_denied(run), granted = hd_run_threads(run);
@@ -213,7 +212,7 @@ static void log_end(const worker_state *state)
     hdr_log(HDR_WARN, "%s", split);
 }
 
-/** It waits for subscribers that cannot come any more. */
+/** Ends the node if it waits for subscribers that cannot come any more. */
 static void end_if_lost(app *a, const worker_state *state)
 {
     a->lost = state->stage == WORKER_WAITING && state->lost >= lost_seconds;
@@ -224,7 +223,7 @@ static void end_if_lost(app *a, const worker_state *state)
     hdr_stop_request();
 }
 
-/** Until the worker has ended or a stop was requested; true if the worker has ended. */
+/** Serves until the worker has ended or a stop is requested; true if the worker has ended. */
 static bool look_after(app *a)
 {
     bool ended = false;
@@ -233,19 +232,20 @@ static bool look_after(app *a)
         worker_state state = worker_state_now(a->work);
         state.lost = hdr_node_lost(a->ros);
         end_if_lost(a, &state);
-        if (diagnostics_update(&a->diag, &state)) worker_examine(a->work); /* for the next one */
+        if (diagnostics_update(&a->diag, &state))
+            worker_examine(a->work); /* for the next message */
     }
     worker_stop(a->work);
     return ended || worker_wait(a->work, *a->set.checkpoint || a->ranks ? stop_step_keeping_seconds
                                                                         : stop_step_seconds);
 }
 
-/** A run at fault has no last message: its end is in the log and in the diagnostics. */
+/** Finishes the run; after a fault there is no last message, as log and diagnostics say it. */
 static int finish(app *a, bool ended)
 {
     worker_state state = worker_state_now(a->work);
     const hd_status finished = state.status == HD_OK ? worker_finish(a->work) : state.status;
-    state = worker_state_now(a->work); /* a file that was being written may be whole by now */
+    state = worker_state_now(a->work); /* a checkpoint may have been finished meanwhile */
     state.status = finished;
     diagnostics_publish(&a->diag, &state);
     log_end(&state);
@@ -260,7 +260,7 @@ static int finish(app *a, bool ended)
     return state.status == HD_OK && unkept ? EXIT_FILE_FAULT : fault_status(state.status);
 }
 
-/** The worker publishes through the node, whose services call the worker. */
+/** Frees everything; the worker publishes through the node, whose services call the worker. */
 static void app_free(app *a)
 {
     worker_end(a->work);
@@ -284,11 +284,11 @@ static int run(app *a)
     status = finish(a, ended);
     if (a->lost) status = EXIT_LOST;
     if (ended) return status;
-    hdr_node_free(a->ros, linger_seconds); /* a step under way still uses everything else */
-    _exit(status);                         /* mpirun ends the other ranks of that step */
+    hdr_node_free(a->ros, linger_seconds); /* a step that goes on still uses everything else */
+    _exit(status);                         /* mpirun ends the other ranks in that step */
 }
 
-/** What needs no master: an exit status, or -1. */
+/** Answers options that need no master: returns an exit status, or -1 if there are none. */
 static int answer(int argc, char **argv)
 {
     static const struct {

@@ -16,7 +16,7 @@ static const char *const head =
     "sigma = 1, kinetic energy per disk 1 (soft ones have an energy); the time unit follows from "
     "these. YAML reads 1e-8 as a string, which is taken too.";
 
-/** A comment of several lines. */
+/** Prints a comment, in several lines. */
 static void print_comment(const char *text)
 {
     int column = LINE_WIDTH;
@@ -36,7 +36,7 @@ static void print_comment(const char *text)
     printf("\n");
 }
 
-/** A number that YAML reads as a real one: 1.0e-8, not 1e-08. */
+/** Writes a number that YAML reads as a real one: 1.0e-8, not 1e-08. */
 static void write_real(char *out, size_t size, double value)
 {
     char digits[32], *exponent;
@@ -51,7 +51,7 @@ static void write_real(char *out, size_t size, double value)
         snprintf(out, size, "%s%s", digits, point);
 }
 
-/** The default as a scene file has it. */
+/** Writes the default as it stands in a scene file. */
 static void write_value(char *out, size_t size, const parameter *p)
 {
     char usual[PARAMETER_TEXT];
@@ -67,7 +67,7 @@ static void write_value(char *out, size_t size, const parameter *p)
         snprintf(out, size, "%s", usual);
 }
 
-/** What is allowed, with its unit. */
+/** Writes what is allowed, with its unit. */
 static void write_allowed(char *out, size_t size, const parameter *p)
 {
     const bool has_unit = *p->unit && !strchr(p->allowed, '[');
@@ -105,11 +105,11 @@ int parameters_print_version(void)
     return fflush(stdout) == 0 ? 0 : 1;
 }
 
-/** One of other particles than the usual ones has their name. */
+/** Prints one parameter; particles: the names of those that have it, if not the usual ones. */
 typedef void printer(const parameter *p, const char *particles);
 
-/** Particles with the same parameters of their own as row r, which is the first of them, or false.
- */
+/** Writes the names of all particles with the same own parameters as row r; false unless r is the
+ * first of them. */
 static bool particles_alike(char *names, size_t size, int r)
 {
     const hd_dynamics *of = particles_at(r), *other;
@@ -122,7 +122,7 @@ static bool particles_alike(char *names, size_t size, int r)
     return true;
 }
 
-/** Parameters as they are usually, then those of other particles alone. */
+/** Prints the usual parameters, then those that only other particles have. */
 static int print_all(printer *print)
 {
     const hd_dynamics *usual = particles_now();
@@ -163,7 +163,7 @@ int parameters_print_scene(void)
     return print_all(print_lines);
 }
 
-/** A bar would end the cell. */
+/** Prints a cell of a table; a bar in it is escaped, as it would end the cell. */
 static void print_cell(const char *text)
 {
     printf("| ");

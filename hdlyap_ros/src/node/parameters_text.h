@@ -2,12 +2,13 @@
 #ifndef HDLYAP_PARAMETERS_TEXT_H
 #define HDLYAP_PARAMETERS_TEXT_H
 
-/** To standard output, as the next ones: how it is called. 0, or 1 if it cannot be written. */
+/** Prints to standard output how the program is called. Returns 0, or 1 if it cannot be written. */
 int parameters_print_help(void);
 int parameters_print_version(void);
-/** To standard output, with the defaults. 0, or 1 if it cannot be written. */
+/** Prints a scene file with all defaults to standard output. Returns 0, or 1 if it cannot be
+ * written. */
 int parameters_print_scene(void);
-/** The same as rows of a Markdown table. */
+/** Prints the same as rows of a Markdown table. */
 int parameters_print_table(void);
 
 #endif

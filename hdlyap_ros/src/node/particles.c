@@ -15,7 +15,7 @@ void particles_bring(const hd_dynamics *const *rows, int count)
     brought = rows;
     brought_count = count;
     for (int k = 0; k < count; k++)
-        (void)hd_scene_def_of(rows[k]); /* one that lacks something is a bug */
+        (void)hd_scene_def_of(rows[k]); /* asserts that the row is complete */
 }
 
 const hd_dynamics *const *particles_brought(int *count)

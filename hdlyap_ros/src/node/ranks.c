@@ -1,4 +1,5 @@
-/** What starts several ranks says so in the environment; MPI is loaded only then. */
+/** Joins the ranks of a run. What starts several ranks says so in the environment; MPI is loaded
+ * only then. */
 #include "ranks.h"
 
 #include <dlfcn.h>
@@ -17,7 +18,8 @@ typedef void end_function(hd_communicator *ranks);
 
 static void *library;
 
-/** The first one of a machine tells what is wrong, in the words of Open MPI, MPICH or srun. */
+/** True on the first rank of a machine, which reports faults; reads the variables of Open MPI,
+ * MPICH and srun. */
 static bool is_first_here(void)
 {
     static const char *const here[] = {"OMPI_COMM_WORLD_LOCAL_RANK", "MPI_LOCALRANKID",
@@ -29,7 +31,7 @@ static bool is_first_here(void)
     return true;
 }
 
-/** A function of the library; POSIX says how to make one of a pointer. */
+/** Finds a function of the library; POSIX says how to make one of a pointer. */
 static bool find(void *function, const char *name)
 {
     if (!library) library = dlopen(library_name, RTLD_NOW | RTLD_GLOBAL);
@@ -58,7 +60,7 @@ bool ranks_join(hd_communicator **out, int *argc, char ***argv, char *message, s
     return false;
 }
 
-/** mpirun passes on the signals that it gets; when to end is for rank 0 to say. */
+/** Ignores signals, which mpirun passes on to all ranks: rank 0 decides when to end. */
 void ranks_follow(hd_communicator *ranks)
 {
     signal(SIGINT, SIG_IGN);

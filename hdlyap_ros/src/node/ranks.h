@@ -8,15 +8,15 @@
 
 #include "hdlyap/communicator.h"
 
-/** *out is NULL for a single rank; then nothing of MPI is loaded. False with a line in `message`:
- * this build has no MPI, or another one than has started them. It is empty where another rank of
- * this machine tells it. */
+/** Sets *out to NULL for a single rank; then MPI is not loaded. False if this build has no MPI, or
+ * another MPI than the one that started the ranks; `message` has the line, or is empty if another
+ * rank of this machine reports it. */
 bool ranks_join(hd_communicator **out, int *argc, char ***argv, char *message, size_t size);
 
-/** Of the others: all that they do. */
+/** Does all that a rank other than 0 has to do. */
 void ranks_follow(hd_communicator *ranks);
 
-/** At the end, on each of them. */
+/** Called at the end, on every rank. */
 void ranks_leave(hd_communicator *ranks);
 
 #endif

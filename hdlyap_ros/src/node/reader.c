@@ -24,7 +24,7 @@ void make_one_line(char *text)
         if (is_control(*text)) *text = '?';
 }
 
-/** In one line whatever it shows: names and values are anybody's, and may hold line ends. */
+/** Writes one line even if names and values hold line ends. */
 bool reader_refuse(const reader *r, const char *allowed)
 {
     if (r->size == 0) return false;
@@ -34,13 +34,13 @@ bool reader_refuse(const reader *r, const char *allowed)
     return false;
 }
 
-/** Refused unless the value has been read, or is missing. */
+/** True if the value was read or is missing; else refuses the parameter. */
 static bool accepts(const reader *r, hdr_status status, const char *allowed)
 {
     return status == HDR_OK || status == HDR_MISSING || reader_refuse(r, allowed);
 }
 
-/** The parameter if it is a string. */
+/** The parameter's text, if it is a string. */
 static const char *text_of(const reader *r)
 {
     const char *text = NULL;
@@ -53,7 +53,7 @@ static bool is_word(const reader *r, const char *word)
     return text && strcmp(text, word) == 0;
 }
 
-/** Decimal digits and nothing else, at most `max`. */
+/** Reads a text of decimal digits and nothing else, at most `max`. */
 static bool parse_unsigned(uint64_t *out, const char *text, uint64_t max)
 {
     if (!*text || text[strspn(text, "0123456789")]) return false;
@@ -66,7 +66,7 @@ static bool parse_unsigned(uint64_t *out, const char *text, uint64_t max)
 
 /* ---- of the scene -------------------------------------------------------------------------- */
 
-/** Of a number without quotes that was too long for an integer, as rosrun hands it over. */
+/** Refuses a seed that rosrun passed as a real number, because it was too long for an integer. */
 static bool refuse_seed(const reader *r, const parameter *p)
 {
     char allowed[PARAMETER_ALLOWED];
@@ -78,7 +78,8 @@ static bool refuse_seed(const reader *r, const parameter *p)
     return reader_refuse(r, allowed);
 }
 
-/** A string, because integers have 32 bits on the parameter server; short ones are taken too. */
+/** Reads the seed, a string because integers have 32 bits on the parameter server; integers are
+ * taken, too. */
 static bool read_seed(const reader *r, const parameter *p, uint64_t *seed)
 {
     int number;
@@ -89,7 +90,7 @@ static bool read_seed(const reader *r, const parameter *p, uint64_t *seed)
     return (typed && parse_unsigned(seed, text, UINT64_MAX)) || refuse_seed(r, p);
 }
 
-/** A word stands for what no number says; a number may also be a string of digits. */
+/** Reads exponents: a word, a number, or a string of digits. */
 static bool read_exponents(const reader *r, const parameter *p, int *exponents)
 {
     uint64_t number = 0;
@@ -194,7 +195,7 @@ static bool read_topics(const reader *r, const parameter *p, unsigned *set)
     return true;
 }
 
-/** What they say is looked at with all else. */
+/** Reads the list of changes; their contents are checked later. */
 static bool read_changes(const reader *r, const parameter *p, change_list *changes)
 {
     const hdr_status status = hdr_param_string_list(r->params, r->name, &changes->text,
@@ -202,7 +203,7 @@ static bool read_changes(const reader *r, const parameter *p, change_list *chang
     return accepts(r, status, p->allowed);
 }
 
-/** The range is known only with the scene. */
+/** Reads the choice of fields; its range is checked later, with the scene. */
 static bool read_fields(const reader *r, const parameter *p, field_choice *choice)
 {
     if (is_word(r, p->usual)) return true;

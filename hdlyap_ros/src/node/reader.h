@@ -18,14 +18,14 @@ typedef struct reader {
 /** Writes the line: the parameter, its value, what is allowed. Always false. */
 bool reader_refuse(const reader *r, const char *allowed);
 
-/** With question marks in place of line ends and other control characters. */
+/** Replaces line ends and other control characters by question marks. */
 void make_one_line(char *text);
 
 /** Without them. */
 bool is_one_line(const char *text);
 
-/** Into the variable at field (for one of the scene: the whole of it), which stays as it is where
- * the parameter is missing. Ranges of numbers are not looked at. False if refused. */
+/** Reads a parameter into the variable at `field` (for a parameter of the scene: the scene), which
+ * stays as it is if the parameter is missing. Does not check ranges. False if refused. */
 bool reader_read(const reader *r, const parameter *p, void *field);
 
 #endif

@@ -1,5 +1,5 @@
-/** Services in: answered on the callback thread, obeyed by the worker between two steps. Who asks
- * for a checkpoint or a change waits for it, and all other callbacks with it: there is one such
+/** Services, answered on the callback thread and carried out by the worker between two steps. A
+ * call for a checkpoint or a change waits for it, and so do all other callbacks, as there is one
  * thread. */
 #include "services.h"
 
@@ -32,7 +32,7 @@ static bool on_reset_average(void *context, char *message, size_t size)
     return true;
 }
 
-/** Long enough for a step and for a large file. */
+/** Longest time that a call waits: long enough for a step and for a large file. */
 static const double answer_seconds = 30.0;
 
 static bool on_checkpoint(void *context, char *message, size_t size)

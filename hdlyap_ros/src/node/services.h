@@ -5,8 +5,8 @@
 #include "hdlyap_ros/service.h"
 #include "worker.h"
 
-/** The worker must live as long as the node serves callbacks. HDR_NO_MEMORY, or HDR_FAULT if ROS
- * refuses. */
+/** The worker must live as long as the node serves callbacks. Fails with HDR_NO_MEMORY, or
+ * HDR_FAULT if ROS refuses. */
 HDR_MUST_CHECK hdr_status services_advertise(hdr_node *ros, worker *w);
 
 #endif

@@ -1,4 +1,4 @@
-/** Run -> lines of the log: averages, a row for each step, what the fits say. */
+/** Run -> lines of the log: averages, a row for each step, results of the fits. */
 #include "table.h"
 
 #include <math.h>
@@ -12,7 +12,7 @@
 
 enum { TEXT = 64 };
 
-/** Of the positive half, without the zero modes. */
+/** True for steps of the positive half, without the zero modes. */
 static bool in_table(const hd_step *step)
 {
     return step->resolved && step->kind != HD_MODE_ZERO && !step->conjugate;
@@ -34,7 +34,7 @@ static void print_step(const hd_step *step, const hd_scene_def *def)
             alone ? "" : hdr_step_sharing_text(step->sharing));
 }
 
-/** number: of `count` wave numbers or phases. */
+/** Prints a result of a fit over `count` wave numbers or phases. */
 static void print_fit(const char *name, const char *number, int count, const char *of, double from,
                       double to)
 {
@@ -63,7 +63,7 @@ static void print_fits(const hd_run *run, const hd_steps *steps)
     print_fit("v", number, v.phases, "LP phase", v.k_min, v.k_max);
 }
 
-/** Smallest exponent first. */
+/** Prints the steps, the smallest exponent first. */
 static void print_steps(const hd_run *run)
 {
     const hd_steps *steps = hd_run_parts(run).steps;

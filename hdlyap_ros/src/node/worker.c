@@ -1,5 +1,6 @@
-/** One thread that steps the run. Two locks: `lock` for what is asked and known, never held during
- * work; `publishing` around messages, so that nothing follows the last one. */
+/** One thread that steps the run. It has two locks: `lock` protects requests and state, and is
+ * never held during work; `publishing` is held around messages, so that none follows the last one.
+ */
 #include "worker.h"
 
 #include <errno.h>
@@ -15,17 +16,18 @@
 #include "hdlyap/blas.h"
 #include "table.h"
 
-/** How often subscribers are looked for [s]. */
+/** Time between two looks for subscribers [s]. */
 static const double look_seconds = 0.01;
-/** Wall times after this do not come, nor fit a time_t all. */
+/** Wall times after this never come, and may not fit a time_t. */
 static const double end_of_time = 1e15;
-/** Of the time, at most, for examining disks. */
+/** Largest part of the time that is spent on examining particles. */
 static const double examination_share = 0.01;
 
-/** A change that is asked for, and what the worker says to it. */
+/** A change that a service asks for, and the worker's answer. */
 typedef struct set_request {
-    bool waits, taken, made; /**< taken: the worker is at it, and its asker stays for the answer */
-    const char *assignment;  /**< the asker's, as the next; NULL: the averaging is to end */
+    bool waits, taken,
+        made; /**< taken: the worker handles it, and the caller waits for the answer */
+    const char *assignment; /**< the caller's text, as the next; NULL: the averaging is to end */
     char *message;
     size_t size;
 } set_request;
@@ -52,7 +54,8 @@ struct worker {
     bool closed; /**< the last message is out */
 };
 
-/** Waits for a change until a wall time, if it is one; false once that has come. Lock held. */
+/** Waits for a change of state, at most until a wall time, if that is finite; false once it has
+ * come. The lock is held. */
 static bool wait_until(worker *w, double wall)
 {
     if (!(wall < end_of_time)) return pthread_cond_wait(&w->changed, &w->lock) == 0;
@@ -69,7 +72,8 @@ static void enter(worker *w, worker_stage stage)
     pthread_cond_broadcast(&w->changed);
 }
 
-/** Lock held, but not during the look, which may ask the master. */
+/** Whether all awaited topics have subscribers. The lock is held, but not while the master is
+ * asked. */
 static bool awaited_here(worker *w)
 {
     pthread_mutex_unlock(&w->lock);
@@ -78,7 +82,7 @@ static bool awaited_here(worker *w)
     return here;
 }
 
-/** Lock held, but not while it is published. */
+/** Publishes run_info after changes. The lock is held, but not while it publishes. */
 static void publish_changes(worker *w)
 {
     pthread_mutex_unlock(&w->lock);
@@ -89,8 +93,8 @@ static void publish_changes(worker *w)
     pthread_mutex_lock(&w->lock);
 }
 
-/** Changes what is asked for. Lock held, but not while it is changed: that may take a search for a
- * lattice, and a word to all ranks. */
+/** Makes the change that is asked for. The lock is held, but not during the change, which may take
+ * long: all ranks have to know. */
 static void answer_set(worker *w)
 {
     set_request *r = &w->set_asked;
@@ -104,12 +108,12 @@ static void answer_set(worker *w)
     r->made = made;
     if (made && !r->assignment) w->pause = false;
     r->waits = r->taken = false;
-    w->due = 0.0; /* of another pace */
+    w->due = 0.0; /* pace may have changed */
     pthread_cond_broadcast(&w->changed);
     if (made) publish_changes(w);
 }
 
-/** False if asked to stop. */
+/** Waits for the awaited subscribers; false if asked to stop. */
 static bool wait_for_subscribers(worker *w)
 {
     pthread_mutex_lock(&w->lock);
@@ -123,10 +127,10 @@ static bool wait_for_subscribers(worker *w)
     return go_on;
 }
 
-/** By the pace asked for, if any. */
+/** True if pace does not allow the next step yet. */
 static bool too_early(const worker *w) { return w->due > 0.0 && clock_seconds() < w->due; }
 
-/** Writes the checkpoint. Lock held, but not while it is written. */
+/** Writes the checkpoint. The lock is held, but not while it writes. */
 static void save(worker *w)
 {
     w->state.saving = true;
@@ -138,8 +142,8 @@ static void save(worker *w)
     pthread_cond_broadcast(&w->changed);
 }
 
-/** Before a pause, for who looks on. Lock held, but not while it is published. What fails here is
- * no fault of the run. */
+/** Publishes the present state before a pause. The lock is held, but not while it publishes. A
+ * failure here is no fault of the run. */
 static void publish_at_rest(worker *w)
 {
     pthread_mutex_unlock(&w->lock);
@@ -150,8 +154,8 @@ static void publish_at_rest(worker *w)
     pthread_mutex_lock(&w->lock);
 }
 
-/** Between two steps: keeps the run if it is time to, pauses and keeps pace. False if asked to
- * stop. */
+/** Called between two steps: writes the checkpoint if it is due, pauses, and keeps pace. False if
+ * asked to stop. */
 static bool obey(worker *w)
 {
     pthread_mutex_lock(&w->lock);
@@ -197,7 +201,7 @@ static void change_if_due(worker *w)
     pthread_mutex_unlock(&w->lock);
 }
 
-/** Of what cannot be examined nothing is known. */
+/** Examines the particles; all zero if that is not possible. */
 static examination examine(const hd_run *run)
 {
     if (!hd_dynamics_of(hd_run_scene(run))->examine) return (examination){.made = false};
@@ -235,7 +239,7 @@ static hd_status publish(worker *w)
     return status;
 }
 
-/** Sets when the step after the one that begins now is due. Nobody waits for what comes before the
+/** Makes a step, and sets when the next one is due. Pace does not limit what comes before
  * averaging. */
 static hd_status paced_step(worker *w)
 {
@@ -265,8 +269,8 @@ static hd_status step(worker *w)
     return status;
 }
 
-/** The checkpoint of the end, and what it has ended: the way back through a window of covariant
- * vectors. */
+/** Writes the checkpoint at the end, and publishes what this has completed: the way back through a
+ * window of covariant vectors. */
 static hd_status finish(worker *w)
 {
     hd_status status = HD_OK;
@@ -279,7 +283,7 @@ static hd_status finish(worker *w)
     return status;
 }
 
-/** What ended the run. Lock held. */
+/** Says what ended the run. The lock is held. */
 static void explain(worker *w, hd_status status)
 {
     const hd_scene_def *scene = hd_run_scene(w->run);
@@ -355,7 +359,7 @@ bool worker_begin(worker *w)
 void worker_end(worker *w)
 {
     if (!w) return;
-    worker_stop(w); /* also for services that wait */
+    worker_stop(w); /* wakes services that wait */
     if (w->begun) pthread_join(w->thread, NULL);
 }
 
@@ -424,7 +428,7 @@ bool worker_checkpoint(worker *w, double seconds, char *message, size_t size)
     return done;
 }
 
-/** False if the change that is asked for will not be made. Lock held. */
+/** False if the change that is asked for will not be made. The lock is held. */
 static bool wait_for_answer(worker *w, double until)
 {
     if (w->set_asked.taken) return wait_until(w, INFINITY);
@@ -432,7 +436,7 @@ static bool wait_for_answer(worker *w, double until)
     return wait_until(w, until) || w->set_asked.taken;
 }
 
-/** assignment NULL: the averaging is to end. */
+/** Asks for a change and waits for the answer; assignment NULL: the averaging is to end. */
 static bool answered(worker *w, double seconds, const char *assignment, char *message, size_t size)
 {
     const double until = clock_seconds() + seconds;

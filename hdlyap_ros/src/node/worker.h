@@ -1,5 +1,5 @@
-/** The computation in a thread of its own: steps a run, reports when due, keeps it in its file,
- * obeys pause and reset. */
+/** The computation in a thread of its own: it steps a run, publishes reports when they are due,
+ * writes checkpoints, and obeys pause and reset. */
 #ifndef HDLYAP_WORKER_H
 #define HDLYAP_WORKER_H
 
@@ -13,20 +13,21 @@ typedef enum worker_stage {
     WORKER_ENDED /**< finished, stopped or at fault */
 } worker_stage;
 
-/** The disks, and what rounding explains. Zero: not examined yet. */
+/** Errors of the particles' state, and the largest that rounding explains. Zero: not examined yet.
+ */
 typedef struct examination {
     bool made;
     double overlap, overlap_max;           /**< deepest of any two disks [sigma] */
     double energy_error, energy_error_max; /**< of the kinetic energy, relative */
 } examination;
 
-/** The worker seen from other threads, as of its last finished step. */
+/** State of the worker for other threads, after its last finished step. */
 typedef struct worker_state {
     worker_stage stage;
     hd_status status; /**< the fault that ended it, else HD_OK */
-    char fault[256];  /**< in words, with its numbers */
+    char fault[256];  /**< the fault in words, with its numbers */
     progress last;
-    examination disks;     /**< as of the last worker_examine */
+    examination disks;     /**< result of the last worker_examine */
     const char *warning;   /**< of the settings */
     const char *particles; /**< what moves, by name */
     kept checkpoint;
@@ -39,8 +40,8 @@ typedef struct worker worker;
 /** False if there is no memory for it. */
 bool worker_create(worker **out, hd_run *run, report *rep, settings *set, changes *all,
                    const checkpoint_writer *keep);
-/** Starts the thread, which alone uses run, rep and changes, and what may change of set, until
- * worker_state says WORKER_ENDED. False if the system has no thread for it. */
+/** Starts the thread. Until worker_state says WORKER_ENDED, only the thread uses run, rep, changes,
+ * and the settings that may change. False if the system cannot start a thread. */
 bool worker_begin(worker *w);
 /** Asks the thread to end and waits for the step that it is in. NULL is allowed. */
 void worker_end(worker *w);
@@ -57,20 +58,20 @@ void worker_reset_average(worker *w);
  * time. */
 void worker_examine(worker *w);
 
-/** Writes a checkpoint before the next step, and waits for it at most that long. False if it was
- * not written, with the reason in message. */
+/** Has a checkpoint written before the next step, and waits for it at most this long. False if it
+ * was not written, with the reason in message. */
 bool worker_checkpoint(worker *w, double seconds, char *message, size_t size);
 
-/** Changes a parameter before the next step, as changes_ask does, and waits at most that long until
- * that begins. False with the reason in message: nothing has changed then, nor will. */
+/** Has a parameter changed before the next step, as changes_ask does, and waits for it at most this
+ * long. False, with the reason in message, if nothing has changed and nothing will. */
 bool worker_set(worker *w, double seconds, const char *assignment, char *message, size_t size);
 
-/** The same of changes_end; a run that pauses goes on to its end. */
+/** Has changes_end called in the same way; a run that pauses goes on to its end. */
 bool worker_end_averaging(worker *w, double seconds, char *message, size_t size);
 
-/** Waits at most that long for the end; true if it has come. */
+/** Waits at most this long for the end; true if it has come. */
 bool worker_wait(worker *w, double seconds);
-/** Asks the thread to end after the step that it is in. */
+/** Asks the thread to end after its present step. */
 void worker_stop(worker *w);
 /** Publishes the last message from the caller's thread; the worker publishes nothing after it, even
  * if it is still in a step. */
