@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
 """msg/*.msg -> the messages for C: a header of structs, and for the wrapper lists of their fields.
 
-What a float64 is while it is not known stands in its comment, and is sent by that: 'NaN if FIELD is
-VALUE', 'NaN unless FIELD' and the same of -1, where VALUE is a number or a constant (0 if there is
-none), and 'while' says the same as 'if'. Whenever else, it must be finite. A comment that says
-NaN without such a rule allows it at any time; without NaN a number must always be finite.
+The comment of a float64 says what is sent while its value is not known: 'NaN if FIELD is VALUE',
+'NaN unless FIELD', or the same with -1. VALUE is a number or a constant (0 if there is none), and
+'while' means 'if'. Otherwise the number must be finite. A comment with NaN but without such a rule
+allows NaN at any time.
+
+A field without words of its own (it may have a unit, '# [sigma]') belongs to the comment above it.
 
 A field 'one of FIRST .. LAST' holds one of these constants. What the comment of each says before
 its first colon is its name: hdr_MESSAGE_FIELD_text(value) in C, hdlyap.data.fields.words in Python.
@@ -44,9 +46,9 @@ CHOICE = re.compile(r'one of (\w+) \.\. (\w+)')
 UNKNOWN = re.compile(r'(NaN|-1) (if|while|unless) (\w+)(?: is (-?\w+))?')
 
 HEADER = '''\
-/** The messages of %(package)s as C has them, one struct each; made from msg/ at build time.
- * Pointers are into the publisher's own buffers, or into what was received. Strings are never NULL.
- */
+/** The messages of %(package)s, one struct each; made from msg/ at build time. Rules for all of
+ * them are at RunInfo. Pointers point into buffers of the publisher, or into a received message.
+ * Strings are never NULL. */
 #ifndef HDLYAP_ROS_MESSAGES_H
 #define HDLYAP_ROS_MESSAGES_H
 
@@ -56,7 +58,7 @@ HEADER = '''\
 extern "C" {
 #endif
 %(structs)s
-/** DO(struct) for each message that has a header, and so may have a topic of its own. */
+/** DO(struct) for each message with a header: those may have a topic. */
 #define HDR_MESSAGES(DO) \\
 %(topics)s
 
@@ -66,7 +68,7 @@ extern "C" {
 #endif
 '''
 CONSTANTS = '''
-/** Of %(type)s. */
+/** Constants of %(type)s. */
 enum {
 %(rows)s
 };
@@ -77,7 +79,7 @@ typedef struct %(name)s {
 %(rows)s} %(name)s;
 '''
 TEXTS = '''
-/** Of %(name)s.%(field)s. */
+/** Name of a value of %(name)s.%(field)s. */
 static inline const char *%(name)s_%(field)s_text(unsigned value)
 {
     switch (value) {
@@ -87,8 +89,8 @@ static inline const char *%(name)s_%(field)s_text(unsigned value)
 }
 '''
 SIZES = '''
-/** Bytes on the wire: of the message without what its arrays and strings hold, and of one more
- * element in each array of numbers. */
+/** Bytes that a message takes on the wire with empty arrays and strings, and that one more element
+ * in each of its arrays of numbers adds. */
 #define %(macro)s_BYTES %(bytes)d.0
 #define %(macro)s_EACH %(each)d.0
 '''
@@ -101,8 +103,8 @@ typedef struct %(name)s_list {
 '''
 
 FIELDS = '''\
-/** What the structs of hdlyap_ros/messages.h stand for, and their fields in the order of the
- * message; made from msg/ at build time. */
+/** The ROS type of each struct of hdlyap_ros/messages.h, and its fields in the order of the message;
+ * made from msg/ at build time. */
 #pragma once
 
 #include <cmath>
@@ -148,6 +150,7 @@ class Message:
             genmsg.MsgContext.create_default(), path, self.type
         )
         self.lines = self.spec.text.splitlines()
+        self.names = [constant.name for constant in self.spec.constants] + self.spec.names
 
     def uses(self, other):
         return any(field.base_type == other.type for field in self.spec.parsed_fields())
@@ -161,16 +164,22 @@ class Message:
             text += '\n * ' + line.lstrip('# ').replace('*/', '* /')
         return ':' + text if text else ''
 
-    def text_of(self, name):
-        """What its line says of a field or a constant."""
+    def own_text(self, name):
+        """What the line of a field or a constant says itself."""
         for line in self.lines:
             found = re.match(r'[\w/\[\]]+\s+%s\b[^#]*#\s*(.*)' % name, line)
             if found:
                 return found.group(1)
         return ''
 
+    def text_of(self, name):
+        """What describes a field or a constant: its own line, or the nearest above with words."""
+        names = self.names[: self.names.index(name) + 1]
+        texts = (self.own_text(above) for above in reversed(names))
+        return next((text for text in texts if text and not text.startswith('[')), '')
+
     def comment_of(self, name):
-        text = self.text_of(name)
+        text = self.own_text(name)
         return ' /**< %s */' % text.replace('*/', '* /') if text else ''
 
     def constants(self):

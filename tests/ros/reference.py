@@ -5,6 +5,7 @@ launch arguments and message fields.
 reference.py --write puts them there; test_documents.py says when that is due. The parameters are
 those of the node that ROS finds."""
 
+import itertools
 import os
 import re
 import subprocess
@@ -18,6 +19,16 @@ REFERENCE = 'doc/reference.md'
 SCENE = 'launch/scenes/paper_periodic.yaml'
 # parameters of that scene that are not as usual
 OWN = 'warmup', 'duration'
+# lines of most messages, which the chapter describes once
+COMMON = (
+    'std_msgs/Header header          # stamp: wall time',
+    'string run_id                   # see RunInfo',
+    'float64 sim_time                # since the start of the run [time units]',
+)
+
+
+# when a number is not known; the chapter says what it is then
+OBVIOUS = r'; (?:NaN|-1) (?:if|while|unless) [^;\[]*(?=( \[|$|;))'
 
 
 def read(*path):
@@ -31,7 +42,7 @@ def listed(folder, suffix):
 
 def table(titles, rows):
     lines = [titles, ['---'] * len(titles), *rows]
-    return ''.join('| ' + ' | '.join(line) + ' |\n' for line in lines)
+    return ''.join(' | '.join(line) + '\n' for line in lines)
 
 
 def escaped(text):
@@ -55,20 +66,35 @@ def launch_arguments():
     return '\n'.join(sections)
 
 
+def message_rows(lines):
+    """A row for each comment, with all fields that belong to it."""
+    rows = []
+    for line in lines:
+        found = re.match(r'(\S+)\s+(\w+)(?:\s*=\s*(\S+))?\s*(?:#\s*(.*))?$', line)
+        if not found or line in COMMON:
+            continue
+        kind, field, value, what = found.groups()
+        field += ' = ' + value if value is not None else ''
+        if not what or what.startswith('['):
+            rows[-1][0] += ', ' + code(field) + (' ' + what if what and what != '[-]' else '')
+        else:
+            kind = '' if kind == 'float64' else kind + ' '
+            rows.append([code(kind + field), escaped(re.sub(OBVIOUS, '', what))])
+    return rows
+
+
+def message_head(lines):
+    """What stands above the first field: its paragraphs."""
+    head = [line[1:].strip() for line in itertools.takewhile(lambda l: l.startswith('#'), lines)]
+    return escaped('\n'.join(head))
+
+
 def message_fields():
     sections = []
     for name in listed('msg', '.msg'):
-        head, rows = [], []
-        for line in read('msg', name).splitlines():
-            found = re.match(r'(\S+)\s+(\w+)(?:\s*=\s*(\S+))?\s*(?:#\s*(.*))?$', line)
-            if line.startswith('#'):
-                head.append(line[1:].strip())
-            elif found:
-                kind, field, value, what = found.groups()
-                kind += ' = ' + value if value is not None else ''
-                rows.append([code(field), code(kind), escaped(what or '')])
-        text = escaped(' '.join(head))
-        sections.append(f'### {name[:-4]}\n\n{text}\n\n' + table(['field', 'type', 'what'], rows))
+        lines = read('msg', name).splitlines()
+        rows = table(['field', 'what'], message_rows(lines))
+        sections.append(f'### {name[:-4]}\n\n{message_head(lines)}\n\n{rows}')
     return '\n'.join(sections)
 
 

@@ -262,6 +262,12 @@ class NotMeasured(Loaded):
         )
         self.assertFalse(unknown & {'cos_theta', 'a', 'exponents', 'averaged_time'})
 
+    def test_units_of_fields_that_share_a_comment(self):
+        steps, info = fields.of(hdlyap.msg.Steps), fields.of(hdlyap.msg.RunInfo)
+        self.assertEqual([steps[name].unit for name in ('t_k_min', 't_k_max')], 2 * ['1/sigma'])
+        self.assertEqual(info['covariant_memory'].unit, 'GB')
+        self.assertEqual(info['checkpoint'].unit, '')
+
     def test_names_of_constants(self):
         """Of a field its own, where a message has several kinds of them."""
         for kind, field, words in (

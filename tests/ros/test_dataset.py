@@ -30,8 +30,11 @@ def fields():
     found = {}
     for name in os.listdir(MSG):
         with open(os.path.join(MSG, name)) as file:
-            lines = re.findall(r'(?m)^\S+ +(\w+) +# (.*?)(?: ?\[([^]]*)\])?$', file.read())
-        found.update({(name[:-4], field): (what, unit) for field, what, unit in lines})
+            lines = re.findall(r'(?m)^\S+ +(\w+)(?: +# (.*?)(?: ?\[([^]]*)\])?)?$', file.read())
+        above = '', ''
+        for field, what, unit in lines:
+            above = (what or above[0], unit) if what or unit else above
+            found[name[:-4], field] = above
     return found
 
 

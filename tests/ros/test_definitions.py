@@ -21,7 +21,7 @@ def under(message, text, md5sum):
 
 def without(message, name):
     """As a version wrote it whose message has not that field."""
-    return made.defined(message, lambda text: re.sub(rf'(?m)^\S+ {name} .*\n', '', text))
+    return made.defined(message, lambda text: re.sub(rf'(?m)^\S+ {name}\b.*\n', '', text))
 
 
 class Definitions(test_data_tools.Tools):

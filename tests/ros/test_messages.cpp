@@ -206,6 +206,7 @@ TEST(messages, unknown)
     step.gap_error = step.omega = 7.0;
     message.steps = {&step, 1};
     message.c_t = 3.0;
+    message.v_k_max = 3.0; /* by the comment of v_k_min, above it */
     message.v_error = 3.0;
     EXPECT_TRUE(hdlyap_ros::is_finite(message));
     const auto unknown = arrived<hdlyap::Steps>(message);
@@ -214,6 +215,7 @@ TEST(messages, unknown)
     EXPECT_EQ(-1.0, unknown.steps[0].gap_error);
     EXPECT_EQ(7.0, unknown.steps[0].omega);
     EXPECT_TRUE(std::isnan(unknown.c_t));
+    EXPECT_TRUE(std::isnan(unknown.v_k_max));
     EXPECT_EQ(-1.0, unknown.v_error);
 
     step.resolved = true;

@@ -9,8 +9,10 @@ import re
 import subprocess
 import unittest
 import xml.etree.ElementTree as ElementTree
+from types import SimpleNamespace
 
 import yaml
+from hdlyap.data import fields
 
 ROOT = os.path.realpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), '../..'))
 ROSDEP = '/usr/share/python3-rosdep2/debian.yaml'
@@ -237,13 +239,18 @@ def imported(text, package):
 
 class Messages(unittest.TestCase):
     def test_every_field_is_explained(self):
+        """By its own comment, or by that of the fields above, which are of the same type."""
         count = 0
         for path in files('.msg', '.srv'):
+            above = None
             for number, line in enumerate(text_of(path).splitlines(), 1):
                 if line.strip() and not line.startswith('#') and line != '---':
-                    self.assertRegex(
-                        line, r'^[\w/]+(\[\d*\])? \w+(=\S+)? +# \S', '%s:%d' % (path, number)
-                    )
+                    said = re.match(r'([\w/]+(?:\[\d*\])?) \w+(?:=\S+)?(?: +# (\S.*))?$', line)
+                    self.assertTrue(said, '%s:%d' % (path, number))
+                    kind, comment = said.groups()
+                    if not comment:
+                        self.assertEqual(kind, above, '%s:%d' % (path, number))
+                    above = kind
                     count += 1
         self.assertGreater(count, 150)
 
@@ -254,17 +261,24 @@ class Messages(unittest.TestCase):
             r'exponents?|std_errors?|local_exponents|lambda_max|ks_entropy': '1/time unit',
             r'wave_number|max_wave_number': '1/sigma',
             r'\w+_seconds': 's',
-            r'p[xy]': 'sigma/time unit',
-            r'box_[xy]|[xy]': 'sigma',
+            r'p[xyz]': 'sigma/time unit',
+            r'box_[xyz]|[xyz]': 'sigma',
             r'phase': 'rad',
             r'omega\w*': 'rad/time unit',
         }
+        others = {'Localization': '', 'CovariantAngle': 'rad'}  # errors of what has another unit
+        count = 0
         for path in files('.msg'):
-            for name, comment in re.findall(r'(?m)^float64(?:\[\])? (\w+) +# (.*)', text_of(path)):
+            text = text_of(path)
+            floats = re.findall(r'(?m)^float64(?:\[\])? (\w+)', text)
+            for name, field in fields.of(SimpleNamespace(_full_text=text)).items():
                 for names, unit in units.items():
-                    if re.fullmatch(names, name):
-                        # an error or a mean may leave it to the field that it belongs to
-                        self.assertRegex(comment, r'\[%s\]|of it' % unit, '%s: %s' % (path, name))
+                    if name in floats and re.fullmatch(names, name):
+                        if name.startswith('std_error'):
+                            unit = others.get(os.path.basename(path)[:-4], unit)
+                        self.assertEqual(field.unit, unit, '%s: %s' % (path, name))
+                        count += 1
+        self.assertGreater(count, 80)
 
 
 class Launch(unittest.TestCase):

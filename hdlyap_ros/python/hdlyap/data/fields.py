@@ -1,15 +1,17 @@
-"""Message -> what its definition says of its fields: what they are, their units, which are -1 while
-unknown, and the names of the constants that they hold."""
+"""Message -> what its definition says of its fields: what they are, their units, whether -1 means
+unknown, and the names of the constants that they hold. A field without words of its own belongs to
+the comment above it."""
 
 import re
 from collections import namedtuple
 from functools import lru_cache
 
-LINE = re.compile(r'(?m)^[\w/]+(?:\[\])? +(\w+) +# *(.*)$')
+LINE = re.compile(r'(?m)^[\w/]+(?:\[\])? +(\w+)(?: +# *(.*))?$')
 CONSTANT = re.compile(r'(?m)^\w+ +(\w+) *= *(\d+) *# *([^:\n]*)')
 CHOICE = re.compile(r'one of (\w+) \.\. (\w+)')
 UNIT = re.compile(r'\s*\[([^\]]*)\]\s*$')
 UNKNOWN = re.compile(r'(?:^|[;,] )-1 (?!\.\.)')
+STANDARD_ERROR = re.compile(r'errors?$')
 
 Field = namedtuple('Field', 'unit unknown what')
 
@@ -37,12 +39,15 @@ def _own(text):
 
 @lru_cache(maxsize=None)
 def _parsed(text):
-    return {
-        name: Field(_unit(what), bool(UNKNOWN.search(what)), UNIT.sub('', what))
-        for name, what in LINE.findall(_own(text))
-    }
+    found, above = {}, ''
+    for name, own in LINE.findall(_own(text)):
+        words = above if own.startswith('[') else own or above
+        unknown = UNKNOWN.search(words) or STANDARD_ERROR.search(name)
+        found[name] = Field(_unit(own or above), bool(unknown), UNIT.sub('', words))
+        above = words
+    return found
 
 
 def _unit(what):
     found = UNIT.search(what)
-    return found.group(1) if found else ''
+    return found.group(1).strip('-') if found else ''
