@@ -1,9 +1,12 @@
-/** Record of hard bodies -> tangent maps -> blocks of columns carried along: what is the same of
- * all bodies. Free flight is lazy: only bodies that collide are brought up to date. Who includes
- * this has before it, for its bodies, hd_entry, an entry of the record with t, i and j (negative: a
- * wall); HD_HALF, coordinates of a body; hd_tangent_map, with i, j and flight[2], the times that
- * both have flown, and hd_map_fill(map, entry), the rest of it; hd_collide(vi, vj, map, width) and
- * hd_meet_wall(v, map, width), of a block, with the flights. */
+/** Record of hard particles -> tangent maps -> blocks of columns, carried through the maps. This is
+ * the code that all hard particles share. Free flight is lazy: a collision brings only the rows of
+ * its particles up to date. A file that includes this one defines before it, for its particles:
+ *   hd_entry: an entry of the record, with t, i and j (negative: a wall);
+ *   HD_HALF: the number of coordinates of a particle;
+ *   hd_tangent_map: a map with i, j and flight[2], the times since the last events of i and of j;
+ *   hd_map_fill(map, entry): fills all members of the map but i, j and flight;
+ *   hd_collide(vi, vj, map, width), hd_meet_wall(v, map, width): carry the rows of one event's
+ *   particles, of a block `width` columns wide, through the free flights and then the event. */
 #ifndef HD_CARRY_H
 #define HD_CARRY_H
 
@@ -14,15 +17,16 @@
 #include "base/multiversion.h"
 #include "dynamics/dynamics.h"
 
-/** Events that are fetched ahead, where the bodies of a block outgrow the cache. */
+/** If a block outgrows the cache, rows are fetched this many events before they are needed. LINE:
+ * numbers in a cache line. */
 enum { FETCH_AHEAD = 12, LINE = 64 / sizeof(double) };
 
 typedef struct hd_maps {
     int bodies;
     hd_tangent_map *map; /**< [count] */
     size_t count, capacity;
-    bool walls;    /**< some of them are of wall events */
-    double *since; /**< [bodies], time of each one's last event, then its last flight */
+    bool walls;    /**< true if one of the maps is a wall event */
+    double *since; /**< [bodies]: time of the last event; once filled, the flight after it */
 } hd_maps;
 
 static hd_status maps_create(void **out, int bodies)
@@ -88,7 +92,7 @@ static hd_status maps_fill(hd_maps *maps, const hd_record *record, double t_begi
 
 /* ---- a block of columns -------------------------------------------------------------------- */
 
-/** The rows of both bodies, into the cache. A wall fetches those of i alone. */
+/** Fetches the rows of both particles into the cache; of a wall event, the rows of i alone. */
 HD_KERNEL void fetch(const double *buffer, const hd_tangent_map *map, int width)
 {
     const size_t body = 2 * HD_HALF * (size_t)width;
@@ -100,7 +104,8 @@ HD_KERNEL void fetch(const double *buffer, const hd_tangent_map *map, int width)
     }
 }
 
-/** At the first `fetching` maps, those FETCH_AHEAD later are fetched. */
+/** Carries a block through all maps. Before each of the first `fetching` maps it fetches the rows
+ * of the map that comes FETCH_AHEAD later. */
 HD_KERNEL void carry_width(double *buffer, const hd_maps *m, size_t fetching, bool walls, int width)
 {
     const size_t body = 2 * HD_HALF * (size_t)width;
@@ -115,7 +120,7 @@ HD_KERNEL void carry_width(double *buffer, const hd_maps *m, size_t fetching, bo
     }
 }
 
-/** The widths are spelled out so that the compiler unrolls and vectorises each. */
+/** Each width is a constant here so that the compiler unrolls and vectorises its loops. */
 HD_KERNEL void carry_any(double *buffer, const hd_maps *m, size_t fetching, bool walls, int width)
 {
     switch (width) {
@@ -129,7 +134,7 @@ HD_KERNEL void carry_any(double *buffer, const hd_maps *m, size_t fetching, bool
     }
 }
 
-/** Without wall events. */
+/** For maps without wall events. */
 HD_MULTIVERSION
 static void carry_block(double *buffer, const hd_maps *m, size_t fetching, int width)
 {

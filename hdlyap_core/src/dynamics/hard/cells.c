@@ -1,4 +1,5 @@
-/** Scene -> cells. Edge: a little over the reach, or what holds about one disk if that is more. */
+/** Scene -> cells. Their edge is a little longer than the reach, or long enough that a cell holds
+ * about one disk, whichever is longer. */
 #include "dynamics/hard/cells.h"
 
 #include <math.h>
@@ -7,8 +8,8 @@
 #include "base/memory.h"
 #include "scene/scene.h"
 
-/** A centre sits in the cell that it is booked in up to rounding only; this much more than
- * the reach keeps every contact within neighbouring cells all the same. */
+/** Shortest edge of a cell over the reach. Rounding can put a centre slightly outside its cell; the
+ * margin keeps all contacts within neighbouring cells even then. */
 static const double EDGE_OF_REACH = 1.0 + 1e-6;
 static const double DISKS_PER_CELL = 0.75;
 
@@ -79,12 +80,12 @@ static void cell_add(hd_cells *cells, hd_cell *cell, int32_t i)
     cell->crowded = 1;
 }
 
-/** Takes disk i out of its cell; another one may move to its place. */
+/** Takes disk i out of its cell; another disk may move to its place. */
 static void cell_remove(hd_cells *cells, hd_cell *cell, int32_t i)
 {
     int32_t k = 0;
     while (k < LAST && cell->disk[k] != i) k++;
-    if (k < LAST) { /* the last one, or the head of the list, moves there */
+    if (k < LAST) { /* the last disk, or the head of the list, moves there */
         cell->disk[k] = cell->disk[cell->count - 1];
         i = cell->disk[LAST];
     }

@@ -1,6 +1,6 @@
-/** What the sources of hard bodies are compiled for, disks in the plane (HD_DIM = 2) and spheres in
- * space (3). Both are in one library: each function that they share by a header has a name for
- * each. */
+/** The sources of this folder are compiled twice: for disks in the plane (HD_DIM = 2) and for
+ * spheres in space (3). Both are in one library, so each function that is declared in a header gets
+ * a different name in each. */
 #ifndef HD_HARD_COMPILED_H
 #define HD_HARD_COMPILED_H
 
@@ -8,7 +8,7 @@
 #error "HD_DIM: must be 2 or 3"
 #endif
 
-/** Components of a vector of tangent space at one body: dq, then dp. */
+/** Components of a tangent vector that belong to one particle: dq, then dp. */
 enum { HD_ROWS = 2 * HD_DIM };
 
 #define HD_COMPILED__(name, dimension) name##_##dimension##d
@@ -64,7 +64,8 @@ enum { HD_ROWS = 2 * HD_DIM };
 #define hd_queue_restart HD_COMPILED(hd_queue_restart)
 #define hd_round_wall_reflect HD_COMPILED(hd_round_wall_reflect)
 
-/* static, but clang's choice among their versions (HD_MULTIVERSION) is not */
+/* These are static, but the symbols by which clang chooses among their versions (HD_MULTIVERSION)
+ * are not. */
 #define carry_block HD_COMPILED(carry_block)
 #define carry_block_with_walls HD_COMPILED(carry_block_with_walls)
 #define listed_contacts HD_COMPILED(listed_contacts)

@@ -1,5 +1,5 @@
-/** When two disks meet: a pure function of their two states and the image, the same bits whoever
- * asks, in whatever order, and whenever. */
+/** When two disks meet. It is a pure function of the two states and the image: its bits do not
+ * depend on when and in which order contacts are computed. */
 #ifndef HD_CONTACT_H
 #define HD_CONTACT_H
 
@@ -8,20 +8,20 @@
 
 #include "dynamics/hard/disk.h"
 
-/** Two numbers side by side: half the instructions, the same bits (no contraction, no reordering).
- */
+/** Two numbers side by side. They take half the instructions of two scalars and give the same bits
+ * (no contraction, no reordering). */
 typedef double hd_pair __attribute__((vector_size(16)));
 typedef int64_t hd_pair_mask __attribute__((vector_size(16)));
 
 static inline hd_pair hd_pair_both(double x) { return (hd_pair){x, x}; }
 
-/** In each place: mask ? yes : no. */
+/** For each of the two numbers: mask ? yes : no. */
 static inline hd_pair hd_pair_where(hd_pair_mask mask, hd_pair yes, hd_pair no)
 {
     return (hd_pair)((mask & (hd_pair_mask)yes) | (~mask & (hd_pair_mask)no));
 }
 
-/** From disk a to the image of disk b that is `shift` away, both moved to time t. */
+/** r: the vector from disk a to disk b shifted by `shift`, both moved to time t. */
 static inline void hd_contact_separation(double r[HD_DIM], const hd_disk *a, const hd_disk *b,
                                          const double shift[HD_DIM], double t)
 {
@@ -36,7 +36,7 @@ static inline double hd_contact_dot(const double r[HD_DIM], const double p[HD_DI
     return sum;
 }
 
-/** Two disks side by side. */
+/** The states of two disks side by side. */
 typedef struct hd_two_disks {
     hd_pair q[HD_DIM], p[HD_DIM], t;
 } hd_two_disks;
@@ -70,11 +70,12 @@ static inline hd_pair hd_pair_dot(const hd_pair a[HD_DIM], const hd_pair b[HD_DI
     return sum;
 }
 
-/** When two disks a meet two disks b whose images are `shift` away; NaN if never. A contact is
- * ahead if they approach (r.p < 0) and do not pass each other (p^2 - |r x p|^2 > 0). The wait until
- * |r + p t| = 1 is, with c = r^2 - 1, c / (sqrt(p^2 - |r x p|^2) - r.p): no difference of large
- * numbers; two disks that touch within rounding while approaching meet at once. Without branches:
- * one that the processor cannot foresee costs more than a root and a quotient in vain. */
+/** The times at which the two disks a meet the two disks b shifted by `shift`; NaN if never. Disks
+ * will meet if they approach (r.p < 0) and do not pass each other (p^2 - |r x p|^2 > 0). The wait
+ * until |r + p t| = 1 is, with c = r^2 - 1, c / (sqrt(p^2 - |r x p|^2) - r.p), which is no
+ * difference of large numbers. Disks that approach and overlap within rounding meet at once. There
+ * are no branches: one that the processor predicts wrongly costs more than a root and a quotient
+ * whose results are not used. */
 static inline hd_pair hd_contact_times(const hd_two_disks *a, const hd_two_disks *b,
                                        const hd_pair shift[HD_DIM])
 {

@@ -1,4 +1,5 @@
-/** The state of one disk between its events: one cache line, of a sphere somewhat more. */
+/** The state of a disk, a sphere or the centre of a dumbbell between its events. All three are
+ * called disks in this folder. For a disk it fills one cache line. */
 #ifndef HD_DISK_H
 #define HD_DISK_H
 
@@ -9,19 +10,19 @@
 #include "dynamics/hard/compiled.h"
 #include "hdlyap/scene.h"
 
-/** Deeper than this [sigma], an overlap is a fault and not rounding; in boxes whose coordinates
- * round by more it is hd_trajectory_overlap_rounding. */
+/** An overlap deeper than this [sigma] is a fault and no rounding. In a box so long that its
+ * coordinates round by more, the limit is hd_examined.overlap_rounding instead. */
 #define HD_OVERLAP_MAX 1e-9
 
-/** q and p are those of time t (of the present epoch) and stay untouched until the disk's next
- * collision: what is predicted from them does not depend on when it is predicted. */
+/** q and p are the state at time t of the present epoch, and do not change until the disk's next
+ * collision: so a prediction does not depend on when it is made. */
 typedef struct hd_disk {
-    double q[HD_DIM]; /**< where it was at t; may have drifted out of the box since */
+    double q[HD_DIM]; /**< position at t; the disk may have left the box since */
     double p[HD_DIM];
     double t;
     int32_t wrap[HD_DIM]; /**< box edges to subtract from its present position to be in its cell */
-    int32_t cell[HD_DIM]; /**< column, row, of spheres layer */
-    uint32_t collisions;  /**< changes whenever q, p, t do; tells stale predictions */
+    int32_t cell[HD_DIM]; /**< column, row and, for spheres, layer */
+    uint32_t collisions;  /**< changes with q, p and t, so that stale predictions are recognised */
 } hd_disk;
 
 static inline void hd_disk_move_to(hd_disk *disk, double t)
@@ -30,8 +31,8 @@ static inline void hd_disk_move_to(hd_disk *disk, double t)
     disk->t = t;
 }
 
-/** Time is counted in epochs: a power of two that holds about 32 to 64 collisions of a disk; in a
- * thin gas less, so that no flight is so long that its rounding comes near HD_OVERLAP_MAX. */
+/** Time is counted in epochs. Their length is a power of two: about 32 to 64 collisions of a disk;
+ * in a thin gas fewer, so that no flight is so long that it rounds by nearly HD_OVERLAP_MAX. */
 static inline double hd_epoch_length(double rate_per_disk)
 {
     const double wanted = fmin(32.0 / rate_per_disk, 16384.0);
@@ -41,12 +42,12 @@ static inline double hd_epoch_length(double rate_per_disk)
     return length;
 }
 
-/** See hd_examined; of the longest edge of the box. */
+/** hd_examined.overlap_rounding of a box with this longest edge. */
 static inline double hd_overlap_rounding(double longest, double epoch_length)
 {
-    const double speed_max = 16.0; /* of two disks; the mean square of a momentum is 2 */
-    /* of eps, on the way to a contact: each coordinate of either disk is folded, flown, shifted and
-     * subtracted, some ten times eps/2 in all, and rounding of the time moves them as much */
+    const double speed_max = 16.0; /* relative speed of two disks; <p^2> is 2 */
+    /* Roundings by eps until a contact: each coordinate of both disks is folded, flown, shifted and
+     * subtracted, which is about ten times eps/2, and the time's rounding moves them as much. */
     const double roundings = 16.0;
     return roundings * DBL_EPSILON * (longest + speed_max * epoch_length);
 }

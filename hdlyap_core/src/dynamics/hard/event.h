@@ -1,4 +1,4 @@
-/** An event of hard bodies: an entry of their record. */
+/** An event of hard particles, which is an entry of their record. */
 #ifndef HD_EVENT_H
 #define HD_EVENT_H
 
@@ -8,22 +8,23 @@
 #include "hdlyap/scene.h"
 #include "dynamics/trajectory.h"
 
-/** hd_event.j of a wall event: HD_WALL_X, HD_WALL_Y or of spheres HD_WALL_Z (the direction of the
- * wall's normal), or HD_WALL_ROUND. */
+/** hd_event.j of a wall event: HD_WALL_X, HD_WALL_Y or, for spheres, HD_WALL_Z by the direction of
+ * the wall's normal, or HD_WALL_ROUND for a curved wall. */
 enum { HD_WALL_X = -1, HD_WALL_Y = -2, HD_WALL_Z = -3, HD_WALL_ROUND = -1 - HD_DIM };
 
-/** Self-contained: with the order of the events in the record it fixes the tangent map [T3]. That
- * order is: time, pairs before flat walls, i, j; of one disk pairs before the round wall; in a
- * corner the x wall before the y wall before the z wall; one pair through two images at once: the
- * lower image in z, then in y, then in x. */
+/** Events and their order in the record fix the tangent map [T3]; nothing else is needed. They are
+ * ordered by time. At the same time pairs come before flat walls, then i and j decide; a disk meets
+ * other disks before the round wall; in a corner it meets the x wall, then the y wall, then the z
+ * wall; and if a pair meets through two images, the lower image in z comes first, then in y, then
+ * in x. */
 typedef struct hd_event {
     double t;  /**< since the start of the record [time units] */
     int32_t i; /**< disk, 0-based; i < j for a pair */
     int32_t j; /**< other disk, or HD_WALL_* */
-    /** Unit vector from i to j at contact; for a wall its axis, for a round one the outward normal
-     * as long as the radius of its curvature. */
+    /** Unit vector from i to j at contact. For a flat wall it is the unit vector of its direction;
+     * for a round wall the outward normal times the radius of curvature. */
     double n[HD_DIM];
-    double p[HD_DIM]; /**< p_j - p_i before the collision; for a wall the momentum before it */
+    double p[HD_DIM]; /**< p_j - p_i before the collision; for a wall, p_i before the collision */
 } hd_event;
 
 #endif

@@ -1,4 +1,4 @@
-/** Record of hard bodies -> what is wrong with it, and a file. */
+/** Checks the record of hard particles, and keeps it in a checkpoint. */
 #include "dynamics/hard/events.h"
 
 #include <float.h>
@@ -25,7 +25,7 @@ static bool disks_exist(const hd_event *event, int disks)
     return (event->j < 0 && event->j >= HD_WALL_ROUND) || (event->j > event->i && event->j < disks);
 }
 
-/** There are flat walls, or there is a curved one. */
+/** Whether the event's wall can exist: a scene has flat walls or a curved one, not both. */
 static bool wall_exists(const hd_event *event, const hd_wall *wall)
 {
     const bool is_curved = wall->meet;
@@ -33,11 +33,11 @@ static bool wall_exists(const hd_event *event, const hd_wall *wall)
                                      : event->j >= 0 || (event->j > HD_WALL_ROUND && !is_curved);
 }
 
-/** Its length is 1, or a radius of a curved wall: a quotient of a vector and its length is right
- * to an ulp or two. */
+/** Whether the normal has length 1, or that of a radius of the curved wall. A vector divided by its
+ * length has length 1 to an ulp or two. */
 static bool is_normal(const hd_event *event, const hd_wall *wall)
 {
-    const bool is_round = event->j == HD_WALL_ROUND; /* one more product */
+    const bool is_round = event->j == HD_WALL_ROUND; /* its normal has one more rounding */
     const double least = is_round ? wall->radius_least : 1.0;
     const double most = is_round ? wall->radius_most : 1.0;
     const double square = hd_contact_dot(event->n, event->n);
@@ -46,7 +46,8 @@ static bool is_normal(const hd_event *event, const hd_wall *wall)
            square - most * most <= rounding * most * most;
 }
 
-/** Within the rounding of the normal; a round wall is reached outwards. */
+/** Whether the disks approach, within the rounding of the normal; a disk approaches the round wall
+ * if it moves outwards. */
 static bool approach(const hd_event *event)
 {
     const double speed = sqrt(hd_contact_dot(event->p, event->p));

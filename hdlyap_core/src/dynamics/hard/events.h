@@ -1,4 +1,5 @@
-/** The events of a record of hard bodies: what they are not, whoever wrote them, and their file. */
+/** The events of a record of hard particles: checks that they are valid, and keeps them in a
+ * checkpoint. */
 #ifndef HD_EVENTS_H
 #define HD_EVENTS_H
 
@@ -10,12 +11,13 @@
 /** [hd_record_count] */
 const hd_event *hd_events(const hd_record *record);
 
-/** NULL, or what is wrong: a time outside the record or before the one before it, a disk or a wall
- * that there is not, a normal of another length than it should have, disks that part. */
+/** Returns NULL, or what is wrong with the record: a time outside it or earlier than the time of
+ * the event before, a disk or a wall that does not exist, a normal of the wrong length, or disks
+ * that do not approach. */
 const char *hd_events_fault(const hd_record *record, const hd_scene_def *scene);
 
 void hd_events_archive(hd_record *record, hd_archive *archive, const hd_scene_def *scene);
-/** Bytes of so many: in the record, which doubles when it is full, and as tangent maps. */
+/** Bytes of this many events: in the record, which doubles when it is full, and as tangent maps. */
 double hd_events_bytes(double events);
 
 #endif

@@ -1,13 +1,14 @@
 /** Scene -> record: event-driven motion of hard disks between periodic or reflecting edges.
  *
- * Every disk keeps the state of its last collision; contacts are predicted from two such states
- * alone (contact.h), so the events do not depend on cells, queue or the cutting into intervals.
- * Each disk has one entry in the queue: its earliest predicted contact, wall or cell edge. A
- * contact whose partner has collided since is stale; it is noticed when its time comes, and
- * predicted again. No event is missed by that: a disk that collides predicts anew with all its
- * neighbours. Time is counted in epochs, a power of two long (tens of collisions per disk), at
- * whose end all disks are brought up to date and predicted anew: so t = 1e6 is resolved as finely
- * as t = 0. One thread. Only + - * / sqrt and comparisons: the same bits everywhere. */
+ * Every disk keeps the state of its last collision. Contacts are predicted from the two states
+ * alone (contact.h), so events do not depend on cells, on the queue or on how time is cut into
+ * intervals. Each disk has one entry in the queue: its earliest predicted contact, wall or cell
+ * edge. A contact is stale if its partner has collided since; that is noticed when its time comes,
+ * and the disk predicts anew. No event is missed so, because a disk that collides predicts its
+ * contacts with all neighbours. Time is counted in epochs, whose length is a power of two (tens of
+ * collisions per disk). At the end of an epoch all disks are brought up to date and predict anew,
+ * so t = 1e6 is resolved as finely as t = 0. One thread computes this, with + - * / sqrt and
+ * comparisons only, so that all machines give the same bits. */
 #include "dynamics/hard/hard.h"
 
 #include <float.h>
@@ -20,7 +21,7 @@
 #include "scene/fluid.h"
 #include "scene/scene.h"
 
-/** Faster disks would lose the positions' digits within one epoch. */
+/** A faster disk would move so far in one epoch that its position would lose digits. */
 static const double MOMENTUM_MAX = 1e6;
 
 /* ---- bodies -------------------------------------------------------------------------------- */
@@ -132,10 +133,10 @@ static double square_minus_one(const double r[HD_DIM])
     return (all - 1.0) + lost;
 }
 
-/** What two disks that are r apart exchange: false if nothing, because they graze within rounding.
- * An approach that is lost in the rounding of their momenta might leave these as they are, and the
- * pair would meet again at once, for ever: it is turned into a parting that rounding cannot take
- * back, along the longest component of r. */
+/** Exchanges the normal momenta of two disks that are r apart. Returns false if they only graze: if
+ * they do not approach by more than momenta round. Such an exchange might not change the momenta,
+ * and the pair would meet again at once, forever; so the disks are pushed apart, by more than
+ * rounding, along the longest component of r. */
 static bool exchange(hd_disk *a, hd_disk *b, const double r[HD_DIM], double approach, double excess)
 {
     double size = 0.0;
@@ -143,7 +144,8 @@ static bool exchange(hd_disk *a, hd_disk *b, const double r[HD_DIM], double appr
     for (int d = 0; d < HD_DIM; d++) size += fabs(b->p[d]);
     const double lost = 8.0 * DBL_EPSILON * size;
     if (approach < -lost) {
-        /* approach / r.r; with r.r rounded near 1 the energy would drift, 3e-16 a collision */
+        /* approach / r.r to first order; dividing by the rounded r.r would let the energy drift by
+         * 3e-16 in each collision */
         const double per_r = approach - approach * excess;
         for (int d = 0; d < HD_DIM; d++) {
             a->p[d] += per_r * r[d];
@@ -160,7 +162,7 @@ static bool exchange(hd_disk *a, hd_disk *b, const double r[HD_DIM], double appr
     return false;
 }
 
-/** Reflection at a curved wall [T21]. */
+/** Reflects a disk at a curved wall [T21]. */
 static hd_status reflect_round(hard *tr, hd_record *record, hd_event *event, double t)
 {
     hd_disk *disk = &tr->motion.disk[event->i];
@@ -172,14 +174,14 @@ static hd_status reflect_round(hard *tr, hd_record *record, hd_event *event, dou
     return reflected ? write(record, event) : HD_OK;
 }
 
-/** Pair contact [T3]: moves both disks to the contact and exchanges their normal momenta. */
+/** Moves two disks to their contact and exchanges their normal momenta [T3]. */
 static hd_status collide(hard *tr, hd_record *record, hd_event *contact, int32_t found_by, double t)
 {
     if (contact->j == tr->motion.count) return reflect_round(tr, record, contact, t);
     hd_event event = *contact;
     hd_disk *a = &tr->motion.disk[event.i], *b = &tr->motion.disk[event.j];
     const prediction *how = &tr->motion.predicted[found_by];
-    const double sign = 1.0 - 2.0 * (found_by != event.i); /* the image is seen from the finder */
+    const double sign = 1.0 - 2.0 * (found_by != event.i); /* the image is relative to found_by */
     double shift[HD_DIM], r[HD_DIM];
     for (int d = 0; d < HD_DIM; d++) shift[d] = sign * how->image[d] * tr->motion.cells.box[d];
     hd_disk_move_to(a, t);
@@ -204,12 +206,12 @@ static hd_status collide(hard *tr, hd_record *record, hd_event *contact, int32_t
     b->collisions++;
     hd_cells_fold(&tr->motion.cells, a);
     hd_cells_fold(&tr->motion.cells, b);
-    hd_prediction_renew(&tr->motion, found_by); /* the head of the queue first: foreseeable */
+    hd_prediction_renew(&tr->motion, found_by); /* first: always the queue's head, predictable */
     hd_prediction_renew(&tr->motion, event.i + event.j - found_by);
     return status;
 }
 
-/** Reflection at a flat wall [T4]. */
+/** Reflects disk i at a flat wall [T4]. */
 static hd_status reflect(hard *tr, hd_record *record, hd_event *event, int32_t i, double t)
 {
     hd_disk *disk = &tr->motion.disk[i];
@@ -217,7 +219,7 @@ static hd_status reflect(hard *tr, hd_record *record, hd_event *event, int32_t i
     const int d = how->direction;
     const hd_cell_line *line = &tr->motion.cells.line[d][disk->cell[d]];
     hd_disk_move_to(disk, t);
-    disk->q[d] = line->bound[how->side == HIGH]; /* there within rounding: no drift */
+    disk->q[d] = line->bound[how->side == HIGH]; /* so that rounding never adds up */
     event->n[d] = 1.0;
     for (int e = 0; e < HD_DIM; e++) event->p[e] = disk->p[e];
     disk->p[d] = -disk->p[d];
@@ -251,7 +253,7 @@ double hd_hard_entries(const hd_scene_def *def)
 
 double hd_hard_bytes(const hd_scene_def *scene)
 {
-    /* its cells, its place in the queue and its prediction */
+    /* bytes of a disk, its cells, its entry in the queue and its prediction */
     static const double OF_A_DISK = HD_DIM == 2 ? 255.0 : 310.0;
     return OF_A_DISK * scene->number;
 }

@@ -1,6 +1,6 @@
-/** What the state of hard bodies holds: hard.c moves them, hard_row.c tells, hard_archive.c keeps.
- * Of other bodies than disks and spheres this is what their centres do, and stands first in their
- * state. */
+/** The state of hard particles. hard.c moves disks and spheres, hard_row.c answers questions about
+ * the state, hard_archive.c keeps it in a checkpoint. Dumbbells have this struct as the first
+ * member of their state, for their centres. */
 #ifndef HD_HARD_H
 #define HD_HARD_H
 
@@ -13,28 +13,30 @@
 typedef struct hard {
     hd_motion motion;
     double epoch_length;
-    double overlap_max; /**< see hd_trajectory_overlap_max */
+    double overlap_max; /**< see hd_examined */
     double epoch_start; /**< simulated time, a multiple of epoch_length */
     double now;         /**< simulated time */
     uint64_t collisions, wall_events;
-    double virial[HD_DIM]; /**< of the collisions */
+    double virial[HD_DIM]; /**< sum over collisions; see hd_told */
 } hard;
 
-/* ---- of any bodies ------------------------------------------------------------------------- */
+/* ---- for all hard particles ---------------------------------------------------------------- */
 
-/** Room, and cells for centres that meet within `reach`. */
+/** Allocates disks, predictions, queue and cells; centres meet within a distance `reach`. Fails
+ * with HD_NO_MEMORY. */
 HD_MUST_CHECK hd_status hd_hard_prepare(hard *tr, const hd_scene_def *def, double reach);
-/** All but itself. */
+/** Frees all that hd_hard_prepare has allocated, but not tr itself. */
 void hd_hard_clear(hard *tr);
-/** Of all pairs and images the least `of`, of j seen `shift` away from where it is; asked twice for
- * each pair. */
+/** The least value of `of` over all pairs in neighbouring cells, with j moved by `shift` to the
+ * image that i sees. Each pair is computed twice, once from either side, and i = j is one, too. */
 double hd_hard_least(const hard *tr, double (*of)(const hard *tr, int32_t i, int32_t j,
                                                   const double shift[HD_DIM]));
-/** Fills energy_rounding, momentum, angular_momentum. */
+/** Fills energy_rounding, momentum and angular_momentum. */
 void hd_hard_examine(const hard *tr, hd_examined *examined);
-/** Fills what is kept of centres; cells follow. */
+/** Writes or reads time, counters and the states of disks; reading fills the cells, too. */
 void hd_hard_keep(hard *tr, hd_archive *archive);
-/** What the numbers are not, or NULL. Of a scene: the energy is N. */
+/** Returns what is wrong with the state, or NULL. A scene's energy has to be its number of
+ * particles. */
 const char *hd_hard_inconsistency(const hard *tr, double energy);
 
 /* Entries of the row: see hd_dynamics. */
@@ -47,7 +49,7 @@ double hd_hard_entries(const hd_scene_def *def);
 double hd_hard_bytes(const hd_scene_def *scene);
 uint32_t hd_hard_fingerprint(const void *state);
 
-/* ---- of disks and spheres ------------------------------------------------------------------ */
+/* ---- for disks and spheres ----------------------------------------------------------------- */
 
 HD_MUST_CHECK hd_status hd_hard_create(void **state, const hd_scene_def *def);
 HD_MUST_CHECK hd_status hd_hard_create_from(void **state, const hd_scene_def *def, const double *q,
@@ -56,11 +58,11 @@ void hd_hard_free(void *state);
 HD_MUST_CHECK hd_status hd_hard_advance(void *state, hd_record *record, double t_end);
 void hd_hard_archive(void *state, hd_archive *archive);
 
-/** See hd_trajectory_overlap and hd_trajectory_overlap_rounding. */
+/** See hd_examined.overlap and hd_examined.overlap_rounding. */
 double hd_hard_overlap(const hard *tr);
 double hd_hard_overlap_rounding(const hard *tr);
 
-/** Sum p^2 / 2 of all. */
+/** Sum of p^2 / 2 over all disks. */
 double hd_hard_kinetic_energy(const void *state);
 
 #endif

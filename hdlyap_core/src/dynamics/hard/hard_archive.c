@@ -1,14 +1,17 @@
-/** The disks <-> file. Cells, queue and predictions follow from the disks: see hard.c. */
+/** The state of hard particles <-> checkpoint. Only the disks are kept: cells, queue and
+ * predictions follow from them (see hard.c). */
 #include <math.h>
 #include <stdbool.h>
 #include <zlib.h>
 
 #include "dynamics/hard/hard.h"
 
-/** Turns around the box within one epoch: more than any speed allows. */
+/** A checkpoint whose disk has gone around the box more often than this in one epoch is refused; no
+ * speed allows it. */
 enum { WRAP_MAX = 1 << 24 };
-/** Rounding of a position, in a long box that of its edge; and of the energy, which walks by 1e-16
- * of itself in a collision. */
+/** How far a disk may be outside its cell (in a long box, whose coordinates round by more, it may
+ * be overlap_max), and how far the energy per particle may be off 1: each collision changes the
+ * energy by 1e-16 of it, at random. */
 static const double PLACE_CLOSE = 1e-6, ENERGY_CLOSE = 1e-6;
 
 static void disks_archive(hard *tr, hd_archive *archive)

@@ -1,4 +1,4 @@
-/** What is asked of hard bodies, and their row. */
+/** Answers questions about the state of hard particles; the row of disks and of spheres. */
 #include <float.h>
 #include <math.h>
 
@@ -11,7 +11,7 @@
 #include "scene/fluid.h"
 #include "scene/null_space.h"
 
-enum { SAID = 96 }; /* of a container */
+enum { SAID = 96 }; /* bytes of a container's description */
 
 double hd_hard_time(const void *state)
 {
@@ -26,7 +26,7 @@ void hd_hard_tell(const void *state, hd_told *told)
     for (int d = 0; d < HD_DIM; d++) told->virial[d] = tr->virial[d];
 }
 
-/** As it is now, in the box. */
+/** Disk i moved to the present time and folded into the box. */
 static hd_disk disk_now(const hard *tr, int32_t i)
 {
     hd_disk disk = tr->motion.disk[i];
@@ -53,7 +53,8 @@ static void momentum(const hard *tr, double *sum)
         for (int d = 0; d < HD_DIM; d++) sum[d] += tr->motion.disk[i].p[d];
 }
 
-/** Where walls hold the disks: none is folded. */
+/** Angular momentum about the middle of the box. It means something only inside a curved wall,
+ * where positions need no folding. */
 static double angular_momentum(const hard *tr)
 {
     double sum = 0.0;
@@ -88,7 +89,7 @@ double hd_hard_overlap_rounding(const hard *tr)
     return hd_overlap_rounding(longest, tr->epoch_length);
 }
 
-/** Of disk i with the disks of cell n of those around it. */
+/** The least value of `of` for disk i with each disk in the n-th of the cells around it. */
 static double least_in_cell(const hard *tr, int32_t i, int n,
                             double (*of)(const hard *, int32_t, int32_t, const double[HD_DIM]))
 {
@@ -122,7 +123,7 @@ double hd_hard_least(const hard *tr,
     return least;
 }
 
-/** To itself infinite. */
+/** Infinite if i = j. */
 static double distance_squared(const hard *tr, int32_t i, int32_t j, const double shift[HD_DIM])
 {
     double r[HD_DIM];
@@ -153,7 +154,7 @@ static void hard_examine(const void *state, hd_examined *examined)
     hd_hard_examine(tr, examined);
 }
 
-/** There are start positions. */
+/** Checks that there are start positions at this density. */
 static hd_status hard_check(const hd_scene_def *scene, char *message, size_t size)
 {
     const hd_container_row *container = hd_container_of(scene);
@@ -166,14 +167,14 @@ static hd_status hard_check(const hd_scene_def *scene, char *message, size_t siz
         scene->density, container->density_max(scene), scene->number, said);
 }
 
-/** Pairs of energy and time, and of each conserved momentum. */
+/** Two exponents vanish by energy and time, and two by each conserved momentum. */
 int hd_hard_zeros(const hd_scene_def *scene)
 {
     int axis[HD_DIMENSION_MAX + 1];
     return 2 * hd_null_axes(scene, axis);
 }
 
-/** pi / 4 of a disk, pi / 6 of a sphere. */
+/** Volume of a particle: pi / 4 for a disk, pi / 6 for a sphere. */
 static double hard_size(const hd_scene_def *scene)
 {
     (void)scene;

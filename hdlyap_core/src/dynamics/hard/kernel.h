@@ -1,5 +1,4 @@
-/** The tangent map of one event, for a block of columns: what is the same of disks and of spheres.
- */
+/** The tangent map of one event for a block of columns: the part that disks and spheres share. */
 #ifndef HD_KERNEL_H
 #define HD_KERNEL_H
 
@@ -7,13 +6,14 @@
 
 #define HD_KERNEL static inline __attribute__((always_inline))
 
-/** [T1] dq += tau dp; v points to the rows of a disk, `half` numbers of dq before those of dp. */
+/** Free flight [T1]: dq += tau dp. v points to the rows of a disk: `half` numbers dq, then as many
+ * dp. */
 HD_KERNEL void hd_fly(double *restrict v, double tau, int half)
 {
     for (int k = 0; k < half; k++) v[k] += tau * v[half + k];
 }
 
-/** [T4], after a flight: direction d of both halves. */
+/** Free flight, then reflection [T4]: component d of dq and of dp changes sign. */
 HD_KERNEL void hd_reflect(double *restrict v, int d, double tau, int width)
 {
     hd_fly(v, tau, HD_DIM * width);

@@ -1,5 +1,5 @@
-/** Tangent map of one event of disks, for a block of columns [T3], [T4], [T21]. Two vectors, n and
- * t, turned by +90 degrees, span the plane. */
+/** Tangent map of one event of disks for a block of columns [T3], [T4], [T21]. Vectors are written
+ * in components along n and along t, which is n turned by +90 degrees. */
 #ifndef HD_KERNEL_2D_H
 #define HD_KERNEL_2D_H
 
@@ -7,23 +7,23 @@
 
 #include "dynamics/hard/kernel.h"
 
-/** Free flights of its disks since their last events, then the collision. */
+/** The free flights of the event's disks since their last events, then the collision. */
 typedef struct hd_tangent_map {
     int32_t i, j; /**< as in hd_event */
     union {
-        double flight[2]; /**< of i, of j */
+        double flight[2]; /**< times that i and j have flown */
         struct {
-            double alone; /**< flight of i */
-            double bend;  /**< of a round wall, twice its curvature */
+            double alone; /**< time that i has flown to the wall */
+            double bend;  /**< twice the curvature of a round wall */
         };
     };
     double n[HD_DIM];
-    double normal;     /**< b = p.n: < 0, of a round wall > 0 */
+    double normal;     /**< b = p.n: < 0; at a round wall > 0 */
     double tangential; /**< p_t = p.t */
     double ratio;      /**< p_t / b */
 } hd_tangent_map;
 
-/** The normal of a round wall is as long as its radius. */
+/** Finds the curvature of a round wall: the normal in the event is as long as the radius. */
 static inline void hd_curved_fill(hd_tangent_map *map)
 {
     const double radius = sqrt(map->n[0] * map->n[0] + map->n[1] * map->n[1]);
@@ -32,7 +32,7 @@ static inline void hd_curved_fill(hd_tangent_map *map)
     map->n[1] /= radius;
 }
 
-/** All but i, j and the flights, which are there. Nothing more for a flat wall. */
+/** Fills all but i, j and the flights, which the map has already. A flat wall needs n alone. */
 static inline void hd_map_fill(hd_tangent_map *map, const hd_event *event)
 {
     map->n[0] = event->n[0];
@@ -44,7 +44,7 @@ static inline void hd_map_fill(hd_tangent_map *map, const hd_event *event)
     map->ratio = map->tangential / map->normal;
 }
 
-/** [T3] with the free flights before it; only the tangential part s of the displacement turns n. */
+/** Free flights, then the collision [T3]. s is the part of the displacement that turns n. */
 HD_KERNEL void hd_collide(double *restrict vi, double *restrict vj, const hd_tangent_map *map,
                           int width)
 {
@@ -68,7 +68,8 @@ HD_KERNEL void hd_collide(double *restrict vi, double *restrict vj, const hd_tan
     }
 }
 
-/** [T21]: dq.t - (p_t / b) dq.n is where along the wall the shadow meets it. */
+/** Free flight, then reflection at a round wall [T21]. s = dq.t - (p_t / b) dq.n is how far along
+ * the wall the displaced trajectory meets it. */
 HD_KERNEL void hd_curve(double *restrict v, const hd_tangent_map *map, int width)
 {
     const double nx = map->n[0], ny = map->n[1], ratio = map->ratio;
@@ -85,7 +86,7 @@ HD_KERNEL void hd_curve(double *restrict v, const hd_tangent_map *map, int width
     }
 }
 
-/** A disk that meets a wall of either kind. */
+/** Free flight, then reflection at a round or a flat wall. */
 HD_KERNEL void hd_meet_wall(double *restrict v, const hd_tangent_map *map, int width)
 {
     if (map->j == HD_WALL_ROUND)

@@ -1,21 +1,21 @@
-/** Tangent map of one event of spheres, for a block of columns [T4], [T22]: as of disks [T3], with
- * vectors across n in the place of t. */
+/** Tangent map of one event of spheres for a block of columns [T4], [T22]. It is that of disks [T3]
+ * with vectors perpendicular to n in place of t. */
 #ifndef HD_KERNEL_3D_H
 #define HD_KERNEL_3D_H
 
 #include "dynamics/hard/kernel.h"
 
-/** Free flights of its spheres since their last events, then the collision. */
+/** The free flights of the event's spheres since their last events, then the collision. */
 typedef struct hd_tangent_map {
     int32_t i, j;     /**< as in hd_event */
-    double flight[2]; /**< of i, of j */
+    double flight[2]; /**< times that i and j have flown */
     double n[HD_DIM];
     double normal;         /**< b = p.n < 0 */
     double across[HD_DIM]; /**< p_t = p - b n */
     double ratio[HD_DIM];  /**< p_t / b */
 } hd_tangent_map;
 
-/** All but i, j and the flights, which are there. Nothing more for a wall. */
+/** Fills all but i, j and the flights, which the map has already. A wall needs n alone. */
 static inline void hd_map_fill(hd_tangent_map *map, const hd_event *event)
 {
     for (int d = 0; d < HD_DIM; d++) map->n[d] = event->n[d];
@@ -27,7 +27,7 @@ static inline void hd_map_fill(hd_tangent_map *map, const hd_event *event)
     }
 }
 
-/** [T22] with the free flights before it; only the part s of the displacement across n turns n. */
+/** Free flights, then the collision [T22]. s is the part of the displacement that turns n. */
 HD_KERNEL void hd_collide(double *restrict vi, double *restrict vj, const hd_tangent_map *map,
                           int width)
 {

@@ -1,5 +1,5 @@
-/** Record of hard bodies -> tangent maps -> blocks of columns carried along: those of disks or of
- * spheres [T1], [T3], [T4], [T21], [T22]. */
+/** Record of disks or spheres -> tangent maps -> blocks of columns, carried through the maps [T1],
+ * [T3], [T4], [T21], [T22]. */
 #include "dynamics/hard/maps.h"
 
 #include "dynamics/hard/event.h"

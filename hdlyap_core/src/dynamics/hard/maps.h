@@ -1,5 +1,4 @@
-/** A part of a record of hard bodies as tangent maps, which blocks of columns are carried through.
- */
+/** A part of a record of disks or spheres as tangent maps, which carry blocks of columns. */
 #ifndef HD_MAPS_H
 #define HD_MAPS_H
 
@@ -10,10 +9,12 @@
 
 HD_MUST_CHECK hd_status hd_maps_create(void **maps, int disks);
 void hd_maps_free(void *maps);
-/** All divisions done, with each disk's flight after its last one. */
+/** Fills the maps of the events from t_begin to t_end, with all divisions done, and the flight of
+ * each disk after its last event. */
 HD_MUST_CHECK hd_status hd_maps_fill(void *maps, const hd_record *record, double t_begin,
                                      double t_end);
-/** Cost about 40 width flops and 128 width bytes of cache traffic for a pair event of disks. */
+/** Carries a block of `width` columns through the maps. A pair event of disks costs about 40 width
+ * flops and 128 width bytes of cache traffic. */
 void hd_maps_carry(const void *maps, double *block, int width);
 
 #endif

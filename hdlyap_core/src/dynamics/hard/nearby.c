@@ -1,4 +1,4 @@
-/** Cells -> whom a disk may meet, and when. See nearby.h. One thread. */
+/** Cells -> the disks that a disk may meet, and when. See nearby.h. Runs in one thread. */
 #include "dynamics/hard/nearby.h"
 
 #include <string.h>
@@ -11,8 +11,8 @@ typedef int32_t int_quad __attribute__((vector_size(16)));
 
 static inline int_quad spread(int32_t x) { return (int_quad){x, x, x, x}; }
 
-/** Adds the disks in the places of a cell, which are seen through these images: copies the whole
- * cell, and counts what is in it. */
+/** Adds the disks in the places of a cell, with the cell's image: copies the whole cell, and counts
+ * only the places that are taken. */
 static inline void add_cell(hd_nearby *near, const hd_cell *cell, const int32_t image[HD_DIM])
 {
     const int32_t count = near->count;
@@ -25,8 +25,9 @@ static inline void add_cell(hd_nearby *near, const hd_cell *cell, const int32_t 
     near->crowded |= cell->crowded;
 }
 
-/** The cells around a disk in each direction, as it sees them: by how much to go on in the array of
- * cells, and images. Copies: what is gathered might be these, as far as the compiler knows. */
+/** For each direction and side: how far to go on in the array of cells, and which image is there.
+ * These are copies because the compiler cannot know that writing to hd_nearby leaves the lines
+ * unchanged. */
 typedef struct around {
     ptrdiff_t place[HD_DIM][3];
     int32_t image[HD_DIM][3];
@@ -64,8 +65,8 @@ void hd_nearby_around(hd_nearby *near, const hd_cells *cells, const hd_disk *dis
     }
 }
 
-/** A third of the cells: images and places of all are not worth being prepared. The other
- * directions than d go through their sides. */
+/** These are a third of the cells around, too few to prepare all images and places first. The sides
+ * of the directions other than d vary with k. */
 void hd_nearby_beside(hd_nearby *near, const hd_cells *cells, const hd_disk *disk, int d, int side)
 {
     hd_cell_line line[HD_DIM];
@@ -98,13 +99,15 @@ int32_t hd_nearby_listed(hd_nearby *near, const hd_cells *cells, const hd_disk *
 
 /* ---- when ---------------------------------------------------------------------------------- */
 
-/** Contacts in one step: two pairs, for one computation to fill the waits of the other. */
+/** Contacts that one step computes: two pairs, so that one is computed while the other waits for
+ * its root or quotient. */
 enum { STEP = HD_NEARBY_SPARE };
 
-/** The earliest contact in each half of the pairs so far; NaN never gets in. */
+/** The earliest contact so far, separately for the first and the second number of the pairs. NaN
+ * never counts as earlier. */
 typedef struct earliest {
     hd_pair t;
-    hd_pair_mask number, tied; /**< tied: another one was as early as the earliest up to then */
+    hd_pair_mask number, tied; /**< tied: a contact was as early as the earliest one before it */
 } earliest;
 
 static inline void earliest_lower(earliest *e, hd_pair t, int64_t k)
@@ -124,7 +127,7 @@ static inline int earliest_number(const earliest *e)
     return (int)number[e->t[1] < e->t[0]];
 }
 
-/** Contacts of the two disks a with numbers k and k + 1. */
+/** Contact times of one disk, which `a` holds twice, with the k-th and (k + 1)-th disk nearby. */
 static inline hd_pair contacts_with(const hd_two_disks *a, const hd_nearby *near, int k,
                                     const hd_disk *disks, const double box[HD_DIM])
 {
@@ -139,7 +142,7 @@ static inline hd_pair contacts_with(const hd_two_disks *a, const hd_nearby *near
     return hd_contact_times(a, &b, shift);
 }
 
-/** hd_nearby_contacts, without what fills the last step. */
+/** Does what hd_nearby_contacts does, once the places of the last step are filled. */
 HD_MULTIVERSION
 static int listed_contacts(double *contact, const hd_nearby *near, const hd_disk *disks, int32_t i,
                            const double box[HD_DIM])

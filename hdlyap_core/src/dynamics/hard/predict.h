@@ -1,10 +1,10 @@
-/** States of hard bodies -> the earliest event of each: what is the same of all bodies. See hard.c
- * for the scheme. Who includes this has before it, for its bodies,
- *   HD_WALL_CONTACTS, 1 if walls are met as partners are, partner = -1 - direction, and not by the
- *   centre at the end of its cells;
+/** States of hard particles -> the earliest event of each. This is the code that all hard particles
+ * share; see hard.c for the scheme. A file that includes this one defines before it
+ *   HD_WALL_CONTACTS: 0 if the centre of a particle meets flat walls, as it meets edges of cells; 1
+ *   if a wall is predicted as a contact, with the partner -1 - direction;
  * and after it
- *   predict_nearby(motion, i, near), which lowers the prediction of i by its contacts with those
- *   nearby: predict_contact for each. */
+ *   predict_nearby(motion, i, near): replaces the prediction of i by its contacts with the
+ *   particles nearby if they are earlier, by a predict_contact for each. */
 #ifndef HD_PREDICT_H
 #define HD_PREDICT_H
 
@@ -16,8 +16,8 @@
 
 static void predict_nearby(hd_motion *m, int32_t i, hd_nearby *near);
 
-/** The order of two contacts of disk i at the same time: by partner, then by image as seen from the
- * disk with the lower number. */
+/** Whether a contact of disk i comes before another at the same time: the lower partner does, then
+ * the lower image as seen from the disk with the lower index. */
 static bool comes_first(int32_t i, int32_t j, const int32_t image[HD_DIM], const prediction *other)
 {
     if (j != other->partner) return (uint32_t)j < (uint32_t)other->partner; /* walls last */
@@ -27,8 +27,8 @@ static bool comes_first(int32_t i, int32_t j, const int32_t image[HD_DIM], const
     return sign * image[d] < sign * other->image[d];
 }
 
-/** Lowers the prediction of disk i to its contact with number k of those nearby, if that is
- * earlier; says so. */
+/** Replaces the prediction of disk i by its contact with the k-th disk nearby if that is earlier.
+ * Returns whether it was. */
 static inline bool predict_contact(hd_motion *m, int32_t i, const hd_nearby *near, int k,
                                    double contact)
 {
@@ -46,8 +46,8 @@ static inline bool predict_contact(hd_motion *m, int32_t i, const hd_nearby *nea
     return true;
 }
 
-/** Lowers the prediction of disk i by its contacts with those that have no place in cell number k
- * of those around. */
+/** Replaces the prediction of disk i by earlier contacts with the disks that are in the list of the
+ * k-th of the cells around it. */
 static void predict_listed(hd_motion *m, int32_t i, int k)
 {
     const hd_disk *disk = &m->disk[i];
@@ -78,13 +78,13 @@ static void predict_beside(hd_motion *m, int32_t i, int d, int side)
         for (int k = 0; k < HD_CELLS_BESIDE; k++) predict_listed(m, i, hd_cells_beside(k, d, side));
 }
 
-/** Time at which the disk reaches the edge of its cell (or the wall) in direction d. */
+/** The time at which the disk reaches the edge of its cell (or the wall) in direction d. */
 static double edge_time(const hd_motion *m, const hd_disk *disk, int d)
 {
     const hd_cell_line *line = &m->cells.line[d][disk->cell[d]];
     const double edge = line->bound[disk->p[d] > 0] + disk->wrap[d] * m->cells.box[d];
     const double wait = (edge - disk->q[d]) / disk->p[d];
-    const double t = disk->t + (wait > 0 ? wait : 0.0); /* 0: already there within rounding */
+    const double t = disk->t + (wait > 0 ? wait : 0.0); /* 0: it is there within rounding */
     return disk->p[d] == 0 ? INFINITY : t;
 }
 
@@ -93,8 +93,8 @@ static bool is_wall(const hd_motion *m, const hd_disk *disk, int d, int32_t side
     return m->cells.line[d][disk->cell[d]].near[side] == m->cells.size[d];
 }
 
-/** Predicts the next edge and hands the disk's earliest event to the queue; no branch depends on
- * it. */
+/** Predicts the next edge and puts the disk's earliest event into the queue, without branches that
+ * depend on which event that is. */
 static void schedule(hd_motion *m, int32_t i)
 {
     const hd_disk *disk = &m->disk[i];

@@ -1,10 +1,11 @@
-/** States of the disks -> the earliest event of each. See hard.c for the scheme. One thread. */
+/** States of the disks -> the earliest event of each. See hard.c for the scheme.
+ * Runs in one thread. */
 #include "dynamics/hard/prediction.h"
 
 enum { HD_WALL_CONTACTS = 0 };
 #include "dynamics/hard/predict.h"
 
-/** Lowers the prediction of disk i by its contacts with those nearby. */
+/** Replaces the prediction of disk i by its earliest contact nearby, if that is earlier. */
 static void predict_nearby(hd_motion *m, int32_t i, hd_nearby *near)
 {
     double contact[HD_NEARBY_MAX + HD_NEARBY_SPARE];
@@ -14,7 +15,8 @@ static void predict_nearby(hd_motion *m, int32_t i, hd_nearby *near)
     for (int k = 0; k < near->count; k++) (void)predict_contact(m, i, near, k, contact[k]);
 }
 
-/** The first contact of disk i: pairs at the same time come before it, by its number. */
+/** Starts the prediction of disk i with the round wall. Pairs at the same time come before it,
+ * because the wall's number as a partner is the highest. */
 static void predict_round_wall(hd_motion *m, int32_t i)
 {
     m->predicted[i] = (prediction){.contact = hd_round_wall_time(&m->wall, &m->disk[i]),

@@ -1,28 +1,32 @@
-/** Queue -> cache. The addresses are found in steps, each in what the step before has fetched:
- * entry, disk, cells and partner, the disks in the cells. An event takes them while the queue goes
- * through the buckets before its own, so that nothing is waited for. One thread. */
+/** Fetches what the next events will touch into the cache. Each event goes through five steps, and
+ * each step finds its addresses in what the step before has fetched: entry; disk; cells and
+ * partner; disks in the cells and the partner's cells; disks in the partner's cells. The steps are
+ * spread over the buckets before that of the event, so that no step waits for memory. Runs in one
+ * thread. */
 #include "dynamics/hard/prefetch.h"
 
-/** From so many disks on the state outgrows the second-level cache, and this pays. */
+/** With at least this many disks the state outgrows the second-level cache, and fetching pays. */
 enum { FETCH_DISKS = 16000 };
 
-/** Buckets, of about two events, from one step to the next: longer than memory takes. */
+/** Buckets between one step and the next. They have about two events, which take longer than memory
+ * does. */
 enum { FETCH_STEP = 2 };
 
-/** GCC takes a function that only fetches for one without effect, and drops calls of it. */
+/** GCC thinks that a function that only fetches has no effect, and drops calls of it unless it is
+ * inlined. */
 #define FETCHES inline __attribute__((always_inline))
 
-/** The rows of cells around a disk. */
+/** Fetches the rows of cells around a disk. */
 static FETCHES void fetch_cells(const hd_cells *cells, const hd_disk *disk)
 {
-    for (int k = 1; k < HD_CELLS_AROUND; k += 3) { /* its own column */
+    for (int k = 1; k < HD_CELLS_AROUND; k += 3) { /* the cells in the disk's column */
         const hd_cell *cell = hd_cells_near(cells, disk, k);
         __builtin_prefetch(cell - (disk->cell[0] > 0));
         __builtin_prefetch(cell + 1);
     }
 }
 
-/** The first disk of each; without asking whether there is one. */
+/** Fetches the first disk of each cell around, without checking whether there is one. */
 static FETCHES void fetch_nearby(const hd_motion *m, const hd_disk *disk)
 {
     for (int k = 0; k < HD_CELLS_AROUND; k++) {
@@ -38,7 +42,7 @@ static FETCHES void fetch_disk(const hd_motion *m, int32_t i)
     __builtin_prefetch(&m->queue.entry[i]);
 }
 
-/** Takes the events of five buckets ahead one step further. */
+/** Does the next step for the events in five of the buckets ahead. */
 static FETCHES void fetch_steps(const hd_motion *m, int32_t bucket)
 {
     const hd_queue_entry *entry = m->queue.entry;

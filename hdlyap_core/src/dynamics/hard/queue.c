@@ -6,11 +6,12 @@
 #include "base/check.h"
 #include "base/memory.h"
 
-/** Less than about one event in a bucket: the heap has next to nothing to sort. */
+/** With this many buckets each holds less than about one event, so the heap has almost nothing to
+ * sort. */
 enum { BUCKETS_PER_DISK = 16 };
 
-/** Entry -1 stands for no neighbour and is written to without asking; two, so that the others stay
- * in their halves of a cache line. */
+/** Entries before the first: entry[-1] stands for a neighbour that does not exist, and is written
+ * to without a check. There are two, so that each other entry stays in half a cache line. */
 enum { NOBODY = 2 };
 
 hd_status hd_queue_create(hd_queue *queue, int32_t disks, double horizon)
@@ -54,7 +55,7 @@ static void heap_set(hd_queue *queue, int32_t position, int32_t disk)
     queue->entry[disk].before = position;
 }
 
-/** Returns where the disk came to rest. */
+/** Moves the disk up the heap from a position. Returns where it ends. */
 static int32_t heap_up(hd_queue *queue, int32_t position, int32_t disk)
 {
     while (position > 0) {
@@ -114,7 +115,7 @@ static void bucket_remove(hd_queue *queue, int32_t disk)
     queue->entry[after].before = before;
 }
 
-/** Bucket of a time; `buckets` from the horizon on. */
+/** The bucket of a time; `buckets` if it is at or after the horizon. */
 static int32_t bucket_of(const hd_queue *queue, double t)
 {
     const double b = t * queue->per_time;

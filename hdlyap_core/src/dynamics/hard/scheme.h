@@ -1,14 +1,19 @@
-/** Hard bodies from event to event, and their creation: what is the same of all bodies. See hard.c
- * for the scheme. Who includes this has before it, for its bodies,
- *   hd_entry, an entry of the record, which begins with t, i, j;
- *   hd_bodies, their state, which begins with its `hard`; HD_HALF, coordinates of each;
- *   prepare(state, scene), start(state, q, p), release(state), lattice(scene, q);
- *   finish(state, i, t): brings one to time t, and predicts nothing; false if a number is none;
- *   rests(state, i);
- *   renew(state, i), extend(state, i, d, side): their predictions;
+/** Creates hard particles and moves them from event to event. This is the code that all hard
+ * particles share; see hard.c for the scheme. A file that includes this one defines before it, for
+ * its particles:
+ *   hd_entry: an entry of the record, which begins with t, i, j;
+ *   hd_bodies: the state, whose first member is a `hard`;
+ *   HD_HALF: the number of coordinates of a particle;
+ *   prepare(state, scene): allocates; release(state): frees;
+ *   lattice(scene, q): fills start positions; start(state, q, p): takes them over, or refuses;
+ *   finish(state, i, t): moves particle i to time t, without a new prediction; returns false if one
+ *   of its numbers is not finite;
+ *   rests(state, i): whether particle i never moves;
+ *   renew(state, i), extend(state, i, d, side): do as hd_prediction_renew, hd_prediction_extend;
  * and after it
- *   collide(state, record, entry, i, t): of the contact that i has found, with t, i, j filled;
- *   reflect(state, record, entry, i, t): the same of a wall. */
+ *   collide(state, record, entry, i, t): the contact that i has predicted happens, and is recorded;
+ *   t, i, j of the entry are filled;
+ *   reflect(state, record, entry, i, t): i meets a wall, likewise. */
 #ifndef HD_SCHEME_H
 #define HD_SCHEME_H
 
@@ -32,7 +37,7 @@ static hd_status write(hd_record *record, const hd_entry *event)
     return HD_OK;
 }
 
-/** Over a cell edge: only the cells at that side come into reach. */
+/** Moves a particle over the edge of its cell. Only the cells at that side come into reach. */
 static void cross(hd_bodies *all, int32_t i)
 {
     hd_motion *m = &((hard *)all)->motion;
@@ -41,7 +46,7 @@ static void cross(hd_bodies *all, int32_t i)
     extend(all, i, d, side);
 }
 
-/** The event at the head of the queue; begin is the record's start in this epoch's time. */
+/** Does the event of i, the head of the queue. begin: the record's start in this epoch's time. */
 static hd_status take_event(hd_bodies *all, hd_record *record, int32_t i, double begin)
 {
     const hd_motion *m = &((hard *)all)->motion;
@@ -61,7 +66,7 @@ static hd_status take_event(hd_bodies *all, hd_record *record, int32_t i, double
     return HD_OK;
 }
 
-/** Brings all to the epoch's end, which becomes time 0, and predicts everything anew. */
+/** Moves all particles to the end of the epoch, which becomes time 0, and predicts all anew. */
 static hd_status turn_epoch(hd_bodies *all)
 {
     hard *tr = (hard *)all;
@@ -78,7 +83,7 @@ static hd_status turn_epoch(hd_bodies *all)
     return HD_OK;
 }
 
-/** Nothing happens to bodies at rest, however long that lasts: whole epochs are passed at once. */
+/** Ends the epoch. If all particles are at rest, many epochs are passed at once. */
 static hd_status turn_epochs(hd_bodies *all, double t_end)
 {
     hard *tr = (hard *)all;
@@ -130,7 +135,7 @@ static hd_status create_at(void **state, const hd_scene_def *def, const double *
     return status;
 }
 
-/** On the start lattice, with momenta of the seed. */
+/** Creates particles on the start lattice, with the momenta of the scene's seed. */
 static hd_status create_on_lattice(void **state, const hd_scene_def *def)
 {
     *state = NULL;
