@@ -1,18 +1,19 @@
-/** An event of dumbbells: an entry of their record. */
+/** An event of dumbbells, which is an entry of their record. */
 #ifndef HD_BUMP_H
 #define HD_BUMP_H
 
-/** The gap of what meets has the gradient (-n, -across_i, n, across_j) in the coordinates of i and
- * j, of a wall (n, across_i) in those of i [T23]. All are doubles: i and j are whole numbers. */
+/** The gap between the two disks that meet has the gradient (-n, -across_i, n, across_j) in the
+ * coordinates of i and j; the gap at a wall has (n, across_i) in those of i [T23]. i and j are
+ * whole numbers, kept as doubles as all else is. */
 typedef struct hd_bump {
-    double t;                   /**< since the start of the record [time units] */
-    double i, j;                /**< molecules, i < j; j = -1 for a wall */
-    double n[2];                /**< from the disk of i to that of j; of a wall inwards */
-    double across[2], along[2]; /**< arms of the disks of i, of j, turned by +90 degrees, and as
-                                   they are: along n, over the root of the inertia */
-    double per_root;            /**< 1 over the root of the inertia */
-    double p[2];                /**< p_j - p_i before; of a wall p_i */
-    double spin[2];             /**< third momenta of i, of j, before */
+    double t;    /**< since the start of the record [time units] */
+    double i, j; /**< dumbbells, i < j; j = -1 for a wall */
+    double n[2]; /**< unit vector from the disk of i to that of j; inwards at a wall */
+    double across[2], along[2]; /**< c and k of i, of j in [T23]: components along n of the disk's
+                                   arm turned by +90 degrees, and of the arm, over sqrt(I) */
+    double per_root;            /**< 1 / sqrt(I), I: moment of inertia */
+    double p[2];                /**< p_j - p_i before the event; at a wall p_i */
+    double spin[2];             /**< third momenta of i, of j, before the event */
 } hd_bump;
 
 #endif

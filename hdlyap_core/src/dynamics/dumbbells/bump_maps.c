@@ -1,4 +1,4 @@
-/** Record of dumbbells -> tangent maps -> blocks of columns carried along [T23], as of disks. */
+/** Record of dumbbells -> tangent maps -> blocks of columns, carried through the maps [T23]. */
 #include "dynamics/dumbbells/bump_maps.h"
 
 #include "dynamics/dumbbells/bump.h"
@@ -9,18 +9,18 @@ typedef hd_bump hd_entry;
 
 /* ---- events as maps ------------------------------------------------------------------------ */
 
-/** Free flights of its molecules since their last events, then the event. Index 0: i, 1: j. */
+/** The free flights of the event's dumbbells since their last events, then the event. Index 0 is
+ * for i, 1 for j. w is the gradient of the gap. */
 typedef struct hd_tangent_map {
     int32_t i, j; /**< j = -1: a wall */
     double flight[2];
     double n[2], across[2];
-    double twice;              /**< 2 over the square of the gradient */
-    double along[2];           /**< k: curvature, of what slides along the contact */
-    double per_root;           /**< 1 over the root of the inertia */
-    double slides, slides_per; /**< of the momenta; over the rate of the gap */
-    double turns_per[2];       /**< of the angles; over the rate of the gap */
-    double bends[2], bend;     /**< what the turns of the gradient add to dp along it, and by which
-                                    they count */
+    double twice;              /**< 2 / w^2 */
+    double along[2];           /**< k */
+    double per_root;           /**< 1 / sqrt(I) */
+    double slides, slides_per; /**< e.(p_j - p_i); rate of u over the rate of the gap */
+    double turns_per[2];       /**< rates of the angles over the rate of the gap */
+    double bends[2], bend;     /**< third components of p - b w, which multiply f in a; b */
 } hd_tangent_map;
 
 /** A wall is a partner that neither moves nor turns. */
@@ -28,7 +28,7 @@ static void hd_map_fill(hd_tangent_map *to, const hd_bump *bump)
 {
     const double *n = bump->n, *p = bump->p, *across = bump->across, *along = bump->along;
     const bool wall = bump->j < 0;
-    const double side = wall ? 1.0 : -1.0; /* of i in the gradient */
+    const double side = wall ? 1.0 : -1.0; /* sign of n and c of i in w */
     to->per_root = bump->per_root;
     const double rate = n[0] * p[0] + n[1] * p[1] + side * across[0] * bump->spin[0] +
                         across[1] * bump->spin[1];
@@ -48,8 +48,8 @@ static void hd_map_fill(hd_tangent_map *to, const hd_bump *bump)
 
 /* ---- a block of columns -------------------------------------------------------------------- */
 
-/** [T23]: a is how far the gap has opened too early; slid and the turns are what the shadow has
- * done until it meets, and turn the gradient. */
+/** Free flights, then the contact of [T23]. open = dq.w; slid is u, and fi, fj are f, of the
+ * displaced trajectory at its contact: they turn the gradient. u here is a of [T23], s is b u. */
 HD_KERNEL void hd_collide(double *restrict vi, double *restrict vj, const hd_tangent_map *m,
                           int width)
 {
@@ -82,7 +82,7 @@ HD_KERNEL void hd_collide(double *restrict vi, double *restrict vj, const hd_tan
     }
 }
 
-/** A wall has the gradient (n, c): the angle alone turns it. */
+/** Free flight, then the contact with a wall. Only the angle turns its gradient (n, c). */
 HD_KERNEL void hd_meet_wall(double *restrict v, const hd_tangent_map *m, int width)
 {
     const double nx = m->n[0], ny = m->n[1], c = m->across[0], k0 = m->along[0];
@@ -101,7 +101,7 @@ HD_KERNEL void hd_meet_wall(double *restrict v, const hd_tangent_map *m, int wid
     }
 }
 
-/* names of their own: see compiled.h */
+/* other names than those of disks: see compiled.h */
 #undef carry_block
 #undef carry_block_with_walls
 #define carry_block carry_block_of_dumbbells

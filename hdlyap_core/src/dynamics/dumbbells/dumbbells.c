@@ -1,7 +1,8 @@
 /** Scene -> record: event-driven motion of hard dumbbells between periodic or reflecting edges, by
- * the scheme of dynamics/hard/hard.c: every molecule keeps the state of its last event, and what is
- * predicted depends on these states alone. A molecule and its mirror images meet as a billiard does
- * [T23]. One thread. Only + - * / sqrt and comparisons: the same bits everywhere. */
+ * the scheme of dynamics/hard/hard.c: every dumbbell keeps the state of its last event, and
+ * predictions depend on these states alone. A contact is a reflection in the space of all
+ * coordinates [T23]. One thread computes this, with + - * / sqrt and comparisons only, so that all
+ * machines give the same bits. */
 #include "dynamics/dumbbells/dumbbells_state.h"
 
 #include <float.h>
@@ -14,13 +15,14 @@
 #include "dynamics/dumbbells/shape.h"
 #include "dynamics/dumbbells/start.h"
 
-/** Faster molecules would lose the digits of their places within one epoch: momentum, and angle in
- * a time unit. */
+/** Largest momentum and angular velocity. A faster dumbbell would move so far in one epoch that its
+ * position or angle would lose digits. */
 static const double FASTEST = 1e6;
 
 /* ---- gaps ---------------------------------------------------------------------------------- */
 
-/** From a disk of a to a disk of b, whose image is `shift` away, now. */
+/** r: at time t, the vector from one disk of dumbbell pair[0] to one of pair[1] shifted by `shift`.
+ * arms: the vectors from the centres to these disks. */
 static void between(double r[2], const hd_molecules *m, const int32_t pair[2],
                     const double shift[2], double t, const double arms[2][2])
 {
@@ -147,7 +149,7 @@ static void extend(hd_molecules *m, int32_t i, int d, int side) { hd_next_extend
 
 /* ---- contacts ------------------------------------------------------------------------------ */
 
-/** Fills what the gradient needs of disk k. */
+/** Fills the members of an event that belong to dumbbell i, at index k; arm: that of its disk. */
 static void turn_fill(hd_bump *bump, const hd_molecules *m, int k, int32_t i, const double arm[2])
 {
     bump->per_root = 1.0 / m->shape.root;
@@ -156,9 +158,10 @@ static void turn_fill(hd_bump *bump, const hd_molecules *m, int k, int32_t i, co
     bump->along[k] = (bump->n[0] * arm[0] + bump->n[1] * arm[1]) / m->shape.root;
 }
 
-/** What meets exchanges, along the gradient: of a gap that closes at `rate`, and the square of its
- * gradient. An approach that is lost in the rounding of the momenta is turned into a parting that
- * rounding cannot take back, or they would meet again for ever; that is no event. */
+/** The factor of the gradient in the exchanged momentum, for a gap that changes at `rate`; square:
+ * that of the gradient. If the gap closes so slowly that the momenta round by more, *meets is
+ * false and there is no event, but the dumbbells are pushed apart by more than rounding: otherwise
+ * they might meet again at once, forever. */
 static double exchanged(bool *meets, double rate, double square, double momenta)
 {
     const double lost = 8.0 * DBL_EPSILON * momenta;
@@ -174,14 +177,14 @@ static void push(hd_molecules *m, int32_t i, double by, const double n[2], doubl
     hd_molecule_fold(m, i);
 }
 
-/** Moves both to their contact, where they exchange momentum. */
+/** Moves two dumbbells to their contact, where they exchange momentum. */
 static hd_status collide(hd_molecules *m, hd_record *record, hd_bump *bump, int32_t finder,
                          double t)
 {
     const prediction *how = &m->hard.motion.predicted[finder];
     const int32_t which = m->which[finder];
     const int32_t pair[2] = {(int32_t)bump->i, (int32_t)bump->j};
-    const double sign = finder == pair[0] ? 1.0 : -1.0; /* the image is seen from the finder */
+    const double sign = finder == pair[0] ? 1.0 : -1.0; /* the image is relative to the finder */
     double arms[2][2], shift[2], r[2], turning = 0.0;
     for (int d = 0; d < 2; d++) shift[d] = sign * how->image[d] * m->hard.motion.cells.box[d];
     for (int k = 0; k < 2; k++) {
@@ -213,7 +216,7 @@ static hd_status collide(hd_molecules *m, hd_record *record, hd_bump *bump, int3
     return meets ? write(record, bump) : HD_OK;
 }
 
-/** A disk of a molecule meets a wall. */
+/** Reflects a dumbbell, one of whose disks meets a wall. */
 static hd_status reflect(hd_molecules *m, hd_record *record, hd_bump *bump, int32_t i, double t)
 {
     const int d = -1 - m->hard.motion.predicted[i].partner, which = m->which[i];

@@ -1,4 +1,5 @@
-/** What is asked of dumbbells, and their row. */
+/** Checks scenes of dumbbells, answers questions about their state and keeps it in a checkpoint;
+ * their row. */
 #include <float.h>
 #include <math.h>
 #include <zlib.h>
@@ -103,11 +104,11 @@ static uint32_t row_fingerprint(const void *state)
 
 static double row_bytes(const hd_scene_def *scene)
 {
-    const double spin_and_which = 20.0, cells = 15.0; /* there are more, as they are less dense */
+    const double spin_and_which = 20.0, cells = 15.0; /* more cells than disks have, less dense */
     return hd_hard_bytes(scene) + (spin_and_which + cells) * scene->number;
 }
 
-/** In the record, which doubles when it is full, and as maps. */
+/** Bytes of this many events: in the record, which doubles when it is full, and as tangent maps. */
 static double row_record_bytes(double entries) { return 310.0 * entries; }
 
 /* ---- file ---------------------------------------------------------------------------------- */
@@ -127,7 +128,7 @@ static void row_archive(void *state, hd_archive *archive)
     if (!archive->writing && hd_archive_good(archive)) hd_next_restart(m);
 }
 
-/** What is wrong with entries beyond their being numbers. */
+/** Returns NULL, or what is wrong with the entries, which are finite numbers. */
 static const char *row_fault(const hd_record *record, const hd_scene_def *scene)
 {
     for (size_t k = 0; k < hd_record_count(record); k++) {

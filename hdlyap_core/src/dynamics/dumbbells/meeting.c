@@ -1,8 +1,8 @@
-/** Two states -> the time of contact. In flight the second derivative of a gap g is nowhere below
- * -A, with A = arm (omega_a^2 + omega_b^2): so g is above g + g' h - A h^2 / 2, whose first root
- * never passes the contact, and tends to a Newton step. By it the search goes on, of all four pairs
- * of disks at once: none is missed. It begins at the later of both states, or where the circles
- * around both molecules meet. One thread; + - * / sqrt alone. */
+/** Two states -> the time of contact. In flight the second derivative of a gap g is never below -A,
+ * with A = arm (omega_a^2 + omega_b^2). So after a time h the gap is at least g + g' h - A h^2 / 2.
+ * The first root of this never passes the contact, and tends to a Newton step. The search goes from
+ * root to root, for all four pairs of disks at once, and misses no contact. It begins at the time
+ * of the later state, or when the circles around both dumbbells meet. It uses + - * / sqrt only. */
 #include "dynamics/dumbbells/meeting.h"
 
 #include <math.h>
@@ -10,10 +10,11 @@
 
 #include "base/multiversion.h"
 
-/** A gap as small as this, that closes, is a contact [sigma]. */
+/** A gap is a contact if it closes and is at most this [sigma]. */
 static const double TOUCH = 1e-15;
 
-/** Of four pairs of disks side by side: fewer instructions, the same bits. */
+/** Numbers of four pairs of disks side by side. They take fewer instructions than four scalars, and
+ * give the same bits. */
 typedef double quad __attribute__((vector_size(32)));
 typedef int64_t quad_mask __attribute__((vector_size(32)));
 
@@ -23,7 +24,7 @@ typedef struct gaps {
 
 #define ALWAYS static inline __attribute__((always_inline))
 
-/** In each place: mask ? yes : no. */
+/** For each of the four numbers: mask ? yes : no. */
 ALWAYS void choose(quad *out, const quad_mask *mask, const quad *yes, const quad *no)
 {
     *out = (quad)((*mask & (quad_mask)*yes) | (~*mask & (quad_mask)*no));
@@ -34,14 +35,14 @@ ALWAYS void roots(quad *x)
     *x = (quad){sqrt((*x)[0]), sqrt((*x)[1]), sqrt((*x)[2]), sqrt((*x)[3])};
 }
 
-/** Two molecules, or one at a wall, from a moment on. */
+/** How two dumbbells, or one between two walls, move from a moment on. */
 typedef struct path {
     double arm;
-    double r[2], v[2];         /**< of the centres: b seen from a; at a wall its distance */
-    double angle[2], omega[2]; /**< of a, of b */
-    double bend, depth;        /**< A; what rounding is */
-    double length;             /**< between walls, of centres */
-    int d;                     /**< across the wall */
+    double r[2], v[2];         /**< centre of b relative to a; r[0], v[0] from the low wall */
+    double angle[2], omega[2]; /**< angles and angular velocities of a and of b */
+    double bend, depth;        /**< A; an overlap that rounding can cause */
+    double length;             /**< room of a disk's centre between two walls */
+    int d;                     /**< direction across the walls */
 } path;
 
 typedef void (*gaps_at)(gaps *out, const path *way, double h);
@@ -75,8 +76,8 @@ ALWAYS void wall_gaps(gaps *out, const path *way, double h)
     out->rate = (quad){v - turns, v + turns, turns - v, -(v + turns)};
 }
 
-/** A time before which each gap stays open. One that opens has at least the size of its rounding,
- * or it would hold up the search. */
+/** A time for which each gap stays open. A gap that opens counts as at least its rounding;
+ * otherwise the search would not get beyond it. */
 ALWAYS void open_for(quad *out, const gaps *now, const path *way)
 {
     const quad rate = now->rate, depth = way->depth - (quad){0}, bend = way->bend - (quad){0};
@@ -91,7 +92,8 @@ ALWAYS void open_for(quad *out, const gaps *now, const path *way)
     *out = over / under;
 }
 
-/** From h on, up to `until`; INFINITY if nothing meets. */
+/** The first contact from time h up to `until`; INFINITY if there is none. which: of the four
+ * pairs. */
 ALWAYS double march(const path *way, gaps_at at, double h, double until, int32_t *which)
 {
     while (h <= until) {
@@ -116,7 +118,7 @@ ALWAYS double march(const path *way, gaps_at at, double h, double until, int32_t
     return INFINITY;
 }
 
-/** When the circles around both molecules meet, and part. False: never. */
+/** Finds when the circles around both dumbbells meet and part. Returns false if they never meet. */
 static bool within_reach(double *from, double *to, const path *way)
 {
     const double reach = (1.0 + 2.0 * way->arm) * (1.0 + 1e-9), *r = way->r, *v = way->v;

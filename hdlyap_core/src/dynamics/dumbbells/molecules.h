@@ -1,31 +1,32 @@
-/** The molecules: two disks of diameter 1 whose centres are a bond apart, rigid, of mass 1
- * together. Their centres are the disks of dynamics/hard, with its cells and its queue. */
+/** Dumbbells, called molecules in the code: two disks of diameter 1 whose centres are a rigid bond
+ * apart, of mass 1 together. The centre of a dumbbell is a disk of dynamics/hard, in the cells and
+ * in the queue of that folder. */
 #ifndef HD_MOLECULES_H
 #define HD_MOLECULES_H
 
 #include "dynamics/hard/contact.h"
 #include "dynamics/hard/hard.h"
 
-/** Third coordinate of a molecule, its angle times the root of the inertia, and the momentum of it;
- * of the time of its centre. */
+/** Third coordinate of a dumbbell, which is its angle times sqrt(I), I: moment of inertia, and the
+ * momentum of this coordinate. Both belong to the time hd_disk.t of the centre. */
 typedef struct hd_spin {
     double q, p;
 } hd_spin;
 
 typedef struct hd_shape {
     double arm;  /**< half of the bond */
-    double root; /**< of the moment of inertia */
-    double turn; /**< q of a whole turn */
+    double root; /**< sqrt(I) */
+    double turn; /**< the third coordinate after a whole turn */
 } hd_shape;
 
-enum { HD_MEETS = 4 }; /* two disks with two disks, or with two walls */
+enum { HD_MEETS = 4 }; /* contacts of two disks with two disks, or with two walls */
 
 typedef struct hd_molecules {
-    hard hard; /**< their centres; first, as what is the same of all hard bodies has only this */
+    hard hard; /**< the centres; first, because the code for all hard particles gets only this */
     hd_shape shape;
     hd_spin *spin;   /**< [count] */
-    int32_t *which;  /**< [count], HD_MEETS of the next contact, seen from the lower number */
-    double rounding; /**< of a gap [sigma] */
+    int32_t *which;  /**< [count]: which disks meet next, see hd_meeting_of_pair */
+    double rounding; /**< how much a gap rounds [sigma], without rotation */
 } hd_molecules;
 
 static inline void hd_molecule_move_to(hd_molecules *m, int32_t i, double t)
@@ -40,20 +41,20 @@ static inline double hd_one_turn(const hd_molecules *m, double q)
     return q - floor(q / m->shape.turn + 0.5) * m->shape.turn;
 }
 
-/** Back into the box, and into one turn; the cell that it is booked in stays. */
+/** Folds the centre into the box and the angle into one turn. The dumbbell stays in its cell. */
 static inline void hd_molecule_fold(hd_molecules *m, int32_t i)
 {
     hd_cells_fold(&m->hard.motion.cells, &m->hard.motion.disk[i]);
     m->spin[i].q = hd_one_turn(m, m->spin[i].q);
 }
 
-/** Unit vectors of two angles, (c, s). Within 2 eps, and the same bits everywhere: + - * / alone.
- */
+/** c, s: cosines and sines of two angles, exact to 2 eps. They are computed with + - * only, so
+ * that all machines give the same bits. */
 static inline void hd_headings(hd_pair *c, hd_pair *s, hd_pair angle)
 {
     static const double quarter[3] = {1.57079632673412561417e+00, 6.07710050630396597660e-11,
-                                      2.02226624879595063154e-21}; /* of a turn, in parts */
-    const double whole = 6755399441055744.0; /* 1.5 2^52: beside it fractions are rounded away */
+                                      2.02226624879595063154e-21}; /* they add up to pi / 2 */
+    const double whole = 6755399441055744.0; /* 1.5 2^52: adding it rounds to a whole number */
     const hd_pair turned = angle * 0.63661977236758134308 + whole, k = turned - whole;
     const hd_pair x = ((angle - k * quarter[0]) - k * quarter[1]) - k * quarter[2], z = x * x;
     const hd_pair odd = x + x * z *
@@ -86,10 +87,10 @@ static inline void hd_heading(double e[2], double angle)
     e[1] = s[0];
 }
 
-/** Of disk 0 or 1 of a molecule: -1 or 1 times the arm. */
+/** Sign of the arm of disk 0 or 1 of a dumbbell. */
 static inline double hd_sign(int disk) { return disk ? 1.0 : -1.0; }
 
-/** Where that disk of molecule i is, seen from its centre. */
+/** arm: the vector from the centre of dumbbell i to its disk 0 or 1, at time t. */
 static inline void hd_arm_at(double arm[2], const hd_molecules *m, int32_t i, int disk, double t)
 {
     const double rate = m->spin[i].p / m->shape.root;

@@ -1,4 +1,4 @@
-/** States of the molecules -> the earliest event of each. One thread. */
+/** States of the dumbbells -> the earliest event of each. Runs in one thread. */
 #include "dynamics/dumbbells/next.h"
 
 #include "dynamics/dumbbells/meeting.h"
@@ -11,7 +11,7 @@ static void predict_pair(hd_molecules *m, int32_t i, const hd_nearby *near, int 
     const prediction *next = m->hard.motion.predicted;
     const int32_t j = near->disk[k], first = i < j ? i : j, second = i + j - first;
     const double until = fmin(next[i].contact, next[j].contact);
-    int32_t image[2], which; /* seen from the first */
+    int32_t image[2], which; /* relative to `first` */
     if (j == i) return;
     for (int d = 0; d < 2; d++) {
         const int32_t seen = near->image[d][k] - m->hard.motion.disk[j].wrap[d];

@@ -1,5 +1,5 @@
-/** Scene -> what its dumbbells are like, and what is to be expected of them: disks as dense, which
- * meet as often as the sizes and speeds of both say [T23]. */
+/** Scene -> shape of its dumbbells, and what kinetic theory predicts for them. It is that
+ * for disks which leave the same free room, corrected for size and speed of dumbbells [T23]. */
 #include "dynamics/dumbbells/shape.h"
 
 #include <math.h>
@@ -44,13 +44,14 @@ double hd_dumbbell_inertia(const hd_scene_def *scene)
 
 double hd_dumbbell_size(const hd_scene_def *scene)
 {
-    const double half = fmin(0.5 * hd_dumbbell_bond(scene), 0.5); /* of the chord's distance */
+    const double half = fmin(0.5 * hd_dumbbell_bond(scene), 0.5); /* distance of centre and chord */
     const double both = 0.5 * (acos(2.0 * half) - 2.0 * half * sqrt(1.0 - 4.0 * half * half));
     return 0.5 * PI - both;
 }
 
-/** Disks that leave as little room: what two circles and the strip between them cover, of long
- * bonds less, as others reach into it. Without acos, as the length of an epoch follows. */
+/** The scene with disks that leave the same free room as its dumbbells. Each covers the area of the
+ * two disks with the strip between them; for long bonds less, because others reach into the strip.
+ * acos is not used, because the length of an epoch, and so all bits, follow from this. */
 static hd_scene_def like(const hd_scene_def *scene)
 {
     const double most = 2.1;
@@ -60,11 +61,12 @@ static hd_scene_def like(const hd_scene_def *scene)
     return disks;
 }
 
-/** Of momenta beside those of disks: the energy is shared with a rotation. */
+/** Momenta over those of disks: they are smaller, because rotation has a share of the energy. */
 static const double SPEED = 0.81649658092772603273; /* sqrt(2/3) */
 
-/** The length of what a centre goes round is exact but for the dents of long bonds, 0.06 d^4; the
- * speed at which gaps close is the root of w^2 = 2 + c_i^2 + c_j^2, whose mean is exact. */
+/** round: mean length of the outline around which a partner's centre can go, over that of disks; it
+ * is exact but for the dents of long bonds, 0.06 d^4. turns: speed at which gaps close, over that
+ * without rotation; its square, w^2 / 2 with w^2 = 2 + c_i^2 + c_j^2, has the exact mean. */
 static double rate_of(const hd_scene_def *scene)
 {
     const hd_scene_def disks = like(scene);

@@ -1,5 +1,6 @@
-/** Scene -> start positions of dumbbells. Rows along either direction, in line or staggered, are
- * tried, with bonds along the rows or across them; + - * / sqrt only. */
+/** Scene -> start positions of dumbbells. It tries rows along either direction, in line or
+ * staggered, with bonds along the rows or across them, and takes the rows with the largest gap. It
+ * uses + - * / sqrt only. */
 #include "dynamics/dumbbells/start.h"
 
 #include <math.h>
@@ -9,20 +10,22 @@
 #include "scene/container.h"
 #include "scene/scene.h"
 
-/** Of a row's distance, between the last row and a wall: what starts at a wall would touch it. */
+/** Gap between the last row and a wall, over the distance of rows. Without it, dumbbells would
+ * start in contact with the wall. */
 static const double AT_WALL = 0.1;
 
 typedef struct rows {
     int along; /**< direction of the rows */
-    int lies;  /**< that of the bonds */
+    int lies;  /**< direction of the bonds */
     int rows, columns;
-    double shift;                 /**< of every other row, of a column's distance */
-    double column, row, first[2]; /**< distances; of the first site along and across the rows */
-    double gap;
+    double shift;                 /**< shift of every other row, over the distance of columns */
+    double column, row, first[2]; /**< distances; first site, along and across the rows */
+    double gap;                   /**< least gap between two dumbbells */
 } rows;
 
-/** Distance of `count` sites, `more` beside it, negative without room; the first one's place.
- * Between walls with `reach` free at each. */
+/** The distance of `count` sites along an edge of this length; negative if there is no room. first:
+ * place of the first site. Between walls, sites are at least `reach` away from a wall, and there is
+ * room for the shift of every other row, `more` distances. */
 static double spacing(double *first, double length, int count, double more, hd_boundary boundary,
                       double reach)
 {
@@ -31,7 +34,7 @@ static double spacing(double *first, double length, int count, double more, hd_b
     return boundary == HD_PERIODIC ? length / count : room / gaps;
 }
 
-/** Of two parallel molecules whose centres are (x, y) apart, x along the bond. */
+/** The gap between two parallel dumbbells whose centres are (x, y) apart, x along the bonds. */
 static double gap_of(double x, double y, double bond)
 {
     double least = INFINITY;
@@ -39,8 +42,8 @@ static double gap_of(double x, double y, double bond)
     return sqrt(least) - 1.0;
 }
 
-/** The least gap from a site to those after it that can touch it; no further than to one of `lost`
- * or less. */
+/** The least gap between a dumbbell and those that come after it and could touch it. It stops at a
+ * gap of at most `lost`, which is no better than the best rows so far. */
 static double least_gap(const rows *r, const hd_boundary *boundary, double bond, double lost)
 {
     const bool round[2] = {boundary[r->along] == HD_PERIODIC,
@@ -74,8 +77,8 @@ static void try_rows(rows *best, const hd_scene_def *def, const double *box, row
     if (r.gap > best->gap) *best = r;
 }
 
-/** Rows and columns: distances of rows and of columns are within a factor of 9, as those of all
- * that is dense are. */
+/** Tries all numbers of rows for which the distances of rows and of columns are within a factor of
+ * 9; others are never dense. */
 static void try_shift(rows *best, const hd_scene_def *def, const double *box, rows r)
 {
     const double most = 9.0, square = def->number * box[1 - r.along] / box[r.along];
@@ -84,7 +87,8 @@ static void try_shift(rows *best, const hd_scene_def *def, const double *box, ro
     for (r.rows = least; r.rows <= last; r.rows++) try_rows(best, def, box, r);
 }
 
-/** Long bonds fit where every other row has its disks in the gaps of the one before. */
+/** Tries rows that interlock: with long bonds, the disks of every other row fit into the gaps of
+ * the row before. */
 static void interlock(rows *best, const hd_scene_def *def, const double *box, int along)
 {
     const double bond = hd_dumbbell_bond(def);
@@ -127,7 +131,7 @@ void hd_dumbbell_start(const hd_scene_def *def, double *q)
 {
     const rows r = best_of(def);
     const int64_t sites = (int64_t)r.rows * r.columns;
-    const double turned = r.lies == 0 ? 0.0 : 1.57079632679489661923; /* a quarter */
+    const double turned = r.lies == 0 ? 0.0 : 1.57079632679489661923; /* pi / 2 */
     int64_t site = 0;
     for (int row = 0; row < r.rows; row++)
         for (int column = 0; column < r.columns; column++, site++) {
