@@ -108,6 +108,7 @@ class Live(harness.Case):
             ['report_interval', 'field_interval', 'duration', 'pace'],
         )
         self.assertEqual(duration.before, '0')
+        self.assertEqual(rospy.get_param('/hdlyap/pace'), SLOW)  # no parameter is set
         runs = {info.run_id for info in self.heard['run_info'].messages}
         self.assertEqual(len(runs), 1)
 

@@ -2,6 +2,7 @@
 of hdlyap plot: of arrays."""
 
 import numpy as np
+from matplotlib import ticker
 from matplotlib.cbook import normalize_kwargs
 from matplotlib.lines import Line2D
 
@@ -23,7 +24,10 @@ def draw(values, lengths=None, stated=None, ax=None, **look):
         axes.axhline(known, color=style['color'], linewidth=0.8, linestyle='--', label=label)
     if stated is not None:
         axes.axhline(stated, color=GREY, linewidth=0.8, label='stated')
-    axes.set_xscale('log', base=2)
+    axes.set_xscale('log')
+    axes.set_xticks(found.lengths)
+    axes.xaxis.set_major_formatter(ticker.FormatStrFormatter('%.3g'))
+    axes.xaxis.set_minor_formatter(ticker.NullFormatter())
     axes.set_ylim(bottom=0)
     axes.set_xlabel('samples in a block' if lengths is None else 'length of a block  [time units]')
     axes.set_ylabel('error of the mean')

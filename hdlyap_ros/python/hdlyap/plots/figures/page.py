@@ -40,6 +40,10 @@ class Page:
     def is_own(self):
         return not self._given
 
+    def shows(self, number):
+        """A panel of that number, from 0."""
+        return self.is_own or number < len(self._given)
+
     @property
     def axes(self):
         return self.figure.axes if self.is_own else self._given

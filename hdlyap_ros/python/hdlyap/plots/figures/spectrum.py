@@ -31,6 +31,8 @@ def draw(page, recording, **look):
     rows = page.panels(1 + turning, len(ranges), *size, **how)
     if len(ranges) > 1:
         _whole(rows[0, 0], recording, look)
+        if page.shows(1):
+            _frame_magnified(rows[0, 0], recording)
         rows[0, 1].set_title('smallest exponents', loc='left')
     _small(rows[0, -1], recording, dict(look))
     for axes, within in zip(rows[-1], ranges if turning else ()):
@@ -48,7 +50,6 @@ def _whole(axes, recording, look):
     axes.errorbar(indices, spectrum.exponents, bars(spectrum.std_errors), **style)
     _exponent_axes(axes)
     axes.set_title('all exponents carried', loc='left')
-    _frame_magnified(axes, recording)
 
 
 def _rotation(axes, recording, first, last):
