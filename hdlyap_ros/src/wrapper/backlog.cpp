@@ -2,14 +2,16 @@
 
 #include <algorithm>
 
-/** Owners here: the list; and roscpp, of the newest one of a latched topic. Lock held. */
+/** Whether a subscriber still waits for this message: whether it has owners besides the list and,
+ * for the newest message of a latched topic, roscpp. The caller holds the lock. */
 bool hdr_backlog::waits(const entry &one) const
 {
     const long here = 1 + (latched && &one == &kept.back());
     return one.message.use_count() > here;
 }
 
-/** Lock held. */
+/** Removes messages for which nobody waits, and counts the dropped ones as lost. The caller holds
+ * the lock. */
 void hdr_backlog::forget()
 {
     while (kept.size() > 1 && !waits(kept.front())) kept.pop_front();

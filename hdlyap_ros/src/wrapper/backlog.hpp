@@ -1,5 +1,5 @@
-/** What the subscribers of one topic have not been handed yet: messages in -> how far they are
- * behind, and what they have lost. */
+/** The messages of one topic that its subscribers have not been handed yet: how many wait, since
+ * when, and how many were lost. */
 #pragma once
 
 #include <cstddef>
@@ -9,31 +9,31 @@
 
 #include <boost/shared_array.hpp>
 
-/** Every queue and socket on a message's way holds a reference to it, so being its only owner means
- * that it has been handed to the kernel, or dropped. Subscribers are handed messages in their
- * order: one that nobody waits for any more, behind one that somebody does, was dropped. Times in
- * seconds of any clock. Any thread. */
+/** Every queue and socket on a message's way holds a reference to it. If this list is the only
+ * owner, the message has been handed to the kernel or was dropped. Subscribers are handed messages
+ * in order: so a message that nobody waits for was dropped if somebody waits for one before it.
+ * Times are in seconds of any clock. Any thread may call. */
 class hdr_backlog
 {
   public:
     using buffer = boost::shared_array<uint8_t>;
 
-    /** queue: messages that are kept for each subscriber. For a latched topic: its newest message
-     * has one more owner, for those who come late. */
+    /** queue: messages that are kept for each subscriber. of_latched: roscpp owns the newest
+     * message too, for subscribers that come later. */
     explicit hdr_backlog(size_t queue, bool of_latched = false) : length(queue), latched(of_latched)
     {
     }
 
-    /** A message will be published. */
+    /** Counts a message that will be published. */
     void count();
-    /** It has been; empty: nobody listens. */
+    /** Adds a message that has been published; it is empty if nobody listens. */
     void add(const buffer &message, double now);
 
     struct numbers {
         int64_t published; /**< so far */
-        int64_t lost;      /**< of them, at least: dropped for one subscriber or more */
-        int waiting;       /**< from the oldest that waits on */
-        double seconds;    /**< that this one has waited */
+        int64_t lost;      /**< at least so many were dropped for one subscriber or more */
+        int waiting;       /**< the oldest message that waits and all after it */
+        double seconds;    /**< how long the oldest has waited */
     };
     numbers look(double now = 0.0);
 
@@ -48,6 +48,6 @@ class hdr_backlog
     const size_t length;
     const bool latched;
     std::mutex lock;
-    std::deque<entry> kept; /**< from the oldest that waits on, and always the newest */
+    std::deque<entry> kept; /**< the oldest that waits and all after it; always the newest */
     int64_t published = 0, lost = 0;
 };

@@ -1,5 +1,5 @@
-/** Subscribers that are connected to nobody although their topic is published: roscpp keeps to
- * itself why. */
+/** Warns of subscribers that are connected to nobody although their topic is published. roscpp does
+ * not say why that is so. */
 #include "node.hpp"
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 namespace
 {
 const double period_seconds = 0.5;
-/** Looks that a publisher of the right type may take to be connected. */
+/** After this many looks a publisher of the right type should be connected. */
 const int patience = 6;
 
 bool is_unconnected(const hdr_subscriber &subscriber)
@@ -23,7 +23,7 @@ bool any_is_unconnected(hdr_node *node)
                        [](const auto &subscriber) { return is_unconnected(*subscriber); });
 }
 
-/** Type of every published topic; none while there is no master. */
+/** The type of every published topic; empty if there is no master. */
 std::map<std::string, std::string> published()
 {
     std::map<std::string, std::string> types;

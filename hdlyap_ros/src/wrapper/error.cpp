@@ -1,4 +1,4 @@
-/** The text of the last fault, one per thread. */
+/** The text of each thread's last fault. */
 #include <cerrno>
 #include <cstdio>
 #include <new>
@@ -16,7 +16,7 @@ thread_local char error_text[512] = "";
 bool hdr_error_of_memory(const std::exception &error) noexcept
 {
     if (dynamic_cast<const std::bad_alloc *>(&error)) return true;
-    int code = 0; /* of threads */
+    int code = 0; /* what creating a thread fails with */
     if (const auto *boosts = dynamic_cast<const boost::system::system_error *>(&error))
         code = boosts->code().value();
     if (const auto *ours = dynamic_cast<const std::system_error *>(&error))

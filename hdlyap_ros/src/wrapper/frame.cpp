@@ -1,4 +1,4 @@
-/** The static frame of a node, on /tf_static. */
+/** Publishes the static frame of a node on /tf_static. */
 #include <tf2_msgs/TFMessage.h>
 
 #include "guard.hpp"

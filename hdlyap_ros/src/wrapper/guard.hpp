@@ -1,14 +1,14 @@
-/** The line that no exception crosses: runs a body and turns what it throws into a status. */
+/** Keeps exceptions away from C: runs a body and turns what it throws into a status. */
 #pragma once
 
 #include <exception>
 
 #include "hdlyap_ros/status.h"
 
-/** True for what is thrown where there is neither memory nor a thread left. */
+/** Whether this was thrown because no memory or no thread is left. */
 bool hdr_error_of_memory(const std::exception &error) noexcept;
 
-/** Keeps text for hdr_error_text of this thread. */
+/** Keeps a text, which hdr_error_text returns to this thread. */
 void hdr_error_keep(const char *text) noexcept;
 
 template <class Body> hdr_status hdr_guard(const Body &body) noexcept

@@ -1,4 +1,5 @@
-/** Who has subscribed, by the master's word: links to them come later, one by one. */
+/** How many nodes have subscribed to a topic, as the master says. roscpp connects to them later,
+ * one by one. */
 #include "hdlyap_ros/publisher.h"
 
 #include <chrono>
@@ -15,7 +16,8 @@ namespace
 using counts = std::map<std::string, int>;
 const double answer_poll_seconds = 0.01;
 
-/** Nodes by topic. Throws if there is no master, or none that speaks as it should. */
+/** The number of subscribed nodes of each topic. Throws if there is no master, or its answer is not
+ * understood. */
 counts subscribed()
 {
     counts nodes;
@@ -28,7 +30,7 @@ counts subscribed()
     return nodes;
 }
 
-/** By a thread of its own: roscpp waits without an end for a master that hangs. */
+/** Asks from a separate thread, because roscpp waits forever for a master that hangs. */
 counts subscribed_within(double seconds)
 {
     using clock = std::chrono::steady_clock;

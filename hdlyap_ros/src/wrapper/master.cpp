@@ -1,5 +1,5 @@
-/** The master's word about this node, again and again: who is connected needs no master, but nobody
- * finds a node without one, or one that a new master has not heard of. */
+/** Asks the master again and again whether it knows this node. Connected nodes need no master, but
+ * nobody else finds the node if the master is gone, or is a new one that does not know it. */
 #include "master.hpp"
 
 #include <chrono>
@@ -13,10 +13,10 @@ const double master_patience = 10.0;
 
 namespace
 {
-const double lost_seconds = 5.0; /**< after which it is said */
+const double lost_seconds = 5.0; /**< after which a warning says so */
 const double silent_seconds = 3.0;
 const std::chrono::seconds between_questions{1};
-/** The thread may take to end, if no question is under way. */
+/** How long the thread may take to end if it is not waiting for an answer. */
 const std::chrono::milliseconds master_end{100};
 
 bool master_knows()

@@ -8,24 +8,24 @@
 #include <stdexcept>
 #include <string>
 
-/** Asks it every second, by a thread of its own: roscpp waits without an end for a master that
- * hangs. */
+/** Asks the master every second, from a separate thread, because roscpp waits forever for a master
+ * that hangs. */
 class hdr_master_watch
 {
   public:
-    /** Throws std::system_error if there is no thread for it. */
+    /** Throws std::system_error if no thread can be created. */
     hdr_master_watch();
     ~hdr_master_watch();
     hdr_master_watch(const hdr_master_watch &) = delete;
     hdr_master_watch &operator=(const hdr_master_watch &) = delete;
-    /** hdr_node_lost. */
+    /** See hdr_node_lost. */
     double lost();
 
   private:
-    /** Outlives the watch if the master hangs. */
+    /** Belongs to the thread too, which outlives the watch if the master hangs. */
     struct asked {
-        std::atomic<double> known;    /**< when it last was, by the steady clock [s] */
-        std::atomic<double> answered; /**< when there last was any answer [s] */
+        std::atomic<double> known;    /**< when the node was last known; steady clock [s] */
+        std::atomic<double> answered; /**< when the master last answered at all [s] */
         std::mutex mutex;
         std::condition_variable changed;
         bool wanted = true, ended = false;
@@ -38,10 +38,11 @@ class hdr_master_watch
 
 double master_seconds();
 
-/** How long roscpp tries to register something [s]. */
+/** How long roscpp tries to register something with the master [s]. */
 extern const double master_patience;
 
-/** Body registers something; roscpp does not say that it has given up. */
+/** Runs a body that registers something. Throws if it took so long that roscpp has given up, which
+ * roscpp itself does not say. */
 template <class Body> auto master_registered(const Body &body)
 {
     const double begin = master_seconds();

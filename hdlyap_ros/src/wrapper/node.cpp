@@ -1,4 +1,4 @@
-/** The node's life: roscpp started and left without its signal handlers, its clock and its log. */
+/** Starts and ends roscpp, without its signal handlers and its clock; the node's log. */
 #include "node.hpp"
 
 #include <algorithm>
@@ -18,12 +18,13 @@
 namespace
 {
 const double poll_seconds = 0.01;
-/** What is left for handing over last messages once a stop was requested. */
+/** How long last messages may still be handed over once a stop was requested. */
 const double linger_after_stop = 0.25;
-/** A subscriber that hears that we leave drops what it has not read from its socket yet. */
+/** Subscribers get this time to read: one that is told that a node leaves drops what it has not
+ * read from its socket yet. */
 const double reading_seconds = 0.1;
 
-/** False if a stop was requested first. */
+/** Waits until there is a master. Returns false if a stop was requested first. */
 bool master_wait()
 {
     bool said = false;
@@ -35,7 +36,7 @@ bool master_wait()
     return !hdr_stop_requested();
 }
 
-/** roscpp's own answer leaves the graph at once, with messages still queued. */
+/** Requests a stop. roscpp's handler would leave the graph at once, with messages still queued. */
 void on_rosnode_kill(XmlRpc::XmlRpcValue &params, XmlRpc::XmlRpcValue &result)
 {
     const bool says_why = params.size() > 1 &&
@@ -60,8 +61,8 @@ hdr_node *node_start()
     return node.release();
 }
 
-/** Waits for a callback of theirs that is running. They are to stay until no callback runs at all:
- * one may free them. */
+/** Ends all subscriptions, and waits for a callback that is running. The caller has to keep the
+ * subscribers until no callback runs any more, because a callback may free them. */
 std::vector<std::unique_ptr<hdr_subscriber>> unsubscribe(hdr_node &node)
 {
     std::vector<std::unique_ptr<hdr_subscriber>> all;
@@ -90,21 +91,22 @@ bool has_subscribers(const hdr_node &node)
     });
 }
 
-/** roscpp that has started by half does not survive its own destructors. */
+/** Ends the process without destructors: those of a roscpp that has only half started crash. */
 void leave(int status, void *)
 {
     std::fflush(nullptr);
     _exit(status);
 }
 
-/** What a parameter holds must not look like a line of its own, nor steer a terminal. */
+/** Replaces control characters: what a parameter holds must neither look like another line nor
+ * control a terminal. */
 void one_line(char *text)
 {
     const auto byte = [](char c) { return static_cast<unsigned char>(c); };
     for (; *text; text++) {
         if (byte(*text) < 0x20 || byte(*text) == 0x7f) *text = '?';
         const bool is_c1 = byte(text[0]) == 0xc2 && byte(text[1]) >= 0x80 && byte(text[1]) < 0xa0;
-        if (is_c1) text[0] = text[1] = '?'; /* in UTF-8 */
+        if (is_c1) text[0] = text[1] = '?'; /* a control character in UTF-8 */
     }
 }
 
@@ -133,11 +135,11 @@ void throw_of_another_type(const std::string &topic, const std::string &datatype
                                 ": this node has it with another type");
 }
 
-/** roscpp dies of an address that it cannot take apart. */
+/** Refuses an address of the master that roscpp cannot parse, because roscpp would crash. */
 static void master_address_check(int argc, const char *const *argv)
 {
     const std::string option = "__master:=";
-    setenv("ROS_MASTER_URI", "http://localhost:11311", 0); // rospy's; not every roscpp has one
+    setenv("ROS_MASTER_URI", "http://localhost:11311", 0); // rospy's; not all roscpp have a default
     std::string address = std::getenv("ROS_MASTER_URI"), host;
     for (int k = 1; k < argc; k++) {
         const std::string argument = argv[k];
@@ -156,7 +158,7 @@ hdr_status hdr_node_create(hdr_node **out, int *argc, char **argv, const char *n
     stop_without_memory(memory_status);
     const hdr_status status = hdr_guard([&] {
         stop_handlers_install(stop_seconds);
-        setlocale(LC_CTYPE, ""); /* or log4cxx writes a question mark for each byte beyond ASCII */
+        setlocale(LC_CTYPE, ""); /* otherwise log4cxx writes ? for each byte beyond ASCII */
         master_address_check(*argc, argv);
         ros::init(*argc, argv, name, ros::init_options::NoSigintHandler);
         *out = node_start();
@@ -205,6 +207,6 @@ void hdr_log(hdr_level level, const char *format, ...)
         case HDR_ERROR: ROS_ERROR("%s", line); break;
         case HDR_FATAL: ROS_FATAL("%s", line); break;
         }
-        std::fflush(stdout); /* a pipe keeps lines back */
+        std::fflush(stdout); /* otherwise a pipe would get the line later */
     });
 }

@@ -1,5 +1,5 @@
-/** What a node, a publisher and a subscriber are made of, and what files of the wrapper have for
- * each other; private to it. */
+/** The structs of a node, a publisher and a subscriber, and functions that files of the wrapper
+ * share. Private to the wrapper. */
 #pragma once
 
 #include <atomic>
@@ -22,9 +22,9 @@ struct hdr_publisher {
     int queue;
     std::shared_ptr<hdr_backlog> backlog;
     hdr_node *node;
-    bool patient = false;   /**< waits rather than that a message is lost */
-    bool exhausted = false; /**< its patience for who leaves the queue full */
-    double waited = 0.0;    /**< for them [s] */
+    bool patient = false;   /**< waits if a message would be lost otherwise */
+    bool exhausted = false; /**< has waited long enough for a full queue, and waits no more */
+    double waited = 0.0;    /**< how long it has waited for a full queue [s] */
 };
 
 struct hdr_subscriber {
@@ -32,8 +32,9 @@ struct hdr_subscriber {
     std::string topic;
     std::string datatype;
     hdr_node *node;
-    int looks = 0; /**< at it since it was last connected, or not published at all */
-    /** False once it is freed, which its callback outlives when it is the one to do so. */
+    int looks = 0; /**< consecutive looks at which its topic was published, but not connected */
+    /** False once the subscriber is freed. The callback shares this, because it may be the one that
+     * frees the subscriber. */
     std::shared_ptr<std::atomic<bool>> wanted = std::make_shared<std::atomic<bool>>(true);
 };
 
@@ -42,30 +43,32 @@ struct hdr_node {
     ros::AsyncSpinner spinner{1};
     std::string name;
     hdr_readers readers;
-    std::unique_ptr<hdr_master_watch> watch; /**< once it is known by name */
+    std::unique_ptr<hdr_master_watch> watch; /**< NULL until the node is registered */
     std::vector<std::unique_ptr<hdr_publisher>> publishers;
     std::vector<ros::ServiceServer> services;
-    ros::Publisher frame; /**< of /tf_static */
+    ros::Publisher frame; /**< publishes on /tf_static */
     std::vector<std::unique_ptr<hdr_subscriber>> subscribers;
-    ros::WallTimer lookout; /**< for subscribers that cannot be connected */
-    std::mutex mutex;       /**< of subscribers, which callbacks may free, and of lookout */
+    ros::WallTimer lookout; /**< looks for subscribers that cannot be connected */
+    std::mutex mutex;       /**< protects subscribers, which callbacks may free, and lookout */
 };
 
-/** roscpp's: 0 would be without an end. Throws std::invalid_argument. */
+/** Checks the length of a queue for roscpp, to which 0 would mean no limit. Throws
+ * std::invalid_argument if it is below 1. */
 uint32_t queue_length(const std::string &topic, int queue);
 
-/** For what roscpp refuses without saying why to its caller. */
+/** Throws std::invalid_argument if roscpp has refused a topic because this node has it with another
+ * type, which roscpp does not tell its caller. */
 [[noreturn]] void throw_of_another_type(const std::string &topic, const std::string &datatype);
 
-/** From now on, on the callback thread, it is said which subscribers cannot be connected. An ERROR
- * line for each publisher of another type, a WARN line where somebody of the right type cannot be
- * reached; while everybody is connected nobody is asked. */
+/** Makes the callback thread say from now on which subscribers cannot be connected: an ERROR line
+ * if a topic is published with another type, a WARN line if its publisher cannot be reached. The
+ * master is only asked while a subscriber is not connected. */
 void connection_warnings_start(hdr_node *node);
 
-/** SIGINT and SIGTERM, and SIGHUP unless it is ignored, become hdr_stop_request; stop_seconds after
- * it the process is ended with status 0. Throws std::system_error. */
+/** Makes SIGINT and SIGTERM, and SIGHUP unless it is ignored, call hdr_stop_request. stop_seconds
+ * after a request the process is ended with status 0. Throws std::system_error. */
 void stop_handlers_install(double stop_seconds);
 
-/** Where a thread of roscpp finds no memory, the process ends with this status instead of a crash.
- */
+/** If a thread of roscpp finds no memory, the process will end with this status instead of
+ * crashing. */
 void stop_without_memory(int status) noexcept;

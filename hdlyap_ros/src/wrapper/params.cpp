@@ -1,4 +1,4 @@
-/** Private parameters: the master's XML-RPC struct -> typed values. */
+/** Private parameters: an XML-RPC struct, from the master or a file -> typed values. */
 #include "hdlyap_ros/params.h"
 
 #include <cerrno>
@@ -18,8 +18,8 @@ using XmlRpc::XmlRpcValue;
 
 namespace
 {
-/** rosrun's _name:=[a, b] arrives as a string: a list of its items; so does _name:="'5'": a string
- * without the quotes. Anything else as it is. */
+/** The meaning of a string that rosrun passes on: _name:=[a, b] is a list of its items, and
+ * _name:="'5'" a string without the quotes. Returns any other value unchanged. */
 XmlRpcValue listed(XmlRpcValue &value)
 {
     if (value.getType() != XmlRpcValue::TypeString) return value;
@@ -28,7 +28,7 @@ XmlRpcValue listed(XmlRpcValue &value)
     return ends == "[]" || ends == "''" || ends == "\"\"" ? scene_file_value(text) : value;
 }
 
-/** In as few digits as tell it from every other number. */
+/** A number in the fewest digits that distinguish it from every other number. */
 std::string number_text(double number)
 {
     std::ostringstream text;
@@ -41,8 +41,8 @@ std::string number_text(double number)
     return text.str();
 }
 
-/** Of a string its contents, of a list as YAML has it. Equal values have one text, however they
- * were written. */
+/** The text of a value: the contents of a string, or a list as YAML writes it. Equal values have
+ * the same text, however they were written. */
 std::string param_text(XmlRpcValue &given)
 {
     std::ostringstream text;
@@ -56,10 +56,10 @@ std::string param_text(XmlRpcValue &given)
 
 struct entry {
     XmlRpcValue value;
-    std::string text;                 /**< of a string its contents, of a list as YAML has it */
-    std::vector<std::string> strings; /**< of a list of strings */
+    std::string text;                 /**< see param_text */
+    std::vector<std::string> strings; /**< the items of a list of strings */
     std::vector<const char *> list;   /**< pointers into strings */
-    std::vector<int> integers;        /**< of a list of integers */
+    std::vector<int> integers;        /**< the items of a list of integers */
 };
 
 bool is_list(XmlRpcValue &value, XmlRpcValue::Type type)
@@ -105,7 +105,7 @@ const entry *find(const hdr_params *params, const char *name)
     return found == params->entries.end() ? nullptr : &found->second;
 }
 
-/** The value if it has that type; T is what XmlRpc keeps it as. */
+/** Reads a value if it has this type. T is the C++ type in which XmlRpc keeps it. */
 template <class T>
 hdr_status read(const hdr_params *params, const char *name, XmlRpcValue::Type type, T *out)
 {
@@ -116,7 +116,7 @@ hdr_status read(const hdr_params *params, const char *name, XmlRpcValue::Type ty
     return HDR_OK;
 }
 
-/** The member that a list of items of that type is kept in. */
+/** Reads a list if all its items have this type. list: the member of entry that keeps it. */
 template <class Item> hdr_status read_list(const hdr_params *params, const char *name,
                                            XmlRpcValue::Type type, std::vector<Item> entry::*list,
                                            const Item **out, int *count)
@@ -139,8 +139,8 @@ std::unique_ptr<hdr_params> made_of(XmlRpcValue &all)
     return params;
 }
 
-/** As rosrun and run.launch take what is given to them: no YAML, 010 is 10. A whole number that ROS
- * does not carry stays a text. */
+/** The value of an argument, as rosrun and run.launch read it: it is not YAML, and 010 is 10. An
+ * integer too long for ROS stays a text. */
 XmlRpcValue argument_value(const std::string &text)
 {
     char *end = nullptr;
@@ -154,7 +154,7 @@ XmlRpcValue argument_value(const std::string &text)
     return XmlRpcValue(text);
 }
 
-/** name:=value or _name:=value. */
+/** Sets a parameter from an argument name:=value or _name:=value. */
 void replace(XmlRpcValue &all, const std::string &argument)
 {
     const size_t first = argument.compare(0, 1, "_") == 0, sign = argument.find(":=");

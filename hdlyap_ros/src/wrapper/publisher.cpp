@@ -1,4 +1,4 @@
-/** Topics out: each message is serialised once and handed to roscpp's queues. */
+/** Publishes topics: each message is serialised once and handed to roscpp's queues. */
 #include "hdlyap_ros/publisher.h"
 
 #include <chrono>
@@ -50,7 +50,7 @@ hdr_status advertise(hdr_publisher **out, hdr_node *node, const char *topic, int
     return hdr_guard([&] {
         const auto on_connect = [node](const ros::SingleSubscriberPublisher &one) {
             const std::string name = one.getSubscriberName();
-            hdr_guard([&] { node->readers.add(name); }); /* without memory it is not asked */
+            hdr_guard([&] { node->readers.add(name); }); /* without memory nobody asks it */
         };
         std::unique_ptr<hdr_publisher> made(new hdr_publisher);
         made->topic = ros::names::resolve(topic);
@@ -70,7 +70,7 @@ hdr_status advertise(hdr_publisher **out, hdr_node *node, const char *topic, int
     });
 }
 
-/** roscpp does not compare the types and would send the wrong bytes. */
+/** Refuses a message of another type than the topic's: roscpp would send it without a check. */
 template <class Message> void type_check(const hdr_publisher &publisher)
 {
     const char *datatype = ros::message_traits::datatype<hdlyap_ros::sent<Message>>();
@@ -85,8 +85,8 @@ double seconds_now()
         .count();
 }
 
-/** Past ros::Publisher, which keeps what it has serialised to itself, but for latched topics, whose
- * last message only it can keep. */
+/** Publishes without ros::Publisher, which does not hand out the bytes that it has serialised; with
+ * it for latched topics, because only ros::Publisher can keep their last message. */
 template <class Message> void send(hdr_publisher &publisher, const Message &message)
 {
     const hdlyap_ros::sent<Message> out = {message};

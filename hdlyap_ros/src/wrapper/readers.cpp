@@ -1,7 +1,8 @@
-/** roscpp's subscribers read a message from their socket at once, into a queue that may be short
- * (100 messages of each topic in rosbag), and drop what finds no room there: a full socket does not
- * hold the sender up. So no more is sent than that queue holds ahead of what they had read, by
- * their own word (getBusStats), a moment ago. rospy's read only what they have room for. */
+/** Subscribers with roscpp read messages from their socket at once, into a queue that may be short
+ * (100 messages of each topic in rosbag), and drop a message if that queue is full; so their socket
+ * never makes the sender wait. They say how much they have read (getBusStats). Here no more
+ * messages are sent than fit into that queue beyond those that a subscriber had read a moment ago.
+ * Subscribers with rospy read only what they have room for. */
 #include "readers.hpp"
 
 #include <algorithm>
@@ -21,17 +22,19 @@ namespace
 {
 using clock_type = std::chrono::steady_clock;
 
-/** rosbag's queue, but for messages that a topic begins with. */
+/** How many messages a subscriber may be behind: rosbag's queue, less a few for messages with which
+ * a topic begins. */
 const int window = 96;
-/** After so many more they are asked again: the answer comes long before the window is full. */
+/** A subscriber is asked again after this many further messages, so that its answer comes long
+ * before the window is full. */
 const int ask_every = 12;
-/** What was read so long ago has left the subscriber's queue [s]: threads of a busy machine stand
- * still for some hundredths. */
+/** After this time a message that was read has left the subscriber's queue, too [s]. Threads of a
+ * busy machine stand still for some hundredths of a second. */
 const double settle_seconds = 0.1;
-/** How long one that does not read, and a queue that does not empty, are waited for [s]. */
+/** How long the node waits for a subscriber that does not read or a queue that stays full [s]. */
 const double patience_seconds = 5.0;
 const std::chrono::milliseconds poll_time{2};
-/** Before each question. */
+/** Pause before each question. */
 const std::chrono::milliseconds rest_time{1};
 const size_t readers_max = 64;
 
@@ -42,20 +45,21 @@ double seconds_since(clock_type::time_point begin)
 } // namespace
 
 struct hdr_readers::reader {
-    /** Its connection to one topic. */
+    /** A reader's connection to one topic. */
     struct link {
         int id = -1;
-        int64_t before = 0; /**< published before it was made */
+        int64_t before = 0; /**< messages published before the connection was made */
         int64_t asked_at = 0;
         int received = 0, settled = 0, lost = 0;
-        std::deque<std::pair<clock_type::time_point, int>> answers; /**< not settled yet */
+        /** When the reader said how much it had received; the last settle_seconds. */
+        std::deque<std::pair<clock_type::time_point, int>> answers;
     };
     std::string name;
-    std::map<std::string, link> links; /**< by topic, of those that are known */
+    std::map<std::string, link> links; /**< known connections, by topic */
     std::condition_variable asked_for;
     bool asked = true;
-    bool is_deaf = false;                             /**< is not waited for any more */
-    clock_type::time_point moved = clock_type::now(); /**< when it had last read something */
+    bool is_deaf = false;                             /**< nobody waits for it any more */
+    clock_type::time_point moved = clock_type::now(); /**< when it was last seen to have read */
 };
 
 struct hdr_readers::common {
@@ -68,7 +72,7 @@ struct hdr_readers::common {
     std::map<std::string, watched> topics;
     std::map<std::string, std::shared_ptr<reader>> readers;
     std::map<std::string, std::map<std::string, int>> lost; /**< by topic and reader */
-    int exhausted = 0; /**< publishers that wait for a full queue no more */
+    int exhausted = 0; /**< number of publishers that wait no more for a full queue */
     bool ended = false;
 };
 
@@ -77,8 +81,8 @@ namespace
 using common = hdr_readers::common;
 using reader = hdr_readers::reader;
 
-/** Connection of a node to a topic: its number, and how many messages it was given. False if there
- * is none. */
+/** Finds the connection of a node to a topic: its id, and how many messages it was given. Returns
+ * false if there is none. */
 bool find_link(int &id, int &given, const std::string &topic, const std::string &name)
 {
     XmlRpc::XmlRpcValue info;
@@ -107,8 +111,9 @@ void note_loss(common &all, reader &one, const std::string &topic, int lost)
     one.links[topic].lost = lost;
 }
 
-/** Of one topic, as the reader has it: a list of its connections. False if it cannot say what it
- * has dropped, as rospy's, which do not. Lock held. */
+/** Takes a reader's answer about one topic. links: the reader's list of its connections. Returns
+ * false if the reader cannot say what it has dropped; with rospy it drops nothing. The caller holds
+ * the lock. */
 bool take_topic(common &all, reader &one, const std::string &topic, XmlRpc::XmlRpcValue &links)
 {
     int id = -1, given = 0;
@@ -124,7 +129,7 @@ bool take_topic(common &all, reader &one, const std::string &topic, XmlRpc::XmlR
         link.id = id;
         link.before = published - given;
     }
-    link.before = std::min(link.before, published - given); /* some are on their way to it */
+    link.before = std::min(link.before, published - given); /* roscpp may not have given all yet */
     link.asked_at = published;
     if (received != link.received) {
         one.moved = clock_type::now();
@@ -135,13 +140,13 @@ bool take_topic(common &all, reader &one, const std::string &topic, XmlRpc::XmlR
     return true;
 }
 
-/** Messages of a topic that it has not read. Lock held. */
+/** How many messages of a topic a reader has not read. The caller holds the lock. */
 int64_t unread(const common &all, const std::string &topic, const reader::link &link)
 {
     return all.topics.at(topic).backlog->look().published - link.before - link.received;
 }
 
-/** Lock held. */
+/** Whether a reader has read all messages but `but` of each topic. The caller holds the lock. */
 bool has_read(const common &all, const reader &one, int but)
 {
     return std::all_of(one.links.begin(), one.links.end(), [&](const auto &link) {
@@ -149,8 +154,9 @@ bool has_read(const common &all, const reader &one, int but)
     });
 }
 
-/** What getBusStats says: publishers, subscribers; but for roscpp within a status, a text and this.
- * False if it says too little. Lock held. */
+/** Takes the answer to getBusStats: [publishers, subscribers]; clients other than roscpp give
+ * [status, text, [publishers, subscribers]]. Returns false if it says too little. The caller holds
+ * the lock. */
 bool take(common &all, reader &one, XmlRpc::XmlRpcValue &answer)
 {
     const bool is_bare = answer[0].getType() == XmlRpc::XmlRpcValue::TypeArray;
@@ -166,7 +172,8 @@ bool take(common &all, reader &one, XmlRpc::XmlRpcValue &answer)
     return true;
 }
 
-/** One at a time: roscpp keeps a connection to the master for each that it needed at once. */
+/** Finds the address of a node. One thread at a time does so, because roscpp keeps as many
+ * connections to the master as it ever used at once. */
 bool find(common &all, std::string &host, uint32_t &port, const std::string &name)
 {
     const std::lock_guard<std::mutex> guard(all.finding);
@@ -177,7 +184,7 @@ bool find(common &all, std::string &host, uint32_t &port, const std::string &nam
            ros::network::splitURI(uri, host, port);
 }
 
-/** Asks when it is to, until that makes no sense any more. */
+/** Asks a reader whenever somebody wants to know, until the reader is gone or says too little. */
 void ask(common &all, reader &one)
 {
     std::string host;
@@ -201,7 +208,8 @@ void ask(common &all, reader &one)
     }
 }
 
-/** The thread of a reader. It is forgotten at the end: what connects later is new. */
+/** Runs as the thread of a reader. At its end the reader is forgotten: if its node connects later,
+ * that is a new reader. */
 void follow(const std::shared_ptr<common> &all, const std::shared_ptr<reader> &one)
 {
     hdr_guard([&] { ask(*all, *one); });
@@ -211,14 +219,15 @@ void follow(const std::shared_ptr<common> &all, const std::shared_ptr<reader> &o
     all->answered.notify_all();
 }
 
-/** Lock held. */
+/** Makes a reader's thread ask. The caller holds the lock. */
 void ask_soon(reader &one)
 {
     one.asked = true;
     one.asked_for.notify_one();
 }
 
-/** How many may be published. Lock held. */
+/** How many messages of a topic may have been published before a reader has to be waited for. The
+ * caller holds the lock. */
 int64_t allowed(const common &all, const std::string &topic, reader::link &link)
 {
     while (!link.answers.empty() && seconds_since(link.answers.front().first) >= settle_seconds) {
@@ -228,7 +237,8 @@ int64_t allowed(const common &all, const std::string &topic, reader::link &link)
     return link.before + link.settled + all.topics.at(topic).window;
 }
 
-/** The one that has not read enough of a topic, if any; asks those who may be soon. Lock held. */
+/** A reader that has not read enough of a topic, or NULL. Also makes the threads of readers ask
+ * whose answer is old or who have to be waited for. The caller holds the lock. */
 reader *slowest(common &all, const std::string &topic, int64_t published)
 {
     reader *slow = nullptr;
@@ -244,8 +254,9 @@ reader *slowest(common &all, const std::string &topic, int64_t published)
     return slow;
 }
 
-/** A queue here is full: of one who reads too little, and cannot be asked. It is waited for as long
- * as patience lasts, but no further publisher then waits for its queue too. Lock held. */
+/** Whether a publisher has to wait because its queue is full, although no reader says that it is
+ * behind: a subscriber reads too little and cannot be asked. The publisher waits for
+ * patience_seconds; after that no publisher waits for its queue. The caller holds the lock. */
 bool waits_for_queue(common &all, hdr_publisher &publisher, const hdr_backlog::numbers &now,
                      clock_type::time_point began)
 {
@@ -266,7 +277,7 @@ bool waits_for_queue(common &all, hdr_publisher &publisher, const hdr_backlog::n
     return false;
 }
 
-/** Lock held. */
+/** Whether a slow reader is still worth waiting for. The caller holds the lock. */
 bool waits_for(reader &one, clock_type::time_point began, const std::string &topic)
 {
     if (seconds_since(std::max(began, one.moved)) < patience_seconds) return true;

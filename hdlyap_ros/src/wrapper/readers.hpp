@@ -1,5 +1,5 @@
-/** Who reads what is published: roscpp's subscribers say how much they have read -> whether a
- * message more may be lost. */
+/** Readers are the nodes that subscribe to topics for which the publisher waits. They say how much
+ * they have read, which shows whether they would lose a further message. */
 #pragma once
 
 #include <chrono>
@@ -13,26 +13,28 @@
 
 struct hdr_publisher;
 
-/** Each is asked by a thread of its own, which may hang as long as the subscriber does, and so is
- * never waited for: what it works on belongs to it too. */
+/** Each reader is asked by a separate thread. It may hang as long as the reader's node does, so
+ * nobody waits for its end, and it shares ownership of its data. */
 class hdr_readers
 {
   public:
     hdr_readers();
 
-    /** Messages of this topic are waited for. */
+    /** From now on readers of this topic count. */
     void watch(const hdr_publisher &publisher);
-    /** A node of this name has connected to a topic. */
+    /** Adds a node that has connected to a topic. */
     void add(const std::string &name);
-    /** Waits while a message more may be lost; not once a stop is requested. */
+    /** Waits while a further message may be lost, but no longer than patience or a requested stop
+     * allows. */
     void wait(hdr_publisher &publisher);
-    /** True if those who can say so have read all that was published; asks them. */
+    /** Whether all readers have read all that was published, as far as they have said so. Asks
+     * those that have not. */
     bool have_read_all();
-    /** Lost by their own queues. */
+    /** How many messages of a topic its readers have dropped from their queues. */
     int64_t lost(const std::string &topic);
-    /** In the log: what was lost, and what nobody has read yet. */
+    /** Logs which messages were lost, and which ones a reader has not read. */
     void say_lost();
-    /** Nobody is asked any more, before roscpp ends. */
+    /** Ends all questions. Has to be called before roscpp ends. */
     void end();
 
     struct reader;

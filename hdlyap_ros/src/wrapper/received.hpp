@@ -1,6 +1,5 @@
-/** Bytes on the wire -> C structs, through roscpp's traits and by the same lists of fields as out.
- * The bytes are copied once, since on the wire numbers lie at any address and strings end nowhere.
- */
+/** Bytes on the wire -> C structs, by roscpp's traits and the lists of fields that serialise.hpp
+ * uses. The bytes are copied once: on the wire numbers are not aligned and strings have no end. */
 #pragma once
 
 #include <memory>
@@ -13,17 +12,16 @@
 namespace hdlyap_ros
 {
 
-/** A message as its callback sees it: one struct, or of an array of diagnostics one for each
- * status.
- */
+/** A message as its callback gets it: one struct; for an array of diagnostics, one struct for each
+ * status. */
 template <class Message> struct received {
     std::vector<Message> messages;
-    std::vector<std::shared_ptr<const void>> kept; /**< what they point into */
+    std::vector<std::shared_ptr<const void>> kept; /**< memory that messages point to */
 };
 
-/** A message on its way in. */
+/** A message that is being read. */
 struct reader {
-    ros::serialization::IStream bytes; /**< what is left of them */
+    ros::serialization::IStream bytes; /**< bytes that are still to be read */
     std::vector<std::shared_ptr<const void>> &kept;
 };
 
@@ -34,7 +32,8 @@ template <class Item> const Item *keep(reader &in, std::vector<Item> &&list)
     return kept->data();
 }
 
-/** The next `count` numbers, which are there before there is memory for them: counts may lie. */
+/** Takes the next `count` numbers. A count may be wrong, so bytes are checked before memory is
+ * allocated. */
 template <class Number> std::vector<Number> numbers(reader &in, uint32_t count)
 {
     if (count > in.bytes.getLength() / sizeof(Number)) ros::serialization::throwStreamOverrun();
@@ -105,7 +104,7 @@ void take(reader &in, List &list)
     list.data = keep(in, std::move(items));
 }
 
-/** Chosen before the pass of serialise.hpp, which takes its field for a constant. */
+/** Overload resolution prefers this to pass of serialise.hpp, whose field is const. */
 template <class Field> void pass(reader &in, Field &field) { take(in, field); }
 
 template <class Message> void read(reader &in, std::vector<Message> &messages)
@@ -148,7 +147,7 @@ template <class Message> struct HasHeader<hdlyap_ros::received<Message>>
 namespace serialization
 {
 template <class Message> struct Serializer<hdlyap_ros::received<Message>> {
-    /** roscpp logs what is thrown here and drops the message. */
+    /** If this throws, roscpp logs it and drops the message. */
     template <class Stream> static void read(Stream &stream, hdlyap_ros::received<Message> &whole)
     {
         hdlyap_ros::reader in = {{stream.getData(), stream.getLength()}, whole.kept};

@@ -15,8 +15,8 @@ using XmlRpc::XmlRpcValue;
 
 namespace
 {
-/** Words without quotes that YAML 1.1, and so roslaunch, takes for something else than what they
- * look like: no file may have them. Every number of it that is not decimal is among them. */
+/** Words without quotes to which YAML 1.1, and so roslaunch, gives another meaning than they seem
+ * to have. They are refused in files, as are all numbers that are not decimal. */
 const struct {
     std::regex word;
     const char *must_be;
@@ -41,13 +41,14 @@ const std::regex infinite("([-+]?)\\.(inf|Inf|INF)"), no_number("\\.(nan|NaN|NAN
 
 XmlRpcValue integer_of(const std::string &text)
 {
-    const long long number = std::strtoll(text.c_str(), nullptr, 10); /* the nearest if too long */
+    const long long number = std::strtoll(text.c_str(), nullptr, 10); /* the nearest one it holds */
     if (number != static_cast<int>(number))
         refuse(text, "in quotes: ROS carries no integer of more than 32 bits");
     return XmlRpcValue(static_cast<int>(number));
 }
 
-/** What roslaunch takes a text without quotes for; std::invalid_argument if it is refused. */
+/** The value that roslaunch gives to a word without quotes. Throws std::invalid_argument if the
+ * word is refused. */
 XmlRpcValue word_of(const std::string &text)
 {
     bool truth = false;

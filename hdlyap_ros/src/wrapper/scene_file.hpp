@@ -1,14 +1,14 @@
-/** A file of parameters without a master: what rosparam would have put there. */
+/** Reads a file of parameters without a master, as rosparam would do. */
 #pragma once
 
 #include <string>
 
 #include <XmlRpcValue.h>
 
-/** Members by name; a value is a scalar or a list of scalars. Throws std::runtime_error with a line
- * that names the file: also of words that YAML 1.1, and so roslaunch, takes for something else than
- * what they look like, and of numbers that it cannot hand over. */
+/** Returns parameters by name; a value is a scalar or a list of scalars. Throws std::runtime_error
+ * with a text that names file and line: also if a word means something else in YAML 1.1, and so to
+ * roslaunch, than it seems to, or if ROS cannot carry a number. */
 XmlRpc::XmlRpcValue scene_file_read(const std::string &path);
 
-/** A text in quotes, or a list; the text itself where it is neither. */
+/** The value of a text in quotes or of a list; any other text unchanged. */
 XmlRpc::XmlRpcValue scene_file_value(const std::string &text);

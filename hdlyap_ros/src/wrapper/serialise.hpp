@@ -1,6 +1,6 @@
-/** C structs of messages -> bytes on the wire, through roscpp's traits: type, md5 and definition
- * are those of the generated messages, and the fields are written straight from the caller's
- * buffers. received.hpp reads by the same lists of fields. */
+/** C structs of messages -> bytes on the wire, by roscpp's traits. Type, md5 and definition come
+ * from the generated messages; fields are written directly from the caller's buffers. received.hpp
+ * reads by the same lists of fields. */
 #pragma once
 
 #include <cmath>
@@ -16,11 +16,11 @@
 namespace hdlyap_ros
 {
 
-/** Of the struct of a message: `type`, roscpp's, and `fields`, in the order of the message, each
- * passed to the stream or filled from it. */
+/** Describes the struct of a message. `type` is roscpp's type; `fields` passes each field, in the
+ * order of the message, to a stream that writes or reads it. */
 template <class Message> struct message_of;
 
-/** Of an array of messages {data, count}: `type`, the struct of an element. */
+/** Describes an array of messages {data, count}: `type` is the struct of an element. */
 template <class List> struct item_of;
 
 template <class Number> using if_number = std::enable_if_t<std::is_arithmetic<Number>::value>;
@@ -83,7 +83,7 @@ template <class Stream> void put(Stream &stream, const hdr_bytes &list)
     put_numbers(stream, list.data, list.count);
 }
 
-/** A stream that writes nothing, and sees whether the numbers are finite that must be. */
+/** A stream that writes nothing, but checks that the numbers are finite which have to be. */
 struct finite_check {
     bool finite = true, nan_too = false;
     void next(double x) { finite = finite && (std::isfinite(x) || (nan_too && std::isnan(x))); }
@@ -95,7 +95,8 @@ inline void put(finite_check &check, const hdr_doubles &array)
     for (uint32_t k = 0; k < array.count; k++) check.next(array.data[size_t(k) * array.stride]);
 }
 
-/** A number, or an array of them, that may be NaN; to be filled it is itself. */
+/** A number, or an array of numbers, that may be NaN. When a message is read, or_nan returns the
+ * field itself. */
 template <class Field> struct nan_or {
     const Field &field;
 };
@@ -114,7 +115,8 @@ template <class Field> void put(finite_check &check, const nan_or<Field> &any)
     check.nan_too = false;
 }
 
-/** The same that is known or not; if not, it goes out as what stands for that. */
+/** A number, or an array of numbers, that may be unknown; then `unknown` is written instead. When a
+ * message is read, known_if returns the field itself. */
 template <class Field> struct if_known {
     bool known;
     const Field &field;
@@ -142,7 +144,7 @@ template <class Field> void put(finite_check &check, const if_known<Field> &perh
     if (perhaps.known) put(check, perhaps.field);
 }
 
-/** A message within another one. */
+/** Writes a message within another message. */
 template <class Stream, class Message, class = typename message_of<Message>::type>
 void put(Stream &stream, const Message &message)
 {
@@ -156,7 +158,7 @@ void put(Stream &stream, const List &list)
     for (uint32_t k = 0; k < list.count; k++) message_of<Item>::fields(stream, list.data[k]);
 }
 
-/** A field on its way out; on its way in it is taken, see received.hpp. */
+/** Writes a field. received.hpp has the overload that reads it. */
 template <class Stream, class Field> void pass(Stream &stream, const Field &field)
 {
     put(stream, field);
@@ -169,7 +171,7 @@ void pass(Stream &stream, First &&first, Second &&second, Rest &&...rest)
     pass(stream, second, rest...);
 }
 
-/** False if a number of the message is not finite that must be. */
+/** Whether all numbers of a message that have to be finite are so. */
 template <class Message> bool is_finite(const Message &message)
 {
     finite_check check;
@@ -185,7 +187,7 @@ template <> struct message_of<hdr_header> {
     }
 };
 
-/** A message as it is handed to roscpp. */
+/** What is handed to roscpp as a message. */
 template <class Message> struct sent {
     const Message &message;
 };

@@ -1,4 +1,4 @@
-/** Services in: roscpp's requests -> C callbacks. */
+/** Offers services: roscpp's requests -> C callbacks. */
 #include "hdlyap_ros/service.h"
 
 #include <functional>

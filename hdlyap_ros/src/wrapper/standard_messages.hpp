@@ -1,4 +1,4 @@
-/** The fields of messages of other packages, as far as C has them. */
+/** The fields of messages of other packages, as far as the C structs have them. */
 #pragma once
 
 #include <diagnostic_msgs/DiagnosticArray.h>
@@ -61,7 +61,7 @@ template <> struct message_of<hdr_string> {
     }
 };
 
-/** Numbers of one type, in the order of the message. */
+/** Writes a struct of numbers of one type, which has the order of the message. */
 template <class Stream, class Numbers> void put_block(Stream &stream, const Numbers &numbers)
 {
     uint8_t *out = stream.advance(static_cast<uint32_t>(sizeof numbers));
@@ -88,7 +88,8 @@ template <> struct message_of<hdr_markers> {
         for (uint32_t k = 0; k < m.count; k++) marker(s, m.frame_id, m.markers[k]);
     }
 
-    /** pose, scale, colour, life time, frame_locked; points, colours, text; no mesh. */
+    /** Writes pose, scale, colour, life time, frame_locked, points, colours and text, without a
+     * mesh. */
     template <class Stream> static void marker(Stream &s, const char *frame_id, const hdr_marker &m)
     {
         const uint32_t zero = 0;

@@ -1,5 +1,5 @@
-/** Signals -> a flag that the node polls, and a timer that ends a process which does not;
- * exceptions that nobody catches -> an exit status. */
+/** Signals -> a flag that the node polls, and a timer that ends the process if the node does not
+ * end; exceptions that nobody catches -> an exit status. */
 
 #include <algorithm>
 #include <atomic>
@@ -23,17 +23,17 @@
 
 namespace
 {
-/** Signal handlers have no argument: what they use has to be static, and lock-free. */
+/** Signal handlers have no argument, so all that they use has to be static and lock-free. */
 std::atomic<bool> requested{false};
 timer_t watchdog;
 itimerspec watchdog_time{};
 int stop_event =
-    -1; /**< can be read from the request on: it is never read, and wakes everybody who waits */
+    -1; /**< readable once a stop is requested; nobody reads it, so it wakes all who wait */
 int status_without_memory;
-int status_late; /**< of a process that has not ended in time */
+int status_late; /**< exit status if the process has not ended in time */
 
 void on_stop(int) { hdr_stop_request(); }
-/** SIGALRM of somebody else's is none of ours. */
+/** Ends the process, but ignores a SIGALRM that somebody else has sent. */
 void on_watchdog(int)
 {
     if (hdr_stop_requested()) _exit(status_late);
@@ -45,7 +45,7 @@ bool is_ignored(int signal)
     return sigaction(signal, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;
 }
 
-/** Allocates nothing. */
+/** Ends the process with a line in the log. Allocates no memory. */
 [[noreturn]] void end_without_memory(const char *what)
 {
     char line[256];
@@ -54,11 +54,11 @@ bool is_ignored(int signal)
     const int length = std::snprintf(line, sizeof line, "[FATAL] [%ld.%09ld]: out of memory: %s\n",
                                      static_cast<long>(now.tv_sec), now.tv_nsec, what);
     const auto written = write(STDERR_FILENO, line, static_cast<size_t>(length));
-    static_cast<void>(written); /* nobody is left to be told */
+    static_cast<void>(written); /* if it fails there is no other way to tell */
     _exit(status_without_memory);
 }
 
-/** Any other exception that nobody catches is a bug. */
+/** Aborts: an exception that nobody catches is a bug, unless memory is missing. */
 void on_terminate()
 {
     try {
@@ -104,7 +104,7 @@ void stop_handlers_install(double stop_seconds)
     handle(SIGINT, on_stop);
     handle(SIGTERM, on_stop);
     if (!is_ignored(SIGHUP)) handle(SIGHUP, on_stop); /* nohup ignores it */
-    handle(SIGXFSZ, SIG_IGN);                         /* writing says so too */
+    handle(SIGXFSZ, SIG_IGN);                         /* write() fails then, which is handled */
 }
 
 void stop_without_memory(int status) noexcept
@@ -121,7 +121,8 @@ void hdr_node_stop_within(double stop_seconds, int status)
 
 bool hdr_stop_requested(void) { return requested.load(); }
 
-/** A second request must not wind the timer up again. What a signal interrupts keeps its errno. */
+/** A second request does not restart the timer. errno is restored, because a signal handler may
+ * call this. */
 void hdr_stop_request(void)
 {
     const int kept = errno;
@@ -129,14 +130,14 @@ void hdr_stop_request(void)
     if (requested.exchange(true)) return;
     timer_settime(watchdog, 0, &watchdog_time, nullptr);
     const auto written = write(stop_event, &one, sizeof one);
-    static_cast<void>(written); /* -1 before there is a node */
+    static_cast<void>(written); /* fails before there is a node, which does not matter */
     errno = kept;
 }
 
 bool hdr_node_wait(double seconds)
 {
     using clock = std::chrono::steady_clock;
-    const double longest = 1e6; /* that a timespec surely holds */
+    const double longest = 1e6; /* a timespec can hold it */
     const auto began = clock::now();
     double left = seconds;
     while (!hdr_stop_requested() && left > 0.0) {

@@ -1,4 +1,4 @@
-/** Topics in: roscpp's queues -> C callbacks. */
+/** Subscribes to topics: roscpp's queues -> C callbacks. */
 #include "hdlyap_ros/subscriber.h"
 
 #include <algorithm>
@@ -12,7 +12,8 @@ namespace
 {
 template <class Message> using callback_of = void (*)(void *context, const Message *message);
 
-/** Of an array of several messages the callback may free its subscriber at the first. */
+/** The function that roscpp calls with a message. If that has several structs, the callback may
+ * free the subscriber at the first one. */
 template <class Message>
 boost::function<void(const boost::shared_ptr<const hdlyap_ros::received<Message>> &)>
 caller(const hdr_subscriber &subscriber, callback_of<Message> callback, void *context)
@@ -24,7 +25,8 @@ caller(const hdr_subscriber &subscriber, callback_of<Message> callback, void *co
     };
 }
 
-/** Unlike roscpp's its faults name the topic. */
+/** Connects a subscriber to its topic. Throws with a text that names the topic, which roscpp's
+ * texts do not. */
 template <class Message>
 void connect(hdr_subscriber &subscriber, int queue, callback_of<Message> callback, void *context)
 {
@@ -57,7 +59,7 @@ template <class Message> hdr_status subscribe(hdr_subscriber **out, hdr_node *no
     });
 }
 
-/** NULL if the node is ending, and has it no longer. */
+/** Takes a subscriber from its node. Returns NULL if the node is ending and has given it up. */
 std::unique_ptr<hdr_subscriber> taken_from_its_node(const hdr_subscriber *subscriber)
 {
     auto &all = subscriber->node->subscribers;
@@ -82,8 +84,8 @@ HDR_MESSAGES(HDR_SUBSCRIBER)
 HDR_STANDARD_MESSAGES(HDR_SUBSCRIBER)
 #undef HDR_SUBSCRIBER
 
-/** roscpp waits for a callback that another thread is in; the node's lock must not be held then,
- * since the callback may want it. */
+/** roscpp waits while another thread is in the callback. The node's lock must not be held during
+ * that, because the callback may want it. */
 void hdr_subscriber_free(hdr_subscriber *subscriber)
 {
     if (!subscriber) return;
