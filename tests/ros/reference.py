@@ -54,14 +54,16 @@ def code(text):
 
 
 def launch_arguments():
-    """Each file, and its arguments that can be given."""
+    """Each file, and its arguments that can be given; neighbours that are told alike in one row."""
     sections = []
     for name in listed('launch', '.launch'):
-        rows = [
-            [code(arg.get('name')), code(arg.get('default')), escaped(arg.get('doc', ''))]
-            for arg in ElementTree.fromstring(read('launch', name)).findall('arg')
-            if arg.get('value') is None
-        ]
+        rows = []
+        for arg in ElementTree.fromstring(read('launch', name)).findall('arg'):
+            told = [code(arg.get('default')), escaped(arg.get('doc', ''))]
+            if arg.get('value') is None and rows and rows[-1][1:] == told:
+                rows[-1][0] += ', ' + code(arg.get('name'))
+            elif arg.get('value') is None:
+                rows.append([code(arg.get('name')), *told])
         sections.append(f'### {name}\n\n' + table(['argument', 'default', 'what'], rows))
     return '\n'.join(sections)
 

@@ -29,8 +29,8 @@ enum { HD_DIMENSION_MAX = 3 };
 /** What can hold the disks, EACH(NAME, name, what it is): a scene says its name, and hd_name_row is
  * its row in src/scene (container.h). */
 #define HD_CONTAINERS(EACH)                                                                        \
-    EACH(RECTANGLE, rectangle, "edges along the axes, of spheres a box")                           \
-    EACH(CIRCLE, circle, "of disks, whose rims touch its wall; without aspect and boundaries")
+    EACH(RECTANGLE, rectangle, "edges along the axes, in space a box")                           \
+    EACH(CIRCLE, circle, "disks whose rims touch its wall; it has no aspect and no boundaries")
 
 #define HD_CONTAINER_VALUE(NAME, name, what) HD_##NAME,
 typedef enum hd_container { HD_CONTAINERS(HD_CONTAINER_VALUE) HD_CONTAINERS_END } hd_container;

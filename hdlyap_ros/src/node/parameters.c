@@ -16,10 +16,8 @@ static const parameter name_row = {
     .allowed = "a line that is not empty",
     .unit = "",
     .may_differ = true,
-    .text =
-        "Name of the scene, copied into run_info. It must come with particles, container, number, "
-        "density, an aspect or a boundary: a name chooses no system. One without a name is "
-        "unnamed.",
+    .text = "Name of the scene, copied into run_info. A name chooses no system: the scene must also "
+        "give at least one of particles, container, number, density, aspects and boundaries.",
 };
 
 static const parameter rows[] = {
@@ -30,13 +28,10 @@ static const parameter rows[] = {
         .usual = "spectrum, modes, steps, lp_phases, fields, state",
         .allowed = "a list out of ",
         .unit = "",
-        .text =
-            "Topics that are computed and published, beside run_info, status, cost and "
-            "/diagnostics. A topic costs nothing while nobody subscribes to it; the table of the "
-            "log "
-            "asks for steps and lp_phases, too. With exponents: "
-            "none there are only gas and state. A resumed run may have other ones of spectrum and "
-            "state.",
+        .text = "Topics that can be published, beside run_info, status, cost and /diagnostics. A topic "
+        "that nobody listens to is not computed; the table in the log listens to steps and "
+        "lp_phases. Without exponents only gas and state exist. A resumed run may add or drop "
+        "only spectrum and state.",
     },
     {
         .name = "field_indices",
@@ -47,8 +42,8 @@ static const parameter rows[] = {
         .unit = "",
         .may_differ = true,
         .needs = 1u << TOPIC_fields,
-        .text = "Vectors that are published as fields: one of each step found, or these Lyapunov "
-                "indices.",
+        .text = "Vectors that are published as fields: one of each step that is found, or these Lyapunov "
+        "indices.",
     },
     {
         .name = "slow_vectors_rate",
@@ -60,9 +55,7 @@ static const parameter rows[] = {
         .allowed = "from 0.01 to 100",
         .unit = "1/s",
         .may_differ = true,
-        .text =
-            "Messages of slow_vectors per wall second, at most. With pace the steps become short "
-            "enough for it.",
+        .text = "Largest number of slow_vectors messages per wall second.",
     },
     {
         .name = "slow_vectors_count",
@@ -72,9 +65,8 @@ static const parameter rows[] = {
         .allowed = "from 0 (the lowest T and LP steps) to the vectors carried",
         .unit = "",
         .may_differ = true,
-        .text =
-            "Slowest vectors in each message of slow_vectors; 0: as many as reach to the lowest T "
-            "and LP steps found.",
+        .text = "Number of slowest vectors in each message of slow_vectors. 0: all down to the lowest T "
+        "and LP steps that are found.",
     },
     {
         .name = "field_interval",
@@ -86,11 +78,9 @@ static const parameter rows[] = {
         .unit = "time units",
         .may_differ = true,
         .live = true,
-        .text =
-            "Simulated time between fields, and between means in structure. They come with the "
-            "first report of the averaging, "
-            "with the first one at or after each multiple of this, and with the last. The vectors "
-            "are orthonormalised for each: often means slow.",
+        .text = "Simulated time between two publications of fields, and of means in structure. They come "
+        "with the first report of the averaging, with the first report at or after each multiple "
+        "of this time, and with the last. Each costs an orthonormalisation.",
     },
     {
         .name = "wait_for_subscribers",
@@ -100,8 +90,8 @@ static const parameter rows[] = {
         .allowed = "all or a list out of ",
         .unit = "",
         .may_differ = true,
-        .text = "Topics that must have a subscriber before the run starts, so that it misses "
-                "nothing: run_info, status, cost and observables, or all for all of these.",
+        .text = "The run starts only when each of these topics has a subscriber, so that it misses "
+        "nothing. all: run_info, status, cost and the observables.",
     },
     {
         .name = "pace",
@@ -114,8 +104,8 @@ static const parameter rows[] = {
         .may_differ = true,
         .live = true,
         .at_once = true,
-        .text = "Limit of the averaging's simulated time per wall second. What comes before the "
-                "averaging has no limit.",
+        .text = "Largest simulated time per wall second during the averaging. The stages before it have "
+        "no limit.",
     },
     {
         .name = "changes",
@@ -125,8 +115,8 @@ static const parameter rows[] = {
         .allowed = "a list of texts \"TIME NAME=VALUE\"",
         .unit = "",
         .may_differ = true,
-        .text = "What ~set changed in a run that is repeated: parameters that are set anew at "
-                "these simulated times.",
+        .text = "Changes to make during the run, each at its simulated time: how a run is repeated in "
+        "which ~set was used.",
     },
     {
         .name = "checkpoint",
@@ -136,7 +126,8 @@ static const parameter rows[] = {
         .allowed = "a path in one line",
         .unit = "",
         .may_differ = true,
-        .text = "File in which the run is kept, written whole or not at all; empty: none.",
+        .text = "File in which the run is kept, so that it can be resumed. It is written completely or "
+        "not at all. Empty: no file.",
     },
     {
         .name = "checkpoint_interval",
@@ -147,8 +138,8 @@ static const parameter rows[] = {
         .allowed = "from 0 (only at the end and when asked) to 1e12",
         .unit = "s",
         .may_differ = true,
-        .text = "Wall time between two writings of the checkpoint. It is also written at the end "
-                "and when ~checkpoint asks.",
+        .text = "Wall time between two writings of the checkpoint. It is also written at the end and by "
+        "~checkpoint.",
     },
     {
         .name = "resume",
@@ -158,8 +149,8 @@ static const parameter rows[] = {
         .allowed = "a path in one line",
         .unit = "",
         .may_differ = true,
-        .text = "Checkpoint to go on from; empty: from the start. Parameters of the scene that are "
-                "not given are then as in the file.",
+        .text = "Checkpoint from which the run goes on. Parameters of the scene that are not given are "
+        "taken from it. Empty: a new run.",
     },
     {
         .name = "table",
@@ -170,8 +161,8 @@ static const parameter rows[] = {
         .allowed = "from 0 (none) to 1e12",
         .unit = "s",
         .may_differ = true,
-        .text = "Wall time at least between two tables of the steps in the log. One is printed "
-                "when the averages have doubled or more steps are known, and one at the end.",
+        .text = "Shortest wall time between two tables of the steps in the log. A table is printed when "
+        "the averaged time has doubled or more steps are known, and at the end.",
     },
 };
 enum { ROWS = sizeof rows / sizeof *rows };

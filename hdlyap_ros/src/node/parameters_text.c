@@ -151,7 +151,7 @@ static void print_lines(const parameter *p, const char *particles)
     write_value(value, sizeof value, p);
     snprintf(text, sizeof text, "Allowed: %s. Default: %s.", allowed, value);
     printf("\n");
-    if (particles) printf("# Of %s alone.\n", particles);
+    if (particles) printf("# For %s only.\n", particles);
     print_comment(p->text);
     print_comment(text);
     printf("%s%s: %s\n", particles ? "# " : "", p->name, value);
@@ -181,17 +181,16 @@ static void print_row(const parameter *p, const char *particles)
     print_cell(name);
     print_cell(allowed);
     print_cell(value);
-    print_cell(p->may_differ ? "may differ" : "as before");
-    print_cell(p->live ? "`~set`" : "");
-    snprintf(text, sizeof text, "%s%s%s%s", particles ? "Of " : "", particles ? particles : "",
-             particles ? " alone. " : "", p->text);
+    print_cell(p->live ? "`~set`" : p->may_differ ? "resume" : "");
+    snprintf(text, sizeof text, "%s%s%s%s", particles ? "For " : "", particles ? particles : "",
+             particles ? " only. " : "", p->text);
     print_cell(text);
     printf("|\n");
 }
 
 int parameters_print_table(void)
 {
-    printf("| parameter | allowed | default | in a resumed run | while it runs | what |\n"
-           "| --- | --- | --- | --- | --- | --- |\n");
+    printf("| parameter | allowed | default | change | what |\n"
+           "| --- | --- | --- | --- | --- |\n");
     return print_all(print_row);
 }

@@ -20,10 +20,10 @@ TEST(what_is_of_disks_alone)
 TEST(values_out_of_range)
 {
     check_line(scene_from(usual(), .density = 1.4143),
-               "density = 1.4143: must be from 1e-6 to 2/sqrt(3) = 1.1547, of spheres sqrt(2) = "
+               "density = 1.4143: must be from 1e-6 to 2/sqrt(3) = 1.1547, in space to sqrt(2) = "
                "1.4142");
     check_line(scene_from(usual(), .density = NAN),
-               "density = nan: must be from 1e-6 to 2/sqrt(3) = 1.1547, of spheres sqrt(2) = "
+               "density = nan: must be from 1e-6 to 2/sqrt(3) = 1.1547, in space to sqrt(2) = "
                "1.4142");
     check_line(scene_from(usual(), .aspect_z = 0.0), "aspect_z = 0: must be from 1e-6 to 1e6");
     check_line(scene_from(usual(), .aspect_z = 2e6),

@@ -17,7 +17,7 @@ const hd_parameter hd_dumbbell_own[HD_DUMBBELL_OWN] = {
      .most = 2.0,
      .allowed = "from 0.01 to 2",
      .unit = "sigma",
-     .text = "Distance of the centres of the two disks of a dumbbell.",
+     .text = "Distance between the centres of the two disks of a dumbbell.",
      .record = "bond"},
     {.name = "inertia",
      .kind = HD_PARAMETER_INTERVAL,
@@ -28,9 +28,8 @@ const hd_parameter hd_dumbbell_own[HD_DUMBBELL_OWN] = {
      .most = 1e6,
      .allowed = "disks, points, or from 1e-6 to 1e6",
      .unit = "sigma^2",
-     .text =
-         "Moment of inertia of a dumbbell of mass 1: disks, of two that are uniform, bond^2 / 4 "
-         "+ 1/8; points, with all mass in the two centres, bond^2 / 4; or a number.",
+     .text = "Moment of inertia of a dumbbell of mass 1. disks: that of two uniform disks, bond^2 "
+             "/ 4 + 1/8. points: all mass in the two centres, bond^2 / 4.",
      .record = "inertia"}};
 
 double hd_dumbbell_bond(const hd_scene_def *scene) { return scene->own[0].real; }

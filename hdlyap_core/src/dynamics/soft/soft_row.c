@@ -26,9 +26,9 @@ static const hd_parameter own[HD_SOFT_OWN] = {
      .most = HD_POTENTIALS - 1,
      .allowed = "power, wca or lennard_jones",
      .unit = "",
-     .text =
-         "Of a pair, by its distance r: power, 100 (1 - r^2)^4; wca, 4 (r^-12 - r^-6) + 1 up to "
-         "2^(1/6); lennard_jones, 4 (r^-12 - r^-6), smoothly cut from 2 to 2.5."},
+     .text = "Energy of a pair at distance r. power: 100 (1 - r^2)^4. wca: 4 (r^-12 - r^-6) + 1 "
+             "up to r = 2^(1/6). lennard_jones: 4 (r^-12 - r^-6), cut off smoothly from r = 2 to "
+             "2.5."},
     {.name = "energy",
      .kind = HD_PARAMETER_REAL,
      .offset = HD_OWN(HD_SOFT_ENERGY),
@@ -37,7 +37,8 @@ static const hd_parameter own[HD_SOFT_OWN] = {
      .most = 1e6,
      .allowed = "from -10 to 1e6",
      .unit = "epsilon",
-     .text = "Kinetic and potential energy per particle; above that of the start lattice."},
+     .text = "Kinetic and potential energy per particle. It must be above the energy of the start "
+             "lattice."},
     {.name = "time_step",
      .kind = HD_PARAMETER_REAL,
      .offset = HD_OWN(HD_SOFT_TIME_STEP),
@@ -45,8 +46,8 @@ static const hd_parameter own[HD_SOFT_OWN] = {
      .chosen = hd_soft_time_step,
      .allowed = "from 0 to 10",
      .unit = "time units",
-     .text = "Of the integrator; 0: chosen by potential and energy, so that the relative "
-             "error of the energy is near the accuracy, but 1e-6 at least, and of wca some 1e-4."},
+     .text = "Time step of the integrator. 0: chosen so that the relative error of the energy is "
+             "about the accuracy, but at least 1e-6, and for wca about 1e-4."},
     {.name = "integrator",
      .kind = HD_PARAMETER_WORD,
      .words = integrator_words,
@@ -55,8 +56,9 @@ static const hd_parameter own[HD_SOFT_OWN] = {
      .most = HD_INTEGRATORS - 1,
      .allowed = "verlet, pefrl or forest_ruth",
      .unit = "",
-     .text = "verlet is of order 2, with a kick in each step; pefrl of order 4, with four; "
-             "forest_ruth of order 4, with three. wca bends too sharply for order 4."}};
+     .text = "Method by which particles move. verlet has order 2 and computes forces once a step; "
+             "pefrl has order 4 and computes them four times; forest_ruth has order 4 and "
+             "computes them three times. wca is not smooth enough for order 4."}};
 
 const hd_potential *hd_soft_potential(const hd_scene_def *scene)
 {

@@ -26,7 +26,7 @@ OF_ONE = 'checkpoint', 'resume'  # parameters that runs cannot share
 HERE = ('threads', 'wait_for_subscribers', *OF_ONE)
 # seconds, about: to come up; of a time unit with 200 disks on one core, as their square
 BEGIN, STEP, DISKS = 5.0, 0.03, 200
-OWN = re.compile(r'^# Of (\w+(?: and \w+)*) alone\.\n(?:# .*\n)*?# (\w+): (\S+)$', re.MULTILINE)
+OWN = re.compile(r'^# For (\w+(?: and \w+)*) only\.\n(?:# .*\n)*?# (\w+): (\S+)$', re.MULTILINE)
 
 
 class Planned:
