@@ -1,4 +1,4 @@
-/** Points and texts -> markers. Everything grows to what the largest picture needs, and stays. */
+/** Points and texts -> markers. Memory grows to what the largest picture needs, and is kept. */
 #include "canvas.h"
 
 #include <stdarg.h>
@@ -6,10 +6,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-/** The largest picture has 53. */
+/** The largest picture has 53 markers. */
 enum { MARKERS_MAX = 64, NAME_SIZE = 32, TEXT_SIZE = 400 };
 
-/** What a marker points to; its points begin there in those of the canvas. */
+/** What a marker points to. begin: where its points begin among the points of the canvas. */
 typedef struct layer {
     char ns[NAME_SIZE], text[TEXT_SIZE];
     size_t begin;
@@ -36,7 +36,7 @@ void canvas_free(canvas *c)
     free(c);
 }
 
-/** The first marker ends the picture before: of a slow viewer whichever that was. */
+/** The first marker deletes the picture that a viewer shows, whichever that is if it is slow. */
 void canvas_clear(canvas *c)
 {
     c->markers[0] = (hdr_marker){.ns = "", .action = HDR_MARKER_DELETE_ALL, .text = ""};
@@ -52,7 +52,7 @@ static int32_t next_id(const canvas *c, const char *ns)
     return id;
 }
 
-/** rviz takes an empty list for an error. */
+/** Drops the last marker if it is empty, which rviz would show as an error. */
 static void drop_if_empty(canvas *c)
 {
     const hdr_marker *last = &c->markers[c->count - 1];

@@ -1,7 +1,7 @@
-/** A picture: one panel per mode, at least one, side by side, or above each other where the box is
- * long; the first is the box itself. Arrows are flat triangles in one list: a shaft of two, a head
- * of one. Of spheres there is a second list, of the same arrows turned by a right angle, to be seen
- * from all sides. */
+/** Draws a picture. It has a panel for each mode, at least one, side by side, or above each other
+ * if the box is long. The first panel is where the box is. An arrow is three triangles in one list:
+ * two for the shaft, one for the head. For spheres a second list has the same arrows turned by a
+ * right angle, so that they are seen from all sides. */
 #include "draw.h"
 
 #include <math.h>
@@ -9,47 +9,47 @@
 
 #include "common/numbers.h"
 
-/* Colours of Okabe and Ito, safe for colour-blind readers; hue says the kind, as in the figures of
- * hdlyap plot. */
+/* Colours of Okabe and Ito, which colour-blind readers can distinguish. The hue shows the kind, as
+ * in the figures of hdlyap plot. */
 static const hdr_colour PALETTE_T = {0.0F, 0.447F, 0.698F, 1.0F};  /* #0072B2 */
 static const hdr_colour PALETTE_LP = {0.835F, 0.369F, 0.0F, 1.0F}; /* #D55E00 */
-/* An LP mode that is all L, #E69F00, and one that is all P: */
+/* Colours of an LP mode that is all L, #E69F00, and of one that is all P: */
 static const hdr_colour PALETTE_L = {0.902F, 0.624F, 0.0F, 1.0F};
 static const hdr_colour PALETTE_P = {0.40F, 0.12F, 0.02F, 1.0F};
 static const hdr_colour PALETTE_DISK = {0.86F, 0.86F, 0.86F, 1.0F};
-/** As much to the left, counterclockwise, or to the right as is shown. */
+/** Colours of the fastest rotation to the left, which is counterclockwise, and to the right. */
 static const hdr_colour PALETTE_LEFT = {0.50F, 0.75F, 0.48F, 1.0F};  /* #7FBF7B */
 static const hdr_colour PALETTE_RIGHT = {0.69F, 0.55F, 0.76F, 1.0F}; /* #AF8DC3 */
-/** As of glass: arrows are seen through it. */
+/** Transparent, so that arrows are seen through spheres. */
 static const hdr_colour PALETTE_SPHERE = {0.5F, 0.5F, 0.5F, 0.3F};
-/** Of no step: legible on white and on rviz's own dark grey. */
+/** Colour of what belongs to no step. It is legible on white and on rviz's dark grey. */
 static const hdr_colour PALETTE_INK = {0.42F, 0.42F, 0.42F, 1.0F};
 static const hdr_colour WHITE = {1.0F, 1.0F, 1.0F, 1.0F}, BLACK = {0.0F, 0.0F, 0.0F, 1.0F};
-static const double PALE = 0.3; /* part of white in what is not of the picture's time */
-/** Part of black in the second arrows, without which two that overlap are one blot. */
+static const double PALE = 0.3; /* part of white in arrows of another time than the picture's */
+/** Part of black in the second arrows of spheres, so that overlapping arrows can be told apart. */
 static const double SHADE = 0.3;
 
-/* In units of the text's height: the whole, spaces between panels, and in them */
+/* Lengths in units of the text's height: the picture's width; space between panels, and above */
 static const double WIDTH = 64.0, GAP = 3.0, ABOVE = 3.5;
 static const double CAPTION = 1.75, CAPTION_HEIGHT = 1.3, TITLE = 1.8, TITLE_HEIGHT = 1.1;
 static const double LINE = 0.12;
-static const double DIAL = 1.2, DIAL_STEP = 2.4; /* radius and, in radii, distance */
+static const double DIAL = 1.2, DIAL_STEP = 2.4; /* radius; distance of dials in radii */
 enum { DIALS = 4, DIAL_SIDES = 32, SHADES = 4 };
 
-static const double LONG = 2.5;    /* boxes this much longer than high lie above each other */
-static const double RISE = 0.7;    /* of what is above the plane, as seen from 55 degrees */
-static const double LONGEST = 2.6; /* arrow, in mean distances of disks */
-static const double ARROW = 0.5;   /* root mean square length, as a part of the longest */
-/** Of an arrow, as parts of its length or of the mean distance. */
+static const double LONG = 2.5;    /* panels of boxes longer than this lie above each other */
+static const double RISE = 0.7;    /* how high z = 1 appears, seen from 55 degrees */
+static const double LONGEST = 2.6; /* longest arrow, in mean distances of particles */
+static const double ARROW = 0.5;   /* root mean square length of arrows over the longest */
+/** Head of an arrow over its length; widths over the mean distance of particles. */
 static const double HEAD = 0.4, HEAD_WIDTH = 0.2, SHAFT_WIDTH = 0.07;
 static const double DISKS_Z = -1.0; /* below the arrows, which they would hide */
-static const double UNDER = -0.1;   /* the other disk of a dumbbell, or both would shine through */
+static const double UNDER = -0.1;   /* second disk of a dumbbell, so that the two do not mix */
 static const double BOND_Z = -0.48; /* just above the disks */
-static const double BOND = 0.12;    /* thickness [sigma] */
-static const double KT = 2.0 / 3.0; /* of what turns in the plane */
+static const double BOND = 0.12;    /* thickness of a bond [sigma] */
+static const double KT = 2.0 / 3.0; /* temperature of particles in the plane that rotate */
 static const double TURN = 6.283185307179586;
 
-/** What is drawn on, and where its parts lie, in the frame of the box [sigma]. */
+/** The canvas, and where parts of the picture lie on it, in the frame of the box [sigma]. */
 typedef struct sheet {
     canvas *on;
     const picture *p;
@@ -57,19 +57,19 @@ typedef struct sheet {
     bool spheres;
     int panels, columns;
     double unit;        /**< height of text */
-    double distance;    /**< of neighbouring disks, about */
-    double longest;     /**< arrow; half of it may stand out of a panel, where no text is */
-    double right, down; /**< from panel to panel */
+    double distance;    /**< mean distance of particles */
+    double longest;     /**< longest arrow; around a panel half of it is left free */
+    double right, down; /**< from one panel to the next */
 } sheet;
 
-/** Part 0 .. 1 of the way from a to b. */
+/** The colour that is the part 0 .. 1 of the way from a to b. */
 static hdr_colour mix(hdr_colour a, hdr_colour b, double part)
 {
     const float p = (float)part;
     return (hdr_colour){a.r + p * (b.r - a.r), a.g + p * (b.g - a.g), a.b + p * (b.b - a.b), 1.0F};
 }
 
-/** From a by part of d. */
+/** a + part * d. */
 static hdr_point along(hdr_point a, double part, hdr_point d)
 {
     return (hdr_point){a.x + part * d.x, a.y + part * d.y, a.z + part * d.z};
@@ -77,7 +77,7 @@ static hdr_point along(hdr_point a, double part, hdr_point d)
 
 /* ---- panels -------------------------------------------------------------------------------- */
 
-/** Columns of a grid of panels that is not much higher than wide. */
+/** The number of columns with which a grid of panels is not much higher than wide. */
 static int columns_of(double shape, int panels)
 {
     if (shape > LONG) return 1;
@@ -91,7 +91,7 @@ static sheet sheet_of(canvas *on, const picture *p)
     const double *box = h->box;
     const bool spheres = heard_has_spheres(h);
     const int panels = p->modes > 0 ? p->modes : 1;
-    /* of spheres on the screen, seen from above and from the front, as rviz's view begins */
+    /* height on the screen, where rviz first shows spheres from above and from the front */
     const double height = box[1] + RISE * box[2];
     const int columns = columns_of(box[0] / height, panels), gaps = columns - 1;
     const double distance = spheres ? cbrt(box[0] * box[1] * box[2] / h->disks)
@@ -103,7 +103,7 @@ static sheet sheet_of(canvas *on, const picture *p)
     return (sheet){on, p, h, spheres, panels, columns, unit, distance, longest, right, down};
 }
 
-/** Its lower left corner: left to right, then downwards. */
+/** The lower left corner of panel k. Panels go from left to right, then downwards. */
 static hdr_point panel(const sheet *s, int k)
 {
     return (hdr_point){k % s->columns * s->right, -(k / s->columns) * s->down, 0.0};
@@ -128,7 +128,7 @@ static void circle(canvas *on, hdr_point middle, double radius)
              on_circle(middle, radius, (double)(k + 1) / DIAL_SIDES));
 }
 
-/** Bits of k: the upper end along x, y, z. */
+/** A corner of the box. Bits of k: whether it is at the upper end along x, y, z. */
 static hdr_point corner(const sheet *s, hdr_point origin, int k)
 {
     const double *box = s->h->box;
@@ -161,7 +161,7 @@ static void draw_boxes(const sheet *s)
             edges(s, panel(s, k));
 }
 
-/** Root mean square of a vector at a particle, with what turns it. */
+/** Root mean square, over particles, of a vector's dq half with its part in the angles. */
 static double strength_of(const heard *h, const picture_mode *m)
 {
     double sum = 0.0;
@@ -172,8 +172,8 @@ static double strength_of(const heard *h, const picture_mode *m)
     return sqrt(sum / h->disks);
 }
 
-/** How the particles of a panel turn, and what has the full colour: of a vector what is as strong
- * as all of it, else twice the thermal spin. */
+/** How the particles of a panel rotate: by the vector, or by their spin if there is none. full:
+ * what has the full colour: strength_of the vector, or twice the thermal spin. */
 typedef struct turns {
     const double *of;
     double full;
@@ -186,20 +186,20 @@ static turns turns_of(const sheet *s, int k)
     return (turns){s->h->spin, 2.0 * sqrt(KT / s->h->inertia)};
 }
 
-/** -SHADES .. SHADES, to the left if positive. */
+/** The shade of particle i, -SHADES .. SHADES; positive: it rotates to the left. */
 static int shade_of(turns t, uint32_t i)
 {
     const double part = t.full > 0.0 ? t.of[i] / t.full : 0.0;
     return (int)round(SHADES * fmax(-1.0, fmin(part, 1.0)));
 }
 
-/** From the middle of a dumbbell to one of its disks. */
+/** The vector from the middle of a dumbbell to one of its disks. */
 static hdr_point arm(const heard *h, uint32_t i)
 {
     return on_circle((hdr_point){0.0, 0.0, 0.0}, 0.5 * h->bond, h->angle[i] / TURN);
 }
 
-/** The disks of panel k that are of this shade. */
+/** Draws the disks of panel k that have this shade. */
 static void disks_of_shade(const sheet *s, int k, int shade)
 {
     const heard *h = s->h;
@@ -213,7 +213,8 @@ static void disks_of_shade(const sheet *s, int k, int shade)
     }
 }
 
-/** A layer for each shade: rviz has spheres with colours of their own as of glass. */
+/** Draws disks that rotate, in a layer for each shade: with one colour per point, rviz would draw
+ * transparent spheres. */
 static void turning_disks(const sheet *s, const char *ns)
 {
     for (int shade = -SHADES; shade <= SHADES; shade++) {
@@ -224,7 +225,7 @@ static void turning_disks(const sheet *s, const char *ns)
     }
 }
 
-/** Of dumbbells: from centre to centre. */
+/** Draws the bonds of dumbbells, from centre to centre. */
 static void draw_bonds(const sheet *s, const char *ns)
 {
     canvas_layer(s->on, ns, HDR_MARKER_LINE_LIST, PALETTE_INK, BOND);
@@ -262,8 +263,8 @@ static void draw_particles(const sheet *s)
 
 static double length_of(hdr_point d) { return hypot(hypot(d.x, d.y), d.z); }
 
-/** From a tail by d; n: unit vector across, in whose plane with d it lies; s, h: half widths of
- * shaft and head. */
+/** Draws an arrow from its tail by d. n: unit vector perpendicular to d, in the plane of the arrow;
+ * s, h: half widths of shaft and head. */
 static void flat_arrow(canvas *on, hdr_point tail, hdr_point d, hdr_point n, double s, double h)
 {
     const hdr_point tip = along(tail, 1.0, d), neck = along(tip, -HEAD, d);
@@ -275,7 +276,8 @@ static void flat_arrow(canvas *on, hdr_point tail, hdr_point d, hdr_point n, dou
     for (size_t k = 0; k < sizeof outline / sizeof *outline; k++) canvas_point(on, outline[k]);
 }
 
-/** Unit vector across d, which is so long: in the plane of the disks, or across that and d. */
+/** A unit vector perpendicular to d, whose length is `length`. It is in the plane z = 0; if
+ * upright, it is perpendicular to that one, too. */
 static hdr_point across(hdr_point d, double length, bool upright)
 {
     const double level = hypot(d.x, d.y);
@@ -285,7 +287,7 @@ static hdr_point across(hdr_point d, double length, bool upright)
     return (hdr_point){-n.y * d.z / length, n.x * d.z / length, (n.y * d.x - n.x * d.y) / length};
 }
 
-/** Round a place; d: longer than it may be, perhaps. */
+/** Draws an arrow whose middle is at a place. It is at most as long as the longest one. */
 static void arrow(const sheet *s, hdr_point at, hdr_point d, bool upright)
 {
     const double full = length_of(d), length = fmin(full, s->longest);
@@ -296,7 +298,7 @@ static void arrow(const sheet *s, hdr_point at, hdr_point d, bool upright)
                fmin(HEAD_WIDTH * s->distance, 0.4 * length));
 }
 
-/** Of all arrows alike: sigma per unit of the vector. */
+/** The factor between a vector and the length of its arrows [sigma]. */
 static double scale_of(const sheet *s, const picture_mode *m)
 {
     const double strength = strength_of(s->h, m);
@@ -305,7 +307,7 @@ static double scale_of(const sheet *s, const picture_mode *m)
 
 static hdr_colour colour_of_kind(int kind) { return kind == HDR_MODE_T ? PALETTE_T : PALETTE_LP; }
 
-/** An LP mode turns from L to P: its hue says so. */
+/** An LP mode turns from L to P, and its hue shows how far. */
 static hdr_colour colour_of(const picture_mode *m)
 {
     const bool is_known = m->kind == HDR_MODE_LP && m->momentum >= 0.0;
@@ -314,7 +316,8 @@ static hdr_colour colour_of(const picture_mode *m)
 
 static bool is_of_before(const heard *h) { return h->vector_time != h->time; }
 
-/** In a layer of their own; rviz's light is for a plane. */
+/** Draws the arrows of a mode in one layer. Those of spheres are not shaded, because that looks
+ * right in a plane only. */
 static void arrows(const sheet *s, const char *ns, int k, bool upright)
 {
     const picture_mode *m = &s->p->mode[k];
@@ -330,13 +333,13 @@ static void arrows(const sheet *s, const char *ns, int k, bool upright)
 
 /* ---- dials and texts ------------------------------------------------------------------------- */
 
-/** Radius: eight dials, of spheres, take no more room than four. */
+/** Radius of a dial. The eight dials of spheres take no more room than four. */
 static double dial_of(const sheet *s, uint32_t pairs)
 {
     return DIAL * s->unit * (pairs > DIALS ? (double)DIALS / pairs : 1.0);
 }
 
-/** Coefficients (a, b) of each pair in their unit circle, in a row that begins at a place. */
+/** Draws the coefficients (a, b) of each pair in a unit circle, in a row that begins at a place. */
 static void dials(const sheet *s, hdr_point at, const picture_mode *m)
 {
     const double radius = dial_of(s, m->lp.pairs);
@@ -350,7 +353,8 @@ static void dials(const sheet *s, hdr_point at, const picture_mode *m)
     }
 }
 
-/** Two lines: its exponent; which vector is drawn, and of which time if not the picture's. */
+/** Writes the title of a mode: its exponent; then which vector is drawn, and at which time that was
+ * computed if it is not the picture's. */
 static void title(const sheet *s, const char *ns, hdr_point at, const picture_mode *m)
 {
     const double height = TITLE_HEIGHT * s->unit;
@@ -365,7 +369,7 @@ static void title(const sheet *s, const char *ns, hdr_point at, const picture_mo
                     m->absent ? "this run looks for none" : "not resolved");
 }
 
-/** Arrows, title and phases. */
+/** Draws arrows, title and phases of a mode. */
 static void draw_mode(const sheet *s, int k)
 {
     const picture_mode *m = &s->p->mode[k];
@@ -394,7 +398,7 @@ static void write_box(char *text, size_t size, const heard *h)
         snprintf(text, size, "x %s, y %s", end[h->periodic[0]], end[h->periodic[1]]);
 }
 
-/** Where the run is. */
+/** Writes the time, stage and progress of the run. */
 static void write_time(char *text, size_t size, const heard *h)
 {
     const double time = h->time >= 0.0 ? h->time : h->status_time;
@@ -408,7 +412,7 @@ static void write_time(char *text, size_t size, const heard *h)
         snprintf(text, size, "waiting for its first message");
 }
 
-/** 36 dumbbells of bond 0.25; and what their colours say, in a line of its own. */
+/** Writes, e.g., "36 dumbbells of bond 0.25". */
 static void write_particles(char *text, size_t size, const heard *h)
 {
     const int end = snprintf(text, size, "%u %s", (unsigned)h->disks, h->particles);
@@ -416,7 +420,7 @@ static void write_particles(char *text, size_t size, const heard *h)
         snprintf(text + end, size - (size_t)end, " of bond %.4g", h->bond);
 }
 
-/** What the colours of the particles say; "" of what does not turn. */
+/** What the colours of particles mean; "" if they do not rotate. */
 static const char *legend(const sheet *s)
 {
     bool any = false, all = s->p->modes > 0;
@@ -436,7 +440,7 @@ static void draw_caption(const sheet *s)
     const heard *h = s->h;
     const char *colours = legend(s);
     const int lines = (*colours != 0) + (*h->own != 0);
-    const double more = 0.5 * CAPTION_HEIGHT * lines; /* half of them */
+    const double more = 0.5 * CAPTION_HEIGHT * lines; /* a text is drawn around its middle */
     const hdr_point at = {
         0.5 * ((s->columns - 1) * s->right + h->box[0]),
         h->box[1] + 0.5 * s->longest + (ABOVE + CAPTION + more) * s->unit,

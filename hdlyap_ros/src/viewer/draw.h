@@ -5,9 +5,9 @@
 #include "canvas.h"
 #include "picture.h"
 
-/** The markers, in the frame of the box; valid until the canvas is drawn on again. Check boxes
- * (namespaces): box, disks, spheres or dumbbells, mode/<name>, phases, caption. False if
- * memory ran out. */
+/** Fills the markers of a picture, in the frame of the box. They are valid until the canvas is
+ * drawn on again. Check boxes (namespaces) are box, disks, spheres or dumbbells, mode/<name>,
+ * phases and caption. Returns false if there is not enough memory. */
 bool draw(canvas *on, hdr_markers *out, const picture *p, const char *frame_id);
 
 #endif

@@ -1,4 +1,4 @@
-/** Messages -> what a picture is made of. */
+/** Messages -> the data that a picture is made of. */
 #include "heard.h"
 
 #include <math.h>
@@ -26,14 +26,14 @@ static bool is_in(const hdr_strings *list, const char *name)
     return false;
 }
 
-/** Of element k; disks have none along z. */
+/** Element k of a list of nodes; 0 along z for disks, whose list is empty. */
 static uint32_t nodes(const hdr_uints *along, uint32_t k)
 {
     return k < along->count ? along->data[k] : 0;
 }
 
-/** Transverse fields go along two directions at least, and along none that ends at walls without
- * nodes between them [T10]. */
+/** Whether a wave has transverse fields. It has if the fields can point in at least two directions,
+ * which exclude those between walls without nodes [T10]. */
 static bool is_transverse(const heard *h, const hdr_run_info *info, uint32_t wave)
 {
     const hdr_uints *const along[] = {&info->wave_nx, &info->wave_ny, &info->wave_nz};
@@ -54,7 +54,7 @@ static double element(const hdr_doubles *array, uint32_t i)
     return array->data[(size_t)i * array->stride];
 }
 
-/** Of those of such particles alone; 0 without it. */
+/** A number among the parameters that only these particles have; 0 if it is not there. */
 static double own_number(const hdr_run_info *info, const char *name)
 {
     const size_t length = strlen(name);
@@ -65,14 +65,14 @@ static double own_number(const hdr_run_info *info, const char *name)
     return isfinite(number) ? number : 0.0;
 }
 
-/** time_step: time step. */
+/** Turns underscores into spaces: time_step becomes time step. */
 static void in_words(char *name)
 {
     for (char *c = name; *c; c++)
         if (*c == '_') *c = ' ';
 }
 
-/** "potential wca, energy 1": names in words, numbers in four digits. */
+/** Writes, e.g., "potential wca, energy 1": names in words, numbers with four digits. */
 static void write_own(char *text, size_t size, const hdr_strings *own)
 {
     *text = '\0';
@@ -104,7 +104,7 @@ static void begin_particles(heard *h, const hdr_run_info *info)
         write_own(h->own, sizeof h->own, &info->own);
 }
 
-/** As far as there is room. */
+/** Keeps as many corners of the outline as there is room for. */
 static void begin_outline(heard *h, const hdr_run_info *info)
 {
     while (h->corners < info->outline_x.count && h->corners < info->outline_y.count &&
@@ -161,7 +161,8 @@ static bool is_ours(const heard *h, const char *run_id)
     return h->begun && strcmp(h->run_id, run_id) == 0;
 }
 
-/** A block of `bytes` in place of an old one, or NULL: the old one is then as it was. */
+/** Copies `bytes` into a new block and frees the old one. Returns NULL, and keeps the old one, if
+ * there is no memory. */
 static void *replaced(const void *old, const void *from, size_t bytes)
 {
     void *block = malloc(bytes + 1);
@@ -173,7 +174,7 @@ static void *replaced(const void *old, const void *from, size_t bytes)
 
 /* ---- disks and vectors of one time ----------------------------------------------------------- */
 
-/** So many numbers of each disk, and along z of each sphere. */
+/** Whether there are `times` numbers for each particle; along z, for each sphere. */
 static bool are_of_each(const heard *h, uint64_t times, const hdr_doubles *x, const hdr_doubles *y,
                         const hdr_doubles *z)
 {
@@ -181,13 +182,13 @@ static bool are_of_each(const heard *h, uint64_t times, const hdr_doubles *x, co
     return x->count == all && y->count == all && z->count == (heard_has_spheres(h) ? all : 0);
 }
 
-/** So many numbers of each that turns, and none of others. */
+/** Whether there are `times` angles for each particle if particles rotate, and none otherwise. */
 static bool turn_each(const heard *h, uint64_t times, const hdr_doubles *angle)
 {
     return angle->count == (heard_turns(h) ? times * h->disks : 0);
 }
 
-/** Of each disk; false, and nothing is taken, if it is not. */
+/** Copies a vector for each particle. Returns false, and copies nothing, if a number is missing. */
 static bool take(const heard *h, hdr_point *to, const hdr_doubles *x, const hdr_doubles *y,
                  const hdr_doubles *z)
 {
@@ -202,13 +203,14 @@ static void take_turns(double *to, const hdr_doubles *angle)
     for (uint32_t i = 0; i < angle->count; i++) to[i] = element(angle, i);
 }
 
-/** What a message says of where they are. */
+/** What a message says about the state of particles. */
 typedef struct places {
     const hdr_doubles *x, *y, *z, *angle, *spin;
 } places;
 #define PLACES(m) ((places){&(m)->x, &(m)->y, &(m)->z, &(m)->angle, &(m)->spin})
 
-/** The disks have got there; false, and they have not, if something is not of each. */
+/** Takes over the state of particles from a message. Returns false, and takes nothing, if something
+ * is missing. */
 static bool move(heard *h, double time, places to)
 {
     if (!turn_each(h, 1, to.angle) || !turn_each(h, 1, to.spin)) return false;
@@ -230,7 +232,7 @@ void heard_state(heard *h, const hdr_state *state)
     (void)move(h, state->sim_time, PLACES(state));
 }
 
-/** A vector more, with all but its arrays; NULL without room. */
+/** Adds a vector, but does not fill its arrays. Returns NULL if there is no room or memory. */
 static heard_vector *add(heard *h, const heard_vector *what)
 {
     if (h->vectors == HEARD_VECTORS_MAX) return NULL;
@@ -245,7 +247,7 @@ static heard_vector *add(heard *h, const heard_vector *what)
     return v;
 }
 
-/** Its field is heard once more. */
+/** The vector with this index, whose field is received again; NULL if it is new. */
 static heard_vector *with_index(heard *h, uint32_t index)
 {
     for (int k = 0; k < h->vectors; k++)
@@ -266,14 +268,15 @@ heard_lp heard_lp_at(const heard *h, double time, const heard_vector *v)
     return lp;
 }
 
-/** Coefficients of vectors that came without, from phases of their time. */
+/** Gives coefficients to vectors that came without, from phases of the same time. */
 static void note_phases(heard *h)
 {
     for (heard_vector *v = h->vector; v < h->vector + h->vectors; v++)
         if (v->lp.pairs == 0) v->lp = heard_lp_at(h, h->vector_time, v);
 }
 
-/** Vectors of a field's time and places, begun anew at another; false if the places do not fit. */
+/** Prepares for a vector of a field: if the field has another time, forgets the vectors from before
+ * and takes its positions. Returns false if the positions are not those of all particles. */
 static bool place_vectors(heard *h, const hdr_mode_field *field)
 {
     if (field->sim_time == h->vector_time) return true;
@@ -305,7 +308,8 @@ void heard_mode_field(heard *h, const hdr_mode_field *field)
     h->changed = true;
 }
 
-/** One of a step is enough: the first that is its own, or the first of its set. */
+/** Whether a vector is to be kept. One per step is enough: the first vector of its kind and wave,
+ * or the vector with the step's first index. */
 static bool is_wanted(const heard *h, const heard_vector *v)
 {
     bool is_new = v->kind == HDR_MODE_T || v->kind == HDR_MODE_LP;
@@ -316,10 +320,10 @@ static bool is_wanted(const heard *h, const heard_vector *v)
     return is_new;
 }
 
-/** As many numbers a and b as each vector of slow_vectors has. */
+/** How many numbers a, and b, each vector of slow_vectors has. */
 static uint32_t pairs_of_each(const heard *h) { return heard_has_spheres(h) ? 8 : 4; }
 
-/** Element k of each array. */
+/** Vector k of the message, without its arrays. */
 static heard_vector vector_of(const heard *h, const hdr_slow_vectors *slow, uint32_t k)
 {
     const uint32_t each = pairs_of_each(h), pairs = slow->pairs.data[k];
@@ -336,13 +340,13 @@ static heard_vector vector_of(const heard *h, const hdr_slow_vectors *slow, uint
     return v;
 }
 
-/** So many numbers of each particle. */
+/** Whether the message has the dq halves of `times` vectors. */
 static bool has_vectors(const heard *h, const hdr_slow_vectors *m, uint64_t times)
 {
     return are_of_each(h, times, &m->dqx, &m->dqy, &m->dqz) && turn_each(h, times, &m->dq_angle);
 }
 
-/** Its arrays are as long as it says. */
+/** Whether the arrays of a message are as long as it says. */
 static bool is_whole(const heard *h, const hdr_slow_vectors *m)
 {
     const uint64_t n = m->vectors, pairs = n * pairs_of_each(h);
@@ -352,7 +356,7 @@ static bool is_whole(const heard *h, const hdr_slow_vectors *m)
            (has_vectors(h, m, n) || has_vectors(h, m, 0));
 }
 
-/** Vector k of all; nothing along z of disks. */
+/** The part of an array that belongs to vector k; empty if the array is, as along z for disks. */
 static hdr_doubles part(const hdr_doubles *all, uint32_t k, uint32_t disks)
 {
     if (all->count == 0) return *all;

@@ -1,4 +1,4 @@
-/** What a run has said last, kept beyond the callbacks in which it was heard: enough to draw it. */
+/** The last messages of a run, kept after their callbacks, as far as a picture needs them. */
 #ifndef HDLYAP_HEARD_H
 #define HDLYAP_HEARD_H
 
@@ -17,13 +17,13 @@ typedef struct heard_lp {
 
 /** One Lyapunov vector, of slow_vectors or of fields. */
 typedef struct heard_vector {
-    uint8_t kind; /**< of its step, as in Mode, and where that lies */
+    uint8_t kind; /**< kind of its step, as in Mode; nx, ny, nz: wave of the step */
     uint32_t nx, ny, nz, index;
     double exponent;
-    heard_lp lp;  /**< as far as known with the vector */
-    bool known;   /**< the vector itself, at its place and time: */
-    hdr_point *d; /**< [N] its dq half */
-    double *turn; /**< [N] of what turns: the part of it that turns each to the left */
+    heard_lp lp;  /**< coefficients at the time of the vector; no pairs if not known */
+    bool known;   /**< whether d and turn are known */
+    hdr_point *d; /**< [N] dq half of the vector */
+    double *turn; /**< [N] part of the vector in the angles of particles that rotate */
 } heard_vector;
 
 typedef struct heard {
@@ -31,29 +31,29 @@ typedef struct heard {
     char run_id[96], scene[64];
     char particles[32];
     uint32_t disks;
-    char own[160];  /**< of what else moves its own parameters; "" without any */
-    double bond;    /**< of a dumbbell's two disks; 0 of one disk [sigma] */
-    double inertia; /**< of what turns; 0 of what does not [sigma^2] */
-    double box[3];  /**< 0 along z of disks, spheres otherwise */
+    char own[160];  /**< parameters that only these particles have, as text; not for dumbbells */
+    double bond;    /**< bond of a dumbbell [sigma]; 0 for other particles */
+    double inertia; /**< moment of inertia [sigma^2]; 0 if particles do not rotate */
+    double box[3];  /**< edges of the box; 0 along z for particles in the plane */
     bool periodic[3];
     char container[16];
-    uint32_t corners; /**< of the outline of a curved container, which the box holds; 0 of a box */
+    uint32_t corners; /**< corners of the outline of a curved container; 0 for a box */
     hdr_point outline[HEARD_CORNERS_MAX];
-    bool has_t, has_lp; /**< modes of these kinds: can be in the box, and are looked for */
+    bool has_t, has_lp; /**< the run classifies modes of these kinds, and the box can have them */
     uint8_t stage;      /**< UINT8_MAX before the first status */
     double progress;
-    double status_time; /**< of the last status; -1 before the first */
-    double time;        /**< of the disks; -1 before the first */
-    hdr_point *q;       /**< [N] where they are; z is 0 of disks */
-    double *angle;      /**< [N] of what turns, from the x axis, behind q as the next */
-    double *spin;       /**< [N] of what turns [rad/time unit] */
+    double status_time; /**< simulated time of the last status; -1 before the first */
+    double time;        /**< simulated time of q; -1 before the first */
+    hdr_point *q;       /**< [N] positions; z is 0 in the plane */
+    double *angle;      /**< [N] angle from the x axis, if particles rotate; in the block of q */
+    double *spin;       /**< [N] angular velocity [rad/time unit], likewise; in the block of q */
     heard_vector vector[HEARD_VECTORS_MAX];
     int vectors;
-    double vector_time; /**< of the vectors */
-    hdr_point *at;      /**< [N] where the disks were then, behind q */
-    hdr_steps steps;    /**< of an own array, as the next */
+    double vector_time; /**< simulated time of the vectors */
+    hdr_point *at;      /**< [N] positions at that time; in the block of q */
+    hdr_steps steps;    /**< its array is a copy, as is that of phases */
     hdr_lp_phases phases;
-    bool changed; /**< since the caller took that back: a picture would show something else */
+    bool changed; /**< a picture would show something new; the caller resets it */
 } heard;
 
 void heard_clear(heard *h); /**< frees; {0} before the first use */
@@ -61,20 +61,21 @@ void heard_clear(heard *h); /**< frees; {0} before the first use */
 static inline bool heard_has_spheres(const heard *h) { return h->box[2] > 0.0; }
 static inline bool heard_turns(const heard *h) { return h->inertia > 0.0; }
 
-/* Each copies what is needed; what is of another run, or no memory is left for, is passed over. */
+/* Each function copies what is needed. Messages of another run are ignored, as is what memory does
+ * not suffice for. */
 
-/** True if a run begins, or begins again. */
+/** Returns true if this is a new run. */
 bool heard_run_info(heard *h, const hdr_run_info *info);
 void heard_slow_vectors(heard *h, const hdr_slow_vectors *slow);
-/** The disks move; vectors stay those of their time. */
+/** Takes the state of particles. Vectors stay as they were at their time. */
 void heard_state(heard *h, const hdr_state *state);
-/** A vector of its time; the disks are there too, unless they are further already. */
+/** Takes a vector, and the state of particles too unless a later one is known. */
 void heard_mode_field(heard *h, const hdr_mode_field *field);
 void heard_steps(heard *h, const hdr_steps *steps);
 void heard_lp_phases(heard *h, const hdr_lp_phases *phases);
 void heard_run_status(heard *h, const hdr_run_status *status);
 
-/** Of a vector at a time, as phases have it; without pairs if they do not. */
+/** The coefficients of a vector at a time, from lp_phases; no pairs if these are not known. */
 heard_lp heard_lp_at(const heard *h, double time, const heard_vector *v);
 
 #endif

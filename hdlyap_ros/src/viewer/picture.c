@@ -1,4 +1,4 @@
-/** What was heard of a run -> a picture. */
+/** The last messages of a run -> a picture. */
 #include "picture.h"
 
 #include <stdio.h>
@@ -19,7 +19,7 @@ bool mode_name_parse(mode_name *out, const char *text)
     return end > 0 && !text[end];
 }
 
-/** False where the box cannot have it, or it was not asked for. */
+/** Whether the run classifies this mode, as far as its steps are known. */
 static bool is_looked_for(const heard *h, const mode_name *name)
 {
     bool is = h->steps.steps.count == 0;
@@ -32,7 +32,8 @@ static bool is_looked_for(const heard *h, const mode_name *name)
 
 static bool is_shown(const hdr_step *step) { return step->resolved && !step->conjugate; }
 
-/** The lowest step of a kind that is resolved, or the one of a name; NULL if there is none. */
+/** The lowest resolved step of a kind or, with a name, the step of that name; NULL if there is
+ * none. */
 static const hdr_step *step_of(const heard *h, uint8_t kind, const mode_name *name)
 {
     const hdr_step *found = NULL;
@@ -45,7 +46,8 @@ static const hdr_step *step_of(const heard *h, uint8_t kind, const mode_name *na
     return found;
 }
 
-/** The vector nearest to zero of a kind, or the first of a name; NULL if there is none. */
+/** The vector of a kind with the smallest exponent or, with a name, the first vector of that name;
+ * NULL if there is none. */
 static const heard_vector *vector_of(const heard *h, uint8_t kind, const mode_name *name)
 {
     const heard_vector *found = NULL;
@@ -57,7 +59,8 @@ static const heard_vector *vector_of(const heard *h, uint8_t kind, const mode_na
     return found;
 }
 
-/** The first of a step, or of its set where none is its own; NULL if there is none. */
+/** The first vector of a step's kind and wave, otherwise the vector with the step's first index;
+ * NULL if there is none. */
 static const heard_vector *vector_of_step(const heard *h, const hdr_step *step)
 {
     const mode_name name = {step->kind, step->nx, step->ny, step->nz};
@@ -67,7 +70,7 @@ static const heard_vector *vector_of_step(const heard *h, const hdr_step *step)
     return found;
 }
 
-/** Part of the P fields; -1 of nothing. */
+/** The part of a vector in the P fields; -1 if all coefficients are 0. */
 static double momentum_of(const heard_lp *lp)
 {
     double l = 0.0, p = 0.0;
@@ -78,7 +81,8 @@ static double momentum_of(const heard_lp *lp)
     return l + p > 0.0 ? p / (l + p) : -1.0;
 }
 
-/** Coefficients are of the time of the disks, or else of the vector's. */
+/** Fills what a picture shows of a vector. Coefficients are those at the time of the picture if
+ * they are known, otherwise those at the time of the vector. */
 static void fill_vector(picture_mode *mode, const heard *h, const heard_vector *v)
 {
     mode->index = v->index;
@@ -91,7 +95,7 @@ static void fill_vector(picture_mode *mode, const heard *h, const heard_vector *
     if (mode->lp.pairs == 0) mode->lp = v->lp;
 }
 
-/** Without nodes of what is not known yet. */
+/** Writes the name of a mode, e.g. T(1,0); only its kind if its wave is not known yet. */
 static void write_name(char name[PICTURE_NAME_SIZE], const heard *h, const mode_name *is)
 {
     char nodes[NODES_SIZE] = "";
@@ -100,7 +104,8 @@ static void write_name(char name[PICTURE_NAME_SIZE], const heard *h, const mode_
     snprintf(name, PICTURE_NAME_SIZE, "%s%s", hdr_mode_kind_text(is->kind), nodes);
 }
 
-/** name: the one asked for; NULL: the lowest of the kind, as the steps say or else the vectors. */
+/** The mode of this name; if name is NULL, the lowest mode of the kind, by the steps or, if they
+ * are not known, by the vectors. */
 static picture_mode mode_of(const heard *h, uint8_t kind, const mode_name *name)
 {
     picture_mode mode = {.kind = kind, .error = -1.0, .momentum = -1.0};
@@ -115,7 +120,7 @@ static picture_mode mode_of(const heard *h, uint8_t kind, const mode_name *name)
         mode.exponent = step->exponent;
         mode.error = step->std_error;
     }
-    if (!v && (v = vector_of(h, kind, name))) { /* the step has not been heard */
+    if (!v && (v = vector_of(h, kind, name))) { /* its step has not been received */
         is = (mode_name){kind, v->nx, v->ny, v->nz};
         mode.exponent = v->exponent;
         mode.error = -1.0;

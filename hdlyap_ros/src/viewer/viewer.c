@@ -1,4 +1,4 @@
-/** The pictures of a run from its topics, live or from a bag that is played: <node>/markers.
+/** The viewer: draws pictures of a run, live or from a bag that is played -> <node>/markers.
  * rosrun hdlyap viewer [_node:=/hdlyap] [_modes:="T(1,0) LP(1,0)"]
  * rosservice call /viewer/set "modes=T(1,0)" */
 #include <math.h>
@@ -13,35 +13,37 @@
 
 enum { EXIT_REFUSED = 2, EXIT_NO_MEMORY = 3, QUEUE = 1000, TOPIC_SIZE = 300 };
 
-/** How often it is seen who looks, and who publishes [s]. */
+/** How often the viewer checks who listens to its pictures, and who publishes [s]. */
 static const double poll_seconds = 0.1;
-/** As long as this nobody may look before the topics are left alone: rviz takes its time to open.
- */
+/** If nobody has listened to the pictures for this time, the viewer unsubscribes. rviz takes a
+ * while to open. */
 static const double patience_seconds = 10.0;
-/** A node that publishes slow_vectors is connected sooner; a bag's player waits for who listens. */
+/** If slow_vectors is not connected after this time, no node publishes it. A bag's player waits
+ * until somebody listens to the topics that stand in for it. */
 static const double connecting_seconds = 1.0;
-/** A picture is sent anew after so long: rviz forgets what is in a box that is not checked. */
+/** A picture is sent again after this time, because rviz forgets pictures whose box is not
+ * checked. */
 static const double again_seconds = 1.0;
-/** Who has heard nothing new for so long says so in the picture. */
+/** If the run has sent nothing new for this time, the picture says so. */
 static const double still_seconds = 3.0;
 
-/** What is listened to, and freed, together: live slow_vectors in front. */
+/** Number of subscribers that are created and freed together. */
 enum { GROUP = 3 };
 
 typedef struct viewer {
     hdr_node *ros;
-    const char *node; /**< whose topics */
+    const char *node; /**< the node that publishes the run */
     mode_choice modes;
-    pthread_mutex_t lock; /**< of the callbacks' thread and the main one, for what is next */
+    pthread_mutex_t lock; /**< between callbacks and the main thread, for members up to `since` */
     heard said;
     canvas *on;
     hdr_publisher *markers;
-    double heard_at, sent_at; /**< when something new was heard, and a picture sent */
-    time_t since;             /**< the same as heard_at, by the clock on the wall */
-    /* of the main thread: */
-    hdr_subscriber *live[GROUP];
+    double heard_at, sent_at; /**< when something new was received, and when a picture was sent */
+    time_t since;             /**< wall time at heard_at */
+    /* only the main thread uses: */
+    hdr_subscriber *live[GROUP];      /**< slow_vectors first */
     hdr_subscriber *stand_ins[GROUP]; /**< state and fields, in place of slow_vectors in a bag */
-    double seen, asked; /**< when somebody looked last, and since when live ones are heard */
+    double seen, asked; /**< when somebody last listened; when the live subscribers were created */
 } viewer;
 
 static double seconds_now(void)
@@ -56,7 +58,8 @@ static double seconds_now(void)
 static const char *const modes_allowed =
     "lowest or 1 to 8 names such as T(1,0) LP(1,1), of spheres T(1,0,0), with spaces between";
 
-/** False unless the text is `lowest` or of 1 to PICTURE_MODES_MAX names, with spaces between. */
+/** Reads `lowest`, or 1 to PICTURE_MODES_MAX names with spaces between. Returns false for any other
+ * text. */
 static bool parse_modes(mode_choice *modes, const char *text)
 {
     char name[24];
@@ -72,7 +75,7 @@ static bool parse_modes(mode_choice *modes, const char *text)
 
 /* ---- pictures ------------------------------------------------------------------------------- */
 
-/** Why the picture may not be what is now; "" while the run is heard of, or has ended. */
+/** Writes since when nothing new has come; "" if something has, or the run has ended. */
 static void write_note(char *note, size_t size, const viewer *v)
 {
     const bool still = seconds_now() - v->heard_at > still_seconds;
@@ -82,7 +85,7 @@ static void write_note(char *note, size_t size, const viewer *v)
         strftime(note, size, "(nothing new since %H:%M:%S)", &at);
 }
 
-/** Of a run that has begun. */
+/** Sends the picture of a run that has begun. */
 static void send_picture(viewer *v)
 {
     char note[48];
@@ -97,7 +100,7 @@ static void send_picture(viewer *v)
         hdr_log(HDR_ERROR, "picture not sent: %s", hdr_error_text());
 }
 
-/** What is new. */
+/** Sends a picture if there is something new. */
 static void show(viewer *v)
 {
     if (!v->said.begun || !v->said.changed) return;
@@ -106,8 +109,8 @@ static void show(viewer *v)
     send_picture(v);
 }
 
-/** Repeats the last picture for who looks, and says so when nothing new has come. True of a run
- * that has begun. */
+/** Sends the last picture again if somebody listens and nothing new has come. Returns whether a run
+ * has begun. */
 static bool tend(viewer *v)
 {
     pthread_mutex_lock(&v->lock);
@@ -154,7 +157,7 @@ static void on_run_info(void *context, const hdr_run_info *info)
         if (!is_looked_for(info, &v->modes.mode[k])) warn_of_none(info, &v->modes.mode[k]);
 }
 
-/** on_NAME: hears a message, with what is done before and after it. */
+/** Defines the callback on_NAME, which takes a message and does something before and after. */
 #define ON(name, before, after)                                                                    \
     static void on_##name(void *context, const hdr_##name *message)                                \
     {                                                                                              \
@@ -166,7 +169,8 @@ static void on_run_info(void *context, const hdr_run_info *info)
         pthread_mutex_unlock(&v->lock);                                                            \
     }
 ON(slow_vectors, , show(v))
-/* With a message of a later time what was heard is whole, also where a bag has no status. */
+/* A message of a later time shows that all of the time before has come, even if a bag has no
+ * status. */
 ON(state, if (message->sim_time != v->said.time) show(v), )
 ON(mode_field, if (message->sim_time > v->said.time) show(v), )
 ON(steps, , )
@@ -174,7 +178,7 @@ ON(lp_phases, , )
 ON(run_status, , show(v)) /* the last message of a report */
 #undef ON
 
-/** Of the modes alone: "modes=T(1,0) LP(1,1)". */
+/** Answers ~set: it can only change the modes, by "modes=T(1,0) LP(1,1)". */
 static bool on_set(void *context, const char *assignment, char *message, size_t size)
 {
     viewer *v = context;
@@ -198,7 +202,7 @@ static bool on_set(void *context, const char *assignment, char *message, size_t 
 
 /* ---- topics -------------------------------------------------------------------------------- */
 
-/** Of the node, by its name; valid until the next one. */
+/** The full name of a topic of the node; valid until the next call. */
 static const char *topic(const viewer *v, const char *name)
 {
     static char text[TOPIC_SIZE];
@@ -206,7 +210,7 @@ static const char *topic(const viewer *v, const char *name)
     return text;
 }
 
-/** In a function that returns a status. */
+/** Subscribes `to` to a topic if `status`, a variable where this is used, is still HDR_OK. */
 #define HEAR(to, name, from, queue)                                                                \
     if (status == HDR_OK)                                                                          \
     status = hdr_##name##_subscribe(to, v->ros, topic(v, from), queue, on_##name, v)
@@ -237,9 +241,9 @@ static void hear_no_more(hdr_subscriber *group[GROUP])
     }
 }
 
-/** Listens while somebody looks: a node works for whoever listens. Of fields in particular, where
- * there are slow_vectors. Not before the run is described: what a run that rests says once would
- * be of a run that is not known. */
+/** Subscribes while somebody listens to the pictures, because the node computes a topic only while
+ * somebody listens to it; to the stand-ins only if slow_vectors is not published. It waits for
+ * run_info: messages that a run at rest sends only once would be ignored before. */
 static hdr_status follow(viewer *v, double now, bool begun)
 {
     hdr_status status = HDR_OK;
@@ -261,7 +265,7 @@ static hdr_status follow(viewer *v, double now, bool begun)
 
 static hdr_status look_after(viewer *v)
 {
-    hdr_subscriber *info; /* the node's, until its end */
+    hdr_subscriber *info; /* the node frees it at its end */
     hdr_status status = hdr_markers_advertise(&v->markers, v->ros, topic(v, "markers"));
     if (status == HDR_OK) status = hdr_frame_publish(v->ros, "world", "box");
     HEAR(&info, run_info, "run_info", QUEUE);
@@ -269,7 +273,7 @@ static hdr_status look_after(viewer *v)
     v->seen = seconds_now();
     while (status == HDR_OK) {
         status = follow(v, seconds_now(), tend(v));
-        hdr_node_lost(v->ros); /* says so */
+        hdr_node_lost(v->ros); /* logs if the master is lost */
         if (!hdr_node_wait(poll_seconds)) break;
     }
     return status;
@@ -283,7 +287,8 @@ static bool refuse(const hdr_params *params, const char *name, const char *allow
     return false;
 }
 
-/** A name that does not begin with / is one of the viewer's own namespace. */
+/** Reads the parameter node. A name that does not begin with / is relative to the viewer's
+ * namespace. */
 static bool read_node(viewer *v, const hdr_params *params)
 {
     static char name[TOPIC_SIZE / 2];
