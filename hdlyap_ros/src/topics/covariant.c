@@ -1,4 +1,4 @@
-/** Averages over windows of covariant vectors -> Covariant. */
+/** Averages of covariant vectors over windows -> Covariant. */
 #include "topics/moment.h"
 
 #include <math.h>
@@ -6,15 +6,15 @@
 _Static_assert((int)HD_CENTRE_STABLE == (int)HDR_COVARIANT_ANGLE_CENTRE_STABLE,
                "pairs of spaces as in the core");
 
-/** Of one angle, as the message has them. */
+/** The histograms of one angle, with the types of the message. */
 typedef struct histograms {
     uint64_t smallest[HD_ANGLE_BINS], all[HD_ANGLE_BINS];
 } histograms;
 
-/** Angles of spaces are known to a thousandth then [rad]. */
+/** If the spaces of two starts are at most this far apart, their angles are known well [rad]. */
 static const double SPACES_APART = 1e-3;
 
-/** What the arrays of a message are in. */
+/** The memory of a message's arrays. */
 typedef struct arrays {
     double *exponents, *std_errors, *local_exponents; /**< [vectors] each */
     hdr_covariant_weight *weight;                     /**< [weights] */
@@ -23,7 +23,7 @@ typedef struct arrays {
     uint32_t vectors, weights, angles;
 } arrays;
 
-/** False without memory. */
+/** Takes the memory. Returns false if there is none. */
 static bool arrays_take(arrays *a, const moment *now, const hd_covariant_results *seen)
 {
     const hd_fields *fields = hd_modes_fields(seen->half[0]);
@@ -125,8 +125,8 @@ static hdr_covariant message_of(arrays *r, const hd_run *run, const hd_covariant
     };
 }
 
-/** Spaces that have not met are those of the random starts; windows that find no room are missed.
- */
+/** Warns if the spaces of two random starts have not met, because they are not the covariant ones
+ * then, and if a window was lost for want of room. */
 static void warn(covariant_said *before, const hd_run *run, const hd_covariant_results *seen)
 {
     const hd_covariant_mismatch apart = seen->start_mismatch;
@@ -146,7 +146,7 @@ static void warn(covariant_said *before, const hd_run *run, const hd_covariant_r
     before->lost = lost;
 }
 
-/** After any step or checkpoint. */
+/** May be called after any step or checkpoint. */
 hd_status topic_publish_covariant(const moment *now)
 {
     covariant_said *last = &now->kept->covariant;
@@ -156,7 +156,7 @@ hd_status topic_publish_covariant(const moment *now)
     last->known = true;
     last->windows = windows;
     warn(last, now->run, &seen);
-    /* a reset takes them back to none */
+    /* after a reset there are none */
     if (windows == 0 || windows == before ||
         !(publishers_subscribed(now->out) & topic_bit(TOPIC_covariant)) ||
         !arrays_take(&a, now, &seen))

@@ -1,4 +1,4 @@
-/** How many there are of what messages list -> bytes. */
+/** Lengths of the arrays in messages -> bytes. */
 #include "topics/extent.h"
 
 #include "hdlyap_ros/messages.h"
@@ -6,7 +6,7 @@
 hd_extent extent_of(const settings *set, hd_extent of_run)
 {
     if (set->fields.count == 0) return of_run;
-    of_run.examples = set->fields.count; /* of steps that are not known yet */
+    of_run.examples = set->fields.count; /* which steps these belong to is not known yet */
     of_run.pairs = HD_MODULATIONS_IN(of_run.dimension) * set->fields.count;
     return of_run;
 }

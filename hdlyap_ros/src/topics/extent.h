@@ -1,4 +1,4 @@
-/** How many there are in a scene of what messages list -> the sizes of messages. */
+/** Lengths of the arrays in a scene's messages -> sizes of messages. */
 #ifndef HDLYAP_EXTENT_H
 #define HDLYAP_EXTENT_H
 
@@ -6,19 +6,19 @@
 #include "node/settings.h"
 #include "topics/topic.h"
 
-/** What the core says of a scene, with the fields that are chosen: `examples` and `pairs` are those
- * of one time, at most. */
+/** Adapts hd_extent of a scene to the choice of fields: `examples` and `pairs` are the most at one
+ * time. */
 hd_extent extent_of(const settings *set, hd_extent of_run);
 
 /** Bytes of a topic's messages, without texts. */
 typedef struct topic_size {
-    double report;   /**< that come with every report */
-    double fields;   /**< and with fields, when these are due */
-    double window;   /**< and with each window of covariant vectors */
-    double messages; /**< that come at one time; 0 stands for 1 */
+    double report;   /**< at each report */
+    double fields;   /**< in addition, when fields are due */
+    double window;   /**< after each window of covariant vectors */
+    double messages; /**< number of messages at one time; 0 stands for 1 */
 } topic_size;
 
-/** By its row. */
+/** The size in the topic's row of rows.inc. */
 topic_size topic_size_of(topic t, const hd_extent *e);
 
 #endif

@@ -39,7 +39,7 @@ static void reconstruct(pair_fields *pairs, const hd_run *run, const hd_step *st
     }
 }
 
-/** A component of a vector of the frame, of so many at each disk. */
+/** One of the `components` of a vector of the frame, for all particles. */
 static hdr_doubles column_of(hd_columns frame, int col, int component, int components, size_t disks)
 {
     const size_t stride = (size_t)frame.stride;
@@ -53,7 +53,7 @@ static void fill_vector(hdr_mode_field *message, const hd_run *run, int col, siz
     message->index = (uint32_t)col + 1;
     message->exponent = hd_spectrum_exponent(hd_run_parts(run).spectrum, col);
     const int coordinates = hd_scene_coordinates(hd_run_scene(run));
-    const bool turns = hd_scene_inertia(hd_run_scene(run)) > 0; /* the last one, in the plane */
+    const bool turns = hd_scene_inertia(hd_run_scene(run)) > 0; /* the last one is an angle */
     hdr_doubles *const dq[] = {&message->dqx, &message->dqy,
                                turns ? &message->dq_angle : &message->dqz};
     hdr_doubles *const dp[] = {&message->dpx, &message->dpy,
@@ -101,7 +101,7 @@ static hd_status publish_vector(const moment *now, int col)
                                    moment_coordinates(now)) *
                           disks;
     const double *q, *p;
-    now->room->taken = 0; /* for each anew */
+    now->room->taken = 0; /* each message uses the buffers anew */
     pair_fields pairs = {.l = moment_take(now, 3 * length, sizeof *pairs.l)};
     if (!pairs.l || !moment_state(now, &q, &p)) return HD_OK;
     hdr_mode_field message = {.sim_time = hd_run_time(now->run), STATE_FIELDS(now, q, p, disks)};

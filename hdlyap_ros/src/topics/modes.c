@@ -1,9 +1,9 @@
-/** What each vector is -> Modes. */
+/** The step and the weights of each vector -> Modes. */
 #include "topics/moment.h"
 
 _Static_assert((int)HD_MODE_LP == (int)HDR_MODE_LP, "kinds as in the core");
 
-/** Weights in the fields of its step. */
+/** Fills the kind, the wave and the weights in the fields of a vector's step. */
 static void fill_kind(hdr_mode *mode, const hd_modes *modes, const hd_step *step, int dimension)
 {
     const int col = (int)mode->index - 1;

@@ -1,10 +1,10 @@
-/** Memory that messages are made in. */
+/** Memory for the arrays of messages. */
 #include "topics/moment.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-/** What was in it is lost. False without memory. */
+/** Makes a block as large as wanted; its contents are lost. Returns false if there is no memory. */
 static bool grow(void **block, size_t *size, size_t wanted)
 {
     if (*block && wanted <= *size) return true;
@@ -29,7 +29,7 @@ void *moment_take(const moment *now, size_t count, size_t size)
     return NULL;
 }
 
-/** Angles and angular velocities, behind the momenta. */
+/** Fills angles and angular velocities, which lie behind the momenta. */
 static void turn(const moment *now, buffers *room, size_t count)
 {
     static const double whole = 6.28318530717958647693;

@@ -1,4 +1,4 @@
-/** What is said of a phase, of LP and of T steps alike. */
+/** The fields of a phase that messages of LP and of T steps share. */
 #ifndef HDLYAP_PHASE_H
 #define HDLYAP_PHASE_H
 
@@ -19,20 +19,21 @@ static inline bool phase_is_resolved(const hd_phase *phase)
     return phase->state != HD_PHASE_UNRESOLVED;
 }
 
-/** Lyapunov index of its vector, from 1; 0 if there is none. */
+/** The Lyapunov index of the phase's vector, from 1; 0 if there is none. */
 static inline uint32_t phase_index(const hd_phase *phase)
 {
     return phase_is_resolved(phase) ? (uint32_t)phase->col + 1 : 0;
 }
 
-/** NaN before it has one. */
+/** The phase; NaN before it has begun. */
 static inline double phase_angle(const hd_phase *phase)
 {
     const bool begun = phase->time > 0 || phase->state == HD_PHASE_TRACKED;
     return phase_is_resolved(phase) && begun ? phase->phase : NAN;
 }
 
-/** False if it has a number that is none: what is not known yet would stand for it. */
+/** Whether the numbers of a phase are finite. If not, the message must not be sent, because NaN
+ * would say that they are not known yet. */
 static inline bool phase_is_finite(const hd_phase *phase)
 {
     return !phase_is_resolved(phase) || isfinite(phase->phase + phase->omega);
@@ -43,7 +44,7 @@ static inline double phase_time(const hd_phase *phase)
     return phase_is_resolved(phase) ? phase->time : 0.0;
 }
 
-/** The fields that both messages have. */
+/** The fields that both messages have, filled. */
 #define PHASE_FIELDS(phase_of, step_of)                                                            \
     .step = (uint32_t)phase_of->step, NODES(step_of->wave), .wave_number = step_of->wave.number,   \
     .modulation = phase_of->modulation, .index = phase_index(phase_of),                            \

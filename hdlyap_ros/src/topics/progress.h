@@ -1,31 +1,31 @@
-/** How far a run is. */
+/** How far a run has got. */
 #ifndef HDLYAP_PROGRESS_H
 #define HDLYAP_PROGRESS_H
 
 #include "hdlyap/run.h"
 
-/** Zero exponents that a step splits: they stand above ln t / t, where the shear of what is
- * conserved would have them, by more than the accuracy asked for. */
+/** Whether a time step splits the zero exponents: the largest is above ln t / t, to which the shear
+ * of conserved quantities would bring it, by more than the accuracy of the scene. */
 typedef struct split_zeros {
     bool are;
-    double exponent, expected; /**< the largest; ln t / t, or the accuracy [1/time unit] */
-    double step, step_wanted;  /**< by which they would stand there, about [time units] */
+    double exponent, expected; /**< the largest; ln t / t or, if more, the accuracy [1/time unit] */
+    double step, step_wanted;  /**< time step; about the one that brings it to expected */
 } split_zeros;
 
-/** What other threads may know of the run: a copy as of its last finished step. */
+/** What other threads may know of the run: a copy made after its last step. */
 typedef struct progress {
     hd_stage stage;
     double time;         /**< simulated time since the start */
-    bool collides;       /**< or what moves tells of none */
-    uint64_t collisions; /**< pairs, since the start */
+    bool collides;       /**< whether the particles have collisions */
+    uint64_t collisions; /**< collisions of pairs since the start */
     hd_cost cost;
-    double averaged;    /**< time; 0 without exponents */
-    int resolved_steps; /**< -1 while nobody looks at them */
+    double averaged;    /**< simulated time of the averages; 0 without exponents */
+    int resolved_steps; /**< number of resolved steps; -1 while they are not computed */
     bool caged;         /**< see hd_run_is_caged */
     split_zeros split;
 } progress;
 
-/** pace: simulated time per wall second at most, which is waited for; 0: none. */
+/** The progress of a run. pace: most simulated time per wall second, 0: no limit. */
 progress progress_of(const hd_run *run, double pace);
 
 #endif

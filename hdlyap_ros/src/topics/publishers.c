@@ -1,4 +1,4 @@
-/** The node's topics out. */
+/** Publishes the node's topics. */
 #include "topics/publishers.h"
 
 #include <math.h>
@@ -7,7 +7,7 @@
 #include <unistd.h>
 
 enum { QUEUE_MIN = 8, QUEUE_MAX = 1000 };
-/** For each subscriber that is behind. */
+/** Memory for the queue of each subscriber that is behind. */
 static const double queue_bytes = 128e6;
 
 typedef hdr_status (*advertise_function)(hdr_publisher **, hdr_node *, const char *, int);
@@ -19,7 +19,7 @@ static const advertise_function advertise[TOPICS] = {
 #undef TOPIC
 };
 
-/** Start, process, seed: no two runs share all three. */
+/** The id is made of start time, process and seed: no two runs share all three. */
 static void run_id_write(char *run_id, size_t size, const char *seed)
 {
     struct timespec now;
@@ -31,7 +31,7 @@ static void run_id_write(char *run_id, size_t size, const char *seed)
     snprintf(run_id, size, "%s.%06ldZ-%ld-%s", date, now.tv_nsec / 1000, (long)getpid(), seed);
 }
 
-/** Messages that a queue may keep. */
+/** How many messages of this many bytes a queue may keep. */
 static int queue_length(double bytes)
 {
     return (int)fmax(QUEUE_MIN, fmin(QUEUE_MAX, queue_bytes / bytes));

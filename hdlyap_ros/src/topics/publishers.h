@@ -1,5 +1,4 @@
-/** The node's topics out: a publisher for each that is asked for, and what messages have in common.
- */
+/** Publishes the node's topics: a publisher for each one of the run, and what messages share. */
 #ifndef HDLYAP_PUBLISHERS_H
 #define HDLYAP_PUBLISHERS_H
 
@@ -8,29 +7,30 @@
 #include "topics/topic.h"
 
 typedef struct publishers {
-    hdr_publisher *publisher[TOPICS]; /**< NULL if not asked for */
-    const char *node;                 /**< name, the node's own */
+    hdr_publisher *publisher[TOPICS]; /**< NULL if the run does not publish the topic */
+    const char *node;                 /**< name of the node */
     char run_id[96];
 } publishers;
 
-/** Advertises a set of topics, with queues for messages of so many bytes. The run's id is made
- * here. HDR_NO_MEMORY, or HDR_FAULT if ROS refuses. */
+/** Advertises a set of topics and makes the run's id. bytes: size of a message of each topic, for
+ * the length of its queue. Fails with HDR_NO_MEMORY, or HDR_FAULT if ROS refuses. */
 HDR_MUST_CHECK hdr_status publishers_advertise(publishers *out, hdr_node *ros, unsigned set,
                                                const double bytes[TOPICS], const char *seed);
 
-/** Set of the topics that have a subscriber now. */
+/** The set of topics that have a subscriber now. */
 unsigned publishers_subscribed(const publishers *out);
 
-/** Of the topic, none of those aside, that has lost most messages, or else whose slowest subscriber
- * is furthest behind; topic "" if there is none. Any thread. */
+/** The lag of the topic that has lost most messages or, if none is lost, whose slowest subscriber
+ * is furthest behind; topic "" if there is none. TOPIC_ASIDE topics do not count. Any thread may
+ * call. */
 hdr_lag publishers_lag(const publishers *out);
 
-/** A header of now. */
+/** A header with the present wall time. */
 hdr_header message_header(void);
 
-/** Sends a message of each topic, with header and run_id. HD_NOT_FINITE, and nothing is sent, if a
- * number of it is not that must be. What ROS refuses is lost with a line in the log; it does not
- * end the run. */
+/** For each topic, a function that fills header and run_id of a message and sends it. It fails with
+ * HD_NOT_FINITE, and sends nothing, if a number is not finite that has to be. If ROS refuses, the
+ * message is lost, with a line in the log, and the run goes on. */
 #define TOPIC(name, type, stages, is, ...)                                                         \
     HD_MUST_CHECK hd_status topic_send_##name(const publishers *to, hdr_##type *message);
 #include "topics/rows.inc"

@@ -1,5 +1,5 @@
-/** The table of topics -> what is published of a run, one loop over its rows for each thing to do.
- * Called by one thread at a time. */
+/** Publishes the topics of a run, by loops over the rows of the table of topics. One thread at a
+ * time may call. */
 #include "topics/report.h"
 
 #include <math.h>
@@ -22,11 +22,11 @@ struct report {
     buffers room;
     kept_of_topics kept;
     subscriber_wait awaited;
-    unsigned demand; /**< set of topics that the step under way is made for */
-    double seconds;  /**< spent here */
+    unsigned demand; /**< set of topics with a subscriber when the step under way began */
+    double seconds;  /**< wall time spent in publishing */
 };
 
-/** -1 while nobody looks at them. */
+/** The number of resolved steps; -1 while they are not computed. */
 static int resolved_steps(const hd_run *run)
 {
     const hd_modes *modes = hd_run_parts(run).modes;
@@ -37,14 +37,15 @@ static int resolved_steps(const hd_run *run)
     return resolved;
 }
 
-/** Wall seconds to the end, by what was spent so far, or by the pace if that takes longer. */
+/** Wall seconds to the end, from the time spent so far, or from the pace if that takes longer. */
 static double remaining_at(const hd_cost *cost, double time, double pace)
 {
     if (!(pace > 0 && cost->progress > 0 && cost->remaining >= 0)) return cost->remaining;
     return fmax(cost->remaining, time * (1.0 / cost->progress - 1.0) / pace);
 }
 
-/** Once errors are known, of vectors that reach them. */
+/** Whether the time step splits the zero exponents. That is known once there are standard errors,
+ * if the vectors reach the zero exponents. */
 static split_zeros split_of(const hd_run *run, const hd_cost *cost)
 {
     const hd_scene_def *scene = hd_run_scene(run);
@@ -126,8 +127,7 @@ bool report_awaited_here(report *rep)
     return subscriber_wait_over(&rep->awaited, &rep->out, rep->set->awaited);
 }
 
-/** The steps have the velocity of the LP phases with them. The table of the log looks at them too.
- */
+/** The message steps needs lp_phases too, for the velocity. The table in the log needs steps. */
 unsigned report_demand(report *rep)
 {
     rep->demand = publishers_subscribed(&rep->out);
@@ -141,8 +141,8 @@ void report_demand_slow(report *rep, hd_run *run)
     slow_vectors_demand(&rep->kept.slow_vectors, &rep->out, rep->set, run);
 }
 
-/** Observables that have someone to listen at a report. Vectors were measured only if someone
- * listened before. */
+/** The observables to publish at a report: those that have a subscriber and, if they need vectors,
+ * had one when the step began, as these were not measured otherwise. */
 static unsigned topics_due(const report *rep, const hd_run *run)
 {
     const hd_modes *modes = hd_run_parts(run).modes;
@@ -178,7 +178,7 @@ static hd_status publish(report *rep, moment *now, unsigned set)
     return status;
 }
 
-/** Cost, if anybody listens, and then status. */
+/** Publishes cost, if anybody listens, and then status. */
 static hd_status publish_progress(report *rep, const progress *last)
 {
     moment now = moment_of(rep, NULL);
@@ -188,7 +188,7 @@ static hd_status publish_progress(report *rep, const progress *last)
     return status == HD_OK ? publish(rep, &now, topic_bit(TOPIC_status)) : status;
 }
 
-/** The last word about a run that has finished is left to report_finish. */
+/** The last cost and status of a run that has finished are left to report_finish. */
 hd_status report_publish(report *rep, const hd_run *run)
 {
     const double start = clock_seconds();

@@ -1,4 +1,4 @@
-/** What is needed to repeat a run -> RunInfo: once, and after a change of parameters. */
+/** What is needed to repeat a run -> RunInfo. Sent once, and after each change of a parameter. */
 #include "topics/moment.h"
 
 #include <stdio.h>
@@ -7,14 +7,14 @@
 #include "hdlyap/hdlyap.h"
 #include "node/parameters.h"
 
-/** Value of a parameter of the scene that has words. */
+/** The word that is the value of a parameter of the scene. */
 static const char *word_of(const char *name, const hd_scene_def *def)
 {
     const parameter p = parameters_named(name);
     return hd_parameter_word_of(p.row, (int)hd_parameter_value(p.row, def));
 }
 
-/** [count] names of a set of topics. */
+/** Fills the names of a set of topics. Returns their number. */
 static uint32_t names_of(const char *names[TOPICS], unsigned set)
 {
     uint32_t count = 0;
@@ -23,7 +23,7 @@ static uint32_t names_of(const char *names[TOPICS], unsigned set)
     return count;
 }
 
-/** Nodes of the wave vectors that are classified; none where nothing needs them. */
+/** Fills the nodes of the wave vectors that are classified; none if no observable needs them. */
 static bool fill_waves(hdr_run_info *info, const moment *now)
 {
     const hd_scene_def *def = &now->set->def;
@@ -41,7 +41,7 @@ static bool fill_waves(hdr_run_info *info, const moment *now)
     return true;
 }
 
-/** Those that have been made. */
+/** Fills the changes that have been made so far. */
 static bool fill_changes(hdr_run_info *info, const moment *now)
 {
     const int count = now->changes->made;
@@ -55,7 +55,7 @@ static bool fill_changes(hdr_run_info *info, const moment *now)
     return list;
 }
 
-/** To the last bit. */
+/** Writes a parameter as name=value, exact to the last bit. */
 static void write_own(char *text, size_t size, const hd_parameter *row, double value)
 {
     const char *word = hd_parameter_is_word(row, value) ? hd_parameter_word_of(row, (int)value)
@@ -66,7 +66,7 @@ static void write_own(char *text, size_t size, const hd_parameter *row, double v
     snprintf(text, size, "%s=%s", row->name, word ? word : digits);
 }
 
-/** Parameters of what moves alone. */
+/** Fills the parameters that only these particles have. */
 static bool fill_own(hdr_run_info *info, const moment *now)
 {
     enum { LENGTH = 80 };
@@ -85,7 +85,7 @@ static bool fill_own(hdr_run_info *info, const moment *now)
     return true;
 }
 
-/** What the scene says. A parameter of it without a field in RunInfo.msg does not compile. */
+/** Fills the parameters of the scene. One that RunInfo.msg lacks does not compile. */
 static void fill_scene(hdr_run_info *info, const settings *set)
 {
     const hd_scene_def *def = &set->def;
@@ -117,10 +117,10 @@ static void fill_scene(hdr_run_info *info, const settings *set)
 #define HD_REAL(name, ...) info->name = def->name;
 #define HD_OTHER(...)
 #include "hdlyap/parameters.inc"
-    if (def->aspect * box[0] != box[1]) info->aspect = box[1] / box[0]; /* not asked for */
+    if (def->aspect * box[0] != box[1]) info->aspect = box[1] / box[0]; /* a circle has its own */
 }
 
-/** Nothing of a box. */
+/** Fills the outline of a curved container; it is empty for a box. */
 static bool fill_outline(hdr_run_info *info, const moment *now)
 {
     double *x = moment_take(now, 2 * HD_OUTLINE, sizeof *x);
@@ -131,7 +131,7 @@ static bool fill_outline(hdr_run_info *info, const moment *now)
     return true;
 }
 
-/** What it runs on. */
+/** Fills the version, ranks, threads and BLAS of the run. */
 static void fill_machine(hdr_run_info *info, const hd_run *run)
 {
     const hd_blas blas = hd_blas_query();

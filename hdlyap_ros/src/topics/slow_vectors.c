@@ -1,4 +1,5 @@
-/** The disks and the slowest vectors, at the time of a step -> SlowVectors. */
+/** The state of particles and the vectors of the smallest positive exponents, after a step ->
+ * SlowVectors. */
 #include "topics/slow_vectors.h"
 
 #include <float.h>
@@ -6,23 +7,24 @@
 
 #include "node/clock.h"
 
-/** A message this old is as good as new for a run that stands still [s]. */
+/** When the run comes to rest, a message at most this old is not sent again [s]. */
 static const double rest_seconds = 1.0;
-/** Of the time between two messages, one may be so early: steps are somewhat shorter than that, and
- * every other one would be too early. On average there are no more than asked for. */
+/** A message may be early by this part of the time between two. Steps are somewhat shorter than
+ * that time, so otherwise only every other step would send one. On average there are no more
+ * messages than slow_vectors_rate says. */
 static const double early = 0.5;
 
-/** What is said of each vector, [vectors] each unless said otherwise. */
+/** The arrays of a message; [vectors] each unless another length is given. */
 typedef struct vector_arrays {
-    size_t directions, coordinates;    /**< of the space, of a particle */
-    size_t pairs_most;                 /**< of a step */
+    size_t directions, coordinates;    /**< of space; of a particle */
+    size_t pairs_most;                 /**< most pairs of a step */
     double *exponents, *a, *b;         /**< [vectors], [pairs_most * vectors] twice */
     uint32_t *nodes[HD_DIMENSION_MAX]; /**< nx, ny, .. */
     uint8_t *kind, *pairs;
-    double *dq; /**< dqx of all vectors, then dqy, .., of each coordinate */
+    double *dq; /**< dqx of all vectors, then dqy and so on for each coordinate */
 } vector_arrays;
 
-/** False without memory. */
+/** Takes memory for `count` vectors, of which `known` have dq. Returns false if there is none. */
 static bool arrays_take(vector_arrays *of, const moment *now, size_t count, size_t known)
 {
     const size_t disks = (size_t)now->set->def.number;
@@ -41,7 +43,7 @@ static bool arrays_take(vector_arrays *of, const moment *now, size_t count, size
     return true;
 }
 
-/** Columns of positive exponent are before it. */
+/** The column after the last one with a positive exponent. */
 static int end_of(const hd_run *run)
 {
     const int positive = hd_scene_counts(hd_run_scene(run)).positive;
@@ -51,14 +53,14 @@ static int end_of(const hd_run *run)
 
 /* ---- which vectors ------------------------------------------------------------------------- */
 
-/** Column that stands for the lowest step of a kind; `end` while none is found. */
+/** The column of the lowest step's example, for a kind; `end` if no step is resolved. */
 static int lowest_of(const hd_steps *steps, hd_mode_kind kind, int end)
 {
     const int lowest = hd_steps_lowest(steps, kind);
     return lowest < 0 ? end : hd_steps_example(steps, lowest);
 }
 
-/** Column of the first vector of a message; that of the end if there is none. */
+/** The column of the first vector in a message; the end if there is none. */
 static int first_of(const settings *set, const hd_run *run)
 {
     const hd_steps *steps = hd_run_parts(run).steps;
@@ -83,8 +85,7 @@ void slow_vectors_demand(slow_vectors_pace *pace, const publishers *out, const s
     hd_run_watch(run, watched ? between : INFINITY, first < end ? first : hd_run_vectors(run));
 }
 
-/** True if the vectors from a column on are known, of those up to the end: a step may end
- * elsewhere. */
+/** Whether the vectors from a column on are known. They are not if a step ended too early. */
 static bool is_known(hd_columns known, int first, int end)
 {
     return first < end && known.count > 0 && known.first <= first;
@@ -113,7 +114,7 @@ static void fill_step(vector_arrays *of, int k, const hd_parts *parts, int col, 
     }
 }
 
-/** Row-major columns -> vector by vector. */
+/** Copies dq from the rows of the frame to one array after the other for each vector. */
 static void fill_dq(vector_arrays *of, hd_columns known, int first, size_t vectors, size_t disks)
 {
     const size_t stride = (size_t)known.stride, rows = 2 * of->coordinates;
@@ -125,7 +126,7 @@ static void fill_dq(vector_arrays *of, hd_columns known, int first, size_t vecto
     }
 }
 
-/** False without memory. */
+/** Fills what the message says of vectors. Returns false if there is no memory. */
 static bool fill_vectors(hdr_slow_vectors *message, const moment *now)
 {
     const hd_run *run = now->run;

@@ -38,7 +38,8 @@ static hdr_step step_of(const hd_steps *steps, int s)
     return out;
 }
 
-/** NULL: no phases are followed. False if the rate is none. */
+/** Fills the rate of a step's phases; phases is NULL if none are followed. Returns false if the
+ * rate is not finite. */
 static bool fill_rate(hdr_step *out, const hd_phases *phases, int step)
 {
     double omega, error;

@@ -1,4 +1,4 @@
-/** Structure factors -> Structure: rows without what pads them. */
+/** Structure factors -> Structure. Rows lose their padding. */
 #include "topics/moment.h"
 
 #include <string.h>

@@ -1,17 +1,18 @@
-/** One subscriber of each topic is not enough: of those that come at the same time, one is
- * connected first, and a recorder would miss what is published before it is. */
+/** Waiting for one subscriber of each topic is not enough: if several come at the same time,
+ * another one may be connected first, and a recorder would miss what is published before it is
+ * connected. */
 #include "topics/subscriber_wait.h"
 
 #include <math.h>
 
 #include "node/clock.h"
 
-/** How long those who have subscribed are waited for, once each topic has its first one [s]. */
+/** Once each topic has a subscriber, the run waits this long for others who have subscribed [s]. */
 static const double patience_seconds = 3.0;
-/** Between two questions to the master [s]: who subscribes to several topics has done so meanwhile.
- */
+/** Time between two questions to the master [s]. A node that subscribes to several topics does so
+ * in this time. */
 static const double ask_seconds = 0.1;
-/** Between two lines that say who is waited for [s]. */
+/** Time between two lines that say for which subscribers the run waits [s]. */
 static const double say_seconds = 10.0;
 
 static bool is_missed(const publishers *out, topic t, const int registered[TOPICS])
@@ -38,14 +39,14 @@ static void warn(const publishers *out, unsigned set, const int registered[TOPIC
                 patience_seconds);
 }
 
-/** Each topic has a subscriber. Complete twice in succession: who has subscribed to one topic may
- * be about to subscribe to the next. */
+/** Whether all subscribers are connected, once each topic has one. They have to be so at two
+ * questions in succession, because a node may be about to subscribe to its next topic. */
 static bool all_connected(subscriber_wait *a, const publishers *out, unsigned awaited)
 {
     int registered[TOPICS];
     const double left = fmax(a->until - clock_seconds(), ask_seconds);
     if (hdr_publishers_registered(registered, out->publisher, TOPICS, left) != HDR_OK) {
-        if (hdr_stop_requested()) return false; /* that is why: it does not start */
+        if (hdr_stop_requested()) return false; /* the run does not start, so it needs no warning */
         hdr_log(HDR_WARN, "the run starts with the subscribers connected now: %s",
                 hdr_error_text());
         return true;
@@ -57,7 +58,8 @@ static bool all_connected(subscriber_wait *a, const publishers *out, unsigned aw
     return late || (was_complete && a->complete);
 }
 
-/** Each by its full name: who listens to another node is seen at once. */
+/** Says for which topics the run waits, by their full names, which show at once if somebody listens
+ * to another node. */
 static void say(subscriber_wait *a, const publishers *out, unsigned missing, double now)
 {
     char names[256] = "";

@@ -1,4 +1,4 @@
-/** Where the T modes stand, and how they diffuse -> TPhases. */
+/** Phases of the T modes, and how these diffuse -> TPhases. */
 #include "topics/moment.h"
 #include "topics/phase.h"
 

@@ -1,4 +1,4 @@
-/** The node's own topics. */
+/** The topics of the node. */
 #include "topics/topic.h"
 
 #include <stdio.h>

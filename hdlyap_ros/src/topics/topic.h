@@ -1,4 +1,4 @@
-/** The node's own topics, whose rows stand in rows.inc: their numbers, names and sets. */
+/** The topics of the node, whose rows are in rows.inc: their numbers, names and sets. */
 #ifndef HDLYAP_TOPIC_H
 #define HDLYAP_TOPIC_H
 
@@ -6,16 +6,16 @@
 
 #include "hdlyap/scene.h"
 
-/** What a topic is: a set, of which the first three exclude each other. */
+/** Properties of a topic, as a set. The first three exclude each other. */
 enum {
-    TOPIC_ALWAYS = 1,     /**< there whatever is asked for */
-    TOPIC_OBSERVABLE = 2, /**< one of `observables` */
-    TOPIC_ASIDE = 4, /**< for who looks on: its last message alone, neither awaited nor recorded */
+    TOPIC_ALWAYS = 1,     /**< every run publishes it */
+    TOPIC_OBSERVABLE = 2, /**< it is one of the parameter `observables` */
+    TOPIC_ASIDE = 4,      /**< for viewers: queue of one; no run waits for it, no bag records it */
     TOPIC_LATCHED = 8,
-    TOPIC_OF_VECTORS = 16, /**< not without exponents */
+    TOPIC_OF_VECTORS = 16, /**< it needs exponents */
     TOPIC_OF_WINDOWS = 32, /**< published when a window of covariant vectors has ended */
-    TOPIC_OF_STEPS = 64, /**< tells nothing unless steps are carried, nor before modes are known */
-    TOPIC_OF_BOX = 128   /**< of positions in a box, itself: others are by their stages */
+    TOPIC_OF_STEPS = 64,   /**< it is about steps; nothing is published before modes are measured */
+    TOPIC_OF_BOX = 128 /**< has positions in a box; topics whose stages need a box lack this bit */
 };
 
 typedef enum topic {
@@ -25,33 +25,34 @@ typedef enum topic {
     TOPICS
 } topic;
 
-/** In a set of awaited topics: whatever the others are */
+/** The value of `awaited` that stands for all topics of the run. */
 enum { ALL_PUBLISHED = 1u << TOPICS };
 
-/** As in `observables` and `wait_for_subscribers`; the topic is "~" and this. */
+/** The name as in `observables` and `wait_for_subscribers`; the topic is "~" and this. */
 const char *topic_name(topic t);
 
-/** Bit of a topic in a set. */
+/** The bit of a topic in a set. */
 static inline unsigned topic_bit(topic t) { return 1u << t; }
 
-/** The set's bit for a name; 0 if there is no such topic. */
+/** The bit of the topic with this name; 0 if there is none. */
 unsigned topic_bit_of(const char *name);
 
-/** The set of a list of names, with commas between them, and the other way round. */
+/** A list of names with commas between them -> a set, and the other way round. */
 unsigned topics_named(const char *list);
 void topic_names(char *text, size_t size, unsigned set);
 
-/** Topics that are one of these. */
+/** The set of topics that have one of these properties. */
 unsigned topics_that_are(unsigned any);
 
-/** Observables behind which one of these stages stands. */
+/** The set of observables that need one of these stages. */
 unsigned topics_of_stages(unsigned stages);
 
-/** Observables that there are of such particles: without a box none of positions in it, nor of what
- * is computed from them. */
+/** The set of observables that such particles have. Without a box they have none of positions in it
+ * or computed from these. */
 unsigned topics_of_particles(const hd_dynamics *of);
 
-/** Stages of the core (HD_OBSERVE_*) behind a set of topics; what these need comes by itself. */
+/** The stages of the core (HD_OBSERVE_*) that a set of topics needs; the core adds the stages that
+ * these need. */
 unsigned topic_stages(unsigned set);
 
 #endif
