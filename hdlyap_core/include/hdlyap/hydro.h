@@ -1,5 +1,5 @@
 /** Linear response of the Fourier sums of density, momentum and energy to a Lyapunov vector [T15].
- * Several threads may read one at once while its run is not called. */
+ * Several threads may read one hd_hydro at once while none calls its run. */
 #ifndef HDLYAP_HYDRO_H
 #define HDLYAP_HYDRO_H
 
@@ -7,22 +7,24 @@
 
 HD_API_BEGIN
 
-/** Response of sums over the disks to one normalised vector (|dq|^2 + |dp|^2 = 1), at one
- * modulation A of its step's wave vector, over sqrt(N/2): density, of sum A, over k; momentum
- * along, of sum p.grad A, over k, and across, of sum p.curl A', over k, A' being A with sines along
- * reflecting directions (0 where n is 0 there), of spheres of sum p.F of both transverse fields F
- * of A [T22], of unit e; energy, of sum p^2 A. */
+/** How sums over the particles change, to first order, when the state is displaced along a vector
+ * with |dq|^2 + |dp|^2 = 1; A is one modulation of its step's wave. All are divided by sqrt(N/2). */
 typedef struct hd_hydro_response {
     int step, col;
-    unsigned char modulation; /**< HD_SIN_X | HD_SIN_Y */
-    double density, along, across, energy;
-    double across_second; /**< of spheres, else 0 */
+    unsigned char modulation; /**< A, as in hdlyap/wave.h */
+    double density;           /**< of sum A, divided by k */
+    double along;             /**< of sum p . grad A, divided by k */
+    double across; /**< of sum p . F, divided by k: F = curl A with sines along reflecting directions
+                      (0 where the mode number is 0); in space the first T field of A, of unit e
+                      instead of k [T22] */
+    double energy; /**< of sum p^2 A */
+    double across_second; /**< as across, with the second T field of A; 0 in the plane */
 } hd_hydro_response;
 
 typedef struct hd_hydro hd_hydro;
 
-/** expected multiplicity x modulations of each step, in their order; constant. col is -1 where
- * there is none. */
+/** Number of responses, which is constant: expected multiplicity times modulations of each step, in
+ * the order of the steps. col is -1 where no vector was found. */
 int hd_hydro_count(const hd_hydro *hydro);
 const hd_hydro_response *hd_hydro_at(const hd_hydro *hydro, int index);
 

@@ -1,5 +1,5 @@
-/** Lyapunov exponents with standard errors that see the correlation time. One thread at a time, to
- * read as well: there is a workspace in it. */
+/** Lyapunov exponents, with standard errors that account for correlations in time. All functions,
+ * those that read too, use one workspace: one thread at a time. */
 #ifndef HDLYAP_SPECTRUM_H
 #define HDLYAP_SPECTRUM_H
 
@@ -9,24 +9,23 @@ HD_API_BEGIN
 
 typedef struct hd_spectrum hd_spectrum;
 
-double hd_spectrum_time(const hd_spectrum *spectrum); /**< averaged time */
+double hd_spectrum_time(const hd_spectrum *spectrum); /**< length of the averaging [time units] */
 double hd_spectrum_exponent(const hd_spectrum *spectrum,
-                            int col); /**< running mean of ln R_ll / t */
-/** Standard error of the mean, from blocks that are joined while they remember each other [T8];
- * negative while it cannot be known: fewer than HD_SPECTRUM_BLOCKS_MIN blocks, or a memory that is
- * as long as they are. It is itself known to 7-10 % from 48 blocks on, to 18 % from 16. O(blocks).
- */
+                            int col); /**< mean growth rate, sum of ln R_ll / time [1/time unit] */
+/** Standard error of an exponent, from blocks that are joined until they are independent [T8].
+ * Negative while it is not known: there are fewer than HD_SPECTRUM_BLOCKS_MIN blocks, or they are
+ * not longer than the correlation time. Its own relative error is 7-10 % from 48 blocks on, 18 %
+ * with 16. O(blocks). */
 double hd_spectrum_std_error(const hd_spectrum *spectrum, int col);
-/** Mean over the samples that have ended since the last report (or since the averaging
- * began), NaN if none has. */
+/** Mean growth rate in the samples that ended since the last report; NaN if none did. */
 double hd_spectrum_local(const hd_spectrum *spectrum, int col);
 
 typedef struct hd_spectrum_sums {
-    double local_time;       /**< averaged time of hd_spectrum_local; 0 without any */
-    double ks_entropy;       /**< sum of the positive exponents carried */
+    double local_time;       /**< length of the samples of hd_spectrum_local; 0 if there are none */
+    double ks_entropy;       /**< sum of the positive exponents that are computed */
     double ks_entropy_error; /**< its standard error; negative if not yet known */
-    /** max over pairs of |lambda_l + lambda_(4N+1-l)|; negative unless there are all 4N. Zero by
-     * construction where half of them follow from the others [T18]. */
+    /** Largest |lambda_l + lambda_m| of conjugate exponents; negative unless all are computed. 0 by
+     * construction if half of them follow from the others [T18]. */
     double pairing_error;
 } hd_spectrum_sums;
 hd_spectrum_sums hd_spectrum_sum_up(const hd_spectrum *spectrum); /**< O(n blocks) */

@@ -1,5 +1,6 @@
-/** Degenerate sets of exponents with the waves that they belong to, and the dispersion relation
- * [T12]. One thread at a time, to read as well: there is a workspace in it. */
+/** The steps of the spectrum, and the dispersion relation fitted to them [T12]. A step is a set of
+ * equal exponents whose vectors are waves of one kind and one wave vector. All functions, those
+ * that read too, use one workspace: one thread at a time. */
 #ifndef HDLYAP_STEPS_H
 #define HDLYAP_STEPS_H
 
@@ -8,113 +9,110 @@
 
 HD_API_BEGIN
 
-/** Of a step with others in one set: do their exponents coincide, or do vectors mix that differ? */
+/** Whether the exponents of several steps that share one set of vectors coincide, or differ although
+ * their vectors are mixed. */
 typedef enum hd_sharing {
-    HD_SHARING_ALONE,   /**< it has its set for itself, or is not resolved */
-    HD_SHARING_UNKNOWN, /**< standard errors are not yet known, or too large to tell */
-    HD_SHARING_MIXING,  /**< exponents differ, vectors have not had the time to part */
-    HD_SHARING_BLENDED, /**< exponents differ, vectors have had the time and mix all the same: their
-                             growth fluctuates by more than it differs */
-    /** An exponent next to it is the same within three standard errors, at most 3 % of it */
-    HD_SHARING_COINCIDENT
+    HD_SHARING_ALONE,   /**< the step has a set of its own, or is not resolved */
+    HD_SHARING_UNKNOWN, /**< standard errors are unknown, or too large to tell */
+    HD_SHARING_MIXING,  /**< exponents differ, but the vectors have not yet separated */
+    HD_SHARING_BLENDED, /**< exponents differ, but their fluctuations exceed the gap, so the vectors
+                             stay mixed */
+    HD_SHARING_COINCIDENT /**< exponents are equal within three standard errors, at most 3 % */
 } hd_sharing;
 
-/** One kind of field at one wave vector, with the vectors that were found for it; or the zero
+/** The fields of one kind at one wave vector, and the exponents that belong to them; or the zero
  * modes. */
 typedef struct hd_step {
     hd_mode_kind kind; /**< HD_MODE_T, HD_MODE_LP or HD_MODE_ZERO */
-    hd_wave wave;      /**< zero for the zero modes */
-    int subspace;      /**< of hd_fields; -1 for the zero modes */
-    int expected;      /**< multiplicity that the boundaries prescribe */
-    bool conjugate;    /**< of the negative half of the spectrum */
-    bool resolved;     /**< what follows is zero (col -1) unless it is true */
-    int col, count;    /**< the vectors of its set: columns [col, col + count) */
-    int set, members; /**< number of the set, and of the steps that share it: 1, or more where steps
-                               coincide and only the common subspace has a meaning */
-    double multiplicity; /**< measured: trace of the projection onto its fields over its set */
-    double exponent;  /**< mean over the set, each vector by its share in this step [1/time unit] */
-    double std_error; /**< of it; negative if not yet known */
-    /** Of the set: its steps, in the order of their exponents, each have columns of their own. */
-    hd_sharing sharing;
-    double set_time; /**< averaged time since the set has had these members [time units] */
-    double own_part; /**< of the step's weight in its set, in its own columns: 1 if alone, its part
-                        of the set's columns if all are mixed */
-    double gap; /**< of the mean exponents of its own columns and those next to them; 0 if alone */
-    double gap_error; /**< of it; negative if not yet known, 0 if alone */
+    hd_wave wave;      /**< all 0 for the zero modes */
+    int subspace;      /**< number of its fields in hd_fields; -1 for the zero modes */
+    int expected;      /**< number of equal exponents that the boundaries imply */
+    bool conjugate;    /**< true in the negative half of the spectrum */
+    bool resolved;     /**< true if its vectors were found; otherwise all below is 0, col and set -1 */
+    int col, count;    /**< its set of vectors: columns [col, col + count) */
+    int set, members;  /**< number of the set, and how many steps share it */
+    double multiplicity; /**< sum of the weights of the set's vectors in the step's fields, 0 ..
+                            expected */
+    double exponent;  /**< mean over the set, weighted by each vector's share in this step [1/time
+                         unit] */
+    double std_error; /**< standard error of exponent; negative if not yet known */
+    /* Ordered by exponent, each step that shares the set has columns of its own in it. */
+    hd_sharing sharing; /**< do the steps of the set coincide? */
+    double set_time;    /**< averaged time since when the same steps share the set [time units] */
+    double own_part; /**< fraction of the step's weight in the set that is in the step's own columns:
+                        1 without mixing */
+    double gap; /**< difference between the mean exponents of the step's own columns and of the
+                   nearest step's; 0 if it is alone [1/time unit] */
+    double gap_error; /**< standard error of gap; negative if not yet known, 0 if it is alone */
 } hd_step;
 
-/** What long boxes at all densities say of lambda(k) = c k + c2 k^2 + c3 k^3 in any box [T12]. All
- * NaN where steps follow no relation: LP in a circle. */
+/** What long boxes have shown about lambda(k) = c k + c2 k^2 + c3 k^3 at the density of a scene
+ * [T12]. All NaN if steps follow no such relation: LP in a circle. */
 typedef struct hd_relation {
-    double c2, c2_error; /**< of c2 / c, its standard error as an estimate [sigma] */
-    double c3, c3_error; /**< of c3 / c [sigma^2] */
-    double box_error;    /**< by which narrow edges and walls may move c, as a part of it */
-    double scatter; /**< of a well resolved step about the relation, as a part of its exponent */
+    double c2, c2_error; /**< c2 / c and its standard error [sigma] */
+    double c3, c3_error; /**< c3 / c and its standard error [sigma^2] */
+    double box_error;    /**< relative error of c due to narrow edges and walls of this box */
+    double scatter;      /**< relative model error of the exponent of a well resolved step */
 } hd_relation;
-/** What c of such a box is left open by, however long it is averaged, as a part of it: from its
- * longest wave of this kind, well resolved; INFINITY if the scene asks for none, or they follow no
- * relation. */
+/** Relative error of c that remains in the scene's box at any averaged time, from its longest wave
+ * of a kind; INFINITY if the scene has no such wave, or steps follow no relation. */
 double hd_relation_open(const hd_scene_def *def, hd_mode_kind kind);
 
-/** Fewest exponents of which one may belong to a step of the waves that the scene asks for, 0 if it
- * asks for none: each field of a wave in the box that can have a smaller exponent is a vector below
- * it. All of them are within hd_counts.positive. */
+/** Smallest number of exponents in a scene that can reach a step of its waves; 0 if it asks for no
+ * waves. Each field in the box with a smaller exponent is a vector below that step. */
 int hd_steps_exponents_least(const hd_scene_def *def);
 
-/** The error is a standard error with all that the form of the relation leaves open, times the
- * misfit if that is above 1; negative if not yet known. */
+/** A fitted coefficient. Its error contains what the form of the relation leaves open, and is
+ * multiplied by the misfit if that is above 1; negative if not yet known. */
 typedef struct hd_coefficient {
     double value, error;
 } hd_coefficient;
 
-/** lambda = c k + c2 k^2 + c3 k^3, least squares over the resolved steps, with c2 / c and c3 / c of
- * long boxes as two more observations: one formula for one wave number and for many. Each step
- * weighs by its standard error and its scatter. c is that of waves longer than the box. */
+/** The fit lambda = c k + c2 k^2 + c3 k^3 to the resolved steps of one kind by least squares, with
+ * c2 / c and c3 / c of long boxes as two more observations. The weight of a step follows from its
+ * standard error and its scatter. c is the slope of infinitely long waves. */
 typedef struct hd_dispersion {
-    int points;          /**< distinct wave numbers; 0: no fit, all below is 0 or unknown. None
-                            where steps follow no relation */
-    double k_min, k_max; /**< smallest and largest wave number; 0 without one [1/sigma] */
-    double prior_share;  /**< of c2 and c3, the part that long boxes say: 1 from one wave number,
-                            towards 0 where the steps tell them by themselves */
+    int points;          /**< distinct wave numbers; 0: no fit, all below is 0 or unknown */
+    double k_min, k_max; /**< smallest and largest wave number; 0 without a fit [1/sigma] */
+    double prior_share;  /**< share of c2 and c3 that comes from long boxes instead of this run: 1
+                            for a single wave number, near 0 if the steps determine them */
     hd_coefficient c;    /**< [sigma/time unit] */
-    double c_sampling_error; /**< of its error, what another run of the same box may differ by */
+    double c_sampling_error; /**< part of the error of c by which another run of this box may differ;
+                                negative if not yet known */
     hd_coefficient c2;       /**< [sigma^2/time unit] */
     hd_coefficient c3;       /**< [sigma^3/time unit] */
-    const hd_relation *in_long_boxes; /**< what it stands on beside the steps */
-    double misfit; /**< root mean square deviation of the steps from the relation, per degree of
-                      freedom, in units of error and scatter of a step; negative of a single step or
-                      if errors are not known. Far above 1: the relation does not hold so far, and
-                      the errors of c, c2 and c3 have grown with it */
+    const hd_relation *in_long_boxes; /**< the two more observations */
+    double misfit; /**< sqrt(chi^2 / degrees of freedom): far above 1 if the steps do not follow the
+                      relation; negative for a single step or without errors */
 } hd_dispersion;
 
 typedef struct hd_steps hd_steps;
-/** A step is resolved if at least this part of its expected multiplicity is found, beyond what
- * random vectors would show. */
+/** A step is resolved if this fraction of its expected multiplicity is found, beyond that of random
+ * vectors. */
 #define HD_STEPS_THRESHOLD 0.5
 
-/** Steps of all subspaces in their order, the zero modes, and with all 4N vectors the conjugate
- * steps in the same order; resolved or not: the number is constant. */
+/** Number of steps, resolved or not, which is constant: first one for each subspace of hd_fields,
+ * then the zero modes, then, if all exponents are computed, the conjugate steps. */
 int hd_steps_count(const hd_steps *steps);
 const hd_step *hd_steps_step(const hd_steps *steps, int index);
 
-/** Step to which a vector belongs: the one of its set with the largest average weight; -1 if none:
- * outside all sets, or with less than that part of it in its set. */
+/** The step to which a vector belongs: of those that share its set, the one in which its mean weight
+ * is largest. -1 if it is in no set, or its weight there is below the threshold. */
 int hd_steps_of_vector(const hd_steps *steps, int col);
-/** Column that stands for a resolved step: the first of its set that belongs to the step itself,
- * else the first one. */
+/** A column that represents a resolved step: the first one of its set that belongs to the step, or
+ * the first one. */
 int hd_steps_example(const hd_steps *steps, int index);
-/** True of resolved steps of the positive half without the zero modes, and of those that share a
- * set of the first alone: whose examples show all that was found. */
+/** True for the resolved T and LP steps of positive exponents; if several share a set, for the first
+ * of them only. Their examples together show every set. */
 bool hd_steps_is_shown(const hd_steps *steps, int index);
-/** The resolved step of the positive half with the smallest exponent of a kind; -1 if there is
- * none.
- */
+/** The resolved step of a kind with the smallest positive exponent; -1 if there is none. */
 int hd_steps_lowest(const hd_steps *steps, hd_mode_kind kind);
-/** By which a resolved T or LP step may stray from the relation, as a part of its exponent: more if
- * multiplicity is missing, or weight lies in the columns of other steps. NaN without a relation. */
+/** Relative model error of the exponent of a resolved T or LP step: it grows if multiplicity is
+ * missing, or weight is in columns of other steps. NaN if steps follow no relation. */
 double hd_steps_scatter(const hd_steps *steps, const hd_step *step);
 
-/** Of the steps found with this spectrum. kind: HD_MODE_T or HD_MODE_LP. */
+/** Fits the steps of a kind, HD_MODE_T or HD_MODE_LP; they must have been found with this spectrum.
+ */
 hd_dispersion hd_steps_dispersion(const hd_steps *steps, const hd_spectrum *spectrum,
                                   hd_mode_kind kind);
 
