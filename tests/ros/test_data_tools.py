@@ -3,6 +3,7 @@ harm."""
 
 import json
 import os
+import re
 import sys
 import unittest
 import xmlrpc.client
@@ -16,6 +17,8 @@ from matplotlib.figure import Figure
 from matplotlib.image import imread
 
 import hdlyap
+from hdlyap.commands import fit
+from hdlyap.data import reader
 from hdlyap.msg import Structure
 from std_msgs.msg import String
 import made
@@ -335,7 +338,7 @@ class Hostile(Tools):
 
         for fault, said in (
             (lambda _: [][0], 'what is recorded makes no sense here, or hdlyap has a fault: Index'),
-            (missing_attribute, 'a fault of hdlyap, not of what is recorded: AttributeError: '),
+            (missing_attribute, 'a fault of hdlyap, not of what it reads: AttributeError: '),
             (draughtsman, 'cannot be drawn: ValueError: figure size must be positive'),
             (nobody, r'a node or the ROS master has not answered: \[Errno 111\] Connection refused'),
             (too_large, 'needs more memory than there is: MemoryError'),
@@ -344,6 +347,27 @@ class Hostile(Tools):
                 done = self.check('compare', bag, bag)
             self.assertEqual(done.status, 2)
             self.assertRegex(done.error, r'\Ahdlyap compare: ' + said)
+
+    def test_fit_can_disagree(self):
+        """Of steps on its curve the misfit is 0; of one that is five errors off it is not."""
+        info = made.run_info()
+        nodes = ((1, 0, 36, 37), (1, 1, 32, 35), (2, 0, 30, 31), (2, 1, 26, 29))
+        found = [made.step(info, T, *one) for one in nodes]
+        self.assertRegex(fit.line(made.steps(found)), r'c_T = 1.4000 .* over 4 k, misfit 0.0, node')
+        found[1].exponent += 5 * found[1].std_error
+        (misfit,) = re.findall('over 4 k, misfit (.*), node', fit.line(made.steps(found)))
+        self.assertGreater(float(misfit), 2.5)
+
+    def test_of_a_bag_that_is_open(self):
+        """As replay has it while it talks to a master: what is not the bag's stays as it is."""
+        bag, master = self.write(made.small_run()), xmlrpc.client.ServerProxy('http://localhost:1')
+        with self.assertRaises(ConnectionRefusedError), reader.opened(bag):
+            master.getPid()
+        with mock.patch('hdlyap.data.reader.space', None), self.assertRaises(AttributeError):
+            hdlyap.load(bag)
+        for odd in (KeyError('op'), PermissionError(13, 'Permission denied'), AttributeError('x')):
+            with self.assertRaisesRegex(reader.RecordingError, '^' + bag), reader.opened(bag):
+                raise odd
 
     def test_matplotlibrc_of_the_user(self):
         """Figures are as without it, whatever latex or backend there is not."""

@@ -150,14 +150,15 @@ class Beside(Examples):
             ):
                 own = re.search(
                     name + r' = (\S+) \+- (\S+) by (c k|c k \+ c2 k\^2) over (\d+) k, '
-                    r'node: (\S+) \+- ([^\s;]+)',
+                    r'(?:misfit (\S+), )?node: (\S+) \+- ([^\s;]+)',
                     line,
                 )
                 if own is None:
                     self.assertIn(name + ': not yet', line)
                     continue
-                wanted = self.fit(message.steps, kind)
-                numbers = [float(own.group(place)) for place in (1, 2, 5, 6)]
+                *wanted, misfit = self.fit(message.steps, kind)
+                self.assertEqual(own.group(5), misfit and f'{misfit:.1f}')
+                numbers = [float(own.group(place)) for place in (1, 2, 6, 7)]
                 self.assertEqual(own.group(3), 'c k + c2 k^2' if int(own.group(4)) > 1 else 'c k')
                 np.testing.assert_allclose(numbers, [*wanted, c, error], rtol=0, atol=PRINTED)
                 fitted += 1
@@ -165,15 +166,16 @@ class Beside(Examples):
 
     @staticmethod
     def fit(steps, kind):
-        """c and its error, by numpy's own weighted fit of lambda / k, which is c + c2 k."""
+        """c, its error and the misfit, by numpy's own weighted fit of lambda / k, which is c +
+        c2 k."""
         some = [s for s in steps if s.kind == kind and s.resolved and s.std_error > 0]
         k, exponent, error = np.array([(s.wave_number, s.exponent, s.std_error) for s in some]).T
         degree = 1 if len(some) > 1 else 0
         line, covariance = np.polyfit(k, exponent / k, degree, w=k / error, cov='unscaled')
         off = (exponent / k - np.polyval(line, k)) * k / error
         freedom = len(some) - degree - 1
-        scatter = max(1.0, np.sqrt(np.sum(off**2) / freedom)) if freedom else 1.0
-        return line[-1], scatter * np.sqrt(covariance[-1, -1])
+        misfit = np.sqrt(np.sum(off**2) / freedom) if freedom else None
+        return line[-1], max(1.0, misfit or 0) * np.sqrt(covariance[-1, -1]), misfit
 
 
 class Alone(Examples):

@@ -9,19 +9,12 @@ import os
 import pkgutil
 import signal
 import sys
-import traceback
 import warnings
 
 from hdlyap import signals
+from hdlyap.fault import OURS, described, whose
 
 PROGRAM = 'hdlyap'
-# what no bag makes of a program that is right
-OURS = AttributeError, TypeError, NameError, ImportError, AssertionError, NotImplementedError
-# who else may have failed, by the packages on the way to it
-OTHERS = {
-    'matplotlib': 'cannot be drawn',
-    'rospy rosgraph roslaunch xmlrpc http': 'a node or the ROS master has not answered',
-}
 
 
 def main(words):
@@ -97,26 +90,13 @@ def _ended(name, module, args):
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 128 + signal.SIGPIPE
     except (RecordingError, OSError) as error:
-        text = f'{_whose(error)}: {error}' if isinstance(error, ConnectionError) else str(error)
+        nobody = whose(error) if isinstance(error, ConnectionError) else None
+        text = f'{nobody}: {error}' if nobody else str(error)
     except Exception as error:  # what no check has foreseen: a bag may say anything
-        if fault is None:
+        said = whose(error)
+        if fault is None and (said is None or isinstance(error, OURS)):
             raise
-        place = traceback.extract_tb(error.__traceback__)[-1]
-        where = f'{os.path.basename(place.filename)}, line {place.lineno}'
-        text = f'{_whose(error)}: {type(error).__name__}: {error} ({where})'
+        text = f'{said or "what is recorded makes no sense here, or hdlyap has a fault"}: '
+        text += described(error)
     print(f'{PROGRAM} {name}: {plain(text, 8192)}', file=sys.stderr)
     return fault or 1
-
-
-def _whose(error):
-    """Who is to blame: a bag only for what a bag can do."""
-    if isinstance(error, OURS):
-        return 'a fault of hdlyap, not of what is recorded'
-    if isinstance(error, MemoryError):
-        return 'needs more memory than there is'
-    frames = traceback.extract_tb(error.__traceback__)
-    passed = {part for frame in frames for part in frame.filename.split(os.sep)[:-1]}
-    for packages, said in OTHERS.items():
-        if passed & set(packages.split()):
-            return said
-    return 'what is recorded makes no sense here, or hdlyap has a fault'

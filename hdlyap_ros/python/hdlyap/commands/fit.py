@@ -1,7 +1,8 @@
 """The dispersion relation of a running node, fitted beside what the node says.
 
 lambda = c k + c2 k^2 of its T and of its LP steps, by least squares alone: the node knows the
-curvature of long boxes, too. An example of an analysis in Python."""
+curvature of long boxes, too. A misfit, the root of chi^2 over its freedom, far above 1 says that
+the steps do not follow the relation. An example of an analysis in Python."""
 
 import sys
 import threading
@@ -28,7 +29,7 @@ def describe(own, node):
     if min(fit.values[0][2] if fit.count else -1.0 for fit in (own, node)) <= 0:
         return f'{own.symbol}: not yet'
     values = [f'{c:.4f} +- {error:.4f}' for _, c, error in (own.values[0], node.values[0])]
-    return f'{own.symbol} = {values[0]} by {own.form} over {own.count} k, node: {values[1]}'
+    return f'{own.symbol} = {values[0]} by {own.form} over {own.count} k{own.beside}, node: {values[1]}'
 
 
 class Newest:

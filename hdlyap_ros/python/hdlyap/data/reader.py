@@ -11,11 +11,12 @@ import struct
 
 import rosbag
 
-from hdlyap import topics
+from hdlyap import fault, topics
 from hdlyap.progress import Progress
 
 from . import space
 
+PACKAGE = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 TYPES = {message._type: message for message in topics.RECORDED.values()}
 RUN_INFO, SPECTRUM = 'hdlyap/RunInfo', 'hdlyap/Spectrum'
 STATUS, COST = 'hdlyap/RunStatus', 'hdlyap/Cost'
@@ -116,6 +117,8 @@ class Packed:
                 blank.deserialize(self._data)
             check(self.kind, blank)
         except Exception as error:  # whatever a damaged byte makes of genpy
+            if _is_of_another(error):
+                raise
             raise _damaged(self.path, error)
         return blank
 
@@ -234,12 +237,21 @@ def opened(path):
         )
     except rosbag.ROSBagException as error:
         raise RecordingError(f'{path}: not a readable bag: {error}')
-    except OSError as error:
-        raise RecordingError(f'{path}: {error.strerror or error}{_unfinished(path)}')
-    except MemoryError:
-        raise RecordingError(f'{path}: needs more memory than there is')
     except Exception as error:  # whatever a damaged byte makes of rosbag and genpy
+        if _is_of_another(error):
+            raise
+        if isinstance(error, OSError):
+            raise RecordingError(f'{path}: {error.strerror or error}{_unfinished(path)}')
+        if isinstance(error, MemoryError):
+            raise RecordingError(f'{path}: needs more memory than there is')
         raise _damaged(path, error)
+
+
+def _is_of_another(error):
+    """No bag is to blame for who has not answered, nor for a mistake in this package."""
+    if isinstance(error, ConnectionError):
+        return True
+    return isinstance(error, fault.OURS) and fault.is_in(error, PACKAGE) or fault.is_of_others(error)
 
 
 def _refuse_no_bag(path):

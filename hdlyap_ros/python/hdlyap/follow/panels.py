@@ -5,6 +5,7 @@ from math import atan2, hypot, inf, isfinite, pi
 from hdlyap.data import fits, steps, waves
 from hdlyap.data.phases import apart
 from hdlyap.data.stages import LIMITS, STAGES, seconds
+from hdlyap.fault import whose
 from hdlyap.msg import LpPhase
 from hdlyap.numbers import clock, with_error
 from hdlyap.plots import paper, step_table
@@ -37,7 +38,8 @@ def of(view, width, height, glyphs):
 
 
 def nonsense(error):
-    return f'what the node says makes no sense here: {type(error).__name__}: {error}'
+    said = whose(error) or 'what the node says makes no sense here'
+    return f'{said}: {type(error).__name__}: {error}'
 
 
 def head(view, width):
