@@ -1,11 +1,10 @@
-/** What a run costs: its parts, and the whole as a ratio to the floor
+/** Measures what a run costs: its parts, and the whole as a ratio to the floor
  * F = 4 m n^2 flops at dgemm speed per ln(1e8) / (lambda_1 - lambda_n) of simulated time,
- * all measured in one run on one machine, in rounds.
+ * all in one run on one machine, in rounds.
  * Usage: hdlyap_bench [--spheres | --dumbbells | --soft] [--disks N] [--density RHO] [--threads N]
  *         [--rounds N] [--duration TIME UNITS OF A ROUND] [--settling TIME UNITS BEFORE THE FIRST]
- * [--whole]
- *         [--events] [--out FOLDER] [--name NAME]; with --out it writes FOLDER/NAME.csv; --whole
- *         and --events are for one part alone. */
+ *         [--whole] [--events] [--out FOLDER] [--name NAME]
+ * With --out it writes FOLDER/NAME.csv. --whole and --events do one part alone. */
 #include <hdlyap/hdlyap.h>
 #include <stdio.h>
 #include <string.h>
@@ -24,16 +23,16 @@ typedef struct asked {
     bool spheres, dumbbells, soft;
     int disks, threads, rounds;
     double density;
-    double duration;    /**< of a round [time units] */
-    double settling;    /**< of the averaging, before the first [time units] */
-    bool whole, events; /**< that part alone */
+    double duration;    /**< length of a round [time units] */
+    double settling;    /**< averaging before the first round [time units] */
+    bool whole, events; /**< do this part alone */
     const char *out, *name;
 } asked;
 
 typedef struct result {
-    sample w, f, ratio;  /**< of each round */
-    hd_cost first, last; /**< before and after all */
-    double taken;        /**< wall seconds of all, dgemm's own left out */
+    sample w, f, ratio;  /**< W, F, W / F of each round */
+    hd_cost first, last; /**< before and after all rounds */
+    double taken;        /**< wall seconds of all rounds without those of dgemm */
 } result;
 
 static hd_scene_def scene_of(const asked *a, int disks, double density)
@@ -48,7 +47,7 @@ static hd_scene_def scene_of(const asked *a, int disks, double density)
     return scene;
 }
 
-/** Numbers of a tangent vector. */
+/** How many numbers a tangent vector has. */
 static int rows_of(const hd_scene_def *scene)
 {
     return 2 * hd_scene_coordinates(scene) * scene->number;
@@ -61,7 +60,7 @@ static double spread_of(const hd_run *run)
            hd_spectrum_exponent(spectrum, hd_run_vectors(run) - 1);
 }
 
-/** Goes on for `duration`, measuring dgemm after every second step. */
+/** Advances the run by `duration`, and measures dgemm after every second step. */
 static void one_round(hd_run *run, gemm *g, double duration, result *r)
 {
     const double begin = hd_run_time(run), start = seconds();
@@ -82,8 +81,8 @@ static void one_round(hd_run *run, gemm *g, double duration, result *r)
     sample_add(&r->ratio, w / f);
 }
 
-/** The first time units of the averaging are left out: intervals make up for the warm-up there, and
- * the rotation of the phases is learnt. */
+/** Measures all rounds, after the first time units of the averaging: there intervals are still
+ * short, and the rotation of the phases is not known yet. */
 static void measure(hd_run *run, gemm *g, const asked *a, result *r)
 {
     const double end = hd_run_scene(run)->equilibration + hd_run_scene(run)->warmup + a->settling;
@@ -145,11 +144,11 @@ static void whole_run(const asked *a, char **argv)
     hd_run_free(run);
 }
 
-/** Of the process: what other jobs take does not count. */
+/** CPU seconds of this process, which do not contain what other jobs take. */
 static double busy_seconds(void) { return (double)clock() / CLOCKS_PER_SEC; }
 
-/** Seconds in which both molecules of a collision are predicted anew, with all searches for their
- * contacts: of a state, the mean of all. */
+/** Seconds for predicting the events of two dumbbells, as after each collision; the mean over all
+ * dumbbells of a state. */
 static double predicting(const hd_trajectory *trajectory)
 {
     hd_molecules *m = trajectory->state;
@@ -160,7 +159,7 @@ static double predicting(const hd_trajectory *trajectory)
     return 2.0 * (busy_seconds() - start) / ((double)rounds * count);
 }
 
-/** Million collisions a second; told but for the end of the line. */
+/** Measures million collisions per second, and prints a line without its end. */
 static double events_alone(const asked *a, int disks, double density, double collisions)
 {
     hd_scene_def scene = scene_of(a, disks, density);
@@ -169,7 +168,7 @@ static double events_alone(const asked *a, int disks, double density, double col
     require(hd_trajectory_create(&trajectory, &scene), "trajectory");
     const double length = collisions / hd_trajectory_told(trajectory).expected;
     require(hd_trajectory_extend(trajectory, NULL, length),
-            "trajectory"); /* away from the lattice */
+            "trajectory"); /* leave the lattice first */
     const double first = (double)hd_trajectory_told(trajectory).collisions, start = seconds(),
                  began = busy_seconds();
     require(hd_trajectory_extend(trajectory, NULL, 2.0 * length), "trajectory");
@@ -189,7 +188,7 @@ static void events_of(const asked *a, int disks, double density, double collisio
     printf("\n");
 }
 
-/** After disks that cover as much. */
+/** Measures events of disks, then of dumbbells that cover the same area. */
 static void dumbbells_beside_disks(const asked *a, int count, double collisions)
 {
     const asked of_disks = {.spheres = false};
@@ -198,15 +197,15 @@ static void dumbbells_beside_disks(const asked *a, int count, double collisions)
     printf(", %.2f of that\n", events_alone(a, count, 0.6, collisions) / rate);
 }
 
-/** Bytes per second, read and written, of copying a block far larger than the caches; the best of a
- * few. One thread. */
+/** Bytes that one thread reads and writes per second when it copies a block far larger than the
+ * caches; the best of a few copies. */
 static double memory_rate(void)
 {
     const size_t bytes = (size_t)1 << 27;
     char *from = room(bytes, 1), *to = room(bytes, 1);
     double best = 0.0;
     for (int k = 0; k < 5; k++) {
-        from[k] = (char)(k + 1); /* no copy is like the one before */
+        from[k] = (char)(k + 1); /* each copy is a different one */
         const double start = seconds();
         memcpy(to, from, bytes);
         const double rate = 2.0 * (double)bytes / (seconds() - start);
@@ -217,16 +216,16 @@ static double memory_rate(void)
     return best;
 }
 
-/** One exponent of many disks: what its replay must move per event, a recorded event and a tangent
- * map in and out, the vector's numbers of two disks in and out, against copying as many
- * bytes. */
+/** Measures the replay of one exponent of many particles, and compares it with copying the bytes
+ * that each event has to move: the recorded event, a tangent map in and out, and the vector's
+ * numbers of two particles in and out. */
 static void one_exponent(const asked *a, int disks, double memory)
 {
     hd_scene_def scene = scene_of(a, disks, a->dumbbells ? 0.6 : 0.7);
     const double of_event = (double)hd_dynamics_of(&scene)->entry, of_map = a->spheres     ? 104.0
                                                                             : a->dumbbells ? 144.0
                                                                                            : 64.0;
-    const double of_vector = 2.0 * 8.0 * rows_of(&scene) / disks; /* of two disks */
+    const double of_vector = 2.0 * 8.0 * rows_of(&scene) / disks; /* bytes of two particles */
     const double bytes_per_event = of_event + 2.0 * of_map + 2.0 * of_vector;
     scene.aspect = 1.0;
     scene.exponents = 1;

@@ -1,4 +1,4 @@
-/** V -> Q, ln |diag R| on column storage. */
+/** V -> Q, ln |diag R|, with vectors stored one after the other. */
 #include "columns.h"
 
 #include <cblas.h>
@@ -9,7 +9,7 @@
 
 columns columns_create(int rows, int n)
 {
-    columns x = {.rows = rows, .n = n, .lwork = 64 * n}; /* 64: LAPACK's block */
+    columns x = {.rows = rows, .n = n, .lwork = 64 * n}; /* 64: block size of LAPACK */
     x.v = room((size_t)n * (size_t)rows, sizeof(double));
     x.log_stretch = room((size_t)n, sizeof(double));
     x.tau = room((size_t)n, sizeof(double));

@@ -6,16 +6,16 @@
 typedef struct columns {
     int rows, n, lwork;
     double *v;               /**< [n][rows] */
-    double *log_stretch;     /**< [n], ln |R_ll| of the last factorisation */
-    double *tau, *workspace; /**< [n], [lwork]: of LAPACK */
+    double *log_stretch;     /**< [n]: ln |R_ll| of the last factorisation */
+    double *tau, *workspace; /**< [n], [lwork]: used by LAPACK */
 } columns;
 
 columns columns_create(int rows, int n);
 void columns_free(columns *x);
 
-/** V <- Q of V = Q R by Householder reflections (dgeqrf, dorgqr); the signs are LAPACK's. */
+/** Replaces V by Q of V = Q R by Householder reflections (dgeqrf, dorgqr), with LAPACK's signs. */
 void columns_householder(columns *x);
-/** The same by modified Gram-Schmidt, vector by vector (ddot, daxpy). */
+/** Replaces V by Q of V = Q R by modified Gram-Schmidt, vector by vector (ddot, daxpy). */
 void columns_gram_schmidt(columns *x);
 
 #endif

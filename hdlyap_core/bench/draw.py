@@ -14,7 +14,7 @@ import matplotlib
 matplotlib.use('Agg')
 import matplotlib.pyplot as plt  # noqa: E402
 
-# Okabe and Ito's palette, safe for colour-blind readers
+# Okabe and Ito's palette, which colour-blind readers can distinguish
 BLUE, ORANGE, GREEN, VERMILION, PURPLE, SKY = (
     '#0072B2',
     '#E69F00',
@@ -50,12 +50,12 @@ METHODS = {  # name in the table: label, colour, marker
     'householder': ('Householder', PURPLE, 'P'),
     'gram_schmidt': ('modified Gram-Schmidt', GREY, 'X'),
 }
-WRONG, FAILS = 1e-2, 1e1  # from where an exponent is useless; above this failures are drawn
+WRONG, FAILS = 1e-2, 1e1  # a larger deviation is useless; failures are drawn above this
 PARTS = {'events': BLUE, 'replay': GREEN, 'factorisation': VERMILION, 'modes': PURPLE}
 
 
 class Table:
-    """Rows of a CSV file; columns by their names, without the units."""
+    """The rows of a CSV file; columns have their names without units."""
 
     def __init__(self, path):
         with open(path, encoding='utf-8') as file:
@@ -135,7 +135,7 @@ def _draw_method(axes, method, x, rows):
 
 
 def _mark_failure(axes, method, rows):
-    """At the shortest interval at which the method notices that it fails."""
+    """Draws a mark at the shortest interval at which the method notices that it fails."""
     failed = [row['interval'] for row in rows if row['status'] != 'ok']
     if failed:
         height = FAILS * 6.0 ** (1 + list(METHODS).index(method))
@@ -182,7 +182,7 @@ def _draw_chosen(cliff, work, table):
 
 
 def _name_chosen(axes, rows, left):
-    """One label for all accuracies that led to the same interval; neighbours on different sides."""
+    """Writes one label for all accuracies with the same interval; neighbours on different sides."""
     powers = [f'$10^{{{math.log10(row["accuracy asked"]):.0f}}}$' for row in rows]
     names = powers[0] if len(powers) == 1 else f'{powers[0]} to {powers[-1]}'
     place = (
@@ -305,7 +305,7 @@ FIGURES = (precision, scaling, effects)
 
 
 def save(figure, machine, path):
-    """Complete files only."""
+    """Saves the picture in one step, so that the file is complete."""
     figure.text(0.5, -0.01, machine, ha='center', va='top', fontsize=6, color=GREY)
     unfinished = f'{path}.part.png'
     try:

@@ -1,10 +1,12 @@
-/** What each effect of a scene costs: two runs that differ in it alone, side by side, some report
- * intervals of the one after those of the other, so that whatever else the machine does falls on
- * both; medians. Instructions are counted by callgrind, if valgrind is there (nan if not), in a
- * smaller box of the same kind: a long one, in which steps are found soon. What publishing costs:
- * effects_publishing. Usage: hdlyap_effects [--disks N] [--aspect A] [--rounds N] [--out FOLDER];
- * with --out it writes FOLDER/effects.csv. hdlyap_effects --count EFFECT off|on: one run for
- * callgrind, which collects in count_rounds */
+/** Measures what each effect of a scene costs. Two runs that differ in the effect alone go on by
+ * turns, some report intervals each, so that whatever else the machine does slows both; medians are
+ * printed. Callgrind counts instructions if valgrind is there (nan if not), in a smaller box, which
+ * is as long and narrow, so that steps are found soon. effects_publishing measures what publishing
+ * costs.
+ * Usage: hdlyap_effects [--disks N] [--aspect A] [--rounds N] [--out FOLDER]
+ * With --out it writes FOLDER/effects.csv.
+ * Usage: hdlyap_effects --count EFFECT off|on
+ * Does one run for callgrind, which counts in count_rounds alone. */
 #include <hdlyap/hdlyap.h>
 #include <math.h>
 #include <string.h>
@@ -27,11 +29,11 @@ enum {
 enum { WARM_REPORTS = 10, COUNTED_DISKS = 60, COUNTED_ROUNDS = 2, ROUND_REPORTS = 5 };
 static const double COUNTED_ASPECT = 0.12;
 
-/** What a run has of all the effects. */
+/** Which of the effects a run has. */
 typedef struct variant {
     int exponents;
     hd_boundary boundary;
-    unsigned observe, look; /**< asked for, and looked at */
+    unsigned observe, look; /**< stages that the scene asks for; stages with a subscriber */
 } variant;
 
 typedef struct effect {
@@ -89,7 +91,7 @@ static void report_interval(side *s)
     while (!hd_run_report_due(s->run));
 }
 
-/** Until the intervals have found their length, and the steps are found. */
+/** Advances the run until intervals have their final length and steps are found. */
 static void warm(side *s)
 {
     while (hd_run_stage(s->run) < HD_AVERAGING) require(hd_run_advance(s->run), "warm-up");
@@ -116,8 +118,8 @@ static void side_free(side *s)
     free(s);
 }
 
-/** One vector of each LP step: its L and P modes, and these over the momenta, as the node publishes
- * them. */
+/** Computes what the node publishes as fields: for one vector of each LP step its L and P modes,
+ * and the P modes divided by the momenta. */
 static void reconstruct(side *s)
 {
     const hd_steps *steps = hd_run_parts(s->run).steps;
@@ -134,14 +136,14 @@ static void reconstruct(side *s)
     }
 }
 
-/** A report interval, and what is made of a report outside of the run. */
+/** Does one report interval, and computes what the node computes outside of the run. */
 static void report(side *s)
 {
     report_interval(s);
     if (hd_run_parts(s->run).fields) reconstruct(s);
 }
 
-/** So many that each round has several orthonormalisations. */
+/** Does a round: enough reports for several orthonormalisations. */
 static void round_of(side *s)
 {
     for (int k = 0; k < ROUND_REPORTS; k++) report(s);
@@ -160,14 +162,14 @@ static int steps_found(const side *s)
 
 typedef struct cost {
     double off, on; /**< seconds (median), or instructions, per report interval; NAN if unknown */
-    double ratio;   /**< off / on; of seconds the median of the rounds' own */
-    int steps;      /**< found in the run that has the effect */
+    double ratio;   /**< off / on; for seconds, the median over rounds */
+    int steps;      /**< number of steps found in the run that has the effect */
 } cost;
 
-/** Of the run that has the effect, what it would do without. */
+/** The part of the cost that the effect causes in the run that has it [%]. */
 static double percent(cost c) { return 100.0 * (1.0 - c.ratio); }
 
-/** Seconds of a report interval in this round. */
+/** Does a round, and returns the seconds of a report interval in it. */
 static double round_timed(side *s)
 {
     const double start = seconds();
@@ -195,14 +197,14 @@ static cost seconds_of(const effect *e, int disks, double aspect, int rounds)
 
 /* ---- instructions -------------------------------------------------------------------------- */
 
-/** Has a name for callgrind. */
+/** Callgrind finds this function by its name. */
 __attribute__((noinline)) void count_rounds(void *run);
 void count_rounds(void *run)
 {
     for (int round = 0; round < COUNTED_ROUNDS; round++) round_of(run);
 }
 
-/** This program's other mode. */
+/** The mode --count of this program. */
 static int count(const char *name, const char *which)
 {
     for (int k = 0; k < EFFECTS; k++) {
@@ -217,7 +219,7 @@ static int count(const char *name, const char *which)
     return 2;
 }
 
-/** NAN without valgrind. */
+/** Instructions per report interval, which a child process counts; NAN without valgrind. */
 static double counted(const char *name, const char *which)
 {
     char self[1024] = "", command[2048], line[256];
@@ -234,7 +236,8 @@ static double counted(const char *name, const char *which)
     return instructions / (COUNTED_ROUNDS * ROUND_REPORTS);
 }
 
-/** Of effect k; `known` are those before it: many are measured against the same run. */
+/** Instructions of effect k. known: the costs of the effects before it, many of which have the same
+ * run without the effect. */
 static cost instructions_of(int k, const cost *known)
 {
     cost c = {.off = NAN, .on = NAN};

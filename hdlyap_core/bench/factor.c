@@ -1,4 +1,4 @@
-/** Frame -> (Q, ln diag R), eight ways.
+/** Frame -> (Q, ln diag R) by eight methods.
  *
  * For BLAS the row-major frame V (m x n) is the column-major n x m matrix A = V^T:
  * G = A A^T = L L^T, Q^T = L^-1 A. */
@@ -15,14 +15,14 @@
 #include "tangent/interval.h"
 #include "timing.h"
 
-/** Loss of orthogonality that hd_run allows between measured states. */
+/** The loss of orthogonality that hd_run allows between measured states. */
 static const double DEFECT_LOOSE = 0.1;
 
 struct factor {
     factor_method method;
     int m, n;
     double *log_stretch;           /**< [n] */
-    double *gram;                  /**< [n * n], column-major, lower triangle */
+    double *gram;                  /**< [n * n]: lower triangle, column-major */
     float *gram_single, *v_single; /**< [n * n], [m * stride] */
     columns x;
     hd_ortho *ortho;
@@ -72,7 +72,7 @@ static hd_status pass_double(factor *f, hd_frame *frame)
     const int m = f->m, n = f->n, stride = hd_frame_stride(frame);
     double *a = hd_frame_data(frame);
     cblas_dsyrk(CblasColMajor, CblasLower, CblasNoTrans, n, m, 1.0, a, stride, 0.0, f->gram, n);
-    for (int l = 0; l < n; l++) /* keeps NaN out of LAPACK */
+    for (int l = 0; l < n; l++) /* LAPACK must not get NaN */
         if (!(f->gram[(size_t)l * (size_t)(n + 1)] < INFINITY)) return HD_ILL_CONDITIONED;
     if (LAPACKE_dpotrf_work(LAPACK_COL_MAJOR, 'L', n, f->gram, n) != 0) return HD_ILL_CONDITIONED;
     for (int l = 0; l < n; l++) f->log_stretch[l] += log(f->gram[(size_t)l * (size_t)(n + 1)]);
@@ -83,8 +83,8 @@ static hd_status pass_double(factor *f, hd_frame *frame)
     return HD_OK;
 }
 
-/** gram_single <- L^-1 of v_single <- V. What is multiplied onto V is this triangle, so its
- * diagonal gives the logarithms exactly, however roughly it was computed. */
+/** Copies V to v_single and computes its L^-1 in gram_single. V will be multiplied by this
+ * triangle, so its diagonal gives exact logarithms, however roughly the triangle was computed. */
 static hd_status triangle_single(factor *f, hd_frame *frame)
 {
     const int m = f->m, n = f->n, stride = hd_frame_stride(frame);
@@ -131,7 +131,7 @@ static hd_status pass_single(factor *f, hd_frame *frame)
 
 /* ---- the others ---------------------------------------------------------------------------- */
 
-/** As hd_run: whatever condition it accepts at the loosest accuracy. */
+/** Orthonormalises as hd_run does, with the condition that it accepts at the loosest accuracy. */
 static hd_status step_ours(factor *f, hd_frame *frame, double interval, int last)
 {
     const hd_interval loosest = {.accuracy = 1.0, .last = interval};
@@ -143,7 +143,7 @@ static hd_status step_ours(factor *f, hd_frame *frame, double interval, int last
     return HD_OK;
 }
 
-/** Row-major frame into columns, or back; its time is not theirs. */
+/** Copies a row-major frame into columns, or back. This time does not count as the method's. */
 static void transpose(columns *x, hd_frame *frame, int back)
 {
     const size_t stride = (size_t)hd_frame_stride(frame), m = (size_t)x->rows, n = (size_t)x->n;

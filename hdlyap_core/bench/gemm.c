@@ -1,4 +1,4 @@
-/** dgemm's rate, and the floor that it sets. */
+/** The rate of dgemm, and the floor of costs that it sets. */
 #include "gemm.h"
 
 #include <cblas.h>
@@ -11,7 +11,7 @@ struct gemm {
     int m, n;
     double *a, *c;
     double last;
-    sample rate; /**< flops per second */
+    sample rate; /**< all measurements [flops per second] */
 };
 
 gemm *gemm_create(int m, int n)

@@ -1,4 +1,4 @@
-/** argv -> what the program's list of options points to. */
+/** argv -> the variables to which the program's list of options points. */
 #include "options.h"
 
 #include <math.h>

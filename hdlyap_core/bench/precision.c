@@ -1,8 +1,8 @@
-/** What accuracy costs in time: deviation of the exponents from a tight reference on the same
- * stretch of trajectory, against the seconds that replay and factorisation take, for eight methods
- * and many intervals; and the points that hd_run chooses for four accuracies. An interval that is
- * too long gives wrong exponents without any error: the tables and the picture show where. Usage:
- * hdlyap_precision [--out FOLDER] [--quick]; writes precision.csv. */
+/** Measures what accuracy costs. For eight methods and many intervals it compares exponents with an
+ * accurate reference on the same stretch of trajectory, and takes the seconds of replay and
+ * factorisation; likewise for the intervals that hd_run chooses at four accuracies. An interval
+ * that is too long gives wrong exponents without an error; the tables and the picture show where.
+ * Usage: hdlyap_precision [--out FOLDER] [--quick]; writes precision.csv. */
 #include <hdlyap/hdlyap.h>
 #include <math.h>
 #include <stdio.h>
@@ -18,18 +18,18 @@
 
 enum { LENGTHS = 10, AUTOS = 4, SLOW = 40, REFERENCE_PIECES = 48, SHORT = 4, WINDOWS = 40 };
 
-/** Intervals per window of 12 time units. */
+/** Numbers of intervals in a window of 12 time units. */
 static const int PIECES[LENGTHS] = {48, 24, 12, 8, 6, 5, 4, 3, 2, 1};
 static const double ACCURACY[AUTOS] = {1e-4, 1e-6, 1e-8, 1e-10};
 
-/** One window in one way. */
+/** A window by one method, with one interval. */
 typedef struct point {
-    double interval, accuracy; /**< [time units]; asked for, 0 unless chosen by hd_run */
-    bool measured;             /**< false: left out; what follows but failed is 0 */
-    bool failed;               /**< the method said so */
+    double interval, accuracy; /**< [time units]; of the scene, 0 if the interval is fixed */
+    bool measured;             /**< false: left out */
+    bool failed;               /**< the method noticed that it failed; all below is 0 */
     double largest, slow, all; /**< deviation of the first, of the last SLOW, of any exponent */
     double replay, factor;     /**< seconds per time unit */
-    double gemms;              /**< both, in dgemms of the Gram matrix's shape timed in between */
+    double gemms;              /**< replay + factor over the time of a dgemm, timed in between */
 } point;
 
 typedef struct study {
@@ -42,7 +42,7 @@ typedef struct study {
 
 /* ---- measuring ----------------------------------------------------------------------------- */
 
-/** Rough seconds of one factorisation, in passes of Cholesky. */
+/** About the seconds of one factorisation, in those of a pass of Cholesky. */
 static double weight(factor_method method)
 {
     static const double passes[FACTOR_METHODS] = {1.2, 0.9, 1.2, 2.2, 1.0, 0.8, 3.0, 14.0};
@@ -56,13 +56,14 @@ static bool is_left_out(factor_method method, int pieces)
     return method == FACTOR_GRAM_SCHMIDT && pieces != 12 && pieces != 4 && pieces != 2;
 }
 
-/** Few factorisations are repeated: then one disturbance counts less. */
+/** How often a window is repeated. One with few factorisations is, so that a disturbance by other
+ * jobs counts less. */
 static int repetitions(factor_method method, int pieces)
 {
     return pieces < SHORT && method != FACTOR_GRAM_SCHMIDT ? 3 : 1;
 }
 
-/** hd_run's windows come after equilibration and warm-up. */
+/** The work of a window of hd_run, which comes after a warm-up. */
 static double work_of_chosen(const study *s)
 {
     return (s->w.scene.warmup + s->w.length) * weight(FACTOR_OURS);
@@ -83,7 +84,7 @@ static double work_in_all(const study *s)
     return sum;
 }
 
-/** Of s->exponents from the reference. */
+/** Fills the deviations of s->exponents from the reference. */
 static void measure_deviation(const study *s, point *p)
 {
     const int n = s->w.vectors, slow = n > 2 * SLOW ? SLOW : n / 2;
@@ -129,10 +130,10 @@ static void measure_fixed(study *s, factor_method method, int pieces, point *p)
     if (!p->failed)
         fill_cost(s, p, sample_median(&replay), sample_median(&factorisation),
                   sample_median(&speed));
-    progress_add(&s->shown, end - s->shown.done); /* a failure ends early */
+    progress_add(&s->shown, end - s->shown.done); /* a method that fails ends early */
 }
 
-/** To the first measured state behind the window's end, measuring dgemm in between. */
+/** Advances the run to the first measured state after the window, and measures dgemm in between. */
 static void average(hd_run *run, gemm *g, double length, sample *speed)
 {
     while (hd_run_stage(run) < HD_AVERAGING ||
@@ -153,8 +154,8 @@ static void measure_reference(study *s)
     factor_free(f);
 }
 
-/** The start of a run of usual length, which is not made to end with the window: it has a reference
- * of its own. */
+/** Measures the beginning of a run of usual length. It ends at a measured state and not with the
+ * window, so it is compared with a separate reference. */
 static void measure_chosen(study *s, double accuracy, point *p)
 {
     const double length = s->w.length;
@@ -194,14 +195,14 @@ static void measure_all(study *s)
 
 /* ---- telling ------------------------------------------------------------------------------- */
 
-/** Seconds per time unit at the median speed of dgemm in the whole run: free of what other jobs
- * took. */
+/** Seconds per time unit at the median speed of dgemm in the whole program, so that other jobs do
+ * not count. */
 static double seconds_of(const study *s, const point *p)
 {
     return p->gemms * gemm_flops(s) / gemm_rate(s->g);
 }
 
-/** Seconds of the cheapest fixed interval of any method that is at least so accurate; 0 if there is
+/** Seconds of the cheapest fixed interval, by any method, that deviates by no more; 0 if there is
  * none. */
 static double cheapest(const study *s, double deviation)
 {

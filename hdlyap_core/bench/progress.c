@@ -1,4 +1,4 @@
-/** Work done -> a line that overwrites itself; ten lines where stderr is a file. */
+/** Work done -> a line that overwrites itself; ten lines if stderr is a file. */
 #include "progress.h"
 
 #include <math.h>

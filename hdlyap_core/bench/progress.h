@@ -1,4 +1,4 @@
-/** How far a benchmark has come and how long it still takes, on stderr. */
+/** Prints to stderr how far a benchmark has come and how long it will still take. */
 #ifndef HD_BENCH_PROGRESS_H
 #define HD_BENCH_PROGRESS_H
 
@@ -7,7 +7,7 @@ typedef struct progress {
     const char *what;
     double total, done;
     double start; /**< wall clock [s] */
-    int shown;    /**< tenths told of */
+    int shown;    /**< tenths of the work that were printed */
 } progress;
 
 progress progress_begin(const char *what, double total);

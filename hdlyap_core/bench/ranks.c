@@ -1,7 +1,7 @@
-/** What a time unit costs on several ranks, and what goes between them: started by mpirun, or alone
- * for comparison. Usage: [mpirun -n RANKS] hdlyap_ranks [--disks N] [--threads OF EACH RANK]
- * [--rounds R] [--duration TIME UNITS OF A ROUND] [--settling TIME UNITS BEFORE THE FIRST]
- * [--steps]; rank 0 prints. */
+/** Measures what a time unit costs on several ranks, and what they send each other. Is started by
+ * mpirun, or without it for comparison; rank 0 prints.
+ * Usage: [mpirun -n RANKS] hdlyap_ranks [--disks N] [--threads OF EACH RANK] [--rounds R]
+ *         [--duration TIME UNITS OF A ROUND] [--settling TIME UNITS BEFORE THE FIRST] [--steps] */
 #include <hdlyap/hdlyap.h>
 #include <hdlyap/mpi.h>
 #include <math.h>
@@ -20,7 +20,7 @@ typedef struct asked {
     bool steps;
 } asked;
 
-/** Counts of a moment. */
+/** Cost and traffic up to a moment. */
 typedef struct counts {
     hd_cost cost;
     hd_traffic of[HD_CALLS];
@@ -33,8 +33,8 @@ static counts counts_now(const hd_run *run, const hd_communicator *ranks)
     return now;
 }
 
-/** What ranks_model.py takes for the latency: a sum of one number is a message there and one back
- * in each of log2(ranks) steps. */
+/** Prints the latency that ranks_model.py needs: a sum of one number takes a message there and one
+ * back in each of log2(ranks) steps. */
 static void tell_latency(hd_communicator *ranks)
 {
     enum { TIMES = 200 };
@@ -47,7 +47,7 @@ static void tell_latency(hd_communicator *ranks)
         printf("latency %.3g s\n", (seconds() - start) / TIMES / (2.0 * ceil(log2(all))));
 }
 
-/** The same decision on every rank. */
+/** Advances the run. Simulated time decides when to end, so all ranks end together. */
 static void go_on(hd_run *run, double duration)
 {
     const double end = hd_run_time(run) + duration;

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
-"""How a run would go on more ranks than there are here: calls and bytes of each orthonormalisation,
-counted as the program makes them, with a network's latency and bandwidth, and the flops at a
-measured rate -> seconds per time unit and efficiency, as a table, CSV and a picture.
+"""Predicts a run on more ranks than there are here: calls and bytes of each orthonormalisation,
+counted as the program makes them, with latency and bandwidth of a network, and flops at a measured
+rate -> seconds per time unit and efficiency, as a table, CSV and a picture.
 
 ranks_model.py [--flops PER RANK] [--latency SECONDS] [--bandwidth BYTES/S] [--interval TIME UNITS]
                [--replay SECONDS] [--check DISKS RANKS] [--out FOLDER]"""
@@ -13,17 +13,17 @@ import os
 SIZES = 780, 3000, 10_000, 30_000, 100_000
 RANKS = [2**k for k in range(11)]
 WORD = 8
-# as in panel.h and ortho.c
+# the constants of panel.h and ortho.c
 PANELS, PANEL_MIN, PANEL_MAX, LEAF_MAX, LATER_MAX = 8, 8, 160, 48, 704
 
 
 def vectors_of(disks):
-    """The positive half between periodic boundaries."""
+    """Vectors of the positive half of the spectrum in a periodic box."""
     return 2 * disks - 3
 
 
 def share(vectors, ranks):
-    """Columns of a rank's part, with what fills its rows up (frame.c)."""
+    """Columns of a rank's part of the frame, with the padding of its rows (frame.c)."""
     own = -(-vectors // ranks)
     own += 3 if own >= 64 else 0
     width = 1
@@ -38,7 +38,7 @@ def panel_width(vectors):
 
 
 def sums_of_panel(width):
-    """Calls, and numbers in them, of a panel by itself."""
+    """Calls of a sum, and how many numbers they add, for a panel alone."""
     if width <= LEAF_MAX:
         return 1, width * width
     half = (width // 2 + 7) // 8 * 8
@@ -50,7 +50,7 @@ def sums_of_panel(width):
 
 
 def sums(vectors):
-    """The same of a whole orthonormalisation, whatever the number of ranks."""
+    """Calls of a sum, and how many numbers they add, for an orthonormalisation on any ranks."""
     width, calls, numbers = panel_width(vectors), 0, 0
     for first in range(0, vectors, width):
         panel = min(width, vectors - first)
@@ -64,7 +64,7 @@ def sums(vectors):
 
 
 def exchanged(disks, vectors, ranks):
-    """Bytes that a rank gives away in the two exchanges of an orthonormalisation."""
+    """Bytes that a rank sends in the two exchanges of an orthonormalisation."""
     rows = 4 * -(-disks // ranks)
     return 2 * (ranks - 1) * rows * share(vectors, ranks) * WORD
 
@@ -74,10 +74,10 @@ class Machine:
         self.flops, self.latency, self.bandwidth, self.replay = flops, latency, bandwidth, replay
 
     def parts(self, disks, ranks):
-        """Seconds of an orthonormalisation: flops, what every rank does alike, sums, exchanges."""
+        """Seconds of an orthonormalisation: flops, work that all ranks repeat, sums, exchanges."""
         n, m = vectors_of(disks), 4 * disks
         rows, width = 4 * -(-disks // ranks), panel_width(n)
-        work = 1.75 * rows * n * n / self.flops  # between the norm of dq and the whole one
+        work = 1.75 * rows * n * n / self.flops  # between the norm of dq and the full norm
         alike = n * width * width / self.flops
         replay = self.replay * (m * share(n, ranks)) / (3120 * 1557)
         if ranks == 1:

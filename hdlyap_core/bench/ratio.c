@@ -1,4 +1,4 @@
-/** Sample -> line of print, row of a table. */
+/** Sample -> a printed line, a row of a table. */
 #include "ratio.h"
 
 #include <stdio.h>

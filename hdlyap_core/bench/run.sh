@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# What accuracy costs in time, what a run costs, how cost grows: builds what is missing, runs every benchmark program,
-# prints their tables, and leaves CSV files and pictures in a folder.
+# Builds the benchmark programs that are missing, runs all, prints their tables, and leaves CSV files and pictures in a
+# folder: what accuracy costs in time, what a run and its effects cost, how costs grow.
 #   run.sh [--out DIR] [--quick] [--programs DIR]
-# --programs: they are built already, there.
+# --programs: folder of programs that are built already.
 set -euo pipefail
 
 HERE=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
@@ -54,7 +54,7 @@ find_programs() {
 DONE=0
 TOTAL=0
 
-# stage SHARE TITLE COMMAND...: the shares are rough seconds on two idle cores; of a quick run all are alike.
+# stage SHARE TITLE COMMAND...: the share is about the seconds on two idle cores; in a quick run all shares are equal.
 stage() {
     local share=$1 title=$2 left
     shift 2
@@ -68,7 +68,7 @@ stage() {
 
 fallback() { OPENBLAS_CORETYPE=Prescott "$PROGRAMS/hdlyap_bench" "$@"; }
 
-# Publishing is a matter of the node: where its package is built and sourced.
+# The cost of publishing is measured with the node, if its package is built and sourced.
 effects() {
     "$PROGRAMS/hdlyap_effects" --out "$OUT"
     if /usr/bin/python3 -c 'import hdlyap.msg' 2>/dev/null; then

@@ -1,4 +1,4 @@
-/** Measurements, kept in order. */
+/** Measurements, kept in ascending order. */
 #include "sample.h"
 
 void sample_add(sample *s, double value)

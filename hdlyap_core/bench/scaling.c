@@ -1,7 +1,7 @@
-/** What a time unit costs against the number of disks (positive half of the spectrum, steps and
- * phases) and, at fixed disks, against the number of vectors (spectrum alone); by parts, with
- * fitted exponents beside those of theory. Usage: hdlyap_scaling [--out FOLDER] [--quick]; writes
- * scaling.csv and scaling_fits.csv. */
+/** Measures what a time unit costs against the number of disks (positive half of the spectrum,
+ * steps and phases) and, for fixed disks, against the number of vectors (spectrum alone), by parts
+ * of the run; and fits powers, which theory predicts.
+ * Usage: hdlyap_scaling [--out FOLDER] [--quick]; writes scaling.csv and scaling_fits.csv. */
 #include <hdlyap/hdlyap.h>
 #include <math.h>
 #include <stdio.h>
@@ -27,23 +27,23 @@ enum { BY_DISKS, BY_VECTORS, SWEEPS };
 
 static const char *const PART_NAMES[PARTS] = {"events", "replay", "factorisation", "modes"};
 static const char *const SWEEP_NAMES[SWEEPS] = {"disks", "vectors"};
-/** Powers of N with n = 2 N; of n at fixed N. */
+/** Expected powers of N with n = 2 N vectors, and of n at fixed N. */
 static const double THEORY[SWEEPS][PARTS] = {{1, 2, 3, 2}, {0, 1, 2, NAN}};
-/** What is smaller is left out of the fits: one thread, and matrices far below dgemm's best speed.
- */
+/** Smaller sizes are left out of the fits: they run in one thread, and their matrices are so small
+ * that dgemm is slow. */
 static const double FIT_FROM[SWEEPS] = {200, 100};
-/** A point whose predicted seconds are more is left out. */
+/** A point that is predicted to take more seconds than this is left out. */
 static const double PATIENCE = 300.0;
-/** Time units; what is measured comes behind so many, or seconds, of averaging: in the first ones
- * intervals are short, and the rotation of the phases is learnt. */
+/** Time units of warm-up and, at least, of the measurement; time units, or seconds, of averaging
+ * before it, in which intervals are still short and the rotation of the phases is not known yet. */
 static const double WARMUP = 6.0, TIME_MIN = 16.0, SETTLING = 150.0, SETTLING_SECONDS = 60.0;
 
 typedef struct point {
     int disks, vectors, threads;
-    double interval, time; /**< [time units]; that was measured */
+    double interval, time; /**< interval; simulated time that was measured [time units] */
     double part[PARTS];    /**< seconds per time unit */
     double whole,
-        floor; /**< their sum; see gemm_floor: 0 for few vectors, which dgemm does not bound */
+        floor; /**< sum of parts; see gemm_floor: 0 for few vectors, which dgemm does not bound */
 } point;
 
 typedef struct sweep {
@@ -51,10 +51,10 @@ typedef struct sweep {
     int count;
 } sweep;
 
-/** What all points share. */
+/** The whole benchmark. */
 typedef struct study {
     gemm *g;
-    double seconds_min; /**< that a point is averaged for */
+    double seconds_min; /**< least seconds for which a point is averaged */
     sweep by[SWEEPS];
     progress shown;
 } study;
@@ -77,8 +77,8 @@ static void settle(hd_run *run)
         require(hd_run_advance(run), "settling");
 }
 
-/** At least TIME_MIN and seconds_min, from an orthonormalisation to another; dgemm's speed
- * meanwhile. */
+/** Advances the run from one orthonormalisation to another, by at least TIME_MIN and seconds_min.
+ * Returns the median speed of dgemm meanwhile. */
 static double average(hd_run *run, const study *all)
 {
     const double start = seconds(), begin = hd_run_time(run);
@@ -133,14 +133,13 @@ static void measure(study *all, int which, int disks, int exponents, unsigned st
     hd_run_free(run);
 }
 
-/** Work of a point, for the progress: what the factorisations cost, and what every point does. */
+/** Work of a point, for the progress: factorisations, and a constant part. */
 static double work(double disks, double vectors) { return 2e8 + disks * vectors * vectors; }
 
-/** Seconds that N disks will take, from the largest so far: the frame needs some short intervals at
- * first. */
+/** Seconds that this many disks will take, predicted from the largest number so far. */
 static double predicted(const sweep *s, int disks)
 {
-    const double warmup = 12.0; /* as many time units would cost later: its intervals are short */
+    const double warmup = 12.0; /* it costs as much as this later, because intervals are short */
     if (s->count == 0) return 0.0;
     const point *p = &s->at[s->count - 1];
     return p->whole * pow((double)disks / p->disks, 3) * (warmup + TIME_MIN);
@@ -188,7 +187,7 @@ static double size_of(const point *p, int which)
     return which == BY_DISKS ? p->disks : p->vectors;
 }
 
-/** Slope of ln(seconds) over ln(size); NAN with less than two points. */
+/** The slope of ln(seconds) over ln(size); NAN with less than two points. */
 static double fitted(const sweep *s, int which, int part)
 {
     double n = 0.0, x = 0.0, y = 0.0, xx = 0.0, xy = 0.0;

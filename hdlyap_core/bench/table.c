@@ -45,7 +45,7 @@ void table_row(table *t, const char *format, ...)
     fputc('\n', t->rows);
 }
 
-/** As /proc/cpuinfo names it, where there is one. */
+/** Prints the name of the processor from /proc/cpuinfo, if there is one. */
 static void print_processor(FILE *file)
 {
     char line[512];

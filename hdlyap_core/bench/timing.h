@@ -1,5 +1,5 @@
-/** What the benchmark programs share: the clock, the beginning of a run, and the end of a program
- * whose run failed. */
+/** Functions that all benchmark programs use: the clock, creating a run, and ending the program if
+ * something failed. */
 #ifndef HD_BENCH_TIMING_H
 #define HD_BENCH_TIMING_H
 
@@ -22,7 +22,7 @@ static inline void require(hd_status status, const char *what)
     exit(3);
 }
 
-/** A scene that is refused ends the program with one line and status 2. */
+/** Creates a run. If the scene is refused, prints a line and ends the program with status 2. */
 static inline hd_run *created(const hd_scene_def *scene)
 {
     char message[512] = "out of memory";
@@ -32,7 +32,7 @@ static inline hd_run *created(const hd_scene_def *scene)
     exit(2);
 }
 
-/** calloc that ends the program when memory is out. */
+/** calloc that ends the program if there is no memory. */
 static inline void *room(size_t count, size_t size)
 {
     void *block = calloc(count, size);

@@ -1,4 +1,4 @@
-/** Scene -> record and first frame of a window -> exponents. */
+/** Scene -> record and first frame of a window -> exponents by some method. */
 #include "window.h"
 
 #include <hdlyap/run.h>
@@ -9,7 +9,7 @@
 #include "timing.h"
 #include "run/run.h"
 
-/** The frame at which the tightest run of this scene begins to average. */
+/** Keeps the frame with which an accurate run of this scene begins to average. */
 static void record_start(window *w)
 {
     hd_scene_def tight = w->scene;
@@ -57,7 +57,7 @@ void window_free(window *w)
     free(w->start);
 }
 
-/** dgemm at every second piece, and at the first. */
+/** Shows progress, and measures dgemm after every second piece, from the first one on. */
 static void look_beside(const watch *beside, int piece, effort *spent)
 {
     progress_add(beside->shown, beside->work);

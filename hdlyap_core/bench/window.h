@@ -1,5 +1,5 @@
-/** A stretch of a trajectory with the frame that it starts from: the same for every method of
- * factorisation. */
+/** A window: a stretch of a trajectory with the frame at its start. All methods of factorisation
+ * get the same one. */
 #ifndef HD_BENCH_WINDOW_H
 #define HD_BENCH_WINDOW_H
 
@@ -14,33 +14,32 @@
 
 typedef struct window {
     hd_scene_def scene;
-    double length; /**< time units; may be changed, up to WINDOW_LONGEST times as much */
+    double length; /**< [time units]; the caller may lengthen it, up to WINDOW_LONGEST times */
     int rows, vectors;
     hd_record *record;
     hd_frame *frame;
     double *start; /**< [rows * stride], orthonormal to rounding */
 } window;
 
-/** What a way through the window took. */
+/** What a method took for a window. */
 typedef struct effort {
-    double replay, factor; /**< seconds in all */
-    sample speed;          /**< dgemm's flops per second in between */
+    double replay, factor; /**< seconds of all replays and of all factorisations */
+    sample speed;          /**< flops per second of dgemm, measured in between */
 } effort;
 
-/** The averaging phase of the scene: begins where hd_run would begin to average, as long as its
- * duration. */
+/** Makes a window that begins when hd_run would begin to average, as long as scene->duration. */
 window window_create(const hd_scene_def *scene);
 void window_free(window *w);
 
-/** What goes on beside: dgemm is measured, and the progress grows by `work` with every piece. */
+/** What happens besides: dgemm is measured, and the progress grows by `work` with every piece. */
 typedef struct watch {
     gemm *g;
     progress *shown;
     double work;
 } watch;
 
-/** Carries the frame through the window in `pieces` equal intervals, each ended by a step of f.
- * exponents[n]. What factor_step fails with. */
+/** Carries the frame through the window in `pieces` equal intervals, each of which a step of f
+ * ends. Fills exponents[n]. Fails as factor_step does. */
 HD_MUST_CHECK hd_status window_exponents(window *w, factor *f, int pieces, const watch *beside,
                                          double *exponents, effort *spent);
 

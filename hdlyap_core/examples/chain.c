@@ -1,6 +1,6 @@
-/** A dynamics of one's own: the Fermi-Pasta-Ulam-Tsingou chain, beta, closed to a ring:
- * H = sum p_i^2 / 2 + d_i^2 / 2 + beta d_i^4 / 4, d_i = q_(i+1) - q_i. Prints all exponents: pairs,
- * and four that vanish (energy and time, momentum and translation); with beta = 0 all of them do.
+/** An example of a user's dynamics: the beta chain of Fermi, Pasta, Ulam and Tsingou, closed to a
+ * ring: H = sum p_i^2 / 2 + d_i^2 / 2 + beta d_i^4 / 4, d_i = q_(i+1) - q_i. Prints all exponents.
+ * They come in pairs, and four vanish (energy and time, momentum and translation); all if beta = 0.
  * cc chain.c $(pkg-config --cflags --libs hdlyap_core) -lm -o chain && ./chain 16 1.0 */
 #include <hdlyap/hdlyap.h>
 #include <math.h>
@@ -16,14 +16,14 @@ static const hd_parameter parameters[PARAMETERS] = {
     {"time_step", HD_PARAMETER_REAL, NULL, HD_OWN(STEP), 0.02, 1e-6, 0.1, "from 1e-6 to 0.1",
      "time units", .text = "Of the integrator, which is Verlet's."}};
 
-/** An entry of the record: one spring in one step, in their order. */
+/** An entry of the record: one spring in one time step; springs are in their order. */
 typedef struct spring {
     double time, step, stiffness;
 } spring;
 
 typedef struct chain {
     int count;
-    double beta, step, now, steps; /**< so many steps have been done */
+    double beta, step, now, steps; /**< steps: time steps done so far */
     double x[];                    /**< [particle][q, p] */
 } chain;
 
@@ -39,7 +39,7 @@ static double entries(const hd_scene_def *s) { return s->number / s->own[STEP].r
 static double rate(const hd_scene_def *s) { return 0.1 * s->number; }
 static double now(const void *state) { return ((const chain *)state)->now; }
 
-/** At first all energy is kinetic; momenta add up to 0. */
+/** Creates the start: all energy is kinetic, and momenta add up to 0. */
 static hd_status create(void **state, const hd_scene_def *scene)
 {
     const int n = scene->number;
@@ -58,7 +58,7 @@ static hd_status create(void **state, const hd_scene_def *scene)
     return HD_OK;
 }
 
-/* Of a state, width 1, or of a block of tangent vectors. */
+/* drift and pull move a state, with width 1, or a block of `width` tangent vectors. */
 static void drift(double *x, int n, int width, double time)
 {
     for (int i = 0; i < n; i++)
@@ -76,7 +76,7 @@ static void pull(double *x, int n, int width, int i, double strength)
     }
 }
 
-/** Steps lie at their multiples, whatever t_end is. */
+/** Time steps end at multiples of their length, whatever t_end is. */
 static hd_status advance(void *state, hd_record *record, double t_end)
 {
     chain *c = state;

@@ -1,4 +1,4 @@
-/** MPI -> transport of a communicator. The only file that knows MPI. */
+/** MPI -> transport of a communicator. The only file that uses MPI. */
 #include "hdlyap/mpi.h"
 
 #include <limits.h>
@@ -7,13 +7,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-/** Of one message: MPI counts in int; and room that an exchange takes beside what it exchanges. */
+/** Most numbers in one message of an exchange, for which MPI allocates a buffer. */
 enum { PIECE = 1 << 17 };
 
-/** As many as MPI can count. */
+/** The largest part of `left` that MPI can count, which counts in int. */
 static int as_count(size_t left) { return left < INT_MAX ? (int)left : INT_MAX; }
 
-/** MPI promises the same bits to all ranks. */
+/** Adds x over all ranks. MPI gives the same bits to all of them. */
 static void sum(void *context, double *x, size_t count)
 {
     (void)context;
@@ -24,7 +24,7 @@ static void sum(void *context, double *x, size_t count)
     }
 }
 
-/** Some rows of a table at a time: MPI can count them. */
+/** Gathers x. It is called for some rows of a table at a time, so MPI can count them. */
 static void gather(void *context, double *x, size_t count)
 {
     (void)context;
@@ -32,7 +32,8 @@ static void gather(void *context, double *x, size_t count)
     MPI_Allgather(MPI_IN_PLACE, 0, MPI_DATATYPE_NULL, x, (int)count, MPI_DOUBLE, MPI_COMM_WORLD);
 }
 
-/** With one rank after the other, in pieces: hardly any room beside x. */
+/** Exchanges blocks with one rank after the other, in pieces: this takes little memory besides x.
+ */
 static void exchange(void *context, double *x, size_t count)
 {
     const hd_communicator *c = context;
@@ -76,7 +77,7 @@ static hd_status refuse(char *message, size_t size, const char *line)
     return HD_REFUSED;
 }
 
-/** A single rank, unless what has started it says otherwise. */
+/** Refuses a single rank if the environment says that several were started. */
 static hd_status alone(char *message, size_t size)
 {
     char library[MPI_MAX_LIBRARY_VERSION_STRING] = "", line[MPI_MAX_LIBRARY_VERSION_STRING + 256];

@@ -1,15 +1,16 @@
 #!/usr/bin/env python3
-"""msg/*.msg -> the messages for C: a header of structs, and for the wrapper lists of their fields.
+"""msg/*.msg -> the messages for C: a header of structs, and lists of fields for the wrapper.
 
 The comment of a float64 says what is sent while its value is not known: 'NaN if FIELD is VALUE',
 'NaN unless FIELD', or the same with -1. VALUE is a number or a constant (0 if there is none), and
 'while' means 'if'. Otherwise the number must be finite. A comment with NaN but without such a rule
 allows NaN at any time.
 
-A field without words of its own (it may have a unit, '# [sigma]') belongs to the comment above it.
+If a field has no comment, or only a unit ('# [sigma]'), the comment above it describes it, too.
 
-A field 'one of FIRST .. LAST' holds one of these constants. What the comment of each says before
-its first colon is its name: hdr_MESSAGE_FIELD_text(value) in C, hdlyap.data.fields.words in Python.
+A field 'one of FIRST .. LAST' holds one of these constants. The text before the first colon in the
+comment of a constant is its name: hdr_MESSAGE_FIELD_text(value) in C, hdlyap.data.fields.words in
+Python.
 
 generate.py PACKAGE HEADER FIELDS MESSAGE_FILE...
 """
@@ -156,7 +157,7 @@ class Message:
         return any(field.base_type == other.type for field in self.spec.parsed_fields())
 
     def comment(self):
-        """Of the message: the lines above its first constant or field."""
+        """The comment of the message: the lines above its first constant or field."""
         text = ''
         for line in self.lines:
             if not line.startswith('#'):
@@ -165,7 +166,7 @@ class Message:
         return ':' + text if text else ''
 
     def own_text(self, name):
-        """What the line of a field or a constant says itself."""
+        """The comment in the line of a field or a constant."""
         for line in self.lines:
             found = re.match(r'[\w/\[\]]+\s+%s\b[^#]*#\s*(.*)' % name, line)
             if found:
@@ -173,7 +174,7 @@ class Message:
         return ''
 
     def text_of(self, name):
-        """What describes a field or a constant: its own line, or the nearest above with words."""
+        """The text that describes a field or a constant: in its line or the nearest above."""
         names = self.names[: self.names.index(name) + 1]
         texts = (self.own_text(above) for above in reversed(names))
         return next((text for text in texts if text and not text.startswith('[')), '')
@@ -195,7 +196,7 @@ class Message:
         return ('HDR_%s_%s' % (snake(self.short_name), name)).upper()
 
     def texts(self):
-        """For each field that holds one of some constants: their names."""
+        """A function for each field that holds one of some constants: their names."""
         text = ''
         for field in self.spec.parsed_fields():
             choice = CHOICE.search(self.text_of(field.name))
@@ -209,7 +210,7 @@ class Message:
         return text
 
     def choices(self, first=None, last=None):
-        """Constants from one to another."""
+        """The names of the constants from one to another."""
         names = [constant.name for constant in self.spec.constants]
         if first and not {first, last} <= set(names):
             sys.exit('%s: one of %s .. %s: no such constants' % (self.type, first, last))
@@ -235,7 +236,7 @@ class Message:
         return STRUCT % dict(vars(self), comment=self.comment(), rows=rows)
 
     def sizes(self):
-        """Of fields, in bytes; arrays, strings and the name in a header begin with their length."""
+        """Bytes of fields. Arrays, strings and the name in a header begin with their length."""
         bytes_of = dict(bool=1, int8=1, uint8=1, int16=2, uint16=2, int32=4, uint32=4, float32=4)
         bytes_of.update({'int64': 8, 'uint64': 8, 'float64': 8, 'string': 4, 'std_msgs/Header': 16})
         each, fixed = 0, 0
@@ -250,7 +251,7 @@ class Message:
         return any(field.is_array and field.base_type == self.type for field in fields)
 
     def value_of(self, word, messages):
-        """A number, or a constant: one of its own, else of the only other message that has one."""
+        """The value of a number or a constant: of this message, or of the only one with it."""
         if re.fullmatch(r'-?\d+', word):
             return int(word)
         for some in ([self], messages):
@@ -260,7 +261,7 @@ class Message:
         sys.exit('%s: %s: no constant, or more than one' % (self.type, word))
 
     def passed(self, field, messages):
-        """The field in the program: with what it is while it is not known."""
+        """The field as C++ passes it, with the value that is sent while it is not known."""
         text, name = self.text_of(field.name), 'm.' + field.name
         if field.base_type != 'float64':
             return name
@@ -268,7 +269,7 @@ class Message:
         if not rule or rule.group(3) not in self.spec.names:
             return 'or_nan(%s)' % name if 'NaN' in text else name
         unknown, how, other, word = rule.groups()
-        equal = (how == 'unless') == (word is not None)  # alone, a field stands for: is not 0
+        equal = (how == 'unless') == (word is not None)  # a field alone means: it is not 0
         compared = 'm.%s %s %d' % (
             other,
             '==' if equal else '!=',
@@ -285,7 +286,7 @@ class Message:
 
 
 def sorted_by_use(messages):
-    """What another one consists of comes before it."""
+    """Sorts messages so that each one comes after those that it contains."""
     done = []
     while len(done) < len(messages):
         left = [message for message in messages if message not in done]

@@ -1,5 +1,5 @@
-# msg/*.msg -> the header of the C structs, beside those that gencpp makes, and what the wrapper knows
-# of their fields.
+# msg/*.msg -> the header of the C structs, beside the headers that gencpp makes, and the lists of fields
+# for the wrapper.
 file(GLOB HDLYAP_MESSAGES CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/msg/*.msg)
 set(HDLYAP_GENERATOR ${CMAKE_CURRENT_LIST_DIR}/generate.py)
 set(HDLYAP_MADE_INCLUDE ${CATKIN_DEVEL_PREFIX}/${CATKIN_GLOBAL_INCLUDE_DESTINATION})

@@ -1,5 +1,5 @@
-# The files of pkg-config that catkin writes. That of Debian 13 names the prefix by a variable that nobody sets, and none of
-# them knows blanks in names of folders.
+# Mends the files of pkg-config that catkin writes. On Debian 13 the prefix in them is a variable that nobody sets, and on
+# no system do they allow blanks in names of folders.
 function(hdlyap_mend_pkg_config file prefix)
   file(READ "${file}" text)
   string(REPLACE "\${hdlyap_PREFIX}" "${prefix}" text "${text}")

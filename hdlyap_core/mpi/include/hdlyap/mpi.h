@@ -1,5 +1,5 @@
-/** The ranks of an MPI program as a communicator: a library of its own, there where MPI was found.
- */
+/** The ranks of an MPI program as a communicator. This is the library hdlyap_mpi, which is built if
+ * MPI is found. */
 #ifndef HDLYAP_MPI_H
 #define HDLYAP_MPI_H
 
@@ -7,14 +7,14 @@
 
 HD_API_BEGIN
 
-/** Starts MPI; *out is NULL for a single rank. HD_REFUSED, with a line in message[size]: calls may
- * come from several threads, one at a time, and this MPI cannot do that; or it finds one rank where
- * another MPI has started several (hd_ranks_started), each of which would do all by itself.
- * HD_NO_MEMORY. What MPI itself finds wrong ends all ranks, as is its way.
- * MPI is on after HD_OK alone: then it is ended by hd_mpi_end, of a single rank too. */
+/** Starts MPI; *out is NULL for a single rank. Fails with HD_REFUSED, and a line in message[size],
+ * if this MPI cannot be called by several threads, one at a time, or if it finds a single rank
+ * although another MPI has started several (hd_ranks_started), each of which would do the whole
+ * run; or with HD_NO_MEMORY. If MPI finds an error, it ends all ranks. After HD_OK, and only then,
+ * hd_mpi_end has to end MPI, for a single rank too. */
 HD_MUST_CHECK hd_status hd_mpi_begin(hd_communicator **out, int *argc, char ***argv, char *message,
                                      size_t size);
-/** Ends MPI; called by all ranks. `c` is what hd_mpi_begin gave. */
+/** Ends MPI. All ranks have to call it, with c from hd_mpi_begin. */
 void hd_mpi_end(hd_communicator *c);
 
 HD_API_END
