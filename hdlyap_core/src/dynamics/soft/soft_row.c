@@ -162,7 +162,7 @@ static hd_status row_check(const hd_scene_def *scene, char *message, size_t size
 
 static int row_zeros(const hd_scene_def *scene) { return 2 * hd_scene_dimension(scene) + 2; }
 
-/** As often as the largest exponent says, to some 30 %: seen of wca at densities of 0.1 to 1. */
+/** As often as the largest exponent says, to a factor of two at densities of 0.1 to 0.9. */
 static double row_rate(const hd_scene_def *scene)
 {
     return 0.5 * scene->number * speed(scene) * (1.0 + 3.0 * scene->density);
