@@ -361,7 +361,20 @@ def gas(averaged_time=50.0, run_id='one', error=0.01, **fields):
         pressure_y=1.0,
         pressure_y_error=error,
         compressibility=2.5,
+        compressibility_error=2 * error if error >= 0 else -1.0,
+        temperature=np.nan,
+        temperature_error=-1.0,
+        potential_energy=np.nan,
+        potential_energy_error=-1.0,
     )
+
+
+def soft_gas(averaged_time=50.0, error=0.01, **fields):
+    """Of density 0.5 and two coordinates, half of the energy 1 kinetic."""
+    unknown = dict(collision_rate=np.nan, collision_rate_error=-1.0, compressibility=5.0)
+    errors = dict.fromkeys(('temperature_error', 'potential_energy_error'), error)
+    made = dict(unknown, temperature=0.625, potential_energy=0.5, **errors)
+    return gas(averaged_time, error=error, **{**made, **fields})
 
 
 def lp_phases(info, made, sim_time, modulations=(0, 1), began=0.0, rng=None, run_id='one'):

@@ -124,6 +124,10 @@ def _hydro(message):
 
 def _gas(message):
     yield from [] if message.pressure_z_error >= 0 else ['pressure_z']  # of disks
+    yield from ['collision_rate'] if message.temperature > 0 else [
+        'temperature',
+        'potential_energy',
+    ]
 
 
 def _field(message):

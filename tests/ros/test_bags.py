@@ -325,7 +325,7 @@ def expected_sizes(disks, vectors, steps, phases, t_phases, waves):
         structure=begin + 4 + 9 * 4 + 16 * waves + 68 * vectors,
         fields=begin + 33 + 16 * 4 + 64 * disks + 4 + 3 * 4 + 8 + 9 * 4,
         localization=begin + 4 + 4 + 3 * 4 + 24 * vectors,
-        gas=begin + 12 * 8,
+        gas=begin + 17 * 8,
         state=begin + 8 + 8 * 4 + 32 * disks,
         status=begin + 2 + 3 * 8 + 4 + 2 * 8 + 4,
         cost=begin + 137 + 3 * 8,

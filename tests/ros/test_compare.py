@@ -363,6 +363,17 @@ class Refusals(Pairs):
         self.assertNotIn('time step', text)  # of both
         self.cannot_compare('own .*wca.*power', *soft[1:])
 
+    def test_what_does_not_collide(self):
+        """Has a temperature that is compared; what is potential is the rest of the energy."""
+        warm = [
+            [*run(shifted(noise(seed)), seed=str(seed)), made.soft_gas(temperature=value)]
+            for seed, value in ((1, 0.6), (2, 0.7))
+        ]
+        text = self.compare(*warm, status=1)
+        self.assertRegex(text, r'temperature +0\.600\(10\) +0\.700\(10\) ')
+        self.assertRegex(text, r'pressure +1\.250\(10\) +1\.250\(10\) ')
+        self.assertNotRegex(text, 'collision|potential|nan')
+
     def test_what_is_not_there(self):
         bare = [INFO, made.cost(1)]
         self.cannot_compare('exponents 1-37 and 1-36', run(), run(EXPONENTS[:-1]))

@@ -186,6 +186,13 @@ class Arrays(Loaded):
         self.equal(found.value[['lambda_max', 'h_KS']], [spectrum.lambda_max, spectrum.ks_entropy])
         self.assertEqual(found.unit['c_T2'], 'sigma^2/time unit')
 
+    def test_gas_of_soft_particles(self):
+        soft = self.load([made.run_info(), made.soft_gas()]).gas
+        names = ['pressure', 'pressure_x', 'pressure_y', 'compressibility', 'temperature']
+        self.assertEqual(list(soft.index), [*names, 'potential_energy'])
+        self.equal(soft.value, [1.25, 1.5, 1.0, 5.0, 0.625, 0.5])
+        self.assertEqual(list(soft.unit[3:]), ['', 'epsilon', 'epsilon'])
+
     def test_gas_and_widths(self):
         widths = [0.2, 0.5, 0.7]
         gas, shape = made.gas(60.0), made.localization(widths, error=-1.0)

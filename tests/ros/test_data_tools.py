@@ -228,6 +228,22 @@ class Export(Tools):
         self.assertAlmostEqual(mean.scatter['pressure'], np.sqrt(squares @ [1, 1, 2] / (4 * 2)))
         self.assertEqual(mean.unit['pressure'], '1/sigma^2')
 
+    def soft(self, seed, step, temperature):
+        own = ['potential=wca', f'time_step={step}']
+        info = made.run_info(seed=seed, run_id=seed, own=own)
+        warm = made.soft_gas(run_id=seed, temperature=temperature)
+        return self.write([info, warm], 'soft' + seed)
+
+    def test_gas_of_soft_seeds(self):
+        """Of steps of one length alone: their temperatures and exponents differ by the steps."""
+        bags = self.soft('1', 0.01, 0.6), self.soft('2', 0.01, 0.7), self.soft('3', 0.005, 0.7)
+        mean = hdlyap.load(*bags[:2]).gas
+        self.assertNotIn('collision_rate', mean.index)
+        self.assertAlmostEqual(mean.value['temperature'], 0.65)
+        self.assertAlmostEqual(mean.scatter['temperature'], 0.05)
+        said = r'\Ahdlyap plot: .* do not belong together: own is .*time_step=0\.01.* and .*=0\.005'
+        self.refuses(said, 'plot', bags[0], bags[2], '--out', self.out)
+
 
 class Refused(Tools):
     """Each tool says in one line what is wrong with a bag."""

@@ -17,7 +17,7 @@ from hdlyap.plots import repetition, report
 from hdlyap.plots.figures import style
 
 TOPICS = ['run_info', 'spectrum', 'modes', 'steps', 'lp_phases', 't_phases', 'fields', 'structure']
-TOPICS += ['covariant', 'localization', 'state', 'status', 'cost']
+TOPICS += ['covariant', 'localization', 'gas', 'state', 'status', 'cost']
 N, CHOSEN = 36, [1, 66, 69]
 SCENE = dict(particles='soft_disks', potential='power', number=N, density=0.2, aspect=0.05)
 SCENE.update(scene='soft', seed='2', exponents='all', equilibration=10.0, warmup=60.0)
@@ -44,11 +44,13 @@ def pair_energy(potential, r):
 
 def energy(state, info, potential):
     """Of a particle, all pairs by their nearest images."""
-    q, box = of(state, 'x', 'y'), np.array([info.box_x, info.box_y])[:, None]
+    axes = 'xyz'[: info.dimension]
+    q = of(state, *axes)
+    box = of(info, *('box_' + axis for axis in axes))[:, None]
     apart = q[:, :, None] - q[:, None, :]
     apart -= box[:, None] * np.round(apart / box[:, None])
     r = np.sqrt(np.sum(apart**2, axis=0))[np.triu_indices(info.number, 1)]
-    kinetic = np.sum(of(state, 'px', 'py') ** 2) / 2
+    kinetic = np.sum(of(state, *('p' + axis for axis in axes)) ** 2) / 2
     return (kinetic + np.sum(pair_energy(potential, r[r < CUT[potential]]))) / info.number
 
 
@@ -144,6 +146,25 @@ class Soft(harness.Case):
         self.assertTrue(((widths > 1 / N) & (widths <= 1)).all())
         self.assertEqual(len(self.messages['structure'][-1].peak), 4 * N)
 
+    def test_gas(self):
+        """They do not collide; what is told fits together, and to the states."""
+        info, last = self.info, self.messages['gas'][-1]
+        self.assertEqual(len(self.messages['gas']), 100)
+        self.assertTrue(math.isnan(last.collision_rate))
+        self.assertEqual(last.collision_rate_error, -1)
+        self.assertAlmostEqual(last.pressure, (last.pressure_x + last.pressure_y) / 2, places=12)
+        thin = (N - 1) * last.temperature / (info.box_x * info.box_y)
+        self.assertAlmostEqual(last.compressibility, last.pressure / thin, places=9)
+        self.assertAlmostEqual(
+            last.potential_energy + (N - 1) / N * last.temperature, 1.0, delta=1e-5
+        )
+        kinetic = [s.kinetic_energy for s in self.messages['state'] if s.sim_time > 70]
+        error = np.std(kinetic) / np.sqrt(len(kinetic))
+        self.assertAlmostEqual(
+            last.temperature, np.mean(kinetic) / (N - 1), delta=4 * error / (N - 1)
+        )
+        self.assertAlmostEqual(last.averaged_time, last.sim_time - 70.0, delta=0.01)
+
     def test_words(self):
         """Titles, reports and the scene file that repeats the run have what moves them."""
         own = 'potential power, energy 1, time step 0.004427, integrator pefrl'
@@ -166,6 +187,51 @@ class Soft(harness.Case):
         )
         for hard in 'packing', 'keep their places', 'c_T', 'of steps', '780':
             self.assertNotIn(hard, said)
+
+
+class Spheres(harness.Case):
+    """A run in space, with what its bag says and its pictures draw."""
+
+    SCENE = dict(SMALL, particles='soft_spheres', number=32, density=0.3, exponents='all')
+    SCENE.update(warmup=60.0, duration=100.0, report_interval=2.0, max_mode_number=1)
+    SCENE.update(aspect=0.3, aspect_z=0.3, wait_for_subscribers='all', field_indices=[1, 92])
+    SCENE.update(observables=['spectrum', 'modes', 'steps', 'fields', 'gas', 'state'])
+
+    @classmethod
+    def setUpClass(cls):
+        topics = ['run_info', *cls.SCENE['observables'], 'cost']
+        cls.messages = harness.whole_run(dict(cls.SCENE, wait_for_subscribers=topics), topics)
+
+    def test_what_is_told(self):
+        (info, *_), spectrum = self.messages['run_info'], self.messages['spectrum'][-1]
+        self.assertEqual((info.particles, info.dimension, info.coordinates), ('soft_spheres', 3, 3))
+        self.assertEqual((info.zero_exponents, info.vectors), (8, 6 * 32))
+        exponents = np.array(spectrum.exponents)
+        np.testing.assert_array_equal(exponents, -exponents[::-1])
+        self.assertGreater(exponents[91], 3 * abs(exponents[92:100]).max())
+        for state in self.messages['state']:
+            q, p = of(state, 'x', 'y', 'z'), of(state, 'px', 'py', 'pz')
+            box = of(info, 'box_x', 'box_y', 'box_z')[:, None]
+            self.assertTrue(((q >= 0) & (q <= box)).all())
+            np.testing.assert_allclose(p.sum(axis=1), 0.0, atol=ROUNDING)
+            self.assertAlmostEqual(energy(state, info, 'wca'), 1.0, delta=5e-4)
+        for field in self.messages['fields']:
+            vector = of(field, 'dqx', 'dqy', 'dqz', 'dpx', 'dpy', 'dpz')
+            self.assertAlmostEqual(np.sum(vector**2), 1.0, places=7)
+
+    def test_gas(self):
+        """P V is (N - 1) kT and a third of the virial, along three directions."""
+        info, last = self.messages['run_info'][0], self.messages['gas'][-1]
+        each = of(last, 'pressure_x', 'pressure_y', 'pressure_z')
+        self.assertAlmostEqual(last.pressure, each.mean(), places=12)
+        thin = 31 * last.temperature / np.prod(of(info, 'box_x', 'box_y', 'box_z'))
+        self.assertAlmostEqual(last.compressibility, last.pressure / thin, places=9)
+        whole = last.potential_energy + 1.5 * 31 / 32 * last.temperature
+        self.assertAlmostEqual(whole, 1.0, delta=5e-4)
+        self.assertGreater(last.compressibility, 1.3)
+        for name in 'pressure', 'pressure_z', 'temperature', 'potential_energy', 'compressibility':
+            error, value = getattr(last, name + '_error'), getattr(last, name)
+            self.assertTrue(0 < error < 0.1 * value, f'{name} {value} +- {error}')
 
 
 class Energies(harness.Case):

@@ -29,6 +29,14 @@ typedef struct hd_told {
     double expected; /**< pair events in a time unit, by Enskog's theory [T2] */
 } hd_told;
 
+/** Integrals over time so far, of what has a potential [T19]. */
+typedef struct hd_summed {
+    double time; /**< that they go over: of what moves in steps the whole ones */
+    double kinetic[HD_DIMENSION_MAX]; /**< of the sum of p_d^2, by direction */
+    double virial[HD_DIMENSION_MAX];  /**< of the sum of r_d F_d over pairs, by direction */
+    double potential;                 /**< of the potential energy of all together */
+} hd_summed;
+
 /** How exact the present state is. */
 typedef struct hd_examined {
     double energy_error; /**< relative, of the energy; the row's function of that name has it */
@@ -139,6 +147,9 @@ struct hd_dynamics {
     /** All but `expected`, of particles whose kinetic energy is N: what the gas is made from. May
      * be left out; then there is none. */
     void (*tell)(const void *state, hd_told *told);
+    /** What the gas is made from instead, of what does not collide; asked of scenes that observe
+     * HD_OBSERVE_GAS alone. May be left out. */
+    void (*sum)(const void *state, hd_summed *summed);
     void (*examine)(const void *state, hd_examined *examined); /**< of the same; may be left out */
     /** Relative error of the energy now; may be left out where all is kinetic and N. */
     double (*energy_error)(const void *state);

@@ -50,6 +50,13 @@ hd_told hd_trajectory_told(const hd_trajectory *tr)
     return told;
 }
 
+hd_summed hd_trajectory_summed(const hd_trajectory *tr)
+{
+    hd_summed summed = {.time = 0.0};
+    if (tr->of->sum) tr->of->sum(tr->state, &summed);
+    return summed;
+}
+
 double hd_trajectory_time(const hd_trajectory *tr) { return tr->of->time(tr->state); }
 int hd_trajectory_disks(const hd_trajectory *tr) { return tr->particles; }
 uint64_t hd_trajectory_collisions(const hd_trajectory *tr)

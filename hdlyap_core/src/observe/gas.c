@@ -1,7 +1,9 @@
-/** Counts of the trajectory -> collision rate and pressure [T19], in samples and blocks [T8]. */
+/** Counts and sums of the trajectory -> collision rate, or temperature and potential energy, and
+ * pressure [T19], in samples and blocks [T8]. */
 #include "observe/gas.h"
 
 #include <math.h>
+#include <stdio.h>
 
 #include "averages/blocks.h"
 #include "base/check.h"
@@ -12,29 +14,39 @@
 #include "scene/scene.h"
 #include "dynamics/trajectory.h"
 
-/** Series that are averaged: per time unit; of the virial one for each direction. */
-enum { COLLISIONS, VIRIAL_X, SERIES_MAX = VIRIAL_X + HD_DIMENSION_MAX };
+/** Series that are averaged: per time unit; of the virial one for each direction, and after these,
+ * of what has a potential, one of the kinetic energy for each. */
+enum {
+    COLLISIONS,
+    POTENTIAL = COLLISIONS, /**< of what does not collide */
+    VIRIAL_X,
+    SERIES_MAX = VIRIAL_X + 2 * HD_DIMENSION_MAX
+};
 
-/** What a trajectory has counted. */
+/** What a trajectory has counted: collisions, or what it has summed up. */
 typedef struct counts {
-    double time, virial[HD_DIMENSION_MAX];
     uint64_t collisions;
+    hd_summed summed;
 } counts;
 
 struct hd_gas {
     int dimension, coordinates, series;
+    bool is_summed;
     double disks, area;
-    double kinetic[HD_DIMENSION_MAX]; /**< twice the mean kinetic energy along each direction */
+    double momenta;                   /**< that are free */
+    double kinetic[HD_DIMENSION_MAX]; /**< twice the mean kinetic energy along each direction, of
+                                           what collides */
     counts last;                      /**< where the last sample ended */
     double time, sum[SERIES_MAX];     /**< since the beginning */
     hd_blocks blocks;
 };
 
-static counts counts_of(const hd_trajectory *trajectory)
+static counts counts_of(const hd_gas *gas, const hd_trajectory *trajectory)
 {
-    counts now = {.time = hd_trajectory_time(trajectory),
-                  .collisions = hd_trajectory_collisions(trajectory)};
-    hd_trajectory_virial(trajectory, now.virial);
+    if (gas->is_summed) return (counts){.summed = hd_trajectory_summed(trajectory)};
+    counts now = {.collisions = hd_trajectory_collisions(trajectory),
+                  .summed.time = hd_trajectory_time(trajectory)};
+    hd_trajectory_virial(trajectory, now.summed.virial);
     return now;
 }
 
@@ -55,6 +67,11 @@ double hd_gas_temperature(const hd_scene_def *def)
 
 double hd_gas_area(const hd_scene_def *def) { return hd_container_of(def)->area(def); }
 
+static int series_of(const hd_scene_def *def)
+{
+    return VIRIAL_X + hd_scene_dimension(def) * (hd_dynamics_of(def)->sum ? 2 : 1);
+}
+
 hd_status hd_gas_create(hd_gas **out, const hd_scene_def *def, double block)
 {
     hd_gas *gas = hd_memory_alloc(1, sizeof *gas);
@@ -62,9 +79,11 @@ hd_status hd_gas_create(hd_gas **out, const hd_scene_def *def, double block)
     if (!gas) return HD_NO_MEMORY;
     gas->dimension = hd_scene_dimension(def);
     gas->coordinates = hd_scene_coordinates(def);
-    gas->series = VIRIAL_X + gas->dimension;
+    gas->is_summed = hd_dynamics_of(def)->sum;
+    gas->series = series_of(def);
     gas->disks = def->number;
     gas->area = hd_gas_area(def);
+    for (int d = 0; d < gas->dimension; d++) gas->momenta += momenta(def, d);
     for (int d = 0; d < gas->dimension; d++)
         gas->kinetic[d] = momenta(def, d) * hd_gas_temperature(def);
     const hd_status status = hd_blocks_create(&gas->blocks, gas->series, block);
@@ -82,9 +101,11 @@ void hd_gas_free(hd_gas *gas)
     hd_memory_free(gas);
 }
 
+static int kinetic_x(const hd_gas *gas) { return VIRIAL_X + gas->dimension; }
+
 void hd_gas_begin(hd_gas *gas, const hd_trajectory *trajectory)
 {
-    gas->last = counts_of(trajectory);
+    gas->last = counts_of(gas, trajectory);
     gas->time = 0.0;
     for (int s = 0; s < gas->series; s++) gas->sum[s] = 0.0;
     hd_blocks_restart(&gas->blocks);
@@ -92,10 +113,15 @@ void hd_gas_begin(hd_gas *gas, const hd_trajectory *trajectory)
 
 void hd_gas_add(hd_gas *gas, const hd_trajectory *trajectory)
 {
-    const counts now = counts_of(trajectory), last = gas->last;
-    const double dt = now.time - last.time;
+    const counts now = counts_of(gas, trajectory), last = gas->last;
+    const hd_summed *a = &last.summed, *b = &now.summed;
+    const double dt = b->time - a->time;
     double sample[SERIES_MAX] = {[COLLISIONS] = (double)(now.collisions - last.collisions)};
-    for (int d = 0; d < gas->dimension; d++) sample[VIRIAL_X + d] = now.virial[d] - last.virial[d];
+    if (gas->is_summed) sample[POTENTIAL] = b->potential - a->potential;
+    for (int d = 0; d < gas->dimension; d++) {
+        sample[VIRIAL_X + d] = b->virial[d] - a->virial[d];
+        if (gas->is_summed) sample[kinetic_x(gas) + d] = b->kinetic[d] - a->kinetic[d];
+    }
     if (!(dt > 0)) return;
     for (int s = 0; s < gas->series; s++) gas->sum[s] += sample[s];
     gas->time += dt;
@@ -103,29 +129,81 @@ void hd_gas_add(hd_gas *gas, const hd_trajectory *trajectory)
     hd_blocks_add(&gas->blocks, sample, dt);
 }
 
-/** Standard error of factor times the sum of series first .. last, per time. */
-static double error_of(const hd_gas *gas, int first, int last, double factor)
+typedef struct span {
+    int first, last;
+    double factor;
+} span;
+
+/** Standard error of the sum of two spans of series, each times its factor, per time. */
+static double error_of(const hd_gas *gas, span a, span b)
 {
     hd_part parts[SERIES_MAX];
-    for (int s = first; s <= last; s++) parts[s - first] = (hd_part){s, factor};
-    return hd_blocks_error(&gas->blocks, parts, last - first + 1);
+    int count = 0;
+    for (int s = a.first; s <= a.last; s++) parts[count++] = (hd_part){s, a.factor};
+    for (int s = b.first; s <= b.last; s++) parts[count++] = (hd_part){s, b.factor};
+    return hd_blocks_error(&gas->blocks, parts, count);
+}
+
+static const span NO_SPAN = {0, -1, 0.0};
+
+static double times(double error, double factor) { return error < 0 ? error : error * factor; }
+
+/** Pressures, whatever carries the momentum. */
+static void read_pressures(hd_gas_means *m, const hd_gas *gas, double t)
+{
+    const double a = gas->area;
+    for (int d = 0; d < gas->dimension; d++) {
+        const int virial = VIRIAL_X + d, kinetic = kinetic_x(gas) + d;
+        const double of_flight = gas->is_summed ? gas->sum[kinetic] / t : gas->kinetic[d];
+        const span flight = gas->is_summed ? (span){kinetic, kinetic, 1.0 / a} : NO_SPAN;
+        m->pressure_of[d] = (of_flight + gas->sum[virial] / t) / a;
+        m->pressure_of_error[d] = error_of(gas, (span){virial, virial, 1.0 / a}, flight);
+        m->pressure += m->pressure_of[d];
+    }
+    m->pressure /= gas->dimension;
+    m->pressure_error = error_of(gas, (span){VIRIAL_X, gas->series - 1, 1.0 / gas->dimension / a},
+                                 NO_SPAN);
+}
+
+/** Of what collides: all of its energy is kinetic. */
+static void read_counted(hd_gas_means *m, const hd_gas *gas, double t)
+{
+    const double each = 2.0 / gas->disks, half = gas->coordinates / 2.0;
+    m->collision_rate = each * gas->sum[COLLISIONS] / t;
+    m->collision_rate_error = error_of(gas, (span){COLLISIONS, COLLISIONS, each}, NO_SPAN);
+    m->compressibility = m->pressure * gas->area / gas->disks * half;
+    m->compressibility_error = times(m->pressure_error, gas->area / gas->disks * half);
+    m->temperature = m->potential_energy = NAN;
+    m->temperature_error = m->potential_energy_error = -1.0;
+}
+
+/** Of what has a potential; Z = 1 + W / 2 K. */
+static void read_summed(hd_gas_means *m, const hd_gas *gas, double t)
+{
+    const int x = kinetic_x(gas), last = gas->series - 1;
+    double twice = 0.0, virial = 0.0; /* 2 K, W */
+    for (int d = 0; d < gas->dimension; d++) {
+        twice += gas->sum[x + d] / t;
+        virial += gas->sum[VIRIAL_X + d] / t;
+    }
+    m->collision_rate = NAN;
+    m->collision_rate_error = -1.0;
+    m->compressibility = 1.0 + virial / twice;
+    m->compressibility_error = error_of(gas, (span){VIRIAL_X, x - 1, 1.0 / twice},
+                                        (span){x, last, -virial / (twice * twice)});
+    m->temperature = twice / gas->momenta;
+    m->temperature_error = error_of(gas, (span){x, last, 1.0 / gas->momenta}, NO_SPAN);
+    m->potential_energy = gas->sum[POTENTIAL] / t / gas->disks;
+    m->potential_energy_error = error_of(gas, (span){POTENTIAL, POTENTIAL, 1.0 / gas->disks},
+                                         NO_SPAN);
 }
 
 hd_gas_means hd_gas_read(const hd_gas *gas)
 {
-    const double t = gas->time > 0 ? gas->time : NAN, each = 2.0 / gas->disks, a = gas->area;
-    hd_gas_means m = {
-        .time = gas->time,
-        .collision_rate = each * gas->sum[COLLISIONS] / t,
-        .collision_rate_error = error_of(gas, COLLISIONS, COLLISIONS, each),
-        .pressure_error = error_of(gas, VIRIAL_X, gas->series - 1, 1.0 / gas->dimension / a)};
-    for (int d = 0; d < gas->dimension; d++) {
-        m.pressure_of[d] = (gas->kinetic[d] + gas->sum[VIRIAL_X + d] / t) / a;
-        m.pressure_of_error[d] = error_of(gas, VIRIAL_X + d, VIRIAL_X + d, 1.0 / a);
-    }
-    for (int d = 0; d < gas->dimension; d++) m.pressure += m.pressure_of[d];
-    m.pressure /= gas->dimension;
-    m.compressibility = m.pressure * a / gas->disks * (gas->coordinates / 2.0);
+    const double t = gas->time > 0 ? gas->time : NAN;
+    hd_gas_means m = {.time = gas->time};
+    read_pressures(&m, gas, t);
+    (gas->is_summed ? read_summed : read_counted)(&m, gas, t);
     return m;
 }
 
@@ -134,7 +212,7 @@ hd_gas_means hd_gas_read(const hd_gas *gas)
 static double gas_bytes(const hd_scene_def *scene, int ranks)
 {
     (void)ranks;
-    return sizeof(hd_gas) + hd_blocks_bytes(VIRIAL_X + hd_scene_dimension(scene));
+    return sizeof(hd_gas) + hd_blocks_bytes(series_of(scene));
 }
 
 static void *gas_create(const hd_observing *with, hd_status *status)
@@ -156,17 +234,45 @@ static void gas_add(void *self, const hd_observing *with, const hd_view *state)
 static void gas_archive(void *self, hd_archive *archive, const hd_trajectory *now)
 {
     hd_gas *gas = self;
-    hd_archive_double(archive, "gas last time", &gas->last.time);
-    hd_archive_doubles(archive, "gas last virial", gas->last.virial, (size_t)gas->dimension);
+    hd_summed *last = &gas->last.summed;
+    hd_archive_double(archive, "gas last time", &last->time);
+    hd_archive_doubles(archive, "gas last virial", last->virial, (size_t)gas->dimension);
+    if (gas->is_summed) {
+        hd_archive_doubles(archive, "gas last kinetic", last->kinetic, (size_t)gas->dimension);
+        hd_archive_double(archive, "gas last potential", &last->potential);
+    }
     hd_archive_bits(archive, "gas last collisions", &gas->last.collisions);
     hd_archive_double(archive, "gas time", &gas->time);
     hd_archive_doubles(archive, "gas sum", gas->sum, (size_t)gas->series);
-    hd_archive_expect(archive, gas->last.time >= 0 && gas->last.time <= hd_trajectory_time(now),
+    hd_archive_expect(archive, last->time >= 0 && last->time <= hd_trajectory_time(now),
                       "gas last time", "it does not fit the time");
     hd_archive_expect(archive, gas->last.collisions <= hd_trajectory_collisions(now),
                       "gas last collisions", "there were not so many");
     hd_archive_expect(archive, gas->time >= 0, "gas time", "it is negative");
     hd_blocks_archive(&gas->blocks, archive);
+}
+
+/** Whether such particles sum up, or collide; or the reason. */
+static bool is_known(const hd_scene_def *def, bool of_sums, char why[HD_WHY])
+{
+    const hd_dynamics *of = hd_dynamics_of(def);
+    if (!of->sum == of_sums)
+        snprintf(why, HD_WHY,
+                 of_sums ? "all energy of %s is kinetic, and fixed" : "%s do not collide",
+                 of->particles);
+    return !of->sum != of_sums;
+}
+
+static bool rate_possible(const hd_scene_def *def, const hd_aim *goal, char why[HD_WHY])
+{
+    (void)goal;
+    return is_known(def, false, why);
+}
+
+static bool energy_possible(const hd_scene_def *def, const hd_aim *goal, char why[HD_WHY])
+{
+    (void)goal;
+    return is_known(def, true, why);
 }
 
 static hd_stated read_collision_rate(const hd_parts *parts, const hd_aim *goal)
@@ -183,18 +289,35 @@ static hd_stated read_pressure(const hd_parts *parts, const hd_aim *goal)
     return (hd_stated){means.pressure, means.pressure_error, 0.0};
 }
 
-static const hd_quantity each[] = {{.name = "collision_rate", .read = read_collision_rate},
-                                   {.name = "pressure", .read = read_pressure},
-                                   {.name = NULL}};
+static hd_stated read_temperature(const hd_parts *parts, const hd_aim *goal)
+{
+    (void)goal;
+    const hd_gas_means means = hd_gas_read(parts->gas);
+    return (hd_stated){means.temperature, means.temperature_error, 0.0};
+}
+
+static hd_stated read_potential_energy(const hd_parts *parts, const hd_aim *goal)
+{
+    (void)goal;
+    const hd_gas_means means = hd_gas_read(parts->gas);
+    return (hd_stated){means.potential_energy, means.potential_energy_error, 0.0};
+}
+
+static const hd_quantity each[] = {
+    {.name = "collision_rate", .possible = rate_possible, .read = read_collision_rate},
+    {.name = "pressure", .read = read_pressure},
+    {.name = "temperature", .possible = energy_possible, .read = read_temperature},
+    {.name = "potential_energy", .possible = energy_possible, .read = read_potential_energy},
+    {.name = NULL}};
 static const hd_quantities quantities = {"gas", each};
 
 static hd_status gas_check(const hd_scene_def *scene, char *message, size_t size)
 {
     const hd_dynamics *of = hd_dynamics_of(scene);
-    if (of->tell) return HD_OK;
+    if (of->tell || of->sum) return HD_OK;
     return hd_refuse(message, size,
                      "observables = gas: must not be given with particles = %s, which tell of no "
-                     "collisions",
+                     "pressure",
                      of->particles);
 }
 

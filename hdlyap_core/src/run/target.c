@@ -178,7 +178,7 @@ static hd_status refuse_text(const hd_scene_def *def, char *message, size_t size
                                    [HD_OF_INDEX] = "(index)",
                                    [HD_OF_NODES] = hd_scene_dimension(def) == 2 ? "(nx,ny)"
                                                                                 : "(nx,ny,nz)"};
-    char names[HD_WHY] = "";
+    char names[2 * HD_WHY] = "";
     for (int k = -1; k < HD_OBSERVED; k++)
         for (const hd_quantity *q = quantities_of(k); q && q->name; q++) {
             const size_t length = strlen(names);

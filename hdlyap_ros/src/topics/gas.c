@@ -1,4 +1,4 @@
-/** Averages of collisions and their virial -> Gas. */
+/** Averages of collisions or energies, and of the virial -> Gas. */
 #include "topics/moment.h"
 
 #include <math.h>
@@ -21,6 +21,11 @@ hd_status topic_publish_gas(const moment *now)
         .pressure_z = has_z ? m.pressure_of[2] : NAN,
         .pressure_z_error = has_z ? m.pressure_of_error[2] : -1.0,
         .compressibility = m.compressibility,
+        .compressibility_error = m.compressibility_error,
+        .temperature = m.temperature,
+        .temperature_error = m.temperature_error,
+        .potential_energy = m.potential_energy,
+        .potential_energy_error = m.potential_energy_error,
     };
     return m.time > 0.0 ? topic_send_gas(now->out, &message) : HD_OK;
 }

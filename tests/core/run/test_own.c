@@ -306,12 +306,12 @@ TEST(own_parameters_are_refused_like_others)
             .exponents = 17);
 }
 
-TEST(no_gas_without_collisions)
+TEST(no_gas_without_pressure)
 {
     const hd_dynamics own = disks_of_ones_own();
     check_refused(scene_from(hd_scene_def_of(&own), .observe = HD_OBSERVE_GAS),
                   "observables = gas: must not be given with particles = coins, which tell of no "
-                  "collisions");
+                  "pressure");
 }
 
 static jmp_buf bug;

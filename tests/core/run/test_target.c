@@ -75,7 +75,12 @@ TEST(what_is_never_known_is_refused_by_name)
     expect_refused(&blind, "must be without v: lp_phases is no observable");
     blind = aiming(blind, "pressure 1%");
     expect_refused(&blind, "must be without pressure: gas is no observable");
-    blind = aiming(scene_from(long_box(), .observe = HD_OBSERVE_GAS), "c_L 1%");
+    blind = aiming(scene_from(long_box(), .observe = HD_OBSERVE_GAS), "temperature 1%");
+    expect_refused(&blind,
+                   "must be without temperature: all energy of disks is kinetic, and fixed");
+    blind = aiming(blind, "potential_energy 1%");
+    expect_refused(&blind, "must be without potential_energy: all energy of disks is kinetic");
+    blind = aiming(blind, "c_L 1%");
     expect_refused(&blind, "must be without c_L: steps is no observable");
     blind = aiming(scene_from(blind, .exponents = HD_EXPONENTS_NONE), "lambda_max 1");
     expect_refused(&blind, "must be without lambda_max: exponents = none");

@@ -50,8 +50,8 @@ static void ten_have(double *sum, double *square, uint64_t seed, double duration
     def.equilibration = def.warmup = 100.0;
     def.duration = duration;
     def.seed = seed;
+    def.observe = HD_OBSERVE_GAS;
     OWNED(hd_run) *run = finished(def);
-    MADE(hd_trajectory, tr, &def);
     const hd_spectrum *spectrum = hd_run_spectrum(run);
     for (int k = 0; k < 3; k++) {
         sum[k] += hd_spectrum_exponent(spectrum, col[k]);
@@ -61,10 +61,7 @@ static void ten_have(double *sum, double *square, uint64_t seed, double duration
         sum[3] += hd_spectrum_exponent(spectrum, l) / def.number;
     square[3] += pow(0.5 * hd_run_vectors(run) / def.number * hd_spectrum_std_error(spectrum, 0),
                      2);
-    for (double time = 20.0; time < duration; time += 0.25) {
-        CHECK_OK(hd_trajectory_extend(tr, NULL, time));
-        sum[4] += hd_trajectory_kinetic_energy(tr) / (def.number - 1) * 0.25 / (duration - 20.0);
-    }
+    sum[4] += hd_gas_read(hd_run_gas(run)).temperature;
     square[4] += pow(0.1, 2) / duration;
 }
 
@@ -165,6 +162,7 @@ TEST(a_run_goes_on_from_its_checkpoint_bit_for_bit)
     const char *path = "soft.checkpoint";
     for (int dimension = 2; dimension <= 3; dimension++) {
         hd_scene_def def = short_run(soft_few(dimension, HD_WCA, HD_FOREST_RUTH, 0.003), 20.0);
+        def.observe = HD_OBSERVE_GAS;
         char message[512] = "";
         OWNED(hd_run) *whole = created(def);
         for (double time = 7.3; time < 60.0; time += 17.1) {
@@ -241,7 +239,28 @@ TEST(what_cannot_be_is_refused_by_name)
     refused(def, "number = 1: must be an integer from 2");
 }
 
-/** In a long box; what is of collisions is refused. */
+/** They tell of no collisions: not as a number, and not as a target. */
+TEST(a_target_is_what_they_tell)
+{
+    hd_scene_def def = short_run(soft_box(2, HD_POWER, HD_VERLET, 0.01, 16, 6.0), 1e5);
+    def.exponents = HD_EXPONENTS_NONE;
+    def.observe = HD_OBSERVE_GAS;
+    strcpy(def.target.line, "collision_rate 1%");
+    char message[512] = "";
+    assert_int_equal(hd_target_check(&def, message, sizeof message), HD_REFUSED);
+    assert_string_equal(message, "target = collision_rate 1%: must be without collision_rate: "
+                                 "soft_disks do not collide");
+    strcpy(def.target.line, "temperature 1%, potential_energy 2%, pressure 1%");
+    OWNED(hd_run) *run = finished(def);
+    const hd_gas_means m = hd_gas_read(hd_run_gas(run));
+    CHECK_WITHIN(m.time, 10.0, 9e4);
+    CHECK_WITHIN(m.temperature_error, 1e-5, 0.01 * m.temperature);
+    CHECK_WITHIN(m.potential_energy_error, 1e-5, 0.02 * m.potential_energy);
+    CHECK_WITHIN(m.pressure_error, 1e-5, 0.01 * m.pressure);
+    assert_true(isnan(m.collision_rate) && m.collision_rate_error == -1.0);
+}
+
+/** In a long box, but what asks for collisions. */
 TEST(all_that_can_be_observed_is)
 {
     hd_scene_def def = soft_box(2, HD_WCA, HD_VERLET, 0.004, 20, 10.0);
@@ -251,12 +270,11 @@ TEST(all_that_can_be_observed_is)
     def.warmup = 120.0;
     def.duration = 300.0;
     def.exponents = HD_EXPONENTS_ALL;
-    def.observe = HD_OBSERVE_ALL;
-    refused(def, "observables = gas: must not be given with particles = soft_disks");
-    def.observe = HD_OBSERVE_ALL & ~(unsigned)(HD_OBSERVE_HYDRO | HD_OBSERVE_GAS);
+    def.observe = HD_OBSERVE_ALL & ~(unsigned)HD_OBSERVE_HYDRO;
     OWNED(hd_run) *run = finished(def);
     const hd_covariant_results c = hd_covariant_read(hd_run_parts(run).covariant);
     CHECK_WITHIN((double)c.windows, 1, 100);
+    CHECK_WITHIN(hd_gas_read(hd_run_gas(run)).pressure, 0.2, 1.0);
 }
 
 /** The least energy that a refusal names is the least. */

@@ -141,9 +141,10 @@ static inline void soft_twin_potential(long double out[3], int potential, long d
 
 /** Coordinates and one tangent vector, [particle][dimension] each. */
 typedef struct twin_state {
-    int count, dimension, potential;
+    int count, dimension, pair;
     double box[3];
     long double q[3 * SOFT_MAX], p[3 * SOFT_MAX], dq[3 * SOFT_MAX], dp[3 * SOFT_MAX];
+    long double kinetic[3], virial[3], potential; /* integrals over time */
 } twin_state;
 
 static inline void soft_twin_kick(twin_state *s, long double time)
@@ -158,9 +159,12 @@ static inline void soft_twin_kick(twin_state *s, long double time)
             }
             if (i == j) continue;
             const long double length = sqrtl(square);
-            soft_twin_potential(v, s->potential, length);
-            for (int d = 0; d < n; d++)
+            soft_twin_potential(v, s->pair, length);
+            s->potential += time * v[0] / 2; /* each pair is seen twice */
+            for (int d = 0; d < n; d++) {
+                s->virial[d] -= time * v[1] * r[d] * r[d] / length / 2;
                 along += (s->dq[n * j + d] - s->dq[n * i + d]) * r[d] / length;
+            }
             for (int d = 0; d < n; d++) {
                 const long double e = r[d] / length,
                                   across = s->dq[n * j + d] - s->dq[n * i + d] - along * e;
@@ -175,6 +179,7 @@ static inline void soft_twin_drift(twin_state *s, long double time)
     for (int k = 0; k < s->count * s->dimension; k++) {
         s->q[k] += time * s->p[k];
         s->dq[k] += time * s->dp[k];
+        s->kinetic[k % s->dimension] += time * s->p[k] * s->p[k];
     }
 }
 
@@ -190,7 +195,7 @@ static inline long double soft_twin_energy(const twin_state *s)
                 square += powl(
                     remainderl(s->q[s->dimension * j + d] - s->q[s->dimension * i + d], s->box[d]),
                     2);
-            soft_twin_potential(v, s->potential, sqrtl(square));
+            soft_twin_potential(v, s->pair, sqrtl(square));
             sum += v[0];
         }
     return sum;
@@ -222,7 +227,7 @@ static inline twin_state soft_twin_of(const hd_scene_def *def, const softs *from
 {
     twin_state s = {.count = def->number,
                     .dimension = hd_scene_dimension(def),
-                    .potential = def->own[HD_SOFT_POTENTIAL].whole};
+                    .pair = def->own[HD_SOFT_POTENTIAL].whole};
     hd_scene_box(def, s.box);
     for (int k = 0; k < s.count * s.dimension; k++) {
         s.q[k] = from->q[k];

@@ -40,10 +40,17 @@ KERNEL void bend_fill(double *bend, const double *r, double b, double c, int dim
 }
 
 typedef struct kick {
-    double time; /**< that it stands for */
+    double time;     /**< that it stands for */
+    hd_summed *sums; /**< may be NULL */
     hd_record *record;
     hd_kick *entry;
 } kick;
+
+KERNEL void sum_pair(hd_summed *sums, const double *r, double energy, double push, int dimension)
+{
+    sums->potential += energy;
+    for (int d = 0; d < dimension; d++) sums->virial[d] -= push * r[d] * r[d];
+}
 
 KERNEL hd_status kick_all(soft *s, const kick *k, int dimension)
 {
@@ -61,6 +68,7 @@ KERNEL hd_status kick_all(soft *s, const kick *k, int dimension)
                 s->p[dimension * i + d] += push * r[d];
                 s->p[dimension * j + d] -= push * r[d];
             }
+            if (k->sums) sum_pair(k->sums, r, k->time * pull.v, push, dimension);
             if (!k->record) continue;
             k->entry->i = i;
             k->entry->j = j;
@@ -104,8 +112,15 @@ hd_status hd_soft_look(soft *s)
 
 /* ---- steps --------------------------------------------------------------------------------- */
 
+static void sum_flight(soft *s, double time)
+{
+    for (int k = 0; k < s->count * s->dimension; k++)
+        s->summed.kinetic[k % s->dimension] += time * s->p[k] * s->p[k];
+}
+
 static void drift(soft *s, double time)
 {
+    if (s->sums) sum_flight(s, time);
     for (int k = 0; k < s->count * s->dimension; k++) {
         const double edge = s->near.box[k % s->dimension];
         double q = s->q[k] + time * s->p[k];
@@ -128,11 +143,12 @@ static hd_status one_step(soft *s, hd_record *record, double end)
         hd_kick kick;
     } entry = {.room = {end, -1.0, 0.0, s->step}};
     const hd_integrator *by = s->integrator;
+    hd_summed *sums = s->sums ? &s->summed : NULL;
     if (record) HD_TRY(hd_record_put(record, &entry.kick));
     for (int k = 0; k < by->kicks; k++) {
         entry.kick.at = by->at[k] * s->step;
         drift(s, by->drift[k] * s->step);
-        HD_TRY(one_kick(s, &(kick){by->kick[k] * s->step, record, &entry.kick}));
+        HD_TRY(one_kick(s, &(kick){by->kick[k] * s->step, sums, record, &entry.kick}));
     }
     drift(s, by->drift[by->kicks] * s->step);
     return HD_OK;
@@ -178,7 +194,8 @@ static hd_status allocate(soft **out, const hd_scene_def *scene)
     *s = (soft){.potential = hd_soft_potential(scene),
                 .integrator = hd_soft_integrator(scene),
                 .count = scene->number,
-                .dimension = hd_scene_dimension(scene)};
+                .dimension = hd_scene_dimension(scene),
+                .sums = scene->observe & HD_OBSERVE_GAS};
     s->q = hd_memory_alloc(all, sizeof *s->q);
     s->p = hd_memory_alloc(all, sizeof *s->p);
     if (!s->q || !s->p) return HD_NO_MEMORY;

@@ -237,6 +237,13 @@ static void row_examine(const void *state, hd_examined *out)
     for (int k = 0; k < s->count * s->dimension; k++) out->momentum[k % s->dimension] += s->p[k];
 }
 
+static void row_sum(const void *state, hd_summed *out)
+{
+    const soft *s = state;
+    *out = s->summed;
+    out->time = s->sums ? (double)s->steps * s->step : 0.0;
+}
+
 static double row_energy_error(const void *state) { return ((const soft *)state)->error; }
 
 static double row_bytes(const hd_scene_def *scene)
@@ -280,6 +287,11 @@ static void row_archive(void *state, hd_archive *archive)
     hd_archive_double(archive, "trajectory energy", &s->energy);
     hd_archive_doubles(archive, "trajectory q", s->q, all);
     hd_archive_doubles(archive, "trajectory p", s->p, all);
+    if (s->sums) {
+        hd_archive_doubles(archive, "trajectory kinetic", s->summed.kinetic, (size_t)s->dimension);
+        hd_archive_doubles(archive, "trajectory virial", s->summed.virial, (size_t)s->dimension);
+        hd_archive_double(archive, "trajectory potential", &s->summed.potential);
+    }
     if (!hd_archive_good(archive)) return;
     const double since = s->now - (double)s->steps * s->step;
     const char *fault = since >= 0 && since < 2.0 * s->step ? inconsistency(s)
@@ -314,7 +326,7 @@ static const char *row_fault(const hd_record *record, const hd_scene_def *scene)
         .rate = row_rate, .step = hd_soft_time_step, .split = row_split, .crossing = row_crossing, \
         .null = row_null, .create = hd_soft_create, .create_from = hd_soft_create_from,            \
         .free = hd_soft_free, .advance = hd_soft_advance, .time = row_time, .state = row_state,    \
-        .kinetic_energy = hd_soft_kinetic_energy, .examine = row_examine,                          \
+        .kinetic_energy = hd_soft_kinetic_energy, .sum = row_sum, .examine = row_examine,          \
         .energy_error = row_energy_error, .archive = row_archive, .bytes = row_bytes,              \
         .record_bytes = row_record_bytes_##in, .fault = row_fault,                                 \
         .maps_create = hd_kick_maps_create_##in, .maps_free = hd_kick_maps_free,                   \

@@ -19,10 +19,12 @@ typedef struct soft {
     int count, dimension;
     double step; /**< [time units] */
     double now;
-    uint64_t steps; /**< so many have been done */
-    double energy;  /**< at the start */
-    double error;   /**< of the energy now, see hd_soft_look */
-    double *q, *p;  /**< [particle][dimension] after the last step, q in the box */
+    uint64_t steps;   /**< so many have been done */
+    double energy;    /**< at the start */
+    double error;     /**< of the energy now, see hd_soft_look */
+    double *q, *p;    /**< [particle][dimension] after the last step, q in the box */
+    bool sums;        /**< are taken: of a scene with gas */
+    hd_summed summed; /**< but its time */
     hd_neighbours near;
 } soft;
 

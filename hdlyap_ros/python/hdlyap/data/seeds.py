@@ -142,7 +142,7 @@ class Seeds:
 
     @cached_property
     def gas(self):
-        """Collision rate and pressure."""
+        """Collision rate, or temperature and potential energy, and pressure."""
         frames = [run.gas for run in self.runs]
         weights = np.array([run.last('gas').averaged_time for run in self.runs])
         return self._mean(frames, 'value', weights).join(frames[0][['unit']])

@@ -118,20 +118,18 @@ def of_modes(message, info=None):
 
 
 def of_gas(message, info=None):
-    """By quantity."""
+    """By quantity: those that such particles have."""
     described = fields.of(message)
-    names = ['collision_rate', 'pressure', *('pressure_' + axis for axis in space.axes(info))]
-    per = f'1/sigma^{len(space.axes(info))}'  # the definition says that of disks
-    values = [getattr(message, name) for name in names] + [message.compressibility]
-    errors = known([getattr(message, name + '_error') for name in names])
-    relative = errors[1] / message.pressure if message.pressure else np.nan
+    pressures = ['pressure', *('pressure_' + axis for axis in space.axes(info))]
+    units = dict.fromkeys(pressures, f'1/sigma^{len(space.axes(info))}')  # the definition: of disks
+    names = ['collision_rate', *pressures, 'compressibility', 'temperature', 'potential_energy']
+    names = [name for name in names if not np.isnan(getattr(message, name))]
     columns = {
-        'value': values,
-        'std_error': [*errors, relative * message.compressibility],
-        'unit': [described['collision_rate'].unit, *[per] * (len(names) - 1), ''],
+        'value': [getattr(message, name) for name in names],
+        'std_error': known([getattr(message, name + '_error') for name in names]),
+        'unit': [units.get(name, described[name].unit) for name in names],
     }
-    index = pandas.Index([*names, 'compressibility'], name='quantity')
-    return frame(columns, {}, index)
+    return frame(columns, {}, pandas.Index(names, name='quantity'))
 
 
 def of_phases(message, info=None, kind='LP'):

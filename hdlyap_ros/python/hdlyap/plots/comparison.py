@@ -18,7 +18,8 @@ OWN = ('header', 'run_id')  # of every message, also of bit-identical runs
 SLOPES = 'c_T', 'c_L', 'v'
 SUMS = 'h_KS', 'sum of exponents'
 STEPPED = 'time_step', 'integrator'  # how exactly it is moved, and not what
-GAS = {'collision_rate': 'collision rate', 'pressure': 'pressure'}
+# what of the energy is potential is the rest of the temperature
+GAS = {'collision_rate': 'collision rate', 'pressure': 'pressure', 'temperature': 'temperature'}
 
 
 class Comparison:
@@ -48,7 +49,7 @@ class Comparison:
 
     @property
     def numbers(self):
-        """lambda_max, h_KS, c_T, c_L, v, collision rate, pressure."""
+        """lambda_max, h_KS, c_T, c_L, v, collision rate or temperature, pressure."""
         slopes = [one for one in self.fits if one.name in SLOPES]
         return [*self.exponents[:1], *self.sums, *slopes, *self.gas]
 
@@ -177,15 +178,16 @@ def _members(one, run):
 
 
 def _gas(a, b):
-    """Collision rate and pressure, of runs that all have them."""
+    """Collision rate or temperature, and pressure, of runs that all have them."""
     if not all(one.has('gas') for run in (a, b) for one in run.data.runs):
         return []
-    frames = [run.data.gas.loc[list(GAS)] for run in (a, b)]
+    names = [name for name in GAS if name in a.data.gas.index]
+    frames = [run.data.gas.loc[names] for run in (a, b)]
     values = zip(*(frame['value'] for frame in frames))
     errors = zip(
         *(seeds.errors(frame) if 'scatter' in frame else frame['std_error'] for frame in frames)
     )
-    return [Deviation(*of_one) for of_one in zip(GAS.values(), values, errors)]
+    return [Deviation(*of_one) for of_one in zip(map(GAS.get, names), values, errors)]
 
 
 def _exponents(a, b):

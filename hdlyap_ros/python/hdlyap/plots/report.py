@@ -117,22 +117,24 @@ def _sums(recording):
 
 def _gas(recording):
     gas, info = recording.gas, recording.info
-    known = gas.pressure_error >= 0 and gas.pressure > 0
-    relative = gas.pressure_error / gas.pressure if known else -1.0
     periodic = set(space.along(info, 'boundary_')) == {'periodic'}
     axes = space.axes(info)
     of_z = f'Z = p {"V" if space.is_solid(info) else "A"} / N'
-    of_z += ' kT' if info.coordinates == 3 else ''  # kT is 1 of disks
+    of_z += ' kT' if info.coordinates == 3 or gas.temperature > 0 else ''  # kT is 1 of disks
     each = ', '.join(f'{getattr(gas, "pressure_" + axis):.6f}' for axis in axes)
     per = f'per {space.particle(info)} and time unit'
     rows = [
         ('collision rate', gas.collision_rate, gas.collision_rate_error, per),
         ('pressure', gas.pressure, gas.pressure_error, f'per sigma^{len(axes)}'),
         ('  of ' + ', '.join('p' + axis for axis in axes), each, -1.0, ''),
-        (of_z, gas.compressibility, relative * gas.compressibility, ''),
+        (of_z, gas.compressibility, gas.compressibility_error, ''),
+        ('temperature', gas.temperature, gas.temperature_error, 'epsilon'),
+        ('potential / N', gas.potential_energy, gas.potential_energy_error, 'epsilon'),
     ]
     lines = [f'gas, averaged over {gas.averaged_time:g}']
     for name, value, error, unit in rows:
+        if value != value:
+            continue  # such particles have none
         text = value if isinstance(value, str) else f'{value:.6f}{_error(error)}'
         lines.append(f'{name:<15} {text} {unit}'.rstrip())
     reference = equation.of(info)
