@@ -1,4 +1,4 @@
-/** A checkpoint's arrays, for a dynamics of one's own. */
+/** How a dynamics of one's own writes its arrays into a checkpoint, and reads them. */
 #ifndef HDLYAP_ARCHIVE_H
 #define HDLYAP_ARCHIVE_H
 
@@ -10,12 +10,12 @@ HD_API_BEGIN
 
 typedef struct hd_archive hd_archive;
 
-/** Writes x[count] under a name of up to 39 characters, or reads it: one call for both, so what is
- * written and what is read cannot differ. Numbers must be finite, or the archive fails; once it has
- * failed nothing is read any more, and no run comes of it. */
+/** Writes x[count] under a name of at most 39 characters, or reads it: the same call does both, so
+ * that they cannot differ. The archive fails if a number is not finite. Once it has failed it reads
+ * nothing more, and the run is not resumed. */
 void hd_archive_doubles(hd_archive *archive, const char *name, double *x, size_t count);
 
-/** What was read cannot be: the archive fails, with the reason. */
+/** Makes the archive fail, because what was read cannot be right, for the reason `fault`. */
 void hd_archive_refuse(hd_archive *archive, const char *name, const char *fault);
 
 HD_API_END

@@ -1,5 +1,5 @@
-/** Ranks that have no program of their own: rank 0 makes the calls of a run (run.h, checkpoint.h),
- * the others make the same ones, as they are told. */
+/** Ranks that follow rank 0: it makes the calls of a run (run.h, checkpoint.h), and the other ranks,
+ * which have no program of their own, repeat them. */
 #ifndef HDLYAP_FOLLOW_H
 #define HDLYAP_FOLLOW_H
 
@@ -8,13 +8,13 @@
 
 HD_API_BEGIN
 
-/** On rank 0: from now on each call of a run with this communicator is told to the others. */
+/** To be called on rank 0: from now on the others repeat its calls of runs with this communicator. */
 void hd_run_lead(hd_communicator *communicator);
-/** On rank 0: they may go. Once. */
+/** To be called on rank 0, once: hd_run_follow returns on the others. */
 void hd_run_dismiss(hd_communicator *communicator);
-/** On the others: makes the calls of rank 0, one run at a time, until they may go. What fails there
- * fails here alike; rank 0 says so. Runs are of hd_particles, or of one of the dynamics own[count].
- */
+/** To be called on the others: repeats the calls of rank 0, one run at a time, until they are
+ * dismissed. A call that fails on rank 0 also fails here; rank 0 reports it. Runs are of
+ * hd_particles, or of one of the dynamics own[count]. */
 void hd_run_follow(hd_communicator *communicator, const hd_dynamics *const *own, int count);
 
 HD_API_END

@@ -1,5 +1,4 @@
-/** Everything: hard disks and spheres, their Lyapunov spectrum and modes; in the order in which
- * data flows. */
+/** All public headers of the core, in the order in which data flows. */
 #ifndef HDLYAP_HDLYAP_H
 #define HDLYAP_HDLYAP_H
 

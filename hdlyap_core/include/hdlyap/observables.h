@@ -1,4 +1,4 @@
-/** What a run tells, and how much of it. */
+/** The results of a run, and their numbers. */
 #ifndef HDLYAP_OBSERVABLES_H
 #define HDLYAP_OBSERVABLES_H
 
@@ -7,14 +7,14 @@
 
 HD_API_BEGIN
 
-/** Room for the name of a quantity that a target can have, as T(1,0) or c_T. */
+/** Size of the name of a quantity that a target can name, as T(1,0) or c_T. */
 enum { HD_QUANTITY_NAME = 32 };
 
-/** Those that are of positions in a box: a set of HD_OBSERVE_*. */
+/** The observables (a set of HD_OBSERVE_*) that need positions in a box. */
 unsigned hd_observe_of_box(void);
 
-/** What a run is made of. Of each observable its result, by its row in observables.inc; NULL what
- * the scene does not ask for. */
+/** The parts of a run: one pointer for each observable, to its result; NULL if the scene does not ask
+ * for it. */
 typedef struct hd_parts {
     const hd_trajectory *trajectory; /**< always there */
     const hd_spectrum *spectrum;     /**< NULL without exponents */
@@ -22,17 +22,17 @@ typedef struct hd_parts {
 #include "hdlyap/observables.inc"
 } hd_parts;
 
-/** How many there are of what a run tells. What the scene does not ask for is 0. */
+/** Numbers of results of a run; 0 for what the scene does not ask for. */
 typedef struct hd_extent {
-    int dimension, coordinates; /**< of the space, of a particle */
+    int dimension, coordinates; /**< dimension of space; coordinates of a particle */
     int disks, vectors;
-    int waves; /**< of the structure factors */
+    int waves; /**< waves of the structure factors */
     int subspaces,
-        angles;          /**< of covariant vectors: kinds of fields of each wave, pairs of spaces */
-    int steps;           /**< in both halves of the spectrum */
-    int examples, pairs; /**< steps that have an example, and the LP pairs of these in all */
-    int phases, t_phases; /**< followed */
-    int responses;        /**< hydrodynamic ones */
+        angles;          /**< of covariant vectors: subspaces of fields; pairs of spaces with angles */
+    int steps;           /**< steps in both halves of the spectrum */
+    int examples, pairs; /**< steps that are shown by an example, and all their LP pairs */
+    int phases, t_phases; /**< LP phases and T phases */
+    int responses;        /**< hydrodynamic responses */
 } hd_extent;
 
 HD_API_END

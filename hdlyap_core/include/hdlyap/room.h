@@ -1,4 +1,4 @@
-/** Memory: what a run will need, and what there is. */
+/** Memory: how much a run needs, and how much there is. */
 #ifndef HDLYAP_ROOM_H
 #define HDLYAP_ROOM_H
 
@@ -6,24 +6,23 @@
 
 HD_API_BEGIN
 
-/** Bytes that the core asks for on each of some ranks (1: a single one) in a run of a checked
- * scene, within some percent, with so many threads. Not in it: libraries, what the caller makes of
- * the run, and windows of covariant vectors, which have a limit of their own (covariant_memory).
- * O(wave vectors). */
+/** Bytes that the core needs on each rank for a run of a checked scene, to some percent. Libraries,
+ * memory of the caller and windows of covariant vectors, which covariant_memory limits, are not in
+ * it. O(wave vectors). */
 double hd_room_needed(const hd_scene_def *def, int threads, int ranks);
 
-/** Why there is not more. */
+/** Available memory. */
 typedef struct hd_room {
-    double bytes;      /**< that this process may still take */
-    const char *limit; /**< "machine", "cgroup" or "ulimit" */
-    int ranks;         /**< that carry the run, each with so much; 0 is 1 */
+    double bytes;      /**< bytes that this process may still take */
+    const char *limit; /**< what limits them: "machine", "cgroup" or "ulimit" */
+    int ranks;         /**< ranks that carry the run, each with so many bytes; 0 means 1 */
 } hd_room;
 
-/** Linux; INFINITY elsewhere. Swap is no room. */
+/** Available memory without swap on Linux; INFINITY elsewhere. */
 hd_room hd_room_available(void);
 
-/** HD_NO_MEMORY if a checked scene needs more than there is, with a line in `message` unless that
- * is NULL: what needs how much, how much there is, and what would fit. */
+/** HD_NO_MEMORY if a checked scene needs more than `room`. `message`, unless NULL, then says what
+ * needs how much, how much there is, and what would fit. */
 HD_MUST_CHECK hd_status hd_room_check(const hd_scene_def *def, hd_room room, char *message,
                                       size_t size);
 

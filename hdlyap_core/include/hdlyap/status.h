@@ -1,5 +1,5 @@
-/** Outcome of every core call that can fail because of data, numbers or the machine.
- * Bugs of the caller are not statuses: they hit HD_ASSERT (see hd_assert_handler_replace). */
+/** The outcome of each call of the core that can fail because of data, numbers or the machine.
+ * Bugs of the caller are not statuses but assertions (see hd_assert_handler_replace). */
 #ifndef HDLYAP_STATUS_H
 #define HDLYAP_STATUS_H
 
@@ -13,7 +13,7 @@
 #define HD_VISIBLE_END
 #endif
 
-/** What is declared in between is seen by who uses the library; in C++, too. */
+/** Declarations between these are visible to users of the library, with C linkage in C++. */
 /* clang-format off */
 #ifdef __cplusplus
 #define HD_API_BEGIN HD_VISIBLE extern "C" {
@@ -26,7 +26,7 @@
 
 HD_API_BEGIN
 
-/** name, text */
+/** X(name, text) for each status. */
 #define HD_STATUS_LIST(X)                                                                          \
     X(HD_OK, "ok")                                                                                 \
     X(HD_REFUSED, "the scene was refused")                                                         \
@@ -45,14 +45,14 @@ typedef enum hd_status {
 #undef HD_STATUS_NAME
 } hd_status;
 
-/** One line of English for a status; never NULL. */
+/** Text of a status in one line; never NULL. */
 const char *hd_status_text(hd_status status);
 
-/** Called with the failed condition and its place when a caller breaks a contract. Must not return.
- */
+/** What is called when the caller of a function breaks its contract, with the condition that failed
+ * and its place. It must not return. */
 typedef void (*hd_assert_handler)(const char *condition, const char *file, int line);
 
-/** Replaces the handler (default: print to stderr and abort); NULL restores the default. */
+/** Replaces the handler. The default, which NULL restores, prints to stderr and aborts. */
 void hd_assert_handler_replace(hd_assert_handler handler);
 
 HD_API_END
