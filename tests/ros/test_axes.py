@@ -103,6 +103,12 @@ class Axes(bags.Bags):
         ]
         found, _ = points.read(paths)
         self.check(lambda ax=None, **look: sweep.draw(found, ax, **look), 1, 'sweep')
+        for number in (30, 40):
+            info = made.run_info(density=0.6, number=number)
+            paths.append(self.write([info, made.spectrum([9.0], 50.0)], str(number)))
+        page = sweep.draw(points.read(paths)[0], ax=self.users(1)[1])
+        labels = page.axes[0].get_legend_handles_labels()[1]
+        self.assertEqual(labels, [r'$\rho$ = 0.4', r'$\rho$ = 0.5', r'$\rho$ = 0.6'])
 
     def test_no_backend_is_chosen(self):
         """Nor does pyplot know of what is drawn."""

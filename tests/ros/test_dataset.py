@@ -110,7 +110,7 @@ class Everything(bags.Bags):
 
     def test_netcdf_and_back(self):
         path = os.path.join(self.folder, 'run.nc')
-        self.all.to_netcdf(path)
+        self.all.to_netcdf(path, engine='scipy')
         back = xarray.load_dataset(path)
         self.assertTrue(back.identical(self.all))
         self.assertEqual(back['spectrum_collisions'].values[1], 2**40)
@@ -132,6 +132,25 @@ class Partly(bags.Bags):
         all_of = hdlyap.load(self.write([info, found, made.gas()])).to_xarray()
         self.assertEqual(all_of['gas_pressure'].dims, ('time',))
         self.assertNotIn('exponents', all_of)
+
+    def test_counts_that_are_large(self):
+        """Beyond what integers of netCDF hold, exact."""
+        spectra = [made.spectrum([9.0], time) for time in (40.0, 50.0)]
+        spectra[1].collisions = 2**40 + 1
+        all_of = hdlyap.load(self.write([made.run_info(), *spectra])).to_xarray()
+        path = os.path.join(self.folder, 'run.nc')
+        all_of.to_netcdf(path, engine='scipy')
+        self.assertEqual(xarray.load_dataset(path)['spectrum_collisions'][1], 2**40 + 1)
+
+    def test_what_does_not_count(self):
+        """Averages of before they were reset."""
+        found = [made.spectrum([9.0], time) for time in (40.0, 50.0, 5.0, 10.0)]
+        gases = [made.gas(time) for time in (40.0, 50.0, 5.0, 10.0)]
+        for one, time in zip(found + gases, (140.0, 150.0, 160.0, 165.0) * 2):
+            one.sim_time = time
+        all_of = hdlyap.load(self.write([made.run_info(), *found, *gases])).to_xarray()
+        self.assertEqual(list(all_of['time']), [160.0, 165.0])
+        self.assertEqual(list(all_of['gas_averaged_time']), [5.0, 10.0])
 
     def test_steps_that_come_and_go(self):
         """Of what there was not NaN."""

@@ -28,7 +28,7 @@ def of(run):
     except ImportError as error:
         raise ImportError(f'{MISSING} ({error})') from error
     parts = [_spectrum(run)] if run.has('spectrum') else []
-    parts += [_part(frame, name) for name, frame in _frames(run)]
+    parts += [_part(*one) for one in _frames(run)]
     parts += [_places(name, rows, first) for name, rows, first in _of_particles(run)]
     made = xarray.merge([part for part in parts if part is not None], join='outer')
     for name, one in list(made.data_vars.items()):
@@ -59,22 +59,22 @@ def _spectrum(run):
 
 
 def _frames(run):
-    """(topic, frame)"""
+    """(topic, frame, {name of its index: that of a dimension})"""
     for name in filter(run.has, OVER_TIME):
         counting = (one for one in run.messages(name) if _counts(run, one))
         messages = list({one.sim_time: one for one in counting}.values())
-        yield name, tables.scalars(messages).rename_axis('time')
+        yield name, tables.scalars(messages), {'sim_time': 'time'}
         if name == 'steps' and messages:
             frame = tables.over_time(messages, tables.of_steps, run.info)
-            yield name, frame.rename_axis(index={'sim_time': 'time'})
+            yield name, frame, {'sim_time': 'time'}
     for name, of_one in PHASES.items():
         if run.has(name):
             frame = tables.over_time(list(run.messages(name)), of_one, run.info)
-            yield name, frame.rename_axis(index={'sim_time': f'{name}_time', 'number': name[:-1]})
+            yield name, frame, {'sim_time': f'{name}_time', 'number': name[:-1]}
     for name in filter(run.has, LAST):
-        yield name, getattr(run, name)
+        yield name, getattr(run, name), {}
     for name in filter(run.has, COURSES):
-        yield name, getattr(run, name).rename_axis(f'{name}_time')
+        yield name, getattr(run, name), {'sim_time': f'{name}_time'}
 
 
 def _counts(run, message):
@@ -82,7 +82,7 @@ def _counts(run, message):
     return not run.has('spectrum') or message.sim_time >= run.times[0]
 
 
-def _part(frame, topic):
+def _part(topic, frame, dimensions):
     """Columns of a frame as variables over what its index is named after."""
     if not len(frame.columns):
         return None
@@ -94,7 +94,7 @@ def _part(frame, topic):
     for name in frame.columns:
         said = (frame.attrs[what].get(name, '') for what in ('units', 'long_names'))
         made[name].attrs = _said(*said)
-    return made.rename({name: f'{topic}_{name}' for name in frame.columns})
+    return made.rename({**dimensions, **{name: f'{topic}_{name}' for name in frame.columns}})
 
 
 def _kind(values):

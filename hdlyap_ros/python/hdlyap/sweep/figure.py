@@ -91,13 +91,14 @@ def _panel(axes, name, x, series, look):
     every = list(itertools.chain(*series.values()))
     places, words = _places(every, x)
     width = max(places.values()) - min(places.values())
-    for number, points in enumerate(series.values()):
+    for number, (label, points) in enumerate(series.items()):
         shift = APART * width * (number - (len(series) - 1) / 2)
         for point in points:
             if name in point.values:
                 value = point.values[name]
                 place = places[str(point.system[x]) if words else point.system[x]] + shift
-                _point(axes, place, value, number, look)
+                _point(axes, place, value, number, {'label': label, **look})
+                label = ''  # once
     axes.margins(y=0.12)
     axes.set_xlim(*_limits(list(places.values()), words))
     if words:
