@@ -1,4 +1,4 @@
-/** What messages consist of, besides numbers and strings. */
+/** Types of message fields that are not plain numbers or strings. */
 #ifndef HDLYAP_ROS_FIELDS_H
 #define HDLYAP_ROS_FIELDS_H
 
@@ -11,11 +11,11 @@
 extern "C" {
 #endif
 
-/** float64[]: element k is data[k * stride]. */
+/** float64[], whose element k is data[k * stride]. */
 typedef struct hdr_doubles {
     const double *data;
     uint32_t count;
-    uint32_t stride; /**< in doubles, >= 1 */
+    uint32_t stride; /**< distance of two elements in doubles, >= 1 */
 } hdr_doubles;
 
 /** uint32[] */
@@ -46,7 +46,8 @@ typedef struct hdr_strings {
 typedef struct hdr_header {
     hdr_time stamp;
     const char *frame_id;
-    uint32_t seq; /**< counts a publisher's messages, filled while publishing: gaps are losses */
+    uint32_t seq; /**< number of the message of its publisher, filled while publishing: a gap is a lost
+                     message */
 } hdr_header;
 
 #ifdef __cplusplus

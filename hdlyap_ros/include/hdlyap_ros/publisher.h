@@ -1,4 +1,4 @@
-/** Topics out: typed functions that advertise and publish, for each message. */
+/** Functions that advertise topics and publish messages, for each type of message. */
 #ifndef HDLYAP_ROS_PUBLISHER_H
 #define HDLYAP_ROS_PUBLISHER_H
 
@@ -9,27 +9,26 @@
 extern "C" {
 #endif
 
-/** A topic of one type. Used by one thread at a time. */
+/** A topic of one type. One thread at a time may use it. */
 typedef struct hdr_publisher hdr_publisher;
 
-/** For each message, for type = hdr_steps:
+/** Each message has these functions, here with type = hdr_steps:
  *
  *      hdr_status hdr_steps_advertise(hdr_publisher **out, hdr_node *node, const char *topic,
  *                                     int queue);
- *      hdr_status hdr_steps_advertise_latched(the same);
+ *      hdr_status hdr_steps_advertise_latched(...);   with the same arguments
  *      hdr_status hdr_steps_publish(hdr_publisher *publisher, const hdr_steps *message);
  *
- * Topic names: "~x" is private to the node. queue >= 1 is the number of messages kept for each
- * subscriber that is behind; the oldest are dropped first. Latched: who comes late gets the last
- * message. The publishers belong to the node and live as long as it does. Advertising fails with
+ * A topic "~x" is private to the node. `queue`, at least 1, is the number of messages that are kept
+ * for a slow subscriber; the oldest are dropped first. A latched topic sends its last message to each
+ * new subscriber. Publishers belong to the node and live as long as it does. _advertise fails with
  * HDR_FAULT or HDR_NO_MEMORY.
  *
- * The message is serialised before _publish returns and not waited for, but for hdr_publisher_wait.
- * What is not known, by the rules in the comments of its fields (HDR messages alone), goes out as
- * NaN or -1 whatever the struct has; if another number is not finite, HDR_NOT_FINITE and nothing is
- * sent. Without a subscriber and without latching it does nothing. HDR_FAULT if the publisher is of
- * another type; HDR_NO_MEMORY.
- */
+ * _publish serialises the message and returns without waiting until it is sent, unless
+ * hdr_publisher_wait was called. A field that is unknown by the rule in its comment is sent as NaN or
+ * -1, whatever the struct has. If any other number is not finite, it sends nothing and returns
+ * HDR_NOT_FINITE. It does nothing without a subscriber, unless the topic is latched. HDR_FAULT if the
+ * publisher is of another type; HDR_NO_MEMORY. */
 #define HDR_PUBLISHER(type)                                                                        \
     HDR_MUST_CHECK hdr_status type##_advertise(hdr_publisher **out, hdr_node *node,                \
                                                const char *topic, int queue);                      \
@@ -40,33 +39,32 @@ HDR_MESSAGES(HDR_PUBLISHER)
 HDR_STANDARD_MESSAGES(HDR_PUBLISHER)
 #undef HDR_PUBLISHER
 
-/** Number of subscribers connected now. */
+/** Number of subscribers that are connected now. */
 int hdr_publisher_subscribers(const hdr_publisher *publisher);
 
-/** Asks the master how many nodes have subscribed to each topic, whether they are connected yet or
- * not: registered[k] of publishers[k], 0 where that is NULL. Waits that long at most, and no longer
- * than until a stop is requested. HDR_FAULT if the master has not answered by then; HDR_NO_MEMORY.
- */
+/** Asks the master how many nodes have subscribed to each topic, connected or not: registered[k] is
+ * the number for publishers[k], 0 if that is NULL. Waits at most `seconds`, or until a stop is
+ * requested. HDR_FAULT if the master has not answered by then; HDR_NO_MEMORY. */
 HDR_MUST_CHECK hdr_status hdr_publishers_registered(int registered[],
                                                     hdr_publisher *const publishers[], int count,
                                                     double seconds);
 
-/** From now on _publish waits rather than that a message is lost: while it is 96 messages (as many
- * as surely fit the queue of rosbag's recorder) ahead of what a subscriber of roscpp had read 0.1 s
- * before, and while the queue for another one is full. It waits 5 s for one that reads nothing, and
- * 5 s for a queue; then it goes on with a warning, and counts what is lost. It does not wait once a
- * stop is requested. HDR_NO_MEMORY. */
+/** From now on _publish waits instead of losing a message: while a roscpp subscriber is 96 messages
+ * behind (as many as fit into the queue of rosbag's recorder, judged 0.1 s late), and while the queue
+ * of any other subscriber is full. It waits at most 5 s for a subscriber that reads nothing, then goes
+ * on with a warning and counts lost messages. It does not wait once a stop is requested.
+ * HDR_NO_MEMORY. */
 HDR_MUST_CHECK hdr_status hdr_publisher_wait(hdr_publisher *publisher);
 
-/** How far the slowest subscriber is behind; what waits in buffers of the kernel does not count. */
+/** How far the slowest subscriber of a topic is behind, without messages in buffers of the kernel. */
 typedef struct hdr_lag {
-    const char *topic; /**< resolved and remapped; as long as the publisher lives */
-    double seconds;    /**< that a message waits; 0 if none does now */
-    int messages;      /**< published meanwhile, with that one */
-    int64_t lost; /**< messages so far: by queues here, and by those of subscribers that say so */
+    const char *topic; /**< resolved name; valid as long as the publisher lives */
+    double seconds;    /**< how long the oldest message has waited; 0 if none waits */
+    int messages;      /**< number of messages that wait */
+    int64_t lost; /**< lost messages so far, in queues here and of subscribers that report theirs */
 } hdr_lag;
 
-/** May be called by any thread, the more often the more exactly; does not wait. */
+/** Returns the lag without waiting. Any thread may call it; frequent calls make it more exact. */
 hdr_lag hdr_publisher_lag(hdr_publisher *publisher);
 
 #ifdef __cplusplus

@@ -1,4 +1,4 @@
-/** Messages of other packages as C has them: diagnostics, a number, a line of text. */
+/** Messages of other packages as C structs: diagnostics, a number, a text. */
 #ifndef HDLYAP_ROS_STANDARD_MESSAGES_H
 #define HDLYAP_ROS_STANDARD_MESSAGES_H
 
@@ -8,7 +8,7 @@
 extern "C" {
 #endif
 
-/** hdr_diagnostic.level */
+/** Values of hdr_diagnostic.level. */
 enum { HDR_DIAGNOSTIC_OK, HDR_DIAGNOSTIC_WARN, HDR_DIAGNOSTIC_ERROR };
 
 /** diagnostic_msgs/KeyValue */
@@ -22,7 +22,8 @@ typedef struct hdr_key_value_list {
     uint32_t count;
 } hdr_key_value_list;
 
-/** diagnostic_msgs/DiagnosticArray with one status; one with several is received as several. */
+/** diagnostic_msgs/DiagnosticArray with one status. An array of several is received as several
+ * messages. */
 typedef struct hdr_diagnostic {
     hdr_header header;
     uint8_t level;

@@ -1,4 +1,4 @@
-/** Outcome of every call of this C API over roscpp. No C++ exception ever leaves a function of it.
+/** The outcome of each call of this C API over roscpp. None of its functions throws a C++ exception.
  */
 #ifndef HDLYAP_ROS_STATUS_H
 #define HDLYAP_ROS_STATUS_H
@@ -11,9 +11,9 @@ typedef enum hdr_status {
     HDR_OK,
     HDR_MISSING,    /**< there is no such parameter */
     HDR_WRONG_TYPE, /**< the parameter has another type */
-    HDR_NO_MEMORY,  /**< nor a thread; hdr_error_text says which */
+    HDR_NO_MEMORY,  /**< no memory, or no thread; hdr_error_text says which */
     HDR_FAULT,      /**< roscpp refused; hdr_error_text says why */
-    HDR_NOT_FINITE  /**< a number of a message is not finite that must be */
+    HDR_NOT_FINITE  /**< a number of a message is not finite, but must be */
 } hdr_status;
 
 #if defined(__GNUC__)
@@ -22,8 +22,8 @@ typedef enum hdr_status {
 #define HDR_MUST_CHECK
 #endif
 
-/** What the last HDR_FAULT, HDR_NO_MEMORY or HDR_NOT_FINITE of this thread was about; never NULL,
- * valid until its next one. */
+/** Text of the last HDR_FAULT, HDR_NO_MEMORY or HDR_NOT_FINITE of this thread. It is never NULL, and
+ * valid until the next one. */
 const char *hdr_error_text(void);
 
 #ifdef __cplusplus

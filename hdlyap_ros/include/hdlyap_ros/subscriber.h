@@ -1,4 +1,4 @@
-/** Topics in: one typed subscribe function for each message, answered by a C callback. */
+/** Functions that subscribe to topics with a C callback, for each type of message. */
 #ifndef HDLYAP_ROS_SUBSCRIBER_H
 #define HDLYAP_ROS_SUBSCRIBER_H
 
@@ -9,23 +9,22 @@
 extern "C" {
 #endif
 
-/** One callback on one topic. */
+/** A callback that is subscribed to a topic. */
 typedef struct hdr_subscriber hdr_subscriber;
 
-/** For each message, for type = hdr_steps:
+/** Each message has this type and function, here with type = hdr_steps:
  *
  *      typedef void (*hdr_steps_callback)(void *context, const hdr_steps *message);
  *      hdr_status hdr_steps_subscribe(hdr_subscriber **out, hdr_node *node, const char *topic,
  *                                     int queue, hdr_steps_callback callback, void *context);
  *
- * Topic names as in publisher.h. The message and all that it points into is valid until the
- * callback returns; an array without elements may be NULL. Callbacks run one after the other on the
- * node's one callback thread, which they share with services, possibly before this returns: what
- * they share with other threads needs a lock. Messages that arrive meanwhile wait; beyond queue >=
- * 1 of them the oldest are dropped (see hdr_header.seq). A publisher of another type under the
- * topic is not connected, and an ERROR line says so; a message that is damaged is dropped with an
- * ERROR line. Fails with HDR_FAULT (also where this node itself publishes the topic with another
- * type) or HDR_NO_MEMORY. */
+ * A topic "~x" is private to the node. The message, and what it points to, is valid until the callback
+ * returns; an array without elements may be NULL. All callbacks and services of the node run one
+ * after another on its callback thread, maybe before _subscribe returns, so data that they share with
+ * other threads need a lock. At most `queue` messages, at least 1, wait for a callback; then the oldest
+ * are dropped (see hdr_header.seq). A publisher of another type is not connected, and a damaged message
+ * is dropped; an ERROR line says so. HDR_FAULT, also if this node publishes the topic with another
+ * type; HDR_NO_MEMORY. */
 #define HDR_SUBSCRIBER(type)                                                                       \
     typedef void (*type##_callback)(void *context, const type *message);                           \
     HDR_MUST_CHECK hdr_status type##_subscribe(hdr_subscriber **out, hdr_node *node,               \
@@ -35,13 +34,13 @@ HDR_MESSAGES(HDR_SUBSCRIBER)
 HDR_STANDARD_MESSAGES(HDR_SUBSCRIBER)
 #undef HDR_SUBSCRIBER
 
-/** Waits for a callback that is running; when it has returned none is running and none will: what
- * context points to may go, and what has not been handed over is dropped. So hold no lock that the
- * callback waits for. May also be called by the callback itself. NULL is allowed. hdr_node_free
- * frees those that are left. */
+/** Ends the subscription. It waits for a running callback, so the caller must hold no lock that the
+ * callback waits for; afterwards no callback runs any more, and context may be freed. Waiting messages
+ * are dropped. The callback itself may call it. subscriber may be NULL. hdr_node_free frees
+ * subscribers that are left. */
 void hdr_subscriber_free(hdr_subscriber *subscriber);
 
-/** Number of publishers connected now. */
+/** Number of publishers that are connected now. */
 int hdr_subscriber_publishers(const hdr_subscriber *subscriber);
 
 #ifdef __cplusplus
