@@ -1,5 +1,6 @@
-"""Beside the messages (hdlyap.msg): recorded runs as arrays and frames (load, data), figures and
-tables of bags (plots), a terminal screen (follow), many runs (runs, sweep)."""
+"""Besides the messages (hdlyap.msg) this package has recorded runs as arrays and frames (load,
+data), figures and tables of bags (plots), a terminal screen (follow) and many runs (runs,
+sweep)."""
 
 import sys
 import threading
@@ -9,11 +10,11 @@ if sys.version_info[:2] == (3, 9):  # rospy 1.15.9 of Debian 11 still calls it b
 
 
 def load(*bags, node=None, run=None, form=None, k=None):
-    """What was recorded in a bag, or in several that belong together: see hdlyap.data.run.Run and
-    hdlyap.data.seeds.Seeds, and hdlyap.data.seeds.load of the rest. Runs of spheres have z beside
-    x and y."""
+    """Reads a bag, or several bags that belong together. Returns hdlyap.data.run.Run or
+    hdlyap.data.seeds.Seeds; hdlyap.data.seeds.load describes the arguments. Runs in space have z
+    besides x and y."""
     try:
-        from hdlyap.data import seeds  # only here: pandas takes a while
+        from hdlyap.data import seeds  # not at the top, because importing pandas takes a while
     except ImportError as error:
         raise ImportError(
             f'{error} in {sys.executable}: start it with /usr/bin/python3, which has all of hdlyap'

@@ -1,10 +1,10 @@
-"""An exception that nobody has foreseen -> whose fault it is, by its kind and by the packages on the
-way to it."""
+"""An exception that no check has foreseen -> whose fault it is, by its class and by the packages in
+its traceback."""
 
 import os
 import traceback
 
-# what no bag and no node make of a program that is right
+# exceptions that no bag and no node can cause in a correct program
 OURS = AttributeError, TypeError, NameError, ImportError, AssertionError, NotImplementedError
 OTHERS = {
     'matplotlib': 'cannot be drawn',
@@ -13,7 +13,7 @@ OTHERS = {
 
 
 def whose(error):
-    """In words; None of what was read, or of nobody else that is known."""
+    """Whose fault it is, as text; None if it is in what was read, or not known."""
     if isinstance(error, OURS):
         return 'a fault of hdlyap, not of what it reads'
     if isinstance(error, MemoryError):
@@ -22,19 +22,19 @@ def whose(error):
 
 
 def is_of_others(error):
-    """In words, or None: what was asked of them has failed."""
+    """What has failed in another package, as text; None if it was not in another package."""
     frames = traceback.extract_tb(error.__traceback__)
     passed = {part for frame in frames for part in frame.filename.split(os.sep)[:-1]}
     return next((said for names, said in OTHERS.items() if passed & set(names.split())), None)
 
 
 def is_in(error, folder):
-    """Whether it was raised by a file below that folder."""
+    """Whether a file below that folder has raised it."""
     return traceback.extract_tb(error.__traceback__)[-1].filename.startswith(folder + os.sep)
 
 
 def described(error):
-    """What it is, and where."""
+    """The class and text of an exception, and where it was raised."""
     place = traceback.extract_tb(error.__traceback__)[-1]
     where = f'{os.path.basename(place.filename)}, line {place.lineno}'
     return f'{type(error).__name__}: {error} ({where})'

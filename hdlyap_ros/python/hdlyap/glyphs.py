@@ -1,18 +1,18 @@
-"""Bars and dials out of characters."""
+"""Bars and dials made of characters."""
 
 from math import isfinite
 
 
 class Glyphs:
-    """Finely drawn, or in ASCII."""
+    """Bars and dials; plain: in ASCII."""
 
     def __init__(self, plain=False):
-        self._parts = ' #' if plain else ' ▏▎▍▌▋▊▉█'  # of a column that is filled
+        self._parts = ' #' if plain else ' ▏▎▍▌▋▊▉█'  # filled parts of a column
         self._rest = '.' if plain else '░'
         self._hands = '>/^\\</v\\' if plain else '→↗↑↖←↙↓↘'
 
     def bar(self, share, columns, rest=False):
-        """So many columns, filled to a share of 0 .. 1; rest: what is not filled shows."""
+        """A bar of this many columns, filled to a share of 0 .. 1; rest: shows the empty part."""
         fine = len(self._parts) - 1
         share = min(max(share, 0.0), 1.0) if isfinite(share) else 0.0
         whole, part = divmod(round(share * columns * fine), fine)
@@ -20,12 +20,12 @@ class Glyphs:
         return drawn.ljust(columns, self._rest if rest else ' ')
 
     def dial(self, turn):
-        """A hand, 0 .. 1 of a turn from the right, counterclockwise."""
+        """A hand that points 0 .. 1 of a turn away from the right, counterclockwise."""
         return self._hands[round(turn * 8) % 8]
 
 
 def chosen(stream, plain=False):
-    """As the encoding of a terminal allows."""
+    """The Glyphs that the encoding of a stream allows."""
     try:
         '█→'.encode(stream.encoding or 'ascii')
     except UnicodeEncodeError:

@@ -5,17 +5,17 @@ from math import floor, isfinite, log10
 
 import numpy as np
 
-PLACES = 9  # with more, only the size of a number can be read
+PLACES = 9  # most decimals; with a smaller error only the size of a value is printed
 
 
 def with_error(value, error, decimals=5):
-    """0.61252(67): the error in units of the last digits, two of them; the value alone, to so
-    many decimals, while its error is not known; - without a value."""
+    """A value with its error in units of the last two digits, as 0.61252(67); the value alone, with
+    this many decimals, if its error is not known; - if there is no value."""
     if not isfinite(value):
         return '-'
     if not (isfinite(error) and error > 0):
         return f'{value:.{decimals}f}'
-    # as rounded: 0.00996 has its two digits one place further to the left
+    # places of the rounded error: 0.00996 becomes 0.010
     places = 1 - floor(log10(float(f'{error:.1e}')))
     if places > PLACES:
         return f'{value:.1e}'
@@ -27,13 +27,13 @@ def with_error(value, error, decimals=5):
 
 
 def known(errors):
-    """Standard errors with the messages' -1 for 'not yet known' as NaN."""
+    """Standard errors, with NaN instead of -1, by which messages say that one is not known yet."""
     errors = np.asarray(errors, dtype=float)
     return np.where(errors < 0, np.nan, errors)
 
 
 def clock(seconds):
-    """1:05, 2:00:10; ? of what is no time"""
+    """A time as 1:05 or 2:00:10; ? if it is none."""
     if not isfinite(seconds):
         return '?'
     minutes, seconds = divmod(int(seconds + 0.5), 60)
@@ -42,7 +42,7 @@ def clock(seconds):
 
 
 def positive(text):
-    """The type of an argument on the command line."""
+    """The type of an argument on the command line that has to be a positive number."""
     number = float(text)
     if not (number > 0 and isfinite(number)):
         raise argparse.ArgumentTypeError(f'{text}: must be above 0')

@@ -1,4 +1,5 @@
-"""What takes a while -> a bar on the terminal with the time left, gone when it is done."""
+"""Progress of something that takes a while -> a bar with the time left on the terminal, which is
+removed at the end."""
 
 import sys
 import time
@@ -6,13 +7,14 @@ import time
 from . import glyphs
 from .numbers import clock
 
-SILENT = 1.0  # seconds without a bar: what is done by then needs none
-PERIOD = 0.2  # seconds between two of them
+SILENT = 1.0  # seconds before the first bar; work that is done by then needs none
+PERIOD = 0.2  # seconds between two bars
 COLUMNS = 30
 
 
 class Progress:
-    """Only on a terminal, and only one at a time: it includes what is read for it."""
+    """Shows a bar on a terminal. There is only one at a time: drawing includes reading, for
+    example."""
 
     _busy = False
 
@@ -22,7 +24,7 @@ class Progress:
         self._shown = False
 
     def over(self, things, total):
-        """Passes them on; total: how many there will be."""
+        """Yields the things, and shows how many have gone by; total: their number."""
         if not self._stream.isatty() or Progress._busy:
             yield from things
             return

@@ -1,6 +1,6 @@
-"""Signals that ask for the end, kept until what is under way has been ended in order, or obeyed at
-once: also where they are ignored, as in a background job, or have no effect by themselves, as on
-the first process of a container. Only nohup's SIGHUP stays ignored."""
+"""Signals that ask a program to end. It keeps them until all that is under way has ended in order,
+or obeys at once. It does so even if they are ignored, as in a background job, or have no effect by
+default, as in the first process of a container. Only SIGHUP under nohup stays ignored."""
 
 import contextlib
 import signal
@@ -16,7 +16,7 @@ def heeded():
 
 @contextlib.contextmanager
 def caught():
-    """A list that each of them which comes meanwhile is added to."""
+    """Adds each signal that comes meanwhile to a list, which it gives."""
     came, before = [], {}
     for number in heeded():
         before[number] = signal.signal(number, lambda number, _: came.append(number))
@@ -29,7 +29,7 @@ def caught():
 
 @contextlib.contextmanager
 def held():
-    """The same; the first one's exit follows at the end."""
+    """Does what caught() does; at the end, the program exits by the first signal."""
     came = []
     try:
         with caught() as came:
@@ -40,11 +40,12 @@ def held():
 
 
 def leave(number):
-    """As shells say that a signal has ended a program."""
+    """Exits with the status by which shells say that a signal has ended a program."""
     sys.exit(128 + number)
 
 
 def exit_on_all(but=lambda: False):
-    """But: not while this is true, for rospy, which hands on what it has answered itself."""
+    """Makes the program exit at each signal, except while but() is true: rospy calls this handler
+    for signals that it has answered already."""
     for number in heeded():
         signal.signal(number, lambda number, _: but() or leave(number))

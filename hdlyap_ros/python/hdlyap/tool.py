@@ -1,5 +1,6 @@
-"""What every program of ours imports first, and nothing else does: Ctrl-C ends it as in C, until it
-has said otherwise. No traceback of whatever is imported just then."""
+"""Every program of this package imports this module first, and nothing else does. It makes Ctrl-C
+end the program as in C until the program sets another handler, so that no import shows a
+traceback."""
 
 import signal
 

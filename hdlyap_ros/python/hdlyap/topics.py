@@ -1,11 +1,11 @@
-"""The node's topics: each message with a header has one, of its own name but for these."""
+"""The topics of the node. Each message with a header has one, which has its name but for these."""
 
 import re
 
 from hdlyap import msg
 
 OTHERWISE = {'ModeField': 'fields', 'RunStatus': 'status'}
-ASIDE = {'slow_vectors'}  # for who looks on
+ASIDE = {'slow_vectors'}  # for viewers, not for bags
 
 
 def _name(message):

@@ -1,4 +1,4 @@
-"""Files that are whole or not there."""
+"""Writes files so that they are complete or not there."""
 
 import contextlib
 import csv
@@ -9,8 +9,8 @@ import uuid
 
 @contextlib.contextmanager
 def written(path):
-    """A name beside it, of the same ending, to write to. A good older file is replaced in one step,
-    and only if all went well and something was written."""
+    """Gives a name beside the path, with the same ending, to write to. At the end that file
+    replaces an older one in one step, but only if all went well and it was written."""
     folder, name = os.path.split(path)
     unfinished = os.path.join(folder, f'.{uuid.uuid4().hex}.{name}')  # others may write it, too
     try:

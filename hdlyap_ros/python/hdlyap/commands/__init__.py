@@ -1,5 +1,5 @@
-"""The command hdlyap: a module here is a subcommand. It has options(parser), main(args), which
-returns the exit status, and, if it reads bags, FAULT: the status of a bag that cannot be used."""
+"""The command hdlyap. Each module here is a subcommand. It has options(parser), main(args), which
+returns the exit status, and, if it reads bags, FAULT: the exit status if a bag cannot be used."""
 
 import argparse
 import ast
@@ -18,7 +18,7 @@ PROGRAM = 'hdlyap'
 
 
 def main(words):
-    """Exit status."""
+    """Does the subcommand that the words name. Returns its exit status."""
     parser = argparse.ArgumentParser(
         prog=PROGRAM,
         usage='%(prog)s COMMAND [ARGUMENT]..',
@@ -28,12 +28,12 @@ def main(words):
     )
     parser.add_argument('command', choices=_names(), metavar='COMMAND', help=argparse.SUPPRESS)
     chosen = parser.parse_args(words[:1] or ['--help']).command
-    os.environ.pop('MPLBACKEND', None)  # no figure of ours needs one, and it may be none
+    os.environ.pop('MPLBACKEND', None)  # no figure needs it, and it may name no backend
     try:
         module = importlib.import_module(f'{__name__}.{chosen}')
-    except ImportError as error:  # messages and tools were installed alone
+    except ImportError as error:  # if only messages and tools were installed
         sys.exit(f'{PROGRAM} {chosen}: {error}; it needs all of hdlyap')
-    except (OSError, ValueError) as error:  # of a matplotlibrc that cannot be read
+    except (OSError, ValueError) as error:  # a matplotlibrc that cannot be read
         sys.exit(f'{PROGRAM} {chosen}: cannot start: {error}')
     signals.exit_on_all(but=_rospy_answers)
     return _ended(chosen, module, _parsed(chosen, module, words[1:]))
@@ -44,7 +44,7 @@ def _names():
 
 
 def _listed():
-    """A line for each, of what it says of itself; none is imported."""
+    """A line for each subcommand, from its docstring. No module is imported."""
     lines = []
     for name in _names():
         with open(os.path.join(__path__[0], name + '.py'), encoding='utf-8') as file:
@@ -54,7 +54,7 @@ def _listed():
 
 
 def _parsed(name, module, words):
-    """What a word with := says to ROS, or to a launch file, is in `assigned`."""
+    """The parsed words. Words with :=, for ROS or for a launch file, are in `assigned`."""
     parser = argparse.ArgumentParser(
         prog=f'{PROGRAM} {name}',
         description=module.__doc__,
@@ -69,30 +69,30 @@ def _parsed(name, module, words):
 
 
 def _rospy_answers():
-    """A signal that asks for the end."""
+    """Whether rospy answers a signal that asks for the end."""
     return 'rospy.core' in sys.modules and sys.modules['rospy.core'].is_initialized()
 
 
 def _ended(name, module, args):
-    """Whatever is wrong with bags, or while they are read, is one line, and the tool's own exit
-    status."""
+    """Runs a subcommand. If something is wrong with bags, prints a line and returns FAULT of the
+    subcommand."""
     from hdlyap.data.reader import RecordingError, plain
 
-    logging.getLogger('rosout').addHandler(logging.NullHandler())  # genpy's, of texts that are none
-    for kind in (RuntimeWarning, UserWarning):  # numpy's and matplotlib's, of odd numbers
+    logging.getLogger('rosout').addHandler(logging.NullHandler())  # genpy warns of damaged texts
+    for kind in (RuntimeWarning, UserWarning):  # numpy and matplotlib complain of odd numbers
         warnings.simplefilter('ignore', kind)
     fault = getattr(module, 'FAULT', None)
     try:
         status = module.main(args)
         sys.stdout.flush()
         return status
-    except BrokenPipeError:  # of a reader that has seen enough, as head
+    except BrokenPipeError:  # the reader, such as head, has seen enough
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 128 + signal.SIGPIPE
     except (RecordingError, OSError) as error:
         nobody = whose(error) if isinstance(error, ConnectionError) else None
         text = f'{nobody}: {error}' if nobody else str(error)
-    except Exception as error:  # what no check has foreseen: a bag may say anything
+    except Exception as error:  # a bag may contain anything that no check has foreseen
         said = whose(error)
         if fault is None and (said is None or isinstance(error, OURS)):
             raise

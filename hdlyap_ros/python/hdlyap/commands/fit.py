@@ -1,8 +1,8 @@
 """The dispersion relation of a running node, fitted beside what the node says.
 
-lambda = c k + c2 k^2 of its T and of its LP steps, by least squares alone: the node knows the
-curvature of long boxes, too. A misfit, the root of chi^2 over its freedom, far above 1 says that
-the steps do not follow the relation. An example of an analysis in Python."""
+Fits lambda = c k + c2 k^2 to its T and to its LP steps, by least squares alone; the node also uses
+the curvature of long boxes. If the misfit, the root of chi^2 over its degrees of freedom, is far
+above 1, the steps do not follow the relation. This is an example of an analysis in Python."""
 
 import sys
 import threading
@@ -18,14 +18,14 @@ PATIENCE = 10.0  # seconds of silence before it says again what it waits for
 
 
 def line(message):
-    """A report in words."""
+    """A line about a report."""
     own = fits.chosen(message, fits.RELATIONS[2])
     words = [describe(*both) for both in zip(fits.of(own), fits.of(message))]
     return f't = {message.averaged_time:.6g}: {words[0]}; {words[1]}'
 
 
 def describe(own, node):
-    """Fits to the steps of one kind."""
+    """Text about two fits to the steps of one kind: this program's and the node's."""
     if min(fit.values[0][2] if fit.count else -1.0 for fit in (own, node)) <= 0:
         return f'{own.symbol}: not yet'
     values = [f'{c:.4f} +- {error:.4f}' for _, c, error in (own.values[0], node.values[0])]
@@ -33,7 +33,7 @@ def describe(own, node):
 
 
 class Newest:
-    """The last report; the callback, in a thread of its own, only keeps it."""
+    """The last report. Its callback runs in a separate thread and only keeps the message."""
 
     def __init__(self, topic):
         self._message = None
@@ -46,7 +46,7 @@ class Newest:
 
     @property
     def missing(self):
-        """Why there is none."""
+        """Why there is no report."""
         topic = self._subscriber.resolved_name
         if self._subscriber.get_num_connections() == 0:
             return (
@@ -56,7 +56,7 @@ class Newest:
         return f'nothing on {topic}: its node sends reports while it averages'
 
     def wait(self, seconds):
-        """None if there has been none since the last call."""
+        """The report that has come since the last call, within this time; None if none has."""
         if not self._arrived.wait(seconds):
             return None
         self._arrived.clear()
@@ -75,7 +75,7 @@ def main(args):
     newest = Newest(args.node + '/steps')
     stop = threading.Event()
     rospy.on_shutdown(stop.set)
-    until = time.monotonic() + PERIOD  # in which a node connects
+    until = time.monotonic() + PERIOD  # a node connects in this time
     while not stop.is_set():
         message = newest.wait(0.1)
         if message is not None:

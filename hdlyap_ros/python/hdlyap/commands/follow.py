@@ -1,7 +1,7 @@
 """What a running node does, on a screen or in a line.
 
-A screen on a terminal, until q is pressed; elsewhere one line now and then, until the run has
-finished.
+On a terminal it fills the screen until q is pressed; elsewhere it prints a line now and then until
+the run has finished.
 
 Exit status: 0 the run has finished, or q; 1 no node; 3 the node went away before the end of its
 run; 130 interrupted."""

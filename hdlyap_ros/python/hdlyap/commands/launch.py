@@ -1,9 +1,10 @@
-"""A run, as roslaunch hdlyap run.launch starts it, once what is given is looked at.
+"""A run, as roslaunch hdlyap run.launch starts it, after a check of its arguments.
 
 hdlyap launch
 hdlyap launch scene:=mine.yaml number:=200 params:="{warmup: 80}" record:=true bag:=mine.bag
 
-Arguments are those of run.launch: roslaunch ignores one that it does not know, here it is refused.
+It takes the arguments of run.launch. roslaunch ignores an argument that it does not know; here it
+is refused.
 
 Exit status: 2 refused; else that of roslaunch."""
 

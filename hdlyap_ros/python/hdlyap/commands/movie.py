@@ -1,4 +1,4 @@
-"""A film of modes with the disks moving, from a recorded bag.
+"""A film of modes and moving particles, from a recorded bag.
 
 Needs neither a master nor rviz.
 
@@ -31,7 +31,7 @@ def width(text):
 
 
 def modes(text):
-    """Names with spaces between; None: the lowest ones."""
+    """Reads names of modes with spaces between; None stands for the lowest modes."""
     names = text.split()
     if text != 'lowest' and not all(map(NAME.fullmatch, names)):
         raise argparse.ArgumentTypeError(

@@ -3,8 +3,8 @@
 Several bags are parts of one run (split, or resumed from a checkpoint), or runs of several seeds,
 whose means are drawn.
 
-With --live instead a window of a running node's spectrum, steps, dispersion, phases and
-convergence, until it is closed.
+With --live it shows spectrum, steps, dispersion, phases and convergence of a running node in a
+window instead, until that is closed.
 
 Exit status: 0; 1 if a bag cannot be used, a file cannot be written, or no node is there; 2 for a
 wrong option, or no display for the window; 3 if the node had gone before the end of its run when
@@ -42,13 +42,14 @@ def options(parser):
 
 
 def exported(run, args):
-    """Names of the files."""
+    """Writes CSV and npz files. Returns their names."""
     files = export.csv(run, args.csv) if args.csv else []
     return files + ([export.npz(run, args.npz)] if args.npz else [])
 
 
 def live(args, form, k):
-    """Exit status. What a window needs is not asked for by those who have bags."""
+    """Shows the window. Returns the exit status. tkinter is imported here, because bags do not need
+    it."""
     if args.bags or any(
         (args.node, args.run, args.only, args.pdf, args.csv, args.npz, args.out != HERE)
     ):

@@ -1,7 +1,7 @@
 """A bag played: by the wall time of its recording, or by the simulated time of its run.
 
-Publishes the messages as they were recorded, latched topics as latched ones. Waits, at most half a
-minute, for rviz if a picture is looked at (--look); then its viewer is there too.
+Publishes the messages as they were recorded; latched topics are latched again. With --look it waits
+at most half a minute until rviz, and with it the viewer, listens to pictures.
 Service: ~pause_playback (std_srvs/SetBool)."""
 
 import heapq
@@ -18,10 +18,10 @@ from std_srvs.srv import SetBool, SetBoolResponse
 from hdlyap.data import reader
 from hdlyap.numbers import positive
 
-PATIENCE = 30.0  # seconds that nobody may look
+PATIENCE = 30.0  # seconds to wait until somebody listens to pictures
 DRAWN = 'state', 'fields', 'spectrum', 'steps', 'lp_phases', 'status'  # what a viewer listens to
-CONNECTING = 3.0  # seconds at most: some who have subscribed may be gone
-DISORDER = 1.0  # seconds at most by which a recorder mixes topics: their messages come as they can
+CONNECTING = 3.0  # seconds to wait for subscribers, some of which may be gone
+DISORDER = 1.0  # most seconds by which a recorder puts messages of different topics out of order
 
 
 def options(parser):
@@ -48,14 +48,16 @@ def options(parser):
 
 
 def raw_class(connection):
-    """Of messages as they are in the bag, of one topic: a publisher asks it for their type."""
+    """The class of a topic's messages as they are in the bag. A publisher asks it for their
+    type."""
     about = {'_type': connection.datatype, '_md5sum': connection.md5sum}
-    about.update(_full_text=connection.msg_def, _has_header=False)  # rospy would count it anew
+    about.update(_full_text=connection.msg_def, _has_header=False)  # rospy would renumber headers
     return type('Raw', (rospy.AnyMsg,), about)
 
 
 class Message:
-    """As it is in the bag; of a topic of others, run and simulated time are those before it."""
+    """A message as it is in the bag. Messages of other packages get run and simulated time of the
+    message before."""
 
     def __init__(self, topic, kind, data, stamp, before):
         self.topic, self.data, self.wall = topic, data, stamp.to_sec()
@@ -74,7 +76,7 @@ def as_recorded(bag):
 
 
 def as_simulated(bag):
-    """Run after run, each in the order of its simulated time."""
+    """Yields messages run after run, each run in the order of simulated time."""
     waiting, runs = [], {}
     for count, message in enumerate(as_recorded(bag)):
         number = runs.setdefault(message.run, len(runs))
@@ -86,15 +88,15 @@ def as_simulated(bag):
 
 
 class Clock:
-    """When a message is due: the first of a run at once."""
+    """Says when a message is due. The first one of a run is due at once."""
 
     def __init__(self, args, running):
         self._rate, self._by_run = args.pace or args.rate, args.pace is not None
-        self._running = running  # an event: it is not paused
+        self._running = running  # an event that is set while the playback is not paused
         self._run = self._last = self._due = None
 
     def wait_for(self, message):
-        """Sleeps until it is due."""
+        """Sleeps until the message is due."""
         now = message.time if self._by_run else message.wall
         if self._due is None or (self._by_run and message.run != self._run):
             self._due, self._last, self._run = time.monotonic(), now, message.run
@@ -109,7 +111,7 @@ class Clock:
             self._hold()
 
     def _hold(self):
-        """While paused; the rest comes so much later."""
+        """Waits while paused. All later messages are due later by that time."""
         if self._running.is_set():
             return
         began = time.monotonic()
@@ -134,9 +136,9 @@ class Player:
                         '%s: damaged: a %s %s, which is no name' % (args.bag, what, name)
                     )
             if connection.topic not in self._publishers:
-                latching = connection.header.get('latching')  # which rosbag filter forgets
+                latching = connection.header.get('latching')  # rosbag filter drops it
                 latch = connection.datatype == reader.RUN_INFO or latching in (b'1', '1')
-                # queue_size=None waits for who reads slowly; rospy warns of it
+                # with queue_size=None publishing waits for slow subscribers; rospy warns of that
                 how = {'queue_size': None, 'latch': latch}
                 of_topic = rospy.Publisher(connection.topic, raw_class(connection), **how)
                 self._publishers[connection.topic] = of_topic
@@ -147,7 +149,7 @@ class Player:
         return SetBoolResponse(True, 'paused' if yes else 'goes on')
 
     def play(self):
-        """Not before those are connected who have subscribed already."""
+        """Plays the bag, once all nodes are connected that have subscribed already."""
         if self._args.wait:
             self._wait_until(lambda: all(map(is_heard, self._publishers.values())))
         end = time.monotonic() + CONNECTING
@@ -166,7 +168,7 @@ class Player:
                 break
 
     def _play_once(self):
-        """What describes a run is said at once; the rest begins when who looks is there."""
+        """Plays the bag once. run_info is published at once, all else after waiting for --look."""
         clock = Clock(self._args, self._running)
         looked, played, message = not self._args.look, False, None
         for message in (as_simulated if self._args.pace else as_recorded)(self._bag):
@@ -219,7 +221,8 @@ def is_heard(publisher):
 
 
 def is_looked_at(topic):
-    """By another one than the program view, which only waits for the first picture."""
+    """Whether a node listens to pictures, other than hdlyap view, which only waits for the first
+    one."""
     subscribers = dict(rosgraph.Master(rospy.get_name()).getSystemState()[1])
     return any(not name.startswith('/view_') for name in subscribers.get(topic, ()))
 

@@ -3,9 +3,9 @@
 srun -n 64 hdlyap run large.yaml --out large.bag duration:=200
 mpirun -n 4 hdlyap run dense --out dense.bag
 
-Rank 0 starts a ROS master of its own, the recorder and the node, as run.launch does, whose
-arguments may follow; the other ranks are the node's. All topics are in the bag. Nobody else needs a
-master, or sees this one.
+Rank 0 starts a separate ROS master, the recorder and the node, as run.launch does, whose arguments
+may follow; the other ranks belong to the node. The bag has all topics. No other master is needed,
+and nobody else sees this one.
 
 Exit status: 0 the run went to its end; 1 it did not; 2 refused."""
 
@@ -20,7 +20,7 @@ from hdlyap import signals
 from hdlyap.runs import arguments, ranks, run, tree
 from hdlyap.runs.scene import Refused
 
-PATIENCE = 60.0  # seconds that all may take to end, the last checkpoint included
+PATIENCE = 60.0  # seconds in which all have to end, with the last checkpoint
 
 
 def options(parser):
@@ -30,7 +30,7 @@ def options(parser):
 
 
 def stamp(path):
-    """Another one of another file; None if there is none."""
+    """A value that differs for another file of this name; None if there is no file."""
     with contextlib.suppress(OSError):
         found = os.stat(path)
         return found.st_ino, found.st_mtime_ns
@@ -47,10 +47,10 @@ def main(args):
     if ranks.number() > 0:
         ranks.become_node()
     bag = os.path.abspath(args.out if args.out.endswith('.bag') else args.out + '.bag')
-    before = stamp(bag)  # a run that is refused leaves it
+    before = stamp(bag)  # a run that is refused leaves the old bag
     command = ['roslaunch', '-p', str(ranks.free_port()), 'hdlyap', 'run.launch']
     command += [f'scene:={args.scene}', 'record:=true', f'bag:={bag}', *args.assigned]
-    os.environ['ROS_HOSTNAME'] = 'localhost'  # nobody looks at it from outside
+    os.environ['ROS_HOSTNAME'] = 'localhost'  # no other machine needs the node
     with signals.held() as asked_to_end:
         started = tree.Tree(command, output=None)
         while not started.is_gone() and not asked_to_end:

@@ -1,7 +1,7 @@
 """Runs of one scene with all combinations of values, or of a plan; a table and a figure of them.
 
-Some run at a time, each recorded in a bag of its own; means are over the seeds. Runs that are done
-are not done again: the same command goes on with what was interrupted.
+Several run at a time, each recorded in a separate bag; means are over the seeds. Runs that are done
+are not done again: the same command goes on where it was interrupted.
 
 hdlyap sweep --densities "0.2 0.4" --seeds "1 2" --folder sweep
 hdlyap sweep --plan runs.yaml --folder campaign
@@ -55,12 +55,12 @@ def options(parser):
 
 
 def understood(args, launch, cwd):
-    """(runs, folder, jobs)"""
+    """Checks the arguments. Returns (runs, folder, jobs)."""
     if args.jobs and not (args.jobs.isdecimal() and int(args.jobs) > 0):
         raise Refused(f'jobs = {args.jobs}: must be 1 or more')
     folder = args.folder or 'sweep'
     path = os.path.join(cwd, folder)
-    recording.Space(args.min_space, path)  # or refused
+    recording.Space(args.min_space, path)  # raises Refused if it is not a size
     if os.path.exists(path) and not os.path.isdir(path):
         raise Refused(f'folder = {folder}: must be a folder')
     jobs = int(args.jobs or len(os.sched_getaffinity(0)))
@@ -68,7 +68,7 @@ def understood(args, launch, cwd):
 
 
 def runs(args, launch, cwd):
-    """All that are asked for."""
+    """All runs of the sweep or of the plan."""
     usual = {name: default for name, default, _ in OF_GRID}
     names = [*usual, *(swept.argument for swept in grid.SWEPT)]
     given = {name: getattr(args, name) for name in names if getattr(args, name)}
@@ -90,7 +90,7 @@ def chosen(found, only):
 
 
 def write(found, folder):
-    """For runs that are done elsewhere."""
+    """Writes scene files and prints names of runs that are missing, to be done elsewhere."""
     os.makedirs(folder, exist_ok=True)
     for run in found:
         run.write(folder)
@@ -100,7 +100,8 @@ def write(found, folder):
 
 
 def warnings(found, folder):
-    """A line for each scene, whatever its seeds, that will end before its errors are stated."""
+    """Yields a line for each scene, whatever its seed, whose run ends before its errors are
+    known."""
     told = set()
     for run in found:
         scene, duration = repr({**run.parameters, 'seed': ''}), run.parameters['duration']
@@ -118,13 +119,13 @@ def warnings(found, folder):
 
 
 def sweep(found, folder, jobs, args):
-    """Exit status."""
+    """Does the runs, and writes table and figure. Returns the exit status."""
     os.makedirs(folder, exist_ok=True)
     for line in warnings(found, folder):
         print(f'hdlyap sweep: {line}', file=sys.stderr, flush=True)
     wrong = work.do(found, folder, jobs, args.min_space)
     there = [run.bag(folder) for run in found if os.path.exists(run.bag(folder))]
-    if args.plan:  # they may be of anything
+    if args.plan:  # its runs may have nothing in common
         print(f'{len(there)} of {len(found)} runs are in {folder}', flush=True)
     else:
         wrong += result.write(there, folder, fits.choice(args))

@@ -1,7 +1,7 @@
 """The table of a sweep, of any bags.
 
-lambda_max, h_KS/N, c_T, c_L and v of each system, means over its seeds. Runs of runs.launch are
-waited for, until all have ended."""
+It has lambda_max, h_KS/N, c_T, c_L and v of each system, as means over its seeds. For runs of
+runs.launch it waits until all have ended."""
 
 import os
 import sys
@@ -18,7 +18,7 @@ from hdlyap.sweep import result
 FAULT = 1
 POLL = 0.5  # seconds between two looks at the processes
 COMING = 60.0  # seconds for a node on another machine to come up
-SURE = 3  # questions in a row that a node which was there has not answered
+SURE = 3  # if a node has not answered this many questions in a row, it has gone
 
 
 def options(parser):
@@ -32,14 +32,15 @@ def options(parser):
 
 
 class Nodes:
-    """Which have ended: roslaunch tells of those on its own machine; others do not answer."""
+    """Knows which nodes have ended. roslaunch tells so of nodes on its machine; nodes on others
+    have ended if they do not answer."""
 
     def __init__(self):
         self._deadline = time.monotonic() + COMING
         self._dead, self._unanswered = set(), {}
 
     def look(self):
-        """To be called before each round of questions."""
+        """Asks roslaunch; has to be called before each round of questions."""
         found = {True: set(), False: set()}
         for process in netapi.list_processes():
             found[process.is_alive].add('/' + process.name.rpartition('-')[0])
@@ -49,7 +50,7 @@ class Nodes:
         return node in self._dead or self._is_silent(node)
 
     def _is_silent(self, node):
-        """It was there, and is no more; or it has not come in time."""
+        """Whether a node was there and is no more, or has not come in time."""
         if nodes.is_alive(node):
             self._unanswered[node] = 0
             return False
@@ -68,7 +69,7 @@ def stop(node):
 
 
 def has_ended(group, nodes_now):
-    """Whether its node has, and so has its recorder, which is asked to end after it."""
+    """Whether the node of a group has ended and, as this asks it to after that, its recorder."""
     node, recorder = (rospy.resolve_name(f'{group}/{name}') for name in ('hdlyap', 'record'))
     if not nodes_now.has_ended(node):
         return False
@@ -89,7 +90,7 @@ def wait_for(groups):
 
 
 def main(args):
-    groups = [name for name in args.runs if '.' not in name]  # which no name of ROS has
+    groups = [name for name in args.runs if '.' not in name]  # no name of ROS has a dot
     try:
         wait_for(groups)
     except rospy.ROSInitException:  # interrupted while there was no master

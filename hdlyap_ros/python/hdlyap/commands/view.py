@@ -1,4 +1,4 @@
-"""rviz with the whole picture in its window: of a running node, or of a bag that is played.
+"""rviz with the whole picture in its window, of a running node or of a bag that is played.
 
 Waits for the first picture, fits rviz's view to it and becomes rviz."""
 
@@ -13,14 +13,14 @@ import rospy
 import yaml
 from visualization_msgs.msg import Marker, MarkerArray
 
-DOCK, BARS = 380, 92  # pixels of the window beside the picture: its list of displays, its bars
+DOCK, BARS = 380, 92  # pixels that the list of displays and the bars of the window take
 MARGIN = 1.02
-LETTER, LINE = 0.5, 1.2  # width and height of rviz's letters, as parts of a text's height
-FIELD_OF_VIEW = math.radians(45)  # of rviz, from the lower to the upper edge
+LETTER, LINE = 0.5, 1.2  # width and height of rviz's letters over the height of a text
+FIELD_OF_VIEW = math.radians(45)  # angle from the lower to the upper edge of rviz's picture
 
 
 def first_picture(topic):
-    """Waits for it; None if interrupted."""
+    """Waits for the first picture. Returns None if interrupted."""
     pictures, arrived = [], threading.Event()
 
     def keep(message):
@@ -40,8 +40,8 @@ def first_picture(topic):
 
 
 def shipped(picture):
-    """rviz's configuration, in an installed package or in its source: what is in space is seen in
-    the view that can be turned, and the other one is in rviz's list."""
+    """The configuration of rviz in the package, installed or in its source. A picture in space gets
+    the view that can be turned; the view from above is in rviz's list then."""
     share = rospkg.RosPack().get_path('hdlyap')
     installed, source = (
         os.path.join(share, *folders, 'rviz', 'hdlyap.rviz') for folders in ((), ('hdlyap_ros',))
@@ -64,7 +64,8 @@ def configuration(path):
 
 
 def is_software_gl():
-    """The processor draws: smooth edges would be most of its work, at the cost of the run's."""
+    """Whether the processor draws. Smooth edges would be most of the work then, and slow the
+    run."""
     cards = '/dev/dri/*', '/dev/nvidia[0-9]*', '/dev/dxg'
     forced = os.environ.get('LIBGL_ALWAYS_SOFTWARE', '0').lower() in ('1', 'true')
     return forced or not any(map(glob.glob, cards))
@@ -75,12 +76,12 @@ def drawn(picture):
 
 
 def is_in_space(picture):
-    """Of spheres: disks lie in a plane."""
+    """Whether a picture is in space, as of spheres; disks lie in a plane."""
     return any(point.z > 0 for marker in drawn(picture) for point in marker.points)
 
 
 def places(picture):
-    """Points of all that is drawn, and the corners of its texts: (x, y, z)."""
+    """The points (x, y, z) of all that is drawn, and the corners of texts."""
     found = [(point.x, point.y, point.z) for marker in drawn(picture) for point in marker.points]
     for marker in drawn(picture):
         if marker.type == Marker.TEXT_VIEW_FACING:
@@ -98,18 +99,18 @@ def middle_and_size(numbers):
 
 
 def from_above(view, room, points):
-    """All of a plane picture."""
+    """Fits a view from above to all of a plane picture."""
     (x, width), (y, height), _ = map(middle_and_size, zip(*points))
     scale = min(room[0] / (MARGIN * width), room[1] / (MARGIN * height))
     view.update(X=x, Y=y, Scale=scale)
 
 
 def seen(view, point):
-    """Of a point, as one looks from the view's direction to its focal point: how far it is to the
-    right of that, above it, and nearer."""
+    """How far a point is to the right of the focal point, above it, and nearer than it, as one
+    looks from the direction of the view."""
     yaw, pitch = view['Yaw'], view['Pitch']
     x, y, z = (p - view['Focal Point'][axis] for p, axis in zip(point, 'XYZ'))
-    out = x * math.cos(yaw) + y * math.sin(yaw)  # away from the focal point, in the plane
+    out = x * math.cos(yaw) + y * math.sin(yaw)  # distance from the focal point, in the plane
     return (
         y * math.cos(yaw) - x * math.sin(yaw),
         z * math.cos(pitch) - out * math.sin(pitch),
@@ -118,7 +119,7 @@ def seen(view, point):
 
 
 def from_aside(view, room, points):
-    """All of a picture in space, from the direction that the view has."""
+    """Fits a view to all of a picture in space. Its direction stays."""
     middle = [middle_and_size(numbers)[0] for numbers in zip(*points)]
     view['Focal Point'].update(zip('XYZ', middle))
     up = math.tan(0.5 * FIELD_OF_VIEW) / MARGIN
@@ -128,7 +129,7 @@ def from_aside(view, room, points):
 
 
 def fitted(config, topic, picture):
-    """rviz's configuration with this topic, and its views on all of the picture."""
+    """The configuration of rviz with this topic, whose views show all of the picture."""
     manager, window = config['Visualization Manager'], config['Window Geometry']
     room = window['Width'] - DOCK, window['Height'] - BARS
     for display in manager['Displays']:

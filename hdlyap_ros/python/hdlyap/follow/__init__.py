@@ -1,2 +1,2 @@
-"""A running hdlyap_node -> what it does, on a terminal: watch -> panels -> layout -> screen; or in
+"""Shows what a running hdlyap_node does: on a terminal (watch -> panels -> layout -> screen) or in
 one line (line)."""

@@ -1,4 +1,4 @@
-"""The screen of a running node, redrawn until the user has seen enough."""
+"""The screen of a running node, redrawn until the user quits."""
 
 import sys
 
@@ -17,14 +17,14 @@ WENT_AWAY = 3
 
 
 def follow(node, plain=False):
-    """Returns the exit status: 0 the user has quit, 3 the node had gone before its end by then,
-    130 interrupted."""
+    """Shows the screen. Returns the exit status: 0 the user has quit, 3 the node had gone before
+    the end of its run by then, 130 interrupted."""
     watch, drawn = Watch(node), glyphs.chosen(sys.stdout, plain)
     screen = Screen(plain)
     with screen:
         status = _redraw(watch, screen, drawn)
     last = lines(watch.view(), screen.size, drawn)
-    screen.leave_behind([line for line in last[:-1] if line])  # without the keys
+    screen.leave_behind([line for line in last[:-1] if line])  # without the line about keys
     return status
 
 
@@ -41,9 +41,9 @@ def _redraw(watch, screen, drawn):
 
 
 def lines(view, size, drawn):
-    """One that says so where a node makes no sense."""
+    """The lines of the screen; one line about the error if what the node says makes no sense."""
     try:
         return arranged(panels.of(view, *size, drawn), size)
-    except Exception as error:  # what no check has foreseen: a node may say anything
+    except Exception as error:  # a node may send anything that no check has foreseen
         said = wrapped([(panels.nonsense(error), 'error')], size[0])
         return [*said, [('q quit', 'faint')]][: size[1]]

@@ -1,4 +1,4 @@
-"""A node's topics -> what a bag of them would have held by now: a run like a recorded one."""
+"""A node's topics -> a run like a recorded one, with what a bag would hold by now."""
 
 import math
 import threading
@@ -10,11 +10,11 @@ from hdlyap.data.run import Run
 from .watch import ALWAYS, COMPUTED, Watch
 
 MOST = 512  # messages of a topic that are kept: more points cannot be seen
-LAST = 'status', 'cost', 'steps'  # topics of which figures want the last one alone
+LAST = 'status', 'cost', 'steps'  # topics of which figures need the last message only
 
 
 class Live(Run):
-    """{type: messages} so far, of this run or of one before."""
+    """A run that is still going on. messages: {type: messages} so far, also of runs before it."""
 
     def __init__(self, node, info, messages, *fits):
         super().__init__([Part(node, node, info.run_id, info, math.inf)], 1, *fits)
@@ -26,11 +26,12 @@ class Live(Run):
 
 
 class Gathered(Watch):
-    """Listens to all that the figures need, also to what the node computes for listeners alone."""
+    """Listens to all topics that figures need, also to those that the node computes for listeners
+    only."""
 
     def __init__(self, node):
         self._kept, self._lock = {}, threading.Lock()
-        self.count = 0  # of messages that can change a figure
+        self.count = 0  # number of messages that can change a figure
         super().__init__(node)
         self.toggle_computed()
 
@@ -44,7 +45,8 @@ class Gathered(Watch):
         super()._hear(message, topic)
 
     def _keep(self, packed, most):
-        """Thinned out as it grows: the first and the last one stay."""
+        """Keeps a message. If there are too many, every second one is dropped, but not the first
+        and the last one."""
         kept = self._kept.setdefault(packed.kind, [])
         if most == 1 or kept and kept[-1].run_id != packed.run_id:
             kept.clear()

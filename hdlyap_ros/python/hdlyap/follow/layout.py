@@ -1,22 +1,23 @@
-"""Panels, lists of lines -> the lines on a screen, each a list of (text, style): what matters most
-has room first, the two tables share what is left. What is too long goes on below."""
+"""Panels, which are lists of lines -> the lines on a screen, each a list of (text, style).
+Important panels get room first; the two tables share what is left. A line that is too long goes on
+below."""
 
 import textwrap
 
 from hdlyap.data.reader import plain
 
 GAP = '   '
-INDENT = 4 * ' '  # before what goes on in a line of its own
+INDENT = 4 * ' '  # before a line that continues the one above
 MORE = '  {} more'  # in the heading of a table that is cut
-# panels from the top down; the others than tables by importance, where there is not room for all;
-# and before which there is an empty line first
+# panels from the top down; panels other than tables, by importance if there is no room for all;
+# panels by who first gets an empty line before it
 ORDER = ('head', 'progress', 'numbers', 'table', 'phases', 'cost', 'diagnosis', 'keys')
 FIRST = ('progress', 'diagnosis', 'head', 'numbers', 'keys', 'cost')
 SPACED = ('table', 'phases', 'cost', 'diagnosis', 'numbers', 'keys', 'progress')
 
 
 def arranged(panels, size):
-    """At most as many lines as the screen has, of {panel: lines}."""
+    """The lines on the screen, at most as many as it has. panels: {panel: lines}."""
     width, left = size
     shown = {}
     for name, lines in panels.items():
@@ -33,7 +34,8 @@ def arranged(panels, size):
 
 
 def shortened(table, room, width):
-    """A table that is cut says so in its heading, and is nothing without a row."""
+    """The part of a table that there is room for. Its heading says how many rows are missing; there
+    is no heading without a row."""
     if len(table) <= room:
         return table
     if room < 2:
@@ -44,7 +46,7 @@ def shortened(table, room, width):
 
 
 def flow(cells, width, gap=GAP):
-    """Lines of as many cells as fit side by side; a cell is a text or (text, style)."""
+    """Puts as many cells into each line as fit side by side; a cell is a text or (text, style)."""
     lines = []
     for cell in cells:
         span = (cell, '') if isinstance(cell, str) else cell
@@ -56,8 +58,8 @@ def flow(cells, width, gap=GAP):
 
 
 def wrapped(line, width):
-    """The lines that it becomes, broken at spaces as far as there are any. What a node says must
-    not reach the terminal as a command."""
+    """Breaks a line into lines, at spaces if there are any. Control characters are replaced, as
+    a node must not control the terminal."""
     line = [(plain(text, len(text)), style) for text, style in line]
     if length(line) <= width:
         return [line]

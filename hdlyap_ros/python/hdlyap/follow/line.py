@@ -16,16 +16,16 @@ from .layout import flow, wrapped
 from .panels import nonsense
 from .watch import Watch
 
-LINE_PERIOD = 10.0  # seconds between lines where there is no terminal
+LINE_PERIOD = 10.0  # seconds between lines if there is no terminal
 LOOK_PERIOD = 0.25  # seconds between two looks
-LAST_WORDS = 0.3  # seconds that others may be behind the last status
+LAST_WORDS = 0.3  # seconds by which other messages may come after the last status
 
 
 def parts(view):
-    """Of the line."""
+    """The parts of the line."""
     try:
         return list(_parts(view))
-    except Exception as error:  # what no check has foreseen: a node may say anything
+    except Exception as error:  # a node may send anything that no check has foreseen
         return [plain(nonsense(error))]
 
 
@@ -50,12 +50,12 @@ def _parts(view):
 
 
 class Display:
-    """Overwritten on a terminal; elsewhere a line now and then."""
+    """Shows the line: overwrites it on a terminal, prints it now and then elsewhere."""
 
     def __init__(self):
         self._terminal = sys.stdout.isatty()
         self._next = 0.0
-        self._below = 0  # lines of the last one below its first
+        self._below = 0  # how many lines on the terminal the last text took below its first
 
     def show(self, parts, last=False):
         if self._terminal:
@@ -65,8 +65,8 @@ class Display:
             self._next = time.monotonic() + LINE_PERIOD
 
     def _overwrite(self, parts):
-        """On as many lines as it needs. The last column stays free, or what clears behind the text
-        would clear its end."""
+        """Writes the text over the last one, on as many lines as it needs. The last column stays
+        free, because clearing the rest of a line would clear it."""
         width = max(1, os.get_terminal_size(sys.stdout.fileno()).columns - 1)
         lines = [piece for line in flow(parts, width, '  ') for piece in wrapped(line, width)]
         text = '\033[K\n'.join(''.join(text for text, _ in line) for line in lines)
@@ -81,8 +81,8 @@ class Display:
 
 
 def follow(node):
-    """Shows the progress until the node has finished, has gone, or the user has had enough;
-    returns the exit status."""
+    """Shows the progress until the node has finished or gone, or the user interrupts. Returns the
+    exit status."""
     watch, display, shown = Watch(node, computed={}), Display(), None
     try:
         while not rospy.is_shutdown():

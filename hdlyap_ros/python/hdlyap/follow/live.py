@@ -7,13 +7,13 @@ import rospy
 from .gathered import Gathered
 
 PERIOD = 0.2  # seconds between two looks
-REST = 4  # times as long as a drawing took nothing is drawn: the run needs the processors
+REST = 4  # pause after a drawing over the time that it took, because the run needs the processors
 INTERRUPTED, WENT_AWAY = 130, 3
 
 
 def follow(node, window, **fits):
-    """Exit status: 0 the window was closed, 3 by then the node had gone before its end, 130
-    interrupted. fits: as data.run.Run takes them."""
+    """Draws into the window. Returns the exit status: 0 the window was closed, 3 the node had gone
+    before the end of its run by then, 130 interrupted. fits: see data.run.Run."""
     heard, drawn, ready = Gathered(node), 0, 0.0
     window.say(f'{node}: nothing heard yet')
     window.open()

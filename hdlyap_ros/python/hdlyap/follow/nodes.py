@@ -1,4 +1,4 @@
-"""Which nodes there are and whether they live: questions to the master and to the nodes."""
+"""Asks the master and nodes which nodes there are and whether they still run."""
 
 import http.client
 import sys
@@ -13,10 +13,10 @@ from hdlyap.data.reader import plain
 from hdlyap.msg import RunStatus
 
 ANSWER = 5.0  # seconds that a master or a node may take to answer
-SOON = 1.0  # the same while nothing is known of a master
-LIST = 2000  # letters at most of the names of nodes
+SOON = 1.0  # seconds that a master may take to answer for the first time
+LIST = 2000  # most letters of a list of nodes
 HOW = 'To start one: roslaunch hdlyap run.launch'
-# a question that could not be asked, or whose answer is none
+# exceptions if a question could not be asked, or its answer makes no sense
 UNANSWERED = (
     rosgraph.MasterException,
     OSError,
@@ -29,8 +29,9 @@ UNANSWERED = (
 
 
 def chosen(command, name, patience):
-    """Name of the node that publishes hdlyap/RunStatus: this one, or the only one; for a command
-    of hdlyap, whose node is started. Waits so many seconds; exits without one."""
+    """The name of the node that publishes hdlyap/RunStatus: the one of this name, or the only one.
+    Also starts the ROS node of this command of hdlyap. Waits at most `patience` seconds, and exits
+    if there is no such node."""
     deadline = time.monotonic() + patience
     _wait_for_master(command, deadline)
     rospy.init_node(command, anonymous=True)
@@ -41,7 +42,7 @@ def chosen(command, name, patience):
 
 
 def _wait_for_master(command, deadline):
-    """Says at once that there is none."""
+    """Waits for the master; exits after the deadline. Says at once if there is none."""
     uri = rosgraph.get_master_uri()
     missing = f'hdlyap {command}: no master at {uri}'
     if not _wait(lambda: answers(uri, SOON), deadline, lambda: missing):
@@ -49,7 +50,7 @@ def _wait_for_master(command, deadline):
 
 
 def _wait_for_node(command, name, deadline):
-    """None after the deadline. Says at once that there is none."""
+    """The name of the node; None after the deadline. Says at once if there is none."""
     found = set()
 
     def look():
@@ -58,7 +59,7 @@ def _wait_for_node(command, name, deadline):
         return name in found if name else bool(found)
 
     def listed():
-        return plain(', '.join(sorted(found)), LIST)  # anybody may have given them
+        return plain(', '.join(sorted(found)), LIST)  # names may contain anything
 
     def missing():
         others = f'; there is {listed()}' if found else ''
@@ -72,7 +73,7 @@ def _wait_for_node(command, name, deadline):
 
 
 def _wait(is_there, deadline, missing):
-    """Whether it came in time."""
+    """Waits until is_there() or the deadline. Returns whether it was there in time."""
     has_said = False
     while not rospy.is_shutdown():
         if is_there():
@@ -88,7 +89,7 @@ def _wait(is_there, deadline, missing):
 
 
 def _nodes():
-    """That publish hdlyap/RunStatus."""
+    """The nodes that publish hdlyap/RunStatus."""
     try:
         topics = ask_master('getPublishedTopics', '')
     except UNANSWERED:
@@ -97,7 +98,7 @@ def _nodes():
 
 
 def ask_master(question, *about):
-    """Its answer; raises one of UNANSWERED."""
+    """The answer of the master; raises one of UNANSWERED."""
     with _server(rosgraph.get_master_uri()) as master:
         code, text, answer = getattr(master, question)(rospy.get_name(), *about)
     if code != 1:
@@ -106,12 +107,12 @@ def ask_master(question, *about):
 
 
 def address(node):
-    """Where a node answers, as the master has it; raises one of UNANSWERED."""
+    """The address of a node, which the master knows; raises one of UNANSWERED."""
     return ask_master('lookupNode', node)
 
 
 def answers(uri, patience=ANSWER):
-    """Whether a node, or a master, is there."""
+    """Whether the node or master at an address answers."""
     try:
         with _server(uri, patience) as node:
             node.getPid(rospy.get_name())

@@ -1,4 +1,4 @@
-"""View -> panels: each a list of lines, a line a list of (text, style)."""
+"""View -> panels. A panel is a list of lines, a line a list of (text, style)."""
 
 from math import atan2, hypot, inf, isfinite, pi
 
@@ -16,15 +16,15 @@ from .layout import MORE, flow
 LEVELS = {0: ('OK', 'ok'), 1: ('WARN', 'warn'), 2: ('ERROR', 'error'), 3: ('STALE', 'warn')}
 KIND_STYLES = {steps.T: 'T', steps.LP: 'LP'}
 PART_BAR = 6  # columns
-ROOMY = 30  # lines of a screen
+ROOMY = 30  # a screen with this many lines has room for details
 STATES = {LpPhase.WEAK: 'too weak now', LpPhase.COARSE: 'turns too fast'}
 PHASE_ROW = '  {:<9} {:<{width}} {:>6} {:>7}  {} {:<6}{:<14} {}'
-FORMULA = 17  # columns, or more of spheres
+FORMULA = 17  # least columns of a formula; those of spheres are longer
 PHASE_HEAD = 'LP phases', 'A', 'index', '|(a,b)|', ' ', '/2 pi', 'omega', 'v'
 
 
 def of(view, width, height, glyphs):
-    """{panel: lines}"""
+    """All panels, {panel: lines}."""
     return {
         'head': head(view, width),
         'progress': progress(view, width, glyphs),
@@ -43,7 +43,7 @@ def nonsense(error):
 
 
 def head(view, width):
-    """What runs."""
+    """The run and its system."""
     info = view.info
     if info is None:
         return [[(view.node, 'strong')]]
@@ -67,7 +67,8 @@ def progress(view, width, glyphs):
 
 
 def _stage(view):
-    """The node's own word knows more than the stage: paused, waiting for subscribers."""
+    """What the run is doing. Diagnostics say more than the stage: paused, waiting for
+    subscribers."""
     if view.is_finished or view.diagnosis is None:
         return STAGES.get(view.status.stage, '?') if view.status else 'waiting for its first word'
     said = {pair.key: pair.value for pair in view.diagnosis.values}
@@ -89,7 +90,7 @@ def _times(view):
 
 
 def numbers(view, width, height):
-    """Exponents, and fits; where there is room, with what they stand on."""
+    """Exponents and fits; with the wave numbers of fits if there is room."""
     return flow(_numbers(view), width) + flow(_fits(view, height >= ROOMY), width)
 
 
@@ -107,7 +108,7 @@ def _numbers(view):
 
 
 def _averaged_steps(view):
-    """None without any."""
+    """The steps once there are averages; None before."""
     return view.steps if view.steps is not None and view.steps.averaged_time > 0 else None
 
 
@@ -119,7 +120,7 @@ def _fits(view, with_waves):
 
 
 def table(view, width):
-    """Steps: the heading, then a row each; or why there are none."""
+    """A heading and a row for each step, or why there are none."""
     message = _averaged_steps(view)
     if message is None:
         return _without(view, 'steps')
@@ -136,8 +137,8 @@ def table(view, width):
 
 
 def _table_lines(rows, beside_paper, width):
-    """The paper's values stand beside where there is room; of steps that share a set not all names
-    in one line, as each has a line of its own."""
+    """The lines of the table. Values of the paper are beside it if there is room. If it is too
+    wide, a row of several steps has not all of their names, as each step has a row, too."""
     for beside in (True, False) if beside_paper else (False,):
         lines = list(step_table.layout(rows, beside))
         room = width - len(MORE.format(999)) - len(lines[0])
@@ -149,7 +150,7 @@ def _table_lines(rows, beside_paper, width):
 
 
 def joined(names, room):
-    """T(1,0)+T(0,1), or as many of them as there is room for, and how many are left."""
+    """The names as T(1,0)+T(0,1), as many as there is room for, and how many are left."""
     for count in range(len(names), 0, -1):
         left = len(names) - count
         text = '+'.join([*names[:count], *([f'{left} more'] if left else [])])
@@ -159,8 +160,8 @@ def joined(names, room):
 
 
 def phases(view, glyphs):
-    """LP phases: the heading, then a row each, of every step the one that was tracked longest,
-    then of every step the next."""
+    """A heading and a row for each LP phase: for every step the phase that was tracked longest,
+    then for every step the next one."""
     if view.phases is None:
         return _without(view, 'lp_phases')
     found = ranked(view.phases.phases)
@@ -173,8 +174,8 @@ def phases(view, glyphs):
 
 
 def ranked(found):
-    """Phases of resolved steps: round after round one of every step, and of one step first those
-    that have neither vector nor pair in common."""
+    """Sorts phases of resolved steps: in each round there is one phase of every step. Phases of a
+    step that share neither vector nor pair come first."""
     by_step = {}
     for number, phase in enumerate(found):
         if phase.state != LpPhase.UNRESOLVED:
@@ -203,7 +204,7 @@ def _phase_cells(phase, info, glyphs):
 
 
 def cost(view, width, glyphs):
-    """Shares of the wall time, and what the interval between orthonormalisations is due to."""
+    """The parts of the wall time, and what limits the interval between orthonormalisations."""
     if view.cost is None or view.cost.wall_seconds <= 0:
         return []
     cells = []
@@ -225,7 +226,7 @@ def _interval(message):
 
 
 def diagnosis(view):
-    """What the node thinks of itself, and whether it is still there."""
+    """The node's diagnostics, and whether it is still there."""
     lines = []
     if view.diagnosis is not None and not view.is_gone:
         name, style = LEVELS.get(view.diagnosis.level, ('?', 'error'))

@@ -1,4 +1,4 @@
-"""Lines of text -> a terminal used as a whole, and left as it was however the program ends."""
+"""Lines of text -> the whole terminal, which is restored however the program ends."""
 
 import contextlib
 import itertools
@@ -10,11 +10,11 @@ import tempfile
 import termios
 import tty
 
-ENTER = '\033[?1049h\033[?25l\033[?7l'  # another screen, no cursor, no wrapping at the edge
+ENTER = '\033[?1049h\033[?25l\033[?7l'  # alternate screen, no cursor, no wrapping at the edge
 LEAVE = '\033[0m\033[?7h\033[?25h\033[?1049l'
 HOME, TO_LINE_END, TO_END = '\033[H', '\033[K', '\033[J'
 UNKNOWN_SIZE = (80, 24)
-# blue and vermilion as in the figures, of a lightness that shows on black and on white
+# blue and vermilion as in figures; all colours are legible on black and on white
 COLOURS = {
     'T': '38;5;32',
     'LP': '38;5;166',
@@ -26,7 +26,7 @@ WEIGHTS = {'strong': '1', 'faint': '2'}
 
 
 def is_usable():
-    """Whether stdout is a terminal that this process may have for itself."""
+    """Whether stdout is a terminal and this process is in its foreground."""
     try:
         return (
             sys.stdout.isatty()
@@ -44,9 +44,9 @@ class Screen:
         many = '256' in os.environ.get('TERM', '') or 'COLORTERM' in os.environ
         colours = COLOURS if many and 'NO_COLOR' not in os.environ else {}
         self._styles = {} if plain else {**WEIGHTS, **colours}
-        self._keyboard = None  # its settings; None where it is none of ours
-        self._shown = None  # (size, text) of what stands there
-        self._left = contextlib.ExitStack()  # what is undone at the end
+        self._keyboard = None  # settings of the keyboard; None if stdin is no terminal
+        self._shown = None  # (size, text) that the screen shows
+        self._left = contextlib.ExitStack()  # undoes all at the end
 
     def __enter__(self):
         with self._left as left:
@@ -68,8 +68,8 @@ class Screen:
         return (columns, lines) if columns and lines else UNKNOWN_SIZE
 
     def show(self, lines, size):
-        """No more of them, and none wider, than the screen of that size; nothing is sent if they
-        stand there already."""
+        """Shows lines, which have to fit into this size. Writes nothing if the screen shows them
+        already."""
         text = '\r\n'.join(TO_LINE_END + self._painted(line) for line in lines)
         below = '\r\n' + TO_END if len(lines) < size[1] else ''
         if self._shown != (size, text):
@@ -78,11 +78,11 @@ class Screen:
             self._shown = (size, text)
 
     def leave_behind(self, lines):
-        """After the end, so that the last numbers stay readable."""
+        """Prints lines after the end, so that the last numbers stay readable."""
         _write('\n'.join(map(self._painted, lines)) + '\n')
 
     def key(self, seconds):
-        """A key that is pressed within so many seconds; else ''."""
+        """The key that is pressed within this time; '' if none is."""
         keyboard = [sys.stdin] if self._keyboard else []
         if not select.select(keyboard, [], [], seconds)[0]:
             return ''
@@ -106,13 +106,13 @@ class Screen:
         _write(ENTER)
 
     def _give_back(self):
-        with contextlib.suppress(OSError, termios.error):  # where no terminal is left
+        with contextlib.suppress(OSError, termios.error):  # the terminal may be gone
             _write(LEAVE)
             if self._keyboard:
                 termios.tcsetattr(sys.stdin, termios.TCSADRAIN, self._keyboard)
 
     def _suspend(self, number, frame):
-        """Ctrl-Z: the shell gets its terminal, until the program is in the foreground again."""
+        """Does what Ctrl-Z asks for: gives the terminal to the shell until the program goes on."""
         self._give_back()
         os.kill(os.getpid(), signal.SIGSTOP)
         self._take()
@@ -120,7 +120,7 @@ class Screen:
 
 @contextlib.contextmanager
 def complaints_held_back():
-    """What libraries write to stderr meanwhile: they would write it across the screen."""
+    """Keeps what libraries write to stderr until the end, because it would spoil the screen."""
     if not sys.stderr.isatty():
         yield
         return

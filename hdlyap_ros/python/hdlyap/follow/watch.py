@@ -1,6 +1,6 @@
-"""A node's topics -> View: what it said last about its present run. All that may have to wait for
-an answer is in a thread. To watch a run must not change it: what the node computes only for
-listeners is listened to while others do, or if the user wants it."""
+"""A node's topics -> View: the last messages about its present run. Whatever waits for an answer
+runs in a thread. Watching must not change a run: topics that the node computes only for listeners
+are subscribed to while somebody else listens, or if the user asks for them."""
 
 import re
 import threading
@@ -17,24 +17,24 @@ from .nodes import UNANSWERED, address, answers, ask_master
 
 ALWAYS = {'run_info': RunInfo, 'status': RunStatus, 'cost': Cost, 'spectrum': Spectrum}
 COMPUTED = {'steps': Steps, 'lp_phases': LpPhases}
-FIELDS = {'run_info': 'info', 'lp_phases': 'phases'}  # of View, where not called as the topic
+FIELDS = {'run_info': 'info', 'lp_phases': 'phases'}  # members of View that differ from the topic
 PERIOD = 1.0  # seconds between two looks at the master
 SILENCE = 2.0  # seconds without a message after which the node is asked
-SPEED_OVER = 10.0  # wall seconds
-FOLLOWER = re.compile(r'/follow_\d+_\d+$')  # names that rospy gives to our like
+SPEED_OVER = 10.0  # wall seconds over which the speed is measured
+FOLLOWER = re.compile(r'/follow_\d+_\d+$')  # names that rospy gives to this command
 
 
 class View(Said):
-    """What is shown; None for what is not known. `silence`: seconds since the node's last word;
+    """What is shown; None if it is not known. `silence`: seconds since the node's last message;
     `diagnosis`: its DiagnosticStatus; `others`: topics of COMPUTED that somebody else listens to;
-    `wanted`: whether the user has asked for all of them."""
+    `wanted`: whether the user has asked for all topics of COMPUTED."""
 
     info = spectrum = steps = status = cost = phases = diagnosis = speed = None
     node, silence, others, wanted = '', 0.0, frozenset(), False
     is_gone = is_master_gone = False
 
     def __init__(self):
-        """Of no run as yet."""
+        """A view of no run; Said.__init__ would need one."""
 
     @property
     def is_finished(self):
@@ -47,7 +47,8 @@ class View(Said):
 
 
 class Watch:
-    """Listens; view() is what is known now. computed: what of COMPUTED is of interest."""
+    """Listens to a node; view() is what is known now. computed: the part of COMPUTED to listen
+    to."""
 
     def __init__(self, node, computed=COMPUTED):
         self._node, self._computed = node, computed
@@ -63,7 +64,7 @@ class Watch:
         threading.Thread(target=self._go_round, daemon=True).start()
 
     def toggle_computed(self):
-        """Has the node compute steps and LP phases although nobody else listens, or no more."""
+        """Makes the node compute steps and LP phases although nobody else listens, or ends that."""
         self._wanted = not self._wanted
         self._soon.set()
 
@@ -110,10 +111,10 @@ class Watch:
         try:
             self._address = address(self._node)
         except UNANSWERED:
-            pass  # a node that no master knows may still be where it was
+            pass  # a node that the master does not know may still have its old address
 
     def _listen(self, speakers, listeners):
-        """Both: {topic: names of nodes}"""
+        """Subscribes and unsubscribes. speakers, listeners: {topic: names of nodes}."""
         self._others = frozenset(
             name
             for name in self._computed
@@ -122,7 +123,7 @@ class Watch:
         for topic, (kind, callback) in self._topics.items():
             name = _name(topic)
             wanted = name not in self._computed or self._wanted or name in self._others
-            # by a master that was restarted; a node that it does not know either is still connected
+            # a restarted master may know the node, but not this subscriber
             forgotten = topic in speakers and rospy.get_name() not in listeners.get(topic, ())
             if topic in self._ears and (forgotten or not wanted):
                 self._ears.pop(topic).unregister()
@@ -135,8 +136,8 @@ def _name(topic):
 
 
 def fill(view, last):
-    """With the last messages of the topics, but None and those that are left of a run before the
-    one that the status is of."""
+    """Fills a view with the last messages of topics, without those of earlier runs than the status
+    is of."""
     newest = last.get('status') or last.get('run_info')
     for name, message in last.items():
         if message is not None and newest and message.run_id == newest.run_id:
@@ -144,18 +145,18 @@ def fill(view, last):
 
 
 class Speed:
-    """Simulated time per wall second, over the last seconds."""
+    """The simulated time per wall second, over the last seconds."""
 
     def __init__(self):
         self._marks = deque()
 
     def add(self, cost):
-        """None while not known."""
+        """Adds a message. Returns the speed; None while it is not known."""
         if cost is None:
             return None
         marks = self._marks
         if marks and cost.wall_seconds < marks[-1][0]:
-            marks.clear()  # another run
+            marks.clear()  # this is another run
         if not marks or cost.wall_seconds > marks[-1][0]:
             marks.append((cost.wall_seconds, cost.sim_time))
         while len(marks) > 2 and marks[-1][0] - marks[1][0] >= SPEED_OVER:
@@ -165,8 +166,8 @@ class Speed:
 
 
 def lazy(kind):
-    """The class of messages, unpacked only when asked: most are replaced before they are seen, and
-    what is spent on them a node on the same cores does not get."""
+    """A class of messages that are unpacked only when somebody needs them. Most are replaced before
+    that, and unpacking takes time from a node on the same cores."""
 
     class Lazy(kind):
         def deserialize(self, data):
@@ -174,11 +175,11 @@ def lazy(kind):
             return self
 
         def unpacked(self):
-            """None if it is damaged."""
+            """The message; None if it is damaged."""
             if self.data is not None:
                 try:
                     self.message = kind().deserialize(self.data)
-                except Exception:  # whatever a damaged byte makes of genpy
+                except Exception:  # damaged bytes make genpy raise anything
                     self.message = None
                 self.data = None
             return self.message

@@ -1,3 +1,3 @@
-"""Many runs, some at a time, taken up where they were left: run (what one is), work (does those
-that are missing), tree and master (processes), display (how far they are), bag and files (what is
-left)."""
+"""Many runs, several at a time, which go on where they were interrupted: run (a run), work (does
+the runs that are missing), tree and master (processes), display (progress), bags and recording
+(bags)."""

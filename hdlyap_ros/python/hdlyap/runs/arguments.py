@@ -1,5 +1,5 @@
-"""NAME:=VALUE for run.launch, looked at before roslaunch has them: it would ignore a name that it
-does not know, and die in many lines of a value that it does not understand."""
+"""Checks arguments NAME:=VALUE of run.launch before roslaunch gets them. It would ignore a name
+that it does not know, and end with many lines about a value that it does not understand."""
 
 import difflib
 import os
@@ -11,8 +11,8 @@ from .scene import Refused
 
 
 def check(words, launch, cwd):
-    """Refused, or all of them can be handed on; launch: folder of the launch files; cwd: of
-    relative paths. What begins with _ is of ROS itself."""
+    """Raises Refused if roslaunch cannot take the words. launch: folder of the launch files; cwd:
+    folder of relative paths. Words that begin with _ are for ROS."""
     known = _names(os.path.join(launch, 'run.launch'))
     given = dict(word.split(':=', 1) for word in words if not word.startswith('_'))
     for name, value in given.items():
@@ -26,7 +26,7 @@ def check(words, launch, cwd):
 
 
 def _names(path):
-    """Of the arguments that a launch file takes."""
+    """The names of the arguments that a launch file takes."""
     found = ElementTree.parse(path).getroot().findall('arg')
     return [arg.get('name') for arg in found if arg.get('value') is None]
 

@@ -1,5 +1,5 @@
-"""Bags of earlier runs: none is overwritten, each is kept as FILE.old, FILE.old2 and so on, as
-checkpoints are."""
+"""Keeps bags of earlier runs: they are never overwritten but renamed to FILE.old, FILE.old2 and so
+on, as checkpoints are."""
 
 import glob
 import itertools
@@ -13,12 +13,12 @@ WRITTEN = '.active'  # is added to the name of a bag while it is written
 
 
 class InUse(Exception):
-    """With its line."""
+    """A line for the user says which process writes the bag."""
 
 
 def in_the_way(path):
-    """What recording to this file would overwrite, or be mixed up with: bag and parts of it, of
-    runs that were killed too."""
+    """The files that recording to this path would overwrite or be mixed up with: a bag and its
+    parts, also those of runs that were killed."""
     stem = path[: -len('.bag')]
     parts = re.compile(re.escape(stem) + r'(_[0-9]+)?\.bag(\.active)?$')
     found = glob.glob(glob.escape(stem) + '*')
@@ -26,12 +26,12 @@ def in_the_way(path):
 
 
 def writer(paths):
-    """The process that has one of them open, None if there is none: (its number, the path)."""
+    """(pid, path) of a process that has one of the files open; None if there is none."""
     real = {os.path.realpath(path): path for path in paths if path.endswith(WRITTEN)}
     for link in glob.iglob('/proc/[0-9]*/fd/*') if real else ():
         try:
             path = os.readlink(link)
-        except OSError:  # it has gone, or is somebody else's
+        except OSError:  # the process has ended, or belongs to another user
             continue
         if path in real:
             return int(link.split('/')[2]), real[path]
@@ -39,8 +39,8 @@ def writer(paths):
 
 
 def keep(path):
-    """Makes room for a new bag; yields what became of the old ones. InUse if one of them is
-    written just now."""
+    """Renames old bags at this path. Yields a line for each. Raises InUse if somebody is writing
+    one."""
     until = time.monotonic() + PATIENCE
     while True:
         old = in_the_way(path)

@@ -1,5 +1,5 @@
-"""What is under way, in a line: how many runs are done, how much of all, about how long the rest
-takes."""
+"""The progress of many runs in a line: how many are done, how much of all work, and about how long
+the rest takes."""
 
 import os
 import sys
@@ -8,12 +8,11 @@ import time
 from hdlyap.follow.line import Display as Line
 from hdlyap.numbers import clock
 
-ESTIMATED = 60.0  # seconds of work that the estimate counts for, beside what has been seen
+ESTIMATED = 60.0  # weight of the estimated speed against the measured one, in seconds of work
 
 
 class Display:
-    """For work.work: shows progress through `count` runs; `before`: those that were there
-    before."""
+    """Shows the progress of work.work through `count` runs. before: runs that were done already."""
 
     def __init__(self, count, before=0):
         self._count, self._before, self._line = count + before, before, Line()
@@ -29,7 +28,7 @@ class Display:
         self._line.show([_fitting(self._count_of_runs(), shares, rest)])
 
     def _left(self, done, total):
-        """Seconds, by those estimated and those that have passed for what is done."""
+        """Seconds left, from the estimated work and the time that was needed so far."""
         return (total - done) * (time.monotonic() - self._began + ESTIMATED) / (done + ESTIMATED)
 
     def _count_of_runs(self):
@@ -38,20 +37,21 @@ class Display:
         return f'{done} of {self._count} runs done{failed}'
 
     def say(self, line):
-        """That a run has failed."""
+        """Prints a line about a run that has failed."""
         self._failed += 1
         self._line.close()
         print(f'hdlyap sweep: {line}', file=sys.stderr, flush=True)
 
     def end(self):
-        """The total."""
+        """Shows how many runs were done, and in which time."""
         seconds = time.monotonic() - self._began
         self._line.show([f'{self._count_of_runs()} in {clock(seconds)}'], last=True)
         self._line.close()
 
 
 def _fitting(count, shares, rest):
-    """As many of the runs as a terminal has room for; the rest is what one wants to know."""
+    """The line with as many shares of runs as the terminal has room for. The rest is always in
+    it."""
     width = 10**6
     if sys.stdout.isatty():
         width = os.get_terminal_size(sys.stdout.fileno()).columns - 1

@@ -1,4 +1,4 @@
-"""The ROS master in use; one of our own if there is none."""
+"""The ROS master in use; it is started here if there is none."""
 
 import time
 
@@ -11,16 +11,16 @@ from .tree import Tree, end
 POLL = 0.2
 COMING = 60.0  # seconds for a master to come up, on a busy machine
 ASK = 5.0  # seconds between two questions whether it is there
-SILENCE = 15.0  # of it, after which it has gone
-PATIENCE = 5.0  # with our own, to end
+SILENCE = 15.0  # seconds without an answer, after which the master has gone
+PATIENCE = 5.0  # seconds in which a master that was started here has to end
 
 
 class MasterError(Exception):
-    """One line for the user."""
+    """A line for the user: there is no master."""
 
 
 class Watch:
-    """Of one that is there: a question to it is answered now and then."""
+    """Checks that a master is still there, by asking it now and then."""
 
     def __init__(self, *question):
         self.uri = rosgraph.get_master_uri()
@@ -28,7 +28,7 @@ class Watch:
         self._due, self._heard = 0.0, time.monotonic()
 
     def check(self):
-        """MasterError if it has gone. To be called often."""
+        """Raises MasterError if the master has gone. Has to be called often."""
         now = time.monotonic()
         if now >= self._due:
             self._due = now + ASK

@@ -5,12 +5,12 @@ import socket
 
 import roslib.packages
 
-# as Open MPI, PMIx, Slurm and MPICH call it
+# variables in which Open MPI, PMIx, Slurm and MPICH give the rank
 NUMBERS = 'OMPI_COMM_WORLD_RANK', 'PMIX_RANK', 'SLURM_PROCID', 'PMI_RANK'
 
 
 def number():
-    """Of this rank, from 0; 0 without others."""
+    """The number of this rank, from 0; 0 if there are no others."""
     for name in NUMBERS:
         if name in os.environ:
             return int(os.environ[name])
@@ -18,12 +18,12 @@ def number():
 
 
 def node():
-    """Path of the program."""
+    """The path of hdlyap_node."""
     return roslib.packages.find_node('hdlyap', 'hdlyap_node')[0]
 
 
 def become_node():
-    """Does not return."""
+    """Replaces this process by hdlyap_node. Does not return."""
     program = node()
     os.execv(program, [program])
 

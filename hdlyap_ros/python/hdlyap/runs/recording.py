@@ -1,5 +1,5 @@
-"""rosbag record of one bag, looked after: there is room for it, and at its end it is said what is
-in it."""
+"""Runs rosbag record for one bag. It ends before the disk is full, and says at the end what is in
+the bag."""
 
 import os
 import re
@@ -14,12 +14,12 @@ from . import bags
 from .scene import Refused
 
 POLL = 0.2  # seconds between two looks
-LEAST = '1G'  # that must be free, unless it is said
-UNITS = {'': 1, 'k': 2**10, 'M': 2**20, 'G': 2**30}  # as rosbag reads them
+LEAST = '1G'  # default of the space that has to stay free
+UNITS = {'': 1, 'k': 2**10, 'M': 2**20, 'G': 2**30}  # units that rosbag knows
 
 
 class Space:
-    """Free bytes that must be left where a bag is, as rosbag takes them: 500M, say."""
+    """The space that has to stay free on the disk of a bag, written as for rosbag, e.g. 500M."""
 
     def __init__(self, text, path):
         found = re.fullmatch('([0-9]{1,12})([kMG]?)', text)
@@ -43,8 +43,8 @@ class Space:
 
 
 def record(program, path, space, words, came):
-    """Came: signals, which ask for the end. Exit status: 0 the bag is there, 1 it is not, or not to
-    its end."""
+    """Records a bag. came: signals that have come, each of which asks for the end. Returns the exit
+    status: 0 the bag is there, 1 it is missing or not complete."""
     if came:
         return 0
     command = [program, f'--output-name={path}', f'--min-space={space.text}', *words]
@@ -54,7 +54,8 @@ def record(program, path, space, words, came):
 
 
 def _wait(process, space, came):
-    """For its end, which it is asked for at each signal; true if there is no room for more."""
+    """Waits for the end of the process, which gets each signal. Returns True if it ended for want
+    of space."""
     heeded, is_short = 0, False
     while process.poll() is None:
         if not is_short and space.lacks:
@@ -69,7 +70,7 @@ def _wait(process, space, came):
 
 
 def _say(path, is_short, status):
-    """What there is now; the exit status."""
+    """Logs what is in the bag. Returns the exit status."""
     files = bags.in_the_way(path)
     parts = [file for file in files if not file.endswith(bags.WRITTEN)]
     count = sum(map(messages, parts))
@@ -92,7 +93,7 @@ def _emptiness(path, files):
 
 
 def messages(path):
-    """How many there are of ours."""
+    """The number of messages of hdlyap in a bag."""
     try:
         with rosbag.Bag(path, skip_index=True) as bag:
             found = bag.get_type_and_topic_info().topics.values()

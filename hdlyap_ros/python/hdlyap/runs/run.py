@@ -1,5 +1,5 @@
-"""One run of many: its name, the parameters of its node, whether it is done, and about how many
-seconds it takes: on all of two cores if it is wide, else on one."""
+"""One of many runs: its name, the parameters of its node, whether it is done, and about how many
+seconds it takes: on two cores if it uses all of them (is_wide), otherwise on one."""
 
 import contextlib
 import functools
@@ -18,34 +18,34 @@ from hdlyap.plots import repetition
 from . import ranks
 from .scene import Refused
 
-ABOUT = 'A run of hdlyap sweep.'  # first line of its scene file
-AUTO = 'auto'  # what the node chooses itself
+ABOUT = 'A run of hdlyap sweep.'  # first line of a scene file
+AUTO = 'auto'  # value of a parameter that the node chooses
 TIMES = 'equilibration', 'warmup', 'duration'
 OF_ONE = 'checkpoint', 'resume'  # parameters that runs cannot share
-# those that make no difference to what is measured, or that run_info has as they were resolved
+# parameters that make no difference to results, or that the node changes before run_info has them
 HERE = ('threads', 'wait_for_subscribers', *OF_ONE)
-# seconds, about: to come up; of a time unit with 200 disks on one core, as their square
+# about the seconds to start, and those of a time unit with 200 disks on one core; they grow as N^2
 BEGIN, STEP, DISKS = 5.0, 0.03, 200
 OWN = re.compile(r'^# For (\w+(?: and \w+)*) only\.\n(?:# .*\n)*?# (\w+): (\S+)$', re.MULTILINE)
 
 
 class Planned:
     def __init__(self, name, parameters, seconds=None):
-        """All parameters; seconds: about, if they are known. Refused if the node does not know
-        them, or it would not end."""
+        """parameters: all of them; seconds: about how many it takes, if known. Raises Refused if
+        the node does not know a parameter, or the run would never end."""
         _check(parameters)
         self.name, self.parameters = name, parameters
         self.seconds = seconds or _estimate(parameters)
 
     @property
     def is_wide(self):
-        """Has all cores for itself."""
+        """Whether the run uses all cores."""
         return self.parameters['threads'] == 0
 
     def share_done(self, status):
-        """Of the whole run, 0 .. 1, in simulated time with tangent vectors: without them it goes
-        fast. Of the averaging alone if the warmup is not known, or it is to reach a target.
-        status: its last one, or None."""
+        """The part of the run that is done, 0 .. 1, by simulated time with tangent vectors, because
+        time without them goes fast. If the warmup is not known, or the run has a target, it is the
+        part of the averaging. status: the last message, or None."""
         if status is None:
             return 0.0
         warmup = self.parameters['warmup']
@@ -55,7 +55,7 @@ class Planned:
         return min(1.0, max(0.0, spent / (warmup + self.parameters['duration'])))
 
     def share_of(self, jobs):
-        """Seconds of wall time that it adds to the work of so many jobs at a time."""
+        """The seconds of wall time that the run adds if this many jobs run at a time."""
         return self.seconds / (1 if self.is_wide else jobs)
 
     @property
@@ -69,7 +69,7 @@ class Planned:
         return os.path.join(folder, self.name + '.bag')
 
     def write(self, folder):
-        """The scene file, if it is not there with these very parameters."""
+        """Writes the scene file, unless it is there with exactly these parameters."""
         text = yaml.safe_dump(self.parameters, sort_keys=False, default_flow_style=None)
         text = f'# {ABOUT}\n{text}'
         path = self.scene_file(folder)
@@ -79,22 +79,23 @@ class Planned:
         whole.write(path, text)
 
     def errors_after(self, folder):
-        """Averaged time from which it states errors, as the node says of its scene file there; None
-        if the node refuses it, which it says when it runs."""
+        """The averaged time after which the run states errors, as the node says for the scene file
+        in this folder; None if the node refuses the file, of which it will complain when it
+        runs."""
         asked = [ranks.node(), '--errors', self.scene_file(folder)]
         said = subprocess.run(asked, capture_output=True, text=True)
         return float(said.stdout) if said.returncode == 0 else None
 
     def lacks(self, folder):
-        """What its bag there lacks to be all of it, in words; '' if nothing: it is done."""
+        """What the bag in this folder lacks to be this run, as text; '' if the run is done."""
         there = complete(self.bag(folder))
         return self._differs(there.info) if there else 'the run has not come to its end'
 
     def _differs(self, info):
-        """In which parameter of the node, in words; '' in none."""
+        """The parameter in which a recorded run differs, as text; '' if there is none."""
         asked = repetition.parameters(info)
         for name, value in self.parameters.items():
-            is_chosen = name == 'warmup' and value == AUTO  # and in run_info as it was
+            is_chosen = name == 'warmup' and value == AUTO  # run_info has the value chosen
             if name in HERE or name not in asked or is_chosen or _same(asked[name], value):
                 continue
             return f'it was run with {name} = {asked[name]}, not {value}'
@@ -102,7 +103,7 @@ class Planned:
 
 
 def complete(bag):
-    """The data.run.Run in it, if it is there and went to its end; else None."""
+    """The data.run.Run in a bag, if it is there and went to its end; otherwise None."""
     try:
         there = hdlyap.load(bag)
         return there if there.is_complete else None
@@ -111,7 +112,8 @@ def complete(bag):
 
 
 def _same(one, other):
-    """400 and 400.0 are, as 5 and '5'; lists in their order."""
+    """Whether two values are the same: 400 and 400.0 are, 5 and '5' are, lists in the same order
+    are."""
     if str(one) == str(other):
         return True
     try:
@@ -128,7 +130,7 @@ def _check(parameters):
         if name in OF_ONE and value:
             raise Refused(f'{name} = {value}: must be empty in a sweep, which goes on by itself')
     for name in TIMES:
-        is_chosen = name == 'warmup' and parameters[name] == AUTO  # by the node
+        is_chosen = name == 'warmup' and parameters[name] == AUTO  # the node chooses it
         if not (is_chosen or is_number(parameters[name])):
             raise Refused(f'{name} = {parameters[name]}: must be a number')
     if not (parameters['duration'] > 0 or parameters['target']):
@@ -140,7 +142,7 @@ def _check(parameters):
 
 def _estimate(parameters):
     time = sum(parameters[name] for name in TIMES if is_number(parameters[name]))
-    disks = parameters['number'] if is_number(parameters['number']) else DISKS  # it is refused
+    disks = parameters['number'] if is_number(parameters['number']) else DISKS  # node refuses it
     coordinates = 2 if parameters.get('particles') in ('disks', 'soft_disks') else 3
     return BEGIN + STEP * time * (coordinates / 2 * disks / DISKS) ** 2
 
@@ -153,13 +155,13 @@ def _said():
 
 @functools.lru_cache(maxsize=None)
 def usual():
-    """The default of every parameter, as the node says."""
+    """{name: default} of all parameters, as the node says."""
     return yaml.safe_load(_said())
 
 
 @functools.lru_cache(maxsize=None)
 def own():
-    """{particles: {name: default}} of the parameters of particles alone."""
+    """{particles: {name: default}} of the parameters that only some particles have."""
     found = {}
     for those, name, value in OWN.findall(_said()):
         for particles in those.split(' and '):
@@ -168,13 +170,13 @@ def own():
 
 
 def completed(given):
-    """With the defaults of all others."""
+    """The given parameters and the defaults of all others."""
     particles = given.get('particles', usual()['particles'])
     return {**usual(), **own().get(particles, {}), **given}
 
 
 def is_solid(parameters):
-    """Of spheres, hard or soft."""
+    """Whether the run has spheres, hard or soft."""
     return parameters.get('particles') in ('spheres', 'soft_spheres')
 
 

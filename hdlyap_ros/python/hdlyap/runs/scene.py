@@ -1,5 +1,4 @@
-"""A scene and what is given besides -> the parameters of hdlyap_node, or the line that refuses
-them."""
+"""A scene and further parameters -> all parameters of hdlyap_node, or a line that refuses them."""
 
 import os
 import re
@@ -11,12 +10,13 @@ LARGEST = 2**31
 
 
 class Refused(Exception):
-    """With its line."""
+    """A line for the user says what is wrong, its value and what is allowed."""
 
 
 def parameters(given, folder, cwd):
-    """given: {name: text} of scene, params (other parameters, as YAML) and parameters, empty ones
-    are not given; folder: of the launch files; cwd: of relative paths."""
+    """All parameters. given: {name: text} of scene, params (other parameters, as YAML) and
+    parameters; an empty text means that it is not given. folder: of the launch files; cwd: folder
+    of relative paths."""
     given = {name: text for name, text in given.items() if text}
     values = scene_file(given.pop('scene'), folder, cwd)
     own = mapping('params', given.pop('params', ''))
@@ -33,13 +33,13 @@ def mapping(name, text):
         found = yaml.safe_load(text) if text else {}
     except yaml.YAMLError as error:
         raise Refused(f'{name} = {text}: must be {{parameter: value, ..}}: {in_line(error)}')
-    if not isinstance(found, dict) or None in found.values():  # {warmup=5} is a name without one
+    if not isinstance(found, dict) or None in found.values():  # {warmup=5} is a name without value
         raise Refused(f'{name} = {text}: must be {{parameter: value, ..}}')
     return found
 
 
 def scene_file(scene, folder, cwd):
-    """Its parameters. Who does not say a name is named after the file."""
+    """The parameters in a scene file. A scene without a name gets that of the file."""
     scenes = os.path.join(folder, 'scenes')
     path = os.path.join(cwd, scene) if scene.endswith('.yaml') else f'{scenes}/{scene}.yaml'
     names = sorted(name[:-5] for name in os.listdir(scenes) if name.endswith('.yaml'))
@@ -52,7 +52,7 @@ def scene_file(scene, folder, cwd):
 
 
 def load(path, name, holds):
-    """The mapping in a YAML file; name: as the user knows it, holds: what it must hold."""
+    """The mapping in a YAML file. name: what the user calls it; holds: what it has to hold."""
     wanted = f'{name}: must be a YAML file of {holds}'
     try:
         with open(path) as file:
@@ -71,7 +71,7 @@ def in_line(error):
 
 
 def typed(text):
-    """A number if it is one; the node itself reads all others."""
+    """The number in a text, or the text, which the node will read."""
     if WHOLE.match(text):
         return int(text)
     try:
@@ -81,5 +81,6 @@ def typed(text):
 
 
 def fitting(value):
-    """Integers of the parameter server have 32 bits; the node reads a longer one as a string."""
+    """A value as the parameter server can carry it: an integer of more than 32 bits becomes a
+    string, which the node reads, too."""
     return str(value) if type(value) is int and abs(value) >= LARGEST else value

@@ -1,5 +1,5 @@
-"""A command and all that it begins: roslaunch gives each node a session of its own, so a signal to
-a group is not enough."""
+"""A command and all processes that it starts. roslaunch starts each node in a separate session, so
+a signal to the process group would not reach all."""
 
 import os
 import signal
@@ -7,13 +7,13 @@ import subprocess
 import time
 import uuid
 
-# of the environment, which its processes inherit, whatever becomes of their parents
+# a variable of the environment, which all processes inherit, whatever becomes of their parents
 MARK = 'HDLYAP_TREE'
 POLL = 0.1
 
 
 class Tree:
-    """Runs the command. It is asked to end, as by Ctrl-C, also where who began it is killed."""
+    """Runs the command. If this program is killed, the command gets a SIGINT, as by Ctrl-C."""
 
     def __init__(self, command, output=subprocess.DEVNULL):
         mark = uuid.uuid4().hex
@@ -23,34 +23,35 @@ class Tree:
         self._process = subprocess.Popen(['setpriv', '--pdeathsig', 'INT', *command], **how)
 
     def has_ended(self):
-        """Whether the command has."""
+        """Whether the command has ended."""
         return self._process.poll() is not None
 
     def ask(self):
-        """To end: the command, which asks its processes; them, if it is no more."""
+        """Asks the command to end, which asks its processes. Asks these if the command has
+        ended."""
         for pid in self._members() if self.has_ended() else [self._process.pid]:
             _send(pid, signal.SIGINT)
 
     def is_gone(self):
-        """Whether nothing of it is left."""
+        """Whether the command and all its processes have ended."""
         return self.has_ended() and not self._members()
 
     def insist(self):
-        """The end of all of it at once."""
+        """Kills all processes."""
         while not self.is_gone():
             for pid in self._members():
                 _send(pid, signal.SIGKILL)
             time.sleep(POLL)
 
     def _members(self):
-        """Processes; not those that are dead but for their parents' wait, which have no
-        environment."""
+        """The ids of the processes. Zombies do not count, as they have no environment."""
         processes = filter(str.isdecimal, os.listdir('/proc'))
         return [int(number) for number in processes if self._entry in _environment(number)]
 
 
 def end(trees, patience, is_pressed=lambda: False):
-    """Of all of them: asked first, made to after so many seconds or when it is pressed for."""
+    """Ends all trees: asks them first, and kills them after `patience` seconds or if
+    is_pressed()."""
     for tree in trees:
         tree.ask()
     deadline = time.monotonic() + patience
@@ -73,5 +74,5 @@ def _environment(pid):
     try:
         with open(f'/proc/{pid}/environ', 'rb') as file:
             return file.read()
-    except OSError:  # it has ended, or is somebody else's
+    except OSError:  # the process has ended, or belongs to another user
         return b''

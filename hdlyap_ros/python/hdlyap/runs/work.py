@@ -1,5 +1,5 @@
-"""Runs that are not done -> their bags: one roslaunch each, wide ones alone, the others side by
-side."""
+"""Runs that are not done -> their bags. Each run is a roslaunch. Runs that use all cores are alone,
+the others side by side."""
 
 import contextlib
 import fcntl
@@ -19,8 +19,8 @@ from .master import Master, MasterError
 from .tree import Tree, end
 
 POLL = 0.2  # seconds between two looks
-PATIENCE = 20.0  # with roslaunch, which gives its nodes 17 s
-SILENCE = 180.0  # seconds to the first word of a node; it waits for its recorder
+PATIENCE = 20.0  # seconds in which roslaunch has to end; it gives its nodes 17
+SILENCE = 180.0  # seconds in which a node, which waits for its recorder, has to say something
 UNDER_WAY = 'under_way'  # folder of bags that are being recorded
 SAID = re.compile('FATAL|ERROR')
 DIED = re.compile(r'process has died \[[^\]]*?(?=, cmd|\])')
@@ -28,18 +28,18 @@ COLOUR = re.compile('\033' + r'\[[0-9;]*m')
 
 
 class WorkError(Exception):
-    """One line for each run that failed."""
+    """The text has a line for each run that failed."""
 
 
 class Job:
-    """One run under way; records in a folder of its own, since what is not whole shall replace
+    """A run under way. It records into a separate folder, so that an incomplete bag replaces
     nothing."""
 
     def __init__(self, run, folder, log, min_space):
         self.run, self.log = run, log
         self._folder = folder
         self._new = os.path.join(folder, UNDER_WAY, f'{run.name}.{os.getpid()}')
-        self.status = None  # its last message
+        self.status = None  # the last message
         self._began = time.monotonic()
         os.makedirs(self._new, exist_ok=True)
         run.write(folder)
@@ -60,7 +60,7 @@ class Job:
 
     @property
     def share(self):
-        """Of the whole run, 0 .. 1."""
+        """The part of the run that is done, 0 .. 1."""
         return self.run.share_done(self.status)
 
     def has_ended(self):
@@ -70,7 +70,8 @@ class Job:
         return self.status is None and self.seconds > SILENCE
 
     def close(self):
-        """After its end. WorkError if the run did not go to its end."""
+        """Takes the bag, after the processes have ended. Raises WorkError if the run is not
+        complete."""
         why = self._failure()
         if why:
             said = f'{last_words(self.log)}all that it said is in {self.log}'
@@ -78,21 +79,21 @@ class Job:
         os.replace(self.run.bag(self._new), self.run.bag(self._folder))
 
     def _failure(self):
-        """'' of a bag that is whole."""
+        """What is wrong with the bag; '' if it is complete."""
         lacks = self.run.lacks(self._new)
         silent = f'no word of its node within {SILENCE:.0f} s'
         return silent if lacks and self.is_silent() else lacks
 
     def leave(self):
-        """No trace but the log, and the bag if it is whole."""
+        """Removes all but the log, and the bag if it is complete."""
         shutil.rmtree(self._new, ignore_errors=True)
         with contextlib.suppress(OSError):
-            os.rmdir(os.path.dirname(self._new))  # the last one
+            os.rmdir(os.path.dirname(self._new))  # succeeds after the last run
         self._subscriber.unregister()
 
 
 def last_words(log):
-    """Of a run that failed: the last line of level ERROR or FATAL, else the death of a process."""
+    """Why a run failed: the last line of level ERROR or FATAL, otherwise the death of a process."""
     with open(log, errors='replace') as file:
         lines = [COLOUR.sub('', line).strip() for line in file]
     errors = [line for line in lines if SAID.search(line)]
@@ -102,7 +103,7 @@ def last_words(log):
 
 
 class Work:
-    """The runs, as many at a time as there is room for."""
+    """Does runs, as many at a time as there is room for."""
 
     def __init__(self, runs, folder, logs, jobs, min_space):
         self.waiting, self.under_way, self.failed = list(runs), [], []
@@ -110,12 +111,12 @@ class Work:
         self._total, self._done = sum(run.share_of(jobs) for run in runs), 0.0
 
     def progress(self):
-        """Seconds of work done, of all."""
+        """(seconds of work that is done, seconds of all work)"""
         of_jobs = sum(job.share * job.run.share_of(self._jobs) for job in self.under_way)
         return self._done + of_jobs, self._total
 
     def begin(self):
-        """What there is room for."""
+        """Starts as many runs as there is room for."""
         while self.waiting and self._has_room():
             run = self.waiting.pop(0)
             log = os.path.join(self._logs, run.name + '.log')
@@ -128,7 +129,7 @@ class Work:
         return not is_wide and len(self.under_way) < self._jobs
 
     def close(self):
-        """Those that have ended; what went wrong, in a line each."""
+        """Closes runs that have ended. Returns a line for each that has failed."""
         said = []
         for job in [job for job in self.under_way if job.has_ended() or job.is_silent()]:
             self._end([job])
@@ -143,7 +144,8 @@ class Work:
         return said
 
     def stop(self, came):
-        """All that is under way; came: signals, another one of which insists."""
+        """Ends all runs that are under way. came: signals that have come; another one kills
+        them."""
         before = len(came)
         self._end(self.under_way, lambda: len(came) > before)
         for job in self.under_way:
@@ -155,8 +157,8 @@ class Work:
 
 
 def do(runs, folder, jobs, min_space):
-    """Those that are not done; a line for each that has failed. Nobody else may do so in this
-    folder meanwhile: WorkError."""
+    """Does the runs that are not done. Returns a line for each that has failed. Raises WorkError if
+    somebody else does runs in this folder."""
     logs = os.path.join(folder, 'log')
     os.makedirs(logs, exist_ok=True)
     with open(os.path.join(logs, '.lock'), 'w') as lock:
@@ -165,7 +167,7 @@ def do(runs, folder, jobs, min_space):
         except BlockingIOError:
             raise WorkError(f'another sweep does the runs of {folder}')
         except OSError:
-            pass  # a file system without locks
+            pass  # the file system has no locks
         todo = _missing(runs, folder)
         show = Display(len(todo), len(runs) - len(todo))
         try:
@@ -176,7 +178,7 @@ def do(runs, folder, jobs, min_space):
 
 
 def _missing(runs, folder):
-    """Those that are not done; what is there in place of their bags is kept under another name."""
+    """The runs that are not done. Files that have the names of their bags are renamed."""
     lacks = {run: run.lacks(folder) for run in runs}
     todo = [run for run in runs if lacks[run]]
     for run in todo:
@@ -186,10 +188,9 @@ def _missing(runs, folder):
 
 
 def work(all_of_it, show):
-    """Does the runs. show(jobs under way, seconds of work done, of all) is called some times a
-    second, show.say(line) when a run has failed, which stops none of the others; WorkError at the
-    end names all that did.
-    """
+    """Does the runs. Calls show(jobs under way, seconds of work done, seconds of all work) several
+    times a second, and show.say(line) if a run has failed, which does not stop the others. At the
+    end it raises WorkError with all that failed."""
     if not all_of_it.waiting:
         return
     with signals.held() as came:
@@ -200,7 +201,7 @@ def work(all_of_it, show):
                 _go_on(all_of_it, master, came, show)
             finally:
                 all_of_it.stop(came)
-                with contextlib.suppress(OSError):  # a terminal that is gone
+                with contextlib.suppress(OSError):  # the terminal may be gone
                     show.end()
                 rospy.signal_shutdown('the work is done')
                 master.stop()

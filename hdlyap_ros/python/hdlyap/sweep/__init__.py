@@ -1,2 +1,2 @@
 """Runs that belong together: grid (values -> runs of one scene), plan (file -> named runs), points
-(bags -> means over their seeds), table, figure, result (what is printed and written)."""
+(bags -> means over seeds), table, figure, and result (prints and writes all)."""

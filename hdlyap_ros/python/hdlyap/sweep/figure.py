@@ -1,4 +1,4 @@
-"""Points -> a figure: what was measured against what was swept."""
+"""Points -> a figure of measured quantities against swept parameters."""
 
 import itertools
 
@@ -27,12 +27,12 @@ NAMES = {
     'v': r'$v$  [$\sigma$/time unit]',
 }
 MARKERS = 'os^Dv<>p'
-APART = 0.012  # between series, of the width of a panel: error bars would hide each other
+APART = 0.012  # shift of series over the width of a panel, so that error bars do not hide others
 
 
 def draw(points, ax=None, **look):
-    """A panel for each quantity; None of a single point, nor without anything measured. ax, look:
-    see figures.page.figure."""
+    """Draws a panel for each quantity. Returns None for a single point or if nothing was measured.
+    ax, look: see figures.page.figure."""
     names, fixed = varied(points)
     shown = [name for name in QUANTITIES if any(name in point.values for point in points)]
     if not names or not shown:
@@ -70,7 +70,7 @@ def _said(name, value):
 
 
 def _series(points, names):
-    """{label: points} by all that is swept but what the panels are drawn against."""
+    """{label: points} for each combination of the parameters other than that of the x axis."""
     found = {}
     for point in points:
         label = ', '.join(_said(name, point.system[name]) for name in names)
@@ -79,7 +79,7 @@ def _series(points, names):
 
 
 def _places(points, x):
-    """Of values on an axis; words stand beside each other."""
+    """The places of values on an axis, and the words if they are words, which are side by side."""
     if _are_words(points, x):
         words = sorted({str(point.system[x]) for point in points})
         return {word: place for place, word in enumerate(words)}, words
@@ -103,7 +103,7 @@ def _panel(axes, name, x, series, look):
     axes.set_xlim(*_limits(list(places.values()), words))
     if words:
         axes.set_xticks(range(len(words)))
-        # three would run into each other
+        # three words in a line would overlap
         axes.set_xticklabels(
             [word.replace(',', ',\n') if word.count(',') > 1 else word for word in words]
         )
@@ -122,8 +122,8 @@ def _limits(places, words):
 
 
 def _point(axes, place, value, number, look):
-    """Open if the fit is c k or c k + c2 k^2 alone, which have the rest of the curvature in c; a
-    cross if nothing is known of its error."""
+    """Draws a point. It is open if the fit is c k or c k + c2 k^2, which have the rest of the
+    curvature in c; it is a cross if its error is not known."""
     colour, marker = _look(number)
     marker, error = (marker, value.error) if np.isfinite(value.error) else ('x', None)
     face = 'white' if _is_open(value) else colour
@@ -140,7 +140,7 @@ def _look(number):
 
 
 def _explain(figure, series, points):
-    """The legend below the panels, and what the looks of points say; the height that it takes."""
+    """Writes the legend below the panels, and what the looks of points mean. Returns its height."""
     lines = ['error bars: one standard error, over seeds the larger one of stated and scatter']
     if len(series) > 1:
         lines.append(

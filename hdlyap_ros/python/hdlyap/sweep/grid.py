@@ -1,4 +1,4 @@
-"""Values of the swept parameters -> the runs of their product, each with a name of its values."""
+"""Values of the swept parameters -> runs of all combinations, named after their values."""
 
 from collections import namedtuple
 import itertools
@@ -17,16 +17,17 @@ PERIODIC, REFLECTING = WALLS = 'periodic', 'reflecting'
 
 
 class Swept(namedtuple('Swept', 'argument name parameters wanted')):
-    """Argument, name of one value, the parameters that it says, what is allowed."""
+    """A swept argument: its name, the name of one value, the parameters that it sets, and what is
+    allowed."""
 
     def of(self, parameters):
-        """Of spheres a boundary has three."""
+        """This argument for such parameters: with spheres, `boundaries` sets three of them."""
         if self.argument != 'boundaries' or not run.is_solid(parameters):
             return self
         return self._replace(parameters=(*self.parameters, 'boundary_z'), wanted=OF_SPHERES)
 
     def values(self, text):
-        """[(name, {parameter: value})] of each; [] if not one is given."""
+        """[(name, {parameter: value})] of all values in a text; [] if it is empty."""
         found = [self._value(text, word) for word in text.split()]
         names = [name for name, _ in found]
         for name in names:
@@ -40,12 +41,12 @@ class Swept(namedtuple('Swept', 'argument name parameters wanted')):
         if None in values or len(values) not in (1, len(self.parameters)):
             raise Refused(f'{self.argument} = {text}: must be {self.wanted}, with spaces between')
         name = '_'.join([self.name, *map(str, values)])
-        # one word is that of all of them
+        # a single word counts for all parameters
         values *= len(self.parameters) // len(values)
         return re.sub(r'\W', '_', name), dict(zip(self.parameters, values))
 
     def _parsed(self, word):
-        """None if it is not allowed; the node knows more."""
+        """The value of a word; None if it is not allowed. The node checks more."""
         if self.argument == 'boundaries':
             return word if word in WALLS else None
         if self.argument in ('densities', 'aspects'):
@@ -74,8 +75,8 @@ SWEPT = (
 
 
 def runs(given, launch, cwd):
-    """given: {argument: text} of those swept and of scene, duration, observables, threads and
-    params; launch: folder of the launch files; cwd: of relative paths."""
+    """All runs. given: {argument: text} of the swept arguments and of scene, duration, observables,
+    threads and params; launch: folder of the launch files; cwd: folder of relative paths."""
     given = {name: text.strip() for name, text in given.items()}
     texts = {swept: given.pop(swept.argument, '') for swept in SWEPT}
     if not any(texts.values()):
@@ -95,7 +96,7 @@ def runs(given, launch, cwd):
 
 
 def _run(parameters, chosen):
-    """Runs that differ in their seeds alone have one scene."""
+    """The run with these values. Runs that differ in their seeds alone have one scene."""
     names = [name for name, _ in chosen]
     same = [name for name, values in chosen if 'seed' not in values]
     for _, values in chosen:

@@ -1,8 +1,9 @@
 """A plan, which is a YAML file {name: {base: scene, parameter: value, ..}, ..} -> its runs.
 
-What an entry says replaces parameters of its scene, and what stands in its `quick` or `full`, for
-quick runs or for others, replaces both. A run has one thread unless its entry says otherwise.
-seconds: [of a quick run, of another], about, tell how far all is."""
+Parameters in an entry replace those of its scene. Parameters in its `quick`, for quick runs, or in
+its `full`, for all others, replace both. A run has one thread unless its entry says otherwise.
+`seconds`, [of the quick run, of the full run], are about how long it takes, and are used to show
+progress."""
 
 import os
 import re
@@ -13,13 +14,13 @@ from hdlyap.runs import run, scene
 from hdlyap.runs.run import Planned
 from hdlyap.runs.scene import Refused
 
-OWN = 'base', 'quick', 'full', 'seconds'  # of an entry, what is no parameter of the node
+OWN = 'base', 'quick', 'full', 'seconds'  # keys of an entry that are no parameters of the node
 ENTRY = '{base: scene, parameter: value, ..}'
 
 
 def runs(path, quick, launch):
-    """[Planned] in their order; scenes that are files lie where the plan says, from its own folder;
-    launch: folder of the launch files."""
+    """[Planned] in the order of the plan. Paths of scene files are relative to the folder of the
+    plan. launch: folder of the launch files."""
     entries = scene.load(path, f'plan = {path}', f'runs, {{name: {ENTRY}, ..}}')
     if not entries:
         raise Refused(f'plan = {path}: must have runs')
@@ -28,7 +29,8 @@ def runs(path, quick, launch):
 
 
 def _check_names(path):
-    """Of two runs, or parameters of one, that are called the same YAML would take the last."""
+    """Refuses two runs, or two parameters of one run, with the same name: YAML would take the
+    last."""
     with open(path) as file:
         whole = yaml.compose(file, yaml.SafeLoader)
     for mapping in (whole, *(entry for _, entry in whole.value)):
@@ -40,7 +42,7 @@ def _check_names(path):
 
 def _run(path, name, entry, quick, launch):
     try:
-        if not re.fullmatch('[A-Za-z][A-Za-z0-9_]*', str(name)):  # is a namespace of ROS
+        if not re.fullmatch('[A-Za-z][A-Za-z0-9_]*', str(name)):  # it becomes a namespace of ROS
             raise Refused('must be named with letters, digits and _, the first one a letter')
         if not _is_entry(entry):
             raise Refused(f'must be {ENTRY}')
@@ -63,7 +65,7 @@ def _is_entry(value):
 
 
 def _seconds(entry, quick):
-    """None if it does not say."""
+    """The seconds of an entry; None if it has none."""
     both = entry.get('seconds')
     if both is None:
         return None

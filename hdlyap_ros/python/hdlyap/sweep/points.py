@@ -1,5 +1,4 @@
-"""Bags -> points, one for each system, with means over its seeds; of one seed, what its run
-says."""
+"""Bags -> points. A point is a system with means over its seeds, or the numbers of a single run."""
 
 from collections import namedtuple
 
@@ -10,7 +9,7 @@ from hdlyap.data.joined import MEASURED
 from hdlyap.data.reader import RecordingError
 from hdlyap.data.containers import is_curved
 
-# name in a frame of results -> its unit; as the columns of a table
+# name in a frame of results -> its unit; in the order of columns of a table
 QUANTITIES = {
     'lambda_max': '1/time unit',
     'h_KS/N': '1/time unit',
@@ -23,12 +22,13 @@ NAN = float('nan')
 
 
 class Value(namedtuple('Value', 'value std_error scatter chi2 runs misfit fit')):
-    """A mean over so many runs. Errors: from those that the runs state, from the scatter of the
-    runs; NaN while not known, as the misfit. fit: data.fits.Fit that it comes from, or None."""
+    """A mean over runs. std_error follows from the errors that the runs state, scatter from the
+    scatter of runs; they are NaN if not known, as is the misfit. fit: the data.fits.Fit that gave
+    it, or None."""
 
     @property
     def error(self):
-        """The larger one of both; the only one if the other is not known."""
+        """The larger one of the two errors; the known one if the other is not known."""
         return float(np.fmax(self.std_error, self.scatter))
 
 
@@ -36,14 +36,14 @@ class Point:
     """The runs of one system."""
 
     def __init__(self, paths, choice=(None, None)):
-        """RecordingError if they have no averages, or do not belong together."""
+        """Raises RecordingError if the bags have no averages or do not belong together."""
         self.data = seeds.load(*paths, form=choice[0], k=choice[1])
         self.runs = self.data.runs
         self.system = system(self.data.info)
-        self.values = self._values()  # {quantity: Value} of those that were measured
+        self.values = self._values()  # {quantity: Value} of the quantities that were measured
 
     def _values(self):
-        """The sum of a part of the positive exponents is none."""
+        """{quantity: Value}. h_KS is missing if a run has not all positive exponents."""
         frame = self.data.results
         found = {'lambda_max': self._value(frame.loc['lambda_max'])}
         if 'h_KS' in frame.index:
@@ -55,7 +55,7 @@ class Point:
 
     @staticmethod
     def _value(row, factor=1.0, fit=None):
-        """Of one run there is no scatter."""
+        """The Value in a row. A single run has no scatter."""
         names = 'value', 'std_error', 'scatter'
         scaled = (float(row.get(name, NAN)) * factor for name in names)
         chi2, misfit = float(row.get('chi2', NAN)), float(row['misfit'])
@@ -63,7 +63,7 @@ class Point:
 
     @property
     def unlike(self):
-        """Of which the seeds have fits that are not of one form over the same wave numbers."""
+        """Quantities whose fits have different forms or wave numbers for different seeds."""
         found = {fit.symbol for run in self.runs for fit in run.fits}
         return [name for name in FITTED if name in found and name not in self.values]
 
@@ -85,7 +85,7 @@ def system(info):
 
 
 def varied(points):
-    """Names of what is not the same in all of them; and {name: value} of what is."""
+    """Names of parameters that differ between points, and {name: value} of those that do not."""
     values = {name: {point.system[name] for point in points} for name in points[0].system}
     fixed = {name: found.pop() for name, found in values.items() if len(found) == 1}
     return [name for name in values if name not in fixed], fixed
@@ -96,8 +96,8 @@ def _numbers_first(found):
 
 
 def read(paths, choice=(None, None)):
-    """([Point] in the order of their systems, a line for each bag or system that cannot be
-    read)"""
+    """Returns points, sorted by their systems, and a line for each bag or system that cannot be
+    read."""
     systems, wrong, first = {}, [], None
     for path in paths:
         try:

@@ -1,4 +1,4 @@
-"""Bags -> printed table; files sweep.txt, sweep.csv, sweep.png and sweep.svg."""
+"""Bags -> a printed table and the files sweep.txt, sweep.csv, sweep.png and sweep.svg."""
 
 import os
 
@@ -11,8 +11,8 @@ NAME = 'sweep'
 
 
 def write(paths, folder=None, choice=(None, None)):
-    """Of these bags, files only into a folder; choice: of the fits, see data.fits.chosen. A line
-    for each that cannot be used."""
+    """Prints the table of these bags; writes files if a folder is given. choice: of fits, see
+    data.fits.chosen. Returns a line for each bag that cannot be used."""
     found, wrong = points.read(paths, choice)
     if not found:
         return wrong

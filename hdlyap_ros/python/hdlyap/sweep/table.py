@@ -11,11 +11,11 @@ from hdlyap.plots.deviation import FREEDOM
 
 from .points import FITTED, NAN, QUANTITIES, varied
 
-CHANCE = 0.02  # of a table of seeds that agree to say of any value that they do not
+CHANCE = 0.02  # probability that a table says of some value that seeds differ although they agree
 
 
 class Marks:
-    """A number for all that a fit stands on, as they appear."""
+    """Numbers the bases of fits, in the order in which they appear."""
 
     def __init__(self, points):
         self._numbers = {}
@@ -26,11 +26,11 @@ class Marks:
                     self._numbers.setdefault(basis, len(self._numbers) + 1)
 
     def of(self, fit):
-        """' [1]'; empty for what is no fit."""
+        """The mark of a fit, e.g. ' [1]'; empty if there is no fit."""
         return f' [{self._numbers[fit.basis]}]' if fit else ''
 
     def explained(self):
-        """Lines; none without a fit."""
+        """Yields lines that explain the marks; none if there is no fit."""
         if self._numbers:
             yield 'what the fits stand on; wave numbers k [1/sigma]:'
         for basis, number in self._numbers.items():
@@ -38,7 +38,7 @@ class Marks:
 
 
 def text(points):
-    """Lines."""
+    """Yields the lines of the table."""
     names, fixed = varied(points)
     marks = Marks(points)
     yield 'the same in all: ' + ', '.join(f'{name} {_plain(x)}' for name, x in fixed.items())
@@ -65,8 +65,9 @@ def text(points):
 
 
 def _scattered(points, names):
-    """Where the seeds differ by more than they state: over their errors the scatter of seeds that
-    know them by FREEDOM has the F distribution. A chance counts as often as there are values."""
+    """Yields a line for each value whose seeds differ by more than their errors. The squared ratio
+    of scatter and error, which a seed knows by FREEDOM degrees of freedom, has the F distribution.
+    The probability of chance is multiplied by the number of values."""
     all_of = [(point, *one) for point in points for one in point.values.items()]
     known = [one for one in all_of if one[-1].scatter > 0 and one[-1].std_error > 0]
     for point, name, value in known:
@@ -116,7 +117,8 @@ def _table(head, rows):
 
 
 def csv(points, path):
-    """All digits; nothing where something is not known. The units stand in the head."""
+    """Writes the table as CSV with all digits. A number that is not known is empty; the head has
+    the units."""
     units = {'density': f' [1/sigma^{len(space.axes(points[0].data.info))}]'}
     head = [name + units.get(name, '') for name in points[0].system]
     head += ['seeds', 'averaged time [time units]']
