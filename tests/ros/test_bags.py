@@ -11,9 +11,11 @@ import signal
 import tempfile
 import xmlrpc.client
 
+import numpy as np
 import rosbag
 import rosgraph
 import rospy
+import xarray
 from std_srvs.srv import SetBool
 
 import harness
@@ -180,6 +182,17 @@ class Recorded(harness.Case):
         }
         self.assertEqual(times, resolved & {1.0, 5.0, 10.0, 15.0, 20.0})
         self.assertIn(20.0, times)
+
+    def test_as_a_dataset(self):
+        """All topics; netCDF keeps it."""
+        made, path = hdlyap.load(self.bag).to_xarray(), os.path.join(self.folder, 'run.nc')
+        made.to_netcdf(path)
+        self.assertTrue(xarray.load_dataset(path).identical(made))
+        last = self.of_run('spectrum', 1)[-1]
+        np.testing.assert_array_equal(made['exponents'].isel(time=-1), last.exponents)
+        self.assertTrue(np.isfinite(made['exponents']).all())  # no time but its own
+        self.assertTrue(np.isfinite(made['gas_pressure']).all())
+        self.assertEqual(made['state_px'].shape, (REPORTS, MODES['number']))
 
     def test_types_and_definitions(self):
         with rosbag.Bag(self.bag) as bag:

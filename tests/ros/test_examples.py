@@ -14,6 +14,7 @@ from std_msgs.msg import Float64
 import harness
 import links
 from harness import MODES
+from hdlyap.data import series
 from hdlyap.msg import LpPhase, LpPhases, Mode, Steps
 from roslib.packages import find_node
 
@@ -89,7 +90,7 @@ class Beside(Examples):
         watch = self.watch(number=2)
         fit = self.process([*harness.command('fit'), '__name:=fit'])
         deviations = self.hear('/watch_phase/deviation', Float64)
-        listeners = {topic: self.listen(topic) for topic in ('lp_phases', 'steps')}
+        listeners = {topic: self.listen(topic) for topic in ('lp_phases', 'steps', 'spectrum')}
         node = self.start(dict(MODES, duration=250.0, pace=100.0, wait_for_subscribers=['cost']))
         wanted = {
             ('/hdlyap/' + topic, name)
@@ -98,6 +99,7 @@ class Beside(Examples):
                 ('steps', '/fit'),
                 ('lp_phases', rospy.get_name()),
                 ('steps', rospy.get_name()),
+                ('spectrum', rospy.get_name()),
             )
         }
         self.sees(lambda: wanted <= outward(links.node_uri(node)), node)
@@ -112,6 +114,17 @@ class Beside(Examples):
         self.interrupt(fit)
         self.check_states(phases, watch)
         self.check_fits(steps, fit)
+        self.check_errors(listeners['spectrum'].messages)
+
+    def check_errors(self, messages):
+        """Those that the node states are those of its samples, by the time for which they remember
+        each other."""
+        samples = [message for message in messages if message.local_time > 0]
+        values = [message.local_exponents for message in samples]
+        errors = series.standard_error(values, [message.local_time for message in samples])
+        ratios = errors / np.array(messages[-1].std_errors)
+        self.assertGreater(np.isfinite(ratios).mean(), 0.9)
+        self.assertAlmostEqual(np.nanmedian(ratios), 1, delta=0.2)
 
     @staticmethod
     def ours(message):
