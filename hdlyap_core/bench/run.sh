@@ -84,7 +84,7 @@ run_all() {
     elif [[ -x $PROGRAMS/hdlyap_effects ]]; then
         with_effects=1
     fi
-    TOTAL=$((${#QUICK[@]} ? 6 : 642))
+    TOTAL=$((${#QUICK[@]} ? 6 : 662))
     if ((with_effects)); then TOTAL=$((TOTAL + 60)); fi
     stage 220 'what accuracy costs' "$PROGRAMS/hdlyap_precision" --out "$OUT" "${QUICK[@]}"
     stage 300 'how cost grows' "$PROGRAMS/hdlyap_scaling" --out "$OUT" "${QUICK[@]}"
@@ -97,6 +97,7 @@ run_all() {
     fi
     if ((!${#QUICK[@]})); then
         stage 12 'events alone, and one exponent' "$PROGRAMS/hdlyap_bench" --events
+        stage 20 'a step of soft disks' "$PROGRAMS/hdlyap_steps"
     fi
     if ((with_effects)); then
         stage 60 'what each effect costs' effects

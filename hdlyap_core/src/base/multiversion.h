@@ -13,4 +13,11 @@
 #define HD_MULTIVERSION
 #endif
 
+/** Of what is written for registers of one size: a function for processors that have them, and
+ * whether this one does. Not defined where all have the same. */
+#if defined(__x86_64__) && defined(__GNUC__)
+#define HD_FOR(processors) __attribute__((target(processors)))
+#define HD_HAS(registers) __builtin_cpu_supports(registers)
+#endif
+
 #endif

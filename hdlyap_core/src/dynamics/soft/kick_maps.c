@@ -8,25 +8,25 @@
 #include "base/multiversion.h"
 #include "dynamics/soft/kick.h"
 
-/** A particle and its partners in a kick: `pairs` of them follow the former run's. */
+/** A particle in a kick and its partners there, which follow the former run's. The first ones fly
+ * now, `come` in number; the kick has been at the others before. */
 typedef struct run {
-    int32_t i, pairs;
-    double flight; /**< of i before, since it was moved */
+    int32_t i, pairs, come;
 } run;
 
-typedef struct partner {
-    int32_t j;
-    double flight;
-} partner;
-
 typedef struct maps {
-    int particles, dimension, bends;
+    int particles, dimension;
     double *since; /**< [particles]: when each one was moved, then its last flight */
-    size_t runs, pairs, capacity;
-    run *run;         /**< [runs] */
-    partner *partner; /**< [pairs] */
-    double *bend;     /**< [pairs][bends] */
+    size_t runs, pairs, flights, capacity;
+    run *run;       /**< [runs] */
+    int32_t *with;  /**< [pairs]: partners */
+    double *bend;   /**< [pairs][bends_of(dimension)] */
+    double *flight; /**< [flights]: of each run, that of i, which may be 0, and theirs */
 } maps;
+
+#define KERNEL static inline __attribute__((always_inline))
+
+KERNEL int bends_of(int dimension) { return dimension == 2 ? HD_BENDS_PLANE : HD_BENDS_SPACE; }
 
 static hd_status create(void **out, int particles, int dimension)
 {
@@ -34,7 +34,6 @@ static hd_status create(void **out, int particles, int dimension)
     if (!all) return HD_NO_MEMORY;
     all->particles = particles;
     all->dimension = dimension;
-    all->bends = dimension == 2 ? HD_BENDS_PLANE : HD_BENDS_SPACE;
     all->since = hd_memory_alloc((size_t)particles, sizeof *all->since);
     return all->since ? HD_OK : HD_NO_MEMORY;
 }
@@ -45,8 +44,9 @@ hd_status hd_kick_maps_create_space(void **out, int particles) { return create(o
 static void release(maps *all)
 {
     hd_memory_free(all->run);
-    hd_memory_free(all->partner);
+    hd_memory_free(all->with);
     hd_memory_free(all->bend);
+    hd_memory_free(all->flight);
 }
 
 void hd_kick_maps_free(void *made)
@@ -64,19 +64,21 @@ void hd_kick_maps_free(void *made)
 static hd_status reserve(maps *all, size_t pairs)
 {
     if (pairs <= all->capacity) return HD_OK;
+    const size_t bends = (size_t)bends_of(all->dimension);
     size_t room = 4096; /* as records grow */
     while (room < pairs) room *= 2;
     release(all);
     all->capacity = 0;
     all->run = hd_memory_alloc(room, sizeof *all->run);
-    all->partner = hd_memory_alloc(room, sizeof *all->partner);
-    all->bend = hd_memory_alloc(room * (size_t)all->bends, sizeof *all->bend);
-    if (!all->run || !all->partner || !all->bend) return HD_NO_MEMORY;
+    all->with = hd_memory_alloc(room, sizeof *all->with);
+    all->bend = hd_memory_alloc(room * bends, sizeof *all->bend);
+    all->flight = hd_memory_alloc(2 * room, sizeof *all->flight);
+    if (!all->run || !all->with || !all->bend || !all->flight) return HD_NO_MEMORY;
     all->capacity = room;
     return HD_OK;
 }
 
-/** Until `now`, of the passage: none if it has taken part in this kick. */
+/** Until `now`, of the passage: 0 if the kick has been at it before. */
 static double flight(maps *all, int32_t i, double now)
 {
     const double time = now - all->since[i];
@@ -84,15 +86,32 @@ static double flight(maps *all, int32_t i, double now)
     return time;
 }
 
+static void set_pair(maps *all, size_t k, int32_t with, const double *bend)
+{
+    const int bends = bends_of(all->dimension);
+    double *to = all->bend + (size_t)bends * k;
+    all->with[k] = with;
+    for (int b = 0; b < bends; b++) to[b] = bend[b];
+}
+
 static void add_pair(maps *all, const hd_kick *entry, bool same_run, double now)
 {
     const int32_t i = (int32_t)entry->i, j = (int32_t)entry->j;
-    if (!same_run) all->run[all->runs++] = (run){i, 0, flight(all, i, now)};
-    all->run[all->runs - 1].pairs++;
-    all->partner[all->pairs] = (partner){j, flight(all, j, now)};
-    for (int k = 0; k < all->bends; k++)
-        all->bend[all->pairs * (size_t)all->bends + (size_t)k] = entry->bend[k];
-    all->pairs++;
+    if (!same_run) {
+        all->run[all->runs++] = (run){i, 0, 0};
+        all->flight[all->flights++] = flight(all, i, now);
+    }
+    run *r = &all->run[all->runs - 1];
+    const double time = flight(all, j, now);
+    size_t k = all->pairs++;
+    if (time != 0) {
+        const size_t first = k - (size_t)(r->pairs - r->come++); /* of the others */
+        set_pair(all, k, all->with[first], all->bend + first * (size_t)bends_of(all->dimension));
+        all->flight[all->flights++] = time;
+        k = first;
+    }
+    set_pair(all, k, j, entry->bend);
+    r->pairs++;
 }
 
 /** Returns how long the steps take. */
@@ -118,7 +137,7 @@ hd_status hd_kick_maps_fill(void *made, const hd_record *record, double t_begin,
 {
     maps *all = made;
     const hd_entries those = hd_record_within(record, t_begin, t_end);
-    all->runs = all->pairs = 0;
+    all->runs = all->pairs = all->flights = 0;
     HD_TRY(reserve(all, those.end - those.first));
     for (int i = 0; i < all->particles; i++) all->since[i] = 0.0;
     const double end = add_steps(all, record, those);
@@ -128,34 +147,9 @@ hd_status hd_kick_maps_fill(void *made, const hd_record *record, double t_begin,
 
 /* ---- a block of columns -------------------------------------------------------------------- */
 
-#define KERNEL static inline __attribute__((always_inline))
-
-/** So many columns at once, wherever they lie; narrower blocks leave the others empty. */
-enum { LANES = 8 };
-typedef double lanes
-    __attribute__((vector_size(LANES * sizeof(double)), aligned(sizeof(double)), may_alias));
-
-KERNEL void load(lanes *to, const double *from, int width)
+KERNEL void fly(double *restrict v, double time, int half)
 {
-    if (width >= LANES) {
-        *to = *(const lanes *)from;
-        return;
-    }
-    *to = (lanes){0.0};
-    for (int k = 0; k < width; k++) (*to)[k] = from[k];
-}
-
-KERNEL void store(double *to, const lanes *from, int width)
-{
-    if (width >= LANES)
-        *(lanes *)to = *from;
-    else
-        for (int k = 0; k < width; k++) to[k] = (*from)[k];
-}
-
-KERNEL void fly(double *restrict v, double time, int of_one, int width)
-{
-    for (int k = 0; k < of_one * width; k++) v[k] += time * v[of_one * width + k];
+    for (int k = 0; k < half; k++) v[k] += time * v[half + k];
 }
 
 /** Place of (d, e) in the upper half of a symmetric matrix. */
@@ -165,87 +159,41 @@ KERNEL int place(int d, int e, int of_one)
     return row * of_one - row * (row + 1) / 2 + (d < e ? e : d);
 }
 
-/** A pair: bend (dq_j - dq_i) is added to dp_i and taken from dp_j. */
-KERNEL void pull(lanes *p, const lanes *q, double *other, double flight, const double *bend,
-                 int of_one, int width)
-{
-    lanes r[3], theirs[3];
-    for (int d = 0; d < of_one; d++) {
-        load(&r[d], other + d * width, width);
-        load(&theirs[d], other + (of_one + d) * width, width);
-    }
-    for (int d = 0; d < of_one && flight != 0; d++) {
-        r[d] += flight * theirs[d];
-        store(other + d * width, &r[d], width);
-    }
-    for (int d = 0; d < of_one; d++) r[d] -= q[d];
-    for (int d = 0; d < of_one; d++) {
-        lanes f = bend[place(d, 0, of_one)] * r[0];
-        for (int e = 1; e < of_one; e++) f += bend[place(d, e, of_one)] * r[e];
-        p[d] += f;
-        theirs[d] -= f;
-        store(other + (of_one + d) * width, &theirs[d], width);
-    }
-}
+#define CARRY(name) name##_1
+#define LANES 1
+#include "dynamics/soft/kick_carry.h"
 
-/** Columns from `block` on, as many as LANES, of a particle with its partners. */
-KERNEL void pull_run(double *block, const run *r, const partner *with, const double *bend,
-                     int of_one, int width)
-{
-    const size_t one = 2 * (size_t)(of_one * width), bends = of_one == 2 ? 3 : 6;
-    double *own = block + one * (size_t)r->i;
-    lanes q[3], p[3];
-    for (int d = 0; d < of_one; d++) {
-        load(&q[d], own + d * width, width);
-        load(&p[d], own + (of_one + d) * width, width);
-        q[d] += r->flight * p[d];
-        store(own + d * width, &q[d], width);
+#define CARRY(name) name##_2
+#define LANES 2
+#include "dynamics/soft/kick_carry.h"
+
+#define CARRY(name) name##_4
+#define LANES 4
+#include "dynamics/soft/kick_carry.h"
+
+#define CARRY(name) name##_8
+#define LANES 8
+#include "dynamics/soft/kick_carry.h"
+
+#define CARRY(lanes, processor)                                                                    \
+    processor static void carry_by_##lanes(double *block, const maps *all, int width)              \
+    {                                                                                              \
+        if (all->dimension == 2)                                                                   \
+            carry_##lanes(block, all, 2, width);                                                   \
+        else                                                                                       \
+            carry_##lanes(block, all, 3, width);                                                   \
     }
-    for (int32_t n = 0; n < r->pairs; n++)
-        pull(p, q, block + one * (size_t)with[n].j, with[n].flight, bend + bends * (size_t)n,
-             of_one, width);
-    for (int d = 0; d < of_one; d++) store(own + (of_one + d) * width, &p[d], width);
-}
-
-KERNEL void carry_width(double *block, const maps *all, int of_one, int width)
-{
-    const size_t one = 2 * (size_t)(of_one * width), bends = of_one == 2 ? 3 : 6;
-    size_t pair = 0;
-    for (const run *r = all->run; r < all->run + all->runs; pair += (size_t)r++->pairs)
-        for (int c = 0; c < width; c += LANES)
-            pull_run(block + c, r, all->partner + pair, all->bend + bends * pair, of_one, width);
-    for (int i = 0; i < all->particles; i++)
-        fly(block + one * (size_t)i, all->since[i], of_one, width);
-}
-
-/** The widths are spelled out so that the compiler unrolls and vectorises each. */
-KERNEL void carry_of(double *block, const maps *all, int of_one, int width)
-{
-    switch (width) {
-    case 1: carry_width(block, all, of_one, 1); break;
-    case 2: carry_width(block, all, of_one, 2); break;
-    case 4: carry_width(block, all, of_one, 4); break;
-    case 8: carry_width(block, all, of_one, 8); break;
-    case 16: carry_width(block, all, of_one, 16); break;
-    case 32: carry_width(block, all, of_one, 32); break;
-    default: carry_width(block, all, of_one, HD_BLOCK_WIDTH_MAX); break;
-    }
-}
-
-HD_MULTIVERSION
-static void carry_plane(double *block, const maps *all, int width)
-{
-    carry_of(block, all, 2, width);
-}
-
-HD_MULTIVERSION
-static void carry_space(double *block, const maps *all, int width)
-{
-    carry_of(block, all, 3, width);
-}
+CARRY(2, )
+#ifdef HD_FOR
+CARRY(4, HD_FOR("fma"))
+CARRY(8, HD_FOR("avx512f"))
+#endif
 
 void hd_kick_maps_carry(const void *made, double *block, int width)
 {
-    const maps *all = made;
-    (all->dimension == 2 ? carry_plane : carry_space)(block, all, width);
+#ifdef HD_FOR
+    (HD_HAS("avx512f") ? carry_by_8 : HD_HAS("fma") ? carry_by_4 : carry_by_2)(block, made, width);
+#else
+    carry_by_2(block, made, width);
+#endif
 }
