@@ -1,11 +1,11 @@
-/** What can move: a row of facts and functions. Disks, spheres and dumbbells are such; a program
- * hands another one over in hd_scene_def.dynamics, and its run has exponents with their errors,
- * Gram-Schmidt and covariant vectors, checkpoints, ranks.
+/** A dynamics: a row of facts and functions that says how particles move. The core has rows for disks,
+ * spheres, dumbbells and soft particles. A program gives a row of its own in hd_scene_def.dynamics;
+ * its runs have exponents with errors, Gram-Schmidt and covariant vectors, checkpoints and ranks.
  *
- * Each particle has `coordinates` q, scaled so that its kinetic energy is the sum of p^2 / 2.
- * Whoever moves them writes a record of what happens, hdlyap/record.h; tangent vectors are carried
- * through that record and know nothing else. A row and its parameters last as long as its runs.
- * Functions of a row are called by one thread of a run at a time, `carry` by several. */
+ * Each particle has `coordinates` q, scaled so that its kinetic energy is the sum of p^2 / 2. The
+ * functions that move particles write a record (hdlyap/record.h), and tangent vectors are carried by
+ * that record alone. A row and its parameters must last as long as its runs. One thread of a run at
+ * a time calls the functions of a row; several call `carry` at once. */
 #ifndef HDLYAP_DYNAMICS_H
 #define HDLYAP_DYNAMICS_H
 
@@ -18,165 +18,162 @@
 
 HD_API_BEGIN
 
-/** What happens, see hdlyap/record.h. */
+/** The record of what happens, see hdlyap/record.h. */
 typedef struct hd_record hd_record;
 
-/** What has happened so far. */
+/** Numbers of collisions so far, and what follows from them. */
 typedef struct hd_told {
-    uint64_t collisions, wall_events; /**< of pairs; with walls */
-    /** Virial of the pair events, by direction: sum of |p.n| n_d^2 [sigma momentum] [T19]. */
+    uint64_t collisions, wall_events; /**< collisions of pairs; with walls */
+    /** Virial of the pair collisions in each direction: sum of |p.n| n_d^2 [sigma momentum] [T19]. */
     double virial[HD_DIMENSION_MAX];
-    double expected; /**< pair events in a time unit, by Enskog's theory [T2] */
+    double expected; /**< pair collisions per time unit by Enskog's theory [T2] */
 } hd_told;
 
-/** Integrals over time so far, of what has a potential [T19]. */
+/** Integrals over time so far for particles with a potential [T19]. */
 typedef struct hd_summed {
-    double time; /**< that they go over: of what moves in steps the whole ones */
-    double kinetic[HD_DIMENSION_MAX]; /**< of the sum of p_d^2, by direction */
-    double virial[HD_DIMENSION_MAX];  /**< of the sum of r_d F_d over pairs, by direction */
-    double potential;                 /**< of the potential energy of all together */
+    double time; /**< time that they cover: that of whole time steps [time units] */
+    double kinetic[HD_DIMENSION_MAX]; /**< integral of the sum of p_d^2 in each direction */
+    double virial[HD_DIMENSION_MAX];  /**< integral of the sum of r_d F_d over pairs, in each direction */
+    double potential;                 /**< integral of the potential energy of all particles */
 } hd_summed;
 
-/** How exact the present state is. */
+/** How accurate the present state is. */
 typedef struct hd_examined {
-    double energy_error; /**< relative, of the energy; the row's function of that name has it */
-    /** More than rounding makes of the relative error of the energy: each event so far rounds the
-     * energy of its disks by some eps, and the roundings add up as a random walk. Seen: 0.01 of
-     * this. */
+    double energy_error; /**< relative error of the energy, from the row's energy_error */
+    /** Bound on the relative error of the energy from rounding: each event so far changes the energy
+     * of its particles by some eps, and these changes add up as a random walk. Observed errors are
+     * about 0.01 of it. */
     double energy_rounding;
-    double momentum[HD_DIMENSION_MAX]; /**< of all disks together */
-    double angular_momentum; /**< about the middle of the box, about z; a circle conserves it */
-    double overlap; /**< deepest of any pair now: max(0, 1 - distance) over all pairs and images */
-    /** More than rounding makes of an overlap: of some roundings in positions, of the order of the
-     * box, and in times, as long as they are counted from one moment. */
+    double momentum[HD_DIMENSION_MAX]; /**< total momentum */
+    double angular_momentum; /**< total, about the middle of the box, along z; a circle conserves it */
+    double overlap; /**< deepest overlap of a pair now: max(0, 1 - distance), with images [sigma] */
+    /** Bound on an overlap from rounding: of positions, which are as large as the box, and of times
+     * that are counted from one moment [sigma]. */
     double overlap_rounding;
-    /** Deeper than this [sigma] is a fault, HD_OVERLAP: 1e-9, or overlap_rounding where that is
-     * more: in boxes longer than some 3e5 sigma, 4e-6 in the longest of 1e9. */
+    /** Deepest overlap that is not a fault, HD_OVERLAP: 1e-9, or overlap_rounding if that is larger,
+     * as in boxes above about 3e5 sigma: 4e-6 in a box of 1e9 [sigma]. */
     double overlap_max;
 } hd_examined;
 
-/** What kinetic theory says of particles in a box, to some percent; the core's own rows have it. */
+/** What kinetic theory says of a dynamics, to some percent; only rows of the core have it. */
 typedef struct hd_fluid hd_fluid;
 
-/** A part of a record: where a row has no maps of its own, this is what vectors are carried by. */
+/** A part of a record, which `carry` gets if the row has no maps of its own. */
 typedef struct hd_passage {
-    const void *entry; /**< [count], of the row's size */
+    const void *entry; /**< entries, [count], each of the row's size */
     size_t count;
-    double begin, end; /**< since the start of the record [time units] */
+    double begin, end; /**< times since the start of the record [time units] */
     int particles;
 } hd_passage;
 
 enum {
-    HD_PARTICLES = 32,        /**< room for a name */
-    HD_COORDINATES_MAX = 1000 /**< of a particle: those of all are counted by an int */
+    HD_PARTICLES = 32,        /**< size of a name */
+    HD_COORDINATES_MAX = 1000 /**< of a particle, so that an int can count those of all */
 };
 
-/** What may be left out says so: it is 0, false or NULL then. */
+/** A row. Members that may be left out say so; they are then 0, false or NULL. */
 struct hd_dynamics {
-    const char *particles; /**< in the plural: its name, of 31 characters at most and none of the
-                                core's */
-    int dimension;         /**< of the box that their positions lie in, 2 or 3; 0: there is none */
-    int coordinates;       /**< of a particle: of its dq, and of its dp, HD_COORDINATES_MAX at most.
-                                The first `dimension` of them are its position in the box */
-    size_t entry; /**< bytes of an entry of the record, a multiple of 8; it begins with a double */
-    /** Maps are symplectic: exponents come in pairs, and half of all vectors say all [T18]. Without
-     * it exponents = all carries each of them. */
+    const char *particles; /**< its name, in the plural: at most 31 characters, and none of the core's */
+    int dimension;         /**< dimension of the box, 2 or 3; 0: there is no box */
+    int coordinates;       /**< coordinates of a particle: components of its dq, and of its dp; at most
+                                HD_COORDINATES_MAX. The first `dimension` of them are its position */
+    size_t entry; /**< bytes of an entry of the record, a multiple of 8; the first 8 are a double */
+    /** Tangent maps are symplectic: exponents come in pairs, and half of the vectors give all [T18].
+     * If false, exponents = all carries all vectors. */
     bool symplectic;
-    /** No map ever takes an unstable vector to a dq of zero, as of hard bodies, which only
-     * disperse: then the frame may be orthonormalised in dq alone, which is faster [T6]. May be
-     * left out. */
+    /** No map takes an unstable vector to dq = 0, as with hard bodies, which only disperse. The frame
+     * may then be orthonormalised in dq alone, which is faster [T6]. May be left out. */
     bool dispersing;
-    /** Momenta only set the pace, as of hard bodies: (p, 0) and (0, p) are null vectors, and the
-     * null space is orthogonal to all others [T9]. May be left out. */
+    /** Scaling all momenta only changes the pace, as with hard bodies: (p, 0) and (0, p) are null
+     * vectors, and the null space is orthogonal to all other vectors [T9]. May be left out. */
     bool paces;
 
-    const hd_parameter *parameter; /**< [parameters], of its own: see HD_OWN */
-    int parameters;                /**< HD_OWN_MAX at most */
+    const hd_parameter *parameter; /**< its own parameters, [parameters]: see HD_OWN */
+    int parameters;                /**< their number, at most HD_OWN_MAX */
     const hd_fluid *fluid;         /**< may be left out */
 
     /* ---- scene */
-    /** The parameters have passed their ranges; do they fit together? HD_REFUSED with one line in
-     * `message` (NULL: it is not wanted): the parameter, its value, what is allowed. May be left
+    /** Checks whether parameters, each of which is in its range, fit together. HD_REFUSED with one
+     * line in `message`, unless that is NULL: the parameter, its value, what is allowed. May be left
      * out. */
     hd_status (*check)(const hd_scene_def *scene, char *message, size_t size);
-    /** Number of exponents that vanish; may be left out: none. */
+    /** Number of exponents that vanish; if left out, none. */
     int (*zeros)(const hd_scene_def *scene);
-    /** Entries of the record expected in a time unit, roughly: what a record has room for. */
+    /** Rough number of record entries per time unit, by which records get their memory. */
     double (*entries)(const hd_scene_def *scene);
-    /** Collisions of pairs expected in a time unit; of what does not collide N / 2 over the time in
-     * which tangent vectors grow by about e. First intervals are 2 such times of one particle long,
-     * none is longer than 60, errors take blocks of 8 at least. */
+    /** Expected number of pair collisions per time unit; without collisions N / 2 divided by the time
+     * in which tangent vectors grow by about e. In units of N / 2 divided by this rate, the first
+     * interval is 2 long, the longest 60, and blocks for errors at least 8. */
     double (*rate)(const hd_scene_def *scene);
-    /** Of what moves in steps their length [time units]. May be left out. */
+    /** Length of a time step, if particles move in steps [time units]. May be left out. */
     double (*step)(const hd_scene_def *scene);
-    /** Power of the step by which the zero exponents split that no null vector holds, about. May be
-     * left out: they do not. */
+    /** Approximate power of the time step with which zero exponents that no null vector keeps at 0
+     * split. If left out, they do not. */
     double (*split)(const hd_scene_def *scene);
-    /** Time that a disturbance takes through all of them: blocks of averages are no shorter. May
-     * be left out. */
+    /** Time that a disturbance takes through the whole system; blocks of averages are not shorter
+     * [time units]. May be left out. */
     double (*crossing)(const hd_scene_def *scene);
-    /** Vectors that stay as they are, or turn into each other, as far as they are known exactly:
-     * column[..][particle][2 coordinates] at this state, not normalised. Their number, `zeros` at
-     * most. May be left out: none is known. */
+    /** Writes the null vectors that are known exactly at this state, those that the flow keeps or
+     * turns into each other: column[..][particle][2 coordinates], not normalised. Returns their
+     * number, at most `zeros`. If left out, none is known. */
     int (*null)(const hd_scene_def *scene, const double *q, const double *p, double *column);
 
-    /** Moment of inertia of a particle of mass 1 that turns in the plane [sigma^2]: it has one
-     * coordinate more than its box has directions, sqrt(inertia) times an angle. May be left out:
-     * none turns. */
+    /** Moment of inertia of a particle that turns in the plane [sigma^2]: behind its position it has
+     * one more coordinate, sqrt(inertia) times an angle. If left out, particles do not turn. */
     double (*inertia)(const hd_scene_def *scene);
-    /** Area or volume of a particle. May be left out: it is not known. */
+    /** Area or volume of a particle [sigma^d]. If left out, it is not known. */
     double (*size)(const hd_scene_def *scene);
 
     /* ---- particles */
-    /** The start: the state of a checked scene at time 0. HD_NO_MEMORY, and *state NULL. */
+    /** Makes the state of a checked scene at time 0. HD_NO_MEMORY, and *state is NULL. */
     hd_status (*create)(void **state, const hd_scene_def *scene);
-    /** A prepared one, for tests: q and p [particle][coordinates]. May be left out. */
+    /** Makes a given state, for tests: q and p are [particle][coordinates]. May be left out. */
     hd_status (*create_from)(void **state, const hd_scene_def *scene, const double *q,
                              const double *p);
     void (*free)(void *state);
-    /** Moves them to simulated time t_end, at least the present one, and adds what happens on the
-     * way to the record, which may be NULL: hd_record_put for each entry, hd_record_end at last.
-     * What moves in steps does them where they lie whatever t_end is: those that end by then.
-     * HD_NOT_FINITE, HD_NO_MEMORY: the run has failed. */
+    /** Moves the particles to simulated time t_end, not before the present time, and writes the record
+     * unless it is NULL: hd_record_put for each entry, then hd_record_end. Time steps begin and end
+     * at fixed times whatever t_end is; all that end by t_end are done. After HD_NOT_FINITE,
+     * HD_NO_MEMORY or another status the run has failed. */
     hd_status (*advance)(void *state, hd_record *record, double t_end);
-    double (*time)(const void *state); /**< t_end of the last advance */
-    /** [particle][coordinates] each, positions inside the box if there is one; either may be NULL.
-     */
+    double (*time)(const void *state); /**< present simulated time: t_end of the last advance */
+    /** Writes q and p, both [particle][coordinates], with positions inside the box if there is one.
+     * Either may be NULL. */
     void (*state)(const void *state, double *q, double *p);
     double (*kinetic_energy)(const void *state); /**< may be left out */
-    /** All but `expected`, of particles whose kinetic energy is N: what the gas is made from. May
-     * be left out; then there is none. */
+    /** Writes all members but `expected`, for particles whose kinetic energy is N: the gas observable
+     * follows from them. May be left out. */
     void (*tell)(const void *state, hd_told *told);
-    /** What the gas is made from instead, of what does not collide; asked of scenes that observe
-     * HD_OBSERVE_GAS alone. May be left out. */
+    /** Writes the integrals from which the gas observable of particles without collisions follows.
+     * Only called if the scene asks for HD_OBSERVE_GAS. May be left out. */
     void (*sum)(const void *state, hd_summed *summed);
-    void (*examine)(const void *state, hd_examined *examined); /**< of the same; may be left out */
-    /** Relative error of the energy now; may be left out where all is kinetic and N. */
+    void (*examine)(const void *state, hd_examined *examined); /**< for the same particles as tell; may be left out */
+    /** Relative error of the energy now; may be left out if all energy is kinetic, and N. */
     double (*energy_error)(const void *state);
-    /** Each array of the state, one hd_archive_doubles after the other, whether it is written or
-     * read. What follows from them is made anew. */
+    /** Calls hd_archive_doubles for each array of the state, in the same order for writing and
+     * reading. After reading it computes again what follows from these arrays. */
     void (*archive)(void *state, hd_archive *archive);
-    uint32_t (*fingerprint)(const void *state); /**< of q and p to the last bit; may be left out */
-    double (*bytes)(const hd_scene_def *scene); /**< of the state; may be left out */
+    uint32_t (*fingerprint)(const void *state); /**< hash of all bits of q and p; may be left out */
+    double (*bytes)(const hd_scene_def *scene); /**< bytes of the state; may be left out */
 
-    /* ---- record; may all be left out where entries are doubles throughout */
-    const char *(*fault)(const hd_record *record, const hd_scene_def *scene); /**< or NULL */
+    /* ---- record; all three may be left out if entries consist of doubles */
+    const char *(*fault)(const hd_record *record, const hd_scene_def *scene); /**< what is wrong with a record that was read, or NULL */
     void (*archive_record)(hd_record *record, hd_archive *archive, const hd_scene_def *scene);
-    double (*record_bytes)(double entries); /**< in the record, and as maps */
+    double (*record_bytes)(double entries); /**< bytes of so many entries and their maps */
 
     /* ---- tangent maps */
-    /** A part of a record made ready for `carry`. All three may be left out: it is an hd_passage
-     * then. The maps from a to b and from b to c make those from a to c: what moves in steps takes
-     * whole steps, hd_record_within. HD_NO_MEMORY. */
+    /** Make, free and fill the maps of a part of a record, for `carry`. If all three are left out,
+     * `carry` gets an hd_passage. The maps from a to b and from b to c must combine to those from a to
+     * c, so entries of time steps are taken as a whole, by hd_record_within. HD_NO_MEMORY. */
     hd_status (*maps_create)(void **maps, int particles);
     void (*maps_free)(void *maps);
     hd_status (*maps_fill)(void *maps, const hd_record *record, double t_begin, double t_end);
-    /** Carries a block of columns through them: block[particle][2 coordinates][width], dq before
-     * dp; the width is 1, 2, 4, 8, 16, 32 or 64. */
+    /** Carries a block of columns through maps: block[particle][2 coordinates][width], dq before dp.
+     * The width is 1, 2, 4, 8, 16, 32 or 64. */
     void (*carry)(const void *maps, double *block, int width);
 };
 
-/** The row of a scene. */
+/** The dynamics of a scene. */
 const hd_dynamics *hd_dynamics_of(const hd_scene_def *scene);
 
 HD_API_END
