@@ -21,8 +21,9 @@ const double *hd_modes_snapshot(const hd_modes *modes, int s, hd_weight which);
 const double *hd_modes_average(const hd_modes *modes, int s, hd_weight which);
 
 /** Weights of all n vectors in part `null` of the exact null space [T9]: squared norms of the
- * orthogonal projections of the whole vectors. Parts HD_NULL_X, _Y, _Z are uniform in dq or dp along
- * a periodic direction; the part behind them is dq = p or dp = p, 0 if hd_dynamics.paces is false. */
+ * orthogonal projections of the whole vectors. Parts HD_NULL_X, _Y, _Z are uniform in dq or dp
+ * along a periodic direction; the part behind them is dq = p or dp = p, or if hd_dynamics.paces is
+ * false what else hd_dynamics.null has. */
 const double *hd_modes_null_snapshot(const hd_modes *modes, int null);
 const double *hd_modes_null_average(const hd_modes *modes, int null);
 

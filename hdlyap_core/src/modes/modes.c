@@ -18,8 +18,10 @@
 #include "base/check.h"
 #include "base/communicator.h"
 #include "base/memory.h"
+#include "hdlyap/dynamics.h"
 #include "modes/archived.h"
 #include "modes/fields.h"
+#include "scene/null_space.h"
 #include "scene/scene.h"
 #include "tangent/product.h"
 
@@ -31,6 +33,7 @@ enum { DIMENSION_MAX = HD_FIELDS_MAX, BLOCK = 128 };
 
 struct hd_modes {
     hd_fields *fields;
+    hd_scene_def scene;
     int disks, vectors, threads;
     int dimension, coordinates; /**< of the space, of a disk */
     int widest;                 /**< fields of the largest subspace that there may be */
@@ -39,7 +42,8 @@ struct hd_modes {
     double *coefficient;        /**< [columns][stride]: overlaps, then coefficients */
     double *work;               /**< [widest][stride] */
     double *dq_norm;            /**< [stride] */
-    double *null_dp;  /**< [nulls][stride]: overlaps of the dp halves with the null fields */
+    double *null_dp; /**< [nulls][stride]: overlaps of the dp halves with the null fields */
+    double *known; /**< [known_most][rows]: null vectors that are no fields; NULL: there are none */
     double *snapshot; /**< [subspaces * HD_WEIGHTS + nulls, turning][stride] */
     double *average;  /**< same, over samples */
     long samples;
@@ -63,6 +67,20 @@ static size_t weight_rows(const hd_modes *modes)
     return null_row(modes) + nulls_of(modes) + turns(modes);
 }
 
+/** Null vectors that the row may know, beside the translations and their momenta; 0: fields are
+ * all of them. */
+static size_t known_most(const hd_scene_def *scene)
+{
+    const hd_dynamics *of = hd_dynamics_of(scene);
+    const int translations = 2 * hd_null_space_of(scene).count;
+    return of->paces || !of->null ? 0 : (size_t)(translations + hd_scene_counts(scene).zero);
+}
+
+static size_t rows_of(const hd_scene_def *scene)
+{
+    return 2 * (size_t)(hd_scene_coordinates(scene) * scene->number);
+}
+
 double hd_modes_bytes(const hd_scene_def *scene, double vectors)
 {
     const hd_fields_count count = hd_fields_count_of(scene);
@@ -71,9 +89,10 @@ double hd_modes_bytes(const hd_scene_def *scene, double vectors)
                  turning = hd_scene_coordinates(scene) > hd_scene_dimension(scene);
     const double columns = count.columns + nulls,
                  rows = count.subspaces * HD_WEIGHTS + nulls + turning,
+                 known = (double)(known_most(scene) * rows_of(scene)),
                  fields = hd_scene_coordinates(scene) * (double)scene->number * (columns + 4.0);
-    return sizeof(double) *
-           (fields + widest * columns + (columns + widest + 1.0 + nulls + 2.0 * rows) * vectors);
+    return sizeof(double) * (fields + known + widest * columns +
+                             (columns + widest + 1.0 + nulls + 2.0 * rows) * vectors);
 }
 
 static hd_status modes_allocate(hd_modes *modes, const hd_scene_def *def)
@@ -89,10 +108,12 @@ static hd_status modes_allocate(hd_modes *modes, const hd_scene_def *def)
                   {&modes->work, widest * n},
                   {&modes->dq_norm, n},
                   {&modes->null_dp, nulls_of(modes) * n},
+                  {&modes->known, known_most(def) * rows_of(def)},
                   {&modes->snapshot, rows * n},
                   {&modes->average, rows * n}};
     for (size_t k = 0; k < sizeof wanted / sizeof *wanted; k++)
-        if (!(*wanted[k].array = hd_memory_alloc(wanted[k].size, sizeof(double))))
+        if (wanted[k].size > 0 &&
+            !(*wanted[k].array = hd_memory_alloc(wanted[k].size, sizeof(double))))
             return HD_NO_MEMORY;
     return HD_OK;
 }
@@ -103,6 +124,7 @@ hd_status hd_modes_create(hd_modes **out, const hd_scene_def *def, int vectors, 
     hd_modes *modes = hd_memory_alloc(1, sizeof *modes);
     *out = NULL;
     if (!modes) return HD_NO_MEMORY;
+    modes->scene = *def;
     modes->disks = def->number;
     modes->dimension = hd_scene_dimension(def);
     modes->coordinates = hd_scene_coordinates(def);
@@ -127,6 +149,7 @@ void hd_modes_free(hd_modes *modes)
     hd_memory_free(modes->work);
     hd_memory_free(modes->dq_norm);
     hd_memory_free(modes->null_dp);
+    hd_memory_free(modes->known);
     hd_memory_free(modes->snapshot);
     hd_memory_free(modes->average);
     hd_memory_free(modes);
@@ -208,6 +231,40 @@ static void measure_null(hd_modes *modes, hd_columns v)
         memset(out, 0, (size_t)v.count * sizeof *out);
         add_squares(out, row_of(modes->coefficient, from + k, modes) + v.first, v.count);
         add_squares(out, row_of(modes->null_dp, k, modes) + v.first, v.count);
+    }
+}
+
+/** Makes x orthogonal to `count` unit vectors, and a unit vector. False, and x = 0, where nothing
+ * is left. */
+static bool make_orthonormal(double *x, const double *unit, int count, int rows)
+{
+    const double before = cblas_dnrm2(rows, x, 1);
+    for (int k = 0; k < count; k++) {
+        const double *other = unit + (size_t)k * (size_t)rows;
+        cblas_daxpy(rows, -cblas_ddot(rows, other, 1, x, 1), other, 1, x, 1);
+    }
+    const double after = cblas_dnrm2(rows, x, 1);
+    const bool left = after > RANK * before;
+    cblas_dscal(rows, left ? 1.0 / after : 0.0, x, 1);
+    return left;
+}
+
+/** Adds to the last of the null parts those in the vectors that the row knows beyond translations
+ * and their momenta: of soft particles the flow. */
+static void measure_known(hd_modes *modes, hd_columns v, const double *q, const double *p)
+{
+    const int rows = (int)rows_of(&modes->scene), last = (int)nulls_of(modes) - 1;
+    double *out = row_of(modes->snapshot, null_row(modes) + (size_t)last, modes) + v.first;
+    const int moved = hd_null_space_fill(&modes->scene, q, p, modes->known),
+              all = moved +
+                    hd_dynamics_of(&modes->scene)
+                        ->null(&modes->scene, q, p, modes->known + (size_t)moved * (size_t)rows);
+    for (int k = 0; k < all; k++) {
+        double *x = modes->known + (size_t)k * (size_t)rows;
+        if (!make_orthonormal(x, modes->known, k, rows) || k < moved) continue;
+        hd_dgemm(CblasNoTrans, CblasNoTrans, v.count, 1, rows, 1.0, v.data, v.stride, x, rows, 0,
+                 modes->work, (int)modes->stride);
+        add_squares(out, modes->work, v.count);
     }
 }
 
@@ -305,6 +362,7 @@ hd_status hd_modes_measure(hd_modes *modes, hd_columns v, const double *q, const
     overlaps(modes, v, 0, 0, columns, modes->coefficient);
     overlaps(modes, v, modes->coordinates, columns - nulls, nulls, modes->null_dp);
     measure_null(modes, v);
+    if (modes->known && v.count > 0) measure_known(modes, v, q, p);
     if (turns(modes)) measure_turning(modes, v);
     normalise(modes, v);
     for (int s = 0; s < hd_fields_subspaces(modes->fields); s++) measure_subspace(modes, s, v);
