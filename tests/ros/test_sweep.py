@@ -234,9 +234,11 @@ class Command(InFolder):
 class Results(InFolder):
     """Of bags made up."""
 
-    def bag(self, name, density=0.5, seed='1', boundary='periodic', value=9.0, size=2, **changes):
+    def bag(
+        self, name, density=0.5, seed='1', boundary='periodic', value=9.0, size=2, own=(), **changes
+    ):
         info = made.run_info(
-            **dict(density=density, seed=seed, run_id=name, boundary_x=boundary),
+            **dict(density=density, seed=seed, run_id=name, boundary_x=boundary, own=list(own)),
             **dict(boundary_y=boundary, container='lens' if boundary == 'curved' else 'rectangle'),
         )
         message = made.steps([made.step(info, T, 1, 0, 36, 37), made.step(info, LP, 1, 0, 32, 35)])
@@ -251,6 +253,19 @@ class Results(InFolder):
         found, wrong = points.read(paths)
         self.assertEqual(wrong, [])
         return found
+
+    def test_another_time_step_is_another_row(self):
+        steps = ('1', 0.01), ('2', 0.005), ('3', 0.01)
+        bags = [
+            self.bag(seed, seed=seed, own=['potential=wca', f'time_step={step}'])
+            for seed, step in steps
+        ]
+        found = self.read(*bags)
+        self.assertEqual(
+            [(point.system['time_step'], len(point.runs)) for point in found],
+            [(0.005, 1), (0.01, 2)],
+        )
+        self.assertRegex('\n'.join(table.text(found)), r'(?s)time_step.*\n.*0\.005 .*\n.*0\.01 ')
 
     def test_seeds_that_differ_by_more_than_they_state(self):
         """Four largest exponents, each 9 +- 0.01; then one that is ten errors off."""

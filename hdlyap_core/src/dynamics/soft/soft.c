@@ -114,8 +114,11 @@ hd_status hd_soft_look(soft *s)
 
 static void sum_flight(soft *s, double time)
 {
-    for (int k = 0; k < s->count * s->dimension; k++)
-        s->summed.kinetic[k % s->dimension] += time * s->p[k] * s->p[k];
+    double square[HD_DIMENSION_MAX] = {0.0};
+    const double *p = s->p;
+    for (int i = 0; i < s->count; i++)
+        for (int d = 0; d < s->dimension; d++, p++) square[d] += *p * *p;
+    for (int d = 0; d < s->dimension; d++) s->summed.kinetic[d] += time * square[d];
 }
 
 static void drift(soft *s, double time)
