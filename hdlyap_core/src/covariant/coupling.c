@@ -26,10 +26,10 @@ struct hd_coupling {
     double *y;       /**< [half * half] */
 };
 
-double hd_coupling_bytes(int rows, int threads)
+double hd_coupling_bytes(const hd_dynamics *of, int rows, int threads)
 {
     const double half = rows / 2;
-    return sizeof(double) * half * half + hd_frame_bytes(rows, half, threads);
+    return sizeof(double) * half * half + hd_frame_bytes(of, rows, half, threads);
 }
 
 hd_status hd_coupling_create(hd_coupling **out, const hd_dynamics *of, int particles, int threads)

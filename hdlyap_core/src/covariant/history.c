@@ -71,7 +71,7 @@ double hd_history_bytes(const hd_history_def *def)
                                             : hd_store_bytes(triangle_size(def), def->intervals);
     const long slots = def->recompute ? again.slots : def->intervals;
     const double coupling = def->conjugate && !def->recompute
-                                ? hd_coupling_bytes(rows_of(def), def->threads)
+                                ? hd_coupling_bytes(def->of, rows_of(def), def->threads)
                                 : 0.0;
     return snapshots + triangles + coupling + (double)slots * sizeof(interval_kept);
 }

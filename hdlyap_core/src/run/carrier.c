@@ -186,7 +186,7 @@ double hd_carrier_bytes(const hd_scene_def *scene, int threads, int ranks)
     const double longest = COLLISIONS_MOST * hd_scene_collision_time(scene);
     const double record = hd_record_bytes_of(
         scene, fmin(hd_advance_most(scene), longest * hd_dynamics_of(scene)->entries(scene)));
-    const double frame = hd_frame_bytes(rows_of(scene), here, threads);
+    const double frame = hd_frame_bytes(hd_dynamics_of(scene), rows_of(scene), here, threads);
     const double ortho = hd_ortho_bytes(rows_of(scene), carried, ranks);
     const double conjugate = carried < n
                                  ? hd_conjugate_bytes(rows_of(scene), completed(scene, (int)here))

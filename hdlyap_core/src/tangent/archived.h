@@ -11,7 +11,7 @@
  * Fails with HD_NO_MEMORY on all ranks. */
 HD_MUST_CHECK hd_status hd_frame_archive(hd_frame *frame, hd_archive *archive);
 /** Bytes of a frame of this many vectors on one rank, without its tangent maps. */
-double hd_frame_bytes(double rows, double vectors, double threads);
+double hd_frame_bytes(const hd_dynamics *of, double rows, double vectors, double threads);
 double hd_ortho_bytes(double rows, double vectors, double ranks);
 /** most: as hd_conjugate_create. */
 double hd_conjugate_bytes(double rows, double most);

@@ -25,19 +25,21 @@ static int padded(int vectors)
     return (vectors + width - 1) / width * width;
 }
 
-static int block_width(int rows, int stride)
+/** What moves in steps has more of maps than of columns: wider blocks read them less often. */
+static int block_width(const hd_dynamics *of, int rows, int stride)
 {
+    const int least = of->step ? 16 : 8;
     int width = stride < 8 ? stride : 8;
     while (width < HD_BLOCK_WIDTH_MAX && 2 * width <= stride &&
-           (size_t)rows * (size_t)width * 2 * sizeof(double) <= HD_BLOCK_BYTES)
+           (width < least || (size_t)rows * (size_t)width * 2 * sizeof(double) <= HD_BLOCK_BYTES))
         width *= 2;
     return width;
 }
 
-double hd_frame_bytes(double rows_of_all, double vectors, double threads)
+double hd_frame_bytes(const hd_dynamics *of, double rows_of_all, double vectors, double threads)
 {
     const int rows = (int)rows_of_all, stride = padded((int)ceil(vectors));
-    return (2.0 * stride + threads * block_width(rows, stride)) * rows * sizeof(double);
+    return (2.0 * stride + threads * block_width(of, rows, stride)) * rows * sizeof(double);
 }
 
 static hd_status frame_allocate(hd_frame *frame)
@@ -97,7 +99,7 @@ hd_status hd_frame_create_shared(hd_frame **out, const hd_dynamics *of, int part
     frame->communicator = communicator;
     frame->stride = padded(part_of(frame, vectors));
     frame->rows_kept = rows * part_of(frame, particles) * hd_communicator_ranks(communicator);
-    frame->width = block_width(frame->rows, frame->stride);
+    frame->width = block_width(of, frame->rows, frame->stride);
     frame->threads = frame->threads_max = threads;
     const hd_status status = hd_communicator_agree(communicator, frame_allocate(frame));
     if (status != HD_OK) {
