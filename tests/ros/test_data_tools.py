@@ -353,7 +353,7 @@ class Hostile(Tools):
             raise MemoryError('of a test')
 
         for fault, said in (
-            (lambda _: [][0], 'what is recorded makes no sense here, or hdlyap has a fault: Index'),
+            (lambda _: [][0], r'unexpected contents in a bag \(.*\): IndexError: '),
             (missing_attribute, 'a fault of hdlyap, not of what it reads: AttributeError: '),
             (draughtsman, 'cannot be drawn: ValueError: figure size must be positive'),
             (nobody, r'a node or the ROS master has not answered: \[Errno 111\] Connection refused'),

@@ -331,7 +331,7 @@ class Screens(unittest.TestCase):
         """One line, and the key that ends it."""
         spectrum = made.spectrum([3.0], 50.0)
         spectrum.std_errors = []
-        said = 'what the node says makes no sense here: IndexError: '
+        said = 'unexpected contents in a message of the node: IndexError: '
         for size in SIZES:
             text = self.text(view(spectrum=spectrum), size)
             self.assertTrue(text.startswith(said[: min(size[0], 4)]))
@@ -341,7 +341,7 @@ class Screens(unittest.TestCase):
         shown.status.sim_time = '\x1b[2J'
         self.assertEqual(len(line.parts(shown)), 1)
         self.assertRegex(
-            line.parts(shown)[0], '^what the node says makes no sense here: ValueError'
+            line.parts(shown)[0], '^unexpected contents in a message of the node: ValueError'
         )
 
     def test_a_name_is_no_command(self):

@@ -96,7 +96,7 @@ def _ended(name, module, args):
         said = whose(error)
         if fault is None and (said is None or isinstance(error, OURS)):
             raise
-        text = f'{said or "what is recorded makes no sense here, or hdlyap has a fault"}: '
-        text += described(error)
+        said = said or 'unexpected contents in a bag (please report it if the bag is whole)'
+        text = f'{said}: {described(error)}'
     print(f'{PROGRAM} {name}: {plain(text, 8192)}', file=sys.stderr)
     return fault or 1

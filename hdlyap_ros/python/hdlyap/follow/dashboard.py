@@ -41,7 +41,7 @@ def _redraw(watch, screen, drawn):
 
 
 def lines(view, size, drawn):
-    """The lines of the screen; one line about the error if what the node says makes no sense."""
+    """The lines of the screen; one line about the error if a message has unexpected contents."""
     try:
         return arranged(panels.of(view, *size, drawn), size)
     except Exception as error:  # a node may send anything that no check has foreseen

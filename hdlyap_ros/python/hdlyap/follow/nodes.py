@@ -16,7 +16,7 @@ ANSWER = 5.0  # seconds that a master or a node may take to answer
 SOON = 1.0  # seconds that a master may take to answer for the first time
 LIST = 2000  # most letters of a list of nodes
 HOW = 'To start one: roslaunch hdlyap run.launch'
-# exceptions if a question could not be asked, or its answer makes no sense
+# exceptions if a question could not be asked, or its answer cannot be read
 UNANSWERED = (
     rosgraph.MasterException,
     OSError,

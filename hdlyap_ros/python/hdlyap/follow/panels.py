@@ -38,7 +38,7 @@ def of(view, width, height, glyphs):
 
 
 def nonsense(error):
-    said = whose(error) or 'what the node says makes no sense here'
+    said = whose(error) or 'unexpected contents in a message of the node'
     return f'{said}: {type(error).__name__}: {error}'
 
 
