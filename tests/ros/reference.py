@@ -41,8 +41,9 @@ def listed(folder, suffix):
 
 
 def table(titles, rows):
-    lines = [titles, ['---'] * len(titles), *rows]
-    return ''.join(' | '.join(line) + '\n' for line in lines)
+    lines = [' | '.join(line) for line in (titles, *rows)]
+    lines.insert(1, '|'.join(['---'] * len(titles)))
+    return '\n'.join(lines) + '\n'
 
 
 def escaped(text):
@@ -76,12 +77,16 @@ def message_rows(lines):
         if not found or line in COMMON:
             continue
         kind, field, value, what = found.groups()
-        field += ' = ' + value if value is not None else ''
+        if value is not None:
+            field += '=' + value
+        elif kind.endswith('[]'):
+            field += '[]'
+        if not kind[0].isupper():  # numbers and texts
+            kind = ''
         if not what or what.startswith('['):
             rows[-1][0] += ', ' + code(field) + (' ' + what if what and what != '[-]' else '')
         else:
-            kind = '' if kind == 'float64' else kind + ' '
-            rows.append([code(kind + field), escaped(re.sub(OBVIOUS, '', what))])
+            rows.append([code(f'{kind.replace("[]", "")} {field}'.strip()), escaped(re.sub(OBVIOUS, '', what))])
     return rows
 
 

@@ -45,7 +45,7 @@ def table(title):
     for line in lines[first:]:
         if not line.startswith('|'):
             break
-        name, *cells = (cell.strip() for cell in re.split(r'(?<!\\)\|', line)[1:-1])
+        name, *cells = (cell.strip() for cell in re.split(r'(?<!\\)\|', line.strip('| ')))
         rows[re.search(r'`?([^`]+)`?', name).group(1)] = cells
     return rows
 

@@ -30,8 +30,7 @@ static const parameter rows[] = {
         .unit = "",
         .text = "Topics that can be published, beside run_info, status, cost and /diagnostics. A topic "
         "that nobody listens to is not computed; the table in the log listens to steps and "
-        "lp_phases. Without exponents only gas and state exist. A resumed run may add or drop "
-        "only spectrum and state.",
+        "lp_phases. Without exponents only gas and state exist.",
     },
     {
         .name = "field_indices",
@@ -78,9 +77,9 @@ static const parameter rows[] = {
         .unit = "time units",
         .may_differ = true,
         .live = true,
-        .text = "Simulated time between two publications of fields, and of means in structure. They come "
-        "with the first report of the averaging, with the first report at or after each multiple "
-        "of this time, and with the last. Each costs an orthonormalisation.",
+        .text = "Simulated time between publications of fields, and of means in structure: with the first "
+        "and the last report of the averaging, and with the first report at or after each "
+        "multiple of this time. Each costs an orthonormalisation.",
     },
     {
         .name = "wait_for_subscribers",
@@ -90,8 +89,8 @@ static const parameter rows[] = {
         .allowed = "all or a list out of ",
         .unit = "",
         .may_differ = true,
-        .text = "The run starts only when each of these topics has a subscriber, so that it misses "
-        "nothing. all: run_info, status, cost and the observables.",
+        .text = "Topics that must have a subscriber before the run starts, so that it misses nothing. "
+        "all: run_info, status, cost and the observables.",
     },
     {
         .name = "pace",
@@ -115,8 +114,7 @@ static const parameter rows[] = {
         .allowed = "a list of texts \"TIME NAME=VALUE\"",
         .unit = "",
         .may_differ = true,
-        .text = "Changes to make during the run, each at its simulated time: how a run is repeated in "
-        "which ~set was used.",
+        .text = "Changes at given simulated times, by which a run is repeated in which ~set was used.",
     },
     {
         .name = "checkpoint",
@@ -126,8 +124,8 @@ static const parameter rows[] = {
         .allowed = "a path in one line",
         .unit = "",
         .may_differ = true,
-        .text = "File in which the run is kept, so that it can be resumed. It is written completely or "
-        "not at all. Empty: no file.",
+        .text = "File in which the run is kept so that it can be resumed, written completely or not at "
+        "all. Empty: no file.",
     },
     {
         .name = "checkpoint_interval",
@@ -149,8 +147,7 @@ static const parameter rows[] = {
         .allowed = "a path in one line",
         .unit = "",
         .may_differ = true,
-        .text = "Checkpoint from which the run goes on. Parameters of the scene that are not given are "
-        "taken from it. Empty: a new run.",
+        .text = "Checkpoint from which the run goes on. Empty: a new run.",
     },
     {
         .name = "table",
@@ -161,8 +158,8 @@ static const parameter rows[] = {
         .allowed = "from 0 (none) to 1e12",
         .unit = "s",
         .may_differ = true,
-        .text = "Shortest wall time between two tables of the steps in the log. A table is printed when "
-        "the averaged time has doubled or more steps are known, and at the end.",
+        .text = "Shortest wall time between two tables of the steps in the log, which come when the "
+        "averaged time has doubled or more steps are known, and at the end.",
     },
 };
 enum { ROWS = sizeof rows / sizeof *rows };
