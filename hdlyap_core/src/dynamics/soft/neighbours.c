@@ -45,15 +45,20 @@ hd_status hd_neighbours_create(hd_neighbours *n, const hd_scene_def *scene, doub
     return n->head && n->next && n->place && n->first && n->partner ? HD_OK : HD_NO_MEMORY;
 }
 
-double hd_neighbours_bytes(const hd_scene_def *scene, double cut)
+double hd_neighbours_expected(const hd_scene_def *scene, double reach)
 {
     static const double PI = 3.14159265358979323846;
+    const double half = hd_scene_dimension(scene) == 2 ? 0.5 : 2.0 / 3.0 * reach;
+    return half * PI * reach * reach * scene->density;
+}
+
+double hd_neighbours_bytes(const hd_scene_def *scene, double cut)
+{
     const double number = sizeof(int32_t), place = 8.0 * hd_scene_dimension(scene);
     const double cell = pow(cut + SKIN, hd_scene_dimension(scene)),
-                 around = (hd_scene_dimension(scene) == 2 ? PI : 4.0 / 3.0 * PI) * cell,
                  cells = fmin(CELLS_EACH, 1.0 / (scene->density * cell));
     double partners = PARTNERS_EACH;
-    while (partners < 0.5 * scene->density * around) partners *= 2.0;
+    while (partners < hd_neighbours_expected(scene, cut + SKIN)) partners *= 2.0;
     const double before = partners > PARTNERS_EACH ? 0.5 * partners : 0.0;
     return scene->number * (place + (double)sizeof(size_t) + number * (1.0 + cells + partners) +
                             fmax(number * before, 2.0 * place));

@@ -24,6 +24,8 @@ typedef struct hd_neighbours {
 /** Of a scene's particles: a list for all that are nearer than `cut`. HD_NO_MEMORY. */
 HD_MUST_CHECK hd_status hd_neighbours_create(hd_neighbours *n, const hd_scene_def *scene,
                                              double cut);
+/** Partners of higher numbers that a particle has within reach, on average. */
+double hd_neighbours_expected(const hd_scene_def *scene, double reach);
 /** Of it, expected, and while it grows, or of a copy of the positions and momenta later. */
 double hd_neighbours_bytes(const hd_scene_def *scene, double cut);
 void hd_neighbours_clear(hd_neighbours *n);

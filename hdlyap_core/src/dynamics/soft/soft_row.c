@@ -80,16 +80,6 @@ static double usual_energy(const hd_scene_def *scene)
 
 static double speed(const hd_scene_def *scene) { return sqrt(usual_energy(scene)); }
 
-/** Nearer than the cut, expected. */
-static double pairs(const hd_scene_def *scene)
-{
-    static const double PI = 3.14159265358979323846;
-    const double cut = hd_soft_potential(scene)->cut;
-    const double around = hd_scene_dimension(scene) == 2 ? PI * cut * cut
-                                                         : 4.0 / 3.0 * PI * cut * cut * cut;
-    return 0.5 * scene->number * scene->density * around;
-}
-
 /** The fastest that a pair swings when it comes as near as four times the usual energy lets it, or
  * flies through. */
 static double fastest(const hd_scene_def *scene)
@@ -170,8 +160,10 @@ static double row_rate(const hd_scene_def *scene)
 
 static double row_entries(const hd_scene_def *scene)
 {
-    const double kicks = hd_soft_integrator(scene)->kicks;
-    return (1.0 + 1.2 * kicks * pairs(scene)) / hd_soft_time_step(scene);
+    const double kicks = hd_soft_integrator(scene)->kicks,
+                 pairs = scene->number *
+                         hd_neighbours_expected(scene, hd_soft_potential(scene)->cut);
+    return (1.0 + 1.2 * kicks * pairs) / hd_soft_time_step(scene);
 }
 
 /** Of sound, some times the usual speed. */
