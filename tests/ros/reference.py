@@ -21,9 +21,9 @@ SCENE = 'launch/scenes/paper_periodic.yaml'
 OWN = 'warmup', 'duration'
 # lines of most messages, which the chapter describes once
 COMMON = (
-    'std_msgs/Header header          # stamp: wall time',
-    'string run_id                   # see RunInfo',
-    'float64 sim_time                # since the start of the run [time units]',
+    'std_msgs/Header header          # stamp: wall time at which the message was made',
+    'string run_id                   # name of the run, the same in all messages of a run',
+    'float64 sim_time                # simulated time since the start of the run [time units]',
 )
 
 
@@ -70,7 +70,7 @@ def launch_arguments():
 
 
 def message_rows(lines):
-    """A row for each comment, with all fields that belong to it."""
+    """A row for each comment, with all fields that belong to it; a plain error is with its field."""
     rows = []
     for line in lines:
         found = re.match(r'(\S+)\s+(\w+)(?:\s*=\s*(\S+))?\s*(?:#\s*(.*))?$', line)
@@ -83,10 +83,12 @@ def message_rows(lines):
             field += '[]'
         if not kind[0].isupper():  # numbers and texts
             kind = ''
-        if not what or what.startswith('['):
-            rows[-1][0] += ', ' + code(field) + (' ' + what if what and what != '[-]' else '')
+        what = re.sub(OBVIOUS, '', what or '')
+        if not what or what.startswith('[') or re.match(r'standard error(?: \[|$)', what):
+            unit = what if what.startswith('[') and what != '[-]' else ''
+            rows[-1][0] += ', ' + f'{code(field)} {unit}'.strip()
         else:
-            rows.append([code(f'{kind.replace("[]", "")} {field}'.strip()), escaped(re.sub(OBVIOUS, '', what))])
+            rows.append([code(f'{kind.replace("[]", "")} {field}'.strip()), escaped(what)])
     return rows
 
 

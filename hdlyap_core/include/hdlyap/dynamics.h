@@ -68,7 +68,7 @@ typedef struct hd_passage {
 
 enum {
     HD_PARTICLES = 32,        /**< size of a name */
-    HD_COORDINATES_MAX = 1000 /**< of a particle, so that an int can count those of all */
+    HD_COORDINATES_MAX = 1000 /**< coordinates of a particle, so that an int can count those of all */
 };
 
 /** A row. Members that may be left out say so; they are then 0, false or NULL. */

@@ -12,12 +12,12 @@ HD_API_BEGIN
 typedef struct hd_hydro_response {
     int step, col;
     unsigned char modulation; /**< A, as in hdlyap/wave.h */
-    double density;           /**< of sum A, divided by k */
-    double along;             /**< of sum p . grad A, divided by k */
-    double across; /**< of sum p . F, divided by k: F = curl A with sines along reflecting directions
+    double density;           /**< change of sum A, divided by k */
+    double along;             /**< change of sum p . grad A, divided by k */
+    double across; /**< change of sum p . F, divided by k: F = curl A with sines along reflecting directions
                       (0 where the mode number is 0); in space the first T field of A, of unit e
                       instead of k [T22] */
-    double energy; /**< of sum p^2 A */
+    double energy; /**< change of sum p^2 A */
     double across_second; /**< as across, with the second T field of A; 0 in the plane */
 } hd_hydro_response;
 

@@ -28,7 +28,7 @@ typedef struct hd_extent {
     int disks, vectors;
     int waves; /**< waves of the structure factors */
     int subspaces,
-        angles;          /**< of covariant vectors: subspaces of fields; pairs of spaces with angles */
+        angles;          /**< subspaces of fields, and pairs of spaces with angles, of covariant vectors */
     int steps;           /**< steps in both halves of the spectrum */
     int examples, pairs; /**< steps that are shown by an example, and all their LP pairs */
     int phases, t_phases; /**< LP phases and T phases */

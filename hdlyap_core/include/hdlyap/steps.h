@@ -81,7 +81,7 @@ typedef struct hd_dispersion {
                                 negative if not yet known */
     hd_coefficient c2;       /**< [sigma^2/time unit] */
     hd_coefficient c3;       /**< [sigma^3/time unit] */
-    const hd_relation *in_long_boxes; /**< the two more observations */
+    const hd_relation *in_long_boxes; /**< c2 / c and c3 / c of long boxes */
     double misfit; /**< sqrt(chi^2 / degrees of freedom): far above 1 if the steps do not follow the
                       relation; negative for a single step or without errors */
 } hd_dispersion;

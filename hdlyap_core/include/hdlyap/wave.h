@@ -26,7 +26,7 @@ enum {
     HD_TRANSVERSE_MAX = HD_MODULATIONS_MAX * (HD_DIMENSION_MAX - 1),
     HD_FIELDS_MAX = 2 * HD_MODULATIONS_MAX
 };
-/** The same numbers in a space of this dimension, 2 or 3. */
+/** Such largest numbers in a space of this dimension, 2 or 3. */
 #define HD_MODULATIONS_IN(dimension) (1 << (dimension))
 #define HD_TRANSVERSE_IN(dimension) (HD_MODULATIONS_IN(dimension) * ((dimension)-1))
 #define HD_FIELDS_IN(dimension) (2 * HD_MODULATIONS_IN(dimension))
