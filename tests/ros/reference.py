@@ -28,7 +28,7 @@ COMMON = (
 
 
 # when a number is not known; the chapter says what it is then
-OBVIOUS = r'; (?:NaN|-1) (?:if|while|unless) [^;\[]*(?=( \[|$|;))'
+OBVIOUS = r'; (?:NaN|-1) [^;\[]*(?=( \[|$|;))'
 
 
 def read(*path):
