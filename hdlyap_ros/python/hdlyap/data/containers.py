@@ -1,5 +1,5 @@
-"""run_info -> what its container is, beyond what it says itself. A curved one is drawn by its
-outline; it has a line here if no scene gives its aspect, or if it has modes of its own."""
+"""run_info -> properties of its container that it does not contain. A curved container is drawn by
+its outline. It has a line here if its scenes have no aspect, or if it has special modes."""
 
 import numpy as np
 
@@ -7,16 +7,16 @@ from hdlyap.msg import LpPhase
 
 from . import space
 
-POINTS = 256  # of a period: enough for k r up to 100
+POINTS = 256  # points of a period, enough for k r up to 100
 
 
 def is_curved(info):
-    """Behind a wall that is no edge of the box."""
+    """Whether the container has a curved wall."""
     return info.boundary_x == 'curved'
 
 
 def not_asked(info):
-    """Parameters that run_info has, but that none of its scenes may say."""
+    """Parameters that run_info has, but that a scene with this container must not give."""
     if space.without_box(info):
         return OF_A_BOX
     if not is_curved(info):
@@ -26,13 +26,13 @@ def not_asked(info):
 
 
 def modulation(info, wave_number, order, bits, x, y):
-    """A of L and P fields in a curved container, at the given positions; order: n of the wave
-    along x."""
+    """The modulation A of L and P fields in a curved container, at the given positions. order: n of
+    the wave along x."""
     return MODULATIONS[info.container](info, wave_number, order, bits, x, y)
 
 
 def _bessel(order, x):
-    """J_m(x), by its integral over a period, which the sum has to the last digits."""
+    """J_m(x), by its integral over a period; the sum is exact to the last digits."""
     turn = 2 * np.pi * np.arange(POINTS) / POINTS
     x = np.asarray(x)[..., np.newaxis]
     return np.cos(order * turn - x * np.sin(turn)).mean(axis=-1)

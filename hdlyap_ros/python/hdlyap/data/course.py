@@ -1,12 +1,12 @@
-"""Rows of numbers as they come -> a table of bounded size, however long the run."""
+"""Rows of numbers, one after the other -> a table of bounded size, however long the run."""
 
 import numpy as np
 
-LIMIT = 4096  # rows; twice what can be seen in a figure
+LIMIT = 4096  # most rows, twice as many as can be seen in a figure
 
 
 class Course:
-    """Thins itself out evenly as it grows; the last row is always there."""
+    """A table that drops every second row when it is full, but always has the last one."""
 
     def __init__(self):
         self.clear()
@@ -25,7 +25,7 @@ class Course:
         self._count += 1
 
     def table(self):
-        """Rows by time; None without one."""
+        """The rows in the order in which they came; None if there is none."""
         if self._last is None:
             return None
         ends = self._rows[-1] is self._last

@@ -13,16 +13,16 @@ from . import fields, reader, tables
 from .export import plain_info
 
 MISSING = 'to_xarray needs xarray: python3-xarray of Debian and Ubuntu, xarray of PyPI'
-OVER_TIME = 'spectrum', 'steps', 'gas'  # which report together
+OVER_TIME = 'spectrum', 'steps', 'gas'  # topics that have the same times
 LARGEST = 2**31 - 1  # integer of netCDF by scipy; larger ones are floats, exact up to 2^53
 PHASES = {'lp_phases': tables.of_phases, 't_phases': tables.of_t_phases}
-LAST = 'spectrum', 'modes', 'covariant', 'localization'  # by index, of their last report
+LAST = 'spectrum', 'modes', 'covariant', 'localization'  # topics of which the last message is taken
 COURSES = 'cost', 'status'
 PLACES = {'state': msg.State, 'fields': msg.ModeField}
 
 
 def of(run):
-    """ImportError without xarray."""
+    """The Dataset of a run. Raises ImportError without xarray."""
     try:
         import xarray
     except ImportError as error:
@@ -59,7 +59,7 @@ def _spectrum(run):
 
 
 def _frames(run):
-    """(topic, frame, {name of its index: that of a dimension})"""
+    """Yields (topic, frame, {name of the frame's index: name of the dimension})."""
     for name in filter(run.has, OVER_TIME):
         counting = (one for one in run.messages(name) if _counts(run, one))
         messages = list({one.sim_time: one for one in counting}.values())
@@ -78,17 +78,17 @@ def _frames(run):
 
 
 def _counts(run, message):
-    """Not what came before the averaging, or before it was reset."""
+    """Whether a message came after the averaging began, or was last reset."""
     return not run.has('spectrum') or message.sim_time >= run.times[0]
 
 
 def _part(topic, frame, dimensions):
-    """Columns of a frame as variables over what its index is named after."""
+    """The columns of a frame as variables over the dimensions of its index."""
     if not len(frame.columns):
         return None
     made = frame.to_xarray()
     for name in frame.index.names if frame.index.nlevels > 1 else ():
-        values = frame.index.get_level_values(name).unique()  # their order, lost by unstacking
+        values = frame.index.get_level_values(name).unique()  # unstacking has lost their order
         made = made.reindex({name: values})
         made = made.assign_coords({name: values.to_numpy().astype(_kind(values))})
     for name in frame.columns:
@@ -102,7 +102,7 @@ def _kind(values):
 
 
 def _plain(values):
-    """Of words, empty where there are none; of what is none everywhere numbers."""
+    """An array that netCDF can hold: of words, '' for a missing one; of numbers otherwise."""
     if values.dtype != object:
         is_large = values.dtype.kind in 'iu' and values.size and abs(values).max() > LARGEST
         return values.astype(float) if is_large else values
@@ -113,7 +113,7 @@ def _plain(values):
 
 
 def _of_particles(run):
-    """(topic, messages by what they are named after, that name)"""
+    """Yields (topic, {value of the first dimension: message}, name of that dimension)."""
     if run.has('state'):
         yield 'state', {one.sim_time: one for one in run.messages('state')}, 'state_time'
     if run.fields:
@@ -121,7 +121,7 @@ def _of_particles(run):
 
 
 def _places(topic, messages, first):
-    """What stands at each particle, and in `fields` what is said of each vector."""
+    """The numbers of each particle and, in `fields`, of each vector."""
     import xarray
 
     one, described = next(iter(messages.values())), fields.of(PLACES[topic])

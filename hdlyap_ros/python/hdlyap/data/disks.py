@@ -1,5 +1,4 @@
-"""The topic ~state of a run -> positions and momenta of disks, spheres or dumbbells, one message at
-a time."""
+"""The topic ~state of a run -> positions and momenta of particles, one message at a time."""
 
 import numpy as np
 
@@ -7,9 +6,9 @@ from . import reader, space
 
 
 class Disks:
-    """`times` of the messages; what is said of a time is of the message nearest to it. Iterates
-    over (time, positions, momenta), arrays of N rows, x, y and of spheres z in each. What turns has
-    angles and spins as well: N numbers, none of others."""
+    """Positions and momenta of a run. `times` are those of the messages; a method takes the message
+    nearest to a time. Iterates over (time, positions, momenta), arrays of N rows with x, y and, in
+    space, z. Particles that rotate have N angles and spins, too; others have none."""
 
     def __init__(self, run):
         self._run = run

@@ -9,8 +9,8 @@ TERMS = 3
 
 
 class Curve:
-    """Of arrays, weighted with the errors; terms: 1 or 2 (None: 2, or c alone of one wave number).
-    Errors are multiplied by sqrt(chi^2 / freedom) where that exceeds 1."""
+    """A fit to arrays, weighted with their errors. terms: 1 or 2 (None: 2, but 1 if there is only
+    one wave number). Errors are multiplied by sqrt(chi^2 / freedom) if that is above 1."""
 
     prior_share = np.nan
 
@@ -36,18 +36,18 @@ class Curve:
 
     @property
     def correlation(self):
-        """Of c and c2."""
+        """The correlation of c and c2."""
         return float(self.covariance[0, 1] / (self.c_error * self.c2_error))
 
     def at(self, k):
-        """(lambda, its error) at a wave number."""
+        """lambda and its error at a wave number."""
         powers = _powers(k)
         return float(powers @ self.coefficients), float(np.sqrt(powers @ self.covariance @ powers))
 
 
 class LongBoxes(namedtuple('LongBoxes', 'c2 c2_error c3 c3_error box_error')):
-    """What a Steps message says of them: c2 / c and c3 / c with errors; the error of c of this box,
-    as a part of it."""
+    """What a Steps message says of long boxes: c2 / c and c3 / c with errors; and the relative
+    error of c in this box."""
 
     @classmethod
     def of(cls, message, letter):
@@ -56,9 +56,9 @@ class LongBoxes(namedtuple('LongBoxes', 'c2 c2_error c3 c3_error box_error')):
 
 
 class WithLongBoxes:
-    """The fit of the node [T12], of independent steps: least squares over the steps, each with its
-    error and its scatter, and two more observations, c2 / c and c3 / c of long boxes. All of these
-    errors are multiplied by the misfit where that exceeds 1."""
+    """The fit of the node [T12], for independent steps: least squares over the steps, each with its
+    error and its scatter, and over two more observations, c2 / c and c3 / c of long boxes. All
+    these errors are multiplied by the misfit if that is above 1."""
 
     terms = TERMS
 
@@ -77,7 +77,7 @@ class WithLongBoxes:
         shares = inverse @ _powers(k).T * weights
         self.coefficients = shares @ exponents
         self.c_sampling_error = np.sqrt(shares[0] ** 2 @ errors**2) if is_known else -1.0
-        left = np.diag(rows @ inverse @ rows.T)  # of the widths in long boxes
+        left = np.diag(rows @ inverse @ rows.T)  # what is left of the variances in long boxes
         self.prior_share = float(left.mean())
         off = np.append(exponents - _powers(k) @ self.coefficients, rows @ self.coefficients)
         chi2 = float(np.append(weights, (1.0, 1.0)) @ off**2)
@@ -88,13 +88,13 @@ class WithLongBoxes:
 
 
 def number_of(k):
-    """How many wave numbers these are; a square box has each twice."""
+    """The number of different wave numbers; a square box has each of them twice."""
     return len({round(float(one), 9) for one in k})
 
 
 def mean_difference(one, other, low, high, samples=101):
-    """(mean relative difference of two curves, other over one less 1, from low to high, its
-    error)."""
+    """The mean relative difference of two curves, other / one - 1, from low to high, and its
+    error."""
     powers = _powers(np.linspace(low, high, samples))
     first, second = powers @ one.coefficients, powers @ other.coefficients
     by_other = (powers / first[:, None]).mean(axis=0)

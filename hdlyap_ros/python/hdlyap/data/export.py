@@ -1,4 +1,4 @@
-"""A run, or seeds -> files for other programs: CSV, one for each table, or one npz of all."""
+"""A run, or Seeds -> files for other programs: a CSV file for each table, or one npz file."""
 
 import json
 import os
@@ -12,11 +12,11 @@ from .reader import Missing
 
 FRAMES = ('results', 'spectrum', 'steps', 'modes', 'phases', 't_phases', 'covariant')
 FRAMES += ('localization', 'gas', 'cost', 'status')
-OVER_TIME = '1/time unit'  # unit of what stands below Lyapunov indices
+OVER_TIME = '1/time unit'  # unit of columns that have Lyapunov indices as names
 
 
 def tables(run):
-    """{name: frame} of all that was recorded; of Seeds there are results, spectrum, steps and
+    """{name: frame} of all that was recorded; for Seeds these are results, spectrum, steps and
     gas."""
     found = {}
     for name in FRAMES:
@@ -29,7 +29,8 @@ def tables(run):
 
 
 def csv(run, folder):
-    """Writes them; their names. Two lines in front begin with #: the run, and the units."""
+    """Writes a CSV file for each table. Returns their names. Two lines with # come first: the run,
+    and the units."""
     os.makedirs(folder, exist_ok=True)
     paths = []
     for name, frame in tables(run).items():
@@ -40,8 +41,8 @@ def csv(run, folder):
 
 
 def npz(run, path):
-    """Writes them, a column of a frame as 'steps.exponent', and run_info and the units as JSON; its
-    name."""
+    """Writes all as an npz file: a column of a frame as 'steps.exponent', run_info and units as
+    JSON. Returns its name."""
     arrays = {'info': json.dumps(plain_info(run.info)), 'units': {}}
     for name, frame in tables(run).items():
         plain = frame.reset_index()
@@ -58,7 +59,7 @@ def npz(run, path):
                 arrays['units'][key] = unit
     arrays['units'] = json.dumps(arrays['units'])
     with whole.written(path) as unfinished, open(unfinished, 'wb') as file:
-        np.savez_compressed(file, **arrays)  # it would add .npz to a name without it
+        np.savez_compressed(file, **arrays)  # given a name it would add .npz
     return path
 
 

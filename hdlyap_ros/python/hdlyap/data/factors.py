@@ -1,5 +1,5 @@
-"""Structure messages -> the structure factors of every vector, the courses of the slowest vectors'
-amplitudes, and the line that these have in S(k, omega)."""
+"""Structure messages -> the structure factors of every vector, the amplitudes of the slowest
+vectors over time, and the line that these have in S(k, omega)."""
 
 from collections import deque, namedtuple
 
@@ -9,20 +9,20 @@ from . import space
 
 KEPT = 64  # slowest vectors of positive exponent whose amplitudes are kept
 LAST = 16384  # reports, 70 MB of amplitudes
-FREQUENCIES = 400  # of a spectrum
-PIECES = 4  # of a course, for the error of its line
-REPORTS = 4 * PIECES  # of the shortest course that has a line
-FLOOR = 0.1  # of the largest power: what is below is no part of the line
+FREQUENCIES = 400  # frequencies at which a spectrum is computed
+PIECES = 4  # pieces of a course, whose scatter gives the error of its line
+REPORTS = 4 * PIECES  # fewest reports of a course that has a line
+FLOOR = 0.1  # least power in a line over the largest
 # mean structure factors: along and across have a row for each wave, a column for each vector;
-# nodes: nx, ny and of spheres nz
+# nodes: nx, ny and, in space, nz
 Means = namedtuple('Means', 'samples nx ny wave_number along across nodes')
 Line = namedtuple('Line', 'omega error')
 DIRECTIONS = 'along', 'across'
 
 
 class StructureCourse:
-    """means: the last ones, None without; the amplitudes of the slowest vectors at each
-    of the last reports."""
+    """Collects messages. means: the last mean structure factors, None if there are none; besides it
+    keeps the amplitudes of the slowest vectors at the last reports."""
 
     def __init__(self):
         self.means = None
@@ -30,7 +30,7 @@ class StructureCourse:
         self._times, self._peaks, self._amplitudes = (deque(maxlen=LAST) for _ in range(3))
 
     def add(self, msg, positive_end):
-        """msg with numpy arrays."""
+        """Adds a message with numpy arrays."""
         means = means_of(msg)
         self.means = self.means if means is None else means
         end = min(positive_end, len(msg.peak))
@@ -41,8 +41,8 @@ class StructureCourse:
         self._amplitudes.append([amplitudes(msg, e)[:, kept] for e in DIRECTIONS])
 
     def of(self, indices, direction):
-        """(times, amplitudes[times, series]) of these vectors as long as none had another wave
-        than in the end: as many series as vectors times modulations."""
+        """times and amplitudes[times, series] of these vectors, since all of them have the waves
+        that they have in the end. There is a series for each vector and modulation."""
         if not self._times:
             return np.empty(0), np.empty((0, 0))
         columns = np.array([index - self.first for index in indices])
@@ -59,7 +59,7 @@ class StructureCourse:
 
 
 def means_of(msg):
-    """Of a message with numpy arrays; None if it has none."""
+    """The Means of a message with numpy arrays; None if it has none."""
     if not len(msg.along):
         return None
     shape, nodes = (len(msg.nx), len(msg.peak)), space.vectors(msg, 'n').astype(int)
@@ -68,16 +68,17 @@ def means_of(msg):
 
 
 def amplitudes(msg, direction):
-    """A row for each modulation, a column for each vector; across of spheres twice as many."""
+    """Amplitudes: a row for each modulation, a column for each vector. In space, across has twice
+    as many rows."""
     solid = len(msg.nz) > 0
     rows = 8 * (1 + DIRECTIONS.index(direction)) if solid else 4
     return np.array(getattr(msg, 'amplitude_' + direction)).reshape(rows, len(msg.peak))
 
 
 def power(times, series, omega):
-    """S(k, omega) of series[times, ..], summed over them, at frequencies omega; times at any
-    distance. With Hann's window, so that a line does not leak into others. Summed over frequencies
-    of both signs, 2 pi / length apart, it is the mean square."""
+    """S(k, omega) at frequencies omega, summed over the series in series[times, ..]. Times may have
+    any distances. Hann's window keeps a line from leaking into others. The sum over frequencies of
+    both signs, 2 pi / length apart, is the mean square."""
     times = times - times[0]
     window = (1 - np.cos(2 * np.pi * times / times[-1])) * np.gradient(times)
     turned = np.exp(-1j * np.outer(omega, times)) @ (window[:, np.newaxis] * series)
@@ -85,14 +86,16 @@ def power(times, series, omega):
 
 
 def frequencies(times):
-    """From 0 to the largest that reports at these times tell from a smaller one."""
+    """Frequencies from 0 to the largest that reports at these times can distinguish from smaller
+    ones."""
     return np.linspace(0, np.pi / np.median(np.diff(times)), FREQUENCIES)
 
 
 def line(times, series):
-    """Middle of the line with the largest power, half of its frequency to either side, and its
-    standard error from pieces of the course; None of a course that is too short. A line that is not
-    told from one at 0, as of what does not turn, is at 0 within what would be told."""
+    """The middle of the line with the largest power, averaged from half to 1.5 times its frequency,
+    and its standard error from pieces of the course; None if the course is too short. A line that
+    cannot be distinguished from one at 0, as of modes that do not rotate, is at 0; its error is the
+    resolution."""
     if len(times) < REPORTS or not (np.diff(times) > 0).all():
         return None
     whole = _middle(times, series, _largest(times, series))
@@ -110,12 +113,13 @@ def _largest(times, series):
 
 
 def _resolution(times):
-    """Half of the width of a line of what turns evenly."""
+    """Half of the width of a line, for an even rotation."""
     return 4 * np.pi / (times[-1] - times[0])
 
 
 def _middle(times, series, about):
-    """Twice, as the first one moves what is looked at."""
+    """The middle of a line near a frequency. It is computed twice, because the first result moves
+    the range of frequencies."""
     for _ in range(2 if about > 0 else 0):
         omega = about * np.linspace(0.5, 1.5, 301)
         found = power(times, series, omega)

@@ -1,6 +1,6 @@
-"""Message -> what its definition says of its fields: what they are, their units, whether -1 means
-unknown, and the names of the constants that they hold. A field without words of its own belongs to
-the comment above it."""
+"""Message -> what its definition says about its fields: what they are, their units, whether -1
+means unknown, and the names of the constants that they hold. If a field has no comment, the comment
+above it describes it, too."""
 
 import re
 from collections import namedtuple
@@ -17,13 +17,13 @@ Field = namedtuple('Field', 'unit unknown what')
 
 
 def of(message):
-    """{name: Field} of a message or of its type; a unit is empty where there is none."""
+    """{name: Field} of a message or of its type. The unit of a field without one is empty."""
     return _parsed(message._full_text)
 
 
 def words(message, field):
-    """{value: name} of a field that is 'one of FIRST .. LAST': a constant's name is what its
-    comment says before its first colon."""
+    """{value: name} of a field that is 'one of FIRST .. LAST'. The name of a constant is the text
+    before the first colon of its comment."""
     own = _own(message._full_text)
     first, last = CHOICE.search(dict(LINE.findall(own))[field]).groups()
     constants = CONSTANT.findall(own)
@@ -33,7 +33,7 @@ def words(message, field):
 
 
 def _own(text):
-    """What follows are the types that it is made of."""
+    """The definition of the message, without the definitions of its fields' types, which follow."""
     return text.partition('=' * 80)[0]
 
 

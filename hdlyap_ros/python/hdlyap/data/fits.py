@@ -1,5 +1,5 @@
-"""Steps message -> its fits, each with what it stands on: the relation, its wave numbers, and how
-much of its curvature long boxes say. `chosen` makes fits of another form or over other wave
+"""Steps message -> its fits, each with its basis: the relation, its wave numbers, and the share of
+its curvature that comes from long boxes. `chosen` makes fits of another form or over other wave
 numbers."""
 
 import copy
@@ -10,15 +10,15 @@ from hdlyap.numbers import with_error
 
 from . import dispersion, steps
 
-SAME = 1e-9  # relative: wave numbers of one box
-# by the number of terms: the node fits three, with what long boxes say of c2 and c3
+SAME = 1e-9  # relative difference below which wave numbers are the same
+# relations by their number of terms. The node fits three, with c2 and c3 of long boxes
 RELATIONS = {1: 'c k', 2: 'c k + c2 k^2', 3: 'c k + c2 k^2 + c3 k^3'}
 KINDS = {'t': steps.T, 'l': steps.LP}
 
 
 class Fit:
-    """Of one kind of step: c, c2 and c3, or v of the LP phases. count: wave numbers, of v phases;
-    0 without a fit."""
+    """A fit to one kind of step: c, c2 and c3, or v of the LP phases. count: number of wave numbers
+    or, for v, of phases; 0 if there is no fit."""
 
     def __init__(self, message, letter, kind):
         self.kind = kind
@@ -28,12 +28,12 @@ class Fit:
         self.k_min = getattr(message, f'{letter}_k_min')
         self.k_max = getattr(message, f'{letter}_k_max')
         self.prior_share = nan if letter == 'v' else getattr(message, f'{letter}_prior_share')
-        # those of v are in LpPhases
+        # the waves of v are in LpPhases
         self.waves = [] if letter == 'v' else _waves(message, kind, (self.k_min, self.k_max))
         names = _coefficients(message, letter, self.count)
         self.terms = len(names)
-        # (name, value, error) of each, and what another run of the same box may differ by; NaN of
-        # what the form decides
+        # (name, value, error) of each coefficient, and by how much another run of the same box may
+        # differ; NaN if the form of the fit decides
         self.values = [
             (name[0] + name[1:].upper(), getattr(message, name), getattr(message, name + '_error'))
             for name in names
@@ -44,19 +44,19 @@ class Fit:
         elif not isnan(self.prior_share):
             sampling = getattr(message, f'c_{letter}_sampling_error')
             self.sampling_errors = [sampling, nan, nan][: self.terms]
-        # of LP steps in a circle, which follow no relation
+        # LP steps in a circle follow no relation
         self.is_unrelated = letter != 'v' and isnan(getattr(message, f'{letter}_long_c2'))
 
     @property
     def form(self):
-        """In words; v has only one."""
+        """The relation as text; v has only one."""
         if self.symbol == 'v':
             return ''
         return RELATIONS.get(self.terms, '?')
 
     @property
     def basis(self):
-        """What it stands on: form, wave numbers, lever arm, share of long boxes."""
+        """The basis of the fit: form, wave numbers, lever arm, share of long boxes."""
         if self.symbol == 'v':
             return f'|omega| / k of the LP phases at {self._range()}'
         waves = 'wave number' + ('s' if self.count > 1 else '')
@@ -68,12 +68,12 @@ class Fit:
 
     @property
     def measured(self):
-        """Its first coefficient, beside its misfit."""
+        """The first coefficient and the misfit."""
         return with_error(*self.values[0][1:]) + self.beside
 
     @property
     def beside(self):
-        """', misfit 6.5'; nothing while it is not known."""
+        """The misfit as ', misfit 6.5'; '' if it is not known."""
         return f', misfit {self.misfit:.1f}' if self.misfit >= 0 else ''
 
     def _range(self):
@@ -81,7 +81,7 @@ class Fit:
         return ' .. '.join(ends)
 
     def is_like(self, other):
-        """Whether both are of one kind, form and set of wave numbers."""
+        """Whether both fits have the same kind, form and wave numbers."""
         mine, others = ([fit.k_min, fit.k_max, *fit.waves] for fit in (self, other))
         return (
             (self.symbol, self.terms) == (other.symbol, other.terms)
@@ -91,15 +91,15 @@ class Fit:
 
 
 def of(message):
-    """T, LP and v; none without a message."""
+    """The fits of T and LP steps and of v; [] without a message."""
     if message is None:
         return []
     return [Fit(message, 't', steps.T), Fit(message, 'l', steps.LP), Fit(message, 'v', steps.LP)]
 
 
 def alone(message, fit, terms):
-    """A dispersion.Curve of c k, or of c k + c2 k^2, over the steps of a fit; None if their errors
-    are not known."""
+    """A dispersion.Curve, c k or c k + c2 k^2, over the steps of a fit; None if their errors are
+    not known."""
     found = _fitted(message, fit.kind, (fit.k_min, fit.k_max))
     if not found or min(step.std_error for step in found) <= 0:
         return None
@@ -109,7 +109,7 @@ def alone(message, fit, terms):
 def chosen(message, form=None, k=None):
     """A copy of a Steps message whose fits are of `form` (a value of RELATIONS; None: the node's)
     over the steps with wave numbers from k[0] to k[1] (None: all). Errors are those of independent
-    steps. RecordingError for another form, or a range that does not go up."""
+    steps. Raises RecordingError for any other form, or if the range does not go up."""
     if message is None or form is None and k is None:
         return message
     if form not in (None, *RELATIONS.values()):
@@ -118,7 +118,7 @@ def chosen(message, form=None, k=None):
     if k is not None and not 0 <= k[0] <= k[1]:
         raise RecordingError(f'k from {k[0]:g} to {k[1]:g}: must go up, from 0 or above')
     terms = {words: number for number, words in RELATIONS.items()}.get(form, 3)
-    if k is None and terms == 3:  # the node's own
+    if k is None and terms == 3:  # that is the fit of the node
         return message
     message = copy.copy(message)
     for letter, kind in KINDS.items():
@@ -129,7 +129,7 @@ def chosen(message, form=None, k=None):
 
 
 def add_arguments(parser):
-    """--form and --k of a command; choice(args) is then what chosen() takes."""
+    """Adds --form and --k to a command; choice(args) then gives what chosen() takes."""
     text = 'of the fits to steps (default: %(choices)s, the last with what long boxes say)'
     parser.add_argument('--form', choices=list(RELATIONS.values()), help=text)
     text = 'fits over wave numbers in this range alone [1/sigma]'
@@ -141,7 +141,7 @@ def choice(args):
 
 
 def _fit(message, letter, found, terms):
-    """{field: value} of a fit to these steps."""
+    """{field of Steps: value} of a fit to these steps."""
     waves = [step.wave_number for step in found]
     made = {
         f'{letter}_points': dispersion.number_of(waves),
@@ -174,7 +174,7 @@ def _names(letter):
 
 
 def _coefficients(message, letter, count):
-    """Names of those that are fitted."""
+    """The names of the coefficients that are fitted."""
     if letter == 'v' or not count:
         return ['v'][:count]
     c, *others = _names(letter)
@@ -182,7 +182,7 @@ def _coefficients(message, letter, count):
 
 
 def _fitted(message, kind, k=None):
-    """The steps of a fit: resolved ones of the positive half."""
+    """The steps of a fit: resolved steps of the positive half."""
     low, high = k or (0.0, float('inf'))
     return [
         step
@@ -198,7 +198,7 @@ def _columns(found):
 
 
 def _waves(message, kind, k):
-    """Distinct wave numbers of the steps of a fit, smallest first."""
+    """The different wave numbers of the steps of a fit, smallest first."""
     found = sorted(step.wave_number for step in _fitted(message, kind, k))
     return [
         k

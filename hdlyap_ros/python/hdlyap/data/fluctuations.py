@@ -1,21 +1,21 @@
-"""Samples of two runs of one system -> how sums of their exponents fluctuate together, and by that
-whether their spectra are one."""
+"""Samples of two runs of one system -> how sums of their exponents fluctuate, and from that whether
+their spectra agree."""
 
 import numpy as np
 from scipy.special import betainc
 
-MOST = 100  # blocks of a run
-FEWEST = 8  # blocks of both runs together: of fewer nothing is said
+MOST = 100  # most blocks of a run
+FEWEST = 8  # fewest blocks of both runs together; with fewer nothing is known
 FREEDOM_OF_GROUP = 6  # degrees of freedom for each group of exponents
-GROUPS = 16  # at most
+GROUPS = 16  # most groups
 
 
 class Fluctuations:
-    """Of the exponents of two sides, each a list of data.run.Run: samples are gathered into blocks
-    of about equal length, whose deviations from the mean of their run, times the root of the
-    length, are alike in both. Where errors that a run states (`stated`: std_error^2 times averaged
-    time of each exponent) are larger than those of blocks, blocks remember each other, and count
-    for as much less."""
+    """Fluctuations of the exponents of two sides, each a list of data.run.Run. Samples are gathered
+    into blocks of about equal length. Their deviations from the mean of their run, times the root
+    of the length, have the same distribution on both sides. `stated` is std_error^2 times averaged
+    time of each exponent: where it is larger than that of blocks, these are correlated, and
+    deviations are scaled up to it."""
 
     def __init__(self, sides, stated):
         rows = [block for runs in sides for run in runs for block in _deviations(run)]
@@ -28,25 +28,26 @@ class Fluctuations:
             self.is_known = bool((squares > 0).all())
 
     def error(self, weights, times):
-        """Of the difference of sum(weights * exponents) between sides of these averaged times."""
+        """The error of the difference of sum(weights * exponents) between sides with these averaged
+        times."""
         square = ((self._rows @ weights) ** 2).sum() / self.freedom
         return float(np.sqrt(square * np.sum(1 / np.asarray(times))))
 
     def spectra(self, difference, taken, times):
-        """(Hotelling's T^2, groups, chance) of the difference between two spectra, of those
-        exponents that are `taken`, as means over as many groups of neighbours as there are blocks
-        for: of Gaussian blocks T^2 (f - g + 1) / (f g) has the F distribution of g and f - g + 1
+        """(Hotelling's T^2, groups, chance) of the difference between two spectra. The exponents
+        that are `taken` are averaged over groups of neighbours, as many as there are enough blocks
+        for. For Gaussian blocks T^2 (f - g + 1) / (f g) has the F distribution with g and f - g + 1
         degrees of freedom (Hotelling 1931)."""
         f = self.freedom
         g = min(len(taken), GROUPS, max(1, f // FREEDOM_OF_GROUP))
         groups = np.zeros((len(difference), g))
         for group, members in zip(groups.T, np.array_split(taken, g)):
             group[members] = 1 / len(members)
-        # by Q R of the deviations: what is nearly singular keeps its digits
+        # Q R of the deviations keeps digits even if their covariance is nearly singular
         r = np.linalg.qr(self._rows @ groups / np.sqrt(f), mode='r')
         by_error = np.linalg.lstsq(r.T, groups.T @ difference, rcond=None)[0]
         t2 = float(by_error @ by_error / np.sum(1 / np.asarray(times)))
-        x = t2 / (t2 + f)  # of the beta distribution: the F one, written by its incomplete integral
+        x = t2 / (t2 + f)  # the F distribution is an incomplete beta function of this
         return t2, g, float(betainc((f - g + 1) / 2, g / 2, 1 - x))
 
 
@@ -66,7 +67,7 @@ def _deviations(run):
 
 
 def _memory(squares, stated):
-    """By how much more than blocks say each exponent fluctuates, as seen of its neighbours, too."""
+    """By which factor each exponent fluctuates more than blocks say; the median over neighbours."""
     with np.errstate(divide='ignore', invalid='ignore'):
         ratios = np.sqrt(stated / squares)
     ratios = np.where(np.isfinite(ratios), ratios, 1.0)

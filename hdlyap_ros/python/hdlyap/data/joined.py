@@ -1,5 +1,5 @@
-"""bags -> the runs that they hold. Files of a recording that was split, and runs that were resumed
-from a checkpoint, are parts of one run; other seeds are other runs of the same system."""
+"""Bags -> the runs in them. Files of a split recording, and runs that were resumed from a
+checkpoint, are parts of one run; bags with different seeds are several runs of one system."""
 
 import math
 import os
@@ -8,26 +8,26 @@ from collections import namedtuple
 from . import reader
 from .reader import RecordingError
 
-# what bags that belong together have in common: all that decides what is measured
-OF_SPHERES = ('particles', 'aspect_z', 'boundary_z', 'wave_nz')  # alike of all disks
+# parameters that bags of one system have to share: all that decide what is measured
+OF_SPHERES = ('particles', 'aspect_z', 'boundary_z', 'wave_nz')  # the same for all disks
 SYSTEM = ('container', 'number', 'density', 'aspect', 'boundary_x', 'boundary_y', 'own')
 SYSTEM += OF_SPHERES[:3]
 MEASURED = SYSTEM + ('vectors', 'wave_nx', 'wave_ny', 'wave_nz')
-# what a resumed run has as before (HD_AS_BEFORE of hdlyap/parameters.inc), so parts of one run, too
+# parameters that a resumed run keeps (HD_AS_BEFORE of hdlyap/parameters.inc): all parts share them
 OF_ONE_RUN = SYSTEM + ('seed', 'exponents', 'equilibration', 'warmup', 'interval', 'accuracy')
 OF_ONE_RUN += ('phase_interval', 'max_wave_number', 'max_mode_number', 'observables')
 OF_ONE_RUN += ('covariant_window', 'covariant_transient', 'covariant_sampling')
 UNSEEN = ('spectrum', 'state')  # observables that change nothing in the core, and may differ
-SAME = 1e-9  # relative: parameters that were given as the same decimal number
+SAME = 1e-9  # relative difference below which parameters are the same
 
-# one run in one file, up to a simulated time
+# a part: one run in one file, up to a simulated time
 Part = namedtuple('Part', 'path node run_id info until')
 
 
 def packed(parts, kinds):
-    """Messages of these types but run_info, each once: a resumed run says again what the one before
-    said after its checkpoint."""
-    last = {}  # (run_id, type): the last number of a file before
+    """Yields messages of these types except run_info, each once. A resumed run repeats what the run
+    before it sent after the checkpoint."""
+    last = {}  # (run_id, type): last sequence number in the files before
     averages = _Averages()
     for part in parts:
         newest = {}
@@ -44,8 +44,9 @@ def packed(parts, kinds):
 
 
 class _Averages:
-    """Of the parts of one run: each goes on averaging where the one before ended, or begins anew
-    later. Of two runs of one seed only one may have been reset."""
+    """Checks the averages of the parts of a run: each part goes on averaging where the one before
+    ended, or begins anew later. Otherwise these are two runs with one seed, one of which was
+    reset."""
 
     def __init__(self):
         self._part, self._time, self._averaged, self._longest = None, 0.0, 0.0, 0.0
@@ -53,7 +54,7 @@ class _Averages:
     def add(self, part, packed):
         time, averaged = packed.sim_time, packed.averaged_time
         if self._averaged > 0 and part.run_id != self._part.run_id:
-            # averages end at most one interval before the report; some reports may be lost
+            # averages end at most one interval before a report, and some reports may be lost
             late = self._longest + time - self._time
             begun, before = time - averaged, self._time - self._averaged
             if abs(begun - before) > late and begun < self._time - late:
@@ -66,8 +67,8 @@ class _Averages:
 
 
 def runs(paths, node=None, number=None):
-    """[(parts in their order, number of runs in the bag)] of one bag or several, one for each seed:
-    of each bag its last run, or the one of that number, from 1."""
+    """[(parts in their order, number of runs in the bag)] of the bags, with one element for each
+    seed. number: which run of each bag, from 1; None: the last one."""
     if not paths:
         raise RecordingError('no bag: name one or several')
     paths = {os.path.realpath(path): path for path in map(os.fspath, paths)}.values()
@@ -83,7 +84,7 @@ def runs(paths, node=None, number=None):
 
 
 def _chosen(path, node, number):
-    """(Part, number of runs in the bag)"""
+    """The chosen Part of a bag, and the number of runs in the bag."""
     infos = list(reader.run_infos(path, node).items())
     wanted = len(infos) if number is None else number
     if not 1 <= wanted <= len(infos):
@@ -92,7 +93,8 @@ def _chosen(path, node, number):
 
 
 def different(a, b, names):
-    """(name, value of a, value of b) of each of them in which two run_infos differ."""
+    """Yields (name, value of a, value of b) for each of these names in which two run_infos
+    differ."""
     for name in names:
         values = [_value(info, name) for info in (a, b)]
         both = all(isinstance(value, float) for value in values)
@@ -117,7 +119,8 @@ def _refuse_others(parts, names, why):
 
 
 def _in_order(parts):
-    """Of one seed: each up to the checkpoint that the next one was resumed from."""
+    """The parts of one seed in their order. Each one ends at the checkpoint from which the next one
+    was resumed."""
     begun = {part.run_id: part.info.resumed_time for part in parts}
     anew = [part for part in parts if begun[part.run_id] < 0]
     if len({part.run_id for part in anew}) > 1:
@@ -126,7 +129,7 @@ def _in_order(parts):
             'one trajectory twice, no two samples'
         )
     _refuse_others(parts, OF_ONE_RUN, 'are no parts of one run')
-    # no clock's time: that may be set back
+    # sorted by simulated time, because clocks may be set back
     parts = sorted(parts, key=lambda part: (begun[part.run_id], reader.start(*part[:3])))
     for a, b in zip(parts, parts[1:]):
         if a.run_id != b.run_id and begun[a.run_id] == begun[b.run_id]:

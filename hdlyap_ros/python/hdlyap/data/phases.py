@@ -1,4 +1,4 @@
-"""LpPhases messages -> the course of every phase, as curves without gaps."""
+"""LpPhases messages -> every phase over time, as curves without gaps."""
 
 import numpy as np
 
@@ -6,24 +6,24 @@ from hdlyap.numbers import known
 
 from .course import Course
 
-SHORTEST = 3  # points of a curve
+SHORTEST = 3  # fewest points of a curve
 
 
 def goes_on(time, tracked_time):
-    """From each report to the next, whether the tracking is the same: one that began anew knows a
-    shorter time than has gone by. tracked_time: of one phase, or columns of several."""
+    """Whether tracking went on from each report to the next one. If it began anew, its tracked time
+    is shorter than the time that has gone by. tracked_time: of one phase, or columns of several."""
     return (np.diff(tracked_time, axis=0).T > 0.5 * np.diff(time)).T
 
 
 class PhaseCourse:
-    """What the last message says, and phase and tracked time of every phase at every report."""
+    """The last message, and phase and tracked time of every phase at every report."""
 
     def __init__(self):
         self.last = None
         self._course = Course()
 
     def add(self, msg):
-        """Two reports can tell the same state: the second one adds nothing."""
+        """Adds a message. Two reports can have the same state; the second one is ignored."""
         known = self.last is not None and self.last.sim_time == msg.sim_time
         self.last = msg
         if known:
@@ -34,11 +34,11 @@ class PhaseCourse:
         self._course.add((msg.sim_time, *phases, *times))
 
     def of_step(self, step):
-        """Numbers of the phases of an element of Steps.steps."""
+        """The numbers of the phases that belong to an element of Steps.steps."""
         return [number for number, phase in enumerate(self.last.phases) if phase.step == step]
 
     def curves(self, number):
-        """(times, phases) of each stretch that was tracked without a break."""
+        """(times, phases) of each stretch that was tracked without a gap."""
         table = self._course.table()
         time, phase = table[:, 0], table[:, 1 + number]
         tracked = table[:, 1 + len(self.last.phases) + number]
@@ -50,19 +50,20 @@ class PhaseCourse:
 
 
 def regression(time, phase):
-    """Values of the straight line through the phases."""
+    """The values of the straight line that fits the phases."""
     slope, start = np.polyfit(time - time[0], phase, 1)
     return start + slope * (time - time[0])
 
 
 def turning(step, phases):
-    """(|omega|, its error, number of tracked phases) of a step and its phases."""
+    """|omega| of a step, its error, and the number of its phases that are tracked."""
     tracked = sum(phase.state == phase.TRACKED for phase in phases)
     return abs(step.omega), float(known(step.omega_error)), tracked
 
 
 def apart(phases, ranked):
-    """Of the numbers in ranked, the first ones that have neither vector nor pair in common."""
+    """The numbers of phases in `ranked`, in this order, without those that share a vector or a pair
+    with one before."""
     found = []
     for number in ranked:
         if all(

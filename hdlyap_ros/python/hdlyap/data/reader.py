@@ -1,6 +1,6 @@
-"""bag file -> what one node said, message by message: the one place that opens a bag. Streams, so a
-bag may be far larger than the memory. Whatever is wrong with a bag is a RecordingError; its texts
-come without control characters and cut, because they are anybody's."""
+"""A bag -> the messages of one node, one after the other. This is the only module that opens a bag.
+It streams, so a bag may be far larger than memory. Anything wrong with a bag raises RecordingError.
+Texts in a bag may come from anybody, so control characters are replaced and long texts are cut."""
 
 import contextlib
 import math
@@ -28,7 +28,7 @@ NAME, PATH, LINE, LIST = 200, 4096, 8192, 4096  # longest text, path, error; mos
 PATHS = ('checkpoint', 'resume')
 VERSION = re.compile(r'\d[\w.+~-]{0,30}', re.ASCII)
 FIRST_LINE = 100  # bytes that the first line of a bag (#ROSBAG V2.0) never has
-# arrays of as many elements as the first of them
+# arrays that must have the same length
 ALIKE = {
     SPECTRUM: ('exponents', 'std_errors', 'local_exponents', 'cos_theta', 'dp_dq_ratio'),
     STATE: ('x', 'y', 'px', 'py'),
@@ -37,29 +37,29 @@ ALIKE = {
     COVARIANT: ('exponents', 'std_errors', 'start_mismatch', 'widths', 'cos_theta'),
     LOCALIZATION: ('widths', 'std_errors', 'widths_now'),
 }
-# as many again of spheres, and of what turns; none of disks
+# arrays of that length in space, or if particles rotate; otherwise they are empty
 OF_SPHERES = {STATE: ('z', 'pz'), FIELD: ('z', 'pz', 'dqz', 'dpz'), STRUCTURE: ('nz',)}
 OF_TURNING = {STATE: ('angle', 'spin'), FIELD: ('angle', 'spin', 'dq_angle', 'dp_angle')}
 AMPLITUDES = 'amplitude_along', 'amplitude_across'
 
 
 class RecordingError(Exception):
-    """One line for the user: what is wrong with which bag."""
+    """The text is a line for the user: what is wrong with which bag."""
 
     def __init__(self, text):
         super().__init__(plain(text, LINE))
 
 
 class Missing(RecordingError):
-    """Was not recorded, or not measured."""
+    """Something was not recorded, or not measured."""
 
 
 class Damaged(Exception):
-    """What a message says that none of a node's says."""
+    """A message says something that no node can have sent."""
 
 
 def plain(text, longest=NAME):
-    """What does nothing to a terminal but stand there, in one line."""
+    """A text that a terminal shows in one line and does not obey; at most `longest` characters."""
     text = text if len(text) <= longest else text[: longest - 3] + '...'
     return ''.join(
         letter if letter.isprintable() else ' ' if letter.isspace() else '?' for letter in text
@@ -67,13 +67,14 @@ def plain(text, longest=NAME):
 
 
 class Packed:
-    """A serialised message of ours. To unpack a field of every mode only to throw it away would
-    cost more than all else; header, run_id and sim_time begin every message but run_info."""
+    """A serialised message of hdlyap. Unpacking all messages, most of which are not needed, would
+    cost more than all else. Every message but run_info begins with header, run_id and sim_time,
+    which are read from the bytes."""
 
     def __init__(self, path, kind, data, recorded):
         self.path, self.kind, self.recorded = path, kind, recorded  # its type, its time in the bag
         self._data = data
-        _, after_frame = self._string(12)  # seq and stamp
+        _, after_frame = self._string(12)  # after seq and stamp
         self.run_id, self._after_run_id = self._string(after_frame)
 
     def _string(self, at):
@@ -90,25 +91,25 @@ class Packed:
 
     @property
     def averaged_time(self):
-        """Of a Spectrum: it follows sim_time."""
+        """averaged_time of a Spectrum, where it follows sim_time."""
         return struct.unpack_from('<d', self._data, self._after_run_id + 8)[0]
 
     @property
     def version(self):
-        """Of a RunInfo: it follows run_id."""
+        """version of a RunInfo, where it follows run_id."""
         return self._string(self._after_run_id)[0]
 
     def field_index(self):
-        """Lyapunov index of a ModeField: it follows sim_time."""
+        """The Lyapunov index of a ModeField, where it follows sim_time."""
         return struct.unpack_from('<I', self._data, self._after_run_id + 8)[0]
 
     def field_wave(self, directions=2):
-        """kind, nx, ny and of spheres nz of a ModeField, which follow the index."""
+        """kind, nx, ny and, in space, nz of a ModeField, where they follow the index."""
         return struct.unpack_from('<B' + directions * 'I', self._data, self._after_run_id + 12)
 
     def message(self, numpy=None):
-        """Its arrays are lists; with the module numpy they are its arrays, which share memory with
-        what is packed."""
+        """The message. Its arrays are lists or, given the module numpy, numpy arrays, which share
+        memory with the packed message."""
         blank = TYPES[self.kind]()
         try:
             if numpy:
@@ -116,7 +117,7 @@ class Packed:
             else:
                 blank.deserialize(self._data)
             check(self.kind, blank)
-        except Exception as error:  # whatever a damaged byte makes of genpy
+        except Exception as error:  # damaged bytes make genpy raise anything
             if _is_of_another(error):
                 raise
             raise _damaged(self.path, error)
@@ -124,7 +125,7 @@ class Packed:
 
 
 def check(kind, message):
-    """What all that reads a message relies on; Damaged if it does not hold."""
+    """Checks what all readers of a message rely on. Raises Damaged if it does not hold."""
     lengths, *of_some = (
         {len(getattr(message, name)) for name in names.get(kind, ())}
         for names in (ALIKE, OF_SPHERES, OF_TURNING)
@@ -156,8 +157,8 @@ def check(kind, message):
 
 def run_infos(path, node=None):
     """{run_id: run_info} of every run of the given node, or of the only one in the bag, in their
-    order; each file of a bag that was split has that of the first. It is published again with each
-    change: the one that knows of most."""
+    order. run_info is published again after each change of a parameter; the one with most changes
+    is taken."""
     with opened(path) as bag:
         topics = _topics(bag, path, node, (RUN_INFO,))
         runs = {}
@@ -171,7 +172,7 @@ def run_infos(path, node=None):
 
 
 def changes(info):
-    """How many parameters were changed while the run went on."""
+    """The number of changes of parameters during the run."""
     return len(info.changes)
 
 
@@ -184,35 +185,35 @@ def _cleaned(info):
             setattr(info, name, [plain(text, longest) for text in value[:LIST]])
         elif kind.endswith('[]'):
             setattr(info, name, value[:LIST])
-    for change in getattr(info, 'changes', ()):  # which have none themselves
+    for change in getattr(info, 'changes', ()):  # a change has no changes
         _cleaned(change)
     return info
 
 
 def messages(path, node=None, kinds=TYPES, at=None):
-    """Packed messages of these types of the given node, or of the only one in the bag, in their
-    order; or those alone that were recorded at that time."""
+    """Yields packed messages of these types from the given node, or from the only one in the bag,
+    in their order. at: only messages that were recorded at this time."""
     with opened(path) as bag:
         yield from _packed(bag, _topics(bag, path, node, kinds), at)
 
 
 def start(path, node, run_id):
-    """Simulated time of the first message of a run in it."""
+    """The simulated time of the first message of a run in a bag."""
     later = messages(path, node, [kind for kind in TYPES if kind != RUN_INFO])
     return next((packed.sim_time for packed in later if packed.run_id == run_id), math.inf)
 
 
 def recorded(bag, topics=None, at=None):
-    """(topic, (type, data, ..), time), in the order in which they came: rosbag itself goes by
-    times, and mixes them where the clock was set back."""
+    """Yields (topic, (type, data, ..), time) in the order in which messages came. rosbag would sort
+    by time, and mix them if the clock was set back."""
     index = bag._get_entries(bag._get_connections(topics))
     places = sorted(entry.position for entry in index if at is None or entry.time == at)
     return (_read(bag, place) for place in places)
 
 
 def _read(bag, place):
-    """rosbag would write a program of the definition that stands in the bag, and run it: a bag must
-    not be its author. Ours are read with the definitions that are installed."""
+    """Reads a message. rosbag would make a program from the definition in the bag and run it, which
+    would let a bag run code. Messages of hdlyap are read with the installed definitions."""
     made = rosbag.bag._get_message_type
     rosbag.bag._get_message_type = lambda connection: None
     try:
@@ -223,7 +224,7 @@ def _read(bag, place):
 
 @contextlib.contextmanager
 def opened(path):
-    """The rosbag.Bag."""
+    """Opens a bag as a rosbag.Bag."""
     try:
         _refuse_no_bag(path)
         with rosbag.Bag(path) as bag:
@@ -237,7 +238,7 @@ def opened(path):
         )
     except rosbag.ROSBagException as error:
         raise RecordingError(f'{path}: not a readable bag: {error}')
-    except Exception as error:  # whatever a damaged byte makes of rosbag and genpy
+    except Exception as error:  # damaged bytes make rosbag and genpy raise anything
         if _is_of_another(error):
             raise
         if isinstance(error, OSError):
@@ -248,14 +249,15 @@ def opened(path):
 
 
 def _is_of_another(error):
-    """No bag is to blame for who has not answered, nor for a mistake in this package."""
+    """Whether an error is not the fault of a bag: somebody has not answered, or this package has a
+    mistake."""
     if isinstance(error, ConnectionError):
         return True
     return isinstance(error, fault.OURS) and fault.is_in(error, PACKAGE) or fault.is_of_others(error)
 
 
 def _refuse_no_bag(path):
-    """What rosbag would wait for, or read without end, for the first line of a bag."""
+    """Refuses a file for whose first line rosbag would wait, or read on forever."""
     if not stat.S_ISREG(os.stat(path).st_mode):
         raise RecordingError(f'{path}: not a readable bag: no regular file')
     with open(path, 'rb') as file:
@@ -268,7 +270,7 @@ def _damaged(path, error):
 
 
 def _unfinished(path):
-    """rosbag record gives a bag its name when it is whole."""
+    """A hint if the bag is still being recorded: rosbag record renames it at the end."""
     active = path + '.active'
     return (
         f'; {active} is there: it is still recorded, or was cut off, and then needs '
@@ -279,7 +281,7 @@ def _unfinished(path):
 
 
 def _topics(bag, path, node, kinds):
-    """Topics with messages of these types, below one node's name."""
+    """The topics of one node with messages of these types."""
     nodes = {}
     for one in bag._get_connections():
         if one.datatype in TYPES:
@@ -297,7 +299,7 @@ def _topics(bag, path, node, kinds):
 
 
 def refuse_others(bag, connections):
-    """Of messages of ours with another definition than the one that is installed."""
+    """Refuses messages of hdlyap whose definition differs from the installed one."""
     for one in connections:
         if one.datatype in TYPES and one.md5sum != TYPES[one.datatype]._md5sum:
             raise RecordingError(
@@ -308,7 +310,7 @@ def refuse_others(bag, connections):
 
 def _writer(bag, connections):
     infos = [one.topic for one in connections if one.datatype == RUN_INFO]
-    with contextlib.suppress(Exception):  # whatever it had in their place
+    with contextlib.suppress(Exception):  # another version may have anything there
         _, raw, time = next(iter(recorded(bag, infos)))
         found = VERSION.fullmatch(Packed(bag.filename, RUN_INFO, raw[1], time).version)
         return f'written by hdlyap {found.group()}'
@@ -316,7 +318,7 @@ def _writer(bag, connections):
 
 
 def _packed(bag, topics, at=None):
-    """Of these topics; none without a topic."""
+    """Yields the packed messages of these topics; none if there is no topic."""
     if topics:
         found = recorded(bag, topics, at)
         for _, raw, time in Progress('reading').over(found, bag.get_message_count(topics)):

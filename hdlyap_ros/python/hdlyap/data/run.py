@@ -1,5 +1,5 @@
-"""One run as it was recorded, or said by now -> numpy arrays and pandas frames, read when they are
-first asked for."""
+"""One run, as recorded or, from a node, so far -> numpy arrays and pandas frames, which are read
+when they are first needed."""
 
 import heapq
 from collections import deque, namedtuple
@@ -28,7 +28,7 @@ FRAMES = {
     'localization': tables.of_arrays,
     'gas': tables.of_gas,
 }
-# name of an array: where its unit is said
+# name of an array: the field whose unit it has
 ARRAYS = {
     'times': (msg.Spectrum, 'sim_time'),
     'averaged_times': (msg.Spectrum, 'averaged_time'),
@@ -40,12 +40,12 @@ ARRAYS = {
     'momenta': (msg.State, 'px'),
 }
 Averages = namedtuple('Averages', 'times averaged_times exponents std_errors local last')
-# samples: their ends, lengths and exponents; no time is in two of them
+# samples: their ends, lengths and exponents; samples do not overlap
 Local = namedtuple('Local', 'times lengths exponents')
 
 
 def _last(topic):
-    """The frame of its last message."""
+    """A property: the frame of the last message of a topic."""
     return cached_property(lambda run: FRAMES[topic](run.last(topic), run.info))
 
 
@@ -62,7 +62,7 @@ class Run:
 
     def __init__(self, parts, runs_in_bag=1, form=None, k=None):
         self.parts, self.runs_in_bag = parts, runs_in_bag
-        self._form, self._k = form, k  # of the fits, see data.fits.chosen
+        self._form, self._k = form, k  # choice of fits, see data.fits.chosen
         last = [part.info for part in parts if part.run_id == parts[-1].run_id]
         self.info = max(last, key=reader.changes)
         self.paths = list(dict.fromkeys(part.path for part in parts))
@@ -81,14 +81,14 @@ class Run:
 
     @property
     def own(self):
-        """{name: value} of the parameters of such particles alone."""
+        """{name: value} of the parameters that only these particles have."""
         return space.own(self.info)
 
     # ---- messages ---------------------------------------------------------------------------
 
     @property
     def is_complete(self):
-        """Whether it went to its end."""
+        """Whether the run went to its end."""
         last = None
         for last in self.packed((reader.STATUS,)):
             continue
@@ -97,25 +97,27 @@ class Run:
 
     @property
     def units(self):
-        """Of the arrays; those of a frame are in its attrs."""
+        """The units of the arrays; those of a frame are in its attrs."""
         return {name: fields.of(kind)[field].unit for name, (kind, field) in ARRAYS.items()}
 
     @property
     def name(self):
-        """For a message."""
+        """The name of the run in messages to the user."""
         return ', '.join(self.paths)
 
     def packed(self, kinds):
-        """Messages of these types but run_info, each once."""
+        """Messages of these types except run_info, each once."""
         return joined.packed(self.parts, kinds)
 
     def in_time(self, kinds):
-        """The same in the order of simulated time: a recorder mixes topics a little."""
+        """Messages as packed() has them, in the order of simulated time; a recorder mixes topics a
+        little."""
         streams = (self.packed((kind,)) for kind in kinds)
         return heapq.merge(*streams, key=lambda packed: packed.sim_time)
 
     def messages(self, topic):
-        """Those of a topic ('spectrum', 'fields' ..) one after the other, with numpy arrays."""
+        """The messages of a topic ('spectrum', 'fields' ..), one after the other, with numpy
+        arrays."""
         for packed in self.packed((TOPICS[topic],)):
             yield packed.message(np)
 
@@ -135,7 +137,7 @@ class Run:
                 if rows and message.averaged_time < rows[-1].averaged_time:
                     rows, samples = [], []  # the averages were reset
                 rows.append(message)
-                if message.local_time != 0:  # else the sample is that of the message before
+                if message.local_time != 0:  # otherwise its sample was in the message before
                     samples.append((message.sim_time, message.local_time, message.local_exponents))
         if not rows:
             raise self._missing('spectrum')
@@ -164,9 +166,9 @@ class Run:
 
     @cached_property
     def results(self):
-        """lambda_max, the sum of the positive exponents, and the fits over steps if there were
-        any, with what they stand on. Of the error of c and v, sampling_error is what another run of
-        the same box may differ by; the rest grows with the misfit."""
+        """lambda_max, the sum of the positive exponents, and the fits to steps if there are any,
+        with their bases. sampling_error is the part of the errors of c and v by which another run
+        of the same box may differ; the rest grows with the misfit."""
         last = self._averages.last
         rate, none = fields.of(last)['lambda_max'].unit, ''
         rows = [
@@ -187,13 +189,13 @@ class Run:
 
     @cached_property
     def fits(self):
-        """data.fits.Fit of each kind that there is."""
+        """The data.fits.Fit of each kind that there is."""
         found = fits.of(self.last('steps')) if self.has('steps') else []
         return [fit for fit in found if fit.count]
 
     def over_time(self):
-        """{name: frame} of the running means, their errors and the samples: a column for each
-        Lyapunov index."""
+        """{name: frame} of the running means, their errors and the samples. A frame has a column
+        for each Lyapunov index."""
         index = pandas.Index(self.spectrum.index, name='index')
         of_two, times, local = pandas.MultiIndex.from_arrays, self.times, self.local
         rows = of_two([times, self.averaged_times], names=['sim_time', 'averaged_time'])
@@ -205,7 +207,7 @@ class Run:
         }
 
     def to_xarray(self):
-        """All but hydro and structure as one xarray.Dataset: see data.dataset."""
+        """All but hydro and structure as one xarray.Dataset; see data.dataset."""
         return dataset.of(self)
 
     @cached_property
@@ -224,7 +226,7 @@ class Run:
 
     @cached_property
     def structure(self):
-        """The last mean structure factors: see structure.Structure."""
+        """The last mean structure factors; see structure.Structure."""
         last = None
         for message in self.messages('structure'):
             last = message if len(message.along) else last
@@ -233,7 +235,7 @@ class Run:
         return structure.Structure(last)
 
     def amplitudes(self, indices, direction):
-        """Frame of all amplitudes of these vectors' waves, 'along' or 'across' k."""
+        """A frame of all amplitudes of these vectors' waves, 'along' or 'across' k."""
         return structure.amplitudes(self._all('structure'), list(indices), direction)
 
     # ---- disks and vectors ------------------------------------------------------------------
@@ -255,7 +257,7 @@ class Run:
 
     @cached_property
     def _lasts(self):
-        """{type: Packed} of those that are small, so that the bag is read once for all."""
+        """{type: last Packed} of small messages, for which the bag is read only once."""
         last = {}
         for packed in self.packed([TOPICS[topic] for topic in FRAMES]):
             if packed.kind == reader.SPECTRUM:
@@ -263,22 +265,22 @@ class Run:
                 if packed.averaged_time <= 0:
                     continue
                 if packed.averaged_time < before.averaged_time:  # the averages were reset
-                    last.pop(reader.COVARIANT, None)  # the next one takes a while
+                    last.pop(reader.COVARIANT, None)  # the next one comes later
             last[packed.kind] = packed
         return last
 
     def _last(self, topic):
-        """None: there is none."""
+        """The last Packed of a topic; None if there is none."""
         if topic in FRAMES:
             return self._lasts.get(TOPICS[topic])
         return next(iter(deque(self.packed((TOPICS[topic],)), maxlen=1)), None)
 
     def has(self, topic):
-        """Whether there is a message of a topic, of 'spectrum' an averaged one."""
+        """Whether a topic has a message; 'spectrum' must have averages."""
         return self._last(topic) is not None
 
     def last(self, topic, numpy=np):
-        """The last message of a topic, with arrays of numpy, or lists without it."""
+        """The last message of a topic, with numpy arrays, or with lists if numpy is None."""
         packed = self._last(topic)
         if packed is None:
             raise self._missing(topic)

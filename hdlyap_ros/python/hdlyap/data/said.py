@@ -1,4 +1,4 @@
-"""What was said of a run, as tables and figures take it: messages, and the courses of what they
+"""Said: a run as tables and figures need it: its messages, and quantities over time that they
 draw."""
 
 import copy
@@ -14,13 +14,13 @@ from .factors import StructureCourse
 from .phases import PhaseCourse
 from .stages import PARTS
 
-SMALLEST = 4  # exponents whose course is drawn, counted back from the last positive one
+SMALLEST = 4  # how many of the smallest positive exponents are drawn over time
 
 
 class Said:
-    """Of a data.run.Run, or of data.seeds.Seeds, whose spectrum, steps and fits are means. Each
-    message is the last one, None if there is none; what was averaged before ~reset_average does not
-    count. Nothing is read before it is asked for."""
+    """The messages of a data.run.Run, or of data.seeds.Seeds, whose spectrum, steps and fits are
+    means. Each message is the last one, None if there is none. Averages from before ~reset_average
+    do not count. Messages are read when they are first needed."""
 
     def __init__(self, data):
         self.data, self.info = data, data.info
@@ -29,37 +29,37 @@ class Said:
             self.info = copy.copy(data.info)
             self.info.seed, self.info.run_id = ', '.join(data.seeds), ''
 
-    said = property(lambda self: self)  # as of a run
+    said = property(lambda self: self)  # a Run has it, too
     spectrum = cached_property(lambda self: self._averaged('spectrum'))
     steps = cached_property(lambda self: self._averaged('steps'))
     gas = cached_property(lambda self: self._averaged('gas'))
     modes = cached_property(lambda self: self._last('modes'))
     localization = cached_property(lambda self: self._last('localization'))
-    covariant = cached_property(lambda self: self._averaged('covariant'))  # of at least one window
+    covariant = cached_property(lambda self: self._averaged('covariant'))  # has a window or more
 
     @property
     def positive_end(self):
-        """Lyapunov index of the last positive exponent."""
+        """The Lyapunov index of the last positive exponent."""
         return (self.phase_space - self.info.zero_exponents) // 2
 
     @property
     def phase_space(self):
-        """Its dimension: exponents in all."""
+        """The dimension of phase space, which is the number of exponents."""
         return space.phase_space(self.info)
 
     @property
     def last_index(self):
-        """Lyapunov index of the last exponent carried."""
+        """The Lyapunov index of the last exponent of the run."""
         return self.spectrum.first_index + len(self.spectrum.exponents) - 1
 
     @property
     def sum_name(self):
-        """Of the sum of the positive exponents carried."""
+        """The name of the sum of the run's positive exponents."""
         return 'h_KS' if self.last_index >= self.positive_end else 'sum of exponents'
 
     @property
     def sum_error(self):
-        """Of that sum; -1 while not yet known."""
+        """The error of that sum; -1 if it is not known yet."""
         return self.spectrum.ks_entropy_error
 
     @cached_property
@@ -78,13 +78,13 @@ class Said:
 
     @property
     def smallest(self):
-        """Lyapunov indices of the smallest positive exponents carried."""
+        """The Lyapunov indices of the run's smallest positive exponents."""
         end = min(self.positive_end, self.last_index)
         return list(range(max(self.spectrum.first_index, end - SMALLEST + 1), end + 1))
 
     @property
     def is_caged(self):
-        """As the last status said."""
+        """Whether the last status says that particles are caged."""
         last = None
         for last in self.data.messages('status'):
             continue
@@ -92,7 +92,7 @@ class Said:
 
     @property
     def began(self):
-        """Simulated time of the first status of each stage."""
+        """{stage: simulated time of its first status}"""
         found = {}
         for message in self.data.messages('status'):
             found.setdefault(message.stage, message.sim_time)
@@ -103,7 +103,7 @@ class Said:
         return reversed(list(self.data.fields.values()))
 
     def course(self):
-        """Running means against averaged time, unknown errors as NaN."""
+        """Running means over averaged time; unknown errors are NaN."""
         small = [index - self.spectrum.first_index for index in self.smallest]
         course, n, last = Course(), len(small), 0.0
         for message in self.data.messages('spectrum'):
@@ -124,12 +124,12 @@ class Said:
         }
 
     def cost(self):
-        """Wall seconds since the start against simulated time, by part; None if unrecorded."""
+        """Wall seconds since the start over simulated time, by part; None if not recorded."""
         names = ['sim_time', 'wall_seconds', *(part + '_seconds' for part in PARTS)]
         course, last, before = Course(), np.zeros(len(names)), np.zeros(len(names))
         for message in self.data.messages('cost'):
             now = np.array([getattr(message, name) for name in names])
-            before += np.where(now < last, last, 0.0)  # a run that goes on may count from 0
+            before += np.where(now < last, last, 0.0)  # a resumed run may count from 0 again
             last = now
             course.add(before + now)
         table = course.table()
@@ -144,6 +144,6 @@ class Said:
 
 
 def _typical(errors):
-    """Root mean square of those known; -1 of none."""
+    """The root mean square of the errors that are known; -1 if none is."""
     errors = errors[errors > 0]
     return np.sqrt(np.mean(errors**2)) if len(errors) else -1.0

@@ -11,22 +11,23 @@ from .reader import Missing, RecordingError
 from .run import Run
 from .said import Said
 
-# The scatter of so many runs, the longest at most RATIO times the shortest, is an error where none
-# states one: known as well as compare takes one to be (plots.deviation.FREEDOM).
+# If no run states an error, the scatter of at least FEWEST runs, the longest at most RATIO times
+# the shortest, is one: it is known as well as compare assumes (plots.deviation.FREEDOM).
 FEWEST, RATIO = 8, 2.0
 
 
 def load(*bags, node=None, run=None, form=None, k=None):
-    """A Run of one bag, or of bags that are parts of one run (split by rosbag, or resumed from a
-    checkpoint); Seeds of bags of several seeds. Others are refused. node, run: which, if there are
-    several in a bag; run counts from 1, without it the last one is taken. form, k: fits of another
-    form ('c k', 'c k + c2 k^2') than the node's, or over wave numbers from k[0] to k[1] alone."""
+    """Reads bags. Returns a Run for one bag, or for bags that are parts of one run (split by
+    rosbag, or resumed from a checkpoint), and Seeds for bags of several seeds. Other bags are
+    refused. node, run: which one, if there are several in a bag; run counts from 1, and is the last
+    one if not given. form, k: fits of another form ('c k', 'c k + c2 k^2') than the node's, or only
+    over wave numbers from k[0] to k[1]."""
     found = [Run(*of_one, form, k) for of_one in joined.runs(bags, node, run)]
     return found[0] if len(found) == 1 else Seeds(found)
 
 
 def one(*bags, node=None, run=None):
-    """A Run; RecordingError of several."""
+    """Reads bags of one run. Returns a Run; raises RecordingError if they are several runs."""
     found = load(*bags, node=node, run=run)
     if found.is_mean:
         seeds = ', '.join(run.info.seed for run in found.every)
@@ -35,18 +36,18 @@ def one(*bags, node=None, run=None):
 
 
 class Seeds:
-    """`runs` of the same system, which are independent. The frames `spectrum`, `steps`, `results`
-    and `gas` have means over them, weighted with the averaged times, and two errors: `std_error`
-    from the errors that the runs state, `scatter` from how far the runs are apart (of n runs it is
-    itself known to 1 / sqrt(2 n - 2)). `chi2` is of `runs` - 1 degrees of freedom; far above that
-    the runs are further apart than their errors allow. A run that is too short to know any of its
-    errors is in no mean: `left_out` names it."""
+    """Independent `runs` of one system. The frames `spectrum`, `steps`, `results` and `gas` have
+    means over them, weighted with the averaged times, and two errors: `std_error` follows from the
+    errors that the runs state, `scatter` from the differences between runs (from n runs it is known
+    to 1 / sqrt(2 n - 2)). `chi2` has `runs` - 1 degrees of freedom; if it is far above that, the
+    runs differ by more than their errors allow. A run that is too short to know any of its errors
+    is in no mean: `left_out` names it."""
 
     is_mean, runs_in_bag = True, 1
     said = cached_property(Said)
 
     def __init__(self, runs):
-        self.every = runs  # also those that are left out
+        self.every = runs  # with runs that are left out
         self.paths = [path for run in runs for path in run.paths]
 
     @property
@@ -67,7 +68,7 @@ class Seeds:
 
     @cached_property
     def _split(self):
-        """(runs that know an error, or all if none does; a line for each of the others)"""
+        """The runs that know an error, or all if none does, and a line for each of the others."""
         taken = [run for run in self.every if _knows_errors(run)] or self.every
         lines = [
             f'{", ".join(run.paths)}, seed {run.info.seed}, is left out: averaged over '
@@ -76,7 +77,7 @@ class Seeds:
             if run not in taken
         ]
         for line in lines:
-            warnings.warn(line)  # tools print them
+            warnings.warn(line)  # commands print them
         return taken, lines
 
     def __repr__(self):
@@ -92,7 +93,7 @@ class Seeds:
 
     @property
     def averaged_time(self):
-        """Of all together."""
+        """The sum over all runs."""
         return float(self._weights.sum())
 
     @cached_property
@@ -108,9 +109,9 @@ class Seeds:
 
     @cached_property
     def steps(self):
-        """The columns of one run, and those of means. A step is resolved if it is in at least one
-        run; exponent and multiplicity are means over those runs, all else is of the first of them.
-        `scatter` is that of the runs, here too."""
+        """The columns of a run, and those of means. A step is resolved if it is so in at least one
+        run. exponent and multiplicity are means over these runs; all else comes from the first of
+        them. `scatter` is that between runs, here too."""
         frames = [run.steps for run in self.runs]
         found = [one[one['resolved']] for one in frames]
         about = pandas.concat([*found, frames[0]])
@@ -123,9 +124,9 @@ class Seeds:
 
     @cached_property
     def results(self):
-        """lambda_max, the sum of the positive exponents, and of the fits over steps those that
-        are of one form over the same wave numbers in all runs. Seeds share what the form leaves
-        open: both errors have it in full."""
+        """lambda_max, the sum of the positive exponents, and those fits to steps that have the same
+        form and wave numbers in all runs. The error of the form of a fit is the same for all seeds,
+        so it is in both errors in full."""
         frames = [run.results for run in self.runs]
         fits = [fit for fit in self.runs[0].fits if self._is_in_all(fit)]
         names = [*frames[0].index[:2], *(name for fit in fits for name, _, _ in fit.values)]
@@ -136,7 +137,7 @@ class Seeds:
         made['sampling_error'] = np.fmax(made['std_error'], made['scatter'])
         for name in ('std_error', 'scatter'):
             made[name] = np.hypot(made[name], of_form)
-        # of chi^2 and freedom of all runs together
+        # the misfit of all runs: chi^2 of all over the degrees of freedom of all
         made['misfit'] = np.sqrt(np.mean([one['misfit'] ** 2 for one in frames], axis=0))
         return made.join(frames[0][['unit', 'basis']])
 
@@ -153,7 +154,8 @@ class Seeds:
         return topic == 'spectrum' or topic == 'steps' and all(run.has(topic) for run in self.runs)
 
     def last(self, topic, numpy=None):
-        """Of 'spectrum' or 'steps', with lists: means, and the larger one of both errors."""
+        """A message of 'spectrum' or 'steps', with lists: the means, and the larger one of the two
+        errors."""
         message = self.runs[0].last(topic, numpy)
         message.run_id, message.averaged_time = '', self.averaged_time
         (self._fill_spectrum if topic == 'spectrum' else self._fill_steps)(message)
@@ -168,8 +170,8 @@ class Seeds:
         message.pairing_error = -1.0
 
     def _fill_steps(self, message):
-        """As in the first run that has them: multiplicities and exponents are means. A fit that is
-        not of the same form in all runs is none."""
+        """Fills steps from the first run in which each is resolved; multiplicities and exponents
+        are means. A fit that has not the same form in all runs is left out."""
         found = {}
         for run in self.runs:
             for name, step in zip(run.steps.index, run.last('steps').steps):
@@ -198,8 +200,8 @@ class Seeds:
         return all(any(fit.is_like(other) for other in run.fits) for run in self.runs)
 
     def _mean(self, frames, name, weights=None, index=None):
-        """Of a column of frames, beside its errors; weights: averaged times; index: the rows, of
-        which a frame may lack some, those of all frames without it."""
+        """The mean of a column of frames, and its errors. weights: averaged times. index: the rows,
+        some of which a frame may lack; if it is None, all frames have the same rows."""
         weights = self._weights if weights is None else weights
         index = frames[0].index if index is None else index
         there = np.array([index.isin(one.index) for one in frames])
@@ -214,24 +216,24 @@ class Seeds:
 
 
 def errors(frame):
-    """The larger one of both; the only one while the other is not known."""
+    """The larger one of the two errors; the known one if the other is not known."""
     return np.fmax(frame['std_error'], frame['scatter'])
 
 
 def _of_sampling(frame):
-    """0 of what the form of a fit decides."""
+    """The errors of sampling; 0 if the form of a fit decides."""
     errors, sampling = frame['std_error'], frame['sampling_error']
     return sampling.where(sampling.notna() | errors.isna(), 0.0)
 
 
 def _beyond(frame):
-    """What is in errors beside sampling; 0 where they are not known."""
+    """The part of errors that is not sampling; 0 if they are not known."""
     squares = frame['std_error'] ** 2 - _of_sampling(frame) ** 2
     return np.sqrt(np.fmax(np.nan_to_num(squares), 0.0))
 
 
 def _measured(run):
-    """(frame with errors, averaged time) of its exponents, or without any of its gas."""
+    """A frame with errors, and its averaged time: of exponents or, if there are none, of gas."""
     try:
         return run.spectrum, run.averaged_times[-1]
     except Missing:
@@ -246,16 +248,16 @@ def _knows_errors(run):
 
 
 def mean(values, errors, weights, there=True):
-    """(mean, its error from those stated, its error from the scatter, chi^2, number) of each column
-    over the runs in which it is there and its error is known. A run that is too short for that has
-    a value that is further off than its weight says, and the scatter with it is no error: of two
-    runs (Student's t with one degree of freedom) every eighth mean is beyond five errors. If no run
-    knows the error, the mean is over all, and has one only of FEWEST runs or more, within RATIO.
-    The weights are not 1 / errors^2: an error of few blocks is itself uncertain, and by chance
-    small ones would count too much."""
+    """(mean, its error from the stated errors, its error from the scatter, chi^2, number of runs)
+    of each column, over the runs that have it and know its error. A run that is too short to know
+    the error is left out: its value is further off than its weight says, and scatter with it is no
+    good error: with two runs (Student's t with one degree of freedom) every eighth mean is beyond
+    five errors. If no run knows the error, the mean is over all runs; it has an error only if there
+    are FEWEST runs or more, within RATIO. Weights are not 1 / errors^2: an error from few blocks is
+    uncertain, and values whose error is small by chance would count too much."""
     known = there & np.isfinite(errors)
     is_stated = known.any(axis=0)
-    # what is no number is not left out: then the mean is none either
+    # a value that is not finite is not left out, so that the mean is not finite either
     used = np.where(is_stated, known | ~np.isfinite(values), True) & there
     weights = np.asarray(weights, dtype=float)[:, None] * used
     count, total = used.sum(axis=0), weights.sum(axis=0)

@@ -1,29 +1,29 @@
-"""Disks, spheres, dumbbells or others -> the directions that what a run_info or a message says has,
-x, y and of spheres z; what they are called, and where the disks of dumbbells are."""
+"""Kind of particles -> the directions of space, x, y and z, in a run_info or a message; names of
+particles, and where the disks of dumbbells are."""
 
 import numpy as np
 import yaml
 
 
 def is_solid(info):
-    """Whether it is of spheres; None is of disks."""
+    """Whether particles are spheres; info = None stands for disks."""
     return info is not None and info.dimension == 3
 
 
 def turns(info):
-    """Whether each has an angle beside its place; None is of disks."""
+    """Whether particles have an angle besides their position; info = None stands for disks."""
     return info is not None and info.inertia > 0
 
 
 def own(info):
-    """{name: value} of the parameters of such particles alone."""
+    """{name: value} of the parameters that only these particles have."""
     return {
         name: yaml.safe_load(value) for name, _, value in (one.partition('=') for one in info.own)
     }
 
 
 def without_box(info):
-    """What is known of particles that have no positions in a box; '' of others."""
+    """A text about particles that have no positions in a box; '' for others."""
     if info.dimension or not info.particles:
         return ''
     return ', '.join([f'{info.particles}, N = {info.number}', *info.own])
@@ -34,30 +34,31 @@ def axes(info):
 
 
 def along(info, name):
-    """Of box_ or boundary_, in each direction."""
+    """The values of box_ or boundary_ for each direction."""
     return [getattr(info, name + axis) for axis in axes(info)]
 
 
 def nodes(wave, info):
-    """Of a Step, or of anything else with nx and ny, along each direction."""
+    """The nodes along each direction, of a Step or of anything else with nx and ny."""
     return tuple(getattr(wave, 'n' + axis) for axis in axes(info))
 
 
 def vectors(message, name=''):
-    """Rows along x, y and of spheres z, of positions, or of what has a name before the axis, as dq
-    and p_."""
+    """Rows along x, y and, in space, z: of positions, or of fields with a name before the axis,
+    such as dq and p_."""
     rows = (getattr(message, name + axis) for axis in 'xyz')
     return np.array([row for row in rows if len(row)])
 
 
 def particle(info):
-    """What it is called."""
+    """What a particle is called."""
     name = _words(info.particles)
     return name[:-1] if name.endswith('s') else 'particle'
 
 
 def named(info):
-    """Behind their number, if it is not of disks: what they are, and what is their own."""
+    """The text after the number of particles if they are no disks: their name and their
+    parameters."""
     if info.particles == 'disks':
         return ''
     own_ones = [f'{_words(name)} {_short(value)}' for name, value in own(info).items()]
@@ -73,7 +74,8 @@ def _short(value):
 
 
 def disks(info, q, angle=()):
-    """Rows of places as vectors() gives them, once; of dumbbells twice, for each of both disks."""
+    """Rows of positions as vectors() gives them; for dumbbells twice, once for each of their
+    disks."""
     bond = own(info).get('bond', 0.0) if info.particles == 'dumbbells' else 0.0
     if not bond:
         return [q]
@@ -82,15 +84,15 @@ def disks(info, q, angle=()):
 
 
 def size(info):
-    """Area or volume of the box."""
+    """The area or volume of the box."""
     return float(np.prod(along(info, 'box_')))
 
 
 def distance(info):
-    """Mean one of neighbours."""
+    """The mean distance of neighbours."""
     return (size(info) / info.number) ** (1 / len(axes(info)))
 
 
 def phase_space(info):
-    """Lyapunov exponents in all: 4N, of spheres 6N."""
+    """The number of Lyapunov exponents: 4 N for disks, 6 N for spheres."""
     return 2 * info.coordinates * info.number

@@ -1,9 +1,9 @@
-"""Names of stages, of limits of the interval, and of the seconds of the cost."""
+"""Names of stages, of limits of the interval, and of the parts of the cost."""
 
 from hdlyap.data.fields import words
 from hdlyap.msg import Cost, RunStatus
 
-# a field of that name, with _seconds behind it: what it is for
+# name of a field of Cost without _seconds: what these seconds are for
 LABELS = {
     'events': 'events',
     'replay': 'tangent replay',
@@ -20,6 +20,6 @@ LIMITS = words(Cost, 'interval_limit')  # why the interval is not longer
 
 
 def seconds(cost):
-    """{part: wall seconds so far}; other is what no part accounts for."""
+    """{part: wall seconds so far}; `other` is the rest of the wall time."""
     spent = {part: getattr(cost, part + '_seconds') for part in PARTS}
     return {**spent, 'other': max(0.0, cost.wall_seconds - sum(spent.values()))}

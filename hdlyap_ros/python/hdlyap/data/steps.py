@@ -1,5 +1,5 @@
-"""Steps message -> blocks: steps whose vectors mix stand together. The run_info tells disks, whose
-waves have two numbers of nodes, from spheres; without one it is of disks."""
+"""Steps message -> blocks: steps whose vectors mix are in one block. run_info says whether
+particles are spheres, whose waves have three numbers of nodes; without it they are disks."""
 
 import numpy as np
 
@@ -13,17 +13,17 @@ ZERO, T, LP = NAMES
 
 
 def name(step, info=None):
-    """Of a Step, or of anything else with kind, nx and ny."""
+    """The name of a Step, or of anything else with kind, nx and ny."""
     return NAMES[step.kind] if step.kind == ZERO else wave_name(kind_name(step.kind), step, info)
 
 
 def kind_name(kind):
-    """Also of one that another version may know."""
+    """The name of a kind, also of one that only another version knows."""
     return NAMES.get(kind, f'kind {kind}')
 
 
 def wave_name(kind, wave, info=None):
-    """T(1,0), of spheres T(1,0,0)."""
+    """The name of a step with this wave: T(1,0); for spheres T(1,0,0)."""
     return f'{kind}{nodes_name(wave, info)}'
 
 
@@ -32,7 +32,7 @@ def nodes_name(wave, info):
 
 
 class Block:
-    """The resolved steps of one set of vectors; more than one where steps share it."""
+    """The resolved steps of one set of vectors, which several steps may share."""
 
     def __init__(self, steps, info=None):
         self._info = info
@@ -48,7 +48,7 @@ class Block:
 
     @property
     def kind(self):
-        """Its kind; None if it has both."""
+        """The kind of its steps; None if it has both kinds."""
         kinds = {step.kind for step in self.steps}
         return kinds.pop() if len(kinds) == 1 else None
 
@@ -58,7 +58,7 @@ class Block:
 
     @property
     def height(self):
-        """Mean exponent of its vectors."""
+        """The mean exponent of its vectors."""
         shares = [step.multiplicity for step in self.steps]
         return np.average(
             [step.exponent for step in self.steps], weights=shares if sum(shares) > 0 else None
@@ -66,7 +66,7 @@ class Block:
 
 
 def _every(message):
-    """None without a message."""
+    """All steps of a message; none without a message."""
     return message.steps if message is not None else ()
 
 
@@ -86,7 +86,8 @@ def blocks(message, info=None, conjugate=False):
 
 
 def all_blocks(message, info=None):
-    """Of the zero modes, if they are resolved, and of both halves; none without a message."""
+    """The blocks of the zero modes, if they are resolved, and of both halves; none without a
+    message."""
     zero = zero_modes(message)
     found = [Block([zero])] if zero is not None and zero.resolved else []
     return found + blocks(message, info) + blocks(message, info, conjugate=True)
@@ -98,7 +99,7 @@ def resolved(message, info=None, conjugate=False):
 
 
 def unresolved(message):
-    """Of the positive half."""
+    """The steps of the positive half that are not resolved."""
     return [step for step in _half(message, False) if not step.resolved]
 
 

@@ -9,9 +9,9 @@ NODES = ['nx', 'ny', 'nz']
 
 
 class Structure:
-    """`waves`: frame of nodes and wave numbers. `along`, `across`: mean structure factors, a row
-    for each Lyapunov index, a column for each wave. `peaks`: for each index the wave at which both
-    together are largest."""
+    """`waves`: frame of nodes and wave numbers. `along`, `across`: mean structure factors, with a
+    row for each Lyapunov index and a column for each wave. `peaks`: for each index the wave at
+    which their sum is largest."""
 
     def __init__(self, message):
         means = factors.means_of(message)
@@ -33,9 +33,9 @@ class Structure:
 
 
 def amplitudes(messages, indices, direction):
-    """Frame by simulated time, a column for each index and modulation (0: COS_COS .., across
-    of spheres the first fields of all, then the second); NaN while the vector had another wave than
-    in the end."""
+    """A frame over simulated time with a column for each index and modulation (0: COS_COS ..; in
+    space, across has all first fields, then all second ones). NaN while a vector had another wave
+    than in the end."""
     times, rows, peaks = [], [], []
     columns = np.array(indices) - 1
     for message in messages:

@@ -1,6 +1,6 @@
-"""Messages -> pandas frames. Columns have the names of the fields (of an array: in the singular),
-attrs['units'] their units; those of z are of spheres alone, rotation of what turns. What is not
-known or not measured is NaN, also in bags whose messages said 0 or -1."""
+"""Messages -> pandas frames. Columns have the names of fields (arrays in the singular),
+attrs['units'] their units. Only spheres have columns along z, only particles that rotate have
+`rotation`. A number that is not known or not measured is NaN, also if the message has 0 or -1."""
 
 import numpy as np
 import pandas
@@ -14,7 +14,7 @@ from .fields import words
 OF_SPHERES, OF_TURNING = ('nz', 'null_z'), ('rotation',)  # columns
 NUMBERED = 'exponents', 'widths'  # arrays with an element for each Lyapunov index
 NUMBERS = {'bool': bool, 'float64': float}  # others are integers
-# columns whose numbers have names
+# columns whose numbers are replaced by names
 NAMES = {
     'kind': words(Mode, 'kind'),
     'sharing': words(Step, 'sharing'),
@@ -25,16 +25,16 @@ NAMES = {
 
 
 def frame(columns, units, index=None, long_names=()):
-    """With units in attrs, and what the columns are as far as it is said."""
+    """A DataFrame with units in attrs, and descriptions of columns if there are any."""
     made, long_names = pandas.DataFrame(columns, index=index), dict(long_names)
     attrs = {'units': {name: units.get(name, '') for name in columns}}
     attrs['long_names'] = {name: long_names[name] for name in columns if name in long_names}
-    object.__setattr__(made, 'attrs', attrs)  # pandas of before 1.0 has no such attribute
+    object.__setattr__(made, 'attrs', attrs)  # pandas before 1.0 has no such attribute
     return made
 
 
 def elements(parts, index=None, without=()):
-    """A row for each of these messages, of one type: their numbers."""
+    """A frame of the numbers in messages of one type, with a row for each of them."""
     if not parts:
         return frame({}, {}, index)
     described = fields.of(parts[0])
@@ -58,17 +58,17 @@ def _column(values, kind, field):
 
 
 def _blank(columns):
-    """What was not measured is NaN."""
-    if 'resolved' in columns:  # of a Step: all that stands below
+    """Sets numbers that were not measured to NaN."""
+    if 'resolved' in columns:  # a Step: all columns after this one
         below = list(columns)[list(columns).index('resolved') + 1 :]
         blank = dict.fromkeys(below, ~columns['resolved'])
         if 'gap' in columns:
             blank['gap'] = columns['gap'] == 0
-    elif 'tracked_time' in columns:  # of an LpPhase or a TPhase
+    elif 'tracked_time' in columns:  # an LpPhase or a TPhase
         blank = dict.fromkeys(('a', 'b'), columns['state'] == LpPhase.UNRESOLVED)
         tracked = {'phase', 'omega', 'omega_error', 'velocity'} & columns.keys()
         blank.update(dict.fromkeys(tracked, columns['state'] != LpPhase.TRACKED))
-    elif 'weight_now' in columns:  # of a Mode
+    elif 'weight_now' in columns:  # a Mode
         blank = dict.fromkeys(('wave_number', 'weight'), columns['kind'] == Mode.NONE)
         blank.update(dict.fromkeys(('weight_l', 'weight_p'), columns['kind'] != Mode.LP))
     else:
@@ -79,8 +79,8 @@ def _blank(columns):
 
 
 def arrays(message, without=()):
-    """Of a message that says something of each Lyapunov index from first_index on; what it says of
-    an index and the next one has no last element."""
+    """A frame of a message whose arrays have an element for each Lyapunov index from first_index
+    on. Arrays about an index and the next one lack the last element."""
     described = fields.of(message)
     size = max(len(getattr(message, slot)) for slot in NUMBERED if hasattr(message, slot))
     columns, units, long_names = {}, {}, {}
@@ -102,7 +102,7 @@ def of_arrays(message, info=None):
 
 
 def of_steps(message, info=None):
-    """By name; * stands behind those of the negative half."""
+    """A frame of steps by their names; steps of the negative half have a * behind them."""
     names = [steps.name(step, info) + ('*' if step.conjugate else '') for step in message.steps]
     return elements(message.steps, pandas.Index(names, name='step'), _left_out(info))
 
@@ -118,10 +118,10 @@ def of_modes(message, info=None):
 
 
 def of_gas(message, info=None):
-    """By quantity: those that such particles have."""
+    """A frame by quantity, of the quantities that these particles have."""
     described = fields.of(message)
     pressures = ['pressure', *('pressure_' + axis for axis in space.axes(info))]
-    units = dict.fromkeys(pressures, f'1/sigma^{len(space.axes(info))}')  # the definition: of disks
+    units = dict.fromkeys(pressures, f'1/sigma^{len(space.axes(info))}')  # .msg has those of disks
     names = ['collision_rate', *pressures, 'compressibility', 'temperature', 'potential_energy']
     names = [name for name in names if not np.isnan(getattr(message, name))]
     columns = {
@@ -133,7 +133,7 @@ def of_gas(message, info=None):
 
 
 def of_phases(message, info=None, kind='LP'):
-    """By their number; the modulation as a formula."""
+    """A frame of phases by their number; their modulation is a formula."""
     phases = message.phases
     made = elements(phases, pandas.RangeIndex(len(phases), name='number'), _left_out(info))
     if phases:
@@ -145,13 +145,13 @@ def of_phases(message, info=None, kind='LP'):
 
 
 def of_t_phases(message, info=None):
-    """The same of the T steps."""
+    """A frame of the phases of T steps; see of_phases."""
     return of_phases(message, info, 'T')
 
 
 def over_time(messages, of, info=None):
-    """The frames of many messages below each other, by simulated time. Two reports can tell the
-    same state of phases: it is there once."""
+    """The frames of many messages, by simulated time. Two reports can have the same state of
+    phases, which is there once."""
     states = {message.sim_time: message for message in messages}
     frames, times = zip(*((of(message, info), time) for time, message in states.items()))
     joined = pandas.concat(frames, keys=times, names=['sim_time'])
@@ -160,6 +160,6 @@ def over_time(messages, of, info=None):
 
 
 def scalars(messages):
-    """A row for each message, by simulated time."""
+    """A frame of the numbers in messages, by simulated time."""
     times = pandas.Index([message.sim_time for message in messages], name='sim_time')
     return elements(messages, times, without=('sim_time',))

@@ -1,4 +1,4 @@
-"""Nodes of a wave -> its modulation A(x, y), of spheres A(x, y, z), and its fields, as the node
+"""Nodes of a wave -> its modulation A(x, y), in space A(x, y, z), and its fields, as the node
 defines them."""
 
 import numpy as np
@@ -7,16 +7,17 @@ from hdlyap.msg import LpPhase
 
 from . import space
 
-# bits of a modulation, and those of a circle
+# bits of a modulation in a box, and in a circle
 SIN_X, SIN_Y, SIN_Z, SECOND = LpPhase.SIN_COS, LpPhase.COS_SIN, LpPhase.SIN_Z, LpPhase.SECOND
 COS_M, SIN_M = LpPhase.COS_M, LpPhase.SIN_M
 SINES = {'x': SIN_X, 'y': SIN_Y, 'z': SIN_Z}
 FUNCTIONS = (np.cos, np.sin)
-SLOPES = (lambda phase: -np.sin(phase), np.cos)  # their derivatives
+SLOPES = (lambda phase: -np.sin(phase), np.cos)  # derivatives of cosine and sine
 
 
 def wave_vector(info, nx, ny, nz=0):
-    """Along a reflecting direction the wave fits into what a disk's centre can reach."""
+    """The wave vector. In a reflecting direction the wave fits into the room that centres can
+    reach."""
     walls = zip((nx, ny, nz), space.along(info, 'box_'), space.along(info, 'boundary_'))
     return [
         2 * np.pi * n / box if boundary == 'periodic' else np.pi * n / (box - 1)
@@ -25,13 +26,13 @@ def wave_vector(info, nx, ny, nz=0):
 
 
 def modulation(info, nx, ny, bits, x, y, nz=0, z=0.0):
-    """A at the given positions."""
+    """The modulation A at the given positions."""
     factors = _factors_at(info, (nx, ny, nz), bits, (x, y, z))
     return np.prod([value for value, _ in factors], axis=0)
 
 
 def gradient(info, nx, ny, bits, x, y, nz=0, z=0.0):
-    """dA/dx, dA/dy and of spheres dA/dz at the given positions."""
+    """dA/dx, dA/dy and, in space, dA/dz at the given positions."""
     value, slope = zip(*_factors_at(info, (nx, ny, nz), bits, (x, y, z)))
     return tuple(
         np.prod([*value[:d], slope[d], *value[d + 1 :]], axis=0) for d in range(len(value))
@@ -39,7 +40,7 @@ def gradient(info, nx, ny, bits, x, y, nz=0, z=0.0):
 
 
 def _factors_at(info, nodes, bits, q):
-    """Of each direction the cosine or sine of k q, and its derivative; arrays of one size."""
+    """For each direction the cosine or sine of k q, and its derivative; arrays of one size."""
     directions = zip(
         wave_vector(info, *nodes), np.broadcast_arrays(*q), space.along(info, 'boundary_'), SINES
     )
@@ -49,13 +50,14 @@ def _factors_at(info, nodes, bits, q):
 
 
 def longitudinal(info, nodes, bits, q):
-    """L at positions q, rows of each direction."""
+    """The field L at positions q, with a row for each direction."""
     return np.array(gradient(info, *nodes[:2], bits, *q[:2], *nodes[2:], *q[2:]))
 
 
 def transverse(info, nodes, bits, q):
-    """T at positions q: curl A; of spheres e along each direction times A derived along it, e
-    across k, of which SECOND is the other one."""
+    """The field T at positions q: curl A. In space its component along d is e_d times dA/dq_d over
+    k_d, or times A if there are no nodes along d; e is a unit vector across k, and SECOND takes the
+    other one of two."""
     if not space.is_solid(info):
         along_x, along_y = longitudinal(info, nodes, bits, q)
         return np.array([along_y, -along_x])
@@ -66,8 +68,8 @@ def transverse(info, nodes, bits, q):
 
 
 def _across(info, nodes):
-    """Two unit vectors across k: of the first the part along z vanishes, or along the last
-    direction that has walls and no nodes, as nothing goes through a wall."""
+    """Two unit vectors across k. The first one has no part along z or, if there is one, along the
+    last direction with walls and no nodes, because nothing goes through a wall."""
     walls = [boundary != 'periodic' for boundary in space.along(info, 'boundary_')]
     still = [d for d in range(3) if walls[d] and not nodes[d]]
     k = np.array(wave_vector(info, *nodes))
@@ -93,7 +95,8 @@ def modulations(info, nx, ny, transverse=False, nz=0):
 
 
 def _of_spheres(info, nodes):
-    """Of T: those of L, for each e across k; a wall without nodes along it forbids one."""
+    """The modulations of T fields: those of L fields for each e across k; walls without nodes
+    between them forbid one e."""
     of_l = modulations(info, *nodes[:2], nz=nodes[2])
     free = sum(
         n > 0 or wall == 'periodic' for n, wall in zip(nodes, space.along(info, 'boundary_'))
@@ -102,7 +105,7 @@ def _of_spheres(info, nodes):
 
 
 def formula(nx, ny, bits, nz=0):
-    """A as text for a figure."""
+    """The modulation A as text for a figure."""
     if bits >= COS_M:
         turned = '' if nx == 0 else rf'\,\{FUNCTIONS[bits - COS_M].__name__} {_times(nx)}\theta'
         return f'$J_{{{nx}}}(k r){turned}$'
@@ -112,7 +115,7 @@ def formula(nx, ny, bits, nz=0):
 
 
 def plain_formula(nx, ny, bits, nz=0):
-    """A as text for a terminal."""
+    """The modulation A as text for a terminal."""
     if bits >= COS_M:
         turned = f' {FUNCTIONS[bits - COS_M].__name__} {_times(nx)}theta' if nx else ''
         return f'J{nx}(kr){turned}'
@@ -121,7 +124,7 @@ def plain_formula(nx, ny, bits, nz=0):
 
 
 def _which(bits):
-    """Of both T fields of one A."""
+    """Which of the two T fields of one A this is, as text."""
     return ', second' if bits & SECOND else ''
 
 

@@ -1,2 +1,2 @@
-"""What was said of a run, or of several seeds (data.said) -> tables and figures: report, figures.
-Public, as the studies below doc/ use them: equation, paper, figures."""
+"""A run, or several seeds (data.said) -> tables and figures: report, figures. equation, paper and
+figures are public, because the studies below doc/ use them."""

@@ -1,4 +1,5 @@
-"""Two recordings -> what the runs share, and the deviations of all that both have measured."""
+"""Two recordings -> the parameters that the runs share, and the deviations of all that both have
+measured."""
 
 import copy
 import io
@@ -14,18 +15,18 @@ from hdlyap.numbers import known
 
 from .deviation import Deviation
 
-OWN = ('header', 'run_id')  # of every message, also of bit-identical runs
+OWN = ('header', 'run_id')  # fields that differ even if runs are identical
 SLOPES = 'c_T', 'c_L', 'v'
 SUMS = 'h_KS', 'sum of exponents'
-STEPPED = 'time_step', 'integrator'  # how exactly it is moved, and not what
-# what of the energy is potential is the rest of the temperature
+STEPPED = 'time_step', 'integrator'  # parameters that do not change the system
+# without the potential energy, which follows from the temperature
 GAS = {'collision_rate': 'collision rate', 'pressure': 'pressure', 'temperature': 'temperature'}
 
 
 class Comparison:
-    """Of the runs a and b of one system: exponents, h_KS, steps, fits, gas. `apart`: (fit of a,
-    fit of b) where they have not the same form and wave numbers. What decides is fixed beforehand:
-    the resolved `steps`, a few `numbers`, and the spectrum as a whole."""
+    """Compares the runs a and b of one system: exponents, h_KS, steps, fits, gas. `apart`: (fit of
+    a, fit of b) if their forms or wave numbers differ. What decides is fixed beforehand: the
+    resolved `steps`, a few `numbers`, and the spectrum as a whole."""
 
     def __init__(self, a, b):
         self.runs = a, b
@@ -55,8 +56,8 @@ class Comparison:
 
     @property
     def spectra(self):
-        """(T^2, groups, chance) of the spectra as wholes; None if too few samples were recorded.
-        Of the positive exponents: the others are their opposites and tell nothing more."""
+        """(T^2, groups, chance) of the spectra as a whole; None if too few samples were recorded.
+        Only positive exponents count, because the others are their opposites."""
         taken = self._positive
         if not self._fluctuations.is_known or not len(taken):
             return None
@@ -64,8 +65,8 @@ class Comparison:
         return self._fluctuations.spectra(difference, taken, _times(self.runs))
 
     def _together(self, one, members):
-        """A mean of exponents or their sum, whose error is that of both runs' blocks; as it is
-        where that is not known."""
+        """A mean or sum of exponents with the error from the blocks of both runs; unchanged if that
+        is not known."""
         if not self._fluctuations.is_known or not len(members) or not one.is_known:
             return one
         weights = np.zeros(len(self.exponents))
@@ -76,7 +77,8 @@ class Comparison:
 
     @property
     def is_identical(self):
-        """Every bit of what both have of the last spectrum and the last steps."""
+        """Whether the last spectrum and the last steps are the same in every bit, as far as both
+        runs have them."""
         a, b = self.runs
         pairs = [(a.spectrum, b.spectrum), (a.steps, b.steps)]
         both = [pair for pair in pairs if None not in pair]
@@ -84,7 +86,7 @@ class Comparison:
 
     @property
     def found_once(self):
-        """Names of the steps that are resolved in only one of the runs: (in a, in b)."""
+        """Names of the steps that are resolved in a alone, and of those in b alone."""
         a, b = (_resolved(run) for run in self.runs)
         info = self.runs[0].info
         return (
@@ -94,11 +96,11 @@ class Comparison:
 
     @property
     def parameters(self):
-        """(name, value of a, value of b) where they differ."""
+        """(name, value of a, value of b) of parameters that differ."""
         a, b = (run.info for run in self.runs)
         for name in a.__slots__:
             values = [getattr(info, name) for info in (a, b)]
-            unknown = all(value != value for value in values)  # not a number, of both
+            unknown = all(value != value for value in values)  # both are NaN
             if name == 'own':
                 yield from _own_ones(a, b)
             elif name not in OWN and values[0] != values[1] and not unknown:
@@ -106,7 +108,7 @@ class Comparison:
 
     @property
     def system(self):
-        """run_info of a, as far as it is that of b, too."""
+        """run_info of a; of the parameters that only some particles have, those that b shares."""
         a, b = (run.info for run in self.runs)
         shared = copy.copy(a)
         shared.own = [one for one in a.own if one in b.own]
@@ -114,7 +116,7 @@ class Comparison:
 
 
 def _own_ones(a, b):
-    """As parameters: of what moves alone."""
+    """Like Comparison.parameters, for the parameters that only these particles have."""
     one, other = space.own(a), space.own(b)
     for name in one:
         if one[name] != other.get(name):
@@ -159,14 +161,15 @@ def _times(runs):
 
 
 def _fluctuations(a, b):
-    """Of exponents that are both known and fluctuate."""
+    """The Fluctuations of the exponents of both runs."""
     times = np.array(_times((a, b)))[:, None]
     errors = known([run.spectrum.std_errors for run in (a, b)])
     return Fluctuations([run.data.runs for run in (a, b)], (errors**2 * times).mean(axis=0))
 
 
 def _members(one, run):
-    """Places of the exponents of a step that are its alone, and the same in both runs."""
+    """Places of the exponents of a step; none if it shares its set, or has other indices in the
+    other run."""
     a, b = one.origins
     if (a.first_index, a.last_index) != (b.first_index, b.last_index) or max(
         a.members, b.members
@@ -178,7 +181,8 @@ def _members(one, run):
 
 
 def _gas(a, b):
-    """Collision rate or temperature, and pressure, of runs that all have them."""
+    """Deviations of collision rate or temperature, and of pressure; none unless all runs have
+    them."""
     if not all(one.has('gas') for run in (a, b) for one in run.data.runs):
         return []
     names = [name for name in GAS if name in a.data.gas.index]
@@ -197,20 +201,20 @@ def _exponents(a, b):
     found = []
     for index, measured in enumerate(columns, start=a.spectrum.first_index):
         name = 'lambda_max' if index == 1 else f'lambda_{index}'
-        # zeros fall like 1/t, and their errors are not those of a mean
+        # zero exponents fall like 1/t, so that they have no errors of means
         found.append(Deviation(name, *measured, judged=index not in zeros))
     return found
 
 
 def _sum(a, b):
-    """Of the positive exponents."""
+    """The Deviation of the sum of the positive exponents."""
     return Deviation(
         a.sum_name, (a.spectrum.ks_entropy, b.spectrum.ks_entropy), (a.sum_error, b.sum_error)
     )
 
 
 def _resolved(run):
-    """{what it is: Step} of the resolved steps, smallest |exponent| first."""
+    """{(kind, nodes, conjugate): Step} of the resolved steps, smallest |exponent| first."""
     found = [step for step in (run.steps.steps if run.steps else ()) if step.resolved]
     return {
         (step.kind, space.nodes(step, run.info), step.conjugate): step
@@ -239,9 +243,9 @@ def _pairs_of_fits(a, b):
 
 
 def _fits(pair):
-    """Deviations of what two fits of one form over the same wave numbers say, with the errors of
-    sampling where they are stated: what the form leaves open is the same in both. The fits are
-    their origins."""
+    """Deviations of the coefficients of two fits with the same form and wave numbers. Their errors
+    are those of sampling if they are stated, because the error of the form is the same in both.
+    Their origins are the fits."""
     found = []
     both = enumerate(zip(*(fit.values for fit in pair)))
     for place, ((name, value, error), (_, other, others)) in both:

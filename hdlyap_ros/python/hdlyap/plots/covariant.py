@@ -1,4 +1,5 @@
-"""Covariant vectors of a run beside its Gram-Schmidt vectors: exponents, weights, angles, order."""
+"""Compares covariant vectors of a run with its Gram-Schmidt vectors: exponents, weights, angles,
+order."""
 
 from functools import partial
 from math import pi
@@ -15,18 +16,18 @@ RIGHT_ANGLE = pi / 2
 
 
 def indices(message):
-    """Lyapunov indices of the elements of its arrays."""
+    """The Lyapunov indices of the elements of a message's arrays."""
     return np.arange(message.first_index, message.first_index + len(message.exponents))
 
 
 def between(message):
-    """Places of what is said of an index and the next one."""
+    """Places on an axis for numbers about an index and the next one."""
     return indices(message)[:-1] + 0.5
 
 
 class Compared:
-    """Exponents of both passes at the covariant vectors' indices; unknown ones and errors are
-    NaN."""
+    """Exponents of the forward and the backward pass at the indices of covariant vectors; exponents
+    and errors that are not known are NaN."""
 
     def __init__(self, run):
         message = run.covariant
@@ -34,7 +35,7 @@ class Compared:
         self.backward = np.array(message.exponents, dtype=float)
         self.backward_error = known(message.std_errors)
         self.forward, self.forward_error = self._forward(run.spectrum)
-        # as of independent means: both come from one trajectory, so it is small rather than near 1
+        # as for independent means; as both come from one trajectory, deviations are well below 1
         self.combined = np.hypot(self.forward_error, self.backward_error)
         self.deviation = _ratio(self.backward - self.forward, self.combined)
         zeros = np.arange(run.positive_end + 1, run.positive_end + 1 + run.info.zero_exponents)
@@ -50,8 +51,8 @@ class Compared:
         return found
 
     def over(self, block):
-        """(forward, its error, backward, its error, deviation in combined errors), means over a
-        block; None unless all of its vectors are carried."""
+        """(forward, its error, backward, its error, deviation in combined errors) as means over a
+        block; None unless the run has all of its vectors."""
         inside = within(self.indices, block)
         if inside is None:
             return None
@@ -64,21 +65,22 @@ class Compared:
 
 
 def _ratio(difference, error):
-    """NaN where the error is unknown or none."""
+    """difference / error; NaN if the error is not known or 0."""
     usable = np.isfinite(error) & (error > 0)
     return np.where(usable, difference / np.where(usable, error, 1.0), np.nan)
 
 
 def within(numbers, block):
-    """Which of the indices belong to the block; None unless all of its are among them."""
+    """Which of the indices belong to a block; None unless they have all of the block."""
     inside = (numbers >= block.first) & (numbers <= block.last)
     return inside if inside.sum() == block.last - block.first + 1 else None
 
 
 def blocks(run):
-    """Zero modes, then the steps of both halves, smallest |exponent| first: (name, block)."""
+    """Yields (name, block) of the zero modes, then of the steps of both halves, smallest |exponent|
+    first."""
     found = steps.all_blocks(run.steps, run.info)
-    # each step before its conjugate: they have the same exponents but for the sign and an error
+    # each step comes before its conjugate, whose exponents differ by sign and errors only
     order = {block.name: place for place, block in enumerate(found) if not block.conjugate}
     for block in sorted(found, key=lambda one: (order.get(one.name, len(found)), one.conjugate)):
         half = 'conj. ' if block.conjugate else ''
@@ -89,13 +91,13 @@ def blocks(run):
 
 
 def chance(run, weight):
-    """Weight that a vector without any preference has."""
+    """The weight of a vector without any preference."""
     return 2.0 * weight.dimension / space.phase_space(run.info)
 
 
 def weights_over(run, block):
-    """(step, weights) of a block whose vectors are carried: means over them of the Gram-Schmidt dq,
-    of the covariant dq and dp halves, and what chance would give."""
+    """Yields (step, weights) for the steps of a block, if the run has its vectors. The weights are
+    means over them: of Gram-Schmidt dq, of covariant dq and dp, and by chance."""
     inside = within(indices(run.covariant), block)
     name_of = partial(steps.name, info=run.info)
     for step in block.steps if inside is not None else ():
@@ -106,8 +108,9 @@ def weights_over(run, block):
 
 
 def unresolved_weights(run):
-    """(weight, indices, weights) of waves without a step among the positive exponents: of as many
-    vectors as their space has dimensions, those with the largest dq weights; lowest waves first."""
+    """Yields (weight, indices, weights) for waves without a step among the positive exponents,
+    lowest waves first. The vectors are those with the largest dq weights, as many as the space of
+    the wave's fields has dimensions."""
     numbers = indices(run.covariant)
     carried = int((numbers <= run.positive_end).sum())
     resolved = steps.resolved(run.steps, run.info)
@@ -132,17 +135,17 @@ def edges(counts):
 
 
 def density(counts):
-    """Probability per radian; zeros of an empty histogram."""
+    """The probability per radian; zeros if the histogram is empty."""
     counts = np.array(counts, dtype=float)
     return counts / max(counts.sum(), 1.0) * len(counts) / RIGHT_ANGLE
 
 
 def only_bin(counts):
-    """(from, to) of the bin that holds everything [rad]; None if there are several or none."""
+    """(from, to) of the only bin that is not empty [rad]; None if there are several or none."""
     filled = np.flatnonzero(counts)
     return tuple(edges(counts)[filled[0] : filled[0] + 2]) if len(filled) == 1 else None
 
 
 def isolated(message):
-    """Indices behind which the splitting is dominated: no later vector ever grew more."""
+    """Indices after which the splitting is dominated: no later vector ever grew more."""
     return indices(message)[:-1][np.array(message.domination_violations) == 0]

@@ -1,4 +1,4 @@
-"""Recording -> what hdlyap plot prints of covariant vectors."""
+"""Recording -> the text about covariant vectors that hdlyap plot prints."""
 
 from math import isfinite
 
@@ -9,17 +9,17 @@ from hdlyap.numbers import with_error
 
 from . import covariant
 
-STEPS = 12  # steps and conjugate steps in a table
-UNRESOLVED = 4  # waves without a step
-LISTED = 8  # indices in a line
-ROUNDING = 1e-9  # of an angle [rad]
+STEPS = 12  # most steps and conjugate steps in a table
+UNRESOLVED = 4  # most waves without a step
+LISTED = 8  # most indices in a line
+ROUNDING = 1e-9  # rounding error of an angle [rad]
 ROW = '  {:<18} {:<11} {:>13} {:>13} '
 WEIGHTS = ROW + '{:>13} {:>13}'
-MET = 1e-3  # angle between spaces of two starts that are taken for one [rad]
+MET = 1e-3  # spaces of two starts with at most this angle are the same [rad]
 
 
 def blocks(recording):
-    """The parts of the text; recording.covariant is there."""
+    """Yields the parts of the text. recording.covariant must not be None."""
     yield _exponents(recording)
     yield from _weights(recording)
     yield _spaces(recording)
@@ -57,8 +57,8 @@ def _deviation(deviation):
 
 
 def _all_deviations(compared):
-    """The zero modes for themselves: what is left of them falls with the time of a window, not with
-    an average."""
+    """Yields a line for all exponents but zero modes, and one for these: they fall with the time of
+    a window, and not with that of the average."""
     zero = compared.is_zero
     for what, chosen in (('without zero modes', ~zero), ('zero modes', zero)):
         off = np.where(chosen, compared.deviation, np.nan)
@@ -100,7 +100,7 @@ def _weight_row(name, indices, weights):
 
 
 def _listed(indices):
-    """386-389, or the first of them."""
+    """Indices as 386-389, or the first one if they are not consecutive."""
     together = indices[-1] - indices[0] == len(indices) - 1
     return f'{indices[0]}-{indices[-1]}' if together else f'{indices[0]} ..'
 
@@ -129,7 +129,7 @@ def _spaces(recording):
 
 
 def _angle(angle):
-    """Mean of the smallest one; where it never varies, its error is rounding."""
+    """The mean smallest angle. If it never varies, its error is rounding, and left out."""
     return with_error(angle.mean, angle.std_error if angle.std_error > ROUNDING else -1.0)
 
 

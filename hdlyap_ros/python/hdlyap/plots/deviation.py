@@ -1,18 +1,18 @@
-"""Two measurements of the same -> how far apart they are, and how likely that is by chance."""
+"""Two measurements of a quantity -> how far apart they are, and how likely that is by chance."""
 
 import numpy as np
 from scipy.special import stdtr
 
 from hdlyap.numbers import known
 
-FREEDOM = 7  # of an error, as of 8 blocks: the node asks 16, which may remember each other
+FREEDOM = 7  # degrees of freedom of an error, from 8 blocks; the node has 16, maybe correlated
 
 
 class Deviation:
-    """A quantity of the runs a and b. Its z is the difference in standard errors; NaN while one of
-    the errors is not known. What is not judged is only shown, unless it is no number: that never
-    agrees, whatever its error. What the two values come from is in `origins`. joint: (error of
-    the difference, its degrees of freedom) where it is better known than by both errors."""
+    """A quantity of the runs a and b. z is the difference in standard errors; NaN if one of the
+    errors is not known. A quantity that is not judged is only shown, but one that is not finite
+    never agrees. `origins`: where the two values come from. joint: (error of the difference, its
+    degrees of freedom) if it is known better than from the two errors."""
 
     def __init__(self, name, values, errors, judged=True, origins=(), joint=None):
         self.name, self.values = name, values
@@ -29,12 +29,12 @@ class Deviation:
 
     @property
     def chance(self):
-        """Probability of a difference as large between means over few blocks (Welch)."""
+        """The probability of a difference as large, between means over few blocks (Welch)."""
         if self.z == 0 or np.isinf(self.z):
             return float(self.z == 0)
         freedom = self._freedom
         if not freedom:
-            shares = (self.errors / self.error) ** 2  # their squares may be too large for a number
+            shares = (self.errors / self.error) ** 2  # squares of errors might overflow
             freedom = FREEDOM / float(np.sum(shares**2))
         return 2 * float(stdtr(freedom, -abs(self.z)))  # both tails of Student's t
 
@@ -49,6 +49,6 @@ class Deviation:
 
 
 def unlikeliest(deviations, count=1):
-    """Those that are judged and least likely by chance, the least first."""
+    """The judged deviations that are least likely by chance, the least likely one first."""
     judged = [one for one in deviations if one.judged and one.is_known]
     return sorted(judged, key=lambda one: (one.chance, -abs(one.z)))[:count]

@@ -1,16 +1,17 @@
-"""Equation of state of hard disks, and what follows from a pressure and a collision rate: in
-reduced units, the kinetic energy of a disk being 1, so that kT = 1.
+"""Equation of state of hard disks, and what follows from a pressure and a collision rate. Units are
+reduced: the kinetic energy of a disk is 1, so that kT = 1.
 
-Of the reference, Henderson, Mol. Phys. 30, 971 (1975), Z = (1 + eta^2 / 8) / (1 - eta)^2 with
-eta = pi rho / 4, good to a percent up to MOST; all of it takes numbers and arrays. Of spheres,
-whose kT is 2/3, Carnahan and Starling, J. Chem. Phys. 51, 635 (1969), with eta = pi rho / 6."""
+The reference is Henderson, Mol. Phys. 30, 971 (1975): Z = (1 + eta^2 / 8) / (1 - eta)^2 with
+eta = pi rho / 4, exact to a percent up to MOST. For spheres, whose kT is 2/3, it is Carnahan and
+Starling, J. Chem. Phys. 51, 635 (1969), with eta = pi rho / 6. All functions take numbers and
+arrays."""
 
 from collections import namedtuple
 from math import pi, sqrt
 
 import numpy as np
 
-MOST = 0.7  # density; disks freeze near 0.88
+MOST = 0.7  # highest density of the reference; disks freeze near 0.88
 
 
 def compressibility(density):
@@ -33,28 +34,28 @@ REFERENCES = {
 
 
 def of(info):
-    """None of other particles."""
+    """The Reference of a run's particles; None if there is none."""
     return REFERENCES.get(info.particles)
 
 
 def contact_value(z, density):
-    """g(sigma) of a Z of disks: Z - 1 = (pi / 2) rho g."""
+    """g(sigma) of disks with this Z: Z - 1 = (pi / 2) rho g."""
     return 2 * (np.asarray(z) - 1) / (pi * np.asarray(density))
 
 
 def collision_rate(z):
-    """Of each disk, that belongs to a Z: 2 sqrt(pi) rho g."""
+    """The collision rate of a disk with this Z: 2 sqrt(pi) rho g."""
     return 4 * (np.asarray(z) - 1) / sqrt(pi)
 
 
 def mean_free_path(rate):
-    """Of disks: mean speed over the collisions of each in a time unit [sigma]."""
+    """The mean free path of disks: mean speed over the collision rate of a disk [sigma]."""
     return sqrt(pi / 2) / np.asarray(rate)
 
 
 def sound_velocity(density):
-    """Of the reference: c^2 = d(rho Z)/d rho + Z^2, as a disk has two degrees of freedom
-    [sigma/time unit]."""
+    """The velocity of sound of the reference: c^2 = d(rho Z)/d rho + Z^2, as a disk has two degrees
+    of freedom [sigma/time unit]."""
     eta = pi * np.asarray(density) / 4
     z = compressibility(density)
     slope = (eta / 4 + 2 * z * (1 - eta)) / (1 - eta) ** 2  # dZ / d eta
@@ -62,16 +63,16 @@ def sound_velocity(density):
 
 
 def sound_velocities(densities, z, errors=None):
-    """Of disks, and measured Z at three or more densities: (velocities, errors) there. The slope is
-    that of the quadratic through each density's nearest three; errors (of Z, independent) go
-    through it linearly."""
+    """(velocities of sound, errors) of disks with measured Z at three or more densities. The slope
+    is that of the quadratic through the three densities nearest to each one. errors: independent
+    ones of Z, which are propagated linearly."""
     densities, z = np.asarray(densities, dtype=float), np.asarray(z, dtype=float)
     errors = np.full(len(z), np.nan) if errors is None else np.asarray(errors, dtype=float)
     if len(z) < 3 or len(set(densities)) < len(densities):
         raise ValueError(f'{len(set(densities))} different densities: must be at least 3')
     slopes = np.array([_slope(densities, one) for one in range(len(z))])
     square = z + densities * (slopes @ z) + z**2
-    # c^2 as a linear function of all Z near what was measured
+    # derivatives of c^2 with respect to all Z
     share = densities[:, None] * slopes + np.diag(1 + 2 * z)
     variance = ((share * np.where(share == 0, 0.0, errors)) ** 2).sum(axis=1)
     velocities = np.sqrt(square)
@@ -79,7 +80,7 @@ def sound_velocities(densities, z, errors=None):
 
 
 def _slope(densities, one):
-    """Weights of all Z in dZ / d rho at one density: of Lagrange's quadratic."""
+    """The weights of all Z in dZ / d rho at one density, from Lagrange's quadratic."""
     near = np.argsort(np.abs(densities - densities[one]), kind='stable')[:3]
     weights, at = np.zeros(len(densities)), densities[one]
     for k in near:

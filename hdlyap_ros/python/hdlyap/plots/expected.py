@@ -1,5 +1,5 @@
-"""Vector of a step of spheres -> how it is made of the fields of the waves of its set, T, or L and
-P, by least squares."""
+"""Vector of a step of spheres -> its fit, by least squares, with the fields of its set's waves: T,
+or L and P."""
 
 import numpy as np
 
@@ -7,8 +7,8 @@ from hdlyap.data import space, steps, waves
 
 
 class Expected:
-    """dq of a ModeField, scaled to a mean square of one, beside its projection on the fields of
-    these steps. `along`: the directions in which they have nodes."""
+    """dq of a ModeField, scaled to a mean square of one, and its projection on the fields of these
+    steps. `along`: the directions in which their waves have nodes."""
 
     def __init__(self, field, found, info):
         self.info, self._field = info, field
@@ -45,10 +45,10 @@ class Expected:
         ]
 
     def at(self, q):
-        """The T or L field that it has, at other places."""
+        """The T or L field of the projection at other positions."""
         return np.tensordot(self._of_shapes, self._shapes(q), axes=1)
 
     @property
     def weight(self):
-        """Of its square, the part in the projection."""
+        """The part of the square of dq that is in the projection."""
         return float(np.mean(np.sum(self.projection**2, axis=0)))

@@ -1,4 +1,4 @@
-"""Run -> frames of a movie: disks and the vectors of some modes, one time after the other."""
+"""Run -> frames of a movie: particles and the vectors of some modes, one time after the other."""
 
 from math import isfinite
 
@@ -7,16 +7,16 @@ import numpy as np
 from hdlyap.data import space, steps
 from hdlyap.data.reader import FIELD, PHASES, RecordingError, STATE
 
-MOST = 1e6  # frames of a film: ten of them a second are a day
+MOST = 1e6  # most frames of a film; at ten frames per second they take a day
 
 
 class Frame:
-    """What is known at a time. Each has a time of its own: fields come seldom."""
+    """The last messages at a time. Fields come seldom, so each may have a different time."""
 
     def __init__(self, info=None):
         self._info = info
-        self.time, self.places = None, None  # rows along each direction
-        self.angles = self.spins = ()  # of what turns
+        self.time, self.places = None, None  # places: rows along each direction
+        self.angles = self.spins = ()  # empty unless particles rotate
         self.fields = {}  # name of the mode -> ModeField
         self.phases = None  # LpPhases
         self.turned = {}  # name of the mode -> pairs (a, b) at the time of its field
@@ -34,7 +34,7 @@ class Frame:
     def _add_field(self, field, names):
         name = wave_name(field.kind, space.nodes(field, self._info))
         before = self.fields.get(name)
-        # of several vectors of a step the first
+        # the first one of several vectors of a step
         if name in names and not (
             before and before.sim_time == field.sim_time and before.index < field.index
         ):
@@ -47,7 +47,7 @@ class Frame:
                 self.turned[name] = self.pairs(field)
 
     def pairs(self, field):
-        """(a, b) of each pair of a vector, as the last phases have them."""
+        """(a, b) of each pair of a vector, from the last phases."""
         return [
             (phase.a, phase.b)
             for phase in (self.phases.phases if self.phases else ())
@@ -58,8 +58,8 @@ class Frame:
 
 
 class Film:
-    """Of a data.run.Run. within: its first and last simulated time, None: from when all modes are
-    found, to the last."""
+    """The frames of a data.run.Run. within: first and last simulated time; None: the time from
+    which all modes are found, and the last time."""
 
     def __init__(self, run, names=None, within=(None, None)):
         self._run, self.info = run, run.info
@@ -83,8 +83,8 @@ class Film:
         self.field_interval = _apart(fields)
 
     def _times(self):
-        """Of places, and of the fields of these modes, each once; and the first time from which on
-        each mode that has a vector at all has one, None if none has."""
+        """The times of positions; the times of fields of the film's modes; and the first time at
+        which each mode that ever has a vector has had one, None if none ever has."""
         places, fields, first = set(), set(), {}
         for packed in self._run.in_time((STATE, FIELD)):
             places.add(packed.sim_time)
@@ -111,7 +111,7 @@ class Film:
         return first, last
 
     def count(self, every):
-        """Number of frames that are so much simulated time apart."""
+        """The number of frames, if each is `every` simulated time units after the last."""
         count = (self.end - self.begin) / every
         if not count < MOST:
             raise RecordingError(
@@ -121,7 +121,7 @@ class Film:
         return 1 + int(count + 1e-9)
 
     def frames(self, every):
-        """What is known at each of those times, in one Frame."""
+        """Yields the state at each of those times, in one Frame, which is changed."""
         frame, number, count = Frame(self.info), 0, self.count(every)
         for packed in self._run.in_time((STATE, FIELD, PHASES)):
             while number < count and packed.sim_time > self.begin + number * every + 1e-9:
@@ -133,18 +133,18 @@ class Film:
 
 
 def wave_name(kind, nodes):
-    """T(1,0); None of a vector that is of no such step."""
+    """The name of a mode as T(1,0); None if the vector belongs to no T or LP step."""
     named = kind in (steps.T, steps.LP)
     return f'{steps.NAMES[kind]}({",".join(map(str, nodes))})' if named else None
 
 
 def _apart(times):
-    """Median; 0 of a single one."""
+    """The median distance of times; 0 if there is only one."""
     return float(np.median(np.diff(times))) if len(times) > 1 else 0.0
 
 
 def lowest(resolved):
-    """Names of the T and of the LP step of smallest exponent."""
+    """The names of the T and of the LP step with the smallest exponents."""
     names = []
     for kind in (steps.T, steps.LP):
         of_kind = {name: step for name, step in resolved.items() if step.kind == kind}

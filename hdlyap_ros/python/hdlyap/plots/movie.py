@@ -1,4 +1,4 @@
-"""Frames -> a film of modes with the disks moving: an MP4 or a GIF."""
+"""Frames -> a film of modes and moving particles: an MP4 or a GIF."""
 
 import os
 from subprocess import CalledProcessError
@@ -23,17 +23,17 @@ from .figures.style import BLUE, GREY, VERMILION, scene
 from .figures.turning import LEFT, RIGHT, of_spins, of_vector, strength
 from .figures.view import View
 
-WIDTH = {'.mp4': 1280, '.gif': 480}  # pixels, of the kinds of files that there are
-INCHES = 5.0  # of that width
-TOP, TITLE, GAP = 0.4, 0.45, 0.12  # inches: the film's title, a panel's, and between
-LINE = 0.14  # and one more of the film's title
-LONG = 2.5  # boxes this much longer than high lie above each other
-ARROW, LONGEST = 1.3, 2.6  # root mean square and longest, in mean distances of disks
-ALL_L, ALL_P = to_rgb('#E69F00'), to_rgb('#661F05')  # an LP mode, as in rviz
+WIDTH = {'.mp4': 1280, '.gif': 480}  # pixels, for each kind of file
+INCHES = 5.0  # the same width in inches, by which letters are sized
+TOP, TITLE, GAP = 0.4, 0.45, 0.12  # inches: title of the film, of a panel, gap between panels
+LINE = 0.14  # inches: another line of the film's title
+LONG = 2.5  # panels of boxes longer than this lie above each other
+ARROW, LONGEST = 1.3, 2.6  # root mean square and longest arrow, in mean distances of particles
+ALL_L, ALL_P = to_rgb('#E69F00'), to_rgb('#661F05')  # LP mode that is all L, all P, as in rviz
 DISK = '#DCDCDC'
-SPHERE, DOT = '#8C8C8C', 0.3  # drawn smaller, as those in front would hide the others [sigma]
-PALE = 0.3  # part of white in a vector that is of an earlier time
-COLOURS, SHADES = 24, 64  # of a GIF, and of one of what turns
+SPHERE, DOT = '#8C8C8C', 0.3  # colour and diameter of spheres; larger ones would hide others
+PALE = 0.3  # part of white in a vector of an earlier time
+COLOURS, SHADES = 24, 64  # number of colours of a GIF, and if particles rotate
 CODECS = {
     '.mp4': (
         'libx264',
@@ -50,7 +50,7 @@ CODECS = {
 
 
 class Panel:
-    """The box with the disks, and the vector of one mode."""
+    """The box with particles, and the vector of one mode."""
 
     def __init__(self, axes, name, film):
         info = film.info
@@ -90,7 +90,8 @@ class Panel:
         self._show_dials(frame, field, colour)
 
     def _show_particles(self, frame, field):
-        """Of what turns: as the vector turns it, without one as it spins."""
+        """Shows the particles. Those that rotate are coloured by the vector or, without one, by
+        their spin."""
         info, q = self._film.info, frame.places[:, self._view.order(frame.places)]
         self._particles.move(q, frame.angles)
         if self._view.is_solid:
@@ -112,7 +113,7 @@ class Panel:
         return f'{self._name}   $\\lambda={number}$\nvector {field.index}{of}'
 
     def _show_dials(self, frame, field, colour):
-        """(a, b) of each pair in the unit circle, at the right above the panel."""
+        """Shows (a, b) of each pair in a unit circle, above the panel at the right."""
         pairs = frame.pairs(field) if field.kind == steps.LP else []
         while len(self._dials) < len(pairs):
             self._dials.append(dial(self._axes, len(self._dials)))
@@ -122,7 +123,7 @@ class Panel:
 
 
 def dial(axes, number):
-    """Its hand."""
+    """Draws a dial above the axes. Returns its hand."""
     box = axes.figure.transFigure.inverted().transform_bbox(axes.get_window_extent())
     size = 0.22 / axes.figure.get_figheight()
     across = size * axes.figure.get_figheight() / axes.figure.get_figwidth()
@@ -144,7 +145,7 @@ def mixed(one, other, part):
 
 
 def mode_colour(field, pairs):
-    """An LP mode turns from L to P: its hue says so."""
+    """The colour of a mode. An LP mode turns from L to P, and its hue shows how far."""
     if field.kind == steps.T:
         return to_rgb(BLUE)
     squares = np.sum(np.square(pairs), axis=0) if len(pairs) else np.zeros(2)
@@ -154,7 +155,7 @@ def mode_colour(field, pairs):
 
 
 class Picture:
-    """A figure with a panel for each mode, that shows one frame after the other."""
+    """A figure with a panel for each mode, which shows one frame after the other."""
 
     def __init__(self, film, width):
         count = len(film.names)
@@ -164,7 +165,7 @@ class Picture:
         high = across * tall / wide
         top = TOP + LINE * scene(film.info).count('\n')
         height = top + rows * (high + TITLE)
-        dpi = (width + 0.5) / INCHES  # cut to a whole number
+        dpi = (width + 0.5) / INCHES  # matplotlib cuts the width to a whole number
         self.figure, look = Figure(figsize=(INCHES, height), dpi=dpi), {'va': 'top', 'fontsize': 8}
         FigureCanvasAgg(self.figure)
         self._title = self.figure.text(0.5, 1 - 0.08 / height, '', ha='center', **look)
@@ -181,7 +182,7 @@ class Picture:
 
     @staticmethod
     def _legend(film):
-        """(what, its colour, right end [inch])"""
+        """Yields (text, colour, right end [inch])."""
         if any(name.startswith('LP') for name in film.names):
             yield 'L', ALL_L, INCHES - GAP - 0.3
             yield 'P', ALL_P, INCHES - GAP
@@ -196,7 +197,8 @@ class Picture:
 
 
 def write(film, path, pace, fps, width=None):
-    """The number of frames. Complete films only: an older one is replaced in one step."""
+    """Writes a film. Returns the number of frames. An older file is replaced in one step, by a
+    complete film."""
     suffix = os.path.splitext(path)[1]
     every = pace / fps
     if not FFMpegWriter.isAvailable():
@@ -205,7 +207,7 @@ def write(film, path, pace, fps, width=None):
     options = [one.format(colours=SHADES if space.turns(film.info) else COLOURS) for one in options]
     writer, total = FFMpegWriter(fps, codec, extra_args=options), film.count(every)
     try:
-        # whatever a matplotlibrc says
+        # so that a matplotlibrc changes nothing
         with matplotlib.style.context('default'), whole.written(path) as unfinished:
             picture = Picture(film, width or WIDTH[suffix])
             with writer.saving(picture.figure, unfinished, picture.figure.dpi):

@@ -6,9 +6,9 @@ from collections import namedtuple
 from math import hypot, inf, isclose, pi
 
 DISKS, DENSITY, ASPECT = 780, 0.8, 0.867
-FIT_ACCURACY = 0.03  # ours: how well slopes are taken to be described by the fits
+FIT_ACCURACY = 0.03  # relative accuracy of the slopes of the fits, as we assume
 FITS = 'fits of Eckmann, Forster, Posch, Zabey 2005'
-# kind, nodes, first and last index; those of the last two are inferred from their multiplicities
+# kind, nodes, first and last index; indices of the last two follow from their multiplicities
 INDICES = (
     ('T', 1, 0, 1556, 1557),
     ('T', 0, 1, 1554, 1555),
@@ -18,8 +18,8 @@ INDICES = (
     ('T', 2, 0, 1540, 1541),
     ('LP', 1, 1, 1532, 1539),
 )
-STEPS = INDICES[:5]  # small enough for slopes without curvature
-# lambda = c k + c2 k^2; c2 is None where only a slope is given
+STEPS = INDICES[:5]  # wave numbers are small enough for slopes without curvature
+# lambda = c k + c2 k^2; c2 is None if only a slope is given
 
 
 class Branch(namedtuple('Branch', 'c c2')):
@@ -29,13 +29,13 @@ class Branch(namedtuple('Branch', 'c c2')):
 
     @property
     def terms(self):
-        """Of its form."""
+        """The number of terms of its form."""
         return len(self.coefficients)
 
 
 CURVES = {'T': Branch(1.412, 0.086), 'LP': Branch(1.422, 0.55)}
 CURVES_DENSITY = 0.4
-# Its boxes, from .. to: beside others none of its slopes stands.
+# Ranges of the paper's boxes; its slopes are not compared with those of other boxes.
 CURVES_DISKS, FIT_DISKS, FIT_DENSITIES, ASPECTS = (400, 800), (400, inf), (0.1, DENSITY), (0.5, 1.0)
 
 
@@ -61,14 +61,14 @@ def slope_l(density):
 
 
 def steps(info):
-    """The paper's smallest steps if the run is of the paper's periodic scene, else none."""
+    """The paper's smallest steps if the run has the paper's periodic scene, otherwise none."""
     if not _is_periodic_scene(info):
         return []
     return [Step(info, *step) for step in STEPS]
 
 
 def branches(info):
-    """{kind: Branch} where the paper's fits hold for the run, else none."""
+    """{kind: Branch} of the paper's fits that hold for the run."""
     if not _is_rectangle(info) or not _within(info.aspect, ASPECTS):
         return {}
     if isclose(info.density, CURVES_DENSITY, rel_tol=1e-6) and _within(info.number, CURVES_DISKS):

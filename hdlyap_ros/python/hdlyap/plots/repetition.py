@@ -1,4 +1,4 @@
-"""bag file -> run_info -> the scene file (YAML, as launch/scenes/*.yaml) that repeats the run."""
+"""Bag -> run_info -> the scene file (YAML, as launch/scenes/*.yaml) that repeats the run."""
 
 import re
 
@@ -6,18 +6,18 @@ import yaml
 
 from hdlyap.data import containers, reader, space
 
-# of run_info, what is no parameter: what follows from them, and what the run ran on
+# fields of run_info that are no parameters: they follow from parameters, or describe the machine
 RESULTS = ('header', 'run_id', 'version', 'dimension', 'box_x', 'box_y', 'box_z', 'outline_x')
 RESULTS += ('outline_y', 'vectors', 'zero_exponents', 'wave_nx', 'wave_ny', 'wave_nz')
 RESULTS += ('coordinates', 'own', 'inertia', 'packing_fraction', 'resumed_time', 'ranks')
 RESULTS += ('blas_threads', 'blas_library', 'blas_kernel', 'blas_threading')
-OF_SPHERES = ('aspect_z', 'boundary_z')  # which disks have not
-# a word, or a list of numbers as text
+OF_SPHERES = ('aspect_z', 'boundary_z')  # parameters that disks do not have
+# parameters that are a word or a list of numbers, and a text in run_info
 LISTS = ('field_indices',)
 
 
 def chosen(path, node=None, number=None):
-    """run_info of one of the bag's runs; number: from 1."""
+    """run_info of one of the runs in a bag; number counts from 1."""
     infos = list(reader.run_infos(path, node).values())
     if number is None and len(infos) == 1:
         return infos[0]
@@ -35,8 +35,8 @@ def scene_file(info):
 
 
 def parameters(info):
-    """By name. The run begins anew, and leaves the first one's checkpoint alone; what it was
-    resumed from makes no difference to its numbers."""
+    """{name: value} of the parameters that repeat a run. The repeated run begins anew, and does not
+    touch the checkpoint of the first one; results do not depend on whether that was resumed."""
     results = RESULTS + containers.not_asked(info)
     results += () if space.is_solid(info) else OF_SPHERES
     names = [name for name in info.__slots__ if name not in results]
@@ -44,18 +44,18 @@ def parameters(info):
     asked.update({name: _list_of(asked[name]) for name in LISTS}, checkpoint='', resume='')
     asked.update({name: asked[name] or 'auto' for name in ('interval', 'phase_interval')})
     asked.update(space.own(info))
-    before = {change.name: change.before for change in reversed(info.changes)}  # as it began
+    before = {change.name: change.before for change in reversed(info.changes)}  # at the beginning
     asked.update({name: _typed(asked[name], value) for name, value in before.items()})
     return {**asked, 'changes': [_change(change) for change in info.changes]}
 
 
 def _typed(now, text):
-    """As the parameter is now."""
+    """A text with the type of the parameter's present value."""
     return type(now)(text)
 
 
 def _change(change):
-    """As the parameter changes has it, to the last bit."""
+    """A change as the parameter `changes` takes it, exact to the last bit."""
     return f'{change.sim_time!r} {change.name}={change.value}'
 
 
@@ -87,5 +87,5 @@ def _remarks(info):
 
 
 def _one_line(text):
-    """Texts in a bag are anybody's."""
+    """A text in one line: texts in a bag may come from anybody."""
     return ' '.join(text.split())

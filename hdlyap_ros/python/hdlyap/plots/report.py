@@ -8,7 +8,7 @@ from hdlyap.numbers import known, with_error
 
 from . import covariant_table, equation, paper, step_table
 
-TAIL = 64  # exponents in the table
+TAIL = 64  # most exponents in the table
 COLUMNS = 3
 MEAN = '  {:<16} {:>15} {:>15} {:>15} {:>12} {:>4}  {}'
 HEAD = MEAN.format('', 'mean', 'stated error', 'from scatter', 'chi^2/(n-1)', 'n', '').rstrip()
@@ -43,7 +43,7 @@ def _of_means(recording):
 
 
 def _means(recording):
-    """Both errors and chi^2 of each."""
+    """The two errors and chi^2 of each mean."""
     of_all = recording.data
     count = len(of_all.runs)
     number = '1 seed' if count == 1 else f'{count} seeds'
@@ -120,7 +120,7 @@ def _gas(recording):
     periodic = set(space.along(info, 'boundary_')) == {'periodic'}
     axes = space.axes(info)
     of_z = f'Z = p {"V" if space.is_solid(info) else "A"} / N'
-    of_z += ' kT' if info.coordinates == 3 or gas.temperature > 0 else ''  # kT is 1 of disks
+    of_z += ' kT' if info.coordinates == 3 or gas.temperature > 0 else ''  # kT is 1 for disks
     each = ', '.join(f'{getattr(gas, "pressure_" + axis):.6f}' for axis in axes)
     per = f'per {space.particle(info)} and time unit'
     rows = [
@@ -163,7 +163,7 @@ def _tail(recording):
 
 
 def _in_columns(head, cells):
-    """Reads down, then to the right."""
+    """Lines of a table whose cells go downwards, then to the right."""
     rows = -(-len(cells) // COLUMNS)
     columns = [cells[start : start + rows] for start in range(0, len(cells), rows)]
     yield '  '.join([head] * len(columns))
@@ -172,7 +172,7 @@ def _in_columns(head, cells):
 
 
 def _paper_block(recording):
-    """Of a run that did not look for steps, those that the paper has at the same indices."""
+    """For a run without steps: the steps that the paper has at the same indices."""
     spectrum = recording.spectrum
     head = '  step     indices      k [1/sigma]  mean exponent      error    c k     deviation'
     first, last = spectrum.first_index, recording.last_index

@@ -1,4 +1,4 @@
-"""Recording -> the table of steps: what they are, their exponents, fits, LP dynamics, cost."""
+"""Recording -> the table of steps, with their exponents, fits, LP dynamics and cost."""
 
 from math import isfinite
 
@@ -10,7 +10,7 @@ from hdlyap.numbers import with_error
 
 from . import paper
 
-WIDTH = 100  # of a line with a list of names
+WIDTH = 100  # largest width of a line with a list of names
 COLUMNS = (
     ('indices', '<10'),
     ('found', '>8'),
@@ -23,7 +23,7 @@ SHARING = words(Step, 'sharing')
 
 
 def blocks(recording):
-    """The parts of the table; recording.steps is there."""
+    """Yields the parts of the table. recording.steps must not be None."""
     yield _steps(recording)
     yield _fits(recording)
     yield from _lp_dynamics(recording)
@@ -46,7 +46,8 @@ def _steps(recording):
 
 
 def block_rows(message, fitted, info):
-    """(cells of a row, kind of its step or None for several), smallest exponent first."""
+    """Yields (cells of a row, kind of its step or None for several kinds), smallest exponent
+    first."""
     for block in steps.blocks(message, info):
         if len(block.steps) > 1:
             yield _shared_cells(block), block.kind
@@ -55,7 +56,7 @@ def block_rows(message, fitted, info):
 
 
 def layout(rows, beside_paper=False):
-    """Lines: a heading, then one for each row of cells."""
+    """Yields lines: a heading, then one for each row of cells."""
     columns = COLUMNS + (PAPER_COLUMNS if beside_paper else ())
     width = max(len(row[0]) for row in rows)
     for row in [['step'] + [title for title, _ in columns]] + rows:
@@ -73,7 +74,7 @@ def zero_cells(run):
 
 
 def _found(step):
-    """And expected, of a step or of a block."""
+    """The multiplicity that was found, and the expected one, of a step or a block."""
     return f'{step.multiplicity:.2f}', str(step.expected)
 
 
@@ -84,7 +85,7 @@ def _shared_cells(block):
 
 
 def _cells(block, step, name, fitted):
-    """A step that shares its set is indented below the names of all."""
+    """The cells of a step. If it shares its set it is indented, below the row of the set."""
     cells = ['  ' + name, ''] if len(block.steps) > 1 else [name, block.indices]
     cells += [*_found(step), f'{step.wave_number:.5f}', with_error(step.exponent, step.std_error)]
     if name in fitted:
@@ -93,7 +94,7 @@ def _cells(block, step, name, fitted):
 
 
 def _remarks(message, info):
-    """What is not in the table."""
+    """Yields lines about steps that are not in the table."""
     missing = steps.unresolved(message)
     if missing:
         yield '  ' + _names(f'not resolved ({len(missing)}): ', missing, info)
@@ -103,7 +104,7 @@ def _remarks(message, info):
 
 
 def _names(start, missing, info):
-    """As many names as fit into a line."""
+    """A line with as many names as fit."""
     text = start
     for count, step in enumerate(missing):
         name = steps.name(step, info) + ' '
@@ -114,7 +115,8 @@ def _names(start, missing, info):
 
 
 def _conjugates(message, half, info):
-    """The negative half in a line: found as often, and how far it is from a mirror image."""
+    """A line about the negative half: how many steps are resolved, and how far they are from being
+    the opposites of the positive ones."""
     found = [step for step in half if step.resolved]
     line = f'conjugate steps of the negative half: {len(found)} of {len(half)} resolved'
     mirror = steps.resolved(message, info)
@@ -135,7 +137,7 @@ def _fits(recording):
 
 
 def _fit_lines(fit):
-    """What it stands on, and its coefficients."""
+    """Lines about a fit: its basis, and its coefficients."""
     if not fit.count:
         return [f'  {fit.symbol:<5} {_why_none(fit)}']
     basis = f'{steps.NAMES[fit.kind]} steps: {fit.basis}'
@@ -152,7 +154,8 @@ def _why_none(fit):
 
 
 def _beside_paper(fit, curve, branch):
-    """The paper's form, over the same waves, beside its values."""
+    """Yields lines that compare a fit of the paper's form, over the same waves, with the paper's
+    values."""
     if curve is None:
         return
     accuracy = f' +-{100 * paper.FIT_ACCURACY:.0f} %' if branch.terms == 1 else ''
@@ -164,7 +167,7 @@ def _beside_paper(fit, curve, branch):
 
 
 def _lp_dynamics(recording):
-    """One line for each resolved LP step; nothing if phases were not recorded."""
+    """Yields a table with a line for each resolved LP step; nothing if phases were not recorded."""
     if recording.phases.last is None:
         return
     lines = [

@@ -1,4 +1,4 @@
-"""Comparison -> the text that compare prints, and what it comes to."""
+"""Comparison -> the text that hdlyap compare prints, and its verdict."""
 
 import textwrap
 from math import inf
@@ -12,14 +12,14 @@ from .deviation import unlikeliest
 from .report import origin, system
 
 AGREE, DIFFER = 0, 1  # exit status
-# Of pairs of runs of one system at most so many are said to differ, of which these are due to
-# any of the steps, to any of the numbers, and to the spectrum.
+# Largest part of pairs of runs of one system that are said to differ; and its parts that are due to
+# steps, to numbers, and to the spectrum.
 CHANCE, STEPS, NUMBERS, SPECTRUM = 0.015, 0.01, 0.003, 0.002
-LARGEST = 8  # deviations in the list
-# Averaged time in units of 1 / the smallest positive exponent below which the blocks of an error
-# may be shorter than what fluctuates.
+LARGEST = 8  # most deviations in the list
+# Below this averaged time, in units of 1 / the smallest positive exponent, the blocks of an error
+# may be shorter than fluctuations last.
 SHORT = 30
-WIDTH = 40  # of a parameter
+WIDTH = 40  # most characters of a parameter
 ROW = '  {:<14} {:>15} {:>15} {:>15} {:>7}  {}'
 HEAD = ROW.format('', 'a', 'b', 'b - a', 'z', '{}')
 
@@ -46,9 +46,9 @@ def verdict(comparison):
 
 
 def _reasons(comparison):
-    """(chance, what it is of): of the one step and the one number that is least alike, and of the
-    spectrum. A chance counts as often as there are such, however they fluctuate together
-    (Bonferroni), over the share of it."""
+    """Yields (chance, text about it) for the step and the number that agree least, and for the
+    spectrum. The chance of one is multiplied by their number, as is right however they are
+    correlated (Bonferroni), and divided by the share of their kind in CHANCE."""
     kinds = (NUMBERS, 'numbers', comparison.numbers), (STEPS, 'steps', comparison.steps)
     for share, what, all_of in kinds:
         count = sum(one.judged and one.is_known for one in all_of)
@@ -79,7 +79,7 @@ def _warnings(comparison):
 
 
 def _length_in_slowest(run):
-    """Averaged time in units of 1 / the smallest positive exponent; infinite without one."""
+    """The averaged time in units of 1 / the smallest positive exponent; infinite without one."""
     if run.spectrum is None:
         return inf
     positive = run.spectrum.exponents[: run.positive_end + 1 - run.spectrum.first_index]
@@ -87,7 +87,7 @@ def _length_in_slowest(run):
 
 
 def report(comparison):
-    """All but the verdict."""
+    """The text without the verdict."""
     parts = _head, _parameters, _remarks, _quantities, _exponents, _largest
     return '\n\n'.join(block for part in parts for block in part(comparison))
 
@@ -118,7 +118,7 @@ def _short(value):
 
 
 def _word(element):
-    """Of a list; of changes when, what, and to which value."""
+    """An element of a list as text; a change with its time, parameter and value."""
     if hasattr(element, 'sim_time'):
         return f'{element.sim_time:g} {element.name}={element.value}'
     return str(element)
@@ -127,7 +127,7 @@ def _word(element):
 def _remarks(comparison):
     a, b = comparison.runs
     lines = []
-    if set(a.info.seed.split(', ')) & set(b.info.seed.split(', ')):  # of means: several
+    if set(a.info.seed.split(', ')) & set(b.info.seed.split(', ')):  # means have several seeds
         lines.append(
             'the same seed: where the runs share their trajectory their errors are no '
             'measure of their difference'

@@ -1,4 +1,4 @@
-"""The figures of a run side by side in a window, drawn anew as often as its owner likes."""
+"""The figures of a run side by side in a window, which the caller can draw anew."""
 
 import time
 import tkinter
@@ -17,9 +17,9 @@ PLACES = {
     'phases': (1, 1, 1),
     'convergence': (0, 2, 2),
 }
-COLUMNS, ROWS = (7, 6, 5), (1, 1)  # how they share the window
-INCHES = 10.6  # that its height counts for: letters grow with the window
-PART = 0.9  # of the screen, at first
+COLUMNS, ROWS = (7, 6, 5), (1, 1)  # relative widths of columns, heights of rows
+INCHES = 10.6  # the height of the window in inches, so that letters grow with it
+PART = 0.9  # part of the screen that the window takes at first
 TICK = 0.02  # seconds between two looks at what the user does
 
 
@@ -27,7 +27,7 @@ class Window:
     """is_open until the user closes it, which pause() notices."""
 
     def __init__(self, title):
-        """Not yet on the screen; tkinter.TclError without one."""
+        """Creates the window, but does not show it. Raises tkinter.TclError without a screen."""
         self._root = tkinter.Tk(className='hdlyap')
         self._root.withdraw()
         self._root.title(title)
@@ -46,7 +46,7 @@ class Window:
     def _canvas(self, row, column, rows):
         canvas = FigureCanvasTkAgg(Figure(), self._root)
         widget = canvas.get_tk_widget()
-        widget.configure(width=1, height=1)  # as large as its place, whatever its figure wants
+        widget.configure(width=1, height=1)  # it grows to its place, whatever its figure wants
         widget.grid(row=row, column=column, rowspan=rows, sticky='nsew')
         return canvas
 
@@ -67,14 +67,14 @@ class Window:
         self._root.withdraw()
 
     def pause(self, seconds):
-        """For the user, who may resize or close it."""
+        """Lets the user resize or close the window for this time."""
         until = time.monotonic() + seconds
         while self.is_open and time.monotonic() < until:
             self._root.update()
             time.sleep(TICK)
 
     def say(self, words):
-        """Below the figures."""
+        """Writes a text below the figures."""
         self._words.set(words)
 
     def draw(self, recorded):

@@ -1,5 +1,5 @@
-"""Recording -> figures, as PNG, SVG and pages of a PDF: one file here for each, with draw(run,
-ax=None, **look), see page.figure."""
+"""Recording -> figures, as PNG, SVG and pages of a PDF. Each figure is a module here with draw(run,
+ax=None, **look); see page.figure."""
 
 import contextlib
 import importlib
@@ -10,17 +10,17 @@ from hdlyap import whole
 
 from .style import ours, save
 
-# in the order in which hdlyap plot names them; each gives None where the bag has nothing for it
+# in the order in which hdlyap plot lists them; draw returns None if the bag has no data for one
 NAMES = 'spectrum convergence steps dispersion modes p_mode phases localization structure '
 NAMES += 'covariant_exponents covariant_weights covariant_angles covariant_domination '
 NAMES += 'covariant_vectors cost'
 FIGURES = {name: importlib.import_module(f'.{name}', __name__) for name in NAMES.split()}
-OF_MEANS = 'spectrum', 'steps', 'dispersion'  # the others are of one run
+OF_MEANS = 'spectrum', 'steps', 'dispersion'  # figures of several seeds; others are of one run
 
 
 def draw_all(recording, folder, progress, names=tuple(FIGURES), pdf=None):
-    """Each of them that the recording has data for; the names of the files written. pdf: one more
-    file, that has them all."""
+    """Draws each figure for which the recording has data. Returns the names of the files. pdf: a
+    file with all figures."""
     files, pages = [], None
     with ours(), contextlib.ExitStack() as stack:
         for name in progress.over(names, len(names)):

@@ -1,5 +1,5 @@
-"""Samples one after the other -> the error of their mean by blocks, against the length of these. Not
-of hdlyap plot: of arrays."""
+"""Successive samples -> the error of their mean from blocks, against the length of blocks. hdlyap
+plot does not draw it: it takes arrays."""
 
 import numpy as np
 from matplotlib import ticker
@@ -13,7 +13,8 @@ from .style import FEW, GREY, INK
 
 
 def draw(values, lengths=None, stated=None, ax=None, **look):
-    """values, lengths: see data.series; stated: an error to be compared with. A Page."""
+    """Draws the errors. values, lengths: see data.series; stated: an error to compare with. Returns
+    a Page."""
     page = Page(ax)
     axes, found = page.panels(1, 1, 5.2, 3.4), series.block_errors(values, lengths)
     style = {'fmt': 'o', 'color': INK, **FEW, **normalize_kwargs(look, Line2D)}

@@ -1,4 +1,4 @@
-"""The box with its particles, and a vector at each of them."""
+"""Draws the box with its particles, and a vector at each of them."""
 
 import numpy as np
 from matplotlib.collections import EllipseCollection, LineCollection
@@ -11,15 +11,15 @@ from .style import GREY, INK
 from .view import View
 
 WALL = dict(fill=False, edgecolor='black', linewidth=0.8)
-RIM = 1.2  # line round dumbbells, half of which is seen [points]
+RIM = 1.2  # width of the line around dumbbells, half of which is visible [points]
 
 
 class Particles:
-    """Disks, spheres, or dumbbells: both disks, one rim round both, the bond. `disks` is one
-    outline, repeated: much less of a file than one for each."""
+    """Disks, spheres or dumbbells; the latter with both disks, one rim around them, and the bond.
+    `disks` repeats one outline, which makes files much smaller."""
 
     def __init__(self, axes, info, q, angle=(), size=1.0, **style):
-        """q: rows along x, y and of spheres z; angle: of what turns."""
+        """q: rows along x, y and, in space, z; angle: angles of particles that rotate."""
         self._info, self._view = info, View(info)
         self._view.fit(axes)
         enclose(axes, info)
@@ -41,12 +41,12 @@ class Particles:
             self._bonds.set_segments(np.stack(ends, axis=1))
 
     def paint(self, colours):
-        """A row for each particle."""
+        """Sets colours, a row for each particle."""
         self.disks.set_facecolors(np.tile(colours, (self._ends, 1)))
 
 
 def _outlines(axes, size, **style):
-    # matplotlib 3.6 has given it another name
+    # matplotlib 3.6 has renamed the argument
     new = hasattr(EllipseCollection, 'set_offset_transform')
     place = {
         'offset_transform' if new else 'transOffset': axes.transData,
@@ -58,7 +58,7 @@ def _outlines(axes, size, **style):
 
 
 def enclose(axes, info):
-    """A curved wall takes the place of the frame."""
+    """Draws a curved wall in place of the frame."""
     if not is_curved(info):
         return
     corners = list(zip(info.outline_x, info.outline_y))
@@ -69,7 +69,7 @@ def enclose(axes, info):
 
 
 def arrows(axes, x, y, dq, **style):
-    """As long as they are in the box; width: in sigma."""
+    """Draws arrows with their lengths in the box; width: in sigma."""
     form = dict(angles='xy', scale_units='xy', scale=1, units='xy', minlength=0, zorder=3)
     heads = dict(headwidth=3.5, headlength=4, headaxislength=3.5)
     return axes.quiver(x, y, *dq, **form, **heads, **style)

@@ -45,7 +45,7 @@ def _with_error(axes, time, mean, error, color, **look):
 
 
 def _mark(time):
-    """A single report is a point."""
+    """The marker: a single report is drawn as a point."""
     return 'o' if len(time) == 1 else '-'
 
 

@@ -1,4 +1,4 @@
-"""Wall time by part: its course, and its shares of the whole run."""
+"""Wall time by part: over simulated time, and as shares of the whole run."""
 
 import numpy as np
 
@@ -21,7 +21,7 @@ PART_COLOURS = {
 }
 NAMES = {**LABELS, 'start': 'start, wait for recorder'}
 
-NAMED = 0.04  # part of the run from which a stage has room for its name
+NAMED = 0.04  # a stage that takes at least this part of the run has room for its name
 
 
 @page.figure
@@ -32,7 +32,7 @@ def draw(page, recording, **look):
     widths = {'width_ratios': [1.5, 1]}
     course, share = page.panels(1, 2, 7.2, 3.2, gridspec_kw=widths)
     other = np.maximum(0, cost['wall'] - sum(cost[part] for part in PARTS))
-    cost['start'] = np.minimum(other, other[0])  # all that came before the first report
+    cost['start'] = np.minimum(other, other[0])  # all that was before the first report
     cost['other'] = other - cost['start']
     _course(course, cost, recording.began, look)
     _shares(share, cost, look)

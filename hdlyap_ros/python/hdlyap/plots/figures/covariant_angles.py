@@ -6,8 +6,8 @@ from .. import covariant
 from . import page
 from .style import BLUE, GREEN, VERMILION
 
-COLOURS = (VERMILION, BLUE, GREEN)  # of the pairs of spaces
-ROOM = 1.4  # above the curves, for what is said
+COLOURS = (VERMILION, BLUE, GREEN)  # colours of the pairs of spaces
+ROOM = 1.4  # height of the axes over that of curves, to leave room for text
 
 
 @page.figure
@@ -33,7 +33,8 @@ def draw(page, run, **look):
 
 
 def _histograms(axes, angles, name, look):
-    """What is all in one bin is said instead of drawn: its peak would hide the others."""
+    """Draws histograms. One whose angles are all in one bin is written, as its peak would hide
+    others."""
     for angle in angles:
         counts, colour = getattr(angle, name), COLOURS[angle.spaces]
         at = covariant.only_bin(counts)

@@ -1,5 +1,5 @@
-"""Which finite-time exponents keep their order, of neighbours and of everything before and behind
-an index."""
+"""Which finite-time exponents keep their order: those of neighbours, and all before an index
+against all after it."""
 
 import numpy as np
 

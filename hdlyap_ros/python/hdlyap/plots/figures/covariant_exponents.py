@@ -1,5 +1,4 @@
-"""Exponents of the way back beside those of the way forward, and their difference in units of its
-error."""
+"""Exponents of the backward and the forward pass, and their difference in units of its error."""
 
 import numpy as np
 

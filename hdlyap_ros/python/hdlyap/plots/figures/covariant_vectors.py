@@ -1,5 +1,5 @@
-"""Every covariant vector: how localised, how its halves lie, angle to the next one, how well it is
-known."""
+"""Every covariant vector: its localisation, the angle between its halves, the angle to the next
+one, and how well it is known."""
 
 import numpy as np
 
@@ -8,7 +8,7 @@ from . import page
 from .over_index import Panels
 from .style import BLUE, INK, SKY, VERMILION
 
-ROUNDING = 1e-16  # what is less is no more known
+ROUNDING = 1e-16  # least value that is drawn; smaller ones are rounding
 
 
 @page.figure
@@ -26,7 +26,7 @@ def draw(page, run, **look):
     apart = np.where(apart > 0, np.maximum(apart, ROUNDING), np.nan)
     panels.plot(3, indices, apart, color=INK, label='apart')
     for row, high in zip(panels.grid, (1.04, 1.04, 1.3 * covariant.RIGHT_ANGLE)):
-        for axes in row:  # of the last one with room for the legend
+        for axes in row:  # the last row has room for the legend
             axes.set_ylim(0, high)
     if (apart > 0).any():
         for axes in panels.grid[3]:

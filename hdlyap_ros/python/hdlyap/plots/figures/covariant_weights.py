@@ -1,5 +1,5 @@
-"""Weights of the lowest waves' fields in the vectors round the zero modes: Gram-Schmidt beside
-covariant ones."""
+"""Weights of the lowest waves' fields in vectors near the zero modes, for Gram-Schmidt and
+covariant vectors."""
 
 from hdlyap.data import steps
 
@@ -32,7 +32,7 @@ def draw(page, run, **look):
     for axes in list(grid.flat)[len(shown) :]:
         axes.set_axis_off()
     page.outer(grid)
-    # far from its step the weights are small
+    # weights are small far from the step, so there is room
     grid[0, 0].legend(loc='upper left', bbox_to_anchor=(0, 0.92), fontsize=6.5, handletextpad=0.2)
     page.title(run.info, more=f', covariant vectors of {message.samples} samples')
 

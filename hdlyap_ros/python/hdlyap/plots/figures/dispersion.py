@@ -12,11 +12,11 @@ from . import page
 from .style import FEW, GREY, KIND_COLOURS, bars, kind_colour
 
 MARKERS = {steps.T: 'o', steps.LP: 's'}
-CLOSE = 0.028  # of the width of the axes: nearer names stand behind one another
-NAMES = 3  # that stand behind one another
+CLOSE = 0.028  # names nearer than this part of the axes' width are put together
+NAMES = 3  # most names that are put together
 MARGIN = 1.08
 PUBLISHED = {'linewidth': 0.8, 'dashes': (2, 2)}
-PUBLISHED_UP_TO = 0.3  # wave numbers for which slopes without curvature are meant
+PUBLISHED_UP_TO = 0.3  # largest wave number for which slopes without curvature are meant
 
 
 @page.figure
@@ -43,7 +43,7 @@ def draw(page, recording, **look):
 
 
 def _point(axes, step, alone, look):
-    """Open where the step shares its vectors with another."""
+    """Draws a step. Its marker is open if it shares its vectors with another step."""
     colour = look.get('color', kind_colour(step.kind))
     face, marker = colour if alone else 'white', MARKERS.get(step.kind, 'D')
     style = {'fmt': marker, 'color': colour, 'markerfacecolor': face, 'zorder': 3, **FEW, **look}
@@ -51,7 +51,7 @@ def _point(axes, step, alone, look):
 
 
 def _branch(axes, info, fit, end, look):
-    """The fit of the run, and thin the paper's where it holds."""
+    """Draws the fit of the run and, with a thin line, that of the paper if it holds."""
     kind = steps.NAMES[fit.kind]
     colour = look.get('color', KIND_COLOURS[kind])
     if fit.count:
@@ -66,14 +66,14 @@ def _branch(axes, info, fit, end, look):
 
 
 def _fit_label(fit):
-    """Its slope and misfit; another form than the usual says that it is one."""
+    """The label of a fit: slope and misfit, and its form if that is not the usual one."""
     name, value, error = fit.values[0]
     label = f'${name[0]}_{{{name[2:]}}}={with_error(value, error, decimals=3)}${fit.beside}'
     return label + (f' by {fit.form}' if fit.terms < 3 else '')
 
 
 def _wave_axis(axes, info, points, end):
-    """Nodes of the waves along the upper edge, each over its wave number; names that would
+    """Writes the nodes of waves along the upper edge, above their wave numbers. Names that would
     overlap are put together."""
     groups = []
     for step in sorted(points, key=lambda step: step.wave_number):

@@ -1,5 +1,5 @@
-"""Width of every Gram-Schmidt vector against its index, and magnified those of the largest
-exponents, which are localised; beside covariant ones, where there are."""
+"""Width of every Gram-Schmidt vector against its index, with a magnified panel of the largest
+exponents, which are localised; and of covariant vectors if there are any."""
 
 import numpy as np
 
@@ -47,7 +47,7 @@ def _panel(axes, recording, count, look):
 
 
 def _dots(axes, message, count, style):
-    """Of the first `count` vectors; only widths of Gram-Schmidt vectors have errors."""
+    """Draws the first `count` vectors. Only widths of Gram-Schmidt vectors have errors."""
     widths = message.widths[:count]
     indices = np.arange(message.first_index, message.first_index + len(widths))
     errors = bars(message.std_errors[:count]) if hasattr(message, 'widths_now') else None

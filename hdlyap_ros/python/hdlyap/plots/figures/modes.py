@@ -1,5 +1,5 @@
-"""Vector fields of the modes with the smallest exponents, one of each step, at the disks, or
-dumbbells. Of spheres see solid_modes."""
+"""Vector fields of the modes with the smallest exponents, one for each step, in the plane. For
+spheres see solid_modes."""
 
 import numpy as np
 
@@ -11,18 +11,18 @@ from .style import GREY, LIGHT, MEMBER_COLOURS, kind_colour, scene
 from .turning import of_vector, strength
 
 PANELS = 6
-WIDTH = 7.2  # of the figure [inch]
+WIDTH = 7.2  # width of the figure [inch]
 TALLEST = 9.0
-LINE = 0.2  # of a longer title [inch]
-LONG = 26  # names do not fit over a panel in the usual size
-ALONE = 4.2  # of a figure with one panel [inch]
-MANY = 10000  # arrows, as curves, would fill megabytes of an SVG file
+LINE = 0.2  # height of another line of the title [inch]
+LONG = 26  # longer names do not fit above a panel in the usual size
+ALONE = 4.2  # width of a figure with one panel [inch]
+MANY = 10000  # more arrows than this are pixels, as curves would fill megabytes of an SVG file
 ARROW = 1.3  # root mean square length of the arrows [sigma]
 CHANNEL = 2.0  # a box narrower than this, in sigma, has no room for arrows
 
 
 class Panel:
-    """One vector and the set that it belongs to; no set for a vector outside every step."""
+    """A vector and the set to which it belongs; no set if it belongs to no step."""
 
     def __init__(self, field, block=None):
         self.field, self.block = field, block
@@ -58,23 +58,23 @@ def draw(page, recording, **look):
 
 
 def chosen(recording):
-    """The latest field of each set, smallest exponents first; then what the user asked for by
-    index and belongs to none."""
+    """Panels of the latest field of each set, smallest exponents first; then of vectors that the
+    user has chosen by index and that belong to no set."""
     panels, others = _latest(recording)
-    # with one field of each step, a vector without one had a step only for a while
+    # if there is a field for each step, a vector without a step had one only for a while
     if recording.info.field_indices != 'steps':
         panels += [panel for panel in others if panel.field.index <= recording.positive_end]
     return panels[:PANELS]
 
 
 def named(recording, names):
-    """The latest field of each of these steps, as far as it has its set for itself."""
+    """Panels of the latest field of each of these steps, unless it shares its set."""
     panels = {panel.name: panel for panel in _latest(recording)[0]}
     return [panels[name] for name in names if name in panels]
 
 
 def _latest(recording):
-    """Panels of the latest field of each set, and of the vectors outside every step."""
+    """Panels of the latest field of each set, and panels of vectors that belong to no step."""
     latest, others = {}, []
     blocks = steps.blocks(recording.steps, recording.info)
     for field in recording.fields():
@@ -87,7 +87,7 @@ def _latest(recording):
 
 
 def draw_panels(page, panels, info, look=()):
-    """The arrows of each, beside and below one another."""
+    """Draws the arrows of each panel."""
     columns = _columns(len(panels), info)
     rows = -(-len(panels) // columns)
     width = WIDTH if len(panels) > 1 else ALONE
@@ -106,7 +106,7 @@ def draw_panels(page, panels, info, look=()):
 
 
 def _columns(count, info):
-    """As many as make the panels as large as possible on the page."""
+    """The number of columns with which panels are as large as possible on the page."""
 
     def size(columns):
         rows = -(-count // columns)
@@ -116,7 +116,7 @@ def _columns(count, info):
 
 
 def _lowest(count, columns):
-    """Row of the last panel in each column."""
+    """The row of the last panel in each column."""
     return [(count - 1 - column) // columns for column in range(columns)]
 
 
@@ -133,7 +133,8 @@ def _arrows(axes, panel, info, look):
 
 
 def _channel(page, panels, info, look):
-    """In a channel: the components along it, normalised to a mean square of one."""
+    """Draws vectors in a channel: their components over the coordinate along it, normalised to a
+    mean square of one."""
     alike = {'sharex': True, 'sharey': True, 'squeeze': False}
     rows = page.panels(len(panels), 1, WIDTH, 1.35 * len(panels) + 0.6, **alike)
     along = 'x' if info.box_x >= info.box_y else 'y'

@@ -1,5 +1,4 @@
-"""Panels over the Lyapunov index: of all vectors, and magnified round the zero modes, with the
-steps."""
+"""Panels over the Lyapunov index: of all vectors, and magnified near the zero modes, with steps."""
 
 import numpy as np
 
@@ -12,7 +11,7 @@ LEAST, MOST = 16, 40  # vectors of the positive half in the magnified panels
 
 
 class Panels:
-    """rows of panels; a second column if there are many vectors."""
+    """`rows` rows of panels; there is a second, magnified column if there are many vectors."""
 
     def __init__(self, page, run, rows, height, look):
         message = run.covariant
@@ -27,7 +26,7 @@ class Panels:
         page.title(run.info, more=f', covariant vectors of {windows}')
 
     def plot(self, row, places, values, error=None, **style):
-        """In every column what lies in its range."""
+        """Draws values in every column, as far as they are in its range."""
         named = {'label': style['label']}
         style = {'fmt': '.', 'markersize': 3, 'elinewidth': 0.7, **style, **self._look, **named}
         places, values = np.asarray(places), np.asarray(values, dtype=float)
@@ -37,7 +36,7 @@ class Panels:
             axes.errorbar(places[inside], values[inside], bars, **style)
 
     def finish(self, *labels):
-        """Names of the rows; the steps of what is magnified, or of the only column."""
+        """Labels the rows, and shows the steps in the last column."""
         for row, label in zip(self.grid, labels):
             for axes, (first, last) in zip(row, self.ranges):
                 axes.set_ylabel(label)
@@ -48,8 +47,8 @@ class Panels:
 
 
 def near_zero(run, indices):
-    """First and last index of what is magnified: the lowest steps of both halves, as far as they
-    are carried."""
+    """First and last index of the magnified column: the lowest steps of both halves, as far as the
+    run has them."""
     end = min(run.positive_end, indices[-1])
     lowest = min((block.first for block in steps.blocks(run.steps)), default=end)
     first = max(indices[0], end + 1 - min(max(LEAST, end + 4 - lowest), MOST))
@@ -57,7 +56,7 @@ def near_zero(run, indices):
 
 
 def shade(column, run, first, last):
-    """Bands behind the vectors of each step, named above the uppermost panel."""
+    """Draws bands behind the vectors of each step, with names above the uppermost panel."""
     for name, block in covariant.blocks(run):
         if block.first < first or block.last > last:
             continue
@@ -65,7 +64,7 @@ def shade(column, run, first, last):
         for axes in column:
             look = {'color': colour, 'alpha': 0.13, 'linewidth': 0, 'zorder': 0}
             axes.axvspan(block.first - 0.5, block.last + 0.5, **look)
-        # the conjugate half has the colours of its steps in reverse
+        # conjugate steps have no names, because they have the colours of the others in reverse
         if not name.startswith('conj.'):
             text, place = name.replace('+', '\n+'), (0.5 * (block.first + block.last), 1)
             look = {'xycoords': ('data', 'axes fraction'), 'fontsize': 6, 'color': colour}

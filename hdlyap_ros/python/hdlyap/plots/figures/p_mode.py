@@ -10,10 +10,10 @@ from .box import enclose
 from .pattern import pattern
 from .style import BLUE, GREY, VERMILION
 
-CUT = 2.5  # amplitudes shown: where a momentum is tiny, the quotient is not
-EPSILON = 1e-2  # of the mean square of a momentum component, in the quotients: HD_PMODE_EPSILON
-TINY = 1e-30  # a momentum of 0 has no weight, as its quotient is 0 too
-NOISE = 4.0  # root mean squares shown of the mode itself
+CUT = 2.5  # largest quotient that is shown; if a momentum is tiny, the quotient is large
+EPSILON = 1e-2  # over the mean square of a momentum component: HD_PMODE_EPSILON
+TINY = 1e-30  # makes the weight of a momentum of 0 finite; its quotient is 0, too
+NOISE = 4.0  # largest value of the mode that is shown, in root mean squares
 
 
 @page.figure
@@ -44,8 +44,8 @@ def draw(page, recording, **look):
 
 
 def chosen(recording):
-    """The field with P modes of the lowest resolved LP step; a wave along an axis, if any, is
-    clearer."""
+    """The field with P modes of the lowest resolved LP step, preferably of a wave along an axis,
+    which is clearer."""
     lowest = [step for _, step in steps.resolved_lp(recording.steps)]
     numbers = {space.nodes(step, recording.info): order for order, step in enumerate(lowest)}
 
@@ -65,12 +65,12 @@ def chosen(recording):
 
 
 def clearest(field):
-    """Number of the pair whose P mode is best."""
+    """The number of the pair whose P mode has the smallest residual."""
     return int(np.argmin(field.residual_p))
 
 
 class PMode:
-    """One pair of a field: the P mode and its quotient by the momenta, component by component."""
+    """A pair of a field: the P mode and its quotient by the momenta, component by component."""
 
     def __init__(self, field, pair, info):
         part = slice(pair * len(field.x), (pair + 1) * len(field.x))
@@ -82,7 +82,7 @@ class PMode:
         self.formula = waves.formula(*self.nodes[:2], self.bits, *self.nodes[2:])
         named = [axis for axis, n in zip('xyz', self.nodes) if n]
         self.along = named[0] if len(named) == 1 and not containers.is_curved(info) else None
-        # of a map: two directions that it depends on
+        # the two directions of a map: those on which the mode depends
         self.across = 'xy' if containers.is_curved(info) or len(named) == 1 else named[0] + named[1]
         self._field, self.info = field, info
         self.q = space.vectors(field)
@@ -103,15 +103,15 @@ class PMode:
         return waves.modulation(self.info, nx, ny, self.bits, x, y, *nz, *z)
 
     def amplitude(self, component):
-        """Of A in a quotient, by least squares: its noise is as large as the momentum is small."""
+        """The amplitude of A in a quotient, by least squares. Small momenta have large noise."""
         return self.fit(component).amplitude
 
     def fit(self, component, divided=True):
-        """Of A to a quotient, or to the mode itself, whose noise is alike everywhere."""
+        """A fit of A to a quotient, or to the mode itself, whose noise is the same everywhere."""
         a = self.modulation(*self.q)
         if not divided:
             return Fit(a, self.raw[component], np.ones_like(a))
-        # p^2 / (p^2 + eps): what the division has left of A
+        # the quotient is A p^2 / (p^2 + eps)
         p2 = self._p[component] ** 2
         more = p2 + EPSILON * np.mean(self._p**2)
         return Fit(a * p2 / more, self.divided[component], more**2 / np.maximum(p2, TINY))
@@ -123,14 +123,14 @@ class Fit:
     def __init__(self, a, values, weights):
         self.amplitude = np.sum(weights * a * values) / np.sum(weights * a * a)
         rest = np.sum(weights * (values - self.amplitude * a) ** 2)
-        # of the amplitude, if the noise at one disk knows nothing of the next
+        # error of the amplitude, for independent noise of the particles
         self.error = np.sqrt(rest / (len(a) - 1) / np.sum(weights * a * a))
-        # of the values, their root mean square being 1
+        # error of the values over their root mean square
         self.scatter = np.sqrt(rest / np.sum(weights * values**2))
 
 
 def _curve(axes, mode, values, limit, name, look):
-    """Against the coordinate along the wave."""
+    """Draws values over the coordinate along the wave."""
     axes.axhline(0, color=GREY, linewidth=0.5)
     size = min(6.0, max(1.0, 2.5 * np.sqrt(780 / len(values))))
     axes.plot(mode.place, values, '.', **{'color': BLUE, 'markersize': size, **look})

@@ -1,5 +1,4 @@
-"""Where a figure is drawn: on a sheet of its own, of which pyplot knows nothing, or in axes of the
-user's."""
+"""Where a figure is drawn: on a new sheet, which pyplot does not know, or in axes of the user's."""
 
 import functools
 
@@ -13,10 +12,10 @@ from .style import scene
 
 
 def figure(draw):
-    """Of draw(page, said, **look), draw(run, ax=None, **look) for whoever has a run, or what is
-    said of it. ax: axes of the user's, one or several, for as many of the panels, the first ones.
-    look: keyword arguments of the artists that show what was measured. It gives the Page, or None
-    where the bag has nothing for it."""
+    """Makes draw(run, ax=None, **look), for users with a Run or Said, from draw(page, said,
+    **look). ax: one or several axes of the user's, into which the first panels are drawn. look:
+    keyword arguments of the artists that show measured values. It returns the Page, or None if the
+    bag has no data for the figure."""
 
     @functools.wraps(draw)
     def drawn(run, ax=None, **look):
@@ -24,12 +23,12 @@ def figure(draw):
         draw(page, run.said, **normalize_kwargs(look, Line2D))
         return page.drawn()
 
-    del drawn.__wrapped__  # whose arguments are others
+    del drawn.__wrapped__  # help() would show the arguments of that function
     return drawn
 
 
 class Page:
-    """`figure`, `axes`, and `artists` that were drawn into them."""
+    """Where to draw: `figure`, `axes`, and `artists` that were drawn into them."""
 
     def __init__(self, ax=None):
         self._given = [] if ax is None else list(np.array(ax, dtype=object).flat)
@@ -41,7 +40,7 @@ class Page:
         return not self._given
 
     def shows(self, number):
-        """A panel of that number, from 0."""
+        """Whether a panel, counted from 0, is drawn."""
         return self.is_own or number < len(self._given)
 
     @property
@@ -49,22 +48,22 @@ class Page:
         return self.figure.axes if self.is_own else self._given
 
     def sheet(self, width, height, constrained_layout=True):
-        """A figure. Into the user's axes it is not drawn, but for panels without axes of theirs,
-        which nobody sees."""
+        """A new Figure. If the user has given axes, it only takes the panels for which there are
+        none, and nobody sees it."""
         made = Figure(figsize=(width, height), constrained_layout=constrained_layout)
         FigureCanvasAgg(made)
         self.figure = made if self.is_own else self.figure
         return made
 
     def panels(self, rows, columns, width, height, constrained_layout=True, squeeze=True, **how):
-        """As pyplot.subplots gives them."""
+        """A grid of axes, as pyplot.subplots returns it."""
         sheet = self.sheet(width, height, constrained_layout)
         grid = sheet.subplots(rows, columns, squeeze=False, **how)
         grid.flat = self.taken(list(grid.flat))
         return grid.squeeze()[()] if squeeze else grid
 
     def taken(self, panels):
-        """The user's axes in the place of the first ones."""
+        """The panels, the first of which are replaced by the user's axes."""
         if len(self._given) > len(panels):
             raise ValueError(f'ax: {len(self._given)} axes, for {len(panels)} panels')
         self._panels = self._given + panels[len(self._given) :]
@@ -72,15 +71,16 @@ class Page:
         return self._panels
 
     def outer(self, grid):
-        """Axes inside of a grid that share theirs need no names; the user's do."""
+        """Removes the labels of axes inside a grid, which share those at its edges; not from the
+        user's axes."""
         for axes in grid[:-1].flat if self.is_own else ():
             axes.set_xlabel('')
         for axes in grid[:, 1:].flat if self.is_own else ():
             axes.set_ylabel('')
 
     def title(self, info, *panels, more=''):
-        """The scene above it, and a letter above each of its panels, before what stands there; the
-        user's figure has a title of theirs."""
+        """Writes the scene above the figure, and letters before the titles of its panels; not into
+        the user's figure."""
         if not self.is_own:
             return
         for axes, letter in zip(panels, 'abc'):
@@ -88,7 +88,7 @@ class Page:
         self.figure.suptitle(scene(info) + more, fontsize=9)
 
     def drawn(self):
-        """Itself; None if nothing was."""
+        """This page; None if nothing was drawn."""
         self.artists = [child for child in self._children() if child not in self._before]
         return self if self._panels else None
 

@@ -1,12 +1,12 @@
-"""A number at every disk as a pattern of colours over the box."""
+"""Draws a number at every particle as a pattern of colours over the box."""
 
 from .style import INK
 
-SIZE = 9  # of a dot [square points]
+SIZE = 9  # size of a dot [square points]
 
 
 def pattern(axes, x, y, values, limit, size=SIZE, **look):
-    """With a bar of colours from -limit to limit."""
+    """Draws the pattern with a colour bar from -limit to limit."""
     colours = {'c': values, 'cmap': 'RdBu_r', 'vmin': -limit, 'vmax': limit}
     rims = {'edgecolors': INK, 'linewidths': 0.15}
     picture = axes.scatter(x, y, s=size, **{**colours, **rims, **look})

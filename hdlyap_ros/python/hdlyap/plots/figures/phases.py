@@ -1,4 +1,4 @@
-"""Phases of LP pairs against time, and how far they are from turning evenly."""
+"""Phases of LP pairs against time, and their deviations from even rotation."""
 
 import numpy as np
 
@@ -9,15 +9,16 @@ from hdlyap.numbers import with_error
 from . import page
 from .style import GREEN, INK, ORANGE, PURPLE, SKY, thinned
 
-COLOURS = GREEN, PURPLE, SKY, INK, ORANGE  # of steps; T and LP have others
+COLOURS = GREEN, PURPLE, SKY, INK, ORANGE  # colours of steps, other than those of T and LP
 
-STEPS = 4  # are shown
-PER_STEP = 2  # phases of each: more would hide one another
+STEPS = 4  # most steps that are shown
+PER_STEP = 2  # most phases of each step; more would hide each other
 
 
 @page.figure
 def draw(page, recording, speeds=None, **look):
-    """speeds: {name of a step: (v, its error)}, if they are known better than from its phases."""
+    """Draws phases. speeds: {name of a step: (v, its error)}, if known better than from its
+    phases."""
     shown = chosen(recording)
     if not shown:
         return
@@ -39,7 +40,7 @@ def draw(page, recording, speeds=None, **look):
 
 
 def chosen(recording):
-    """[(number of a step, numbers of its phases)]: lowest resolved steps first, and of each the
+    """[(number of a step, numbers of its phases)]: the lowest resolved steps first, with those
     phases of different vectors and pairs that were tracked longest."""
     if recording.phases.last is None:
         return []
@@ -54,7 +55,7 @@ def chosen(recording):
 
 
 def _tracked(recording, number):
-    """Time in all."""
+    """How long a phase was tracked in all."""
     return sum(time[-1] - time[0] for time, _ in recording.phases.curves(number))
 
 

@@ -1,5 +1,5 @@
-"""Modes of spheres, a row for each: arrows in the box, and components beside the fields of the
-waves that the boundaries prescribe."""
+"""Modes of spheres, in a row for each: arrows in the box, and components compared with the fields
+of the waves that the boundaries allow."""
 
 import numpy as np
 
@@ -11,18 +11,18 @@ from .style import BLUE, GREEN, GREY, VERMILION
 from .turning import strength
 from .view import View
 
-WIDTH, TALLEST = 7.6, 10.0  # of the figure [inch]
-ROW = 1.75  # of a row, at least
-ARROW = 1.3  # root mean square length [sigma]
-DOT = 0.3  # of a sphere, as those in front would hide the others [sigma]
-MOST = 2.6  # arrows behind one square sigma of the front; of more spheres those in front
-LIMIT = 2.8  # components shown, in root mean squares of the vector
-LONG = 42  # letters do not fit over a panel in the usual size
+WIDTH, TALLEST = 7.6, 10.0  # width and largest height of the figure [inch]
+ROW = 1.75  # least height of a row [inch]
+ARROW = 1.3  # root mean square length of arrows [sigma]
+DOT = 0.3  # diameter of spheres in the picture, where larger ones would hide others [sigma]
+MOST = 2.6  # most arrows per square sigma of the front; if there are more, only those in front
+LIMIT = 2.8  # largest component that is shown, in root mean squares of the vector
+LONG = 42  # a longer title does not fit above a panel in the usual size
 AXES, COLOURS = 'xyz', (VERMILION, BLUE, GREEN)
 
 
 def draw_panels(page, panels, info, look):
-    """Of modes.Panel."""
+    """Draws a row for each modes.Panel."""
     view = View(info)
     left = 0.6 * WIDTH
     high = max(ROW, left * view.size[1] / view.size[0] + 0.3)
@@ -49,7 +49,7 @@ def _arrows(axes, panel, info, view, look):
 
 
 def _component(axes, panel, info):
-    """None of a vector outside every step."""
+    """Draws the components of a vector; nothing if it belongs to no step."""
     if panel.block is None:
         axes.set_axis_off()
         return
@@ -65,7 +65,8 @@ def _component(axes, panel, info):
 
 
 def _curve(axes, mode, kind):
-    """Against the coordinate along the wave: the component along it of LP, both others of T."""
+    """Draws components over the coordinate along the wave: for LP the one along the wave, for T the
+    two others."""
     (along,) = mode.along
     length = space.along(mode.info, 'box_')[along]
     line = np.zeros((3, 200))
@@ -82,7 +83,8 @@ def _curve(axes, mode, kind):
 
 
 def _projection(axes, mode, kind):
-    """Of waves along several directions, against what their fields give."""
+    """Draws components over those of the projection on the fields, for waves along several
+    directions."""
     for d in range(3):
         _dots(axes, mode.projection[d], mode.dq[d], d)
     axes.plot([-LIMIT, LIMIT], [-LIMIT, LIMIT], color=GREY, linewidth=0.8, zorder=3)

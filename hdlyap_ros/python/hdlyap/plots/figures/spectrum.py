@@ -1,5 +1,5 @@
-"""All exponents, and magnified the smallest ones with the steps that were measured; of what
-turns the share of rotation of each vector below."""
+"""All exponents, and a magnified panel of the smallest ones with the measured steps; below, for
+particles that rotate, the share of rotation in each vector."""
 
 from matplotlib import patches
 from matplotlib.lines import Line2D
@@ -12,8 +12,8 @@ from . import page
 from .style import GREY, INK, KIND_COLOURS, LIGHT, MANY, MIXED, SMALL, UPRIGHT, VERMILION, ZERO
 from .style import bars, beside, index_axis, kind_colour
 
-# Smallest exponents in the second panel: so many at least, and at most if the steps need them; with
-# more, their names would not fit
+# Least and largest number of exponents in the magnified panel; the steps decide, but with still
+# more exponents their names would not fit
 MAGNIFIED, MAGNIFIED_MOST = 40, 64
 
 
@@ -53,7 +53,7 @@ def _whole(axes, recording, look):
 
 
 def _rotation(axes, recording, first, last):
-    """Share of dq in the angles, beside that of a vector without any preference."""
+    """Draws the share of dq in the angles, and that of a vector without any preference."""
     chance, colours = 1 / recording.info.coordinates, _colours(recording, first, last)
     found = [mode for mode in recording.modes.modes if first <= mode.index <= last]
     shares, small = [mode.rotation for mode in found], last - first < MAGNIFIED_MOST
@@ -74,7 +74,7 @@ def _exponent_axes(axes):
 
 
 def _frame_magnified(axes, recording):
-    """A light frame round what panel (b) shows."""
+    """Draws a light frame around the part that panel (b) shows."""
     first, last = _magnified_range(recording)
     offset = recording.spectrum.first_index
     inside = recording.spectrum.exponents[first - offset : last + 1 - offset]
@@ -84,8 +84,8 @@ def _frame_magnified(axes, recording):
 
 
 def _magnified_range(recording):
-    """First and last index of the panel of small exponents: those before the zeros, and where
-    more are carried as many behind them."""
+    """First and last index of the magnified panel: exponents before the zeros and, if the run has
+    them, as many after these."""
     spectrum = recording.spectrum
     end = min(recording.positive_end, recording.last_index)
     lowest = min(
@@ -127,7 +127,8 @@ def _small(axes, recording, look):
 
 
 def _colours(recording, first, last):
-    """{index: colour} of the vectors of every step in that range; without steps, of the paper's."""
+    """{index: colour} of the vectors of every step in that range; of the paper's steps if the run
+    has none."""
     colours = {}
     for block in steps.all_blocks(recording.steps, recording.info):
         for index in range(max(first, block.first), min(last, block.last) + 1):
@@ -140,7 +141,8 @@ def _colours(recording, first, last):
 
 
 def _name_block(axes, spectrum, block):
-    """Upright over its vectors: what is left and right belongs to the neighbours."""
+    """Writes the name of a block above its vectors, upright, because there is no room beside
+    them."""
     inside = slice(block.first - spectrum.first_index, block.last + 1 - spectrum.first_index)
     highest = max(np.add(spectrum.exponents[inside], np.maximum(0, spectrum.std_errors[inside])))
     name = 'zero modes' if block.kind == steps.ZERO else block.name.replace('+', '\n+')
@@ -154,8 +156,8 @@ def _room_for_names(axes):
 
 
 def _draw_band(axes, step, named):
-    """The fitted value as a band a little wider than the step; its name before it unless the
-    measured step has one."""
+    """Draws the fitted value as a band a little wider than the step, with its name before it unless
+    the measured step has one."""
     colour = KIND_COLOURS[step.kind]
     low, high = (step.fitted * (1 + sign * paper.FIT_ACCURACY) for sign in (-1, 1))
     ends = step.first - 1.2, step.last + 1.2

@@ -1,4 +1,4 @@
-"""The measured steps: how much of each was found, and how degenerate its exponents are."""
+"""The measured steps: the part of each that was found, and how degenerate its exponents are."""
 
 import numpy as np
 
@@ -7,8 +7,8 @@ from hdlyap.data import steps
 from . import page
 from .style import GREY, INK, SMALL, bars, beside, kind_colour
 
-MOST = 24  # steps shown: the names of more would not fit
-ROOM = 4  # for so many at least
+MOST = 24  # most steps that are shown; the names of more would not fit
+ROOM = 4  # least number of steps for which there is room
 
 
 @page.figure
@@ -39,7 +39,7 @@ def draw(page, recording, **look):
 
 
 def _found(axes, place, block, look):
-    """Of steps that share a set, of all together."""
+    """Draws the multiplicity that was found; for steps that share a set, that of all together."""
     share = 100 * block.multiplicity / block.expected
     axes.bar(place, share, **{'width': 0.7, 'color': kind_colour(block.kind), **look})
     text = f'{block.multiplicity:.1f}/{block.expected}'
@@ -48,7 +48,7 @@ def _found(axes, place, block, look):
 
 
 def _degeneracy(axes, place, block, spectrum, look):
-    """Of each vector, from the first index to the last."""
+    """Draws the deviation of each vector's exponent, from the first index to the last."""
     inside = slice(block.first - spectrum.first_index, block.last + 1 - spectrum.first_index)
     exponents = np.array(spectrum.exponents[inside])
     errors = bars(spectrum.std_errors[inside])

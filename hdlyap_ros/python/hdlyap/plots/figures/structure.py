@@ -1,4 +1,4 @@
-"""Structure factors: index against k, where each vector has its ridge; and the lines of the lowest
+"""Structure factors over index and k, where each vector has a ridge; and the lines of the lowest
 steps in S(k, omega)."""
 
 import numpy as np
@@ -11,7 +11,7 @@ from hdlyap.numbers import with_error
 from . import page
 from .style import INK, kind_colour
 
-NOISE = 0.5  # structure factor of a random vector
+NOISE = 0.5  # the structure factor of a random vector
 TITLES = {'along': 'along $k$', 'across': 'across $k$'}
 OF_KIND = {steps.LP: 'along', steps.T: 'across'}
 
@@ -38,14 +38,14 @@ def draw(page, recording, **look):
     if page.is_own:
         page.figure.colorbar(image, ax=ridges, label=r'$S(k)$')
         sheet.delaxes(lines)
-        sheet.add_axes(lines)  # panels are counted in their order, and it is the last one
+        sheet.add_axes(lines)  # moves it to the end, because panels are counted in this order
     page.outer(np.array([ridges]))
     _lines(lines, recording, found)
     page.title(recording.info, *ridges, lines)
 
 
 def shells(means, direction):
-    """(k, S[k, vectors]): the largest of the waves with one k."""
+    """k, and S[k, vectors]: the largest value of all waves with the same k."""
     factors = getattr(means, direction)
     k = np.unique(np.round(means.wave_number, 9))
     of = np.searchsorted(k, np.round(means.wave_number, 9))
@@ -67,7 +67,7 @@ def _ridge(axes, means, direction, look):
 
 
 def _classified(axes, found, direction):
-    """Rings where a step of this direction says that its vectors are."""
+    """Draws rings where a step of this direction says that its vectors are."""
     for block in found:
         if OF_KIND.get(block.kind) == direction:
             place = 0.5 * (block.first + block.last), block.steps[0].wave_number
@@ -76,7 +76,7 @@ def _classified(axes, found, direction):
 
 
 def _lines(axes, recording, found):
-    """Of the lowest T and LP step whose vectors' amplitudes are known."""
+    """Draws the lines of the lowest T and LP step whose vectors' amplitudes are known."""
     shown = set()
     for block in found:
         kind, indices = block.kind, range(block.first, block.last + 1)

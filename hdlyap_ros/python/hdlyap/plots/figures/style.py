@@ -1,4 +1,4 @@
-"""How the figures look, and how they get into their files."""
+"""The look of figures, and how they are written to files."""
 
 import os
 
@@ -11,9 +11,9 @@ from hdlyap.data import space, steps
 from hdlyap.data.containers import is_curved
 from hdlyap.numbers import known
 
-POINTS = 2000  # of a curve; more cannot be seen
-TITLE = 60  # characters of what is in a line with the name of the scene
-# Okabe and Ito's palette, safe for colour-blind readers
+POINTS = 2000  # most points of a curve; more cannot be seen
+TITLE = 60  # most characters in a line with the name of the scene
+# Okabe and Ito's palette, which colour-blind readers can distinguish
 BLUE, ORANGE, GREEN, VERMILION, PURPLE, SKY = (
     '#0072B2',
     '#E69F00',
@@ -23,7 +23,7 @@ BLUE, ORANGE, GREEN, VERMILION, PURPLE, SKY = (
     '#56B4E9',
 )
 GREY, LIGHT, INK = '#8C8C8C', '#C8C8C8', '#1A1A1A'
-MIXED, ZERO = PURPLE, GREEN  # vectors that T and LP steps share, those of the zero modes
+MIXED, ZERO = PURPLE, GREEN  # colours of vectors that T and LP steps share, and of zero modes
 KIND_COLOURS = {'T': BLUE, 'LP': VERMILION, 'zero': ZERO}
 MEMBER_COLOURS = (BLUE, VERMILION, GREEN, ORANGE, PURPLE, SKY)
 STYLE = {
@@ -43,30 +43,30 @@ STYLE = {
     'mathtext.fontset': 'dejavusans',
     'svg.hashsalt': 'hdlyap',
 }
-# error bars of points: of a few, of many small ones, of a great many
+# looks of points with error bars: few points, many small ones, very many
 FEW = {'markersize': 4.5, 'elinewidth': 0.9, 'capsize': 2}
 SMALL = {'fmt': 'o', 'markersize': 2.6, 'elinewidth': 0.8, 'capsize': 1.5}
 MANY = {'ecolor': GREY, 'elinewidth': 0.7, 'rasterized': True}
-UPRIGHT = {'rotation': 90, 'ha': 'center', 'va': 'bottom'}  # text above a place
+UPRIGHT = {'rotation': 90, 'ha': 'center', 'va': 'bottom'}  # look of a text above a place
 
 
 def ours():
-    """In it figures look as these, whatever a matplotlibrc says."""
+    """A context in which figures have this look, whatever a matplotlibrc says."""
     return matplotlib.style.context(['default', STYLE])
 
 
 def beside(axes, text, place, aside, **look):
-    """Text so many points to the right and above a place."""
+    """Writes a text beside a place; aside: points to the right and upwards."""
     axes.annotate(text, place, xytext=aside, textcoords='offset points', **look)
 
 
 def instead(axes, text):
-    """Of what cannot be drawn."""
+    """Writes a text in place of something that cannot be drawn."""
     axes.annotate(text, (0.5, 0.5), xycoords='axes fraction', ha='center')
 
 
 def save(figure, folder, name, dpi=250):
-    """Their names. dpi: of the PNG file."""
+    """Writes a figure to files. Returns their names. dpi: resolution of the PNG file."""
     files = []
     for suffix, options in (
         ('png', {'dpi': dpi}),
@@ -80,7 +80,7 @@ def save(figure, folder, name, dpi=250):
 
 
 def scene(info):
-    name = info.scene.replace('$', r'\$')  # which would begin a formula
+    name = info.scene.replace('$', r'\$')  # $ would begin a formula
     if space.without_box(info):
         return f'{name}: {info.particles}, $N={info.number}$'
     if is_curved(info):
@@ -91,7 +91,7 @@ def scene(info):
     box = f'$\\rho={info.density:g}$, ' + (
         _edges(info) if space.is_solid(info) else f'$L_y/L_x={info.aspect:g}$'
     )
-    what = space.named(info) + '\n' if info.own else ', '  # too long for one line
+    what = space.named(info) + '\n' if info.own else ', '  # it is too long for one line
     if len(what) > TITLE:
         what = what.replace(', ', '\n', 1)
     return f'{name}: $N={info.number}${what}{box}, ' + ', '.join(walls)
@@ -103,13 +103,13 @@ def _edges(info):
 
 
 def index_axis(axes, nbins=6):
-    """Of Lyapunov indices."""
+    """Makes the x axis one of Lyapunov indices."""
     axes.xaxis.set_major_locator(ticker.MaxNLocator(nbins, integer=True, steps=[1, 2, 5, 10]))
     axes.set_xlabel(r'index $\ell$')
 
 
 def bars(std_errors):
-    """Lengths of error bars; None if not one is known."""
+    """The lengths of error bars; None if no error is known."""
     errors = known(std_errors)
     return errors if np.isfinite(errors).any() else None
 
@@ -119,5 +119,5 @@ def thinned(count):
 
 
 def kind_colour(kind):
-    """Of a step's kind, or of None for a set with both kinds."""
+    """The colour of a step's kind; kind = None stands for a set with both kinds."""
     return KIND_COLOURS.get(steps.NAMES.get(kind), MIXED)

@@ -1,4 +1,4 @@
-"""How particles turn -> their colours, as in rviz: green to the left, purple to the right."""
+"""Rotation of particles -> their colours, as in rviz: green to the left, purple to the right."""
 
 import numpy as np
 from matplotlib.colors import to_rgb
@@ -6,11 +6,11 @@ from matplotlib.colors import to_rgb
 from hdlyap.data import space
 
 LEFT, RIGHT = '#7FBF7B', '#AF8DC3'
-KT = 2 / 3  # of what turns in the plane
+KT = 2 / 3  # temperature of particles in the plane that rotate
 
 
 def strength(field):
-    """Root mean square of dq at a particle, with what turns it."""
+    """The root mean square, over particles, of dq with its part in the angles."""
     squares = np.sum(space.vectors(field, 'dq') ** 2, axis=0)
     if len(field.dq_angle):
         squares += np.square(field.dq_angle)
@@ -18,13 +18,13 @@ def strength(field):
 
 
 def of_vector(field, still):
-    """Full where it turns one as strongly as all of it is; still: the colour of what does not
-    turn."""
+    """Colours by a vector's part in the angles. The colour is full if that part is at least
+    strength(field); still: the colour of particles that do not rotate."""
     return _colours(np.array(field.dq_angle) / strength(field), still)
 
 
 def of_spins(info, spins, still):
-    """Full from twice the thermal spin on."""
+    """Colours by spins. The colour is full at twice the thermal spin or more."""
     return _colours(np.array(spins) / (2 * np.sqrt(KT / info.inertia)), still)
 
 

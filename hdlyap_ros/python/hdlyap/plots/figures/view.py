@@ -1,5 +1,6 @@
-"""run_info -> how a figure looks at the box: disks as they lie; spheres from the front, a little
-from the right and from above, without perspective. What is far away is paler."""
+"""run_info -> the direction from which a figure shows the box: a plane box from above; one in space
+from the front, a little from the right and from above, without perspective. Distant things are
+paler."""
 
 import itertools
 
@@ -13,7 +14,7 @@ from .style import GREY, INK, beside
 
 RIGHT, ABOVE = np.radians([20, 18])
 ALONG = np.array([-np.sin(RIGHT), np.cos(RIGHT), 0])  # the line of sight, before it is lowered
-# rows: to the right, up, away
+# rows: directions to the right, up and away
 TURNED = np.array(
     [
         [np.cos(RIGHT), np.sin(RIGHT), 0],
@@ -21,9 +22,9 @@ TURNED = np.array(
         np.cos(ABOVE) * ALONG - [0, 0, np.sin(ABOVE)],
     ]
 )
-FAR = 0.65  # part of white in what is farthest away
+FAR = 0.65  # part of white in the colour of the most distant sphere
 MARGIN = 1.2  # around spheres, for the names of the edges [sigma]
-# of edges: axis, where on it, in parts of the box, and how the name stands there [points]
+# names of edges: axis, place in parts of the box, distance from it [points], alignment
 NAMES = (
     ('x', (0.5, 0, 0), (0, -2), 'center', 'top'),
     ('y', (1, 0.5, 0), (2, -1), 'left', 'top'),
@@ -32,7 +33,7 @@ NAMES = (
 
 
 class View:
-    """`size` of the box on the page."""
+    """Projects positions onto the page. `size`: that of the box on the page."""
 
     def __init__(self, info):
         self.is_solid = space.is_solid(info)
@@ -48,29 +49,29 @@ class View:
         return shares * self._edges[:, np.newaxis]
 
     def places(self, q):
-        """On the page, of rows along each direction."""
+        """Positions on the page. q: rows along each direction."""
         return (self._turned @ q - self._low[:, np.newaxis])[:2] + self.margin
 
     def vectors(self, dq):
         return (self._turned @ dq)[:2]
 
     def depth(self, q):
-        """0 in front .. 1 behind; 0 of disks."""
+        """The depth of positions: 0 in front .. 1 behind; 0 in the plane."""
         return (self._turned @ q - self._low[:, np.newaxis])[2:].sum(axis=0) / self._ends[-1]
 
     def order(self, q):
-        """In which they are drawn: what is in front at last."""
+        """The order in which particles are drawn: those in front come last."""
         return np.argsort(-self.depth(q), kind='stable')
 
     def pale(self, colour, q):
-        """Of each; of disks as it is."""
+        """The paler colour of each particle; in the plane, the colour itself."""
         if not self.is_solid:
             return colour
         white = FAR * self.depth(q)[:, np.newaxis]
         return (1 - white) * to_rgb(colour) + white
 
     def fit(self, axes):
-        """To the box, which of spheres is drawn."""
+        """Fits axes to the box; in space, draws it, too."""
         axes.set_aspect('equal')
         axes.set_xlim(0, self.size[0])
         axes.set_ylim(0, self.size[1])
@@ -79,7 +80,7 @@ class View:
             self._draw_edges(axes)
 
     def _draw_edges(self, axes):
-        """Those behind as dots, and the names of three."""
+        """Draws the edges of the box, those behind dotted, and the names of three."""
         hidden = self._corners[:, np.argmax(self.depth(self._at(self._corners)))]
         for d, start in itertools.product(range(3), self._corners.T):
             if start[d]:
