@@ -1,9 +1,10 @@
-/** What a step of soft particles costs: of themselves, of making its maps, of carrying half of all
- * vectors through it, and that beside its floor. Of a pair in d dimensions a vector asks for d
- * differences, d (2 d - 1) flops of a matrix times them, and 2 d sums; of a particle for 2 d, its
- * flight: 2 d (d + 1) pairs + 2 d N in all, as fast as dgemm. One thread, whose own time it is:
- * what other jobs take does not count. The least of all rounds, which go through the rows. Usage:
- * hdlyap_steps [--rounds N] */
+/** Measures what a time step of soft particles costs: moving the particles, making the maps, and
+ * carrying tangent vectors, half of all, through the maps. It compares the last with a floor, the
+ * time that dgemm takes for as many flops: for each vector and pair in d dimensions d differences,
+ * d (2 d - 1) flops for a matrix times them, and 2 d sums; for each vector and particle 2 d, for
+ * its flight; so 2 d (d + 1) pairs + 2 d N per vector. It counts processor time of one thread, so
+ * that other jobs' time does not count, and prints the least of all rounds. Each round goes through
+ * all rows. Usage: hdlyap_steps [--rounds N] */
 #include <math.h>
 #include <time.h>
 
@@ -24,7 +25,7 @@ static const double STEP = 0.002, SETTLING = 3.0;
 static const struct {
     int particles, number;
     double density;
-    int potential; /**< its number among those of soft_disks */
+    int potential; /**< value of the scene's parameter `potential` */
     const char *name;
 } rows[] = {{HD_SOFT_DISKS, 400, 0.2, 1, "wca"},
             {HD_SOFT_DISKS, 400, 0.7, 1, "wca"},
@@ -42,10 +43,10 @@ typedef struct measured {
     hd_record *record;
     hd_frame *frame;
     void *maps;
-    sample stepping, making, carrying; /**< [s] of a step */
+    sample stepping, making, carrying; /**< time per time step [s] */
 } measured;
 
-/** Of the process, as of one thread [s]. */
+/** Processor time of this process, which has one thread [s]. */
 static double busy_seconds(void) { return (double)clock() / CLOCKS_PER_SEC; }
 
 static hd_scene_def scene_of(int row)
@@ -70,7 +71,8 @@ static void swap(double *a, double *b, int count)
     }
 }
 
-/** A fluid mixes: in a long run numbers of neighbours say nothing of each other. */
+/** Numbers the particles at random, as in a long run, in which a fluid mixes and the numbers of
+ * neighbours are unrelated. */
 static void mix(measured *m)
 {
     const int d = hd_scene_dimension(&m->scene), number = m->scene.number;
@@ -100,7 +102,7 @@ static void begin(measured *m, int row)
     require(hd_maps_create_of(of, &m->maps, scene.number), "maps");
 }
 
-/** Each step has an entry of its own beside those of its pairs. */
+/** Pairs in a time step, which has an entry for each, and one that begins it. */
 static double pairs_of(const measured *m)
 {
     return (double)hd_record_count(m->record) / STEPS - 1.0;
@@ -129,7 +131,7 @@ static void one_round(measured *m)
     hd_frame_rewind(m->frame);
 }
 
-/** Flops per second of dgemm. */
+/** Measures flops per second of dgemm. */
 static double dgemm_rate(gemm *g)
 {
     const double start = busy_seconds(), taken = gemm_measure(g);
@@ -157,7 +159,7 @@ int main(int argc, char **argv)
 {
     static measured all[ROWS];
     int rounds = 3;
-    double rate = 0.0; /* the best of all, as of times */
+    double rate = 0.0; /* the best of all rounds, as of times the least */
     const option list[] = {{"--rounds", .count = &rounds, .least = 1, .most = SAMPLE_MAX}, {0}};
     options_read(argc, argv, list);
     hd_blas_use_threads(1);

@@ -13,8 +13,8 @@
 #define HD_MULTIVERSION
 #endif
 
-/** Of what is written for registers of one size: a function for processors that have them, and
- * whether this one does. Not defined where all have the same. */
+/** For functions written for registers of one size: HD_FOR compiles a function for processors that
+ * have them, HD_HAS says whether this processor does. Elsewhere neither is defined. */
 #if defined(__x86_64__) && defined(__GNUC__)
 #define HD_FOR(processors) __attribute__((target(processors)))
 #define HD_HAS(registers) __builtin_cpu_supports(registers)

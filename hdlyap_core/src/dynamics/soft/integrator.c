@@ -1,9 +1,10 @@
-/** Rows of coefficients. To add an integrator is a row: whoever steps knows these alone. */
+/** Coefficients of integrators. A new integrator takes a row, which is all that other code uses. */
 #include "dynamics/soft/integrator.h"
 
 /** Forest and Ruth, Physica D 43, 105 (1990): 1 / (2 - 2^(1/3)). */
 #define THETA 1.3512071919596578
-/** Position-extended, Omelyan, Mryglod and Folk, Comput. Phys. Commun. 146, 188 (2002). */
+/** Position-extended Forest and Ruth: Omelyan, Mryglod and Folk, Comput. Phys. Commun. 146, 188
+ * (2002). */
 #define XI 0.1786178958448091
 #define LAMBDA (-0.2123418310626054)
 #define CHI (-0.06626458266981849)

@@ -1,14 +1,15 @@
-/** How a step is made of drifts and kicks. */
+/** How a time step is made of drifts and kicks. */
 #ifndef HD_INTEGRATOR_H
 #define HD_INTEGRATOR_H
 
-/** drift[0], kick[0], drift[1], .. drift[kicks], as parts of the step; the same backwards. */
+/** An integrator: drift[0], kick[0], drift[1], .. drift[kicks], as parts of the time step. They are
+ * symmetric: read backwards they are the same. */
 enum { HD_KICKS_MAX = 4 };
 typedef struct hd_integrator {
     const char *name;
     int order, kicks;
     double drift[HD_KICKS_MAX + 1], kick[HD_KICKS_MAX];
-    double at[HD_KICKS_MAX]; /**< sums of drifts: where in the step positions are at a kick */
+    double at[HD_KICKS_MAX]; /**< sum of drifts before each kick: its time in the time step */
 } hd_integrator;
 
 enum { HD_VERLET, HD_PEFRL, HD_FOREST_RUTH, HD_INTEGRATORS };

@@ -1,6 +1,6 @@
-/** Columns of a block through the maps of kicks, LANES at once, which fill a register of the
- * processor. Who includes this, once for each kind of register, has the maps before it and CARRY,
- * which makes names. */
+/** Carries columns of a block through the maps of kicks, LANES columns at once, which fill a
+ * register of the processor. kick_maps.c includes this file once for each size of registers, after
+ * it defines the maps, LANES, and CARRY, which adds the size to names. */
 #if LANES == 1
 typedef double CARRY(lanes);
 #else
@@ -8,20 +8,21 @@ typedef double CARRY(lanes)
     __attribute__((vector_size(LANES * sizeof(double)), aligned(sizeof(double)), may_alias));
 #endif
 
-/** Of a particle, in one register or in two side by side. */
+/** The rows of a particle, dq and dp, for the columns of one register or of two side by side. */
 typedef struct CARRY(rows) {
     CARRY(lanes) q[2][3], p[2][3];
 } CARRY(rows);
 
 KERNEL CARRY(lanes) * CARRY(at)(double *v) { return (CARRY(lanes) *)v; }
 
-/** A pair: bend (dq_j - dq_i) is added to dp_i and taken from dp_j; j has flown before, or does so
- * now. */
+/** Kicks a pair: adds bend (dq_j - dq_i) to dp_i and subtracts it from dp_j. own: rows of i, after
+ * its flight. other: rows of j, which flies first for the time *flight; NULL if it has flown
+ * already. */
 KERNEL void CARRY(pull)(CARRY(rows) * own, double *other, const double *of_pair,
                         const double *flight, int of_one, int width, int registers)
 {
     const double time = flight ? *flight : 0.0;
-    double bend[HD_BENDS_SPACE]; /* which no store touches */
+    double bend[HD_BENDS_SPACE]; /* a copy, which the compiler knows that no store below changes */
     for (int k = 0; k < bends_of(of_one); k++) bend[k] = of_pair[k];
     for (int c = 0; c < registers; c++, other += LANES) {
         CARRY(lanes) r[3], p[3];
@@ -40,7 +41,7 @@ KERNEL void CARRY(pull)(CARRY(rows) * own, double *other, const double *of_pair,
     }
 }
 
-/** Columns from `block` on of a particle with its partners. */
+/** Carries columns from `block` on through a run: particle i flies, then each pair is kicked. */
 KERNEL void CARRY(pull_run)(double *block, const run *r, const int32_t *with, const double *bend,
                             const double *flight, int of_one, int width, int registers)
 {
@@ -81,7 +82,7 @@ KERNEL void CARRY(through)(double *block, const maps *all, int of_one, int width
         fly(block, all->since[i], of_one * width);
 }
 
-/** The widths are spelled out: the compiler knows then where each row is. */
+/** Calls through() with usual widths as constants, with which the compiler knows where rows are. */
 KERNEL void CARRY(carry)(double *block, const maps *all, int of_one, int width)
 {
     switch (width) {

@@ -1,6 +1,6 @@
-/** Record of soft particles -> tangent maps -> blocks of columns carried along [T24]. Free flight
- * is lazy: a particle flies when a kick comes to it, which goes through its pairs by their first
- * particle, whose rows stay in registers. */
+/** Record of soft particles -> tangent maps -> blocks of columns, carried through the maps [T24].
+ * Free flight is lazy: the rows of a particle are brought up to date when a kick needs them. A kick
+ * goes through its pairs by their first particle, whose rows stay in registers. */
 #include "dynamics/soft/kick_maps.h"
 
 #include "base/check.h"
@@ -8,20 +8,20 @@
 #include "base/multiversion.h"
 #include "dynamics/soft/kick.h"
 
-/** A particle in a kick and its partners there, which follow the former run's. The first ones fly
- * now, `come` in number; the kick has been at the others before. */
+/** A particle i in a kick with its partners, whose list follows that of the run before. The first
+ * `come` partners fly to the time of the kick in this run; the others have done so before. */
 typedef struct run {
     int32_t i, pairs, come;
 } run;
 
 typedef struct maps {
     int particles, dimension;
-    double *since; /**< [particles]: when each one was moved, then its last flight */
+    double *since; /**< [particles]: time of the last kick; once filled, the flight after it */
     size_t runs, pairs, flights, capacity;
     run *run;       /**< [runs] */
     int32_t *with;  /**< [pairs]: partners */
     double *bend;   /**< [pairs][bends_of(dimension)] */
-    double *flight; /**< [flights]: of each run, that of i, which may be 0, and theirs */
+    double *flight; /**< [flights]: of each run, time that i flies, may be 0, then partners' */
 } maps;
 
 #define KERNEL static inline __attribute__((always_inline))
@@ -60,12 +60,12 @@ void hd_kick_maps_free(void *made)
 
 /* ---- steps as maps ------------------------------------------------------------------------- */
 
-/** For so many pairs, each of which may be a run. */
+/** Makes room for this many pairs, each of which may be a run. */
 static hd_status reserve(maps *all, size_t pairs)
 {
     if (pairs <= all->capacity) return HD_OK;
     const size_t bends = (size_t)bends_of(all->dimension);
-    size_t room = 4096; /* as records grow */
+    size_t room = 4096; /* doubled as a record's room is */
     while (room < pairs) room *= 2;
     release(all);
     all->capacity = 0;
@@ -78,7 +78,7 @@ static hd_status reserve(maps *all, size_t pairs)
     return HD_OK;
 }
 
-/** Until `now`, of the passage: 0 if the kick has been at it before. */
+/** Returns for how long i flies to the kick at `now`: 0 if it is there already. */
 static double flight(maps *all, int32_t i, double now)
 {
     const double time = now - all->since[i];
@@ -105,7 +105,7 @@ static void add_pair(maps *all, const hd_kick *entry, bool same_run, double now)
     const double time = flight(all, j, now);
     size_t k = all->pairs++;
     if (time != 0) {
-        const size_t first = k - (size_t)(r->pairs - r->come++); /* of the others */
+        const size_t first = k - (size_t)(r->pairs - r->come++); /* of those that do not fly */
         set_pair(all, k, all->with[first], all->bend + first * (size_t)bends_of(all->dimension));
         all->flight[all->flights++] = time;
         k = first;
@@ -114,7 +114,7 @@ static void add_pair(maps *all, const hd_kick *entry, bool same_run, double now)
     r->pairs++;
 }
 
-/** Returns how long the steps take. */
+/** Adds all time steps. Returns the sum of their lengths. */
 static double add_steps(maps *all, const hd_record *record, hd_entries those)
 {
     double begin = 0.0, end = 0.0, at = -1.0, i = -1.0;
@@ -152,7 +152,7 @@ KERNEL void fly(double *restrict v, double time, int half)
     for (int k = 0; k < half; k++) v[k] += time * v[half + k];
 }
 
-/** Place of (d, e) in the upper half of a symmetric matrix. */
+/** Index of (d, e) in the upper half of a symmetric matrix. */
 KERNEL int place(int d, int e, int of_one)
 {
     const int row = d < e ? d : e;

@@ -1,5 +1,5 @@
-/** Positions -> pairs that are near. Cells are no narrower than the list's reach; where fewer than
- * three fit along an edge, each is looked at once. */
+/** Positions -> list of pairs that are near. Cells are no narrower than the reach of the list. If
+ * fewer than three fit along an edge, each is visited once. */
 #include "dynamics/soft/neighbours.h"
 
 #include <math.h>
@@ -9,14 +9,15 @@
 #include "base/memory.h"
 
 static const double SKIN = 0.35;
-enum { CELLS_EACH = 4, PARTNERS_EACH = 8 }; /* at most, of a particle; at first */
+/** The most cells per particle, and the first room for partners per particle. */
+enum { CELLS_EACH = 4, PARTNERS_EACH = 8 };
 
 static size_t cells_of(const hd_neighbours *n)
 {
     return (size_t)n->size[0] * (size_t)n->size[1] * (size_t)n->size[2];
 }
 
-/** Of an almost empty box the cells are wider. */
+/** Chooses the number of cells. In an almost empty box they are wider, so as not to be too many. */
 static void choose_cells(hd_neighbours *n)
 {
     const double most = 1.0 + CELLS_EACH * (double)n->count;
@@ -114,7 +115,8 @@ static hd_status reserve(hd_neighbours *n, size_t count)
     return HD_OK;
 }
 
-/** Those of a cell that are partners of i, each into its place behind `begin`. */
+/** Adds the partners of i that are in the list of a cell, from j on, so that partners from `begin`
+ * on stay in ascending order. */
 static hd_status take_cell(hd_neighbours *n, size_t begin, size_t *end, int32_t i, int32_t j)
 {
     const double *q = n->place, square = n->reach * n->reach;

@@ -1,15 +1,15 @@
-/** Square of a distance -> V = f(u), b = 2 f'(u), c = 4 f''(u). To add a potential is a function
- * and a row. + - * / only: the same bits everywhere. */
+/** Square u of a distance -> V = f(u), b = 2 f'(u), c = 4 f''(u). A new potential takes a function
+ * and a row. They use + - * / only, so that all machines give the same bits. */
 #include "dynamics/soft/potential.h"
 
-/** 100 (1 - r^2)^4. */
+/** V = 100 (1 - r^2)^4. */
 static hd_pull power(double u)
 {
     const double x = 1.0 - u, square = x * x;
     return (hd_pull){100.0 * square * square, -800.0 * square * x, 4800.0 * square};
 }
 
-/** 4 (r^-12 - r^-6). */
+/** V = 4 (r^-12 - r^-6). */
 static hd_pull twelve_six(double u)
 {
     const double per = 1.0 / u, w = per * per * per;
@@ -24,7 +24,7 @@ static hd_pull weeks_chandler_andersen(double u)
     return pull;
 }
 
-/** From r = 2 on times s = 1 - 10 x^3 + 15 x^4 - 6 x^5, which is 0 at 2.5. */
+/** twelve_six, from r = 2 on times s = 1 - 10 x^3 + 15 x^4 - 6 x^5, which is 0 at r = 2.5. */
 static hd_pull lennard_jones(double u)
 {
     const double from = 4.0, per = 1.0 / 2.25;

@@ -1,18 +1,18 @@
-/** What two soft particles do to each other, by the square of their distance. */
+/** The potentials of two soft particles, as functions of the square of their distance. */
 #ifndef HD_POTENTIAL_H
 #define HD_POTENTIAL_H
 
-/** With r from one to the other: the force on the other is -b r, and the second derivatives are b 1
- * + c r r^T [T24]. */
+/** A potential v at a distance r. The force on the second particle, with r from the first to it, is
+ * -b r, and the second derivatives are b 1 + c r r^T [T24]. */
 typedef struct hd_pull {
     double v, b, c;
 } hd_pull;
 
 typedef struct hd_potential {
     const char *name;
-    double cut;   /**< there is none beyond this distance [sigma] */
-    int smooth;   /**< derivatives without a jump there */
-    double depth; /**< of its well */
+    double cut;   /**< distance beyond which it vanishes [sigma] */
+    int smooth;   /**< number of derivatives without a jump at the cut */
+    double depth; /**< depth of its well */
     hd_pull (*at)(double square);
 } hd_potential;
 

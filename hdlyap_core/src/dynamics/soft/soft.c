@@ -1,6 +1,7 @@
-/** Scene -> record: particles that pull and push each other, in steps of drifts and kicks [T24].
- * Pairs are taken in the order of their numbers, so the bits do not depend on when the list of
- * neighbours was made. One thread. Only + - * / sqrt and comparisons: the same bits everywhere. */
+/** Scene -> record: motion of soft particles, in time steps of drifts and kicks [T24]. Pairs are
+ * taken in the order of their numbers, so the bits do not depend on when the list of neighbours was
+ * made. One thread computes this, with + - * / sqrt and comparisons only, so that all machines give
+ * the same bits. */
 #include <math.h>
 #include <string.h>
 
@@ -13,14 +14,14 @@
 #include "scene/scene.h"
 #include "scene/scene_check.h"
 
-/** Steps after which the energy is looked at. */
+/** The energy is measured after this many time steps. */
 enum { LOOK_STEPS = 128 };
 
 #define KERNEL static inline __attribute__((always_inline))
 
 /* ---- pairs --------------------------------------------------------------------------------- */
 
-/** From i to j through the nearest image; the square of its length. */
+/** r: the vector from i to the nearest image of j. Returns the square of its length. */
 KERNEL double between(double *r, const soft *s, int32_t i, int32_t j, int dimension)
 {
     const double *qi = s->q + dimension * i, *qj = s->q + dimension * j;
@@ -32,7 +33,7 @@ KERNEL double between(double *r, const soft *s, int32_t i, int32_t j, int dimens
     return square;
 }
 
-/** b 1 + c r r^T, the upper half. */
+/** Fills the upper half of b 1 + c r r^T. */
 KERNEL void bend_fill(double *bend, const double *r, double b, double c, int dimension)
 {
     for (int d = 0; d < dimension; d++)
@@ -40,8 +41,8 @@ KERNEL void bend_fill(double *bend, const double *r, double b, double c, int dim
 }
 
 typedef struct kick {
-    double time;     /**< that it stands for */
-    hd_summed *sums; /**< may be NULL */
+    double time;     /**< the kick's part of the time step [time units] */
+    hd_summed *sums; /**< NULL if sums are not taken */
     hd_record *record;
     hd_kick *entry;
 } kick;
@@ -138,7 +139,7 @@ static hd_status one_kick(soft *s, const kick *k)
     return s->dimension == 2 ? kick_all(s, k, 2) : kick_all(s, k, 3);
 }
 
-/** `end`: when it does, of the record. */
+/** Does a time step. end: when it ends, since the start of the record. */
 static hd_status one_step(soft *s, hd_record *record, double end)
 {
     union {
@@ -157,7 +158,7 @@ static hd_status one_step(soft *s, hd_record *record, double end)
     return HD_OK;
 }
 
-/** Steps lie at their multiples, whatever t_end is. */
+/** Time steps end at multiples of their length, whatever t_end is. */
 static hd_status step_until(soft *s, hd_record *record, double begin, double t_end)
 {
     for (double end; (end = (double)(s->steps + 1) * s->step) <= t_end; s->steps++) {
@@ -205,7 +206,7 @@ static hd_status allocate(soft **out, const hd_scene_def *scene)
     return hd_neighbours_create(&s->near, scene, s->potential->cut);
 }
 
-/** As they are: their energy is what is conserved. */
+/** Keeps the energy of the present state, which is conserved from now on. */
 static hd_status begin(soft *s, const hd_scene_def *scene)
 {
     HD_TRY(potential_energy(&s->energy, s));
@@ -214,7 +215,7 @@ static hd_status begin(soft *s, const hd_scene_def *scene)
     return isfinite(s->energy) ? HD_OK : HD_NOT_FINITE;
 }
 
-/** All energy that the lattice leaves goes into the momenta. */
+/** Starts on the lattice. Momenta get the scene's energy less that of the lattice. */
 static hd_status start_on_lattice(soft *s, const hd_scene_def *scene)
 {
     double potential;
@@ -236,7 +237,7 @@ static hd_status start_from(soft *s, const hd_scene_def *scene, const double *q,
     return begin(s, scene);
 }
 
-/** q = NULL: on the lattice. */
+/** Creates particles at q with momenta p; if q is NULL, on the start lattice. */
 static hd_status create(void **state, const hd_scene_def *scene, const double *q, const double *p)
 {
     soft *s;

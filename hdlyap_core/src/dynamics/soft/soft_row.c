@@ -1,4 +1,5 @@
-/** What is asked of soft particles, and their rows: in the plane and in space. */
+/** Parameters of soft particles, what is expected of them, and questions about their state; their
+ * rows in the plane and in space. */
 #include <math.h>
 #include <string.h>
 
@@ -10,7 +11,7 @@
 #include "scene/dynamics.h"
 #include "scene/scene.h"
 
-/* ---- what is asked ------------------------------------------------------------------------- */
+/* ---- parameters ---------------------------------------------------------------------------- */
 
 static const hd_parameter_word potential_words[] = {
     {"power", HD_POWER}, {"wca", HD_WCA}, {"lennard_jones", HD_LENNARD_JONES}, {NULL, 0}};
@@ -62,7 +63,7 @@ static const hd_parameter own[HD_SOFT_OWN] = {
 
 const hd_potential *hd_soft_potential(const hd_scene_def *scene)
 {
-    const unsigned k = (unsigned)scene->own[HD_SOFT_POTENTIAL].whole; /* until it is checked */
+    const unsigned k = (unsigned)scene->own[HD_SOFT_POTENTIAL].whole; /* maybe not checked yet */
     return &hd_potentials[k < HD_POTENTIALS ? k : 0];
 }
 
@@ -72,7 +73,8 @@ const hd_integrator *hd_soft_integrator(const hd_scene_def *scene)
     return &hd_integrators[k < HD_INTEGRATORS ? k : 0];
 }
 
-/** Of what lies in a well energies near 0 are no measure. */
+/** The energy that sets the scale of speeds: that of the scene, but at least the depth of the well,
+ * in which particles are fast though their energy is near 0. */
 static double usual_energy(const hd_scene_def *scene)
 {
     return fmax(fabs(scene->own[HD_SOFT_ENERGY].real), hd_soft_potential(scene)->depth);
@@ -80,8 +82,9 @@ static double usual_energy(const hd_scene_def *scene)
 
 static double speed(const hd_scene_def *scene) { return sqrt(usual_energy(scene)); }
 
-/** The fastest that a pair swings when it comes as near as four times the usual energy lets it, or
- * flies through. */
+/** The highest frequency with which a pair swings at distances where V is below four times
+ * usual_energy, but at least four times the root of that energy, for particles that fly past each
+ * other. */
 static double fastest(const hd_scene_def *scene)
 {
     enum { HALVINGS = 60, LOOKS = 64 };
@@ -110,7 +113,8 @@ double hd_soft_time_step(const hd_scene_def *scene)
            (hd_soft_integrator(scene)->order == 2 ? sqrt(aim) : sqrt(sqrt(aim))) / fastest(scene);
 }
 
-/** The cube root of what a jump at the cut does [T24], or as the integrator's order lets it. */
+/** The power of the time step by which zero exponents split: from the jump at the cut [T24], or the
+ * order of the integrator if that is less. */
 static double row_split(const hd_scene_def *scene)
 {
     return fmin(2.0 / 3.0 * hd_soft_potential(scene)->smooth, hd_soft_integrator(scene)->order);
@@ -152,7 +156,8 @@ static hd_status row_check(const hd_scene_def *scene, char *message, size_t size
 
 static int row_zeros(const hd_scene_def *scene) { return 2 * hd_scene_dimension(scene) + 2; }
 
-/** As often as the largest exponent says, to a factor of two at densities of 0.1 to 0.9. */
+/** Collisions per time unit, of the order of the largest exponent: to a factor of two at densities
+ * of 0.1 to 0.9. */
 static double row_rate(const hd_scene_def *scene)
 {
     return 0.5 * scene->number * speed(scene) * (1.0 + 3.0 * scene->density);
@@ -166,7 +171,7 @@ static double row_entries(const hd_scene_def *scene)
     return (1.0 + 1.2 * kicks * pairs) / hd_soft_time_step(scene);
 }
 
-/** Of sound, some times the usual speed. */
+/** Time that sound takes through the box; its velocity is some times the usual speed. */
 static double row_crossing(const hd_scene_def *scene)
 {
     double box[HD_DIMENSION_MAX], longest = 0.0;
@@ -175,7 +180,7 @@ static double row_crossing(const hd_scene_def *scene)
     return longest / (speed(scene) * (1.5 + 8.0 * scene->density));
 }
 
-/** Force on particle i, from all of them. */
+/** The force on particle i from all others. */
 static void force_on(double *force, const hd_scene_def *scene, const double *q, int i)
 {
     const int dimension = hd_scene_dimension(scene);
@@ -195,7 +200,8 @@ static void force_on(double *force, const hd_scene_def *scene, const double *q, 
     }
 }
 
-/** Translations, their momenta, and the flow (p, F). What energy belongs to is not known. */
+/** Fills the null vectors: translations, their momenta, and the flow (p, F). The vector that
+ * belongs to the energy is not known. */
 static int row_null(const hd_scene_def *scene, const double *q, const double *p, double *column)
 {
     const int dimension = hd_scene_dimension(scene), count = 2 * dimension + 1;
@@ -244,7 +250,8 @@ static double row_bytes(const hd_scene_def *scene)
     return of_one * scene->number + hd_neighbours_bytes(scene, hd_soft_potential(scene)->cut);
 }
 
-/** Their room doubles; maps have another as large. */
+/** Bytes of this many entries: in the record, which doubles when it is full, and as maps, which
+ * take as much. */
 static double record_bytes(double entries, double entry)
 {
     double room = 4096.0;
@@ -293,7 +300,7 @@ static void row_archive(void *state, hd_archive *archive)
     if (fault) hd_archive_refuse(archive, "trajectory", fault);
 }
 
-/** What is wrong with entries beyond their being numbers. */
+/** Returns NULL, or what is wrong with the entries, which are finite numbers. */
 static const char *row_fault(const hd_record *record, const hd_scene_def *scene)
 {
     const double step = hd_soft_time_step(scene);
