@@ -171,10 +171,10 @@ TEST(Conditions, EachHasItsLevelAndMessage)
         {&lost, &prompt, HDR_DIAGNOSTIC_WARN,
          "nobody can subscribe: no ROS master has known this node for 12 s"},
         {&open, &prompt, HDR_DIAGNOSTIC_WARN,
-         "c_L is not known to 0.03 by any averaging: 0.05 stays open in this box"},
+         "the target of c_L, 0.03, cannot be reached: this box leaves an error of 0.05"},
         {&empty, &prompt, HDR_DIAGNOSTIC_WARN, "none of them belongs to a step"},
         {&caged, &prompt, HDR_DIAGNOSTIC_WARN,
-         "disks keep their places: errors are those of this one state"},
+         "disks keep their places: errors hold for this arrangement only, other seeds may differ"},
         {&split, &prompt, HDR_DIAGNOSTIC_WARN,
          "time_step = 0.01 is too long for the zero exponents: the largest is 0.07, not 0.015; "
          "0.00099 would do"},

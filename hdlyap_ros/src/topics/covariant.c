@@ -134,14 +134,14 @@ static void warn(covariant_said *before, const hd_run *run, const hd_covariant_r
     const long lost = seen->lost;
     if (worst > SPACES_APART && !before->warned)
         hdr_log(HDR_WARN,
-                "covariant_transient = %g: too short, spaces of two starts are %.2g rad apart "
-                "where a window ends",
+                "covariant_transient = %g: too short, spaces of two random starts still differ by "
+                "%.2g rad at the end of a window",
                 hd_run_scene(run)->covariant_transient, worst);
     if (lost > before->lost)
         hdr_log(HDR_WARN,
-                "covariant vectors: a window found no room, orthonormalisations have become more "
-                "frequent (%ld so far)",
-                lost);
+                "covariant_memory = %g: too small, as orthonormalisations became more frequent; "
+                "%ld windows are left out so far",
+                hd_run_scene(run)->covariant_memory, lost);
     before->warned = worst > SPACES_APART;
     before->lost = lost;
 }
