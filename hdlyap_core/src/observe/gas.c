@@ -14,16 +14,17 @@
 #include "scene/scene.h"
 #include "dynamics/trajectory.h"
 
-/** Series that are averaged: per time unit; of the virial one for each direction, and after these,
- * of what has a potential, one of the kinetic energy for each. */
+/** Series that are averaged, per time unit: collisions or potential energy, then the virial along
+ * each direction, then, for particles with a potential, twice the kinetic energy along each
+ * direction. */
 enum {
     COLLISIONS,
-    POTENTIAL = COLLISIONS, /**< of what does not collide */
+    POTENTIAL = COLLISIONS, /**< for particles that do not collide */
     VIRIAL_X,
     SERIES_MAX = VIRIAL_X + 2 * HD_DIMENSION_MAX
 };
 
-/** What a trajectory has counted: collisions, or what it has summed up. */
+/** Counts and sums of a trajectory: collisions, or the sums of particles with a potential. */
 typedef struct counts {
     uint64_t collisions;
     hd_summed summed;
@@ -33,11 +34,11 @@ struct hd_gas {
     int dimension, coordinates, series;
     bool is_summed;
     double disks, area;
-    double momenta;                   /**< that are free */
-    double kinetic[HD_DIMENSION_MAX]; /**< twice the mean kinetic energy along each direction, of
-                                           what collides */
-    counts last;                      /**< where the last sample ended */
-    double time, sum[SERIES_MAX];     /**< since the beginning */
+    double momenta;                   /**< number of free momenta */
+    double kinetic[HD_DIMENSION_MAX]; /**< twice the mean kinetic energy along each direction, for
+                                           particles that collide */
+    counts last;                      /**< counts when the last sample ended */
+    double time, sum[SERIES_MAX];     /**< averaged time, and sums over it */
     hd_blocks blocks;
 };
 
@@ -50,7 +51,7 @@ static counts counts_of(const hd_gas *gas, const hd_trajectory *trajectory)
     return now;
 }
 
-/** Momenta along a direction, but for what is conserved. */
+/** Number of momenta along a direction, less the conserved ones. */
 static double momenta(const hd_scene_def *def, int d)
 {
     return def->number - hd_null_conserved(def, d);
@@ -59,7 +60,7 @@ static double momenta(const hd_scene_def *def, int d)
 double hd_gas_temperature(const hd_scene_def *def)
 {
     const int dimension = hd_scene_dimension(def);
-    const int others = hd_scene_coordinates(def) - dimension; /* of which nothing is conserved */
+    const int others = hd_scene_coordinates(def) - dimension; /* their momenta are not conserved */
     double all = (double)others * def->number;
     for (int d = 0; d < dimension; d++) all += momenta(def, d);
     return 2.0 * def->number / all;
@@ -148,7 +149,7 @@ static const span NO_SPAN = {0, -1, 0.0};
 
 static double times(double error, double factor) { return error < 0 ? error : error * factor; }
 
-/** Pressures, whatever carries the momentum. */
+/** Pressures of all kinds of particles. */
 static void read_pressures(hd_gas_means *m, const hd_gas *gas, double t)
 {
     const double a = gas->area;
@@ -165,7 +166,7 @@ static void read_pressures(hd_gas_means *m, const hd_gas *gas, double t)
                                  NO_SPAN);
 }
 
-/** Of what collides: all of its energy is kinetic. */
+/** Means of particles that collide: all their energy is kinetic. */
 static void read_counted(hd_gas_means *m, const hd_gas *gas, double t)
 {
     const double each = 2.0 / gas->disks, half = gas->coordinates / 2.0;
@@ -177,7 +178,7 @@ static void read_counted(hd_gas_means *m, const hd_gas *gas, double t)
     m->temperature_error = m->potential_energy_error = -1.0;
 }
 
-/** Of what has a potential; Z = 1 + W / 2 K. */
+/** Means of particles with a potential; Z = 1 + W / 2 K. */
 static void read_summed(hd_gas_means *m, const hd_gas *gas, double t)
 {
     const int x = kinetic_x(gas), last = gas->series - 1;
@@ -252,7 +253,7 @@ static void gas_archive(void *self, hd_archive *archive, const hd_trajectory *no
     hd_blocks_archive(&gas->blocks, archive);
 }
 
-/** Whether such particles sum up, or collide; or the reason. */
+/** True if particles have sums (of_sums), or collide (not of_sums); else writes the reason. */
 static bool is_known(const hd_scene_def *def, bool of_sums, char why[HD_WHY])
 {
     const hd_dynamics *of = hd_dynamics_of(def);

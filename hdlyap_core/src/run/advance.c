@@ -11,8 +11,8 @@
 /** No advance is planned shorter: simulated time must move. */
 static const double SHORTEST = 1e-12;
 
-/** Events of one particle per time unit, roughly, each counted for both that meet. Where plans
- * begin: what they grow to is learnt. */
+/** Events of one particle per time unit, roughly; an event of two counts for both. The first plans
+ * follow from it, later ones from what is measured. */
 static double events_per_disk(const hd_scene_def *scene)
 {
     return 2.0 * hd_dynamics_of(scene)->entries(scene) / scene->number;
@@ -79,7 +79,8 @@ bool hd_advance_is_done(const hd_advance *advance)
     return hd_advance_now(advance) >= advance->plan.end;
 }
 
-/** Of a plan that is done; of what tells none entries, as the record has them or is expected to. */
+/** Events in a plan that is done, of this length; for particles that do not count events, the
+ * entries of its record, or as many as are expected without a record. */
 static double events_in(const hd_advance *advance, double length, const hd_record *record)
 {
     const uint64_t told = hd_advance_events(advance);

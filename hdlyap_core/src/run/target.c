@@ -220,7 +220,7 @@ hd_status hd_target_check(const hd_scene_def *def, char *message, size_t size)
     return HD_OK;
 }
 
-/** Of a set, the observables that bring this one along; itself, if it is one of the set. */
+/** The observables of a set that bring `one` along; only `one` if it is in the set. */
 static unsigned simplest(unsigned set, unsigned one)
 {
     unsigned all = 0;

@@ -25,7 +25,8 @@ static int padded(int vectors)
     return (vectors + width - 1) / width * width;
 }
 
-/** What moves in steps has more of maps than of columns: wider blocks read them less often. */
+/** Chooses how many columns a block has. Particles that move in time steps get wider blocks: their
+ * maps are larger than their columns, and wide blocks read them less often. */
 static int block_width(const hd_dynamics *of, int rows, int stride)
 {
     const int least = of->step ? 16 : 8;

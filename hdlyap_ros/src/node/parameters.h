@@ -8,16 +8,16 @@
 
 #include "hdlyap/parameters.h"
 
-/** How a value is said and read. */
+/** How a value is read and written. */
 typedef enum parameter_kind {
-    OF_SCENE,        /**< as the scene's row says */
-    PARTICLES,       /**< of the scene, too: by the name of their row */
+    OF_SCENE,        /**< as the core's row says */
+    PARTICLES,       /**< hd_scene_def: the name of a row of dynamics */
     REAL_NUMBER,     /**< double */
     WHOLE_NUMBER,    /**< int; what is allowed depends on the scene */
     NAME,            /**< const char *: a line that is not empty */
     FILE_PATH,       /**< const char *: a line, "" for none */
     TOPICS_OBSERVED, /**< unsigned: a set of topics */
-    TOPICS_AWAITED,  /**< the same, or all */
+    TOPICS_AWAITED,  /**< unsigned: a set of topics, or all */
     FIELD_CHOICE,    /**< field_choice */
     CHANGES          /**< change_list */
 } parameter_kind;
@@ -27,18 +27,18 @@ typedef struct parameter {
     parameter_kind kind;
     size_t offset;       /**< in settings */
     const char *usual;   /**< default: the number, the word, or the items of the list */
-    double least, most;  /**< of a number */
-    const char *allowed; /**< in words; of topics it ends where their names begin */
+    double least, most;  /**< range of a number; none if they are equal */
+    const char *allowed; /**< what is allowed, in words; for topics without their names */
     const char *unit;    /**< "" if it has none */
-    bool may_differ;     /**< of a run that goes on from its checkpoint */
+    bool may_differ;     /**< may change when a run goes on from its checkpoint */
     bool live;           /**< may change while the run goes on */
-    bool at_once;   /**< and does so before the next step, as it makes no difference to results */
-    unsigned needs; /**< topics of which one must be observed for another value; 0: none */
+    bool at_once;        /**< changes before the next step, as it makes no difference to results */
+    unsigned needs; /**< topics, one of which must be observed unless it has its default; 0: none */
     const char *text;
-    const hd_parameter *row; /**< NULL unless it is the scene's */
+    const hd_parameter *row; /**< the core's row; NULL if it is not the scene's */
 } parameter;
 
-/** In the order in which they are read. */
+/** Parameters come in the order in which they are read. */
 int parameters_count(void);
 parameter parameters_at(int k);
 
@@ -47,24 +47,24 @@ bool parameters_has(const char *name);
 
 /** Room for parameters_unknown. */
 enum { PARAMETER_UNKNOWN = 128 };
-/** What to say of a name that is none; with the one that may be meant, a slip or two of the keys
- * away. */
+/** Writes what to say of a name that no parameter has: its new name, or the name that may be meant,
+ * from which at most two letters differ. */
 void parameters_unknown(char text[PARAMETER_UNKNOWN], const char *name);
 
-/** The row of a name, which there must be. */
+/** The parameter of this name, which must exist. */
 parameter parameters_named(const char *name);
 
 /** Room for parameter_usual. */
 enum { PARAMETER_TEXT = 80 };
-/** The default as it is said in a message. */
+/** Writes the default for a message. */
 void parameter_usual(char text[PARAMETER_TEXT], const parameter *p);
 
-/** Topics that a set of them may have. */
+/** The topics that are allowed in a set of topics. */
 unsigned parameter_topics(const parameter *p);
 
 /** Room for parameter_allowed. */
 enum { PARAMETER_ALLOWED = 180 };
-/** What is allowed, whole. */
+/** Writes all that is allowed, with names of topics or particles. */
 void parameter_allowed(char text[PARAMETER_ALLOWED], const parameter *p);
 
 #endif

@@ -1,5 +1,5 @@
-/** Private parameters -> settings: read by their rows, and what fits together. The ranges of the
- * scene itself are the core's. */
+/** Private parameters -> settings. This reads each parameter by its row and checks that they fit
+ * together. The core checks the ranges of the scene's own parameters. */
 #include "settings.h"
 
 #include <inttypes.h>
@@ -29,7 +29,7 @@ static bool check_names(reader *r)
 
 static void *field_of(settings *set, const parameter *p) { return (char *)set + p->offset; }
 
-/** A value would be read twice. */
+/** Refuses particles with a parameter whose name another one has: both would read its value. */
 static bool check_own_names(const hd_dynamics *of, const reader *r)
 {
     for (int k = 0; k < of->parameters; k++) {
@@ -45,7 +45,7 @@ static bool check_own_names(const hd_dynamics *of, const reader *r)
     return true;
 }
 
-/** First: its own parameters are parameters, too. */
+/** Reads which particles move. This comes first, as it decides which parameters there are. */
 static bool read_what_moves(settings *out, reader *r)
 {
     const parameter p = parameters_named("particles");
@@ -72,7 +72,7 @@ const char *settings_write_nodes(char text[NODES_SIZE], const hd_scene_def *def,
                        (uint32_t)wave->n[1], (uint32_t)wave->n[2]);
 }
 
-/** Of what moves in steps its own parameters, of which they follow. */
+/** Adds the particles' own parameters, from which their time steps follow, to the text. */
 static void write_steps(char *text, size_t size, const hd_scene_def *def)
 {
     const hd_dynamics *of = hd_dynamics_of(def);
@@ -102,8 +102,8 @@ const char *settings_write_system(char text[SYSTEM_SIZE], const settings *set)
     return text;
 }
 
-/** A name chooses no system: it must come with the one that it names, and no system has the name of
- * the usual one but that itself. */
+/** Checks the name of the scene. A name does not choose a system: the parameters of the system must
+ * come with it, and only the usual system may have the usual name. */
 static bool check_scene_name(settings *set, reader *r)
 {
     static const char *const system[] = {"particles",  "container",  "number",
@@ -127,8 +127,8 @@ static bool check_scene_name(settings *set, reader *r)
                   "name chooses none of them, roslaunch hdlyap run.launch scene:=.. does");
 }
 
-/** Messages of positions hold what has as many coordinates as its space has directions, and an
- * angle of what turns. */
+/** Refuses particles that messages cannot hold: these have a coordinate for each direction of
+ * space, and an angle for particles that turn. */
 static bool check_particles(const settings *set, reader *r)
 {
     r->name = "particles";
@@ -138,7 +138,7 @@ static bool check_particles(const settings *set, reader *r)
                             "has one more, with its inertia: others are of the core alone");
 }
 
-/** Those that the scene does not know of, where the row says a range. */
+/** Checks parameters that are not the scene's, if their rows state a range. */
 static bool check_ranges(settings *set, reader *r)
 {
     for (int k = 0; k < parameters_count(); k++) {
@@ -152,7 +152,8 @@ static bool check_ranges(settings *set, reader *r)
     return true;
 }
 
-/** What such a scene has not goes silently from the defaults. */
+/** Refuses observables that are not in `topics`, if the user has given them; leaves them out
+ * silently if they are defaults. */
 static bool leave_all_but(settings *set, reader *r, unsigned topics, const char *when,
                           const char *value)
 {
@@ -202,7 +203,8 @@ static bool is_usual(settings *set, const parameter *p)
     }
 }
 
-/** What is given of something that nobody observes; defaults may be. */
+/** Refuses parameters that have no effect, as what they belong to is not observed. They may have
+ * their defaults. */
 static bool check_needs(settings *set, reader *r)
 {
     for (int k = 0; k < parameters_count(); k++) {
@@ -222,7 +224,7 @@ static bool check_needs(settings *set, reader *r)
     return true;
 }
 
-/** Of a scene that is right. */
+/** Expects a scene that has been checked. */
 static bool check_field_indices(const settings *set, reader *r)
 {
     const int vectors = hd_scene_counts(&set->def).vectors;
@@ -236,7 +238,7 @@ static bool check_field_indices(const settings *set, reader *r)
     return true;
 }
 
-/** Of a scene that is right. */
+/** Expects a scene that has been checked. */
 static bool check_slow_vectors(const settings *set, reader *r)
 {
     const int vectors = hd_scene_counts(&set->def).vectors;
@@ -280,7 +282,7 @@ bool settings_resume(const char **path, const hdr_params *params, char *message,
     return reader_read(&r, &p, path);
 }
 
-/** What the stages of a checkpoint are published as, and what needs none. */
+/** Observables that a checkpoint with these stages can publish; some need no stage. */
 static unsigned topics_kept(unsigned stages)
 {
     unsigned set = topics_that_are(TOPIC_OBSERVABLE);
@@ -320,7 +322,7 @@ static settings defaults(const hd_checkpoint *kept)
     return set;
 }
 
-/** Largest exponents alone hold no mode. */
+/** Warns if so few exponents are asked for that none belongs to a step. */
 static void warn_of_steps(settings *set)
 {
     const hd_scene_def *def = &set->def;

@@ -1,5 +1,4 @@
-/** What the user asks for: private parameters -> a scene and what to publish of it, or one line
- * that refuses them. */
+/** Private parameters -> a scene and what to publish of it, or one line that refuses them. */
 #ifndef HDLYAP_SETTINGS_H
 #define HDLYAP_SETTINGS_H
 
@@ -13,23 +12,23 @@
 
 /** Vectors whose fields are published. */
 typedef struct field_choice {
-    const char *text; /**< as asked for: steps, or a list; in the params */
+    const char *text; /**< as given: steps, or a list; in the params */
     const int *index; /**< [count] Lyapunov indices, from 1; in the params */
-    int count;        /**< 0: one of each step */
+    int count;        /**< 0: one vector of each step */
 } field_choice;
 
-/** What is to change while the run goes on. */
+/** Changes to make while the run goes on. */
 typedef struct change_list {
-    const char *const *text; /**< [count], as asked for; in the params */
+    const char *const *text; /**< [count], as given; in the params */
     int count;
 } change_list;
 
 typedef struct settings {
     hd_scene_def def;
     const char *scene;     /**< name; in the params, or in the checkpoint */
-    const char *particles; /**< what moves: disks or spheres */
+    const char *particles; /**< name of the particles, e.g. disks */
     char seed[24];         /**< decimal */
-    char exponents[16];    /**< as asked for: positive, all, none or a number */
+    char exponents[16];    /**< as given: positive, all, none or a number */
     unsigned observables;  /**< set of topics: all but run_info, status and cost */
     field_choice fields;
     double slow_vectors_rate; /**< messages of slow_vectors per wall second, at most */
@@ -38,28 +37,29 @@ typedef struct settings {
     unsigned awaited;      /**< set of topics that must have a subscriber before the run starts */
     double pace;           /**< time units per wall second, 0 = as fast as it goes */
     change_list changes;
-    const char *checkpoint;     /**< file, or ""; in the params, as the next but one */
+    const char *checkpoint;     /**< file, or ""; in the params */
     double checkpoint_interval; /**< wall seconds; 0: only at the end and when asked */
-    const char *resume;         /**< file to go on from, or "" */
-    char warning[256];          /**< of what is right and tells nothing; "" if there is none */
+    const char *resume;         /**< file to go on from, or ""; in the params */
+    char warning[256];          /**< says what is allowed but gives no results; "" if nothing */
     double table; /**< wall seconds between two tables in the log, at least; 0: none */
 } settings;
 
-/** The file to go on from, "" if none. False if refused. */
+/** Finds the file to go on from, "" if none. Returns false if the parameter is refused. */
 bool settings_resume(const char **path, const hdr_params *params, char *message, size_t size);
 
-/** False if refused, with one line in message: the parameter, its value, what is allowed. What is
- * not given is as in the checkpoint that is gone on from (NULL: as documented). The params and it
- * must outlive the settings. */
+/** Reads and checks all parameters. Returns false if it refuses one, with one line in message: the
+ * parameter, its value, what is allowed. A parameter that is not given has its value in `kept`, the
+ * checkpoint to go on from, or its default if `kept` is NULL. params and kept must outlive the
+ * settings. */
 bool settings_read(settings *out, const hdr_params *params, const hd_checkpoint *kept,
                    char *message, size_t size);
 
-/** What moves, and where: "36 dumbbells in 24 x 2.5, packing fraction 0.62", or "36
+/** Writes the particles and their box: "36 dumbbells in 24 x 2.5, packing fraction 0.62", or "36
  * soft_disks in 24 x 2.5, potential wca, energy 1, time_step 0.0026, integrator pefrl". */
 enum { SYSTEM_SIZE = 400 };
 const char *settings_write_system(char text[SYSTEM_SIZE], const settings *set);
 
-/** (1,0), of spheres (1,0,0). */
+/** Writes the nodes of a wave: (1,0), or (1,0,0) in space. */
 const char *settings_write_nodes(char text[NODES_SIZE], const hd_scene_def *def,
                                  const hd_wave *wave);
 
