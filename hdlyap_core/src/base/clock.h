@@ -1,4 +1,5 @@
-/** Wall seconds from some fixed moment, for what the run costs; results never depend on it. */
+/** Wall seconds since some fixed moment. They measure what a run costs; results do not depend on
+ * them. */
 #ifndef HD_CLOCK_H
 #define HD_CLOCK_H
 

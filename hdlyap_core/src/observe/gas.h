@@ -1,22 +1,21 @@
-/** How means of the gas are taken. */
+/** Measures the means of the gas. */
 #ifndef HD_GAS_H
 #define HD_GAS_H
 
 #include "hdlyap/gas.h"
 
-/** block: standard errors come from blocks of the averaged time that are at least so long [time
- * units]. HD_NO_MEMORY. */
+/** block: standard errors come from blocks of the averaged time that are at least this long [time
+ * units]. Fails with HD_NO_MEMORY. */
 HD_MUST_CHECK hd_status hd_gas_create(hd_gas **out, const hd_scene_def *def, double block);
 void hd_gas_free(hd_gas *gas);
 
-/** Begins anew where the disks are now. */
+/** Begins the averages anew at the present state of the trajectory. */
 void hd_gas_begin(hd_gas *gas, const hd_trajectory *trajectory);
-/** Ends a sample there: all that happened since the last call of one of the two. Samples may be of
- * any length; one without time is none. O(1). */
+/** Adds a sample: what happened since the last call of hd_gas_begin or hd_gas_add. Samples may have
+ * any length; nothing is added if no time has passed. O(1). */
 void hd_gas_add(hd_gas *gas, const hd_trajectory *trajectory);
 
-/** Area, of spheres volume, in which centres move: between walls L - 1 instead of L
- * [sigma^d]. */
+/** Area, or volume in space, in which centres move [sigma^d]: between walls L - 1 instead of L. */
 double hd_gas_area(const hd_scene_def *def);
 
 #endif

@@ -1,4 +1,4 @@
-/** How responses are measured. */
+/** Measures hydrodynamic responses. */
 #ifndef HD_HYDRO_H
 #define HD_HYDRO_H
 
@@ -9,8 +9,8 @@ HD_MUST_CHECK hd_status hd_hydro_create(hd_hydro **out, const hd_scene_def *def,
                                         const hd_steps *steps);
 void hd_hydro_free(hd_hydro *hydro);
 
-/** Responses of the vectors that belong to a resolved step (hd_steps_of_vector), at positions q
- * and momenta p. */
+/** Measures responses of the vectors that belong to a resolved step (hd_steps_of_vector), at
+ * positions q and momenta p. */
 void hd_hydro_measure(hd_hydro *hydro, const hd_steps *steps, hd_columns vectors, const double *q,
                       const double *p);
 

@@ -1,4 +1,4 @@
-/** The table of what can move. */
+/** The table of dynamics: particles that can move. */
 #include "scene/dynamics.h"
 
 #include <string.h>
@@ -11,7 +11,7 @@ static const hd_dynamics *const rows[] = {[HD_DISKS] = &hd_hard_disks,
 
 const hd_dynamics *hd_dynamics_of(const hd_scene_def *scene)
 {
-    const unsigned k = (unsigned)scene->particles; /* may be anything until it has been checked */
+    const unsigned k = (unsigned)scene->particles; /* it may not be checked yet */
     return scene->dynamics ? scene->dynamics : rows[k < sizeof rows / sizeof *rows ? k : 0];
 }
 

@@ -19,7 +19,8 @@ bool change_refuse(char *message, size_t size, const char *what, const char *why
     return false;
 }
 
-/** A number from end to end and in the row's range; or a text, which the core judges. */
+/** Reads a value. A number must fill the text and be in the range of its row; texts are checked by
+ * the core. */
 static bool parse_value(char value[HD_TEXT], const char *text, const parameter *p)
 {
     char *end;

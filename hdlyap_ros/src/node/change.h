@@ -1,4 +1,4 @@
-/** A parameter with another value from some time on, as text has it. */
+/** A change of a parameter: its new value and the time from which on it holds. */
 #ifndef HDLYAP_CHANGE_H
 #define HDLYAP_CHANGE_H
 
@@ -8,19 +8,19 @@
 #include "hdlyap/scene.h"
 
 typedef struct change {
-    const char *name;                     /**< of the parameter's row */
-    double time;                          /**< simulated, from which on it holds */
-    char before[HD_TEXT], value[HD_TEXT]; /**< until then, and since */
+    const char *name;                     /**< parameter; the text is its row's */
+    double time;                          /**< simulated time from which on the value holds */
+    char before[HD_TEXT], value[HD_TEXT]; /**< value before this time, and after it */
 } change;
 
-/** "NAME=VALUE" -> name and value, which the row allows. False if that is no change of a live
- * parameter, with one line: what was asked for, and why not. */
+/** Reads name and value from "NAME=VALUE". Returns false, with one line in message (the text, and
+ * what is wrong), if no live parameter has this name or its row does not allow the value. */
 bool change_parse(change *out, const char *assignment, char *message, size_t size);
 
-/** "TIME NAME=VALUE" -> the time, too. */
+/** Reads the time, too, from "TIME NAME=VALUE". */
 bool change_parse_timed(change *out, const char *text, char *message, size_t size);
 
-/** Writes such a line. Always false. */
+/** Writes the line of a refused text. Always returns false. */
 bool change_refuse(char *message, size_t size, const char *what, const char *why);
 
 #endif

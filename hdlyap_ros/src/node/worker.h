@@ -28,11 +28,11 @@ typedef struct worker_state {
     char fault[256];  /**< the fault in words, with its numbers */
     progress last;
     examination disks;     /**< result of the last worker_examine */
-    const char *warning;   /**< of the settings */
-    const char *particles; /**< what moves, by name */
+    const char *warning;   /**< warning of the settings */
+    const char *particles; /**< name of the particles, e.g. disks */
     kept checkpoint;
-    bool saving; /**< one is being written */
-    double lost; /**< hdr_node_lost, of who asks that */
+    bool saving; /**< a checkpoint is being written */
+    double lost; /**< hdr_node_lost, filled in by the caller of worker_state */
 } worker_state;
 
 typedef struct worker worker;
