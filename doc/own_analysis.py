@@ -32,7 +32,8 @@ samples, lengths = run.local.exponents[:, 0], run.local.lengths
 rho = series.autocorrelation(samples)[:20]
 axes[1, 0].stem(rho)
 axes[1, 0].set(xlabel='samples apart', ylabel='autocorrelation of $\\lambda_1$')
-print('%d samples, as good as %.0f independent ones' % (len(samples), series.effective_samples(samples)))
+independent = series.effective_samples(samples)
+print('%d samples, as good as %.0f independent ones' % (len(samples), independent))
 
 # %% The error that the node has stated, checked in three lines
 error, stated = series.standard_error(samples, lengths), run.std_errors[-1, 0]

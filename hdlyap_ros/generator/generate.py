@@ -104,8 +104,8 @@ typedef struct %(name)s_list {
 '''
 
 FIELDS = '''\
-/** The ROS type of each struct of hdlyap_ros/messages.h, and its fields in the order of the message;
- * made from msg/ at build time. */
+/** The ROS type of each struct of hdlyap_ros/messages.h, and its fields in their order in the
+ * message. Made from msg/ at build time. */
 #pragma once
 
 #include <cmath>

@@ -70,7 +70,7 @@ def launch_arguments():
 
 
 def message_rows(lines):
-    """A row for each comment, with all fields that belong to it; a plain error is with its field."""
+    """A row for each comment with all its fields; a plain error is with its field."""
     rows = []
     for line in lines:
         found = re.match(r'(\S+)\s+(\w+)(?:\s*=\s*(\S+))?\s*(?:#\s*(.*))?$', line)
@@ -92,9 +92,13 @@ def message_rows(lines):
     return rows
 
 
+def is_comment(line):
+    return line.startswith('#')
+
+
 def message_head(lines):
     """What stands above the first field: its paragraphs."""
-    head = [line[1:].strip() for line in itertools.takewhile(lambda l: l.startswith('#'), lines)]
+    head = [line[1:].strip() for line in itertools.takewhile(is_comment, lines)]
     return escaped('\n'.join(head))
 
 

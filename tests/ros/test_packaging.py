@@ -76,9 +76,9 @@ OF_SYSTEM = {
 # for the scripts and the tests of a clone, which no package manager runs: compilers, watchers,
 # lint, a display
 TOOLS = set(
-    'build-essential cmake procps python3-xarray libcmocka-dev shellcheck strace valgrind clang libomp-dev '
-    'libclang-rt-dev|libclang-common-11-dev catkin-lint python3-catkin-lint xvfb libxtst6 '
-    'imagemagick libgl1-mesa-dri '
+    'build-essential cmake procps python3-xarray libcmocka-dev shellcheck strace valgrind clang '
+    'libomp-dev libclang-rt-dev|libclang-common-11-dev catkin-lint python3-catkin-lint xvfb '
+    'libxtst6 imagemagick libgl1-mesa-dri '
     'black flake8 clang-format doxygen slurmctld slurmd slurm-client openssh-server '
     'iproute2'.split()
 )

@@ -16,10 +16,10 @@ typedef struct hd_blas {
 
 hd_blas hd_blas_query(void);
 
-/** To be called first in main. If the library uses kernels older than the processor, or idle threads
- * would spin for long, it starts the program again with OPENBLAS_CORETYPE, and with GOMP_SPINCOUNT
- * or OMP_WAIT_POLICY, set; it never changes a value that the user has set. Otherwise, and after such
- * a restart, it returns. It does something on Linux only. */
+/** To be called first in main. If the library uses kernels older than the processor, or idle
+ * threads would spin for long, it starts the program again with OPENBLAS_CORETYPE, and with
+ * GOMP_SPINCOUNT or OMP_WAIT_POLICY, set; it never changes a value that the user has set.
+ * Otherwise, and after such a restart, it returns. It does something on Linux only. */
 void hd_blas_restart_if_slow(char **argv);
 
 /** HD_NO_MEMORY if there is not enough address space for the stacks and buffers of so many threads:

@@ -30,8 +30,8 @@ typedef struct hd_transport {
     void (*sum)(void *context, double *x, size_t count);
     /** x[ranks * count]: each rank has filled its own count entries, and receives all others. */
     void (*gather)(void *context, double *x, size_t count);
-    /** x[ranks * count]: the count entries at r * count go to rank r, and are replaced by those that
-     * it sends. */
+    /** x[ranks * count]: the count entries at r * count go to rank r, and are replaced by those
+     * that it sends. */
     void (*exchange)(void *context, double *x, size_t count);
     /** Replaces x[bytes] by the x of rank 0. */
     void (*broadcast)(void *context, void *x, size_t bytes);

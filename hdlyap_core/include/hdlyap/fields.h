@@ -15,7 +15,8 @@ typedef struct hd_subspace {
     hd_mode_kind kind; /**< HD_MODE_T or HD_MODE_LP */
     hd_wave wave;
     hd_modulations modulations;
-    int column, dimension; /**< dimension: the expected multiplicity of the step */
+    int column;    /**< the first column of the matrix of fields that belongs to it */
+    int dimension; /**< number of its columns, which is the expected multiplicity of the step */
 } hd_subspace;
 
 typedef struct hd_fields hd_fields;

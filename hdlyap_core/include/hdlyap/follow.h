@@ -1,5 +1,5 @@
-/** Ranks that follow rank 0: it makes the calls of a run (run.h, checkpoint.h), and the other ranks,
- * which have no program of their own, repeat them. */
+/** Ranks that follow rank 0: it makes the calls of a run (run.h, checkpoint.h), and the other
+ * ranks, which have no program of their own, repeat them. */
 #ifndef HDLYAP_FOLLOW_H
 #define HDLYAP_FOLLOW_H
 
@@ -8,7 +8,8 @@
 
 HD_API_BEGIN
 
-/** To be called on rank 0: from now on the others repeat its calls of runs with this communicator. */
+/** To be called on rank 0: from now on the others repeat its calls of runs with this communicator.
+ */
 void hd_run_lead(hd_communicator *communicator);
 /** To be called on rank 0, once: hd_run_follow returns on the others. */
 void hd_run_dismiss(hd_communicator *communicator);

@@ -12,8 +12,8 @@ typedef struct hd_localization hd_localization;
 long hd_localization_samples(const hd_localization *shape); /**< number of samples in the means */
 
 /** Localisation widths exp(S) / N of all n vectors, 1 / N .. 1. S is the mean over the samples of
- * -sum m_i ln m_i, with m_i = |dq_i|^2 + |dp_i|^2 of particle i (Taniguchi and Morriss, Phys. Rev. E
- * 68, 046203 (2003)). */
+ * -sum m_i ln m_i, with m_i = |dq_i|^2 + |dp_i|^2 of particle i (Taniguchi and Morriss, Phys. Rev.
+ * E 68, 046203 (2003)). */
 const double *hd_localization_widths(hd_localization *shape);
 /** Standard error of a width [T8]; negative while it is not known. O(blocks). */
 double hd_localization_width_error(const hd_localization *shape, int col);

@@ -34,32 +34,35 @@ typedef struct hd_parameter_word {
 typedef struct hd_parameter {
     const char *name;
     hd_parameter_kind kind;
-    const hd_parameter_word *words; /**< ends with an entry whose word is NULL; NULL if there are no words */
-    size_t offset;                  /**< offset of the value in hd_scene_def */
-    double usual;                   /**< default */
+    const hd_parameter_word
+        *words;    /**< ends with an entry whose word is NULL; NULL if there are no words */
+    size_t offset; /**< offset of the value in hd_scene_def */
+    double usual;  /**< default */
     double least, most;
     const char *allowed; /**< what is allowed, in words */
     const char *unit;    /**< unit; "" if there is none */
     bool may_differ;     /**< a resumed run may have another value than the checkpoint */
     bool live;           /**< may change while the run goes on, see hd_run_change */
     unsigned needs; /**< HD_OBSERVE_* of which a value other than the default needs one; 0: none */
-    const char *text; /**< what the parameter means */
+    const char *text;   /**< what the parameter means */
     const char *record; /**< name in a checkpoint; NULL: the same name */
-    /** Gives the value that an automatic one stands for in a scene; NULL: there is no automatic one. */
+    /** Gives the value that an automatic one stands for in a scene; NULL: there is no automatic
+     * one. */
     double (*chosen)(const hd_scene_def *def);
 } hd_parameter;
 
 /** All parameters that every scene has, [count]. */
 const hd_parameter *hd_scene_parameters(int *count);
 
-/** Value of a parameter in a scene. A seed may be rounded; a text gives 0 if it is empty, else 1. */
+/** Value of a parameter in a scene. A seed may be rounded; a text gives 0 if it is empty, else 1.
+ */
 double hd_parameter_value(const hd_parameter *row, const hd_scene_def *def);
 /** Value of a parameter in a scene, or the value that was chosen for an automatic one. */
 double hd_parameter_effect(const hd_parameter *row, const hd_scene_def *def);
 /** Sets a parameter to a value that its kind can hold; a text becomes empty. */
 void hd_parameter_assign(const hd_parameter *row, hd_scene_def *def, double value);
-/** Sets a live parameter from a text: a number, or a text. Returns false if the text is not a number
- * from end to end, or too long. */
+/** Sets a live parameter from a text: a number, or a text. Returns false if the text is not a
+ * number from end to end, or too long. */
 bool hd_parameter_read(const hd_parameter *row, hd_scene_def *def, const char *text);
 
 /** The word for a value; NULL if there is none. */

@@ -23,7 +23,7 @@ typedef struct hd_phase {
     unsigned char modulation; /**< modulation (hdlyap/wave.h) of both L and P; for T of the first
                                  field, and the second has a sine for its cosine along the first
                                  periodic direction with a mode number */
-    int col;              /**< column of the vector now, which may change; -1 if unresolved */
+    int col;                  /**< column of the vector now, which may change; -1 if unresolved */
     hd_phase_state state;
     double a, b;  /**< least-squares coefficients on the normalised fields: L and P, or T and T */
     double phase; /**< atan2(b, a), continued beyond pi since the tracking began [rad] */
@@ -41,8 +41,8 @@ int hd_phases_count(const hd_phases *phases);
 const hd_phase *hd_phases_phase(const hd_phases *phases, int index);
 
 /** Diffusion constant D of a phase, whose mean square about omega t is 2 D t [rad^2/time unit], and
- * its standard error; negative if not yet known. D comes from blocks of time, and is too large while
- * these are shorter than the time in which the phase forgets its fluctuations. */
+ * its standard error; negative if not yet known. D comes from blocks of time, and is too large
+ * while these are shorter than the time in which the phase forgets its fluctuations. */
 double hd_phases_diffusion(const hd_phases *phases, int index, double *error);
 
 /** Mean rate of the tracked phases of a step [rad/time unit], and its standard error, negative if

@@ -9,8 +9,8 @@
 
 HD_API_BEGIN
 
-/** Whether the exponents of several steps that share one set of vectors coincide, or differ although
- * their vectors are mixed. */
+/** Whether the exponents of several steps that share one set of vectors coincide, or differ
+ * although their vectors are mixed. */
 typedef enum hd_sharing {
     HD_SHARING_ALONE,   /**< the step has a set of its own, or is not resolved */
     HD_SHARING_UNKNOWN, /**< standard errors are unknown, or too large to tell */
@@ -28,9 +28,9 @@ typedef struct hd_step {
     int subspace;      /**< number of its fields in hd_fields; -1 for the zero modes */
     int expected;      /**< number of equal exponents that the boundaries imply */
     bool conjugate;    /**< true in the negative half of the spectrum */
-    bool resolved;     /**< true if its vectors were found; otherwise all below is 0, col and set -1 */
-    int col, count;    /**< its set of vectors: columns [col, col + count) */
-    int set, members;  /**< number of the set, and how many steps share it */
+    bool resolved;  /**< true if its vectors were found; otherwise all below is 0, col and set -1 */
+    int col, count; /**< its set of vectors: columns [col, col + count) */
+    int set, members;    /**< number of the set, and how many steps share it */
     double multiplicity; /**< sum of the weights of the set's vectors in the step's fields, 0 ..
                             expected */
     double exponent;  /**< mean over the set, weighted by each vector's share in this step [1/time
@@ -39,8 +39,8 @@ typedef struct hd_step {
     /* Ordered by exponent, each step that shares the set has columns of its own in it. */
     hd_sharing sharing; /**< do the steps of the set coincide? */
     double set_time;    /**< averaged time since when the same steps share the set [time units] */
-    double own_part; /**< fraction of the step's weight in the set that is in the step's own columns:
-                        1 without mixing */
+    double own_part;    /**< fraction of the step's weight in the set that is in the step's own
+                           columns:    1 without mixing */
     double gap; /**< difference between the mean exponents of the step's own columns and of the
                    nearest step's; 0 if it is alone [1/time unit] */
     double gap_error; /**< standard error of gap; negative if not yet known, 0 if it is alone */
@@ -77,8 +77,8 @@ typedef struct hd_dispersion {
     double prior_share;  /**< share of c2 and c3 that comes from long boxes instead of this run: 1
                             for a single wave number, near 0 if the steps determine them */
     hd_coefficient c;    /**< [sigma/time unit] */
-    double c_sampling_error; /**< part of the error of c by which another run of this box may differ;
-                                negative if not yet known */
+    double c_sampling_error; /**< part of the error of c by which another run of this box may
+                                differ; negative if not yet known */
     hd_coefficient c2;       /**< [sigma^2/time unit] */
     hd_coefficient c3;       /**< [sigma^3/time unit] */
     const hd_relation *in_long_boxes; /**< c2 / c and c3 / c of long boxes */
@@ -96,14 +96,14 @@ typedef struct hd_steps hd_steps;
 int hd_steps_count(const hd_steps *steps);
 const hd_step *hd_steps_step(const hd_steps *steps, int index);
 
-/** The step to which a vector belongs: of those that share its set, the one in which its mean weight
- * is largest. -1 if it is in no set, or its weight there is below the threshold. */
+/** The step to which a vector belongs: of those that share its set, the one in which its mean
+ * weight is largest. -1 if it is in no set, or its weight there is below the threshold. */
 int hd_steps_of_vector(const hd_steps *steps, int col);
 /** A column that represents a resolved step: the first one of its set that belongs to the step, or
  * the first one. */
 int hd_steps_example(const hd_steps *steps, int index);
-/** True for the resolved T and LP steps of positive exponents; if several share a set, for the first
- * of them only. Their examples together show every set. */
+/** True for the resolved T and LP steps of positive exponents; if several share a set, for the
+ * first of them only. Their examples together show every set. */
 bool hd_steps_is_shown(const hd_steps *steps, int index);
 /** The resolved step of a kind with the smallest positive exponent; -1 if there is none. */
 int hd_steps_lowest(const hd_steps *steps, hd_mode_kind kind);

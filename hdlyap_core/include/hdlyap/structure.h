@@ -1,6 +1,6 @@
 /** Structure factors of the vectors along and across every wave vector that the particles sample,
- * and the amplitudes of each vector's strongest wave [T20]. They need no fit of fields and no steps.
- * Several threads may read one hd_structure at once while none calls its run. */
+ * and the amplitudes of each vector's strongest wave [T20]. They need no fit of fields and no
+ * steps. Several threads may read one hd_structure at once while none calls its run. */
 #ifndef HDLYAP_STRUCTURE_H
 #define HDLYAP_STRUCTURE_H
 
@@ -24,9 +24,9 @@ const double *hd_structure_mean(const hd_structure *structure, int wave, hd_dire
 /** Strongest wave of a vector: the one at which the mean, along plus across, was largest before the
  * last sample; -1 without one. */
 int hd_structure_peak(const hd_structure *structure, int col);
-/** Amplitudes of the n vectors' strongest waves in the last sample for modulation A: along, sum grad
- * A . dq / k; across, sum curl A . dq / k; times sqrt(2) for each direction with walls and a mode
- * number, so that their squares add up to S. 0 for an A that the boundaries exclude. In space,
+/** Amplitudes of the n vectors' strongest waves in the last sample for modulation A: along, sum
+ * grad A . dq / k; across, sum curl A . dq / k; times sqrt(2) for each direction with walls and a
+ * mode number, so that their squares add up to S. 0 for an A that the boundaries exclude. In space,
  * `across` is along the first of two directions, and with HD_SECOND along the second [T22]. */
 const double *hd_structure_amplitude(const hd_structure *structure, hd_direction e,
                                      unsigned modulation);

@@ -19,9 +19,9 @@ typedef struct hd_trajectory hd_trajectory;
 HD_MUST_CHECK hd_status hd_trajectory_create(hd_trajectory **out, const hd_scene_def *def);
 void hd_trajectory_free(hd_trajectory *trajectory);
 
-/** Moves the particles to simulated time t_end, not before the present one, and adds what happens to
- * the record, which ends at the present time; `record` may be NULL. The record does not depend on
- * how the time is cut into calls. HD_OVERLAP, HD_NOT_FINITE, HD_ENERGY_LOST, HD_NO_MEMORY. Costs
+/** Moves the particles to simulated time t_end, not before the present one, and adds what happens
+ * to the record, which ends at the present time; `record` may be NULL. The record does not depend
+ * on how the time is cut into calls. HD_OVERLAP, HD_NOT_FINITE, HD_ENERGY_LOST, HD_NO_MEMORY. Costs
  * O(1) per event of hard particles, and O(N) every some tens of collisions of a particle. */
 HD_MUST_CHECK hd_status hd_trajectory_extend(hd_trajectory *trajectory, hd_record *record,
                                              double t_end);
@@ -31,8 +31,8 @@ double hd_trajectory_time(const hd_trajectory *trajectory); /**< simulated time 
 /** Numbers of collisions and the virial so far. */
 hd_told hd_trajectory_told(const hd_trajectory *trajectory);
 
-/** Writes positions q inside the box and momenta p, both [particle][coordinates]. Either may be NULL.
- * O(N). */
+/** Writes positions q inside the box and momenta p, both [particle][coordinates]. Either may be
+ * NULL. O(N). */
 void hd_trajectory_state(const hd_trajectory *trajectory, double *q, double *p);
 
 /** Sum of p^2 / 2 over the particles: always N for hard ones. */

@@ -60,10 +60,11 @@ double hd_wave_component(const hd_scene_def *def, int d, int n);
 
 /** Which waves a scene may ask for. */
 typedef struct hd_wave_limits {
-    double smallest; /**< wave number of the longest wave in the box; above largest if there is none */
-    double largest;  /**< largest wave number that the particles sample: its wave length is two mean
-                        distances, pi sqrt(density), in space pi cbrt(density) */
-    int node;        /**< largest mode number along a direction up to there; 0 if there is no wave */
+    double
+        smallest; /**< wave number of the longest wave in the box; above largest if there is none */
+    double largest; /**< largest wave number that the particles sample: its wave length is two mean
+                       distances, pi sqrt(density), in space pi cbrt(density) */
+    int node;       /**< largest mode number n_x, n_y or n_z of waves up to `largest`; 0: no wave */
 } hd_wave_limits;
 
 /** Writes the wave vectors that the scene asks for to out[capacity] in ascending k, and returns

@@ -46,8 +46,8 @@ typedef struct hdr_strings {
 typedef struct hdr_header {
     hdr_time stamp;
     const char *frame_id;
-    uint32_t seq; /**< number of the message of its publisher, filled while publishing: a gap is a lost
-                     message */
+    uint32_t seq; /**< number of the message of its publisher, filled while publishing: a gap is a
+                     lost message */
 } hdr_header;
 
 #ifdef __cplusplus

@@ -1,4 +1,5 @@
-/** A C API over roscpp, with which a C program is a node that publishes and receives hdlyap's messages.
+/** A C API over roscpp, with which a C program is a node that publishes and receives hdlyap's
+ * messages.
  */
 #ifndef HDLYAP_ROS_HDLYAP_ROS_H
 #define HDLYAP_ROS_HDLYAP_ROS_H

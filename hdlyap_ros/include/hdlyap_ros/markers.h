@@ -1,4 +1,5 @@
-/** Pictures for rviz: visualization_msgs/MarkerArray as C structs, and the static frame of a picture.
+/** Pictures for rviz: visualization_msgs/MarkerArray as C structs, and the static frame of a
+ * picture.
  */
 #ifndef HDLYAP_ROS_MARKERS_H
 #define HDLYAP_ROS_MARKERS_H
@@ -53,12 +54,14 @@ typedef struct hdr_markers {
     uint32_t count;
 } hdr_markers;
 
-/** Advertises a latched topic with a queue of one: a slow subscriber gets only the newest picture. */
+/** Advertises a latched topic with a queue of one: a slow subscriber gets only the newest picture.
+ */
 HDR_MUST_CHECK hdr_status hdr_markers_advertise(hdr_publisher **out, hdr_node *node,
                                                 const char *topic);
 HDR_MUST_CHECK hdr_status hdr_markers_publish(hdr_publisher *publisher, const hdr_markers *message);
 
-/** Publishes on /tf_static, while the node lives, that two frames are identical. To be called once. */
+/** Publishes on /tf_static, while the node lives, that two frames are identical. To be called once.
+ */
 HDR_MUST_CHECK hdr_status hdr_frame_publish(hdr_node *node, const char *parent, const char *child);
 
 #ifdef __cplusplus

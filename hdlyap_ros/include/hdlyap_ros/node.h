@@ -31,8 +31,8 @@ typedef enum hdr_level { HDR_DEBUG, HDR_INFO, HDR_WARN, HDR_ERROR, HDR_FATAL } h
 HDR_MUST_CHECK hdr_status hdr_node_create(hdr_node **out, int *argc, char **argv, const char *name,
                                           double stop_seconds, int memory_status);
 
-/** Changes stop_seconds, and the status of a process that has not ended by then. To be called before
- * a stop is requested. */
+/** Changes stop_seconds, and the status of a process that has not ended by then. To be called
+ * before a stop is requested. */
 void hdr_node_stop_within(double stop_seconds, int status);
 
 /** Frees the node's own subscribers, waits until other nodes have received the last messages of its
@@ -52,8 +52,8 @@ bool hdr_stop_requested(void);
 /** Asks the process to stop; may be called from a signal handler. */
 void hdr_stop_request(void);
 
-/** Waits so many seconds of the monotonic clock; INFINITY is allowed. Returns false as soon as a stop
- * has been requested: while (hdr_node_wait(0.1)) ... */
+/** Waits so many seconds of the monotonic clock; INFINITY is allowed. Returns false as soon as a
+ * stop has been requested: while (hdr_node_wait(0.1)) ... */
 bool hdr_node_wait(double seconds);
 
 hdr_time hdr_time_now(void);

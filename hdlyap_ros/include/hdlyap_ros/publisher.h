@@ -20,15 +20,15 @@ typedef struct hdr_publisher hdr_publisher;
  *      hdr_status hdr_steps_publish(hdr_publisher *publisher, const hdr_steps *message);
  *
  * A topic "~x" is private to the node. `queue`, at least 1, is the number of messages that are kept
- * for a slow subscriber; the oldest are dropped first. A latched topic sends its last message to each
- * new subscriber. Publishers belong to the node and live as long as it does. _advertise fails with
- * HDR_FAULT or HDR_NO_MEMORY.
+ * for a slow subscriber; the oldest are dropped first. A latched topic sends its last message to
+ * each new subscriber. Publishers belong to the node and live as long as it does. _advertise fails
+ * with HDR_FAULT or HDR_NO_MEMORY.
  *
  * _publish serialises the message and returns without waiting until it is sent, unless
- * hdr_publisher_wait was called. A field that is unknown by the rule in its comment is sent as NaN or
- * -1, whatever the struct has. If any other number is not finite, it sends nothing and returns
- * HDR_NOT_FINITE. It does nothing without a subscriber, unless the topic is latched. HDR_FAULT if the
- * publisher is of another type; HDR_NO_MEMORY. */
+ * hdr_publisher_wait was called. A field that is unknown by the rule in its comment is sent as NaN
+ * or -1, whatever the struct has. If any other number is not finite, it sends nothing and returns
+ * HDR_NOT_FINITE. It does nothing without a subscriber, unless the topic is latched. HDR_FAULT if
+ * the publisher is of another type; HDR_NO_MEMORY. */
 #define HDR_PUBLISHER(type)                                                                        \
     HDR_MUST_CHECK hdr_status type##_advertise(hdr_publisher **out, hdr_node *node,                \
                                                const char *topic, int queue);                      \
@@ -50,13 +50,14 @@ HDR_MUST_CHECK hdr_status hdr_publishers_registered(int registered[],
                                                     double seconds);
 
 /** From now on _publish waits instead of losing a message: while a roscpp subscriber is 96 messages
- * behind (as many as fit into the queue of rosbag's recorder, judged 0.1 s late), and while the queue
- * of any other subscriber is full. It waits at most 5 s for a subscriber that reads nothing, then goes
- * on with a warning and counts lost messages. It does not wait once a stop is requested.
+ * behind (as many as fit into the queue of rosbag's recorder, judged 0.1 s late), and while the
+ * queue of any other subscriber is full. It waits at most 5 s for a subscriber that reads nothing,
+ * then goes on with a warning and counts lost messages. It does not wait once a stop is requested.
  * HDR_NO_MEMORY. */
 HDR_MUST_CHECK hdr_status hdr_publisher_wait(hdr_publisher *publisher);
 
-/** How far the slowest subscriber of a topic is behind, without messages in buffers of the kernel. */
+/** How far the slowest subscriber of a topic is behind, without messages in buffers of the kernel.
+ */
 typedef struct hdr_lag {
     const char *topic; /**< resolved name; valid as long as the publisher lives */
     double seconds;    /**< how long the oldest message has waited; 0 if none waits */

@@ -1,4 +1,5 @@
-/** The outcome of each call of this C API over roscpp. None of its functions throws a C++ exception.
+/** The outcome of each call of this C API over roscpp. None of its functions throws a C++
+ * exception.
  */
 #ifndef HDLYAP_ROS_STATUS_H
 #define HDLYAP_ROS_STATUS_H
@@ -22,8 +23,8 @@ typedef enum hdr_status {
 #define HDR_MUST_CHECK
 #endif
 
-/** Text of the last HDR_FAULT, HDR_NO_MEMORY or HDR_NOT_FINITE of this thread. It is never NULL, and
- * valid until the next one. */
+/** Text of the last HDR_FAULT, HDR_NO_MEMORY or HDR_NOT_FINITE of this thread. It is never NULL,
+ * and valid until the next one. */
 const char *hdr_error_text(void);
 
 #ifdef __cplusplus

@@ -66,10 +66,12 @@ static void add_warnings(conditions *all, const worker_state *state, const hdr_l
         add(all, level, "nobody can subscribe: no ROS master has known this node for %.0f s",
             state->lost);
     if (*at->name && at->error >= 0.0 && at->open >= at->wanted)
-        add(all, level, "the target of %s, %.2g, cannot be reached: this box leaves an error of %.2g",
-            at->name, at->wanted, at->open);
+        add(all, level,
+            "the target of %s, %.2g, cannot be reached: this box leaves an error of %.2g", at->name,
+            at->wanted, at->open);
     if (last->caged)
-        add(all, level, "%s keep their places: errors hold for this arrangement only, other seeds may differ",
+        add(all, level,
+            "%s keep their places: errors hold for this arrangement only, other seeds may differ",
             state->particles);
     if (last->split.are) {
         split_write(split, sizeof split, &last->split);

@@ -16,7 +16,8 @@ static const parameter name_row = {
     .allowed = "a line that is not empty",
     .unit = "",
     .may_differ = true,
-    .text = "Name of the scene, copied into run_info. A name chooses no system: the scene must also "
+    .text =
+        "Name of the scene, copied into run_info. A name chooses no system: the scene must also "
         "give at least one of particles, container, number, density, aspects and boundaries.",
 };
 
@@ -28,9 +29,10 @@ static const parameter rows[] = {
         .usual = "spectrum, modes, steps, lp_phases, fields, state",
         .allowed = "a list out of ",
         .unit = "",
-        .text = "Topics that can be published, beside run_info, status, cost and /diagnostics. A topic "
-        "that nobody listens to is not computed; the table in the log listens to steps and "
-        "lp_phases. Without exponents only gas and state exist.",
+        .text =
+            "Topics that can be published, beside run_info, status, cost and /diagnostics. A topic "
+            "that nobody listens to is not computed; the table in the log listens to steps and "
+            "lp_phases. Without exponents only gas and state exist.",
     },
     {
         .name = "field_indices",
@@ -41,8 +43,9 @@ static const parameter rows[] = {
         .unit = "",
         .may_differ = true,
         .needs = 1u << TOPIC_fields,
-        .text = "Vectors that are published as fields: one of each step that is found, or these Lyapunov "
-        "indices.",
+        .text = "Vectors that are published as fields: one of each step that is found, or these "
+                "Lyapunov "
+                "indices.",
     },
     {
         .name = "slow_vectors_rate",
@@ -64,8 +67,9 @@ static const parameter rows[] = {
         .allowed = "from 0 (the lowest T and LP steps) to the vectors carried",
         .unit = "",
         .may_differ = true,
-        .text = "Number of slowest vectors in each message of slow_vectors. 0: all down to the lowest T "
-        "and LP steps that are found.",
+        .text = "Number of slowest vectors in each message of slow_vectors. 0: all down to the "
+                "lowest T "
+                "and LP steps that are found.",
     },
     {
         .name = "field_interval",
@@ -77,9 +81,10 @@ static const parameter rows[] = {
         .unit = "time units",
         .may_differ = true,
         .live = true,
-        .text = "Simulated time between publications of fields, and of means in structure: with the first "
-        "and the last report of the averaging, and with the first report at or after each "
-        "multiple of this time. Each costs an orthonormalisation.",
+        .text = "Simulated time between publications of fields, and of means in structure: with "
+                "the first "
+                "and the last report of the averaging, and with the first report at or after each "
+                "multiple of this time. Each costs an orthonormalisation.",
     },
     {
         .name = "wait_for_subscribers",
@@ -89,8 +94,9 @@ static const parameter rows[] = {
         .allowed = "all or a list out of ",
         .unit = "",
         .may_differ = true,
-        .text = "Topics that must have a subscriber before the run starts, so that it misses nothing. "
-        "all: run_info, status, cost and the observables.",
+        .text =
+            "Topics that must have a subscriber before the run starts, so that it misses nothing. "
+            "all: run_info, status, cost and the observables.",
     },
     {
         .name = "pace",
@@ -103,8 +109,9 @@ static const parameter rows[] = {
         .may_differ = true,
         .live = true,
         .at_once = true,
-        .text = "Largest simulated time per wall second during the averaging. The stages before it have "
-        "no limit.",
+        .text = "Largest simulated time per wall second during the averaging. The stages before it "
+                "have "
+                "no limit.",
     },
     {
         .name = "changes",
@@ -114,7 +121,8 @@ static const parameter rows[] = {
         .allowed = "a list of texts \"TIME NAME=VALUE\"",
         .unit = "",
         .may_differ = true,
-        .text = "Changes at given simulated times, by which a run is repeated in which ~set was used.",
+        .text =
+            "Changes at given simulated times, by which a run is repeated in which ~set was used.",
     },
     {
         .name = "checkpoint",
@@ -124,8 +132,9 @@ static const parameter rows[] = {
         .allowed = "a path in one line",
         .unit = "",
         .may_differ = true,
-        .text = "File in which the run is kept so that it can be resumed, written completely or not at "
-        "all. Empty: no file.",
+        .text =
+            "File in which the run is kept so that it can be resumed, written completely or not at "
+            "all. Empty: no file.",
     },
     {
         .name = "checkpoint_interval",
@@ -136,8 +145,9 @@ static const parameter rows[] = {
         .allowed = "from 0 (only at the end and when asked) to 1e12",
         .unit = "s",
         .may_differ = true,
-        .text = "Wall time between two writings of the checkpoint. It is also written at the end and by "
-        "~checkpoint.",
+        .text = "Wall time between two writings of the checkpoint. It is also written at the end "
+                "and by "
+                "~checkpoint.",
     },
     {
         .name = "resume",
@@ -158,8 +168,9 @@ static const parameter rows[] = {
         .allowed = "from 0 (none) to 1e12",
         .unit = "s",
         .may_differ = true,
-        .text = "Shortest wall time between two tables of the steps in the log, which come when the "
-        "averaged time has doubled or more steps are known, and at the end.",
+        .text =
+            "Shortest wall time between two tables of the steps in the log, which come when the "
+            "averaged time has doubled or more steps are known, and at the end.",
     },
 };
 enum { ROWS = sizeof rows / sizeof *rows };

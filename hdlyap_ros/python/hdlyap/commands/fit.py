@@ -29,7 +29,8 @@ def describe(own, node):
     if min(fit.values[0][2] if fit.count else -1.0 for fit in (own, node)) <= 0:
         return f'{own.symbol}: not yet'
     values = [f'{c:.4f} +- {error:.4f}' for _, c, error in (own.values[0], node.values[0])]
-    return f'{own.symbol} = {values[0]} by {own.form} over {own.count} k{own.beside}, node: {values[1]}'
+    by = f'{own.form} over {own.count} k{own.beside}'
+    return f'{own.symbol} = {values[0]} by {by}, node: {values[1]}'
 
 
 class Newest:
