@@ -327,9 +327,10 @@ TEST(Parameters, MoreCoordinatesNeedAnInertia)
     particles_bring(rows, 1);
     EXPECT_EQ(begun(scene + "density: 0.5\nparticles: rods\n"), "");
     rods.inertia = nullptr;
-    EXPECT_EQ(begun(scene + "density: 0.5\nparticles: rods\n"),
-              "particles = rods: must be what has as many coordinates as its box has directions, "
-              "or turns and has one more, with its inertia: others are of the core alone");
+    EXPECT_EQ(
+        begun(scene + "density: 0.5\nparticles: rods\n"),
+        "particles = rods: must be particles with a coordinate for each direction of their box, "
+        "or with an angle and an inertia besides: messages have no room for others");
     particles_bring(nullptr, 0);
     particles_are(nullptr);
 }

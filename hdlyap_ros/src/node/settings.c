@@ -134,8 +134,9 @@ static bool check_particles(const settings *set, reader *r)
     r->name = "particles";
     const hd_dynamics *of = hd_dynamics_of(&set->def);
     return of->dimension == 0 || of->coordinates == of->dimension + (of->inertia != NULL) ||
-           reader_refuse(r, "what has as many coordinates as its box has directions, or turns and "
-                            "has one more, with its inertia: others are of the core alone");
+           reader_refuse(r,
+                         "particles with a coordinate for each direction of their box, or with an "
+                         "angle and an inertia besides: messages have no room for others");
 }
 
 /** Checks parameters that are not the scene's, if their rows state a range. */
