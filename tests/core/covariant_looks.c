@@ -142,12 +142,13 @@ static void print_window(const hd_covariant *c, int disks)
 {
     const int pairs = hd_covariant_read(c).vectors - 1;
     const hd_splitting_results splitting = hd_covariant_read(c).splitting;
+    const hd_order_over order = hd_covariant_read(c).order[0];
     printf("window %.17g %ld\n", hd_covariant_read(c).window_end, splitting.samples);
     print_vectors(c, disks);
     print("", "neighbours.mean", splitting.neighbours, pairs);
     print("", "neighbours.least", splitting.neighbours_least, pairs);
-    print("", "violated.mean", splitting.violations, pairs);
-    print("", "entangled.mean", splitting.domination_violations, pairs);
+    print("", "violated.mean", order.violations, pairs);
+    print("", "entangled.mean", order.domination_violations, pairs);
     print_spaces(c);
 }
 

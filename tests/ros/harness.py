@@ -52,7 +52,7 @@ TYPES = {name: kind for name, kind in topics.RECORDED.items() if name != 'covari
 OBSERVABLES = [topic for topic in TYPES if topic not in ('run_info', 'status', 'cost')]
 # in every report of the averaging
 AVERAGES = 'spectrum', 'modes', 'steps', 'lp_phases', 't_phases', 'hydro', 'structure'
-AVERAGES += 'localization', 'gas'
+AVERAGES += 'localization', 'fluctuations', 'gas'
 PATIENCE = 60.0  # seconds, for what has no bound of its own
 # seconds within which all has ended that was asked to, on a busy machine: roslaunch alone takes up
 # to 17

@@ -15,7 +15,10 @@ from hdlyap.msg import (
     Covariant,
     CovariantAngle,
     CovariantWeight,
+    Fluctuations,
+    FluctuationStep,
     Gas,
+    GrowthOrder,
     Localization,
     LpPhase,
     LpPhases,
@@ -341,6 +344,41 @@ def localization(widths, run_id='one', error=0.01, **fields):
         widths=widths,
         std_errors=[error] * len(widths),
         widths_now=np.multiply(widths, 0.9),
+    )
+
+
+def fluctuations(diffusions, steps=(), times=(2.0, 4.0), error=0.01, **fields):
+    """steps: (kind, nx, ny, indices). Variances grow with the time, fractions fall."""
+    n, count = len(diffusions), len(steps)
+    pairs = np.arange(1.0, count**2 + 1).reshape(count, count)
+    pairs = list((pairs + pairs.T).ravel() / 100)
+    orders = [
+        GrowthOrder(
+            time=time,
+            count=int(1000 / time),
+            violations=[0.4 / time] * (n - 1),
+            domination_violations=[0.8 / time] * (n - 1),
+        )
+        for time in times
+    ]
+    return message_of(
+        Fluctuations,
+        fields,
+        run_id='one',
+        sim_time=150.0,
+        averaged_time=50.0,
+        first_index=1,
+        diffusions=diffusions,
+        std_errors=[error] * n,
+        steps=[
+            FluctuationStep(kind=kind, nx=nx, ny=ny, indices=indices)
+            for kind, nx, ny, indices in steps
+        ],
+        covariances=pairs,
+        covariance_errors=[error] * len(pairs),
+        orders=orders,
+        variances=[time * one for time in times for one in diffusions],
+        reversals=[one / time for time in times for one in pairs],
     )
 
 

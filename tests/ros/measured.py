@@ -130,6 +130,16 @@ def _gas(message):
     ]
 
 
+def _fluctuations(message):
+    for name, errors in (('diffusions', 'std_errors'), ('covariances', 'covariance_errors')):
+        for k, error in enumerate(getattr(message, errors)):
+            yield from [f'{name}[{k}]'] if error == -1 else []
+    steps, times = len(message.steps), len(message.orders)
+    for k, step in enumerate(message.steps):
+        if len(step.indices) == 1:
+            yield from (f'reversals[{(time * steps + k) * steps + k}]' for time in range(times))
+
+
 def _field(message):
     if message.kind == Mode.NONE:
         yield 'wave_number'
@@ -146,6 +156,7 @@ RULES = dict(
     TPhases=_t_phases,
     Hydro=_hydro,
     Gas=_gas,
+    Fluctuations=_fluctuations,
     ModeField=_field,
 )
 

@@ -82,7 +82,8 @@ class BesideExponents(Gas):
     @classmethod
     def setUpClass(cls):
         cls.messages = run_of(
-            observables=['spectrum', 'gas', 'localization', 'fields'],
+            observables=['spectrum', 'gas', 'localization', 'fluctuations', 'fields'],
+            fluctuation_time=1.0,
             field_indices=CHOSEN,
             field_interval=0.0,
             warmup=20.0,
@@ -135,6 +136,35 @@ class BesideExponents(Gas):
         self.assertLess(last.widths[0], 0.7 * last.widths[-1])
         self.assertTrue(all(one == -1 or 0 < one < 0.2 for one in last.std_errors))
         self.assertGreater(np.mean(np.array(last.std_errors) > 0), 0.5)
+
+    def test_growth_is_that_of_the_exponents(self):
+        """A sample ends with each report, once in a time unit: here times are reports."""
+        spectra = self.messages['spectrum']
+        dt = np.array([message.local_time for message in spectra])
+        growth = np.array([message.local_exponents for message in spectra]) * dt[:, np.newaxis]
+        message, count = self.messages['fluctuations'][-1], len(growth)
+        self.assertEqual((message.sim_time, message.first_index), (spectra[-1].sim_time, 1))
+        self.assertEqual(message.averaged_time, spectra[-1].averaged_time)
+        variances = np.reshape(message.variances, (len(message.orders), -1))
+        for number, order in enumerate(message.orders):
+            self.assertEqual(order.count, len(growth))
+            self.assertAlmostEqual(order.time, dt.mean(), places=9)
+            rates = growth.sum(axis=0) / dt.sum()
+            off = (growth - np.outer(dt, rates)) ** 2 / dt[:, np.newaxis]
+            expected = off.sum(axis=0) / (len(growth) - 1)
+            np.testing.assert_allclose(variances[number], expected, rtol=1e-6, atol=1e-9)
+            violated = np.mean(growth[:, :-1] < growth[:, 1:], axis=0)
+            np.testing.assert_allclose(order.violations, violated, atol=1e-12)
+            before = np.minimum.accumulate(growth, axis=1)[:, :-1]
+            behind = np.maximum.accumulate(growth[:, ::-1], axis=1)[:, ::-1][:, 1:]
+            entangled = np.mean(before < behind, axis=0)
+            np.testing.assert_allclose(order.domination_violations, entangled, atol=1e-12)
+            even = len(growth) // 2 * 2
+            growth, dt = growth[:even:2] + growth[1:even:2], dt[:even:2] + dt[1:even:2]
+        self.assertEqual((count, len(message.orders)), (150, 7))
+        unknown = np.isnan(message.diffusions)
+        np.testing.assert_array_equal(np.array(message.std_errors) == -1, unknown)
+        self.assertEqual((len(message.steps), len(message.covariances)), (0, 0))
 
     def test_widths_are_means_of_samples(self):
         """Of their logarithms."""

@@ -17,6 +17,7 @@ from hdlyap.plots.figures import FIGURES
 from hdlyap.sweep import figure as sweep, points
 
 PANELS = {'dispersion': 1, 'convergence': 3, 'structure': 3, 'p_mode': 4}
+PANELS.update(fluctuations=6)
 PANELS.update(covariant_exponents=4, covariant_domination=4, covariant_vectors=8)
 MAPS = 'structure'  # of which the look is not a colour
 
@@ -34,6 +35,10 @@ def everything():
         *(made.lp_phases(info, [lp], time, began=100.0) for time in times),
         *(test_structure.message(info, time, found[:2], vectors=80) for time in times),
         made.localization(list(np.linspace(0.1, 0.8, 80))),
+        made.fluctuations(
+            list(np.linspace(0.5, 0.01, 80)),
+            [(one.kind, one.nx, one.ny, [one.first_index, one.last_index]) for one in (lp, t)],
+        ),
     ]
 
 

@@ -213,12 +213,15 @@ class Recorded(harness.Case):
                 for topic in ('steps', 'lp_phases', 't_phases', 'structure')
             )
             counts = map(len, (steps.steps, lp.phases, t.phases, structure.nx))
-            sizes = expected_sizes(info.number, info.vectors, *counts)
+            sizes = dict(expected_sizes(info.number, info.vectors, *counts), fluctuations=0)
             for topic in sizes:
                 for message in self.of_run(topic, number):
                     written = io.BytesIO()
                     message.serialize(written)
                     pairs, means = getattr(message, 'pairs', 0), getattr(message, 'along', ())
+                    if topic == 'fluctuations':
+                        own = [len(step.indices) for step in message.steps]
+                        sizes[topic] = of_fluctuations(info.vectors, own, len(message.orders))
                     names = 4 + len('box') + 4 + len(info.run_id)
                     self.assertEqual(
                         len(written.getvalue()) - names,
@@ -254,6 +257,7 @@ class Recorded(harness.Case):
         with open(GUIDE) as file:
             text = file.read()
         sizes = expected_sizes(780, 1557, 17, 4 * 8 + 4 * 32, 4 * 2 + 4 * 8, 163)
+        sizes['fluctuations'] = of_fluctuations(1557, [2] * 4 + [4] * 8 + [8] * 4, 0)
         fields = [sizes['fields'], sizes['fields'] + 4 * 48 * 780]
         stated = dict(
             re.findall(r'^\| `(\w+)` \|.* \| ([0-9.]+(?: to [0-9.]+)?) kB \|$', text, re.MULTILINE)
@@ -266,7 +270,8 @@ class Recorded(harness.Case):
             {topic: '%.3g' % (size / 1e3) for topic, size in sizes.items() if topic != 'fields'},
         )
         # every step found, T without pairs, LP with 2 along an axis and 4 else, once in ten reports
-        sizes.pop('structure')  # off unless asked for
+        for topic in ('structure', 'fluctuations'):  # off unless asked for
+            sizes.pop(topic)
         all_fields = 16 * sizes['fields'] + 4 * (2 + 4) * 48 * 780
         report = sum(size for topic, size in sizes.items() if topic != 'fields') + all_fields / 10
         most, seconds = re.search(
@@ -343,6 +348,13 @@ def expected_sizes(disks, vectors, steps, phases, t_phases, waves):
         status=begin + 2 + 3 * 8 + 4 + 2 * 8 + 4,
         cost=begin + 137 + 3 * 8,
     )
+
+
+def of_fluctuations(vectors, own, times):
+    """own: vectors of each step."""
+    begin, pairs = 4 + 8 + 8 + 8 + 4, len(own) ** 2
+    of_times = times * (8 + 8 + 2 * 4 + 16 * (vectors - 1) + 8 * vectors + 8 * pairs)
+    return begin + 8 * 4 + 16 * vectors + 17 * len(own) + 4 * sum(own) + 16 * pairs + of_times
 
 
 @harness.more

@@ -212,6 +212,50 @@ class Arrays(Loaded):
         self.equal(run.localization.widths_now, np.multiply(widths, 0.9))
         self.assertTrue(run.localization.std_error.isna().all())
 
+    def test_fluctuations(self):
+        """D by index; growth over finite times of vectors and of pairs of steps."""
+        diffusions = [0.5, 0.25, 0.25, 0.04, 0.04]
+        pairs = [(made.LP, 1, 0, [2, 3]), (made.T, 1, 0, [4, 5])]
+        told = made.fluctuations(diffusions, pairs)
+        later = made.fluctuations([1.0, *diffusions[1:]], times=(), error=-1.0, sim_time=160.0)
+        run = self.load([made.run_info(), told, later])
+        self.equal(run.fluctuations.index, [1, 2, 3, 4, 5])
+        self.equal(run.fluctuations.diffusion, [1.0, *diffusions[1:]])
+        self.assertTrue(run.fluctuations.std_error.isna().all())
+        self.assertEqual(run.fluctuations.attrs['units']['diffusion'], '1/time unit')
+        growth = run.growth
+        self.equal(growth.times['time'], [2.0, 4.0])
+        self.equal(growth.times['count'], [500, 250])
+        self.equal(growth.variances.loc[4.0], np.multiply(diffusions, 4.0))
+        self.equal(growth.violations.loc[2.0], [0.2] * 4)
+        self.equal(growth.domination_violations.loc[4.0], [0.2] * 4)
+        self.assertEqual(growth.indices, {'LP(1,0)': [2, 3], 'T(1,0)': [4, 5]})
+        np.testing.assert_allclose(growth.covariances, [[0.02, 0.05], [0.05, 0.08]])
+        np.testing.assert_allclose(growth.correlations, [[0.08, 0.5], [0.5, 2.0]])
+        self.assertEqual(growth.std_errors.loc['T(1,0)', 'LP(1,0)'], 0.01)
+        np.testing.assert_allclose(growth.reversals[1].loc['T(1,0)'], [0.0125, 0.02])
+        covariant = made.covariant([2.0, 1.0])
+        order = dict(violations=[0.5], domination_violations=[0.75])
+        covariant.orders = [made.GrowthOrder(time=5.0, count=7, **order)]
+        of_covariant = self.load([made.run_info(), covariant]).covariant_orders
+        self.equal(of_covariant.domination_violations.loc[5.0], [0.75])
+        with self.assertRaisesRegex(RecordingError, 'no message of fluctuations with orders in it'):
+            self.load([made.run_info(), later]).growth
+
+    def test_fluctuations_that_do_not_fit(self):
+        step = [(made.T, 1, 0, [4, 5])]
+        for change in (
+            lambda message: message.variances.pop(),
+            lambda message: message.orders[1].violations.pop(),
+            lambda message: message.steps.clear(),
+            lambda message: message.steps[0].indices.append(6),
+            lambda message: message.std_errors.pop(),
+        ):
+            message = made.fluctuations([0.5, 0.25, 0.25, 0.04, 0.04], step)
+            change(message)
+            with self.assertRaisesRegex(RecordingError, 'damaged: hdlyap/Fluctuations: '):
+                self.load([made.run_info(), message]).fluctuations
+
     def test_what_was_not_recorded(self):
         with self.assertRaisesRegex(RecordingError, 'run.bag: no message of covariant in it'):
             self.run_.covariant
@@ -320,7 +364,9 @@ class Example(Loaded):
     def test_page(self):
         info, *more = made.small_run()
         samples = np.random.default_rng(5).normal(9, 0.3, size=(300, 37))
-        spectra = [made.spectrum(one, t, error=0.3 / 300**0.5) for t, one in enumerate(samples, 1)]
+        spectra = [
+            made.spectrum(one, t, error=0.3 / 300**0.5) for t, one in enumerate(samples, 1)
+        ]
         for one, sample in zip(spectra, samples):
             one.local_time, one.local_exponents = 1.0, sample
         bag = self.write([info, *(one for one in more if not isinstance(one, Spectrum)), *spectra])
@@ -335,7 +381,9 @@ class Example(Loaded):
         ).stdout
         self.assertGreater(os.path.getsize(figure), 20000)
         self.assertGreater(os.path.getsize(figure[:-4] + '.nc'), 100000)
-        (by_samples,) = re.findall(r'lambda_max \+- (\S+) by the samples, \+- 0.017 by the node', said)
+        (by_samples,) = re.findall(
+            r'lambda_max \+- (\S+) by the samples, \+- 0.017 by the node', said
+        )
         self.assertAlmostEqual(float(by_samples) / 0.0173, 1, delta=0.15)
         (independent,) = re.findall('300 samples, as good as (.*) independent ones', said)
         self.assertAlmostEqual(float(independent) / 300, 1, delta=0.3)

@@ -207,7 +207,10 @@ class Export(Tools):
         info = made.run_info()
         self.assertEqual(self.export(self.write([info, made.cost(1), made.cost(2)])), ['cost'])
         messages = [info, made.gas(), made.localization([0.25, 0.5]), made.cost(1)]
-        self.assertEqual(self.export(self.write(messages)), ['cost', 'gas', 'localization'])
+        messages.append(made.fluctuations([0.5, 0.25]))
+        self.assertEqual(
+            self.export(self.write(messages)), ['cost', 'fluctuations', 'gas', 'localization']
+        )
         gas = self.table('gas')
         self.assertEqual((gas.value['pressure'], gas.unit['pressure']), (1.25, '1/sigma^2'))
         np.testing.assert_array_equal(self.table('localization').width, [0.25, 0.5])
@@ -356,7 +359,10 @@ class Hostile(Tools):
             (lambda _: [][0], r'unexpected contents in a bag \(.*\): IndexError: '),
             (missing_attribute, 'a fault of hdlyap, not of what it reads: AttributeError: '),
             (draughtsman, 'cannot be drawn: ValueError: figure size must be positive'),
-            (nobody, r'a node or the ROS master has not answered: \[Errno 111\] Connection refused'),
+            (
+                nobody,
+                r'a node or the ROS master has not answered: \[Errno 111\] Connection refused',
+            ),
             (too_large, 'needs more memory than there is: MemoryError'),
         ):
             with mock.patch('hdlyap.plots.verdict.report', fault):

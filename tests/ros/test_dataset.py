@@ -21,6 +21,7 @@ MSG = os.path.join(os.path.dirname(os.path.abspath(__file__)), '../../msg')
 # message of the variables that begin with the name of a topic
 OF_TOPIC = dict(spectrum='Spectrum', steps='Step Steps', gas='Gas', modes='Mode', cost='Cost')
 OF_TOPIC.update(covariant='Covariant', localization='Localization', lp_phases='LpPhase')
+OF_TOPIC.update(fluctuations='Fluctuations')
 OF_TOPIC.update(state='State', fields='ModeField', status='RunStatus')
 MADE = ('lp_phases_step', 'lp_phases_modulation')  # named otherwise than the fields of messages
 
@@ -121,7 +122,9 @@ class Everything(bags.Bags):
     def test_arrays_with_a_changed_run(self):
         """What hdlyap plot --npz writes of a run that ~set has changed."""
         path = os.path.join(self.folder, 'run.npz')
-        self.succeeds('plot', self.run_.paths[0], '--only', 'cost', '--out', self.out, '--npz', path)
+        self.succeeds(
+            'plot', self.run_.paths[0], '--only', 'cost', '--out', self.out, '--npz', path
+        )
         info = json.loads(str(np.load(path)['info']))
         self.assertEqual(info['changes'][0]['value'], '2')
 

@@ -156,6 +156,22 @@ class Agreement(harness.Case):
         for topic in ('modes', 'steps', 'lp_phases', 'hydro'):
             self.assertTrue(any(map(measured.nans, self.messages[topic])), topic)
 
+    def test_steps_that_fluctuate(self):
+        """They are those found, with vectors of their own."""
+        steps, seen = {one.sim_time: one.steps for one in self.messages['steps']}, 0
+        for message in self.messages['fluctuations']:
+            found = {
+                (step.kind, step.nx, step.ny): range(step.first_index, step.last_index + 1)
+                for step in steps[message.sim_time]
+                if step.resolved and not step.conjugate and step.kind != Mode.ZERO
+            }
+            every = [index for step in message.steps for index in step.indices]
+            self.assertEqual(len(every), len(set(every)))
+            for step in message.steps:
+                self.assertLessEqual(set(step.indices), set(found[step.kind, step.nx, step.ny]))
+            seen += len(message.steps)
+        self.assertGreater(seen, 0)
+
     def test_unresolved_steps_are_empty(self):
         for message in self.messages['steps']:
             for step in message.steps:

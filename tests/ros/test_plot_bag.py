@@ -68,6 +68,8 @@ def cases():
     ), 'collision|nan'
     widths = made.localization(np.linspace(0.1, 0.8, 37))
     yield [INFO, made.spectrum(HALF, 50.0), widths], SPECTRUM + files('localization'), (), None
+    spread = made.fluctuations(list(np.linspace(0.5, 0.1, 37)))
+    yield [INFO, made.spectrum(HALF, 50.0), spread], SPECTRUM + files('fluctuations'), (), None
     info = made.paper_info()
     deviations = r'(?s)' + 5 * r'.* \+1\.00 %' + r'(?!.*\+1\.00 %)'
     yield [info, paper_spectrum(info)], SPECTRUM, (

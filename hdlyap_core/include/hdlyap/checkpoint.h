@@ -12,7 +12,7 @@
 
 HD_API_BEGIN
 
-enum { HD_CHECKPOINT_FORMAT = 17, HD_CHECKPOINT_LABEL = 64 };
+enum { HD_CHECKPOINT_FORMAT = 18, HD_CHECKPOINT_LABEL = 64 };
 
 /** Contents of the head and the scene of a checkpoint. */
 typedef struct hd_checkpoint {

@@ -43,21 +43,26 @@ typedef struct hd_covariant_results {
     /** Growth rates of the covariant vectors, whose means are the exponents of the frame; local
      * ones are between two samples. */
     const hd_spectrum *spectrum;
-    hd_splitting_results splitting; /**< angles and order of growth, from all samples */
+    hd_splitting_results splitting; /**< angles, from all samples */
+    /** Order of the vectors' growth over the time between two samples, over twice that time, and so
+     * on within a window. */
+    int times;
+    hd_order_over order[HD_TIMES_MAX];
     hd_covariant_mismatch start_mismatch;
-    /** Sine of the angle between the two starts, of each vector, [n], at the end of the last window:
-     * a lower bound of the error, as both starts lean towards the frame. */
+    /** Sine of the angle between the two starts, of each vector, [n], at the end of the last
+     * window: a lower bound of the error, as both starts lean towards the frame. */
     const double *start_mismatch_each;
-    /** Largest angle between the space of vanishing exponents and the exactly known null space [T9]:
-     * in the last sample, and in all; negative if these vectors are not computed [rad]. */
+    /** Largest angle between the space of vanishing exponents and the exactly known null space
+     * [T9]: in the last sample, and in all; negative if these vectors are not computed [rad]. */
     double null, null_most;
-    /** Mean weights [T11] of the dq half and of the dp half, each normalised. NULL if particles have
-     * no positions in a box. */
+    /** Mean weights [T11] of the dq half and of the dp half, each normalised. NULL if particles
+     * have no positions in a box. */
     const hd_modes *half[2];
     /** Mean weights [T11] of the dq halves of the Gram-Schmidt vectors in the same samples; NULL as
      * half. */
     const hd_modes *of_frame;
-    /** Localisation widths, [n], 1 / N .. 1; and mean |cos| of the angle between both halves, [n]. */
+    /** Localisation widths, [n], 1 / N .. 1; and mean |cos| of the angle between both halves, [n].
+     */
     const double *widths, *cosines;
 } hd_covariant_results;
 hd_covariant_results hd_covariant_read(const hd_covariant *covariant); /**< O(n) */

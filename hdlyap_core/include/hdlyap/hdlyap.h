@@ -31,6 +31,7 @@
 #include "hdlyap/splitting.h"
 #include "hdlyap/covariant.h"
 /* observe */
+#include "hdlyap/fluctuations.h"
 #include "hdlyap/observables.h"
 /* run */
 #include "hdlyap/run.h"

@@ -33,6 +33,9 @@ typedef struct hd_extent {
     int examples, pairs; /**< steps that are shown by an example, and all their LP pairs */
     int phases, t_phases; /**< LP phases and T phases */
     int responses;        /**< hydrodynamic responses */
+    int times;            /**< times over which growth is told, mean over the run */
+    int found;            /**< resolved steps of the positive half */
+    int orders;           /**< times over which covariant vectors grow in a window */
 } hd_extent;
 
 HD_API_END

@@ -105,6 +105,7 @@ typedef struct hd_scene_def {
     double warmup;         /**< HD_WARMUP_AUTO or a time, see hd_scene_warmup [time units] */
     double interval;       /**< 0: auto [time units] */
     double phase_interval; /**< 0: auto [time units] */
+    double fluctuation_time; /**< 0: auto [time units] */
     unsigned observe;      /**< a set of HD_OBSERVE_*; 0: none */
     hd_storage covariant_storage;
     hd_text target;              /**< errors at which the run ends, see hd_target_check */

@@ -30,6 +30,19 @@ typedef struct hd_spectrum_sums {
 } hd_spectrum_sums;
 hd_spectrum_sums hd_spectrum_sum_up(const hd_spectrum *spectrum); /**< O(n blocks) */
 
+/** Most times over which growth is compared; each is twice as long as the one before. */
+enum { HD_TIMES_MAX = 20 };
+/** How often vectors change their order over times of one length. */
+typedef struct hd_order_over {
+    double time; /**< mean length [time units] */
+    long count;  /**< how often it has passed */
+    /** Fraction of the times over which vector col grew less than col + 1, [n - 1]. */
+    const double *violations;
+    /** Fraction over which any vector up to col grew less than any later one, [n - 1]. At 0 the
+     * splitting is dominated: vectors on either side are isolated from the other side. */
+    const double *domination_violations;
+} hd_order_over;
+
 enum { HD_SPECTRUM_BLOCKS_MIN = 16 };
 
 HD_API_END

@@ -1,5 +1,4 @@
-/** How covariant vectors split tangent space: angles between vectors and spaces, and which vectors
- * keep the order of their growth over finite times [T17]. */
+/** How covariant vectors split tangent space: angles between vectors and spaces [T17]. */
 #ifndef HDLYAP_SPLITTING_H
 #define HDLYAP_SPLITTING_H
 
@@ -25,15 +24,9 @@ typedef struct hd_angle_of_spaces {
 /** Results of all samples so far. Angles in radians, 0 .. pi / 2. */
 typedef struct hd_splitting_results {
     long samples;
-    int has_spaces; /**< vectors of all three spaces are computed */
+    int has_spaces;                  /**< vectors of all three spaces are computed */
     const hd_angle_of_spaces *angle; /**< [HD_PAIRS_OF_SPACES] if has_spaces */
     /** Angle between vectors col and col + 1, [n - 1]: mean, and smallest so far. */
     const double *neighbours, *neighbours_least;
-    /** Fraction of the times between samples over which vector col grew less than col + 1, [n - 1].
-     */
-    const double *violations;
-    /** Fraction over which any vector up to col grew less than any behind it, [n - 1]. 0 means that
-     * the splitting there is dominated: the two sides are isolated from each other. */
-    const double *domination_violations;
 } hd_splitting_results;
 #endif

@@ -113,6 +113,8 @@ void hd_spectrum_local_restart(hd_spectrum *spectrum)
 double hd_spectrum_time(const hd_spectrum *spectrum) { return spectrum->time; }
 double hd_spectrum_sample_time(const hd_spectrum *spectrum) { return spectrum->sample_time; }
 
+const double *hd_spectrum_total(const hd_spectrum *spectrum) { return spectrum->sum; }
+
 double hd_spectrum_exponent(const hd_spectrum *spectrum, int col)
 {
     HD_ASSERT(col >= 0 && col < spectrum->vectors);

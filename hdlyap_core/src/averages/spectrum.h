@@ -22,6 +22,8 @@ void hd_spectrum_add(hd_spectrum *spectrum, const double *log_stretch, double dt
 void hd_spectrum_sample(hd_spectrum *spectrum);
 /** Time since the present sample began. */
 double hd_spectrum_sample_time(const hd_spectrum *spectrum);
+/** Sums of ln R_ll over all whole samples, [vectors]. */
+const double *hd_spectrum_total(const hd_spectrum *spectrum);
 /** One part of a linear combination of exponents: factor times that of column `series`. */
 typedef struct hd_part {
     int series;

@@ -13,6 +13,7 @@
 #include <string.h>
 
 #include "averages/archived.h"
+#include "averages/doubling.h"
 #include "averages/spectrum.h"
 #include "base/check.h"
 #include "base/memory.h"
@@ -44,6 +45,7 @@ struct hd_covariant {
     hd_starts *starts; /**< two starts through the transient, the first one through the window */
     hd_spectrum *spectrum;
     hd_splitting *splitting;
+    hd_doubling *grown; /**< growth from one look to the next, latest first */
     hd_localization *shape;
     hd_modes *half[2];     /**< weights of the dq and of the dp halves; NULL without a box */
     hd_modes *of_frame;    /**< of the dq halves of the frame, at the same times; likewise */
@@ -127,6 +129,7 @@ static hd_status allocate(hd_covariant *c)
     HD_TRY(
         hd_spectrum_create(&c->spectrum, c->rows, c->vectors, hd_scene_sound_crossing(&c->scene)));
     HD_TRY(hd_splitting_create(&c->splitting, c->vectors, c->unstable, c->centre));
+    HD_TRY(hd_doubling_create(&c->grown, (hd_doubling_def){.vectors = c->vectors}));
     return hd_localization_create(&c->shape, c->scene.number, hd_scene_coordinates(&c->scene),
                                   c->vectors, c->threads);
 }
@@ -168,6 +171,7 @@ void hd_covariant_free(hd_covariant *c)
     hd_history_free(c->past);
     hd_spectrum_free(c->spectrum);
     hd_splitting_free(c->splitting);
+    hd_doubling_free(c->grown);
     hd_localization_free(c->shape);
     hd_angles_free(c->spaces);
     hd_angles_free(c->null);
@@ -203,6 +207,7 @@ void hd_covariant_clear(hd_covariant *c)
 {
     hd_spectrum_clear(c->spectrum);
     hd_splitting_clear(c->splitting);
+    hd_doubling_clear(c->grown);
     hd_localization_clear(c->shape);
     for (int k = 0; k < WEIGHTS; k++)
         if (weights_of(c, k)) hd_modes_clear(weights_of(c, k));
@@ -245,6 +250,7 @@ static void begin_way_back(hd_covariant *c)
     c->streams += 2;
     c->at = hd_history_end(c->past) - 1;
     c->last = window_last(c);
+    hd_doubling_break(c->grown);
     c->grown_time = 0.0; /* an earlier way back may not have ended */
     c->way = THROUGH_TRANSIENT;
 }
@@ -350,7 +356,7 @@ static void end_growth(hd_covariant *c)
 {
     const double *grown = hd_starts_growth(c->starts);
     if (c->grown_time == 0) return;
-    hd_splitting_grow(c->splitting, grown);
+    hd_doubling_add(c->grown, grown, c->grown_time);
     hd_spectrum_add(c->spectrum, grown, c->grown_time);
     hd_spectrum_local_restart(c->spectrum);
     hd_spectrum_sample(c->spectrum);
@@ -448,20 +454,23 @@ double hd_covariant_bytes(const hd_covariant *c) { return c->bytes; }
 
 hd_covariant_results hd_covariant_read(const hd_covariant *c)
 {
-    return (hd_covariant_results){.vectors = c->vectors,
-                                  .windows = c->windows,
-                                  .lost = c->lost,
-                                  .window_end = c->window,
-                                  .spectrum = c->spectrum,
-                                  .splitting = hd_splitting_read(c->splitting),
-                                  .start_mismatch = c->spaces_apart,
-                                  .start_mismatch_each = c->apart,
-                                  .null = c->null_apart,
-                                  .null_most = c->null_apart_most,
-                                  .half = {c->half[0], c->half[1]},
-                                  .of_frame = c->of_frame,
-                                  .widths = hd_localization_widths(c->shape),
-                                  .cosines = hd_localization_cosines(c->shape)};
+    hd_covariant_results r = {.vectors = c->vectors,
+                              .windows = c->windows,
+                              .lost = c->lost,
+                              .window_end = c->window,
+                              .spectrum = c->spectrum,
+                              .splitting = hd_splitting_read(c->splitting),
+                              .start_mismatch = c->spaces_apart,
+                              .start_mismatch_each = c->apart,
+                              .null = c->null_apart,
+                              .null_most = c->null_apart_most,
+                              .half = {c->half[0], c->half[1]},
+                              .of_frame = c->of_frame,
+                              .widths = hd_localization_widths(c->shape),
+                              .cosines = hd_localization_cosines(c->shape)};
+    r.times = hd_doubling_times(c->grown);
+    for (int k = 0; k < HD_TIMES_MAX; k++) r.order[k] = hd_doubling_order(c->grown, k);
+    return r;
 }
 
 /** Reads or writes the averages; the window under way is lost. */
@@ -479,6 +488,7 @@ void hd_covariant_archive(hd_covariant *c, hd_archive *archive)
     hd_archive_doubles(archive, "covariant apart", c->apart, (size_t)c->vectors);
     hd_spectrum_archive(c->spectrum, archive);
     hd_splitting_archive(c->splitting, archive);
+    hd_doubling_archive(c->grown, archive);
     hd_localization_archive(c->shape, archive);
     for (int k = 0; k < WEIGHTS; k++)
         if (weights_of(c, k)) hd_modes_archive(weights_of(c, k), archive);

@@ -1,5 +1,4 @@
-/** C and growth over finite times -> angles with their distributions, and the order of finite-time
- * exponents [T17]. */
+/** C -> angles and their distributions [T17]. */
 #include "covariant/splitting.h"
 
 #include <limits.h>
@@ -17,15 +16,13 @@ static const double RIGHT_ANGLE = 1.57079632679489661923;
 
 struct hd_splitting {
     int vectors;
-    hd_span space[3];               /**< unstable, centre, stable */
-    hd_angles *angles;              /**< NULL without pairs of spaces */
-    double *found;                  /**< [vectors]: principal angles */
-    double *mean, *least;           /**< [vectors - 1]: of neighbours */
-    double *violations, *entangled; /**< [vectors - 1]: fractions */
-    double *later;                  /**< [vectors]: largest growth of later vectors */
+    hd_span space[3];     /**< unstable, centre, stable */
+    hd_angles *angles;    /**< NULL without pairs of spaces */
+    double *found;        /**< [vectors]: principal angles */
+    double *mean, *least; /**< [vectors - 1]: of neighbours */
     hd_angle_of_spaces angle[HD_PAIRS_OF_SPACES];
     hd_blocks blocks; /**< of the smallest angles; their weight is their number */
-    long samples, times;
+    long samples;
 };
 
 static const int PAIR[HD_PAIRS_OF_SPACES][2] = {{0, 2}, {0, 1}, {1, 2}};
@@ -33,7 +30,7 @@ static const int PAIR[HD_PAIRS_OF_SPACES][2] = {{0, 2}, {0, 1}, {1, 2}};
 static hd_status allocate(hd_splitting *s)
 {
     const size_t n = (size_t)s->vectors;
-    double **array[] = {&s->found, &s->mean, &s->least, &s->violations, &s->entangled, &s->later};
+    double **array[] = {&s->found, &s->mean, &s->least};
     for (size_t k = 0; k < sizeof array / sizeof *array; k++)
         if (!(*array[k] = hd_memory_alloc(n, sizeof(double)))) return HD_NO_MEMORY;
     HD_TRY(hd_blocks_create(&s->blocks, HD_PAIRS_OF_SPACES, 0.0));
@@ -74,18 +71,15 @@ void hd_splitting_free(hd_splitting *s)
     hd_memory_free(s->found);
     hd_memory_free(s->mean);
     hd_memory_free(s->least);
-    hd_memory_free(s->violations);
-    hd_memory_free(s->entangled);
-    hd_memory_free(s->later);
     hd_blocks_clear(&s->blocks);
     hd_memory_free(s);
 }
 
 void hd_splitting_clear(hd_splitting *s)
 {
-    s->samples = s->times = 0;
+    s->samples = 0;
     for (int col = 0; col < s->vectors; col++) {
-        s->mean[col] = s->violations[col] = s->entangled[col] = 0.0;
+        s->mean[col] = 0.0;
         s->least[col] = RIGHT_ANGLE;
     }
     memset(s->angle, 0, sizeof s->angle);
@@ -157,24 +151,6 @@ hd_status hd_splitting_add(hd_splitting *s, const double *c)
     return HD_OK;
 }
 
-/* ---- order --------------------------------------------------------------------------------- */
-
-void hd_splitting_grow(hd_splitting *s, const double *growth)
-{
-    double before = INFINITY;
-    s->times++;
-    s->later[s->vectors - 1] = growth[s->vectors - 1];
-    for (int col = s->vectors - 2; col >= 0; col--)
-        s->later[col] = fmax(s->later[col + 1], growth[col]);
-    for (int col = 0; col + 1 < s->vectors; col++) {
-        before = fmin(before, growth[col]);
-        const double violated = growth[col] < growth[col + 1],
-                     entangled = before < s->later[col + 1];
-        s->violations[col] += (violated - s->violations[col]) / (double)s->times;
-        s->entangled[col] += (entangled - s->entangled[col]) / (double)s->times;
-    }
-}
-
 /* ---- results ------------------------------------------------------------------------------- */
 
 hd_splitting_results hd_splitting_read(const hd_splitting *s)
@@ -183,9 +159,7 @@ hd_splitting_results hd_splitting_read(const hd_splitting *s)
                                   .has_spaces = s->angles != NULL,
                                   .angle = s->angle,
                                   .neighbours = s->mean,
-                                  .neighbours_least = s->least,
-                                  .violations = s->violations,
-                                  .domination_violations = s->entangled};
+                                  .neighbours_least = s->least};
 }
 
 static void angle_archive(hd_angle_of_spaces *angle, hd_archive *archive)
@@ -205,11 +179,8 @@ void hd_splitting_archive(hd_splitting *s, hd_archive *archive)
 {
     const size_t n = (size_t)s->vectors;
     hd_archive_long(archive, "splitting samples", &s->samples, 0, LONG_MAX / 2);
-    hd_archive_long(archive, "splitting times", &s->times, 0, LONG_MAX / 2);
     hd_archive_doubles(archive, "splitting neighbours", s->mean, n);
     hd_archive_doubles(archive, "splitting least", s->least, n);
-    hd_archive_doubles(archive, "splitting violations", s->violations, n);
-    hd_archive_doubles(archive, "splitting entangled", s->entangled, n);
     for (int pair = 0; pair < HD_PAIRS_OF_SPACES; pair++) angle_archive(&s->angle[pair], archive);
     hd_blocks_archive(&s->blocks, archive);
 }

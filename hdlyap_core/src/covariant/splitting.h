@@ -1,4 +1,4 @@
-/** How angles and orders are measured. */
+/** How angles are measured. */
 #ifndef HD_SPLITTING_H
 #define HD_SPLITTING_H
 
@@ -17,8 +17,6 @@ void hd_splitting_clear(hd_splitting *splitting);
 /** Adds the vectors of one time: C [n * n], column-major, columns of length 1. Fails with
  * HD_ILL_CONDITIONED. */
 HD_MUST_CHECK hd_status hd_splitting_add(hd_splitting *splitting, const double *c);
-/** Adds the growth [n] of each vector over one finite time. */
-void hd_splitting_grow(hd_splitting *splitting, const double *growth);
 
 hd_splitting_results hd_splitting_read(const hd_splitting *splitting);
 

@@ -85,6 +85,7 @@ static void steps_extend(hd_extent *extent, const hd_scene_def *scene, const voi
         const hd_step *step = hd_steps_step(self, s);
         if (step->kind == HD_MODE_ZERO || step->conjugate) continue;
         extent->examples++;
+        extent->found += step->resolved;
         if (step->kind == HD_MODE_LP) extent->pairs += step->expected / 2;
     }
 }

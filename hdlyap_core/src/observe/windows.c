@@ -5,6 +5,7 @@
 #include <math.h>
 
 #include "averages/archived.h"
+#include "averages/doubling.h"
 #include "base/check.h"
 #include "base/memory.h"
 #include "covariant/archived.h"
@@ -103,7 +104,7 @@ static double covariant_bytes(const hd_scene_def *scene, int ranks)
     const double gathered = ranks > 1 ? vectors : 0.0;
     const double weights = hd_scene_dimension(scene) > 0 ? 3.0 * hd_modes_bytes(scene, n) : 0.0;
     return sizeof(double) * (factors + ways + vectors + gathered) + weights + hd_spectrum_bytes(n) +
-           hd_localization_bytes(n);
+           hd_localization_bytes(n) + hd_doubling_bytes((hd_doubling_def){.vectors = (int)n});
 }
 
 /** The warm-up is the transient: vectors converge forwards no faster than backwards. */
@@ -157,6 +158,7 @@ static void covariant_extend(hd_extent *extent, const hd_scene_def *scene, const
     (void)self;
     extent->subspaces = (int)hd_fields_count_of(scene).subspaces;
     if (extent->vectors > known) extent->angles = HD_PAIRS_OF_SPACES;
+    extent->orders = 1 + (int)log2(scene->covariant_window / scene->covariant_sampling);
 }
 
 static hd_status prepare(hd_windows *windows, const hd_observing *with)

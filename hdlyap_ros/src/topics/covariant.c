@@ -20,6 +20,7 @@ typedef struct arrays {
     hdr_covariant_weight *weight;                     /**< [weights] */
     hdr_covariant_angle angle[HD_PAIRS_OF_SPACES];
     histograms counts[HD_PAIRS_OF_SPACES];
+    hdr_growth_order order[HD_TIMES_MAX];
     uint32_t vectors, weights, angles;
 } arrays;
 
@@ -90,6 +91,18 @@ static void gather_weights(arrays *r, const hd_covariant_results *seen)
     }
 }
 
+static void gather_orders(arrays *r, const hd_covariant_results *seen)
+{
+    for (int k = 0; k < seen->times; k++)
+        r->order[k] = (hdr_growth_order){
+            .time = seen->order[k].time,
+            .count = (uint64_t)seen->order[k].count,
+            .violations = message_array(seen->order[k].violations, r->vectors - 1, 1),
+            .domination_violations = message_array(seen->order[k].domination_violations,
+                                                   r->vectors - 1, 1),
+        };
+}
+
 static hdr_covariant message_of(arrays *r, const hd_run *run, const hd_covariant_results *seen)
 {
     const hd_splitting_results *splitting = &seen->splitting;
@@ -98,6 +111,7 @@ static hdr_covariant message_of(arrays *r, const hd_run *run, const hd_covariant
     gather_exponents(r, seen->spectrum);
     gather_angles(r, splitting);
     gather_weights(r, seen);
+    gather_orders(r, seen);
     return (hdr_covariant){
         .sim_time = seen->window_end,
         .averaged_time = hd_spectrum_time(seen->spectrum),
@@ -112,8 +126,9 @@ static hdr_covariant message_of(arrays *r, const hd_run *run, const hd_covariant
         .start_mismatch = message_array(seen->start_mismatch_each, n, 1),
         .neighbour_angles = message_array(splitting->neighbours, n - 1, 1),
         .least_neighbour_angles = message_array(splitting->neighbours_least, n - 1, 1),
-        .violations = message_array(splitting->violations, n - 1, 1),
-        .domination_violations = message_array(splitting->domination_violations, n - 1, 1),
+        .violations = message_array(seen->order[0].violations, n - 1, 1),
+        .domination_violations = message_array(seen->order[0].domination_violations, n - 1, 1),
+        .orders = {r->order, (uint32_t)seen->times},
         .widths = message_array(seen->widths, n, 1),
         .cos_theta = message_array(seen->cosines, n, 1),
         .centre_start_mismatch = apart.centre,

@@ -222,7 +222,7 @@ TEST(a_window_given_up_leaves_nothing)
         CHECK_CLOSE(hd_spectrum_exponent(hd_covariant_read(w.c).spectrum, col),
                     hd_spectrum_exponent(hd_covariant_read(fresh.c).spectrum, col), 1e-9);
         if (col == 15) break;
-        CHECK_CLOSE(hd_covariant_read(w.c).splitting.violations[col],
-                    hd_covariant_read(fresh.c).splitting.violations[col], 1e-12);
+        CHECK_CLOSE(hd_covariant_read(w.c).order[0].violations[col],
+                    hd_covariant_read(fresh.c).order[0].violations[col], 1e-12);
     }
 }

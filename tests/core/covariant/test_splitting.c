@@ -1,4 +1,4 @@
-/** Angles of spaces made so that they are known, and order violations against their definition. */
+/** Angles of spaces made so that they are known. */
 #include "testing.h"
 #include "averages/blocks.h"
 #include "base/random.h"
@@ -139,46 +139,4 @@ TEST(dependent_vectors_are_refused)
     OWNED(hd_splitting) *s = created(N, UNSTABLE, CENTRE);
     fill(c, 1.0, 1.0, 0.0);
     assert_int_equal(hd_splitting_add(s, c), HD_ILL_CONDITIONED);
-}
-
-enum { MANY = 9, TIMES = 50 };
-
-static void check_order(const hd_splitting *s, double growth[TIMES][MANY], int times)
-{
-    for (int col = 0; col + 1 < MANY; col++) {
-        int violated = 0, entangled = 0;
-        for (int k = 0; k < times; k++) {
-            int crossed = 0;
-            for (int before = 0; before <= col; before++)
-                for (int later = col + 1; later < MANY; later++)
-                    crossed |= growth[k][before] < growth[k][later];
-            violated += growth[k][col] < growth[k][col + 1];
-            entangled += crossed;
-        }
-        CHECK_CLOSE(hd_splitting_read(s).violations[col], (double)violated / times, 1e-14);
-        CHECK_CLOSE(hd_splitting_read(s).domination_violations[col], (double)entangled / times,
-                    1e-14);
-    }
-}
-
-TEST(order_violations_are_counted)
-{
-    double growth[TIMES][MANY];
-    hd_random random = hd_random_seeded(8, 0);
-    OWNED(hd_splitting) *s = created(MANY, MANY, 0);
-    for (int k = 0; k < TIMES; k++) {
-        for (int col = 0; col < MANY; col++)
-            growth[k][col] = -0.3 * col + 1.2 * hd_random_symmetric(&random);
-        hd_splitting_grow(s, growth[k]);
-        check_order(s, growth, k + 1);
-    }
-    int open = 0; /* the case tells: neither all nor none */
-    for (int col = 0; col + 1 < MANY; col++)
-        open += hd_splitting_read(s).violations[col] <
-                    hd_splitting_read(s).domination_violations[col] &&
-                hd_splitting_read(s).domination_violations[col] < 1;
-    assert_true(open > 3);
-    hd_splitting_clear(s);
-    hd_splitting_grow(s, growth[0]);
-    check_order(s, growth, 1);
 }

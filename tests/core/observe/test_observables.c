@@ -46,6 +46,7 @@ TEST(a_run_has_what_it_needs)
                  {HD_OBSERVE_STRUCTURE, steps | OF(structure)},
                  {HD_OBSERVE_GAS, OF(gas)},
                  {HD_OBSERVE_LOCALIZATION, OF(localization)},
+                 {HD_OBSERVE_FLUCTUATIONS, OF(fluctuations)},
                  {HD_OBSERVE_ALL, (1u << HD_OBSERVED) - 1}};
     unsigned tried = 0;
     for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
@@ -157,7 +158,7 @@ static double steps_resolved(const hd_run *run)
 }
 
 /** What each has averaged of: samples, time units, .. */
-enum { AVERAGES = 8 };
+enum { AVERAGES = 9 };
 static void read_averages(const hd_run *run, double of[AVERAGES])
 {
     const double now[AVERAGES] = {hd_gas_read(hd_run_gas(run)).time,
@@ -167,7 +168,8 @@ static void read_averages(const hd_run *run, double of[AVERAGES])
                                   hd_phases_velocity(hd_run_phases(run)).phases,
                                   hd_phases_velocity(hd_run_t_phases(run)).phases,
                                   (double)hd_localization_samples(hd_run_localization(run)),
-                                  (double)hd_covariant_read(hd_run_covariant(run)).windows};
+                                  (double)hd_covariant_read(hd_run_covariant(run)).windows,
+                                  hd_fluctuations_times(hd_run_fluctuations(run))};
     memcpy(of, now, sizeof now);
 }
 

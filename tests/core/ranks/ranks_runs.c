@@ -116,9 +116,10 @@ TEST(modes_are_those_of_one_rank)
 }
 
 /** Widths are measured where the vectors are; the gas is that of the trajectory, the same bits. */
-TEST(widths_and_gas_are_those_of_one_rank)
+TEST(widths_gas_and_fluctuations_are_those_of_one_rank)
 {
-    const hd_scene_def scene = scene_of_runs(60, HD_OBSERVE_LOCALIZATION | HD_OBSERVE_GAS);
+    const hd_scene_def scene = scene_of_runs(60, HD_OBSERVE_LOCALIZATION | HD_OBSERVE_GAS |
+                                                     HD_OBSERVE_FLUCTUATIONS);
     OWNED(hd_run) *run = finish(shared(scene)), *alone = finished(scene);
     hd_localization *shared = hd_run_localization(run), *own = hd_run_localization(alone);
     assert_true(hd_localization_samples(own) > 0);
@@ -131,6 +132,17 @@ TEST(widths_and_gas_are_those_of_one_rank)
     const hd_gas_means a = hd_gas_read(hd_run_gas(run)), b = hd_gas_read(hd_run_gas(alone));
     CHECK_CLOSE(a.time, b.time, 1e-9);
     CHECK_CLOSE(a.pressure, b.pressure, 1e-9);
+    const hd_fluctuations *f = hd_run_fluctuations(run), *g = hd_run_fluctuations(alone);
+    assert_true(hd_fluctuations_times(f) > 1);
+    for (int k = 0; k < hd_fluctuations_times(f); k++) {
+        const hd_order_over x = hd_fluctuations_order(f, k), y = hd_fluctuations_order(g, k);
+        assert_int_equal(x.count, y.count);
+        for (int col = 0; x.count > 1 && col + 1 < hd_run_vectors(run); col++) {
+            CHECK_CLOSE(x.violations[col], y.violations[col], 1e-9);
+            CHECK_CLOSE(hd_fluctuations_variance(f, k, col), hd_fluctuations_variance(g, k, col),
+                        1e-6);
+        }
+    }
 }
 
 static hd_scene_def dumbbells(int exponents)

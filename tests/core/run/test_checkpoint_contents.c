@@ -52,11 +52,11 @@ TEST(contents_that_no_run_has_are_refused)
         {"scene number", 0, 0, 1, "in a rectangle"},
         {"scene density", 0, NAN, 0, "not finite"},
         {"scene density", 0, 5.0, 0, "density"},
-        {"scene observe", 0, 0, 1024, "out of its range"},
+        {"scene observe", 0, 0, 2048, "out of its range"},
         {"scene threads", 0, 0, 5000, "out of its range"},
         {"run threads", 0, 0, 0, "out of its range"},
         {"time", 0, 1.0, 0, "that of the disks"},
-        {"run observe", 0, 0, 1024, "out of its range"},
+        {"run observe", 0, 0, 2048, "out of its range"},
         {"run interval end", 0, 1.0, 0, "interval end"},
         {"run target", 0, 0, 0x4141414141414141, "cannot be reached"},
         {"run fields asked", 0, -1.0, 0, "negative"},
@@ -102,6 +102,11 @@ TEST(contents_that_no_run_has_are_refused)
         {"phase col", 0, 0, 117, "out of its range"},
         {"phase sums", 0, 1e9, 0, "phase"},
         {"phase sums", 1, 1e9, 0, "phase"},
+        {"fluctuations follow", 0, 0, 2, "out of its range"},
+        {"times count", 0, 0, -1, "out of its range"},
+        {"times passed", 0, -1.0, 0, "does not fit"},
+        {"times begun", 0, -1.0, 0, "does not fit"},
+        {"times sum", 5, NAN, 0, "not finite"},
     };
     CHECK_OK(kept_read(&again, &b, NULL, message, sizeof message));
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++)

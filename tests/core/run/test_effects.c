@@ -114,7 +114,8 @@ TEST(a_long_run_allocates_nothing)
                  {HD_EXPONENTS_POSITIVE, HD_OBSERVE_STEPS},
                  {10, EVERYTHING},
                  {HD_EXPONENTS_POSITIVE, EVERYTHING},
-                 {HD_EXPONENTS_ALL, EVERYTHING | HD_OBSERVE_GAS | HD_OBSERVE_LOCALIZATION}};
+                 {HD_EXPONENTS_ALL,
+                  EVERYTHING | HD_OBSERVE_GAS | HD_OBSERVE_LOCALIZATION | HD_OBSERVE_FLUCTUATIONS}};
     for (size_t k = 0; k < 2 * (sizeof modes / sizeof *modes); k++) {
         OWNED(hd_run) *run = created(scene_from(small(modes[k / 2].exponents, modes[k / 2].observe),
                                                 .boundary[0] = k % 2 ? R : P,

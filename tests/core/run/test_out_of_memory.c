@@ -3,7 +3,7 @@
 #include "ledger.h"
 #include "runs.h"
 
-enum { EVERYTHING = 31 | HD_OBSERVE_GAS | HD_OBSERVE_LOCALIZATION };
+enum { EVERYTHING = 31 | HD_OBSERVE_GAS | HD_OBSERVE_LOCALIZATION | HD_OBSERVE_FLUCTUATIONS };
 static const char FILE_NAME[] = "out_of_memory.test";
 
 /** Everything that a node makes of a scene. */

@@ -16,7 +16,8 @@ MISSING = 'to_xarray needs xarray: python3-xarray of Debian and Ubuntu, xarray o
 OVER_TIME = 'spectrum', 'steps', 'gas'  # topics that have the same times
 LARGEST = 2**31 - 1  # integer of netCDF by scipy; larger ones are floats, exact up to 2^53
 PHASES = {'lp_phases': tables.of_phases, 't_phases': tables.of_t_phases}
-LAST = 'spectrum', 'modes', 'covariant', 'localization'  # topics of which the last message is taken
+# topics of which the last message is taken
+LAST = 'spectrum', 'modes', 'covariant', 'localization', 'fluctuations'
 COURSES = 'cost', 'status'
 PLACES = {'state': msg.State, 'fields': msg.ModeField}
 

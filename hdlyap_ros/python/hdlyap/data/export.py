@@ -11,7 +11,7 @@ from . import space
 from .reader import Missing
 
 FRAMES = ('results', 'spectrum', 'steps', 'modes', 'phases', 't_phases', 'covariant')
-FRAMES += ('localization', 'gas', 'cost', 'status')
+FRAMES += ('localization', 'fluctuations', 'gas', 'cost', 'status')
 OVER_TIME = '1/time unit'  # unit of columns that have Lyapunov indices as names
 
 

@@ -23,7 +23,7 @@ STATUS, COST = 'hdlyap/RunStatus', 'hdlyap/Cost'
 PHASES, T_PHASES = 'hdlyap/LpPhases', 'hdlyap/TPhases'
 FIELD, STATE = 'hdlyap/ModeField', 'hdlyap/State'
 COVARIANT, HYDRO, STRUCTURE = 'hdlyap/Covariant', 'hdlyap/Hydro', 'hdlyap/Structure'
-LOCALIZATION = 'hdlyap/Localization'
+LOCALIZATION, FLUCTUATIONS = 'hdlyap/Localization', 'hdlyap/Fluctuations'
 NAME, PATH, LINE, LIST = 200, 4096, 8192, 4096  # longest text, path, error; most elements of a list
 PATHS = ('checkpoint', 'resume')
 VERSION = re.compile(r'\d[\w.+~-]{0,30}', re.ASCII)
@@ -36,11 +36,13 @@ ALIKE = {
     FIELD: ('x', 'y', 'px', 'py', 'dqx', 'dqy', 'dpx', 'dpy'),
     COVARIANT: ('exponents', 'std_errors', 'start_mismatch', 'widths', 'cos_theta'),
     LOCALIZATION: ('widths', 'std_errors', 'widths_now'),
+    FLUCTUATIONS: ('diffusions', 'std_errors'),
 }
 # arrays of that length in space, or if particles rotate; otherwise they are empty
 OF_SPHERES = {STATE: ('z', 'pz'), FIELD: ('z', 'pz', 'dqz', 'dpz'), STRUCTURE: ('nz',)}
 OF_TURNING = {STATE: ('angle', 'spin'), FIELD: ('angle', 'spin', 'dq_angle', 'dp_angle')}
 AMPLITUDES = 'amplitude_along', 'amplitude_across'
+PAIRED = 'covariances', 'covariance_errors', 'variances', 'reversals'
 
 
 class RecordingError(Exception):
@@ -147,12 +149,27 @@ def check(kind, message):
             raise Damaged(
                 f'{kind}: {sorted(means | set(now))} elements of {n} vectors, {waves} waves'
             )
+    if kind == FLUCTUATIONS:
+        _check_fluctuations(message)
     if kind == RUN_INFO:
         sizes = [message.density, message.aspect, message.box_x, message.box_y]
         if space.is_solid(message):
             sizes += [message.aspect_z, message.box_z]
         if not (message.number and all(math.isfinite(size) and size > 0 for size in sizes)):
             raise Damaged(f'{kind}: {message.number} disks, density, aspect and box {tuple(sizes)}')
+
+
+def _check_fluctuations(message):
+    vectors, times = len(message.diffusions), len(message.orders)
+    indices = [index for step in message.steps for index in step.indices]
+    pairs = len(message.steps) ** 2
+    found = {name: len(getattr(message, name)) for name in PAIRED}
+    of_orders = {len(one.violations) for one in message.orders}
+    of_orders |= {len(one.domination_violations) for one in message.orders}
+    if list(found.values()) != [pairs, pairs, times * vectors, times * pairs]:
+        raise Damaged(f'{FLUCTUATIONS}: {vectors} vectors, {times} times, {pairs} pairs, {found}')
+    if not vectors or of_orders - {vectors - 1} or set(indices) - set(range(1, vectors + 1)):
+        raise Damaged(f'{FLUCTUATIONS}: {vectors} vectors, pairs {of_orders}, indices {indices}')
 
 
 def run_infos(path, node=None):
@@ -253,7 +270,9 @@ def _is_of_another(error):
     mistake."""
     if isinstance(error, ConnectionError):
         return True
-    return isinstance(error, fault.OURS) and fault.is_in(error, PACKAGE) or fault.is_of_others(error)
+    return (
+        isinstance(error, fault.OURS) and fault.is_in(error, PACKAGE) or fault.is_of_others(error)
+    )
 
 
 def _refuse_no_bag(path):

@@ -12,7 +12,7 @@ import pandas
 from hdlyap import msg, topics
 from hdlyap.numbers import known
 
-from . import dataset, fields, fits, joined, reader, space, structure, tables
+from . import dataset, fields, fits, growth, joined, reader, space, structure, tables
 from .disks import Disks
 from .reader import Missing
 from .said import Said
@@ -26,6 +26,7 @@ FRAMES = {
     't_phases': tables.of_t_phases,
     'covariant': tables.of_arrays,
     'localization': tables.of_arrays,
+    'fluctuations': tables.of_fluctuations,
     'gas': tables.of_gas,
 }
 # name of an array: the field whose unit it has
@@ -53,8 +54,9 @@ class Run:
     """`info` is its run_info. Arrays have a row for each message: `times` (simulated),
     `averaged_times`, `exponents` and `std_errors` of the running means; `local` the samples. Frames
     are of the last message: `spectrum`, `modes`, `steps`, `phases`, `t_phases`, `covariant`,
-    `localization`, `gas`, `results`; or of all: `cost`, `status`, `course(topic)`. `structure` has
-    structure factors, `state` positions and momenta, `fields` the last field of each vector. Of
+    `localization`, `fluctuations`, `gas`, `results`; or of all: `cost`, `status`, `course(topic)`.
+    `structure` has structure factors, `growth` fluctuations over finite times, `state` positions
+    and momenta, `fields` the last field of each vector. Of
     spheres each has z beside x and y, as fields[index].dqz, steps['nz'], gas.loc['pressure_z'].
     Of dumbbells `own` has the bond, info.inertia is a number, and they turn: state.angles(time),
     modes['rotation'], fields[index].dq_angle.
@@ -162,6 +164,7 @@ class Run:
     t_phases = _last('t_phases')
     covariant = _last('covariant')
     localization = _last('localization')
+    fluctuations = _last('fluctuations')
     gas = _last('gas')
 
     @cached_property
@@ -220,7 +223,7 @@ class Run:
 
     def course(self, topic):
         """Frame of all messages of 'spectrum', 'modes', 'steps', 'lp_phases', 't_phases',
-        'covariant', 'localization' or 'gas', by simulated time:
+        'covariant', 'localization', 'fluctuations' or 'gas', by simulated time:
         course('lp_phases')['phase'].unstack() has a column for each phase."""
         return tables.over_time(self._all(topic), FRAMES[topic], self.info)
 
@@ -233,6 +236,25 @@ class Run:
         if last is None:
             raise self._missing('structure with means')
         return structure.Structure(last)
+
+    @cached_property
+    def growth(self):
+        """The last fluctuations over finite times: see growth.Growth."""
+        if self._told_growth is None:
+            raise self._missing('fluctuations with orders')
+        return growth.Growth(self._told_growth, self.info)
+
+    has_growth = property(lambda self: self._told_growth is not None)
+
+    @cached_property
+    def _told_growth(self):
+        told = (one for one in self.messages('fluctuations') if len(one.orders))
+        return next(iter(deque(told, maxlen=1)), None)
+
+    @property
+    def covariant_orders(self):
+        """Order of covariant vectors' growth over finite times: see growth.Orders."""
+        return growth.Orders(self.last('covariant'))
 
     def amplitudes(self, indices, direction):
         """A frame of all amplitudes of these vectors' waves, 'along' or 'across' k."""

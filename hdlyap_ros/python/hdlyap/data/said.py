@@ -35,6 +35,7 @@ class Said:
     gas = cached_property(lambda self: self._averaged('gas'))
     modes = cached_property(lambda self: self._last('modes'))
     localization = cached_property(lambda self: self._last('localization'))
+    fluctuations = cached_property(lambda self: self._averaged('fluctuations'))
     covariant = cached_property(lambda self: self._averaged('covariant'))  # has a window or more
 
     @property

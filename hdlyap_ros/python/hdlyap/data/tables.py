@@ -12,7 +12,7 @@ from . import fields, space, stages, steps, waves
 from .fields import words
 
 OF_SPHERES, OF_TURNING = ('nz', 'null_z'), ('rotation',)  # columns
-NUMBERED = 'exponents', 'widths'  # arrays with an element for each Lyapunov index
+NUMBERED = 'exponents', 'widths', 'diffusions'  # arrays with an element for each Lyapunov index
 NUMBERS = {'bool': bool, 'float64': float}  # others are integers
 # columns whose numbers are replaced by names
 NAMES = {
@@ -99,6 +99,11 @@ def arrays(message, without=()):
 
 def of_arrays(message, info=None):
     return arrays(message)
+
+
+def of_fluctuations(message, info=None):
+    """D of each vector alone; see growth.Growth for the rest."""
+    return arrays(message, ('covariances', 'covariance_errors', 'variances', 'reversals'))
 
 
 def of_steps(message, info=None):

@@ -13,7 +13,7 @@ from .style import ours, save
 # in the order in which hdlyap plot lists them; draw returns None if the bag has no data for one
 NAMES = 'spectrum convergence steps dispersion modes p_mode phases localization structure '
 NAMES += 'covariant_exponents covariant_weights covariant_angles covariant_domination '
-NAMES += 'covariant_vectors cost'
+NAMES += 'covariant_vectors fluctuations cost'
 FIGURES = {name: importlib.import_module(f'.{name}', __name__) for name in NAMES.split()}
 OF_MEANS = 'spectrum', 'steps', 'dispersion'  # figures of several seeds; others are of one run
 
