@@ -1,4 +1,4 @@
-"""run.to_xarray(): what was recorded, by names of dimensions, with what the .msg files say of it."""
+"""run.to_xarray(): what was recorded, by names of dimensions, with units and words of messages."""
 
 import json
 import os
@@ -9,7 +9,7 @@ from unittest import mock
 
 import numpy as np
 import xarray
-from hdlyap.msg import Change, Spectrum, State
+from hdlyap.msg import Change, Spectrum
 
 import bags
 import hdlyap

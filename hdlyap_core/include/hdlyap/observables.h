@@ -13,8 +13,8 @@ enum { HD_QUANTITY_NAME = 32 };
 /** The observables (a set of HD_OBSERVE_*) that need positions in a box. */
 unsigned hd_observe_of_box(void);
 
-/** The parts of a run: one pointer for each observable, to its result; NULL if the scene does not ask
- * for it. */
+/** The parts of a run: one pointer for each observable, to its result; NULL if the scene does not
+ * ask for it. */
 typedef struct hd_parts {
     const hd_trajectory *trajectory; /**< always there */
     const hd_spectrum *spectrum;     /**< NULL without exponents */
@@ -28,9 +28,9 @@ typedef struct hd_extent {
     int disks, vectors;
     int waves; /**< waves of the structure factors */
     int subspaces,
-        angles;          /**< subspaces of fields, and pairs of spaces with angles, of covariant vectors */
-    int steps;           /**< steps in both halves of the spectrum */
-    int examples, pairs; /**< steps that are shown by an example, and all their LP pairs */
+        angles; /**< subspaces of fields, and pairs of spaces with angles, of covariant vectors */
+    int steps;  /**< steps in both halves of the spectrum */
+    int examples, pairs;  /**< steps that are shown by an example, and all their LP pairs */
     int phases, t_phases; /**< LP phases and T phases */
     int responses;        /**< hydrodynamic responses */
     int times;            /**< times over which growth is told, mean over the run */

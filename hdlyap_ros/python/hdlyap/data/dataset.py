@@ -9,7 +9,7 @@ import numpy as np
 
 from hdlyap import msg
 
-from . import fields, reader, tables
+from . import fields, tables
 from .export import plain_info
 
 MISSING = 'to_xarray needs xarray: python3-xarray of Debian and Ubuntu, xarray of PyPI'

@@ -16,7 +16,7 @@ MEASURED = SYSTEM + ('vectors', 'wave_nx', 'wave_ny', 'wave_nz')
 # parameters that a resumed run keeps (HD_AS_BEFORE of hdlyap/parameters.inc): all parts share them
 OF_ONE_RUN = SYSTEM + ('seed', 'exponents', 'equilibration', 'warmup', 'interval', 'accuracy')
 OF_ONE_RUN += ('phase_interval', 'max_wave_number', 'max_mode_number', 'observables')
-OF_ONE_RUN += ('covariant_window', 'covariant_transient', 'covariant_sampling')
+OF_ONE_RUN += ('covariant_window', 'covariant_transient', 'covariant_sampling', 'fluctuation_time')
 UNSEEN = ('spectrum', 'state')  # observables that change nothing in the core, and may differ
 SAME = 1e-9  # relative difference below which parameters are the same
 
