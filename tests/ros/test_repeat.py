@@ -36,7 +36,7 @@ def complete(name):
 def info_of(scene, **others):
     """run_info of a node that was given a scene file."""
     values = {name: text_of(scene[name]) for name in ('exponents', 'field_indices')}
-    for name in 'interval', 'phase_interval':
+    for name in 'interval', 'phase_interval', 'fluctuation_time':
         values[name] = 0.0 if scene[name] == 'auto' else scene[name]
     own = {name: value for name, value in scene.items() if name not in RunInfo.__slots__}
     said = {name: value for name, value in scene.items() if name not in own}

@@ -14,6 +14,7 @@ RESULTS += ('blas_threads', 'blas_library', 'blas_kernel', 'blas_threading')
 OF_SPHERES = ('aspect_z', 'boundary_z')  # parameters that disks do not have
 # parameters that are a word or a list of numbers, and a text in run_info
 LISTS = ('field_indices',)
+AUTOMATIC = ('interval', 'phase_interval', 'fluctuation_time')  # of which 0 is auto
 
 
 def chosen(path, node=None, number=None):
@@ -42,7 +43,7 @@ def parameters(info):
     names = [name for name in info.__slots__ if name not in results]
     asked = {name: getattr(info, name) for name in names}
     asked.update({name: _list_of(asked[name]) for name in LISTS}, checkpoint='', resume='')
-    asked.update({name: asked[name] or 'auto' for name in ('interval', 'phase_interval')})
+    asked.update({name: asked[name] or 'auto' for name in AUTOMATIC})
     asked.update(space.own(info))
     before = {change.name: change.before for change in reversed(info.changes)}  # at the beginning
     asked.update({name: _typed(asked[name], value) for name, value in before.items()})
