@@ -239,6 +239,12 @@ class Arrays(Loaded):
         covariant.orders = [made.GrowthOrder(time=5.0, count=7, **order)]
         of_covariant = self.load([made.run_info(), covariant]).covariant_orders
         self.equal(of_covariant.domination_violations.loc[5.0], [0.75])
+        covariant.orders[0].violations = [0.5, 0.5]
+        with self.assertRaisesRegex(RecordingError, 'Covariant: 2 vectors, pairs'):
+            self.load([made.run_info(), covariant]).covariant_orders
+        covariant.orders = []
+        nothing = self.load([made.run_info(), covariant]).covariant_orders
+        self.assertEqual((len(nothing.times), nothing.violations.size), (0, 0))
         with self.assertRaisesRegex(RecordingError, 'no message of fluctuations with orders in it'):
             self.load([made.run_info(), later]).growth
 

@@ -412,6 +412,9 @@ class Hostile(Tools):
 
     def test_another_python(self):
         """Without numpy: which one it was, and which one to take."""
+        loaded = hdlyap.data
+        self.addCleanup(setattr, hdlyap, 'data', loaded)
+        self.addCleanup(sys.modules.update, {'hdlyap.data': loaded})
         del sys.modules['hdlyap.data'], hdlyap.data
         with mock.patch.dict(sys.modules, {'numpy': None, 'hdlyap.data.seeds': None}):
             with self.assertRaisesRegex(ImportError, f'in {sys.executable}: .* /usr/bin/python3'):

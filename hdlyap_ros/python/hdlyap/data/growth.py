@@ -23,7 +23,8 @@ class Orders:
             setattr(self, name, self._rows([getattr(one, name) for one in told]))
 
     def _rows(self, rows):
-        rows = np.array(rows, dtype=float).reshape(len(self.times), -1)
+        count = len(self.times)
+        rows = np.array(rows, dtype=float).reshape(count, -1 if count else 0)
         times = pandas.Index(self.times['time'], name='time')
         last = self._first + rows.shape[1]
         return pandas.DataFrame(rows, times, pandas.RangeIndex(self._first, last, name='index'))

@@ -151,6 +151,8 @@ def check(kind, message):
             )
     if kind == FLUCTUATIONS:
         _check_fluctuations(message)
+    if kind == COVARIANT and _in_orders(message) - {max(len(message.exponents) - 1, 0)}:
+        raise Damaged(f'{kind}: {len(message.exponents)} vectors, pairs {_in_orders(message)}')
     if kind == RUN_INFO:
         sizes = [message.density, message.aspect, message.box_x, message.box_y]
         if space.is_solid(message):
@@ -159,13 +161,18 @@ def check(kind, message):
             raise Damaged(f'{kind}: {message.number} disks, density, aspect and box {tuple(sizes)}')
 
 
+def _in_orders(message):
+    """How many pairs of neighbours the orders of a message have."""
+    found = {len(one.violations) for one in message.orders}
+    return found | {len(one.domination_violations) for one in message.orders}
+
+
 def _check_fluctuations(message):
     vectors, times = len(message.diffusions), len(message.orders)
     indices = [index for step in message.steps for index in step.indices]
     pairs = len(message.steps) ** 2
     found = {name: len(getattr(message, name)) for name in PAIRED}
-    of_orders = {len(one.violations) for one in message.orders}
-    of_orders |= {len(one.domination_violations) for one in message.orders}
+    of_orders = _in_orders(message)
     if list(found.values()) != [pairs, pairs, times * vectors, times * pairs]:
         raise Damaged(f'{FLUCTUATIONS}: {vectors} vectors, {times} times, {pairs} pairs, {found}')
     if not vectors or of_orders - {vectors - 1} or set(indices) - set(range(1, vectors + 1)):
