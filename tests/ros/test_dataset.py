@@ -33,6 +33,7 @@ def fields():
         with open(os.path.join(MSG, name)) as file:
             lines = re.findall(r'(?m)^\S+ +(\w+)(?: +# (.*?)(?: ?\[([^]]*)\])?)?$', file.read())
         above = '', ''
+        lines = [(field, what, unit.replace('^d', '^2')) for field, what, unit in lines]
         for field, what, unit in lines:
             above = (what or above[0], unit) if what or unit else above
             found[name[:-4], field] = above

@@ -81,6 +81,7 @@ class Arrays(Solid):
         self.assertEqual(set(loaded.phases['step']), {'LP(1,0,0)'})
         found = loaded.gas.loc['pressure_z']
         self.assertEqual(tuple(found), (1.1, 0.02, '1/sigma^3'))
+        self.assertEqual(loaded.to_xarray()['gas_pressure_z'].units, '1/sigma^3')
         flat = made.run_info()
         one = made.step(flat, LP, 1, 0, 32, 35)
         disks = self.load(made.steps([one]), made.lp_phases(flat, [one], 1.0), gas(), info=flat)

@@ -9,7 +9,7 @@ import numpy as np
 
 from hdlyap import msg
 
-from . import fields, tables
+from . import fields, space, tables
 from .export import plain_info
 
 MISSING = 'to_xarray needs xarray: python3-xarray of Debian and Ubuntu, xarray of PyPI'
@@ -33,7 +33,9 @@ def of(run):
     parts += [_places(name, rows, first) for name, rows, first in _of_particles(run)]
     made = xarray.merge([part for part in parts if part is not None], join='outer')
     for name, one in list(made.data_vars.items()):
-        made[name] = one.dims, _plain(one.values), one.attrs
+        unit = space.unit(one.attrs.get('units', ''), run.info)
+        attrs = {**one.attrs, **_said(unit, '')}
+        made[name] = one.dims, _plain(one.values), attrs
     made.attrs = {'title': repr(run), 'run_info': json.dumps(plain_info(run.info))}
     return made
 

@@ -33,6 +33,11 @@ def axes(info):
     return 'xyz' if is_solid(info) else 'xy'
 
 
+def unit(text, info):
+    """The unit of a field in which d stands for the number of directions."""
+    return text.replace('^d', f'^{len(axes(info))}')
+
+
 def along(info, name):
     """The values of box_ or boundary_ for each direction."""
     return [getattr(info, name + axis) for axis in axes(info)]

@@ -126,13 +126,12 @@ def of_gas(message, info=None):
     """A frame by quantity, of the quantities that these particles have."""
     described = fields.of(message)
     pressures = ['pressure', *('pressure_' + axis for axis in space.axes(info))]
-    units = dict.fromkeys(pressures, f'1/sigma^{len(space.axes(info))}')  # .msg has those of disks
     names = ['collision_rate', *pressures, 'compressibility', 'temperature', 'potential_energy']
     names = [name for name in names if not np.isnan(getattr(message, name))]
     columns = {
         'value': [getattr(message, name) for name in names],
         'std_error': known([getattr(message, name + '_error') for name in names]),
-        'unit': [units.get(name, described[name].unit) for name in names],
+        'unit': [space.unit(described[name].unit, info) for name in names],
     }
     return frame(columns, {}, pandas.Index(names, name='quantity'))
 
