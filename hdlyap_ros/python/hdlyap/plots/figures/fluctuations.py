@@ -58,7 +58,7 @@ def _variances(axes, message, told, look):
         axes.plot(values.index, values, **{**style, 'label': '_' + name if known_already else kind})
     axes.set_xscale('log')
     axes.set_yscale('log')
-    axes.legend(loc='center', ncol=3, fontsize=6)
+    axes.legend(loc='lower center', bbox_to_anchor=(0.5, 1.0), ncol=3, fontsize=6)
 
 
 def _orders(order, domination, recording, told, look):
