@@ -1,4 +1,6 @@
 /** Phases of LP steps and of T steps: two observables of one kind. */
+#include <math.h>
+
 #include "modes/archived.h"
 #include "modes/phases.h"
 #include "observe/observable.h"
@@ -59,7 +61,9 @@ static void phases_add(void *self, const hd_observing *with, const hd_view *stat
 
 static double phases_sampling(void *self, const hd_observing *with)
 {
-    return hd_phases_sampling(self, with->part[HD_OBSERVED_steps]);
+    const double needed = hd_phases_sampling(self, with->part[HD_OBSERVED_steps]),
+                 wanted = with->scene->phase_interval;
+    return wanted > 0 && needed < INFINITY ? fmin(wanted, needed) : needed;
 }
 
 static void phases_archive(void *self, hd_archive *archive, const hd_trajectory *now)

@@ -190,17 +190,15 @@ static void take_changes(hd_run *run)
 /** Longest time from one measured state to the next that observables allow. */
 static double sampling(const hd_run *run)
 {
-    const double wanted = run->scene.phase_interval;
-    if (!is_needed(run, HD_NEEDS_CLOSE)) return INFINITY;
-    const double needed = hd_observables_sampling(&run->observables);
-    return wanted > 0 && needed < INFINITY ? fmin(wanted, needed) : needed;
+    return is_needed(run, HD_NEEDS_CLOSE) ? hd_observables_sampling(&run->observables) : INFINITY;
 }
 
 /** The shortest value that `sampling` is expected to have, also before phases are followed. */
 static double sampling_expected(const hd_run *run)
 {
-    const double wanted = run->scene.phase_interval;
-    return is_needed(run, HD_NEEDS_CLOSE) && wanted > 0 ? wanted : sampling(run);
+    const bool phases = is_needed(run, HD_NEEDS_CLOSE | HD_NEEDS_VECTORS); /* no other row */
+    const double wanted = phases ? run->scene.phase_interval : 0.0;
+    return wanted > 0 ? fmin(wanted, sampling(run)) : sampling(run);
 }
 
 /** Makes the frame orthonormal now; measured: in the full norm. */

@@ -244,6 +244,17 @@ TEST(it_costs_no_orthonormalisation)
     assert_int_equal(hd_fluctuations_order(hd_run_fluctuations(c), 0).count, 800);
 }
 
+/** Samples of phases that nobody asks for are not taken. */
+TEST(phases_that_are_not_asked_for_cost_nothing)
+{
+    hd_scene_def scene = disks(HD_EXPONENTS_POSITIVE, 3, 100.0);
+    scene.fluctuation_time = 1.0;
+    OWNED(hd_run) *a = finished(scene);
+    scene.phase_interval = 0.1;
+    OWNED(hd_run) *b = finished(scene);
+    assert_int_equal(hd_run_cost(a).orthonormalisations, hd_run_cost(b).orthonormalisations);
+}
+
 /** Pairs that follow from each other do so bit for bit. */
 TEST(a_half_that_follows_diffuses_as_the_other)
 {

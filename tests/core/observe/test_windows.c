@@ -284,15 +284,22 @@ TEST(later_windows_take_no_memory)
     assert_int_equal(hd_memory_allocations(), before);
 }
 
-/** Phases that are wanted close together end intervals early: there is room for all of them. */
-TEST(no_window_is_lost_to_phases)
+static void check_none_is_lost(double phase_interval, double fluctuation_time, unsigned observe)
 {
     hd_scene_def def = scene(.number = 60, .density = 0.8, .aspect = 0.06, .warmup = 60.0,
-                             .phase_interval = 0.2, .covariant_window = 60.0,
+                             .phase_interval = phase_interval, .covariant_window = 60.0,
                              .covariant_transient = 20.0, .duration = 90.0);
+    def.fluctuation_time = fluctuation_time;
     def.exponents = HD_EXPONENTS_ALL;
-    def.observe = HD_OBSERVE_COVARIANT | HD_OBSERVE_STEPS | HD_OBSERVE_PHASES;
+    def.observe = HD_OBSERVE_COVARIANT | HD_OBSERVE_STEPS | HD_OBSERVE_PHASES | observe;
     OWNED(hd_run) *run = finished(def);
     assert_int_equal(hd_covariant_read(hd_run_covariant(run)).lost, 0);
     assert_true(hd_covariant_read(hd_run_covariant(run)).windows > 0);
+}
+
+/** Samples that are wanted close together end intervals early: there is room for all of them. */
+TEST(no_window_is_lost_to_phases) { check_none_is_lost(0.2, 0.0, 0); }
+TEST(no_window_is_lost_to_fluctuations)
+{
+    check_none_is_lost(4.0, 0.2, HD_OBSERVE_FLUCTUATIONS);
 }
