@@ -129,7 +129,8 @@ static int partner(const hd_sets *sets, const hd_spectrum *spectrum, int a)
     return -1;
 }
 
-/** Merges set a into set b and moves b to its new window, at most as wide as there are vectors. */
+/** Merges set a into set b and moves b to its new window. If the half has too few vectors for it, b
+ * is empty. */
 static void absorb(hd_sets *sets, hd_half half, int a, int b)
 {
     const int count = sets->set[a].count + sets->set[b].count;
