@@ -57,9 +57,9 @@ typedef struct hd_cost {
     hd_limit limit;           /**< why that interval was not longer */
     double condition;         /**< condition of the last orthonormalisation [T6] */
     double defect;            /**< predicted loss of orthogonality of its vectors */
-    double
-        error_bound;          /**< what rounding may have added to an exponent: the sum of eps *
-                                 condition,       enlarged as [T6] says, and of defects, per averaged time */
+    /** What rounding may have added to an exponent: the sum of eps * condition, enlarged as [T6]
+     * says, and of defects, per averaged time. */
+    double error_bound;
     long orthonormalisations; /**< number of orthonormalisations */
     long second_passes;       /**< number of those that needed a second pass */
     long slow_vector_samples; /**< samples that ended early because of hd_run_watch */

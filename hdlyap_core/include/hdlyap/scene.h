@@ -154,7 +154,8 @@ int hd_scene_outline(const hd_scene_def *def, double *x, double *y);
 
 /** Parts of the null space [T9]: vectors that are uniform along x, y, and in space z. They belong
  * to periodic directions; in a circle HD_NULL_X is the rotation about the centre. The part behind
- * them, of number hd_scene_dimension(def), contains (p, 0) and (0, p). */
+ * them, of number hd_scene_dimension(def), contains (p, 0) and (0, p), or the flow (p, F) of soft
+ * particles. */
 enum { HD_NULL_X, HD_NULL_Y, HD_NULL_Z };
 
 /** Duration of the warm-up, as given or chosen [T12] [time units]. */

@@ -40,7 +40,7 @@ typedef struct hd_step {
     hd_sharing sharing; /**< do the steps of the set coincide? */
     double set_time;    /**< averaged time since when the same steps share the set [time units] */
     double own_part;    /**< fraction of the step's weight in the set that is in the step's own
-                           columns:    1 without mixing */
+                           columns: 1 without mixing */
     double gap; /**< difference between the mean exponents of the step's own columns and of the
                    nearest step's; 0 if it is alone [1/time unit] */
     double gap_error; /**< standard error of gap; negative if not yet known, 0 if it is alone */

@@ -139,7 +139,7 @@ static void slots_match(hd_rotor *r, const hd_step *step, const hd_modes *modes,
     }
 }
 
-/** Turn of the whole step since the last sample, from all its vectors together. */
+/** Turn of the whole step since the last sample, from all of its vectors that are not weak. */
 static void rotor_turn(hd_rotor *r, const hd_modes *modes, double dt)
 {
     double complex sum = 0.0;

@@ -299,7 +299,4 @@ static void check_none_is_lost(double phase_interval, double fluctuation_time, u
 
 /** Samples that are wanted close together end intervals early: there is room for all of them. */
 TEST(no_window_is_lost_to_phases) { check_none_is_lost(0.2, 0.0, 0); }
-TEST(no_window_is_lost_to_fluctuations)
-{
-    check_none_is_lost(4.0, 0.2, HD_OBSERVE_FLUCTUATIONS);
-}
+TEST(no_window_is_lost_to_fluctuations) { check_none_is_lost(4.0, 0.2, HD_OBSERVE_FLUCTUATIONS); }
