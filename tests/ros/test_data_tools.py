@@ -349,6 +349,9 @@ class Hostile(Tools):
         def draughtsman(_):
             Figure(figsize=(-1, 1))
 
+        def in_a_folder_http(_):
+            exec(compile('[][0]', '/home/me/http/own.py', 'exec'), {'__name__': 'own'})
+
         def nobody(_):
             xmlrpc.client.ServerProxy('http://localhost:1').getPid()
 
@@ -357,6 +360,7 @@ class Hostile(Tools):
 
         for fault, said in (
             (lambda _: [][0], r'unexpected contents in a bag \(.*\): IndexError: '),
+            (in_a_folder_http, r'unexpected contents in a bag \(.*\): IndexError: '),
             (missing_attribute, 'a fault of hdlyap, not of what it reads: AttributeError: '),
             (draughtsman, 'cannot be drawn: ValueError: figure size must be positive'),
             (

@@ -23,8 +23,8 @@ def whose(error):
 
 def is_of_others(error):
     """What has failed in another package, as text; None if it was not in another package."""
-    frames = traceback.extract_tb(error.__traceback__)
-    passed = {part for frame in frames for part in frame.filename.split(os.sep)[:-1]}
+    frames = (frame for frame, _ in traceback.walk_tb(error.__traceback__))
+    passed = {frame.f_globals.get('__name__', '').partition('.')[0] for frame in frames}
     return next((said for names, said in OTHERS.items() if passed & set(names.split())), None)
 
 
