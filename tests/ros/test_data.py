@@ -234,6 +234,10 @@ class Arrays(Loaded):
         np.testing.assert_allclose(growth.correlations, [[0.08, 0.5], [0.5, 2.0]])
         self.assertEqual(growth.std_errors.loc['T(1,0)', 'LP(1,0)'], 0.01)
         np.testing.assert_allclose(growth.reversals[1].loc['T(1,0)'], [0.0125, 0.02])
+        unclear = self.load(
+            [made.run_info(), made.fluctuations([0.5, 0.25, 0.25, -0.04, 0.02], pairs)]
+        )
+        self.assertEqual(list(unclear.growth.correlations.isna().sum()), [1, 2])
         covariant = made.covariant([2.0, 1.0])
         order = dict(violations=[0.5], domination_violations=[0.75])
         covariant.orders = [made.GrowthOrder(time=5.0, count=7, **order)]

@@ -41,10 +41,11 @@ class Growth(Orders):
         self.indices = {steps.name(one, info): list(one.indices) for one in message.steps}
         self.covariances = self._pairs(message.covariances)
         self.std_errors = self._pairs(known(message.covariance_errors))
+        diffusions = np.array(message.diffusions)
         own = [
-            np.mean(np.array(message.diffusions)[np.array(indices) - message.first_index])
-            for indices in self.indices.values()
+            diffusions[np.array(one) - message.first_index].mean() for one in self.indices.values()
         ]
+        own = [one if one > 0 else np.nan for one in own]  # an estimate can be negative
         self.correlations = self.covariances / np.sqrt(np.outer(own, own))
         every = np.reshape(message.reversals, (len(self.times), -1))
         self.reversals = [self._pairs(one) for one in every]
