@@ -147,8 +147,11 @@ TEST(Parameters, RefusedByTheirRows)
 {
     for (int k = 0; k < parameters_count(); k++) {
         const parameter p = parameters_at(k);
-        const std::string base = scene + (p.needs == 1u << TOPIC_covariant ? window : ""),
-                          line = base + p.name + ": ";
+        const std::string observed = p.needs == 1u << TOPIC_covariant ? window
+                                     : p.needs == 1u << TOPIC_fluctuations
+                                         ? "observables: [fluctuations]\n"
+                                         : "";
+        const std::string line = scene + observed + p.name + ": ";
         char allowed[PARAMETER_ALLOWED];
         parameter_allowed(allowed, &p);
         const bool by_word = p.kind == OF_SCENE && p.row->kind == HD_PARAMETER_INTERVAL;
