@@ -183,7 +183,15 @@ class Done(InFolder):
         info = {
             name: value for name, value in of.parameters.items() if name in made.RunInfo.__slots__
         }
-        info.update({'warmup': 40.0, 'interval': 0.0, 'phase_interval': 0.0, **said})
+        info.update(
+            {
+                'warmup': 40.0,
+                'interval': 0.0,
+                'phase_interval': 0.0,
+                'fluctuation_time': 0.0,
+                **said,
+            }
+        )
         last = made.status(150.0, stage=stage, progress=progress)
         made.write(
             of.bag(self.folder), [made.run_info(**info), made.status(120.0), made.cost(150.0), last]
