@@ -67,7 +67,7 @@ chain_runs() {
         refused "$1" 'betta = 1: must be removed: there is no parameter of this name; is beta meant?' betta:=1 &&
         refused "$1" 'particles = rods: must be disks, spheres, dumbbells, soft_disks, soft_spheres or chain' particles:=rods &&
         refused "$1" 'density = 0.5: must not be given with particles = chain, which have no positions in a box' density:=0.5 &&
-        refused "$1" 'observables = [state]: must be a list out of spectrum, covariant, localization when particles = chain' 'observables:=[state]' &&
+        refused "$1" 'observables = [state]: must be a list out of spectrum, covariant, localization, fluctuations when particles = chain' 'observables:=[state]' &&
         refused "$1" 'observables = [spectrum, localization]: must be [] when exponents = none' exponents:=none
 }
 
