@@ -27,7 +27,8 @@ int hd_structure_peak(const hd_structure *structure, int col);
 /** Amplitudes of the n vectors' strongest waves in the last sample for modulation A: along, sum
  * grad A . dq / k; across, sum curl A . dq / k; times sqrt(2) for each direction with walls and a
  * mode number, so that their squares add up to S. 0 for an A that the boundaries exclude. In space,
- * `across` is along the first of two directions, and with HD_SECOND along the second [T22]. */
+ * the one across is along the first of two directions, and with HD_SECOND along the second [T22].
+ */
 const double *hd_structure_amplitude(const hd_structure *structure, hd_direction e,
                                      unsigned modulation);
 

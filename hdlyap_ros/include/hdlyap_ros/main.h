@@ -9,7 +9,7 @@ extern "C" {
 
 struct hd_dynamics; /* hdlyap/dynamics.h */
 
-/** Does all of main. The parameter `particles` names a dynamics of the core or one of rows[count];
+/** Does all of main. The parameter particles names a dynamics of the core or one of rows[count];
  * its default is rows[0], or disks without rows. The parameters of a row are read from the
  * parameter server, checked and recorded like all others. Rows must last as long as the process.
  * Returns the exit status (--help). */

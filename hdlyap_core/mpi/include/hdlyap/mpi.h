@@ -1,5 +1,5 @@
-/** The ranks of an MPI program as a communicator. This is the library hdlyap_mpi, which is built if
- * MPI is found. */
+/** The ranks of an MPI program as a communicator: a library of its own, which is built if MPI is
+ * found. */
 #ifndef HDLYAP_MPI_H
 #define HDLYAP_MPI_H
 
