@@ -48,8 +48,7 @@ typedef struct hd_examined {
      * errors are about 0.01 of it. */
     double energy_rounding;
     double momentum[HD_DIMENSION_MAX]; /**< total momentum */
-    double
-        angular_momentum; /**< total, about the middle of the box, along z; a circle conserves it */
+    double angular_momentum; /**< total, about the middle of the box; a circle conserves it */
     double overlap; /**< deepest overlap of a pair now: max(0, 1 - distance), with images [sigma] */
     /** Bound on an overlap from rounding: of positions, which are as large as the box, and of times
      * that are counted from one moment [sigma]. */
@@ -71,16 +70,14 @@ typedef struct hd_passage {
 } hd_passage;
 
 enum {
-    HD_PARTICLES = 32, /**< size of a name */
-    HD_COORDINATES_MAX =
-        1000 /**< coordinates of a particle, so that an int can count those of all */
+    HD_PARTICLES = 32,        /**< size of a name */
+    HD_COORDINATES_MAX = 1000 /**< of a particle, so that an int can count those of all */
 };
 
 /** A row. Members that may be left out say so; they are then 0, false or NULL. */
 struct hd_dynamics {
-    const char
-        *particles;  /**< its name, in the plural: at most 31 characters, and none of the core's */
-    int dimension;   /**< dimension of the box, 2 or 3; 0: there is no box */
+    const char *particles; /**< its name, a plural of at most 31 characters, not of the core's */
+    int dimension;         /**< dimension of the box, 2 or 3; 0: there is no box */
     int coordinates; /**< coordinates of a particle: components of its dq, and of its dp; at most
                           HD_COORDINATES_MAX. The first `dimension` of them are its position */
     size_t entry; /**< bytes of an entry of the record, a multiple of 8; the first 8 are a double */
@@ -153,8 +150,8 @@ struct hd_dynamics {
     /** Writes the integrals from which the gas observable of particles without collisions follows.
      * Only called if the scene asks for HD_OBSERVE_GAS. May be left out. */
     void (*sum)(const void *state, hd_summed *summed);
-    void (*examine)(const void *state,
-                    hd_examined *examined); /**< for the same particles as tell; may be left out */
+    /** For the same particles as tell; may be left out. */
+    void (*examine)(const void *state, hd_examined *examined);
     /** Relative error of the energy now; may be left out if all energy is kinetic, and N. */
     double (*energy_error)(const void *state);
     /** Calls hd_archive_doubles for each array of the state, in the same order for writing and
@@ -164,9 +161,8 @@ struct hd_dynamics {
     double (*bytes)(const hd_scene_def *scene); /**< bytes of the state; may be left out */
 
     /* ---- record; all three may be left out if entries consist of doubles */
-    const char *(*fault)(
-        const hd_record *record,
-        const hd_scene_def *scene); /**< what is wrong with a record that was read, or NULL */
+    /** What is wrong with a record that was read, or NULL. */
+    const char *(*fault)(const hd_record *record, const hd_scene_def *scene);
     void (*archive_record)(hd_record *record, hd_archive *archive, const hd_scene_def *scene);
     double (*record_bytes)(double entries); /**< bytes of so many entries and their maps */
 

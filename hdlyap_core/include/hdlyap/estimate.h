@@ -23,8 +23,8 @@ typedef struct hd_estimate {
     double target_after; /**< averaged time until the target is reached, at least errors_after, from
                               the errors in the trial; NaN if these are not known, or there is no
                               target; INFINITY if it is never reached; 0 without exponents */
-    double
-        slopes_after; /**< averaged time until the sampling errors of c_T and c_L are about 1 % */
+    /** Averaged time until the sampling errors of c_T and c_L are about 1 %. */
+    double slopes_after;
     hd_extent extent;
 } hd_estimate;
 

@@ -34,10 +34,9 @@ typedef struct hd_parameter_word {
 typedef struct hd_parameter {
     const char *name;
     hd_parameter_kind kind;
-    const hd_parameter_word
-        *words;    /**< ends with an entry whose word is NULL; NULL if there are no words */
-    size_t offset; /**< offset of the value in hd_scene_def */
-    double usual;  /**< default */
+    const hd_parameter_word *words; /**< its words, then an entry with NULL; NULL if it has none */
+    size_t offset;                  /**< offset of the value in hd_scene_def */
+    double usual;                   /**< default */
     double least, most;
     const char *allowed; /**< what is allowed, in words */
     const char *unit;    /**< unit; "" if there is none */

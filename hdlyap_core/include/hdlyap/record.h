@@ -13,8 +13,8 @@ HD_API_BEGIN
 
 typedef struct hd_record hd_record;
 
-double
-hd_record_duration(const hd_record *record); /**< simulated time that it covers [time units] */
+/** Simulated time that it covers [time units]. */
+double hd_record_duration(const hd_record *record);
 size_t hd_record_count(const hd_record *record);
 /** Entry k. Its first double is the time since the start of the record. */
 const void *hd_record_entry(const hd_record *record, size_t k);

@@ -26,10 +26,9 @@ HD_API_BEGIN
 /** Where the run stands on its way to the target: the quantity that is farthest from its wanted
  * error. */
 typedef struct hd_standing {
-    char
-        name[HD_QUANTITY_NAME]; /**< e.g. c_T; "" if there is no target: all below has no meaning */
-    double value;               /**< its value; 0 while it is not known, and for smallest */
-    double error;               /**< its standard error; negative while not known */
+    char name[HD_QUANTITY_NAME]; /**< e.g. c_T; "" without a target: nothing below has a meaning */
+    double value;                /**< its value; 0 while it is not known, and for smallest */
+    double error;                /**< its standard error; negative while not known */
     double wanted; /**< wanted error, in the same unit; negative while it is a fraction of an
                       unknown value */
     double open;   /**< part of the error that no averaging reduces; 0 except for c_T, c_L, v */

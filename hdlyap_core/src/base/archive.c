@@ -44,8 +44,7 @@ hd_status hd_archive_end(hd_archive *archive)
 
 static void put(hd_archive *archive, const void *data, size_t size)
 {
-    if (archive->status != HD_OK || size == 0)
-        return; /* crc32 of no bytes would restart the checksum */
+    if (archive->status != HD_OK || size == 0) return; /* crc32 of no bytes starts it anew */
     if (fwrite(data, 1, size, archive->file) != size) {
         archive->error = errno;
         hd_archive_fail(archive, HD_FILE_FAULT, archive->name, NULL);

@@ -18,8 +18,7 @@ struct hd_angles {
     int rows, widest;
     double *basis[2]; /**< [rows * widest] each */
     double *product;  /**< [widest * widest] */
-    double
-        *value[2]; /**< [widest]: sines; cosines, whose memory also holds scalars of reflectors */
+    double *value[2]; /**< [widest]: sines; cosines, and before them scalars of reflectors */
     double *work;
     int lwork;
 };

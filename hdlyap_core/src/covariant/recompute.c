@@ -82,11 +82,12 @@ double hd_recompute_bytes(const hd_recompute_def *def)
 {
     const double kept = hd_store_bytes(frame_of(def), def->slots / def->stretch) +
                         hd_store_bytes(triangle_size(def), def->stretch);
+    const double coupling = def->conjugate ? hd_coupling_bytes(def->of, def->rows, def->threads)
+                                           : 0;
     const double replayed = hd_frame_bytes(def->of, def->rows, def->vectors, def->threads) +
                             hd_ortho_bytes(def->rows, def->vectors, 1) +
                             2.0 * sizeof(double) * def->vectors * def->vectors + /* its factors */
-                            (def->conjugate ? hd_coupling_bytes(def->of, def->rows, def->threads)
-                                            : 0.0);
+                            coupling;
     const double record = hd_record_bytes(2.0 * def->events / (double)def->slots, def->of->entry);
     return kept + replayed + hd_store_bytes(chunk_doubles(def), chunks_of(def)) +
            (double)def->slots * sizeof(stored) + record;

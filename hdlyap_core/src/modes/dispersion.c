@@ -193,8 +193,7 @@ hd_dispersion hd_steps_dispersion(const hd_steps *steps, const hd_spectrum *spec
                                   hd_mode_kind kind)
 {
     const hd_coefficient none = {0.0, -1.0};
-    double
-        of_curvature; /* error of what the form decides; weights, which fluctuate, count as much */
+    double of_curvature; /* error of what the form decides, and of its weights, which fluctuate */
     fit f = begin(steps, kind);
     hd_dispersion d = {.points = f.points,
                        .k_min = f.k_min,

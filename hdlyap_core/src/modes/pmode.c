@@ -94,9 +94,8 @@ static void psi_load(hd_pmode *pmode, hd_columns vectors, int col)
             for (int d = 0; d < of_one; d++)
                 psi[of_one * j + d] = v[(size_t)(2 * of_one * j + d) * stride];
         const double norm = sqrt(dot(psi, psi, components(pmode)));
-        const double scale = norm > HD_MODES_DQ_MIN
-                                 ? 1.0 / norm
-                                 : 0.0; /* dependent vectors: solve refuses them */
+        /* 0: solve refuses dependent vectors */
+        const double scale = norm > HD_MODES_DQ_MIN ? 1.0 / norm : 0.0;
         for (int k = 0; k < components(pmode); k++) psi[k] *= scale;
     }
 }

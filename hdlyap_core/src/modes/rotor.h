@@ -13,8 +13,7 @@ enum { HD_PAIRS_MAX = HD_MODULATIONS_MAX, HD_SLOTS_MAX = 2 * HD_PAIRS_MAX };
 
 typedef struct hd_rotor {
     int step, pairs, slots;
-    int column, next,
-        partner; /**< first field; distance to the next pair; distance within a pair */
+    int column, next, partner; /**< first field; from one pair to the next; within a pair */
     double wave_number;
     hd_track *track; /**< [slots][pairs] */
     int col, count;  /**< the set followed; col -1: none */

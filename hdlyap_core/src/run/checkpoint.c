@@ -182,8 +182,7 @@ static void times_expect(const hd_run *run, hd_archive *archive)
 {
     const hd_schedule *s = &run->agenda.schedule;
     const double now = hd_run_time(run), cut = hd_schedule_cut(s);
-    const bool no_more = cut >= now &&
-                         hd_schedule_stage_end(s) <= now; /* the stage has no length */
+    const bool no_more = cut >= now && hd_schedule_stage_end(s) <= now; /* a stage of no length */
     const bool ahead = s->stage == HD_FINISHED || cut > now || no_more;
     hd_archive_expect(archive, s->start >= 0 && s->start <= s->origin && s->origin <= now && ahead,
                       "schedule", "it does not go on from this time");

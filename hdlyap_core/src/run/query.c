@@ -82,8 +82,7 @@ static void add_progress(hd_cost *cost, const hd_run *run)
     const hd_clocks *clocks = &run->clocks;
     const double now = hd_clock_now(), left = time_left(run, cost->target.left),
                  time = hd_run_time(run);
-    const double carried = time -
-                           clocks->frame_start_time; /* equilibration runs at another speed */
+    const double carried = time - clocks->frame_start_time; /* equilibration has another speed */
     const bool known = clocks->frame_started != 0 && carried > 0 && left < INFINITY;
     cost->wall = now - clocks->created;
     cost->progress = left < INFINITY ? time / fmax(time + left, DBL_MIN) : -1.0;

@@ -142,9 +142,8 @@ static void place(const hd_space_lattice *l, double *q, const int *at, const dou
     for (int d = 0; d < 3; d++) {
         const bool periodic = boundary[d] == HD_PERIODIC;
         const double along = (at[d] + (periodic ? 0.5 : 0.0)) * l->spacing[d];
-        q[d] = periodic ? along
-                        : fmin(0.5 + along,
-                               box[d] - 0.5); /* the last site, rounded, may lie beyond the wall */
+        /* the last site, rounded, may lie beyond the wall */
+        q[d] = periodic ? along : fmin(0.5 + along, box[d] - 0.5);
     }
 }
 

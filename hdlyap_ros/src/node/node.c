@@ -232,8 +232,7 @@ static bool look_after(app *a)
         worker_state state = worker_state_now(a->work);
         state.lost = hdr_node_lost(a->ros);
         end_if_lost(a, &state);
-        if (diagnostics_update(&a->diag, &state))
-            worker_examine(a->work); /* for the next message */
+        if (diagnostics_update(&a->diag, &state)) worker_examine(a->work); /* for the next one */
     }
     worker_stop(a->work);
     return ended || worker_wait(a->work, *a->set.checkpoint || a->ranks ? stop_step_keeping_seconds

@@ -16,9 +16,9 @@ static const parameter name_row = {
     .allowed = "a line that is not empty",
     .unit = "",
     .may_differ = true,
-    .text =
-        "Name of the scene, copied into run_info. A name chooses no system: the scene must also "
-        "give at least one of particles, container, number, density, aspects and boundaries.",
+    .text = "Name of the scene, copied into run_info. A name chooses no system: the scene "
+            "must also give at least one of particles, container, number, density, aspects "
+            "and boundaries.",
 };
 
 static const parameter rows[] = {
@@ -29,10 +29,9 @@ static const parameter rows[] = {
         .usual = "spectrum, modes, steps, lp_phases, fields, state",
         .allowed = "a list out of ",
         .unit = "",
-        .text =
-            "Topics that can be published, beside run_info, status, cost and /diagnostics. A topic "
-            "that nobody listens to is not computed; the table in the log listens to steps and "
-            "lp_phases. Without exponents only gas and state exist.",
+        .text = "Topics that can be published, beside run_info, status, cost and /diagnostics. A "
+                "topic that nobody listens to is not computed; the table in the log listens to "
+                "steps and lp_phases. Without exponents only gas and state exist.",
     },
     {
         .name = "field_indices",
@@ -44,8 +43,7 @@ static const parameter rows[] = {
         .may_differ = true,
         .needs = 1u << TOPIC_fields,
         .text = "Vectors that are published as fields: one of each step that is found, or these "
-                "Lyapunov "
-                "indices.",
+                "Lyapunov indices.",
     },
     {
         .name = "slow_vectors_rate",
@@ -68,8 +66,7 @@ static const parameter rows[] = {
         .unit = "",
         .may_differ = true,
         .text = "Number of slowest vectors in each message of slow_vectors. 0: all down to the "
-                "lowest T "
-                "and LP steps that are found.",
+                "lowest T and LP steps that are found.",
     },
     {
         .name = "field_interval",
@@ -82,9 +79,8 @@ static const parameter rows[] = {
         .may_differ = true,
         .live = true,
         .text = "Simulated time between publications of fields, and of means in structure: with "
-                "the first "
-                "and the last report of the averaging, and with the first report at or after each "
-                "multiple of this time. Each costs an orthonormalisation.",
+                "the first and the last report of the averaging, and with the first report at or "
+                "after each multiple of this time. Each costs an orthonormalisation.",
     },
     {
         .name = "wait_for_subscribers",
@@ -94,9 +90,8 @@ static const parameter rows[] = {
         .allowed = "all or a list out of ",
         .unit = "",
         .may_differ = true,
-        .text =
-            "Topics that must have a subscriber before the run starts, so that it misses nothing. "
-            "all: run_info, status, cost and the observables.",
+        .text = "Topics that must have a subscriber before the run starts, so that it misses "
+                "nothing. all: run_info, status, cost and the observables.",
     },
     {
         .name = "pace",
@@ -109,9 +104,8 @@ static const parameter rows[] = {
         .may_differ = true,
         .live = true,
         .at_once = true,
-        .text = "Largest simulated time per wall second during the averaging. The stages before it "
-                "have "
-                "no limit.",
+        .text = "Largest simulated time per wall second during the averaging. The stages before "
+                "it have no limit.",
     },
     {
         .name = "changes",
@@ -121,8 +115,8 @@ static const parameter rows[] = {
         .allowed = "a list of texts \"TIME NAME=VALUE\"",
         .unit = "",
         .may_differ = true,
-        .text =
-            "Changes at given simulated times, by which a run is repeated in which ~set was used.",
+        .text = "Changes at given simulated times, by which a run is repeated in which ~set was "
+                "used.",
     },
     {
         .name = "checkpoint",
@@ -132,9 +126,8 @@ static const parameter rows[] = {
         .allowed = "a path in one line",
         .unit = "",
         .may_differ = true,
-        .text =
-            "File in which the run is kept so that it can be resumed, written completely or not at "
-            "all. Empty: no file.",
+        .text = "File in which the run is kept so that it can be resumed, written completely or "
+                "not at all. Empty: no file.",
     },
     {
         .name = "checkpoint_interval",
@@ -146,8 +139,7 @@ static const parameter rows[] = {
         .unit = "s",
         .may_differ = true,
         .text = "Wall time between two writings of the checkpoint. It is also written at the end "
-                "and by "
-                "~checkpoint.",
+                "and by ~checkpoint.",
     },
     {
         .name = "resume",
@@ -168,9 +160,8 @@ static const parameter rows[] = {
         .allowed = "from 0 (none) to 1e12",
         .unit = "s",
         .may_differ = true,
-        .text =
-            "Shortest wall time between two tables of the steps in the log, which come when the "
-            "averaged time has doubled or more steps are known, and at the end.",
+        .text = "Shortest wall time between two tables of the steps in the log, which come when "
+                "the averaged time has doubled or more steps are known, and at the end.",
     },
 };
 enum { ROWS = sizeof rows / sizeof *rows };

@@ -25,9 +25,8 @@ static const double examination_share = 0.01;
 
 /** A change that a service asks for, and the worker's answer. */
 typedef struct set_request {
-    bool waits, taken,
-        made; /**< taken: the worker handles it, and the caller waits for the answer */
-    const char *assignment; /**< the caller's text, as the next; NULL: the averaging is to end */
+    bool waits, taken, made; /**< taken: the worker is at it; its caller waits for the answer */
+    const char *assignment;  /**< the caller's text, as the next; NULL: the averaging is to end */
     char *message;
     size_t size;
 } set_request;

@@ -93,14 +93,7 @@ static void gather_weights(arrays *r, const hd_covariant_results *seen)
 
 static void gather_orders(arrays *r, const hd_covariant_results *seen)
 {
-    for (int k = 0; k < seen->times; k++)
-        r->order[k] = (hdr_growth_order){
-            .time = seen->order[k].time,
-            .count = (uint64_t)seen->order[k].count,
-            .violations = message_array(seen->order[k].violations, r->vectors - 1, 1),
-            .domination_violations = message_array(seen->order[k].domination_violations,
-                                                   r->vectors - 1, 1),
-        };
+    for (int k = 0; k < seen->times; k++) r->order[k] = growth_order(seen->order[k], r->vectors);
 }
 
 static hdr_covariant message_of(arrays *r, const hd_run *run, const hd_covariant_results *seen)

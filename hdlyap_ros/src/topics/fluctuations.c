@@ -65,14 +65,7 @@ static void gather_times(arrays *a)
 {
     const int count = a->of.count;
     for (int k = 0; k < a->times; k++) {
-        const hd_order_over order = hd_fluctuations_order(a->f, k);
-        const uint32_t n = (uint32_t)a->vectors - 1;
-        a->order[k] = (hdr_growth_order){
-            .time = order.time,
-            .count = (uint64_t)order.count,
-            .violations = message_array(order.violations, n, 1),
-            .domination_violations = message_array(order.domination_violations, n, 1),
-        };
+        a->order[k] = growth_order(hd_fluctuations_order(a->f, k), (size_t)a->vectors);
         for (int col = 0; col < a->vectors; col++)
             a->variances[k * a->vectors + col] = hd_fluctuations_variance(a->f, k, col);
         for (int p = 0; p < count * count; p++)

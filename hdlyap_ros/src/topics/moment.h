@@ -70,6 +70,17 @@ static inline hdr_doubles message_array(const double *data, size_t count, size_t
     return (hdr_doubles){.data = data, .count = (uint32_t)count, .stride = (uint32_t)stride};
 }
 
+/** The order of the growth of this many vectors over times of one length, for a message. */
+static inline hdr_growth_order growth_order(hd_order_over order, size_t vectors)
+{
+    return (hdr_growth_order){
+        .time = order.time,
+        .count = (uint64_t)order.count,
+        .violations = message_array(order.violations, vectors - 1, 1),
+        .domination_violations = message_array(order.domination_violations, vectors - 1, 1),
+    };
+}
+
 /** The dimension of space. */
 static inline int moment_dimension(const moment *now) { return hd_scene_dimension(&now->set->def); }
 
