@@ -185,11 +185,11 @@ static void print_row(const parameter *p, const char *particles)
     snprintf(text, sizeof text, "%s%s%s%s", particles ? "For " : "", particles ? particles : "",
              particles ? " only. " : "", p->text);
     print_cell(text);
-    printf("\n");
+    printf("|\n");
 }
 
 int parameters_print_table(void)
 {
-    printf("| parameter | allowed | default | change | what\n|---|---|---|---|---\n");
+    printf("| parameter | allowed | default | change | what |\n|---|---|---|---|---|\n");
     return print_all(print_row);
 }
