@@ -47,7 +47,7 @@ struct scene {
         std::snprintf(h.scene, sizeof h.scene, "a scene");
         std::snprintf(h.particles, sizeof h.particles, "disks");
         h.stage = HDR_RUN_STATUS_AVERAGING;
-        h.disks = static_cast<uint32_t>(disks);
+        h.number = static_cast<uint32_t>(disks);
         h.box[0] = width;
         h.box[1] = height;
         h.time = h.vector_time = 12.5;

@@ -47,6 +47,7 @@ EVERY_LINE = dict(
     aspect=0.06,
     boundary_y='reflecting',
     duration=2000.0,
+    fluctuation_time=1.0,  # auto depends on the interval, so on the machine
     report_interval=5.0,  # so that computing takes longer than recording, everywhere
     threads=1,
     observables=[topic for topic in OBSERVABLES if topic != 'gas'] + ['covariant'],

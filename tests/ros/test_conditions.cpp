@@ -122,7 +122,7 @@ worker_state healthy()
     state.warning = "";
     state.particles = "disks";
     state.last.cost.stalled_since = -1.0;
-    state.disks = {true, 1e-16, 1e-13, 1e-15, 1e-12};
+    state.seen = {true, 1e-16, 1e-13, 1e-15, 1e-12};
     return state;
 }
 
@@ -146,8 +146,8 @@ TEST(Conditions, EachHasItsLevelAndMessage)
     fault.status = HD_ILL_CONDITIONED;
     unkept.checkpoint.failed = true;
     snprintf(unkept.checkpoint.message, sizeof unkept.checkpoint.message, "disk full");
-    deep.disks.overlap = 1e-12;
-    warm.disks.energy_error = NAN;
+    deep.seen.overlap = 1e-12;
+    warm.seen.energy_error = NAN;
     lost.lost = 12.3;
     stalled.last.averaged = 32;
     stalled.last.cost.std_error = stalled.last.cost.stalled_error = 0.5;

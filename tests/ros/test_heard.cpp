@@ -80,7 +80,7 @@ TEST(heard, before_the_first_message)
     picture p = on.drawn();
     EXPECT_EQ(-1.0, p.run->time);
     EXPECT_TRUE(disks_of(p).empty());
-    EXPECT_EQ(DISKS, p.run->disks);
+    EXPECT_EQ(DISKS, p.run->number);
     hdr_run_status status = {};
     status.run_id = "run", status.sim_time = 2.0; // a bag without places
     heard_run_status(&on.h, &status);

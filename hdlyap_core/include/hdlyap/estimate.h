@@ -14,7 +14,7 @@ hd_extent hd_extent_of(const hd_scene_def *def, const hd_run *run);
 typedef struct hd_estimate {
     unsigned untried; /**< HD_OBSERVE_* of the scene that the trial leaves out; the run takes longer
                          with them */
-    int disks; /**< particles of the trial: fewer than the scene's if that would take too long */
+    int particles; /**< particles of the trial: fewer than the scene's if that would take too long */
     double seconds;      /**< wall seconds per simulated time unit of the averaging */
     double interval;     /**< mean time between orthonormalisations; NaN without exponents */
     double before;       /**< simulated time before the averaging [time units] */

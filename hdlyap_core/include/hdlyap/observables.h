@@ -25,7 +25,7 @@ typedef struct hd_parts {
 /** Numbers of results of a run; 0 for what the scene does not ask for. */
 typedef struct hd_extent {
     int dimension, coordinates; /**< dimension of space; coordinates of a particle */
-    int disks, vectors;
+    int particles, vectors;
     int waves; /**< waves of the structure factors */
     int subspaces,
         angles; /**< subspaces of fields, and pairs of spaces with angles, of covariant vectors */

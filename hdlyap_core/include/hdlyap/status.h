@@ -33,7 +33,7 @@ HD_API_BEGIN
     X(HD_NO_MEMORY, "out of memory")                                                               \
     X(HD_NOT_FINITE, "a result is not finite")                                                     \
     X(HD_ILL_CONDITIONED, "the tangent frame became too ill-conditioned to be repaired")           \
-    X(HD_OVERLAP, "two disks overlap by more than rounding")                                       \
+    X(HD_OVERLAP, "two particles overlap by more than rounding")                                       \
     X(HD_FILE_FAULT, "a file could not be read or written")                                        \
     X(HD_NO_ROOM, "windows of covariant vectors do not fit covariant_memory")                      \
     X(HD_RANKS_APART, "ranks have computed different trajectories")                                \

@@ -32,7 +32,7 @@ struct hd_history {
     double time;
 };
 
-static int rows_of(const hd_history_def *def) { return 2 * def->of->coordinates * def->disks; }
+static int rows_of(const hd_history_def *def) { return 2 * def->of->coordinates * def->particles; }
 
 static size_t snapshot_size(const hd_history_def *def)
 {
@@ -86,7 +86,7 @@ static hd_status allocate(hd_history *past)
     const hd_recompute_def again = recompute_of(def);
     if (def->recompute) return hd_recompute_create(&past->recompute, &again);
     if (def->conjugate)
-        HD_TRY(hd_coupling_create(&past->coupling, def->of, def->disks, def->threads));
+        HD_TRY(hd_coupling_create(&past->coupling, def->of, def->particles, def->threads));
     return hd_store_create(&past->triangles, triangle, past->slots);
 }
 

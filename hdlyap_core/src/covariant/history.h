@@ -11,7 +11,7 @@
 /** How much is kept, and how. */
 typedef struct hd_history_def {
     const hd_dynamics *of;
-    int disks, vectors, threads;
+    int particles, vectors, threads;
     bool conjugate; /**< half of the vectors are carried: triangles are R and Y [T18] */
     long intervals; /**< of which triangles are kept, at most */
     long snapshots; /**< at most */

@@ -21,7 +21,7 @@ hd_history_def hd_window_history(const hd_scene_def *def, double interval, doubl
                  looks = ceil(both / def->covariant_sampling) + 4.0;
     const double most = 1e9; /* far beyond any room */
     return (hd_history_def){.of = hd_dynamics_of(def),
-                            .disks = def->number,
+                            .particles = def->number,
                             .vectors = hd_scene_carried(def),
                             .threads = threads > 0 ? threads : 1,
                             .conjugate = hd_scene_carried(def) < hd_scene_vectors(def),

@@ -20,7 +20,7 @@
 #include "scene/null_space.h"
 
 struct hd_fields {
-    int dimension, coordinates, disks, columns, stride, subspaces;
+    int dimension, coordinates, particles, columns, stride, subspaces;
     hd_harmonics along[HD_DIMENSION_MAX];
     hd_null_space null;
     const hd_container_row *container;
@@ -97,7 +97,7 @@ static hd_status waves_prepare(hd_fields *fields, const hd_scene_def *def)
 
 static size_t components(const hd_fields *fields)
 {
-    return (size_t)fields->coordinates * (size_t)fields->disks;
+    return (size_t)fields->coordinates * (size_t)fields->particles;
 }
 
 static hd_status fields_prepare(hd_fields *fields, const hd_scene_def *def)
@@ -121,7 +121,7 @@ hd_status hd_fields_create(hd_fields **out, const hd_scene_def *def)
     if (!fields) return HD_NO_MEMORY;
     fields->dimension = hd_scene_dimension(def);
     fields->coordinates = hd_scene_coordinates(def);
-    fields->disks = def->number;
+    fields->particles = def->number;
     const hd_status status = fields_prepare(fields, def);
     if (status == HD_OK)
         *out = fields;
@@ -177,7 +177,7 @@ static void sample_curved(hd_fields *fields, double *const *row, const double *q
         hd_curved_fields_fill(row, &fields->subspace[s], fields->container, fields->own[s], q, p);
 }
 
-static void sample_disk(hd_fields *fields, double *const *row, const double *q, const double *p)
+static void sample_particle(hd_fields *fields, double *const *row, const double *q, const double *p)
 {
     const int null = fields->columns - hd_fields_nulls(fields);
     if (fields->own)
@@ -210,10 +210,10 @@ static void normalise(hd_fields *fields)
 void hd_fields_sample(hd_fields *fields, const double *q, const double *p)
 {
     const size_t stride = (size_t)fields->stride, of_one = (size_t)fields->coordinates;
-    for (size_t j = 0; j < (size_t)fields->disks; j++) {
+    for (size_t j = 0; j < (size_t)fields->particles; j++) {
         for (size_t d = 0; d < of_one; d++)
             fields->row[d] = fields->data + (of_one * j + d) * stride;
-        sample_disk(fields, fields->row, q + of_one * j, p + of_one * j);
+        sample_particle(fields, fields->row, q + of_one * j, p + of_one * j);
     }
     normalise(fields);
 }

@@ -34,8 +34,8 @@ enum { DIMENSION_MAX = HD_FIELDS_MAX, BLOCK = 128 };
 struct hd_modes {
     hd_fields *fields;
     hd_scene_def scene;
-    int disks, vectors, threads;
-    int dimension, coordinates; /**< of the space, of a disk */
+    int particles, vectors, threads;
+    int dimension, coordinates; /**< of the space, of a particle */
     int widest;                 /**< fields of the largest subspace that there may be */
     size_t stride;              /**< of every array over the vectors */
     double *gram;               /**< [columns][widest]: products with the own subspace's fields */
@@ -125,7 +125,7 @@ hd_status hd_modes_create(hd_modes **out, const hd_scene_def *def, int vectors, 
     *out = NULL;
     if (!modes) return HD_NO_MEMORY;
     modes->scene = *def;
-    modes->disks = def->number;
+    modes->particles = def->number;
     modes->dimension = hd_scene_dimension(def);
     modes->coordinates = hd_scene_coordinates(def);
     modes->widest = HD_FIELDS_IN(modes->dimension);
@@ -164,7 +164,7 @@ static void overlaps(const hd_modes *modes, hd_columns v, int half, int column, 
 {
     const int fields = hd_fields_stride(modes->fields), rows = 2 * modes->coordinates;
     for (int d = 0; d < modes->coordinates; d++)
-        hd_dgemm(CblasNoTrans, CblasTrans, v.count, count, modes->disks, 1.0,
+        hd_dgemm(CblasNoTrans, CblasTrans, v.count, count, modes->particles, 1.0,
                  v.data + (size_t)(half + d) * (size_t)v.stride, rows * v.stride,
                  hd_fields_data(modes->fields) + (size_t)d * (size_t)fields + column,
                  modes->coordinates * fields, d > 0, out + v.first, (int)modes->stride);
@@ -181,7 +181,7 @@ static void gram_fill(hd_modes *modes)
 {
     const size_t columns = (size_t)hd_fields_columns(modes->fields);
     const size_t stride = (size_t)hd_fields_stride(modes->fields),
-                 rows = (size_t)modes->coordinates * (size_t)modes->disks;
+                 rows = (size_t)modes->coordinates * (size_t)modes->particles;
     const int widest = modes->widest;
     memset(modes->gram, 0, columns * (size_t)widest * sizeof *modes->gram);
     for (size_t row = 0; row < rows; row++)
@@ -196,7 +196,7 @@ static void gram_fill(hd_modes *modes)
 
 static void dq_norms(hd_modes *modes, hd_columns v)
 {
-    const int n = v.count, half = modes->coordinates, rows = 2 * half * modes->disks;
+    const int n = v.count, half = modes->coordinates, rows = 2 * half * modes->particles;
 #pragma omp parallel for schedule(static) num_threads(modes->threads) if (modes->threads > 1)
     for (int col = 0; col < n; col += BLOCK) {
         const int end = col + BLOCK < n ? col + BLOCK : n;
@@ -274,7 +274,7 @@ static void measure_turning(hd_modes *modes, hd_columns v)
     const int of_one = 2 * modes->coordinates;
     double *out = row_of(modes->snapshot, weight_rows(modes) - 1, modes);
     memset(out + v.first, 0, (size_t)v.count * sizeof *out);
-    for (int j = 0; j < modes->disks; j++)
+    for (int j = 0; j < modes->particles; j++)
         for (int d = modes->dimension; d < modes->coordinates; d++)
             add_squares(out + v.first, v.data + (size_t)(of_one * j + d) * (size_t)v.stride,
                         v.count);

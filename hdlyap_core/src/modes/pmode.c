@@ -20,7 +20,7 @@
 enum { DIMENSION_MAX = HD_FIELDS_MAX };
 
 struct hd_pmode {
-    int disks, coordinates; /**< of a disk */
+    int particles, coordinates; /**< of a particle */
     int dimension;          /**< 2d */
     double *psi;            /**< [HD_FIELDS_IN(dimension)][coordinates * disks] */
     double *field;          /**< same */
@@ -47,7 +47,7 @@ hd_status hd_pmode_create(hd_pmode **out, const hd_scene_def *def)
     hd_pmode *pmode = hd_memory_alloc(1, sizeof *pmode);
     *out = NULL;
     if (!pmode) return HD_NO_MEMORY;
-    pmode->disks = def->number;
+    pmode->particles = def->number;
     pmode->coordinates = hd_scene_coordinates(def);
     pmode->psi = hd_memory_alloc(size, sizeof(double));
     pmode->field = hd_memory_alloc(size, sizeof(double));
@@ -68,7 +68,7 @@ void hd_pmode_free(hd_pmode *pmode)
 }
 
 /** Number of components of all particles. */
-static int components(const hd_pmode *pmode) { return pmode->coordinates * pmode->disks; }
+static int components(const hd_pmode *pmode) { return pmode->coordinates * pmode->particles; }
 
 static double *row_of(double *rows, int row, const hd_pmode *pmode)
 {
@@ -90,7 +90,7 @@ static void psi_load(hd_pmode *pmode, hd_columns vectors, int col)
     for (int m = 0; m < pmode->dimension; m++) {
         double *psi = row_of(pmode->psi, m, pmode);
         const double *v = vectors.data + (col - vectors.first) + m;
-        for (int j = 0; j < pmode->disks; j++)
+        for (int j = 0; j < pmode->particles; j++)
             for (int d = 0; d < of_one; d++)
                 psi[of_one * j + d] = v[(size_t)(2 * of_one * j + d) * stride];
         const double norm = sqrt(dot(psi, psi, components(pmode)));

@@ -35,16 +35,16 @@ typedef struct planned {
 } planned;
 
 struct hd_structure {
-    int disks, vectors, waves, threads;
-    int dimension, coordinates; /**< of the space, of a disk */
+    int particles, vectors, waves, threads;
+    int dimension, coordinates; /**< of the space, of a particle */
     size_t functions;           /**< functions of a wave */
     size_t amplitudes;          /**< most amplitudes of a direction */
     size_t width;               /**< functions of the waves that are taken at once */
     hd_harmonics along[HD_DIMENSION_MAX];
     planned *plan;                   /**< [waves] */
     size_t stride;                   /**< of every array over the vectors */
-    double *value[HD_DIMENSION_MAX]; /**< [disks][2 (nodes + 1)]: harmonics of each disk */
-    double *factor;                  /**< [disks][width]: of one component and some waves */
+    double *value[HD_DIMENSION_MAX]; /**< [particles][2 (nodes + 1)]: harmonics of each particle */
+    double *factor;                  /**< [particles][width]: of one component and some waves */
     double *sum[HD_DIMENSION_MAX];   /**< [width][stride]: of dq_x, dq_y, .. times these */
     double *snapshot;                /**< [waves][HD_DIRECTIONS][stride] */
     double *mean;                    /**< same, over samples */
@@ -129,19 +129,19 @@ double hd_structure_bytes(const hd_scene_def *scene, double vectors)
 
 static hd_status prepare(hd_structure *s, const hd_scene_def *def)
 {
-    const size_t disks = (size_t)def->number, waves = (size_t)s->waves, n = s->stride;
+    const size_t particles = (size_t)def->number, waves = (size_t)s->waves, n = s->stride;
     HD_TRY(plan_waves(s, def));
     for (int d = 0; d < s->dimension; d++) {
         const size_t functions = 2 * ((size_t)s->along[d].nodes + 1);
         HD_TRY(hd_harmonics_create(&s->along[d], def, d, s->along[d].nodes));
-        s->value[d] = hd_memory_alloc(disks * functions, sizeof(double));
+        s->value[d] = hd_memory_alloc(particles * functions, sizeof(double));
         s->sum[d] = hd_memory_alloc(s->width * n, sizeof(double));
         if (!s->value[d] || !s->sum[d]) return HD_NO_MEMORY;
     }
     struct {
         double **array;
         size_t size;
-    } wanted[] = {{&s->factor, disks * s->width},
+    } wanted[] = {{&s->factor, particles * s->width},
                   {&s->work, AT_ONCE * n},
                   {&s->snapshot, waves * HD_DIRECTIONS * n + 1},
                   {&s->mean, waves * HD_DIRECTIONS * n + 1},
@@ -162,7 +162,7 @@ hd_status hd_structure_create(hd_structure **out, const hd_scene_def *def, int v
     hd_structure *s = hd_memory_alloc(1, sizeof *s);
     *out = NULL;
     if (!s) return HD_NO_MEMORY;
-    s->disks = def->number;
+    s->particles = def->number;
     s->dimension = hd_scene_dimension(def);
     s->coordinates = hd_scene_coordinates(def);
     s->functions = HD_MODULATIONS_IN(s->dimension);
@@ -205,7 +205,7 @@ static void fill_values(hd_structure *s, const double *q)
 {
     for (int d = 0; d < s->dimension; d++) {
         const size_t size = 2 * ((size_t)s->along[d].nodes + 1);
-        for (int j = 0; j < s->disks; j++) {
+        for (int j = 0; j < s->particles; j++) {
             hd_harmonics_fill(&s->along[d], q[s->coordinates * j + d]);
             memcpy(s->value[d] + (size_t)j * size, s->along[d].value, size * sizeof(double));
         }
@@ -222,14 +222,14 @@ static void fill_factor(hd_structure *s, const planned *p, unsigned bits, int co
         of[d] = s->value[d] + 2 * p->wave.n[d] + (bits >> d & 1);
         size[d] = 2 * ((size_t)s->along[d].nodes + 1);
     }
-    for (size_t j = 0; j < (size_t)s->disks; j++) {
+    for (size_t j = 0; j < (size_t)s->particles; j++) {
         double product = of[0][j * size[0]];
         for (int d = 1; d < s->dimension; d++) product *= of[d][j * size[d]];
         s->factor[j * s->width + (size_t)column] = product;
     }
 }
 
-/** Fills factor[disks][width] for component d and waves [from, to); returns the number of columns.
+/** Fills factor[particles][width] for component d and waves [from, to); returns the number of columns.
  */
 static int fill_factors(hd_structure *s, int d, int from, int to)
 {
@@ -249,7 +249,7 @@ static void sum_up(hd_structure *s, hd_columns v, int from, int to)
     for (int d = 0; d < s->dimension; d++) {
         const int columns = fill_factors(s, d, from, to);
         if (columns == 0) continue;
-        hd_dgemm(CblasNoTrans, CblasTrans, v.count, columns, s->disks, 1.0,
+        hd_dgemm(CblasNoTrans, CblasTrans, v.count, columns, s->particles, 1.0,
                  v.data + (size_t)d * (size_t)v.stride, 2 * s->coordinates * v.stride, s->factor,
                  (int)s->width, 0.0, s->sum[d] + v.first, (int)s->stride);
     }

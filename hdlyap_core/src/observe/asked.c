@@ -69,7 +69,7 @@ hd_extent hd_observables_extent(const hd_scene_def *scene, void *const *part)
 {
     hd_extent extent = {.dimension = hd_scene_dimension(scene),
                         .coordinates = hd_scene_coordinates(scene),
-                        .disks = scene->number,
+                        .particles = scene->number,
                         .vectors = hd_scene_vectors(scene)};
     for (int k = 0; k < HD_OBSERVED; k++) {
         const hd_observable *row = hd_observable_rows[k];

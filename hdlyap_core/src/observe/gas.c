@@ -33,7 +33,7 @@ typedef struct counts {
 struct hd_gas {
     int dimension, coordinates, series;
     bool is_summed;
-    double disks, area;
+    double particles, area;
     double momenta;                   /**< number of free momenta */
     double kinetic[HD_DIMENSION_MAX]; /**< twice the mean kinetic energy along each direction, for
                                            particles that collide */
@@ -82,7 +82,7 @@ hd_status hd_gas_create(hd_gas **out, const hd_scene_def *def, double block)
     gas->coordinates = hd_scene_coordinates(def);
     gas->is_summed = hd_dynamics_of(def)->sum;
     gas->series = series_of(def);
-    gas->disks = def->number;
+    gas->particles = def->number;
     gas->area = hd_gas_area(def);
     for (int d = 0; d < gas->dimension; d++) gas->momenta += momenta(def, d);
     for (int d = 0; d < gas->dimension; d++)
@@ -169,11 +169,11 @@ static void read_pressures(hd_gas_means *m, const hd_gas *gas, double t)
 /** Means of particles that collide: all their energy is kinetic. */
 static void read_counted(hd_gas_means *m, const hd_gas *gas, double t)
 {
-    const double each = 2.0 / gas->disks, half = gas->coordinates / 2.0;
+    const double each = 2.0 / gas->particles, half = gas->coordinates / 2.0;
     m->collision_rate = each * gas->sum[COLLISIONS] / t;
     m->collision_rate_error = error_of(gas, (span){COLLISIONS, COLLISIONS, each}, NO_SPAN);
-    m->compressibility = m->pressure * gas->area / gas->disks * half;
-    m->compressibility_error = times(m->pressure_error, gas->area / gas->disks * half);
+    m->compressibility = m->pressure * gas->area / gas->particles * half;
+    m->compressibility_error = times(m->pressure_error, gas->area / gas->particles * half);
     m->temperature = m->potential_energy = NAN;
     m->temperature_error = m->potential_energy_error = -1.0;
 }
@@ -194,8 +194,8 @@ static void read_summed(hd_gas_means *m, const hd_gas *gas, double t)
                                         (span){x, last, -virial / (twice * twice)});
     m->temperature = twice / gas->momenta;
     m->temperature_error = error_of(gas, (span){x, last, 1.0 / gas->momenta}, NO_SPAN);
-    m->potential_energy = gas->sum[POTENTIAL] / t / gas->disks;
-    m->potential_energy_error = error_of(gas, (span){POTENTIAL, POTENTIAL, 1.0 / gas->disks},
+    m->potential_energy = gas->sum[POTENTIAL] / t / gas->particles;
+    m->potential_energy_error = error_of(gas, (span){POTENTIAL, POTENTIAL, 1.0 / gas->particles},
                                          NO_SPAN);
 }
 

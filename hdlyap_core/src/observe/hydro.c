@@ -19,7 +19,7 @@
 /** Holds a response for each vector of each step and each modulation; see entries_of. */
 struct hd_hydro {
     hd_boundary boundary[HD_DIMENSION_MAX];
-    int dimension, disks, count;
+    int dimension, particles, count;
     hd_hydro_response *response; /**< [count] */
 };
 
@@ -38,7 +38,7 @@ hd_status hd_hydro_create(hd_hydro **out, const hd_scene_def *def, const hd_step
     if (!hydro) return HD_NO_MEMORY;
     memcpy(hydro->boundary, def->boundary, sizeof hydro->boundary);
     hydro->dimension = hd_scene_dimension(def);
-    hydro->disks = def->number;
+    hydro->particles = def->number;
     for (int k = 0; k < hd_steps_count(steps); k++)
         hydro->count += entries_of(hd_steps_step(steps, k));
     hydro->response = hd_memory_alloc((size_t)hydro->count + 1, sizeof *hydro->response);
@@ -65,7 +65,7 @@ static void measure(const hd_hydro *hydro, double sum[HD_FUNCTIONALS_MAX][HD_SET
     const size_t stride = (size_t)vectors.stride;
     const int dimension = hydro->dimension, rows = 2 * dimension;
     memset(sum, 0, HD_FUNCTIONALS_MAX * sizeof *sum);
-    for (int j = 0; j < hydro->disks; j++) {
+    for (int j = 0; j < hydro->particles; j++) {
         const double *row = vectors.data + (size_t)(rows * j) * stride +
                             (step->col - vectors.first);
         hd_functionals f;
@@ -84,7 +84,7 @@ static void step_measure(hd_hydro *hydro, hd_hydro_response *out, const hd_steps
 {
     const hd_step *step = hd_steps_step(steps, index);
     const hd_modulations m = step->wave.pairs;
-    const double scale = 1.0 / sqrt(0.5 * hydro->disks);
+    const double scale = 1.0 / sqrt(0.5 * hydro->particles);
     double sum[HD_FUNCTIONALS_MAX][HD_SET_VECTORS_MAX];
     for (int c = 0; c < m.count; c++) {
         int found = 0;

@@ -13,7 +13,7 @@ static const double SHORTEST = 1e-12;
 
 /** Events of one particle per time unit, roughly; an event of two counts for both. The first plans
  * follow from it, later ones from what is measured. */
-static double events_per_disk(const hd_scene_def *scene)
+static double events_per_particle(const hd_scene_def *scene)
 {
     return 2.0 * hd_dynamics_of(scene)->entries(scene) / scene->number;
 }
@@ -27,7 +27,7 @@ double hd_advance_most(const hd_scene_def *scene)
 hd_status hd_advance_create(hd_advance *advance, const hd_scene_def *scene)
 {
     HD_TRY(hd_trajectory_create(&advance->trajectory, scene));
-    const double rate = events_per_disk(scene);
+    const double rate = events_per_particle(scene);
     advance->entries = hd_dynamics_of(scene)->entries(scene);
     advance->most = hd_advance_most(scene);
     advance->longest = 1e-3 / rate;

@@ -64,7 +64,7 @@ static hd_status agree(const hd_carrier *c, hd_status status)
 
 static hd_status create_random(hd_carrier *c, uint64_t seed)
 {
-    return hd_frame_create_shared(&c->frame, c->of, c->disks, c->carried, seed, c->threads,
+    return hd_frame_create_shared(&c->frame, c->of, c->particles, c->carried, seed, c->threads,
                                   c->communicator);
 }
 
@@ -97,7 +97,7 @@ static hd_status prepare_threads(hd_carrier *c, const hd_scene_def *scene)
     const int granted = c->threads = hd_blas_threads_granted(most);
     hd_blas_use_threads(granted);
     if (scene->threads == 0 && !c->communicator)
-        HD_TRY(hd_threads_choose(&c->threads, c->ortho, c->of, c->disks, c->carried, granted));
+        HD_TRY(hd_threads_choose(&c->threads, c->ortho, c->of, c->particles, c->carried, granted));
     c->threads_denied = c->threads == granted ? most - granted : 0;
     hd_blas_use_threads(c->threads);
     return HD_OK;
@@ -154,7 +154,7 @@ hd_status hd_carrier_create(hd_carrier *c, const hd_scene_def *scene, double col
     const double limit = scene->interval > 0 ? scene->interval : INFINITY;
     *c = (hd_carrier){.communicator = communicator,
                       .of = hd_dynamics_of(scene),
-                      .disks = scene->number,
+                      .particles = scene->number,
                       .vectors = hd_scene_vectors(scene),
                       .carried = hd_scene_carried(scene),
                       .positive = hd_scene_positive_exponents(scene),

@@ -19,7 +19,7 @@ typedef struct hd_rounding {
 typedef struct hd_carrier {
     hd_communicator *communicator; /**< NULL: a single rank */
     const hd_dynamics *of;
-    int disks, vectors, carried, positive, threads, threads_denied;
+    int particles, vectors, carried, positive, threads, threads_denied;
     double accuracy, collision; /**< asked of an exponent; time between two collisions of a disk */
     hd_record *record;
     hd_frame *frame;

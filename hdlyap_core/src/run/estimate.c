@@ -106,7 +106,7 @@ static double target_after(const hd_run *run, const hd_scene_def *def)
  * that of sound through the box. */
 static void enlarge(hd_estimate *e, const hd_scene_def *tried, const hd_scene_def *def)
 {
-    e->disks = tried->number;
+    e->particles = tried->number;
     if (tried->number == def->number) return;
     e->seconds *= pow((double)def->number / tried->number, 3.0);
     e->errors_after *= hd_scene_sound_crossing(def) / hd_scene_sound_crossing(tried);

@@ -69,10 +69,10 @@ hd_status hd_ranks_check(const hd_scene_def *def, hd_communicator *c, char *mess
     return all;
 }
 
-hd_status hd_ranks_compare(hd_communicator *c, const hd_trajectory *disks)
+hd_status hd_ranks_compare(hd_communicator *c, const hd_trajectory *trajectory)
 {
     if (!c) return HD_OK;
-    const uint32_t own = hd_trajectory_fingerprint(disks);
+    const uint32_t own = hd_trajectory_fingerprint(trajectory);
     uint32_t first = own;
     hd_communicator_broadcast(c, &first, sizeof first);
     return hd_communicator_agree(c, own == first ? HD_OK : HD_RANKS_APART);

@@ -50,7 +50,7 @@ static int exponents_that_fit(const hd_scene_def *def, hd_room room)
     return most_that_fits(&copy, room, &copy.exponents);
 }
 
-static int disks_that_fit(const hd_scene_def *def, hd_room room)
+static int particles_that_fit(const hd_scene_def *def, hd_room room)
 {
     hd_scene_def copy = *def;
     return most_that_fits(&copy, room, &copy.number);
@@ -72,12 +72,12 @@ hd_status hd_room_check(const hd_scene_def *def, hd_room room, char *message, si
     char fitting[96] = "nothing of it would fit";
     if (fits(def, room)) return HD_OK;
     const int exponents = n > 0 ? about(exponents_that_fit(def, room)) : 0;
-    const int disks = about(disks_that_fit(def, room));
+    const int particles = about(particles_that_fit(def, room));
     if (exponents > 0)
         snprintf(fitting, sizeof fitting, "exponents = %d would fit, or number = %d", exponents,
-                 disks);
-    else if (disks > 0)
-        snprintf(fitting, sizeof fitting, "number = %d would fit", disks);
+                 particles);
+    else if (particles > 0)
+        snprintf(fitting, sizeof fitting, "number = %d would fit", particles);
     (void)hd_refuse(
         message, size, "%s: number = %d with %d exponents need %.3g GB, there are %.3g GB (%s); %s",
         hd_status_text(HD_NO_MEMORY), def->number, n,

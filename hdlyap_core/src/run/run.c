@@ -377,7 +377,7 @@ static hd_pace plan(hd_run *run)
 }
 
 /** Moves the particles towards that time, or to the time that a viewer watches next. */
-static hd_status move_disks(hd_run *run, double end)
+static hd_status move_particles(hd_run *run, double end)
 {
     const double start = hd_clock_now();
     hd_record *record = is_framed(run) ? run->carrier.record : NULL;
@@ -385,7 +385,7 @@ static hd_status move_disks(hd_run *run, double end)
     HD_TRY(hd_communicator_agree(run->communicator,
                                  hd_advance_on(&run->advance, record, run->watch.interval)));
     run->cost.events += hd_clock_now() - start;
-    if (HD_VERIFIES) hd_verify_disks(run->advance.trajectory, &run->scene);
+    if (HD_VERIFIES) hd_verify_trajectory(run->advance.trajectory, &run->scene);
     if (HD_VERIFIES && record) hd_verify_record(record, &run->scene);
     return HD_OK;
 }
@@ -395,7 +395,7 @@ static hd_status go_on(hd_run *run)
     take_changes(run);
     if (hd_agenda_is_due(&run->agenda, HD_DUE_STAGE)) return catch_up(run, false);
     hd_pace pace = plan(run);
-    HD_TRY(move_disks(run, hd_agenda_next(&run->agenda, &pace)));
+    HD_TRY(move_particles(run, hd_agenda_next(&run->agenda, &pace)));
     pace.now = hd_run_time(run);
     const unsigned due = hd_agenda_reached(&run->agenda, &pace);
     if (due & HD_DUE_INTERVAL)

@@ -81,18 +81,18 @@ static double sites_within(const hexagons *h, double square)
 }
 
 /** The smallest circle about a point of symmetry that holds at least `disks` sites. */
-static hexagons densest(int disks)
+static hexagons densest(int particles)
 {
     enum { POINTS = 3, BISECTIONS = 100 };
     static const double point[POINTS][2] = {{0, 0}, {0.5, 0}, {0.5, 0.28867513459481288225}};
     hexagons best = {.square = INFINITY};
     for (int k = 0; k < POINTS; k++) {
         hexagons h = {point[k][0], point[k][1], 0.0};
-        double low = 0.0, high = disks + 2.0; /* a circle of this squared radius has sites enough:
+        double low = 0.0, high = particles + 2.0; /* a circle of this squared radius has sites enough:
                                                  they are denser than a square lattice */
         for (int b = 0; b < BISECTIONS && low < high; b++) {
             const double middle = 0.5 * (low + high);
-            *(sites_within(&h, middle) >= disks ? &high : &low) = middle;
+            *(sites_within(&h, middle) >= particles ? &high : &low) = middle;
         }
         h.square = high;
         if (h.square < best.square) best = h;
@@ -125,14 +125,14 @@ static void circle_start(const hd_scene_def *def, double *q)
 {
     const hexagons h = densest(def->number);
     const double centre = hd_circle_radius(def), spacing = spacing_of(&h, hd_circle_reach(def));
-    const int64_t sites = (int64_t)sites_within(&h, h.square), disks = def->number;
+    const int64_t sites = (int64_t)sites_within(&h, h.square), particles = def->number;
     const int rows = rows_of(h.square);
     int64_t site = 0;
     for (int j = -rows; j <= rows; j++) {
         double first;
         const int count = (int)row_of(&h, h.square, j, &first);
         for (int i = 0; i < count; i++, site++) {
-            if (hd_site_is_spare(site, sites, disks)) continue;
+            if (hd_site_is_spare(site, sites, particles)) continue;
             *q++ = centre + spacing * (first + i + (j % 2 != 0 ? 0.5 : 0.0) - h.x0);
             *q++ = centre + spacing * (j * ROW - h.y0);
         }

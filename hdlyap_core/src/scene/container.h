@@ -92,9 +92,9 @@ hd_wall hd_wall_of(const hd_scene_def *def);
 
 /** Whether a site stays empty: if there are more sites than disks, the empty ones are spread
  * evenly. */
-static inline bool hd_site_is_spare(int64_t site, int64_t sites, int64_t disks)
+static inline bool hd_site_is_spare(int64_t site, int64_t sites, int64_t particles)
 {
-    return (site + 1) * disks / sites == site * disks / sites;
+    return (site + 1) * particles / sites == site * particles / sites;
 }
 
 /** Largest number of nodes that the scene asks for; `most` is that of the waves within its limits.

@@ -33,14 +33,14 @@ static double smallest_distance(const hd_plane_lattice *l, hd_boundary across)
     return d;
 }
 
-static void try_rows(hd_plane_lattice *best, int disks, int rows, int along, int kind,
+static void try_rows(hd_plane_lattice *best, int particles, int rows, int along, int kind,
                      const double *box, const hd_boundary *boundary)
 {
     const hd_boundary in_row = boundary[along], across = boundary[1 - along];
     hd_plane_lattice l = {
         .along = along, .rows = rows, .staggered = kind > 0, .odd_short = kind == 2};
-    int64_t columns = (disks + rows - 1) / rows;
-    if (site_count(rows, columns, l.odd_short) < disks) columns++;
+    int64_t columns = (particles + rows - 1) / rows;
+    if (site_count(rows, columns, l.odd_short) < particles) columns++;
     if (l.odd_short && (in_row == HD_PERIODIC || columns < 2)) return;
     l.columns = (int)columns;
     l.column = spacing(box[along], columns, l.staggered && !l.odd_short && rows > 1, in_row);
@@ -49,14 +49,14 @@ static void try_rows(hd_plane_lattice *best, int disks, int rows, int along, int
     if (l.distance > best->distance) *best = l;
 }
 
-hd_plane_lattice hd_plane_lattice_best(int disks, const double *box, const hd_boundary *boundary)
+hd_plane_lattice hd_plane_lattice_best(int particles, const double *box, const hd_boundary *boundary)
 {
     enum { ROW_KINDS = 3 }; /* in line, staggered, staggered with short odd rows */
     hd_plane_lattice best = {.distance = -1.0};
     for (int along = 0; along < 2; along++)
-        for (int rows = 1; rows <= disks; rows++)
+        for (int rows = 1; rows <= particles; rows++)
             for (int kind = 0; kind < ROW_KINDS; kind++)
-                try_rows(&best, disks, rows, along, kind, box, boundary);
+                try_rows(&best, particles, rows, along, kind, box, boundary);
     return best;
 }
 
@@ -74,17 +74,17 @@ static void place(const hd_plane_lattice *l, double *q, int row, int column, con
             q[d] = fmin(q[d], box[d] - 0.5); /* the last site, rounded, may lie beyond the wall */
 }
 
-void hd_plane_lattice_fill(const hd_plane_lattice *lattice, double *q, int disks, const double *box,
+void hd_plane_lattice_fill(const hd_plane_lattice *lattice, double *q, int particles, const double *box,
                            const hd_boundary *boundary)
 {
     const int64_t sites = site_count(lattice->rows, lattice->columns, lattice->odd_short);
     int64_t site = 0;
-    int disk = 0;
+    int particle = 0;
     for (int row = 0; row < lattice->rows; row++) {
         const int columns = lattice->columns - (lattice->odd_short && row % 2);
         for (int column = 0; column < columns; column++, site++) {
-            if (hd_site_is_spare(site, sites, disks)) continue;
-            place(lattice, q + 2 * disk++, row, column, box, boundary);
+            if (hd_site_is_spare(site, sites, particles)) continue;
+            place(lattice, q + 2 * particle++, row, column, box, boundary);
         }
     }
 }

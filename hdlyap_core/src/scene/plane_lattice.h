@@ -15,10 +15,10 @@ typedef struct hd_plane_lattice {
 } hd_plane_lattice;
 
 /** The lattice with at least N sites and the largest smallest distance. Cost O(N). */
-hd_plane_lattice hd_plane_lattice_best(int disks, const double *box, const hd_boundary *boundary);
+hd_plane_lattice hd_plane_lattice_best(int particles, const double *box, const hd_boundary *boundary);
 
 /** Fills the positions q; spare sites are left empty evenly. */
-void hd_plane_lattice_fill(const hd_plane_lattice *lattice, double *q, int disks, const double *box,
+void hd_plane_lattice_fill(const hd_plane_lattice *lattice, double *q, int particles, const double *box,
                            const hd_boundary *boundary);
 
 #endif

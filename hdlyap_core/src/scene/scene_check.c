@@ -153,18 +153,18 @@ static hd_status check_pairs(const hd_scene_def *def, char *message, size_t size
 hd_status hd_scene_check_start(const hd_scene_def *def, char *message, size_t size)
 {
     const hd_dynamics *of = hd_dynamics_of(def);
-    const int of_disk = 2 * of->coordinates;
+    const int each = 2 * of->coordinates;
     HD_TRY(hd_scene_check_box(def, message, size));
-    if (def->exponents < HD_EXPONENTS_ALL_INDEPENDENT || def->exponents > of_disk * def->number)
+    if (def->exponents < HD_EXPONENTS_ALL_INDEPENDENT || def->exponents > each * def->number)
         return hd_refuse(
             message, size,
             "exponents = %d: must be positive, all, all_independent, none or from 1 to %d N = %d",
-            def->exponents, of_disk, of_disk * def->number);
+            def->exponents, each, each * def->number);
     if (def->exponents == HD_EXPONENTS_POSITIVE && hd_scene_vectors(def) == 0)
         return hd_refuse(message, size,
                          "exponents = positive: must be all, all_independent, none or from 1 to %d "
                          "with number = %d, which has no positive one",
-                         of_disk * def->number, def->number);
+                         each * def->number, def->number);
     HD_TRY(check_pairs(def, message, size));
     if (of->dimension > 0) HD_TRY(check_waves(def, message, size));
     return of->check ? of->check(def, message, size) : HD_OK;

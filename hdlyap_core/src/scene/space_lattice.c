@@ -62,7 +62,7 @@ static bool is_even(const hd_space_lattice *l, const hd_boundary *boundary)
     return true;
 }
 
-static void try_size(hd_space_lattice *best, int disks, int kind, const int *size,
+static void try_size(hd_space_lattice *best, int particles, int kind, const int *size,
                      const double *box, const hd_boundary *boundary)
 {
     hd_space_lattice l = {.kind = kind};
@@ -71,7 +71,7 @@ static void try_size(hd_space_lattice *best, int disks, int kind, const int *siz
         l.size[d] = size[d];
         l.spacing[d] = spacing(box[d], size[d], boundary[d]);
     }
-    if (!is_even(&l, boundary) || site_count(kind, size) < disks) return;
+    if (!is_even(&l, boundary) || site_count(kind, size) < particles) return;
     l.distance = smallest_distance(&l, boundary);
     if (l.distance > best->distance) *best = l;
 }
@@ -92,7 +92,7 @@ static void size_of(int *size, double least, held h, const double *box, const hd
 }
 
 /** The spacing at which just enough sites of this kind fit. */
-static double spacing_of(int disks, int kind, held h, const double *box,
+static double spacing_of(int particles, int kind, held h, const double *box,
                          const hd_boundary *boundary)
 {
     enum { BISECTIONS = 60 };
@@ -102,36 +102,36 @@ static double spacing_of(int disks, int kind, held h, const double *box,
         int size[3];
         size_of(size, middle, h, box, boundary);
         const double sites = (double)size[0] * size[1] * size[2];
-        const bool enough = sites > 8.0 * disks || site_count(kind, size) >= disks;
+        const bool enough = sites > 8.0 * particles || site_count(kind, size) >= particles;
         *(enough ? &low : &high) = middle;
     }
     return low;
 }
 
-static void try_around(hd_space_lattice *best, int disks, int kind, held h, const double *box,
+static void try_around(hd_space_lattice *best, int particles, int kind, held h, const double *box,
                        const hd_boundary *boundary)
 {
     enum { AROUND = 3, WIDTH = 2 * AROUND + 1 }; /* points more or fewer along each direction */
     int size[3];
-    size_of(size, spacing_of(disks, kind, h, box, boundary), h, box, boundary);
+    size_of(size, spacing_of(particles, kind, h, box, boundary), h, box, boundary);
     for (int k = 0; k < WIDTH * WIDTH * WIDTH; k++) {
         const int near[3] = {size[0] + k % WIDTH - AROUND, size[1] + k / WIDTH % WIDTH - AROUND,
                              size[2] + k / (WIDTH * WIDTH) - AROUND};
         if (h.axis < 0 || near[h.axis] == h.points)
-            try_size(best, disks, kind, near, box, boundary);
+            try_size(best, particles, kind, near, box, boundary);
     }
 }
 
 /** Also tries grids with few layers between walls, which may lie farther apart than their sites. */
-hd_space_lattice hd_space_lattice_best(int disks, const double *box, const hd_boundary *boundary)
+hd_space_lattice hd_space_lattice_best(int particles, const double *box, const hd_boundary *boundary)
 {
     enum { LAYERS = 6 };
     hd_space_lattice best = {.distance = -1.0};
     for (int kind = 0; kind < KINDS; kind++) {
-        try_around(&best, disks, kind, (held){-1, 0}, box, boundary);
+        try_around(&best, particles, kind, (held){-1, 0}, box, boundary);
         for (int axis = 0; axis < 3; axis++)
             for (int layers = 1; layers <= LAYERS && boundary[axis] != HD_PERIODIC; layers++)
-                try_around(&best, disks, kind, (held){axis, layers}, box, boundary);
+                try_around(&best, particles, kind, (held){axis, layers}, box, boundary);
     }
     return best;
 }
@@ -147,7 +147,7 @@ static void place(const hd_space_lattice *l, double *q, const int *at, const dou
     }
 }
 
-void hd_space_lattice_fill(const hd_space_lattice *l, double *q, int disks, const double *box,
+void hd_space_lattice_fill(const hd_space_lattice *l, double *q, int particles, const double *box,
                            const hd_boundary *boundary)
 {
     const int64_t sites = site_count(l->kind, l->size);
@@ -157,7 +157,7 @@ void hd_space_lattice_fill(const hd_space_lattice *l, double *q, int disks, cons
         for (at[1] = 0; at[1] < l->size[1]; at[1]++)
             for (at[0] = 0; at[0] < l->size[0]; at[0]++) {
                 if (!is_site(l->kind, at[0], at[1], at[2])) continue;
-                if (hd_site_is_spare(site++, sites, disks)) continue;
+                if (hd_site_is_spare(site++, sites, particles)) continue;
                 place(l, q, at, box, boundary);
                 q += 3;
             }

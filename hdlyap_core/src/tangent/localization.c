@@ -15,7 +15,7 @@
 enum { BLOCK = 64 };
 
 struct hd_localization {
-    int disks, coordinates, vectors, threads;
+    int particles, coordinates, vectors, threads;
     long samples;
     double *entropy, *cosine, *width; /**< [vectors]: means; width is filled when it is read */
     double *measured;                 /**< [2 * vectors], at one time: entropy, then |cos| */
@@ -38,13 +38,13 @@ static hd_status allocate(hd_localization *shape)
     return hd_blocks_create(&shape->blocks, shape->vectors, 0.0);
 }
 
-hd_status hd_localization_create(hd_localization **out, int disks, int coordinates, int vectors,
+hd_status hd_localization_create(hd_localization **out, int particles, int coordinates, int vectors,
                                  int threads)
 {
     hd_localization *shape = hd_memory_alloc(1, sizeof *shape);
     *out = NULL;
     if (!shape) return HD_NO_MEMORY;
-    shape->disks = disks;
+    shape->particles = particles;
     shape->coordinates = coordinates;
     shape->vectors = vectors;
     shape->threads = threads;
@@ -79,7 +79,7 @@ typedef struct sums {
     double entropy[BLOCK], dq[BLOCK], dp[BLOCK], dqdp[BLOCK];
 } sums;
 
-static void add_disk(sums *s, const double *row, size_t half, size_t stride, int count)
+static void add_particle(sums *s, const double *row, size_t half, size_t stride, int count)
 {
     for (int col = 0; col < count; col++) {
         double dq = 0.0, dp = 0.0, dqdp = 0.0;
@@ -105,8 +105,8 @@ static void measure_block(const hd_localization *shape, hd_columns v, int begin)
     const int count = v.count - begin < BLOCK ? v.count - begin : BLOCK;
     double *entropy = shape->measured + v.first + begin, *cosine = entropy + shape->vectors;
     const size_t half = (size_t)shape->coordinates;
-    for (int disk = 0; disk < shape->disks; disk++)
-        add_disk(&s, v.data + 2 * half * (size_t)disk * stride + begin, half, stride, count);
+    for (int particle = 0; particle < shape->particles; particle++)
+        add_particle(&s, v.data + 2 * half * (size_t)particle * stride + begin, half, stride, count);
     for (int col = 0; col < count; col++) {
         const double product = sqrt(s.dq[col]) * sqrt(s.dp[col]);
         entropy[col] = s.entropy[col];
@@ -137,7 +137,7 @@ long hd_localization_samples(const hd_localization *shape) { return shape->sampl
 
 static double width_of(const hd_localization *shape, double entropy)
 {
-    return exp(entropy) / shape->disks;
+    return exp(entropy) / shape->particles;
 }
 
 const double *hd_localization_widths(hd_localization *shape)

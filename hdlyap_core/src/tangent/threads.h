@@ -12,6 +12,6 @@ int hd_threads_most(int wanted, int rows, int vectors);
  * clearly faster, tries both on a frame of its own; only the number depends on the trial. Fails as
  * hd_frame_create and hd_ortho_step do. */
 HD_MUST_CHECK hd_status hd_threads_choose(int *threads, hd_ortho *ortho, const hd_dynamics *of,
-                                          int disks, int vectors, int most);
+                                          int particles, int vectors, int most);
 
 #endif

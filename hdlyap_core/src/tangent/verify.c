@@ -35,7 +35,7 @@ static void expect_momentum(const hd_examined *now, const hd_scene_def *scene)
     expect_at_most(fabs(now->angular_momentum), most * box[0], "angular momentum");
 }
 
-void hd_verify_disks(const hd_trajectory *tr, const hd_scene_def *scene)
+void hd_verify_trajectory(const hd_trajectory *tr, const hd_scene_def *scene)
 {
     if (!hd_dynamics_of(scene)->examine) return;
     const hd_examined now = hd_trajectory_examined(tr);
@@ -92,10 +92,10 @@ void hd_verify_symplectic(const hd_frame *frame, const hd_symplectic *before, do
 {
     if (!frame->of->symplectic) return;
     const hd_symplectic after = hd_verify_sample(frame);
-    const double per_disk = 8.0 * events / hd_frame_rows(frame);
+    const double per_particle = 8.0 * events / hd_frame_rows(frame);
     for (int k = 0; k < HD_VERIFY_PAIRS; k++)
         expect_at_most(fabs(after.product[k] - before->product[k]),
-                       16.0 * DBL_EPSILON * (4.0 + per_disk) *
+                       16.0 * DBL_EPSILON * (4.0 + per_particle) *
                            fmax(before->scale[k], after.scale[k]),
                        "symplectic product");
 }

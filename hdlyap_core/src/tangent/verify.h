@@ -17,7 +17,7 @@ enum { HD_VERIFIES = 0 };
 
 /** Asserts, up to a random walk of roundings, that no disks overlap, that the kinetic energy is N,
  * and that there is no momentum along periodic directions. */
-void hd_verify_disks(const hd_trajectory *trajectory, const hd_scene_def *scene);
+void hd_verify_trajectory(const hd_trajectory *trajectory, const hd_scene_def *scene);
 
 /** Asserts that the record's entries are in order and possible; see hd_dynamics. */
 void hd_verify_record(const hd_record *record, const hd_scene_def *scene);

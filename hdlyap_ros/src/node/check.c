@@ -80,7 +80,7 @@ static void print_speed(const settings *set, const hd_estimate *t)
     const hd_scene_def *def = &set->def;
     char left_out[PARAMETER_TEXT];
     printf("speed     %.3g s per time unit, by a trial of a second", t->seconds);
-    if (t->disks < def->number) printf(" of %d %s, and the cube of N", t->disks, set->particles);
+    if (t->particles < def->number) printf(" of %d %s, and the cube of N", t->particles, set->particles);
     if (!isnan(t->interval)) printf("; interval %.3g", t->interval);
     topic_names(left_out, sizeof left_out, set->observables & topics_of_stages(t->untried));
     if (*left_out) printf("; without %s", left_out);
@@ -292,7 +292,7 @@ static int fault(hd_status status, const char *message)
 static int try_scene(settings *set, const char *path, const hdr_params *params)
 {
     char message[512] = "", name[256];
-    hd_estimate t = {.disks = 0};
+    hd_estimate t = {.particles = 0};
     const hd_room room = hd_room_available();
     if (!*hdr_param_text(params, "scene")) set->scene = name_of(path, name, sizeof name);
     hd_status tried = hd_room_check(&set->def, room, message, sizeof message);

@@ -37,16 +37,16 @@ __attribute__((format(printf, 3, 4))) static void add(conditions *all, uint8_t l
 
 static void add_errors(conditions *all, const worker_state *state)
 {
-    const examination *disks = &state->disks;
+    const examination *seen = &state->seen;
     const uint8_t level = HDR_DIAGNOSTIC_ERROR;
     if (state->status != HD_OK) add(all, level, "%s", hd_status_text(state->status));
     if (state->checkpoint.failed) add(all, level, "%s", state->checkpoint.message);
-    if (!(disks->overlap <= disks->overlap_max))
+    if (!(seen->overlap <= seen->overlap_max))
         add(all, level, "%s overlap by %.2g, rounding explains %.2g", state->particles,
-            disks->overlap, disks->overlap_max);
-    if (!(disks->energy_error <= disks->energy_error_max))
-        add(all, level, "energy is off by %.2g, rounding explains %.2g", disks->energy_error,
-            disks->energy_error_max);
+            seen->overlap, seen->overlap_max);
+    if (!(seen->energy_error <= seen->energy_error_max))
+        add(all, level, "energy is off by %.2g, rounding explains %.2g", seen->energy_error,
+            seen->energy_error_max);
 }
 
 static void add_warnings(conditions *all, const worker_state *state, const hdr_lag *slowest)

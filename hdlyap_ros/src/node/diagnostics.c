@@ -86,11 +86,11 @@ static void fill_keys(diagnostics *d, key_list *list, const worker_state *state,
 /** Fills in the values that conditions.c judges. */
 static void fill_watched(key_list *list, const worker_state *state, const hdr_lag *slowest)
 {
-    const examination *disks = &state->disks;
+    const examination *seen = &state->seen;
     const double error = state->last.cost.std_error;
-    if (disks->made) {
-        if (disks->overlap_max > 0.0) add_number(list, "overlap", disks->overlap);
-        add_number(list, "energy error", disks->energy_error);
+    if (seen->made) {
+        if (seen->overlap_max > 0.0) add_number(list, "overlap", seen->overlap);
+        add_number(list, "energy error", seen->energy_error);
     }
     if (error >= 0.0) {
         add_number(list, "averaged time", state->last.averaged);

@@ -219,11 +219,11 @@ static void examine_if_asked(worker *w)
 {
     const double begin = clock_seconds();
     if (!asked(w, &w->examine) || begin < w->examinable) return;
-    const examination disks = examine(w->run);
+    const examination seen = examine(w->run);
     const double end = clock_seconds();
     w->examinable = end + (end - begin) / examination_share;
     pthread_mutex_lock(&w->lock);
-    w->state.disks = disks;
+    w->state.seen = seen;
     pthread_mutex_unlock(&w->lock);
 }
 

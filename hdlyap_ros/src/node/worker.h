@@ -27,7 +27,7 @@ typedef struct worker_state {
     hd_status status; /**< the fault that ended it, else HD_OK */
     char fault[256];  /**< the fault in words, with its numbers */
     progress last;
-    examination disks;     /**< result of the last worker_examine */
+    examination seen;     /**< result of the last worker_examine */
     const char *warning;   /**< warning of the settings */
     const char *particles; /**< name of the particles, e.g. disks */
     kept checkpoint;

@@ -40,14 +40,14 @@ static void reconstruct(pair_fields *pairs, const hd_run *run, const hd_step *st
 }
 
 /** One of the `components` of a vector of the frame, for all particles. */
-static hdr_doubles column_of(hd_columns frame, int col, int component, int components, size_t disks)
+static hdr_doubles column_of(hd_columns frame, int col, int component, int components, size_t particles)
 {
     const size_t stride = (size_t)frame.stride;
-    return message_array(frame.data + (size_t)component * stride + (col - frame.first), disks,
+    return message_array(frame.data + (size_t)component * stride + (col - frame.first), particles,
                          (size_t)components * stride);
 }
 
-static void fill_vector(hdr_mode_field *message, const hd_run *run, int col, size_t disks)
+static void fill_vector(hdr_mode_field *message, const hd_run *run, int col, size_t particles)
 {
     const hd_columns frame = hd_run_frame_columns(run);
     message->index = (uint32_t)col + 1;
@@ -59,8 +59,8 @@ static void fill_vector(hdr_mode_field *message, const hd_run *run, int col, siz
     hdr_doubles *const dp[] = {&message->dpx, &message->dpy,
                                turns ? &message->dp_angle : &message->dpz};
     for (int d = 0; d < coordinates; d++) {
-        *dq[d] = column_of(frame, col, d, 2 * coordinates, disks);
-        *dp[d] = column_of(frame, col, coordinates + d, 2 * coordinates, disks);
+        *dq[d] = column_of(frame, col, d, 2 * coordinates, particles);
+        *dp[d] = column_of(frame, col, coordinates + d, 2 * coordinates, particles);
     }
 }
 
@@ -73,9 +73,9 @@ static void fill_step(hdr_mode_field *message, const hd_step *step)
 }
 
 static void fill_pairs(hdr_mode_field *message, const moment *now, const pair_fields *pairs,
-                       size_t disks)
+                       size_t particles)
 {
-    const size_t count = pairs->count * disks;
+    const size_t count = pairs->count * particles;
     message->pairs = pairs->count;
     message->modulation = (hdr_bytes){.data = pairs->modulation, .count = pairs->count};
     message->residual_l = message_array(pairs->residual_l, pairs->count, 1);
@@ -96,21 +96,21 @@ static hd_status publish_vector(const moment *now, int col)
     const hd_steps *steps = hd_run_parts(now->run).steps;
     const int s = hd_steps_of_vector(steps, col);
     const hd_step *step = s < 0 ? NULL : hd_steps_step(steps, s);
-    const size_t disks = (size_t)now->set->def.number;
+    const size_t particles = (size_t)now->set->def.number;
     const size_t length = (size_t)(HD_MODULATIONS_IN(moment_dimension(now)) *
                                    moment_coordinates(now)) *
-                          disks;
+                          particles;
     const double *q, *p;
     now->room->taken = 0; /* each message uses the buffers anew */
     pair_fields pairs = {.l = moment_take(now, 3 * length, sizeof *pairs.l)};
     if (!pairs.l || !moment_state(now, &q, &p)) return HD_OK;
-    hdr_mode_field message = {.sim_time = hd_run_time(now->run), STATE_FIELDS(now, q, p, disks)};
+    hdr_mode_field message = {.sim_time = hd_run_time(now->run), STATE_FIELDS(now, q, p, particles)};
     pairs.p = pairs.l + length;
     pairs.ratio = pairs.p + length;
     if (step && step->kind == HD_MODE_LP) reconstruct(&pairs, now->run, step, p);
-    fill_vector(&message, now->run, col, disks);
+    fill_vector(&message, now->run, col, particles);
     fill_step(&message, step);
-    fill_pairs(&message, now, &pairs, disks);
+    fill_pairs(&message, now, &pairs, particles);
     return topic_send_fields(now->out, &message);
 }
 

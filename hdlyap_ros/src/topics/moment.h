@@ -104,18 +104,18 @@ static inline hdr_doubles moment_component(const moment *now, const double *data
 
 /** number 0: angles, 1: angular velocities; empty unless particles rotate. moment_state has to be
  * called before. */
-static inline hdr_doubles moment_angle(const moment *now, size_t disks, size_t number)
+static inline hdr_doubles moment_angle(const moment *now, size_t particles, size_t number)
 {
     const double *angle = now->room->angle;
-    return angle ? message_array(angle + number * disks, disks, 1) : (hdr_doubles){.data = NULL};
+    return angle ? message_array(angle + number * particles, particles, 1) : (hdr_doubles){.data = NULL};
 }
 
 /** The fields of a message that has positions and momenta of all particles. */
-#define STATE_FIELDS(now, q, p, disks)                                                             \
-    .x = moment_component(now, q, disks, 0), .y = moment_component(now, q, disks, 1),              \
-    .z = moment_component(now, q, disks, 2), .px = moment_component(now, p, disks, 0),             \
-    .py = moment_component(now, p, disks, 1), .pz = moment_component(now, p, disks, 2),            \
-    .angle = moment_angle(now, disks, 0), .spin = moment_angle(now, disks, 1)
+#define STATE_FIELDS(now, q, p, particles)                                                             \
+    .x = moment_component(now, q, particles, 0), .y = moment_component(now, q, particles, 1),              \
+    .z = moment_component(now, q, particles, 2), .px = moment_component(now, p, particles, 0),             \
+    .py = moment_component(now, p, particles, 1), .pz = moment_component(now, p, particles, 2),            \
+    .angle = moment_angle(now, particles, 0), .spin = moment_angle(now, particles, 1)
 
 /** Sends the messages of a topic by topic_send_NAME, if there is something to send. Fails with
  * HD_NOT_FINITE. */

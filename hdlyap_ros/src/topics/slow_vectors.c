@@ -27,14 +27,14 @@ typedef struct vector_arrays {
 /** Takes memory for `count` vectors, of which `known` have dq. Returns false if there is none. */
 static bool arrays_take(vector_arrays *of, const moment *now, size_t count, size_t known)
 {
-    const size_t disks = (size_t)now->set->def.number;
+    const size_t particles = (size_t)now->set->def.number;
     of->directions = (size_t)moment_dimension(now);
     of->coordinates = (size_t)moment_coordinates(now);
     of->pairs_most = HD_MODULATIONS_IN(of->directions);
     of->exponents = moment_take(now, (1 + 2 * of->pairs_most) * count, sizeof *of->exponents);
     of->nodes[0] = moment_take(now, HD_DIMENSION_MAX * count, sizeof *of->nodes[0]);
     of->kind = moment_take(now, 2 * count, sizeof *of->kind);
-    of->dq = moment_take(now, of->coordinates * disks * known, sizeof *of->dq);
+    of->dq = moment_take(now, of->coordinates * particles * known, sizeof *of->dq);
     if (!of->exponents || !of->nodes[0] || !of->kind || !of->dq) return false;
     of->a = of->exponents + count;
     of->b = of->a + of->pairs_most * count;
@@ -115,14 +115,14 @@ static void fill_step(vector_arrays *of, int k, const hd_parts *parts, int col, 
 }
 
 /** Copies dq from the rows of the frame to one array after the other for each vector. */
-static void fill_dq(vector_arrays *of, hd_columns known, int first, size_t vectors, size_t disks)
+static void fill_dq(vector_arrays *of, hd_columns known, int first, size_t vectors, size_t particles)
 {
     const size_t stride = (size_t)known.stride, rows = 2 * of->coordinates;
-    for (size_t j = 0; j < disks; j++) {
+    for (size_t j = 0; j < particles; j++) {
         const double *row = known.data + rows * j * stride + (size_t)(first - known.first);
         for (size_t d = 0; d < of->coordinates; d++)
             for (size_t k = 0; k < vectors; k++)
-                of->dq[(d * vectors + k) * disks + j] = row[d * stride + k];
+                of->dq[(d * vectors + k) * particles + j] = row[d * stride + k];
     }
 }
 
@@ -133,16 +133,16 @@ static bool fill_vectors(hdr_slow_vectors *message, const moment *now)
     const hd_parts parts = hd_run_parts(run);
     const hd_columns known = hd_run_columns(run);
     const int first = first_of(now->set, run), end = end_of(run);
-    const size_t disks = (size_t)now->set->def.number, count = (size_t)(end - first);
+    const size_t particles = (size_t)now->set->def.number, count = (size_t)(end - first);
     const bool is_here = is_known(known, first, end);
-    const size_t numbers = is_here ? disks * count : 0;
+    const size_t numbers = is_here ? particles * count : 0;
     vector_arrays of;
     if (!arrays_take(&of, now, count, is_here ? count : 0)) return false;
     for (int k = 0; k < end - first; k++) {
         of.exponents[k] = hd_spectrum_exponent(parts.spectrum, first + k);
         fill_step(&of, k, &parts, first + k, is_here);
     }
-    if (is_here) fill_dq(&of, known, first, count, disks);
+    if (is_here) fill_dq(&of, known, first, count, particles);
     message->first_index = (uint32_t)first + 1;
     message->vectors = (uint32_t)count;
     message->exponents = message_array(of.exponents, count, 1);
@@ -162,10 +162,10 @@ static bool fill_vectors(hdr_slow_vectors *message, const moment *now)
 
 static hd_status send(const moment *now)
 {
-    const size_t disks = (size_t)now->set->def.number;
+    const size_t particles = (size_t)now->set->def.number;
     const double *q, *p;
     if (!moment_state(now, &q, &p)) return HD_OK;
-    hdr_slow_vectors message = {.sim_time = hd_run_time(now->run), STATE_FIELDS(now, q, p, disks)};
+    hdr_slow_vectors message = {.sim_time = hd_run_time(now->run), STATE_FIELDS(now, q, p, particles)};
     if (!fill_vectors(&message, now)) return HD_OK;
     return topic_send_slow_vectors(now->out, &message);
 }

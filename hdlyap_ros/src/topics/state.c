@@ -3,13 +3,13 @@
 
 hd_status topic_publish_state(const moment *now)
 {
-    const size_t disks = (size_t)now->set->def.number;
+    const size_t particles = (size_t)now->set->def.number;
     const double *q, *p;
     if (!moment_state(now, &q, &p)) return HD_OK;
     hdr_state message = {
         .sim_time = hd_run_time(now->run),
         .kinetic_energy = hd_trajectory_kinetic_energy(hd_run_parts(now->run).trajectory),
-        STATE_FIELDS(now, q, p, disks),
+        STATE_FIELDS(now, q, p, particles),
     };
     return topic_send_state(now->out, &message);
 }

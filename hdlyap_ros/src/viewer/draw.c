@@ -94,8 +94,8 @@ static sheet sheet_of(canvas *on, const picture *p)
     /* height on the screen, where rviz first shows spheres from above and from the front */
     const double height = box[1] + RISE * box[2];
     const int columns = columns_of(box[0] / height, panels), gaps = columns - 1;
-    const double distance = spheres ? cbrt(box[0] * box[1] * box[2] / h->disks)
-                                    : sqrt(box[0] * box[1] / h->disks);
+    const double distance = spheres ? cbrt(box[0] * box[1] * box[2] / h->number)
+                                    : sqrt(box[0] * box[1] / h->number);
     const double longest = LONGEST * distance;
     const double least = fmax(columns * box[0] + gaps * longest, 0.8 * height);
     const double unit = least / (WIDTH - gaps * GAP);
@@ -165,11 +165,11 @@ static void draw_boxes(const sheet *s)
 static double strength_of(const heard *h, const picture_mode *m)
 {
     double sum = 0.0;
-    for (uint32_t i = 0; i < h->disks; i++) {
+    for (uint32_t i = 0; i < h->number; i++) {
         sum += m->d[i].x * m->d[i].x + m->d[i].y * m->d[i].y + m->d[i].z * m->d[i].z;
         if (heard_turns(h)) sum += m->turn[i] * m->turn[i];
     }
-    return sqrt(sum / h->disks);
+    return sqrt(sum / h->number);
 }
 
 /** How the particles of a panel rotate: by the vector, or by their spin if there is none. full:
@@ -200,12 +200,12 @@ static hdr_point arm(const heard *h, uint32_t i)
 }
 
 /** Draws the disks of panel k that have this shade. */
-static void disks_of_shade(const sheet *s, int k, int shade)
+static void particles_of_shade(const sheet *s, int k, int shade)
 {
     const heard *h = s->h;
     const turns t = turns_of(s, k);
     const hdr_point below = {0.0, 0.0, DISKS_Z}, under = {0.0, 0.0, UNDER};
-    for (uint32_t i = 0; i < h->disks; i++) {
+    for (uint32_t i = 0; i < h->number; i++) {
         if (shade_of(t, i) != shade) continue;
         const hdr_point at = along(along(panel(s, k), 1.0, h->q[i]), 1.0, below);
         canvas_point(s->on, along(at, 1.0, arm(h, i)));
@@ -215,13 +215,13 @@ static void disks_of_shade(const sheet *s, int k, int shade)
 
 /** Draws disks that rotate, in a layer for each shade: with one colour per point, rviz would draw
  * transparent spheres. */
-static void turning_disks(const sheet *s, const char *ns)
+static void turning_particles(const sheet *s, const char *ns)
 {
     for (int shade = -SHADES; shade <= SHADES; shade++) {
         const hdr_colour full = shade > 0 ? PALETTE_LEFT : PALETTE_RIGHT;
         canvas_layer(s->on, ns, HDR_MARKER_SPHERE_LIST,
                      mix(PALETTE_DISK, full, fabs((double)shade / SHADES)), 1.0);
-        for (int k = 0; k < s->panels; k++) disks_of_shade(s, k, shade);
+        for (int k = 0; k < s->panels; k++) particles_of_shade(s, k, shade);
     }
 }
 
@@ -230,20 +230,20 @@ static void draw_bonds(const sheet *s, const char *ns)
 {
     canvas_layer(s->on, ns, HDR_MARKER_LINE_LIST, PALETTE_INK, BOND);
     for (int k = 0; k < s->panels; k++)
-        for (uint32_t i = 0; i < s->h->disks; i++) {
+        for (uint32_t i = 0; i < s->h->number; i++) {
             const hdr_point above = {0.0, 0.0, BOND_Z},
                             at = along(along(panel(s, k), 1.0, s->h->q[i]), 1.0, above);
             line(s->on, along(at, -1.0, arm(s->h, i)), along(at, 1.0, arm(s->h, i)));
         }
 }
 
-static void draw_disks(const sheet *s)
+static void draw_round(const sheet *s)
 {
     const hdr_point below = {0.0, 0.0, s->spheres ? 0.0 : DISKS_Z};
     canvas_layer(s->on, s->spheres ? "spheres" : "disks", HDR_MARKER_SPHERE_LIST,
                  s->spheres ? PALETTE_SPHERE : PALETTE_DISK, 1.0);
     for (int k = 0; k < s->panels; k++)
-        for (uint32_t i = 0; i < s->h->disks; i++)
+        for (uint32_t i = 0; i < s->h->number; i++)
             canvas_point(s->on, along(along(panel(s, k), 1.0, s->h->q[i]), 1.0, below));
 }
 
@@ -252,10 +252,10 @@ static void draw_particles(const sheet *s)
     const bool pairs = s->h->bond > 0.0;
     if (s->h->time < 0.0) return;
     if (!heard_turns(s->h)) {
-        draw_disks(s);
+        draw_round(s);
         return;
     }
-    turning_disks(s, pairs ? "dumbbells" : "disks");
+    turning_particles(s, pairs ? "dumbbells" : "disks");
     if (pairs) draw_bonds(s, "dumbbells");
 }
 
@@ -327,7 +327,7 @@ static void arrows(const sheet *s, const char *ns, int k, bool upright)
     canvas_layer(s->on, ns, HDR_MARKER_TRIANGLE_LIST, mix(colour, BLACK, upright ? SHADE : 0.0),
                  1.0);
     if (s->spheres) canvas_unlit(s->on);
-    for (uint32_t i = 0; i < s->h->disks; i++)
+    for (uint32_t i = 0; i < s->h->number; i++)
         arrow(s, along(panel(s, k), 1.0, s->h->at[i]), along(zero, scale, m->d[i]), upright);
 }
 
@@ -415,7 +415,7 @@ static void write_time(char *text, size_t size, const heard *h)
 /** Writes, e.g., "36 dumbbells of bond 0.25". */
 static void write_particles(char *text, size_t size, const heard *h)
 {
-    const int end = snprintf(text, size, "%u %s", (unsigned)h->disks, h->particles);
+    const int end = snprintf(text, size, "%u %s", (unsigned)h->number, h->particles);
     if (h->bond > 0.0 && end < (int)size)
         snprintf(text + end, size - (size_t)end, " of bond %.4g", h->bond);
 }

@@ -96,7 +96,7 @@ static void begin_particles(heard *h, const hdr_run_info *info)
 {
     snprintf(h->particles, sizeof h->particles, "%s", info->particles);
     in_words(h->particles);
-    h->disks = info->number;
+    h->number = info->number;
     h->inertia = info->inertia;
     if (strcmp(info->particles, "dumbbells") == 0)
         h->bond = own_number(info, "bond");
@@ -178,14 +178,14 @@ static void *replaced(const void *old, const void *from, size_t bytes)
 static bool are_of_each(const heard *h, uint64_t times, const hdr_doubles *x, const hdr_doubles *y,
                         const hdr_doubles *z)
 {
-    const uint64_t all = times * h->disks;
+    const uint64_t all = times * h->number;
     return x->count == all && y->count == all && z->count == (heard_has_spheres(h) ? all : 0);
 }
 
 /** Whether there are `times` angles for each particle if particles rotate, and none otherwise. */
 static bool turn_each(const heard *h, uint64_t times, const hdr_doubles *angle)
 {
-    return angle->count == (heard_turns(h) ? times * h->disks : 0);
+    return angle->count == (heard_turns(h) ? times * h->number : 0);
 }
 
 /** Copies a vector for each particle. Returns false, and copies nothing, if a number is missing. */
@@ -193,7 +193,7 @@ static bool take(const heard *h, hdr_point *to, const hdr_doubles *x, const hdr_
                  const hdr_doubles *z)
 {
     if (!are_of_each(h, 1, x, y, z)) return false;
-    for (uint32_t i = 0; i < h->disks; i++)
+    for (uint32_t i = 0; i < h->number; i++)
         to[i] = (hdr_point){element(x, i), element(y, i), z->count > 0 ? element(z, i) : 0.0};
     return true;
 }
@@ -238,11 +238,11 @@ static heard_vector *add(heard *h, const heard_vector *what)
     if (h->vectors == HEARD_VECTORS_MAX) return NULL;
     heard_vector *v = &h->vector[h->vectors];
     hdr_point *block = v->d;
-    if (!block) block = malloc((size_t)h->disks * (sizeof *block + sizeof *v->turn) + 1);
+    if (!block) block = malloc((size_t)h->number * (sizeof *block + sizeof *v->turn) + 1);
     if (!block) return NULL;
     *v = *what;
     v->d = block;
-    v->turn = (double *)(block + h->disks);
+    v->turn = (double *)(block + h->number);
     h->vectors++;
     return v;
 }
@@ -357,25 +357,25 @@ static bool is_whole(const heard *h, const hdr_slow_vectors *m)
 }
 
 /** The part of an array that belongs to vector k; empty if the array is, as along z for disks. */
-static hdr_doubles part(const hdr_doubles *all, uint32_t k, uint32_t disks)
+static hdr_doubles part(const hdr_doubles *all, uint32_t k, uint32_t number)
 {
     if (all->count == 0) return *all;
-    return (hdr_doubles){all->data + (size_t)k * disks * all->stride, disks, all->stride};
+    return (hdr_doubles){all->data + (size_t)k * number * all->stride, number, all->stride};
 }
 
 void heard_slow_vectors(heard *h, const hdr_slow_vectors *slow)
 {
     if (!is_ours(h, slow->run_id) || !is_whole(h, slow)) return;
     if (!move(h, slow->sim_time, PLACES(slow))) return;
-    memcpy(h->at, h->q, h->disks * sizeof *h->at);
+    memcpy(h->at, h->q, h->number * sizeof *h->at);
     h->vector_time = slow->sim_time;
     h->vectors = 0;
     for (uint32_t k = 0; k < slow->vectors; k++) {
         const heard_vector what = vector_of(h, slow, k);
         const heard_vector *v = is_wanted(h, &what) ? add(h, &what) : NULL;
-        const hdr_doubles dx = part(&slow->dqx, k, h->disks), dy = part(&slow->dqy, k, h->disks),
-                          dz = part(&slow->dqz, k, h->disks),
-                          turn = part(&slow->dq_angle, k, h->disks);
+        const hdr_doubles dx = part(&slow->dqx, k, h->number), dy = part(&slow->dqy, k, h->number),
+                          dz = part(&slow->dqz, k, h->number),
+                          turn = part(&slow->dq_angle, k, h->number);
         if (!v) continue;
         (void)take(h, v->d, &dx, &dy, &dz);
         take_turns(v->turn, &turn);

@@ -30,7 +30,7 @@ typedef struct heard {
     bool begun; /**< run_info is known: box, names and what follows */
     char run_id[96], scene[64];
     char particles[32];
-    uint32_t disks;
+    uint32_t number;
     char own[160];  /**< parameters that only these particles have, as text; not for dumbbells */
     double bond;    /**< bond of a dumbbell [sigma]; 0 for other particles */
     double inertia; /**< moment of inertia [sigma^2]; 0 if particles do not rotate */

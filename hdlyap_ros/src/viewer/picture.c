@@ -7,15 +7,15 @@
 bool mode_name_parse(mode_name *out, const char *text)
 {
     const bool is_lp = strncmp(text, "LP", 2) == 0;
-    int end = -1, of_disks = -1;
+    int end = -1, in_plane = -1;
     if (!is_lp && *text != 'T') return false;
     out->kind = is_lp ? HDR_MODE_LP : HDR_MODE_T;
     text += is_lp ? 2 : 1;
     if (strspn(text, "(0123456789,)") != strlen(text)) return false;
     out->nz = 0;
-    (void)sscanf(text, "(%4u,%4u)%n", &out->nx, &out->ny, &of_disks);
+    (void)sscanf(text, "(%4u,%4u)%n", &out->nx, &out->ny, &in_plane);
     (void)sscanf(text, "(%4u,%4u,%4u)%n", &out->nx, &out->ny, &out->nz, &end);
-    if (end < 0) end = of_disks;
+    if (end < 0) end = in_plane;
     return end > 0 && !text[end];
 }
 

@@ -9,7 +9,7 @@ enum { DISKS = 6, INTERVALS = 24, SNAPSHOTS = 8, PASTS = 2, STEPS = 150 };
 
 static hd_history_def def_of(int way, int vectors)
 {
-    return (hd_history_def){.disks = DISKS,
+    return (hd_history_def){.particles = DISKS,
                             .vectors = vectors,
                             .threads = 1,
                             .intervals = INTERVALS,

@@ -62,7 +62,7 @@ static void compare(const hd_scene_def *def)
     CHECK_CLOSE(e.before, def->equilibration + def->warmup, 0.0);
     CHECK_CLOSE(e.errors_after, hd_run_errors_after(run), 0.0);
     CHECK_CLOSE(e.slopes_after, 2.0 * hd_run_errors_after(run), 0.0);
-    assert_int_equal(e.disks, def->number);
+    assert_int_equal(e.particles, def->number);
     hd_run_free(run);
 }
 
@@ -118,7 +118,7 @@ TEST(extent_is_the_runs)
                 hd_fields_subspace(hd_modes_fields(hd_run_modes(run)), step->subspace)->dimension /
                 2;
     }
-    assert_int_equal(e.disks, 24);
+    assert_int_equal(e.particles, 24);
     assert_int_equal(e.vectors, hd_run_vectors(run));
     assert_int_equal(e.waves, hd_structure_waves(hd_run_structure(run)));
     assert_int_equal(e.subspaces,
@@ -144,7 +144,7 @@ TEST(seconds_of_many_disks)
     def.warmup = 12.0;
     def.observe = 0;
     const hd_estimate e = estimated(&def);
-    assert_in_range(e.disks, 700, 900);
+    assert_in_range(e.particles, 700, 900);
     hd_run *run = created(def);
     check_ratio("averaged time of errors", e.errors_after, hd_run_errors_after(run), 1.1);
     double interval;
@@ -152,7 +152,7 @@ TEST(seconds_of_many_disks)
     hd_run_free(run);
     def.number = 2000; /* the same trial: another power than the cube is off by 2 and more */
     const hd_estimate twice = estimated(&def);
-    assert_int_equal(twice.disks, e.disks);
+    assert_int_equal(twice.particles, e.particles);
     check_ratio("of twice as many disks", twice.seconds, 8.0 * e.seconds, SECONDS_FACTOR);
 }
 

@@ -48,9 +48,9 @@ TEST(disks_are_checked)
     const hd_trajectory *tr = run->advance.trajectory;
     hd_disk *disk = hard_in(run->advance.trajectory)->motion.disk;
     const hd_disk right = disk[0];
-    EXPECT_BROKEN(false, hd_verify_disks(tr, &run->scene));
+    EXPECT_BROKEN(false, hd_verify_trajectory(tr, &run->scene));
     disk[0].p[0] *= 1.0 + 1e-9;
-    EXPECT_BROKEN(true, hd_verify_disks(tr, &run->scene));
+    EXPECT_BROKEN(true, hd_verify_trajectory(tr, &run->scene));
     disk[0] = right;
     for (int d = 0; d < 2;
          d++) { /* turned back where it is: the same energy, but not the same momentum */
@@ -58,13 +58,13 @@ TEST(disks_are_checked)
                         (hard_in(tr)->now - hard_in(tr)->epoch_start - disk[0].t);
         disk[0].p[d] = -disk[0].p[d];
     }
-    EXPECT_BROKEN(true, hd_verify_disks(tr, &run->scene));
+    EXPECT_BROKEN(true, hd_verify_trajectory(tr, &run->scene));
     disk[0] = right;
     disk[0].q[0] += 0.6; /* density .7: there is no room */
-    EXPECT_BROKEN(true, hd_verify_disks(tr, &run->scene));
+    EXPECT_BROKEN(true, hd_verify_trajectory(tr, &run->scene));
     disk[0] = right;
     disk[0].p[1] = NAN;
-    EXPECT_BROKEN(true, hd_verify_disks(tr, &run->scene));
+    EXPECT_BROKEN(true, hd_verify_trajectory(tr, &run->scene));
     disk[0] = right;
 }
 
