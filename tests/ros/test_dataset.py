@@ -9,7 +9,7 @@ from unittest import mock
 
 import numpy as np
 import xarray
-from hdlyap.msg import Change, Spectrum
+from hdlyap.msg import Change, Hydro, HydroMode, LpPhase, Mode, Spectrum
 
 import bags
 import hdlyap
@@ -21,9 +21,17 @@ MSG = os.path.join(os.path.dirname(os.path.abspath(__file__)), '../../msg')
 # message of the variables that begin with the name of a topic
 OF_TOPIC = dict(spectrum='Spectrum', steps='Step Steps', gas='Gas', modes='Mode', cost='Cost')
 OF_TOPIC.update(covariant='Covariant', localization='Localization', lp_phases='LpPhase')
-OF_TOPIC.update(fluctuations='Fluctuations')
+OF_TOPIC.update(fluctuations='Fluctuations', hydro='HydroMode', structure='Structure')
 OF_TOPIC.update(state='State', fields='ModeField', status='RunStatus')
-MADE = ('lp_phases_step', 'lp_phases_modulation')  # named otherwise than the fields of messages
+# named otherwise than the fields of messages
+MADE = [f'{topic}_{name}' for topic in ('lp_phases', 'hydro') for name in ('step', 'modulation')]
+
+
+def hydro(time):
+    """Of a vector of LP(1,0) and of a T step that is not resolved."""
+    nan = dict.fromkeys(('density', 'along', 'across', 'across_second', 'energy'), np.nan)
+    one = HydroMode(0, 41, Mode.LP, 1, 0, 0, LpPhase.SIN_COS, 0.25, time, 0.5, 0.0, -0.125)
+    return Hydro(run_id='one', sim_time=time, responses=[one, HydroMode(step=1, kind=Mode.T, nx=1, **nan)])
 
 
 def fields():
@@ -54,7 +62,7 @@ class Everything(bags.Bags):
         states = [test_data.state(time) for time in (140.0, 150.0)]
         rest = [one for one in rest if not isinstance(one, (Spectrum, type(steps[0])))]
         more = [*map(made.gas, (40.0, 50.0)), made.status(150.0)]
-        more += [test_data.modes(150.0)] + states
+        more += [test_data.modes(150.0)] + states + [hydro(140.0), hydro(150.0)]
         self.messages = [self.info, *rest, *self.spectra, *steps, *more]
         self.run_ = self.recorded(self.messages).data
         self.states = states
@@ -87,6 +95,16 @@ class Everything(bags.Bags):
         phase = run.course('lp_phases')['phase'].unstack()
         np.testing.assert_array_equal(all_of['lp_phases_phase'], phase)
         self.assertEqual(list(all_of['lp_phases_time']), list(phase.index))
+        self.assertEqual(all_of['hydro_along'].dims, ('hydro_time', 'response'))
+        np.testing.assert_array_equal(all_of['hydro_along'], [[140, np.nan], [150, np.nan]])
+        self.assertEqual(list(all_of['hydro_step'].values[0]), ['LP(1,0)', 'T(1,0)'])
+        self.assertEqual(all_of['structure_along'].dims, ('index', 'structure_wave'))
+        for name in ('along', 'across'):
+            means = getattr(run.structure, name)
+            np.testing.assert_array_equal(all_of[f'structure_{name}'], means)
+            self.assertGreater(means.to_numpy().std(), 0.0)
+        waves = run.structure.waves['wave_number']
+        np.testing.assert_array_equal(all_of['structure_wave_number'], waves)
         info = json.loads(all_of.attrs['run_info'])
         self.assertEqual((info['number'], info['changes'][0]['name']), (20, 'pace'))
 

@@ -9,13 +9,14 @@ import numpy as np
 
 from hdlyap import msg
 
-from . import fields, space, tables
+from . import factors, fields, space, tables
 from .export import plain_info
 
 MISSING = 'to_xarray needs xarray: python3-xarray of Debian and Ubuntu, xarray of PyPI'
 OVER_TIME = 'spectrum', 'steps', 'gas'  # topics that have the same times
 LARGEST = 2**31 - 1  # integer of netCDF by scipy; larger ones are floats, exact up to 2^53
-PHASES = {'lp_phases': tables.of_phases, 't_phases': tables.of_t_phases}
+# topics with times of their own: the name of their number
+NUMBERED = {'lp_phases': 'lp_phase', 't_phases': 't_phase', 'hydro': 'response'}
 # topics of which the last message is taken
 LAST = 'spectrum', 'modes', 'covariant', 'localization', 'fluctuations'
 COURSES = 'cost', 'status'
@@ -29,6 +30,7 @@ def of(run):
     except ImportError as error:
         raise ImportError(f'{MISSING} ({error})') from error
     parts = [_spectrum(run)] if run.has('spectrum') else []
+    parts += [_structure(run.structure)] if run.has_structure else []
     parts += [_part(*one) for one in _frames(run)]
     parts += [_places(name, rows, first) for name, rows, first in _of_particles(run)]
     made = xarray.merge([part for part in parts if part is not None], join='outer')
@@ -61,6 +63,20 @@ def _spectrum(run):
     return made
 
 
+def _structure(means):
+    import xarray
+
+    made = xarray.Dataset(coords={'index': means.along.index})
+    for name, values in means.waves.items():
+        made[f'structure_{name}'] = 'structure_wave', values
+    for name in factors.DIRECTIONS:
+        made[f'structure_{name}'] = ('index', 'structure_wave'), getattr(means, name)
+    for name, field in fields.of(msg.Structure).items():
+        if f'structure_{name}' in made:
+            made[f'structure_{name}'].attrs = _said(field.unit, field.what)
+    return made
+
+
 def _frames(run):
     """Yields (topic, frame, {name of the frame's index: name of the dimension})."""
     for name in filter(run.has, OVER_TIME):
@@ -70,10 +86,8 @@ def _frames(run):
         if name == 'steps' and messages:
             frame = tables.over_time(messages, tables.of_steps, run.info)
             yield name, frame, {'sim_time': 'time'}
-    for name, of_one in PHASES.items():
-        if run.has(name):
-            frame = tables.over_time(list(run.messages(name)), of_one, run.info)
-            yield name, frame, {'sim_time': f'{name}_time', 'number': name[:-1]}
+    for name in filter(run.has, NUMBERED):
+        yield name, run.course(name), {'sim_time': f'{name}_time', 'number': NUMBERED[name]}
     for name in filter(run.has, LAST):
         yield name, getattr(run, name), {}
     for name in filter(run.has, COURSES):

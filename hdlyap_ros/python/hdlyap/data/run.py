@@ -24,6 +24,7 @@ FRAMES = {
     'steps': tables.of_steps,
     'lp_phases': tables.of_phases,
     't_phases': tables.of_t_phases,
+    'hydro': tables.of_hydro,
     'covariant': tables.of_arrays,
     'localization': tables.of_arrays,
     'fluctuations': tables.of_fluctuations,
@@ -210,7 +211,7 @@ class Run:
         }
 
     def to_xarray(self):
-        """All but hydro and structure as one xarray.Dataset; see data.dataset."""
+        """One xarray.Dataset of all topics; see data.dataset."""
         return dataset.of(self)
 
     @cached_property
@@ -222,7 +223,7 @@ class Run:
         return tables.scalars(self._all('status'))
 
     def course(self, topic):
-        """Frame of all messages of 'spectrum', 'modes', 'steps', 'lp_phases', 't_phases',
+        """Frame of all messages of 'spectrum', 'modes', 'steps', 'lp_phases', 't_phases', 'hydro',
         'covariant', 'localization', 'fluctuations' or 'gas', by simulated time:
         course('lp_phases')['phase'].unstack() has a column for each phase."""
         return tables.over_time(self._all(topic), FRAMES[topic], self.info)
@@ -230,12 +231,15 @@ class Run:
     @cached_property
     def structure(self):
         """The last mean structure factors; see structure.Structure."""
-        last = None
-        for message in self.messages('structure'):
-            last = message if len(message.along) else last
-        if last is None:
+        if self._told_structure is None:
             raise self._missing('structure with means')
-        return structure.Structure(last)
+        return structure.Structure(self._told_structure)
+
+    has_structure = property(lambda self: self._told_structure is not None)
+
+    @cached_property
+    def _told_structure(self):
+        return self._last_with('structure', 'along')
 
     @cached_property
     def growth(self):
@@ -248,7 +252,11 @@ class Run:
 
     @cached_property
     def _told_growth(self):
-        told = (one for one in self.messages('fluctuations') if len(one.orders))
+        return self._last_with('fluctuations', 'orders')
+
+    def _last_with(self, topic, slot):
+        """The last message in which this array has elements, or None."""
+        told = (one for one in self.messages(topic) if len(getattr(one, slot)))
         return next(iter(deque(told, maxlen=1)), None)
 
     @property

@@ -138,12 +138,21 @@ def of_gas(message, info=None):
 
 def of_phases(message, info=None, kind='LP'):
     """A frame of phases by their number; their modulation is a formula."""
-    phases = message.phases
-    made = elements(phases, pandas.RangeIndex(len(phases), name='number'), _left_out(info))
-    if phases:
-        made['step'] = [steps.wave_name(kind, phase, info) for phase in phases]
+    return _of_waves(message.phases, [kind] * len(message.phases), info)
+
+
+def of_hydro(message, info=None):
+    """A frame of responses by their number; their modulation is a formula."""
+    kinds = [NAMES['kind'].get(one.kind, str(one.kind)) for one in message.responses]
+    return _of_waves(message.responses, kinds, info)
+
+
+def _of_waves(parts, kinds, info):
+    made = elements(parts, pandas.RangeIndex(len(parts), name='number'), _left_out(info))
+    if parts:
+        made['step'] = [steps.wave_name(*of, info) for of in zip(kinds, parts)]
         made['modulation'] = [
-            waves.plain_formula(phase.nx, phase.ny, phase.modulation, phase.nz) for phase in phases
+            waves.plain_formula(one.nx, one.ny, one.modulation, one.nz) for one in parts
         ]
     return made
 
