@@ -13,7 +13,6 @@ from made_fields import mode_field
 from hdlyap.msg import (
     Cost,
     Covariant,
-    CovariantAngle,
     CovariantWeight,
     Fluctuations,
     FluctuationStep,
@@ -39,7 +38,6 @@ CURVES = {T: (1.4, 0.1), LP: (1.5, 0.5)}  # c, c2
 ERROR = 0.002  # of the exponents of steps
 VELOCITY = 1.6
 TOPICS = {message._type: name for name, message in topics.TYPES.items()}
-BINS = 90  # of the histograms of angles
 
 
 def write(path, messages, node='/hdlyap', mode='w', start=1):
@@ -285,22 +283,6 @@ def covariant_weight(made, count, dq=0.8, dp=0.3, elsewhere=0.02, gram_schmidt=0
     for index in range(made.first_index - 1, made.last_index):
         weight.dq[index], weight.dp[index], weight.gram_schmidt[index] = dq, dp, gram_schmidt
     return weight
-
-
-def covariant_angle(spaces, smallest, every, **fields):
-    """Histograms from {bin: count}."""
-    return message_of(
-        CovariantAngle,
-        fields,
-        spaces=spaces,
-        last=0.3,
-        mean=0.329,
-        std_error=0.006,
-        least=0.21,
-        mean_of_all=1.1,
-        smallest_counts=[smallest.get(k, 0) for k in range(BINS)],
-        all_counts=[every.get(k, 0) for k in range(BINS)],
-    )
 
 
 def covariant(exponents, run_id='one', error=0.01, **fields):

@@ -5,7 +5,7 @@ import unittest
 
 import numpy as np
 
-from hdlyap.msg import Cost, Spectrum, Steps
+from hdlyap.msg import Cost, CovariantAngle, Spectrum, Steps
 
 import bags
 import made
@@ -29,6 +29,7 @@ FIGURES = {
 POSITIVE, ALL = 37, 80  # of 20 disks
 FORWARD = np.array([*np.linspace(9, 1, POSITIVE), *[0.0] * 6, *-np.linspace(1, 9, POSITIVE)])
 UNSTABLE_STABLE, UNSTABLE_CENTRE, CENTRE_STABLE = range(3)
+BINS = 90  # of the histograms of angles
 
 
 def found_steps(info):
@@ -40,16 +41,32 @@ def found_steps(info):
     ]
 
 
+def covariant_angle(spaces, smallest, every, **fields):
+    """Histograms from {bin: count}."""
+    return made.message_of(
+        CovariantAngle,
+        fields,
+        spaces=spaces,
+        last=0.3,
+        mean=0.329,
+        std_error=0.006,
+        least=0.21,
+        mean_of_all=1.1,
+        smallest_counts=[smallest.get(k, 0) for k in range(BINS)],
+        all_counts=[every.get(k, 0) for k in range(BINS)],
+    )
+
+
 def angles():
     """Smallest ones: 30 in [0.1745, 0.1920) and 10 in the next bin; the centre is at right
     angles."""
-    last = {made.BINS - 1: 40}
+    last = {BINS - 1: 40}
     return [
-        made.covariant_angle(UNSTABLE_STABLE, {10: 30, 11: 10}, {20: 3000, 80: 1000}),
-        made.covariant_angle(
+        covariant_angle(UNSTABLE_STABLE, {10: 30, 11: 10}, {20: 3000, 80: 1000}),
+        covariant_angle(
             UNSTABLE_CENTRE, last, last, mean=np.pi / 2, least=np.pi / 2, std_error=2e-16
         ),
-        made.covariant_angle(
+        covariant_angle(
             CENTRE_STABLE, last, last, mean=np.pi / 2, least=np.pi / 2, std_error=-1.0
         ),
     ]
@@ -267,7 +284,7 @@ class Figures(Bags):
             said = [text.get_text() for text in axes.get_legend().get_texts()]
             names = ['unstable-stable', 'unstable-centre' + right, 'centre-stable' + right]
             self.assertEqual(said, names)
-        one = made.covariant_angle(UNSTABLE_STABLE, {30: 5}, {30: 5})
+        one = covariant_angle(UNSTABLE_STABLE, {30: 5}, {30: 5})
         lines = self.draw(covariant_angles, self.changed(angles=[one]))[0].get_lines()
         self.assertEqual(lines[0].get_label(), 'unstable-stable: 30 .. 31°')
 
@@ -303,7 +320,7 @@ class Partly(Bags):
         return text
 
     def test_runs(self):
-        none = made.covariant_angle(UNSTABLE_STABLE, {}, {})
+        none = covariant_angle(UNSTABLE_STABLE, {}, {})
         unknown = [-1.0] * ALL
         for run, missing in (
             (self.changed(windows=1, averaged_time=50.0, samples=1, std_errors=unknown), ()),
