@@ -12,9 +12,10 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 PAGE, ROWS = os.path.join(HERE, '../reproduction.md'), os.path.join(HERE, 'rows.csv')
 NUMBER = re.compile(r'-?[\d.]+(e[-+]?\d+)?')
 MANY = 6  # values that are listed; of more, the smallest and the largest
+FROM_PAPER = ' from the paper'  # is not repeated for what is inferred
 HEADS = {
-    table.STATEMENT: '| part | where | the paper says | criterion | measured | caught | verdict |',
-    table.FINDING: '| part | we say | criterion | measured | caught | verdict |',
+    table.STATEMENT: '| part | the paper says (where) | criterion | measured | caught |',
+    table.FINDING: '| part | we say | criterion | measured | caught |',
 }
 
 
@@ -52,20 +53,26 @@ def _front(found, front):
 
 def _counts(ones):
     given = [one[0]['claim_verdict'] for one in ones]
-    counts = ', '.join(f'{given.count(one)} {text}' for one, text in page.VERDICTS.items())
-    return f'**Of {len(ones)} statements {counts}.**'
+    counts = [_count(given.count(one), one) for one in page.VERDICTS if one in given]
+    return f'**Of {len(ones)} statements {", ".join(counts)}.**'
+
+
+def _count(count, verdict):
+    if count > 1:
+        return f'{count} {page.VERDICTS[verdict]}'
+    return f'1 is {verdict}' if verdict.startswith('not') else f'1 {verdict}'
 
 
 def _line(lines):
     one = lines[0]
     judged = [line for line in lines if line['published'] and line['verdict'] != row.MISSING]
-    says = [one['where'], one['words']] if one['kind'] == table.STATEMENT else [one['claim']]
+    says = f'{one["words"]} ({one["where"]})' if one['kind'] == table.STATEMENT else one['claim']
     criterion, of = one['criterion'], one['criterion_of']
-    criterion += '' if of == 'ours' else f' ({of})'
+    criterion += '' if of == 'ours' else f' ({of.replace(FROM_PAPER, "")})'
     verdict = one['claim_verdict']
-    verdict = f'**{verdict}**' if verdict == row.DIFFERS else verdict
+    part = one['part'] if verdict == row.AGREES else f'{one["part"]} **{verdict}**'
     caught = _span([line['caught'] for line in judged])
-    cells = [one['part'], *says, criterion, _measured(judged), caught, verdict]
+    cells = [part, says, criterion, _measured(judged), caught]
     return '| ' + ' | '.join(cell.replace('|', r'\|') for cell in cells) + ' |'
 
 
@@ -76,9 +83,11 @@ def _measured(lines):
     lines = [line for line in lines if line['published'] != '0'] or lines
     numbers = [_number(line) for line in lines]
     if len(numbers) <= MANY:
-        return ', '.join(numbers)
+        return ', '.join(dict.fromkeys(numbers))
     order = sorted(range(len(lines)), key=lambda at: _off(lines[at]))
-    ends = [f'{numbers[at]} of {lines[at]["published"]}' for at in (order[0], order[-1])]
+    ends = [numbers[at] for at in (order[0], order[-1])]
+    if lines[0]['unit'] != 'chi^2' and len({line['published'] for line in lines}) > 1:
+        ends = [f'{numbers[at]} of {lines[at]["published"]}' for at in (order[0], order[-1])]
     return f'{len(lines)} values, {ends[0]} to {ends[1]}'
 
 
@@ -107,7 +116,12 @@ def _number(line):
 def _span(texts):
     """The smallest and the largest of what would have been caught."""
     texts = sorted(set(texts), key=lambda text: float((NUMBER.match(text) or '0')[0]))
-    return texts[0] if len(texts) == 1 else f'{texts[0]} to {texts[-1]}' if texts else ''
+    if len(texts) < 2:
+        return ''.join(texts)
+    first, last = texts[0], texts[-1]
+    if NUMBER.sub('', first, 1) == NUMBER.sub('', last, 1):
+        first = NUMBER.match(first)[0]
+    return f'{first} to {last}'
 
 
 def main():
