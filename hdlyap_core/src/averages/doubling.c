@@ -246,8 +246,8 @@ void hd_doubling_archive(hd_doubling *d, hd_archive *archive)
     for (kind *k = d->kinds; hd_archive_good(archive) && k < d->kinds + HD_TIMES_MAX; k++) {
         kind_archive(d, k, archive);
         hd_archive_expect(archive, k->time >= 0 && k->begun >= 0 && (k->time > 0 || k->count == 0),
-                          "times passed", "it does not fit their number");
+                          "times passed", "it is negative, or 0 for values that were counted");
         hd_archive_expect(archive, k == d->kinds || k->parts <= 1, "times parts",
-                          "there are too many");
+                          "there is more than one");
     }
 }

@@ -36,7 +36,7 @@ void hd_archive_expect(hd_archive *archive, bool condition, const char *name, co
 hd_status hd_archive_end(hd_archive *archive)
 {
     hd_archive_expect(archive, archive->writing || archive->bytes == 0, "end",
-                      "there is more than expected");
+                      "bytes follow the last array");
     return archive->status;
 }
 

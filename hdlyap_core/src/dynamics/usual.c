@@ -53,10 +53,10 @@ static const char *usual_fault(const hd_record *record)
     const double *x = record->entry;
     double before = 0.0;
     for (size_t k = 0; k < doubles_of(record); k++) {
-        if (!isfinite(x[k])) return "a number is none";
+        if (!isfinite(x[k])) return "a number is not finite";
         if (k % step > 0) continue;
         if (!(x[k] >= before)) return "an entry comes before the one before it";
-        if (!(x[k] <= record->duration)) return "an entry comes after the end";
+        if (!(x[k] <= record->duration)) return "an entry comes after the end of the record";
         before = x[k];
     }
     return NULL;
@@ -77,7 +77,7 @@ static void usual_archive(hd_record *record, hd_archive *archive, const hd_scene
     if (!archive->writing && hd_archive_good(archive)) {
         const hd_status status = hd_record_reserve(record, count);
         if (status != HD_OK)
-            hd_archive_fail(archive, status, "log count", "there is no room for so many");
+            hd_archive_fail(archive, status, "log count", "there is no memory for so many entries");
         record->count = status == HD_OK ? count : 0;
     }
     if (!hd_archive_good(archive)) return;

@@ -260,14 +260,15 @@ void hd_rotor_archive(hd_rotor *r, hd_archive *archive, int vectors, double now)
     hd_archive_long(archive, "rotor samples", &r->samples, 0, LONG_MAX / 2);
     const int first = r->col < 0 ? 0 : r->col,
               last = r->col < 0 ? vectors - 1 : r->col + r->count - 1;
-    hd_archive_expect(archive, first <= last && last < vectors, "rotor", "its vectors are none");
+    hd_archive_expect(archive, first <= last && last < vectors, "rotor",
+                      "it names vectors that are not carried");
     hd_archive_of_ints(archive, "rotor slots", (size_t)r->slots);
     for (int v = 0; v < r->slots; v++) hd_archive_next_int(archive, &r->slot_col[v], first, last);
     hd_archive_doubles(archive, "rotor sign", r->sign, (size_t)r->slots);
     for (int v = 0; v < r->slots; v++)
         hd_archive_doubles(archive, "rotor z", (double *)r->z[v], 2 * (size_t)r->pairs);
     hd_archive_double(archive, "rotor time", &r->time);
-    hd_archive_expect(archive, r->time <= now, "rotor time", "it does not fit the time");
+    hd_archive_expect(archive, r->time <= now, "rotor time", "it is later than the checkpoint");
     hd_foresight_archive(&r->ahead, archive);
     hd_archive_double(archive, "rotor turned", &r->turned);
     hd_archive_double(archive, "rotor turning", &r->turning);

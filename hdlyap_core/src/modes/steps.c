@@ -370,7 +370,7 @@ static void step_archive(hd_steps *steps, hd_step *step, hd_archive *archive)
     const bool whole = step->col >= 0 && step->count >= least && step->set >= 0 &&
                        step->col + step->count <= steps->vectors;
     hd_archive_expect(archive, whole || !step->resolved, "step",
-                      "it has not the vectors that it needs");
+                      "its vectors are too few, or are not carried");
 }
 
 /** Reads or writes steps without their sets, which are found again from the averages. */

@@ -88,7 +88,7 @@ void hd_track_archive(hd_track *t, hd_archive *archive, int vectors, double samp
     hd_archive_of_doubles(archive, "phase sums", 6);
     for (int k = 0; k < 6; k++) hd_archive_next_doubles(archive, sums[k], 1);
     hd_archive_expect(archive, t->begin <= t->last && t->last <= sampled, "phase sums",
-                      "they do not fit the time");
+                      "their times do not fit the time of the checkpoint");
     hd_archive_long(archive, "phase count", &t->count, 0, LONG_MAX / 2);
     hd_blocks_archive(&t->turns, archive);
 }

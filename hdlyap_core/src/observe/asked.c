@@ -136,8 +136,8 @@ static hd_status check_space(const hd_scene_def *scene, char *message, size_t si
                          hd_dynamics_of(scene)->particles);
     if (of_edges && hd_container_of(scene)->wall)
         return hd_refuse(message, size,
-                         "observables = %s: must not be given with container = %s: it is of "
-                         "waves in a rectangle",
+                         "observables = %s: must not be given with container = %s: it needs "
+                         "the waves of a rectangle",
                          of_edges, hd_container_name(scene));
     return HD_OK;
 }

@@ -246,9 +246,9 @@ static void gas_archive(void *self, hd_archive *archive, const hd_trajectory *no
     hd_archive_double(archive, "gas time", &gas->time);
     hd_archive_doubles(archive, "gas sum", gas->sum, (size_t)gas->series);
     hd_archive_expect(archive, last->time >= 0 && last->time <= hd_trajectory_time(now),
-                      "gas last time", "it does not fit the time");
+                      "gas last time", "it does not fit the time of the checkpoint");
     hd_archive_expect(archive, gas->last.collisions <= hd_trajectory_collisions(now),
-                      "gas last collisions", "there were not so many");
+                      "gas last collisions", "they are more than the trajectory has had");
     hd_archive_expect(archive, gas->time >= 0, "gas time", "it is negative");
     hd_blocks_archive(&gas->blocks, archive);
 }
@@ -317,8 +317,8 @@ static hd_status gas_check(const hd_scene_def *scene, char *message, size_t size
     const hd_dynamics *of = hd_dynamics_of(scene);
     if (of->tell || of->sum) return HD_OK;
     return hd_refuse(message, size,
-                     "observables = gas: must not be given with particles = %s, which tell of no "
-                     "pressure",
+                     "observables = gas: must not be given with particles = %s, whose pressure "
+                     "cannot be measured",
                      of->particles);
 }
 

@@ -46,10 +46,11 @@ static bool slope_possible(const hd_scene_def *def, const hd_aim *goal, char why
     const hd_mode_kind kind = goal->quantity->kind;
     const double open = hd_relation_of(def, kind).box_error;
     if (!(hd_relation_open(def, kind) < INFINITY)) {
-        snprintf(why, HD_WHY, "there are no waves of its kind, or they follow no relation");
+        snprintf(why, HD_WHY, "no steps of this scene follow the relation whose slope it is");
         return false;
     }
-    snprintf(why, HD_WHY, "walls and narrow edges leave %.2g %% open, however long it is averaged",
+    snprintf(why, HD_WHY,
+             "walls and short edges leave an error of %.2g %%, however long it is averaged",
              100.0 * open);
     return !goal->relative || goal->wanted > open;
 }

@@ -117,7 +117,7 @@ static hd_status covariant_check(const hd_scene_def *scene, char *message, size_
     if (!of->symplectic)
         return hd_refuse(message, size,
                          "observables = covariant: must not be given with particles = %s, whose "
-                         "exponents are not in pairs",
+                         "exponents are not in pairs of opposite sign",
                          of->particles);
     if (hd_scene_positive_exponents(scene) < 1)
         return hd_refuse(
@@ -148,7 +148,7 @@ static hd_status covariant_check_ranks(const hd_scene_def *scene, int ranks, cha
     if (ranks == 1 || hd_scene_carried(scene) == hd_scene_vectors(scene)) return HD_OK;
     return hd_refuse(message, size,
                      "ranks = %d: must be 1 for covariant vectors with exponents = all; "
-                     "all_independent has them on several ranks",
+                     "all_independent computes them on several ranks",
                      ranks);
 }
 

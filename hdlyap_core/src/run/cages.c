@@ -84,6 +84,6 @@ void hd_cages_archive(hd_cages *cages, const hd_trajectory *trajectory, hd_archi
     hd_archive_int(archive, "cages left", &left, 0, 1);
     hd_archive_doubles(archive, "cages start", cages->start, cages->count);
     hd_archive_expect(archive, cages->begin <= cages->end && cages->end <= now, "cages end",
-                      "it does not fit the time");
+                      "it does not fit the time of the checkpoint");
     cages->left = left;
 }

@@ -16,9 +16,10 @@ static hd_status check_duration(const hd_run *run, double duration, char *messag
 {
     const double from = hd_run_change_time(run);
     if (hd_agenda_can_last(&run->agenda, duration, from)) return HD_OK;
-    return hd_refuse(message, size,
-                     "duration = %.15g: must be 0 or at least %.15g, averaged before it can change",
-                     duration, from - hd_agenda_stage_begin(&run->agenda));
+    return hd_refuse(
+        message, size,
+        "duration = %.15g: must be 0 or at least %.15g, the time averaged when it changes",
+        duration, from - hd_agenda_stage_begin(&run->agenda));
 }
 
 hd_status hd_run_change(hd_run *run, const hd_parameter *row, const char *value, char *message,
@@ -31,7 +32,8 @@ hd_status hd_run_change(hd_run *run, const hd_parameter *row, const char *value,
     hd_order_tell(run->communicator,
                   (hd_order){.kind = HD_ORDER_CHANGE, .integer = number, .text = value});
     if (!row->live)
-        return hd_refuse(message, size, "%s = %s: is read at the start", row->name, value);
+        return hd_refuse(message, size, "%s = %s: is read at the start and cannot change",
+                         row->name, value);
     if (hd_run_stage(run) == HD_FINISHED || hd_agenda_is_due(&run->agenda, HD_DUE_STAGE))
         return hd_refuse(message, size, "%s = %s: the run has ended", row->name, value);
     if (!hd_parameter_read(row, &asked, value))

@@ -172,9 +172,9 @@ static void plan_expect(const hd_run *run, hd_archive *archive)
                             pending > 0 ? fmin(cut, run->agenda.interval_end) : cut);
     const uint64_t events = hd_advance_events(&run->advance);
     hd_archive_expect(archive, plan->begin <= hd_run_time(run) && planned <= end, "run advance end",
-                      "it does not fit the time");
+                      "it does not fit the time of the checkpoint");
     hd_archive_expect(archive, plan->events <= events, "run advance events",
-                      "there were not so many");
+                      "they are more than the trajectory has had");
 }
 
 /** Expects that times fit each other, so that the run can go on. */
@@ -185,18 +185,18 @@ static void times_expect(const hd_run *run, hd_archive *archive)
     const bool no_more = cut >= now && hd_schedule_stage_end(s) <= now; /* a stage of no length */
     const bool ahead = s->stage == HD_FINISHED || cut > now || no_more;
     hd_archive_expect(archive, s->start >= 0 && s->start <= s->origin && s->origin <= now && ahead,
-                      "schedule", "it does not go on from this time");
+                      "schedule", "its times do not fit the time of the checkpoint");
     const hd_record *record = run->carrier.record;
     const double pending = record ? hd_record_duration(record) : 0.0;
     const double last = s->stage == HD_FINISHED ? now : hd_schedule_stage_end(s);
     const double end = fmax(now, fmin(last, now + run->advance.bound)),
                  planned = fmin(run->agenda.interval_end, last_time(run));
     hd_archive_expect(archive, run->agenda.sample_begin <= now && run->followed <= now,
-                      "run sample begin", "it does not fit the time");
+                      "run sample begin", "it does not fit the time of the checkpoint");
     hd_archive_expect(archive, planned <= end && (pending <= 0 || planned >= now),
-                      "run interval end", "it does not fit the time");
+                      "run interval end", "it does not fit the time of the checkpoint");
     hd_archive_expect(archive, pending >= 0 && pending <= now, "log duration",
-                      "it does not fit the time");
+                      "it does not fit the time of the checkpoint");
     hd_archive_expect(archive, run->advance.longest > 0, "run advance longest",
                       "it is not positive");
 }
@@ -241,7 +241,7 @@ static hd_status write_file(hd_run *run, const char *path, const char *label, ch
     hd_archive archive = hd_archive_writer(file.file);
     hd_run_write(run, &archive, label);
     all = hd_communicator_agree(run->communicator, archive.status);
-    if (all != HD_OK) hd_archive_fail(&archive, all, "run", "another rank cannot write it");
+    if (all != HD_OK) hd_archive_fail(&archive, all, "run", "another rank cannot write its part");
     return hd_checkpoint_file_end(&file, &archive, message, size);
 }
 
@@ -356,7 +356,7 @@ static hd_status restore(hd_run *run, hd_archive *archive, const hd_checkpoint *
     numbers_archive(run, archive);
     parts_archive(run, archive);
     hd_archive_expect(archive, hd_run_time(run) == kept->time, "time",
-                      "it is not that of the disks");
+                      "it is not that of the trajectory");
     if (hd_archive_end(archive) != HD_OK) return inconsistent(archive, message, size);
     take_up_scene(run, &kept->scene);
     HD_TRY(reopen(run, message, size));
@@ -379,7 +379,7 @@ static bool holds(hd_archive *archive, const hd_scene_def *scene)
                          (9.0 +
                           2.0 * hd_scene_coordinates(scene) * (double)hd_scene_carried(scene));
     hd_archive_expect(archive, least <= (double)archive->bytes, "scene",
-                      "the rest is too short for it");
+                      "the rest of the file is too short for its vectors");
     return hd_archive_good(archive);
 }
 
@@ -467,7 +467,7 @@ hd_status hd_run_resume_shared(hd_run **out, const char *path, const hd_scene_de
     const hd_status all = hd_communicator_agree(communicator, opened);
     if (all != HD_OK && opened == HD_OK) {
         (void)fclose(file);
-        hd_checkpoint_file_line(message, size, path, "another rank cannot read it");
+        hd_checkpoint_file_line(message, size, path, "another rank cannot read this file");
     }
     if (all != HD_OK) return all;
     hd_archive archive = hd_archive_reader(file, bytes);

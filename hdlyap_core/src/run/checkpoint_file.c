@@ -63,7 +63,7 @@ static hd_status name_part(hd_checkpoint_file *f, char *message, size_t size)
     if (!*f->path || length >= (int)sizeof f->part)
         return fault(message, size, f->path, "%s", strerror(*f->path ? ENAMETOOLONG : ENOENT));
     if (lstat(f->path, &now) == 0 && !S_ISREG(now.st_mode))
-        return fault(message, size, f->path, "is there, and no regular file");
+        return fault(message, size, f->path, "exists, but is no regular file");
     return HD_OK;
 }
 
@@ -97,11 +97,13 @@ static hd_status open_part(hd_checkpoint_file *f, char *message, size_t size)
     if (fd < 0) return fault(message, size, f->part, "%s", strerror(errno));
     if (!lock_part(fd, f->part)) {
         close(fd);
-        return fault(message, size, f->part, "is another process's, or no regular file");
+        return fault(message, size, f->part,
+                     "is being written by another process, or is no regular file");
     }
     if (!is_left_over(fd)) {
         close(fd);
-        return fault(message, size, f->part, "is there, and no part of a checkpoint");
+        return fault(message, size, f->part,
+                     "exists, but is no part of a checkpoint: it is not overwritten");
     }
     f->file = ftruncate(fd, 0) == 0 ? fdopen(fd, "wb") : NULL;
     if (f->file) return HD_OK;
@@ -206,11 +208,12 @@ static hd_status verify(FILE *file, uint64_t *bytes, const char *path, char *mes
         return fault(message, size, path, "is cut short: %zu of at least %zu bytes", found,
                      sizeof h);
     if (h.order != BYTE_ORDER_HERE && h.head_crc == hd_checkpoint_head_crc(&h))
-        return fault(message, size, path, "is of a machine with another byte order");
+        return fault(message, size, path, "was written on a machine with another byte order");
     if (h.head_crc != hd_checkpoint_head_crc(&h))
-        return fault(message, size, path, "is damaged: its head is");
+        return fault(message, size, path, "is damaged: the checksum of its head is wrong");
     if (h.format != HD_CHECKPOINT_FORMAT)
-        return fault(message, size, path, "is of format %u, of %s hdlyap: this one reads %d",
+        return fault(message, size, path,
+                     "has format %u, that of %s hdlyap; this one reads format %d",
                      (unsigned)h.format, h.format > HD_CHECKPOINT_FORMAT ? "a newer" : "an older",
                      HD_CHECKPOINT_FORMAT);
     const uint32_t crc = rest_crc(file, bytes);

@@ -42,7 +42,7 @@ static hd_status same_programs(hd_communicator *c, char *message, size_t size)
     }
     for (size_t rank = 1; rank < ranks && status == HD_OK; rank++)
         if (memcmp(&all[rank], &all[0], sizeof *all) != 0)
-            status = hd_refuse(message, size, "rank %zu is %s: must be %s, as rank 0", rank,
+            status = hd_refuse(message, size, "rank %zu runs %s: must run %s, as rank 0 does", rank,
                                all[rank].text, all[0].text);
     hd_memory_free(all);
     return status;

@@ -69,7 +69,7 @@ hd_status hd_room_check(const hd_scene_def *def, hd_room room, char *message, si
     const int n = hd_scene_vectors(def);
     const int threads = hd_threads_most(def->threads, 2 * hd_scene_coordinates(def) * def->number,
                                         hd_scene_carried(def));
-    char fitting[96] = "nothing of it would fit";
+    char fitting[96] = "not even one particle would fit";
     if (fits(def, room)) return HD_OK;
     const int exponents = n > 0 ? about(exponents_that_fit(def, room)) : 0;
     const int particles = about(particles_that_fit(def, room));

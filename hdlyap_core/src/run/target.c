@@ -25,7 +25,9 @@ typedef struct aims {
 static bool smallest_possible(const hd_scene_def *def, const hd_aim *goal, char why[HD_WHY])
 {
     const bool any = hd_scene_positive_exponents(def) > 0;
-    snprintf(why, HD_WHY, any ? "is an absolute error, as each has its own" : "there are none");
+    snprintf(why, HD_WHY,
+             any ? "it is several exponents, so its error must be without %%"
+                 : "no exponent is positive");
     return any && !goal->relative;
 }
 
@@ -37,7 +39,7 @@ static bool index_possible(const hd_scene_def *def, const hd_aim *goal, char why
     const bool zero = index > positive && index <= positive + hd_scene_zero_exponents(def);
     if (!carried)
         snprintf(why, HD_WHY, "indices are from 1 to %d, the exponents computed", vectors);
-    if (carried && zero) snprintf(why, HD_WHY, "it is a zero mode");
+    if (carried && zero) snprintf(why, HD_WHY, "it is the exponent of a zero mode, which is 0");
     return carried && !zero;
 }
 
@@ -199,7 +201,7 @@ static bool is_possible(const hd_scene_def *def, const hd_aim *goal, char why[HD
     if (hd_scene_vectors(def) == 0 && (!row || row->needs & HD_NEEDS_FRAME))
         snprintf(why, HD_WHY, "exponents = none");
     else if (row && !(hd_observables_with(def->observe) & needed(goal)))
-        snprintf(why, HD_WHY, "%s is no observable", row->quantities->from);
+        snprintf(why, HD_WHY, "%s is not among the observables", row->quantities->from);
     else
         return !q->possible || q->possible(def, goal, why);
     return false;

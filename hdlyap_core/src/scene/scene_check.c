@@ -127,15 +127,17 @@ static hd_status check_waves(const hd_scene_def *def, char *message, size_t size
     if (def->max_mode_number > limits.node)
         return hd_refuse(
             message, size,
-            "max_mode_number = %d: must be at most %d with number = %d, density = %.15g, %s: a "
-            "shorter wave than two mean distances, 2 / %s(density), is not sampled",
+            "max_mode_number = %d: must be at most %d with number = %d, density = %.15g, %s: waves "
+            "shorter than two mean distances of particles, 2 / %s(density), are not looked for",
             def->max_mode_number, limits.node, def->number, def->density, said, root(def));
     const double k = def->max_wave_number;
     if (k > 0 && !(k >= limits.smallest && k <= limits.largest))
-        return hd_refuse(message, size,
-                         "max_wave_number = %.15g: must be from %.6g, the longest wave, to %.6g: "
-                         "a shorter one than two mean distances, 2 / %s(density), is not sampled",
-                         k, limits.smallest, limits.largest, root(def));
+        return hd_refuse(
+            message, size,
+            "max_wave_number = %.15g: must be 0 or from %.6g, that of the longest wave, to "
+            "%.6g: waves shorter than two mean distances of particles, 2 / %s(density), are not "
+            "looked for",
+            k, limits.smallest, limits.largest, root(def));
     return HD_OK;
 }
 
@@ -146,7 +148,7 @@ static hd_status check_pairs(const hd_scene_def *def, char *message, size_t size
     if (of->symplectic || def->exponents != HD_EXPONENTS_POSITIVE) return HD_OK;
     return hd_refuse(message, size,
                      "exponents = positive: must be all, all_independent, none or from 1 to %d "
-                     "with particles = %s, whose exponents are not in pairs",
+                     "with particles = %s, whose exponents are not in pairs of opposite sign",
                      2 * of->coordinates * def->number, of->particles);
 }
 
@@ -163,7 +165,7 @@ hd_status hd_scene_check_start(const hd_scene_def *def, char *message, size_t si
     if (def->exponents == HD_EXPONENTS_POSITIVE && hd_scene_vectors(def) == 0)
         return hd_refuse(message, size,
                          "exponents = positive: must be all, all_independent, none or from 1 to %d "
-                         "with number = %d, which has no positive one",
+                         "with number = %d, where no exponent is positive",
                          each * def->number, def->number);
     HD_TRY(check_pairs(def, message, size));
     if (of->dimension > 0) HD_TRY(check_waves(def, message, size));

@@ -84,8 +84,8 @@ TEST(what_is_wrong_is_named)
         size_t size;
         const char *name, *fault;
     } cases[] = {
-        {1, 0, "x", 1, "end", "there is more than expected"},
-        {8, 0, "x", 1, "end", "there is more than expected"},
+        {1, 0, "x", 1, "end", "bytes follow the last array"},
+        {8, 0, "x", 1, "end", "bytes follow the last array"},
         {-1, 0, "x", 1, "x", "it ends too early"},
         {0, 0, "y", 1, "x", "another array is found in its place"},
         {0, HD_ARCHIVE_NAME, "i", 1, "x", "another array is found in its place"},

@@ -111,7 +111,7 @@ TEST(all_are_told_of_one_machine)
 {
     const hd_scene_def scene = short_scene(50, 0);
     check_told(hd_room_needed(&scene, 1, ranks->ranks), "would fit");
-    check_told(1.0, "nothing of it would fit");
+    check_told(1.0, "not even one particle would fit");
 }
 
 /** Whatever it is that the last rank does not get: all of them end, say so, and give back what they

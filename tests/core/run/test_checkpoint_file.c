@@ -202,10 +202,11 @@ TEST(what_no_run_could_resume_is_not_written)
         {&run->agenda.interval_end, 1.0, "run interval end: it does not fit the time"},
         {&run->advance.plan.begin, 1e9, "run advance end: it does not fit the time"},
         {&run->advance.longest, 0.0, "run advance longest: it is not positive"},
-        {&run->agenda.schedule.start, 1e9, "schedule: it does not go on from this time"},
+        {&run->agenda.schedule.start, 1e9,
+         "schedule: its times do not fit the time of the checkpoint"},
         {&run->carrier.interval.last, -1.0, "interval: it is negative"},
         {&events_in(run->carrier.record)[0].t, 1e9, "log: an event comes after the end"},
-        {&hard_in(run->advance.trajectory)->now, 1e9, "trajectory: the time is outside its epoch"},
+        {&hard_in(run->advance.trajectory)->now, 1e9, "trajectory: the time is outside the epoch"},
         {&hard_in(run->advance.trajectory)->motion.disk[0].p[0], 9.0, "trajectory: "},
     };
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {

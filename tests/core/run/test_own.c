@@ -292,7 +292,7 @@ TEST(what_needs_a_box_is_refused_by_name)
     REFUSED("container = circle" NO_BOX, .container = HD_CIRCLE);
     REFUSED("boundary_y = reflecting" NO_BOX, .boundary[1] = HD_REFLECTING);
     REFUSED("max_mode_number = 2" NO_BOX, .max_mode_number = 2);
-    REFUSED("target = pressure 1%: must be without pressure: gas is no observable",
+    REFUSED("target = pressure 1%: must be without pressure: gas is not among the observables",
             .target = (hd_text){"pressure 1%"});
 }
 
@@ -310,8 +310,8 @@ TEST(no_gas_without_pressure)
 {
     const hd_dynamics own = disks_of_ones_own();
     check_refused(scene_from(hd_scene_def_of(&own), .observe = HD_OBSERVE_GAS),
-                  "observables = gas: must not be given with particles = coins, which tell of no "
-                  "pressure");
+                  "observables = gas: must not be given with particles = coins, whose pressure "
+                  "cannot be measured");
 }
 
 static jmp_buf bug;
@@ -394,12 +394,13 @@ TEST(what_needs_pairs_is_refused_without_them)
         CHECK_CLOSE(exponent_of(run, col) + exponent_of(run, ROWS - 1 - col),
                     log(1.0 - LOST) / scene.own[STEP].real, 1e-4); /* part of a step at the end */
     scene.exponents = HD_EXPONENTS_POSITIVE;
-    check_refused(scene, "exponents = positive: must be all, all_independent, none or from 1 to "
-                         "16 with particles = chain, whose exponents are not in pairs");
+    check_refused(scene,
+                  "exponents = positive: must be all, all_independent, none or from 1 to "
+                  "16 with particles = chain, whose exponents are not in pairs of opposite sign");
     scene.exponents = HD_EXPONENTS_ALL;
     scene.observe = HD_OBSERVE_COVARIANT;
     check_refused(scene, "observables = covariant: must not be given with particles = chain, "
-                         "whose exponents are not in pairs");
+                         "whose exponents are not in pairs of opposite sign");
 }
 
 /* ---- memory, trial ------------------------------------------------------------------------- */

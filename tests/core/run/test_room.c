@@ -143,7 +143,7 @@ TEST(nothing_fits_where_there_is_nothing)
     const hd_scene_def small = short_run(50, 10, 0);
     assert_int_equal(hd_room_check(&small, (hd_room){1.0, "machine", 1}, line, sizeof line),
                      HD_NO_MEMORY);
-    assert_non_null(strstr(line, "nothing of it would fit"));
+    assert_non_null(strstr(line, "not even one particle would fit"));
 }
 
 TEST(fields_are_counted)

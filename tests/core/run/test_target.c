@@ -61,10 +61,12 @@ TEST(what_is_never_known_is_refused_by_name)
     } rows[] = {{"v 1%, T(9,0) 1%", "must be without T(9,0): it is not among the waves"},
                 {"T(0,5) 1%", "must be without T(0,5): it is not among the waves"},
                 {"omega(9,1) 1%", "must be without omega(9,1): it is not among the waves"},
-                {"lambda(118) 1", "it is a zero mode"}, /* 117 of 120 are positive */
+                {"lambda(118) 1",
+                 "it is the exponent of a zero mode, which is 0"}, /* 117 of 120 are positive */
                 {"lambda(0) 1", "from 1 to 117"},
-                {"smallest 1%", "absolute"},
-                {"c_T 0.01%", "narrow edges leave"}};
+                {"smallest 1%",
+                 "without smallest: it is several exponents, so its error must be without %"},
+                {"c_T 0.01%", "short edges leave"}};
     for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
         hd_scene_def def = aiming(long_box(), rows[k].target);
         if (strstr(rows[k].word, "zero mode")) def.exponents = HD_EXPONENTS_ALL;
@@ -72,16 +74,16 @@ TEST(what_is_never_known_is_refused_by_name)
     }
     hd_scene_def blind = aiming(long_box(), "v 1%");
     blind.observe = HD_OBSERVE_STEPS;
-    expect_refused(&blind, "must be without v: lp_phases is no observable");
+    expect_refused(&blind, "must be without v: lp_phases is not among the observables");
     blind = aiming(blind, "pressure 1%");
-    expect_refused(&blind, "must be without pressure: gas is no observable");
+    expect_refused(&blind, "must be without pressure: gas is not among the observables");
     blind = aiming(scene_from(long_box(), .observe = HD_OBSERVE_GAS), "temperature 1%");
     expect_refused(&blind,
                    "must be without temperature: all energy of disks is kinetic, and fixed");
     blind = aiming(blind, "potential_energy 1%");
     expect_refused(&blind, "must be without potential_energy: all energy of disks is kinetic");
     blind = aiming(blind, "c_L 1%");
-    expect_refused(&blind, "must be without c_L: steps is no observable");
+    expect_refused(&blind, "must be without c_L: steps is not among the observables");
     blind = aiming(scene_from(blind, .exponents = HD_EXPONENTS_NONE), "lambda_max 1");
     expect_refused(&blind, "must be without lambda_max: exponents = none");
 }

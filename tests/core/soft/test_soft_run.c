@@ -417,11 +417,13 @@ TEST(a_record_says_what_is_wrong_with_it)
         int entry, number; /* of a kick in its first step; of its doubles */
         double value;
         const char *fault;
-    } planted[] = {
-        {0, 1, 0.0, "no step begins it"},         {0, 3, 0.002, "a step is as long as no other"},
-        {1, 1, 5.0, "there is no such particle"}, {1, 1, 0.5, "there is no such particle"},
-        {1, 2, 0.0, "there is no such partner"},  {1, 2, 5.0, "there is no such partner"},
-        {1, 5, NAN, "a number is none"}};
+    } planted[] = {{0, 1, 0.0, "the first entry begins no time step"},
+                   {0, 3, 0.002, "a time step has a wrong length"},
+                   {1, 1, 5.0, "an entry names a particle that does not exist"},
+                   {1, 1, 0.5, "an entry names a particle that does not exist"},
+                   {1, 2, 0.0, "an entry names a partner that does not exist"},
+                   {1, 2, 5.0, "an entry names a partner that does not exist"},
+                   {1, 5, NAN, "a number is not finite"}};
     const softs s = softs_of_a_fluid(def, 3);
     for (size_t k = 0; k < sizeof planted / sizeof *planted; k++) {
         OWNED(hd_record) *log = new_soft_log(&def);

@@ -91,8 +91,9 @@ TEST(waves_shorter_than_two_distances)
     check_line(
         scene_from(box_of(64, 0.5, 0.5, 1.0, 0, 1), .max_mode_number = 4),
         "max_mode_number = 4: must be at most 2 with number = 64, density = 0.5, aspect = 0.5, "
-        "aspect_z = 1 and these boundaries: a shorter wave than two mean distances, 2 / "
-        "cbrt(density), is not sampled");
+        "aspect_z = 1 and these boundaries: waves shorter than two mean distances of particles, 2 "
+        "/ "
+        "cbrt(density), are not looked for");
 }
 
 /** A prepared state that overlaps through an image across an edge or a corner, or is outside. */

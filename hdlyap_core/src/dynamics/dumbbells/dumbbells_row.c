@@ -135,10 +135,12 @@ static const char *row_fault(const hd_record *record, const hd_scene_def *scene)
         const hd_bump *bump = hd_record_entry(record, k);
         const double i = bump->i, j = bump->j,
                      n2 = bump->n[0] * bump->n[0] + bump->n[1] * bump->n[1];
-        if (!(i >= 0 && i < scene->number && i == floor(i))) return "there is no such dumbbell";
+        if (!(i >= 0 && i < scene->number && i == floor(i)))
+            return "an entry names a dumbbell that does not exist";
         if (!(j == -1 || (j > i && j < scene->number && j == floor(j))))
-            return "there is no such partner";
-        if (!(fabs(n2 - 1.0) <= 8.0 * DBL_EPSILON)) return "a normal has not the length 1";
+            return "an entry names a partner that does not exist";
+        if (!(fabs(n2 - 1.0) <= 8.0 * DBL_EPSILON))
+            return "a normal vector has a length other than 1";
     }
     return NULL;
 }

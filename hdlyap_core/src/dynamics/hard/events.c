@@ -62,12 +62,13 @@ const char *hd_events_fault(const hd_record *record, const hd_scene_def *scene)
     for (size_t k = 0; k < record->count; k++) {
         const hd_event *event = hd_events(record) + k;
         if (!(event->t >= before)) return "an event comes before the one before it";
-        if (!(event->t <= record->duration)) return "an event comes after the end";
-        if (!disks_exist(event, scene->number)) return "there is no such disk";
-        if (!wall_exists(event, &wall)) return "there is no such wall";
-        if (!is_normal(event, &wall)) return "a normal has not the length that it should";
+        if (!(event->t <= record->duration)) return "an event comes after the end of the record";
+        if (!disks_exist(event, scene->number))
+            return "an event names a particle that does not exist";
+        if (!wall_exists(event, &wall)) return "an event names a wall that does not exist";
+        if (!is_normal(event, &wall)) return "a normal vector has a wrong length";
         if ((event->j >= 0 || event->j == HD_WALL_ROUND) && !approach(event))
-            return "what meets there parts";
+            return "partners of a collision move apart";
         before = event->t;
     }
     return NULL;
@@ -90,7 +91,7 @@ void hd_events_archive(hd_record *record, hd_archive *archive, const hd_scene_de
     if (!archive->writing) {
         const hd_status status = hd_record_reserve(record, count);
         if (status != HD_OK)
-            hd_archive_fail(archive, status, "log count", "there is no room for so many");
+            hd_archive_fail(archive, status, "log count", "there is no memory for so many events");
         if (!hd_archive_good(archive)) return;
         record->count = count;
     }

@@ -51,14 +51,17 @@ const char *hd_hard_inconsistency(const hard *tr, double energy)
 {
     const double since = tr->now - tr->epoch_start;
     if (!(tr->epoch_start >= 0 && since >= 0 && since <= tr->epoch_length))
-        return "the time is outside its epoch";
+        return "the time is outside the epoch from which event times count";
     for (int32_t i = 0; i < tr->motion.count; i++) {
         const hd_disk *disk = &tr->motion.disk[i];
-        if (!(disk->t >= 0 && disk->t <= since)) return "a particle is ahead of its time";
+        if (!(disk->t >= 0 && disk->t <= since))
+            return "a particle has a later time than the trajectory";
         if (!in_its_cell(tr, disk)) return "a particle is not in its cell";
     }
     const double excess = energy - tr->motion.count;
-    return fabs(excess) <= ENERGY_CLOSE * tr->motion.count ? NULL : "the energy is wrong";
+    return fabs(excess) <= ENERGY_CLOSE * tr->motion.count
+               ? NULL
+               : "the kinetic energy is not 1 per particle";
 }
 
 static void book(hard *tr)

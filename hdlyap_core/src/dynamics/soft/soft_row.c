@@ -293,10 +293,12 @@ static void row_archive(void *state, hd_archive *archive)
     }
     if (!hd_archive_good(archive)) return;
     const double since = s->now - (double)s->steps * s->step;
-    const char *fault = since >= 0 && since < 2.0 * s->step ? inconsistency(s)
-                                                            : "the time is not that of the steps";
+    const char *fault = since >= 0 && since < 2.0 * s->step
+                            ? inconsistency(s)
+                            : "the time does not fit the number of time steps";
     hd_neighbours_forget(&s->near);
-    if (!fault && hd_soft_look(s) != HD_OK) fault = "the energy is wrong";
+    if (!fault && hd_soft_look(s) != HD_OK)
+        fault = "the energy is not that of the positions and momenta";
     if (fault) hd_archive_refuse(archive, "trajectory", fault);
 }
 
@@ -307,12 +309,12 @@ static const char *row_fault(const hd_record *record, const hd_scene_def *scene)
     for (size_t k = 0; k < hd_record_count(record); k++) {
         const hd_kick *kick = hd_record_entry(record, k);
         const bool begins = kick->i == -1.0;
-        if (k == 0 && !begins) return "no step begins it";
-        if (begins && kick->at != step) return "a step is as long as no other";
+        if (k == 0 && !begins) return "the first entry begins no time step";
+        if (begins && kick->at != step) return "a time step has a wrong length";
         if (!begins && !(kick->i >= 0 && kick->i < scene->number && kick->i == floor(kick->i)))
-            return "there is no such particle";
+            return "an entry names a particle that does not exist";
         if (!begins && !(kick->j > kick->i && kick->j < scene->number && kick->j == floor(kick->j)))
-            return "there is no such partner";
+            return "an entry names a partner that does not exist";
     }
     return NULL;
 }
