@@ -115,7 +115,7 @@ static const parameter rows[] = {
         .allowed = "a list of texts \"TIME NAME=VALUE\"",
         .unit = "",
         .may_differ = true,
-        .text = "Changes at given simulated times, by which a run is repeated in which ~set was "
+        .text = "Changes of parameters at given simulated times, to repeat a run in which ~set was "
                 "used.",
     },
     {

@@ -12,8 +12,8 @@
 enum { LINE_WIDTH = 100 };
 
 static const char *const head =
-    "Every parameter of hdlyap_node, with its default. Reduced units: disk mass 1, disk diameter "
-    "sigma = 1, kinetic energy per disk 1 (soft ones have an energy); the time unit follows from "
+    "Every parameter of hdlyap_node, with its default. Reduced units: particle mass 1, diameter "
+    "sigma = 1, kinetic energy 1 per particle (soft particles: energy); the time unit follows from "
     "these. YAML reads 1e-8 as a string, which is taken too.";
 
 /** Prints a comment, in several lines. */
