@@ -161,17 +161,17 @@ class Check(harness.Case):
         params = dict(number=150, density=0.6, aspect=0.3, boundary_y='reflecting')
         file = self.file_of(params)
         done = checked(file)
-        self.assertIn('\n          Beside it, of c_T some 3.4 %, which this box', done.stdout)
+        self.assertIn('\n          c_T has another error of about 3.4 %, due to', done.stdout)
         self.assertIn(f'scene     {os.path.basename(file)[:-5]} is valid: ', done.stdout)
         done = checked(self.file_of(dict(number=160, density=0.7, container='circle')))
-        self.assertIn('\n          of c_T about 1 % of sampling after ', done.stdout)
+        self.assertIn('\n          of c_T about 1 % from finite averaging after ', done.stdout)
         self.assertNotIn('c_L', done.stdout)
 
     def test_exponents_that_reach_no_step(self):
         """780 disks: 222 fields of waves up to 1.75 times (3,0) among the last of 1557."""
         said = (
             'warning   exponents = %d: none of them belongs to a step, which modes, steps, '
-            'lp_phases need; fewer than 1336 reach none, positive (1557) reaches all\n'
+            'lp_phases need; at least 1336 exponents include a step, positive (1557) includes all\n'
         )
         scene = dict(observables=['spectrum', 'modes', 'steps', 'lp_phases'], duration=1.0)
         for exponents in (120, 1335, 1336):
@@ -283,9 +283,9 @@ class Check(harness.Case):
         """It takes 960 reports a second: 200 time units of ten thousand each."""
         params = dict(MODES, observables=['gas'], exponents='none', duration=190.0, warmup=0.0)
         said = checked(self.file_of(dict(params, report_interval=1e-4))).stdout
-        self.assertIn('; recorded in all at least 34.7 min', said)
+        self.assertIn('; if recorded, in all at least 34.7 min', said)
         rare = dict(params, report_interval=100.0)
-        self.assertNotIn('recorded in all', checked(self.file_of(rare)).stdout)
+        self.assertNotIn('if recorded', checked(self.file_of(rare)).stdout)
 
     def test_refused_as_by_the_node(self):
         some = (
@@ -309,7 +309,7 @@ class Check(harness.Case):
 
     def test_refused_files(self):
         for text, said in (
-            ('number: [1, {a: 2}]', 'line 1: a parameter is a number, a word or a list'),
+            ('number: [1, {a: 2}]', 'line 1: a parameter must be a number, a word or a list'),
             ('- disks', 'must be a list of parameters, name: value'),
             ('number: 4\nseed: [1', 'line 2'),
         ):

@@ -190,7 +190,9 @@ class Delivery(harness.Case):
         warnings = node.lines('WARN')
         self.assertEqual(len(warnings), 1, node.text())
         # or, on a machine that is busy, that its master has not told it in these seconds
-        said = 'cost: 1 of 2 subscribers connected after 3 s|: no answer of the master in time'
+        said = (
+            'cost: 1 of 2 subscribers connected after 3 s|: the ROS master does not answer in time'
+        )
         self.assertRegex(warnings[0], said)
         self.assertTrue(status.wait_for(is_last))
         said = cost.messages, state.messages

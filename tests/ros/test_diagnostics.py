@@ -67,14 +67,14 @@ class Diagnostics(harness.Case):
         self.assertEqual(values['error of the smallest exponents'], '0.25')
         averaged = float(values['averaged time'])
         self.assertLess(averaged, float(values['simulated time']) - 99)
-        told = re.search('averaged, 0.25 after ([^;]*)', values['message']).group(1)
+        told = re.search('averaging, 0.25 after ([^;]*)', values['message']).group(1)
         self.assertAlmostEqual(float(told) / averaged, 1.0, delta=0.01)
 
     def test_exponents_that_reach_no_step(self):
         """In the log once, and in status, too."""
         node = self.start(dict(MODES, exponents=4, duration=0.0, pace=20.0))
         said = 'exponents = 4: none of them belongs to a step, which modes, '
-        self.said(WARN, said, ' reaches all')
+        self.said(WARN, said, ' includes all')
         self.assertIn(said, rospy.wait_for_message('/hdlyap/status', RunStatus).warning)
         node.stop()
         self.assertEqual(node.text().count(said), 1)

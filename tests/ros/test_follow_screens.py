@@ -234,7 +234,8 @@ class Screens(unittest.TestCase):
             diagnosis=diagnosis(
                 1,
                 'errors of the smallest exponents do not fall: 0.0034 after 1e+03 '
-                'averaged, 0.0035 after 9e+02; a subscriber of /hdlyap/spectrum is 3 s behind',
+                'time units of averaging, 0.0035 after 9e+02; a subscriber of /hdlyap/spectrum '
+                'is 3 s behind',
             ),
         )
         said = 'seed 1 run 20261122T194504.100733Z-17630-1', ' 50.0 % 26:56:01 left', 'T(10,21)'

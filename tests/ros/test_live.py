@@ -278,7 +278,7 @@ class Live(harness.Case):
             ('modes=T(1,0) LP(1,1)', True, 'modes = T(1,0) LP(1,1)'),
             ('modes=lowest', True, 'modes = lowest'),
             ('modes=T(1,0', False, 'modes = T(1,0: must be lowest or 1 to 8 names'),
-            ('node=/other', False, 'the rest is read at the start'),
+            ('node=/other', False, 'other parameters are read at the start'),
         ):
             answer = self.call(assignment, 'viewer')
             self.assertEqual((answer.success, words in answer.message), (success, True), answer)

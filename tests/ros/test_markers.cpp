@@ -308,7 +308,7 @@ TEST(markers, what_is_gone_is_deleted)
     EXPECT_TRUE(in(array, "mode/LP(1,1)", Marker::TRIANGLE_LIST).empty());
     EXPECT_EQ("LP(1,1): not resolved", title(array, "mode/LP(1,1)").text);
     s.p.mode[1].absent = true;
-    EXPECT_EQ("LP(1,1): this run looks for none", title(on.of(s.p), "mode/LP(1,1)").text);
+    EXPECT_EQ("LP(1,1): this run does not look for it", title(on.of(s.p), "mode/LP(1,1)").text);
 }
 
 /** Between two orthonormalisations, of a run that rests: a mode is found although its vector is not

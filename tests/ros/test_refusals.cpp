@@ -312,7 +312,7 @@ TEST(Parameters, OwnNamesAreNobodyElses)
             EXPECT_EQ(line, "stiffness = 12: must be from 0 to 10");
         } else {
             EXPECT_EQ(line, std::string("particles = rods: must have no parameter ") + name +
-                                ": there is another one of this name");
+                                ": another parameter has this name");
         }
     }
     particles_bring(nullptr, 0);
@@ -333,7 +333,7 @@ TEST(Parameters, MoreCoordinatesNeedAnInertia)
     EXPECT_EQ(
         begun(scene + "density: 0.5\nparticles: rods\n"),
         "particles = rods: must be particles with a coordinate for each direction of their box, "
-        "or with an angle and an inertia besides: messages have no room for others");
+        "or with an angle and an inertia besides: messages have no fields for other coordinates");
     particles_bring(nullptr, 0);
     particles_are(nullptr);
 }

@@ -64,7 +64,7 @@ class Stop(harness.Case):
     def test_during_creation(self):
         """Of a frame so large that it is announced."""
         node = self.start(dict(number=2000, exponents='all', threads=1))
-        self.sees(lambda: node.lines('makes 4000 vectors of 2000 disks'))
+        self.sees(lambda: node.lines('creates 4000 tangent vectors of 2000 disks'))
         self.stop(node)
         self.assertEqual(node.lines('scene '), [])
 

@@ -337,7 +337,7 @@ static void on_string(void *, const hdr_string *) {}
 static std::string of_another_type(const char *topic)
 {
     return std::string(hdr_node_name(node)) + "/" + topic +
-           " cannot be std_msgs/String: this node has it with another type";
+           " cannot be std_msgs/String: this node publishes or hears it as another type";
 }
 
 TEST(refused, another_type_of_this_node)
@@ -411,8 +411,9 @@ TEST(log, topics_of_another_type)
     seen s;
     hdr_subscriber *subscriber = subscribe("~strange", &s);
     const std::string topic = std::string(hdr_node_name(node)) + "/strange",
-                      line = topic + " is published as std_msgs/String, not as std_msgs/Float64: "
-                                     "not connected";
+                      line = topic +
+                             " is published as std_msgs/String and not connected: it must be "
+                             "std_msgs/Float64";
     for (int tries = 0; tries < 20 && log.count(line) < 2; tries++) {
         at_master("registerPublisher", topic, "std_msgs/String");
         hdr_node_wait(0.7); /* it looks each half a second */

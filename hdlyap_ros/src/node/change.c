@@ -47,7 +47,8 @@ bool change_parse(change *out, const char *assignment, char *message, size_t siz
     }
     const parameter p = parameters_named(name);
     out->name = p.name;
-    if (!p.live) return change_refuse(message, size, assignment, "is read at the start");
+    if (!p.live)
+        return change_refuse(message, size, assignment, "is read at the start and cannot change");
     snprintf(why, sizeof why, "must be %s", p.allowed);
     return parse_value(out->value, sign + 1, &p) || change_refuse(message, size, assignment, why);
 }

@@ -80,10 +80,11 @@ static void print_speed(const settings *set, const hd_estimate *t)
     const hd_scene_def *def = &set->def;
     char left_out[PARAMETER_TEXT];
     printf("speed     %.3g s per time unit, by a trial of a second", t->seconds);
-    if (t->particles < def->number) printf(" of %d %s, and the cube of N", t->particles, set->particles);
+    if (t->particles < def->number)
+        printf(" with %d %s, scaled by N^3", t->particles, set->particles);
     if (!isnan(t->interval)) printf("; interval %.3g", t->interval);
     topic_names(left_out, sizeof left_out, set->observables & topics_of_stages(t->untried));
-    if (*left_out) printf("; without %s", left_out);
+    if (*left_out) printf("; not in this trial: %s", left_out);
     printf("\n");
     print_seconds("          ", t->before * t->seconds);
     printf(" before the averaging (%.4g time units)", t->before);
@@ -92,7 +93,8 @@ static void print_speed(const settings *set, const hd_estimate *t)
         printf(" of averaging (%.4g)", def->duration);
         const double time = t->before + def->duration;
         const double recorded = time / (reports_per_second * def->report_interval);
-        if (recorded > time * t->seconds) print_seconds("; recorded in all at least ", recorded);
+        if (recorded > time * t->seconds)
+            print_seconds("; if recorded, in all at least ", recorded);
     }
     printf("\n");
 }
@@ -174,22 +176,24 @@ static void print_waves(const settings *set)
 }
 
 /** Prints the part of an error that averaging does not reduce. */
-static void print_open(const char *begin, const hd_scene_def *def, hd_mode_kind kind)
+static void print_open(const char *name, const hd_scene_def *def, hd_mode_kind kind)
 {
     const double open = hd_relation_open(def, kind);
     if (open < INFINITY)
-        printf("%s some %.2g %%, which this box and its waves leave open.\n", begin, 100.0 * open);
+        printf("          %s has another error of about %.2g %%, due to the waves, edges and walls "
+               "of this box: longer runs do not reduce it.\n",
+               name, 100.0 * open);
 }
 
 static void print_slopes(const settings *set, const hd_estimate *t)
 {
     const bool has_c_l = hd_relation_open(&set->def, HD_MODE_LP) < INFINITY;
-    printf("          of %s about 1 %% of sampling after %.3g (", has_c_l ? "c_T and c_L" : "c_T",
-           t->slopes_after);
+    printf("          of %s about 1 %% from finite averaging after %.3g (",
+           has_c_l ? "c_T and c_L" : "c_T", t->slopes_after);
     print_seconds("", (t->before + t->slopes_after) * t->seconds);
     printf("). An estimate, from runs of 780 disks.\n");
-    print_open("          Beside it, of c_T", &set->def, HD_MODE_T);
-    print_open("          Beside it, of c_L", &set->def, HD_MODE_LP);
+    print_open("c_T", &set->def, HD_MODE_T);
+    print_open("c_L", &set->def, HD_MODE_LP);
 }
 
 static void print_errors(const settings *set, const hd_estimate *t)
@@ -207,7 +211,8 @@ static void print_errors(const settings *set, const hd_estimate *t)
         printf("          The duration is too short for any error.\n");
     if (may_be_caged(&set->def))
         printf("          %s may keep their places at this density, as in a crystal: then errors "
-               "are those of one state,\n          and other seeds may differ by more (~status: "
+               "hold for one arrangement\n          of them, and other seeds may differ by more "
+               "(~status: "
                "caged).\n",
                set->particles);
 }
@@ -221,7 +226,7 @@ static void print_target(const settings *set, const hd_estimate *t)
     if (!*def->target.line) return;
     printf("target    %s\n          ", def->target.line);
     if (isinf(t->target_after)) {
-        printf("never reached: this box and its waves leave more open, see above\n");
+        printf("never reached: the error that longer runs do not reduce is larger, see above\n");
         return;
     }
     printf(known ? "reached after some %.3g time units of averaging ("

@@ -80,7 +80,8 @@ static hd_status set_aside(const char *path, char *message, size_t size)
         hdr_log(HDR_WARN, "%s was there already: it is now %s", path, old);
         return HD_OK;
     }
-    return fault(path, "is there already, and so are .old to .old99", message, size);
+    return fault(path, "is there already, and so are its .old to .old99: remove some", message,
+                 size);
 }
 
 /** Writes the first file beside an old one, which is replaced only when the new one is whole. */
@@ -153,10 +154,10 @@ static hd_status save(checkpoint_writer *k, hd_run *run)
     kept *state = &k->state;
     const char *path = k->set->checkpoint;
     const int lock = folder_lock(path);
-    const hd_status status = is_mine(k) ? hd_run_save(run, path, k->set->scene, state->message,
-                                                      sizeof state->message)
-                                        : fault(path, "another process has replaced it",
-                                                state->message, sizeof state->message);
+    const hd_status status =
+        is_mine(k) ? hd_run_save(run, path, k->set->scene, state->message, sizeof state->message)
+                   : fault(path, "another process has replaced it, so it is not overwritten",
+                           state->message, sizeof state->message);
     if (status == HD_OK) remember(k);
     folder_unlock(lock);
     return status;

@@ -58,8 +58,8 @@ static void add_warnings(conditions *all, const worker_state *state, const hdr_l
     if (*state->warning) add(all, level, "%s", state->warning);
     if (last->cost.stalled_since >= 0.0)
         add(all, level,
-            "errors of the smallest exponents do not fall: %.2g after %.3g averaged, %.2g after "
-            "%.3g",
+            "errors of the smallest exponents do not fall: %.2g after %.3g time units of "
+            "averaging, %.2g after %.3g",
             last->cost.stalled_error, last->cost.stalled_since, last->cost.std_error,
             last->averaged);
     if (state->lost > 0.0)
@@ -67,8 +67,8 @@ static void add_warnings(conditions *all, const worker_state *state, const hdr_l
             state->lost);
     if (*at->name && at->error >= 0.0 && at->open >= at->wanted)
         add(all, level,
-            "the target of %s, %.2g, cannot be reached: this box leaves an error of %.2g", at->name,
-            at->wanted, at->open);
+            "the target of %s, %.2g, cannot be reached: in this box an error of %.2g remains",
+            at->name, at->wanted, at->open);
     if (last->caged)
         add(all, level,
             "%s keep their places: errors hold for this arrangement only, other seeds may differ",

@@ -43,9 +43,10 @@ static void look_for_room(int argc, char **argv, char **environment)
     (void)argv;
     if (status == HD_OK) return;
     clock_gettime(CLOCK_REALTIME, &now);
-    const int length = snprintf(
-        line, sizeof line, "[FATAL] [%ld.%09ld]: %s: no address space for OpenBLAS, %d threads\n",
-        (long)now.tv_sec, now.tv_nsec, hd_status_text(status), threads);
+    const int length = snprintf(line, sizeof line,
+                                "[FATAL] [%ld.%09ld]: %s: no address space for %d threads of "
+                                "OpenBLAS: set OMP_NUM_THREADS lower\n",
+                                (long)now.tv_sec, now.tv_nsec, hd_status_text(status), threads);
     const ssize_t written = write(STDERR_FILENO, line, (size_t)length);
     (void)written; /* a failure to write cannot be reported */
     _exit(EXIT_FAULT);

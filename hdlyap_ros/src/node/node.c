@@ -127,8 +127,8 @@ static void log_creation(const settings *set)
     if (hd_room_check(def, hd_room_available(), NULL, 0) != HD_OK) return;
     const int vectors = hd_scene_counts(def).carried;
     if (2.0 * hd_scene_coordinates(def) * def->number * vectors > ENTRIES_MANY)
-        hdr_log(HDR_INFO, "makes %d vectors of %d %s orthonormal", vectors, def->number,
-                set->particles);
+        hdr_log(HDR_INFO, "creates %d tangent vectors of %d %s, which may take a minute", vectors,
+                def->number, set->particles);
 }
 
 /** Creates the run, unless its checkpoints could not be written. */
@@ -189,8 +189,8 @@ static void log_start(const app *a)
     warn_of_threads(a->run);
     if (*a->set.warning) hdr_log(HDR_WARN, "%s", a->set.warning);
     if (*a->set.resume)
-        hdr_log(HDR_INFO, "goes on from simulated time %.6g of %s", hd_run_time(a->run),
-                a->set.resume);
+        hdr_log(HDR_INFO, "goes on from simulated time %.6g of the checkpoint %s",
+                hd_run_time(a->run), a->set.resume);
 }
 
 static void log_end(const worker_state *state)
@@ -218,7 +218,7 @@ static void end_if_lost(app *a, const worker_state *state)
     a->lost = state->stage == WORKER_WAITING && state->lost >= lost_seconds;
     if (!a->lost) return;
     hdr_log(HDR_FATAL,
-            "ends: without the ROS master the subscribers do not come that it waits for");
+            "ends: the subscribers that it waits for cannot come without the ROS master");
     hdr_node_stop_within(stop_seconds, EXIT_LOST); /* roscpp may wait for a master that hangs */
     hdr_stop_request();
 }

@@ -38,7 +38,7 @@ static bool check_own_names(const hd_dynamics *of, const reader *r)
             same += strcmp(parameters_at(other).name, of->parameter[k].name) == 0;
         if (same == 1) continue;
         snprintf(r->message, r->size,
-                 "particles = %s: must have no parameter %s: there is another one of this name",
+                 "particles = %s: must have no parameter %s: another parameter has this name",
                  of->particles, of->parameter[k].name);
         return false;
     }
@@ -134,9 +134,9 @@ static bool check_particles(const settings *set, reader *r)
     r->name = "particles";
     const hd_dynamics *of = hd_dynamics_of(&set->def);
     return of->dimension == 0 || of->coordinates == of->dimension + (of->inertia != NULL) ||
-           reader_refuse(r,
-                         "particles with a coordinate for each direction of their box, or with an "
-                         "angle and an inertia besides: messages have no room for others");
+           reader_refuse(
+               r, "particles with a coordinate for each direction of their box, or with an "
+                  "angle and an inertia besides: messages have no fields for other coordinates");
 }
 
 /** Checks parameters that are not the scene's, if their rows state a range. */
@@ -332,11 +332,10 @@ static void warn_of_steps(settings *set)
     char names[PARAMETER_TEXT];
     if (!empty || vectors == 0 || vectors >= least) return;
     topic_names(names, sizeof names, empty);
-    snprintf(
-        set->warning, sizeof set->warning,
-        "exponents = %d: none of them belongs to a step, which %s need; fewer than %d reach none, "
-        "positive (%d) reaches all",
-        vectors, names, least, hd_scene_counts(def).positive);
+    snprintf(set->warning, sizeof set->warning,
+             "exponents = %d: none of them belongs to a step, which %s need; at least %d "
+             "exponents include a step, positive (%d) includes all",
+             vectors, names, least, hd_scene_counts(def).positive);
 }
 
 bool settings_read(settings *out, const hdr_params *params, const hd_checkpoint *kept,

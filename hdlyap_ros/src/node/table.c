@@ -107,8 +107,8 @@ static void print(const char *what, const settings *set, const hd_run *run)
     print_steps(run);
     if (hd_run_is_caged(run))
         hdr_log(HDR_WARN,
-                "  %s have kept their places since the averaging began: errors are those of this "
-                "one state, other seeds may differ by more",
+                "  %s have kept their places since the averaging began: errors hold for this "
+                "arrangement only, other seeds may differ by more",
                 set->particles);
 }
 

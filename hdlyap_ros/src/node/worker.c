@@ -87,7 +87,8 @@ static void publish_changes(worker *w)
     pthread_mutex_unlock(&w->lock);
     pthread_mutex_lock(&w->publishing);
     if (!w->closed && report_run_info(w->rep, w->run, w->changes) != HD_OK)
-        hdr_log(HDR_WARN, "no run_info of the change: %s", hd_status_text(HD_NOT_FINITE));
+        hdr_log(HDR_WARN, "run_info with the change is not published: %s",
+                hd_status_text(HD_NOT_FINITE));
     pthread_mutex_unlock(&w->publishing);
     pthread_mutex_lock(&w->lock);
 }
@@ -147,8 +148,10 @@ static void publish_at_rest(worker *w)
 {
     pthread_mutex_unlock(&w->lock);
     pthread_mutex_lock(&w->publishing);
-    if (!w->closed && report_slow(w->rep, w->run, true) != HD_OK)
-        hdr_log(HDR_WARN, "no slow_vectors of the pause");
+    const hd_status status = w->closed ? HD_OK : report_slow(w->rep, w->run, true);
+    if (status != HD_OK)
+        hdr_log(HDR_WARN, "slow_vectors of this pause are not published: %s",
+                hd_status_text(status));
     pthread_mutex_unlock(&w->publishing);
     pthread_mutex_lock(&w->lock);
 }
@@ -294,7 +297,8 @@ static void explain(worker *w, hd_status status)
         snprintf(fault, size, "%s, %.4g", hd_status_text(status),
                  hd_dynamics_of(scene)->step(scene));
     if (status == HD_NO_ROOM && hd_covariant_check_room(scene, interval, fault, size) == HD_OK)
-        snprintf(fault, size, "%s = %.3g GB, orthonormalised more often than every %.3g time units",
+        snprintf(fault, size,
+                 "%s = %.3g GB, as orthonormalisations are less than %.3g time units apart",
                  hd_status_text(status), scene->covariant_memory, interval);
 }
 
@@ -446,8 +450,9 @@ static bool answered(worker *w, double seconds, const char *assignment, char *me
     while (w->set_asked.waits && wait_for_answer(w, until)) continue;
     if (w->set_asked.waits)
         snprintf(message, size, "%s",
-                 w->stop || w->state.stage == WORKER_ENDED ? "the run has ended"
-                                                           : "the step under way takes too long");
+                 w->stop || w->state.stage == WORKER_ENDED
+                     ? "the run has ended"
+                     : "the step under way takes too long: try again later");
     w->set_asked.waits = false;
     const bool made = w->set_asked.made;
     pthread_mutex_unlock(&w->lock);

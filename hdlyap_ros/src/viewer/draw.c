@@ -366,7 +366,7 @@ static void title(const sheet *s, const char *ns, hdr_point at, const picture_mo
                     m->name, number, (unsigned)m->index, m->d ? when : " not received");
     else
         canvas_text(s->on, ns, at, height, PALETTE_INK, "%s: %s", m->name,
-                    m->absent ? "this run looks for none" : "not resolved");
+                    m->absent ? "this run does not look for it" : "not resolved");
 }
 
 /** Draws arrows, title and phases of a mode. */

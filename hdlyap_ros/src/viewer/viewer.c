@@ -185,7 +185,7 @@ static bool on_set(void *context, const char *assignment, char *message, size_t 
     mode_choice modes;
     const char *names = assignment + strlen("modes=");
     if (strncmp(assignment, "modes=", strlen("modes=")) != 0) {
-        snprintf(message, size, "must be modes=NAMES: the rest is read at the start");
+        snprintf(message, size, "must be modes=NAMES: other parameters are read at the start");
         return false;
     }
     if (!parse_modes(&modes, names)) {

@@ -42,13 +42,14 @@ void judge(hdr_subscriber *subscriber, const std::map<std::string, std::string> 
     const bool other = unconnected && found->second != subscriber->datatype;
     subscriber->looks = unconnected ? subscriber->looks + 1 : 0;
     if (subscriber->looks == 1 && other)
-        hdr_log(HDR_ERROR, "%s is published as %s, not as %s: not connected",
+        hdr_log(HDR_ERROR, "%s is published as %s and not connected: it must be %s",
                 subscriber->topic.c_str(), found->second.c_str(), subscriber->datatype.c_str());
     if (subscriber->looks == patience && !other)
-        hdr_log(HDR_WARN,
-                "%s is published, but not connected: by a node that is gone, or as another version "
-                "of %s",
-                subscriber->topic.c_str(), subscriber->datatype.c_str());
+        hdr_log(
+            HDR_WARN,
+            "%s is published, but not connected: its node is gone, or has another version of the "
+            "message %s",
+            subscriber->topic.c_str(), subscriber->datatype.c_str());
 }
 
 void look(hdr_node *node)

@@ -24,7 +24,7 @@ counts subscribed()
     XmlRpc::XmlRpcValue request, response, state;
     request[0] = ros::this_node::getName();
     if (!ros::master::execute("getSystemState", request, response, state, false))
-        throw std::runtime_error("no answer of the master");
+        throw std::runtime_error("the ROS master does not answer");
     XmlRpc::XmlRpcValue &topics = state[1]; /* [0] publishers, [2] services */
     for (int k = 0; k < topics.size(); k++) nodes[topics[k][0]] = topics[k][1].size();
     return nodes;
@@ -41,7 +41,7 @@ counts subscribed_within(double seconds)
     while (nodes.wait_for(std::chrono::duration<double>(answer_poll_seconds)) !=
            std::future_status::ready)
         if (clock::now() >= end || hdr_stop_requested())
-            throw std::runtime_error("no answer of the master in time");
+            throw std::runtime_error("the ROS master does not answer in time");
     return nodes.get();
 }
 } // namespace

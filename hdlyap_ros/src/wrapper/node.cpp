@@ -132,7 +132,7 @@ uint32_t queue_length(const std::string &topic, int queue)
 void throw_of_another_type(const std::string &topic, const std::string &datatype)
 {
     throw std::invalid_argument(topic + " cannot be " + datatype +
-                                ": this node has it with another type");
+                                ": this node publishes or hears it as another type");
 }
 
 /** Refuses an address of the master that roscpp cannot parse, because roscpp would crash. */
@@ -180,7 +180,8 @@ void hdr_node_free(hdr_node *node, double linger)
         node->spinner.stop();
         ros::shutdown();
     });
-    if (status != HDR_OK) hdr_log(HDR_ERROR, "leaving the graph: %s", hdr_error_text());
+    if (status != HDR_OK)
+        hdr_log(HDR_ERROR, "not unregistered from the ROS master: %s", hdr_error_text());
 }
 
 const char *hdr_node_name(const hdr_node *node) { return node->name.c_str(); }

@@ -167,7 +167,7 @@ std::unique_ptr<hdr_params> fetch(const std::string &name)
 {
     XmlRpcValue all;
     if (!ros::param::get(name, all)) {
-        if (!ros::master::check()) throw std::runtime_error("the master went away");
+        if (!ros::master::check()) throw std::runtime_error("the ROS master went away");
         return std::unique_ptr<hdr_params>(new hdr_params);
     }
     if (all.getType() != XmlRpcValue::TypeStruct)

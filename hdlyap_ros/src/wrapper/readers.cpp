@@ -271,8 +271,8 @@ bool waits_for_queue(common &all, hdr_publisher &publisher, const hdr_backlog::n
     publisher.exhausted = true;
     all.exhausted++;
     hdr_log(HDR_WARN,
-            "a subscriber of %s does not read: the run goes on, and what is oldest of %d "
-            "messages that wait is lost",
+            "a subscriber of %s does not read: the run goes on, and the oldest of %d "
+            "waiting messages are lost",
             publisher.topic.c_str(), now.waiting);
     return false;
 }
@@ -362,9 +362,10 @@ void hdr_readers::say_lost()
         const hdr_backlog::numbers now = topic.second.backlog->look();
         const char *name = topic.first.c_str();
         if (now.lost > 0)
-            hdr_log(HDR_WARN,
-                    "%lld of %lld messages of %s were not sent to all: the queue was full",
-                    static_cast<long long>(now.lost), static_cast<long long>(now.published), name);
+            hdr_log(
+                HDR_WARN,
+                "%lld of %lld messages of %s were not sent to all subscribers: the queue was full",
+                static_cast<long long>(now.lost), static_cast<long long>(now.published), name);
         for (const auto &named : all->lost[topic.first])
             if (named.second > 0)
                 hdr_log(HDR_WARN, "%s has lost %d of %lld messages of %s", named.first.c_str(),

@@ -24,7 +24,7 @@ const struct {
     {std::regex("[-+]?(0[0-7_]+|0b[01_]+|0x[0-9a-fA-F_]+|[0-9][0-9_]*(:[0-5]?[0-9])+(\\.[0-9_]*)?|"
                 "[0-9][0-9_]*_[0-9_]*|[0-9][0-9_]*\\.[0-9_]*([eE][-+][0-9]+)?)|\\.[0-9][0-9_]*([eE]"
                 "[-+][0-9]+)?"),
-     "decimal digits; a text is in quotes: roslaunch (YAML 1.1) reads another number"},
+     "a number in decimal digits, or a text in quotes: roslaunch (YAML 1.1) reads another number"},
     {std::regex("[0-9]{4}-[0-9]{1,2}-[0-9]{1,2}.*|(deg|rad)\\([^)]*\\)|<<|="),
      "in quotes: roslaunch (YAML 1.1) reads something else"},
     {std::regex("~|null|Null|NULL|"), "a value; an empty text is ''"},
@@ -67,10 +67,11 @@ XmlRpcValue scalar_of(const YAML::Node &node)
 {
     const std::string tag = node.Tag(), text = node.IsNull() ? "" : node.Scalar();
     if (!node.IsScalar() && !node.IsNull())
-        throw YAML::Exception(node.Mark(), "a parameter is a number, a word or a list of these");
+        throw YAML::Exception(node.Mark(),
+                              "a parameter must be a number, a word or a list of these");
     if (tag == "!" || tag == "tag:yaml.org,2002:str") return XmlRpcValue(text); /* in quotes */
     if (!tag.empty() && tag != "?")
-        throw YAML::Exception(node.Mark(), "a parameter has no tag, but it has " + tag);
+        throw YAML::Exception(node.Mark(), "a parameter must have no YAML tag, but has " + tag);
     return word_of(text);
 }
 
@@ -91,7 +92,7 @@ XmlRpcValue members_of(const YAML::Node &root)
         throw YAML::Exception(root.Mark(), "must be a list of parameters, name: value");
     for (const auto &pair : root) {
         if (!pair.first.IsScalar())
-            throw YAML::Exception(pair.first.Mark(), "a name of a parameter is a word");
+            throw YAML::Exception(pair.first.Mark(), "the name of a parameter must be a word");
         const std::string name = pair.first.Scalar();
         try {
             all[name] = value_of(pair.second);

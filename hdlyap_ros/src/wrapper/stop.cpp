@@ -65,7 +65,7 @@ void on_terminate()
         if (std::current_exception()) throw;
     } catch (const std::exception &error) {
         if (hdr_error_of_memory(error)) end_without_memory(error.what());
-        std::fprintf(stderr, "hdlyap: lost exception: %s\n", error.what());
+        std::fprintf(stderr, "hdlyap: exception that nothing handles: %s\n", error.what());
     } catch (...) {
     }
     std::abort();
