@@ -1,4 +1,4 @@
-/** Which linear algebra library is in use, and whether it fits the processor. */
+/** Which BLAS library, for linear algebra, the process uses, and whether it fits the processor. */
 #ifndef HDLYAP_BLAS_H
 #define HDLYAP_BLAS_H
 
@@ -6,24 +6,29 @@
 
 HD_API_BEGIN
 
+/** The BLAS library in use. The texts last as long as the process. */
 typedef struct hd_blas {
     const char *library;   /**< the library as it describes itself, e.g. "OpenBLAS 0.3.21 ..." */
-    const char *kernel;    /**< its kernels, e.g. "SkylakeX" */
+    const char *kernel;    /**< the processor for which its routines are made, e.g. "SkylakeX";
+                              "unknown" if the library does not say */
     const char *threading; /**< how it runs threads: "serial", "pthread" or "openmp" */
-    int threads;           /**< threads that it uses now */
-    int cores;             /**< processors that this process may use */
+    int threads;           /**< number of threads that it uses now */
+    int cores;             /**< number of processors that this process may use */
 } hd_blas;
 
+/** Asks the library. Any thread may call it. */
 hd_blas hd_blas_query(void);
 
-/** To be called first in main. If the library uses kernels older than the processor, or idle
- * threads would spin for long, it starts the program again with OPENBLAS_CORETYPE, and with
- * GOMP_SPINCOUNT or OMP_WAIT_POLICY, set; it never changes a value that the user has set.
- * Otherwise, and after such a restart, it returns. It does something on Linux only. */
+/** Call this first in main, with the argv of main. On Linux it starts the program again, once, in
+ * two cases: OpenBLAS uses routines for an older processor than this one, or idle threads would
+ * keep a processor busy while they wait. The new start has OPENBLAS_CORETYPE, and GOMP_SPINCOUNT or
+ * OMP_WAIT_POLICY, set in its environment; a value that the user has set is never changed. In all
+ * other cases, and on other systems, it returns and has done nothing. */
 void hd_blas_restart_if_slow(char **argv);
 
-/** HD_NO_MEMORY if there is not enough address space for the stacks and buffers of so many threads:
- * OpenBLAS would then try for ever, and OpenMP would end the process. It keeps no memory. */
+/** Returns HD_OK if there is enough address space for the stacks and buffers of so many threads,
+ * otherwise HD_NO_MEMORY. Without that space OpenBLAS would try for ever, and OpenMP would end the
+ * process. The call itself keeps no memory. On systems other than Linux it always returns HD_OK. */
 HD_MUST_CHECK hd_status hd_blas_room(int threads);
 
 HD_API_END

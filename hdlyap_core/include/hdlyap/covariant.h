@@ -1,10 +1,13 @@
-/** Covariant Lyapunov vectors over windows of a run [T16] (Ginelli et al., Phys. Rev. Lett. 99,
- * 130601 (2007)).
+/** Covariant Lyapunov vectors, computed over windows of a run one after another [T16] (Ginelli et
+ * al., Phys. Rev. Lett. 99, 130601 (2007)). n is the number of vectors; arrays of n elements are in
+ * the order of the exponents, largest first.
  *
- * A window begins where the window before it ended. The forward pass goes on beyond its end by the
- * transient. There two random starts begin, and are carried back. How far they still differ at the
- * end of the window is measured; within the window the vectors of the first start are the covariant
- * ones. All functions, those that read too, use one workspace: one thread at a time. */
+ * A window begins where the last one ended. The run goes on beyond the window's end by the
+ * transient (covariant_transient). From there two independent random sets of vectors, the two
+ * starts, are carried backwards in time through the transient. By how much they still differ at the
+ * window's end is the start mismatch. From there the first start alone is carried back to the
+ * beginning of the window; its vectors within the window are the covariant vectors. All functions,
+ * reading too, share one workspace, so only one thread at a time may call them. */
 #ifndef HDLYAP_COVARIANT_H
 #define HDLYAP_COVARIANT_H
 
@@ -16,56 +19,70 @@
 
 HD_API_BEGIN
 
+/** The covariant vectors of a run, and the averages over them; owned by the run. */
 typedef struct hd_covariant hd_covariant;
 
-/** HD_OK if a window fits into the scene's covariant_memory with an orthonormalisation every
- * `interval` time units; otherwise HD_REFUSED with a line in `message`. */
+/** Returns HD_OK if a window and its transient fit into the covariant_memory of a checked scene,
+ * with an orthonormalisation every `interval` time units; otherwise HD_REFUSED, with one line in
+ * message[size] unless `message` is NULL. */
 HD_MUST_CHECK hd_status hd_covariant_check_room(const hd_scene_def *def, double interval,
                                                 char *message, size_t size);
 
-/** How far the two random starts still differ at the ends of windows, after the transient. */
+/** How far the two starts still differ at the ends of windows, after the transient. */
 typedef struct hd_covariant_mismatch {
-    /** Last window: largest sine of the angle between vectors of the same index. Vectors of equal
-     * exponents never agree. */
+    /** In the last window: largest sine of the angle between the two starts' vectors of the same
+     * index, 0 .. 1; negative before the first window. It stays large if exponents are equal,
+     * because their vectors have no direction of their own. */
     double most;
-    /** All windows: largest angle between the two spaces of vanishing exponents [rad]; negative if
-     * these vectors are not computed. */
+    /** In all windows: largest angle between the two starts' spaces of vectors with vanishing
+     * exponents [rad]; negative before the first window, or if not all of these vectors are
+     * computed. */
     double centre;
-    double stable; /**< all windows: largest angle between the spaces of negative exponents [rad] */
+    /** In all windows: largest angle between the two starts' spaces of vectors with negative
+     * exponents [rad]; negative as `centre`. */
+    double stable;
 } hd_covariant_mismatch;
 
-/** Results of all windows so far. What pointers point to changes when the run goes on. */
+/** Results of all windows so far. The arrays that members point to belong to the run: their
+ * contents change when the run goes on, and they last until it is freed. */
 typedef struct hd_covariant_results {
-    int vectors;       /**< n */
-    long windows;      /**< complete windows in the averages */
-    long lost;         /**< windows left out because they did not fit into covariant_memory */
-    double window_end; /**< simulated time at which the last window ends */
-    /** Growth rates of the covariant vectors, whose means are the exponents of the frame; local
-     * ones are between two samples. */
+    int vectors;       /**< number n of vectors */
+    long windows;      /**< number of complete windows that the averages contain */
+    long lost;         /**< number of windows that were left out because they did not fit into
+                          covariant_memory */
+    double window_end; /**< simulated time at which the last complete window ended, or at which the
+                          first one begins [time units] */
+    /** Exponents of the covariant vectors: their mean growth rates, which agree with those of the
+     * frame. hd_spectrum_local is the growth rate between the last two samples. */
     const hd_spectrum *spectrum;
-    hd_splitting_results splitting; /**< angles, from all samples */
-    /** Order of the vectors' growth over the time between two samples, over twice that time, and so
-     * on within a window. */
+    /** Angles between vectors and between spaces, from all samples. */
+    hd_splitting_results splitting;
+    /** Order of the vectors' growth, order[times]: over the time between two samples
+     * (covariant_sampling), over twice that time, and so on, as long as it fits into a window. */
     int times;
     hd_order_over order[HD_TIMES_MAX];
     hd_covariant_mismatch start_mismatch;
-    /** Sine of the angle between the two starts, of each vector, [n], at the end of the last
-     * window: a lower bound of the error, as both starts lean towards the frame. */
+    /** Sine of the angle between the two starts' vectors of each index, [n], at the end of the last
+     * window. The error of a covariant vector there is at least about this large; it may be larger,
+     * because both starts turn towards the frame. */
     const double *start_mismatch_each;
-    /** Largest angle between the space of vanishing exponents and the exactly known null space
-     * [T9]: in the last sample, and in all; negative if these vectors are not computed [rad]. */
-    double null, null_most;
-    /** Mean weights [T11] of the dq half and of the dp half, each normalised. NULL if particles
-     * have no positions in a box. */
-    const hd_modes *half[2];
-    /** Mean weights [T11] of the dq halves of the Gram-Schmidt vectors in the same samples; NULL as
-     * half. */
-    const hd_modes *of_frame;
-    /** Localisation widths, [n], 1 / N .. 1; and mean |cos| of the angle between both halves, [n].
+    /** Largest angle between the exactly known null space [T9] and the space of the vectors with
+     * vanishing exponents, which contains it in theory: in the last sample, and the largest of all
+     * samples [rad]. Negative before the first sample, or if not all of these vectors are computed.
      */
+    double null, null_most;
+    /** Mean weights [T11] of the covariant vectors in the fields of waves: half[0] of their dq
+     * halves, half[1] of their dp halves, each scaled to length 1. NULL if particles have no
+     * positions in a box. */
+    const hd_modes *half[2];
+    /** The same for the dq halves of the Gram-Schmidt vectors, in the same samples. */
+    const hd_modes *of_frame;
+    /** Mean localisation widths, [n], 1 / N .. 1 (hdlyap/localization.h); and mean of |cos| of the
+     * angle between the dq half and the dp half of a vector, [n], 0 .. 1. */
     const double *widths, *cosines;
 } hd_covariant_results;
-hd_covariant_results hd_covariant_read(const hd_covariant *covariant); /**< O(n) */
+/** Reads the results; O(n). */
+hd_covariant_results hd_covariant_read(const hd_covariant *covariant);
 
 HD_API_END
 #endif

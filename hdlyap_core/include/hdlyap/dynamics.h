@@ -1,12 +1,14 @@
 /** A dynamics: a row of facts and functions that says how particles move. The core has rows for
- * disks, spheres, dumbbells and soft particles. A program gives a row of its own in
- * hd_scene_def.dynamics; its runs have exponents with errors, Gram-Schmidt and covariant vectors,
- * checkpoints and ranks.
+ * disks, spheres, dumbbells, soft disks and soft spheres. A program can give a row of its own in
+ * hd_scene_def.dynamics; its runs then have exponents with errors, Gram-Schmidt and covariant
+ * vectors, checkpoints and ranks.
  *
- * Each particle has `coordinates` q, scaled so that its kinetic energy is the sum of p^2 / 2. The
- * functions that move particles write a record (hdlyap/record.h), and tangent vectors are carried
- * by that record alone. A row and its parameters must last as long as its runs. One thread of a run
- * at a time calls the functions of a row; several call `carry` at once. */
+ * Each particle has `coordinates` q and as many momenta p, scaled so that its kinetic energy is
+ * half of the sum of p^2. The functions that move particles write a record (hdlyap/record.h), and
+ * tangent vectors are carried by that record alone. A tangent vector has a part dq and a part dp
+ * for each particle. A row, and what it points to, must last as long as its runs. A run calls the
+ * functions of a row on one thread at a time, except for `carry`, which several threads call at
+ * once. */
 #ifndef HDLYAP_DYNAMICS_H
 #define HDLYAP_DYNAMICS_H
 
@@ -19,166 +21,212 @@
 
 HD_API_BEGIN
 
-/** The record of what happens, see hdlyap/record.h. */
+/** What happened to the particles, entry by entry: see hdlyap/record.h. */
 typedef struct hd_record hd_record;
 
-/** Numbers of collisions so far, and what follows from them. */
+/** Numbers of collisions since the start of the trajectory, and what follows from them. All but
+ * `expected` are 0 for particles that do not collide. */
 typedef struct hd_told {
-    uint64_t collisions, wall_events; /**< collisions of pairs; with walls */
-    /** Virial of the pair collisions in each direction: sum of |p.n| n_d^2 [sigma momentum] [T19].
-     */
+    /** Number of collisions of two particles; number of collisions of a particle with a wall. */
+    uint64_t collisions, wall_events;
+    /** Virial of the pair collisions along each direction d: sum over the collisions of |r_d Delta
+     * p_d|, with r the vector between the two centres and Delta p the momentum that they exchange
+     * [T19] [sigma momentum]. */
     double virial[HD_DIMENSION_MAX];
-    double expected; /**< pair collisions per time unit by Enskog's theory [T2] */
+    /** Pair collisions of all particles expected per time unit: what the row's `rate` says, by
+     * Enskog's theory [T2] for hard particles of the core. */
+    double expected;
 } hd_told;
 
-/** Integrals over time so far for particles with a potential [T19]. */
+/** Integrals over time, since the start of the trajectory, for particles with a potential [T19].
+ * They are 0 for other particles. */
 typedef struct hd_summed {
-    double time; /**< time that they cover: that of whole time steps [time units] */
-    double kinetic[HD_DIMENSION_MAX]; /**< integral of the sum of p_d^2 in each direction */
-    double virial[HD_DIMENSION_MAX];  /**< integral of the sum of r_d F_d over pairs, in each
-                                         direction */
-    double potential;                 /**< integral of the potential energy of all particles */
+    double time; /**< time that the integrals cover, up to the last whole time step [time units] */
+    /** For each direction d: integral of the sum of p_d^2 over the particles. */
+    double kinetic[HD_DIMENSION_MAX];
+    /** For each direction d: integral of the sum of r_d F_d over the pairs, with r the vector
+     * between the two particles and F the force between them. */
+    double virial[HD_DIMENSION_MAX];
+    double potential; /**< integral of the potential energy of all particles together */
 } hd_summed;
 
-/** How accurate the present state is. */
+/** How accurate the present state is. All members are 0 if the row has no function `examine`. */
 typedef struct hd_examined {
-    double energy_error; /**< relative error of the energy, from the row's energy_error */
-    /** Bound on the relative error of the energy from rounding: each event so far changes the
-     * energy of its particles by some eps, and these changes add up as a random walk. Observed
-     * errors are about 0.01 of it. */
+    /** Relative error of the energy now, which would be 0 in exact arithmetic, from the row's
+     * energy_error. */
+    double energy_error;
+    /** Bound on the relative error of the energy by rounding. Each collision changes the energy of
+     * its particles by about DBL_EPSILON, and these changes add up as a random walk. Observed
+     * errors are about 0.01 of the bound. */
     double energy_rounding;
-    double momentum[HD_DIMENSION_MAX]; /**< total momentum */
-    double angular_momentum; /**< total, about the middle of the box; a circle conserves it */
-    double overlap; /**< deepest overlap of a pair now: max(0, 1 - distance), with images [sigma] */
-    /** Bound on an overlap from rounding: of positions, which are as large as the box, and of times
-     * that are counted from one moment [sigma]. */
+    double momentum[HD_DIMENSION_MAX]; /**< total momentum along each direction, 0 along periodic
+                                          ones but for rounding */
+    /** Total angular momentum about the middle of the box; it is conserved in a circle only. */
+    double angular_momentum;
+    /** Deepest overlap of two particles now, nearest images included: max(0, 1 - distance) for
+     * disks and spheres [sigma]. */
+    double overlap;
+    /** Bound on the overlap of two particles by rounding: of positions, which are as large as the
+     * box, and of the times of collisions [sigma]. */
     double overlap_rounding;
-    /** Deepest overlap that is not a fault, HD_OVERLAP: 1e-9, or overlap_rounding if that is
-     * larger, as in boxes above about 3e5 sigma: 4e-6 in a box of 1e9 [sigma]. */
+    /** Overlap beyond which a run fails with HD_OVERLAP: 1e-9, or overlap_rounding if that is
+     * larger, as in boxes longer than about 3e5 sigma; in a box of 1e9 sigma it is 4e-6 [sigma]. */
     double overlap_max;
 } hd_examined;
 
-/** What kinetic theory says of a dynamics, to some percent; only rows of the core have it. */
+/** What kinetic theory says of the particles, to some percent. Only rows of the core have it. */
 typedef struct hd_fluid hd_fluid;
 
-/** A part of a record, which `carry` gets if the row has no maps of its own. */
+/** A part of a record, which `carry` gets if the row makes no maps of its own. */
 typedef struct hd_passage {
-    const void *entry; /**< entries, [count], each of the row's size */
+    /** The entries, [count], each of hd_dynamics.entry bytes; NULL if count is 0. */
+    const void *entry;
     size_t count;
-    double begin, end; /**< times since the start of the record [time units] */
+    double begin, end; /**< the part of time that they are carried through, counted from the start
+                          of the record [time units] */
     int particles;
 } hd_passage;
 
 enum {
-    HD_PARTICLES = 32,        /**< size of a name */
-    HD_COORDINATES_MAX = 1000 /**< of a particle, so that an int can count those of all */
+    HD_PARTICLES = 32, /**< bytes of a dynamics' name with its final zero */
+    /** Most coordinates of a particle, so that an int can count those of all particles. */
+    HD_COORDINATES_MAX = 1000
 };
 
-/** A row. Members that may be left out say so; they are then 0, false or NULL. */
+/** A row. A member that may be left out says so; it is then 0, false or NULL. In the functions
+ * `scene` is a checked scene whose dynamics is this row, unless a comment says otherwise. */
 struct hd_dynamics {
-    const char *particles; /**< its name, a plural of at most 31 characters, not of the core's */
-    int dimension;         /**< dimension of the box, 2 or 3; 0: there is no box */
-    int coordinates; /**< coordinates of a particle: components of its dq, and of its dp; at most
-                          HD_COORDINATES_MAX. The first `dimension` of them are its position */
-    size_t entry; /**< bytes of an entry of the record, a multiple of 8; the first 8 are a double */
-    /** Tangent maps are symplectic: exponents come in pairs, and half of the vectors give all
-     * [T18]. If false, exponents = all carries all vectors. */
+    const char *particles; /**< name of the particles, a plural of at most 31 characters that no row
+                              of the core has */
+    int dimension;   /**< dimension of the box, 2 or 3; 0 if particles have no positions in a box */
+    int coordinates; /**< number of coordinates of a particle, which is that of the components of
+                        its dq, and of its dp; at most HD_COORDINATES_MAX. The first `dimension` of
+                        them are its position */
+    size_t entry; /**< bytes of an entry of the record, a multiple of 8. The first 8 are a double,
+                     the time of the entry */
+    /** True if tangent maps are symplectic: exponents then come in pairs of opposite sign, and half
+     * of the vectors give all of them [T18]. If false, exponents = all carries all vectors. */
     bool symplectic;
-    /** No map takes an unstable vector to dq = 0, as with hard bodies, which only disperse. The
-     * frame may then be orthonormalised in dq alone, which is faster [T6]. May be left out. */
+    /** True if no growing tangent vector ever comes to dq = 0, as with hard particles, whose
+     * collisions only disperse. The frame may then be orthonormalised by its dq parts alone, which
+     * is faster [T6]. May be left out. */
     bool dispersing;
-    /** Scaling all momenta only changes the pace, as with hard bodies: (p, 0) and (0, p) are null
-     * vectors, and the null space is orthogonal to all other vectors [T9]. May be left out. */
+    /** True if scaling all momenta only changes the pace of the motion, as with hard particles:
+     * (dq, dp) = (p, 0) and (0, p) are then null vectors, and the null space is orthogonal to all
+     * other vectors [T9]. May be left out. */
     bool paces;
 
-    const hd_parameter *parameter; /**< its own parameters, [parameters]: see HD_OWN */
-    int parameters;                /**< their number, at most HD_OWN_MAX */
+    const hd_parameter *parameter; /**< parameters that only this dynamics has, [parameters]; the
+                                      offset of number k is HD_OWN(k). May be left out */
+    int parameters;                /**< number of these parameters, 0 .. HD_OWN_MAX */
     const hd_fluid *fluid;         /**< may be left out */
 
     /* ---- scene */
-    /** Checks whether parameters, each of which is in its range, fit together. HD_REFUSED with one
-     * line in `message`, unless that is NULL: the parameter, its value, what is allowed. May be
-     * left out. */
+    /** Checks whether the parameters of a scene, each of which is in its own range, fit together.
+     * Returns HD_OK, or HD_REFUSED with one line in message[size] unless `message` is NULL: the
+     * parameter, its value, what is allowed. May be left out. */
     hd_status (*check)(const hd_scene_def *scene, char *message, size_t size);
-    /** Number of exponents that vanish; if left out, none. */
+    /** Number of exponents that vanish. If left out, none does. */
     int (*zeros)(const hd_scene_def *scene);
-    /** Rough number of record entries per time unit, by which records get their memory. */
+    /** Rough number of record entries per time unit of all particles, from which the first memory
+     * for a record follows. */
     double (*entries)(const hd_scene_def *scene);
-    /** Expected number of pair collisions per time unit; without collisions N / 2 divided by the
-     * time in which tangent vectors grow by about e. In units of N / 2 divided by this rate, the
-     * first interval is 2 long, the longest 60, and blocks for errors at least 8. */
+    /** Expected number of pair collisions of all N particles per time unit. For particles without
+     * collisions: N / 2 divided by the time in which tangent vectors grow by a factor of about e.
+     * The time (N / 2) / rate sets the pace of a run: its first interval between
+     * orthonormalisations has the length of 2 of these times, its longest one of 60, and blocks for
+     * standard errors are at least 8 long. */
     double (*rate)(const hd_scene_def *scene);
-    /** Length of a time step, if particles move in steps [time units]. May be left out. */
+    /** Length of a time step, if particles move in time steps [time units]. May be left out. */
     double (*step)(const hd_scene_def *scene);
-    /** Approximate power of the time step with which zero exponents that no null vector keeps at 0
-     * split. If left out, they do not. */
+    /** Exponents that vanish in theory, but that no exact null vector keeps at 0, differ from 0 by
+     * about the time step to the power that this returns. If left out, they do not differ. */
     double (*split)(const hd_scene_def *scene);
-    /** Time that a disturbance takes through the whole system; blocks of averages are not shorter
-     * [time units]. May be left out. */
+    /** Time that a disturbance, as a sound wave, takes through the whole system; blocks for
+     * standard errors are not shorter [time units]. May be left out. */
     double (*crossing)(const hd_scene_def *scene);
-    /** Writes the null vectors that are known exactly at this state, those that the flow keeps or
-     * turns into each other: column[..][particle][2 coordinates], not normalised. Returns their
-     * number, at most `zeros`. If left out, none is known. */
+    /** Writes the tangent vectors that are known exactly as null vectors at the state q, p: those
+     * whose length stays bounded or grows linearly with time. Vector k is column[k][particle][2
+     * coordinates], dq before dp, of any length. Returns their number, at most `zeros`. If left
+     * out, none is known. */
     int (*null)(const hd_scene_def *scene, const double *q, const double *p, double *column);
 
-    /** Moment of inertia of a particle that turns in the plane [sigma^2]: behind its position it
-     * has one more coordinate, sqrt(inertia) times an angle. If left out, particles do not turn. */
+    /** Moment of inertia of a particle that turns in the plane [sigma^2]. Such a particle has one
+     * more coordinate behind its position: sqrt(inertia) times its angle. If left out, particles do
+     * not turn. */
     double (*inertia)(const hd_scene_def *scene);
-    /** Area or volume of a particle [sigma^d]. If left out, it is not known. */
+    /** Area of a particle in the plane, its volume in space [sigma^d]. If left out, it is not
+     * known. */
     double (*size)(const hd_scene_def *scene);
 
     /* ---- particles */
-    /** Makes the state of a checked scene at time 0. HD_NO_MEMORY, and *state is NULL. */
+    /** Makes the state of the particles at time 0 in *state. Returns HD_OK; or HD_NO_MEMORY, and
+     * *state is NULL. */
     hd_status (*create)(void **state, const hd_scene_def *scene);
-    /** Makes a given state, for tests: q and p are [particle][coordinates]. May be left out. */
+    /** Makes a state with given q and p, both [particle][coordinates], for tests. May be left out.
+     */
     hd_status (*create_from)(void **state, const hd_scene_def *scene, const double *q,
                              const double *p);
     void (*free)(void *state);
-    /** Moves the particles to simulated time t_end, not before the present time, and writes the
-     * record unless it is NULL: hd_record_put for each entry, then hd_record_end. Time steps begin
-     * and end at fixed times whatever t_end is; all that end by t_end are done. After
-     * HD_NOT_FINITE, HD_NO_MEMORY or another status the run has failed. */
+    /** Moves the particles to the simulated time t_end, which is not before the present one. Unless
+     * `record` is NULL, it adds what happened: hd_record_put for each entry, then hd_record_end.
+     * Time steps begin and end at fixed times, whatever t_end is; the call does all steps that end
+     * by t_end. If it returns another status than HD_OK, as HD_NOT_FINITE or HD_NO_MEMORY, the run
+     * has failed. */
     hd_status (*advance)(void *state, hd_record *record, double t_end);
-    double (*time)(const void *state); /**< present simulated time: t_end of the last advance */
-    /** Writes q and p, both [particle][coordinates], with positions inside the box if there is one.
-     * Either may be NULL. */
+    double (*time)(const void *state); /**< the present simulated time, t_end of the last `advance`
+                                          [time units] */
+    /** Writes the present q and p, both [particle][coordinates], with positions folded into the box
+     * if there is one. Either array may be NULL. */
     void (*state)(const void *state, double *q, double *p);
-    double (*kinetic_energy)(const void *state); /**< may be left out */
-    /** Writes all members but `expected`, for particles whose kinetic energy is N: the gas
-     * observable follows from them. May be left out. */
+    /** Kinetic energy of all particles. May be left out; it is then the sum of p^2 / 2. */
+    double (*kinetic_energy)(const void *state);
+    /** Writes all members of *told but `expected`. Only for particles that collide and whose total
+     * kinetic energy is always N; the observable gas follows from these numbers. May be left out.
+     */
     void (*tell)(const void *state, hd_told *told);
-    /** Writes the integrals from which the gas observable of particles without collisions follows.
-     * Only called if the scene asks for HD_OBSERVE_GAS. May be left out. */
+    /** Writes all members of *summed, from which the observable gas follows for particles with a
+     * potential. It is called only if the scene asks for HD_OBSERVE_GAS. May be left out. */
     void (*sum)(const void *state, hd_summed *summed);
-    /** For the same particles as tell; may be left out. */
+    /** Writes the members of *examined, all but energy_error, for the particles that have `tell`.
+     * May be left out. */
     void (*examine)(const void *state, hd_examined *examined);
-    /** Relative error of the energy now; may be left out if all energy is kinetic, and N. */
+    /** Relative error of the total energy now. May be left out if all energy is kinetic and should
+     * be N. */
     double (*energy_error)(const void *state);
-    /** Calls hd_archive_doubles for each array of the state, in the same order for writing and
-     * reading. After reading it computes again what follows from these arrays. */
+    /** Calls hd_archive_doubles for each array of the state, in one order for writing and reading.
+     * After reading, it also restores whatever else follows from these arrays. */
     void (*archive)(void *state, hd_archive *archive);
-    uint32_t (*fingerprint)(const void *state); /**< hash of all bits of q and p; may be left out */
-    double (*bytes)(const hd_scene_def *scene); /**< bytes of the state; may be left out */
+    /** Hash of all bits of q and p, by which ranks compare their states. May be left out. */
+    uint32_t (*fingerprint)(const void *state);
+    /** Bytes of memory that the state takes, for estimates. May be left out. */
+    double (*bytes)(const hd_scene_def *scene);
 
-    /* ---- record; all three may be left out if entries consist of doubles */
-    /** What is wrong with a record that was read, or NULL. */
+    /* ---- record; these three may be left out if entries consist of doubles */
+    /** Returns what is wrong with a record that was read from a checkpoint, in words, or NULL if
+     * nothing is. */
     const char *(*fault)(const hd_record *record, const hd_scene_def *scene);
+    /** Writes or reads all entries of the record, as `archive` does for the state. */
     void (*archive_record)(hd_record *record, hd_archive *archive, const hd_scene_def *scene);
-    double (*record_bytes)(double entries); /**< bytes of so many entries and their maps */
+    /** Bytes of so many record entries together with their maps. */
+    double (*record_bytes)(double entries);
 
     /* ---- tangent maps */
-    /** Make, free and fill the maps of a part of a record, for `carry`. If all three are left out,
-     * `carry` gets an hd_passage. The maps from a to b and from b to c must combine to those from a
-     * to c, so entries of time steps are taken as a whole, by hd_record_within. HD_NO_MEMORY. */
+    /** Make, free and fill the maps of a part of a record, which `carry` reads. maps_fill takes the
+     * entries from t_begin to t_end (hd_record_within), times counted from the start of the record.
+     * Maps from a to b and then from b to c must give the same as maps from a to c; so the entries
+     * of a time step must not be split. Return HD_OK or HD_NO_MEMORY. If all three are left out,
+     * `carry` gets an hd_passage. */
     hd_status (*maps_create)(void **maps, int particles);
     void (*maps_free)(void *maps);
     hd_status (*maps_fill)(void *maps, const hd_record *record, double t_begin, double t_end);
-    /** Carries a block of columns through maps: block[particle][2 coordinates][width], dq before
-     * dp. The width is 1, 2, 4, 8, 16, 32 or 64. */
+    /** Carries `width` tangent vectors through the maps, in place: block[particle][2
+     * coordinates][width], dq before dp. The width is 1, 2, 4, 8, 16, 32 or 64. */
     void (*carry)(const void *maps, double *block, int width);
 };
 
-/** The dynamics of a scene. */
+/** Returns the dynamics that a scene has: def->dynamics, or the row of def->particles if that is
+ * NULL. */
 const hd_dynamics *hd_dynamics_of(const hd_scene_def *scene);
 
 HD_API_END

@@ -1,5 +1,5 @@
-/** How long a run of a scene will take on this machine, and how much it will give, from a short
- * trial. For its memory see hd_room_needed. */
+/** How long a run of a scene will take on this machine, and which errors it will reach, from a
+ * short trial run. For the memory that it needs see hd_room_needed. */
 #ifndef HDLYAP_ESTIMATE_H
 #define HDLYAP_ESTIMATE_H
 
@@ -7,36 +7,46 @@
 
 HD_API_BEGIN
 
-/** Numbers of results of a checked scene. `run` is a run of it, or of a smaller scene with the same
- * waves. */
+/** Returns the numbers of results that a run of a checked scene has. `run` is a run of this scene,
+ * or of a smaller one with the same waves. */
 hd_extent hd_extent_of(const hd_scene_def *def, const hd_run *run);
 
+/** What a trial run says about the run of a scene. "Averaged time" is simulated time since the
+ * averaging began [time units]. */
 typedef struct hd_estimate {
-    unsigned untried; /**< HD_OBSERVE_* of the scene that the trial leaves out; the run takes longer
-                         with them */
-    int particles; /**< particles of the trial: fewer than the scene's if that would take too long */
-    double seconds;      /**< wall seconds per simulated time unit of the averaging */
-    double interval;     /**< mean time between orthonormalisations; NaN without exponents */
-    double before;       /**< simulated time before the averaging [time units] */
-    double errors_after; /**< averaged time until standard errors are known; those of steps are
-                            below 1 % then. 0 without exponents */
-    double target_after; /**< averaged time until the target is reached, at least errors_after, from
-                              the errors in the trial; NaN if these are not known, or there is no
-                              target; INFINITY if it is never reached; 0 without exponents */
-    /** Averaged time until the sampling errors of c_T and c_L are about 1 %. */
+    /** Observables of the scene that the trial leaves out (a set of HD_OBSERVE_*). The run takes
+     * longer with them. */
+    unsigned untried;
+    int particles; /**< number of particles in the trial: that of the scene, or fewer if these would
+                      take too long */
+    double seconds; /**< wall seconds that the averaging takes per simulated time unit */
+    /** Mean simulated time between two orthonormalisations [time units]; NaN without exponents. */
+    double interval;
+    double before;       /**< simulated time before the averaging begins [time units] */
+    double errors_after; /**< averaged time until standard errors of exponents are known; those of
+                            steps are then below 1 %. 0 without exponents */
+    /** Averaged time until the scene's target is reached, as errors of the trial predict; at least
+     * errors_after. NaN if the trial gives no errors or there is no target; INFINITY if the target
+     * is never reached. */
+    double target_after;
+    /** Averaged time until the standard errors of c_T and c_L (hd_dispersion.c) are about 1 %,
+     * apart from the part that no averaging reduces. 0 without exponents. */
     double slopes_after;
+    /** Numbers of results of the run. */
     hd_extent extent;
 } hd_estimate;
 
-/** Runs a checked scene for a second or two, after its intervals have reached their full length:
- * the scene itself, or one with fewer particles in a box of the same shape, whose times are then
- * scaled by the cube of N. It does not try covariant vectors, whose windows are longer, but refuses
- * what their memory refuses. fields_every is that of hd_run_fields_every. It fails as
- * hd_run_create, with a line in `message`, and as hd_run_advance. */
+/** Runs a checked scene for a second or two of wall time, after a warm-up in which intervals
+ * between orthonormalisations reach their full length. The trial has fewer particles in a box of
+ * the same shape if the scene's would take too long; its wall times are then multiplied by the cube
+ * of the ratio of N. Covariant vectors are not tried, because their windows are longer than the
+ * trial; but the call returns HD_REFUSED if covariant_memory is too small for them. fields_every is
+ * the interval of hd_run_fields_every. Other failures are those of hd_run_create, with one line in
+ * message[size], and of hd_run_advance. */
 HD_MUST_CHECK hd_status hd_estimate_run(hd_estimate *out, const hd_scene_def *def,
                                         double fields_every, char *message, size_t size);
 
-/** Only errors_after of the whole scene, without a trial. HD_NO_MEMORY. */
+/** Writes only errors_after of the scene, without a trial. Returns HD_OK or HD_NO_MEMORY. */
 HD_MUST_CHECK hd_status hd_estimate_errors(double *after, const hd_scene_def *def);
 
 HD_API_END

@@ -1,6 +1,10 @@
-/** Fluctuations of the growth of the Gram-Schmidt vectors: variances, covariances and order over
- * finite times [T25] (Kuptsov and Politi, Phys. Rev. Lett. 107, 114101 (2011)). Several threads may
- * read at once while no thread advances the run. */
+/** Fluctuations of the growth of the Gram-Schmidt vectors over finite times [T25] (Kuptsov and
+ * Politi, Phys. Rev. Lett. 107, 114101 (2011)). The growth of vector i over a time t is the
+ * logarithm of the factor by which it grows, the sum of ln R_ii over the orthonormalisations in t;
+ * its mean is lambda_i t. This header has variances and covariances of growth, their limits for
+ * long times, and how often vectors change the order of their growth. Vectors are columns of the
+ * frame, col 0 .. n - 1, largest exponent first. Several threads may read at once while no thread
+ * calls the run. */
 #ifndef HDLYAP_FLUCTUATIONS_H
 #define HDLYAP_FLUCTUATIONS_H
 
@@ -8,46 +12,57 @@
 
 HD_API_BEGIN
 
-/** Each pair of so many columns is compared: the last ones of the positive half that the run has.
- */
+/** Most columns whose pairs are compared. They are the last ones, that is those of the smallest
+ * exponents, among the columns of positive exponents that the run has. */
 enum { HD_FLUCTUATING = 96 };
 
+/** Sums of growth over times of up to HD_TIMES_MAX lengths; owned by the run. */
 typedef struct hd_fluctuations hd_fluctuations;
 
-/** Number of times over which growth has been taken, shortest first. Each is about twice as long as
- * the one before. */
+/** Number of lengths of time over which growth has been summed at least once, 0 .. HD_TIMES_MAX.
+ * Length 0 is one sample, or fluctuation_time; length k + 1 is two stretches of length k. */
 int hd_fluctuations_times(const hd_fluctuations *fluctuations);
+/** Mean length of the times of length k, their number, and how often vectors changed the order of
+ * their growth over them. Its arrays belong to `fluctuations`. */
 hd_order_over hd_fluctuations_order(const hd_fluctuations *fluctuations, int k);
 
-/** Variance of a column's growth over time k, divided by the time [1/time unit]; NaN if the time
- * has passed once only. */
+/** Variance of the growth of vector col over times of length k, divided by the length [1/time
+ * unit]; NaN if there was only one such time. */
 double hd_fluctuations_variance(const hd_fluctuations *fluctuations, int k, int col);
 
-/** The limit of a variance or covariance per time for long times [1/time unit]. */
+/** The limit, for long times, of a variance or covariance of growth divided by the time [1/time
+ * unit]. */
 typedef struct hd_diffusion {
-    double value; /**< 0 while it is not known */
-    double error; /**< standard error; negative while the limit is not known */
+    double value; /**< the limit; 0 while it is not known */
+    double error; /**< standard error of the limit; negative while it is not known */
 } hd_diffusion;
 
-/** D_ii = lim var(growth) / time of a column. */
+/** Diffusion of the exponent of vector col: D_ii = lim var(growth_i) / t. An exponent averaged over
+ * a long time t has the variance D_ii / t. */
 hd_diffusion hd_fluctuations_diffusion(const hd_fluctuations *fluctuations, int col);
 
-/** Resolved steps of the positive half, in the order of their columns. A column is a step's own if
- * hd_steps_of_vector says so and its pairs are compared. */
+/** Which columns belong to which step: for the resolved steps of positive exponents, in the order
+ * of their first columns. Only columns whose pairs are compared are in it, and of these a column
+ * belongs to the step that hd_steps_of_vector says. */
 typedef struct hd_step_columns {
     int count;
-    int step[HD_FLUCTUATING]; /**< index in hd_steps */
+    int step[HD_FLUCTUATING]; /**< step[count]: index of each step in hd_steps */
+    /** Number of columns of each step, [count]. */
     int columns[HD_FLUCTUATING];
-    int own[HD_FLUCTUATING][HD_FLUCTUATING]; /**< [columns] of each step */
+    /** own[k][columns[k]]: the columns of step k, ascending. */
+    int own[HD_FLUCTUATING][HD_FLUCTUATING];
 } hd_step_columns;
+/** Finds the columns of each step of `steps`, which are those of the same run. */
 hd_step_columns hd_fluctuations_steps(const hd_fluctuations *fluctuations, const hd_steps *steps);
 
-/** Mean of D_ij = lim cov(growth_i, growth_j) / time over columns i of step a and j of step b. If a
- * equals b, i and j differ; a step of one column has no such pair, and the mean is not known. */
+/** Mean of D_ij = lim cov(growth_i, growth_j) / t over columns i of step a and j of step b, which
+ * are numbers in `of`, 0 .. of->count - 1. If a equals b, the mean is over i and j that differ; for
+ * a step of a single column it is then not known. */
 hd_diffusion hd_fluctuations_covariance(const hd_fluctuations *fluctuations,
                                         const hd_step_columns *of, int a, int b);
-/** Fraction, over all passed times k and all such pairs, in which the column in front grew less;
- * NaN without a pair. */
+/** How often columns of steps a and b change their order: the fraction, over all times of length k
+ * and all pairs of a column of a and a column of b, in which the column of smaller index grew less.
+ * If a equals b, pairs of two different columns. NaN if there is no pair. */
 double hd_fluctuations_reversed(const hd_fluctuations *fluctuations, int k,
                                 const hd_step_columns *of, int a, int b);
 

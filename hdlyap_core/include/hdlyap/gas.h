@@ -1,6 +1,7 @@
-/** The particles as a gas [T19]: their collision rate, or the temperature and potential energy of
- * soft particles; and their pressure, with standard errors. Several threads may read one hd_gas at
- * once while none calls its run. */
+/** The particles as a gas [T19]: their pressure; the collision rate of hard particles; the
+ * temperature and potential energy of soft ones; all with standard errors. The unit of energy is
+ * the mean kinetic energy of a hard particle, or epsilon of the soft potential. Several threads may
+ * read one hd_gas at once while no thread calls its run. */
 #ifndef HDLYAP_GAS_H
 #define HDLYAP_GAS_H
 
@@ -8,36 +9,42 @@
 
 HD_API_BEGIN
 
-/** Means over all complete samples since the averaging began. Errors are standard errors [T8],
- * negative while they are not known. */
+/** Means over all complete samples since the averaging began. Each _error is the standard error
+ * [T8] of the number in front of it, negative while it is not known or the number does not exist.
+ */
 typedef struct hd_gas_means {
-    double time;           /**< averaged time; all else is NaN while it is 0 [time units] */
-    double collision_rate; /**< pair collisions of each particle, 2 collisions / (N t); NaN for soft
-                              particles [1/time unit] */
+    double time;           /**< averaged time; while it is 0 all means are NaN [time units] */
+    double collision_rate; /**< pair collisions in which a particle takes part per time, 2
+                              collisions / (N time); NaN for soft particles [1/time unit] */
     double collision_rate_error;
-    double pressure; /**< mean over the directions [energy/sigma^d in d dimensions] */
+    double pressure; /**< mean over all directions [energy/sigma^d in d dimensions] */
     double pressure_error;
-    double pressure_of[HD_DIMENSION_MAX]; /**< flux of px across x per length, in space per area;
-                                             then of py across y, .. */
+    /** Pressure along x, y and in space z: flux of momentum component d across a plane
+     * perpendicular to direction d, per length of it that centres can reach, in space per area
+     * [energy/sigma^d]. 0 for z in the plane. */
+    double pressure_of[HD_DIMENSION_MAX];
     double pressure_of_error[HD_DIMENSION_MAX];
-    double compressibility; /**< Z = pressure area / (N kT), with kT = 2 / coordinates times the
-                               mean kinetic energy of a particle: 1 for an ideal gas */
+    double compressibility; /**< compressibility factor Z = P A / (N kT), with A the area or volume
+                               that centres can reach, and kT the mean kinetic energy of a particle
+                               times 2 / coordinates: 1 for an ideal gas */
     double compressibility_error;
     double temperature; /**< kT of soft particles, from their free momenta [energy]; NaN for hard
-                           ones, see hd_gas_temperature */
+                           ones, whose kinetic energy is constant: see hd_gas_temperature */
     double temperature_error;
-    double potential_energy; /**< potential energy per soft particle [energy]; NaN for hard ones */
+    double potential_energy; /**< mean potential energy of a soft particle [energy]; NaN for hard
+                                ones */
     double potential_energy_error;
 } hd_gas_means;
 
+/** The gas of a run; owned by the run. */
 typedef struct hd_gas hd_gas;
 
-/** Reads the means. O(blocks). */
+/** Reads the means; O(number of blocks), which is at most 97. */
 hd_gas_means hd_gas_read(const hd_gas *gas);
 
-/** kT of hard particles, whose kinetic energy is N: 2 N divided by the number of free momenta,
- * those without the conserved ones. It is 1, for spheres and dumbbells 2/3, up to 1 / N [energy].
- */
+/** kT of hard particles, whose total kinetic energy is N: 2 N divided by the number of free
+ * momenta, which are all momenta but the conserved ones [energy]. It is 1 for disks and 2/3 for
+ * spheres and dumbbells, but for terms of order 1 / N. */
 double hd_gas_temperature(const hd_scene_def *def);
 
 HD_API_END

@@ -1,4 +1,5 @@
-/** All public headers of the core, in the order in which data flows. */
+/** All public headers of the core, in the order in which data flows: from the scene to the results
+ * of a run. Headers of one stage stand together. */
 #ifndef HDLYAP_HDLYAP_H
 #define HDLYAP_HDLYAP_H
 
@@ -12,7 +13,7 @@
 #include "hdlyap/wave.h"
 /* averages */
 #include "hdlyap/spectrum.h"
-/* events */
+/* trajectory */
 #include "hdlyap/trajectory.h"
 #include "hdlyap/gas.h"
 /* tangent */

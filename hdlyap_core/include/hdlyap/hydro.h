@@ -1,5 +1,7 @@
-/** Linear response of the Fourier sums of density, momentum and energy to a Lyapunov vector [T15].
- * Several threads may read one hd_hydro at once while none calls its run. */
+/** Linear response of hydrodynamic fields to a Lyapunov vector [T15]: by how much the Fourier sums
+ * of density, momentum and energy change if the particles are displaced along the vector. Responses
+ * are measured at the reports of the averaging. Several threads may read one hd_hydro at once while
+ * no thread calls its run. */
 #ifndef HDLYAP_HYDRO_H
 #define HDLYAP_HYDRO_H
 
@@ -7,26 +9,31 @@
 
 HD_API_BEGIN
 
-/** How sums over the particles change, to first order, when the state is displaced along a vector
- * with |dq|^2 + |dp|^2 = 1; A is one modulation of its step's wave. All are divided by sqrt(N/2).
- */
+/** Response to one vector of a step, for one modulation A(r) of the step's wave. The numbers are
+ * changes, to first order, of sums over the particles when the state (q, p) is displaced along the
+ * vector, which has |dq|^2 + |dp|^2 = 1. All are divided by sqrt(N / 2); k is the wave number. They
+ * are 0 if col is -1. */
 typedef struct hd_hydro_response {
+    /** Index of the step in hd_steps; column of the vector, -1 if no vector was found. */
     int step, col;
-    unsigned char modulation; /**< A, as in hdlyap/wave.h */
+    unsigned char modulation; /**< the modulation A, bits as in hdlyap/wave.h */
     double density;           /**< change of sum A, divided by k */
     double along;             /**< change of sum p . grad A, divided by k */
-    double across; /**< change of sum p . F, divided by k: F = curl A with sines along reflecting
-                      directions (0 where the mode number is 0); in space the first T field of A, of
-                      unit e instead of k [T22] */
-    double energy; /**< change of sum p^2 A */
-    double across_second; /**< as across, with the second T field of A; 0 in the plane */
+    /** Change of sum p . F, divided by k. In the plane F = curl A = (dA/dy, -dA/dx), with a sine
+     * along each reflecting direction, and 0 where this direction has mode number 0. In space F is
+     * the first T field of A, with amplitude 1 instead of k [T22]. */
+    double across;
+    double energy;        /**< change of sum p^2 A */
+    double across_second; /**< in space, as `across` with the second T field of A; 0 in the plane */
 } hd_hydro_response;
 
+/** The responses of all steps; owned by the run. */
 typedef struct hd_hydro hd_hydro;
 
-/** Number of responses, which is constant: expected multiplicity times modulations of each step, in
- * the order of the steps. col is -1 where no vector was found. */
+/** Number of responses, which is constant. Steps follow each other in their order in hd_steps. Each
+ * has hd_step.expected vectors, and for each of these a response for each modulation. */
 int hd_hydro_count(const hd_hydro *hydro);
+/** Response `index`, 0 .. hd_hydro_count - 1. */
 const hd_hydro_response *hd_hydro_at(const hd_hydro *hydro, int index);
 
 HD_API_END

@@ -1,5 +1,6 @@
-/** How far vectors spread over the particles. All functions, those that read too, use one
- * workspace: one thread at a time. */
+/** How many particles take part in each vector: localisation widths. n is the number of vectors,
+ * col 0 .. n - 1, largest exponent first. All functions, reading too, share one workspace, so only
+ * one thread at a time may call them. */
 #ifndef HDLYAP_LOCALIZATION_H
 #define HDLYAP_LOCALIZATION_H
 
@@ -7,17 +8,20 @@
 
 HD_API_BEGIN
 
+/** The widths of a run's vectors; owned by the run. */
 typedef struct hd_localization hd_localization;
 
-long hd_localization_samples(const hd_localization *shape); /**< number of samples in the means */
+/** Number of samples in the means. */
+long hd_localization_samples(const hd_localization *shape);
 
-/** Localisation widths exp(S) / N of all n vectors, 1 / N .. 1. S is the mean over the samples of
- * -sum m_i ln m_i, with m_i = |dq_i|^2 + |dp_i|^2 of particle i (Taniguchi and Morriss, Phys. Rev.
- * E 68, 046203 (2003)). */
+/** Localisation widths exp(S) / N of all n vectors, 1 / N (one particle) .. 1 (all alike). S is the
+ * mean over the samples of -sum m_i ln m_i, with m_i = |dq_i|^2 + |dp_i|^2 of particle i and sum
+ * m_i = 1 (Taniguchi and Morriss, Phys. Rev. E 68, 046203 (2003)). The array is overwritten by the
+ * next call; without samples its values mean nothing. */
 const double *hd_localization_widths(hd_localization *shape);
-/** Standard error of a width [T8]; negative while it is not known. O(blocks). */
+/** Standard error of the width of vector col [T8]; negative while it is not known. */
 double hd_localization_width_error(const hd_localization *shape, int col);
-/** Width of a vector in the last sample. */
+/** Width of vector col in the last sample alone. */
 double hd_localization_width_now(const hd_localization *shape, int col);
 
 HD_API_END

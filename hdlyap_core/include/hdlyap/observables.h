@@ -1,4 +1,4 @@
-/** The results of a run, and their numbers. */
+/** The results of a run, and how many numbers they have. */
 #ifndef HDLYAP_OBSERVABLES_H
 #define HDLYAP_OBSERVABLES_H
 
@@ -7,35 +7,45 @@
 
 HD_API_BEGIN
 
-/** Size of the name of a quantity that a target can name, as T(1,0) or c_T. */
+/** Bytes of the name of a quantity that a target can name, as T(1,0) or c_T, with its final zero.
+ */
 enum { HD_QUANTITY_NAME = 32 };
 
-/** The observables (a set of HD_OBSERVE_*) that need positions in a box. */
+/** Returns the set of HD_OBSERVE_* that need particles with positions in a box. */
 unsigned hd_observe_of_box(void);
 
-/** The parts of a run: one pointer for each observable, to its result; NULL if the scene does not
- * ask for it. */
+/** The parts of a run: a pointer to the result of each observable, named as in observables.inc;
+ * NULL if the scene does not ask for it. The parts belong to the run and last until it is freed. */
 typedef struct hd_parts {
     const hd_trajectory *trajectory; /**< always there */
-    const hd_spectrum *spectrum;     /**< NULL without exponents */
+    const hd_spectrum *spectrum;     /**< the exponents; NULL if the scene asks for none */
 #define HD_OBSERVABLE(name, NAME, bit, of_waves, result) result *name;
 #include "hdlyap/observables.inc"
 } hd_parts;
 
-/** Numbers of results of a run; 0 for what the scene does not ask for. */
+/** How many numbers the results of a run have; 0 for observables that the scene does not ask for.
+ */
 typedef struct hd_extent {
-    int dimension, coordinates; /**< dimension of space; coordinates of a particle */
+    /** Dimension of space; number of coordinates of a particle. */
+    int dimension, coordinates;
+    /** Number of particles; number of vectors. */
     int particles, vectors;
-    int waves; /**< waves of the structure factors */
-    int subspaces,
-        angles; /**< subspaces of fields, and pairs of spaces with angles, of covariant vectors */
-    int steps;  /**< steps in both halves of the spectrum */
-    int examples, pairs;  /**< steps that are shown by an example, and all their LP pairs */
-    int phases, t_phases; /**< LP phases and T phases */
-    int responses;        /**< hydrodynamic responses */
-    int times;            /**< times over which growth is told, mean over the run */
-    int found;            /**< resolved steps of the positive half */
-    int orders;           /**< times over which covariant vectors grow in a window */
+    int waves; /**< number of waves of structure factors */
+    /** Of covariant vectors: number of subspaces of fields in which weights are taken; number of
+     * angles between spaces (HD_PAIRS_OF_SPACES, or 0). */
+    int subspaces, angles;
+    int steps; /**< number of steps, conjugate ones included */
+    /** Number of T and LP steps of positive exponents, each of which can have one vector shown;
+     * number of pairs of L and P fields of all these LP steps. */
+    int examples, pairs;
+    int phases, t_phases; /**< number of LP phases; number of T phases */
+    int responses;        /**< number of hydrodynamic responses */
+    /** Number of lengths of time over which fluctuations of growth are known, as a mean over the
+     * reports of the run. */
+    int times;
+    int found; /**< number of steps of positive exponents that are resolved now */
+    /** Number of lengths of time over which the order of covariant vectors is compared. */
+    int orders;
 } hd_extent;
 
 HD_API_END

@@ -1,4 +1,5 @@
-/** The L and P modes of a step, reconstructed from all its vectors [T14]. One thread at a time. */
+/** The L and P modes of an LP step, each reconstructed from all vectors of the step [T14]. Only one
+ * thread at a time may call these functions. */
 #ifndef HDLYAP_PMODE_H
 #define HDLYAP_PMODE_H
 
@@ -7,28 +8,36 @@
 
 HD_API_BEGIN
 
+/** The modes of the step that was reconstructed last; owned by the run. */
 typedef struct hd_pmode hd_pmode;
 
-/** Combines the normalised dq halves psi of the step's vectors to modes phi = psi Q that are
- * nearest to the normalised L and P fields, by least squares. Returns false unless the step is a
- * resolved LP step that shares its set with no other step. */
+/** Finds the combinations of a step's vectors that come nearest to its fields: phi = psi Q, with
+ * psi the dq halves of the vectors scaled to length 1, and Q such that the columns of phi are the
+ * least-squares projections of the L and P fields of length 1. `vectors` must contain the step's
+ * columns (hd_run_frame_columns when fields are due), `modes` those of the same run. Returns false,
+ * and nothing below may be read, unless the step is a resolved LP step that shares its set with no
+ * other step. */
 bool hd_pmode_reconstruct(hd_pmode *pmode, const hd_step *step, const hd_modes *modes,
                           hd_columns vectors);
 
-int hd_pmode_pairs(const hd_pmode *pmode); /**< number d of pairs of modes */
-/** Mode c, [particle][coordinates]: for c < d the L mode of pair c, then the P mode of pair c - d.
- */
+/** Number d of pairs of an L and a P mode, which is that of the modulations. */
+int hd_pmode_pairs(const hd_pmode *pmode);
+/** Mode c as [particle][coordinates], 0 <= c < 2 d: first the L mode of each pair, then the P mode
+ * of each pair. It is valid until the next reconstruction. */
 const double *hd_pmode_field(const hd_pmode *pmode, int c);
-/** Distance, 0 .. 1, of normalised field c from the space that the vectors span. */
+/** How far field c, of length 1, is from the space that the vectors span: 0 (inside) .. 1
+ * (orthogonal). */
 double hd_pmode_residual(const hd_pmode *pmode, int c);
-/** Largest deviation of a singular value of Q from 1: how far Q is from a rotation. */
+/** Largest |s - 1| of the singular values s of Q: how far Q is from a rotation. */
 double hd_pmode_rotation_distance(const hd_pmode *pmode);
 
-/** Divides P mode c by the momenta p, component by component: phi p / (p^2 + eps). All components
- * of out are then the modulation A, of amplitude 1 but for eps and the residual. */
+/** Divides P mode c, d <= c < 2 d, by the momenta p[particle][coordinates], component by component:
+ * out = phi p / (p^2 + eps), out[particle][coordinates]. All components of out are then the
+ * modulation A at the particle, with amplitude 1 but for eps and for what hd_pmode_residual says.
+ */
 void hd_pmode_divide(const hd_pmode *pmode, double *out, int c, const double *p);
 
-/** eps in units of the mean square of a momentum component. */
+/** eps of hd_pmode_divide, in units of the mean square of a momentum component. */
 #define HD_PMODE_EPSILON 1e-2
 
 HD_API_END

@@ -1,7 +1,8 @@
-/** The record: what happened to the particles since some moment, as entries in the order of their
- * times, one for each collision or time step. All entries of a record have the same size and begin
- * with their time; only the dynamics that wrote them knows what else they hold. Tangent vectors are
- * carried by the record alone. */
+/** The record: what happened to the particles from some moment on, as entries in the order of their
+ * times, one for each collision or, in time steps, for each pair of particles that interacts. All
+ * entries of a record have the same size and begin with their time; only the dynamics that wrote
+ * them knows what else they hold. Tangent vectors are carried by the record alone. Times are
+ * counted from the start of the record [time units]. */
 #ifndef HDLYAP_RECORD_H
 #define HDLYAP_RECORD_H
 
@@ -11,26 +12,30 @@
 
 HD_API_BEGIN
 
+/** A record; owned by the run, which empties it after each orthonormalisation. */
 typedef struct hd_record hd_record;
 
-/** Simulated time that it covers [time units]. */
+/** Simulated time that the record covers [time units]. */
 double hd_record_duration(const hd_record *record);
+/** Number of entries. */
 size_t hd_record_count(const hd_record *record);
-/** Entry k. Its first double is the time since the start of the record. */
+/** Entry k, 0 .. count - 1, whose first double is its time. It is valid until an entry is put. */
 const void *hd_record_entry(const hd_record *record, size_t k);
 
-/** The entries first .. end - 1. */
+/** The entries with numbers first .. end - 1. */
 typedef struct hd_entries {
     size_t first, end;
 } hd_entries;
 
-/** The entries with t_begin <= t < t_end; if t_end is the end of the record, also those at t_end.
- * O(log count). */
+/** The entries with t_begin <= time < t_end; if t_end is the end of the record, also those at
+ * t_end. O(log count). */
 hd_entries hd_record_within(const hd_record *record, double t_begin, double t_end);
 
-/** Adds a copy of an entry at the end. HD_NO_MEMORY. */
+/** Adds a copy of an entry, which must not be earlier than the last one. Returns HD_OK or
+ * HD_NO_MEMORY. */
 HD_MUST_CHECK hd_status hd_record_put(hd_record *record, const void *entry);
-/** Sets the time that the record covers [time units]. */
+/** Says which time the record covers [time units], from its start; hd_dynamics.advance calls this
+ * last. */
 void hd_record_end(hd_record *record, double duration);
 
 HD_API_END

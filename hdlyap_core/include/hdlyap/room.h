@@ -6,23 +6,25 @@
 
 HD_API_BEGIN
 
-/** Bytes that the core needs on each rank for a run of a checked scene, to some percent. Libraries,
- * memory of the caller and windows of covariant vectors, which covariant_memory limits, are not in
- * it. O(wave vectors). */
+/** Bytes of memory that the core needs on each of `ranks` ranks for a run of a checked scene, to
+ * some percent. Not in it are libraries, memory of the caller, and windows of covariant vectors,
+ * which covariant_memory limits. O(number of waves). */
 double hd_room_needed(const hd_scene_def *def, int threads, int ranks);
 
-/** Available memory. */
+/** Memory that is available. */
 typedef struct hd_room {
     double bytes;      /**< bytes that this process may still take */
     const char *limit; /**< what limits them: "machine", "cgroup" or "ulimit" */
-    int ranks;         /**< ranks that carry the run, each with so many bytes; 0 means 1 */
+    int ranks; /**< number of ranks that carry the run, each with so many bytes; 0 means 1 */
 } hd_room;
 
-/** Available memory without swap on Linux; INFINITY elsewhere. */
+/** Returns the memory that this process may still take, without swap, with ranks = 1. Systems other
+ * than Linux do not tell: hd_room.bytes is then INFINITY. */
 hd_room hd_room_available(void);
 
-/** HD_NO_MEMORY if a checked scene needs more than `room`. `message`, unless NULL, then says what
- * needs how much, how much there is, and what would fit. */
+/** Returns HD_OK if a checked scene needs at most `room`, otherwise HD_NO_MEMORY. Then
+ * message[size], unless NULL, gets a line with what is needed, what there is, and a smaller scene
+ * that would fit. */
 HD_MUST_CHECK hd_status hd_room_check(const hd_scene_def *def, hd_room room, char *message,
                                       size_t size);
 

@@ -1,6 +1,9 @@
-/** A run of a scene: equilibration, warm-up of the frame, averaging; it goes on by one interval at
- * a time. Each thread may have a run of its own; a run, and everything read of it, belongs to one
- * thread at a time. */
+/** A run of a scene. It has three stages: equilibration, in which only particles move; warm-up of
+ * the frame, the tangent vectors that it carries; and averaging. hd_run_advance takes it on by one
+ * interval between two orthonormalisations. Times are simulated, in time units, unless a comment
+ * says wall time. n is the number of vectors, N that of particles. Several runs may go on at once,
+ * each on a thread of its own; a run, and everything that is read from it, belongs to one thread at
+ * a time. */
 #ifndef HDLYAP_RUN_H
 #define HDLYAP_RUN_H
 
@@ -23,161 +26,191 @@
 
 HD_API_BEGIN
 
-/** Where the run stands on its way to the target: the quantity that is farthest from its wanted
- * error. */
+/** Where the run stands on its way to its target: what is known of that quantity of the target
+ * whose error is farthest from the wanted one. */
 typedef struct hd_standing {
-    char name[HD_QUANTITY_NAME]; /**< e.g. c_T; "" without a target: nothing below has a meaning */
-    double value;                /**< its value; 0 while it is not known, and for smallest */
-    double error;                /**< its standard error; negative while not known */
-    double wanted; /**< wanted error, in the same unit; negative while it is a fraction of an
-                      unknown value */
-    double open;   /**< part of the error that no averaging reduces; 0 except for c_T, c_L, v */
-    double left;   /**< averaged time until all quantities reach the target, as errors fall with
-                      its square root; INFINITY if unknown or never [time units] */
-    bool reached;  /**< all quantities have reached the target */
+    /** Name of the quantity, e.g. c_T. "" if the run has no target; the other members then mean
+     * nothing. */
+    char name[HD_QUANTITY_NAME];
+    double value;  /**< its present value; 0 while it is not known, and for the quantity smallest */
+    double error;  /**< its present standard error; negative while it is not known */
+    double wanted; /**< its wanted standard error, in the same unit; negative if that is a fraction
+                      of a value that is not known yet */
+    double open; /**< part of the error that stays however long the run averages; 0 except for c_T,
+                    c_L and v */
+    /** Averaged time that is left until all quantities of the target reach it, if errors fall with
+     * the square root of time; INFINITY if that is unknown or never. */
+    double left;
+    bool reached; /**< true if all quantities of the target have reached it */
 } hd_standing;
 
-/** What the run costs, since its start unless a field says otherwise. A number that is not known is
- * NaN. Seconds are wall seconds. */
+/** What the run costs, since its start unless a comment says otherwise. A number that is not known
+ * is NaN, unless a comment says that it is negative. Seconds are of wall time. */
 typedef struct hd_cost {
-    double wall;     /**< seconds of the whole run */
+    double wall;     /**< seconds of the run so far, without those between saving and resuming */
     double events;   /**< seconds for moving the particles */
     double replay;   /**< seconds for carrying the tangent vectors */
-    double ortho;    /**< seconds for orthonormalisations */
+    double ortho;    /**< seconds for orthonormalising them */
     double spectrum; /**< seconds for averages of exponents */
-    double modes;    /**< seconds for weights, steps, phases, responses, widths */
-    /** Seconds for observables that follow every interval: covariant vectors. */
+    double modes;    /**< seconds for weights, steps, phases, responses and widths */
+    /** Seconds for what follows each interval: covariant vectors. */
     double following;
-    /** Part of these seconds for exchange with other ranks and waiting; bytes that this rank has
-     * sent; number of exchanges. 0 for a single rank. */
+    /** For several ranks: seconds, out of those above, for exchanging data and waiting; bytes that
+     * this rank has sent; number of exchanges. 0 for a single rank. */
     double communication, bytes, calls;
-    double events_per_second; /**< pair collisions per second of moving */
-    double interval;          /**< last interval between orthonormalisations [time units] */
+    double events_per_second; /**< pair collisions per second of `events` */
+    double interval;          /**< length of the last interval between orthonormalisations */
     hd_limit limit;           /**< why that interval was not longer */
-    double condition;         /**< condition of the last orthonormalisation [T6] */
-    double defect;            /**< predicted loss of orthogonality of its vectors */
-    /** What rounding may have added to an exponent: the sum of eps * condition, enlarged as [T6]
-     * says, and of defects, per averaged time. */
+    double condition; /**< condition number of the frame at the last orthonormalisation [T6] */
+    double defect;    /**< predicted deviation from orthogonality of the vectors that it made */
+    /** Bound on what numerical errors may have added to an exponent: DBL_EPSILON times the
+     * condition of each orthonormalisation, summed and enlarged as [T6] says, with a term of the
+     * defect, over the averaged time [1/time unit]. */
     double error_bound;
     long orthonormalisations; /**< number of orthonormalisations */
-    long second_passes;       /**< number of those that needed a second pass */
-    long slow_vector_samples; /**< samples that ended early because of hd_run_watch */
-    long repairs;             /**< intervals that were repeated in pieces for accuracy */
-    /** Largest standard error of the eight smallest positive exponents that are computed; negative
-     * if unknown [1/time unit]. */
+    long second_passes; /**< number of orthonormalisations that needed a second pass for accuracy */
+    long slow_vector_samples; /**< number of samples that ended early because a viewer watches
+                                 (hd_run_watch) */
+    long repairs;             /**< number of intervals that were repeated in pieces for accuracy */
+    /** Largest of the standard errors of the eight smallest positive exponents that are computed;
+     * negative if it is not known [1/time unit]. */
     double std_error;
-    /** Averaged time, at most an eighth of the present one, since when std_error has not fallen as
-     * in a stationary run; negative while it falls, or while that is unknown. */
+    /** Averaged time, at most an eighth of the present one, since which std_error has not fallen as
+     * it does in a stationary run; negative while it falls so, or if that is not known. */
     double stalled_since;
-    double stalled_error; /**< std_error at that time */
-    double progress;      /**< fraction of the run, or of the way to the target, 0 .. 1; negative
-                              if unknown */
-    double remaining;     /**< predicted seconds to the end; negative if unknown */
+    double stalled_error; /**< std_error at the time stalled_since */
+    double progress;      /**< how much of the run, or of the way to its target, is done, 0 .. 1;
+                             negative if not known */
+    double remaining;     /**< predicted seconds to the end of the run; negative if not known */
     hd_standing target;   /**< the quantity that is farthest from its wanted error */
 } hd_cost;
 
+/** A run. The caller makes it and frees it; the run owns its parts and their results. */
 typedef struct hd_run hd_run;
 
-/** Checks the target of a checked scene. HD_REFUSED with one line in `message` if it cannot be
- * read, or names a quantity that such a run never knows. */
+/** Returns HD_OK if the target of a checked scene can be read and a run can know all its
+ * quantities; otherwise HD_REFUSED with one line in message[size]. `message` may be NULL. */
 HD_MUST_CHECK hd_status hd_target_check(const hd_scene_def *def, char *message, size_t size);
 
-/** Makes a run. HD_REFUSED, with one line in `message` unless that is NULL, for a scene that
- * hd_scene_check or hd_target_check refuses; HD_NO_MEMORY. */
+/** Makes a run of *def, which is copied, and writes it to *out; the caller frees it with
+ * hd_run_free. Returns HD_OK; HD_REFUSED, with one line in message[size] unless `message` is NULL,
+ * for what hd_scene_check or hd_target_check refuses; or HD_NO_MEMORY. *out is NULL after a
+ * failure. */
 HD_MUST_CHECK hd_status hd_run_create(hd_run **out, const hd_scene_def *def, char *message,
                                       size_t size);
-/** Makes a run that several ranks carry. They make this and all later calls together, in the same
- * order. Each rank can read all results, but only some of the vectors. HD_REFUSED also for what
- * only a single rank can do. */
+/** Makes a run that several ranks carry together, as hd_run_create. All ranks make this and all
+ * later calls of the run at the same place, with the same arguments. Each rank can read all
+ * results, but only some of the vectors. Returns HD_REFUSED also for what only a single rank can
+ * do. `communicator` must last longer than the run. */
 HD_MUST_CHECK hd_status hd_run_create_shared(hd_run **out, const hd_scene_def *def,
                                              hd_communicator *communicator, char *message,
                                              size_t size);
+/** Frees a run and all its parts; `run` may be NULL. */
 void hd_run_free(hd_run *run);
 
-/** Goes on by one interval, which takes a fraction of a second for N below 1000. It does nothing
- * once the run is HD_FINISHED. If it fails, each later call fails with the same status, and the run
- * cannot be saved. */
+/** Takes the run on by one interval, which takes a fraction of a second of wall time for N below
+ * 1000. While covariant vectors are carried back, a call does a part of that work and simulated
+ * time stands still. Once the run is HD_FINISHED, the call does nothing. If it fails, every later
+ * call returns the same status, and the run cannot be saved; hd_status_text says what it means. */
 HD_MUST_CHECK hd_status hd_run_advance(hd_run *run);
 
-/** True if the last call ended at a report. Spectrum, modes and steps are then those of the last
- * sample, hd_spectrum_time after the averaging began. A sample ends about every 80 collisions of
- * each particle, and at this report if hydro is asked for or fields are due. Phases are those of
- * hd_run_followed. */
+/** True from a call of hd_run_advance that ended at a report to the next call. The results of
+ * hd_run_parts are then those of the last sample, which ended hd_spectrum_time after the averaging
+ * began. Samples end about every 80 collisions of each particle, and with this report if the scene
+ * asks for hydro or fields are due. Phases have samples of their own: see hd_run_followed. */
 bool hd_run_report_due(const hd_run *run);
 
-/** Sets how often fields are due: with the first report of the averaging, with the first report at
- * or after each multiple of `interval` [time units] since then, and with the last; 0, the default,
- * is every report. The interval is finite. The first call holds at once, a later one from
- * hd_run_change_time on. A resumed run keeps its interval until the first call. */
+/** Sets how often fields are due: with the first report of the averaging, then with the first
+ * report at or after each multiple of `interval` [time units], and with the last. 0, the default,
+ * means with every report. `interval` is finite. The first call holds at once, a later one from
+ * hd_run_change_time on. A resumed run keeps its old interval until the first call. */
 void hd_run_fields_every(hd_run *run, double interval);
 
-/** With several ranks, each rank has the vectors of the steps when fields are due. After this call
- * it also has all vectors from column `first` on. */
+/** For several ranks, where each rank has only some vectors: with each report when fields are due,
+ * every rank gets the vectors of all steps. After this call it gets those from column `first` on,
+ * too. */
 void hd_run_fields_from(hd_run *run, int first);
 
-/** Changes a parameter of the scene whose row is live, a number or a text. The new value holds from
- * hd_run_change_time on; hd_run_scene has it at once. HD_REFUSED with one line in `message` if the
- * parameter cannot change, or the value is not allowed; a duration must not be shorter than what
- * will be averaged by then. */
+/** Changes a parameter of the scene with hd_parameter.live, to a number or a text that `value`
+ * holds. The new value is in hd_run_scene at once, but the run follows it from hd_run_change_time
+ * on. Returns HD_REFUSED, with one line in message[size] unless NULL, if the parameter cannot
+ * change or the value is not allowed; a duration must not be shorter than what will be averaged by
+ * then. */
 HD_MUST_CHECK hd_status hd_run_change(hd_run *run, const hd_parameter *row, const char *value,
                                       char *message, size_t size);
-/** Simulated time from which a change holds that is made now: the end of the present interval
- * during the averaging, otherwise the present time. */
+/** Simulated time from which a change that is made now holds: the end of the present interval while
+ * the run is averaging, otherwise the present time. */
 double hd_run_change_time(const hd_run *run);
 
-/** The shortest duration that the run can still be given, with which it ends as soon as possible.
- * NaN unless the run is averaging. */
+/** The shortest duration to which hd_run_change can still set the run, which ends it as soon as
+ * possible [time units]. NaN unless the run is averaging. */
 double hd_run_shortest_duration(const hd_run *run);
 
-/** True if the last call ended at a report with which fields are due. If fields are needed, the
- * frame was orthonormalised at this time. */
+/** True, until the next call of hd_run_advance, if the last one ended at a report with which fields
+ * are due (hd_run_fields_every). If an observable needs it, the frame is orthonormal at this time.
+ */
 bool hd_run_fields_due(const hd_run *run);
 
-/** Sets which of the observables that the scene asks for (HD_OBSERVE_*) are computed from now on;
- * at first all are. The averages of the others miss that time, and phases begin again afterwards.
- */
+/** Sets which of the scene's observables are computed from now on: `stages` is a set of
+ * HD_OBSERVE_*. At first all are. Averages of the others leave out the time in which they are not
+ * computed, and their phases begin again afterwards. */
 void hd_run_observe(hd_run *run, unsigned stages);
 
-/** For a viewer: from now on no call goes on by more than `interval` [time units]; INFINITY ends
- * this. If `first` is below hd_run_vectors and modes are computed, all vectors are orthonormalised
- * at the end of each call; with several ranks each has those from column `first` on. The averages
- * use these states like any other. */
+/** For a viewer that shows the run while it goes on: from now on no call of hd_run_advance goes on
+ * by more than `interval` [time units]; INFINITY ends this. If `first` is below n and the weights
+ * of modes are computed, all vectors are orthonormalised at the end of each call, so that
+ * hd_run_columns has them; with several ranks each rank gets those from column `first` on. The
+ * averages use these states like any other. */
 void hd_run_watch(hd_run *run, double interval, int first);
 
-/** The vectors at the time of the last call: all of them, with several ranks those that were
- * requested, or none (count 0). Their coefficients are in the last sample of the modes. */
+/** The orthonormal vectors at the present time, if the last call of hd_run_advance made them, as
+ * with hd_run_watch: all of them, or with several ranks those that were asked for. Otherwise count
+ * is 0. Their coefficients are those of the last sample in hd_modes_coefficients. They are valid
+ * until the next call of hd_run_advance. */
 hd_columns hd_run_columns(const hd_run *run);
 
-/** All n vectors of the last orthonormalisation, if modes are computed; valid until the next call
- * of hd_run_advance. They are orthonormal in the norm of dq and dp together at samples, as when
- * fields are due. With several ranks: those of the modes, when fields or the response are due. */
+/** All n vectors as the last orthonormalisation left them, if the weights of modes are computed;
+ * valid until the next call of hd_run_advance. At samples, and when fields are due, they are
+ * orthonormal with dq and dp together; in between they may be so in dq alone. With several ranks
+ * these are the vectors of the steps, and only when fields are due or hydro is measured. */
 hd_columns hd_run_frame_columns(const hd_run *run);
-/** Writes, for each vector in the last sample, [n], the cosine of the angle between its halves dp
- * and dq, NaN if one vanishes, and |dp| / |dq|, NaN if dq vanishes. */
+/** Writes, for each vector in the last sample: to cos_theta[n] the cosine of the angle between its
+ * halves dp and dq, NaN if one of them is 0; to dp_dq_ratio[n] |dp| / |dq|, NaN if dq is 0. */
 void hd_run_halves(const hd_run *run, double *cos_theta, double *dp_dq_ratio);
 
-/** Begins all averages again at the present time. Fails as hd_run_advance does. */
+/** Begins all averages again at the present time; the duration counts from now. It does nothing
+ * unless the run is averaging. Fails as hd_run_advance does. */
 HD_MUST_CHECK hd_status hd_run_reset_average(hd_run *run);
 
-/** HD_OK, or the status with which hd_run_advance, hd_run_reset_average or hd_run_save made the run
- * fail. */
+/** HD_OK, or the status of the call of hd_run_advance, hd_run_reset_average or hd_run_save that
+ * made the run fail. */
 hd_status hd_run_status(const hd_run *run);
+/** The stage in which the run is. */
 hd_stage hd_run_stage(const hd_run *run);
-double hd_run_time(const hd_run *run); /**< simulated time since the start [time units] */
+/** Simulated time since the start of the run [time units]. */
+double hd_run_time(const hd_run *run);
+/** The scene, with its present parameters and the duration of the warm-up as chosen. */
 const hd_scene_def *hd_run_scene(const hd_run *run);
-int hd_run_vectors(const hd_run *run);        /**< number n of vectors; 0 without exponents */
-int hd_run_ranks(const hd_run *run);          /**< number of ranks */
-int hd_run_threads(const hd_run *run);        /**< threads that this rank uses */
-int hd_run_threads_denied(const hd_run *run); /**< threads that OpenMP did not grant */
+/** Number n of vectors, each of which has an exponent; 0 if the scene asks for no exponents. */
+int hd_run_vectors(const hd_run *run);
+/** Number of ranks that carry the run. */
+int hd_run_ranks(const hd_run *run);
+/** Number of threads that the run uses on this rank. */
+int hd_run_threads(const hd_run *run);
+/** Number of threads that OpenMP did not grant to the run. */
+int hd_run_threads_denied(const hd_run *run);
 
+/** The results of the run; the pointers stay the same until the run is freed. */
 hd_parts hd_run_parts(const hd_run *run);
 
-/** Simulated time of the last sample of phases; negative without one. */
+/** Simulated time at which phases or fluctuations were last sampled [time units]; negative if they
+ * have not been. */
 double hd_run_followed(const hd_run *run);
+/** What the run has cost so far, and how far it is. */
 hd_cost hd_run_cost(const hd_run *run);
-/** True if the averaging is long enough to tell, and less than a tenth of the particles has left
- * its place since it began, as in a crystal: errors then hold for this one arrangement only [T8].
- */
+/** True if the particles keep their places, as in a crystal, so that standard errors hold for this
+ * one arrangement only [T8]: at no report of the averaging a tenth of them had left its place.
+ * False as long as the averaging is too short to tell. */
 bool hd_run_is_caged(const hd_run *run);
 
 HD_API_END

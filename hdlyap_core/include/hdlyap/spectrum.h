@@ -1,5 +1,7 @@
-/** Lyapunov exponents, with standard errors that account for correlations in time. All functions,
- * those that read too, use one workspace: one thread at a time. */
+/** Lyapunov exponents, with standard errors that take correlations in time into account. An
+ * exponent is the mean growth rate of a vector; columns col = 0 .. n - 1 are in the order of the
+ * exponents, largest first. All functions, reading too, share one workspace, so only one thread at
+ * a time may call them. */
 #ifndef HDLYAP_SPECTRUM_H
 #define HDLYAP_SPECTRUM_H
 
@@ -7,42 +9,53 @@
 
 HD_API_BEGIN
 
+/** The exponents of a run, or of its covariant vectors; owned by the run. */
 typedef struct hd_spectrum hd_spectrum;
 
-double hd_spectrum_time(const hd_spectrum *spectrum); /**< length of the averaging [time units] */
-double hd_spectrum_exponent(const hd_spectrum *spectrum,
-                            int col); /**< mean growth rate, sum of ln R_ll / time [1/time unit] */
-/** Standard error of an exponent, from blocks that are joined until they are independent [T8].
- * Negative while it is not known: there are fewer than HD_SPECTRUM_BLOCKS_MIN blocks, or they are
- * not longer than the correlation time. Its own relative error is 7-10 % from 48 blocks on, 18 %
- * with 16. O(blocks). */
+/** Averaged time: the length of all samples [time units]. */
+double hd_spectrum_time(const hd_spectrum *spectrum);
+/** Exponent of vector col: the sum of ln R_ll over the averaged time, divided by that time [1/time
+ * unit]; 0 before the first sample. */
+double hd_spectrum_exponent(const hd_spectrum *spectrum, int col);
+/** Standard error of an exponent [1/time unit], from blocks of samples that are joined until they
+ * are independent [T8]. Negative while it is not known: with fewer than HD_SPECTRUM_BLOCKS_MIN
+ * blocks, or while blocks are not longer than the correlation time. It is itself known to 18 % with
+ * 16 blocks and to 7-10 % from 48 blocks on. */
 double hd_spectrum_std_error(const hd_spectrum *spectrum, int col);
-/** Mean growth rate in the samples that ended since the last report; NaN if none did. */
+/** Growth rate of vector col over the samples that ended since the last report [1/time unit]; NaN
+ * if none did. */
 double hd_spectrum_local(const hd_spectrum *spectrum, int col);
 
+/** Sums over all exponents that are computed. */
 typedef struct hd_spectrum_sums {
-    double local_time;       /**< length of the samples of hd_spectrum_local; 0 if there are none */
-    double ks_entropy;       /**< sum of the positive exponents that are computed */
-    double ks_entropy_error; /**< its standard error; negative if not yet known */
-    /** Largest |lambda_l + lambda_m| of conjugate exponents; negative unless all are computed. 0 by
-     * construction if half of them follow from the others [T18]. */
+    double local_time; /**< length of the samples of hd_spectrum_local; 0 if there are none [time
+                          units] */
+    double ks_entropy; /**< Kolmogorov-Sinai entropy: sum of the positive exponents that are
+                          computed [1/time unit] */
+    double ks_entropy_error; /**< standard error of ks_entropy; negative while it is not known */
+    /** Largest |lambda_l + lambda_m| of two conjugate exponents, whose sum vanishes in theory
+     * [1/time unit]; negative unless all exponents are computed. 0 by construction if half of them
+     * follow from the others [T18]. */
     double pairing_error;
 } hd_spectrum_sums;
-hd_spectrum_sums hd_spectrum_sum_up(const hd_spectrum *spectrum); /**< O(n blocks) */
+/** Computes the sums. O(n blocks). */
+hd_spectrum_sums hd_spectrum_sum_up(const hd_spectrum *spectrum);
 
-/** Most times over which growth is compared; each is twice as long as the one before. */
+/** Most lengths of time over which growth is compared; each length is twice the one before. */
 enum { HD_TIMES_MAX = 20 };
-/** How often vectors change their order over times of one length. */
+/** How often vectors change the order of their growth over times of one length. */
 typedef struct hd_order_over {
-    double time; /**< mean length [time units] */
-    long count;  /**< how often it has passed */
-    /** Fraction of the times over which vector col grew less than col + 1, [n - 1]. */
+    double time; /**< mean length of these times [time units] */
+    long count;  /**< number of these times that have passed */
+    /** Fraction of these times over which vector col grew less than vector col + 1, [n - 1]. */
     const double *violations;
-    /** Fraction over which any vector up to col grew less than any later one, [n - 1]. At 0 the
-     * splitting is dominated: vectors on either side are isolated from the other side. */
+    /** Fraction of these times over which some vector 0 .. col grew less than some later one, [n -
+     * 1]. If it is 0, the splitting between col and col + 1 is dominated: over such times the
+     * vectors on one side stay apart from those on the other. */
     const double *domination_violations;
 } hd_order_over;
 
+/** Fewest blocks that give a standard error. */
 enum { HD_SPECTRUM_BLOCKS_MIN = 16 };
 
 HD_API_END

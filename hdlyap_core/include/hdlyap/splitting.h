@@ -1,9 +1,10 @@
-/** How covariant vectors split tangent space: angles between vectors and spaces [T17]. */
+/** Angles between covariant vectors, and between the spaces that they span: how they split tangent
+ * space [T17]. n is the number of vectors. */
 #ifndef HDLYAP_SPLITTING_H
 #define HDLYAP_SPLITTING_H
 
-/** Pairs of the spaces of positive (unstable), vanishing (centre) and negative (stable) exponents.
- */
+/** Pairs of two of the spaces that belong to positive (unstable), vanishing (centre) and negative
+ * (stable) exponents. */
 typedef enum hd_pair_of_spaces {
     HD_UNSTABLE_STABLE,
     HD_UNSTABLE_CENTRE,
@@ -11,22 +12,28 @@ typedef enum hd_pair_of_spaces {
     HD_PAIRS_OF_SPACES
 } hd_pair_of_spaces;
 
-enum { HD_ANGLE_BINS = 90 }; /**< bins of a histogram from 0 to pi / 2 */
+/** Number of bins, equally wide, of a histogram of angles from 0 to pi / 2. */
+enum { HD_ANGLE_BINS = 90 };
 
-/** Smallest principal angle between two spaces [rad]: in the last sample, its mean, the standard
- * error of the mean (negative if unknown), and the smallest of all samples. */
+/** The angle between two spaces: the smallest of their principal angles [rad]. Its value in the
+ * last sample, its mean over all samples, the standard error of the mean (negative while it is not
+ * known), and its smallest value. */
 typedef struct hd_angle_of_spaces {
     double last, mean, std_error, least;
-    double mean_of_all;                               /**< mean of all principal angles [rad] */
-    long smallest[HD_ANGLE_BINS], all[HD_ANGLE_BINS]; /**< histograms of the smallest, of all */
+    double mean_of_all; /**< mean of all principal angles, over all samples [rad] */
+    /** How often the smallest angle, and how often any principal angle, fell into each bin. */
+    long smallest[HD_ANGLE_BINS], all[HD_ANGLE_BINS];
 } hd_angle_of_spaces;
 
-/** Results of all samples so far. Angles in radians, 0 .. pi / 2. */
+/** Results of all samples so far. Arrays belong to the run and change when it goes on. */
 typedef struct hd_splitting_results {
+    /** Number of samples. */
     long samples;
-    int has_spaces;                  /**< vectors of all three spaces are computed */
-    const hd_angle_of_spaces *angle; /**< [HD_PAIRS_OF_SPACES] if has_spaces */
-    /** Angle between vectors col and col + 1, [n - 1]: mean, and smallest so far. */
+    int has_spaces; /**< not 0 if all three spaces are computed, so that there are angles between
+                       them */
+    const hd_angle_of_spaces *angle; /**< the angles, [HD_PAIRS_OF_SPACES], if has_spaces */
+    /** Angle between vectors col and col + 1, [n - 1], 0 .. pi / 2 [rad]: its mean over the
+     * samples, and the smallest so far. */
     const double *neighbours, *neighbours_least;
 } hd_splitting_results;
 #endif

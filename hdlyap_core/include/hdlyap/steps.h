@@ -1,6 +1,7 @@
-/** The steps of the spectrum, and the dispersion relation fitted to them [T12]. A step is a set of
- * equal exponents whose vectors are waves of one kind and one wave vector. All functions, those
- * that read too, use one workspace: one thread at a time. */
+/** The steps of the spectrum, and the dispersion relation lambda(k) fitted to them [T12]. A step is
+ * a set of equal exponents whose vectors are waves of one kind and one wave vector. n is the number
+ * of vectors, which are columns 0 .. n - 1, largest exponent first. All functions, reading too,
+ * share one workspace, so only one thread at a time may call them. */
 #ifndef HDLYAP_STEPS_H
 #define HDLYAP_STEPS_H
 
@@ -9,110 +10,135 @@
 
 HD_API_BEGIN
 
-/** Whether the exponents of several steps that share one set of vectors coincide, or differ
- * although their vectors are mixed. */
+/** Several steps can be found in one set of neighbouring columns, because their vectors are
+ * mixtures. This says whether the exponents of these steps are equal, or differ although their
+ * vectors are mixed. */
 typedef enum hd_sharing {
-    HD_SHARING_ALONE,   /**< the step has a set of its own, or is not resolved */
-    HD_SHARING_UNKNOWN, /**< standard errors are unknown, or too large to tell */
-    HD_SHARING_MIXING,  /**< exponents differ, but the vectors have not yet separated */
-    HD_SHARING_BLENDED, /**< exponents differ, but their fluctuations exceed the gap, so the vectors
-                             stay mixed */
-    HD_SHARING_COINCIDENT /**< exponents are equal within three standard errors, at most 3 % */
+    HD_SHARING_ALONE,   /**< the step is the only one of its set, or it is not resolved */
+    HD_SHARING_UNKNOWN, /**< standard errors of the exponents are not known, or too large to tell */
+    HD_SHARING_MIXING,  /**< exponents differ, but the vectors have not had the time to separate */
+    HD_SHARING_BLENDED, /**< exponents differ, but by less than they fluctuate, so that the vectors
+                           stay mixed */
+    /** Exponents are equal within three standard errors, which are at most 3 % of them. */
+    HD_SHARING_COINCIDENT
 } hd_sharing;
 
-/** The fields of one kind at one wave vector, and the exponents that belong to them; or the zero
- * modes. */
+/** A step: the fields of one kind at one wave vector, and the exponents that were found to belong
+ * to them; or the zero modes with their exponents. */
 typedef struct hd_step {
     hd_mode_kind kind; /**< HD_MODE_T, HD_MODE_LP or HD_MODE_ZERO */
-    hd_wave wave;      /**< all 0 for the zero modes */
-    int subspace;      /**< number of its fields in hd_fields; -1 for the zero modes */
-    int expected;      /**< number of equal exponents that the boundaries imply */
-    bool conjugate;    /**< true in the negative half of the spectrum */
-    bool resolved;  /**< true if its vectors were found; otherwise all below is 0, col and set -1 */
-    int col, count; /**< its set of vectors: columns [col, col + count) */
-    int set, members;    /**< number of the set, and how many steps share it */
-    double multiplicity; /**< sum of the weights of the set's vectors in the step's fields, 0 ..
-                            expected */
-    double exponent;  /**< mean over the set, weighted by each vector's share in this step [1/time
-                         unit] */
-    double std_error; /**< standard error of exponent; negative if not yet known */
-    /* Ordered by exponent, each step that shares the set has columns of its own in it. */
-    hd_sharing sharing; /**< do the steps of the set coincide? */
-    double set_time;    /**< averaged time since when the same steps share the set [time units] */
-    double own_part;    /**< fraction of the step's weight in the set that is in the step's own
-                           columns: 1 without mixing */
-    double gap; /**< difference between the mean exponents of the step's own columns and of the
-                   nearest step's; 0 if it is alone [1/time unit] */
-    double gap_error; /**< standard error of gap; negative if not yet known, 0 if it is alone */
+    hd_wave wave;      /**< its wave vector; all 0 for the zero modes */
+    int subspace;      /**< index of its subspace in hd_fields; -1 for the zero modes */
+    int expected;      /**< number of equal exponents that theory expects for these boundaries */
+    bool conjugate;    /**< true for a step of negative exponents, the opposite of one of positive
+                          exponents */
+    /** True if its vectors were found. Otherwise col and set are -1, std_error is negative, and all
+     * other members below are 0. */
+    bool resolved;
+    /** The set of columns in which its vectors are: col .. col + count - 1. Other steps may share
+     * the set. */
+    int col, count;
+    /** Number of the set, 0 or above; number of steps in this set. */
+    int set, members;
+    double multiplicity; /**< measured multiplicity: sum of the weights of the set's vectors in the
+                            step's fields, 0 .. expected */
+    /** Mean exponent of the set's vectors, each weighted by the share that this step has in its
+     * weight [1/time unit]. */
+    double exponent;
+    double std_error; /**< standard error of exponent; negative while it is not known */
+    /** Whether the exponents of the steps of this set are equal. For this and for what follows,
+     * each step of the set has as many columns of its own as it expects, in the order of the steps'
+     * exponents. */
+    hd_sharing sharing;
+    double set_time; /**< averaged time since which the set has had these same steps [time units] */
+    double own_part; /**< fraction of the step's weight in the set that is in its own columns: 1
+                        without mixing */
+    /** Difference between the mean exponent of the step's own columns and that of the nearest other
+     * step of the set; 0 if there is none [1/time unit]. */
+    double gap;
+    double gap_error; /**< standard error of gap; negative while it is not known, 0 if the step is
+                         alone */
 } hd_step;
 
-/** What long boxes have shown about lambda(k) = c k + c2 k^2 + c3 k^3 at the density of a scene
- * [T12]. All NaN if steps follow no such relation: LP in a circle. */
+/** What long boxes have shown about lambda(k) = c k + c2 k^2 + c3 k^3, at the density of a scene
+ * [T12]. All members are NaN if the steps of a kind follow no relation, as LP in a circle. */
 typedef struct hd_relation {
     double c2, c2_error; /**< c2 / c and its standard error [sigma] */
     double c3, c3_error; /**< c3 / c and its standard error [sigma^2] */
-    double box_error;    /**< relative error of c due to narrow edges and walls of this box */
-    double scatter;      /**< relative model error of the exponent of a well resolved step */
+    double box_error;    /**< relative error of c because of narrow edges and walls of the box */
+    double scatter;      /**< relative deviation of the exponent of a well resolved step from the
+                            relation */
 } hd_relation;
-/** Relative error of c that remains in the scene's box at any averaged time, from its longest wave
- * of a kind; INFINITY if the scene has no such wave, or steps follow no relation. */
+/** Relative error of c that remains in a scene's box however long a run averages, from the longest
+ * wave with fields of this kind, HD_MODE_T or HD_MODE_LP. INFINITY if the scene has no such wave,
+ * or its steps follow no relation. */
 double hd_relation_open(const hd_scene_def *def, hd_mode_kind kind);
 
-/** Smallest number of exponents in a scene that can reach a step of its waves; 0 if it asks for no
- * waves. Each field in the box with a smaller exponent is a vector below that step. */
+/** Smallest number of exponents with which a scene can show a step of its waves: so many that the
+ * vectors of one step are among them. 0 if the scene asks for no waves. */
 int hd_steps_exponents_least(const hd_scene_def *def);
 
-/** A fitted coefficient. Its error contains what the form of the relation leaves open, and is
- * multiplied by the misfit if that is above 1; negative if not yet known. */
+/** A fitted coefficient and its error. The error contains what the form of the relation leaves
+ * open, and is multiplied by hd_dispersion.misfit if that is above 1; it is negative while it is
+ * not known. */
 typedef struct hd_coefficient {
     double value, error;
 } hd_coefficient;
 
-/** The fit lambda = c k + c2 k^2 + c3 k^3 to the resolved steps of one kind by least squares, with
- * c2 / c and c3 / c of long boxes as two more observations. The weight of a step follows from its
- * standard error and its scatter. c is the slope of infinitely long waves. */
+/** The least-squares fit lambda = c k + c2 k^2 + c3 k^3 to the resolved steps of one kind, with the
+ * values of c2 / c and c3 / c from long boxes as two more observations. The weight of a step
+ * follows from its standard error and from hd_steps_scatter. c is the slope lambda / k of
+ * infinitely long waves. */
 typedef struct hd_dispersion {
-    int points;          /**< distinct wave numbers; 0: no fit, all below is 0 or unknown */
-    double k_min, k_max; /**< smallest and largest wave number; 0 without a fit [1/sigma] */
+    int points; /**< number of different wave numbers in the fit; 0 means no fit: all members below
+                   are then 0 or unknown */
+    double k_min, k_max; /**< smallest and largest wave number in the fit [1/sigma] */
     double prior_share;  /**< share of c2 and c3 that comes from long boxes instead of this run: 1
-                            for a single wave number, near 0 if the steps determine them */
+                            with a single wave number, near 0 if the steps determine c2 and c3 */
     hd_coefficient c;    /**< [sigma/time unit] */
-    double c_sampling_error; /**< part of the error of c by which another run of this box may
-                                differ; negative if not yet known */
-    hd_coefficient c2;       /**< [sigma^2/time unit] */
-    hd_coefficient c3;       /**< [sigma^3/time unit] */
+    /** Part of the error of c by which another run of this box may differ; negative while it is not
+     * known. */
+    double c_sampling_error;
+    hd_coefficient c2;                /**< [sigma^2/time unit] */
+    hd_coefficient c3;                /**< [sigma^3/time unit] */
     const hd_relation *in_long_boxes; /**< c2 / c and c3 / c of long boxes */
     double misfit; /**< sqrt(chi^2 / degrees of freedom): far above 1 if the steps do not follow the
-                      relation; negative for a single step or without errors */
+                      relation; negative for a single step, or while errors are not known */
 } hd_dispersion;
 
+/** The steps of a run; owned by the run. */
 typedef struct hd_steps hd_steps;
-/** A step is resolved if this fraction of its expected multiplicity is found, beyond that of random
- * vectors. */
+/** A step is resolved if at least this part of its expected multiplicity is found, beyond the
+ * multiplicity that random vectors would have. */
 #define HD_STEPS_THRESHOLD 0.5
 
-/** Number of steps, resolved or not, which is constant: first one for each subspace of hd_fields,
- * then the zero modes, then, if all exponents are computed, the conjugate steps. */
+/** Number of steps, resolved or not, which is constant. First comes one step for each subspace of
+ * hd_fields, in the same order; then the zero modes; then, if all exponents are computed, the
+ * conjugate steps. */
 int hd_steps_count(const hd_steps *steps);
+/** Step `index`, 0 .. hd_steps_count - 1. It changes when the run goes on. */
 const hd_step *hd_steps_step(const hd_steps *steps, int index);
 
-/** The step to which a vector belongs: of those that share its set, the one in which its mean
- * weight is largest. -1 if it is in no set, or its weight there is below the threshold. */
+/** Index of the step to which vector col belongs: among the steps that share its set, the one in
+ * which its mean weight is largest. -1 if col is in no set, or if its weights in the set's steps
+ * are too small. */
 int hd_steps_of_vector(const hd_steps *steps, int col);
-/** A column that represents a resolved step: the first one of its set that belongs to the step, or
- * the first one. */
+/** A column that stands for a resolved step: the first one of its set that belongs to the step
+ * (hd_steps_of_vector), or, if none does, the first one of the set. */
 int hd_steps_example(const hd_steps *steps, int index);
-/** True for the resolved T and LP steps of positive exponents; if several share a set, for the
- * first of them only. Their examples together show every set. */
+/** True for a resolved T or LP step of positive exponents, unless an earlier step shares its set.
+ * So the columns of hd_steps_example of these steps show each set once. */
 bool hd_steps_is_shown(const hd_steps *steps, int index);
-/** The resolved step of a kind with the smallest positive exponent; -1 if there is none. */
+/** Index of the resolved step of a kind, HD_MODE_T or HD_MODE_LP, with the smallest positive
+ * exponent; -1 if there is none. */
 int hd_steps_lowest(const hd_steps *steps, hd_mode_kind kind);
-/** Relative model error of the exponent of a resolved T or LP step: it grows if multiplicity is
- * missing, or weight is in columns of other steps. NaN if steps follow no relation. */
+/** Relative deviation from lambda(k) that the exponent of a resolved T or LP step may have by
+ * itself. It grows with the part of its multiplicity that is missing, and with the part of its
+ * weight that is in columns of other steps. NaN if steps follow no relation. */
 double hd_steps_scatter(const hd_steps *steps, const hd_step *step);
 
-/** Fits the steps of a kind, HD_MODE_T or HD_MODE_LP; they must have been found with this spectrum.
- */
+/** Fits lambda(k) to the steps of a kind, HD_MODE_T or HD_MODE_LP. `spectrum` is that of the same
+ * run, from which the steps were found. */
 hd_dispersion hd_steps_dispersion(const hd_steps *steps, const hd_spectrum *spectrum,
                                   hd_mode_kind kind);
 

@@ -1,5 +1,6 @@
-/** The trajectory: the particles, which move and write a record. Several threads may read one
- * trajectory at once while none moves it; each may move one of its own. */
+/** The trajectory: the particles of a scene, which move and write a record. Several threads may
+ * read one trajectory at once while no thread moves it; several trajectories may be moved at once.
+ */
 #ifndef HDLYAP_TRAJECTORY_H
 #define HDLYAP_TRAJECTORY_H
 
@@ -11,31 +12,36 @@
 
 HD_API_BEGIN
 
+/** A trajectory. That of a run belongs to the run; hd_trajectory_create makes one alone. */
 typedef struct hd_trajectory hd_trajectory;
 
-/** Places the particles of a scene at time 0: positions on a lattice and random momenta from the
- * seed, with total momentum 0 along periodic directions and the scene's energy. HD_REFUSED if
- * hd_scene_check refuses the scene; HD_NO_MEMORY. O(N log N). */
+/** Makes a trajectory of the scene *def, which the caller frees with hd_trajectory_free. Its
+ * particles are at time 0: positions on a lattice, and random momenta from the seed, with total
+ * momentum 0 along periodic directions and the energy of the scene. Returns HD_OK; HD_REFUSED for a
+ * scene that hd_scene_check refuses; or HD_NO_MEMORY. O(N log N). */
 HD_MUST_CHECK hd_status hd_trajectory_create(hd_trajectory **out, const hd_scene_def *def);
+/** Frees a trajectory, unless the pointer is NULL. */
 void hd_trajectory_free(hd_trajectory *trajectory);
 
-/** Moves the particles to simulated time t_end, not before the present one, and adds what happens
- * to the record, which ends at the present time; `record` may be NULL. The record does not depend
- * on how the time is cut into calls. HD_OVERLAP, HD_NOT_FINITE, HD_ENERGY_LOST, HD_NO_MEMORY. Costs
- * O(1) per event of hard particles, and O(N) every some tens of collisions of a particle. */
+/** Moves the particles to the simulated time t_end, not before the present one. Unless `record` is
+ * NULL, it adds what happens to the record, which then ends at the present time. What happens does
+ * not depend on how the time is cut into calls. Returns HD_OK, HD_OVERLAP, HD_NOT_FINITE,
+ * HD_ENERGY_LOST or HD_NO_MEMORY. For hard particles it costs O(1) for each collision, and O(N)
+ * every some tens of collisions of a particle. */
 HD_MUST_CHECK hd_status hd_trajectory_extend(hd_trajectory *trajectory, hd_record *record,
                                              double t_end);
 
-double hd_trajectory_time(const hd_trajectory *trajectory); /**< simulated time [time units] */
+/** Present simulated time [time units]. */
+double hd_trajectory_time(const hd_trajectory *trajectory);
 
-/** Numbers of collisions and the virial so far. */
+/** Numbers of collisions and the virial, from time 0 to now. */
 hd_told hd_trajectory_told(const hd_trajectory *trajectory);
 
-/** Writes positions q inside the box and momenta p, both [particle][coordinates]. Either may be
- * NULL. O(N). */
+/** Writes the present positions, inside the box, to q, and the momenta to p, both
+ * [particle][coordinates]. Either may be NULL. O(N). */
 void hd_trajectory_state(const hd_trajectory *trajectory, double *q, double *p);
 
-/** Sum of p^2 / 2 over the particles: always N for hard ones. */
+/** Kinetic energy of all particles, the sum of p^2 / 2. It is always N for hard particles. */
 double hd_trajectory_kinetic_energy(const hd_trajectory *trajectory);
 
 /** How accurate the present state is. O(N). */

@@ -1,4 +1,6 @@
-/** Types of message fields that are not plain numbers or strings. */
+/** Types of message fields that are not plain numbers or strings. Arrays belong to the caller when
+ * a message is published, and to the receiving code, until its callback returns, when one is
+ * received. An array without elements may be NULL. */
 #ifndef HDLYAP_ROS_FIELDS_H
 #define HDLYAP_ROS_FIELDS_H
 
@@ -11,11 +13,11 @@
 extern "C" {
 #endif
 
-/** float64[], whose element k is data[k * stride]. */
+/** float64[]: element k, 0 .. count - 1, is data[k * stride]. */
 typedef struct hdr_doubles {
     const double *data;
     uint32_t count;
-    uint32_t stride; /**< distance of two elements in doubles, >= 1 */
+    uint32_t stride; /**< distance of two neighbouring elements in doubles, at least 1 */
 } hdr_doubles;
 
 /** uint32[] */
@@ -42,12 +44,15 @@ typedef struct hdr_strings {
     uint32_t count;
 } hdr_strings;
 
-/** std_msgs/Header */
+/** std_msgs/Header of a message. */
 typedef struct hdr_header {
+    /** Time of the message. */
     hdr_time stamp;
+    /** Name of the coordinate frame, or "". */
     const char *frame_id;
-    uint32_t seq; /**< number of the message of its publisher, filled while publishing: a gap is a
-                     lost message */
+    /** Number of the message among those of its publisher, which sets it while publishing. A
+     * subscriber that sees a gap has lost messages. */
+    uint32_t seq;
 } hdr_header;
 
 #ifdef __cplusplus

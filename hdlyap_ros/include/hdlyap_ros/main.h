@@ -1,4 +1,4 @@
-/** A node of one's own: hdlyap's program with a dynamics of one's own. */
+/** A program's own node: hdlyap's node with dynamics that the program adds. */
 #ifndef HDLYAP_ROS_MAIN_H
 #define HDLYAP_ROS_MAIN_H
 
@@ -9,10 +9,10 @@ extern "C" {
 
 struct hd_dynamics; /* hdlyap/dynamics.h */
 
-/** Does all of main. The parameter particles names a dynamics of the core or one of rows[count];
- * its default is rows[0], or disks without rows. The parameters of a row are read from the
- * parameter server, checked and recorded like all others. Rows must last as long as the process.
- * Returns the exit status (--help). */
+/** Does all of main for the node. The ROS parameter particles names a dynamics of the core or one
+ * of rows[count]; if it is not given, rows[0] is taken, or disks if count is 0. Parameters of a row
+ * are read from the parameter server, checked and recorded like all others. Rows must last as long
+ * as the process. Returns the exit status that main has to return; the node's --help lists them. */
 int hdlyap_node_main(int argc, char **argv, const struct hd_dynamics *const *rows, int count);
 
 #pragma GCC visibility pop

@@ -1,4 +1,5 @@
-/** The private parameters of the node: a copy of all, which are read by their exact type. */
+/** The private ROS parameters of the node, as a copy of all, from which values are read by their
+ * exact type. */
 #ifndef HDLYAP_ROS_PARAMS_H
 #define HDLYAP_ROS_PARAMS_H
 
@@ -10,35 +11,42 @@
 extern "C" {
 #endif
 
+/** A copy of parameters. Whoever creates it frees it; texts and lists that are read from it last as
+ * long as the copy. */
 typedef struct hdr_params hdr_params;
 
-/** Copies all private parameters of the node with one call to the master. HDR_FAULT if the master
- * does not answer; HDR_NO_MEMORY. */
+/** Copies all private parameters of the node, with one call to the master. Returns HDR_OK;
+ * HDR_FAULT if the master does not answer; or HDR_NO_MEMORY. */
 HDR_MUST_CHECK hdr_status hdr_params_create(hdr_params **out, const hdr_node *node);
-/** Reads parameters from a YAML file, without a master. Each of replaced[count] is name:=value and
- * replaces the value in the file. HDR_FAULT with a line in hdr_error_text; HDR_NO_MEMORY. */
+/** Makes a copy from the YAML file `path`, without a master. Each of replaced[count] is NAME:=VALUE
+ * and replaces the value in the file. Returns HDR_OK; HDR_FAULT with a line in hdr_error_text; or
+ * HDR_NO_MEMORY. */
 HDR_MUST_CHECK hdr_status hdr_params_read(hdr_params **out, const char *path, int count,
                                           char *const *replaced);
+/** Frees a copy; params may be NULL. */
 void hdr_params_free(hdr_params *params);
 
+/** Number of parameters. */
 int hdr_params_count(const hdr_params *params);
-/** Name of parameter k, 0 .. count - 1, in alphabetic order; NULL otherwise. */
+/** Name of parameter k, 0 .. count - 1, in alphabetic order; NULL for other k. */
 const char *hdr_params_name(const hdr_params *params, int k);
-/** Name of the first parameter that is not in the list `known`, which ends with NULL; NULL if there
- * is none. */
+/** Name of the first parameter that is not in the list `known`, whose end is a NULL; NULL if all
+ * are in it. */
 const char *hdr_params_unknown(const hdr_params *params, const char *const *known);
-/** The value as a text for the user; "" if there is no such parameter. */
+/** Value of a parameter as a text for the user; "" if there is no such parameter. */
 const char *hdr_param_text(const hdr_params *params, const char *name);
 
-/* All of these write the value to *out, or return HDR_MISSING or HDR_WRONG_TYPE and leave *out as
- * it was. Pointers point into params. */
+/* Each of these functions writes the value of a parameter to *out and returns HDR_OK. Or it returns
+ * HDR_MISSING if there is no such parameter, or HDR_WRONG_TYPE if it has another type, and leaves
+ * *out as it was. */
 
 hdr_status hdr_param_bool(const hdr_params *params, const char *name, bool *out);
 hdr_status hdr_param_int(const hdr_params *params, const char *name, int *out);
-/** Also accepts an integer, and a string that is a number from end to end, as YAML 1.1 reads 1e-6
- * as a string. */
+/** Also accepts an integer, and a string that is a number from end to end, because YAML 1.1 takes
+ * 1e-6 for a string. */
 hdr_status hdr_param_double(const hdr_params *params, const char *name, double *out);
 hdr_status hdr_param_string(const hdr_params *params, const char *name, const char **out);
+/** Writes a list and its length to *out and *count. */
 hdr_status hdr_param_string_list(const hdr_params *params, const char *name,
                                  const char *const **out, int *count);
 hdr_status hdr_param_int_list(const hdr_params *params, const char *name, const int **out,

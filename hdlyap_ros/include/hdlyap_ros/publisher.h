@@ -1,4 +1,5 @@
-/** Functions that advertise topics and publish messages, for each type of message. */
+/** Functions that advertise topics and publish messages, for each type of message in
+ * hdlyap_ros/messages.h and hdlyap_ros/standard_messages.h. */
 #ifndef HDLYAP_ROS_PUBLISHER_H
 #define HDLYAP_ROS_PUBLISHER_H
 
@@ -9,10 +10,11 @@
 extern "C" {
 #endif
 
-/** A topic of one type. One thread at a time may use it. */
+/** A topic on which this node publishes messages of one type. Only one thread at a time may use it,
+ * except for hdr_publisher_lag. */
 typedef struct hdr_publisher hdr_publisher;
 
-/** Each message has these functions, here with type = hdr_steps:
+/** Each type of message has these functions, shown here for hdr_steps:
  *
  *      hdr_status hdr_steps_advertise(hdr_publisher **out, hdr_node *node, const char *topic,
  *                                     int queue);
@@ -20,15 +22,16 @@ typedef struct hdr_publisher hdr_publisher;
  *      hdr_status hdr_steps_publish(hdr_publisher *publisher, const hdr_steps *message);
  *
  * A topic "~x" is private to the node. `queue`, at least 1, is the number of messages that are kept
- * for a slow subscriber; the oldest are dropped first. A latched topic sends its last message to
- * each new subscriber. Publishers belong to the node and live as long as it does. _advertise fails
- * with HDR_FAULT or HDR_NO_MEMORY.
+ * for a slow subscriber; if there are more, the oldest is dropped. A latched topic sends its last
+ * message to each new subscriber. The publisher in *out belongs to the node and lives as long as it
+ * does. Advertising returns HDR_OK, HDR_FAULT or HDR_NO_MEMORY.
  *
- * _publish serialises the message and returns without waiting until it is sent, unless
- * hdr_publisher_wait was called. A field that is unknown by the rule in its comment is sent as NaN
- * or -1, whatever the struct has. If any other number is not finite, it sends nothing and returns
- * HDR_NOT_FINITE. It does nothing without a subscriber, unless the topic is latched. HDR_FAULT if
- * the publisher is of another type; HDR_NO_MEMORY. */
+ * Publishing serialises the message and returns without waiting until it is sent, unless
+ * hdr_publisher_wait was called for the topic. A field of which the comment (that of the .msg file)
+ * says that it is NaN or -1 in some case is sent so in that case, whatever the struct holds. If any
+ * other number is not finite, nothing is sent and HDR_NOT_FINITE is returned. Without a subscriber
+ * publishing does nothing, unless the topic is latched. It returns HDR_FAULT if the publisher is of
+ * another type of message, and HDR_NO_MEMORY. */
 #define HDR_PUBLISHER(type)                                                                        \
     HDR_MUST_CHECK hdr_status type##_advertise(hdr_publisher **out, hdr_node *node,                \
                                                const char *topic, int queue);                      \
@@ -39,33 +42,36 @@ HDR_MESSAGES(HDR_PUBLISHER)
 HDR_STANDARD_MESSAGES(HDR_PUBLISHER)
 #undef HDR_PUBLISHER
 
-/** Number of subscribers that are connected now. */
+/** Number of subscribers that are connected to the topic now. */
 int hdr_publisher_subscribers(const hdr_publisher *publisher);
 
-/** Asks the master how many nodes have subscribed to each topic, connected or not: registered[k] is
- * the number for publishers[k], 0 if that is NULL. Waits at most `seconds`, or until a stop is
- * requested. HDR_FAULT if the master has not answered by then; HDR_NO_MEMORY. */
+/** Asks the master how many nodes have subscribed to each of publishers[count], connected or not:
+ * registered[k] becomes the number for publishers[k], 0 if that is NULL. It waits for the answer at
+ * most `seconds`, or until a stop is requested. Returns HDR_OK; HDR_FAULT if the master has not
+ * answered by then; or HDR_NO_MEMORY. */
 HDR_MUST_CHECK hdr_status hdr_publishers_registered(int registered[],
                                                     hdr_publisher *const publishers[], int count,
                                                     double seconds);
 
-/** From now on _publish waits instead of losing a message: while a roscpp subscriber is 96 messages
- * behind (as many as fit into the queue of rosbag's recorder, judged 0.1 s late), and while the
- * queue of any other subscriber is full. It waits at most 5 s for a subscriber that reads nothing,
- * then goes on with a warning and counts lost messages. It does not wait once a stop is requested.
- * HDR_NO_MEMORY. */
+/** From now on publishing on this topic waits where it would lose a message: while a subscriber
+ * that uses roscpp is 96 messages behind (as many as fit into the queue of rosbag's recorder; this
+ * is known 0.1 s late), and while the queue for any other subscriber is full. It waits at most 5 s
+ * for a subscriber that reads nothing; then it goes on with a warning, and counts lost messages. It
+ * does not wait once a stop has been requested. Returns HDR_OK or HDR_NO_MEMORY. */
 HDR_MUST_CHECK hdr_status hdr_publisher_wait(hdr_publisher *publisher);
 
-/** How far the slowest subscriber of a topic is behind, without messages in buffers of the kernel.
- */
+/** How far the slowest subscriber of a topic is behind. Messages in buffers of the operating system
+ * are not counted. */
 typedef struct hdr_lag {
     const char *topic; /**< resolved name; valid as long as the publisher lives */
-    double seconds;    /**< how long the oldest message has waited; 0 if none waits */
-    int messages;      /**< number of messages that wait */
-    int64_t lost; /**< lost messages so far, in queues here and of subscribers that report theirs */
+    double seconds;    /**< for how long the oldest message has waited; 0 if none waits */
+    int messages;      /**< number of messages that wait for it */
+    int64_t lost; /**< number of messages lost so far, in the queues of this node, and in those of
+                     subscribers that report their losses */
 } hdr_lag;
 
-/** Returns the lag without waiting. Any thread may call it; frequent calls make it more exact. */
+/** Returns the lag without waiting. Any thread may call it. The times are the more exact the more
+ * often it is called. */
 hdr_lag hdr_publisher_lag(hdr_publisher *publisher);
 
 #ifdef __cplusplus

@@ -1,4 +1,5 @@
-/** Messages of other packages as C structs: diagnostics, a number, a text. */
+/** Messages of other ROS packages as C structs: diagnostics, a number, a text. Their functions are
+ * as those of hdlyap's own messages (hdlyap_ros/publisher.h, hdlyap_ros/subscriber.h). */
 #ifndef HDLYAP_ROS_STANDARD_MESSAGES_H
 #define HDLYAP_ROS_STANDARD_MESSAGES_H
 
@@ -22,8 +23,8 @@ typedef struct hdr_key_value_list {
     uint32_t count;
 } hdr_key_value_list;
 
-/** diagnostic_msgs/DiagnosticArray with one status. An array of several is received as several
- * messages. */
+/** diagnostic_msgs/DiagnosticArray with one status. If a node sends an array of several, the
+ * callback is called once for each. */
 typedef struct hdr_diagnostic {
     hdr_header header;
     uint8_t level;
@@ -41,7 +42,7 @@ typedef struct hdr_string {
     const char *data;
 } hdr_string;
 
-/** DO(struct) for each message above. */
+/** DO(type) for each type of message above. */
 #define HDR_STANDARD_MESSAGES(DO) DO(hdr_diagnostic) DO(hdr_float64) DO(hdr_string)
 
 #ifdef __cplusplus
