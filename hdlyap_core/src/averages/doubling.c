@@ -1,5 +1,6 @@
-/** Samples -> times of one kind; two of them make one of the next kind -> sums over each kind
- * [T25]. */
+/** Growth of vectors in samples -> its sums over stretches of time, of lengths that double [T25]. A
+ * stretch of the first length is one or several samples; two stretches of one length make one of
+ * the next. */
 #include "averages/doubling.h"
 
 #include <limits.h>
@@ -8,28 +9,31 @@
 #include "base/check.h"
 #include "base/memory.h"
 
-/** Times of one length. */
+/** All stretches of one length. */
 typedef struct kind {
+    /** Number of stretches that have passed. */
     long count;
-    int parts;                    /**< shorter times in the one that has begun */
-    double time;                  /**< sum of all that have passed */
-    double begun;                 /**< length so far of the one that has begun */
-    double *grown;                /**< [vectors]: growth over the one that has begun */
-    double *sum;                  /**< [vectors]: growth over all that have passed */
-    double *square;               /**< [vectors]: growth^2 / time, summed */
-    double *violated, *entangled; /**< [vectors]: fractions */
-    /** [count][count]: on and above the diagonal, sums of products / time; below it, how often the
-     * later column grew more. */
+    int parts; /**< in the stretch that has begun: number of samples, or of stretches of the length
+                  before */
+    double time;    /**< sum of the lengths of all stretches that have passed [time units] */
+    double begun;   /**< length so far of the stretch that has begun [time units] */
+    double *grown;  /**< [vectors]: growth over the stretch that has begun */
+    double *sum;    /**< [vectors]: growth, summed over all stretches that have passed */
+    double *square; /**< [vectors]: growth^2 / length, summed over them */
+    double *violated, *entangled; /**< [vectors]: as members of hd_order_over */
+    /** [count][count], for the compared columns. On and above the diagonal: growth of the one times
+     * growth of the other / length, summed over all stretches. Below it: in how many stretches the
+     * column of the row, the later one, grew more than that of the element. */
     double *pair;
 } kind;
 
 struct hd_doubling {
     hd_doubling_def of;
-    double *later; /**< [vectors]: largest growth of later vectors */
+    double *later; /**< workspace, [vectors]: largest growth of a vector and those after it */
     kind kinds[HD_TIMES_MAX];
 };
 
-enum { ARRAYS = 5 }; /* of a kind, each [vectors] */
+enum { ARRAYS = 5 }; /* arrays of a kind, each [vectors] */
 
 static size_t pairs(const hd_doubling *d) { return (size_t)d->of.count * (size_t)d->of.count; }
 
@@ -191,7 +195,8 @@ hd_order_over hd_doubling_order(const hd_doubling *d, int k)
                            .domination_violations = of->entangled};
 }
 
-/** Covariance per time, from the sum of products / time and both sums. */
+/** Covariance of growth, divided by the length of a stretch, from the sum of products / length and
+ * the two sums of growth; NaN with a single stretch. */
 static double per_time(const kind *k, double products, double sum, double other)
 {
     return k->count > 1 ? (products - sum * other / k->time) / (double)(k->count - 1) : NAN;

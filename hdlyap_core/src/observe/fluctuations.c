@@ -1,4 +1,5 @@
-/** Samples of the spectrum -> diffusion of exponents and of pairs of exponents [T25]. */
+/** Samples of the spectrum -> fluctuations of growth over stretches of time [T25], and their limits
+ * for long stretches: diffusion of exponents, and of pairs of exponents. */
 #include "hdlyap/fluctuations.h"
 
 #include <math.h>
@@ -10,21 +11,24 @@
 #include "observe/observable.h"
 #include "scene/scene.h"
 
-/** A time says something of a limit once it has passed so often. */
+/** Stretches of one length count for a limit once so many of them have passed. */
 enum { COUNT_MIN = 32 };
-/** Variance of a limit from K times, and of how far the limit from times twice as long is off, in
- * units of noise^2 / K [T25]. */
+/** Estimates from K stretches of a length t, as variances in units of noise^2 / K [T25]: LIMIT of
+ * the limit, DIFFERENCE of how far it is from the limit of stretches twice as long. */
 static const double LIMIT = 10.0, DIFFERENCE = 18.0;
-/** Growth over times shorter than this part of a block of the averages has memory. */
+/** Growth over stretches shorter than this part of a block of the averages depends on the growth
+ * before. */
 static const double NEARLY = 0.92;
 
 struct hd_fluctuations {
     hd_doubling *doubling;
     int vectors;
-    double block;     /**< memory of the growth [time units] */
-    double *sum, now; /**< [vectors] sums of the spectrum at the last sample; averaged time then */
-    double *grown;    /**< [vectors]: growth since then */
-    bool follows;     /**< the next sample follows the last one */
+    double block; /**< shortest block of the averages, beyond which growth has no memory [time
+                     units] */
+    /** At the last sample: [vectors], ln R_ii summed by the spectrum; averaged time. */
+    double *sum, now;
+    double *grown; /**< [vectors]: growth from the last sample to this one */
+    bool follows;  /**< true if the next sample follows the last one without a gap */
 };
 
 int hd_fluctuations_times(const hd_fluctuations *f) { return hd_doubling_times(f->doubling); }
@@ -39,14 +43,14 @@ double hd_fluctuations_variance(const hd_fluctuations *f, int k, int col)
 
 /* ---- limits of long times ------------------------------------------------------------------- */
 
-/** A variance or covariance per time for each time that has passed K times; its estimate has the
- * variance 2 noise^2 / K. */
+/** For each length of which enough stretches have passed: a variance or covariance of growth per
+ * time, and its noise. With K stretches this estimate has the variance 2 noise^2 / K. */
 typedef struct course {
     int times;
     double value[HD_TIMES_MAX], noise[HD_TIMES_MAX];
 } course;
 
-/** Number of times that have passed often enough. */
+/** Number of lengths of which enough stretches have passed. */
 static int times_of(const hd_fluctuations *f)
 {
     int times = hd_fluctuations_times(f);
@@ -54,11 +58,12 @@ static int times_of(const hd_fluctuations *f)
     return times;
 }
 
-/** 2 v(2t) - v(t): a part of the growth that stays bounded cancels. */
+/** 2 v(2t) - v(t), with v the value for length t: what a bounded part of the growth adds, c / t,
+ * cancels. */
 static double slope(const course *c, int k) { return 2.0 * c->value[k + 1] - c->value[k]; }
 
-/** The slope of the shortest time that agrees with the slope of twice that time. For the last time
- * a difference twice as large is allowed. */
+/** The slope at the shortest length that agrees with the slope at twice this length within its
+ * error; at the last length, within twice its error. */
 static hd_diffusion limit_of(const hd_fluctuations *f, const course *c)
 {
     for (int k = 0; k + 2 < c->times; k++) {
@@ -83,7 +88,7 @@ hd_diffusion hd_fluctuations_diffusion(const hd_fluctuations *f, int col)
 
 /* ---- steps ---------------------------------------------------------------------------------- */
 
-/** Columns whose pairs are compared. */
+/** Finds the columns whose pairs are compared: the last ones with positive exponents. */
 static void paired(const hd_scene_def *scene, int *first, int *count)
 {
     const int positive = hd_scene_positive_exponents(scene), n = hd_scene_vectors(scene);
@@ -92,6 +97,7 @@ static void paired(const hd_scene_def *scene, int *first, int *count)
     *count = end - *first;
 }
 
+/** The place of a step in `of`, which is added if it is not there. */
 static int place_of(hd_step_columns *of, int step)
 {
     for (int k = 0; k < of->count; k++)
@@ -113,7 +119,8 @@ hd_step_columns hd_fluctuations_steps(const hd_fluctuations *f, const hd_steps *
     return of;
 }
 
-/** Mean over columns of a and b; differ: without a column and itself. */
+/** Mean covariance, over stretches of length k, of a column of step a and a column of step b;
+ * differ: only of two different columns. */
 static double mean_covariance(const hd_fluctuations *f, int k, const hd_step_columns *of, int a,
                               int b, bool differ)
 {
@@ -129,8 +136,8 @@ static double mean_covariance(const hd_fluctuations *f, int k, const hd_step_col
     return sum / pairs;
 }
 
-/** Noise of a covariance of two steps' mean growth; or of two columns of a step whose columns are
- * alike: their mean fluctuates independently of their differences. */
+/** Noise of such a mean covariance, whose value is given. Within a step all columns are taken as
+ * alike, so that their mean fluctuates independently of their differences. */
 static double noise_of(const hd_fluctuations *f, int k, const hd_step_columns *of, int a, int b,
                        double value)
 {
@@ -185,7 +192,8 @@ static double fluctuations_bytes(const hd_scene_def *scene, int ranks)
            hd_doubling_bytes(doubling_of(scene));
 }
 
-/** Times that have passed at least twice, as a mean over the run; all if its length is open. */
+/** Number of lengths of which at least two stretches have passed, as a mean over the run; all
+ * lengths if the duration is open. */
 static double mean_times(const hd_scene_def *scene, const hd_fluctuations *f)
 {
     double sum = 0.0;

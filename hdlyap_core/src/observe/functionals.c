@@ -1,5 +1,5 @@
-/** One disk -> coefficients of the functionals [T15]; functionals_in_space.c has those of a sphere.
- */
+/** One particle in the plane -> coefficients of the functionals [T15]; functionals_in_space.c has
+ * those in space. */
 #include "observe/functionals.h"
 
 #include <math.h>

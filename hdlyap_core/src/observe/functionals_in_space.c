@@ -1,4 +1,4 @@
-/** One sphere -> coefficients of the functionals [T22].
+/** One particle in space -> coefficients of the functionals [T22].
  *
  * The momentum along a field F = (e_i s_i), with e = k for L and e across k for T, is sum p.F; it
  * changes by p_i d_j F_i dq_j + F_i dp_i. */

@@ -1,5 +1,6 @@
-/** Counts and sums of the trajectory -> collision rate, or temperature and potential energy, and
- * pressure [T19], in samples and blocks [T8]. */
+/** Numbers of collisions, or integrals of energies, of the trajectory -> collision rate, or
+ * temperature and potential energy; and from the virial the pressure [T19]. Standard errors come
+ * from blocks of samples [T8]. */
 #include "observe/gas.h"
 
 #include <math.h>
@@ -14,17 +15,18 @@
 #include "scene/scene.h"
 #include "dynamics/trajectory.h"
 
-/** Series that are averaged, per time unit: collisions or potential energy, then the virial along
- * each direction, then, for particles with a potential, twice the kinetic energy along each
- * direction. */
+/** The series of numbers that are averaged, each per time unit: collisions, or the potential energy
+ * of particles that do not collide; then the virial along each direction; then, for particles with
+ * a potential, twice the kinetic energy along each direction. */
 enum {
     COLLISIONS,
-    POTENTIAL = COLLISIONS, /**< for particles that do not collide */
+    POTENTIAL = COLLISIONS, /**< in the same place, for particles that do not collide */
     VIRIAL_X,
     SERIES_MAX = VIRIAL_X + 2 * HD_DIMENSION_MAX
 };
 
-/** Counts and sums of a trajectory: collisions, or the sums of particles with a potential. */
+/** What a trajectory has counted or integrated so far. For particles that collide, of `summed` only
+ * time and virial are set. */
 typedef struct counts {
     uint64_t collisions;
     hd_summed summed;
@@ -33,12 +35,13 @@ typedef struct counts {
 struct hd_gas {
     int dimension, coordinates, series;
     bool is_summed;
+    /** number of particles; area or volume that centres can reach [sigma^d] */
     double particles, area;
-    double momenta;                   /**< number of free momenta */
-    double kinetic[HD_DIMENSION_MAX]; /**< twice the mean kinetic energy along each direction, for
-                                           particles that collide */
-    counts last;                      /**< counts when the last sample ended */
-    double time, sum[SERIES_MAX];     /**< averaged time, and sums over it */
+    double momenta;                   /**< number of free momenta along all directions */
+    double kinetic[HD_DIMENSION_MAX]; /**< twice the mean kinetic energy along each direction, of
+                                         particles that collide */
+    counts last;                      /**< what had been counted when the last sample ended */
+    double time, sum[SERIES_MAX];     /**< averaged time, and each series summed over it */
     hd_blocks blocks;
 };
 
@@ -51,7 +54,7 @@ static counts counts_of(const hd_gas *gas, const hd_trajectory *trajectory)
     return now;
 }
 
-/** Number of momenta along a direction, less the conserved ones. */
+/** Number of free momenta along a direction: one of each particle, less the conserved sums. */
 static double momenta(const hd_scene_def *def, int d)
 {
     return def->number - hd_null_conserved(def, d);
@@ -130,12 +133,13 @@ void hd_gas_add(hd_gas *gas, const hd_trajectory *trajectory)
     hd_blocks_add(&gas->blocks, sample, dt);
 }
 
+/** The series first .. last, each times a factor. */
 typedef struct span {
     int first, last;
     double factor;
 } span;
 
-/** Standard error of the sum of two spans of series, each times its factor, per time. */
+/** Standard error of the sum of both spans' series, per time. */
 static double error_of(const hd_gas *gas, span a, span b)
 {
     hd_part parts[SERIES_MAX];
@@ -149,7 +153,7 @@ static const span NO_SPAN = {0, -1, 0.0};
 
 static double times(double error, double factor) { return error < 0 ? error : error * factor; }
 
-/** Pressures of all kinds of particles. */
+/** Writes pressures, of all kinds of particles. */
 static void read_pressures(hd_gas_means *m, const hd_gas *gas, double t)
 {
     const double a = gas->area;
@@ -166,7 +170,7 @@ static void read_pressures(hd_gas_means *m, const hd_gas *gas, double t)
                                  NO_SPAN);
 }
 
-/** Means of particles that collide: all their energy is kinetic. */
+/** Writes the other means of particles that collide; all their energy is kinetic. */
 static void read_counted(hd_gas_means *m, const hd_gas *gas, double t)
 {
     const double each = 2.0 / gas->particles, half = gas->coordinates / 2.0;
@@ -178,11 +182,12 @@ static void read_counted(hd_gas_means *m, const hd_gas *gas, double t)
     m->temperature_error = m->potential_energy_error = -1.0;
 }
 
-/** Means of particles with a potential; Z = 1 + W / 2 K. */
+/** Writes the other means of particles with a potential. Z = 1 + W / 2K, with the virial W and the
+ * kinetic energy K. */
 static void read_summed(hd_gas_means *m, const hd_gas *gas, double t)
 {
     const int x = kinetic_x(gas), last = gas->series - 1;
-    double twice = 0.0, virial = 0.0; /* 2 K, W */
+    double twice = 0.0, virial = 0.0; /* 2 K and W, each as a mean over time */
     for (int d = 0; d < gas->dimension; d++) {
         twice += gas->sum[x + d] / t;
         virial += gas->sum[VIRIAL_X + d] / t;
@@ -253,7 +258,8 @@ static void gas_archive(void *self, hd_archive *archive, const hd_trajectory *no
     hd_blocks_archive(&gas->blocks, archive);
 }
 
-/** True if particles have sums (of_sums), or collide (not of_sums); else writes the reason. */
+/** True if the particles have integrals of energies (of_sums), or if they collide (not of_sums);
+ * otherwise writes the reason why a target cannot name the quantity. */
 static bool is_known(const hd_scene_def *def, bool of_sums, char why[HD_WHY])
 {
     const hd_dynamics *of = hd_dynamics_of(def);

@@ -1,11 +1,11 @@
-/** Measures the means of the gas. */
+/** How the gas of a run is measured, sample by sample. */
 #ifndef HD_GAS_H
 #define HD_GAS_H
 
 #include "hdlyap/gas.h"
 
-/** block: standard errors come from blocks of the averaged time that are at least this long [time
- * units]. Fails with HD_NO_MEMORY. */
+/** Makes a gas that has averaged nothing. block: standard errors come from blocks of averaged time
+ * that are at least this long [time units]. Fails with HD_NO_MEMORY. */
 HD_MUST_CHECK hd_status hd_gas_create(hd_gas **out, const hd_scene_def *def, double block);
 void hd_gas_free(hd_gas *gas);
 
@@ -15,7 +15,8 @@ void hd_gas_begin(hd_gas *gas, const hd_trajectory *trajectory);
  * any length; nothing is added if no time has passed. O(1). */
 void hd_gas_add(hd_gas *gas, const hd_trajectory *trajectory);
 
-/** Area, or volume in space, in which centres move [sigma^d]: between walls L - 1 instead of L. */
+/** Area, in space volume, that centres of particles can reach [sigma^d]: between walls L - 1
+ * instead of L. */
 double hd_gas_area(const hd_scene_def *def);
 
 #endif

@@ -1,7 +1,7 @@
 /** Vectors of the steps -> response of density, momentum and energy [T15].
  *
- * Each response is a linear functional of (dq, dp). Its coefficients at one disk multiply the
- * disk's rows of the frame, for all vectors of the step at once. */
+ * Each response is a linear functional of (dq, dp). Its coefficients at one particle multiply the
+ * particle's rows of the frame, for all vectors of the step at once. */
 #include "observe/hydro.h"
 
 #include <math.h>

@@ -16,29 +16,32 @@
 
 /** What an observable needs: a set. */
 enum {
-    HD_NEEDS_FRAME = 1,   /**< vectors; without it, it needs particles alone and is always on */
+    HD_NEEDS_FRAME = 1,   /**< vectors; a row without this needs particles alone and is computed
+                             whether anyone listens or not */
     HD_NEEDS_VECTORS = 2, /**< all n vectors at measured states, and where a viewer shows them */
     HD_NEEDS_REPORTS = 4, /**< a measured state at every report */
-    HD_NEEDS_FIELDS = 8,  /**< a measured state where fields are due */
-    HD_NEEDS_ALL = 16,    /**< vectors of all ranks at these reports, on each rank */
+    HD_NEEDS_FIELDS = 8,  /**< a measured state at reports with which fields are due */
+    HD_NEEDS_ALL = 16,    /**< at these reports the vectors of all ranks on each rank */
     HD_NEEDS_CLOSE = 32,  /**< measured states no farther apart than `sampling` says */
-    HD_NEEDS_STATE = 64,  /**< positions and momenta, to measure and report */
+    HD_NEEDS_STATE = 64,  /**< positions and momenta, for `measure` and `report` */
     HD_NEEDS_BOX = 128,   /**< positions in a box */
-    HD_NEEDS_EDGES = 256, /**< plane waves: a box with edges, no curved wall */
-    HD_NEEDS_WHOLE = 512  /**< a frame that is always orthonormal in the full norm; if half of the
-                             vectors are carried, to rounding [T18] */
+    HD_NEEDS_EDGES = 256, /**< waves in a box with edges; no curved wall */
+    /** The frame is always orthonormalised with dq and dp together; if half of the vectors are
+     * carried, to rounding [T18]. */
+    HD_NEEDS_WHOLE = 512
 };
 
 /** What an observable is created from, and may use from then on. */
 typedef struct hd_observing {
     const hd_scene_def *scene;
     int vectors, carried, threads;
-    int width;                     /**< columns that each rank carries, the last one fewer */
+    int width; /**< number of vectors that each rank carries; the last rank may carry fewer */
     hd_communicator *communicator; /**< NULL: a single rank */
     double block;                  /**< shortest block of averages [time units] */
     hd_ortho *ortho;               /**< NULL without exponents */
     double longest;                /**< no interval between orthonormalisations will be longer */
-    void *const *part;             /**< the observable of each row; at creation only rows above */
+    void *const *part; /**< the observables of all rows, NULL for those not asked for; in `create`,
+                          only those of earlier rows */
 } hd_observing;
 
 /** A state that is observed. */
@@ -52,72 +55,78 @@ typedef struct hd_view {
     const double *q, *p; /**< positions and momenta, for HD_NEEDS_STATE, else NULL */
 } hd_view;
 
-/** An interval of the averaging, through which the frame is carried. */
+/** A leg: what follows each interval of the averaging, through which the frame is carried. */
 typedef struct hd_leg {
     enum {
-        HD_LEG_BEGINS, /**< the frame is still that of its start */
-        HD_LEG_PIECE,  /**< an orthonormalisation, after the part of the record before it */
+        HD_LEG_BEGINS, /**< the interval begins, with this frame */
+        HD_LEG_PIECE,  /**< a piece of it has been carried and orthonormalised */
+        /** the interval has ended */
         HD_LEG_ENDS,
-        HD_LEG_LOST /**< the triangle of the next piece will not be that of the frame */
+        HD_LEG_LOST /**< the frame is changed in another way, so that the next piece does not follow
+                       from it */
     } at;
     const hd_frame *frame;
     const hd_ortho *ortho;
     const hd_record *record;
     const hd_trajectory *trajectory;
-    double from, to; /**< times in the record at which a piece begins and ends */
-    double expected; /**< time units that the next intervals are expected to last */
+    double from, to; /**< the piece, counted from the start of the record [time units] */
+    double expected; /**< expected length of the next intervals [time units] */
 } hd_leg;
 
-/** Functions may be NULL: then there is nothing to do. `self` is what `create` made. */
+/** A row. A function that is NULL has nothing to do. `self` is what `create` made. */
 typedef struct hd_observable {
-    unsigned with;                   /**< set of HD_OBSERVE_* that it brings along */
+    unsigned with;                   /**< the observables that it needs, a set of HD_OBSERVE_* */
     unsigned needs;                  /**< set of HD_NEEDS_* */
     const hd_quantities *quantities; /**< quantities that a target can name; NULL: none */
     /** Bytes that it takes on each of `ranks` ranks, a few percent too many rather than too few. */
     double (*bytes)(const hd_scene_def *scene, int ranks);
-    /** Adds the sizes of its results; `self` is NULL if a run does not have it. */
+    /** Adds the numbers of its results to *extent. `self` is NULL if a run does not have it. */
     void (*extend)(hd_extent *extent, const hd_scene_def *scene, const void *self);
-    /** Shortest warm-up that it needs, if the scene leaves that open. */
+    /** Shortest warm-up that it needs, for scenes with HD_WARMUP_AUTO. */
     double (*warmup)(const hd_scene_def *scene);
-    /** Return HD_REFUSED, with a line that says why, if it cannot be had in this scene; on several
-     * ranks; with intervals between orthonormalisations that may become this long. */
+    /** Return HD_OK, or HD_REFUSED with a line that says why it cannot be computed: in this scene;
+     * on so many ranks; with intervals between orthonormalisations that may become this long. */
     hd_status (*check)(const hd_scene_def *scene, char *message, size_t size);
     hd_status (*check_ranks)(const hd_scene_def *scene, int ranks, char *message, size_t size);
     hd_status (*check_longest)(const hd_scene_def *scene, double longest, char *message,
                                size_t size);
-    /** The caller frees what it returns, whatever the status is. Fails with HD_NO_MEMORY. */
+    /** Makes it; the caller frees what is returned, whatever *status is. Fails with HD_NO_MEMORY.
+     */
     void *(*create)(const hd_observing *with, hd_status *status);
     void (*free)(void *self);
-    /** Its averages begin here. */
+    /** Its averages begin, at the state `here`. */
     void (*clear)(void *self, const hd_view *here);
-    /** Nobody has listened for a while: what must be followed without a gap starts anew. */
+    /** It was not computed for a while, as nobody listened, and is from now on: what needs samples
+     * without a gap begins again. */
     void (*resume)(void *self);
-    /** Take a snapshot of the vectors that this rank has; share what all ranks have measured. */
+    /** Take a snapshot of the vectors that this rank carries; give all ranks what each has
+     * measured. */
     hd_status (*measure)(void *self, const hd_observing *with, const hd_view *state);
     hd_status (*share)(void *self, const hd_observing *with);
-    /** Adds the snapshot to the averages. */
+    /** Adds the snapshot to its averages. */
     void (*add)(void *self, const hd_observing *with, const hd_view *state);
     /** Called at a report at which the vectors are known; state->vectors[0] are those of all ranks
      * that can be read. */
     void (*report)(void *self, const hd_observing *with, const hd_view *state);
-    /** The first vector that it reads from all ranks; NULL: 0. */
+    /** The first vector that it reads of those of all ranks; NULL means 0. */
     int (*first)(void *self, const hd_observing *with);
-    /** Longest time that it allows from this measured state to the next; INFINITY: any. */
-    double (*sampling)(void *self, const hd_observing *with);
-    /** Called for each interval while somebody listens. Fails with HD_NO_MEMORY or HD_NO_ROOM.
-     * Ranks agree. */
-    hd_status (*follow)(void *self, const hd_leg *leg);
-    /** True if it begins to follow with the next interval; if half of the vectors are carried, they
-     * are made isotropic to rounding before [T18]. */
-    bool (*begins)(const void *self);
-    /** Simulated time at which the interval that begins now has to end for it. */
-    double (*due)(const void *self, double now);
-    /** Whether it has work to do before the run may go on; does a part of that work. Ranks agree.
+    /** Longest time from this measured state to the next that it allows; INFINITY if it allows any.
      */
+    double (*sampling)(void *self, const hd_observing *with);
+    /** Called for each leg while somebody listens. Fails with HD_NO_MEMORY or HD_NO_ROOM, on all
+     * ranks alike. */
+    hd_status (*follow)(void *self, const hd_leg *leg);
+    /** True if it begins to follow legs with the next interval. If half of the vectors are carried,
+     * the frame is then made isotropic to rounding before [T18]. */
+    bool (*begins)(const void *self);
+    /** The first time after `now` at which an interval has to end for it. */
+    double (*due)(const void *self, double now);
+    /** True if it has work to do before the run may go on; catch_up does a part of it. All ranks
+     * agree. */
     bool (*is_behind)(const void *self);
     hd_status (*catch_up)(void *self);
     void (*archive)(void *self, hd_archive *archive, const hd_trajectory *now);
-    /** What hd_run_parts returns for it; NULL: itself. */
+    /** What hd_run_parts gives for it; if NULL, `self`. */
     void *(*result)(void *self);
 } hd_observable;
 

@@ -1,33 +1,37 @@
-/** Schedule, conditioning, and what observables need -> the next time at which something is due.
+/** Schedule, condition of the frame, and what observables need -> the next time at which something
+ * is due.
  *
  * Stages and reports end where the schedule says. The frame is orthonormalised as late as its
- * conditioning allows, or early where all vectors must be known. A sample is as many such intervals
- * as come nearest to the length that it should have, or fewer if phases cannot wait so long.
- * Without vectors a sample is a time alone. */
+ * condition allows, or early where all vectors must be known. A sample consists of as many
+ * intervals as come nearest to the length that it should have, or of fewer if observables, as
+ * phases, need a measured state earlier. Without a frame a sample is a stretch of time. */
 #include "run/agenda.h"
 #include "scene/scene.h"
 
 #include <math.h>
 
-/** If the interval that is allowed is under this times the remaining time, the interval's own limit
- * is reported. */
+/** An interval that takes all of the remaining time is as long as its condition allows, and this
+ * limit is reported, if the allowed length is below this times the remaining time. */
 static const double DIVIDED = 1.25;
-/** Intervals are shortened down to this factor if that saves a measured state. */
+/** Intervals are shortened by at most this factor to save a measured state. */
 static const double WORTH_A_STATE = 0.875;
 /** Two times that differ by less than this part of an interval are the same. */
 static const double CLOSE = 1e-6;
 /** Longest sample, in collisions of a particle. */
 static const double COLLISIONS_PER_SAMPLE = 80.0;
-/** Growth is correlated over this many collisions of each particle: shorter blocks give no error.
- */
+/** Growth remembers this many collisions of each particle; shorter blocks would give errors that
+ * are too small. */
 static const double COLLISIONS_PER_BLOCK = 8.0;
-/** An averaging has at least this many samples: with fewer, errors would come late and be rough. */
+/** A duration is divided into at least this many samples: with fewer, errors would be known late
+ * and be rough. */
 static const double SAMPLES_MIN = 32.0;
-/** Blocks are longer by this factor, so that samples that are a little shorter fill them. */
+/** Samples may be a little shorter than planned; a block is aimed at this many times its least
+ * length, so that they fill it. */
 static const double WHOLE_BLOCK = 1.05;
-/** Fewest samples in a block, however short the run is. */
+/** Fewest samples in a block in a short run. */
 static const double IN_A_BLOCK = 2.0;
-/** A sample of more intervals than this need not be a multiple of them. */
+/** If a sample has more intervals than this, its length is not rounded to a whole number of them.
+ */
 static const double IN_A_SAMPLE = 3.0;
 
 hd_agenda hd_agenda_of(const hd_scene_def *scene, double rate)
@@ -58,8 +62,9 @@ void hd_agenda_enter(hd_agenda *a, hd_stage stage, double now)
 
 /* ---- the next interval --------------------------------------------------------------------- */
 
-/** In a run that is not much longer than errors need, samples have the length of the averages'
- * blocks, or are single intervals if these are not much shorter. */
+/** A sample lasts 80 collisions of each particle, or 1/32 of the duration. But in a short run,
+ * where that is less than a block, it is a block, or the equal part of one that comes nearest to a
+ * single interval. */
 double hd_agenda_sample_longest(const hd_agenda *a, const hd_interval *interval)
 {
     const hd_schedule *s = &a->schedule;
@@ -80,8 +85,8 @@ double hd_agenda_interval_expected(const hd_agenda *a, const hd_interval *interv
     return fmin(hd_interval_longest(interval).length, fmin(most, phases));
 }
 
-/** The next time at which all vectors must be known: the end of the stage, or a report that needs
- * them. */
+/** The next time at which all vectors must be known: the end of the stage, or a report at which
+ * observables need them. */
 static double next_stop(const hd_agenda *a, const hd_pace *p)
 {
     const hd_schedule *s = &a->schedule;
@@ -91,14 +96,16 @@ static double next_stop(const hd_agenda *a, const hd_pace *p)
                         : stop;
 }
 
-/** Time until phases must be known; INFINITY if they need not be, or if that time has passed. */
+/** Time until observables need a measured state; INFINITY if they need none, or if that time has
+ * passed. */
 static double phases_left(const hd_agenda *a, const hd_pace *p)
 {
     const double left = a->sample_begin + p->phases - p->now;
     return left > 0 ? left : INFINITY;
 }
 
-/** Shortens an interval a little if that saves a measured state before phases must be known. */
+/** Shortens an interval a little if a whole number of intervals then fits into the time `left`
+ * until observables need a measured state. */
 static double rounded_down(double length, double left)
 {
     if (!(left < INFINITY)) return length;
@@ -106,7 +113,8 @@ static double rounded_down(double length, double left)
     return part < length && part > WORTH_A_STATE * length ? part : length;
 }
 
-/** The next interval in this norm, at most `left` long, and why it is not longer. */
+/** The next interval if it ends with an orthonormalisation in this norm: at most `left` long, and
+ * why it is not longer. */
 static hd_interval_length next_interval(const hd_agenda *a, const hd_pace *p, double left,
                                         hd_norm norm)
 {
@@ -124,8 +132,8 @@ static hd_interval_length next_interval(const hd_agenda *a, const hd_pace *p, do
     return next;
 }
 
-/** True if the sample should end with an interval of this length: no other end comes closer to the
- * length that it should have, or phases cannot wait. */
+/** True if the sample should end with an interval of this length: no other end would come closer to
+ * the length that it should have, or observables would wait too long. */
 static bool is_last(const hd_agenda *a, const hd_pace *p, double length)
 {
     const double gone = p->now + length - a->sample_begin, close = CLOSE * length;
@@ -136,7 +144,7 @@ static bool is_last(const hd_agenda *a, const hd_pace *p, double length)
 /** True if `length` takes all of `left` but for rounding. */
 static bool is_rest(double length, double left) { return length >= left * (1.0 - CLOSE); }
 
-/** Why an interval that takes all of the remaining time is not longer. */
+/** Why an interval that takes all of the remaining time `left` is not longer. */
 static hd_limit limit_of_rest(const hd_agenda *a, const hd_pace *p, double left)
 {
     const hd_interval_length longest = hd_interval_longest(p->interval);
@@ -159,7 +167,8 @@ void hd_agenda_plan(hd_agenda *a, const hd_pace *p)
 
 /* ---- what is due --------------------------------------------------------------------------- */
 
-/** End of a sample without vectors; after a checkpoint it may be overdue. */
+/** Time at which a sample without a frame ends. After a checkpoint was read it may have passed; it
+ * is then now. */
 static double sample_end(const hd_agenda *a, const hd_pace *p)
 {
     if (!p->sampled) return INFINITY;
@@ -205,7 +214,6 @@ void hd_agenda_pass_report(hd_agenda *a, bool reached)
 
 /* ---- changes ------------------------------------------------------------------------------- */
 
-/** The end of the present interval while averages are taken, else now. */
 double hd_agenda_change_time(const hd_agenda *a, double now, bool framed)
 {
     return framed && a->schedule.stage == HD_AVERAGING ? fmax(now, a->interval_end) : now;

@@ -1,120 +1,136 @@
-/** When something is due in a run, and why. All times are simulated. */
+/** The agenda of a run: the next simulated time at which something is due, and what. A measured
+ * state is one at which a sample ends: the frame is orthonormal in dq and dp together, and
+ * observables are measured. All times are simulated [time units]. */
 #ifndef HD_AGENDA_H
 #define HD_AGENDA_H
 
 #include "run/schedule.h"
 #include "tangent/interval.h"
 
-/** A set of reasons why the particles stop at a time. */
+/** What is due at a time at which the particles stop: a set. */
 enum {
-    HD_DUE_INTERVAL = 1, /**< the frame is orthonormalised */
-    HD_DUE_SAMPLE = 2,   /**< a sample of the averages ends, which is one or several intervals */
-    HD_DUE_REPORT = 4,
-    HD_DUE_FIELDS = 8, /**< with a report */
-    HD_DUE_STAGE = 16  /**< a stage ends, with a report; it is left once all is done for it */
+    HD_DUE_INTERVAL = 1, /**< the frame has to be orthonormalised */
+    HD_DUE_SAMPLE = 2,   /**< a sample of the averages ends, one or several intervals long */
+    HD_DUE_REPORT = 4,   /**< a report is made */
+    HD_DUE_FIELDS = 8,   /**< fields are due with this report */
+    HD_DUE_STAGE = 16 /**< a stage ends with this report; the run leaves it when it has caught up */
 };
 
-/** What may change while a run goes on. */
+/** The values that may change while a run goes on. */
 typedef struct hd_wanted {
     hd_text target;
     double field_interval;
-    bool changing; /**< other values have been asked for */
+    bool changing; /**< true if other values have been asked for that are not in force yet */
 } hd_wanted;
 
-/** Only agenda.c and checkpoint.c use the members. */
+/** The agenda. Only agenda.c and checkpoint.c use its members. */
 typedef struct hd_agenda {
     hd_schedule schedule;
+    /** the values that the run follows now */
     hd_wanted in_force;
-    double field_interval; /**< the one asked for; in_force has the one in force */
-    bool fields_said;      /**< one was asked for while the run goes on; the first holds at once */
-    double interval_end;   /**< time of the next orthonormalisation */
-    hd_limit limit;        /**< why it is not later */
-    double sample_begin;   /**< time of the last measured state */
-    bool sample_ends;      /**< the sample ends with the present interval */
-    double sample_max;     /**< longest sample */
-    double block;          /**< shortest block of the averages */
-    unsigned due; /**< by now, set of HD_DUE_*, until the next advance; a stage: until it is
-                       left */
+    double field_interval; /**< the interval between fields that was asked for last; in_force has
+                              the one that holds */
+    bool fields_said; /**< one has been asked for since the run was made or resumed; the first one
+                         holds at once */
+    double interval_end; /**< time of the next orthonormalisation */
+    hd_limit limit;      /**< why that time is not later */
+    double sample_begin; /**< time at which the present sample began, with a measured state */
+    bool sample_ends;    /**< true if the sample ends with the present interval */
+    double sample_max;   /**< longest length of a sample */
+    double block;        /**< shortest block of the averages, see hd_agenda_block */
+    /** What is due at the present time (set of HD_DUE_*), until the next advance begins;
+     * HD_DUE_STAGE stays until the stage is left. */
+    unsigned due;
 } hd_agenda;
 
-/** What observables and the carrier require of the next interval. */
+/** What observables and the carrier of the frame ask of the next interval. */
 typedef struct hd_pace {
-    double now;
-    bool framed;  /**< vectors are carried in this stage */
-    bool sampled; /**< averages are taken without vectors */
-    bool first;   /**< nothing has been averaged yet, but the first report has to state something */
-    bool at_reports; /**< the frame must be orthonormal at every report */
-    bool at_fields;  /**< the frame must be orthonormal at reports at which fields are due */
-    double phases;   /**< longest time from one measured state to the next; INFINITY: any */
-    double snapshot; /**< time at which an observable needs an interval to end; INFINITY: none */
-    hd_norm norm;    /**< norm of orthonormalisations between two samples */
-    hd_interval *interval;    /**< the longest interval that conditioning allows */
-    double shortest, longest; /**< times that the particles may move at once */
+    double now;   /**< present time */
+    bool framed;  /**< true if the frame is carried in this stage */
+    bool sampled; /**< true if averages are taken, but no frame is carried */
+    bool first; /**< true if nothing has been averaged yet; the first report then ends a sample, so
+                   that it has averages to state */
+    bool at_reports; /**< true if the frame must be orthonormal at each report */
+    bool at_fields;  /**< true if it must be so at reports with which fields are due */
+    double phases;   /**< longest time from one measured state to the next that observables allow;
+                        INFINITY: any */
+    double snapshot; /**< time at which an interval has to end for an observable; INFINITY: none */
+    hd_norm norm;    /**< norm of the orthonormalisations that end no sample */
+    hd_interval *interval;    /**< how long an interval may be, by the condition of the frame */
+    double shortest, longest; /**< shortest and longest time that the particles may move at once */
 } hd_pace;
 
-/** The agenda of a scene, with its warm-up; rate: collisions of a particle [1/time unit]. */
+/** Makes the agenda of a scene whose warm-up is chosen. rate: collisions of a particle [1/time
+ * unit]. */
 hd_agenda hd_agenda_of(const hd_scene_def *scene, double rate);
-/** Shortest block of the averages: the time that a density wave, which growth follows, takes
- * through the box [T8]. */
+/** Shortest block of the averages: 8 collisions of each particle, or the time that sound takes
+ * through the box, because growth remembers both [T8]. */
 double hd_agenda_block(const hd_agenda *agenda);
 
 hd_stage hd_agenda_stage(const hd_agenda *agenda);
 /** Simulated time at which the stage began. */
 double hd_agenda_stage_begin(const hd_agenda *agenda);
-double hd_agenda_stage_end(const hd_agenda *agenda); /**< INFINITY: endless */
+/** Time at which the stage ends; INFINITY if it has no end. */
+double hd_agenda_stage_end(const hd_agenda *agenda);
+/** Time of the next report, or the end of the stage if that comes first. */
 double hd_agenda_next_report(const hd_agenda *agenda);
-/** Begins, now, the first stage at or after `stage` that has any length. */
+/** Begins, at the time `now`, the first stage at or after `stage` whose length is not 0. */
 void hd_agenda_enter(hd_agenda *agenda, hd_stage stage, double now);
 
-/** Begins an advance: forgets what was due with the last one, except for the end of a stage. */
+/** An advance begins: forgets what was due with the last one, except for HD_DUE_STAGE. */
 void hd_agenda_begin(hd_agenda *agenda);
-/** Plans where the next interval ends, and whether the sample ends with it, unless an interval is
- * under way. */
+/** Plans when the next interval ends, and whether the sample ends with it. Does nothing while an
+ * interval is under way. */
 void hd_agenda_plan(hd_agenda *agenda, const hd_pace *pace);
-/** The next time at which something is due. */
+/** The next time at which something is due: a report, the end of the interval, or of a sample
+ * without a frame. */
 double hd_agenda_next(const hd_agenda *agenda, const hd_pace *pace);
-/** What is due at this time: intervals and samples as planned, and HD_DUE_REPORT. */
+/** What is due at the time pace->now: a set of HD_DUE_INTERVAL, HD_DUE_SAMPLE and HD_DUE_REPORT. */
 unsigned hd_agenda_reached(const hd_agenda *agenda, const hd_pace *pace);
 
 /** Why the present interval is not longer. */
 hd_limit hd_agenda_limit(const hd_agenda *agenda);
-/** Says that the frame has been orthonormalised now. */
+/** The frame has been orthonormalised at the time `now`. */
 void hd_agenda_pass_interval(hd_agenda *agenda, double now);
-/** Says that a state is measured now; a new sample begins. */
+/** A state is measured at the time `now`; a new sample begins. */
 void hd_agenda_pass_sample(hd_agenda *agenda, double now);
-/** True if the present state is a measured one. */
+/** True if the state at the time `now` has been measured. */
 bool hd_agenda_is_measured(const hd_agenda *agenda, double now);
-/** Says that a report is made now, and remembers what is due with it. reached: the target is
- * reached. */
+/** A report is made: adds it to what is due, with fields and the end of the stage where these are
+ * due with it. reached: the target of the run is reached. */
 void hd_agenda_pass_report(hd_agenda *agenda, bool reached);
 
-/** True if any of these reasons is due. */
+/** True if any of the set `why` is due. */
 bool hd_agenda_is_due(const hd_agenda *agenda, unsigned why);
 
-/** Longest time that a sample should last. */
+/** Length that a sample should have at most; INFINITY unless averages are taken. */
 double hd_agenda_sample_longest(const hd_agenda *agenda, const hd_interval *interval);
-/** Expected length of intervals. Intervals before reports end early, and so do those before samples
- * of phases, which are at most `phases` apart. */
+/** Expected length of intervals. They end early before reports, if at_reports, and before measured
+ * states, which are at most `phases` apart. */
 double hd_agenda_interval_expected(const hd_agenda *agenda, const hd_interval *interval,
                                    bool at_reports, double phases);
 
 /* ---- changes ------------------------------------------------------------------------------- */
 
-/** Says that other values have been asked for. framed: in a run with vectors the sample then ends
- * with its present interval. */
+/** Other values have been asked for. framed: the run carries a frame; during the averaging its
+ * sample then ends with the present interval. */
 void hd_agenda_ask(hd_agenda *agenda, bool framed);
-/** Asks for another field_interval. The first one holds at once, later ones when other changes do.
- */
+/** Another field_interval is asked for. The first one holds at once, later ones when other changes
+ * do. */
 void hd_agenda_ask_fields(hd_agenda *agenda, double interval, bool framed);
-/** Time from which a change that is asked for now will hold. */
+/** Time from which a change that is asked for now will hold: the end of the present interval while
+ * a frame is carried and averages are taken, otherwise `now`. */
 double hd_agenda_change_time(const hd_agenda *agenda, double now, bool framed);
-/** True if the averaging can have this length. */
+/** True if the averaging can have this duration, 0 being without end, when it holds from the time
+ * `from`. */
 bool hd_agenda_can_last(const hd_agenda *agenda, double duration, double from);
-/** Puts changes in force; true if there are any, and the schedule may differ. */
+/** Puts what was asked for in force. Returns true if anything was; the schedule may then be another
+ * one. */
 bool hd_agenda_change(hd_agenda *agenda, const hd_scene_def *scene, double now);
-/** Ends the averaging, because its time is over or the target is reached: report and fields are
- * due. */
+/** Ends the averaging if its duration is over or the target is reached: a report and fields are
+ * then due. */
 void hd_agenda_end_averaging(hd_agenda *agenda, bool reached, double now);
-const hd_text *hd_agenda_target(const hd_agenda *agenda); /**< the target in force */
+/** The target in force. */
+const hd_text *hd_agenda_target(const hd_agenda *agenda);
 
 #endif

@@ -1,27 +1,31 @@
-/** Diffusion of the exponents, alone and in pairs, and their order over finite times ->
- * Fluctuations. */
+/** Fluctuations of growth: diffusion of exponents, alone and in pairs, and the order of growth over
+ * finite times -> message Fluctuations. */
 #include "topics/moment.h"
 
 #include <math.h>
 
 #include "hdlyap/fluctuations.h"
 
-/** What the arrays of a message are in. */
+/** The arrays of a message, and what they are filled from. */
 typedef struct arrays {
     const hd_fluctuations *f;
-    int vectors, times; /**< times: that are told now */
+    /** Number of vectors; number of lengths of time that this message tells. */
+    int vectors, times;
+    /** The steps whose columns are compared. */
     hd_step_columns of;
     double *diffusions, *errors;             /**< [vectors] each */
     double *covariances, *covariance_errors; /**< [steps^2] each */
     double *variances, *reversals;           /**< [times][vectors], [times][steps^2] */
     hdr_growth_order order[HD_TIMES_MAX];
     hdr_fluctuation_step step[HD_FLUCTUATING];
-    uint32_t index[HD_FLUCTUATING]; /**< of all steps */
+    uint32_t index[HD_FLUCTUATING]; /**< Lyapunov indices of the columns of all steps, one step
+                                       after the other */
 } arrays;
 
 static size_t pairs(const arrays *a) { return (size_t)a->of.count * (size_t)a->of.count; }
 
-/** Those that have passed twice, where they are told. */
+/** Number of lengths of time, of which at least two stretches have passed; 0 unless fields are due,
+ * as the message has these arrays only then. */
 static int times_of(const moment *now, const hd_fluctuations *f)
 {
     int times = hd_run_fields_due(now->run) ? hd_fluctuations_times(f) : 0;
@@ -29,7 +33,7 @@ static int times_of(const moment *now, const hd_fluctuations *f)
     return times;
 }
 
-/** False without memory. */
+/** Takes memory for the arrays; false if there is none. */
 static bool arrays_take(arrays *a, const moment *now)
 {
     const size_t n = (size_t)a->vectors, s = pairs(a), times = (size_t)a->times;
@@ -45,6 +49,7 @@ static bool arrays_take(arrays *a, const moment *now)
     return true;
 }
 
+/** Unknown values are sent as NaN. */
 static void put(double *value, double *error, hd_diffusion d)
 {
     *value = d.error < 0 ? NAN : d.value;

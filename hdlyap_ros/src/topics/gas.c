@@ -1,4 +1,4 @@
-/** Averages of collisions or energies, and of the virial -> Gas. */
+/** Means of the gas: collision rate, pressure, temperature and potential energy -> message Gas. */
 #include "topics/moment.h"
 
 #include <math.h>
