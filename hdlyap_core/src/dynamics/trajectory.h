@@ -7,7 +7,7 @@
 
 /** Starts from a given state: positions q inside the box (x0 y0 .. x1 y1 ..) and momenta p; nothing
  * is rescaled. Fails with HD_REFUSED for a box that hd_scene_check refuses, positions outside it,
- * or |p| above 1e6; with HD_OVERLAP if disks overlap deeper than hd_examined.overlap_max. */
+ * or |p| above 1e6; with HD_OVERLAP if particles overlap deeper than hd_examined.overlap_max. */
 HD_MUST_CHECK hd_status hd_trajectory_create_from(hd_trajectory **out, const hd_scene_def *def,
                                                   const double *q, const double *p);
 /** Positions in the box and momenta along its directions, without other coordinates, as angles; q

@@ -1,8 +1,8 @@
 /** Positions and momenta -> sampled fields [T10], [T22].
  *
- * Row-major, a row for each component of each disk: the right-hand factor of a dgemm against the
- * rows of the frame. The functions of one coordinate are tabulated per disk, each field is a
- * product of them.
+ * Row-major, a row for each coordinate of each particle: the right-hand factor of a dgemm against
+ * the rows of the frame. The functions of one coordinate are tabulated for each particle, each
+ * field is a product of them.
  */
 #include "modes/fields.h"
 
@@ -27,7 +27,7 @@ struct hd_fields {
     hd_subspace *subspace;      /**< [subspaces] */
     double (*own)[HD_WAVE_OWN]; /**< [subspaces], by the container; NULL in a box */
     double **row;               /**< [coordinates]: rows of the particle that is sampled */
-    double *data;               /**< [coordinates * disks * stride] */
+    double *data;               /**< [coordinates * particles * stride] */
     double *norm;               /**< [stride]: norms of the columns before they were made 1 */
 };
 

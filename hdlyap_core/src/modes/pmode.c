@@ -1,8 +1,8 @@
 /** Vectors of an LP step -> its L and P modes [T14].
  *
- * With B (M x 2d) the normalised fields, M components of all disks, and psi (M x 2d) the normalised
- * dq halves, Q solves psi Q = B by least squares; the modes are psi Q. Q = (psi^T psi)^-1 psi^T B
- * by dposv of a 2d x 2d matrix; psi is nearly orthonormal.
+ * With B (M x 2d) the normalised fields, M components of all particles, and psi (M x 2d) the
+ * normalised dq halves, Q solves psi Q = B by least squares; the modes are psi Q. Q = (psi^T
+ * psi)^-1 psi^T B by dposv of a 2d x 2d matrix; psi is nearly orthonormal.
  */
 #include "modes/pmode.h"
 
@@ -21,9 +21,9 @@ enum { DIMENSION_MAX = HD_FIELDS_MAX };
 
 struct hd_pmode {
     int particles, coordinates; /**< of a particle */
-    int dimension;          /**< 2d */
-    double *psi;            /**< [HD_FIELDS_IN(dimension)][coordinates * disks] */
-    double *field;          /**< same */
+    int dimension;              /**< 2d */
+    double *psi;                /**< [HD_FIELDS_IN(dimension)][coordinates * particles] */
+    double *field;              /**< same */
     double q[DIMENSION_MAX * DIMENSION_MAX];
     double residual[DIMENSION_MAX];
     double norm[DIMENSION_MAX]; /**< norms of the sampled fields */

@@ -4,7 +4,7 @@
 
 #include "hdlyap/pmode.h"
 
-/** For N disks. HD_NO_MEMORY. */
+/** For the particles of a scene. Fails with HD_NO_MEMORY. */
 HD_MUST_CHECK hd_status hd_pmode_create(hd_pmode **out, const hd_scene_def *def);
 void hd_pmode_free(hd_pmode *pmode);
 

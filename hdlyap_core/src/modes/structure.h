@@ -27,8 +27,8 @@ int hd_structure_waves_of(const hd_scene_def *def); /**< the same of a scene */
 
 /** S(k) = |sum_j e.dq_j exp(-i k.q_j)|^2 with |dq| = 1, mean over k and its mirror image (k_x,
  * -k_y); of the snapshot, or mean over samples; [n]. Where the wave has nodes between walls it is
- * that of the box and its mirror image, per disk. Random vectors have 1/2; one that lies in the
- * wave's fields has N over the number of their modulations, 1 .. 4. Of spheres e across k is either
+ * that of the box and its mirror image, per particle. Random vectors have 1/2; one that lies in the
+ * wave's fields has N over the number of their modulations, 1 .. 4. In space e across k is either
  * of two directions, and both are added up: in periodic boxes random vectors have 1/3 along k and
  * 2/3 across. */
 const double *hd_structure_snapshot(const hd_structure *structure, int wave, hd_direction e);

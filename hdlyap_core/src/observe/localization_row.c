@@ -1,5 +1,5 @@
 /** Localisation widths as an observable. Only vectors that are carried are measured, because
- * partners [T18] lie on the same disks. */
+ * partners [T18] lie on the same particles. */
 #include "base/check.h"
 #include "observe/observable.h"
 #include "scene/scene.h"

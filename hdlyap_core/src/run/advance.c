@@ -90,7 +90,7 @@ static double events_in(const hd_advance *advance, double length, const hd_recor
 }
 
 /** The longest advance grows step by step, each by what the last one showed: a channel of hardly
- * more than a disk's width can have 1e9 wall events in a time unit. */
+ * more than a particle's width can have 1e9 wall events in a time unit. */
 static void learn(hd_advance *advance, const hd_record *record)
 {
     const double length = advance->plan.end - advance->plan.begin;

@@ -20,7 +20,8 @@ typedef struct hd_carrier {
     hd_communicator *communicator; /**< NULL: a single rank */
     const hd_dynamics *of;
     int particles, vectors, carried, positive, threads, threads_denied;
-    double accuracy, collision; /**< asked of an exponent; time between two collisions of a disk */
+    /** The scene's accuracy [1/time unit]; mean time between two collisions of a particle. */
+    double accuracy, collision;
     hd_record *record;
     hd_frame *frame;
     hd_ortho *ortho;

@@ -80,7 +80,7 @@ static double sites_within(const hexagons *h, double square)
     return sites;
 }
 
-/** The smallest circle about a point of symmetry that holds at least `disks` sites. */
+/** The smallest circle about a point of symmetry that holds at least `particles` sites. */
 static hexagons densest(int particles)
 {
     enum { POINTS = 3, BISECTIONS = 100 };
@@ -88,8 +88,8 @@ static hexagons densest(int particles)
     hexagons best = {.square = INFINITY};
     for (int k = 0; k < POINTS; k++) {
         hexagons h = {point[k][0], point[k][1], 0.0};
-        double low = 0.0, high = particles + 2.0; /* a circle of this squared radius has sites enough:
-                                                 they are denser than a square lattice */
+        double low = 0.0, high = particles + 2.0; /* a circle of this squared radius has sites
+                                                 enough: they are denser than a square lattice */
         for (int b = 0; b < BISECTIONS && low < high; b++) {
             const double middle = 0.5 * (low + high);
             *(sites_within(&h, middle) >= particles ? &high : &low) = middle;
@@ -100,7 +100,7 @@ static hexagons densest(int particles)
     return best;
 }
 
-/** Spacing of sites, a little less than fits, so that rounding puts no disk beyond the wall. */
+/** Spacing of sites, a little less than fits, so that rounding puts no centre beyond the wall. */
 static double spacing_of(const hexagons *h, double reach)
 {
     return reach / sqrt(h->square) * (1.0 - 8.0 * DBL_EPSILON);
@@ -160,7 +160,8 @@ static double wall_excess(const hd_wall *wall, const double *q)
 }
 
 /** The later root s of |r + p s| = reach, by the form that does not cancel. p^2 reach^2 - (r x p)^2
- * is the square of r.p at the wall; if the disk is at the wall within rounding, r.p itself serves.
+ * is the square of r.p at the wall; if the centre is at the wall within rounding, r.p itself
+ * serves.
  */
 static double wall_wait(const hd_wall *wall, const double *q, const double *p)
 {

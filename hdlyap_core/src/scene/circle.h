@@ -1,4 +1,5 @@
-/** A circular container of radius R: its centre is (R, R), centres of disks reach R - 1/2 [T21]. */
+/** A circular container of radius R: its centre is (R, R); centres of particles reach R - 1/2
+ * [T21]. */
 #ifndef HD_CIRCLE_H
 #define HD_CIRCLE_H
 

@@ -1,4 +1,5 @@
-/** What holds the disks. Each container is a file with a row of functions; callers know rows alone.
+/** What holds the particles. Each container is a file with a row of functions; callers know rows
+ * alone.
  */
 #ifndef HD_CONTAINER_ROW_H
 #define HD_CONTAINER_ROW_H
@@ -8,11 +9,11 @@
 
 #include "hdlyap/wave.h"
 
-/** Smallest distance of two start positions: disks that all touch could never move. */
+/** Smallest distance of two start positions: particles that all touch could never move. */
 #define HD_START_DISTANCE_MIN (1.0 + 1e-9)
 
-/** Smallest room of centres between two walls. Disks would cross less room more often than times
- * can be told apart. It is 1e-9, less what rounding an edge takes. */
+/** Smallest room of centres between two walls. Particles would cross less room more often than
+ * times can be told apart. It is 1e-9, less what rounding an edge takes. */
 #define HD_ROOM_MIN 0.999e-9
 
 /** Takes one wave; `to` is its own. */
@@ -20,7 +21,7 @@ typedef void (*hd_wave_taker)(void *to, const hd_wave *wave);
 
 enum { HD_WAVES_USUAL_MAX = 26 };
 
-/** A wall in the plane that is no edge of the box: centres of disks stay within it. It curves
+/** A wall in the plane that is no edge of the box: centres of particles stay within it. It curves
  * inwards everywhere, and lies within what centres reach of the box. It decides events: only + - *
  * / sqrt. q, p, n: [2]. */
 typedef struct hd_wall hd_wall;
@@ -45,11 +46,12 @@ typedef struct hd_modulation {
 enum { HD_WAVE_OWN = 6 };
 
 typedef struct hd_container_row {
-    /** Words for a refusal that describe the container, without its disks and their density. */
+    /** Words for a refusal that describe the container, without its particles and their density. */
     void (*say)(const hd_scene_def *def, char *text, size_t size);
     /** See hd_scene_describe. */
     void (*describe)(const hd_scene_def *def, char *text, size_t size);
-    /** Checks that one disk has room, and that no parameter is given that this container lacks. */
+    /** Checks that one particle has room, and that no parameter is given that this container lacks.
+     */
     hd_status (*check)(const hd_scene_def *def, char *message, size_t size);
     void (*box)(const hd_scene_def *def, double *box); /**< edges of the box around it */
     double (*area)(const hd_scene_def *def);           /**< area that centres can reach */
@@ -90,7 +92,7 @@ const char *hd_container_name(const hd_scene_def *def);
 /** The curved wall; its functions are NULL for a box. */
 hd_wall hd_wall_of(const hd_scene_def *def);
 
-/** Whether a site stays empty: if there are more sites than disks, the empty ones are spread
+/** Whether a site stays empty: if there are more sites than particles, the empty ones are spread
  * evenly. */
 static inline bool hd_site_is_spare(int64_t site, int64_t sites, int64_t particles)
 {

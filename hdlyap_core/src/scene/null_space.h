@@ -20,8 +20,8 @@ int hd_null_axes(const hd_scene_def *def, int *axis);
 
 hd_null_space hd_null_space_of(const hd_scene_def *def);
 
-/** Entry of an axis for coordinate d (0: x, 1: y, ..) of a disk at q with momentum p; the axis is
- * not normalised. */
+/** Entry of an axis for coordinate d (0: x, 1: y, ..) of a particle at q with momentum p; the axis
+ * is not normalised. */
 static inline double hd_null_entry(const hd_null_space *null, int axis, int d, const double *q,
                                    const double *p)
 {

@@ -1,4 +1,5 @@
-/** Scene -> start positions of disks. Tries all kinds of rows; arithmetic is + - * / sqrt only. */
+/** Scene -> start positions in the plane. Tries all kinds of rows; arithmetic is + - * / sqrt only.
+ */
 #include "scene/plane_lattice.h"
 
 #include <math.h>
@@ -49,7 +50,8 @@ static void try_rows(hd_plane_lattice *best, int particles, int rows, int along,
     if (l.distance > best->distance) *best = l;
 }
 
-hd_plane_lattice hd_plane_lattice_best(int particles, const double *box, const hd_boundary *boundary)
+hd_plane_lattice hd_plane_lattice_best(int particles, const double *box,
+                                       const hd_boundary *boundary)
 {
     enum { ROW_KINDS = 3 }; /* in line, staggered, staggered with short odd rows */
     hd_plane_lattice best = {.distance = -1.0};
@@ -74,8 +76,8 @@ static void place(const hd_plane_lattice *l, double *q, int row, int column, con
             q[d] = fmin(q[d], box[d] - 0.5); /* the last site, rounded, may lie beyond the wall */
 }
 
-void hd_plane_lattice_fill(const hd_plane_lattice *lattice, double *q, int particles, const double *box,
-                           const hd_boundary *boundary)
+void hd_plane_lattice_fill(const hd_plane_lattice *lattice, double *q, int particles,
+                           const double *box, const hd_boundary *boundary)
 {
     const int64_t sites = site_count(lattice->rows, lattice->columns, lattice->odd_short);
     int64_t site = 0;

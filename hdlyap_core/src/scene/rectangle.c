@@ -1,4 +1,4 @@
-/** A rectangle (for spheres, a box): each direction is periodic or has walls. */
+/** A rectangle, in space a box: each direction is periodic or has walls. */
 #include <math.h>
 #include <stdio.h>
 
@@ -12,7 +12,7 @@
 
 static const double PI = 3.14159265358979323846;
 
-/** An edge [sigma] below this lets no two disks pass each other: no wave lies along it. */
+/** An edge [sigma] below this lets no two particles pass each other: no wave lies along it. */
 static const double NARROW = 2.0;
 
 static bool is_flat(const hd_scene_def *def) { return hd_scene_dimension(def) == 2; }

@@ -46,7 +46,7 @@ static hd_status check_ranges(const hd_scene_def *def, char *message, size_t siz
     return HD_OK;
 }
 
-/** Refuses parameters of spheres for disks, and a curved wall for spheres: it lies in the plane. */
+/** Refuses parameters of z for particles in the plane, and a curved wall for those in space. */
 static hd_status check_particles(const hd_scene_def *def, char *message, size_t size)
 {
     const hd_scene_def usual = hd_scene_def_default();

@@ -10,7 +10,8 @@
 
 /** hd_scene_check without the conditions of observables. */
 HD_MUST_CHECK hd_status hd_scene_check_start(const hd_scene_def *def, char *message, size_t size);
-/** Checks every range, and that the box is wider than a disk, but not that a start lattice fits. */
+/** Checks every range, and that the box is wider than a particle, but not that a start lattice
+ * fits. */
 HD_MUST_CHECK hd_status hd_scene_check_box(const hd_scene_def *def, char *message, size_t size);
 
 #endif

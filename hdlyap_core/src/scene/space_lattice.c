@@ -1,4 +1,4 @@
-/** Scene -> start positions of spheres: the sites of a cubic lattice on a grid whose spacing is
+/** Scene -> start positions in space: the sites of a cubic lattice on a grid whose spacing is
  * about the same in all directions. Arithmetic is + - * / sqrt only. */
 #include "scene/space_lattice.h"
 
@@ -123,7 +123,8 @@ static void try_around(hd_space_lattice *best, int particles, int kind, held h, 
 }
 
 /** Also tries grids with few layers between walls, which may lie farther apart than their sites. */
-hd_space_lattice hd_space_lattice_best(int particles, const double *box, const hd_boundary *boundary)
+hd_space_lattice hd_space_lattice_best(int particles, const double *box,
+                                       const hd_boundary *boundary)
 {
     enum { LAYERS = 6 };
     hd_space_lattice best = {.distance = -1.0};

@@ -1,4 +1,4 @@
-/** Start positions of spheres: a regular lattice that uses the box as well as its kind can. */
+/** Start positions in space: a regular lattice that uses the box as well as its kind can. */
 #ifndef HD_SPACE_LATTICE_H
 #define HD_SPACE_LATTICE_H
 
@@ -17,10 +17,11 @@ typedef struct hd_space_lattice {
 
 /** The lattice with at least N sites and the largest smallest distance, the best of some thousand
  * that are tried. Cost O(1). */
-hd_space_lattice hd_space_lattice_best(int particles, const double *box, const hd_boundary *boundary);
+hd_space_lattice hd_space_lattice_best(int particles, const double *box,
+                                       const hd_boundary *boundary);
 
 /** Fills the positions q; spare sites are left empty evenly. */
-void hd_space_lattice_fill(const hd_space_lattice *lattice, double *q, int particles, const double *box,
-                           const hd_boundary *boundary);
+void hd_space_lattice_fill(const hd_space_lattice *lattice, double *q, int particles,
+                           const double *box, const hd_boundary *boundary);
 
 #endif

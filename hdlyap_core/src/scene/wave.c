@@ -11,7 +11,7 @@ static int compare_waves(const void *a, const void *b)
 {
     const hd_wave *x = a, *y = b;
     if (x->number != y->number) return x->number < y->number ? -1 : 1;
-    int d = HD_DIMENSION_MAX - 1; /* disks have 0 there */
+    int d = HD_DIMENSION_MAX - 1; /* 0 along z in the plane */
     while (d > 0 && x->n[d] == y->n[d]) d--;
     return x->n[d] - y->n[d];
 }

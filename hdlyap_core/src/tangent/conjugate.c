@@ -1,4 +1,5 @@
-/** Half of the vectors -> all of them (for disks 2N -> 4N), by J (dq, dp) = (dp, -dq) [T18].
+/** Half of the vectors -> all of them (2N -> 4N with two coordinates), by J (dq, dp) = (dp, -dq)
+ * [T18].
  *
  * Q is row-major (stride >= n), for BLAS the column-major Q^T with its first rows the first
  * vectors. Panels, and vectors turned by J, are column-major with a column for each vector. */

@@ -21,7 +21,7 @@ static void expect_at_most(double value, double limit, const char *what)
     HD_ASSERT(holds);
 }
 
-/* ---- disks --------------------------------------------------------------------------------- */
+/* ---- particles ------------------------------------------------------------------------------ */
 
 static void expect_momentum(const hd_examined *now, const hd_scene_def *scene)
 {
@@ -60,7 +60,7 @@ static int first_of(const hd_frame *frame, int k)
     return (int)((long)hd_frame_columns(frame).count * k / HD_VERIFY_PAIRS);
 }
 
-/** Rows are dq_x, dq_y, .. dp_x, dp_y, .. of each disk. */
+/** Rows are dq_x, dq_y, .. dp_x, dp_y, .. of each particle. */
 static void pair_products(const hd_frame *frame, int a, int b, double *product, double *scale)
 {
     const int half = hd_frame_coordinates(frame);

@@ -15,8 +15,8 @@ enum { HD_VERIFIES = 1 };
 enum { HD_VERIFIES = 0 };
 #endif
 
-/** Asserts, up to a random walk of roundings, that no disks overlap, that the kinetic energy is N,
- * and that there is no momentum along periodic directions. */
+/** Asserts, up to a random walk of roundings, that no particles overlap, that the kinetic energy is
+ * N, and that there is no momentum along periodic directions. */
 void hd_verify_trajectory(const hd_trajectory *trajectory, const hd_scene_def *scene);
 
 /** Asserts that the record's entries are in order and possible; see hd_dynamics. */

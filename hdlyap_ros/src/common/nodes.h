@@ -1,4 +1,4 @@
-/** Numbers of nodes of waves: two of disks, three of spheres. */
+/** Mode numbers of waves: two in the plane, three in space. */
 #ifndef HDLYAP_NODES_H
 #define HDLYAP_NODES_H
 
@@ -20,7 +20,7 @@
 
 enum { NODES_SIZE = 40 };
 
-/** Writes (1,0), or (1,0,0) for spheres and for disks whose nz is not 0. */
+/** Writes (1,0), or (1,0,0) in space and whenever nz is not 0. */
 static inline const char *nodes_write(char text[NODES_SIZE], bool spheres, uint32_t nx, uint32_t ny,
                                       uint32_t nz)
 {

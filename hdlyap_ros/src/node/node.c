@@ -119,7 +119,7 @@ static int first_field(const settings *set)
     return first;
 }
 
-/** Logs that a large frame is being created: with some thousand disks it takes seconds, beside
+/** Logs that a large frame is being created: with some thousand particles it takes seconds, beside
  * other jobs a minute. Says nothing of a scene that will be refused. */
 static void log_creation(const settings *set)
 {

@@ -17,7 +17,7 @@ typedef enum worker_stage {
  */
 typedef struct examination {
     bool made;
-    double overlap, overlap_max;           /**< deepest of any two disks [sigma] */
+    double overlap, overlap_max; /**< deepest overlap of two particles [sigma], and its limit */
     double energy_error, energy_error_max; /**< of the kinetic energy, relative */
 } examination;
 
@@ -27,7 +27,7 @@ typedef struct worker_state {
     hd_status status; /**< the fault that ended it, else HD_OK */
     char fault[256];  /**< the fault in words, with its numbers */
     progress last;
-    examination seen;     /**< result of the last worker_examine */
+    examination seen;      /**< result of the last worker_examine */
     const char *warning;   /**< warning of the settings */
     const char *particles; /**< name of the particles, e.g. disks */
     kept checkpoint;
@@ -54,7 +54,7 @@ void worker_pause(worker *w, bool pause);
 /** Starts the averages afresh before the next step. */
 void worker_reset_average(worker *w);
 
-/** Examines the disks before the next step, unless that would take more than a hundredth of the
+/** Examines the particles before the next step, unless that would take more than a hundredth of the
  * time. */
 void worker_examine(worker *w);
 

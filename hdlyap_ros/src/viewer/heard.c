@@ -26,7 +26,7 @@ static bool is_in(const hdr_strings *list, const char *name)
     return false;
 }
 
-/** Element k of a list of nodes; 0 along z for disks, whose list is empty. */
+/** Element k of a list of nodes; 0 along z in the plane, where the list is empty. */
 static uint32_t nodes(const hdr_uints *along, uint32_t k)
 {
     return k < along->count ? along->data[k] : 0;
@@ -172,9 +172,9 @@ static void *replaced(const void *old, const void *from, size_t bytes)
     return block;
 }
 
-/* ---- disks and vectors of one time ----------------------------------------------------------- */
+/* ---- particles and vectors of one time ------------------------------------------------------- */
 
-/** Whether there are `times` numbers for each particle; along z, for each sphere. */
+/** Whether there are `times` numbers for each particle; along z only in space. */
 static bool are_of_each(const heard *h, uint64_t times, const hdr_doubles *x, const hdr_doubles *y,
                         const hdr_doubles *z)
 {
@@ -356,7 +356,8 @@ static bool is_whole(const heard *h, const hdr_slow_vectors *m)
            (has_vectors(h, m, n) || has_vectors(h, m, 0));
 }
 
-/** The part of an array that belongs to vector k; empty if the array is, as along z for disks. */
+/** The part of an array that belongs to vector k; empty if the array is, as along z in the plane.
+ */
 static hdr_doubles part(const hdr_doubles *all, uint32_t k, uint32_t number)
 {
     if (all->count == 0) return *all;
