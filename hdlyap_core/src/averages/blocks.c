@@ -8,9 +8,9 @@
 #include "base/check.h"
 #include "base/memory.h"
 
-/** A block is full, too, if its weight is short of the end by this part: that is rounding. */
+/** Rounding may leave the weight of a full block short of its length by this part. */
 static const double CLOSE = 1e-9;
-/** A block may end once it has this part of the least weight: samples rarely end exactly there. */
+/** A block may end with this part of its least weight, because samples rarely end exactly there. */
 static const double NEARLY = 0.92;
 /** Neighbouring blocks count as correlated if their correlation exceeds this many of its standard
  * deviations. */
@@ -19,7 +19,8 @@ static const double SIGNIFICANT = 1.0;
 enum { FEW = 48 };
 /** No error is stated if the correlation of neighbouring blocks exceeds this. */
 static const double MEMORY_MAX = 0.75;
-/** Diffusion makes at least this part of the variance of phase increments. */
+/** Least part of the variance of phase increments that is taken for diffusion, not for trembling.
+ */
 static const double TREMBLING_MIN = 0.25;
 
 /* ---- history ------------------------------------------------------------------------------- */
@@ -84,7 +85,7 @@ static void join(hd_blocks *blocks)
     begin(blocks, blocks->count);
 }
 
-/** Ends the block if another sample of this weight would only take it further from its length. */
+/** Ends the block unless another sample of this weight would bring it nearer to its length. */
 void hd_blocks_add(hd_blocks *blocks, const double *sum, double weight)
 {
     HD_ASSERT(weight > 0);

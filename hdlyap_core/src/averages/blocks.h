@@ -13,12 +13,16 @@ typedef struct hd_blocks {
     int series;
     int count;     /**< whole blocks */
     double length; /**< weight at which a block ends, about; doubles when neighbours are joined */
-    double least;  /**< least weight of a block, but for less than a tenth */
-    double weight[HD_BLOCKS_MAX + 1]; /**< of the whole blocks, then of the one being filled */
-    double *sum;                      /**< [HD_BLOCKS_MAX + 1][series] */
+    double least;  /**< least weight of a block; blocks may be shorter by up to 8 % */
+    /** Weight of each whole block, and of the one that is being filled. */
+    double weight[HD_BLOCKS_MAX + 1];
+    /** [HD_BLOCKS_MAX + 1][series]: sums over each whole block, and over the one that is being
+     * filled. */
+    double *sum;
 } hd_blocks;
 
-/** least: weight that no block falls below, or 0. HD_NO_MEMORY. */
+/** Makes empty blocks. least: weight below which no block falls, but for 8 %; 0: any. Fails with
+ * HD_NO_MEMORY. */
 HD_MUST_CHECK hd_status hd_blocks_create(hd_blocks *blocks, int series, double least);
 void hd_blocks_clear(hd_blocks *blocks);
 /** Bytes that the blocks of this number of series take. */
@@ -31,7 +35,7 @@ void hd_blocks_restart(hd_blocks *blocks);
 /** Adds sum[series] of a sample of this weight (a time, or a number). Amortised O(series). */
 void hd_blocks_add(hd_blocks *blocks, const double *sum, double weight);
 
-/** Whole block k < count: sum[series]. */
+/** Sums [series] over whole block k, 0 .. count - 1. */
 const double *hd_blocks_sum(const hd_blocks *blocks, int k);
 
 /** Sets a series to zero in all blocks so far. */

@@ -1,15 +1,16 @@
-/** In a stationary run an error falls to 0.35 of its value over eight times the averaged time, to
- * 0.18 over 32 times. Errors from few blocks are uncertain themselves, so the first ones do not
- * count: without them the ratio was 0.55 or less in all of 420 runs (15 scenes, many seeds), with
- * them it reached 2.1 in one. */
+/** In a stationary run a standard error falls to 0.35 of its value while the averaged time grows to
+ * eight times, and to 0.18 while it grows to 32 times. Errors from few blocks are uncertain
+ * themselves, so the first ones are not used: without them the ratio was 0.55 or less in all of 420
+ * runs (15 scenes, many seeds), with them it reached 2.1 in one. */
 #include "averages/error_trend.h"
 
 #include <math.h>
 
 static const double GROWTH = 8.0;
-/** An error that is still above this part of the earlier one has not fallen as it should. */
+/** The error has stalled if it is still above this part of what it was at an eighth of the averaged
+ * time. */
 static const double STALLED_RATIO = 0.8;
-/** Errors count from this many times the averaged time at which the first error was known. */
+/** Errors are used from this many times the averaged time at which the first error was known. */
 static const double SETTLING = 4.0;
 /** The first mark is of an averaged time of 2 to this power. */
 enum { FIRST_EXPONENT = -20 };

@@ -11,12 +11,12 @@ typedef struct hd_error_at {
     double time, error; /**< averaged time; its standard error */
 } hd_error_at;
 
-/** All zeros: nothing is known yet. */
+/** The trend of an error. All zeros: no error is known yet. */
 typedef struct hd_error_trend {
-    hd_error_at
-        mark[HD_ERROR_TREND_MARKS]; /**< the first of each doubling of the time; time 0: none */
+    hd_error_at mark[HD_ERROR_TREND_MARKS]; /**< the first error in each doubling of the averaged
+                                               time; time 0: none */
     hd_error_at last;
-    double first; /**< time of the first error known */
+    double first; /**< averaged time at which the first error was known */
 } hd_error_trend;
 
 /** Adds the error at an averaged time; a negative error is not known yet. A time before the last

@@ -17,7 +17,8 @@ struct hd_spectrum {
     double *local_sum;  /**< [vectors]: ln R_ll, summed since hd_spectrum_local_restart */
     hd_part *parts;     /**< [vectors], workspace */
     double time, sample_time, local_time;
-    double age;       /**< age of the vectors at time 0; negative: no zero mode displaces them */
+    double age; /**< age of the vectors when the averaging began; negative: no zero mode takes their
+                   place */
     hd_blocks blocks; /**< blocks of ln R_ll; their weight is time */
 };
 
@@ -121,13 +122,15 @@ double hd_spectrum_exponent(const hd_spectrum *spectrum, int col)
     return spectrum->time > 0 ? spectrum->sum[col] / spectrum->time : 0.0;
 }
 
-/** Logarithm by which a zero mode may have outgrown a vector of this exponent at this age. */
+/** How much more than a vector of this exponent a zero mode may have grown at this age, as a
+ * logarithm. */
 static double outgrown(double exponent, double age)
 {
     return fmax(log1p(age) - fabs(exponent) * age, 0.0);
 }
 
-/** Bias of a column's mean if a zero mode was in its place at the start, or is in it now [T8]. */
+/** Error of a column's exponent if a zero mode was in its place at the start of the averaging, or
+ * is there now [T8]. */
 static double displaced(const hd_spectrum *spectrum, int col)
 {
     const double exponent = hd_spectrum_exponent(spectrum, col), age = spectrum->age;

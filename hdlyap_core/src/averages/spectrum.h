@@ -4,8 +4,9 @@
 
 #include "hdlyap/spectrum.h"
 
-/** rows = 4N; vectors = n <= 4N are carried. block: shortest block of averaged time from which
- * standard errors are taken [time units]; 0: the length of a sample. */
+/** Makes an empty spectrum. rows: number of all exponents (4N for two coordinates); vectors: number
+ * n of vectors whose exponents are averaged, at most rows. block: shortest block of averaged time
+ * from which standard errors are taken [time units]; 0: the length of a sample. */
 HD_MUST_CHECK hd_status hd_spectrum_create(hd_spectrum **out, int rows, int vectors, double block);
 void hd_spectrum_free(hd_spectrum *spectrum);
 void hd_spectrum_clear(hd_spectrum *spectrum);

@@ -1,4 +1,4 @@
-/** Contract checks that never compile away, and the propagation of statuses. */
+/** Checks of contracts, which are in every build, and how a status is passed on. */
 #ifndef HD_CHECK_H
 #define HD_CHECK_H
 

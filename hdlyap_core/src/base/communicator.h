@@ -5,8 +5,8 @@
 
 #include "hdlyap/communicator.h"
 
-int hd_communicator_rank(const hd_communicator *c);           /**< 0 without one */
-int hd_communicator_ranks(const hd_communicator *c);          /**< 1 without one */
+int hd_communicator_rank(const hd_communicator *c);           /**< 0 without a communicator */
+int hd_communicator_ranks(const hd_communicator *c);          /**< 1 without a communicator */
 hd_traffic hd_communicator_traffic(const hd_communicator *c); /**< sum over all kinds of calls */
 
 void hd_communicator_sum(hd_communicator *c, double *x, size_t count);

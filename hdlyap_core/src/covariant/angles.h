@@ -9,10 +9,10 @@ typedef struct hd_span {
     int first, count;
 } hd_span;
 
-/** Workspace. */
+/** Workspace for computing angles. */
 typedef struct hd_angles hd_angles;
 
-/** For spaces of at most `widest` dimensions. */
+/** Makes it for spaces of at most `widest` dimensions. Fails with HD_NO_MEMORY. */
 HD_MUST_CHECK hd_status hd_angles_create(hd_angles **out, int rows, int widest);
 void hd_angles_free(hd_angles *angles);
 

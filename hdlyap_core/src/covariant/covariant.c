@@ -45,27 +45,32 @@ struct hd_covariant {
     hd_starts *starts; /**< two starts through the transient, the first one through the window */
     hd_spectrum *spectrum;
     hd_splitting *splitting;
-    hd_doubling *grown; /**< growth from one look to the next, latest first */
+    hd_doubling *grown; /**< growth of the vectors between two samples, the latest samples first */
     hd_localization *shape;
-    hd_modes *half[2];     /**< weights of the dq and of the dp halves; NULL without a box */
-    hd_modes *of_frame;    /**< of the dq halves of the frame, at the same times; likewise */
-    hd_angles *spaces;     /**< of C's rows; NULL where there is no centre, as the next two */
-    hd_angles *null;       /**< of the vectors' rows */
-    double *null_columns;  /**< [2 * centre][rows]: the covariant centre, the null space */
-    double *factor;        /**< [vectors * vectors]; room for the centres of both starts, too */
-    double *coupling;      /**< [carried * carried]; NULL where all vectors are carried */
-    double *angle;         /**< [vectors], principal ones */
-    double *apart;         /**< [vectors]: sines between both starts where the last window ended */
-    double *frame, *q, *p; /**< vectors [rows * vectors], state of a look */
-    double window, due;    /**< start of the window; time of the next look */
+    hd_modes *half[2]; /**< weights of the dq halves and of the dp halves; NULL without positions in
+                          a box */
+    /** Weights of the dq halves of the frame at the same times; NULL as `half`. */
+    hd_modes *of_frame;
+    hd_angles *spaces; /**< angles between spaces of C's rows; it and the next two are NULL if the
+                          centre is not computed */
+    hd_angles *null;   /**< angles between spaces of the vectors' rows */
+    double *null_columns; /**< [2 * centre][rows]: vectors of the centre, then exact null vectors */
+    double *factor;       /**< [vectors * vectors]; room for the centres of both starts, too */
+    double *coupling;     /**< [carried * carried]; NULL where all vectors are carried */
+    double *angle;        /**< [vectors]: principal angles */
+    double *apart; /**< [vectors]: sines between the vectors of both starts at the end of the last
+                      window */
+    double *frame, *q, *p; /**< vectors [rows * vectors] of a sample; positions and momenta then */
+    double window, due;    /**< time at which the window began; time of the next sample */
     double grown_time;
-    double now;                 /**< of the forward pass */
-    double bytes, events, rate; /**< taken; events that there is room for; of a time unit */
+    double now;                 /**< time that the forward pass has reached */
+    double bytes, events, rate; /**< bytes that are taken; number of record entries that there is
+                                   room for; entries per time unit */
     way way;
     long at;   /**< interval that is next on the way back */
     long last; /**< interval that the window ends with */
     long windows, lost, intervals;
-    uint64_t streams; /**< of random numbers, used so far */
+    uint64_t streams; /**< number of streams of random numbers used so far */
     hd_covariant_mismatch spaces_apart;
     double null_apart, null_apart_most;
 };
@@ -180,7 +185,7 @@ void hd_covariant_free(hd_covariant *c)
 
 /* ---- forward ------------------------------------------------------------------------------- */
 
-/** Begins the first window of a stretch without gaps. */
+/** Begins the first window, or the first one after a window was lost. */
 static hd_status begin_window(hd_covariant *c, hd_columns frame, double time)
 {
     c->way = FORWARD;

@@ -14,7 +14,7 @@ void hd_covariant_free(hd_covariant *covariant);
 void hd_covariant_clear(hd_covariant *covariant);
 
 /** Begins a window at this time and forgets any window before. The frame is orthonormal, and will
- * be about every `interval` time units. Takes the memory for it; fails with HD_NO_ROOM,
+ * be so about every `interval` time units. Takes the memory for the window; fails with HD_NO_ROOM,
  * HD_NO_MEMORY or HD_FILE_FAULT (errno). */
 HD_MUST_CHECK hd_status hd_covariant_begin(hd_covariant *covariant, hd_columns frame, double time,
                                            double interval);
@@ -38,7 +38,7 @@ hd_covariant_due(const hd_covariant *covariant); /**< simulated time of the next
  * them, an interval at a time; until that has ended nothing may be added. */
 bool hd_covariant_is_going_back(const hd_covariant *covariant);
 HD_MUST_CHECK hd_status hd_covariant_step(hd_covariant *covariant);
-/** What may wait for the way back; 0 before the first window */
+/** Bytes that the window takes; 0 before the first window. */
 double hd_covariant_bytes(const hd_covariant *covariant);
 
 #endif

@@ -13,10 +13,11 @@ typedef struct hd_history_def {
     const hd_dynamics *of;
     int particles, vectors, threads;
     bool conjugate; /**< half of the vectors are carried: triangles are R and Y [T18] */
-    long intervals; /**< of which triangles are kept, at most */
-    long snapshots; /**< at most */
-    bool recompute; /**< triangles are not kept, but computed again from the events */
-    double events;  /**< of these intervals, at most; only of recomputed ones */
+    long intervals; /**< most intervals whose triangles are kept */
+    long snapshots; /**< most snapshots */
+    bool recompute; /**< true if triangles are not kept, but computed again from the record */
+    double events;  /**< most record entries of these intervals; used only if triangles are computed
+                       again */
 } hd_history_def;
 
 /** Bytes that it takes at most. */

@@ -7,8 +7,9 @@
 
 typedef struct hd_splitting hd_splitting;
 
-/** The first `unstable` columns are unstable, the next `centre` belong to the centre, the others
- * are stable. Without stable columns there are no pairs of spaces. */
+/** Makes an empty splitting of n = vectors. The first `unstable` columns are unstable, the next
+ * `centre` belong to the centre, the others are stable. If there are no stable columns, angles
+ * between spaces are not measured. */
 HD_MUST_CHECK hd_status hd_splitting_create(hd_splitting **out, int vectors, int unstable,
                                             int centre);
 void hd_splitting_free(hd_splitting *splitting);

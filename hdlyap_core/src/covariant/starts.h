@@ -27,7 +27,7 @@ HD_MUST_CHECK hd_status hd_starts_step(hd_starts *starts, const double *factor,
 /** The first start's C [n * n] at its present time, stored as in hd_backward; valid until the next
  * step. This call completes the growth. Fails with HD_ILL_CONDITIONED. */
 HD_MUST_CHECK hd_status hd_starts_look(hd_starts *starts, const double **c);
-/** C of both. */
+/** The C of both starts at their present time, as hd_starts_look. */
 HD_MUST_CHECK hd_status hd_starts_meet(hd_starts *starts, const double *c[2]);
 
 /** Logarithm of the growth of each vector [n] of the first start, from this call to the call

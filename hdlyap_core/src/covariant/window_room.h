@@ -5,8 +5,8 @@
 #include "covariant/history.h"
 #include "hdlyap/scene.h"
 
-/** What the history keeps with intervals of this length [time units] and this rate of events per
- * time unit. */
+/** What the history of a window keeps if intervals have this length [time units] and the record has
+ * `rate` entries per time unit. */
 hd_history_def hd_window_history(const hd_scene_def *def, double interval, double rate,
                                  int threads);
 

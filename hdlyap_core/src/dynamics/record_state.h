@@ -14,7 +14,7 @@ struct hd_record {
     double duration; /**< [time units] */
 };
 
-/** Makes room for at least `count` entries in all, and at least twice the room. Fails with
+/** Makes room for at least `count` entries in all; it at least doubles when it grows. Fails with
  * HD_NO_MEMORY. */
 HD_MUST_CHECK hd_status hd_record_reserve(hd_record *record, size_t count);
 

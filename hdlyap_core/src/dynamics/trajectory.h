@@ -17,7 +17,7 @@ void hd_trajectory_places(const hd_trajectory *trajectory, double *q, double *p)
 uint64_t hd_trajectory_collisions(const hd_trajectory *trajectory);
 uint64_t hd_trajectory_wall_events(const hd_trajectory *trajectory);
 void hd_trajectory_virial(const hd_trajectory *trajectory, double *virial);
-/** Nothing of a row without `sum`. */
+/** See hd_summed; all 0 if the row has no `sum`. */
 hd_summed hd_trajectory_summed(const hd_trajectory *trajectory);
 double hd_trajectory_collision_rate(const hd_trajectory *trajectory);
 

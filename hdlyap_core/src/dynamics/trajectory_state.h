@@ -9,7 +9,7 @@ struct hd_trajectory {
     const hd_dynamics *of;
     void *state; /**< only the dynamics knows what it holds */
     int particles;
-    double rate; /**< pair events expected in a time unit */
+    double rate; /**< expected pair collisions per time unit */
 };
 
 #endif

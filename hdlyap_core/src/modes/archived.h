@@ -8,7 +8,8 @@
 
 /** The size of a scene's fields; computing it allocates nothing. */
 typedef struct hd_fields_count {
-    double columns, subspaces; /**< without the null fields; T and LP subspaces */
+    /** Number of columns without the null fields; number of T and LP subspaces. */
+    double columns, subspaces;
     double lp_phases, t_phases;
 } hd_fields_count;
 hd_fields_count hd_fields_count_of(const hd_scene_def *scene);

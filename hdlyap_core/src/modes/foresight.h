@@ -37,7 +37,8 @@ void hd_foresight_miss(hd_foresight *f, double miss, double dt, double strength)
 double hd_foresight_sampling(const hd_foresight *f, double unseen);
 /** Longest time for which a phase may be weak before it is started anew. */
 double hd_foresight_gap(const hd_foresight *f, double unseen);
-/** True if the whole was far off twice in a row: omega is not its rate. */
+/** True if the turn of the whole step was far from the prediction twice in a row: omega is then not
+ * its rate. */
 bool hd_foresight_is_lost(const hd_foresight *f);
 
 void hd_foresight_archive(hd_foresight *f, hd_archive *archive);

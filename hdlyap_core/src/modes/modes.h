@@ -9,7 +9,7 @@
 /** A dq half shorter than this counts as none: its squares are no longer known to rounding. */
 #define HD_MODES_DQ_MIN 1e-145
 
-/** vectors: n, those carried. Fails with HD_NO_MEMORY. */
+/** Makes empty weights of n = vectors. Fails with HD_NO_MEMORY. */
 HD_MUST_CHECK hd_status hd_modes_create(hd_modes **out, const hd_scene_def *def, int vectors,
                                         int threads);
 void hd_modes_free(hd_modes *modes);

@@ -13,19 +13,24 @@ enum { HD_PAIRS_MAX = HD_MODULATIONS_MAX, HD_SLOTS_MAX = 2 * HD_PAIRS_MAX };
 
 typedef struct hd_rotor {
     int step, pairs, slots;
-    int column, next, partner; /**< first field; from one pair to the next; within a pair */
+    int column, next, partner; /**< column of its first field; distance from one pair's to the next
+                                  pair's; from the first to the second field of a pair */
     double wave_number;
     hd_track *track; /**< [slots][pairs] */
-    int col, count;  /**< the set followed; col -1: none */
-    long samples;    /**< since the set was taken up */
+    int col, count;  /**< columns of the set whose vectors are followed; col -1: none */
+    long samples;    /**< number of samples since this set is followed */
     int slot_col[HD_SLOTS_MAX];
-    double sign[HD_SLOTS_MAX]; /**< of the vector in a slot against the one it began with */
-    double complex z[HD_SLOTS_MAX][HD_PAIRS_MAX]; /**< at the last sample, times sign */
+    double sign[HD_SLOTS_MAX]; /**< sign of the vector in a slot, relative to the sign that it began
+                                  with */
+    double complex z[HD_SLOTS_MAX][HD_PAIRS_MAX]; /**< a + i b of each slot and pair at the last
+                                                     sample, times sign */
     double time;
     hd_foresight ahead;     /**< predicts phases, so that they can be unwrapped */
-    double turned, turning; /**< angle by the mean rate of the tracks, and the time for it */
+    double turned, turning; /**< angle by which the step has turned, from the mean rate of the
+                               tracks; time in which it did so */
     hd_blocks *blocks;      /**< the blocks of all rotors */
-    double *sample;         /**< [2], at column 2 number of their rows: turned and turning */
+    double *sample; /**< [2], at 2 * number in the samples of all rotors: turned and turning since
+                       the last sample */
     int number;
 } hd_rotor;
 
@@ -46,8 +51,8 @@ void hd_rotor_restart(hd_rotor *r, hd_phase_state state);
  */
 void hd_rotor_add(hd_rotor *r, const hd_step *step, const hd_modes *modes, double time);
 
-int hd_rotor_tracked(const hd_rotor *r); /**< tracks that have a phase now */
-/** Longest time to the next sample of a resolved step. */
+int hd_rotor_tracked(const hd_rotor *r); /**< number of tracks that have a phase now */
+/** Longest time to the next sample if the step is resolved. */
 double hd_rotor_sampling(const hd_rotor *r, const hd_step *step);
 
 /** Reads or writes a rotor without its tracks; `now` is the simulated time of the run. */

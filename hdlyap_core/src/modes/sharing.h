@@ -5,9 +5,9 @@
 #include "base/archive.h"
 #include "hdlyap/steps.h"
 
-/** Which steps share a step's set, and since when. */
+/** Which steps share a set, and since when. */
 typedef struct hd_company {
-    uint64_t members; /**< which steps share its set, 0: none */
+    uint64_t members; /**< a bit for each of these steps; 0: none */
     double since;     /**< averaged time */
 } hd_company;
 

@@ -15,7 +15,7 @@ void hd_steps_clear(hd_steps *steps);
 
 /** Finds the sets from running averages of weights and exponents. Cost O(n subspaces). */
 void hd_steps_find(hd_steps *steps, const hd_spectrum *spectrum);
-const hd_modes *hd_steps_modes(const hd_steps *steps); /**< as at creation */
+const hd_modes *hd_steps_modes(const hd_steps *steps); /**< the weights in which steps are found */
 /** First column of any resolved step; INT_MAX if there is none. */
 int hd_steps_first(const hd_steps *steps);
 

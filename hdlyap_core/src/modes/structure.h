@@ -6,7 +6,7 @@
 #include "hdlyap/frame.h"
 #include "hdlyap/structure.h"
 
-/** vectors: n, those carried. Fails with HD_NO_MEMORY. */
+/** Makes empty structure factors of n = vectors. Fails with HD_NO_MEMORY. */
 HD_MUST_CHECK hd_status hd_structure_create(hd_structure **out, const hd_scene_def *def,
                                             int vectors, int threads);
 void hd_structure_free(hd_structure *structure);
@@ -23,7 +23,7 @@ HD_MUST_CHECK hd_status hd_structure_share(hd_structure *structure, hd_communica
 void hd_structure_add(hd_structure *structure);
 /** Empties the means. */
 void hd_structure_clear(hd_structure *structure);
-int hd_structure_waves_of(const hd_scene_def *def); /**< the same of a scene */
+int hd_structure_waves_of(const hd_scene_def *def); /**< hd_structure_waves of a scene */
 
 /** S(k) = |sum_j e.dq_j exp(-i k.q_j)|^2 with |dq| = 1, mean over k and its mirror image (k_x,
  * -k_y); of the snapshot, or mean over samples; [n]. Where the wave has nodes between walls it is

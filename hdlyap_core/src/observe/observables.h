@@ -9,25 +9,25 @@ typedef struct hd_observables {
     hd_observing with;
     void *part[HD_OBSERVED]; /**< NULL: not asked for */
     unsigned looked_at;      /**< set of HD_OBSERVE_* that somebody listens to */
-    unsigned seen;           /**< these, and those that they bring along */
+    unsigned seen;           /**< these and the observables that they need */
     double seconds;          /**< wall seconds spent in observables that follow intervals */
     double *q, *p;           /**< positions and momenta; NULL unless HD_NEEDS_STATE is asked for */
 } hd_observables;
 
 /* For a scene (asked.c): */
 
-/** A set of HD_OBSERVE_*, with those that they bring along. */
+/** The set, with the observables that it needs. */
 unsigned hd_observables_with(unsigned set);
-/** The set without observables that take longer than a trial run. */
+/** The set without observables that need more time than a trial run has. */
 unsigned hd_observables_tried(unsigned set);
-/** True if the scene asks for this observable or for one that brings it along. Without exponents
- * only observables of particles alone count. */
+/** True if the scene asks for this observable, or for one that needs it. If the scene asks for no
+ * exponents, only observables of particles alone count. */
 bool hd_observable_is_asked(hd_observed row, const hd_scene_def *scene);
 /** True if the scene asks for an observable that has all of these needs (set of HD_NEEDS_*). */
 bool hd_observables_asked(const hd_scene_def *scene, unsigned needs);
 /** Bytes of the observables that the scene asks for, on each of `ranks` ranks. */
 double hd_observables_bytes(const hd_scene_def *scene, int ranks);
-/** See hd_extent_of; part: the observables of a run. */
+/** See hd_extent_of; part[HD_OBSERVED] are the observables of a run. */
 hd_extent hd_observables_extent(const hd_scene_def *scene, void *const *part);
 /** Return HD_REFUSED, with a line that says why, for a scene that hd_scene_check has passed: if
  * this many ranks cannot do it; if intervals that may become this long leave no room for it. */
@@ -58,7 +58,8 @@ bool hd_observables_any(const hd_observables *observables);
 bool hd_observables_need(const hd_observables *observables, unsigned needs);
 /** The first vector that is read from all ranks; n if none is. */
 int hd_observables_first(const hd_observables *observables);
-/** Longest time from this measured state to the next that all of them allow; INFINITY: any. */
+/** Longest time from this measured state to the next that all of them allow; INFINITY if they allow
+ * any. */
 double hd_observables_sampling(const hd_observables *observables);
 /** Takes a snapshot on all ranks; if one rank fails, all do. */
 HD_MUST_CHECK hd_status hd_observables_measure(hd_observables *observables, const hd_view *state);

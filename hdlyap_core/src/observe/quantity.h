@@ -1,5 +1,5 @@
-/** A number with a standard error that a target can name to end a run (run/target.c): what a scene
- * needs for it, and what a run states. Rows of observables have tables of them. */
+/** A quantity: a number with a standard error that a target can name to end a run (run/target.c).
+ * Rows of observables have tables of the quantities that follow from them. */
 #ifndef HD_QUANTITY_H
 #define HD_QUANTITY_H
 
@@ -10,7 +10,7 @@
 
 enum { HD_WHY = 160 };
 
-/** The error is negative while it is not known. */
+/** What a run states of a quantity. The error is negative while it is not known. */
 typedef struct hd_stated {
     double value, error;
     double open; /**< part of the error that averaging does not reduce */
@@ -20,22 +20,24 @@ typedef struct hd_stated {
 typedef struct hd_aim {
     const struct hd_quantity *quantity;
     int row;                      /**< its observable (hd_observed); -1: the exponents alone */
-    int number[HD_DIMENSION_MAX]; /**< nodes of a step, or an index */
-    int count;                    /**< of numbers */
+    int number[HD_DIMENSION_MAX]; /**< mode numbers of a step, or a Lyapunov index */
+    int count;                    /**< how many numbers there are */
     double wanted;                /**< largest standard error; if relative, a part of the value */
     bool relative;
 } hd_aim;
 
 typedef struct hd_quantity {
     const char *name;
-    enum { HD_OF_NOTHING, HD_OF_INDEX, HD_OF_NODES } of; /**< whose numbers stand behind the name */
+    /** What the numbers behind the name are: none, a Lyapunov index, or mode numbers. */
+    enum { HD_OF_NOTHING, HD_OF_INDEX, HD_OF_NODES } of;
     hd_mode_kind kind;
-    /** False if such a scene never knows it, with the reason; NULL: no more is to be asked. */
+    /** False, with the reason in why, if a run of this scene never knows the quantity. NULL: it
+     * always does. */
     bool (*possible)(const hd_scene_def *def, const hd_aim *aim, char why[HD_WHY]);
     hd_stated (*read)(const hd_parts *parts, const hd_aim *aim);
 } hd_quantity;
 
-/** All quantities of an observable, up to one without a name; and the name of the observable. */
+/** The name of an observable, and its quantities; the last one has no name. */
 typedef struct hd_quantities {
     const char *from;
     const hd_quantity *each;

@@ -11,8 +11,8 @@
 /** No advance is planned shorter: simulated time must move. */
 static const double SHORTEST = 1e-12;
 
-/** Events of one particle per time unit, roughly; an event of two counts for both. The first plans
- * follow from it, later ones from what is measured. */
+/** Rough number of events of one particle per time unit, where an event of two counts for both. The
+ * first plans follow from it, later ones from what is counted. */
 static double events_per_particle(const hd_scene_def *scene)
 {
     return 2.0 * hd_dynamics_of(scene)->entries(scene) / scene->number;
@@ -79,8 +79,8 @@ bool hd_advance_is_done(const hd_advance *advance)
     return hd_advance_now(advance) >= advance->plan.end;
 }
 
-/** Events in a plan that is done, of this length; for particles that do not count events, the
- * entries of its record, or as many as are expected without a record. */
+/** Number of events in an advance that has ended, of this length. For particles that do not
+ * collide: the entries of the record, or as many as are expected if there is no record. */
 static double events_in(const hd_advance *advance, double length, const hd_record *record)
 {
     const uint64_t told = hd_advance_events(advance);
@@ -89,8 +89,9 @@ static double events_in(const hd_advance *advance, double length, const hd_recor
                             : advance->entries);
 }
 
-/** The longest advance grows step by step, each by what the last one showed: a channel of hardly
- * more than a particle's width can have 1e9 wall events in a time unit. */
+/** Learns the longest advance from the last one. It grows step by step, because rates can be far
+ * from what is expected: a channel of hardly more than a particle's width can have 1e9 wall events
+ * in a time unit. */
 static void learn(hd_advance *advance, const hd_record *record)
 {
     const double length = advance->plan.end - advance->plan.begin;

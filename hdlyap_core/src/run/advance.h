@@ -10,17 +10,20 @@
  * in time steps may have more: as many as take the time of an orthonormalisation. */
 double hd_advance_most(const hd_scene_def *scene);
 
-/** The present advance. Its events are measured at its end, however often a watcher stops it. */
+/** The present advance. Its collisions or entries are counted when it ends, however often a viewer
+ * stops it before. */
 typedef struct hd_advance_plan {
     double begin, end; /**< simulated times */
-    uint64_t events;   /**< events of the run before it */
+    uint64_t events;   /**< number of events of the run before it */
 } hd_advance_plan;
 
 typedef struct hd_advance {
     hd_trajectory *trajectory;
     double most;    /**< most entries of one advance */
-    double longest; /**< time units; keeps to `most`, as far as the rate of events is known */
-    double bound;   /**< bound of `longest`: several times `most` at this scene's expected rate */
+    double longest; /**< longest advance [time units], with at most `most` entries as far as their
+                       rate is known */
+    double bound;   /**< bound of `longest`: several times what `most` entries take at the expected
+                       rate */
     double entries; /**< expected entries of a record per time unit */
     hd_advance_plan plan;
 } hd_advance;

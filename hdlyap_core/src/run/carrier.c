@@ -31,11 +31,12 @@ static const double DEFECT_COUPLED = 1e-12;
 /** Largest square of the loss of orthogonality, as a part of the interval's share of the accuracy.
  */
 static const double DEFECT_SHARE = 0.1;
-/** Pieces of an interval above which dividing costs more than it saves [T6]; and above which an
- * interval that even repeated passes cannot factor is given up. */
+/** An interval whose condition is too large is carried in up to PIECES_MAX pieces, because more
+ * would cost more than they save [T6]; one that repeated passes cannot factor in PIECES_LAST pieces
+ * is given up. */
 enum { PIECES_MAX = 8, PIECES_LAST = 512 };
-/** The norm of dq pays from this many vectors on; and after this many orthonormalisations the dq
- * halves of a random start are as independent as the vectors. */
+/** The norm of dq is faster from HALVES_MANY vectors on. After HALVES_ALIGNED orthonormalisations
+ * the dq halves of a random start are as independent as the vectors. */
 enum { HALVES_MANY = 64, HALVES_ALIGNED = 8 };
 /** The frame is made isotropic again if its loss of isotropy exceeds this, which is the loss of
  * orthogonality that measured vectors may have [T18]. */
@@ -47,7 +48,7 @@ static const double ORTHONORMAL = 1e-10;
 static const double COLLISIONS_MOST = 60.0;
 /** How many positive exponents nearest to zero a target calls `smallest`. */
 enum { SMALLEST_EXPONENTS = 8 };
-/** Stands in a checkpoint for a half that is NaN. */
+/** Value in a checkpoint that stands for a half that is NaN. */
 static const double NO_HALF = -2.0;
 
 /* ---- creation ------------------------------------------------------------------------------ */
@@ -103,7 +104,8 @@ static hd_status prepare_threads(hd_carrier *c, const hd_scene_def *scene)
     return HD_OK;
 }
 
-/** Vectors of the half that are completed at once: a rank's own, if an observable needs them. */
+/** Number of vectors that are completed by their partners at once: those of this rank, if an
+ * observable needs partners. */
 static int completed(const hd_scene_def *scene, int here)
 {
     return hd_observables_asked(scene, HD_NEEDS_VECTORS) ? here : 0;
@@ -302,7 +304,7 @@ static void piece_accepted(hd_carrier *c, double length, bool averaging)
     cost->spectrum += hd_clock_now() - start;
 }
 
-/** Prepares the first orthonormalisation of an interval. */
+/** Prepares the first orthonormalisation at the end of an interval. */
 static hd_status begin_interval(hd_carrier *c, const hd_carrying *how)
 {
     if (c->conjugate && how->observables && hd_observables_begin(how->observables))
@@ -310,8 +312,8 @@ static hd_status begin_interval(hd_carrier *c, const hd_carrying *how)
     return follow(c, how, (hd_leg){.at = HD_LEG_BEGINS});
 }
 
-/** Makes a frame that is orthonormal in the norm of dq orthonormal in the full norm, at the same
- * time. */
+/** Makes a frame that is orthonormal in the norm of dq orthonormal in the full norm, without moving
+ * on in time. */
 static hd_status complete_norm(hd_carrier *c, bool averaging)
 {
     const double start = hd_clock_now();

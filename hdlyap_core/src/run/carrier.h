@@ -1,5 +1,6 @@
-/** Carries the tangent vectors of a run: the record since the last orthonormalisation, the frame,
- * and the results of orthonormalisations, which are spectrum, conditioning and halves. */
+/** Carries the tangent vectors of a run: owns the frame and the record since the last
+ * orthonormalisation, and the results of orthonormalisations, which are spectrum, condition and
+ * halves. */
 #ifndef HD_CARRIER_H
 #define HD_CARRIER_H
 
@@ -8,11 +9,13 @@
 #include "tangent/conjugate.h"
 #include "tangent/interval.h"
 
-/** What rounding may have added. */
+/** What rounding may have added to the exponents. */
 typedef struct hd_rounding {
-    double condition_max; /**< largest one so far: how well the start of the averaging is known */
-    double
-        sum; /**< HD_ROUNDING times condition_max as the averaging began and all conditions since */
+    double condition_max; /**< largest condition so far, which says how exact the start of the
+                             averaging is */
+    /** HD_ROUNDING times the sum of condition_max when the averaging began and of all conditions
+     * since. */
+    double sum;
 } hd_rounding;
 
 /** Only carrier.c and checkpoint.c use the members. Without exponents pointers are NULL. */
@@ -26,22 +29,23 @@ typedef struct hd_carrier {
     hd_frame *frame;
     hd_ortho *ortho;
     hd_conjugate *conjugate; /**< NULL where all vectors are carried */
-    double *halves; /**< [2 * vectors], of the last measured state: as hd_run_halves gives them */
+    double *halves; /**< [2 * vectors], what hd_run_halves writes, of the last measured state */
     hd_spectrum *spectrum;
     hd_interval interval;
     hd_rounding rounding;
-    bool whole; /**< the frame was orthonormalised in the whole norm, not in that of dq alone */
+    bool whole; /**< true if the last orthonormalisation was in the full norm, not in that of dq
+                   alone */
     hd_cost *cost;
 } hd_carrier;
 
 /** How the frame is carried through a record. */
 typedef struct hd_carrying {
-    bool averaging; /**< its logarithms are added to the spectrum */
-    bool measured;  /**< the frame becomes orthonormal in the full norm */
+    bool averaging; /**< averages are taken: growth is added to the spectrum */
+    bool measured;  /**< the frame becomes orthonormal in the full norm, for a measured state */
     bool observed;  /**< an observable reads the measured vectors */
     bool whole;     /**< an observable needs every frame orthonormal in the full norm */
-    hd_observables *observables; /**< those that follow the interval; NULL: none */
-    double expected;             /**< time units that the next intervals are expected to last */
+    hd_observables *observables; /**< the observables that follow each interval; NULL: none */
+    double expected;             /**< expected length of the next intervals [time units] */
     const hd_trajectory *trajectory;
 } hd_carrying;
 
@@ -57,8 +61,7 @@ double hd_carrier_bytes(const hd_scene_def *scene, int threads, int ranks);
 /** Threads that this rank may use; communicator may be NULL. */
 int hd_carrier_threads_most(const hd_scene_def *scene, const hd_communicator *communicator);
 
-/** The norm in which the frame is orthonormalised where its vectors are not measured; whole: an
- * observable needs the full one. */
+/** The norm of orthonormalisations that end no sample. whole: an observable needs the full norm. */
 hd_norm hd_carrier_norm(const hd_carrier *carrier, bool whole);
 /** The longest that intervals between orthonormalisations can become. */
 double hd_carrier_longest(const hd_carrier *carrier);
@@ -66,12 +69,13 @@ double hd_carrier_longest(const hd_carrier *carrier);
 /** Carries the frame through the whole record and orthonormalises it. Fails with HD_ILL_CONDITIONED
  * if no piece is short enough. */
 HD_MUST_CHECK hd_status hd_carrier_orthonormalise(hd_carrier *carrier, hd_carrying how);
-/** Takes the halves of this measured state, and ends the spectrum's sample. */
+/** Keeps the halves of this measured state, and ends the spectrum's sample. */
 HD_MUST_CHECK hd_status hd_carrier_sample(hd_carrier *carrier, bool averaging);
 
 /** Starts the averages anew; age: time for which the vectors have been carried. */
 void hd_carrier_clear(hd_carrier *carrier, double age);
-/** Tells the interval how much of the accuracy the averaging has left. */
+/** Tells the interval control how much of the allowed numerical error the averaging has not used
+ * yet. */
 void hd_carrier_save_accuracy(hd_carrier *carrier, bool averaging);
 
 /** All n vectors, with a single rank. */

@@ -1,4 +1,4 @@
-/** Changes that are asked for while a run goes on: value -> what the agenda puts in force later. */
+/** A new value for a parameter of a run -> what the agenda puts in force later. */
 #include <math.h>
 
 #include "base/check.h"

@@ -78,7 +78,7 @@ static void clocks_archive(hd_run *run, hd_archive *archive)
     run->clocks.frame_started = carried >= 0 ? now - carried : 0.0;
 }
 
-/** Reads or writes the plan: a viewer can stop a run in the middle of a planned advance. */
+/** Reads or writes the plan of the present advance: a viewer can stop a run in the middle of it. */
 static void plan_archive(hd_advance_plan *plan, hd_archive *archive)
 {
     hd_archive_double(archive, "run advance begin", &plan->begin);
@@ -153,7 +153,7 @@ static void parts_archive(hd_run *run, hd_archive *archive)
     hd_observables_archive(&run->observables, archive, true, now);
 }
 
-/** The latest time that anything is planned for; a shorter duration cuts it. */
+/** The latest time for which anything may be planned; a shorter duration cuts plans. */
 static double last_time(const hd_run *run)
 {
     return fmax(hd_run_time(run), hd_schedule_stage_end(&run->agenda.schedule));

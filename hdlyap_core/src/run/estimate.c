@@ -15,10 +15,11 @@
 
 /** Shortest time of the trial [s]. */
 static const double TRIAL_SECONDS = 1.0;
-/** Collisions of each particle until intervals have reached their length: they double from 2. */
+/** Collisions of each particle after which intervals, which begin with 2 and double, have reached
+ * their length. */
 static const double WARMUP_COLLISIONS = 120.0;
-/** Largest particles x vectors^2 of a trial: above it one interval takes longer than a trial may.
- */
+/** Largest N n^2 of a trial, with N particles and n vectors: above it one interval takes longer
+ * than a trial may. */
 static const double TRIAL_WORK = 800.0 * 1600.0 * 1600.0;
 /** Averaged time for an error of 1 % in c_T, in units of the time from which errors are stated;
  * measured with 780 disks, see doc/performance.md. */
@@ -83,7 +84,7 @@ static hd_status measure(hd_estimate *out, hd_run *run)
     return HD_OK;
 }
 
-/** Averaged time at which an error, which is smaller by now, had the size that the target names. */
+/** Averaged time at which an error, which is smaller by now, was as large as the target allows. */
 static double reached_after(const hd_standing *s, double averaged)
 {
     const double falls = s->error * s->error - s->open * s->open;

@@ -1,5 +1,5 @@
-/** Vectors of a measured state that can be read. With several ranks, each one gets the vectors that
- * somebody listens to. */
+/** The vectors of a measured state that can be read on this rank: with several ranks those that
+ * somebody reads are gathered from all. */
 #ifndef HD_GATHERED_H
 #define HD_GATHERED_H
 

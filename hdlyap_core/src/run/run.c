@@ -55,7 +55,7 @@ static bool is_behind(const hd_run *run)
     return is_averaging(run) && hd_observables_are_behind(&run->observables);
 }
 
-/** The present state, without vectors if none are carried. */
+/** What observables see of the present state. */
 static hd_view view_of(const hd_run *run)
 {
     const hd_carrier *c = &run->carrier;
@@ -193,7 +193,8 @@ static double sampling(const hd_run *run)
     return is_needed(run, HD_NEEDS_CLOSE) ? hd_observables_sampling(&run->observables) : INFINITY;
 }
 
-/** The shortest value that `sampling` is expected to have, also before phases are followed. */
+/** The shortest value that `sampling` will have, as far as is known, also before phases are
+ * followed. */
 static double sampling_expected(const hd_run *run)
 {
     const bool phases = is_needed(run, HD_NEEDS_CLOSE | HD_NEEDS_VECTORS); /* no other row */
@@ -376,7 +377,7 @@ static hd_pace plan(hd_run *run)
     return pace;
 }
 
-/** Moves the particles towards that time, or to the time that a viewer watches next. */
+/** Moves the particles towards the time `end`, or only to the next time at which a viewer looks. */
 static hd_status move_particles(hd_run *run, double end)
 {
     const double start = hd_clock_now();

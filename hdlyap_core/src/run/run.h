@@ -5,8 +5,8 @@
 #include "hdlyap/run.h"
 #include "tangent/frame.h"
 
-/** The frame that is carried; for all 4N exponents half of the vectors [T18]. NULL without
- * exponents */
+/** The frame that is carried: half of the vectors if all exponents follow from half of them [T18].
+ * NULL without exponents. */
 const hd_frame *hd_run_frame(const hd_run *run);
 /** Averaged time from which standard errors are stated [T8]; 0 without exponents. */
 double hd_run_errors_after(const hd_run *run);

@@ -14,13 +14,14 @@
 
 /** What a viewer watches, see hd_run_watch. */
 typedef struct hd_watch {
-    double interval; /**< INFINITY: nobody watches */
+    double interval; /**< longest time of a call [time units]; INFINITY: nobody watches */
     int first;       /**< column from which on vectors are watched */
 } hd_watch;
 
-/** For estimates of the time left. */
+/** From which the time left is estimated. */
 typedef struct hd_clocks {
-    double created, frame_started; /**< wall clock [s]; 0 before the frame starts */
+    double created, frame_started; /**< wall clock when the run was made, and when the frame began
+                                      [s]; 0 before */
     double frame_start_time;       /**< simulated time */
 } hd_clocks;
 
@@ -35,27 +36,28 @@ struct hd_run {
     hd_observables observables;
     hd_gathered gathered;
     hd_watch watch;
-    int fields_first; /**< vectors from there on are read, too, where fields are due */
-    bool known;       /**< the modes are those of this very time */
-    double followed;  /**< simulated time at which phases were known last; negative: never */
+    int fields_first; /**< the first of the vectors that are gathered, too, when fields are due */
+    bool known;       /**< true if the weights of modes are those of the present time */
+    double followed;  /**< see hd_run_followed */
     hd_clocks clocks;
     hd_cost cost;
-    hd_error_trend errors; /**< of those nearest to zero; begins anew with a run that is resumed */
+    hd_error_trend errors; /**< trend of the error of the smallest positive exponents; a resumed run
+                              begins it again */
 };
 
-/** hd_run_create_shared and hd_run_free, called within a call that the other ranks make, too. */
+/** As hd_run_create_shared and hd_run_free, but for calls that all ranks make by themselves. */
 HD_MUST_CHECK hd_status hd_run_make(hd_run **out, const hd_scene_def *def,
                                     hd_communicator *communicator, char *message, size_t size);
 void hd_run_drop(hd_run *run);
 
-/** Finishes the work that an observable has begun, so that the run can be kept. */
+/** Finishes what an observable has begun, so that the run can be saved. */
 HD_MUST_CHECK hd_status hd_run_settle(hd_run *run);
 
 /** How far the run is from a target that hd_target_check has passed. */
 hd_standing hd_target_standing(const hd_run *run, const hd_text *target);
 /** True if the target in force is reached; false without one. */
 bool hd_target_reached(const hd_run *run);
-/** These stages, and those that are needed to know the quantities of the scene's target. */
+/** The set `stages` and the observables from which the quantities of the scene's target follow. */
 unsigned hd_target_stages(const hd_scene_def *def, unsigned stages);
 
 #endif

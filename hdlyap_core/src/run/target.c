@@ -222,7 +222,7 @@ hd_status hd_target_check(const hd_scene_def *def, char *message, size_t size)
     return HD_OK;
 }
 
-/** The observables of a set that bring `one` along; only `one` if it is in the set. */
+/** The observable `one` if it is in the set, otherwise those of the set that bring it along. */
 static unsigned simplest(unsigned set, unsigned one)
 {
     unsigned all = 0;
@@ -245,8 +245,8 @@ unsigned hd_target_stages(const hd_scene_def *def, unsigned stages)
 
 /* ---- how far is it? -------------------------------------------------------------------------- */
 
-/** Time until the part of an error that averaging reduces is small enough beside the part that
- * stays. */
+/** Averaged time that is left until the error is as wanted, if the part of it that averaging
+ * reduces falls with the square root of time. */
 static double left_of(const hd_standing *s, double averaged)
 {
     const double falls = s->error * s->error - s->open * s->open;
@@ -277,7 +277,7 @@ static hd_standing standing_of(const hd_run *run, const hd_aim *goal, double ave
     return s;
 }
 
-/** How far an error is from its aim; unknown errors are farthest. */
+/** Present error over wanted error; INFINITY if it is not known. */
 static double distance(const hd_standing *s)
 {
     return s->error >= 0.0 ? s->error / s->wanted : INFINITY;

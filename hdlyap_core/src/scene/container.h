@@ -16,7 +16,7 @@
  * times can be told apart. It is 1e-9, less what rounding an edge takes. */
 #define HD_ROOM_MIN 0.999e-9
 
-/** Takes one wave; `to` is its own. */
+/** Is called with each wave, one after another; `to` belongs to it. */
 typedef void (*hd_wave_taker)(void *to, const hd_wave *wave);
 
 enum { HD_WAVES_USUAL_MAX = 26 };
@@ -26,7 +26,7 @@ enum { HD_WAVES_USUAL_MAX = 26 };
  * / sqrt. q, p, n: [2]. */
 typedef struct hd_wall hd_wall;
 struct hd_wall {
-    double own[4];                    /**< what its functions need */
+    double own[4];                    /**< numbers that its functions need */
     double radius_least, radius_most; /**< range of its radius of curvature */
     /** How far beyond the wall q is; negative inside. */
     double (*excess)(const hd_wall *wall, const double *q);
@@ -53,10 +53,12 @@ typedef struct hd_container_row {
     /** Checks that one particle has room, and that no parameter is given that this container lacks.
      */
     hd_status (*check)(const hd_scene_def *def, char *message, size_t size);
-    void (*box)(const hd_scene_def *def, double *box); /**< edges of the box around it */
-    double (*area)(const hd_scene_def *def);           /**< area that centres can reach */
+    /** Writes the edges of the box around the container. */
+    void (*box)(const hd_scene_def *def, double *box);
+    double (*area)(const hd_scene_def *def); /**< area that centres can reach */
     bool rotates; /**< symmetric under rotation about its middle: angular momentum is conserved */
-    double (*start_distance)(const hd_scene_def *def); /**< smallest one of the densest start */
+    /** Smallest distance of two positions in the densest start. */
+    double (*start_distance)(const hd_scene_def *def);
     double (*density_max)(const hd_scene_def *def);    /**< highest density of a start; 0: none */
     void (*start)(const hd_scene_def *def, double *q); /**< positions */
 
@@ -66,7 +68,8 @@ typedef struct hd_container_row {
     void (*outline)(const hd_scene_def *def, double turn, double *place);
 
     hd_wave_limits (*limits)(const hd_scene_def *def);
-    void (*waves)(const hd_scene_def *def, hd_wave_taker take, void *to); /**< in any order */
+    /** Calls `take` with each wave of the scene, in any order. */
+    void (*waves)(const hd_scene_def *def, hd_wave_taker take, void *to);
     /** Number of the longest waves that are classified if the scene does not give one, at most
      * HD_WAVES_USUAL_MAX; waves as long as the last one are added. Steps of shorter waves are
      * seldom resolved. */

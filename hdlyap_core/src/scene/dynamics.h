@@ -7,7 +7,7 @@
 extern const hd_dynamics hd_hard_disks, hd_hard_spheres, hd_dumbbells_row, hd_soft_disks,
     hd_soft_spheres;
 
-/** Rows that a program brings itself: row[count]. */
+/** Rows that a program adds to those of the core: row[count]. */
 typedef struct hd_known {
     const hd_dynamics *const *row;
     int count;

@@ -1,4 +1,5 @@
-/** The null space of a scene [T9]: its directions in dq. Each direction in dp is in it, too. */
+/** The null space of a scene [T9], by the directions of its vectors in dq; each direction in dp
+ * belongs to it, too. */
 #ifndef HD_NULL_SPACE_H
 #define HD_NULL_SPACE_H
 

@@ -13,7 +13,8 @@
  * each has hd_frame_stride, the last ones fewer. */
 typedef struct hd_frame hd_frame;
 
-/** vectors: 1 .. M. Random entries from the seed; orthonormalise before use. */
+/** Makes a frame of 1 .. M vectors with random entries from the seed, which are not orthonormal
+ * yet. */
 HD_MUST_CHECK hd_status hd_frame_create(hd_frame **out, const hd_dynamics *of, int particles,
                                         int vectors, uint64_t seed, int threads);
 /** Creates a frame of which each rank carries some vectors; all ranks call it together. Fails with
@@ -29,9 +30,9 @@ int hd_frame_vectors(const hd_frame *frame);             /**< n, of all ranks to
 int hd_frame_stride(const hd_frame *frame);              /**< doubles from one row to the next */
 int hd_frame_threads(const hd_frame *frame);             /**< threads in use */
 void hd_frame_use_threads(hd_frame *frame, int threads); /**< 1 .. as many as at its creation */
-double *hd_frame_data(hd_frame *frame); /**< current vectors; valid until the next replay */
-const double *hd_frame_read(const hd_frame *frame); /**< the same, to look at */
-hd_columns hd_frame_columns(const hd_frame *frame); /**< all of them, of this rank */
+double *hd_frame_data(hd_frame *frame); /**< the present vectors; valid until the next replay */
+const double *hd_frame_read(const hd_frame *frame); /**< the same for reading */
+hd_columns hd_frame_columns(const hd_frame *frame); /**< all vectors of this rank */
 
 /** Exchanges entries with the other ranks: until hd_frame_to_columns or a rewind, each rank has all
  * vectors of some particles, in the same memory, instead of some vectors of all particles. */

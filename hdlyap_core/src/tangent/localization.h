@@ -5,9 +5,9 @@
 #include "hdlyap/frame.h"
 #include "hdlyap/localization.h"
 
-/** threads: how many measure. Fails with HD_NO_MEMORY. */
-HD_MUST_CHECK hd_status hd_localization_create(hd_localization **out, int particles, int coordinates,
-                                               int vectors, int threads);
+/** Makes empty averages; `threads` threads will measure. Fails with HD_NO_MEMORY. */
+HD_MUST_CHECK hd_status hd_localization_create(hd_localization **out, int particles,
+                                               int coordinates, int vectors, int threads);
 void hd_localization_free(hd_localization *shape);
 void hd_localization_clear(hd_localization *shape);
 

@@ -1,4 +1,4 @@
-/** Text -> a change. */
+/** A text of the user -> a change of a parameter. */
 #include "change.h"
 
 #include <math.h>

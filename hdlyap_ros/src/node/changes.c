@@ -1,5 +1,5 @@
 /** Changes -> other values in the run and in the settings. Only the thread that steps the run calls
- * this. */
+ * these functions. */
 #include "changes.h"
 
 #include <math.h>

@@ -1,5 +1,5 @@
-/** Parameters that change while the run goes on: those of the parameter `changes`, in advance, and
- * those that ~set asks for. */
+/** Changes of parameters while the run goes on: those of the parameter `changes`, which were given
+ * in advance, and those that a call of ~set asks for. */
 #ifndef HDLYAP_CHANGES_H
 #define HDLYAP_CHANGES_H
 
@@ -9,26 +9,27 @@
 
 typedef struct changes {
     change *list; /**< [count] */
-    int made;     /**< how many are made: the first ones, in their order; the others wait */
+    int made; /**< number of changes that have been made, which are the first ones, in their order;
+                 the others wait */
     int count;
 } changes;
 
-/** Creates the changes of the settings. For a run that is resumed at simulated time `since`
- * (negative: it is not), makes those up to then in the settings. False if there is no memory. */
+/** Takes the changes of the settings. If the run is resumed at simulated time `since` (negative: it
+ * is not), those up to then are made in the settings. Returns false if there is no memory. */
 bool changes_create(changes *out, settings *set, double since);
 void changes_clear(changes *all);
 
-/** Changes a parameter, "NAME=VALUE", in the run and in the settings, and says in `message` since
- * when it holds. False, and nothing has changed, with one line that says why not. */
+/** Changes a parameter, "NAME=VALUE", in the run and in the settings, and writes to `message` from
+ * when on it holds. Returns false, with one line that says why, if nothing has changed. */
 bool changes_ask(changes *all, settings *set, hd_run *run, const char *assignment, char *message,
                  size_t size);
 
-/** Changes the duration so that the averaging ends as soon as possible. False if changes_ask would
- * fail, or before the averaging. */
+/** Changes the duration so that the averaging ends as soon as possible. Returns false if
+ * changes_ask would, or if the run is not averaging yet. */
 bool changes_end(changes *all, settings *set, hd_run *run, char *message, size_t size);
 
-/** Makes, before the next step, the waiting changes whose time has come. True if there were any;
- * the log has those that are refused now. */
+/** Called before the next step: makes the waiting changes whose time has come, and logs those that
+ * are refused. Returns true if there were any. */
 bool changes_take(changes *all, settings *set, hd_run *run);
 
 #endif

@@ -17,11 +17,11 @@ enum { REFUSED = 2, FAULT = 3 };
 
 /** Most reports per second that the recorder gets. */
 static const double reports_per_second = 960.0;
-/** Whether the scene is as dense as disks, spheres or dumbbells that were seen to keep their places
- * [T8]. */
+/** True if the scene is as dense as those in which disks, spheres or dumbbells were seen to keep
+ * their places [T8]. */
 static bool may_be_caged(const hd_scene_def *def)
 {
-    if (!hd_dynamics_of(def)->fluid) return false; /* this has not been studied */
+    if (!hd_dynamics_of(def)->fluid) return false; /* it has not been studied for these particles */
     if (hd_scene_inertia(def) > 0) return hd_scene_packing(def) >= 0.78;
     return def->density >= (hd_scene_dimension(def) == 2 ? 0.88 : 0.9);
 }
@@ -34,14 +34,14 @@ static const double record_bytes = 58.0;
 /** When messages are published: with reports, with fields, or with windows of covariant vectors. */
 typedef enum coming { REPORTS, FIELDS, WINDOWS, COMINGS } coming;
 
-/** Bytes in a bag that a topic takes each time. */
+/** Bytes that a topic takes in a bag each time it is published. */
 static double bytes_of(const settings *set, const hd_estimate *t, topic k, coming when)
 {
     const topic_size s = topic_size_of(k, &t->extent);
     const double parts[COMINGS] = {s.report, s.fields, s.window}, messages = fmax(s.messages, 1.0);
     const double texts = (double)(strlen("box") + strlen("20260101T000000.000000Z-00000-") +
                                   strlen(set->seed));
-    const bool is_part = when != REPORTS && s.report > 0.0; /* each report has a message anyway */
+    const bool is_part = when != REPORTS && s.report > 0.0; /* each report has a message */
     if (!(parts[when] > 0.0)) return 0.0;
     return parts[when] + (is_part ? 0.0 : messages * (texts + record_bytes));
 }
@@ -104,7 +104,7 @@ static unsigned topics_recorded(const settings *set)
     return set->observables | topics_that_are(TOPIC_ALWAYS);
 }
 
-/** Time units between two messages. */
+/** Simulated time between two messages. */
 static double time_between(const settings *set, coming when)
 {
     const double report = set->def.report_interval;
@@ -112,7 +112,7 @@ static double time_between(const settings *set, coming when)
     return when == WINDOWS ? set->def.covariant_window : report;
 }
 
-/** Prints each topic's share, in units of `unit` bytes. */
+/** Prints how much each topic takes of a bag, in units of `unit` bytes. */
 static void print_shares(const settings *set, const hd_estimate *t, coming when, double unit)
 {
     const char *separator = ":";
@@ -124,7 +124,8 @@ static void print_shares(const settings *set, const hd_estimate *t, coming when,
     printf("\n");
 }
 
-/** Bytes of a whole run; before the averaging only topics that need none are published. */
+/** Bytes in the bag of a whole run; before the averaging only topics that need no averages are
+ * published. */
 static double bytes_in_all(const settings *set, const hd_estimate *t)
 {
     const unsigned of_averages = topics_that_are(TOPIC_OF_VECTORS) |

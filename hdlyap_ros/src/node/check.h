@@ -3,8 +3,9 @@
 #ifndef HDLYAP_CHECK_H
 #define HDLYAP_CHECK_H
 
-/** Prints to standard output. arguments[count]: the file, then name:=value. If the scene is
- * refused, prints the node's line to standard error. Returns the node's exit status. */
+/** Prints the estimates to standard output. arguments[count]: the scene file, then name:=value. If
+ * the scene is refused, prints the node's line to standard error. Returns the node's exit status.
+ */
 int check_scene(int count, char *const *arguments);
 
 /** Prints the averaged time from which errors are stated; arguments and exit status as check_scene.

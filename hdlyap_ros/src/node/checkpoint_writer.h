@@ -1,5 +1,5 @@
-/** When the run's checkpoint is written, and whether that succeeded. One thread at a time may use
- * it. */
+/** Writes the run's checkpoint when it is due, and keeps whether that succeeded. One thread at a
+ * time may use it. */
 #ifndef HDLYAP_CHECKPOINT_WRITER_H
 #define HDLYAP_CHECKPOINT_WRITER_H
 
@@ -8,18 +8,19 @@
 #include "hdlyap/checkpoint.h"
 #include "settings.h"
 
-/** The state that other threads may read. */
+/** What other threads may read about checkpoints. */
 typedef struct kept {
-    bool failed;       /**< the last attempt */
+    bool failed;       /**< true if the last attempt to write failed */
     double time;       /**< simulated time of the last file that is whole; -1: no file */
-    char message[512]; /**< of the last failure */
+    char message[512]; /**< why the last failure happened */
 } kept;
 
 typedef struct checkpoint_writer {
     const settings *set;
-    bool changed; /**< the run is not as in the file */
-    double due;   /**< [s of clock_seconds]; INFINITY: only when a service asks */
-    int written;  /**< the file, held open so that its inode number is not reused; -1: none */
+    bool changed; /**< true if the run has gone on since the file was written */
+    double due; /**< when to write next [s of clock_seconds]; INFINITY: only when a service asks for
+                   it */
+    int written; /**< the file, held open so that its inode number is not reused; -1: none */
     kept state;
 } checkpoint_writer;
 
@@ -37,7 +38,7 @@ HD_MUST_CHECK hd_status checkpoint_writer_begin(checkpoint_writer *out, const se
 /** Says that the run has gone on since the last writing. */
 void checkpoint_writer_touch(checkpoint_writer *k);
 
-/** True once the interval has passed since the last attempt, if there is anything new. */
+/** True if the run has changed, and checkpoint_interval has passed since the last attempt. */
 bool checkpoint_writer_due(const checkpoint_writer *k);
 
 /** Writes the run now, unless the file has this state already. Logs a failure; the old file stays.

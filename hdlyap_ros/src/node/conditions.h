@@ -13,7 +13,7 @@ typedef struct conditions {
 enum { CONDITION_SPLIT = 160 };
 void split_write(char *text, size_t size, const split_zeros *split);
 
-/** The levels are in doc/reference.md. */
+/** Finds all conditions; doc/reference.md lists them with their levels. */
 conditions conditions_of(const worker_state *state, const hdr_lag *slowest);
 
 #endif

@@ -83,7 +83,7 @@ static void fill_keys(diagnostics *d, key_list *list, const worker_state *state,
         add_number(list, "resolved steps", state->last.resolved_steps);
 }
 
-/** Fills in the values that conditions.c judges. */
+/** Adds the numbers that conditions.c judges. */
 static void fill_watched(key_list *list, const worker_state *state, const hdr_lag *slowest)
 {
     const examination *seen = &state->seen;

@@ -1,4 +1,4 @@
-/** The node's health: worker state -> /diagnostics, once per second. */
+/** The node's diagnostics: worker state -> /diagnostics, once per second. */
 #ifndef HDLYAP_DIAGNOSTICS_H
 #define HDLYAP_DIAGNOSTICS_H
 
@@ -11,10 +11,10 @@ typedef struct diagnostics {
     const char *node_name, *blas_kernel;
     double next;         /**< when to publish again [s of clock_seconds] */
     double measured;     /**< when `collisions` was read [s of clock_seconds] */
-    uint64_t collisions; /**< number at the last message */
+    uint64_t collisions; /**< number of collisions at the last message */
 } diagnostics;
 
-/** The report and the string must live as long as d. */
+/** Advertises /diagnostics. The report and the string must live as long as d. */
 HDR_MUST_CHECK hdr_status diagnostics_advertise(diagnostics *d, hdr_node *ros, const report *rep,
                                                 uint64_t collisions, const char *blas_kernel);
 

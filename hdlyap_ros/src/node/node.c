@@ -27,7 +27,8 @@ enum { EXIT_REFUSED = 2, EXIT_NUMERICAL_FAULT = 3, EXIT_FILE_FAULT = 4, EXIT_LOS
 static const double stop_seconds = 0.8;
 /** Part of stop_seconds that the present step may take. */
 static const double stop_step_seconds = 0.25;
-/** The same two if a checkpoint has to be written first: roslaunch waits longer before it kills. */
+/** The same two times if a checkpoint has to be written first; roslaunch waits longer than that
+ * before it kills. */
 static const double stop_keeping_seconds = 12.0, stop_step_keeping_seconds = 10.0;
 /** Seconds that a finished node waits for the last messages to reach slow subscribers. */
 static const double linger_seconds = 5.0;
@@ -44,13 +45,13 @@ typedef struct app {
     hdr_params *params;
     hd_checkpoint kept; /**< the checkpoint that the run is resumed from */
     settings set;
-    changes changes; /**< those that are still to be made and those that are made */
+    changes changes; /**< changes that wait and changes that have been made */
     hd_run *run;
-    checkpoint_writer keep; /**< as the run begins; then the worker's */
+    checkpoint_writer keep; /**< writes the first checkpoint; the worker uses it afterwards */
     report *rep;
     worker *work;
     diagnostics diag;
-    bool lost; /**< it has ended since nobody can subscribe */
+    bool lost; /**< true if it has ended because nobody can subscribe any more */
 } app;
 
 static int refuse(const char *message)
@@ -287,7 +288,8 @@ static int run(app *a)
     _exit(status);                         /* mpirun ends the other ranks in that step */
 }
 
-/** Answers options that need no master: returns an exit status, or -1 if there are none. */
+/** Answers options, as --help, that need no master: returns an exit status, or -1 if there are
+ * none. */
 static int answer(int argc, char **argv)
 {
     static const struct {
@@ -309,7 +311,7 @@ static int follow(const app *a)
     return EXIT_SUCCESS;
 }
 
-/** The node itself. */
+/** Runs the node, on the rank that has ROS; returns its exit status. */
 static int lead(app *a, int argc, char **argv)
 {
     if (a->ranks) hd_run_lead(a->ranks);

@@ -1,5 +1,5 @@
-/** Every parameter of the node, one row each: those of the scene, which the core names, those of
- * the particles that move (particles_now), and those that only the node knows. */
+/** The table of the node's parameters, one row each: those of the scene, from the core; those of
+ * the particles that move (particles_are); and those that only the node knows. */
 #ifndef HDLYAP_PARAMETERS_NODE_H
 #define HDLYAP_PARAMETERS_NODE_H
 
@@ -8,9 +8,9 @@
 
 #include "hdlyap/parameters.h"
 
-/** How a value is read and written. */
+/** How a value is read and written: the type of its member in hd_scene_def or settings. */
 typedef enum parameter_kind {
-    OF_SCENE,        /**< as the core's row says */
+    OF_SCENE,        /**< a parameter of the scene: as the core's row says */
     PARTICLES,       /**< hd_scene_def: the name of a row of dynamics */
     REAL_NUMBER,     /**< double */
     WHOLE_NUMBER,    /**< int; what is allowed depends on the scene */
@@ -26,16 +26,18 @@ typedef struct parameter {
     const char *name;
     parameter_kind kind;
     size_t offset;       /**< in settings */
-    const char *usual;   /**< default: the number, the word, or the items of the list */
-    double least, most;  /**< range of a number; none if they are equal */
+    const char *usual;   /**< default, as a number, a word, or the items of a list */
+    double least, most;  /**< range of a number; there is no range if both are equal */
     const char *allowed; /**< what is allowed, in words; for topics without their names */
     const char *unit;    /**< "" if it has none */
-    bool may_differ;     /**< may change when a run goes on from its checkpoint */
-    bool live;           /**< may change while the run goes on */
-    bool at_once;        /**< changes before the next step, as it makes no difference to results */
-    unsigned needs; /**< topics, one of which must be observed unless it has its default; 0: none */
+    bool may_differ;     /**< true if it may change when a run is resumed from its checkpoint */
+    bool live;           /**< true if it may change while the run goes on */
+    bool at_once; /**< true if a change holds from the next step on, because it makes no difference
+                     to results */
+    unsigned needs; /**< topics of which at least one must be observed if the value is not the
+                       default; 0: none */
     const char *text;
-    const hd_parameter *row; /**< the core's row; NULL if it is not the scene's */
+    const hd_parameter *row; /**< the core's row; NULL if it is no parameter of the scene */
 } parameter;
 
 /** Parameters come in the order in which they are read. */
@@ -47,8 +49,8 @@ bool parameters_has(const char *name);
 
 /** Room for parameters_unknown. */
 enum { PARAMETER_UNKNOWN = 128 };
-/** Writes what to say of a name that no parameter has: its new name, or the name that may be meant,
- * from which at most two letters differ. */
+/** Writes what the user is told about a name that no parameter has: that it has a new name, or
+ * which name may be meant, if at most two letters differ. */
 void parameters_unknown(char text[PARAMETER_UNKNOWN], const char *name);
 
 /** The parameter of this name, which must exist. */
@@ -56,7 +58,7 @@ parameter parameters_named(const char *name);
 
 /** Room for parameter_usual. */
 enum { PARAMETER_TEXT = 80 };
-/** Writes the default for a message. */
+/** Writes the default as a text for a message. */
 void parameter_usual(char text[PARAMETER_TEXT], const parameter *p);
 
 /** The topics that are allowed in a set of topics. */
@@ -64,7 +66,7 @@ unsigned parameter_topics(const parameter *p);
 
 /** Room for parameter_allowed. */
 enum { PARAMETER_ALLOWED = 180 };
-/** Writes all that is allowed, with names of topics or particles. */
+/** Writes which values are allowed, with the names of topics or particles. */
 void parameter_allowed(char text[PARAMETER_ALLOWED], const parameter *p);
 
 #endif

@@ -1,4 +1,4 @@
-/** Rows -> text. */
+/** Rows of parameters -> texts for users. */
 #include "parameters_text.h"
 
 #include <stdio.h>

@@ -8,7 +8,7 @@ int parameters_print_version(void);
 /** Prints a scene file with all defaults to standard output. Returns 0, or 1 if it cannot be
  * written. */
 int parameters_print_scene(void);
-/** Prints the same as rows of a Markdown table. */
+/** Prints all parameters as rows of a Markdown table. Returns 0, or 1 if it cannot be written. */
 int parameters_print_table(void);
 
 #endif

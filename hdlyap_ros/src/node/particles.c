@@ -1,4 +1,4 @@
-/** Rows by their names. */
+/** Finds rows of dynamics by their names. */
 #include "particles.h"
 
 #include <stdio.h>

@@ -11,13 +11,14 @@
 void particles_bring(const hd_dynamics *const *rows, int count);
 const hd_dynamics *const *particles_brought(int *count);
 
-/** The row of number k, from 0; NULL after the last one. */
+/** Row number k = 0, 1, ..; NULL after the last one. */
 const hd_dynamics *particles_at(int k);
 
 /** The scene of the usual particles, with the defaults of its parameters. */
 hd_scene_def particles_usual(void);
-/** Makes it a scene of the particles of this name; their own parameters get defaults, unless it was
- * such a scene before. False if there are none of this name. */
+/** Makes *def a scene of the particles of this name. The parameters that only they have get
+ * defaults, unless it was such a scene before. Returns false if there are no particles of this
+ * name. */
 bool particles_choose(hd_scene_def *def, const char *name);
 
 /** Says which particles the scene has: their own parameters become parameters of the node. */

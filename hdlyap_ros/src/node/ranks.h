@@ -8,12 +8,12 @@
 
 #include "hdlyap/communicator.h"
 
-/** Sets *out to NULL for a single rank; then MPI is not loaded. False if this build has no MPI, or
- * another MPI than the one that started the ranks; `message` has the line, or is empty if another
- * rank of this machine reports it. */
+/** Joins the ranks; *out is NULL for a single rank, for which MPI is not loaded. Returns false if
+ * this build has no MPI, or another MPI than the one that started the ranks; `message` then has the
+ * line, or is empty if another rank of this machine reports it. */
 bool ranks_join(hd_communicator **out, int *argc, char ***argv, char *message, size_t size);
 
-/** Does all that a rank other than 0 has to do. */
+/** Does all that a rank other than rank 0 has to do, and returns at the end of the run. */
 void ranks_follow(hd_communicator *ranks);
 
 /** Called at the end, on every rank. */

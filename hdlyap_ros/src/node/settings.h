@@ -10,7 +10,7 @@
 #include "hdlyap/wave.h"
 #include "hdlyap_ros/params.h"
 
-/** Vectors whose fields are published. */
+/** The vectors whose fields are published. */
 typedef struct field_choice {
     const char *text; /**< as given: steps, or a list; in the params */
     const int *index; /**< [count] Lyapunov indices, from 1; in the params */
@@ -31,17 +31,21 @@ typedef struct settings {
     char exponents[16];    /**< as given: positive, all, none or a number */
     unsigned observables;  /**< set of topics: all but run_info, status and cost */
     field_choice fields;
-    double slow_vectors_rate; /**< messages of slow_vectors per wall second, at most */
-    int slow_vectors_count;   /**< vectors in each; 0: down to the lowest T and LP step */
-    double field_interval; /**< time units between publications of fields; 0: with every report */
+    double slow_vectors_rate; /**< most messages of slow_vectors per wall second */
+    /** Number of vectors in each, the last ones with positive exponents; 0: as many as reach the
+     * lowest T and LP step. */
+    int slow_vectors_count;
+    double field_interval; /**< simulated time between publications of fields [time units]; 0: with
+                              every report */
     unsigned awaited;      /**< set of topics that must have a subscriber before the run starts */
-    double pace;           /**< time units per wall second, 0 = as fast as it goes */
+    double pace;           /**< most simulated time per wall second [time units/s]; 0: no limit */
     change_list changes;
     const char *checkpoint;     /**< file, or ""; in the params */
-    double checkpoint_interval; /**< wall seconds; 0: only at the end and when asked */
+    double checkpoint_interval; /**< wall seconds between two checkpoints; 0: only at the end and
+                                   when a service asks */
     const char *resume;         /**< file to go on from, or ""; in the params */
     char warning[256];          /**< says what is allowed but gives no results; "" if nothing */
-    double table; /**< wall seconds between two tables in the log, at least; 0: none */
+    double table; /**< least wall seconds between two tables in the log; 0: no tables */
 } settings;
 
 /** Finds the file to go on from, "" if none. Returns false if the parameter is refused. */

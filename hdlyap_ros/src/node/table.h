@@ -5,7 +5,7 @@
 #include "hdlyap/run.h"
 #include "settings.h"
 
-/** What the last table said; zero at the start. */
+/** What the last table contained; all zero at the start. */
 typedef struct table {
     double wall;     /**< when [s] */
     double averaged; /**< time units */

@@ -25,8 +25,9 @@ static const double examination_share = 0.01;
 
 /** A change that a service asks for, and the worker's answer. */
 typedef struct set_request {
-    bool waits, taken, made; /**< taken: the worker is at it; its caller waits for the answer */
-    const char *assignment;  /**< the caller's text, as the next; NULL: the averaging is to end */
+    bool waits, taken, made; /**< waits: the change is asked for; taken: the worker is making it,
+                                and its caller waits for the answer; made: it has been made */
+    const char *assignment;  /**< the caller's text; NULL: the averaging is to end */
     char *message;
     size_t size;
 } set_request;
@@ -38,8 +39,10 @@ struct worker {
     changes *changes;
     pthread_t thread;
     bool begun;
-    double due;        /**< wall time before which pace allows no further step; the thread's own */
-    double examinable; /**< the same of the next examination; the thread's own */
+    /** Wall time before which `pace` allows no further step; only the thread uses it. */
+    double due;
+    double examinable; /**< wall time before which the particles are not examined again; only the
+                          thread uses it */
     checkpoint_writer keep; /**< the thread's own */
     table table;            /**< the thread's own */
 
@@ -50,7 +53,7 @@ struct worker {
     worker_state state;
 
     pthread_mutex_t publishing;
-    bool closed; /**< the last message is out */
+    bool closed; /**< true once the last message has been published */
 };
 
 /** Waits for a change of state, at most until a wall time, if that is finite; false once it has
@@ -431,7 +434,8 @@ bool worker_checkpoint(worker *w, double seconds, char *message, size_t size)
     return done;
 }
 
-/** False if the change that is asked for will not be made. The lock is held. */
+/** Waits for the answer; false if the change has not been made by then, or will not be. The lock is
+ * held. */
 static bool wait_for_answer(worker *w, double until)
 {
     if (w->set_asked.taken) return wait_until(w, INFINITY);

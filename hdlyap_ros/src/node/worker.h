@@ -18,13 +18,13 @@ typedef enum worker_stage {
 typedef struct examination {
     bool made;
     double overlap, overlap_max; /**< deepest overlap of two particles [sigma], and its limit */
-    double energy_error, energy_error_max; /**< of the kinetic energy, relative */
+    double energy_error, energy_error_max; /**< relative error of the energy, and its limit */
 } examination;
 
 /** State of the worker for other threads, after its last finished step. */
 typedef struct worker_state {
     worker_stage stage;
-    hd_status status; /**< the fault that ended it, else HD_OK */
+    hd_status status; /**< the status with which the run failed, else HD_OK */
     char fault[256];  /**< the fault in words, with its numbers */
     progress last;
     examination seen;      /**< result of the last worker_examine */
@@ -37,7 +37,7 @@ typedef struct worker_state {
 
 typedef struct worker worker;
 
-/** False if there is no memory for it. */
+/** Makes a worker that has not begun. Returns false if there is no memory. */
 bool worker_create(worker **out, hd_run *run, report *rep, settings *set, changes *all,
                    const checkpoint_writer *keep);
 /** Starts the thread. Until worker_state says WORKER_ENDED, only the thread uses run, rep, changes,
@@ -45,17 +45,17 @@ bool worker_create(worker **out, hd_run *run, report *rep, settings *set, change
 bool worker_begin(worker *w);
 /** Asks the thread to end and waits for the step that it is in. NULL is allowed. */
 void worker_end(worker *w);
-/** Only after worker_end. NULL is allowed. */
+/** Frees the worker after worker_end; NULL is allowed. */
 void worker_free(worker *w);
 
 worker_state worker_state_now(worker *w);
 
 void worker_pause(worker *w, bool pause);
-/** Starts the averages afresh before the next step. */
+/** Asks the thread to begin the averages again before the next step. */
 void worker_reset_average(worker *w);
 
-/** Examines the particles before the next step, unless that would take more than a hundredth of the
- * time. */
+/** Asks the thread to examine the particles before the next step; it does so unless examinations
+ * would take more than a hundredth of the time. */
 void worker_examine(worker *w);
 
 /** Has a checkpoint written before the next step, and waits for it at most this long. False if it

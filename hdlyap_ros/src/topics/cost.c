@@ -1,4 +1,4 @@
-/** Times and counters of the run -> Cost. */
+/** Times and counters of the run -> message Cost. */
 #include "topics/moment.h"
 
 _Static_assert((int)HD_LIMIT_NONE == (int)HDR_COST_LIMIT_NONE, "limits as in the core");

@@ -1,4 +1,4 @@
-/** Averages of covariant vectors over windows -> Covariant. */
+/** Averages of covariant vectors over windows -> message Covariant. */
 #include "topics/moment.h"
 
 #include <math.h>
@@ -133,8 +133,8 @@ static hdr_covariant message_of(arrays *r, const hd_run *run, const hd_covariant
     };
 }
 
-/** Warns if the spaces of two random starts have not met, because they are not the covariant ones
- * then, and if a window was lost for want of room. */
+/** Warns if the spaces of the two random starts still differ at the window's end, because they are
+ * then not the covariant ones; and if a window was left out for want of memory. */
 static void warn(covariant_said *before, const hd_run *run, const hd_covariant_results *seen)
 {
     const hd_covariant_mismatch apart = seen->start_mismatch;
@@ -154,7 +154,8 @@ static void warn(covariant_said *before, const hd_run *run, const hd_covariant_r
     before->lost = lost;
 }
 
-/** May be called after any step or checkpoint. */
+/** Publishes only if a window has ended since the last message. It may be called after any step or
+ * checkpoint. */
 hd_status topic_publish_covariant(const moment *now)
 {
     covariant_said *last = &now->kept->covariant;

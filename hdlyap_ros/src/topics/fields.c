@@ -1,4 +1,4 @@
-/** One vector, and the L and P modes of its step -> ModeField. */
+/** One vector, and the L and P modes of its step -> message ModeField. */
 #include "topics/moment.h"
 
 #include <string.h>
@@ -40,7 +40,8 @@ static void reconstruct(pair_fields *pairs, const hd_run *run, const hd_step *st
 }
 
 /** One of the `components` of a vector of the frame, for all particles. */
-static hdr_doubles column_of(hd_columns frame, int col, int component, int components, size_t particles)
+static hdr_doubles column_of(hd_columns frame, int col, int component, int components,
+                             size_t particles)
 {
     const size_t stride = (size_t)frame.stride;
     return message_array(frame.data + (size_t)component * stride + (col - frame.first), particles,
@@ -104,7 +105,8 @@ static hd_status publish_vector(const moment *now, int col)
     now->room->taken = 0; /* each message uses the buffers anew */
     pair_fields pairs = {.l = moment_take(now, 3 * length, sizeof *pairs.l)};
     if (!pairs.l || !moment_state(now, &q, &p)) return HD_OK;
-    hdr_mode_field message = {.sim_time = hd_run_time(now->run), STATE_FIELDS(now, q, p, particles)};
+    hdr_mode_field message = {.sim_time = hd_run_time(now->run),
+                              STATE_FIELDS(now, q, p, particles)};
     pairs.p = pairs.l + length;
     pairs.ratio = pairs.p + length;
     if (step && step->kind == HD_MODE_LP) reconstruct(&pairs, now->run, step, p);

@@ -1,4 +1,4 @@
-/** Hydrodynamic response of the vectors -> Hydro. */
+/** Hydrodynamic response of the vectors -> message Hydro. */
 #include "hdlyap/hydro.h"
 #include "topics/moment.h"
 

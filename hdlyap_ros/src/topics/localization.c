@@ -1,4 +1,4 @@
-/** How far the vectors spread over the particles -> Localization. */
+/** Localisation widths of the vectors -> message Localization. */
 #include "topics/moment.h"
 
 hd_status topic_publish_localization(const moment *now)

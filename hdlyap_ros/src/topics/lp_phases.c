@@ -1,4 +1,4 @@
-/** How the LP modes rotate -> LpPhases. */
+/** Phases of LP steps -> message LpPhases. */
 #include "topics/moment.h"
 #include "topics/phase.h"
 

@@ -1,4 +1,4 @@
-/** The step and the weights of each vector -> Modes. */
+/** The step and the weights of each vector -> message Modes. */
 #include "topics/moment.h"
 
 _Static_assert((int)HD_MODE_LP == (int)HDR_MODE_LP, "kinds as in the core");

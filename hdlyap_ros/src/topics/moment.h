@@ -32,7 +32,7 @@ typedef struct covariant_said {
 
 /** When slow_vectors were published last. */
 typedef struct slow_vectors_pace {
-    bool due, sent;    /**< the step under way ends with a message; there was one before */
+    bool due, sent;    /**< due: a message follows the step under way; sent: there has been one */
     double next, last; /**< wall times of the next and of the last message */
 } slow_vectors_pace;
 
@@ -46,8 +46,8 @@ typedef struct moment {
     const publishers *out;
     const settings *set;
     const hd_run *run;      /**< after its last step; status and cost do not use it */
-    const progress *last;   /**< used by status and cost */
-    const changes *changes; /**< used by run_info */
+    const progress *last;   /**< how far the run is; only status and cost use it */
+    const changes *changes; /**< only run_info uses it */
     double seconds;         /**< wall time spent in publishing so far */
     buffers *room;
     kept_of_topics *kept;
@@ -107,14 +107,15 @@ static inline hdr_doubles moment_component(const moment *now, const double *data
 static inline hdr_doubles moment_angle(const moment *now, size_t particles, size_t number)
 {
     const double *angle = now->room->angle;
-    return angle ? message_array(angle + number * particles, particles, 1) : (hdr_doubles){.data = NULL};
+    return angle ? message_array(angle + number * particles, particles, 1)
+                 : (hdr_doubles){.data = NULL};
 }
 
 /** The fields of a message that has positions and momenta of all particles. */
-#define STATE_FIELDS(now, q, p, particles)                                                             \
-    .x = moment_component(now, q, particles, 0), .y = moment_component(now, q, particles, 1),              \
-    .z = moment_component(now, q, particles, 2), .px = moment_component(now, p, particles, 0),             \
-    .py = moment_component(now, p, particles, 1), .pz = moment_component(now, p, particles, 2),            \
+#define STATE_FIELDS(now, q, p, particles)                                                         \
+    .x = moment_component(now, q, particles, 0), .y = moment_component(now, q, particles, 1),      \
+    .z = moment_component(now, q, particles, 2), .px = moment_component(now, p, particles, 0),     \
+    .py = moment_component(now, p, particles, 1), .pz = moment_component(now, p, particles, 2),    \
     .angle = moment_angle(now, particles, 0), .spin = moment_angle(now, particles, 1)
 
 /** Sends the messages of a topic by topic_send_NAME, if there is something to send. Fails with

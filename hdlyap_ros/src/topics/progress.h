@@ -8,8 +8,10 @@
  * of conserved quantities would bring it, by more than the accuracy of the scene. */
 typedef struct split_zeros {
     bool are;
-    double exponent, expected; /**< the largest; ln t / t or, if more, the accuracy [1/time unit] */
-    double step, step_wanted;  /**< time step; about the one that brings it to expected */
+    double exponent, expected; /**< the largest zero exponent; the value expected without a split,
+                                  ln t / t or the accuracy, whichever is larger [1/time unit] */
+    double step, step_wanted;  /**< the time step; about the one with which the exponent would be as
+                                  expected [time units] */
 } split_zeros;
 
 /** What other threads may know of the run: a copy made after its last step. */
@@ -19,7 +21,7 @@ typedef struct progress {
     bool collides;       /**< whether the particles have collisions */
     uint64_t collisions; /**< collisions of pairs since the start */
     hd_cost cost;
-    double averaged;    /**< simulated time of the averages; 0 without exponents */
+    double averaged;    /**< averaged time; 0 without exponents */
     int resolved_steps; /**< number of resolved steps; -1 while they are not computed */
     bool caged;         /**< see hd_run_is_caged */
     split_zeros split;

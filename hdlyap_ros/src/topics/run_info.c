@@ -1,4 +1,5 @@
-/** What is needed to repeat a run -> RunInfo. Sent once, and after each change of a parameter. */
+/** What is needed to repeat a run -> message RunInfo. It is sent once, and again after each change
+ * of a parameter. */
 #include "topics/moment.h"
 
 #include <stdio.h>

@@ -23,8 +23,8 @@ typedef struct soft {
     double energy;    /**< energy at the start */
     double error;     /**< relative error of the energy, see hd_soft_look */
     double *q, *p;    /**< [particles][dimension] after the last time step, q in the box */
-    bool sums;        /**< whether sums are taken: the scene asks for gas */
-    hd_summed summed; /**< all of it but its time */
+    bool sums;        /**< true if the scene asks for gas, so that integrals are taken */
+    hd_summed summed; /**< the integrals; their time follows from `steps` */
     hd_neighbours near;
 } soft;
 
@@ -40,7 +40,7 @@ HD_MUST_CHECK hd_status hd_soft_create(void **state, const hd_scene_def *scene);
 HD_MUST_CHECK hd_status hd_soft_create_from(void **state, const hd_scene_def *scene,
                                             const double *q, const double *p);
 void hd_soft_free(void *state);
-/** Fails with HD_ENERGY_LOST, too. */
+/** See hd_dynamics.advance; fails with HD_ENERGY_LOST, too. */
 HD_MUST_CHECK hd_status hd_soft_advance(void *state, hd_record *record, double t_end);
 
 double hd_soft_kinetic_energy(const void *state);
