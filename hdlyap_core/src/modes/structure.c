@@ -229,7 +229,8 @@ static void fill_factor(hd_structure *s, const planned *p, unsigned bits, int co
     }
 }
 
-/** Fills factor[particles][width] for component d and waves [from, to); returns the number of columns.
+/** Fills factor[particles][width] for component d and waves [from, to); returns the number of
+ * columns.
  */
 static int fill_factors(hd_structure *s, int d, int from, int to)
 {

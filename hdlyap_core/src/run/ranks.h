@@ -11,6 +11,7 @@ HD_MUST_CHECK hd_status hd_ranks_check(const hd_scene_def *def, hd_communicator 
                                        char *message, size_t size);
 
 /** Fails with HD_RANKS_APART unless all ranks have the same particles, bit for bit. */
-HD_MUST_CHECK hd_status hd_ranks_compare(hd_communicator *communicator, const hd_trajectory *trajectory);
+HD_MUST_CHECK hd_status hd_ranks_compare(hd_communicator *communicator,
+                                         const hd_trajectory *trajectory);
 
 #endif

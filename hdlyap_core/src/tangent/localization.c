@@ -106,7 +106,8 @@ static void measure_block(const hd_localization *shape, hd_columns v, int begin)
     double *entropy = shape->measured + v.first + begin, *cosine = entropy + shape->vectors;
     const size_t half = (size_t)shape->coordinates;
     for (int particle = 0; particle < shape->particles; particle++)
-        add_particle(&s, v.data + 2 * half * (size_t)particle * stride + begin, half, stride, count);
+        add_particle(&s, v.data + 2 * half * (size_t)particle * stride + begin, half, stride,
+                     count);
     for (int col = 0; col < count; col++) {
         const double product = sqrt(s.dq[col]) * sqrt(s.dp[col]);
         entropy[col] = s.entropy[col];

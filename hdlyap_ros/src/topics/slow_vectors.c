@@ -115,7 +115,8 @@ static void fill_step(vector_arrays *of, int k, const hd_parts *parts, int col, 
 }
 
 /** Copies dq from the rows of the frame to one array after the other for each vector. */
-static void fill_dq(vector_arrays *of, hd_columns known, int first, size_t vectors, size_t particles)
+static void fill_dq(vector_arrays *of, hd_columns known, int first, size_t vectors,
+                    size_t particles)
 {
     const size_t stride = (size_t)known.stride, rows = 2 * of->coordinates;
     for (size_t j = 0; j < particles; j++) {
@@ -165,7 +166,8 @@ static hd_status send(const moment *now)
     const size_t particles = (size_t)now->set->def.number;
     const double *q, *p;
     if (!moment_state(now, &q, &p)) return HD_OK;
-    hdr_slow_vectors message = {.sim_time = hd_run_time(now->run), STATE_FIELDS(now, q, p, particles)};
+    hdr_slow_vectors message = {.sim_time = hd_run_time(now->run),
+                                STATE_FIELDS(now, q, p, particles)};
     if (!fill_vectors(&message, now)) return HD_OK;
     return topic_send_slow_vectors(now->out, &message);
 }
