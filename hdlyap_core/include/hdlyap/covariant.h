@@ -7,7 +7,8 @@
  * starts, are carried backwards in time through the transient. By how much they still differ at the
  * window's end is the start mismatch. From there the first start alone is carried back to the
  * beginning of the window; its vectors within the window are the covariant vectors. All functions,
- * reading too, share one workspace, so only one thread at a time may call them. */
+ * reading too, share one workspace, so only one thread at a time may call them. Tags as [T16] are
+ * those of equations in THEORY.md. */
 #ifndef HDLYAP_COVARIANT_H
 #define HDLYAP_COVARIANT_H
 

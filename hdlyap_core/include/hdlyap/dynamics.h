@@ -8,7 +8,7 @@
  * tangent vectors are carried by that record alone. A tangent vector has a part dq and a part dp
  * for each particle. A row, and what it points to, must last as long as its runs. A run calls the
  * functions of a row on one thread at a time, except for `carry`, which several threads call at
- * once. */
+ * once. Tags as [T19] are those of equations in THEORY.md. */
 #ifndef HDLYAP_DYNAMICS_H
 #define HDLYAP_DYNAMICS_H
 
@@ -116,10 +116,12 @@ struct hd_dynamics {
      * other vectors [T9]. May be left out. */
     bool paces;
 
-    const hd_parameter *parameter; /**< parameters that only this dynamics has, [parameters]; the
-                                      offset of number k is HD_OWN(k). May be left out */
-    int parameters;                /**< number of these parameters, 0 .. HD_OWN_MAX */
-    const hd_fluid *fluid;         /**< may be left out */
+    /** Parameters that only this dynamics has, [parameters]; the offset of number k is HD_OWN(k).
+     * Their kind is HD_PARAMETER_INT, HD_PARAMETER_REAL, HD_PARAMETER_WORD or
+     * HD_PARAMETER_INTERVAL, and they are not live. May be left out. */
+    const hd_parameter *parameter;
+    int parameters;        /**< number of these parameters, 0 .. HD_OWN_MAX */
+    const hd_fluid *fluid; /**< may be left out */
 
     /* ---- scene */
     /** Checks whether the parameters of a scene, each of which is in its own range, fit together.
@@ -167,6 +169,7 @@ struct hd_dynamics {
      */
     hd_status (*create_from)(void **state, const hd_scene_def *scene, const double *q,
                              const double *p);
+    /** Frees a state. */
     void (*free)(void *state);
     /** Moves the particles to the simulated time t_end, which is not before the present one. Unless
      * `record` is NULL, it adds what happened: hd_record_put for each entry, then hd_record_end.

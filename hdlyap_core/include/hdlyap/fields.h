@@ -2,7 +2,7 @@
  * displacement that Lyapunov modes resemble. T fields are transverse waves, L fields longitudinal
  * ones, P fields momenta times a modulation (hdlyap/wave.h). L and P fields of one wave vector
  * together are one kind, LP. Several threads may read one hd_fields at once while no thread calls
- * its run. */
+ * its run. Tags as [T10] are those of equations in THEORY.md. */
 #ifndef HDLYAP_FIELDS_H
 #define HDLYAP_FIELDS_H
 

@@ -4,7 +4,7 @@
  * its mean is lambda_i t. This header has variances and covariances of growth, their limits for
  * long times, and how often vectors change the order of their growth. Vectors are columns of the
  * frame, col 0 .. n - 1, largest exponent first. Several threads may read at once while no thread
- * calls the run. */
+ * calls the run. [T25] is the tag of an equation in THEORY.md. */
 #ifndef HDLYAP_FLUCTUATIONS_H
 #define HDLYAP_FLUCTUATIONS_H
 
@@ -20,7 +20,8 @@ enum { HD_FLUCTUATING = 96 };
 typedef struct hd_fluctuations hd_fluctuations;
 
 /** Number of lengths of time over which growth has been summed at least once, 0 .. HD_TIMES_MAX.
- * Length 0 is one sample, or fluctuation_time; length k + 1 is two stretches of length k. */
+ * Length k = 0 is that of one sample, or about fluctuation_time if the scene gives it; a time of
+ * length k + 1 consists of two of length k. */
 int hd_fluctuations_times(const hd_fluctuations *fluctuations);
 /** Mean length of the times of length k, their number, and how often vectors changed the order of
  * their growth over them. Its arrays belong to `fluctuations`. */

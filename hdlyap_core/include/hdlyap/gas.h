@@ -1,7 +1,8 @@
 /** The particles as a gas [T19]: their pressure; the collision rate of hard particles; the
  * temperature and potential energy of soft ones; all with standard errors. The unit of energy is
  * the mean kinetic energy of a hard particle, or epsilon of the soft potential. Several threads may
- * read one hd_gas at once while no thread calls its run. */
+ * read one hd_gas at once while no thread calls its run. Tags as [T19] are those of equations in
+ * THEORY.md. */
 #ifndef HDLYAP_GAS_H
 #define HDLYAP_GAS_H
 

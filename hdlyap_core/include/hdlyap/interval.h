@@ -1,4 +1,5 @@
-/** The simulated time between two orthonormalisations, and what limits it [T6]. */
+/** The simulated time between two orthonormalisations, and what limits it [T6]. [T6] is the tag of
+ * an equation in THEORY.md. */
 #ifndef HDLYAP_INTERVAL_H
 #define HDLYAP_INTERVAL_H
 

@@ -2,7 +2,8 @@
  * step, a vector rotates between the L field and the P field of each modulation with angular
  * velocity omega. In a T step, a vector only diffuses between the T field with a cosine and the one
  * with a sine. The phase of a vector in a pair of fields is its angle there. Several threads may
- * read one hd_phases at once while no thread calls its run. */
+ * read one hd_phases at once while no thread calls its run. [T13] is the tag of an equation in
+ * THEORY.md. */
 #ifndef HDLYAP_PHASES_H
 #define HDLYAP_PHASES_H
 

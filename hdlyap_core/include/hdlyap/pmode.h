@@ -1,5 +1,5 @@
 /** The L and P modes of an LP step, each reconstructed from all vectors of the step [T14]. Only one
- * thread at a time may call these functions. */
+ * thread at a time may call these functions. [T14] is the tag of an equation in THEORY.md. */
 #ifndef HDLYAP_PMODE_H
 #define HDLYAP_PMODE_H
 

@@ -3,7 +3,7 @@
  * interval between two orthonormalisations. Times are simulated, in time units, unless a comment
  * says wall time. n is the number of vectors, N that of particles. Several runs may go on at once,
  * each on a thread of its own; a run, and everything that is read from it, belongs to one thread at
- * a time. */
+ * a time. Tags as [T6] are those of equations in THEORY.md. */
 #ifndef HDLYAP_RUN_H
 #define HDLYAP_RUN_H
 

@@ -1,7 +1,9 @@
 /** The scene: everything that defines a run: particles, box, stages, accuracy, observables. Units
- * are reduced: a particle has mass 1; disks, spheres and the two disks of a dumbbell have the
- * diameter sigma = 1; the mean kinetic energy of a hard particle is 1. N is the number of
- * particles, n that of vectors. */
+ * are reduced. A particle has mass 1; disks, spheres and the two disks of a dumbbell have the
+ * diameter sigma = 1, and the unit of energy is the mean kinetic energy of a particle; for soft
+ * particles sigma and the unit of energy, epsilon, are those of the potential. The time unit is
+ * sigma sqrt(mass / unit of energy). N is the number of particles, n that of vectors. Tags as [T18]
+ * are those of equations in THEORY.md. */
 #ifndef HDLYAP_SCENE_H
 #define HDLYAP_SCENE_H
 
@@ -50,8 +52,8 @@ typedef enum hd_stage { HD_EQUILIBRATING, HD_WARMING_UP, HD_AVERAGING, HD_FINISH
 enum {
     HD_EXPONENTS_NONE = 0,
     HD_EXPONENTS_POSITIVE = -1,
-    HD_EXPONENTS_ALL = -2,            /**< half of the vectors are carried [T18] */
-    HD_EXPONENTS_ALL_INDEPENDENT = -3 /**< all vectors are carried */
+    HD_EXPONENTS_ALL = -2,            /**< all, from half of the vectors [T18] */
+    HD_EXPONENTS_ALL_INDEPENDENT = -3 /**< all, from all vectors */
 };
 
 /** The value of hd_scene_def.warmup that is not a time. */
@@ -119,8 +121,8 @@ typedef struct hd_scene_def {
     hd_text target; /**< quantities and their errors at which the run ends, see hd_target_check */
     /** A dynamics of the program's own; NULL means that of `particles`. */
     const hd_dynamics *dynamics;
-    hd_own own[HD_OWN_MAX]; /**< values of the parameters that only the dynamics has, in the order
-                               of its rows */
+    hd_own own[HD_OWN_MAX]; /**< values of the parameters that only this dynamics has; own[k] is at
+                               the offset HD_OWN(k) */
 #define HD_INT(name, ...) int name;
 #define HD_REAL(name, ...) double name;
 #define HD_OTHER(...)
@@ -182,8 +184,8 @@ double hd_scene_warmup(const hd_scene_def *def);
 
 /** Numbers of exponents of a scene. */
 typedef struct hd_counts {
-    int zero;     /**< exponents that vanish: for hard and soft particles 2, and 2 for each periodic
-                     direction; 4 in a circle */
+    int zero; /**< exponents that vanish (hd_dynamics.zeros): for particles of the core 2, and 2 for
+                 each periodic direction; 4 in a circle */
     int positive; /**< positive exponents, half of those that do not vanish */
     int vectors;  /**< exponents that are computed, each with a vector */
     int carried;  /**< vectors that are carried for them: half of these with HD_EXPONENTS_ALL and

@@ -1,5 +1,5 @@
 /** Angles between covariant vectors, and between the spaces that they span: how they split tangent
- * space [T17]. n is the number of vectors. */
+ * space [T17]. n is the number of vectors. [T17] is the tag of an equation in THEORY.md. */
 #ifndef HDLYAP_SPLITTING_H
 #define HDLYAP_SPLITTING_H
 

@@ -1,7 +1,8 @@
 /** The steps of the spectrum, and the dispersion relation lambda(k) fitted to them [T12]. A step is
  * a set of equal exponents whose vectors are waves of one kind and one wave vector. n is the number
  * of vectors, which are columns 0 .. n - 1, largest exponent first. All functions, reading too,
- * share one workspace, so only one thread at a time may call them. */
+ * share one workspace, so only one thread at a time may call them. [T12] is the tag of an equation
+ * in THEORY.md. */
 #ifndef HDLYAP_STEPS_H
 #define HDLYAP_STEPS_H
 

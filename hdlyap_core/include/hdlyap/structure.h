@@ -2,7 +2,8 @@
  * every wave vector that the particles can show, and the amplitudes of each vector's strongest wave
  * [T20]. They need neither fits of fields nor steps. n is the number of vectors; arrays of n
  * elements are in the order of the exponents, largest first, belong to the run, and change when it
- * goes on. Several threads may read one hd_structure at once while no thread calls its run. */
+ * goes on. Several threads may read one hd_structure at once while no thread calls its run. Tags as
+ * [T20] are those of equations in THEORY.md. */
 #ifndef HDLYAP_STRUCTURE_H
 #define HDLYAP_STRUCTURE_H
 
@@ -30,7 +31,7 @@ const hd_wave *hd_structure_wave(const hd_structure *structure, int wave);
 const double *hd_structure_mean(const hd_structure *structure, int wave, hd_direction e);
 
 /** Index of the strongest wave of vector col: the one whose mean S, along plus across, was largest
- * at the last sample but one; -1 if there was none. */
+ * before the last sample was added; -1 if there was no sample before. */
 int hd_structure_peak(const hd_structure *structure, int col);
 /** Amplitudes of all n vectors, each at its strongest wave, in the last sample, for the modulation
  * A with these bits (hdlyap/wave.h): along k, sum grad A . dq / k; across k, sum curl A . dq / k.

@@ -1,6 +1,6 @@
 /** Wave vectors of the box, and the modulations of a wave [T10], [T22]: the functions A(x, y), in
  * space A(x, y, z), which are products of sines and cosines and from which the fields of modes are
- * made. */
+ * made. Tags as [T10] are those of equations in THEORY.md. */
 #ifndef HDLYAP_WAVE_H
 #define HDLYAP_WAVE_H
 
