@@ -214,7 +214,7 @@ class Check(harness.Case):
         done = checked(os.path.join(SCENES, 'quick.yaml'), 'number:=4000', 'max_wave_number:=0.12')
         self.assertEqual((done.returncode, done.stderr), (0, ''))
         self.assertIn('4000 disks', done.stdout)
-        self.assertIn('by a trial of a second of 800 disks', done.stdout)
+        self.assertIn('by a trial of a second with 800 disks', done.stdout)
         self.assertRegex(done.stdout, r'(?m)^waves +T,LP\(1,0\) T,LP\(0,1\) T,LP\(1,1\)$')
 
     def run_of(self, params):

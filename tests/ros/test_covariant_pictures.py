@@ -66,9 +66,7 @@ def angles():
         covariant_angle(
             UNSTABLE_CENTRE, last, last, mean=np.pi / 2, least=np.pi / 2, std_error=2e-16
         ),
-        covariant_angle(
-            CENTRE_STABLE, last, last, mean=np.pi / 2, least=np.pi / 2, std_error=-1.0
-        ),
+        covariant_angle(CENTRE_STABLE, last, last, mean=np.pi / 2, least=np.pi / 2, std_error=-1.0),
     ]
 
 
@@ -174,8 +172,14 @@ class Table(Bags):
         """Of everything they are in golden/steps.txt; here of few windows, where all pairs are
         dominated, and none, where starts have not met, and of no cost."""
         for fields, said in (
-            (dict(windows=1, lost_windows=3), 'in 1 window, 3 lost for want of room, 40 samples'),
-            (dominated(0.0), 'dominated splittings (79): behind 1 2 3 4 5 6 7 8 and 71 more'),
+            (
+                dict(windows=1, lost_windows=3),
+                '1 window, 3 left out as covariant_memory was too small, 40 samples',
+            ),
+            (
+                dominated(0.0),
+                'dominated splittings (79): after the indices 1 2 3 4 5 6 7 8 and 71 more',
+            ),
             (dominated(0.1), 'dominated splittings (0)\n'),
             (dict(centre_start_mismatch=0.3), ' rad: covariant_transient is too short'),
             (dict(stable_start_mismatch=0.3), ' rad: covariant_transient is too short'),
@@ -290,7 +294,7 @@ class Figures(Bags):
 
     def test_domination(self):
         axes = self.draw(covariant_domination)
-        points = line(axes[0], 'next one grew more')
+        points = line(axes[0], 'next vector grew more')
         self.assertEqual((points[0, 0], points[-1, 0]), (1.5, 79.5))
         self.assertEqual((at(points, 7.5), at(points, 8.5)), (0.0, 0.25))
         self.assertEqual(at(line(axes[2], 'of all times'), 8.5), 0.5)

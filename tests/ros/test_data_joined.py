@@ -97,7 +97,9 @@ class OneRun(Loaded):
     def test_the_same_trajectory_twice(self):
         a = self.write(run(range(1, 7)), 'a')
         b = self.write(run(range(1, 7), 'two'), 'b')
-        self.cannot_load('a.bag and .*b.bag both begin with seed 1: one trajectory twice', a, b)
+        self.cannot_load(
+            'a.bag and .*b.bag both begin with seed 1: the same trajectory twice is', a, b
+        )
         c = self.write(run([5], 'three', resumed_time=104.0), 'c')
         d = self.write(run([5], 'four', resumed_time=104.0), 'd')
         self.cannot_load('c.bag and .*d.bag were both resumed at time 104: leave one out', a, c, d)
@@ -223,7 +225,7 @@ class SeveralSeeds(Loaded):
         self.assertEqual(seeds.results.unit['c_T'], 'sigma/time unit')
         self.assertEqual(seeds.spectrum.attrs['units']['exponent'], '1/time unit')
         with self.assertRaisesRegex(
-            AttributeError, r'^times is of one run, these are 3: runs\[0\]'
+            AttributeError, r'^times belongs to one run, but these are 3: use runs\[0\]'
         ):
             seeds.times
         with self.assertRaisesRegex(AttributeError, '^time$'):

@@ -133,7 +133,7 @@ class Several(Tools):
         self.assertIn('the same seed', tool('compare', *a, '--with', a[0]).out)
         status, _, error = tool('compare', *a)
         self.assertEqual(status, 2)
-        self.assertIn('3 bags: two, or --with between those of both sides', error)
+        self.assertIn('3 bags: must be two, or bags of both sides with --with between', error)
 
     def test_short_run(self):
         """Is in no mean, and said to be in none."""
@@ -326,9 +326,9 @@ class Hostile(Tools):
         unlike = Structure(run_id=info.run_id, peak=[0, 0], amplitude_along=[0.0] * 8)
         good = made.spectrum(HALF, 50.0)
         for said, count, messages in (
-            ('its arrays have [36, 37] elements', 2, [info, short]),
+            ('arrays that must be equally long have [36, 37] elements', 2, [info, short]),
             ('no exponents', 2, [info, empty]),
-            ('0 disks', 2, [made.run_info(number=0), good]),
+            ('0 particles', 2, [made.run_info(number=0), good]),
             ('nan', 2, [made.run_info(box_x=float('nan')), good]),
             ('hdlyap/Structure: [0, 8] elements of 2 vectors', 1, [info, good, unlike]),
         ):

@@ -106,7 +106,9 @@ class Arrays(Dumbbells):
             (state(angle=[]), lambda run: list(run.state)),
             (bare, lambda run: run.fields),
         ):
-            with self.assertRaisesRegex(RecordingError, r'arrays have \[\d+, 20\] elements'):
+            with self.assertRaisesRegex(
+                RecordingError, r'arrays that must be equally long have \[\d+, 20\] elements'
+            ):
                 read(self.load(message))
 
     def test_not_of_one_run(self):
@@ -197,7 +199,7 @@ class Figures(Dumbbells):
         np.testing.assert_allclose(circles.get_facecolors()[:, :3], np.tile(wanted, (2, 1)))
         np.testing.assert_allclose(arrows.U, modes.ARROW * one.dqx / strength(one))
         np.testing.assert_allclose(arrows.get_offsets().T, [X, Y])
-        self.assertIn('turns green to the left', axes.figure._suptitle.get_text())
+        self.assertIn('green: turned to the left', axes.figure._suptitle.get_text())
 
     def test_channel(self):
         """Three components, the mean square of all together being one."""
@@ -254,7 +256,7 @@ class Tables(Dumbbells):
             [text.get_text() for text in labels],
             ['inertia = points', 'inertia = 0.5', 'inertia = disks'],
         )
-        shifted = 'points are shifted along x'
+        shifted = 'points of each series are shifted along x'
         self.assertIn(shifted, drawn.texts[-1].get_text())
         places = sorted({one.lines[0].get_xdata()[0] for one in drawn.axes[0].containers})
         np.testing.assert_allclose(places, [0.1 - 0.0018, 0.25, 0.25 + 0.0018])

@@ -83,9 +83,10 @@ TEST(dumbbells, colours_say_the_spin)
     ASSERT_EQ(80u, disks.size());
     for (int k = 0; k < 80; k++)
         expect_colour(disks[k].colour, s.spin[k / 2] / (2 * std::sqrt(2.0 / 3 / 0.1875)));
-    EXPECT_EQ("a scene: 40 dumbbells of bond 0.5, x reflecting, y reflecting\n"
-              "t = 12.5, averaging (25 %)\ngreen: spins to the left, purple: to the right",
-              caption(array));
+    EXPECT_EQ(
+        "a scene: 40 dumbbells of bond 0.5, x reflecting, y reflecting\n"
+        "t = 12.5, averaging (25 %)\ngreen: the particle spins to the left, purple: to the right",
+        caption(array));
 }
 
 /** Its strength counts what turns, too: arrows get shorter, and what is as strong as the whole has
@@ -107,7 +108,8 @@ TEST(dumbbells, colours_say_how_a_vector_turns)
         expect_colour(disks[k].colour, s.turn[k / 2] / std::sqrt(square[k / 120] / 60));
     const double factor = 1.3 * std::sqrt(20.0 * 15.0 / 60) / std::sqrt(square[0] / 60);
     for (int i = 0; i < 60; i++) EXPECT_NEAR(factor * s.vectors[2 * i], arrows[i].dx, 1e-9);
-    EXPECT_NE(std::string::npos, caption(array).find("\ngreen: the vector turns it to the left"));
+    EXPECT_NE(std::string::npos,
+              caption(array).find("\ngreen: the vector turns the particle to the left"));
     s.p.mode[1].d = nullptr; // not known: the spin
     const MarkerArray half = on.of(s.p);
     const std::vector<disk> of_both = disks_of(half, s);
@@ -116,7 +118,7 @@ TEST(dumbbells, colours_say_how_a_vector_turns)
         EXPECT_EQ(disks[k].colour, of_both[k].colour);
         expect_colour(of_both[120 + k].colour, s.spin[k / 2] / (2 * std::sqrt(2.0 / 3 / 0.1875)));
     }
-    EXPECT_NE(std::string::npos, caption(half).find("or the spin where there is none"));
+    EXPECT_NE(std::string::npos, caption(half).find("or without one the spin"));
 }
 
 /** What turns and is no dumbbell is one disk. */

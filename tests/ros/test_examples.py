@@ -77,9 +77,9 @@ class Waiting(Examples):
         self.sees(lambda: fit.lines(said), fit)
         publisher = rospy.Publisher(topic, Steps, queue_size=1)
         self.addCleanup(publisher.unregister)
-        self.sees(lambda: fit.lines(f'hdlyap fit waits: nothing on {topic}: its node'), fit)
+        self.sees(lambda: fit.lines(f'hdlyap fit waits: no message on {topic}: its node'), fit)
         publisher.publish(Steps(averaged_time=7.0))
-        self.sees(lambda: fit.lines('t = 7: c_T: not yet; c_L: not yet'), fit)
+        self.sees(lambda: fit.lines('t = 7: c_T: not known yet; c_L: not known yet'), fit)
         self.interrupt(fit)
 
 
@@ -167,7 +167,7 @@ class Beside(Examples):
                     line,
                 )
                 if own is None:
-                    self.assertIn(name + ': not yet', line)
+                    self.assertIn(name + ': not known yet', line)
                     continue
                 *wanted, misfit = self.fit(message.steps, kind)
                 self.assertEqual(own.group(5), misfit and f'{misfit:.1f}')

@@ -131,7 +131,7 @@ class Running(unittest.TestCase):
     def test_watches_and_is_interrupted(self):
         self.node()
         terminal = self.follow()
-        self.shows(terminal, 'computed only if somebody listens')
+        self.shows(terminal, 'computed only while somebody listens')
         self.shows(terminal, 'lambda_max')
         other = self.follow('--node', 'other', '--timeout', '60')  # of a node that is there by now
         self.assertEqual(self.listeners(), {'run_info', 'status', 'cost', 'spectrum'})
@@ -139,7 +139,7 @@ class Running(unittest.TestCase):
         self.shows(terminal, ' 116-117 ')
         self.shows(terminal, 'no more steps and phases')
         terminal.press('m')
-        self.shows(terminal, 'computed only if somebody listens')
+        self.shows(terminal, 'computed only while somebody listens')
         self.assertEqual(self.listeners(), {'run_info', 'status', 'cost', 'spectrum'})
         said = 'hdlyap follow: no /other that publishes a run_info; there is /hdlyap; waits'
         self.shows(other, said)
@@ -166,7 +166,7 @@ class Running(unittest.TestCase):
         self.assertEqual(leaving.wait(), 3)
         self.shows(leaving, 'hdlyap follow: /hdlyap went away before the end of its run')
         self.master.stop()
-        self.shows(patient, 'no master  what connected before goes on')
+        self.shows(patient, 'no master  connections from before stay')
         self.addClassCleanup(harness.Master(self.port).stop)
         self.node(seed='18', duration=10.0, **SEEN)
         self.shows(patient, 'seed 18')

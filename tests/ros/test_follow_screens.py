@@ -174,7 +174,7 @@ class Screens(unittest.TestCase):
             (unknown, ['c_T 1.40000, ', 'c_L -', 'condition nan'], '-1\\.0'),
             (view(**nothing), ['waiting for its first word'], 'lambda|simulated'),
             (unknown_run, ['/hdlyap'], 'seed'),
-            (view(**unheard), ['steps: computed only if somebody listens; m:'], 'T\\(1,0'),
+            (view(**unheard), ['steps: computed only while somebody listens; key m:'], 'T\\(1,0'),
             (view(**unheard), ['m compute steps and phases'], 'no more'),
             (view(info=of_spectrum, **unheard), ['lambda_max'], 'steps|LP phases'),
             (view(steps=unfound), ['steps: none resolved yet'], 'T\\(1,0'),

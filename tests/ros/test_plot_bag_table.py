@@ -91,7 +91,7 @@ class Table(Bags):
             self.assertNotRegex(text, not_said)
 
     def test_disks_that_keep_their_places(self):
-        said = 'disks have kept their places since the averaging began: errors are those'
+        said = 'disks have kept their places since the averaging began: errors hold'
         for caged in (False, True):
             status = made.status(50.0, caged=caged)
             _, text = self.lines(INFO, made.spectrum(HALF, 50.0), status)

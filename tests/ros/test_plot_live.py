@@ -163,7 +163,7 @@ class Refused(harness.Case):
         cases = (
             ([], {'DISPLAY': ''}, 'hdlyap plot: --live needs a screen: '),
             ([], {'PYTHONPATH': path}, 'hdlyap plot: --live needs tkinter (python3-tk): not '),
-            (['/hdlyap', '--out', 'a'], {}, 'error: --live takes no bag, and no option'),
+            (['/hdlyap', '--out', 'a'], {}, 'error: --live takes no bag and no options'),
         )
         started = [self.process([*PLOT, *words], **env) for words, env, _ in cases]
         for plot, (*_, said) in zip(started, cases):

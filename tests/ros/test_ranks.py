@@ -179,7 +179,7 @@ class Ranks(harness.Case):
     def test_unlike_kernels(self):
         status, said = self.unlike('env', 'OPENBLAS_CORETYPE=' + OTHER_KERNELS)
         self.assertEqual(status, 2, said)
-        self.assertRegex(said, 'rank 1 is hdlyap .* %s kernels: must be hdlyap' % OTHER_KERNELS)
+        self.assertRegex(said, 'rank 1 runs hdlyap .* %s kernels: must run hdlyap' % OTHER_KERNELS)
 
     @harness.more
     def test_no_room(self):

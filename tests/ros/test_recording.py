@@ -17,7 +17,7 @@ from hdlyap.runs.scene import Refused
 
 CLOSED, MOVED = 'cp {made} {bag}', 'cp {made} {stem}_0.bag; cp {made} {stem}_1.bag'
 ALL = 'the bag is {bag}: 2 messages; hdlyap plot draws its figures'
-PART = 'the bag is {bag}: 2 messages, not to the end; hdlyap plot draws its figures'
+PART = 'the bag is {bag}: 2 messages, not up to the end of the run; hdlyap plot draws its figures'
 NOTHING = 'nothing was recorded: '
 # what rosbag does, what is said of it, the exit status
 ENDS = (

@@ -157,7 +157,7 @@ class Replayed(harness.Case):
         self.check_refused('not a readable bag')
         self.record('one')
         size = os.path.getsize(self.bag)
-        self.check_refused('nothing from t = 31 on', '--begin', '31')
+        self.check_refused('no messages from t = 31 on', '--begin', '31')
         os.truncate(self.bag, size // 2)
         self.check_refused('not closed')
         os.remove(self.bag)
@@ -166,10 +166,10 @@ class Replayed(harness.Case):
         with rosbag.Bag(self.bag, 'w') as bag:
             bag.write('/hdlyap/run_info', RunInfo(version='0.0.7'), rospy.Time(1))
             bag.write('/hdlyap/steps', other(), rospy.Time(1))
-        self.check_refused('written by hdlyap 0.0.7, whose hdlyap/Steps is another one')
+        self.check_refused('written by hdlyap 0.0.7, whose message hdlyap/Steps differs')
         with rosbag.Bag(self.bag, 'w') as bag:
             bag.write('/\x1b[2J/run_info', RunInfo(), rospy.Time(1))
-        self.check_refused(r'damaged: a topic /\?\[2J/run_info, which is no name')
+        self.check_refused(r'damaged: topic /\?\[2J/run_info is no legal ROS name')
         for args in (('--pace', '0'), ('--rate', 'nan'), ('--rate', '2', '--pace', '2')):
             replay = self.replay(*args)
             self.ends(replay, 2)

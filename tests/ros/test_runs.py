@@ -199,7 +199,7 @@ class Done(InFolder):
         return of.lacks(self.folder)
 
     def test_whole(self):
-        cut = 'the run has not come to its end'
+        cut = 'the run has not reached its end'
         self.assertEqual(self.of().lacks(self.folder), cut)
         self.assertEqual(self.lacks(), '')
         for said in (dict(progress=0.99), dict(stage=RunStatus.AVERAGING)):

@@ -123,7 +123,7 @@ class Arrays(Solid):
         message = state()
         message.pz = message.pz[1:]
         for messages, what in (
-            ([INFO, message], r'arrays have \[19, 20\] elements'),
+            ([INFO, message], r'arrays that must be equally long have \[19, 20\] elements'),
             ([made.spheres(box_z=0.0)], r'box \(0.5, 0.3125, 8.0, 2.5, 0.25, 0.0\)'),
         ):
             with self.assertRaisesRegex(hdlyap.data.reader.RecordingError, what):
@@ -398,7 +398,7 @@ class Tables(Solid):
         ):
             paths.append(self.write([info, made.spectrum([2.0], 50.0)], str(number)))
         found, wrong = points.read(paths)
-        self.assertEqual(wrong, [f'{paths[2]}: of disks, in a table of spheres'])
+        self.assertEqual(wrong, [f'{paths[2]}: particles = disks, but this table is of spheres'])
         self.assertEqual([one.system['aspect_z'] for one in found], [0.25, 0.5])
         walls = [one.system['boundary'] for one in found]
         self.assertEqual(walls, ['periodic', 'periodic,periodic,reflecting'])

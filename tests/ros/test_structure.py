@@ -185,7 +185,7 @@ class Recorded(Bags):
     def test_no_line_is_known(self):
         """Where no step is found the panel says it; where there are lines it does not."""
         self.write([*self.head(), *self.messages], 'without')
-        for name, said in (('without', ['none is known']), ('run', [])):
+        for name, said in (('without', ['no line is known']), ('run', [])):
             figure = figures.structure.draw(hdlyap.load(self.path(name))).figure
             (lines,) = (one for one in figure.axes if one.get_title(loc='left').startswith('(c)'))
             self.assertEqual([text.get_text() for text in lines.texts], said)

@@ -25,7 +25,7 @@ from hdlyap.runs.scene import Refused
 from hdlyap.sweep import figure, grid, plan, points, table
 
 LAUNCH = os.path.join(rospkg.RosPack().get_path('hdlyap'), 'launch')
-ERRORS = 'errors of the means over seeds, of which the larger one is above:'
+ERRORS = 'both errors of the means over seeds; the table above has the larger:'
 CHI2 = 'chi^2/(seeds - 1)'
 PLAN = os.path.join(LAUNCH, '../doc/reproduction/runs.yaml')
 
@@ -104,7 +104,7 @@ class Grid(unittest.TestCase):
             (dict(seeds='-1'), 'seeds = -1: must be decimal numbers'),
             (dict(boundaries='open'), 'boundaries = open: must be periodic or reflecting, or two'),
             (dict(boundaries='periodic,periodic,periodic'), 'must be periodic or'),
-            (dict(densities='0.1 0.10'), 'densities = 0.1 0.10: must be each once'),
+            (dict(densities='0.1 0.10'), 'densities = 0.1 0.10: must have each value once'),
             (dict(seeds='1', scene='nix'), 'scene = nix: must be one of'),
             (dict(seeds='1', duration='0'), 'duration = 0: must be above 0, or it never ends'),
             (dict(seeds='1', duration='0', params='{target: ""}'), 'never ends without a target'),
@@ -219,8 +219,8 @@ class Command(InFolder):
         for words, what in (
             ('--seeds 1 --jobs 0', 'jobs = 0: must be 1 or more'),
             ('--seeds 1 --folder p.yaml', 'folder = p.yaml: must be a folder'),
-            ('--seeds 1 --only b', 'only = b: must be names of the runs, and b is none'),
-            ('--seeds 1 --quick', 'quick: must be given with a plan'),
+            ('--seeds 1 --only b', 'only = b: must be names of the runs, but no run is called b'),
+            ('--seeds 1 --quick', 'quick: must be given with --plan'),
             ('--plan p.yaml --seeds 1', 'seeds = 1: must not be given with a plan'),
             ('--plan p.yaml --scene dense', 'scene = dense: must not be given with a plan'),
             ('--plan p.yaml --k 0 1', 'k = [0.0, 1.0]: must not be given with a plan'),
@@ -365,7 +365,9 @@ class Results(InFolder):
         self.assertRegex(lines[1], '^boundary +lambda_max +h_KS/N +c_T +c_L +v +seeds +averaged')
         self.assertRegex(lines[2], r'^periodic +9\.200\(58\) .* 3 +150$')
         self.assertRegex(lines[3], r'^reflecting +9\.0000\(71\) +unlike +1\.500')
-        self.assertIn('unlike: fits of the seeds have not the same form or wave numbers', lines)
+        self.assertIn(
+            'unlike: no mean, as the fits of the seeds differ in form or wave numbers', lines
+        )
         head, *rows = (re.split('  +', line) for line in lines[lines.index(ERRORS) + 1 :])
         self.assertEqual(
             head, ['boundary', 'quantity', 'from those stated', 'from the scatter', CHI2]

@@ -38,7 +38,7 @@ class WithoutBox(Bags):
 
     def test_report(self):
         said = report.report(hdlyap.load(self.spectrum('a')).said)
-        self.assertIn('the last 6 exponents before the zeros', said)
+        self.assertIn('the last 6 exponents before the zero modes', said)
         self.assertIn('chain, N = 8, beta=0.30000000000000004, energy=1, start=cold', said)
 
     def test_repeated(self):
@@ -63,7 +63,7 @@ class WithoutBox(Bags):
         paths = [self.spectrum(f'{x}', own=[f'beta={x}', 'energy=1']) for x in values]
         paths.append(self.write([made.run_info(), made.spectrum([2.0], 50.0)], 'disks'))
         found, wrong = points.read(paths)
-        self.assertEqual(wrong, [f'{paths[2]}: of disks, in a table of chain'])
+        self.assertEqual(wrong, [f'{paths[2]}: particles = disks, but this table is of chain'])
         self.assertEqual([one.system['beta'] for one in found], [2, 10])
         first, head, *_ = table.text(found)
         self.assertEqual(first, 'the same in all: number 8, energy 1')

@@ -130,7 +130,7 @@ class Work(InFolder):
 
     def check_kept(self, said, one, two):
         for path, why in (
-            (one, 'the run has not come to its end'),
+            (one, 'the run has not reached its end'),
             (two, 'it was run with duration = 2.0, not 3.0'),
         ):
             line = f'hdlyap sweep: {path} was there already: it is now {path}.old, as {why}\n'
@@ -144,8 +144,8 @@ class Work(InFolder):
         for line in lines:
             self.assertRegex(
                 line,
-                r'^hdlyap sweep: refused: the run has not come to its end; .*FATAL.*'
-                rf'density = 2\.5: .*; all that it said is in {self.out}/log/refused\.log$',
+                r'^hdlyap sweep: refused: the run has not reached its end; .*FATAL.*'
+                rf'density = 2\.5: .*; all its output is in {self.out}/log/refused\.log$',
             )
         self.assertRegex(said, r'(?m)^3 of 4 runs done, 1 failed in \d+:\d\d$')
         self.assertIn(f'3 of 4 runs are in {self.out}\n', said)
@@ -216,12 +216,12 @@ class Work(InFolder):
             (pid,) = self.ours(word, '' if '=' in word else 'ROS_NAMESPACE=/node')
             os.kill(pid, signal.SIGKILL)
         self.assertEqual(process.wait(LATEST), 1, process.text())
-        ended = 'the run has not come to its end;'
+        ended = 'the run has not reached its end;'
         self.assertRegex(
             process.text(),
-            rf'hdlyap sweep: node: {ended} process has died \[pid \d+, exit code -9\]; all that',
+            rf'hdlyap sweep: node: {ended} process has died \[pid \d+, exit code -9\]; all its',
         )
-        self.assertIn(f'hdlyap sweep: launch: {ended} all that it said is in', process.text())
+        self.assertIn(f'hdlyap sweep: launch: {ended} all its output is in', process.text())
         self.assertRegex(process.text(), r'(?m)^0 of 2 runs done, 2 failed')
         self.assert_none_left()
 
@@ -233,7 +233,7 @@ class Work(InFolder):
         path = {'PATH': self.folder + ':' + os.environ['PATH']}
         process = self.begin(program=[sys.executable, '-c', IMPATIENT], env=path, one=TINY)
         self.assertEqual(process.wait(LATEST), 1, process.text())
-        self.assertIn('hdlyap sweep: one: no word of its node within 1 s', process.text())
+        self.assertIn('hdlyap sweep: one: no message of its node within 1 s', process.text())
         self.assert_none_left()
 
 

@@ -17,6 +17,6 @@ def load(*bags, node=None, run=None, form=None, k=None):
         from hdlyap.data import seeds  # not at the top, because importing pandas takes a while
     except ImportError as error:
         raise ImportError(
-            f'{error} in {sys.executable}: start it with /usr/bin/python3, which has all of hdlyap'
+            f'{error} in {sys.executable}: use /usr/bin/python3, which has all that hdlyap needs'
         ) from error
     return seeds.load(*bags, node=node, run=run, form=form, k=k)

@@ -429,10 +429,10 @@ static const char *legend(const sheet *s)
         any |= s->p->mode[k].d != NULL;
         all &= s->p->mode[k].d != NULL;
     }
-    return all   ? "\ngreen: the vector turns it to the left, purple: to the right"
-           : any ? "\ngreen: the vector, or the spin where there is none, turns it to the left, "
+    return all   ? "\ngreen: the vector turns the particle to the left, purple: to the right"
+           : any ? "\ngreen: the vector, or without one the spin, turns the particle to the left, "
                    "purple: to the right"
-                 : "\ngreen: spins to the left, purple: to the right";
+                 : "\ngreen: the particle spins to the left, purple: to the right";
 }
 
 static void draw_caption(const sheet *s)

@@ -22,8 +22,8 @@ def main(words):
     parser = argparse.ArgumentParser(
         prog=PROGRAM,
         usage='%(prog)s COMMAND [ARGUMENT]..',
-        description='What is done with runs of hdlyap_node, and with their bags.',
-        epilog=f'commands:\n{_listed()}\n\n{PROGRAM} COMMAND --help says what it takes.',
+        description='Starts, follows and repeats runs of hdlyap_node; draws and compares bags.',
+        epilog=f'commands:\n{_listed()}\n\n{PROGRAM} COMMAND --help lists its options.',
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument('command', choices=_names(), metavar='COMMAND', help=argparse.SUPPRESS)
@@ -32,7 +32,7 @@ def main(words):
     try:
         module = importlib.import_module(f'{__name__}.{chosen}')
     except ImportError as error:  # if only messages and tools were installed
-        sys.exit(f'{PROGRAM} {chosen}: {error}; it needs all of hdlyap')
+        sys.exit(f'{PROGRAM} {chosen}: {error}; this command needs all packages of hdlyap')
     except (OSError, ValueError) as error:  # a matplotlibrc that cannot be read
         sys.exit(f'{PROGRAM} {chosen}: cannot start: {error}')
     signals.exit_on_all(but=_rospy_answers)

@@ -15,9 +15,13 @@ FAULT = 2
 
 
 def options(parser):
-    parser.add_argument('a', metavar='BAG', nargs='+', help='file recorded by rosbag')
+    parser.add_argument('a', metavar='BAG', nargs='+', help='bag of the first side')
     parser.add_argument(
-        '--with', dest='b', metavar='BAG', nargs='+', help='those of the other side, if not two'
+        '--with',
+        dest='b',
+        metavar='BAG',
+        nargs='+',
+        help='bags of the second side, if a side has several',
     )
     parser.add_argument('--node', metavar='NAME', help='which node, if several are in a bag')
 
@@ -25,7 +29,9 @@ def options(parser):
 def main(args):
     sides = (args.a, args.b) if args.b else (args.a[:1], args.a[1:])
     if not args.b and len(args.a) != 2:
-        args.error(f'{len(args.a)} bags: two, or --with between those of both sides')
+        args.error(
+            f'{len(args.a)} bags: must be two, or bags of both sides with --with between the sides'
+        )
     runs = [seeds.load(*paths, node=args.node).said for paths in sides]
     compared = comparison.Comparison(*runs)
     text, status = verdict.verdict(compared)

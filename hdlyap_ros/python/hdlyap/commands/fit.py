@@ -27,7 +27,7 @@ def line(message):
 def describe(own, node):
     """Text about two fits to the steps of one kind: this program's and the node's."""
     if min(fit.values[0][2] if fit.count else -1.0 for fit in (own, node)) <= 0:
-        return f'{own.symbol}: not yet'
+        return f'{own.symbol}: not known yet'
     values = [f'{c:.4f} +- {error:.4f}' for _, c, error in (own.values[0], node.values[0])]
     by = f'{own.form} over {own.count} k{own.beside}'
     return f'{own.symbol} = {values[0]} by {by}, node: {values[1]}'
@@ -54,7 +54,7 @@ class Newest:
                 f'nobody publishes {topic}; roslaunch hdlyap run.launch starts a node, '
                 '--node chooses another'
             )
-        return f'nothing on {topic}: its node sends reports while it averages'
+        return f'no message on {topic}: its node sends them while it averages'
 
     def wait(self, seconds):
         """The report that has come since the last call, within this time; None if none has."""

@@ -12,10 +12,10 @@ from hdlyap.follow import dashboard, line, nodes, screen
 
 
 def options(parser):
-    parser.add_argument('--node', metavar='NAME', help='default: the only one that is running')
-    text = 'for the master and the node to appear (default: %(default)g)'
+    parser.add_argument('--node', metavar='NAME', help='node to follow (default: the only one)')
+    text = 'longest wait for the master and the node (default: %(default)g)'
     parser.add_argument('--timeout', type=float, default=30.0, metavar='SECONDS', help=text)
-    text = 'one line on a terminal too, and the end with that of the run'
+    text = 'one line instead of a screen; ends when the run ends'
     parser.add_argument('--line', action='store_true', help=text)
     parser.add_argument('--plain', action='store_true', help='a screen of ASCII without colours')
 

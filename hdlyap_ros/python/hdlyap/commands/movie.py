@@ -41,22 +41,27 @@ def modes(text):
 
 
 def options(parser):
-    parser.add_argument(
-        'bags', nargs='+', metavar='bag', help='recorded file, or several of one run'
-    )
+    parser.add_argument('bags', nargs='+', metavar='bag', help='bag, or several bags of one run')
     parser.add_argument(
         '--out', type=film_file, default='modes.mp4', metavar='FILE', help='.mp4 or .gif'
     )
     parser.add_argument(
-        '--modes', type=modes, metavar='NAMES', help='"T(1,0) LP(1,1)"; default: lowest'
+        '--modes',
+        type=modes,
+        metavar='NAMES',
+        help='steps to draw, as "T(1,0) LP(1,1)"; default: lowest',
     )
     text = 'simulated time units per second (default: a report in each frame)'
     parser.add_argument('--pace', type=positive, metavar='TIME', help=text)
     parser.add_argument(
         '--fps', type=positive, default=FPS, metavar='NUMBER', help='frames per second'
     )
-    parser.add_argument('--begin', type=float, metavar='TIME', help='simulated time of the first')
-    parser.add_argument('--end', type=float, metavar='TIME', help='and of the last frame')
+    parser.add_argument(
+        '--begin', type=float, metavar='TIME', help='simulated time of the first frame'
+    )
+    parser.add_argument(
+        '--end', type=float, metavar='TIME', help='simulated time of the last frame'
+    )
     text = 'default: ' + ', '.join('%d of %s' % (movie.WIDTH[kind], kind) for kind in movie.WIDTH)
     parser.add_argument('--width', type=width, metavar='PIXELS', help=text)
     parser.add_argument('--node', metavar='NAME', help='which node, if several are in the bag')

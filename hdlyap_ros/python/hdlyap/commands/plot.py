@@ -24,7 +24,7 @@ PATIENCE = 30.0  # seconds for a master and a node to appear
 
 def options(parser):
     parser.add_argument('bags', nargs='*', metavar='BAG', help='file recorded by rosbag')
-    text = 'a window of this running node (default: the only one)'
+    text = 'figures of this running node in a window (default: the only node)'
     parser.add_argument('--live', nargs='?', const='', metavar='NODE', help=text)
     text = 'folder of the figures (default: the current one)'
     parser.add_argument('--out', default=HERE, metavar='DIR', help=text)
@@ -53,7 +53,7 @@ def live(args, form, k):
     if args.bags or any(
         (args.node, args.run, args.only, args.pdf, args.csv, args.npz, args.out != HERE)
     ):
-        args.error('--live takes no bag, and no option but those of the fits')
+        args.error('--live takes no bag and no options except --form and --k')
     try:
         import tkinter
         from hdlyap.plots.window import Window

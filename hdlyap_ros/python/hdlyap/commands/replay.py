@@ -29,7 +29,7 @@ def options(parser):
     speed = parser.add_mutually_exclusive_group()
     text = 'how much faster than it was recorded (default: 1)'
     speed.add_argument('--rate', type=positive, default=1.0, metavar='FACTOR', help=text)
-    text = 'simulated time units per second of wall time, instead'
+    text = 'simulated time units per second of wall time, instead of --rate'
     speed.add_argument('--pace', type=positive, metavar='TIME', help=text)
     parser.add_argument(
         '--begin', type=float, default=-math.inf, metavar='TIME', help='simulated time to begin at'
@@ -42,7 +42,7 @@ def options(parser):
         '--wait', action='store_true', help='wait until every topic has a subscriber'
     )
     parser.add_argument(
-        '--look', metavar='NODE', help='wait for who looks at pictures of this node'
+        '--look', metavar='NODE', help='wait until rviz shows the pictures of this node'
     )
     parser.add_argument('--keep-alive', action='store_true', help='stay after the end')
 
@@ -133,7 +133,7 @@ class Player:
             for what, name in (('topic', connection.topic), ('type', connection.datatype)):
                 if not rosgraph.names.is_legal_name(name):
                     raise reader.RecordingError(
-                        '%s: damaged: a %s %s, which is no name' % (args.bag, what, name)
+                        '%s: damaged: %s %s is no legal ROS name' % (args.bag, what, name)
                     )
             if connection.topic not in self._publishers:
                 latching = connection.header.get('latching')  # rosbag filter drops it
@@ -184,7 +184,9 @@ class Player:
                 return
             self._publish(message)
         if not played:
-            nothing = 'nothing from t = %g on' % self._args.begin if message else 'an empty bag'
+            nothing = (
+                'no messages from t = %g on' % self._args.begin if message else 'the bag is empty'
+            )
             raise reader.RecordingError('%s: %s' % (self._args.bag, nothing))
         print('hdlyap replay: at the end, t = %g' % message.time)
 
@@ -207,7 +209,9 @@ class Player:
         )
         if time.monotonic() > end:
             print(
-                'hdlyap replay: nobody looks at %s/markers yet; begins without' % node, flush=True
+                'hdlyap replay: nobody subscribes to %s/markers yet; begins without subscriber'
+                % node,
+                flush=True,
             )
 
     @staticmethod

@@ -25,7 +25,7 @@ PATIENCE = 60.0  # seconds in which all have to end, with the last checkpoint
 
 def options(parser):
     parser.usage = '%(prog)s SCENE --out FILE [ARGUMENT:=VALUE]..'
-    parser.add_argument('scene', help='one of launch/scenes, or a file like those')
+    parser.add_argument('scene', help='name of a scene in launch/scenes, or a YAML file like these')
     parser.add_argument('--out', required=True, metavar='FILE', help='bag to record to')
 
 

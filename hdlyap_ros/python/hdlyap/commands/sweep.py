@@ -21,11 +21,11 @@ from hdlyap.sweep import grid, plan, result
 
 FAULT = 1
 OF_GRID = (
-    ('scene', 'quick', 'as in run.launch'),
+    ('scene', 'quick', 'scene from which all runs differ, as in run.launch'),
     ('duration', '', 'time units to average over; default: as in the scene'),
     ('observables', '[spectrum, steps, lp_phases]', 'topics in the bags'),
     ('params', '', 'other parameters of all runs, as {warmup: 50}'),
-    ('threads', '1', 'of each run; 0: all cores, one run after the other'),
+    ('threads', '1', 'threads of each run; 0: all cores, one run after the other'),
 )
 
 
@@ -37,13 +37,15 @@ def options(parser):
         )
     for name, _, text in OF_GRID:
         parser.add_argument('--' + name, default='', help=text)
-    text = 'instead of all that: runs {name: {base: scene, parameter: value, ..}, ..}'
+    text = 'YAML file with all runs: runs: {name: {base: scene, parameter: value, ..}, ..}'
     parser.add_argument('--plan', metavar='FILE', help=text)
-    parser.add_argument('--quick', action='store_true', help='the quick runs of the plan')
-    parser.add_argument('--only', default='', metavar='"NAME .."', help='no other runs than these')
+    parser.add_argument('--quick', action='store_true', help='does the quick runs of the plan')
+    parser.add_argument('--only', default='', metavar='"NAME .."', help='does only these runs')
     parser.add_argument('--jobs', default='', help='runs at a time; default: one for each core')
-    parser.add_argument('--folder', default='', help='of bags, table and figure; default: sweep')
-    text = f'of the disk, that must be free for a bag; default: {recording.LEAST}'
+    parser.add_argument(
+        '--folder', default='', help='folder of bags, table and figure; default: sweep'
+    )
+    text = f'space of the disk that must stay free; default: {recording.LEAST}'
     parser.add_argument('--min-space', default=recording.LEAST, metavar='SIZE', help=text)
     parser.add_argument(
         '--write',
@@ -78,14 +80,14 @@ def runs(args, launch, cwd):
                 raise Refused(f'{name} = {value}: must not be given with a plan')
         return plan.runs(os.path.join(cwd, args.plan), args.quick, launch)
     if args.quick:
-        raise Refused('quick: must be given with a plan, which says what that is')
+        raise Refused('quick: must be given with --plan, which has the quick runs')
     return grid.runs({**usual, **given}, launch, cwd)
 
 
 def chosen(found, only):
     names = only.split()
     for name in sorted(set(names) - {run.name for run in found}):
-        raise Refused(f'only = {only}: must be names of the runs, and {name} is none')
+        raise Refused(f'only = {only}: must be names of the runs, but no run is called {name}')
     return [run for run in found if run.name in names or not names]
 
 
@@ -113,7 +115,7 @@ def warnings(found, folder):
         if after is not None and duration < after:
             yield (
                 f'{run.name} will have no errors: they are stated after {after:g} time units of '
-                f'averaging, and its duration is {duration:g}; with duration: 0 and a target, as '
+                f'averaging, but its duration is {duration:g}; with duration: 0 and a target, as '
                 'lambda_max 1%, it goes on until they are known'
             )
 

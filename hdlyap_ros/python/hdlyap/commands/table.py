@@ -24,7 +24,9 @@ SURE = 3  # if a node has not answered this many questions in a row, it has gone
 def options(parser):
     text = 'a bag; or the namespace of a running hdlyap, whose bag is DIR/GROUP.bag'
     parser.add_argument('runs', nargs='+', metavar='BAG|GROUP', help=text)
-    parser.add_argument('--folder', metavar='DIR', default='.', help='of GROUP.bag')
+    parser.add_argument(
+        '--folder', metavar='DIR', default='.', help='folder of GROUP.bag (default: this one)'
+    )
     parser.add_argument(
         '--out', metavar='DIR', help='writes the table, also as CSV, and a figure there'
     )

@@ -130,7 +130,7 @@ def chosen(message, form=None, k=None):
 
 def add_arguments(parser):
     """Adds --form and --k to a command; choice(args) then gives what chosen() takes."""
-    text = 'of the fits to steps (default: %(choices)s, the last with what long boxes say)'
+    text = 'relation fitted to the steps (default: the last one, with c2 and c3 of long boxes)'
     parser.add_argument('--form', choices=list(RELATIONS.values()), help=text)
     text = 'fits over wave numbers in this range alone [1/sigma]'
     parser.add_argument('--k', nargs=2, type=float, metavar=('FROM', 'TO'), help=text)

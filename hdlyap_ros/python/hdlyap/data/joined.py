@@ -126,7 +126,7 @@ def _in_order(parts):
     if len({part.run_id for part in anew}) > 1:
         raise RecordingError(
             f'{anew[0].path} and {anew[1].path} both begin with seed {anew[0].info.seed}: '
-            'one trajectory twice, no two samples'
+            'the same trajectory twice is no second sample'
         )
     _refuse_others(parts, OF_ONE_RUN, 'are no parts of one run')
     # sorted by simulated time, because clocks may be set back

@@ -135,7 +135,7 @@ def check(kind, message):
     for found in of_some:
         lengths |= found if found != {0} else set()
     if len(lengths) > 1:
-        raise Damaged(f'{kind}: its arrays have {sorted(lengths)} elements')
+        raise Damaged(f'{kind}: arrays that must be equally long have {sorted(lengths)} elements')
     if kind == SPECTRUM and not len(message.exponents):
         raise Damaged(f'{kind}: no exponents')
     if kind == LOCALIZATION and not len(message.widths):
@@ -158,7 +158,9 @@ def check(kind, message):
         if space.is_solid(message):
             sizes += [message.aspect_z, message.box_z]
         if not (message.number and all(math.isfinite(size) and size > 0 for size in sizes)):
-            raise Damaged(f'{kind}: {message.number} disks, density, aspect and box {tuple(sizes)}')
+            raise Damaged(
+                f'{kind}: {message.number} particles, density, aspect and box {tuple(sizes)}'
+            )
 
 
 def _in_orders(message):
@@ -257,8 +259,8 @@ def opened(path):
         raise
     except rosbag.ROSBagUnindexedException:
         raise RecordingError(
-            f'{path}: not closed, as of a recording that goes on or was cut off; '
-            f'if it was: rosbag reindex {path}'
+            f'{path}: not closed: its recording goes on, or was cut off and needs '
+            f'rosbag reindex {path}'
         )
     except rosbag.ROSBagException as error:
         raise RecordingError(f'{path}: not a readable bag: {error}')
@@ -288,7 +290,7 @@ def _refuse_no_bag(path):
         raise RecordingError(f'{path}: not a readable bag: no regular file')
     with open(path, 'rb') as file:
         if len(file.readline(FIRST_LINE)) == FIRST_LINE:
-            raise RecordingError(f'{path}: not a readable bag: its first line is not that of one')
+            raise RecordingError(f'{path}: not a readable bag: its first line is not that of a bag')
 
 
 def _damaged(path, error):
@@ -329,8 +331,8 @@ def refuse_others(bag, connections):
     for one in connections:
         if one.datatype in TYPES and one.md5sum != TYPES[one.datatype]._md5sum:
             raise RecordingError(
-                f'{bag.filename}: {_writer(bag, connections)}, whose {one.datatype} is another one '
-                'than that of this version; read it with that version'
+                f'{bag.filename}: {_writer(bag, connections)}, whose message {one.datatype} '
+                'differs from the installed one: read the bag with the version that wrote it'
             )
 
 

@@ -87,7 +87,7 @@ class Seeds:
     def __getattr__(self, name):
         if not name.startswith('_') and hasattr(Run, name):
             raise AttributeError(
-                f'{name} is of one run, these are {len(self.runs)}: runs[0].{name}'
+                f'{name} belongs to one run, but these are {len(self.runs)}: use runs[0].{name}'
             )
         raise AttributeError(name)
 

@@ -239,7 +239,7 @@ def diagnosis(view):
     elif view.silence > 5:
         lines.append([(f'no message for {clock(view.silence)}', 'warn')])
     if view.is_master_gone:
-        lines.append([('no master', 'error'), ('  what connected before goes on', '')])
+        lines.append([('no master', 'error'), ('  connections from before stay', '')])
     return lines
 
 
@@ -260,7 +260,7 @@ def _without(view, topic):
         return []
     if topic in view.others or view.wanted:
         return _note(name, 'none yet')
-    return _note(name, 'computed only if somebody listens; m: have them computed')
+    return _note(name, 'computed only while somebody listens; key m: listen')
 
 
 def _note(name, text):

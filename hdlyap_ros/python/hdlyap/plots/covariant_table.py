@@ -28,7 +28,11 @@ def blocks(recording):
 
 
 def _head(message):
-    lost = f', {message.lost_windows} lost for want of room' if message.lost_windows else ''
+    lost = (
+        f', {message.lost_windows} left out as covariant_memory was too small'
+        if message.lost_windows
+        else ''
+    )
     count = f'{message.windows} window' + ('s' if message.windows != 1 else '')
     return (
         f'covariant vectors: {message.averaged_time:g} time units in {count}{lost}, '
@@ -85,8 +89,8 @@ def _weights(recording):
         rows.append(_weight_row(name, _listed(indices), weights))
     if without:
         rows.append(
-            '  * no step found: as many vectors as its fields have dimensions, '
-            'those with the largest dq weights'
+            '  * no step found: the vectors with the largest dq weights, '
+            'as many as the step should have'
         )
     if rows:
         columns = 'Gram-Schmidt', 'covariant dq', 'covariant dp', 'by chance'
@@ -136,15 +140,15 @@ def _angle(angle):
 def _order(recording):
     message = recording.covariant
     if len(message.exponents) < 2:
-        return 'order of finite-time exponents: of one vector there is none'
+        return 'order of finite-time exponents: one vector has no neighbour'
     violations = np.array(message.violations)
     isolated = covariant.isolated(message)
     names = ' '.join(map(str, isolated[:LISTED]))
     more = f' and {len(isolated) - LISTED} more' if len(isolated) > LISTED else ''
-    behind = f': behind {names}{more}' if names else ''
+    behind = f': after the indices {names}{more}' if names else ''
     return (
         f'order of finite-time exponents: {(violations > 0).sum()} of {len(violations)} pairs of '
-        f'neighbours ever changed it, {100 * violations.mean():.1f} % of the time on average\n'
+        f'neighbours changed it at times, {100 * violations.mean():.1f} % of the time on average\n'
         f'  dominated splittings ({len(isolated)}){behind}'
     )
 
@@ -153,9 +157,9 @@ def _convergence(recording):
     message = recording.covariant
     apart = np.array(message.start_mismatch)
     lines = [
-        'how far two random starts are apart where the last window ended',
-        f'  vectors: sine {np.median(apart):.1e} in the middle, {apart.max():.1e} at most '
-        '(those of equal exponents never meet)',
+        'angles between the results of two random starts where the last window ended',
+        f'  vectors: sine {np.median(apart):.1e} in the median, {apart.max():.1e} at most '
+        '(vectors of equal exponents never agree)',
     ]
     both = ('centre', message.centre_start_mismatch), ('stable', message.stable_start_mismatch)
     spaces = {name: value for name, value in both if value >= 0}

@@ -83,7 +83,7 @@ def _remarks(info):
     if info.resume:
         yield (
             f'That run went on from {info.resume} at simulated time {info.resumed_time:g}; '
-            'this one begins anew. What was changed before that time is in the bag of before.'
+            'this one begins anew. Changes before that time are in the bag of the run before.'
         )
 
 

@@ -30,7 +30,7 @@ def report(recording):
     if recording.is_caged:
         blocks.append(
             f'{space.particle(recording.info)}s have kept their places since the averaging began: '
-            'errors are those\nof this one state, other seeds may differ by more'
+            'errors hold\nfor this arrangement only, other seeds may differ by more'
         )
     return '\n\n'.join(blocks)
 
@@ -54,7 +54,9 @@ def _means(recording):
         lines += [_mean(name, row, 'exponent') for name, row in found.iterrows()]
     lost = [fit.symbol for fit in of_all.runs[0].fits if fit.symbol not in of_all.results.index]
     if lost:
-        lines.append(f'  {", ".join(lost)}: of other forms or wave numbers in other runs')
+        lines.append(
+            f'  {", ".join(lost)}: no mean, as runs have fits of other forms or wave numbers'
+        )
     lines += [f'  {line}' for line in of_all.left_out]
     return '\n'.join(lines)
 
@@ -151,7 +153,7 @@ def _tail(recording):
     spectrum = recording.spectrum
     end = min(recording.positive_end, recording.last_index)
     first = max(spectrum.first_index, end - TAIL + 1)
-    what = 'before the zeros' if end == recording.positive_end else 'carried'
+    what = 'before the zero modes' if end == recording.positive_end else 'carried'
     cells = []
     for index in range(first, end + 1):
         i = index - spectrum.first_index

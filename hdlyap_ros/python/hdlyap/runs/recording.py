@@ -79,7 +79,7 @@ def _say(path, is_short, status):
         return 1
     is_whole = status == 0 and not is_short
     what = path if parts == [path] else f'{parts[0]} to {parts[-1]}'
-    how = 'messages' if is_whole else 'messages, not to the end'
+    how = 'messages' if is_whole else 'messages, not up to the end of the run'
     say = rospy.loginfo if is_whole else rospy.logerr
     say('the bag is %s: %d %s; hdlyap plot draws its figures', what, count, how)
     return 0 if is_whole else 1

@@ -89,7 +89,7 @@ class Planned:
     def lacks(self, folder):
         """What the bag in this folder lacks to be this run, as text; '' if the run is done."""
         there = complete(self.bag(folder))
-        return self._differs(there.info) if there else 'the run has not come to its end'
+        return self._differs(there.info) if there else 'the run has not reached its end'
 
     def _differs(self, info):
         """The parameter in which a recorded run differs, as text; '' if there is none."""

@@ -74,14 +74,14 @@ class Job:
         complete."""
         why = self._failure()
         if why:
-            said = f'{last_words(self.log)}all that it said is in {self.log}'
+            said = f'{last_words(self.log)}all its output is in {self.log}'
             raise WorkError(f'{self.run.name}: {why}; {said}')
         os.replace(self.run.bag(self._new), self.run.bag(self._folder))
 
     def _failure(self):
         """What is wrong with the bag; '' if it is complete."""
         lacks = self.run.lacks(self._new)
-        silent = f'no word of its node within {SILENCE:.0f} s'
+        silent = f'no message of its node within {SILENCE:.0f} s'
         return silent if lacks and self.is_silent() else lacks
 
     def leave(self):

@@ -12,7 +12,7 @@ from hdlyap.plots.figures.style import FEW, GREY, MEMBER_COLOURS
 from .points import FITTED, QUANTITIES, varied
 
 LABELS = {
-    'number': 'number of disks $N$',
+    'number': 'number of particles $N$',
     'density': r'density $\rho$  [1/$\sigma^2$]',
     'aspect': 'aspect ratio $L_y/L_x$',
     'aspect_z': 'aspect ratio $L_z/L_x$',
@@ -112,7 +112,7 @@ def _panel(axes, name, x, series, look):
 
 
 def _label(x, info):
-    label = LABELS.get(x, x).replace('disks', space.particle(info) + 's')
+    label = LABELS.get(x, x).replace('particles', space.particle(info) + 's')
     return label.replace('^2', f'^{len(space.axes(info))}')
 
 
@@ -141,16 +141,18 @@ def _look(number):
 
 def _explain(figure, series, points):
     """Writes the legend below the panels, and what the looks of points mean. Returns its height."""
-    lines = ['error bars: one standard error, over seeds the larger one of stated and scatter']
+    lines = [
+        'error bars: one standard error, of means over seeds the larger of stated error and scatter'
+    ]
     if len(series) > 1:
         lines.append(
-            'points are shifted along x, each series by itself: bars would hide each other'
+            'points of each series are shifted along x, so that error bars do not hide each other'
         )
     values = [point.values[name] for point in points for name in FITTED if name in point.values]
     if any(not np.isfinite(v.error) for point in points for v in point.values.values()):
         lines.append('cross: the error is not known, the run was too short')
     if any(map(_is_open, values)):
-        lines.append('open: the rest of the curvature is in c; the form is in sweep.txt')
+        lines.append('open: fitted without c3, or without c2 and c3; sweep.txt has the form')
     handles = []
     for number, label in enumerate(series if len(series) > 1 else ()):
         look = dict(zip(('color', 'marker'), _look(number)))

@@ -32,7 +32,7 @@ class Swept(namedtuple('Swept', 'argument name parameters wanted')):
         names = [name for name, _ in found]
         for name in names:
             if names.count(name) > 1:
-                raise Refused(f'{self.argument} = {text}: must be each once')
+                raise Refused(f'{self.argument} = {text}: must have each value once')
         return found
 
     def _value(self, text, word):

@@ -105,7 +105,7 @@ def read(paths, choice=(None, None)):
             first = first or info
             if info.particles != first.particles:
                 what, others = info.particles, first.particles
-                raise RecordingError(f'{path}: of {what}, in a table of {others}')
+                raise RecordingError(f'{path}: particles = {what}, but this table is of {others}')
             same = [str(getattr(info, name)) for name in MEASURED]
             systems.setdefault((*system(info).values(), *same), []).append(path)
         except RecordingError as error:

@@ -32,7 +32,7 @@ class Marks:
     def explained(self):
         """Yields lines that explain the marks; none if there is no fit."""
         if self._numbers:
-            yield 'what the fits stand on; wave numbers k [1/sigma]:'
+            yield 'forms of the fits and their wave numbers k [1/sigma]:'
         for basis, number in self._numbers.items():
             yield f'  [{number}] {basis}'
 
@@ -50,10 +50,10 @@ def text(points):
     yield from marks.explained()
     yield from (line for point in points for line in point.data.left_out)
     if any(point.unlike for point in points):
-        yield 'unlike: fits of the seeds have not the same form or wave numbers'
+        yield 'unlike: no mean, as the fits of the seeds differ in form or wave numbers'
     several = [point for point in points if len(point.runs) > 1]
     if several:
-        yield 'errors of the means over seeds, of which the larger one is above:'
+        yield 'both errors of the means over seeds; the table above has the larger:'
         head = 'quantity', 'from those stated', 'from the scatter', 'chi^2/(seeds - 1)'
         rows = [
             [*_of_system(point, names), name, *_errors(value)]
@@ -77,8 +77,8 @@ def _scattered(points, names):
             where = ', '.join(map(' '.join, zip(names, _of_system(point, names))))
             yield (
                 f'{name} ({where}): the seeds differ by {sqrt(ratio):.1f} times their errors, '
-                f'which chance does in {100 * chance:.1g} % of such tables; steps of some of '
-                'them may mix: see their runs'
+                f'which happens by chance in {100 * chance:.1g} % of such tables; steps of some '
+                'seeds may mix: see their runs'
             )
 
 

@@ -17,7 +17,7 @@ def draw(page, run, **look):
     places = covariant.between(message)
     violated = np.array(message.domination_violations, dtype=float)
     panels = Panels(page, run, 2, 4.8, look)
-    panels.plot(0, places, message.violations, color=BLUE, label='next one grew more')
+    panels.plot(0, places, message.violations, color=BLUE, label='next vector grew more')
     panels.plot(1, places, violated, color=INK, label='of all times')
     isolated = violated == 0
     style = {'fmt': 'v', 'color': GREEN, 'markersize': 4.5}
@@ -32,5 +32,5 @@ def draw(page, run, **look):
     )
     panels.finish(
         'the next vector grew more\n[fraction of times]',
-        'any later one more than\nany up to it  [fraction]',
+        'later vector grew more\nthan earlier one  [fraction]',
     )

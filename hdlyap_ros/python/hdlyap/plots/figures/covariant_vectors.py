@@ -36,5 +36,5 @@ def draw(page, run, **look):
         'localisation width\n$e^S/N$',
         r'$|\cos\Theta|$ of $\delta q$, $\delta p$',
         'angle to the next\n[rad]',
-        'two starts apart\n[sine]',
+        'angle between two\nstarts  [sine]',
     )

@@ -48,7 +48,7 @@ def _variances(axes, message, told, look):
     axes.set_xlabel('time  [time units]')
     axes.set_ylabel('variance of growth / time')
     if told is None:
-        return instead(axes, 'told with fields')
+        return instead(axes, 'published with fields')
     often = told.times['count'].to_numpy() >= FEW
     for name, indices in {'largest': [message.first_index], **told.indices}.items():
         kind = name.partition('(')[0]
@@ -62,13 +62,13 @@ def _variances(axes, message, told, look):
 
 
 def _orders(order, domination, recording, told, look):
-    labels = 'next one grew more', 'any later one more than\nany up to it'
+    labels = 'next vector grew more', 'later vector grew more\nthan earlier one'
     for axes, label in zip((order, domination), labels):
         axes.set_ylabel(f'{label}  [fraction]')
         index_axis(axes)
         axes.set_ylim(-0.04, 1.04)
     if told is None:
-        return [instead(axes, 'told with fields') for axes in (order, domination)]
+        return [instead(axes, 'published with fields') for axes in (order, domination)]
     often = np.flatnonzero(told.times['count'] >= OFTEN)
     shown = np.unique(often[np.array([0, len(often) // 2, -1])]) if len(often) else [0]
     first, last = near_zero(recording, told.variances.columns)
@@ -89,7 +89,7 @@ def _pairs(axes, told, look):
     axes.set_xlabel('step')
     axes.set_ylabel('correlation of growth')
     if told is None or not told.indices:
-        return instead(axes, 'no steps' if told is not None else 'told with fields')
+        return instead(axes, 'no steps' if told is not None else 'published with fields')
     names, size = list(told.indices), len(told.indices)
     error = told.std_errors.to_numpy() / told.covariances.abs().to_numpy()
     values, error = told.correlations.to_numpy(), np.abs(error * told.correlations.to_numpy())

@@ -52,7 +52,7 @@ def draw(page, recording, **look):
         _channel(page, panels, info, look)
     else:
         draw_panels(page, panels, info, look)
-        colours = ', turns green to the left, purple to the right'
+        colours = ', green: turned to the left, purple: to the right'
         more += colours if space.turns(info) else ''
     page.title(info, more=more)
 

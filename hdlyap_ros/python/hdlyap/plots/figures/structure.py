@@ -95,11 +95,11 @@ def _lines(axes, recording, found):
             v_k = recording.steps.v * block.steps[0].wave_number
             axes.axvline(v_k, color=INK, linestyle=':', label=label)
         shown.add(kind)
-    axes.set_title('lines of the lowest steps', loc='left')
+    axes.set_title('spectral lines of the lowest steps', loc='left')
     axes.set_xlabel(r'$\omega$  [rad/time unit]')
     axes.set_ylabel(r'$S(k, \omega)$')
     if shown:
         axes.legend()
     else:
-        axes.text(0.5, 0.5, 'none is known', ha='center', va='center', transform=axes.transAxes)
+        axes.text(0.5, 0.5, 'no line is known', ha='center', va='center', transform=axes.transAxes)
         axes.set(xticks=[], yticks=[])
