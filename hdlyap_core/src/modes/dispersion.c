@@ -14,13 +14,13 @@ enum { TERMS = 3 };
 typedef struct fit {
     const hd_relation *prior;
     hd_mode_kind kind;
-    double inverse[TERMS * TERMS]; /**< of the normal equations: covariance if steps were
-                                      independent */
+    double inverse[TERMS * TERMS]; /**< inverse of the normal equations' matrix: the covariance if
+                                      steps were independent */
     double unit[TERMS];
-    int points; /**< distinct wave numbers */
+    int points; /**< number of different wave numbers */
     double k_min, k_max;
     const hd_steps *steps;
-    bool weighted; /**< all errors are known */
+    bool weighted; /**< true if the errors of all steps are known */
 } fit;
 
 /** An exponent below this does not count: weights are up to 1e6 over its square. */
@@ -120,7 +120,7 @@ static void solve(fit *f)
 /** A result: the combination of unknowns that is c, c2 or c3. */
 typedef struct result {
     const fit *of;
-    double factor[TERMS]; /**< times the inverse */
+    double factor[TERMS]; /**< factors of the unknowns, times the inverse */
 } result;
 
 static result result_of(const fit *f, int term)

@@ -4,11 +4,12 @@
 
 #include "hdlyap/wave.h"
 
-/** cos(k u), sin(k u) and their derivatives, for nodes 0 .. nodes along one direction. */
+/** cos(k u), sin(k u) and their derivatives at one coordinate, for 0 to `nodes` nodes along one
+ * direction. */
 typedef struct hd_harmonics {
     double offset; /**< coordinate at which u = 0: 1/2 behind a wall */
     int nodes;
-    double k;           /**< wave number of one node */
+    double k;           /**< wave number with one node */
     double *value;      /**< [2 (nodes + 1)]: cosine, sine of each node */
     double *derivative; /**< same */
 } hd_harmonics;

@@ -35,14 +35,14 @@ struct hd_modes {
     hd_fields *fields;
     hd_scene_def scene;
     int particles, vectors, threads;
-    int dimension, coordinates; /**< of the space, of a particle */
-    int widest;                 /**< fields of the largest subspace that there may be */
-    size_t stride;              /**< of every array over the vectors */
-    double *gram;               /**< [columns][widest]: products with the own subspace's fields */
-    double *coefficient;        /**< [columns][stride]: overlaps, then coefficients */
-    double *work;               /**< [widest][stride] */
-    double *dq_norm;            /**< [stride] */
-    double *null_dp; /**< [nulls][stride]: overlaps of the dp halves with the null fields */
+    int dimension, coordinates; /**< dimension of space; coordinates of a particle */
+    int widest;                 /**< number of fields of the largest subspace that there may be */
+    size_t stride; /**< distance of rows in each array with an element for each vector */
+    double *gram; /**< [columns][widest]: products of a field with the fields of its own subspace */
+    double *coefficient; /**< [columns][stride]: overlaps, then coefficients */
+    double *work;        /**< [widest][stride] */
+    double *dq_norm;     /**< [stride] */
+    double *null_dp;     /**< [nulls][stride]: overlaps of the dp halves with the null fields */
     double *known; /**< [known_most][rows]: null vectors that are no fields; NULL: there are none */
     double *snapshot; /**< [subspaces * HD_WEIGHTS + nulls, turning][stride] */
     double *average;  /**< same, over samples */
@@ -221,7 +221,7 @@ static void add_squares(double *sum, const double *row, int n)
     for (int l = 0; l < n; l++) sum[l] += row[l] * row[l];
 }
 
-/** Measures the parts in the null space. Whole vectors and null fields are orthonormal, so plain
+/** Measures the weights in the null space. Whole vectors and null fields are orthonormal, so plain
  * overlaps serve. */
 static void measure_null(hd_modes *modes, hd_columns v)
 {
@@ -249,8 +249,8 @@ static bool make_orthonormal(double *x, const double *unit, int count, int rows)
     return left;
 }
 
-/** Adds to the last of the null parts those in the vectors that the row knows beyond translations
- * and their momenta: of soft particles the flow. */
+/** Adds to the last null part the weights in the null vectors that the dynamics knows beyond
+ * translations and their momenta: for soft particles in the flow. */
 static void measure_known(hd_modes *modes, hd_columns v, const double *q, const double *p)
 {
     const int rows = (int)rows_of(&modes->scene), last = (int)nulls_of(modes) - 1;
@@ -268,7 +268,7 @@ static void measure_known(hd_modes *modes, hd_columns v, const double *q, const 
     }
 }
 
-/** Measures the part of each dq half's squared norm that turns particles. */
+/** Measures the fraction of each dq half's squared length that turns particles. */
 static void measure_turning(hd_modes *modes, hd_columns v)
 {
     const int of_one = 2 * modes->coordinates;
@@ -370,7 +370,7 @@ hd_status hd_modes_measure(hd_modes *modes, hd_columns v, const double *q, const
                                                                               : HD_NOT_FINITE;
 }
 
-/** Shares every row of the snapshot. */
+/** Gives all ranks each row of the snapshot. */
 hd_status hd_modes_share(hd_modes *modes, hd_communicator *communicator, int width, int carried)
 {
     const struct {

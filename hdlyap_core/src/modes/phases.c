@@ -23,8 +23,9 @@ struct hd_phases {
     int rotors, tracks, vectors;
     hd_rotor *rotor;
     hd_track *track;
-    hd_blocks blocks; /**< two series of each rotor; their weight is time */
-    double *sample;   /**< [2 * rotors] */
+    hd_blocks blocks; /**< two series for each rotor: angle turned, and time for it; their weight is
+                         time */
+    double *sample;   /**< [2 * rotors]: these series in one sample */
 };
 
 /* ---- creation ------------------------------------------------------------------------------ */

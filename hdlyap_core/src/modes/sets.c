@@ -15,9 +15,10 @@
 
 /** A subspace of which less than this part of its multiplicity is found has no set. */
 static const double CANDIDATE = 0.25;
-/** Two sets mix if the weight of one in the other's window, relative to its own, is above this. */
+/** Two sets mix if the weight of one in the columns of the other's window alone, over that in its
+ * own window, is above this. */
 static const double LEAK = 0.25;
-/** Exponents of a set may differ from their mean by this part, plus 3 standard errors. */
+/** Exponents of a set may differ from their mean by this part of it, plus 3 standard errors. */
 static const double FLAT = 0.1;
 
 hd_status hd_sets_create(hd_sets *sets, const hd_modes *modes, int rows)

@@ -10,7 +10,7 @@
 /** A set is resolved if, for each of its steps, at least this part of the expected multiplicity is
  * found beyond what random vectors would show. */
 
-/** Larger sets are not resolved. */
+/** Most vectors of a set; larger sets are not resolved. */
 enum { HD_SET_VECTORS_MAX = 64 };
 
 /** Columns [first, end) of one half of the spectrum. */
@@ -21,7 +21,7 @@ typedef struct hd_half {
 /** A set of vectors; count 0: none. */
 typedef struct hd_set {
     int col, count; /**< columns [col, col + count) */
-    double trace;   /**< weight of all members in these columns */
+    double trace;   /**< sum of the weights of all members in these columns */
 } hd_set;
 
 typedef struct hd_sets {
@@ -29,8 +29,9 @@ typedef struct hd_sets {
     int subspaces, rows; /**< rows: 4N */
     hd_set *set;         /**< [subspaces], by the number of a member */
     int *of;             /**< [subspaces]: the set of each subspace; -1: none */
-    bool *absent;        /**< [subspaces]: found too weak in its set, and left out */
-    double *weight;      /**< [vectors], see hd_sets_weigh */
+    bool *absent;   /**< [subspaces]: true if the subspace was found too weakly in its set, and left
+                       out of it */
+    double *weight; /**< [vectors], see hd_sets_weigh */
 } hd_sets;
 
 HD_MUST_CHECK hd_status hd_sets_create(hd_sets *sets, const hd_modes *modes, int rows);

@@ -20,13 +20,14 @@ struct hd_steps {
     const hd_modes *modes;
     hd_half positive, negative;
     hd_sets sets;
-    int zero_first, zero_end; /**< columns of the zero modes carried */
+    int zero_first, zero_end; /**< columns of the zero modes, as far as they are carried */
     int subspaces, count, vectors;
-    int rows;            /**< 4N */
-    hd_step *step;       /**< [count] */
-    int *of_vector;      /**< [vectors] */
-    double *share;       /**< [count][HD_SET_VECTORS_MAX]: share of the step in each vector */
-    hd_part *parts;      /**< [count * HD_SET_VECTORS_MAX], workspace */
+    int rows;       /**< 4N */
+    hd_step *step;  /**< [count] */
+    int *of_vector; /**< [vectors] */
+    double *share;  /**< [count][HD_SET_VECTORS_MAX]: share of the step in the weight of each vector
+                       of its set */
+    hd_part *parts; /**< [count * HD_SET_VECTORS_MAX], workspace */
     hd_company *company; /**< [count] */
     double warmup;       /**< time for which the frame was carried before averaging */
     hd_relation of_t, of_lp;
@@ -150,8 +151,8 @@ void hd_steps_clear(hd_steps *steps)
 
 /* ---- steps --------------------------------------------------------------------------------- */
 
-/** Writes the parts of factor times the mean over a step's set, each vector weighted by its share.
- */
+/** Writes `factor` times the mean exponent of a step's set as parts of a sum, each vector weighted
+ * by its share; returns their number. */
 static int mean_parts(const hd_steps *steps, int k, double factor, hd_part *parts)
 {
     const hd_step *step = &steps->step[k];
@@ -186,7 +187,7 @@ double hd_steps_error_of_sum(const hd_steps *steps, const hd_spectrum *spectrum,
     return hd_spectrum_error_of_sum(spectrum, steps->parts, count);
 }
 
-/** Labels a vector with the member in which it has most weight. */
+/** Says that a vector belongs to step k, unless another step has more weight in it. */
 static void label(hd_steps *steps, int col, int k, const double *weight)
 {
     const int now = steps->of_vector[col];
@@ -197,7 +198,7 @@ static void label(hd_steps *steps, int col, int k, const double *weight)
     steps->of_vector[col] = k;
 }
 
-/** Fills step k, of subspace s in a resolved set, which has been weighed. */
+/** Fills step k, whose subspace s is in this resolved set; the set has been weighed. */
 static void step_fill(hd_steps *steps, int k, int s, int set)
 {
     const hd_set *w = &steps->sets.set[set];
@@ -218,7 +219,7 @@ static void step_fill(hd_steps *steps, int k, int s, int set)
     }
 }
 
-/** Finds the steps of one half; offset: the number of its first step. */
+/** Finds the steps of one half of the spectrum; offset: index of its first step. */
 static void half_find(hd_steps *steps, const hd_spectrum *spectrum, hd_half half, int offset,
                       int *number)
 {

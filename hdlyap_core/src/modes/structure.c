@@ -36,20 +36,22 @@ typedef struct planned {
 
 struct hd_structure {
     int particles, vectors, waves, threads;
-    int dimension, coordinates; /**< of the space, of a particle */
-    size_t functions;           /**< functions of a wave */
-    size_t amplitudes;          /**< most amplitudes of a direction */
-    size_t width;               /**< functions of the waves that are taken at once */
+    int dimension, coordinates; /**< dimension of space; coordinates of a particle */
+    size_t functions;           /**< number of functions of a wave */
+    size_t amplitudes;          /**< most amplitudes of a wave in one direction */
+    size_t width;               /**< number of functions of the waves that are taken at once */
     hd_harmonics along[HD_DIMENSION_MAX];
-    planned *plan;                   /**< [waves] */
-    size_t stride;                   /**< of every array over the vectors */
+    planned *plan; /**< [waves] */
+    size_t stride; /**< distance of rows in each array with an element for each vector */
     double *value[HD_DIMENSION_MAX]; /**< [particles][2 (nodes + 1)]: harmonics of each particle */
-    double *factor;                  /**< [particles][width]: of one component and some waves */
-    double *sum[HD_DIMENSION_MAX];   /**< [width][stride]: of dq_x, dq_y, .. times these */
-    double *snapshot;                /**< [waves][HD_DIRECTIONS][stride] */
-    double *mean;                    /**< same, over samples */
-    double *amplitude;               /**< [HD_DIRECTIONS][amplitudes][stride] */
-    double *work;                    /**< [AT_ONCE][stride] */
+    double *factor; /**< [particles][width]: functions of some waves at each particle, for one
+                       component of dq */
+    /** [width][stride]: sums of dq_x, dq_y, .. times these functions. */
+    double *sum[HD_DIMENSION_MAX];
+    double *snapshot;  /**< [waves][HD_DIRECTIONS][stride] */
+    double *mean;      /**< the mean of snapshot over the samples */
+    double *amplitude; /**< [HD_DIRECTIONS][amplitudes][stride] */
+    double *work;      /**< [AT_ONCE][stride] */
     int *peak, *shown; /**< [vectors]: strongest wave of the mean now, and at the snapshot */
     long samples;
 };

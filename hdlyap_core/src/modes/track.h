@@ -1,4 +1,4 @@
-/** The phase of one vector (slot) of a step and one pair, unwrapped [T13]. */
+/** The phase of one vector (slot) of a step in one pair of fields, unwrapped [T13]. */
 #ifndef HD_TRACK_H
 #define HD_TRACK_H
 
@@ -10,14 +10,15 @@
 /** If a^2 + b^2 is below this there is no phase: noise of a few percent would turn it. */
 #define HD_TRACK_WEAK 0.05
 
-/** One slot and one pair. Slope by regression: running means and centred sums of time and phase. */
+/** The track of one slot in one pair. The slope comes from regression: running means and centred
+ * sums of time and phase. */
 typedef struct hd_track {
     hd_phase out;
     double last;  /**< time of the last phase */
     double begin; /**< time of the first phase */
     long count;
     double mean_t, mean_phase, square_t, product;
-    double rate_now, dt_now; /**< last increment of the phase per time, and its time */
+    double rate_now, dt_now; /**< last increment of the phase over its time; that time */
     hd_blocks turns;         /**< one series: the increments; their weight is time */
 } hd_track;
 
@@ -31,7 +32,7 @@ bool hd_track_add(hd_track *t, double complex z, double time, double omega, doub
 /** The phase nearest to the prediction that differs from `phase` by whole turns. */
 double hd_track_unwrapped(double phase, double predicted);
 
-/** `sampled`: time of the last sample that its rotor took. */
+/** Reads or writes a track. `sampled`: time of the last sample that its rotor took. */
 void hd_track_archive(hd_track *t, hd_archive *archive, int vectors, double sampled);
 
 #endif

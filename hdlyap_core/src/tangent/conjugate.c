@@ -19,8 +19,8 @@
 enum { PANEL = 16, PAIRS = 4 };
 
 struct hd_conjugate {
-    int rows, half;  /**< M, M / 2 */
-    int coordinates; /**< of a particle */
+    int rows, half;  /**< number of rows M; M / 2 */
+    int coordinates; /**< coordinates of a particle */
     bool fresh;      /**< whole is that of the last orthonormalisation */
     double *stretch; /**< [rows] */
     double *whole;   /**< [rows * 2 most], row-major; NULL unless asked for */
@@ -45,7 +45,7 @@ static void turn(double *to, const double *from, int rows, int coordinates)
 
 typedef struct panel {
     int rows, first, width; /**< rows on this rank (some particles); first vector; vectors */
-    int coordinates;        /**< of a particle */
+    int coordinates;        /**< coordinates of a particle */
     double *a, *turned;     /**< [rows * width], column-major: vectors; work */
     double *part;           /**< [n * width]: coefficients */
 } panel;

@@ -1,5 +1,5 @@
 /** The state of particles and the vectors of the smallest positive exponents, after a step ->
- * SlowVectors. */
+ * message SlowVectors. */
 #include "topics/slow_vectors.h"
 
 #include <float.h>
@@ -16,7 +16,7 @@ static const double early = 0.5;
 
 /** The arrays of a message; [vectors] each unless another length is given. */
 typedef struct vector_arrays {
-    size_t directions, coordinates;    /**< of space; of a particle */
+    size_t directions, coordinates;    /**< dimension of space; coordinates of a particle */
     size_t pairs_most;                 /**< most pairs of a step */
     double *exponents, *a, *b;         /**< [vectors], [pairs_most * vectors] twice */
     uint32_t *nodes[HD_DIMENSION_MAX]; /**< nx, ny, .. */

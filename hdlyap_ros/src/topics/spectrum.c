@@ -1,4 +1,4 @@
-/** Exponents, their errors, and the halves of the vectors -> Spectrum. */
+/** Exponents, their errors, and the halves of the vectors -> message Spectrum. */
 #include "topics/moment.h"
 
 hd_status topic_publish_spectrum(const moment *now)

@@ -1,4 +1,4 @@
-/** Positions and momenta of all particles -> State. */
+/** Positions and momenta of all particles -> message State. */
 #include "topics/moment.h"
 
 hd_status topic_publish_state(const moment *now)

@@ -1,4 +1,4 @@
-/** How far the run has got -> RunStatus. */
+/** How far the run has got -> message RunStatus. */
 #include "topics/moment.h"
 
 _Static_assert((int)HD_FINISHED == (int)HDR_RUN_STATUS_FINISHED, "stages as in the core");

@@ -1,4 +1,4 @@
-/** Steps of the spectrum, and the fits through them -> Steps. */
+/** Steps of the spectrum, and the fits through them -> message Steps. */
 #include "topics/moment.h"
 
 #include <math.h>

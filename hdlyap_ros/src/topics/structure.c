@@ -1,4 +1,4 @@
-/** Structure factors -> Structure. Rows lose their padding. */
+/** Structure factors of the vectors -> message Structure. Rows lose their padding. */
 #include "topics/moment.h"
 
 #include <string.h>

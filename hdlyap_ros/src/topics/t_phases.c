@@ -1,4 +1,4 @@
-/** Phases of the T modes, and how these diffuse -> TPhases. */
+/** Phases of T steps, and how these diffuse -> message TPhases. */
 #include "topics/moment.h"
 #include "topics/phase.h"
 

@@ -26,7 +26,7 @@ static bool is_in(const hdr_strings *list, const char *name)
     return false;
 }
 
-/** Element k of a list of nodes; 0 along z in the plane, where the list is empty. */
+/** Element k of a list of mode numbers; 0 along z in the plane, where the list is empty. */
 static uint32_t nodes(const hdr_uints *along, uint32_t k)
 {
     return k < along->count ? along->data[k] : 0;
