@@ -49,13 +49,13 @@ HD_MUST_CHECK hd_status hd_checkpoint_read(hd_checkpoint *out, const char *path,
                                            size_t size);
 
 /** Makes the run of a checkpoint in *out, at the time at which it was saved; the caller frees it
- * with hd_run_free. If `scene` is NULL the run has the scene of the checkpoint, which must be of
- * hd_particles. Otherwise `scene` may differ from it only in parameters with
- * hd_parameter.may_differ, and its duration must not be shorter than the averaged time; if not so,
- * the call returns HD_REFUSED. With threads = 0 the run has as many threads as before, or fewer if
- * the machine has fewer. A finished run goes on if `scene` has a longer duration or a stricter
- * target. A window of covariant vectors that was not complete begins again. Returns HD_FILE_FAULT
- * for the reasons of hd_checkpoint_read, and if no run can have these contents; or HD_NO_MEMORY. */
+ * with hd_run_free. If `scene` is NULL, the run has the scene of the checkpoint, which must be of
+ * hd_particles. Otherwise the call returns HD_REFUSED unless `scene` differs from that scene only
+ * in parameters with hd_parameter.may_differ, and its duration is not shorter than the averaged
+ * time. With threads = 0 the run has as many threads as before, or fewer if the machine has fewer.
+ * A finished run goes on if `scene` has a longer duration, or a target that is not reached yet. A
+ * window of covariant vectors that was not complete begins again. Returns HD_FILE_FAULT for the
+ * reasons of hd_checkpoint_read, and if no run can have these contents; or HD_NO_MEMORY. */
 HD_MUST_CHECK hd_status hd_run_resume(hd_run **out, const char *path, const hd_scene_def *scene,
                                       char *message, size_t size);
 /** hd_run_resume for a run that several ranks carry. All ranks call it together, and each reads the

@@ -44,8 +44,8 @@ typedef struct hd_covariant_mismatch {
     double stable;
 } hd_covariant_mismatch;
 
-/** Results of all windows so far. The arrays that members point to belong to the run: their
- * contents change when the run goes on, and they last until it is freed. */
+/** Results of all windows so far. Arrays belong to the run; their contents change when it goes on,
+ * and they last until it is freed. */
 typedef struct hd_covariant_results {
     int vectors;       /**< number n of vectors */
     long windows;      /**< number of complete windows that the averages contain */

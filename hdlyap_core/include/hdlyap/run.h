@@ -121,9 +121,10 @@ HD_MUST_CHECK hd_status hd_run_advance(hd_run *run);
 bool hd_run_report_due(const hd_run *run);
 
 /** Sets how often fields are due: with the first report of the averaging, then with the first
- * report at or after each multiple of `interval` [time units], and with the last. 0, the default,
- * means with every report. `interval` is finite. The first call holds at once, a later one from
- * hd_run_change_time on. A resumed run keeps its old interval until the first call. */
+ * report at or after each multiple of `interval` [time units] since the averaging began, and with
+ * the last. 0, the default, means with every report. `interval` is finite. The first call holds at
+ * once, a later one from hd_run_change_time on. A resumed run keeps its old interval until the
+ * first call. */
 void hd_run_fields_every(hd_run *run, double interval);
 
 /** For several ranks, where each rank has only some vectors: with each report when fields are due,
@@ -204,7 +205,7 @@ int hd_run_threads_denied(const hd_run *run);
 hd_parts hd_run_parts(const hd_run *run);
 
 /** Simulated time at which phases or fluctuations were last sampled [time units]; negative if they
- * have not been. */
+ * have not been in this stage. */
 double hd_run_followed(const hd_run *run);
 /** What the run has cost so far, and how far it is. */
 hd_cost hd_run_cost(const hd_run *run);

@@ -77,8 +77,8 @@ typedef struct hd_wave_limits {
 } hd_wave_limits;
 
 /** Writes the waves that a checked scene asks for to out[capacity], in ascending wave number, and
- * returns their number. If there are more than capacity, only so many are written; with capacity 0,
- * `out` may be NULL. */
+ * returns their number. If there are more than capacity, only some of them are written, in any
+ * order; with capacity 0, `out` may be NULL and the call only counts. */
 int hd_waves(const hd_scene_def *def, hd_wave *out, int capacity);
 
 HD_API_END
