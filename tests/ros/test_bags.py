@@ -8,6 +8,7 @@ import math
 import os
 import signal
 import tempfile
+import time
 import xmlrpc.client
 
 import numpy as np
@@ -73,6 +74,13 @@ def end(process):
     if process.running():
         process.send(signal.SIGINT)
     assert process.wait() == 0, process.text()
+
+
+def seconds_of(process):
+    """Of processors that it has taken so far."""
+    with open(f'/proc/{process.process.pid}/stat') as file:
+        fields = file.read().rpartition(')')[2].split()
+    return (int(fields[11]) + int(fields[12])) / os.sysconf('SC_CLK_TCK')
 
 
 def is_recorded(node, topics):
@@ -359,6 +367,19 @@ class Stopped(harness.Case):
         end(second)
         self.check_parts(self.files('first_*'))
         self.check_read(self.files('second*'))
+
+    def test_recorder_rests(self):
+        """The recorder waits for rosbag, without a thread that works all the time."""
+        path = os.path.join(self.folder, 'rests.bag')
+        recorder = self.process([harness.program('record'), '_bag:=' + path])
+        node = self.start(dict(SHORT, duration=0.0, pace=5.0))
+        self.sees(lambda: is_recorded(node, ['spectrum', 'state']))
+        begin = seconds_of(recorder)
+        time.sleep(3.0)
+        self.assertLess(seconds_of(recorder) - begin, 0.3)
+        node.stop()
+        recorder.send(signal.SIGINT)
+        self.assertEqual(recorder.wait(), 0, recorder.text())
 
     def check_parts(self, paths):
         """Files of one recording: run_info in each, the rest in one of them, nothing left out."""

@@ -3,6 +3,7 @@
 import time
 
 import rosgraph
+import rospy
 
 from hdlyap.follow import nodes
 
@@ -17,6 +18,17 @@ PATIENCE = 5.0  # seconds in which a master that was started here has to end
 
 class MasterError(Exception):
     """A line for the user: there is no master."""
+
+
+def leave(reason):
+    """Ends rospy in a process that goes on. rospy closes the socket of its XML-RPC server but lets
+    the server's thread run, which then asks for the closed socket without a pause."""
+    hooks = rospy.core._shutdown_hooks
+    nodes = [getattr(hook, '__self__', None) for hook in hooks]
+    servers = [one.server for one in nodes if isinstance(one, rosgraph.xmlrpc.XmlRpcNode)]
+    rospy.signal_shutdown(reason)
+    for server in filter(None, servers):
+        server.shutdown()
 
 
 class Watch:

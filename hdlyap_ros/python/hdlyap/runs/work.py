@@ -15,7 +15,7 @@ from hdlyap.msg import RunStatus
 
 from . import bags
 from .display import Display
-from .master import Master, MasterError
+from .master import Master, MasterError, leave
 from .tree import Tree, end
 
 POLL = 0.2  # seconds between two looks
@@ -203,7 +203,7 @@ def work(all_of_it, show):
                 all_of_it.stop(came)
                 with contextlib.suppress(OSError):  # the terminal may be gone
                     show.end()
-                rospy.signal_shutdown('the work is done')
+                leave('the work is done')
                 master.stop()
         except (MasterError, rospy.ROSException) as error:
             raise WorkError(str(error))
