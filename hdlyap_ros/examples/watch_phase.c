@@ -9,7 +9,8 @@
 enum { EXIT_REFUSED = 2, EXIT_NO_MEMORY, ABSENT = HDR_LP_PHASE_TRACKED + 1 };
 
 static const char *const states[] = {"its step is not resolved", "too weak to have a phase",
-                                     "turns too far between samples", "followed", "there is none"};
+                                     "turns too far between samples", "followed",
+                                     "the run has no such phase"};
 
 /** A straight line through points: their number, means, and sums of products of what is off them.
  */

@@ -121,7 +121,7 @@ class Agreeing(Pairs):
             fr'\n  lambda_max +9\.000\(10\) .* {z[0]:+.2f}',
             r'\n  T\(1,0\) .* \+0\.00  36-37: 1\.98 and 1\.98 of 2\n',
             r'\n  c_T +1\.4000\(40\) .* over 3 wave numbers 0\.9935 \.\. 1\.987 .*\n',
-            fr'of b - a in errors {np.mean(z * z):.2f}; .*: no chi\^2 of less than 8 samples',
+            fr'of b - a in errors {np.mean(z * z):.2f}; .*: chi\^2 needs 8 samples',
             'exponents: 37 of 37 compared, 0 of unknown error, 0 zero',
             r'\nagree: lambda_max is \d\.\d\d errors apart, the farthest of 5 numbers; '
             r'chance alone makes two runs as unlike in 100 % of comparisons, not below 1.5 %\n',
@@ -389,7 +389,10 @@ class Refusals(Pairs):
 
     def test_short(self):
         """Is said. The slowest takes 4 time units: 100 of them are 25 of those."""
-        for length, said in ((121.0, None), (100.0, 'b is short: 25 times 1 / its smallest pos')):
+        for length, said in (
+            (121.0, None),
+            (100.0, 'b is short: averaged over 25 times 1 / its smallest positive'),
+        ):
             pair = [
                 [INFO, made.spectrum([value, *[0.25] * 36, *[1e-9] * 6], time)]
                 for value, time in ((3.0, 121.0), (3.001, length))

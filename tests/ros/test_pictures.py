@@ -182,8 +182,8 @@ class Markers(harness.Case):
         """What the viewer advises are parameters of the node."""
         pictures = self.look('T(1,0) LP(9,8)')
         self.start(dict(ENDLESS, max_mode_number=1))
-        self.sees(lambda: pictures.viewer.lines('no wave'))
-        (line,) = pictures.viewer.lines('looks for no wave (9,8)')
+        self.sees(lambda: pictures.viewer.lines('does not look for wave'))
+        (line,) = pictures.viewer.lines('does not look for wave (9,8)')
         advised = re.findall(r'[a-z]+(?:_[a-z]+)+|observables', line)
         self.assertEqual(advised, ['max_mode_number', 'max_wave_number', 'observables'])
         asked = [harness.executable(), '--parameters']

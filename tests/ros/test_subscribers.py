@@ -138,7 +138,7 @@ class Subscribers(harness.Case):
             for node in nodes:
                 self.ends(node, 5, 'does not answer: subscribers that are connected stay so')
                 self.assertEqual(len(node.lines('FATAL')), 1, node.text())
-            self.ends(recorder, 1, 'nobody can tell of a node to record')
+            self.ends(recorder, 1, 'no node to record can be found without the ROS master')
         self.assertTrue(os.path.exists(kept))
         self.assertEqual(len(runs.lines('nobody finds this node')), 1, runs.text())
         self.assertTrue(runs.running())

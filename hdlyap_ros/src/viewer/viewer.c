@@ -140,7 +140,7 @@ static void warn_of_none(const hdr_run_info *info, const mode_name *name)
     char nodes[NODES_SIZE];
     nodes_write(nodes, info->dimension == 3, name->nx, name->ny, name->nz);
     hdr_log(HDR_WARN,
-            "modes: %s looks for no wave %s: start it with a larger max_mode_number "
+            "modes: the scene %s does not look for wave %s: start it with a larger max_mode_number "
             "or max_wave_number, and with observables that need modes",
             info->scene, nodes);
 }

@@ -153,7 +153,7 @@ def _refuse_without_exponents(a, b):
     carried = [(run.spectrum.first_index, run.last_index) for run in (a, b)]
     if carried[0] != carried[1]:
         ranges = '{}-{} and {}-{}'.format(*carried[0], *carried[1])
-        raise RecordingError(f'the runs cannot be compared: exponents {ranges}')
+        raise RecordingError(f'the runs cannot be compared: they carry the exponents {ranges}')
 
 
 def _times(runs):

@@ -72,9 +72,9 @@ def _warnings(comparison):
         length = _length_in_slowest(run)
         if length < SHORT:
             yield (
-                f'{letter} is short: {length:.2g} times 1 / its smallest positive exponent; below '
-                f'{SHORT}\n  single errors may be far too small, and runs that agree seem to '
-                'differ'
+                f'{letter} is short: averaged over {length:.2g} times 1 / its smallest positive '
+                f'exponent; below {SHORT}\n  single errors may be far too small, and runs that '
+                'agree may seem to differ'
             )
 
 
@@ -187,16 +187,16 @@ def _exponents(comparison):
     )
     if seen:
         mean = sum(one.z**2 for one in seen) / len(seen)
-        text += f'\n  mean square of b - a in errors {mean:.2f}; neighbours fluctuate together: '
-        text += _of_spectra(comparison.spectra)
+        text += f'\n  mean square of b - a in errors {mean:.2f}; in groups, as neighbours '
+        text += f'fluctuate together: {_of_spectra(comparison.spectra)}'
     yield text
 
 
 def _of_spectra(found):
     if not found:
-        return f'no chi^2 of less than {FEWEST} samples'
+        return f'chi^2 needs {FEWEST} samples'
     t2, groups, chance = found
-    return f'chi^2 = {t2:.3g} in {groups} groups, of which the probability is {chance:.2g}'
+    return f'chi^2 = {t2:.3g} in {groups} groups, probability {chance:.2g}'
 
 
 def _largest(comparison):

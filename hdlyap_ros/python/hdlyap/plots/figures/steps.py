@@ -21,7 +21,7 @@ def draw(page, recording, **look):
         _found(top, place, block, look)
         _degeneracy(bottom, place, block, recording.spectrum, look)
     top.axhline(100, color=GREY, linewidth=0.6)
-    label = 'least for a step (beyond chance)'
+    label = 'smallest that counts as a step (beyond chance)'
     least = 100 * recording.steps.threshold
     top.axhline(least, color=INK, linewidth=0.8, linestyle=':', label=label)
     top.set_ylim(0, 108)
