@@ -19,16 +19,29 @@ REFERENCE = 'doc/reference.md'
 SCENE = 'launch/scenes/paper_periodic.yaml'
 # parameters of that scene that are not as usual
 OWN = 'warmup', 'duration'
-# lines of most messages, which the chapter describes once
+# lines of many messages, which the chapter tells once
 COMMON = (
-    'std_msgs/Header header          # stamp: wall time at which the message was made',
-    'string run_id                   # name of the run, the same in all messages of a run',
-    'float64 sim_time                # simulated time since the start of the run [time units]',
+    ('std_msgs/Header', 'header', 'stamp: wall time at which the message was made'),
+    ('string', 'run_id', 'name of the run, the same in all messages of a run'),
+    ('float64', 'sim_time', 'simulated time since the start of the run [time units]'),
+    ('float64', 'averaged_time', 'length of the averaging up to the last sample [time units]'),
+    ('uint32', 'first_index', 'Lyapunov index of element 0'),
+    *(('uint32', n, 'mode numbers of the wave along x, y and z') for n in ('nx', 'ny', 'nz')),
+    ('float64', 'wave_number', '|k| of the wave [1/sigma]'),
 )
-
+# messages with lines of others, which are told there
+ALIKE = dict(
+    HydroMode=('LpPhase',),
+    ModeField=('Mode', 'State'),
+    SlowVectors=('State',),
+    TPhase=('LpPhase',),
+)
 
 # when a number is not known; the chapter says what it is then
 OBVIOUS = r'; (?:NaN|-1) [^;\[]*(?=( \[|$|;))'
+# what the field above or the head of the message says
+PLAIN_ERROR = r'standard errors? of \w+(?: \[.*)?$'
+PARAMETER = r'parameter of this name(?: \[.*)?$'
 
 
 def read(*path):
@@ -40,75 +53,91 @@ def listed(folder, suffix):
     return sorted(name for name in os.listdir(os.path.join(ROOT, folder)) if name.endswith(suffix))
 
 
-def table(titles, rows):
-    lines = [' | '.join(line) for line in (titles, *rows)]
-    lines.insert(1, '|'.join(['---'] * len(titles)))
-    return '\n'.join(lines) + '\n'
-
-
 def escaped(text):
     return text.replace('|', r'\|').replace('*', r'\*').replace('<', '&lt;')
 
 
 def code(text):
-    return '`' + text.replace('|', r'\|') + '`' if text else 'empty'
+    return '`' + text + '`'
+
+
+def entries(rows):
+    """A list: what is named, and what is said of it."""
+    return ''.join(f'- {named}: {said}\n' for named, said in rows)
 
 
 def launch_arguments():
-    """Each file, and its arguments that can be given; neighbours that are told alike in one row."""
-    sections = []
-    for name in listed('launch', '.launch'):
-        rows = []
-        for arg in ElementTree.fromstring(read('launch', name)).findall('arg'):
-            told = [code(arg.get('default')), escaped(arg.get('doc', ''))]
-            if arg.get('value') is None and rows and rows[-1][1:] == told:
-                rows[-1][0] += ', ' + code(arg.get('name'))
-            elif arg.get('value') is None:
-                rows.append([code(arg.get('name')), *told])
-        sections.append(f'### {name}\n\n' + table(['argument', 'default', 'what'], rows))
-    return '\n'.join(sections)
-
-
-def message_rows(lines):
-    """A row for each comment with all its fields; a plain error is with its field."""
+    """Those that can be given; neighbours that are told alike together."""
     rows = []
-    for line in lines:
-        found = re.match(r'(\S+)\s+(\w+)(?:\s*=\s*(\S+))?\s*(?:#\s*(.*))?$', line)
-        if not found or line in COMMON:
+    for arg in ElementTree.fromstring(read('launch', 'run.launch')).findall('arg'):
+        if arg.get('value') is not None:
             continue
-        kind, field, value, what = found.groups()
-        if value is not None:
-            field += '=' + value
-        elif kind.endswith('[]'):
-            field += '[]'
-        if not kind[0].isupper():  # numbers and texts
-            kind = ''
-        what = re.sub(OBVIOUS, '', what or '')
-        if not what or what.startswith('[') or re.match(r'standard error(?: \[|$)', what):
-            unit = what if what.startswith('[') and what != '[-]' else ''
-            rows[-1][0] += ', ' + f'{code(field)} {unit}'.strip()
+        default = arg.get('default')
+        named = code(arg.get('name')) + (f' ({code(default)})' if default else '')
+        if rows and rows[-1][1] == escaped(arg.get('doc')):
+            rows[-1][0] += ', ' + named
         else:
-            rows.append([code(f'{kind.replace("[]", "")} {field}'.strip()), escaped(what)])
-    return rows
+            rows.append([named, escaped(arg.get('doc'))])
+    return '### run.launch\n\n' + entries(rows)
 
 
-def is_comment(line):
-    return line.startswith('#')
+def message_lines(name):
+    """The text above the first line, and (type, name, comment) of all lines, where a line without
+    a comment has that of the line above."""
+    lines = read('msg', name + '.msg').splitlines()
+    head = list(itertools.takewhile(lambda line: line.startswith('#'), lines))
+    found, above = [], ''
+    for line in lines[len(head) :]:
+        kind, field, own = re.match(r'(\S+)\s+(\S+)\s*(?:#\s*(.*))?$', line).groups()
+        above = own or above
+        found.append((kind, field, above))
+    return '\n'.join(line[1:].strip() for line in head), found
 
 
-def message_head(lines):
-    """What stands above the first field: its paragraphs."""
-    head = [line[1:].strip() for line in itertools.takewhile(is_comment, lines)]
-    return escaped('\n'.join(head))
+def field_code(kind, name):
+    return code((kind[:-2] + ' ' if kind[0].isupper() else '') + name + kind[-2:] * ('[' in kind))
+
+
+def said(name, what):
+    """The comment of a line without what the chapter or the name says."""
+    word, colon, rest = what.partition(': ')
+    if colon and word.lower() == name.partition('=')[0].replace('_', ' ').lower():
+        what = rest
+    return re.sub(OBVIOUS, '', what).replace('parameter of this name', 'the parameter')
+
+
+def of_both(what):
+    return re.sub(r'\b(?:T|LP) (fit|steps)', r'T or LP \1', what)
+
+
+def message_rows(message):
+    """For each comment all its fields; a plain error is with the field above, what is said of the
+    T and the LP fit is said once."""
+    bases = {line: base for base in ALIKE.get(message, ()) for line in message_lines(base)[1]}
+    rows, key = {}, None
+    for line in message_lines(message)[1]:
+        kind, name, comment = line
+        if line in COMMON or re.match(PARAMETER, comment):
+            continue
+        what = f'as in {bases[line]}' if line in bases else said(name, comment)
+        if not re.match(PLAIN_ERROR, what):
+            key = of_both(what)
+            rows.setdefault(key, ([], set()))[1].add(what)
+        rows[key][0].append(field_code(kind, name))
+    return [
+        (', '.join(names), escaped(key if len(told) > 1 else told.pop()))
+        for key, (names, told) in rows.items()
+    ]
 
 
 def message_fields():
-    sections = []
-    for name in listed('msg', '.msg'):
-        lines = read('msg', name).splitlines()
-        rows = table(['field', 'what'], message_rows(lines))
-        sections.append(f'### {name[:-4]}\n\n{message_head(lines)}\n\n{rows}')
-    return '\n'.join(sections)
+    """A section for each message; before them the rules for all, which stand in RunInfo."""
+    sections, rules = [], ''
+    for name in (file[:-4] for file in listed('msg', '.msg')):
+        head, _, more = message_lines(name)[0].partition('\n\n')
+        rules += more
+        sections.append(f'### {name}\n\n{escaped(head)}\n\n' + entries(message_rows(name)))
+    return '\n'.join([escaped(rules) + '\n', *sections])
 
 
 def node_says(option):
@@ -131,7 +160,7 @@ def scene_written(scene):
 
 SECTIONS = {
     'hdlyap_node --parameters=table': parameter_table,
-    'launch/*.launch': launch_arguments,
+    'launch/run.launch': launch_arguments,
     'msg/*.msg': message_fields,
 }
 

@@ -46,7 +46,7 @@ def table(title):
         if not line.startswith('|'):
             break
         name, *cells = (cell.strip() for cell in re.split(r'(?<!\\)\|', line.strip('| ')))
-        rows[re.search(r'`?([^`]+)`?', name).group(1)] = cells
+        rows.update((one, cells) for one in re.findall(r'`([^`]+)`', name) or [name])
     return rows
 
 
@@ -94,13 +94,6 @@ def services():
 
 def body(text, name):
     return re.search(name + r'\([^)]*\)\s*\{(.*?)\n\}', text, re.DOTALL).group(1)
-
-
-def numbers(text):
-    return {
-        float(number)
-        for number in re.findall(r'(?<![\w.^/])\d+(?:\.\d+)?(?:e-?\d+)?(?![\w^])', text)
-    }
 
 
 def names_of_messages():
@@ -167,13 +160,6 @@ class Tables(unittest.TestCase):
         named = dict(re.findall(r'(EXIT_\w+) = (\d)', read(NODE, 'node.c')))
         self.assertEqual(len(named), 4)
         self.assertEqual(set(table('status')), {'0', *named.values()})
-        for program, (said, *_) in table('program').items():
-            place = 'hdlyap_ros/scripts', program
-            if program.startswith('hdlyap '):
-                place = 'hdlyap_ros/python/hdlyap/commands', program[len('hdlyap ') :] + '.py'
-            script = ' '.join(read(*place).split('"""')[1].split())
-            stated = script.split('Exit status: ')[1].rstrip('.')
-            self.assertEqual(numbers(said), numbers(stated), program)
 
     def test_topics_of_parameters(self):
         """Those that are allowed and those that there are."""

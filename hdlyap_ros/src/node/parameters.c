@@ -16,9 +16,8 @@ static const parameter name_row = {
     .allowed = "a line that is not empty",
     .unit = "",
     .may_differ = true,
-    .text = "Name of the scene, copied into run_info. A name chooses no system: the scene "
-            "must also give at least one of particles, container, number, density, aspects "
-            "and boundaries.",
+    .text = "Name of the scene, for run_info. It chooses no system: at least one of particles, "
+            "container, number, density, aspects and boundaries must be given, too.",
 };
 
 static const parameter rows[] = {
@@ -42,8 +41,8 @@ static const parameter rows[] = {
         .unit = "",
         .may_differ = true,
         .needs = 1u << TOPIC_fields,
-        .text = "Vectors that are published as fields: one of each step that is found, or these "
-                "Lyapunov indices.",
+        .text = "Vectors that are published as fields: one of each step that is found, or those "
+                "with these Lyapunov indices.",
     },
     {
         .name = "slow_vectors_rate",
@@ -65,8 +64,8 @@ static const parameter rows[] = {
         .allowed = "from 0 (the lowest T and LP steps) to the vectors carried",
         .unit = "",
         .may_differ = true,
-        .text = "Number of slowest vectors in each message of slow_vectors. 0: all down to the "
-                "lowest T and LP steps that are found.",
+        .text = "Number of vectors in each message of slow_vectors, those of the smallest positive "
+                "exponents. 0: all from the lowest T and LP steps that are found on.",
     },
     {
         .name = "field_interval",
@@ -78,9 +77,10 @@ static const parameter rows[] = {
         .unit = "time units",
         .may_differ = true,
         .live = true,
-        .text = "Simulated time between publications of fields, and of means in structure: with "
-                "the first and the last report of the averaging, and with the first report at or "
-                "after each multiple of this time. Each costs an orthonormalisation.",
+        .text = "Simulated time between publications of fields, of means in structure and of "
+                "finite times in fluctuations. They come with the first and the last report of the "
+                "averaging, and with the first report at or after each multiple of this time. Each "
+                "costs an orthonormalisation.",
     },
     {
         .name = "wait_for_subscribers",
@@ -115,8 +115,7 @@ static const parameter rows[] = {
         .allowed = "a list of texts \"TIME NAME=VALUE\"",
         .unit = "",
         .may_differ = true,
-        .text = "Changes of parameters at given simulated times, to repeat a run in which ~set was "
-                "used.",
+        .text = "Changes at given simulated times, which repeat a run that was changed by ~set.",
     },
     {
         .name = "checkpoint",
@@ -138,8 +137,8 @@ static const parameter rows[] = {
         .allowed = "from 0 (only at the end and when asked) to 1e12",
         .unit = "s",
         .may_differ = true,
-        .text = "Wall time between two writings of the checkpoint. It is also written at the end "
-                "and by ~checkpoint.",
+        .text = "Wall time between two writings of the checkpoint, which is also written at the "
+                "end and by ~checkpoint.",
     },
     {
         .name = "resume",
@@ -160,7 +159,7 @@ static const parameter rows[] = {
         .allowed = "from 0 (none) to 1e12",
         .unit = "s",
         .may_differ = true,
-        .text = "Shortest wall time between two tables of the steps in the log, which come when "
+        .text = "Shortest wall time between two tables of the steps in the log. A table comes when "
                 "the averaged time has doubled or more steps are known, and at the end.",
     },
 };
