@@ -31,10 +31,7 @@ COMMON = (
 )
 # messages with lines of others, which are told there
 ALIKE = dict(
-    HydroMode=('LpPhase',),
-    ModeField=('Mode', 'State'),
-    SlowVectors=('State',),
-    TPhase=('LpPhase',),
+    HydroMode=('LpPhase',), ModeField=('Mode', 'State'), SlowVectors=('State',), TPhase=('LpPhase',)
 )
 
 # when a number is not known; the chapter says what it is then
@@ -67,18 +64,14 @@ def entries(rows):
 
 
 def launch_arguments():
-    """Those that can be given; neighbours that are told alike together."""
-    rows = []
+    """Those that can be given; those that are told alike together."""
+    rows = {}
     for arg in ElementTree.fromstring(read('launch', 'run.launch')).findall('arg'):
-        if arg.get('value') is not None:
-            continue
-        default = arg.get('default')
-        named = code(arg.get('name')) + (f' ({code(default)})' if default else '')
-        if rows and rows[-1][1] == escaped(arg.get('doc')):
-            rows[-1][0] += ', ' + named
-        else:
-            rows.append([named, escaped(arg.get('doc'))])
-    return '### run.launch\n\n' + entries(rows)
+        if arg.get('value') is None:
+            default = arg.get('default')
+            named = code(arg.get('name')) + (f' ({code(default)})' if default else '')
+            rows.setdefault(escaped(arg.get('doc')), []).append(named)
+    return '### run.launch\n\n' + entries((', '.join(names), told) for told, names in rows.items())
 
 
 def message_lines(name):
@@ -103,7 +96,8 @@ def said(name, what):
     word, colon, rest = what.partition(': ')
     if colon and word.lower() == name.partition('=')[0].replace('_', ' ').lower():
         what = rest
-    return re.sub(OBVIOUS, '', what).replace('parameter of this name', 'the parameter')
+    what = re.sub(OBVIOUS, '', what).replace('parameter of this name', 'the parameter')
+    return what.replace(': one of ', ': ')
 
 
 def of_both(what):

@@ -28,9 +28,9 @@ static const parameter rows[] = {
         .usual = "spectrum, modes, steps, lp_phases, fields, state",
         .allowed = "a list out of ",
         .unit = "",
-        .text = "Topics that can be published, beside run_info, status, cost and /diagnostics. A "
-                "topic that nobody listens to is not computed; the table in the log listens to "
-                "steps and lp_phases. Without exponents only gas and state exist.",
+        .text =
+            "Topics that can be published, beside run_info, status, cost and /diagnostics. A topic "
+            "that nobody listens to is not computed. Without exponents only gas and state exist.",
     },
     {
         .name = "field_indices",
@@ -78,8 +78,8 @@ static const parameter rows[] = {
         .may_differ = true,
         .live = true,
         .text = "Simulated time between publications of fields, of means in structure and of "
-                "finite times in fluctuations. They come with the first and the last report of the "
-                "averaging, and with the first report at or after each multiple of this time. Each "
+                "finite times in fluctuations: with the first and the last report of the "
+                "averaging, and the first report at or after each multiple of this time. Each "
                 "costs an orthonormalisation.",
     },
     {
@@ -125,8 +125,7 @@ static const parameter rows[] = {
         .allowed = "a path in one line",
         .unit = "",
         .may_differ = true,
-        .text = "File in which the run is kept so that it can be resumed, written completely or "
-                "not at all. Empty: no file.",
+        .text = "File in which the run is kept so that it can be resumed. Empty: no file.",
     },
     {
         .name = "checkpoint_interval",
