@@ -115,7 +115,8 @@ static const parameter rows[] = {
         .allowed = "a list of texts \"TIME NAME=VALUE\"",
         .unit = "",
         .may_differ = true,
-        .text = "Changes at given simulated times, which repeat a run that was changed by ~set.",
+        .text = "Changes of parameters at given simulated times, to repeat a run in which ~set was "
+                "used.",
     },
     {
         .name = "checkpoint",
