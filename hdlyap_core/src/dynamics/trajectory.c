@@ -58,7 +58,7 @@ hd_summed hd_trajectory_summed(const hd_trajectory *tr)
 }
 
 double hd_trajectory_time(const hd_trajectory *tr) { return tr->of->time(tr->state); }
-int hd_trajectory_disks(const hd_trajectory *tr) { return tr->particles; }
+int hd_trajectory_particles(const hd_trajectory *tr) { return tr->particles; }
 uint64_t hd_trajectory_collisions(const hd_trajectory *tr)
 {
     return hd_trajectory_told(tr).collisions;

@@ -21,6 +21,6 @@ void hd_trajectory_virial(const hd_trajectory *trajectory, double *virial);
 hd_summed hd_trajectory_summed(const hd_trajectory *trajectory);
 double hd_trajectory_collision_rate(const hd_trajectory *trajectory);
 
-int hd_trajectory_disks(const hd_trajectory *trajectory); /**< N */
+int hd_trajectory_particles(const hd_trajectory *trajectory); /**< N */
 
 #endif

@@ -28,7 +28,7 @@ typedef struct whole {
 
 static double *state_of(const hd_trajectory *tr)
 {
-    const size_t n = (size_t)hd_trajectory_disks(tr);
+    const size_t n = (size_t)hd_trajectory_particles(tr);
     double *state = calloc(4 * n, sizeof *state);
     assert_non_null(state);
     hd_trajectory_state(tr, state, state + 2 * n);
@@ -202,7 +202,7 @@ TEST(starts_at_rest_of_the_centre)
         for (int d = 0; d < 2; d++)
             if (def.boundary[d] == P) CHECK_CLOSE(sum[d], 0.0, rounding);
         CHECK_CLOSE(hd_trajectory_kinetic_energy(tr), def.number, rounding);
-        assert_true(hd_trajectory_time(tr) == 0 && hd_trajectory_disks(tr) == def.number);
+        assert_true(hd_trajectory_time(tr) == 0 && hd_trajectory_particles(tr) == def.number);
         assert_true(hd_trajectory_collisions(tr) == 0 && hd_trajectory_wall_events(tr) == 0);
         free(q);
     }

@@ -30,7 +30,7 @@ static void momentum_of(const hd_trajectory *tr, double *p, double sum[2])
 {
     sum[0] = sum[1] = 0;
     hd_trajectory_state(tr, NULL, p);
-    for (int k = 0; k < 2 * hd_trajectory_disks(tr); k++) sum[k % 2] += p[k];
+    for (int k = 0; k < 2 * hd_trajectory_particles(tr); k++) sum[k % 2] += p[k];
 }
 
 static void check_inside(const hd_trajectory *tr, const hd_scene_def *def, double *q)

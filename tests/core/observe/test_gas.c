@@ -69,7 +69,7 @@ static void add_flight(sums *s, int disks, double dt)
 /** Adds `sign` times the moments of now. */
 static void add_moment(sums *s, const hd_trajectory *tr, double sign)
 {
-    const int n = hd_trajectory_disks(tr);
+    const int n = hd_trajectory_particles(tr);
     double box[DIM];
     HEAP double *q = malloc(2 * DIM * (size_t)n * sizeof *q);
     box_around(tr, box);
@@ -102,7 +102,7 @@ static void check_examined(const hd_trajectory *tr, const hd_scene_def *def)
 
 static void follow(sums *s, hd_trajectory *tr, double t)
 {
-    const int n = hd_trajectory_disks(tr);
+    const int n = hd_trajectory_particles(tr);
     double at = 0.0;
     OWNED(hd_record) *log = new_log();
     hd_trajectory_state(tr, NULL, s->p);
