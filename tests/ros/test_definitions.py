@@ -38,9 +38,13 @@ class Definitions(test_data_tools.Tools):
         """It is named, as it is in each run_info; one without is of another."""
         spectrum = made.spectrum(HALF, 50.0)
         info, steps = made.run_info(version='0.0.7'), without(made.steps([]), 't_misfit')
-        self.refused('written by hdlyap 0.0.7, whose message hdlyap/Steps differs', [info, spectrum, steps])
+        self.refused(
+            'written by hdlyap 0.0.7, whose message hdlyap/Steps differs', [info, spectrum, steps]
+        )
         old = without(info, 'boundary_z')
-        self.refused('written by hdlyap 0.0.7, whose message hdlyap/RunInfo differs', [old, spectrum])
+        self.refused(
+            'written by hdlyap 0.0.7, whose message hdlyap/RunInfo differs', [old, spectrum]
+        )
         self.refused('written by another version of hdlyap, whose', [spectrum, steps])
         info.version = '0\x1b[2J'
         self.refused('written by another version of hdlyap, whose', [info, spectrum, steps])
@@ -53,7 +57,9 @@ class Definitions(test_data_tools.Tools):
                 info = under(made.run_info(), line + '\n' + own, md5sum)
                 path = self.write([info, made.spectrum(HALF, 50.0)], 'a')
                 for status, _, error in self.all_tools(path):
-                    self.assertEqual('whose message hdlyap/RunInfo differs' in error, 'aaa' in md5sum, error)
+                    self.assertEqual(
+                        'whose message hdlyap/RunInfo differs' in error, 'aaa' in md5sum, error
+                    )
                 self.assertFalse(os.path.exists(self.trace), line)
 
 
