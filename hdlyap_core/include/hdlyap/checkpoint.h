@@ -33,7 +33,8 @@ typedef struct hd_checkpoint {
  * are kept. Returns HD_FILE_FAULT if the file cannot be written, or if no run could be resumed from
  * its contents; HD_NOT_FINITE if a number of the run is not finite; or the status with which the
  * run has failed before. With several ranks all call it, rank 0 writes, and only its `message` is
- * filled. The file has about 32 N n bytes for N particles with two coordinates and n vectors. */
+ * filled. The file has about 32 N n bytes for N particles with two coordinates and n vectors that
+ * are carried (hd_counts.carried). */
 HD_MUST_CHECK hd_status hd_run_save(hd_run *run, const char *path, const char *label, char *message,
                                     size_t size);
 

@@ -12,7 +12,8 @@
 
 HD_API_BEGIN
 
-/** What connects this rank to the others. Whoever makes it fills its members, with no traffic. */
+/** What connects this rank to the others. Whoever makes it fills its members; all of `traffic` is 0
+ * at first. */
 typedef struct hd_communicator hd_communicator;
 
 /** The kinds of exchange, one for each function of hd_transport. */

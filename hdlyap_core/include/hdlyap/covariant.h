@@ -6,9 +6,9 @@
  * transient (covariant_transient). From there two independent random sets of vectors, the two
  * starts, are carried backwards in time through the transient. By how much they still differ at the
  * window's end is the start mismatch. From there the first start alone is carried back to the
- * beginning of the window; its vectors within the window are the covariant vectors. All functions,
- * reading too, share one workspace, so only one thread at a time may call them. Tags as [T16] are
- * those of equations in THEORY.md. */
+ * beginning of the window; its vectors within the window are the covariant vectors. The functions
+ * of one run share a workspace: only one thread at a time may call them for the same run. Tags as
+ * [T16] are those of equations in THEORY.md. */
 #ifndef HDLYAP_COVARIANT_H
 #define HDLYAP_COVARIANT_H
 
@@ -54,7 +54,8 @@ typedef struct hd_covariant_results {
     double window_end; /**< simulated time at which the last complete window ended, or at which the
                           first one begins [time units] */
     /** Exponents of the covariant vectors: their mean growth rates, which agree with those of the
-     * frame. hd_spectrum_local is the growth rate between the last two samples. */
+     * frame. hd_spectrum_local is the growth rate over the earliest part of the last window, from
+     * its beginning to the sample after it. */
     const hd_spectrum *spectrum;
     /** Angles between vectors and between spaces, from all samples. */
     hd_splitting_results splitting;

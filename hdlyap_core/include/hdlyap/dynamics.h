@@ -44,8 +44,9 @@ typedef struct hd_summed {
     double time; /**< time that the integrals cover, up to the last whole time step [time units] */
     /** For each direction d: integral of the sum of p_d^2 over the particles. */
     double kinetic[HD_DIMENSION_MAX];
-    /** For each direction d: integral of the sum of r_d F_d over the pairs, with r the vector
-     * between the two particles and F the force between them. */
+    /** For each direction d: integral of the sum of r_d F_d over the pairs, with r the vector from
+     * one of the two particles to the other, and F the force on that other one. Repulsion makes it
+     * positive. */
     double virial[HD_DIMENSION_MAX];
     double potential; /**< integral of the potential energy of all particles together */
 } hd_summed;
@@ -82,8 +83,8 @@ typedef struct hd_passage {
     /** The entries, [count], each of hd_dynamics.entry bytes; NULL if count is 0. */
     const void *entry;
     size_t count;
-    double begin, end; /**< the part of time that they are carried through, counted from the start
-                          of the record [time units] */
+    double begin, end; /**< the part of the record through which tangent vectors are carried: times
+                          from the start of the record [time units] */
     int particles;
 } hd_passage;
 
@@ -173,9 +174,9 @@ struct hd_dynamics {
     void (*free)(void *state);
     /** Moves the particles to the simulated time t_end, which is not before the present one. Unless
      * `record` is NULL, it adds what happened: hd_record_put for each entry, then hd_record_end.
-     * Time steps begin and end at fixed times, whatever t_end is; the call does all steps that end
-     * by t_end. If it returns another status than HD_OK, as HD_NOT_FINITE or HD_NO_MEMORY, the run
-     * has failed. */
+     * Time steps begin and end at fixed times, whatever t_end is. The call does all steps that end
+     * by t_end; the state is then that of the last step, but the record ends at t_end. If it
+     * returns another status than HD_OK, as HD_NOT_FINITE or HD_NO_MEMORY, the run has failed. */
     hd_status (*advance)(void *state, hd_record *record, double t_end);
     double (*time)(const void *state); /**< the present simulated time, t_end of the last `advance`
                                           [time units] */
@@ -191,8 +192,8 @@ struct hd_dynamics {
     /** Writes all members of *summed, from which the observable gas follows for particles with a
      * potential. It is called only if the scene asks for HD_OBSERVE_GAS. May be left out. */
     void (*sum)(const void *state, hd_summed *summed);
-    /** Writes the members of *examined, all but energy_error, for the particles that have `tell`.
-     * May be left out. */
+    /** Writes all members of *examined but energy_error; 0 where a member means nothing for these
+     * particles. May be left out. */
     void (*examine)(const void *state, hd_examined *examined);
     /** Relative error of the total energy now. May be left out if all energy is kinetic and should
      * be N. */
@@ -217,9 +218,9 @@ struct hd_dynamics {
     /* ---- tangent maps */
     /** Make, free and fill the maps of a part of a record, which `carry` reads. maps_fill takes the
      * entries from t_begin to t_end (hd_record_within), times counted from the start of the record.
-     * Maps from a to b and then from b to c must give the same as maps from a to c; so the entries
-     * of a time step must not be split. Return HD_OK or HD_NO_MEMORY. If all three are left out,
-     * `carry` gets an hd_passage. */
+     * Maps from a to b and then from b to c must give the same as maps from a to c; so a row gives
+     * all entries of a time step the same time, because t_begin and t_end can be any times. Return
+     * HD_OK or HD_NO_MEMORY. If all three are left out, `carry` gets an hd_passage. */
     hd_status (*maps_create)(void **maps, int particles);
     void (*maps_free)(void *maps);
     hd_status (*maps_fill)(void *maps, const hd_record *record, double t_begin, double t_end);

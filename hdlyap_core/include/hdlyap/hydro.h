@@ -9,19 +9,20 @@
 
 HD_API_BEGIN
 
-/** Response to one vector of a step, for one modulation A(r) of the step's wave. The numbers are
- * changes, to first order, of sums over the particles when the state (q, p) is displaced along the
- * vector, which has |dq|^2 + |dp|^2 = 1. All are divided by sqrt(N / 2); k is the wave number. They
- * are 0 if col is -1. */
+/** Response to one vector of a step, for one modulation A(r): one of hd_wave.pairs of the step's
+ * wave, in T steps too. The numbers are changes, to first order, of sums over the particles when
+ * the state (q, p) is displaced along the vector, which has |dq|^2 + |dp|^2 = 1. All are divided by
+ * sqrt(N / 2); k is the wave number. They are 0 if col is -1. */
 typedef struct hd_hydro_response {
     /** Index of the step in hd_steps; column of the vector, -1 if no vector was found. */
     int step, col;
     unsigned char modulation; /**< the modulation A, bits as in hdlyap/wave.h */
     double density;           /**< change of sum A, divided by k */
     double along;             /**< change of sum p . grad A, divided by k */
-    /** Change of sum p . F, divided by k. In the plane F = curl A = (dA/dy, -dA/dx), with a sine
-     * along each reflecting direction, and 0 where this direction has mode number 0. In space F is
-     * the first T field of A, with amplitude 1 instead of k [T22]. */
+    /** Change of sum p . F, divided by k. In the plane F = curl B = (dB/dy, -dB/dx). B is A with a
+     * sine instead of the cosine along each reflecting direction, so B and F are 0 if such a
+     * direction has mode number 0. In space F is the first T field of A, with amplitude 1 instead
+     * of k [T22]. */
     double across;
     double energy;        /**< change of sum p^2 A */
     double across_second; /**< in space, as `across` with the second T field of A; 0 in the plane */
@@ -31,7 +32,8 @@ typedef struct hd_hydro_response {
 typedef struct hd_hydro hd_hydro;
 
 /** Number of responses, which is constant. Steps follow each other in their order in hd_steps. Each
- * has hd_step.expected vectors, and for each of these a response for each modulation. */
+ * has hd_step.expected vectors, and for each of these a response for each modulation of
+ * hd_wave.pairs. */
 int hd_hydro_count(const hd_hydro *hydro);
 /** Response `index`, 0 .. hd_hydro_count - 1. */
 const hd_hydro_response *hd_hydro_at(const hd_hydro *hydro, int index);

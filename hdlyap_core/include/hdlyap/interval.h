@@ -5,7 +5,8 @@
 
 /** Why an interval between two orthonormalisations was not longer. */
 typedef enum hd_limit {
-    /** It ended at a report that needs all vectors, or at the first report of the averaging. */
+    /** It ended as planned: at the first report of the averaging, at a report for which an
+     * observable needs all vectors, or at a sample of covariant vectors. */
     HD_LIMIT_SCHEDULE,
     HD_LIMIT_CONDITION, /**< rounding would have made the error of exponents larger than
                            hd_scene_def.accuracy */
@@ -14,12 +15,14 @@ typedef enum hd_limit {
     HD_LIMIT_OVERFLOW, /**< components of vectors would have become too large for a double */
     HD_LIMIT_SCENE,    /**< it was as long as hd_scene_def.interval allows */
     HD_LIMIT_EVENTS,   /**< the record would have taken too much memory, or the call too long */
-    HD_LIMIT_LOOK,     /**< a report, a viewer (hd_run_watch) or the phases needed the vectors */
-    HD_LIMIT_REPAIR,   /**< a longer interval lost too much accuracy, so that it was repeated in
-                          pieces */
-    HD_LIMIT_STAGE,    /**< warm-up or averaging ended */
-    /** A sample of the averages ended, which lasts about 80 collisions of each particle, or 1/32 of
-     * the duration. */
+    /** It was cut short: phases, fluctuations or a viewer (hd_run_watch) needed the vectors, or a
+     * report did for which this was not planned, as one that reaches the target. */
+    HD_LIMIT_LOOK,
+    HD_LIMIT_REPAIR, /**< a longer interval lost too much accuracy, so that it was repeated in
+                        pieces */
+    HD_LIMIT_STAGE,  /**< warm-up or averaging ended */
+    /** A sample of the averages ended. It lasts about 80 collisions of each particle or 1/32 of the
+     * duration, whichever is shorter; in short runs it lasts longer than that. */
     HD_LIMIT_SAMPLE,
     HD_LIMIT_NONE /**< there was no interval yet */
 } hd_limit;

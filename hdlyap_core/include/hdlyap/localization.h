@@ -1,6 +1,6 @@
 /** How many particles take part in each vector: localisation widths. n is the number of vectors,
- * col 0 .. n - 1, largest exponent first. All functions, reading too, share one workspace, so only
- * one thread at a time may call them. [T8] is the tag of an equation in THEORY.md. */
+ * col 0 .. n - 1, largest exponent first. The functions of one run share a workspace: only one
+ * thread at a time may call them for the same run. [T8] is the tag of an equation in THEORY.md. */
 #ifndef HDLYAP_LOCALIZATION_H
 #define HDLYAP_LOCALIZATION_H
 

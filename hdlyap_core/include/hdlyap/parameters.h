@@ -54,8 +54,8 @@ typedef struct hd_parameter {
     unsigned needs;
     const char *text;   /**< what the parameter means, for users */
     const char *record; /**< name of its array in a checkpoint; NULL means that it is `name` */
-    /** Returns the number that an automatic value stands for in this scene; NULL if the parameter
-     * has no automatic value, or none that is known without a run. */
+    /** Returns the value if it is not automatic, otherwise the number that it stands for in this
+     * scene. NULL if the parameter has no automatic value, or none that is known without a run. */
     double (*chosen)(const hd_scene_def *def);
 } hd_parameter;
 
@@ -66,7 +66,8 @@ const hd_parameter *hd_scene_parameters(int *count);
 /** Value of a parameter in a scene as a number. A seed above 2^53 is rounded; a text gives 0 if it
  * is empty, otherwise 1. */
 double hd_parameter_value(const hd_parameter *row, const hd_scene_def *def);
-/** As hd_parameter_value, but the number that hd_parameter.chosen returns, if the row has it. */
+/** As hd_parameter_value, but for an automatic value the number that it stands for, if the row has
+ * hd_parameter.chosen. */
 double hd_parameter_effect(const hd_parameter *row, const hd_scene_def *def);
 /** Sets a parameter of *def to a number, which must be one that its kind can hold. A text becomes
  * empty, whatever the number. */

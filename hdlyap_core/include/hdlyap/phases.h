@@ -58,9 +58,10 @@ const hd_phase *hd_phases_phase(const hd_phases *phases, int index);
  * than the time after which the phase has forgotten its fluctuations. */
 double hd_phases_diffusion(const hd_phases *phases, int index, double *error);
 
-/** Writes the mean rate of the phases of a step [rad/time unit] to *omega and its standard error to
- * *error, which is negative while it is not known. Returns false, and writes nothing, if no phase
- * of the step has been tracked. */
+/** Writes the mean rate of the phases of a step [rad/time unit] to *omega, with its sign, so that
+ * phases which turn in opposite senses cancel; and its standard error to *error, which is negative
+ * while it is not known. Returns false, and writes nothing, if no phase of the step has been
+ * tracked. */
 HD_MUST_CHECK bool hd_phases_rate(const hd_phases *phases, int step, double *omega, double *error);
 
 /** Phase velocity |omega| / k of LP steps: the mean over the steps, weighted with the errors of

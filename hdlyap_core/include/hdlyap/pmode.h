@@ -1,5 +1,6 @@
-/** The L and P modes of an LP step, each reconstructed from all vectors of the step [T14]. Only one
- * thread at a time may call these functions. [T14] is the tag of an equation in THEORY.md. */
+/** The L and P modes of an LP step, each reconstructed from all vectors of the step [T14]. The
+ * functions of one run share a workspace: only one thread at a time may call them for the same run.
+ * [T14] is the tag of an equation in THEORY.md. */
 #ifndef HDLYAP_PMODE_H
 #define HDLYAP_PMODE_H
 
@@ -32,9 +33,9 @@ double hd_pmode_residual(const hd_pmode *pmode, int c);
 double hd_pmode_rotation_distance(const hd_pmode *pmode);
 
 /** Divides P mode c, d <= c < 2 d, by the momenta p[particle][coordinates], component by component:
- * out = phi p / (p^2 + eps), out[particle][coordinates]. All components of out are then the
- * modulation A at the particle, with amplitude 1 but for eps and for what hd_pmode_residual says.
- */
+ * out = s phi p / (p^2 + eps), out[particle][coordinates], with s the length that the P field p A
+ * had before it was scaled to 1. All components of out are then the modulation A at the particle,
+ * with amplitude 1 but for eps and for what hd_pmode_residual says. */
 void hd_pmode_divide(const hd_pmode *pmode, double *out, int c, const double *p);
 
 /** eps of hd_pmode_divide, in units of the mean square of a momentum component. */

@@ -1,8 +1,9 @@
 /** The record: what happened to the particles from some moment on, as entries in the order of their
- * times, one for each collision or, in time steps, for each pair of particles that interacts. All
- * entries of a record have the same size and begin with their time; only the dynamics that wrote
- * them knows what else they hold. Tangent vectors are carried by the record alone. Times are
- * counted from the start of the record [time units]. */
+ * times. The dynamics decides what has an entry: in the core each collision of hard particles, and
+ * of soft ones each time step and, within it, each pair at each computation of forces. All entries
+ * of a record have the same size and begin with their time; only the dynamics that wrote them knows
+ * what else they hold. Tangent vectors are carried by the record alone. Times are counted from the
+ * start of the record [time units]. */
 #ifndef HDLYAP_RECORD_H
 #define HDLYAP_RECORD_H
 

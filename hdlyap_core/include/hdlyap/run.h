@@ -1,9 +1,10 @@
 /** A run of a scene. It has three stages: equilibration, in which only particles move; warm-up of
  * the frame, the tangent vectors that it carries; and averaging. hd_run_advance takes it on by one
  * interval between two orthonormalisations. Times are simulated, in time units, unless a comment
- * says wall time. n is the number of vectors, N that of particles. Several runs may go on at once,
- * each on a thread of its own; a run, and everything that is read from it, belongs to one thread at
- * a time. Tags as [T6] are those of equations in THEORY.md. */
+ * says wall time. n is the number of exponents, each of which has a vector (hd_counts.vectors), N
+ * that of particles. Several runs may go on at once, each on a thread of its own; a run, and
+ * everything that is read from it, belongs to one thread at a time. Tags as [T6] are those of
+ * equations in THEORY.md. */
 #ifndef HDLYAP_RUN_H
 #define HDLYAP_RUN_H
 
@@ -120,11 +121,12 @@ HD_MUST_CHECK hd_status hd_run_advance(hd_run *run);
  * asks for hydro or fields are due. Phases have samples of their own: see hd_run_followed. */
 bool hd_run_report_due(const hd_run *run);
 
-/** Sets how often fields are due: with the first report of the averaging, then with the first
- * report at or after each multiple of `interval` [time units] since the averaging began, and with
- * the last. 0, the default, means with every report. `interval` is finite. The first call holds at
- * once, a later one from hd_run_change_time on. A resumed run keeps its old interval until the
- * first call. */
+/** Sets how often fields are due. At such a report all vectors are known if the scene asks for the
+ * observable fields, so that the caller can reconstruct L and P modes (hd_pmode_reconstruct).
+ * Fields are due with the first report of the averaging, then with the first report at or after
+ * each multiple of `interval` [time units] since the averaging began, and with the last. 0, the
+ * default, means with every report. `interval` is finite. The first call holds at once, a later one
+ * from hd_run_change_time on. A resumed run keeps its old interval until the first call. */
 void hd_run_fields_every(hd_run *run, double interval);
 
 /** For several ranks, where each rank has only some vectors: with each report when fields are due,
