@@ -31,7 +31,9 @@ def hydro(time):
     """Of a vector of LP(1,0) and of a T step that is not resolved."""
     nan = dict.fromkeys(('density', 'along', 'across', 'across_second', 'energy'), np.nan)
     one = HydroMode(0, 41, Mode.LP, 1, 0, 0, LpPhase.SIN_COS, 0.25, time, 0.5, 0.0, -0.125)
-    return Hydro(run_id='one', sim_time=time, responses=[one, HydroMode(step=1, kind=Mode.T, nx=1, **nan)])
+    return Hydro(
+        run_id='one', sim_time=time, responses=[one, HydroMode(step=1, kind=Mode.T, nx=1, **nan)]
+    )
 
 
 def fields():
