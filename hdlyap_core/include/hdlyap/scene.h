@@ -33,7 +33,7 @@ enum { HD_DIMENSION_MAX = 3 };
  * HD_NAME, a user writes the name. */
 #define HD_CONTAINERS(EACH)                                                                        \
     EACH(RECTANGLE, rectangle, "edges along the axes, in space a box")                             \
-    EACH(CIRCLE, circle, "disks whose rims touch its wall; it has no aspect and no boundaries")
+    EACH(CIRCLE, circle, "for disks, whose rims touch its wall; no aspect, no boundaries")
 
 #define HD_CONTAINER_VALUE(NAME, name, what) HD_##NAME,
 typedef enum hd_container { HD_CONTAINERS(HD_CONTAINER_VALUE) HD_CONTAINERS_END } hd_container;
@@ -60,8 +60,8 @@ enum {
 enum { HD_WARMUP_AUTO = -1 };
 
 /** Bits of hd_scene_def.observe: the observables, computed beyond the exponents, as rows of
- * observables.inc. An observable brings along those that it needs: phases, fields, hydro and
- * structure need steps, and steps need modes. gas needs no exponents. */
+ * observables.inc. An observable brings others along: modes and steps bring each other, and phases,
+ * fields, hydro and structure bring both. gas needs no exponents. */
 enum {
 #define HD_OBSERVABLE(name, NAME, bit, of_waves, result) HD_OBSERVE_##NAME = (bit),
 #include "hdlyap/observables.inc"

@@ -1,7 +1,7 @@
 /** Lyapunov exponents, with standard errors that take correlations in time into account. An
  * exponent is the mean growth rate of a vector; columns col = 0 .. n - 1 are in the order of the
- * exponents, largest first. All functions, reading too, share one workspace, so only one thread at
- * a time may call them. Tags as [T8] are those of equations in THEORY.md. */
+ * exponents, largest first. The functions of one run share a workspace: only one thread at a time
+ * may call them for the same run. Tags as [T8] are those of equations in THEORY.md. */
 #ifndef HDLYAP_SPECTRUM_H
 #define HDLYAP_SPECTRUM_H
 

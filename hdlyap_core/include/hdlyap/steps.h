@@ -1,8 +1,8 @@
 /** The steps of the spectrum, and the dispersion relation lambda(k) fitted to them [T12]. A step is
  * a set of equal exponents whose vectors are waves of one kind and one wave vector. n is the number
- * of vectors, which are columns 0 .. n - 1, largest exponent first. All functions, reading too,
- * share one workspace, so only one thread at a time may call them. [T12] is the tag of an equation
- * in THEORY.md. */
+ * of vectors, which are columns 0 .. n - 1, largest exponent first. The functions of one run share
+ * a workspace: only one thread at a time may call them for the same run. [T12] is the tag of an
+ * equation in THEORY.md. */
 #ifndef HDLYAP_STEPS_H
 #define HDLYAP_STEPS_H
 
@@ -20,7 +20,8 @@ typedef enum hd_sharing {
     HD_SHARING_MIXING,  /**< exponents differ, but the vectors have not had the time to separate */
     HD_SHARING_BLENDED, /**< exponents differ, but by less than they fluctuate, so that the vectors
                            stay mixed */
-    /** Exponents are equal within three standard errors, which are at most 3 % of them. */
+    /** Exponents differ by at most three standard errors of their difference, and three of these
+     * errors are at most 3 % of the exponent. */
     HD_SHARING_COINCIDENT
 } hd_sharing;
 
@@ -54,8 +55,8 @@ typedef struct hd_step {
     double set_time; /**< averaged time since which the set has had these same steps [time units] */
     double own_part; /**< fraction of the step's weight in the set that is in its own columns: 1
                         without mixing */
-    /** Difference between the mean exponent of the step's own columns and that of the nearest other
-     * step of the set; 0 if there is none [1/time unit]. */
+    /** How far the mean exponent of the step's own columns is from that of the nearest other step
+     * of the set, 0 or above; 0 if there is none [1/time unit]. */
     double gap;
     double gap_error; /**< standard error of gap; negative while it is not known, 0 if the step is
                          alone */

@@ -1,9 +1,9 @@
 /** Structure factors of the vectors: how much of each vector's dq half is a wave, along and across
  * every wave vector that the particles can show, and the amplitudes of each vector's strongest wave
- * [T20]. They need neither fits of fields nor steps. n is the number of vectors; arrays of n
- * elements are in the order of the exponents, largest first, belong to the run, and change when it
- * goes on. Several threads may read one hd_structure at once while no thread calls its run. Tags as
- * [T20] are those of equations in THEORY.md. */
+ * [T20]. They do not depend on fits of fields or on steps, although a run that has them computes
+ * both. n is the number of vectors; arrays of n elements are in the order of the exponents, largest
+ * first, belong to the run, and change when it goes on. Several threads may read one hd_structure
+ * at once while no thread calls its run. Tags as [T20] are those of equations in THEORY.md. */
 #ifndef HDLYAP_STRUCTURE_H
 #define HDLYAP_STRUCTURE_H
 
@@ -25,9 +25,10 @@ long hd_structure_samples(const hd_structure *structure);
 int hd_structure_waves(const hd_structure *structure);
 /** Wave number `wave` of these, 0 .. hd_structure_waves - 1. */
 const hd_wave *hd_structure_wave(const hd_structure *structure, int wave);
-/** Mean structure factors S of all n vectors at one wave, for direction e. With dq scaled to length
- * 1, S = |sum over particles of (e . dq) exp(-i k . q)|^2; in the plane it is 1/2 for a random
- * vector. */
+/** Mean structure factors S of all n vectors at one wave, along or across k. With dq scaled to
+ * length 1 and a unit vector u in this direction, S = |sum over particles of (u . dq) exp(-i k .
+ * q)|^2, averaged over the signs of the components of k; in the plane it is 1/2 for a random
+ * vector. In space, S across k is the sum over two directions u. */
 const double *hd_structure_mean(const hd_structure *structure, int wave, hd_direction e);
 
 /** Index of the strongest wave of vector col: the one whose mean S, along plus across, was largest

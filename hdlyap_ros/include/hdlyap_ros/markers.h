@@ -64,7 +64,8 @@ HDR_MUST_CHECK hdr_status hdr_markers_advertise(hdr_publisher **out, hdr_node *n
 HDR_MUST_CHECK hdr_status hdr_markers_publish(hdr_publisher *publisher, const hdr_markers *message);
 
 /** Publishes on /tf_static, as long as the node lives, that the coordinate frames `parent` and
- * `child` are identical. Call it once. Returns HDR_OK, HDR_FAULT or HDR_NO_MEMORY. */
+ * `child` are identical. A node publishes one pair: a second call replaces the first one. Returns
+ * HDR_OK, HDR_FAULT or HDR_NO_MEMORY. */
 HDR_MUST_CHECK hdr_status hdr_frame_publish(hdr_node *node, const char *parent, const char *child);
 
 #ifdef __cplusplus

@@ -61,8 +61,8 @@ bool hdr_stop_requested(void);
 /** Asks the process to stop. It may be called from a signal handler. */
 void hdr_stop_request(void);
 
-/** Waits `seconds` of the monotonic clock; INFINITY is allowed. Returns true then, and false as
- * soon as a stop has been requested: while (hdr_node_wait(0.1)) ... */
+/** Waits `seconds` of the monotonic clock and returns true, or returns false as soon as a stop has
+ * been requested: while (hdr_node_wait(0.1)) ... With INFINITY it waits for a stop. */
 bool hdr_node_wait(double seconds);
 
 /** Returns the wall time. */
