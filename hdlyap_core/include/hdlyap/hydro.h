@@ -19,10 +19,10 @@ typedef struct hd_hydro_response {
     unsigned char modulation; /**< the modulation A, bits as in hdlyap/wave.h */
     double density;           /**< change of sum A, divided by k */
     double along;             /**< change of sum p . grad A, divided by k */
-    /** Change of sum p . F, divided by k. In the plane F = curl B = (dB/dy, -dB/dx). B is A with a
-     * sine instead of the cosine along each reflecting direction, so B and F are 0 if such a
-     * direction has mode number 0. In space F is the first T field of A, with amplitude 1 instead
-     * of k [T22]. */
+    /** In the plane, change of sum p . F, divided by k, with F = curl B = (dB/dy, -dB/dx). B is A
+     * with a sine instead of the cosine along each reflecting direction, so B and F are 0 if such a
+     * direction has mode number 0. In space, change of sum p . F with F the first T field of A, of
+     * amplitude 1 [T22]. */
     double across;
     double energy;        /**< change of sum p^2 A */
     double across_second; /**< in space, as `across` with the second T field of A; 0 in the plane */
