@@ -77,7 +77,7 @@ typedef struct hd_covariant_results {
      * halves, half[1] of their dp halves, each scaled to length 1. NULL if particles have no
      * positions in a box. */
     const hd_modes *half[2];
-    /** The same for the dq halves of the Gram-Schmidt vectors, in the same samples. */
+    /** Mean weights of the dq halves of the Gram-Schmidt vectors, in the same samples. */
     const hd_modes *of_frame;
     /** Mean localisation widths, [n], 1 / N .. 1 (hdlyap/localization.h); and mean of |cos| of the
      * angle between the dq half and the dp half of a vector, [n], 0 .. 1. */

@@ -46,7 +46,7 @@ enum { HD_TIMES_MAX = 20 };
 /** How often vectors change the order of their growth over times of one length. */
 typedef struct hd_order_over {
     double time; /**< mean length of these times [time units] */
-    long count;  /**< number of these times that have passed */
+    long count;  /**< number of times of this length that have passed */
     /** Fraction of these times over which vector col grew less than vector col + 1, [n - 1]. */
     const double *violations;
     /** Fraction of these times over which some vector 0 .. col grew less than some later one, [n -

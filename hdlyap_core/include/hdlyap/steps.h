@@ -1,6 +1,7 @@
-/** The steps of the spectrum, and the dispersion relation lambda(k) fitted to them [T12]. A step is
- * a set of equal exponents whose vectors are waves of one kind and one wave vector. n is the number
- * of vectors, which are columns 0 .. n - 1, largest exponent first. The functions of one run share
+/** The steps of the spectrum, and the dispersion relation lambda(k) fitted to them [T12]. A
+ * step is made of equal exponents whose vectors are waves of one kind and one wave vector. Its
+ * neighbouring columns are its set; steps whose vectors mix share a set. n is the number of
+ * vectors, which are columns 0 .. n - 1, largest exponent first. The functions of one run share
  * a workspace: only one thread at a time may call them for the same run. [T12] is the tag of an
  * equation in THEORY.md. */
 #ifndef HDLYAP_STEPS_H

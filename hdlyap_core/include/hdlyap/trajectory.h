@@ -34,7 +34,7 @@ HD_MUST_CHECK hd_status hd_trajectory_extend(hd_trajectory *trajectory, hd_recor
 /** Present simulated time [time units]. */
 double hd_trajectory_time(const hd_trajectory *trajectory);
 
-/** Numbers of collisions and the virial, from time 0 to now. */
+/** Numbers of collisions and the virial, summed from time 0 to now. */
 hd_told hd_trajectory_told(const hd_trajectory *trajectory);
 
 /** Writes the present positions, inside the box, to q, and the momenta to p, both
