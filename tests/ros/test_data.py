@@ -328,6 +328,10 @@ class NotMeasured(Loaded):
         self.assertEqual([steps[name].unit for name in ('t_k_min', 't_k_max')], 2 * ['1/sigma'])
         self.assertEqual(info['covariant_memory'].unit, 'GB')
         self.assertEqual(info['checkpoint'].unit, '')
+        kinds = [kind for kind in vars(hdlyap.msg).values() if isinstance(kind, type)]
+        units = {field.unit for kind in kinds for field in fields.of(kind).values()}
+        self.assertIn('time units/s', units)
+        self.assertEqual([unit for unit in units if unit and not re.search('[a-zA-Z]', unit)], [])
 
     def test_names_of_constants(self):
         """Of a field its own, where a message has several kinds of them."""
