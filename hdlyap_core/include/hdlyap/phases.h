@@ -18,7 +18,7 @@ typedef enum hd_phase_state {
     HD_PHASE_WEAK,       /**< a^2 + b^2 is too small in this sample to define an angle */
     HD_PHASE_COARSE,     /**< the last two samples are too far apart to continue the phase; tracking
                             begins again */
-    HD_PHASE_TRACKED     /**< all members of hd_phase are known */
+    HD_PHASE_TRACKED     /**< the phase is known, and omega once time is above 0 */
 } hd_phase_state;
 
 /** The phase of one vector of a step in one pair of fields, at the last sample of phases. */
@@ -36,8 +36,8 @@ typedef struct hd_phase {
     double a, b;
     /** atan2(b, a), continued beyond pi from sample to sample since tracking began [rad]. */
     double phase;
-    double omega; /**< slope of the phase over time since tracking began, by regression [rad/time
-                     unit] */
+    double omega; /**< slope of the phase over time since tracking began, by regression, 0 while
+                     time is 0 [rad/time unit] */
     double omega_error; /**< standard error of omega; negative if not yet known */
     double time;        /**< time since tracking began [time units] */
 } hd_phase;
