@@ -25,7 +25,10 @@ def options(parser):
     text = 'a bag; or the namespace of a running hdlyap, whose bag is DIR/GROUP.bag'
     parser.add_argument('runs', nargs='+', metavar='BAG|GROUP', help=text)
     parser.add_argument(
-        '--folder', metavar='DIR', default='.', help='folder of GROUP.bag (default: this one)'
+        '--folder',
+        metavar='DIR',
+        default='.',
+        help='folder of GROUP.bag (default: the current one)',
     )
     parser.add_argument(
         '--out', metavar='DIR', help='writes the table, also as CSV, and a figure there'
