@@ -44,7 +44,8 @@ void hdr_node_stop_within(double stop_seconds, int status);
 
 /** Frees the subscribers that the program has not freed; waits until other nodes have received the
  * last messages of the node's topics, at most `linger` seconds, or a fraction of a second if a stop
- * was requested; then the node leaves the ROS graph. node may be NULL. */
+ * was requested; then the node leaves the ROS graph. No callback may call this. node may be NULL.
+ */
 void hdr_node_free(hdr_node *node, double linger);
 
 /** Seconds for which the master has not confirmed that it knows this node; 0 while these are below
