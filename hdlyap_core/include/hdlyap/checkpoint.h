@@ -15,8 +15,8 @@
 
 HD_API_BEGIN
 
-/** The format of the files that this version writes, the only one that it reads; and the bytes of a
- * label with its final zero. */
+/** The format of the files that this version writes, the only one that it reads; and the bytes of
+ * the label of a file (see hd_run_save), with its final zero. */
 enum { HD_CHECKPOINT_FORMAT = 18, HD_CHECKPOINT_LABEL = 64 };
 
 /** What can be read of a checkpoint without resuming its run. */

@@ -28,7 +28,7 @@ double hd_spectrum_local(const hd_spectrum *spectrum, int col);
 
 /** Sums over all exponents that are computed. */
 typedef struct hd_spectrum_sums {
-    double local_time; /**< length of the samples of hd_spectrum_local; 0 if there are none [time
+    double local_time; /**< time over which hd_spectrum_local averages; 0 if no sample ended [time
                           units] */
     double ks_entropy; /**< Kolmogorov-Sinai entropy: sum of the positive exponents that are
                           computed [1/time unit] */
