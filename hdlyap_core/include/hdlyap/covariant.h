@@ -40,7 +40,7 @@ typedef struct hd_covariant_mismatch {
      * computed. */
     double centre;
     /** In all windows: largest angle between the two starts' spaces of vectors with negative
-     * exponents [rad]; negative as `centre`. */
+     * exponents that are computed [rad]; negative as `centre`, or if none of these is computed. */
     double stable;
 } hd_covariant_mismatch;
 

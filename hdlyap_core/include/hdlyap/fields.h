@@ -19,7 +19,8 @@ typedef enum hd_mode_kind { HD_MODE_NONE, HD_MODE_ZERO, HD_MODE_T, HD_MODE_LP } 
 typedef struct hd_subspace {
     hd_mode_kind kind; /**< HD_MODE_T or HD_MODE_LP */
     hd_wave wave;
-    /** Modulations of its fields, in the order of its columns. */
+    /** The modulation of each T field, or of each L field and of the P field that belongs to it. In
+     * space a modulation of T fields can occur twice, then the second time with HD_SECOND. */
     hd_modulations modulations;
     int column;    /**< the first column of the matrix of fields that belongs to it */
     int dimension; /**< number of its columns, which is the number of equal exponents expected of

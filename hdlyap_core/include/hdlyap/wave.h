@@ -55,8 +55,9 @@ typedef struct hd_wave {
     hd_modulations transverse;
     /** Modulations of the L and P fields. Along a reflecting direction they have a cosine. */
     hd_modulations pairs;
-    /** In space: the unit vectors along which T fields displace particles, across[0] of those
-     * without and across[1] of those with HD_SECOND. 0 if there is no such field [T22]. */
+    /** In space: the unit vector e of T fields, whose component along direction d is e_d times a
+     * function of the position [T22]; across[0] of fields without and across[1] of those with
+     * HD_SECOND. 0 if there is no such field. */
     double across[2][HD_DIMENSION_MAX];
 } hd_wave;
 
