@@ -98,7 +98,7 @@ typedef union hd_own {
     double real;
     int whole;
 } hd_own;
-/** The hd_parameter.offset of parameter k of a dynamics, 0 .. HD_OWN_MAX - 1. */
+/** The hd_parameter.offset of the own parameter number k = 0 .. HD_OWN_MAX - 1 of a dynamics. */
 #define HD_OWN(k) (offsetof(hd_scene_def, own) + (k) * sizeof(hd_own))
 
 /** The definition of a scene. parameters.inc has default, range, unit and meaning of each member,
