@@ -46,7 +46,8 @@ typedef struct hd_estimate {
 HD_MUST_CHECK hd_status hd_estimate_run(hd_estimate *out, const hd_scene_def *def,
                                         double fields_every, char *message, size_t size);
 
-/** Writes hd_estimate.errors_after of the scene to *after, without a trial. Returns HD_OK or HD_NO_MEMORY. */
+/** Writes hd_estimate.errors_after of the scene to *after, without a trial. Returns HD_OK or
+ * HD_NO_MEMORY. */
 HD_MUST_CHECK hd_status hd_estimate_errors(double *after, const hd_scene_def *def);
 
 HD_API_END

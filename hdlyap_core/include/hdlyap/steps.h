@@ -129,8 +129,8 @@ int hd_steps_of_vector(const hd_steps *steps, int col);
 /** A column that stands for a resolved step: the first one of its set that belongs to the step
  * (hd_steps_of_vector), or, if none does, the first one of the set. */
 int hd_steps_example(const hd_steps *steps, int index);
-/** True for a resolved T or LP step of positive exponents, unless such a step of lower index shares its set.
- * So the columns of hd_steps_example of these steps show each set once. */
+/** True for a resolved T or LP step of positive exponents, unless such a step of lower index shares
+ * its set. So the columns of hd_steps_example of these steps show each set once. */
 bool hd_steps_is_shown(const hd_steps *steps, int index);
 /** Index of the resolved step of a kind, HD_MODE_T or HD_MODE_LP, with the smallest positive
  * exponent; -1 if there is none. */
