@@ -71,7 +71,8 @@ TEST(what_a_circle_has_not_is_refused_by_name)
     check_refused(
         scene_from(circle(1, 0.5), .exponents = HD_EXPONENTS_ALL, .observe = HD_OBSERVE_COVARIANT),
         "observables = covariant: must not be given with number = 1");
-    check_refused(scene_from(def, .max_mode_number = 40), "density = 0.7, container = circle: waves");
+    check_refused(scene_from(def, .max_mode_number = 40),
+                  "density = 0.7, container = circle: waves");
 }
 
 /** Below the density that is named disks start apart, inside, with energy N and at rest together;
