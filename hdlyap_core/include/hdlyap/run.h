@@ -188,13 +188,14 @@ HD_MUST_CHECK hd_status hd_run_reset_average(hd_run *run);
 /** HD_OK, or the status of the call of hd_run_advance, hd_run_reset_average or hd_run_save that
  * made the run fail. */
 hd_status hd_run_status(const hd_run *run);
-/** The stage in which the run is. */
+/** The stage in which the run is, or HD_FINISHED. */
 hd_stage hd_run_stage(const hd_run *run);
 /** Simulated time since the start of the run [time units]. */
 double hd_run_time(const hd_run *run);
 /** The scene, with its present parameters and the duration of the warm-up as chosen. */
 const hd_scene_def *hd_run_scene(const hd_run *run);
-/** Number n of vectors, each of which has an exponent; 0 if the scene asks for no exponents. */
+/** Number n of vectors, each of which has an exponent; 0 if the scene asks for no exponents. With
+ * hd_scene_def.exponents = HD_EXPONENTS_ALL half of them are carried (hd_counts.carried). */
 int hd_run_vectors(const hd_run *run);
 /** Number of ranks that carry the run. */
 int hd_run_ranks(const hd_run *run);
