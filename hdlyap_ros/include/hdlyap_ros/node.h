@@ -59,8 +59,8 @@ const char *hdr_node_name(const hdr_node *node);
 
 /** True after SIGINT, SIGTERM, SIGHUP, `rosnode kill` or hdr_stop_request. */
 bool hdr_stop_requested(void);
-/** Asks the process to stop, and ends it after stop_seconds (hdr_node_create) if it has not stopped
- * by then. It may be called from a signal handler. */
+/** Asks the process to stop, and ends it if it has not stopped after the time that hdr_node_create
+ * was given. It may be called from a signal handler. */
 void hdr_stop_request(void);
 
 /** Waits `seconds` of the monotonic clock and returns true, or returns false as soon as a stop has
