@@ -345,7 +345,7 @@ class NotMeasured(Loaded):
                 'Cost',
                 'interval_limit',
                 'report interval, conditioning, doubling, overflow, parameter interval, '
-                'memory of the events, vectors wanted, repair, end of the stage, '
+                'memory of the events, vectors needed early, repair, end of the stage, '
                 'samples for errors, none yet',
             ),
         ):
