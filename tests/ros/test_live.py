@@ -2,6 +2,7 @@
 """Parameters that are changed while a run goes on: when they hold, what is refused, and that a bag
 tells of it all."""
 
+import concurrent.futures
 import math
 import os
 import signal
@@ -146,6 +147,24 @@ class Live(harness.Case):
         self.heard_of(node)
         self.assertIn('finished at simulated time', node.text())
         self.assertGreaterEqual(self.times('status')[-1], change.sim_time - CLOSE)
+
+    def test_many_ask_while_it_pauses(self):
+        """Four clients at once; each sends the next change as soon as it is answered."""
+        node = self.started(dict(RUN, pace=SLOW))
+        self.until(BEGIN + 2.0)
+        self.assertTrue(harness.service('pause', SetBool)(True).success)
+        with concurrent.futures.ThreadPoolExecutor(4) as clients:
+            asked = ['pace=%d' % pace for pace in range(1, 41)]
+            with harness.within(self, 10.0):
+                answers = list(clients.map(self.call, asked))
+        for assignment, answer in zip(asked, answers):
+            self.assertTrue(answer.success, answer.message)
+            self.assertIn(' = '.join(assignment.split('=')) + ' from ', answer.message)
+        self.sees(lambda: len(self.changes()) == len(asked))
+        with harness.within(self, 5.0):
+            self.assertTrue(self.call('pace=0').success)
+            self.assertTrue(harness.service('stop', Trigger)().success)
+        self.heard_of(node)
 
     def test_stop(self):
         """As the end of the duration; a pause does not hold it."""

@@ -1,6 +1,7 @@
 /** One thread that steps the run. It has two locks: `lock` protects requests and state, and is
  * never held during work; `publishing` is held around messages, so that none follows the last one.
- */
+ * Whatever drops `lock` may miss a request: after it the thread looks at all requests again before
+ * it sleeps. */
 #include "worker.h"
 
 #include <errno.h>
@@ -46,6 +47,7 @@ struct worker {
     checkpoint_writer keep; /**< the thread's own */
     table table;            /**< the thread's own */
 
+    pthread_mutex_t asking; /**< held while a change is asked for: there is one at a time */
     pthread_mutex_t lock;
     pthread_cond_t changed;
     bool stop, pause, reset, save, examine; /**< asked for */
@@ -121,8 +123,10 @@ static bool wait_for_subscribers(worker *w)
 {
     pthread_mutex_lock(&w->lock);
     while (!w->stop && !awaited_here(w)) {
-        if (w->set_asked.waits) answer_set(w);
-        wait_until(w, clock_seconds() + look_seconds);
+        if (w->set_asked.waits)
+            answer_set(w);
+        else if (!w->stop)
+            wait_until(w, clock_seconds() + look_seconds);
     }
     const bool go_on = !w->stop;
     enter(w, go_on ? WORKER_RUNNING : WORKER_ENDED);
@@ -145,9 +149,9 @@ static void save(worker *w)
     pthread_cond_broadcast(&w->changed);
 }
 
-/** Publishes the present state before a pause. The lock is held, but not while it publishes. A
+/** Publishes the present state, and pauses then. The lock is held, but not while it publishes. A
  * failure here is no fault of the run. */
-static void publish_at_rest(worker *w)
+static void rest(worker *w)
 {
     pthread_mutex_unlock(&w->lock);
     pthread_mutex_lock(&w->publishing);
@@ -157,6 +161,27 @@ static void publish_at_rest(worker *w)
                 hd_status_text(status));
     pthread_mutex_unlock(&w->publishing);
     pthread_mutex_lock(&w->lock);
+    enter(w, WORKER_PAUSED);
+}
+
+/** Does the first thing that is asked for, or else sleeps if the next step has to wait. Returns
+ * false if nothing was there to do. The lock is held, but not while something is done. */
+static bool obey_one(worker *w)
+{
+    const bool waits = w->pause || too_early(w);
+    if (w->save || (waits && checkpoint_writer_due(&w->keep))) {
+        save(w);
+    } else if (w->set_asked.waits) {
+        answer_set(w);
+    } else if (w->pause && w->state.stage != WORKER_PAUSED) {
+        rest(w);
+    } else if (waits) {
+        enter(w, w->pause ? WORKER_PAUSED : WORKER_RUNNING);
+        wait_until(w, fmin(w->pause ? INFINITY : w->due, w->keep.changed ? w->keep.due : INFINITY));
+    } else {
+        return false;
+    }
+    return true;
 }
 
 /** Called between two steps: writes the checkpoint if it is due, pauses, and keeps pace. False if
@@ -165,17 +190,7 @@ static bool obey(worker *w)
 {
     pthread_mutex_lock(&w->lock);
     if (checkpoint_writer_due(&w->keep)) save(w);
-    if (w->set_asked.waits) answer_set(w);
-    if (w->pause && !w->stop) publish_at_rest(w);
-    while (!w->stop && (w->save || w->set_asked.waits || w->pause || too_early(w))) {
-        if (w->set_asked.waits) answer_set(w);
-        if (w->save || checkpoint_writer_due(&w->keep)) {
-            save(w);
-            continue;
-        }
-        enter(w, w->pause ? WORKER_PAUSED : WORKER_RUNNING);
-        wait_until(w, fmin(w->pause ? INFINITY : w->due, w->keep.changed ? w->keep.due : INFINITY));
-    }
+    while (!w->stop && obey_one(w)) continue;
     w->state.stage = WORKER_RUNNING;
     const bool go_on = !w->stop;
     pthread_mutex_unlock(&w->lock);
@@ -206,26 +221,11 @@ static void change_if_due(worker *w)
     pthread_mutex_unlock(&w->lock);
 }
 
-/** Examines the particles; all zero if that is not possible. */
-static examination examine(const hd_run *run)
-{
-    if (!hd_dynamics_of(hd_run_scene(run))->examine) return (examination){.made = false};
-    const hd_trajectory *trajectory = hd_run_parts(run).trajectory;
-    const hd_examined now = hd_trajectory_examined(trajectory);
-    return (examination){
-        .made = true,
-        .overlap = now.overlap,
-        .overlap_max = now.overlap_rounding,
-        .energy_error = fabs(now.energy_error),
-        .energy_error_max = now.energy_rounding,
-    };
-}
-
 static void examine_if_asked(worker *w)
 {
     const double begin = clock_seconds();
     if (!asked(w, &w->examine) || begin < w->examinable) return;
-    const examination seen = examine(w->run);
+    const examination seen = examination_of(w->run);
     const double end = clock_seconds();
     w->examinable = end + (end - begin) / examination_share;
     pthread_mutex_lock(&w->lock);
@@ -314,6 +314,7 @@ static void *work(void *context)
     if (status == HD_OK) status = finish(w);
     pthread_mutex_lock(&w->lock);
     if (status != HD_OK) explain(w, status);
+    if (status == HD_OK) w->save = false; /* finish has written this state */
     w->state.status = status;
     enter(w, WORKER_ENDED);
     pthread_mutex_unlock(&w->lock);
@@ -327,6 +328,7 @@ static void locks_create(worker *w)
     pthread_condattr_setclock(&monotonic, CLOCK_MONOTONIC);
     pthread_cond_init(&w->changed, &monotonic);
     pthread_condattr_destroy(&monotonic);
+    pthread_mutex_init(&w->asking, NULL);
     pthread_mutex_init(&w->lock, NULL);
     pthread_mutex_init(&w->publishing, NULL);
 }
@@ -334,6 +336,7 @@ static void locks_create(worker *w)
 static void locks_free(worker *w)
 {
     pthread_cond_destroy(&w->changed);
+    pthread_mutex_destroy(&w->asking);
     pthread_mutex_destroy(&w->lock);
     pthread_mutex_destroy(&w->publishing);
 }
@@ -443,9 +446,9 @@ static bool wait_for_answer(worker *w, double until)
     return wait_until(w, until) || w->set_asked.taken;
 }
 
-/** Asks for a change and waits for the answer; assignment NULL: the averaging is to end. */
-static bool answered(worker *w, double seconds, const char *assignment, char *message, size_t size)
+bool worker_set(worker *w, double seconds, const char *assignment, char *message, size_t size)
 {
+    pthread_mutex_lock(&w->asking);
     const double until = clock_seconds() + seconds;
     pthread_mutex_lock(&w->lock);
     w->set_asked = (set_request){
@@ -460,17 +463,8 @@ static bool answered(worker *w, double seconds, const char *assignment, char *me
     w->set_asked.waits = false;
     const bool made = w->set_asked.made;
     pthread_mutex_unlock(&w->lock);
+    pthread_mutex_unlock(&w->asking);
     return made;
-}
-
-bool worker_set(worker *w, double seconds, const char *assignment, char *message, size_t size)
-{
-    return answered(w, seconds, assignment, message, size);
-}
-
-bool worker_end_averaging(worker *w, double seconds, char *message, size_t size)
-{
-    return answered(w, seconds, NULL, message, size);
 }
 
 void worker_stop(worker *w) { ask(w, &w->stop, true); }

@@ -4,6 +4,7 @@
 #define HDLYAP_WORKER_H
 
 #include "checkpoint_writer.h"
+#include "examination.h"
 #include "topics/report.h"
 
 typedef enum worker_stage {
@@ -12,14 +13,6 @@ typedef enum worker_stage {
     WORKER_PAUSED,
     WORKER_ENDED /**< finished, stopped or at fault */
 } worker_stage;
-
-/** Errors of the particles' state, and the largest that rounding explains. Zero: not examined yet.
- */
-typedef struct examination {
-    bool made;
-    double overlap, overlap_max; /**< deepest overlap of two particles [sigma], and its limit */
-    double energy_error, energy_error_max; /**< relative error of the energy, and its limit */
-} examination;
 
 /** State of the worker for other threads, after its last finished step. */
 typedef struct worker_state {
@@ -63,11 +56,15 @@ void worker_examine(worker *w);
 bool worker_checkpoint(worker *w, double seconds, char *message, size_t size);
 
 /** Has a parameter changed before the next step, as changes_ask does, and waits for it at most this
- * long. False, with the reason in message, if nothing has changed and nothing will. */
+ * long, once it is this thread's turn; assignment NULL: has changes_end called. False, with the
+ * reason in message, if nothing has changed and nothing will. */
 bool worker_set(worker *w, double seconds, const char *assignment, char *message, size_t size);
 
-/** Has changes_end called in the same way; a run that pauses goes on to its end. */
-bool worker_end_averaging(worker *w, double seconds, char *message, size_t size);
+/** Ends the averaging in the same way; a run that pauses goes on to its end. */
+static inline bool worker_end_averaging(worker *w, double seconds, char *message, size_t size)
+{
+    return worker_set(w, seconds, NULL, message, size);
+}
 
 /** Waits at most this long for the end; true if it has come. */
 bool worker_wait(worker *w, double seconds);
