@@ -39,12 +39,12 @@ test_packages() {
         black flake8 clang-format doxygen libopenmpi-dev openmpi-bin slurmctld slurmd slurm-client openssh-server iproute2
     case $1 in
         debian)
-            echo 'libclang-rt-dev|libclang-common-11-dev' librostest-dev python3-rostest python3-rostopic python3-rosnode \
+            echo 'libclang-rt-dev|libclang-common-11-dev' libmessage-filters-dev python3-message-filters librostest-dev python3-rostest python3-rostopic python3-rosnode \
                 python3-rosservice python3-rosgraph python3-roslib python3-rosmaster python3-rosmsg rospack-tools \
                 python3-rosgraph-msgs catkin-lint
             ;;
         noetic)
-            printf 'ros-noetic-%s\n' rostest rostopic rosnode rosservice rosgraph roslib rosmaster rosmsg rospack rosgraph-msgs
+            printf 'ros-noetic-%s\n' message-filters rostest rostopic rosnode rosservice rosgraph roslib rosmaster rosmsg rospack rosgraph-msgs
             echo python3-catkin-lint
             ;;
     esac

@@ -60,25 +60,25 @@ static void on_phases(void *context, const hdr_lp_phases *all)
     const int state = phase && phase->state < ABSENT ? phase->state : ABSENT;
     if (state != w->state)
         hdr_log(state == HDR_LP_PHASE_TRACKED ? HDR_INFO : HDR_WARN,
-                "t = %g: phase %d of LP(%d,%d): %s", all->sim_time, w->number, w->nx, w->ny,
+                "t = %g: phase %d of LP(%d,%d): %s", all->sample_time, w->number, w->nx, w->ny,
                 states[state]);
     w->state = state;
     if (state != HDR_LP_PHASE_TRACKED) return;
 
-    const double gone = all->sim_time - w->time, grown = phase->tracked_time - w->tracked;
+    const double gone = all->sample_time - w->time, grown = phase->tracked_time - w->tracked;
     if (gone == 0.0 && grown == 0.0) return; /* a report of the same state */
     /* lost and found again, or in another run: since when is less than what has gone by */
     if (gone <= 0.0 || grown < 0.5 * gone) w->even = (line){0};
-    w->time = all->sim_time;
+    w->time = all->sample_time;
     w->tracked = phase->tracked_time;
-    const double off = line_add(&w->even, all->sim_time, phase->phase);
+    const double off = line_add(&w->even, all->sample_time, phase->phase);
     const hdr_float64 percent = {100.0 * off / 6.283185307179586};
     if (hdr_float64_publish(w->deviation, &percent) != HDR_OK)
         hdr_log(HDR_ERROR, "%s", hdr_error_text());
     const uint32_t now = hdr_time_now().sec; /* a line a second is enough, once there is an error */
     if (now != w->said && phase->omega_error >= 0.0)
         hdr_log(HDR_INFO, "t = %g: phase = %.3f, omega = %.5f +- %.5f, deviation %+.2f %%",
-                all->sim_time, phase->phase, phase->omega, phase->omega_error, percent.data);
+                all->sample_time, phase->phase, phase->omega, phase->omega_error, percent.data);
     w->said = now;
 }
 

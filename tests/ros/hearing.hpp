@@ -84,7 +84,8 @@ struct hearing {
     {
         hdr_lp_phase phase = {1, 0, 1, 0, 0.6, 0, 5, HDR_LP_PHASE_TRACKED, a, b, 0, 0, 0, 0, 0};
         hdr_lp_phases phases = {};
-        phases.run_id = "run", phases.phases = {&phase, 1}, phases.sim_time = time;
+        phases.run_id = "run", phases.phases = {&phase, 1}, phases.sample_time = time;
+        phases.sim_time = time + 0.25; // of a later report
         heard_lp_phases(&h, &phases);
     }
 

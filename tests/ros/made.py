@@ -428,7 +428,7 @@ def lp_phases(info, made, sim_time, modulations=(0, 1), began=0.0, rng=None, run
                     tracked_time=sim_time - began,
                 )
             )
-    return LpPhases(run_id=run_id, sim_time=sim_time, phases=phases)
+    return LpPhases(run_id=run_id, sim_time=sim_time, sample_time=sim_time, phases=phases)
 
 
 def t_phases(made, sim_time, began=0.0, run_id='one'):
@@ -454,7 +454,7 @@ def t_phases(made, sim_time, began=0.0, run_id='one'):
         if one.kind == T
         for index in range(one.first_index, one.last_index + 1)
     ]
-    return TPhases(run_id=run_id, sim_time=sim_time, phases=phases)
+    return TPhases(run_id=run_id, sim_time=sim_time, sample_time=sim_time, phases=phases)
 
 
 def paper_info():

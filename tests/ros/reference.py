@@ -21,7 +21,7 @@ SCENE = 'launch/scenes/paper_periodic.yaml'
 OWN = 'warmup', 'duration'
 # lines of many messages, which the chapter tells once
 COMMON = (
-    ('std_msgs/Header', 'header', 'stamp: wall time at which the message was made'),
+    ('std_msgs/Header', 'header', 'stamp: wall time of the report, the same in all its messages'),
     ('string', 'run_id', 'name of the run, the same in all messages of a run'),
     ('float64', 'sim_time', 'simulated time since the start of the run [time units]'),
     ('float64', 'averaged_time', 'length of the averaging up to the last sample [time units]'),

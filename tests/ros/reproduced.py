@@ -194,7 +194,7 @@ class Run:
                 for number, step, turned, amplitudes in followed
                 for phase in self._phases(number, step, t, turned[row], amplitudes)
             ]
-            yield LpPhases(run_id='one', sim_time=t, phases=phases)
+            yield LpPhases(run_id='one', sim_time=t, sample_time=t, phases=phases)
 
     def _phases(self, number, step, t, turned, amplitudes):
         bits = waves.modulations(self.info, step.nx, step.ny)
@@ -323,7 +323,7 @@ def hydro(run):
             responses, phases = responses + more, phases + known
         told += [
             Hydro(run_id='one', sim_time=t, responses=responses),
-            LpPhases(run_id='one', sim_time=t, phases=phases),
+            LpPhases(run_id='one', sim_time=t, sample_time=t, phases=phases),
         ]
     widths = 0.62 - 0.52 * np.exp(-np.arange(run.end) / 30)
     for name, width in ((T, 2 / np.e), (LP, 0.65)):

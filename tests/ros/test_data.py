@@ -141,7 +141,7 @@ class Arrays(Loaded):
     def test_course(self):
         turned = self.run_.course('lp_phases')['phase'].unstack()
         messages = self.messages['lp_phases']
-        self.equal(turned.index, [message.sim_time for message in messages])
+        self.equal(turned.index, [message.sample_time for message in messages])
         self.equal(turned, [[one.phase for one in message.phases] for message in messages])
         weights = self.run_.course('modes')['weight'].unstack()
         self.equal(
@@ -294,6 +294,15 @@ class Arrays(Loaded):
 
 
 class NotMeasured(Loaded):
+    def test_phases_whose_sample_is_of_before(self):
+        info = made.run_info()
+        step = made.step(info, made.LP, 1, 0, 3, 6)
+        told = [made.lp_phases(info, [step], time) for time in (101.0, 102.0, 102.0)]
+        for message, time in zip(told, (101.5, 102.5, 103.5)):
+            message.sim_time = time
+        turned = self.load([info, made.steps([step]), *told]).course('lp_phases')['phase']
+        self.assertEqual(list(turned.unstack().index), [101.0, 102.0])
+
     def test_unresolved(self):
         info = made.run_info()
         step = made.unresolved(info, T, 1, 0, 2)

@@ -37,16 +37,16 @@ def expected_deviations(messages, ours):
     expected, times, phases, last = [], [], [], None
     for message in messages:
         phase = ours(message)
-        if phase.state != LpPhase.TRACKED or times[-1:] == [message.sim_time]:
+        if phase.state != LpPhase.TRACKED or times[-1:] == [message.sample_time]:
             continue
-        began = message.sim_time - phase.tracked_time
+        began = message.sample_time - phase.tracked_time
         if last is None or abs(began - last) > 0.1:
             times, phases = [], []
         last = began
-        times.append(message.sim_time)
+        times.append(message.sample_time)
         phases.append(phase.phase)
         line = np.polyfit(times, phases, 1) if len(times) > 2 else (0.0, phase.phase)
-        expected.append(100 * (phase.phase - np.polyval(line, message.sim_time)) / (2 * math.pi))
+        expected.append(100 * (phase.phase - np.polyval(line, message.sample_time)) / (2 * math.pi))
     return expected
 
 
@@ -236,7 +236,8 @@ class Alone(Examples):
         ]
         messages = [
             LpPhases(
-                sim_time=t,
+                sim_time=t + 0.25,
+                sample_time=t,
                 phases=[
                     LpPhase(
                         nx=1,

@@ -167,7 +167,7 @@ TEST(heard, waves_along_z_are_waves_of_their_own)
     hdr_lp_phase phase = {};
     phase.nx = 1, phase.index = 5, phase.a = 0.75;
     hdr_lp_phases phases = {};
-    phases.run_id = "run", phases.phases = {&phase, 1}, phases.sim_time = 10.0;
+    phases.run_id = "run", phases.phases = {&phase, 1}, phases.sample_time = 10.0;
     heard_lp_phases(&on.h, &phases); // of LP(1,0,0)
     EXPECT_EQ(0u, on.drawn().mode[0].lp.pairs);
     phase.nz = 1;

@@ -227,7 +227,8 @@ class Agreement(harness.Case):
 
     def test_lp_phases(self):
         for message, steps in zip(self.messages['lp_phases'], self.messages['steps']):
-            self.assertLessEqual(message.sim_time, steps.sim_time)
+            self.assertEqual(message.sim_time, steps.sim_time)
+            self.assertLessEqual(message.sample_time, steps.sim_time)
             for phase in message.phases:
                 self.check_phase(phase, steps.steps[phase.step])
         tracked = [p for p in self.last('lp_phases').phases if p.state == LpPhase.TRACKED]

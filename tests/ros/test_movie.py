@@ -18,6 +18,7 @@ import hdlyap
 import made
 import made_fields
 from bags import Bags, process, tool
+from hdlyap.data import reader
 from hdlyap.data.reader import RecordingError
 from hdlyap.plots import frames, movie
 from hdlyap.plots.figures import turning
@@ -45,7 +46,7 @@ def phases(time):
     pair = LpPhase(
         step=1, nx=1, ny=0, index=32, a=np.cos(angle(time)), b=np.sin(angle(time)), omega=1.0
     )
-    return LpPhases(run_id='one', sim_time=time, phases=[pair])
+    return LpPhases(run_id='one', sim_time=time, sample_time=time, phases=[pair])
 
 
 def fields(time):
@@ -118,6 +119,16 @@ class Frames(Films):
                 frame.turned['LP(1,0)'], [(np.cos(angle(of)), np.sin(angle(of)))]
             )
         self.assertEqual(number, 8)
+
+    def test_phases_of_a_sample_before_the_field(self):
+        """They are not those of its vectors."""
+        frame, field, told = frames.Frame(INFO), fields(BEGIN)[1], phases(BEGIN)
+        frame.add(reader.FIELD, field, ['LP(1,0)'])
+        told.sample_time -= 0.5
+        frame.add(reader.PHASES, told, ['LP(1,0)'])
+        self.assertEqual(frame.turned, {})
+        frame.add(reader.PHASES, phases(BEGIN), ['LP(1,0)'])
+        self.assertEqual(len(frame.turned['LP(1,0)']), 1)
 
     def test_film_without_end(self):
         with self.assertRaisesRegex(RecordingError, r'in 8e\+09 frames: must be less than'):

@@ -23,6 +23,7 @@ ROSDEP = '/usr/share/python3-rosdep2/debian.yaml'
 OF_ROS = dict(
     catkin='catkin',
     diagnostic_msgs='libdiagnostic-msgs-dev python3-diagnostic-msgs ros-diagnostic-msgs',
+    message_filters='libmessage-filters-dev python3-message-filters',
     message_generation='ros-message-generation',
     message_runtime='ros-message-runtime',
     ros_environment='ros-environment',

@@ -212,6 +212,8 @@ class Kept(Bags):
             told = [made.lp_phases(INFO, [LP_STEP], t, began=began.get(t, 100.0)) for t in times]
             for phase in (one for each in told if each.sim_time in lost for one in each.phases):
                 phase.state, phase.phase = phase.WEAK, 0.0
+            for number, each in enumerate(told):
+                each.sim_time += 0.1 * number  # of its report
             run = self.recorded([INFO, made.steps([LP_STEP]), *told])
             self.assertEqual([list(time) for time, _ in run.phases.curves(0)], curves)
             # another vector and another pair

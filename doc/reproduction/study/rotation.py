@@ -77,13 +77,13 @@ class Rotation:
 def read(bag):
     """{(nx, ny): Rotation} of the LP steps of a run's bag; of those alone that have been
     tracked."""
-    messages = list({message.sim_time: message for message in bag.messages(PHASES)}.values())
+    messages = list({one.sample_time: one for one in bag.messages(PHASES)}.values())
     if not messages:
         return {}
     columns = {}
     for column, phase in enumerate(messages[0].phases):
         columns.setdefault((phase.nx, phase.ny), []).append(column)
-    time, names = np.array([message.sim_time for message in messages]), TABLE.split()
+    time, names = np.array([message.sample_time for message in messages]), TABLE.split()
     table = [[[getattr(one, name) for name in names] for one in some.phases] for some in messages]
     table, found = np.array(table, dtype=float).reshape(len(messages), -1, len(names)), {}
     for wave, which in columns.items():

@@ -50,7 +50,7 @@ def course(bag, wave):
     for message in bag.messages(T_PHASES):
         first = next((one for one in message.phases if (one.nx, one.ny) == wave), None)
         if first is not None and first.state == LpPhase.TRACKED:
-            rows.append((message.sim_time, first.phase, first.tracked_time))
+            rows.append((message.sample_time, first.phase, first.tracked_time))
     time, phase, tracked = np.array(rows).reshape(-1, 3).T
     broken = 1 + np.flatnonzero(~goes_on(time, tracked))
     return list(zip(np.split(time, broken), np.split(phase, broken)))

@@ -24,6 +24,8 @@ hd_status topic_publish_lp_phases(const moment *now)
         if (!phase_is_finite(phase)) return HD_NOT_FINITE;
         out[k] = phase_of(phase, hd_steps_step(parts.steps, phase->step));
     }
-    hdr_lp_phases message = {.sim_time = time_of_phases(now->run), .phases = {out, count}};
-    return topic_send_lp_phases(now->out, &message);
+    hdr_lp_phases message = {.sim_time = hd_run_time(now->run),
+                             .sample_time = hd_run_followed(now->run),
+                             .phases = {out, count}};
+    return message.sample_time >= 0.0 ? topic_send_lp_phases(now->out, &message) : HD_OK;
 }

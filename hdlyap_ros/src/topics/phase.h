@@ -7,13 +7,6 @@
 #include "common/nodes.h"
 #include "hdlyap/run.h"
 
-/** Simulated time of the phases. */
-static inline double time_of_phases(const hd_run *run)
-{
-    const double followed = hd_run_followed(run);
-    return followed >= 0 ? followed : hd_run_time(run);
-}
-
 static inline bool phase_is_resolved(const hd_phase *phase)
 {
     return phase->state != HD_PHASE_UNRESOLVED;

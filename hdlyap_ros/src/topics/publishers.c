@@ -83,8 +83,6 @@ hdr_lag publishers_lag(const publishers *out)
     return worst;
 }
 
-hdr_header message_header(void) { return (hdr_header){.stamp = hdr_time_now(), .frame_id = "box"}; }
-
 static hd_status sent(hdr_status status, topic t)
 {
     if (status == HDR_NOT_FINITE) return HD_NOT_FINITE;
@@ -95,7 +93,7 @@ static hd_status sent(hdr_status status, topic t)
 #define TOPIC(name, type, stages, is, ...)                                                         \
     hd_status topic_send_##name(const publishers *to, hdr_##type *message)                         \
     {                                                                                              \
-        message->header = message_header();                                                        \
+        message->header = (hdr_header){.stamp = to->stamp, .frame_id = "box"};                     \
         message->run_id = to->run_id;                                                              \
         return sent(hdr_##type##_publish(to->publisher[TOPIC_##name], message), TOPIC_##name);     \
     }

@@ -10,6 +10,7 @@ typedef struct publishers {
     hdr_publisher *publisher[TOPICS]; /**< NULL if the run does not publish the topic */
     const char *node;                 /**< name of the node */
     char run_id[96];
+    hdr_time stamp; /**< of the messages that follow: of a report all have the same */
 } publishers;
 
 /** Advertises a set of topics and makes the run's id. bytes: size of a message of each topic, for
@@ -24,9 +25,6 @@ unsigned publishers_subscribed(const publishers *out);
  * is furthest behind; topic "" if there is none. TOPIC_ASIDE topics do not count. Any thread may
  * call. */
 hdr_lag publishers_lag(const publishers *out);
-
-/** A header with the present wall time. */
-hdr_header message_header(void);
 
 /** For each topic, a function that fills header and run_id of a message and sends it. It fails with
  * HD_NOT_FINITE, and sends nothing, if a number is not finite that has to be. If ROS refuses, the

@@ -24,6 +24,8 @@ struct report {
     subscriber_wait awaited;
     unsigned demand; /**< set of topics with a subscriber when the step under way began */
     double seconds;  /**< wall time spent in publishing */
+    hdr_time stamp;  /**< of the last report */
+    bool unfinished; /**< report_finish will publish the last messages of this report */
 };
 
 /** The number of resolved steps; -1 while they are not computed. */
@@ -155,8 +157,10 @@ static unsigned topics_due(const report *rep, const hd_run *run)
 
 /* ---- messages ------------------------------------------------------------------------------- */
 
-static moment moment_of(report *rep, const hd_run *run)
+/** What is published now, with this stamp. */
+static moment moment_of(report *rep, const hd_run *run, hdr_time stamp)
 {
+    rep->out.stamp = stamp;
     rep->room.known = false;
     return (moment){.out = &rep->out,
                     .set = rep->set,
@@ -179,9 +183,9 @@ static hd_status publish(report *rep, moment *now, unsigned set)
 }
 
 /** Publishes cost, if anybody listens, and then status. */
-static hd_status publish_progress(report *rep, const progress *last)
+static hd_status publish_progress(report *rep, const progress *last, hdr_time stamp)
 {
-    moment now = moment_of(rep, NULL);
+    moment now = moment_of(rep, NULL, stamp);
     now.last = last;
     const hd_status status = publish(rep, &now,
                                      publishers_subscribed(&rep->out) & topic_bit(TOPIC_cost));
@@ -192,11 +196,13 @@ static hd_status publish_progress(report *rep, const progress *last)
 hd_status report_publish(report *rep, const hd_run *run)
 {
     const double start = clock_seconds();
-    moment now = moment_of(rep, run);
+    rep->stamp = hdr_time_now();
+    rep->unfinished = hd_run_stage(run) == HD_FINISHED;
+    moment now = moment_of(rep, run, rep->stamp);
     hd_status status = publish(rep, &now, topics_due(rep, run));
-    if (status == HD_OK && hd_run_stage(run) != HD_FINISHED) {
+    if (status == HD_OK && !rep->unfinished) {
         const progress last = progress_of(run, rep->set->pace);
-        status = publish_progress(rep, &last);
+        status = publish_progress(rep, &last, rep->stamp);
     }
     rep->seconds += clock_seconds() - start;
     return status;
@@ -205,7 +211,7 @@ hd_status report_publish(report *rep, const hd_run *run)
 hd_status report_window(report *rep, const hd_run *run)
 {
     const double start = clock_seconds();
-    moment now = moment_of(rep, run);
+    moment now = moment_of(rep, run, hdr_time_now());
     const hd_status status = publish(rep, &now, topics_that_are(TOPIC_OF_WINDOWS));
     rep->seconds += clock_seconds() - start;
     return status;
@@ -214,7 +220,7 @@ hd_status report_window(report *rep, const hd_run *run)
 hd_status report_slow(report *rep, const hd_run *run, bool at_rest)
 {
     const double start = clock_seconds();
-    moment now = moment_of(rep, run);
+    moment now = moment_of(rep, run, hdr_time_now());
     now.topic = TOPIC_slow_vectors;
     now.room->taken = 0;
     const hd_status status = at_rest ? slow_vectors_rest(&now) : topic_publish_slow_vectors(&now);
@@ -224,7 +230,7 @@ hd_status report_slow(report *rep, const hd_run *run, bool at_rest)
 
 hd_status report_run_info(report *rep, const hd_run *run, const changes *all)
 {
-    moment now = moment_of(rep, run);
+    moment now = moment_of(rep, run, hdr_time_now());
     now.changes = all;
     return publish(rep, &now, topic_bit(TOPIC_run_info));
 }
@@ -233,5 +239,5 @@ hd_status report_finish(report *rep, const progress *last)
 {
     progress finished = *last;
     finished.stage = HD_FINISHED;
-    return publish_progress(rep, &finished);
+    return publish_progress(rep, &finished, rep->unfinished ? rep->stamp : hdr_time_now());
 }

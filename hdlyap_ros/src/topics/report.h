@@ -39,7 +39,8 @@ void report_demand_slow(report *rep, hd_run *run);
  * stands still then, and subscribers that come meanwhile get this message. HD_NOT_FINITE. */
 HD_MUST_CHECK hd_status report_slow(report *rep, const hd_run *run, bool at_rest);
 
-/** Publishes a report: all observables that have a subscriber, cost and status. Fails with
+/** Publishes a report: all observables that have a subscriber, cost and status, all with one stamp.
+ * Fails with
  * HD_NOT_FINITE if a number of a message is not finite; that message is not published. */
 HD_MUST_CHECK hd_status report_publish(report *rep, const hd_run *run);
 
@@ -47,7 +48,8 @@ HD_MUST_CHECK hd_status report_publish(report *rep, const hd_run *run);
  * checkpoint. Fails with HD_NOT_FINITE, likewise. */
 HD_MUST_CHECK hd_status report_window(report *rep, const hd_run *run);
 
-/** Publishes the run's last messages: the cost, and the status with stage FINISHED. */
+/** Publishes the run's last messages: the cost, and the status with stage FINISHED. They belong to
+ * the last report if the run went to its end. */
 HD_MUST_CHECK hd_status report_finish(report *rep, const progress *last);
 
 #endif

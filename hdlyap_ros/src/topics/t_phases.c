@@ -26,6 +26,8 @@ hd_status topic_publish_t_phases(const moment *now)
         if (!phase_is_finite(hd_phases_phase(phases, (int)k))) return HD_NOT_FINITE;
         out[k] = phase_of(phases, (int)k, parts.steps);
     }
-    hdr_t_phases message = {.sim_time = time_of_phases(now->run), .phases = {out, count}};
-    return topic_send_t_phases(now->out, &message);
+    hdr_t_phases message = {.sim_time = hd_run_time(now->run),
+                            .sample_time = hd_run_followed(now->run),
+                            .phases = {out, count}};
+    return message.sample_time >= 0.0 ? topic_send_t_phases(now->out, &message) : HD_OK;
 }

@@ -258,7 +258,7 @@ static heard_vector *with_index(heard *h, uint32_t index)
 heard_lp heard_lp_at(const heard *h, double time, const heard_vector *v)
 {
     heard_lp lp = {.pairs = 0};
-    if (h->phases.sim_time != time) return lp;
+    if (h->phases.sample_time != time) return lp;
     for (uint32_t k = 0; k < h->phases.phases.count && lp.pairs < HEARD_PAIRS_MAX; k++) {
         const hdr_lp_phase *phase = &h->phases.phases.data[k];
         if (phase->index != v->index || !SAME_NODES(phase, v)) continue;
@@ -404,7 +404,7 @@ void heard_lp_phases(heard *h, const hdr_lp_phases *phases)
     h->phases = *phases;
     h->phases.phases.data = own;
     note_phases(h);
-    h->changed |= phases->sim_time == h->time || phases->sim_time == h->vector_time;
+    h->changed |= phases->sample_time == h->time || phases->sample_time == h->vector_time;
 }
 
 void heard_run_status(heard *h, const hdr_run_status *status)

@@ -85,7 +85,7 @@ def _key(one):
 def _coefficients(bag):
     """{time: {(nx, ny, modulation, index): (a, b)}} where a phase is tracked: LP vectors alone."""
     return {
-        message.sim_time: {
+        message.sample_time: {
             _key(phase): (phase.a, phase.b)
             for phase in message.phases
             if phase.state == LpPhase.TRACKED

@@ -16,22 +16,22 @@ def goes_on(time, tracked_time):
 
 
 class PhaseCourse:
-    """The last message, and phase and tracked time of every phase at every report."""
+    """The last message, and phase and tracked time of every phase at every sample."""
 
     def __init__(self):
         self.last = None
         self._course = Course()
 
     def add(self, msg):
-        """Adds a message. Two reports can have the same state; the second one is ignored."""
-        known = self.last is not None and self.last.sim_time == msg.sim_time
+        """Adds a message. Two reports can have the same sample; the second one is ignored."""
+        known = self.last is not None and self.last.sample_time == msg.sample_time
         self.last = msg
         if known:
             return
         tracked = [phase.state == phase.TRACKED for phase in msg.phases]
         phases = (phase.phase if on else np.nan for phase, on in zip(msg.phases, tracked))
         times = (phase.tracked_time for phase in msg.phases)
-        self._course.add((msg.sim_time, *phases, *times))
+        self._course.add((msg.sample_time, *phases, *times))
 
     def of_step(self, step):
         """The numbers of the phases that belong to an element of Steps.steps."""

@@ -163,9 +163,9 @@ def of_t_phases(message, info=None):
 
 
 def over_time(messages, of, info=None):
-    """The frames of many messages, by simulated time. Two reports can have the same state of
-    phases, which is there once."""
-    states = {message.sim_time: message for message in messages}
+    """The frames of many messages, by simulated time; of phases, by that of their sample. Two
+    reports can have the same sample, which is there once."""
+    states = {getattr(one, 'sample_time', one.sim_time): one for one in messages}
     frames, times = zip(*((of(message, info), time) for time, message in states.items()))
     joined = pandas.concat(frames, keys=times, names=['sim_time'])
     object.__setattr__(joined, 'attrs', frames[-1].attrs)

@@ -43,7 +43,8 @@ class Frame:
 
     def _note_pairs(self):
         for name, field in self.fields.items():
-            if field.kind == steps.LP and field.sim_time == getattr(self.phases, 'sim_time', None):
+            known = getattr(self.phases, 'sample_time', None)
+            if field.kind == steps.LP and field.sim_time == known:
                 self.turned[name] = self.pairs(field)
 
     def pairs(self, field):
