@@ -105,8 +105,8 @@ class Link:
             self.read()
         assert self.greeted
 
-    def read(self):
-        some = self.socket.recv(CHUNK)
+    def read(self, most=CHUNK):
+        some = self.socket.recv(most)
         self.closed = not some
         self.bytes += len(some)
         data, at = self.data + some, 0

@@ -84,6 +84,7 @@ inline std::vector<kind_of_wrong> wrong_values(const parameter &p)
     case REAL_NUMBER: return {{no_number, "a number"}, {beyond(p), ""}};
     case NAME: return {{no_string, "a string"}, {{"''"}, ""}};
     case FILE_PATH: return {{no_string, "a string"}};
+    case CHOICE: return {{{"''", "or", "Wait", "wait or drop", "5", "true", "[wait]"}, ""}};
     case FIELD_CHOICE:
         return {{{"''", "all", "Steps", "5", "1.0", "[]", "['1']", "[1.0]", "[1, steps]"}, ""}};
     case CHANGES: return {{{"5 pace=1", "5", "[5]"}, ""}};

@@ -325,7 +325,7 @@ def expected_sizes(disks, vectors, steps, phases, t_phases, waves):
         gas=begin + 17 * 8,
         state=begin + 8 + 8 * 4 + 32 * disks,
         status=begin + 2 + 3 * 8 + 4 + 2 * 8 + 4,
-        cost=begin + 137 + 3 * 8,
+        cost=begin + 145 + 3 * 8,
     )
 
 

@@ -5,6 +5,8 @@ of them slows the node, fills its memory or keeps it from ending."""
 import os
 import random
 import signal
+import threading
+import time
 
 import harness
 import links
@@ -28,6 +30,13 @@ EVERY_TOPIC = dict(
 BULKY = dict(
     number=5000, exponents='none', observables=['state'], report_interval=0.02, duration=0.0
 )
+
+MESSAGE = 4 * 8 * BULKY['number']
+# messages so large that a queue is soon full
+BULKIER = dict(BULKY, number=20000, report_interval=0.002)
+FULL = QUEUE_BYTES / (4 * 8 * BULKIER['number'])  # messages
+STEADY = 200e3  # bytes a second: a third of a message
+READS_NOTHING = 5.0  # seconds for which a run waits for one that reads nothing
 
 
 def resident(node):
@@ -65,12 +74,69 @@ class Subscribers(harness.Case):
         before = resident(node)
         cost = self.link(port, 'cost')
         self.read([cost])
-        reports = int(2 * QUEUE_BYTES / (4 * 8 * BULKY['number']))
+        reports = int(2 * QUEUE_BYTES / MESSAGE)
         self.sees(lambda: len(cost.seqs) > reports)
         self.assertEqual(cost.gaps(), 0)
         self.assertLess(resident(node) - before, QUEUE_BYTES + SLACK)
         self.stop(node)
         self.assertEqual(cost.gaps(), 0)
+
+    def trickle(self, link, every=0.05):
+        """Reads a link steadily, STEADY bytes a second; as fast as it goes once that is set."""
+        hurry = threading.Event()
+
+        def read():
+            while not link.closed:
+                if hurry.wait(every):
+                    link.read()
+                else:
+                    link.read(int(STEADY * every))
+
+        threading.Thread(target=read, daemon=True).start()
+        self.addCleanup(hurry.set)
+        return hurry
+
+    def test_one_does_not_read_and_one_reads_slowly(self):
+        """The run waits for each as long as it reads: the slow one misses nothing, and is named."""
+        node = self.start(dict(BULKIER, wait_for_subscribers=['state', 'cost', 'status']))
+        costs = self.listen('cost')
+        port = links.node_port(node)
+        dead, slow = (self.link(port, 'state', name) for name in ('/dead', '/slow'))
+        dead.greet()
+        slow.greet()
+        hurry = self.trickle(slow)
+        self.listen('status')
+        self.sees(lambda: node.lines('/dead has read nothing of /hdlyap/state for 5 s'), node)
+        reports = costs.messages[-1].sim_time
+        time.sleep(2 * READS_NOTHING)
+        self.assertGreater(costs.messages[-1].sim_time, reports)
+        self.assertEqual(node.lines('/slow has read nothing'), [])
+        self.assertGreater(
+            len(node.lines('waits for /slow, which reads /hdlyap/state slowly: ')), 1
+        )
+        hurry.set()
+        self.sees(lambda: len(slow.seqs) > FULL, node)
+        self.stop(node)
+        self.assertEqual(slow.gaps(), 0)
+        cost = costs.all_of(node)[-1]
+        self.assertGreater(cost.waiting_seconds, READS_NOTHING)
+        self.assertLess(cost.waiting_seconds, cost.wall_seconds)
+        self.assertLess(cost.publish_seconds, 0.5 * cost.waiting_seconds)
+
+    def test_run_that_waits_for_nobody(self):
+        """Nobody is named who reads nothing; the log says what is lost."""
+        node = self.start(
+            dict(BULKIER, slow_subscribers='drop', wait_for_subscribers=['state', 'cost'])
+        )
+        costs = self.listen('cost')
+        self.link(links.node_port(node), 'state', '/dead').greet()
+        with harness.within(self, READS_NOTHING):
+            self.sees(lambda: len(costs.messages) > 2 * FULL, node)
+        self.stop(node)
+        self.assertEqual(costs.all_of(node)[-1].waiting_seconds, 0.0)
+        self.assertEqual(node.lines('has read nothing'), [])
+        self.assertEqual(node.lines('waits for'), [])
+        self.assertEqual(len(node.lines('messages of /hdlyap/state were not sent to all')), 1)
 
     def test_flood(self):
         """Thousands of reports in a second, on all topics, nothing else to do."""

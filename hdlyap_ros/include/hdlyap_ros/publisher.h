@@ -53,12 +53,21 @@ HDR_MUST_CHECK hdr_status hdr_publishers_registered(int registered[],
                                                     hdr_publisher *const publishers[], int count,
                                                     double seconds);
 
-/** From now on publishing on this topic waits where it would lose a message: while a subscriber
- * that uses roscpp is 96 messages behind (as many as fit into the queue of rosbag's recorder; this
- * is known 0.1 s late), and while the queue for any other subscriber is full. It waits at most 5 s
- * for a subscriber that reads nothing; then it goes on with a warning, and counts lost messages. It
- * does not wait once a stop has been requested. Returns HDR_OK or HDR_NO_MEMORY. */
+/** From now on the messages that subscribers of this topic lose are counted and, when the node
+ * ends, told in the log. Returns HDR_OK or HDR_NO_MEMORY. */
+HDR_MUST_CHECK hdr_status hdr_publisher_watch(hdr_publisher *publisher);
+
+/** As hdr_publisher_watch, and from now on publishing on this topic waits where it would lose a
+ * message: while a subscriber that uses roscpp is 96 messages behind (as many as fit into the queue
+ * of rosbag's recorder; this is known 0.1 s late), and while the queue for any other subscriber is
+ * full. A warning names a subscriber for which it has waited 3 s, 6 s, 12 s and so on. It waits
+ * at most 5 s for a subscriber that reads nothing, however slowly others read; then a warning says
+ * so, and it loses messages until it reads again. Publishing does not wait once a stop has been
+ * requested. Returns HDR_OK or HDR_NO_MEMORY. */
 HDR_MUST_CHECK hdr_status hdr_publisher_wait(hdr_publisher *publisher);
+
+/** How long publishing on this topic has waited for subscribers so far [s]. */
+double hdr_publisher_waited(const hdr_publisher *publisher);
 
 /** How far the slowest subscriber of a topic is behind. Messages in buffers of the operating system
  * are not counted. */

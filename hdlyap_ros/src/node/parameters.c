@@ -94,6 +94,19 @@ static const parameter rows[] = {
                 "nothing. all: run_info, status, cost and the observables.",
     },
     {
+        .name = "slow_subscribers",
+        .kind = CHOICE,
+        .offset = offsetof(settings, slow_subscribers),
+        .usual = "wait",
+        .allowed = "wait or drop",
+        .unit = "",
+        .may_differ = true,
+        .text =
+            "What happens when a subscriber reads more slowly than the run publishes. wait: the "
+            "run waits for it, unless it has read nothing for 5 s. drop: the run goes on, and "
+            "the subscriber loses messages, a recorder too.",
+    },
+    {
         .name = "pace",
         .kind = REAL_NUMBER,
         .offset = offsetof(settings, pace),

@@ -19,6 +19,7 @@ typedef enum parameter_kind {
     TOPICS_OBSERVED, /**< unsigned: a set of topics */
     TOPICS_AWAITED,  /**< unsigned: a set of topics, or all */
     FIELD_CHOICE,    /**< field_choice */
+    CHOICE,          /**< const char *: one of two words */
     CHANGES          /**< change_list */
 } parameter_kind;
 

@@ -176,6 +176,17 @@ static bool read_line(const reader *r, const parameter *p, const char **line)
             reader_refuse(r, p->allowed));
 }
 
+/** Reads one of the two words of `allowed`, which has "or" between them. */
+static bool read_choice(const reader *r, const parameter *p, const char **choice)
+{
+    const hdr_status status = hdr_param_string(r->params, r->name, choice);
+    const size_t length = strlen(*choice), first = strcspn(p->allowed, " ");
+    const char *second = strrchr(p->allowed, ' ') + 1;
+    const bool is_first = length == first && strncmp(*choice, p->allowed, first) == 0;
+    return status == HDR_MISSING || (status == HDR_OK && (is_first || !strcmp(*choice, second))) ||
+           reader_refuse(r, p->allowed);
+}
+
 static bool read_topics(const reader *r, const parameter *p, unsigned *set)
 {
     const char *const *names = NULL;
@@ -224,6 +235,7 @@ bool reader_read(const reader *r, const parameter *p, void *field)
         return accepts(r, hdr_param_int(r->params, r->name, field), "an integer, without a point");
     case NAME:
     case FILE_PATH: return read_line(r, p, field);
+    case CHOICE: return read_choice(r, p, field);
     case TOPICS_OBSERVED:
     case TOPICS_AWAITED: return read_topics(r, p, field);
     case FIELD_CHOICE: return read_fields(r, p, field);

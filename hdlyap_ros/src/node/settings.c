@@ -301,6 +301,7 @@ static void set_default(settings *set, const parameter *p)
     case REAL_NUMBER: *(double *)field = strtod(p->usual, NULL); break;
     case WHOLE_NUMBER: *(int *)field = atoi(p->usual); break;
     case NAME:
+    case CHOICE:
     case FILE_PATH: *(const char **)field = p->usual; break;
     case TOPICS_OBSERVED:
     case TOPICS_AWAITED: *(unsigned *)field = topics_named(p->usual); break;

@@ -38,7 +38,8 @@ typedef struct settings {
     double field_interval; /**< simulated time between publications of fields [time units]; 0: with
                               every report */
     unsigned awaited;      /**< set of topics that must have a subscriber before the run starts */
-    double pace;           /**< most simulated time per wall second [time units/s]; 0: no limit */
+    const char *slow_subscribers; /**< wait or drop; in the params */
+    double pace; /**< most simulated time per wall second [time units/s]; 0: no limit */
     change_list changes;
     const char *checkpoint;     /**< file, or ""; in the params */
     double checkpoint_interval; /**< wall seconds between two checkpoints; 0: only at the end and

@@ -16,6 +16,7 @@ hd_status topic_publish_cost(const moment *now)
         .modes_seconds = cost->modes,
         .covariant_seconds = cost->following,
         .publish_seconds = now->seconds,
+        .waiting_seconds = now->waited,
         .events_per_second = cost->events_per_second,
         .interval = cost->interval,
         .interval_limit = (uint8_t)cost->limit,

@@ -48,7 +48,8 @@ typedef struct moment {
     const hd_run *run;      /**< after its last step; status and cost do not use it */
     const progress *last;   /**< how far the run is; only status and cost use it */
     const changes *changes; /**< only run_info uses it */
-    double seconds;         /**< wall time spent in publishing so far */
+    double seconds, waited; /**< wall time spent so far in publishing, and in waiting for
+                               subscribers beside that */
     buffers *room;
     kept_of_topics *kept;
     topic topic; /**< the topic that is published */

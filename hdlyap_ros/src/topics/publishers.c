@@ -37,24 +37,25 @@ static int queue_length(double bytes)
     return (int)fmax(QUEUE_MIN, fmin(QUEUE_MAX, queue_bytes / bytes));
 }
 
-static hdr_status advertise_one(publishers *out, hdr_node *ros, topic t, double bytes)
+static hdr_status advertise_one(publishers *out, hdr_node *ros, topic t, double bytes, bool waits)
 {
     char name[32];
     const bool aside = topic_bit(t) & topics_that_are(TOPIC_ASIDE);
     snprintf(name, sizeof name, "~%s", topic_name(t));
     const hdr_status status = advertise[t](&out->publisher[t], ros, name,
                                            aside ? 1 : queue_length(bytes));
-    return status == HDR_OK && !aside ? hdr_publisher_wait(out->publisher[t]) : status;
+    if (status != HDR_OK || aside) return status;
+    return waits ? hdr_publisher_wait(out->publisher[t]) : hdr_publisher_watch(out->publisher[t]);
 }
 
 hdr_status publishers_advertise(publishers *out, hdr_node *ros, unsigned set,
-                                const double bytes[TOPICS], const char *seed)
+                                const double bytes[TOPICS], bool waits, const char *seed)
 {
     hdr_status status = HDR_OK;
     *out = (publishers){.node = hdr_node_name(ros)};
     run_id_write(out->run_id, sizeof out->run_id, seed);
     for (topic t = 0; t < TOPICS && status == HDR_OK; t++)
-        if (set & topic_bit(t)) status = advertise_one(out, ros, t, bytes[t]);
+        if (set & topic_bit(t)) status = advertise_one(out, ros, t, bytes[t], waits);
     return status;
 }
 
@@ -65,6 +66,14 @@ unsigned publishers_subscribed(const publishers *out)
         if (out->publisher[t] && hdr_publisher_subscribers(out->publisher[t]) > 0)
             set |= topic_bit(t);
     return set;
+}
+
+double publishers_waited(const publishers *out)
+{
+    double seconds = 0.0;
+    for (topic t = 0; t < TOPICS; t++)
+        if (out->publisher[t]) seconds += hdr_publisher_waited(out->publisher[t]);
+    return seconds;
 }
 
 static bool is_worse(hdr_lag a, hdr_lag b)

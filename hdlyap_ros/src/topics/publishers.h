@@ -14,9 +14,14 @@ typedef struct publishers {
 } publishers;
 
 /** Advertises a set of topics and makes the run's id. bytes: size of a message of each topic, for
- * the length of its queue. Fails with HDR_NO_MEMORY, or HDR_FAULT if ROS refuses. */
+ * the length of its queue; waits: publishing waits for slow subscribers. Fails with HDR_NO_MEMORY,
+ * or HDR_FAULT if ROS refuses. */
 HDR_MUST_CHECK hdr_status publishers_advertise(publishers *out, hdr_node *ros, unsigned set,
-                                               const double bytes[TOPICS], const char *seed);
+                                               const double bytes[TOPICS], bool waits,
+                                               const char *seed);
+
+/** How long publishing has waited for subscribers so far [s]. */
+double publishers_waited(const publishers *out);
 
 /** The set of topics that have a subscriber now. */
 unsigned publishers_subscribed(const publishers *out);

@@ -4,6 +4,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "node/clock.h"
 #include "topics/moment.h"
@@ -23,7 +24,8 @@ struct report {
     kept_of_topics kept;
     subscriber_wait awaited;
     unsigned demand; /**< set of topics with a subscriber when the step under way began */
-    double seconds;  /**< wall time spent in publishing */
+    double seconds;  /**< wall time spent in publishing, without waiting for subscribers */
+    double waited;   /**< wall time of that waiting */
     hdr_time stamp;  /**< of the last report */
     bool unfinished; /**< report_finish will publish the last messages of this report */
 };
@@ -95,7 +97,8 @@ static hdr_status advertise(report *rep, hdr_node *ros, const hd_run *run, unsig
         const topic_size s = topic_size_of(t, &e);
         bytes[t] = (s.report + s.fields + s.window) / fmax(s.messages, 1.0);
     }
-    return publishers_advertise(&rep->out, ros, set, bytes, rep->set->seed);
+    const bool waits = strcmp(rep->set->slow_subscribers, "wait") == 0;
+    return publishers_advertise(&rep->out, ros, set, bytes, waits, rep->set->seed);
 }
 
 hdr_status report_create(report **out, hdr_node *ros, const settings *set, const hd_run *run)
@@ -166,6 +169,7 @@ static moment moment_of(report *rep, const hd_run *run, hdr_time stamp)
                     .set = rep->set,
                     .run = run,
                     .seconds = rep->seconds,
+                    .waited = rep->waited,
                     .room = &rep->room,
                     .kept = &rep->kept};
 }
@@ -192,10 +196,27 @@ static hd_status publish_progress(report *rep, const progress *last, hdr_time st
     return status == HD_OK ? publish(rep, &now, topic_bit(TOPIC_status)) : status;
 }
 
+/** When publishing began, and how long it had waited for subscribers by then. */
+typedef struct spending {
+    double start, waited;
+} spending;
+
+static spending spending_begin(const report *rep)
+{
+    return (spending){clock_seconds(), publishers_waited(&rep->out)};
+}
+
+/** Adds the time since then to that of publishing, but for what it has waited for subscribers. */
+static void spending_end(report *rep, spending since)
+{
+    rep->waited = publishers_waited(&rep->out);
+    rep->seconds += clock_seconds() - since.start - (rep->waited - since.waited);
+}
+
 /** The last cost and status of a run that has finished are left to report_finish. */
 hd_status report_publish(report *rep, const hd_run *run)
 {
-    const double start = clock_seconds();
+    const spending since = spending_begin(rep);
     rep->stamp = hdr_time_now();
     rep->unfinished = hd_run_stage(run) == HD_FINISHED;
     moment now = moment_of(rep, run, rep->stamp);
@@ -204,27 +225,27 @@ hd_status report_publish(report *rep, const hd_run *run)
         const progress last = progress_of(run, rep->set->pace);
         status = publish_progress(rep, &last, rep->stamp);
     }
-    rep->seconds += clock_seconds() - start;
+    spending_end(rep, since);
     return status;
 }
 
 hd_status report_window(report *rep, const hd_run *run)
 {
-    const double start = clock_seconds();
+    const spending since = spending_begin(rep);
     moment now = moment_of(rep, run, hdr_time_now());
     const hd_status status = publish(rep, &now, topics_that_are(TOPIC_OF_WINDOWS));
-    rep->seconds += clock_seconds() - start;
+    spending_end(rep, since);
     return status;
 }
 
 hd_status report_slow(report *rep, const hd_run *run, bool at_rest)
 {
-    const double start = clock_seconds();
+    const spending since = spending_begin(rep);
     moment now = moment_of(rep, run, hdr_time_now());
     now.topic = TOPIC_slow_vectors;
     now.room->taken = 0;
     const hd_status status = at_rest ? slow_vectors_rest(&now) : topic_publish_slow_vectors(&now);
-    rep->seconds += clock_seconds() - start;
+    spending_end(rep, since);
     return status;
 }
 

@@ -156,6 +156,7 @@ hd_status topic_publish_run_info(const moment *now)
         .field_indices = set->fields.text,
         .field_interval = set->field_interval,
         .wait_for_subscribers = {.data = awaited, .count = names_of(awaited, set->awaited)},
+        .slow_subscribers = set->slow_subscribers,
         .pace = set->pace,
         .slow_vectors_rate = set->slow_vectors_rate,
         .slow_vectors_count = (uint32_t)set->slow_vectors_count,

@@ -22,9 +22,9 @@ struct hdr_publisher {
     int queue;
     std::shared_ptr<hdr_backlog> backlog;
     hdr_node *node;
-    bool patient = false;   /**< waits if a message would be lost otherwise */
-    bool exhausted = false; /**< has waited long enough for a full queue, and waits no more */
-    double waited = 0.0;    /**< how long it has waited for a full queue [s] */
+    bool watched = false; /**< what its subscribers lose is counted */
+    bool patient = false; /**< waits if a message would be lost otherwise */
+    double waited = 0.0;  /**< how long it has waited for subscribers [s] */
 };
 
 struct hdr_subscriber {

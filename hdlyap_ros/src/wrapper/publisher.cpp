@@ -90,7 +90,7 @@ double seconds_now()
 template <class Message> void send(hdr_publisher &publisher, const Message &message)
 {
     const hdlyap_ros::sent<Message> out = {message};
-    if (publisher.patient) publisher.node->readers.wait(publisher);
+    if (publisher.watched) publisher.node->readers.wait(publisher);
     publisher.backlog->count();
     const auto serialise = [&out] { return ros::serialization::serializeMessage(out); };
     ros::SerializedMessage bytes;
@@ -158,13 +158,21 @@ int hdr_publisher_subscribers(const hdr_publisher *publisher)
     return status == HDR_OK ? subscribers : 0;
 }
 
-hdr_status hdr_publisher_wait(hdr_publisher *publisher)
+hdr_status hdr_publisher_watch(hdr_publisher *publisher)
 {
     return hdr_guard([publisher] {
         publisher->node->readers.watch(*publisher);
-        publisher->patient = true;
+        publisher->watched = true;
     });
 }
+
+hdr_status hdr_publisher_wait(hdr_publisher *publisher)
+{
+    publisher->patient = true;
+    return hdr_publisher_watch(publisher);
+}
+
+double hdr_publisher_waited(const hdr_publisher *publisher) { return publisher->waited; }
 
 hdr_lag hdr_publisher_lag(hdr_publisher *publisher)
 {

@@ -2,7 +2,8 @@
  * (100 messages of each topic in rosbag), and drop a message if that queue is full; so their socket
  * never makes the sender wait. They say how much they have read (getBusStats). Here no more
  * messages are sent than fit into that queue beyond those that a subscriber had read a moment ago.
- * Subscribers with rospy read only what they have room for. */
+ * Subscribers with rospy, and others, read only what they have room for: for them the queue fills
+ * that roscpp keeps here, one for each. */
 #include "readers.hpp"
 
 #include <algorithm>
@@ -17,6 +18,7 @@
 
 #include "guard.hpp"
 #include "node.hpp"
+#include "outbox.hpp"
 
 namespace
 {
@@ -31,8 +33,11 @@ const int ask_every = 12;
 /** After this time a message that was read has left the subscriber's queue, too [s]. Threads of a
  * busy machine stand still for some hundredths of a second. */
 const double settle_seconds = 0.1;
-/** How long the node waits for a subscriber that does not read or a queue that stays full [s]. */
+/** How long the node waits for a subscriber that does not read [s]. */
 const double patience_seconds = 5.0;
+/** A subscriber for which the node has waited this long is named, and again after twice that, four
+ * times that and so on [s]. */
+const double say_seconds = 3.0;
 const std::chrono::milliseconds poll_time{2};
 /** Pause before each question. */
 const std::chrono::milliseconds rest_time{1};
@@ -44,7 +49,16 @@ double seconds_since(clock_type::time_point begin)
 }
 } // namespace
 
-struct hdr_readers::reader {
+/** Somebody for whom a publisher may have to wait. */
+struct hdr_readers::awaited {
+    std::string name;
+    bool is_deaf = false;                             /**< nobody waits for it any more */
+    clock_type::time_point moved = clock_type::now(); /**< when it was last seen to have read */
+    double waited = 0.0;                              /**< how long publishers have waited for it */
+    double said_at = say_seconds;                     /**< it is named when `waited` reaches this */
+};
+
+struct hdr_readers::reader : awaited {
     /** A reader's connection to one topic. */
     struct link {
         int id = -1;
@@ -54,25 +68,28 @@ struct hdr_readers::reader {
         /** When the reader said how much it had received; the last settle_seconds. */
         std::deque<std::pair<clock_type::time_point, int>> answers;
     };
-    std::string name;
     std::map<std::string, link> links; /**< known connections, by topic */
     std::condition_variable asked_for;
     bool asked = true;
-    bool is_deaf = false;                             /**< nobody waits for it any more */
-    clock_type::time_point moved = clock_type::now(); /**< when it was last seen to have read */
+};
+
+/** A queue that roscpp keeps for one connection. */
+struct hdr_readers::queue : awaited {
+    int64_t before = INT64_MAX; /**< messages published before the connection was made */
+    uint64_t delivered = 0;     /**< see hdr_outbox */
 };
 
 struct hdr_readers::common {
     struct watched {
         std::shared_ptr<hdr_backlog> backlog;
         int window;
+        std::map<int, queue> queues; /**< by connection */
     };
     std::mutex lock, finding;
     std::condition_variable answered;
     std::map<std::string, watched> topics;
     std::map<std::string, std::shared_ptr<reader>> readers;
     std::map<std::string, std::map<std::string, int>> lost; /**< by topic and reader */
-    int exhausted = 0; /**< number of publishers that wait no more for a full queue */
     bool ended = false;
 };
 
@@ -80,6 +97,8 @@ namespace
 {
 using common = hdr_readers::common;
 using reader = hdr_readers::reader;
+using queue = hdr_readers::queue;
+using awaited = hdr_readers::awaited;
 
 /** Finds the connection of a node to a topic: its id, and how many messages it was given. Returns
  * false if there is none. */
@@ -254,38 +273,61 @@ reader *slowest(common &all, const std::string &topic, int64_t published)
     return slow;
 }
 
-/** Whether a publisher has to wait because its queue is full, although no reader says that it is
- * behind: a subscriber reads too little and cannot be asked. The publisher waits for
- * patience_seconds; after that no publisher waits for its queue. The caller holds the lock. */
-bool waits_for_queue(common &all, hdr_publisher &publisher, const hdr_backlog::numbers &now,
-                     clock_type::time_point began)
+/** Takes what roscpp says of a queue. Returns whether a further message would push one out that its
+ * subscriber might still read. The caller holds the lock. */
+bool is_full(queue &one, const hdr_outbox &now, const hdr_publisher &publisher, int64_t published)
 {
-    if (now.waiting == 0) {
-        all.exhausted -= publisher.exhausted;
-        publisher.exhausted = false;
-        publisher.waited = 0.0;
+    one.name = now.name;
+    /* roscpp puts messages into queues a little later */
+    one.before = std::min(one.before, published - now.given);
+    const int64_t waiting = now.waiting + published - one.before - now.given;
+    const bool has_read = now.delivered != one.delivered || waiting == 0;
+    one.delivered = now.delivered;
+    if (has_read) one.moved = clock_type::now();
+    if (has_read && one.is_deaf && waiting < publisher.queue) {
+        one.is_deaf = false;
+        hdr_log(HDR_WARN, "%s reads %s again", one.name.c_str(), publisher.topic.c_str());
     }
-    if (now.waiting < publisher.queue || publisher.exhausted) return false;
-    if (all.exhausted == 0 && publisher.waited + seconds_since(began) < patience_seconds)
-        return true;
-    publisher.exhausted = true;
-    all.exhausted++;
-    hdr_log(HDR_WARN,
-            "a subscriber of %s does not read: the run goes on, and the oldest of %d "
-            "waiting messages are lost",
-            publisher.topic.c_str(), now.waiting);
-    return false;
+    return waiting >= publisher.queue && !one.is_deaf;
 }
 
-/** Whether a slow reader is still worth waiting for. The caller holds the lock. */
-bool waits_for(reader &one, clock_type::time_point began, const std::string &topic)
+/** A queue of a topic that is full, or NULL. The caller holds the lock. */
+queue *fullest(common &all, const hdr_publisher &publisher, int64_t published)
 {
-    if (seconds_since(std::max(began, one.moved)) < patience_seconds) return true;
+    std::map<int, queue> &queues = all.topics.at(publisher.topic).queues, left;
+    queue *full = nullptr;
+    left.swap(queues);
+    for (const hdr_outbox &now : hdr_outboxes(publisher.topic)) {
+        queue &one = queues[now.connection] = left[now.connection];
+        const auto asked = all.readers.find(now.name);
+        const bool is_known_deaf = asked != all.readers.end() && asked->second->is_deaf;
+        if (is_full(one, now, publisher, published) && !is_known_deaf) full = &one;
+    }
+    return full;
+}
+
+/** Whether somebody is still worth waiting for, who has not read since then. The caller holds the
+ * lock. */
+bool waits_for(awaited &one, clock_type::time_point since, const std::string &topic)
+{
+    if (seconds_since(since) < patience_seconds) return true;
     one.is_deaf = true;
     hdr_log(HDR_WARN,
             "%s has read nothing of %s for %g s: the run goes on, and it may lose messages",
             one.name.c_str(), topic.c_str(), patience_seconds);
     return false;
+}
+
+/** Adds to how long somebody has been waited for, and says so now and then. The caller holds the
+ * lock. */
+void note_wait(awaited &one, hdr_publisher &publisher, double seconds)
+{
+    publisher.waited += seconds;
+    one.waited += seconds;
+    if (one.waited < one.said_at) return;
+    hdr_log(HDR_WARN, "waits for %s, which reads %s slowly: %.0f s so far", one.name.c_str(),
+            publisher.topic.c_str(), one.waited);
+    one.said_at = 2.0 * one.waited;
 }
 } // namespace
 
@@ -301,7 +343,7 @@ void hdr_readers::end()
 void hdr_readers::watch(const hdr_publisher &publisher)
 {
     const std::lock_guard<std::mutex> guard(all->lock);
-    all->topics[publisher.topic] = {publisher.backlog, std::min(window, publisher.queue)};
+    all->topics[publisher.topic] = {publisher.backlog, std::min(window, publisher.queue), {}};
 }
 
 void hdr_readers::add(const std::string &name)
@@ -321,17 +363,19 @@ void hdr_readers::add(const std::string &name)
 void hdr_readers::wait(hdr_publisher &publisher)
 {
     const auto began = clock_type::now();
+    auto last = began;
     std::unique_lock<std::mutex> guard(all->lock);
-    bool full = false;
     while (!hdr_stop_requested()) {
-        const hdr_backlog::numbers now = publisher.backlog->look();
-        reader *slow = slowest(*all, publisher.topic, now.published);
-        full = !slow && waits_for_queue(*all, publisher, now, began);
-        if (!full && !slow) break;
-        if (full || waits_for(*slow, began, publisher.topic))
+        const int64_t published = publisher.backlog->look().published;
+        reader *behind = slowest(*all, publisher.topic, published);
+        queue *full = fullest(*all, publisher, published);
+        awaited *one = behind ? static_cast<awaited *>(behind) : full;
+        if (!one || !publisher.patient) break;
+        note_wait(*one, publisher, seconds_since(last));
+        last = clock_type::now();
+        if (waits_for(*one, behind ? std::max(began, one->moved) : one->moved, publisher.topic))
             all->answered.wait_for(guard, poll_time);
     }
-    publisher.waited += full ? seconds_since(began) : 0.0;
 }
 
 bool hdr_readers::have_read_all()

@@ -24,8 +24,8 @@ class hdr_readers
     void watch(const hdr_publisher &publisher);
     /** Adds a node that has connected to a topic. */
     void add(const std::string &name);
-    /** Waits while a further message may be lost, but no longer than patience or a requested stop
-     * allows. */
+    /** Has those asked who may be behind; if the publisher is patient, waits while a further
+     * message may be lost, but for nobody who reads nothing, and not once a stop is requested. */
     void wait(hdr_publisher &publisher);
     /** Whether all readers have read all that was published, as far as they have said so. Asks
      * those that have not. */
@@ -37,7 +37,9 @@ class hdr_readers
     /** Ends all questions. Has to be called before roscpp ends. */
     void end();
 
+    struct awaited;
     struct reader;
+    struct queue;
     struct common;
 
   private:

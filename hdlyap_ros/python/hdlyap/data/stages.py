@@ -12,6 +12,7 @@ LABELS = {
     'modes': 'classification',
     'covariant': 'covariant vectors',
     'publish': 'publishing',
+    'waiting': 'waiting for subscribers',
     'other': 'other',
 }
 PARTS = tuple(LABELS)[:-1]

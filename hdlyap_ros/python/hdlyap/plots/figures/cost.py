@@ -16,6 +16,7 @@ PART_COLOURS = {
     'modes': VERMILION,
     'covariant': INK,
     'publish': PURPLE,
+    'waiting': '#F0E442',
     'other': '#8C8C8C',
     'start': '#D9D9D9',
 }
