@@ -5,12 +5,14 @@ time."""
 import os
 import signal
 import statistics
+import subprocess
 import tempfile
 import time
 
 from diagnostic_msgs.msg import DiagnosticArray
 import rosgraph
 from rosgraph_msgs.msg import Clock
+from roscpp.srv import GetLoggers, SetLoggerLevel
 import rospy
 from std_srvs.srv import SetBool, Trigger
 
@@ -132,6 +134,37 @@ class Nodes(harness.Case):
         self.assertEqual(status.name, '/lab/room/two')
         run.service('checkpoint', Trigger)
         self.interrupt(run.node)
+
+    def test_loggers_are_listed_again_and_again(self):
+        """roscpp's own service of Debian kills a node at the second call. A level that is set is
+        told, and obeyed."""
+        run = Run(self, dict(RUN, duration=0.0, pace=PACE))
+        self.assertTrue(run.has(1))
+        watch = self.process([harness.program('watch_phase'), '__name:=watch'])
+        viewer = harness.start_viewer()
+        self.addCleanup(viewer.end)
+        for name, node in (('hdlyap', run.node), ('watch', watch), ('viewer', viewer)):
+            with self.subTest(node=name):
+                self.check_loggers(name, node)
+        self.assertTrue(run.has(len(run.messages['state']) + 2))
+        self.interrupt(run.node)
+        self.assertFalse(run.node.lines('stopped at simulated time'), run.node.text())
+
+    def check_loggers(self, name, node):
+        ours, others = 'ros.hdlyap', 'ros.roscpp'
+        listed = harness.service('get_loggers', GetLoggers, name)
+
+        def levels():
+            return {one.name: one.level for one in listed().loggers}
+
+        for _ in range(20):
+            self.assertEqual(levels()[others], 'info')
+        for level in ('debug', 'error', 'fatal', 'warn'):
+            harness.service('set_logger_level', SetLoggerLevel, name)(ours, level)
+            self.assertEqual([levels()[one] for one in (ours, others)], [level, 'info'])
+        told = subprocess.check_output(['rosconsole', 'list', '/' + name], text=True).split()
+        self.assertEqual(told, sorted(levels()))
+        self.assertTrue(node.running(), node.text())
 
     def check_simulated_time(self):
         follow = self.process([*harness.command('follow'), '--node', '/timeless'])

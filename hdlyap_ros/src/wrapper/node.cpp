@@ -56,6 +56,7 @@ hdr_node *node_start()
     ros::XMLRPCManager::instance()->bind("shutdown", on_rosnode_kill);
     std::unique_ptr<hdr_node> node(new hdr_node);
     node->name = ros::this_node::getName();
+    loggers_advertise(node.get());
     node->watch.reset(new hdr_master_watch);
     node->spinner.start();
     return node.release();

@@ -65,6 +65,10 @@ uint32_t queue_length(const std::string &topic, int queue);
  * master is only asked while a subscriber is not connected. */
 void connection_warnings_start(hdr_node *node);
 
+/** Offers ~get_loggers, which roscpp's own kills the process with. Throws if the master does not
+ * answer. */
+void loggers_advertise(hdr_node *node);
+
 /** Makes SIGINT and SIGTERM, and SIGHUP unless it is ignored, call hdr_stop_request. stop_seconds
  * after a request the process is ended with status 0. Throws std::system_error. */
 void stop_handlers_install(double stop_seconds);
