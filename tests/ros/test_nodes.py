@@ -32,6 +32,7 @@ RUN = dict(
 )
 REPORTS = 24
 PACE = 10.0
+UNREACHED = '10.255.255.1'  # of a network that is private, and of nobody here
 
 
 class Run:
@@ -165,6 +166,37 @@ class Nodes(harness.Case):
         told = subprocess.check_output(['rosconsole', 'list', '/' + name], text=True).split()
         self.assertEqual(told, sorted(levels()))
         self.assertTrue(node.running(), node.text())
+
+    def start_unreached(self):
+        """A node that waits for subscribers at an address that nobody reaches, and says so."""
+        node = self.start(dict(SHORT, wait_for_subscribers=['status']), ROS_HOSTNAME=UNREACHED)
+        own = 'this node does not answer at its own address http://%s:' % UNREACHED
+        self.sees(lambda: own in node.text(), node)
+        return node
+
+    def test_an_address_that_nobody_reaches(self):
+        """Is told by who waits for the node, which never went away."""
+        node = self.start_unreached()
+        follow = self.process([*harness.command('follow'), '--timeout', '3'])
+        viewer = self.process([harness.program('viewer')], ROS_HOSTNAME=UNREACHED)
+        wrong = '/hdlyap has the address http://%s:' % UNREACHED
+        self.ends(follow, 1, 'hdlyap follow: ' + wrong, 'ROS_IP or ROS_HOSTNAME must be')
+        self.assertNotIn('went away', follow.text())
+        said = '/hdlyap does not answer at its address http://%s:' % UNREACHED
+        self.sees(lambda: viewer.lines(said), viewer)
+        view = self.process(harness.command('view'), DISPLAY=':nobody')
+        wrong = 'hdlyap view: /viewer has the address http://%s:' % UNREACHED
+        self.sees(lambda: view.lines(wrong), view)
+        self.assertTrue(node.running(), node.text())
+
+    @harness.more
+    def test_recorder_of_an_address_that_nobody_reaches(self):
+        self.start_unreached()
+        recorder = self.process(
+            [harness.program('record'), '_bag:=' + self.new_folder() + '/b.bag']
+        )
+        wrong = 'waiting for a node to record: /hdlyap has the address http://%s:' % UNREACHED
+        self.sees(lambda: recorder.lines(wrong), recorder)
 
     def check_simulated_time(self):
         follow = self.process([*harness.command('follow'), '--node', '/timeless'])

@@ -25,8 +25,8 @@ typedef enum hdr_level { HDR_DEBUG, HDR_INFO, HDR_WARN, HDR_ERROR, HDR_FATAL } h
 
 /** Makes the process a ROS node with the name `name`. It takes ROS remappings out of argc and argv;
  * sets LC_CTYPE from the environment, for the log; lets SIGINT, SIGTERM and SIGHUP (unless that is
- * ignored) call hdr_stop_request; waits for a ROS master, with one line in the log; and runs
- * callbacks on a thread of its own.
+ * ignored) call hdr_stop_request; waits for a ROS master, with one line in the log; warns if the
+ * node does not answer at its own address; and runs callbacks on a thread of its own.
  *
  * A process that has not ended stop_seconds after a stop was requested is ended with status 0. If a
  * thread of roscpp gets no memory, the process is ended with memory_status, after a line that says

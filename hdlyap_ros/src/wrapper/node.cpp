@@ -58,6 +58,7 @@ hdr_node *node_start()
     node->name = ros::this_node::getName();
     loggers_advertise(node.get());
     node->watch.reset(new hdr_master_watch);
+    node->address.reset(new hdr_own_address);
     node->spinner.start();
     return node.release();
 }
@@ -178,6 +179,7 @@ void hdr_node_free(hdr_node *node, double linger)
         node->readers.say_lost();
         node->readers.end();
         node->watch.reset();
+        node->address.reset();
         node->spinner.stop();
         ros::shutdown();
     });

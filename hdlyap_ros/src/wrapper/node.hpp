@@ -10,6 +10,7 @@
 
 #include <ros/ros.h>
 
+#include "address.hpp"
 #include "backlog.hpp"
 #include "hdlyap_ros/node.h"
 #include "master.hpp"
@@ -44,6 +45,7 @@ struct hdr_node {
     std::string name;
     hdr_readers readers;
     std::unique_ptr<hdr_master_watch> watch; /**< NULL until the node is registered */
+    std::unique_ptr<hdr_own_address> address;
     std::vector<std::unique_ptr<hdr_publisher>> publishers;
     std::vector<ros::ServiceServer> services;
     ros::Publisher frame; /**< publishes on /tf_static */

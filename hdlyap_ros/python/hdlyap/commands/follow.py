@@ -3,8 +3,8 @@
 On a terminal it fills the screen until q is pressed; elsewhere it prints a line now and then until
 the run has finished.
 
-Exit status: 0 the run has finished, or q; 1 no node; 3 the node went away before the end of its
-run; 130 interrupted."""
+Exit status: 0 the run has finished, or q; 1 no node, or none that answers; 3 the node went away
+before the end of its run; 130 interrupted."""
 
 import sys
 

@@ -6,9 +6,9 @@ whose means are drawn.
 With --live it shows spectrum, steps, dispersion, phases and convergence of a running node in a
 window instead, until that is closed.
 
-Exit status: 0; 1 if a bag cannot be used, a file cannot be written, or no node is there; 2 for a
-wrong option, or no display for the window; 3 if the node had gone before the end of its run when
-the window was closed."""
+Exit status: 0; 1 if a bag cannot be used, a file cannot be written, or no node is there that
+answers; 2 for a wrong option, or no display for the window; 3 if the node had gone before the end
+of its run when the window was closed."""
 
 import os
 import sys

@@ -6,7 +6,6 @@ runs.launch it waits until all have ended."""
 import os
 import sys
 import time
-import xmlrpc.client
 
 from roslaunch import netapi
 import rospy
@@ -42,16 +41,18 @@ class Nodes:
 
     def __init__(self):
         self._deadline = time.monotonic() + COMING
-        self._dead, self._unanswered = set(), {}
+        self._alive, self._dead, self._unanswered = set(), set(), {}
 
     def look(self):
         """Asks roslaunch; has to be called before each round of questions."""
         found = {True: set(), False: set()}
         for process in netapi.list_processes():
             found[process.is_alive].add('/' + process.name.rpartition('-')[0])
-        self._dead = found[False] - found[True]
+        self._alive, self._dead = found[True], found[False] - found[True]
 
     def has_ended(self, node):
+        if node in self._alive:  # also if its address is wrong, so that nobody reaches it
+            return False
         return node in self._dead or self._is_silent(node)
 
     def _is_silent(self, node):
@@ -60,17 +61,19 @@ class Nodes:
             self._unanswered[node] = 0
             return False
         if node not in self._unanswered:
-            return time.monotonic() > self._deadline
+            return self._has_not_come(node)
         self._unanswered[node] += 1
         return self._unanswered[node] >= SURE
 
-
-def stop(node):
-    try:
-        there = xmlrpc.client.ServerProxy(nodes.address(node))
-        there.shutdown(rospy.get_name(), 'the run has ended')
-    except nodes.UNANSWERED:
-        pass  # it is about to end
+    def _has_not_come(self, node):
+        """Whether it is too late for a node; says so once if the master knows it."""
+        if time.monotonic() <= self._deadline:
+            return False
+        self._unanswered[node] = SURE
+        wrong = nodes.unheard(node)
+        if wrong:
+            print(f'hdlyap table: {wrong}', file=sys.stderr, flush=True)
+        return True
 
 
 def has_ended(group, nodes_now):
@@ -79,7 +82,7 @@ def has_ended(group, nodes_now):
     if not nodes_now.has_ended(node):
         return False
     if not nodes_now.has_ended(recorder):
-        stop(recorder)
+        nodes.stop(recorder, 'the run has ended')
         return False
     return True
 

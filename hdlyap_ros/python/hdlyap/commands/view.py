@@ -13,8 +13,11 @@ import rospy
 import yaml
 from visualization_msgs.msg import Marker, MarkerArray
 
+from hdlyap.follow import nodes
+
 DOCK, BARS = 380, 92  # pixels that the list of displays and the bars of the window take
 MARGIN = 1.02
+PERIOD = 0.5  # seconds between two looks whether there are pictures
 LETTER, LINE = 0.5, 1.2  # width and height of rviz's letters over the height of a text
 FIELD_OF_VIEW = math.radians(45)  # angle from the lower to the upper edge of rviz's picture
 
@@ -33,8 +36,12 @@ def first_picture(topic):
             'hdlyap view: waiting for pictures on %s; rviz.launch starts their viewer' % topic,
             flush=True,
         )
-    while not arrived.wait(0.2) and not rospy.is_shutdown():
-        pass
+    said = ''
+    while not arrived.wait(PERIOD) and not rospy.is_shutdown():
+        wrong = nodes.unheard_speaker(topic)
+        if wrong and wrong != said:
+            print('hdlyap view: ' + wrong, file=sys.stderr, flush=True)
+            said = wrong
     subscriber.unregister()
     return pictures[0] if pictures else None
 

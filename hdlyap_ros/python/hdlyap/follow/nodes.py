@@ -31,13 +31,11 @@ UNANSWERED = (
 def chosen(command, name, patience):
     """The name of the node that publishes hdlyap/RunStatus: the one of this name, or the only one.
     Also starts the ROS node of this command of hdlyap. Waits at most `patience` seconds, and exits
-    if there is no such node."""
+    if there is no such node, or if it does not answer."""
     deadline = time.monotonic() + patience
     _wait_for_master(command, deadline)
     rospy.init_node(command, anonymous=True)
     node = _wait_for_node(command, name and rospy.resolve_name(name.rstrip('/')), deadline)
-    if node is None:
-        sys.exit(130 if rospy.is_shutdown() else f'hdlyap {command}: no hdlyap_node is running')
     return node
 
 
@@ -45,45 +43,54 @@ def _wait_for_master(command, deadline):
     """Waits for the master; exits after the deadline. Says at once if there is none."""
     uri = rosgraph.get_master_uri()
     missing = f'hdlyap {command}: no master at {uri}'
-    if not _wait(lambda: answers(uri, SOON), deadline, lambda: missing):
+    if not _wait(lambda: answers(uri, SOON), deadline, lambda: (missing, HOW)):
         sys.exit(missing)
 
 
 def _wait_for_node(command, name, deadline):
-    """The name of the node; None after the deadline. Says at once if there is none."""
-    found = set()
+    """The name of the node; exits after the deadline. Says at once if there is none."""
+    found, wrong = set(), ''
 
     def look():
+        nonlocal wrong
         found.clear()
         found.update(_nodes())
-        return name in found if name else bool(found)
+        candidates = found & {name} if name else found
+        wrong = unheard(*candidates) if len(candidates) == 1 else ''
+        return bool(candidates) and not wrong
 
     def listed():
         return plain(', '.join(sorted(found)), LIST)  # names may contain anything
 
     def missing():
+        if wrong:
+            return f'hdlyap {command}: {wrong}', ''
         others = f'; there is {listed()}' if found else ''
-        return f'hdlyap {command}: no {name or "hdlyap_node"} that publishes a run_info{others}'
+        none = f'no {name or "hdlyap_node"} that publishes a run_info'
+        return f'hdlyap {command}: {none}{others}', HOW
 
     if not _wait(look, deadline, missing):
-        return None
+        why = wrong or 'no hdlyap_node is running'
+        sys.exit(130 if rospy.is_shutdown() else f'hdlyap {command}: {why}')
     if name is None and len(found) > 1:
         sys.exit(f'hdlyap {command}: several nodes, choose one: {listed()}')
     return name or found.pop()
 
 
 def _wait(is_there, deadline, missing):
-    """Waits until is_there() or the deadline. Returns whether it was there in time."""
-    has_said = False
+    """Waits until is_there() or the deadline. Returns whether it was there in time. missing(): what
+    is missing and how to mend that, which is said once, and again when it is something else."""
+    said = None
     while not rospy.is_shutdown():
         if is_there():
             return True
         left = deadline - time.monotonic()
         if left <= 0:
             return False
-        if not has_said:
-            print(f'{missing()}; waits {left:.3g} s. {HOW}', file=sys.stderr, flush=True)
-            has_said = True
+        what, how = missing()
+        if what != said:
+            print(f'{what}; waits {left:.3g} s. {how}'.rstrip(), file=sys.stderr, flush=True)
+            said = what
         time.sleep(0.2)
     return False
 
@@ -121,12 +128,47 @@ def answers(uri, patience=ANSWER):
         return False
 
 
+def unheard(node):
+    """What is wrong with a node that the master knows but that does not answer, for the user; '' if
+    it answers, or if the master does not know it."""
+    try:
+        uri = address(node)
+    except UNANSWERED:
+        return ''
+    if answers(uri, SOON):
+        return ''
+    return (
+        f'{plain(node)} has the address {plain(uri)}, which does not answer: it has gone, or its '
+        'ROS_IP or ROS_HOSTNAME must be an address that this machine reaches'
+    )
+
+
+def unheard_speaker(topic):
+    """What is wrong with the nodes that publish a topic, as unheard() says; '' if one of them
+    answers, or if there are none."""
+    try:
+        speakers = dict(ask_master('getSystemState')[0]).get(topic, [])
+    except UNANSWERED:
+        return ''
+    wrong = [unheard(node) for node in speakers]
+    return wrong[0] if wrong and all(wrong) else ''
+
+
 def is_alive(node):
     """Whether the node still answers; a node whose master has gone counts as gone."""
     try:
         return answers(address(node))
     except UNANSWERED:
         return False
+
+
+def stop(node, why):
+    """Asks a node to end, as rosnode kill does."""
+    try:
+        with _server(address(node)) as there:
+            there.shutdown(rospy.get_name(), why)
+    except UNANSWERED:
+        pass  # it is about to end, or nobody reaches it
 
 
 class _ImpatientTransport(xmlrpc.client.Transport):
