@@ -8,6 +8,7 @@ import statistics
 import subprocess
 import tempfile
 import time
+import xmlrpc.client
 
 from diagnostic_msgs.msg import DiagnosticArray
 import rosgraph
@@ -17,6 +18,7 @@ import rospy
 from std_srvs.srv import SetBool, Trigger
 
 import harness
+import links
 from harness import SHORT, TYPES, Process
 
 TOPICS = ['spectrum', 'state', 'status', 'cost']
@@ -166,6 +168,49 @@ class Nodes(harness.Case):
         told = subprocess.check_output(['rosconsole', 'list', '/' + name], text=True).split()
         self.assertEqual(told, sorted(levels()))
         self.assertTrue(node.running(), node.text())
+
+    def registered(self, uri):
+        """What a master knows: publishers, services, and the viewer's first subscriber."""
+        publishers, subscribers, services = rosgraph.Master('/test', uri).getSystemState()
+        first = [one for one in subscribers if one[0] == '/hdlyap/run_info']
+        return sorted(publishers + services + first)
+
+    def heard_by_viewer(self, uri):
+        """The address that the viewer hears run_info from."""
+        viewer = rosgraph.Master('/test', uri).lookupNode('/viewer')
+        _, _, found = xmlrpc.client.ServerProxy(viewer).getBusInfo('/test')
+        return [link[1] for link in found if link[4] == '/hdlyap/run_info']
+
+    def test_master_comes_back(self):
+        """And knows all that it knew before; a viewer hears the next node, too."""
+        port = harness.free_port()
+        master = harness.Master(port)
+        self.addCleanup(master.stop)
+        env = {'ROS_MASTER_URI': master.uri}
+        node = self.start(dict(SHORT, duration=0.0, pace=PACE), **env)
+        viewer = harness.start_viewer(**env)
+        self.addCleanup(viewer.end)
+        for last in (['/hdlyap/set', ['/hdlyap']], ['/viewer/set', ['/viewer']]):
+            self.sees(lambda: last in self.registered(master.uri), node)
+        before = self.registered(master.uri)
+        self.assertIn(['/hdlyap/run_info', ['/viewer']], before)
+        master.stop()
+        master = harness.Master(port)
+        self.addCleanup(master.stop)
+        self.sees(lambda: self.registered(master.uri) == before, node)
+        said = 'did not know this node, which has registered again'
+        self.sees(lambda: node.lines(said), node)
+        said = subprocess.check_output(
+            ['rosservice', 'call', '/hdlyap/pause', 'true'], text=True, env={**os.environ, **env}
+        )
+        self.assertIn('success: True', said)
+        self.interrupt(node)
+        node = self.start(dict(SHORT, duration=0.0, pace=PACE), **env)
+        address = links.node_uri(node, master.uri)
+        self.sees(lambda: self.heard_by_viewer(master.uri) == [address], viewer)
+        self.interrupt(viewer)
+        self.interrupt(node)
+        self.assertEqual(self.registered(master.uri), [])
 
     def start_unreached(self):
         """A node that waits for subscribers at an address that nobody reaches, and says so."""

@@ -212,8 +212,7 @@ class Subscribers(harness.Case):
         hanging.send(signal.SIGCONT)
 
     def test_master_restarted(self):
-        """Connections outlive it; the node ends in an orderly way. The new master does not know the
-        node."""
+        """Connections outlive it; the node ends in an orderly way."""
         master = harness.Master()
         uri, port_of_master = master.uri, int(master.uri.rsplit(':', 1)[1])
         self.addCleanup(master.stop)
@@ -234,7 +233,7 @@ class Subscribers(harness.Case):
             self.addCleanup(master.stop)
         late = self.link(port, 'cost', '/late')
         late.greet()
-        self.sees(lambda: node.lines('nobody finds this node any more'), node)
+        self.sees(lambda: node.lines('has registered again'), node)
         self.stop(node)
         self.assertEqual([link.gaps() for link in some], [0, 0])
         self.assertEqual(len(node.lines('stopped at simulated time')), 1, node.text())

@@ -49,9 +49,9 @@ void hdr_node_stop_within(double stop_seconds, int status);
 void hdr_node_free(hdr_node *node, double linger);
 
 /** Seconds for which the master has not confirmed that it knows this node; 0 while these are below
- * five. The master is asked every second. As long as it does not know the node nobody can
- * subscribe; if another master has replaced it, nobody ever can again. A WARN line in the log says
- * so, and an INFO line when it is over. One thread should call this now and then. */
+ * five. The master is asked every second, and if it does not know the node, as after its restart,
+ * the node registers its topics and services again. Until then nobody can subscribe. A WARN line in
+ * the log says so, and an INFO line when it is over. One thread should call this now and then. */
 double hdr_node_lost(hdr_node *node);
 
 /** Resolved name of the node, e.g. /hdlyap; valid as long as the node lives. */

@@ -1,13 +1,15 @@
-/** Asks the master again and again whether it knows this node. Connected nodes need no master, but
- * nobody else finds the node if the master is gone, or is a new one that does not know it. */
+/** Asks the master again and again whether it knows this node, and registers the node with a new
+ * one. Connected nodes need no master, but nobody else finds the node without one that knows it. */
 #include "master.hpp"
 
 #include <chrono>
 #include <thread>
 
 #include <ros/ros.h>
+#include <ros/xmlrpc_manager.h>
 
 #include "node.hpp"
+#include "registration.hpp"
 
 const double master_patience = 10.0;
 
@@ -19,11 +21,24 @@ const std::chrono::seconds between_questions{1};
 /** How long the thread may take to end if it is not waiting for an answer. */
 const std::chrono::milliseconds master_end{100};
 
-bool master_knows()
+/** Asks the master about something of this name. Returns an empty text if it knows of none. */
+std::string looked_up(const char *question, const std::string &name)
 {
     XmlRpc::XmlRpcValue request, response, address;
-    request[0] = request[1] = ros::this_node::getName();
-    return ros::master::execute("lookupNode", request, response, address, false);
+    request[0] = ros::this_node::getName();
+    request[1] = name;
+    return ros::master::execute(question, request, response, address, false) ? address : "";
+}
+
+/** Whether the master knows the first that roscpp registers: a new master, to which this node has
+ * registered something since, does not. */
+bool master_knows() { return !looked_up("lookupService", first_service()).empty(); }
+
+/** Whether another node has the name of this one: the master would end it. */
+bool name_is_anothers()
+{
+    const std::string address = looked_up("lookupNode", ros::this_node::getName());
+    return !address.empty() && address != ros::XMLRPCManager::instance()->getServerURI();
 }
 } // namespace
 
@@ -37,7 +52,22 @@ void hdr_master_watch::asked::ask()
 {
     const bool knows = master_knows();
     if (knows) known = master_seconds();
-    if (knows || ros::master::check()) answered = master_seconds();
+    if (!knows && !ros::master::check()) return;
+    answered = master_seconds();
+    if (knows || name_is_anothers()) return;
+    if (register_again(services_now(), [this] { return is_wanted(); })) again = true;
+}
+
+bool hdr_master_watch::asked::is_wanted()
+{
+    const std::lock_guard<std::mutex> lock(mutex);
+    return wanted;
+}
+
+std::vector<std::string> hdr_master_watch::asked::services_now()
+{
+    const std::lock_guard<std::mutex> lock(mutex);
+    return services;
 }
 
 void hdr_master_watch::asked::go_on()
@@ -53,8 +83,10 @@ void hdr_master_watch::asked::go_on()
     changed.notify_all();
 }
 
-hdr_master_watch::hdr_master_watch() : shared(std::make_shared<asked>())
+hdr_master_watch::hdr_master_watch(const std::vector<std::string> &services)
+    : shared(std::make_shared<asked>())
 {
+    shared->services = services;
     shared->known = shared->answered = master_seconds();
     std::thread([own = shared] { own->go_on(); }).detach();
 }
@@ -65,6 +97,12 @@ hdr_master_watch::~hdr_master_watch()
     shared->wanted = false;
     shared->changed.notify_all();
     shared->changed.wait_for(lock, master_end, [this] { return shared->ended; });
+}
+
+void hdr_master_watch::service_is(const std::string &name)
+{
+    const std::lock_guard<std::mutex> lock(shared->mutex);
+    shared->services.push_back(name);
 }
 
 double hdr_master_watch::lost()
@@ -79,7 +117,11 @@ double hdr_master_watch::lost()
                 address,
                 now - shared->answered < silent_seconds ? "does not know this node"
                                                         : "does not answer");
-    if (!is_lost && said) hdr_log(HDR_INFO, "the ROS master at %s is there again", address);
+    if (shared->again.exchange(false))
+        hdr_log(HDR_INFO, "the ROS master at %s did not know this node, which has registered again",
+                address);
+    else if (!is_lost && said)
+        hdr_log(HDR_INFO, "the ROS master at %s is there again", address);
     said = is_lost;
     return is_lost ? seconds : 0.0;
 }

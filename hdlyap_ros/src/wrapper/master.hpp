@@ -1,4 +1,5 @@
-/** Whether the master still knows this node; private to the wrapper. */
+/** Whether the master still knows this node, and what makes a new one know it; private to the
+ * wrapper. */
 #pragma once
 
 #include <atomic>
@@ -7,6 +8,7 @@
 #include <mutex>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 /** Asks the master every second, from a separate thread, because roscpp waits forever for a master
  * that hangs. */
@@ -14,10 +16,12 @@ class hdr_master_watch
 {
   public:
     /** Throws std::system_error if no thread can be created. */
-    hdr_master_watch();
+    explicit hdr_master_watch(const std::vector<std::string> &services);
     ~hdr_master_watch();
     hdr_master_watch(const hdr_master_watch &) = delete;
     hdr_master_watch &operator=(const hdr_master_watch &) = delete;
+    /** Tells the name of a service of this node, to be registered with a new master. */
+    void service_is(const std::string &name);
     /** See hdr_node_lost. */
     double lost();
 
@@ -29,6 +33,10 @@ class hdr_master_watch
         std::mutex mutex;
         std::condition_variable changed;
         bool wanted = true, ended = false;
+        std::vector<std::string> services;
+        std::atomic<bool> again{false}; /**< it has registered with a new master */
+        bool is_wanted();
+        std::vector<std::string> services_now();
         void ask();
         void go_on();
     };

@@ -14,6 +14,7 @@
 #include <ros/xmlrpc_manager.h>
 
 #include "guard.hpp"
+#include "registration.hpp"
 
 namespace
 {
@@ -57,7 +58,7 @@ hdr_node *node_start()
     std::unique_ptr<hdr_node> node(new hdr_node);
     node->name = ros::this_node::getName();
     loggers_advertise(node.get());
-    node->watch.reset(new hdr_master_watch);
+    node->watch.reset(new hdr_master_watch({first_service(), ros::names::resolve("~get_loggers")}));
     node->address.reset(new hdr_own_address);
     node->spinner.start();
     return node.release();

@@ -26,8 +26,10 @@ hdr_status advertise(hdr_node *node, const char *name, const Answer &answer)
         return true;
     };
     return hdr_guard([&] {
-        node->services.push_back(master_registered(
-            [&] { return node->handle.advertiseService(ros::names::resolve(name), serve); }));
+        const std::string full = ros::names::resolve(name);
+        node->services.push_back(
+            master_registered([&] { return node->handle.advertiseService(full, serve); }));
+        node->watch->service_is(full);
     });
 }
 } // namespace
