@@ -95,8 +95,7 @@ goes_on() {
     cd "$WORK"
     cat >job.sh <<END
 #!/usr/bin/env bash
-[[ ! -s run.checkpoint ]] || from=resume:=run.checkpoint
-exec srun -n 2 hdlyap run quick --out run.bag duration:=3000 params:="{checkpoint_interval: 1}" checkpoint:=run.checkpoint \$from
+exec srun -n 2 hdlyap run quick --out run.bag duration:=3000 params:="{checkpoint_interval: 1}" checkpoint:=run.checkpoint resume:=auto
 END
     job=$(sbatch --parsable -N 1 -n 2 --mem-per-cpu=500M --requeue --open-mode=append job.sh) &&
         wait_for 60 test -s run.checkpoint && sleep 5 && scontrol requeue "$job" && wait_for 30 pending "$job" &&

@@ -42,6 +42,17 @@ class Checkpoint(harness.Case):
                 self.assertGreater(len(second[topic]), 0)
                 self.assert_same_bits(first[topic] + second[topic], whole[topic])
 
+    def test_started_again_by_the_same_parameters(self):
+        params = dict(RUN, checkpoint=self.file, resume='auto')
+        whole = self.recorded(RUN)['state']
+        first = self.recorded(dict(params, pace=20.0), stop_after=40.0)
+        second = self.recorded(params)
+        infos = [run['run_info'][0] for run in (first, second)]
+        self.assertEqual([info.resume for info in infos], ['', self.file])
+        self.assertEqual(infos[0].resumed_time, -1.0)
+        self.assertGreaterEqual(infos[1].resumed_time, 40.0)
+        self.assert_same_bits(first['state'] + second['state'], whole)
+
     def test_made_longer(self):
         """An orthonormalisation more at its first end: disks have the same bits, exponents not."""
         whole = self.recorded(RUN)
@@ -92,7 +103,15 @@ class Checkpoint(harness.Case):
         with open(self.file, 'r+b') as file:
             file.seek(1000)
             file.write(b'damage')
+        with open(self.file, 'rb') as file:
+            damaged = file.read()
         self.ends(self.start(dict(resume=self.file)), 4, self.file, 'damaged')
+        auto = dict(RUN, resume='auto')
+        self.ends(self.start(auto), 2, 'resume = auto: must be given with a checkpoint')
+        self.ends(self.start(dict(auto, checkpoint=self.file)), 4, self.file, 'damaged')
+        self.ends(self.start(dict(auto, checkpoint=self.file + '/x')), 4, self.file + '/x')
+        with open(self.file, 'rb') as file:
+            self.assertEqual(file.read(), damaged)
         folder = os.path.dirname(self.file)
         self.ends(self.start(dict(RUN, checkpoint=folder)), 4, folder, 'no regular file')
         self.ends(self.start(dict(RUN, checkpoint='/no/such/file')), 4, '/no/such/file')
@@ -180,7 +199,9 @@ class Checkpoint(harness.Case):
 
     def test_at_intervals(self):
         cost = self.listen('cost')
-        node = self.start(dict(LONG, checkpoint=self.file, checkpoint_interval=0.05))
+        params = dict(LONG, checkpoint=self.file, checkpoint_interval=0.05, resume='auto')
+        node = self.start(params)
+        self.sees(lambda: node.lines('there was no checkpoint %s: ' % self.file), node)
         seen = set()
         harness.wait_until(lambda: os.path.exists(self.file))
         harness.wait_until(lambda: seen.add(os.stat(self.file).st_mtime_ns) or len(seen) > 3)
@@ -188,7 +209,7 @@ class Checkpoint(harness.Case):
         self.assertTrue(cost.wait_for(lambda message: True))  # it goes on beside them
         node.send(signal.SIGKILL)
         node.wait()
-        node = self.start(dict(resume=self.file))
+        node = self.start(params)
         self.sees(lambda: node.lines('goes on from simulated time'))
         self.interrupt(node)
 

@@ -192,6 +192,9 @@ static void log_start(const app *a)
     if (*a->set.resume)
         hdr_log(HDR_INFO, "goes on from simulated time %.6g of the checkpoint %s",
                 hd_run_time(a->run), a->set.resume);
+    else if (strcmp(hdr_param_text(a->params, "resume"), RESUME_AUTO) == 0)
+        hdr_log(HDR_INFO, "there was no checkpoint %s: the run begins at its start",
+                a->set.checkpoint);
 }
 
 static void log_end(const worker_state *state)

@@ -158,10 +158,11 @@ static const parameter rows[] = {
         .kind = FILE_PATH,
         .offset = offsetof(settings, resume),
         .usual = "",
-        .allowed = "a path in one line",
+        .allowed = "a path in one line, or " RESUME_AUTO,
         .unit = "",
         .may_differ = true,
-        .text = "Checkpoint from which the run goes on. Empty: a new run.",
+        .text = "Checkpoint from which the run goes on. auto: the file checkpoint, or a new run as "
+                "long as there is none. Empty: a new run.",
     },
     {
         .name = "table",

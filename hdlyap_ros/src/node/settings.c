@@ -2,11 +2,13 @@
  * together. The core checks the ranges of the scene's own parameters. */
 #include "settings.h"
 
+#include <errno.h>
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "change.h"
 #include "parameters.h"
@@ -278,9 +280,26 @@ static void write_texts(settings *out)
 bool settings_resume(const char **path, const hdr_params *params, char *message, size_t size)
 {
     reader r = {.params = params, .name = "resume", .message = message, .size = size};
-    const parameter p = parameters_named(r.name);
+    const parameter p = parameters_named(r.name), file = parameters_named("checkpoint");
     *path = "";
-    return reader_read(&r, &p, path);
+    if (!reader_read(&r, &p, path)) return false;
+    if (strcmp(*path, RESUME_AUTO) != 0) return true;
+    r.name = file.name;
+    *path = "";
+    if (!reader_read(&r, &file, path)) return false;
+    const bool is_absent = access(*path, F_OK) != 0 && errno == ENOENT;
+    if (is_absent) *path = ""; /* any other fault is found when it is read */
+    return true;
+}
+
+/** Puts the file that `auto` stands for in its place. */
+static bool resolve_resume(settings *set, reader *r, bool is_resumed)
+{
+    r->name = "resume";
+    if (strcmp(set->resume, RESUME_AUTO) != 0) return true;
+    set->resume = is_resumed ? set->checkpoint : "";
+    return *set->checkpoint ||
+           reader_refuse(r, "given with a checkpoint, which it goes on from if it is there");
 }
 
 /** Observables that a checkpoint with these stages can publish; some need no stage. */
@@ -345,6 +364,7 @@ bool settings_read(settings *out, const hdr_params *params, const hd_checkpoint 
     reader r = {.params = params, .message = message, .size = size};
     *out = defaults(kept);
     if (!read_what_moves(out, &r) || !check_names(&r) || !read_all(out, &r)) return false;
+    if (!resolve_resume(out, &r, kept)) return false;
     if (!kept && !check_scene_name(out, &r)) return false;
     if (!check_particles(out, &r) || !check_ranges(out, &r) || !check_observables(out, &r) ||
         !check_awaited(out, &r) || !check_needs(out, &r))

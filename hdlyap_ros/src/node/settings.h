@@ -49,6 +49,9 @@ typedef struct settings {
     double table; /**< least wall seconds between two tables in the log; 0: no tables */
 } settings;
 
+/** Value of `resume`: the file `checkpoint`, if it is there. */
+#define RESUME_AUTO "auto"
+
 /** Finds the file to go on from, "" if none. Returns false if the parameter is refused. */
 bool settings_resume(const char **path, const hdr_params *params, char *message, size_t size);
 

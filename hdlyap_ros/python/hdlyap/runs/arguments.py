@@ -20,7 +20,7 @@ def check(words, launch, cwd):
             raise Refused(f'{name} = {value}: must be {_wanted(name, known)}')
         if _is_long(value) and run.is_number(run.usual().get(name)):
             _check_carried({name: int(value)})
-    if given.get('scene') or not given.get('resume'):
+    if given.get('scene') or given.get('resume', '') in ('', 'auto'):
         _check_carried(scene.scene_file(given.get('scene') or 'first', launch, cwd))
     _check_carried(scene.mapping('params', given.get('params', '')))
 
