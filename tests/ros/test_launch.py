@@ -107,6 +107,8 @@ class Launch(harness.Case):
             words = ['scene:=mine.yaml', 'density:=0.5', 'params:={accuracy: 1e-7}', '__ns:=grp']
             run = self.process([*harness.command('launch'), *words], PWD=folder)
             self.ends(run, 0, 'scene mine: 20 disks in 6.32456 x 6.32456', '/grp/hdlyap/accuracy')
+            differs = f'unlike {folder}/mine.yaml: density = 0.5, accuracy = 1e-7, table = 3'
+            self.assertIn('from the parameter server, ' + differs, run.text())
 
     def test_the_scene_says_what_moves(self):
         """The file alone, whatever its name, unless an argument says otherwise."""

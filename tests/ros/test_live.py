@@ -109,7 +109,7 @@ class Live(harness.Case):
             ['report_interval', 'field_interval', 'duration', 'pace'],
         )
         self.assertEqual(duration.before, '0')
-        self.assertEqual(rospy.get_param('/hdlyap/pace'), SLOW)  # no parameter is set
+        self.assertEqual(rospy.get_param('/hdlyap/pace'), 0.0)  # as it was set last
         runs = {info.run_id for info in self.heard['run_info'].messages}
         self.assertEqual(len(runs), 1)
 
@@ -216,6 +216,18 @@ class Live(harness.Case):
         self.interrupt(node)
         self.assertEqual(node.lines('set: '), [])
 
+    def test_changes_are_on_the_parameter_server(self):
+        """The last one of each; what is refused is not."""
+        node = self.started(dict(SHORT, duration=0.0, pace=20.0, wait_for_subscribers=['status']))
+        self.until(3.0)
+        for assignment in ('pace=30', 'report_interval=2', 'target=lambda_max 1e-9', 'pace=40'):
+            self.assertTrue(self.call(assignment).success)
+        self.assertFalse(self.call('pace=fast').success)
+        last = dict(SHORT, wait_for_subscribers=['status'], duration=0.0)
+        last.update(pace=40.0, report_interval=2.0, target='lambda_max 1e-9')
+        self.sees(lambda: rospy.get_param('/' + NODE) == last, node)
+        self.interrupt(node)
+
     @harness.more
     def test_the_parameter_server_is_read_at_the_start(self):
         """Alone; lists as rosrun hands them on are lists, whatever blanks they have."""
@@ -301,6 +313,7 @@ class Live(harness.Case):
         ):
             answer = self.call(assignment, 'viewer')
             self.assertEqual((answer.success, words in answer.message), (success, True), answer)
+        self.sees(lambda: rospy.get_param('/viewer/modes', '') == 'lowest', viewer)
         viewer.send(signal.SIGINT)
         self.assertEqual(viewer.wait(), 0)
 

@@ -175,6 +175,37 @@ class Parameters(harness.Case):
         for name, value in TAKEN.items():
             self.assertEqual(getattr(message, name), value, name)
 
+    def test_what_differs_is_named(self):
+        """With where it came from: from the server what was left there; numbers and lists that are
+        written otherwise do not differ."""
+        left = dict(SHORT, duration=2, report_interval=3, observables='[gas,spectrum]', seed=7)
+        file = os.path.join(self.new_folder(), 'a.yaml')
+        with open(file, 'w') as scene:
+            scene.write('number: 20\nwarmup: 2\naspect: 1\nobservables: [gas, spectrum]\n')
+        server = 'number = 20, density = 0.7, aspect = 1, seed = 7, equilibration = 1, warmup = 1'
+        server += ', duration = 2, report_interval = 3, observables = [gas, spectrum]'
+        arguments = ['_seed:=7', '_density:=0.6', 'particles:=spheres', 'energy:=high']
+        for env, args, said in (
+            ({}, [], [f'the parameter server, unlike the defaults: {server}']),
+            (
+                dict(HDLYAP_SCENE_FILE=file),
+                arguments,
+                [
+                    f'the arguments, unlike {file}: density = 0.6, seed = 7',
+                    f'the parameter server, unlike {file}: equilibration = 1, warmup = 1, '
+                    'duration = 2, report_interval = 3',
+                ],
+            ),
+        ):
+            node = self.runs(left, args=args, **env)
+            found = [line.split('from ', 1)[1] for line in node.lines('unlike ')]
+            self.assertEqual([line.replace('\x1b[0m', '') for line in found], said)
+        for argument in arguments[2:]:
+            said = (
+                f'argument {argument} renames a topic and sets no parameter: is _{argument} meant'
+            )
+            self.assertEqual(len(node.lines(said)), 1, node.text())
+
     def test_lists_on_the_command_line(self):
         info = self.listen('run_info')
         args = ['_observables:=[fields, state]', '_field_indices:=[1, 7]']

@@ -36,6 +36,19 @@ const char *hdr_params_unknown(const hdr_params *params, const char *const *know
 /** Value of a parameter as a text for the user; "" if there is no such parameter. */
 const char *hdr_param_text(const hdr_params *params, const char *name);
 
+/** Whether the parameter was set by an argument of the program, _NAME:=VALUE; false if the copy is
+ * of a file. */
+bool hdr_param_is_argument(const hdr_params *params, const char *name);
+/** Warns in the log of each argument NAME:=VALUE for which is_parameter(NAME): it renames a topic
+ * or a service, and _NAME:=VALUE is meant. */
+void hdr_params_warn_of_renaming(const hdr_params *params, bool (*is_parameter)(const char *name));
+
+/* These functions write a private parameter of the node to the master's server, from another thread
+ * and as soon as the master answers; of several values of a parameter the last one. */
+
+void hdr_param_write_double(hdr_node *node, const char *name, double value);
+void hdr_param_write_string(hdr_node *node, const char *name, const char *value);
+
 /* Each of these functions writes the value of a parameter to *out and returns HDR_OK. Or it returns
  * HDR_MISSING if there is no such parameter, or HDR_WRONG_TYPE if it has another type, and leaves
  * *out as it was. */

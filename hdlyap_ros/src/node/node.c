@@ -9,6 +9,7 @@
 #include "check.h"
 #include "conditions.h"
 #include "diagnostics.h"
+#include "given.h"
 #include "hdlyap/follow.h"
 #include "hdlyap/hdlyap.h"
 #include "hdlyap_ros/main.h"
@@ -50,6 +51,7 @@ typedef struct app {
     checkpoint_writer keep; /**< writes the first checkpoint; the worker uses it afterwards */
     report *rep;
     worker *work;
+    services asked;
     diagnostics diag;
     bool lost; /**< true if it has ended because nobody can subscribe any more */
 } app;
@@ -166,7 +168,7 @@ static hdr_status advertise(app *a)
     if (status == HDR_OK &&
         !worker_create(&a->work, a->run, a->rep, &a->set, &a->changes, &a->keep))
         status = HDR_NO_MEMORY;
-    if (status == HDR_OK) status = services_advertise(a->ros, a->work);
+    if (status == HDR_OK) status = services_advertise(&a->asked, a->ros, a->work);
     return status == HDR_OK && !worker_begin(a->work) ? HDR_NO_MEMORY : status;
 }
 
@@ -187,6 +189,7 @@ static void log_start(const app *a)
     hdr_log(HDR_INFO, "scene %s: %s, %d vectors, %d threads; %s, kernel %s, %d threads",
             a->set.scene, settings_write_system(system, &a->set), hd_run_vectors(a->run),
             hd_run_threads(a->run), blas.library, blas.kernel, blas.threads);
+    given_log(a->params, *a->set.resume);
     warn_of_threads(a->run);
     if (*a->set.warning) hdr_log(HDR_WARN, "%s", a->set.warning);
     if (*a->set.resume)

@@ -4,6 +4,11 @@
 #include "services.h"
 
 #include <stdio.h>
+#include <stdlib.h>
+
+#include "change.h"
+#include "hdlyap_ros/params.h"
+#include "parameters.h"
 
 static bool on_pause(void *context, bool pause, char *message, size_t size)
 {
@@ -41,10 +46,25 @@ static bool on_checkpoint(void *context, char *message, size_t size)
     return worker_checkpoint(w, answer_seconds, message, size);
 }
 
+/** Writes a change to the parameter server, where the node finds it when it is started again. */
+static void write_to_server(hdr_node *ros, const char *assignment)
+{
+    change made;
+    char message[256];
+    if (!change_parse(&made, assignment, message, sizeof message)) return;
+    const parameter p = parameters_named(made.name);
+    if (p.row && p.row->kind == HD_PARAMETER_TEXT)
+        hdr_param_write_string(ros, made.name, made.value);
+    else
+        hdr_param_write_double(ros, made.name, strtod(made.value, NULL));
+}
+
 static bool on_set(void *context, const char *assignment, char *message, size_t size)
 {
-    worker *w = context;
-    return worker_set(w, answer_seconds, assignment, message, size);
+    const services *s = context;
+    if (!worker_set(s->worker, answer_seconds, assignment, message, size)) return false;
+    write_to_server(s->ros, assignment);
+    return true;
 }
 
 static bool on_stop(void *context, char *message, size_t size)
@@ -53,8 +73,9 @@ static bool on_stop(void *context, char *message, size_t size)
     return worker_end_averaging(w, answer_seconds, message, size);
 }
 
-hdr_status services_advertise(hdr_node *ros, worker *w)
+hdr_status services_advertise(services *out, hdr_node *ros, worker *w)
 {
+    *out = (services){.ros = ros, .worker = w};
     const hdr_status status = hdr_service_set_bool(ros, "~pause", on_pause, w);
     if (status != HDR_OK) return status;
     const hdr_status reset = hdr_service_trigger(ros, "~reset_average", on_reset_average, w);
@@ -63,5 +84,5 @@ hdr_status services_advertise(hdr_node *ros, worker *w)
     if (keep != HDR_OK) return keep;
     const hdr_status stop = hdr_service_trigger(ros, "~stop", on_stop, w);
     if (stop != HDR_OK) return stop;
-    return hdr_service_set(ros, "~set", on_set, w);
+    return hdr_service_set(ros, "~set", on_set, out);
 }

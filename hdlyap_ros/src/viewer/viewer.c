@@ -196,6 +196,7 @@ static bool on_set(void *context, const char *assignment, char *message, size_t 
     v->modes = modes;
     if (v->said.begun) send_picture(v);
     pthread_mutex_unlock(&v->lock);
+    hdr_param_write_string(v->ros, "modes", names);
     snprintf(message, size, "modes = %.80s", names);
     return true;
 }
@@ -309,10 +310,19 @@ static bool read_modes(mode_choice *modes, const hdr_params *params)
            refuse(params, "modes", modes_allowed);
 }
 
+static const char *const known[] = {"node", "modes", NULL};
+
+static bool is_known(const char *name)
+{
+    const char *const *one = known;
+    while (*one && strcmp(*one, name) != 0) one++;
+    return *one;
+}
+
 static bool read_parameters(viewer *v, const hdr_params *params)
 {
-    static const char *const known[] = {"node", "modes", NULL};
     const char *unknown = hdr_params_unknown(params, known);
+    hdr_params_warn_of_renaming(params, is_known);
     if (unknown) return refuse(params, unknown, "removed: there is no parameter of this name");
     return read_node(v, params) && read_modes(&v->modes, params);
 }

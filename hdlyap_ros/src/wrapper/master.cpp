@@ -54,8 +54,27 @@ void hdr_master_watch::asked::ask()
     if (knows) known = master_seconds();
     if (!knows && !ros::master::check()) return;
     answered = master_seconds();
-    if (knows || name_is_anothers()) return;
+    write_all();
+    if (knows || hdr_stop_requested() || name_is_anothers()) return;
     if (register_again(services_now(), [this] { return is_wanted(); })) again = true;
+}
+
+void hdr_master_watch::asked::write_all()
+{
+    std::unique_lock<std::mutex> lock(mutex);
+    while (wanted && !unwritten.empty()) {
+        const auto first = unwritten.begin();
+        XmlRpc::XmlRpcValue request, response, ignored;
+        request[0] = ros::this_node::getName();
+        request[1] = first->first;
+        request[2] = first->second;
+        lock.unlock();
+        const bool written = ros::master::execute("setParam", request, response, ignored, false);
+        lock.lock();
+        if (!written) return;
+        const auto now = unwritten.find(request[1]);
+        if (now->second == request[2]) unwritten.erase(now); /* no later value */
+    }
 }
 
 bool hdr_master_watch::asked::is_wanted()
@@ -77,7 +96,8 @@ void hdr_master_watch::asked::go_on()
         lock.unlock();
         ask();
         lock.lock();
-        changed.wait_for(lock, between_questions, [this] { return !wanted; });
+        changed.wait_for(lock, between_questions, [this] { return !wanted || has_more; });
+        has_more = false;
     }
     ended = true;
     changed.notify_all();
@@ -103,6 +123,14 @@ void hdr_master_watch::service_is(const std::string &name)
 {
     const std::lock_guard<std::mutex> lock(shared->mutex);
     shared->services.push_back(name);
+}
+
+void hdr_master_watch::write(const std::string &parameter, const XmlRpc::XmlRpcValue &value)
+{
+    const std::lock_guard<std::mutex> lock(shared->mutex);
+    shared->unwritten[parameter] = value;
+    shared->has_more = true;
+    shared->changed.notify_all();
 }
 
 double hdr_master_watch::lost()

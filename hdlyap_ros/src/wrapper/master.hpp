@@ -4,11 +4,14 @@
 
 #include <atomic>
 #include <condition_variable>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <stdexcept>
 #include <string>
 #include <vector>
+
+#include <XmlRpcValue.h>
 
 /** Asks the master every second, from a separate thread, because roscpp waits forever for a master
  * that hangs. */
@@ -22,6 +25,8 @@ class hdr_master_watch
     hdr_master_watch &operator=(const hdr_master_watch &) = delete;
     /** Tells the name of a service of this node, to be registered with a new master. */
     void service_is(const std::string &name);
+    /** Has a parameter written to the server as soon as the master answers. */
+    void write(const std::string &parameter, const XmlRpc::XmlRpcValue &value);
     /** See hdr_node_lost. */
     double lost();
 
@@ -35,7 +40,10 @@ class hdr_master_watch
         bool wanted = true, ended = false;
         std::vector<std::string> services;
         std::atomic<bool> again{false}; /**< it has registered with a new master */
+        std::map<std::string, XmlRpc::XmlRpcValue> unwritten; /**< parameters, by full name */
+        bool has_more = false; /**< there are others than at the last question */
         bool is_wanted();
+        void write_all();
         std::vector<std::string> services_now();
         void ask();
         void go_on();

@@ -154,6 +154,28 @@ static void master_address_check(int argc, const char *const *argv)
         throw std::invalid_argument("ROS_MASTER_URI = '" + address + "': must be http://HOST:PORT");
 }
 
+/** The arguments NAME:=VALUE, which roscpp takes out of the list. */
+static std::vector<std::string> assignments(int argc, const char *const *argv)
+{
+    std::vector<std::string> all(argv + std::min(1, argc), argv + argc);
+    all.erase(std::remove_if(all.begin(), all.end(),
+                             [](const auto &one) { return one.find(":=") == std::string::npos; }),
+              all.end());
+    return all;
+}
+
+/** Initialises roscpp. If it refuses a name it does not say which argument had it. */
+static void init(int &argc, char **argv, const char *name)
+{
+    try {
+        ros::init(argc, argv, name, ros::init_options::NoSigintHandler);
+    } catch (const ros::InvalidNameException &error) {
+        throw std::invalid_argument(std::string(error.what()) +
+                                    " An argument NAME:=VALUE renames a topic; _NAME:=VALUE sets a "
+                                    "parameter.");
+    }
+}
+
 hdr_status hdr_node_create(hdr_node **out, int *argc, char **argv, const char *name,
                            double stop_seconds, int memory_status)
 {
@@ -163,8 +185,10 @@ hdr_status hdr_node_create(hdr_node **out, int *argc, char **argv, const char *n
         stop_handlers_install(stop_seconds);
         setlocale(LC_CTYPE, ""); /* otherwise log4cxx writes ? for each byte beyond ASCII */
         master_address_check(*argc, argv);
-        ros::init(*argc, argv, name, ros::init_options::NoSigintHandler);
+        const auto arguments = assignments(*argc, argv);
+        init(*argc, argv, name);
         *out = node_start();
+        if (*out) (*out)->arguments = arguments;
     });
     if (status != HDR_OK) on_exit(leave, nullptr);
     return status;

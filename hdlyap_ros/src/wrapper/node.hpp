@@ -43,6 +43,7 @@ struct hdr_node {
     ros::NodeHandle handle;
     ros::AsyncSpinner spinner{1};
     std::string name;
+    std::vector<std::string> arguments; /**< those of the program that are NAME:=VALUE */
     hdr_readers readers;
     std::unique_ptr<hdr_master_watch> watch; /**< NULL until the node is registered */
     std::unique_ptr<hdr_own_address> address;

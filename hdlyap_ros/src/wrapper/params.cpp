@@ -1,6 +1,7 @@
 /** Private parameters: an XML-RPC struct, from the master or a file -> typed values. */
 #include "hdlyap_ros/params.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdlib>
 #include <map>
@@ -95,6 +96,7 @@ bool number_parse(const std::string &text, double *out)
 
 struct hdr_params {
     std::map<std::string, entry> entries;
+    std::vector<std::string> arguments; /**< as in hdr_node */
 };
 
 namespace
@@ -189,7 +191,47 @@ hdr_status hdr_params_read(hdr_params **out, const char *path, int count, char *
 hdr_status hdr_params_create(hdr_params **out, const hdr_node *node)
 {
     *out = nullptr;
-    return hdr_guard([&] { *out = fetch(hdr_node_name(node)).release(); });
+    return hdr_guard([&] {
+        std::unique_ptr<hdr_params> made = fetch(hdr_node_name(node));
+        made->arguments = node->arguments;
+        *out = made.release();
+    });
+}
+
+namespace
+{
+void write(hdr_node *node, const char *name, const XmlRpcValue &value)
+{
+    const hdr_status status = hdr_guard(
+        [&] { node->watch->write(node->name + "/" + name, value); });
+    if (status != HDR_OK)
+        hdr_log(HDR_ERROR, "%s is not written to the parameter server: %s", name, hdr_error_text());
+}
+} // namespace
+
+void hdr_param_write_double(hdr_node *node, const char *name, double value)
+{
+    write(node, name, XmlRpcValue(value));
+}
+
+void hdr_param_write_string(hdr_node *node, const char *name, const char *value)
+{
+    write(node, name, XmlRpcValue(value));
+}
+
+bool hdr_param_is_argument(const hdr_params *params, const char *name)
+{
+    const std::string begin = "_" + std::string(name) + ":=";
+    return std::any_of(params->arguments.begin(), params->arguments.end(),
+                       [&](const auto &one) { return one.compare(0, begin.size(), begin) == 0; });
+}
+
+void hdr_params_warn_of_renaming(const hdr_params *params, bool (*is_parameter)(const char *name))
+{
+    for (const std::string &argument : params->arguments)
+        if (is_parameter(argument.substr(0, argument.find(":=")).c_str()))
+            hdr_log(HDR_WARN, "argument %s renames a topic and sets no parameter: is _%s meant?",
+                    argument.c_str(), argument.c_str());
 }
 
 void hdr_params_free(hdr_params *params) { delete params; }

@@ -1,0 +1,104 @@
+/** Parameters as given -> lines of the log: what lingers on the server from an earlier launch
+ * changes a run, and would otherwise be seen in ~run_info only. */
+#include "given.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "parameters.h"
+#include "particles.h"
+
+/** The environment's name for the path of the scene's file, from run.launch. */
+static const char *const FILE_VARIABLE = "HDLYAP_SCENE_FILE";
+
+typedef enum source { ARGUMENT, SERVER, NOWHERE, SOURCES } source;
+static const char *const source_text[SOURCES] = {"the arguments", "the parameter server",
+                                                 "the defaults"};
+
+enum { LINE = 600, ITEM = 160 }; /* letters */
+
+/** Parameters, and what they are compared with. */
+typedef struct comparison {
+    const hdr_params *params;
+    hdr_params *file; /**< NULL: the defaults */
+    const char *name; /**< of what they are compared with */
+} comparison;
+
+/** A text without the brackets of a list. */
+static const char *bare(const char *text, size_t *length)
+{
+    const bool is_list = *text == '[';
+    *length = strlen(text) - 2 * is_list;
+    return text + is_list;
+}
+
+/** Whether two texts are the same number, list or word. */
+static bool is_same(const char *one, const char *other)
+{
+    char *end, *other_end;
+    size_t length, other_length;
+    const double number = strtod(one, &end), other_number = strtod(other, &other_end);
+    if (end != one && other_end != other && !*end && !*other_end) return number == other_number;
+    one = bare(one, &length);
+    other = bare(other, &other_length);
+    return length == other_length && strncmp(one, other, length) == 0;
+}
+
+static source source_of(const hdr_params *params, const char *name)
+{
+    if (!*hdr_param_text(params, name)) return NOWHERE;
+    return hdr_param_is_argument(params, name) ? ARGUMENT : SERVER;
+}
+
+/** Writes the parameter if it comes from there and differs; else leaves the text empty. */
+static void write_item(char item[ITEM], const comparison *c, const parameter *p, source from)
+{
+    char usual[PARAMETER_TEXT];
+    const char *wanted = c->file ? hdr_param_text(c->file, p->name) : "";
+    const char *value = hdr_param_text(c->params, p->name);
+    *item = '\0';
+    if (p->kind == NAME || source_of(c->params, p->name) != from) return;
+    parameter_usual(usual, p);
+    if (!*wanted) wanted = usual;
+    if (!*value) value = usual;
+    if (!is_same(value, wanted)) snprintf(item, ITEM, "%.50s = %.100s", p->name, value);
+}
+
+/** Logs all parameters that come from there and differ, in as few lines as hold them. */
+static void log_all(const comparison *c, source from)
+{
+    char line[LINE + ITEM] = "", item[ITEM];
+    for (int k = 0; k < parameters_count(); k++) {
+        const parameter p = parameters_at(k);
+        const size_t length = strlen(line);
+        write_item(item, c, &p, from);
+        if (*item) snprintf(line + length, sizeof line - length, "%s%s", length ? ", " : "", item);
+        const bool is_whole = strlen(line) >= LINE - 2 || k + 1 == parameters_count();
+        if (!*line || !is_whole) continue;
+        hdr_log(HDR_INFO, "from %s, unlike %.200s: %s", source_text[from], c->name, line);
+        *line = '\0';
+    }
+}
+
+/** Whether these or other particles have a parameter of this name. */
+static bool is_parameter(const char *name)
+{
+    const hd_dynamics *of;
+    for (int r = 0; (of = particles_at(r)); r++)
+        for (int k = 0; k < of->parameters; k++)
+            if (strcmp(of->parameter[k].name, name) == 0) return true;
+    return parameters_has(name);
+}
+
+void given_log(const hdr_params *params, bool is_resumed)
+{
+    const char *path = getenv(FILE_VARIABLE);
+    comparison c = {.params = params, .name = "the defaults"};
+    if (path && *path && hdr_params_read(&c.file, path, 0, NULL) == HDR_OK) c.name = path;
+    log_all(&c, ARGUMENT);
+    log_all(&c, SERVER);
+    if (!is_resumed) log_all(&c, NOWHERE);
+    hdr_params_warn_of_renaming(params, is_parameter);
+    hdr_params_free(c.file);
+}

@@ -1,0 +1,15 @@
+/** Which parameters a run has that its user may not expect. */
+#ifndef HDLYAP_GIVEN_H
+#define HDLYAP_GIVEN_H
+
+#include <stdbool.h>
+
+#include "hdlyap_ros/params.h"
+
+/** Names each parameter that differs from the scene's file, if run.launch has told of one, or else
+ * from its default, with where it came from; and warns of arguments that were meant to be
+ * parameters. The scene's name is not among them. If the run is resumed, a parameter that was not
+ * given is as in the checkpoint, and is not named. */
+void given_log(const hdr_params *params, bool is_resumed);
+
+#endif
