@@ -198,8 +198,9 @@ struct hd_dynamics {
     /** Relative error of the total energy now. May be left out if all energy is kinetic and should
      * be N. */
     double (*energy_error)(const void *state);
-    /** Calls hd_archive_doubles for each array of the state, in one order for writing and reading.
-     * After reading, it also restores whatever else follows from these arrays. */
+    /** Calls hd_archive_doubles for each array of the state, in one order for writing and reading;
+     * together these have at least a number for each particle. After reading, it also restores
+     * whatever else follows from these arrays. */
     void (*archive)(void *state, hd_archive *archive);
     /** Hash of all bits of q and p, by which ranks compare their states. May be left out. */
     uint32_t (*fingerprint)(const void *state);

@@ -201,6 +201,16 @@ static void times_expect(const hd_run *run, hd_archive *archive)
                       "it is not positive");
 }
 
+/** Expects that so many bytes can hold a number of each particle, and the vectors. What else there
+ * is knows its own size alone. */
+static void length_expect(hd_archive *archive, const hd_scene_def *scene, uint64_t bytes)
+{
+    const double vectors = hd_frame_archived(hd_dynamics_of(scene), scene->number,
+                                             hd_scene_carried(scene));
+    hd_archive_expect(archive, sizeof(double) * (scene->number + vectors) <= (double)bytes, "scene",
+                      "what follows is too short for its particles and vectors");
+}
+
 /* ---- writing ------------------------------------------------------------------------------- */
 
 void hd_run_write(hd_run *run, hd_archive *archive, const char *label)
@@ -210,8 +220,10 @@ void hd_run_write(hd_run *run, hd_archive *archive, const char *label)
     snprintf(head.label, sizeof head.label, "%s", label);
     (void)head_archive(&head, archive, (hd_known){NULL, 0});
     hd_archive_int(archive, "run threads", &threads, 1, INT_MAX);
+    const uint64_t before = archive->bytes;
     numbers_archive(run, archive);
     parts_archive(run, archive);
+    length_expect(archive, &run->scene, archive->bytes - before);
     times_expect(run, archive);
     plan_expect(run, archive);
 }
@@ -372,17 +384,6 @@ static hd_status restore(hd_run *run, hd_archive *archive, const hd_checkpoint *
     return hd_archive_good(archive) ? HD_OK : inconsistent(archive, message, size);
 }
 
-/** Whether the file is long enough for the scene, before memory is taken for it. */
-static bool holds(hd_archive *archive, const hd_scene_def *scene)
-{
-    const double least = 8.0 * scene->number *
-                         (9.0 +
-                          2.0 * hd_scene_coordinates(scene) * (double)hd_scene_carried(scene));
-    hd_archive_expect(archive, least <= (double)archive->bytes, "scene",
-                      "the rest of the file is too short for its vectors");
-    return hd_archive_good(archive);
-}
-
 /** Reads head and scene; the scene asked for may differ from the checkpoint's only where it may. */
 static hd_status begin_reading(hd_checkpoint *head, hd_scene_def *asked, int *threads,
                                hd_archive *archive, const hd_scene_def *scene, char *message,
@@ -399,7 +400,8 @@ static hd_status begin_reading(hd_checkpoint *head, hd_scene_def *asked, int *th
     asked->warmup = hd_scene_warmup(asked);
     hd_archive_int(archive, "run threads", threads, 1, INT_MAX);
     HD_TRY(check_same(asked, &head->scene, message, size));
-    return holds(archive, &head->scene) ? HD_OK : inconsistent(archive, message, size);
+    length_expect(archive, &head->scene, archive->bytes); /* before memory is taken for it */
+    return hd_archive_good(archive) ? HD_OK : inconsistent(archive, message, size);
 }
 
 hd_status hd_run_read(hd_run **out, hd_archive *archive, const hd_scene_def *scene,

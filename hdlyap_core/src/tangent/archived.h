@@ -10,6 +10,8 @@
 /** Reads or writes the frame. With several ranks each one reads the whole file; when writing, rank
  * 0 gets the vectors of all. Fails with HD_NO_MEMORY on all ranks. */
 HD_MUST_CHECK hd_status hd_frame_archive(hd_frame *frame, hd_archive *archive);
+/** Numbers that it reads or writes. */
+double hd_frame_archived(const hd_dynamics *of, int particles, int vectors);
 /** Bytes of a frame of this many vectors on one rank, without its tangent maps. */
 double hd_frame_bytes(const hd_dynamics *of, double rows, double vectors, double threads);
 double hd_ortho_bytes(double rows, double vectors, double ranks);

@@ -275,6 +275,11 @@ static hd_status archive_shared(hd_frame *frame, hd_archive *archive)
     return status;
 }
 
+double hd_frame_archived(const hd_dynamics *of, int particles, int vectors)
+{
+    return 2.0 * of->coordinates * particles * vectors;
+}
+
 hd_status hd_frame_archive(hd_frame *frame, hd_archive *archive)
 {
     const size_t rows = (size_t)frame->rows, n = (size_t)frame->vectors;
