@@ -1,10 +1,10 @@
 /** Checkpoints: a run in a file, from which it can be resumed.
  *
  * The file has a head with format, length and checksum, and a list of named arrays
- * (doc/survival.md): particles, expected collisions, frame, averages, phases, lengths of intervals,
- * and changes (hd_run_change) that do not hold yet. A resumed run has the same trajectory, bit for
- * bit, as an uninterrupted one; with the same number of threads, BLAS routines and observables also
- * the same exponents.
+ * (doc/survival.md): particles, frame, averages, what was measured last, lengths of intervals, and
+ * changes (hd_run_change) that do not hold yet. A resumed run has the same trajectory, bit for bit,
+ * as an uninterrupted one; with the same number of threads, BLAS routines and observables also the
+ * same exponents.
  *
  * In all functions, message[size] gets one line with the reason of a failure; `message` may be
  * NULL. */
@@ -17,7 +17,7 @@ HD_API_BEGIN
 
 /** The format of the files that this version writes, the only one that it reads; and the bytes of
  * the label of a file (see hd_run_save), with its final zero. */
-enum { HD_CHECKPOINT_FORMAT = 18, HD_CHECKPOINT_LABEL = 64 };
+enum { HD_CHECKPOINT_FORMAT = 19, HD_CHECKPOINT_LABEL = 64 };
 
 /** What can be read of a checkpoint without resuming its run. */
 typedef struct hd_checkpoint {

@@ -1,7 +1,8 @@
 /** Linear response of hydrodynamic fields to a Lyapunov vector [T15]: by how much the Fourier sums
  * of density, momentum and energy change if the particles are displaced along the vector. Responses
- * are measured at the reports of the averaging. Several threads may read one hd_hydro at once while
- * no thread calls its run. Tags as [T15] are those of equations in THEORY.md. */
+ * are measured at the reports of the averaging; before the first one col is -1. Several threads may
+ * read one hd_hydro at once while no thread calls its run. Tags as [T15] are those of equations in
+ * THEORY.md. */
 #ifndef HDLYAP_HYDRO_H
 #define HDLYAP_HYDRO_H
 

@@ -1,9 +1,9 @@
 /** What each Lyapunov vector looks like: its weights in the T, L and P fields of waves
  * (hdlyap/fields.h) and in the null space [T11]. n is the number of vectors; arrays of n elements
  * are in the order of the exponents, largest first, belong to the run, and change when it goes on.
- * A _snapshot is of the last sample, an _average the mean over all samples, 0 before the first.
- * Several threads may read one hd_modes at once while no thread calls its run. Tags as [T11] are
- * those of equations in THEORY.md. */
+ * A _snapshot is of the last sample, an _average the mean over all samples; both are 0 before the
+ * first. Several threads may read one hd_modes at once while no thread calls its run. Tags as [T11]
+ * are those of equations in THEORY.md. */
 #ifndef HDLYAP_MODES_H
 #define HDLYAP_MODES_H
 

@@ -57,7 +57,7 @@ typedef struct hd_cost {
     /** Seconds for what follows each interval: covariant vectors. */
     double following;
     /** For several ranks: seconds, out of those above, for exchanging data and waiting; bytes that
-     * this rank has sent; number of exchanges. 0 for a single rank. */
+     * this rank has sent; number of exchanges. 0 if a single rank has carried the whole run. */
     double communication, bytes, calls;
     double events_per_second; /**< pair collisions per second of `events` */
     double interval;          /**< length of the last interval between orthonormalisations */
@@ -181,8 +181,9 @@ hd_columns hd_run_frame_columns(const hd_run *run);
  * halves dp and dq, NaN if one of them is 0; to dp_dq_ratio[n] |dp| / |dq|, NaN if dq is 0. */
 void hd_run_halves(const hd_run *run, double *cos_theta, double *dp_dq_ratio);
 
-/** Begins all averages again at the present time; the duration counts from now. It does nothing
- * unless the run is averaging. Fails as hd_run_advance does. */
+/** Begins all averages again at the present time, and forgets what was measured before; the
+ * duration counts from now. It does nothing unless the run is averaging. Fails as hd_run_advance
+ * does. */
 HD_MUST_CHECK hd_status hd_run_reset_average(hd_run *run);
 
 /** HD_OK, or the status of the call of hd_run_advance, hd_run_reset_average or hd_run_save that

@@ -43,3 +43,20 @@ bool hd_error_trend_stalled(const hd_error_trend *trend, hd_error_at *since)
     }
     return false;
 }
+
+static void error_archive(hd_error_at *error, hd_archive *archive)
+{
+    hd_archive_next_doubles(archive, &error->time, 1);
+    hd_archive_next_doubles(archive, &error->error, 1);
+    hd_archive_expect(archive, error->time >= 0 && error->error >= 0, "error trend",
+                      "it is negative");
+}
+
+void hd_error_trend_archive(hd_error_trend *trend, hd_archive *archive)
+{
+    hd_archive_double(archive, "error trend first", &trend->first);
+    hd_archive_of_doubles(archive, "error trend", 2 * (HD_ERROR_TREND_MARKS + 1));
+    for (int k = 0; k < HD_ERROR_TREND_MARKS; k++) error_archive(&trend->mark[k], archive);
+    error_archive(&trend->last, archive);
+    hd_archive_expect(archive, trend->first >= 0, "error trend first", "it is negative");
+}

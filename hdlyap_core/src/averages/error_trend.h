@@ -5,6 +5,8 @@
 
 #include <stdbool.h>
 
+#include "base/archive.h"
+
 enum { HD_ERROR_TREND_MARKS = 64 };
 
 typedef struct hd_error_at {
@@ -26,5 +28,7 @@ void hd_error_trend_add(hd_error_trend *trend, double time, double error);
 /** Whether the error has failed to fall since `since`, when the averaged time was an eighth of
  * today's or less. False while the averaged time is too short to tell. */
 bool hd_error_trend_stalled(const hd_error_trend *trend, hd_error_at *since);
+
+void hd_error_trend_archive(hd_error_trend *trend, hd_archive *archive);
 
 #endif

@@ -60,10 +60,10 @@ struct hd_covariant {
     double *angle;        /**< [vectors]: principal angles */
     double *apart; /**< [vectors]: sines between the vectors of both starts at the end of the last
                       window */
-    double *frame, *q, *p; /**< vectors [rows * vectors] of a sample; positions and momenta then */
-    double window, due;    /**< time at which the window began; time of the next sample */
-    double grown_time;
-    double now;                 /**< time that the forward pass has reached */
+    double *frame, *q, *p;  /**< vectors [rows * vectors] of a sample; positions and momenta then */
+    double window, due;     /**< time at which the window began; time of the next sample */
+    double ended;           /**< what hd_covariant_results.window_end says */
+    double now, grown_time; /**< time that the forward pass has reached; time of the growth */
     double bytes, events, rate; /**< bytes that are taken; number of record entries that there is
                                    room for; entries per time unit */
     way way;
@@ -155,21 +155,18 @@ hd_status hd_covariant_create(hd_covariant **out, const hd_scene_def *def, int t
     c->unstable = c->centre > 0 ? positive
                                 : c->vectors; /* part of a centre is not measured as a space */
     const hd_status status = allocate(c);
-    if (status != HD_OK) {
+    if (status == HD_OK)
+        hd_covariant_clear(*out = c, 0.0);
+    else
         hd_covariant_free(c);
-        return status;
-    }
-    hd_covariant_clear(c);
-    *out = c;
-    return HD_OK;
+    return status;
 }
 
 void hd_covariant_free(hd_covariant *c)
 {
     if (!c) return;
-    for (int k = 0; k < 2; k++) hd_modes_free(c->half[k]);
+    for (int k = 0; k < WEIGHTS; k++) hd_modes_free(weights_of(c, k));
     hd_starts_free(c->starts);
-    hd_modes_free(c->of_frame);
     double *arrays[] = {c->factor, c->coupling, c->angle, c->apart,
                         c->frame,  c->q,        c->p,     c->null_columns};
     for (size_t k = 0; k < sizeof arrays / sizeof *arrays; k++) hd_memory_free(arrays[k]);
@@ -190,6 +187,7 @@ static hd_status begin_window(hd_covariant *c, hd_columns frame, double time)
 {
     c->way = FORWARD;
     c->window = c->now = time;
+    if (c->windows == 0) c->ended = time;
     c->due = time + c->scene.covariant_sampling;
     return hd_history_begin(c->past, frame, time);
 }
@@ -208,7 +206,7 @@ static hd_status take_room(hd_covariant *c, double interval)
     return hd_history_create(&c->past, &past);
 }
 
-void hd_covariant_clear(hd_covariant *c)
+void hd_covariant_clear(hd_covariant *c, double now)
 {
     hd_spectrum_clear(c->spectrum);
     hd_splitting_clear(c->splitting);
@@ -216,7 +214,9 @@ void hd_covariant_clear(hd_covariant *c)
     hd_localization_clear(c->shape);
     for (int k = 0; k < WEIGHTS; k++)
         if (weights_of(c, k)) hd_modes_clear(weights_of(c, k));
+    memset(c->apart, 0, (size_t)c->vectors * sizeof *c->apart);
     c->windows = c->lost = 0;
+    c->ended = now;
     c->null_apart = c->null_apart_most = -1.0;
     c->spaces_apart = (hd_covariant_mismatch){-1.0, -1.0, -1.0};
 }
@@ -433,7 +433,7 @@ static hd_status end_window(hd_covariant *c)
     const double *unused;
     HD_TRY(hd_starts_look(c->starts, &unused));
     end_growth(c);
-    c->window = hd_history_time(c->past, c->last);
+    c->window = c->ended = hd_history_time(c->past, c->last);
     hd_history_drop(c->past, c->window);
     c->windows++;
     c->way = FORWARD;
@@ -462,7 +462,7 @@ hd_covariant_results hd_covariant_read(const hd_covariant *c)
     hd_covariant_results r = {.vectors = c->vectors,
                               .windows = c->windows,
                               .lost = c->lost,
-                              .window_end = c->window,
+                              .window_end = c->ended,
                               .spectrum = c->spectrum,
                               .splitting = hd_splitting_read(c->splitting),
                               .start_mismatch = c->spaces_apart,
@@ -482,7 +482,7 @@ hd_covariant_results hd_covariant_read(const hd_covariant *c)
 void hd_covariant_archive(hd_covariant *c, hd_archive *archive)
 {
     double *const numbers[] = {
-        &c->window,     &c->spaces_apart.most, &c->spaces_apart.centre, &c->spaces_apart.stable,
+        &c->ended,      &c->spaces_apart.most, &c->spaces_apart.centre, &c->spaces_apart.stable,
         &c->null_apart, &c->null_apart_most};
     hd_archive_long(archive, "covariant windows", &c->windows, 0, LONG_MAX / 2);
     hd_archive_long(archive, "covariant lost", &c->lost, 0, LONG_MAX / 2);

@@ -10,8 +10,8 @@ HD_MUST_CHECK hd_status hd_covariant_create(hd_covariant **out, const hd_scene_d
                                             int threads);
 void hd_covariant_free(hd_covariant *covariant);
 
-/** Empties all averages. */
-void hd_covariant_clear(hd_covariant *covariant);
+/** Empties all averages; the first window does not begin before the time `now`. */
+void hd_covariant_clear(hd_covariant *covariant, double now);
 
 /** Begins a window at this time and forgets any window before. The frame is orthonormal, and will
  * be so about every `interval` time units. Takes the memory for the window; fails with HD_NO_ROOM,

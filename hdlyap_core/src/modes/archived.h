@@ -20,6 +20,7 @@ double hd_structure_bytes(const hd_scene_def *scene, double vectors);
 double hd_phases_bytes(double phases);
 double hd_pmode_bytes(const hd_scene_def *def);
 
+void hd_fields_archive(hd_fields *fields, hd_archive *archive);
 void hd_modes_archive(hd_modes *modes, hd_archive *archive);
 void hd_steps_archive(hd_steps *steps, hd_archive *archive);
 /** `now`: simulated time of the run. */

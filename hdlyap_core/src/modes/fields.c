@@ -9,6 +9,7 @@
 #include <float.h>
 #include <math.h>
 #include <stdbool.h>
+#include <string.h>
 
 #include "base/check.h"
 #include "base/memory.h"
@@ -18,6 +19,9 @@
 #include "modes/plane_fields.h"
 #include "scene/container.h"
 #include "scene/null_space.h"
+
+/** No entry of a column of norm 1 is larger, but for rounding. */
+static const double LONGEST = 1.0 + 1e-9;
 
 struct hd_fields {
     int dimension, coordinates, particles, columns, stride, subspaces;
@@ -100,6 +104,11 @@ static size_t components(const hd_fields *fields)
     return (size_t)fields->coordinates * (size_t)fields->particles;
 }
 
+static size_t data_size(const hd_fields *fields)
+{
+    return components(fields) * (size_t)fields->stride;
+}
+
 static hd_status fields_prepare(hd_fields *fields, const hd_scene_def *def)
 {
     HD_TRY(subspaces_create(fields, def));
@@ -108,7 +117,7 @@ static hd_status fields_prepare(hd_fields *fields, const hd_scene_def *def)
     HD_TRY(waves_prepare(fields, def));
     fields->columns += hd_fields_nulls(fields);
     fields->stride = (fields->columns + 7) / 8 * 8;
-    fields->data = hd_memory_alloc(components(fields) * (size_t)fields->stride, sizeof(double));
+    fields->data = hd_memory_alloc(data_size(fields), sizeof(double));
     fields->norm = hd_memory_alloc((size_t)fields->stride, sizeof(double));
     fields->row = hd_memory_alloc((size_t)fields->coordinates, sizeof *fields->row);
     return fields->data && fields->norm && fields->row ? HD_OK : HD_NO_MEMORY;
@@ -216,6 +225,22 @@ void hd_fields_sample(hd_fields *fields, const double *q, const double *p)
         sample_particle(fields, fields->row, q + of_one * j, p + of_one * j);
     }
     normalise(fields);
+}
+
+void hd_fields_clear(hd_fields *fields)
+{
+    memset(fields->data, 0, data_size(fields) * sizeof *fields->data);
+    memset(fields->norm, 0, (size_t)fields->stride * sizeof *fields->norm);
+}
+
+/** Reads or writes the last sample: modes are reconstructed from it. */
+void hd_fields_archive(hd_fields *fields, hd_archive *archive)
+{
+    hd_archive_doubles(archive, "fields", fields->data, data_size(fields));
+    hd_archive_doubles(archive, "fields norm", fields->norm, (size_t)fields->stride);
+    bool normal = true;
+    for (size_t k = 0; k < data_size(fields); k++) normal &= fabs(fields->data[k]) <= LONGEST;
+    hd_archive_expect(archive, normal, "fields", "one is longer than 1");
 }
 
 int hd_fields_dimension(const hd_fields *fields) { return fields->dimension; }

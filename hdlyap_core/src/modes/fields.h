@@ -13,6 +13,8 @@ void hd_fields_free(hd_fields *fields);
 /** Samples every field at the positions q, where momenta are p; each column gets norm 1 (or stays
  * zero). Cost O(N * columns). */
 void hd_fields_sample(hd_fields *fields, const double *q, const double *p);
+/** As before the first sample: all are 0. */
+void hd_fields_clear(hd_fields *fields);
 
 int hd_fields_dimension(const hd_fields *fields);
 int hd_fields_nulls(const hd_fields *fields);   /**< null fields, dimension + 1 */

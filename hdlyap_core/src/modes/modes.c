@@ -398,8 +398,13 @@ void hd_modes_add(hd_modes *modes)
 
 void hd_modes_clear(hd_modes *modes)
 {
+    const size_t columns = (size_t)hd_fields_columns(modes->fields), rows = weight_rows(modes);
     modes->samples = 0;
-    memset(modes->average, 0, weight_rows(modes) * modes->stride * sizeof *modes->average);
+    memset(modes->average, 0, rows * modes->stride * sizeof *modes->average);
+    memset(modes->snapshot, 0, rows * modes->stride * sizeof *modes->snapshot);
+    memset(modes->coefficient, 0, columns * modes->stride * sizeof *modes->coefficient);
+    memset(modes->dq_norm, 0, modes->stride * sizeof *modes->dq_norm);
+    hd_fields_clear(modes->fields);
 }
 
 /* ---- what can be read ---------------------------------------------------------------------- */
@@ -467,4 +472,5 @@ void hd_modes_archive(hd_modes *modes, hd_archive *archive)
     hd_archive_doubles(archive, "modes coefficient", modes->coefficient,
                        (size_t)hd_fields_columns(modes->fields) * n);
     hd_archive_doubles(archive, "modes dq norm", modes->dq_norm, n);
+    hd_fields_archive(modes->fields, archive);
 }

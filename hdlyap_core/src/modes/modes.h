@@ -25,7 +25,7 @@ HD_MUST_CHECK hd_status hd_modes_share(hd_modes *modes, hd_communicator *communi
                                        int carried);
 /** Adds the snapshot to the running averages. */
 void hd_modes_add(hd_modes *modes);
-/** Empties the running averages. */
+/** Empties the running averages and the snapshot. */
 void hd_modes_clear(hd_modes *modes);
 int hd_modes_vectors(const hd_modes *modes); /**< n */
 

@@ -56,6 +56,14 @@ struct hd_structure {
     long samples;
 };
 
+/** Numbers in `mean` and in `snapshot`; in `amplitude`. */
+static size_t means(const hd_structure *s) { return (size_t)s->waves * HD_DIRECTIONS * s->stride; }
+
+static size_t amplitudes_of_all(const hd_structure *s)
+{
+    return HD_DIRECTIONS * s->amplitudes * s->stride;
+}
+
 /* ---- creation ------------------------------------------------------------------------------ */
 
 /** The scene, but with all waves that the particles sample. */
@@ -131,7 +139,7 @@ double hd_structure_bytes(const hd_scene_def *scene, double vectors)
 
 static hd_status prepare(hd_structure *s, const hd_scene_def *def)
 {
-    const size_t particles = (size_t)def->number, waves = (size_t)s->waves, n = s->stride;
+    const size_t particles = (size_t)def->number, n = s->stride;
     HD_TRY(plan_waves(s, def));
     for (int d = 0; d < s->dimension; d++) {
         const size_t functions = 2 * ((size_t)s->along[d].nodes + 1);
@@ -145,9 +153,9 @@ static hd_status prepare(hd_structure *s, const hd_scene_def *def)
         size_t size;
     } wanted[] = {{&s->factor, particles * s->width},
                   {&s->work, AT_ONCE * n},
-                  {&s->snapshot, waves * HD_DIRECTIONS * n + 1},
-                  {&s->mean, waves * HD_DIRECTIONS * n + 1},
-                  {&s->amplitude, HD_DIRECTIONS * s->amplitudes * n}};
+                  {&s->snapshot, means(s) + 1},
+                  {&s->mean, means(s) + 1},
+                  {&s->amplitude, amplitudes_of_all(s)}};
     for (size_t k = 0; k < sizeof wanted / sizeof *wanted; k++)
         if (!(*wanted[k].array = hd_memory_alloc(wanted[k].size, sizeof(double))))
             return HD_NO_MEMORY;
@@ -309,7 +317,6 @@ hd_status hd_structure_measure(hd_structure *s, hd_columns v, const double *q,
                                const double *dq_norm)
 {
     HD_ASSERT(v.first >= 0 && v.first + v.count <= s->vectors);
-    const size_t size = (size_t)s->waves * HD_DIRECTIONS * s->stride;
     memcpy(s->shown, s->peak, (size_t)s->vectors * sizeof *s->shown);
     fill_values(s, q);
     for (size_t row = 0; row < HD_DIRECTIONS * s->amplitudes; row++)
@@ -319,7 +326,7 @@ hd_status hd_structure_measure(hd_structure *s, hd_columns v, const double *q,
         sum_up(s, v, from, to);
         measure_waves(s, from, to, v, dq_norm);
     }
-    return hd_all_finite(s->snapshot, size) ? HD_OK : HD_NOT_FINITE;
+    return hd_all_finite(s->snapshot, means(s)) ? HD_OK : HD_NOT_FINITE;
 }
 
 hd_status hd_structure_share(hd_structure *s, hd_communicator *communicator, int width, int carried)
@@ -349,16 +356,17 @@ static void find_peaks(hd_structure *s)
 
 void hd_structure_add(hd_structure *s)
 {
-    const size_t size = (size_t)s->waves * HD_DIRECTIONS * s->stride;
     s->samples++;
-    hd_mean_add(s->mean, s->snapshot, size, s->samples);
+    hd_mean_add(s->mean, s->snapshot, means(s), s->samples);
     find_peaks(s);
 }
 
 void hd_structure_clear(hd_structure *s)
 {
     s->samples = 0;
-    memset(s->mean, 0, (size_t)s->waves * HD_DIRECTIONS * s->stride * sizeof *s->mean);
+    memset(s->mean, 0, means(s) * sizeof *s->mean);
+    memset(s->snapshot, 0, means(s) * sizeof *s->snapshot);
+    memset(s->amplitude, 0, amplitudes_of_all(s) * sizeof *s->amplitude);
     for (int l = 0; l < s->vectors; l++) s->peak[l] = s->shown[l] = -1;
 }
 
@@ -398,14 +406,18 @@ const double *hd_structure_amplitude(const hd_structure *s, hd_direction e, unsi
     return s->amplitude + ((size_t)e * s->amplitudes + modulation) * s->stride;
 }
 
-/** Reads or writes the means; the snapshot is not kept. */
+/** Reads or writes the means, and the snapshot, which reports state until the next one. */
 void hd_structure_archive(hd_structure *s, hd_archive *archive)
 {
-    const size_t size = (size_t)s->waves * HD_DIRECTIONS * s->stride;
     hd_archive_long(archive, "structure samples", &s->samples, 0, LONG_MAX / 2);
-    hd_archive_doubles(archive, "structure mean", s->mean, size);
+    hd_archive_doubles(archive, "structure mean", s->mean, means(s));
+    hd_archive_doubles(archive, "structure snapshot", s->snapshot, means(s));
+    hd_archive_doubles(archive, "structure amplitude", s->amplitude, amplitudes_of_all(s));
+    hd_archive_of_ints(archive, "structure peak", (size_t)s->vectors);
+    for (int l = 0; l < s->vectors; l++)
+        hd_archive_next_int(archive, &s->shown[l], -1, s->waves - 1);
     bool positive = true;
-    for (size_t k = 0; k < size && hd_archive_good(archive); k++) positive &= s->mean[k] >= 0;
+    for (size_t k = 0; k < means(s) && hd_archive_good(archive); k++) positive &= s->mean[k] >= 0;
     hd_archive_expect(archive, positive, "structure mean", "it is negative");
     if (!archive->writing && hd_archive_good(archive) && s->samples > 0) find_peaks(s);
 }

@@ -21,7 +21,7 @@ HD_MUST_CHECK hd_status hd_structure_share(hd_structure *structure, hd_communica
                                            int width, int carried);
 /** Adds the snapshot to the means, and finds each vector's strongest wave anew. */
 void hd_structure_add(hd_structure *structure);
-/** Empties the means. */
+/** Empties the means and the snapshot. */
 void hd_structure_clear(hd_structure *structure);
 int hd_structure_waves_of(const hd_scene_def *def); /**< hd_structure_waves of a scene */
 

@@ -19,7 +19,7 @@
 /** Holds a response for each vector of each step and each modulation; see entries_of. */
 struct hd_hydro {
     hd_boundary boundary[HD_DIMENSION_MAX];
-    int dimension, particles, count;
+    int dimension, particles, vectors, count;
     hd_hydro_response *response; /**< [count] */
 };
 
@@ -31,6 +31,17 @@ static int modulations_of(const hd_step *step)
 /** Number of entries of a step: its vectors, and for each one its modulations. */
 static int entries_of(const hd_step *step) { return step->expected * modulations_of(step); }
 
+/** Names the entries of all steps: none has been measured. */
+static void entries_name(hd_hydro_response *out, const hd_steps *steps)
+{
+    for (int k = 0; k < hd_steps_count(steps); k++) {
+        const hd_step *step = hd_steps_step(steps, k);
+        const hd_modulations m = step->wave.pairs;
+        for (int e = 0; e < entries_of(step); e++)
+            *out++ = (hd_hydro_response){.step = k, .col = -1, .modulation = m.bits[e % m.count]};
+    }
+}
+
 hd_status hd_hydro_create(hd_hydro **out, const hd_scene_def *def, const hd_steps *steps)
 {
     hd_hydro *hydro = hd_memory_alloc(1, sizeof *hydro);
@@ -39,6 +50,7 @@ hd_status hd_hydro_create(hd_hydro **out, const hd_scene_def *def, const hd_step
     memcpy(hydro->boundary, def->boundary, sizeof hydro->boundary);
     hydro->dimension = hd_scene_dimension(def);
     hydro->particles = def->number;
+    hydro->vectors = hd_scene_vectors(def);
     for (int k = 0; k < hd_steps_count(steps); k++)
         hydro->count += entries_of(hd_steps_step(steps, k));
     hydro->response = hd_memory_alloc((size_t)hydro->count + 1, sizeof *hydro->response);
@@ -46,6 +58,7 @@ hd_status hd_hydro_create(hd_hydro **out, const hd_scene_def *def, const hd_step
         hd_hydro_free(hydro);
         return HD_NO_MEMORY;
     }
+    entries_name(hydro->response, steps);
     *out = hydro;
     return HD_OK;
 }
@@ -102,22 +115,23 @@ static void step_measure(hd_hydro *hydro, hd_hydro_response *out, const hd_steps
     }
 }
 
-static void entries_clear(hd_hydro_response *out, const hd_step *step, int index)
+void hd_hydro_clear(hd_hydro *hydro)
 {
-    const hd_modulations m = step->wave.pairs;
-    for (int e = 0; e < entries_of(step); e++)
-        out[e] = (hd_hydro_response){.step = index, .col = -1, .modulation = m.bits[e % m.count]};
+    for (int k = 0; k < hydro->count; k++) {
+        hd_hydro_response *r = &hydro->response[k];
+        *r = (hd_hydro_response){.step = r->step, .col = -1, .modulation = r->modulation};
+    }
 }
 
 void hd_hydro_measure(hd_hydro *hydro, const hd_steps *steps, hd_columns vectors, const double *q,
                       const double *p)
 {
     hd_hydro_response *out = hydro->response;
+    hd_hydro_clear(hydro);
     for (int k = 0; k < hd_steps_count(steps); k++) {
         const hd_step *step = hd_steps_step(steps, k);
-        if (modulations_of(step) == 0) continue;
-        entries_clear(out, step, k);
-        if (step->resolved) step_measure(hydro, out, steps, k, vectors, q, p);
+        if (step->resolved && modulations_of(step) > 0)
+            step_measure(hydro, out, steps, k, vectors, q, p);
         out += entries_of(step);
     }
 }
@@ -128,6 +142,21 @@ const hd_hydro_response *hd_hydro_at(const hd_hydro *hydro, int index)
 {
     HD_ASSERT(index >= 0 && index < hydro->count);
     return &hydro->response[index];
+}
+
+/** Reads or writes the responses of the last report. */
+static void hydro_keep(hd_hydro *hydro, hd_archive *archive)
+{
+    hd_archive_of_ints(archive, "hydro col", (size_t)hydro->count);
+    for (int k = 0; k < hydro->count; k++)
+        hd_archive_next_int(archive, &hydro->response[k].col, -1, hydro->vectors - 1);
+    hd_archive_of_doubles(archive, "hydro response", 5 * (size_t)hydro->count);
+    for (int k = 0; k < hydro->count; k++) {
+        hd_hydro_response *r = &hydro->response[k];
+        double *const numbers[] = {&r->density, &r->along, &r->across, &r->energy,
+                                   &r->across_second};
+        for (int n = 0; n < 5; n++) hd_archive_next_doubles(archive, numbers[n], 1);
+    }
 }
 
 /* ---- as an observable ---------------------------------------------------------------------- */
@@ -155,6 +184,12 @@ static void *hydro_create(const hd_observing *with, hd_status *status)
 
 static void hydro_free(void *self) { hd_hydro_free(self); }
 
+static void hydro_clear(void *self, const hd_view *here)
+{
+    (void)here;
+    hd_hydro_clear(self);
+}
+
 static void hydro_report(void *self, const hd_observing *with, const hd_view *state)
 {
     hd_hydro_measure(self, with->part[HD_OBSERVED_steps], state->vectors[0], state->q, state->p);
@@ -164,6 +199,12 @@ static int hydro_first(void *self, const hd_observing *with)
 {
     (void)self;
     return hd_steps_first(with->part[HD_OBSERVED_steps]);
+}
+
+static void hydro_archive(void *self, hd_archive *archive, const hd_trajectory *now)
+{
+    (void)now;
+    hydro_keep(self, archive);
 }
 
 /** Refuses particles with other coordinates than places, or with a potential: functionals know only
@@ -186,5 +227,7 @@ const hd_observable hd_hydro_row = {.with = HD_OBSERVE_STEPS,
                                     .extend = hydro_extend,
                                     .create = hydro_create,
                                     .free = hydro_free,
+                                    .clear = hydro_clear,
                                     .report = hydro_report,
-                                    .first = hydro_first};
+                                    .first = hydro_first,
+                                    .archive = hydro_archive};

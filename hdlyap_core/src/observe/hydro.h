@@ -8,6 +8,8 @@
 HD_MUST_CHECK hd_status hd_hydro_create(hd_hydro **out, const hd_scene_def *def,
                                         const hd_steps *steps);
 void hd_hydro_free(hd_hydro *hydro);
+/** As before the first report. */
+void hd_hydro_clear(hd_hydro *hydro);
 
 /** Measures responses of the vectors that belong to a resolved step (hd_steps_of_vector), at
  * positions q and momenta p. */

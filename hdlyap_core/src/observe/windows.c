@@ -195,8 +195,7 @@ static void covariant_resume(void *self) { ((hd_windows *)self)->due = true; }
 
 static void covariant_clear(void *self, const hd_view *here)
 {
-    (void)here;
-    hd_covariant_clear(((hd_windows *)self)->covariant);
+    hd_covariant_clear(((hd_windows *)self)->covariant, hd_trajectory_time(here->trajectory));
     covariant_resume(self);
 }
 

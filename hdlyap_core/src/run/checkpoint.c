@@ -47,6 +47,21 @@ static bool head_archive(hd_checkpoint *head, hd_archive *archive, hd_known know
     return true;
 }
 
+/** Reads or writes what the run has exchanged; its cost has what the communicator has not counted.
+ */
+static void traffic_archive(hd_run *run, hd_archive *archive)
+{
+    const hd_traffic now = hd_communicator_traffic(run->communicator);
+    double *const before[] = {&run->cost.communication, &run->cost.bytes, &run->cost.calls};
+    const double counted[] = {now.seconds, now.bytes, now.calls};
+    hd_archive_of_doubles(archive, "cost traffic", 3);
+    for (int k = 0; k < 3; k++) {
+        double all = *before[k] + counted[k];
+        hd_archive_next_doubles(archive, &all, 1);
+        if (!archive->writing) *before[k] += all;
+    }
+}
+
 static void cost_archive(hd_run *run, hd_archive *archive)
 {
     hd_cost *c = &run->cost;
@@ -63,6 +78,7 @@ static void cost_archive(hd_run *run, hd_archive *archive)
         hd_archive_long(archive, "cost count", counts[k], 0, LONG_MAX / 2);
     hd_archive_int(archive, "cost limit", &limit, HD_LIMIT_SCHEDULE, HD_LIMIT_NONE);
     c->limit = (hd_limit)limit;
+    traffic_archive(run, archive);
 }
 
 /** Reads or writes clocks, as the seconds for which they have run. */
@@ -150,6 +166,7 @@ static void parts_archive(hd_run *run, hd_archive *archive)
     if (status != HD_OK) hd_archive_fail(archive, status, "frame vectors", NULL);
     hd_archive_doubles(archive, "run halves", c->halves, 2 * (size_t)c->vectors);
     hd_spectrum_archive(c->spectrum, archive);
+    hd_error_trend_archive(&run->errors, archive);
     hd_observables_archive(&run->observables, archive, true, now);
 }
 

@@ -109,9 +109,9 @@ hd_cost hd_run_cost(const hd_run *run)
     add_progress(&cost, run);
     add_trend(&cost, run);
     cost.following = hd_observables_seconds(&run->observables);
-    cost.communication = traffic.seconds;
-    cost.bytes = traffic.bytes;
-    cost.calls = traffic.calls;
+    cost.communication += traffic.seconds;
+    cost.bytes += traffic.bytes;
+    cost.calls += traffic.calls;
     cost.error_bound = hd_run_stage(run) < HD_AVERAGING ? NAN
                                                         : hd_carrier_error_bound(&run->carrier);
     if (cost.orthonormalisations == 0) {

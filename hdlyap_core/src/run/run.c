@@ -136,6 +136,7 @@ hd_status hd_run_create_shared(hd_run **out, const hd_scene_def *def, hd_communi
 hd_status hd_run_make(hd_run **out, const hd_scene_def *def, hd_communicator *communicator,
                       char *message, size_t size)
 {
+    const hd_traffic before = hd_communicator_traffic(communicator);
     *out = NULL;
     HD_TRY(hd_ranks_check(def, communicator, message, size));
     HD_TRY(hd_target_check(def, message, size));
@@ -146,6 +147,8 @@ hd_status hd_run_make(hd_run **out, const hd_scene_def *def, hd_communicator *co
         return found;
     }
     run->communicator = communicator;
+    run->cost = (hd_cost){
+        .communication = -before.seconds, .bytes = -before.bytes, .calls = -before.calls};
     run->scene = *def;
     run->scene.warmup = hd_scene_warmup(def);
     run->clocks.created = hd_clock_now();
@@ -411,13 +414,19 @@ static hd_status go_on(hd_run *run)
     return HD_OK;
 }
 
+/** Vectors that were made readable belong to a time that is over. */
+static void forget_vectors(hd_run *run)
+{
+    run->known = false;
+    run->gathered.columns.count = 0;
+}
+
 static hd_status advance(hd_run *run)
 {
     if (hd_agenda_is_due(&run->agenda, HD_DUE_REPORT) && is_averaging(run) && run->carrier.spectrum)
         hd_spectrum_local_restart(run->carrier.spectrum);
     hd_agenda_begin(&run->agenda);
-    run->known = false;
-    run->gathered.columns.count = 0;
+    forget_vectors(run);
     if (hd_agenda_stage(&run->agenda) == HD_FINISHED) return HD_OK;
     if (is_framed(run)) hd_blas_use_threads(run->carrier.threads); /* set for the calling thread */
     if (is_behind(run) || hd_agenda_is_due(&run->agenda, HD_DUE_STAGE)) return catch_up(run, false);
@@ -437,6 +446,7 @@ static hd_status reset_average(hd_run *run)
     if (run->carrier.frame) hd_blas_use_threads(run->carrier.threads);
     if (run->carrier.frame) HD_TRY(orthonormalise(run, true));
     enter_stage(run, HD_AVERAGING);
+    forget_vectors(run);
     return HD_OK;
 }
 

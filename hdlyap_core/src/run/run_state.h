@@ -41,8 +41,7 @@ struct hd_run {
     double followed;  /**< see hd_run_followed */
     hd_clocks clocks;
     hd_cost cost;
-    hd_error_trend errors; /**< trend of the error of the smallest positive exponents; a resumed run
-                              begins it again */
+    hd_error_trend errors; /**< trend of the error of the smallest positive exponents */
 };
 
 /** As hd_run_create_shared and hd_run_free, but for calls that all ranks make by themselves. */

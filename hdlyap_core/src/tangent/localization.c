@@ -71,6 +71,7 @@ void hd_localization_clear(hd_localization *shape)
 {
     shape->samples = 0;
     for (int col = 0; col < shape->vectors; col++) shape->entropy[col] = shape->cosine[col] = 0.0;
+    for (int k = 0; k < 2 * shape->vectors; k++) shape->measured[k] = 0.0;
     hd_blocks_restart(&shape->blocks);
 }
 

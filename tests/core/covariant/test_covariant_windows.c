@@ -110,7 +110,7 @@ TEST(a_window_without_room_is_lost_and_the_next_is_not)
     HELD(windows) w = windows_begun(scene, WARMUP, 4.0 * WINDOWS_INTERVAL);
     windows_finish(&w, 5);
     assert_int_equal(hd_covariant_read(w.c).lost, 1);
-    hd_covariant_clear(w.c);
+    hd_covariant_clear(w.c, 0.0);
     assert_int_equal(hd_covariant_read(w.c).lost, 0);
     windows_free(&w);
     /* and its snapshots */
@@ -211,7 +211,7 @@ TEST(a_window_given_up_leaves_nothing)
         CHECK_OK(hd_covariant_step(w.c)); /* one interval of the window is left */
     const double now = hd_trajectory_time(w.f.trajectory);
     const int done = (int)(now / WINDOWS_INTERVAL + 0.5);
-    hd_covariant_clear(w.c);
+    hd_covariant_clear(w.c, now);
     CHECK_OK(hd_covariant_begin(w.c, hd_frame_columns(w.f.frame), now, WINDOWS_INTERVAL));
     HELD(windows) fresh = windows_begun(scene, done, WINDOWS_INTERVAL);
     windows_finish(&w, 2);

@@ -90,8 +90,7 @@ static unsigned without(unsigned bit)
 }
 
 /** One observable after the other is not looked at for a while: in a checkpoint the arrays of all
- * rows that nothing else asks for stay as they were, and all others change. Fields and hydro keep
- * none. */
+ * rows that nothing else asks for stay as they were, and all others change. Fields keep none. */
 TEST(what_nobody_looks_at_stays)
 {
     OWNED(hd_run) *run = created(channel(HD_OBSERVE_ALL));
@@ -157,8 +156,15 @@ static double steps_resolved(const hd_run *run)
     return resolved;
 }
 
+static double responses_found(const hd_hydro *hydro)
+{
+    int found = 0;
+    for (int k = 0; k < hd_hydro_count(hydro); k++) found += hd_hydro_at(hydro, k)->col >= 0;
+    return found;
+}
+
 /** What each has averaged of: samples, time units, .. */
-enum { AVERAGES = 9 };
+enum { AVERAGES = 10 };
 static void read_averages(const hd_run *run, double of[AVERAGES])
 {
     const double now[AVERAGES] = {hd_gas_read(hd_run_gas(run)).time,
@@ -168,6 +174,7 @@ static void read_averages(const hd_run *run, double of[AVERAGES])
                                   hd_phases_velocity(hd_run_phases(run)).phases,
                                   hd_phases_velocity(hd_run_t_phases(run)).phases,
                                   (double)hd_localization_samples(hd_run_localization(run)),
+                                  responses_found(hd_run_hydro(run)),
                                   (double)hd_covariant_read(hd_run_covariant(run)).windows,
                                   hd_fluctuations_times(hd_run_fluctuations(run))};
     memcpy(of, now, sizeof now);

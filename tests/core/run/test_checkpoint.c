@@ -96,6 +96,10 @@ TEST(clocks_and_costs_go_on)
         kept_steps(run, 1);
     hd_run_observe(run, HD_OBSERVE_MODES);
     run->cost.limit = HD_LIMIT_REPAIR;
+    run->cost.communication = 1.0; /* as if several ranks had carried it */
+    run->cost.bytes = 2.0;
+    run->cost.calls = 3.0;
+    for (int k = 1; k < 200; k++) hd_error_trend_add(&run->errors, k, 0.1); /* it does not fall */
     const hd_cost before = hd_run_cost(run);
     OWNED(hd_run) *resumed = kept_and_resumed(run, PATH, NULL);
     const hd_cost after = hd_run_cost(resumed);
@@ -105,6 +109,12 @@ TEST(clocks_and_costs_go_on)
     CHECK_CLOSE(after.ortho, before.ortho, 0.0);
     CHECK_CLOSE(after.progress, before.progress, 0.0);
     CHECK_CLOSE(after.error_bound, before.error_bound, 0.0);
+    CHECK_CLOSE(after.communication, 1.0, 0.0);
+    CHECK_CLOSE(after.bytes, 2.0, 0.0);
+    CHECK_CLOSE(after.calls, 3.0, 0.0);
+    assert_true(before.stalled_since > 0.0);
+    CHECK_CLOSE(after.stalled_since, before.stalled_since, 0.0);
+    CHECK_CLOSE(after.stalled_error, before.stalled_error, 0.0);
     assert_true(after.wall >= before.wall);
     /* seconds left over simulated time left, as over what was carried: wall time runs on */
     assert_true(after.remaining >= before.remaining);

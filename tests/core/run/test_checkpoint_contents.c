@@ -123,6 +123,11 @@ TEST(structure_that_no_run_has_is_refused)
         {"structure samples", 0, 0, -1, "out of its range"},
         {"structure mean", 1, -1.0, 0, "negative"},
         {"structure mean", 1, NAN, 0, "not finite"},
+        {"structure peak", 0, 0, 1000, "out of its range"},
+        {"hydro col", 0, 0, 20, "out of its range"},
+        {"fields", 0, 1.1, 0, "longer than 1"},
+        {"error trend first", 0, -1.0, 0, "negative"},
+        {"error trend", 1, -1.0, 0, "negative"},
     };
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++)
         expect_nonsense_refused(&b, &cases[k]);

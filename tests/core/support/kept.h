@@ -8,7 +8,8 @@
 enum {
     KEPT_ALL = HD_OBSERVE_MODES | HD_OBSERVE_STEPS | HD_OBSERVE_PHASES | HD_OBSERVE_T_PHASES |
                HD_OBSERVE_GAS | HD_OBSERVE_LOCALIZATION | HD_OBSERVE_FLUCTUATIONS,
-    KEPT_AT_REPORTS = KEPT_ALL | HD_OBSERVE_STRUCTURE /**< with all vectors at each */
+    KEPT_AT_REPORTS = KEPT_ALL | HD_OBSERVE_STRUCTURE | HD_OBSERVE_HYDRO /**< with all vectors at
+                                                                            each */
 };
 /** Before the elements of an array in the bytes. */
 enum { KEPT_HEAD = HD_ARCHIVE_NAME + 16 };
