@@ -172,10 +172,11 @@ void hd_run_watch(hd_run *run, double interval, int first);
  * until the next call of hd_run_advance. */
 hd_columns hd_run_columns(const hd_run *run);
 
-/** All n vectors as the last orthonormalisation left them, if the weights of modes are computed;
- * valid until the next call of hd_run_advance. At samples, and when fields are due, they are
- * orthonormal with dq and dp together; in between they may be so in dq alone. With several ranks
- * these are the vectors of the steps, and only when fields are due or hydro is measured. */
+/** All n vectors as the last orthonormalisation left them; valid until the next call of
+ * hd_run_advance. count is 0 without exponents, and with exponents = all unless the weights of
+ * modes are computed. At samples, and when fields are due, they are orthonormal with dq and dp
+ * together; in between they may be so in dq alone. With several ranks these are the vectors of the
+ * steps, and only when fields are due or hydro is measured. */
 hd_columns hd_run_frame_columns(const hd_run *run);
 /** Writes, for each vector in the last sample: to cos_theta[n] the cosine of the angle between its
  * halves dp and dq, NaN if one of them is 0; to dp_dq_ratio[n] |dp| / |dq|, NaN if dq is 0. */

@@ -25,6 +25,8 @@ void hd_record_archive(hd_record *record, hd_archive *archive, const hd_scene_de
 /** Bytes of this many entries in the record, which doubles when it is full, and of their maps. */
 double hd_record_bytes_of(const hd_scene_def *scene, double entries);
 
+/** Numbers that a trajectory notes of its present state, because its row leaves something out. */
+double hd_trajectory_noted(const hd_scene_def *scene);
 /** Bytes of the particles of a scene. */
 double hd_trajectory_bytes(const hd_scene_def *scene);
 

@@ -8,6 +8,33 @@
 #include "dynamics/archived.h"
 #include "dynamics/trajectory_state.h"
 
+static size_t coordinates(const hd_trajectory *tr)
+{
+    return (size_t)tr->particles * (size_t)tr->of->coordinates;
+}
+
+/** Takes note of q and p, so that reading what follows from them takes no memory. */
+static void note(hd_trajectory *tr)
+{
+    if (tr->now) tr->of->state(tr->state, tr->now, tr->now + coordinates(tr));
+}
+
+double hd_trajectory_noted(const hd_scene_def *def)
+{
+    const hd_dynamics *of = hd_dynamics_of(def);
+    return of->kinetic_energy && of->fingerprint ? 0.0 : 2.0 * of->coordinates * def->number;
+}
+
+static hd_status create(hd_trajectory *tr, const hd_scene_def *def, const double *q,
+                        const double *p)
+{
+    const size_t noted = (size_t)hd_trajectory_noted(def);
+    if (noted > 0 && !(tr->now = hd_memory_alloc(noted, sizeof *tr->now))) return HD_NO_MEMORY;
+    HD_TRY(q ? tr->of->create_from(&tr->state, def, q, p) : tr->of->create(&tr->state, def));
+    note(tr);
+    return HD_OK;
+}
+
 hd_status hd_trajectory_create_from(hd_trajectory **out, const hd_scene_def *def, const double *q,
                                     const double *p)
 {
@@ -16,12 +43,13 @@ hd_status hd_trajectory_create_from(hd_trajectory **out, const hd_scene_def *def
     if (!tr) return HD_NO_MEMORY;
     *tr = (hd_trajectory){.of = hd_dynamics_of(def), .particles = def->number};
     tr->rate = tr->of->rate(def);
-    const hd_status status = q ? tr->of->create_from(&tr->state, def, q, p)
-                               : tr->of->create(&tr->state, def);
-    if (status == HD_OK)
+    const hd_status status = create(tr, def, q, p);
+    if (status == HD_OK) {
         *out = tr;
-    else
-        hd_memory_free(tr);
+        return HD_OK;
+    }
+    hd_memory_free(tr->now);
+    hd_memory_free(tr);
     return status;
 }
 
@@ -34,12 +62,15 @@ void hd_trajectory_free(hd_trajectory *tr)
 {
     if (!tr) return;
     tr->of->free(tr->state);
+    hd_memory_free(tr->now);
     hd_memory_free(tr);
 }
 
 hd_status hd_trajectory_extend(hd_trajectory *tr, hd_record *record, double t_end)
 {
-    return tr->of->advance(tr->state, record, t_end);
+    const hd_status status = tr->of->advance(tr->state, record, t_end);
+    note(tr);
+    return status;
 }
 
 hd_told hd_trajectory_told(const hd_trajectory *tr)
@@ -96,25 +127,12 @@ void hd_trajectory_places(const hd_trajectory *tr, double *q, double *p)
     keep_places(tr, p);
 }
 
-static size_t coordinates(const hd_trajectory *tr)
-{
-    return (size_t)tr->particles * (size_t)tr->of->coordinates;
-}
-
-/** A new array of q, then p, for the caller to free; NULL if there is no memory. */
-static double *coordinates_of(const hd_trajectory *tr)
-{
-    double *q = hd_memory_alloc(2 * coordinates(tr), sizeof *q);
-    if (q) tr->of->state(tr->state, q, q + coordinates(tr));
-    return q;
-}
-
 double hd_trajectory_kinetic_energy(const hd_trajectory *tr)
 {
     if (tr->of->kinetic_energy) return tr->of->kinetic_energy(tr->state);
-    double *q = coordinates_of(tr), sum = q ? 0.0 : NAN; /* NaN if there is no memory */
-    for (size_t k = coordinates(tr); q && k < 2 * coordinates(tr); k++) sum += 0.5 * q[k] * q[k];
-    hd_memory_free(q);
+    const double *p = tr->now + coordinates(tr);
+    double sum = 0.0;
+    for (size_t k = 0; k < coordinates(tr); k++) sum += 0.5 * p[k] * p[k];
     return sum;
 }
 
@@ -132,14 +150,12 @@ hd_examined hd_trajectory_examined(const hd_trajectory *tr)
 void hd_trajectory_archive(hd_trajectory *tr, hd_archive *archive)
 {
     tr->of->archive(tr->state, archive);
+    if (!archive->writing) note(tr);
 }
 
 uint32_t hd_trajectory_fingerprint(const hd_trajectory *tr)
 {
-    if (tr->of->fingerprint) return tr->of->fingerprint(tr->state);
-    double *q = coordinates_of(tr);
-    const size_t bytes = q ? 2 * coordinates(tr) * sizeof *q : 0;
-    const uint32_t crc = (uint32_t)crc32_z(0, (const Bytef *)q, bytes);
-    hd_memory_free(q);
-    return crc;
+    const size_t bytes = 2 * coordinates(tr) * sizeof *tr->now;
+    return tr->of->fingerprint ? tr->of->fingerprint(tr->state)
+                               : (uint32_t)crc32_z(0, (const Bytef *)tr->now, bytes);
 }

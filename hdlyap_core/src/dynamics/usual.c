@@ -106,6 +106,7 @@ double hd_record_bytes_of(const hd_scene_def *scene, double entries)
 double hd_trajectory_bytes(const hd_scene_def *scene)
 {
     const hd_dynamics *of = hd_dynamics_of(scene);
-    return of->bytes ? of->bytes(scene)
-                     : 4.0 * of->coordinates * (double)scene->number * sizeof(double);
+    const double noted = hd_trajectory_noted(scene) * sizeof(double);
+    return noted + (of->bytes ? of->bytes(scene)
+                              : 4.0 * of->coordinates * (double)scene->number * sizeof(double));
 }

@@ -403,8 +403,11 @@ void hd_carrier_clear(hd_carrier *c, double age)
 
 hd_columns hd_carrier_vectors(const hd_carrier *c)
 {
-    const hd_columns carried = hd_frame_columns(c->frame);
-    return c->conjugate ? hd_conjugate_complete(c->conjugate, carried) : carried;
+    const hd_columns none = {.count = 0}, carried = c->frame ? hd_frame_columns(c->frame) : none;
+    if (!c->conjugate) return carried;
+    return carried.count <= hd_conjugate_most(c->conjugate)
+               ? hd_conjugate_complete(c->conjugate, carried)
+               : none;
 }
 
 void hd_carrier_halves(const hd_carrier *c, double *cos_theta, double *dp_dq_ratio)

@@ -78,7 +78,7 @@ void hd_carrier_clear(hd_carrier *carrier, double age);
  * yet. */
 void hd_carrier_save_accuracy(hd_carrier *carrier, bool averaging);
 
-/** All n vectors, with a single rank. */
+/** All n vectors, with a single rank; none if partners are needed that nobody has asked for. */
 hd_columns hd_carrier_vectors(const hd_carrier *carrier);
 /** hd_frame_halves of all n vectors at the last measured state; [n] each. */
 void hd_carrier_halves(const hd_carrier *carrier, double *cos_theta, double *dp_dq_ratio);

@@ -342,7 +342,8 @@ static hd_status read_head(hd_checkpoint *out, hd_archive *archive, hd_known kno
         return HD_FILE_FAULT;
     }
     if (!hd_archive_good(archive)) return inconsistent(archive, message, size);
-    return hd_scene_check(&out->scene, message, size) == HD_OK ? HD_OK : HD_FILE_FAULT;
+    const hd_status status = hd_scene_check(&out->scene, message, size);
+    return status == HD_REFUSED ? HD_FILE_FAULT : status; /* of another scene than was asked for */
 }
 
 /** The number of threads: as before, unless another one is asked for or the machine has fewer. */

@@ -253,6 +253,8 @@ void hd_conjugate_fill(double *whole, hd_columns half, int rows, int coordinates
     }
 }
 
+int hd_conjugate_most(const hd_conjugate *conjugate) { return conjugate->most; }
+
 hd_columns hd_conjugate_complete(hd_conjugate *conjugate, hd_columns half)
 {
     HD_ASSERT(half.count <= conjugate->most);

@@ -44,6 +44,8 @@ const double *hd_conjugate_stretch(hd_conjugate *conjugate, const double *half);
  */
 void hd_conjugate_fill(double *whole, hd_columns half, int rows, int coordinates);
 
+/** Vectors that can be completed at once. */
+int hd_conjugate_most(const hd_conjugate *conjugate);
 /** All vectors, [4N * 4N], computed once after each orthonormalisation and valid until the next
  * one. If a rank has only a part of the half, it gets this part, followed by the partners. */
 hd_columns hd_conjugate_complete(hd_conjugate *conjugate, hd_columns half);

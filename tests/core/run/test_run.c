@@ -177,3 +177,18 @@ TEST(progress_and_cost_add_up)
     assert_true(cost.events + cost.replay + cost.ortho + cost.spectrum <= cost.wall);
     assert_true(cost.orthonormalisations > 0 && cost.events_per_second > 0);
 }
+
+/** Without exponents, and where partners would be needed that nobody asks for. */
+TEST(vectors_that_are_not_there_are_none)
+{
+    OWNED(hd_run) *none = created(scene(.number = 12, .exponents = HD_EXPONENTS_NONE));
+    OWNED(hd_run) *half = created(scene(.number = 12, .exponents = HD_EXPONENTS_ALL));
+    OWNED(hd_run) *all = created(
+        scene(.number = 12, .exponents = HD_EXPONENTS_ALL, .observe = HD_OBSERVE_STEPS));
+    OWNED(hd_run) *some = created(scene(.number = 12, .exponents = 5));
+    assert_int_equal(hd_run_frame_columns(none).count, 0);
+    assert_int_equal(hd_run_columns(none).count, 0);
+    assert_int_equal(hd_run_frame_columns(half).count, 0);
+    assert_int_equal(hd_run_frame_columns(all).count, 48);
+    assert_int_equal(hd_run_frame_columns(some).count, 5);
+}

@@ -2,6 +2,7 @@
  * rows in the plane and in space. */
 #include <math.h>
 #include <string.h>
+#include <zlib.h>
 
 #include "base/check.h"
 #include "dynamics/soft/kick.h"
@@ -244,6 +245,13 @@ static void row_sum(const void *state, hd_summed *out)
 
 static double row_energy_error(const void *state) { return ((const soft *)state)->error; }
 
+static uint32_t row_fingerprint(const void *state)
+{
+    const soft *s = state;
+    const size_t bytes = (size_t)(s->count * s->dimension) * sizeof *s->q;
+    return (uint32_t)crc32_z(crc32_z(0, (const Bytef *)s->q, bytes), (const Bytef *)s->p, bytes);
+}
+
 static double row_bytes(const hd_scene_def *scene)
 {
     const double of_one = 2.0 * sizeof(double) * hd_scene_dimension(scene);
@@ -297,8 +305,9 @@ static void row_archive(void *state, hd_archive *archive)
                             ? inconsistency(s)
                             : "the time does not fit the number of time steps";
     hd_neighbours_forget(&s->near);
-    if (!fault && hd_soft_look(s) != HD_OK)
-        fault = "the energy is not that of the positions and momenta";
+    const hd_status look = fault ? HD_OK : hd_soft_look(s);
+    if (look == HD_NO_MEMORY) hd_archive_fail(archive, look, "trajectory", NULL);
+    if (look != HD_OK) fault = "the energy is not that of the positions and momenta";
     if (fault) hd_archive_refuse(archive, "trajectory", fault);
 }
 
@@ -328,8 +337,8 @@ static const char *row_fault(const hd_record *record, const hd_scene_def *scene)
         .null = row_null, .create = hd_soft_create, .create_from = hd_soft_create_from,            \
         .free = hd_soft_free, .advance = hd_soft_advance, .time = row_time, .state = row_state,    \
         .kinetic_energy = hd_soft_kinetic_energy, .sum = row_sum, .examine = row_examine,          \
-        .energy_error = row_energy_error, .archive = row_archive, .bytes = row_bytes,              \
-        .record_bytes = row_record_bytes_##in, .fault = row_fault,                                 \
+        .energy_error = row_energy_error, .archive = row_archive, .fingerprint = row_fingerprint,  \
+        .bytes = row_bytes, .record_bytes = row_record_bytes_##in, .fault = row_fault,             \
         .maps_create = hd_kick_maps_create_##in, .maps_free = hd_kick_maps_free,                   \
         .maps_fill = hd_kick_maps_fill, .carry = hd_kick_maps_carry                                \
     }
