@@ -137,9 +137,9 @@ hd_scene_def hd_scene_def_default(void);
 hd_scene_def hd_scene_def_of(const hd_dynamics *dynamics);
 
 /** Returns HD_OK if the scene can be run; otherwise HD_REFUSED with one line in message[size],
- * unless that is NULL: the parameter, its value and what is allowed. It does not check the target:
- * see hd_target_check. The functions below, and others that take "a checked scene", may only be
- * called after it has returned HD_OK. */
+ * unless that is NULL: the parameter, its value and what is allowed; or HD_NO_MEMORY. It does not
+ * check the target: see hd_target_check. The functions below, and others that take "a checked
+ * scene", may only be called after it has returned HD_OK. */
 HD_MUST_CHECK hd_status hd_scene_check(const hd_scene_def *def, char *message, size_t size);
 
 /** Dimension of space, 2 or 3; 0 if particles have no positions in a box. */

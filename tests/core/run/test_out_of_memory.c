@@ -146,6 +146,7 @@ TEST(of_what_is_read_of_a_file)
     const hd_status status = hd_checkpoint_read(&kept, FILE_NAME, NULL, 0, line, sizeof line);
     ledger_refuse(0, 0);
     assert_string_equal(hd_status_text(status), hd_status_text(HD_NO_MEMORY));
+    assert_string_equal(line, hd_status_text(HD_NO_MEMORY));
     assert_int_equal(remove(FILE_NAME), 0);
 }
 

@@ -60,6 +60,21 @@ static unsigned drawn_observables(hd_random *random, const hd_scene_def *def)
     return chance(random, 0.6) ? any & ~(unsigned)HD_OBSERVE_COVARIANT : 0;
 }
 
+/** Another kind of particles than disks in a rectangle, now and then. */
+static void draw_particles(hd_scene_def *def, hd_random *random)
+{
+    const int kind = one_of(random, 2 * HD_SOFT_SPHERES);
+    if (kind == 0 || kind > HD_SOFT_SPHERES) return;
+    const hd_scene_def core = {.particles = (hd_particles)kind};
+    const hd_scene_def own = hd_scene_def_of(hd_dynamics_of(&core));
+    def->particles = own.particles;
+    memcpy(def->own, own.own, sizeof def->own);
+    if (kind < HD_SOFT_DISKS) return;
+    def->boundary[0] = def->boundary[1] = P;
+    def->aspect = 1.0;
+    def->density = log_uniform(random, 0.1, 0.7);
+}
+
 static hd_scene_def drawn(hd_random *random)
 {
     hd_scene_def def = scene(.number = 2 + (int)(28.0 * pow(uniform(random), 2.0)),
@@ -68,6 +83,8 @@ static hd_scene_def drawn(hd_random *random)
     for (int d = 0; d < 2; d++) def.boundary[d] = (hd_boundary)one_of(random, 2);
     if (chance(random, 0.15))
         def = scene(.container = HD_CIRCLE, .number = def.number, .density = def.density);
+    else
+        draw_particles(&def, random);
     def.seed = (uint64_t)one_of(random, 1 << 30);
     def.exponents = drawn_exponents(random, def.number);
     def.observe = drawn_observables(random, &def);

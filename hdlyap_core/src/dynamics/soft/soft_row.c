@@ -144,7 +144,9 @@ static hd_status row_check(const hd_scene_def *scene, char *message, size_t size
                              scene->density, scene->number, axis, box[d], 2.0 * potential->cut,
                              potential->name);
     }
-    HD_TRY(hd_soft_lattice_energy(&lattice, scene));
+    const hd_status found = hd_soft_lattice_energy(&lattice, scene);
+    if (found != HD_OK) (void)hd_refuse(message, size, "%s", hd_status_text(found));
+    HD_TRY(found);
     if (energy * scene->number > lattice) return HD_OK;
     return hd_refuse(message, size,
                      "energy = %.15g: must be above %.6g, the potential energy per particle of the "
