@@ -54,7 +54,9 @@ static int save_all(const char *folder)
                  {"modes", HD_EXPONENTS_POSITIVE, modes}};
     static const int disks[] = {2, 4, 10};
     int failed = 0;
-    hd_scene_def steps = scene_of(24, HD_EXPONENTS_POSITIVE, modes | HD_OBSERVE_T_PHASES);
+    hd_scene_def steps = scene_of(24, HD_EXPONENTS_POSITIVE,
+                                  modes | HD_OBSERVE_T_PHASES | HD_OBSERVE_HYDRO |
+                                      HD_OBSERVE_STRUCTURE);
     steps.density = 0.8;
     steps.aspect = 0.1; /* LP(1,0) and T(1,0) are resolved in the last */
     failed = save_run(folder, "steps_24", &steps);
