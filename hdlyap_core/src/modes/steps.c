@@ -23,11 +23,11 @@ struct hd_steps {
     int zero_first, zero_end; /**< columns of the zero modes, as far as they are carried */
     int subspaces, count, vectors;
     int rows;       /**< 4N */
+    int most;       /**< most vectors of a step */
     hd_step *step;  /**< [count] */
     int *of_vector; /**< [vectors] */
-    double *share;  /**< [count][HD_SET_VECTORS_MAX]: share of the step in the weight of each vector
-                       of its set */
-    hd_part *parts; /**< [count * HD_SET_VECTORS_MAX], workspace */
+    double *share;  /**< [count][most]: share of the step in the weight of each vector of its set */
+    hd_part *parts; /**< [count * most], workspace */
     hd_company *company; /**< [count] */
     double warmup;       /**< time for which the frame was carried before averaging */
     hd_relation of_t, of_lp;
@@ -45,6 +45,13 @@ static void step_define(hd_step *step, const hd_fields *fields, int s, bool conj
                       .conjugate = conjugate};
 }
 
+/** Most vectors of a step: those of the largest set, or all zero modes. */
+static int most_of(const hd_scene_def *scene)
+{
+    const int zeros = hd_scene_zero_exponents(scene);
+    return zeros > HD_SET_VECTORS_MAX ? zeros : HD_SET_VECTORS_MAX;
+}
+
 double hd_steps_bytes(const hd_scene_def *scene)
 {
     const double n = hd_scene_vectors(scene), subspaces = hd_fields_count_of(scene).subspaces;
@@ -52,21 +59,28 @@ double hd_steps_bytes(const hd_scene_def *scene)
                              (n == 2.0 * hd_scene_coordinates(scene) * scene->number ? 2.0 : 1.0) +
                          1.0;
     const double of_a_vector = sizeof(double) + sizeof(hd_part);
-    return count * (sizeof(hd_step) + sizeof(hd_company) + HD_SET_VECTORS_MAX * of_a_vector) +
+    return count * (sizeof(hd_step) + sizeof(hd_company) + most_of(scene) * of_a_vector) +
            n * (sizeof(int) + sizeof(double));
 }
 
 static hd_status steps_allocate(hd_steps *steps)
 {
-    const size_t count = (size_t)steps->count, n = (size_t)steps->vectors;
+    const size_t count = (size_t)steps->count, n = (size_t)steps->vectors,
+                 most = (size_t)steps->most;
     steps->step = hd_memory_alloc(count, sizeof *steps->step);
     steps->of_vector = hd_memory_alloc(n, sizeof *steps->of_vector);
-    steps->share = hd_memory_alloc(count * HD_SET_VECTORS_MAX, sizeof *steps->share);
-    steps->parts = hd_memory_alloc(count * HD_SET_VECTORS_MAX, sizeof *steps->parts);
+    steps->share = hd_memory_alloc(count * most, sizeof *steps->share);
+    steps->parts = hd_memory_alloc(count * most, sizeof *steps->parts);
     steps->company = hd_memory_alloc(count, sizeof *steps->company);
     if (!steps->step || !steps->of_vector || !steps->share || !steps->parts || !steps->company)
         return HD_NO_MEMORY;
     return hd_sets_create(&steps->sets, steps->modes, steps->rows);
+}
+
+/** The shares of step k, one for each vector of its set. */
+static double *shares_of(const hd_steps *steps, int k)
+{
+    return steps->share + (size_t)k * (size_t)steps->most;
 }
 
 static int smaller(int a, int b) { return a < b ? a : b; }
@@ -91,6 +105,7 @@ hd_status hd_steps_create(hd_steps **out, const hd_scene_def *def, const hd_mode
     steps->modes = modes;
     steps->vectors = hd_modes_vectors(modes);
     steps->rows = 2 * hd_scene_coordinates(def) * def->number;
+    steps->most = most_of(def);
     steps->warmup = hd_scene_parting(def);
     steps->of_t = hd_relation_of(def, HD_MODE_T);
     steps->of_lp = hd_relation_of(def, HD_MODE_LP);
@@ -156,7 +171,7 @@ void hd_steps_clear(hd_steps *steps)
 static int mean_parts(const hd_steps *steps, int k, double factor, hd_part *parts)
 {
     const hd_step *step = &steps->step[k];
-    const double *share = steps->share + (size_t)k * HD_SET_VECTORS_MAX;
+    const double *share = shares_of(steps, k);
     double whole = 0.0;
     for (int v = 0; v < step->count; v++) whole += share[v];
     for (int v = 0; v < step->count; v++)
@@ -213,8 +228,7 @@ static void step_fill(hd_steps *steps, int k, int s, int set)
     step->multiplicity = hd_sets_trace(&steps->sets, s, w);
     for (int v = 0; v < w->count; v++) {
         const double whole = steps->sets.weight[w->col + v];
-        steps->share[(size_t)k * HD_SET_VECTORS_MAX + (size_t)v] = weight[w->col + v] /
-                                                                   fmax(whole, DBL_MIN);
+        shares_of(steps, k)[v] = weight[w->col + v] / fmax(whole, DBL_MIN);
         if (whole >= least) label(steps, w->col + v, k, weight);
     }
 }
@@ -263,7 +277,7 @@ static void zero_find(hd_steps *steps, int *sets)
     step->set = (*sets)++;
     step->multiplicity = trace;
     for (int v = 0; v < count; v++) {
-        steps->share[(size_t)k * HD_SET_VECTORS_MAX + (size_t)v] = 1.0;
+        shares_of(steps, k)[v] = 1.0;
         if (null_weight(steps, step->col + v) >= least) steps->of_vector[step->col + v] = k;
     }
 }
@@ -354,7 +368,7 @@ static void step_archive(hd_steps *steps, hd_step *step, hd_archive *archive)
     hd_archive_int(archive, "step resolved", &resolved, 0, 1);
     step->resolved = resolved;
     hd_archive_int(archive, "step col", &step->col, -1, steps->vectors - 1);
-    hd_archive_int(archive, "step count", &step->count, 0, HD_SET_VECTORS_MAX);
+    hd_archive_int(archive, "step count", &step->count, 0, steps->most);
     hd_archive_int(archive, "step set", &step->set, -1, steps->count - 1);
     hd_archive_int(archive, "step members", &step->members, 0, steps->count);
     hd_archive_double(archive, "step multiplicity", &step->multiplicity);
@@ -380,7 +394,7 @@ void hd_steps_archive(hd_steps *steps, hd_archive *archive)
     const size_t count = (size_t)steps->count;
     for (size_t k = 0; k < count; k++) step_archive(steps, &steps->step[k], archive);
     for (size_t k = 0; k < count; k++) hd_company_archive(&steps->company[k], archive);
-    hd_archive_doubles(archive, "steps share", steps->share, count * HD_SET_VECTORS_MAX);
+    hd_archive_doubles(archive, "steps share", steps->share, count * (size_t)steps->most);
     hd_archive_of_ints(archive, "steps of vector", (size_t)steps->vectors);
     for (int col = 0; col < steps->vectors; col++)
         hd_archive_next_int(archive, &steps->of_vector[col], -1, steps->count - 1);
