@@ -24,20 +24,22 @@ static bool is_own(const hd_parameter *row)
 {
     const bool number = row->kind == HD_PARAMETER_INT || row->kind == HD_PARAMETER_REAL ||
                         row->kind == HD_PARAMETER_WORD || row->kind == HD_PARAMETER_INTERVAL;
-    return number && row->offset >= HD_OWN(0) && row->offset < HD_OWN(HD_OWN_MAX) &&
+    const bool said = row->name && row->allowed && row->unit && row->text;
+    return number && said && row->offset >= HD_OWN(0) && row->offset < HD_OWN(HD_OWN_MAX) &&
            (row->offset - HD_OWN(0)) % sizeof(hd_own) == 0 && !row->live;
 }
 
 static bool is_whole(const hd_dynamics *row)
 {
-    bool own = row->parameters <= HD_OWN_MAX;
+    bool own = row->parameters <= HD_OWN_MAX && (row->parameter || row->parameters <= 0);
     for (int k = 0; k < row->parameters && own; k++) own = is_own(&row->parameter[k]);
     const int box = row->dimension;
     const bool room = (box == 0 || box == 2 || box == 3) && row->coordinates >= box;
     const bool maps = !row->maps_create == !row->maps_free && !row->maps_free == !row->maps_fill;
     const bool turns = !row->inertia || (box == 2 && row->coordinates == 3);
-    return own && room && maps && turns && strlen(row->particles) < HD_PARTICLES &&
-           row->coordinates >= 1 && row->coordinates <= HD_COORDINATES_MAX && row->entry > 0 &&
+    return own && room && maps && turns && row->particles &&
+           strlen(row->particles) < HD_PARTICLES && row->coordinates >= 1 &&
+           row->coordinates <= HD_COORDINATES_MAX && row->entry > 0 &&
            row->entry % sizeof(double) == 0 && row->entries && row->rate && row->create &&
            row->free && row->advance && row->time && row->state && row->archive && row->carry;
 }

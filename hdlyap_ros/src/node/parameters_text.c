@@ -113,11 +113,12 @@ typedef void printer(const parameter *p, const char *particles);
 static bool particles_alike(char *names, size_t size, int r)
 {
     const hd_dynamics *of = particles_at(r), *other;
-    int length = snprintf(names, size, "%s", of->particles);
+    snprintf(names, size, "%s", of->particles);
     for (int k = 0; (other = particles_at(k)); k++) {
         if (other->parameter != of->parameter || k == r || of->parameters == 0) continue;
         if (k < r) return false;
-        length += snprintf(names + length, size - (size_t)length, " and %s", other->particles);
+        const size_t length = strlen(names);
+        snprintf(names + length, size - length, " and %s", other->particles);
     }
     return true;
 }
@@ -132,7 +133,7 @@ static int print_all(printer *print)
     }
     for (int r = 0; particles_at(r); r++) {
         const hd_dynamics *of = particles_at(r);
-        char names[2 * HD_PARTICLES + 8];
+        char names[16 * HD_PARTICLES];
         particles_are(of);
         if (of == usual || !particles_alike(names, sizeof names, r)) continue;
         for (int k = 0; k < of->parameters; k++) {
@@ -174,7 +175,7 @@ static void print_cell(const char *text)
 static void print_row(const parameter *p, const char *particles)
 {
     char allowed[PARAMETER_ALLOWED + 20], value[PARAMETER_TEXT + 8], name[PARAMETER_TEXT];
-    char text[1024];
+    char text[2048];
     write_allowed(allowed, sizeof allowed, p);
     write_value(value, sizeof value, p);
     snprintf(name, sizeof name, "`%s`", p->name);

@@ -27,10 +27,10 @@ typedef struct arrays {
 /** Takes the memory. Returns false if there is none. */
 static bool arrays_take(arrays *a, const moment *now, const hd_covariant_results *seen)
 {
-    const hd_fields *fields = hd_modes_fields(seen->half[0]);
+    const hd_modes *dq = seen->half[0]; /* NULL without positions in a box */
     const size_t n = (size_t)seen->vectors;
     a->vectors = (uint32_t)n;
-    a->weights = (uint32_t)hd_fields_subspaces(fields);
+    a->weights = dq ? (uint32_t)hd_fields_subspaces(hd_modes_fields(dq)) : 0;
     a->angles = seen->splitting.has_spaces ? HD_PAIRS_OF_SPACES : 0;
     a->exponents = moment_take(now, 3 * n, sizeof *a->exponents);
     a->weight = moment_take(now, a->weights, sizeof *a->weight);

@@ -337,6 +337,8 @@ TEST(a_row_that_lacks_something_is_a_bug)
 {
     static const hd_parameter elsewhere[] = {
         {"beta", HD_PARAMETER_REAL, NULL, 0, 1, 0, 2, "from 0 to 2", "", .text = ""}};
+    static const hd_parameter silent[] = {
+        {"beta", HD_PARAMETER_REAL, NULL, HD_OWN(BETA), 1, 0, 2, "from 0 to 2", NULL, .text = ""}};
     assert_false(is_a_bug(&of_chain));
     hd_dynamics row = of_chain;
     row.carry = NULL;
@@ -360,6 +362,14 @@ TEST(a_row_that_lacks_something_is_a_bug)
     row = of_chain;
     row.parameter = elsewhere;
     row.parameters = 1;
+    assert_true(is_a_bug(&row));
+    row.parameter = NULL; /* but there is one */
+    assert_true(is_a_bug(&row));
+    row = of_chain;
+    row.parameter = silent;
+    row.parameters = 1;
+    assert_true(is_a_bug(&row));
+    row.particles = NULL;
     assert_true(is_a_bug(&row));
 }
 

@@ -1,0 +1,40 @@
+/** A node of particles that the core does not know: the chain of the examples; the same chain that
+ * loses its energy, as a row may say without having a time step; and rows of long names that share
+ * parameters of their own. */
+#include <hdlyap_ros/main.h>
+#include <string.h>
+
+#define main chain_main
+#include "../../hdlyap_core/examples/chain.c"
+#undef main
+
+/** Time after which the energy is lost. */
+static const double LOST = 20.0;
+
+static hd_status advance_and_lose(void *state, hd_record *record, double t_end)
+{
+    const hd_status status = advance(state, record, t_end);
+    return status == HD_OK && t_end > LOST ? HD_ENERGY_LOST : status;
+}
+
+int main(int argc, char **argv)
+{
+    enum { SHARING = 5 };
+    static const char *const names[SHARING] = {
+        "chains_of_a_name_of_31_letters1", "chains_of_a_name_of_31_letters2",
+        "chains_of_a_name_of_31_letters3", "chains_of_a_name_of_31_letters4",
+        "chains_of_a_name_of_31_letters5"};
+    hd_dynamics lossy = of_chain, sharing[SHARING];
+    hd_parameter shared[PARAMETERS];
+    const hd_dynamics *rows[2 + SHARING] = {&of_chain, &lossy};
+    lossy.particles = "lossy_chain";
+    lossy.advance = advance_and_lose;
+    memcpy(shared, parameters, sizeof shared);
+    for (int k = 0; k < SHARING; k++) {
+        sharing[k] = of_chain;
+        sharing[k].particles = names[k];
+        sharing[k].parameter = shared;
+        rows[2 + k] = &sharing[k];
+    }
+    return hdlyap_node_main(argc, argv, rows, 2 + SHARING);
+}

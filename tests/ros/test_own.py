@@ -1,0 +1,66 @@
+#!/usr/bin/env python3
+"""Nodes of particles that the core does not know, without positions in a box."""
+
+import math
+import subprocess
+
+import harness
+
+N = 8
+SCENE = dict(
+    particles='chain',
+    number=N,
+    beta=10.0,
+    energy=10.0,
+    time_step=0.005,
+    exponents='all',
+    equilibration=10.0,
+    warmup=100.0,
+    duration=200.0,
+    covariant_window=20.0,
+    covariant_transient=100.0,
+    covariant_sampling=2.0,
+    observables=['spectrum', 'covariant', 'localization', 'fluctuations'],
+)
+NODE = harness.program('hdlyap_own_node')
+
+
+class Own(harness.Case):
+    def test_all_topics_of_particles_without_a_box(self):
+        """Of covariant vectors all but the weights, which are of waves in a box."""
+        listeners = {topic: self.listen(topic) for topic in (*SCENE['observables'], 'slow_vectors')}
+        awaited = dict(SCENE, wait_for_subscribers=SCENE['observables'])
+        node = self.start(awaited, command=[NODE])
+        heard = {topic: listener.all_of(node) for topic, listener in listeners.items()}
+        self.ends(node)
+        for topic, messages in heard.items():
+            self.assertTrue(messages, topic)
+        self.assertEqual(len(heard['covariant']), (200 - 100) // 20)
+        self.check(heard['covariant'][-1], heard['spectrum'][-1])
+
+    def check(self, covariant, spectrum):
+        self.assertEqual(covariant.weights, [])
+        self.assertEqual(len(covariant.exponents), 2 * N)
+        for number, exponent in enumerate(covariant.exponents):
+            self.assertAlmostEqual(exponent, spectrum.exponents[number], delta=0.1)
+            self.assertTrue(1 / N <= covariant.widths[number] <= 1)
+            self.assertTrue(0 <= covariant.cos_theta[number] <= 1)
+        self.assertEqual([angle.spaces for angle in covariant.angles], [0, 1, 2])
+        self.assertTrue(all(0 < angle.mean < math.pi / 2 for angle in covariant.angles))
+
+    def test_lost_energy_without_a_time_step(self):
+        """Said as it is known, with no step that there is not."""
+        node = self.start(dict(SCENE, particles='lossy_chain'), command=[NODE])
+        self.ends(node, 3)
+        (line,) = node.lines('ended by a fault')
+        self.assertRegex(line, r'at simulated time [0-9.]+: the energy is not conserved')
+
+    def test_particles_that_share_their_parameters(self):
+        """All are named, however many a program brings."""
+        said = subprocess.check_output([NODE, '--parameters'], text=True)
+        names = ' and '.join(f'chains_of_a_name_of_31_letters{k}' for k in range(1, 6))
+        self.assertEqual(said.count(f'# For {names} only.'), 3)
+
+
+if __name__ == '__main__':
+    harness.main('own')
