@@ -8,6 +8,7 @@ import os
 import harness
 from harness import is_last
 from hdlyap.msg import CovariantAngle, Mode
+from std_srvs.srv import Trigger
 
 START, WINDOW, TRANSIENT, SAMPLING, DURATION = 30.0, 5.0, 20.0, 1.0, 200.0
 SCENE = dict(
@@ -299,16 +300,36 @@ class Demand(Case):
 
 
 class Faults(Case):
-    @harness.more
+    def test_no_room_beforehand(self):
+        """Of orthonormalisations at each report, or as often as fields are due, which the core does
+        not know."""
+        params = dict(SCENE, interval='auto', covariant_memory=0.002, report_interval=0.05)
+        said = (
+            'covariant_window = 5 ',
+            ' triangles and ',
+            'must be at most covariant_memory = 0.002',
+        )
+        for name, how in (('hydro', {}), ('fields', dict(field_interval=0.0))):
+            asked = dict(params, observables=['covariant', name], wait_for_subscribers=[], **how)
+            node = self.start(asked)
+            self.ends(node, 2, *said, 'at most 0.05 time units apart')
+            self.assertEqual(len(node.text().splitlines()), 1, node.text())
+
     def test_no_room(self):
-        """Triangles of every interval need more than those of the longest ones, which it was begun
-        with."""
-        self.listen('covariant')
-        params = dict(SCENE, exponents='all_independent', interval='auto', covariant_window=50.0)
-        node = self.start(dict(params, duration=0.0, covariant_memory=0.005))
-        said = 'at simulated time 30', 'covariant_memory = 0.005 GB', 'covariant_window = 50 '
-        self.ends(node, 3, *said, 'triangles and', ' need 0.00')
-        self.assertEqual(len(node.lines('FATAL')), 1, node.text())
+        """Triangles of every interval need more than there is: windows are left out, as is said,
+        and the run goes on; also after a reset, and when it is resumed."""
+        kept = os.path.join(self.new_folder(), 'kept')
+        params = dict(SCENE, exponents='all_independent', interval='auto', accuracy=1e-12)
+        params.update(covariant_window=50.0, covariant_memory=0.01, checkpoint=kept)
+        for resume in ({}, dict(resume=kept)):
+            self.listen('covariant')
+            node = self.start(dict(params, duration=0.0, pace=100.0, **resume))
+            said = 'covariant_memory = 0.01: too small for orthonormalisations as frequent as these'
+            self.sees(lambda: node.lines(said), node)
+            harness.service('reset_average', Trigger)()
+            self.sees(lambda: len(node.lines('1 windows are left out')) > 1, node)
+            self.interrupt(node)
+            self.assertFalse(node.lines('FATAL'), node.text())
 
     def test_too_short_a_transient_is_warned_of(self):
         """Once; a long one is not."""

@@ -2,6 +2,7 @@
 """Nodes of particles that the core does not know, without positions in a box."""
 
 import math
+import os
 import subprocess
 
 import harness
@@ -49,9 +50,11 @@ class Own(harness.Case):
         self.assertTrue(all(0 < angle.mean < math.pi / 2 for angle in covariant.angles))
 
     def test_lost_energy_without_a_time_step(self):
-        """Said as it is known, with no step that there is not."""
-        node = self.start(dict(SCENE, particles='lossy_chain'), command=[NODE])
-        self.ends(node, 3)
+        """Said as it is known, with no step; and of what time the checkpoint is."""
+        kept = os.path.join(self.new_folder(), 'kept')
+        node = self.start(dict(SCENE, particles='lossy_chain', checkpoint=kept), command=[NODE])
+        self.ends(node, 3, f'the checkpoint is {kept}; resume:=FILE goes on from it')
+        self.assertTrue(node.lines('the checkpoint is not of the end, but of simulated time 0'))
         (line,) = node.lines('ended by a fault')
         self.assertRegex(line, r'at simulated time [0-9.]+: the energy is not conserved')
 

@@ -270,7 +270,7 @@ TEST(Parameters, RefusedTogether)
                          "100000.0}")),
               "covariant_window = 100000 with covariant_transient = 1: 150013 triangles and "
               "100007 frames of 797 vectors need 1.4e+03 GB, must be at most covariant_memory = 4 "
-              "GB");
+              "GB, as orthonormalisations are at most 6.45 time units apart");
 }
 
 TEST(Parameters, RefusedChanges)
@@ -303,7 +303,7 @@ TEST(Parameters, OwnNamesAreNobodyElses)
         hd_dynamics rods = *hd_dynamics_of(&usual);
         hd_parameter own = {};
         own.name = name, own.kind = HD_PARAMETER_REAL, own.offset = HD_OWN(0);
-        own.usual = 1, own.most = 10, own.allowed = "from 0 to 10", own.unit = "";
+        own.usual = 1, own.most = 10, own.allowed = "from 0 to 10", own.unit = own.text = "";
         rods.particles = "rods", rods.parameter = &own, rods.parameters = 1;
         const hd_dynamics *const rows[] = {&rods};
         particles_bring(rows, 1);

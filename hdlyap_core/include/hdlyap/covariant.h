@@ -23,12 +23,6 @@ HD_API_BEGIN
 /** The covariant vectors of a run, and the averages over them; owned by the run. */
 typedef struct hd_covariant hd_covariant;
 
-/** Returns HD_OK if a window and its transient fit into the covariant_memory of a checked scene,
- * with an orthonormalisation every `interval` time units; otherwise HD_REFUSED, with one line in
- * message[size] unless `message` is NULL. */
-HD_MUST_CHECK hd_status hd_covariant_check_room(const hd_scene_def *def, double interval,
-                                                char *message, size_t size);
-
 /** How far the two starts still differ at the ends of windows, after the transient. */
 typedef struct hd_covariant_mismatch {
     /** In the last window: largest sine of the angle between the two starts' vectors of the same

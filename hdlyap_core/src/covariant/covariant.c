@@ -36,7 +36,8 @@ static const double CLOSE = 1e-6;
 
 enum { WEIGHTS = 3 }; /* of dq halves, of dp halves, of the frame */
 
-typedef enum way { FORWARD, THROUGH_TRANSIENT, THROUGH_WINDOW } way;
+/** LOST: forward through a window that is left out with the next interval. */
+typedef enum way { FORWARD, LOST, THROUGH_TRANSIENT, THROUGH_WINDOW } way;
 
 struct hd_covariant {
     hd_scene_def scene;
@@ -81,14 +82,6 @@ static hd_modes *weights_of(const hd_covariant *c, int k)
 }
 
 /* ---- creation ------------------------------------------------------------------------------ */
-
-hd_status hd_covariant_check_room(const hd_scene_def *def, double interval, char *message,
-                                  size_t size)
-{
-    const hd_history_def past = hd_window_history(def, interval, hd_dynamics_of(def)->entries(def),
-                                                  def->threads);
-    return hd_window_check_room(def, &past, message, size);
-}
 
 static hd_status allocate_arrays(hd_covariant *c)
 {
@@ -192,12 +185,12 @@ static hd_status begin_window(hd_covariant *c, hd_columns frame, double time)
     return hd_history_begin(c->past, frame, time);
 }
 
-/** Makes room for intervals of this length. */
+/** Makes room for intervals of this length, as far as covariant_memory allows it. */
 static hd_status take_room(hd_covariant *c, double interval)
 {
-    const hd_history_def past = hd_window_history(&c->scene, interval, c->rate, c->threads);
+    const hd_history_def wanted = hd_window_history(&c->scene, interval, c->rate, c->threads),
+                         past = hd_window_that_fits(&c->scene, &wanted);
     if (c->past && past.intervals <= c->intervals && past.events <= c->events) return HD_OK;
-    if (hd_window_check_room(&c->scene, &past, NULL, 0) != HD_OK) return HD_NO_ROOM;
     hd_history_free(c->past);
     c->past = NULL;
     c->intervals = past.intervals;
@@ -260,31 +253,35 @@ static void begin_way_back(hd_covariant *c)
     c->way = THROUGH_TRANSIENT;
 }
 
-/** Gives up this window. The next one gets room for intervals and events like those of this one, if
- * covariant_memory allows it. */
+/** Leaves this window out. The next one gets room for intervals and events like those of this one,
+ * as far as covariant_memory allows it. */
 static hd_status lose_window(hd_covariant *c, hd_columns frame, double time)
 {
-    c->rate = fmax(c->rate, hd_history_events(c->past) / (c->now - c->window));
+    const double lasted = time - c->window;
     const double count = (double)(hd_history_end(c->past) - hd_history_first(c->past) + 1);
-    const hd_status status = hd_covariant_begin(c, frame, time, (time - c->window) / count);
+    c->rate = fmax(c->rate, hd_history_events(c->past) / lasted);
     c->lost++;
-    return status == HD_NO_ROOM ? begin_window(c, frame, time) : status;
+    return hd_covariant_begin(c, frame, time, lasted / count);
 }
+
+static bool is_lost(const hd_covariant *c) { return c->way == LOST || hd_history_is_full(c->past); }
 
 bool hd_covariant_wants_vectors(const hd_covariant *c)
 {
-    return hd_history_is_full(c->past) || hd_history_keeps_next(c->past);
+    return is_lost(c) || hd_history_keeps_next(c->past);
 }
 
 hd_status hd_covariant_add(hd_covariant *c, const hd_ortho *ortho, const hd_frame *frame,
                            hd_columns vectors, const hd_record *record, double t_begin,
                            double t_end)
 {
-    HD_ASSERT(c->way == FORWARD);
-    if (hd_history_is_full(c->past)) return lose_window(c, vectors, c->now + t_end - t_begin);
-    HD_TRY(hd_history_add(c->past, hd_ortho_factor(ortho), frame, vectors, record, t_begin, t_end));
-    c->now = hd_history_time(c->past, hd_history_end(c->past) - 1);
-    return HD_OK;
+    HD_ASSERT(!hd_covariant_is_going_back(c));
+    if (is_lost(c)) return lose_window(c, vectors, c->now + t_end - t_begin);
+    const hd_status status = hd_history_add(c->past, hd_ortho_factor(ortho), frame, vectors, record,
+                                            t_begin, t_end);
+    c->now += t_end - t_begin;
+    if (status == HD_NO_ROOM) c->way = LOST;
+    return status == HD_NO_ROOM ? HD_OK : status;
 }
 
 bool hd_covariant_wants_state(const hd_covariant *c)
@@ -442,7 +439,7 @@ static hd_status end_window(hd_covariant *c)
 
 hd_status hd_covariant_step(hd_covariant *c)
 {
-    HD_ASSERT(c->way != FORWARD);
+    HD_ASSERT(hd_covariant_is_going_back(c));
     if (c->way == THROUGH_TRANSIENT && c->at == c->last) HD_TRY(meet(c));
     const bool measuring = c->way == THROUGH_WINDOW;
     if (measuring && hd_history_has_snapshot(c->past, c->at)) HD_TRY(look(c, c->at));
@@ -454,7 +451,7 @@ hd_status hd_covariant_step(hd_covariant *c)
 
 /* ---- results ------------------------------------------------------------------------------- */
 
-bool hd_covariant_is_going_back(const hd_covariant *c) { return c->way != FORWARD; }
+bool hd_covariant_is_going_back(const hd_covariant *c) { return c->way >= THROUGH_TRANSIENT; }
 double hd_covariant_bytes(const hd_covariant *c) { return c->bytes; }
 
 hd_covariant_results hd_covariant_read(const hd_covariant *c)

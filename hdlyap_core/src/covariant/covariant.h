@@ -14,14 +14,15 @@ void hd_covariant_free(hd_covariant *covariant);
 void hd_covariant_clear(hd_covariant *covariant, double now);
 
 /** Begins a window at this time and forgets any window before. The frame is orthonormal, and will
- * be so about every `interval` time units. Takes the memory for the window; fails with HD_NO_ROOM,
- * HD_NO_MEMORY or HD_FILE_FAULT (errno). */
+ * be so about every `interval` time units. Takes the memory for the window, at most
+ * covariant_memory: a window that turns out to need more is left out, and the next one begins
+ * there. Fails with HD_NO_MEMORY. */
 HD_MUST_CHECK hd_status hd_covariant_begin(hd_covariant *covariant, hd_columns frame, double time,
                                            double interval);
 
 /** Adds an interval of the record, from t_begin to t_end, after the frame was replayed through it
  * and orthonormalised; with the vectors of all ranks if hd_covariant_wants_vectors. Fails with
- * HD_NO_MEMORY or HD_FILE_FAULT. */
+ * HD_NO_MEMORY. */
 HD_MUST_CHECK hd_status hd_covariant_add(hd_covariant *covariant, const hd_ortho *ortho,
                                          const hd_frame *frame, hd_columns vectors,
                                          const hd_record *record, double t_begin, double t_end);

@@ -42,19 +42,42 @@ static void say_other(const hd_scene_def *def, const hd_history_def *past, char 
                  other.recompute ? "recompute" : "memory", gigabytes);
 }
 
-hd_status hd_window_check_room(const hd_scene_def *def, const hd_history_def *past, char *message,
-                               size_t size)
+hd_status hd_window_check_room(const hd_scene_def *def, double interval, char *message, size_t size)
 {
-    const double gigabytes = 1e-9 * hd_history_bytes(past);
+    const hd_history_def past = hd_window_history(def, interval, hd_dynamics_of(def)->entries(def),
+                                                  def->threads);
+    const double gigabytes = 1e-9 * hd_history_bytes(&past);
     char events[40] = "", other[80] = "";
     if (gigabytes <= def->covariant_memory) return HD_OK;
-    if (past->recompute) snprintf(events, sizeof events, " and %.3g events", past->events);
-    say_other(def, past, other, sizeof other);
+    if (past.recompute) snprintf(events, sizeof events, " and %.3g events", past.events);
+    say_other(def, &past, other, sizeof other);
     return hd_refuse(message, size,
                      "covariant_window = %.15g with covariant_transient = %.15g: %ld triangles and "
                      "%ld frames of %d vectors%s need %.3g GB, must be at most covariant_memory = "
-                     "%.3g GB%s",
-                     def->covariant_window, def->covariant_transient, past->intervals,
-                     past->snapshots, past->vectors, events, gigabytes, def->covariant_memory,
-                     other);
+                     "%.3g GB, as orthonormalisations are at most %.3g time units apart%s",
+                     def->covariant_window, def->covariant_transient, past.intervals,
+                     past.snapshots, past.vectors, events, gigabytes, def->covariant_memory,
+                     interval, other);
+}
+
+/** This part of the intervals and events. */
+static hd_history_def part_of(const hd_history_def *wanted, double part)
+{
+    hd_history_def past = *wanted;
+    past.intervals = (long)fmax(2.0, part * (double)wanted->intervals);
+    past.events = part * wanted->events;
+    return past;
+}
+
+hd_history_def hd_window_that_fits(const hd_scene_def *def, const hd_history_def *wanted)
+{
+    enum { BISECTIONS = 40 };
+    double fits = 0.0, most = 1.0;
+    if (1e-9 * hd_history_bytes(wanted) <= def->covariant_memory) return *wanted;
+    for (int k = 0; k < BISECTIONS; k++) {
+        const double middle = 0.5 * (fits + most);
+        const hd_history_def past = part_of(wanted, middle);
+        *(1e-9 * hd_history_bytes(&past) <= def->covariant_memory ? &fits : &most) = middle;
+    }
+    return part_of(wanted, fits);
 }

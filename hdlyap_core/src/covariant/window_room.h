@@ -10,8 +10,12 @@
 hd_history_def hd_window_history(const hd_scene_def *def, double interval, double rate,
                                  int threads);
 
-/** Returns HD_REFUSED, with a line that says why, if that takes more than covariant_memory. */
-HD_MUST_CHECK hd_status hd_window_check_room(const hd_scene_def *def, const hd_history_def *past,
+/** What of this fits into covariant_memory: all of it, or fewer intervals and events, but two. */
+hd_history_def hd_window_that_fits(const hd_scene_def *def, const hd_history_def *wanted);
+
+/** Returns HD_REFUSED, with a line that says why, if a window takes more than covariant_memory with
+ * intervals of this length. */
+HD_MUST_CHECK hd_status hd_window_check_room(const hd_scene_def *def, double interval,
                                              char *message, size_t size);
 
 #endif

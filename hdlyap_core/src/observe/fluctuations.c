@@ -273,10 +273,15 @@ static void fluctuations_add(void *self, const hd_observing *with, const hd_view
     f->follows = true;
 }
 
+static double fluctuations_apart(const hd_scene_def *scene)
+{
+    return scene->fluctuation_time > 0 ? scene->fluctuation_time : INFINITY;
+}
+
 static double fluctuations_sampling(void *self, const hd_observing *with)
 {
     (void)self;
-    return with->scene->fluctuation_time > 0 ? with->scene->fluctuation_time : INFINITY;
+    return fluctuations_apart(with->scene);
 }
 
 static void fluctuations_archive(void *self, hd_archive *archive, const hd_trajectory *now)
@@ -300,5 +305,6 @@ const hd_observable hd_fluctuations_row = {.needs = HD_NEEDS_FRAME | HD_NEEDS_CL
                                            .clear = fluctuations_clear,
                                            .resume = fluctuations_resume,
                                            .add = fluctuations_add,
+                                           .apart = fluctuations_apart,
                                            .sampling = fluctuations_sampling,
                                            .archive = fluctuations_archive};

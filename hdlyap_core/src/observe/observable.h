@@ -39,7 +39,6 @@ typedef struct hd_observing {
     hd_communicator *communicator; /**< NULL: a single rank */
     double block;                  /**< shortest block of averages [time units] */
     hd_ortho *ortho;               /**< NULL without exponents */
-    double longest;                /**< no interval between orthonormalisations will be longer */
     void *const *part; /**< the observables of all rows, NULL for those not asked for; in `create`,
                           only those of earlier rows */
 } hd_observing;
@@ -110,11 +109,13 @@ typedef struct hd_observable {
     void (*report)(void *self, const hd_observing *with, const hd_view *state);
     /** The first vector that it reads of those of all ranks; NULL means 0. */
     int (*first)(void *self, const hd_observing *with);
+    /** Longest time from one measured state to the next that a scene asks for; INFINITY: any. If
+     * NULL, any. */
+    double (*apart)(const hd_scene_def *scene);
     /** Longest time from this measured state to the next that it allows; INFINITY if it allows any.
      */
     double (*sampling)(void *self, const hd_observing *with);
-    /** Called for each leg while somebody listens. Fails with HD_NO_MEMORY or HD_NO_ROOM, on all
-     * ranks alike. */
+    /** Called for each leg while somebody listens. Fails with HD_NO_MEMORY, on all ranks alike. */
     hd_status (*follow)(void *self, const hd_leg *leg);
     /** True if it begins to follow legs with the next interval. If half of the vectors are carried,
      * the frame is then made isotropic to rounding before [T18]. */

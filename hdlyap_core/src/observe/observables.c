@@ -28,12 +28,8 @@ static void look(hd_observables *o, unsigned set)
     o->seen = hd_observables_with(set);
 }
 
-hd_status hd_observables_create(hd_observables *o, const hd_observing *with, char *message,
-                                size_t size)
+hd_status hd_observables_create(hd_observables *o, const hd_observing *with)
 {
-    HD_TRY(hd_communicator_agree(
-        with->communicator,
-        hd_observables_check_longest(with->scene, with->longest, message, size)));
     *o = (hd_observables){.with = *with};
     o->with.part = o->part;
     look(o, with->scene->observe);
@@ -65,6 +61,7 @@ void *hd_observables_result(const hd_observables *o, hd_observed k)
 }
 
 unsigned hd_observables_looked_at(const hd_observables *o) { return o->looked_at; }
+unsigned hd_observables_seen(const hd_observables *o) { return o->seen; }
 
 void hd_observables_look(hd_observables *o, unsigned stages)
 {

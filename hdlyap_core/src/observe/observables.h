@@ -36,10 +36,15 @@ HD_MUST_CHECK hd_status hd_observables_check_ranks(const hd_scene_def *scene, in
 HD_MUST_CHECK hd_status hd_observables_check_longest(const hd_scene_def *scene, double longest,
                                                      char *message, size_t size);
 
-/** Creates the observables that the scene asks for. Ranks agree. Fails as
- * hd_observables_check_longest and the rows do. */
-HD_MUST_CHECK hd_status hd_observables_create(hd_observables *observables, const hd_observing *with,
-                                              char *message, size_t size);
+/** Longest time from one measured state to the next that the observables of a set allow in a scene,
+ * with its reports and its own intervals, if fields are due every `fields` time units; INFINITY:
+ * any.
+ */
+double hd_observables_apart(const hd_scene_def *scene, unsigned set, double fields);
+
+/** Creates the observables that the scene asks for. Ranks agree. Fails as the rows do. */
+HD_MUST_CHECK hd_status hd_observables_create(hd_observables *observables,
+                                              const hd_observing *with);
 void hd_observables_free(hd_observables *observables);
 
 /** The observable of a row; NULL if the scene does not ask for it. */
@@ -50,6 +55,8 @@ void *hd_observables_result(const hd_observables *observables, hd_observed row);
 /** Sets which observables somebody listens to from now on (set of HD_OBSERVE_*); at first all. */
 void hd_observables_look(hd_observables *observables, unsigned stages);
 unsigned hd_observables_looked_at(const hd_observables *observables);
+/** These and the observables that they need. */
+unsigned hd_observables_seen(const hd_observables *observables);
 
 /* For the observables that somebody listens to: */
 

@@ -59,6 +59,11 @@ static void phases_add(void *self, const hd_observing *with, const hd_view *stat
     hd_phases_add(self, with->part[HD_OBSERVED_steps], hd_trajectory_time(state->trajectory));
 }
 
+static double phases_apart(const hd_scene_def *scene)
+{
+    return scene->phase_interval > 0 ? scene->phase_interval : INFINITY;
+}
+
 static double phases_sampling(void *self, const hd_observing *with)
 {
     const double needed = hd_phases_sampling(self, with->part[HD_OBSERVED_steps]),
@@ -76,7 +81,7 @@ static void phases_archive(void *self, hd_archive *archive, const hd_trajectory 
         .with = HD_OBSERVE_STEPS, .quantities = (its_quantities),                                  \
         .needs = HD_NEEDS_FRAME | HD_NEEDS_VECTORS | HD_NEEDS_CLOSE, .bytes = (its_bytes),         \
         .extend = (its_extend), .create = (its_create), .free = phases_free,                       \
-        .clear = phases_clear, .resume = phases_resume, .add = phases_add,                         \
+        .clear = phases_clear, .resume = phases_resume, .add = phases_add, .apart = phases_apart,  \
         .sampling = phases_sampling, .archive = phases_archive                                     \
     }
 const hd_observable hd_phases_row = ROW(&hd_phase_quantities, lp_bytes, lp_extend, lp_create);

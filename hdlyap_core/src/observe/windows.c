@@ -10,6 +10,7 @@
 #include "base/memory.h"
 #include "covariant/archived.h"
 #include "covariant/covariant.h"
+#include "covariant/window_room.h"
 #include "modes/archived.h"
 #include "scene/scene.h"
 #include "tangent/archived.h"
@@ -213,7 +214,7 @@ const hd_observable hd_covariant_row = {.needs = HD_NEEDS_FRAME | HD_NEEDS_WHOLE
                                         .warmup = covariant_warmup,
                                         .check = covariant_check,
                                         .check_ranks = covariant_check_ranks,
-                                        .check_longest = hd_covariant_check_room,
+                                        .check_longest = hd_window_check_room,
                                         .create = covariant_create,
                                         .free = covariant_free,
                                         .clear = covariant_clear,

@@ -62,27 +62,29 @@ void hd_agenda_enter(hd_agenda *a, hd_stage stage, double now)
 
 /* ---- the next interval --------------------------------------------------------------------- */
 
+double hd_agenda_sample_most(const hd_agenda *a)
+{
+    const double block = WHOLE_BLOCK * a->block;
+    const double wanted = fmax(a->schedule.length[HD_AVERAGING] / SAMPLES_MIN, block / IN_A_BLOCK);
+    return fmin(a->sample_max, wanted);
+}
+
 /** A sample lasts 80 collisions of each particle, or 1/32 of the duration. But in a short run,
  * where that is less than a block, it is a block, or the equal part of one that comes nearest to a
  * single interval. */
 double hd_agenda_sample_longest(const hd_agenda *a, const hd_interval *interval)
 {
-    const hd_schedule *s = &a->schedule;
-    const double block = WHOLE_BLOCK * a->block;
-    if (s->stage != HD_AVERAGING) return INFINITY;
-    const double wanted = fmax(s->length[HD_AVERAGING] / SAMPLES_MIN, block / IN_A_BLOCK);
-    const double most = fmin(a->sample_max, wanted);
+    const double block = WHOLE_BLOCK * a->block, most = hd_agenda_sample_most(a);
+    if (a->schedule.stage != HD_AVERAGING) return INFINITY;
     const double usual = hd_interval_longest(interval).length;
     if (most >= block) return most;
     return hd_equal_part(block, usual < most && usual > most / IN_A_SAMPLE ? usual : most);
 }
 
-double hd_agenda_interval_expected(const hd_agenda *a, const hd_interval *interval, bool at_reports,
-                                   double phases)
+double hd_agenda_interval_expected(const hd_agenda *a, const hd_interval *interval, double apart)
 {
     const double sample = hd_agenda_sample_longest(a, interval);
-    const double most = at_reports ? fmin(sample, a->schedule.report_interval) : sample;
-    return fmin(hd_interval_longest(interval).length, fmin(most, phases));
+    return fmin(hd_interval_longest(interval).length, fmin(sample, apart));
 }
 
 /** The next time at which all vectors must be known: the end of the stage, or a report at which

@@ -105,10 +105,11 @@ bool hd_agenda_is_due(const hd_agenda *agenda, unsigned why);
 
 /** Length that a sample should have at most; INFINITY unless averages are taken. */
 double hd_agenda_sample_longest(const hd_agenda *agenda, const hd_interval *interval);
-/** Expected length of intervals. They end early before reports, if at_reports, and before measured
- * states, which are at most `phases` apart. */
+/** The same during the averaging, whatever the stage and the intervals are. */
+double hd_agenda_sample_most(const hd_agenda *agenda);
+/** Expected length of intervals, of which measured states are at most `apart` apart. */
 double hd_agenda_interval_expected(const hd_agenda *agenda, const hd_interval *interval,
-                                   bool at_reports, double phases);
+                                   double apart);
 
 /* ---- changes ------------------------------------------------------------------------------- */
 

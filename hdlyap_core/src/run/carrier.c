@@ -222,9 +222,10 @@ hd_norm hd_carrier_norm(const hd_carrier *c, bool whole)
     return !many || !aligned || whole ? HD_NORM_FULL : HD_NORM_DQ;
 }
 
-double hd_carrier_longest(const hd_carrier *c)
+double hd_carrier_longest(const hd_scene_def *scene)
 {
-    return fmin(COLLISIONS_MOST * c->collision, c->interval.limit);
+    const double most = COLLISIONS_MOST * hd_scene_collision_time(scene);
+    return scene->interval > 0 ? fmin(most, scene->interval) : most;
 }
 
 static hd_status follow(hd_carrier *c, const hd_carrying *how, hd_leg leg)

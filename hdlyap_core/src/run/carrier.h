@@ -63,8 +63,8 @@ int hd_carrier_threads_most(const hd_scene_def *scene, const hd_communicator *co
 
 /** The norm of orthonormalisations that end no sample. whole: an observable needs the full norm. */
 hd_norm hd_carrier_norm(const hd_carrier *carrier, bool whole);
-/** The longest that intervals between orthonormalisations can become. */
-double hd_carrier_longest(const hd_carrier *carrier);
+/** The longest that intervals between orthonormalisations can become in a scene. */
+double hd_carrier_longest(const hd_scene_def *scene);
 
 /** Carries the frame through the whole record and orthonormalises it. Fails with HD_ILL_CONDITIONED
  * if no piece is short enough. */

@@ -434,7 +434,7 @@ hd_status hd_run_read(hd_run **out, hd_archive *archive, const hd_scene_def *sce
     hd_scene_def def = asked;
     def.threads = threads_of(asked.threads, threads);
     hd_run *run = NULL;
-    HD_TRY(hd_run_make(&run, &def, communicator, message, size));
+    HD_TRY(hd_run_make(&run, &def, true, communicator, message, size));
     const hd_status status = hd_communicator_agree(communicator,
                                                    restore(run, archive, &head, message, size));
     run->scene.threads = asked.threads;

@@ -9,6 +9,7 @@
 
 #include "base/check.h"
 #include "base/clock.h"
+#include "hdlyap/room.h"
 #include "run/run.h"
 #include "run/run_state.h"
 #include "scene/scene.h"
@@ -120,11 +121,10 @@ hd_status hd_estimate_run(hd_estimate *out, const hd_scene_def *def, double fiel
     hd_run *run;
     *out = (hd_estimate){.before = def->equilibration + hd_scene_warmup(def),
                          .untried = def->observe & ~hd_observables_tried(def->observe)};
+    HD_TRY(hd_room_check_windows(def, fields_every, message, size));
     HD_TRY(hd_run_create(&run, &tried, message, size));
     hd_run_fields_every(run, fields_every);
-    const double longest = hd_carrier_longest(&run->carrier);
-    hd_status status = hd_observables_check_longest(def, longest, message, size);
-    if (status == HD_OK) status = measure(out, run);
+    const hd_status status = measure(out, run);
     out->target_after = target_after(run, def);
     enlarge(out, &tried, def);
     out->slopes_after = OF_SLOPES * out->errors_after;

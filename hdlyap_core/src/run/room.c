@@ -1,11 +1,13 @@
 /** Scene -> bytes that its run takes, which is the sum over its parts. */
 #include "hdlyap/room.h"
 
+#include <math.h>
 #include <stdio.h>
 
 #include "base/check.h"
 #include "dynamics/archived.h"
 #include "observe/observables.h"
+#include "run/agenda.h"
 #include "run/carrier.h"
 #include "run/gathered.h"
 #include "scene/scene.h"
@@ -83,4 +85,13 @@ hd_status hd_room_check(const hd_scene_def *def, hd_room room, char *message, si
         hd_status_text(HD_NO_MEMORY), def->number, n,
         1e-9 * hd_room_needed(def, threads, room.ranks), 1e-9 * room.bytes, room.limit, fitting);
     return HD_NO_MEMORY;
+}
+
+hd_status hd_room_check_windows(const hd_scene_def *def, double fields_every, char *message,
+                                size_t size)
+{
+    const hd_agenda agenda = hd_agenda_of(def, 1.0 / hd_scene_collision_time(def));
+    const double apart = hd_observables_apart(def, hd_observables_with(def->observe), fields_every);
+    const double longest = fmin(hd_carrier_longest(def), hd_agenda_sample_most(&agenda));
+    return hd_observables_check_longest(def, fmin(longest, apart), message, size);
 }

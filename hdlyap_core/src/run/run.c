@@ -15,6 +15,7 @@
 #include "base/check.h"
 #include "base/clock.h"
 #include "base/memory.h"
+#include "hdlyap/room.h"
 #include "run/order.h"
 #include "run/ranks.h"
 #include "run/run_state.h"
@@ -71,7 +72,7 @@ static hd_view view_of(const hd_run *run)
 
 /* ---- creation ------------------------------------------------------------------------------ */
 
-static hd_status prepare_observables(hd_run *run, char *message, size_t size)
+static hd_status prepare_observables(hd_run *run)
 {
     const hd_carrier *c = &run->carrier;
     const hd_observing with = {.scene = &run->scene,
@@ -81,12 +82,11 @@ static hd_status prepare_observables(hd_run *run, char *message, size_t size)
                                .threads = c->threads,
                                .communicator = run->communicator,
                                .block = hd_agenda_block(&run->agenda),
-                               .ortho = c->ortho,
-                               .longest = hd_carrier_longest(c)};
-    return hd_observables_create(&run->observables, &with, message, size);
+                               .ortho = c->ortho};
+    return hd_observables_create(&run->observables, &with);
 }
 
-static hd_status prepare(hd_run *run, char *message, size_t size)
+static hd_status prepare(hd_run *run)
 {
     const hd_scene_def *scene = &run->scene;
     HD_TRY(hd_communicator_agree(run->communicator, hd_advance_create(&run->advance, scene)));
@@ -98,7 +98,7 @@ static hd_status prepare(hd_run *run, char *message, size_t size)
                              run->communicator, &run->cost));
     run->watch = (hd_watch){.interval = INFINITY, .first = run->carrier.vectors};
     run->fields_first = run->carrier.vectors;
-    return prepare_observables(run, message, size);
+    return prepare_observables(run);
 }
 
 static void enter_stage(hd_run *run, hd_stage stage)
@@ -130,16 +130,18 @@ hd_status hd_run_create_shared(hd_run **out, const hd_scene_def *def, hd_communi
                                char *message, size_t size)
 {
     hd_order_tell(communicator, (hd_order){.kind = HD_ORDER_CREATE, .scene = def});
-    return hd_run_make(out, def, communicator, message, size);
+    return hd_run_make(out, def, false, communicator, message, size);
 }
 
-hd_status hd_run_make(hd_run **out, const hd_scene_def *def, hd_communicator *communicator,
-                      char *message, size_t size)
+hd_status hd_run_make(hd_run **out, const hd_scene_def *def, bool resumed,
+                      hd_communicator *communicator, char *message, size_t size)
 {
     const hd_traffic before = hd_communicator_traffic(communicator);
     *out = NULL;
     HD_TRY(hd_ranks_check(def, communicator, message, size));
     HD_TRY(hd_target_check(def, message, size));
+    HD_TRY(resumed ? hd_observables_check_longest(def, hd_carrier_longest(def), message, size)
+                   : hd_room_check_windows(def, INFINITY, message, size));
     hd_run *run = hd_memory_alloc(1, sizeof *run);
     const hd_status found = hd_communicator_agree(communicator, run ? HD_OK : HD_NO_MEMORY);
     if (found != HD_OK) {
@@ -152,7 +154,7 @@ hd_status hd_run_make(hd_run **out, const hd_scene_def *def, hd_communicator *co
     run->scene = *def;
     run->scene.warmup = hd_scene_warmup(def);
     run->clocks.created = hd_clock_now();
-    const hd_status status = prepare(run, message, size);
+    const hd_status status = prepare(run);
     if (status != HD_OK) {
         hd_run_drop(run);
         return status;
@@ -196,29 +198,26 @@ static double sampling(const hd_run *run)
     return is_needed(run, HD_NEEDS_CLOSE) ? hd_observables_sampling(&run->observables) : INFINITY;
 }
 
-/** The shortest value that `sampling` will have, as far as is known, also before phases are
+/** Longest time from one measured state to the next that is expected, also before phases are
  * followed. */
-static double sampling_expected(const hd_run *run)
+static double apart_expected(const hd_run *run)
 {
-    const bool phases = is_needed(run, HD_NEEDS_CLOSE | HD_NEEDS_VECTORS); /* no other row */
-    const double wanted = phases ? run->scene.phase_interval : 0.0;
-    return wanted > 0 ? fmin(wanted, sampling(run)) : sampling(run);
+    const double wanted = hd_observables_apart(&run->scene, hd_observables_seen(&run->observables),
+                                               run->agenda.in_force.field_interval);
+    return fmin(wanted, sampling(run));
 }
 
 /** Makes the frame orthonormal now; measured: in the full norm. */
 static hd_status orthonormalise(hd_run *run, bool measured)
 {
-    const bool at_reports = hd_observables_need(&run->observables, HD_NEEDS_REPORTS) ||
-                            hd_observables_need(&run->observables, HD_NEEDS_FIELDS);
-    const hd_carrying how = {
-        .averaging = is_averaging(run),
-        .measured = measured,
-        .observed = is_needed(run, HD_NEEDS_FRAME),
-        .whole = is_needed(run, HD_NEEDS_WHOLE),
-        .observables = is_averaging(run) ? &run->observables : NULL,
-        .expected = hd_agenda_interval_expected(&run->agenda, &run->carrier.interval, at_reports,
-                                                sampling_expected(run)),
-        .trajectory = run->advance.trajectory};
+    const hd_carrying how = {.averaging = is_averaging(run),
+                             .measured = measured,
+                             .observed = is_needed(run, HD_NEEDS_FRAME),
+                             .whole = is_needed(run, HD_NEEDS_WHOLE),
+                             .observables = is_averaging(run) ? &run->observables : NULL,
+                             .expected = hd_agenda_interval_expected(
+                                 &run->agenda, &run->carrier.interval, apart_expected(run)),
+                             .trajectory = run->advance.trajectory};
     const bool carried = hd_record_duration(run->carrier.record) > 0;
     HD_TRY(hd_carrier_orthonormalise(&run->carrier, how));
     if (!carried) return HD_OK;

@@ -44,8 +44,10 @@ struct hd_run {
     hd_error_trend errors; /**< trend of the error of the smallest positive exponents */
 };
 
-/** As hd_run_create_shared and hd_run_free, but for calls that all ranks make by themselves. */
-HD_MUST_CHECK hd_status hd_run_make(hd_run **out, const hd_scene_def *def,
+/** As hd_run_create_shared and hd_run_free, but for calls that all ranks make by themselves.
+ * resumed: a checkpoint will be read into it; its windows may have become too large for
+ * covariant_memory by other report intervals, and are then left out. */
+HD_MUST_CHECK hd_status hd_run_make(hd_run **out, const hd_scene_def *def, bool resumed,
                                     hd_communicator *communicator, char *message, size_t size);
 void hd_run_drop(hd_run *run);
 

@@ -134,6 +134,15 @@ static void log_creation(const settings *set)
                 def->number, set->particles);
 }
 
+/** Creates a run that is not resumed. Only the node knows yet how often fields are due. */
+static hd_status create_anew(app *a, char *message, size_t size)
+{
+    const settings *set = &a->set;
+    const hd_status status = hd_room_check_windows(&set->def, set->field_interval, message, size);
+    if (status != HD_OK) return status;
+    return hd_run_create_shared(&a->run, &set->def, a->ranks, message, size);
+}
+
 /** Creates the run, unless its checkpoints could not be written. */
 static int create_run(app *a)
 {
@@ -145,7 +154,7 @@ static int create_run(app *a)
         status = hd_run_resume_shared(&a->run, set->resume, &set->def, a->ranks, message,
                                       sizeof message);
     else if (status == HD_OK)
-        status = hd_run_create_shared(&a->run, &set->def, a->ranks, message, sizeof message);
+        status = create_anew(a, message, sizeof message);
     if (*set->checkpoint || a->ranks) hdr_node_stop_within(stop_keeping_seconds, EXIT_SUCCESS);
     if (status == HD_OK) hd_run_fields_every(a->run, set->field_interval);
     if (status == HD_OK) hd_run_fields_from(a->run, first_field(set));
@@ -246,6 +255,17 @@ static bool look_after(app *a)
                                                                         : stop_step_seconds);
 }
 
+/** Says last from where the run can go on. */
+static void log_checkpoint(const settings *set, const worker_state *state, bool ended)
+{
+    const double time = state->checkpoint.time;
+    if (time < 0) return;
+    if (time != state->last.time)
+        hdr_log(HDR_WARN, "the checkpoint is not of the end, but of simulated time %.6g", time);
+    if (ended)
+        hdr_log(HDR_INFO, "the checkpoint is %s; resume:=FILE goes on from it", set->checkpoint);
+}
+
 /** Finishes the run; after a fault there is no last message, as log and diagnostics say it. */
 static int finish(app *a, bool ended)
 {
@@ -256,12 +276,8 @@ static int finish(app *a, bool ended)
     diagnostics_publish(&a->diag, &state);
     log_end(&state);
     if (ended) table_result(&a->set, a->run);
-    if (ended && state.checkpoint.time >= 0)
-        hdr_log(HDR_INFO, "the checkpoint is %s; resume:=FILE goes on from it", a->set.checkpoint);
     if (state.saving) hdr_log(HDR_ERROR, "checkpoint not written: the disk does not answer");
-    if (*a->set.checkpoint && state.status == HD_OK && state.checkpoint.time != state.last.time)
-        hdr_log(HDR_WARN, "the checkpoint is not of the end, but of simulated time %.6g",
-                state.checkpoint.time);
+    log_checkpoint(&a->set, &state, ended);
     const bool unkept = state.saving || state.checkpoint.failed;
     return state.status == HD_OK && unkept ? EXIT_FILE_FAULT : fault_status(state.status);
 }

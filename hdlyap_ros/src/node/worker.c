@@ -293,16 +293,11 @@ static void explain(worker *w, hd_status status)
 {
     const hd_scene_def *scene = hd_run_scene(w->run);
     const hd_dynamics *of = hd_dynamics_of(scene);
-    const double interval = hd_run_cost(w->run).interval;
     char *fault = w->state.fault;
     const size_t size = sizeof w->state.fault;
     snprintf(fault, size, "%s", hd_status_text(status));
     if (status == HD_ENERGY_LOST && of->step)
         snprintf(fault, size, "%s, %.4g", hd_status_text(status), of->step(scene));
-    if (status == HD_NO_ROOM && hd_covariant_check_room(scene, interval, fault, size) == HD_OK)
-        snprintf(fault, size,
-                 "%s = %.3g GB, as orthonormalisations are less than %.3g time units apart",
-                 hd_status_text(status), scene->covariant_memory, interval);
 }
 
 static void *work(void *context)

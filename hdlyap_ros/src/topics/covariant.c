@@ -146,10 +146,11 @@ static void warn(covariant_said *before, const hd_run *run, const hd_covariant_r
                 "%.2g rad at the end of a window",
                 hd_run_scene(run)->covariant_transient, worst);
     if (lost > before->lost)
-        hdr_log(HDR_WARN,
-                "covariant_memory = %g: too small, as orthonormalisations became more frequent; "
-                "%ld windows are left out so far",
-                hd_run_scene(run)->covariant_memory, lost);
+        hdr_log(
+            HDR_WARN,
+            "covariant_memory = %g: too small for orthonormalisations as frequent as these; %ld "
+            "windows are left out so far",
+            hd_run_scene(run)->covariant_memory, lost);
     before->warned = worst > SPACES_APART;
     before->lost = lost;
 }

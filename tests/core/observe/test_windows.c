@@ -1,6 +1,5 @@
 /** Covariant vectors of whole runs: when windows begin, what gives them up, and what a run refuses
  * for them. */
-#include <errno.h>
 #include "base/memory.h"
 #include "runs.h"
 
@@ -254,24 +253,89 @@ TEST(too_long_a_window_is_refused)
     hd_run_free(created(scene));
 }
 
-static hd_status run_to_a_fault(const hd_scene_def *scene)
+/** Of what is certain beforehand: intervals that end at each report, at fields, at samples of
+ * phases and of fluctuations, or because the duration is short. Each leaves more triangles than
+ * fit. */
+TEST(windows_without_room_are_refused_beforehand)
 {
-    OWNED(hd_run) *run = created(*scene);
-    hd_status status = HD_OK;
-    while (status == HD_OK && hd_run_stage(run) != HD_FINISHED) status = hd_run_advance(run);
-    const int fault = errno;
-    errno = fault;
-    return status;
+    const hd_scene_def fits = scene_from(small(), .interval = 0.0, .covariant_memory = 1e-3,
+                                         .duration = 0.0);
+    const hd_scene_def without[] = {
+        scene_from(fits, .observe |= HD_OBSERVE_HYDRO, .report_interval = 0.1),
+        scene_from(fits, .observe |= HD_OBSERVE_STRUCTURE, .report_interval = 0.1),
+        scene_from(fits, .observe |= HD_OBSERVE_PHASES, .phase_interval = 0.1),
+        scene_from(fits, .observe |= HD_OBSERVE_FLUCTUATIONS, .fluctuation_time = 0.1),
+        scene_from(fits, .interval = 0.1)};
+    const hd_scene_def with_fields = scene_from(fits, .observe |= HD_OBSERVE_FIELDS,
+                                                .report_interval = 0.1);
+    char message[400] = "";
+    hd_run *run = NULL;
+    hd_run_free(created(fits));
+    for (size_t k = 0; k < sizeof without / sizeof *without; k++) {
+        assert_int_equal(hd_run_create(&run, &without[k], message, sizeof message), HD_REFUSED);
+        assert_non_null(strstr(message, "at most 0.1 time units apart"));
+        assert_non_null(strstr(message, "1268 triangles"));
+    }
+    CHECK_OK(hd_room_check_windows(&fits, INFINITY, NULL, 0));
+    CHECK_OK(hd_room_check_windows(&with_fields, 10.0, NULL, 0));
+    CHECK_OK(hd_room_check_windows(&with_fields, INFINITY, NULL, 0));
+    assert_int_equal(hd_room_check_windows(&with_fields, 0.0, message, sizeof message), HD_REFUSED);
+    assert_non_null(strstr(message, "1268 triangles"));
+    hd_estimate estimate;
+    assert_int_equal(hd_estimate_run(&estimate, &with_fields, 0.0, NULL, 0), HD_REFUSED);
+}
+
+/** All windows of this run are left out; it goes on to its end. */
+static void check_all_are_left_out(hd_run *run)
+{
+    finish(run);
+    assert_int_equal(hd_covariant_read(hd_run_covariant(run)).windows, 0);
+    assert_true(hd_covariant_read(hd_run_covariant(run)).lost > 0);
+    assert_true(hd_covariant_bytes(hd_run_covariant(run)) <=
+                1e9 * hd_run_scene(run)->covariant_memory);
 }
 
 /** Intervals that are as long as they choose are known when averaging begins. */
-TEST(too_little_room_is_found_when_windows_begin)
+TEST(windows_that_turn_out_to_have_no_room_are_left_out)
 {
     hd_scene_def scene = scene_from(small(), .exponents = HD_EXPONENTS_ALL_INDEPENDENT,
                                     .interval = 0.0);
     scene.accuracy = 1e-12; /* intervals as short as they get */
     scene.covariant_memory = 1e-3;
-    assert_int_equal(run_to_a_fault(&scene), HD_NO_ROOM);
+    OWNED(hd_run) *run = created(scene);
+    check_all_are_left_out(run);
+}
+
+/** By a report interval that is changed while the run goes on; a reset and a resumed run begin
+ * windows where there is no room, too, and find it again once reports are rare. */
+TEST(who_begins_a_window_without_room_leaves_it_out)
+{
+    static const char path[] = "windows.test";
+    int count;
+    const hd_parameter *report = hd_scene_parameters(&count);
+    while (strcmp(report->name, "report_interval") != 0) report++;
+    const hd_scene_def scene = scene_from(small(), .observe |= HD_OBSERVE_HYDRO,
+                                          .covariant_memory = 1.4e-3);
+    OWNED(hd_run) *run = created(scene);
+    step_to(run, 90.0);
+    assert_true(hd_covariant_read(hd_run_covariant(run)).windows > 0);
+    CHECK_OK(hd_run_change(run, report, "0.02", NULL, 0));
+    step_to(run, 120.0);
+    assert_true(hd_covariant_read(hd_run_covariant(run)).lost > 0);
+    CHECK_OK(hd_run_save(run, path, "", NULL, 0));
+    hd_run *resumed;
+    CHECK_OK(hd_run_resume(&resumed, path, NULL, NULL, 0));
+    CHECK_OK(hd_run_reset_average(run));
+    check_all_are_left_out(run);
+    const long before = hd_covariant_read(hd_run_covariant(resumed)).lost;
+    step_to(resumed, 160.0);
+    assert_true(hd_covariant_read(hd_run_covariant(resumed)).lost > before);
+    CHECK_OK(hd_run_change(resumed, report, "1", NULL, 0));
+    const long windows = hd_covariant_read(hd_run_covariant(resumed)).windows;
+    finish(resumed);
+    assert_true(hd_covariant_read(hd_run_covariant(resumed)).windows > windows);
+    hd_run_free(resumed);
+    assert_int_equal(remove(path), 0);
 }
 
 /** Once its ring has gone round, a run with windows takes no more memory. */

@@ -42,6 +42,17 @@ TEST(the_first_sample_after_a_reset_is_a_whole_one)
     assert_int_equal(hd_agenda_reached(&agenda, &pace), HD_DUE_INTERVAL);
 }
 
+/** Of 1000 time units a 32nd, of a long run as long as 80 collisions; whatever the stage. */
+TEST(a_sample_is_known_to_be_no_longer)
+{
+    hd_scene_def scene = scene(.number = 30, .density = 0.6, .duration = 1000.0);
+    hd_agenda agenda = hd_agenda_of(&scene, 1.0);
+    CHECK_CLOSE(hd_agenda_sample_most(&agenda), 1000.0 / 32.0, 1e-12);
+    scene.duration = 0.0;
+    agenda = hd_agenda_of(&scene, 1.0);
+    CHECK_CLOSE(hd_agenda_sample_most(&agenda), 80.0, 1e-12);
+}
+
 /** A little shorter, not by a sixth. */
 TEST(intervals_fit_the_time_of_phases_where_that_is_cheap)
 {
