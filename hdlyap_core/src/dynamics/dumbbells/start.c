@@ -25,13 +25,15 @@ typedef struct rows {
 
 /** The distance of `count` sites along an edge of this length; negative if there is no room. first:
  * place of the first site. Between walls, sites are at least `reach` away from a wall, and there is
- * room for the shift of every other row, `more` distances. */
+ * room for the shift of every other row, `more` distances. Without walls the edge must be above
+ * `least`. */
 static double spacing(double *first, double length, int count, double more, hd_boundary boundary,
-                      double reach)
+                      double reach, double least)
 {
     const double room = length - 2.0 * reach, gaps = count - 1 + more + 2.0 * AT_WALL;
     *first = boundary == HD_PERIODIC ? 0.25 * length / count : reach + room * AT_WALL / gaps;
-    return boundary == HD_PERIODIC ? length / count : room / gaps;
+    if (boundary == HD_PERIODIC) return length > least ? length / count : -1.0;
+    return room >= HD_ROOM_MIN ? room / gaps : -1.0;
 }
 
 /** The gap between two parallel dumbbells whose centres are (x, y) apart, x along the bonds. */
@@ -42,13 +44,21 @@ static double gap_of(double x, double y, double bond)
     return sqrt(least) - 1.0;
 }
 
+/** How many sites after one, this far apart, could hold what touches it: as far as there are sites,
+ * or all round. */
+static int sites_near(double length, double apart, int count)
+{
+    return (int)fmin(1.0 + length / apart, count);
+}
+
 /** The least gap between a dumbbell and those that come after it and could touch it. It stops at a
  * gap of at most `lost`, which is no better than the best rows so far. */
 static double least_gap(const rows *r, const hd_boundary *boundary, double bond, double lost)
 {
     const bool round[2] = {boundary[r->along] == HD_PERIODIC,
                            boundary[1 - r->along] == HD_PERIODIC};
-    const int far[2] = {2 + (int)((1.0 + bond) / r->column), 1 + (int)((1.0 + bond) / r->row)};
+    const int far[2] = {1 + sites_near(1.0 + bond, r->column, r->columns),
+                        sites_near(1.0 + bond, r->row, r->rows)};
     double least = INFINITY;
     for (int n = 0; n <= far[1] && least > lost; n++)
         for (int c = -far[0]; c <= far[0] && least > lost; c++) {
@@ -71,9 +81,12 @@ static void try_rows(rows *best, const hd_scene_def *def, const double *box, row
     r.columns = (int)(((int64_t)def->number + r.rows - 1) / r.rows);
     if (r.shift > 0 && (r.rows == 1 || (boundary[1 - r.along] == HD_PERIODIC && r.rows % 2 == 1)))
         return;
-    r.column = spacing(&r.first[0], box[r.along], r.columns, r.shift, boundary[r.along], reach[0]);
-    r.row = spacing(&r.first[1], box[1 - r.along], r.rows, 0, boundary[1 - r.along], reach[1]);
-    r.gap = r.column > 0 && r.row > 0 ? least_gap(&r, boundary, bond, best->gap) : -1.0;
+    r.column = spacing(&r.first[0], box[r.along], r.columns, r.shift, boundary[r.along], reach[0],
+                       1.0 + bond);
+    r.row = spacing(&r.first[1], box[1 - r.along], r.rows, 0, boundary[1 - r.along], reach[1],
+                    1.0 + bond);
+    const double lost = fmax(best->gap, 0.0); /* dumbbells that touch are of no use */
+    r.gap = r.column > 0 && r.row > 0 ? least_gap(&r, boundary, bond, lost) : -1.0;
     if (r.gap > best->gap) *best = r;
 }
 
