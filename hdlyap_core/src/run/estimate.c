@@ -13,6 +13,7 @@
 #include "run/run.h"
 #include "run/run_state.h"
 #include "scene/scene.h"
+#include "scene/wave.h"
 
 /** Shortest time of the trial [s]. */
 static const double TRIAL_SECONDS = 1.0;
@@ -43,7 +44,9 @@ static hd_scene_def smaller(const hd_scene_def *def)
     if (part >= 1.0) return scene;
     scene.number = (int)(part * def->number);
     if (def->exponents > 0) scene.exponents = (int)(part * vectors); /* a number of them */
-    scene.max_wave_number /= sqrt(part);
+    if (def->max_wave_number > 0) /* the same waves are shorter in a smaller box */
+        scene.max_wave_number *= hd_wave_limits_of(&scene).smallest /
+                                 hd_wave_limits_of(def).smallest;
     return hd_scene_check(&scene, NULL, 0) == HD_OK ? scene : *def;
 }
 
@@ -56,7 +59,7 @@ hd_status hd_estimate_errors(double *after, const hd_scene_def *def)
     return HD_OK;
 }
 
-static hd_scene_def trial_scene(const hd_scene_def *def)
+hd_scene_def hd_estimate_trial(const hd_scene_def *def)
 {
     hd_scene_def trial = *def;
     trial.equilibration = hd_scene_collision_time(def);
@@ -117,7 +120,7 @@ static void enlarge(hd_estimate *e, const hd_scene_def *tried, const hd_scene_de
 hd_status hd_estimate_run(hd_estimate *out, const hd_scene_def *def, double fields_every,
                           char *message, size_t size)
 {
-    const hd_scene_def tried = trial_scene(def);
+    const hd_scene_def tried = hd_estimate_trial(def);
     hd_run *run;
     *out = (hd_estimate){.before = def->equilibration + hd_scene_warmup(def),
                          .untried = def->observe & ~hd_observables_tried(def->observe)};

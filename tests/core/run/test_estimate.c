@@ -134,6 +134,31 @@ TEST(extent_is_the_runs)
     hd_run_free(run);
 }
 
+/** Of 4000 particles fewer are tried, with the waves of all, in the plane and in space, between
+ * walls and without. */
+TEST(a_smaller_trial_has_the_same_waves)
+{
+    for (int k = 0; k < 4; k++) {
+        hd_scene_def def = scene(.particles = k / 2 ? HD_SPHERES : HD_DISKS, .number = 4000,
+                                 .density = 0.5, .aspect = 0.9, .exponents = 4000);
+        if (k % 2) def.boundary[0] = R;
+        def.max_wave_number = 3.1 * hd_wave_limits_of(&def).smallest;
+        const hd_scene_def tried = hd_estimate_trial(&def);
+        enum { MOST = 200 };
+        hd_wave wave[MOST], waves_tried[MOST];
+        const int count = hd_waves(&def, wave, MOST);
+        assert_in_range(tried.number, 100, 2000);
+        assert_in_range(count, 6, MOST);
+        assert_int_equal(hd_waves(&tried, waves_tried, MOST), count);
+        for (int w = 0; w < count; w++) { /* walls may change the order of their numbers */
+            int found = 0;
+            for (int t = 0; t < count; t++)
+                found += memcmp(wave[w].n, waves_tried[t].n, sizeof wave[w].n) == 0;
+            assert_int_equal(found, 1);
+        }
+    }
+}
+
 /** Beyond 800 disks fewer of them are tried: the cube of N, and the time of sound. */
 TEST(seconds_of_many_disks)
 {
