@@ -45,18 +45,21 @@ parse() {
     out=$(realpath -m -- "${out:-$BUILD/demo/$scene}")
 }
 
-# Ends with the log's last words if the node or its recorder did not end well.
+# What tells a bag from another of its name, which the recorder would rename; empty if there is none.
+stamp() { stat -c '%i %y' "$out/run.bag" 2>/dev/null || true; }
+
+# check_run STAMP: ends with the log's last words if the node or its recorder did not end well. STAMP: of the bag before.
 check_run() {
     local died
     died=$(grep -a 'process has died' "$LOG" | head -n 1) || true
-    [[ -z $died && -f $out/run.bag ]] && return
+    [[ -z $died && $(stamp) != "$1" ]] && return
     grep -aE 'FATAL|ERROR|died|Exception' "$LOG" | tail -n 5 >&2 || true
     die "the run failed; everything it said is in $LOG"
 }
 
 run_scene() {
-    local launch follow seen=0
-    rm -f "$out/run.bag" "$out/run.bag.active"
+    local launch follow seen=0 before
+    before=$(stamp)
     start roslaunch hdlyap run.launch "scene:=$scene" "duration:=$duration" \
         record:=true "bag:=$out/run.bag" >"$LOG" 2>&1
     launch=$CHILD
@@ -69,7 +72,7 @@ run_scene() {
         ((seen != 1)) || stop "$launch" # the node is gone
     fi
     finish "$launch" || true
-    check_run
+    check_run "$before"
 }
 
 # finish_soon PID: a follower sees by itself that its node has gone, given a few seconds.

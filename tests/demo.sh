@@ -83,6 +83,7 @@ check names_an_lp_step has_step 'LP\(1,0\)'
 check writes_lp_figures is_complete "$WORK/channel" spectrum steps dispersion modes p_mode phases
 LOG=$WORK/second.log
 check runs_again gives_status 0 demo --scene quick --duration 100 --out "$WORK/out"
+check keeps_the_old_bag test -s "$WORK/out/run.bag.old"
 check builds_once gives_status 1 grep -E 'Building|Linking' "$BUILD/log/build.log"
 LOG=$WORK/int.log
 check ends_on_int gives_status 130 interrupted INT as_background_job

@@ -161,6 +161,19 @@ class Export(Tools):
         self.plot(*bags, '--csv', self.csv, '--npz', self.npz)
         return sorted(name[: -len('.csv')] for name in os.listdir(self.csv))
 
+    def test_a_bag_is_not_overwritten(self):
+        """By a slip of its name."""
+        bag = self.write(made.small_run())
+        with open(bag, 'rb') as file:
+            before = file.read()
+        done = self.check('plot', bag, '--out', self.out, '--npz', bag)
+        self.assertEqual(
+            done.error,
+            f'hdlyap plot: {bag}: must be another file: it is a bag, which is not overwritten\n',
+        )
+        with open(bag, 'rb') as file:
+            self.assertEqual(file.read(), before)
+
     def table(self, name):
         return pandas.read_csv(os.path.join(self.csv, name + '.csv'), comment='#', index_col=0)
 

@@ -356,6 +356,21 @@ TEST(Parameters, Defaults)
     EXPECT_NEAR(published.warmup, 97.48, 0.01); /* 3 / (0.05 c_T k), c_T = 3.285 */
 }
 
+/** Whatever the node makes of them, in alphabetic order; equal values have one text. */
+TEST(Parameters, AsTheyWereGiven)
+{
+    EXPECT_EQ(begun("number: 20\ndensity: 0.70\naspect: 1\nparticles: soft_disks\n"
+                    "time_step: 0.0\nwarmup: auto\ninterval: auto\nduration: '2'\n"
+                    "observables: [state,spectrum]\nchanges: ['5 report_interval=2.0']\n"),
+              "");
+    EXPECT_EQ(listed(published.given),
+              "[aspect=1, changes=[5 report_interval=2.0], density=0.7, duration=2, interval=auto, "
+              "number=20, observables=[state, spectrum], particles=soft_disks, time_step=0, "
+              "warmup=auto]");
+    EXPECT_EQ(listed(published.observables), "[spectrum, state]");
+    EXPECT_GT(published.warmup, 0.0);
+}
+
 /** As rosparam would hand it over: YAML 1.1, also within a list that rosrun has as one text. */
 TEST(Parameters, OfYaml)
 {

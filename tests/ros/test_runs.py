@@ -21,8 +21,8 @@ import rospkg
 import harness
 import made
 from terminal import Terminal
-from hdlyap.msg import RunStatus
-from hdlyap.runs import bags, display, run, scene, tree, work
+from hdlyap.msg import Change, RunStatus
+from hdlyap.runs import asked, bags, display, run, scene, tree, work
 
 GUIDE = os.path.join(os.path.dirname(os.path.abspath(__file__)), '../../doc/user_guide.md')
 LAUNCH = os.path.join(rospkg.RosPack().get_path('hdlyap'), 'launch')
@@ -171,32 +171,27 @@ class Bags(InFolder):
         self.assertEqual(self.files(), ['run.bag.active'])
 
 
-class Done(InFolder):
-    """Whether the bag is all of a run."""
+class Made(InFolder):
+    """A run whose bag is made."""
 
     def of(self, **changed):
         return run.Planned('one', {**run.usual(), 'scene': 'one', 'duration': 7.0, **changed})
 
-    def lacks(self, stage=RunStatus.FINISHED, progress=1.0, of=None, **said):
-        """Of a made bag, whose run_info says what it was run with."""
+    def lacks(self, stage=RunStatus.FINISHED, progress=1.0, of=None, given=(), **said):
+        """Of a made bag. given: what it was asked for, if it was something else; said: what else
+        run_info says."""
         of = of or self.of()
-        info = {
-            name: value for name, value in of.parameters.items() if name in made.RunInfo.__slots__
-        }
-        info.update(
-            {
-                'warmup': 40.0,
-                'interval': 0.0,
-                'phase_interval': 0.0,
-                'fluctuation_time': 0.0,
-                **said,
-            }
-        )
+        texts = {name: asked.text(value) for name, value in of.parameters.items()}
+        info = dict(given=['='.join(one) for one in {**texts, **dict(given)}.items()], **said)
         last = made.status(150.0, stage=stage, progress=progress)
         made.write(
             of.bag(self.folder), [made.run_info(**info), made.status(120.0), made.cost(150.0), last]
         )
         return of.lacks(self.folder)
+
+
+class Done(Made):
+    """Whether the bag is all of a run."""
 
     def test_whole(self):
         cut = 'the run has not reached its end'
@@ -209,23 +204,139 @@ class Done(InFolder):
         self.assertEqual(self.of().lacks(self.folder), cut)
 
     def test_parameters(self):
-        """As they are in run_info; how the run was computed makes no difference, nor what the
-        node has chosen."""
-        of = self.of(observables=['spectrum', 'steps'], duration=7, interval=0.5, seed='1')
-        same = dict(interval=0.5, threads=64, wait_for_subscribers=['spectrum'], resume='kept')
-        self.assertEqual(self.lacks(of=of, **same), '')
+        """As they were given; how the run was computed makes no difference."""
+        of = self.of(observables=['steps', 'spectrum'], duration=7, interval=0.5, seed='1')
+        same = dict(threads='64', wait_for_subscribers='all', resume='kept', duration='7.0')
+        self.assertEqual(self.lacks(of=of, given=same), '')
         for name, value in dict(
-            duration=7.5,
-            number=21,
+            duration='7.5',
+            number='21',
             seed='2',
             scene='two',
-            interval=0.0,
-            observables=['steps'],
+            interval='auto',
+            warmup='40',
+            observables='[steps]',
             boundary_x='reflecting',
-            density=0.71,
+            density='0.71',
         ).items():
-            said = self.lacks(of=of, **{**same, name: value})
-            self.assertIn(f'it was run with {name} = {value or "auto"}, not ', said)
+            said = self.lacks(of=of, given={**same, name: value})
+            self.assertIn(f'it was run with {name} = {value}, not ', said)
+
+    def test_chosen_by_the_node(self):
+        """Makes no difference: what auto and 0 got, the order of topics, the time of a change."""
+        of = self.of(
+            particles='soft_disks',
+            **run.own()['soft_disks'],
+            observables=['steps', 'spectrum'],
+            changes=['5 report_interval=2.0'],
+        )
+        made_ones = [Change(sim_time=5.02, name='report_interval', before='1', value='2')]
+        self.assertEqual(
+            self.lacks(
+                of=of,
+                particles='soft_disks',
+                warmup=40.0,
+                own=['time_step=0.0026', 'potential=wca'],
+                observables=['spectrum', 'steps'],
+                changes=made_ones,
+            ),
+            '',
+        )
+        made_ones.append(Change(sim_time=6.0, name='duration', before='7', value='3'))
+        self.assertEqual(
+            self.lacks(of=of, particles='soft_disks', changes=made_ones),
+            'duration was set to 3 while it went on',
+        )
+
+    def test_not_given(self):
+        """Elsewhere it may have been left out."""
+        of = self.of(number=20)
+        texts = [f'{name}={of.parameters[name]}' for name in ('scene', 'number', 'duration')]
+        for left_out in range(2):
+            made.write(
+                of.bag(self.folder),
+                [
+                    made.run_info(given=texts[: 3 - left_out]),
+                    made.cost(150.0),
+                    made.status(150.0, stage=RunStatus.FINISHED, progress=1.0),
+                ],
+            )
+            self.assertEqual(
+                of.lacks(self.folder), left_out * 'it was run with duration = 0, not 7'
+            )
+
+    def test_texts(self):
+        """As those of the node."""
+        for value, text in (
+            (400, '400'),
+            (400.0, '400'),
+            (0.1 + 0.2, '0.30000000000000004'),
+            (1e-8, '1e-08'),
+            ('1e-8', '1e-8'),
+            (['a', 'b'], '[a, b]'),
+            ('[a,b]', '[a, b]'),
+            ('[]', '[]'),
+            ('"5"', '5'),
+            ('', ''),
+            ('[', '['),
+            ([3, 14.0], '[3, 14]'),
+        ):
+            self.assertEqual(asked.text(value), text)
+
+
+class Kept(Made):
+    """What becomes of the bag of a run that has ended."""
+
+    def ended(self, **given):
+        """A Job whose bag is made."""
+        job = work.Job.__new__(work.Job)
+        job.run, job.log, job._folder = self.of(), self.path('log'), self.folder
+        job._new, job._subscriber = self.path('under_way', 'one.7'), mock.Mock()
+        job.status, job._began = None, 0.0
+        self.write('log')
+        if not os.path.exists(job._new):
+            os.makedirs(job._new)
+        with mock.patch.object(self, 'folder', job._new):
+            self.lacks(given=given)
+        return job
+
+    def bags(self):
+        found = (name for _, _, names in os.walk(self.folder) for name in names)
+        return sorted(name for name in found if '.bag' in name)
+
+    def test_in_its_place(self):
+        job = self.ended()
+        job.close()
+        job.leave()
+        self.assertEqual(os.listdir(self.folder), ['log', 'one.bag'])
+        self.assertEqual(job.run.lacks(self.folder), '')
+
+    def test_of_another_run(self):
+        """It is complete, and kept; so is what was in its place."""
+        self.write('one.bag', 'of a year')
+        job = self.ended(density='0.6')
+        with self.assertRaisesRegex(work.WorkError, 'it was run with density = 0.6, not 0'):
+            job.close()
+        job.leave()
+        self.assertEqual(self.bags(), ['one.bag', 'one.bag.old'])
+        self.assertIn('density', job.run.lacks(self.folder))
+
+    def test_while_its_place_is_taken(self):
+        job = self.ended()
+        with mock.patch.object(bags, 'keep', side_effect=bags.InUse('process 7 writes it')):
+            with self.assertRaisesRegex(work.WorkError, 'is still in .*one.7: process 7 writes'):
+                job.close()
+        job.leave()
+        self.assertEqual(os.listdir(job._new), ['one.bag'])
+
+    def test_when_all_are_stopped(self):
+        """It had just reached its end."""
+        job = self.ended(density='0.6')
+        job.tree = tree.Tree(['true'])
+        all_of_it = work.Work([], self.folder, self.folder, 1, '1G')
+        all_of_it.under_way.append(job)
+        all_of_it.stop([signal.SIGINT])
+        self.assertEqual(self.bags(), ['one.bag'])
 
 
 class Machines(InFolder):

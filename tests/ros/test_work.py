@@ -10,6 +10,7 @@ import signal
 import sys
 
 import rosbag
+from std_srvs.srv import Trigger
 import yaml
 
 import hdlyap
@@ -131,7 +132,7 @@ class Work(InFolder):
     def check_kept(self, said, one, two):
         for path, why in (
             (one, 'the run has not reached its end'),
-            (two, 'it was run with duration = 2.0, not 3.0'),
+            (two, 'it was run with duration = 2, not 3'),
         ):
             line = f'hdlyap sweep: {path} was there already: it is now {path}.old, as {why}\n'
             self.assertIn(line, said)
@@ -149,6 +150,36 @@ class Work(InFolder):
             )
         self.assertRegex(said, r'(?m)^3 of 4 runs done, 1 failed in \d+:\d\d$')
         self.assertIn(f'3 of 4 runs are in {self.out}\n', said)
+
+    def test_chosen_by_the_node(self):
+        """Is no difference from what was asked for: auto and 0, the order of topics, the time of a
+        change."""
+        runs = dict(
+            soft=dict(TINY, particles='soft_disks', number=16),
+            turned=dict(TINY, observables=['state', 'spectrum']),
+            changed=dict(TINY, duration=20.0, changes=['5 report_interval=2']),
+        )
+        self.sweep(**runs)
+        done = self.run_ids()
+        self.assertEqual(sorted(done), sorted(runs))
+        self.assertEqual(self.sweep(**runs), f'3 of 3 runs are in {self.out}\n')
+        self.assertEqual(self.run_ids(), done)
+
+    def test_stopped(self):
+        """It has ended, but it is not the run that was asked for: its bag is kept, and the run done
+        again."""
+        process = self.begin(one=LONG)
+        self.await_nodes(process, 'one')
+        stop = harness.service('stop', Trigger, 'one/hdlyap')
+        self.assertTrue(wait_until(lambda: stop().success))
+        self.assertEqual(process.wait(LATEST), 1, process.text())
+        self.assertRegex(process.text(), 'sweep: one: duration was set to .* while it went on; all')
+        (stopped,) = self.run_ids().values()
+        said = self.sweep(one=TINY)
+        self.assertIn(
+            f'{self.out}/one.bag was there already: it is now {self.out}/one.bag.old', said
+        )
+        self.assertEqual(hdlyap.load(os.path.join(self.out, 'one.bag.old')).info.run_id, stopped)
 
     # ---- ends ------------------------------------------------------------------------------------
 

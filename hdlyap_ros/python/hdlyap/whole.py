@@ -6,11 +6,15 @@ import io
 import os
 import uuid
 
+BAG = b'#ROSBAG'  # how a bag begins
+
 
 @contextlib.contextmanager
 def written(path):
     """Gives a name beside the path, with the same ending, to write to. At the end that file
-    replaces an older one in one step, but only if all went well and it was written."""
+    replaces an older one in one step, but only if all went well and it was written. A bag is never
+    replaced: that raises OSError."""
+    _refuse_bag(path)
     folder, name = os.path.split(path)
     unfinished = os.path.join(folder, f'.{uuid.uuid4().hex}.{name}')  # others may write it, too
     try:
@@ -20,6 +24,14 @@ def written(path):
     finally:
         if os.path.exists(unfinished):
             os.remove(unfinished)
+
+
+def _refuse_bag(path):
+    if not os.path.isfile(path):
+        return
+    with open(path, 'rb') as file:
+        if file.read(len(BAG)) == BAG:
+            raise OSError(f'{path}: must be another file: it is a bag, which is not overwritten')
 
 
 def write(path, text):

@@ -363,6 +363,7 @@ bool settings_read(settings *out, const hdr_params *params, const hd_checkpoint 
 {
     reader r = {.params = params, .message = message, .size = size};
     *out = defaults(kept);
+    out->given = params;
     if (!read_what_moves(out, &r) || !check_names(&r) || !read_all(out, &r)) return false;
     if (!resolve_resume(out, &r, kept)) return false;
     if (!kept && !check_scene_name(out, &r)) return false;

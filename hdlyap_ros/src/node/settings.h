@@ -24,6 +24,7 @@ typedef struct change_list {
 } change_list;
 
 typedef struct settings {
+    const hdr_params *given; /**< what these were read from; NULL if from nothing */
     hd_scene_def def;
     const char *scene;     /**< name; in the params, or in the checkpoint */
     const char *particles; /**< name of the particles, e.g. disks */

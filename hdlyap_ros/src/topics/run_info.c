@@ -4,6 +4,7 @@
 
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "hdlyap/hdlyap.h"
 #include "node/parameters.h"
@@ -83,6 +84,28 @@ static bool fill_own(hdr_run_info *info, const moment *now)
         write_own(text, LENGTH, row, hd_parameter_effect(row, def));
     }
     info->own = (hdr_strings){list, count};
+    return true;
+}
+
+/** Fills the parameters that were given, as they were written. */
+static bool fill_given(hdr_run_info *info, const moment *now)
+{
+    const hdr_params *given = now->set->given;
+    const int count = given ? hdr_params_count(given) : 0;
+    size_t size = 0;
+    for (int k = 0; k < count; k++) {
+        const char *name = hdr_params_name(given, k);
+        size += strlen(name) + strlen(hdr_param_text(given, name)) + sizeof "=";
+    }
+    const char **list = moment_take(now, (size_t)count, sizeof *list);
+    char *text = moment_take(now, size, 1);
+    if (!list || !text) return false;
+    for (int k = 0; k < count; k++) {
+        const char *name = hdr_params_name(given, k);
+        list[k] = text;
+        text += sprintf(text, "%s=%s", name, hdr_param_text(given, name)) + 1;
+    }
+    info->given = (hdr_strings){list, (uint32_t)count};
     return true;
 }
 
@@ -166,7 +189,7 @@ hd_status topic_publish_run_info(const moment *now)
         .resumed_time = *set->resume ? hd_run_time(now->run) : -1.0,
     };
     if (!fill_waves(&info, now) || !fill_outline(&info, now) || !fill_changes(&info, now) ||
-        !fill_own(&info, now))
+        !fill_own(&info, now) || !fill_given(&info, now))
         return HD_OK;
     fill_scene(&info, set);
     fill_machine(&info, now->run);

@@ -25,7 +25,7 @@ FIELD, STATE = 'hdlyap/ModeField', 'hdlyap/State'
 COVARIANT, HYDRO, STRUCTURE = 'hdlyap/Covariant', 'hdlyap/Hydro', 'hdlyap/Structure'
 LOCALIZATION, FLUCTUATIONS = 'hdlyap/Localization', 'hdlyap/Fluctuations'
 NAME, PATH, LINE, LIST = 200, 4096, 8192, 4096  # longest text, path, error; most elements of a list
-PATHS = ('checkpoint', 'resume')
+PATHS = ('checkpoint', 'resume', 'given')
 VERSION = re.compile(r'\d[\w.+~-]{0,30}', re.ASCII)
 FIRST_LINE = 100  # bytes that the first line of a bag (#ROSBAG V2.0) never has
 # arrays that must have the same length

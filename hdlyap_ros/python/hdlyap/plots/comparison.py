@@ -15,7 +15,7 @@ from hdlyap.numbers import known
 
 from .deviation import Deviation
 
-OWN = ('header', 'run_id')  # fields that differ even if runs are identical
+OWN = ('header', 'run_id', 'given')  # fields that differ even if runs are identical
 SLOPES = 'c_T', 'c_L', 'v'
 SUMS = 'h_KS', 'sum of exponents'
 STEPPED = 'time_step', 'integrator'  # parameters that do not change the system

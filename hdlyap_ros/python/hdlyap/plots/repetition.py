@@ -9,7 +9,7 @@ from hdlyap.data import containers, reader, space
 # fields of run_info that are no parameters: they follow from parameters, or describe the machine
 RESULTS = ('header', 'run_id', 'version', 'dimension', 'box_x', 'box_y', 'box_z', 'outline_x')
 RESULTS += ('outline_y', 'vectors', 'zero_exponents', 'wave_nx', 'wave_ny', 'wave_nz')
-RESULTS += ('coordinates', 'own', 'inertia', 'packing_fraction', 'resumed_time', 'ranks')
+RESULTS += ('coordinates', 'own', 'given', 'inertia', 'packing_fraction', 'resumed_time', 'ranks')
 RESULTS += ('blas_threads', 'blas_library', 'blas_kernel', 'blas_threading')
 OF_SPHERES = ('aspect_z', 'boundary_z')  # parameters that disks do not have
 # parameters that are a word or a list of numbers, and a text in run_info

@@ -13,17 +13,15 @@ import yaml
 import hdlyap
 from hdlyap import whole
 from hdlyap.data.reader import RecordingError
-from hdlyap.plots import repetition
 
-from . import ranks
+from . import asked, ranks
 from .scene import Refused
 
 ABOUT = 'A run of hdlyap sweep.'  # first line of a scene file
 AUTO = 'auto'  # value of a parameter that the node chooses
 TIMES = 'equilibration', 'warmup', 'duration'
 OF_ONE = 'checkpoint', 'resume'  # parameters that runs cannot share
-# parameters that make no difference to results, or that the node changes before run_info has them
-HERE = ('threads', 'wait_for_subscribers', *OF_ONE)
+UNFINISHED = 'the run has not reached its end'
 # about the seconds to start, and those of a time unit with 200 disks on one core; they grow as N^2
 BEGIN, STEP, DISKS = 5.0, 0.03, 200
 OWN = re.compile(r'^# For (\w+(?: and \w+)*) only\.\n(?:# .*\n)*?# (\w+): (\S+)$', re.MULTILINE)
@@ -82,24 +80,21 @@ class Planned:
         """The averaged time after which the run states errors, as the node says for the scene file
         in this folder; None if the node refuses the file, of which it will complain when it
         runs."""
-        asked = [ranks.node(), '--errors', self.scene_file(folder)]
-        said = subprocess.run(asked, capture_output=True, text=True)
+        command = [ranks.node(), '--errors', self.scene_file(folder)]
+        said = subprocess.run(command, capture_output=True, text=True)
         return float(said.stdout) if said.returncode == 0 else None
 
     def lacks(self, folder):
         """What the bag in this folder lacks to be this run, as text; '' if the run is done."""
-        there = complete(self.bag(folder))
-        return self._differs(there.info) if there else 'the run has not reached its end'
+        return self.lacking(complete(self.bag(folder)))
 
-    def _differs(self, info):
-        """The parameter in which a recorded run differs, as text; '' if there is none."""
-        asked = repetition.parameters(info)
-        for name, value in self.parameters.items():
-            is_chosen = name == 'warmup' and value == AUTO  # run_info has the value chosen
-            if name in HERE or name not in asked or is_chosen or _same(asked[name], value):
-                continue
-            return f'it was run with {name} = {asked[name]}, not {value}'
-        return ''
+    def lacking(self, there):
+        """What a data.run.Run, or None, lacks to be this run, as text; '' if it is this run."""
+        if not there:
+            return UNFINISHED
+        return asked.difference(
+            there.info, self.parameters, completed({'particles': there.info.particles})
+        )
 
 
 def complete(bag):
@@ -109,17 +104,6 @@ def complete(bag):
         return there if there.is_complete else None
     except RecordingError:
         return None
-
-
-def _same(one, other):
-    """Whether two values are the same: 400 and 400.0 are, 5 and '5' are, lists in the same order
-    are."""
-    if str(one) == str(other):
-        return True
-    try:
-        return float(one) == float(other)
-    except (TypeError, ValueError):
-        return False
 
 
 def _check(parameters):
@@ -149,8 +133,8 @@ def _estimate(parameters):
 
 @functools.lru_cache(maxsize=None)
 def _said():
-    asked = [ranks.node(), '--parameters']
-    return subprocess.run(asked, check=True, stdout=subprocess.PIPE, text=True).stdout
+    command = [ranks.node(), '--parameters']
+    return subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True).stdout
 
 
 @functools.lru_cache(maxsize=None)

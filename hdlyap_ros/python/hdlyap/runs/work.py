@@ -3,6 +3,7 @@ the others side by side."""
 
 import contextlib
 import fcntl
+import glob
 import os
 import re
 import shutil
@@ -16,6 +17,7 @@ from hdlyap.msg import RunStatus
 from . import bags
 from .display import Display
 from .master import Master, MasterError, leave
+from .run import complete
 from .tree import Tree, end
 
 POLL = 0.2  # seconds between two looks
@@ -70,26 +72,35 @@ class Job:
         return self.status is None and self.seconds > SILENCE
 
     def close(self):
-        """Takes the bag, after the processes have ended. Raises WorkError if the run is not
-        complete."""
-        why = self._failure()
+        """Takes the bag, if it is complete, after the processes have ended. Raises WorkError if it
+        is not, or if its run is not the one that was asked for."""
+        there = complete(self.run.bag(self._new))
+        why = self.run.lacking(there)
+        try:
+            if there:
+                keep(self.run.bag(self._folder))
+                os.rename(self.run.bag(self._new), self.run.bag(self._folder))
+        except (bags.InUse, OSError) as error:
+            why = f'its bag is still in {self._new}: {error}'
+        if why and not there and self.is_silent():
+            why = f'no message of its node within {SILENCE:.0f} s'
         if why:
             said = f'{last_words(self.log)}all its output is in {self.log}'
             raise WorkError(f'{self.run.name}: {why}; {said}')
-        os.replace(self.run.bag(self._new), self.run.bag(self._folder))
-
-    def _failure(self):
-        """What is wrong with the bag; '' if it is complete."""
-        lacks = self.run.lacks(self._new)
-        silent = f'no message of its node within {SILENCE:.0f} s'
-        return silent if lacks and self.is_silent() else lacks
 
     def leave(self):
-        """Removes all but the log, and the bag if it is complete."""
-        shutil.rmtree(self._new, ignore_errors=True)
+        """Removes all but the log, and bags that are complete."""
+        if not any(map(complete, glob.glob(os.path.join(glob.escape(self._new), '*.bag*')))):
+            shutil.rmtree(self._new, ignore_errors=True)
         with contextlib.suppress(OSError):
             os.rmdir(os.path.dirname(self._new))  # succeeds after the last run
         self._subscriber.unregister()
+
+
+def keep(path, why=''):
+    """Renames bags that have this name, and says why."""
+    for line in bags.keep(path):
+        print(f'hdlyap sweep: {line}{why}', flush=True)
 
 
 def last_words(log):
@@ -149,6 +160,8 @@ class Work:
         before = len(came)
         self._end(self.under_way, lambda: len(came) > before)
         for job in self.under_way:
+            with contextlib.suppress(WorkError):
+                job.close()  # it may just have reached its end
             job.leave()
 
     @staticmethod
@@ -182,8 +195,7 @@ def _missing(runs, folder):
     lacks = {run: run.lacks(folder) for run in runs}
     todo = [run for run in runs if lacks[run]]
     for run in todo:
-        for line in bags.keep(run.bag(folder)):
-            print(f'hdlyap sweep: {line}, as {lacks[run]}', flush=True)
+        keep(run.bag(folder), f', as {lacks[run]}')
     return todo
 
 
