@@ -2,13 +2,17 @@
 """Launch files: launching records whole runs."""
 
 import os
+import re
+import signal
 import tempfile
 
 import rosbag
 import roslaunch.config
 import rospkg
+import rospy
 
 import harness
+from hdlyap.msg import RunStatus
 
 LAUNCH = os.path.join(rospkg.RosPack().get_path('hdlyap'), 'launch')
 
@@ -109,6 +113,43 @@ class Launch(harness.Case):
             self.ends(run, 0, 'scene mine: 20 disks in 6.32456 x 6.32456', '/grp/hdlyap/accuracy')
             differs = f'unlike {folder}/mine.yaml: density = 0.5, accuracy = 1e-7, table = 3'
             self.assertIn('from the parameter server, ' + differs, run.text())
+
+    def launch(self, *words, name):
+        """`hdlyap launch` of a small scene, with a node of this name."""
+        params = '{equilibration: 1, warmup: 1}'
+        words = [f'name:={name}', f'params:={params}', 'number:=20', 'aspect:=1.0', *words]
+        return self.process([*harness.command('launch'), *words])
+
+    def test_status(self):
+        """Is that of the node, or of the recorder if that ends the launch."""
+        for k, (words, status) in enumerate(
+            (
+                (['duration:=2'], 0),
+                (['density:=2.5'], 2),
+                (['resume:=nowhere'], 4),
+                (['record:=true', 'bag:=nowhere/q.bag'], 2),
+                (['required:=maybe'], 1),
+            )
+        ):
+            with self.subTest(words=words):
+                self.ends(self.launch(*words, name=f'status_{k}'), status)
+
+    def test_status_after_a_signal(self):
+        """130 after Ctrl-C, once the node has ended in order; 137 if the node was killed."""
+        for k, (whom, number, status, said) in enumerate(
+            (
+                ('launch', signal.SIGINT, 130, 'stopped at simulated time'),
+                ('launch', signal.SIGTERM, 143, 'stopped at simulated time'),
+                ('node', signal.SIGKILL, 137, 'exit code -9'),
+            )
+        ):
+            name = f'signal_{k}'
+            launch = self.launch('duration:=1e6', name=name)
+            rospy.wait_for_message(f'/{name}/status', RunStatus, harness.PATIENCE)
+            (pid,) = re.findall(rf'process\[{name}-1\]: started with pid \[(\d+)\]', launch.text())
+            pid = launch.process.pid if whom == 'launch' else int(pid)
+            os.kill(pid, number)
+            self.ends(launch, status, said)
 
     def test_the_scene_says_what_moves(self):
         """The file alone, whatever its name, unless an argument says otherwise."""

@@ -3,6 +3,7 @@ or obeys at once. It does so even if they are ignored, as in a background job, o
 default, as in the first process of a container. Only SIGHUP under nohup stays ignored."""
 
 import contextlib
+import os
 import signal
 import sys
 
@@ -37,6 +38,22 @@ def held():
     finally:
         if came:
             leave(came[0])
+
+
+@contextlib.contextmanager
+def noticed():
+    """Whoever answers signals meanwhile, the program exits by the first one at the end."""
+    reading, writing = os.pipe2(os.O_NONBLOCK | os.O_CLOEXEC)
+    before = signal.set_wakeup_fd(writing)
+    try:
+        yield
+    finally:
+        signal.set_wakeup_fd(before)
+        os.close(writing)
+        with os.fdopen(reading, 'rb') as came:
+            asked = [number for number in came.read() if number in ASK]
+        if asked:
+            leave(asked[0])
 
 
 def leave(number):
