@@ -92,6 +92,8 @@ class Launch(harness.Case):
             'params:={warmup=5}': 'params = {warmup=5}: must be {parameter: value, ..}',
             'params:={seed: 12345678901}': no_quotes,
             'duration:=12345678901': 'duration = 12345678901: must be a text in quotes, a number',
+            'package:=nowhere': 'package = nowhere: must be a package that ROS finds\n',
+            'program:=nothing': 'program = nothing: must be a program of the package hdlyap\n',
         }
         for word, said in refused.items():
             for begin in (['launch'], ['run', 'quick', '--out', 'no.bag']):
@@ -114,11 +116,59 @@ class Launch(harness.Case):
             differs = f'unlike {folder}/mine.yaml: density = 0.5, accuracy = 1e-7, table = 3'
             self.assertIn('from the parameter server, ' + differs, run.text())
 
-    def launch(self, *words, name):
+    def test_contradictions(self):
+        """What is given twice, with two meanings, is refused before anything starts."""
+        run = ['run', 'quick', '--out', 'o.bag']
+        refused = {
+            (*run, 'scene:=dense'): 'scene = dense: must be quick, which is given too',
+            (*run, 'bag:=o2.bag'): 'bag = o2.bag: must be o.bag, which is given too',
+            (*run, 'record:=false'): 'record = false: must be true, which is given too',
+            ('launch', 'number:=5', 'number:=6'): 'number = 6: must be 5, which is given too',
+            ('launch', 'number:=5', 'params:={number: 6}'): "params = {'number': 6}: must be "
+            'without number, which is an argument too',
+        }
+        with tempfile.TemporaryDirectory() as folder:
+            for words, said in refused.items():
+                with self.subTest(words=words):
+                    done = self.process([*harness.command(words[0]), *words[1:]], PWD=folder)
+                    self.assertEqual(done.wait(), 2, done.text())
+                    self.assertEqual(done.text(), f'hdlyap {words[0]}: {said}\n')
+            self.assertEqual(os.listdir(folder), [])
+        of_two = self.process([*harness.command('run'), *run[1:], 'ranks:=3'], PMI_SIZE='2')
+        self.ends(of_two, 2, 'hdlyap run: ranks = 3: must be 1, as there are 2 already')
+
+    def test_all_ranks_start_the_same_program(self):
+        """Those above 0 too, whose node is not hdlyap's."""
+        with tempfile.TemporaryDirectory() as folder:
+            with open(os.path.join(folder, 'package.xml'), 'w') as file:
+                file.write('<package><name>mine</name></package>')
+            path = os.path.join(folder, 'chain')
+            with open(path, 'w') as file:
+                file.write('#!/bin/sh\necho it is mine\n')
+            os.chmod(path, 0o755)
+            words = ['quick', '--out', os.path.join(folder, 'o.bag')]
+            words += ['package:=mine', 'program:=chain']
+            packages = {'ROS_PACKAGE_PATH': f'{folder}:{os.environ["ROS_PACKAGE_PATH"]}'}
+            one = self.process([*harness.command('run'), *words], PMIX_RANK='1', **packages)
+            self.ends(one)
+            self.assertEqual(one.text(), 'it is mine\n')
+
+    def test_more_ranks_than_cores(self):
+        """One core is what mpirun takes this machine to have."""
+        run = self.launch(
+            'ranks:=2',
+            'duration:=2',
+            'threads:=1',
+            name='slow',
+            OMPI_MCA_orte_set_default_slots='1',
+        )
+        self.ends(run, 0, 'finished at simulated time 4')
+
+    def launch(self, *words, name, **env):
         """`hdlyap launch` of a small scene, with a node of this name."""
         params = '{equilibration: 1, warmup: 1}'
         words = [f'name:={name}', f'params:={params}', 'number:=20', 'aspect:=1.0', *words]
-        return self.process([*harness.command('launch'), *words])
+        return self.process([*harness.command('launch'), *words], **env)
 
     def test_status(self):
         """Is that of the node, or of the recorder if that ends the launch."""

@@ -44,8 +44,8 @@ def options(parser):
 
 
 def main(args):
-    launch = os.path.join(rospkg.RosPack().get_path('hdlyap'), 'launch')
     try:
+        launch = arguments.launch_folder()
         arguments.check(args.assigned, launch, os.environ.get('PWD', os.getcwd()))
     except Refused as refused:
         print(f'hdlyap launch: {refused}', file=sys.stderr)

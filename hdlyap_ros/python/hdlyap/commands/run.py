@@ -4,7 +4,7 @@ srun -n 64 hdlyap run large.yaml --out large.bag duration:=200
 mpirun -n 4 hdlyap run dense --out dense.bag
 
 Rank 0 starts a separate ROS master, the recorder and the node, as run.launch does, whose arguments
-may follow; the other ranks belong to the node. The bag has all topics. No other master is needed,
+may follow, none with another value than it has here; the other ranks belong to the node. The bag has all topics. No other master is needed,
 and nobody else sees this one.
 
 Exit status: 0 the run went to its end; 1 it did not; 2 refused."""
@@ -13,8 +13,6 @@ import contextlib
 import os
 import sys
 import time
-
-import rospkg
 
 from hdlyap import signals
 from hdlyap.runs import arguments, ranks, run, tree
@@ -36,20 +34,28 @@ def stamp(path):
         return found.st_ino, found.st_mtime_ns
 
 
+def understood(words):
+    """Checks the arguments of run.launch. Returns the program of the node."""
+    given = arguments.check(words, arguments.launch_folder(), os.getcwd())
+    if ranks.count() > 1 and given.get('ranks', '1') != '1':
+        raise Refused(f'ranks = {given["ranks"]}: must be 1, as there are {ranks.count()} already')
+    return ranks.program(given)
+
+
 def main(args):
-    launch = os.path.join(rospkg.RosPack().get_path('hdlyap'), 'launch')
+    words = [f'scene:={args.scene}', 'record:=true', f'bag:={args.out}', *args.assigned]
     try:
-        arguments.check([f'scene:={args.scene}', *args.assigned], launch, os.getcwd())
+        program = understood(words)
     except Refused as refused:
         if ranks.number() == 0:
             print(f'hdlyap run: {refused}', file=sys.stderr)
         return 2
     if ranks.number() > 0:
-        ranks.become_node()
+        ranks.become(program)
     bag = os.path.abspath(args.out if args.out.endswith('.bag') else args.out + '.bag')
     before = stamp(bag)  # a run that is refused leaves the old bag
     command = ['roslaunch', '-p', str(ranks.free_port()), 'hdlyap', 'run.launch']
-    command += [f'scene:={args.scene}', 'record:=true', f'bag:={bag}', *args.assigned]
+    command += [*words, f'bag:={bag}']
     os.environ['ROS_HOSTNAME'] = 'localhost'  # no other machine needs the node
     with signals.held() as asked_to_end:
         started = tree.Tree(command, output=None)

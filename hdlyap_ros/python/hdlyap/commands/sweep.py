@@ -12,10 +12,8 @@ ended by a signal."""
 import os
 import sys
 
-import rospkg
-
 from hdlyap.data import fits
-from hdlyap.runs import bags, recording, work
+from hdlyap.runs import arguments, bags, recording, work
 from hdlyap.runs.scene import Refused
 from hdlyap.sweep import grid, plan, result
 
@@ -138,8 +136,8 @@ def sweep(found, folder, jobs, args):
 
 def main(args):
     os.environ.pop('ROS_NAMESPACE', None)  # roslaunch would put the nodes below it
-    launch = os.path.join(rospkg.RosPack().get_path('hdlyap'), 'launch')
     try:
+        launch = arguments.launch_folder()
         found, folder, jobs = understood(args, launch, os.environ.get('PWD', os.getcwd()))
         status = write(found, folder) if args.write else sweep(found, folder, jobs, args)
     except SystemExit:

@@ -6,15 +6,24 @@ import os
 from xml.etree import ElementTree
 import xmlrpc.client
 
-from . import run, scene
+import rospkg
+
+from . import ranks, run, scene
 from .scene import Refused
 
 
+def launch_folder():
+    """The folder of the launch files. Raises Refused if this build of hdlyap runs nothing."""
+    ranks.node()
+    return os.path.join(rospkg.RosPack().get_path('hdlyap'), 'launch')
+
+
 def check(words, launch, cwd):
-    """Raises Refused if roslaunch cannot take the words. launch: folder of the launch files; cwd:
-    folder of relative paths. Words that begin with _ are for ROS."""
+    """Returns {name: value} of the words. Raises Refused if roslaunch cannot take them, or they
+    contradict each other. launch: folder of the launch files; cwd: folder of relative paths. Words
+    that begin with _ are for ROS."""
     known = _names(os.path.join(launch, 'run.launch'))
-    given = dict(word.split(':=', 1) for word in words if not word.startswith('_'))
+    given = _once(word.split(':=', 1) for word in words if not word.startswith('_'))
     for name, value in given.items():
         if name not in known:
             raise Refused(f'{name} = {value}: must be {_wanted(name, known)}')
@@ -22,7 +31,19 @@ def check(words, launch, cwd):
             _check_carried({name: int(value)})
     if given.get('scene') or given.get('resume', '') in ('', 'auto'):
         _check_carried(scene.scene_file(given.get('scene') or 'first', launch, cwd))
-    _check_carried(scene.mapping('params', given.get('params', '')))
+    _check_carried(scene.others(given.get('params', ''), given))
+    if not given.get('machine'):
+        ranks.program(given)
+    return given
+
+
+def _once(pairs):
+    """{name: value}. Raises Refused if a name has two values."""
+    given = {}
+    for name, value in pairs:
+        if given.setdefault(name, value) != value:
+            raise Refused(f'{name} = {value}: must be {given[name]}, which is given too')
+    return given
 
 
 def _names(path):

@@ -19,13 +19,19 @@ def parameters(given, folder, cwd):
     of relative paths."""
     given = {name: text for name, text in given.items() if text}
     values = scene_file(given.pop('scene'), folder, cwd)
-    own = mapping('params', given.pop('params', ''))
-    twice = sorted(set(own) & set(given))
-    if twice:
-        raise Refused(f'params = {own}: must be without {twice[0]}, which is an argument too')
+    own = others(given.pop('params', ''), given)
     values.update((name, typed(text)) for name, text in given.items())
     values.update(own)
     return {str(name): fitting(value) for name, value in values.items()}
+
+
+def others(text, given):
+    """The parameters in the argument params, of which none may be an argument that is given."""
+    own = mapping('params', text)
+    twice = sorted(set(own) & set(given))
+    if twice:
+        raise Refused(f'params = {own}: must be without {twice[0]}, which is an argument too')
+    return own
 
 
 def mapping(name, text):
