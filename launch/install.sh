@@ -13,11 +13,11 @@ message_packages() {
         debian)
             echo catkin ros-message-generation ros-message-runtime libroscpp-dev \
                 ros-std-msgs libstd-msgs-dev python3-std-msgs python3-diagnostic-msgs \
-                python3-rospy python3-rosbag python3-roslaunch rosbash ros-environment
+                python3-rospy python3-rosbag python3-rosgraph python3-roslaunch python3-roslib rosbash ros-environment
             ;;
         noetic)
             printf 'ros-noetic-%s\n' catkin message-generation message-runtime roscpp std-msgs diagnostic-msgs \
-                rospy rosbag roslaunch rosbash ros-environment
+                rospy rosbag rosgraph roslaunch roslib rosbash ros-environment
             ;;
     esac
 }
@@ -40,11 +40,11 @@ test_packages() {
     case $1 in
         debian)
             echo 'libclang-rt-dev|libclang-common-11-dev' libmessage-filters-dev python3-message-filters librostest-dev python3-rostest python3-rostopic python3-rosnode \
-                python3-rosservice python3-rosgraph python3-roslib python3-rosmaster python3-rosmsg rospack-tools \
+                python3-rosservice python3-rosmaster python3-rosmsg rospack-tools \
                 python3-rosgraph-msgs catkin-lint
             ;;
         noetic)
-            printf 'ros-noetic-%s\n' message-filters rostest rostopic rosnode rosservice rosgraph roslib rosmaster rosmsg rospack rosgraph-msgs
+            printf 'ros-noetic-%s\n' message-filters rostest rostopic rosnode rosservice rosmaster rosmsg rospack rosgraph-msgs
             echo python3-catkin-lint
             ;;
     esac

@@ -7,7 +7,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/../../launch/common.sh"
 
 readonly WORK=$1 BUILD=$2 PREFIX=$3 PACKAGE=$ROOT/tests/downstream
 readonly SPACE="$WORK/a workspace" STAGE=$WORK/stage ELSEWHERE=/opt/hdlyap_elsewhere # which never exists
-readonly ALONE=$WORK/alone # messages, headers and Python tools
+readonly ALONE=$WORK/alone # messages and Python tools
 mkdir -p "$WORK"
 # shellcheck source=tests/check.sh
 source "$ROOT/tests/check.sh"
@@ -162,7 +162,7 @@ headers_compile() {
     done < <(find "$1/include/hdlyap" "$1/include/hdlyap_ros" -name '[a-z]*.h')
 }
 
-# ---- messages, headers and Python tools alone, where nothing of the rest is there -------------
+# ---- messages and Python tools alone, where nothing of the rest is there -------------
 
 builds_alone() {
     local name
@@ -177,7 +177,18 @@ builds_alone() {
     PKG_CONFIG_LIBDIR=$ELSEWHERE cmake -S "$ROOT" -B "$ALONE/build" -DHDLYAP_MESSAGES_ONLY=ON "${hidden[@]}" \
         -DPYTHON_EXECUTABLE=/usr/bin/python3 "-DCMAKE_INSTALL_PREFIX=$ALONE/installed" &&
         cmake --build "$ALONE/build" && cmake --install "$ALONE/build" &&
-        [[ -z $(find "$ALONE/installed" -name 'libhdlyap*' -o -name hdlyap_node) ]]
+        [[ -z $(find "$ALONE/installed" -name 'libhdlyap*' -o -name hdlyap_node -o -name hdlyap_ros) ]]
+}
+
+# What needs a node says that there is none.
+says_what_it_lacks() {
+    local said status=0
+    for said in launch 'run quick --out none.bag' 'sweep --seeds 1'; do
+        # shellcheck disable=SC2086
+        said=$(in_alone hdlyap $said 2>&1) || status=$?
+        [[ $status == 2 && $said == 'hdlyap '*': hdlyap was built without hdlyap_node, as messages and tools alone'* && $said != *$'\n'* ]] ||
+            { echo "$status $said" && return 1; }
+    done
 }
 
 # shellcheck disable=SC2016
@@ -218,7 +229,7 @@ workspace_builds() {
     find "$ROOT" -mindepth 1 -maxdepth 1 ! -name build ! -name '.git' -exec cp -r -t "$SPACE/src/hdlyap" {} + &&
         cp -r "$PACKAGE" "$SPACE/src/downstream" && cd "$SPACE" &&
         catkin_make --use-ninja -j"$(nproc)" -DPYTHON_EXECUTABLE=/usr/bin/python3 -DCMAKE_BUILD_TYPE=Debug \
-        -DCATKIN_ENABLE_TESTING=OFF "-DCMAKE_INSTALL_PREFIX=$ELSEWHERE" </dev/null
+        -DCMAKE_DISABLE_FIND_PACKAGE_rostest=ON "-DCMAKE_INSTALL_PREFIX=$ELSEWHERE" </dev/null
 }
 
 # Configured once more, nothing is compiled again.
@@ -268,7 +279,7 @@ check builds_against_devel run builds_against "$BUILD/devel/setup.bash" "$WORK/d
 check talks_from_devel they_talk "$WORK/devel/devel/setup.bash"
 check own_node run chain_runs "$WORK/installed/installed/setup.bash"
 check builds_alone run builds_alone
-check headers_alone headers_compile "$ALONE/installed"
+check says_what_it_lacks says_what_it_lacks
 check tools_alone tools_alone
 check follows_alone follows_alone
 check builds_against_alone run builds_against "$ALONE/installed/setup.bash" "$WORK/against_alone" -Dhdlyap_downstream_LISTENERS_ONLY=ON

@@ -152,6 +152,18 @@ class Dependencies(unittest.TestCase):
             for key, packages in OF_ROS.items():
                 self.assertLessEqual(set(packages.split()), set(data[key]['debian']), key)
 
+    def test_ros_packages_that_are_imported_are_dependencies(self):
+        """At run time, not of the tests alone."""
+        root = ElementTree.parse(os.path.join(ROOT, 'package.xml')).getroot()
+        known = {one.text for one in root if one.tag in ('depend', 'exec_depend')}
+        found = set()
+        for path in files(''):
+            text = text_of(path)
+            if '/hdlyap_ros/python/' in path and path.endswith('.py') or '/scripts/' in path:
+                found |= {module.partition('.')[0] for module in imported(text, ['hdlyap'])}
+        self.assertGreater(len(found & set(OF_ROS)), 5)
+        self.assertLessEqual(found & set(OF_ROS), known)
+
     def test_ros_packages_found_by_cmake_are_dependencies(self):
         found = set()
         for path in ('CMakeLists.txt', 'tests/ros/CMakeLists.txt'):

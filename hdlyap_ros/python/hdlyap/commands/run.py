@@ -4,8 +4,8 @@ srun -n 64 hdlyap run large.yaml --out large.bag duration:=200
 mpirun -n 4 hdlyap run dense --out dense.bag
 
 Rank 0 starts a separate ROS master, the recorder and the node, as run.launch does, whose arguments
-may follow, none with another value than it has here; the other ranks belong to the node. The bag has all topics. No other master is needed,
-and nobody else sees this one.
+may follow, none with another value than it has here; the other ranks belong to the node. The bag
+has all topics. No other master is needed, and nobody else sees this one.
 
 Exit status: 0 the run went to its end; 1 it did not; 2 refused."""
 
