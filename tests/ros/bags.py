@@ -57,6 +57,7 @@ def check_title(figure, name):
     system = (
         r'.+: \$N=\d+\$( dumbbells, [^$]+\n|, )\$\\rho=[0-9.]+\$, .+, (x )?(periodic|reflecting)'
     )
+    system += r'|run \w+: no run_info'
     if not re.match(system, title):
         raise AssertionError(f'{name}: its title is {title!r}')
 

@@ -19,6 +19,7 @@ from scipy.stats import chi2 as chi_squared
 import hdlyap
 import made
 from hdlyap.data.joined import OF_ONE_RUN, UNSEEN
+from hdlyap.data.reader import NoInfo
 from hdlyap.data.seeds import Seeds, mean
 from made import LP, T
 from test_data import Loaded, state
@@ -72,6 +73,42 @@ class OneRun(Loaded):
         self.check(hdlyap.load(a, self.path('b')), range(1, 9))
         shutil.copy(a, self.path('copy'))
         self.check(hdlyap.load(a, self.path('copy'), self.path('b'), a), range(1, 9))
+
+    def test_parts_without_run_info(self):
+        """Split without --repeat-latched: run_info is in the first file; the second one alone has
+        numbers, and says what it lacks."""
+        messages = run(range(1, 9))
+        a = self.write(messages[:10], 'a')
+        b = self.write(messages[10:], 'b', start=60)
+        for paths in ((a, b), (b, a), ([b, a],)):
+            loaded = hdlyap.load(*paths)
+            self.check(loaded, range(1, 9))
+            self.assertEqual(loaded.info.number, 20)
+        alone = hdlyap.load(b)
+        self.check(alone, range(4, 9))
+        self.assertEqual(
+            repr(alone), '<hdlyap run one: no run_info, so its parameters are not known>'
+        )
+        self.assertEqual(list(alone.results.index), ['lambda_max', 'sum of exponents'])
+        with self.assertRaisesRegex(NoInfo, '^.*b.bag: no run_info in it, so number is not known$'):
+            alone.info.number
+        c = self.write(messages[16:], 'c', start=90)
+        self.check(hdlyap.load(c, self.write(messages[10:16], 'b', start=60)), range(4, 9))
+        other = self.write(run(range(1, 9), 'two')[1:], 'other')
+        said = 'no run_info in it, so nothing says whether it belongs to .*$'
+        self.cannot_load(said, b, other)
+        self.cannot_load(said, a, other)
+        self.cannot_load("^bag 7: must be the name of a file$", 7)
+
+    def test_directions_without_run_info(self):
+        """Steps and phases alone: of spheres their names have three numbers."""
+        info = made.spheres()
+        found = [made.step(info, T, 1, 0, 30, 33, nz=nz) for nz in (0, 1)]
+        loaded = hdlyap.load(self.write([made.steps(found), made.t_phases(found, 150.0)]))
+        self.assertEqual(list(loaded.steps.index), ['T(1,0,0)', 'T(1,0,1)'])
+        self.assertEqual(set(loaded.t_phases.step), {'T(1,0,0)'})
+        flat = hdlyap.load(self.write([made.steps(found[:1]), state(150.0)]))
+        self.assertEqual(list(flat.steps.index), ['T(1,0)'])
 
     def test_clock_set_back(self):
         """In a recorder's file, which has the messages as they come, but their times in order."""

@@ -35,7 +35,7 @@ def draw_nothing(run, *_):
     """Reads what figures alone ask for."""
     if not run.is_mean:
         run.structure, run.phases, run.fields(), run.cost()
-    return []
+    return [], []
 
 
 class Tools(Loaded):
@@ -147,10 +147,50 @@ class Several(Tools):
         self.assertRegex(text, r'\na: .*' + said)
 
 
+class WithoutInfo(Tools):
+    """A part of a bag, as of rosbag filter."""
+
+    def test_tools(self):
+        """Draw and print what needs no parameter, and name the rest."""
+        _, *messages = made.small_run()
+        text = self.plot(self.write(numbered(messages)))
+        for said in (
+            '\\Arun one: no run_info in the bag, so its parameters are not known\n',
+            r'\nlambda_max      9\.000000',
+            r'\nsum of the 37 exponents carried ',
+            r'\n  T\(1,0\) +36-37 +1\.98 +2 ',
+            r'\n  c_T +1\.400\(12\)\n',
+            r'\nnot here, as it needs run_info: the last exponents\n',
+            r'\nnot drawn, as they need run_info: spectrum, convergence, modes, p_mode\n',
+        ):
+            self.assertRegex(text, said)
+        drawn = {name for name in os.listdir(self.out) if name.endswith('.png')}
+        wanted = {'steps.png', 'dispersion.png', 'phases.png', 'cost.png'}
+        self.assertEqual(drawn, wanted)
+        path = self.path()
+        for name, more, status in (
+            ('compare', [path], 2),
+            ('movie', ['--out', self.path('a') + '.mp4'], 1),
+            ('repeat', [], 1),
+            ('table', [], 1),
+        ):
+            self.refuses(
+                f'hdlyap {name}: {path}: no run_info in it', name, path, *more, status=status
+            )
+
+    def test_steps_and_phases_alone(self):
+        kept = ('hdlyap/Steps', 'hdlyap/LpPhases')
+        messages = [one for one in made.small_run() if one._type in kept]
+        text = self.plot(self.write(messages), '--csv', self.path('csv'))
+        self.assertRegex(text, r'\n  LP\(1,0\) +1\.59\d+\(\d+\) +1\.600\(16\) +8 of 8\n')
+        names = {os.path.splitext(name)[0] for name in os.listdir(self.path('csv'))}
+        self.assertLessEqual({'steps', 'phases'}, names)
+
+
 class Export(Tools):
     def setUp(self):
         super().setUp()
-        drawn = mock.patch('hdlyap.plots.figures.draw_all', lambda *_: [])
+        drawn = mock.patch('hdlyap.plots.figures.draw_all', lambda *_: ([], []))
         drawn.start()
         self.addCleanup(drawn.stop)
         self.csv = os.path.join(self.folder, 'csv')
@@ -278,8 +318,6 @@ class Refused(Tools):
         for content in b'', b'something else entirely\n' * 10:
             self.content(content)
             self.refused('a.bag: not a readable bag')
-        self.write([made.spectrum([3.0], 1.0), made.steps([])], 'a')
-        self.refused('a.bag: no run_info')
         with rosbag.Bag(self.path('a'), 'w') as bag:
             bag.write('/chatter', String('hello'), rospy.Time(1))
         self.refused('nothing in it was published by hdlyap_node')

@@ -82,16 +82,18 @@ def main(args):
     run = seeds.load(*args.bags, node=args.node, run=args.run, form=form, k=k).said
     print(report.report(run), flush=True)
     if run.spectrum is None:
-        print('\nno averaged spectrum in this bag: only the cost can be drawn')
+        print('\nno averaged spectrum in this bag')
     os.makedirs(args.out, exist_ok=True)
     names = figures.OF_MEANS if run.is_mean else figures.FIGURES
     names = [name for name in names if not args.only or name in args.only]
-    files = figures.draw_all(run, args.out, Progress('drawing'), names, args.pdf)
+    files, lost = figures.draw_all(run, args.out, Progress('drawing'), names, args.pdf)
     drawn = {os.path.basename(file).partition('.')[0] for file in files}
     if args.csv or args.npz:
         files += exported(run.data, args)
     print('\n' + '\n'.join(files))
-    nothing = [name for name in args.only or () if name not in drawn]
+    if lost:
+        print('not drawn, as they need run_info: ' + ', '.join(lost))
+    nothing = [name for name in args.only or () if name not in drawn and name not in lost]
     if nothing:
         print('nothing to draw in this bag: ' + ', '.join(nothing))
     return 0

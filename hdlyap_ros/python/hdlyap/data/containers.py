@@ -6,13 +6,14 @@ import numpy as np
 from hdlyap.msg import LpPhase
 
 from . import space
+from .reader import is_known
 
 POINTS = 256  # points of a period, enough for k r up to 100
 
 
 def is_curved(info):
     """Whether the container has a curved wall."""
-    return info.boundary_x == 'curved'
+    return is_known(info) and info.boundary_x == 'curved'
 
 
 def not_asked(info):

@@ -8,7 +8,7 @@ import numpy as np
 from hdlyap import whole
 
 from . import space
-from .reader import Missing
+from .reader import Missing, is_known
 
 FRAMES = ('results', 'spectrum', 'steps', 'modes', 'phases', 't_phases', 'covariant')
 FRAMES += ('localization', 'fluctuations', 'gas', 'cost', 'status')
@@ -65,6 +65,8 @@ def npz(run, path):
 
 def _origin(run):
     info = run.info
+    if not is_known(info):
+        return f'hdlyap, run {info.run_id}, without run_info: its parameters are not known'
     seeds = ' '.join(run.seeds)
     box = ' x '.join(f'{edge:.6g}' for edge in space.along(info, 'box_'))
     return (
@@ -82,6 +84,8 @@ def _units(frame):
 
 def plain_info(info):
     """run_info for JSON."""
+    if not is_known(info):
+        return {'run_id': info.run_id}
     return {name: _plain(getattr(info, name)) for name in info.__slots__ if name != 'header'}
 
 

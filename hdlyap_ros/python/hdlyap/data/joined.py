@@ -6,7 +6,7 @@ import os
 from collections import namedtuple
 
 from . import reader
-from .reader import RecordingError
+from .reader import NoInfo, RecordingError, is_known
 
 # parameters that bags of one system have to share: all that decide what is measured
 OF_SPHERES = ('particles', 'aspect_z', 'boundary_z', 'wave_nz')  # the same for all disks
@@ -68,14 +68,20 @@ class _Averages:
 
 def runs(paths, node=None, number=None):
     """[(parts in their order, number of runs in the bag)] of the bags, with one element for each
-    seed. number: which run of each bag, from 1; None: the last one."""
+    seed. number: which run of each bag, from 1; None: the last one. run_info may be in another part
+    of the run."""
     if not paths:
         raise RecordingError('no bag: name one or several')
-    paths = {os.path.realpath(path): path for path in map(os.fspath, paths)}.values()
-    chosen = [_chosen(path, node, number) for path in paths]
+    paths = {os.path.realpath(path): path for path in _names(paths)}.values()
+    infos = {path: _infos(path, node) for path in paths}
+    told = {key: info for of in infos.values() for key, info in of.items() if is_known(info)}
+    chosen = [_chosen(path, node, number, {**of, **_of(of, told)}) for path, of in infos.items()]
     if len(chosen) == 1:
         return [([chosen[0][0]], chosen[0][1])]
     parts = [part for part, _ in chosen]
+    without = [part for part in parts if not is_known(part.info)]
+    if without:
+        return [(_of_one_run(parts, without[0]), 1)]
     _refuse_others(parts, MEASURED, 'do not belong together')
     seeds = {}
     for part in parts:
@@ -83,9 +89,44 @@ def runs(paths, node=None, number=None):
     return [(_in_order(of_seed), 1) for of_seed in seeds.values()]
 
 
-def _chosen(path, node, number):
+def _names(paths):
+    """The names of bags, which may be in a list."""
+    for path in paths:
+        if isinstance(path, (list, tuple)):
+            yield from _names(path)
+        elif isinstance(path, (str, os.PathLike)):
+            yield os.fspath(path)
+        else:
+            raise RecordingError(f'bag {path!r}: must be the name of a file')
+
+
+def _infos(path, node):
+    try:
+        return reader.run_infos(path, node)
+    except NoInfo:
+        found = reader.without_info(path, node)
+        if not found:
+            raise
+        return found
+
+
+def _of(runs, told):
+    """Of run_infos that some bag has, those of these runs that have none in their own."""
+    return {key: told[key] for key, info in runs.items() if key in told and not is_known(info)}
+
+
+def _of_one_run(parts, part):
+    """Parts of a run without run_info, in their order. `part` is one of them."""
+    for other in parts:
+        if other.run_id != part.run_id:
+            why = f'so nothing says whether it belongs to {other.path}'
+            raise NoInfo(f'{part.path}: no run_info in it, {why}')
+    return sorted(parts, key=lambda part: reader.start(*part[:3]))
+
+
+def _chosen(path, node, number, infos):
     """The chosen Part of a bag, and the number of runs in the bag."""
-    infos = list(reader.run_infos(path, node).items())
+    infos = list(infos.items())
     wanted = len(infos) if number is None else number
     if not 1 <= wanted <= len(infos):
         raise RecordingError(f'{path}: no run {number} in it, only 1 .. {len(infos)}')

@@ -56,6 +56,10 @@ class Missing(RecordingError):
     """Something was not recorded, or not measured."""
 
 
+class NoInfo(Missing):
+    """Something needs run_info, which was not recorded."""
+
+
 class Damaged(Exception):
     """A message says something that no node can have sent."""
 
@@ -193,8 +197,36 @@ def run_infos(path, node=None):
             if packed.run_id not in runs or changes(info) > changes(runs[packed.run_id]):
                 runs[packed.run_id] = info
         if not runs:
-            raise RecordingError(f'{path}: no run_info in it; record that topic too')
+            raise NoInfo(f'{path}: no run_info in it; record that topic too')
         return runs
+
+
+def without_info(path, node=None):
+    """{run_id: Unknown} of every run in a bag without run_info, in their order."""
+    runs = {}
+    for packed in messages(path, node):
+        runs.setdefault(packed.run_id, {})[packed.kind] = packed
+    lasts = {run_id: [one.message() for one in of.values()] for run_id, of in runs.items()}
+    return {run_id: Unknown(path, run_id, told) for run_id, told in lasts.items()}
+
+
+class Unknown:
+    """Stands for the run_info of a run whose bags have none. Its messages show whether there is a
+    direction z, and whether particles turn; every other parameter raises NoInfo."""
+
+    def __init__(self, path, run_id, told):
+        self.path, self.run_id, self.changes = path, run_id, ()
+        self.dimension = 3 if space.shows(told, ('z', 'nz')) else 2
+        self.inertia = math.inf if space.shows(told, ('angle', 'rotation')) else 0.0
+
+    def __getattr__(self, name):
+        if name.startswith('__'):
+            raise AttributeError(name)
+        raise NoInfo(f'{self.path}: no run_info in it, so {name} is not known')
+
+
+def is_known(info):
+    return not isinstance(info, Unknown)
 
 
 def changes(info):

@@ -52,7 +52,8 @@ def _last(topic):
 
 
 class Run:
-    """`info` is its run_info. Arrays have a row for each message: `times` (simulated),
+    """`info` is its run_info; without one (a part of a bag) what needs a parameter raises NoInfo.
+    Arrays have a row for each message: `times` (simulated),
     `averaged_times`, `exponents` and `std_errors` of the running means; `local` the samples. Frames
     are of the last message: `spectrum`, `modes`, `steps`, `phases`, `t_phases`, `covariant`,
     `localization`, `fluctuations`, `gas`, `results`; or of all: `cost`, `status`, `course(topic)`.
@@ -71,7 +72,10 @@ class Run:
         self.paths = list(dict.fromkeys(part.path for part in parts))
 
     def __repr__(self):
-        info, what = self.info, space.particle(self.info)
+        info = self.info
+        if not reader.is_known(info):
+            return f'<hdlyap run {info.run_id}: no run_info, so its parameters are not known>'
+        what = space.particle(info)
         return f'<hdlyap run {info.run_id}: {info.scene}, {info.number} {what}s, seed {info.seed}>'
 
     # ---- as of Seeds ------------------------------------------------------------------------

@@ -12,6 +12,7 @@ from . import space
 from .course import Course
 from .factors import StructureCourse
 from .phases import PhaseCourse
+from .reader import is_known
 from .stages import PARTS
 
 SMALLEST = 4  # how many of the smallest positive exponents are drawn over time
@@ -56,7 +57,8 @@ class Said:
     @property
     def sum_name(self):
         """The name of the sum of the run's positive exponents."""
-        return 'h_KS' if self.last_index >= self.positive_end else 'sum of exponents'
+        is_all = is_known(self.info) and self.last_index >= self.positive_end
+        return 'h_KS' if is_all else 'sum of exponents'
 
     @property
     def sum_error(self):

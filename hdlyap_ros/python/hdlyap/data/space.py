@@ -15,6 +15,20 @@ def turns(info):
     return info is not None and info.inertia > 0
 
 
+def shows(messages, names):
+    """Whether one of these messages, or of their elements, has something in fields of these
+    names."""
+    for message in messages:
+        for name in message.__slots__:
+            value = getattr(message, name)
+            if name in names and np.any(value):
+                return True
+            is_list = isinstance(value, list) and value and hasattr(value[0], '__slots__')
+            if is_list and shows(value, names):
+                return True
+    return False
+
+
 def own(info):
     """{name: value} of the parameters that only these particles have."""
     return {

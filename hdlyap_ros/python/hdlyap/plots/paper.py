@@ -5,6 +5,8 @@ branches, and at density 0.4 their curvature."""
 from collections import namedtuple
 from math import hypot, inf, isclose, pi
 
+from hdlyap.data.reader import is_known
+
 DISKS, DENSITY, ASPECT = 780, 0.8, 0.867
 FIT_ACCURACY = 0.03  # relative accuracy of the slopes of the fits, as we assume
 FITS = 'fits of Eckmann, Forster, Posch, Zabey 2005'
@@ -83,7 +85,7 @@ def _within(value, ends):
 
 
 def _is_rectangle(info):
-    return info.particles == 'disks' and info.container == 'rectangle'
+    return is_known(info) and info.particles == 'disks' and info.container == 'rectangle'
 
 
 def _is_periodic_scene(info):

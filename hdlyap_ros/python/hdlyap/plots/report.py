@@ -4,6 +4,7 @@ import numpy as np
 
 from hdlyap.data import seeds, space
 from hdlyap.data.containers import is_curved
+from hdlyap.data.reader import NoInfo, is_known
 from hdlyap.numbers import known, with_error
 
 from . import covariant_table, equation, paper, step_table
@@ -17,22 +18,56 @@ HEAD = MEAN.format('', 'mean', 'stated error', 'from scatter', 'chi^2/(n-1)', 'n
 def report(recording):
     if recording.is_mean:
         return _of_means(recording)
-    blocks = [_head(recording)]
-    if recording.gas is not None:
-        blocks.append(_gas(recording))
-    if recording.spectrum is not None:
-        blocks += [_sums(recording), _tail(recording)]
-        blocks += (
-            _paper_block(recording) if recording.steps is None else step_table.blocks(recording)
-        )
-    if recording.covariant is not None:
-        blocks += covariant_table.blocks(recording)
+    blocks, lost = [_head(recording)], []
+    for name, part in PARTS.items():
+        try:
+            blocks += part(recording)
+        except NoInfo:
+            lost.append(name)
+    if lost:
+        blocks.append(f'not here, as it needs run_info: {", ".join(lost)}')
+    return '\n\n'.join(blocks)
+
+
+def _of_spectrum(recording):
+    return [] if recording.spectrum is None else [_sums(recording)]
+
+
+def _of_tail(recording):
+    return [] if recording.spectrum is None else [_tail(recording)]
+
+
+def _of_steps(recording):
+    if recording.steps is not None:
+        return step_table.blocks(recording)
+    return [] if recording.spectrum is None else _paper_block(recording)
+
+
+def _of_gas(recording):
+    return [] if recording.gas is None else [_gas(recording)]
+
+
+def _of_covariant(recording):
+    return [] if recording.covariant is None else covariant_table.blocks(recording)
+
+
+def _of_caged(recording):
     if recording.is_caged:
-        blocks.append(
+        yield (
             f'{space.particle(recording.info)}s have kept their places since the averaging began: '
             'errors hold\nfor this arrangement only, other seeds may differ by more'
         )
-    return '\n\n'.join(blocks)
+
+
+# what a part is about: its blocks, of what was recorded
+PARTS = {
+    'the gas': _of_gas,
+    'sums': _of_spectrum,
+    'the last exponents': _of_tail,
+    'steps': _of_steps,
+    'covariant vectors': _of_covariant,
+    'whether particles are caged': _of_caged,
+}
 
 
 def _of_means(recording):
@@ -73,6 +108,9 @@ def _mean(name, row, column, remark=''):
 
 
 def _head(recording):
+    if not is_known(recording.info):
+        run_id = recording.info.run_id
+        return f'run {run_id}: no run_info in the bag, so its parameters are not known'
     head = f'scene {recording.info.scene}: {system(recording.info)}\n{origin(recording.info)}'
     runs = recording.data.runs_in_bag
     if runs > 1:
@@ -100,16 +138,17 @@ def origin(info):
 
 
 def _sums(recording):
-    spectrum, disks = recording.spectrum, recording.info.number
+    spectrum = recording.spectrum
     lines = [
         f'averaged time   {spectrum.averaged_time:g}',
         *([f'collisions      {spectrum.collisions}'] if spectrum.collisions else []),
         f'lambda_max      {spectrum.lambda_max:.6f}{_error(spectrum.std_errors[0])}',
     ]
-    error, each = recording.sum_error, spectrum.ks_entropy / disks
+    error = recording.sum_error
     total = f'{spectrum.ks_entropy:.4f}{_error(error, 4)}'
-    if recording.last_index >= recording.positive_end:
-        lines += [f'h_KS            {total}', f'h_KS / N        {each:.6f}{_error(error / disks)}']
+    if recording.sum_name == 'h_KS':
+        each, of_each = spectrum.ks_entropy / recording.info.number, error / recording.info.number
+        lines += [f'h_KS            {total}', f'h_KS / N        {each:.6f}{_error(of_each)}']
     elif len(spectrum.exponents) > 1:
         lines.append(f'sum of the {len(spectrum.exponents)} exponents carried {total}')
     if spectrum.pairing_error >= 0:

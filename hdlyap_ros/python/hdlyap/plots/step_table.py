@@ -5,6 +5,7 @@ from math import isfinite
 from hdlyap.data import fits, steps
 from hdlyap.data.fields import words
 from hdlyap.data.phases import turning
+from hdlyap.data.reader import is_known
 from hdlyap.msg import Step
 from hdlyap.numbers import with_error
 
@@ -67,6 +68,8 @@ def layout(rows, beside_paper=False):
 def zero_cells(run):
     zero = steps.zero_modes(run.steps)
     if zero is None or not zero.resolved:
+        if run.spectrum is None or not is_known(run.info):
+            return ['zero modes', 'not resolved']
         carried = run.last_index > run.positive_end
         return ['zero modes', 'not found' if carried else 'not carried']
     indices, exponent = steps.Block([zero]).indices, with_error(zero.exponent, zero.std_error)

@@ -7,6 +7,7 @@ import importlib
 from matplotlib.backends.backend_pdf import PdfPages
 
 from hdlyap import whole
+from hdlyap.data.reader import NoInfo
 
 from .style import ours, save
 
@@ -19,12 +20,16 @@ OF_MEANS = 'spectrum', 'steps', 'dispersion'  # figures of several seeds; others
 
 
 def draw_all(recording, folder, progress, names=tuple(FIGURES), pdf=None):
-    """Draws each figure for which the recording has data. Returns the names of the files. pdf: a
-    file with all figures."""
-    files, pages = [], None
+    """Draws each figure for which the recording has data. Returns the names of the files, and of
+    figures that need run_info, which it lacks. pdf: a file with all figures."""
+    files, pages, lost = [], None, []
     with ours(), contextlib.ExitStack() as stack:
         for name in progress.over(names, len(names)):
-            page = FIGURES[name].draw(recording)
+            try:
+                page = FIGURES[name].draw(recording)
+            except NoInfo:
+                lost.append(name)
+                continue
             if page is None:
                 continue
             if pdf and not pages:
@@ -32,4 +37,4 @@ def draw_all(recording, folder, progress, names=tuple(FIGURES), pdf=None):
             if pdf:
                 pages.savefig(page.figure)
             files += save(page.figure, folder, name)
-    return files + ([pdf] if pdf and files else [])
+    return files + ([pdf] if pdf and files else []), lost

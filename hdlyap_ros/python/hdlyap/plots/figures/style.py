@@ -9,6 +9,7 @@ from matplotlib import ticker
 from hdlyap import whole
 from hdlyap.data import space, steps
 from hdlyap.data.containers import is_curved
+from hdlyap.data.reader import is_known
 from hdlyap.numbers import known
 
 POINTS = 2000  # most points of a curve; more cannot be seen
@@ -80,6 +81,8 @@ def save(figure, folder, name, dpi=250):
 
 
 def scene(info):
+    if not is_known(info):
+        return f'run {info.run_id}: no run_info'
     name = info.scene.replace('$', r'\$')  # $ would begin a formula
     if space.without_box(info):
         return f'{name}: {info.particles}, $N={info.number}$'
