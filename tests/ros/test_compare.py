@@ -2,6 +2,7 @@
 
 import unittest
 from math import atan, cos, nan, pi, sin, sqrt
+from unittest import mock
 
 import numpy as np
 import rospy
@@ -53,6 +54,10 @@ def run(exponents=EXPONENTS, made_steps=None, error=ERROR, **fields):
         made.spectrum(exponents, 50.0, error=error, **of_run),
         made.steps(found() if made_steps is None else made_steps, **of_run),
     ]
+
+
+# messages as no node sends them, but as they may be after others have changed them
+unchecked = mock.patch('hdlyap.data.reader.check', lambda *_: None)
 
 
 class Pairs(Bags):
@@ -175,6 +180,7 @@ class Differing(Pairs):
             self.assertEqual(unlikeliest(comparison.deviations)[0].name, name)
             self.assertEqual(verdict.verdict(comparison)[1], verdict.DIFFER)
 
+    @unchecked
     def test_what_is_no_number(self):
         """Agrees with nothing, itself not either, whatever its error, also where nothing else would
         be judged."""
@@ -273,6 +279,7 @@ class Fits(Pairs):
         self.assertRegex(text, rf'\n  {symbol} is not compared: {reason}(\n|$)')
         self.assertEqual(verdict.verdict(comparison)[1], verdict.AGREE)
 
+    @unchecked
     def test_of_another_form(self):
         """26 errors apart, which means nothing."""
         other = run()
@@ -335,7 +342,8 @@ class UnknownErrors(Pairs):
         other[-1].t_points = other[-1].l_points = other[-1].v_phases = 0
         self.cannot_compare('no quantity has a known error in both', run(), other)
         other[1].std_errors = other[2].std_errors = [np.inf] * EXPONENTS.size
-        self.cannot_compare('no quantity has a known error in both', run(), other)
+        self.cannot_compare('std_errors = inf: must be from', run(), other)
+        unchecked(self.cannot_compare)('no quantity has a known error in both', run(), other)
 
 
 class Refusals(Pairs):

@@ -1,6 +1,6 @@
 """Message -> what its definition says about its fields: what they are, their units, whether -1
-means unknown, and the names of the constants that they hold. If a field has no comment, the comment
-above it describes it, too."""
+means unknown, whether they may be NaN, and the names of the constants that they hold. If a field
+has no comment, the comment above it describes it, too."""
 
 import re
 from collections import namedtuple
@@ -13,7 +13,7 @@ UNIT = re.compile(r'\s*\[([^\]]*)\]\s*$')
 UNKNOWN = re.compile(r'(?:^|[;,] )-1 (?!\.\.)')
 STANDARD_ERROR = re.compile(r'errors?$')
 
-Field = namedtuple('Field', 'unit unknown what')
+Field = namedtuple('Field', 'unit unknown what may_be_nan is_choice')
 
 
 def of(message):
@@ -43,7 +43,8 @@ def _parsed(text):
     for name, own in LINE.findall(_own(text)):
         words = above if own.startswith('[') else own or above
         unknown = UNKNOWN.search(words) or STANDARD_ERROR.search(name)
-        found[name] = Field(_unit(own or above), bool(unknown), UNIT.sub('', words))
+        said = bool(unknown), UNIT.sub('', words), 'NaN' in words, bool(CHOICE.search(words))
+        found[name] = Field(_unit(own or above), *said)
         above = words
     return found
 

@@ -43,7 +43,8 @@ class Growth(Orders):
         self.std_errors = self._pairs(known(message.covariance_errors))
         diffusions = np.array(message.diffusions)
         own = [
-            diffusions[np.array(one) - message.first_index].mean() for one in self.indices.values()
+            diffusions[np.array(one, dtype=int) - message.first_index].mean()
+            for one in self.indices.values()
         ]
         own = [one if one > 0 else np.nan for one in own]  # an estimate can be negative
         self.correlations = self.covariances / np.sqrt(np.outer(own, own))

@@ -37,6 +37,7 @@ def packed(parts, kinds):
                 continue
             if one.sim_time <= part.until and one.seq > last.get(key, -1):
                 newest[key] = one.seq
+                one.info = part.info if is_known(part.info) else None
                 if one.kind == reader.SPECTRUM:
                     averages.add(part, one)
                 yield one

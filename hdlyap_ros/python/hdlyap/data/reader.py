@@ -15,6 +15,7 @@ from hdlyap import fault, topics
 from hdlyap.progress import Progress
 
 from . import space
+from .possible import check
 
 PACKAGE = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 TYPES = {message._type: message for message in topics.RECORDED.values()}
@@ -28,21 +29,6 @@ NAME, PATH, LINE, LIST = 200, 4096, 8192, 4096  # longest text, path, error; mos
 PATHS = ('checkpoint', 'resume', 'given')
 VERSION = re.compile(r'\d[\w.+~-]{0,30}', re.ASCII)
 FIRST_LINE = 100  # bytes that the first line of a bag (#ROSBAG V2.0) never has
-# arrays that must have the same length
-ALIKE = {
-    SPECTRUM: ('exponents', 'std_errors', 'local_exponents', 'cos_theta', 'dp_dq_ratio'),
-    STATE: ('x', 'y', 'px', 'py'),
-    STRUCTURE: ('nx', 'ny', 'wave_number'),
-    FIELD: ('x', 'y', 'px', 'py', 'dqx', 'dqy', 'dpx', 'dpy'),
-    COVARIANT: ('exponents', 'std_errors', 'start_mismatch', 'widths', 'cos_theta'),
-    LOCALIZATION: ('widths', 'std_errors', 'widths_now'),
-    FLUCTUATIONS: ('diffusions', 'std_errors'),
-}
-# arrays of that length in space, or if particles rotate; otherwise they are empty
-OF_SPHERES = {STATE: ('z', 'pz'), FIELD: ('z', 'pz', 'dqz', 'dpz'), STRUCTURE: ('nz',)}
-OF_TURNING = {STATE: ('angle', 'spin'), FIELD: ('angle', 'spin', 'dq_angle', 'dp_angle')}
-AMPLITUDES = 'amplitude_along', 'amplitude_across'
-PAIRED = 'covariances', 'covariance_errors', 'variances', 'reversals'
 
 
 class RecordingError(Exception):
@@ -60,10 +46,6 @@ class NoInfo(Missing):
     """Something needs run_info, which was not recorded."""
 
 
-class Damaged(Exception):
-    """A message says something that no node can have sent."""
-
-
 def plain(text, longest=NAME):
     """A text that a terminal shows in one line and does not obey; at most `longest` characters."""
     text = text if len(text) <= longest else text[: longest - 3] + '...'
@@ -79,6 +61,7 @@ class Packed:
 
     def __init__(self, path, kind, data, recorded):
         self.path, self.kind, self.recorded = path, kind, recorded  # its type, its time in the bag
+        self.info = None  # run_info, if it is known
         self._data = data
         _, after_frame = self._string(12)  # after seq and stamp
         self.run_id, self._after_run_id = self._string(after_frame)
@@ -122,67 +105,12 @@ class Packed:
                 blank.deserialize_numpy(self._data, numpy)
             else:
                 blank.deserialize(self._data)
-            check(self.kind, blank)
+            check(blank, self.info)
         except Exception as error:  # damaged bytes make genpy raise anything
             if _is_of_another(error):
                 raise
             raise _damaged(self.path, error)
         return blank
-
-
-def check(kind, message):
-    """Checks what all readers of a message rely on. Raises Damaged if it does not hold."""
-    lengths, *of_some = (
-        {len(getattr(message, name)) for name in names.get(kind, ())}
-        for names in (ALIKE, OF_SPHERES, OF_TURNING)
-    )
-    for found in of_some:
-        lengths |= found if found != {0} else set()
-    if len(lengths) > 1:
-        raise Damaged(f'{kind}: arrays that must be equally long have {sorted(lengths)} elements')
-    if kind == SPECTRUM and not len(message.exponents):
-        raise Damaged(f'{kind}: no exponents')
-    if kind == LOCALIZATION and not len(message.widths):
-        raise Damaged(f'{kind}: no widths')
-    if kind == STRUCTURE:
-        n, waves = len(message.peak), len(message.nx)
-        means = {len(message.along), len(message.across)}
-        now = [len(getattr(message, name)) for name in AMPLITUDES]
-        solid = waves and len(message.nz)
-        if means not in ({0}, {n * waves}) or now != ([8 * n, 16 * n] if solid else [4 * n, 4 * n]):
-            raise Damaged(
-                f'{kind}: {sorted(means | set(now))} elements of {n} vectors, {waves} waves'
-            )
-    if kind == FLUCTUATIONS:
-        _check_fluctuations(message)
-    if kind == COVARIANT and _in_orders(message) - {max(len(message.exponents) - 1, 0)}:
-        raise Damaged(f'{kind}: {len(message.exponents)} vectors, pairs {_in_orders(message)}')
-    if kind == RUN_INFO:
-        sizes = [message.density, message.aspect, message.box_x, message.box_y]
-        if space.is_solid(message):
-            sizes += [message.aspect_z, message.box_z]
-        if not (message.number and all(math.isfinite(size) and size > 0 for size in sizes)):
-            raise Damaged(
-                f'{kind}: {message.number} particles, density, aspect and box {tuple(sizes)}'
-            )
-
-
-def _in_orders(message):
-    """How many pairs of neighbours the orders of a message have."""
-    found = {len(one.violations) for one in message.orders}
-    return found | {len(one.domination_violations) for one in message.orders}
-
-
-def _check_fluctuations(message):
-    vectors, times = len(message.diffusions), len(message.orders)
-    indices = [index for step in message.steps for index in step.indices]
-    pairs = len(message.steps) ** 2
-    found = {name: len(getattr(message, name)) for name in PAIRED}
-    of_orders = _in_orders(message)
-    if list(found.values()) != [pairs, pairs, times * vectors, times * pairs]:
-        raise Damaged(f'{FLUCTUATIONS}: {vectors} vectors, {times} times, {pairs} pairs, {found}')
-    if not vectors or of_orders - {vectors - 1} or set(indices) - set(range(1, vectors + 1)):
-        raise Damaged(f'{FLUCTUATIONS}: {vectors} vectors, pairs {of_orders}, indices {indices}')
 
 
 def run_infos(path, node=None):

@@ -2,7 +2,6 @@
 particles, and where the disks of dumbbells are."""
 
 import numpy as np
-import yaml
 
 
 def is_solid(info):
@@ -31,9 +30,17 @@ def shows(messages, names):
 
 def own(info):
     """{name: value} of the parameters that only these particles have."""
-    return {
-        name: yaml.safe_load(value) for name, _, value in (one.partition('=') for one in info.own)
-    }
+    return {name: _value(text) for name, _, text in (one.partition('=') for one in info.own)}
+
+
+def _value(text):
+    """A number, or the word itself."""
+    for kind in (int, float):
+        try:
+            return kind(text)
+        except ValueError:
+            continue
+    return text
 
 
 def without_box(info):

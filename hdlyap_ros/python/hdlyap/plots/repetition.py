@@ -46,13 +46,19 @@ def parameters(info):
     asked.update({name: asked[name] or 'auto' for name in AUTOMATIC})
     asked.update(space.own(info))
     before = {change.name: change.before for change in reversed(info.changes)}  # at the beginning
-    asked.update({name: _typed(asked[name], value) for name, value in before.items()})
+    for name, value in before.items():
+        if name not in asked:
+            raise reader.RecordingError(f'changes: {name}: must be a parameter of the run')
+        asked[name] = _typed(asked[name], value)
     return {**asked, 'changes': [_change(change) for change in info.changes]}
 
 
 def _typed(now, text):
     """A text with the type of the parameter's present value."""
-    return type(now)(text)
+    try:
+        return type(now)(text)
+    except ValueError:
+        raise reader.RecordingError(f'changes: {text} before: must be a {type(now).__name__}')
 
 
 def _change(change):
