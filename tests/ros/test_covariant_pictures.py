@@ -145,7 +145,9 @@ class Recorded(Bags):
     def test_last_of_the_run(self):
         """Since the averages were reset, if it is of a window."""
         info, spectra = made.run_info(), [made.spectrum(FORWARD, t) for t in (9.0, 1.0)]
+        spectra[0].sim_time, spectra[1].sim_time = 340.0, 351.0
         first, last = made.covariant(FORWARD, windows=1), made.covariant(FORWARD, windows=2)
+        last.sim_time = 360.0
         none = made.covariant(FORWARD, windows=0, averaged_time=0.0)
         other = made.covariant(FORWARD, run_id='other', windows=3)
         for windows, messages in (

@@ -18,8 +18,9 @@ import made_fields
 from bags import Bags
 from hdlyap.data import fields
 from hdlyap.data.reader import Missing, RecordingError
-from hdlyap.msg import LpPhase, Mode, Modes, Spectrum, State
+from hdlyap.msg import Hydro, LpPhase, LpPhases, Mode, Modes, Spectrum, State
 from made import T
+from test_structure import message as structure
 
 DISKS = 20
 DOC = os.path.join(os.path.dirname(os.path.abspath(__file__)), '../../doc')
@@ -276,11 +277,66 @@ class Arrays(Loaded):
 
     def test_resets(self):
         messages = [made.spectrum([3.0], t) for t in (0, 5, 6, 1, 2)]
-        for message in messages:
-            message.local_time = 0.5
+        for time, message in zip((100, 105, 106, 108, 109), messages):
+            message.sim_time, message.local_time = time, 0.5
         run = self.load([made.run_info(), *messages])
         self.equal(run.averaged_times, [1, 2])
-        self.equal(run.local.times, [101, 102])
+        self.equal(run.local.times, [108, 109])
+
+    def test_resets_of_all_topics(self):
+        """What was published before the last reset counts nowhere; what the run is about does."""
+        info, old, new = made.run_info(), (105.0, 106.0), (108.5, 109.0)
+        step = made.step(info, T, 1, 0, 2, 3)
+        kinds = dict(
+            spectrum=lambda t, a: made.spectrum([3.0, 2.0, 1.0], a),
+            modes=lambda t, a: Modes(averaged_time=a, samples=5),
+            steps=lambda t, a: made.steps([step], a),
+            lp_phases=lambda t, a: LpPhases(),
+            t_phases=lambda t, a: made.t_phases([step], t),
+            hydro=lambda t, a: Hydro(),
+            structure=lambda t, a: structure(info, t, [], vectors=3),
+            covariant=lambda t, a: made.covariant([3.0, 2.0], averaged_time=a),
+            localization=lambda t, a: made.localization([0.5]),
+            fluctuations=lambda t, a: made.fluctuations([0.5], averaged_time=a),
+            gas=lambda t, a: made.gas(a),
+            fields=lambda t, a: made_fields.mode_field(info, step),
+        )
+        of_the_run = {'cost': lambda t, a: made.cost(t), 'status': lambda t, a: made.status(t)}
+
+        def times(names, without=None):
+            """{topic: the times of its messages}; without: has no report after the reset."""
+            messages = [info]
+            for t, begun in [(t, 100) for t in old] + [(t, 108) for t in new]:
+                for name in names if t in old else set(names) - {without}:
+                    message = {**kinds, **of_the_run}[name](t, t - begun)
+                    message.sim_time, message.run_id = t, 'one'
+                    if name in ('structure', 'localization'):
+                        message.samples = int(10 * (t - begun))
+                    messages.append(message)
+            run = self.load(messages)
+            found = {name: tuple(one.sim_time for one in run.messages(name)) for name in names}
+            self.assertEqual(
+                [name for name in names if run.has(name)], [k for k in found if found[k]]
+            )
+            return found
+
+        every = [*kinds, *of_the_run]
+        counted = {**dict.fromkeys(kinds, new), **dict.fromkeys(of_the_run, old + new)}
+        self.assertEqual(times(every), counted)
+        for name in set(kinds) - {'spectrum'}:
+            self.assertEqual(times(every, name), {**counted, name: ()})
+        for name in set(kinds) - {'lp_phases', 't_phases', 'hydro', 'fields'}:  # without means
+            self.assertEqual(times([name]), {name: new})
+
+    def test_reset_between_reports(self):
+        """A covariant window that ended before the reset is of before, also after the last
+        report; one that ended after it is not."""
+        spectra = [made.spectrum([3.0], a) for a in (6, 1)]
+        spectra[0].sim_time, spectra[1].sim_time = 106, 110
+        for time, is_there in ((108.9, False), (109.1, True)):
+            window = made.covariant([3.0], sim_time=time)
+            run = self.load([made.run_info(), spectra[0], window, spectra[1]])
+            self.assertEqual(run.has('covariant'), is_there)
 
     def test_no_bag(self):
         """What never ends, or never begins, is not read; nor is a file without an end of line."""

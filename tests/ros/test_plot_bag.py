@@ -154,7 +154,10 @@ class Kept(Bags):
     """Of a bag."""
 
     def test_averages_start_afresh_after_a_reset(self):
-        run = self.recorded([INFO, *(made.spectrum([3.0, 2.0], t) for t in [1, 2, 3, 1, 2])])
+        spectra = [made.spectrum([3.0, 2.0], t) for t in [1, 2, 3, 1, 2]]
+        for time, message in enumerate(spectra, 101):
+            message.sim_time = time
+        run = self.recorded([INFO, *spectra])
         self.assertEqual(list(run.course()['time']), [1, 2])
 
     def test_last_of_two_runs(self):

@@ -25,6 +25,9 @@ PHASES, T_PHASES = 'hdlyap/LpPhases', 'hdlyap/TPhases'
 FIELD, STATE = 'hdlyap/ModeField', 'hdlyap/State'
 COVARIANT, HYDRO, STRUCTURE = 'hdlyap/Covariant', 'hdlyap/Hydro', 'hdlyap/Structure'
 LOCALIZATION, FLUCTUATIONS = 'hdlyap/Localization', 'hdlyap/Fluctuations'
+# messages with means: the kind of the number that follows sim_time, averaged_time or samples
+MEANS = {SPECTRUM: '<d', 'hdlyap/Modes': '<d', 'hdlyap/Steps': '<d', 'hdlyap/Gas': '<d'}
+MEANS.update({COVARIANT: '<d', FLUCTUATIONS: '<d', STRUCTURE: '<I', LOCALIZATION: '<I'})
 NAME, PATH, LINE, LIST = 200, 4096, 8192, 4096  # longest text, path, error; most elements of a list
 PATHS = ('checkpoint', 'resume', 'given')
 VERSION = re.compile(r'\d[\w.+~-]{0,30}', re.ASCII)
@@ -80,8 +83,13 @@ class Packed:
 
     @property
     def averaged_time(self):
-        """averaged_time of a Spectrum, where it follows sim_time."""
-        return struct.unpack_from('<d', self._data, self._after_run_id + 8)[0]
+        """averaged_time of a message with means, where it follows sim_time."""
+        return self.amount
+
+    @property
+    def amount(self):
+        """How much is in the means of a message: averaged_time or samples, by MEANS."""
+        return struct.unpack_from(MEANS[self.kind], self._data, self._after_run_id + 8)[0]
 
     @property
     def version(self):

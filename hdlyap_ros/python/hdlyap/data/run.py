@@ -30,6 +30,8 @@ FRAMES = {
     'fluctuations': tables.of_fluctuations,
     'gas': tables.of_gas,
 }
+# topics that are about the run, and not about what it has averaged
+OF_THE_RUN = reader.STATUS, reader.COST, reader.STATE
 # name of an array: the field whose unit it has
 ARRAYS = {
     'times': (msg.Spectrum, 'sim_time'),
@@ -124,9 +126,20 @@ class Run:
 
     def messages(self, topic):
         """The messages of a topic ('spectrum', 'fields' ..), one after the other, with numpy
-        arrays."""
-        for packed in self.packed((TOPICS[topic],)):
+        arrays; those since the last reset, but of OF_THE_RUN all."""
+        for packed in self._counting(TOPICS[topic]):
             yield packed.message(np)
+
+    def _counting(self, kind):
+        """The packed messages of a type that were published after the last ~reset_average."""
+        begin = -np.inf if kind in OF_THE_RUN else self.last_reset
+        return (packed for packed in self.packed((kind,)) if packed.sim_time > begin)
+
+    @property
+    def last_reset(self):
+        """A simulated time: what was published up to then was averaged before the last
+        ~reset_average, and does not count; -inf without a reset."""
+        return self._seen.begin
 
     # ---- running means and samples ----------------------------------------------------------
 
@@ -141,8 +154,6 @@ class Run:
         rows, samples = [], []
         for message in self.messages('spectrum'):
             if message.averaged_time > 0:
-                if rows and message.averaged_time < rows[-1].averaged_time:
-                    rows, samples = [], []  # the averages were reset
                 rows.append(message)
                 if message.local_time != 0:  # otherwise its sample was in the message before
                     samples.append((message.sim_time, message.local_time, message.local_exponents))
@@ -284,30 +295,25 @@ class Run:
     @cached_property
     def fields(self):
         """{Lyapunov index: ModeField}, the last one of each vector."""
-        last = {packed.field_index(): packed for packed in self.packed((reader.FIELD,))}
+        last = {packed.field_index(): packed for packed in self._counting(reader.FIELD)}
         return {index: packed.message(np) for index, packed in sorted(last.items())}
 
     # ---- messages ---------------------------------------------------------------------------
 
     @cached_property
-    def _lasts(self):
-        """{type: last Packed} of small messages, for which the bag is read only once."""
-        last = {}
-        for packed in self.packed([TOPICS[topic] for topic in FRAMES]):
-            if packed.kind == reader.SPECTRUM:
-                before = last.get(reader.SPECTRUM, packed)
-                if packed.averaged_time <= 0:
-                    continue
-                if packed.averaged_time < before.averaged_time:  # the averages were reset
-                    last.pop(reader.COVARIANT, None)  # the next one comes later
-            last[packed.kind] = packed
-        return last
+    def _seen(self):
+        """The Seen of small messages, and of those with means, for which the bag is read once."""
+        seen = Seen()
+        kinds = dict.fromkeys([*(TOPICS[topic] for topic in FRAMES), *reader.MEANS])
+        for packed in self.packed(list(kinds)):
+            seen.add(packed)
+        return seen
 
     def _last(self, topic):
         """The last Packed of a topic; None if there is none."""
         if topic in FRAMES:
-            return self._lasts.get(TOPICS[topic])
-        return next(iter(deque(self.packed((TOPICS[topic],)), maxlen=1)), None)
+            return self._seen.last(TOPICS[topic])
+        return next(iter(deque(self._counting(TOPICS[topic]), maxlen=1)), None)
 
     def has(self, topic):
         """Whether a topic has a message; 'spectrum' must have averages."""
@@ -330,6 +336,39 @@ class Run:
     def _missing(self, topic):
         what = 'averaged spectrum' if topic == 'spectrum' else f'message of {topic}'
         return Missing(f'{self.name}: no {what} in it')
+
+
+class Seen:
+    """The last message of each type, and `begin`: up to this simulated time all was averaged before
+    the last ~reset_average. Means of less than before show that there was a reset, after the
+    message before; averaged times of later spectra say when."""
+
+    def __init__(self):
+        self._before = self._start = -np.inf
+        self._last, self._means = {}, {}
+
+    def add(self, packed):
+        if packed.kind in reader.MEANS:
+            self._note_reset(packed, self._means.get(packed.kind))
+            self._means[packed.kind] = packed
+        if packed.kind != reader.SPECTRUM or packed.amount > 0:
+            self._last[packed.kind] = packed
+
+    def _note_reset(self, packed, before):
+        is_spectrum = packed.kind == reader.SPECTRUM
+        if before is not None and packed.amount < before.amount:
+            self._before = max(self._before, before.sim_time)
+            self._start = np.inf if is_spectrum else self._start
+        if is_spectrum and packed.amount > 0:
+            self._start = min(self._start, packed.sim_time - packed.amount)
+
+    @property
+    def begin(self):
+        return max(self._before, self._start if self._start < np.inf else -np.inf)
+
+    def last(self, kind):
+        packed = self._last.get(kind)
+        return packed if packed is not None and packed.sim_time > self.begin else None
 
 
 def _no_samples(message):

@@ -108,13 +108,11 @@ class Said:
     def course(self):
         """Running means over averaged time; unknown errors are NaN."""
         small = [index - self.spectrum.first_index for index in self.smallest]
-        course, n, last = Course(), len(small), 0.0
+        course, n = Course(), len(small)
         for message in self.data.messages('spectrum'):
             if message.averaged_time > 0:
-                if message.averaged_time < last:
-                    course.clear()  # the averages were reset
-                last, errors = message.averaged_time, message.std_errors
-                means = last, message.lambda_max, errors[0], _typical(errors)
+                errors = message.std_errors
+                means = message.averaged_time, message.lambda_max, errors[0], _typical(errors)
                 course.add((*means, *message.exponents[small], *errors[small]))
         table = course.table()
         return {
