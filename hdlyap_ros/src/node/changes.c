@@ -56,7 +56,7 @@ bool changes_create(changes *out, settings *set, double since)
 {
     char message[256];
     const int count = set->changes.count;
-    *out = (changes){.list = calloc((size_t)count + 1, sizeof *out->list)};
+    *out = (changes){.list = calloc((size_t)count + 1, sizeof *out->list), .since = since};
     if (!out->list) return false;
     for (; out->count < count; out->count++)
         (void)change_parse_timed(&out->list[out->count], set->changes.text[out->count], message,

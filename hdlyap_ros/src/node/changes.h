@@ -12,6 +12,7 @@ typedef struct changes {
     int made; /**< number of changes that have been made, which are the first ones, in their order;
                  the others wait */
     int count;
+    double since; /**< simulated time at which the run was resumed; negative: it was not */
 } changes;
 
 /** Takes the changes of the settings. If the run is resumed at simulated time `since` (negative: it

@@ -186,7 +186,7 @@ hd_status topic_publish_run_info(const moment *now)
         .checkpoint = set->checkpoint,
         .checkpoint_interval = set->checkpoint_interval,
         .resume = set->resume,
-        .resumed_time = *set->resume ? hd_run_time(now->run) : -1.0,
+        .resumed_time = now->changes->since,
     };
     if (!fill_waves(&info, now) || !fill_outline(&info, now) || !fill_changes(&info, now) ||
         !fill_own(&info, now) || !fill_given(&info, now))
