@@ -103,18 +103,8 @@ class Figures(bags.Figures):
             made.status(time, stage=stage) for time, stage in zip((20, 30, 40, 50), (1, 1, 2, 2))
         ]
         course, share = self.draw(cost, *stages, *map(made.cost, (50.0, 100.0)))
-        parts = [
-            10,
-            20,
-            55,
-            0,
-            5,
-            0,
-            0,
-            0,
-            5,
-            5,
-        ]  # the rest of before the first report, and after it
+        # at the end the rest: of before the first report, and after it
+        parts = [10, 20, 55, 0, 5, 0, 0, 0, 5, 5]
         tops = [path.vertices for one in course.collections for path in one.get_paths()]
         halfway = [5, 10, 27.5, 0, 2.5, 0, 0, 0, 0, 5]
         for time, spent in ((50.0, halfway), (100.0, parts)):
