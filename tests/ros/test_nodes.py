@@ -173,7 +173,7 @@ class Nodes(harness.Case):
         """What a master knows: publishers, services, and the viewer's first subscriber."""
         publishers, subscribers, services = rosgraph.Master('/test', uri).getSystemState()
         first = [one for one in subscribers if one[0] == '/hdlyap/run_info']
-        return sorted(publishers + services + first)
+        return sorted([name, sorted(nodes)] for name, nodes in publishers + services + first)
 
     def heard_by_viewer(self, uri):
         """The address that the viewer hears run_info from."""
