@@ -262,7 +262,8 @@ class Export(Tools):
         messages = [info, made.gas(), made.localization([0.25, 0.5]), made.cost(1)]
         messages.append(made.fluctuations([0.5, 0.25]))
         self.assertEqual(
-            self.export(self.write(messages)), ['cost', 'fluctuations', 'gas', 'localization']
+            self.export(self.write(messages)),
+            ['cost', 'fluctuations', 'gas', 'localization', 'orders'],
         )
         gas = self.table('gas')
         self.assertEqual((gas.value['pressure'], gas.unit['pressure']), (1.25, '1/sigma^2'))
@@ -270,6 +271,61 @@ class Export(Tools):
         with np.load(self.npz) as arrays:
             np.testing.assert_array_equal(arrays['localization.width'], [0.25, 0.5])
             self.assertEqual(arrays['gas.value'][0], 3.25)
+
+    def test_what_has_more_than_an_index(self):
+        """Each number of it is in a table, and in a Dataset; particles are named as left out."""
+        from test_strangers import every_kind  # which has imported this module
+
+        messages = numbered(every_kind())
+        bag = self.write(messages)
+        text = self.plot(bag, '--csv', self.csv)
+        self.assertIn('\nin no table, as they are of each particle: state, fields\n', text)
+        last = {one._type.partition('/')[2]: one for one in messages}
+        covariant, growth, shape = last['Covariant'], last['Fluctuations'], last['Structure']
+        (angle,), (weight,), (order,) = covariant.angles, covariant.weights, covariant.orders
+        rows = {
+            'hydro': {'energy': [one.energy for one in last['Hydro'].responses]},
+            'structure': {'along': shape.along, 'across': shape.across},
+            'covariant_weights': {k: getattr(weight, k) for k in ('dq', 'dp', 'gram_schmidt')},
+            'covariant_angles': {'mean': [angle.mean], 'least': [angle.least]},
+            'covariant_angle_counts': {
+                k: getattr(angle, k) for k in ('smallest_counts', 'all_counts')
+            },
+            'covariant_orders': {'violations': order.violations},
+            'covariances': {k: getattr(growth, k) for k in ('covariances', 'covariance_errors')},
+            'reversals': {'reversals': growth.reversals},
+            'orders': {'variances': growth.variances},
+        }
+        of_all = hdlyap.load(bag).to_xarray()
+        for name, columns in rows.items():
+            for column, values in columns.items():
+                np.testing.assert_allclose(self.table(name)[column], values, err_msg=name)
+                if name not in ('hydro', 'structure'):  # they have forms of their own
+                    held = of_all[f'{name}_{column}'].values
+                    held = held[~np.isnan(held)]  # `step` has all steps
+                    np.testing.assert_allclose(np.sort(held), np.sort(values))
+        np.testing.assert_allclose(
+            self.table('covariant_angle_counts')['from'], np.pi / 8 * np.arange(4)
+        )
+        self.assertEqual(set(self.table('orders')['count']), {500, 250})
+        self.assertEqual(of_all['covariances_covariances'].attrs['units'], '1/time unit')
+
+    def test_means_with_gas(self):
+        """The means over seeds have the gas, and name what they do not have."""
+        bags = []
+        for seed in (1, 2):
+            info = made.run_info(run_id=f'{seed}', seed=f'{seed}')
+            gas = made.gas(run_id=info.run_id, pressure=1.0 + 0.1 * seed, error=0.02)
+            phases = made.t_phases([made.step(info, T, 1, 0, 2, 3)], 150.0, run_id=info.run_id)
+            spectrum = made.spectrum(HALF, 50.0, run_id=info.run_id)
+            bags.append(self.write([info, gas, phases, spectrum], f'{seed}'))
+        text = self.plot(*bags)
+        self.assertRegex(text, r'\ngas, averaged over 100\n')
+        self.assertRegex(text, r'\npressure +1\.150000 \+- 0\.050000 per sigma\^2\n')
+        self.assertIn('\nno means, see the single runs: t_phases\n', text)
+        os.remove(bags[1])
+        bags[1] = self.write([info, spectrum], 'no')
+        self.assertIn('\nno means, see the single runs: t_phases, gas\n', self.plot(*bags))
 
     def test_gas_of_seeds(self):
         """Weighted with their times."""

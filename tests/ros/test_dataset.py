@@ -23,8 +23,13 @@ OF_TOPIC = dict(spectrum='Spectrum', steps='Step Steps', gas='Gas', modes='Mode'
 OF_TOPIC.update(covariant='Covariant', localization='Localization', lp_phases='LpPhase')
 OF_TOPIC.update(fluctuations='Fluctuations', hydro='HydroMode', structure='Structure')
 OF_TOPIC.update(state='State', fields='ModeField', status='RunStatus')
+OF_TOPIC.update(dict.fromkeys(('orders', 'covariant_orders'), 'GrowthOrder Fluctuations'))
+OF_TOPIC.update(dict.fromkeys(('covariances', 'reversals'), 'Fluctuations'))
+OF_TOPIC.update(covariant_weights='CovariantWeight', covariant_angles='CovariantAngle')
+OF_TOPIC.update(covariant_angle_counts='CovariantAngle')
 # named otherwise than the fields of messages
 MADE = [f'{topic}_{name}' for topic in ('lp_phases', 'hydro') for name in ('step', 'modulation')]
+MADE += ['covariances_correlations', 'covariant_angle_counts_from']
 
 
 def hydro(time):
@@ -113,7 +118,8 @@ class Everything(bags.Bags):
     def test_units_and_names_are_those_of_the_messages(self):
         known, seen = fields(), 0
         for name, one in self.all.data_vars.items():
-            topic = next((topic for topic in OF_TOPIC if name.startswith(topic + '_')), 'spectrum')
+            topics = (topic for topic in OF_TOPIC if name.startswith(topic + '_'))
+            topic = max(topics, key=len, default='spectrum')
             field = name[len(topic) + 1 :] if name.startswith(topic + '_') else name
             field = 'local_time' if name == 'sample_length' else field
             said = [

@@ -17,7 +17,7 @@ import made_fields
 from bags import tool
 from hdlyap.data import possible, reader
 from hdlyap.data.reader import RecordingError
-from hdlyap.msg import Change, Hydro, HydroMode, Mode, Modes, State
+from hdlyap.msg import Change, CovariantAngle, Hydro, HydroMode, Mode, Modes, State
 from made import LP, T
 from test_data_joined import HALF, numbered
 from test_data_tools import Tools
@@ -25,7 +25,7 @@ from test_structure import message as structure
 
 SECONDS = 10.0  # of a processor for an answer; nested aliases took 100, an index of 4e9 took 90
 ROUNDS = 6
-INTEGERS = 0, 1, 2**31 - 1, 2**31, 2**32 - 1
+INTEGERS = 0, 1, 2**31 - 1, 2**31, 2**32 - 1, 2**64 - 1
 REALS = float('nan'), float('inf'), -float('inf'), -1.0, 0.0, 1e-320, 1e100, 1e308
 ALIASES = '{a: &a [x,x], b: &b [*a,*a,*a,*a,*a,*a,*a,*a], c: &c [*b,*b,*b,*b,*b,*b,*b,*b]}'
 TEXTS = '', '$', '\\', '$x$', '\x1b[2J', 'a' * 10000, ALIASES, '2^9'
@@ -60,7 +60,8 @@ def every_kind():
     state = dict(x=x, y=y, px=px, py=py, angle=[0.1] * 20, spin=[0.2] * 20)
     modes = [Mode(index=k, kind=T, nx=1, wave_number=1.0, weight=0.9) for k in (36, 37)]
     covariant = made.covariant(HALF, weights=[made.covariant_weight(found[0], 37)])
-    covariant.angles = [made.covariant_angle(0)] if hasattr(made, 'covariant_angle') else []
+    counts = dict(smallest_counts=[3, 4, 0, 1], all_counts=[5, 6, 7, 8])
+    covariant.angles = [CovariantAngle(spaces=1, mean=0.3, std_error=0.1, least=0.2, **counts)]
     covariant.orders = [made.GrowthOrder(time=5.0, count=7)]
     for name in ('violations', 'domination_violations'):
         setattr(covariant.orders[0], name, [0.5] * 36)

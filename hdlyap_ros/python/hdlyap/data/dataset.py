@@ -9,7 +9,7 @@ import numpy as np
 
 from hdlyap import msg
 
-from . import factors, fields, space, tables
+from . import factors, fields, parts, space, tables
 from .export import plain_info
 
 MISSING = 'to_xarray needs xarray: python3-xarray of Debian and Ubuntu, xarray of PyPI'
@@ -92,6 +92,8 @@ def _frames(run):
         yield name, getattr(run, name), {}
     for name in filter(run.has, COURSES):
         yield name, getattr(run, name), {'sim_time': f'{name}_time'}
+    for name, frame in parts.of(run, parts.TABLES).items():
+        yield name, frame, {}
 
 
 def _counts(run, message):

@@ -7,11 +7,12 @@ import numpy as np
 
 from hdlyap import whole
 
-from . import space
+from . import parts, space
 from .reader import Missing, is_known
 
 FRAMES = ('results', 'spectrum', 'steps', 'modes', 'phases', 't_phases', 'covariant')
 FRAMES += ('localization', 'fluctuations', 'gas', 'cost', 'status')
+OF_PARTICLES = 'state', 'fields'  # topics with numbers for each particle
 OVER_TIME = '1/time unit'  # unit of columns that have Lyapunov indices as names
 
 
@@ -25,7 +26,16 @@ def tables(run):
         except Missing:
             pass
     found = {name: frame for name, frame in found.items() if frame is not None}
+    if not run.is_mean:
+        found.update(parts.of(run, {**parts.TABLES, **parts.OTHERS}))
     return {**found, **(run.over_time() if 'spectrum' in found and hasattr(run, 'times') else {})}
+
+
+def left_out(run):
+    """The topics that were recorded, and of which no table has anything."""
+    if run.is_mean:
+        return []
+    return [name for name in OF_PARTICLES if run.has(name)]
 
 
 def csv(run, folder):

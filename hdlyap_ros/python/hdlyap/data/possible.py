@@ -15,6 +15,7 @@ from . import fields, space
 
 LARGEST = 1e150  # largest number, so that its square is one, too
 LEAST = 1 / LARGEST  # least number above 0
+COUNT = 2**62  # largest integer
 PARTICLES, COORDINATES = 10**6, 1000  # most of a run, as of the parameter number
 OWN = 16  # most parameters that only some particles have
 VECTORS = 2**16  # most zero exponents, and most vectors of a set
@@ -126,7 +127,7 @@ def _rules(kind):
 
 
 def _rule(kind, name, is_real, field):
-    ends = -LARGEST if is_real else -math.inf, LARGEST if is_real else math.inf
+    ends = (-LARGEST, LARGEST) if is_real else (-COUNT, COUNT)
     if field.is_choice:
         values = fields.words(kind, name)
         ends = min(values), max(values)

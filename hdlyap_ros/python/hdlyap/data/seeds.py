@@ -8,12 +8,13 @@ import pandas
 
 from . import joined, space, tables
 from .reader import Missing, RecordingError
-from .run import Run
+from .run import FRAMES, Run
 from .said import Said
 
 # If no run states an error, the scatter of at least FEWEST runs, the longest at most RATIO times
 # the shortest, is one: it is known as well as compare assumes (plots.deviation.FREEDOM).
 FEWEST, RATIO = 8, 2.0
+MEASURED = (*FRAMES, 'structure')  # topics
 
 
 def load(*bags, node=None, run=None, form=None, k=None):
@@ -151,15 +152,32 @@ class Seeds:
     # ---- as messages of one run, which figures and comparison take ----------------------------
 
     def has(self, topic):
-        return topic == 'spectrum' or topic == 'steps' and all(run.has(topic) for run in self.runs)
+        return topic in self._fills and all(run.has(topic) for run in self.runs)
+
+    @property
+    def alone(self):
+        """The topics of which a run has messages, and that have no mean."""
+        found = [topic for topic in MEASURED if any(run.has(topic) for run in self.runs)]
+        return [topic for topic in found if not self.has(topic)]
 
     def last(self, topic, numpy=None):
-        """A message of 'spectrum' or 'steps', with lists: the means, and the larger one of the two
-        errors."""
+        """A message of 'spectrum', 'steps' or 'gas', with lists: the means, and the larger one of
+        the two errors."""
         message = self.runs[0].last(topic, numpy)
-        message.run_id, message.averaged_time = '', self.averaged_time
-        (self._fill_spectrum if topic == 'spectrum' else self._fill_steps)(message)
+        message.run_id = ''
+        message.averaged_time = sum(run.last(topic).averaged_time for run in self.runs)
+        self._fills[topic](message)
         return message
+
+    @property
+    def _fills(self):
+        fills = self._fill_spectrum, self._fill_steps, self._fill_gas
+        return dict(zip(('spectrum', 'steps', 'gas'), fills))
+
+    def _fill_gas(self, message):
+        for name, error in errors(self.gas).items():
+            setattr(message, name, self.gas.loc[name, 'value'])
+            setattr(message, name + '_error', error if np.isfinite(error) else -1.0)
 
     def _fill_spectrum(self, message):
         message.collisions = sum(run.last('spectrum').collisions for run in self.runs)

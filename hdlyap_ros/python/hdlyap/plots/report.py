@@ -71,9 +71,15 @@ PARTS = {
 
 
 def _of_means(recording):
-    blocks = [_head(recording), _means(recording), _tail(recording)]
+    blocks = [_head(recording), *_of_gas(recording)]
+    if recording.spectrum is None:
+        return '\n\n'.join(blocks)
+    blocks += [_means(recording), _tail(recording)]
     if recording.steps is not None:
         blocks.append(next(step_table.blocks(recording)))
+    alone = recording.data.alone
+    if alone:
+        blocks.append(f'no means, see the single runs: {", ".join(alone)}')
     return '\n\n'.join(blocks)
 
 
