@@ -101,6 +101,14 @@ class Axes(bags.Bags):
         points_of = FIGURES['dispersion'].draw(run, ax=self.users(1)[1], label='seed 7').axes[0]
         self.assertEqual(points_of.get_legend_handles_labels()[1].count('seed 7'), 1)
 
+    def test_label_of_every_figure(self):
+        run = self.recorded(everything())
+        for name, kind in FIGURES.items():
+            page = kind.draw(run.data, self.users(PANELS.get(name, 2))[1], label='seed 7')
+            if name == 'cost':
+                labels = page.axes[0].get_legend_handles_labels()[1]
+                self.assertEqual(labels.count('seed 7'), 1)
+
     def test_sweep(self):
         paths = [
             self.write([made.run_info(density=rho), made.spectrum([9.0], 50.0)], str(rho))

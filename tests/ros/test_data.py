@@ -144,6 +144,9 @@ class Arrays(Loaded):
         messages = self.messages['lp_phases']
         self.equal(turned.index, [message.sample_time for message in messages])
         self.equal(turned, [[one.phase for one in message.phases] for message in messages])
+        self.assertTrue(self.run_.course('cost').equals(self.run_.cost))
+        with self.assertRaisesRegex(RecordingError, "course of 'x': must be one of spectrum, "):
+            self.run_.course('x')
         weights = self.run_.course('modes')['weight'].unstack()
         self.equal(
             weights,

@@ -193,6 +193,14 @@ class Drawn(Films):
         picture.show(next(film.frames(1.0)))
         self.assertEqual(picture._panels[0]._title.get_text(), 'T(1,0): not resolved yet')
 
+    def test_tall_boxes(self):
+        """The picture is at most about as tall as two are wide."""
+        for tall in (20.0, 60.0, 1000.0):
+            film = frames.Film(hdlyap.load(self.bag))
+            film.info.box_x, film.info.box_y = 2.0, 2.0 * tall
+            wide, high = movie.Picture(film, 1280).figure.get_size_inches()
+            self.assertLess(high, 1.5 * wide)
+
 
 class BesideTheViewer(unittest.TestCase):
     def said(self, names):

@@ -1,12 +1,16 @@
 """hdlyap plot of bags that are made here: which files it writes, what it prints beside its table
 (test_plot_bag_table.py), what it refuses; and what is kept of a bag."""
 
+import errno
 import itertools
 import os
+import tempfile
 import tracemalloc
 import unittest
+from unittest import mock
 
 import numpy as np
+from matplotlib.figure import Figure
 from matplotlib.image import imread
 
 from hdlyap.msg import LpPhases, ModeField, Steps
@@ -20,7 +24,8 @@ from hdlyap.data.reader import RecordingError
 from hdlyap.data import waves
 from hdlyap.data.course import LIMIT, Course
 from hdlyap.data.phases import PhaseCourse
-from hdlyap.plots import paper, report
+from hdlyap import whole
+from hdlyap.plots import paper, report, window
 from hdlyap.plots.figures import phases
 from hdlyap.numbers import with_error
 
@@ -262,6 +267,27 @@ class Kept(Bags):
         self.assertLess(peak, 20 * one)
 
 
+class Small(unittest.TestCase):
+    def test_window_without_room(self):
+        """Has no figure until it is larger."""
+        for size, count in (((120, 60), 1), ((40, 20), 0)):
+            canvas = mock.Mock()
+            widget, root = canvas.get_tk_widget.return_value, mock.Mock()
+            widget.winfo_width.return_value, widget.winfo_height.return_value = size
+            root._root.winfo_height.return_value = 60
+            window.Window._show(root, canvas, Figure())
+            self.assertEqual(canvas.draw.call_count, count)
+
+    def test_full_disk(self):
+        """Is said with the name of the file that was asked for."""
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, 'a.csv')
+            with self.assertRaisesRegex(OSError, f"No space left on device: '{path}'"):
+                with whole.written(path) as unfinished, open(unfinished, 'w'):
+                    raise OSError(errno.ENOSPC, 'No space left on device')
+            self.assertEqual(os.listdir(folder), [])
+
+
 class Numbers(unittest.TestCase):
     def test_with_error(self):
         for value, error, text in (
@@ -275,6 +301,8 @@ class Numbers(unittest.TestCase):
             (3.76e-16, 2.1e-17, '3.8e-16'),
             (0.5, -1.0, '0.50000'),
             (0.5, float('nan'), '0.50000'),
+            (1e308, float('nan'), '1e+308'),
+            (1e100, 1e99, '1.0e+100'),
             (0.5, 0.0, '0.50000'),
             (float('nan'), 0.1, '-'),
         ):

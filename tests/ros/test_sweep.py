@@ -267,6 +267,15 @@ class Results(InFolder):
         )
         self.assertRegex('\n'.join(table.text(found)), r'(?s)time_step.*\n.*0\.005 .*\n.*0\.01 ')
 
+    def test_two_runs_in_a_bag(self):
+        """Of which the table has the last, and says so."""
+        path = self.bag('a')
+        self.assertNotIn('runs', '\n'.join(table.text(self.read(path))))
+        info = made.run_info(run_id='second', seed='2')
+        spectrum = made.spectrum([8.0, 1.0], 50.0, run_id='second')
+        made.write(path, [info, spectrum], mode='a', start=100)
+        self.assertIn(f'{path}: the last of its 2 runs', list(table.text(self.read(path))))
+
     def test_seeds_that_differ_by_more_than_they_state(self):
         """Four largest exponents, each 9 +- 0.01; then one that is ten errors off."""
         same = [self.bag(f's{n}', 0.4, str(n)) for n in range(1, 5)]

@@ -2,6 +2,7 @@
 #include "base/check.h"
 
 #include <stdarg.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -20,8 +21,10 @@ hd_status hd_refuse(char *message, size_t size, const char *format, ...)
 {
     va_list list;
     va_start(list, format);
-    if (message && size > 0) vsnprintf(message, size, format, list);
+    const bool told = message && size > 0 && vsnprintf(message, size, format, list) >= 0;
     va_end(list);
+    for (char *c = message; told && *c; c++) /* what is refused may have anything in it */
+        if ((unsigned char)*c < ' ' || *c == 127) *c = '?';
     return HD_REFUSED;
 }
 

@@ -5,6 +5,7 @@ from math import floor, isfinite, log10
 
 import numpy as np
 
+LARGE = 1e15  # larger values have no digits behind the point
 PLACES = 9  # most decimals; with a smaller error only the size of a value is printed
 
 
@@ -14,16 +15,21 @@ def with_error(value, error, decimals=5):
     if not isfinite(value):
         return '-'
     if not (isfinite(error) and error > 0):
-        return f'{value:.{decimals}f}'
+        return fixed(value, decimals)
     # places of the rounded error: 0.00996 becomes 0.010
     places = 1 - floor(log10(float(f'{error:.1e}')))
-    if places > PLACES:
+    if places > PLACES or max(abs(value), error) > LARGE:
         return f'{value:.1e}'
     if places <= 0:
         return f'{round(value, places):.0f}({round(error, places):.0f})'
     digits = f'{error:.{places}f}'
     # an error of one unit or more keeps its point: 12.3(1.5)
     return f'{value:.{places}f}({digits if error >= 1 else digits.lstrip("0.")})'
+
+
+def fixed(value, decimals):
+    """A value with this many decimals; a large one as 1e+308."""
+    return f'{value:.{decimals}f}' if abs(value) < LARGE else f'{value:.{decimals}g}'
 
 
 def known(errors):

@@ -21,6 +21,10 @@ def written(path):
         yield unfinished
         if os.path.exists(unfinished):
             os.replace(unfinished, path)
+    except OSError as error:  # a full disk names no file
+        if error.filename not in (None, unfinished):
+            raise
+        raise OSError(error.errno, error.strerror or str(error), path)
     finally:
         if os.path.exists(unfinished):
             os.remove(unfinished)

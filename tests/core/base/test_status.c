@@ -30,6 +30,14 @@ TEST(unknown_status_has_a_text)
     assert_string_equal(hd_status_text((hd_status)12345), "unknown status");
 }
 
+TEST(a_refusal_is_one_line)
+{
+    char message[64];
+    assert_int_equal(hd_refuse(message, sizeof message, "target = %s: no", "a\nb\x1b[2J\x7f"),
+                     HD_REFUSED);
+    assert_string_equal(message, "target = a?b?[2J?: no");
+}
+
 static hd_status pass_on(hd_status status, int *went_on)
 {
     HD_TRY(status);

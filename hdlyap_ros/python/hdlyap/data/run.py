@@ -239,8 +239,13 @@ class Run:
 
     def course(self, topic):
         """Frame of all messages of 'spectrum', 'modes', 'steps', 'lp_phases', 't_phases', 'hydro',
-        'covariant', 'localization', 'fluctuations' or 'gas', by simulated time:
+        'covariant', 'localization', 'fluctuations', 'gas', 'cost' or 'status', by simulated time:
         course('lp_phases')['phase'].unstack() has a column for each phase."""
+        if topic in ('cost', 'status'):
+            return getattr(self, topic)
+        if topic not in FRAMES:
+            names = ', '.join([*FRAMES, 'cost', 'status'])
+            raise reader.RecordingError(f'course of {topic!r}: must be one of {names}')
         return tables.over_time(self._all(topic), FRAMES[topic], self.info)
 
     @cached_property

@@ -28,6 +28,8 @@ INCHES = 5.0  # the same width in inches, by which letters are sized
 TOP, TITLE, GAP = 0.4, 0.45, 0.12  # inches: title of the film, of a panel, gap between panels
 LINE = 0.14  # inches: another line of the film's title
 LONG = 2.5  # panels of boxes longer than this lie above each other
+BESIDE = 1.9  # inches: least width for the name of a mode and its dials
+TALLEST = 6.0  # inches: largest height of a panel
 ARROW, LONGEST = 1.3, 2.6  # root mean square and longest arrow, in mean distances of particles
 ALL_L, ALL_P = to_rgb('#E69F00'), to_rgb('#661F05')  # LP mode that is all L, all P, as in rviz
 DISK = '#DCDCDC'
@@ -123,11 +125,12 @@ class Panel:
 
 
 def dial(axes, number):
-    """Draws a dial above the axes. Returns its hand."""
+    """Draws a dial above the axes, beside the name of the mode. Returns its hand."""
     box = axes.figure.transFigure.inverted().transform_bbox(axes.get_window_extent())
     size = 0.22 / axes.figure.get_figheight()
     across = size * axes.figure.get_figheight() / axes.figure.get_figwidth()
-    left = box.x1 - (number + 1) * 1.35 * across
+    right = max(box.x1, box.x0 + BESIDE / axes.figure.get_figwidth())
+    left = right - (number + 1) * 1.35 * across
     inset = axes.figure.add_axes([left, box.y1 + 0.25 * size, across, size])
     inset.set_axis_off()
     inset.set_xlim(-1.05, 1.05)
@@ -161,7 +164,8 @@ class Picture:
         count = len(film.names)
         wide, tall = View(film.info).size
         rows, columns = (count, 1) if wide > LONG * tall else (1, count)
-        across = (INCHES - GAP * (columns + 1)) / columns
+        cell = (INCHES - GAP * (columns + 1)) / columns
+        across = min(cell, TALLEST * wide / tall)
         high = across * tall / wide
         top = TOP + LINE * scene(film.info).count('\n')
         height = top + rows * (high + TITLE)
@@ -175,7 +179,7 @@ class Picture:
         self._film, self._panels = film, []
         for k, name in enumerate(film.names):
             row, column = divmod(k, columns)
-            left = GAP + column * (across + GAP)
+            left = GAP + column * (cell + GAP)
             bottom = height - top - (row + 1) * (high + TITLE) + GAP
             room = left / INCHES, bottom / height, across / INCHES, high / height
             self._panels.append(Panel(self.figure.add_axes(room), name, film))

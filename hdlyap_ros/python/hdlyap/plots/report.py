@@ -5,7 +5,7 @@ import numpy as np
 from hdlyap.data import seeds, space
 from hdlyap.data.containers import is_curved
 from hdlyap.data.reader import NoInfo, is_known
-from hdlyap.numbers import known, with_error
+from hdlyap.numbers import fixed, known, with_error
 
 from . import covariant_table, equation, paper, step_table
 
@@ -148,13 +148,13 @@ def _sums(recording):
     lines = [
         f'averaged time   {spectrum.averaged_time:g}',
         *([f'collisions      {spectrum.collisions}'] if spectrum.collisions else []),
-        f'lambda_max      {spectrum.lambda_max:.6f}{_error(spectrum.std_errors[0])}',
+        f'lambda_max      {fixed(spectrum.lambda_max, 6)}{_error(spectrum.std_errors[0])}',
     ]
     error = recording.sum_error
-    total = f'{spectrum.ks_entropy:.4f}{_error(error, 4)}'
+    total = f'{fixed(spectrum.ks_entropy, 4)}{_error(error, 4)}'
     if recording.sum_name == 'h_KS':
         each, of_each = spectrum.ks_entropy / recording.info.number, error / recording.info.number
-        lines += [f'h_KS            {total}', f'h_KS / N        {each:.6f}{_error(of_each)}']
+        lines += [f'h_KS            {total}', f'h_KS / N        {fixed(each, 6)}{_error(of_each)}']
     elif len(spectrum.exponents) > 1:
         lines.append(f'sum of the {len(spectrum.exponents)} exponents carried {total}')
     if spectrum.pairing_error >= 0:
@@ -168,7 +168,7 @@ def _gas(recording):
     axes = space.axes(info)
     of_z = f'Z = p {"V" if space.is_solid(info) else "A"} / N'
     of_z += ' kT' if info.coordinates == 3 or gas.temperature > 0 else ''  # kT is 1 for disks
-    each = ', '.join(f'{getattr(gas, "pressure_" + axis):.6f}' for axis in axes)
+    each = ', '.join(fixed(getattr(gas, 'pressure_' + axis), 6) for axis in axes)
     per = f'per {space.particle(info)} and time unit'
     rows = [
         ('collision rate', gas.collision_rate, gas.collision_rate_error, per),
@@ -182,7 +182,7 @@ def _gas(recording):
     for name, value, error, unit in rows:
         if value != value:
             continue  # such particles have none
-        text = value if isinstance(value, str) else f'{value:.6f}{_error(error)}'
+        text = value if isinstance(value, str) else f'{fixed(value, 6)}{_error(error)}'
         lines.append(f'{name:<15} {text} {unit}'.rstrip())
     reference = equation.of(info)
     if reference and periodic and info.density <= reference.most:
@@ -191,7 +191,7 @@ def _gas(recording):
 
 
 def _error(error, digits=6):
-    return f' +- {error:.{digits}f}' if error >= 0 else ''
+    return f' +- {fixed(error, digits)}' if error >= 0 else ''
 
 
 def _tail(recording):
@@ -202,8 +202,8 @@ def _tail(recording):
     cells = []
     for index in range(first, end + 1):
         i = index - spectrum.first_index
-        error = f'{spectrum.std_errors[i]:.5f}' if spectrum.std_errors[i] >= 0 else '-'
-        cells.append(f'{index:6d} {spectrum.exponents[i]:9.5f} {error:>8}')
+        error = fixed(spectrum.std_errors[i], 5) if spectrum.std_errors[i] >= 0 else '-'
+        cells.append(f'{index:6d} {fixed(spectrum.exponents[i], 5):>9} {error:>8}')
     head = f'{"index":>6} {"exponent":>9} {"error":>8}'
     number = 'exponent' if len(cells) == 1 else f'last {len(cells)} exponents'
     return '\n'.join([f'the {number} {what} (standard errors)', *_in_columns(head, cells)])

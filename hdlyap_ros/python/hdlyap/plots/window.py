@@ -19,6 +19,7 @@ PLACES = {
 }
 COLUMNS, ROWS = (7, 6, 5), (1, 1)  # relative widths of columns, heights of rows
 INCHES = 10.6  # the height of the window in inches, so that letters grow with it
+SMALLEST = 60  # pixels of an edge below which no figure is drawn
 PART = 0.9  # part of the screen that the window takes at first
 TICK = 0.02  # seconds between two looks at what the user does
 
@@ -85,6 +86,8 @@ class Window:
 
     def _show(self, canvas, figure):
         widget = canvas.get_tk_widget()
+        if min(widget.winfo_width(), widget.winfo_height()) < SMALLEST:
+            return  # no room for a figure; it comes when the window is larger
         dpi = self._root.winfo_height() / INCHES
         figure.set_dpi(dpi)
         figure.set_size_inches(widget.winfo_width() / dpi, widget.winfo_height() / dpi)

@@ -35,8 +35,10 @@ class Value(namedtuple('Value', 'value std_error scatter chi2 runs misfit fit'))
 class Point:
     """The runs of one system."""
 
-    def __init__(self, paths, choice=(None, None)):
-        """Raises RecordingError if the bags have no averages or do not belong together."""
+    def __init__(self, paths, choice=(None, None), remarks=()):
+        """remarks: lines about the bags. Raises RecordingError if the bags have no averages or do
+        not belong together."""
+        self.remarks = remarks
         self.data = seeds.load(*paths, form=choice[0], k=choice[1])
         self.runs = self.data.runs
         self.system = system(self.data.info)
@@ -98,10 +100,11 @@ def _numbers_first(found):
 def read(paths, choice=(None, None)):
     """Returns points, sorted by their systems, and a line for each bag or system that cannot be
     read."""
-    systems, wrong, first = {}, [], None
+    systems, wrong, first, counts = {}, [], None, {}
     for path in paths:
         try:
-            info = list(reader.run_infos(path).values())[-1]
+            infos = list(reader.run_infos(path).values())
+            info, counts[path] = infos[-1], len(infos)
             first = first or info
             if info.particles != first.particles:
                 what, others = info.particles, first.particles
@@ -113,7 +116,9 @@ def read(paths, choice=(None, None)):
     points = []
     for _, of_one in sorted(systems.items(), key=_numbers_first):
         try:
-            points.append(Point(of_one, choice))
+            of_several = [path for path in of_one if counts[path] > 1]
+            remarks = [f'{path}: the last of its {counts[path]} runs' for path in of_several]
+            points.append(Point(of_one, choice, remarks))
         except RecordingError as error:
             wrong.append(str(error))
     return points, wrong

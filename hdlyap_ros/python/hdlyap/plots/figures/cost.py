@@ -42,11 +42,11 @@ def draw(page, recording, **look):
 
 def _course(axes, cost, began, look):
     kept = thinned(len(cost['time']))
-    axes.stackplot(
-        cost['time'][kept],
-        *(cost[part][kept] for part in NAMES),
-        **{'colors': list(PART_COLOURS.values()), 'linewidth': 0, **look},
-    )
+    style = {'colors': list(PART_COLOURS.values()), 'linewidth': 0, **look}
+    style['labels'] = [style.pop('label', None)]  # of the first part, as each artist is one
+    if 'color' in style:
+        style['colors'] = [style.pop('color')]
+    axes.stackplot(cost['time'][kept], *(cost[part][kept] for part in NAMES), **style)
     stages = sorted((time, stage) for stage, time in began.items() if stage != RunStatus.FINISHED)
     ends = [time for time, _ in stages[1:]] + [cost['time'][-1]]
     for (time, stage), end in zip(stages, ends):
