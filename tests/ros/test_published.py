@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 """Every field of every message beside what the core says by its public headers at that moment, in
-the same process (witness.c). The rows of published.txt say what belongs together."""
+the same process (witness.cpp). The rows of published.txt say what belongs together."""
 
 import collections
+import functools
 import hashlib
 import json
 import os
@@ -17,19 +18,23 @@ from hdlyap.msg import LpPhase, Mode
 
 TABLE = os.path.join(os.path.dirname(os.path.abspath(__file__)), 'published.txt')
 ROUNDING = 1e-12  # relative to the largest, of sums of some hundred terms
-Row = collections.namedtuple('Row', 'text how code')
+Row = collections.namedtuple('Row', 'text code how place')  # place: among the names of its line
 
 # ---- names that rows may use
 
 
 class Said(dict):
-    """What witness.c writes: its names are members."""
+    """What witness.cpp writes: its names are members, those with a dot members of members."""
 
     __getattr__ = dict.__getitem__
 
 
 def of_json(said):
-    return Said((name, array(value)) for name, value in said.items())
+    out = Said()
+    for name, value in said.items():
+        *outer, inner = name.split('.')
+        (out.setdefault(outer[0], Said()) if outer else out)[inner] = array(value)
+    return out
 
 
 def array(value):
@@ -45,6 +50,14 @@ def each(count):
     return [Said() for _ in range(int(count))]
 
 
+def pick(said, names):
+    return [said[name] for name in names.split()]
+
+
+def known(is_known, *values):
+    return values if is_known else [np.nan] * len(values)
+
+
 def shortest(value):
     """As a user would write it, exact to the last bit."""
     if isinstance(value, str):
@@ -56,10 +69,23 @@ def largest_error(errors):
     return max(errors) if len(errors) and min(errors) >= 0 else -1
 
 
-def component(vectors, k, core):
+def axis(core, vectors, k):
     """Component k of particle after particle, for one vector after the other: [particle][..]."""
+    if np.size(vectors) == 0:
+        return []
     vectors = np.atleast_2d(vectors)
     return vectors.reshape(len(vectors), int(core.N), -1)[:, :, int(k)].ravel()
+
+
+def axes(core, vectors, first=0):
+    """Three components, as far as space has them."""
+    count = core.d if np.size(vectors) else 0
+    return [axis(core, vectors, first + k) if k < count else [] for k in range(3)]
+
+
+def turns(core, vectors):
+    """Angles, or angular velocities."""
+    return axis(core, vectors, core.coordinates - 1) / core.inertia**0.5
 
 
 def pairs_of(step, fields):
@@ -77,21 +103,20 @@ def first_slow(core, asked):
     return int(min([end] + [col for col in core.lowest if col >= 0]))
 
 
-def coefficients(core, steps, of_p):
+def coefficients(core, steps, pairs, of_p):
     """Of the L or of the P fields, for each vector as many as a step may have pairs; 0 behind."""
     out = np.zeros((len(steps), int(2**core.d)))
-    for k, pairs in enumerate(int(pairs_of(step, core.fields)) for step in steps):
-        if pairs:
-            column = int(core.fields[int(steps[k].subspace)].column) + of_p * pairs
-            out[k, :pairs] = core.coefficient[column : column + pairs, k]
+    for k, count in enumerate(map(int, pairs)):
+        if count:
+            column = int(core.fields[int(steps[k].subspace)].column) + of_p * count
+            out[k, :count] = core.coefficient[column : column + count, k]
     return out.ravel()
 
 
-NAMES = dict(
-    nan=np.nan, inf=np.inf, pi=np.pi, mean=np.mean, where=np.where, ravel=np.ravel, each=each
-)
-NAMES.update(shortest=shortest, largest_error=largest_error, pairs_of=pairs_of)
-NAMES.update(first_slow=first_slow, coefficients=coefficients, TRACKED=LpPhase.TRACKED)
+FUNCTIONS = [each, pick, known, shortest, largest_error, pairs_of, first_slow, coefficients]
+FUNCTIONS += [np.mean, np.where, np.ravel, np.split]
+NAMES = {function.__name__: function for function in FUNCTIONS}
+NAMES.update(nan=np.nan, inf=np.inf, pi=np.pi, TRACKED=LpPhase.TRACKED)
 NAMES.update((name, getattr(Mode, name)) for name in ('NONE', 'ZERO', 'T', 'LP'))
 
 # ---- the table
@@ -105,39 +130,33 @@ def read_table():
             if line[0] == '[':
                 rows = tables.setdefault(line.strip('[]'), {})
                 continue
-            name, how, text = re.fullmatch(r'(\S+?)(:| +=| +~| +in) +(.*)', line).groups()
-            if name in rows:
-                raise ValueError(f'{name}: twice')
-            rows[name] = Row(text, how.strip(), None)
-    untold = {name: row.text for name, row in tables.pop('untold').items()}
-    for rows in tables.values():
-        for name, row in rows.items():
-            rows[name] = row._replace(code=compile(row.text, name, 'eval'))
-    return tables, untold
-
-
-def is_same(numbers, wanted):
-    return np.array_equal(numbers, np.atleast_1d(np.array(wanted, float)), equal_nan=True)
+            names, how, text = re.fullmatch(
+                r'([^\s:]+(?: [^\s:]+)*?)(:| =| ~| in) (.*)', line
+            ).groups()
+            code = None if 'untold' in tables else compile(text, names, 'eval')
+            for place, name in enumerate(names.split()):
+                if name in rows:
+                    raise ValueError(f'{name}: twice')
+                rows[name] = Row(text, code, how.strip(), place if ' ' in names else None)
+    return tables, tables.pop('untold')
 
 
 def is_close(numbers, wanted):
-    wanted = np.atleast_1d(np.array(wanted, float))
     scale = np.max(np.abs(wanted[np.isfinite(wanted)]), initial=0.0)
     return numbers.shape == wanted.shape and np.allclose(
         numbers, wanted, rtol=0.0, atol=ROUNDING * scale, equal_nan=True
     )
 
 
-def is_between(numbers, wanted):
-    return wanted[0] <= numbers[0] <= wanted[1]
-
-
-HOW = {'=': is_same, '~': is_close, 'in': is_between}
+def agrees(numbers, how, wanted):
+    wanted = as_numbers(wanted)
+    if how == 'in':
+        return wanted[0] <= numbers[0] <= wanted[1]
+    return is_close(numbers, wanted) if how == '~' else np.array_equal(numbers, wanted, True)
 
 
 def as_numbers(value):
-    if isinstance(value, genpy.Time):
-        return np.array([value.to_sec()])
+    value = value.to_sec() if isinstance(value, genpy.Time) else value
     return np.atleast_1d(np.array(list(value) if isinstance(value, bytes) else value, float))
 
 
@@ -147,33 +166,39 @@ class Compared:
     def __init__(self):
         self.tables, self.untold = read_table()
         self.wrong = {}  # {field: how the first one differs}
-        self.told, self.unknown = set(), set()
+        self.told, self.unknown, self.rows = set(), set(), {}
         self.seen = collections.defaultdict(hashlib.sha1)  # {field: of all its values}
 
     def message(self, kind, message, core, given, element=(), number=0):
         """Goes through all fields. given: names of the scene; element, number: of a message within
         another one, the names there and its place."""
         env = {**NAMES, **core, **given, **dict(element), 'core': core, 'i': number}
-        env['of'] = lambda vectors, k: component(vectors, k, core)
-        rows = self.tables.get(kind, {})
+        env.update((f.__name__, functools.partial(f, core)) for f in (axis, axes, turns))
+        env['same'], done = env, {}
+        rows = {**(self.tables['any'] if kind in self.tables else {}), **self.tables.get(kind, {})}
         for name in (name for name, row in rows.items() if row.how == ':'):
-            env[name] = self.wanted(f'{kind}.{name}', rows[name], env)
+            env[name] = self.wanted(name, rows[name], env, done)
         for name, type_ in zip(message.__slots__, message._slot_types):
-            value, base = getattr(message, name), type_.partition('[')[0]
+            value, base, full = getattr(message, name), type_.partition('[')[0], f'{kind}.{name}'
             if name not in rows:
-                self.differs(f'{kind}.{name}', 'has no row in published.txt')
+                self.differs(full, 'has no row in published.txt')
                 continue
-            wanted = self.wanted(f'{kind}.{name}', rows[name], env)
+            wanted = self.wanted(name, rows[name], env, done)
+            self.rows[full] = rows[name]
             if base == 'std_msgs/Header':
                 self.message('Header', value, core, given)
             elif base.startswith('hdlyap/'):
-                self.list(f'{kind}.{name}', base[len('hdlyap/') :], value, wanted, core, given)
+                self.list(full, base[len('hdlyap/') :], value, wanted, core, given)
             else:
-                self.field(kind, name, type_, value, rows[name], wanted)
+                self.field(full, type_, value, rows[name], wanted)
 
-    def wanted(self, name, row, env):
+    def wanted(self, name, row, env, done):
+        """done: values of rows so far, of which several fields may be one line."""
         try:
-            return eval(row.code, env)
+            if row.text not in done:
+                done[row.text] = eval(row.code, env)
+            all_, is_named = done[row.text], isinstance(done[row.text], dict)
+            return all_ if row.place is None else all_[name if is_named else row.place]
         except Exception as error:  # the core said nothing that such a message could be of
             self.differs(name, f'{row.text}: {error!r}')
             return ()
@@ -186,34 +211,32 @@ class Compared:
         for k, (one, element) in enumerate(zip(those, wanted)):
             self.message(kind, one, core, given, element, k)
 
-    def field(self, kind, name, type_, value, row, wanted):
-        full, is_text = f'{kind}.{name}', type_.startswith('string')
+    def field(self, name, type_, value, row, wanted):
+        is_text = type_.startswith('string')
         numbers = np.array([]) if is_text else as_numbers(value)
-        known = np.isfinite(numbers) & (numbers != 0) & (numbers != -1)
-        self.told |= {full} if (value if is_text else known.any()) else set()
-        self.unknown |= {full} if np.any(np.isnan(numbers) | (numbers == -1)) else set()
-        self.seen[kind, type_, name].update(repr(value).encode() + b'\n')
-        if not (value == wanted if is_text else HOW[row.how](numbers, wanted)):
-            self.differs(full, f'{value!r:.200}, but {row.text} is {wanted!r:.200}')
+        told = np.isfinite(numbers) & (numbers != 0) & (numbers != -1)
+        self.told |= {name} if (value if is_text else told.any()) else set()
+        self.unknown |= {name} if np.any(np.isnan(numbers) | (numbers == -1)) else set()
+        self.seen[name, type_].update(repr(value).encode() + b'\n')
+        if not (value == wanted if is_text else agrees(numbers, row.how, wanted)):
+            self.differs(name, f'{value!r:.200}, but {row.text} is {wanted!r:.200}')
 
     def differs(self, name, how):
         self.wrong.setdefault(name, how)
 
     def holes(self):
-        """Rows that would pass if they were wrong, as no scene fills the field, or none leaves it
-        unknown where the row says how, or none tells it from another field of its message."""
+        """Rows that would pass if they were wrong: see [untold]. Those of no field, too."""
         for kind, rows in self.tables.items():
-            for name, row in rows.items():
-                full = f'{kind}.{name}'
-                if row.how == ':' or name == 'header':
-                    continue
-                if full not in self.told:
-                    yield full
-                if re.search(r'\bnan\b|else -1|-1 if', row.text) and full not in self.unknown:
-                    yield full + '?'
+            names = {name for name, row in rows.items() if row.how != ':' and kind != 'any'}
+            yield from {f'{kind}.{name}' for name in names} - set(self.rows)
+        for name, row in self.rows.items():
+            if name not in self.told and not name.endswith('.header'):
+                yield name
+            if re.search(r'\bnan\b|known\(|else -1|-1 if', row.text) and name not in self.unknown:
+                yield name + '?'
         alike = collections.defaultdict(list)
-        for (kind, type_, name), digest in self.seen.items():
-            alike[kind, type_, digest.digest()].append(name)
+        for (name, type_), digest in self.seen.items():
+            alike[name.partition('.')[0], type_, digest.digest()].append(name.partition('.')[2])
         for (kind, *_), names in alike.items():
             if len(names) > 1:
                 yield f'{kind}.{"=".join(names)}'
@@ -341,7 +364,7 @@ def given_at(asked, params, core):
     """Parameters as they are when the core says this, and the changes that are made by then."""
     changes = [re.fullmatch(r'(\S+) (\w+)=(.*)', text).groups() for text in asked.changes]
     made = [
-        Said(time=float(time), name=name, before=f'{asked[name]:g}', value=value)
+        Said(name=name, before=f'{asked[name]:g}', value=value)
         for time, name, value in changes
         if float(time) <= core.get('change_time', core.time)
     ]
