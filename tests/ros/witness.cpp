@@ -8,13 +8,13 @@
 #include <cstdlib>
 #include <cstring>
 #include <ctime>
-#include <string>
-#include <utility>
+#include <vector>
 
 #include "hdlyap/fluctuations.h"
 #include "hdlyap/hdlyap.h"
 #include "hdlyap_ros/messages.h"
 #include "hdlyap_ros/publisher.h"
+#include "json.hpp"
 
 namespace
 {
@@ -34,56 +34,6 @@ double seconds(clockid_t clock)
     timespec now;
     clock_gettime(clock, &now);
     return double(now.tv_sec) + 1e-9 * double(now.tv_nsec);
-}
-
-/* ---- JSON ----------------------------------------------------------------------------------- */
-
-/** Members of an object; + joins them. */
-struct members {
-    std::string text;
-};
-members operator+(const members &one, const members &other)
-{
-    return {one.text + (one.text.empty() || other.text.empty() ? "" : ",") + other.text};
-}
-
-struct json {
-    std::string text;
-    template <class Number, class = decltype(double(Number()))> json(Number x)
-    {
-        char digits[32];
-        std::snprintf(digits, sizeof digits, "%.17g", double(x));
-        text = std::isnan(double(x)) ? "NaN" : std::isinf(double(x)) ? "Infinity" : digits;
-    }
-    json(const char *line) : text("\"" + std::string(line) + "\"") {}
-    json(const members &of) : text("{" + of.text + "}") {}
-    template <class Number, size_t count> json(const Number (&x)[count]) : text("[")
-    {
-        for (const Number &one : x) text += (text.size() > 1 ? "," : "") + json(one).text;
-        text += "]";
-    }
-    json() : text("[") {}
-};
-
-template <class Value> json list(int count, Value value)
-{
-    json all;
-    for (int k = 0; k < count; k++) all.text += (k > 0 ? "," : "") + json(value(k)).text;
-    all.text += "]";
-    return all;
-}
-
-json numbers(const double *x, int count, int stride = 1)
-{
-    return list(count, [=](int k) { return x[size_t(k) * size_t(stride)]; });
-}
-
-members named(std::initializer_list<std::pair<const char *, json>> all)
-{
-    members out;
-    for (const auto &one : all)
-        out = out + members{"\"" + std::string(one.first) + "\":" + one.second.text};
-    return out;
 }
 
 /* ---- what the core says --------------------------------------------------------------------- */
@@ -242,10 +192,9 @@ members beside(const hdr_run_info *)
 members beside(const hdr_state *)
 {
     const int count = coordinates();
-    std::string memory(2 * size_t(count) * sizeof(double), '\0');
-    double *q = reinterpret_cast<double *>(&memory[0]), *p = q + count;
-    hd_trajectory_state(parts().trajectory, q, p);
-    return named({{"q", numbers(q, count)}, {"p", numbers(p, count)}});
+    std::vector<double> q(count), p(count);
+    hd_trajectory_state(parts().trajectory, q.data(), p.data());
+    return named({{"q", numbers(q.data(), count)}, {"p", numbers(p.data(), count)}});
 }
 
 members beside(const hdr_cost *)
@@ -259,11 +208,10 @@ members beside(const hdr_run_status *) { return beside((const hdr_cost *)nullptr
 
 members beside(const hdr_spectrum *)
 {
-    std::string memory(2 * size_t(vectors()) * sizeof(double), '\0');
-    double *cosine = reinterpret_cast<double *>(&memory[0]), *ratio = cosine + vectors();
-    hd_run_halves(run, cosine, ratio);
-    return named({{"cosine", numbers(cosine, vectors())},
-                  {"ratio", numbers(ratio, vectors())},
+    std::vector<double> cosine(vectors()), ratio(vectors());
+    hd_run_halves(run, cosine.data(), ratio.data());
+    return named({{"cosine", numbers(cosine.data(), vectors())},
+                  {"ratio", numbers(ratio.data(), vectors())},
                   {"collisions", hd_trajectory_told(parts().trajectory).collisions}});
 }
 
@@ -392,14 +340,13 @@ members say_pairs(int step)
     const bool has = found && found->kind == HD_MODE_LP &&
                      hd_pmode_reconstruct(of, found, parts().modes, hd_run_frame_columns(run));
     const int d = has ? hd_pmode_pairs(of) : 0, count = coordinates();
-    std::string memory(2 * size_t(count) * sizeof(double), '\0');
-    double *p = reinterpret_cast<double *>(&memory[0]), *divided = p + count;
-    hd_trajectory_state(parts().trajectory, nullptr, p);
+    std::vector<double> p(count), divided(count);
+    hd_trajectory_state(parts().trajectory, nullptr, p.data());
     const hd_subspace *fields = hd_fields_subspace(hd_modes_fields(parts().modes),
                                                    has ? found->subspace : 0);
     const auto divide = [&](int k) {
-        hd_pmode_divide(of, divided, k + d, p);
-        return numbers(divided, count);
+        hd_pmode_divide(of, divided.data(), k + d, p.data());
+        return numbers(divided.data(), count);
     };
     return named({{"modulation", LIST(d, fields->modulations.bits[k])},
                   {"residual", LIST(2 * d, hd_pmode_residual(of, k))},
