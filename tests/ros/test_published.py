@@ -251,30 +251,38 @@ TURNING = [name for name in REST if name != 'hydro']
 WAVELESS = ['spectrum', 'localization', 'fluctuations']
 # of few particles, most in boxes so long that steps are found at once
 SHORT = dict(scene='a', equilibration=2.0, warmup=20.0, duration=40.0, report_interval=15.0)
-SHORT.update(threads=1, observables=REST, slow_vectors_rate=4.0)
+SHORT.update(threads=1, observables=REST)
+LOOKED_AT = dict(slow_vectors_rate=20.0, pace=80.0)  # some ten times
 DISKS = dict(SHORT, scene='b', number=80, aspect=0.045, seed='2', max_wave_number=0.45)
 DISKS.update(warmup=60.0, duration=250.0, report_interval=50.0, field_interval=100.0)
 DISKS.update(target='lambda_max 0.001', changes=['80 report_interval=60', '90 field_interval=150'])
 DISKS.update(phase_interval=1.0, fluctuation_time=1.5, accuracy=1e-7)
-WALLS = dict(SHORT, number=40, aspect=14.0, boundary_x='reflecting', duration=900.0)
-WALLS.update(report_interval=300.0, fluctuation_time=5.0, phase_interval=5.0)
+WALLS = dict(SHORT, number=40, aspect=14.0, boundary_x='reflecting', duration=1200.0)
+WALLS.update(report_interval=400.0, fluctuation_time=5.0, phase_interval=5.0)
 SMALL = dict(SHORT, number=16, density=0.7, aspect=0.866, exponents='all_independent', interval=0.4)
 SMALL.update(covariant_window=2.0, covariant_transient=10.0, covariant_sampling=0.5, pace=40.0)
 SMALL.update(observables=EVERY, max_mode_number=1, covariant_memory=0.5, slow_vectors_count=9)
 SMALL.update(slow_vectors_rate=20.0, covariant_storage='recompute')
-CIRCLE = dict(SHORT, container='circle', number=60, density=0.7)
+CIRCLE = dict(SHORT, **LOOKED_AT, container='circle', number=60, density=0.7)
 CIRCLE.update(observables=[name for name in REST if name not in ('t_phases', 'hydro', 'structure')])
 SPHERES = dict(SHORT, particles='spheres', number=48, density=0.5, aspect_z=6.0, aspect=1.0)
-SPHERES.update(max_mode_number=1, observables=EVERY, duration=100.0, report_interval=40.0)
+SPHERES.update(
+    slow_vectors_rate=4.0,
+    max_mode_number=1,
+    observables=EVERY,
+    duration=100.0,
+    report_interval=40.0,
+)
 SPHERES.update(covariant_window=40.0, covariant_transient=20.0, covariant_sampling=20.0)
 DUMBBELLS = dict(SHORT, particles='dumbbells', number=36, density=0.5, aspect=0.1, bond=0.4)
-DUMBBELLS.update(exponents='all', max_mode_number=1, observables=TURNING)
+DUMBBELLS.update(LOOKED_AT, exponents='all', max_mode_number=1, observables=TURNING)
 SOFT = dict(SHORT, particles='soft_disks', potential='power', number=36, density=0.2, aspect=0.05)
 SOFT.update(max_mode_number=1, observables=TURNING, field_indices=[1, 66, 69])
 BALLS = dict(SHORT, particles='soft_spheres', number=16, density=0.4, aspect=1.0, exponents=5)
 BALLS.update(observables=['spectrum', 'gas', 'state'], duration=300.0, report_interval=100.0)
 CHAIN = dict(SHORT, particles='chain', number=8, duration=6000.0, beta=2.0, observables=WAVELESS)
 CHAIN.update(report_interval=2000.0, fluctuation_time=40.0)
+ALONE = dict(SHORT, number=20, exponents='none', observables=['gas', 'state'], duration=5.0)
 FEW = dict(
     SHORT, number=30, aspect=0.1, exponents=3, observables=['spectrum', 'steps', 'covariant']
 )
@@ -301,6 +309,7 @@ def scenes(folder):
         ('chain', chain, own),
         ('resumed', resumed, dict(own, before=CHAIN)),
         ('few', FEW, {}),
+        ('alone', ALONE, {}),  # no vectors
     ]
 
 
@@ -313,7 +322,11 @@ class Published(harness.Case):
         path = os.path.join(self.folder, name)
         env = {'WITNESS': path, 'LD_PRELOAD': harness.program('hdlyap_witness.so')}
         env.update({'WITNESS_RARE': '1'} if rare else {})
-        names = [*params['wait_for_subscribers'], 'slow_vectors']
+        # who looks at slow_vectors changes when the run measures, by the clock
+        names = [
+            *params['wait_for_subscribers'],
+            *['slow_vectors'] * ('slow_vectors_rate' in params),
+        ]
         listeners = {topic: self.listen(topic) for topic in names}
         node = self.start(params, command=program and [harness.program(program)], **env)
         messages = {topic: listener.all_of(node) for topic, listener in listeners.items()}
@@ -357,7 +370,7 @@ class Published(harness.Case):
                 self.scene(name, params, **how)
                 wrong = [f'{name}: {how}' for name, how in self.compared.wrong.items()]
                 self.assertEqual(wrong, [], name)
-        self.assertEqual(set(self.compared.holes()), set(self.compared.untold))
+        self.assertLessEqual(set(self.compared.holes()), set(self.compared.untold))
 
 
 def given_at(asked, params, core):
