@@ -15,6 +15,7 @@ import numpy as np
 import harness
 from hdlyap import msg, topics
 from hdlyap.msg import LpPhase, Mode
+from hdlyap.runs.asked import text
 
 TABLE = os.path.join(os.path.dirname(os.path.abspath(__file__)), 'published.txt')
 ROUNDING = 1e-12  # relative to the largest, of sums of some hundred terms
@@ -383,7 +384,8 @@ def given_at(asked, params, core):
     ]
     given = Said(asked, **{**core.get('effect', {}), **params})
     given.update((change.name, float(change.value)) for change in made)
-    return dict(asked=asked, given=given, made=made)
+    written = [f'{name}={text(value)}' for name, value in sorted(params.items())]
+    return dict(asked=asked, given=given, made=made, written=written)
 
 
 if __name__ == '__main__':
