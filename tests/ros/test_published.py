@@ -264,7 +264,7 @@ SMALL = dict(SHORT, number=16, density=0.7, aspect=0.866, exponents='all_indepen
 SMALL.update(covariant_window=2.0, covariant_transient=10.0, covariant_sampling=0.5, pace=40.0)
 SMALL.update(observables=EVERY, max_mode_number=1, covariant_memory=0.5, slow_vectors_count=9)
 SMALL.update(slow_vectors_rate=20.0, covariant_storage='recompute')
-CIRCLE = dict(SHORT, **LOOKED_AT, container='circle', number=60, density=0.7)
+CIRCLE = dict(SHORT, **LOOKED_AT, container='circle', number=100, density=0.7)
 CIRCLE.update(observables=[name for name in REST if name not in ('t_phases', 'hydro', 'structure')])
 SPHERES = dict(SHORT, particles='spheres', number=48, density=0.5, aspect_z=6.0, aspect=1.0)
 SPHERES.update(
