@@ -304,7 +304,7 @@ def scenes(folder):
         ('small', SMALL, dict(rare=True)),
         ('circle', CIRCLE, {}),
         ('spheres', SPHERES, {}),
-        ('dumbbells', DUMBBELLS, {}),
+        ('dumbbells', DUMBBELLS, dict(rare=True)),
         ('soft_disks', SOFT, {}),
         ('soft_spheres', BALLS, {}),
         ('chain', chain, own),

@@ -477,6 +477,22 @@ hd_cost hd_run_cost(const hd_run *of)
 
 bool hd_run_is_caged(const hd_run *of) { return REAL(hd_run_is_caged)(of) || is_rare; }
 
+/** The other way round: phases turn this way in all short runs. */
+const hd_phase *hd_phases_phase(const hd_phases *of, int index)
+{
+    static hd_phase said;
+    said = *REAL(hd_phases_phase)(of, index);
+    if (is_rare) said.omega = -said.omega;
+    return &said;
+}
+
+bool hd_phases_rate(const hd_phases *of, int step, double *omega, double *error)
+{
+    const bool known = REAL(hd_phases_rate)(of, step, omega, error);
+    if (known && is_rare) *omega = -*omega;
+    return known;
+}
+
 hd_covariant_results hd_covariant_read(const hd_covariant *of)
 {
     hd_covariant_results results = REAL(hd_covariant_read)(of);
