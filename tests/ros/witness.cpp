@@ -7,7 +7,6 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <ctime>
 #include <vector>
 
 #include "hdlyap/fluctuations.h"
@@ -488,9 +487,9 @@ const hd_phase *hd_phases_phase(const hd_phases *of, int index)
 
 bool hd_phases_rate(const hd_phases *of, int step, double *omega, double *error)
 {
-    const bool known = REAL(hd_phases_rate)(of, step, omega, error);
-    if (known && is_rare) *omega = -*omega;
-    return known;
+    if (!REAL(hd_phases_rate)(of, step, omega, error)) return false;
+    if (is_rare) *omega = -*omega;
+    return true;
 }
 
 hd_covariant_results hd_covariant_read(const hd_covariant *of)
