@@ -1,12 +1,13 @@
 /** Preloaded into the node: after each message, a line in the file WITNESS with its type and what
  * the core's public headers say of the run at that moment, as JSON. What no row of published.txt
- * reads is not here. Only the thread that publishes comes here. */
+ * reads is not here. For the thread that publishes. */
 #include <dlfcn.h>
 
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <ctime>
 #include <vector>
 
 #include "hdlyap/fluctuations.h"
@@ -22,10 +23,10 @@ hd_cost cost;          /**< what the core said first after its last step */
 bool has_cost;         /**< false until it has been asked */
 double begun;          /**< simulated time at the begin */
 double stepped, since; /**< when the last step ended: by the clock of waiting, of the day */
-double outside, sending,
-    sent;          /**< wall seconds so far: between steps; of them, in publishing all
-                      but run_info, which no report contains; the same at the last step */
-double changed[8]; /**< times from which changes hold */
+/** Wall seconds so far: between steps; of them, in publishing all but run_info, which no report
+ * contains; the same at the last step. */
+double outside, sending, sent;
+double changed[8];                 /**< times from which changes hold */
 int steps_made, changes_made, nth; /**< nth: messages of the type fields since the last step */
 
 double seconds(clockid_t clock)
@@ -458,7 +459,7 @@ hd_status hd_run_advance(hd_run *of)
     return status;
 }
 
-/** Its clock stands still between two steps, so that all who ask are told the same. */
+/** Its clock stands still between two steps, so that all are told the same. */
 hd_cost hd_run_cost(const hd_run *of)
 {
     if (has_cost) return cost;
