@@ -297,7 +297,7 @@ def scenes(folder):
     chain = dict(CHAIN, checkpoint=kept, checkpoint_interval=300.0)
     resumed = dict(resume=kept, duration=6100.0, changes=['6050 report_interval=20'])
     resumed.update(observables=WAVELESS, slow_vectors_rate=5.0)
-    own = dict(program='chain_node')
+    own = dict(program='hdlyap_own_node')
     return [
         ('disks', DISKS, {}),
         ('walls', WALLS, {}),
