@@ -278,7 +278,9 @@ SPHERES.update(covariant_window=40.0, covariant_transient=20.0, covariant_sampli
 DUMBBELLS = dict(SHORT, particles='dumbbells', number=36, density=0.5, aspect=0.1, bond=0.4)
 DUMBBELLS.update(LOOKED_AT, exponents='all', max_mode_number=1, observables=TURNING)
 SOFT = dict(SHORT, particles='soft_disks', potential='power', number=36, density=0.2, aspect=0.05)
-SOFT.update(max_mode_number=1, observables=TURNING, field_indices=[1, 66, 69])
+SOFT.update(max_mode_number=1, field_indices=[1, 66, 69], field_interval=1000.0)
+# without them no report needs a sample
+SOFT.update(observables=[name for name in TURNING if name != 'structure'])
 BALLS = dict(SHORT, particles='soft_spheres', number=16, density=0.4, aspect=1.0, exponents=5)
 BALLS.update(observables=['spectrum', 'gas', 'state'], duration=300.0, report_interval=100.0)
 CHAIN = dict(SHORT, particles='chain', number=8, duration=6000.0, beta=2.0, observables=WAVELESS)
