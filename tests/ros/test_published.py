@@ -257,7 +257,7 @@ LOOKED_AT = dict(slow_vectors_rate=20.0, pace=80.0)  # some ten times
 DISKS = dict(SHORT, scene='b', number=80, aspect=0.045, seed='2', max_wave_number=0.45)
 DISKS.update(warmup=60.0, duration=250.0, report_interval=50.0, field_interval=100.0)
 DISKS.update(target='lambda_max 0.001', changes=['80 report_interval=60', '90 field_interval=150'])
-DISKS.update(phase_interval=0.7, fluctuation_time=1.5, accuracy=1e-7)
+DISKS.update(phase_interval=1.0, fluctuation_time=1.5, accuracy=1e-7)
 WALLS = dict(SHORT, number=40, aspect=14.0, boundary_x='reflecting', duration=1200.0)
 WALLS.update(report_interval=400.0, fluctuation_time=5.0, phase_interval=5.0)
 SMALL = dict(SHORT, number=16, density=0.7, aspect=0.866, exponents='all_independent', interval=0.4)
@@ -276,7 +276,9 @@ SPHERES.update(
 )
 SPHERES.update(covariant_window=40.0, covariant_transient=20.0, covariant_sampling=20.0)
 DUMBBELLS = dict(SHORT, particles='dumbbells', number=36, density=0.5, aspect=0.1, bond=0.4)
-DUMBBELLS.update(LOOKED_AT, exponents='all', max_mode_number=1, observables=TURNING)
+DUMBBELLS.update(
+    LOOKED_AT, field_interval=100.0, exponents='all', max_mode_number=1, observables=TURNING
+)
 SOFT = dict(SHORT, particles='soft_disks', potential='power', number=36, density=0.2, aspect=0.05)
 SOFT.update(max_mode_number=1, field_indices=[1, 66, 69], field_interval=1000.0)
 # without them no report needs a sample
