@@ -12,7 +12,7 @@ bool begin_run(const hdr_params *params, bool tiny, char *line, size_t size)
     two.density = 0.1;
     two.aspect = 1.0;
     two.exponents = HD_EXPONENTS_NONE;
-    const changes none = {0};
+    const changes none = {.since = -1.0};
     const publishers out = {.run_id = "begun"};
     const char *resume;
     settings set;

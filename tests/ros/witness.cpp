@@ -237,9 +237,8 @@ members beside(const hdr_steps *)
         const bool known = phases && hd_phases_rate(phases, step, &now[0], &now[1]);
         return known ? now[error] : error ? -1.0 : NAN;
     };
-    hd_velocity velocity = {};
-    velocity.misfit = -1.0;
-    if (phases) velocity = hd_phases_velocity(phases);
+    hd_velocity none = {};
+    none.misfit = -1.0;
     return say_steps() +
            named({{"t", say(t)},
                   {"t_long", say(*t.in_long_boxes)},
@@ -248,7 +247,7 @@ members beside(const hdr_steps *)
                   {"rate", LIST(count, rate(k, false))},
                   {"rate_error", LIST(count, rate(k, true))},
                   {"scatter", LIST(count, hd_steps_scatter(of, hd_steps_step(of, k)))},
-                  {"velocity", say(velocity)}});
+                  {"velocity", say(phases ? hd_phases_velocity(phases) : none)}});
 }
 
 members beside(const hdr_lp_phases *) { return say(parts().phases); }
