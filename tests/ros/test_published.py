@@ -249,7 +249,7 @@ EVERY = 'spectrum modes steps lp_phases t_phases fields hydro structure covarian
 EVERY = (EVERY + 'fluctuations gas state').split()
 REST = [name for name in EVERY if name != 'covariant']
 TURNING = [name for name in REST if name != 'hydro']
-WAVELESS = ['spectrum', 'localization', 'fluctuations']
+WAVELESS = ['spectrum', 'covariant', 'localization', 'fluctuations']
 # of few particles, most in boxes so long that steps are found at once
 SHORT = dict(scene='a', equilibration=2.0, warmup=20.0, duration=40.0, report_interval=15.0)
 SHORT.update(threads=1, observables=REST)
@@ -281,13 +281,12 @@ DUMBBELLS.update(
     LOOKED_AT, field_interval=100.0, exponents='all', max_mode_number=1, observables=TURNING
 )
 SOFT = dict(SHORT, particles='soft_disks', potential='power', number=36, density=0.2, aspect=0.05)
-SOFT.update(max_mode_number=1, field_indices=[1, 66, 69], field_interval=1000.0)
-# without them no report needs a sample
-SOFT.update(observables=[name for name in TURNING if name != 'structure'])
+SOFT.update(max_mode_number=1, observables=TURNING, field_indices=[1, 66, 69])
 BALLS = dict(SHORT, particles='soft_spheres', number=16, density=0.4, aspect=1.0, exponents=5)
 BALLS.update(observables=['spectrum', 'gas', 'state'], duration=300.0, report_interval=100.0)
-CHAIN = dict(SHORT, particles='chain', number=8, duration=6000.0, beta=2.0, observables=WAVELESS)
-CHAIN.update(report_interval=2000.0, fluctuation_time=40.0)
+CHAIN = dict(SHORT, particles='chain', number=8, duration=6000.0, beta=2.0)
+CHAIN.update(report_interval=2000.0, fluctuation_time=40.0, observables=WAVELESS)
+CHAIN.update(covariant_window=1500.0, covariant_transient=20.0, covariant_sampling=100.0)
 ALONE = dict(SHORT, number=20, exponents='none', observables=['gas', 'state'], duration=5.0)
 FEW = dict(
     SHORT, number=30, aspect=0.1, exponents=3, observables=['spectrum', 'steps', 'covariant']
