@@ -435,7 +435,7 @@ class Hostile(Tools):
         for said, count, messages in (
             ('arrays that must be equally long have [36, 37] elements', 2, [info, short]),
             ('no exponents', 2, [info, empty]),
-            ('0 particles', 2, [made.run_info(number=0), good]),
+            ('number = 0: must be from 1 to 1000000', 2, [made.run_info(number=0), good]),
             ('nan', 2, [made.run_info(box_x=float('nan')), good]),
             ('hdlyap/Structure: [0, 8] elements of 2 vectors', 1, [info, good, unlike]),
         ):
@@ -496,7 +496,7 @@ class Hostile(Tools):
         bag, master = self.write(made.small_run()), xmlrpc.client.ServerProxy('http://localhost:1')
         with self.assertRaises(ConnectionRefusedError), reader.opened(bag):
             master.getPid()
-        with mock.patch('hdlyap.data.reader.space', None), self.assertRaises(AttributeError):
+        with mock.patch('hdlyap.data.possible.space', None), self.assertRaises(AttributeError):
             hdlyap.load(bag)
         for odd in (KeyError('op'), PermissionError(13, 'Permission denied'), AttributeError('x')):
             with self.assertRaisesRegex(reader.RecordingError, '^' + bag), reader.opened(bag):

@@ -14,6 +14,7 @@ import numpy as np
 
 import harness
 from hdlyap import msg, topics
+from hdlyap.data import possible
 from hdlyap.msg import LpPhase, Mode
 from hdlyap.runs.asked import text
 
@@ -353,8 +354,10 @@ class Published(harness.Case):
             for topic, those in messages.items()
         }
         names = dict(run_id=run_id, warning=''.join(warnings[:1]))
+        info = messages['run_info'][-1]
         for topic, those in messages.items():
             for message, core in self.beside(topic, those, said):
+                possible.check(message, info)  # tools do not refuse it
                 given = {**names, **given_at(asked, params, core)}
                 self.compared.message(topics.TYPES[topic].__name__, message, core, given)
 

@@ -310,7 +310,7 @@ class Results(InFolder):
 
     def test_fits_on_different_bases_are_marked(self):
         """Of one form over the same wave numbers they share their number; a line explains each."""
-        one_wave = dict(t_points=1, t_k_max=made.K, t_prior_share=nan, l_points=0, v_phases=0)
+        one_wave = dict(t_points=1, t_k_max=made.K, t_prior_share=1.0, l_points=0, v_phases=0)
         one_wave.update(c_t2=nan, c_t3=nan)
         found = self.read(self.bag('b', 0.5), self.bag('a', 0.4), self.bag('c', 0.6, **one_wave))
         lines = list(table.text(found))
@@ -331,7 +331,7 @@ class Results(InFolder):
                 f'  [1] {relation} over 3 wave numbers 0.9935 .. 1.987 (lever arm 2), 25 {long}',
                 f'  [2] {relation} over 2 wave numbers 0.9935 .. 1.405 (lever arm 1.41), 50 {long}',
                 '  [3] |omega| / k of the LP phases at 0.9935 .. 1.405',
-                '  [4] c k over 1 wave number 0.9935',
+                f'  [4] c k over 1 wave number 0.9935, 100 {long}',
             ],
         )
         self.assert_drawn(found, {'c_T': 3, 'c_L': 2, 'v': 2, 'lambda_max': 3})
@@ -352,7 +352,7 @@ class Results(InFolder):
 
     def test_no_error(self):
         """Is drawn as a cross; a container that is not a box has its name in the table."""
-        bags = [self.bag(f'c{n}', n, boundary='curved', c_t_error=nan) for n in (0.4, 0.5)]
+        bags = [self.bag(f'c{n}', n, boundary='curved', c_t_error=-1.0) for n in (0.4, 0.5)]
         found = self.read(*bags)
         self.assertIn('boundary lens', next(iter(table.text(found))))
         drawn = figure.draw(found)

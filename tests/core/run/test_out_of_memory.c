@@ -41,7 +41,9 @@ static hd_status live(world *w, const hd_scene_def *scene)
     if (status == HD_OK && steps) status = hd_pmode_create(&w->pmode, scene);
     if (status == HD_OK && steps) status = hd_hydro_create(&w->hydro, scene, hd_run_steps(w->run));
     while (status == HD_OK && hd_run_stage(w->run) != HD_FINISHED) status = hd_run_advance(w->run);
-    return status == HD_OK ? hd_run_save(w->run, SAVED, "", NULL, 0) : status;
+    if (status == HD_OK) status = hd_run_save(w->run, SAVED, "", NULL, 0);
+    (void)remove(SAVED); /* there is none of a life that has failed */
+    return status;
 }
 
 /** A life in which memory is out `times` times, after so many allocations; what it ends with. */
