@@ -40,8 +40,8 @@ void report_demand_slow(report *rep, hd_run *run);
 HD_MUST_CHECK hd_status report_slow(report *rep, const hd_run *run, bool at_rest);
 
 /** Publishes a report: all observables that have a subscriber, cost and status, all with one stamp.
- * Fails with
- * HD_NOT_FINITE if a number of a message is not finite; that message is not published. */
+ * Fails with HD_NOT_FINITE if a number of a message is not finite; that message is not published.
+ */
 HD_MUST_CHECK hd_status report_publish(report *rep, const hd_run *run);
 
 /** Publishes covariant, if somebody listens and a window has ended. Is called after a step or a
