@@ -114,6 +114,9 @@ struct Worker : testing::Test {
     settings set = {};
     hd_run *run = nullptr;
     worker *w = nullptr;
+    /* of answers_at; the worker may come to the place again later */
+    std::future<bool> answer;
+    std::atomic<bool> asked{false}, passed{false};
 
     void SetUp() override
     {
@@ -161,18 +164,17 @@ struct Worker : testing::Test {
      * answered. */
     void answers_at(place &at, const std::function<void()> &go, const std::function<bool()> &ask)
     {
-        std::future<bool> answer;
-        const int before = at.visits;
-        std::atomic<bool> asked{false};
-        at.then = [&] {
+        at.then = [this, ask] {
             if (asked.exchange(true)) return;
             answer = std::async(std::launch::async, ask);
             std::this_thread::sleep_for(milliseconds(100)); /* until it waits for its answer */
+            passed = true;
         };
         const auto begin = steady_clock::now();
         std::thread going(go);
-        ASSERT_TRUE(comes([&] { return asked && at.visits > before; }));
+        const bool has_passed = comes([this] { return passed.load(); });
         going.join();
+        ASSERT_TRUE(has_passed);
         EXPECT_TRUE(answer.get());
         EXPECT_LT(steady_clock::now() - begin, milliseconds(int(500 * patience)));
     }
