@@ -62,10 +62,10 @@ static void carry(const void *maps, double *block, int width)
     const double time = part->end - part->begin;
     for (int row = 0; row < ALL; row++)
         for (int col = 0; col < width && row % 4 < 2; col++) {
-            double *dq = &block[row * width + col], *dp = dq + 2 * width, q = *dq, p = *dp;
+            double *dq = &block[row * width + col], *dp = dq + 2 * width;
             const bool free = row < ZEROS;
-            *dq = free ? q + time * p : cosh(time) * q + sinh(time) * p;
-            *dp = free ? p : sinh(time) * q + cosh(time) * p;
+            *dq = free ? *dq + time * *dp : exp(time) * *dq;
+            if (!free) *dp *= exp(-time);
         }
 }
 
