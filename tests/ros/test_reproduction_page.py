@@ -4,6 +4,7 @@
 import contextlib
 import io
 import os
+import re
 import tempfile
 import unittest
 from unittest import mock
@@ -192,6 +193,15 @@ class Table(unittest.TestCase):
         for sentence in FRONT_PAGE:
             for start in sentence['claims']:
                 self.assertTrue(any(one['claim'].startswith(start) for one in entries), start)
+
+    def test_the_front_says_how_exactly_a_statement_holds(self):
+        """What its criteria leave open is in the sentence."""
+        entries = [one for part in PARTS for one in part.entries]
+        for sentence in FRONT_PAGE:
+            of = [one for one in entries if one['claim'].startswith(tuple(sentence['claims']))]
+            criteria = ' '.join(one.get('criterion', '') for one in of)
+            for bound in re.findall(r'within [\d.]+ %|within our errors', criteria):
+                self.assertIn(bound, sentence['says'])
 
     def test_every_run_is_planned_and_needed(self):
         self.assertEqual(set(table.runs_of(PARTS)), set(plan()))
