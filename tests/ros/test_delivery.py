@@ -221,7 +221,7 @@ class Delivery(harness.Case):
                 self.addCleanup(info.close)
                 while len(cost.seqs) < 4 and not cost.closed:
                     cost.read()
-                self.assertEqual(len(cost.seqs), 4)
+                self.assertEqual(len(cost.seqs), 4, node.text())
                 self.assertEqual(
                     len(node.lines('the run starts with the subscribers connected now')),
                     1,

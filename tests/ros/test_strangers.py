@@ -24,7 +24,6 @@ from test_data_tools import Tools
 from test_structure import message as structure
 
 SECONDS = 10.0  # of a processor for an answer; nested aliases took 100, an index of 4e9 took 90
-ROUNDS = 6
 INTEGERS = 0, 1, 2**31 - 1, 2**31, 2**32 - 1, 2**64 - 1
 REALS = float('nan'), float('inf'), -float('inf'), -1.0, 0.0, 1e-320, 1e100, 1e308
 ALIASES = '{a: &a [x,x], b: &b [*a,*a,*a,*a,*a,*a,*a,*a], c: &c [*b,*b,*b,*b,*b,*b,*b,*b]}'
@@ -123,7 +122,7 @@ def damaged(message, path, value):
 
 
 def cases():
-    """Yields (place in the run, path of a field, number of the odd value, odd value)."""
+    """Yields (place in the run, path of a field, odd value)."""
     messages = every_kind()
     last = {message._type: place for place, message in enumerate(messages)}
     for place in last.values():
@@ -133,7 +132,7 @@ def cases():
                 at = getattr(at, one.partition('[')[0])
                 at = at[0] if one.endswith(']') else at
             odd = [*odd_values(at, kind), *(OWN if path == 'own' else ())]
-            yield from ((place, path, number, value) for number, value in enumerate(odd))
+            yield from ((place, path, value) for value in odd)
 
 
 class Strangers(Tools):
@@ -164,20 +163,23 @@ class Strangers(Tools):
             )
             return False
 
-
-class Together(Strangers):
-    def test_all_that_is_possible(self):
-        """In every field at once: the first odd value of each, then the second, and so on; what is
+    def are_answered(self, rounds):
+        """Odd values of many fields at once, in as many bags as there are rounds; what is
         impossible is refused by name."""
-        whole, rounds = numbered(every_kind()), {}
-        for place, path, number, value in cases():
-            messages = rounds.setdefault(number % ROUNDS, list(whole))
+        whole, bags = numbered(every_kind()), {}
+        for case, (place, path, value) in enumerate(cases()):
+            messages = bags.setdefault(case % rounds, list(whole))
             odd = damaged(messages[place], path, value)
             if self.is_possible(odd, path, messages[0]):
                 messages[place] = odd
-        for number, messages in rounds.items():
+        for number, messages in bags.items():
             with self.subTest(number=number):
                 self.is_answered(messages, 'plot', '--out', self.out, '--csv', self.path('csv'))
+
+
+class Together(Strangers):
+    def test_all_that_is_possible(self):
+        self.are_answered(rounds=6)
 
     def test_what_has_happened(self):
         """Each of these took minutes, or was called a fault of hdlyap."""

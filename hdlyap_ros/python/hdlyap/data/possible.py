@@ -27,6 +27,7 @@ RANGES = {
     'RunInfo.dimension': (0, 3),
     'RunInfo.coordinates': (1, COORDINATES),
     'RunInfo.inertia': (0, LARGEST),
+    **dict.fromkeys((f'RunInfo.box_{axis}' for axis in 'xyz'), (0, 1e9)),
     'RunInfo.vectors': (0, EXPONENTS),
     'RunInfo.zero_exponents': (0, VECTORS),
     **dict.fromkeys((f'Steps.{letter}_k_min' for letter in 'tlv'), (LEAST, LARGEST)),
@@ -70,6 +71,7 @@ OF_SPHERES = {'State': ('z', 'pz'), 'ModeField': ('z', 'pz', 'dqz', 'dpz'), 'Str
 OF_TURNING = {'State': ('angle', 'spin'), 'ModeField': ('angle', 'spin', 'dq_angle', 'dp_angle')}
 NOT_EMPTY = {'Spectrum': 'exponents', 'Localization': 'widths', 'Fluctuations': 'diffusions'}
 AMPLITUDES = 'amplitude_along', 'amplitude_across'
+OF_RESOLVED = 'multiplicity', 'exponent', 'set_time', 'own_part'  # NaN unless resolved
 PAIRED = 'covariances', 'covariance_errors', 'variances', 'reversals'
 SHOWN = 80  # most characters of a value that are shown
 WORD = re.compile(r'[\w.+-]+', re.ASCII)
@@ -223,6 +225,9 @@ def _of_steps(message):
         names = f'hdlyap/Step: first_index, last_index = {step.first_index}, {step.last_index}'
         if step.resolved and not 1 <= step.first_index <= step.last_index:
             raise Damaged(f'{names}: must go up, from 1')
+        for name in OF_RESOLVED:
+            if step.resolved and math.isnan(getattr(step, name)):
+                raise Damaged(f'hdlyap/Step: {name} = nan: must be a number, as it is resolved')
         if step.last_index - step.first_index >= VECTORS:
             raise Damaged(f'{names}: must be less than {VECTORS} apart')
         if step.kind != step.ZERO and not step.wave_number >= LEAST:
