@@ -160,8 +160,9 @@ class Dumbbells(harness.Case):
     def test_others(self):
         gas = self.messages['gas'][-1]
         self.assertAlmostEqual(gas.pressure, (gas.pressure_x + gas.pressure_y) / 2, places=12)
-        # kT is 2/3: a third of the energy is that of rotation
-        self.assertAlmostEqual(gas.compressibility, 1.5 * gas.pressure / 0.5, places=9)
+        # kT is 2 N over 3 N - 2 free momenta, of which 2 N - 2 are those of centres
+        z = (3 * N - 2) / (2 * N - 2) * gas.pressure / 0.5
+        self.assertAlmostEqual(gas.compressibility, z, places=9)
         self.assertGreater(gas.compressibility, 3.0)
         widths = np.array(self.messages['localization'][-1].widths)
         self.assertEqual(len(widths), 6 * N)

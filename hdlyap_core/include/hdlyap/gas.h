@@ -25,9 +25,9 @@ typedef struct hd_gas_means {
      * [energy/sigma^d]. 0 for z in the plane. */
     double pressure_of[HD_DIMENSION_MAX];
     double pressure_of_error[HD_DIMENSION_MAX];
-    double compressibility; /**< compressibility factor Z = P A / (N kT), with A the area or volume
-                               that centres can reach, and kT the mean kinetic energy of a particle
-                               times 2 / coordinates: 1 for an ideal gas */
+    double compressibility; /**< compressibility factor Z = d P A / (m kT), 1 for an ideal gas: A is
+                               the area or volume that centres can reach, m the number of their
+                               free momenta in d dimensions, d N less the conserved ones [T19] */
     double compressibility_error;
     double temperature; /**< kT of soft particles, from their free momenta [energy]; NaN for hard
                            ones, whose kinetic energy is constant: see hd_gas_temperature */

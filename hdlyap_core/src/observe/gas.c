@@ -33,7 +33,7 @@ typedef struct counts {
 } counts;
 
 struct hd_gas {
-    int dimension, coordinates, series;
+    int dimension, series;
     bool is_summed;
     /** number of particles; area or volume that centres can reach [sigma^d] */
     double particles, area;
@@ -82,7 +82,6 @@ hd_status hd_gas_create(hd_gas **out, const hd_scene_def *def, double block)
     *out = NULL;
     if (!gas) return HD_NO_MEMORY;
     gas->dimension = hd_scene_dimension(def);
-    gas->coordinates = hd_scene_coordinates(def);
     gas->is_summed = hd_dynamics_of(def)->sum;
     gas->series = series_of(def);
     gas->particles = def->number;
@@ -170,14 +169,18 @@ static void read_pressures(hd_gas_means *m, const hd_gas *gas, double t)
                                  NO_SPAN);
 }
 
-/** Writes the other means of particles that collide; all their energy is kinetic. */
+/** Writes the other means of particles that collide; all their energy is kinetic. Z is that of
+ * read_summed, with the exact mean of the kinetic energy of centres. */
 static void read_counted(hd_gas_means *m, const hd_gas *gas, double t)
 {
-    const double each = 2.0 / gas->particles, half = gas->coordinates / 2.0;
+    const double each = 2.0 / gas->particles;
+    double twice = 0.0;
+    for (int d = 0; d < gas->dimension; d++) twice += gas->kinetic[d];
+    const double of_pressure = gas->dimension * gas->area / twice;
     m->collision_rate = each * gas->sum[COLLISIONS] / t;
     m->collision_rate_error = error_of(gas, (span){COLLISIONS, COLLISIONS, each}, NO_SPAN);
-    m->compressibility = m->pressure * gas->area / gas->particles * half;
-    m->compressibility_error = times(m->pressure_error, gas->area / gas->particles * half);
+    m->compressibility = m->pressure * of_pressure;
+    m->compressibility_error = times(m->pressure_error, of_pressure);
     m->temperature = m->potential_energy = NAN;
     m->temperature_error = m->potential_energy_error = -1.0;
 }
