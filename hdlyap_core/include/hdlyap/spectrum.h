@@ -30,8 +30,8 @@ double hd_spectrum_local(const hd_spectrum *spectrum, int col);
 typedef struct hd_spectrum_sums {
     double local_time; /**< time over which hd_spectrum_local averages; 0 if no sample ended [time
                           units] */
-    double ks_entropy; /**< Kolmogorov-Sinai entropy: sum of the positive exponents that are
-                          computed [1/time unit] */
+    double ks_entropy; /**< Kolmogorov-Sinai entropy: sum of the exponents that are computed in
+                          front of those that vanish, by their number [1/time unit] */
     double ks_entropy_error; /**< standard error of ks_entropy; negative while it is not known */
     /** Largest |lambda_l + lambda_m| of two conjugate exponents, whose sum vanishes in theory
      * [1/time unit]; negative unless all exponents are computed. 0 by construction if half of them

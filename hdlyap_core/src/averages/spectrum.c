@@ -12,6 +12,7 @@
 
 struct hd_spectrum {
     int rows, vectors;
+    int positive;       /**< number of vectors with positive exponents, by theory */
     double *sum;        /**< [vectors]: ln R_ll, summed over all whole samples */
     double *sample_sum; /**< [vectors]: ln R_ll, summed since the last sample ended */
     double *local_sum;  /**< [vectors]: ln R_ll, summed since hd_spectrum_local_restart */
@@ -39,14 +40,15 @@ static hd_status spectrum_allocate(hd_spectrum *spectrum, double block)
     return hd_blocks_create(&spectrum->blocks, spectrum->vectors, block);
 }
 
-hd_status hd_spectrum_create(hd_spectrum **out, int rows, int vectors, double block)
+hd_status hd_spectrum_create(hd_spectrum **out, int rows, int vectors, int positive, double block)
 {
-    HD_ASSERT(vectors >= 1 && vectors <= rows);
+    HD_ASSERT(vectors >= 1 && vectors <= rows && positive >= 0);
     hd_spectrum *spectrum = hd_memory_alloc(1, sizeof *spectrum);
     *out = NULL;
     if (!spectrum) return HD_NO_MEMORY;
     spectrum->rows = rows;
     spectrum->vectors = vectors;
+    spectrum->positive = positive < vectors ? positive : vectors;
     spectrum->age = -1.0;
     const hd_status status = spectrum_allocate(spectrum, block);
     if (status == HD_OK)
@@ -172,17 +174,14 @@ double hd_spectrum_local(const hd_spectrum *spectrum, int col)
 static double ks_entropy(const hd_spectrum *spectrum)
 {
     double sum = 0.0;
-    for (int col = 0; col < spectrum->vectors; col++)
-        sum += fmax(hd_spectrum_exponent(spectrum, col), 0.0);
+    for (int col = 0; col < spectrum->positive; col++) sum += hd_spectrum_exponent(spectrum, col);
     return sum;
 }
 
 static double ks_entropy_error(const hd_spectrum *spectrum)
 {
-    int count = 0;
-    for (int col = 0; col < spectrum->vectors; col++)
-        if (hd_spectrum_exponent(spectrum, col) > 0) spectrum->parts[count++] = (hd_part){col, 1.0};
-    return hd_spectrum_error_of_sum(spectrum, spectrum->parts, count);
+    for (int col = 0; col < spectrum->positive; col++) spectrum->parts[col] = (hd_part){col, 1.0};
+    return hd_spectrum_error_of_sum(spectrum, spectrum->parts, spectrum->positive);
 }
 
 static double pairing_error(const hd_spectrum *spectrum)

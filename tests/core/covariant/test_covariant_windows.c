@@ -59,7 +59,7 @@ static void check_exponent(const hd_spectrum *back, const hd_spectrum *forward, 
 TEST(exponents_are_those_of_the_frame)
 {
     HELD(windows) w = windows_begun(windows_scene(4, P, P), WARMUP, WINDOWS_INTERVAL);
-    MADE(hd_spectrum, forward, 16, 16, 0.0);
+    MADE(hd_spectrum, forward, 16, 16, 8, 0.0);
     for (int k = 1; hd_covariant_read(w.c).windows < 30; k++) {
         if (windows_forward(&w)) windows_back(&w);
         hd_spectrum_add(forward, hd_ortho_log_stretch(w.f.ortho), WINDOWS_INTERVAL);

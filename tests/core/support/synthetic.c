@@ -20,7 +20,8 @@ world world_create(hd_scene_def scene, int vectors, int threads)
     CHECK_OK(hd_frame_create(&w.frame, DYNAMICS, scene.number, vectors, scene.seed, threads));
     CHECK_OK(hd_modes_create(&w.modes, &scene, vectors, threads));
     CHECK_OK(hd_steps_create(&w.steps, &scene, w.modes));
-    CHECK_OK(hd_spectrum_create(&w.spectrum, 4 * scene.number, vectors, 0.0));
+    CHECK_OK(hd_spectrum_create(&w.spectrum, 4 * scene.number, vectors,
+                                hd_scene_positive_exponents(&scene), 0.0));
     CHECK_OK(hd_trajectory_extend(w.trajectory, NULL, 20.0));
     take_state(&w);
     world_noise(&w);
