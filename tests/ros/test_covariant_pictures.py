@@ -17,6 +17,7 @@ from hdlyap.plots.figures import (
     covariant_exponents,
     covariant_vectors,
     covariant_weights,
+    fluctuations,
 )
 
 FIGURES = {
@@ -119,6 +120,11 @@ def dominated(violations):
     return dict(domination_violations=[violations] * (ALL - 1))
 
 
+def inside_zeros():
+    """Both ends of the zero exponents, 38 to 43, and all between them."""
+    return dict(domination_violations=[0.5] * 36 + [0.0] * 7 + [0.5] * 36)
+
+
 class Bags(bags.Figures):
     def changed(self, **fields):
         """A run of everything, with other fields of the covariant message."""
@@ -180,8 +186,9 @@ class Table(Bags):
             ),
             (
                 dominated(0.0),
-                'dominated splittings (79): after the indices 1 2 3 4 5 6 7 8 and 71 more',
+                'dominated splittings (74): after the indices 1 2 3 4 5 6 7 8 and 66 more',
             ),
+            (inside_zeros(), 'dominated splittings (2): after the indices 37 43\n'),
             (dominated(0.1), 'dominated splittings (0)\n'),
             (dict(centre_start_mismatch=0.3), ' rad: covariant_transient is too short'),
             (dict(stable_start_mismatch=0.3), ' rad: covariant_transient is too short'),
@@ -301,6 +308,18 @@ class Figures(Bags):
         self.assertEqual((at(points, 7.5), at(points, 8.5)), (0.0, 0.25))
         self.assertEqual(at(line(axes[2], 'of all times'), 8.5), 0.5)
         self.assertEqual(list(line(axes[2], 'never (2 dominated splittings)')[:, 0]), [7.5, 37.5])
+
+    def test_domination_is_between_different_exponents(self):
+        never = [37.5, 43.5]
+        axes = self.draw(covariant_domination, self.changed(**inside_zeros()))
+        self.assertEqual(list(line(axes[2], 'never (2 dominated splittings)')[:, 0]), never)
+        times = [40.0, 80.0, 160.0]
+        message = made.fluctuations([0.1] * ALL, times=times)
+        for order in message.orders:
+            order.domination_violations = inside_zeros()['domination_violations']
+        drawn = self.draw(fluctuations, self.recorded([*everything()[:3], message]))
+        for points in [one.get_xydata() for one in drawn[4].get_lines()]:
+            self.assertEqual(list(points[points[:, 1] == 0, 0]), never)
 
     def test_vectors(self):
         axes = self.draw(covariant_vectors)[::2]

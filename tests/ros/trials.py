@@ -73,7 +73,7 @@ class World:
         ]
         return SimpleNamespace(
             info=self.info, spectrum=spectrum, steps=message, left_out=(),
-            positive_end=self.count, last_index=len(values), sum_name='h_KS',
+            positive_end=self.count, zeros=range(0), last_index=len(values), sum_name='h_KS',
             sum_error=spectrum.ks_entropy_error, data=SimpleNamespace(runs=runs),
         )  # fmt: skip
 

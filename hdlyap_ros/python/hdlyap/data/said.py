@@ -45,6 +45,11 @@ class Said:
         return (self.phase_space - self.info.zero_exponents) // 2
 
     @property
+    def zeros(self):
+        """The Lyapunov indices of the exponents that vanish."""
+        return range(self.positive_end + 1, self.positive_end + 1 + self.info.zero_exponents)
+
+    @property
     def phase_space(self):
         """The dimension of phase space, which is the number of exponents."""
         return space.phase_space(self.info)

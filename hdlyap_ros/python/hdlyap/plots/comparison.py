@@ -195,14 +195,13 @@ def _gas(a, b):
 
 
 def _exponents(a, b):
-    zeros = range(a.positive_end + 1, a.positive_end + a.info.zero_exponents + 1)
     values = zip(a.spectrum.exponents, b.spectrum.exponents)
     columns = zip(values, zip(a.spectrum.std_errors, b.spectrum.std_errors))
     found = []
     for index, measured in enumerate(columns, start=a.spectrum.first_index):
         name = 'lambda_max' if index == 1 else f'lambda_{index}'
         # zero exponents fall like 1/t, so that they have no errors of means
-        found.append(Deviation(name, *measured, judged=index not in zeros))
+        found.append(Deviation(name, *measured, judged=index not in a.zeros))
     return found
 
 

@@ -38,8 +38,7 @@ class Compared:
         # as for independent means; as both come from one trajectory, deviations are well below 1
         self.combined = np.hypot(self.forward_error, self.backward_error)
         self.deviation = _ratio(self.backward - self.forward, self.combined)
-        zeros = np.arange(run.positive_end + 1, run.positive_end + 1 + run.info.zero_exponents)
-        self.is_zero = np.isin(self.indices, zeros)
+        self.is_zero = np.isin(self.indices, run.zeros)
 
     def _forward(self, spectrum):
         found = np.full((2, len(self.indices)), np.nan)
@@ -146,6 +145,13 @@ def only_bin(counts):
     return tuple(edges(counts)[filled[0] : filled[0] + 2]) if len(filled) == 1 else None
 
 
-def isolated(message):
+def is_splitting(run, before):
+    """Whether the exponents differ after these indices: both ends are not among the zero ones."""
+    return ~np.isin(before, run.zeros[:-1])
+
+
+def isolated(run):
     """Indices after which the splitting is dominated: no later vector ever grew more."""
-    return indices(message)[:-1][np.array(message.domination_violations) == 0]
+    before = indices(run.covariant)[:-1]
+    never = np.array(run.covariant.domination_violations) == 0
+    return before[never & is_splitting(run, before)]

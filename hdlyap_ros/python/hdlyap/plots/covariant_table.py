@@ -142,7 +142,7 @@ def _order(recording):
     if len(message.exponents) < 2:
         return 'order of finite-time exponents: one vector has no neighbour'
     violations = np.array(message.violations)
-    isolated = covariant.isolated(message)
+    isolated = covariant.isolated(recording)
     names = ' '.join(map(str, isolated[:LISTED]))
     more = f' and {len(isolated) - LISTED} more' if len(isolated) > LISTED else ''
     behind = f': after the indices {names}{more}' if names else ''

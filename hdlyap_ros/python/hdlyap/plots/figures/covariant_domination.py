@@ -15,7 +15,8 @@ def draw(page, run, **look):
     if message is None or len(message.exponents) < 2:
         return
     places = covariant.between(message)
-    violated = np.array(message.domination_violations, dtype=float)
+    is_splitting = covariant.is_splitting(run, covariant.indices(message)[:-1])
+    violated = np.where(is_splitting, message.domination_violations, np.nan)
     panels = Panels(page, run, 2, 4.8, look)
     panels.plot(0, places, message.violations, color=BLUE, label='next vector grew more')
     panels.plot(1, places, violated, color=INK, label='of all times')

@@ -5,6 +5,7 @@ import numpy as np
 
 from hdlyap.numbers import known
 
+from .. import covariant
 from . import page
 from .over_index import near_zero, shade
 from .style import BLUE, INK, KIND_COLOURS, MANY, VERMILION, bars, index_axis, instead
@@ -79,6 +80,7 @@ def _orders(order, domination, recording, told, look):
         one, other = told.violations.iloc[row], told.domination_violations.iloc[row]
         order.plot(one.index + 0.5, one, **{'color': BLUE, **style})
         other = other.loc[first : last - 1]
+        other = other[covariant.is_splitting(recording, other.index)]
         domination.plot(other.index + 0.5, other, **{'color': VERMILION, **style})
     order.legend(loc='upper right', fontsize=6, handletextpad=0.1)
     shade([domination], recording, first, last)
