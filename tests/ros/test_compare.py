@@ -372,7 +372,7 @@ class Refusals(Pairs):
         self.cannot_compare('own .*wca.*power', *soft[1:])
 
     def test_what_does_not_collide(self):
-        """Has a temperature that is compared; what is potential is the rest of the energy."""
+        """Has a temperature that is compared, and a potential energy."""
         warm = [
             [*run(shifted(noise(seed)), seed=str(seed)), made.soft_gas(temperature=value)]
             for seed, value in ((1, 0.6), (2, 0.7))
@@ -380,7 +380,8 @@ class Refusals(Pairs):
         text = self.compare(*warm, status=1)
         self.assertRegex(text, r'temperature +0\.600\(10\) +0\.700\(10\) ')
         self.assertRegex(text, r'pressure +1\.250\(10\) +1\.250\(10\) ')
-        self.assertNotRegex(text, 'collision|potential|nan')
+        self.assertRegex(text, r'potential energy +0\.500\(10\) +0\.500\(10\) ')
+        self.assertNotRegex(text, 'collision|nan')
 
     def test_what_is_not_there(self):
         bare = [INFO, made.cost(1)]

@@ -72,7 +72,7 @@ class World:
             SimpleNamespace(local=_local(one + shift), has=lambda topic: False) for one in samples
         ]
         return SimpleNamespace(
-            info=self.info, spectrum=spectrum, steps=message, left_out=(),
+            info=self.info, is_mean=False, spectrum=spectrum, steps=message, left_out=(),
             positive_end=self.count, zeros=range(0), last_index=len(values), sum_name='h_KS',
             sum_error=spectrum.ks_entropy_error, data=SimpleNamespace(runs=runs),
         )  # fmt: skip

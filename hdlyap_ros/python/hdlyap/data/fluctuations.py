@@ -15,13 +15,17 @@ class Fluctuations:
     into blocks of about equal length. Their deviations from the mean of their run, times the root
     of the length, have the same distribution on both sides. `stated` is std_error^2 times averaged
     time of each exponent: where it is larger than that of blocks, these are correlated, and
-    deviations are scaled up to it."""
+    deviations are scaled up to it. `scattered`: the part of `stated` that is known from the
+    differences between the runs of a side alone; `judged` are the degrees of freedom with it."""
 
-    def __init__(self, sides, stated):
+    def __init__(self, sides, stated, scattered=0.0):
         rows = [block for runs in sides for run in runs for block in _deviations(run)]
         self.freedom = len(rows) - sum(len(runs) for runs in sides)
         self.is_known = len(rows) >= FEWEST and self.freedom > 0
         if self.is_known:
+            between = max(1, sum(len(runs) - 1 for runs in sides))
+            shares = (1 - scattered) ** 2 / self.freedom, scattered**2 / between
+            self.judged = 1 / sum(shares)
             self._rows = np.array(rows)
             squares = (self._rows**2).sum(axis=0) / self.freedom
             self._rows *= _memory(squares, stated)
@@ -38,13 +42,13 @@ class Fluctuations:
         that are `taken` are averaged over groups of neighbours, as many as there are enough blocks
         for. For Gaussian blocks T^2 (f - g + 1) / (f g) has the F distribution with g and f - g + 1
         degrees of freedom (Hotelling 1931)."""
-        f = self.freedom
-        g = min(len(taken), GROUPS, max(1, f // FREEDOM_OF_GROUP))
+        f = self.judged
+        g = min(len(taken), GROUPS, max(1, int(f / FREEDOM_OF_GROUP)))
         groups = np.zeros((len(difference), g))
         for group, members in zip(groups.T, np.array_split(taken, g)):
             group[members] = 1 / len(members)
         # Q R of the deviations keeps digits even if their covariance is nearly singular
-        r = np.linalg.qr(self._rows @ groups / np.sqrt(f), mode='r')
+        r = np.linalg.qr(self._rows @ groups / np.sqrt(self.freedom), mode='r')
         by_error = np.linalg.lstsq(r.T, groups.T @ difference, rcond=None)[0]
         t2 = float(by_error @ by_error / np.sum(1 / np.asarray(times)))
         x = t2 / (t2 + f)  # the F distribution is an incomplete beta function of this

@@ -149,6 +149,17 @@ class Seeds:
         weights = np.array([run.last('gas').averaged_time for run in self.runs])
         return self._mean(frames, 'value', weights).join(frames[0][['unit']])
 
+    def scatter_of_few(self, frame, row):
+        """(the error of the mean of a row of `frame` from the differences between runs, its degrees
+        of freedom), of however few runs, none of which states an error; NaN and 1 of one run, or of
+        runs that are not alike."""
+        found = [(getattr(run, frame), run.averaged_times[-1]) for run in self.runs]
+        found = [(one.loc[row], weight) for one, weight in found if row in one.index]
+        values = np.array([[one.get('value', one.get('exponent'))] for one, _ in found], dtype=float)
+        weights = [weight for _, weight in found]
+        scatter = mean(values, np.full(values.shape, np.nan), weights, fewest=2)[2]
+        return float(scatter[0]), max(1, len(values) - 1)
+
     # ---- as messages of one run, which figures and comparison take ----------------------------
 
     def has(self, topic):
@@ -265,13 +276,13 @@ def _knows_errors(run):
         return True
 
 
-def mean(values, errors, weights, there=True):
+def mean(values, errors, weights, there=True, fewest=FEWEST):
     """(mean, its error from the stated errors, its error from the scatter, chi^2, number of runs)
     of each column, over the runs that have it and know its error. A run that is too short to know
     the error is left out: its value is further off than its weight says, and scatter with it is no
     good error: with two runs (Student's t with one degree of freedom) every eighth mean is beyond
     five errors. If no run knows the error, the mean is over all runs; it has an error only if there
-    are FEWEST runs or more, within RATIO. Weights are not 1 / errors^2: an error from few blocks is
+    are `fewest` runs or more, within RATIO. Weights are not 1 / errors^2: an error from few blocks is
     uncertain, and values whose error is small by chance would count too much."""
     known = there & np.isfinite(errors)
     is_stated = known.any(axis=0)
@@ -280,7 +291,7 @@ def mean(values, errors, weights, there=True):
     weights = np.asarray(weights, dtype=float)[:, None] * used
     count, total = used.sum(axis=0), weights.sum(axis=0)
     alike = weights.max(axis=0) <= RATIO * np.where(used, weights, np.inf).min(axis=0)
-    is_error = (count > 1) & (is_stated | (count >= FEWEST) & alike)
+    is_error = (count > 1) & (is_stated | (count >= fewest) & alike)
     with np.errstate(divide='ignore', invalid='ignore'):
         of_all = np.where(used, weights * values, 0.0).sum(axis=0) / total
         stated = np.sqrt(np.where(used, (weights * errors) ** 2, 0.0).sum(axis=0)) / total

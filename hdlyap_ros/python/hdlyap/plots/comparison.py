@@ -6,21 +6,19 @@ import io
 
 import numpy as np
 
-from hdlyap.data import fits, seeds, space, steps
+from hdlyap.data import fits, space, steps
 from hdlyap.data.fluctuations import Fluctuations
 from hdlyap.data.joined import SYSTEM, different
 from hdlyap.data.reader import RecordingError
 
 from hdlyap.numbers import known
 
-from .deviation import Deviation
+from .deviation import FREEDOM, Deviation
 
 OWN = ('header', 'run_id', 'given')  # fields that differ even if runs are identical
 SLOPES = 'c_T', 'c_L', 'v'
 SUMS = 'h_KS', 'sum of exponents'
 STEPPED = 'time_step', 'integrator'  # parameters that do not change the system
-# without the potential energy, which follows from the temperature
-GAS = {'collision_rate': 'collision rate', 'pressure': 'pressure', 'temperature': 'temperature'}
 
 
 class Comparison:
@@ -41,7 +39,7 @@ class Comparison:
         self.steps = [self._together(one, _members(one, a)) for one in _steps(a, b)]
         self.gas = _gas(a, b)
         pairs = _pairs_of_fits(a, b)
-        self.fits = [one for pair in pairs if pair[0].is_like(pair[1]) for one in _fits(pair)]
+        self.fits = [one for pair in pairs if pair[0].is_like(pair[1]) for one in _fits(a, b, pair)]
         self.apart = [pair for pair in pairs if not pair[0].is_like(pair[1])]
 
     @property
@@ -50,7 +48,7 @@ class Comparison:
 
     @property
     def numbers(self):
-        """lambda_max, h_KS, c_T, c_L, v, collision rate or temperature, pressure."""
+        """lambda_max, h_KS, c_T, c_L, v, all of the gas."""
         slopes = [one for one in self.fits if one.name in SLOPES]
         return [*self.exponents[:1], *self.sums, *slopes, *self.gas]
 
@@ -66,14 +64,15 @@ class Comparison:
 
     def _together(self, one, members):
         """A mean or sum of exponents with the error from the blocks of both runs; unchanged if that
-        is not known."""
+        is not known, or if it is smaller than what several seeds say."""
         if not self._fluctuations.is_known or not len(members) or not one.is_known:
             return one
         weights = np.zeros(len(self.exponents))
         weights[members] = 1.0 if one.name in SUMS else 1 / len(members)
         error = self._fluctuations.error(weights, _times(self.runs))
-        joint = error, self._fluctuations.freedom
-        return Deviation(one.name, one.values, one.errors, one.judged, one.origins, joint)
+        if error > one.error or not any(run.is_mean for run in self.runs):
+            one.know_better(error, self._fluctuations.judged)
+        return one
 
     @property
     def is_identical(self):
@@ -164,7 +163,48 @@ def _fluctuations(a, b):
     """The Fluctuations of the exponents of both runs."""
     times = np.array(_times((a, b)))[:, None]
     errors = known([run.spectrum.std_errors for run in (a, b)])
-    return Fluctuations([run.data.runs for run in (a, b)], (errors**2 * times).mean(axis=0))
+    sides = [run.data.runs for run in (a, b)]
+    return Fluctuations(sides, (errors**2 * times).mean(axis=0), _scattered(a, b, errors))
+
+
+def _scattered(a, b, errors):
+    """Which part of the squared errors of exponents the scatter over seeds alone says."""
+    parts = [
+        np.median(_excess(run.data.spectrum, known_)) if run.is_mean else 0.0
+        for run, known_ in zip((a, b), errors)
+    ]
+    return float(np.mean(parts))
+
+
+def _excess(frame, error):
+    """Which part of the square of an error the scatter over seeds has beyond what is stated."""
+    stated = frame['std_error'] ** 2
+    more = np.nan_to_num(frame['scatter']) ** 2 - np.nan_to_num(stated)
+    with np.errstate(divide='ignore', invalid='ignore'):
+        return np.nan_to_num(np.fmax(more, 0.0) / np.square(error))
+
+
+def _deviation(name, pair, values, errors, where, **more):
+    """The Deviation of a quantity of two runs, or of means over seeds. Its errors are the larger
+    ones of those stated and of the scatter, as the messages of means have them; where: (name of the
+    frame of Run and Seeds, row) with both. The scatter over n seeds has n - 1 degrees of freedom.
+    Where no run states an error, it is the error however few there are."""
+    found = [_of_side(run, error, *where) for run, error in zip(pair, known(errors))]
+    errors, freedom = zip(*found)
+    return Deviation(name, values, errors, freedom=freedom, **more)
+
+
+def _of_side(run, error, frame, row):
+    """(error, its degrees of freedom)"""
+    if not run.is_mean:
+        return error, FREEDOM
+    if np.isnan(error):
+        return run.data.scatter_of_few(frame, row)
+    of = getattr(run.data, frame).loc[row]
+    excess, count = float(_excess(of, error)), int(of['runs'])
+    if excess == 0:
+        return error, FREEDOM * count
+    return error, 1 / ((1 - excess) ** 2 / (FREEDOM * count) + excess**2 / (count - 1))
 
 
 def _members(one, run):
@@ -181,17 +221,16 @@ def _members(one, run):
 
 
 def _gas(a, b):
-    """Deviations of collision rate or temperature, and of pressure; none unless all runs have
-    them."""
+    """Deviations of all quantities of the gas; none unless all runs have them."""
     if not all(one.has('gas') for run in (a, b) for one in run.data.runs):
         return []
-    names = [name for name in GAS if name in a.data.gas.index]
-    frames = [run.data.gas.loc[names] for run in (a, b)]
-    values = zip(*(frame['value'] for frame in frames))
-    errors = zip(
-        *(seeds.errors(frame) if 'scatter' in frame else frame['std_error'] for frame in frames)
-    )
-    return [Deviation(*of_one) for of_one in zip(map(GAS.get, names), values, errors)]
+    found = []
+    for name in a.data.gas.index:
+        values, errors = (
+            [getattr(run.gas, name + what) for run in (a, b)] for what in ('', '_error')
+        )
+        found.append(_deviation(name.replace('_', ' '), (a, b), values, errors, ('gas', name)))
+    return found
 
 
 def _exponents(a, b):
@@ -201,15 +240,15 @@ def _exponents(a, b):
     for index, measured in enumerate(columns, start=a.spectrum.first_index):
         name = 'lambda_max' if index == 1 else f'lambda_{index}'
         # zero exponents fall like 1/t, so that they have no errors of means
-        found.append(Deviation(name, *measured, judged=index not in a.zeros))
+        where = 'spectrum', index
+        found.append(_deviation(name, (a, b), *measured, where, judged=index not in a.zeros))
     return found
 
 
 def _sum(a, b):
     """The Deviation of the sum of the positive exponents."""
-    return Deviation(
-        a.sum_name, (a.spectrum.ks_entropy, b.spectrum.ks_entropy), (a.sum_error, b.sum_error)
-    )
+    values, errors = (a.spectrum.ks_entropy, b.spectrum.ks_entropy), (a.sum_error, b.sum_error)
+    return _deviation(a.sum_name, (a, b), values, errors, ('results', a.sum_name))
 
 
 def _resolved(run):
@@ -231,8 +270,9 @@ def _steps(a, b):
     found = []
     for pair in [(in_a[key], in_b[key]) for key in in_a if key in in_b]:
         values, errors = zip(*((step.exponent, step.std_error) for step in pair))
-        judged = pair[0].kind != steps.ZERO
-        found.append(Deviation(_step_name(pair[0], a.info), values, errors, judged, pair))
+        name, judged = _step_name(pair[0], a.info), pair[0].kind != steps.ZERO
+        more = {'judged': judged, 'origins': pair}
+        found.append(_deviation(name, (a, b), values, errors, ('steps', name), **more))
     return found
 
 
@@ -241,7 +281,7 @@ def _pairs_of_fits(a, b):
     return [pair for pair in zip(fits.of(a.steps), fits.of(b.steps)) if all(f.count for f in pair)]
 
 
-def _fits(pair):
+def _fits(a, b, pair):
     """Deviations of the coefficients of two fits with the same form and wave numbers. Their errors
     are those of sampling if they are stated, because the error of the form is the same in both.
     Their origins are the fits."""
@@ -250,5 +290,6 @@ def _fits(pair):
     for place, ((name, value, error), (_, other, others)) in both:
         sampling = [fit.sampling_errors[place] for fit in pair]
         errors = (error, others) if np.isnan(sampling).any() else sampling
-        found.append(Deviation(name, (value, other), errors, origins=pair))
+        where = 'results', name
+        found.append(_deviation(name, (a, b), (value, other), errors, where, origins=pair))
     return found

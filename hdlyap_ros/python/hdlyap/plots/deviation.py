@@ -11,17 +11,29 @@ FREEDOM = 7  # degrees of freedom of an error, from 8 blocks; the node has 16, m
 class Deviation:
     """A quantity of the runs a and b. z is the difference in standard errors; NaN if one of the
     errors is not known. A quantity that is not judged is only shown, but one that is not finite
-    never agrees. `origins`: where the two values come from. joint: (error of the difference, its
-    degrees of freedom) if it is known better than from the two errors."""
+    agrees. `origins`: where the two values come from. freedom: the degrees of freedom of the two
+    errors."""
 
-    def __init__(self, name, values, errors, judged=True, origins=(), joint=None):
+    def __init__(self, name, values, errors, judged=True, origins=(), freedom=(FREEDOM, FREEDOM)):
         self.name, self.values = name, values
         self.is_number = bool(np.isfinite(values).all())
         self.judged, self.origins = judged or not self.is_number, origins
         self.errors = known(errors)
         self.difference = values[1] - values[0]
-        self.error, self._freedom = joint or (float(np.hypot(*self.errors)), None)
+        self.error, self._joint = float(np.hypot(*self.errors)), None
+        self._freedom = np.array(freedom, dtype=float)
         self.z = self._in_errors()
+
+    def know_better(self, error, freedom):
+        """Takes this error of the difference, with its degrees of freedom, in place of that which
+        follows from the two errors."""
+        self.error, self._joint = error, freedom
+        self.z = self._in_errors()
+
+    @property
+    def is_joint(self):
+        """Whether the two errors do not add up to that of the difference."""
+        return self._joint is not None
 
     @property
     def is_known(self):
@@ -32,10 +44,10 @@ class Deviation:
         """The probability of a difference as large, between means over few blocks (Welch)."""
         if self.z == 0 or np.isinf(self.z):
             return float(self.z == 0)
-        freedom = self._freedom
-        if not freedom:
+        freedom = self._joint
+        if freedom is None:
             shares = (self.errors / self.error) ** 2  # squares of errors might overflow
-            freedom = FREEDOM / float(np.sum(shares**2))
+            freedom = 1 / float(np.sum(shares**2 / self._freedom))
         return 2 * float(stdtr(freedom, -abs(self.z)))  # both tails of Student's t
 
     def _in_errors(self):

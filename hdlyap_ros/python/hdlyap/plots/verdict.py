@@ -1,7 +1,7 @@
 """Comparison -> the text that hdlyap compare prints, and its verdict."""
 
 import textwrap
-from math import inf
+from math import hypot, inf, isclose
 
 from hdlyap.data import steps
 from hdlyap.data.fluctuations import FEWEST
@@ -20,6 +20,7 @@ LARGEST = 8  # most deviations in the list
 # may be shorter than fluctuations last.
 SHORT = 30
 WIDTH = 40  # most characters of a parameter
+ADDED = 0.05  # relative: errors add up to the one of b - a as nearly as they are shown
 ROW = '  {:<14} {:>15} {:>15} {:>15} {:>7}  {}'
 HEAD = ROW.format('', 'a', 'b', 'b - a', 'z', '{}')
 
@@ -160,6 +161,8 @@ def _row(one, remark=''):
     measured = [with_error(value, error) for value, error in zip(one.values, one.errors)]
     measured.append(with_error(one.difference, one.error))
     remark += '' if one.judged else ' (not judged)'
+    if one.is_joint and not isclose(one.error, hypot(*one.errors), rel_tol=ADDED):
+        remark += ' (error of b - a from the samples of both)'
     return ROW.format(one.name, *measured, z, remark).rstrip()
 
 
