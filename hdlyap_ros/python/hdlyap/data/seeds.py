@@ -155,9 +155,9 @@ class Seeds:
         runs that are not alike."""
         found = [(getattr(run, frame), run.averaged_times[-1]) for run in self.runs]
         found = [(one.loc[row], weight) for one, weight in found if row in one.index]
-        values = np.array([[one.get('value', one.get('exponent'))] for one, _ in found], dtype=float)
-        weights = [weight for _, weight in found]
-        scatter = mean(values, np.full(values.shape, np.nan), weights, fewest=2)[2]
+        values = [[one.get('value', one.get('exponent'))] for one, _ in found]
+        weights, unknown = [weight for _, weight in found], np.full((len(found), 1), np.nan)
+        scatter = mean(np.array(values, dtype=float), unknown, weights, fewest=2)[2]
         return float(scatter[0]), max(1, len(values) - 1)
 
     # ---- as messages of one run, which figures and comparison take ----------------------------
@@ -282,8 +282,8 @@ def mean(values, errors, weights, there=True, fewest=FEWEST):
     the error is left out: its value is further off than its weight says, and scatter with it is no
     good error: with two runs (Student's t with one degree of freedom) every eighth mean is beyond
     five errors. If no run knows the error, the mean is over all runs; it has an error only if there
-    are `fewest` runs or more, within RATIO. Weights are not 1 / errors^2: an error from few blocks is
-    uncertain, and values whose error is small by chance would count too much."""
+    are `fewest` runs or more, within RATIO. Weights are not 1 / errors^2: an error from few blocks
+    is uncertain, and values whose error is small by chance would count too much."""
     known = there & np.isfinite(errors)
     is_stated = known.any(axis=0)
     # a value that is not finite is not left out, so that the mean is not finite either
