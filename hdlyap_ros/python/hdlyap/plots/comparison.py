@@ -202,9 +202,7 @@ def _of_side(run, error, frame, row):
         return run.data.scatter_of_few(frame, row)
     of = getattr(run.data, frame).loc[row]
     excess, count = float(_excess(of, error)), int(of['runs'])
-    if excess == 0:
-        return error, FREEDOM * count
-    return error, 1 / ((1 - excess) ** 2 / (FREEDOM * count) + excess**2 / (count - 1))
+    return error, count - 1 if excess > 0 else FREEDOM * count
 
 
 def _members(one, run):
