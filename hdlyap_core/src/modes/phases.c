@@ -21,6 +21,7 @@ static const double VARIANCE_MIN = 1e-100;
 struct hd_phases {
     hd_mode_kind kind;
     int rotors, tracks, vectors;
+    double box_error; /**< relative error of the velocity because of edges and walls */
     hd_rotor *rotor;
     hd_track *track;
     hd_blocks blocks; /**< two series for each rotor: angle turned, and time for it; their weight is
@@ -62,6 +63,7 @@ hd_status hd_phases_create(hd_phases **out, const hd_steps *steps, hd_mode_kind 
     if (!phases) return HD_NO_MEMORY;
     phases->kind = kind;
     phases->vectors = hd_modes_vectors(hd_steps_modes(steps));
+    phases->box_error = fmax(hd_steps_relation(steps, HD_MODE_LP)->box_error, 0.0); /* NaN: none */
     int rotors = 0;
     for (int k = 0; k < hd_steps_count(steps); k++) {
         const int pairs = hd_rotor_pairs(hd_steps_step(steps, k), kind);
@@ -228,7 +230,7 @@ hd_velocity hd_phases_velocity(const hd_phases *phases)
     out.misfit = misfit_of(phases, out.v);
     if (error < 0) return out;
     out.v_sampling_error = error / weights;
-    out.v_error = fmax(1.0, out.misfit) * out.v_sampling_error;
+    out.v_error = hypot(fmax(1.0, out.misfit) * out.v_sampling_error, phases->box_error * out.v);
     return out;
 }
 

@@ -18,9 +18,10 @@ static const double OTHERS = 3.0;
 /** Walls change c by about WALL sigma / edge, and each step independently by WALL_OWN of that. */
 static const double WALL = 0.25, WALL_OWN = 0.6;
 static const hd_relation NONE = {NAN, NAN, NAN, NAN, NAN, NAN};
-/** Dense disks in a narrow box stand in rows, which fit its edge or do not. That changes c by
- * CROWDED (sigma / edge)^4 at the density DENSE. */
-static const double CROWDED = 7.0, DENSE = 0.8;
+/** A narrow edge changes c by about NARROW (sigma / edge)^2. Dense disks stand in rows, which fit
+ * the edge or do not: this changes c by CROWDED (sigma / edge)^4 at the density DENSE, at most by
+ * all of it. */
+static const double NARROW = 0.25, CROWDED = 7.0, DENSE = 0.8;
 /** A step lies off the relation by MISSING times the square of the part of its multiplicity that
  * was not found, and by ELSEWHERE times the part of its weight in the columns of other steps. */
 static const double MISSING = 0.02, ELSEWHERE = 0.006;
@@ -35,6 +36,16 @@ static double walls_of(const hd_scene_def *def, const double *box)
     for (int d = 0; d < hd_scene_dimension(def); d++)
         if (hd_scene_boundary(def, d) == HD_REFLECTING) square += WALL * WALL / (box[d] * box[d]);
     return sqrt(square);
+}
+
+/** Diameter of the disks, or spheres, that fill as much as the particles; 1 if these have no size.
+ */
+static double diameter_of(const hd_scene_def *def)
+{
+    const hd_dynamics *of = hd_dynamics_of(def);
+    const double pi = 3.14159265358979323846;
+    if (!of->size) return 1.0;
+    return of->dimension == 2 ? sqrt(of->size(def) / (pi / 4.0)) : cbrt(of->size(def) / (pi / 6.0));
 }
 
 static hd_bend bend_of(const hd_scene_def *def, bool t)
@@ -58,9 +69,11 @@ hd_relation hd_relation_of(const hd_scene_def *def, hd_mode_kind kind)
     double box[HD_DIMENSION_MAX], edge = INFINITY;
     hd_scene_box(def, box);
     for (int d = 0; d < hd_scene_dimension(def); d++) edge = fmin(edge, box[d]);
-    const double walls = walls_of(def, box), square = edge * edge;
-    const double rows = CROWDED * pow(def->density / DENSE, 8.0) / (square * square);
-    const double narrow = hypot((t ? 0.1 : 0.25) / square, rows);
+    const double s = diameter_of(def), walls = s * walls_of(def, box);
+    const double thin = s * s / (edge * edge),
+                 filled = def->density * pow(s, hd_scene_dimension(def));
+    const double rows = CROWDED * pow(filled / DENSE, 8.0) * thin * thin;
+    const double narrow = hypot(NARROW * thin, rows / (1.0 + rows));
     hd_relation r = {
         .c2 = b.c2 + b.c2_l * l,
         .c2_error = b.error + b.error_l * l,

@@ -18,6 +18,9 @@ static const double PRECISE = 0.03;
 /** Vectors separate like exp(-gap t): once gap t exceeds this they have had the time. */
 static const double FOLDS = 10.0;
 
+/** Vectors mix if their exponents differ by less than this part. */
+static const double NEAR = 0.2;
+
 /** A member's own columns; count 0: no member. */
 typedef struct group {
     int col, count;
@@ -95,6 +98,28 @@ static hd_sharing sharing_of(const hd_step *step, double age)
     if (!(step->gap > least))
         return least <= PRECISE * fabs(step->exponent) ? HD_SHARING_COINCIDENT : HD_SHARING_UNKNOWN;
     return step->gap * age < FOLDS ? HD_SHARING_MIXING : HD_SHARING_BLENDED;
+}
+
+/** The mean exponent of a step's own columns is what it has if columns are its vectors; that of all
+ * near columns, weighted by what they hold of its fields, if its vectors follow the fields. Nothing
+ * tells which, so the error is half of the difference. */
+double hd_sharing_mixing(const hd_step *step, int count, int k, const hd_modes *modes,
+                         const hd_spectrum *spectrum, int rows)
+{
+    if (step[k].subspace < 0) return 0.0;
+    const double *weight = hd_modes_average(modes, step[k].subspace, HD_WEIGHT);
+    const double chance = 2.0 * step[k].expected / rows;
+    int next[2];
+    const double own = group_mean(spectrum, own_columns(step, count, k, next));
+    double whole = 0.0, off = 0.0;
+    for (int col = 0; col < hd_modes_vectors(modes); col++) {
+        const double apart = hd_spectrum_exponent(spectrum, col) - own;
+        if (fabs(apart) > NEAR * fabs(own)) continue;
+        const double found = weight[col] - chance;
+        whole += found;
+        off += found * apart;
+    }
+    return whole > 0 ? 0.5 * fabs(off / whole) : 0.0;
 }
 
 static uint64_t members_of(const hd_step *step, int count, int k)

@@ -17,6 +17,12 @@ typedef struct hd_company {
 void hd_sharing_find(hd_step *step, hd_company *company, int count, const hd_modes *modes,
                      const hd_spectrum *spectrum, double age);
 
+/** How far the exponent of resolved step k of step[count] may be off because its fields mix with
+ * those of vectors of near exponents [1/time unit]; sets and exponents must be known. rows: length
+ * of a vector. Cost O(n). */
+double hd_sharing_mixing(const hd_step *step, int count, int k, const hd_modes *modes,
+                         const hd_spectrum *spectrum, int rows);
+
 void hd_company_archive(hd_company *company, hd_archive *archive);
 
 #endif

@@ -190,16 +190,26 @@ static void step_measure(const hd_steps *steps, int k, const hd_spectrum *spectr
     step->std_error = hd_spectrum_error_of_sum(spectrum, steps->parts, count);
 }
 
+/** What mixing adds to the error of resolved step k. */
+static double mixing_of(const hd_steps *steps, int k, const hd_spectrum *spectrum)
+{
+    return hd_sharing_mixing(steps->step, steps->count, k, steps->modes, spectrum, steps->rows);
+}
+
 double hd_steps_error_of_sum(const hd_steps *steps, const hd_spectrum *spectrum,
                              double (*factor)(const hd_step *, const void *), const void *context)
 {
+    double square = 0.0;
     int count = 0;
     for (int k = 0; k < steps->count; k++) {
         if (!steps->step[k].resolved) continue;
         const double f = factor(&steps->step[k], context);
-        if (f != 0) count += mean_parts(steps, k, f, steps->parts + count);
+        if (f == 0) continue;
+        count += mean_parts(steps, k, f, steps->parts + count);
+        square += pow(f * mixing_of(steps, k, spectrum), 2.0);
     }
-    return hd_spectrum_error_of_sum(spectrum, steps->parts, count);
+    const double error = hd_spectrum_error_of_sum(spectrum, steps->parts, count);
+    return error < 0 ? error : hypot(error, sqrt(square));
 }
 
 /** Says that a vector belongs to step k, unless another step has more weight in it. */
@@ -293,6 +303,10 @@ void hd_steps_find(hd_steps *steps, const hd_spectrum *spectrum)
         half_find(steps, spectrum, steps->negative, steps->subspaces + 1, &sets);
     for (int k = 0; k < steps->count; k++)
         if (steps->step[k].resolved) step_measure(steps, k, spectrum);
+    for (int k = 0; k < steps->count; k++)
+        if (steps->step[k].std_error >= 0)
+            steps->step[k].std_error = hypot(steps->step[k].std_error,
+                                             mixing_of(steps, k, spectrum));
     hd_sharing_find(steps->step, steps->company, steps->count, steps->modes, spectrum,
                     steps->warmup + hd_spectrum_time(spectrum));
 }

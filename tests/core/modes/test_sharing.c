@@ -95,6 +95,57 @@ TEST(own_columns_follow_the_exponents)
     for (int k = 3; k <= 4; k++) CHECK_CLOSE(step_of(&w, k)->own_part, pow(cos(0.6), 2.0), 0.1);
 }
 
+/** Weight of a subspace in columns from `first` on, beyond that of random vectors. */
+static double found_in(const world *w, int subspace, int first)
+{
+    const double *weight = hd_modes_average(w->modes, subspace, HD_WEIGHT);
+    double sum = -EACH * 2.0 * EACH / (4.0 * DISKS);
+    for (int v = 0; v < EACH; v++) sum += weight[first + v];
+    return sum;
+}
+
+/** About eight random vectors are near, too: a weight of 0.02 +- 0.014 each, up to 0.08 away. */
+static const double RANDOM = 3e-4;
+
+/** What mixing adds to the errors of T(1,1) and LP(0,1), in sets of their own, whose exponents are
+ * 0.4 +- gap / 2 and whose vectors are turned into each other by this angle. */
+static void check_mixing(double gap, double angle, bool near)
+{
+    double exponents[VECTORS], error[2][2];
+    HELD(world) w = mixed(exponents, gap);
+    const int subspace[2] = {subspace_of(&w, 4), subspace_of(&w, 3)};
+    for (int turned = 0; turned < 2; turned++) {
+        for (int k = 0; k < 2; k++) world_span(&w, FIRST + k * EACH, &subspace[k], 1, 0.0);
+        for (int v = 0; v < EACH && turned; v++) world_turn(&w, FIRST + v, FIRST + EACH + v, angle);
+        hd_modes_clear(w.modes);
+        hd_spectrum_clear(w.spectrum);
+        world_look(&w);
+        go_on(&w, exponents, 0.02, SAMPLES);
+        for (int k = 0; k < 2; k++) {
+            assert_int_equal(step_of(&w, 4 - k)->sharing, HD_SHARING_ALONE);
+            error[turned][k] = step_of(&w, 4 - k)->std_error;
+            assert_true(error[turned][k] > 0.0);
+        }
+    }
+    for (int k = 0; k < 2; k++) {
+        const double own = found_in(&w, subspace[k], FIRST + k * EACH);
+        const double other = found_in(&w, subspace[k], FIRST + (1 - k) * EACH);
+        const double mixing = near ? 0.5 * gap * other / (own + other) : 0.0;
+        const double added = sqrt(pow(error[1][k], 2.0) - pow(error[0][k], 2.0));
+        print_message("  %.5f of %.5f, found %.2f and %.2f\n", added, mixing, own, other);
+        CHECK_CLOSE(added, mixing, RANDOM);
+    }
+}
+
+/** A step whose fields lie in columns of another one, too, has the exponent of its columns, or that
+ * of its fields; half of the difference is an error. */
+TEST(mixing_with_near_exponents_is_an_error)
+{
+    check_mixing(0.06, 0.4, true);
+    check_mixing(0.06, 0.3, true);
+    check_mixing(0.2, 0.4, false); /* more than a fifth apart: far */
+}
+
 TEST(time_counts_from_when_they_came_together)
 {
     double exponents[VECTORS];
