@@ -71,12 +71,12 @@ typedef struct hd_velocity {
                  */
     /** Smallest and largest wave number of these steps [1/sigma]; 0 if no velocity is known. */
     double k_min, k_max;
-    /** The velocity, 0 while it is not known; its standard error, which is multiplied by misfit if
-     * that is above 1, negative while it is not known. */
+    /** The velocity, 0 while it is not known; its standard error, negative while it is not known:
+     * v_sampling_error, multiplied by misfit if that is above 1, and in quadrature the part
+     * hd_relation.box_error of v, that of LP, if steps follow a relation. */
     double v, v_error;
-    /** The standard error before this multiplication: by how much another run of the same box may
-     * differ, with the correlation of the steps taken into account; negative while it is not known.
-     */
+    /** By how much another run of the same box may differ, with the correlation of the steps taken
+     * into account; negative while it is not known. */
     double v_sampling_error;
     /** sqrt(chi^2 / degrees of freedom) of the steps about their mean: far above 1 if steps differ
      * in velocity. Negative if there is only one step, or none. */

@@ -48,7 +48,9 @@ typedef struct hd_step {
     /** Mean exponent of the set's vectors, each weighted by the share that this step has in its
      * weight [1/time unit]. */
     double exponent;
-    double std_error; /**< standard error of exponent; negative while it is not known */
+    /** Standard error of exponent, with what mixing with vectors of near exponents may do; negative
+     * while it is not known. */
+    double std_error;
     /** Whether the exponents of the steps of this set are equal. For this and for what follows,
      * each step of the set has as many columns of its own as it expects, in the order of the steps'
      * exponents. */
@@ -68,7 +70,8 @@ typedef struct hd_step {
 typedef struct hd_relation {
     double c2, c2_error; /**< c2 / c and its standard error [sigma] */
     double c3, c3_error; /**< c3 / c and its standard error [sigma^2] */
-    double box_error;    /**< relative error of c because of narrow edges and walls of the box */
+    double box_error;    /**< relative error of c, that of LP also of the velocity of LP waves,
+                            because of narrow edges and walls of the box */
     double scatter;      /**< relative deviation of the exponent of a well resolved step from the
                             relation */
 } hd_relation;
