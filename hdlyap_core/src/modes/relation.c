@@ -1,9 +1,10 @@
 /** Scene -> what is known of lambda(k) before its steps are measured [T12].
  *
  * The curvature was measured in long boxes (doc/findings.md) and is a member of hd_fluid. Particles
- * without a fluid are taken to have the curvature of disks or spheres, with errors OTHERS times as
- * large. In a thin gas the scale is the mean free path l, else sigma. The effect of edges was
- * measured for disks in boxes with walls and in narrow boxes. */
+ * without a fluid are taken to have the curvature of disks or spheres, and to fill a box as these,
+ * with errors OTHERS times as large. In a thin gas the scale is the mean free path l, else sigma.
+ * The effect of edges was measured for disks and dumbbells in narrow boxes, and for disks in boxes
+ * with walls. */
 #include "modes/steps.h"
 
 #include <math.h>
@@ -78,7 +79,7 @@ hd_relation hd_relation_of(const hd_scene_def *def, hd_mode_kind kind)
         .c2 = b.c2 + b.c2_l * l,
         .c2_error = b.error + b.error_l * l,
         .c3 = b.c3 + b.c3_l2 * l * l,
-        .box_error = hypot(walls, narrow),
+        .box_error = (hd_dynamics_of(def)->fluid ? 1.0 : OTHERS) * hypot(walls, narrow),
         .scatter = hypot(t ? 0.001 : 0.002, WALL_OWN * walls),
     };
     r.c3_error = b.off * r.c3 + b.c3_error;

@@ -63,4 +63,10 @@ TEST(what_nobody_has_measured_bends_as_disks_with_three_times_their_errors)
     CHECK_CLOSE(lp.c2_error, 3.0 * (0.02 + 0.02 * l), 64.0 * DBL_EPSILON);
     CHECK_CLOSE(lp.c3, 0.55 + 2.0 * l * l, 64.0 * DBL_EPSILON);
     CHECK_CLOSE(lp.c3_error, 3.0 * 0.1 * lp.c3, 4.0 * DBL_EPSILON);
+    hd_scene_def disks = scene(.number = soft.number, .density = soft.density,
+                               .aspect = soft.aspect);
+    const double box = hd_relation_of(&disks, HD_MODE_T).box_error;
+    assert_true(box > 0.0);
+    CHECK_CLOSE(t.box_error, 3.0 * box, 8.0 * DBL_EPSILON);
+    CHECK_CLOSE(lp.box_error, 3.0 * box, 8.0 * DBL_EPSILON);
 }
