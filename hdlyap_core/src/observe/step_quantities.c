@@ -55,6 +55,15 @@ static bool slope_possible(const hd_scene_def *def, const hd_aim *goal, char why
     return !goal->relative || goal->wanted > open;
 }
 
+static bool velocity_possible(const hd_scene_def *def, const hd_aim *goal, char why[HD_WHY])
+{
+    const double open = hd_relation_of(def, HD_MODE_LP).box_error; /* NaN in a circle */
+    snprintf(why, HD_WHY,
+             "walls and short edges leave an error of %.2g %%, however long it is averaged",
+             100.0 * open);
+    return !(goal->relative && goal->wanted <= open);
+}
+
 /* ---- what a run states ----------------------------------------------------------------------- */
 
 /** The number of the step; -1: it is not resolved. */
@@ -113,7 +122,7 @@ static const hd_quantity of_steps[] = {
     {"c_L", HD_OF_NOTHING, HD_MODE_LP, slope_possible, read_slope},
     {.name = NULL}};
 static const hd_quantity of_phases[] = {
-    {.name = "v", .read = read_velocity},
+    {.name = "v", .possible = velocity_possible, .read = read_velocity},
     {"omega", HD_OF_NODES, HD_MODE_LP, step_possible, read_omega},
     {.name = NULL}};
 

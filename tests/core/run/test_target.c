@@ -33,7 +33,7 @@ TEST(texts_are_read_or_refused)
                                        "  ",
                                        "lambda_max 0.01",
                                        "LAMBDA_MAX: 1e-3 %",
-                                       " c_t 1% ,T( 1, 0) 0.5%,LP(1,0)0.2 ",
+                                       " c_t 2% ,T( 1, 0) 0.5%,LP(1,0)0.2 ",
                                        "lambda(3) 2",
                                        "omega(1,0) 5%, h_ks 1%, collision_rate 1%, pressure 0.1"};
     static const char *const bad[] = {
@@ -58,7 +58,7 @@ TEST(what_is_never_known_is_refused_by_name)
 {
     static const struct {
         const char *target, *word;
-    } rows[] = {{"v 1%, T(9,0) 1%", "must be without T(9,0): it is not among the waves"},
+    } rows[] = {{"v 2%, T(9,0) 1%", "must be without T(9,0): it is not among the waves"},
                 {"T(0,5) 1%", "must be without T(0,5): it is not among the waves"},
                 {"omega(9,1) 1%", "must be without omega(9,1): it is not among the waves"},
                 {"lambda(118) 1",
@@ -66,13 +66,14 @@ TEST(what_is_never_known_is_refused_by_name)
                 {"lambda(0) 1", "from 1 to 117"},
                 {"smallest 1%",
                  "without smallest: it is several exponents, so its error must be without %"},
-                {"c_T 0.01%", "short edges leave"}};
+                {"c_T 0.01%", "short edges leave"},
+                {"v 1%", "short edges leave"}};
     for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
         hd_scene_def def = aiming(long_box(), rows[k].target);
         if (strstr(rows[k].word, "zero mode")) def.exponents = HD_EXPONENTS_ALL;
         expect_refused(&def, rows[k].word);
     }
-    hd_scene_def blind = aiming(long_box(), "v 1%");
+    hd_scene_def blind = aiming(long_box(), "v 2%");
     blind.observe = HD_OBSERVE_STEPS;
     expect_refused(&blind, "must be without v: lp_phases is not among the observables");
     blind = aiming(blind, "pressure 1%");
@@ -181,9 +182,9 @@ TEST(each_quantity_ends_the_run)
                 [H_KS] = {"h_KS", 0.2},
                 [T] = {"T(1,0)", 0.4},
                 [LP] = {"LP(1,0)", 1.5},
-                [C_T] = {"c_T", 0.9},
+                [C_T] = {"c_T", 1.5},
                 [C_L] = {"c_L", 2.0},
-                [V] = {"v", 1.0},
+                [V] = {"v", 1.5},
                 [OMEGA] = {"omega(1,0)", 1.0},
                 [RATE] = {"collision_rate", 0.2},
                 [PRESSURE] = {"pressure", 0.3}};
