@@ -22,7 +22,7 @@ typedef enum hd_limit {
                         pieces */
     HD_LIMIT_STAGE,  /**< warm-up or averaging ended */
     /** A sample of the averages ended. It lasts about 80 collisions of each particle or 1/32 of the
-     * duration, whichever is shorter; in short runs it lasts longer than that. */
+     * duration, less while little has been averaged; in short runs it lasts longer than that. */
     HD_LIMIT_SAMPLE,
     HD_LIMIT_NONE /**< there was no interval yet */
 } hd_limit;

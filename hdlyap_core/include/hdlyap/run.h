@@ -117,8 +117,9 @@ HD_MUST_CHECK hd_status hd_run_advance(hd_run *run);
 
 /** True from a call of hd_run_advance that ended at a report to the next call. The results of
  * hd_run_parts are then those of the last sample, which ended hd_spectrum_time after the averaging
- * began. Samples end about every 80 collisions of each particle, and with this report if the scene
- * asks for hydro or fields are due. Phases have samples of their own: see hd_run_followed. */
+ * began. Samples end about every 80 collisions of each particle, or earlier, and with this report
+ * if the scene asks for hydro or fields are due. Phases have samples of their own: see
+ * hd_run_followed. */
 bool hd_run_report_due(const hd_run *run);
 
 /** Sets how often fields are due. At such a report all vectors are known if the scene asks for the

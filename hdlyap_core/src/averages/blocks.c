@@ -10,8 +10,6 @@
 
 /** Rounding may leave the weight of a full block short of its length by this part. */
 static const double CLOSE = 1e-9;
-/** A block may end with this part of its least weight, because samples rarely end exactly there. */
-static const double NEARLY = 0.92;
 /** Neighbouring blocks count as correlated if their correlation exceeds this many of its standard
  * deviations. */
 static const double SIGNIFICANT = 1.0;
@@ -90,9 +88,9 @@ void hd_blocks_add(hd_blocks *blocks, const double *sum, double weight)
 {
     HD_ASSERT(weight > 0);
     add(blocks, blocks->count, sum, weight);
-    const double enough = fmax(NEARLY * blocks->least, blocks->length - 0.5 * weight);
+    const double enough = fmax(HD_BLOCKS_NEARLY * blocks->least, blocks->length - 0.5 * weight);
     if (blocks->weight[blocks->count] < enough * (1.0 - CLOSE)) return;
-    if (blocks->count == 0) blocks->length = blocks->weight[0];
+    if (blocks->length == 0) blocks->length = blocks->weight[0];
     blocks->count++;
     if (blocks->count == HD_BLOCKS_MAX)
         join(blocks);

@@ -8,6 +8,8 @@
 #include "base/archive.h"
 
 enum { HD_BLOCKS_MAX = 96 };
+/** A block may end with this part of its least weight, because samples rarely end exactly there. */
+#define HD_BLOCKS_NEARLY 0.92
 
 typedef struct hd_blocks {
     int series;

@@ -4,6 +4,7 @@
 
 #include <math.h>
 
+#include "averages/blocks.h"
 #include "averages/doubling.h"
 #include "averages/spectrum.h"
 #include "base/check.h"
@@ -16,15 +17,12 @@ enum { COUNT_MIN = 32 };
 /** Estimates from K stretches of a length t, as variances in units of noise^2 / K [T25]: LIMIT of
  * the limit, DIFFERENCE of how far it is from the limit of stretches twice as long. */
 static const double LIMIT = 10.0, DIFFERENCE = 18.0;
-/** Growth over stretches shorter than this part of a block of the averages depends on the growth
- * before. */
-static const double NEARLY = 0.92;
 
 struct hd_fluctuations {
     hd_doubling *doubling;
     int vectors;
-    double block; /**< shortest block of the averages, beyond which growth has no memory [time
-                     units] */
+    double block; /**< shortest block of the averages, beyond which growth has no memory; a stretch
+                     may be as little shorter as a block [time units] */
     /** At the last sample: [vectors], ln R_ii summed by the spectrum; averaged time. */
     double *sum, now;
     double *grown; /**< [vectors]: growth from the last sample to this one */
@@ -70,7 +68,7 @@ static hd_diffusion limit_of(const hd_fluctuations *f, const course *c)
         const hd_order_over passed = hd_fluctuations_order(f, k);
         const double off = slope(c, k + 1) - slope(c, k);
         const double one = c->noise[k + 1] / sqrt((double)passed.count);
-        if (passed.time < NEARLY * f->block) continue;
+        if (passed.time < HD_BLOCKS_NEARLY * f->block) continue;
         const double allowed = (k + 3 < c->times ? 1.0 : 2.0) * sqrt(DIFFERENCE) * one;
         if (!(fabs(off) <= allowed)) continue;
         return (hd_diffusion){slope(c, k), hypot(sqrt(LIMIT) * one, 0.5 * off)};
@@ -223,7 +221,9 @@ static hd_status prepare(hd_fluctuations *f, const hd_observing *with)
     f->sum = hd_memory_alloc((size_t)with->vectors, sizeof *f->sum);
     f->grown = hd_memory_alloc((size_t)with->vectors, sizeof *f->grown);
     if (!f->sum || !f->grown) return HD_NO_MEMORY;
-    return hd_doubling_create(&f->doubling, doubling_of(with->scene));
+    hd_doubling_def def = doubling_of(with->scene);
+    if (def.shortest == 0) def.shortest = with->sample; /* those of a young run are summed up */
+    return hd_doubling_create(&f->doubling, def);
 }
 
 static void *fluctuations_create(const hd_observing *with, hd_status *status)

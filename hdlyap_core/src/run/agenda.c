@@ -6,9 +6,11 @@
  * intervals as come nearest to the length that it should have, or of fewer if observables, as
  * phases, need a measured state earlier. Without a frame a sample is a stretch of time. */
 #include "run/agenda.h"
-#include "scene/scene.h"
 
 #include <math.h>
+
+#include "averages/blocks.h"
+#include "scene/scene.h"
 
 /** An interval that takes all of the remaining time is as long as its condition allows, and this
  * limit is reported, if the allowed length is below this times the remaining time. */
@@ -30,6 +32,11 @@ static const double SAMPLES_MIN = 32.0;
 static const double WHOLE_BLOCK = 1.05;
 /** Fewest samples in a block in a short run. */
 static const double IN_A_BLOCK = 2.0;
+/** The first samples are aimed at this many shortest blocks. The whole number of intervals, none
+ * longer, that comes nearest is at least 0.92 of a block, which fills one. */
+static const double FIRST_SAMPLE = 1.5 * HD_BLOCKS_NEARLY;
+/** Length of the first blocks of such samples, in shortest ones: 0.92 to 1.84, as intervals fit. */
+static const double FIRST_BLOCK = 1.3;
 /** If a sample has more intervals than this, its length is not rounded to a whole number of them.
  */
 static const double IN_A_SAMPLE = 3.0;
@@ -38,11 +45,15 @@ hd_agenda hd_agenda_of(const hd_scene_def *scene, double rate)
 {
     const double sample = COLLISIONS_PER_SAMPLE / rate, collision = sample / COLLISIONS_PER_SAMPLE;
     const double sound = hd_scene_sound_crossing(scene);
+    const double block = fmax(COLLISIONS_PER_BLOCK * collision, sound);
     return (hd_agenda){.schedule = hd_schedule_of(scene),
                        .in_force.target = scene->target,
                        .sample_max = sample,
-                       .block = fmax(COLLISIONS_PER_BLOCK * collision, sound)};
+                       .first_sample = FIRST_SAMPLE * block,
+                       .block = block};
 }
+
+void hd_agenda_begin_grown(hd_agenda *a) { a->first_sample = INFINITY; }
 
 double hd_agenda_block(const hd_agenda *a) { return a->block; }
 
@@ -69,16 +80,25 @@ double hd_agenda_sample_most(const hd_agenda *a)
     return fmin(a->sample_max, wanted);
 }
 
-/** A sample lasts 80 collisions of each particle, or 1/32 of the duration. But in a short run,
- * where that is less than a block, it is a block, or the equal part of one that comes nearest to a
- * single interval. */
+/** A sample lasts 80 collisions of each particle, or 1/32 of the duration; but at first a block,
+ * then a 16th of what has been averaged: errors are known as soon as they can be, and never from
+ * fewer samples. In a short run, where it would be less than a block, it is a block, or the equal
+ * part of one that comes nearest to a single interval. */
 double hd_agenda_sample_longest(const hd_agenda *a, const hd_interval *interval)
 {
-    const double block = WHOLE_BLOCK * a->block, most = hd_agenda_sample_most(a);
+    const double block = WHOLE_BLOCK * a->block, averaged = a->sample_begin - a->schedule.start;
+    const double young = fmax(a->first_sample, averaged / HD_SPECTRUM_BLOCKS_MIN);
+    const double most = fmin(hd_agenda_sample_most(a), young);
     if (a->schedule.stage != HD_AVERAGING) return INFINITY;
     const double usual = hd_interval_longest(interval).length;
     if (most >= block) return most;
     return hd_equal_part(block, usual < most && usual > most / IN_A_SAMPLE ? usual : most);
+}
+
+double hd_agenda_sample_grown(const hd_agenda *a)
+{
+    const double most = hd_agenda_sample_most(a);
+    return most > WHOLE_BLOCK * a->block ? most : 0.0;
 }
 
 double hd_agenda_interval_expected(const hd_agenda *a, const hd_interval *interval, double apart)
@@ -165,6 +185,21 @@ void hd_agenda_plan(hd_agenda *a, const hd_pace *p)
                           ? fmin(measured, p->snapshot)
                           : hd_schedule_snap(&a->schedule, p->now, next.length);
     a->limit = next.limit == HD_LIMIT_SCHEDULE ? limit_of_rest(a, p, left) : next.limit;
+}
+
+/* ---- when errors are known ----------------------------------------------------------------- */
+
+double hd_agenda_reported(const hd_agenda *a, double averaged)
+{
+    const double report = a->schedule.report_interval, last = a->schedule.length[HD_AVERAGING];
+    return averaged < last ? fmin(report * ceil(averaged / report), last) : averaged;
+}
+
+double hd_agenda_errors_after(const hd_agenda *a)
+{
+    const double most = hd_agenda_sample_most(a), is_short = most < WHOLE_BLOCK * a->block;
+    const double block = is_short ? WHOLE_BLOCK * a->block : fmin(FIRST_BLOCK * a->block, most);
+    return hd_agenda_reported(a, HD_SPECTRUM_BLOCKS_MIN * block);
 }
 
 /* ---- what is due --------------------------------------------------------------------------- */

@@ -37,6 +37,7 @@ typedef struct hd_agenda {
     double sample_begin; /**< time at which the present sample began, with a measured state */
     bool sample_ends;    /**< true if the sample ends with the present interval */
     double sample_max;   /**< longest length of a sample */
+    double first_sample; /**< length of the first samples of a run that is not short */
     double block;        /**< shortest block of the averages, see hd_agenda_block */
     /** What is due at the present time (set of HD_DUE_*), until the next advance begins;
      * HD_DUE_STAGE stays until the stage is left. */
@@ -63,6 +64,8 @@ typedef struct hd_pace {
 /** Makes the agenda of a scene whose warm-up is chosen. rate: collisions of a particle [1/time
  * unit]. */
 hd_agenda hd_agenda_of(const hd_scene_def *scene, double rate);
+/** Samples are as long from the start as those of a run that has averaged for long. */
+void hd_agenda_begin_grown(hd_agenda *agenda);
 /** Shortest block of the averages: 8 collisions of each particle, or the time that sound takes
  * through the box, because growth remembers both [T8]. */
 double hd_agenda_block(const hd_agenda *agenda);
@@ -105,8 +108,16 @@ bool hd_agenda_is_due(const hd_agenda *agenda, unsigned why);
 
 /** Length that a sample should have at most; INFINITY unless averages are taken. */
 double hd_agenda_sample_longest(const hd_agenda *agenda, const hd_interval *interval);
-/** The same during the averaging, whatever the stage and the intervals are. */
+/** The same during the averaging, whatever the stage, the intervals and the averaged time are. */
 double hd_agenda_sample_most(const hd_agenda *agenda);
+/** Length to which samples grow while the averaging is young; 0 if all are alike, in a short run.
+ */
+double hd_agenda_sample_grown(const hd_agenda *agenda);
+/** Averaged time until the first report at or after `averaged`; that time itself if it is beyond
+ * the duration. */
+double hd_agenda_reported(const hd_agenda *agenda, double averaged);
+/** Averaged time until the first report that states errors [T8], likewise. */
+double hd_agenda_errors_after(const hd_agenda *agenda);
 /** Expected length of intervals, of which measured states are at most `apart` apart. */
 double hd_agenda_interval_expected(const hd_agenda *agenda, const hd_interval *interval,
                                    double apart);

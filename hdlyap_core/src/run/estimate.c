@@ -23,9 +23,9 @@ static const double WARMUP_COLLISIONS = 120.0;
 /** Largest N n^2 of a trial, with N particles and n vectors: above it one interval takes longer
  * than a trial may. */
 static const double TRIAL_WORK = 800.0 * 1600.0 * 1600.0;
-/** Averaged time for an error of 1 % in c_T, in units of the time from which errors are stated;
- * measured with 780 disks, see doc/performance.md. */
-static const double OF_SLOPES = 2.0;
+/** Averaged time for an error of 1 % in c_T, in shortest blocks; measured with 780 disks, see
+ * doc/performance.md. */
+static const double BLOCKS_OF_SLOPES = 32.0;
 
 hd_extent hd_extent_of(const hd_scene_def *def, const hd_run *run)
 {
@@ -50,12 +50,26 @@ static hd_scene_def smaller(const hd_scene_def *def)
     return hd_scene_check(&scene, NULL, 0) == HD_OK ? scene : *def;
 }
 
+static hd_agenda agenda_of(const hd_scene_def *def)
+{
+    return hd_agenda_of(def, 1.0 / hd_scene_collision_time(def));
+}
+
+static double errors_after(const hd_scene_def *def)
+{
+    const hd_agenda agenda = agenda_of(def);
+    return hd_scene_vectors(def) > 0 ? hd_agenda_errors_after(&agenda) : 0.0;
+}
+
+static double slopes_after(const hd_scene_def *def)
+{
+    const hd_agenda agenda = agenda_of(def);
+    return hd_scene_vectors(def) > 0 ? BLOCKS_OF_SLOPES * hd_agenda_block(&agenda) : 0.0;
+}
+
 hd_status hd_estimate_errors(double *after, const hd_scene_def *def)
 {
-    *after = 0.0;
-    if (hd_scene_vectors(def) == 0) return HD_OK;
-    const hd_agenda agenda = hd_agenda_of(def, 1.0 / hd_scene_collision_time(def));
-    *after = HD_SPECTRUM_BLOCKS_MIN * hd_agenda_block(&agenda);
+    *after = errors_after(def);
     return HD_OK;
 }
 
@@ -72,6 +86,7 @@ hd_scene_def hd_estimate_trial(const hd_scene_def *def)
 
 static hd_status measure(hd_estimate *out, hd_run *run)
 {
+    hd_agenda_begin_grown(&run->agenda); /* a run is young for a short time */
     while (hd_run_stage(run) < HD_AVERAGING) HD_TRY(hd_run_advance(run));
     const double begin = hd_clock_now(), from = hd_run_time(run);
     const long before = hd_run_cost(run).orthonormalisations, vectors = hd_run_vectors(run);
@@ -84,7 +99,6 @@ static hd_status measure(hd_estimate *out, hd_run *run)
     }
     out->seconds = seconds / (hd_run_time(run) - from);
     out->interval = vectors > 0 ? (hd_run_time(run) - from) / (double)done : NAN;
-    out->errors_after = hd_run_errors_after(run);
     return HD_OK;
 }
 
@@ -96,25 +110,25 @@ static double reached_after(const hd_standing *s, double averaged)
     return may > 0.0 ? averaged * falls / may : averaged;
 }
 
-/** Averaged time at which a run that has averaged as long as the scene would reach the target. */
-static double target_after(const hd_run *run, const hd_scene_def *def)
+/** Averaged time at which a run that has averaged as long as the scene would reach the target; not
+ * before errors are stated. */
+static double target_after(const hd_run *run, const hd_scene_def *def, double stated)
 {
+    const hd_agenda agenda = agenda_of(def);
     const bool same = hd_run_scene(run)->number == def->number;
     if (!same || !*def->target.line) return NAN;
     const hd_standing end = hd_target_standing(run, &def->target);
     const double averaged = hd_run_time(run) - hd_agenda_stage_begin(&run->agenda);
     const double after = end.reached ? reached_after(&end, averaged) : averaged + end.left;
-    return end.error < 0.0 ? NAN : fmax(after, hd_run_errors_after(run));
+    return end.error < 0.0 ? NAN : hd_agenda_reported(&agenda, fmax(after, stated));
 }
 
-/** Scales a trial of fewer particles up: the work of a frame grows as N^3, the time for an error as
- * that of sound through the box. */
+/** Scales a trial of fewer particles up: the work of a frame grows as N^3. */
 static void enlarge(hd_estimate *e, const hd_scene_def *tried, const hd_scene_def *def)
 {
     e->particles = tried->number;
     if (tried->number == def->number) return;
     e->seconds *= pow((double)def->number / tried->number, 3.0);
-    e->errors_after *= hd_scene_sound_crossing(def) / hd_scene_sound_crossing(tried);
 }
 
 hd_status hd_estimate_run(hd_estimate *out, const hd_scene_def *def, double fields_every,
@@ -128,9 +142,10 @@ hd_status hd_estimate_run(hd_estimate *out, const hd_scene_def *def, double fiel
     HD_TRY(hd_run_create(&run, &tried, message, size));
     hd_run_fields_every(run, fields_every);
     const hd_status status = measure(out, run);
-    out->target_after = target_after(run, def);
+    out->errors_after = errors_after(def);
+    out->slopes_after = slopes_after(def);
+    out->target_after = target_after(run, def, out->errors_after);
     enlarge(out, &tried, def);
-    out->slopes_after = OF_SLOPES * out->errors_after;
     out->extent = hd_extent_of(def, run);
     hd_run_free(run);
     return status;

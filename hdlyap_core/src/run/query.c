@@ -48,12 +48,6 @@ void hd_run_halves(const hd_run *run, double *cos_theta, double *dp_dq_ratio)
     hd_carrier_halves(&run->carrier, cos_theta, dp_dq_ratio);
 }
 
-double hd_run_errors_after(const hd_run *run)
-{
-    const double block = hd_agenda_block(&run->agenda);
-    return run->carrier.spectrum ? HD_SPECTRUM_BLOCKS_MIN * block : 0.0;
-}
-
 bool hd_run_is_caged(const hd_run *run)
 {
     return hd_cages_hold(&run->cages, HD_SPECTRUM_BLOCKS_MIN * hd_agenda_block(&run->agenda));

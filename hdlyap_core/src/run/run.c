@@ -82,6 +82,7 @@ static hd_status prepare_observables(hd_run *run)
                                .threads = c->threads,
                                .communicator = run->communicator,
                                .block = hd_agenda_block(&run->agenda),
+                               .sample = hd_agenda_sample_grown(&run->agenda),
                                .ortho = c->ortho};
     return hd_observables_create(&run->observables, &with);
 }

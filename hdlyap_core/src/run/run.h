@@ -8,8 +8,6 @@
 /** The frame that is carried: half of the vectors if all exponents follow from half of them [T18].
  * NULL without exponents. */
 const hd_frame *hd_run_frame(const hd_run *run);
-/** Averaged time from which standard errors are stated [T8]; 0 without exponents. */
-double hd_run_errors_after(const hd_run *run);
 /** The scene of the trial of hd_estimate_run: shorter, and with fewer particles in a box of the
  * same shape and with the same waves if its own would take too long. */
 hd_scene_def hd_estimate_trial(const hd_scene_def *def);

@@ -244,6 +244,25 @@ TEST(it_costs_no_orthonormalisation)
     assert_int_equal(hd_fluctuations_order(hd_run_fluctuations(c), 0).count, 800);
 }
 
+/** The first samples of a run are short; stretches are as long as its later samples all the same.
+ */
+TEST(stretches_of_one_length_are_alike)
+{
+    const hd_scene_def scene = disks(HD_EXPONENTS_POSITIVE, 3, 0.0);
+    OWNED(hd_run) *run = until(created(scene), HD_AVERAGING);
+    const double sample = hd_agenda_sample_grown(&run->agenda), from = hd_run_time(run);
+    int samples = 0;
+    while (hd_run_time(run) < from + 20.0 * sample) {
+        const double before = run->agenda.sample_begin;
+        CHECK_OK(hd_run_advance(run));
+        samples += run->agenda.sample_begin > before;
+    }
+    const hd_order_over shortest = hd_fluctuations_order(hd_run_fluctuations(run), 0);
+    assert_true(samples > 30);
+    assert_in_range(shortest.count, 18, 22);
+    CHECK_CLOSE(shortest.time, sample, 0.1 * sample);
+}
+
 /** Samples of phases that nobody asks for are not taken. */
 TEST(phases_that_are_not_asked_for_cost_nothing)
 {

@@ -192,6 +192,20 @@ TEST(each_quantity_ends_the_run)
         expect_end(rows[what].name, what, rows[what].percent);
 }
 
+/** A run without end states errors early enough to stop near 1 %, not far below. */
+TEST(a_large_error_ends_it_soon)
+{
+    for (uint64_t seed = 1; seed <= 4; seed++) {
+        const hd_scene_def def = scene_from(long_box(), .observe = 0, .duration = 0.0,
+                                            .exponents = 4, .seed = seed);
+        OWNED(hd_run) *run = finished(aiming(def, "lambda_max 1%"));
+        const hd_spectrum *s = hd_run_spectrum(run);
+        const double error = of(hd_spectrum_std_error(s, 0), hd_spectrum_exponent(s, 0));
+        print_message("%.2f%% after %.0f\n", 100.0 * error, hd_run_time(run) - 65.0);
+        CHECK_WITHIN(error, 0.007, 0.01);
+    }
+}
+
 /** All of them; the farthest one is named on the way. */
 TEST(the_farthest_of_several_is_told)
 {
