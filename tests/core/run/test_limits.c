@@ -91,15 +91,18 @@ TEST(samples_for_errors_limit)
     assert_int_equal(one.limit, HD_LIMIT_SAMPLE);
 }
 
-/** Foreseen, and of somebody who came in the middle of an interval. */
+/** Foreseen, and of somebody who came in the middle of an interval; of a run whose samples are no
+ * longer short. */
 TEST(vectors_that_are_wanted_limit)
 {
     hd_scene_def scene = scene_from(
         scene_of_disks(24, 0.5), .observe = HD_OBSERVE_MODES | HD_OBSERVE_STEPS | HD_OBSERVE_HYDRO,
         .max_mode_number = 1);
     OWNED(hd_run) *run = created(scene);
+    hd_run_observe(run, HD_OBSERVE_STEPS);
+    until_time(run, 150.0);
     long looks = 0, foreseen = 0;
-    for (long reports = 0; hd_run_time(run) < 60.0;) {
+    for (long reports = 0; hd_run_time(run) < 168.0;) {
         CHECK_OK(hd_run_advance(run));
         if (!hd_run_report_due(run) || hd_run_stage(run) != HD_AVERAGING) continue;
         hd_run_observe(run, ++reports % 8 < 4 ? scene.observe : HD_OBSERVE_STEPS);
