@@ -23,8 +23,8 @@ typedef struct hd_estimate {
     /** Mean simulated time between two orthonormalisations [time units]; NaN without exponents. */
     double interval;
     double before;       /**< simulated time before the averaging begins [time units] */
-    double errors_after; /**< averaged time until standard errors of exponents are known; those of
-                            steps are then below 1 %. 0 without exponents */
+    double errors_after; /**< averaged time until a report states standard errors of exponents;
+                            those of steps are then below 1 %. 0 without exponents */
     /** Averaged time until the scene's target is reached, as errors of the trial predict; at least
      * errors_after. NaN if the trial gives no errors or there is no target; INFINITY if the target
      * is never reached. */
