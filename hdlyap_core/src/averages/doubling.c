@@ -248,6 +248,8 @@ static void kind_archive(const hd_doubling *d, kind *k, hd_archive *archive)
 
 void hd_doubling_archive(hd_doubling *d, hd_archive *archive)
 {
+    hd_archive_double(archive, "times shortest", &d->of.shortest);
+    hd_archive_expect(archive, d->of.shortest >= 0, "times shortest", "it is negative");
     for (kind *k = d->kinds; hd_archive_good(archive) && k < d->kinds + HD_TIMES_MAX; k++) {
         kind_archive(d, k, archive);
         hd_archive_expect(archive, k->time >= 0 && k->begun >= 0 && (k->time > 0 || k->count == 0),
