@@ -142,6 +142,12 @@ struct hd_dynamics {
     double (*rate)(const hd_scene_def *scene);
     /** Length of a time step, if particles move in time steps [time units]. May be left out. */
     double (*step)(const hd_scene_def *scene);
+    /** Relative error of the energy up to which the numbers of a run are what the scene asks for; a
+     * run says so when its energy is off by more. May be left out; no error is then too large. */
+    double (*energy_asked)(const hd_scene_def *scene);
+    /** Usual speed of a particle, by which exponents scale: 1 for hard particles, which is also
+     * meant if it is left out. */
+    double (*speed)(const hd_scene_def *scene);
     /** Exponents that vanish in theory, but that no exact null vector keeps at 0, differ from 0 by
      * about the time step to the power that this returns. If left out, they do not differ. */
     double (*split)(const hd_scene_def *scene);

@@ -47,5 +47,18 @@ double hd_trajectory_kinetic_energy(const hd_trajectory *trajectory);
 /** How accurate the present state is. O(N). */
 hd_examined hd_trajectory_examined(const hd_trajectory *trajectory);
 
+/** What time steps have done to the energy. */
+typedef struct hd_energy {
+    double error; /**< relative error of the energy now; NaN for rows without `step` or
+                     `energy_error`, as those of hard particles */
+    double most;  /**< largest |error| since time 0, looked at after each hd_trajectory_extend; NaN
+                     as `error` */
+    double asked; /**< most that the scene asks for, hd_dynamics.energy_asked; NaN if it is left out
+                   */
+} hd_energy;
+
+/** Reads what time steps have done to the energy. */
+hd_energy hd_trajectory_energy(const hd_trajectory *trajectory);
+
 HD_API_END
 #endif

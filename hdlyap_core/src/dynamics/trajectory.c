@@ -19,6 +19,16 @@ static void note(hd_trajectory *tr)
     if (tr->now) tr->of->state(tr->state, tr->now, tr->now + coordinates(tr));
 }
 
+static bool is_stepped(const hd_dynamics *of) { return of->step && of->energy_error; }
+
+/** Looks at what time steps have done to the energy. */
+static void look(hd_trajectory *tr)
+{
+    if (!is_stepped(tr->of)) return;
+    tr->energy.error = tr->of->energy_error(tr->state);
+    tr->energy.most = fmax(tr->energy.most, fabs(tr->energy.error));
+}
+
 double hd_trajectory_noted(const hd_scene_def *def)
 {
     const hd_dynamics *of = hd_dynamics_of(def);
@@ -43,6 +53,8 @@ hd_status hd_trajectory_create_from(hd_trajectory **out, const hd_scene_def *def
     if (!tr) return HD_NO_MEMORY;
     *tr = (hd_trajectory){.of = hd_dynamics_of(def), .particles = def->number};
     tr->rate = tr->of->rate(def);
+    tr->energy.error = tr->energy.most = is_stepped(tr->of) ? 0.0 : NAN;
+    tr->energy.asked = tr->of->energy_asked ? tr->of->energy_asked(def) : NAN;
     const hd_status status = create(tr, def, q, p);
     if (status == HD_OK) {
         *out = tr;
@@ -70,6 +82,7 @@ hd_status hd_trajectory_extend(hd_trajectory *tr, hd_record *record, double t_en
 {
     const hd_status status = tr->of->advance(tr->state, record, t_end);
     note(tr);
+    look(tr);
     return status;
 }
 
@@ -147,10 +160,17 @@ hd_examined hd_trajectory_examined(const hd_trajectory *tr)
     return examined;
 }
 
+hd_energy hd_trajectory_energy(const hd_trajectory *tr) { return tr->energy; }
+
 void hd_trajectory_archive(hd_trajectory *tr, hd_archive *archive)
 {
     tr->of->archive(tr->state, archive);
-    if (!archive->writing) note(tr);
+    if (is_stepped(tr->of)) hd_archive_double(archive, "trajectory energy error", &tr->energy.most);
+    hd_archive_expect(archive, !(tr->energy.most < 0.0), "trajectory energy error",
+                      "it is negative");
+    if (archive->writing) return;
+    note(tr);
+    look(tr);
 }
 
 uint32_t hd_trajectory_fingerprint(const hd_trajectory *tr)

@@ -10,6 +10,7 @@ struct hd_trajectory {
     void *state; /**< only the dynamics knows what it holds */
     int particles;
     double rate; /**< expected pair collisions per time unit */
+    hd_energy energy;
     /** [2][particles][coordinates]: q and p of now, for what the row leaves out; NULL if it leaves
      * nothing out that follows from them. */
     double *now;

@@ -76,6 +76,7 @@ hd_status hd_estimate_errors(double *after, const hd_scene_def *def)
 hd_scene_def hd_estimate_trial(const hd_scene_def *def)
 {
     hd_scene_def trial = *def;
+    hd_scene_settle(&trial);
     trial.equilibration = hd_scene_collision_time(def);
     trial.warmup = WARMUP_COLLISIONS * trial.equilibration;
     trial.duration = 0.0;

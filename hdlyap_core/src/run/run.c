@@ -19,6 +19,7 @@
 #include "run/order.h"
 #include "run/ranks.h"
 #include "run/run_state.h"
+#include "scene/scene.h"
 #include "tangent/verify.h"
 
 static bool is_averaging(const hd_run *run)
@@ -154,6 +155,7 @@ hd_status hd_run_make(hd_run **out, const hd_scene_def *def, bool resumed,
         .communication = -before.seconds, .bytes = -before.bytes, .calls = -before.calls};
     run->scene = *def;
     run->scene.warmup = hd_scene_warmup(def);
+    hd_scene_settle(&run->scene);
     run->clocks.created = hd_clock_now();
     const hd_status status = prepare(run);
     if (status != HD_OK) {

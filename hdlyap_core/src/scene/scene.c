@@ -148,16 +148,21 @@ static const double GAP = 0.05, FOLDS = 3.0;
 /** Warm-up of a frame that is too small to reach the steps, and the shortest warm-up of all [time
  * units]. */
 static const double WARMUP_LEADING = 50.0, WARMUP_MIN = 20.0;
-/** Warm-up, in collisions of a particle, if there are no steps. */
+/** Shortest warm-up of particles without a fluid, in collisions of a particle. */
 static const double WARMUP_COLLISIONS = 100.0;
 
+/** Particles without a fluid of their own are taken to be as hard ones that are so fast. */
 static double warmup_of(const hd_scene_def *def)
 {
-    const hd_fluid *fluid = hd_dynamics_of(def)->fluid;
+    const hd_dynamics *of = hd_dynamics_of(def);
+    const hd_fluid *like = of->dimension == 2 ? &hd_fluid_disks : &hd_fluid_spheres;
     const double k = hd_wave_limits_of(def).smallest; /* INFINITY: there are no steps to separate */
-    if (!fluid) return WARMUP_COLLISIONS * hd_scene_collision_time(def);
-    if (hd_scene_vectors(def) < hd_scene_positive_exponents(def)) return WARMUP_LEADING;
-    return fmax(FOLDS / (GAP * fluid->transverse(def) * k), WARMUP_MIN);
+    const double speed = of->speed ? of->speed(def) : 1.0,
+                 least = WARMUP_COLLISIONS * hd_scene_collision_time(def);
+    if (hd_scene_vectors(def) < hd_scene_positive_exponents(def))
+        return of->fluid ? WARMUP_LEADING : least;
+    return fmax(FOLDS / (GAP * speed * (of->fluid ? of->fluid : like)->transverse(def) * k),
+                of->fluid ? WARMUP_MIN : least);
 }
 
 double hd_scene_parting(const hd_scene_def *def)
@@ -165,6 +170,14 @@ double hd_scene_parting(const hd_scene_def *def)
     if (def->warmup != HD_WARMUP_AUTO) return def->warmup;
     if (def->exponents == HD_EXPONENTS_NONE) return 0.0;
     return warmup_of(def);
+}
+
+void hd_scene_settle(hd_scene_def *def)
+{
+    const hd_scene_def asked = *def;
+    const hd_parameter *row;
+    for (int k = 0; (row = hd_parameter_of(def, k)); k++)
+        if (row->chosen) hd_parameter_assign(row, def, row->chosen(&asked));
 }
 
 /** Reading checks only that types can hold the values; ranges are checked with the whole scene. */

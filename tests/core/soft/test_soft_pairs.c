@@ -35,6 +35,36 @@ TEST(potentials_are_as_smooth_as_their_rows_say)
     CHECK_CLOSE(inside.b, outside.b, 1e-6);
 }
 
+/** Jump of derivative s + 1 at r, by differences of the one before it: s - 1 of them of V''. */
+static double jump_at(const hd_potential *of, double r)
+{
+    const double h = 1e-4; /* errors of h^2 and of rounding / h^(s - 1) are below 1e-3 */
+    double side[2];
+    for (int k = 0; k < 2; k++) {
+        double d[3];
+        for (int n = 0; n < 3; n++) {
+            const double x = r + (k == 0 ? -1.0 : 1.0) * h * (n + 1e-6), u = x * x;
+            const hd_pull pull = u < of->cut * of->cut ? of->at(u) : (hd_pull){0.0};
+            d[n] = pull.b + pull.c * u;
+        }
+        const double sign = k == 0 ? -1.0 : 1.0;
+        side[k] = of->smooth == 1   ? d[0]
+                  : of->smooth == 2 ? sign * (4.0 * d[1] - 3.0 * d[0] - d[2]) / (2.0 * h)
+                                    : (d[2] - 2.0 * d[1] + d[0]) / (h * h);
+    }
+    return side[1] - side[0];
+}
+
+/** lennard_jones jumps where its cut begins, too. */
+TEST(potentials_jump_as_their_rows_say)
+{
+    for (int k = 0; k < HD_POTENTIALS; k++) {
+        const hd_potential *of = &hd_potentials[k];
+        const double begin = k == HD_LENNARD_JONES ? jump_at(of, 2.0) : 0.0;
+        CHECK_CLOSE(hypot(jump_at(of, of->cut), begin) / of->jump, 1.0, 0.01);
+    }
+}
+
 TEST(steps_are_symmetric_and_whole)
 {
     for (int k = 0; k < HD_INTEGRATORS; k++) {

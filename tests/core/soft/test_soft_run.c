@@ -372,41 +372,6 @@ TEST(a_step_that_is_too_long_is_named)
     }
 }
 
-/** Dense and hot: the chosen step holds the energy, and is no shorter than that takes; wca does not
- * hold it as well. */
-TEST(the_chosen_step_holds_the_energy)
-{
-    static const double energies[] = {0.01, 1.0, 100.0, 1e4};
-    for (int potential = 0; potential < HD_POTENTIALS; potential++)
-        for (int integrator = 0; integrator < HD_INTEGRATORS; integrator++)
-            for (int k = 0; k < 4; k++) {
-                hd_scene_def def = soft_box(2, potential, integrator, 0.0, 64, 9.0);
-                def.own[HD_SOFT_ENERGY].real = energies[k];
-                MADE(hd_trajectory, tr, &def);
-                const double time = 2000.0 * hd_soft_time_step(&def);
-                double most = 0.0;
-                for (int n = 1; n <= 20; n++) {
-                    CHECK_OK(hd_trajectory_extend(tr, NULL, time * n / 20));
-                    most = fmax(most, fabs(hd_trajectory_examined(tr).energy_error));
-                }
-                CHECK_WITHIN(most, energies[k] == 1.0 ? 5e-8 : 0.0,
-                             potential == HD_WCA ? 5e-4 : 1e-5);
-            }
-}
-
-/** As its order says. */
-TEST(a_coarser_accuracy_takes_longer_steps)
-{
-    for (int integrator = 0; integrator < HD_INTEGRATORS; integrator++) {
-        hd_scene_def def = soft_few(2, HD_WCA, integrator, 0.0);
-        const double fine = hd_soft_time_step(&def), root = 1.0 / hd_integrators[integrator].order;
-        def.accuracy = 1e-4;
-        CHECK_CLOSE(hd_soft_time_step(&def) / fine, pow(100.0, root), 1e-12);
-        def.own[HD_SOFT_TIME_STEP].real = 0.0123;
-        CHECK_CLOSE(hd_soft_time_step(&def), 0.0123, 0.0);
-    }
-}
-
 /* ---- the rest of the row ------------------------------------------------------------------- */
 
 /** Each fault planted into a record that is whole. */

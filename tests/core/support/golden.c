@@ -54,7 +54,7 @@ static golden golden_scene(int scene)
          0x2d02f1c2d1469492u}, /* larger than the caches */
         {dumbbells(100, 0.6, 0.25, p, 8), 20000, 0xd24231f41fa984b9u},
         {dumbbells(12, 0.2, 1.3, r, 9), 10000, 0xced0dc82b541f34cu},
-        {soft(64, 0.7, 1, 0), 30, 0x7b99e81605d05dbfu},
+        {soft(64, 0.7, 1, 0), 30, 0xcb79103978be7d85u},
         {soft(200, 0.6, 2, 1), 20, 0x04182d0ea279e21au},
     };
     return all[scene];

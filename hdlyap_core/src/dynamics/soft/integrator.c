@@ -10,16 +10,20 @@
 #define CHI (-0.06626458266981849)
 
 const hd_integrator hd_integrators[HD_INTEGRATORS] = {
-    [HD_VERLET] = {"verlet", 2, 1, {0.5, 0.5}, {1.0}, {0.5}},
+    [HD_VERLET] = {"verlet", 2, 1, {0.5, 0.5}, {1.0}, {0.5}, 6.0, 0.4},
     [HD_PEFRL] = {"pefrl",
                   4,
                   4,
                   {XI, CHI, 1.0 - 2.0 * (CHI + XI), CHI, XI},
                   {0.5 - LAMBDA, LAMBDA, LAMBDA, 0.5 - LAMBDA},
-                  {XI, XI + CHI, 1.0 - XI - CHI, 1.0 - XI}},
+                  {XI, XI + CHI, 1.0 - XI - CHI, 1.0 - XI},
+                  3.0,
+                  0.25},
     [HD_FOREST_RUTH] = {"forest_ruth",
                         4,
                         3,
                         {0.5 * THETA, 0.5 - 0.5 * THETA, 0.5 - 0.5 * THETA, 0.5 * THETA},
                         {THETA, 1.0 - 2.0 * THETA, THETA},
-                        {0.5 * THETA, 0.5, 1.0 - 0.5 * THETA}}};
+                        {0.5 * THETA, 0.5, 1.0 - 0.5 * THETA},
+                        1.5,
+                        0.5}};

@@ -38,6 +38,7 @@ static hd_pull lennard_jones(double u)
 }
 
 const hd_potential hd_potentials[HD_POTENTIALS] = {
-    [HD_POWER] = {"power", 1.0, 3, 0.0, power},
-    [HD_WCA] = {"wca", 1.1224620483093730, 1, 0.0, weeks_chandler_andersen}, /* 2^(1/6) */
-    [HD_LENNARD_JONES] = {"lennard_jones", 2.5, 2, 1.0, lennard_jones}};
+    [HD_POWER] = {"power", 1.0, 3, 38400.0, 1e-6, 0.0, power},
+    /* 2^(1/6), 36 2^(2/3) */
+    [HD_WCA] = {"wca", 1.1224620483093730, 1, 57.1464, 5e-5, 0.0, weeks_chandler_andersen},
+    [HD_LENNARD_JONES] = {"lennard_jones", 2.5, 2, 23.3, 1e-6, 1.0, lennard_jones}};

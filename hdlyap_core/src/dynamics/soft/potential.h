@@ -11,7 +11,9 @@ typedef struct hd_pull {
 typedef struct hd_potential {
     const char *name;
     double cut;   /**< distance beyond which it vanishes [sigma] */
-    int smooth;   /**< number of derivatives without a jump at the cut */
+    int smooth;   /**< s, the number of derivatives without a jump where it is cut */
+    double jump;  /**< the jump of derivative s + 1 there, of several the root of their squares */
+    double least; /**< least accuracy of the energy for which a time step is chosen */
     double depth; /**< depth of its well */
     hd_pull (*at)(double square);
 } hd_potential;

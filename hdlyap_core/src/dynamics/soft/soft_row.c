@@ -16,8 +16,11 @@
 
 static const hd_parameter_word potential_words[] = {
     {"power", HD_POWER}, {"wca", HD_WCA}, {"lennard_jones", HD_LENNARD_JONES}, {NULL, 0}};
-static const hd_parameter_word integrator_words[] = {
-    {"verlet", HD_VERLET}, {"pefrl", HD_PEFRL}, {"forest_ruth", HD_FOREST_RUTH}, {NULL, 0}};
+static const hd_parameter_word integrator_words[] = {{"auto", HD_INTEGRATOR_AUTO},
+                                                     {"verlet", HD_VERLET},
+                                                     {"pefrl", HD_PEFRL},
+                                                     {"forest_ruth", HD_FOREST_RUTH},
+                                                     {NULL, 0}};
 
 static const hd_parameter own[HD_SOFT_OWN] = {
     {.name = "potential",
@@ -48,71 +51,23 @@ static const hd_parameter own[HD_SOFT_OWN] = {
      .chosen = hd_soft_time_step,
      .allowed = "from 0 to 10",
      .unit = "time units",
-     .text = "Time step of the integrator. 0: chosen so that the relative error of the energy is "
-             "about the accuracy, but at least 1e-6, and for wca about 1e-4."},
+     .text =
+         "Time step of the integrator. 0: chosen so that the relative error of the energy stays "
+         "below ten times the accuracy, which counts as at least 1e-6, for wca 5e-5, to the "
+         "end of the duration (0: over 1e4 time units); when resumed, as before."},
     {.name = "integrator",
      .kind = HD_PARAMETER_WORD,
      .words = integrator_words,
      .offset = HD_OWN(HD_SOFT_INTEGRATOR),
-     .usual = HD_PEFRL,
-     .most = HD_INTEGRATORS - 1,
-     .allowed = "verlet, pefrl or forest_ruth",
+     .usual = HD_INTEGRATOR_AUTO,
+     .most = HD_INTEGRATOR_AUTO,
+     .chosen = hd_soft_integrator_chosen,
+     .allowed = "auto, verlet, pefrl or forest_ruth",
      .unit = "",
      .text = "Method by which particles move. verlet has order 2 and computes forces once a step; "
              "pefrl has order 4 and computes them four times; forest_ruth has order 4 and "
-             "computes them three times. wca is not smooth enough for order 4."}};
-
-const hd_potential *hd_soft_potential(const hd_scene_def *scene)
-{
-    const unsigned k = (unsigned)scene->own[HD_SOFT_POTENTIAL].whole; /* maybe not checked yet */
-    return &hd_potentials[k < HD_POTENTIALS ? k : 0];
-}
-
-const hd_integrator *hd_soft_integrator(const hd_scene_def *scene)
-{
-    const unsigned k = (unsigned)scene->own[HD_SOFT_INTEGRATOR].whole;
-    return &hd_integrators[k < HD_INTEGRATORS ? k : 0];
-}
-
-/** The energy that sets the scale of speeds: that of the scene, but at least the depth of the well,
- * in which particles are fast though their energy is near 0. */
-static double usual_energy(const hd_scene_def *scene)
-{
-    return fmax(fabs(scene->own[HD_SOFT_ENERGY].real), hd_soft_potential(scene)->depth);
-}
-
-static double speed(const hd_scene_def *scene) { return sqrt(usual_energy(scene)); }
-
-/** The highest frequency with which a pair swings at distances where V is below four times
- * usual_energy, but at least four times the root of that energy, for particles that fly past each
- * other. */
-static double fastest(const hd_scene_def *scene)
-{
-    enum { HALVINGS = 60, LOOKS = 64 };
-    const hd_potential *potential = hd_soft_potential(scene);
-    const double cut = potential->cut * potential->cut;
-    double near = 0.0, far = cut, most = 16.0 * usual_energy(scene);
-    for (int k = 0; k < HALVINGS; k++) {
-        const double middle = 0.5 * (near + far);
-        *(potential->at(middle).v > 4.0 * usual_energy(scene) ? &near : &far) = middle;
-    }
-    for (int k = 0; k < LOOKS; k++) {
-        const double u = far + (cut - far) * k / LOOKS;
-        const hd_pull pull = potential->at(u);
-        most = fmax(most, pull.b + pull.c * u);
-    }
-    return sqrt(most);
-}
-
-double hd_soft_time_step(const hd_scene_def *scene)
-{
-    static const double angle[HD_INTEGRATORS] = {
-        [HD_VERLET] = 3.0, [HD_PEFRL] = 3.0, [HD_FOREST_RUTH] = 1.5};
-    const double asked = scene->own[HD_SOFT_TIME_STEP].real, aim = fmax(scene->accuracy, 1e-6);
-    if (asked > 0) return asked;
-    return angle[hd_soft_integrator(scene) - hd_integrators] *
-           (hd_soft_integrator(scene)->order == 2 ? sqrt(aim) : sqrt(sqrt(aim))) / fastest(scene);
-}
+             "computes them three times. auto: verlet for wca, which is not smooth enough for "
+             "order 4, and pefrl for the others; when resumed, as before."}};
 
 /** The power of the time step by which zero exponents split: from the jump at the cut [T24], or the
  * order of the integrator if that is less. */
@@ -159,13 +114,6 @@ static hd_status row_check(const hd_scene_def *scene, char *message, size_t size
 
 static int row_zeros(const hd_scene_def *scene) { return 2 * hd_scene_dimension(scene) + 2; }
 
-/** Collisions per time unit, of the order of the largest exponent: to a factor of two at densities
- * of 0.1 to 0.9. */
-static double row_rate(const hd_scene_def *scene)
-{
-    return 0.5 * scene->number * speed(scene) * (1.0 + 3.0 * scene->density);
-}
-
 static double row_entries(const hd_scene_def *scene)
 {
     const double kicks = hd_soft_integrator(scene)->kicks,
@@ -180,7 +128,7 @@ static double row_crossing(const hd_scene_def *scene)
     double box[HD_DIMENSION_MAX], longest = 0.0;
     hd_scene_box(scene, box);
     for (int d = 0; d < hd_scene_dimension(scene); d++) longest = fmax(longest, box[d]);
-    return longest / (speed(scene) * (1.5 + 8.0 * scene->density));
+    return longest / (hd_soft_speed(scene) * (1.5 + 8.0 * scene->density));
 }
 
 /** The force on particle i from all others. */
@@ -335,7 +283,8 @@ static const char *row_fault(const hd_record *record, const hd_scene_def *scene)
         .particles = (name), .dimension = (of_one), .coordinates = (of_one),                       \
         .entry = HD_KICK_BYTES(bends), .symplectic = true, .parameter = own,                       \
         .parameters = HD_SOFT_OWN, .check = row_check, .zeros = row_zeros, .entries = row_entries, \
-        .rate = row_rate, .step = hd_soft_time_step, .split = row_split, .crossing = row_crossing, \
+        .rate = hd_soft_rate, .speed = hd_soft_speed, .step = hd_soft_time_step,                   \
+        .energy_asked = hd_soft_energy_asked, .split = row_split, .crossing = row_crossing,        \
         .null = row_null, .create = hd_soft_create, .create_from = hd_soft_create_from,            \
         .free = hd_soft_free, .advance = hd_soft_advance, .time = row_time, .state = row_state,    \
         .kinetic_energy = hd_soft_kinetic_energy, .sum = row_sum, .examine = row_examine,          \

@@ -1,0 +1,115 @@
+/** Scene -> potential, integrator, and the time step with which a run keeps its energy to what is
+ * asked [T24]. */
+#include <math.h>
+
+#include "dynamics/soft/soft_state.h"
+#include "scene/scene.h"
+
+/** Simulated time of a run without an end, for which its step is chosen [time units]. */
+static const double OPEN_END = 1e4;
+/** The energy error asked is this many times the accuracy; what may walk is this many standard
+ * deviations of the walk at its end. */
+static const double ASKED = 10.0, DEVIATIONS = 3.0;
+
+const hd_potential *hd_soft_potential(const hd_scene_def *scene)
+{
+    const unsigned k = (unsigned)scene->own[HD_SOFT_POTENTIAL].whole; /* maybe not checked yet */
+    return &hd_potentials[k < HD_POTENTIALS ? k : 0];
+}
+
+/** Order 4 is not worth its cost where V'' jumps. */
+double hd_soft_integrator_chosen(const hd_scene_def *scene)
+{
+    const int asked = scene->own[HD_SOFT_INTEGRATOR].whole;
+    if (asked != HD_INTEGRATOR_AUTO) return asked;
+    return hd_soft_potential(scene)->smooth < 2 ? HD_VERLET : HD_PEFRL;
+}
+
+const hd_integrator *hd_soft_integrator(const hd_scene_def *scene)
+{
+    const unsigned k = (unsigned)hd_soft_integrator_chosen(scene);
+    return &hd_integrators[k < HD_INTEGRATORS ? k : 0];
+}
+
+/** The energy that sets the scale of speeds: that of the scene, but at least the depth of the well,
+ * in which particles are fast though their energy is near 0. */
+static double usual_energy(const hd_scene_def *scene)
+{
+    return fmax(fabs(scene->own[HD_SOFT_ENERGY].real), hd_soft_potential(scene)->depth);
+}
+
+double hd_soft_speed(const hd_scene_def *scene) { return sqrt(usual_energy(scene)); }
+
+double hd_soft_rate(const hd_scene_def *scene)
+{
+    return 0.5 * scene->number * hd_soft_speed(scene) * (1.0 + 3.0 * scene->density);
+}
+
+/** The highest frequency with which a pair swings at distances where V is below four times
+ * usual_energy, but at least four times the root of that energy, for particles that fly past each
+ * other. */
+static double fastest(const hd_scene_def *scene)
+{
+    enum { HALVINGS = 60, LOOKS = 64 };
+    const hd_potential *potential = hd_soft_potential(scene);
+    const double cut = potential->cut * potential->cut;
+    double near = 0.0, far = cut, most = 16.0 * usual_energy(scene);
+    for (int k = 0; k < HALVINGS; k++) {
+        const double middle = 0.5 * (near + far);
+        *(potential->at(middle).v > 4.0 * usual_energy(scene) ? &near : &far) = middle;
+    }
+    for (int k = 0; k < LOOKS; k++) {
+        const double u = far + (cut - far) * k / LOOKS;
+        const hd_pull pull = potential->at(u);
+        most = fmax(most, pull.b + pull.c * u);
+    }
+    return sqrt(most);
+}
+
+static double accuracy(const hd_scene_def *scene)
+{
+    return fmax(scene->accuracy, hd_soft_potential(scene)->least);
+}
+
+double hd_soft_energy_asked(const hd_scene_def *scene) { return ASKED * accuracy(scene); }
+
+/** The step that keeps the energy over any time, where the potential has no jump. */
+static double step_of_swing(const hd_scene_def *scene)
+{
+    const hd_integrator *by = hd_soft_integrator(scene);
+    const double aim = accuracy(scene);
+    return by->angle * (by->order == 2 ? sqrt(aim) : sqrt(sqrt(aim))) / fastest(scene);
+}
+
+/** Root of order n of x > 0 by Newton's method: + - * / only, so that all machines agree. */
+static double root(double x, int n)
+{
+    enum { STEPS = 200 };
+    double y = fmax(x, 1.0);
+    for (int k = 0; k < STEPS; k++) {
+        double power = 1.0;
+        for (int m = 1; m < n; m++) power *= y;
+        y -= (y - x / power) / n;
+    }
+    return y;
+}
+
+/** The step with which the walk of the energy is small enough at the end of the run. */
+static double step_of_walk(const hd_scene_def *scene)
+{
+    const hd_potential *potential = hd_soft_potential(scene);
+    const double averaged = scene->duration > 0 ? scene->duration : OPEN_END,
+                 time = scene->equilibration + hd_scene_parting(scene) + averaged,
+                 crossings = 2.0 * hd_soft_rate(scene) * time / scene->number;
+    double walk = hd_soft_integrator(scene)->walk * potential->jump *
+                  sqrt(crossings / scene->number);
+    for (int k = 1; k < potential->smooth; k++) walk *= hd_soft_speed(scene);
+    for (int k = 2; k <= potential->smooth + 1; k++) walk /= k;
+    return root(hd_soft_energy_asked(scene) / (DEVIATIONS * walk), potential->smooth + 1);
+}
+
+double hd_soft_time_step(const hd_scene_def *scene)
+{
+    const double asked = scene->own[HD_SOFT_TIME_STEP].real;
+    return asked > 0 ? asked : fmin(step_of_swing(scene), step_of_walk(scene));
+}
