@@ -324,7 +324,7 @@ def expected_sizes(disks, vectors, steps, phases, t_phases, waves):
         localization=begin + 4 + 4 + 3 * 4 + 24 * vectors,
         gas=begin + 17 * 8,
         state=begin + 8 + 8 * 4 + 32 * disks,
-        status=begin + 2 + 3 * 8 + 4 + 2 * 8 + 4,
+        status=begin + 2 + 3 * 8 + 4 + 5 * 8 + 4,
         cost=begin + 145 + 3 * 8,
     )
 

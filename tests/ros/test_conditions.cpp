@@ -141,7 +141,7 @@ TEST(Conditions, EachHasItsLevelAndMessage)
                   losing = {"/b/fields", 0.5, 1001, 42};
     worker_state fault = healthy(), unkept = healthy(), deep = healthy(), warm = healthy(),
                  stalled = healthy(), lost = healthy(), open = healthy(), empty = healthy(),
-                 caged = healthy(), split = healthy();
+                 caged = healthy(), off = healthy(), split = healthy();
     empty.warning = "none of them belongs to a step";
     fault.status = HD_ILL_CONDITIONED;
     unkept.checkpoint.failed = true;
@@ -154,7 +154,8 @@ TEST(Conditions, EachHasItsLevelAndMessage)
     stalled.last.cost.stalled_since = 4;
     open.last.cost.target = {"c_L", 3.0, 0.07, 0.03, 0.05, INFINITY, false};
     caged.last.caged = true;
-    split.last.split = {true, 0.07, 0.015, 0.01, 0.00099};
+    off.last.energy = {-1e-4, 0.00123, 5e-4};
+    split.last.split = {true, 0.07, 0.015, 0.01, 2.0 / 3.0};
     const worker_state well = healthy();
     const struct {
         const worker_state *state;
@@ -178,7 +179,11 @@ TEST(Conditions, EachHasItsLevelAndMessage)
          "disks keep their places: errors hold for this arrangement only, other seeds may differ"},
         {&split, &prompt, HDR_DIAGNOSTIC_WARN,
          "time_step = 0.01 is too long for the zero exponents: the largest is 0.07, not 0.015; "
-         "0.00099 would do"},
+         "it falls as time_step^0.67"},
+        {&off, &prompt, HDR_DIAGNOSTIC_WARN,
+         "the energy has been off by 0.0012, asked is 0.0005: take a shorter time_step or a "
+         "coarser "
+         "accuracy"},
         {&well, &behind, HDR_DIAGNOSTIC_WARN, "a subscriber of /b/fields is 12.3 s behind"},
         {&well, &losing, HDR_DIAGNOSTIC_WARN, "subscribers of /b/fields have lost 42 messages"},
     };

@@ -239,7 +239,7 @@ class Parameters(harness.Case):
             self.assertRegex(
                 self.checked(soft + step).stdout,
                 'is valid: 36 soft_disks in 8.48528 x 8.48528, potential wca, energy 1, '
-                f'time_step {said}, integrator pefrl, 69 vectors',
+                f'time_step {said}, integrator verlet, 69 vectors',
             )
         given = [f'_{name}:={value}' for name, value in SPELLINGS.items()]
         said = [

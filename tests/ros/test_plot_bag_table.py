@@ -97,6 +97,13 @@ class Table(Bags):
             _, text = self.lines(INFO, made.spectrum(HALF, 50.0), status)
             self.assertEqual(said in text, caged)
 
+    def test_an_energy_that_was_off(self):
+        said = 'the energy was off by 0.0016, asked was 0.0005: the time step was too long'
+        for most, is_said in ((0.0016, True), (0.0004, False), (math.nan, False)):
+            status = made.status(50.0, energy_error_most=most, energy_error_wanted=5e-4)
+            _, text = self.lines(INFO, made.spectrum(HALF, 50.0), status)
+            self.assertEqual(said in text, is_said)
+
     def test_steps_that_share_a_set(self):
         """In one word how; of one that is not known in none."""
         shared = dict(set=7, members=2, expected=4, multiplicity=3.5)

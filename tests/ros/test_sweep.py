@@ -235,7 +235,16 @@ class Results(InFolder):
     """Of bags made up."""
 
     def bag(
-        self, name, density=0.5, seed='1', boundary='periodic', value=9.0, size=2, own=(), **changes
+        self,
+        name,
+        density=0.5,
+        seed='1',
+        boundary='periodic',
+        value=9.0,
+        size=2,
+        own=(),
+        most=0.0,
+        **changes,
     ):
         info = made.run_info(
             **dict(density=density, seed=seed, run_id=name, boundary_x=boundary, own=list(own)),
@@ -246,6 +255,7 @@ class Results(InFolder):
         for key, changed in changes.items():
             setattr(message, key, changed)
         said = [info, made.spectrum(np.linspace(value, 1.0, size), 50.0, run_id=name), message]
+        said += [made.status(50.0, run_id=name, energy_error_most=most, energy_error_wanted=5e-4)]
         made.write(self.path(name + '.bag'), said)
         return self.path(name + '.bag')
 
@@ -266,6 +276,13 @@ class Results(InFolder):
             [(0.005, 1), (0.01, 2)],
         )
         self.assertRegex('\n'.join(table.text(found)), r'(?s)time_step.*\n.*0\.005 .*\n.*0\.01 ')
+
+    def test_an_energy_that_was_off(self):
+        """By the name of its run."""
+        found = self.read(self.bag('1', seed='1'), self.bag('2', seed='2', most=0.0016))
+        lines = [line for line in table.text(found) if 'energy' in line]
+        (line,) = lines
+        self.assertRegex(line, '2.*: the energy was off by 0.0016, asked was 0.0005')
 
     def test_two_runs_in_a_bag(self):
         """Of which the table has the last, and says so."""

@@ -49,6 +49,7 @@ int coordinates() { return scene().number * hd_scene_coordinates(&scene()); }
 SAYS(hd_gas_means, M(time), M(collision_rate), M(collision_rate_error), M(pressure_error), M(pressure_of),
      M(pressure_of_error), M(compressibility), M(compressibility_error), M(temperature), M(temperature_error),
      M(potential_energy), M(potential_energy_error))
+SAYS(hd_energy, M(error), M(most), M(asked))
 SAYS(hd_cost, M(wall), M(events), M(replay), M(ortho), M(spectrum), M(modes), M(following), M(communication), M(bytes),
      M(calls), M(events_per_second), M(interval), M(limit), M(condition), M(defect), M(error_bound),
      M(orthonormalisations), M(second_passes), M(slow_vector_samples), M(repairs), M(progress), M(remaining),
@@ -201,6 +202,7 @@ members beside(const hdr_cost *)
 {
     return named({{"cost", say(cost)},
                   {"is_caged", hd_run_is_caged(run)},
+                  {"energy", say(hd_trajectory_energy(parts().trajectory))},
                   {"sent", sent},
                   {"outside", outside + seconds(CLOCK_MONOTONIC) - stepped}});
 }

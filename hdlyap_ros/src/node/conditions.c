@@ -11,12 +11,21 @@
 /** A subscriber that is this far behind is reported [s]. */
 static const double behind_seconds = 3.0;
 
-void split_write(char *text, size_t size, const split_zeros *split)
+void split_write(char text[CONDITION_STEP], const split_zeros *split)
 {
-    snprintf(text, size,
+    snprintf(text, CONDITION_STEP,
              "time_step = %.4g is too long for the zero exponents: the largest is %.2g, not %.2g; "
-             "%.2g would do",
-             split->step, split->exponent, split->expected, split->step_wanted);
+             "it falls as time_step^%.2g",
+             split->step, split->exponent, split->expected, split->power);
+}
+
+bool energy_write(char text[CONDITION_STEP], const hd_energy *energy)
+{
+    snprintf(text, CONDITION_STEP,
+             "the energy has been off by %.2g, asked is %.2g: take a shorter time_step or a "
+             "coarser accuracy",
+             energy->most, energy->asked);
+    return energy->most > energy->asked;
 }
 
 /** Adds a condition; errors must be added before warnings. */
@@ -54,7 +63,7 @@ static void add_warnings(conditions *all, const worker_state *state, const hdr_l
     const progress *last = &state->last;
     const hd_standing *at = &last->cost.target;
     const uint8_t level = HDR_DIAGNOSTIC_WARN;
-    char split[CONDITION_SPLIT];
+    char step[CONDITION_STEP];
     if (*state->warning) add(all, level, "%s", state->warning);
     if (last->cost.stalled_since >= 0.0)
         add(all, level,
@@ -73,9 +82,10 @@ static void add_warnings(conditions *all, const worker_state *state, const hdr_l
         add(all, level,
             "%s keep their places: errors hold for this arrangement only, other seeds may differ",
             state->particles);
+    if (energy_write(step, &last->energy)) add(all, level, "%s", step);
     if (last->split.are) {
-        split_write(split, sizeof split, &last->split);
-        add(all, level, "%s", split);
+        split_write(step, &last->split);
+        add(all, level, "%s", step);
     }
     if (slowest->seconds >= behind_seconds)
         add(all, level, "a subscriber of %s is %.1f s behind", slowest->topic, slowest->seconds);

@@ -88,10 +88,12 @@ static void fill_watched(key_list *list, const worker_state *state, const hdr_la
 {
     const examination *seen = &state->seen;
     const double error = state->last.cost.std_error;
-    if (seen->made) {
-        if (seen->overlap_max > 0.0) add_number(list, "overlap", seen->overlap);
-        add_number(list, "energy error", seen->energy_error);
-    }
+    const hd_energy *energy = &state->last.energy;
+    const bool stepped = !isnan(energy->error);
+    if (seen->made && seen->overlap_max > 0.0) add_number(list, "overlap", seen->overlap);
+    if (seen->made || stepped)
+        add_number(list, "energy error", stepped ? fabs(energy->error) : seen->energy_error);
+    if (stepped) add_number(list, "largest energy error", energy->most);
     if (error >= 0.0) {
         add_number(list, "averaged time", state->last.averaged);
         add_number(list, "error of the smallest exponents", error);

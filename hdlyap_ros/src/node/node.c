@@ -222,10 +222,11 @@ static void log_end(const worker_state *state)
                 "%s at simulated time %.6g after %.1f s: %s%ld orthonormalisations, %ld repairs",
                 last->stage == HD_FINISHED ? "finished" : "stopped", last->time, last->cost.wall,
                 collisions, last->cost.orthonormalisations, last->cost.repairs);
+    char step[CONDITION_STEP];
+    if (energy_write(step, &last->energy)) hdr_log(HDR_WARN, "%s", step);
     if (!last->split.are) return;
-    char split[CONDITION_SPLIT];
-    split_write(split, sizeof split, &last->split);
-    hdr_log(HDR_WARN, "%s", split);
+    split_write(step, &last->split);
+    hdr_log(HDR_WARN, "%s", step);
 }
 
 /** Ends the node if it waits for subscribers that cannot come any more. */
@@ -239,15 +240,25 @@ static void end_if_lost(app *a, const worker_state *state)
     hdr_stop_request();
 }
 
+/** Says once that the energy is off by more than the scene asks. */
+static void warn_of_energy(bool *warned, const hd_energy *energy)
+{
+    char text[CONDITION_STEP];
+    if (*warned || !energy_write(text, energy)) return;
+    *warned = true;
+    hdr_log(HDR_WARN, "%s", text);
+}
+
 /** Serves until the worker has ended or a stop is requested; true if the worker has ended. */
 static bool look_after(app *a)
 {
-    bool ended = false;
+    bool ended = false, warned = false;
     while (!ended && !hdr_stop_requested()) {
         ended = worker_wait(a->work, poll_seconds);
         worker_state state = worker_state_now(a->work);
         state.lost = hdr_node_lost(a->ros);
         end_if_lost(a, &state);
+        warn_of_energy(&warned, &state.last.energy);
         if (diagnostics_update(&a->diag, &state)) worker_examine(a->work); /* for the next one */
     }
     worker_stop(a->work);

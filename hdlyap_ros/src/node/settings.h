@@ -64,7 +64,7 @@ bool settings_read(settings *out, const hdr_params *params, const hd_checkpoint 
                    char *message, size_t size);
 
 /** Writes the particles and their box: "36 dumbbells in 24 x 2.5, packing fraction 0.62", or "36
- * soft_disks in 24 x 2.5, potential wca, energy 1, time_step 0.0026, integrator pefrl". */
+ * soft_disks in 24 x 2.5, potential wca, energy 1, time_step 0.0012, integrator verlet". */
 enum { SYSTEM_SIZE = 400 };
 const char *settings_write_system(char text[SYSTEM_SIZE], const settings *set);
 

@@ -300,6 +300,13 @@ static void explain(worker *w, hd_status status)
         snprintf(fault, size, "%s, %.4g", hd_status_text(status), of->step(scene));
 }
 
+/** What is known of the particles at the end, of a fault, too. The lock is held. */
+static void look_last(worker *w, hd_status status)
+{
+    w->state.last.energy = hd_trajectory_energy(hd_run_parts(w->run).trajectory);
+    if (w->state.seen.made && status == HD_OK) w->state.seen = examination_of(w->run);
+}
+
 static void *work(void *context)
 {
     worker *w = context;
@@ -309,6 +316,7 @@ static void *work(void *context)
     if (status == HD_OK) status = finish(w);
     pthread_mutex_lock(&w->lock);
     if (status != HD_OK) explain(w, status);
+    look_last(w, status);
     if (status == HD_OK) w->save = false; /* finish has written this state */
     w->state.status = status;
     enter(w, WORKER_ENDED);

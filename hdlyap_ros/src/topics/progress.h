@@ -10,8 +10,8 @@ typedef struct split_zeros {
     bool are;
     double exponent, expected; /**< the largest zero exponent; the value expected without a split,
                                   ln t / t or the accuracy, whichever is larger [1/time unit] */
-    double step, step_wanted;  /**< the time step; about the one with which the exponent would be as
-                                  expected [time units] */
+    double step, power;        /**< the time step [time units]; the exponent falls with it to this
+                                  power */
 } split_zeros;
 
 /** What other threads may know of the run: a copy made after its last step. */
@@ -24,6 +24,7 @@ typedef struct progress {
     double averaged;    /**< averaged time; 0 without exponents */
     int resolved_steps; /**< number of resolved steps; -1 while they are not computed */
     bool caged;         /**< see hd_run_is_caged */
+    hd_energy energy;   /**< what time steps have done to it */
     split_zeros split;
 } progress;
 

@@ -64,7 +64,7 @@ static split_zeros split_of(const hd_run *run, const hd_cost *cost)
     split.exponent = hd_spectrum_exponent(spectrum, first);
     split.expected = fmax(own, scene->accuracy);
     split.step = of->step(scene);
-    split.step_wanted = split.step * pow(split.expected / split.exponent, 1.0 / of->split(scene));
+    split.power = of->split(scene);
     split.are = time > exp(1.0) && split.exponent > own + scene->accuracy;
     return split;
 }
@@ -83,6 +83,7 @@ progress progress_of(const hd_run *run, double pace)
         .averaged = spectrum ? hd_spectrum_time(spectrum) : 0.0,
         .resolved_steps = resolved_steps(run),
         .caged = hd_run_is_caged(run),
+        .energy = hd_trajectory_energy(hd_run_parts(run).trajectory),
         .split = split_of(run, &cost),
     };
 }

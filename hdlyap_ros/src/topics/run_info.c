@@ -72,7 +72,7 @@ static void write_own(char *text, size_t size, const hd_parameter *row, double v
 static bool fill_own(hdr_run_info *info, const moment *now)
 {
     enum { LENGTH = 80 };
-    const hd_scene_def *def = &now->set->def;
+    const hd_scene_def *def = hd_run_scene(now->run); /* which knows what was chosen */
     const hd_dynamics *of = hd_dynamics_of(def);
     const uint32_t count = (uint32_t)of->parameters;
     const char **list = moment_take(now, count, sizeof *list);

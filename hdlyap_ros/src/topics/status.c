@@ -16,6 +16,9 @@ hd_status topic_publish_status(const moment *now)
         .target_error = last->cost.target.error,
         .target_wanted = last->cost.target.wanted,
         .caged = last->caged,
+        .energy_error = last->energy.error,
+        .energy_error_most = last->energy.most,
+        .energy_error_wanted = last->energy.asked,
         .warning = now->set->warning,
     };
     return topic_send_status(now->out, &message);

@@ -93,10 +93,24 @@ class Said:
     @property
     def is_caged(self):
         """Whether the last status says that particles are caged."""
+        return self._status is not None and self._status.caged
+
+    def energies_off(self):
+        """Yields a line for each run whose energy was off by more than was asked."""
+        for run in self.data.runs:
+            last = run.said._status
+            if last is not None and last.energy_error_most > last.energy_error_wanted:
+                yield (
+                    f'{run.name}: the energy was off by {last.energy_error_most:.2g}, asked was '
+                    f'{last.energy_error_wanted:.2g}: the time step was too long'
+                )
+
+    @cached_property
+    def _status(self):
         last = None
         for last in self.data.messages('status'):
             continue
-        return last is not None and last.caged
+        return last
 
     @property
     def began(self):

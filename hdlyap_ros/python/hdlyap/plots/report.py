@@ -67,11 +67,12 @@ PARTS = {
     'steps': _of_steps,
     'covariant vectors': _of_covariant,
     'whether particles are caged': _of_caged,
+    'the energy': lambda recording: list(recording.energies_off()),
 }
 
 
 def _of_means(recording):
-    blocks = [_head(recording), *_of_gas(recording)]
+    blocks = [_head(recording), *_of_gas(recording), *recording.energies_off()]
     if recording.spectrum is None:
         return '\n\n'.join(blocks)
     blocks += [_means(recording), _tail(recording)]

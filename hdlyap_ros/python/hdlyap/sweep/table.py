@@ -48,7 +48,8 @@ def text(points):
         rows[-1] += [str(len(point.runs)), f'{point.data.averaged_time:g}']
     yield from _table([*names, *QUANTITIES, 'seeds', 'averaged time'], rows)
     yield from marks.explained()
-    yield from (line for point in points for line in (*point.remarks, *point.data.left_out))
+    for point in points:
+        yield from (*point.remarks, *point.data.left_out, *point.data.said.energies_off())
     if any(point.unlike for point in points):
         yield 'unlike: no mean, as the fits of the seeds differ in form or wave numbers'
     several = [point for point in points if len(point.runs) > 1]
