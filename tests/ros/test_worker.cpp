@@ -332,10 +332,10 @@ TEST_F(Worker, answersFourAtOnce)
         clients.push_back(std::async(std::launch::async, [this, client] {
             int wrong = 0;
             for (int k = 0; k < 100; k++) {
-                const std::string asked = std::to_string(client) + "=" + std::to_string(k);
+                const std::string text = std::to_string(client) + "=" + std::to_string(k);
                 char message[64] = "";
-                const bool made = worker_set(w, patience, asked.c_str(), message, sizeof message);
-                wrong += !made || message != asked + " it is";
+                const bool made = worker_set(w, patience, text.c_str(), message, sizeof message);
+                wrong += !made || message != text + " it is";
             }
             return wrong;
         }));

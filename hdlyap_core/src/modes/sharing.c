@@ -8,6 +8,7 @@
 #include <math.h>
 
 #include "averages/spectrum.h"
+#include "modes/modes.h"
 #include "modes/sets.h"
 
 /** Exponents differ if their difference exceeds this many standard errors. */

@@ -148,8 +148,8 @@ TEST(a_learnt_rate_unwraps_two_turns)
         const double k = r.step->wave.number;
         CHECK_CLOSE(longest, 4.0 * PI / omega, 1e-12);
         CHECK_CLOSE(phase_of(&r, 0, 0)->time, r.time, 0.0);
-        assert_true(v.v_error > 0 && v.v_error < 0.01 * v.v);
-        CHECK_CLOSE(v.v, omega / k, 4.0 * v.v_error);
+        assert_true(v.v_sampling_error > 0 && v.v_sampling_error < 0.01 * v.v);
+        CHECK_CLOSE(v.v, omega / k, 4.0 * v.v_sampling_error);
         CHECK_CLOSE(phase_of(&r, 0, 0)->omega, omega, 4.0 * phase_of(&r, 0, 0)->omega_error);
     }
 }
@@ -240,7 +240,7 @@ static void check_honesty(const double *dt, int count, double *omega_ratio, doub
         off[0] += pow(phase->omega - omega, 2.0) / REPEATS;
         off[1] += pow(v.v - omega / k, 2.0) / REPEATS;
         stated[0] += phase->omega_error / REPEATS;
-        stated[1] += v.v_error / REPEATS;
+        stated[1] += v.v_sampling_error / REPEATS;
     }
     *omega_ratio = sqrt(off[0]) / stated[0];
     *v_ratio = sqrt(off[1]) / stated[1];

@@ -44,7 +44,7 @@ static double jump_at(const hd_potential *of, double r)
         double d[3];
         for (int n = 0; n < 3; n++) {
             const double x = r + (k == 0 ? -1.0 : 1.0) * h * (n + 1e-6), u = x * x;
-            const hd_pull pull = u < of->cut * of->cut ? of->at(u) : (hd_pull){0.0};
+            const hd_pull pull = u < of->cut * of->cut ? of->at(u) : (hd_pull){0};
             d[n] = pull.b + pull.c * u;
         }
         const double sign = k == 0 ? -1.0 : 1.0;
