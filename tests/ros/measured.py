@@ -61,6 +61,11 @@ def _cost(message):
         yield 'error_bound'
 
 
+def _status(message):
+    names = ('energy_error', 'energy_error_most', 'energy_error_wanted')
+    yield from names if math.isnan(message.energy_error_wanted) else ()  # of hard particles
+
+
 def _modes(message):
     for k, mode in enumerate(message.modes):
         names = ('wave_number', 'weight', 'weight_now') if mode.kind == Mode.NONE else ()
@@ -150,6 +155,7 @@ def _field(message):
 RULES = dict(
     Spectrum=_spectrum,
     Cost=_cost,
+    RunStatus=_status,
     Modes=_modes,
     Steps=_steps,
     LpPhases=_phases,
