@@ -13,6 +13,7 @@
 struct hd_spectrum {
     int rows, vectors;
     int positive;       /**< number of vectors with positive exponents, by theory */
+    bool by_sign;       /**< theory does not say which are positive */
     double *sum;        /**< [vectors]: ln R_ll, summed over all whole samples */
     double *sample_sum; /**< [vectors]: ln R_ll, summed since the last sample ended */
     double *local_sum;  /**< [vectors]: ln R_ll, summed since hd_spectrum_local_restart */
@@ -49,6 +50,7 @@ hd_status hd_spectrum_create(hd_spectrum **out, int rows, int vectors, int posit
     spectrum->rows = rows;
     spectrum->vectors = vectors;
     spectrum->positive = positive < vectors ? positive : vectors;
+    spectrum->by_sign = positive == rows;
     spectrum->age = -1.0;
     const hd_status status = spectrum_allocate(spectrum, block);
     if (status == HD_OK)
@@ -171,17 +173,25 @@ double hd_spectrum_local(const hd_spectrum *spectrum, int col)
     return spectrum->local_time > 0 ? spectrum->local_sum[col] / spectrum->local_time : NAN;
 }
 
+static bool is_positive(const hd_spectrum *spectrum, int col)
+{
+    return !spectrum->by_sign || hd_spectrum_exponent(spectrum, col) > 0;
+}
+
 static double ks_entropy(const hd_spectrum *spectrum)
 {
     double sum = 0.0;
-    for (int col = 0; col < spectrum->positive; col++) sum += hd_spectrum_exponent(spectrum, col);
+    for (int col = 0; col < spectrum->positive; col++)
+        sum += is_positive(spectrum, col) ? hd_spectrum_exponent(spectrum, col) : 0.0;
     return sum;
 }
 
 static double ks_entropy_error(const hd_spectrum *spectrum)
 {
-    for (int col = 0; col < spectrum->positive; col++) spectrum->parts[col] = (hd_part){col, 1.0};
-    return hd_spectrum_error_of_sum(spectrum, spectrum->parts, spectrum->positive);
+    int count = 0;
+    for (int col = 0; col < spectrum->positive; col++)
+        if (is_positive(spectrum, col)) spectrum->parts[count++] = (hd_part){col, 1.0};
+    return hd_spectrum_error_of_sum(spectrum, spectrum->parts, count);
 }
 
 static double pairing_error(const hd_spectrum *spectrum)

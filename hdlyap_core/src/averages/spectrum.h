@@ -6,8 +6,8 @@
 
 /** Makes an empty spectrum. rows: number of all exponents (4N for two coordinates); vectors: number
  * n of vectors whose exponents are averaged, at most rows; positive: number of positive ones among
- * all. block: shortest block of averaged time from which standard errors are taken [time units]; 0:
- * the length of a sample. */
+ * all, `rows` if theory does not say. block: shortest block of averaged time from which standard
+ * errors are taken [time units]; 0: the length of a sample. */
 HD_MUST_CHECK hd_status hd_spectrum_create(hd_spectrum **out, int rows, int vectors, int positive,
                                            double block);
 void hd_spectrum_free(hd_spectrum *spectrum);

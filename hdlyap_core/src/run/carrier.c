@@ -142,7 +142,8 @@ static hd_status prepare(hd_carrier *c, const hd_scene_def *scene, double block)
     HD_TRY(hd_ortho_create_shared(&c->ortho, rows, 2 * c->of->coordinates, c->carried,
                                   c->communicator));
     HD_TRY(agree(c, prepare_threads(c, scene)));
-    HD_TRY(agree(c, hd_spectrum_create(&c->spectrum, rows, n, c->positive, block)));
+    HD_TRY(agree(c, hd_spectrum_create(&c->spectrum, rows, n,
+                                       c->of->symplectic ? c->positive : rows, block)));
     c->halves = hd_memory_alloc(2 * (size_t)n, sizeof *c->halves);
     HD_TRY(agree(c, c->halves ? HD_OK : HD_NO_MEMORY));
     HD_TRY(create_frame(c, scene->seed));

@@ -403,6 +403,9 @@ TEST(what_needs_pairs_is_refused_without_them)
     for (int col = 0; col < N - 2; col++)
         CHECK_CLOSE(exponent_of(run, col) + exponent_of(run, ROWS - 1 - col),
                     log(1.0 - LOST) / scene.own[STEP].real, 1e-4); /* part of a step at the end */
+    double positive = 0.0;
+    for (int col = 0; col < ROWS; col++) positive += fmax(exponent_of(run, col), 0.0);
+    CHECK_CLOSE(hd_spectrum_sum_up(hd_run_spectrum(run)).ks_entropy, positive, 1e-14);
     scene.exponents = HD_EXPONENTS_POSITIVE;
     check_refused(scene,
                   "exponents = positive: must be all, all_independent, none or from 1 to "

@@ -148,6 +148,15 @@ TEST(the_error_of_the_energy_is_measured)
     assert_true(most > fabs(hd_trajectory_energy(tr).error));
 }
 
+/** However coarse the accuracy, a run ends far beyond what is asked. */
+TEST(what_is_asked_is_half_of_what_ends_a_run)
+{
+    hd_scene_def def = alone(HD_WCA, HD_INTEGRATOR_AUTO, 0.0, 24, 0.5, 100.0);
+    def.accuracy = 1e-2;
+    OWNED(hd_run) *run = created(def);
+    CHECK_CLOSE(energy_after(run).asked, 0.01, 1e-17);
+}
+
 /** Hard particles have none, and nothing is asked of them. */
 TEST(hard_particles_have_no_error_of_the_energy)
 {

@@ -53,8 +53,8 @@ static const hd_parameter own[HD_SOFT_OWN] = {
      .unit = "time units",
      .text =
          "Time step of the integrator. 0: chosen so that the relative error of the energy stays "
-         "below ten times the accuracy, which counts as at least 1e-6, for wca 5e-5, to the "
-         "end of the duration (0: over 1e4 time units); when resumed, as before."},
+         "below ten times the accuracy, which counts as at least 1e-6, for wca 5e-5, and at most "
+         "1e-3, to the end of the duration (0: over 1e4 time units); when resumed, as before."},
     {.name = "integrator",
      .kind = HD_PARAMETER_WORD,
      .words = integrator_words,

@@ -10,6 +10,8 @@ static const double OPEN_END = 1e4;
 /** The energy error asked is this many times the accuracy; what may walk is this many standard
  * deviations of the walk at its end. */
 static const double ASKED = 10.0, DEVIATIONS = 3.0;
+/** Most that the parameter may be [time units]. */
+static const double LONGEST = 10.0;
 
 const hd_potential *hd_soft_potential(const hd_scene_def *scene)
 {
@@ -66,9 +68,10 @@ static double fastest(const hd_scene_def *scene)
     return sqrt(most);
 }
 
+/** At most what leaves a run twice as far from its end by HD_SOFT_LOST as from what is asked. */
 static double accuracy(const hd_scene_def *scene)
 {
-    return fmax(scene->accuracy, hd_soft_potential(scene)->least);
+    return fmin(fmax(scene->accuracy, hd_soft_potential(scene)->least), 0.5 * HD_SOFT_LOST / ASKED);
 }
 
 double hd_soft_energy_asked(const hd_scene_def *scene) { return ASKED * accuracy(scene); }
@@ -111,5 +114,5 @@ static double step_of_walk(const hd_scene_def *scene)
 double hd_soft_time_step(const hd_scene_def *scene)
 {
     const double asked = scene->own[HD_SOFT_TIME_STEP].real;
-    return asked > 0 ? asked : fmin(step_of_swing(scene), step_of_walk(scene));
+    return asked > 0 ? asked : fmin(fmin(step_of_swing(scene), step_of_walk(scene)), LONGEST);
 }

@@ -155,7 +155,9 @@ class Seeds:
         runs that are not alike."""
         found = [(getattr(run, frame), run.averaged_times[-1]) for run in self.runs]
         found = [(one.loc[row], weight) for one, weight in found if row in one.index]
-        values = [[one.get('value', one.get('exponent'))] for one, _ in found]
+        found = [(one.get('value', one.get('exponent')), weight) for one, weight in found]
+        found = [(value, weight) for value, weight in found if np.isfinite(value)]
+        values = [[value] for value, _ in found]
         weights, unknown = [weight for _, weight in found], np.full((len(found), 1), np.nan)
         scatter = mean(np.array(values, dtype=float), unknown, weights, fewest=2)[2]
         return float(scatter[0]), max(1, len(values) - 1)

@@ -36,7 +36,7 @@ class Comparison:
         self._positive = range(min(a.positive_end, a.last_index) + 1 - a.spectrum.first_index)
         is_sum = len(self.exponents) > 1
         self.sums = [self._together(_sum(a, b), self._positive)] if is_sum else []
-        self.steps = [self._together(one, _members(one, a)) for one in _steps(a, b)]
+        self.steps = [self._together(one, _members(one, a), False) for one in _steps(a, b)]
         self.gas = _gas(a, b)
         pairs = _pairs_of_fits(a, b)
         self.fits = [one for pair in pairs if pair[0].is_like(pair[1]) for one in _fits(a, b, pair)]
@@ -62,15 +62,16 @@ class Comparison:
         difference = np.array([one.difference for one in self.exponents])
         return self._fluctuations.spectra(difference, taken, _times(self.runs))
 
-    def _together(self, one, members):
+    def _together(self, one, members, of_sampling=True):
         """A mean or sum of exponents with the error from the blocks of both runs; unchanged if that
-        is not known, or if it is smaller than what several seeds say."""
+        is not known, or if it is smaller than what several seeds say, or than a stated error that
+        is not of sampling alone."""
         if not self._fluctuations.is_known or not len(members) or not one.is_known:
             return one
         weights = np.zeros(len(self.exponents))
         weights[members] = 1.0 if one.name in SUMS else 1 / len(members)
         error = self._fluctuations.error(weights, _times(self.runs))
-        if error > one.error or not any(run.is_mean for run in self.runs):
+        if error > one.error or of_sampling and not any(run.is_mean for run in self.runs):
             one.know_better(error, self._fluctuations.judged)
         return one
 
