@@ -197,7 +197,8 @@ double hd_agenda_reported(const hd_agenda *a, double averaged)
 
 double hd_agenda_errors_after(const hd_agenda *a)
 {
-    const double most = hd_agenda_sample_most(a), is_short = most < WHOLE_BLOCK * a->block;
+    const double most = hd_agenda_sample_most(a);
+    const bool is_short = most < WHOLE_BLOCK * a->block;
     const double block = is_short ? WHOLE_BLOCK * a->block : fmin(FIRST_BLOCK * a->block, most);
     return hd_agenda_reported(a, HD_SPECTRUM_BLOCKS_MIN * block);
 }
