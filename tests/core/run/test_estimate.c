@@ -133,7 +133,7 @@ TEST(errors_are_stated_when_it_is_said)
         quick,
         scene_from(wca, .own[HD_SOFT_POTENTIAL].whole = HD_WCA, .duration = 1000.0),
         scene_from(of_kind(HD_DUMBBELLS, 40, 0.6, 400.0), .aspect = 0.16),
-        of_kind(HD_SOFT_SPHERES, 20, 0.5, 0.0),
+        scene_from(of_kind(HD_SOFT_SPHERES, 32, 0.5, 0.0), .aspect = 1.0),
         of_kind(HD_SPHERES, 32, 0.5, 40.0)};
     enum { FIRST_TIER = 4, SCENES = sizeof scenes / sizeof *scenes };
     for (int k = 0; k < (second_tier() ? SCENES : FIRST_TIER); k++) {
