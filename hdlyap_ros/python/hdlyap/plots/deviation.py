@@ -11,8 +11,8 @@ FREEDOM = 7  # degrees of freedom of an error, from 8 blocks; the node has 16, m
 class Deviation:
     """A quantity of the runs a and b. z is the difference in standard errors; NaN if one of the
     errors is not known. A quantity that is not judged is only shown, but one that is not finite
-    never agrees. `origins`: where the two values come from. freedom: the degrees of freedom of the two
-    errors."""
+    never agrees. `origins`: where the two values come from. freedom: the degrees of freedom of the
+    two errors."""
 
     def __init__(self, name, values, errors, judged=True, origins=(), freedom=(FREEDOM, FREEDOM)):
         self.name, self.values = name, values
