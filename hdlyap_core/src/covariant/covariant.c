@@ -124,10 +124,9 @@ static hd_status allocate(hd_covariant *c)
     hd_modes **weights[WEIGHTS] = {&c->half[0], &c->half[1], &c->of_frame};
     for (int k = 0; k < WEIGHTS && hd_scene_dimension(&c->scene) > 0; k++)
         HD_TRY(hd_modes_create(weights[k], &c->scene, c->vectors, c->threads));
-    HD_TRY(hd_spectrum_create(
-        &c->spectrum, c->rows, c->vectors,
-        hd_dynamics_of(&c->scene)->symplectic ? hd_scene_positive_exponents(&c->scene) : c->rows,
-        hd_scene_sound_crossing(&c->scene)));
+    HD_TRY(hd_spectrum_create(&c->spectrum, c->rows, c->vectors,
+                              hd_scene_positive_exponents(&c->scene),
+                              hd_scene_sound_crossing(&c->scene)));
     HD_TRY(hd_splitting_create(&c->splitting, c->vectors, c->unstable, c->centre));
     HD_TRY(hd_doubling_create(&c->grown, (hd_doubling_def){.vectors = c->vectors}));
     return hd_localization_create(&c->shape, c->scene.number, hd_scene_coordinates(&c->scene),

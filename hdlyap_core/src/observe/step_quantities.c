@@ -41,27 +41,28 @@ static bool step_possible(const hd_scene_def *def, const hd_aim *goal, char why[
     return s.found;
 }
 
-static bool slope_possible(const hd_scene_def *def, const hd_aim *goal, char why[HD_WHY])
+/** Of c_T, c_L and v. */
+static bool edges_allow(const hd_scene_def *def, hd_mode_kind kind, const hd_aim *goal,
+                        char why[HD_WHY])
 {
-    const hd_mode_kind kind = goal->quantity->kind;
-    const double open = hd_relation_of(def, kind).box_error;
-    if (!(hd_relation_open(def, kind) < INFINITY)) {
-        snprintf(why, HD_WHY, "no steps of this scene follow the relation whose slope it is");
-        return false;
-    }
-    snprintf(why, HD_WHY,
-             "walls and short edges leave an error of %.2g %%, however long it is averaged",
-             100.0 * open);
-    return !goal->relative || goal->wanted > open;
-}
-
-static bool velocity_possible(const hd_scene_def *def, const hd_aim *goal, char why[HD_WHY])
-{
-    const double open = hd_relation_of(def, HD_MODE_LP).box_error; /* NaN in a circle */
+    const double open = hd_relation_of(def, kind).box_error; /* NaN of LP in a circle */
     snprintf(why, HD_WHY,
              "walls and short edges leave an error of %.2g %%, however long it is averaged",
              100.0 * open);
     return !(goal->relative && goal->wanted <= open);
+}
+
+static bool slope_possible(const hd_scene_def *def, const hd_aim *goal, char why[HD_WHY])
+{
+    const hd_mode_kind kind = goal->quantity->kind;
+    if (hd_relation_open(def, kind) < INFINITY) return edges_allow(def, kind, goal, why);
+    snprintf(why, HD_WHY, "no steps of this scene follow the relation whose slope it is");
+    return false;
+}
+
+static bool velocity_possible(const hd_scene_def *def, const hd_aim *goal, char why[HD_WHY])
+{
+    return edges_allow(def, HD_MODE_LP, goal, why);
 }
 
 /* ---- what a run states ----------------------------------------------------------------------- */

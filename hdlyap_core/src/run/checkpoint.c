@@ -322,16 +322,6 @@ static hd_status check_same(const hd_scene_def *asked, const hd_scene_def *kept,
     return HD_OK;
 }
 
-/** Automatic values go on to be what they stood for. */
-static void keep_chosen(hd_scene_def *asked, const hd_scene_def *kept)
-{
-    const hd_scene_def was = *asked;
-    const hd_parameter *row;
-    for (int k = 0; (row = hd_parameter_of(asked, k)); k++)
-        if (row->chosen && row->chosen(&was) != hd_parameter_value(row, &was))
-            hd_parameter_assign(row, asked, hd_parameter_value(row, kept));
-}
-
 static hd_status inconsistent(const hd_archive *archive, char *message, size_t size)
 {
     if (archive->status == HD_FILE_FAULT)
@@ -426,7 +416,7 @@ static hd_status begin_reading(hd_checkpoint *head, hd_scene_def *asked, int *th
     HD_TRY(status);
     *asked = scene ? *scene : head->scene;
     asked->warmup = hd_scene_warmup(asked);
-    keep_chosen(asked, &head->scene);
+    hd_scene_keep_chosen(asked, &head->scene);
     hd_archive_int(archive, "run threads", threads, 1, INT_MAX);
     HD_TRY(check_same(asked, &head->scene, message, size));
     length_expect(archive, &head->scene, archive->bytes); /* before memory is taken for it */

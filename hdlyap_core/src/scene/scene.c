@@ -180,6 +180,15 @@ void hd_scene_settle(hd_scene_def *def)
         if (row->chosen) hd_parameter_assign(row, def, row->chosen(&asked));
 }
 
+void hd_scene_keep_chosen(hd_scene_def *asked, const hd_scene_def *kept)
+{
+    const hd_scene_def was = *asked;
+    const hd_parameter *row;
+    for (int k = 0; (row = hd_parameter_of(asked, k)); k++)
+        if (row->chosen && row->chosen(&was) != hd_parameter_value(row, &was))
+            hd_parameter_assign(row, asked, hd_parameter_value(row, kept));
+}
+
 /** Reading checks only that types can hold the values; ranges are checked with the whole scene. */
 void hd_scene_archive(hd_scene_def *def, hd_archive *archive)
 {

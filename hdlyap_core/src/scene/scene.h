@@ -19,6 +19,8 @@ double hd_scene_parting(const hd_scene_def *def);
 /** Writes what automatic values stand for (hd_parameter.chosen), so that they stay what they are
  * when the rest of the scene changes. */
 void hd_scene_settle(hd_scene_def *def);
+/** Automatic values go on to be what they stood for in a run that is resumed. */
+void hd_scene_keep_chosen(hd_scene_def *asked, const hd_scene_def *kept);
 
 /** Time between two collisions of a particle, as the row expects it [time units]. */
 double hd_scene_collision_time(const hd_scene_def *def);
