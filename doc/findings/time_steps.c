@@ -72,7 +72,7 @@ int main(int argc, char **argv)
                                    "seconds [s/time unit]");
     for (int potential = 0; potential < POTENTIALS; potential++)
         for (int integrator = 0; integrator < (quick ? 1 : INTEGRATORS); integrator++)
-            for (int k = 0; k < (quick ? 2 : STEPS); k++)
+            for (int k = quick; k < (quick ? 3 : STEPS); k++)
                 go(potential, integrator, LONGEST[integrator] / (1 << k), quick);
     return 0;
 }

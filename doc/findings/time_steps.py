@@ -16,9 +16,12 @@ SURE = 3  # standard errors
 
 
 def limit(rows, potential):
-    """lambda_1 where the energy is kept best: the mean of the finest step of each integrator."""
+    """lambda_1 where the energy is kept best: the mean of the finest step of each integrator; NaN if
+    all of them lose it."""
     some = [finest(rows, potential, by) for by in KICKS]
     some = [row for row in some if row]
+    if not some:
+        return math.nan, math.nan
     weight = [1 / row['lambda_1 error'] ** 2 for row in some]
     return np.average([row['lambda_1'] for row in some], weights=weight), sum(weight) ** -0.5
 

@@ -201,7 +201,7 @@ class Delivery(harness.Case):
     def has_services(self, uri=None):
         """The last that the node asks its master for: until then it would wait for another one."""
         services = rosgraph.Master('/test', uri).getSystemState()[2]
-        return '/%s/checkpoint' % harness.NODE in dict(services)
+        return '/%s/stop' % harness.NODE in dict(services)
 
     @harness.more
     def test_master_dies_before_the_run(self):
@@ -215,7 +215,7 @@ class Delivery(harness.Case):
                     ROS_MASTER_URI=master.uri,
                 )
                 cost = self.links(node, ['cost'], '/cost', master.uri)[0]
-                self.sees(lambda: self.has_services(master.uri))
+                self.sees(lambda: node.lines('waiting for subscribers'))
                 master.send(number)
                 info = links.Link(cost.socket.getpeername()[1], 'run_info')
                 self.addCleanup(info.close)
