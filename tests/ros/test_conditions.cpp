@@ -173,7 +173,8 @@ TEST(Conditions, EachHasItsLevelAndMessage)
         {&lost, &prompt, HDR_DIAGNOSTIC_WARN,
          "nobody can subscribe: no ROS master has known this node for 12 s"},
         {&open, &prompt, HDR_DIAGNOSTIC_WARN,
-         "the target of c_L, 0.03, cannot be reached: in this box an error of 0.05 remains"},
+         "the target of c_L, 0.03, cannot be reached: an error of 0.05 remains, however long it "
+         "averages"},
         {&empty, &prompt, HDR_DIAGNOSTIC_WARN, "none of them belongs to a step"},
         {&caged, &prompt, HDR_DIAGNOSTIC_WARN,
          "disks keep their places: errors hold for this arrangement only, other seeds may differ"},

@@ -51,6 +51,7 @@ typedef struct hd_step {
     /** Standard error of exponent, with what mixing with vectors of near exponents may do; negative
      * while it is not known. */
     double std_error;
+    double mixing; /**< that part of std_error, which no longer run reduces [1/time unit] */
     /** Whether the exponents of the steps of this set are equal. For this and for what follows,
      * each step of the set has as many columns of its own as it expects, in the order of the steps'
      * exponents. */
@@ -105,8 +106,9 @@ typedef struct hd_dispersion {
     /** Part of the error of c by which another run of this box may differ; negative while it is not
      * known. */
     double c_sampling_error;
-    hd_coefficient c2;                /**< [sigma^2/time unit] */
-    hd_coefficient c3;                /**< [sigma^3/time unit] */
+    double c_mixing;   /**< part of c_sampling_error that comes from mixing: longer runs keep it */
+    hd_coefficient c2; /**< [sigma^2/time unit] */
+    hd_coefficient c3; /**< [sigma^3/time unit] */
     const hd_relation *in_long_boxes; /**< c2 / c and c3 / c of long boxes */
     double misfit; /**< sqrt(chi^2 / degrees of freedom): far above 1 if the steps do not follow the
                       relation; negative for a single step, or while errors are not known */

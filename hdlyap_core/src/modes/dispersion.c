@@ -144,22 +144,27 @@ static double share_of_step(const hd_step *step, const void *context)
     return sum * weight_of(r->of, step);
 }
 
-/** One coefficient; its error without the part that is common to all steps; and the part of that
- * error that is sampling, with weights held fixed. */
-static hd_coefficient coefficient(const fit *f, const hd_spectrum *spectrum, int term,
-                                  double *sampling)
+/** A coefficient; its error without the part that is common to all steps; the part of that error
+ * that is sampling, with weights held fixed, and the part of sampling that is mixing. */
+typedef struct found {
+    double value, error, sampling, mixing;
+} found;
+
+static found coefficient(const fit *f, const hd_spectrum *spectrum, int term)
 {
     const result r = result_of(f, term);
-    hd_coefficient out = {0.0, -1.0};
-    double square = r.factor[1] * r.factor[1] + r.factor[2] * r.factor[2];
+    found out = {.error = -1.0};
+    double mixed = 0.0, square = r.factor[1] * r.factor[1] + r.factor[2] * r.factor[2];
     for (int i = 0; i < hd_steps_count(f->steps); i++) {
         const hd_step *step = hd_steps_step(f->steps, i);
         const double part = share_of_step(step, &r);
         out.value += part * step->exponent;
         if (part != 0) square += pow(part * stray(f, step), 2.0);
+        mixed += pow(part * step->mixing, 2.0);
     }
-    *sampling = hd_steps_error_of_sum(f->steps, spectrum, share_of_step, &r);
-    if (*sampling >= 0) out.error = hypot(*sampling, sqrt(square));
+    out.mixing = sqrt(mixed);
+    out.sampling = hd_steps_error_of_sum(f->steps, spectrum, share_of_step, &r);
+    if (out.sampling >= 0) out.error = hypot(out.sampling, sqrt(square));
     return out;
 }
 
@@ -193,7 +198,6 @@ hd_dispersion hd_steps_dispersion(const hd_steps *steps, const hd_spectrum *spec
                                   hd_mode_kind kind)
 {
     const hd_coefficient none = {0.0, -1.0};
-    double of_curvature; /* error of what the form decides, and of its weights, which fluctuate */
     fit f = begin(steps, kind);
     hd_dispersion d = {.points = f.points,
                        .k_min = f.k_min,
@@ -208,9 +212,13 @@ hd_dispersion hd_steps_dispersion(const hd_steps *steps, const hd_spectrum *spec
     if (f.points == 0) return d;
     solve(&f);
     d.prior_share = 0.5 * (f.inverse[TERMS + 1] + f.inverse[2 * TERMS + 2]);
-    d.c = coefficient(&f, spectrum, 0, &d.c_sampling_error);
-    d.c2 = coefficient(&f, spectrum, 1, &of_curvature);
-    d.c3 = coefficient(&f, spectrum, 2, &of_curvature);
+    const found c[TERMS] = {coefficient(&f, spectrum, 0), coefficient(&f, spectrum, 1),
+                            coefficient(&f, spectrum, 2)};
+    d.c = (hd_coefficient){c[0].value, c[0].error};
+    d.c2 = (hd_coefficient){c[1].value, c[1].error};
+    d.c3 = (hd_coefficient){c[2].value, c[2].error};
+    d.c_sampling_error = c[0].sampling;
+    d.c_mixing = c[0].mixing;
     d.misfit = misfit_of(&f, &d);
     widen(&f, d.misfit, &d.c);
     widen(&f, d.misfit, &d.c2);

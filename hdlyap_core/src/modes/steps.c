@@ -149,7 +149,7 @@ static void step_forget(hd_step *step)
     step->multiplicity = step->exponent = 0.0;
     step->std_error = -1.0;
     step->sharing = HD_SHARING_ALONE;
-    step->set_time = step->own_part = step->gap = step->gap_error = 0.0;
+    step->mixing = step->set_time = step->own_part = step->gap = step->gap_error = 0.0;
 }
 
 static void steps_forget(hd_steps *steps)
@@ -190,12 +190,6 @@ static void step_measure(const hd_steps *steps, int k, const hd_spectrum *spectr
     step->std_error = hd_spectrum_error_of_sum(spectrum, steps->parts, count);
 }
 
-/** What mixing adds to the error of resolved step k. */
-static double mixing_of(const hd_steps *steps, int k, const hd_spectrum *spectrum)
-{
-    return hd_sharing_mixing(steps->step, steps->count, k, steps->modes, spectrum, steps->rows);
-}
-
 double hd_steps_error_of_sum(const hd_steps *steps, const hd_spectrum *spectrum,
                              double (*factor)(const hd_step *, const void *), const void *context)
 {
@@ -206,10 +200,20 @@ double hd_steps_error_of_sum(const hd_steps *steps, const hd_spectrum *spectrum,
         const double f = factor(&steps->step[k], context);
         if (f == 0) continue;
         count += mean_parts(steps, k, f, steps->parts + count);
-        square += pow(f * mixing_of(steps, k, spectrum), 2.0);
+        square += pow(f * steps->step[k].mixing, 2.0);
     }
     const double error = hd_spectrum_error_of_sum(spectrum, steps->parts, count);
     return error < 0 ? error : hypot(error, sqrt(square));
+}
+
+/** Adds what mixing does to the error of step k, whose neighbours' exponents are known. */
+static void step_mix(const hd_steps *steps, int k, const hd_spectrum *spectrum)
+{
+    hd_step *step = &steps->step[k];
+    if (!(step->std_error >= 0)) return;
+    step->mixing = hd_sharing_mixing(steps->step, steps->count, k, steps->modes, spectrum,
+                                     steps->rows);
+    step->std_error = hypot(step->std_error, step->mixing);
 }
 
 /** Says that a vector belongs to step k, unless another step has more weight in it. */
@@ -303,10 +307,7 @@ void hd_steps_find(hd_steps *steps, const hd_spectrum *spectrum)
         half_find(steps, spectrum, steps->negative, steps->subspaces + 1, &sets);
     for (int k = 0; k < steps->count; k++)
         if (steps->step[k].resolved) step_measure(steps, k, spectrum);
-    for (int k = 0; k < steps->count; k++)
-        if (steps->step[k].std_error >= 0)
-            steps->step[k].std_error = hypot(steps->step[k].std_error,
-                                             mixing_of(steps, k, spectrum));
+    for (int k = 0; k < steps->count; k++) step_mix(steps, k, spectrum);
     hd_sharing_find(steps->step, steps->company, steps->count, steps->modes, spectrum,
                     steps->warmup + hd_spectrum_time(spectrum));
 }

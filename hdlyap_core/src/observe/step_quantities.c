@@ -84,7 +84,7 @@ static hd_stated read_step(const hd_parts *parts, const hd_aim *goal)
     const int k = step_of(parts->steps, goal);
     if (k < 0) return UNKNOWN;
     const hd_step *step = hd_steps_step(parts->steps, k);
-    return (hd_stated){step->exponent, step->std_error, 0.0};
+    return (hd_stated){step->exponent, step->std_error, step->mixing};
 }
 
 static hd_stated read_omega(const hd_parts *parts, const hd_aim *goal)
@@ -106,7 +106,8 @@ static hd_stated read_slope(const hd_parts *parts, const hd_aim *goal)
     const hd_dispersion d = hd_steps_dispersion(parts->steps, parts->spectrum,
                                                 goal->quantity->kind);
     if (d.points == 0) return UNKNOWN;
-    return with_sampling(d.c.value, d.c.error, d.c_sampling_error);
+    const double falls = d.c_sampling_error * d.c_sampling_error - d.c_mixing * d.c_mixing;
+    return with_sampling(d.c.value, d.c.error, sqrt(fmax(falls, 0.0)));
 }
 
 static hd_stated read_velocity(const hd_parts *parts, const hd_aim *goal)

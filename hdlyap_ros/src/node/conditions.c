@@ -76,7 +76,8 @@ static void add_warnings(conditions *all, const worker_state *state, const hdr_l
             state->lost);
     if (*at->name && at->error >= 0.0 && at->open >= at->wanted)
         add(all, level,
-            "the target of %s, %.2g, cannot be reached: in this box an error of %.2g remains",
+            "the target of %s, %.2g, cannot be reached: an error of %.2g remains, however long it "
+            "averages",
             at->name, at->wanted, at->open);
     if (last->caged)
         add(all, level,

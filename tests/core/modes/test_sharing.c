@@ -134,6 +134,7 @@ static void check_mixing(double gap, double angle, bool near)
         const double added = sqrt(pow(error[1][k], 2.0) - pow(error[0][k], 2.0));
         print_message("  %.5f of %.5f, found %.2f and %.2f\n", added, mixing, own, other);
         CHECK_CLOSE(added, mixing, RANDOM);
+        CHECK_CLOSE(step_of(&w, 4 - k)->mixing, mixing, RANDOM);
     }
 }
 

@@ -1,5 +1,4 @@
 /** Zero modes, conjugate steps, errors and changes of steps whose truth is known. */
-#include "modes/sharing.h"
 #include "places.h"
 
 enum { ALL_MAX = 4 * DISKS };
@@ -128,10 +127,8 @@ static void add_samples(world *w, const double *exponents, motion how, int sampl
 /** The square of the stated error of step k without what mixing adds to it. */
 static double sampling_square(const world *w, int k)
 {
-    const hd_step *all = hd_steps_step(w->steps, 0), *step = step_of(w, k);
-    const double mixing = hd_sharing_mixing(all, hd_steps_count(w->steps), (int)(step - all),
-                                            hd_steps_modes(w->steps), w->spectrum, 4 * DISKS);
-    return step->std_error * step->std_error - mixing * mixing;
+    const hd_step *step = step_of(w, k);
+    return step->std_error * step->std_error - step->mixing * step->mixing;
 }
 
 /** Root mean square of (that error) / (exponent SIZE / sqrt(samples)), over the steps and REPEATS.

@@ -231,6 +231,22 @@ TEST(what_stays_open_is_told)
     print_message("c_L open %.3g, wanted %.3g, error %.3g\n", at.open, at.wanted, at.error);
     CHECK_CLOSE(hd_run_time(run), 3065.0, 1e-6);
     assert_true(at.open > at.wanted && at.error > at.open && isinf(at.left) && !at.reached);
+    const hd_dispersion l = hd_steps_dispersion(hd_run_steps(run), hd_run_spectrum(run),
+                                                HD_MODE_LP);
+    const double falls = pow(l.c_sampling_error, 2.0) - pow(l.c_mixing, 2.0);
+    CHECK_CLOSE(at.error * at.error - at.open * at.open, falls, 1e-6 * falls);
+    assert_true(l.c_mixing > 0);
+}
+
+/** Of a step it is what mixing adds. */
+TEST(mixing_stays_open)
+{
+    OWNED(hd_run) *run = finished(
+        aiming(scene_from(long_box(), .duration = 1000.0), "LP(1,0) 0.001%"));
+    const hd_standing at = hd_run_cost(run).target;
+    const int k = step_named(hd_run_steps(run), HD_MODE_LP);
+    CHECK_CLOSE(at.open, hd_steps_step(hd_run_steps(run), k)->mixing, 0.0);
+    assert_true(at.open > at.wanted && at.error > at.open && isinf(at.left));
 }
 
 /** Without vectors the gas alone ends it. */

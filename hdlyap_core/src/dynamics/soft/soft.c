@@ -106,7 +106,7 @@ hd_status hd_soft_look(soft *s)
     double potential;
     const hd_status status = potential_energy(&potential, s);
     const double kinetic = hd_soft_kinetic_energy(s);
-    if (status == HD_NOT_FINITE) return HD_ENERGY_LOST;
+    if (status == HD_NOT_FINITE) return s->error = 1.0, HD_ENERGY_LOST; /* where it tends to */
     s->error = (kinetic + potential - s->energy) / (kinetic + fabs(potential));
     return status == HD_OK && !(fabs(s->error) <= HD_SOFT_LOST) ? HD_ENERGY_LOST : status;
 }
