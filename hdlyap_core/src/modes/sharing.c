@@ -102,8 +102,8 @@ static hd_sharing sharing_of(const hd_step *step, double age)
 }
 
 /** The mean exponent of a step's own columns is what it has if columns are its vectors; that of all
- * near columns, weighted by what they hold of its fields, if its vectors follow the fields. Nothing
- * tells which, so the error is half of the difference. */
+ * near columns, weighted by what they hold of its fields, if its vectors follow the fields. The
+ * truth may be anywhere between them, and the exponent at either end. */
 double hd_sharing_mixing(const hd_step *step, int count, int k, const hd_modes *modes,
                          const hd_spectrum *spectrum, int rows)
 {
@@ -120,7 +120,7 @@ double hd_sharing_mixing(const hd_step *step, int count, int k, const hd_modes *
         whole += found;
         off += found * apart;
     }
-    return whole > 0 ? 0.5 * fabs(off / whole) : 0.0;
+    return whole > 0 ? fabs(off / whole) / sqrt(3.0) : 0.0;
 }
 
 static uint64_t members_of(const hd_step *step, int count, int k)

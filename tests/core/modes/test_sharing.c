@@ -130,7 +130,7 @@ static void check_mixing(double gap, double angle, bool near)
     for (int k = 0; k < 2; k++) {
         const double own = found_in(&w, subspace[k], FIRST + k * EACH);
         const double other = found_in(&w, subspace[k], FIRST + (1 - k) * EACH);
-        const double mixing = near ? 0.5 * gap * other / (own + other) : 0.0;
+        const double mixing = near ? gap * other / (own + other) / sqrt(3.0) : 0.0;
         const double added = sqrt(pow(error[1][k], 2.0) - pow(error[0][k], 2.0));
         print_message("  %.5f of %.5f, found %.2f and %.2f\n", added, mixing, own, other);
         CHECK_CLOSE(added, mixing, RANDOM);
