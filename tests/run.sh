@@ -36,6 +36,7 @@ core_tests        ctest    first  core_build,blas
 tools_tests       unittest first  ros_build
 lint              one      first  -
 format            one      first  -
+weight            one      first  -
 blas              one      second -
 checked           checks   second ros_build,core_build
 readme            checks   second ros_build
@@ -184,6 +185,19 @@ format() {
     mapfile -t in_python < <(sources -name '*.py' && sources ! -name '*.*' -exec grep -qE '^#!/usr/bin/(env )?python3' {} \;)
     clang-format --dry-run -Werror "${in_c[@]}" && BLACK_CACHE_DIR=$WORK/black black --check "${in_python[@]}" &&
         flake8 "${in_python[@]}"
+}
+
+# Lines of each area, against what tests/weight.txt allows: text that people write.
+weight() {
+    local most area paths lines status=0
+    cd "$ROOT"
+    while read -r most area paths; do
+        lines=$(sources -regextype posix-extended -regex "$paths.*" ! -regex '.*\.(png|gif|svg|mp4|bag|csv|txt|bin)' ! -name 'CMakeLists.txt' \
+            ! -path '*/__pycache__/*' | xargs -d '\n' cat | wc -l)
+        echo "$area: $lines lines, $most allowed"
+        ((lines <= most)) || status=1
+    done < <(grep -v '^#' tests/weight.txt)
+    return "$status"
 }
 
 # The public headers, as they are installed: of parameters and names that do not exist.
