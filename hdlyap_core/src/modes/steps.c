@@ -389,6 +389,7 @@ static void step_archive(hd_steps *steps, hd_step *step, hd_archive *archive)
     hd_archive_double(archive, "step multiplicity", &step->multiplicity);
     hd_archive_double(archive, "step exponent", &step->exponent);
     hd_archive_double(archive, "step error", &step->std_error);
+    hd_archive_double(archive, "step mixing", &step->mixing);
     int sharing = (int)step->sharing;
     hd_archive_int(archive, "step sharing", &sharing, HD_SHARING_ALONE, HD_SHARING_COINCIDENT);
     step->sharing = (hd_sharing)sharing;

@@ -109,6 +109,7 @@ static void say_step(said *s, const hd_steps *steps, int k)
     say(s, "multiplicity", step->multiplicity);
     say(s, "step exponent", step->exponent);
     say(s, "step error", step->std_error);
+    say(s, "step mixing", step->mixing);
     say(s, "sharing", step->sharing);
     say(s, "set_time", step->set_time);
     say(s, "own_part", step->own_part);
@@ -129,7 +130,8 @@ static void say_steps(said *s, const hd_run *run)
         const hd_dispersion d = hd_steps_dispersion(steps, hd_run_spectrum(run), kind);
         const double numbers[] = {d.points,   d.k_min,    d.k_max,    d.prior_share,
                                   d.c.value,  d.c.error,  d.c2.value, d.c2.error,
-                                  d.c3.value, d.c3.error, d.misfit,   d.c_sampling_error};
+                                  d.c3.value, d.c3.error, d.misfit,   d.c_sampling_error,
+                                  d.c_mixing};
         say(s, "lowest", hd_steps_lowest(steps, kind));
         say_all(s, "dispersion", numbers, sizeof numbers / sizeof *numbers);
     }
