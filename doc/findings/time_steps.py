@@ -8,9 +8,9 @@ import numpy as np
 
 from study import COLOURS, GREY, fit
 
-KICKS = {'verlet': 1, 'pefrl': 4, 'forest_ruth': 3}  # in a step
+KICKS = {'verlet': 1, 'pefrl': 4}  # in a step
 POTENTIALS = {'power': COLOURS[0.2], 'wca': COLOURS[0.8], 'lennard_jones': COLOURS[0.4]}
-MARKS = {'verlet': 'o', 'pefrl': 's', 'forest_ruth': '^'}
+MARKS = {'verlet': 'o', 'pefrl': 's'}
 JUMP = 2 / 3  # power of the step by which a jump of the second derivative parts a pair of zeros
 SURE = 3  # standard errors
 

@@ -269,7 +269,7 @@ class Steps(harness.Case):
 
     def test_zeros_that_split(self):
         cases = [('power', 'verlet', 0.01, 0.0), ('power', 'pefrl', 0.03, 2)]
-        cases += [('wca', 'verlet', 0.006, 0.67), ('wca', 'forest_ruth', 0.006, 0.67)]
+        cases += [('wca', 'verlet', 0.006, 0.67), ('wca', 'pefrl', 0.006, 0.67)]
         for potential, integrator, step, power in cases:
             scene = dict(SMALL, potential=potential, integrator=integrator, time_step=step)
             text = self.runs(dict(scene, exponents='all', duration=400.0)).text()

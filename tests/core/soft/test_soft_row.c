@@ -23,18 +23,18 @@ TEST(zeros_split_with_the_power_of_the_step_that_the_row_says)
     static const double jump[HD_POTENTIALS] = {
         [HD_POWER] = 2.0, [HD_WCA] = 2.0 / 3.0, [HD_LENNARD_JONES] = 4.0 / 3.0};
     static const double step[HD_POTENTIALS][HD_INTEGRATORS] = {
-        [HD_POWER] = {[HD_VERLET] = 0.01, [HD_PEFRL] = 0.02, [HD_FOREST_RUTH] = 0.014},
-        [HD_WCA] = {[HD_VERLET] = 0.003, [HD_PEFRL] = 0.004, [HD_FOREST_RUTH] = 0.003}};
+        [HD_POWER] = {[HD_VERLET] = 0.01, [HD_PEFRL] = 0.02},
+        [HD_WCA] = {[HD_VERLET] = 0.003, [HD_PEFRL] = 0.004}};
     for (int potential = 0; potential < HD_POTENTIALS; potential++) {
-        double mean = 0.0; /* a zero of one run is known to 10 % */
+        double mean = 0.0; /* a zero of one run is known to 8 % */
         for (int integrator = 0; integrator < HD_INTEGRATORS; integrator++) {
             const hd_scene_def def = soft_few(2, potential, integrator, 0.01);
             const double split = hd_dynamics_of(&def)->split(&def),
                          coarse = step[potential][integrator];
             CHECK_CLOSE(split, jump[potential], 1e-15);
             if (coarse == 0.0) continue;
-            const double ratio = largest_zero(potential, integrator, coarse, 6e3) /
-                                 largest_zero(potential, integrator, 0.5 * coarse, 6e3);
+            const double ratio = largest_zero(potential, integrator, coarse, 9e3) /
+                                 largest_zero(potential, integrator, 0.5 * coarse, 9e3);
             mean += log(ratio) / log(2.0) / split / HD_INTEGRATORS;
         }
         if (potential != HD_LENNARD_JONES) CHECK_CLOSE(mean, 1.0, 0.3);

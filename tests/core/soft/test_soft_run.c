@@ -205,7 +205,7 @@ TEST(a_run_goes_on_from_its_checkpoint_bit_for_bit)
 {
     const char *path = "soft.checkpoint";
     for (int dimension = 2; dimension <= 3; dimension++) {
-        hd_scene_def def = short_run(soft_few(dimension, HD_WCA, HD_FOREST_RUTH, 0.003), 20.0);
+        hd_scene_def def = short_run(soft_few(dimension, HD_WCA, HD_PEFRL, 0.003), 20.0);
         def.observe = HD_OBSERVE_GAS;
         char message[512] = "";
         OWNED(hd_run) *whole = created(def);

@@ -71,7 +71,7 @@ static golden golden_scene(int scene)
         {box_of(108, 1.35, 1.0, 1.0, 0, 5), 10000, 0x016cd45fe53c6fcfu},
         {box_of(20000, 0.6, 0.8, 0.7, 1, 6), 60000,
          0x25cdd5a1319ff59fu}, /* larger than the caches */
-        {soft(100, 0.5, 0, 2), 100, 0x851626661636dfa6u},
+        {soft(100, 0.5, 0, 1), 100, 0xa7dbfcf48b694a41u},
     };
     return all[scene];
 }

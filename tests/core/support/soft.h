@@ -201,25 +201,17 @@ static inline long double soft_twin_energy(const twin_state *s)
     return sum;
 }
 
-/** Verlet's step and, of three with these weights, that of Forest and Ruth; the extended one. */
+/** Verlet's step, or the extended one of Forest and Ruth. */
 static inline void soft_twin_step(twin_state *s, int integrator, long double h)
 {
-    const long double theta = 1 / (2 - cbrtl(2)), xi = 0.1786178958448091L,
-                      lambda = -0.2123418310626054L, chi = -0.06626458266981849L;
-    const long double weight[3] = {theta, 1 - 2 * theta, theta};
-    for (int k = 0; k < 3 && integrator != HD_PEFRL; k++) {
-        const long double w = integrator == HD_VERLET ? 1 : weight[k];
-        soft_twin_drift(s, w * h / 2);
-        soft_twin_kick(s, w * h);
-        soft_twin_drift(s, w * h / 2);
-        if (integrator == HD_VERLET) return;
-    }
-    if (integrator != HD_PEFRL) return;
-    const long double drift[5] = {xi, chi, 1 - 2 * (chi + xi), chi, xi},
+    const long double xi = 0.1786178958448091L, lambda = -0.2123418310626054L,
+                      chi = -0.06626458266981849L;
+    const bool verlet = integrator == HD_VERLET;
+    const long double extended[5] = {xi, chi, 1 - 2 * (chi + xi), chi, xi},
                       kick[4] = {(1 - 2 * lambda) / 2, lambda, lambda, (1 - 2 * lambda) / 2};
-    for (int k = 0; k < 5; k++) {
-        soft_twin_drift(s, drift[k] * h);
-        if (k < 4) soft_twin_kick(s, kick[k] * h);
+    for (int k = 0; k < (verlet ? 2 : 5); k++) {
+        soft_twin_drift(s, (verlet ? 0.5L : extended[k]) * h);
+        if (k < (verlet ? 1 : 4)) soft_twin_kick(s, (verlet ? 1 : kick[k]) * h);
     }
 }
 

@@ -16,7 +16,7 @@ typedef struct hd_integrator {
 } hd_integrator;
 
 /** HD_INTEGRATOR_AUTO is no row: the potential says which it stands for. */
-enum { HD_VERLET, HD_PEFRL, HD_FOREST_RUTH, HD_INTEGRATORS, HD_INTEGRATOR_AUTO = HD_INTEGRATORS };
+enum { HD_VERLET, HD_PEFRL, HD_INTEGRATORS, HD_INTEGRATOR_AUTO = HD_INTEGRATORS };
 extern const hd_integrator hd_integrators[HD_INTEGRATORS];
 
 #endif

@@ -16,11 +16,8 @@
 
 static const hd_parameter_word potential_words[] = {
     {"power", HD_POWER}, {"wca", HD_WCA}, {"lennard_jones", HD_LENNARD_JONES}, {NULL, 0}};
-static const hd_parameter_word integrator_words[] = {{"auto", HD_INTEGRATOR_AUTO},
-                                                     {"verlet", HD_VERLET},
-                                                     {"pefrl", HD_PEFRL},
-                                                     {"forest_ruth", HD_FOREST_RUTH},
-                                                     {NULL, 0}};
+static const hd_parameter_word integrator_words[] = {
+    {"auto", HD_INTEGRATOR_AUTO}, {"verlet", HD_VERLET}, {"pefrl", HD_PEFRL}, {NULL, 0}};
 
 static const hd_parameter own[HD_SOFT_OWN] = {
     {.name = "potential",
@@ -62,12 +59,11 @@ static const hd_parameter own[HD_SOFT_OWN] = {
      .usual = HD_INTEGRATOR_AUTO,
      .most = HD_INTEGRATOR_AUTO,
      .chosen = hd_soft_integrator_chosen,
-     .allowed = "auto, verlet, pefrl or forest_ruth",
+     .allowed = "auto, verlet or pefrl",
      .unit = "",
      .text = "Method by which particles move. verlet has order 2 and computes forces once a step; "
-             "pefrl has order 4 and computes them four times; forest_ruth has order 4 and "
-             "computes them three times. auto: verlet for wca, which is not smooth enough for "
-             "order 4, and pefrl for the others; when resumed, as before."}};
+             "pefrl has order 4 and computes them four times. auto: verlet for wca, which is not "
+             "smooth enough for order 4, and pefrl for the others; when resumed, as before."}};
 
 /** The power of the time step by which zero exponents split: from the jump at the cut [T24], or the
  * order of the integrator if that is less. */
