@@ -60,8 +60,10 @@ static inline bool study_begin(int argc, char **argv, const char *header)
         fprintf(stderr, "%s: the only option is --quick\n", argv[0]);
         exit(2);
     }
-    hd_blas_restart_if_slow(argv);
-    printf("# hdlyap %s, %s kernels\n%s\n", HDLYAP_VERSION, hd_blas_query().kernel, header);
+    const hd_blas blas = hd_blas_query();
+    printf("# hdlyap %s, %s kernels", HDLYAP_VERSION, blas.kernel);
+    if (blas.better_kernel) printf(" (OPENBLAS_CORETYPE=%s is faster)", blas.better_kernel);
+    printf("\n%s\n", header);
     fflush(stdout);
     return quick;
 }

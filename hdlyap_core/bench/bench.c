@@ -292,7 +292,7 @@ int main(int argc, char **argv)
                            {"--name", .text = &a.name},
                            {0}};
     options_read(argc, argv, list);
-    hd_blas_restart_if_slow(argv);
+    restart_if_slow(argv);
     if (a.whole || !a.events) whole_run(&a, argv);
     if (a.events || !a.whole) print_events(&a);
     return 0;

@@ -286,7 +286,7 @@ int main(int argc, char **argv)
                            {"--rounds", .count = &rounds, .least = 1, .most = SAMPLE_MAX},
                            {"--out", .text = &out},
                            {0}};
-    hd_blas_restart_if_slow(argv);
+    restart_if_slow(argv);
     if (argc == 4 && strcmp(argv[1], "--count") == 0) return count(argv[2], argv[3]);
     options_read(argc, argv, list);
     table *t = out ? table_create(out, "effects",

@@ -4,6 +4,8 @@
 
 #include <stdbool.h>
 
+#include "restart.h"
+
 /** One option; exactly one of the pointers is not NULL. A list ends with a name of NULL. */
 typedef struct option {
     const char *name;  /**< with its dashes */

@@ -291,7 +291,7 @@ int main(int argc, char **argv)
     bool quick = false;
     const option list[] = {{"--out", .text = &out}, {"--quick", .flag = &quick}, {0}};
     options_read(argc, argv, list);
-    hd_blas_restart_if_slow(argv);
+    restart_if_slow(argv);
     const hd_scene_def scene = scene_of(quick);
     study *s = room(1, sizeof *s);
     s->w = window_create(&scene);

@@ -245,7 +245,7 @@ int main(int argc, char **argv)
     bool quick = false;
     const option list[] = {{"--out", .text = &out}, {"--quick", .flag = &quick}, {0}};
     options_read(argc, argv, list);
-    hd_blas_restart_if_slow(argv);
+    restart_if_slow(argv);
     study all = {.seconds_min = quick ? 0.3 : 2.0, .g = gemm_create(GEMM_SIZE, GEMM_SIZE)};
     measure_all(&all, quick);
     table *points = table_create(

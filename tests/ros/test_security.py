@@ -120,7 +120,7 @@ class Security(harness.Case):
                 else:
                     self.assertEqual((name, paths_of(arguments)[0]), ('execve', own))
                     restarts += 1
-        self.assertLessEqual(restarts, 1)  # hd_blas_restart_if_slow
+        self.assertLessEqual(restarts, 1)  # examples/restart.c
         self.assertLessEqual(len(ports), 2)  # the master's and its own, where it asks itself
 
     def check_open(self, arguments, returned, ours):

@@ -12,19 +12,15 @@ typedef struct hd_blas {
     const char *kernel;    /**< the processor for which its routines are made, e.g. "SkylakeX";
                               "unknown" if the library does not say */
     const char *threading; /**< how it runs threads: "serial", "pthread" or "openmp" */
-    int threads;           /**< number of threads that it uses now */
-    int cores;             /**< number of processors that this process may use */
+    /** OPENBLAS_CORETYPE with which the process should have been started, because `kernel` is for
+     * an older processor than this one; NULL if it is as good as hdlyap knows */
+    const char *better_kernel;
+    int threads; /**< number of threads that it uses now */
+    int cores;   /**< number of processors that this process may use */
 } hd_blas;
 
 /** Asks the library. Any thread may call it. */
 hd_blas hd_blas_query(void);
-
-/** Call this first in main, with the argv of main. On Linux it starts the program again, once, in
- * two cases: OpenBLAS uses routines for an older processor than this one, or idle threads would
- * keep a processor busy while they wait. The new start has OPENBLAS_CORETYPE, and GOMP_SPINCOUNT or
- * OMP_WAIT_POLICY, set in its environment; a value that the user has set is never changed. In all
- * other cases, and on other systems, it returns and has done nothing. */
-void hd_blas_restart_if_slow(char **argv);
 
 /** Returns HD_OK if there is enough address space for the stacks and buffers of so many threads,
  * otherwise HD_NO_MEMORY. Without that space OpenBLAS would try for ever, and OpenMP would end the

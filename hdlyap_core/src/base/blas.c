@@ -1,15 +1,11 @@
-/** Identity of the linear algebra library, and the restart with kernels that fit the processor.
- * Works with any BLAS: functions that only OpenBLAS has are weak symbols. */
-#define _GNU_SOURCE /* sched_getaffinity */
+/** Identity of the linear algebra library, and the kernels that would fit the processor. Works with
+ * any BLAS: functions that only OpenBLAS has are weak symbols. */
+#define _GNU_SOURCE /* flags of mmap */
 #include "base/blas.h"
 
-#include <limits.h>
 #include <omp.h>
 #include <stdbool.h>
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 #if defined(__linux__)
 #include <sys/mman.h>
 #endif
@@ -21,18 +17,6 @@ extern int openblas_get_num_threads(void) __attribute__((weak));
 extern void openblas_set_num_threads(int threads) __attribute__((weak));
 
 enum { SERIAL, PTHREAD, OPENMP }; /* openblas_get_parallel */
-
-hd_blas hd_blas_query(void)
-{
-    static const char *const threading[] = {"serial", "pthread", "openmp"};
-    hd_blas blas = {"unknown BLAS", "unknown", "serial", 1, omp_get_num_procs()};
-    if (openblas_get_config) blas.library = openblas_get_config();
-    if (openblas_get_corename) blas.kernel = openblas_get_corename();
-    if (openblas_get_num_threads) blas.threads = openblas_get_num_threads();
-    const int kind = openblas_get_parallel ? openblas_get_parallel() : SERIAL;
-    if (kind == PTHREAD || kind == OPENMP) blas.threading = threading[kind];
-    return blas;
-}
 
 static bool uses_openmp(void) { return openblas_get_parallel && openblas_get_parallel() == OPENMP; }
 
@@ -92,55 +76,28 @@ const char *hd_blas_better_kernel(const char *kernel, int has_avx2_fma, int has_
     return NULL;
 }
 
-static const char *better_kernel_here(void)
+static const char *better_kernel_here(const char *kernel)
 {
 #if defined(__x86_64__)
     const int avx512 = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
                        __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl");
     const int avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
-    return hd_blas_better_kernel(hd_blas_query().kernel, avx2, avx512);
+    return hd_blas_better_kernel(kernel, avx2, avx512);
 #else
+    (void)kernel;
     return NULL;
 #endif
 }
 
-/** Sets how idle threads wait, unless the user did. On a busy machine spinning threads take time
- * slices from working ones: a factorisation took up to thirty times longer. With two pools
- * (OpenBLAS's pthreads and OpenMP's) threads must not spin at all; those of one pool may spin for
- * some microseconds. Returns false if nothing was set. */
-static bool calm_threads(void)
+hd_blas hd_blas_query(void)
 {
-    const char *threading = hd_blas_query().threading;
-    if (getenv("OMP_WAIT_POLICY") || getenv("GOMP_SPINCOUNT")) return false;
-    if (strcmp(threading, "pthread") == 0) return setenv("OMP_WAIT_POLICY", "passive", 1) == 0;
-    return setenv("GOMP_SPINCOUNT", "2000", 1) == 0;
-}
-
-#if defined(__linux__)
-/** Executes the program again by its path, because ps and killall show the last part of it; by
- * /proc/self/exe if that path is no longer there. */
-static void restart(char **argv)
-{
-    static const char self[] = "/proc/self/exe";
-    char path[PATH_MAX] = "";
-    if (readlink(self, path, sizeof path - 1) > 0) execv(path, argv);
-    execv(self, argv);
-    perror("hdlyap: could not restart with faster BLAS kernels"); /* go on with the slow ones */
-}
-#endif
-
-void hd_blas_restart_if_slow(char **argv)
-{
-#if defined(__linux__)
-    static const char once[] = "HDLYAP_RESTARTED";
-    if (getenv(once)) return;
-    const char *kernel = getenv("OPENBLAS_CORETYPE") ? NULL : better_kernel_here();
-    const bool calmed = calm_threads();
-    if (!kernel && !calmed) return;
-    setenv(once, "1", 1);
-    if (kernel) setenv("OPENBLAS_CORETYPE", kernel, 1);
-    restart(argv);
-#else
-    (void)argv;
-#endif
+    static const char *const threading[] = {"serial", "pthread", "openmp"};
+    hd_blas blas = {"unknown BLAS", "unknown", "serial", NULL, 1, omp_get_num_procs()};
+    if (openblas_get_config) blas.library = openblas_get_config();
+    if (openblas_get_corename) blas.kernel = openblas_get_corename();
+    blas.better_kernel = better_kernel_here(blas.kernel);
+    if (openblas_get_num_threads) blas.threads = openblas_get_num_threads();
+    const int kind = openblas_get_parallel ? openblas_get_parallel() : SERIAL;
+    if (kind == PTHREAD || kind == OPENMP) blas.threading = threading[kind];
+    return blas;
 }

@@ -16,6 +16,7 @@
 #include "parameters_text.h"
 #include "particles.h"
 #include "ranks.h"
+#include "restart.h"
 #include "topics/report.h"
 #include "services.h"
 #include "settings.h"
@@ -364,7 +365,7 @@ int hdlyap_node_main(int argc, char **argv, const hd_dynamics *const *rows, int 
     particles_bring(rows, count);
     const int answered = answer(argc, argv);
     if (answered >= 0) return answered;
-    hd_blas_restart_if_slow(argv);
+    restart_if_slow(argv);
     if (argc > 1 && strcmp(argv[1], "--check") == 0) return check_scene(argc - 2, argv + 2);
     if (argc > 1 && strcmp(argv[1], "--errors") == 0) return check_errors(argc - 2, argv + 2);
     if (!ranks_join(&a.ranks, &argc, &argv, message, sizeof message))

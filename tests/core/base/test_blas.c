@@ -2,6 +2,7 @@
 #include <sys/mman.h>
 #include <sys/syscall.h>
 #include <unistd.h>
+#include "restart.h"
 #include "testing.h"
 
 TEST(old_kernels_are_noticed)
@@ -24,6 +25,9 @@ TEST(the_library_says_what_it_is)
     assert_true(blas.cores >= 1 && blas.threads >= 1);
     assert_non_null(blas.library);
     assert_non_null(blas.kernel);
+    if (blas.better_kernel) /* with which nothing is left to wish */
+        assert_null(hd_blas_better_kernel(blas.better_kernel, 1, 1) &&
+                    hd_blas_better_kernel(blas.better_kernel, 1, 0));
     hd_blas_use_threads(1);
     assert_int_equal(hd_blas_query().threads, 1);
 }
@@ -71,7 +75,7 @@ static const char *const OLD = NULL;
 static int print_kernel(char **argv)
 {
     char name[32] = "";
-    hd_blas_restart_if_slow(argv);
+    restart_if_slow(argv);
     FILE *own = fopen("/proc/self/comm", "r"); /* on Linux */
     if (own && !fgets(name, sizeof name, own)) return 1;
     printf("%s %s %s\n", hd_blas_query().kernel, getenv("HDLYAP_RESTARTED") ? "restarted" : "first",

@@ -4,6 +4,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 #include "ledger.h"
+#include "restart.h"
 #include "testing.h"
 
 static const double MOST = 1.4;
@@ -67,6 +68,6 @@ TEST(of_the_positive_half)
 int main(int argc, char **argv)
 {
     (void)argc;
-    hd_blas_restart_if_slow(argv);
+    restart_if_slow(argv);
     return tests_run(NULL);
 }
