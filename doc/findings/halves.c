@@ -203,12 +203,12 @@ static void follow(harvest *h)
     for (int k = 0; k < STEPS; k++) h->known[k] = -1;
     go_on(h->run, HD_AVERAGING);
     const double start = hd_run_time(h->run);
-    const double before = hd_trajectory_told(hd_run_parts(h->run).trajectory).virial[0];
+    const double before = hd_trajectory_totals(hd_run_parts(h->run).trajectory).virial[0];
     while (hd_run_stage(h->run) < HD_FINISHED) {
         require(hd_run_advance(h->run), "run");
         if (hd_run_report_due(h->run)) report_measure(h, hd_run_time(h->run) - start);
     }
-    const double after = hd_trajectory_told(hd_run_parts(h->run).trajectory).virial[0];
+    const double after = hd_trajectory_totals(hd_run_parts(h->run).trajectory).virial[0];
     h->pressure = h->flown / h->reports + (after - before) / (hd_run_time(h->run) - start);
     h->pressure /= scene.number;
 }

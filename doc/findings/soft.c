@@ -193,7 +193,7 @@ static void look(looked *l, hd_run *run, const box *b)
     l->pressure += pressure(b, edge, l->q, l->p);
     hd_run_halves(run, l->cos_theta, l->ratio);
     for (int col = 0; col < positive; col++) l->cosine[col] += fabs(l->cos_theta[col]);
-    l->kinetic += hd_trajectory_kinetic_energy(trajectory) / b->number;
+    l->kinetic += hd_trajectory_examined(trajectory).kinetic_energy / b->number;
     l->looks += 1.0;
 }
 

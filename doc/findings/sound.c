@@ -73,7 +73,7 @@ typedef struct gas {
 
 static gas gas_at(hd_trajectory *disks)
 {
-    const hd_told told = hd_trajectory_told(disks);
+    const hd_totals told = hd_trajectory_totals(disks);
     const gas now = {disks, hd_trajectory_time(disks), told.virial[0], (double)told.collisions};
     return now;
 }
@@ -85,7 +85,7 @@ static gas settled(const box *b, int seed)
     hd_trajectory *disks;
     require(hd_trajectory_create(&disks, &scene), "sound");
     require(
-        hd_trajectory_extend(disks, NULL, 200.0 * b->disks / hd_trajectory_told(disks).expected),
+        hd_trajectory_extend(disks, NULL, 200.0 * b->disks / hd_trajectory_totals(disks).expected),
         "sound");
     return gas_at(disks);
 }

@@ -166,13 +166,13 @@ static double events_alone(const asked *a, int disks, double density, double col
     scene.aspect = 1.0;
     hd_trajectory *trajectory;
     require(hd_trajectory_create(&trajectory, &scene), "trajectory");
-    const double length = collisions / hd_trajectory_told(trajectory).expected;
+    const double length = collisions / hd_trajectory_totals(trajectory).expected;
     require(hd_trajectory_extend(trajectory, NULL, length),
             "trajectory"); /* leave the lattice first */
-    const double first = (double)hd_trajectory_told(trajectory).collisions, start = seconds(),
+    const double first = (double)hd_trajectory_totals(trajectory).collisions, start = seconds(),
                  began = busy_seconds();
     require(hd_trajectory_extend(trajectory, NULL, 2.0 * length), "trajectory");
-    const double count = (double)hd_trajectory_told(trajectory).collisions - first,
+    const double count = (double)hd_trajectory_totals(trajectory).collisions - first,
                  rate = count / (seconds() - start) * 1e-6, busy = busy_seconds() - began;
     printf("%9d %-9s %9.2f %12.0f %22.2f", disks, hd_dynamics_of(&scene)->particles, density, count,
            rate);
@@ -235,9 +235,9 @@ static void one_exponent(const asked *a, int disks, double memory)
     hd_run *run = created(&scene);
     while (hd_run_stage(run) != HD_AVERAGING) require(hd_run_advance(run), "warm-up");
     const double before = hd_run_cost(run).replay;
-    const double first = (double)hd_trajectory_told(hd_run_parts(run).trajectory).collisions;
+    const double first = (double)hd_trajectory_totals(hd_run_parts(run).trajectory).collisions;
     while (hd_run_stage(run) != HD_FINISHED) require(hd_run_advance(run), "averaging");
-    const double count = (double)hd_trajectory_told(hd_run_parts(run).trajectory).collisions -
+    const double count = (double)hd_trajectory_totals(hd_run_parts(run).trajectory).collisions -
                          first;
     const double rate = count / (hd_run_cost(run).replay - before);
     printf("%9d %12.0f %22.1f %12.1f %18.0f\n", disks, count, rate * 1e-6,

@@ -10,6 +10,7 @@
 
 #include "base/blas.h"
 #include "base/random.h"
+#include "dynamics/create_from.h"
 #include "dynamics/dynamics.h"
 #include "dynamics/trajectory.h"
 #include "gemm.h"
@@ -85,7 +86,9 @@ static void mix(measured *m)
         swap(p + d * i, p + d * j, d);
     }
     hd_trajectory_free(m->trajectory);
-    require(hd_trajectory_create_from(&m->trajectory, &m->scene, q, p), "trajectory");
+    void *state;
+    require(hd_soft_create_from(&state, &m->scene, q, p), "trajectory");
+    require(hd_trajectory_create_with(&m->trajectory, &m->scene, state), "trajectory");
     free(q);
 }
 

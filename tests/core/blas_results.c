@@ -102,7 +102,7 @@ static int show(unsigned observe, int threads, double more)
         fprintf(stderr, "%s\n", hd_status_text(status));
         return 1;
     }
-    print("collisions", (double)hd_trajectory_told(hd_run_parts(run).trajectory).collisions, 0.0);
+    print("collisions", (double)hd_trajectory_totals(hd_run_parts(run).trajectory).collisions, 0.0);
     print_spectrum(run);
     print_steps(run);
     print_phases(run, more);

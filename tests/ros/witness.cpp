@@ -184,7 +184,7 @@ members beside(const hdr_spectrum *)
     hd_run_halves(run, cosine.data(), ratio.data());
     return named({{"cosine", numbers(cosine.data(), vectors())},
                   {"ratio", numbers(ratio.data(), vectors())},
-                  {"collisions", hd_trajectory_told(parts().trajectory).collisions}});
+                  {"collisions", hd_trajectory_totals(parts().trajectory).collisions}});
 }
 
 members beside(const hdr_gas *) { return named({{"gas", say(hd_gas_read(parts().gas))}}); }

@@ -24,37 +24,31 @@ HD_API_BEGIN
 /** What happened to the particles, entry by entry: see hdlyap/record.h. */
 typedef struct hd_record hd_record;
 
-/** Numbers of collisions since the start of the trajectory, and what follows from them. All but
- * `expected` are 0 for particles that do not collide. */
-typedef struct hd_told {
+/** What has added up since the start of the trajectory [T19]. Particles that collide have
+ * collisions, those with a potential have integrals over time; all that they do not have is 0. */
+typedef struct hd_totals {
     /** Number of collisions of two particles; number of collisions of a particle with a wall. */
     uint64_t collisions, wall_events;
-    /** Virial of the pair collisions along each direction d: sum over the collisions of |r_d Delta
-     * p_d|, with r the vector between the two centres and Delta p the momentum that they exchange
-     * [T19] [sigma momentum]. */
-    double virial[HD_DIMENSION_MAX];
     /** Pair collisions of all particles expected per time unit: what the row's `rate` says, by
      * Enskog's theory [T2] for hard particles of the core. */
     double expected;
-} hd_told;
-
-/** Integrals over time, since the start of the trajectory, for particles with a potential [T19].
- * They are 0 for other particles. */
-typedef struct hd_summed {
-    double time; /**< time that the integrals cover, up to the last whole time step [time units] */
+    double time; /**< time that the numbers below cover: up to now, or to the last whole time step
+                    [time units] */
+    /** For each direction d, with r the vector from one particle of a pair to the other: the sum
+     * over the collisions of |r_d Delta p_d|, Delta p the momentum that they exchange [sigma
+     * momentum]; or the integral of the sum of r_d F_d over the pairs, F the force on the other
+     * one. Repulsion makes it positive. */
+    double virial[HD_DIMENSION_MAX];
     /** For each direction d: integral of the sum of p_d^2 over the particles. */
     double kinetic[HD_DIMENSION_MAX];
-    /** For each direction d: integral of the sum of r_d F_d over the pairs, with r the vector from
-     * one of the two particles to the other, and F the force on that other one. Repulsion makes it
-     * positive. */
-    double virial[HD_DIMENSION_MAX];
     double potential; /**< integral of the potential energy of all particles together */
-} hd_summed;
+} hd_totals;
 
-/** How accurate the present state is. All members are 0 if the row has no function `examine`. */
+/** What is conserved, as it is now. If the row has no function `examine`, the kinetic energy is the
+ * sum of p^2 / 2, and all other members are 0. */
 typedef struct hd_examined {
-    /** Relative error of the energy now, which would be 0 in exact arithmetic, from the row's
-     * energy_error. */
+    double kinetic_energy; /**< of all particles; always N for hard particles */
+    /** Relative error of the energy now, which would be 0 in exact arithmetic. */
     double energy_error;
     /** Bound on the relative error of the energy by rounding. Each collision changes the energy of
      * its particles by about DBL_EPSILON, and these changes add up as a random walk. Observed
@@ -116,6 +110,9 @@ struct hd_dynamics {
      * (dq, dp) = (p, 0) and (0, p) are then null vectors, and the null space is orthogonal to all
      * other vectors [T9]. May be left out. */
     bool paces;
+    /** True for particles that collide and whose total kinetic energy is always N: `totals` counts
+     * collisions. If false, it integrates over time. May be left out. */
+    bool collides;
 
     /** Parameters that only this dynamics has, [parameters]; the offset of number k is HD_OWN(k).
      * Their kind is HD_PARAMETER_INT, HD_PARAMETER_REAL, HD_PARAMETER_WORD or
@@ -172,10 +169,6 @@ struct hd_dynamics {
     /** Makes the state of the particles at time 0 in *state. Returns HD_OK; or HD_NO_MEMORY, and
      * *state is NULL. */
     hd_status (*create)(void **state, const hd_scene_def *scene);
-    /** Makes a state with given q and p, both [particle][coordinates], for tests. May be left out.
-     */
-    hd_status (*create_from)(void **state, const hd_scene_def *scene, const double *q,
-                             const double *p);
     /** Frees a state. */
     void (*free)(void *state);
     /** Moves the particles to the simulated time t_end, which is not before the present one. Unless
@@ -189,21 +182,12 @@ struct hd_dynamics {
     /** Writes the present q and p, both [particle][coordinates], with positions folded into the box
      * if there is one. Either array may be NULL. */
     void (*state)(const void *state, double *q, double *p);
-    /** Kinetic energy of all particles. May be left out; it is then the sum of p^2 / 2. */
-    double (*kinetic_energy)(const void *state);
-    /** Writes all members of *told but `expected`. Only for particles that collide and whose total
-     * kinetic energy is always N; the observable gas follows from these numbers. May be left out.
-     */
-    void (*tell)(const void *state, hd_told *told);
-    /** Writes all members of *summed, from which the observable gas follows for particles with a
-     * potential. It is called only if the scene asks for HD_OBSERVE_GAS. May be left out. */
-    void (*sum)(const void *state, hd_summed *summed);
-    /** Writes all members of *examined but energy_error; 0 where a member means nothing for these
-     * particles. May be left out. */
+    /** Writes all members of *totals but `expected`, from which the observable gas follows.
+     * Integrals are needed only if the scene asks for HD_OBSERVE_GAS. May be left out. */
+    void (*totals)(const void *state, hd_totals *totals);
+    /** Writes all members of *examined; 0 where a member means nothing for these particles. May be
+     * left out. */
     void (*examine)(const void *state, hd_examined *examined);
-    /** Relative error of the total energy now. May be left out if all energy is kinetic and should
-     * be N. */
-    double (*energy_error)(const void *state);
     /** Calls hd_archive_doubles for each array of the state, in one order for writing and reading;
      * together these have at least a number for each particle. After reading, it also restores
      * whatever else follows from these arrays. */

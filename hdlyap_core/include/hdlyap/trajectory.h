@@ -34,23 +34,20 @@ HD_MUST_CHECK hd_status hd_trajectory_extend(hd_trajectory *trajectory, hd_recor
 /** Present simulated time [time units]. */
 double hd_trajectory_time(const hd_trajectory *trajectory);
 
-/** Numbers of collisions and the virial, summed from time 0 to now. */
-hd_told hd_trajectory_told(const hd_trajectory *trajectory);
+/** What has added up from time 0 to now. */
+hd_totals hd_trajectory_totals(const hd_trajectory *trajectory);
 
 /** Writes the present positions, inside the box, to q, and the momenta to p, both
  * [particle][coordinates]. Either may be NULL. O(N). */
 void hd_trajectory_state(const hd_trajectory *trajectory, double *q, double *p);
 
-/** Kinetic energy of all particles, the sum of p^2 / 2. It is always N for hard particles. */
-double hd_trajectory_kinetic_energy(const hd_trajectory *trajectory);
-
-/** How accurate the present state is. O(N). */
+/** What is conserved, as it is now. O(N). */
 hd_examined hd_trajectory_examined(const hd_trajectory *trajectory);
 
 /** What time steps have done to the energy. */
 typedef struct hd_energy {
     double error; /**< relative error of the energy now; NaN for rows without `step` or
-                     `energy_error`, as those of hard particles */
+                     `examine`, as those of hard particles */
     double most;  /**< largest |error| since time 0, looked at after each hd_trajectory_extend; NaN
                      as `error` */
     double asked; /**< most that the scene asks for, hd_dynamics.energy_asked; NaN if it is left out

@@ -19,55 +19,50 @@ static void note(hd_trajectory *tr)
     if (tr->now) tr->of->state(tr->state, tr->now, tr->now + coordinates(tr));
 }
 
-static bool is_stepped(const hd_dynamics *of) { return of->step && of->energy_error; }
+static bool is_stepped(const hd_dynamics *of) { return of->step && of->examine; }
 
 /** Looks at what time steps have done to the energy. */
 static void look(hd_trajectory *tr)
 {
     if (!is_stepped(tr->of)) return;
-    tr->energy.error = tr->of->energy_error(tr->state);
+    tr->energy.error = hd_trajectory_examined(tr).energy_error;
     tr->energy.most = fmax(tr->energy.most, fabs(tr->energy.error));
 }
 
 double hd_trajectory_noted(const hd_scene_def *def)
 {
     const hd_dynamics *of = hd_dynamics_of(def);
-    return of->kinetic_energy && of->fingerprint ? 0.0 : 2.0 * of->coordinates * def->number;
+    return of->examine && of->fingerprint ? 0.0 : 2.0 * of->coordinates * def->number;
 }
 
-static hd_status create(hd_trajectory *tr, const hd_scene_def *def, const double *q,
-                        const double *p)
+hd_status hd_trajectory_create_with(hd_trajectory **out, const hd_scene_def *def, void *state)
 {
+    const hd_dynamics *of = hd_dynamics_of(def);
     const size_t noted = (size_t)hd_trajectory_noted(def);
-    if (noted > 0 && !(tr->now = hd_memory_alloc(noted, sizeof *tr->now))) return HD_NO_MEMORY;
-    HD_TRY(q ? tr->of->create_from(&tr->state, def, q, p) : tr->of->create(&tr->state, def));
-    note(tr);
-    return HD_OK;
-}
-
-hd_status hd_trajectory_create_from(hd_trajectory **out, const hd_scene_def *def, const double *q,
-                                    const double *p)
-{
     hd_trajectory *tr = hd_memory_alloc(1, sizeof *tr);
+    double *now = noted > 0 ? hd_memory_alloc(noted, sizeof *now) : NULL;
     *out = NULL;
-    if (!tr) return HD_NO_MEMORY;
-    *tr = (hd_trajectory){.of = hd_dynamics_of(def), .particles = def->number};
-    tr->rate = tr->of->rate(def);
-    tr->energy.error = tr->energy.most = is_stepped(tr->of) ? 0.0 : NAN;
-    tr->energy.asked = tr->of->energy_asked ? tr->of->energy_asked(def) : NAN;
-    const hd_status status = create(tr, def, q, p);
-    if (status == HD_OK) {
-        *out = tr;
-        return HD_OK;
+    if (!tr || (noted > 0 && !now)) {
+        of->free(state);
+        hd_memory_free(now);
+        hd_memory_free(tr);
+        return HD_NO_MEMORY;
     }
-    hd_memory_free(tr->now);
-    hd_memory_free(tr);
-    return status;
+    *tr = (hd_trajectory){.of = of, .state = state, .particles = def->number, .now = now};
+    tr->rate = of->rate(def);
+    tr->energy.error = tr->energy.most = is_stepped(of) ? 0.0 : NAN;
+    tr->energy.asked = of->energy_asked ? of->energy_asked(def) : NAN;
+    note(tr);
+    *out = tr;
+    return HD_OK;
 }
 
 hd_status hd_trajectory_create(hd_trajectory **out, const hd_scene_def *def)
 {
-    return hd_trajectory_create_from(out, def, NULL, NULL);
+    void *state;
+    *out = NULL;
+    HD_TRY(hd_dynamics_of(def)->create(&state, def));
+    return hd_trajectory_create_with(out, def, state);
 }
 
 void hd_trajectory_free(hd_trajectory *tr)
@@ -86,38 +81,16 @@ hd_status hd_trajectory_extend(hd_trajectory *tr, hd_record *record, double t_en
     return status;
 }
 
-hd_told hd_trajectory_told(const hd_trajectory *tr)
+hd_totals hd_trajectory_totals(const hd_trajectory *tr)
 {
-    hd_told told = {.collisions = 0};
-    if (tr->of->tell) tr->of->tell(tr->state, &told);
-    told.expected = tr->rate;
-    return told;
-}
-
-hd_summed hd_trajectory_summed(const hd_trajectory *tr)
-{
-    hd_summed summed = {.time = 0.0};
-    if (tr->of->sum) tr->of->sum(tr->state, &summed);
-    return summed;
+    hd_totals totals = {.collisions = 0};
+    if (tr->of->totals) tr->of->totals(tr->state, &totals);
+    totals.expected = tr->rate;
+    return totals;
 }
 
 double hd_trajectory_time(const hd_trajectory *tr) { return tr->of->time(tr->state); }
 int hd_trajectory_particles(const hd_trajectory *tr) { return tr->particles; }
-uint64_t hd_trajectory_collisions(const hd_trajectory *tr)
-{
-    return hd_trajectory_told(tr).collisions;
-}
-uint64_t hd_trajectory_wall_events(const hd_trajectory *tr)
-{
-    return hd_trajectory_told(tr).wall_events;
-}
-double hd_trajectory_collision_rate(const hd_trajectory *tr) { return tr->rate; }
-
-void hd_trajectory_virial(const hd_trajectory *tr, double *virial)
-{
-    const hd_told all = hd_trajectory_told(tr);
-    for (int d = 0; d < tr->of->dimension; d++) virial[d] = all.virial[d];
-}
 
 void hd_trajectory_state(const hd_trajectory *tr, double *q, double *p)
 {
@@ -140,23 +113,15 @@ void hd_trajectory_places(const hd_trajectory *tr, double *q, double *p)
     keep_places(tr, p);
 }
 
-double hd_trajectory_kinetic_energy(const hd_trajectory *tr)
-{
-    if (tr->of->kinetic_energy) return tr->of->kinetic_energy(tr->state);
-    const double *p = tr->now + coordinates(tr);
-    double sum = 0.0;
-    for (size_t k = 0; k < coordinates(tr); k++) sum += 0.5 * p[k] * p[k];
-    return sum;
-}
-
 hd_examined hd_trajectory_examined(const hd_trajectory *tr)
 {
-    hd_examined examined = {.overlap = 0.0};
-    if (!tr->of->examine) return examined;
-    tr->of->examine(tr->state, &examined);
-    examined.energy_error = tr->of->energy_error
-                                ? tr->of->energy_error(tr->state)
-                                : hd_trajectory_kinetic_energy(tr) / tr->particles - 1.0;
+    hd_examined examined = {.kinetic_energy = 0.0};
+    if (tr->of->examine) {
+        tr->of->examine(tr->state, &examined);
+        return examined;
+    }
+    const double *p = tr->now + coordinates(tr);
+    for (size_t k = 0; k < coordinates(tr); k++) examined.kinetic_energy += 0.5 * p[k] * p[k];
     return examined;
 }
 

@@ -25,12 +25,8 @@ enum {
     SERIES_MAX = VIRIAL_X + 2 * HD_DIMENSION_MAX
 };
 
-/** What a trajectory has counted or integrated so far. For particles that collide, of `summed` only
- * time and virial are set. */
-typedef struct counts {
-    uint64_t collisions;
-    hd_summed summed;
-} counts;
+/** Whether totals are integrals; else they are numbers of collisions, if there are any. */
+static bool integrates(const hd_dynamics *of) { return of->totals && !of->collides; }
 
 struct hd_gas {
     int dimension, series;
@@ -40,19 +36,10 @@ struct hd_gas {
     double momenta;                   /**< number of free momenta along all directions */
     double kinetic[HD_DIMENSION_MAX]; /**< twice the mean kinetic energy along each direction, of
                                          particles that collide */
-    counts last;                      /**< what had been counted when the last sample ended */
+    hd_totals last;                   /**< of when the last sample ended */
     double time, sum[SERIES_MAX];     /**< averaged time, and each series summed over it */
     hd_blocks blocks;
 };
-
-static counts counts_of(const hd_gas *gas, const hd_trajectory *trajectory)
-{
-    if (gas->is_summed) return (counts){.summed = hd_trajectory_summed(trajectory)};
-    counts now = {.collisions = hd_trajectory_collisions(trajectory),
-                  .summed.time = hd_trajectory_time(trajectory)};
-    hd_trajectory_virial(trajectory, now.summed.virial);
-    return now;
-}
 
 /** Number of free momenta along a direction: one of each particle, less the conserved sums. */
 static double momenta(const hd_scene_def *def, int d)
@@ -73,7 +60,7 @@ double hd_gas_area(const hd_scene_def *def) { return hd_container_of(def)->area(
 
 static int series_of(const hd_scene_def *def)
 {
-    return VIRIAL_X + hd_scene_dimension(def) * (hd_dynamics_of(def)->sum ? 2 : 1);
+    return VIRIAL_X + hd_scene_dimension(def) * (integrates(hd_dynamics_of(def)) ? 2 : 1);
 }
 
 hd_status hd_gas_create(hd_gas **out, const hd_scene_def *def, double block)
@@ -82,7 +69,7 @@ hd_status hd_gas_create(hd_gas **out, const hd_scene_def *def, double block)
     *out = NULL;
     if (!gas) return HD_NO_MEMORY;
     gas->dimension = hd_scene_dimension(def);
-    gas->is_summed = hd_dynamics_of(def)->sum;
+    gas->is_summed = integrates(hd_dynamics_of(def));
     gas->series = series_of(def);
     gas->particles = def->number;
     gas->area = hd_gas_area(def);
@@ -108,7 +95,7 @@ static int kinetic_x(const hd_gas *gas) { return VIRIAL_X + gas->dimension; }
 
 void hd_gas_begin(hd_gas *gas, const hd_trajectory *trajectory)
 {
-    gas->last = counts_of(gas, trajectory);
+    gas->last = hd_trajectory_totals(trajectory);
     gas->time = 0.0;
     for (int s = 0; s < gas->series; s++) gas->sum[s] = 0.0;
     hd_blocks_restart(&gas->blocks);
@@ -116,10 +103,9 @@ void hd_gas_begin(hd_gas *gas, const hd_trajectory *trajectory)
 
 void hd_gas_add(hd_gas *gas, const hd_trajectory *trajectory)
 {
-    const counts now = counts_of(gas, trajectory), last = gas->last;
-    const hd_summed *a = &last.summed, *b = &now.summed;
+    const hd_totals now = hd_trajectory_totals(trajectory), *a = &gas->last, *b = &now;
     const double dt = b->time - a->time;
-    double sample[SERIES_MAX] = {[COLLISIONS] = (double)(now.collisions - last.collisions)};
+    double sample[SERIES_MAX] = {[COLLISIONS] = (double)(b->collisions - a->collisions)};
     if (gas->is_summed) sample[POTENTIAL] = b->potential - a->potential;
     for (int d = 0; d < gas->dimension; d++) {
         sample[VIRIAL_X + d] = b->virial[d] - a->virial[d];
@@ -243,19 +229,19 @@ static void gas_add(void *self, const hd_observing *with, const hd_view *state)
 static void gas_archive(void *self, hd_archive *archive, const hd_trajectory *now)
 {
     hd_gas *gas = self;
-    hd_summed *last = &gas->last.summed;
+    hd_totals *last = &gas->last;
     hd_archive_double(archive, "gas last time", &last->time);
     hd_archive_doubles(archive, "gas last virial", last->virial, (size_t)gas->dimension);
     if (gas->is_summed) {
         hd_archive_doubles(archive, "gas last kinetic", last->kinetic, (size_t)gas->dimension);
         hd_archive_double(archive, "gas last potential", &last->potential);
     }
-    hd_archive_bits(archive, "gas last collisions", &gas->last.collisions);
+    hd_archive_bits(archive, "gas last collisions", &last->collisions);
     hd_archive_double(archive, "gas time", &gas->time);
     hd_archive_doubles(archive, "gas sum", gas->sum, (size_t)gas->series);
     hd_archive_expect(archive, last->time >= 0 && last->time <= hd_trajectory_time(now),
                       "gas last time", "it does not fit the time of the checkpoint");
-    hd_archive_expect(archive, gas->last.collisions <= hd_trajectory_collisions(now),
+    hd_archive_expect(archive, last->collisions <= hd_trajectory_totals(now).collisions,
                       "gas last collisions", "they are more than the trajectory has had");
     hd_archive_expect(archive, gas->time >= 0, "gas time", "it is negative");
     hd_blocks_archive(&gas->blocks, archive);
@@ -266,11 +252,11 @@ static void gas_archive(void *self, hd_archive *archive, const hd_trajectory *no
 static bool is_known(const hd_scene_def *def, bool of_sums, char why[HD_WHY])
 {
     const hd_dynamics *of = hd_dynamics_of(def);
-    if (!of->sum == of_sums)
+    if (integrates(of) != of_sums)
         snprintf(why, HD_WHY,
                  of_sums ? "all energy of %s is kinetic, and fixed" : "%s do not collide",
                  of->particles);
-    return !of->sum != of_sums;
+    return integrates(of) == of_sums;
 }
 
 static bool rate_possible(const hd_scene_def *def, const hd_aim *goal, char why[HD_WHY])
@@ -324,7 +310,7 @@ static const hd_quantities quantities = {"gas", each};
 static hd_status gas_check(const hd_scene_def *scene, char *message, size_t size)
 {
     const hd_dynamics *of = hd_dynamics_of(scene);
-    if (of->tell || of->sum) return HD_OK;
+    if (of->totals) return HD_OK;
     return hd_refuse(message, size,
                      "observables = gas: must not be given with particles = %s, whose pressure "
                      "cannot be measured",

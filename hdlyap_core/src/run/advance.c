@@ -41,8 +41,8 @@ double hd_advance_now(const hd_advance *advance) { return hd_trajectory_time(adv
 
 uint64_t hd_advance_events(const hd_advance *advance)
 {
-    return hd_trajectory_collisions(advance->trajectory) +
-           hd_trajectory_wall_events(advance->trajectory);
+    return hd_trajectory_totals(advance->trajectory).collisions +
+           hd_trajectory_totals(advance->trajectory).wall_events;
 }
 
 double hd_advance_shortest(const hd_advance *advance)

@@ -98,7 +98,7 @@ hd_cost hd_run_cost(const hd_run *run)
     hd_cost cost = run->cost;
     const hd_traffic traffic = hd_communicator_traffic(run->communicator);
     const double error = hd_carrier_smallest_error(&run->carrier);
-    const double collisions = (double)hd_trajectory_collisions(run->advance.trajectory);
+    const double collisions = (double)hd_trajectory_totals(run->advance.trajectory).collisions;
     cost.target = hd_target_standing(run, hd_agenda_target(&run->agenda));
     add_progress(&cost, run);
     add_trend(&cost, run);

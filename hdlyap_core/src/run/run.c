@@ -93,7 +93,8 @@ static hd_status prepare(hd_run *run)
     const hd_scene_def *scene = &run->scene;
     HD_TRY(hd_communicator_agree(run->communicator, hd_advance_create(&run->advance, scene)));
     HD_TRY(hd_communicator_agree(run->communicator, hd_cages_create(&run->cages, scene)));
-    const double rate = 2.0 * hd_trajectory_collision_rate(run->advance.trajectory) / scene->number;
+    const double rate = 2.0 * hd_trajectory_totals(run->advance.trajectory).expected /
+                        scene->number;
     run->cost.limit = HD_LIMIT_NONE;
     run->agenda = hd_agenda_of(scene, rate);
     HD_TRY(hd_carrier_create(&run->carrier, scene, 1.0 / rate, hd_agenda_block(&run->agenda),

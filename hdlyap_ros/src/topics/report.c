@@ -77,8 +77,8 @@ progress progress_of(const hd_run *run, double pace)
     return (progress){
         .stage = hd_run_stage(run),
         .time = hd_run_time(run),
-        .collides = hd_dynamics_of(hd_run_scene(run))->tell != NULL,
-        .collisions = hd_trajectory_told(hd_run_parts(run).trajectory).collisions,
+        .collides = hd_dynamics_of(hd_run_scene(run))->collides,
+        .collisions = hd_trajectory_totals(hd_run_parts(run).trajectory).collisions,
         .cost = cost,
         .averaged = spectrum ? hd_spectrum_time(spectrum) : 0.0,
         .resolved_steps = resolved_steps(run),

@@ -21,7 +21,7 @@ hd_status topic_publish_spectrum(const moment *now)
     hdr_spectrum message = {
         .sim_time = hd_run_time(run),
         .averaged_time = hd_spectrum_time(spectrum),
-        .collisions = hd_trajectory_told(hd_run_parts(run).trajectory).collisions,
+        .collisions = hd_trajectory_totals(hd_run_parts(run).trajectory).collisions,
         .lambda_max = hd_spectrum_exponent(spectrum, 0),
         .lambda_max_error = hd_spectrum_std_error(spectrum, 0),
         .ks_entropy = sums.ks_entropy,

@@ -8,7 +8,7 @@ hd_status topic_publish_state(const moment *now)
     if (!moment_state(now, &q, &p)) return HD_OK;
     hdr_state message = {
         .sim_time = hd_run_time(now->run),
-        .kinetic_energy = hd_trajectory_kinetic_energy(hd_run_parts(now->run).trajectory),
+        .kinetic_energy = hd_trajectory_examined(hd_run_parts(now->run).trajectory).kinetic_energy,
         STATE_FIELDS(now, q, p, particles),
     };
     return topic_send_state(now->out, &message);

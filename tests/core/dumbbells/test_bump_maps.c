@@ -1,4 +1,5 @@
 /** Tangent maps of dumbbells: against shadow trajectories, and exact invariants. */
+#include "create_from.h"
 #include "dumbbell.h"
 #include "base/random.h"
 #include "dynamics/dynamics.h"

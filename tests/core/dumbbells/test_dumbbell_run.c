@@ -1,4 +1,5 @@
 /** Runs of dumbbells: numbers of exponents, pairs, checkpoints, and what is refused. */
+#include "create_from.h"
 #include "dumbbell.h"
 #include "dynamics/dumbbells/bump.h"
 #include "dynamics/dumbbells/start.h"
@@ -158,9 +159,9 @@ TEST(the_pressure_is_that_of_the_walls)
     MADE(hd_trajectory, tr, &def);
     OWNED(hd_record) *log = new_dumbbell_log(&def);
     CHECK_OK(hd_trajectory_extend(tr, NULL, 50.0));
-    const hd_told before = hd_trajectory_told(tr);
+    const hd_totals before = hd_trajectory_totals(tr);
     CHECK_OK(hd_trajectory_extend(tr, log, 50.0 + time));
-    const hd_told after = hd_trajectory_told(tr);
+    const hd_totals after = hd_trajectory_totals(tr);
     hd_scene_box(&def, box);
     for (size_t k = 0; k < hd_record_count(log); k++) {
         const hd_bump *b = hd_record_entry(log, k);
@@ -194,9 +195,10 @@ TEST(collisions_are_as_many_as_expected)
                              time = 5000 / expected;
                 MADE(hd_trajectory, tr, &def);
                 CHECK_OK(hd_trajectory_extend(tr, NULL, wait));
-                const double before = (double)hd_trajectory_told(tr).collisions;
+                const double before = (double)hd_trajectory_totals(tr).collisions;
                 CHECK_OK(hd_trajectory_extend(tr, NULL, wait + time));
-                CHECK_CLOSE(((double)hd_trajectory_told(tr).collisions - before) / time / expected,
+                CHECK_CLOSE(((double)hd_trajectory_totals(tr).collisions - before) / time /
+                                expected,
                             1.0, 0.2);
             }
 }

@@ -1,5 +1,6 @@
 /** Events of dumbbells against a slow twin, which looks at all gaps at close times, and finds where
  * one closes, or was least, between two of them. */
+#include "create_from.h"
 #include "dumbbell.h"
 #include "dynamics/dumbbells/bump.h"
 #include "dynamics/dumbbells/start.h"
@@ -123,11 +124,11 @@ static void slice_agrees(seen *all, hd_trajectory *tr, hd_record *log, const hd_
 /** From here on, for so many slices; energy and momentum stay. */
 static void agrees(seen *all, hd_trajectory *tr, const hd_scene_def *def, int slices, double slice)
 {
-    const double energy = hd_trajectory_kinetic_energy(tr);
+    const double energy = hd_trajectory_examined(tr).kinetic_energy;
     OWNED(hd_record) *log = new_dumbbell_log(def);
     for (int k = 0; k < slices; k++) slice_agrees(all, tr, log, def, slice);
     const hd_examined now = hd_trajectory_examined(tr);
-    CHECK_CLOSE(hd_trajectory_kinetic_energy(tr), energy, energy * now.energy_rounding);
+    CHECK_CLOSE(hd_trajectory_examined(tr).kinetic_energy, energy, energy * now.energy_rounding);
     for (int d = 0; d < 2; d++)
         if (def->boundary[d] == HD_PERIODIC)
             CHECK_CLOSE(now.momentum[d], 0.0, 1e-12 * def->number * sqrt(energy));

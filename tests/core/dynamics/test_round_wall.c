@@ -116,7 +116,7 @@ static void check_twin(int disks, double density)
     CHECK_OK(hd_trajectory_extend(tr, NULL, 30.0));
     hd_trajectory_state(tr, s.q, s.p);
     for (int k = 0; k < 2 * disks; k++) s.q[k] -= s.reach + 0.5;
-    CHECK_OK(trajectory_to(tr, log, 30.0 + EVENTS / hd_trajectory_collision_rate(tr)));
+    CHECK_OK(trajectory_to(tr, log, 30.0 + EVENTS / hd_trajectory_totals(tr).expected));
     double t = 0.0;
     for (size_t k = 0; k < log->count && k < EVENTS; k++) {
         const hd_event *event = &events_in(log)[k];
@@ -156,7 +156,7 @@ TEST(what_is_conserved)
         for (int look = 1; look <= 50; look++) {
             CHECK_OK(hd_trajectory_extend(tr, NULL, look * 40.0));
             hd_trajectory_state(tr, q, NULL);
-            CHECK_CLOSE(hd_trajectory_kinetic_energy(tr), n,
+            CHECK_CLOSE(hd_trajectory_examined(tr).kinetic_energy, n,
                         n * hd_trajectory_examined(tr).energy_rounding);
             CHECK_CLOSE(hd_trajectory_examined(tr).angular_momentum, 0.0,
                         n * reach * hd_trajectory_examined(tr).energy_rounding);
@@ -181,8 +181,8 @@ TEST(pressure_at_the_wall_is_that_of_the_virial)
         OWNED(hd_record) *log = new_log();
         OWNED(hd_trajectory) *tr = trajectory_of(def);
         CHECK_OK(hd_trajectory_extend(tr, NULL, 50.0));
-        double before[2], after[2], pushed = 0.0, virial = 0.0;
-        hd_trajectory_virial(tr, before);
+        double pushed = 0.0, virial = 0.0;
+        const hd_totals before = hd_trajectory_totals(tr);
         for (int piece = 1; piece <= 100; piece++) {
             CHECK_OK(trajectory_to(tr, log, 50.0 + piece * length / 100));
             for (size_t e = 0; e < log->count; e++) {
@@ -191,8 +191,8 @@ TEST(pressure_at_the_wall_is_that_of_the_virial)
                 pushed += 2.0 * (event->p[0] * event->n[0] + event->p[1] * event->n[1]) / reach;
             }
         }
-        hd_trajectory_virial(tr, after);
-        for (int d = 0; d < 2; d++) virial += after[d] - before[d];
+        const hd_totals after = hd_trajectory_totals(tr);
+        for (int d = 0; d < 2; d++) virial += after.virial[d] - before.virial[d];
         /* 2 K + sum of r.F over pairs and wall is 0 on average, exactly */
         const double p = pushed / (2.0 * PI * reach * length);
         const double by_virial = (2.0 * def.number + virial / length) / (2.0 * PI * reach * reach);
@@ -210,6 +210,6 @@ TEST(events_do_not_depend_on_the_cuts)
     for (int k = 1; k <= 500; k++) CHECK_OK(hd_trajectory_extend(cut, NULL, 0.1 * k));
     hd_trajectory_state(whole, one[0], one[1]);
     hd_trajectory_state(cut, other[0], other[1]);
-    assert_int_equal(hd_trajectory_collisions(whole), hd_trajectory_collisions(cut));
+    assert_int_equal(hd_trajectory_totals(whole).collisions, hd_trajectory_totals(cut).collisions);
     assert_memory_equal(one[1], other[1], sizeof one[1]);
 }

@@ -39,7 +39,7 @@ static whole whole_run(int scene, double events)
 {
     whole w = {.def = scene_number(scene), .log = new_log()};
     OWNED(hd_trajectory) *tr = trajectory_of(w.def);
-    w.t_end = events / hd_trajectory_collision_rate(tr);
+    w.t_end = events / hd_trajectory_totals(tr).expected;
     CHECK_OK(trajectory_to(tr, w.log, w.t_end));
     assert_true(w.log->count > 100);
     w.state = state_of(tr);
@@ -166,7 +166,8 @@ TEST(log_may_be_left_out)
         CHECK_OK(hd_trajectory_extend(tr, NULL, w.t_end));
         HEAP double *end = state_of(tr);
         assert_memory_equal(end, w.state, 4 * (size_t)w.def.number * sizeof *end);
-        assert_true(hd_trajectory_collisions(tr) + hd_trajectory_wall_events(tr) == w.log->count);
+        assert_true(hd_trajectory_totals(tr).collisions + hd_trajectory_totals(tr).wall_events ==
+                    w.log->count);
     }
 }
 
@@ -201,9 +202,10 @@ TEST(starts_at_rest_of_the_centre)
         for (int i = 0; i < 2 * def.number; i++) sum[i % 2] += p[i];
         for (int d = 0; d < 2; d++)
             if (def.boundary[d] == P) CHECK_CLOSE(sum[d], 0.0, rounding);
-        CHECK_CLOSE(hd_trajectory_kinetic_energy(tr), def.number, rounding);
+        CHECK_CLOSE(hd_trajectory_examined(tr).kinetic_energy, def.number, rounding);
         assert_true(hd_trajectory_time(tr) == 0 && hd_trajectory_particles(tr) == def.number);
-        assert_true(hd_trajectory_collisions(tr) == 0 && hd_trajectory_wall_events(tr) == 0);
+        assert_true(hd_trajectory_totals(tr).collisions == 0 &&
+                    hd_trajectory_totals(tr).wall_events == 0);
         free(q);
     }
 }
@@ -333,7 +335,7 @@ TEST(warm_log_allocates_nothing)
     for (int k = 0; k < SCENES; k++) {
         OWNED(hd_trajectory) *tr = trajectory_of(scene_number(k));
         OWNED(hd_record) *log = new_log();
-        const double piece = 1000.0 / hd_trajectory_collision_rate(tr);
+        const double piece = 1000.0 / hd_trajectory_totals(tr).expected;
         double t = 4.0 * piece;
         CHECK_OK(trajectory_to(tr, log, t)); /* grows to more than it will need */
         const size_t allocations = hd_memory_allocations();
@@ -346,8 +348,8 @@ TEST(a_million_disks)
 {
     OWNED(hd_trajectory) *tr = trajectory_of(scene_of(1000000, 0.7, 0.8, P, R, 1));
     OWNED(hd_record) *log = new_log();
-    const double t = 5e5 / hd_trajectory_collision_rate(tr);
+    const double t = 5e5 / hd_trajectory_totals(tr).expected;
     CHECK_OK(trajectory_to(tr, log, t));
     assert_true(hd_trajectory_examined(tr).overlap < 1e-9);
-    assert_true(hd_trajectory_collisions(tr) > 50000);
+    assert_true(hd_trajectory_totals(tr).collisions > 50000);
 }

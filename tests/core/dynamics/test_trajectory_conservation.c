@@ -1,4 +1,5 @@
 /** Trajectory over long times: energy, momentum, no overlap, nobody outside the walls. */
+#include "create_from.h"
 #include "bodies.h"
 #include "testing.h"
 
@@ -52,16 +53,17 @@ static void check_run(const hd_scene_def *def, double collisions)
     assert_non_null(work);
     MADE(hd_trajectory, tr, def);
     box_around(tr, box);
-    const double energy = hd_trajectory_kinetic_energy(tr);
+    const double energy = hd_trajectory_examined(tr).kinetic_energy;
     const double summed = DBL_EPSILON *
                           pow(def->number, 1.5); /* of N partial sums, N / 2 in the mean */
     CHECK_CLOSE(energy, def->number, ENERGY_DRIFT * def->number);
     double t = 0;
-    while (t == 0 || (double)hd_trajectory_collisions(tr) < collisions) {
-        t += collisions / SAMPLES / hd_trajectory_collision_rate(tr);
+    while (t == 0 || (double)hd_trajectory_totals(tr).collisions < collisions) {
+        t += collisions / SAMPLES / hd_trajectory_totals(tr).expected;
         CHECK_OK(hd_trajectory_extend(tr, NULL, t));
-        const double walked = Z * sqrt((double)hd_trajectory_collisions(tr) + def->number);
-        CHECK_CLOSE(hd_trajectory_kinetic_energy(tr), energy, summed + ENERGY_STEP * walked);
+        const double walked = Z * sqrt((double)hd_trajectory_totals(tr).collisions + def->number);
+        CHECK_CLOSE(hd_trajectory_examined(tr).kinetic_energy, energy,
+                    summed + ENERGY_STEP * walked);
         CHECK_CLOSE(hd_trajectory_examined(tr).overlap, 0.0, overlap_rounding(box));
         assert_true(overlap_rounding(box) < hd_trajectory_examined(tr).overlap_rounding);
         check_inside(tr, def, work);
@@ -131,13 +133,15 @@ TEST(the_longest_boxes)
         CHECK_CLOSE(box[0], cases[k].length, 1e-9 * cases[k].length);
         for (int look = 1; look <= LOOKS; look++) {
             const double collisions = cases[k].collisions * look / LOOKS;
-            CHECK_OK(hd_trajectory_extend(tr, NULL, collisions / hd_trajectory_collision_rate(tr)));
+            CHECK_OK(
+                hd_trajectory_extend(tr, NULL, collisions / hd_trajectory_totals(tr).expected));
             deepest = fmax(deepest, hd_trajectory_examined(tr).overlap);
         }
         CHECK_CLOSE(deepest, 0.0, overlap_rounding(box));
         CHECK_CLOSE(hd_trajectory_examined(tr).overlap_max,
                     hd_trajectory_examined(tr).overlap_rounding, 0.0);
-        CHECK_CLOSE(hd_trajectory_kinetic_energy(tr), def.number, ENERGY_DRIFT * def.number);
+        CHECK_CLOSE(hd_trajectory_examined(tr).kinetic_energy, def.number,
+                    ENERGY_DRIFT * def.number);
     }
 }
 

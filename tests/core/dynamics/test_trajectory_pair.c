@@ -202,7 +202,7 @@ TEST(no_image_through_a_wall)
         p[d] = -1.0, p[DIM + d] = 1.0;
         OWNED(hd_trajectory) *tr = started(&def, q, p);
         CHECK_OK(hd_trajectory_extend(tr, NULL, 1.0));
-        assert_true(hd_trajectory_collisions(tr) == 0);
-        assert_true(hd_trajectory_wall_events(tr) == 2);
+        assert_true(hd_trajectory_totals(tr).collisions == 0);
+        assert_true(hd_trajectory_totals(tr).wall_events == 2);
     }
 }

@@ -26,7 +26,7 @@ static hd_trajectory *equilibrated(const hd_scene_def *def)
 {
     hd_trajectory *tr;
     CHECK_OK(hd_trajectory_create(&tr, def));
-    const double per_disk = 2.0 * hd_trajectory_collision_rate(tr) / def->number;
+    const double per_disk = 2.0 * hd_trajectory_totals(tr).expected / def->number;
     CHECK_OK(hd_trajectory_extend(tr, NULL, EQUILIBRATION / per_disk));
     return tr;
 }
@@ -35,12 +35,12 @@ static hd_trajectory *equilibrated(const hd_scene_def *def)
 static estimate rate_per_disk(const hd_scene_def *def, double pair_events)
 {
     OWNED(hd_trajectory) *tr = equilibrated(def);
-    const double piece = pair_events / BLOCKS / hd_trajectory_collision_rate(tr);
+    const double piece = pair_events / BLOCKS / hd_trajectory_totals(tr).expected;
     double block[BLOCKS];
     for (int k = 0; k < BLOCKS; k++) {
-        const uint64_t before = hd_trajectory_collisions(tr);
+        const uint64_t before = hd_trajectory_totals(tr).collisions;
         CHECK_OK(hd_trajectory_extend(tr, NULL, hd_trajectory_time(tr) + piece));
-        const double events = (double)(hd_trajectory_collisions(tr) - before);
+        const double events = (double)(hd_trajectory_totals(tr).collisions - before);
         block[k] = 2.0 * events / (def->number * piece);
     }
     return estimate_of(block);
@@ -59,7 +59,7 @@ TEST(enskog_with_henderson)
         const double enskog = 2.0 * sqrt(PI) * density[k] * contact;
         const estimate rate = rate_per_disk(&def, 5e5);
         MADE(hd_trajectory, tr, &def);
-        CHECK_CLOSE(hd_trajectory_collision_rate(tr), 200.0 * rate.mean, 0.01 * 200.0 * rate.mean);
+        CHECK_CLOSE(hd_trajectory_totals(tr).expected, 200.0 * rate.mean, 0.01 * 200.0 * rate.mean);
         assert_true(Z * rate.error < 0.5 * allowed * enskog); /* else the test says nothing */
         CHECK_CLOSE(rate.mean, enskog, allowed * enskog);
         const double path = sqrt(PI / 2.0) / rate.mean; /* mean speed over collisions */
@@ -97,7 +97,7 @@ static double exact_mean_impact(int disks)
 static estimate mean_impact(const hd_scene_def *def, double pair_events)
 {
     OWNED(hd_trajectory) *tr = equilibrated(def);
-    const double piece = pair_events / BLOCKS / hd_trajectory_collision_rate(tr);
+    const double piece = pair_events / BLOCKS / hd_trajectory_totals(tr).expected;
     double block[BLOCKS];
     OWNED(hd_record) *log = new_log();
     for (int k = 0; k < BLOCKS; k++) {

@@ -16,7 +16,7 @@ static hd_trajectory *equilibrated(const hd_scene_def *def, double collisions)
 {
     hd_trajectory *tr;
     CHECK_OK(hd_trajectory_create(&tr, def));
-    const double rate = 2.0 * hd_trajectory_collision_rate(tr) / def->number;
+    const double rate = 2.0 * hd_trajectory_totals(tr).expected / def->number;
     CHECK_OK(hd_trajectory_extend(tr, NULL, collisions / rate));
     return tr;
 }
@@ -25,7 +25,7 @@ static hd_trajectory *equilibrated(const hd_scene_def *def, double collisions)
 static hd_gas_means averaged(const hd_scene_def *def, int samples, double each)
 {
     OWNED(hd_trajectory) *tr = equilibrated(def, 200.0);
-    const double dt = each * def->number / (2.0 * hd_trajectory_collision_rate(tr));
+    const double dt = each * def->number / (2.0 * hd_trajectory_totals(tr).expected);
     MADE(hd_gas, gas, def, 0.0);
     hd_gas_begin(gas, tr);
     for (int k = 0; k < samples; k++) {
@@ -97,7 +97,7 @@ static void check_examined(const hd_trajectory *tr, const hd_scene_def *def)
     }
     if (def->boundary[0] != P && def->boundary[1] != P)
         CHECK_CLOSE(now.angular_momentum, angular, 64 * DBL_EPSILON * n * (box[0] + box[1]));
-    CHECK_CLOSE(hd_trajectory_kinetic_energy(tr), n, n * now.energy_rounding);
+    CHECK_CLOSE(hd_trajectory_examined(tr).kinetic_energy, n, n * now.energy_rounding);
 }
 
 static void follow(sums *s, hd_trajectory *tr, double t)

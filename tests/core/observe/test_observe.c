@@ -105,8 +105,8 @@ static void check_looking(hd_scene_def scene, unsigned observe, double bounds)
     assert_null(hd_run_steps(blind));
     assert_null(hd_run_phases(blind));
     assert_null(hd_run_t_phases(blind));
-    assert_true(hd_trajectory_collisions(hd_run_trajectory(looked)) ==
-                hd_trajectory_collisions(hd_run_trajectory(blind)));
+    assert_true(hd_trajectory_totals(hd_run_trajectory(looked)).collisions ==
+                hd_trajectory_totals(hd_run_trajectory(blind)).collisions);
     const double tolerance = bounds *
                              (hd_run_cost(looked).error_bound + hd_run_cost(blind).error_bound);
     check_same_exponents(looked, blind, tolerance);

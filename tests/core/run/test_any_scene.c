@@ -214,7 +214,8 @@ static bool same_in_short_room(const hd_scene_def *def, const char *line, size_t
 static double events_of(const hd_run *run)
 {
     const hd_trajectory *trajectory = hd_run_trajectory(run);
-    return (double)(hd_trajectory_collisions(trajectory) + hd_trajectory_wall_events(trajectory));
+    return (double)(hd_trajectory_totals(trajectory).collisions +
+                    hd_trajectory_totals(trajectory).wall_events);
 }
 
 /** NULL if all went well, otherwise what did not. */
@@ -249,7 +250,7 @@ static const char *state_fault(const hd_run *run)
 {
     const hd_trajectory *trajectory = hd_run_trajectory(run);
     const double disks = hd_run_scene(run)->number;
-    if (!(fabs(hd_trajectory_kinetic_energy(trajectory) - disks) <= ENERGY_ERROR * disks))
+    if (!(fabs(hd_trajectory_examined(trajectory).kinetic_energy - disks) <= ENERGY_ERROR * disks))
         return "the energy is not conserved";
     if (!(hd_trajectory_examined(trajectory).overlap <= OVERLAP_MAX)) return "disks overlap";
     return spectrum_fault(run);
@@ -331,9 +332,9 @@ static const char *events_fault(hd_random *random, const hd_scene_def *def, tall
     OWNED(hd_trajectory) *fast = chance(random, 0.3) ? with_odd_momenta(random, def)
                                                      : trajectory_of(*def);
     if (images_of(def, fast) > IMAGES_TWIN) return NULL;
-    const double energy = hd_trajectory_kinetic_energy(fast);
+    const double energy = hd_trajectory_examined(fast).kinetic_energy;
     seen->events += twin_follow(fast, def, EVENTS_TWIN, PIECES_TWIN);
-    if (!(fabs(hd_trajectory_kinetic_energy(fast) - energy) <= ENERGY_ERROR * energy))
+    if (!(fabs(hd_trajectory_examined(fast).kinetic_energy - energy) <= ENERGY_ERROR * energy))
         return "the energy is not conserved";
     return late_fault(def);
 }

@@ -1,4 +1,5 @@
 /** Whether disks have left their places: by hand, and in fluids, crystals and channels [T8]. */
+#include "create_from.h"
 #include "kept.h"
 #include "run/cages.h"
 #include "runs.h"

@@ -169,8 +169,8 @@ TEST(a_finished_run_can_be_made_longer)
     CHECK_CLOSE(hd_run_time(resumed), hd_run_time(once), 0.0);
     for (int col = 0; col < hd_run_vectors(resumed); col++)
         CHECK_CLOSE(hd_spectrum_exponent(a, col), hd_spectrum_exponent(b, col), def.accuracy);
-    assert_int_equal(hd_trajectory_collisions(hd_run_trajectory(resumed)),
-                     hd_trajectory_collisions(hd_run_trajectory(once)));
+    assert_int_equal(hd_trajectory_totals(hd_run_trajectory(resumed)).collisions,
+                     hd_trajectory_totals(hd_run_trajectory(once)).collisions);
 }
 
 /** At every moment of the averaging: what has been averaged, and hardly more, is a duration; what

@@ -142,7 +142,8 @@ TEST(intervals_grow_again_after_grazing_collisions)
                                         .accuracy = 1e-12);
         OWNED(hd_run) *run = created(scene);
         CHECK_OK(finish_forced(run, 0.0));
-        const double per_disk = 2.0 * (double)hd_trajectory_collisions(run->advance.trajectory) /
+        const double per_disk = 2.0 *
+                                (double)hd_trajectory_totals(run->advance.trajectory).collisions /
                                 scene.number * 100.0 / 110.0;
         const double between = per_disk / (double)run->cost.orthonormalisations;
         assert_true(between > 0.25);

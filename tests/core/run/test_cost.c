@@ -78,7 +78,7 @@ TEST(each_stage_has_its_own_seconds)
     CHECK_CLOSE(cost.spectrum, intervals, 0.0);
     CHECK_CLOSE(cost.modes + cost.following + cost.communication, 0.0, 0.0);
     CHECK_CLOSE(cost.events_per_second * cost.events,
-                (double)hd_trajectory_collisions(hd_run_trajectory(run)), 1e-6);
+                (double)hd_trajectory_totals(hd_run_trajectory(run)).collisions, 1e-6);
 }
 
 static bool errors_stall;

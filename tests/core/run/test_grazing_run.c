@@ -83,7 +83,7 @@ static void check_many(hd_boundary boundary)
     hd_scene_def scene = averaged_at_once(boundary, 100.0);
     hd_trajectory *tr;
     CHECK_OK(hd_trajectory_create(&tr, &scene));
-    scene.duration = ceil(events / hd_trajectory_collision_rate(tr));
+    scene.duration = ceil(events / hd_trajectory_totals(tr).expected);
     OWNED(hd_run) *run = created(scene);
     const reference r = reference_of(tr, run->carrier.frame, scene.duration);
     assert_true((double)r.near > 0.3 * NEAR * NEAR * events);

@@ -248,11 +248,10 @@ static hd_dynamics disks_of_ones_own(void)
     own.entries = entries_of_disks;
     own.rate = rate_of_disks;
     own.check = NULL;
-    own.create_from = NULL;
     own.fluid = NULL;
-    own.tell = NULL;
+    own.totals = NULL;
+    own.collides = false;
     own.examine = NULL;
-    own.kinetic_energy = NULL;
     own.fingerprint = NULL;
     own.bytes = NULL;
     own.record_bytes = NULL;
@@ -272,7 +271,7 @@ TEST(a_row_with_a_box_has_modes)
     check_same_exponents(run, same, hd_run_cost(run).error_bound + hd_run_cost(same).error_bound);
     assert_int_equal(hd_steps_count(hd_run_steps(run)), hd_steps_count(hd_run_steps(same)));
     assert_true(hd_steps_count(hd_run_steps(run)) > 0);
-    CHECK_CLOSE(hd_trajectory_kinetic_energy(hd_run_trajectory(run)), 30.0, 1e-9);
+    CHECK_CLOSE(hd_trajectory_examined(hd_run_trajectory(run)).kinetic_energy, 30.0, 1e-9);
     assert_false(hd_run_is_caged(run));
 }
 

@@ -198,8 +198,8 @@ static void expect_same_step(const twins *t)
     assert_int_equal(hd_run_stage(a), hd_run_stage(b));
     assert_int_equal(hd_run_report_due(a), hd_run_report_due(b));
     assert_int_equal(hd_run_fields_due(a), hd_run_fields_due(b));
-    assert_int_equal(hd_trajectory_collisions(hd_run_trajectory(a)),
-                     hd_trajectory_collisions(hd_run_trajectory(b)));
+    assert_int_equal(hd_trajectory_totals(hd_run_trajectory(a)).collisions,
+                     hd_trajectory_totals(hd_run_trajectory(b)).collisions);
 }
 
 /** A run has ended at its end, or where its target was reached. */
@@ -215,7 +215,8 @@ static bool is_under_way(const twins *t)
 {
     const hd_trajectory *disks = hd_run_trajectory(t->alone);
     return hd_run_stage(t->alone) != HD_FINISHED &&
-           hd_trajectory_collisions(disks) + hd_trajectory_wall_events(disks) < EVENTS;
+           hd_trajectory_totals(disks).collisions + hd_trajectory_totals(disks).wall_events <
+               EVENTS;
 }
 
 static void go_on(twins *t, hd_random *random)

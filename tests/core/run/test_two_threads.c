@@ -38,8 +38,8 @@ TEST(two_threads_give_what_one_gives)
         CHECK_CLOSE(theta[1][col], theta[0][col], SAME);
         CHECK_CLOSE(ratio[1][col], ratio[0][col], SAME * ratio[0][col]);
     }
-    assert_int_equal(hd_trajectory_collisions(hd_run_trajectory(run[0])),
-                     hd_trajectory_collisions(hd_run_trajectory(run[1])));
+    assert_int_equal(hd_trajectory_totals(hd_run_trajectory(run[0])).collisions,
+                     hd_trajectory_totals(hd_run_trajectory(run[1])).collisions);
     for (int k = 0; k < 2; k++) hd_run_free(run[k]);
 }
 

@@ -100,7 +100,7 @@ static void check_start(int disks)
     }
     assert_true(farthest <= r - 0.5);
     assert_true(least >= 1.0);
-    CHECK_CLOSE(hd_trajectory_kinetic_energy(tr), disks, 1e-13 * disks);
+    CHECK_CLOSE(hd_trajectory_examined(tr).kinetic_energy, disks, 1e-13 * disks);
     CHECK_CLOSE(hd_trajectory_examined(tr).angular_momentum, 0.0, 1e-13 * disks * r);
     def.density = densest * (1.0 + 2e-5);
     if (def.density < 1.1547) check_refused(def, "density = ");

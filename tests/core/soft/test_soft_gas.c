@@ -113,7 +113,7 @@ TEST(sums_are_taken_where_they_are_asked_for)
     CHECK_OK(hd_trajectory_extend(plain, NULL, 4.0));
     CHECK_OK(hd_trajectory_extend(asked, NULL, 4.0));
     assert_true(hd_trajectory_fingerprint(plain) == hd_trajectory_fingerprint(asked));
-    const hd_summed none = hd_trajectory_summed(plain), some = hd_trajectory_summed(asked);
+    const hd_totals none = hd_trajectory_totals(plain), some = hd_trajectory_totals(asked);
     CHECK_CLOSE(none.time + none.kinetic[0] + none.virial[1] + none.potential, 0.0, 0.0);
     CHECK_WITHIN(some.time, 3.99, 4.0);
     CHECK_WITHIN(some.kinetic[0], 1.0, 100.0);

@@ -10,7 +10,8 @@ static hd_trajectory *equilibrated(const hd_scene_def *def)
 {
     hd_trajectory *tr;
     CHECK_OK(hd_trajectory_create(&tr, def));
-    CHECK_OK(hd_trajectory_extend(tr, NULL, 50.0 * def->number / hd_trajectory_collision_rate(tr)));
+    CHECK_OK(
+        hd_trajectory_extend(tr, NULL, 50.0 * def->number / hd_trajectory_totals(tr).expected));
     return tr;
 }
 
@@ -18,7 +19,7 @@ static hd_trajectory *equilibrated(const hd_scene_def *def)
 static hd_gas_means averaged(const hd_scene_def *def, int samples, double each)
 {
     OWNED(hd_trajectory) *tr = equilibrated(def);
-    const double dt = 0.5 * each * def->number / hd_trajectory_collision_rate(tr);
+    const double dt = 0.5 * each * def->number / hd_trajectory_totals(tr).expected;
     MADE(hd_gas, gas, def, 0.0);
     hd_gas_begin(gas, tr);
     for (int k = 0; k < samples; k++) {
@@ -48,7 +49,7 @@ TEST(carnahan_and_starling)
             CHECK_CLOSE(m.pressure_of[d], m.pressure,
                         Z * hypot(m.pressure_of_error[d], m.pressure_error));
         MADE(hd_trajectory, tr, &def);
-        CHECK_CLOSE(hd_trajectory_collision_rate(tr), 250.0 * rate, 0.01 * 250.0 * rate);
+        CHECK_CLOSE(hd_trajectory_totals(tr).expected, 250.0 * rate, 0.01 * 250.0 * rate);
         /* mean speed sqrt(8 kT / pi), of collisions */
         CHECK_CLOSE(hd_scene_mean_free_path(&def), sqrt(8.0 * kt / PI) / rate,
                     0.002 * hd_scene_mean_free_path(&def));

@@ -1,5 +1,6 @@
 /** What spheres are refused: by name, value, and what is allowed. */
 #include "scene/container.h"
+#include "create_from.h"
 #include "testing.h"
 
 static void check_line(hd_scene_def def, const char *want)

@@ -114,7 +114,7 @@ uint64_t golden_hash(int scene)
     uint64_t hash = 0;
     if (hd_record_create(&log, hd_dynamics_of(&g.def)->entry) == HD_OK &&
         hd_trajectory_create(&tr, &g.def) == HD_OK) {
-        const double t_end = g.pair_events / hd_trajectory_collision_rate(tr);
+        const double t_end = g.pair_events / hd_trajectory_totals(tr).expected;
         if (trajectory_to(tr, log, t_end) == HD_OK && log->count > 1000)
             hash = log->size == sizeof(hd_event) ? hash_log(log) : hash_entries(log);
     }

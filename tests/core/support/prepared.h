@@ -2,7 +2,9 @@
 #ifndef HD_PREPARED_H
 #define HD_PREPARED_H
 
+#include "create_from.h"
 #include "bodies.h"
+#include "create_from.h"
 #include "testing.h"
 #include "interval.h"
 
@@ -38,7 +40,8 @@ static inline long void_contacts(const hd_trajectory *tr)
     uint64_t sum = 0;
     for (int32_t i = 0; i < hard_in(tr)->motion.count; i++)
         sum += hard_in(tr)->motion.disk[i].collisions;
-    return (long)((sum - hd_trajectory_wall_events(tr)) / 2 - hd_trajectory_collisions(tr));
+    return (long)((sum - hd_trajectory_totals(tr).wall_events) / 2 -
+                  hd_trajectory_totals(tr).collisions);
 }
 
 /** When the next event is due, pair or not; disks that meet then touch. */

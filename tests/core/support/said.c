@@ -304,18 +304,15 @@ static void say_trajectory(said *s, const hd_run *run)
     const size_t size = (size_t)(hd_scene_coordinates(hd_run_scene(run)) *
                                  hd_run_scene(run)->number);
     HEAP double *q = calloc(2 * size, sizeof *q);
-    const hd_told told = hd_trajectory_told(of);
-    const hd_summed summed = hd_trajectory_summed(of);
+    const hd_totals totals = hd_trajectory_totals(of);
     const hd_examined examined = hd_trajectory_examined(of);
     hd_trajectory_state(of, q, q + size);
     say_all(s, "q p", q, 2 * size);
     say(s, "time", hd_trajectory_time(of));
-    say(s, "collisions", (double)told.collisions);
-    say(s, "wall_events", (double)told.wall_events);
-    say_all(s, "virial", told.virial, HD_DIMENSION_MAX);
-    say(s, "expected", told.expected);
-    say(s, "kinetic energy", hd_trajectory_kinetic_energy(of));
-    say_all(s, "summed", (const double *)&summed, sizeof summed / sizeof(double));
+    say(s, "collisions", (double)totals.collisions);
+    say(s, "wall_events", (double)totals.wall_events);
+    say_all(s, "totals", &totals.expected,
+            (sizeof totals - offsetof(hd_totals, expected)) / sizeof(double));
     say_all(s, "examined", (const double *)&examined, sizeof examined / sizeof(double));
 }
 

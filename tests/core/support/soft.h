@@ -6,6 +6,7 @@
 #include "base/random.h"
 #include "dynamics/soft/kick.h"
 #include "dynamics/soft/soft_state.h"
+#include "create_from.h"
 #include "testing.h"
 
 enum { SOFT_MAX = 64, SOFT_ROWS_MAX = 6 * SOFT_MAX };

@@ -48,7 +48,7 @@ size_t twin_follow(hd_trajectory *fast, const hd_scene_def *def, size_t events, 
     OWNED(hd_record) *log = new_log();
     /* between close walls or near closest packing events may be 1e9 times denser than the estimate
      * of the collision rate: the pieces grow from far below it */
-    double unit = 1e-9 / hd_trajectory_collision_rate(fast), t = 0;
+    double unit = 1e-9 / hd_trajectory_totals(fast).expected, t = 0;
     size_t count = 0;
     for (int k = 0; count < events && k < pieces; k++) {
         const double t_end = t + unit * PIECES[k % PIECE_KINDS];

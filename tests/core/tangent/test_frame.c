@@ -72,7 +72,7 @@ static void check_shadow(hd_scene_def def)
     for (int row = 0; row < ROWS_OF_ONE * def.number; row++)
         *frame_entry(frame, row, 0) = v[row] = cos(1 + 7 * row);
     MADE(hd_trajectory, tr, &def);
-    const double time = 1.6 * def.number / hd_trajectory_collision_rate(tr);
+    const double time = 1.6 * def.number / hd_trajectory_totals(tr).expected;
     OWNED(hd_record) *log = log_of(&def, s.q, s.p, time);
     assert_true(log->count >= (size_t)def.number / 2);
     CHECK_OK(hd_frame_replay(frame, log, 0.0, time));

@@ -86,8 +86,8 @@ static void check_passage(const hd_scene_def *def, const double *q, const double
         CHECK_OK(hd_trajectory_extend(tr, NULL, t));
         CHECK_CLOSE(hd_trajectory_examined(tr).overlap, 0.0, 4.0 * DBL_EPSILON * reach);
     }
-    assert_true(hd_trajectory_collisions(tr) <= 1);
-    if (impact > 2e-7) assert_true(hd_trajectory_collisions(tr) == 1);
+    assert_true(hd_trajectory_totals(tr).collisions <= 1);
+    if (impact > 2e-7) assert_true(hd_trajectory_totals(tr).collisions == 1);
     assert_true(void_contacts(tr) <= 2);
 }
 
@@ -130,7 +130,7 @@ TEST(a_deep_pair_does_not_meet_for_ever)
             for (int d = 0; d < DIM; d++) q[DIM + d] -= 0.9e-9 * g.n[d];
             OWNED(hd_trajectory) *tr = started(&def, q, p);
             CHECK_OK(hd_trajectory_extend(tr, NULL, 0.5));
-            assert_true(hd_trajectory_collisions(tr) <= 1 && void_contacts(tr) <= 2);
+            assert_true(hd_trajectory_totals(tr).collisions <= 1 && void_contacts(tr) <= 2);
             CHECK_CLOSE(hd_trajectory_examined(tr).overlap, 0.0, 0.0);
         }
 }

@@ -87,7 +87,10 @@ static double overlap_max(const hd_molecules *m)
 static void row_examine(const void *state, hd_examined *out)
 {
     const hd_molecules *m = state;
-    *out = (hd_examined){.overlap = fmax(0.0, -hd_dumbbells_gap(m)),
+    const double kinetic = row_kinetic_energy(m);
+    *out = (hd_examined){.kinetic_energy = kinetic,
+                         .energy_error = kinetic / m->hard.motion.count - 1.0,
+                         .overlap = fmax(0.0, -hd_dumbbells_gap(m)),
                          .overlap_rounding = hd_dumbbells_rounding(m),
                          .overlap_max = overlap_max(m)};
     hd_hard_examine(&m->hard, out);
@@ -151,6 +154,7 @@ const hd_dynamics hd_dumbbells_row = {.particles = "dumbbells",
                                       .entry = sizeof(hd_bump),
                                       .symplectic = true,
                                       .paces = true,
+                                      .collides = true,
                                       .parameter = hd_dumbbell_own,
                                       .parameters = HD_DUMBBELL_OWN,
                                       .fluid = &hd_fluid_dumbbells,
@@ -162,13 +166,11 @@ const hd_dynamics hd_dumbbells_row = {.particles = "dumbbells",
                                       .inertia = hd_dumbbell_inertia,
                                       .size = hd_dumbbell_size,
                                       .create = hd_dumbbells_create,
-                                      .create_from = hd_dumbbells_create_from,
                                       .free = hd_dumbbells_free,
                                       .advance = hd_dumbbells_advance,
                                       .time = hd_hard_time,
                                       .state = row_state,
-                                      .kinetic_energy = row_kinetic_energy,
-                                      .tell = hd_hard_tell,
+                                      .totals = hd_hard_totals,
                                       .examine = row_examine,
                                       .archive = row_archive,
                                       .fingerprint = row_fingerprint,

@@ -2,6 +2,7 @@
 #ifndef HD_DUMBBELLS_STATE_H
 #define HD_DUMBBELLS_STATE_H
 
+#include "dynamics/create_from.h"
 #include "dynamics/dumbbells/molecules.h"
 #include "dynamics/dynamics.h"
 
@@ -15,8 +16,6 @@ double hd_dumbbells_rounding(const hd_molecules *m);
 HD_MUST_CHECK hd_status hd_dumbbells_check_box(const hd_scene_def *scene, char *message,
                                                size_t size);
 HD_MUST_CHECK hd_status hd_dumbbells_create(void **state, const hd_scene_def *def);
-HD_MUST_CHECK hd_status hd_dumbbells_create_from(void **state, const hd_scene_def *def,
-                                                 const double *q, const double *p);
 void hd_dumbbells_free(void *state);
 HD_MUST_CHECK hd_status hd_dumbbells_advance(void *state, hd_record *record, double t_end);
 

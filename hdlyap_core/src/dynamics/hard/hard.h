@@ -6,6 +6,7 @@
 
 #include <math.h>
 
+#include "dynamics/create_from.h"
 #include "dynamics/dynamics.h"
 #include "dynamics/hard/disk.h"
 #include "dynamics/hard/prediction.h"
@@ -17,7 +18,7 @@ typedef struct hard {
     double epoch_start; /**< simulated time, a multiple of epoch_length */
     double now;         /**< simulated time */
     uint64_t collisions, wall_events;
-    double virial[HD_DIM]; /**< sum over collisions; see hd_told */
+    double virial[HD_DIM]; /**< sum over collisions; see hd_totals */
 } hard;
 
 /* ---- for all hard particles ---------------------------------------------------------------- */
@@ -42,7 +43,7 @@ const char *hd_hard_inconsistency(const hard *tr, double energy);
 /* Entries of the row: see hd_dynamics. */
 
 double hd_hard_time(const void *state);
-void hd_hard_tell(const void *state, hd_told *told);
+void hd_hard_totals(const void *state, hd_totals *totals);
 int hd_hard_zeros(const hd_scene_def *def);
 double hd_hard_rate(const hd_scene_def *def);
 double hd_hard_entries(const hd_scene_def *def);
@@ -52,8 +53,6 @@ uint32_t hd_hard_fingerprint(const void *state);
 /* ---- for disks and spheres ----------------------------------------------------------------- */
 
 HD_MUST_CHECK hd_status hd_hard_create(void **state, const hd_scene_def *def);
-HD_MUST_CHECK hd_status hd_hard_create_from(void **state, const hd_scene_def *def, const double *q,
-                                            const double *p);
 void hd_hard_free(void *state);
 HD_MUST_CHECK hd_status hd_hard_advance(void *state, hd_record *record, double t_end);
 void hd_hard_archive(void *state, hd_archive *archive);

@@ -19,11 +19,12 @@ double hd_hard_time(const void *state)
     return tr->now;
 }
 
-void hd_hard_tell(const void *state, hd_told *told)
+void hd_hard_totals(const void *state, hd_totals *totals)
 {
     const hard *tr = state;
-    *told = (hd_told){.collisions = tr->collisions, .wall_events = tr->wall_events};
-    for (int d = 0; d < HD_DIM; d++) told->virial[d] = tr->virial[d];
+    *totals = (hd_totals){
+        .collisions = tr->collisions, .wall_events = tr->wall_events, .time = tr->now};
+    for (int d = 0; d < HD_DIM; d++) totals->virial[d] = tr->virial[d];
 }
 
 /** Disk i moved to the present time and folded into the box. */
@@ -148,7 +149,10 @@ void hd_hard_examine(const hard *tr, hd_examined *examined)
 static void hard_examine(const void *state, hd_examined *examined)
 {
     const hard *tr = state;
-    *examined = (hd_examined){.overlap = hd_hard_overlap(tr),
+    const double kinetic = hd_hard_kinetic_energy(tr);
+    *examined = (hd_examined){.kinetic_energy = kinetic,
+                              .energy_error = kinetic / tr->motion.count - 1.0,
+                              .overlap = hd_hard_overlap(tr),
                               .overlap_rounding = hd_hard_overlap_rounding(tr),
                               .overlap_max = tr->overlap_max};
     hd_hard_examine(tr, examined);
@@ -193,6 +197,7 @@ const hd_dynamics ROW = {.particles = HD_DIM == 2 ? "disks" : "spheres",
                          .symplectic = true,
                          .dispersing = true,
                          .paces = true,
+                         .collides = true,
                          .fluid = HD_DIM == 2 ? &hd_fluid_disks : &hd_fluid_spheres,
                          .check = hard_check,
                          .zeros = hd_hard_zeros,
@@ -201,13 +206,11 @@ const hd_dynamics ROW = {.particles = HD_DIM == 2 ? "disks" : "spheres",
                          .null = hd_null_space_fill,
                          .size = hard_size,
                          .create = hd_hard_create,
-                         .create_from = hd_hard_create_from,
                          .free = hd_hard_free,
                          .advance = hd_hard_advance,
                          .time = hd_hard_time,
                          .state = hard_state,
-                         .kinetic_energy = hd_hard_kinetic_energy,
-                         .tell = hd_hard_tell,
+                         .totals = hd_hard_totals,
                          .examine = hard_examine,
                          .archive = hd_hard_archive,
                          .fingerprint = hd_hard_fingerprint,

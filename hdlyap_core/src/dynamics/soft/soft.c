@@ -42,12 +42,12 @@ KERNEL void bend_fill(double *bend, const double *r, double b, double c, int dim
 
 typedef struct kick {
     double time;     /**< the kick's part of the time step [time units] */
-    hd_summed *sums; /**< NULL if sums are not taken */
+    hd_totals *sums; /**< NULL if sums are not taken */
     hd_record *record;
     hd_kick *entry;
 } kick;
 
-KERNEL void sum_pair(hd_summed *sums, const double *r, double energy, double push, int dimension)
+KERNEL void sum_pair(hd_totals *sums, const double *r, double energy, double push, int dimension)
 {
     sums->potential += energy;
     for (int d = 0; d < dimension; d++) sums->virial[d] -= push * r[d] * r[d];
@@ -119,7 +119,7 @@ static void sum_flight(soft *s, double time)
     const double *p = s->p;
     for (int i = 0; i < s->count; i++)
         for (int d = 0; d < s->dimension; d++, p++) square[d] += *p * *p;
-    for (int d = 0; d < s->dimension; d++) s->summed.kinetic[d] += time * square[d];
+    for (int d = 0; d < s->dimension; d++) s->totals.kinetic[d] += time * square[d];
 }
 
 static void drift(soft *s, double time)
@@ -147,7 +147,7 @@ static hd_status one_step(soft *s, hd_record *record, double end)
         hd_kick kick;
     } entry = {.room = {end, -1.0, 0.0, s->step}};
     const hd_integrator *by = s->integrator;
-    hd_summed *sums = s->sums ? &s->summed : NULL;
+    hd_totals *sums = s->sums ? &s->totals : NULL;
     if (record) HD_TRY(hd_record_put(record, &entry.kick));
     for (int k = 0; k < by->kicks; k++) {
         entry.kick.at = by->at[k] * s->step;

@@ -178,18 +178,18 @@ static void row_state(const void *state, double *q, double *p)
 static void row_examine(const void *state, hd_examined *out)
 {
     const soft *s = state;
-    *out = (hd_examined){.energy_rounding = HD_SOFT_LOST};
+    *out = (hd_examined){.kinetic_energy = hd_soft_kinetic_energy(s),
+                         .energy_error = s->error,
+                         .energy_rounding = HD_SOFT_LOST};
     for (int k = 0; k < s->count * s->dimension; k++) out->momentum[k % s->dimension] += s->p[k];
 }
 
-static void row_sum(const void *state, hd_summed *out)
+static void row_totals(const void *state, hd_totals *out)
 {
     const soft *s = state;
-    *out = s->summed;
+    *out = s->totals;
     out->time = s->sums ? (double)s->steps * s->step : 0.0;
 }
-
-static double row_energy_error(const void *state) { return ((const soft *)state)->error; }
 
 static uint32_t row_fingerprint(const void *state)
 {
@@ -241,9 +241,9 @@ static void row_archive(void *state, hd_archive *archive)
     hd_archive_doubles(archive, "trajectory q", s->q, all);
     hd_archive_doubles(archive, "trajectory p", s->p, all);
     if (s->sums) {
-        hd_archive_doubles(archive, "trajectory kinetic", s->summed.kinetic, (size_t)s->dimension);
-        hd_archive_doubles(archive, "trajectory virial", s->summed.virial, (size_t)s->dimension);
-        hd_archive_double(archive, "trajectory potential", &s->summed.potential);
+        hd_archive_doubles(archive, "trajectory kinetic", s->totals.kinetic, (size_t)s->dimension);
+        hd_archive_doubles(archive, "trajectory virial", s->totals.virial, (size_t)s->dimension);
+        hd_archive_double(archive, "trajectory potential", &s->totals.potential);
     }
     if (!hd_archive_good(archive)) return;
     const double since = s->now - (double)s->steps * s->step;
@@ -281,10 +281,9 @@ static const char *row_fault(const hd_record *record, const hd_scene_def *scene)
         .parameters = HD_SOFT_OWN, .check = row_check, .zeros = row_zeros, .entries = row_entries, \
         .rate = hd_soft_rate, .speed = hd_soft_speed, .step = hd_soft_time_step,                   \
         .energy_asked = hd_soft_energy_asked, .split = row_split, .crossing = row_crossing,        \
-        .null = row_null, .create = hd_soft_create, .create_from = hd_soft_create_from,            \
-        .free = hd_soft_free, .advance = hd_soft_advance, .time = row_time, .state = row_state,    \
-        .kinetic_energy = hd_soft_kinetic_energy, .sum = row_sum, .examine = row_examine,          \
-        .energy_error = row_energy_error, .archive = row_archive, .fingerprint = row_fingerprint,  \
+        .null = row_null, .create = hd_soft_create, .free = hd_soft_free,                          \
+        .advance = hd_soft_advance, .time = row_time, .state = row_state, .totals = row_totals,    \
+        .examine = row_examine, .archive = row_archive, .fingerprint = row_fingerprint,            \
         .bytes = row_bytes, .record_bytes = row_record_bytes_##in, .fault = row_fault,             \
         .maps_create = hd_kick_maps_create_##in, .maps_free = hd_kick_maps_free,                   \
         .maps_fill = hd_kick_maps_fill, .carry = hd_kick_maps_carry                                \

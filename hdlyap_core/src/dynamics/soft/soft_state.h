@@ -2,6 +2,7 @@
 #ifndef HD_SOFT_STATE_H
 #define HD_SOFT_STATE_H
 
+#include "dynamics/create_from.h"
 #include "dynamics/dynamics.h"
 #include "dynamics/soft/integrator.h"
 #include "dynamics/soft/neighbours.h"
@@ -25,7 +26,7 @@ typedef struct soft {
     double error;     /**< relative error of the energy, see hd_soft_look */
     double *q, *p;    /**< [particles][dimension] after the last time step, q in the box */
     bool sums;        /**< true if the scene asks for gas, so that integrals are taken */
-    hd_summed summed; /**< the integrals; their time follows from `steps` */
+    hd_totals totals; /**< the integrals; their time follows from `steps` */
     hd_neighbours near;
 } soft;
 
@@ -47,8 +48,6 @@ double hd_soft_rate(const hd_scene_def *scene);
 HD_MUST_CHECK hd_status hd_soft_lattice_energy(double *energy, const hd_scene_def *scene);
 
 HD_MUST_CHECK hd_status hd_soft_create(void **state, const hd_scene_def *scene);
-HD_MUST_CHECK hd_status hd_soft_create_from(void **state, const hd_scene_def *scene,
-                                            const double *q, const double *p);
 void hd_soft_free(void *state);
 /** See hd_dynamics.advance; fails with HD_ENERGY_LOST, too. */
 HD_MUST_CHECK hd_status hd_soft_advance(void *state, hd_record *record, double t_end);

@@ -1,0 +1,18 @@
+/** States of particles with given q and p, both [particle][coordinates], for tests and benchmarks.
+ * All fail with HD_REFUSED for a box that hd_scene_check refuses, positions outside it, or momenta
+ * above 1e6; with HD_OVERLAP if particles overlap deeper than hd_examined.overlap_max. */
+#ifndef HD_CREATE_FROM_H
+#define HD_CREATE_FROM_H
+
+#include "hdlyap/dynamics.h"
+
+HD_MUST_CHECK hd_status hd_hard_create_from_2d(void **state, const hd_scene_def *def,
+                                               const double *q, const double *p);
+HD_MUST_CHECK hd_status hd_hard_create_from_3d(void **state, const hd_scene_def *def,
+                                               const double *q, const double *p);
+HD_MUST_CHECK hd_status hd_dumbbells_create_from(void **state, const hd_scene_def *def,
+                                                 const double *q, const double *p);
+HD_MUST_CHECK hd_status hd_soft_create_from(void **state, const hd_scene_def *scene,
+                                            const double *q, const double *p);
+
+#endif
