@@ -10,7 +10,7 @@
 #include <string.h>
 #include <time.h>
 
-#include "dynamics/dumbbells/next.h"
+#include "dynamics/dumbbells/dumbbells.h"
 #include "dynamics/dynamics.h"
 #include "dynamics/trajectory_state.h"
 #include "gemm.h"

@@ -1,8 +1,7 @@
 /** Runs of dumbbells: numbers of exponents, pairs, checkpoints, and what is refused. */
 #include "create_from.h"
 #include "dumbbell.h"
-#include "dynamics/dumbbells/bump.h"
-#include "dynamics/dumbbells/start.h"
+#include "dynamics/dumbbells/dumbbells.h"
 #include "hdlyap/checkpoint.h"
 #include "hdlyap/covariant.h"
 #include "runs.h"

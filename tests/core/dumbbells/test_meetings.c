@@ -2,8 +2,7 @@
  * one closes, or was least, between two of them. */
 #include "create_from.h"
 #include "dumbbell.h"
-#include "dynamics/dumbbells/bump.h"
-#include "dynamics/dumbbells/start.h"
+#include "dynamics/dumbbells/dumbbells.h"
 
 enum { FACINGS = 4000, LOOKS = 20 }; /* in a slice; no gap has two extrema between two of them */
 

@@ -3,7 +3,7 @@
 #include <time.h>
 
 #include "base/clock.h"
-#include "dynamics/soft/soft_state.h"
+#include "dynamics/soft/soft.h"
 #include "hdlyap/estimate.h"
 
 #include "runs.h"

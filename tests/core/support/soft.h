@@ -5,7 +5,7 @@
 
 #include "base/random.h"
 #include "dynamics/soft/kick.h"
-#include "dynamics/soft/soft_state.h"
+#include "dynamics/soft/soft.h"
 #include "create_from.h"
 #include "testing.h"
 

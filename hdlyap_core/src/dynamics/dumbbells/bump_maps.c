@@ -1,7 +1,6 @@
 /** Record of dumbbells -> tangent maps -> blocks of columns, carried through the maps [T23]. */
-#include "dynamics/dumbbells/bump_maps.h"
+#include "dynamics/dumbbells/dumbbells.h"
 
-#include "dynamics/dumbbells/bump.h"
 #include "dynamics/hard/kernel.h"
 
 enum { HD_HALF = 3 };

@@ -3,7 +3,7 @@
  * The first root of this never passes the contact, and tends to a Newton step. The search goes from
  * root to root, for all four pairs of disks at once, and misses no contact. It begins at the time
  * of the later state, or when the circles around both dumbbells meet. It uses + - * / sqrt only. */
-#include "dynamics/dumbbells/meeting.h"
+#include "dynamics/dumbbells/dumbbells.h"
 
 #include <math.h>
 #include <stdbool.h>

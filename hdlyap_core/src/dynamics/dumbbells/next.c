@@ -1,7 +1,5 @@
 /** States of the dumbbells -> the earliest event of each. Runs in one thread. */
-#include "dynamics/dumbbells/next.h"
-
-#include "dynamics/dumbbells/meeting.h"
+#include "dynamics/dumbbells/dumbbells.h"
 
 enum { HD_WALL_CONTACTS = 1 };
 #include "dynamics/hard/predict.h"

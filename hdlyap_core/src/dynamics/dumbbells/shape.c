@@ -1,6 +1,6 @@
 /** Scene -> shape of its dumbbells, and what kinetic theory predicts for them. It is that
  * for disks which leave the same free room, corrected for size and speed of dumbbells [T23]. */
-#include "dynamics/dumbbells/shape.h"
+#include "dynamics/dumbbells/dumbbells.h"
 
 #include <math.h>
 

@@ -1,12 +1,11 @@
 /** Scene -> start positions of dumbbells. It tries rows along either direction, in line or
  * staggered, with bonds along the rows or across them, and takes the rows with the largest gap. It
  * uses + - * / sqrt only. */
-#include "dynamics/dumbbells/start.h"
+#include "dynamics/dumbbells/dumbbells.h"
 
 #include <math.h>
 #include <stdbool.h>
 
-#include "dynamics/dumbbells/shape.h"
 #include "scene/container.h"
 #include "scene/scene.h"
 

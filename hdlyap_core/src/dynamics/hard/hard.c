@@ -171,7 +171,7 @@ static hd_status reflect_round(hard *tr, hd_record *record, hd_event *event, dou
     disk->collisions++;
     tr->wall_events += reflected;
     hd_prediction_renew(&tr->motion, event->i);
-    return reflected ? write(record, event) : HD_OK;
+    return reflected ? put(record, event) : HD_OK;
 }
 
 /** Moves two disks to their contact and exchanges their normal momenta [T3]. */
@@ -200,7 +200,7 @@ static hd_status collide(hard *tr, hd_record *record, hd_event *contact, int32_t
     if (exchange(a, b, r, approach, excess)) {
         tr->collisions++;
         for (int d = 0; d < HD_DIM; d++) tr->virial[d] -= approach * event.n[d] * event.n[d];
-        status = write(record, &event);
+        status = put(record, &event);
     }
     a->collisions++;
     b->collisions++;
@@ -227,7 +227,7 @@ static hd_status reflect(hard *tr, hd_record *record, hd_event *event, int32_t i
     hd_cells_fold(&tr->motion.cells, disk);
     tr->wall_events++;
     hd_prediction_renew(&tr->motion, i);
-    return write(record, event);
+    return put(record, event);
 }
 
 hd_status hd_hard_advance(void *state, hd_record *record, double t_end)

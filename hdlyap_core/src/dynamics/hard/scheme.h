@@ -29,7 +29,7 @@
 static hd_status collide(hd_bodies *all, hd_record *record, hd_entry *entry, int32_t i, double t);
 static hd_status reflect(hd_bodies *all, hd_record *record, hd_entry *entry, int32_t i, double t);
 
-static hd_status write(hd_record *record, const hd_entry *event)
+static hd_status put(hd_record *record, const hd_entry *event)
 {
     if (!record) return HD_OK;
     if (record->count == record->capacity) HD_TRY(hd_record_reserve(record, record->count + 1));

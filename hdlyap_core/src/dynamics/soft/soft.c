@@ -4,12 +4,15 @@
  * the same bits. */
 #include <math.h>
 #include <string.h>
+#include <zlib.h>
 
 #include "base/check.h"
 #include "base/memory.h"
 #include "dynamics/soft/kick.h"
-#include "dynamics/soft/soft_state.h"
+#include "dynamics/soft/kick_maps.h"
+#include "dynamics/soft/soft.h"
 #include "scene/container.h"
+#include "scene/dynamics.h"
 #include "scene/null_space.h"
 #include "scene/scene.h"
 #include "scene/scene_check.h"
@@ -93,19 +96,20 @@ static hd_status potential_energy(double *energy, soft *s)
     return HD_OK;
 }
 
-double hd_soft_kinetic_energy(const void *state)
+static double kinetic_energy(const soft *s)
 {
-    const soft *s = state;
     double twice = 0.0;
     for (int k = 0; k < s->count * s->dimension; k++) twice += s->p[k] * s->p[k];
     return 0.5 * twice;
 }
 
-hd_status hd_soft_look(soft *s)
+/** Measures s->error: the change of the energy over kinetic + |potential| energy. Fails with
+ * HD_ENERGY_LOST if it is more than HD_SOFT_LOST. */
+static hd_status look(soft *s)
 {
     double potential;
     const hd_status status = potential_energy(&potential, s);
-    const double kinetic = hd_soft_kinetic_energy(s);
+    const double kinetic = kinetic_energy(s);
     if (status == HD_NOT_FINITE) return s->error = 1.0, HD_ENERGY_LOST; /* where it tends to */
     s->error = (kinetic + potential - s->energy) / (kinetic + fabs(potential));
     return status == HD_OK && !(fabs(s->error) <= HD_SOFT_LOST) ? HD_ENERGY_LOST : status;
@@ -163,12 +167,13 @@ static hd_status step_until(soft *s, hd_record *record, double begin, double t_e
 {
     for (double end; (end = (double)(s->steps + 1) * s->step) <= t_end; s->steps++) {
         HD_TRY(one_step(s, record, end - begin));
-        if (s->steps % LOOK_STEPS == 0) HD_TRY(hd_soft_look(s));
+        if (s->steps % LOOK_STEPS == 0) HD_TRY(look(s));
     }
-    return hd_soft_look(s);
+    return look(s);
 }
 
-hd_status hd_soft_advance(void *state, hd_record *record, double t_end)
+/** Fails with HD_ENERGY_LOST, too. */
+static hd_status row_advance(void *state, hd_record *record, double t_end)
 {
     soft *s = state;
     const double begin = record ? s->now - hd_record_duration(record) : 0.0;
@@ -180,7 +185,7 @@ hd_status hd_soft_advance(void *state, hd_record *record, double t_end)
 
 /* ---- creation ------------------------------------------------------------------------------ */
 
-void hd_soft_free(void *state)
+static void row_free(void *state)
 {
     soft *s = state;
     if (!s) return;
@@ -210,7 +215,7 @@ static hd_status allocate(soft **out, const hd_scene_def *scene)
 static hd_status begin(soft *s, const hd_scene_def *scene)
 {
     HD_TRY(potential_energy(&s->energy, s));
-    s->energy += hd_soft_kinetic_energy(s);
+    s->energy += kinetic_energy(s);
     s->step = hd_soft_time_step(scene);
     return isfinite(s->energy) ? HD_OK : HD_NOT_FINITE;
 }
@@ -224,7 +229,7 @@ static hd_status start_on_lattice(soft *s, const hd_scene_def *scene)
     hd_null_space_momenta(scene, s->q, s->p);
     const double kinetic = scene->own[HD_SOFT_ENERGY].real * s->count - potential;
     if (!(kinetic > 0)) return HD_REFUSED;
-    const double scale = sqrt(kinetic / hd_soft_kinetic_energy(s));
+    const double scale = sqrt(kinetic / kinetic_energy(s));
     for (int k = 0; k < s->count * s->dimension; k++) s->p[k] *= scale;
     return begin(s, scene);
 }
@@ -244,11 +249,11 @@ static hd_status create(void **state, const hd_scene_def *scene, const double *q
     hd_status status = allocate(&s, scene);
     if (status == HD_OK) status = q ? start_from(s, scene, q, p) : start_on_lattice(s, scene);
     *state = status == HD_OK ? s : NULL;
-    if (status != HD_OK) hd_soft_free(s);
+    if (status != HD_OK) row_free(s);
     return status;
 }
 
-hd_status hd_soft_create(void **state, const hd_scene_def *scene)
+static hd_status row_create(void **state, const hd_scene_def *scene)
 {
     *state = NULL;
     HD_TRY(hd_scene_check_start(scene, NULL, 0));
@@ -263,7 +268,8 @@ hd_status hd_soft_create_from(void **state, const hd_scene_def *scene, const dou
     return create(state, scene, q, p);
 }
 
-hd_status hd_soft_lattice_energy(double *energy, const hd_scene_def *scene)
+/** Finds the potential energy of the start lattice. Fails with HD_NO_MEMORY. */
+static hd_status lattice_energy(double *energy, const hd_scene_def *scene)
 {
     soft *s;
     hd_status status = allocate(&s, scene);
@@ -271,6 +277,209 @@ hd_status hd_soft_lattice_energy(double *energy, const hd_scene_def *scene)
         hd_container_of(scene)->start(scene, s->q);
         status = potential_energy(energy, s);
     }
-    hd_soft_free(s);
+    row_free(s);
     return status;
 }
+
+/* ---- scene --------------------------------------------------------------------------------- */
+
+static hd_status row_check(const hd_scene_def *scene, char *message, size_t size)
+{
+    const char *particles = hd_dynamics_of(scene)->particles;
+    const hd_potential *potential = hd_soft_potential(scene);
+    const double energy = scene->own[HD_SOFT_ENERGY].real;
+    double box[HD_DIMENSION_MAX], lattice;
+    if (hd_container_of(scene)->wall)
+        return hd_refuse(message, size, "container = %s: must be rectangle with particles = %s",
+                         hd_container_name(scene), particles);
+    hd_scene_box(scene, box);
+    for (int d = 0; d < hd_scene_dimension(scene); d++) {
+        const char axis = "xyz"[d];
+        if (scene->boundary[d] != HD_PERIODIC)
+            return hd_refuse(message, size,
+                             "boundary_%c = %s: must be periodic with particles = %s", axis,
+                             hd_scene_boundary_word(scene, d), particles);
+        if (!(box[d] > 2.0 * potential->cut))
+            return hd_refuse(message, size,
+                             "density = %.15g with number = %d: the box edge L%c = %.15g must be "
+                             "above %.6g, twice the range of potential = %s",
+                             scene->density, scene->number, axis, box[d], 2.0 * potential->cut,
+                             potential->name);
+    }
+    const hd_status found = lattice_energy(&lattice, scene);
+    if (found != HD_OK) (void)hd_refuse(message, size, "%s", hd_status_text(found));
+    HD_TRY(found);
+    if (energy * scene->number > lattice) return HD_OK;
+    return hd_refuse(message, size,
+                     "energy = %.15g: must be above %.6g, the potential energy per particle of the "
+                     "start lattice with potential = %s, density = %.15g, number = %d",
+                     energy, lattice / scene->number, potential->name, scene->density,
+                     scene->number);
+}
+
+static int row_zeros(const hd_scene_def *scene) { return 2 * hd_scene_dimension(scene) + 2; }
+
+/** The force on particle i from all others. */
+static void force_on(double *force, const hd_scene_def *scene, const double *q, int i)
+{
+    const int dimension = hd_scene_dimension(scene);
+    const hd_potential *potential = hd_soft_potential(scene);
+    double box[HD_DIMENSION_MAX];
+    hd_scene_box(scene, box);
+    for (int d = 0; d < dimension; d++) force[d] = 0.0;
+    for (int j = 0; j < scene->number; j++) {
+        double r[HD_DIMENSION_MAX], square = 0.0;
+        for (int d = 0; d < dimension; d++) {
+            r[d] = hd_nearest(q[dimension * j + d] - q[dimension * i + d], box[d]);
+            square += r[d] * r[d];
+        }
+        if (i == j || !(square < potential->cut * potential->cut)) continue;
+        const double b = potential->at(square).b;
+        for (int d = 0; d < dimension; d++) force[d] += b * r[d];
+    }
+}
+
+/** Fills the null vectors: translations, their momenta, and the flow (p, F). The vector that
+ * belongs to the energy is not known. */
+static int row_null(const hd_scene_def *scene, const double *q, const double *p, double *column)
+{
+    const int dimension = hd_scene_dimension(scene), count = 2 * dimension + 1;
+    const size_t of_one = 2 * (size_t)dimension, rows = of_one * (size_t)scene->number;
+    memset(column, 0, (size_t)count * rows * sizeof *column);
+    for (int i = 0; i < scene->number; i++) {
+        double *one = column + of_one * (size_t)i, *flow = one + 2 * (size_t)dimension * rows;
+        for (int k = 0; k < 2 * dimension; k++) one[(size_t)k * rows + (size_t)k] = 1.0;
+        memcpy(flow, p + dimension * i, (size_t)dimension * sizeof *p);
+        force_on(flow + dimension, scene, q, i);
+    }
+    return count;
+}
+
+/* ---- state --------------------------------------------------------------------------------- */
+
+static double row_time(const void *state) { return ((const soft *)state)->now; }
+
+static void row_state(const void *state, double *q, double *p)
+{
+    const soft *s = state;
+    const size_t bytes = (size_t)(s->count * s->dimension) * sizeof *q;
+    if (q) memcpy(q, s->q, bytes);
+    if (p) memcpy(p, s->p, bytes);
+}
+
+static void row_examine(const void *state, hd_examined *out)
+{
+    const soft *s = state;
+    *out = (hd_examined){.kinetic_energy = kinetic_energy(s),
+                         .energy_error = s->error,
+                         .energy_rounding = HD_SOFT_LOST};
+    for (int k = 0; k < s->count * s->dimension; k++) out->momentum[k % s->dimension] += s->p[k];
+}
+
+static void row_totals(const void *state, hd_totals *out)
+{
+    const soft *s = state;
+    *out = s->totals;
+    out->time = s->sums ? (double)s->steps * s->step : 0.0;
+}
+
+static uint32_t row_fingerprint(const void *state)
+{
+    const soft *s = state;
+    const size_t bytes = (size_t)(s->count * s->dimension) * sizeof *s->q;
+    return (uint32_t)crc32_z(crc32_z(0, (const Bytef *)s->q, bytes), (const Bytef *)s->p, bytes);
+}
+
+static double row_bytes(const hd_scene_def *scene)
+{
+    const double of_one = 2.0 * sizeof(double) * hd_scene_dimension(scene);
+    return of_one * scene->number + hd_neighbours_bytes(scene, hd_soft_potential(scene)->cut);
+}
+
+/** Bytes of this many entries: in the record, which doubles when it is full, and as maps, which
+ * take as much. */
+static double record_bytes(double entries, double entry)
+{
+    double room = 4096.0;
+    while (room < 1.1 * entries) room *= 2.0;
+    return 2.0 * room * entry;
+}
+
+static double row_record_bytes_plane(double entries)
+{
+    return record_bytes(entries, HD_KICK_BYTES(HD_BENDS_PLANE));
+}
+
+static double row_record_bytes_space(double entries)
+{
+    return record_bytes(entries, HD_KICK_BYTES(HD_BENDS_SPACE));
+}
+
+static const char *inconsistency(const soft *s)
+{
+    for (int k = 0; k < s->count * s->dimension; k++)
+        if (!(s->q[k] >= 0 && s->q[k] <= s->near.box[k % s->dimension]))
+            return "a particle is outside the box";
+    return NULL;
+}
+
+static void row_archive(void *state, hd_archive *archive)
+{
+    soft *s = state;
+    const size_t all = (size_t)(s->count * s->dimension);
+    hd_archive_double(archive, "trajectory time", &s->now);
+    hd_archive_bits(archive, "trajectory steps", &s->steps);
+    hd_archive_double(archive, "trajectory energy", &s->energy);
+    hd_archive_doubles(archive, "trajectory q", s->q, all);
+    hd_archive_doubles(archive, "trajectory p", s->p, all);
+    if (s->sums) {
+        hd_archive_doubles(archive, "trajectory kinetic", s->totals.kinetic, (size_t)s->dimension);
+        hd_archive_doubles(archive, "trajectory virial", s->totals.virial, (size_t)s->dimension);
+        hd_archive_double(archive, "trajectory potential", &s->totals.potential);
+    }
+    if (!hd_archive_good(archive)) return;
+    const double since = s->now - (double)s->steps * s->step;
+    const char *fault = since >= 0 && since < 2.0 * s->step
+                            ? inconsistency(s)
+                            : "the time does not fit the number of time steps";
+    hd_neighbours_forget(&s->near);
+    const hd_status seen = fault ? HD_OK : look(s);
+    if (seen == HD_NO_MEMORY) hd_archive_fail(archive, seen, "trajectory", NULL);
+    if (seen != HD_OK) fault = "the energy is not that of the positions and momenta";
+    if (fault) hd_archive_refuse(archive, "trajectory", fault);
+}
+
+/** Returns NULL, or what is wrong with the entries, which are finite numbers. */
+static const char *row_fault(const hd_record *record, const hd_scene_def *scene)
+{
+    const double step = hd_soft_time_step(scene);
+    for (size_t k = 0; k < hd_record_count(record); k++) {
+        const hd_kick *entry = hd_record_entry(record, k);
+        const bool begins = entry->i == -1.0;
+        if (k == 0 && !begins) return "the first entry begins no time step";
+        if (begins && entry->at != step) return "a time step has a wrong length";
+        if (!begins && !(entry->i >= 0 && entry->i < scene->number && entry->i == floor(entry->i)))
+            return "an entry names a particle that does not exist";
+        if (!begins &&
+            !(entry->j > entry->i && entry->j < scene->number && entry->j == floor(entry->j)))
+            return "an entry names a partner that does not exist";
+    }
+    return NULL;
+}
+
+#define SOFT(name, in, of_one, bends)                                                              \
+    {                                                                                              \
+        .particles = (name), .dimension = (of_one), .coordinates = (of_one),                       \
+        .entry = HD_KICK_BYTES(bends), .symplectic = true, .parameter = hd_soft_own,               \
+        .parameters = HD_SOFT_OWN, .check = row_check, .zeros = row_zeros,                         \
+        .entries = hd_soft_entries, .rate = hd_soft_rate, .speed = hd_soft_speed,                  \
+        .step = hd_soft_time_step, .energy_asked = hd_soft_energy_asked, .split = hd_soft_split,   \
+        .crossing = hd_soft_crossing, .null = row_null, .create = row_create, .free = row_free,    \
+        .advance = row_advance, .time = row_time, .state = row_state, .totals = row_totals,        \
+        .examine = row_examine, .archive = row_archive, .fingerprint = row_fingerprint,            \
+        .bytes = row_bytes, .record_bytes = row_record_bytes_##in, .fault = row_fault,             \
+        .maps_create = hd_kick_maps_create_##in, .maps_free = hd_kick_maps_free,                   \
+        .maps_fill = hd_kick_maps_fill, .carry = hd_kick_maps_carry                                \
+    }
+const hd_dynamics hd_soft_disks = SOFT("soft_disks", plane, 2, HD_BENDS_PLANE);
+const hd_dynamics hd_soft_spheres = SOFT("soft_spheres", space, 3, HD_BENDS_SPACE);

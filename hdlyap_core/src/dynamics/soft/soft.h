@@ -1,6 +1,6 @@
 /** Soft particles in a periodic box, moved in time steps. */
-#ifndef HD_SOFT_STATE_H
-#define HD_SOFT_STATE_H
+#ifndef HD_SOFT_H
+#define HD_SOFT_H
 
 #include "dynamics/create_from.h"
 #include "dynamics/dynamics.h"
@@ -10,6 +10,7 @@
 
 /** Parameters that only soft particles have. */
 enum { HD_SOFT_POTENTIAL, HD_SOFT_ENERGY, HD_SOFT_TIME_STEP, HD_SOFT_INTEGRATOR, HD_SOFT_OWN };
+extern const hd_parameter hd_soft_own[HD_SOFT_OWN];
 
 /** A run whose energy is off by more than this part of it fails: exponents go as the root of the
  * energy, so they are then off by 1 %, as much as the errors that short runs state. */
@@ -23,7 +24,7 @@ typedef struct soft {
     double now;
     uint64_t steps;   /**< time steps done so far */
     double energy;    /**< energy at the start */
-    double error;     /**< relative error of the energy, see hd_soft_look */
+    double error;     /**< relative error of the energy, see look */
     double *q, *p;    /**< [particles][dimension] after the last time step, q in the box */
     bool sums;        /**< true if the scene asks for gas, so that integrals are taken */
     hd_totals totals; /**< the integrals; their time follows from `steps` */
@@ -44,17 +45,9 @@ double hd_soft_speed(const hd_scene_def *scene);
  * of 0.1 to 0.9. */
 double hd_soft_rate(const hd_scene_def *scene);
 
-/** Finds the potential energy of the start lattice. Fails with HD_NO_MEMORY. */
-HD_MUST_CHECK hd_status hd_soft_lattice_energy(double *energy, const hd_scene_def *scene);
-
-HD_MUST_CHECK hd_status hd_soft_create(void **state, const hd_scene_def *scene);
-void hd_soft_free(void *state);
-/** See hd_dynamics.advance; fails with HD_ENERGY_LOST, too. */
-HD_MUST_CHECK hd_status hd_soft_advance(void *state, hd_record *record, double t_end);
-
-double hd_soft_kinetic_energy(const void *state);
-/** Measures s->error: the change of the energy over kinetic + |potential| energy. Fails with
- * HD_ENERGY_LOST if it is more than HD_SOFT_LOST. */
-HD_MUST_CHECK hd_status hd_soft_look(soft *s);
+/* See hd_dynamics. */
+double hd_soft_split(const hd_scene_def *scene);
+double hd_soft_entries(const hd_scene_def *scene);
+double hd_soft_crossing(const hd_scene_def *scene);
 
 #endif

@@ -1,8 +1,8 @@
-/** Scene -> potential, integrator, and the time step with which a run keeps its energy to what is
- * asked [T24]. */
+/** Parameters of soft particles -> potential, integrator, what is expected of a run, and the time
+ * step with which it keeps its energy to what is asked [T24]. */
 #include <math.h>
 
-#include "dynamics/soft/soft_state.h"
+#include "dynamics/soft/soft.h"
 #include "scene/scene.h"
 
 /** Simulated time of a run without an end, for which its step is chosen [time units]. */
@@ -12,6 +12,61 @@ static const double OPEN_END = 1e4;
 static const double ASKED = 10.0, DEVIATIONS = 3.0;
 /** Most that the parameter may be [time units]. */
 static const double LONGEST = 10.0;
+
+/* ---- parameters ---------------------------------------------------------------------------- */
+
+static const hd_parameter_word potential_words[] = {
+    {"power", HD_POWER}, {"wca", HD_WCA}, {"lennard_jones", HD_LENNARD_JONES}, {NULL, 0}};
+static const hd_parameter_word integrator_words[] = {
+    {"auto", HD_INTEGRATOR_AUTO}, {"verlet", HD_VERLET}, {"pefrl", HD_PEFRL}, {NULL, 0}};
+
+const hd_parameter hd_soft_own[HD_SOFT_OWN] = {
+    {.name = "potential",
+     .kind = HD_PARAMETER_WORD,
+     .words = potential_words,
+     .offset = HD_OWN(HD_SOFT_POTENTIAL),
+     .usual = HD_WCA,
+     .most = HD_POTENTIALS - 1,
+     .allowed = "power, wca or lennard_jones",
+     .unit = "",
+     .text = "Energy of a pair at distance r. power: 100 (1 - r^2)^4. wca: 4 (r^-12 - r^-6) + 1 "
+             "up to r = 2^(1/6). lennard_jones: 4 (r^-12 - r^-6), cut off smoothly from r = 2 to "
+             "2.5."},
+    {.name = "energy",
+     .kind = HD_PARAMETER_REAL,
+     .offset = HD_OWN(HD_SOFT_ENERGY),
+     .usual = 1.0,
+     .least = -10.0,
+     .most = 1e6,
+     .allowed = "from -10 to 1e6",
+     .unit = "epsilon",
+     .text = "Kinetic and potential energy per particle. It must be above the energy of the start "
+             "lattice."},
+    {.name = "time_step",
+     .kind = HD_PARAMETER_REAL,
+     .offset = HD_OWN(HD_SOFT_TIME_STEP),
+     .most = 10.0,
+     .chosen = hd_soft_time_step,
+     .allowed = "from 0 to 10",
+     .unit = "time units",
+     .text =
+         "Time step of the integrator. 0: chosen so that the relative error of the energy stays "
+         "below ten times the accuracy, which counts as at least 1e-6, for wca 5e-5, and at most "
+         "1e-3, to the end of the duration (0: over 1e4 time units); when resumed, as before."},
+    {.name = "integrator",
+     .kind = HD_PARAMETER_WORD,
+     .words = integrator_words,
+     .offset = HD_OWN(HD_SOFT_INTEGRATOR),
+     .usual = HD_INTEGRATOR_AUTO,
+     .most = HD_INTEGRATOR_AUTO,
+     .chosen = hd_soft_integrator_chosen,
+     .allowed = "auto, verlet or pefrl",
+     .unit = "",
+     .text = "Method by which particles move. verlet has order 2 and computes forces once a step; "
+             "pefrl has order 4 and computes them four times. auto: verlet for wca, which is not "
+             "smooth enough for order 4, and pefrl for the others; when resumed, as before."}};
+
+/* ---- what they mean ------------------------------------------------------------------------ */
 
 const hd_potential *hd_soft_potential(const hd_scene_def *scene)
 {
@@ -115,4 +170,30 @@ double hd_soft_time_step(const hd_scene_def *scene)
 {
     const double asked = scene->own[HD_SOFT_TIME_STEP].real;
     return asked > 0 ? asked : fmin(fmin(step_of_swing(scene), step_of_walk(scene)), LONGEST);
+}
+
+/* ---- what is expected ---------------------------------------------------------------------- */
+
+/** The power of the time step by which zero exponents split: from the jump at the cut [T24], or the
+ * order of the integrator if that is less. */
+double hd_soft_split(const hd_scene_def *scene)
+{
+    return fmin(2.0 / 3.0 * hd_soft_potential(scene)->smooth, hd_soft_integrator(scene)->order);
+}
+
+double hd_soft_entries(const hd_scene_def *scene)
+{
+    const double kicks = hd_soft_integrator(scene)->kicks,
+                 pairs = scene->number *
+                         hd_neighbours_expected(scene, hd_soft_potential(scene)->cut);
+    return (1.0 + 1.2 * kicks * pairs) / hd_soft_time_step(scene);
+}
+
+/** Time that sound takes through the box; its velocity is some times the usual speed. */
+double hd_soft_crossing(const hd_scene_def *scene)
+{
+    double box[HD_DIMENSION_MAX], longest = 0.0;
+    hd_scene_box(scene, box);
+    for (int d = 0; d < hd_scene_dimension(scene); d++) longest = fmax(longest, box[d]);
+    return longest / (hd_soft_speed(scene) * (1.5 + 8.0 * scene->density));
 }

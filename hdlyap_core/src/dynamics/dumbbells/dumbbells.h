@@ -1,11 +1,38 @@
 /** Dumbbells, called molecules in the code: two disks of diameter 1 whose centres are a rigid bond
  * apart, of mass 1 together. The centre of a dumbbell is a disk of dynamics/hard, in the cells and
  * in the queue of that folder. */
-#ifndef HD_MOLECULES_H
-#define HD_MOLECULES_H
+#ifndef HD_DUMBBELLS_H
+#define HD_DUMBBELLS_H
+
+#include <float.h>
 
 #include "dynamics/hard/contact.h"
 #include "dynamics/hard/hard.h"
+#include "hdlyap/parameters.h"
+#include "scene/fluid.h"
+
+/* ---- the scene: its shape, and what kinetic theory predicts (shape.c) ----------------------- */
+
+/** Parameters that only dumbbells have. */
+enum { HD_DUMBBELL_OWN = 2 };
+extern const hd_parameter hd_dumbbell_own[HD_DUMBBELL_OWN];
+
+extern const hd_fluid hd_fluid_dumbbells;
+
+double hd_dumbbell_bond(const hd_scene_def *scene);    /**< distance of the two centres [sigma] */
+double hd_dumbbell_inertia(const hd_scene_def *scene); /**< moment of inertia at mass 1 [sigma^2] */
+double hd_dumbbell_size(const hd_scene_def *scene);    /**< area that both disks cover */
+
+/* ---- start positions, rows of parallel dumbbells (start.c) ---------------------------------- */
+
+/** The least gap in the best rows [sigma]; negative if no rows fit. Costs O(N). */
+double hd_dumbbell_start_gap(const hd_scene_def *def);
+/** The largest density at which rows fit. */
+double hd_dumbbell_density_max(const hd_scene_def *def);
+/** Fills q[3 N]: for each dumbbell its position, then its angle times sqrt(I). */
+void hd_dumbbell_start(const hd_scene_def *def, double *q);
+
+/* ---- the state ------------------------------------------------------------------------------ */
 
 /** Third coordinate of a dumbbell, which is its angle times sqrt(I), I: moment of inertia, and the
  * momentum of this coordinate. Both belong to the time hd_disk.t of the centre. */
@@ -97,5 +124,60 @@ static inline void hd_arm_at(double arm[2], const hd_molecules *m, int32_t i, in
     hd_heading(arm, m->spin[i].q / m->shape.root + rate * (t - m->hard.motion.disk[i].t));
     for (int d = 0; d < 2; d++) arm[d] *= hd_sign(disk) * m->shape.arm;
 }
+
+/* ---- when two dumbbells meet, or one meets a wall (meeting.c) ------------------------------- */
+/* These are pure functions of the states and the image: their bits do not depend on when and in
+ * which order contacts are computed. */
+
+/** The time at which dumbbell a meets this image of dumbbell b, a < b; INFINITY if they never meet,
+ * or later than `until`. which: the disk of a plus twice the disk of b. */
+double hd_meeting_of_pair(const hd_molecules *m, int32_t a, int32_t b, const int32_t image[2],
+                          double until, int32_t *which);
+
+/** The time at which dumbbell i meets a wall in direction d, likewise. which: the disk, plus 2 if
+ * it meets the far wall. */
+double hd_meeting_of_wall(const hd_molecules *m, int32_t i, int d, double until, int32_t *which);
+
+/** The deepest overlap [sigma] that rounding can cause when two dumbbells, or one and a wall, meet.
+ * turning: sum of the absolute angular velocities. */
+static inline double hd_meeting_depth(const hd_molecules *m, double turning)
+{
+    return m->rounding + 4.0 * DBL_EPSILON * m->shape.arm * turning * m->hard.epoch_length;
+}
+
+/* ---- the earliest event of each dumbbell, from the states of its neighbours (next.c) -------- */
+
+/** Predicts all events of dumbbell i from its present state, and puts the earliest into the queue.
+ * A contact later than the one that the partner has predicted is left out, because the partner will
+ * predict anew then. */
+void hd_next_renew(hd_molecules *m, int32_t i);
+
+/** Does what hd_prediction_extend does, for a dumbbell. */
+void hd_next_extend(hd_molecules *m, int32_t i, int d, int side);
+
+/** Predicts the events of all dumbbells, and forgets all earlier predictions. */
+void hd_next_restart(hd_molecules *m);
+
+/* ---- an event, which is an entry of the record; tangent maps (bump_maps.c): see hd_dynamics -- */
+
+/** The gap between the two disks that meet has the gradient (-n, -across_i, n, across_j) in the
+ * coordinates of i and j; the gap at a wall has (n, across_i) in those of i [T23]. i and j are
+ * whole numbers, kept as doubles as all else is. */
+typedef struct hd_bump {
+    double t;    /**< since the start of the record [time units] */
+    double i, j; /**< dumbbells, i < j; j = -1 for a wall */
+    double n[2]; /**< unit vector from the disk of i to that of j; inwards at a wall */
+    double across[2], along[2]; /**< c and k of i, of j in [T23]: components along n of the disk's
+                                   arm turned by +90 degrees, and of the arm, over sqrt(I) */
+    double per_root;            /**< 1 / sqrt(I), I: moment of inertia */
+    double p[2];                /**< p_j - p_i before the event; at a wall p_i */
+    double spin[2];             /**< third momenta of i, of j, before the event */
+} hd_bump;
+
+HD_MUST_CHECK hd_status hd_bump_maps_create(void **out, int molecules);
+void hd_bump_maps_free(void *maps);
+HD_MUST_CHECK hd_status hd_bump_maps_fill(void *maps, const hd_record *record, double t_begin,
+                                          double t_end);
+void hd_bump_maps_carry(const void *maps, double *block, int width);
 
 #endif
