@@ -12,7 +12,7 @@
 
 #include "dynamics/dumbbells/dumbbells.h"
 #include "dynamics/dynamics.h"
-#include "dynamics/trajectory_state.h"
+#include "dynamics/trajectory.h"
 #include "gemm.h"
 #include "options.h"
 #include "progress.h"

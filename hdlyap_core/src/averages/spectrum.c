@@ -5,7 +5,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "averages/archived.h"
+#include "averages/spectrum.h"
 #include "averages/blocks.h"
 #include "base/check.h"
 #include "base/memory.h"

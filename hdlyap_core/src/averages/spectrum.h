@@ -2,6 +2,7 @@
 #ifndef HD_SPECTRUM_H
 #define HD_SPECTRUM_H
 
+#include "base/archive.h"
 #include "hdlyap/spectrum.h"
 
 /** Makes an empty spectrum. rows: number of all exponents (4N for two coordinates); vectors: number
@@ -40,5 +41,8 @@ double hd_spectrum_error_of_sum(const hd_spectrum *spectrum, const hd_part *part
  * equals end. */
 double hd_spectrum_largest_error(const hd_spectrum *spectrum, int begin, int end);
 void hd_spectrum_local_restart(hd_spectrum *spectrum);
+
+void hd_spectrum_archive(hd_spectrum *spectrum, hd_archive *archive);
+double hd_spectrum_bytes(double vectors);
 
 #endif

@@ -16,7 +16,7 @@
 #include "base/memory.h"
 #include "tangent/conjugate.h"
 #include "tangent/product.h"
-#include "tangent/archived.h"
+#include "tangent/frame.h"
 
 enum { PANEL = 96 };
 

@@ -12,7 +12,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "averages/archived.h"
 #include "averages/doubling.h"
 #include "averages/spectrum.h"
 #include "base/check.h"
@@ -25,10 +24,8 @@
 #include "covariant/starts.h"
 #include "covariant/window_room.h"
 #include "dynamics/dynamics.h"
-#include "modes/archived.h"
 #include "modes/modes.h"
 #include "scene/scene.h"
-#include "tangent/archived.h"
 #include "tangent/localization.h"
 
 /** Two times that differ by less than this part of covariant_sampling are the same. */

@@ -14,7 +14,7 @@
 #include "covariant/backward.h"
 #include "covariant/coupling.h"
 #include "covariant/store.h"
-#include "tangent/archived.h"
+#include "tangent/frame.h"
 #include "tangent/interval.h"
 #include "tangent/ortho.h"
 

@@ -4,7 +4,7 @@
 
 #include "base/check.h"
 #include "base/memory.h"
-#include "dynamics/record_state.h"
+#include "dynamics/record.h"
 
 hd_status hd_record_create(hd_record **out, size_t entry)
 {

@@ -5,8 +5,7 @@
 
 #include "base/check.h"
 #include "base/memory.h"
-#include "dynamics/archived.h"
-#include "dynamics/trajectory_state.h"
+#include "dynamics/trajectory.h"
 
 static size_t coordinates(const hd_trajectory *tr)
 {

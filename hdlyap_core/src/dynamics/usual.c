@@ -6,7 +6,7 @@
 #include "base/check.h"
 #include "base/memory.h"
 #include "dynamics/dynamics.h"
-#include "dynamics/record_state.h"
+#include "dynamics/record.h"
 
 /* ---- tangent maps -------------------------------------------------------------------------- */
 

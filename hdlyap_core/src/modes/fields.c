@@ -13,7 +13,6 @@
 
 #include "base/check.h"
 #include "base/memory.h"
-#include "modes/archived.h"
 #include "modes/curved_fields.h"
 #include "modes/harmonics.h"
 #include "modes/plane_fields.h"

@@ -2,6 +2,7 @@
 #ifndef HD_FIELDS_H
 #define HD_FIELDS_H
 
+#include "base/archive.h"
 #include "hdlyap/fields.h"
 
 /** Creates the fields of a scene. Columns are those of all subspaces, in ascending k, T before LP;
@@ -22,5 +23,14 @@ int hd_fields_columns(const hd_fields *fields); /**< all */
 
 /** Norm of a column before it was made 1. */
 double hd_fields_norm(const hd_fields *fields, int column);
+
+/** The size of a scene's fields; computing it allocates nothing. */
+typedef struct hd_fields_count {
+    /** Number of columns without the null fields; number of T and LP subspaces. */
+    double columns, subspaces;
+    double lp_phases, t_phases;
+} hd_fields_count;
+hd_fields_count hd_fields_count_of(const hd_scene_def *scene);
+void hd_fields_archive(hd_fields *fields, hd_archive *archive);
 
 #endif

@@ -19,7 +19,6 @@
 #include "base/communicator.h"
 #include "base/memory.h"
 #include "hdlyap/dynamics.h"
-#include "modes/archived.h"
 #include "modes/fields.h"
 #include "scene/null_space.h"
 #include "scene/scene.h"

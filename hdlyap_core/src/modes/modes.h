@@ -2,6 +2,7 @@
 #ifndef HD_MODES_H
 #define HD_MODES_H
 
+#include "base/archive.h"
 #include "base/communicator.h"
 #include "hdlyap/frame.h"
 #include "hdlyap/modes.h"
@@ -31,5 +32,8 @@ int hd_modes_vectors(const hd_modes *modes); /**< n */
 
 /** Norms of the dq halves in the snapshot; [n]. */
 const double *hd_modes_dq_norms(const hd_modes *modes);
+
+double hd_modes_bytes(const hd_scene_def *scene, double vectors);
+void hd_modes_archive(hd_modes *modes, hd_archive *archive);
 
 #endif

@@ -10,7 +10,6 @@
 #include "averages/blocks.h"
 #include "base/check.h"
 #include "base/memory.h"
-#include "modes/archived.h"
 #include "modes/modes.h"
 #include "modes/rotor.h"
 #include "modes/steps.h"

@@ -2,6 +2,7 @@
 #ifndef HD_PHASES_H
 #define HD_PHASES_H
 
+#include "base/archive.h"
 #include "hdlyap/phases.h"
 
 /** Follows the steps of a kind, HD_MODE_LP or HD_MODE_T. Fails with HD_NO_MEMORY. */
@@ -16,5 +17,9 @@ void hd_phases_add(hd_phases *phases, const hd_steps *steps, double time);
  * if there is no resolved step. Grows as the rates become known, by at most a factor of 2 from one
  * sample to the next, and falls when phases scatter more. */
 double hd_phases_sampling(const hd_phases *phases, const hd_steps *steps);
+
+double hd_phases_bytes(double phases);
+/** `now`: simulated time of the run. */
+void hd_phases_archive(hd_phases *phases, hd_archive *archive, double now);
 
 #endif

@@ -12,7 +12,6 @@
 
 #include "base/check.h"
 #include "base/memory.h"
-#include "modes/archived.h"
 #include "modes/fields.h"
 #include "modes/modes.h"
 #include "scene/scene.h"

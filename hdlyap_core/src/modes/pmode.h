@@ -8,4 +8,6 @@
 HD_MUST_CHECK hd_status hd_pmode_create(hd_pmode **out, const hd_scene_def *def);
 void hd_pmode_free(hd_pmode *pmode);
 
+double hd_pmode_bytes(const hd_scene_def *def);
+
 #endif

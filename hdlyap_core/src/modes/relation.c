@@ -10,7 +10,7 @@
 #include <math.h>
 
 #include "dynamics/dynamics.h"
-#include "modes/archived.h"
+#include "modes/fields.h"
 #include "scene/container.h"
 #include "scene/fluid.h"
 #include "scene/scene.h"

@@ -9,7 +9,6 @@
 #include "averages/spectrum.h"
 #include "base/check.h"
 #include "base/memory.h"
-#include "modes/archived.h"
 #include "modes/fields.h"
 #include "modes/modes.h"
 #include "modes/sets.h"

@@ -2,6 +2,7 @@
 #ifndef HD_STEPS_H
 #define HD_STEPS_H
 
+#include "base/archive.h"
 #include "hdlyap/steps.h"
 
 /** kind: HD_MODE_T or HD_MODE_LP. */
@@ -26,5 +27,8 @@ double hd_steps_error_of_sum(const hd_steps *steps, const hd_spectrum *spectrum,
 
 /** The relation in the scene of the steps. kind: HD_MODE_T or HD_MODE_LP. */
 const hd_relation *hd_steps_relation(const hd_steps *steps, hd_mode_kind kind);
+
+double hd_steps_bytes(const hd_scene_def *scene);
+void hd_steps_archive(hd_steps *steps, hd_archive *archive);
 
 #endif

@@ -14,7 +14,6 @@
 #include "base/check.h"
 #include "base/communicator.h"
 #include "base/memory.h"
-#include "modes/archived.h"
 #include "modes/harmonics.h"
 #include "modes/modes.h"
 #include "modes/structure_terms.h"

@@ -2,6 +2,7 @@
 #ifndef HD_STRUCTURE_H
 #define HD_STRUCTURE_H
 
+#include "base/archive.h"
 #include "base/communicator.h"
 #include "hdlyap/frame.h"
 #include "hdlyap/structure.h"
@@ -33,5 +34,8 @@ int hd_structure_waves_of(const hd_scene_def *def); /**< hd_structure_waves of a
  * 2/3 across. */
 const double *hd_structure_snapshot(const hd_structure *structure, int wave, hd_direction e);
 int hd_structure_vectors(const hd_structure *structure); /**< n */
+
+double hd_structure_bytes(const hd_scene_def *scene, double vectors);
+void hd_structure_archive(hd_structure *structure, hd_archive *archive);
 
 #endif

@@ -1,6 +1,5 @@
 /** L and P modes as an observable. They are reconstructed, step by step, when they are read, at
  * reports at which fields are due. */
-#include "modes/archived.h"
 #include "modes/pmode.h"
 #include "modes/steps.h"
 #include "observe/observable.h"

@@ -9,7 +9,7 @@
 
 #include "base/check.h"
 #include "base/memory.h"
-#include "modes/archived.h"
+#include "modes/fields.h"
 #include "modes/steps.h"
 #include "modes/sets.h"
 #include "observe/functionals.h"

@@ -3,7 +3,6 @@
 #include "base/check.h"
 #include "observe/observable.h"
 #include "scene/scene.h"
-#include "tangent/archived.h"
 #include "tangent/localization.h"
 
 static double localization_bytes(const hd_scene_def *scene, int ranks)

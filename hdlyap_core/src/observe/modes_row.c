@@ -1,6 +1,5 @@
 /** Modes and steps as observables: the weights of all vectors, then the degenerate sets. */
 #include "base/check.h"
-#include "modes/archived.h"
 #include "modes/modes.h"
 #include "modes/steps.h"
 #include "observe/observable.h"

@@ -1,7 +1,7 @@
 /** Phases of LP steps and of T steps: two observables of one kind. */
 #include <math.h>
 
-#include "modes/archived.h"
+#include "modes/fields.h"
 #include "modes/phases.h"
 #include "observe/observable.h"
 #include "observe/step_quantities.h"

@@ -1,6 +1,5 @@
 /** Structure factors of the vectors as an observable. */
 #include "base/check.h"
-#include "modes/archived.h"
 #include "modes/modes.h"
 #include "modes/structure.h"
 #include "observe/observable.h"

@@ -4,16 +4,17 @@
 
 #include <math.h>
 
-#include "averages/archived.h"
+#include "averages/spectrum.h"
+#include "modes/fields.h"
+#include "modes/modes.h"
+#include "tangent/localization.h"
 #include "averages/doubling.h"
 #include "base/check.h"
 #include "base/memory.h"
 #include "covariant/archived.h"
 #include "covariant/covariant.h"
 #include "covariant/window_room.h"
-#include "modes/archived.h"
 #include "scene/scene.h"
-#include "tangent/archived.h"
 
 /** The observable. */
 typedef struct hd_windows {

@@ -6,7 +6,9 @@
 #include <float.h>
 #include <math.h>
 
-#include "averages/archived.h"
+#include "tangent/conjugate.h"
+#include "tangent/frame.h"
+#include "tangent/ortho.h"
 #include "averages/spectrum.h"
 #include "base/blas.h"
 #include "base/check.h"
@@ -16,7 +18,6 @@
 #include "observe/observables.h"
 #include "run/advance.h"
 #include "scene/scene.h"
-#include "tangent/archived.h"
 #include "tangent/threads.h"
 #include "tangent/verify.h"
 

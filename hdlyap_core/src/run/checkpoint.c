@@ -7,19 +7,19 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "averages/archived.h"
+#include "averages/spectrum.h"
+#include "dynamics/trajectory.h"
+#include "tangent/frame.h"
+#include "tangent/interval.h"
 #include "base/check.h"
 #include "base/clock.h"
-#include "dynamics/archived.h"
 #include "hdlyap/blas.h"
 #include "run/checkpoint.h"
 #include "run/checkpoint_file.h"
 #include "run/order.h"
 #include "run/run_state.h"
-#include "scene/archived.h"
 #include "scene/parameters.h"
 #include "scene/scene.h"
-#include "tangent/archived.h"
 #include "dynamics/dynamics.h"
 #include "scene/dynamics.h"
 

@@ -7,7 +7,7 @@
 #include "base/check.h"
 #include "base/communicator.h"
 #include "base/memory.h"
-#include "dynamics/archived.h"
+#include "dynamics/trajectory.h"
 #include "hdlyap/blas.h"
 #include "hdlyap/hdlyap.h"
 #include "hdlyap/room.h"

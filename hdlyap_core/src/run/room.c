@@ -5,7 +5,6 @@
 #include <stdio.h>
 
 #include "base/check.h"
-#include "dynamics/archived.h"
 #include "observe/observables.h"
 #include "run/agenda.h"
 #include "run/carrier.h"

@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "base/check.h"
-#include "scene/archived.h"
 #include "scene/fluid.h"
 #include "scene/parameters.h"
 #include "scene/wave.h"

@@ -2,6 +2,7 @@
 #ifndef HD_SCENE_H
 #define HD_SCENE_H
 
+#include "base/archive.h"
 #include "hdlyap/scene.h"
 
 /** Whether direction d is periodic, has walls, or is curved. */
@@ -34,5 +35,7 @@ double hd_scene_sound_crossing(const hd_scene_def *def);
  * authors: 1 / (2 sqrt(2) density g) for disks, 1 / (sqrt(2) pi density g) for spheres. Without a
  * theory: the path at speed 1 in the time between two collisions. */
 double hd_scene_mean_free_path(const hd_scene_def *def);
+
+void hd_scene_archive(hd_scene_def *def, hd_archive *archive);
 
 #endif

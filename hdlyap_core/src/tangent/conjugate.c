@@ -12,8 +12,7 @@
 #include "base/check.h"
 #include "base/memory.h"
 #include "base/random.h"
-#include "tangent/archived.h"
-#include "tangent/frame_state.h"
+#include "tangent/frame.h"
 #include "tangent/product.h"
 
 enum { PANEL = 16, PAIRS = 4 };

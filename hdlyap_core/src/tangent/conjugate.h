@@ -62,4 +62,7 @@ double hd_conjugate_isotropy_measured(const hd_frame *frame);
 /** Completes the results [4N] of hd_frame_halves, of which the first half is given. */
 void hd_conjugate_halves(double *cos_theta, double *dp_dq_ratio, int half);
 
+/** most: as hd_conjugate_create. */
+double hd_conjugate_bytes(double rows, double most);
+
 #endif

@@ -1,7 +1,7 @@
 /** Tangent vectors, row-major; the rows of a particle are dq_x dq_y .. dp_x dp_y .. With several
  * ranks each one has some of the columns. For an orthonormalisation it has all columns of some
  * particles instead, in the same memory. */
-#include "tangent/frame_state.h"
+#include "tangent/frame.h"
 
 #include <float.h>
 #include <math.h>
@@ -10,7 +10,6 @@
 #include "base/check.h"
 #include "base/memory.h"
 #include "base/random.h"
-#include "tangent/archived.h"
 
 /** A sum of squares below this is not known to rounding: that half counts as zero. */
 static const double SQUARE_MIN = DBL_MIN / DBL_EPSILON;

@@ -3,6 +3,7 @@
 #ifndef HD_FRAME_H
 #define HD_FRAME_H
 
+#include "base/archive.h"
 #include "base/communicator.h"
 #include "dynamics/dynamics.h"
 #include "hdlyap/frame.h"
@@ -62,5 +63,28 @@ void hd_frame_rewind(hd_frame *frame);
 /** For each of this rank's columns (hd_frame_columns): the cosine of the angle between its dp and
  * dq halves, NaN if one of them vanishes; and |dp| / |dq|, NaN if dq vanishes. */
 void hd_frame_halves(const hd_frame *frame, double *cos_theta, double *dp_dq_ratio);
+
+/** Reads or writes the frame. With several ranks each one reads the whole file; when writing, rank
+ * 0 gets the vectors of all. Fails with HD_NO_MEMORY on all ranks. */
+HD_MUST_CHECK hd_status hd_frame_archive(hd_frame *frame, hd_archive *archive);
+/** Numbers that it reads or writes. */
+double hd_frame_archived(const hd_dynamics *of, int particles, int vectors);
+/** Bytes of a frame of this many vectors on one rank, without its tangent maps. */
+double hd_frame_bytes(const hd_dynamics *of, double rows, double vectors, double threads);
+
+/** frame.c keeps the members, replay.c carries the vectors. */
+struct hd_frame {
+    hd_communicator *communicator; /**< NULL: a single rank, which has all vectors */
+    const hd_dynamics *of;
+    int particles, rows, vectors, stride;
+    int rows_kept; /**< rows with the zeros that make all ranks' parts equal */
+    bool by_rows;
+    int threads, threads_max;
+    int width;       /**< width of a block: 1, 2, 4, 8, 16, 32 or 64 columns */
+    double *copy[2]; /**< [rows * stride]: the vectors before and after a replay */
+    int current;
+    double *buffer; /**< [threads][rows * width] */
+    void *maps;     /**< the tangent maps of the present replay; the dynamics knows what they are */
+};
 
 #endif

@@ -5,8 +5,6 @@
 #include <math.h>
 #include <stdbool.h>
 
-#include "tangent/archived.h"
-
 /** A condition below this is always allowed: a few collisions make as much, so shorter intervals
  * would not lower it, and more of them would add up. */
 static const double CONDITION_MIN = 1e3;

@@ -5,6 +5,7 @@
 
 #include <float.h>
 
+#include "base/archive.h"
 #include "hdlyap/interval.h"
 #include "tangent/ortho.h"
 
@@ -81,5 +82,7 @@ hd_interval_length hd_interval_longest(const hd_interval *interval);
 /** The next interval: `remaining` divided into as few equal shares as conditioning allows; the
  * whole of it (HD_LIMIT_SCHEDULE) if possible. */
 hd_interval_length hd_interval_next(const hd_interval *interval, double remaining);
+
+void hd_interval_archive(hd_interval *interval, hd_archive *archive);
 
 #endif

@@ -9,7 +9,6 @@
 #include "base/arrays.h"
 #include "base/check.h"
 #include "base/memory.h"
-#include "tangent/archived.h"
 
 /** Columns that are measured together. */
 enum { BLOCK = 64 };

@@ -2,6 +2,7 @@
 #ifndef HD_LOCALIZATION_H
 #define HD_LOCALIZATION_H
 
+#include "base/archive.h"
 #include "hdlyap/frame.h"
 #include "hdlyap/localization.h"
 
@@ -22,5 +23,8 @@ void hd_localization_add(hd_localization *shape);
 
 /** Mean |cos| of the angle between the dq and dp halves; [n]. */
 const double *hd_localization_cosines(const hd_localization *shape);
+
+void hd_localization_archive(hd_localization *shape, hd_archive *archive);
+double hd_localization_bytes(double vectors);
 
 #endif

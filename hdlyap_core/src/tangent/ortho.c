@@ -20,7 +20,7 @@
 
 #include "base/check.h"
 #include "base/memory.h"
-#include "tangent/archived.h"
+#include "tangent/ortho.h"
 #include "tangent/panel.h"
 
 /** Cholesky of a Gram matrix breaks down near 1 / sqrt(16 eps) = 2e7. */

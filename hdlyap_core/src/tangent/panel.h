@@ -5,7 +5,6 @@
 
 #include "tangent/frame.h"
 #include "tangent/ortho.h"
-#include "tangent/ortho_state.h"
 
 /** A panel wider than HD_LEAF_MAX is orthonormalised by halves. S covers at most HD_LATER_MAX
  * vectors, which limits its memory. */

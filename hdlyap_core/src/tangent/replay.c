@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "base/check.h"
-#include "tangent/frame_state.h"
+#include "tangent/frame.h"
 
 /** Copies columns [col, col + used) of V into the buffer, or back. */
 static void block_load(const hd_frame *frame, double *buffer, int col, int used)

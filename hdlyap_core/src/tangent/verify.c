@@ -10,7 +10,7 @@
 #include "scene/container.h"
 #include "scene/scene.h"
 #include "tangent/conjugate.h"
-#include "tangent/frame_state.h"
+#include "tangent/frame.h"
 #include "tangent/interval.h"
 
 /** Asserts that `value` is a number and at most `limit`. */

@@ -1,7 +1,7 @@
 /** Sampled fields against differences of the modulations, and against what a T, L or P field must
  * be. */
 #include "synthetic.h"
-#include "modes/archived.h"
+#include "modes/fields.h"
 
 enum { DISKS = 60, ROWS = 2 * DISKS };
 /** Step of central differences, about the cube root of the rounding. */

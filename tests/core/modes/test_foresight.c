@@ -1,6 +1,6 @@
 /** Vectors of an LP step that are sampled as seldom as the phases allow: what the rate is known for
  * [T13]. */
-#include "modes/archived.h"
+#include "modes/phases.h"
 #include "modes/foresight.h"
 #include "rotating.h"
 

@@ -1,7 +1,7 @@
 /** Out of memory at every single allocation of a run: it is named, and all of what was had is given
  * back. */
 #include "chain.h"
-#include "dynamics/archived.h"
+#include "dynamics/trajectory.h"
 #include "hdlyap/checkpoint.h"
 #include "ledger.h"
 #include "said.h"

@@ -1,7 +1,6 @@
 /** The energy of soft particles: the step that is chosen for it, what is said of it, and when it is
  * lost. */
 #include "hdlyap/checkpoint.h"
-#include "dynamics/archived.h"
 #include "kept.h"
 #include "runs.h"
 #include "same.h"

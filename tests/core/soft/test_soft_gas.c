@@ -3,7 +3,6 @@
  * Seeds are fixed, so that a tolerance of Z standard errors passes or fails for good. */
 #include "observe/gas.h"
 
-#include "dynamics/archived.h"
 #include "dynamics/trajectory.h"
 #include "soft.h"
 

@@ -2,7 +2,7 @@
  * checkpoints, what is refused, and hard cases. */
 #include "hdlyap/checkpoint.h"
 #include "base/memory.h"
-#include "dynamics/archived.h"
+#include "dynamics/trajectory.h"
 #include "hdlyap/covariant.h"
 #include "kept.h"
 #include "runs.h"

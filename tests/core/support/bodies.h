@@ -3,7 +3,7 @@
 #define TEST_BODIES_H
 
 #include "dynamics/hard/hard.h"
-#include "dynamics/trajectory_state.h"
+#include "dynamics/trajectory.h"
 
 static inline hard *hard_in(const hd_trajectory *trajectory) { return trajectory->state; }
 

@@ -5,7 +5,7 @@
 #include "dynamics/dynamics.h"
 #include "scene/dynamics.h"
 #include "dynamics/hard/events.h"
-#include "dynamics/record_state.h"
+#include "dynamics/record.h"
 
 /** Of the particles that this test is of. */
 #if HD_DIM == 2

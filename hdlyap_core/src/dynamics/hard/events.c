@@ -6,7 +6,7 @@
 #include <stdbool.h>
 
 #include "dynamics/hard/contact.h"
-#include "dynamics/record_state.h"
+#include "dynamics/record.h"
 #include "dynamics/hard/round_wall.h"
 
 double hd_events_bytes(double events)

@@ -22,7 +22,7 @@
 #include "base/check.h"
 #include "base/memory.h"
 #include "dynamics/hard/prefetch.h"
-#include "dynamics/record_state.h"
+#include "dynamics/record.h"
 #include "scene/null_space.h"
 #include "scene/scene_check.h"
 
