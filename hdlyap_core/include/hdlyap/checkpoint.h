@@ -17,7 +17,7 @@ HD_API_BEGIN
 
 /** The format of the files that this version writes, the only one that it reads; and the bytes of
  * the label of a file (see hd_run_save), with its final zero. */
-enum { HD_CHECKPOINT_FORMAT = 20, HD_CHECKPOINT_LABEL = 64 };
+enum { HD_CHECKPOINT_FORMAT = 21, HD_CHECKPOINT_LABEL = 64 };
 
 /** What can be read of a checkpoint without resuming its run. */
 typedef struct hd_checkpoint {

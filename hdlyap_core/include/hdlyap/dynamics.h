@@ -197,13 +197,12 @@ struct hd_dynamics {
     /** Bytes of memory that the state takes, for estimates. May be left out. */
     double (*bytes)(const hd_scene_def *scene);
 
-    /* ---- record; these three may be left out if entries consist of doubles */
-    /** Returns what is wrong with a record that was read from a checkpoint, in words, or NULL if
-     * nothing is. */
+    /* ---- record, whose entries consist of doubles; checkpoints keep them, and refuse what is not
+     * finite or not in the order of time */
+    /** Returns what else is wrong with a record that was read from a checkpoint, in words, or NULL
+     * if nothing is. May be left out. */
     const char *(*fault)(const hd_record *record, const hd_scene_def *scene);
-    /** Writes or reads all entries of the record, as `archive` does for the state. */
-    void (*archive_record)(hd_record *record, hd_archive *archive, const hd_scene_def *scene);
-    /** Bytes of so many record entries together with their maps. */
+    /** Bytes of so many record entries together with their maps. May be left out. */
     double (*record_bytes)(double entries);
 
     /* ---- tangent maps */

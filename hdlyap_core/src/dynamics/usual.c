@@ -65,11 +65,11 @@ static const char *usual_fault(const hd_record *record)
 const char *hd_record_fault(const hd_record *record, const hd_scene_def *scene)
 {
     const hd_dynamics *of = hd_dynamics_of(scene);
-    const char *usual = of->archive_record ? NULL : usual_fault(record);
+    const char *usual = usual_fault(record);
     return usual || !of->fault ? usual : of->fault(record, scene);
 }
 
-static void usual_archive(hd_record *record, hd_archive *archive, const hd_scene_def *scene)
+void hd_record_archive(hd_record *record, hd_archive *archive, const hd_scene_def *scene)
 {
     size_t count = record->count;
     hd_archive_double(archive, "log duration", &record->duration);
@@ -84,15 +84,6 @@ static void usual_archive(hd_record *record, hd_archive *archive, const hd_scene
     hd_archive_doubles(archive, "log entries", record->entry, doubles_of(record));
     const char *fault = hd_record_fault(record, scene);
     if (fault) hd_archive_refuse(archive, "log", fault);
-}
-
-void hd_record_archive(hd_record *record, hd_archive *archive, const hd_scene_def *scene)
-{
-    const hd_dynamics *of = hd_dynamics_of(scene);
-    if (of->archive_record)
-        of->archive_record(record, archive, scene);
-    else
-        usual_archive(record, archive, scene);
 }
 
 double hd_record_bytes_of(const hd_scene_def *scene, double entries)

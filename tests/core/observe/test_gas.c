@@ -46,18 +46,19 @@ typedef struct sums {
 
 static void add_event(sums *s, const hd_event *e)
 {
-    if (e->j < 0) {
-        const int d = HD_WALL_X - e->j;
+    const int i = (int)e->i, j = (int)e->j;
+    if (j < 0) {
+        const int d = HD_WALL_X - j;
         s->impulse[d] += fabs(e->p[d]);
-        s->p[DIM * e->i + d] = -s->p[DIM * e->i + d];
+        s->p[DIM * i + d] = -s->p[DIM * i + d];
         return;
     }
     const double b = dot(e->p, e->n, DIM);
     s->pairs++;
     for (int d = 0; d < DIM; d++) {
         s->virial[d] -= b * e->n[d] * e->n[d];
-        s->p[DIM * e->i + d] += b * e->n[d];
-        s->p[DIM * e->j + d] -= b * e->n[d];
+        s->p[DIM * i + d] += b * e->n[d];
+        s->p[DIM * j + d] -= b * e->n[d];
     }
 }
 

@@ -205,7 +205,7 @@ TEST(what_no_run_could_resume_is_not_written)
         {&run->agenda.schedule.start, 1e9,
          "schedule: its times do not fit the time of the checkpoint"},
         {&run->carrier.interval.last, -1.0, "interval: it is negative"},
-        {&events_in(run->carrier.record)[0].t, 1e9, "log: an event comes after the end"},
+        {&events_in(run->carrier.record)[0].t, 1e9, "log: an entry comes after the end"},
         {&hard_in(run->advance.trajectory)->now, 1e9, "trajectory: the time is outside the epoch"},
         {&hard_in(run->advance.trajectory)->motion.disk[0].p[0], 9.0, "trajectory: "},
     };

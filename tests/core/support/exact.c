@@ -149,14 +149,14 @@ void exact_replay(exact_frame *x, const hd_record *log)
     double t = 0.0;
     for (size_t k = 0; k < log->count; k++) {
         const hd_event *event = &events_in(log)[k];
-        hd_exact *i = rows_of(x, event->i);
+        hd_exact *i = rows_of(x, (int)event->i);
         fly(x, (hd_exact)event->t - t);
         if (event->j >= 0)
-            collide(i, rows_of(x, event->j), x->vectors, event);
+            collide(i, rows_of(x, (int)event->j), x->vectors, event);
         else if (event->j == HD_WALL_ROUND)
             curve(i, x->vectors, event);
         else
-            reflect(i, x->vectors, -1 - event->j);
+            reflect(i, x->vectors, -1 - (int)event->j);
         if (k % EVENTS_MAX == 0) exact_orthonormalise(x->v, x->rows, x->vectors, x->sum);
         t = event->t;
     }

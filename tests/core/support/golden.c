@@ -98,7 +98,7 @@ static uint64_t hash_log(const hd_record *log)
     uint64_t hash = 0xcbf29ce484222325u;
     for (size_t k = 0; k < log->count; k++) {
         const hd_event *e = &events_in(log)[k];
-        const int32_t disks[] = {e->i, e->j};
+        const int32_t disks[] = {(int32_t)e->i, (int32_t)e->j};
         hash = hash_bytes(hash, disks, sizeof disks);
         hash = hash_bytes(hash, e->n, sizeof e->n);
         hash = hash_bytes(hash, e->p, sizeof e->p);
@@ -116,7 +116,7 @@ uint64_t golden_hash(int scene)
         hd_trajectory_create(&tr, &g.def) == HD_OK) {
         const double t_end = g.pair_events / hd_trajectory_totals(tr).expected;
         if (trajectory_to(tr, log, t_end) == HD_OK && log->count > 1000)
-            hash = log->size == sizeof(hd_event) ? hash_log(log) : hash_entries(log);
+            hash = hd_dynamics_of(&g.def)->dispersing ? hash_log(log) : hash_entries(log);
     }
     hd_trajectory_free(tr);
     hd_record_free(log);

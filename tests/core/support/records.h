@@ -4,7 +4,7 @@
 
 #include "dynamics/dynamics.h"
 #include "scene/dynamics.h"
-#include "dynamics/hard/events.h"
+#include "dynamics/hard/event.h"
 #include "dynamics/record.h"
 
 /** Of the particles that this test is of. */

@@ -7,7 +7,7 @@ enum { PIECE_KINDS = sizeof PIECES / sizeof *PIECES };
 
 static void print_event(const char *whose, const hd_event *e)
 {
-    print_error("  %s t %.17g i %d j %d", whose, e->t, e->i, e->j);
+    print_error("  %s t %.17g i %g j %g", whose, e->t, e->i, e->j);
     for (int d = 0; d < DIM; d++) print_error(" n %.17g p %.17g", e->n[d], e->p[d]);
     print_error("\n");
 }

@@ -21,8 +21,6 @@ enum { HD_ROWS = 2 * HD_DIM };
 #define hd_cells_create HD_COMPILED(hd_cells_create)
 #define hd_cells_cross HD_COMPILED(hd_cells_cross)
 #define hd_cells_empty HD_COMPILED(hd_cells_empty)
-#define hd_events HD_COMPILED(hd_events)
-#define hd_events_archive HD_COMPILED(hd_events_archive)
 #define hd_events_bytes HD_COMPILED(hd_events_bytes)
 #define hd_events_fault HD_COMPILED(hd_events_fault)
 #define hd_hard_advance HD_COMPILED(hd_hard_advance)

@@ -2,8 +2,6 @@
 #ifndef HD_EVENT_H
 #define HD_EVENT_H
 
-#include <stdint.h>
-
 #include "dynamics/hard/compiled.h"
 #include "hdlyap/scene.h"
 #include "dynamics/trajectory.h"
@@ -18,13 +16,20 @@ enum { HD_WALL_X = -1, HD_WALL_Y = -2, HD_WALL_Z = -3, HD_WALL_ROUND = -1 - HD_D
  * wall; and if a pair meets through two images, the lower image in z comes first, then in y, then
  * in x. */
 typedef struct hd_event {
-    double t;  /**< since the start of the record [time units] */
-    int32_t i; /**< disk, 0-based; i < j for a pair */
-    int32_t j; /**< other disk, or HD_WALL_* */
+    double t;    /**< since the start of the record [time units] */
+    double i, j; /**< disk, 0-based, i < j for a pair; other disk, or HD_WALL_*: whole numbers, kept
+                    as doubles as all else is */
     /** Unit vector from i to j at contact. For a flat wall it is the unit vector of its direction;
      * for a round wall the outward normal times the radius of curvature. */
     double n[HD_DIM];
     double p[HD_DIM]; /**< p_j - p_i before the collision; for a wall, p_i before the collision */
 } hd_event;
+
+/** Returns NULL, or what is wrong with the events, which are finite numbers in the order of time: a
+ * disk or a wall that does not exist, a normal of the wrong length, or disks that do not approach.
+ */
+const char *hd_events_fault(const hd_record *record, const hd_scene_def *scene);
+/** Bytes of this many events: in the record, which doubles when it is full, and as tangent maps. */
+double hd_events_bytes(double events);
 
 #endif

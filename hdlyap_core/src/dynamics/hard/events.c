@@ -1,27 +1,23 @@
-/** Checks the record of hard particles, and keeps it in a checkpoint. */
-#include "dynamics/hard/events.h"
+/** Checks the record of hard particles. */
+#include "dynamics/hard/event.h"
 
 #include <float.h>
 #include <math.h>
 #include <stdbool.h>
 
 #include "dynamics/hard/contact.h"
-#include "dynamics/record.h"
 #include "dynamics/hard/round_wall.h"
 
 double hd_events_bytes(double events)
 {
-    static const double OF_AN_EVENT = HD_DIM == 2 ? 130.0 : 170.0;
+    static const double OF_AN_EVENT = HD_DIM == 2 ? 142.0 : 182.0;
     return OF_AN_EVENT * events;
 }
 
-const hd_event *hd_events(const hd_record *record) { return record->entry; }
-
-/* ---- checks -------------------------------------------------------------------------------- */
-
 static bool disks_exist(const hd_event *event, int disks)
 {
-    if (event->i < 0 || event->i >= disks) return false;
+    if (!(event->i >= 0 && event->i < disks)) return false;
+    if (event->i != floor(event->i) || event->j != floor(event->j)) return false;
     return (event->j < 0 && event->j >= HD_WALL_ROUND) || (event->j > event->i && event->j < disks);
 }
 
@@ -58,51 +54,14 @@ static bool approach(const hd_event *event)
 const char *hd_events_fault(const hd_record *record, const hd_scene_def *scene)
 {
     const hd_wall wall = hd_wall_of(scene);
-    double before = 0.0;
     for (size_t k = 0; k < record->count; k++) {
-        const hd_event *event = hd_events(record) + k;
-        if (!(event->t >= before)) return "an event comes before the one before it";
-        if (!(event->t <= record->duration)) return "an event comes after the end of the record";
+        const hd_event *event = hd_record_entry(record, k);
         if (!disks_exist(event, scene->number))
             return "an event names a particle that does not exist";
         if (!wall_exists(event, &wall)) return "an event names a wall that does not exist";
         if (!is_normal(event, &wall)) return "a normal vector has a wrong length";
         if ((event->j >= 0 || event->j == HD_WALL_ROUND) && !approach(event))
             return "partners of a collision move apart";
-        before = event->t;
     }
     return NULL;
-}
-
-/* ---- file ---------------------------------------------------------------------------------- */
-
-static void event_archive(hd_event *event, hd_archive *archive)
-{
-    hd_archive_next_doubles(archive, &event->t, 1);
-    hd_archive_next_doubles(archive, event->n, HD_DIM);
-    hd_archive_next_doubles(archive, event->p, HD_DIM);
-}
-
-void hd_events_archive(hd_record *record, hd_archive *archive, const hd_scene_def *scene)
-{
-    size_t count = record->count;
-    hd_archive_double(archive, "log duration", &record->duration);
-    hd_archive_count(archive, "log count", &count, record->size);
-    if (!archive->writing) {
-        const hd_status status = hd_record_reserve(record, count);
-        if (status != HD_OK)
-            hd_archive_fail(archive, status, "log count", "there is no memory for so many events");
-        if (!hd_archive_good(archive)) return;
-        record->count = count;
-    }
-    hd_archive_of_doubles(archive, "log t n p", (1 + 2 * HD_DIM) * count);
-    hd_event *event = record->entry;
-    for (size_t k = 0; k < count; k++) event_archive(&event[k], archive);
-    hd_archive_of_ints(archive, "log i j", 2 * count);
-    for (size_t k = 0; k < count; k++) {
-        hd_archive_next_int(archive, &event[k].i, 0, scene->number - 1);
-        hd_archive_next_int(archive, &event[k].j, HD_WALL_ROUND, scene->number - 1);
-    }
-    const char *fault = hd_events_fault(record, scene);
-    if (fault) hd_archive_refuse(archive, "log", fault);
 }

@@ -165,12 +165,13 @@ static bool exchange(hd_disk *a, hd_disk *b, const double r[HD_DIM], double appr
 /** Reflects a disk at a curved wall [T21]. */
 static hd_status reflect_round(hard *tr, hd_record *record, hd_event *event, double t)
 {
-    hd_disk *disk = &tr->motion.disk[event->i];
+    const int32_t i = (int32_t)event->i;
+    hd_disk *disk = &tr->motion.disk[i];
     hd_disk_move_to(disk, t);
     const bool reflected = hd_round_wall_reflect(&tr->motion.wall, disk, event);
     disk->collisions++;
     tr->wall_events += reflected;
-    hd_prediction_renew(&tr->motion, event->i);
+    hd_prediction_renew(&tr->motion, i);
     return reflected ? put(record, event) : HD_OK;
 }
 
@@ -179,9 +180,10 @@ static hd_status collide(hard *tr, hd_record *record, hd_event *contact, int32_t
 {
     if (contact->j == tr->motion.count) return reflect_round(tr, record, contact, t);
     hd_event event = *contact;
-    hd_disk *a = &tr->motion.disk[event.i], *b = &tr->motion.disk[event.j];
+    const int32_t i = (int32_t)event.i, j = (int32_t)event.j;
+    hd_disk *a = &tr->motion.disk[i], *b = &tr->motion.disk[j];
     const prediction *how = &tr->motion.predicted[found_by];
-    const double sign = 1.0 - 2.0 * (found_by != event.i); /* the image is relative to found_by */
+    const double sign = 1.0 - 2.0 * (found_by != i); /* the image is relative to found_by */
     double shift[HD_DIM], r[HD_DIM];
     for (int d = 0; d < HD_DIM; d++) shift[d] = sign * how->image[d] * tr->motion.cells.box[d];
     hd_disk_move_to(a, t);
@@ -207,7 +209,7 @@ static hd_status collide(hard *tr, hd_record *record, hd_event *contact, int32_t
     hd_cells_fold(&tr->motion.cells, a);
     hd_cells_fold(&tr->motion.cells, b);
     hd_prediction_renew(&tr->motion, found_by); /* first: always the queue's head, predictable */
-    hd_prediction_renew(&tr->motion, event.i + event.j - found_by);
+    hd_prediction_renew(&tr->motion, i + j - found_by);
     return status;
 }
 

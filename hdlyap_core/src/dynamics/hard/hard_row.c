@@ -3,7 +3,7 @@
 #include <math.h>
 
 #include "base/check.h"
-#include "dynamics/hard/events.h"
+#include "dynamics/hard/event.h"
 #include "dynamics/hard/hard.h"
 #include "dynamics/hard/maps.h"
 #include "scene/container.h"
@@ -216,7 +216,6 @@ const hd_dynamics ROW = {.particles = HD_DIM == 2 ? "disks" : "spheres",
                          .fingerprint = hd_hard_fingerprint,
                          .bytes = hd_hard_bytes,
                          .fault = hd_events_fault,
-                         .archive_record = hd_events_archive,
                          .record_bytes = hd_events_bytes,
                          .maps_create = hd_maps_create,
                          .maps_free = hd_maps_free,
