@@ -97,7 +97,7 @@ struct hd_dynamics {
     int coordinates; /**< number of coordinates of a particle, which is that of the components of
                         its dq, and of its dp; at most HD_COORDINATES_MAX. The first `dimension` of
                         them are its position */
-    size_t entry; /**< bytes of an entry of the record, a multiple of 8. The first 8 are a double,
+    size_t entry; /**< bytes of an entry of the record, which consists of doubles; the first one is
                      the time of the entry */
     /** True if tangent maps are symplectic: exponents then come in pairs of opposite sign, and half
      * of the vectors give all of them [T18]. If false, exponents = all carries all vectors. */

@@ -51,19 +51,21 @@ static hd_status take_event(hd_bodies *all, hd_record *record, int32_t i, double
 {
     const hd_motion *m = &((hard *)all)->motion;
     const hd_queue_key key = m->queue.entry[i].key;
+    const prediction *next = &m->predicted[i];
+    const int kind = hd_queue_kind(key.order);
+    if (kind == EDGE) {
+        cross(all, i);
+        return HD_OK;
+    }
+    if (kind != WALL && next->partner_collisions != m->disk[next->partner].collisions) {
+        renew(all, i); /* stale */
+        return HD_OK;
+    }
     hd_entry entry = {.t = key.t > begin ? key.t - begin : 0.0,
                       .i = hd_queue_i(key.order),
                       .j = hd_queue_j(key.order)};
-    switch (hd_queue_kind(key.order)) {
-    case WALL: return reflect(all, record, &entry, i, key.t);
-    case EDGE: cross(all, i); return HD_OK;
-    default: break;
-    }
-    const prediction *next = &m->predicted[i];
-    if (next->partner_collisions == m->disk[next->partner].collisions)
-        return collide(all, record, &entry, i, key.t);
-    renew(all, i); /* stale */
-    return HD_OK;
+    return kind == WALL ? reflect(all, record, &entry, i, key.t)
+                        : collide(all, record, &entry, i, key.t);
 }
 
 /** Moves all particles to the end of the epoch, which becomes time 0, and predicts all anew. */
