@@ -16,8 +16,8 @@ SURE = 3  # standard errors
 
 
 def limit(rows, potential):
-    """lambda_1 where the energy is kept best: the mean of the finest step of each integrator; NaN if
-    all of them lose it."""
+    """lambda_1 where the energy is kept best: the mean of the finest step of each integrator; NaN
+    if all of them lose it."""
     some = [finest(rows, potential, by) for by in KICKS]
     some = [row for row in some if row]
     if not some:
