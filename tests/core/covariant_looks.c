@@ -18,7 +18,6 @@ enum {
     WALL_X,
     WALL_Y,
     EXPONENTS,
-    RECOMPUTE,
     STEP,
     TRANSIENT,
     WINDOW,
@@ -38,7 +37,6 @@ static hd_scene_def scene_of(char **argument)
     for (int d = 0; d < 2; d++) scene.boundary[d] = a[WALL_X + d] > 0 ? HD_REFLECTING : HD_PERIODIC;
     scene.exponents = (int)a[EXPONENTS];
     scene.observe = HD_OBSERVE_COVARIANT;
-    scene.covariant_storage = a[RECOMPUTE] > 0 ? HD_STORAGE_RECOMPUTE : HD_STORAGE_MEMORY;
     scene.interval = scene.report_interval = a[STEP];
     scene.equilibration = 16.0;
     scene.warmup = scene.covariant_transient = a[TRANSIENT];

@@ -36,7 +36,7 @@ LARGE_WINDOW = dict(
     covariant_window=10000.0,
     covariant_transient=10000.0,
     covariant_sampling=1.0,
-    covariant_memory=0.01,
+    covariant_memory=0.005,
     duration=0.0,
 )
 EVERY_LINE = dict(
@@ -295,7 +295,7 @@ class Check(harness.Case):
             dict(observables=['spectrum', 'x']),
             dict(seed=1.5),
             dict(number=1000000),
-            dict(LARGE_WINDOW, covariant_storage='recompute'),
+            LARGE_WINDOW,
         )
         nodes = [self.start(params, name='refused_%d' % k) for k, params in enumerate(some)]
         numbers = re.compile(r'there are .*')  # memory goes up and down

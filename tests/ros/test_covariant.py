@@ -248,20 +248,20 @@ class Choices(Case):
         )
 
     def test_goes_on_from_a_checkpoint(self):
-        """With the averages of its windows, what was observed and the parameters; windows may wait
-        elsewhere."""
+        """With the averages of its windows, what was observed and the parameters; windows may have
+        another memory."""
         path = os.path.join(self.new_folder(), 'run.checkpoint')
         first = self.run_of(duration=60.0, checkpoint=path)
         topics = ['covariant', 'run_info']
-        params = dict(resume=path, duration=100.0, covariant_storage='recompute')
+        params = dict(resume=path, duration=100.0, covariant_memory=1.0)
         heard = harness.whole_run(dict(params, wait_for_subscribers=topics), topics)
         second, info = heard['covariant'], heard['run_info'][0]
         self.assertEqual([message.windows for message in first + second], list(range(1, 13)))
         self.assertAlmostEqual(second[0].sim_time, START + 60.0 + WINDOW, delta=ROUNDING)
         self.assertEqual(second[0].samples, 9 * LOOKS)
         self.assertEqual(
-            (info.observables, info.covariant_window, info.covariant_storage),
-            (['spectrum', 'covariant', 'state'], WINDOW, 'recompute'),
+            (info.observables, info.covariant_window, info.covariant_memory),
+            (['spectrum', 'covariant', 'state'], WINDOW, 1.0),
         )
 
 

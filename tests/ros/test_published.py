@@ -265,7 +265,7 @@ WALLS.update(field_interval=1000.0, observables=[name for name in TURNING if nam
 SMALL = dict(SHORT, number=16, density=0.7, aspect=0.866, exponents='all_independent', interval=0.4)
 SMALL.update(covariant_window=2.0, covariant_transient=10.0, covariant_sampling=0.5, pace=40.0)
 SMALL.update(observables=EVERY, max_mode_number=1, covariant_memory=0.5, slow_vectors_count=9)
-SMALL.update(slow_vectors_rate=20.0, covariant_storage='recompute')
+SMALL.update(slow_vectors_rate=20.0)
 CIRCLE = dict(SHORT, **LOOKED_AT, container='circle', number=100, density=0.7)
 CIRCLE.update(observables=[name for name in REST if name not in ('t_phases', 'hydro', 'structure')])
 SPHERES = dict(SHORT, particles='spheres', number=48, density=0.5, aspect_z=6.0, aspect=1.0)

@@ -233,7 +233,6 @@ static const std::vector<refused> refused_together = {
     {"covariant_transient: 99.0", "covariant_transient = 99", {"100 ", UNSEEN}},
     {"covariant_sampling: 4.0", "covariant_sampling = 4", {"5 ", UNSEEN}},
     {"covariant_memory: 3.0", "covariant_memory = 3", {"4 ", UNSEEN}},
-    {"covariant_storage: recompute", "covariant_storage = recompute", {"memory ", UNSEEN}},
     {"{field_indices: [1], observables: [modes, steps]}",
      "field_indices = [1]",
      {"steps", "unless fields is an observable"}},
@@ -270,7 +269,8 @@ TEST(Parameters, RefusedTogether)
                          "100000.0}")),
               "covariant_window = 100000 with covariant_transient = 1: 150013 triangles and "
               "100007 frames of 797 vectors need 1.4e+03 GB, must be at most covariant_memory = 4 "
-              "GB, as orthonormalisations are at most 6.45 time units apart");
+              "GB, as orthonormalisations are at most 6.45 time units apart; covariant_window = "
+              "270 would fit");
 }
 
 TEST(Parameters, RefusedChanges)
@@ -429,15 +429,13 @@ TEST(Parameters, Taken)
          "wait_for_subscribers: [run_info, state, status, cost]"},
         {"changes: ['0 duration=9']", "duration: 2"}, /* made when it runs */
         {"{covariant_window: 50, covariant_transient: '100', covariant_sampling: 5.0, "
-         "covariant_memory: 4, covariant_storage: memory}",
-         "covariant_storage: memory, covariant_memory: 4"},
+         "covariant_memory: 4}",
+         "covariant_memory: 4"},
         {"{covariant, max_mode_number: 1, exponents: 3}",
          "observables: [covariant], wave_nx: [1, 0, 1], covariant_window: 1, covariant_transient: "
          "1"},
-        {"{covariant, duration: 3.0, covariant_storage: recompute, covariant_memory: '0.25', "
-         "covariant_sampling: 0.5}",
-         "covariant_storage: recompute, covariant_memory: 0.25, covariant_sampling: 0.5, "
-         "covariant_transient: 1"},
+        {"{covariant, duration: 3.0, covariant_memory: '0.25', covariant_sampling: 0.5}",
+         "covariant_memory: 0.25, covariant_sampling: 0.5, covariant_transient: 1"},
         {"{checkpoint: '', resume: ''}", "checkpoint: , resume: , resumed_time: -1"},
     };
     for (const auto &one : taken) expect_said(one.first, one.second);

@@ -75,13 +75,6 @@ enum {
 #include "hdlyap/observables.inc"
 };
 
-/** Where the data are kept that covariant vectors need on the way back. */
-typedef enum hd_storage {
-    HD_STORAGE_MEMORY,   /**< all in memory */
-    HD_STORAGE_RECOMPUTE /**< some frames and the record in memory; the rest is computed again from
-                            them */
-} hd_storage;
-
 /** A text that a user gives, one line, "" for none. The bytes behind its end are 0. */
 enum { HD_TEXT = 256 };
 typedef struct hd_text {
@@ -117,8 +110,7 @@ typedef struct hd_scene_def {
     double fluctuation_time; /**< shortest time over which growth is summed; 0 means auto [time
                                 units] */
     unsigned observe; /**< the observables that are asked for, a set of HD_OBSERVE_*; 0: none */
-    hd_storage covariant_storage;
-    hd_text target; /**< quantities and their errors at which the run ends, see hd_target_check */
+    hd_text target;   /**< quantities and their errors at which the run ends, see hd_target_check */
     /** A dynamics of the program's own; NULL means that of `particles`. */
     const hd_dynamics *dynamics;
     hd_own own[HD_OWN_MAX]; /**< values of the parameters that only this dynamics has; own[k] is at

@@ -35,7 +35,6 @@ HD_API_BEGIN
     X(HD_ILL_CONDITIONED, "the tangent frame became too ill-conditioned to be repaired")           \
     X(HD_OVERLAP, "two particles overlap by more than rounding")                                   \
     X(HD_FILE_FAULT, "a file could not be read or written")                                        \
-    X(HD_NO_ROOM, "a window of covariant vectors does not fit into covariant_memory")              \
     X(HD_RANKS_APART, "ranks have computed different trajectories")                                \
     X(HD_ENERGY_LOST, "the energy is not conserved: the time step is too long")
 

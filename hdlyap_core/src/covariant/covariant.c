@@ -33,8 +33,7 @@ static const double CLOSE = 1e-6;
 
 enum { WEIGHTS = 3 }; /* of dq halves, of dp halves, of the frame */
 
-/** LOST: forward through a window that is left out with the next interval. */
-typedef enum way { FORWARD, LOST, THROUGH_TRANSIENT, THROUGH_WINDOW } way;
+typedef enum way { FORWARD, THROUGH_TRANSIENT, THROUGH_WINDOW } way;
 
 struct hd_covariant {
     hd_scene_def scene;
@@ -62,8 +61,7 @@ struct hd_covariant {
     double window, due;     /**< time at which the window began; time of the next sample */
     double ended;           /**< what hd_covariant_results.window_end says */
     double now, grown_time; /**< time that the forward pass has reached; time of the growth */
-    double bytes, events, rate; /**< bytes that are taken; number of record entries that there is
-                                   room for; entries per time unit */
+    double bytes;           /**< bytes that the window takes */
     way way;
     long at;   /**< interval that is next on the way back */
     long last; /**< interval that the window ends with */
@@ -141,7 +139,6 @@ hd_status hd_covariant_create(hd_covariant **out, const hd_scene_def *def, int t
     c->rows = 2 * hd_scene_coordinates(def) * def->number;
     c->vectors = hd_scene_vectors(def);
     c->carried = hd_scene_carried(def);
-    c->rate = hd_dynamics_of(def)->entries(def);
     c->centre = c->vectors >= positive + zero ? zero : 0;
     c->unstable = c->centre > 0 ? positive
                                 : c->vectors; /* part of a centre is not measured as a space */
@@ -174,25 +171,23 @@ void hd_covariant_free(hd_covariant *c)
 /* ---- forward ------------------------------------------------------------------------------- */
 
 /** Begins the first window, or the first one after a window was lost. */
-static hd_status begin_window(hd_covariant *c, hd_columns frame, double time)
+static void begin_window(hd_covariant *c, double time)
 {
     c->way = FORWARD;
     c->window = c->now = time;
     if (c->windows == 0) c->ended = time;
     c->due = time + c->scene.covariant_sampling;
-    return hd_history_begin(c->past, frame, time);
+    hd_history_begin(c->past, time);
 }
 
 /** Makes room for intervals of this length, as far as covariant_memory allows it. */
 static hd_status take_room(hd_covariant *c, double interval)
 {
-    const hd_history_def wanted = hd_window_history(&c->scene, interval, c->rate, c->threads),
-                         past = hd_window_that_fits(&c->scene, &wanted);
-    if (c->past && past.intervals <= c->intervals && past.events <= c->events) return HD_OK;
+    const hd_history_def past = hd_window_that_fits(&c->scene, interval, c->threads);
+    if (c->past && past.intervals <= c->intervals) return HD_OK;
     hd_history_free(c->past);
     c->past = NULL;
     c->intervals = past.intervals;
-    c->events = past.events;
     c->bytes = hd_history_bytes(&past);
     return hd_history_create(&c->past, &past);
 }
@@ -212,10 +207,11 @@ void hd_covariant_clear(hd_covariant *c, double now)
     c->spaces_apart = (hd_covariant_mismatch){-1.0, -1.0, -1.0};
 }
 
-hd_status hd_covariant_begin(hd_covariant *c, hd_columns frame, double time, double interval)
+hd_status hd_covariant_begin(hd_covariant *c, double time, double interval)
 {
     HD_TRY(take_room(c, interval));
-    return begin_window(c, frame, time);
+    begin_window(c, time);
+    return HD_OK;
 }
 
 /** The last interval of the window: it ends at the first sample at which the window is long enough.
@@ -251,35 +247,23 @@ static void begin_way_back(hd_covariant *c)
     c->way = THROUGH_TRANSIENT;
 }
 
-/** Leaves this window out. The next one gets room for intervals and events like those of this one,
- * as far as covariant_memory allows it. */
-static hd_status lose_window(hd_covariant *c, hd_columns frame, double time)
+/** Leaves this window out. The next one gets room for intervals like those of this one, as far as
+ * covariant_memory allows it. */
+static hd_status lose_window(hd_covariant *c, double time)
 {
     const double lasted = time - c->window;
     const double count = (double)(hd_history_end(c->past) - hd_history_first(c->past) + 1);
-    c->rate = fmax(c->rate, hd_history_events(c->past) / lasted);
     c->lost++;
-    return hd_covariant_begin(c, frame, time, lasted / count);
-}
-
-static bool is_lost(const hd_covariant *c) { return c->way == LOST || hd_history_is_full(c->past); }
-
-bool hd_covariant_wants_vectors(const hd_covariant *c)
-{
-    return is_lost(c) || hd_history_keeps_next(c->past);
+    return hd_covariant_begin(c, time, lasted / count);
 }
 
 hd_status hd_covariant_add(hd_covariant *c, const hd_ortho *ortho, const hd_frame *frame,
-                           hd_columns vectors, const hd_record *record, double t_begin,
-                           double t_end)
+                           const hd_record *record, double t_begin, double t_end)
 {
     HD_ASSERT(!hd_covariant_is_going_back(c));
-    if (is_lost(c)) return lose_window(c, vectors, c->now + t_end - t_begin);
-    const hd_status status = hd_history_add(c->past, hd_ortho_factor(ortho), frame, vectors, record,
-                                            t_begin, t_end);
     c->now += t_end - t_begin;
-    if (status == HD_NO_ROOM) c->way = LOST;
-    return status == HD_NO_ROOM ? HD_OK : status;
+    if (hd_history_is_full(c->past)) return lose_window(c, c->now);
+    return hd_history_add(c->past, hd_ortho_factor(ortho), frame, record, t_begin, t_end);
 }
 
 bool hd_covariant_wants_state(const hd_covariant *c)
@@ -441,7 +425,7 @@ hd_status hd_covariant_step(hd_covariant *c)
     if (c->way == THROUGH_TRANSIENT && c->at == c->last) HD_TRY(meet(c));
     const bool measuring = c->way == THROUGH_WINDOW;
     if (measuring && hd_history_has_snapshot(c->past, c->at)) HD_TRY(look(c, c->at));
-    HD_TRY(hd_history_factor(c->past, c->factor, c->coupling, c->at));
+    hd_history_factor(c->past, c->factor, c->coupling, c->at);
     HD_TRY(hd_starts_step(c->starts, c->factor, c->coupling, !measuring));
     if (measuring) c->grown_time += hd_history_length(c->past, c->at);
     return --c->at < hd_history_first(c->past) ? end_window(c) : HD_OK;

@@ -13,20 +13,17 @@ void hd_covariant_free(hd_covariant *covariant);
 /** Empties all averages; the first window does not begin before the time `now`. */
 void hd_covariant_clear(hd_covariant *covariant, double now);
 
-/** Begins a window at this time and forgets any window before. The frame is orthonormal, and will
- * be so about every `interval` time units. Takes the memory for the window, at most
+/** Begins a window at this time and forgets any window before. The frame is orthonormal now, and
+ * about every `interval` time units from now on. Takes the memory for the window, at most
  * covariant_memory: a window that turns out to need more is left out, and the next one begins
  * there. Fails with HD_NO_MEMORY. */
-HD_MUST_CHECK hd_status hd_covariant_begin(hd_covariant *covariant, hd_columns frame, double time,
-                                           double interval);
+HD_MUST_CHECK hd_status hd_covariant_begin(hd_covariant *covariant, double time, double interval);
 
 /** Adds an interval of the record, from t_begin to t_end, after the frame was replayed through it
- * and orthonormalised; with the vectors of all ranks if hd_covariant_wants_vectors. Fails with
- * HD_NO_MEMORY. */
+ * and orthonormalised. Fails with HD_NO_MEMORY. */
 HD_MUST_CHECK hd_status hd_covariant_add(hd_covariant *covariant, const hd_ortho *ortho,
-                                         const hd_frame *frame, hd_columns vectors,
-                                         const hd_record *record, double t_begin, double t_end);
-bool hd_covariant_wants_vectors(const hd_covariant *covariant);
+                                         const hd_frame *frame, const hd_record *record,
+                                         double t_begin, double t_end);
 
 /** Keeps the frame and the particles after the last interval, if hd_covariant_wants_state. */
 HD_MUST_CHECK hd_status hd_covariant_state(hd_covariant *covariant, hd_columns frame,

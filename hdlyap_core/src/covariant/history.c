@@ -1,7 +1,6 @@
 /** Orthonormalisations, one after the other -> triangles and snapshots, for the way back.
  *
- * Rings: interval k is in slot k mod intervals. Triangles are kept packed, or computed again
- * (recompute.h). */
+ * Rings: interval k is in slot k mod intervals. Triangles are kept packed. */
 #include "covariant/history.h"
 
 #include <string.h>
@@ -10,7 +9,6 @@
 #include "base/memory.h"
 #include "covariant/backward.h"
 #include "covariant/coupling.h"
-#include "covariant/recompute.h"
 #include "covariant/store.h"
 #include "tangent/conjugate.h"
 
@@ -22,12 +20,9 @@ typedef struct interval_kept {
 struct hd_history {
     hd_history_def def;
     int rows;
-    long slots;          /**< of the rings */
-    interval_kept *kept; /**< [slots] */
-    hd_store *triangles; /**< NULL if recomputed */
-    hd_recompute *recompute;
-    hd_coupling *coupling; /**< NULL where all vectors are carried, or recomputed */
-    hd_store *snapshots;
+    interval_kept *kept; /**< [def.intervals] */
+    hd_store *triangles, *snapshots;
+    hd_coupling *coupling; /**< NULL where all vectors are carried */
     long first, end, snapshots_end;
     double time;
 };
@@ -45,49 +40,24 @@ static size_t triangle_size(const hd_history_def *def)
     return (def->conjugate ? 2 : 1) * hd_triangle_size(def->vectors);
 }
 
-/** Room for whole stretches and one more, because a stretch's first frame must stay as long as any
- * of its intervals. */
-static hd_recompute_def recompute_of(const hd_history_def *def)
-{
-    const int rows = rows_of(def);
-    const long stretch = hd_recompute_stretch(def->intervals, def->conjugate ? rows / 2 : rows,
-                                              def->vectors);
-    return (hd_recompute_def){.rows = rows,
-                              .vectors = def->vectors,
-                              .threads = def->threads,
-                              .conjugate = def->conjugate,
-                              .slots = (def->intervals + 2 * stretch - 1) / stretch * stretch,
-                              .stretch = stretch,
-                              .of = def->of,
-                              .events = def->events *
-                                        (1.0 + (double)stretch / (double)def->intervals)};
-}
-
 double hd_history_bytes(const hd_history_def *def)
 {
-    const hd_recompute_def again = recompute_of(def);
-    const double snapshots = hd_store_bytes(snapshot_size(def), def->snapshots);
-    const double triangles = def->recompute ? hd_recompute_bytes(&again)
-                                            : hd_store_bytes(triangle_size(def), def->intervals);
-    const long slots = def->recompute ? again.slots : def->intervals;
-    const double coupling = def->conjugate && !def->recompute
-                                ? hd_coupling_bytes(def->of, rows_of(def), def->threads)
-                                : 0.0;
-    return snapshots + triangles + coupling + (double)slots * sizeof(interval_kept);
+    const double coupling = def->conjugate ? hd_coupling_bytes(def->of, rows_of(def), def->threads)
+                                           : 0.0;
+    return hd_store_bytes(snapshot_size(def), def->snapshots) +
+           hd_store_bytes(triangle_size(def), def->intervals) + coupling +
+           (double)def->intervals * sizeof(interval_kept);
 }
 
 static hd_status allocate(hd_history *past)
 {
     const hd_history_def *def = &past->def;
-    const size_t triangle = triangle_size(def), record = snapshot_size(def);
-    past->kept = hd_memory_alloc((size_t)past->slots, sizeof *past->kept);
+    past->kept = hd_memory_alloc((size_t)def->intervals, sizeof *past->kept);
     if (!past->kept) return HD_NO_MEMORY;
-    HD_TRY(hd_store_create(&past->snapshots, record, def->snapshots));
-    const hd_recompute_def again = recompute_of(def);
-    if (def->recompute) return hd_recompute_create(&past->recompute, &again);
+    HD_TRY(hd_store_create(&past->snapshots, snapshot_size(def), def->snapshots));
     if (def->conjugate)
         HD_TRY(hd_coupling_create(&past->coupling, def->of, def->particles, def->threads));
-    return hd_store_create(&past->triangles, triangle, past->slots);
+    return hd_store_create(&past->triangles, triangle_size(def), def->intervals);
 }
 
 hd_status hd_history_create(hd_history **out, const hd_history_def *def)
@@ -98,7 +68,6 @@ hd_status hd_history_create(hd_history **out, const hd_history_def *def)
     if (!past) return HD_NO_MEMORY;
     past->def = *def;
     past->rows = rows_of(def);
-    past->slots = def->recompute ? recompute_of(def).slots : def->intervals;
     const hd_status status = allocate(past);
     if (status == HD_OK)
         *out = past;
@@ -113,7 +82,6 @@ void hd_history_free(hd_history *past)
     hd_memory_free(past->kept);
     hd_store_free(past->triangles);
     hd_store_free(past->snapshots);
-    hd_recompute_free(past->recompute);
     hd_coupling_free(past->coupling);
     hd_memory_free(past);
 }
@@ -123,32 +91,18 @@ void hd_history_free(hd_history *past)
 static interval_kept *kept_at(const hd_history *past, long interval)
 {
     HD_ASSERT(interval >= past->first && interval < past->end);
-    return &past->kept[interval % past->slots];
+    return &past->kept[interval % past->def.intervals];
 }
 
-/** Keeps the frame at the start of the next interval. */
-static hd_status keep_frame(hd_history *past, hd_columns frame)
-{
-    return past->recompute ? hd_recompute_frame(past->recompute, past->end % past->slots, frame)
-                           : HD_OK;
-}
-
-hd_status hd_history_begin(hd_history *past, hd_columns frame, double time)
+void hd_history_begin(hd_history *past, double time)
 {
     past->first = past->end = past->snapshots_end = 0;
     past->time = time;
-    return keep_frame(past, frame);
 }
 
 bool hd_history_is_full(const hd_history *past)
 {
-    return past->end - past->first >= past->def.intervals ||
-           (past->recompute && hd_recompute_is_full(past->recompute));
-}
-
-double hd_history_events(const hd_history *past)
-{
-    return past->recompute ? hd_recompute_events_kept(past->recompute) : 0.0;
+    return past->end - past->first >= past->def.intervals;
 }
 
 static hd_status keep_triangle(hd_history *past, const double *factor, long slot)
@@ -162,26 +116,18 @@ static hd_status keep_triangle(hd_history *past, const double *factor, long slot
     return HD_OK;
 }
 
-bool hd_history_keeps_next(const hd_history *past)
-{
-    return past->recompute && hd_recompute_keeps(past->recompute, (past->end + 1) % past->slots);
-}
-
 hd_status hd_history_add(hd_history *past, const double *factor, const hd_frame *frame,
-                         hd_columns vectors, const hd_record *record, double t_begin, double t_end)
+                         const hd_record *record, double t_begin, double t_end)
 {
     HD_ASSERT(!hd_history_is_full(past));
-    const long slot = past->end % past->slots;
+    const long slot = past->end % past->def.intervals;
     if (past->coupling)
         HD_TRY(hd_coupling_measure(past->coupling, frame, factor, record, t_begin, t_end));
-    if (past->recompute)
-        HD_TRY(hd_recompute_events(past->recompute, slot, record, t_begin, t_end));
-    else
-        HD_TRY(keep_triangle(past, factor, slot));
+    HD_TRY(keep_triangle(past, factor, slot));
     past->time += t_end - t_begin;
     past->kept[slot] = (interval_kept){past->time, t_end - t_begin, -1};
     past->end++;
-    return keep_frame(past, vectors);
+    return HD_OK;
 }
 
 hd_status hd_history_snapshot(hd_history *past, hd_columns frame, const double *q, const double *p)
@@ -202,8 +148,6 @@ hd_status hd_history_snapshot(hd_history *past, hd_columns frame, const double *
 void hd_history_drop(hd_history *past, double time)
 {
     while (past->first < past->end && kept_at(past, past->first)->time <= time) past->first++;
-    if (past->recompute && past->first < past->end)
-        hd_recompute_forget(past->recompute, past->first % past->slots);
 }
 
 /* ---- what is there ------------------------------------------------------------------------- */
@@ -223,21 +167,14 @@ bool hd_history_has_snapshot(const hd_history *past, long interval)
     return kept_at(past, interval)->snapshot >= 0;
 }
 
-hd_status hd_history_factor(hd_history *past, double *factor, double *coupling, long interval)
+void hd_history_factor(const hd_history *past, double *factor, double *coupling, long interval)
 {
-    const long slot = interval % past->slots;
-    (void)kept_at(past, interval);
-    if (past->recompute) {
-        const long ahead = past->end - 1 - interval, to_wrap = past->slots - 1 - slot;
-        return hd_recompute_factor(past->recompute, factor, coupling, slot,
-                                   slot + (ahead < to_wrap ? ahead : to_wrap));
-    }
+    const long slot = kept_at(past, interval) - past->kept;
     const double *triangle = hd_store_fetch(past->triangles, slot);
     hd_triangle_unpack(factor, triangle, past->def.vectors);
     if (past->coupling)
         hd_triangle_unpack(coupling, triangle + hd_triangle_size(past->def.vectors),
                            past->def.vectors);
-    return HD_OK;
 }
 
 void hd_history_vectors(const hd_history *past, double *vectors, double *q, double *p,

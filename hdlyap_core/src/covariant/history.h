@@ -8,16 +8,13 @@
 #include "dynamics/dynamics.h"
 #include "tangent/frame.h"
 
-/** How much is kept, and how. */
+/** How much is kept. */
 typedef struct hd_history_def {
     const hd_dynamics *of;
     int particles, vectors, threads;
     bool conjugate; /**< half of the vectors are carried: triangles are R and Y [T18] */
     long intervals; /**< most intervals whose triangles are kept */
     long snapshots; /**< most snapshots */
-    bool recompute; /**< true if triangles are not kept, but computed again from the record */
-    double events;  /**< most record entries of these intervals; used only if triangles are computed
-                       again */
 } hd_history_def;
 
 /** Bytes that it takes at most. */
@@ -29,21 +26,15 @@ typedef struct hd_history hd_history;
 HD_MUST_CHECK hd_status hd_history_create(hd_history **out, const hd_history_def *def);
 void hd_history_free(hd_history *past);
 
-/** Forgets everything and begins with this frame. */
-HD_MUST_CHECK hd_status hd_history_begin(hd_history *past, hd_columns frame, double time);
+/** Forgets everything and begins at this time. */
+void hd_history_begin(hd_history *past, double time);
 
-/** Adds an interval of the record, from t_begin to t_end: its R, the frame that was replayed
- * through it, and the vectors at its end if hd_history_keeps_next. There must be room
- * (hd_history_is_full). */
+/** Adds an interval of the record, from t_begin to t_end: its R, and the frame that was replayed
+ * through it. There must be room (hd_history_is_full). Fails with HD_NO_MEMORY. */
 HD_MUST_CHECK hd_status hd_history_add(hd_history *past, const double *factor,
-                                       const hd_frame *frame, hd_columns vectors,
-                                       const hd_record *record, double t_begin, double t_end);
-/** True if the vectors after the next interval will be kept, because later triangles are computed
- * again from them. */
-bool hd_history_keeps_next(const hd_history *past);
+                                       const hd_frame *frame, const hd_record *record,
+                                       double t_begin, double t_end);
 bool hd_history_is_full(const hd_history *past);
-/** Number of events that are kept; 0 unless triangles are recomputed. */
-double hd_history_events(const hd_history *past);
 
 /** Keeps the frame, positions q and momenta p at the end of the last interval. */
 HD_MUST_CHECK hd_status hd_history_snapshot(hd_history *past, hd_columns frame, const double *q,
@@ -63,8 +54,7 @@ bool hd_history_has_snapshot(const hd_history *past, long interval); /**< at its
 
 /** Fills in R [n * n] and Y [n * n] (NULL if all vectors are carried) of one interval, row-major
  * from the diagonal on. */
-HD_MUST_CHECK hd_status hd_history_factor(hd_history *past, double *factor, double *coupling,
-                                          long interval);
+void hd_history_factor(const hd_history *past, double *factor, double *coupling, long interval);
 /** Fills in a snapshot: vectors [4N * n], row-major, or all [4N * 2n] if half are carried;
  * positions q and momenta p. */
 void hd_history_vectors(const hd_history *past, double *vectors, double *q, double *p,

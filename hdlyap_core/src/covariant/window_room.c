@@ -11,7 +11,8 @@
 /** Room is made for this many times the expected intervals, because their length varies. */
 static const double SPARE = 1.5;
 
-hd_history_def hd_window_history(const hd_scene_def *def, double interval, double rate, int threads)
+/** What the history of a window keeps if intervals have this length [time units]. */
+static hd_history_def history_of(const hd_scene_def *def, double interval, int threads)
 {
     /* each ends with a look, and so does an interval where one is due */
     const double both = def->covariant_window + def->covariant_transient +
@@ -26,58 +27,53 @@ hd_history_def hd_window_history(const hd_scene_def *def, double interval, doubl
                             .threads = threads > 0 ? threads : 1,
                             .conjugate = hd_scene_carried(def) < hd_scene_vectors(def),
                             .intervals = (long)fmin(intervals, most),
-                            .snapshots = (long)fmin(looks, most),
-                            .recompute = def->covariant_storage == HD_STORAGE_RECOMPUTE,
-                            .events = SPARE * both * rate};
+                            .snapshots = (long)fmin(looks, most)};
 }
 
-/** Says that the other covariant_storage would fit, if it would. */
-static void say_other(const hd_scene_def *def, const hd_history_def *past, char *text, size_t size)
+static double gigabytes_of(const hd_history_def *past) { return 1e-9 * hd_history_bytes(past); }
+
+/** The longest window that fits with this transient, rounded down to two digits; 0 if not even one
+ * with a single sample does. */
+static double window_that_fits(const hd_scene_def *def, double interval)
 {
-    hd_history_def other = *past;
-    other.recompute = !past->recompute;
-    const double gigabytes = 1e-9 * hd_history_bytes(&other);
-    if (gigabytes <= def->covariant_memory)
-        snprintf(text, size, "; covariant_storage = %s needs %.3g GB",
-                 other.recompute ? "recompute" : "memory", gigabytes);
+    enum { HALVINGS = 60 };
+    hd_scene_def other = *def;
+    double fits = 0.0, most = def->covariant_window;
+    for (int k = 0; k < HALVINGS; k++) {
+        other.covariant_window = 0.5 * (fits + most);
+        const hd_history_def past = history_of(&other, interval, def->threads);
+        *(gigabytes_of(&past) <= def->covariant_memory ? &fits : &most) = other.covariant_window;
+    }
+    if (!(fits >= def->covariant_sampling)) return 0.0;
+    const double digit = pow(10.0, floor(log10(fits)) - 1.0);
+    return fmax(floor(fits / digit) * digit, def->covariant_sampling);
 }
 
 hd_status hd_window_check_room(const hd_scene_def *def, double interval, char *message, size_t size)
 {
-    const hd_history_def past = hd_window_history(def, interval, hd_dynamics_of(def)->entries(def),
-                                                  def->threads);
-    const double gigabytes = 1e-9 * hd_history_bytes(&past);
-    char events[40] = "", other[80] = "";
-    if (gigabytes <= def->covariant_memory) return HD_OK;
-    if (past.recompute) snprintf(events, sizeof events, " and %.3g events", past.events);
-    say_other(def, &past, other, sizeof other);
+    const hd_history_def past = history_of(def, interval, def->threads);
+    char fitting[64] = "no window would fit with this transient";
+    if (gigabytes_of(&past) <= def->covariant_memory) return HD_OK;
+    const double window = window_that_fits(def, interval);
+    if (window > 0) snprintf(fitting, sizeof fitting, "covariant_window = %.15g would fit", window);
     return hd_refuse(message, size,
                      "covariant_window = %.15g with covariant_transient = %.15g: %ld triangles and "
-                     "%ld frames of %d vectors%s need %.3g GB, must be at most covariant_memory = "
-                     "%.3g GB, as orthonormalisations are at most %.3g time units apart%s",
+                     "%ld frames of %d vectors need %.3g GB, must be at most covariant_memory = "
+                     "%.3g GB, as orthonormalisations are at most %.3g time units apart; %s",
                      def->covariant_window, def->covariant_transient, past.intervals,
-                     past.snapshots, past.vectors, events, gigabytes, def->covariant_memory,
-                     interval, other);
+                     past.snapshots, past.vectors, gigabytes_of(&past), def->covariant_memory,
+                     interval, fitting);
 }
 
-/** This part of the intervals and events. */
-static hd_history_def part_of(const hd_history_def *wanted, double part)
+hd_history_def hd_window_that_fits(const hd_scene_def *def, double interval, int threads)
 {
-    hd_history_def past = *wanted;
-    past.intervals = (long)fmax(2.0, part * (double)wanted->intervals);
-    past.events = part * wanted->events;
-    return past;
-}
-
-hd_history_def hd_window_that_fits(const hd_scene_def *def, const hd_history_def *wanted)
-{
-    enum { BISECTIONS = 40 };
-    double fits = 0.0, most = 1.0;
-    if (1e-9 * hd_history_bytes(wanted) <= def->covariant_memory) return *wanted;
-    for (int k = 0; k < BISECTIONS; k++) {
-        const double middle = 0.5 * (fits + most);
-        const hd_history_def past = part_of(wanted, middle);
-        *(1e-9 * hd_history_bytes(&past) <= def->covariant_memory ? &fits : &most) = middle;
+    hd_history_def past = history_of(def, interval, threads);
+    long fits = 2, most = past.intervals;
+    if (gigabytes_of(&past) <= def->covariant_memory) return past;
+    while (most - fits > 1) {
+        past.intervals = fits + (most - fits) / 2;
+        *(gigabytes_of(&past) <= def->covariant_memory ? &fits : &most) = past.intervals;
     }
-    return part_of(wanted, fits);
+    past.intervals = fits;
+    return past;
 }

@@ -39,17 +39,12 @@ static hd_status begin(hd_windows *windows, const hd_leg *p)
 {
     const double time = hd_trajectory_time(p->trajectory) - hd_record_duration(p->record);
     windows->due = false;
-    return hd_covariant_begin(windows->covariant, all_of(windows, p->frame), time, p->expected);
+    return hd_covariant_begin(windows->covariant, time, p->expected);
 }
 
 static hd_status add(hd_windows *windows, const hd_leg *p)
 {
-    const hd_columns none = {NULL, 0, 0, 0};
-    const hd_columns vectors = hd_covariant_wants_vectors(windows->covariant)
-                                   ? all_of(windows, p->frame)
-                                   : none;
-    return hd_covariant_add(windows->covariant, p->ortho, p->frame, vectors, p->record, p->from,
-                            p->to);
+    return hd_covariant_add(windows->covariant, p->ortho, p->frame, p->record, p->from, p->to);
 }
 
 static hd_status end(hd_windows *windows, const hd_leg *p)

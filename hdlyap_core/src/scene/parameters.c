@@ -23,8 +23,6 @@ static const hd_parameter_word hd_exponents_words[] = {
     {NULL, 0}};
 static const hd_parameter_word hd_warmup_words[] = {{"auto", HD_WARMUP_AUTO}, {NULL, 0}};
 static const hd_parameter_word hd_interval_words[] = {{"auto", 0}, {NULL, 0}};
-static const hd_parameter_word hd_storage_words[] = {
-    {"memory", HD_STORAGE_MEMORY}, {"recompute", HD_STORAGE_RECOMPUTE}, {NULL, 0}};
 
 #define ROW(name, member, kind, words, usual, least, most, allowed, unit, changes, needs, text)    \
     {#name,                                                                                        \

@@ -137,7 +137,6 @@ static void fill_scene(hdr_run_info *info, const settings *set)
     info->phase_interval = def->phase_interval;
     info->fluctuation_time = def->fluctuation_time;
     info->warmup = hd_scene_warmup(def);
-    info->covariant_storage = word_of("covariant_storage", def);
 #define HD_INT(name, ...) info->name = (uint32_t)def->name;
 #define HD_REAL(name, ...) info->name = def->name;
 #define HD_OTHER(...)

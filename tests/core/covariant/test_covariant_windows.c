@@ -69,39 +69,6 @@ TEST(exponents_are_those_of_the_frame)
         check_exponent(hd_covariant_read(w.c).spectrum, forward, col, 5);
 }
 
-static void check_same(const hd_covariant *c, const hd_covariant *want, double tolerance)
-{
-    const int n = hd_covariant_read(want).vectors;
-    assert_int_equal(hd_covariant_read(c).windows, hd_covariant_read(want).windows);
-    for (int col = 0; col < n; col++) {
-        CHECK_CLOSE(hd_spectrum_exponent(hd_covariant_read(c).spectrum, col),
-                    hd_spectrum_exponent(hd_covariant_read(want).spectrum, col), tolerance);
-        CHECK_CLOSE(hd_covariant_read(c).widths[col], hd_covariant_read(want).widths[col],
-                    tolerance);
-        CHECK_CLOSE(hd_covariant_read(c).cosines[col], hd_covariant_read(want).cosines[col],
-                    tolerance);
-    }
-    for (int pair = 0; pair < HD_PAIRS_OF_SPACES; pair++)
-        CHECK_CLOSE(hd_covariant_read(c).splitting.angle[pair].mean,
-                    hd_covariant_read(want).splitting.angle[pair].mean, tolerance);
-}
-
-/** Triangles that are computed again are the same to rounding of Q,
- * eps condition, which a vector that leans little out of those before it feels the more. */
-TEST(both_storages_give_the_same)
-{
-    hd_scene_def scene = windows_scene(6, P, P);
-    windows w[2];
-    for (int storage = 0; storage < 2; storage++) {
-        scene.covariant_storage = (hd_storage)storage;
-        w[storage] = windows_begun(scene, WARMUP, WINDOWS_INTERVAL);
-        windows_finish(&w[storage], 20);
-    }
-    check_same(w[HD_STORAGE_RECOMPUTE].c, w[HD_STORAGE_MEMORY].c,
-               64.0 * DBL_EPSILON * w[0].f.worst);
-    for (int storage = 0; storage < 2; storage++) windows_free(&w[storage]);
-}
-
 /** Intervals a quarter as long as expected: the first window finds no room, the next ones do. */
 TEST(a_window_without_room_is_lost_and_the_next_is_not)
 {
@@ -212,7 +179,7 @@ TEST(a_window_given_up_leaves_nothing)
     const double now = hd_trajectory_time(w.f.trajectory);
     const int done = (int)(now / WINDOWS_INTERVAL + 0.5);
     hd_covariant_clear(w.c, now);
-    CHECK_OK(hd_covariant_begin(w.c, hd_frame_columns(w.f.frame), now, WINDOWS_INTERVAL));
+    CHECK_OK(hd_covariant_begin(w.c, now, WINDOWS_INTERVAL));
     HELD(windows) fresh = windows_begun(scene, done, WINDOWS_INTERVAL);
     windows_finish(&w, 2);
     windows_finish(&fresh, 2);

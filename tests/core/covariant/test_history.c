@@ -1,22 +1,20 @@
-/** What the forward pass leaves comes back as it was, kept and computed again. */
+/** What the forward pass leaves comes back as it was. */
 #include "covariant/backward.h"
 #include "forward_pass.h"
 #include "base/memory.h"
 #include "covariant/history.h"
 #include "triangles.h"
 
-enum { DISKS = 6, INTERVALS = 24, SNAPSHOTS = 8, PASTS = 2, STEPS = 150 };
+enum { DISKS = 6, INTERVALS = 24, SNAPSHOTS = 8, STEPS = 150 };
 
-static hd_history_def def_of(int way, int vectors)
+static hd_history_def def_of(int vectors)
 {
     return (hd_history_def){.particles = DISKS,
                             .vectors = vectors,
                             .threads = 1,
                             .intervals = INTERVALS,
                             .snapshots = SNAPSHOTS,
-                            .recompute = way == 1,
-                            .of = DYNAMICS,
-                            .events = 1e4};
+                            .of = DYNAMICS};
 }
 
 /** What each interval left. */
@@ -26,12 +24,10 @@ typedef struct left {
 
 typedef struct forward {
     forward_pass f;
-    hd_history *past[PASTS];
+    hd_history *past;
     left left[STEPS];
     long end;
 } forward;
-
-static double rounding_of(const forward *x) { return 64.0 * DBL_EPSILON * INTERVALS * x->f.worst; }
 
 static forward *started(int exponents)
 {
@@ -40,12 +36,9 @@ static forward *started(int exponents)
         scene(.number = DISKS, .density = 0.5, .aspect = 0.9, .seed = 3, .exponents = exponents),
         1);
     for (int warmup = 0; warmup < 20; warmup++) forward_interval(&x->f, 0.5);
-    for (int way = 0; way < PASTS; way++) {
-        const hd_history_def def = def_of(way, forward_vectors(&x->f));
-        CHECK_OK(hd_history_create(&x->past[way], &def));
-        CHECK_OK(hd_history_begin(x->past[way], hd_frame_columns(x->f.frame),
-                                  hd_trajectory_time(x->f.trajectory)));
-    }
+    const hd_history_def def = def_of(forward_vectors(&x->f));
+    CHECK_OK(hd_history_create(&x->past, &def));
+    hd_history_begin(x->past, hd_trajectory_time(x->f.trajectory));
     return x;
 }
 
@@ -61,7 +54,7 @@ static void forget(forward *x)
 static void freed(forward *x)
 {
     forget(x);
-    for (int way = 0; way < PASTS; way++) hd_history_free(x->past[way]);
+    hd_history_free(x->past);
     forward_pass_free(&x->f);
     free(x);
 }
@@ -79,13 +72,10 @@ static void add_piece(forward *x, double t_begin, double t_end, bool snapshot)
     new->time = hd_trajectory_time(x->f.trajectory) - log->duration + t_end;
     hd_trajectory_state(x->f.trajectory, new->q,
                         new->p); /* of the log's end: whatever they are, they come back */
-    for (int way = 0; way < PASTS; way++) {
-        const hd_columns columns = hd_frame_columns(x->f.frame);
-        assert_false(hd_history_is_full(x->past[way]));
-        CHECK_OK(hd_history_add(x->past[way], hd_ortho_factor(x->f.ortho), x->f.frame,
-                                hd_frame_columns(x->f.frame), log, t_begin, t_end));
-        if (snapshot) CHECK_OK(hd_history_snapshot(x->past[way], columns, new->q, new->p));
-    }
+    assert_false(hd_history_is_full(x->past));
+    CHECK_OK(hd_history_add(x->past, hd_ortho_factor(x->f.ortho), x->f.frame, log, t_begin, t_end));
+    if (snapshot)
+        CHECK_OK(hd_history_snapshot(x->past, hd_frame_columns(x->f.frame), new->q, new->p));
 }
 
 /** One interval or, as a log that was too long, two; a snapshot is that of every third. */
@@ -111,27 +101,21 @@ static void check_snapshot(const forward *x, hd_history *past, long interval)
 }
 
 /** Backwards; intervals first .. end - 1, a snapshot at the end of every third. */
-static void check_past(const forward *x, int way, long first)
+static void check_past(const forward *x, long first)
 {
     const int n = forward_vectors(&x->f);
-    hd_history *past = x->past[way];
+    hd_history *past = x->past;
     HEAP double *found = malloc((size_t)(n * n) * sizeof *found);
     assert_int_equal(hd_history_first(past), first);
     assert_int_equal(hd_history_end(past), x->end);
     for (long k = x->end - 1; k >= first; k--) {
         CHECK_CLOSE(hd_history_time(past, k), x->left[k].time, 64 * DBL_EPSILON * x->left[k].time);
         CHECK_CLOSE(hd_history_length(past, k), x->left[k].length, 0.0);
-        CHECK_OK(hd_history_factor(past, found, NULL, k));
-        if (way == 0) check_same_triangle(found, x->left[k].factor, n);
-        check_triangle(found, x->left[k].factor, n, rounding_of(x));
+        hd_history_factor(past, found, NULL, k);
+        check_same_triangle(found, x->left[k].factor, n);
         assert_int_equal(hd_history_has_snapshot(past, k), k % 3 == 0);
         if (k % 3 == 0) check_snapshot(x, past, k);
     }
-}
-
-static void drop(forward *x, double time)
-{
-    for (int way = 0; way < PASTS; way++) hd_history_drop(x->past[way], time);
 }
 
 /** The rings wrap several times; what is dropped makes room, up to the interval that ends at that
@@ -143,10 +127,10 @@ static void check_rings(int exponents)
     while (x->end + 1 < STEPS) {
         add(x, 0.3 + 0.05 * (double)(x->end % 5), x->end % 4 == 1);
         if (x->end - first < INTERVALS - 2) continue;
-        for (int way = 0; way < PASTS; way++) check_past(x, way, first);
+        check_past(x, first);
         first += 7;
-        drop(x, hd_history_time(x->past[0], first - 1));
-        for (int way = 0; way < PASTS; way++) check_past(x, way, first);
+        hd_history_drop(x->past, hd_history_time(x->past, first - 1));
+        check_past(x, first);
     }
     freed(x);
 }
@@ -162,61 +146,46 @@ TEST(a_past_is_full_with_so_many_intervals)
 {
     forward *x = started(HD_EXPONENTS_ALL_INDEPENDENT);
     while (x->end < INTERVALS) add(x, 0.2, false);
-    for (int way = 0; way < PASTS; way++) {
-        assert_true(hd_history_is_full(x->past[way]));
-        check_past(x, way, 0);
-        hd_history_drop(x->past[way], 0.5 * (x->left[0].time + x->left[1].time));
-        assert_int_equal(hd_history_first(x->past[way]), 1);
-        assert_false(hd_history_is_full(x->past[way]));
-    }
+    assert_true(hd_history_is_full(x->past));
+    check_past(x, 0);
+    hd_history_drop(x->past, 0.5 * (x->left[0].time + x->left[1].time));
+    assert_int_equal(hd_history_first(x->past), 1);
+    assert_false(hd_history_is_full(x->past));
     freed(x);
 }
 
-/** Also in the middle of a stretch, and what was read before it. */
 TEST(a_new_beginning_forgets_everything)
 {
     forward *x = started(HD_EXPONENTS_ALL_INDEPENDENT);
     for (int again = 0; again < 4; again++) {
-        for (int way = 0; way < PASTS; way++) {
-            CHECK_OK(hd_history_begin(x->past[way], hd_frame_columns(x->f.frame),
-                                      hd_trajectory_time(x->f.trajectory)));
-            assert_int_equal(hd_history_end(x->past[way]), 0);
-        }
+        hd_history_begin(x->past, hd_trajectory_time(x->f.trajectory));
+        assert_int_equal(hd_history_end(x->past), 0);
         forget(x);
         while (x->end < 9 + 2 * again) add(x, 0.2, false);
-        for (int way = 0; way < PASTS; way++) check_past(x, way, 0);
+        check_past(x, 0);
     }
     freed(x);
 }
 
-/** By what is in it: triangles, or frames and events, and snapshots of vectors and disks; and what
- * keeps the order of them. Recomputed ones need less, once there are many. */
+/** By what is in it: triangles, and snapshots of vectors and disks; and what keeps the order of
+ * them. */
 TEST(the_room_is_stated)
 {
     const int n = 4 * DISKS;
-    hd_history_def def = def_of(0, n);
+    const hd_history_def def = def_of(n);
     const double snapshots = 8.0 * SNAPSHOTS * (n * n + n);
     const double order = 64.0, triangles = 8.0 * INTERVALS * n * (n + 1) / 2;
     CHECK_WITHIN(hd_history_bytes(&def) - triangles - snapshots, 0.0, order * INTERVALS);
-    def.intervals = 10000;
-    const double all = hd_history_bytes(&def);
-    def.recompute = true;
-    /* sqrt(2 slots rows / n) stretches of a frame and as many triangles */
-    const double numbers = 2.0 * sqrt(10000.0 * n * n * n * (n + 1) / 2.0);
-    const double events = def.events * sizeof(hd_event), log = 4096 * sizeof(hd_event);
-    CHECK_WITHIN(hd_history_bytes(&def), 8.0 * numbers + snapshots + events + log,
-                 1.1 * (8.0 * numbers + snapshots + events + log) + order * 10000.0);
-    assert_true(hd_history_bytes(&def) < 0.1 * all);
 }
 
-/** Beyond the first round a past takes no more memory; the events of a recomputed one vary. */
+/** Beyond the first round a past takes no more memory. */
 TEST(a_ring_takes_its_memory_once)
 {
     forward *x = started(HD_EXPONENTS_ALL_INDEPENDENT);
     const int n = forward_vectors(&x->f);
     HEAP double *factor = malloc((size_t)(n * n) * sizeof *factor);
     size_t before = 0;
-    hd_history *past = x->past[0];
+    hd_history *past = x->past;
     for (int k = 0; k < 6 * INTERVALS; k++) {
         if (hd_history_is_full(past))
             hd_history_drop(past, hd_history_time(past, hd_history_first(past) + 5));
@@ -225,11 +194,11 @@ TEST(a_ring_takes_its_memory_once)
         const double q[2 * DISKS] = {0};
         if (k == 2 * INTERVALS) before = hd_memory_allocations();
         const size_t outside = hd_memory_allocations();
-        CHECK_OK(hd_history_add(past, hd_ortho_factor(x->f.ortho), x->f.frame,
-                                hd_frame_columns(x->f.frame), x->f.log, 0.0, x->f.log->duration));
+        CHECK_OK(hd_history_add(past, hd_ortho_factor(x->f.ortho), x->f.frame, x->f.log, 0.0,
+                                x->f.log->duration));
         CHECK_OK(hd_history_snapshot(past, columns, q, q));
-        CHECK_OK(hd_history_factor(past, factor, NULL,
-                                   hd_history_end(past) - 2 < 0 ? 0 : hd_history_end(past) - 2));
+        hd_history_factor(past, factor, NULL,
+                          hd_history_end(past) - 2 < 0 ? 0 : hd_history_end(past) - 2);
         if (before > 0) assert_int_equal(hd_memory_allocations(), outside);
     }
     freed(x);

@@ -137,12 +137,3 @@ TEST(a_window_begins_anew_where_isotropy_is_lost)
     assert_int_equal(hd_covariant_read(hd_run_covariant(run)).windows, 6); /* of 7 */
     CHECK_CLOSE(hd_covariant_read(hd_run_covariant(run)).null_most, 0.0, rounding);
 }
-
-/** Triangles and couplings that are computed again are the same but for rounding. */
-TEST(recomputed_windows_are_the_same)
-{
-    const hd_scene_def one = windowed(HD_EXPONENTS_ALL, P, P);
-    OWNED(hd_run) *kept = finished(one),
-                  *again = finished(scene_from(one, .covariant_storage = HD_STORAGE_RECOMPUTE));
-    check_spaces(kept, again);
-}

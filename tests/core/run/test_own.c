@@ -168,7 +168,6 @@ TEST(covariant_vectors_grow_with_the_exponents)
     for (int k = 0; k < 2; k++) {
         hd_scene_def scene = with_covariant(kinds[k]);
         scene.duration = 1000.0;
-        scene.covariant_storage = k == 0 ? HD_STORAGE_RECOMPUTE : HD_STORAGE_MEMORY;
         OWNED(hd_run) *run = finished(scene);
         const hd_covariant_results found = hd_covariant_read(hd_run_covariant(run));
         assert_true(found.windows > 5);

@@ -26,8 +26,7 @@ static inline windows windows_begun(hd_scene_def scene, int warmup, double inter
     windows w = {forward_started(scene, 1), NULL};
     for (int k = 0; k < warmup; k++) forward_interval(&w.f, WINDOWS_INTERVAL);
     CHECK_OK(hd_covariant_create(&w.c, &scene, 1));
-    CHECK_OK(hd_covariant_begin(w.c, hd_frame_columns(w.f.frame),
-                                hd_trajectory_time(w.f.trajectory), interval));
+    CHECK_OK(hd_covariant_begin(w.c, hd_trajectory_time(w.f.trajectory), interval));
     return w;
 }
 
@@ -42,8 +41,7 @@ static inline bool windows_forward(windows *w)
 {
     forward_interval(&w->f, WINDOWS_INTERVAL);
     const hd_columns columns = hd_frame_columns(w->f.frame);
-    CHECK_OK(hd_covariant_add(w->c, w->f.ortho, w->f.frame, hd_frame_columns(w->f.frame), w->f.log,
-                              0.0, w->f.log->duration));
+    CHECK_OK(hd_covariant_add(w->c, w->f.ortho, w->f.frame, w->f.log, 0.0, w->f.log->duration));
     CHECK_OK(hd_covariant_state(w->c, columns, w->f.trajectory));
     return hd_covariant_is_going_back(w->c);
 }
