@@ -54,7 +54,7 @@ typedef struct hd_cost {
     double ortho;    /**< seconds for orthonormalising them */
     double spectrum; /**< seconds for averages of exponents */
     double modes;    /**< seconds for weights, steps, phases, responses and widths */
-    /** Seconds for what follows each interval: covariant vectors. */
+    /** Seconds for covariant vectors. */
     double following;
     /** For several ranks: seconds, out of those above, for exchanging data and waiting; bytes that
      * this rank has sent; number of exchanges. 0 if a single rank has carried the whole run. */

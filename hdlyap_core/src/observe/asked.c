@@ -58,13 +58,6 @@ double hd_observables_bytes(const hd_scene_def *scene, int ranks)
     return bytes;
 }
 
-unsigned hd_observables_tried(unsigned set)
-{
-    for (int k = 0; k < HD_OBSERVED; k++)
-        if (hd_observable_rows[k]->catch_up) set &= ~hd_observable_bits[k];
-    return set;
-}
-
 hd_extent hd_observables_extent(const hd_scene_def *scene, void *const *part)
 {
     hd_extent extent = {.dimension = hd_scene_dimension(scene),
@@ -81,15 +74,14 @@ hd_extent hd_observables_extent(const hd_scene_def *scene, void *const *part)
 
 /* ---- what may be asked for ----------------------------------------------------------------- */
 
+/** With covariant vectors at least the transient: vectors converge forwards no faster than
+ * backwards. */
 double hd_scene_warmup(const hd_scene_def *scene)
 {
-    double time = hd_scene_parting(scene);
-    if (scene->warmup != HD_WARMUP_AUTO) return time;
-    EACH_ASKED(scene, row)
-    {
-        if (row->warmup) time = fmax(time, row->warmup(scene));
-    }
-    return time;
+    const double time = hd_scene_parting(scene);
+    const bool windows = hd_observable_is_asked(HD_OBSERVED_covariant, scene);
+    return scene->warmup == HD_WARMUP_AUTO && windows ? fmax(time, scene->covariant_transient)
+                                                      : time;
 }
 
 /** True if an observable of the set has this need. */
@@ -149,26 +141,6 @@ hd_status hd_scene_check(const hd_scene_def *scene, char *message, size_t size)
     EACH_ASKED(scene, row)
     {
         if (row->check) HD_TRY(row->check(scene, message, size));
-    }
-    return HD_OK;
-}
-
-hd_status hd_observables_check_ranks(const hd_scene_def *scene, int ranks, char *message,
-                                     size_t size)
-{
-    EACH_ASKED(scene, row)
-    {
-        if (row->check_ranks) HD_TRY(row->check_ranks(scene, ranks, message, size));
-    }
-    return HD_OK;
-}
-
-hd_status hd_observables_check_longest(const hd_scene_def *scene, double longest, char *message,
-                                       size_t size)
-{
-    EACH_ASKED(scene, row)
-    {
-        if (row->check_longest) HD_TRY(row->check_longest(scene, longest, message, size));
     }
     return HD_OK;
 }

@@ -55,24 +55,6 @@ typedef struct hd_view {
     const double *q, *p; /**< positions and momenta, for HD_NEEDS_STATE, else NULL */
 } hd_view;
 
-/** A leg: what follows each interval of the averaging, through which the frame is carried. */
-typedef struct hd_leg {
-    enum {
-        HD_LEG_BEGINS, /**< the interval begins, with this frame */
-        HD_LEG_PIECE,  /**< a piece of it has been carried and orthonormalised */
-        /** the interval has ended */
-        HD_LEG_ENDS,
-        HD_LEG_LOST /**< the frame is changed in another way, so that the next piece does not follow
-                       from it */
-    } at;
-    const hd_frame *frame;
-    const hd_ortho *ortho;
-    const hd_record *record;
-    const hd_trajectory *trajectory;
-    double from, to; /**< the piece, counted from the start of the record [time units] */
-    double expected; /**< expected length of the next intervals [time units] */
-} hd_leg;
-
 /** A row. A function that is NULL has nothing to do. `self` is what `create` made. */
 typedef struct hd_observable {
     unsigned with;                   /**< the observables that it needs, a set of HD_OBSERVE_* */
@@ -82,14 +64,9 @@ typedef struct hd_observable {
     double (*bytes)(const hd_scene_def *scene, int ranks);
     /** Adds the numbers of its results to *extent. `self` is NULL if a run does not have it. */
     void (*extend)(hd_extent *extent, const hd_scene_def *scene, const void *self);
-    /** Shortest warm-up that it needs, for scenes with HD_WARMUP_AUTO. */
-    double (*warmup)(const hd_scene_def *scene);
-    /** Return HD_OK, or HD_REFUSED with a line that says why it cannot be computed: in this scene;
-     * on so many ranks; with intervals between orthonormalisations that may become this long. */
+    /** Returns HD_OK, or HD_REFUSED with a line that says why it cannot be computed in this scene.
+     */
     hd_status (*check)(const hd_scene_def *scene, char *message, size_t size);
-    hd_status (*check_ranks)(const hd_scene_def *scene, int ranks, char *message, size_t size);
-    hd_status (*check_longest)(const hd_scene_def *scene, double longest, char *message,
-                               size_t size);
     /** Makes it; the caller frees what is returned, whatever *status is. Fails with HD_NO_MEMORY.
      */
     void *(*create)(const hd_observing *with, hd_status *status);
@@ -116,20 +93,7 @@ typedef struct hd_observable {
     /** Longest time from this measured state to the next that it allows; INFINITY if it allows any.
      */
     double (*sampling)(void *self, const hd_observing *with);
-    /** Called for each leg while somebody listens. Fails with HD_NO_MEMORY, on all ranks alike. */
-    hd_status (*follow)(void *self, const hd_leg *leg);
-    /** True if it begins to follow legs with the next interval. If half of the vectors are carried,
-     * the frame is then made isotropic to rounding before [T18]. */
-    bool (*begins)(const void *self);
-    /** The first time after `now` at which an interval has to end for it. */
-    double (*due)(const void *self, double now);
-    /** True if it has work to do before the run may go on; catch_up does a part of it. All ranks
-     * agree. */
-    bool (*is_behind)(const void *self);
-    hd_status (*catch_up)(void *self);
     void (*archive)(void *self, hd_archive *archive, const hd_trajectory *now);
-    /** What hd_run_parts gives for it; if NULL, `self`. */
-    void *(*result)(void *self);
 } hd_observable;
 
 /** The number of each row. */

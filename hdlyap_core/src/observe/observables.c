@@ -5,13 +5,9 @@
 #include <math.h>
 
 #include "base/check.h"
-#include "base/clock.h"
 #include "base/memory.h"
 #include "dynamics/trajectory.h"
 #include "scene/scene.h"
-
-/** A call that catches up begins no further part after this many wall seconds. */
-static const double CATCH_UP_SECONDS = 0.1;
 
 static hd_status create_state(hd_observables *o)
 {
@@ -54,10 +50,9 @@ void hd_observables_free(hd_observables *o)
 
 void *hd_observables_part(const hd_observables *o, hd_observed row) { return o->part[row]; }
 
-void *hd_observables_result(const hd_observables *o, hd_observed k)
+hd_windows *hd_observables_windows(const hd_observables *o)
 {
-    return o->part[k] && hd_observable_rows[k]->result ? hd_observable_rows[k]->result(o->part[k])
-                                                       : o->part[k];
+    return o->seen & HD_OBSERVE_COVARIANT ? o->part[HD_OBSERVED_covariant] : NULL;
 }
 
 unsigned hd_observables_looked_at(const hd_observables *o) { return o->looked_at; }
@@ -162,75 +157,6 @@ void hd_observables_report(hd_observables *o, const hd_view *state)
     const hd_view view = seen(o, state);
     for (one at = BEFORE; next(&at, o);)
         if (at.row->report) at.row->report(at.self, &o->with, &view);
-}
-
-/* ---- those that follow intervals ----------------------------------------------------------- */
-
-double hd_observables_seconds(const hd_observables *o) { return o->seconds; }
-
-hd_status hd_observables_follow(hd_observables *o, const hd_leg *leg)
-{
-    for (one at = BEFORE; next(&at, o);) {
-        if (!at.row->follow) continue;
-        const double start = hd_clock_now();
-        const hd_status status = at.row->follow(at.self, leg);
-        o->seconds += hd_clock_now() - start;
-        HD_TRY(status);
-    }
-    return HD_OK;
-}
-
-bool hd_observables_begin(const hd_observables *o)
-{
-    for (one at = BEFORE; next(&at, o);)
-        if (at.row->begins && at.row->begins(at.self)) return true;
-    return false;
-}
-
-double hd_observables_due(const hd_observables *o, double now)
-{
-    double first = INFINITY;
-    for (one at = BEFORE; next(&at, o);) {
-        const double due = at.row->due ? at.row->due(at.self, now) : INFINITY;
-        if (due > now) first = fmin(first, due);
-    }
-    return first;
-}
-
-static bool is_behind(const one *at) { return at->row->is_behind && at->row->is_behind(at->self); }
-
-bool hd_observables_are_behind(const hd_observables *o)
-{
-    for (one at = BEFORE; next(&at, o);)
-        if (is_behind(&at)) return true;
-    return false;
-}
-
-/** True while a call may begin another part, by the clock of rank 0. */
-static bool has_time(const hd_observables *o, double start)
-{
-    double left = hd_clock_now() - start < CATCH_UP_SECONDS;
-    hd_communicator_broadcast(o->with.communicator, &left, sizeof left);
-    return left > 0;
-}
-
-static hd_status catch_up(hd_observables *o, bool to_its_end, double start)
-{
-    for (one at = BEFORE; next(&at, o);) {
-        while (is_behind(&at)) {
-            if (!to_its_end && !has_time(o, start)) return HD_OK;
-            HD_TRY(at.row->catch_up(at.self));
-        }
-    }
-    return HD_OK;
-}
-
-hd_status hd_observables_catch_up(hd_observables *o, bool to_its_end)
-{
-    const double start = hd_clock_now();
-    const hd_status status = catch_up(o, to_its_end, start);
-    o->seconds += hd_clock_now() - start;
-    return status;
 }
 
 /* ---- all of them --------------------------------------------------------------------------- */

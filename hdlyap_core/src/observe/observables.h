@@ -2,15 +2,14 @@
 #ifndef HD_OBSERVABLES_H
 #define HD_OBSERVABLES_H
 
-#include "observe/observable.h"
+#include "observe/windows.h"
 
-/** Only observables.c uses the members; checkpoint.c keeps `seconds`. */
+/** Only observables.c uses the members. */
 typedef struct hd_observables {
     hd_observing with;
     void *part[HD_OBSERVED]; /**< NULL: not asked for */
     unsigned looked_at;      /**< set of HD_OBSERVE_* that somebody listens to */
     unsigned seen;           /**< these and the observables that they need */
-    double seconds;          /**< wall seconds spent in observables that follow intervals */
     double *q, *p;           /**< positions and momenta; NULL unless HD_NEEDS_STATE is asked for */
 } hd_observables;
 
@@ -18,8 +17,6 @@ typedef struct hd_observables {
 
 /** The set, with the observables that it needs. */
 unsigned hd_observables_with(unsigned set);
-/** The set without observables that need more time than a trial run has. */
-unsigned hd_observables_tried(unsigned set);
 /** True if the scene asks for this observable, or for one that needs it. If the scene asks for no
  * exponents, only observables of particles alone count. */
 bool hd_observable_is_asked(hd_observed row, const hd_scene_def *scene);
@@ -29,12 +26,6 @@ bool hd_observables_asked(const hd_scene_def *scene, unsigned needs);
 double hd_observables_bytes(const hd_scene_def *scene, int ranks);
 /** See hd_extent_of; part[HD_OBSERVED] are the observables of a run. */
 hd_extent hd_observables_extent(const hd_scene_def *scene, void *const *part);
-/** Return HD_REFUSED, with a line that says why, for a scene that hd_scene_check has passed: if
- * this many ranks cannot do it; if intervals that may become this long leave no room for it. */
-HD_MUST_CHECK hd_status hd_observables_check_ranks(const hd_scene_def *scene, int ranks,
-                                                   char *message, size_t size);
-HD_MUST_CHECK hd_status hd_observables_check_longest(const hd_scene_def *scene, double longest,
-                                                     char *message, size_t size);
 
 /** Longest time from one measured state to the next that the observables of a set allow in a scene,
  * with its reports and its own intervals, if fields are due every `fields` time units; INFINITY:
@@ -49,8 +40,8 @@ void hd_observables_free(hd_observables *observables);
 
 /** The observable of a row; NULL if the scene does not ask for it. */
 void *hd_observables_part(const hd_observables *observables, hd_observed row);
-/** What hd_run_parts returns for it. */
-void *hd_observables_result(const hd_observables *observables, hd_observed row);
+/** The windows of covariant vectors; NULL if nobody listens to them. */
+hd_windows *hd_observables_windows(const hd_observables *observables);
 
 /** Sets which observables somebody listens to from now on (set of HD_OBSERVE_*); at first all. */
 void hd_observables_look(hd_observables *observables, unsigned stages);
@@ -74,20 +65,6 @@ HD_MUST_CHECK hd_status hd_observables_measure(hd_observables *observables, cons
 void hd_observables_add(hd_observables *observables, const hd_view *state);
 /** Called at a report; state->vectors[0] are the vectors of all ranks that can be read. */
 void hd_observables_report(hd_observables *observables, const hd_view *state);
-
-/** Passes an interval to the observables that follow intervals. */
-HD_MUST_CHECK hd_status hd_observables_follow(hd_observables *observables, const hd_leg *leg);
-/** True if one begins to follow with the next interval. */
-bool hd_observables_begin(const hd_observables *observables);
-/** The first simulated time after now at which one of them needs an interval to end; INFINITY:
- * none. */
-double hd_observables_due(const hd_observables *observables, double now);
-/** True while one of them has work to do before the run may go on. */
-bool hd_observables_are_behind(const hd_observables *observables);
-/** Does that work for a fraction of a second, or to its end. */
-HD_MUST_CHECK hd_status hd_observables_catch_up(hd_observables *observables, bool to_its_end);
-/** Wall seconds spent in observables that follow intervals. */
-double hd_observables_seconds(const hd_observables *observables);
 
 /** The averages of all of them begin here. */
 void hd_observables_clear(hd_observables *observables, const hd_view *here);

@@ -1,6 +1,6 @@
 /** Orthonormalisations of a run -> covariant vectors of its windows: an observable that follows
  * each interval, and stops the run to go back through a window. */
-#include "observe/observable.h"
+#include "observe/windows.h"
 
 #include <math.h>
 
@@ -10,20 +10,24 @@
 #include "tangent/localization.h"
 #include "averages/doubling.h"
 #include "base/check.h"
+#include "base/clock.h"
 #include "base/memory.h"
 #include "covariant/archived.h"
 #include "covariant/covariant.h"
 #include "covariant/window_room.h"
 #include "scene/scene.h"
 
+/** A call that goes back begins no further step after this many wall seconds. */
+static const double BACK_SECONDS = 0.1;
+
 /** The observable. */
-typedef struct hd_windows {
+struct hd_windows {
     hd_covariant *covariant;
     hd_communicator *communicator; /**< NULL: a single rank; every rank does the whole way back */
     double *gathered;              /**< [rows * n], vectors of all ranks; NULL for a single one */
     double sampling;               /**< time from the start of a window to its first sample */
     bool due;                      /**< a window begins with the next interval */
-} hd_windows;
+};
 
 /** The vectors of all ranks. */
 static hd_columns all_of(hd_windows *windows, const hd_frame *frame)
@@ -59,9 +63,9 @@ static hd_status agreed(const hd_windows *windows, hd_status status)
 }
 
 /** Adds intervals to a window; not between a window that is lost or complete and the next one. */
-static hd_status covariant_follow(void *self, const hd_leg *leg)
+hd_status hd_windows_follow(hd_windows *windows, const hd_leg *leg)
 {
-    hd_windows *windows = self;
+    if (!windows) return HD_OK;
     if (leg->at == HD_LEG_LOST) windows->due = true;
     if (windows->due)
         return leg->at == HD_LEG_BEGINS ? agreed(windows, begin(windows, leg)) : HD_OK;
@@ -71,25 +75,65 @@ static hd_status covariant_follow(void *self, const hd_leg *leg)
     return HD_OK;
 }
 
-static bool covariant_begins(const void *self) { return ((const hd_windows *)self)->due; }
+bool hd_windows_begin(const hd_windows *windows) { return windows && windows->due; }
 
-static double covariant_due(const void *self, double now)
+double hd_windows_due(const hd_windows *windows, double now)
 {
-    const hd_windows *windows = self;
-    return windows->due ? now + windows->sampling : hd_covariant_due(windows->covariant);
+    if (!windows) return INFINITY;
+    const double due = windows->due ? now + windows->sampling
+                                    : hd_covariant_due(windows->covariant);
+    return due > now ? due : INFINITY;
 }
 
-static bool covariant_is_behind(const void *self)
+/* ---- the way back -------------------------------------------------------------------------- */
+
+bool hd_windows_are_behind(const hd_windows *windows)
 {
-    const hd_windows *windows = self;
-    return !windows->due && hd_covariant_is_going_back(windows->covariant);
+    return windows && !windows->due && hd_covariant_is_going_back(windows->covariant);
 }
 
-static hd_status covariant_catch_up(void *self)
+/** True while a call may begin another step, by the clock of rank 0. */
+static bool has_time(const hd_windows *windows, double start)
 {
-    const hd_windows *windows = self;
-    return agreed(windows, hd_covariant_step(windows->covariant));
+    double left = hd_clock_now() - start < BACK_SECONDS;
+    hd_communicator_broadcast(windows->communicator, &left, sizeof left);
+    return left > 0;
 }
+
+hd_status hd_windows_go_back(hd_windows *windows, bool to_its_end)
+{
+    const double start = hd_clock_now();
+    while (hd_windows_are_behind(windows) && (to_its_end || has_time(windows, start)))
+        HD_TRY(agreed(windows, hd_covariant_step(windows->covariant)));
+    return HD_OK;
+}
+
+hd_covariant *hd_windows_covariant(hd_windows *windows) { return windows->covariant; }
+
+/* ---- what is asked for --------------------------------------------------------------------- */
+
+static bool are_asked(const hd_scene_def *scene)
+{
+    return scene->observe & HD_OBSERVE_COVARIANT && hd_scene_vectors(scene) > 0;
+}
+
+hd_status hd_windows_check_ranks(const hd_scene_def *scene, int ranks, char *message, size_t size)
+{
+    if (ranks == 1 || hd_scene_carried(scene) == hd_scene_vectors(scene)) return HD_OK;
+    if (!are_asked(scene)) return HD_OK;
+    return hd_refuse(message, size,
+                     "ranks = %d: must be 1 for covariant vectors with exponents = all; "
+                     "all_independent computes them on several ranks",
+                     ranks);
+}
+
+hd_status hd_windows_check_room(const hd_scene_def *scene, double longest, char *message,
+                                size_t size)
+{
+    return are_asked(scene) ? hd_window_check_room(scene, longest, message, size) : HD_OK;
+}
+
+/* ---- as an observable ---------------------------------------------------------------------- */
 
 /** Bytes without the windows, which covariant_memory limits: triangles of two passes, both starts
  * of the way back with their workspace, vectors of a sample, and averages. */
@@ -103,9 +147,6 @@ static double covariant_bytes(const hd_scene_def *scene, int ranks)
     return sizeof(double) * (factors + ways + vectors + gathered) + weights + hd_spectrum_bytes(n) +
            hd_localization_bytes(n) + hd_doubling_bytes((hd_doubling_def){.vectors = (int)n});
 }
-
-/** The warm-up is the transient: vectors converge forwards no faster than backwards. */
-static double covariant_warmup(const hd_scene_def *scene) { return scene->covariant_transient; }
 
 static hd_status covariant_check(const hd_scene_def *scene, char *message, size_t size)
 {
@@ -137,16 +178,6 @@ static hd_status covariant_check(const hd_scene_def *scene, char *message, size_
                          "covariant_transient = %.15g",
                          scene->duration, window + transient);
     return HD_OK;
-}
-
-static hd_status covariant_check_ranks(const hd_scene_def *scene, int ranks, char *message,
-                                       size_t size)
-{
-    if (ranks == 1 || hd_scene_carried(scene) == hd_scene_vectors(scene)) return HD_OK;
-    return hd_refuse(message, size,
-                     "ranks = %d: must be 1 for covariant vectors with exponents = all; "
-                     "all_independent computes them on several ranks",
-                     ranks);
 }
 
 static void covariant_extend(hd_extent *extent, const hd_scene_def *scene, const void *self)
@@ -202,23 +233,12 @@ static void covariant_archive(void *self, hd_archive *archive, const hd_trajecto
     hd_covariant_archive(((hd_windows *)self)->covariant, archive);
 }
 
-static void *covariant_result(void *self) { return ((hd_windows *)self)->covariant; }
-
 const hd_observable hd_covariant_row = {.needs = HD_NEEDS_FRAME | HD_NEEDS_WHOLE,
                                         .bytes = covariant_bytes,
                                         .extend = covariant_extend,
-                                        .warmup = covariant_warmup,
                                         .check = covariant_check,
-                                        .check_ranks = covariant_check_ranks,
-                                        .check_longest = hd_window_check_room,
                                         .create = covariant_create,
                                         .free = covariant_free,
                                         .clear = covariant_clear,
                                         .resume = covariant_resume,
-                                        .follow = covariant_follow,
-                                        .begins = covariant_begins,
-                                        .due = covariant_due,
-                                        .is_behind = covariant_is_behind,
-                                        .catch_up = covariant_catch_up,
-                                        .archive = covariant_archive,
-                                        .result = covariant_result};
+                                        .archive = covariant_archive};

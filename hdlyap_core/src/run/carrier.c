@@ -232,12 +232,16 @@ double hd_carrier_longest(const hd_scene_def *scene)
 
 static hd_status follow(hd_carrier *c, const hd_carrying *how, hd_leg leg)
 {
+    const double start = hd_clock_now();
+    if (!how->windows) return HD_OK;
     leg.frame = c->frame;
     leg.ortho = c->ortho;
     leg.record = c->record;
     leg.trajectory = how->trajectory;
     leg.expected = how->expected;
-    return how->observables ? hd_observables_follow(how->observables, &leg) : HD_OK;
+    const hd_status status = hd_windows_follow(how->windows, &leg);
+    c->cost->following += hd_clock_now() - start;
+    return status;
 }
 
 /** Makes the frame isotropic again if it has lost too much. Usually a loss decays by itself [T18].
@@ -310,8 +314,7 @@ static void piece_accepted(hd_carrier *c, double length, bool averaging)
 /** Prepares the first orthonormalisation at the end of an interval. */
 static hd_status begin_interval(hd_carrier *c, const hd_carrying *how)
 {
-    if (c->conjugate && how->observables && hd_observables_begin(how->observables))
-        HD_TRY(hd_conjugate_start(c->frame));
+    if (c->conjugate && hd_windows_begin(how->windows)) HD_TRY(hd_conjugate_start(c->frame));
     return follow(c, how, (hd_leg){.at = HD_LEG_BEGINS});
 }
 

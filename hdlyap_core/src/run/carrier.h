@@ -44,8 +44,8 @@ typedef struct hd_carrying {
     bool measured;  /**< the frame becomes orthonormal in the full norm, for a measured state */
     bool observed;  /**< an observable reads the measured vectors */
     bool whole;     /**< an observable needs every frame orthonormal in the full norm */
-    hd_observables *observables; /**< the observables that follow each interval; NULL: none */
-    double expected;             /**< expected length of the next intervals [time units] */
+    hd_windows *windows; /**< they follow each interval; NULL: nobody listens to them */
+    double expected;     /**< expected length of the next intervals [time units] */
     const hd_trajectory *trajectory;
 } hd_carrying;
 

@@ -65,9 +65,8 @@ static void traffic_archive(hd_run *run, hd_archive *archive)
 static void cost_archive(hd_run *run, hd_archive *archive)
 {
     hd_cost *c = &run->cost;
-    double *const numbers[] = {&c->events,    &c->replay, &c->ortho,
-                               &c->spectrum,  &c->modes,  &c->interval,
-                               &c->condition, &c->defect, &run->observables.seconds};
+    double *const numbers[] = {&c->events,   &c->replay,    &c->ortho,  &c->spectrum, &c->modes,
+                               &c->interval, &c->condition, &c->defect, &c->following};
     long *const counts[] = {&c->orthonormalisations, &c->second_passes, &c->slow_vector_samples,
                             &c->repairs};
     int limit = (int)c->limit;

@@ -22,13 +22,16 @@ const hd_frame *hd_run_frame(const hd_run *run) { return run->carrier.frame; }
 
 hd_parts hd_run_parts(const hd_run *run)
 {
-    return (hd_parts){
+    hd_windows *windows = hd_observables_part(&run->observables, HD_OBSERVED_covariant);
+    hd_parts parts = {
         .trajectory = run->advance.trajectory,
         .spectrum = run->carrier.spectrum,
 #define HD_OBSERVABLE(name, NAME, bit, of_waves, type)                                             \
-    .name = hd_observables_result(&run->observables, HD_OBSERVED_##name),
+    .name = hd_observables_part(&run->observables, HD_OBSERVED_##name),
 #include "hdlyap/observables.inc"
     };
+    if (windows) parts.covariant = hd_windows_covariant(windows);
+    return parts;
 }
 
 double hd_run_followed(const hd_run *run) { return run->followed; }
@@ -102,7 +105,6 @@ hd_cost hd_run_cost(const hd_run *run)
     cost.target = hd_target_standing(run, hd_agenda_target(&run->agenda));
     add_progress(&cost, run);
     add_trend(&cost, run);
-    cost.following = hd_observables_seconds(&run->observables);
     cost.communication += traffic.seconds;
     cost.bytes += traffic.bytes;
     cost.calls += traffic.calls;

@@ -53,7 +53,7 @@ static hd_status check(const hd_scene_def *def, hd_communicator *c, char *messag
     const int ranks = hd_communicator_ranks(c);
     HD_TRY(same_programs(c, message, size));
     HD_TRY(hd_scene_check(def, message, size));
-    HD_TRY(hd_observables_check_ranks(def, ranks, message, size));
+    HD_TRY(hd_windows_check_ranks(def, ranks, message, size));
     hd_room room = hd_room_available();
     room.ranks = ranks;
     if (c) room.bytes /= c->beside;

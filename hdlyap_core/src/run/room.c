@@ -92,5 +92,5 @@ hd_status hd_room_check_windows(const hd_scene_def *def, double fields_every, ch
     const hd_agenda agenda = hd_agenda_of(def, 1.0 / hd_scene_collision_time(def));
     const double apart = hd_observables_apart(def, hd_observables_with(def->observe), fields_every);
     const double longest = fmin(hd_carrier_longest(def), hd_agenda_sample_most(&agenda));
-    return hd_observables_check_longest(def, fmin(longest, apart), message, size);
+    return hd_windows_check_room(def, fmin(longest, apart), message, size);
 }

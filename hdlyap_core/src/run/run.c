@@ -51,10 +51,10 @@ static bool is_watched(const hd_run *run)
     return is_needed(run, HD_NEEDS_VECTORS) && run->watch.first < run->carrier.vectors;
 }
 
-/** True while an observable has work to do before the run may go on. */
-static bool is_behind(const hd_run *run)
+/** The windows of covariant vectors, while averages are taken; NULL if nobody listens to them. */
+static hd_windows *windows_of(const hd_run *run)
 {
-    return is_averaging(run) && hd_observables_are_behind(&run->observables);
+    return is_averaging(run) ? hd_observables_windows(&run->observables) : NULL;
 }
 
 /** What observables see of the present state. */
@@ -143,7 +143,7 @@ hd_status hd_run_make(hd_run **out, const hd_scene_def *def, bool resumed,
     *out = NULL;
     HD_TRY(hd_ranks_check(def, communicator, message, size));
     HD_TRY(hd_target_check(def, message, size));
-    HD_TRY(resumed ? hd_observables_check_longest(def, hd_carrier_longest(def), message, size)
+    HD_TRY(resumed ? hd_windows_check_room(def, hd_carrier_longest(def), message, size)
                    : hd_room_check_windows(def, INFINITY, message, size));
     hd_run *run = hd_memory_alloc(1, sizeof *run);
     const hd_status found = hd_communicator_agree(communicator, run ? HD_OK : HD_NO_MEMORY);
@@ -218,7 +218,7 @@ static hd_status orthonormalise(hd_run *run, bool measured)
                              .measured = measured,
                              .observed = is_needed(run, HD_NEEDS_FRAME),
                              .whole = is_needed(run, HD_NEEDS_WHOLE),
-                             .observables = is_averaging(run) ? &run->observables : NULL,
+                             .windows = windows_of(run),
                              .expected = hd_agenda_interval_expected(
                                  &run->agenda, &run->carrier.interval, apart_expected(run)),
                              .trajectory = run->advance.trajectory};
@@ -334,23 +334,27 @@ static hd_status look(hd_run *run)
     return end_early(run);
 }
 
-/** Leaves the stage if it is over and no observable is behind. */
+/** Leaves the stage if it is over and no window has to be gone back through. */
 static void leave_stage(hd_run *run)
 {
-    if (!hd_agenda_is_due(&run->agenda, HD_DUE_STAGE) || is_behind(run)) return;
+    if (!hd_agenda_is_due(&run->agenda, HD_DUE_STAGE)) return;
+    if (hd_windows_are_behind(windows_of(run))) return;
     enter_stage(run, hd_agenda_stage(&run->agenda) + 1);
 }
 
-static hd_status catch_up(hd_run *run, bool to_its_end)
+static hd_status go_back(hd_run *run, bool to_its_end)
 {
-    if (is_behind(run)) HD_TRY(hd_observables_catch_up(&run->observables, to_its_end));
+    hd_windows *windows = windows_of(run);
+    const double start = hd_clock_now();
+    HD_TRY(hd_windows_go_back(windows, to_its_end));
+    if (windows) run->cost.following += hd_clock_now() - start;
     leave_stage(run);
     return HD_OK;
 }
 
 hd_status hd_run_settle(hd_run *run)
 {
-    if (run->status == HD_OK) run->status = catch_up(run, true);
+    if (run->status == HD_OK) run->status = go_back(run, true);
     return run->status;
 }
 
@@ -368,7 +372,7 @@ static hd_pace pace_of(hd_run *run)
                      .at_reports = is_needed(run, HD_NEEDS_REPORTS),
                      .at_fields = is_needed(run, HD_NEEDS_FIELDS),
                      .phases = sampling(run),
-                     .snapshot = averaging ? hd_observables_due(o, now) : INFINITY,
+                     .snapshot = hd_windows_due(windows_of(run), now),
                      .norm = hd_carrier_norm(&run->carrier, is_needed(run, HD_NEEDS_WHOLE)),
                      .interval = &run->carrier.interval,
                      .shortest = hd_advance_shortest(&run->advance),
@@ -400,7 +404,7 @@ static hd_status move_particles(hd_run *run, double end)
 static hd_status go_on(hd_run *run)
 {
     take_changes(run);
-    if (hd_agenda_is_due(&run->agenda, HD_DUE_STAGE)) return catch_up(run, false);
+    if (hd_agenda_is_due(&run->agenda, HD_DUE_STAGE)) return go_back(run, false);
     hd_pace pace = plan(run);
     HD_TRY(move_particles(run, hd_agenda_next(&run->agenda, &pace)));
     pace.now = hd_run_time(run);
@@ -432,8 +436,9 @@ static hd_status advance(hd_run *run)
     forget_vectors(run);
     if (hd_agenda_stage(&run->agenda) == HD_FINISHED) return HD_OK;
     if (is_framed(run)) hd_blas_use_threads(run->carrier.threads); /* set for the calling thread */
-    if (is_behind(run) || hd_agenda_is_due(&run->agenda, HD_DUE_STAGE)) return catch_up(run, false);
-    return go_on(run);
+    const bool behind = hd_windows_are_behind(windows_of(run));
+    return behind || hd_agenda_is_due(&run->agenda, HD_DUE_STAGE) ? go_back(run, false)
+                                                                  : go_on(run);
 }
 
 hd_status hd_run_advance(hd_run *run)

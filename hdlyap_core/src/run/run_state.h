@@ -51,7 +51,7 @@ HD_MUST_CHECK hd_status hd_run_make(hd_run **out, const hd_scene_def *def, bool 
                                     hd_communicator *communicator, char *message, size_t size);
 void hd_run_drop(hd_run *run);
 
-/** Finishes what an observable has begun, so that the run can be saved. */
+/** Goes back through a window that waits for it, so that the run can be saved. */
 HD_MUST_CHECK hd_status hd_run_settle(hd_run *run);
 
 /** How far the run is from a target that hd_target_check has passed. */
