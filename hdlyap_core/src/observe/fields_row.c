@@ -19,10 +19,10 @@ static void *fields_create(const hd_observing *with, hd_status *status)
 
 static void fields_free(void *self) { hd_pmode_free(self); }
 
-static int fields_first(void *self, const hd_observing *with)
+static int fields_first(void *self, const hd_moment *now)
 {
     (void)self;
-    return hd_steps_first(with->part[HD_OBSERVED_steps]);
+    return hd_steps_first(now->with->part[HD_OBSERVED_steps]);
 }
 
 const hd_observable hd_fields_row = {.with = HD_OBSERVE_STEPS,

@@ -242,34 +242,34 @@ static void fluctuations_free(void *self)
     hd_memory_free(f);
 }
 
-static void fluctuations_clear(void *self, const hd_view *here)
+static void fluctuations_clear(void *self, const hd_moment *now)
 {
     hd_fluctuations *f = self;
-    (void)here;
+    (void)now;
     hd_doubling_clear(f->doubling);
     for (int col = 0; col < f->vectors; col++) f->sum[col] = 0.0;
     f->now = 0.0;
     f->follows = true; /* the spectrum begins here, too */
 }
 
-static void fluctuations_resume(void *self)
+static void fluctuations_resume(void *self, const hd_moment *now)
 {
     hd_fluctuations *f = self;
+    (void)now;
     hd_doubling_break(f->doubling);
     f->follows = false;
 }
 
-static void fluctuations_add(void *self, const hd_observing *with, const hd_view *state)
+static void fluctuations_add(void *self, const hd_moment *now)
 {
     hd_fluctuations *f = self;
-    const double *sum = hd_spectrum_total(state->spectrum), now = hd_spectrum_time(state->spectrum);
-    (void)with;
+    const double *sum = hd_spectrum_total(now->spectrum), time = hd_spectrum_time(now->spectrum);
     for (int col = 0; col < f->vectors; col++) {
         f->grown[col] = sum[col] - f->sum[col];
         f->sum[col] = sum[col];
     }
-    if (f->follows && now > f->now) hd_doubling_add(f->doubling, f->grown, now - f->now);
-    f->now = now;
+    if (f->follows && time > f->now) hd_doubling_add(f->doubling, f->grown, time - f->now);
+    f->now = time;
     f->follows = true;
 }
 
@@ -278,17 +278,17 @@ static double fluctuations_apart(const hd_scene_def *scene)
     return scene->fluctuation_time > 0 ? scene->fluctuation_time : INFINITY;
 }
 
-static double fluctuations_sampling(void *self, const hd_observing *with)
+static double fluctuations_sampling(void *self, const hd_moment *now)
 {
     (void)self;
-    return fluctuations_apart(with->scene);
+    return fluctuations_apart(now->with->scene);
 }
 
-static void fluctuations_archive(void *self, hd_archive *archive, const hd_trajectory *now)
+static void fluctuations_archive(void *self, const hd_moment *now)
 {
     hd_fluctuations *f = self;
+    hd_archive *archive = now->archive;
     int follows = f->follows;
-    (void)now;
     hd_archive_int(archive, "fluctuations follow", &follows, 0, 1);
     f->follows = follows;
     hd_archive_double(archive, "fluctuations time", &f->now);

@@ -218,17 +218,14 @@ static void *gas_create(const hd_observing *with, hd_status *status)
 }
 
 static void gas_free(void *self) { hd_gas_free(self); }
-static void gas_clear(void *self, const hd_view *here) { hd_gas_begin(self, here->trajectory); }
+static void gas_clear(void *self, const hd_moment *now) { hd_gas_begin(self, now->trajectory); }
 
-static void gas_add(void *self, const hd_observing *with, const hd_view *state)
-{
-    (void)with;
-    hd_gas_add(self, state->trajectory);
-}
+static void gas_add(void *self, const hd_moment *now) { hd_gas_add(self, now->trajectory); }
 
-static void gas_archive(void *self, hd_archive *archive, const hd_trajectory *now)
+static void gas_archive(void *self, const hd_moment *now)
 {
     hd_gas *gas = self;
+    hd_archive *archive = now->archive;
     hd_totals *last = &gas->last;
     hd_archive_double(archive, "gas last time", &last->time);
     hd_archive_doubles(archive, "gas last virial", last->virial, (size_t)gas->dimension);
@@ -239,9 +236,9 @@ static void gas_archive(void *self, hd_archive *archive, const hd_trajectory *no
     hd_archive_bits(archive, "gas last collisions", &last->collisions);
     hd_archive_double(archive, "gas time", &gas->time);
     hd_archive_doubles(archive, "gas sum", gas->sum, (size_t)gas->series);
-    hd_archive_expect(archive, last->time >= 0 && last->time <= hd_trajectory_time(now),
+    hd_archive_expect(archive, last->time >= 0 && last->time <= hd_trajectory_time(now->trajectory),
                       "gas last time", "it does not fit the time of the checkpoint");
-    hd_archive_expect(archive, last->collisions <= hd_trajectory_totals(now).collisions,
+    hd_archive_expect(archive, last->collisions <= hd_trajectory_totals(now->trajectory).collisions,
                       "gas last collisions", "they are more than the trajectory has had");
     hd_archive_expect(archive, gas->time >= 0, "gas time", "it is negative");
     hd_blocks_archive(&gas->blocks, archive);

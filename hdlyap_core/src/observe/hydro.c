@@ -144,21 +144,6 @@ const hd_hydro_response *hd_hydro_at(const hd_hydro *hydro, int index)
     return &hydro->response[index];
 }
 
-/** Reads or writes the responses of the last report. */
-static void hydro_keep(hd_hydro *hydro, hd_archive *archive)
-{
-    hd_archive_of_ints(archive, "hydro col", (size_t)hydro->count);
-    for (int k = 0; k < hydro->count; k++)
-        hd_archive_next_int(archive, &hydro->response[k].col, -1, hydro->vectors - 1);
-    hd_archive_of_doubles(archive, "hydro response", 5 * (size_t)hydro->count);
-    for (int k = 0; k < hydro->count; k++) {
-        hd_hydro_response *r = &hydro->response[k];
-        double *const numbers[] = {&r->density, &r->along, &r->across, &r->energy,
-                                   &r->across_second};
-        for (int n = 0; n < 5; n++) hd_archive_next_doubles(archive, numbers[n], 1);
-    }
-}
-
 /* ---- as an observable ---------------------------------------------------------------------- */
 
 /** Bytes: a wave with d pairs has 2 d vectors of LP and at most as many of T, each with d
@@ -184,27 +169,38 @@ static void *hydro_create(const hd_observing *with, hd_status *status)
 
 static void hydro_free(void *self) { hd_hydro_free(self); }
 
-static void hydro_clear(void *self, const hd_view *here)
+static void hydro_clear(void *self, const hd_moment *now)
 {
-    (void)here;
+    (void)now;
     hd_hydro_clear(self);
 }
 
-static void hydro_report(void *self, const hd_observing *with, const hd_view *state)
+static void hydro_report(void *self, const hd_moment *now)
 {
-    hd_hydro_measure(self, with->part[HD_OBSERVED_steps], state->vectors[0], state->q, state->p);
+    hd_hydro_measure(self, now->with->part[HD_OBSERVED_steps], now->vectors[0], now->q, now->p);
 }
 
-static int hydro_first(void *self, const hd_observing *with)
+static int hydro_first(void *self, const hd_moment *now)
 {
     (void)self;
-    return hd_steps_first(with->part[HD_OBSERVED_steps]);
+    return hd_steps_first(now->with->part[HD_OBSERVED_steps]);
 }
 
-static void hydro_archive(void *self, hd_archive *archive, const hd_trajectory *now)
+/** Reads or writes the responses of the last report. */
+static void hydro_archive(void *self, const hd_moment *now)
 {
-    (void)now;
-    hydro_keep(self, archive);
+    hd_hydro *hydro = self;
+    hd_archive *archive = now->archive;
+    hd_archive_of_ints(archive, "hydro col", (size_t)hydro->count);
+    for (int k = 0; k < hydro->count; k++)
+        hd_archive_next_int(archive, &hydro->response[k].col, -1, hydro->vectors - 1);
+    hd_archive_of_doubles(archive, "hydro response", 5 * (size_t)hydro->count);
+    for (int k = 0; k < hydro->count; k++) {
+        hd_hydro_response *r = &hydro->response[k];
+        double *const numbers[] = {&r->density, &r->along, &r->across, &r->energy,
+                                   &r->across_second};
+        for (int n = 0; n < 5; n++) hd_archive_next_doubles(archive, numbers[n], 1);
+    }
 }
 
 /** Refuses particles with other coordinates than places, or with a potential: functionals know only

@@ -21,40 +21,38 @@ static void *localization_create(const hd_observing *with, hd_status *status)
 
 static void localization_free(void *self) { hd_localization_free(self); }
 
-static void localization_clear(void *self, const hd_view *here)
+static void localization_clear(void *self, const hd_moment *now)
 {
-    (void)here;
+    (void)now;
     hd_localization_clear(self);
 }
 
-static hd_status localization_measure(void *self, const hd_observing *with, const hd_view *state)
+static hd_status localization_measure(void *self, const hd_moment *now)
 {
-    (void)with;
-    if (state->carried.count > 0) hd_localization_measure(self, state->carried);
+    if (now->carried.count > 0) hd_localization_measure(self, now->carried);
     return HD_OK;
 }
 
-static hd_status localization_share(void *self, const hd_observing *with)
+static hd_status localization_share(void *self, const hd_moment *now)
 {
     double *measured = hd_localization_measured(self);
-    const size_t n = (size_t)with->vectors, carried = (size_t)with->carried;
-    HD_TRY(hd_communicator_share(with->communicator, measured,
-                                 (hd_shared){2, n, (size_t)with->width, carried, 0}));
+    const size_t n = (size_t)now->with->vectors, carried = (size_t)now->with->carried;
+    HD_TRY(hd_communicator_share(now->with->communicator, measured,
+                                 (hd_shared){2, n, (size_t)now->with->width, carried, 0}));
     for (double *row = measured; row < measured + 2 * n; row += n)
         for (size_t col = carried; col < n; col++) row[col] = row[n - 1 - col];
     return HD_OK;
 }
 
-static void localization_add(void *self, const hd_observing *with, const hd_view *state)
+static void localization_add(void *self, const hd_moment *now)
 {
-    (void)with, (void)state;
+    (void)now;
     hd_localization_add(self);
 }
 
-static void localization_archive(void *self, hd_archive *archive, const hd_trajectory *now)
+static void localization_archive(void *self, const hd_moment *now)
 {
-    (void)now;
-    hd_localization_archive(self, archive);
+    hd_localization_archive(self, now->archive);
 }
 
 const hd_observable hd_localization_row = {.needs = HD_NEEDS_FRAME,

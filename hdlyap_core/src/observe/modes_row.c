@@ -23,35 +23,33 @@ static void *modes_create(const hd_observing *with, hd_status *status)
 
 static void modes_free(void *self) { hd_modes_free(self); }
 
-static void modes_clear(void *self, const hd_view *here)
+static void modes_clear(void *self, const hd_moment *now)
 {
-    (void)here;
+    (void)now;
     hd_modes_clear(self);
 }
 
-static hd_status modes_measure(void *self, const hd_observing *with, const hd_view *state)
+static hd_status modes_measure(void *self, const hd_moment *now)
 {
-    (void)with;
-    HD_TRY(hd_modes_measure(self, state->vectors[0], state->q, state->p));
-    if (state->vectors[1].count == 0) return HD_OK;
-    return hd_modes_measure(self, state->vectors[1], state->q, state->p);
+    HD_TRY(hd_modes_measure(self, now->vectors[0], now->q, now->p));
+    if (now->vectors[1].count == 0) return HD_OK;
+    return hd_modes_measure(self, now->vectors[1], now->q, now->p);
 }
 
-static hd_status modes_share(void *self, const hd_observing *with)
+static hd_status modes_share(void *self, const hd_moment *now)
 {
-    return hd_modes_share(self, with->communicator, with->width, with->carried);
+    return hd_modes_share(self, now->with->communicator, now->with->width, now->with->carried);
 }
 
-static void modes_add(void *self, const hd_observing *with, const hd_view *state)
+static void modes_add(void *self, const hd_moment *now)
 {
-    (void)with, (void)state;
+    (void)now;
     hd_modes_add(self);
 }
 
-static void modes_archive(void *self, hd_archive *archive, const hd_trajectory *now)
+static void modes_archive(void *self, const hd_moment *now)
 {
-    (void)now;
-    hd_modes_archive(self, archive);
+    hd_modes_archive(self, now->archive);
 }
 
 const hd_observable hd_modes_row = {.with = HD_OBSERVE_STEPS,
@@ -98,22 +96,17 @@ static void *steps_create(const hd_observing *with, hd_status *status)
 
 static void steps_free(void *self) { hd_steps_free(self); }
 
-static void steps_clear(void *self, const hd_view *here)
+static void steps_clear(void *self, const hd_moment *now)
 {
-    (void)here;
+    (void)now;
     hd_steps_clear(self);
 }
 
-static void steps_add(void *self, const hd_observing *with, const hd_view *state)
-{
-    (void)with;
-    hd_steps_find(self, state->spectrum);
-}
+static void steps_add(void *self, const hd_moment *now) { hd_steps_find(self, now->spectrum); }
 
-static void steps_archive(void *self, hd_archive *archive, const hd_trajectory *now)
+static void steps_archive(void *self, const hd_moment *now)
 {
-    (void)now;
-    hd_steps_archive(self, archive);
+    hd_steps_archive(self, now->archive);
 }
 
 const hd_observable hd_steps_row = {.with = HD_OBSERVE_MODES,

@@ -44,8 +44,9 @@ typedef struct hd_observing {
                           only those of earlier rows */
 } hd_observing;
 
-/** A state that is observed. */
-typedef struct hd_view {
+/** A state that is observed: what the functions of a row are called with. */
+typedef struct hd_moment {
+    const hd_observing *with;
     const hd_trajectory *trajectory;
     const hd_spectrum *spectrum; /**< averages up to now; NULL without exponents */
     hd_columns carried;          /**< orthonormal vectors that this rank carries */
@@ -53,9 +54,11 @@ typedef struct hd_view {
      * carries, and their partners if only half of all are carried. */
     hd_columns vectors[2];
     const double *q, *p; /**< positions and momenta, for HD_NEEDS_STATE, else NULL */
-} hd_view;
+    hd_archive *archive; /**< for `archive` */
+} hd_moment;
 
-/** A row. A function that is NULL has nothing to do. `self` is what `create` made. */
+/** A row. A function that is NULL has nothing to do. `self` is what `create` made. `measure`, `add`
+ * and `report` see a whole moment, others `with` and what they name. */
 typedef struct hd_observable {
     unsigned with;                   /**< the observables that it needs, a set of HD_OBSERVE_* */
     unsigned needs;                  /**< set of HD_NEEDS_* */
@@ -71,29 +74,30 @@ typedef struct hd_observable {
      */
     void *(*create)(const hd_observing *with, hd_status *status);
     void (*free)(void *self);
-    /** Its averages begin, at the state `here`. */
-    void (*clear)(void *self, const hd_view *here);
+    /** Its averages begin here; now->trajectory. */
+    void (*clear)(void *self, const hd_moment *now);
     /** It was not computed for a while, as nobody listened, and is from now on: what needs samples
      * without a gap begins again. */
-    void (*resume)(void *self);
+    void (*resume)(void *self, const hd_moment *now);
     /** Take a snapshot of the vectors that this rank carries; give all ranks what each has
      * measured. */
-    hd_status (*measure)(void *self, const hd_observing *with, const hd_view *state);
-    hd_status (*share)(void *self, const hd_observing *with);
+    hd_status (*measure)(void *self, const hd_moment *now);
+    hd_status (*share)(void *self, const hd_moment *now);
     /** Adds the snapshot to its averages. */
-    void (*add)(void *self, const hd_observing *with, const hd_view *state);
-    /** Called at a report at which the vectors are known; state->vectors[0] are those of all ranks
+    void (*add)(void *self, const hd_moment *now);
+    /** Called at a report at which the vectors are known; now->vectors[0] are those of all ranks
      * that can be read. */
-    void (*report)(void *self, const hd_observing *with, const hd_view *state);
+    void (*report)(void *self, const hd_moment *now);
     /** The first vector that it reads of those of all ranks; NULL means 0. */
-    int (*first)(void *self, const hd_observing *with);
+    int (*first)(void *self, const hd_moment *now);
     /** Longest time from one measured state to the next that a scene asks for; INFINITY: any. If
      * NULL, any. */
     double (*apart)(const hd_scene_def *scene);
     /** Longest time from this measured state to the next that it allows; INFINITY if it allows any.
      */
-    double (*sampling)(void *self, const hd_observing *with);
-    void (*archive)(void *self, hd_archive *archive, const hd_trajectory *now);
+    double (*sampling)(void *self, const hd_moment *now);
+    /** Reads or writes it; now->archive, now->trajectory. */
+    void (*archive)(void *self, const hd_moment *now);
 } hd_observable;
 
 /** The number of each row. */

@@ -65,7 +65,7 @@ void hd_observables_look(hd_observables *o, unsigned stages)
     for (int k = 0; k < HD_OBSERVED; k++)
         if (o->part[k] && o->seen & ~before & hd_observable_bits[k] &&
             hd_observable_rows[k]->resume)
-            hd_observable_rows[k]->resume(o->part[k]);
+            hd_observable_rows[k]->resume(o->part[k], &(hd_moment){.with = &o->with});
 }
 
 /* ---- those that somebody looks at ---------------------------------------------------------- */
@@ -102,10 +102,11 @@ bool hd_observables_need(const hd_observables *o, unsigned needs)
 
 int hd_observables_first(const hd_observables *o)
 {
+    const hd_moment now = {.with = &o->with};
     int first = o->with.vectors;
     for (one at = BEFORE; next(&at, o);) {
         if (!(at.row->needs & HD_NEEDS_ALL)) continue;
-        const int own = at.row->first ? at.row->first(at.self, &o->with) : 0;
+        const int own = at.row->first ? at.row->first(at.self, &now) : 0;
         if (own < first) first = own;
     }
     return first;
@@ -113,66 +114,70 @@ int hd_observables_first(const hd_observables *o)
 
 double hd_observables_sampling(const hd_observables *o)
 {
+    const hd_moment now = {.with = &o->with};
     double longest = INFINITY;
     for (one at = BEFORE; next(&at, o);)
-        if (at.row->sampling) longest = fmin(longest, at.row->sampling(at.self, &o->with));
+        if (at.row->sampling) longest = fmin(longest, at.row->sampling(at.self, &now));
     return longest;
 }
 
-/** The state, with positions and momenta if an observable that needs them is listened to. */
-static hd_view seen(const hd_observables *o, const hd_view *state)
+/** Adds what observables may use, and positions and momenta if somebody listens to one that needs
+ * them. */
+static void complete(const hd_observables *o, hd_moment *now)
 {
-    hd_view view = *state;
-    if (!hd_observables_need(o, HD_NEEDS_STATE)) return view;
-    hd_trajectory_state(state->trajectory, o->q, o->p);
-    view.q = o->q;
-    view.p = o->p;
-    return view;
+    now->with = &o->with;
+    if (!hd_observables_need(o, HD_NEEDS_STATE)) return;
+    hd_trajectory_state(now->trajectory, o->q, o->p);
+    now->q = o->q;
+    now->p = o->p;
 }
 
-static hd_status measure_here(hd_observables *o, const hd_view *state)
+static hd_status measure_here(hd_observables *o, const hd_moment *now)
 {
     for (one at = BEFORE; next(&at, o);)
-        if (at.row->measure) HD_TRY(at.row->measure(at.self, &o->with, state));
+        if (at.row->measure) HD_TRY(at.row->measure(at.self, now));
     return HD_OK;
 }
 
-hd_status hd_observables_measure(hd_observables *o, const hd_view *state)
+hd_status hd_observables_measure(hd_observables *o, hd_moment now)
 {
-    const hd_view view = seen(o, state);
-    HD_TRY(hd_communicator_agree(o->with.communicator, measure_here(o, &view)));
+    complete(o, &now);
+    HD_TRY(hd_communicator_agree(o->with.communicator, measure_here(o, &now)));
     for (one at = BEFORE; next(&at, o);)
-        if (at.row->share) HD_TRY(at.row->share(at.self, &o->with));
+        if (at.row->share) HD_TRY(at.row->share(at.self, &now));
     return HD_OK;
 }
 
-void hd_observables_add(hd_observables *o, const hd_view *state)
+void hd_observables_add(hd_observables *o, hd_moment now)
 {
+    now.with = &o->with;
     for (one at = BEFORE; next(&at, o);)
-        if (at.row->add) at.row->add(at.self, &o->with, state);
+        if (at.row->add) at.row->add(at.self, &now);
 }
 
-void hd_observables_report(hd_observables *o, const hd_view *state)
+void hd_observables_report(hd_observables *o, hd_moment now)
 {
-    const hd_view view = seen(o, state);
+    complete(o, &now);
     for (one at = BEFORE; next(&at, o);)
-        if (at.row->report) at.row->report(at.self, &o->with, &view);
+        if (at.row->report) at.row->report(at.self, &now);
 }
 
 /* ---- all of them --------------------------------------------------------------------------- */
 
-void hd_observables_clear(hd_observables *o, const hd_view *here)
+void hd_observables_clear(hd_observables *o, hd_moment now)
 {
+    now.with = &o->with;
     for (int k = 0; k < HD_OBSERVED; k++)
         if (o->part[k] && hd_observable_rows[k]->clear)
-            hd_observable_rows[k]->clear(o->part[k], here);
+            hd_observable_rows[k]->clear(o->part[k], &now);
 }
 
 void hd_observables_archive(hd_observables *o, hd_archive *archive, bool of_frame,
-                            const hd_trajectory *now)
+                            const hd_trajectory *trajectory)
 {
+    const hd_moment now = {.with = &o->with, .trajectory = trajectory, .archive = archive};
     for (int k = 0; k < HD_OBSERVED; k++)
         if (o->part[k] && hd_observable_rows[k]->archive &&
             !(hd_observable_rows[k]->needs & HD_NEEDS_FRAME) == !of_frame)
-            hd_observable_rows[k]->archive(o->part[k], archive, now);
+            hd_observable_rows[k]->archive(o->part[k], &now);
 }

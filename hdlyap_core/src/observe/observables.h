@@ -49,7 +49,7 @@ unsigned hd_observables_looked_at(const hd_observables *observables);
 /** These and the observables that they need. */
 unsigned hd_observables_seen(const hd_observables *observables);
 
-/* For the observables that somebody listens to: */
+/* For the observables that somebody listens to. Moments that are passed lack `with`, q and p. */
 
 bool hd_observables_any(const hd_observables *observables);
 /** True if one has all of these needs (set of HD_NEEDS_*). */
@@ -60,17 +60,17 @@ int hd_observables_first(const hd_observables *observables);
  * any. */
 double hd_observables_sampling(const hd_observables *observables);
 /** Takes a snapshot on all ranks; if one rank fails, all do. */
-HD_MUST_CHECK hd_status hd_observables_measure(hd_observables *observables, const hd_view *state);
+HD_MUST_CHECK hd_status hd_observables_measure(hd_observables *observables, hd_moment now);
 /** Adds the snapshot of this state to the averages. */
-void hd_observables_add(hd_observables *observables, const hd_view *state);
-/** Called at a report; state->vectors[0] are the vectors of all ranks that can be read. */
-void hd_observables_report(hd_observables *observables, const hd_view *state);
+void hd_observables_add(hd_observables *observables, hd_moment now);
+/** Called at a report; now.vectors[0] are the vectors of all ranks that can be read. */
+void hd_observables_report(hd_observables *observables, hd_moment now);
 
 /** The averages of all of them begin here. */
-void hd_observables_clear(hd_observables *observables, const hd_view *here);
+void hd_observables_clear(hd_observables *observables, hd_moment now);
 
 /** Reads or writes the observables that need a frame, or those that do not. */
 void hd_observables_archive(hd_observables *observables, hd_archive *archive, bool of_frame,
-                            const hd_trajectory *now);
+                            const hd_trajectory *trajectory);
 
 #endif

@@ -46,17 +46,15 @@ static void *t_create(const hd_observing *with, hd_status *status)
 
 static void phases_free(void *self) { hd_phases_free(self); }
 
-static void phases_clear(void *self, const hd_view *here)
+static void phases_clear(void *self, const hd_moment *now)
 {
-    (void)here;
+    (void)now;
     hd_phases_clear(self);
 }
 
-static void phases_resume(void *self) { hd_phases_clear(self); }
-
-static void phases_add(void *self, const hd_observing *with, const hd_view *state)
+static void phases_add(void *self, const hd_moment *now)
 {
-    hd_phases_add(self, with->part[HD_OBSERVED_steps], hd_trajectory_time(state->trajectory));
+    hd_phases_add(self, now->with->part[HD_OBSERVED_steps], hd_trajectory_time(now->trajectory));
 }
 
 static double phases_apart(const hd_scene_def *scene)
@@ -64,16 +62,16 @@ static double phases_apart(const hd_scene_def *scene)
     return scene->phase_interval > 0 ? scene->phase_interval : INFINITY;
 }
 
-static double phases_sampling(void *self, const hd_observing *with)
+static double phases_sampling(void *self, const hd_moment *now)
 {
-    const double needed = hd_phases_sampling(self, with->part[HD_OBSERVED_steps]),
-                 wanted = with->scene->phase_interval;
+    const double needed = hd_phases_sampling(self, now->with->part[HD_OBSERVED_steps]),
+                 wanted = now->with->scene->phase_interval;
     return wanted > 0 && needed < INFINITY ? fmin(wanted, needed) : needed;
 }
 
-static void phases_archive(void *self, hd_archive *archive, const hd_trajectory *now)
+static void phases_archive(void *self, const hd_moment *now)
 {
-    hd_phases_archive(self, archive, hd_trajectory_time(now));
+    hd_phases_archive(self, now->archive, hd_trajectory_time(now->trajectory));
 }
 
 #define ROW(its_quantities, its_bytes, its_extend, its_create)                                     \
@@ -81,7 +79,7 @@ static void phases_archive(void *self, hd_archive *archive, const hd_trajectory 
         .with = HD_OBSERVE_STEPS, .quantities = (its_quantities),                                  \
         .needs = HD_NEEDS_FRAME | HD_NEEDS_VECTORS | HD_NEEDS_CLOSE, .bytes = (its_bytes),         \
         .extend = (its_extend), .create = (its_create), .free = phases_free,                       \
-        .clear = phases_clear, .resume = phases_resume, .add = phases_add, .apart = phases_apart,  \
+        .clear = phases_clear, .resume = phases_clear, .add = phases_add, .apart = phases_apart,   \
         .sampling = phases_sampling, .archive = phases_archive                                     \
     }
 const hd_observable hd_phases_row = ROW(&hd_phase_quantities, lp_bytes, lp_extend, lp_create);

@@ -26,35 +26,34 @@ static void *structure_create(const hd_observing *with, hd_status *status)
 
 static void structure_free(void *self) { hd_structure_free(self); }
 
-static void structure_clear(void *self, const hd_view *here)
+static void structure_clear(void *self, const hd_moment *now)
 {
-    (void)here;
+    (void)now;
     hd_structure_clear(self);
 }
 
-static hd_status structure_measure(void *self, const hd_observing *with, const hd_view *state)
+static hd_status structure_measure(void *self, const hd_moment *now)
 {
-    const double *norms = hd_modes_dq_norms(with->part[HD_OBSERVED_modes]);
-    HD_TRY(hd_structure_measure(self, state->vectors[0], state->q, norms));
-    if (state->vectors[1].count == 0) return HD_OK;
-    return hd_structure_measure(self, state->vectors[1], state->q, norms);
+    const double *norms = hd_modes_dq_norms(now->with->part[HD_OBSERVED_modes]);
+    HD_TRY(hd_structure_measure(self, now->vectors[0], now->q, norms));
+    if (now->vectors[1].count == 0) return HD_OK;
+    return hd_structure_measure(self, now->vectors[1], now->q, norms);
 }
 
-static hd_status structure_share(void *self, const hd_observing *with)
+static hd_status structure_share(void *self, const hd_moment *now)
 {
-    return hd_structure_share(self, with->communicator, with->width, with->carried);
+    return hd_structure_share(self, now->with->communicator, now->with->width, now->with->carried);
 }
 
-static void structure_add(void *self, const hd_observing *with, const hd_view *state)
+static void structure_add(void *self, const hd_moment *now)
 {
-    (void)with, (void)state;
+    (void)now;
     hd_structure_add(self);
 }
 
-static void structure_archive(void *self, hd_archive *archive, const hd_trajectory *now)
+static void structure_archive(void *self, const hd_moment *now)
 {
-    (void)now;
-    hd_structure_archive(self, archive);
+    hd_structure_archive(self, now->archive);
 }
 
 const hd_observable hd_structure_row = {.with = HD_OBSERVE_MODES,

@@ -219,18 +219,21 @@ static void *covariant_create(const hd_observing *with, hd_status *status)
     return windows;
 }
 
-static void covariant_resume(void *self) { ((hd_windows *)self)->due = true; }
-
-static void covariant_clear(void *self, const hd_view *here)
-{
-    hd_covariant_clear(((hd_windows *)self)->covariant, hd_trajectory_time(here->trajectory));
-    covariant_resume(self);
-}
-
-static void covariant_archive(void *self, hd_archive *archive, const hd_trajectory *now)
+static void covariant_resume(void *self, const hd_moment *now)
 {
     (void)now;
-    hd_covariant_archive(((hd_windows *)self)->covariant, archive);
+    ((hd_windows *)self)->due = true;
+}
+
+static void covariant_clear(void *self, const hd_moment *now)
+{
+    hd_covariant_clear(((hd_windows *)self)->covariant, hd_trajectory_time(now->trajectory));
+    covariant_resume(self, now);
+}
+
+static void covariant_archive(void *self, const hd_moment *now)
+{
+    hd_covariant_archive(((hd_windows *)self)->covariant, now->archive);
 }
 
 const hd_observable hd_covariant_row = {.needs = HD_NEEDS_FRAME | HD_NEEDS_WHOLE,

@@ -58,17 +58,17 @@ static hd_windows *windows_of(const hd_run *run)
 }
 
 /** What observables see of the present state. */
-static hd_view view_of(const hd_run *run)
+static hd_moment moment_of(const hd_run *run)
 {
     const hd_carrier *c = &run->carrier;
-    hd_view view = {.trajectory = run->advance.trajectory, .spectrum = c->spectrum};
-    if (!c->frame) return view;
-    view.carried = hd_frame_columns(c->frame);
-    if (!is_needed(run, HD_NEEDS_VECTORS)) return view;
-    view.vectors[0] = run->communicator ? view.carried : hd_carrier_vectors(c);
+    hd_moment now = {.trajectory = run->advance.trajectory, .spectrum = c->spectrum};
+    if (!c->frame) return now;
+    now.carried = hd_frame_columns(c->frame);
+    if (!is_needed(run, HD_NEEDS_VECTORS)) return now;
+    now.vectors[0] = run->communicator ? now.carried : hd_carrier_vectors(c);
     if (run->communicator && c->conjugate)
-        view.vectors[1] = hd_conjugate_partners(c->conjugate, view.carried);
-    return view;
+        now.vectors[1] = hd_conjugate_partners(c->conjugate, now.carried);
+    return now;
 }
 
 /* ---- creation ------------------------------------------------------------------------------ */
@@ -119,7 +119,7 @@ static void enter_stage(hd_run *run, hd_stage stage)
         hd_carrier_clear(&run->carrier, now - run->clocks.frame_start_time);
         hd_cages_begin(&run->cages, run->advance.trajectory);
         run->errors = (hd_error_trend){.first = 0.0};
-        hd_observables_clear(&run->observables, &(hd_view){.trajectory = run->advance.trajectory});
+        hd_observables_clear(&run->observables, (hd_moment){.trajectory = run->advance.trajectory});
     }
     hd_carrier_save_accuracy(&run->carrier, is_averaging(run));
 }
@@ -254,9 +254,9 @@ static hd_status measure(hd_run *run, bool add)
 {
     if (!is_averaging(run) || !hd_observables_any(&run->observables)) return HD_OK;
     const double start = hd_clock_now();
-    const hd_view view = view_of(run);
-    HD_TRY(hd_observables_measure(&run->observables, &view));
-    if (add) hd_observables_add(&run->observables, &view);
+    const hd_moment now = moment_of(run);
+    HD_TRY(hd_observables_measure(&run->observables, now));
+    if (add) hd_observables_add(&run->observables, now);
     if (add && is_needed(run, HD_NEEDS_CLOSE)) run->followed = hd_run_time(run);
     run->known = is_needed(run, HD_NEEDS_VECTORS);
     HD_TRY(gather(run));
@@ -318,9 +318,9 @@ static hd_status report(hd_run *run)
     if (is_framed(run) && needs_state(run)) HD_TRY(is_measured(run) ? gather(run) : end_early(run));
     if (!is_needed(run, HD_NEEDS_REPORTS)) return HD_OK;
     const double start = hd_clock_now();
-    hd_view view = {.trajectory = run->advance.trajectory};
-    if (run->carrier.frame) view.vectors[0] = hd_run_frame_columns(run);
-    hd_observables_report(&run->observables, &view);
+    hd_moment now = {.trajectory = run->advance.trajectory};
+    if (run->carrier.frame) now.vectors[0] = hd_run_frame_columns(run);
+    hd_observables_report(&run->observables, now);
     run->cost.modes += hd_clock_now() - start;
     return HD_OK;
 }

@@ -38,7 +38,7 @@ static void add(world *w, const double *log_stretch, double dt)
 {
     hd_spectrum_add(w->spectrum, log_stretch, dt);
     hd_spectrum_sample(w->spectrum);
-    hd_fluctuations_row.add(w->f, &w->with, &(hd_view){.spectrum = w->spectrum});
+    hd_fluctuations_row.add(w->f, &(hd_moment){.spectrum = w->spectrum});
 }
 
 /** About normal, of variance 1. */
@@ -183,7 +183,7 @@ TEST(a_gap_is_left_out)
     HELD(world) w = begun(0.0);
     const double growth[N] = {1.0}, much[N] = {1000.0};
     for (int k = 0; k < 3; k++) add(&w, growth, 1.0);
-    hd_fluctuations_row.resume(w.f);
+    hd_fluctuations_row.resume(w.f, NULL);
     add(&w, much, 50.0);
     for (int k = 0; k < 3; k++) add(&w, growth, 1.0);
     assert_int_equal(hd_fluctuations_order(w.f, 0).count, 6);

@@ -27,33 +27,32 @@ static void *madeup_create(const hd_observing *with, hd_status *status)
 
 static void madeup_free(void *self) { hd_memory_free(self); }
 
-static void madeup_clear(void *self, const hd_view *here)
+static void madeup_clear(void *self, const hd_moment *now)
 {
-    (void)here;
+    (void)now;
     *(madeup *)self = (madeup){0.0, 0.0};
 }
 
-static void madeup_report(void *self, const hd_observing *with, const hd_view *state)
+static void madeup_report(void *self, const hd_moment *now)
 {
     madeup *m = self;
-    const int dimension = hd_scene_dimension(with->scene), disks = with->scene->number;
+    const int dimension = hd_scene_dimension(now->with->scene), disks = now->with->scene->number;
     double sum = 0.0;
     for (int i = 0; i < disks; i++) {
         double square = 0.0;
         for (int d = 0; d < dimension; d++)
-            square += state->p[dimension * i + d] * state->p[dimension * i + d];
+            square += now->p[dimension * i + d] * now->p[dimension * i + d];
         sum += square * square;
     }
     m->reports += 1.0;
     m->mean += (sum / disks - m->mean) / m->reports;
 }
 
-static void madeup_archive(void *self, hd_archive *archive, const hd_trajectory *now)
+static void madeup_archive(void *self, const hd_moment *now)
 {
     madeup *m = self;
-    (void)now;
-    hd_archive_double(archive, "madeup mean", &m->mean);
-    hd_archive_double(archive, "madeup reports", &m->reports);
+    hd_archive_double(now->archive, "madeup mean", &m->mean);
+    hd_archive_double(now->archive, "madeup reports", &m->reports);
 }
 
 const hd_observable hd_madeup_row = {.needs = HD_NEEDS_REPORTS | HD_NEEDS_STATE,

@@ -75,7 +75,8 @@ static bytes archived(const hd_run *run, int k)
     bytes b = {NULL, 0};
     FILE *file = open_memstream(&b.data, &b.size);
     hd_archive archive = hd_archive_writer(file);
-    rows[k]->archive(run->observables.part[k], &archive, hd_run_trajectory(run));
+    const hd_moment now = {.trajectory = hd_run_trajectory(run), .archive = &archive};
+    rows[k]->archive(run->observables.part[k], &now);
     CHECK_OK(hd_archive_end(&archive));
     fclose(file);
     return b;
