@@ -1,12 +1,20 @@
-"""Rows and claims of the reproduction: verdicts, and what wrong value would have been caught."""
+"""Rows and claims of the reproduction: verdicts, and what wrong value would have been caught; the
+page has the numbers of its rows, and the plan the runs of its table."""
 # Second tier: tests/run.sh --all
 
+import os
+import sys
 import unittest
 
-import made  # noqa: F401, finds the scripts
-import reproduced  # noqa: F401, finds the study
-from study import row
-from study.row import ABOVE, BELOW, Claim, Row, Scatter
+import yaml
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+STUDY = os.path.join(HERE, '../../doc/reproduction')
+sys.path.append(STUDY)
+
+import tables  # noqa: E402
+from study import row, table  # noqa: E402
+from study.row import ABOVE, BELOW, Claim, Row, Scatter  # noqa: E402
 
 NAN, INF = float('nan'), float('inf')
 
@@ -142,6 +150,19 @@ class Claims(unittest.TestCase):
             self.assertAlmostEqual(one.telling, telling)
         for entry, verdict in (({'above': 0.0}, 'agrees'), ({'below': 0.0}, 'differs')):
             self.assertEqual(Row('q', None, 1.0, 0.1).judge(entry).verdict, verdict)
+
+
+class Page(unittest.TestCase):
+    """doc/reproduction.md, of what claims.yaml and runs.yaml say."""
+
+    def test_has_the_numbers_of_its_rows(self):
+        with open(tables.PAGE) as file:
+            text = file.read()
+        self.assertEqual(text, tables.written(text, tables.claims(), table.read()[1]))
+
+    def test_every_run_is_planned_and_needed(self):
+        with open(os.path.join(STUDY, 'runs.yaml')) as file:
+            self.assertEqual(set(table.runs_of(table.read()[0])), set(yaml.safe_load(file)))
 
 
 def claim(rows, part=None, **entry):
