@@ -1,0 +1,87 @@
+#!/usr/bin/env python3
+"""Each kind of particles interrupted, and on two ranks; their checkpoints and scene files."""
+
+import os
+import shutil
+import unittest
+
+import numpy as np
+
+import harness
+from test_check import check_scenes
+import test_kinds
+from test_kinds import REST
+from test_ranks import ENVIRONMENT, mpirun
+
+
+class Again(harness.Case):
+    # without windows of covariant vectors: one that is under way begins anew
+    KINDS = [
+        {name: value for name, value in scene.items() if not name.startswith('covariant')}
+        for scene in (test_kinds.Dumbbells.SCENE, test_kinds.SoftDisks.SCENE)
+    ]
+    for one in KINDS:
+        one.update(observables=[name for name in REST if name != 'covariant'], duration=40.0)
+        one.update(wait_for_subscribers='all', report_interval=1.0)
+
+    def test_a_resumed_run_is_the_uninterrupted_one(self):
+        for scene in self.KINDS:
+            kept = os.path.join(self.new_folder(), 'run.checkpoint')
+            whole = self.recorded(scene)
+            first = self.recorded(dict(scene, checkpoint=kept, pace=20.0), stop_after=90.0)
+            second = self.recorded(dict(scene, resume=kept))
+            self.assertLess(second['run_info'][0].resumed_time, 105.0)
+            for topic in scene['observables']:
+                with self.subTest(particles=scene['particles'], topic=topic):
+                    self.assertTrue(second[topic])
+                    self.assert_same_bits(first[topic] + second[topic], whole[topic])
+
+    @unittest.skipUnless(shutil.which('mpirun'), 'one rank')
+    def test_two_ranks_are_as_one(self):
+        """The same particles, and the same exponents, parts of rotation to what these are known."""
+        for scene in self.KINDS:
+            one = self.recorded(scene)
+            two = self.recorded(scene, command=mpirun(), **ENVIRONMENT)
+            self.assertEqual(two['run_info'][0].ranks, 2)
+            self.assert_same_bits(two['state'], one['state'])
+            bound = one['cost'][-1].error_bound + two['cost'][-1].error_bound
+            both = [run['spectrum'][-1].exponents for run in (two, one)]
+            np.testing.assert_allclose(*both, rtol=0, atol=bound)
+            both = [[mode.rotation for mode in run['modes'][-1].modes] for run in (one, two)]
+            np.testing.assert_allclose(*both, rtol=0, atol=1e-4)
+
+
+class Kept(harness.Case):
+    def test_a_checkpoint_says_what_moves(self):
+        """Alone; nobody can say otherwise."""
+        disks, spheres, small = dict(particles='disks'), dict(particles='spheres'), dict(bond=0.6)
+        bonds = dict(particles='dumbbells', bond=0.5)
+        for own, others in (
+            (disks, [(spheres, 'disks')]),
+            (spheres, [(disks, 'spheres')]),
+            (bonds, [(disks, 'dumbbells'), (small, '0.5'), (dict(inertia='points'), 'disks')]),
+        ):
+            path, said = os.path.join(self.new_folder(), 'kept'), f'20 {own["particles"]} in '
+            scene = dict(own, number=20, aspect=1.0, density=0.3, exponents='none')
+            scene.update(equilibration=1.0, duration=2.0, checkpoint=path, observables=['state'])
+            self.ends(self.start(scene), 0, said)
+            self.ends(self.start(dict(resume=path, duration=3.0)), 0, said)
+            for other, must_be in others:
+                ((name, value),) = other.items()
+                refused = f'{name} = {value}: must be {must_be}'
+                self.ends(self.start(dict(other, resume=path)), 2, refused)
+
+
+class Scenes(harness.Case):
+    def test_each_is_valid_and_says_nothing_twice(self):
+        flat = r'(?m)^waves +T,LP\(1,0\)'
+        for kind, count, number, *lines in (
+            ('spheres', 3, 108, r'(?m)^waves +(T,)?LP\(1,0,0\)'),
+            ('dumbbells', 2, 60, r', packing fraction 0\.', flat),
+            ('soft_disks', 2, 60, flat),
+        ):
+            check_scenes(self, kind, count, number, *lines)
+
+
+if __name__ == '__main__':
+    harness.main('kinds_kept')
