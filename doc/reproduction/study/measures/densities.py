@@ -1,17 +1,17 @@
 """Slopes of the branches and velocity of the LP dynamics against the density: of the step of (1,0)
 of each run."""
 
-from math import isfinite
+from math import isfinite, sqrt
 
 import matplotlib.pyplot as plt
 import numpy as np
 from scipy.optimize import brentq
 
 from hdlyap.numbers import with_error
-from hdlyap.plots import paper
+from hdlyap.plots import equation, paper
 from hdlyap.plots.figures.style import GREEN, GREY, KIND_COLOURS
 
-from .. import averages, draw, points, pressure
+from .. import averages, draw, points
 from ..averages import UNKNOWN
 from ..bags import once
 from ..points import SYMBOLS
@@ -169,7 +169,7 @@ def _velocity(one):
         return Row(quantity, unit=UNIT)
     remark = [f'{one.phases} phases of LP(1,0)']
     if count:
-        over = v / pressure.of_fields(one.density)
+        over = v * sqrt(2) / float(equation.compressibility(one.density))  # [T13]
         remark.append(f'all {count} phases: {with_error(v, error)}, {over:.3f} Z / sqrt(2)')
     return Row(quantity, None, *one.v, UNIT, '; '.join(remark))
 
