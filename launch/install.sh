@@ -1,53 +1,104 @@
 #!/usr/bin/env bash
-# The one list of the system packages of hdlyap. Installs those that are missing.
+# The system packages of hdlyap: those of package.xml, and tools. Installs those that are missing.
 #   install.sh messages|run|test   what messages and Python tools alone need (cmake -DHDLYAP_MESSAGES_ONLY=ON);
 #                                  run: what building and running all needs; test: what the tests need on top
 #   install.sh list debian|noetic  only prints both; A|B is the first of them that the release has
+#   install.sh keys FLAVOUR KEY..  prints what these keys of package.xml stand for
 set -euo pipefail
 # shellcheck source=launch/common.sh
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
+# The keys of package.xml, and the packages of Debian 12 that hdlyap uses of what each stands for: those of rosdep's base.yaml and
+# python.yaml, the same on Ubuntu; below the line, of ROS, those of Debian's python3-rosdep2, and on Noetic ros-noetic-KEY.
+# libopenblas-openmp-dev is the one of libopenblas-dev's alternatives that hdlyap is tested with.
+readonly KEYS='
+ccache                  ccache
+ffmpeg                  ffmpeg
+gtest                   libgtest-dev
+liblapacke-dev          liblapacke-dev
+libopenblas-dev         libopenblas-openmp-dev
+mpi                     libopenmpi-dev openmpi-bin
+ninja-build             ninja-build
+pkg-config              pkg-config
+python3-matplotlib      python3-matplotlib
+python3-numpy           python3-numpy
+python3-pandas          python3-pandas
+python3-paramiko        python3-paramiko
+python3-rospkg          python3-rospkg
+python3-scipy           python3-scipy
+python3-setuptools      python3-setuptools
+python3-tk              python3-tk
+python3-yaml            python3-yaml
+yaml-cpp                libyaml-cpp-dev
+zlib                    zlib1g-dev
+--
+catkin                  catkin
+diagnostic_msgs         libdiagnostic-msgs-dev python3-diagnostic-msgs ros-diagnostic-msgs
+message_filters         libmessage-filters-dev python3-message-filters
+message_generation      ros-message-generation
+message_runtime         ros-message-runtime
+ros_environment         ros-environment
+rosbag                  python3-rosbag
+rosbash                 rosbash
+roscpp                  libroscpp-dev
+rosgraph                python3-rosgraph
+rosgraph_msgs           python3-rosgraph-msgs
+roslaunch               python3-roslaunch
+roslib                  python3-roslib
+rosmaster               python3-rosmaster
+rosmsg                  python3-rosmsg
+rosnode                 python3-rosnode
+rospack                 rospack-tools
+rospy                   python3-rospy
+rosservice              python3-rosservice
+rostest                 librostest-dev python3-rostest
+rostopic                python3-rostopic
+rviz                    rviz
+std_msgs                libstd-msgs-dev python3-std-msgs ros-std-msgs
+std_srvs                libstd-srvs-dev python3-std-srvs ros-std-srvs
+tf2_msgs                libtf2-msgs-dev python3-tf2-msgs
+visualization_msgs      libvisualization-msgs-dev python3-visualization-msgs ros-visualization-msgs
+'
+# without node and libraries: python3-diagnostic-msgs is what tools import
+readonly OF_MESSAGES='catkin ffmpeg message_generation message_runtime python3-matplotlib python3-numpy python3-pandas python3-rospkg
+    python3-scipy python3-setuptools python3-yaml ros_environment rosbag rosbash roscpp rosgraph roslaunch roslib rospy std_msgs'
+
+# packages_of FLAVOUR KEY...
+packages_of() {
+    awk -v flavour="$1" -v keys="${*:2}" '
+        BEGIN { split(keys, each, " "); for (k in each) wanted[each[k]] = 1 }
+        $1 == "--" { of_ros = 1; next }
+        !($1 in wanted) { next }
+        { key = $1; delete wanted[key]; sub(/^[^ ]+ +/, "") }
+        of_ros && flavour == "noetic" { gsub(/_/, "-", key); $0 = "ros-noetic-" key }
+        { print }
+        END { for (key in wanted) { print "no package is known of " key >"/dev/stderr"; failed = 1 } exit failed }' <<<"$KEYS"
+}
+
+# keys_of KIND: of package.xml, what has that kind of dependency: test, or all others
+keys_of() {
+    sed -nE 's/^ *<(\w*depend)>(.*)<.*/\1 \2/p' "$ROOT/package.xml" |
+        awk -v kind="$1" '(kind == "test") == ($1 == "test_depend") { print $2 }' | sort -u
+}
+
 message_packages() {
-    echo build-essential cmake python3-setuptools python3-numpy python3-scipy python3-matplotlib python3-pandas python3-yaml python3-rospkg ffmpeg
-    case $1 in
-        debian)
-            echo catkin ros-message-generation ros-message-runtime libroscpp-dev \
-                ros-std-msgs libstd-msgs-dev python3-std-msgs python3-diagnostic-msgs \
-                python3-rospy python3-rosbag python3-rosgraph python3-roslaunch python3-roslib rosbash ros-environment
-            ;;
-        noetic)
-            printf 'ros-noetic-%s\n' catkin message-generation message-runtime roscpp std-msgs diagnostic-msgs \
-                rospy rosbag rosgraph roslaunch roslib rosbash ros-environment
-            ;;
-    esac
+    echo build-essential cmake "$([[ $1 == debian ]] && echo python3-diagnostic-msgs || echo ros-noetic-diagnostic-msgs)"
+    # shellcheck disable=SC2086
+    packages_of "$1" $OF_MESSAGES
 }
 
 run_packages() {
-    message_packages "$1"
-    echo pkg-config procps python3-paramiko python3-tk libopenblas-openmp-dev liblapacke-dev libyaml-cpp-dev zlib1g-dev
-    case $1 in
-        debian)
-            echo ros-std-srvs libstd-srvs-dev python3-std-srvs ros-diagnostic-msgs libdiagnostic-msgs-dev \
-                ros-visualization-msgs libvisualization-msgs-dev python3-visualization-msgs libtf2-msgs-dev python3-tf2-msgs rviz
-            ;;
-        noetic) printf 'ros-noetic-%s\n' std-srvs visualization-msgs tf2-msgs rviz ;;
-    esac
+    echo build-essential cmake procps
+    # shellcheck disable=SC2046
+    packages_of "$1" $(keys_of run)
 }
 
 test_packages() {
-    echo ccache python3-xarray libcmocka-dev libgtest-dev ninja-build shellcheck strace valgrind clang libomp-dev xvfb libxtst6 imagemagick libgl1-mesa-dri \
-        black flake8 clang-format doxygen libopenmpi-dev openmpi-bin slurmctld slurmd slurm-client openssh-server iproute2
-    case $1 in
-        debian)
-            echo 'libclang-rt-dev|libclang-common-11-dev' libmessage-filters-dev python3-message-filters librostest-dev python3-rostest python3-rostopic python3-rosnode \
-                python3-rosservice python3-rosmaster python3-rosmsg rospack-tools \
-                python3-rosgraph-msgs catkin-lint
-            ;;
-        noetic)
-            printf 'ros-noetic-%s\n' message-filters rostest rostopic rosnode rosservice rosmaster rosmsg rospack rosgraph-msgs
-            echo python3-catkin-lint
-            ;;
-    esac
+    echo python3-xarray libcmocka-dev shellcheck strace valgrind clang libomp-dev xvfb libxtst6 imagemagick libgl1-mesa-dri \
+        black flake8 clang-format doxygen slurmctld slurmd slurm-client openssh-server iproute2
+    [[ $1 == noetic ]] && echo python3-catkin-lint || echo 'libclang-rt-dev|libclang-common-11-dev' catkin-lint
+    # shellcheck disable=SC2046
+    packages_of "$1" $(keys_of test)
 }
 
 ros_flavour() {
@@ -101,6 +152,10 @@ install_missing() {
 if [[ ${1:-} == list && ${2:-} == @(debian|noetic) ]]; then
     run_packages "$2"
     test_packages "$2"
+    exit
+fi
+if [[ ${1:-} == keys && $# -gt 2 ]]; then
+    packages_of "${@:2}"
     exit
 fi
 flavour=$(ros_flavour)

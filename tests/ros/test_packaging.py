@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
-"""What others rely on without running anything: names of dependencies, lists of packages, files
-that Ubuntu 20.04 and ROS Noetic (CMake 3.16, Python 3.8) read as well, and what the messages say
-about their fields. Needs no ROS master."""
+"""What others rely on without running anything: names of dependencies, files that Ubuntu 20.04 and
+ROS Noetic (CMake 3.16, Python 3.8) read as well, and what the messages say about their fields.
+Needs no ROS master."""
 
 import ast
+import functools
 import os
 import re
 import subprocess
@@ -16,73 +17,6 @@ from hdlyap.data import fields
 
 ROOT = os.path.realpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), '../..'))
 ROSDEP = '/usr/share/python3-rosdep2/debian.yaml'
-
-# rosdep key: packages of Debian 12 that hdlyap uses of what the key stands for. Of ROS: debian.yaml
-# of Debian's python3-rosdep2 0.22.1; on Noetic each is ros-noetic-KEY (noetic/distribution.yaml of
-# rosdistro).
-OF_ROS = dict(
-    catkin='catkin',
-    diagnostic_msgs='libdiagnostic-msgs-dev python3-diagnostic-msgs ros-diagnostic-msgs',
-    message_filters='libmessage-filters-dev python3-message-filters',
-    message_generation='ros-message-generation',
-    message_runtime='ros-message-runtime',
-    ros_environment='ros-environment',
-    rosbag='python3-rosbag',
-    rosbash='rosbash',
-    roscpp='libroscpp-dev',
-    rosgraph='python3-rosgraph',
-    rosgraph_msgs='python3-rosgraph-msgs',
-    roslaunch='python3-roslaunch',
-    roslib='python3-roslib',
-    rosmaster='python3-rosmaster',
-    rosmsg='python3-rosmsg',
-    rosnode='python3-rosnode',
-    rospack='rospack-tools',
-    rospy='python3-rospy',
-    rosservice='python3-rosservice',
-    rostest='librostest-dev python3-rostest',
-    rostopic='python3-rostopic',
-    rviz='rviz',
-    std_msgs='libstd-msgs-dev python3-std-msgs ros-std-msgs',
-    std_srvs='libstd-srvs-dev python3-std-srvs ros-std-srvs',
-    tf2_msgs='libtf2-msgs-dev python3-tf2-msgs',
-    visualization_msgs='libvisualization-msgs-dev python3-visualization-msgs '
-    'ros-visualization-msgs',
-)
-# Of the system: base.yaml and python.yaml of rosdistro, the same on Debian and Ubuntu.
-# libopenblas-openmp-dev is the one of libopenblas-dev's alternatives that hdlyap is tested with.
-OF_SYSTEM = {
-    'ccache': 'ccache',
-    'ffmpeg': 'ffmpeg',
-    'gtest': 'libgtest-dev',
-    'imagemagick': 'imagemagick',
-    'liblapacke-dev': 'liblapacke-dev',
-    'libopenblas-dev': 'libopenblas-openmp-dev',
-    'mpi': 'libopenmpi-dev openmpi-bin',
-    'ninja-build': 'ninja-build',
-    'pkg-config': 'pkg-config',
-    'python3-matplotlib': 'python3-matplotlib',
-    'python3-numpy': 'python3-numpy',
-    'python3-paramiko': 'python3-paramiko',
-    'python3-pandas': 'python3-pandas',
-    'python3-rospkg': 'python3-rospkg',
-    'yaml-cpp': 'libyaml-cpp-dev',
-    'python3-scipy': 'python3-scipy',
-    'python3-setuptools': 'python3-setuptools',
-    'python3-tk': 'python3-tk',
-    'python3-yaml': 'python3-yaml',
-    'xvfb': 'xvfb',
-    'zlib': 'zlib1g-dev',
-}
-# for the scripts and the tests of a clone, which no package manager runs: compilers, watchers,
-# lint, a display
-TOOLS = set(
-    'build-essential cmake procps python3-xarray libcmocka-dev shellcheck strace valgrind clang '
-    'libomp-dev libclang-rt-dev|libclang-common-11-dev catkin-lint python3-catkin-lint xvfb '
-    'libxtst6 imagemagick libgl1-mesa-dri '
-    'black flake8 clang-format doxygen slurmctld slurmd slurm-client openssh-server '
-    'iproute2'.split()
-)
 
 # commands, options and variables that CMake has only since 3.17 or later
 NEWER_CMAKE = re.compile(
@@ -118,39 +52,34 @@ def dependencies():
     return {element.text for element in package if element.tag.endswith('depend')}
 
 
-def listed(flavour):
-    """What launch/install.sh would install."""
+def install_sh(*words):
+    """What launch/install.sh says of package.xml; it knows each key."""
     script = os.path.join(ROOT, 'launch/install.sh')
-    return set(
-        subprocess.run(
-            [script, 'list', flavour], check=True, stdout=subprocess.PIPE, text=True
-        ).stdout.split()
-    )
+    done = subprocess.run([script, *words], check=True, stdout=subprocess.PIPE, text=True)
+    return done.stdout.split()
+
+
+def listed(flavour):
+    return set(install_sh('list', flavour))
+
+
+@functools.lru_cache(None)
+def of_ros():
+    """Keys of package.xml that are packages of ROS."""
+    return {
+        key for key in dependencies() if install_sh('keys', 'noetic', key)[0].startswith('ros-')
+    }
 
 
 class Dependencies(unittest.TestCase):
-    def test_keys_are_known(self):
-        self.assertEqual(dependencies() - set(OF_ROS) - set(OF_SYSTEM), set())
-
-    def check_list(self, flavour, packages_of_ros):
-        wanted = set()
-        for key in dependencies():
-            wanted |= set(packages_of_ros(key) if key in OF_ROS else OF_SYSTEM[key].split())
-        self.assertEqual(listed(flavour) - TOOLS, wanted - TOOLS)
-
-    def test_debian_installs_them(self):
-        self.check_list('debian', lambda key: OF_ROS[key].split())
-
-    def test_noetic_installs_them(self):
-        self.check_list('noetic', lambda key: ['ros-noetic-' + key.replace('_', '-')])
-
-    def test_table_is_rosdeps(self):
+    def test_packages_are_rosdeps(self):
         """Where rosdep's own data are installed."""
         if os.path.exists(ROSDEP):
             with open(ROSDEP) as file:
                 data = yaml.safe_load(file)
-            for key, packages in OF_ROS.items():
-                self.assertLessEqual(set(packages.split()), set(data[key]['debian']), key)
+            for key in of_ros():
+                packages = set(install_sh('keys', 'debian', key))
+                self.assertLessEqual(packages, set(data[key]['debian']), key)
 
     def test_ros_packages_that_are_imported_are_dependencies(self):
         """At run time, not of the tests alone."""
@@ -161,8 +90,9 @@ class Dependencies(unittest.TestCase):
             text = text_of(path)
             if '/hdlyap_ros/python/' in path and path.endswith('.py') or '/scripts/' in path:
                 found |= {module.partition('.')[0] for module in imported(text, ['hdlyap'])}
-        self.assertGreater(len(found & set(OF_ROS)), 5)
-        self.assertLessEqual(found & set(OF_ROS), known)
+        found &= of_ros()
+        self.assertGreater(len(found), 5)
+        self.assertLessEqual(found, known)
 
     def test_ros_packages_found_by_cmake_are_dependencies(self):
         found = set()
@@ -313,14 +243,6 @@ class Suite(unittest.TestCase):
         run = ' '.join(run).split() + re.findall(r'add_rostest\w*\((?:\w+ )?(\w+)\.test', cmake)
         self.assertEqual(
             sorted(run), sorted(os.path.basename(path)[:-5] for path in files('.test'))
-        )
-
-    def test_every_launch_file_is_checked(self):
-        checked = re.findall(
-            r'roslaunch_add_file_check\(\S*?([\w.]+\.launch)', text_of('tests/ros/CMakeLists.txt')
-        )
-        self.assertEqual(
-            sorted(checked), sorted(os.path.basename(path) for path in files('.launch'))
         )
 
 

@@ -9,7 +9,7 @@ import xml.etree.ElementTree as ElementTree
 
 from catkin_pkg.changelog import Changelog, populate_changelog_from_rst
 from catkin_pkg.package_version import get_forthcoming_label, rename_section
-from test_packaging import OF_ROS, OF_SYSTEM, ROOT, listed, text_of
+from test_packaging import ROOT, install_sh, listed, text_of
 
 # of a build by debhelper, and what lets it build the library for several ranks
 HELPERS = {'debhelper-compat', 'dh-python', 'libopenmpi-dev', 'cmake'}
@@ -37,7 +37,7 @@ def packages_for(*tags):
     """Of Debian, for those dependencies of package.xml."""
     root = ElementTree.parse(os.path.join(ROOT, 'package.xml')).getroot()
     keys = {element.text for element in root if element.tag in tags}
-    return {name for key in keys for name in {**OF_ROS, **OF_SYSTEM}[key].split()}
+    return set(install_sh('keys', 'debian', *keys))
 
 
 def installed_by(package):
