@@ -70,8 +70,9 @@ def _curves(axes):
 
 
 def _lengths(container, count):
-    """Half of each bar."""
-    if container is None:
+    """Half of each bar; None of what is not known."""
+    if container is None or not container.lines[2]:
         return count * [None]
-    found = [np.ptp(ends[:, 1]) / 2 for ends in container.lines[2][0].get_segments()]
+    ends = (np.reshape(one, (-1, 2)) for one in container.lines[2][0].get_segments())
+    found = [np.ptp(one[:, 1]) / 2 if len(one) else 0 for one in ends]
     return [value if value > 0 else None for value in found]
