@@ -1,4 +1,4 @@
-"""A program on a terminal of its own: what it draws, what is typed, and how it leaves that."""
+"""A program on a terminal of its own: what it draws, and what is typed."""
 
 import codecs
 import fcntl
@@ -12,7 +12,7 @@ import threading
 
 import harness
 
-TOKEN = re.compile(r'\033\[(\??)([0-9;]*)([A-Za-z])|(\r\n|\r|\n)|([^\033\r\n]+)')
+TOKEN = re.compile(r'\033\[([0-9;]*)([A-Za-z])|(\r\n|\r|\n)|([^\033\r\n]+)')
 
 
 class Terminal:
@@ -20,8 +20,8 @@ class Terminal:
 
     def __init__(self, command, columns=80, lines=24, **env):
         self.master, slave = pty.openpty()
-        self.resize(columns, lines)
-        self.before = termios.tcgetattr(slave)
+        self.columns = columns
+        fcntl.ioctl(self.master, termios.TIOCSWINSZ, struct.pack('HHHH', lines, columns, 0, 0))
         self.output = ''
         self.process = subprocess.Popen(
             command,
@@ -45,10 +45,6 @@ class Terminal:
                 return
             self.output += decoder.decode(data)
 
-    def resize(self, columns, lines):
-        self.columns = columns
-        fcntl.ioctl(self.master, termios.TIOCSWINSZ, struct.pack('HHHH', lines, columns, 0, 0))
-
     def press(self, keys):
         os.write(self.master, keys.encode())
 
@@ -64,15 +60,6 @@ class Terminal:
         """Exit status; raises subprocess.TimeoutExpired."""
         return self.process.wait(seconds)
 
-    def is_as_before(self):
-        """Keyboard, cursor, wrapping and screen are those of the shell again."""
-        picture = Picture(self.output, self.columns)
-        return (
-            termios.tcgetattr(self.slave) == self.before
-            and picture.modes <= {7, 25}
-            and {7, 25} <= picture.modes
-        )
-
     def stop(self):
         if self.process.poll() is None:
             self.process.kill()
@@ -86,13 +73,11 @@ class Picture:
 
     def __init__(self, output, columns):
         self.columns = columns
-        self.lines, self.modes = [''], {7, 25}  # wraps, shows its cursor
-        self._row = self._column = 0
-        self._other = None  # what stands on the screen that is not shown
+        self.lines, self._row, self._column = [''], 0, 0
         for token in TOKEN.finditer(output):
-            private, numbers, command, newline, text = token.groups()
+            numbers, command, newline, text = token.groups()
             if command:
-                self._obey(private, numbers, command)
+                self._obey(numbers, command)
             elif newline:
                 self._column = 0
                 self._row += '\n' in newline
@@ -100,12 +85,12 @@ class Picture:
                 self._write(text)
 
     def _write(self, text):
-        """What is too long goes on below, or without wrapping is lost."""
+        """What is too long goes on below."""
         while True:
             room = self.columns - self._column
             self._put(text[:room])
             text = text[room:]
-            if not text or 7 not in self.modes:
+            if not text:
                 return
             self._row, self._column = self._row + 1, 0
 
@@ -115,23 +100,13 @@ class Picture:
         self.lines[self._row] = line[: self._column] + text + line[self._column + len(text) :]
         self._column += len(text)
 
-    def _obey(self, private, numbers, command):
-        if private:
-            self._switch(int(numbers), command == 'h')
-        elif command == 'H':
-            self._row = self._column = 0
-        elif command == 'A':
+    def _obey(self, numbers, command):
+        if command == 'A':
             self._row = max(0, self._row - int(numbers or 1))
-        elif command == 'K' or (command == 'J' and numbers != '2'):
+        elif command in 'JK':
             # behind a full line the cursor stands on its last character
             begin = min(self._column, self.columns - 1)
             if self._row < len(self.lines):
                 self.lines[self._row] = self.lines[self._row][:begin]
         if command == 'J':
-            del self.lines[0 if numbers == '2' else self._row + 1 :]
-
-    def _switch(self, mode, on):
-        (self.modes.add if on else self.modes.discard)(mode)
-        if mode == 1049:
-            self.lines, self._other = self._other or [''], self.lines
-            self._row, self._column = len(self.lines) - 1 if not on else 0, 0
+            del self.lines[self._row + 1 :]

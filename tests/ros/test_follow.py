@@ -1,7 +1,6 @@
-"""follow: its screen on a terminal, and beside real nodes."""
+"""follow: its lines on a terminal, and beside real nodes."""
 
 import os
-import signal
 import sys
 import unittest
 
@@ -14,62 +13,12 @@ FOLLOW = os.path.join(SCRIPTS, 'hdlyap'), 'follow'
 PACED = dict(harness.MODES, equilibration=1.0, warmup=20.0, duration=0.0, pace=100.0)
 # a short run does not begin before it is watched
 SEEN = dict(wait_for_subscribers=['cost', 'spectrum'])
-SCREEN = 'from hdlyap.follow.screen import Screen\nwith Screen() as screen:'
-HERE = 'screen.show([[("here", "")]], (80, 24))'
 
 
 class OnATerminal(unittest.TestCase):
-    """Of the terminal alone, without ROS."""
-
-    def program(self, *lines, **size):
-        terminal = Terminal([sys.executable, '-c', '\n'.join(lines)], **size)
-        self.addCleanup(terminal.stop)
-        return terminal
-
-    def screen(self, *lines):
-        return self.program(SCREEN, *('    ' + line for line in lines))
-
-    def ends(self, terminal):
-        """By its key."""
-        terminal.press('q')
-        self.assertEqual(terminal.wait(), 0)
-
-    def test_exception(self):
-        terminal = self.screen(HERE, 'wrong')
-        self.assertEqual(terminal.wait(), 1)
-        self.assertTrue(terminal.wait_for("name 'wrong' is not defined"))
-        self.assertNotIn('here', '\n'.join(terminal.screen()))
-        self.assertTrue(harness.wait_until(terminal.is_as_before))
-
-    def test_suspended_and_continued(self):
-        terminal = self.screen('while screen.key(0.1) != "q":', '    ' + HERE)
-        self.assertTrue(terminal.wait_for('here'))
-        self.assertFalse(terminal.is_as_before())
-        terminal.press('\x1a')
-        os.waitid(os.P_PID, terminal.process.pid, os.WSTOPPED | os.WNOWAIT)
-        self.assertTrue(harness.wait_until(terminal.is_as_before))
-        os.kill(terminal.process.pid, signal.SIGCONT)
-        self.assertTrue(terminal.wait_for('here'))
-        self.ends(terminal)
-        self.assertTrue(harness.wait_until(terminal.is_as_before))
-
-    def test_lines_as_wide_as_the_screen(self):
-        """Keep their last characters, also on its last line."""
-        terminal = self.screen(
-            'screen.show([[("wide" * 20, "")]] * 24, screen.size)',
-            'screen.key(60)',
-            'screen.show([[("less", "")]] * 2, screen.size)',
-            'screen.key(60)',
-        )
-        self.assertTrue(harness.wait_until(lambda: terminal.screen() == ['wide' * 20] * 24))
-        terminal.press('q')
-        self.assertTrue(harness.wait_until(lambda: terminal.screen()[:2] == ['less'] * 2))
-        self.assertEqual(''.join(terminal.screen()[2:]), '')
-        self.ends(terminal)
-
     def test_one_line_in_several(self):
         """On a terminal that is too narrow for it; each overwrites the one before."""
-        terminal = self.program(
+        program = (
             'from hdlyap.follow.line import Display',
             'display = Display()',
             'display.show(["averaging", "one " * 9 + "end", "two", "last"])',
@@ -77,23 +26,22 @@ class OnATerminal(unittest.TestCase):
             'display.close()',
             'display.show(["finished", "two"])',
             'display.close()',
-            columns=40,
+            'display.show(["averaging", "4 " * 30 + "end"])',
+            'display.say(["a table", "of two lines"])',
+            'display.show(["averaging"])',
+            'display.close()',
         )
+        terminal = Terminal([sys.executable, '-c', '\n'.join(program)], columns=40)
+        self.addCleanup(terminal.stop)
         self.assertEqual(terminal.wait(), 0)
-        self.assertTrue(terminal.wait_for('finished  two'))
         lines = ['averaging  2 2 2 2 2 2 2 2 2 end  two', ' '.join('3' * 20)]
         lines += [' '.join('3' * 10) + ' last', 'finished  two']
+        lines += ['a table', 'of two lines', 'averaging']
+        harness.wait_until(lambda: terminal.screen()[-1] == 'averaging')
         self.assertEqual([line.strip() for line in terminal.screen() if line], lines)
         shown = terminal.output.replace('\r\n', '\n')
         self.assertIn('averaging\033[K\none one', shown)
         self.assertIn('one end\033[K\ntwo  last\033[J\r\033[2A', shown)
-
-    def test_complaints_do_not_reach_the_screen(self):
-        terminal = self.screen('import os; os.write(2, b"a complaint")', HERE, 'screen.key(60)')
-        self.assertTrue(terminal.wait_for('here'))
-        self.assertEqual(terminal.screen(), ['here'])
-        self.ends(terminal)
-        self.assertTrue(terminal.wait_for('a complaint'))
 
 
 class Running(unittest.TestCase):
@@ -135,46 +83,34 @@ class Running(unittest.TestCase):
         self.shows(terminal, 'lambda_max')
         other = self.follow('--node', 'other', '--timeout', '60')  # of a node that is there by now
         self.assertEqual(self.listeners(), {'run_info', 'status', 'cost', 'spectrum'})
-        terminal.press('m')
-        self.shows(terminal, ' 116-117 ')
-        self.shows(terminal, 'no more steps and phases')
-        terminal.press('m')
-        self.shows(terminal, 'computed only while somebody listens')
-        self.assertEqual(self.listeners(), {'run_info', 'status', 'cost', 'spectrum'})
+        listener = self.follow('--steps')
+        self.shows(listener, ' 116-117 ')
+        self.assertEqual(self.listeners(), {'run_info', 'status', 'cost', 'spectrum', 'steps'})
         said = 'hdlyap follow: no /other that publishes a run_info; there is /hdlyap; waits'
         self.shows(other, said)
-        other.press('\x03')
-        self.assertEqual(other.wait(), 130)
-        terminal.resize(50, 10)
-        self.assertTrue(harness.wait_until(lambda: len(terminal.screen()) <= 10))
-        terminal.press('\x03')
-        self.assertEqual(terminal.wait(), 130)
-        self.assertTrue(harness.wait_until(terminal.is_as_before))
-        self.shows(terminal, 'lambda_max')
+        for one in (listener, terminal, other):
+            one.press('\x03')
+            self.assertEqual(one.wait(), 130)
 
     def test_node_and_master_that_die_and_come_back(self):
         first = self.node(seed='17')
-        patient, leaving, line = self.follow(), self.follow(), self.follow('--line')
-        for terminal in (patient, leaving):
-            self.shows(terminal, 'seed 17')
+        patient, line = self.follow(), self.follow('--line')
+        self.shows(patient, 'seed 17')
         self.shows(line, 'averaging')
         first.stop()
         self.assertEqual(line.wait(), 3)
-        self.assertNotIn('\033[?', line.output)
-        self.shows(leaving, 'GONE  /hdlyap does not answer')
-        leaving.press('q')
-        self.assertEqual(leaving.wait(), 3)
-        self.shows(leaving, 'hdlyap follow: /hdlyap went away before the end of its run')
+        self.assertNotIn('seed 17', line.output)
+        self.shows(line, 'hdlyap follow: /hdlyap went away before the end of its run')
+        self.shows(patient, 'GONE: /hdlyap does not answer')
         self.master.stop()
-        self.shows(patient, 'no master  connections from before stay')
+        self.shows(patient, 'no master: connections from before stay')
         self.addClassCleanup(harness.Master(self.port).stop)
         self.node(seed='18', duration=10.0, **SEEN)
         self.shows(patient, 'seed 18')
-        self.shows(patient, 'the run has finished')
-        self.assertNotIn('no master', '\n'.join(patient.screen()))
-        patient.press('q')
         self.assertEqual(patient.wait(), 0)
-        self.assertTrue(harness.wait_until(patient.is_as_before))
+        last = '\n'.join(patient.screen()[-2:])
+        self.assertRegex(last, r'^finished  100\.0 %')
+        self.assertNotIn('no master', last)
 
     def test_one_line_until_the_end(self):
         self.node(duration=60.0, **SEEN)

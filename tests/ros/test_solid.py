@@ -14,14 +14,12 @@ import made
 import made_fields
 from made import LP, T
 from hdlyap.follow import watch
-from hdlyap.follow.panels import phases as phase_lines
 from hdlyap.msg import LpPhase, State, Structure
 from hdlyap.data import factors, space
 from hdlyap.plots import covariant, equation, frames, movie, paper, repetition
 from hdlyap.plots.figures import dispersion, modes, p_mode, spectrum
 from hdlyap.plots.figures.style import scene
 from hdlyap.plots.figures.view import View
-from hdlyap.glyphs import Glyphs
 from hdlyap.runs import run, work
 from hdlyap.runs.scene import Refused
 from hdlyap.sweep import grid, points, table
@@ -195,14 +193,6 @@ class Numbers(Solid):
         text = self.succeeds('compare', *paths)
         for name in ('T(1,0,0) ', 'T(1,0,1) '):
             self.assertIn('  ' + name, text)
-
-    def test_followed(self):
-        """Of vector 49 with a cosine of z; the column is as wide as the formula."""
-        view, both = mock.Mock(info=INFO), made.step(INFO, LP, 1, 1, 49, 49, nz=1)
-        view.phases = made.lp_phases(INFO, [both], 150.0, began=100.0, modulations=(1,))
-        head, row = (''.join(text for text, _ in line) for line in phase_lines(view, Glyphs()))
-        self.assertRegex(row, r'LP\(1,1,1\) +sin kx x cos ky y cos kz z +49 +1\.00')
-        self.assertEqual(head.index('|(a,b)|') + 7, row.index('1.00') + 4)
 
 
 class Figures(Solid):

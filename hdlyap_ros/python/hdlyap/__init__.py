@@ -1,5 +1,5 @@
 """Besides the messages (hdlyap.msg) this package has recorded runs as arrays and frames (load,
-data), figures and tables of bags (plots), a terminal screen (follow) and many runs (runs,
+data), figures and tables of bags (plots), lines in a terminal (follow) and many runs (runs,
 sweep)."""
 
 import sys

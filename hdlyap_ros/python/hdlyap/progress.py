@@ -4,7 +4,6 @@ removed at the end."""
 import sys
 import time
 
-from . import glyphs
 from .numbers import clock
 
 SILENT = 1.0  # seconds before the first bar; work that is done by then needs none
@@ -20,7 +19,6 @@ class Progress:
 
     def __init__(self, what, stream=sys.stderr):
         self._what, self._stream = what, stream
-        self._glyphs = glyphs.chosen(stream)
         self._shown = False
 
     def over(self, things, total):
@@ -44,7 +42,7 @@ class Progress:
 
     def _show(self, share, seconds):
         left = f'  {clock(seconds * (1 / share - 1))} left' if share > 0 else ''
-        bar = self._glyphs.bar(share, COLUMNS, rest=True)
+        bar = _bar(share, self._stream.encoding)
         self._write(f'\r{self._what}  {bar} {100 * share:3.0f} %{left}\033[K')
         self._shown = True
 
@@ -54,3 +52,13 @@ class Progress:
 
     def _write(self, text):
         print(text, end='', file=self._stream, flush=True)
+
+
+def _bar(share, encoding):
+    """A bar that is filled to a share of 0 .. 1, of characters that the encoding has."""
+    full = round(share * COLUMNS)
+    try:
+        '█░'.encode(encoding or 'ascii')
+    except UnicodeEncodeError:
+        return ('#' * full).ljust(COLUMNS, '.')
+    return ('█' * full).ljust(COLUMNS, '░')

@@ -1,2 +1,1 @@
-"""Shows what a running hdlyap_node does: on a terminal (watch -> panels -> layout -> screen) or in
-one line (line)."""
+"""Shows what a running hdlyap_node does: watch -> line, news; its figures: gathered -> live."""

@@ -32,8 +32,7 @@ class Gathered(Watch):
     def __init__(self, node):
         self._kept, self._lock = {}, threading.Lock()
         self.count = 0  # number of messages that can change a figure
-        super().__init__(node)
-        self.toggle_computed()
+        super().__init__(node, wanted=True)
 
     def _hear(self, message, topic):
         name = topic.rpartition('/')[2]

@@ -27,7 +27,7 @@ FOLLOWER = re.compile(r'/follow_\d+_\d+$')  # names that rospy gives to this com
 class View(Said):
     """What is shown; None if it is not known. `silence`: seconds since the node's last message;
     `diagnosis`: its DiagnosticStatus; `others`: topics of COMPUTED that somebody else listens to;
-    `wanted`: whether the user has asked for all topics of COMPUTED."""
+    `wanted`: whether this listens to all of them."""
 
     info = spectrum = steps = status = cost = phases = diagnosis = speed = None
     node, silence, others, wanted = '', 0.0, frozenset(), False
@@ -47,26 +47,20 @@ class View(Said):
 
 
 class Watch:
-    """Listens to a node; view() is what is known now. computed: the part of COMPUTED to listen
-    to."""
+    """Listens to a node; view() is what is known now. computed: the part of COMPUTED to listen to
+    while somebody else does; wanted: also if nobody does, which makes the node compute it."""
 
-    def __init__(self, node, computed=COMPUTED):
-        self._node, self._computed = node, computed
+    def __init__(self, node, computed=COMPUTED, wanted=False):
+        self._node, self._computed, self._wanted = node, computed, wanted
         kinds = {**ALWAYS, **computed}
         self._topics = {f'{node}/{name}': (lazy(kinds[name]), self._hear) for name in kinds}
         self._topics['/diagnostics'] = DiagnosticArray, self._hear_diagnostics
         self._last, self._diagnosis = {}, None
         self._heard, self._speed = time.monotonic(), Speed()
         self._ears, self._address = {}, None
-        self._wanted = self._is_gone = self._is_master_gone = False
+        self._is_gone = self._is_master_gone = False
         self._others = frozenset()
-        self._soon = threading.Event()
         threading.Thread(target=self._go_round, daemon=True).start()
-
-    def toggle_computed(self):
-        """Makes the node compute steps and LP phases although nobody else listens, or ends that."""
-        self._wanted = not self._wanted
-        self._soon.set()
 
     def view(self):
         view = View()
@@ -93,12 +87,11 @@ class Watch:
 
     def _go_round(self):
         while not rospy.is_shutdown():
-            self._soon.clear()
             self._look()
             self._is_gone = self._silence() > SILENCE and not (
                 self._address and answers(self._address)
             )
-            self._soon.wait(PERIOD)
+            time.sleep(PERIOD)
 
     def _look(self):
         try:

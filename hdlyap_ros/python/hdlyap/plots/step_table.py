@@ -25,38 +25,37 @@ SHARING = words(Step, 'sharing')
 
 def blocks(recording):
     """Yields the parts of the table. recording.steps must not be None."""
-    yield _steps(recording)
+    yield table(recording)
     yield _fits(recording)
     yield from _lp_dynamics(recording)
     yield from _cost(recording)
 
 
-def _steps(recording):
+def table(recording):
+    """The steps alone."""
     message = recording.steps
     fitted = {step.name: step.fitted for step in paper.steps(recording.info)}
     title = (
         f'steps: at least {100 * message.threshold:.0f} % of the expected multiplicity found '
         '(standard errors)'
     )
-    rows = [cells for cells, _ in block_rows(message, fitted, recording.info)]
-    rows.insert(0, zero_cells(recording))
+    rows = [_zero_cells(recording), *_rows(message, fitted, recording.info)]
     if fitted:
         title += f'\nc k: {paper.FITS} (+-3 %)'
     remarks = _remarks(message, recording.info)
-    return '\n'.join([title, *layout(rows, bool(fitted)), *remarks])
+    return '\n'.join([title, *_layout(rows, bool(fitted)), *remarks])
 
 
-def block_rows(message, fitted, info):
-    """Yields (cells of a row, kind of its step or None for several kinds), smallest exponent
-    first."""
+def _rows(message, fitted, info):
+    """Yields the cells of each row, smallest exponent first."""
     for block in steps.blocks(message, info):
         if len(block.steps) > 1:
-            yield _shared_cells(block), block.kind
+            yield _shared_cells(block)
         for step in block.steps:
-            yield _cells(block, step, steps.name(step, info), fitted), step.kind
+            yield _cells(block, step, steps.name(step, info), fitted)
 
 
-def layout(rows, beside_paper=False):
+def _layout(rows, beside_paper):
     """Yields lines: a heading, then one for each row of cells."""
     columns = COLUMNS + (PAPER_COLUMNS if beside_paper else ())
     width = max(len(row[0]) for row in rows)
@@ -65,7 +64,7 @@ def layout(rows, beside_paper=False):
         yield '  ' + ' '.join([f'{row[0]:<{width}}', *cells]).rstrip()
 
 
-def zero_cells(run):
+def _zero_cells(run):
     zero = steps.zero_modes(run.steps)
     if zero is None or not zero.resolved:
         if run.spectrum is None or not is_known(run.info):
