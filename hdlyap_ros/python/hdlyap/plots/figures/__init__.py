@@ -1,5 +1,5 @@
-"""Recording -> figures, as PNG, SVG and pages of a PDF. Each figure is a module here with draw(run,
-ax=None, **look); see page.figure."""
+"""Recording -> figures, as PNG, SVG and pages of a PDF. Each figure, a module here or a row of
+covariant.FIGURES, has draw(run, ax=None, **look); see page.figure."""
 
 import contextlib
 import importlib
@@ -9,13 +9,18 @@ from matplotlib.backends.backend_pdf import PdfPages
 from hdlyap import whole
 from hdlyap.data.reader import NoInfo
 
+from . import covariant
 from .style import ours, save
 
 # in the order in which hdlyap plot lists them; draw returns None if the bag has no data for one
 NAMES = 'spectrum convergence steps dispersion modes p_mode phases localization structure '
 NAMES += 'covariant_exponents covariant_weights covariant_angles covariant_domination '
 NAMES += 'covariant_vectors fluctuations cost'
-FIGURES = {name: importlib.import_module(f'.{name}', __name__) for name in NAMES.split()}
+FIGURES = {
+    name: covariant.FIGURES.get(name) or importlib.import_module(f'.{name}', __name__)
+    for name in NAMES.split()
+}
+globals().update(covariant.FIGURES)  # so that each figure is imported by its name
 OF_MEANS = 'spectrum', 'steps', 'dispersion'  # figures of several seeds; others are of one run
 
 

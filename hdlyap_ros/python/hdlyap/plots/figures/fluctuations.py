@@ -7,7 +7,7 @@ from hdlyap.numbers import known
 
 from .. import covariant
 from . import page
-from .over_index import near_zero, shade
+from .covariant import near_zero, shade
 from .style import BLUE, INK, KIND_COLOURS, MANY, VERMILION, bars, index_axis, instead
 
 OFTEN, FEW = 32, 8  # times of which a fraction, a variance can be told
