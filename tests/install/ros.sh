@@ -194,12 +194,12 @@ says_what_it_lacks() {
 # shellcheck disable=SC2016
 in_alone() { in_space "$ALONE/installed/setup.bash" sh -c 'PYTHONPATH=$0:$PYTHONPATH exec "$@"' "$ALONE/hidden" "$@"; }
 
-# Every module is imported but those that draw for rviz and pause a replay; figures and a comparison are made of a bag.
+# Every module is imported but the one that draws for rviz; figures and a comparison are made of a bag.
 tools_alone() {
     local bag=$ALONE/run.bag
     in_alone python3 -c 'import importlib.util, pkgutil, hdlyap
 for one in pkgutil.walk_packages(hdlyap.__path__, "hdlyap."):
-    if one.name not in ("hdlyap.commands.replay", "hdlyap.commands.view"): importlib.import_module(one.name)
+    if one.name != "hdlyap.commands.view": importlib.import_module(one.name)
     print(importlib.util.find_spec(one.name).origin)' >"$ALONE/modules" &&
         diff <(sed -n '/\/hdlyap\/\(msg\|srv\)\//d; s|.*/dist-packages/||p' "$ALONE/modules" | sort) \
             <(cd "$ROOT/hdlyap_ros/python" && find hdlyap -name '*.py' ! -path hdlyap/__init__.py | sort) || return 1

@@ -264,7 +264,7 @@ class Recorded(harness.Case):
         run_info to who comes late."""
         raw = Raw(self.messages)
         self.addCleanup(raw.close)
-        args = 'bag:=run.bag rate:=20 paused:=true keep_alive:=true wait_for_subscribers:=true'
+        args = 'bag:=run.bag pace:=20 paused:=true keep_alive:=true wait_for_subscribers:=true'
         replay = launch(self.folder, 'replay.launch', *args.split())
         self.addCleanup(end, replay)
         rospy.wait_for_service('/replay/pause_playback', harness.PATIENCE)

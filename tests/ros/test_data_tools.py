@@ -492,7 +492,7 @@ class Hostile(Tools):
         self.assertGreater(float(misfit), 2.5)
 
     def test_of_a_bag_that_is_open(self):
-        """As replay has it while it talks to a master: what is not the bag's stays as it is."""
+        """While somebody talks to a master: what is not the bag's stays as it is."""
         bag, master = self.write(made.small_run()), xmlrpc.client.ServerProxy('http://localhost:1')
         with self.assertRaises(ConnectionRefusedError), reader.opened(bag):
             master.getPid()

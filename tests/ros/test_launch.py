@@ -42,7 +42,7 @@ class Launch(harness.Case):
             with open(bag + '.old') as file:
                 self.assertEqual(file.read(), 'of a year')
             status = self.listen('status')
-            replay = self.roslaunch(folder, 'replay.launch', 'bag:=' + bag, 'rate:=10')
+            replay = self.roslaunch(folder, 'replay.launch', 'bag:=' + bag, 'pace:=20')
             self.assertTrue(status.wait_for(harness.is_last))
             self.ends(replay)
 
@@ -238,12 +238,12 @@ class Launch(harness.Case):
         self.assertNotIn('--keep-alive', self.replayed()['replay'])
         looked_at = self.replayed('rviz:=true', 'node:=/other')
         self.assertIn('--keep-alive', looked_at['replay'])
-        self.assertIn('--look=/other', looked_at['replay'])
+        self.assertIn('--lead=10', looked_at['replay'])
         self.assertEqual(looked_at['view'], 'view --node /other')
         self.assertIn('viewer', looked_at)
         self.assertNotIn('viewer', self.replayed('rviz:=true', 'viewer:=false'))
         self.assertNotIn('view', self.replayed('viewer:=true'))
-        self.assertIn('--rate=1.0', self.replayed()['replay'])
+        self.assertIn('--pace=1.0', self.replayed()['replay'])
         self.assertIn('--pace=2.5', self.replayed('pace:=2.5')['replay'])
 
     def test_what_is_refused_ends_the_launch(self):

@@ -1,21 +1,16 @@
 #!/usr/bin/env python3
-"""hdlyap replay: when it says what a bag holds, for whom it waits, and what it refuses."""
+"""hdlyap replay: when it says what a bag holds, and what it refuses."""
 
 import os
-import threading
+import signal
 import time
-import types
-from unittest import mock
 
 import rosbag
-import rosgraph
 import rospy
 from diagnostic_msgs.msg import DiagnosticArray
-from visualization_msgs.msg import MarkerArray
 
 import harness
 import made
-from hdlyap.commands.replay import Clock
 from hdlyap.msg import RunInfo, RunStatus, State, Steps
 
 REPLAY = harness.command('replay')
@@ -41,7 +36,6 @@ def run(run_id):
 class Replayed(harness.Case):
     def setUp(self):
         self.bag = os.path.join(self.new_folder(), 'run.bag')
-        self.heard = []  # (wall time, type, simulated time)
 
     def record(self, *runs, ahead=0):
         """ahead: messages of each run before the clock is set back by an hour."""
@@ -51,104 +45,85 @@ class Replayed(harness.Case):
                     seconds = 10 * (number + 1) + (3600 if k < ahead else 0)
                     bag.write(topic, message, rospy.Time(seconds, 1000000 * k))
 
-    def listen_to(self, *topics):
-        kinds = dict(run_info=RunInfo, status=RunStatus, state=State)
-        for name in topics:
-            subscriber = rospy.Subscriber(
-                '/hdlyap/' + name, kinds[name], self.keep, name, queue_size=None
-            )
-            self.addCleanup(subscriber.unregister)
+    def written(self, *args):
+        """[(stamp, topic, type, bytes, whether it is latched)] of the bag that is played."""
+        out = os.path.join(self.new_folder(), 'out.bag')
+        self.ends(self.process([*REPLAY, self.bag, '--out', out, *args]))
+        with rosbag.Bag(out) as bag:
+            latched = {one.topic: one.header['latching'] for one in bag._get_connections()}
+            return [
+                (stamp.to_sec(), topic, raw[0], raw[1], latched[topic] in (b'1', '1'))
+                for topic, raw, stamp in bag.read_messages(raw=True)
+            ]
 
-    def keep(self, message, name):
-        self.heard.append((time.monotonic(), name, getattr(message, 'sim_time', None)))
+    def states(self, *args):
+        """[(stamp after the first message, simulated time)] of states."""
+        found = self.written(*args)
+        states = [(one[0] - found[0][0], one[3]) for one in found if one[1] == '/hdlyap/state']
+        return [(stamp, State().deserialize(data).sim_time) for stamp, data in states]
 
-    def replay(self, *args):
-        process = self.process([*REPLAY, self.bag, *args])
-        return process
-
-    def times(self, name):
-        return [time_ for _, kind, time_ in self.heard if kind == name]
+    def check_states(self, found, wanted, first=0.0):
+        self.assertEqual([time_ for _, time_ in found], wanted)
+        for (stamp, _), k in zip(found, range(len(wanted))):
+            self.assertAlmostEqual(stamp, first + k, places=5)
 
     def test_by_simulated_time(self):
         """Evenly, however fast the run was and in whatever order its topics were recorded; one run
-        after the other."""
+        after the other. Nothing but the stamps changes."""
         self.record('one', 'two')
-        self.listen_to('state', 'status', 'run_info')
-        replay = self.replay('--pace', '20', '--wait')
-        diagnostics = rospy.Subscriber('/diagnostics', DiagnosticArray, lambda message: None)
-        self.addCleanup(diagnostics.unregister)
-        self.ends(replay)
-        self.sees(lambda: len(self.heard) == 2 * (1 + 2 * REPORTS))
-        for name in ('state', 'status'):
-            self.assertEqual(self.times(name), 2 * list(range(1, REPORTS + 1)))
-        walls = [wall for wall, name, _ in self.heard if name == 'state'][:REPORTS]
-        self.assertGreater(walls[-1] - walls[0], 0.95 * (REPORTS - 1) / 20)
-        half = REPORTS // 2  # one message may come late on a busy machine
-        spans = [later - walls[k] for k, later in enumerate(walls[half:])]
-        self.assertGreater(max(spans), 0.95 * half / 20)
-        self.assertIn('replay: at the end, t = 30', replay.text())
+        every = [float(t) for t in range(1, REPORTS + 1)]
+        found = self.states()
+        self.check_states(found[:REPORTS], every)
+        self.check_states(found[REPORTS:], every, found[REPORTS][0])
+        self.assertAlmostEqual(found[REPORTS][0], REPORTS - 1, places=5)
+        with rosbag.Bag(self.bag) as bag:
+            before = sorted((topic, *raw[:2]) for topic, raw, _ in bag.read_messages(raw=True))
+        after = self.written()
+        self.assertEqual(sorted(one[1:4] for one in after), before)
+        self.assertEqual({one[1] for one in after if one[4]}, {'/hdlyap/run_info'})
 
     def test_late_messages_delay_nothing(self):
         """Covariant vectors are of times long past."""
-        running = threading.Event()
-        running.set()
-        wall = types.SimpleNamespace(now=0.0)
-        with mock.patch('hdlyap.commands.replay.time') as clock:
-            clock.monotonic = lambda: wall.now
-            clock.sleep = lambda seconds: setattr(wall, 'now', wall.now + seconds)
-            due = Clock(types.SimpleNamespace(pace=2.0, rate=1.0), running)
-            for time_ in (1.0, 11.0, 3.0, 5.0, 12.0):
-                due.wait_for(types.SimpleNamespace(run='one', time=time_, wall=0.0))
-        self.assertAlmostEqual(wall.now, 5.5)
+        with rosbag.Bag(self.bag, 'w') as bag:
+            for second, time_ in enumerate((1.0, 11.0, 12.0, 3.0, 5.0, 13.0)):
+                state = State(run_id='one', sim_time=time_, x=[0.5], y=[0.5])
+                bag.write('/hdlyap/state', state, rospy.Time(10 + 5 * second))
+        stamps = [round(stamp, 5) for stamp, _ in self.states()]
+        self.assertEqual(stamps, [0.0, 10.0, 10.0, 10.0, 11.0, 12.0])
 
     def test_clock_set_back(self):
-        """What follows takes its time, too: a message each millisecond, fifty times as slow."""
         self.record('one', ahead=2 + REPORTS)
-        self.listen_to('state', 'status')
-        replay = self.replay('--rate', '0.02')
-        self.ends(replay)
-        self.sees(lambda: len(self.heard) == 2 * REPORTS)
-        self.assertEqual(self.times('state'), list(range(1, REPORTS + 1)))
-        walls = [wall for wall, name, _ in self.heard if name == 'state']
-        after = range(REPORTS // 2, REPORTS // 2 + 5)  # one may come late on a busy machine
-        paces = [(walls[-1] - walls[k]) / (REPORTS - 1 - k) for k in after]
-        self.assertGreater(max(paces), 0.95 / 20)
+        self.check_states(self.states(), [float(t) for t in range(1, REPORTS + 1)])
 
     def test_from_some_time_on(self):
+        """At first what the run is; all else after the time in which rviz opens."""
         self.record('one')
-        self.listen_to('state', 'run_info')
-        replay = self.replay('--pace', '1000', '--begin', '28', '--keep-alive')
-        self.sees(lambda: replay.lines('at the end'), replay)
-        self.sees(lambda: self.times('run_info'))
-        self.assertLessEqual(set(self.times('state')), {28.0, 29.0, 30.0})
+        found = self.states('--begin', '28', '--lead', '5', '--pace', '3')
+        self.check_states(found, [28.0, 29.0, 30.0], first=15.0)
+        self.assertEqual(self.written('--begin', '28')[0][1], '/hdlyap/run_info')
 
-    def test_waits_for_who_looks(self):
-        """Not for hdlyap view, which is told what the run is, and opens rviz then."""
+    def test_played(self):
+        """For who has subscribed nothing is lost, at the pace that was asked for."""
         self.record('one')
-        self.listen_to('run_info', 'state', 'status')
-        replay = self.replay('--pace', '1000', '--look', '/hdlyap')
-        self.sees(lambda: self.times('run_info'), replay)
-        self.process([*harness.command('view'), '--node', '/hdlyap'], DISPLAY=':0')
-        self.sees(lambda: self.looks('/view_'))
-        time.sleep(0.3)  # replay asks every 0.1 s
-        self.assertEqual(self.times('state'), [])
-        look = rospy.Subscriber('/hdlyap/markers', MarkerArray, lambda message: None)
-        self.addCleanup(look.unregister)
+        walls = []
+        subscriber = rospy.Subscriber(
+            '/hdlyap/state', State, lambda m: walls.append((time.monotonic(), m.sim_time))
+        )
+        self.addCleanup(subscriber.unregister)
+        replay = self.process([*REPLAY, self.bag, '--pace', '20'])
         self.ends(replay)
-        self.sees(lambda: len(self.times('state')) == REPORTS)
-        self.assertEqual(self.times('state')[0], 1.0)
+        self.sees(lambda: len(walls) == REPORTS)
+        half = REPORTS // 2  # one message may come late on a busy machine
+        spans = [later[0] - walls[k][0] for k, later in enumerate(walls[half:])]
+        self.assertGreater(max(spans), 0.95 * half / 20)
 
-    def looks(self, name):
-        topics = dict(rosgraph.Master('/test').getSystemState()[1])
-        return any(who.startswith(name) for who in topics.get('/hdlyap/markers', ()))
-
-    def test_nothing_is_lost_at_the_start(self):
-        """For who has subscribed; the whole bag takes a moment."""
+    def test_interrupted(self):
+        """In a pause; its bag goes with it."""
         self.record('one')
-        self.listen_to('state', 'status')
-        replay = self.replay('--rate', '1000')
-        self.ends(replay)
-        self.assertTrue(harness.wait_until(lambda: len(self.heard) == 2 * REPORTS), self.heard)
+        replay = self.process([*REPLAY, self.bag, '--pause', '__name:=paused'])
+        rospy.wait_for_service('/paused/pause_playback', harness.PATIENCE)
+        replay.send(signal.SIGINT)
+        self.ends(replay, 128 + signal.SIGINT)
 
     def test_what_is_refused(self):
         """In one line."""
@@ -170,12 +145,11 @@ class Replayed(harness.Case):
         with rosbag.Bag(self.bag, 'w') as bag:
             bag.write('/\x1b[2J/run_info', RunInfo(), rospy.Time(1))
         self.check_refused(r'damaged: topic /\?\[2J/run_info is no legal ROS name')
-        for args in (('--pace', '0'), ('--rate', 'nan'), ('--rate', '2', '--pace', '2')):
-            replay = self.replay(*args)
-            self.ends(replay, 2)
+        for pace in '0', 'nan':
+            self.ends(self.process([*REPLAY, self.bag, '--pace', pace]), 2)
 
     def check_refused(self, words, *args):
-        replay = self.replay(*args)
+        replay = self.process([*REPLAY, self.bag, *args])
         self.ends(replay, 1)
         self.assertRegex(replay.text(), r'\Ahdlyap replay: %s: .*%s.*\n\Z' % (self.bag, words))
 
