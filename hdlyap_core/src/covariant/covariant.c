@@ -17,7 +17,6 @@
 #include "base/check.h"
 #include "base/memory.h"
 #include "covariant/angles.h"
-#include "covariant/archived.h"
 #include "covariant/backward.h"
 #include "covariant/history.h"
 #include "covariant/splitting.h"

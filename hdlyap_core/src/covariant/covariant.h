@@ -2,6 +2,7 @@
 #ifndef HD_COVARIANT_H
 #define HD_COVARIANT_H
 
+#include "base/archive.h"
 #include "hdlyap/covariant.h"
 #include "hdlyap/trajectory.h"
 #include "tangent/ortho.h"
@@ -38,5 +39,7 @@ bool hd_covariant_is_going_back(const hd_covariant *covariant);
 HD_MUST_CHECK hd_status hd_covariant_step(hd_covariant *covariant);
 /** Bytes that the window takes; 0 before the first window. */
 double hd_covariant_bytes(const hd_covariant *covariant);
+
+void hd_covariant_archive(hd_covariant *covariant, hd_archive *archive);
 
 #endif

@@ -10,7 +10,6 @@
 #include "base/check.h"
 #include "base/memory.h"
 #include "covariant/angles.h"
-#include "covariant/archived.h"
 
 static const double RIGHT_ANGLE = 1.57079632679489661923;
 

@@ -2,6 +2,7 @@
 #ifndef HD_SPLITTING_H
 #define HD_SPLITTING_H
 
+#include "base/archive.h"
 #include "hdlyap/splitting.h"
 #include "hdlyap/status.h"
 
@@ -20,5 +21,7 @@ void hd_splitting_clear(hd_splitting *splitting);
 HD_MUST_CHECK hd_status hd_splitting_add(hd_splitting *splitting, const double *c);
 
 hd_splitting_results hd_splitting_read(const hd_splitting *splitting);
+
+void hd_splitting_archive(hd_splitting *splitting, hd_archive *archive);
 
 #endif

@@ -12,7 +12,6 @@
 #include "base/check.h"
 #include "base/clock.h"
 #include "base/memory.h"
-#include "covariant/archived.h"
 #include "covariant/covariant.h"
 #include "covariant/window_room.h"
 #include "scene/scene.h"
