@@ -1,9 +1,8 @@
 #!/usr/bin/env python3
-"""The two examples beside a running node: their numbers are found again from what the test itself
+"""The example beside a running node: its numbers are found again from what the test itself
 hears."""
 
 import math
-import re
 import xmlrpc.client
 
 import numpy as np
@@ -15,11 +14,10 @@ import harness
 import links
 from harness import MODES
 from hdlyap.data import series
-from hdlyap.msg import LpPhase, LpPhases, Mode, Steps
+from hdlyap.msg import LpPhase, LpPhases
 from roslib.packages import find_node
 
 ROUNDING = 1e-6  # of regressions in another order
-PRINTED = 0.51e-4  # of numbers with four digits after the point
 STATES = {
     LpPhase.UNRESOLVED: 'its step is not resolved',
     LpPhase.WEAK: 'too weak to have a phase',
@@ -67,28 +65,11 @@ class Examples(harness.Case):
         return self.start(params, name=name, command=[example('watch_phase')])
 
 
-@harness.more
-class Waiting(Examples):
-    def test_says_what_it_waits_for(self):
-        """And says it again, as it is by then."""
-        topic = '/some/node/steps'
-        fit = self.process([*harness.command('fit'), '--node', '/some/node'])
-        said = f'hdlyap fit waits: nobody publishes {topic}; roslaunch hdlyap run.launch starts'
-        self.sees(lambda: fit.lines(said), fit)
-        publisher = rospy.Publisher(topic, Steps, queue_size=1)
-        self.addCleanup(publisher.unregister)
-        self.sees(lambda: fit.lines(f'hdlyap fit waits: no message on {topic}: its node'), fit)
-        publisher.publish(Steps(averaged_time=7.0))
-        self.sees(lambda: fit.lines('t = 7: c_T: not known yet; c_L: not known yet'), fit)
-        self.interrupt(fit)
-
-
 class Beside(Examples):
-    """Both examples and the test hear all of one run."""
+    """The example and the test hear all of one run."""
 
     def test_numbers_of_a_run(self):
         watch = self.watch(number=2)
-        fit = self.process([*harness.command('fit'), '__name:=fit'])
         deviations = self.hear('/watch_phase/deviation', Float64)
         listeners = {topic: self.listen(topic) for topic in ('lp_phases', 'steps', 'spectrum')}
         node = self.start(dict(MODES, duration=250.0, pace=100.0, wait_for_subscribers=['cost']))
@@ -96,7 +77,6 @@ class Beside(Examples):
             ('/hdlyap/' + topic, name)
             for topic, name in (
                 ('lp_phases', '/watch_phase'),
-                ('steps', '/fit'),
                 ('lp_phases', rospy.get_name()),
                 ('steps', rospy.get_name()),
                 ('spectrum', rospy.get_name()),
@@ -111,9 +91,7 @@ class Beside(Examples):
         self.assertEqual((len(phases), len(steps)), (250, 250))
         self.check_deviations(phases, deviations, watch)
         self.interrupt(watch)
-        self.interrupt(fit)
         self.check_states(phases, watch)
-        self.check_fits(steps, fit)
         self.check_errors(listeners['spectrum'].messages)
 
     def check_errors(self, messages):
@@ -150,45 +128,6 @@ class Beside(Examples):
             ['INFO' in line for line in said], [state == LpPhase.TRACKED for state in changes]
         )
         self.assertGreater(len(watch.lines('omega = ')), 0, watch.text())
-
-    def check_fits(self, messages, fit):
-        by_time = {'%.6g' % message.averaged_time: message for message in messages}
-        lines = [text for text in fit.text().splitlines() if ' waits: ' not in text]
-        fitted = 0
-        for line in lines:
-            message = by_time[re.match(r't = (\S+): ', line).group(1)]
-            for name, kind, c, error in (
-                ('c_T', Mode.T, message.c_t, message.c_t_error),
-                ('c_L', Mode.LP, message.c_l, message.c_l_error),
-            ):
-                own = re.search(
-                    name + r' = (\S+) \+- (\S+) by (c k|c k \+ c2 k\^2) over (\d+) k, '
-                    r'(?:misfit (\S+), )?node: (\S+) \+- ([^\s;]+)',
-                    line,
-                )
-                if own is None:
-                    self.assertIn(name + ': not known yet', line)
-                    continue
-                *wanted, misfit = self.fit(message.steps, kind)
-                self.assertEqual(own.group(5), misfit and f'{misfit:.1f}')
-                numbers = [float(own.group(place)) for place in (1, 2, 6, 7)]
-                self.assertEqual(own.group(3), 'c k + c2 k^2' if int(own.group(4)) > 1 else 'c k')
-                np.testing.assert_allclose(numbers, [*wanted, c, error], rtol=0, atol=PRINTED)
-                fitted += 1
-        self.assertGreaterEqual(fitted, 3, fit.text())
-
-    @staticmethod
-    def fit(steps, kind):
-        """c, its error and the misfit, by numpy's own weighted fit of lambda / k, which is c +
-        c2 k."""
-        some = [s for s in steps if s.kind == kind and s.resolved and s.std_error > 0]
-        k, exponent, error = np.array([(s.wave_number, s.exponent, s.std_error) for s in some]).T
-        degree = 1 if len(some) > 1 else 0
-        line, covariance = np.polyfit(k, exponent / k, degree, w=k / error, cov='unscaled')
-        off = (exponent / k - np.polyval(line, k)) * k / error
-        freedom = len(some) - degree - 1
-        misfit = np.sqrt(np.sum(off**2) / freedom) if freedom else None
-        return line[-1], max(1.0, misfit or 0) * np.sqrt(covariance[-1, -1]), misfit
 
 
 class Alone(Examples):

@@ -39,7 +39,7 @@ class Interrupted(Bags):
                 file.write('time.sleep(60)\n')
         path = os.pathsep.join([self.folder, os.environ['PYTHONPATH']])
         words = [['record']]
-        words += [['hdlyap', name] for name in ('fit', 'follow', 'plot', 'replay', 'sweep', 'view')]
+        words += [['hdlyap', name] for name in ('follow', 'plot', 'replay', 'sweep', 'view')]
         for script, *name in words:
             done = process(*name, script=script, env=dict(os.environ, PYTHONPATH=path))
             self.assertEqual(done, (-signal.SIGINT, '', ''), (script, *name))

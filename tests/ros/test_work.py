@@ -269,23 +269,14 @@ class Work(InFolder):
 
 
 class Grid(InFolder):
-    def test_sweep_launch(self):
+    def test_table(self):
         """In a namespace; one density is refused, of the others there are a table and a figure."""
         self.write('tiny.yaml', **MODES)
-        given = ['densities:=0.6 0.8 2.5', 'seeds:=1 2', 'folder:=of mine', 'scene:=tiny.yaml']
         env = dict(ROS_MASTER_URI='http://localhost:%d' % harness.free_port(), ROS_NAMESPACE='/lab')
-        launch = self.start(
-            'roslaunch',
-            'hdlyap',
-            'sweep.launch',
-            *given,
-            'observables:=[spectrum, steps, state]',
-            **env,
-        )
-        launch.wait(LATEST)
-        self.assertEqual(len(launch.lines('hdlyap sweep: density_2_5_seed_')), 4, launch.text())
-        self.assertIn('exit code 1', launch.text())
-        self.assertRegex(launch.text(), r'(?m)^4 of 6 runs done, 2 failed in')
+        process = self.start(*self.of('0.6 0.8 2.5'), **env)
+        self.assertEqual(process.wait(LATEST), 1, process.text())
+        self.assertEqual(len(process.lines('hdlyap sweep: density_2_5_seed_')), 4, process.text())
+        self.assertRegex(process.text(), r'(?m)^4 of 6 runs done, 2 failed in')
         self.assert_none_left()
         done = self.run_ids(self.path('of mine'))
         self.assertEqual(
@@ -294,9 +285,15 @@ class Grid(InFolder):
         )
         self.check_bag(self.path('of mine', 'density_0_8_seed_1.bag'))
         self.check_results()
-        table = launch.text()[launch.text().index('the same in all') :].split('\nwritten')[0]
+        table = process.text()[process.text().index('the same in all') :].split('\nwritten')[0]
         self.check_again(table)
         self.assertEqual(self.run_ids(self.path('of mine')), done)
+
+    @staticmethod
+    def of(densities):
+        words = ['--densities', densities, '--seeds', '1 2', '--folder', 'of mine']
+        words += ['--scene', 'tiny.yaml', '--observables', '[spectrum, steps, state]']
+        return [*harness.command('sweep'), *words]
 
     def check_bag(self, path):
         with rosbag.Bag(path) as bag:
@@ -330,10 +327,8 @@ class Grid(InFolder):
 
     def check_again(self, table):
         """Nothing is run; the table is the same, or one of other fits."""
-        given = '--densities', '0.6 0.8', '--seeds', '1 2', '--folder', 'of mine'
-        given += '--scene', 'tiny.yaml', '--observables', '[spectrum, steps, state]'
         for more, wanted in (((), table), (('--form', 'c k'), '\n  [1] c k over ')):
-            process = self.start(*harness.command('sweep'), *given, *more)
+            process = self.start(*self.of('0.6 0.8'), *more)
             self.assertEqual(process.wait(LATEST), 0, process.text())
             self.assertIn(wanted, process.text())
             self.assertNotIn('runs done', process.text())

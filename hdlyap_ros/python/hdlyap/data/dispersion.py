@@ -1,8 +1,6 @@
 """Exponents of steps -> the dispersion relation lambda = c k + c2 k^2 + c3 k^3, or its first
 terms."""
 
-from collections import namedtuple
-
 import numpy as np
 
 TERMS = 3
@@ -11,8 +9,6 @@ TERMS = 3
 class Curve:
     """A fit to arrays, weighted with their errors. terms: 1 or 2 (None: 2, but 1 if there is only
     one wave number). Errors are multiplied by sqrt(chi^2 / freedom) if that is above 1."""
-
-    prior_share = np.nan
 
     def __init__(self, k, exponents, errors, terms=None):
         k, exponents, errors = (np.array(list(one), dtype=float) for one in (k, exponents, errors))
@@ -43,48 +39,6 @@ class Curve:
         """lambda and its error at a wave number."""
         powers = _powers(k)
         return float(powers @ self.coefficients), float(np.sqrt(powers @ self.covariance @ powers))
-
-
-class LongBoxes(namedtuple('LongBoxes', 'c2 c2_error c3 c3_error box_error')):
-    """What a Steps message says of long boxes: c2 / c and c3 / c with errors; and the relative
-    error of c in this box."""
-
-    @classmethod
-    def of(cls, message, letter):
-        names = [f'{letter}_long_{name}' for name in cls._fields[:4]] + [f'{letter}_box_error']
-        return cls(*(getattr(message, name) for name in names))
-
-
-class WithLongBoxes:
-    """The fit of the node [T12], for independent steps: least squares over the steps, each with its
-    error and its scatter, and over two more observations, c2 / c and c3 / c of long boxes. All
-    these errors are multiplied by the misfit if that is above 1."""
-
-    terms = TERMS
-
-    def __init__(self, k, exponents, errors, scatter, long):
-        k, exponents, errors, scatter = (
-            np.array(list(one), dtype=float) for one in (k, exponents, errors, scatter)
-        )
-        is_known = bool((errors > 0).all())
-        errors = errors if is_known else np.zeros(len(k))
-        weights = 1 / (errors**2 + (scatter * exponents) ** 2)
-        relation = _powers(k) @ (1.0, long.c2, long.c3)
-        size = (weights * relation * exponents).sum() / (weights * relation**2).sum()
-        rows = np.array([[-long.c2, 1.0, 0.0], [-long.c3, 0.0, 1.0]])
-        rows /= size * np.array([[long.c2_error], [long.c3_error]])
-        inverse = np.linalg.inv(_powers(k).T @ (weights[:, None] * _powers(k)) + rows.T @ rows)
-        shares = inverse @ _powers(k).T * weights
-        self.coefficients = shares @ exponents
-        self.c_sampling_error = np.sqrt(shares[0] ** 2 @ errors**2) if is_known else -1.0
-        left = np.diag(rows @ inverse @ rows.T)  # what is left of the variances in long boxes
-        self.prior_share = float(left.mean())
-        off = np.append(exponents - _powers(k) @ self.coefficients, rows @ self.coefficients)
-        chi2 = float(np.append(weights, (1.0, 1.0)) @ off**2)
-        self.misfit = np.sqrt(chi2 / (len(k) - 1)) if len(k) > 1 and is_known else -1.0
-        own = max(1.0, self.misfit) ** 2 * np.diag(inverse)
-        of_box = (long.box_error * self.coefficients) ** 2
-        self.errors = np.sqrt(own + of_box) if is_known else np.full(TERMS, -1.0)
 
 
 def number_of(k):

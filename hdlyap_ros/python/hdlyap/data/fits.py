@@ -1,6 +1,5 @@
 """Steps message -> its fits, each with its basis: the relation, its wave numbers, and the share of
-its curvature that comes from long boxes. `chosen` makes fits of another form or over other wave
-numbers."""
+its curvature that comes from long boxes. `chosen` makes those of a form with fewer terms."""
 
 import copy
 from math import isclose, isnan, nan
@@ -11,7 +10,7 @@ from hdlyap.numbers import with_error
 from . import dispersion, steps
 
 SAME = 1e-9  # relative difference below which wave numbers are the same
-# relations by their number of terms. The node fits three, with c2 and c3 of long boxes
+# relations by their number of terms. The node alone fits three, with c2 and c3 of long boxes
 RELATIONS = {1: 'c k', 2: 'c k + c2 k^2', 3: 'c k + c2 k^2 + c3 k^3'}
 KINDS = {'t': steps.T, 'l': steps.LP}
 
@@ -108,39 +107,48 @@ def alone(message, fit, terms):
 
 def chosen(message, form=None, k=None):
     """A copy of a Steps message whose fits are of `form` (a value of RELATIONS; None: the node's)
-    over the steps with wave numbers from k[0] to k[1] (None: all). Errors are those of independent
-    steps. Raises RecordingError for any other form, or if the range does not go up."""
-    if message is None or form is None and k is None:
-        return message
-    if form not in (None, *RELATIONS.values()):
-        wanted = ', '.join(map(repr, RELATIONS.values()))
-        raise RecordingError(f'form {form!r}: must be one of {wanted}')
-    if k is not None and not 0 <= k[0] <= k[1]:
-        raise RecordingError(f'k from {k[0]:g} to {k[1]:g}: must go up, from 0 or above')
-    terms = {words: number for number, words in RELATIONS.items()}.get(form, 3)
-    if k is None and terms == 3:  # that is the fit of the node
+    over the steps with wave numbers from k[0] to k[1] (None: all, as in the node's). Errors are
+    those of independent steps. Raises RecordingError for any other choice."""
+    terms = _terms(form, k)
+    if message is None or terms == 3:
         return message
     message = copy.copy(message)
     for letter, kind in KINDS.items():
         found = _fitted(message, kind, k)
-        for name, value in _fit(message, letter, found, terms).items():
+        for name, value in _fit(letter, found, terms).items():
             setattr(message, name, value)
     return message
 
 
 def add_arguments(parser):
     """Adds --form and --k to a command; choice(args) then gives what chosen() takes."""
-    text = 'relation fitted to the steps (default: the last one, with c2 and c3 of long boxes)'
+    text = 'relation fitted to the steps (default: the last one, the fit of the node)'
     parser.add_argument('--form', choices=list(RELATIONS.values()), help=text)
-    text = 'fits over wave numbers in this range alone [1/sigma]'
+    text = 'with the first two: over wave numbers in this range alone [1/sigma]'
     parser.add_argument('--k', nargs=2, type=float, metavar=('FROM', 'TO'), help=text)
 
 
 def choice(args):
+    """Raises RecordingError if chosen() would."""
+    _terms(args.form, args.k)
     return args.form, args.k
 
 
-def _fit(message, letter, found, terms):
+def _terms(form, k):
+    """The number of terms of a form; 3, those of the node, if there is none."""
+    found = {None: 3, **{words: number for number, words in RELATIONS.items()}}
+    if form not in found:
+        wanted = ', '.join(map(repr, RELATIONS.values()))
+        raise RecordingError(f'form {form!r}: must be one of {wanted}')
+    if k is not None and not 0 <= k[0] <= k[1]:
+        raise RecordingError(f'k from {k[0]:g} to {k[1]:g}: must go up, from 0 or above')
+    if k is not None and found[form] == 3:
+        others = f'{RELATIONS[1]!r} or {RELATIONS[2]!r}, as the node fits all steps'
+        raise RecordingError(f'k from {k[0]:g} to {k[1]:g}: must be with the form {others}')
+    return found[form]
+
+
+def _fit(letter, found, terms):
     """{field of Steps: value} of a fit to these steps."""
     waves = [step.wave_number for step in found]
     made = {
@@ -153,14 +161,9 @@ def _fit(message, letter, found, terms):
     }
     for name in _names(letter):
         made.update({name: nan, f'{name}_error': -1.0})
-    long = dispersion.LongBoxes.of(message, letter) if terms == 3 else None
-    if not found or long is not None and isnan(long.c2):
-        return {**made, f'{letter}_points': 0}
-    if long is not None:
-        curve = dispersion.WithLongBoxes(*_columns(found), [step.scatter for step in found], long)
-        made[f'{letter}_prior_share'] = curve.prior_share
-    else:
-        curve = dispersion.Curve(*_columns(found), min(terms, made[f'{letter}_points']))
+    if not found:
+        return made
+    curve = dispersion.Curve(*_columns(found), min(terms, made[f'{letter}_points']))
     made[f'{letter}_misfit'] = curve.misfit
     made[f'c_{letter}_sampling_error'] = curve.c_sampling_error
     fitted = zip(_names(letter), curve.coefficients, curve.errors)

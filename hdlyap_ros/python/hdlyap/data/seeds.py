@@ -21,8 +21,8 @@ def load(*bags, node=None, run=None, form=None, k=None):
     """Reads bags. Returns a Run for one bag, or for bags that are parts of one run (split by
     rosbag, or resumed from a checkpoint), and Seeds for bags of several seeds. Other bags are
     refused. node, run: which one, if there are several in a bag; run counts from 1, and is the last
-    one if not given. form, k: fits of another form ('c k', 'c k + c2 k^2') than the node's, or only
-    over wave numbers from k[0] to k[1]."""
+    one if not given. form, k: fits of another form ('c k', 'c k + c2 k^2') than the node's, if k is
+    given only over wave numbers from k[0] to k[1]."""
     found = [Run(*of_one, form, k) for of_one in joined.runs(bags, node, run)]
     return found[0] if len(found) == 1 else Seeds(found)
 
