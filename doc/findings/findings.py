@@ -20,7 +20,7 @@ import soft  # noqa: E402
 import sound  # noqa: E402
 import spheres  # noqa: E402
 import time_steps  # noqa: E402
-from study import STYLE, rows_of  # noqa: E402
+from study import PLAIN, rows_of  # noqa: E402
 
 STUDIES = {  # a column that only this one has: fits, picture
     'angle': (halves.lines, halves.draw),
@@ -47,7 +47,7 @@ def main(arguments):
         fits, draw = next(study for column, study in STUDIES.items() if column in rows[0])
         for line in fits(rows):
             print(line)
-        with plt.rc_context(STYLE):
+        with plt.rc_context(PLAIN):
             picture = path[:-4] + '.png'
             draw(rows).savefig(picture, dpi=200, bbox_inches='tight')
             print(picture)

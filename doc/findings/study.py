@@ -1,28 +1,17 @@
 """What the studies share: their tables, a fit, colours and style."""
 
 import csv
+import os
+import sys
 
 import numpy as np
 
-GREY, INK = '#8C8C8C', '#1A1A1A'
-# by density: Okabe and Ito's palette, safe for colour-blind readers
-COLOURS = {0.1: '#56B4E9', 0.2: '#0072B2', 0.4: '#009E73', 0.6: '#E69F00', 0.8: '#D55E00'}
-STYLE = {
-    'font.size': 9,
-    'axes.titlesize': 9,
-    'legend.fontsize': 8,
-    'xtick.labelsize': 8,
-    'ytick.labelsize': 8,
-    'xtick.direction': 'in',
-    'ytick.direction': 'in',
-    'xtick.top': True,
-    'ytick.right': True,
-    'axes.linewidth': 0.7,
-    'lines.linewidth': 1.2,
-    'lines.markersize': 4,
-    'legend.frameon': False,
-    'figure.constrained_layout.use': True,
-}
+ROOT = os.path.join(os.path.dirname(__file__), '../..')
+sys.path.append(os.path.join(ROOT, 'hdlyap_ros/python/hdlyap/plots/figures'))
+from look import BLUE, GREEN, GREY, INK, ORANGE, PLAIN, SKY, VERMILION  # noqa: E402, F401
+
+# by density
+COLOURS = {0.1: SKY, 0.2: BLUE, 0.4: GREEN, 0.6: ORANGE, 0.8: VERMILION}
 RATE = 'P_xx / (sqrt(2) rho)'  # of the rotation over k, as the pressure has it
 BAR = 3  # standard errors
 WORDS = (

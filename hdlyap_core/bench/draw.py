@@ -14,32 +14,10 @@ import matplotlib
 matplotlib.use('Agg')
 import matplotlib.pyplot as plt  # noqa: E402
 
-# Okabe and Ito's palette, which colour-blind readers can distinguish
-BLUE, ORANGE, GREEN, VERMILION, PURPLE, SKY = (
-    '#0072B2',
-    '#E69F00',
-    '#009E73',
-    '#D55E00',
-    '#CC79A7',
-    '#56B4E9',
-)
-GREY, LIGHT, INK = '#8C8C8C', '#C8C8C8', '#1A1A1A'
-STYLE = {
-    'font.size': 9,
-    'axes.titlesize': 9,
-    'legend.fontsize': 8,
-    'xtick.labelsize': 8,
-    'ytick.labelsize': 8,
-    'xtick.direction': 'in',
-    'ytick.direction': 'in',
-    'xtick.top': True,
-    'ytick.right': True,
-    'axes.linewidth': 0.7,
-    'lines.linewidth': 1.2,
-    'lines.markersize': 4,
-    'legend.frameon': False,
-    'figure.constrained_layout.use': True,
-}
+ROOT = os.path.join(os.path.dirname(__file__), '../..')
+sys.path.append(os.path.join(ROOT, 'hdlyap_ros/python/hdlyap/plots/figures'))
+from look import BLUE, GREEN, GREY, INK, ORANGE, PLAIN, PURPLE, SKY, VERMILION  # noqa: E402
+
 METHODS = {  # name in the table: label, colour, marker
     'ours': ('hdlyap (hd_ortho_step)', VERMILION, 'o'),
     'ours_dq': ('hdlyap, norm of dq', INK, 'p'),
@@ -327,7 +305,7 @@ def main(arguments):
         for name in os.listdir(folder)
         if name.endswith('.csv')
     }
-    with plt.rc_context(STYLE):
+    with plt.rc_context(PLAIN):
         for draw in FIGURES:
             if draw.__name__ in tables:
                 path = os.path.join(folder, f'{draw.__name__}.png')

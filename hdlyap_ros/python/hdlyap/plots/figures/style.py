@@ -12,38 +12,13 @@ from hdlyap.data.containers import is_curved
 from hdlyap.data.reader import is_known
 from hdlyap.numbers import known
 
+from .look import BLUE, GREEN, GREY, INK, LIGHT, ORANGE, PURPLE, SKY, STYLE, VERMILION  # noqa: F401
+
 POINTS = 2000  # most points of a curve; more cannot be seen
 TITLE = 60  # most characters in a line with the name of the scene
-# Okabe and Ito's palette, which colour-blind readers can distinguish
-BLUE, ORANGE, GREEN, VERMILION, PURPLE, SKY = (
-    '#0072B2',
-    '#E69F00',
-    '#009E73',
-    '#D55E00',
-    '#CC79A7',
-    '#56B4E9',
-)
-GREY, LIGHT, INK = '#8C8C8C', '#C8C8C8', '#1A1A1A'
 MIXED, ZERO = PURPLE, GREEN  # colours of vectors that T and LP steps share, and of zero modes
 KIND_COLOURS = {'T': BLUE, 'LP': VERMILION, 'zero': ZERO}
 MEMBER_COLOURS = (BLUE, VERMILION, GREEN, ORANGE, PURPLE, SKY)
-STYLE = {
-    'font.size': 9,
-    'axes.titlesize': 9,
-    'axes.labelsize': 9,
-    'legend.fontsize': 8,
-    'xtick.labelsize': 8,
-    'ytick.labelsize': 8,
-    'xtick.direction': 'in',
-    'ytick.direction': 'in',
-    'xtick.top': True,
-    'ytick.right': True,
-    'axes.linewidth': 0.7,
-    'lines.linewidth': 1.2,
-    'legend.frameon': False,
-    'mathtext.fontset': 'dejavusans',
-    'svg.hashsalt': 'hdlyap',
-}
 # looks of points with error bars: few points, many small ones, very many
 FEW = {'markersize': 4.5, 'elinewidth': 0.9, 'capsize': 2}
 SMALL = {'fmt': 'o', 'markersize': 2.6, 'elinewidth': 0.8, 'capsize': 1.5}
