@@ -6,11 +6,14 @@ shown. Needs no ROS master."""
 
 import contextlib
 import io
+import itertools
 import os
 import re
 import signal
+import socket
 import subprocess
-import sys
+import threading
+import time
 import types
 import unittest
 from unittest import mock
@@ -20,9 +23,9 @@ import rospkg
 
 import harness
 import made
-from terminal import Terminal
 from hdlyap.msg import Change, RunStatus
-from hdlyap.runs import asked, bags, display, run, scene, tree, work
+from hdlyap.runs import asked, bags, ranks, run, scene, tree, work
+from hdlyap.runs.run import UNFINISHED
 
 GUIDE = os.path.join(os.path.dirname(os.path.abspath(__file__)), '../../doc/user_guide.md')
 LAUNCH = os.path.join(rospkg.RosPack().get_path('hdlyap'), 'launch')
@@ -287,17 +290,13 @@ class Done(Made):
 class Kept(Made):
     """What becomes of the bag of a run that has ended."""
 
-    def ended(self, **given):
+    def ended(self, **said):
         """A Job whose bag is made."""
-        job = work.Job.__new__(work.Job)
-        job.run, job.log, job._folder = self.of(), self.path('log'), self.folder
-        job._new, job._subscriber = self.path('under_way', 'one.7'), mock.Mock()
-        job.status, job._began = None, 0.0
-        self.write('log')
-        if not os.path.exists(job._new):
-            os.makedirs(job._new)
-        with mock.patch.object(self, 'folder', job._new):
-            self.lacks(given=given)
+        job = work.Job(self.of(), self.folder)
+        os.makedirs(self.path('under_way'))
+        with mock.patch.object(self, 'folder', self.path('under_way')):
+            self.lacks(**said)
+        os.rename(self.path('under_way', 'one.bag'), job._new)
         return job
 
     def bags(self):
@@ -306,37 +305,47 @@ class Kept(Made):
 
     def test_in_its_place(self):
         job = self.ended()
-        job.close()
-        job.leave()
-        self.assertEqual(os.listdir(self.folder), ['log', 'one.bag'])
+        self.assertEqual(job.placed(), '')
+        self.assertEqual(os.listdir(self.path('under_way')), [])
         self.assertEqual(job.run.lacks(self.folder), '')
 
     def test_of_another_run(self):
         """It is complete, and kept; so is what was in its place."""
         self.write('one.bag', 'of a year')
-        job = self.ended(density='0.6')
-        with self.assertRaisesRegex(work.WorkError, 'it was run with density = 0.6, not 0'):
-            job.close()
-        job.leave()
+        job = self.ended(given=dict(density='0.6'))
+        self.assertIn('it was run with density = 0.6, not 0', job.placed())
         self.assertEqual(self.bags(), ['one.bag', 'one.bag.old'])
         self.assertIn('density', job.run.lacks(self.folder))
 
     def test_while_its_place_is_taken(self):
         job = self.ended()
         with mock.patch.object(bags, 'keep', side_effect=bags.InUse('process 7 writes it')):
-            with self.assertRaisesRegex(work.WorkError, 'is still in .*one.7: process 7 writes'):
-                job.close()
-        job.leave()
-        self.assertEqual(os.listdir(job._new), ['one.bag'])
+            self.assertRegex(job.placed(), 'is still in .*one.*: process 7 writes')
+        self.assertEqual(self.bags(), [os.path.basename(job._new)])
+
+    def test_not_whole(self):
+        """It goes if it says so; what cannot be read stays, as it may be whole."""
+        job = self.ended(progress=0.99)
+        self.assertEqual(job.placed(), UNFINISHED)
+        self.assertEqual(self.bags(), [])
+        self.write(job._new, 'of a year')
+        self.assertEqual(job.placed(), UNFINISHED)
+        self.assertEqual(self.bags(), [os.path.basename(job._new)])
 
     def test_when_all_are_stopped(self):
-        """It had just reached its end."""
-        job = self.ended(density='0.6')
-        job.tree = tree.Tree(['true'])
-        all_of_it = work.Work([], self.folder, self.folder, 1, '1G')
-        all_of_it.under_way.append(job)
-        all_of_it.stop([signal.SIGINT])
+        """It had just reached its end; another one has not begun. None has failed."""
+
+        def stop(_, came):
+            os.kill(os.getpid(), signal.SIGINT)
+            harness.wait_until(lambda: came)
+
+        jobs = [self.ended(given=dict(density='0.6')), work.Job(self.of(), '/nowhere')]
+        show = work.Progress(jobs, 0, 1)
+        jobs[0].do, jobs[0].log = stop, os.devnull
+        with contextlib.redirect_stdout(io.StringIO()), self.assertRaises(SystemExit):
+            work._work(jobs, show, 1, '1G')
         self.assertEqual(self.bags(), ['one.bag'])
+        self.assertEqual(show.failed, [])
 
 
 class Machines(InFolder):
@@ -407,65 +416,63 @@ class Machines(InFolder):
         )
 
 
-class Shown(unittest.TestCase):
-    def job(self, name, share):
-        return types.SimpleNamespace(run=types.SimpleNamespace(name=name), share=share)
+class Shown(InFolder):
+    def job(self, name, seconds):
+        self.write(name + '.log', '[FATAL] x')
+        one = types.SimpleNamespace(name=name, share_of=lambda at_once: seconds / at_once)
+        return types.SimpleNamespace(run=one, log=self.path(name + '.log'))
 
     def test_lines(self):
-        """5 of 8 and so on; the time left by what has passed, and by the estimate at first. A line
-        every ten seconds."""
+        """5 of 8 and so on; the time left by what has passed, and by the estimate at first."""
         now = [1000.0]
         out, err = io.StringIO(), io.StringIO()
+        jobs = [self.job(name, 400.0) for name in 'abcd']
         with mock.patch('time.monotonic', lambda: now[0]), contextlib.redirect_stdout(
             out
         ), contextlib.redirect_stderr(err):
-            show = display.Display(8, before=4)
-            for seconds, under_way, done in (
-                (0, [('a', 0), ('b', 0)], 0),
-                (5, [('a', 0.5)], 100),
-                (60, [('b', 0.25)], 140),
-                (60, [], 200),
-            ):
+            show = work.Progress(jobs, 4, 2)
+            for job, seconds, why in zip(jobs, (40, 400, 0, 3600), ('', '', 'no', '')):
                 now[0] += seconds
-                show([self.job(*job) for job in under_way], done, 1000.0)
-            show.say('c: no')
-            now[0] += 3600
+                show.ended(job, why)
             show.end()
         self.assertEqual(
             out.getvalue().splitlines(),
             [
-                '4 of 12 runs done  a 0 %  b 0 %  all 0 %, about 16:40 left',  # as estimated
-                # 860 * (65 + 60) / (140 + 60)
-                '5 of 12 runs done  b 25 %  all 14 %, about 8:58 left',
-                '6 of 12 runs done  all 20 %, about 9:29 left',  # 800 * (125 + 60) / (200 + 60)
-                '5 of 12 runs done, 1 failed in 1:02:05',
+                '5 of 8 runs done, about 3:51 left',  # 600 * (40 + 60) / (200 + 60)
+                '6 of 8 runs done, about 7:15 left',  # 400 * (440 + 60) / (400 + 60)
+                '6 of 8 runs done, 1 failed, about 2:32 left',  # 200 * (440 + 60) / (600 + 60)
+                '7 of 8 runs done, 1 failed, about 0:00 left',
+                '7 of 8 runs done, 1 failed in 1:07:20',
             ],
         )
-        self.assertEqual(err.getvalue(), 'hdlyap sweep: c: no\n')
+        said = f'c: no; [FATAL] x; all its output is in {self.path("c.log")}'
+        self.assertEqual(err.getvalue(), f'hdlyap sweep: {said}\n')
+        self.assertEqual(show.failed, [said])
 
-    def test_terminal(self):
-        """One line, as wide as the terminal: the time left stays on it."""
-        terminal = Terminal(
-            [
-                sys.executable,
-                '-c',
-                '''
-from types import SimpleNamespace as Made
-from hdlyap.runs import display
-show = display.Display(3)
-show([Made(run=Made(name=name), share=0.5) for name in ('first', 'second', 'third')], 30.0, 60.0)
-''',
-            ],
-            columns=64,
-        )
-        self.addCleanup(terminal.stop)
-        self.assertEqual(terminal.wait(), 0)
-        self.assertTrue(terminal.wait_for('left'))
-        self.assertRegex(
-            terminal.screen()[0],
-            r'^0 of 3 runs done  first 50 %  2 more  all 50 %, about 0:\d\d left$',
-        )
-        self.assertLess(len(terminal.screen()[0]), 64)
+
+class Side(unittest.TestCase):
+    """Which runs are done at a time."""
+
+    def test_by_side(self):
+        """As many as asked; those that use all cores alone, after the others."""
+        running, seen, all_three = set(), [], threading.Barrier(3)
+
+        def job(name):
+            def do(*_):
+                running.add(name)
+                if name in 'bce':
+                    all_three.wait(harness.PATIENCE)
+                else:
+                    time.sleep(0.3)
+                seen.append(set(running))
+                running.discard(name)
+
+            one = types.SimpleNamespace(name=name, is_wide=name in 'ad')
+            return types.SimpleNamespace(run=one, do=do)
+
+        found = [one.run.name for one in work._side_by_side(list(map(job, 'abcde')), 3, '1G', [])]
+        self.assertEqual((sorted(found[:3]), sorted(found[3:])), (list('bce'), list('ad')))
+        self.assertEqual((seen[0], seen[3:]), ({'b', 'c', 'e'}, [{'a'}, {'d'}]))
 
 
 class Trees(unittest.TestCase):
@@ -484,12 +491,36 @@ class Trees(unittest.TestCase):
         trees[2]._process.kill()
         self.assertTrue(harness.wait_until(trees[2].has_ended))
         self.assertFalse(trees[2].is_gone())
-        tree.end(trees, 0.5)
+        for one in trees:
+            one.end(0.5)
         self.assertTrue(harness.wait_until(lambda: all(one.is_gone() for one in trees)))
         self.assertEqual(
             [one._process.returncode for one in trees],
             [-signal.SIGINT, -signal.SIGKILL, -signal.SIGKILL],
         )
+
+    def test_another_signal(self):
+        """Kills at once what has not ended by the first."""
+        one, came = tree.Tree(['sh', '-c', 'trap "" INT; echo; sleep 1000 & wait']), [signal.SIGINT]
+        self.assertTrue(harness.wait_until(lambda: len(one._members()) == 2))
+        threading.Timer(0.5, came.append, [signal.SIGINT]).start()
+        one.end(1000.0, came)
+        self.assertEqual(one._process.returncode, -signal.SIGKILL)
+
+
+class Ports(unittest.TestCase):
+    def test_one_each(self):
+        """Free ones, and not those of other programs."""
+        with open('/proc/sys/net/ipv4/ip_local_port_range') as file:
+            low, high = map(int, file.read().split())
+        ports = [ranks.free_port() for _ in range(100)]
+        self.assertEqual(len(set(ports)), 100)
+        self.assertFalse([port for port in ports if low <= port <= high])
+        with socket.socket() as taken:
+            ahead = next(ranks.PORTS)
+            taken.bind(('', ahead))
+            with mock.patch.object(ranks, 'PORTS', itertools.chain([ahead], ranks.PORTS)):
+                self.assertNotEqual(ranks.free_port(), ahead)
 
 
 class Log(InFolder):

@@ -359,13 +359,11 @@ class Runs(unittest.TestCase):
     def test_started(self):
         """As roslaunch is asked to."""
         (one,) = self.runs(seeds='1')
-        with mock.patch.object(work, 'Tree') as tree, mock.patch.object(
-            work, 'rospy'
-        ), mock.patch.object(one, 'write'), mock.patch.object(work.os, 'makedirs'), mock.patch(
-            'builtins.open', mock.mock_open()
-        ):
-            work.Job(one, '/nowhere', '/nowhere/log', '500M')
-        self.assertIn('min_space:=500M', tree.call_args[0][0])
+        with mock.patch.object(work, 'launched') as launched, mock.patch.object(
+            one, 'write'
+        ), mock.patch('builtins.open', mock.mock_open()):
+            work.Job(one, '/nowhere').do('500M', [])
+        self.assertIn('min_space:=500M', launched.call_args[0][0])
 
 
 class Repeated(Solid):

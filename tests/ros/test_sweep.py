@@ -20,6 +20,7 @@ import made
 from harness import InFolder, Process
 from made import LP, T
 from hdlyap.commands import sweep
+from hdlyap.data.reader import RecordingError
 from hdlyap.runs import run
 from hdlyap.runs.scene import Refused
 from hdlyap.sweep import figure, grid, plan, points, table
@@ -229,6 +230,8 @@ class Command(InFolder):
             with self.subTest(words=words), self.assertRaises(Refused) as caught:
                 self.understood(*words.split())
             self.assertIn(what, str(caught.exception))
+        with self.assertRaisesRegex(RecordingError, 'must be with the form'):
+            self.understood('--seeds', '1', '--k', '0', '1')
 
 
 class Results(InFolder):

@@ -5,12 +5,14 @@ done elsewhere. Second tier: work.test."""
 import csv
 import glob
 import os
+import re
 import shutil
 import signal
+import subprocess
 import sys
+from subprocess import PIPE
 
 import rosbag
-from std_srvs.srv import Trigger
 import yaml
 
 import hdlyap
@@ -48,7 +50,7 @@ class InFolder(harness.Traced, harness.InFolder):
             yaml.safe_dump(values, file, sort_keys=False)
 
     def begin(self, *options, program=harness.command('sweep'), env=(), **runs):
-        """Of a plan of these runs, under the master of this test unless env names another."""
+        """Of a plan of these runs."""
         self.write('plan.yaml', **runs)
         return self.start(
             *program, '--plan', 'plan.yaml', '--folder', self.out, *options, **dict(env)
@@ -170,8 +172,11 @@ class Work(InFolder):
         again."""
         process = self.begin(one=LONG)
         self.await_nodes(process, 'one')
-        stop = harness.service('stop', Trigger, 'one/hdlyap')
-        self.assertTrue(wait_until(lambda: stop().success))
+        with open(os.path.join(self.out, 'log', 'one.log')) as log:
+            uri = re.search(r'ROS_MASTER_URI=([\w:/]+)', log.read())[1]
+        stop = ['rosservice', 'call', '/one/hdlyap/stop']
+        how = dict(stdout=PIPE, env={**os.environ, 'ROS_MASTER_URI': uri})
+        self.assertTrue(wait_until(lambda: b'success: True' in subprocess.run(stop, **how).stdout))
         self.assertEqual(process.wait(LATEST), 1, process.text())
         self.assertRegex(process.text(), 'sweep: one: duration was set to .* while it went on; all')
         (stopped,) = self.run_ids().values()
@@ -183,9 +188,6 @@ class Work(InFolder):
 
     # ---- ends ------------------------------------------------------------------------------------
 
-    def nobodys_master(self):
-        return {'ROS_MASTER_URI': 'http://localhost:%d' % harness.free_port()}
-
     def test_interrupted(self):
         """Nothing is left of it, nor of a bag that was not whole; the run that was done stays
         done. Started in the background, where Ctrl-C is ignored."""
@@ -196,9 +198,7 @@ class Work(InFolder):
             '--',
             *harness.command('sweep'),
         ]
-        process = self.begin(
-            '--jobs', '2', program=ignoring, env=self.nobodys_master(), first=TINY, long=LONG
-        )
+        process = self.begin('--jobs', '2', program=ignoring, first=TINY, long=LONG)
         wait_until(lambda: 'first.bag' in self.files() or not process.running(), LATEST, LOOK)
         self.await_nodes(process, 'long')
         process.send(signal.SIGINT)
@@ -221,21 +221,22 @@ class Work(InFolder):
         self.assert_none_left()
 
     def test_killed(self):
-        """Its nodes do not go on without it, nor does its master."""
-        process = self.begin(env=self.nobodys_master(), long=LONG)
+        """Its nodes do not go on without it, nor do their masters."""
+        process = self.begin(long=LONG)
         self.await_nodes(process, 'long')
         process.send(signal.SIGKILL)
         process.wait()
         self.assert_none_left()
 
     def test_master_dies(self):
-        process = self.begin(env=self.nobodys_master(), long=LONG)
+        """Its run has failed."""
+        process = self.begin(long=LONG)
         self.await_nodes(process, 'long')
         (master,) = self.ours('rosmaster')
         os.kill(master, signal.SIGKILL)
         self.assertEqual(process.wait(SOON), 1, process.text())
         self.assertRegex(
-            process.text(), r'(?m)^hdlyap sweep: the ROS master at http://localhost:\d+ has gone'
+            process.text(), r'(?m)^hdlyap sweep: long: the run has not reached its end; '
         )
         self.assert_none_left()
 
@@ -272,8 +273,7 @@ class Grid(InFolder):
     def test_table(self):
         """In a namespace; one density is refused, of the others there are a table and a figure."""
         self.write('tiny.yaml', **MODES)
-        env = dict(ROS_MASTER_URI='http://localhost:%d' % harness.free_port(), ROS_NAMESPACE='/lab')
-        process = self.start(*self.of('0.6 0.8 2.5'), **env)
+        process = self.start(*self.of('0.6 0.8 2.5'), ROS_NAMESPACE='/lab')
         self.assertEqual(process.wait(LATEST), 1, process.text())
         self.assertEqual(len(process.lines('hdlyap sweep: density_2_5_seed_')), 4, process.text())
         self.assertRegex(process.text(), r'(?m)^4 of 6 runs done, 2 failed in')

@@ -12,13 +12,10 @@ Exit status: 0 the run went to its end; 1 it did not; 2 refused."""
 import contextlib
 import os
 import sys
-import time
 
 from hdlyap import signals
-from hdlyap.runs import arguments, ranks, run, tree
+from hdlyap.runs import arguments, ranks, run, work
 from hdlyap.runs.scene import Refused
-
-PATIENCE = 60.0  # seconds in which all have to end, with the last checkpoint
 
 
 def options(parser):
@@ -54,12 +51,6 @@ def main(args):
         ranks.become(program)
     bag = os.path.abspath(args.out if args.out.endswith('.bag') else args.out + '.bag')
     before = stamp(bag)  # a run that is refused leaves the old bag
-    command = ['roslaunch', '-p', str(ranks.free_port()), 'hdlyap', 'run.launch']
-    command += [*words, f'bag:={bag}']
-    os.environ['ROS_HOSTNAME'] = 'localhost'  # no other machine needs the node
-    with signals.held() as asked_to_end:
-        started = tree.Tree(command, output=None)
-        while not started.is_gone() and not asked_to_end:
-            time.sleep(tree.POLL)
-        tree.end([started], PATIENCE)
+    with signals.held() as came:
+        work.launched([*words, f'bag:={bag}'], came)
     return 0 if stamp(bag) != before and run.complete(bag) else 1

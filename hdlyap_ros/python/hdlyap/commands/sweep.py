@@ -13,6 +13,7 @@ import os
 import sys
 
 from hdlyap.data import fits
+from hdlyap.data.reader import RecordingError
 from hdlyap.runs import arguments, bags, recording, work
 from hdlyap.runs.scene import Refused
 from hdlyap.sweep import grid, plan, result
@@ -79,6 +80,7 @@ def runs(args, launch, cwd):
         return plan.runs(os.path.join(cwd, args.plan), args.quick, launch)
     if args.quick:
         raise Refused('quick: must be given with --plan, which has the quick runs')
+    fits.choice(args)  # refuses what cannot be fitted
     return grid.runs({**usual, **given}, launch, cwd)
 
 
@@ -143,7 +145,7 @@ def main(args):
     except SystemExit:
         print('hdlyap sweep: interrupted; the same command goes on with the runs that are missing')
         raise
-    except (Refused, bags.InUse) as refused:
+    except (Refused, RecordingError, bags.InUse) as refused:
         print(f'hdlyap sweep: {" ".join(str(refused).split())}', file=sys.stderr)
         return 2
     except work.WorkError as error:

@@ -1,4 +1,4 @@
-"""The ROS master in use; it is started here if there is none."""
+"""The ROS master in use."""
 
 import time
 
@@ -7,13 +7,8 @@ import rospy
 
 from hdlyap.follow import nodes
 
-from .tree import Tree, end
-
-POLL = 0.2
-COMING = 60.0  # seconds for a master to come up, on a busy machine
 ASK = 5.0  # seconds between two questions whether it is there
 SILENCE = 15.0  # seconds without an answer, after which the master has gone
-PATIENCE = 5.0  # seconds in which a master that was started here has to end
 
 
 class MasterError(Exception):
@@ -36,7 +31,7 @@ class Watch:
 
     def __init__(self, *question):
         self.uri = rosgraph.get_master_uri()
-        self._question = question or ('getUri',)
+        self._question = question
         self._due, self._heard = 0.0, time.monotonic()
 
     def check(self):
@@ -47,10 +42,7 @@ class Watch:
             if self._answers():
                 self._heard = time.monotonic()
         if now - self._heard > SILENCE:
-            self.fail()
-
-    def fail(self):
-        raise MasterError(f'the ROS master at {self.uri} has gone')
+            raise MasterError(f'the ROS master at {self.uri} has gone')
 
     def _answers(self):
         try:
@@ -58,30 +50,3 @@ class Watch:
             return True
         except nodes.UNANSWERED:
             return False
-
-
-class Master(Watch):
-    def __init__(self):
-        super().__init__()
-        self._own = None
-        if not rosgraph.is_master_online():
-            self._start()
-
-    def _start(self):
-        port = self.uri.rstrip('/').rpartition(':')[2]
-        self._own = Tree(['roscore', '-p', port])
-        deadline = time.monotonic() + COMING
-        while not rosgraph.is_master_online():
-            if time.monotonic() > deadline or self._own.has_ended():
-                self.stop()
-                raise MasterError(f'no ROS master comes up at {self.uri}')
-            time.sleep(POLL)
-
-    def check(self):
-        super().check()
-        if self._own and self._own.has_ended():
-            self.fail()
-
-    def stop(self):
-        if self._own:
-            end([self._own], PATIENCE)

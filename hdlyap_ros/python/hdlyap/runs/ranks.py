@@ -1,6 +1,9 @@
 """The ranks that mpirun or srun has started this program as, and what they run."""
 
+import contextlib
+import itertools
 import os
+import random
 import socket
 
 import roslib.packages
@@ -8,6 +11,8 @@ import rospkg
 
 from .scene import Refused
 
+# below those that Linux hands out
+PORTS = itertools.cycle(random.sample(range(20000, 32768), 4096))
 PACKAGE, PROGRAM = 'hdlyap', 'hdlyap_node'
 # variables in which Open MPI, PMIx, Slurm and MPICH give the rank
 NUMBERS = 'OMPI_COMM_WORLD_RANK', 'PMIX_RANK', 'SLURM_PROCID', 'PMI_RANK'
@@ -57,6 +62,8 @@ def become(path):
 
 
 def free_port():
-    with socket.socket() as listening:
-        listening.bind(('', 0))
-        return listening.getsockname()[1]
+    """A port of a master: another one each time, and none that nodes get meanwhile."""
+    for port in PORTS:
+        with contextlib.suppress(OSError), socket.socket() as listening:
+            listening.bind(('', port))
+            return port

@@ -40,25 +40,9 @@ class Planned:
         """Whether the run uses all cores."""
         return self.parameters['threads'] == 0
 
-    def share_done(self, status):
-        """The part of the run that is done, 0 .. 1, by simulated time with tangent vectors, because
-        time without them goes fast. If the warmup is not known, or the run has a target, it is the
-        part of the averaging. status: the last message, or None."""
-        if status is None:
-            return 0.0
-        warmup = self.parameters['warmup']
-        if warmup == AUTO or self.parameters['target']:
-            return min(1.0, max(0.0, status.progress))
-        spent = status.sim_time - self.parameters['equilibration']
-        return min(1.0, max(0.0, spent / (warmup + self.parameters['duration'])))
-
     def share_of(self, jobs):
         """The seconds of wall time that the run adds if this many jobs run at a time."""
         return self.seconds / (1 if self.is_wide else jobs)
-
-    @property
-    def node(self):
-        return f'/{self.name}/hdlyap'
 
     def scene_file(self, folder):
         return os.path.join(folder, self.name + '.yaml')

@@ -26,18 +26,18 @@ class Tree:
         """Whether the command has ended."""
         return self._process.poll() is not None
 
-    def ask(self):
-        """Asks the command to end, which asks its processes. Asks these if the command has
-        ended."""
-        for pid in self._members() if self.has_ended() else [self._process.pid]:
-            _send(pid, signal.SIGINT)
-
     def is_gone(self):
         """Whether the command and all its processes have ended."""
         return self.has_ended() and not self._members()
 
-    def insist(self):
-        """Kills all processes."""
+    def end(self, patience, came=()):
+        """Asks the command to end, which asks its processes, or these if it has ended. Kills all
+        after `patience` seconds, or when another signal has come."""
+        before, latest = len(came), time.monotonic() + patience
+        for pid in self._members() if self.has_ended() else [self._process.pid]:
+            _send(pid, signal.SIGINT)
+        while time.monotonic() < latest and len(came) == before and not self.is_gone():
+            time.sleep(POLL)
         while not self.is_gone():
             for pid in self._members():
                 _send(pid, signal.SIGKILL)
@@ -47,20 +47,6 @@ class Tree:
         """The ids of the processes. Zombies do not count, as they have no environment."""
         processes = filter(str.isdecimal, os.listdir('/proc'))
         return [int(number) for number in processes if self._entry in _environment(number)]
-
-
-def end(trees, patience, is_pressed=lambda: False):
-    """Ends all trees: asks them first, and kills them after `patience` seconds or if
-    is_pressed()."""
-    for tree in trees:
-        tree.ask()
-    deadline = time.monotonic() + patience
-    while time.monotonic() < deadline and not is_pressed():
-        if all(tree.is_gone() for tree in trees):
-            break
-        time.sleep(POLL)
-    for tree in trees:
-        tree.insist()
 
 
 def _send(pid, number):
