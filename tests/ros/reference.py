@@ -18,7 +18,7 @@ ROOT = os.path.realpath(os.path.join(os.path.dirname(os.path.abspath(__file__)),
 REFERENCE = 'doc/reference.md'
 SCENE = 'launch/scenes/paper_periodic.yaml'
 # parameters of that scene that are not as usual
-OWN = 'warmup', 'duration'
+OWN = 'warmup', 'duration', 'table'
 # lines of many messages, which the chapter tells once
 COMMON = (
     ('std_msgs/Header', 'header', 'stamp: wall time of the report, the same in all its messages'),

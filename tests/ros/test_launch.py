@@ -5,6 +5,7 @@ import os
 import re
 import signal
 import tempfile
+from xml.etree import ElementTree
 
 import rosbag
 import roslaunch.config
@@ -80,7 +81,6 @@ class Launch(harness.Case):
 
     def test_refused_before_anything_starts(self):
         """In one line: what roslaunch ignores, or dies of in many lines."""
-        no_quotes = 'seed = 12345678901: must be a text in quotes, a number with a point or one of'
         refused = {
             'densty:=0.5': 'densty = 0.5: must be an argument of run.launch; is density meant?',
             'warmup:=5': 'warmup = 5: must be in params:="{warmup: ..}", as run.launch has no',
@@ -89,9 +89,6 @@ class Launch(harness.Case):
             'file:=5': 'file = 5: must be an argument of run.launch',
             'scene:=quikc': 'scene = quikc: must be one of circle, circle_quick, covariant, ',
             'scene:=no.yaml': 'scene = no.yaml: must be a YAML file of parameters: ',
-            'params:={warmup=5}': 'params = {warmup=5}: must be {parameter: value, ..}',
-            'params:={seed: 12345678901}': no_quotes,
-            'duration:=12345678901': 'duration = 12345678901: must be a text in quotes, a number',
             'package:=nowhere': 'package = nowhere: must be a package that ROS finds\n',
             'program:=nothing': 'program = nothing: must be a program of the package hdlyap\n',
         }
@@ -112,9 +109,65 @@ class Launch(harness.Case):
                 file.write('number: 20\naspect: 1.0\nduration: 2\nequilibration: 1\nwarmup: 1\n')
             words = ['scene:=mine.yaml', 'density:=0.5', 'params:={accuracy: 1e-7}', '__ns:=grp']
             run = self.process([*harness.command('launch'), *words], PWD=folder)
-            self.ends(run, 0, 'scene mine: 20 disks in 6.32456 x 6.32456', '/grp/hdlyap/accuracy')
-            differs = f'unlike {folder}/mine.yaml: density = 0.5, accuracy = 1e-7, table = 3'
-            self.assertIn('from the parameter server, ' + differs, run.text())
+            self.ends(run, 0, 'scene mine: 20 disks in 6.32456 x 6.32456')
+            differs = f'unlike {folder}/mine.yaml: density = 0.5, accuracy = 1e-7'
+            self.assertIn('from the arguments, ' + differs, run.text())
+        given = dict(scene='mine', number=20, aspect=1.0, duration=2, equilibration=1, warmup=1)
+        given.update(density=0.5, accuracy='1e-7', table=3)
+        self.assertEqual(rospy.get_param('/grp/hdlyap'), given)
+
+    def both_ways(self, text, *words):
+        """(process, path of the bag) of roslaunch, and of `hdlyap run`, once it has ended, with a
+        scene file of this text."""
+        for command in (
+            'roslaunch hdlyap run.launch record:=true scene:=%s bag:=%s',
+            'hdlyap run %s --out %s',
+        ):
+            folder = self.new_folder()
+            scene, bag = os.path.join(folder, 'mine.yaml'), os.path.join(folder, 'q.bag')
+            with open(scene, 'w') as file:
+                file.write('number: 20\naspect: 1.0\nequilibration: 1\nwarmup: 1\nduration: 2\n')
+                file.write(text)
+            run = self.process([*(command % (scene, bag)).split(), *words])
+            run.wait()
+            yield run, bag
+
+    def test_the_node_reads_the_scene(self):
+        """And what is given on top of it: what --check refuses is refused, and two values of a
+        parameter. No bag is begun."""
+        for text, words, said in (
+            (
+                'seed: 012\n',
+                (),
+                'mine.yaml: line 6: seed = 012: must be a number in decimal digits',
+            ),
+            ('', ('number:=5', 'params:={number: 6}'), 'number = 5: must be 6, which params says'),
+        ):
+            for run, bag in self.both_ways(text, *words):
+                with self.subTest(said=said, command=run.process.args):
+                    self.assertEqual(len(run.lines('FATAL')), 1, run.text())
+                    self.assertEqual(len(run.lines(said)), 1, run.text())
+                    self.assertFalse(os.path.exists(bag))
+
+    def test_what_a_scene_says_holds(self):
+        for run, path in self.both_ways('table: 0.0\n'):
+            with self.subTest(command=run.process.args):
+                with rosbag.Bag(path) as bag:
+                    ((_, info, _),) = bag.read_messages('/hdlyap/run_info')
+                self.assertIn('table=0', info.given)
+                self.assertEqual(run.lines('result: '), [])
+
+    def test_arguments_that_are_parameters(self):
+        """All of them are handed over."""
+        named = ElementTree.parse(os.path.join(LAUNCH, 'run.launch')).getroot().findall('arg')
+        named = [one.get('name') for one in named if 'parameter of this name' in one.get('doc')]
+        words = [f'{name}:=/{name}' for name in named]
+        config = roslaunch.config.load_config_default(
+            [(os.path.join(LAUNCH, 'run.launch'), ['scene:=quick', *words])], 0
+        )
+        lines = config.params['/hdlyap/launch/arguments'].value.split('\n')
+        self.assertEqual(sorted(lines), sorted(words))
+        self.assertLessEqual(set(named), set(harness.defaults()))
 
     def test_contradictions(self):
         """What is given twice, with two meanings, is refused before anything starts."""
@@ -124,8 +177,6 @@ class Launch(harness.Case):
             (*run, 'bag:=o2.bag'): 'bag = o2.bag: must be o.bag, which is given too',
             (*run, 'record:=false'): 'record = false: must be true, which is given too',
             ('launch', 'number:=5', 'number:=6'): 'number = 6: must be 5, which is given too',
-            ('launch', 'number:=5', 'params:={number: 6}'): "params = {'number': 6}: must be "
-            'without number, which is an argument too',
         }
         with tempfile.TemporaryDirectory() as folder:
             for words, said in refused.items():
@@ -200,29 +251,6 @@ class Launch(harness.Case):
             pid = launch.process.pid if whom == 'launch' else int(pid)
             os.kill(pid, number)
             self.ends(launch, status, said)
-
-    def test_the_scene_says_what_moves(self):
-        """The file alone, whatever its name, unless an argument says otherwise."""
-        lines = 'particles: spheres\nnumber: 16\ndensity: 0.3\nduration: 2\n'
-        lines += 'equilibration: 1\nwarmup: 1\n'
-        with tempfile.TemporaryDirectory() as folder:
-            with open(os.path.join(folder, 'mine.yaml'), 'w') as file:
-                file.write(lines)
-            for k, (words, said) in enumerate(
-                (
-                    ([], 'scene mine: 16 spheres in '),
-                    (['particles:=disks'], 'scene mine: 16 disks in '),
-                    (
-                        ['particles:=cubes'],
-                        'particles = cubes: must be disks, spheres, dumbbells, '
-                        'soft_disks or soft_spheres',
-                    ),
-                )
-            ):
-                words += ['scene:=mine.yaml', f'__ns:=of_{k}']
-                run = self.roslaunch(folder, 'run.launch', *words)
-                run.wait()
-                self.assertIn(said, run.text())
 
     def replayed(self, *args):
         """Type of a node of replay.launch, or its command -> its arguments."""

@@ -403,7 +403,7 @@ class Machines(InFolder):
         )
         params = {key: value.value for key, value in config.params.items()}
         for name in 'abc':
-            self.assertEqual(params[f'/{name}/hdlyap/scene'], name)
+            self.assertEqual(params[f'/{name}/hdlyap/launch/scene'], f'scene: {name}\n')
             self.assertEqual(params[f'/{name}/hdlyap/wait_for_subscribers'], 'all')
             self.assertEqual(params[f'/{name}/record/node'], 'hdlyap')
             self.assertEqual(params[f'/{name}/record/bag'], f'{self.folder}/./{name}.bag')

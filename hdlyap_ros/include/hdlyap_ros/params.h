@@ -15,8 +15,13 @@ extern "C" {
  * long as the copy. */
 typedef struct hdr_params hdr_params;
 
-/** Copies all private parameters of the node, with one call to the master. Returns HDR_OK;
- * HDR_FAULT if the master does not answer; or HDR_NO_MEMORY. */
+/** Copies all private parameters of the node, with one call to the master. What run.launch was
+ * given comes below ~launch, each as one text: `usual`, lines NAME:=VALUE of defaults; `scene`, a
+ * YAML file, and `file`, its path; `params`, YAML; and `arguments`, lines. Each overrides those
+ * before it, and other parameters on the server override all. In their place the parameters that
+ * they give are written to the server. Returns HDR_OK; HDR_FAULT with a line in hdr_error_text, if
+ * the master does not answer, a text cannot be read, or params and arguments give a parameter two
+ * values; or HDR_NO_MEMORY. */
 HDR_MUST_CHECK hdr_status hdr_params_create(hdr_params **out, const hdr_node *node);
 /** Makes a copy from the YAML file `path`, without a master. Each of replaced[count] is NAME:=VALUE
  * and replaces the value in the file. Returns HDR_OK; HDR_FAULT with a line in hdr_error_text; or
@@ -36,8 +41,11 @@ const char *hdr_params_unknown(const hdr_params *params, const char *const *know
 /** Value of a parameter as a text for the user; "" if there is no such parameter. */
 const char *hdr_param_text(const hdr_params *params, const char *name);
 
-/** Whether the parameter was set by an argument of the program, _NAME:=VALUE; false if the copy is
- * of a file. */
+/** What the scene's file of run.launch says, or usual otherwise, and its path; NULL and "" without
+ * a file. */
+const hdr_params *hdr_params_file(const hdr_params *params, const char **path);
+/** Whether the parameter was set by an argument of the program, _NAME:=VALUE, or of run.launch;
+ * false if the copy is of a file. */
 bool hdr_param_is_argument(const hdr_params *params, const char *name);
 /** Warns in the log of each argument NAME:=VALUE for which is_parameter(NAME): it renames a topic
  * or a service, and _NAME:=VALUE is meant. */

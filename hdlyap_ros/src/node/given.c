@@ -9,9 +9,6 @@
 #include "parameters.h"
 #include "particles.h"
 
-/** The environment's name for the path of the scene's file, from run.launch. */
-static const char *const FILE_VARIABLE = "HDLYAP_SCENE_FILE";
-
 typedef enum source { ARGUMENT, SERVER, NOWHERE, SOURCES } source;
 static const char *const source_text[SOURCES] = {"the arguments", "the parameter server",
                                                  "the defaults"};
@@ -21,8 +18,8 @@ enum { LINE = 600, ITEM = 160 }; /* letters */
 /** Parameters, and what they are compared with. */
 typedef struct comparison {
     const hdr_params *params;
-    hdr_params *file; /**< NULL: the defaults */
-    const char *name; /**< of what they are compared with */
+    const hdr_params *file; /**< NULL: the defaults */
+    const char *name;       /**< of what they are compared with */
 } comparison;
 
 /** A text without the brackets of a list. */
@@ -93,12 +90,11 @@ static bool is_parameter(const char *name)
 
 void given_log(const hdr_params *params, bool is_resumed)
 {
-    const char *path = getenv(FILE_VARIABLE);
-    comparison c = {.params = params, .name = "the defaults"};
-    if (path && *path && hdr_params_read(&c.file, path, 0, NULL) == HDR_OK) c.name = path;
+    comparison c = {.params = params};
+    c.file = hdr_params_file(params, &c.name);
+    if (!c.file) c.name = "the defaults";
     log_all(&c, ARGUMENT);
     log_all(&c, SERVER);
     if (!is_resumed) log_all(&c, NOWHERE);
     hdr_params_warn_of_renaming(params, is_parameter);
-    hdr_params_free(c.file);
 }

@@ -6,7 +6,7 @@
 
 #include "hdlyap_ros/params.h"
 
-/** Names each parameter that differs from the scene's file, if run.launch has told of one, or else
+/** Names each parameter that differs from the scene's file, if there is one, or else
  * from its default, with where it came from; and warns of arguments that were meant to be
  * parameters. The scene's name is not among them. If the run is resumed, a parameter that was not
  * given is as in the checkpoint, and is not named. */

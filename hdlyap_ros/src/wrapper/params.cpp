@@ -96,7 +96,9 @@ bool number_parse(const std::string &text, double *out)
 
 struct hdr_params {
     std::map<std::string, entry> entries;
-    std::vector<std::string> arguments; /**< as in hdr_node */
+    std::vector<std::string> arguments; /**< as in hdr_node, and those of run.launch */
+    std::unique_ptr<hdr_params> file;   /**< what the scene's file says; NULL without one */
+    std::string path;                   /**< of the scene's file */
 };
 
 namespace
@@ -141,8 +143,8 @@ std::unique_ptr<hdr_params> made_of(XmlRpcValue &all)
     return params;
 }
 
-/** The value of an argument, as rosrun and run.launch read it: it is not YAML, and 010 is 10. An
- * integer too long for ROS stays a text. */
+/** The value of an argument, as rosrun reads it: it is not YAML, and 010 is 10. An integer too long
+ * for ROS stays a text. */
 XmlRpcValue argument_value(const std::string &text)
 {
     char *end = nullptr;
@@ -165,16 +167,79 @@ void replace(XmlRpcValue &all, const std::string &argument)
     all[argument.substr(first, sign - first)] = argument_value(argument.substr(sign + 2));
 }
 
-std::unique_ptr<hdr_params> fetch(const std::string &name)
+XmlRpcValue fetch(const std::string &name)
 {
     XmlRpcValue all;
-    if (!ros::param::get(name, all)) {
-        if (!ros::master::check()) throw std::runtime_error("the ROS master went away");
-        return std::unique_ptr<hdr_params>(new hdr_params);
-    }
+    all.begin(); /* a struct, also without members */
+    if (!ros::param::get(name, all) && !ros::master::check())
+        throw std::runtime_error("the ROS master went away");
     if (all.getType() != XmlRpcValue::TypeStruct)
         throw std::runtime_error("parameter " + name + " is not a namespace");
-    return made_of(all);
+    return all;
+}
+
+/** The parameters in lines NAME:=VALUE. One without a value is not given. */
+XmlRpcValue lines_of(const std::string &text)
+{
+    XmlRpcValue all;
+    std::istringstream lines(text);
+    all.begin(); /* a struct, also without members */
+    for (std::string line; std::getline(lines, line);)
+        if (line.find(":=") + 2 < line.size()) replace(all, line);
+    return all;
+}
+
+void put(XmlRpcValue &to, XmlRpcValue &from)
+{
+    for (auto &member : from) to[member.first] = member.second;
+}
+
+/** Refuses a parameter that arguments and params give two values. */
+void check_once(XmlRpcValue &arguments, XmlRpcValue &params)
+{
+    for (auto &member : arguments) {
+        if (!params.hasMember(member.first)) continue;
+        const std::string one = param_text(member.second), other = param_text(params[member.first]);
+        if (one != other)
+            throw std::runtime_error(member.first + " = " + one + ": must be " + other +
+                                     ", which params says");
+    }
+}
+
+/** The namespace in which run.launch hands over what it was given. */
+const char *const LAUNCH = "launch";
+
+/** Parameters of the server, and below them what run.launch was given. */
+std::unique_ptr<hdr_params> launched(XmlRpcValue &server)
+{
+    const auto text = [&](const char *name) {
+        return server[LAUNCH].hasMember(name) ? std::string(server[LAUNCH][name]) : "";
+    };
+    const std::string path = text("file");
+    XmlRpcValue file = lines_of(text("usual")), scene = scene_file_parse(text("scene"), path),
+                params = scene_file_parse(text("params"), "params"),
+                given = lines_of(text("arguments"));
+    check_once(given, params);
+    put(file, scene);
+    put(given, params);
+    XmlRpcValue all = file;
+    put(all, given);
+    for (auto &member : server)
+        if (member.first != LAUNCH) all[member.first] = member.second;
+    std::unique_ptr<hdr_params> made = made_of(all);
+    for (auto &member : given) made->arguments.push_back("_" + member.first + ":=");
+    if (!path.empty()) made->file = made_of(file);
+    made->path = path;
+    return made;
+}
+
+void write(const hdr_node *node, const std::string &name, const XmlRpcValue &value)
+{
+    const hdr_status status = hdr_guard(
+        [&] { node->watch->write(node->name + "/" + name, value); });
+    if (status != HDR_OK)
+        hdr_log(HDR_ERROR, "%s is not written to the parameter server: %s", name.c_str(),
+                hdr_error_text());
 }
 } // namespace
 
@@ -192,22 +257,16 @@ hdr_status hdr_params_create(hdr_params **out, const hdr_node *node)
 {
     *out = nullptr;
     return hdr_guard([&] {
-        std::unique_ptr<hdr_params> made = fetch(hdr_node_name(node));
-        made->arguments = node->arguments;
+        XmlRpcValue server = fetch(node->name);
+        const bool is_launched = server.hasMember(LAUNCH) && server[LAUNCH].hasMember("arguments");
+        std::unique_ptr<hdr_params> made = is_launched ? launched(server) : made_of(server);
+        for (const std::string &one : node->arguments) made->arguments.push_back(one);
+        for (const auto &member : made->entries)
+            if (!server.hasMember(member.first)) write(node, member.first, member.second.value);
+        if (is_launched) ros::param::del(node->name + "/" + LAUNCH);
         *out = made.release();
     });
 }
-
-namespace
-{
-void write(hdr_node *node, const char *name, const XmlRpcValue &value)
-{
-    const hdr_status status = hdr_guard(
-        [&] { node->watch->write(node->name + "/" + name, value); });
-    if (status != HDR_OK)
-        hdr_log(HDR_ERROR, "%s is not written to the parameter server: %s", name, hdr_error_text());
-}
-} // namespace
 
 void hdr_param_write_double(hdr_node *node, const char *name, double value)
 {
@@ -217,6 +276,12 @@ void hdr_param_write_double(hdr_node *node, const char *name, double value)
 void hdr_param_write_string(hdr_node *node, const char *name, const char *value)
 {
     write(node, name, XmlRpcValue(value));
+}
+
+const hdr_params *hdr_params_file(const hdr_params *params, const char **path)
+{
+    *path = params->path.c_str();
+    return params->file.get();
 }
 
 bool hdr_param_is_argument(const hdr_params *params, const char *name)

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <regex>
+#include <sstream>
 #include <stdexcept>
 #include <vector>
 
@@ -15,7 +16,7 @@ using XmlRpc::XmlRpcValue;
 
 namespace
 {
-/** Words without quotes to which YAML 1.1, and so roslaunch, gives another meaning than they seem
+/** Words without quotes to which YAML 1.1, and so rosparam, gives another meaning than they seem
  * to have. They are refused in files, as are all numbers that are not decimal. */
 const struct {
     std::regex word;
@@ -24,9 +25,9 @@ const struct {
     {std::regex("[-+]?(0[0-7_]+|0b[01_]+|0x[0-9a-fA-F_]+|[0-9][0-9_]*(:[0-5]?[0-9])+(\\.[0-9_]*)?|"
                 "[0-9][0-9_]*_[0-9_]*|[0-9][0-9_]*\\.[0-9_]*([eE][-+][0-9]+)?)|\\.[0-9][0-9_]*([eE]"
                 "[-+][0-9]+)?"),
-     "a number in decimal digits, or a text in quotes: roslaunch (YAML 1.1) reads another number"},
+     "a number in decimal digits, or a text in quotes: rosparam (YAML 1.1) reads another number"},
     {std::regex("[0-9]{4}-[0-9]{1,2}-[0-9]{1,2}.*|(deg|rad)\\([^)]*\\)|<<|="),
-     "in quotes: roslaunch (YAML 1.1) reads something else"},
+     "in quotes: rosparam (YAML 1.1) reads something else"},
     {std::regex("~|null|Null|NULL|"), "a value; an empty text is ''"},
 };
 
@@ -47,7 +48,7 @@ XmlRpcValue integer_of(const std::string &text)
     return XmlRpcValue(static_cast<int>(number));
 }
 
-/** The value that roslaunch gives to a word without quotes. Throws std::invalid_argument if the
+/** The value that rosparam gives to a word without quotes. Throws std::invalid_argument if the
  * word is refused. */
 XmlRpcValue word_of(const std::string &text)
 {
@@ -123,10 +124,17 @@ XmlRpcValue scene_file_value(const std::string &text)
 XmlRpcValue scene_file_read(const std::string &path)
 {
     std::ifstream file(path);
+    std::ostringstream text;
     if (file.peek() == EOF && !file.eof())
         throw std::runtime_error(path + ": there is no such file, or it cannot be read");
+    text << file.rdbuf();
+    return scene_file_parse(text.str(), path);
+}
+
+XmlRpcValue scene_file_parse(const std::string &text, const std::string &path)
+{
     try {
-        return members_of_all(YAML::LoadAll(file));
+        return members_of_all(YAML::LoadAll(text));
     } catch (const YAML::Exception &error) {
         const std::string line = std::to_string(error.mark.line + 1);
         throw std::runtime_error(path + ": line " + line + ": " + error.msg);

@@ -46,27 +46,39 @@ def mapping(name, text):
 
 def scene_file(scene, folder, cwd):
     """The parameters in a scene file. A scene without a name gets that of the file."""
+    file = path(scene, folder, cwd)
+    values = load(file, f'scene = {scene}', 'parameters')
+    return dict({'scene': os.path.basename(file)[: -len('.yaml')]}, **values)
+
+
+def path(scene, folder, cwd):
+    """The path of a scene file, which is one of hdlyap's or has its ending."""
     scenes = os.path.join(folder, 'scenes')
-    path = os.path.join(cwd, scene) if scene.endswith('.yaml') else f'{scenes}/{scene}.yaml'
+    if scene.endswith('.yaml'):
+        return os.path.join(cwd, scene)
     names = sorted(name[:-5] for name in os.listdir(scenes) if name.endswith('.yaml'))
-    if not scene.endswith('.yaml') and scene not in names:
+    if scene not in names:
         raise Refused(
             f'scene = {scene}: must be one of {", ".join(names)}; or a file with its .yaml'
         )
-    values = load(path, f'scene = {scene}', 'parameters')
-    return dict({'scene': os.path.basename(path)[: -len('.yaml')]}, **values)
+    return f'{scenes}/{scene}.yaml'
+
+
+def read(path, name, holds, as_what=str):
+    """A YAML file. name: what the user calls it; holds: what it has to hold; as_what: its text
+    becomes this."""
+    try:
+        with open(path) as file:
+            return as_what(file.read())
+    except (OSError, yaml.YAMLError, UnicodeDecodeError) as error:
+        raise Refused(f'{name}: must be a YAML file of {holds}: {in_line(error)}')
 
 
 def load(path, name, holds):
-    """The mapping in a YAML file. name: what the user calls it; holds: what it has to hold."""
-    wanted = f'{name}: must be a YAML file of {holds}'
-    try:
-        with open(path) as file:
-            values = yaml.safe_load(file) or {}
-    except (OSError, yaml.YAMLError, UnicodeDecodeError) as error:
-        raise Refused(f'{wanted}: {in_line(error)}')
+    """The mapping in a YAML file."""
+    values = read(path, name, holds, yaml.safe_load) or {}
     if not isinstance(values, dict):
-        raise Refused(wanted)
+        raise Refused(f'{name}: must be a YAML file of {holds}')
     return values
 
 
