@@ -29,7 +29,7 @@ SHARES = dict(
     ),
     ortho=(0.6, dict(interval=0.02, observables=['spectrum'], duration=4.0)),
     modes=(0.1, dict(max_mode_number=4, observables=['modes'], duration=45.0, report_interval=0.1)),
-    covariant=(0.4, dict(WINDOW, duration=60.0)),
+    covariant=(0.4, dict(WINDOW, duration=240.0)),
     publish=(0.6, dict(NO_EXPONENTS, number=2000, density=0.1, report_interval=0.002)),
 )
 WHOLE = 0.93  # of the wall time, at least, in all stages together
