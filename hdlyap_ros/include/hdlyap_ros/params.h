@@ -16,12 +16,12 @@ extern "C" {
 typedef struct hdr_params hdr_params;
 
 /** Copies all private parameters of the node, with one call to the master. What run.launch was
- * given comes below ~launch, each as one text: `usual`, lines NAME:=VALUE of defaults; `scene`, a
- * YAML file, and `file`, its path; `params`, YAML; and `arguments`, lines. Each overrides those
- * before it, and other parameters on the server override all. In their place the parameters that
- * they give are written to the server. Returns HDR_OK; HDR_FAULT with a line in hdr_error_text, if
- * the master does not answer, a text cannot be read, or params and arguments give a parameter two
- * values; or HDR_NO_MEMORY. */
+ * given comes as texts below ~launch: ~launch/usual, lines NAME:=VALUE of defaults; ~launch/scene,
+ * a YAML file, and ~launch/file, its path; ~launch/params, YAML; and ~launch/arguments, lines. Each
+ * overrides those before it, and other parameters on the server override all. In their place the
+ * parameters that they give are written to the server. Returns HDR_OK; HDR_FAULT with a line in
+ * hdr_error_text, if the master does not answer, a text cannot be read, or params and arguments
+ * give a parameter two values; or HDR_NO_MEMORY. */
 HDR_MUST_CHECK hdr_status hdr_params_create(hdr_params **out, const hdr_node *node);
 /** Makes a copy from the YAML file `path`, without a master. Each of replaced[count] is NAME:=VALUE
  * and replaces the value in the file. Returns HDR_OK; HDR_FAULT with a line in hdr_error_text; or
