@@ -31,8 +31,8 @@ static known largest(double energy, double duration)
 TEST(stiff_particles_have_the_largest_exponent_of_hard_disks)
 {
     const double coarse_energy = 1e-3, fine_energy = 1e-5, z = 4.0;
-    const known hard = largest(0.0, 3e5), coarse = largest(coarse_energy, 8e3),
-                fine = largest(fine_energy, 8e3);
+    const known hard = largest(0.0, 3e5), coarse = largest(coarse_energy, 1.5e4),
+                fine = largest(fine_energy, 1.5e4);
     const double root = pow(coarse_energy / fine_energy, 0.25),
                  limit = (root * fine.value - coarse.value) / (root - 1.0),
                  error = hypot(hard.error, hypot(root * fine.error, coarse.error) / (root - 1.0));
