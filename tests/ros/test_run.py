@@ -244,8 +244,6 @@ class Run(harness.Case):
         self.assertEqual(calls.pop('run_info_publish'), 1)
         self.assertEqual(calls.pop('run_status_publish'), 4)
         self.assertEqual(calls.pop('state_publish'), 4)
-        # each message has the kinetic energy, which a look at all that is conserved tells
-        self.assertEqual(calls.pop('trajectory_overlap'), 4)
         # at the start of the averaging, and at two reports, whether they keep their places
         self.assertEqual(calls.pop('trajectory_state'), 4 + 1 + 2)
         self.assertEqual(set(calls.values()), {0}, calls)

@@ -34,7 +34,7 @@ static double gigabytes_of(const hd_history_def *past) { return 1e-9 * hd_histor
 
 /** The longest window that fits with this transient, rounded down to two digits; 0 if not even one
  * with a single sample does. */
-static double window_that_fits(const hd_scene_def *def, double interval)
+static double longest_window(const hd_scene_def *def, double interval)
 {
     enum { HALVINGS = 60 };
     hd_scene_def other = *def;
@@ -54,7 +54,7 @@ hd_status hd_window_check_room(const hd_scene_def *def, double interval, char *m
     const hd_history_def past = history_of(def, interval, def->threads);
     char fitting[64] = "no window would fit with this transient";
     if (gigabytes_of(&past) <= def->covariant_memory) return HD_OK;
-    const double window = window_that_fits(def, interval);
+    const double window = longest_window(def, interval);
     if (window > 0) snprintf(fitting, sizeof fitting, "covariant_window = %.15g would fit", window);
     return hd_refuse(message, size,
                      "covariant_window = %.15g with covariant_transient = %.15g: %ld triangles and "

@@ -5,6 +5,7 @@
 
 #include "base/check.h"
 #include "base/memory.h"
+#include "dynamics/dynamics.h"
 #include "dynamics/trajectory.h"
 
 static size_t coordinates(const hd_trajectory *tr)
@@ -25,7 +26,9 @@ static void look(hd_trajectory *tr)
 {
     if (!is_stepped(tr->of)) return;
     tr->energy.error = hd_trajectory_examined(tr).energy_error;
-    tr->energy.most = fmax(tr->energy.most, fabs(tr->energy.error));
+    const double size = fabs(tr->energy.error);
+    /* NaN stays */
+    if (!isnan(tr->energy.most) && !(size <= tr->energy.most)) tr->energy.most = size;
 }
 
 double hd_trajectory_noted(const hd_scene_def *def)

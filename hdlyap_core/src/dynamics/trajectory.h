@@ -20,7 +20,7 @@ void hd_trajectory_archive(hd_trajectory *trajectory, hd_archive *archive);
 /** A checksum of positions and momenta to the last bit. */
 uint32_t hd_trajectory_fingerprint(const hd_trajectory *trajectory);
 
-/** Only trajectory.c uses the members. */
+/** Only trajectory.c changes the members; benchmarks and tests look at `state`. */
 struct hd_trajectory {
     const hd_dynamics *of;
     void *state; /**< only the dynamics knows what it holds */

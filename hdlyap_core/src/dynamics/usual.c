@@ -1,5 +1,5 @@
-/** The usual functions, for what a row of dynamics leaves out: its maps are a part of the record,
- * and its entries are doubles. */
+/** The usual functions, for what a row of dynamics leaves out: its maps are a part of the record;
+ * and what entries of all records have in common: they are doubles. */
 #include <math.h>
 #include <stdbool.h>
 

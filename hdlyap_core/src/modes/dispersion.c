@@ -164,7 +164,9 @@ static found coefficient(const fit *f, const hd_spectrum *spectrum, int term)
     }
     out.mixing = sqrt(mixed);
     out.sampling = hd_steps_error_of_sum(f->steps, spectrum, share_of_step, &r);
-    if (out.sampling >= 0) out.error = hypot(out.sampling, sqrt(square));
+    if (!(out.sampling >= 0)) return out;
+    out.sampling = hypot(out.sampling, out.mixing);
+    out.error = hypot(out.sampling, sqrt(square));
     return out;
 }
 

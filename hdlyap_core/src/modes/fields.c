@@ -242,7 +242,6 @@ void hd_fields_archive(hd_fields *fields, hd_archive *archive)
     hd_archive_expect(archive, normal, "fields", "one is longer than 1");
 }
 
-int hd_fields_dimension(const hd_fields *fields) { return fields->dimension; }
 int hd_fields_nulls(const hd_fields *fields) { return fields->dimension + 1; }
 int hd_fields_columns(const hd_fields *fields) { return fields->columns; }
 int hd_fields_stride(const hd_fields *fields) { return fields->stride; }

@@ -17,7 +17,6 @@ void hd_fields_sample(hd_fields *fields, const double *q, const double *p);
 /** As before the first sample: all are 0. */
 void hd_fields_clear(hd_fields *fields);
 
-int hd_fields_dimension(const hd_fields *fields);
 int hd_fields_nulls(const hd_fields *fields);   /**< null fields, dimension + 1 */
 int hd_fields_columns(const hd_fields *fields); /**< all */
 

@@ -192,17 +192,13 @@ static void step_measure(const hd_steps *steps, int k, const hd_spectrum *spectr
 double hd_steps_error_of_sum(const hd_steps *steps, const hd_spectrum *spectrum,
                              double (*factor)(const hd_step *, const void *), const void *context)
 {
-    double square = 0.0;
     int count = 0;
     for (int k = 0; k < steps->count; k++) {
         if (!steps->step[k].resolved) continue;
         const double f = factor(&steps->step[k], context);
-        if (f == 0) continue;
-        count += mean_parts(steps, k, f, steps->parts + count);
-        square += pow(f * steps->step[k].mixing, 2.0);
+        if (f != 0) count += mean_parts(steps, k, f, steps->parts + count);
     }
-    const double error = hd_spectrum_error_of_sum(spectrum, steps->parts, count);
-    return error < 0 ? error : hypot(error, sqrt(square));
+    return hd_spectrum_error_of_sum(spectrum, steps->parts, count);
 }
 
 /** Adds what mixing does to the error of step k, whose neighbours' exponents are known. */

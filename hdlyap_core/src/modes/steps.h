@@ -20,8 +20,8 @@ const hd_modes *hd_steps_modes(const hd_steps *steps); /**< the weights in which
 /** First column of any resolved step; INT_MAX if there is none. */
 int hd_steps_first(const hd_steps *steps);
 
-/** Standard error of the sum over the resolved steps of factor(step, context) times exponent; see
- * hd_spectrum_error_of_sum. `spectrum` as in hd_steps_find. */
+/** Standard error of the sum over the resolved steps of factor(step, context) times exponent,
+ * without what mixing adds; see hd_spectrum_error_of_sum. `spectrum` as in hd_steps_find. */
 double hd_steps_error_of_sum(const hd_steps *steps, const hd_spectrum *spectrum,
                              double (*factor)(const hd_step *, const void *), const void *context);
 

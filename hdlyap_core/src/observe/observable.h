@@ -57,8 +57,8 @@ typedef struct hd_moment {
     hd_archive *archive; /**< for `archive` */
 } hd_moment;
 
-/** A row. A function that is NULL has nothing to do. `self` is what `create` made. `measure`, `add`
- * and `report` see a whole moment, others `with` and what they name. */
+/** A row. A function that is NULL has nothing to do. `self` is what `create` made. `measure` and
+ * `share` see a whole moment, `add` all of it but q and p; others `with` and what they name. */
 typedef struct hd_observable {
     unsigned with;                   /**< the observables that it needs, a set of HD_OBSERVE_* */
     unsigned needs;                  /**< set of HD_NEEDS_* */
@@ -86,7 +86,7 @@ typedef struct hd_observable {
     /** Adds the snapshot to its averages. */
     void (*add)(void *self, const hd_moment *now);
     /** Called at a report at which the vectors are known; now->vectors[0] are those of all ranks
-     * that can be read. */
+     * that can be read, with now->trajectory, q and p. */
     void (*report)(void *self, const hd_moment *now);
     /** The first vector that it reads of those of all ranks; NULL means 0. */
     int (*first)(void *self, const hd_moment *now);

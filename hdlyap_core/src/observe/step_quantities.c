@@ -106,8 +106,9 @@ static hd_stated read_slope(const hd_parts *parts, const hd_aim *goal)
     const hd_dispersion d = hd_steps_dispersion(parts->steps, parts->spectrum,
                                                 goal->quantity->kind);
     if (d.points == 0) return UNKNOWN;
-    const double falls = d.c_sampling_error * d.c_sampling_error - d.c_mixing * d.c_mixing;
-    return with_sampling(d.c.value, d.c.error, sqrt(fmax(falls, 0.0)));
+    hd_stated out = with_sampling(d.c.value, d.c.error, d.c_sampling_error);
+    out.open = hypot(out.open, d.c_mixing);
+    return out;
 }
 
 static hd_stated read_velocity(const hd_parts *parts, const hd_aim *goal)

@@ -4,17 +4,18 @@
 
 #include <math.h>
 
-#include "averages/spectrum.h"
-#include "modes/fields.h"
-#include "modes/modes.h"
-#include "tangent/localization.h"
 #include "averages/doubling.h"
+#include "averages/spectrum.h"
 #include "base/check.h"
 #include "base/clock.h"
 #include "base/memory.h"
 #include "covariant/covariant.h"
 #include "covariant/window_room.h"
+#include "modes/fields.h"
+#include "modes/modes.h"
+#include "observe/observables.h"
 #include "scene/scene.h"
+#include "tangent/localization.h"
 
 /** A call that goes back begins no further step after this many wall seconds. */
 static const double BACK_SECONDS = 0.1;
@@ -111,15 +112,10 @@ hd_covariant *hd_windows_covariant(hd_windows *windows) { return windows->covari
 
 /* ---- what is asked for --------------------------------------------------------------------- */
 
-static bool are_asked(const hd_scene_def *scene)
-{
-    return scene->observe & HD_OBSERVE_COVARIANT && hd_scene_vectors(scene) > 0;
-}
-
 hd_status hd_windows_check_ranks(const hd_scene_def *scene, int ranks, char *message, size_t size)
 {
     if (ranks == 1 || hd_scene_carried(scene) == hd_scene_vectors(scene)) return HD_OK;
-    if (!are_asked(scene)) return HD_OK;
+    if (!hd_observable_is_asked(HD_OBSERVED_covariant, scene)) return HD_OK;
     return hd_refuse(message, size,
                      "ranks = %d: must be 1 for covariant vectors with exponents = all; "
                      "all_independent computes them on several ranks",
@@ -129,7 +125,8 @@ hd_status hd_windows_check_ranks(const hd_scene_def *scene, int ranks, char *mes
 hd_status hd_windows_check_room(const hd_scene_def *scene, double longest, char *message,
                                 size_t size)
 {
-    return are_asked(scene) ? hd_window_check_room(scene, longest, message, size) : HD_OK;
+    if (!hd_observable_is_asked(HD_OBSERVED_covariant, scene)) return HD_OK;
+    return hd_window_check_room(scene, longest, message, size);
 }
 
 /* ---- as an observable ---------------------------------------------------------------------- */

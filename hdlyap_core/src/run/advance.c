@@ -41,8 +41,8 @@ double hd_advance_now(const hd_advance *advance) { return hd_trajectory_time(adv
 
 uint64_t hd_advance_events(const hd_advance *advance)
 {
-    return hd_trajectory_totals(advance->trajectory).collisions +
-           hd_trajectory_totals(advance->trajectory).wall_events;
+    const hd_totals totals = hd_trajectory_totals(advance->trajectory);
+    return totals.collisions + totals.wall_events;
 }
 
 double hd_advance_shortest(const hd_advance *advance)

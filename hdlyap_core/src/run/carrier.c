@@ -232,8 +232,8 @@ double hd_carrier_longest(const hd_scene_def *scene)
 
 static hd_status follow(hd_carrier *c, const hd_carrying *how, hd_leg leg)
 {
-    const double start = hd_clock_now();
     if (!how->windows) return HD_OK;
+    const double start = hd_clock_now();
     leg.frame = c->frame;
     leg.ortho = c->ortho;
     leg.record = c->record;

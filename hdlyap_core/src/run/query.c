@@ -30,6 +30,7 @@ hd_parts hd_run_parts(const hd_run *run)
     .name = hd_observables_part(&run->observables, HD_OBSERVED_##name),
 #include "hdlyap/observables.inc"
     };
+    /* that row's part is its windows */
     if (windows) parts.covariant = hd_windows_covariant(windows);
     return parts;
 }

@@ -346,10 +346,10 @@ static hd_status go_back(hd_run *run, bool to_its_end)
 {
     hd_windows *windows = windows_of(run);
     const double start = hd_clock_now();
-    HD_TRY(hd_windows_go_back(windows, to_its_end));
+    const hd_status status = hd_windows_go_back(windows, to_its_end);
     if (windows) run->cost.following += hd_clock_now() - start;
-    leave_stage(run);
-    return HD_OK;
+    if (status == HD_OK) leave_stage(run);
+    return status;
 }
 
 hd_status hd_run_settle(hd_run *run)

@@ -36,7 +36,7 @@ static bool is_whole(const hd_dynamics *row)
     const bool room = (box == 0 || box == 2 || box == 3) && row->coordinates >= box;
     const bool maps = !row->maps_create == !row->maps_free && !row->maps_free == !row->maps_fill;
     const bool turns = !row->inertia || (box == 2 && row->coordinates == 3);
-    return own && room && maps && turns && row->particles &&
+    return own && room && maps && turns && row->particles && (row->totals || !row->collides) &&
            strlen(row->particles) < HD_PARTICLES && row->coordinates >= 1 &&
            row->coordinates <= HD_COORDINATES_MAX && row->entry > 0 &&
            row->entry % sizeof(double) == 0 && row->entries && row->rate && row->create &&

@@ -125,7 +125,6 @@ int hd_frame_rows(const hd_frame *frame) { return frame->rows; }
 int hd_frame_coordinates(const hd_frame *frame) { return frame->of->coordinates; }
 int hd_frame_vectors(const hd_frame *frame) { return frame->vectors; }
 int hd_frame_stride(const hd_frame *frame) { return frame->stride; }
-int hd_frame_threads(const hd_frame *frame) { return frame->threads; }
 
 void hd_frame_use_threads(hd_frame *frame, int threads)
 {

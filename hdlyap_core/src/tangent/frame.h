@@ -29,7 +29,6 @@ int hd_frame_rows(const hd_frame *frame);                /**< M */
 int hd_frame_coordinates(const hd_frame *frame);         /**< of a particle */
 int hd_frame_vectors(const hd_frame *frame);             /**< n, of all ranks together */
 int hd_frame_stride(const hd_frame *frame);              /**< doubles from one row to the next */
-int hd_frame_threads(const hd_frame *frame);             /**< threads in use */
 void hd_frame_use_threads(hd_frame *frame, int threads); /**< 1 .. as many as at its creation */
 double *hd_frame_data(hd_frame *frame); /**< the present vectors; valid until the next replay */
 const double *hd_frame_read(const hd_frame *frame); /**< the same for reading */

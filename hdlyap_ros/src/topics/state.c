@@ -3,12 +3,15 @@
 
 hd_status topic_publish_state(const moment *now)
 {
-    const size_t particles = (size_t)now->set->def.number;
-    const double *q, *p;
+    const size_t particles = (size_t)now->set->def.number,
+                 coordinates = (size_t)moment_coordinates(now);
+    const double *q, *p; /* [particle][coordinates], momenta of turning, too */
+    double twice = 0.0;
     if (!moment_state(now, &q, &p)) return HD_OK;
+    for (size_t k = 0; k < particles * coordinates; k++) twice += p[k] * p[k];
     hdr_state message = {
         .sim_time = hd_run_time(now->run),
-        .kinetic_energy = hd_trajectory_examined(hd_run_parts(now->run).trajectory).kinetic_energy,
+        .kinetic_energy = 0.5 * twice,
         STATE_FIELDS(now, q, p, particles),
     };
     return topic_send_state(now->out, &message);

@@ -3,8 +3,8 @@
 #define HD_EVENT_H
 
 #include "dynamics/hard/compiled.h"
+#include "dynamics/record.h"
 #include "hdlyap/scene.h"
-#include "dynamics/trajectory.h"
 
 /** hd_event.j of a wall event: HD_WALL_X, HD_WALL_Y or, for spheres, HD_WALL_Z by the direction of
  * the wall's normal, or HD_WALL_ROUND for a curved wall. */

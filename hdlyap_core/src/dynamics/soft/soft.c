@@ -111,8 +111,9 @@ static hd_status look(soft *s)
     const hd_status status = potential_energy(&potential, s);
     const double kinetic = kinetic_energy(s);
     if (status == HD_NOT_FINITE) return s->error = 1.0, HD_ENERGY_LOST; /* where it tends to */
+    HD_TRY(status);
     s->error = (kinetic + potential - s->energy) / (kinetic + fabs(potential));
-    return status == HD_OK && !(fabs(s->error) <= HD_SOFT_LOST) ? HD_ENERGY_LOST : status;
+    return fabs(s->error) <= HD_SOFT_LOST ? HD_OK : HD_ENERGY_LOST;
 }
 
 /* ---- steps --------------------------------------------------------------------------------- */
