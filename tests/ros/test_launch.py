@@ -71,7 +71,7 @@ class Launch(harness.Case):
             first = self.roslaunch(folder, 'run.launch', 'scene:=quick', 'duration:=5', *args)
             self.ends(first)
             self.assertEqual(len(first.lines('finished at simulated time 45')), 1, first.text())
-            more = self.roslaunch(folder, 'run.launch', *recorded, *args)
+            more = self.roslaunch(folder, 'run.launch', *recorded, *args[:-1])  # the table, too
             self.ends(more)
             self.assertEqual(len(more.lines('scene quick: 100 disks')), 1, more.text())
             self.assertEqual(len(more.lines('finished at simulated time 50')), 1, more.text())
@@ -91,6 +91,7 @@ class Launch(harness.Case):
             'scene:=no.yaml': 'scene = no.yaml: must be a YAML file of parameters: ',
             'package:=nowhere': 'package = nowhere: must be a package that ROS finds\n',
             'program:=nothing': 'program = nothing: must be a program of the package hdlyap\n',
+            'seed:=7\ndensity:=0.5': 'seed = 7 density:=0.5: must be one line without :=\n',
         }
         for word, said in refused.items():
             for begin in (['launch'], ['run', 'quick', '--out', 'no.bag']):
@@ -148,6 +149,20 @@ class Launch(harness.Case):
                     self.assertEqual(len(run.lines('FATAL')), 1, run.text())
                     self.assertEqual(len(run.lines(said)), 1, run.text())
                     self.assertFalse(os.path.exists(bag))
+                    self.assertFalse(rospy.has_param('/hdlyap/launch'))
+
+    def test_scenes_that_say_little_or_what_nothing_carries(self):
+        path = os.path.join(self.new_folder(), 'mine.yaml')
+        for text, status, said in (
+            ('exponents: none\nduration: 1\nequilibration: 1\n', 0, 'scene mine: 780 disks in '),
+            ('number: 20\x01\n', 2, f'hdlyap launch: scene = {path}: must be a YAML file of '),
+        ):
+            with self.subTest(text=text):
+                with open(path, 'w') as file:
+                    file.write(text)
+                run = self.process([*harness.command('launch'), 'scene:=' + path])
+                self.assertEqual(run.wait(), status, run.text())
+                self.assertEqual(len(run.lines(said)), 1, run.text())
 
     def test_what_a_scene_says_holds(self):
         for run, path in self.both_ways('table: 0.0\n'):

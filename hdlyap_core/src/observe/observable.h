@@ -112,4 +112,8 @@ typedef enum hd_observed {
 extern const hd_observable *const hd_observable_rows[HD_OBSERVED];
 extern const unsigned hd_observable_bits[HD_OBSERVED]; /**< HD_OBSERVE_* of each */
 
+/** True if the scene asks for this observable, or for one that needs it (asked.c). If the scene
+ * asks for no exponents, only observables of particles alone count. */
+bool hd_observable_is_asked(hd_observed row, const hd_scene_def *scene);
+
 #endif

@@ -17,9 +17,6 @@ typedef struct hd_observables {
 
 /** The set, with the observables that it needs. */
 unsigned hd_observables_with(unsigned set);
-/** True if the scene asks for this observable, or for one that needs it. If the scene asks for no
- * exponents, only observables of particles alone count. */
-bool hd_observable_is_asked(hd_observed row, const hd_scene_def *scene);
 /** True if the scene asks for an observable that has all of these needs (set of HD_NEEDS_*). */
 bool hd_observables_asked(const hd_scene_def *scene, unsigned needs);
 /** Bytes of the observables that the scene asks for, on each of `ranks` ranks. */

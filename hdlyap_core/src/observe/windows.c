@@ -13,7 +13,6 @@
 #include "covariant/window_room.h"
 #include "modes/fields.h"
 #include "modes/modes.h"
-#include "observe/observables.h"
 #include "scene/scene.h"
 #include "tangent/localization.h"
 

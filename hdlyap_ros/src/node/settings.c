@@ -112,7 +112,8 @@ static bool check_scene_name(settings *set, reader *r)
                                          "density",    "aspect",     "aspect_z",
                                          "boundary_x", "boundary_y", "boundary_z"};
     const parameter name = parameters_named("scene");
-    bool given = false, usual = !set->def.dynamics;
+    const char *path;
+    bool given = hdr_params_file(r->params, &path) != NULL, usual = !set->def.dynamics;
     for (size_t k = 0; k < sizeof system / sizeof *system; k++) {
         const parameter p = parameters_named(system[k]);
         if (*hdr_param_text(r->params, system[k])) given = true;

@@ -213,7 +213,12 @@ const char *const LAUNCH = "launch";
 std::unique_ptr<hdr_params> launched(XmlRpcValue &server)
 {
     const auto text = [&](const char *name) {
-        return server[LAUNCH].hasMember(name) ? std::string(server[LAUNCH][name]) : "";
+        if (!server[LAUNCH].hasMember(name)) return std::string();
+        XmlRpcValue &value = server[LAUNCH][name];
+        if (value.getType() != XmlRpcValue::TypeString)
+            throw std::runtime_error("~launch/" + std::string(name) +
+                                     ": must be a text, as run.launch hands it over");
+        return std::string(value);
     };
     const std::string path = text("file");
     XmlRpcValue file = lines_of(text("usual")), scene = scene_file_parse(text("scene"), path),
@@ -259,11 +264,11 @@ hdr_status hdr_params_create(hdr_params **out, const hdr_node *node)
     return hdr_guard([&] {
         XmlRpcValue server = fetch(node->name);
         const bool is_launched = server.hasMember(LAUNCH) && server[LAUNCH].hasMember("arguments");
+        if (is_launched) ros::param::del(node->name + "/" + LAUNCH); /* `server` is a copy */
         std::unique_ptr<hdr_params> made = is_launched ? launched(server) : made_of(server);
         for (const std::string &one : node->arguments) made->arguments.push_back(one);
         for (const auto &member : made->entries)
             if (!server.hasMember(member.first)) write(node, member.first, member.second.value);
-        if (is_launched) ros::param::del(node->name + "/" + LAUNCH);
         *out = made.release();
     });
 }

@@ -7,7 +7,8 @@ Rank 0 starts a separate ROS master, the recorder and the node, as run.launch do
 may follow, none with another value than it has here; the other ranks belong to the node. The bag
 has all topics. No other master is needed, and nobody else sees this one.
 
-Exit status: 0 the run went to its end; 1 it did not; 2 refused."""
+Exit status: 0 the run went to its end; 1 it did not, as the node refused it, too; 2 an argument is
+refused before the start."""
 
 import contextlib
 import os

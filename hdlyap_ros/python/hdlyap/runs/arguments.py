@@ -9,7 +9,7 @@ from xml.etree import ElementTree
 import rospkg
 
 from . import ranks, run, scene
-from .scene import Refused
+from .scene import Refused, in_line
 
 
 def launch_folder():
@@ -27,6 +27,8 @@ def check(words, launch, cwd):
     for name, value in given.items():
         if name not in known:
             raise Refused(f'{name} = {value}: must be {_wanted(name, known)}')
+        if '\n' in value or ':=' in value:  # roslaunch would drop it
+            raise Refused(f'{name} = {in_line(value)}: must be one line without :=')
     if given.get('scene'):
         path = scene.path(given['scene'], launch, cwd)
         scene.read(path, f'scene = {given["scene"]}', 'parameters')

@@ -69,7 +69,9 @@ def read(path, name, holds, as_what=str):
     becomes this."""
     try:
         with open(path) as file:
-            return as_what(file.read())
+            text = file.read()
+        yaml.reader.Reader(text)  # no letters that no XML carries to the node
+        return as_what(text)
     except (OSError, yaml.YAMLError, UnicodeDecodeError) as error:
         raise Refused(f'{name}: must be a YAML file of {holds}: {in_line(error)}')
 
