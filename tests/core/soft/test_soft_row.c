@@ -5,7 +5,7 @@
 
 /* ---- split zeros --------------------------------------------------------------------------- */
 
-/** The largest of the exponents that should vanish, at this step; a time of 6e3 leaves 0.0015 by
+/** The largest of the exponents that should vanish, at this step; a time of 9e3 leaves 0.0010 by
  * itself. */
 static double largest_zero(int potential, int integrator, double step, double time)
 {

@@ -194,6 +194,32 @@ static void unit_dq(double *dq, const hd_frame *frame, int col, double *norm)
     for (int k = 0; k < 3 * SPHERES; k++) dq[k] /= *norm;
 }
 
+/** Amplitudes at the strongest wave, along k and in both directions across it: sums of what is
+ * above, of dq in place of p. */
+static void check_peak(const state *s, const hd_structure *structure, const double *dq, int col)
+{
+    const hd_wave *wave = hd_structure_wave(structure, hd_structure_peak(structure, col));
+    const double size = DBL_EPSILON * 64 * SPHERES;
+    double scale = 1.0;
+    for (int d = 0; d < 3; d++)
+        if (s->scene.boundary[d] == HD_REFLECTING && wave->n[d] > 0) scale *= sqrt(2.0);
+    for (int c = 0; c < wave->pairs.count; c++) {
+        const unsigned bits = wave->pairs.bits[c];
+        double sum[3] = {0.0};
+        for (int j = 0; j < SPHERES; j++) {
+            double one[HD_FUNCTIONALS_MAX], x[6];
+            memcpy(x, s->q + 3 * j, 3 * sizeof *x);
+            memcpy(x + 3, dq + 3 * j, 3 * sizeof *x);
+            sums(one, s, wave, bits, x);
+            for (int f = 0; f < 3; f++) sum[f] += scale * one[1 + f];
+        }
+        CHECK_CLOSE(hd_structure_amplitude(structure, HD_ALONG, bits)[col], sum[0], size);
+        CHECK_CLOSE(hd_structure_amplitude(structure, HD_ACROSS, bits)[col], sum[1], size);
+        CHECK_CLOSE(hd_structure_amplitude(structure, HD_ACROSS, bits | HD_SECOND)[col], sum[2],
+                    size);
+    }
+}
+
 TEST(structure_factors_are_sums_of_exponentials)
 {
     for (int walls = 0; walls < 8; walls++) {
@@ -208,6 +234,9 @@ TEST(structure_factors_are_sums_of_exponentials)
         assert_true(hd_structure_waves(structure) > 4);
         for (int w = 0; w < hd_structure_waves(structure); w++)
             for (int col = 0; col < VECTORS; col++) check_wave(&s, structure, w, dq[col], col);
+        hd_structure_add(structure);
+        CHECK_OK(hd_structure_measure(structure, hd_frame_columns(frame), s.q, norm));
+        for (int col = 0; col < VECTORS; col++) check_peak(&s, structure, dq[col], col);
         hd_structure_free(structure);
         hd_frame_free(frame);
     }

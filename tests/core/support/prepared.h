@@ -2,7 +2,6 @@
 #ifndef HD_PREPARED_H
 #define HD_PREPARED_H
 
-#include "create_from.h"
 #include "bodies.h"
 #include "create_from.h"
 #include "testing.h"
