@@ -160,6 +160,32 @@ class Page(unittest.TestCase):
             text = file.read()
         self.assertEqual(text, tables.written(text, tables.claims(), table.read()[1]))
 
+    def test_a_line(self):
+        usual = dict.fromkeys(row.HEADER, '')
+        usual.update(part='3', kind='ours', claim='so', criterion='3 %', criterion_of='ours')
+        names = 'published', 'measured', 'error', 'claim_verdict', 'caught'
+        paper = dict(usual, claim_verdict='agrees', criterion_of='the paper')
+        self.assertEqual(tables._line([paper])[:28], '| 3 | so | 3 % (the paper) |')
+        seven = [('2', f'{2 + off}', '0.01', 'agrees', f'{9 + off} %') for off in range(7)]
+        apart = [('4', '8', '0.01', 'agrees', '9 %'), *seven]
+        rough = [('1', '2', '', 'agrees', caught) for caught in ('9 %', 'any other')]
+        ends = '2.000(10) of 2 to 8.000(10) of 2 | 9 to 15 %'
+        for values, part, cells in (
+            ([('1.0', '1.01', '0.002', 'agrees', '3 %')], '3', '1.0100(20) | 3 %'),
+            ([('1', '2', '', 'differs', 'any other')], '3 **differs**', '2 | any other'),
+            ([('a', 'a', '', 'agrees', 'any other')] * 2, '3', 'the same | any other'),
+            (seven, '3', '7 values, 2.000(10) to 8.000(10) | 9 to 15 %'),
+            (apart, '3', f'8 values, {ends}'),
+            (rough, '3', '2 | any other to 9 %'),
+        ):
+            said = tables._line([dict(usual, **dict(zip(names, one))) for one in values])
+            self.assertEqual(said, f'| {part} | so | 3 % | {cells} |')
+
+    def test_counts(self):
+        given = ['agrees', 'agrees', 'differs', 'not decided']
+        said = tables._counts([[{'claim_verdict': verdict}] for verdict in given])
+        self.assertEqual(said, '**Of 4 statements 2 agree, 1 differs, 1 is not decided.**')
+
     def test_every_run_is_planned_and_needed(self):
         with open(os.path.join(STUDY, 'runs.yaml')) as file:
             self.assertEqual(set(table.runs_of(table.read()[0])), set(yaml.safe_load(file)))
