@@ -9,6 +9,7 @@ import numpy as np
 
 from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
 
+import bags
 import made
 from hdlyap.follow import line
 from hdlyap.follow.news import NOT_HEARD, News
@@ -58,7 +59,6 @@ def view(**fields):
         speed=1.234,
         spectrum=made.spectrum(np.linspace(9, 3, 37), 50.0),
         steps=made.steps([*found, made.zero_modes()]),
-        phases=made.lp_phases(info, found, 150.0, began=100.0),
         diagnosis=diagnosis(),
         others=set(OBSERVED),
     )
@@ -103,9 +103,7 @@ class Line(unittest.TestCase):
 
     def test_what_is_said(self):
         """Of what is known, and of what is not."""
-        nothing = dict.fromkeys(
-            ('status', 'cost', 'spectrum', 'steps', 'phases', 'diagnosis', 'speed')
-        )
+        nothing = dict.fromkeys(('status', 'cost', 'spectrum', 'steps', 'diagnosis', 'speed'))
         finished = status(stage=RunStatus.FINISHED)
         asked = dict(target='c_T', target_wanted=0.0098, target_error=-1.0)
         for shown, part, not_said in (
@@ -152,6 +150,11 @@ class Line(unittest.TestCase):
             display.say(['a\033[2Jb\r\x9bc'])
             display.show(['d\033[2J'])
         self.assertEqual(text.getvalue(), 'a?[2Jb ?c\nd?[2J\n')
+
+    def test_only_the_line_has_no_steps(self):
+        done = bags.tool('follow', '--line', '--steps')
+        self.assertEqual(done.status, 2)
+        self.assertIn('argument --steps: not allowed with argument --line', done.error)
 
 
 class Told(unittest.TestCase):

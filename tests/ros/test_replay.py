@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """hdlyap replay: when it says what a bag holds, and what it refuses."""
 
+import math
 import os
 import signal
 import time
@@ -102,6 +103,17 @@ class Replayed(harness.Case):
         self.check_states(found, [28.0, 29.0, 30.0], first=15.0)
         self.assertEqual(self.written('--begin', '28')[0][1], '/hdlyap/run_info')
 
+    def test_what_comes_before_any_time(self):
+        """Messages of other packages take nothing of the lead, and delay nothing."""
+        info, *others = run('one')
+        stranger = '/diagnostics', DiagnosticArray()
+        for first in ([stranger, info], [info, stranger]):
+            with rosbag.Bag(self.bag, 'w') as bag:
+                for k, (topic, message) in enumerate([*first, *others]):
+                    bag.write(topic, message, rospy.Time(10, 1000000 * k))
+            every = [float(t) for t in range(1, REPORTS + 1)]
+            self.check_states(self.states('--lead', '5'), every, first=5.0)
+
     def test_played(self):
         """For who has subscribed nothing is lost, at the pace that was asked for."""
         self.record('one')
@@ -125,6 +137,16 @@ class Replayed(harness.Case):
         replay.send(signal.SIGINT)
         self.ends(replay, 128 + signal.SIGINT)
 
+    def test_killed(self):
+        """As a shell says it."""
+        self.record('one')
+        replay = self.process([*REPLAY, self.bag, '--pause', '__name:=killed'])
+        rospy.wait_for_service('/killed/pause_playback', harness.PATIENCE)
+        with open('/proc/{0}/task/{0}/children'.format(replay.process.pid)) as file:
+            (player,) = map(int, file.read().split())
+        os.kill(player, signal.SIGKILL)
+        self.ends(replay, 128 + signal.SIGKILL)
+
     def test_what_is_refused(self):
         """In one line."""
         with open(self.bag, 'w') as file:
@@ -133,6 +155,11 @@ class Replayed(harness.Case):
         self.record('one')
         size = os.path.getsize(self.bag)
         self.check_refused('no messages from t = 31 on', '--begin', '31')
+        out = [*REPLAY, self.bag, '--out', self.bag + '.out', '--keep-alive', '--loop', 'a:=b']
+        replay = self.process(out)
+        self.ends(replay, 2)
+        said = 'hdlyap replay: --loop --keep-alive a:=b: must not be given with --out\n'
+        self.assertEqual(replay.text(), said)
         os.truncate(self.bag, size // 2)
         self.check_refused('not closed')
         os.remove(self.bag)
@@ -145,6 +172,10 @@ class Replayed(harness.Case):
         with rosbag.Bag(self.bag, 'w') as bag:
             bag.write('/\x1b[2J/run_info', RunInfo(), rospy.Time(1))
         self.check_refused(r'damaged: topic /\?\[2J/run_info is no legal ROS name')
+        for time_, said in ((math.nan, 'nan'), (1e10, r'1e\+10'), (-1.0, '-1')):
+            with rosbag.Bag(self.bag, 'w') as bag:
+                bag.write('/hdlyap/state', State(sim_time=time_, x=[0.5], y=[0.5]), rospy.Time(1))
+            self.check_refused(rf'/hdlyap/state: sim_time = {said}: must be from 0 to 1e\+09')
         for pace in '0', 'nan':
             self.ends(self.process([*REPLAY, self.bag, '--pace', pace]), 2)
 

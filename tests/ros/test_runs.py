@@ -287,6 +287,12 @@ class Done(Made):
             self.assertEqual(asked.text(value), text)
 
 
+def stop(_, came):
+    """Instead of Job.do: a signal comes."""
+    os.kill(os.getpid(), signal.SIGINT)
+    harness.wait_until(lambda: came)
+
+
 class Kept(Made):
     """What becomes of the bag of a run that has ended."""
 
@@ -329,23 +335,84 @@ class Kept(Made):
         self.assertEqual(job.placed(), UNFINISHED)
         self.assertEqual(self.bags(), [])
         self.write(job._new, 'of a year')
-        self.assertEqual(job.placed(), UNFINISHED)
+        self.assertEqual(job.placed(), f'{UNFINISHED}; its bag is still in {job._new}')
         self.assertEqual(self.bags(), [os.path.basename(job._new)])
+
+    def test_cut_by_a_kill(self):
+        """Whoever ends the sweep hears of it, too."""
+        job = self.ended()
+        os.rename(job._new, job._new + '.active')
+        left = f'its bag is still in {job._new}.active'
+        self.assertEqual(job.placed(), f'{UNFINISHED}; {left}')
+        job.do, said = stop, io.StringIO()
+        with contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(said):
+            with self.assertRaises(SystemExit):
+                work._work([job], work.Tally([job], 0, 1), 1, '1G')
+        self.assertEqual(said.getvalue(), f'hdlyap sweep: one: {left}\n')
 
     def test_when_all_are_stopped(self):
         """It had just reached its end; another one has not begun. None has failed."""
-
-        def stop(_, came):
-            os.kill(os.getpid(), signal.SIGINT)
-            harness.wait_until(lambda: came)
-
         jobs = [self.ended(given=dict(density='0.6')), work.Job(self.of(), '/nowhere')]
-        show = work.Progress(jobs, 0, 1)
+        show = work.Tally(jobs, 0, 1)
         jobs[0].do, jobs[0].log = stop, os.devnull
         with contextlib.redirect_stdout(io.StringIO()), self.assertRaises(SystemExit):
             work._work(jobs, show, 1, '1G')
         self.assertEqual(self.bags(), ['one.bag'])
         self.assertEqual(show.failed, [])
+
+
+class Wrong(Made):
+    """What becomes of the other runs if something goes wrong here."""
+
+    def setUp(self):
+        super().setUp()
+        for name in ('log', 'under_way'):
+            os.makedirs(self.path(name))
+        self.begun, self.heard = set(), []
+
+    def launched(self, words, came, output, is_lost):
+        """Instead of roslaunch: the bag is whole at once; one goes on until it has to end."""
+        given = dict(word.split(':=') for word in words)
+        name = given['__ns']
+        planned = run.Planned(name, self.of().parameters)
+        self.lacks(of=planned)
+        os.rename(planned.bag(self.folder), given['bag'])
+        self.begun.add(name)
+        if name == 'long':
+            self.heard.append(harness.wait_until(is_lost, 5.0))
+        harness.wait_until(lambda: 'long' in self.begun, 5.0)
+
+    def work(self, *names):
+        """Returns Tally.failed."""
+        jobs = [work.Job(run.Planned(name, self.of().parameters), self.folder) for name in names]
+        show = work.Tally(jobs, 0, 2)
+        with mock.patch.object(work, 'launched', self.launched):
+            with contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(
+                io.StringIO()
+            ):
+                work._work(jobs, show, 2, '1G')
+        return show.failed
+
+    def test_nobody_reads_what_it_says(self):
+        """They end, and their bags come to their places."""
+        with mock.patch.object(work.Tally, 'ended', side_effect=BrokenPipeError):
+            with self.assertRaises(BrokenPipeError):
+                self.work('one', 'long')
+        self.assertEqual(self.heard, [True])
+        self.assertEqual(os.listdir(self.path('under_way')), [])
+        self.assertTrue(all(os.path.exists(self.path(name)) for name in ('one.bag', 'long.bag')))
+
+    def test_no_file_can_be_written(self):
+        """That run has failed; the others go on."""
+        self.begun.add('long')
+        for name in ('a.yaml', 'log/b.log'):
+            os.makedirs(self.path(name))
+        failed = sorted(self.work('a', 'b', 'c', 'd'))
+        self.assertEqual(len(failed), 2, failed)
+        for line, name, path in zip(failed, 'ab', ('a.yaml', 'log/b.log')):
+            self.assertRegex(line, f'^{name}: .*Is a directory: .*{self.path(path)}')
+        self.assertEqual(self.begun, {'c', 'd', 'long'})
+        self.assertTrue(all(os.path.exists(self.path(name)) for name in ('c.bag', 'd.bag')))
 
 
 class Machines(InFolder):
@@ -430,7 +497,7 @@ class Shown(InFolder):
         with mock.patch('time.monotonic', lambda: now[0]), contextlib.redirect_stdout(
             out
         ), contextlib.redirect_stderr(err):
-            show = work.Progress(jobs, 4, 2)
+            show = work.Tally(jobs, 4, 2)
             for job, seconds, why in zip(jobs, (40, 400, 0, 3600), ('', '', 'no', '')):
                 now[0] += seconds
                 show.ended(job, why)

@@ -3,6 +3,8 @@
 test_work.py's."""
 
 import argparse
+import contextlib
+import io
 import os
 import re
 import tempfile
@@ -23,7 +25,7 @@ from hdlyap.commands import sweep
 from hdlyap.data.reader import RecordingError
 from hdlyap.runs import run
 from hdlyap.runs.scene import Refused
-from hdlyap.sweep import figure, grid, plan, points, table
+from hdlyap.sweep import figure, grid, plan, points, result, table
 
 LAUNCH = os.path.join(rospkg.RosPack().get_path('hdlyap'), 'launch')
 ERRORS = 'both errors of the means over seeds; the table above has the larger:'
@@ -232,6 +234,15 @@ class Command(InFolder):
             self.assertIn(what, str(caught.exception))
         with self.assertRaisesRegex(RecordingError, 'must be with the form'):
             self.understood('--seeds', '1', '--k', '0', '1')
+
+    def test_wrong_after_the_runs(self):
+        """Is no refusal."""
+        parser, said = argparse.ArgumentParser(), io.StringIO()
+        sweep.options(parser)
+        with mock.patch.object(result, 'write', side_effect=RecordingError('x.bag: damaged')):
+            with contextlib.redirect_stderr(said):
+                status = sweep.sweep([], self.folder, 1, parser.parse_args([]))
+        self.assertEqual((status, said.getvalue()), (1, 'hdlyap sweep: x.bag: damaged\n'))
 
 
 class Results(InFolder):

@@ -61,6 +61,14 @@ def leave(number):
     sys.exit(128 + number)
 
 
+def of_shell(status):
+    """The exit status of a process as shells say it: 128 + n if signal n has killed it; 1 if nobody
+    knows how it ended."""
+    if status is None:
+        return 1
+    return status if status >= 0 else 128 - status
+
+
 def exit_on_all(but=lambda: False):
     """Makes the program exit at each signal, except while but() is true: rospy calls this handler
     for signals that it has answered already."""

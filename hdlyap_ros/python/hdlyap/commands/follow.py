@@ -15,9 +15,10 @@ def options(parser):
     text = 'longest wait for the master and the node (default: %(default)g)'
     parser.add_argument('--timeout', type=float, default=30.0, metavar='SECONDS', help=text)
     text = 'only the line; ends when the node ends'
-    parser.add_argument('--line', action='store_true', help=text)
+    either = parser.add_mutually_exclusive_group()
+    either.add_argument('--line', action='store_true', help=text)
     text = 'have the node compute steps although nobody else listens to them'
-    parser.add_argument('--steps', action='store_true', help=text)
+    either.add_argument('--steps', action='store_true', help=text)
 
 
 def main(args):

@@ -29,14 +29,7 @@ class First(pmon.ProcessListener):
 
     def process_died(self, process_name, exit_code):
         if self.status is None:
-            self.status = _of_shell(exit_code)
-
-
-def _of_shell(exit_code):
-    """128 + its number if a signal has killed a process; 1 if nobody knows how it ended."""
-    if exit_code is None:
-        return 1
-    return exit_code if exit_code >= 0 else 128 - exit_code
+            self.status = signals.of_shell(exit_code)
 
 
 def options(parser):

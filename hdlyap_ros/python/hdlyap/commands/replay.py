@@ -1,7 +1,8 @@
 """A bag played by the simulated time of its run.
 
 Writes a bag whose stamps are simulated time, a time unit a second, run after run, and lets rosbag
-play publish it. rosbag play BAG itself plays by the wall time of the recording.
+play publish it. Without --out this bag is in TMPDIR, which needs room for it. rosbag play BAG
+itself plays by the wall time of the recording.
 Service: ~pause_playback (std_srvs/SetBool)."""
 
 import heapq
@@ -25,6 +26,7 @@ from hdlyap.numbers import positive
 
 DISORDER = 1.0  # most seconds by which a recorder puts messages of different topics out of order
 START = 10**9  # first stamp [ns]
+LATEST = 1e9  # most simulated time; stamps end at 2^32 s
 POLL = 0.1  # seconds between two looks whether it still plays
 # options of rosbag play: those of the user's, and ours, by which no message is lost at the start or
 # to a slow subscriber
@@ -53,21 +55,29 @@ def options(parser):
 
 class Message:
     """A message as it is in the bag. Messages of other packages get run and simulated time of the
-    message before."""
+    message before; run_info, and what comes before any time is known, the time -1."""
 
-    def __init__(self, topic, raw, stamp, before):
+    def __init__(self, path, topic, raw, stamp, before):
         self.topic, self.raw, self.wall = topic, raw[:3], stamp.to_sec()
-        self.is_info = raw[0] == reader.RUN_INFO
         self.run, self.time = (before.run, before.time) if before else (None, -1.0)
         if raw[0].startswith('hdlyap/'):
             packed = reader.Packed(topic, raw[0], raw[1], stamp)
-            self.run, self.time = packed.run_id, -1.0 if self.is_info else packed.sim_time
+            self.run, self.time = packed.run_id, -1.0
+            if raw[0] != reader.RUN_INFO:
+                self.time = _possible(f'{path}: {topic}', packed.sim_time)
+
+
+def _possible(where, time):
+    """The simulated time of a message. Raises RecordingError if no stamp can be made of it."""
+    if not 0 <= time <= LATEST:
+        raise reader.RecordingError(f'{where}: sim_time = {time:g}: must be from 0 to {LATEST:g}')
+    return time
 
 
 def as_recorded(bag):
     message = None
     for topic, raw, stamp in reader.recorded(bag):
-        message = Message(topic, raw, stamp, message)
+        message = Message(bag.filename, topic, raw, stamp, message)
         yield message
 
 
@@ -84,12 +94,12 @@ def as_simulated(bag):
 
 
 def stamped(bag, begin, lead):
-    """Yields (message, stamp [ns]) from a simulated time on; lead: by how much all else comes after
-    run_info. Stamps go up, so that messages keep their order."""
+    """Yields (message, stamp [ns]) from a simulated time on; lead: by how much
+    messages with a time come after run_info. Stamps go up, so that messages keep their order."""
     now, run, origin, message = START, None, None, None
     for message in as_simulated(bag):
         at = now + 1
-        if not message.is_info:
+        if message.time >= 0:
             if message.time < begin:
                 continue
             if origin is None or message.run != run:
@@ -106,7 +116,7 @@ def stamped(bag, begin, lead):
 def write(bag, path, begin, lead):
     """Writes the bag that is played."""
     headers = {connection.topic: header(bag, connection) for connection in connections(bag)}
-    with rosbag.Bag(path, 'w') as made:
+    with rosbag.Bag(path, 'w', compression='lz4') as made:
         for message, at in stamped(bag, begin, lead):
             of_topic = headers[message.topic]
             about = SimpleNamespace(_md5sum=message.raw[2])  # instead of a class, which may lack
@@ -139,12 +149,16 @@ def header(bag, connection):
     }
 
 
+def chosen(args):
+    """The options for rosbag play that the user has given."""
+    return ['--' + name for name in OPTIONS if getattr(args, name.replace('-', '_'))]
+
+
 def play(path, args):
     """Plays a bag until its end or a signal. Returns the exit status."""
     ours = [*OURS, f'--rate={args.pace}', *(() if sys.stdout.isatty() else ['--quiet'])]
-    theirs = ['--' + name for name in OPTIONS if getattr(args, name.replace('-', '_'))]
     program = roslib.packages.find_node('rosbag', 'play')[0]
-    command = [program, *ours, *theirs, path, *args.assigned]
+    command = [program, *ours, *chosen(args), path, *args.assigned]
     with signals.held() as came:
         process, told = subprocess.Popen(['setpriv', '--pdeathsig', 'INT', *command]), 0
         while process.poll() is None:
@@ -152,12 +166,16 @@ def play(path, args):
                 told = len(came)
                 process.send_signal(signal.SIGINT)
             time.sleep(POLL)
-    return process.returncode
+    return signals.of_shell(process.returncode)
 
 
 def main(args):
     lead = args.lead * args.pace
     if args.out:
+        of_play = ' '.join([*chosen(args), *args.assigned])
+        if of_play:
+            print(f'hdlyap replay: {of_play}: must not be given with --out', file=sys.stderr)
+            return 2
         with reader.opened(args.bag) as bag, whole.written(args.out) as path:
             write(bag, path, args.begin, lead)
         return 0

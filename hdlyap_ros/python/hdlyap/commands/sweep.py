@@ -130,7 +130,10 @@ def sweep(found, folder, jobs, args):
     if args.plan:  # its runs may have nothing in common
         print(f'{len(there)} of {len(found)} runs are in {folder}', flush=True)
     else:
-        wrong += result.write(there, folder, fits.choice(args))
+        try:
+            wrong += result.write(there, folder, fits.choice(args))
+        except RecordingError as error:
+            wrong.append(str(error))
     for line in wrong:
         print(f'hdlyap sweep: {line}', file=sys.stderr, flush=True)
     return 1 if wrong else 0

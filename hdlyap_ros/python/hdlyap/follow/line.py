@@ -1,6 +1,6 @@
 """Progress of a node in one line, on a narrow terminal in several, and above it what is new."""
 
-import os
+import shutil
 import sys
 import textwrap
 import time
@@ -121,7 +121,7 @@ class Display:
     def _overwrite(self, parts):
         """Writes the text over the last one, on as many lines as it needs. The last column stays
         free, because clearing the rest of a line would clear it."""
-        width = max(1, os.get_terminal_size(sys.stdout.fileno()).columns - 1)
+        width = max(1, shutil.get_terminal_size().columns - 1)
         lines = flowed(parts, width)
         up = f'\033[{self._below}A' if self._below else ''
         print(f'\r{up}' + '\033[K\n'.join(lines) + '\033[J', end='', flush=True)

@@ -17,7 +17,7 @@ from .nodes import UNANSWERED, address, answers, ask_master
 
 ALWAYS = {'run_info': RunInfo, 'status': RunStatus, 'cost': Cost, 'spectrum': Spectrum}
 COMPUTED = {'steps': Steps, 'lp_phases': LpPhases}
-FIELDS = {'run_info': 'info', 'lp_phases': 'phases'}  # members of View that differ from the topic
+FIELDS = {'run_info': 'info'}  # members of View that differ from the topic
 PERIOD = 1.0  # seconds between two looks at the master
 SILENCE = 2.0  # seconds without a message after which the node is asked
 SPEED_OVER = 10.0  # wall seconds over which the speed is measured
@@ -29,7 +29,7 @@ class View(Said):
     `diagnosis`: its DiagnosticStatus; `others`: topics of COMPUTED that somebody else listens to;
     `wanted`: whether this listens to all of them."""
 
-    info = spectrum = steps = status = cost = phases = diagnosis = speed = None
+    info = spectrum = steps = status = cost = diagnosis = speed = None
     node, silence, others, wanted = '', 0.0, frozenset(), False
     is_gone = is_master_gone = False
 

@@ -83,9 +83,14 @@ class Planned:
 
 def complete(bag):
     """The data.run.Run in a bag, if it is there and went to its end; otherwise None."""
+    there = recorded(bag)
+    return there if there and there.is_complete else None
+
+
+def recorded(bag):
+    """The data.run.Run in a bag; None if it cannot be read."""
     try:
-        there = hdlyap.load(bag)
-        return there if there.is_complete else None
+        return hdlyap.load(bag)
     except RecordingError:
         return None
 

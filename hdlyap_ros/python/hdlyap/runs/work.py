@@ -7,15 +7,13 @@ import os
 import re
 import sys
 import time
-from concurrent.futures import ThreadPoolExecutor, as_completed
+from concurrent.futures import ThreadPoolExecutor, as_completed, wait
 
-import hdlyap
 from hdlyap import signals
-from hdlyap.data.reader import RecordingError
 from hdlyap.numbers import clock
 
 from . import bags, ranks, tree
-from .run import complete
+from .run import recorded
 
 PATIENCE = 60.0  # seconds in which all processes have to end, with the last checkpoint
 SILENCE = 180.0  # seconds in which the recorder has to hear the node, which waits for it
@@ -55,7 +53,7 @@ def do(runs, folder, at_once, min_space):
         except OSError:
             pass  # the file system has no locks
         jobs = [Job(run, folder) for run in _missing(runs, folder)]
-        show = Progress(jobs, len(runs) - len(jobs), at_once)
+        show = Tally(jobs, len(runs) - len(jobs), at_once)
         os.makedirs(under_way, exist_ok=True)
         try:
             if jobs:
@@ -85,17 +83,20 @@ def _work(jobs, show, at_once, min_space):
     """Does them. One that fails does not stop the others."""
     with signals.held() as came:
         try:
-            for job in _side_by_side(jobs, at_once, min_space, came):
-                why = job.placed()
-                if not (came and why):
-                    show.ended(job, why)
+            with contextlib.closing(_side_by_side(jobs, at_once, min_space, came)) as ended:
+                for job in ended:
+                    why = job.placed()
+                    if came and why:
+                        _say_left(job)
+                    else:
+                        show.ended(job, why)
         finally:
             with contextlib.suppress(OSError):  # the terminal may be gone
                 show.end()
 
 
 def _side_by_side(jobs, at_once, min_space, came):
-    """Yields each job when it has ended."""
+    """Yields each job when it has ended. Closed before the last, it ends those under way."""
     for is_wide, workers in ((False, at_once), (True, 1)):
         some = [job for job in jobs if job.run.is_wide == is_wide]
         with ThreadPoolExecutor(workers) as pool:
@@ -103,70 +104,98 @@ def _side_by_side(jobs, at_once, min_space, came):
             try:
                 for future in as_completed(begun):
                     future.result()
-                    yield begun[future]
+                    yield begun.pop(future)
             finally:
-                for future in begun:
-                    future.cancel()
+                _end(begun)
+
+
+def _end(begun):
+    """Ends jobs, {future: job}, and takes their bags to their places."""
+    for job in begun.values():
+        job.is_over = True
+    futures = [future for future in begun if not future.cancel()]
+    wait(futures)
+    for future in futures:
+        begun[future].placed()
+        _say_left(begun[future])
+
+
+def _say_left(job):
+    with contextlib.suppress(OSError):  # the terminal may be gone
+        if job.left():
+            print(f'hdlyap sweep: {job.run.name}: {job.left()}', file=sys.stderr, flush=True)
 
 
 class Job:
     """A run. It records into another folder, so that an incomplete bag replaces nothing."""
 
     def __init__(self, run, folder):
-        self.run, self._folder, self._is_silent = run, folder, False
+        self.run, self._folder, self._is_silent, self._fault = run, folder, False, ''
+        self.is_over = False  # whether it has to end
         self.log = os.path.join(folder, 'log', run.name + '.log')
         self._new = os.path.join(folder, UNDER_WAY, f'{run.name}.{os.getpid()}.bag')
 
     def do(self, min_space, came):
         """Does the run, unless a signal came."""
+        if came or self.is_over:
+            return
+        try:
+            self._do(min_space, came)
+        except OSError as error:
+            self._fault = str(error)
+
+    def _do(self, min_space, came):
         until = time.monotonic() + SILENCE
 
-        def is_silent():
+        def is_lost():
             self._is_silent = time.monotonic() > until and not bags.in_the_way(self._new)
-            return self._is_silent
+            return self._is_silent or self.is_over
 
-        if came:
-            return
-        self.run.write(self._folder)
         words = [f'__ns:={self.run.name}', f'scene:={self.run.scene_file(self._folder)}']
         words += ['record:=true', f'bag:={self._new}', f'min_space:={min_space}', 'table:=0']
         with open(self.log, 'w') as file:
-            launched(words, came, file, is_silent)
+            self.run.write(self._folder)
+            launched(words, came, file, is_lost)
 
     def placed(self):
         """Takes the bag to its place, if it is complete, and removes it, if it says that it is not.
-        Returns what it lacks to be that of the run; '' if nothing."""
-        there = complete(self._new)
-        why = self.run.lacking(there)
+        Returns why it is not that of the run; '' if it is."""
+        there = recorded(self._new)
+        whole = there if there and there.is_complete else None
+        why = self._fault or self.run.lacking(whole)
+        if self._is_silent:
+            why = f'no message of its node within {SILENCE:.0f} s'
         try:
-            if there:
+            if whole:
                 _keep(self.run.bag(self._folder))
                 os.rename(self._new, self.run.bag(self._folder))
-            elif _is_cut(self._new):
+            elif there:
                 os.remove(self._new)
         except (bags.InUse, OSError) as error:
-            return f'its bag is still in {self._new}: {error}'
-        return f'no message of its node within {SILENCE:.0f} s' if self._is_silent else why
+            return f'{self.left()}: {error}'
+        return '; '.join(filter(None, (why, self.left())))
 
-
-def _is_cut(bag):
-    """Whether a bag says that it ends before its run."""
-    with contextlib.suppress(RecordingError):
-        return not hdlyap.load(bag).is_complete
-    return False
+    def left(self):
+        """Where its bag is if it has not come to its place, as text; '' if it is gone."""
+        found = ' and '.join(bags.in_the_way(self._new))
+        return found and f'its bag is still in {found}'
 
 
 def last_words(log):
-    """Why a run failed: the last line of level ERROR or FATAL, otherwise the death of a process."""
-    with open(log, errors='replace') as file:
-        lines = [COLOUR.sub('', line).strip() for line in file]
+    """Why a run failed: the last line of level ERROR or FATAL, otherwise the death of a process;
+    '' if the log cannot be read."""
+    try:
+        with open(log, errors='replace') as file:
+            lines = [COLOUR.sub('', line).strip() for line in file]
+    except OSError:
+        return ''
     errors = [line for line in lines if SAID.search(line)]
     deaths = [match.group() + ']' for match in map(DIED.search, lines) if match]
     last = (errors or deaths)[-1:]
     return ''.join(line + '; ' for line in last)
 
 
-class Progress:
+class Tally:
     """Says how many runs are done, and about how long the rest takes. before: how many were done
     already."""
 
