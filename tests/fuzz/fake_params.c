@@ -30,6 +30,7 @@ typedef struct entry {
 struct hdr_params {
     entry entries[PARAMS_MAX];
     int count;
+    bool has_file; /* whether a scene's file says the same */
 };
 
 /* ---- bytes --------------------------------------------------------------------------------- */
@@ -182,6 +183,7 @@ hdr_params *fake_params_create(const uint8_t *bytes, size_t size)
 {
     source s = {bytes, bytes + size};
     hdr_params *params = calloc(1, sizeof *params);
+    if (params) params->has_file = take(&s) % 2;
     while (params && s.next < s.end && params->count < PARAMS_MAX) add(params, &s);
     return params;
 }
@@ -212,6 +214,12 @@ bool fake_params_is_about(const hdr_params *params, const char *line)
 /* ---- as params.h says ---------------------------------------------------------------------- */
 
 int hdr_params_count(const hdr_params *params) { return params->count; }
+
+const hdr_params *hdr_params_file(const hdr_params *params, const char **path)
+{
+    *path = params->has_file ? "scene.yaml" : "";
+    return params->has_file ? params : NULL;
+}
 
 const char *hdr_params_name(const hdr_params *params, int k)
 {
