@@ -59,8 +59,8 @@ struct entry {
     XmlRpcValue value;
     std::string text;                 /**< see param_text */
     std::vector<std::string> strings; /**< the items of a list of strings */
-    std::vector<const char *> list;   /**< pointers into strings */
-    std::vector<int> integers;        /**< the items of a list of integers */
+    std::vector<const char *> list; /**< pointers into strings, which stay when an entry is moved */
+    std::vector<int> integers;      /**< the items of a list of integers */
 };
 
 bool is_list(XmlRpcValue &value, XmlRpcValue::Type type)
@@ -79,6 +79,7 @@ entry make_entry(XmlRpcValue &given)
     made.text = param_text(value);
     if (is_list(value, XmlRpcValue::TypeString))
         for (int k = 0; k < value.size(); k++) made.strings.push_back(value[k]);
+    for (const std::string &item : made.strings) made.list.push_back(item.c_str());
     if (is_list(value, XmlRpcValue::TypeInt))
         for (int k = 0; k < value.size(); k++) made.integers.push_back(value[k]);
     return made;
@@ -137,9 +138,6 @@ std::unique_ptr<hdr_params> made_of(XmlRpcValue &all)
 {
     std::unique_ptr<hdr_params> params(new hdr_params);
     for (auto &member : all) params->entries[member.first] = make_entry(member.second);
-    for (auto &member : params->entries)
-        for (const std::string &item : member.second.strings)
-            member.second.list.push_back(item.c_str());
     return params;
 }
 
@@ -240,9 +238,7 @@ std::unique_ptr<hdr_params> launched(XmlRpcValue &server)
 
 void write(const hdr_node *node, const std::string &name, const XmlRpcValue &value)
 {
-    const hdr_status status = hdr_guard(
-        [&] { node->watch->write(node->name + "/" + name, value); });
-    if (status != HDR_OK)
+    if (hdr_guard([&] { node->watch->write(node->name + "/" + name, value); }) != HDR_OK)
         hdr_log(HDR_ERROR, "%s is not written to the parameter server: %s", name.c_str(),
                 hdr_error_text());
 }
@@ -345,10 +341,7 @@ hdr_status hdr_param_double(const hdr_params *params, const char *name, double *
     int integer = 0;
     const hdr_status status = read(params, name, XmlRpcValue::TypeDouble, out);
     if (status != HDR_WRONG_TYPE) return status;
-    if (hdr_param_int(params, name, &integer) == HDR_OK) {
-        *out = integer;
-        return HDR_OK;
-    }
+    if (hdr_param_int(params, name, &integer) == HDR_OK) return *out = integer, HDR_OK;
     const entry *found = find(params, name);
     const bool text = found->value.getType() == XmlRpcValue::TypeString;
     return text && number_parse(found->text, out) ? HDR_OK : HDR_WRONG_TYPE;
