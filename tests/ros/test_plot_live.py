@@ -14,6 +14,7 @@ from matplotlib.colors import to_rgb
 
 from hdlyap.follow import live
 from hdlyap.follow.gathered import MOST, Gathered
+from hdlyap.follow.watch import lazy
 from hdlyap.plots.figures.style import BLUE, VERMILION
 from hdlyap.plots.window import Window
 import harness
@@ -89,6 +90,15 @@ class Heard(harness.Case):
         for one, other in zip(ours, theirs):
             np.testing.assert_array_equal(one, other)
         self.assertGreater(len(live_run.course()['time']), 15)
+
+    def test_heard_again(self):
+        """A latched message comes once more when rospy has subscribed anew."""
+        heard, packed = Gathered('/made'), io.BytesIO()
+        made.run_info().serialize(packed)
+        message = lazy(type(made.run_info()))().deserialize(packed.getvalue())
+        for _ in range(2):
+            heard._hear(message, '/made/run_info')
+            self.assertIsNotNone(message.unpacked())
 
     def test_long_run_and_the_next(self):
         """Its reports are thinned out, from the first to the last; another run begins anew."""

@@ -2,6 +2,7 @@
 runs in a thread. Watching must not change a run: topics that the node computes only for listeners
 are subscribed to while somebody else listens, or if the user asks for them."""
 
+import contextlib
 import re
 import threading
 import time
@@ -17,7 +18,7 @@ from .nodes import UNANSWERED, address, answers, ask_master
 
 ALWAYS = {'run_info': RunInfo, 'status': RunStatus, 'cost': Cost, 'spectrum': Spectrum}
 COMPUTED = {'steps': Steps, 'lp_phases': LpPhases}
-FIELDS = {'run_info': 'info'}  # members of View that differ from the topic
+FIELDS = {'run_info': 'info', 'lp_phases': 'phases'}  # members of View that differ from the topic
 PERIOD = 1.0  # seconds between two looks at the master
 SILENCE = 2.0  # seconds without a message after which the node is asked
 SPEED_OVER = 10.0  # wall seconds over which the speed is measured
@@ -29,7 +30,7 @@ class View(Said):
     `diagnosis`: its DiagnosticStatus; `others`: topics of COMPUTED that somebody else listens to;
     `wanted`: whether this listens to all of them."""
 
-    info = spectrum = steps = status = cost = diagnosis = speed = None
+    info = spectrum = steps = status = cost = phases = diagnosis = speed = None
     node, silence, others, wanted = '', 0.0, frozenset(), False
     is_gone = is_master_gone = False
 
@@ -164,17 +165,15 @@ def lazy(kind):
 
     class Lazy(kind):
         def deserialize(self, data):
-            self.data, self.message = data, None
+            self.data, self.message, self.is_unpacked = data, None, False
             return self
 
         def unpacked(self):
             """The message; None if it is damaged."""
-            if self.data is not None:
-                try:
+            if not self.is_unpacked:
+                with contextlib.suppress(Exception):  # damaged bytes make genpy raise anything
                     self.message = kind().deserialize(self.data)
-                except Exception:  # damaged bytes make genpy raise anything
-                    self.message = None
-                self.data = None
+                self.is_unpacked = True
             return self.message
 
     return Lazy
