@@ -55,9 +55,6 @@ hd_windows *hd_observables_windows(const hd_observables *o)
     return o->seen & HD_OBSERVE_COVARIANT ? o->part[HD_OBSERVED_covariant] : NULL;
 }
 
-unsigned hd_observables_looked_at(const hd_observables *o) { return o->looked_at; }
-unsigned hd_observables_seen(const hd_observables *o) { return o->seen; }
-
 void hd_observables_look(hd_observables *o, unsigned stages)
 {
     const unsigned before = o->seen;
@@ -90,8 +87,6 @@ static bool next(one *at, const hd_observables *o)
 }
 
 static const one BEFORE = {.k = -1}; /**< the first one */
-
-bool hd_observables_any(const hd_observables *o) { return hd_observables_need(o, 0); }
 
 bool hd_observables_need(const hd_observables *o, unsigned needs)
 {
@@ -139,20 +134,15 @@ static hd_status measure_here(hd_observables *o, const hd_moment *now)
     return HD_OK;
 }
 
-hd_status hd_observables_measure(hd_observables *o, hd_moment now)
+hd_status hd_observables_measure(hd_observables *o, hd_moment now, bool add)
 {
     complete(o, &now);
     HD_TRY(hd_communicator_agree(o->with.communicator, measure_here(o, &now)));
     for (one at = BEFORE; next(&at, o);)
         if (at.row->share) HD_TRY(at.row->share(at.self, &now));
-    return HD_OK;
-}
-
-void hd_observables_add(hd_observables *o, hd_moment now)
-{
-    now.with = &o->with;
-    for (one at = BEFORE; next(&at, o);)
+    for (one at = BEFORE; add && next(&at, o);)
         if (at.row->add) at.row->add(at.self, &now);
+    return HD_OK;
 }
 
 void hd_observables_report(hd_observables *o, hd_moment now)

@@ -4,7 +4,7 @@
 
 #include "observe/windows.h"
 
-/** Only observables.c uses the members. */
+/** Only observables.c changes the members. */
 typedef struct hd_observables {
     hd_observing with;
     void *part[HD_OBSERVED]; /**< NULL: not asked for */
@@ -42,24 +42,19 @@ hd_windows *hd_observables_windows(const hd_observables *observables);
 
 /** Sets which observables somebody listens to from now on (set of HD_OBSERVE_*); at first all. */
 void hd_observables_look(hd_observables *observables, unsigned stages);
-unsigned hd_observables_looked_at(const hd_observables *observables);
-/** These and the observables that they need. */
-unsigned hd_observables_seen(const hd_observables *observables);
 
 /* For the observables that somebody listens to. Moments that are passed lack `with`, q and p. */
 
-bool hd_observables_any(const hd_observables *observables);
-/** True if one has all of these needs (set of HD_NEEDS_*). */
+/** True if one has all of these needs (set of HD_NEEDS_*); 0: if there is any. */
 bool hd_observables_need(const hd_observables *observables, unsigned needs);
 /** The first vector that is read from all ranks; n if none is. */
 int hd_observables_first(const hd_observables *observables);
 /** Longest time from this measured state to the next that all of them allow; INFINITY if they allow
  * any. */
 double hd_observables_sampling(const hd_observables *observables);
-/** Takes a snapshot on all ranks; if one rank fails, all do. */
-HD_MUST_CHECK hd_status hd_observables_measure(hd_observables *observables, hd_moment now);
-/** Adds the snapshot of this state to the averages. */
-void hd_observables_add(hd_observables *observables, hd_moment now);
+/** Takes a snapshot on all ranks; if one rank fails, all do. add: and adds it to the averages. */
+HD_MUST_CHECK hd_status hd_observables_measure(hd_observables *observables, hd_moment now,
+                                               bool add);
 /** Called at a report; now.vectors[0] are the vectors of all ranks that can be read. */
 void hd_observables_report(hd_observables *observables, hd_moment now);
 

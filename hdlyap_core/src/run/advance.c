@@ -5,8 +5,8 @@
 #include <math.h>
 
 #include "base/check.h"
-#include "run/schedule.h"
 #include "scene/scene.h"
+#include "tangent/interval.h"
 
 /** No advance is planned shorter: simulated time must move. */
 static const double SHORTEST = 1e-12;
@@ -37,7 +37,7 @@ hd_status hd_advance_create(hd_advance *advance, const hd_scene_def *scene)
 
 void hd_advance_clear(hd_advance *advance) { hd_trajectory_free(advance->trajectory); }
 
-double hd_advance_now(const hd_advance *advance) { return hd_trajectory_time(advance->trajectory); }
+static double time_of(const hd_advance *advance) { return hd_trajectory_time(advance->trajectory); }
 
 uint64_t hd_advance_events(const hd_advance *advance)
 {
@@ -45,14 +45,10 @@ uint64_t hd_advance_events(const hd_advance *advance)
     return totals.collisions + totals.wall_events;
 }
 
-double hd_advance_shortest(const hd_advance *advance)
+void hd_advance_bounds(const hd_advance *advance, double *shortest, double *longest)
 {
-    return SHORTEST + 4.0 * DBL_EPSILON * hd_advance_now(advance);
-}
-
-double hd_advance_longest(const hd_advance *advance)
-{
-    return fmax(advance->longest, hd_advance_shortest(advance));
+    *shortest = SHORTEST + 4.0 * DBL_EPSILON * time_of(advance);
+    *longest = fmax(advance->longest, *shortest);
 }
 
 /** The end of the next equal part of what is left until `stop`, none longer than `most`. */
@@ -61,23 +57,13 @@ static double end_of_part(double now, double stop, double most)
     return stop - now <= most ? stop : now + hd_equal_part(stop - now, most);
 }
 
-void hd_advance_make_plan(hd_advance *advance, double stop)
-{
-    const double now = hd_advance_now(advance);
-    const double end = end_of_part(now, stop, hd_advance_longest(advance));
-    advance->plan = (hd_advance_plan){
-        .begin = now, .end = end, .events = hd_advance_events(advance)};
-}
-
 void hd_advance_stop(hd_advance *advance, double end)
 {
     advance->plan.end = fmin(advance->plan.end, end);
 }
 
-bool hd_advance_is_done(const hd_advance *advance)
-{
-    return hd_advance_now(advance) >= advance->plan.end;
-}
+/** True at the end of what was planned. */
+static bool is_done(const hd_advance *advance) { return time_of(advance) >= advance->plan.end; }
 
 /** Number of events in an advance that has ended, of this length. For particles that do not
  * collide: the entries of the record, or as many as are expected if there is no record. */
@@ -101,11 +87,17 @@ static void learn(hd_advance *advance, const hd_record *record)
     if (length > 0) advance->longest = fmin(grown, advance->bound);
 }
 
-hd_status hd_advance_on(hd_advance *advance, hd_record *record, double most)
+hd_status hd_advance_on(hd_advance *advance, hd_record *record, double stop, double most)
 {
-    const double end = end_of_part(hd_advance_now(advance), advance->plan.end,
-                                   fmax(most, hd_advance_shortest(advance)));
+    const double now = time_of(advance);
+    double shortest, longest;
+    hd_advance_bounds(advance, &shortest, &longest);
+    if (is_done(advance))
+        advance->plan = (hd_advance_plan){.begin = now,
+                                          .end = end_of_part(now, stop, longest),
+                                          .events = hd_advance_events(advance)};
+    const double end = end_of_part(now, advance->plan.end, fmax(most, shortest));
     HD_TRY(hd_trajectory_extend(advance->trajectory, record, end));
-    if (hd_advance_is_done(advance)) learn(advance, record);
+    if (is_done(advance)) learn(advance, record);
     return HD_OK;
 }

@@ -33,24 +33,18 @@ typedef struct hd_advance {
 HD_MUST_CHECK hd_status hd_advance_create(hd_advance *advance, const hd_scene_def *scene);
 void hd_advance_clear(hd_advance *advance);
 
-double hd_advance_now(const hd_advance *advance); /**< simulated time */
 /** Events of the run so far, of pairs and walls. */
 uint64_t hd_advance_events(const hd_advance *advance);
 
-/** Shortest plan [time units]: simulated time would not move by less. */
-double hd_advance_shortest(const hd_advance *advance);
-/** Longest plan [time units], as far as the rate of events is known. */
-double hd_advance_longest(const hd_advance *advance);
+/** Shortest plan [time units], because simulated time would not move by less; longest one, as far
+ * as the rate of events is known. */
+void hd_advance_bounds(const hd_advance *advance, double *shortest, double *longest);
 
-/** Plans from now to at most `stop`. */
-void hd_advance_make_plan(hd_advance *advance, double stop);
 /** Ends the plan at `end`, unless it ends before. */
 void hd_advance_stop(hd_advance *advance, double end);
-/** True at the end of what was planned. */
-bool hd_advance_is_done(const hd_advance *advance);
-
-/** Moves the particles on towards the end of the plan, by at most `most`; the record may be NULL.
- * Fails as hd_trajectory_extend. */
-HD_MUST_CHECK hd_status hd_advance_on(hd_advance *advance, hd_record *record, double most);
+/** Moves the particles on towards the end of the plan, by at most `most`; if it is reached, the
+ * next one goes to at most `stop`. The record may be NULL. Fails as hd_trajectory_extend. */
+HD_MUST_CHECK hd_status hd_advance_on(hd_advance *advance, hd_record *record, double stop,
+                                      double most);
 
 #endif

@@ -1,12 +1,16 @@
-/** Schedule, condition of the frame, and what observables need -> the next time at which something
- * is due.
+/** Scene, condition of the frame, and what observables need -> the next time at which something is
+ * due.
  *
- * Stages and reports end where the schedule says. The frame is orthonormalised as late as its
- * condition allows, or early where all vectors must be known. A sample consists of as many
+ * Stages follow each other at fixed times: equilibration (trajectory alone), warm-up of the frame,
+ * averaging. Reports are due at multiples of their interval and where a stage ends. The frame is
+ * orthonormalised as late as its condition allows, whenever reports are, or early where all vectors
+ * must be known. A sample consists of as many
  * intervals as come nearest to the length that it should have, or of fewer if observables, as
  * phases, need a measured state earlier. Without a frame a sample is a stretch of time. */
 #include "run/agenda.h"
 
+#include <float.h>
+#include <limits.h>
 #include <math.h>
 
 #include "averages/blocks.h"
@@ -17,8 +21,12 @@
 static const double DIVIDED = 1.25;
 /** Intervals are shortened by at most this factor to save a measured state. */
 static const double WORTH_A_STATE = 0.875;
-/** Two times that differ by less than this part of an interval are the same. */
+/** Two times that differ by less than this part are the same: of the report interval for a report
+ * and the end of its stage; of its interval for an orthonormalisation. */
 static const double CLOSE = 1e-6;
+/** The present time is the end of the stage if they differ by less than this part: a duration of 15
+ * digits is known to 23 eps, and some sums are rounded. */
+static const double ROUNDING = 64.0 * DBL_EPSILON;
 /** Longest sample, in collisions of a particle. */
 static const double COLLISIONS_PER_SAMPLE = 80.0;
 /** Growth remembers this many collisions of each particle; shorter blocks would give errors that
@@ -46,29 +54,79 @@ hd_agenda hd_agenda_of(const hd_scene_def *scene, double rate)
     const double sample = COLLISIONS_PER_SAMPLE / rate, collision = sample / COLLISIONS_PER_SAMPLE;
     const double sound = hd_scene_sound_crossing(scene);
     const double block = fmax(COLLISIONS_PER_BLOCK * collision, sound);
-    return (hd_agenda){.schedule = hd_schedule_of(scene),
-                       .in_force.target = scene->target,
-                       .sample_max = sample,
-                       .first_sample = FIRST_SAMPLE * block,
-                       .block = block};
+    return (hd_agenda){
+        .length = {scene->equilibration, scene->warmup, hd_agenda_averaging(scene->duration)},
+        .report_interval = scene->report_interval,
+        .in_force.target = scene->target,
+        .sample_max = sample,
+        .first_sample = FIRST_SAMPLE * block,
+        .block = block};
 }
 
 void hd_agenda_begin_grown(hd_agenda *a) { a->first_sample = INFINITY; }
 
-double hd_agenda_block(const hd_agenda *a) { return a->block; }
+double hd_agenda_averaging(double duration) { return duration > 0 ? duration : INFINITY; }
 
-/* ---- stages -------------------------------------------------------------------------------- */
+/* ---- stages and reports -------------------------------------------------------------------- */
 
-hd_stage hd_agenda_stage(const hd_agenda *a) { return a->schedule.stage; }
-double hd_agenda_stage_begin(const hd_agenda *a) { return a->schedule.start; }
-double hd_agenda_stage_end(const hd_agenda *a) { return hd_schedule_stage_end(&a->schedule); }
-double hd_agenda_next_report(const hd_agenda *a) { return hd_schedule_cut(&a->schedule); }
+static void count_reports_from(hd_agenda *a, double now)
+{
+    a->origin = now;
+    a->reports = 0;
+}
 
 void hd_agenda_enter(hd_agenda *a, hd_stage stage, double now)
 {
+    while (stage < HD_AVERAGING && a->length[stage] == 0) stage++;
     a->due &= ~(unsigned)HD_DUE_STAGE;
-    hd_schedule_enter(&a->schedule, stage, now);
+    a->stage = stage;
     hd_agenda_pass_sample(a, now);
+    if (stage == HD_FINISHED) return;
+    a->start = now;
+    count_reports_from(a, now);
+}
+
+double hd_agenda_stage_end(const hd_agenda *a)
+{
+    return a->start + a->length[a->stage == HD_FINISHED ? HD_AVERAGING : a->stage];
+}
+
+/** Time of a report, as a product, so that rounding does not add up. */
+static double report_at(const hd_agenda *a, double count)
+{
+    const double end = a->origin + count * a->report_interval, last = hd_agenda_stage_end(a);
+    return end < last - CLOSE * a->report_interval ? end : last;
+}
+
+double hd_agenda_cut(const hd_agenda *a) { return report_at(a, (double)a->reports + 1.0); }
+
+double hd_agenda_snap(const hd_agenda *a, double now, double length)
+{
+    const double end = now + length, count = round((end - a->origin) / a->report_interval);
+    const double cut = report_at(a, fmax(count, (double)a->reports + 1.0));
+    return fabs(end - cut) <= CLOSE * length ? cut : end;
+}
+
+double hd_agenda_next_multiple(const hd_agenda *a, double interval)
+{
+    const double r = a->report_interval, gone = a->origin - a->start;
+    const bool first = a->reports == 0 && a->origin == a->start;
+    if (first || interval <= r) return hd_agenda_cut(a);
+    const double passed = floor((gone + ((double)a->reports + CLOSE) * r) / interval);
+    const double count = ceil(((passed + 1.0) * interval - gone) / r - CLOSE);
+    return report_at(a, fmax(count, (double)a->reports + 1.0));
+}
+
+/** True if `now` is at or beyond the end of the stage, but for rounding. */
+static bool is_over(const hd_agenda *a, double now)
+{
+    return now >= hd_agenda_stage_end(a) * (1.0 - ROUNDING);
+}
+
+/** True if `now` is at or before the end of the stage, but for rounding. */
+static bool reaches(const hd_agenda *a, double now)
+{
+    return now <= hd_agenda_stage_end(a) * (1.0 + ROUNDING);
 }
 
 /* ---- the next interval --------------------------------------------------------------------- */
@@ -76,7 +134,7 @@ void hd_agenda_enter(hd_agenda *a, hd_stage stage, double now)
 double hd_agenda_sample_most(const hd_agenda *a)
 {
     const double block = WHOLE_BLOCK * a->block;
-    const double wanted = fmax(a->schedule.length[HD_AVERAGING] / SAMPLES_MIN, block / IN_A_BLOCK);
+    const double wanted = fmax(a->length[HD_AVERAGING] / SAMPLES_MIN, block / IN_A_BLOCK);
     return fmin(a->sample_max, wanted);
 }
 
@@ -86,10 +144,10 @@ double hd_agenda_sample_most(const hd_agenda *a)
  * part of one that comes nearest to a single interval. */
 double hd_agenda_sample_longest(const hd_agenda *a, const hd_interval *interval)
 {
-    const double block = WHOLE_BLOCK * a->block, averaged = a->sample_begin - a->schedule.start;
+    const double block = WHOLE_BLOCK * a->block, averaged = a->sample_begin - a->start;
     const double young = fmax(a->first_sample, averaged / HD_SPECTRUM_BLOCKS_MIN);
     const double most = fmin(hd_agenda_sample_most(a), young);
-    if (a->schedule.stage != HD_AVERAGING) return INFINITY;
+    if (a->stage != HD_AVERAGING) return INFINITY;
     const double usual = hd_interval_longest(interval).length;
     if (most >= block) return most;
     return hd_equal_part(block, usual < most && usual > most / IN_A_SAMPLE ? usual : most);
@@ -101,21 +159,13 @@ double hd_agenda_sample_grown(const hd_agenda *a)
     return most > WHOLE_BLOCK * a->block ? most : 0.0;
 }
 
-double hd_agenda_interval_expected(const hd_agenda *a, const hd_interval *interval, double apart)
-{
-    const double sample = hd_agenda_sample_longest(a, interval);
-    return fmin(hd_interval_longest(interval).length, fmin(sample, apart));
-}
-
 /** The next time at which all vectors must be known: the end of the stage, or a report at which
  * observables need them. */
 static double next_stop(const hd_agenda *a, const hd_pace *p)
 {
-    const hd_schedule *s = &a->schedule;
-    const bool at_cut = p->at_reports || (p->first && s->stage == HD_AVERAGING);
-    const double stop = at_cut ? hd_schedule_cut(s) : hd_schedule_stage_end(s);
-    return p->at_fields ? fmin(stop, hd_schedule_next_multiple(s, a->in_force.field_interval))
-                        : stop;
+    const bool at_cut = p->at_reports || (p->first && a->stage == HD_AVERAGING);
+    const double stop = at_cut ? hd_agenda_cut(a) : hd_agenda_stage_end(a);
+    return p->at_fields ? fmin(stop, hd_agenda_next_multiple(a, a->in_force.field_interval)) : stop;
 }
 
 /** Time until observables need a measured state; INFINITY if they need none, or if that time has
@@ -171,27 +221,42 @@ static hd_limit limit_of_rest(const hd_agenda *a, const hd_pace *p, double left)
 {
     const hd_interval_length longest = hd_interval_longest(p->interval);
     if (longest.length < DIVIDED * left) return longest.limit;
-    return p->now + left < hd_schedule_stage_end(&a->schedule) ? HD_LIMIT_SCHEDULE : HD_LIMIT_STAGE;
+    return p->now + left < hd_agenda_stage_end(a) ? HD_LIMIT_SCHEDULE : HD_LIMIT_STAGE;
 }
 
-void hd_agenda_plan(hd_agenda *a, const hd_pace *p)
+/** Plans the interval that begins now. */
+static void plan_interval(hd_agenda *a, const hd_pace *p)
 {
-    if (!p->framed || p->now < a->interval_end) return;
     const double measured = next_stop(a, p), left = fmin(measured, p->snapshot) - p->now;
     hd_interval_length next = next_interval(a, p, left, p->norm);
     a->sample_ends = is_rest(next.length, measured - p->now) || is_last(a, p, next.length);
     if (a->sample_ends) next = next_interval(a, p, left, HD_NORM_FULL);
-    a->interval_end = is_rest(next.length, left)
-                          ? fmin(measured, p->snapshot)
-                          : hd_schedule_snap(&a->schedule, p->now, next.length);
+    a->interval_end = is_rest(next.length, left) ? fmin(measured, p->snapshot)
+                                                 : hd_agenda_snap(a, p->now, next.length);
     a->limit = next.limit == HD_LIMIT_SCHEDULE ? limit_of_rest(a, p, left) : next.limit;
+}
+
+/** Time at which a sample without a frame ends. After a checkpoint was read it may have passed; it
+ * is then now. */
+static double sample_end(const hd_agenda *a, const hd_pace *p)
+{
+    if (!p->sampled) return INFINITY;
+    return fmax(a->sample_begin + hd_agenda_sample_longest(a, p->interval), p->now);
+}
+
+double hd_agenda_plan(hd_agenda *a, const hd_pace *p)
+{
+    if (p->framed && p->now >= a->interval_end) plan_interval(a, p);
+    a->expected = fmin(hd_interval_longest(p->interval).length,
+                       fmin(hd_agenda_sample_longest(a, p->interval), p->apart));
+    return fmin(hd_agenda_cut(a), p->framed ? a->interval_end : sample_end(a, p));
 }
 
 /* ---- when errors are known ----------------------------------------------------------------- */
 
 double hd_agenda_reported(const hd_agenda *a, double averaged)
 {
-    const double report = a->schedule.report_interval, last = a->schedule.length[HD_AVERAGING];
+    const double report = a->report_interval, last = a->length[HD_AVERAGING];
     return averaged < last ? fmin(report * ceil(averaged / report), last) : averaged;
 }
 
@@ -205,22 +270,9 @@ double hd_agenda_errors_after(const hd_agenda *a)
 
 /* ---- what is due --------------------------------------------------------------------------- */
 
-/** Time at which a sample without a frame ends. After a checkpoint was read it may have passed; it
- * is then now. */
-static double sample_end(const hd_agenda *a, const hd_pace *p)
-{
-    if (!p->sampled) return INFINITY;
-    return fmax(a->sample_begin + hd_agenda_sample_longest(a, p->interval), p->now);
-}
-
-double hd_agenda_next(const hd_agenda *a, const hd_pace *p)
-{
-    return fmin(hd_schedule_cut(&a->schedule), p->framed ? a->interval_end : sample_end(a, p));
-}
-
 unsigned hd_agenda_reached(const hd_agenda *a, const hd_pace *p)
 {
-    const unsigned report = p->now >= hd_schedule_cut(&a->schedule) ? HD_DUE_REPORT : 0u;
+    const unsigned report = p->now >= hd_agenda_cut(a) ? HD_DUE_REPORT : 0u;
     const bool sampled = p->sampled && (report || p->now >= sample_end(a, p));
     if (!p->framed) return report | (sampled ? HD_DUE_SAMPLE : 0u);
     const unsigned sample = a->sample_ends ? HD_DUE_SAMPLE : 0u;
@@ -228,10 +280,6 @@ unsigned hd_agenda_reached(const hd_agenda *a, const hd_pace *p)
 }
 
 void hd_agenda_begin(hd_agenda *a) { a->due &= HD_DUE_STAGE; }
-bool hd_agenda_is_due(const hd_agenda *a, unsigned why) { return a->due & why; }
-
-hd_limit hd_agenda_limit(const hd_agenda *a) { return a->limit; }
-void hd_agenda_pass_interval(hd_agenda *a, double now) { a->interval_end = now; }
 
 void hd_agenda_pass_sample(hd_agenda *a, double now)
 {
@@ -239,14 +287,16 @@ void hd_agenda_pass_sample(hd_agenda *a, double now)
     a->sample_ends = false;
 }
 
-bool hd_agenda_is_measured(const hd_agenda *a, double now) { return now == a->sample_begin; }
-
+/** A report that is cut short by the end of the stage does not count as passed, because the stage
+ * may be made longer. */
 void hd_agenda_pass_report(hd_agenda *a, bool reached)
 {
-    hd_schedule *s = &a->schedule;
-    const double multiple = hd_schedule_next_multiple(s, a->in_force.field_interval);
-    const bool fields = s->stage == HD_AVERAGING && (reached || multiple <= hd_schedule_cut(s));
-    const bool ends = hd_schedule_pass(s) || reached;
+    const double cut = hd_agenda_cut(a), last = hd_agenda_stage_end(a);
+    const double whole = a->origin + ((double)a->reports + 1.0) * a->report_interval;
+    const bool multiple = hd_agenda_next_multiple(a, a->in_force.field_interval) <= cut;
+    const bool fields = a->stage == HD_AVERAGING && (reached || multiple);
+    const bool ends = cut >= last || reached;
+    if (whole <= last + CLOSE * a->report_interval) a->reports++;
     a->due |= HD_DUE_REPORT | (fields ? HD_DUE_FIELDS : 0u) | (ends ? HD_DUE_STAGE : 0u);
 }
 
@@ -254,13 +304,13 @@ void hd_agenda_pass_report(hd_agenda *a, bool reached)
 
 double hd_agenda_change_time(const hd_agenda *a, double now, bool framed)
 {
-    return framed && a->schedule.stage == HD_AVERAGING ? fmax(now, a->interval_end) : now;
+    return framed && a->stage == HD_AVERAGING ? fmax(now, a->interval_end) : now;
 }
 
 void hd_agenda_ask(hd_agenda *a, bool framed)
 {
     a->in_force.changing = true;
-    a->sample_ends |= framed && a->schedule.stage == HD_AVERAGING;
+    a->sample_ends |= framed && a->stage == HD_AVERAGING;
 }
 
 void hd_agenda_ask_fields(hd_agenda *a, double interval, bool framed)
@@ -277,25 +327,93 @@ void hd_agenda_ask_fields(hd_agenda *a, double interval, bool framed)
 
 bool hd_agenda_can_last(const hd_agenda *a, double duration, double from)
 {
-    hd_schedule asked = a->schedule;
+    hd_agenda asked = *a;
     asked.length[HD_AVERAGING] = duration;
-    return asked.stage != HD_AVERAGING || duration == 0 || hd_schedule_reaches(&asked, from);
+    return asked.stage != HD_AVERAGING || duration == 0 || reaches(&asked, from);
 }
 
-bool hd_agenda_change(hd_agenda *a, const hd_scene_def *scene, double now)
+bool hd_agenda_may_change(const hd_agenda *a, double now, bool framed)
 {
-    if (!a->in_force.changing) return false;
+    return a->in_force.changing && now >= hd_agenda_change_time(a, now, framed);
+}
+
+double hd_agenda_change(hd_agenda *a, const hd_scene_def *scene, bool reached, double now)
+{
+    const bool reports = a->report_interval != scene->report_interval && a->stage != HD_FINISHED;
     a->in_force = (hd_wanted){.target = scene->target, .field_interval = a->field_interval};
-    hd_schedule_change(&a->schedule, scene, now);
-    return true;
-}
-
-void hd_agenda_end_averaging(hd_agenda *a, bool reached, double now)
-{
-    if (a->schedule.stage != HD_AVERAGING) return;
+    a->length[HD_AVERAGING] = hd_agenda_averaging(scene->duration);
+    if (reports) a->report_interval = scene->report_interval;
+    if (reports) count_reports_from(a, now);
+    if (a->stage != HD_AVERAGING) return hd_agenda_cut(a);
     a->due &= ~(unsigned)HD_DUE_STAGE;
-    if (reached || hd_schedule_is_over(&a->schedule, now))
-        a->due |= HD_DUE_REPORT | HD_DUE_FIELDS | HD_DUE_STAGE;
+    if (reached || is_over(a, now)) a->due |= HD_DUE_REPORT | HD_DUE_FIELDS | HD_DUE_STAGE;
+    return hd_agenda_cut(a);
 }
 
-const hd_text *hd_agenda_target(const hd_agenda *a) { return &a->in_force.target; }
+bool hd_agenda_reopen(hd_agenda *a, double now)
+{
+    const double last = hd_agenda_stage_end(a);
+    if (a->stage == HD_FINISHED && !is_over(a, now)) a->stage = HD_AVERAGING;
+    if (a->stage == HD_AVERAGING && now >= last) a->stage = HD_FINISHED;
+    return reaches(a, now);
+}
+
+/* ---- checkpoints --------------------------------------------------------------------------- */
+
+/** Reads or writes when stages and reports end. */
+static void stages_archive(hd_agenda *a, hd_archive *archive)
+{
+    int stage = (int)a->stage;
+    double duration = a->length[HD_AVERAGING] < INFINITY ? a->length[HD_AVERAGING] : 0.0;
+    hd_archive_int(archive, "schedule stage", &stage, HD_EQUILIBRATING, HD_FINISHED);
+    a->stage = (hd_stage)stage;
+    hd_archive_double(archive, "schedule start", &a->start);
+    hd_archive_double(archive, "schedule duration", &duration);
+    hd_archive_expect(archive, duration >= 0, "schedule duration", "it is negative");
+    a->length[HD_AVERAGING] = hd_agenda_averaging(duration);
+    hd_archive_double(archive, "schedule origin", &a->origin);
+    hd_archive_double(archive, "schedule report interval", &a->report_interval);
+    hd_archive_long(archive, "schedule reports", &a->reports, 0, LONG_MAX / 2);
+    hd_archive_expect(archive, a->report_interval > 0 && a->report_interval < INFINITY,
+                      "schedule report interval", "it is not positive");
+}
+
+void hd_agenda_archive(hd_agenda *a, hd_archive *archive)
+{
+    hd_wanted *now = &a->in_force;
+    int reported = (a->due & HD_DUE_REPORT) != 0, ends = a->sample_ends, limit = (int)a->limit,
+        changing = now->changing;
+    stages_archive(a, archive);
+    hd_archive_int(archive, "run reported", &reported, 0, 1);
+    if (!archive->writing) a->due = reported ? HD_DUE_REPORT : 0u;
+    hd_archive_double(archive, "run sample begin", &a->sample_begin);
+    hd_archive_int(archive, "run sample ends", &ends, 0, 1);
+    a->sample_ends = ends;
+    hd_archive_double(archive, "run interval end", &a->interval_end);
+    hd_archive_int(archive, "run limit", &limit, HD_LIMIT_SCHEDULE, HD_LIMIT_NONE);
+    a->limit = (hd_limit)limit;
+    hd_archive_text(archive, "run target", now->target.line, sizeof now->target);
+    hd_archive_double(archive, "run fields", &now->field_interval);
+    hd_archive_double(archive, "run fields asked", &a->field_interval);
+    hd_archive_int(archive, "run changing", &changing, 0, 1);
+    now->changing = changing;
+    hd_archive_expect(archive, now->field_interval >= 0 && a->field_interval >= 0, "run fields",
+                      "it is negative");
+}
+
+void hd_agenda_expect(const hd_agenda *a, hd_archive *archive, double now, double pending,
+                      double most)
+{
+    const char *const other = "it does not fit the time of the checkpoint";
+    const bool finished = a->stage == HD_FINISHED;
+    const double cut = hd_agenda_cut(a), last = hd_agenda_stage_end(a);
+    const bool no_more = cut >= now && last <= now; /* a stage of no length */
+    const bool ahead = finished || cut > now || no_more;
+    const double end = fmax(now, fmin(finished ? now : last, now + most)),
+                 planned = fmin(a->interval_end, fmax(now, last));
+    hd_archive_expect(archive, a->start >= 0 && a->start <= a->origin && a->origin <= now && ahead,
+                      "schedule", "its times do not fit the time of the checkpoint");
+    hd_archive_expect(archive, a->sample_begin <= now, "run sample begin", other);
+    hd_archive_expect(archive, planned <= end && (pending <= 0 || planned >= now),
+                      "run interval end", other);
+}

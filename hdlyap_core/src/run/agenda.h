@@ -4,7 +4,10 @@
 #ifndef HD_AGENDA_H
 #define HD_AGENDA_H
 
-#include "run/schedule.h"
+#include <stdbool.h>
+
+#include "base/archive.h"
+#include "hdlyap/scene.h"
 #include "tangent/interval.h"
 
 /** What is due at a time at which the particles stop: a set. */
@@ -23,22 +26,31 @@ typedef struct hd_wanted {
     bool changing; /**< true if other values have been asked for that are not in force yet */
 } hd_wanted;
 
-/** The agenda. Only agenda.c and checkpoint.c use its members. */
+/** The agenda. Its members may be read; only functions of the agenda change them, but for
+ * interval_end, and checkpoint.c. */
 typedef struct hd_agenda {
-    hd_schedule schedule;
-    /** the values that the run follows now */
-    hd_wanted in_force;
+    double length[HD_FINISHED]; /**< of each stage; INFINITY for an averaging without end */
+    double report_interval;
+    hd_stage stage;
+    double start;       /**< time at which the stage began */
+    double origin;      /**< time from which reports are counted: the start of the stage, or a later
+                           change of report_interval */
+    long reports;       /**< number of whole report intervals since the origin */
+    hd_wanted in_force; /**< the values that the run follows now */
     double field_interval; /**< the interval between fields that was asked for last; in_force has
                               the one that holds */
     bool fields_said; /**< one has been asked for since the run was made or resumed; the first one
                          holds at once */
     double interval_end; /**< time of the next orthonormalisation */
     hd_limit limit;      /**< why that time is not later */
+    double expected;     /**< expected length of the intervals after it */
     double sample_begin; /**< time at which the present sample began, with a measured state */
     bool sample_ends;    /**< true if the sample ends with the present interval */
     double sample_max;   /**< longest length of a sample */
     double first_sample; /**< length of the first samples of a run that is not short */
-    double block;        /**< shortest block of the averages, see hd_agenda_block */
+    /** Shortest block of the averages: 8 collisions of each particle, or the time that sound takes
+     * through the box, because growth remembers both [T8]. */
+    double block;
     /** What is due at the present time (set of HD_DUE_*), until the next advance begins;
      * HD_DUE_STAGE stays until the stage is left. */
     unsigned due;
@@ -55,6 +67,7 @@ typedef struct hd_pace {
     bool at_fields;  /**< true if it must be so at reports with which fields are due */
     double phases;   /**< longest time from one measured state to the next that observables allow;
                         INFINITY: any */
+    double apart;    /**< that time as it is expected, also before phases are followed */
     double snapshot; /**< time at which an interval has to end for an observable; INFINITY: none */
     hd_norm norm;    /**< norm of the orthonormalisations that end no sample */
     hd_interval *interval;    /**< how long an interval may be, by the condition of the frame */
@@ -66,45 +79,37 @@ typedef struct hd_pace {
 hd_agenda hd_agenda_of(const hd_scene_def *scene, double rate);
 /** Samples are as long from the start as those of a run that has averaged for long. */
 void hd_agenda_begin_grown(hd_agenda *agenda);
-/** Shortest block of the averages: 8 collisions of each particle, or the time that sound takes
- * through the box, because growth remembers both [T8]. */
-double hd_agenda_block(const hd_agenda *agenda);
+/** Length of the averaging for this duration of a scene, of which 0 is without end. */
+double hd_agenda_averaging(double duration);
 
-hd_stage hd_agenda_stage(const hd_agenda *agenda);
-/** Simulated time at which the stage began. */
-double hd_agenda_stage_begin(const hd_agenda *agenda);
 /** Time at which the stage ends; INFINITY if it has no end. */
 double hd_agenda_stage_end(const hd_agenda *agenda);
-/** Time of the next report, or the end of the stage if that comes first. */
-double hd_agenda_next_report(const hd_agenda *agenda);
+/** The cut: the time of the next report, or of the end of the stage if that comes first. */
+double hd_agenda_cut(const hd_agenda *agenda);
+/** Time at which an interval of this length ends that begins at `now`; the cut itself if it is
+ * nearly there, so that no tiny interval is left. */
+double hd_agenda_snap(const hd_agenda *agenda, double now, double length);
+/** Time of the next report that is the first one at or after a multiple of `interval` since the
+ * stage began (0 is a multiple), or of the last report of the stage; with interval 0 of the next
+ * report. */
+double hd_agenda_next_multiple(const hd_agenda *agenda, double interval);
 /** Begins, at the time `now`, the first stage at or after `stage` whose length is not 0. */
 void hd_agenda_enter(hd_agenda *agenda, hd_stage stage, double now);
 
 /** An advance begins: forgets what was due with the last one, except for HD_DUE_STAGE. */
 void hd_agenda_begin(hd_agenda *agenda);
-/** Plans when the next interval ends, and whether the sample ends with it. Does nothing while an
- * interval is under way. */
-void hd_agenda_plan(hd_agenda *agenda, const hd_pace *pace);
-/** The next time at which something is due: a report, the end of the interval, or of a sample
- * without a frame. */
-double hd_agenda_next(const hd_agenda *agenda, const hd_pace *pace);
+/** Plans when the next interval ends, and whether the sample ends with it, unless an interval is
+ * under way. Returns the next time at which something is due: a report, the end of the interval, or
+ * of a sample without a frame. */
+double hd_agenda_plan(hd_agenda *agenda, const hd_pace *pace);
 /** What is due at the time pace->now: a set of HD_DUE_INTERVAL, HD_DUE_SAMPLE and HD_DUE_REPORT. */
 unsigned hd_agenda_reached(const hd_agenda *agenda, const hd_pace *pace);
 
-/** Why the present interval is not longer. */
-hd_limit hd_agenda_limit(const hd_agenda *agenda);
-/** The frame has been orthonormalised at the time `now`. */
-void hd_agenda_pass_interval(hd_agenda *agenda, double now);
 /** A state is measured at the time `now`; a new sample begins. */
 void hd_agenda_pass_sample(hd_agenda *agenda, double now);
-/** True if the state at the time `now` has been measured. */
-bool hd_agenda_is_measured(const hd_agenda *agenda, double now);
 /** A report is made: adds it to what is due, with fields and the end of the stage where these are
  * due with it. reached: the target of the run is reached. */
 void hd_agenda_pass_report(hd_agenda *agenda, bool reached);
-
-/** True if any of the set `why` is due. */
-bool hd_agenda_is_due(const hd_agenda *agenda, unsigned why);
 
 /** Length that a sample should have at most; INFINITY unless averages are taken. */
 double hd_agenda_sample_longest(const hd_agenda *agenda, const hd_interval *interval);
@@ -118,9 +123,6 @@ double hd_agenda_sample_grown(const hd_agenda *agenda);
 double hd_agenda_reported(const hd_agenda *agenda, double averaged);
 /** Averaged time until the first report that states errors [T8], likewise. */
 double hd_agenda_errors_after(const hd_agenda *agenda);
-/** Expected length of intervals, of which measured states are at most `apart` apart. */
-double hd_agenda_interval_expected(const hd_agenda *agenda, const hd_interval *interval,
-                                   double apart);
 
 /* ---- changes ------------------------------------------------------------------------------- */
 
@@ -136,13 +138,23 @@ double hd_agenda_change_time(const hd_agenda *agenda, double now, bool framed);
 /** True if the averaging can have this duration, 0 being without end, when it holds from the time
  * `from`. */
 bool hd_agenda_can_last(const hd_agenda *agenda, double duration, double from);
-/** Puts what was asked for in force. Returns true if anything was; the schedule may then be another
- * one. */
-bool hd_agenda_change(hd_agenda *agenda, const hd_scene_def *scene, double now);
-/** Ends the averaging if its duration is over or the target is reached: a report and fields are
- * then due. */
-void hd_agenda_end_averaging(hd_agenda *agenda, bool reached, double now);
-/** The target in force. */
-const hd_text *hd_agenda_target(const hd_agenda *agenda);
+/** True if other values have been asked for that hold from now on. */
+bool hd_agenda_may_change(const hd_agenda *agenda, double now, bool framed);
+/** Puts them in force; returns the next cut. If the averaging is over then, or its new target is
+ * reached, it ends: a report and fields are due. */
+double hd_agenda_change(hd_agenda *agenda, const hd_scene_def *scene, bool reached, double now);
+/** Lets an averaging of a resumed run that has finished go on if its duration has become longer.
+ * Returns false if `now` is beyond its end. */
+bool hd_agenda_reopen(hd_agenda *agenda, double now);
+
+/* ---- checkpoints --------------------------------------------------------------------------- */
+
+/** Reads or writes the agenda in force; other values may have been asked for already. */
+void hd_agenda_archive(hd_agenda *agenda, hd_archive *archive);
+/** Expects that its times fit the time `now`, of which the last `pending` have not been
+ * orthonormalised, so that the run can go on; `most` is the longest interval that may be planned.
+ */
+void hd_agenda_expect(const hd_agenda *agenda, hd_archive *archive, double now, double pending,
+                      double most);
 
 #endif

@@ -399,10 +399,11 @@ hd_status hd_carrier_sample(hd_carrier *c, bool averaging)
     return HD_OK;
 }
 
-void hd_carrier_clear(hd_carrier *c, double age)
+void hd_carrier_begin(hd_carrier *c, bool averaging, double age)
 {
-    if (c->spectrum) hd_spectrum_begin(c->spectrum, age);
-    c->rounding.sum = HD_ROUNDING * c->rounding.condition_max;
+    if (averaging && c->spectrum) hd_spectrum_begin(c->spectrum, age);
+    if (averaging) c->rounding.sum = HD_ROUNDING * c->rounding.condition_max;
+    hd_carrier_save_accuracy(c, averaging);
 }
 
 /* ---- what can be read ---------------------------------------------------------------------- */

@@ -72,8 +72,9 @@ HD_MUST_CHECK hd_status hd_carrier_orthonormalise(hd_carrier *carrier, hd_carryi
 /** Keeps the halves of this measured state, and ends the spectrum's sample. */
 HD_MUST_CHECK hd_status hd_carrier_sample(hd_carrier *carrier, bool averaging);
 
-/** Starts the averages anew; age: time for which the vectors have been carried. */
-void hd_carrier_clear(hd_carrier *carrier, double age);
+/** A stage begins; if it is the averaging, averages start anew. age: time for which the vectors
+ * have been carried. */
+void hd_carrier_begin(hd_carrier *carrier, bool averaging, double age);
 /** Tells the interval control how much of the allowed numerical error the averaging has not used
  * yet. */
 void hd_carrier_save_accuracy(hd_carrier *carrier, bool averaging);

@@ -19,7 +19,7 @@ static hd_status check_duration(const hd_run *run, double duration, char *messag
     return hd_refuse(
         message, size,
         "duration = %.15g: must be 0 or at least %.15g, the time averaged when it changes",
-        duration, from - hd_agenda_stage_begin(&run->agenda));
+        duration, from - run->agenda.start);
 }
 
 hd_status hd_run_change(hd_run *run, const hd_parameter *row, const char *value, char *message,
@@ -34,7 +34,7 @@ hd_status hd_run_change(hd_run *run, const hd_parameter *row, const char *value,
     if (!row->live)
         return hd_refuse(message, size, "%s = %s: is read at the start and cannot change",
                          row->name, value);
-    if (hd_run_stage(run) == HD_FINISHED || hd_agenda_is_due(&run->agenda, HD_DUE_STAGE))
+    if (hd_run_stage(run) == HD_FINISHED || run->agenda.due & HD_DUE_STAGE)
         return hd_refuse(message, size, "%s = %s: the run has ended", row->name, value);
     if (!hd_parameter_read(row, &asked, value))
         return hd_refuse(message, size, "%s = %s: must be %s", row->name, value, row->allowed);
@@ -62,7 +62,7 @@ void hd_run_fields_from(hd_run *run, int first)
 void hd_run_observe(hd_run *run, unsigned stages)
 {
     const unsigned now = hd_target_stages(&run->scene, stages) & run->scene.observe;
-    if (now == hd_observables_looked_at(&run->observables)) return;
+    if (now == run->observables.looked_at) return;
     hd_order_tell(run->communicator, (hd_order){.kind = HD_ORDER_OBSERVE, .integer = (int)now});
     hd_observables_look(&run->observables, now);
 }

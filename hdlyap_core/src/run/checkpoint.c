@@ -101,51 +101,31 @@ static void plan_archive(hd_advance_plan *plan, hd_archive *archive)
     hd_archive_bits(archive, "run advance events", &plan->events);
 }
 
-/** Reads or writes the values in force, which may differ from those asked for. */
-static void in_force_archive(hd_run *run, hd_archive *archive)
+/** Expects that the run can follow the target in force, which may differ from that asked for. */
+static void target_expect(const hd_run *run, hd_archive *archive)
 {
-    hd_agenda *agenda = &run->agenda;
-    hd_wanted *now = &agenda->in_force;
-    int changing = now->changing;
-    hd_archive_text(archive, "run target", now->target.line, sizeof now->target);
-    hd_archive_double(archive, "run fields", &now->field_interval);
-    hd_archive_double(archive, "run fields asked", &agenda->field_interval);
-    hd_archive_int(archive, "run changing", &changing, 0, 1);
-    now->changing = changing;
-    hd_archive_expect(archive, now->field_interval >= 0 && agenda->field_interval >= 0,
-                      "run fields", "it is negative");
     hd_scene_def asked = run->scene;
-    asked.target = now->target;
+    asked.target = run->agenda.in_force.target;
     hd_archive_expect(archive, hd_target_check(&asked, NULL, 0) == HD_OK, "run target",
                       "it cannot be reached");
 }
 
 static void numbers_archive(hd_run *run, hd_archive *archive)
 {
-    hd_agenda *agenda = &run->agenda;
-    int observe = (int)hd_observables_looked_at(&run->observables), whole = run->carrier.whole,
-        reported = hd_agenda_is_due(agenda, HD_DUE_REPORT), ends = agenda->sample_ends,
-        limit = (int)agenda->limit;
+    int observe = (int)run->observables.looked_at, whole = run->carrier.whole;
     hd_archive_int(archive, "run observe", &observe, 0, (int)run->scene.observe);
     if (!archive->writing)
         hd_observables_look(&run->observables, (unsigned)observe & run->scene.observe);
-    hd_archive_int(archive, "run reported", &reported, 0, 1);
-    if (!archive->writing) agenda->due = reported ? HD_DUE_REPORT : 0u;
-    hd_archive_double(archive, "run sample begin", &agenda->sample_begin);
-    hd_archive_int(archive, "run sample ends", &ends, 0, 1);
-    agenda->sample_ends = ends;
+    hd_agenda_archive(&run->agenda, archive);
+    target_expect(run, archive);
     hd_archive_int(archive, "run whole", &whole, 0, 1);
     run->carrier.whole = whole;
     hd_archive_double(archive, "run followed", &run->followed);
-    hd_archive_double(archive, "run interval end", &agenda->interval_end);
-    hd_archive_int(archive, "run limit", &limit, HD_LIMIT_SCHEDULE, HD_LIMIT_NONE);
-    agenda->limit = (hd_limit)limit;
     hd_archive_double(archive, "run advance longest", &run->advance.longest);
     plan_archive(&run->advance.plan, archive);
     hd_archive_double(archive, "run frame start", &run->clocks.frame_start_time);
     hd_archive_double(archive, "run condition max", &run->carrier.rounding.condition_max);
     hd_archive_double(archive, "run rounding", &run->carrier.rounding.sum);
-    in_force_archive(run, archive);
     clocks_archive(run, archive);
     cost_archive(run, archive);
 }
@@ -156,7 +136,6 @@ static void parts_archive(hd_run *run, hd_archive *archive)
     const hd_trajectory *now = run->advance.trajectory;
     hd_trajectory_archive(run->advance.trajectory, archive);
     hd_cages_archive(&run->cages, now, archive);
-    hd_schedule_archive(&run->agenda.schedule, archive);
     hd_interval_archive(&c->interval, archive);
     hd_observables_archive(&run->observables, archive, false, now);
     if (!c->frame || hd_communicator_agree(run->communicator, archive->status) != HD_OK) return;
@@ -172,22 +151,23 @@ static void parts_archive(hd_run *run, hd_archive *archive)
 /** The latest time for which anything may be planned; a shorter duration cuts plans. */
 static double last_time(const hd_run *run)
 {
-    return fmax(hd_run_time(run), hd_schedule_stage_end(&run->agenda.schedule));
+    return fmax(hd_run_time(run), hd_agenda_stage_end(&run->agenda));
+}
+
+/** Time since the last orthonormalisation. */
+static double pending(const hd_run *run)
+{
+    return run->carrier.record ? hd_record_duration(run->carrier.record) : 0.0;
 }
 
 static void plan_expect(const hd_run *run, hd_archive *archive)
 {
     const hd_advance_plan *plan = &run->advance.plan;
-    const double planned = fmin(plan->end, last_time(run));
-    const double cut = run->agenda.schedule.stage == HD_FINISHED
-                           ? hd_run_time(run)
-                           : hd_schedule_cut(&run->agenda.schedule);
-    const hd_record *record = run->carrier.record;
-    const double pending = record ? hd_record_duration(record) : 0.0;
-    const double end = fmax(hd_run_time(run),
-                            pending > 0 ? fmin(cut, run->agenda.interval_end) : cut);
+    const double now = hd_run_time(run), planned = fmin(plan->end, last_time(run));
+    const double cut = run->agenda.stage == HD_FINISHED ? now : hd_agenda_cut(&run->agenda);
+    const double end = fmax(now, pending(run) > 0 ? fmin(cut, run->agenda.interval_end) : cut);
     const uint64_t events = hd_advance_events(&run->advance);
-    hd_archive_expect(archive, plan->begin <= hd_run_time(run) && planned <= end, "run advance end",
+    hd_archive_expect(archive, plan->begin <= now && planned <= end, "run advance end",
                       "it does not fit the time of the checkpoint");
     hd_archive_expect(archive, plan->events <= events, "run advance events",
                       "they are more than the trajectory has had");
@@ -196,22 +176,11 @@ static void plan_expect(const hd_run *run, hd_archive *archive)
 /** Expects that times fit each other, so that the run can go on. */
 static void times_expect(const hd_run *run, hd_archive *archive)
 {
-    const hd_schedule *s = &run->agenda.schedule;
-    const double now = hd_run_time(run), cut = hd_schedule_cut(s);
-    const bool no_more = cut >= now && hd_schedule_stage_end(s) <= now; /* a stage of no length */
-    const bool ahead = s->stage == HD_FINISHED || cut > now || no_more;
-    hd_archive_expect(archive, s->start >= 0 && s->start <= s->origin && s->origin <= now && ahead,
-                      "schedule", "its times do not fit the time of the checkpoint");
-    const hd_record *record = run->carrier.record;
-    const double pending = record ? hd_record_duration(record) : 0.0;
-    const double last = s->stage == HD_FINISHED ? now : hd_schedule_stage_end(s);
-    const double end = fmax(now, fmin(last, now + run->advance.bound)),
-                 planned = fmin(run->agenda.interval_end, last_time(run));
-    hd_archive_expect(archive, run->agenda.sample_begin <= now && run->followed <= now,
-                      "run sample begin", "it does not fit the time of the checkpoint");
-    hd_archive_expect(archive, planned <= end && (pending <= 0 || planned >= now),
-                      "run interval end", "it does not fit the time of the checkpoint");
-    hd_archive_expect(archive, pending >= 0 && pending <= now, "log duration",
+    const double now = hd_run_time(run);
+    hd_agenda_expect(&run->agenda, archive, now, pending(run), run->advance.bound);
+    hd_archive_expect(archive, run->followed <= now, "run followed",
+                      "it does not fit the time of the checkpoint");
+    hd_archive_expect(archive, pending(run) >= 0 && pending(run) <= now, "log duration",
                       "it does not fit the time of the checkpoint");
     hd_archive_expect(archive, run->advance.longest > 0, "run advance longest",
                       "it is not positive");
@@ -355,11 +324,10 @@ static int threads_of(int asked, int before)
 /** Lets a finished run go on if its duration has become longer. */
 static hd_status reopen(hd_run *run, char *message, size_t size)
 {
-    const double averaged = hd_run_time(run) - run->agenda.schedule.start;
-    if (run->agenda.schedule.stage == HD_FINISHED && hd_target_reached(run)) return HD_OK;
-    if (run->agenda.schedule.stage < HD_AVERAGING ||
-        hd_schedule_reopen(&run->agenda.schedule, hd_run_time(run)))
-        return HD_OK;
+    hd_agenda *agenda = &run->agenda;
+    const double now = hd_run_time(run), averaged = now - agenda->start;
+    if (agenda->stage == HD_FINISHED && hd_target_reached(run)) return HD_OK;
+    if (agenda->stage < HD_AVERAGING || hd_agenda_reopen(agenda, now)) return HD_OK;
     return hd_refuse(message, size,
                      "duration = %.15g: must be at least %.15g, averaged before the checkpoint",
                      run->scene.duration, averaged);
@@ -373,8 +341,7 @@ static void take_up_scene(hd_run *run, const hd_scene_def *kept)
         if (row->live && !hd_parameter_same(row, &run->scene, kept))
             run->agenda.in_force.changing = true;
     if (run->scene.duration != kept->duration)
-        run->agenda.schedule.length[HD_AVERAGING] =
-            hd_schedule_of(&run->scene).length[HD_AVERAGING];
+        run->agenda.length[HD_AVERAGING] = hd_agenda_averaging(run->scene.duration);
     if (strcmp(run->scene.target.line, kept->target.line) != 0)
         run->agenda.in_force.target = run->scene.target;
 }

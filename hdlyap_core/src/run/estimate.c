@@ -66,7 +66,7 @@ static double errors_after(const hd_scene_def *def)
 static double slopes_after(const hd_scene_def *def)
 {
     const hd_agenda agenda = agenda_of(def);
-    return hd_scene_vectors(def) > 0 ? BLOCKS_OF_SLOPES * hd_agenda_block(&agenda) : 0.0;
+    return hd_scene_vectors(def) > 0 ? BLOCKS_OF_SLOPES * agenda.block : 0.0;
 }
 
 hd_status hd_estimate_errors(double *after, const hd_scene_def *def)
@@ -121,7 +121,7 @@ static double target_after(const hd_run *run, const hd_scene_def *def, double st
     const bool same = hd_run_scene(run)->number == def->number;
     if (!same || !*def->target.line) return NAN;
     const hd_standing end = hd_target_standing(run, &def->target);
-    const double averaged = hd_run_time(run) - hd_agenda_stage_begin(&run->agenda);
+    const double averaged = hd_run_time(run) - run->agenda.start;
     const double after = end.reached ? reached_after(&end, averaged) : averaged + end.left;
     return end.error < 0.0 ? NAN : hd_agenda_reported(&agenda, fmax(after, stated));
 }

@@ -6,13 +6,10 @@
 #include "run/run.h"
 #include "run/run_state.h"
 
-static bool is_due(const hd_run *run, unsigned why) { return hd_agenda_is_due(&run->agenda, why); }
-
-bool hd_run_report_due(const hd_run *run) { return is_due(run, HD_DUE_REPORT); }
-bool hd_run_fields_due(const hd_run *run) { return is_due(run, HD_DUE_FIELDS); }
+bool hd_run_report_due(const hd_run *run) { return run->agenda.due & HD_DUE_REPORT; }
+bool hd_run_fields_due(const hd_run *run) { return run->agenda.due & HD_DUE_FIELDS; }
 hd_status hd_run_status(const hd_run *run) { return run->status; }
-hd_stage hd_run_stage(const hd_run *run) { return hd_agenda_stage(&run->agenda); }
-double hd_run_time(const hd_run *run) { return hd_advance_now(&run->advance); }
+hd_stage hd_run_stage(const hd_run *run) { return run->agenda.stage; }
 const hd_scene_def *hd_run_scene(const hd_run *run) { return &run->scene; }
 int hd_run_vectors(const hd_run *run) { return run->carrier.vectors; }
 int hd_run_ranks(const hd_run *run) { return hd_communicator_ranks(run->communicator); }
@@ -54,13 +51,13 @@ void hd_run_halves(const hd_run *run, double *cos_theta, double *dp_dq_ratio)
 
 bool hd_run_is_caged(const hd_run *run)
 {
-    return hd_cages_hold(&run->cages, HD_SPECTRUM_BLOCKS_MIN * hd_agenda_block(&run->agenda));
+    return hd_cages_hold(&run->cages, HD_SPECTRUM_BLOCKS_MIN * run->agenda.block);
 }
 
 double hd_run_shortest_duration(const hd_run *run)
 {
-    const double begin = hd_agenda_stage_begin(&run->agenda);
-    return hd_run_stage(run) == HD_AVERAGING ? hd_run_change_time(run) - begin : NAN;
+    const hd_agenda *agenda = &run->agenda;
+    return agenda->stage == HD_AVERAGING ? hd_run_change_time(run) - agenda->start : NAN;
 }
 
 /** Simulated time that is left; `target`: that to the target; INFINITY for an endless run. */
@@ -71,7 +68,7 @@ static double time_left(const hd_run *run, double target)
     if (stage == HD_FINISHED) return 0.0;
     double left = fmin(hd_agenda_stage_end(&run->agenda) - hd_run_time(run), target);
     if (stage == HD_EQUILIBRATING) left += scene->warmup;
-    if (stage < HD_AVERAGING) left += scene->duration > 0 ? scene->duration : INFINITY;
+    if (stage < HD_AVERAGING) left += hd_agenda_averaging(scene->duration);
     return left;
 }
 
@@ -103,7 +100,7 @@ hd_cost hd_run_cost(const hd_run *run)
     const hd_traffic traffic = hd_communicator_traffic(run->communicator);
     const double error = hd_carrier_smallest_error(&run->carrier);
     const double collisions = (double)hd_trajectory_totals(run->advance.trajectory).collisions;
-    cost.target = hd_target_standing(run, hd_agenda_target(&run->agenda));
+    cost.target = hd_target_standing(run, &run->agenda.in_force.target);
     add_progress(&cost, run);
     add_trend(&cost, run);
     cost.communication += traffic.seconds;

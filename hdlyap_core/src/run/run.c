@@ -22,22 +22,21 @@
 #include "scene/scene.h"
 #include "tangent/verify.h"
 
-static bool is_averaging(const hd_run *run)
-{
-    return hd_agenda_stage(&run->agenda) == HD_AVERAGING;
-}
+double hd_run_time(const hd_run *run) { return hd_trajectory_time(run->advance.trajectory); }
+
+static bool is_averaging(const hd_run *run) { return run->agenda.stage == HD_AVERAGING; }
+
+/** True if this is due at the present time (HD_DUE_*). */
+static bool is_due(const hd_run *run, unsigned what) { return run->agenda.due & what; }
 
 /** True in stages in which vectors are carried. */
 static bool is_framed(const hd_run *run)
 {
-    return run->carrier.frame && hd_agenda_stage(&run->agenda) != HD_EQUILIBRATING;
+    return run->carrier.frame && run->agenda.stage != HD_EQUILIBRATING;
 }
 
 /** True if a sample has just ended. */
-static bool is_measured(const hd_run *run)
-{
-    return hd_agenda_is_measured(&run->agenda, hd_run_time(run));
-}
+static bool is_measured(const hd_run *run) { return hd_run_time(run) == run->agenda.sample_begin; }
 
 /** True if averages are taken and an observable that somebody listens to has all of these needs. */
 static bool is_needed(const hd_run *run, unsigned needs)
@@ -82,7 +81,7 @@ static hd_status prepare_observables(hd_run *run)
                                .width = c->frame ? hd_frame_stride(c->frame) : 0,
                                .threads = c->threads,
                                .communicator = run->communicator,
-                               .block = hd_agenda_block(&run->agenda),
+                               .block = run->agenda.block,
                                .sample = hd_agenda_sample_grown(&run->agenda),
                                .ortho = c->ortho};
     return hd_observables_create(&run->observables, &with);
@@ -97,8 +96,8 @@ static hd_status prepare(hd_run *run)
                         scene->number;
     run->cost.limit = HD_LIMIT_NONE;
     run->agenda = hd_agenda_of(scene, rate);
-    HD_TRY(hd_carrier_create(&run->carrier, scene, 1.0 / rate, hd_agenda_block(&run->agenda),
-                             run->communicator, &run->cost));
+    HD_TRY(hd_carrier_create(&run->carrier, scene, 1.0 / rate, run->agenda.block, run->communicator,
+                             &run->cost));
     run->watch = (hd_watch){.interval = INFINITY, .first = run->carrier.vectors};
     run->fields_first = run->carrier.vectors;
     return prepare_observables(run);
@@ -111,17 +110,16 @@ static void enter_stage(hd_run *run, hd_stage stage)
     hd_advance_stop(&run->advance, now);
     if (stage != HD_FINISHED)
         run->followed = -1.0; /* a run that is made longer may go on from here */
-    if (hd_agenda_stage(&run->agenda) != HD_EQUILIBRATING && run->clocks.frame_started == 0) {
+    if (run->agenda.stage != HD_EQUILIBRATING && run->clocks.frame_started == 0) {
         run->clocks.frame_started = hd_clock_now();
         run->clocks.frame_start_time = now;
     }
+    hd_carrier_begin(&run->carrier, is_averaging(run), now - run->clocks.frame_start_time);
     if (is_averaging(run)) {
-        hd_carrier_clear(&run->carrier, now - run->clocks.frame_start_time);
         hd_cages_begin(&run->cages, run->advance.trajectory);
         run->errors = (hd_error_trend){.first = 0.0};
         hd_observables_clear(&run->observables, (hd_moment){.trajectory = run->advance.trajectory});
     }
-    hd_carrier_save_accuracy(&run->carrier, is_averaging(run));
 }
 
 hd_status hd_run_create(hd_run **out, const hd_scene_def *def, char *message, size_t size)
@@ -191,24 +189,15 @@ void hd_run_drop(hd_run *run)
 static void take_changes(hd_run *run)
 {
     const double now = hd_run_time(run);
-    if (now < hd_run_change_time(run) || !hd_agenda_change(&run->agenda, &run->scene, now)) return;
-    hd_advance_stop(&run->advance, hd_agenda_next_report(&run->agenda));
-    hd_agenda_end_averaging(&run->agenda, hd_target_reached(run), now);
+    if (!hd_agenda_may_change(&run->agenda, now, run->carrier.frame)) return;
+    const bool reached = hd_target_standing(run, &run->scene.target).reached;
+    hd_advance_stop(&run->advance, hd_agenda_change(&run->agenda, &run->scene, reached, now));
 }
 
 /** Longest time from one measured state to the next that observables allow. */
 static double sampling(const hd_run *run)
 {
-    return is_needed(run, HD_NEEDS_CLOSE) ? hd_observables_sampling(&run->observables) : INFINITY;
-}
-
-/** Longest time from one measured state to the next that is expected, also before phases are
- * followed. */
-static double apart_expected(const hd_run *run)
-{
-    const double wanted = hd_observables_apart(&run->scene, hd_observables_seen(&run->observables),
-                                               run->agenda.in_force.field_interval);
-    return fmin(wanted, sampling(run));
+    return is_averaging(run) ? hd_observables_sampling(&run->observables) : INFINITY;
 }
 
 /** Makes the frame orthonormal now; measured: in the full norm. */
@@ -219,13 +208,12 @@ static hd_status orthonormalise(hd_run *run, bool measured)
                              .observed = is_needed(run, HD_NEEDS_FRAME),
                              .whole = is_needed(run, HD_NEEDS_WHOLE),
                              .windows = windows_of(run),
-                             .expected = hd_agenda_interval_expected(
-                                 &run->agenda, &run->carrier.interval, apart_expected(run)),
+                             .expected = run->agenda.expected,
                              .trajectory = run->advance.trajectory};
     const bool carried = hd_record_duration(run->carrier.record) > 0;
     HD_TRY(hd_carrier_orthonormalise(&run->carrier, how));
     if (!carried) return HD_OK;
-    hd_agenda_pass_interval(&run->agenda, hd_run_time(run));
+    run->agenda.interval_end = hd_run_time(run);
     hd_advance_stop(&run->advance, hd_run_time(run));
     return HD_OK;
 }
@@ -233,7 +221,7 @@ static hd_status orthonormalise(hd_run *run, bool measured)
 /** The first vector that somebody reads now; n if nobody does. */
 static int first_wanted(const hd_run *run)
 {
-    const bool fields = hd_agenda_is_due(&run->agenda, HD_DUE_FIELDS) &&
+    const bool fields = is_due(run, HD_DUE_FIELDS) &&
                         is_needed(run, HD_NEEDS_FIELDS | HD_NEEDS_ALL);
     const bool wanted = fields || is_needed(run, HD_NEEDS_REPORTS | HD_NEEDS_ALL);
     const int watched = is_watched(run) ? run->watch.first : run->carrier.vectors;
@@ -252,11 +240,9 @@ static hd_status gather(hd_run *run)
 /** Takes a snapshot of this state; add: and adds it to the averages. */
 static hd_status measure(hd_run *run, bool add)
 {
-    if (!is_averaging(run) || !hd_observables_any(&run->observables)) return HD_OK;
+    if (!is_needed(run, 0)) return HD_OK;
     const double start = hd_clock_now();
-    const hd_moment now = moment_of(run);
-    HD_TRY(hd_observables_measure(&run->observables, now));
-    if (add) hd_observables_add(&run->observables, now);
+    HD_TRY(hd_observables_measure(&run->observables, moment_of(run), add));
     if (add && is_needed(run, HD_NEEDS_CLOSE)) run->followed = hd_run_time(run);
     run->known = is_needed(run, HD_NEEDS_VECTORS);
     HD_TRY(gather(run));
@@ -292,17 +278,16 @@ static hd_status end_early(hd_run *run)
 
 static hd_status end_interval(hd_run *run, bool sample_ends)
 {
-    run->cost.limit = hd_agenda_limit(&run->agenda);
+    run->cost.limit = run->agenda.limit;
     return sample_ends || is_watched(run) ? end_sample(run) : orthonormalise(run, false);
 }
 
 /** True if what is due at this report needs a measured state. */
 static bool needs_state(const hd_run *run)
 {
-    const hd_agenda *a = &run->agenda;
     const bool first = is_averaging(run) && hd_spectrum_time(run->carrier.spectrum) == 0;
-    const bool fields = hd_agenda_is_due(a, HD_DUE_FIELDS) && is_needed(run, HD_NEEDS_FIELDS);
-    return hd_agenda_is_due(a, HD_DUE_STAGE) || first || fields || is_needed(run, HD_NEEDS_REPORTS);
+    const bool fields = is_due(run, HD_DUE_FIELDS) && is_needed(run, HD_NEEDS_FIELDS);
+    return is_due(run, HD_DUE_STAGE) || first || fields || is_needed(run, HD_NEEDS_REPORTS);
 }
 
 static hd_status report(hd_run *run)
@@ -337,9 +322,8 @@ static hd_status look(hd_run *run)
 /** Leaves the stage if it is over and no window has to be gone back through. */
 static void leave_stage(hd_run *run)
 {
-    if (!hd_agenda_is_due(&run->agenda, HD_DUE_STAGE)) return;
-    if (hd_windows_are_behind(windows_of(run))) return;
-    enter_stage(run, hd_agenda_stage(&run->agenda) + 1);
+    if (!is_due(run, HD_DUE_STAGE) || hd_windows_are_behind(windows_of(run))) return;
+    enter_stage(run, run->agenda.stage + 1);
 }
 
 static hd_status go_back(hd_run *run, bool to_its_end)
@@ -360,31 +344,27 @@ hd_status hd_run_settle(hd_run *run)
 
 /* ---- from one time to the next ------------------------------------------------------------- */
 
-static hd_pace pace_of(hd_run *run)
+/** Plans the next orthonormalisation of the frame, unless one is planned; the next time at which
+ * something is due. */
+static double plan(hd_run *run, hd_pace *pace)
 {
-    const hd_observables *o = &run->observables;
     const bool averaging = is_averaging(run), framed = is_framed(run);
-    const double now = hd_run_time(run);
-    return (hd_pace){.now = now,
-                     .framed = framed,
-                     .sampled = averaging && !framed && hd_observables_any(o),
-                     .first = framed && hd_spectrum_time(run->carrier.spectrum) == 0,
-                     .at_reports = is_needed(run, HD_NEEDS_REPORTS),
-                     .at_fields = is_needed(run, HD_NEEDS_FIELDS),
-                     .phases = sampling(run),
-                     .snapshot = hd_windows_due(windows_of(run), now),
-                     .norm = hd_carrier_norm(&run->carrier, is_needed(run, HD_NEEDS_WHOLE)),
-                     .interval = &run->carrier.interval,
-                     .shortest = hd_advance_shortest(&run->advance),
-                     .longest = hd_advance_longest(&run->advance)};
-}
-
-/** Plans the next orthonormalisation of the frame, unless one is planned. */
-static hd_pace plan(hd_run *run)
-{
-    const hd_pace pace = pace_of(run);
-    hd_agenda_plan(&run->agenda, &pace);
-    return pace;
+    const double now = hd_run_time(run), phases = sampling(run),
+                 apart = hd_observables_apart(&run->scene, run->observables.seen,
+                                              run->agenda.in_force.field_interval);
+    *pace = (hd_pace){.now = now,
+                      .framed = framed,
+                      .sampled = !framed && is_needed(run, 0),
+                      .first = framed && hd_spectrum_time(run->carrier.spectrum) == 0,
+                      .at_reports = is_needed(run, HD_NEEDS_REPORTS),
+                      .at_fields = is_needed(run, HD_NEEDS_FIELDS),
+                      .phases = phases,
+                      .apart = fmin(apart, phases),
+                      .snapshot = hd_windows_due(windows_of(run), now),
+                      .norm = hd_carrier_norm(&run->carrier, is_needed(run, HD_NEEDS_WHOLE)),
+                      .interval = &run->carrier.interval};
+    hd_advance_bounds(&run->advance, &pace->shortest, &pace->longest);
+    return hd_agenda_plan(&run->agenda, pace);
 }
 
 /** Moves the particles towards the time `end`, or only to the next time at which a viewer looks. */
@@ -392,9 +372,8 @@ static hd_status move_particles(hd_run *run, double end)
 {
     const double start = hd_clock_now();
     hd_record *record = is_framed(run) ? run->carrier.record : NULL;
-    if (hd_advance_is_done(&run->advance)) hd_advance_make_plan(&run->advance, end);
     HD_TRY(hd_communicator_agree(run->communicator,
-                                 hd_advance_on(&run->advance, record, run->watch.interval)));
+                                 hd_advance_on(&run->advance, record, end, run->watch.interval)));
     run->cost.events += hd_clock_now() - start;
     if (HD_VERIFIES) hd_verify_trajectory(run->advance.trajectory, &run->scene);
     if (HD_VERIFIES && record) hd_verify_record(record, &run->scene);
@@ -404,9 +383,9 @@ static hd_status move_particles(hd_run *run, double end)
 static hd_status go_on(hd_run *run)
 {
     take_changes(run);
-    if (hd_agenda_is_due(&run->agenda, HD_DUE_STAGE)) return go_back(run, false);
-    hd_pace pace = plan(run);
-    HD_TRY(move_particles(run, hd_agenda_next(&run->agenda, &pace)));
+    if (is_due(run, HD_DUE_STAGE)) return go_back(run, false);
+    hd_pace pace;
+    HD_TRY(move_particles(run, plan(run, &pace)));
     pace.now = hd_run_time(run);
     const unsigned due = hd_agenda_reached(&run->agenda, &pace);
     if (due & HD_DUE_INTERVAL)
@@ -416,7 +395,7 @@ static hd_status go_on(hd_run *run)
     if (due & HD_DUE_REPORT) HD_TRY(report(run));
     HD_TRY(look(run));
     if (is_averaging(run) && pace.framed && is_measured(run)) take_changes(run);
-    if (!hd_agenda_is_due(&run->agenda, HD_DUE_STAGE)) (void)plan(run);
+    if (!is_due(run, HD_DUE_STAGE)) (void)plan(run, &pace);
     leave_stage(run);
     return HD_OK;
 }
@@ -430,15 +409,14 @@ static void forget_vectors(hd_run *run)
 
 static hd_status advance(hd_run *run)
 {
-    if (hd_agenda_is_due(&run->agenda, HD_DUE_REPORT) && is_averaging(run) && run->carrier.spectrum)
+    if (is_due(run, HD_DUE_REPORT) && is_averaging(run) && run->carrier.spectrum)
         hd_spectrum_local_restart(run->carrier.spectrum);
     hd_agenda_begin(&run->agenda);
     forget_vectors(run);
-    if (hd_agenda_stage(&run->agenda) == HD_FINISHED) return HD_OK;
+    if (run->agenda.stage == HD_FINISHED) return HD_OK;
     if (is_framed(run)) hd_blas_use_threads(run->carrier.threads); /* set for the calling thread */
     const bool behind = hd_windows_are_behind(windows_of(run));
-    return behind || hd_agenda_is_due(&run->agenda, HD_DUE_STAGE) ? go_back(run, false)
-                                                                  : go_on(run);
+    return behind || is_due(run, HD_DUE_STAGE) ? go_back(run, false) : go_on(run);
 }
 
 hd_status hd_run_advance(hd_run *run)

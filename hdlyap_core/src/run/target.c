@@ -286,7 +286,7 @@ static double distance(const hd_standing *s)
 hd_standing hd_target_standing(const hd_run *run, const hd_text *target)
 {
     const aims asked = aims_of(&run->scene, target);
-    const double averaged = hd_run_time(run) - hd_agenda_stage_begin(&run->agenda);
+    const double averaged = hd_run_time(run) - run->agenda.start;
     hd_standing all = {.error = -1.0, .wanted = -1.0, .left = INFINITY};
     for (int k = 0; k < asked.count; k++) {
         const hd_standing one = standing_of(run, &asked.goal[k], averaged);
@@ -301,5 +301,5 @@ hd_standing hd_target_standing(const hd_run *run, const hd_text *target)
 
 bool hd_target_reached(const hd_run *run)
 {
-    return hd_target_standing(run, hd_agenda_target(&run->agenda)).reached;
+    return hd_target_standing(run, &run->agenda.in_force.target).reached;
 }

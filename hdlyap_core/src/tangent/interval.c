@@ -122,8 +122,12 @@ hd_interval_length hd_interval_next(const hd_interval *interval, double remainin
     const hd_interval_length longest = hd_interval_longest(interval);
     const double strained = fmin(STRAIN * longest.length, interval->limit);
     if (strained >= remaining) return (hd_interval_length){remaining, HD_LIMIT_SCHEDULE};
-    if (remaining == INFINITY) return longest;
-    return (hd_interval_length){remaining / ceil(remaining / longest.length), longest.limit};
+    return (hd_interval_length){hd_equal_part(remaining, longest.length), longest.limit};
+}
+
+double hd_equal_part(double left, double most)
+{
+    return left < INFINITY ? left / ceil(left / most) : most;
 }
 
 void hd_interval_archive(hd_interval *interval, hd_archive *archive)

@@ -79,6 +79,9 @@ typedef struct hd_interval_length {
 /** The longest next interval that conditioning allows. */
 hd_interval_length hd_interval_longest(const hd_interval *interval);
 
+/** The length of the parts if `left` is divided into equal parts, none longer than `most`. */
+double hd_equal_part(double left, double most);
+
 /** The next interval: `remaining` divided into as few equal shares as conditioning allows; the
  * whole of it (HD_LIMIT_SCHEDULE) if possible. */
 hd_interval_length hd_interval_next(const hd_interval *interval, double remaining);

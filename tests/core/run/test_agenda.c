@@ -1,12 +1,167 @@
-/** When samples end, interval by interval. */
+/** When stages, reports and samples end. */
 #include "testing.h"
 #include "run/agenda.h"
+
+/* ---- stages and reports --------------------------------------------------------------------- */
+
+static hd_agenda agenda_of(double warmup, double duration, double report_interval)
+{
+    hd_scene_def scene = scene(.equilibration = 0.0, .warmup = warmup, .duration = duration,
+                               .report_interval = report_interval);
+    return hd_agenda_of(&scene, 1.0);
+}
+
+/** A report is made; true if the stage ends with it. */
+static bool passed(hd_agenda *agenda)
+{
+    hd_agenda_pass_report(agenda, false);
+    return agenda->due & HD_DUE_STAGE;
+}
+
+/** A change is taken up at this time; true if the averaging ends with it. */
+static bool is_over(hd_agenda *agenda, const hd_scene_def *scene, double now)
+{
+    (void)hd_agenda_change(agenda, scene, false, now);
+    return agenda->due & HD_DUE_STAGE;
+}
+
+TEST(stages_without_length_are_skipped)
+{
+    hd_agenda a = agenda_of(0.0, 5.0, 1.0);
+    hd_agenda_enter(&a, HD_EQUILIBRATING, 3.0);
+    assert_int_equal(a.stage, HD_AVERAGING);
+    CHECK_CLOSE(hd_agenda_stage_end(&a), 8.0, 0.0);
+    a = agenda_of(2.0, 0.0, 1.0);
+    hd_agenda_enter(&a, HD_EQUILIBRATING, 3.0);
+    assert_int_equal(a.stage, HD_WARMING_UP);
+    CHECK_CLOSE(hd_agenda_stage_end(&a), 5.0, 0.0);
+    hd_agenda_enter(&a, HD_AVERAGING, 5.0);
+    assert_true(hd_agenda_stage_end(&a) == INFINITY);
+}
+
+/** Each cut is checked against its time; the last report may be a short one, but not of rounding
+ * alone. */
+TEST(reports_end_at_multiples_and_with_the_stage)
+{
+    const double intervals[] = {0.05, 0.1, 0.7, 1.0, 3.0, 33.33333333333, 99.0, 100.0, 1e4};
+    for (size_t k = 0; k < sizeof intervals / sizeof *intervals; k++) {
+        hd_agenda a = agenda_of(0.0, 100.0, intervals[k]);
+        hd_agenda_enter(&a, HD_AVERAGING, 2.0);
+        int reports = 0;
+        for (bool ends = false; !ends;) {
+            CHECK_CLOSE(hd_agenda_cut(&a), fmin(2.0 + ++reports * intervals[k], 102.0), 1e-9);
+            ends = passed(&a);
+            assert_true(reports < 10000);
+        }
+        assert_int_equal(reports, (int)ceil(100.0 / intervals[k] * (1.0 - 1e-9)));
+    }
+}
+
+/** A cut; never a time that has passed. */
+TEST(an_end_that_falls_on_a_cut_is_the_cut)
+{
+    hd_agenda a = agenda_of(0.0, 100.0, 0.05);
+    hd_agenda_enter(&a, HD_AVERAGING, 30.0);
+    const double cut = hd_agenda_cut(&a), rounding = 32.0 * DBL_EPSILON * cut;
+    assert_true(hd_agenda_snap(&a, 30.0, 0.05 * (1.0 - rounding)) == cut);
+    assert_true(hd_agenda_snap(&a, 30.0, 0.05 * (1.0 + rounding)) == cut);
+    const double third = hd_agenda_snap(&a, cut, 0.1 - rounding);
+    CHECK_CLOSE(third, 30.15, 1e-13);
+    assert_true(hd_agenda_snap(&a, 30.0, 0.15 + rounding) == third);
+    assert_true(hd_agenda_snap(&a, 30.0, 0.049) == 30.0 + 0.049);
+    assert_true(hd_agenda_snap(&a, 30.0, 1e-11) > 30.0);
+    assert_true(hd_agenda_snap(&a, 30.0, 100.0 - rounding) == 130.0);
+}
+
+/** Also where reports are counted from later than the averaging. */
+TEST(an_end_falls_on_a_cut_of_another_interval)
+{
+    hd_scene_def scene = hd_scene_def_default();
+    hd_agenda a = agenda_of(0.0, 100.0, 1.0);
+    hd_agenda_enter(&a, HD_AVERAGING, 30.0);
+    (void)passed(&a);
+    (void)passed(&a);
+    scene.duration = 100.0;
+    scene.report_interval = 0.07;
+    (void)hd_agenda_change(&a, &scene, false, 32.3);
+    CHECK_CLOSE(hd_agenda_cut(&a), 32.37, 1e-13);
+    const double rounding = 32.0 * DBL_EPSILON * 32.0;
+    assert_true(hd_agenda_snap(&a, 32.3, 0.07 - rounding) == hd_agenda_cut(&a));
+    assert_true(hd_agenda_snap(&a, 32.3, 0.07 + rounding) == hd_agenda_cut(&a));
+}
+
+/** Of the reports every `report` time units in an averaging of 50. */
+static void expect_multiples(double report, double interval)
+{
+    hd_agenda a = agenda_of(0.0, 50.0, report);
+    hd_agenda_enter(&a, HD_AVERAGING, 7.0);
+    int reports = 0, due = 0;
+    for (bool ends = false; !ends;) {
+        const double cut = hd_agenda_cut(&a), next = hd_agenda_next_multiple(&a, interval);
+        assert_true(next >= cut && next <= hd_agenda_stage_end(&a));
+        ends = passed(&a);
+        reports++;
+        /* whole numbers of thousandths, which round nothing */
+        const long unit = lround(1000.0 * interval), length = lround(1000.0 * report);
+        const long now = reports * length, before = now - length;
+        const bool first = reports == 1 || unit == 0 || now / unit > before / unit;
+        assert_int_equal(next == cut, ends || first);
+        due += next == cut;
+    }
+    assert_true(due >= 2 && due <= reports);
+}
+
+/** Once for each, at the first report and at the last. */
+TEST(multiples_are_reached_once)
+{
+    const double reports[] = {1.0, 0.3, 0.1, 7.0, 2.5};
+    const double intervals[] = {0.0, 0.5, 1.0, 1.3, 10.0, 1000.0};
+    for (size_t r = 0; r < sizeof reports / sizeof *reports; r++)
+        for (size_t k = 0; k < sizeof intervals / sizeof *intervals; k++)
+            expect_multiples(reports[r], intervals[k]);
+}
+
+/** However far apart reports are: a stage is over at its end, and not before; it is what it is to
+ * the rounding of a duration with 15 digits. */
+TEST(reports_do_not_end_a_stage)
+{
+    const double starts[] = {0.0, 23.0, 1e6};
+    for (double report = 1e-6; report <= 1e12; report *= 10.0)
+        for (int k = 0; k < 3; k++) {
+            const double start = starts[k], end = start + 30.0;
+            const hd_scene_def scene = scene(.duration = 30.0, .report_interval = report);
+            hd_agenda a = agenda_of(0.0, 30.0, report);
+            hd_agenda_enter(&a, HD_AVERAGING, start);
+            assert_false(is_over(&a, &scene, start + 29.9999999));
+            assert_true(is_over(&a, &scene, end));
+            assert_true(is_over(&a, &scene, end * (1.0 - 32.0 * DBL_EPSILON)));
+            assert_false(hd_agenda_reopen(&a, start + 30.0000001));
+            a.stage = HD_FINISHED;
+            assert_true(hd_agenda_reopen(&a, end));
+            assert_int_equal(a.stage, HD_FINISHED);
+            assert_true(hd_agenda_reopen(&a, start + 29.9999999));
+            assert_int_equal(a.stage, HD_AVERAGING);
+        }
+}
+
+/** At the very report, however many there are between two multiples. */
+TEST(multiples_are_not_reached_early)
+{
+    for (double report = 1e-6; report < 1.0; report *= 10.0) {
+        hd_agenda a = agenda_of(0.0, 5000.0, report);
+        hd_agenda_enter(&a, HD_AVERAGING, 7.0);
+        (void)passed(&a);
+        CHECK_CLOSE(hd_agenda_next_multiple(&a, 1000.0), 1007.0, 4.0 * DBL_EPSILON * 1007.0);
+    }
+}
+
+/* ---- samples, interval by interval ----------------------------------------------------------- */
 
 /** Goes to the end of the interval that is planned, and plans the next one. */
 static void next_interval(hd_agenda *agenda, hd_pace *pace)
 {
-    pace->now = hd_agenda_next(agenda, pace);
-    hd_agenda_pass_interval(agenda, pace->now);
+    pace->now = hd_agenda_plan(agenda, pace);
+    agenda->interval_end = pace->now;
     hd_agenda_plan(agenda, pace);
 }
 
@@ -38,7 +193,7 @@ TEST(the_first_sample_after_a_reset_is_a_whole_one)
     for (; !agenda.sample_ends && intervals < 100; intervals++) next_interval(&agenda, &pace);
     assert_int_equal(intervals, 3); /* 12 is nearer to 11 than 8 */
     hd_agenda_enter(&agenda, HD_AVERAGING, pace.now);
-    pace.now = hd_agenda_next(&agenda, &pace);
+    pace.now = hd_agenda_plan(&agenda, &pace);
     assert_int_equal(hd_agenda_reached(&agenda, &pace), HD_DUE_INTERVAL);
 }
 
@@ -74,8 +229,8 @@ static void check_growth(double length)
     while (pace.now < 3000.0) {
         const bool ends = agenda.sample_ends;
         const double before = agenda.sample_begin;
-        pace.now = hd_agenda_next(&agenda, &pace);
-        hd_agenda_pass_interval(&agenda, pace.now);
+        pace.now = hd_agenda_plan(&agenda, &pace);
+        agenda.interval_end = pace.now;
         if (ends) {
             sample = pace.now - before;
             assert_true(sample >= 0.9 * agenda.block);
@@ -117,7 +272,7 @@ TEST(intervals_fit_the_time_of_phases_where_that_is_cheap)
     hd_agenda agenda;
     hd_interval interval;
     hd_pace pace = averaging(&agenda, &interval, 11.0);
-    CHECK_CLOSE(hd_agenda_next(&agenda, &pace), 11.0 / 3.0, 1e-12);
+    CHECK_CLOSE(hd_agenda_plan(&agenda, &pace), 11.0 / 3.0, 1e-12);
     pace = averaging(&agenda, &interval, 10.0);
-    CHECK_CLOSE(hd_agenda_next(&agenda, &pace), 4.0, 1e-12);
+    CHECK_CLOSE(hd_agenda_plan(&agenda, &pace), 4.0, 1e-12);
 }

@@ -104,8 +104,7 @@ TEST(it_is_said_once_errors_are)
     const hd_scene_def scene = scene_from(moving(scene_of(36, 1.0, 0.867, P, P, 1)), .exponents = 4,
                                           .report_interval = 0.5);
     OWNED(hd_run) *run = until(kept_run(scene), HD_AVERAGING);
-    const double begin = hd_run_time(run),
-                 after = HD_SPECTRUM_BLOCKS_MIN * hd_agenda_block(&run->agenda);
+    const double begin = hd_run_time(run), after = HD_SPECTRUM_BLOCKS_MIN * run->agenda.block;
     until_time(run, begin + after - 1.0);
     assert_false(hd_run_is_caged(run));
     OWNED(hd_run) *resumed = kept_and_resumed(run, "cages.test", NULL);

@@ -119,7 +119,7 @@ TEST(clocks_and_costs_go_on)
     /* seconds left over simulated time left, as over what was carried: wall time runs on */
     assert_true(after.remaining >= before.remaining);
     CHECK_CLOSE(resumed->clocks.frame_start_time, run->clocks.frame_start_time, 0.0);
-    assert_int_equal(hd_observables_looked_at(&resumed->observables), HD_OBSERVE_MODES);
+    assert_int_equal(resumed->observables.looked_at, HD_OBSERVE_MODES);
 }
 
 /** As many as before, and as said: any number. */
@@ -181,10 +181,9 @@ TEST(the_duration_can_end_at_once)
     const hd_scene_def def = kept_scene(20, 0.7, 1.0, HD_EXPONENTS_POSITIVE, KEPT_ALL);
     OWNED(hd_run) *run = kept_run(def);
     for (int k = 0; kept_steps(run, 1) == 1; k++) {
-        if (hd_run_stage(run) != HD_AVERAGING || hd_run_time(run) == run->agenda.schedule.start)
-            continue;
-        hd_scene_def shorter = scene_from(
-            def, .duration = hd_run_time(run) - run->agenda.schedule.start + more[k % 5]);
+        if (hd_run_stage(run) != HD_AVERAGING || hd_run_time(run) == run->agenda.start) continue;
+        hd_scene_def shorter = scene_from(def, .duration = hd_run_time(run) - run->agenda.start +
+                                                           more[k % 5]);
         OWNED(hd_run) *ended = kept_and_resumed(run, PATH, &shorter);
         kept_steps(ended, 1000);
         assert_int_equal(hd_run_stage(ended), HD_FINISHED);
@@ -225,7 +224,7 @@ TEST(another_target_holds_at_once)
                                    .report_interval = 0.05);
     OWNED(hd_run) *run = kept_run(def);
     while (!(hd_run_cost(run).std_error > 0)) CHECK_OK(hd_run_advance(run));
-    while (!hd_run_report_due(run) || hd_agenda_is_measured(&run->agenda, hd_run_time(run)))
+    while (!hd_run_report_due(run) || hd_run_time(run) == run->agenda.sample_begin)
         CHECK_OK(hd_run_advance(run));
     hd_scene_def asked = def;
     snprintf(asked.target.line, HD_TEXT, "smallest %.17g", 2 * hd_run_cost(run).std_error);

@@ -139,13 +139,12 @@ TEST(reports_are_not_passed_twice)
 {
     OWNED(hd_run) *run = kept_run(kept_scene(4, 0.3, 0.3, HD_EXPONENTS_ALL, 0)), *again = NULL;
     char message[512] = "";
-    while (hd_run_stage(run) < HD_AVERAGING || run->agenda.schedule.reports == 0 ||
+    while (hd_run_stage(run) < HD_AVERAGING || run->agenda.reports == 0 ||
            run->carrier.record->duration > 0)
         kept_steps(run, 1);
     const bytes b = kept_bytes(run);
     const nonsense_case backwards = {"log duration", 0, -1.0, 0, "log duration"};
-    const nonsense_case twice = {"schedule reports", 0, 0, run->agenda.schedule.reports - 1,
-                                 "schedule"};
+    const nonsense_case twice = {"schedule reports", 0, 0, run->agenda.reports - 1, "schedule"};
     expect_nonsense_refused(&b, &backwards);
     expect_nonsense_refused(&b, &twice);
     const double endless = 1e300;

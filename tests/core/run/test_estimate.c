@@ -61,7 +61,7 @@ static void compare(const hd_scene_def *def)
     check_ratio("seconds per time unit", e.seconds, seconds, SECONDS_FACTOR);
     if (hd_run_vectors(run) > 0) check_ratio("interval", e.interval, interval, INTERVAL_FACTOR);
     CHECK_CLOSE(e.before, def->equilibration + def->warmup, 0.0);
-    const double block = hd_run_vectors(run) > 0 ? hd_agenda_block(&run->agenda) : 0.0;
+    const double block = hd_run_vectors(run) > 0 ? run->agenda.block : 0.0;
     CHECK_CLOSE(e.slopes_after, 32.0 * block, 0.0);
     CHECK_WITHIN(e.errors_after, 16.0 * block, 1.3 * 16.0 * block + 1.0);
     assert_int_equal(e.particles, def->number);

@@ -26,7 +26,7 @@ static seen settled(const hd_scene_def *scene)
 {
     OWNED(hd_run) *run = created(*scene);
     until(run, HD_AVERAGING);
-    const double from = run->agenda.schedule.start,
+    const double from = run->agenda.start,
                  sample = hd_agenda_sample_longest(&run->agenda, &run->carrier.interval);
     until_time(run, from + 3.5 * fmax(sample, scene->report_interval));
     return seen_of(run);
@@ -51,10 +51,10 @@ TEST(the_conditioning_is_not_called_a_report)
 static long orthonormalisations_with(double report_interval)
 {
     OWNED(hd_run) *run = created(scene_of_disks(60, report_interval));
-    while (hd_run_stage(run) < HD_AVERAGING || hd_run_time(run) < run->agenda.schedule.start + 12.0)
+    while (hd_run_stage(run) < HD_AVERAGING || hd_run_time(run) < run->agenda.start + 12.0)
         CHECK_OK(hd_run_advance(run));
     const long before = hd_run_cost(run).orthonormalisations;
-    until_time(run, run->agenda.schedule.start + 132.0);
+    until_time(run, run->agenda.start + 132.0);
     return hd_run_cost(run).orthonormalisations - before;
 }
 

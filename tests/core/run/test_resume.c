@@ -11,7 +11,7 @@ enum { RUNS = HD_SANITIZED ? 30 : 120, RUNS_OF_SECOND_TIER = 300, STEPS = 400 };
 
 /** Enough of disks without exponents, which take some 1e5 in a step. */
 static const uint64_t EVENTS = 300000;
-/** Of an end that is ahead by no more than this, see schedule.c. */
+/** Of an end that is ahead by no more than this, see agenda.c. */
 static const double ROUNDING = 64.0 * DBL_EPSILON;
 
 /** The same run twice, one of them taken up again now and then. */
@@ -128,7 +128,7 @@ static void tell(const twins *t, hd_run *run)
 /** Also shorter than it may be, as short as it can be, and to the end that is ahead. */
 static double drawn_duration(hd_random *random, const hd_run *run)
 {
-    const double least = fmax(0.0, hd_run_change_time(run) - run->agenda.schedule.start);
+    const double least = fmax(0.0, hd_run_change_time(run) - run->agenda.start);
     const double more = chance(random, 0.5) ? 0.0 : log_uniform(random, 1e-12, 50.0);
     switch (one_of(random, 4)) {
     case 0: return 0.0;
@@ -208,7 +208,7 @@ static void expect_ended(const hd_run *run)
     const double end = hd_run_time(run);
     assert_true(hd_run_report_due(run));
     if (hd_run_cost(run).target.reached) return;
-    CHECK_CLOSE(end, run->agenda.schedule.start + hd_run_scene(run)->duration, ROUNDING * end);
+    CHECK_CLOSE(end, run->agenda.start + hd_run_scene(run)->duration, ROUNDING * end);
 }
 
 static bool is_under_way(const twins *t)

@@ -68,8 +68,7 @@ static inline void check_same_run(const hd_run *run, const hd_run *alone)
 static inline void force_interval(hd_run *run, double length)
 {
     if (run->carrier.record->duration > 0) return;
-    run->agenda.interval_end = fmin(hd_run_time(run) + length,
-                                    hd_schedule_stage_end(&run->agenda.schedule));
+    run->agenda.interval_end = fmin(hd_run_time(run) + length, hd_agenda_stage_end(&run->agenda));
     run->agenda.sample_ends = true;
 }
 

@@ -249,7 +249,7 @@ static void say_covariant(said *s, const hd_run *run)
     const size_t n = (size_t)r.vectors;
     say(s, "windows", (double)r.windows);
     say(s, "lost", (double)r.lost);
-    say(s, "window_end", r.window_end - hd_agenda_stage_begin(&run->agenda));
+    say(s, "window_end", r.window_end - run->agenda.start);
     say_spectrum(s, r.spectrum, r.vectors);
     say_splitting(s, r.splitting, n);
     for (int k = 0; k < r.times; k++) say_order(s, r.order[k], n);
