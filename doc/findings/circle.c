@@ -87,7 +87,6 @@ static void add_vector(profiles *all, profile *of, const hd_run *run, hd_columns
 static void add_state(profiles *all, const hd_run *run)
 {
     const hd_columns v = hd_run_columns(run);
-    if (v.count < hd_run_vectors(run)) return;
     hd_trajectory_state(hd_run_parts(run).trajectory, all->q, all->p);
     double box[HD_DIMENSION_MAX];
     hd_scene_box(hd_run_scene(run), box);
@@ -164,7 +163,9 @@ static double of_circle(int disks, double density, bool quick)
     go_on(run, HD_AVERAGING);
     while (hd_run_stage(run) < HD_FINISHED) {
         require(hd_run_advance(run), "run");
-        if (hd_run_report_due(run)) add_state(&all, run);
+        if (!hd_run_report_due(run)) continue;
+        require(hd_run_measure(run, 0), "run");
+        add_state(&all, run);
     }
     const double pressure = hd_gas_read(hd_run_parts(run).gas).pressure;
     print_steps(run);

@@ -184,7 +184,6 @@ static void look(looked *l, hd_run *run, const box *b)
     const hd_trajectory *trajectory = hd_run_parts(run).trajectory;
     const int positive = hd_scene_counts(scene).positive;
     const hd_columns v = hd_run_columns(run);
-    if (v.count < positive) return;
     hd_trajectory_state(trajectory, l->q, l->p);
     (void)hd_dynamics_of(scene)->null(scene, l->q, l->p, l->null);
     project(l, b, v, positive);
@@ -201,17 +200,16 @@ static hd_run *follow(const box *b, int seed, looked *l, bool quick)
 {
     const hd_scene_def scene = scene_of(b, seed, quick);
     hd_run *run = created(&scene);
-    const int all = hd_run_vectors(run);
     *l = looked_create(run, b);
     go_on(run, HD_AVERAGING);
-    hd_run_watch(run, INFINITY, all);
     while (hd_run_stage(run) < HD_FINISHED) {
         require(hd_run_advance(run), "run");
         if (!hd_run_report_due(run) || hd_run_stage(run) == HD_FINISHED) continue;
-        hd_run_watch(run, scene.report_interval / 10.0, 0);
+        hd_run_watch(run, scene.report_interval / 10.0);
         require(hd_run_advance(run), "run");
+        require(hd_run_measure(run, 0), "run");
         look(l, run, b);
-        hd_run_watch(run, INFINITY, all);
+        hd_run_watch(run, INFINITY);
     }
     return run;
 }

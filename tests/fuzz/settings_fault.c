@@ -41,7 +41,7 @@ static const char *accepted_fault(const settings *set)
     if (set->awaited & ~published) return "waits for what is not published";
     if (set->def.observe != topic_stages(set->observables)) return "other stages than topics";
     if (set->def.observe && hd_scene_counts(&set->def).vectors == 0) return "modes without vectors";
-    if (!(set->field_interval >= 0.0 && set->field_interval <= 1e12)) return "no time";
+    if (!(set->def.field_interval >= 0.0 && set->def.field_interval <= 1e12)) return "no time";
     if (!(set->checkpoint_interval >= 0.0 && set->checkpoint_interval <= 1e12)) return "no time";
     return set->pace >= 0.0 && set->pace <= 1e12 ? fields_fault(set) : "no pace";
 }

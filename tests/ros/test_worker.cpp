@@ -87,6 +87,7 @@ bool report_awaited_here(report *)
 }
 unsigned report_demand(report *) { return 0; }
 void report_demand_slow(report *, hd_run *) {}
+hd_status report_vectors(report *, hd_run *) { return HD_OK; }
 hd_status report_finish(report *, const progress *) { return HD_OK; }
 hd_status report_publish(report *, const hd_run *) { return HD_OK; }
 hd_status report_run_info(report *, const hd_run *, const changes *)

@@ -309,7 +309,7 @@ members say_pairs(int step)
     hd_pmode *of = parts().fields;
     const hd_step *found = step < 0 ? nullptr : hd_steps_step(parts().steps, step);
     const bool has = found && found->kind == HD_MODE_LP &&
-                     hd_pmode_reconstruct(of, found, parts().modes, hd_run_frame_columns(run));
+                     hd_pmode_reconstruct(of, found, parts().modes, hd_run_columns(run));
     const int d = has ? hd_pmode_pairs(of) : 0, count = coordinates();
     std::vector<double> p(count), divided(count);
     hd_trajectory_state(parts().trajectory, nullptr, p.data());
@@ -329,7 +329,7 @@ members say_pairs(int step)
 members beside(const hdr_mode_field *message)
 {
     const int col = int(message->index) - 1;
-    const hd_columns frame = hd_run_frame_columns(run);
+    const hd_columns frame = hd_run_columns(run);
     const members all = beside((const hdr_state *)nullptr) + say_steps() + named({{"nth", nth++}});
     if (col < frame.first || col >= frame.first + frame.count) return all;
     const double *from = frame.data + (col - frame.first);
@@ -404,11 +404,21 @@ const bool is_rare = std::getenv("WITNESS_RARE"); /**< the core says what it sel
     }
 HDR_MESSAGES(PUBLISH)
 
-/** The node calls it first when it has made its run. */
-void hd_run_fields_every(hd_run *of, double interval)
+hd_status hd_run_create_shared(hd_run **out, const hd_scene_def *def, hd_communicator *communicator,
+                               char *message, size_t size)
 {
-    change(of);
-    REAL(hd_run_fields_every)(of, interval);
+    const hd_status status = REAL(hd_run_create_shared)(out, def, communicator, message, size);
+    if (status == HD_OK) change(*out);
+    return status;
+}
+
+hd_status hd_run_resume_shared(hd_run **out, const char *path, const hd_scene_def *scene,
+                               hd_communicator *communicator, char *message, size_t size)
+{
+    const hd_status status = REAL(hd_run_resume_shared)(out, path, scene, communicator, message,
+                                                        size);
+    if (status == HD_OK) change(*out);
+    return status;
 }
 
 hd_status hd_run_change(hd_run *of, const hd_parameter *row, const char *value, char *message,

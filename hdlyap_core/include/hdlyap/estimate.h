@@ -40,11 +40,10 @@ typedef struct hd_estimate {
  * between orthonormalisations reach their full length. The trial has fewer particles in a box of
  * the same shape if the scene's would take too long; its wall times are then multiplied by the cube
  * of the ratio of N. Covariant vectors are not tried, because their windows are longer than the
- * trial; but the call returns HD_REFUSED if covariant_memory is too small for them. fields_every is
- * the interval of hd_run_fields_every. Other failures are those of hd_run_create, with one line in
- * message[size], and of hd_run_advance. */
-HD_MUST_CHECK hd_status hd_estimate_run(hd_estimate *out, const hd_scene_def *def,
-                                        double fields_every, char *message, size_t size);
+ * trial; but the call returns HD_REFUSED if covariant_memory is too small for them. Other failures
+ * are those of hd_run_create, with one line in message[size], and of hd_run_advance. */
+HD_MUST_CHECK hd_status hd_estimate_run(hd_estimate *out, const hd_scene_def *def, char *message,
+                                        size_t size);
 
 /** Writes hd_estimate.errors_after of the scene to *after, without a trial. Returns HD_OK or
  * HD_NO_MEMORY. */

@@ -15,7 +15,7 @@ typedef enum hd_limit {
     HD_LIMIT_OVERFLOW, /**< components of vectors would have become too large for a double */
     HD_LIMIT_SCENE,    /**< it was as long as hd_scene_def.interval allows */
     HD_LIMIT_EVENTS, /**< the record would have taken too much memory, or hd_run_advance too long */
-    /** It was cut short: phases, fluctuations or a viewer (hd_run_watch) needed the vectors, or a
+    /** It was cut short: phases, fluctuations or a viewer (hd_run_measure) needed the vectors, or a
      * report did for which this was not planned, as one that reaches the target. */
     HD_LIMIT_LOOK,
     HD_LIMIT_REPAIR, /**< a longer interval lost too much accuracy, so that it was repeated in

@@ -31,10 +31,8 @@ HD_MUST_CHECK hd_status hd_room_check(const hd_scene_def *def, hd_room room, cha
 /** Returns HD_OK if a window of covariant vectors fits into the covariant_memory of a checked scene
  * with as few orthonormalisations as its interval, its report_interval and the observables that it
  * asks for leave; otherwise HD_REFUSED, with one line in message[size] unless it is NULL.
- * fields_every is the interval of hd_run_fields_every; INFINITY: it is not known. hd_run_create
- * makes this check with INFINITY. */
-HD_MUST_CHECK hd_status hd_room_check_windows(const hd_scene_def *def, double fields_every,
-                                              char *message, size_t size);
+ * hd_run_create makes this check. */
+HD_MUST_CHECK hd_status hd_room_check_windows(const hd_scene_def *def, char *message, size_t size);
 
 HD_API_END
 #endif

@@ -70,8 +70,7 @@ typedef struct hd_cost {
     double error_bound;
     long orthonormalisations; /**< number of orthonormalisations */
     long second_passes; /**< number of orthonormalisations that needed a second pass for accuracy */
-    long slow_vector_samples; /**< number of samples that ended early because a viewer watches
-                                 (hd_run_watch) */
+    long slow_vector_samples; /**< number of samples that ended early because of hd_run_measure */
     long repairs;             /**< number of intervals that were repeated in pieces for accuracy */
     /** Largest of the standard errors of the eight smallest positive exponents that are computed;
      * negative if it is not known [1/time unit]. */
@@ -122,19 +121,6 @@ HD_MUST_CHECK hd_status hd_run_advance(hd_run *run);
  * hd_run_followed. */
 bool hd_run_report_due(const hd_run *run);
 
-/** Sets how often fields are due. At such a report all vectors are known if the scene asks for the
- * observable fields, so that the caller can reconstruct L and P modes (hd_pmode_reconstruct).
- * Fields are due with the first report of the averaging, then with the first report at or after
- * each multiple of `interval` [time units] since the averaging began, and with the last. 0, the
- * default, means with every report. `interval` is finite. The first call holds at once, a later one
- * from hd_run_change_time on. A resumed run keeps its old interval until the first call. */
-void hd_run_fields_every(hd_run *run, double interval);
-
-/** For several ranks, where each rank has only some vectors: with each report when fields are due,
- * every rank gets the vectors of all steps. After this call it gets those from column `first` on,
- * too. */
-void hd_run_fields_from(hd_run *run, int first);
-
 /** Changes a parameter of the scene with hd_parameter.live, to a number or a text that `value`
  * holds. The new value is in hd_run_scene at once, but the run follows it from hd_run_change_time
  * on. Returns HD_REFUSED, with one line in message[size] unless NULL, if the parameter cannot
@@ -151,8 +137,8 @@ double hd_run_change_time(const hd_run *run);
 double hd_run_shortest_duration(const hd_run *run);
 
 /** True, until the next call of hd_run_advance, if the last one ended at a report with which fields
- * are due (hd_run_fields_every). If an observable needs it, the frame is orthonormal at this time.
- */
+ * are due (field_interval of the scene). If somebody listens to the observable fields, the state is
+ * a measured one, so that the caller can reconstruct L and P modes (hd_pmode_reconstruct). */
 bool hd_run_fields_due(const hd_run *run);
 
 /** Sets which of the scene's observables are computed from now on: `stages` is a set of
@@ -161,24 +147,22 @@ bool hd_run_fields_due(const hd_run *run);
 void hd_run_observe(hd_run *run, unsigned stages);
 
 /** For a viewer that shows the run while it goes on: from now on no call of hd_run_advance goes on
- * by more than `interval` [time units]; INFINITY ends this. If `first` is below n and the weights
- * of modes are computed, all vectors are orthonormalised at the end of each call, so that
- * hd_run_columns has them; with several ranks each rank gets those from column `first` on. The
- * averages use these states like any other. */
-void hd_run_watch(hd_run *run, double interval, int first);
+ * by more than `interval` [time units]; INFINITY ends this. */
+void hd_run_watch(hd_run *run, double interval);
 
-/** The orthonormal vectors at the present time, if the last call of hd_run_advance made them, as
- * with hd_run_watch: all of them, or with several ranks those that were asked for. Otherwise count
- * is 0. Their coefficients are those of the last sample in hd_modes_coefficients. They are valid
- * until the next call of hd_run_advance. */
-hd_columns hd_run_columns(const hd_run *run);
+/** Has a measured state now: unless it is one, a sample of the averages ends here, and all n
+ * vectors are orthonormalised with dq and dp together. It is then the sample of
+ * hd_modes_coefficients. With several ranks each rank can read the vectors from column `first` on
+ * (hd_run_columns). Before the averaging, and after it, nothing is measured. Fails as
+ * hd_run_advance does. */
+HD_MUST_CHECK hd_status hd_run_measure(hd_run *run, int first);
 
 /** All n vectors as the last orthonormalisation left them; valid until the next call of
  * hd_run_advance. count is 0 without exponents, and with exponents = all unless the weights of
- * modes are computed. At samples, and when fields are due, they are orthonormal with dq and dp
- * together; in between they may be so in dq alone. With several ranks these are the vectors of the
- * steps, and only when fields are due or hydro is measured. */
-hd_columns hd_run_frame_columns(const hd_run *run);
+ * modes are computed. At samples they are orthonormal with dq and dp together; in between they may
+ * be so in dq alone. With several ranks these are the vectors that hd_run_measure gathered at this
+ * time, or at a report those that hydro has read. */
+hd_columns hd_run_columns(const hd_run *run);
 /** Writes, for each vector in the last sample: to cos_theta[n] the cosine of the angle between its
  * halves dp and dq, NaN if one of them is 0; to dp_dq_ratio[n] |dp| / |dq|, NaN if dq is 0. */
 void hd_run_halves(const hd_run *run, double *cos_theta, double *dp_dq_ratio);

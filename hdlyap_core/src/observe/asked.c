@@ -145,15 +145,15 @@ hd_status hd_scene_check(const hd_scene_def *scene, char *message, size_t size)
     return HD_OK;
 }
 
-double hd_observables_apart(const hd_scene_def *scene, unsigned set, double fields)
+double hd_observables_apart(const hd_scene_def *scene, unsigned set)
 {
-    const double report = scene->report_interval;
+    const double report = scene->report_interval, fields = fmax(report, scene->field_interval);
     double apart = INFINITY;
     for (int k = 0; k < HD_OBSERVED; k++) {
         const hd_observable *row = hd_observable_rows[k];
         if (!(set & hd_observable_bits[k])) continue;
         if (row->needs & HD_NEEDS_REPORTS) apart = fmin(apart, report);
-        if (row->needs & HD_NEEDS_FIELDS) apart = fmin(apart, fmax(report, fields));
+        if (row->needs & HD_NEEDS_ALL) apart = fmin(apart, fields);
         if (row->apart) apart = fmin(apart, row->apart(scene));
     }
     return apart;

@@ -19,16 +19,8 @@ static void *fields_create(const hd_observing *with, hd_status *status)
 
 static void fields_free(void *self) { hd_pmode_free(self); }
 
-static int fields_first(void *self, const hd_moment *now)
-{
-    (void)self;
-    return hd_steps_first(now->with->part[HD_OBSERVED_steps]);
-}
-
 const hd_observable hd_fields_row = {.with = HD_OBSERVE_STEPS,
-                                     .needs = HD_NEEDS_FRAME | HD_NEEDS_VECTORS | HD_NEEDS_FIELDS |
-                                              HD_NEEDS_ALL,
+                                     .needs = HD_NEEDS_FRAME | HD_NEEDS_VECTORS | HD_NEEDS_ALL,
                                      .bytes = fields_bytes,
                                      .create = fields_create,
-                                     .free = fields_free,
-                                     .first = fields_first};
+                                     .free = fields_free};

@@ -20,8 +20,8 @@ enum {
                              whether anyone listens or not */
     HD_NEEDS_VECTORS = 2, /**< all n vectors at measured states, and where a viewer shows them */
     HD_NEEDS_REPORTS = 4, /**< a measured state at every report */
-    HD_NEEDS_FIELDS = 8,  /**< a measured state at reports with which fields are due */
-    HD_NEEDS_ALL = 16,    /**< at these reports the vectors of all ranks on each rank */
+    HD_NEEDS_ALL = 16, /**< at these reports, or if it does not need them at those with which fields
+                          are due: a measured state, and the vectors of all ranks on each rank */
     HD_NEEDS_CLOSE = 32,  /**< measured states no farther apart than `sampling` says */
     HD_NEEDS_STATE = 64,  /**< positions and momenta, for `measure` and `report` */
     HD_NEEDS_BOX = 128,   /**< positions in a box */
@@ -88,7 +88,7 @@ typedef struct hd_observable {
     /** Called at a report at which the vectors are known; now->vectors[0] are those of all ranks
      * that can be read, with now->trajectory, q and p. */
     void (*report)(void *self, const hd_moment *now);
-    /** The first vector that it reads of those of all ranks; NULL means 0. */
+    /** The first vector of those of all ranks that `report` reads; if NULL, none. */
     int (*first)(void *self, const hd_moment *now);
     /** Longest time from one measured state to the next that a scene asks for; INFINITY: any. If
      * NULL, any. */

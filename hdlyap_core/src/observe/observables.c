@@ -100,8 +100,7 @@ int hd_observables_first(const hd_observables *o)
     const hd_moment now = {.with = &o->with};
     int first = o->with.vectors;
     for (one at = BEFORE; next(&at, o);) {
-        if (!(at.row->needs & HD_NEEDS_ALL)) continue;
-        const int own = at.row->first ? at.row->first(at.self, &now) : 0;
+        const int own = at.row->first ? at.row->first(at.self, &now) : first;
         if (own < first) first = own;
     }
     return first;

@@ -25,10 +25,8 @@ double hd_observables_bytes(const hd_scene_def *scene, int ranks);
 hd_extent hd_observables_extent(const hd_scene_def *scene, void *const *part);
 
 /** Longest time from one measured state to the next that the observables of a set allow in a scene,
- * with its reports and its own intervals, if fields are due every `fields` time units; INFINITY:
- * any.
- */
-double hd_observables_apart(const hd_scene_def *scene, unsigned set, double fields);
+ * with its reports and its own intervals; INFINITY: any. */
+double hd_observables_apart(const hd_scene_def *scene, unsigned set);
 
 /** Creates the observables that the scene asks for. Ranks agree. Fails as the rows do. */
 HD_MUST_CHECK hd_status hd_observables_create(hd_observables *observables,

@@ -49,6 +49,11 @@ static const double FIRST_BLOCK = 1.3;
  */
 static const double IN_A_SAMPLE = 3.0;
 
+static hd_wanted in_force(const hd_scene_def *scene)
+{
+    return (hd_wanted){.target = scene->target, .field_interval = scene->field_interval};
+}
+
 hd_agenda hd_agenda_of(const hd_scene_def *scene, double rate)
 {
     const double sample = COLLISIONS_PER_SAMPLE / rate, collision = sample / COLLISIONS_PER_SAMPLE;
@@ -57,7 +62,7 @@ hd_agenda hd_agenda_of(const hd_scene_def *scene, double rate)
     return (hd_agenda){
         .length = {scene->equilibration, scene->warmup, hd_agenda_averaging(scene->duration)},
         .report_interval = scene->report_interval,
-        .in_force.target = scene->target,
+        .in_force = in_force(scene),
         .sample_max = sample,
         .first_sample = FIRST_SAMPLE * block,
         .block = block};
@@ -313,18 +318,6 @@ void hd_agenda_ask(hd_agenda *a, bool framed)
     a->sample_ends |= framed && a->stage == HD_AVERAGING;
 }
 
-void hd_agenda_ask_fields(hd_agenda *a, double interval, bool framed)
-{
-    const bool said = a->fields_said;
-    a->fields_said = true;
-    if (interval == a->field_interval) return; /* in a resumed run it may not be in force yet */
-    a->field_interval = interval;
-    if (said)
-        hd_agenda_ask(a, framed);
-    else
-        a->in_force.field_interval = interval;
-}
-
 bool hd_agenda_can_last(const hd_agenda *a, double duration, double from)
 {
     hd_agenda asked = *a;
@@ -332,15 +325,12 @@ bool hd_agenda_can_last(const hd_agenda *a, double duration, double from)
     return asked.stage != HD_AVERAGING || duration == 0 || reaches(&asked, from);
 }
 
-bool hd_agenda_may_change(const hd_agenda *a, double now, bool framed)
+double hd_agenda_change(hd_agenda *a, const hd_scene_def *scene, bool reached, double now,
+                        bool framed)
 {
-    return a->in_force.changing && now >= hd_agenda_change_time(a, now, framed);
-}
-
-double hd_agenda_change(hd_agenda *a, const hd_scene_def *scene, bool reached, double now)
-{
+    if (!a->in_force.changing || now < hd_agenda_change_time(a, now, framed)) return INFINITY;
     const bool reports = a->report_interval != scene->report_interval && a->stage != HD_FINISHED;
-    a->in_force = (hd_wanted){.target = scene->target, .field_interval = a->field_interval};
+    a->in_force = in_force(scene);
     a->length[HD_AVERAGING] = hd_agenda_averaging(scene->duration);
     if (reports) a->report_interval = scene->report_interval;
     if (reports) count_reports_from(a, now);
@@ -394,11 +384,9 @@ void hd_agenda_archive(hd_agenda *a, hd_archive *archive)
     a->limit = (hd_limit)limit;
     hd_archive_text(archive, "run target", now->target.line, sizeof now->target);
     hd_archive_double(archive, "run fields", &now->field_interval);
-    hd_archive_double(archive, "run fields asked", &a->field_interval);
     hd_archive_int(archive, "run changing", &changing, 0, 1);
     now->changing = changing;
-    hd_archive_expect(archive, now->field_interval >= 0 && a->field_interval >= 0, "run fields",
-                      "it is negative");
+    hd_archive_expect(archive, now->field_interval >= 0, "run fields", "it is negative");
 }
 
 void hd_agenda_expect(const hd_agenda *a, hd_archive *archive, double now, double pending,

@@ -37,10 +37,6 @@ typedef struct hd_agenda {
                            change of report_interval */
     long reports;       /**< number of whole report intervals since the origin */
     hd_wanted in_force; /**< the values that the run follows now */
-    double field_interval; /**< the interval between fields that was asked for last; in_force has
-                              the one that holds */
-    bool fields_said; /**< one has been asked for since the run was made or resumed; the first one
-                         holds at once */
     double interval_end; /**< time of the next orthonormalisation */
     hd_limit limit;      /**< why that time is not later */
     double expected;     /**< expected length of the intervals after it */
@@ -129,20 +125,17 @@ double hd_agenda_errors_after(const hd_agenda *agenda);
 /** Other values have been asked for. framed: the run carries a frame; during the averaging its
  * sample then ends with the present interval. */
 void hd_agenda_ask(hd_agenda *agenda, bool framed);
-/** Another field_interval is asked for. The first one holds at once, later ones when other changes
- * do. */
-void hd_agenda_ask_fields(hd_agenda *agenda, double interval, bool framed);
 /** Time from which a change that is asked for now will hold: the end of the present interval while
  * a frame is carried and averages are taken, otherwise `now`. */
 double hd_agenda_change_time(const hd_agenda *agenda, double now, bool framed);
 /** True if the averaging can have this duration, 0 being without end, when it holds from the time
  * `from`. */
 bool hd_agenda_can_last(const hd_agenda *agenda, double duration, double from);
-/** True if other values have been asked for that hold from now on. */
-bool hd_agenda_may_change(const hd_agenda *agenda, double now, bool framed);
-/** Puts them in force; returns the next cut. If the averaging is over then, or its new target is
- * reached, it ends: a report and fields are due. */
-double hd_agenda_change(hd_agenda *agenda, const hd_scene_def *scene, bool reached, double now);
+/** Puts what was asked for in force, if it holds from now on; returns the next cut, or INFINITY if
+ * nothing changes. If the averaging is over then, or its new target is reached, it ends: a report
+ * and fields are due. */
+double hd_agenda_change(hd_agenda *agenda, const hd_scene_def *scene, bool reached, double now,
+                        bool framed);
 /** Lets an averaging of a resumed run that has finished go on if its duration has become longer.
  * Returns false if `now` is beyond its end. */
 bool hd_agenda_reopen(hd_agenda *agenda, double now);

@@ -46,19 +46,6 @@ hd_status hd_run_change(hd_run *run, const hd_parameter *row, const char *value,
     return HD_OK;
 }
 
-void hd_run_fields_every(hd_run *run, double interval)
-{
-    HD_ASSERT(interval >= 0.0 && interval < INFINITY);
-    hd_order_tell(run->communicator, (hd_order){.kind = HD_ORDER_FIELDS_EVERY, .number = interval});
-    hd_agenda_ask_fields(&run->agenda, interval, run->carrier.frame);
-}
-
-void hd_run_fields_from(hd_run *run, int first)
-{
-    hd_order_tell(run->communicator, (hd_order){.kind = HD_ORDER_FIELDS_FROM, .integer = first});
-    run->fields_first = first;
-}
-
 void hd_run_observe(hd_run *run, unsigned stages)
 {
     const unsigned now = hd_target_stages(&run->scene, stages) & run->scene.observe;
@@ -67,11 +54,10 @@ void hd_run_observe(hd_run *run, unsigned stages)
     hd_observables_look(&run->observables, now);
 }
 
-void hd_run_watch(hd_run *run, double interval, int first)
+void hd_run_watch(hd_run *run, double interval)
 {
-    HD_ASSERT(interval > 0.0 && first >= 0);
-    if (interval == run->watch.interval && first == run->watch.first) return;
-    hd_order_tell(run->communicator,
-                  (hd_order){.kind = HD_ORDER_WATCH, .integer = first, .number = interval});
-    run->watch = (hd_watch){interval, first};
+    HD_ASSERT(interval > 0.0);
+    if (interval == run->watch) return;
+    hd_order_tell(run->communicator, (hd_order){.kind = HD_ORDER_WATCH, .number = interval});
+    run->watch = interval;
 }

@@ -344,6 +344,8 @@ static void take_up_scene(hd_run *run, const hd_scene_def *kept)
         run->agenda.length[HD_AVERAGING] = hd_agenda_averaging(run->scene.duration);
     if (strcmp(run->scene.target.line, kept->target.line) != 0)
         run->agenda.in_force.target = run->scene.target;
+    if (run->scene.field_interval != kept->field_interval)
+        run->agenda.in_force.field_interval = run->scene.field_interval;
 }
 
 static hd_status restore(hd_run *run, hd_archive *archive, const hd_checkpoint *kept, char *message,

@@ -134,16 +134,14 @@ static void enlarge(hd_estimate *e, const hd_scene_def *tried, const hd_scene_de
     e->seconds *= pow((double)def->number / tried->number, 3.0);
 }
 
-hd_status hd_estimate_run(hd_estimate *out, const hd_scene_def *def, double fields_every,
-                          char *message, size_t size)
+hd_status hd_estimate_run(hd_estimate *out, const hd_scene_def *def, char *message, size_t size)
 {
     const hd_scene_def tried = hd_estimate_trial(def);
     hd_run *run;
     *out = (hd_estimate){.before = def->equilibration + hd_scene_warmup(def),
                          .untried = def->observe & UNTRIED};
-    HD_TRY(hd_room_check_windows(def, fields_every, message, size));
+    HD_TRY(hd_room_check_windows(def, message, size));
     HD_TRY(hd_run_create(&run, &tried, message, size));
-    hd_run_fields_every(run, fields_every);
     const hd_status status = measure(out, run);
     out->errors_after = errors_after(def);
     out->slopes_after = slopes_after(def);

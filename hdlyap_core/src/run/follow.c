@@ -40,10 +40,9 @@ static hd_status obey(hd_run **run, hd_communicator *c, const hd_order *o)
     case HD_ORDER_FREE: free_run(run); break;
     case HD_ORDER_ADVANCE: return hd_run_advance(*run);
     case HD_ORDER_OBSERVE: hd_run_observe(*run, (unsigned)o->integer); break;
-    case HD_ORDER_WATCH: hd_run_watch(*run, o->number, o->integer); break;
+    case HD_ORDER_WATCH: hd_run_watch(*run, o->number); break;
     case HD_ORDER_CHANGE: return change(*run, o);
-    case HD_ORDER_FIELDS_EVERY: hd_run_fields_every(*run, o->number); break;
-    case HD_ORDER_FIELDS_FROM: hd_run_fields_from(*run, o->integer); break;
+    case HD_ORDER_MEASURE: return hd_run_measure(*run, o->integer);
     case HD_ORDER_RESET: return hd_run_reset_average(*run);
     case HD_ORDER_SAVE: return hd_run_save(*run, "", "", NULL, 0);
     case HD_ORDER_END: break;

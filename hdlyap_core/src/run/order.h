@@ -16,8 +16,7 @@ typedef enum hd_order_kind {
     HD_ORDER_OBSERVE,
     HD_ORDER_WATCH,
     HD_ORDER_CHANGE,
-    HD_ORDER_FIELDS_EVERY,
-    HD_ORDER_FIELDS_FROM,
+    HD_ORDER_MEASURE,
     HD_ORDER_RESET,
     HD_ORDER_SAVE
 } hd_order_kind;

@@ -36,11 +36,6 @@ double hd_run_followed(const hd_run *run) { return run->followed; }
 
 hd_columns hd_run_columns(const hd_run *run)
 {
-    return run->known ? run->gathered.columns : (hd_columns){.count = 0};
-}
-
-hd_columns hd_run_frame_columns(const hd_run *run)
-{
     return run->communicator ? run->gathered.columns : hd_carrier_vectors(&run->carrier);
 }
 

@@ -86,11 +86,10 @@ hd_status hd_room_check(const hd_scene_def *def, hd_room room, char *message, si
     return HD_NO_MEMORY;
 }
 
-hd_status hd_room_check_windows(const hd_scene_def *def, double fields_every, char *message,
-                                size_t size)
+hd_status hd_room_check_windows(const hd_scene_def *def, char *message, size_t size)
 {
     const hd_agenda agenda = hd_agenda_of(def, 1.0 / hd_scene_collision_time(def));
-    const double apart = hd_observables_apart(def, hd_observables_with(def->observe), fields_every);
+    const double apart = hd_observables_apart(def, hd_observables_with(def->observe));
     const double longest = fmin(hd_carrier_longest(def), hd_agenda_sample_most(&agenda));
     return hd_windows_check_room(def, fmin(longest, apart), message, size);
 }

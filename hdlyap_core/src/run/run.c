@@ -44,12 +44,6 @@ static bool is_needed(const hd_run *run, unsigned needs)
     return is_averaging(run) && hd_observables_need(&run->observables, needs);
 }
 
-/** True if a viewer watches vectors. */
-static bool is_watched(const hd_run *run)
-{
-    return is_needed(run, HD_NEEDS_VECTORS) && run->watch.first < run->carrier.vectors;
-}
-
 /** The windows of covariant vectors, while averages are taken; NULL if nobody listens to them. */
 static hd_windows *windows_of(const hd_run *run)
 {
@@ -98,8 +92,7 @@ static hd_status prepare(hd_run *run)
     run->agenda = hd_agenda_of(scene, rate);
     HD_TRY(hd_carrier_create(&run->carrier, scene, 1.0 / rate, run->agenda.block, run->communicator,
                              &run->cost));
-    run->watch = (hd_watch){.interval = INFINITY, .first = run->carrier.vectors};
-    run->fields_first = run->carrier.vectors;
+    run->watch = INFINITY;
     return prepare_observables(run);
 }
 
@@ -142,7 +135,7 @@ hd_status hd_run_make(hd_run **out, const hd_scene_def *def, bool resumed,
     HD_TRY(hd_ranks_check(def, communicator, message, size));
     HD_TRY(hd_target_check(def, message, size));
     HD_TRY(resumed ? hd_windows_check_room(def, hd_carrier_longest(def), message, size)
-                   : hd_room_check_windows(def, INFINITY, message, size));
+                   : hd_room_check_windows(def, message, size));
     hd_run *run = hd_memory_alloc(1, sizeof *run);
     const hd_status found = hd_communicator_agree(communicator, run ? HD_OK : HD_NO_MEMORY);
     if (found != HD_OK) {
@@ -188,10 +181,10 @@ void hd_run_drop(hd_run *run)
 /** Puts changes in force that hold from now on. The averaging may end with them. */
 static void take_changes(hd_run *run)
 {
-    const double now = hd_run_time(run);
-    if (!hd_agenda_may_change(&run->agenda, now, run->carrier.frame)) return;
-    const bool reached = hd_target_standing(run, &run->scene.target).reached;
-    hd_advance_stop(&run->advance, hd_agenda_change(&run->agenda, &run->scene, reached, now));
+    const bool reached = run->agenda.in_force.changing &&
+                         hd_target_standing(run, &run->scene.target).reached;
+    hd_advance_stop(&run->advance, hd_agenda_change(&run->agenda, &run->scene, reached,
+                                                    hd_run_time(run), run->carrier.frame));
 }
 
 /** Longest time from one measured state to the next that observables allow. */
@@ -218,25 +211,6 @@ static hd_status orthonormalise(hd_run *run, bool measured)
     return HD_OK;
 }
 
-/** The first vector that somebody reads now; n if nobody does. */
-static int first_wanted(const hd_run *run)
-{
-    const bool fields = is_due(run, HD_DUE_FIELDS) &&
-                        is_needed(run, HD_NEEDS_FIELDS | HD_NEEDS_ALL);
-    const bool wanted = fields || is_needed(run, HD_NEEDS_REPORTS | HD_NEEDS_ALL);
-    const int watched = is_watched(run) ? run->watch.first : run->carrier.vectors;
-    const int read = wanted ? hd_observables_first(&run->observables) : run->carrier.vectors;
-    const int first = read < watched ? read : watched;
-    return wanted && run->fields_first < first ? run->fields_first : first;
-}
-
-/** Makes readable the vectors that somebody reads now. */
-static hd_status gather(hd_run *run)
-{
-    if (!is_needed(run, HD_NEEDS_VECTORS)) return HD_OK;
-    return hd_gather(&run->gathered, &run->carrier, first_wanted(run));
-}
-
 /** Takes a snapshot of this state; add: and adds it to the averages. */
 static hd_status measure(hd_run *run, bool add)
 {
@@ -245,7 +219,6 @@ static hd_status measure(hd_run *run, bool add)
     HD_TRY(hd_observables_measure(&run->observables, moment_of(run), add));
     if (add && is_needed(run, HD_NEEDS_CLOSE)) run->followed = hd_run_time(run);
     run->known = is_needed(run, HD_NEEDS_VECTORS);
-    HD_TRY(gather(run));
     run->cost.modes += hd_clock_now() - start;
     return HD_OK;
 }
@@ -279,15 +252,14 @@ static hd_status end_early(hd_run *run)
 static hd_status end_interval(hd_run *run, bool sample_ends)
 {
     run->cost.limit = run->agenda.limit;
-    return sample_ends || is_watched(run) ? end_sample(run) : orthonormalise(run, false);
+    return sample_ends ? end_sample(run) : orthonormalise(run, false);
 }
 
 /** True if what is due at this report needs a measured state. */
 static bool needs_state(const hd_run *run)
 {
     const bool first = is_averaging(run) && hd_spectrum_time(run->carrier.spectrum) == 0;
-    const bool fields = is_due(run, HD_DUE_FIELDS) && is_needed(run, HD_NEEDS_FIELDS);
-    return is_due(run, HD_DUE_STAGE) || first || fields || is_needed(run, HD_NEEDS_REPORTS);
+    return is_due(run, HD_DUE_STAGE) || first || is_needed(run, HD_NEEDS_REPORTS);
 }
 
 static hd_status report(hd_run *run)
@@ -300,23 +272,15 @@ static hd_status report(hd_run *run)
     hd_agenda_pass_report(&run->agenda, reached);
     HD_TRY(hd_ranks_compare(run->communicator, run->advance.trajectory));
     if (is_averaging(run)) hd_cages_look(&run->cages, run->advance.trajectory, &run->scene);
-    if (is_framed(run) && needs_state(run)) HD_TRY(is_measured(run) ? gather(run) : end_early(run));
+    if (is_framed(run) && needs_state(run) && !is_measured(run)) HD_TRY(end_early(run));
     if (!is_needed(run, HD_NEEDS_REPORTS)) return HD_OK;
     const double start = hd_clock_now();
     hd_moment now = {.trajectory = run->advance.trajectory};
-    if (run->carrier.frame) now.vectors[0] = hd_run_frame_columns(run);
+    HD_TRY(hd_gather(&run->gathered, &run->carrier, hd_observables_first(&run->observables)));
+    now.vectors[0] = run->gathered.columns;
     hd_observables_report(&run->observables, now);
     run->cost.modes += hd_clock_now() - start;
     return HD_OK;
-}
-
-/** Makes the vectors of this time known, if a viewer watches them. */
-static hd_status look(hd_run *run)
-{
-    if (!is_watched(run) || run->known) return HD_OK;
-    if (is_measured(run)) return measure(run, false);
-    run->cost.slow_vector_samples++;
-    return end_early(run);
 }
 
 /** Leaves the stage if it is over and no window has to be gone back through. */
@@ -348,16 +312,15 @@ hd_status hd_run_settle(hd_run *run)
  * something is due. */
 static double plan(hd_run *run, hd_pace *pace)
 {
-    const bool averaging = is_averaging(run), framed = is_framed(run);
+    const bool framed = is_framed(run);
     const double now = hd_run_time(run), phases = sampling(run),
-                 apart = hd_observables_apart(&run->scene, run->observables.seen,
-                                              run->agenda.in_force.field_interval);
+                 apart = hd_observables_apart(&run->scene, run->observables.seen);
     *pace = (hd_pace){.now = now,
                       .framed = framed,
                       .sampled = !framed && is_needed(run, 0),
                       .first = framed && hd_spectrum_time(run->carrier.spectrum) == 0,
                       .at_reports = is_needed(run, HD_NEEDS_REPORTS),
-                      .at_fields = is_needed(run, HD_NEEDS_FIELDS),
+                      .at_fields = is_needed(run, HD_NEEDS_ALL),
                       .phases = phases,
                       .apart = fmin(apart, phases),
                       .snapshot = hd_windows_due(windows_of(run), now),
@@ -373,7 +336,7 @@ static hd_status move_particles(hd_run *run, double end)
     const double start = hd_clock_now();
     hd_record *record = is_framed(run) ? run->carrier.record : NULL;
     HD_TRY(hd_communicator_agree(run->communicator,
-                                 hd_advance_on(&run->advance, record, end, run->watch.interval)));
+                                 hd_advance_on(&run->advance, record, end, run->watch)));
     run->cost.events += hd_clock_now() - start;
     if (HD_VERIFIES) hd_verify_trajectory(run->advance.trajectory, &run->scene);
     if (HD_VERIFIES && record) hd_verify_record(record, &run->scene);
@@ -393,7 +356,6 @@ static hd_status go_on(hd_run *run)
     else if (due & HD_DUE_SAMPLE)
         HD_TRY(end_sample(run));
     if (due & HD_DUE_REPORT) HD_TRY(report(run));
-    HD_TRY(look(run));
     if (is_averaging(run) && pace.framed && is_measured(run)) take_changes(run);
     if (!is_due(run, HD_DUE_STAGE)) (void)plan(run, &pace);
     leave_stage(run);
@@ -423,6 +385,30 @@ hd_status hd_run_advance(hd_run *run)
 {
     hd_order_tell(run->communicator, (hd_order){.kind = HD_ORDER_ADVANCE});
     if (run->status == HD_OK) run->status = advance(run);
+    return run->status;
+}
+
+/** Changes that were asked for hold from the sample on that begins here. A state that was measured
+ * when nobody listened to the observables is measured once more. */
+static hd_status measure_now(hd_run *run, int first)
+{
+    const bool averaging = is_averaging(run) && is_framed(run);
+    if (averaging) hd_blas_use_threads(run->carrier.threads);
+    if (averaging && !is_measured(run)) {
+        run->cost.slow_vector_samples++;
+        HD_TRY(end_early(run));
+        run->agenda.interval_end = hd_run_time(run);
+    } else if (averaging && !run->known && is_needed(run, HD_NEEDS_VECTORS)) {
+        HD_TRY(measure(run, false));
+    }
+    return hd_gather(&run->gathered, &run->carrier, first);
+}
+
+hd_status hd_run_measure(hd_run *run, int first)
+{
+    HD_ASSERT(first >= 0 && first <= run->carrier.vectors);
+    hd_order_tell(run->communicator, (hd_order){.kind = HD_ORDER_MEASURE, .integer = first});
+    if (run->status == HD_OK) run->status = measure_now(run, first);
     return run->status;
 }
 

@@ -12,12 +12,6 @@
 #include "run/carrier.h"
 #include "run/gathered.h"
 
-/** What a viewer watches, see hd_run_watch. */
-typedef struct hd_watch {
-    double interval; /**< longest time of a call [time units]; INFINITY: nobody watches */
-    int first;       /**< column from which on vectors are watched */
-} hd_watch;
-
 /** From which the time left is estimated. */
 typedef struct hd_clocks {
     double created, frame_started; /**< wall clock when the run was made, and when the frame began
@@ -35,10 +29,9 @@ struct hd_run {
     hd_cages cages;
     hd_observables observables;
     hd_gathered gathered;
-    hd_watch watch;
-    int fields_first; /**< the first of the vectors that are gathered, too, when fields are due */
-    bool known;       /**< true if the weights of modes are those of the present time */
-    double followed;  /**< see hd_run_followed */
+    double watch;    /**< see hd_run_watch; INFINITY: nobody watches */
+    bool known;      /**< true if the weights of modes are those of the present time */
+    double followed; /**< see hd_run_followed */
     hd_clocks clocks;
     hd_cost cost;
     hd_error_trend errors; /**< trend of the error of the smallest positive exponents */

@@ -286,7 +286,7 @@ static double distance(const hd_standing *s)
 hd_standing hd_target_standing(const hd_run *run, const hd_text *target)
 {
     const aims asked = aims_of(&run->scene, target);
-    const double averaged = hd_run_time(run) - run->agenda.start;
+    const double averaged = hd_trajectory_time(run->advance.trajectory) - run->agenda.start;
     hd_standing all = {.error = -1.0, .wanted = -1.0, .left = INFINITY};
     for (int k = 0; k < asked.count; k++) {
         const hd_standing one = standing_of(run, &asked.goal[k], averaged);

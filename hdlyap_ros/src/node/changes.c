@@ -84,9 +84,7 @@ static bool make(change *c, settings *set, hd_run *run, char *message, size_t si
     if (is_ended(run, message, size, c->name)) return false;
     c->time = p.at_once ? hd_run_time(run) : hd_run_change_time(run);
     if (p.row && hd_run_change(run, p.row, c->value, message, size) != HD_OK) return false;
-    const double every = set->field_interval;
     assign(c, set, &p);
-    if (set->field_interval != every) hd_run_fields_every(run, set->field_interval);
     snprintf(message, size, "%s = %s from simulated time %.6g on, was %s", c->name, c->value,
              c->time, *c->before ? c->before : "none");
     return true;

@@ -108,7 +108,7 @@ static unsigned topics_recorded(const settings *set)
 static double time_between(const settings *set, coming when)
 {
     const double report = set->def.report_interval;
-    if (when == FIELDS) return fmax(set->field_interval, report);
+    if (when == FIELDS) return fmax(set->def.field_interval, report);
     return when == WINDOWS ? set->def.covariant_window : report;
 }
 
@@ -302,8 +302,7 @@ static int try_scene(settings *set, const char *path, const hdr_params *params)
     const hd_room room = hd_room_available();
     if (!*hdr_param_text(params, "scene")) set->scene = name_of(path, name, sizeof name);
     hd_status tried = hd_room_check(&set->def, room, message, sizeof message);
-    if (tried == HD_OK)
-        tried = hd_estimate_run(&t, &set->def, set->field_interval, message, sizeof message);
+    if (tried == HD_OK) tried = hd_estimate_run(&t, &set->def, message, sizeof message);
     if (tried != HD_OK) return fault(tried, message);
     t.extent = extent_of(set, t.extent);
     print_all(set, &t, room);

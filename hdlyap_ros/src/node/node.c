@@ -1,6 +1,5 @@
 /** hdlyap_node: reads the parameters, starts the worker, and watches it until the end. */
 #include <inttypes.h>
-#include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -114,15 +113,6 @@ static int read_settings(app *a)
                : failed_status(HDR_NO_MEMORY);
 }
 
-/** The lowest column of the fields that are chosen by number; beyond all columns if none is. */
-static int first_field(const settings *set)
-{
-    int first = INT_MAX;
-    for (int k = 0; k < set->fields.count; k++)
-        if (set->fields.index[k] - 1 < first) first = set->fields.index[k] - 1;
-    return first;
-}
-
 /** Logs that a large frame is being created: with some thousand particles it takes seconds, beside
  * other jobs a minute. Says nothing of a scene that will be refused. */
 static void log_creation(const settings *set)
@@ -133,15 +123,6 @@ static void log_creation(const settings *set)
     if (2.0 * hd_scene_coordinates(def) * def->number * vectors > ENTRIES_MANY)
         hdr_log(HDR_INFO, "creates %d tangent vectors of %d %s, which may take a minute", vectors,
                 def->number, set->particles);
-}
-
-/** Creates a run that is not resumed. Only the node knows yet how often fields are due. */
-static hd_status create_anew(app *a, char *message, size_t size)
-{
-    const settings *set = &a->set;
-    const hd_status status = hd_room_check_windows(&set->def, set->field_interval, message, size);
-    if (status != HD_OK) return status;
-    return hd_run_create_shared(&a->run, &set->def, a->ranks, message, size);
 }
 
 /** Creates the run, unless its checkpoints could not be written. */
@@ -155,10 +136,8 @@ static int create_run(app *a)
         status = hd_run_resume_shared(&a->run, set->resume, &set->def, a->ranks, message,
                                       sizeof message);
     else if (status == HD_OK)
-        status = create_anew(a, message, sizeof message);
+        status = hd_run_create_shared(&a->run, &set->def, a->ranks, message, sizeof message);
     if (*set->checkpoint || a->ranks) hdr_node_stop_within(stop_keeping_seconds, EXIT_SUCCESS);
-    if (status == HD_OK) hd_run_fields_every(a->run, set->field_interval);
-    if (status == HD_OK) hd_run_fields_from(a->run, first_field(set));
     if (status == HD_OK)
         status = checkpoint_writer_begin(&a->keep, set, a->run, message, sizeof message);
     return fault_logged(status, message);

@@ -68,21 +68,6 @@ static const parameter rows[] = {
                 "exponents. 0: all from the lowest T and LP steps that are found on.",
     },
     {
-        .name = "field_interval",
-        .kind = REAL_NUMBER,
-        .offset = offsetof(settings, field_interval),
-        .usual = "10",
-        .most = 1e12,
-        .allowed = "from 0 (with every report) to 1e12",
-        .unit = "time units",
-        .may_differ = true,
-        .live = true,
-        .text = "Simulated time between publications of fields, of means in structure and of "
-                "finite times in fluctuations: with the first and the last report of the "
-                "averaging, and the first report at or after each multiple of this time. Each "
-                "costs an orthonormalisation.",
-    },
-    {
         .name = "wait_for_subscribers",
         .kind = TOPICS_AWAITED,
         .offset = offsetof(settings, awaited),

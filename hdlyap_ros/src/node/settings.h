@@ -36,9 +36,7 @@ typedef struct settings {
     /** Number of vectors in each, the last ones with positive exponents; 0: as many as reach the
      * lowest T and LP step. */
     int slow_vectors_count;
-    double field_interval; /**< simulated time between publications of fields [time units]; 0: with
-                              every report */
-    unsigned awaited;      /**< set of topics that must have a subscriber before the run starts */
+    unsigned awaited; /**< set of topics that must have a subscriber before the run starts */
     const char *slow_subscribers; /**< wait or drop; in the params */
     double pace; /**< most simulated time per wall second [time units/s]; 0: no limit */
     change_list changes;

@@ -264,6 +264,7 @@ static hd_status step(worker *w)
     change_if_due(w);
     checkpoint_writer_touch(&w->keep);
     if (status == HD_OK) status = w->set->pace > 0.0 ? paced_step(w) : hd_run_advance(w->run);
+    if (status == HD_OK) status = report_vectors(w->rep, w->run);
     if (status != HD_OK) return status;
     status = publish(w);
     if (status == HD_OK && hd_run_report_due(w->run)) table_tell(&w->table, w->set, w->run);

@@ -147,6 +147,28 @@ void report_demand_slow(report *rep, hd_run *run)
     slow_vectors_demand(&rep->kept.slow_vectors, &rep->out, rep->set, run);
 }
 
+/** The first vector of those that fields publish: of the chosen ones and of the steps. */
+static int first_field(const settings *set, const hd_run *run)
+{
+    const hd_steps *steps = hd_run_parts(run).steps;
+    int first = hd_run_vectors(run);
+    for (int k = 0; k < set->fields.count; k++)
+        if (set->fields.index[k] - 1 < first) first = set->fields.index[k] - 1;
+    for (int s = 0; s < hd_steps_count(steps); s++)
+        if (hd_steps_step(steps, s)->resolved && hd_steps_step(steps, s)->col < first)
+            first = hd_steps_step(steps, s)->col;
+    return first;
+}
+
+hd_status report_vectors(report *rep, hd_run *run)
+{
+    const bool fields = hd_run_fields_due(run) && rep->demand & topic_bit(TOPIC_fields);
+    const int slow = slow_vectors_first(&rep->kept.slow_vectors, rep->set, run),
+              field = fields ? first_field(rep->set, run) : hd_run_vectors(run);
+    const int first = slow < field ? slow : field;
+    return first < hd_run_vectors(run) ? hd_run_measure(run, first) : HD_OK;
+}
+
 /** The observables to publish at a report: those that have a subscriber and, if they need vectors,
  * had one when the step began, as these were not measured otherwise. */
 static unsigned topics_due(const report *rep, const hd_run *run)

@@ -32,8 +32,12 @@ HD_MUST_CHECK hd_status report_run_info(report *rep, const hd_run *run, const ch
  * next step does not measure are not published after it. */
 unsigned report_demand(report *rep);
 
-/** Tells the run which vectors slow_vectors needs at the end of the next step. */
+/** Tells the run how long the next step may be, for slow_vectors. */
 void report_demand_slow(report *rep, hd_run *run);
+
+/** After a step: has the vectors measured that fields and slow_vectors publish now, if any. Fails
+ * as hd_run_measure. */
+HD_MUST_CHECK hd_status report_vectors(report *rep, hd_run *run);
 
 /** Publishes slow_vectors after a step, if somebody listens and a message is due. at_rest: the run
  * stands still then, and subscribers that come meanwhile get this message. HD_NOT_FINITE. */

@@ -176,7 +176,6 @@ hd_status topic_publish_run_info(const moment *now)
     hdr_run_info info = {
         .observables = {.data = names, .count = names_of(names, set->observables)},
         .field_indices = set->fields.text,
-        .field_interval = set->field_interval,
         .wait_for_subscribers = {.data = awaited, .count = names_of(awaited, set->awaited)},
         .slow_subscribers = set->slow_subscribers,
         .pace = set->pace,

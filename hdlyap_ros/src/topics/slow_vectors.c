@@ -79,13 +79,18 @@ void slow_vectors_demand(slow_vectors_pace *pace, const publishers *out, const s
     const double between = set->pace > 0.0 && averaging
                                ? fmax(set->pace / set->slow_vectors_rate, DBL_MIN)
                                : INFINITY;
-    const int end = end_of(run);
     pace->due = watched && clock_seconds() >= pace->next - early / set->slow_vectors_rate;
-    const int first = pace->due ? first_of(set, run) : end;
-    hd_run_watch(run, watched ? between : INFINITY, first < end ? first : hd_run_vectors(run));
+    hd_run_watch(run, watched ? between : INFINITY);
 }
 
-/** Whether the vectors from a column on are known. They are not if a step ended too early. */
+int slow_vectors_first(const slow_vectors_pace *pace, const settings *set, const hd_run *run)
+{
+    const int end = end_of(run), first = pace->due ? first_of(set, run) : end;
+    return first < end ? first : hd_run_vectors(run);
+}
+
+/** Whether the vectors from a column on are known. They are not where their sample has found a
+ * lower step. */
 static bool is_known(hd_columns known, int first, int end)
 {
     return first < end && known.count > 0 && known.first <= first;

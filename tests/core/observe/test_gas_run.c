@@ -59,7 +59,7 @@ TEST(means_are_those_of_the_averaged_time)
 static hd_gas_means watched(const hd_scene_def *scene, double between)
 {
     OWNED(hd_run) *run = created(*scene);
-    hd_run_watch(run, between, hd_run_vectors(run));
+    hd_run_watch(run, between);
     finish(run);
     return hd_gas_read(hd_run_gas(run));
 }

@@ -146,17 +146,20 @@ TEST(a_watcher_sees_what_a_measured_state_shows)
     hd_scene_def scene = scene_from(channel(P, P), .duration = 200.0);
     OWNED(hd_run) *watched = created(scene);
     scene.observe |= HD_OBSERVE_FIELDS;
+    scene.field_interval = 0.0;
     OWNED(hd_run) *measuring = created(scene);
     double worst = 0.0;
     int compared = 0;
-    hd_run_watch(watched, 1.0, hd_run_vectors(watched) - SLOWEST);
+    hd_run_watch(watched, 1.0);
     while (hd_run_stage(watched) != HD_FINISHED) {
-        do CHECK_OK(hd_run_advance(watched));
-        while (!hd_run_report_due(watched));
+        do {
+            CHECK_OK(hd_run_advance(watched));
+            CHECK_OK(hd_run_measure(watched, hd_run_vectors(watched) - SLOWEST));
+        } while (!hd_run_report_due(watched));
         do CHECK_OK(hd_run_advance(measuring));
         while (!hd_run_report_due(measuring));
         CHECK_CLOSE(hd_run_time(watched), hd_run_time(measuring), 0.0);
-        if (hd_run_columns(watched).count < SLOWEST) continue; /* not yet the averaging */
+        if (hd_modes_samples(hd_run_modes(measuring)) == 0) continue; /* not yet the averaging */
         worst = fmax(worst, coefficients_apart(watched, measuring, SLOWEST));
         compared++;
     }
@@ -196,8 +199,8 @@ TEST(fields_are_due_now_and_then)
     hd_scene_def scene = scene_from(channel(P, P), .warmup = 50.0, .duration = 95.0);
     OWNED(hd_run) *without = finished(scene);
     scene.observe |= HD_OBSERVE_FIELDS;
-    OWNED(hd_run) *always = finished(scene), *run = created(scene);
-    hd_run_fields_every(run, 10.0);
+    OWNED(hd_run) *always = finished(scene_from(scene, .field_interval = 0.0));
+    OWNED(hd_run) *run = created(scene_from(scene, .field_interval = 10.0));
     int due = 0;
     while (going_on(run)) {
         if (!hd_run_fields_due(run)) continue;

@@ -45,8 +45,8 @@ TEST(gathered_vectors_are_estimated)
     const double before = (double)ledger_now().live;
     CHECK_OK(hd_run_create_shared(&run, &scene, ranks, NULL, 0));
     const double created = (double)ledger_now().live;
-    hd_run_watch(run, 1.0, 0);
-    finish(run);
+    hd_run_watch(run, 1.0);
+    while (going_on(run)) CHECK_OK(hd_run_measure(run, 0));
     const double peak = (double)ledger_now().peak;
     const double needed = hd_room_needed(&scene, 1, ranks->ranks);
     if (ranks->rank == 0)

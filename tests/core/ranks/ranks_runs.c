@@ -208,13 +208,13 @@ static void expect_vectors_of_one_rank(int exponents)
         scene_of_runs(60, HD_OBSERVE_ALL & ~(unsigned)HD_OBSERVE_COVARIANT),
         .exponents = exponents);
     hd_run *run = shared(scene), *alone = created(scene);
-    hd_run_fields_from(run, 100);
     finish(run);
     finish(alone);
-    const hd_columns got = hd_run_frame_columns(run), want = hd_run_frame_columns(alone);
+    CHECK_OK(hd_run_measure(run, 61));
+    const hd_columns got = hd_run_columns(run), want = hd_run_columns(alone);
     const bool all = exponents == HD_EXPONENTS_ALL; /* the other half needs the whole of this one */
     assert_int_equal(got.first + got.count, want.count);
-    assert_true(all ? got.first == 0 : got.first <= 100 && got.first > 60);
+    assert_int_equal(got.first, all ? 0 : 61);
     for (int row = 0; row < 240; row++)
         for (int col = 0; col < got.count; col++)
             CHECK_CLOSE(got.data[row * got.stride + col],
@@ -225,7 +225,7 @@ static void expect_vectors_of_one_rank(int exponents)
     for (int k = 0; k < 2; k++) {
         CHECK_OK(hd_hydro_create(&hydro[k], &scene, hd_run_steps(both[k])));
         hd_trajectory_state(hd_run_trajectory(both[k]), q, p);
-        hd_hydro_measure(hydro[k], hd_run_steps(both[k]), hd_run_frame_columns(both[k]), q, p);
+        hd_hydro_measure(hydro[k], hd_run_steps(both[k]), hd_run_columns(both[k]), q, p);
     }
     int resolved = 0;
     for (int k = 0; k < hd_hydro_count(hydro[0]); k++) {
@@ -245,17 +245,17 @@ TEST(vectors_are_gathered_for_reports)
     expect_vectors_of_one_rank(HD_EXPONENTS_ALL);
 }
 
-/** Of fields alone, where they are due. */
+/** From the column on that is asked for. */
 TEST(vectors_are_gathered_for_fields)
 {
     const hd_scene_def scene = scene_of_runs(30, HD_OBSERVE_FIELDS);
     OWNED(hd_run) *run = shared(scene);
-    hd_run_fields_from(run, 40);
     finish(run);
-    const hd_columns got = hd_run_frame_columns(run);
     assert_true(hd_run_fields_due(run));
+    CHECK_OK(hd_run_measure(run, 40));
+    const hd_columns got = hd_run_columns(run);
     assert_int_equal(got.first + got.count, hd_run_vectors(run));
-    assert_true(got.first <= 40);
+    assert_int_equal(got.first, 40);
 }
 
 TEST(nothing_is_gathered_for_nobody)
@@ -266,7 +266,7 @@ TEST(nothing_is_gathered_for_nobody)
                                               .exponents = exponents[k]);
         OWNED(hd_run) *run = finish(shared(scene));
         assert_true(hd_modes_samples(hd_run_modes(run)) > 0);
-        assert_int_equal(hd_run_frame_columns(run).count, 0);
+        assert_int_equal(hd_run_columns(run).count, 0);
     }
 }
 
@@ -312,10 +312,11 @@ static void expect_watched(int disks)
     const hd_scene_def scene = scene_of_runs(disks, HD_OBSERVE_STEPS | HD_OBSERVE_PHASES);
     OWNED(hd_run) *run = shared(scene);
     const int first = hd_run_vectors(run) - 6;
-    hd_run_watch(run, 0.25, first);
+    hd_run_watch(run, 0.25);
     int seen = 0;
     while (hd_run_time(run) < 35.0) {
         CHECK_OK(hd_run_advance(run));
+        CHECK_OK(hd_run_measure(run, first));
         const hd_columns known = hd_run_columns(run);
         if (hd_run_stage(run) != HD_AVERAGING || hd_run_time(run) < 26.0) continue;
         assert_int_equal(known.first, first);
@@ -423,19 +424,22 @@ static double lead(hd_communicator *c)
     scene.exponents = HD_EXPONENTS_ALL;
     if (c) assert_int_equal(hd_run_create_shared(&run, &scene, c, message, 300), HD_REFUSED);
     scene.observe &= ~(unsigned)HD_OBSERVE_COVARIANT;
+    scene.field_interval = 2.0;
     scene.exponents = HD_EXPONENTS_POSITIVE; /* of which some are gathered, not all */
     CHECK_OK(hd_run_create_shared(&run, &scene, c, message, 300));
-    hd_run_fields_every(run, 2.0);
-    hd_run_fields_from(run, 1); /* more than any step has */
     while (hd_run_time(run) < 30.0) {
         CHECK_OK(hd_run_advance(run));
-        fields += hd_run_fields_due(run) && hd_run_frame_columns(run).first <= 1 &&
-                  hd_run_frame_columns(run).count > 0;
+        if (!hd_run_fields_due(run)) continue;
+        CHECK_OK(hd_run_measure(run, 1));
+        fields += hd_run_columns(run).first <= 1 && hd_run_columns(run).count > 0;
     }
     assert_true(fields > 0);
-    hd_run_watch(run, 0.5, hd_run_vectors(run) - 4);
-    until_time(run, 35.0);
-    hd_run_watch(run, INFINITY, hd_run_vectors(run));
+    hd_run_watch(run, 0.5);
+    while (hd_run_time(run) < 35.0) {
+        CHECK_OK(hd_run_advance(run));
+        CHECK_OK(hd_run_measure(run, hd_run_vectors(run) - 4));
+    }
+    hd_run_watch(run, INFINITY);
     hd_run_observe(run, HD_OBSERVE_STEPS);
     CHECK_OK(
         hd_run_change(run, parameter_named("target"), "smallest 1e-9, T(1,0) 1e-9%", message, 300));

@@ -21,7 +21,8 @@ static bool passed(hd_agenda *agenda)
 /** A change is taken up at this time; true if the averaging ends with it. */
 static bool is_over(hd_agenda *agenda, const hd_scene_def *scene, double now)
 {
-    (void)hd_agenda_change(agenda, scene, false, now);
+    hd_agenda_ask(agenda, false);
+    (void)hd_agenda_change(agenda, scene, false, now, false);
     return agenda->due & HD_DUE_STAGE;
 }
 
@@ -83,7 +84,8 @@ TEST(an_end_falls_on_a_cut_of_another_interval)
     (void)passed(&a);
     scene.duration = 100.0;
     scene.report_interval = 0.07;
-    (void)hd_agenda_change(&a, &scene, false, 32.3);
+    hd_agenda_ask(&a, false);
+    CHECK_CLOSE(hd_agenda_change(&a, &scene, false, 32.3, false), 32.37, 1e-13);
     CHECK_CLOSE(hd_agenda_cut(&a), 32.37, 1e-13);
     const double rounding = 32.0 * DBL_EPSILON * 32.0;
     assert_true(hd_agenda_snap(&a, 32.3, 0.07 - rounding) == hd_agenda_cut(&a));

@@ -94,7 +94,6 @@ static void expect_forgotten(hd_scene_def scene, unsigned looked_at, bool resume
     CHECK_OK(hd_run_reset_average(run));
     after = said_of_averages(run);
     expect_same_said(&before, &after);
-    assert_int_equal(hd_run_columns(run).count, 0);
     said_free(&before);
     said_free(&after);
 }

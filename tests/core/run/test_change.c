@@ -190,13 +190,13 @@ TEST(the_shortest_duration_ends_it)
  * or after each multiple. */
 static void expect_fields(double report_interval)
 {
-    hd_scene_def def = kept_scene(30, 0.7, 1.0, 5, KEPT_ALL | HD_OBSERVE_FIELDS);
+    hd_scene_def def = scene_from(kept_scene(30, 0.7, 1.0, 5, KEPT_ALL | HD_OBSERVE_FIELDS),
+                                  .field_interval = 1000.0);
     OWNED(hd_run) *run = kept_run(def);
-    hd_run_fields_every(run, 1000.0);
     while (hd_run_time(run) < 30.0) kept_steps(run, 1);
     const double from = hd_run_change_time(run);
     int due = 0;
-    hd_run_fields_every(run, 2.0);
+    change(run, "field_interval", 2.0);
     if (report_interval != def.report_interval) change(run, "report_interval", report_interval);
     for (double now, before = hd_run_time(run); hd_run_stage(run) != HD_FINISHED; before = now) {
         now = next_report(run);
@@ -224,7 +224,7 @@ TEST(the_rest_is_read_at_the_start)
         assert_true(!rows[k].live || rows[k].may_differ);
         if (!rows[k].live) expect_refused(run, rows[k].name, 2.0, "is read at the start");
     }
-    assert_int_equal(live, 3);
+    assert_int_equal(live, 4);
     expect_refused(run, "report_interval", 0.0, "report_interval = 0: must be from 1e-6");
     while (kept_steps(run, 1)) continue;
     expect_refused(run, "duration", 100.0, "the run has ended");

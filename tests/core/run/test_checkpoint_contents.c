@@ -59,7 +59,7 @@ TEST(contents_that_no_run_has_are_refused)
         {"run observe", 0, 0, 2048, "out of its range"},
         {"run interval end", 0, 1.0, 0, "interval end"},
         {"run target", 0, 0, 0x4141414141414141, "cannot be reached"},
-        {"run fields asked", 0, -1.0, 0, "negative"},
+        {"run fields", 0, -1.0, 0, "negative"},
         {"run changing", 0, 0, 2, "out of its range"},
         {"run advance longest", 0, -1.0, 0, "advance longest"},
         {"run advance begin", 0, 1e9, 0, "advance end"},

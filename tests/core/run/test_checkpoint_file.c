@@ -197,7 +197,6 @@ TEST(what_no_run_could_resume_is_not_written)
     hd_run_free(kept_and_resumed(run, PATH, NULL));
     const bytes before = kept_file(PATH);
     const broken cases[] = {
-        {&run->agenda.field_interval, -1.0, "run fields: it is negative"},
         {&run->agenda.in_force.field_interval, -1.0, "run fields: it is negative"},
         {&run->agenda.interval_end, 1.0, "run interval end: it does not fit the time"},
         {&run->advance.plan.begin, 1e9, "run advance end: it does not fit the time"},

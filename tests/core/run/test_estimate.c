@@ -20,7 +20,7 @@ static hd_estimate estimated(const hd_scene_def *def)
 {
     hd_estimate e;
     char message[512] = "";
-    const hd_status status = hd_estimate_run(&e, def, 5.0, message, sizeof message);
+    const hd_status status = hd_estimate_run(&e, def, message, sizeof message);
     if (status != HD_OK) print_error("%s\n", message);
     CHECK_OK(status);
     return e;
@@ -29,7 +29,6 @@ static hd_estimate estimated(const hd_scene_def *def)
 /** Seconds per time unit of the averaging, from where it begins; mean interval there. */
 static double taken(hd_run *run, double *interval)
 {
-    hd_run_fields_every(run, 5.0);
     until(run, HD_AVERAGING);
     const double begin = hd_clock_now(), from = hd_run_time(run);
     const long before = hd_run_cost(run).orthonormalisations;

@@ -152,7 +152,7 @@ TEST(steps_do_not_depend_on_who_watches)
     double q[2][N], p[2][N];
     for (int watched = 0; watched < 2; watched++) {
         OWNED(hd_run) *run = created(scene);
-        if (watched) hd_run_watch(run, 0.37, hd_run_vectors(run));
+        if (watched) hd_run_watch(run, 0.37);
         finish(run);
         hd_trajectory_state(hd_run_trajectory(run), q[watched], p[watched]);
     }
@@ -421,7 +421,7 @@ TEST(what_it_takes_is_known_before)
     char message[256] = "";
     const hd_scene_def scene = chain_of(64, 10.0, HD_EXPONENTS_ALL);
     hd_estimate estimate;
-    CHECK_OK(hd_estimate_run(&estimate, &scene, 0.0, message, sizeof message));
+    CHECK_OK(hd_estimate_run(&estimate, &scene, message, sizeof message));
     CHECK_WITHIN(estimate.seconds, 1e-7, 10.0);
     CHECK_WITHIN(hd_room_needed(&scene, 1, 1), 64.0 * 128.0 * 16.0, 1e8);
     assert_int_equal(hd_room_check(&scene, (hd_room){1e4, "machine", 1}, message, sizeof message),

@@ -17,7 +17,7 @@ static const double ROUNDING = 64.0 * DBL_EPSILON;
 /** The same run twice, one of them taken up again now and then. */
 typedef struct twins {
     hd_run *alone, *other;
-    double field_interval, watch_interval;
+    double watch_interval;
     int watch_first;
 } twins;
 
@@ -119,11 +119,7 @@ static hd_scene_def drawn_possible(hd_random *random)
 /* ---- what is asked of both ----------------------------------------------------------------- */
 
 /** As the node does when it begins, and again when it is started anew. */
-static void tell(const twins *t, hd_run *run)
-{
-    hd_run_fields_every(run, t->field_interval);
-    hd_run_watch(run, t->watch_interval, t->watch_first);
-}
+static void tell(const twins *t, hd_run *run) { hd_run_watch(run, t->watch_interval); }
 
 /** Also shorter than it may be, as short as it can be, and to the end that is ahead. */
 static double drawn_duration(hd_random *random, const hd_run *run)
@@ -142,9 +138,12 @@ static hd_text drawn_value(hd_random *random, const hd_parameter *row, const hd_
 {
     hd_text text;
     if (row->kind == HD_PARAMETER_TEXT) return drawn_target(random);
-    const bool reports = strcmp(row->name, "report_interval") == 0;
+    const bool reports = strcmp(row->name, "report_interval") == 0,
+               fields = strcmp(row->name, "field_interval") == 0;
     snprintf(text.line, HD_TEXT, "%.17g",
-             reports ? drawn_report_interval(random) : drawn_duration(random, run));
+             fields    ? log_uniform(random, 0.1, 100.0)
+             : reports ? drawn_report_interval(random)
+                       : drawn_duration(random, run));
     return text;
 }
 
@@ -153,7 +152,7 @@ static void change(twins *t, hd_random *random)
 {
     int count;
     const hd_parameter *row = hd_scene_parameters(&count);
-    for (int live = one_of(random, 3); !row->live || live-- > 0; row++) continue;
+    for (int live = one_of(random, 4); !row->live || live-- > 0; row++) continue;
     const hd_text value = drawn_value(random, row, t->alone);
     char line[2][256] = {"", ""};
     assert_int_equal(hd_run_change(t->alone, row, value.line, line[0], sizeof line[0]),
@@ -167,7 +166,6 @@ static void ask(twins *t, hd_random *random)
     const int what = one_of(random, 8);
     const unsigned observed = (unsigned)one_of(random, HD_OBSERVE_ALL + 1);
     if (what > 2) change(t, random);
-    if (what == 0) t->field_interval = log_uniform(random, 0.1, 100.0);
     for (int k = 0; k < 2; k++) {
         if (what == 0) tell(t, both[k]);
         if (what == 1) CHECK_OK(hd_run_reset_average(both[k]));
@@ -219,14 +217,21 @@ static bool is_under_way(const twins *t)
                EVENTS;
 }
 
+static void step_on(const twins *t, hd_run *run)
+{
+    CHECK_OK(hd_run_advance(run));
+    if (t->watch_interval < INFINITY && t->watch_first < hd_run_vectors(run))
+        CHECK_OK(hd_run_measure(run, t->watch_first));
+}
+
 static void go_on(twins *t, hd_random *random)
 {
     const double often = log_uniform(random, 0.003, 0.3), kept = log_uniform(random, 0.003, 0.3);
     for (int step = 0; step < STEPS && is_under_way(t); step++) {
         if (chance(random, often)) ask(t, random);
         if (chance(random, kept)) take_up(t, chance(random, 0.5));
-        CHECK_OK(hd_run_advance(t->alone));
-        CHECK_OK(hd_run_advance(t->other));
+        step_on(t, t->alone);
+        step_on(t, t->other);
         expect_same_step(t);
     }
     if (hd_run_stage(t->alone) == HD_FINISHED) expect_ended(t->alone);
@@ -240,7 +245,7 @@ static void to_report(twins *t, hd_run **run, hd_random *random)
 {
     do {
         if (random && chance(random, 0.1)) take_up(t, chance(random, 0.5));
-        CHECK_OK(hd_run_advance(*run));
+        step_on(t, *run);
     } while (!hd_run_report_due(*run) && hd_run_stage(*run) != HD_FINISHED);
 }
 
@@ -266,7 +271,6 @@ static void a_resumed_run_is_the_uninterrupted_one(void **state)
     hd_random random = hd_random_seeded(*(const uint64_t *)*state, 0);
     const hd_scene_def def = drawn_possible(&random);
     twins t = {.alone = kept_run(def), .other = kept_run(def), .watch_interval = INFINITY};
-    if (chance(&random, 0.5)) t.field_interval = log_uniform(&random, 0.1, 100.0);
     if (chance(&random, 0.2)) t.watch_interval = log_uniform(&random, 0.02, 1.0);
     t.watch_first = chance(&random, 0.5) ? hd_run_vectors(t.alone) * 3 / 4 : 4 * def.number;
     tell(&t, t.alone);

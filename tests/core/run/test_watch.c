@@ -11,11 +11,12 @@ static hd_scene_def long_box(double duration)
                  .warmup = 40.0, .duration = duration, .observe = EVERYTHING, .threads = 1);
 }
 
-/** Steps to the end, and returns their number. */
-static int finish_counting(hd_run *run)
+/** Steps to the end, with `wanted` of the slowest vectors after each, and returns their number. */
+static int finish_counting(hd_run *run, int wanted)
 {
     int steps = 0;
-    for (; hd_run_stage(run) != HD_FINISHED; steps++) CHECK_OK(hd_run_advance(run));
+    for (; going_on(run); steps++)
+        if (wanted > 0) CHECK_OK(hd_run_measure(run, hd_run_vectors(run) - wanted));
     return steps;
 }
 
@@ -37,8 +38,8 @@ TEST(a_view_of_the_disks_changes_nothing)
 {
     const hd_scene_def scene = long_box(60.0);
     OWNED(hd_run) *plain = created(scene), *viewed = created(scene);
-    hd_run_watch(viewed, 0.037, hd_run_vectors(viewed));
-    const int few = finish_counting(plain), many = finish_counting(viewed);
+    hd_run_watch(viewed, 0.037);
+    const int few = finish_counting(plain, 0), many = finish_counting(viewed, 0);
     assert_true(many > 105.0 / 0.037);
     assert_true(few < many / 10);
     check_same_exponents(plain, viewed, 0.0);
@@ -82,13 +83,15 @@ TEST(each_step_ends_with_the_vectors_wanted)
     hd_scene_def scene = scene_from(long_box(30.0), .report_interval = 0.25);
     OWNED(hd_run) *run = created(scene);
     scene.observe |= HD_OBSERVE_FIELDS;
+    scene.field_interval = 0.0;
     OWNED(hd_run) *twin = created(scene);
     const int n = hd_run_vectors(run), rows = 4 * scene.number;
     int compared = 0;
     begin_to_look(run);
+    hd_run_watch(run, 0.25);
     while (hd_run_stage(run) != HD_FINISHED) {
-        hd_run_watch(run, 0.25, n - WANTED);
         CHECK_OK(hd_run_advance(run));
+        CHECK_OK(hd_run_measure(run, n - WANTED));
         const hd_columns v = hd_run_columns(run);
         assert_true(v.first == 0 && v.count == n);
         check_orthonormal(v, rows);
@@ -109,28 +112,24 @@ TEST(looking_spoils_no_exponent)
 {
     const hd_scene_def scene = long_box(40.0);
     OWNED(hd_run) *plain = created(scene), *viewed = created(scene);
-    hd_run_watch(viewed, 0.3, hd_run_vectors(viewed) - WANTED);
-    finish_counting(plain);
-    finish_counting(viewed);
+    hd_run_watch(viewed, 0.3);
+    finish_counting(plain, 0);
+    finish_counting(viewed, WANTED);
     const double bound = hd_run_cost(plain).error_bound + hd_run_cost(viewed).error_bound;
     assert_true(bound > 0.0 && bound < 4e-8); /* accuracy 1e-8, stated with room [T6] */
     check_same_exponents(viewed, plain, bound);
 }
 
-/** In the middle of an interval nothing is known unless somebody wants it, and modes are wanted at
- * all. */
-TEST(nobody_looks_nothing_is_known)
+/** Before the averaging, and after it, the vectors are there as they are: nothing is measured. */
+TEST(only_the_averaging_is_measured)
 {
     OWNED(hd_run) *run = created(long_box(20.0));
-    int known = 0, unknown = 0;
-    assert_int_equal(hd_run_columns(run).count, 0);
-    begin_to_look(run);
-    hd_run_observe(run, 0);
-    hd_run_watch(run, 0.1, 0);
-    while (going_on(run)) {
-        known += hd_run_columns(run).count > 0;
-        unknown += hd_run_columns(run).count == 0;
+    while (hd_run_stage(run) < HD_AVERAGING) {
+        CHECK_OK(hd_run_measure(run, 0));
+        CHECK_OK(hd_run_advance(run));
     }
-    assert_int_equal(known, 0);
-    assert_true(unknown > 100);
+    finish(run);
+    CHECK_OK(hd_run_measure(run, 0));
+    assert_int_equal(hd_run_cost(run).slow_vector_samples, 0);
+    assert_int_equal(hd_run_columns(run).count, hd_run_vectors(run));
 }

@@ -118,8 +118,7 @@ static void check_fields(const hd_run *run)
     MADE(hd_hydro, hydro, hd_run_scene(run), steps);
     for (int k = 0; k < hd_steps_count(steps); k++) {
         const hd_step *step = hd_steps_step(steps, k);
-        if (!hd_pmode_reconstruct(pmode, step, hd_run_modes(run), hd_run_frame_columns(run)))
-            continue;
+        if (!hd_pmode_reconstruct(pmode, step, hd_run_modes(run), hd_run_columns(run))) continue;
         for (int c = 0; c < step->expected; c++) {
             hd_pmode_divide(pmode, out, c, p);
             check_numbers(out, rows, "divided field");
@@ -128,7 +127,7 @@ static void check_fields(const hd_run *run)
         }
         check_number(hd_pmode_rotation_distance(pmode), "distance from a rotation");
     }
-    hd_hydro_measure(hydro, steps, hd_run_frame_columns(run), state, p);
+    hd_hydro_measure(hydro, steps, hd_run_columns(run), state, p);
     for (int k = 0; k < hd_hydro_count(hydro); k++) {
         const hd_hydro_response *r = hd_hydro_at(hydro, k);
         const double x[] = {r->density, r->along, r->across, r->energy};

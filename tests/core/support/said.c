@@ -203,7 +203,7 @@ static void say_fields(said *s, const hd_run *run)
     hd_trajectory_state(hd_run_trajectory(run), NULL, p);
     for (int k = 0; k < hd_steps_count(hd_run_steps(run)); k++) {
         if (!hd_pmode_reconstruct(of, hd_steps_step(hd_run_steps(run), k), hd_run_modes(run),
-                                  hd_run_frame_columns(run)))
+                                  hd_run_columns(run)))
             continue;
         say(s, "rotation distance", hd_pmode_rotation_distance(of));
         for (int c = 0; c < 2 * hd_pmode_pairs(of); c++) {
