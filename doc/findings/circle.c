@@ -86,7 +86,7 @@ static void add_vector(profiles *all, profile *of, const hd_run *run, hd_columns
 
 static void add_state(profiles *all, const hd_run *run)
 {
-    const hd_columns v = hd_run_columns(run);
+    const hd_columns v = hd_run_vectors_now(run);
     hd_trajectory_state(hd_run_parts(run).trajectory, all->q, all->p);
     double box[HD_DIMENSION_MAX];
     hd_scene_box(hd_run_scene(run), box);

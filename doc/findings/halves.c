@@ -144,7 +144,7 @@ static void halves_compare(sums *s, double complex z[VECTORS][PAIRS],
 static void step_measure(harvest *h, sums *s, const hd_step *step, int index)
 {
     const hd_subspace *space = hd_fields_subspace(fields_of(h), step->subspace);
-    hd_columns x = hd_run_columns(h->run);
+    hd_columns x = hd_run_vectors_now(h->run);
     double complex z[VECTORS][PAIRS] = {{0.0}}, w[VECTORS][PAIRS];
     const int pairs = space->dimension / 2;
     x.data += step->col - x.first;

@@ -183,14 +183,14 @@ static void look(looked *l, hd_run *run, const box *b)
     const hd_scene_def *scene = hd_run_scene(run);
     const hd_trajectory *trajectory = hd_run_parts(run).trajectory;
     const int positive = hd_scene_counts(scene).positive;
-    const hd_columns v = hd_run_columns(run);
+    const hd_columns v = hd_run_vectors_now(run);
     hd_trajectory_state(trajectory, l->q, l->p);
     (void)hd_dynamics_of(scene)->null(scene, l->q, l->p, l->null);
     project(l, b, v, positive);
     double edge[HD_DIMENSION_MAX];
     hd_scene_box(scene, edge);
     l->pressure += pressure(b, edge, l->q, l->p);
-    hd_run_halves(run, l->cos_theta, l->ratio);
+    hd_run_dq_dp(run, l->cos_theta, l->ratio);
     for (int col = 0; col < positive; col++) l->cosine[col] += fabs(l->cos_theta[col]);
     l->kinetic += hd_trajectory_examined(trajectory).kinetic_energy / b->number;
     l->looks += 1.0;

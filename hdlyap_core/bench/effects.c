@@ -128,7 +128,8 @@ static void reconstruct(side *s)
     for (int k = 0; k < hd_steps_count(steps); k++) {
         const hd_step *step = hd_steps_step(steps, k);
         if (step->kind != HD_MODE_LP || !step->resolved) continue;
-        if (!hd_pmode_reconstruct(pmode, step, hd_run_parts(s->run).modes, hd_run_columns(s->run)))
+        if (!hd_pmode_reconstruct(pmode, step, hd_run_parts(s->run).modes,
+                                  hd_run_vectors_now(s->run)))
             continue;
         for (int c = hd_pmode_pairs(pmode); c < 2 * hd_pmode_pairs(pmode); c++)
             hd_pmode_divide(pmode, s->field, c, s->p);

@@ -99,7 +99,7 @@ static hd_status advance(void *state, hd_record *record, double t_end)
 
 static void carry(const void *maps, double *block, int width)
 {
-    const hd_passage *part = maps;
+    const hd_record_slice *part = maps;
     const spring *s = part->entry, *end = s + part->count;
     for (const int n = part->particles; s < end; s += n) {
         drift(block, n, width, 0.5 * s->step);
@@ -126,9 +126,9 @@ static void archive(void *state, hd_archive *file)
 /* clang-format off */
 static const hd_dynamics of_chain = {
     .particles = "chain", .coordinates = 1, .entry = sizeof(spring), .symplectic = true,
-    .parameter = parameters, .parameters = PARAMETERS, .check = check, .zeros = zeros,
-    .entries = entries, .rate = rate, .create = create, .free = free, .advance = advance,
-    .time = now, .state = tell, .archive = archive, .carry = carry};
+    .parameter = parameters, .parameters = PARAMETERS, .check = check, .zero_exponents = zeros,
+    .record_rate = entries, .collision_rate = rate, .create = create, .free = free,
+    .advance = advance, .time = now, .state = tell, .archive = archive, .carry = carry};
 /* clang-format on */
 
 int main(int argc, char **argv)

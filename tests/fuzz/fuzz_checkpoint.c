@@ -53,12 +53,12 @@ static void read_file(const uint8_t *bytes, size_t size)
 static void go_on(hd_run *run)
 {
     for (int step = 0, looks = 0; step < STEPS_MAX && looks < 2; step++) {
-        const double before = hd_run_time(run), followed = hd_run_followed(run);
+        const double before = hd_run_time(run), followed = hd_run_phase_time(run);
         const hd_stage phase = hd_run_stage(run);
         if (phase == HD_FINISHED || hd_run_advance(run) != HD_OK) return;
         require(hd_run_time(run) >= before, "the time goes back", "");
         require(isfinite(hd_run_time(run)), "the time is no number", "");
-        looks += hd_run_followed(run) != followed;
+        looks += hd_run_phase_time(run) != followed;
     }
 }
 

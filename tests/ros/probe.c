@@ -97,11 +97,11 @@ int pthread_create(pthread_t *restrict thread, const pthread_attr_t *restrict ho
 }
 
 /** PROBE_OVERLAP: how deep disks overlap once the run has begun [sigma]. */
-hd_examined hd_trajectory_examined(const hd_trajectory *trajectory)
+hd_invariants hd_trajectory_examined(const hd_trajectory *trajectory)
 {
-    hd_examined (*real)(const hd_trajectory *);
+    hd_invariants (*real)(const hd_trajectory *);
     next(&real, "hd_trajectory_examined");
-    hd_examined examined = real(trajectory);
+    hd_invariants examined = real(trajectory);
     if (atomic_load(&steps) == 0) return examined;
     atomic_fetch_add(&overlaps, 1);
     if (getenv("PROBE_OVERLAP")) examined.overlap = number("PROBE_OVERLAP");
@@ -189,10 +189,10 @@ bool hd_phases_rate(const hd_phases *of, int step, double *omega, double *error)
     return known;
 }
 
-void hd_run_halves(const hd_run *run, double *cos_theta, double *dp_dq_ratio)
+void hd_run_dq_dp(const hd_run *run, double *cos_theta, double *dp_dq_ratio)
 {
     void (*real)(const hd_run *, double *, double *);
-    next(&real, "hd_run_halves");
+    next(&real, "hd_run_dq_dp");
     real(run, cos_theta, dp_dq_ratio);
     atomic_fetch_add(&halves, 1);
 }

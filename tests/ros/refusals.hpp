@@ -27,11 +27,11 @@ struct kind_of_wrong {
 inline std::vector<double> ends_of(const parameter &p)
 {
     if (p.kind != OF_SCENE)
-        return p.most > p.least ? std::vector<double>{p.least, p.most} : std::vector<double>{};
+        return p.max > p.min ? std::vector<double>{p.min, p.max} : std::vector<double>{};
     const bool is_number = p.row->kind == HD_PARAMETER_INT || p.row->kind == HD_PARAMETER_REAL;
-    if (is_number) return {p.row->least, p.row->most};
+    if (is_number) return {p.row->min, p.row->max};
     if (p.row->kind != HD_PARAMETER_INTERVAL) return {};
-    return {p.row->least, p.row->most};
+    return {p.row->min, p.row->max};
 }
 
 inline bool is_whole(const parameter &p)

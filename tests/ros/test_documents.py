@@ -176,7 +176,7 @@ class Tables(unittest.TestCase):
         kept = {
             name: type_of('hdr_' + type)
             for name, (type, _, what) in rows().items()
-            if 'TOPIC_ASIDE' not in what
+            if 'TOPIC_FOR_VIEWERS' not in what
         }
         self.assertEqual({name: kind._type for name, kind in topics.RECORDED.items()}, kept)
 

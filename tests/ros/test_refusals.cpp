@@ -303,10 +303,10 @@ TEST(Parameters, OwnNamesAreNobodyElses)
         hd_dynamics rods = *hd_dynamics_of(&usual);
         hd_parameter own = {};
         own.name = name, own.kind = HD_PARAMETER_REAL, own.offset = HD_OWN(0);
-        own.usual = 1, own.most = 10, own.allowed = "from 0 to 10", own.unit = own.text = "";
+        own.default_value = 1, own.max = 10, own.range = "from 0 to 10", own.unit = own.text = "";
         rods.particles = "rods", rods.parameter = &own, rods.parameters = 1;
         const hd_dynamics *const rows[] = {&rods};
-        particles_bring(rows, 1);
+        particles_register(rows, 1);
         const std::string line = begun(scene + name + ": 12\n");
         if (std::strcmp(name, "stiffness") == 0) {
             EXPECT_EQ(line, "stiffness = 12: must be from 0 to 10");
@@ -315,7 +315,7 @@ TEST(Parameters, OwnNamesAreNobodyElses)
                                 ": another parameter has this name");
         }
     }
-    particles_bring(nullptr, 0);
+    particles_register(nullptr, 0);
     particles_are(nullptr);
 }
 
@@ -327,14 +327,14 @@ TEST(Parameters, MoreCoordinatesNeedAnInertia)
     hd_dynamics rods = *hd_dynamics_of(&usual);
     const hd_dynamics *const rows[] = {&rods};
     rods.particles = "rods";
-    particles_bring(rows, 1);
+    particles_register(rows, 1);
     EXPECT_EQ(begun(scene + "density: 0.5\nparticles: rods\n"), "");
     rods.inertia = nullptr;
     EXPECT_EQ(
         begun(scene + "density: 0.5\nparticles: rods\n"),
         "particles = rods: must be particles with a coordinate for each direction of their box, "
         "or with an angle and an inertia besides: messages have no fields for other coordinates");
-    particles_bring(nullptr, 0);
+    particles_register(nullptr, 0);
     particles_are(nullptr);
 }
 

@@ -90,7 +90,7 @@ std::vector<std::unique_ptr<heard>> all_of_reports(ros::NodeHandle &node)
     std::vector<std::unique_ptr<heard>> all;
     for (int t = 0; t < TOPICS; t++) {
         const unsigned bit = topic_bit(topic(t));
-        if (t != TOPIC_run_info && !(bit & topics_that_are(TOPIC_ASIDE | TOPIC_OF_WINDOWS)))
+        if (t != TOPIC_run_info && !(bit & topics_that_are(TOPIC_FOR_VIEWERS | TOPIC_OF_WINDOWS)))
             all.emplace_back(new heard(node, topic_name(topic(t))));
     }
     return all;

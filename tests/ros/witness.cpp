@@ -111,7 +111,7 @@ members say(const hd_phases *of)
     const int count = hd_phases_count(of);
     double error;
     return say_steps() +
-           named({{"followed", hd_run_followed(run)},
+           named({{"followed", hd_run_phase_time(run)},
                   {"phases", EACH(count, *hd_phases_phase(of, k))},
                   {"diffusion", LIST(count, hd_phases_diffusion(of, k, &error))},
                   {"diffusion_error", LIST(count, (hd_phases_diffusion(of, k, &error), error))}});
@@ -181,7 +181,7 @@ members beside(const hdr_run_status *) { return beside((const hdr_cost *)nullptr
 members beside(const hdr_spectrum *)
 {
     std::vector<double> cosine(vectors()), ratio(vectors());
-    hd_run_halves(run, cosine.data(), ratio.data());
+    hd_run_dq_dp(run, cosine.data(), ratio.data());
     return named({{"cosine", numbers(cosine.data(), vectors())},
                   {"ratio", numbers(ratio.data(), vectors())},
                   {"collisions", hd_trajectory_totals(parts().trajectory).collisions}});
@@ -309,7 +309,7 @@ members say_pairs(int step)
     hd_pmode *of = parts().fields;
     const hd_step *found = step < 0 ? nullptr : hd_steps_step(parts().steps, step);
     const bool has = found && found->kind == HD_MODE_LP &&
-                     hd_pmode_reconstruct(of, found, parts().modes, hd_run_columns(run));
+                     hd_pmode_reconstruct(of, found, parts().modes, hd_run_vectors_now(run));
     const int d = has ? hd_pmode_pairs(of) : 0, count = coordinates();
     std::vector<double> p(count), divided(count);
     hd_trajectory_state(parts().trajectory, nullptr, p.data());
@@ -329,7 +329,7 @@ members say_pairs(int step)
 members beside(const hdr_mode_field *message)
 {
     const int col = int(message->index) - 1;
-    const hd_columns frame = hd_run_columns(run);
+    const hd_columns frame = hd_run_vectors_now(run);
     const members all = beside((const hdr_state *)nullptr) + say_steps() + named({{"nth", nth++}});
     if (col < frame.first || col >= frame.first + frame.count) return all;
     const double *from = frame.data + (col - frame.first);
@@ -340,7 +340,7 @@ members beside(const hdr_mode_field *message)
 /** Only those vectors of which the message is. */
 members beside(const hdr_slow_vectors *message)
 {
-    const hd_columns frame = hd_run_columns(run);
+    const hd_columns frame = hd_run_vectors_now(run);
     const int begin = int(message->first_index) - 1, end = begin + int(message->vectors),
               first = begin > frame.first ? begin : frame.first,
               last = end < frame.first + frame.count ? end : frame.first + frame.count;

@@ -29,8 +29,8 @@ typedef struct hd_record hd_record;
 typedef struct hd_totals {
     /** Number of collisions of two particles; number of collisions of a particle with a wall. */
     uint64_t collisions, wall_events;
-    /** Pair collisions of all particles expected per time unit: what the row's `rate` says, by
-     * Enskog's theory [T2] for hard particles of the core. */
+    /** Pair collisions of all particles expected per time unit: what the row's `collision_rate`
+     * says, by Enskog's theory [T2] for hard particles of the core. */
     double expected;
     double time; /**< time that the numbers below cover: up to now, or to the last whole time step
                     [time units] */
@@ -46,7 +46,7 @@ typedef struct hd_totals {
 
 /** What is conserved, as it is now. If the row has no function `examine`, the kinetic energy is the
  * sum of p^2 / 2, and all other members are 0. */
-typedef struct hd_examined {
+typedef struct hd_invariants {
     double kinetic_energy; /**< of all particles; always N for hard particles */
     /** Relative error of the energy now, which would be 0 in exact arithmetic. */
     double energy_error;
@@ -67,20 +67,20 @@ typedef struct hd_examined {
     /** Overlap beyond which a run fails with HD_OVERLAP: 1e-9, or overlap_rounding if that is
      * larger, as in boxes longer than about 3e5 sigma; in a box of 1e9 sigma it is 4e-6 [sigma]. */
     double overlap_max;
-} hd_examined;
+} hd_invariants;
 
 /** What kinetic theory says of the particles, to some percent. Only rows of the core have it. */
 typedef struct hd_fluid hd_fluid;
 
 /** A part of a record, which `carry` gets if the row makes no maps of its own. */
-typedef struct hd_passage {
+typedef struct hd_record_slice {
     /** The entries, [count], each of hd_dynamics.entry bytes; NULL if count is 0. */
     const void *entry;
     size_t count;
     double begin, end; /**< the part of the record through which tangent vectors are carried: times
                           from the start of the record [time units] */
     int particles;
-} hd_passage;
+} hd_record_slice;
 
 enum {
     HD_PARTICLES = 32, /**< bytes of a dynamics' name with its final zero */
@@ -109,7 +109,7 @@ struct hd_dynamics {
     /** True if scaling all momenta only changes the pace of the motion, as with hard particles:
      * (dq, dp) = (p, 0) and (0, p) are then null vectors, and the null space is orthogonal to all
      * other vectors [T9]. May be left out. */
-    bool paces;
+    bool scale_invariant;
     /** True for particles that collide and whose total kinetic energy is always N: `totals` counts
      * collisions. If false, it integrates over time. May be left out. */
     bool collides;
@@ -127,16 +127,16 @@ struct hd_dynamics {
      * parameter, its value, what is allowed. May be left out. */
     hd_status (*check)(const hd_scene_def *scene, char *message, size_t size);
     /** Number of exponents that vanish. If left out, none does. */
-    int (*zeros)(const hd_scene_def *scene);
+    int (*zero_exponents)(const hd_scene_def *scene);
     /** Rough number of record entries per time unit of all particles, from which the first memory
      * for a record follows. */
-    double (*entries)(const hd_scene_def *scene);
+    double (*record_rate)(const hd_scene_def *scene);
     /** Expected number of pair collisions of all N particles per time unit. For particles without
      * collisions: N / 2 divided by the time in which tangent vectors grow by a factor of about e.
-     * The time (N / 2) / rate sets the pace of a run: its first interval between
+     * The time (N / 2) / collision_rate sets the pace of a run: its first interval between
      * orthonormalisations has the length of 2 of these times, its longest one of 60, and blocks for
      * standard errors are at least 8 long. */
-    double (*rate)(const hd_scene_def *scene);
+    double (*collision_rate)(const hd_scene_def *scene);
     /** Length of a time step, if particles move in time steps [time units]. May be left out. */
     double (*step)(const hd_scene_def *scene);
     /** Relative error of the energy up to which the numbers of a run are what the scene asks for; a
@@ -147,15 +147,16 @@ struct hd_dynamics {
     double (*speed)(const hd_scene_def *scene);
     /** Exponents that vanish in theory, but that no exact null vector keeps at 0, differ from 0 by
      * about the time step to the power that this returns. If left out, they do not differ. */
-    double (*split)(const hd_scene_def *scene);
+    double (*zero_splitting_order)(const hd_scene_def *scene);
     /** Time that a disturbance, as a sound wave, takes through the whole system; blocks for
      * standard errors are not shorter [time units]. May be left out. */
-    double (*crossing)(const hd_scene_def *scene);
+    double (*sound_crossing_time)(const hd_scene_def *scene);
     /** Writes the tangent vectors that are known exactly as null vectors at the state q, p: those
      * whose length stays bounded or grows linearly with time. Vector k is column[k][particle][2
-     * coordinates], dq before dp, of any length. Returns their number, at most `zeros`. If left
-     * out, none is known. */
-    int (*null)(const hd_scene_def *scene, const double *q, const double *p, double *column);
+     * coordinates], dq before dp, of any length. Returns their number, at most `zero_exponents`. If
+     * left out, none is known. */
+    int (*null_vectors)(const hd_scene_def *scene, const double *q, const double *p,
+                        double *column);
 
     /** Moment of inertia of a particle that turns in the plane [sigma^2]. Such a particle has one
      * more coordinate behind its position: sqrt(inertia) times its angle. If left out, particles do
@@ -187,7 +188,7 @@ struct hd_dynamics {
     void (*totals)(const void *state, hd_totals *totals);
     /** Writes all members of *examined; 0 where a member means nothing for these particles. May be
      * left out. */
-    void (*examine)(const void *state, hd_examined *examined);
+    void (*examine)(const void *state, hd_invariants *examined);
     /** Calls hd_archive_doubles for each array of the state, in one order for writing and reading;
      * together these have at least a number for each particle. After reading, it also restores
      * whatever else follows from these arrays. */
@@ -210,7 +211,7 @@ struct hd_dynamics {
      * entries from t_begin to t_end (hd_record_within), times counted from the start of the record.
      * Maps from a to b and then from b to c must give the same as maps from a to c; so a row gives
      * all entries of a time step the same time, because t_begin and t_end can be any times. Return
-     * HD_OK or HD_NO_MEMORY. If all three are left out, `carry` gets an hd_passage. */
+     * HD_OK or HD_NO_MEMORY. If all three are left out, `carry` gets an hd_record_slice. */
     hd_status (*maps_create)(void **maps, int particles);
     void (*maps_free)(void *maps);
     hd_status (*maps_fill)(void *maps, const hd_record *record, double t_begin, double t_end);

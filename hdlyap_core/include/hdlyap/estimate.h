@@ -1,5 +1,5 @@
 /** How long a run of a scene will take on this machine, and which errors it will reach, from a
- * short trial run. For the memory that it needs see hd_room_needed. */
+ * short trial run. For the memory that it needs see hd_memory_needed. */
 #ifndef HDLYAP_ESTIMATE_H
 #define HDLYAP_ESTIMATE_H
 
@@ -9,7 +9,7 @@ HD_API_BEGIN
 
 /** Returns the numbers of results that a run of a checked scene has. `run` is a run of this scene,
  * or of a smaller one with the same waves. */
-hd_extent hd_extent_of(const hd_scene_def *def, const hd_run *run);
+hd_result_counts hd_result_counts_of(const hd_scene_def *def, const hd_run *run);
 
 /** What a trial run says about the run of a scene. "Averaged time" is simulated time since the
  * averaging began [time units]. */
@@ -33,7 +33,7 @@ typedef struct hd_estimate {
      * apart from the part that no averaging reduces. 0 without exponents. */
     double slopes_after;
     /** Numbers of results of the run. */
-    hd_extent extent;
+    hd_result_counts extent;
 } hd_estimate;
 
 /** Runs a checked scene for a second or two of wall time, after a warm-up in which intervals

@@ -36,7 +36,7 @@
 #include "hdlyap/observables.h"
 /* run */
 #include "hdlyap/run.h"
-#include "hdlyap/room.h"
+#include "hdlyap/memory_limit.h"
 #include "hdlyap/estimate.h"
 #include "hdlyap/checkpoint.h"
 #include "hdlyap/follow.h"

@@ -25,7 +25,7 @@ typedef struct hd_parts {
 
 /** How many numbers the results of a run have; 0 for observables that the scene does not ask for.
  */
-typedef struct hd_extent {
+typedef struct hd_result_counts {
     /** Dimension of space; number of coordinates of a particle. */
     int dimension, coordinates;
     /** Number of particles; number of vectors. */
@@ -46,7 +46,7 @@ typedef struct hd_extent {
     int found; /**< number of steps of positive exponents that are resolved now */
     /** Number of lengths of time over which the order of covariant vectors is compared. */
     int orders;
-} hd_extent;
+} hd_result_counts;
 
 HD_API_END
 #endif

@@ -41,14 +41,14 @@ typedef struct hd_parameter {
     /** Its words, behind the last of which stands an entry with word = NULL; NULL if it has no
      * words. */
     const hd_parameter_word *words;
-    size_t offset; /**< offset in bytes of its member in hd_scene_def */
-    double usual;  /**< default value; 0 for a text */
+    size_t offset;        /**< offset in bytes of its member in hd_scene_def */
+    double default_value; /**< default value; 0 for a text */
     /** Smallest and largest value that is allowed; words may stand for values outside. */
-    double least, most;
-    const char *allowed; /**< the allowed values in words, for messages */
-    const char *unit;    /**< unit, as time units; "" if it has none */
-    bool may_differ;     /**< true if a resumed run may have another value than its checkpoint */
-    bool live;           /**< true if it may change while the run goes on (hd_run_change) */
+    double min, max;
+    const char *range; /**< the allowed values in words, for messages */
+    const char *unit;  /**< unit, as time units; "" if it has none */
+    bool may_differ;   /**< true if a resumed run may have another value than its checkpoint */
+    bool live;         /**< true if it may change while the run goes on (hd_run_change) */
     /** Observables (a set of HD_OBSERVE_*) of which the scene must ask for at least one if the
      * value is not the default; 0 if the value needs none. */
     unsigned needs;
@@ -56,7 +56,7 @@ typedef struct hd_parameter {
     const char *record; /**< name of its array in a checkpoint; NULL means that it is `name` */
     /** Returns the value if it is not automatic, otherwise the number that it stands for in this
      * scene. NULL if the parameter has no automatic value, or none that is known without a run. */
-    double (*chosen)(const hd_scene_def *def);
+    double (*resolve)(const hd_scene_def *def);
 } hd_parameter;
 
 /** Returns the parameters that every scene has, and writes their number to *count. Parameters that
@@ -67,7 +67,7 @@ const hd_parameter *hd_scene_parameters(int *count);
  * is empty, otherwise 1. */
 double hd_parameter_value(const hd_parameter *row, const hd_scene_def *def);
 /** As hd_parameter_value, but for an automatic value the number that it stands for, if the row has
- * hd_parameter.chosen. */
+ * hd_parameter.resolve. */
 double hd_parameter_effect(const hd_parameter *row, const hd_scene_def *def);
 /** Sets a parameter of *def to a number, which must be one that its kind can hold. A text becomes
  * empty, whatever the number. */

@@ -29,7 +29,7 @@ HD_API_BEGIN
 
 /** Where the run stands on its way to its target: what is known of that quantity of the target
  * whose error is farthest from the wanted one. */
-typedef struct hd_standing {
+typedef struct hd_target_progress {
     /** Name of the quantity, e.g. c_T. "" if the run has no target; the other members then mean
      * nothing. */
     char name[HD_QUANTITY_NAME];
@@ -43,7 +43,7 @@ typedef struct hd_standing {
      * the square root of time; INFINITY if that is unknown or never. */
     double left;
     bool reached; /**< true if all quantities of the target have reached it */
-} hd_standing;
+} hd_target_progress;
 
 /** What the run costs, since its start unless a comment says otherwise. A number that is not known
  * is NaN, unless a comment says that it is negative. Seconds are of wall time. */
@@ -82,7 +82,7 @@ typedef struct hd_cost {
     double progress;      /**< how much of the run, or of the way to its target, is done, 0 .. 1;
                              negative if not known */
     double remaining;     /**< predicted seconds to the end of the run; negative if not known */
-    hd_standing target;   /**< the quantity that is farthest from its wanted error */
+    hd_target_progress target; /**< the quantity that is farthest from its wanted error */
 } hd_cost;
 
 /** A run. The caller makes it and frees it; the run owns its parts and their results. */
@@ -118,7 +118,7 @@ HD_MUST_CHECK hd_status hd_run_advance(hd_run *run);
  * hd_run_parts are then those of the last sample, which ended hd_spectrum_time after the averaging
  * began. Samples end about every 80 collisions of each particle, or earlier, and with this report
  * if the scene asks for hydro or fields are due. Phases have samples of their own: see
- * hd_run_followed. */
+ * hd_run_phase_time. */
 bool hd_run_report_due(const hd_run *run);
 
 /** Changes a parameter of the scene with hd_parameter.live, to a number or a text that `value`
@@ -153,7 +153,7 @@ void hd_run_watch(hd_run *run, double interval);
 /** Has a measured state now: unless it is one, a sample of the averages ends here, and all n
  * vectors are orthonormalised with dq and dp together. It is then the sample of
  * hd_modes_coefficients. With several ranks each rank can read the vectors from column `first` on
- * (hd_run_columns). Before the averaging, and after it, nothing is measured. Fails as
+ * (hd_run_vectors_now). Before the averaging, and after it, nothing is measured. Fails as
  * hd_run_advance does. */
 HD_MUST_CHECK hd_status hd_run_measure(hd_run *run, int first);
 
@@ -162,10 +162,10 @@ HD_MUST_CHECK hd_status hd_run_measure(hd_run *run, int first);
  * modes are computed. At samples they are orthonormal with dq and dp together; in between they may
  * be so in dq alone. With several ranks these are the vectors that hd_run_measure gathered at this
  * time, or at a report those that hydro has read. */
-hd_columns hd_run_columns(const hd_run *run);
+hd_columns hd_run_vectors_now(const hd_run *run);
 /** Writes, for each vector in the last sample: to cos_theta[n] the cosine of the angle between its
  * halves dp and dq, NaN if one of them is 0; to dp_dq_ratio[n] |dp| / |dq|, NaN if dq is 0. */
-void hd_run_halves(const hd_run *run, double *cos_theta, double *dp_dq_ratio);
+void hd_run_dq_dp(const hd_run *run, double *cos_theta, double *dp_dq_ratio);
 
 /** Begins all averages again at the present time, and forgets what was measured before; the
  * duration counts from now. It does nothing unless the run is averaging. Fails as hd_run_advance
@@ -196,7 +196,7 @@ hd_parts hd_run_parts(const hd_run *run);
 
 /** Simulated time at which phases or fluctuations were last sampled [time units]; negative if they
  * have not been in this stage. */
-double hd_run_followed(const hd_run *run);
+double hd_run_phase_time(const hd_run *run);
 /** What the run has cost so far, and how far it is. */
 hd_cost hd_run_cost(const hd_run *run);
 /** True if the particles keep their places, as in a crystal, so that standard errors hold for this

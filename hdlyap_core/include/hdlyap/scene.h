@@ -176,8 +176,8 @@ double hd_scene_warmup(const hd_scene_def *def);
 
 /** Numbers of exponents of a scene. */
 typedef struct hd_counts {
-    int zero; /**< exponents that vanish (hd_dynamics.zeros): for particles of the core 2, and 2 for
-                 each periodic direction; 4 in a circle */
+    int zero; /**< exponents that vanish (hd_dynamics.zero_exponents): for particles of the core 2,
+                 and 2 for each periodic direction; 4 in a circle */
     int positive; /**< positive exponents, half of those that do not vanish */
     int vectors;  /**< exponents that are computed, each with a vector */
     int carried;  /**< vectors that are carried for them: half of these with HD_EXPONENTS_ALL and

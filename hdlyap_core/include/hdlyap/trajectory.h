@@ -42,7 +42,7 @@ hd_totals hd_trajectory_totals(const hd_trajectory *trajectory);
 void hd_trajectory_state(const hd_trajectory *trajectory, double *q, double *p);
 
 /** What is conserved, as it is now. O(N). */
-hd_examined hd_trajectory_examined(const hd_trajectory *trajectory);
+hd_invariants hd_trajectory_examined(const hd_trajectory *trajectory);
 
 /** What time steps have done to the energy. */
 typedef struct hd_energy {

@@ -20,7 +20,7 @@
 #include "covariant/backward.h"
 #include "covariant/history.h"
 #include "covariant/splitting.h"
-#include "covariant/starts.h"
+#include "covariant/backward_pair.h"
 #include "covariant/window_room.h"
 #include "dynamics/dynamics.h"
 #include "modes/modes.h"
@@ -38,7 +38,8 @@ struct hd_covariant {
     hd_scene_def scene;
     int rows, vectors, carried, threads, unstable, centre;
     hd_history *past;
-    hd_starts *starts; /**< two starts through the transient, the first one through the window */
+    hd_backward_pair
+        *starts; /**< two starts through the transient, the first one through the window */
     hd_spectrum *spectrum;
     hd_splitting *splitting;
     hd_doubling *grown; /**< growth of the vectors between two samples, the latest samples first */
@@ -114,7 +115,7 @@ static hd_status allocate(hd_covariant *c)
 {
     HD_TRY(allocate_arrays(c));
     HD_TRY(allocate_spaces(c));
-    HD_TRY(hd_starts_create(&c->starts, c->vectors, c->carried < c->vectors));
+    HD_TRY(hd_backward_pair_create(&c->starts, c->vectors, c->carried < c->vectors));
     hd_modes **weights[WEIGHTS] = {&c->half[0], &c->half[1], &c->of_frame};
     for (int k = 0; k < WEIGHTS && hd_scene_dimension(&c->scene) > 0; k++)
         HD_TRY(hd_modes_create(weights[k], &c->scene, c->vectors, c->threads));
@@ -153,7 +154,7 @@ void hd_covariant_free(hd_covariant *c)
 {
     if (!c) return;
     for (int k = 0; k < WEIGHTS; k++) hd_modes_free(weights_of(c, k));
-    hd_starts_free(c->starts);
+    hd_backward_pair_free(c->starts);
     double *arrays[] = {c->factor, c->coupling, c->angle, c->apart,
                         c->frame,  c->q,        c->p,     c->null_columns};
     for (size_t k = 0; k < sizeof arrays / sizeof *arrays; k++) hd_memory_free(arrays[k]);
@@ -237,7 +238,7 @@ static bool is_complete(const hd_covariant *c)
 
 static void begin_way_back(hd_covariant *c)
 {
-    hd_starts_begin(c->starts, c->scene.seed, c->streams);
+    hd_backward_pair_begin(c->starts, c->scene.seed, c->streams);
     c->streams += 2;
     c->at = hd_history_end(c->past) - 1;
     c->last = window_last(c);
@@ -303,12 +304,12 @@ static hd_status measure_null(hd_covariant *c)
 {
     const hd_dynamics *of = hd_dynamics_of(&c->scene);
     double *columns = c->null_columns;
-    if (c->centre == 0 || !of->null) return HD_OK;
+    if (c->centre == 0 || !of->null_vectors) return HD_OK;
     for (int col = 0; col < c->centre; col++)
         cblas_dcopy(c->rows, c->frame + c->unstable + col, c->vectors,
                     columns + (size_t)col * (size_t)c->rows, 1);
-    const int known = of->null(&c->scene, c->q, c->p,
-                               columns + (size_t)c->centre * (size_t)c->rows);
+    const int known = of->null_vectors(&c->scene, c->q, c->p,
+                                       columns + (size_t)c->centre * (size_t)c->rows);
     const hd_span covariant = {0, c->centre}, exact = {c->centre, known};
     if (known == 0) return HD_OK;
     HD_TRY(hd_angles_between(c->null, c->angle, columns, covariant, exact));
@@ -337,7 +338,7 @@ static void swap_halves(hd_covariant *c)
 /** Adds the vectors' growth from this sample to the one measured before, which is later in time. */
 static void end_growth(hd_covariant *c)
 {
-    const double *grown = hd_starts_growth(c->starts);
+    const double *grown = hd_backward_pair_growth(c->starts);
     if (c->grown_time == 0) return;
     hd_doubling_add(c->grown, grown, c->grown_time);
     hd_spectrum_add(c->spectrum, grown, c->grown_time);
@@ -350,7 +351,7 @@ static void end_growth(hd_covariant *c)
 static hd_status look(hd_covariant *c, long interval)
 {
     const double *coefficients;
-    HD_TRY(hd_starts_look(c->starts, &coefficients));
+    HD_TRY(hd_backward_pair_look(c->starts, &coefficients));
     end_growth(c);
     HD_TRY(hd_splitting_add(c->splitting, coefficients));
     hd_history_vectors(c->past, c->frame, c->q, c->p, interval);
@@ -387,8 +388,8 @@ static hd_status meet(hd_covariant *c)
     const int stable = c->vectors - c->unstable - c->centre;
     const double *both[2];
     double now;
-    HD_TRY(hd_starts_meet(c->starts, both));
-    (void)hd_starts_growth(c->starts); /* drops the growth through the transient */
+    HD_TRY(hd_backward_pair_meet(c->starts, both));
+    (void)hd_backward_pair_growth(c->starts); /* drops the growth through the transient */
     apart->most = 0.0;
     for (int col = 0; col < c->vectors; col++) {
         const size_t first = (size_t)col * (size_t)c->vectors;
@@ -409,7 +410,7 @@ static hd_status meet(hd_covariant *c)
 static hd_status end_window(hd_covariant *c)
 {
     const double *unused;
-    HD_TRY(hd_starts_look(c->starts, &unused));
+    HD_TRY(hd_backward_pair_look(c->starts, &unused));
     end_growth(c);
     c->window = c->ended = hd_history_time(c->past, c->last);
     hd_history_drop(c->past, c->window);
@@ -425,7 +426,7 @@ hd_status hd_covariant_step(hd_covariant *c)
     const bool measuring = c->way == THROUGH_WINDOW;
     if (measuring && hd_history_has_snapshot(c->past, c->at)) HD_TRY(look(c, c->at));
     hd_history_factor(c->past, c->factor, c->coupling, c->at);
-    HD_TRY(hd_starts_step(c->starts, c->factor, c->coupling, !measuring));
+    HD_TRY(hd_backward_pair_step(c->starts, c->factor, c->coupling, !measuring));
     if (measuring) c->grown_time += hd_history_length(c->past, c->at);
     return --c->at < hd_history_first(c->past) ? end_window(c) : HD_OK;
 }

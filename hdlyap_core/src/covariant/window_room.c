@@ -49,7 +49,8 @@ static double longest_window(const hd_scene_def *def, double interval)
     return fmax(floor(fits / digit) * digit, def->covariant_sampling);
 }
 
-hd_status hd_window_check_room(const hd_scene_def *def, double interval, char *message, size_t size)
+hd_status hd_window_check_memory(const hd_scene_def *def, double interval, char *message,
+                                 size_t size)
 {
     const hd_history_def past = history_of(def, interval, def->threads);
     char fitting[64] = "no window would fit with this transient";

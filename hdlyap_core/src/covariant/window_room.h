@@ -11,7 +11,7 @@ hd_history_def hd_window_that_fits(const hd_scene_def *def, double interval, int
 
 /** Returns HD_REFUSED, with a line that says why and how long a window may be, if a window takes
  * more than covariant_memory with intervals of this length. */
-HD_MUST_CHECK hd_status hd_window_check_room(const hd_scene_def *def, double interval,
-                                             char *message, size_t size);
+HD_MUST_CHECK hd_status hd_window_check_memory(const hd_scene_def *def, double interval,
+                                               char *message, size_t size);
 
 #endif

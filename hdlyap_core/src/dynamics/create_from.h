@@ -1,7 +1,8 @@
 /** States of particles with given q and p, both [particle][coordinates], for tests and benchmarks.
  * All fail with HD_REFUSED for a box that hd_scene_check refuses; those of hard particles for
  * positions outside it or momenta above 1e6, too, and with HD_OVERLAP if particles overlap deeper
- * than hd_examined.overlap_max; those of soft ones with HD_NOT_FINITE for positions outside it. */
+ * than hd_invariants.overlap_max; those of soft ones with HD_NOT_FINITE for positions outside it.
+ */
 #ifndef HD_CREATE_FROM_H
 #define HD_CREATE_FROM_H
 

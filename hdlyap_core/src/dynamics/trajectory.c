@@ -51,7 +51,7 @@ hd_status hd_trajectory_create_with(hd_trajectory **out, const hd_scene_def *def
         return HD_NO_MEMORY;
     }
     *tr = (hd_trajectory){.of = of, .state = state, .particles = def->number, .now = now};
-    tr->rate = of->rate(def);
+    tr->rate = of->collision_rate(def);
     tr->energy.error = tr->energy.most = is_stepped(of) ? 0.0 : NAN;
     tr->energy.asked = of->energy_asked ? of->energy_asked(def) : NAN;
     note(tr);
@@ -115,9 +115,9 @@ void hd_trajectory_places(const hd_trajectory *tr, double *q, double *p)
     keep_places(tr, p);
 }
 
-hd_examined hd_trajectory_examined(const hd_trajectory *tr)
+hd_invariants hd_trajectory_examined(const hd_trajectory *tr)
 {
-    hd_examined examined = {.kinetic_energy = 0.0};
+    hd_invariants examined = {.kinetic_energy = 0.0};
     if (tr->of->examine) {
         tr->of->examine(tr->state, &examined);
         return examined;

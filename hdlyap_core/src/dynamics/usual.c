@@ -13,9 +13,9 @@
 hd_status hd_maps_create_of(const hd_dynamics *of, void **maps, int particles)
 {
     if (of->maps_create) return of->maps_create(maps, particles);
-    hd_passage *passage = *maps = hd_memory_alloc(1, sizeof *passage);
-    if (!passage) return HD_NO_MEMORY;
-    passage->particles = particles;
+    hd_record_slice *slice = *maps = hd_memory_alloc(1, sizeof *slice);
+    if (!slice) return HD_NO_MEMORY;
+    slice->particles = particles;
     return HD_OK;
 }
 
@@ -31,12 +31,12 @@ hd_status hd_maps_fill_of(const hd_dynamics *of, void *maps, const hd_record *re
                           double t_begin, double t_end)
 {
     if (of->maps_fill) return of->maps_fill(maps, record, t_begin, t_end);
-    hd_passage *passage = maps;
+    hd_record_slice *slice = maps;
     const hd_entries those = hd_record_within(record, t_begin, t_end);
-    passage->count = those.end - those.first;
-    passage->entry = passage->count > 0 ? hd_record_entry(record, those.first) : NULL;
-    passage->begin = t_begin;
-    passage->end = t_end;
+    slice->count = those.end - those.first;
+    slice->entry = slice->count > 0 ? hd_record_entry(record, those.first) : NULL;
+    slice->begin = t_begin;
+    slice->end = t_end;
     return HD_OK;
 }
 

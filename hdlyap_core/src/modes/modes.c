@@ -72,7 +72,9 @@ static size_t known_most(const hd_scene_def *scene)
 {
     const hd_dynamics *of = hd_dynamics_of(scene);
     const int translations = 2 * hd_null_space_of(scene).count;
-    return of->paces || !of->null ? 0 : (size_t)(translations + hd_scene_counts(scene).zero);
+    return of->scale_invariant || !of->null_vectors
+               ? 0
+               : (size_t)(translations + hd_scene_counts(scene).zero);
 }
 
 static size_t rows_of(const hd_scene_def *scene)
@@ -255,9 +257,9 @@ static void measure_known(hd_modes *modes, hd_columns v, const double *q, const 
     const int rows = (int)rows_of(&modes->scene), last = (int)nulls_of(modes) - 1;
     double *out = row_of(modes->snapshot, null_row(modes) + (size_t)last, modes) + v.first;
     const int moved = hd_null_space_fill(&modes->scene, q, p, modes->known),
-              all = moved +
-                    hd_dynamics_of(&modes->scene)
-                        ->null(&modes->scene, q, p, modes->known + (size_t)moved * (size_t)rows);
+              all = moved + hd_dynamics_of(&modes->scene)
+                                ->null_vectors(&modes->scene, q, p,
+                                               modes->known + (size_t)moved * (size_t)rows);
     for (int k = 0; k < all; k++) {
         double *x = modes->known + (size_t)k * (size_t)rows;
         if (!make_orthonormal(x, modes->known, k, rows) || k < moved) continue;

@@ -49,11 +49,11 @@ static double diameter_of(const hd_scene_def *def)
     return of->dimension == 2 ? sqrt(of->size(def) / (pi / 4.0)) : cbrt(of->size(def) / (pi / 6.0));
 }
 
-static hd_bend bend_of(const hd_scene_def *def, bool t)
+static hd_curvature bend_of(const hd_scene_def *def, bool t)
 {
     const hd_fluid *own = hd_dynamics_of(def)->fluid;
     const hd_fluid *like = hd_scene_dimension(def) == 2 ? &hd_fluid_disks : &hd_fluid_spheres;
-    hd_bend bend = t ? (own ? own : like)->t : (own ? own : like)->lp;
+    hd_curvature bend = t ? (own ? own : like)->t : (own ? own : like)->lp;
     if (own) return bend;
     bend.error *= OTHERS, bend.error_l *= OTHERS, bend.c3_error *= OTHERS, bend.off *= OTHERS;
     return bend;
@@ -65,7 +65,7 @@ hd_relation hd_relation_of(const hd_scene_def *def, hd_mode_kind kind)
     const hd_container_row *container = hd_container_of(def);
     const double strays = t ? container->t_strays : container->lp_strays;
     if (hd_scene_dimension(def) == 0 || isnan(strays)) return NONE;
-    const hd_bend b = bend_of(def, t);
+    const hd_curvature b = bend_of(def, t);
     const double l = hd_scene_mean_free_path(def);
     double box[HD_DIMENSION_MAX], edge = INFINITY;
     hd_scene_box(def, box);

@@ -38,7 +38,7 @@ hd_status hd_rotor_create(hd_rotor *r, hd_track *tracks, const hd_step *step, in
                     .wave_number = step->wave.number,
                     .track = tracks,
                     .col = -1};
-    hd_foresight_clear(&r->ahead, r->pairs);
+    hd_phase_predictor_clear(&r->ahead, r->pairs);
     for (int t = 0; t < r->slots * r->pairs; t++)
         HD_TRY(hd_blocks_create(&tracks[t].turns, 1, 0.0));
     return HD_OK;
@@ -50,7 +50,7 @@ void hd_rotor_restart(hd_rotor *r, hd_phase_state state)
 {
     r->col = -1;
     r->samples = 0;
-    hd_foresight_clear(&r->ahead, r->pairs);
+    hd_phase_predictor_clear(&r->ahead, r->pairs);
     r->turned = r->turning = 0.0;
     for (int k = 0; k < 2; k++) {
         r->sample[k] = 0.0;
@@ -150,8 +150,8 @@ static void rotor_turn(hd_rotor *r, const hd_modes *modes, double dt)
     }
     if (sum == 0.0) return;
     const double turn = carg(sum), predicted = r->ahead.omega * dt;
-    hd_foresight_turn(&r->ahead, r->samples > LEARN ? hd_track_unwrapped(turn, predicted) : turn,
-                      dt);
+    hd_phase_predictor_turn(&r->ahead,
+                            r->samples > LEARN ? hd_track_unwrapped(turn, predicted) : turn, dt);
 }
 
 /** Longest time that unwraps a step whose rate is not known. */
@@ -191,8 +191,8 @@ static void rotor_store(hd_rotor *r, const hd_modes *modes, double time, double 
             if (hd_track_add(t, r->sign[v] * z, time, omega, gap)) {
                 sum += t->rate_now, count++;
                 if (judged && t->dt_now <= dt) /* the phase was not weak before */
-                    hd_foresight_miss(&r->ahead, (t->rate_now - foreseen) * dt, dt,
-                                      creal(z * conj(z)));
+                    hd_phase_predictor_miss(&r->ahead, (t->rate_now - foreseen) * dt, dt,
+                                            creal(z * conj(z)));
             }
             t->out.col = col;
             t->out.a = creal(z);
@@ -222,13 +222,14 @@ void hd_rotor_add(hd_rotor *r, const hd_step *step, const hd_modes *modes, doubl
     }
     const bool same = r->col == step->col && r->count == step->count;
     if (same && !(dt > 0)) return;
-    const double gap = hd_foresight_gap(&r->ahead, unseen(step));
-    bool coarse = same && dt * HD_FORESIGHT_PART > hd_foresight_sampling(&r->ahead, unseen(step));
+    const double gap = hd_phase_predictor_gap(&r->ahead, unseen(step));
+    bool coarse = same && dt * HD_PHASE_PREDICTOR_PART >
+                              hd_phase_predictor_sampling(&r->ahead, unseen(step));
     if (same && !coarse) {
         if (r->samples > LEARN) slots_match(r, step, modes, dt);
-        if (r->samples > LEARN) hd_foresight_sample(&r->ahead, dt);
+        if (r->samples > LEARN) hd_phase_predictor_sample(&r->ahead, dt);
         rotor_turn(r, modes, dt);
-        coarse = hd_foresight_is_lost(&r->ahead);
+        coarse = hd_phase_predictor_is_lost(&r->ahead);
     }
     if (!same || coarse) rotor_take_up(r, step, modes);
     rotor_store(r, modes, time, foreseen, gap);
@@ -247,7 +248,7 @@ int hd_rotor_tracked(const hd_rotor *r)
 
 double hd_rotor_sampling(const hd_rotor *r, const hd_step *step)
 {
-    return hd_foresight_sampling(&r->ahead, unseen(step));
+    return hd_phase_predictor_sampling(&r->ahead, unseen(step));
 }
 
 /* ---- file ---------------------------------------------------------------------------------- */
@@ -269,7 +270,7 @@ void hd_rotor_archive(hd_rotor *r, hd_archive *archive, int vectors, double now)
         hd_archive_doubles(archive, "rotor z", (double *)r->z[v], 2 * (size_t)r->pairs);
     hd_archive_double(archive, "rotor time", &r->time);
     hd_archive_expect(archive, r->time <= now, "rotor time", "it is later than the checkpoint");
-    hd_foresight_archive(&r->ahead, archive);
+    hd_phase_predictor_archive(&r->ahead, archive);
     hd_archive_double(archive, "rotor turned", &r->turned);
     hd_archive_double(archive, "rotor turning", &r->turning);
 }

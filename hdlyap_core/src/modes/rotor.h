@@ -5,7 +5,7 @@
 #ifndef HD_ROTOR_H
 #define HD_ROTOR_H
 
-#include "modes/foresight.h"
+#include "modes/phase_predictor.h"
 #include "modes/sets.h"
 #include "modes/track.h"
 
@@ -25,10 +25,10 @@ typedef struct hd_rotor {
     double complex z[HD_SLOTS_MAX][HD_PAIRS_MAX]; /**< a + i b of each slot and pair at the last
                                                      sample, times sign */
     double time;
-    hd_foresight ahead;     /**< predicts phases, so that they can be unwrapped */
-    double turned, turning; /**< angle by which the step has turned, from the mean rate of the
-                               tracks; time in which it did so */
-    hd_blocks *blocks;      /**< the blocks of all rotors */
+    hd_phase_predictor ahead; /**< predicts phases, so that they can be unwrapped */
+    double turned, turning;   /**< angle by which the step has turned, from the mean rate of the
+                                 tracks; time in which it did so */
+    hd_blocks *blocks;        /**< the blocks of all rotors */
     double *sample; /**< [2], at 2 * number in the samples of all rotors: turned and turning since
                        the last sample */
     int number;

@@ -132,13 +132,13 @@ static uint64_t members_of(const hd_step *step, int count, int k)
     return members;
 }
 
-void hd_sharing_find(hd_step *step, hd_company *company, int count, const hd_modes *modes,
+void hd_sharing_find(hd_step *step, hd_set_membership *company, int count, const hd_modes *modes,
                      const hd_spectrum *spectrum, double age)
 {
     const double now = hd_spectrum_time(spectrum);
     for (int k = 0; k < count; k++) {
         const uint64_t members = members_of(step, count, k);
-        if (members != company[k].members) company[k] = (hd_company){members, now};
+        if (members != company[k].members) company[k] = (hd_set_membership){members, now};
         if (!step[k].resolved) continue;
         step[k].set_time = now - company[k].since;
         step[k].own_part = 1.0;
@@ -149,7 +149,7 @@ void hd_sharing_find(hd_step *step, hd_company *company, int count, const hd_mod
     }
 }
 
-void hd_company_archive(hd_company *company, hd_archive *archive)
+void hd_set_membership_archive(hd_set_membership *company, hd_archive *archive)
 {
     hd_archive_bits(archive, "step company", &company->members);
     hd_archive_double(archive, "step company since", &company->since);

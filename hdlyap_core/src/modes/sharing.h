@@ -6,15 +6,15 @@
 #include "hdlyap/steps.h"
 
 /** Which steps share a set, and since when. */
-typedef struct hd_company {
+typedef struct hd_set_membership {
     uint64_t members; /**< a bit for each of these steps; 0: none */
     double since;     /**< averaged time */
-} hd_company;
+} hd_set_membership;
 
 /** Fills the members of step[count] that tell about sharing; sets, exponents and errors must be
  * known. The caller keeps company[count] from one call to the next, zero at first. age: time for
  * which the frame has been carried [time units]. */
-void hd_sharing_find(hd_step *step, hd_company *company, int count, const hd_modes *modes,
+void hd_sharing_find(hd_step *step, hd_set_membership *company, int count, const hd_modes *modes,
                      const hd_spectrum *spectrum, double age);
 
 /** How far the exponent of resolved step k of step[count] may be off because its fields mix with
@@ -23,6 +23,6 @@ void hd_sharing_find(hd_step *step, hd_company *company, int count, const hd_mod
 double hd_sharing_mixing(const hd_step *step, int count, int k, const hd_modes *modes,
                          const hd_spectrum *spectrum, int rows);
 
-void hd_company_archive(hd_company *company, hd_archive *archive);
+void hd_set_membership_archive(hd_set_membership *company, hd_archive *archive);
 
 #endif

@@ -27,8 +27,8 @@ struct hd_steps {
     int *of_vector; /**< [vectors] */
     double *share;  /**< [count][most]: share of the step in the weight of each vector of its set */
     hd_part *parts; /**< [count * most], workspace */
-    hd_company *company; /**< [count] */
-    double warmup;       /**< time for which the frame was carried before averaging */
+    hd_set_membership *company; /**< [count] */
+    double warmup;              /**< time for which the frame was carried before averaging */
     hd_relation of_t, of_lp;
 };
 
@@ -58,7 +58,7 @@ double hd_steps_bytes(const hd_scene_def *scene)
                              (n == 2.0 * hd_scene_coordinates(scene) * scene->number ? 2.0 : 1.0) +
                          1.0;
     const double of_a_vector = sizeof(double) + sizeof(hd_part);
-    return count * (sizeof(hd_step) + sizeof(hd_company) + most_of(scene) * of_a_vector) +
+    return count * (sizeof(hd_step) + sizeof(hd_set_membership) + most_of(scene) * of_a_vector) +
            n * (sizeof(int) + sizeof(double));
 }
 
@@ -404,7 +404,7 @@ void hd_steps_archive(hd_steps *steps, hd_archive *archive)
 {
     const size_t count = (size_t)steps->count;
     for (size_t k = 0; k < count; k++) step_archive(steps, &steps->step[k], archive);
-    for (size_t k = 0; k < count; k++) hd_company_archive(&steps->company[k], archive);
+    for (size_t k = 0; k < count; k++) hd_set_membership_archive(&steps->company[k], archive);
     hd_archive_doubles(archive, "steps share", steps->share, count * (size_t)steps->most);
     hd_archive_of_ints(archive, "steps of vector", (size_t)steps->vectors);
     for (int col = 0; col < steps->vectors; col++)

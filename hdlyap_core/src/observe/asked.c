@@ -58,12 +58,12 @@ double hd_observables_bytes(const hd_scene_def *scene, int ranks)
     return bytes;
 }
 
-hd_extent hd_observables_extent(const hd_scene_def *scene, void *const *part)
+hd_result_counts hd_observables_extent(const hd_scene_def *scene, void *const *part)
 {
-    hd_extent extent = {.dimension = hd_scene_dimension(scene),
-                        .coordinates = hd_scene_coordinates(scene),
-                        .particles = scene->number,
-                        .vectors = hd_scene_vectors(scene)};
+    hd_result_counts extent = {.dimension = hd_scene_dimension(scene),
+                               .coordinates = hd_scene_coordinates(scene),
+                               .particles = scene->number,
+                               .vectors = hd_scene_vectors(scene)};
     for (int k = 0; k < HD_OBSERVED; k++) {
         const hd_observable *row = hd_observable_rows[k];
         if (row->extend && hd_observable_is_asked((hd_observed)k, scene))

@@ -201,7 +201,8 @@ static double mean_times(const hd_scene_def *scene, const hd_fluctuations *f)
     return sum;
 }
 
-static void fluctuations_extend(hd_extent *extent, const hd_scene_def *scene, const void *self)
+static void fluctuations_extend(hd_result_counts *extent, const hd_scene_def *scene,
+                                const void *self)
 {
     extent->times = (int)lround(mean_times(scene, self)); /* a trial ends by the clock */
 }

@@ -154,7 +154,7 @@ static double hydro_bytes(const hd_scene_def *scene, int ranks)
     return sizeof(hd_hydro_response) * 2.0 * hd_fields_count_of(scene).lp_phases;
 }
 
-static void hydro_extend(hd_extent *extent, const hd_scene_def *scene, const void *self)
+static void hydro_extend(hd_result_counts *extent, const hd_scene_def *scene, const void *self)
 {
     (void)scene;
     if (self) extent->responses = hd_hydro_count(self);
@@ -209,7 +209,7 @@ static hd_status hydro_check(const hd_scene_def *scene, char *message, size_t si
 {
     const hd_dynamics *of = hd_dynamics_of(scene);
     const bool turn = hd_scene_coordinates(scene) > hd_scene_dimension(scene);
-    if (!turn && of->paces) return HD_OK;
+    if (!turn && of->scale_invariant) return HD_OK;
     return hd_refuse(message, size,
                      "observables = hydro: must not be given with particles = %s, %s",
                      of->particles, turn ? "which turn" : "whose energy is not kinetic alone");

@@ -73,7 +73,7 @@ static double steps_bytes(const hd_scene_def *scene, int ranks)
 }
 
 /** Adds a field for each step, which can show one vector. */
-static void steps_extend(hd_extent *extent, const hd_scene_def *scene, const void *self)
+static void steps_extend(hd_result_counts *extent, const hd_scene_def *scene, const void *self)
 {
     (void)scene;
     if (!self) return;

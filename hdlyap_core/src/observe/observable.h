@@ -66,7 +66,7 @@ typedef struct hd_observable {
     /** Bytes that it takes on each of `ranks` ranks, a few percent too many rather than too few. */
     double (*bytes)(const hd_scene_def *scene, int ranks);
     /** Adds the numbers of its results to *extent. `self` is NULL if a run does not have it. */
-    void (*extend)(hd_extent *extent, const hd_scene_def *scene, const void *self);
+    void (*extend)(hd_result_counts *extent, const hd_scene_def *scene, const void *self);
     /** Returns HD_OK, or HD_REFUSED with a line that says why it cannot be computed in this scene.
      */
     hd_status (*check)(const hd_scene_def *scene, char *message, size_t size);

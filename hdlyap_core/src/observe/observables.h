@@ -21,8 +21,8 @@ unsigned hd_observables_with(unsigned set);
 bool hd_observables_asked(const hd_scene_def *scene, unsigned needs);
 /** Bytes of the observables that the scene asks for, on each of `ranks` ranks. */
 double hd_observables_bytes(const hd_scene_def *scene, int ranks);
-/** See hd_extent_of; part[HD_OBSERVED] are the observables of a run. */
-hd_extent hd_observables_extent(const hd_scene_def *scene, void *const *part);
+/** See hd_result_counts_of; part[HD_OBSERVED] are the observables of a run. */
+hd_result_counts hd_observables_extent(const hd_scene_def *scene, void *const *part);
 
 /** Longest time from one measured state to the next that the observables of a set allow in a scene,
  * with its reports and its own intervals; INFINITY: any. */

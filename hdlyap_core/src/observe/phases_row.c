@@ -18,13 +18,13 @@ static double t_bytes(const hd_scene_def *scene, int ranks)
     return hd_phases_bytes(hd_fields_count_of(scene).t_phases);
 }
 
-static void lp_extend(hd_extent *extent, const hd_scene_def *scene, const void *self)
+static void lp_extend(hd_result_counts *extent, const hd_scene_def *scene, const void *self)
 {
     (void)scene;
     if (self) extent->phases = hd_phases_count(self);
 }
 
-static void t_extend(hd_extent *extent, const hd_scene_def *scene, const void *self)
+static void t_extend(hd_result_counts *extent, const hd_scene_def *scene, const void *self)
 {
     (void)scene;
     if (self) extent->t_phases = hd_phases_count(self);

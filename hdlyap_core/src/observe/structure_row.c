@@ -11,7 +11,7 @@ static double structure_bytes(const hd_scene_def *scene, int ranks)
     return hd_structure_bytes(scene, hd_scene_vectors(scene));
 }
 
-static void structure_extend(hd_extent *extent, const hd_scene_def *scene, const void *self)
+static void structure_extend(hd_result_counts *extent, const hd_scene_def *scene, const void *self)
 {
     (void)self;
     extent->waves = hd_structure_waves_of(scene);

@@ -38,19 +38,19 @@ static hd_columns all_of(hd_windows *windows, const hd_frame *frame)
 }
 
 /** Begins a window where the record begins. */
-static hd_status begin(hd_windows *windows, const hd_leg *p)
+static hd_status begin(hd_windows *windows, const hd_interval_event *p)
 {
     const double time = hd_trajectory_time(p->trajectory) - hd_record_duration(p->record);
     windows->due = false;
     return hd_covariant_begin(windows->covariant, time, p->expected);
 }
 
-static hd_status add(hd_windows *windows, const hd_leg *p)
+static hd_status add(hd_windows *windows, const hd_interval_event *p)
 {
     return hd_covariant_add(windows->covariant, p->ortho, p->frame, p->record, p->from, p->to);
 }
 
-static hd_status end(hd_windows *windows, const hd_leg *p)
+static hd_status end(hd_windows *windows, const hd_interval_event *p)
 {
     return hd_covariant_state(windows->covariant, all_of(windows, p->frame), p->trajectory);
 }
@@ -62,14 +62,14 @@ static hd_status agreed(const hd_windows *windows, hd_status status)
 }
 
 /** Adds intervals to a window; not between a window that is lost or complete and the next one. */
-hd_status hd_windows_follow(hd_windows *windows, const hd_leg *leg)
+hd_status hd_windows_follow(hd_windows *windows, const hd_interval_event *leg)
 {
     if (!windows) return HD_OK;
-    if (leg->at == HD_LEG_LOST) windows->due = true;
+    if (leg->at == HD_INTERVAL_LOST) windows->due = true;
     if (windows->due)
-        return leg->at == HD_LEG_BEGINS ? agreed(windows, begin(windows, leg)) : HD_OK;
-    if (leg->at == HD_LEG_PIECE) return agreed(windows, add(windows, leg));
-    if (leg->at == HD_LEG_ENDS && hd_covariant_wants_state(windows->covariant))
+        return leg->at == HD_INTERVAL_BEGINS ? agreed(windows, begin(windows, leg)) : HD_OK;
+    if (leg->at == HD_INTERVAL_PIECE) return agreed(windows, add(windows, leg));
+    if (leg->at == HD_INTERVAL_ENDS && hd_covariant_wants_state(windows->covariant))
         return agreed(windows, end(windows, leg));
     return HD_OK;
 }
@@ -121,11 +121,11 @@ hd_status hd_windows_check_ranks(const hd_scene_def *scene, int ranks, char *mes
                      ranks);
 }
 
-hd_status hd_windows_check_room(const hd_scene_def *scene, double longest, char *message,
-                                size_t size)
+hd_status hd_windows_check_memory(const hd_scene_def *scene, double longest, char *message,
+                                  size_t size)
 {
     if (!hd_observable_is_asked(HD_OBSERVED_covariant, scene)) return HD_OK;
-    return hd_window_check_room(scene, longest, message, size);
+    return hd_window_check_memory(scene, longest, message, size);
 }
 
 /* ---- as an observable ---------------------------------------------------------------------- */
@@ -175,7 +175,7 @@ static hd_status covariant_check(const hd_scene_def *scene, char *message, size_
     return HD_OK;
 }
 
-static void covariant_extend(hd_extent *extent, const hd_scene_def *scene, const void *self)
+static void covariant_extend(hd_result_counts *extent, const hd_scene_def *scene, const void *self)
 {
     const int known = hd_scene_positive_exponents(scene) + hd_scene_zero_exponents(scene);
     (void)self;

@@ -9,14 +9,14 @@
 typedef struct hd_windows hd_windows;
 
 /** A leg: what follows each interval of the averaging, through which the frame is carried. */
-typedef struct hd_leg {
+typedef struct hd_interval_event {
     enum {
-        HD_LEG_BEGINS, /**< the interval begins, with this frame */
-        HD_LEG_PIECE,  /**< a piece of it has been carried and orthonormalised */
+        HD_INTERVAL_BEGINS, /**< the interval begins, with this frame */
+        HD_INTERVAL_PIECE,  /**< a piece of it has been carried and orthonormalised */
         /** the interval has ended */
-        HD_LEG_ENDS,
-        HD_LEG_LOST /**< the frame is changed in another way, so that the next piece does not follow
-                       from it */
+        HD_INTERVAL_ENDS,
+        HD_INTERVAL_LOST /**< the frame is changed in another way, so that the next piece does not
+                       follow from it */
     } at;
     const hd_frame *frame;
     const hd_ortho *ortho;
@@ -24,15 +24,15 @@ typedef struct hd_leg {
     const hd_trajectory *trajectory;
     double from, to; /**< the piece, counted from the start of the record [time units] */
     double expected; /**< expected length of the next intervals [time units] */
-} hd_leg;
+} hd_interval_event;
 
 /** Return HD_OK, or HD_REFUSED with a line that says why the covariant vectors of a scene, if it
  * asks for them, cannot be computed: on so many ranks; with intervals between orthonormalisations
  * that may become this long, because their windows find no room. */
 HD_MUST_CHECK hd_status hd_windows_check_ranks(const hd_scene_def *scene, int ranks, char *message,
                                                size_t size);
-HD_MUST_CHECK hd_status hd_windows_check_room(const hd_scene_def *scene, double longest,
-                                              char *message, size_t size);
+HD_MUST_CHECK hd_status hd_windows_check_memory(const hd_scene_def *scene, double longest,
+                                                char *message, size_t size);
 
 /** What hd_run_parts gives. */
 hd_covariant *hd_windows_covariant(hd_windows *windows);
@@ -40,7 +40,7 @@ hd_covariant *hd_windows_covariant(hd_windows *windows);
 /* In the following windows may be NULL: nobody listens to covariant vectors. */
 
 /** Called for each leg. Fails with HD_NO_MEMORY, on all ranks alike. */
-HD_MUST_CHECK hd_status hd_windows_follow(hd_windows *windows, const hd_leg *leg);
+HD_MUST_CHECK hd_status hd_windows_follow(hd_windows *windows, const hd_interval_event *leg);
 /** True if a window begins with the next interval. If half of the vectors are carried, the frame is
  * then made isotropic to rounding before [T18]. */
 bool hd_windows_begin(const hd_windows *windows);

@@ -15,7 +15,7 @@ static const double SHORTEST = 1e-12;
  * first plans follow from it, later ones from what is counted. */
 static double events_per_particle(const hd_scene_def *scene)
 {
-    return 2.0 * hd_dynamics_of(scene)->entries(scene) / scene->number;
+    return 2.0 * hd_dynamics_of(scene)->record_rate(scene) / scene->number;
 }
 
 double hd_advance_most(const hd_scene_def *scene)
@@ -28,7 +28,7 @@ hd_status hd_advance_create(hd_advance *advance, const hd_scene_def *scene)
 {
     HD_TRY(hd_trajectory_create(&advance->trajectory, scene));
     const double rate = events_per_particle(scene);
-    advance->entries = hd_dynamics_of(scene)->entries(scene);
+    advance->entries = hd_dynamics_of(scene)->record_rate(scene);
     advance->most = hd_advance_most(scene);
     advance->longest = 1e-3 / rate;
     advance->bound = 8.0 * advance->most / (scene->number * rate);

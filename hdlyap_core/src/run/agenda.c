@@ -4,9 +4,9 @@
  * Stages follow each other at fixed times: equilibration (trajectory alone), warm-up of the frame,
  * averaging. Reports are due at multiples of their interval and where a stage ends. The frame is
  * orthonormalised as late as its condition allows, whenever reports are, or early where all vectors
- * must be known. A sample consists of as many
- * intervals as come nearest to the length that it should have, or of fewer if observables, as
- * phases, need a measured state earlier. Without a frame a sample is a stretch of time. */
+ * must be known. A sample consists of as many intervals as come nearest to the length that it
+ * should have, or of fewer if observables, as phases, need a measured state earlier. Without a
+ * frame a sample is a stretch of time. */
 #include "run/agenda.h"
 
 #include <float.h>
@@ -49,9 +49,9 @@ static const double FIRST_BLOCK = 1.3;
  */
 static const double IN_A_SAMPLE = 3.0;
 
-static hd_wanted in_force(const hd_scene_def *scene)
+static hd_live_values in_force(const hd_scene_def *scene)
 {
-    return (hd_wanted){.target = scene->target, .field_interval = scene->field_interval};
+    return (hd_live_values){.target = scene->target, .field_interval = scene->field_interval};
 }
 
 hd_agenda hd_agenda_of(const hd_scene_def *scene, double rate)
@@ -166,7 +166,7 @@ double hd_agenda_sample_grown(const hd_agenda *a)
 
 /** The next time at which all vectors must be known: the end of the stage, or a report at which
  * observables need them. */
-static double next_stop(const hd_agenda *a, const hd_pace *p)
+static double next_stop(const hd_agenda *a, const hd_interval_request *p)
 {
     const bool at_cut = p->at_reports || (p->first && a->stage == HD_AVERAGING);
     const double stop = at_cut ? hd_agenda_cut(a) : hd_agenda_stage_end(a);
@@ -175,7 +175,7 @@ static double next_stop(const hd_agenda *a, const hd_pace *p)
 
 /** Time until observables need a measured state; INFINITY if they need none, or if that time has
  * passed. */
-static double phases_left(const hd_agenda *a, const hd_pace *p)
+static double phases_left(const hd_agenda *a, const hd_interval_request *p)
 {
     const double left = a->sample_begin + p->phases - p->now;
     return left > 0 ? left : INFINITY;
@@ -192,8 +192,8 @@ static double rounded_down(double length, double left)
 
 /** The next interval if it ends with an orthonormalisation in this norm: at most `left` long, and
  * why it is not longer. */
-static hd_interval_length next_interval(const hd_agenda *a, const hd_pace *p, double left,
-                                        hd_norm norm)
+static hd_interval_length next_interval(const hd_agenda *a, const hd_interval_request *p,
+                                        double left, hd_norm norm)
 {
     p->interval->norm = norm;
     const double sample = hd_agenda_sample_longest(a, p->interval), phases = phases_left(a, p);
@@ -211,7 +211,7 @@ static hd_interval_length next_interval(const hd_agenda *a, const hd_pace *p, do
 
 /** True if the sample should end with an interval of this length: no other end would come closer to
  * the length that it should have, or observables would wait too long. */
-static bool is_last(const hd_agenda *a, const hd_pace *p, double length)
+static bool is_last(const hd_agenda *a, const hd_interval_request *p, double length)
 {
     const double gone = p->now + length - a->sample_begin, close = CLOSE * length;
     return gone + 0.5 * length >= hd_agenda_sample_longest(a, p->interval) ||
@@ -222,7 +222,7 @@ static bool is_last(const hd_agenda *a, const hd_pace *p, double length)
 static bool is_rest(double length, double left) { return length >= left * (1.0 - CLOSE); }
 
 /** Why an interval that takes all of the remaining time `left` is not longer. */
-static hd_limit limit_of_rest(const hd_agenda *a, const hd_pace *p, double left)
+static hd_limit limit_of_rest(const hd_agenda *a, const hd_interval_request *p, double left)
 {
     const hd_interval_length longest = hd_interval_longest(p->interval);
     if (longest.length < DIVIDED * left) return longest.limit;
@@ -230,7 +230,7 @@ static hd_limit limit_of_rest(const hd_agenda *a, const hd_pace *p, double left)
 }
 
 /** Plans the interval that begins now. */
-static void plan_interval(hd_agenda *a, const hd_pace *p)
+static void plan_interval(hd_agenda *a, const hd_interval_request *p)
 {
     const double measured = next_stop(a, p), left = fmin(measured, p->snapshot) - p->now;
     hd_interval_length next = next_interval(a, p, left, p->norm);
@@ -243,13 +243,13 @@ static void plan_interval(hd_agenda *a, const hd_pace *p)
 
 /** Time at which a sample without a frame ends. After a checkpoint was read it may have passed; it
  * is then now. */
-static double sample_end(const hd_agenda *a, const hd_pace *p)
+static double sample_end(const hd_agenda *a, const hd_interval_request *p)
 {
     if (!p->sampled) return INFINITY;
     return fmax(a->sample_begin + hd_agenda_sample_longest(a, p->interval), p->now);
 }
 
-double hd_agenda_plan(hd_agenda *a, const hd_pace *p)
+double hd_agenda_plan(hd_agenda *a, const hd_interval_request *p)
 {
     if (p->framed && p->now >= a->interval_end) plan_interval(a, p);
     a->expected = fmin(hd_interval_longest(p->interval).length,
@@ -275,7 +275,7 @@ double hd_agenda_errors_after(const hd_agenda *a)
 
 /* ---- what is due --------------------------------------------------------------------------- */
 
-unsigned hd_agenda_reached(const hd_agenda *a, const hd_pace *p)
+unsigned hd_agenda_reached(const hd_agenda *a, const hd_interval_request *p)
 {
     const unsigned report = p->now >= hd_agenda_cut(a) ? HD_DUE_REPORT : 0u;
     const bool sampled = p->sampled && (report || p->now >= sample_end(a, p));
@@ -370,7 +370,7 @@ static void stages_archive(hd_agenda *a, hd_archive *archive)
 
 void hd_agenda_archive(hd_agenda *a, hd_archive *archive)
 {
-    hd_wanted *now = &a->in_force;
+    hd_live_values *now = &a->in_force;
     int reported = (a->due & HD_DUE_REPORT) != 0, ends = a->sample_ends, limit = (int)a->limit,
         changing = now->changing;
     stages_archive(a, archive);

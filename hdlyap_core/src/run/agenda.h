@@ -20,11 +20,11 @@ enum {
 };
 
 /** The values that may change while a run goes on. */
-typedef struct hd_wanted {
+typedef struct hd_live_values {
     hd_text target;
     double field_interval;
     bool changing; /**< true if other values have been asked for that are not in force yet */
-} hd_wanted;
+} hd_live_values;
 
 /** The agenda. Its members may be read; only functions of the agenda change them, but for
  * interval_end, and checkpoint.c. */
@@ -32,18 +32,18 @@ typedef struct hd_agenda {
     double length[HD_FINISHED]; /**< of each stage; INFINITY for an averaging without end */
     double report_interval;
     hd_stage stage;
-    double start;       /**< time at which the stage began */
-    double origin;      /**< time from which reports are counted: the start of the stage, or a later
-                           change of report_interval */
-    long reports;       /**< number of whole report intervals since the origin */
-    hd_wanted in_force; /**< the values that the run follows now */
-    double interval_end; /**< time of the next orthonormalisation */
-    hd_limit limit;      /**< why that time is not later */
-    double expected;     /**< expected length of the intervals after it */
-    double sample_begin; /**< time at which the present sample began, with a measured state */
-    bool sample_ends;    /**< true if the sample ends with the present interval */
-    double sample_max;   /**< longest length of a sample */
-    double first_sample; /**< length of the first samples of a run that is not short */
+    double start;  /**< time at which the stage began */
+    double origin; /**< time from which reports are counted: the start of the stage, or a later
+                      change of report_interval */
+    long reports;  /**< number of whole report intervals since the origin */
+    hd_live_values in_force; /**< the values that the run follows now */
+    double interval_end;     /**< time of the next orthonormalisation */
+    hd_limit limit;          /**< why that time is not later */
+    double expected;         /**< expected length of the intervals after it */
+    double sample_begin;     /**< time at which the present sample began, with a measured state */
+    bool sample_ends;        /**< true if the sample ends with the present interval */
+    double sample_max;       /**< longest length of a sample */
+    double first_sample;     /**< length of the first samples of a run that is not short */
     /** Shortest block of the averages: 8 collisions of each particle, or the time that sound takes
      * through the box, because growth remembers both [T8]. */
     double block;
@@ -53,7 +53,7 @@ typedef struct hd_agenda {
 } hd_agenda;
 
 /** What observables and the carrier of the frame ask of the next interval. */
-typedef struct hd_pace {
+typedef struct hd_interval_request {
     double now;   /**< present time */
     bool framed;  /**< true if the frame is carried in this stage */
     bool sampled; /**< true if averages are taken, but no frame is carried */
@@ -68,7 +68,7 @@ typedef struct hd_pace {
     hd_norm norm;    /**< norm of the orthonormalisations that end no sample */
     hd_interval *interval;    /**< how long an interval may be, by the condition of the frame */
     double shortest, longest; /**< shortest and longest time that the particles may move at once */
-} hd_pace;
+} hd_interval_request;
 
 /** Makes the agenda of a scene whose warm-up is chosen. rate: collisions of a particle [1/time
  * unit]. */
@@ -97,9 +97,9 @@ void hd_agenda_begin(hd_agenda *agenda);
 /** Plans when the next interval ends, and whether the sample ends with it, unless an interval is
  * under way. Returns the next time at which something is due: a report, the end of the interval, or
  * of a sample without a frame. */
-double hd_agenda_plan(hd_agenda *agenda, const hd_pace *pace);
+double hd_agenda_plan(hd_agenda *agenda, const hd_interval_request *pace);
 /** What is due at the time pace->now: a set of HD_DUE_INTERVAL, HD_DUE_SAMPLE and HD_DUE_REPORT. */
-unsigned hd_agenda_reached(const hd_agenda *agenda, const hd_pace *pace);
+unsigned hd_agenda_reached(const hd_agenda *agenda, const hd_interval_request *pace);
 
 /** A state is measured at the time `now`; a new sample begins. */
 void hd_agenda_pass_sample(hd_agenda *agenda, double now);

@@ -1,6 +1,6 @@
 /** The memory that the machine, a control group and the process's own limits leave. Linux. */
 #define _DEFAULT_SOURCE
-#include "hdlyap/room.h"
+#include "hdlyap/memory_limit.h"
 
 #include <math.h>
 #include <stdbool.h>
@@ -11,7 +11,7 @@
 
 enum { LINE = 4096 + 64, PATH = LINE }; /* of the longest path of Linux */
 
-static void keep_least(hd_room *room, double bytes, const char *limit)
+static void keep_least(hd_memory_limit *room, double bytes, const char *limit)
 {
     if (bytes >= room->bytes) return;
     room->bytes = fmax(bytes, 0.0);
@@ -44,7 +44,7 @@ static double of_group(const char *folder, const char *name, const char *key, do
 
 /** Limits room to what a control group and the groups above it leave. Shortens `folder`, part by
  * part, to `root` characters. Cached pages of files count as free. */
-static void see_groups(hd_room *room, char *folder, size_t root, int version)
+static void see_groups(hd_memory_limit *room, char *folder, size_t root, int version)
 {
     static const char *const limit[] = {"memory.limit_in_bytes", "memory.max"};
     static const char *const used[] = {"memory.usage_in_bytes", "memory.current"};
@@ -73,7 +73,7 @@ static bool is_listed(const char *list, const char *name)
 
 /** A line of /proc/self/cgroup: 0::/path of version 2, or 4:memory:/path of version 1. A path may
  * hold colons. */
-static void see_group(hd_room *room, char *line)
+static void see_group(hd_memory_limit *room, char *line)
 {
     static const char *const root[] = {"/sys/fs/cgroup/memory", "/sys/fs/cgroup"};
     char folder[PATH], *list = strchr(line, ':'), *path = list ? strchr(list + 1, ':') : NULL;
@@ -86,7 +86,7 @@ static void see_group(hd_room *room, char *line)
     see_groups(room, folder, strlen(root[version]), version);
 }
 
-static void see_all_groups(hd_room *room)
+static void see_all_groups(hd_memory_limit *room)
 {
     char line[LINE];
     FILE *file = fopen("/proc/self/cgroup", "re");
@@ -95,7 +95,7 @@ static void see_all_groups(hd_room *room)
     (void)fclose(file);
 }
 
-static void see_own_limit(hd_room *room)
+static void see_own_limit(hd_memory_limit *room)
 {
     struct rlimit limit;
     const double now = number_in("/proc/self/statm", "", 0.0) * (double)sysconf(_SC_PAGESIZE);
@@ -103,9 +103,9 @@ static void see_own_limit(hd_room *room)
         keep_least(room, (double)limit.rlim_cur - now, "ulimit");
 }
 
-hd_room hd_room_available(void)
+hd_memory_limit hd_memory_available(void)
 {
-    hd_room room = {INFINITY, "machine", 1};
+    hd_memory_limit room = {INFINITY, "machine", 1};
     const double kilobytes = number_in("/proc/meminfo", "MemAvailable:", INFINITY);
     keep_least(&room, 1024.0 * kilobytes, "machine");
     see_all_groups(&room);

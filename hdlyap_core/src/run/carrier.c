@@ -122,17 +122,17 @@ static hd_status prepare_conjugate(hd_carrier *c, const hd_scene_def *scene)
 
 /** Keeps the halves of a frame that is orthonormal in the full norm, because the next frame may be
  * so in the norm of dq alone. */
-static hd_status keep_halves(hd_carrier *c)
+static hd_status keep_dq_dp(hd_carrier *c)
 {
     const hd_shared shared = {2, (size_t)c->vectors, (size_t)hd_frame_stride(c->frame),
                               (size_t)c->carried, 0};
     const hd_columns own = hd_frame_columns(c->frame);
-    double *cos_theta = c->halves, *ratio = c->halves + c->vectors;
-    if (own.count > 0) hd_frame_halves(c->frame, cos_theta + own.first, ratio + own.first);
-    HD_TRY(hd_communicator_share(c->communicator, c->halves, shared));
-    if (c->conjugate) hd_conjugate_halves(cos_theta, ratio, c->carried);
+    double *cos_theta = c->dq_dp, *ratio = c->dq_dp + c->vectors;
+    if (own.count > 0) hd_frame_dq_dp(c->frame, cos_theta + own.first, ratio + own.first);
+    HD_TRY(hd_communicator_share(c->communicator, c->dq_dp, shared));
+    if (c->conjugate) hd_conjugate_dq_dp(cos_theta, ratio, c->carried);
     for (int k = 0; k < 2 * c->vectors; k++)
-        if (isnan(c->halves[k])) c->halves[k] = NO_HALF;
+        if (isnan(c->dq_dp[k])) c->dq_dp[k] = NO_HALF;
     return HD_OK;
 }
 
@@ -145,11 +145,11 @@ static hd_status prepare(hd_carrier *c, const hd_scene_def *scene, double block)
     HD_TRY(agree(c, prepare_threads(c, scene)));
     HD_TRY(agree(c, hd_spectrum_create(&c->spectrum, rows, n,
                                        c->of->symplectic ? c->positive : rows, block)));
-    c->halves = hd_memory_alloc(2 * (size_t)n, sizeof *c->halves);
-    HD_TRY(agree(c, c->halves ? HD_OK : HD_NO_MEMORY));
+    c->dq_dp = hd_memory_alloc(2 * (size_t)n, sizeof *c->dq_dp);
+    HD_TRY(agree(c, c->dq_dp ? HD_OK : HD_NO_MEMORY));
     HD_TRY(create_frame(c, scene->seed));
     HD_TRY(agree(c, prepare_conjugate(c, scene)));
-    return keep_halves(c);
+    return keep_dq_dp(c);
 }
 
 hd_status hd_carrier_create(hd_carrier *c, const hd_scene_def *scene, double collision,
@@ -179,7 +179,7 @@ void hd_carrier_free(hd_carrier *c)
     hd_ortho_free(c->ortho);
     hd_conjugate_free(c->conjugate);
     hd_spectrum_free(c->spectrum);
-    hd_memory_free(c->halves);
+    hd_memory_free(c->dq_dp);
 }
 
 double hd_carrier_bytes(const hd_scene_def *scene, int threads, int ranks)
@@ -189,7 +189,7 @@ double hd_carrier_bytes(const hd_scene_def *scene, int threads, int ranks)
     if (n <= 0) return 0.0;
     const double longest = COLLISIONS_MOST * hd_scene_collision_time(scene);
     const double record = hd_record_bytes_of(
-        scene, fmin(hd_advance_most(scene), longest * hd_dynamics_of(scene)->entries(scene)));
+        scene, fmin(hd_advance_most(scene), longest * hd_dynamics_of(scene)->record_rate(scene)));
     const double frame = hd_frame_bytes(hd_dynamics_of(scene), rows_of(scene), here, threads);
     const double ortho = hd_ortho_bytes(rows_of(scene), carried, ranks);
     const double conjugate = carried < n
@@ -230,7 +230,7 @@ double hd_carrier_longest(const hd_scene_def *scene)
     return scene->interval > 0 ? fmin(most, scene->interval) : most;
 }
 
-static hd_status follow(hd_carrier *c, const hd_carrying *how, hd_leg leg)
+static hd_status follow(hd_carrier *c, const hd_carrying *how, hd_interval_event leg)
 {
     if (!how->windows) return HD_OK;
     const double start = hd_clock_now();
@@ -250,7 +250,7 @@ static hd_status keep_isotropic(hd_carrier *c, const hd_carrying *how)
 {
     if (!(hd_conjugate_isotropy(c->conjugate, c->frame) <= ISOTROPY)) {
         HD_TRY(hd_conjugate_start(c->frame));
-        HD_TRY(follow(c, how, (hd_leg){.at = HD_LEG_LOST}));
+        HD_TRY(follow(c, how, (hd_interval_event){.at = HD_INTERVAL_LOST}));
     }
     if (HD_VERIFIES) hd_verify_isotropy(c->frame);
     return HD_OK;
@@ -315,7 +315,7 @@ static void piece_accepted(hd_carrier *c, double length, bool averaging)
 static hd_status begin_interval(hd_carrier *c, const hd_carrying *how)
 {
     if (c->conjugate && hd_windows_begin(how->windows)) HD_TRY(hd_conjugate_start(c->frame));
-    return follow(c, how, (hd_leg){.at = HD_LEG_BEGINS});
+    return follow(c, how, (hd_interval_event){.at = HD_INTERVAL_BEGINS});
 }
 
 /** Makes a frame that is orthonormal in the norm of dq orthonormal in the full norm, without moving
@@ -356,7 +356,8 @@ static hd_status take_piece(hd_carrier *c, const hd_carrying *how, double t_begi
 {
     piece_accepted(c, t_end - t_begin, how->averaging);
     c->whole = hd_ortho_norm(c->ortho) == HD_NORM_FULL;
-    return follow(c, how, (hd_leg){.at = HD_LEG_PIECE, .from = t_begin, .to = t_end});
+    return follow(c, how,
+                  (hd_interval_event){.at = HD_INTERVAL_PIECE, .from = t_begin, .to = t_end});
 }
 
 static hd_status carry_through(hd_carrier *c, const hd_carrying *how)
@@ -383,7 +384,7 @@ static hd_status carry_through(hd_carrier *c, const hd_carrying *how)
         end = begin + 0.5 * piece;
     }
     hd_record_clear(c->record);
-    return follow(c, how, (hd_leg){.at = HD_LEG_ENDS});
+    return follow(c, how, (hd_interval_event){.at = HD_INTERVAL_ENDS});
 }
 
 hd_status hd_carrier_orthonormalise(hd_carrier *c, hd_carrying how)
@@ -394,7 +395,7 @@ hd_status hd_carrier_orthonormalise(hd_carrier *c, hd_carrying how)
 
 hd_status hd_carrier_sample(hd_carrier *c, bool averaging)
 {
-    HD_TRY(keep_halves(c));
+    HD_TRY(keep_dq_dp(c));
     if (averaging) hd_spectrum_sample(c->spectrum);
     return HD_OK;
 }
@@ -420,7 +421,7 @@ hd_columns hd_carrier_vectors(const hd_carrier *c)
 void hd_carrier_halves(const hd_carrier *c, double *cos_theta, double *dp_dq_ratio)
 {
     for (int col = 0; col < c->vectors; col++) {
-        const double cosine = c->halves[col], ratio = c->halves[c->vectors + col];
+        const double cosine = c->dq_dp[col], ratio = c->dq_dp[c->vectors + col];
         cos_theta[col] = cosine == NO_HALF ? NAN : cosine;
         dp_dq_ratio[col] = ratio == NO_HALF ? NAN : ratio;
     }

@@ -29,7 +29,7 @@ typedef struct hd_carrier {
     hd_frame *frame;
     hd_ortho *ortho;
     hd_conjugate *conjugate; /**< NULL where all vectors are carried */
-    double *halves; /**< [2 * vectors], what hd_run_halves writes, of the last measured state */
+    double *dq_dp; /**< [2 * vectors], what hd_run_dq_dp writes, of the last measured state */
     hd_spectrum *spectrum;
     hd_interval interval;
     hd_rounding rounding;
@@ -81,7 +81,7 @@ void hd_carrier_save_accuracy(hd_carrier *carrier, bool averaging);
 
 /** All n vectors, with a single rank; none if partners are needed that nobody has asked for. */
 hd_columns hd_carrier_vectors(const hd_carrier *carrier);
-/** hd_frame_halves of all n vectors at the last measured state; [n] each. */
+/** hd_frame_dq_dp of all n vectors at the last measured state; [n] each. */
 void hd_carrier_halves(const hd_carrier *carrier, double *cos_theta, double *dp_dq_ratio);
 /** Averaged time, with that of the present sample. */
 double hd_carrier_averaged(const hd_carrier *carrier);

@@ -37,7 +37,7 @@ hd_status hd_run_change(hd_run *run, const hd_parameter *row, const char *value,
     if (hd_run_stage(run) == HD_FINISHED || run->agenda.due & HD_DUE_STAGE)
         return hd_refuse(message, size, "%s = %s: the run has ended", row->name, value);
     if (!hd_parameter_read(row, &asked, value))
-        return hd_refuse(message, size, "%s = %s: must be %s", row->name, value, row->allowed);
+        return hd_refuse(message, size, "%s = %s: must be %s", row->name, value, row->range);
     HD_TRY(hd_scene_check(&asked, message, size));
     HD_TRY(hd_target_check(&asked, message, size));
     HD_TRY(check_duration(run, asked.duration, message, size));

@@ -142,7 +142,7 @@ static void parts_archive(hd_run *run, hd_archive *archive)
     hd_record_archive(c->record, archive, &run->scene);
     const hd_status status = hd_frame_archive(c->frame, archive);
     if (status != HD_OK) hd_archive_fail(archive, status, "frame vectors", NULL);
-    hd_archive_doubles(archive, "run halves", c->halves, 2 * (size_t)c->vectors);
+    hd_archive_doubles(archive, "run halves", c->dq_dp, 2 * (size_t)c->vectors);
     hd_spectrum_archive(c->spectrum, archive);
     hd_error_trend_archive(&run->errors, archive);
     hd_observables_archive(&run->observables, archive, true, now);

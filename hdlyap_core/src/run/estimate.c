@@ -9,7 +9,7 @@
 
 #include "base/check.h"
 #include "base/clock.h"
-#include "hdlyap/room.h"
+#include "hdlyap/memory_limit.h"
 #include "run/run.h"
 #include "run/run_state.h"
 #include "scene/scene.h"
@@ -29,7 +29,7 @@ static const unsigned UNTRIED = HD_OBSERVE_COVARIANT;
  * doc/performance.md. */
 static const double BLOCKS_OF_SLOPES = 32.0;
 
-hd_extent hd_extent_of(const hd_scene_def *def, const hd_run *run)
+hd_result_counts hd_result_counts_of(const hd_scene_def *def, const hd_run *run)
 {
     return hd_observables_extent(def, run->observables.part);
 }
@@ -106,7 +106,7 @@ static hd_status measure(hd_estimate *out, hd_run *run)
 }
 
 /** Averaged time at which an error, which is smaller by now, was as large as the target allows. */
-static double reached_after(const hd_standing *s, double averaged)
+static double reached_after(const hd_target_progress *s, double averaged)
 {
     const double falls = s->error * s->error - s->open * s->open;
     const double may = s->wanted * s->wanted - s->open * s->open;
@@ -120,7 +120,7 @@ static double target_after(const hd_run *run, const hd_scene_def *def, double st
     const hd_agenda agenda = agenda_of(def);
     const bool same = hd_run_scene(run)->number == def->number;
     if (!same || !*def->target.line) return NAN;
-    const hd_standing end = hd_target_standing(run, &def->target);
+    const hd_target_progress end = hd_target_standing(run, &def->target);
     const double averaged = hd_run_time(run) - run->agenda.start;
     const double after = end.reached ? reached_after(&end, averaged) : averaged + end.left;
     return end.error < 0.0 ? NAN : hd_agenda_reported(&agenda, fmax(after, stated));
@@ -140,14 +140,14 @@ hd_status hd_estimate_run(hd_estimate *out, const hd_scene_def *def, char *messa
     hd_run *run;
     *out = (hd_estimate){.before = def->equilibration + hd_scene_warmup(def),
                          .untried = def->observe & UNTRIED};
-    HD_TRY(hd_room_check_windows(def, message, size));
+    HD_TRY(hd_memory_check_windows(def, message, size));
     HD_TRY(hd_run_create(&run, &tried, message, size));
     const hd_status status = measure(out, run);
     out->errors_after = errors_after(def);
     out->slopes_after = slopes_after(def);
     out->target_after = target_after(run, def, out->errors_after);
     enlarge(out, &tried, def);
-    out->extent = hd_extent_of(def, run);
+    out->extent = hd_result_counts_of(def, run);
     hd_run_free(run);
     return status;
 }

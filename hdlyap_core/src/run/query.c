@@ -32,14 +32,14 @@ hd_parts hd_run_parts(const hd_run *run)
     return parts;
 }
 
-double hd_run_followed(const hd_run *run) { return run->followed; }
+double hd_run_phase_time(const hd_run *run) { return run->followed; }
 
-hd_columns hd_run_columns(const hd_run *run)
+hd_columns hd_run_vectors_now(const hd_run *run)
 {
     return run->communicator ? run->gathered.columns : hd_carrier_vectors(&run->carrier);
 }
 
-void hd_run_halves(const hd_run *run, double *cos_theta, double *dp_dq_ratio)
+void hd_run_dq_dp(const hd_run *run, double *cos_theta, double *dp_dq_ratio)
 {
     hd_carrier_halves(&run->carrier, cos_theta, dp_dq_ratio);
 }

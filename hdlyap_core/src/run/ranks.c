@@ -10,7 +10,7 @@
 #include "dynamics/trajectory.h"
 #include "hdlyap/blas.h"
 #include "hdlyap/hdlyap.h"
-#include "hdlyap/room.h"
+#include "hdlyap/memory_limit.h"
 #include "observe/observables.h"
 
 /** Facts that must be the same on all ranks; the size is a multiple of a double's, because doubles
@@ -54,10 +54,10 @@ static hd_status check(const hd_scene_def *def, hd_communicator *c, char *messag
     HD_TRY(same_programs(c, message, size));
     HD_TRY(hd_scene_check(def, message, size));
     HD_TRY(hd_windows_check_ranks(def, ranks, message, size));
-    hd_room room = hd_room_available();
+    hd_memory_limit room = hd_memory_available();
     room.ranks = ranks;
     if (c) room.bytes /= c->beside;
-    return hd_room_check(def, room, message, size);
+    return hd_memory_check(def, room, message, size);
 }
 
 hd_status hd_ranks_check(const hd_scene_def *def, hd_communicator *c, char *message, size_t size)

@@ -15,7 +15,7 @@
 #include "base/check.h"
 #include "base/clock.h"
 #include "base/memory.h"
-#include "hdlyap/room.h"
+#include "hdlyap/memory_limit.h"
 #include "run/order.h"
 #include "run/ranks.h"
 #include "run/run_state.h"
@@ -134,8 +134,8 @@ hd_status hd_run_make(hd_run **out, const hd_scene_def *def, bool resumed,
     *out = NULL;
     HD_TRY(hd_ranks_check(def, communicator, message, size));
     HD_TRY(hd_target_check(def, message, size));
-    HD_TRY(resumed ? hd_windows_check_room(def, hd_carrier_longest(def), message, size)
-                   : hd_room_check_windows(def, message, size));
+    HD_TRY(resumed ? hd_windows_check_memory(def, hd_carrier_longest(def), message, size)
+                   : hd_memory_check_windows(def, message, size));
     hd_run *run = hd_memory_alloc(1, sizeof *run);
     const hd_status found = hd_communicator_agree(communicator, run ? HD_OK : HD_NO_MEMORY);
     if (found != HD_OK) {
@@ -310,24 +310,25 @@ hd_status hd_run_settle(hd_run *run)
 
 /** Plans the next orthonormalisation of the frame, unless one is planned; the next time at which
  * something is due. */
-static double plan(hd_run *run, hd_pace *pace)
+static double plan(hd_run *run, hd_interval_request *request)
 {
     const bool framed = is_framed(run);
     const double now = hd_run_time(run), phases = sampling(run),
                  apart = hd_observables_apart(&run->scene, run->observables.seen);
-    *pace = (hd_pace){.now = now,
-                      .framed = framed,
-                      .sampled = !framed && is_needed(run, 0),
-                      .first = framed && hd_spectrum_time(run->carrier.spectrum) == 0,
-                      .at_reports = is_needed(run, HD_NEEDS_REPORTS),
-                      .at_fields = is_needed(run, HD_NEEDS_ALL),
-                      .phases = phases,
-                      .apart = fmin(apart, phases),
-                      .snapshot = hd_windows_due(windows_of(run), now),
-                      .norm = hd_carrier_norm(&run->carrier, is_needed(run, HD_NEEDS_WHOLE)),
-                      .interval = &run->carrier.interval};
-    hd_advance_bounds(&run->advance, &pace->shortest, &pace->longest);
-    return hd_agenda_plan(&run->agenda, pace);
+    *request = (hd_interval_request){
+        .now = now,
+        .framed = framed,
+        .sampled = !framed && is_needed(run, 0),
+        .first = framed && hd_spectrum_time(run->carrier.spectrum) == 0,
+        .at_reports = is_needed(run, HD_NEEDS_REPORTS),
+        .at_fields = is_needed(run, HD_NEEDS_ALL),
+        .phases = phases,
+        .apart = fmin(apart, phases),
+        .snapshot = hd_windows_due(windows_of(run), now),
+        .norm = hd_carrier_norm(&run->carrier, is_needed(run, HD_NEEDS_WHOLE)),
+        .interval = &run->carrier.interval};
+    hd_advance_bounds(&run->advance, &request->shortest, &request->longest);
+    return hd_agenda_plan(&run->agenda, request);
 }
 
 /** Moves the particles towards the time `end`, or only to the next time at which a viewer looks. */
@@ -347,17 +348,17 @@ static hd_status go_on(hd_run *run)
 {
     take_changes(run);
     if (is_due(run, HD_DUE_STAGE)) return go_back(run, false);
-    hd_pace pace;
-    HD_TRY(move_particles(run, plan(run, &pace)));
-    pace.now = hd_run_time(run);
-    const unsigned due = hd_agenda_reached(&run->agenda, &pace);
+    hd_interval_request request;
+    HD_TRY(move_particles(run, plan(run, &request)));
+    request.now = hd_run_time(run);
+    const unsigned due = hd_agenda_reached(&run->agenda, &request);
     if (due & HD_DUE_INTERVAL)
         HD_TRY(end_interval(run, due & HD_DUE_SAMPLE));
     else if (due & HD_DUE_SAMPLE)
         HD_TRY(end_sample(run));
     if (due & HD_DUE_REPORT) HD_TRY(report(run));
-    if (is_averaging(run) && pace.framed && is_measured(run)) take_changes(run);
-    if (!is_due(run, HD_DUE_STAGE)) (void)plan(run, &pace);
+    if (is_averaging(run) && request.framed && is_measured(run)) take_changes(run);
+    if (!is_due(run, HD_DUE_STAGE)) (void)plan(run, &request);
     leave_stage(run);
     return HD_OK;
 }

@@ -31,7 +31,7 @@ struct hd_run {
     hd_gathered gathered;
     double watch;    /**< see hd_run_watch; INFINITY: nobody watches */
     bool known;      /**< true if the weights of modes are those of the present time */
-    double followed; /**< see hd_run_followed */
+    double followed; /**< see hd_run_phase_time */
     hd_clocks clocks;
     hd_cost cost;
     hd_error_trend errors; /**< trend of the error of the smallest positive exponents */
@@ -48,7 +48,7 @@ void hd_run_drop(hd_run *run);
 HD_MUST_CHECK hd_status hd_run_settle(hd_run *run);
 
 /** How far the run is from a target that hd_target_check has passed. */
-hd_standing hd_target_standing(const hd_run *run, const hd_text *target);
+hd_target_progress hd_target_standing(const hd_run *run, const hd_text *target);
 /** True if the target in force is reached; false without one. */
 bool hd_target_reached(const hd_run *run);
 /** The set `stages` and the observables from which the quantities of the scene's target follow. */

@@ -247,7 +247,7 @@ unsigned hd_target_stages(const hd_scene_def *def, unsigned stages)
 
 /** Averaged time that is left until the error is as wanted, if the part of it that averaging
  * reduces falls with the square root of time. */
-static double left_of(const hd_standing *s, double averaged)
+static double left_of(const hd_target_progress *s, double averaged)
 {
     const double falls = s->error * s->error - s->open * s->open;
     const double may = s->wanted * s->wanted - s->open * s->open;
@@ -261,15 +261,15 @@ static hd_stated smallest_error(const hd_run *run)
     return (hd_stated){.error = error < INFINITY ? error : -1.0};
 }
 
-static hd_standing standing_of(const hd_run *run, const hd_aim *goal, double averaged)
+static hd_target_progress standing_of(const hd_run *run, const hd_aim *goal, double averaged)
 {
     const hd_parts parts = hd_run_parts(run);
     const hd_stated now = goal->quantity->read ? goal->quantity->read(&parts, goal)
                                                : smallest_error(run);
     const double value = fabs(now.value);
-    hd_standing s = {
+    hd_target_progress s = {
         .value = now.value, .error = now.error, .open = now.open, .wanted = goal->wanted};
-    if (!(now.error >= 0.0)) s = (hd_standing){.error = -1.0, .wanted = s.wanted};
+    if (!(now.error >= 0.0)) s = (hd_target_progress){.error = -1.0, .wanted = s.wanted};
     name_of(s.name, goal);
     if (goal->relative) s.wanted = s.error >= 0.0 ? goal->wanted * value : -1.0;
     s.reached = s.error >= 0.0 && s.error <= s.wanted;
@@ -278,18 +278,18 @@ static hd_standing standing_of(const hd_run *run, const hd_aim *goal, double ave
 }
 
 /** Present error over wanted error; INFINITY if it is not known. */
-static double distance(const hd_standing *s)
+static double distance(const hd_target_progress *s)
 {
     return s->error >= 0.0 ? s->error / s->wanted : INFINITY;
 }
 
-hd_standing hd_target_standing(const hd_run *run, const hd_text *target)
+hd_target_progress hd_target_standing(const hd_run *run, const hd_text *target)
 {
     const aims asked = aims_of(&run->scene, target);
     const double averaged = hd_trajectory_time(run->advance.trajectory) - run->agenda.start;
-    hd_standing all = {.error = -1.0, .wanted = -1.0, .left = INFINITY};
+    hd_target_progress all = {.error = -1.0, .wanted = -1.0, .left = INFINITY};
     for (int k = 0; k < asked.count; k++) {
-        const hd_standing one = standing_of(run, &asked.goal[k], averaged);
+        const hd_target_progress one = standing_of(run, &asked.goal[k], averaged);
         const double left = k == 0 ? one.left : fmax(all.left, one.left);
         const bool reached = one.reached && (k == 0 || all.reached);
         if (k == 0 || distance(&one) > distance(&all)) all = one;

@@ -41,7 +41,7 @@ static hd_status circle_check(const hd_scene_def *def, char *message, size_t siz
     if (def->aspect != hd_scene_def_default().aspect)
         return hd_refuse(message, size, "aspect = %.15g: must not be given with container = circle",
                          def->aspect);
-    if (!(hd_circle_reach(def) >= HD_ROOM_MIN))
+    if (!(hd_circle_reach(def) >= HD_MEMORY_LIMIT_MIN))
         return hd_refuse(message, size,
                          "density = %.15g with number = %d: the radius %.15g of the container must "
                          "be above that of a disk, 1/2, by 1e-9",

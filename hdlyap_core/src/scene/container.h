@@ -14,7 +14,7 @@
 
 /** Smallest room of centres between two walls. Particles would cross less room more often than
  * times can be told apart. It is 1e-9, less what rounding an edge takes. */
-#define HD_ROOM_MIN 0.999e-9
+#define HD_MEMORY_LIMIT_MIN 0.999e-9
 
 /** Is called with each wave, one after another; `to` belongs to it. */
 typedef void (*hd_wave_taker)(void *to, const hd_wave *wave);

@@ -7,9 +7,9 @@
 /** The curvature of a branch, lambda = c k + c2 k^2 + c3 k^3, as measured in long boxes [T12]. With
  * the mean free path l, c2 / c = c2 + c2_l l and c3 / c = c3 + c3_l2 l^2. Errors have the same
  * form; `off` is the part of c3 / c by which single densities differ from the formula. */
-typedef struct hd_bend {
+typedef struct hd_curvature {
     double c2, c2_l, error, error_l, c3, c3_l2, c3_error, off;
-} hd_bend;
+} hd_curvature;
 
 struct hd_fluid {
     double density_max;                            /**< closest packing */
@@ -18,7 +18,7 @@ struct hd_fluid {
     double (*sound)(const hd_scene_def *def);      /**< velocity of sound */
     double (*transverse)(const hd_scene_def *def); /**< lambda / k of the transverse modes of long
                                                       waves, as measured, to some percent */
-    hd_bend lp, t;
+    hd_curvature lp, t;
 };
 
 /** Hard disks and spheres of kinetic energy 1 each, by Enskog's theory. */

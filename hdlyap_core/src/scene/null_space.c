@@ -17,7 +17,7 @@ int hd_null_axes(const hd_scene_def *def, int *axis)
         if (hd_scene_boundary(def, d) == HD_PERIODIC ||
             (d == HD_NULL_X && hd_container_of(def)->rotates))
             axis[count++] = d;
-    if (hd_dynamics_of(def)->paces) axis[count++] = dimension;
+    if (hd_dynamics_of(def)->scale_invariant) axis[count++] = dimension;
     return count;
 }
 

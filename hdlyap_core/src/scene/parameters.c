@@ -81,7 +81,7 @@ double hd_parameter_value(const hd_parameter *row, const hd_scene_def *def)
 
 double hd_parameter_effect(const hd_parameter *row, const hd_scene_def *def)
 {
-    return row->chosen ? row->chosen(def) : hd_parameter_value(row, def);
+    return row->resolve ? row->resolve(def) : hd_parameter_value(row, def);
 }
 
 void hd_parameter_assign(const hd_parameter *row, hd_scene_def *def, double value)

@@ -65,7 +65,7 @@ static hd_status rectangle_check(const hd_scene_def *def, char *message, size_t 
                          "number = %d: must be an integer from 2 to 1000000 in a rectangle",
                          def->number);
     for (int d = 0; d < hd_scene_dimension(def); d++) {
-        if (has_walls(def, d) ? box[d] - 1.0 >= HD_ROOM_MIN : box[d] > 1.0) continue;
+        if (has_walls(def, d) ? box[d] - 1.0 >= HD_MEMORY_LIMIT_MIN : box[d] > 1.0) continue;
         char said[24 + 24] = "";
         if (!is_flat(def)) snprintf(said, sizeof said, ", aspect_z = %.15g", def->aspect_z);
         return hd_refuse(message, size,

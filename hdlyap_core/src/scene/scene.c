@@ -14,7 +14,7 @@ hd_scene_def hd_scene_def_default(void)
     hd_scene_def def = {.seed = 0};
     int count;
     const hd_parameter *rows = hd_scene_parameters(&count);
-    for (int k = 0; k < count; k++) hd_parameter_assign(&rows[k], &def, rows[k].usual);
+    for (int k = 0; k < count; k++) hd_parameter_assign(&rows[k], &def, rows[k].default_value);
     return def;
 }
 
@@ -23,7 +23,7 @@ static bool is_own(const hd_parameter *row)
 {
     const bool number = row->kind == HD_PARAMETER_INT || row->kind == HD_PARAMETER_REAL ||
                         row->kind == HD_PARAMETER_WORD || row->kind == HD_PARAMETER_INTERVAL;
-    const bool said = row->name && row->allowed && row->unit && row->text;
+    const bool said = row->name && row->range && row->unit && row->text;
     return number && said && row->offset >= HD_OWN(0) && row->offset < HD_OWN(HD_OWN_MAX) &&
            (row->offset - HD_OWN(0)) % sizeof(hd_own) == 0 && !row->live;
 }
@@ -39,8 +39,9 @@ static bool is_whole(const hd_dynamics *row)
     return own && room && maps && turns && row->particles && (row->totals || !row->collides) &&
            strlen(row->particles) < HD_PARTICLES && row->coordinates >= 1 &&
            row->coordinates <= HD_COORDINATES_MAX && row->entry > 0 &&
-           row->entry % sizeof(double) == 0 && row->entries && row->rate && row->create &&
-           row->free && row->advance && row->time && row->state && row->archive && row->carry;
+           row->entry % sizeof(double) == 0 && row->record_rate && row->collision_rate &&
+           row->create && row->free && row->advance && row->time && row->state && row->archive &&
+           row->carry;
 }
 
 hd_scene_def hd_scene_def_of(const hd_dynamics *dynamics)
@@ -57,7 +58,7 @@ hd_scene_def hd_scene_def_of(const hd_dynamics *dynamics)
         def.dynamics = NULL;
     }
     for (int k = 0; k < dynamics->parameters; k++)
-        hd_parameter_assign(&dynamics->parameter[k], &def, dynamics->parameter[k].usual);
+        hd_parameter_assign(&dynamics->parameter[k], &def, dynamics->parameter[k].default_value);
     return def;
 }
 
@@ -82,14 +83,14 @@ static const double BLOCK_COLLISIONS = 8.0;
 
 double hd_scene_collision_time(const hd_scene_def *def)
 {
-    return 0.5 * def->number / hd_dynamics_of(def)->rate(def);
+    return 0.5 * def->number / hd_dynamics_of(def)->collision_rate(def);
 }
 
 double hd_scene_sound_crossing(const hd_scene_def *def)
 {
     const hd_dynamics *of = hd_dynamics_of(def);
     double box[HD_DIMENSION_MAX], longest = 0.0;
-    if (of->crossing) return of->crossing(def);
+    if (of->sound_crossing_time) return of->sound_crossing_time(def);
     if (!of->fluid) return BLOCK_COLLISIONS * hd_scene_collision_time(def);
     hd_scene_box(def, box);
     for (int d = 0; d < of->dimension; d++) longest = fmax(longest, box[d]);
@@ -105,7 +106,7 @@ double hd_scene_mean_free_path(const hd_scene_def *def)
 int hd_scene_zero_exponents(const hd_scene_def *def)
 {
     const hd_dynamics *of = hd_dynamics_of(def);
-    return of->zeros ? of->zeros(def) : 0;
+    return of->zero_exponents ? of->zero_exponents(def) : 0;
 }
 
 static int all_exponents(const hd_scene_def *def)
@@ -176,7 +177,7 @@ void hd_scene_settle(hd_scene_def *def)
     const hd_scene_def asked = *def;
     const hd_parameter *row;
     for (int k = 0; (row = hd_parameter_of(def, k)); k++)
-        if (row->chosen) hd_parameter_assign(row, def, row->chosen(&asked));
+        if (row->resolve) hd_parameter_assign(row, def, row->resolve(&asked));
 }
 
 void hd_scene_keep_chosen(hd_scene_def *asked, const hd_scene_def *kept)
@@ -184,7 +185,7 @@ void hd_scene_keep_chosen(hd_scene_def *asked, const hd_scene_def *kept)
     const hd_scene_def was = *asked;
     const hd_parameter *row;
     for (int k = 0; (row = hd_parameter_of(asked, k)); k++)
-        if (row->chosen && row->chosen(&was) != hd_parameter_value(row, &was))
+        if (row->resolve && row->resolve(&was) != hd_parameter_value(row, &was))
             hd_parameter_assign(row, asked, hd_parameter_value(row, kept));
 }
 
@@ -205,7 +206,7 @@ void hd_scene_archive(hd_scene_def *def, hd_archive *archive)
         case HD_PARAMETER_INTERVAL: hd_archive_double(archive, record, &real); break;
         default:
             whole = (int)real;
-            hd_archive_int(archive, record, &whole, (int)r->least, (int)r->most);
+            hd_archive_int(archive, record, &whole, (int)r->min, (int)r->max);
             real = whole;
         }
         hd_parameter_assign(r, def, real);

@@ -17,7 +17,7 @@ int hd_scene_carried(const hd_scene_def *def);
 
 /** The time in which steps separate: hd_scene_warmup without what observables add. */
 double hd_scene_parting(const hd_scene_def *def);
-/** Writes what automatic values stand for (hd_parameter.chosen), so that they stay what they are
+/** Writes what automatic values stand for (hd_parameter.resolve), so that they stay what they are
  * when the rest of the scene changes. */
 void hd_scene_settle(hd_scene_def *def);
 /** Automatic values go on to be what they stood for in a run that is resumed. */

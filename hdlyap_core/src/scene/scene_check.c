@@ -24,7 +24,7 @@ static hd_status refuse_value(const hd_parameter *row, const hd_scene_def *def, 
 {
     char value[VALUE];
     return hd_refuse(message, size, "%s = %s: must be %s", row->name,
-                     hd_parameter_say(row, def, value, sizeof value), row->allowed);
+                     hd_parameter_say(row, def, value, sizeof value), row->range);
 }
 
 /** Whether a value is in the range of its own row. The negated comparison refuses NaN, too. */
@@ -34,7 +34,7 @@ static bool is_in_range(const hd_parameter *row, double value)
         row->kind == HD_PARAMETER_TEXT)
         return true;
     if (row->kind == HD_PARAMETER_INTERVAL && hd_parameter_is_word(row, value)) return true;
-    return value >= row->least && value <= row->most;
+    return value >= row->min && value <= row->max;
 }
 
 static hd_status check_ranges(const hd_scene_def *def, char *message, size_t size)

@@ -270,7 +270,7 @@ hd_columns hd_conjugate_partners(hd_conjugate *conjugate, hd_columns half)
                         conjugate->rows - half.first - half.count, half.count};
 }
 
-void hd_conjugate_halves(double *cos_theta, double *dp_dq_ratio, int half)
+void hd_conjugate_dq_dp(double *cos_theta, double *dp_dq_ratio, int half)
 {
     for (int col = 0; col < half; col++) {
         const double ratio = dp_dq_ratio[col];

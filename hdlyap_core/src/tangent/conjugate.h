@@ -59,8 +59,8 @@ double hd_conjugate_isotropy(hd_conjugate *conjugate, const hd_frame *frame);
 /** max |Q^T J Q| of this rank's vectors, m n^2 flops. For tests and verification. */
 double hd_conjugate_isotropy_measured(const hd_frame *frame);
 
-/** Completes the results [4N] of hd_frame_halves, of which the first half is given. */
-void hd_conjugate_halves(double *cos_theta, double *dp_dq_ratio, int half);
+/** Completes the results [4N] of hd_frame_dq_dp, of which the first half is given. */
+void hd_conjugate_dq_dp(double *cos_theta, double *dp_dq_ratio, int half);
 
 /** most: as hd_conjugate_create. */
 double hd_conjugate_bytes(double rows, double most);

@@ -224,7 +224,7 @@ static void halves_of_columns(const hd_frame *frame, double sum[3][HD_BLOCK_WIDT
         }
 }
 
-void hd_frame_halves(const hd_frame *frame, double *cos_theta, double *dp_dq_ratio)
+void hd_frame_dq_dp(const hd_frame *frame, double *cos_theta, double *dp_dq_ratio)
 {
     const int n = hd_frame_columns(frame).count;
 #pragma omp parallel for schedule(static) num_threads(frame->threads) if (frame->threads > 1)

@@ -61,7 +61,7 @@ void hd_frame_rewind(hd_frame *frame);
 
 /** For each of this rank's columns (hd_frame_columns): the cosine of the angle between its dp and
  * dq halves, NaN if one of them vanishes; and |dp| / |dq|, NaN if dq vanishes. */
-void hd_frame_halves(const hd_frame *frame, double *cos_theta, double *dp_dq_ratio);
+void hd_frame_dq_dp(const hd_frame *frame, double *cos_theta, double *dp_dq_ratio);
 
 /** Reads or writes the frame. With several ranks each one reads the whole file; when writing, rank
  * 0 gets the vectors of all. Fails with HD_NO_MEMORY on all ranks. */

@@ -23,7 +23,7 @@ static void expect_at_most(double value, double limit, const char *what)
 
 /* ---- particles ------------------------------------------------------------------------------ */
 
-static void expect_momentum(const hd_examined *now, const hd_scene_def *scene)
+static void expect_momentum(const hd_invariants *now, const hd_scene_def *scene)
 {
     const double most = scene->number * now->energy_rounding;
     for (int d = 0; d < hd_scene_dimension(scene); d++)
@@ -38,7 +38,7 @@ static void expect_momentum(const hd_examined *now, const hd_scene_def *scene)
 void hd_verify_trajectory(const hd_trajectory *tr, const hd_scene_def *scene)
 {
     if (!hd_dynamics_of(scene)->examine) return;
-    const hd_examined now = hd_trajectory_examined(tr);
+    const hd_invariants now = hd_trajectory_examined(tr);
     expect_at_most(now.overlap, now.overlap_max, "overlap");
     expect_at_most(fabs(now.energy_error), now.energy_rounding, "energy");
     expect_momentum(&now, scene);

@@ -24,7 +24,7 @@ bool change_refuse(char *message, size_t size, const char *what, const char *why
 static bool parse_value(char value[HD_TEXT], const char *text, const parameter *p)
 {
     char *end;
-    const double least = p->row ? p->row->least : p->least, most = p->row ? p->row->most : p->most;
+    const double least = p->row ? p->row->min : p->min, most = p->row ? p->row->max : p->max;
     if (p->row && p->row->kind == HD_PARAMETER_TEXT)
         return snprintf(value, HD_TEXT, "%s", text + strspn(text, " ")) < HD_TEXT;
     const double number = strtod(text, &end);
@@ -49,7 +49,7 @@ bool change_parse(change *out, const char *assignment, char *message, size_t siz
     out->name = p.name;
     if (!p.live)
         return change_refuse(message, size, assignment, "is read at the start and cannot change");
-    snprintf(why, sizeof why, "must be %s", p.allowed);
+    snprintf(why, sizeof why, "must be %s", p.range);
     return parse_value(out->value, sign + 1, &p) || change_refuse(message, size, assignment, why);
 }
 

@@ -64,10 +64,10 @@ static void print_seconds(const char *name, double seconds)
         printf("%s%.3g h", name, seconds / 3600.0);
 }
 
-static void print_memory(const settings *set, hd_room room)
+static void print_memory(const settings *set, hd_memory_limit room)
 {
     const int threads = set->def.threads > 0 ? set->def.threads : hd_blas_query().cores;
-    const double needed = hd_room_needed(&set->def, threads, 1);
+    const double needed = hd_memory_needed(&set->def, threads, 1);
     printf("memory    %.3g GB beside 0.1 GB of libraries; there are %.3g GB (%s)\n", 1e-9 * needed,
            1e-9 * room.bytes, room.limit);
     if (set->observables & topics_that_are(TOPIC_OF_WINDOWS))
@@ -238,7 +238,7 @@ static void print_target(const settings *set, const hd_estimate *t)
     if (def->duration > 0 && def->duration < after) printf("          The duration ends before.\n");
 }
 
-static void print_all(const settings *set, const hd_estimate *t, hd_room room)
+static void print_all(const settings *set, const hd_estimate *t, hd_memory_limit room)
 {
     const hd_scene_def *def = &set->def;
     char system[SYSTEM_SIZE];
@@ -299,9 +299,9 @@ static int try_scene(settings *set, const char *path, const hdr_params *params)
 {
     char message[512] = "", name[256];
     hd_estimate t = {.particles = 0};
-    const hd_room room = hd_room_available();
+    const hd_memory_limit room = hd_memory_available();
     if (!*hdr_param_text(params, "scene")) set->scene = name_of(path, name, sizeof name);
-    hd_status tried = hd_room_check(&set->def, room, message, sizeof message);
+    hd_status tried = hd_memory_check(&set->def, room, message, sizeof message);
     if (tried == HD_OK) tried = hd_estimate_run(&t, &set->def, message, sizeof message);
     if (tried != HD_OK) return fault(tried, message);
     t.extent = extent_of(set, t.extent);

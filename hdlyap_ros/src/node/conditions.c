@@ -61,7 +61,7 @@ static void add_errors(conditions *all, const worker_state *state)
 static void add_warnings(conditions *all, const worker_state *state, const hdr_lag *slowest)
 {
     const progress *last = &state->last;
-    const hd_standing *at = &last->cost.target;
+    const hd_target_progress *at = &last->cost.target;
     const uint8_t level = HDR_DIAGNOSTIC_WARN;
     char step[CONDITION_STEP];
     if (*state->warning) add(all, level, "%s", state->warning);

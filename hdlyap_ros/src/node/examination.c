@@ -7,7 +7,7 @@ examination examination_of(const hd_run *run)
 {
     if (!hd_dynamics_of(hd_run_scene(run))->examine) return (examination){.made = false};
     const hd_trajectory *trajectory = hd_run_parts(run).trajectory;
-    const hd_examined now = hd_trajectory_examined(trajectory);
+    const hd_invariants now = hd_trajectory_examined(trajectory);
     return (examination){
         .made = true,
         .overlap = now.overlap,

@@ -118,7 +118,7 @@ static int read_settings(app *a)
 static void log_creation(const settings *set)
 {
     const hd_scene_def *def = &set->def;
-    if (hd_room_check(def, hd_room_available(), NULL, 0) != HD_OK) return;
+    if (hd_memory_check(def, hd_memory_available(), NULL, 0) != HD_OK) return;
     const int vectors = hd_scene_counts(def).carried;
     if (2.0 * hd_scene_coordinates(def) * def->number * vectors > ENTRIES_MANY)
         hdr_log(HDR_INFO, "creates %d tangent vectors of %d %s, which may take a minute", vectors,
@@ -341,7 +341,7 @@ int hdlyap_node_main(int argc, char **argv, const hd_dynamics *const *rows, int 
 {
     app a = {.ros = NULL};
     char message[512];
-    particles_bring(rows, count);
+    particles_register(rows, count);
     const int answered = answer(argc, argv);
     if (answered >= 0) return answered;
     restart_if_slow(argv);

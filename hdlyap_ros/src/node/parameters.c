@@ -12,8 +12,8 @@ static const parameter name_row = {
     .name = "scene",
     .kind = NAME,
     .offset = offsetof(settings, scene),
-    .usual = "paper_periodic", /* with all defaults */
-    .allowed = "a line that is not empty",
+    .default_value = "paper_periodic", /* with all defaults */
+    .range = "a line that is not empty",
     .unit = "",
     .may_differ = true,
     .text = "Name of the scene, for run_info. It chooses no system: at least one of particles, "
@@ -25,8 +25,8 @@ static const parameter rows[] = {
         .name = "observables",
         .kind = TOPICS_OBSERVED,
         .offset = offsetof(settings, observables),
-        .usual = "spectrum, modes, steps, lp_phases, fields, state",
-        .allowed = "a list out of ",
+        .default_value = "spectrum, modes, steps, lp_phases, fields, state",
+        .range = "a list out of ",
         .unit = "",
         .text =
             "Topics that can be published, beside run_info, status, cost and /diagnostics. A topic "
@@ -36,8 +36,8 @@ static const parameter rows[] = {
         .name = "field_indices",
         .kind = FIELD_CHOICE,
         .offset = offsetof(settings, fields),
-        .usual = "steps",
-        .allowed = "steps or a list of integers from 1",
+        .default_value = "steps",
+        .range = "steps or a list of integers from 1",
         .unit = "",
         .may_differ = true,
         .needs = 1u << TOPIC_fields,
@@ -48,10 +48,10 @@ static const parameter rows[] = {
         .name = "slow_vectors_rate",
         .kind = REAL_NUMBER,
         .offset = offsetof(settings, slow_vectors_rate),
-        .usual = "10",
-        .least = 0.01,
-        .most = 100,
-        .allowed = "from 0.01 to 100",
+        .default_value = "10",
+        .min = 0.01,
+        .max = 100,
+        .range = "from 0.01 to 100",
         .unit = "1/s",
         .may_differ = true,
         .text = "Largest number of slow_vectors messages per wall second.",
@@ -60,8 +60,8 @@ static const parameter rows[] = {
         .name = "slow_vectors_count",
         .kind = WHOLE_NUMBER,
         .offset = offsetof(settings, slow_vectors_count),
-        .usual = "0",
-        .allowed = "from 0 (the lowest T and LP steps) to the vectors carried",
+        .default_value = "0",
+        .range = "from 0 (the lowest T and LP steps) to the vectors carried",
         .unit = "",
         .may_differ = true,
         .text = "Number of vectors in each message of slow_vectors, those of the smallest positive "
@@ -71,8 +71,8 @@ static const parameter rows[] = {
         .name = "wait_for_subscribers",
         .kind = TOPICS_AWAITED,
         .offset = offsetof(settings, awaited),
-        .usual = "",
-        .allowed = "all or a list out of ",
+        .default_value = "",
+        .range = "all or a list out of ",
         .unit = "",
         .may_differ = true,
         .text = "Topics that must have a subscriber before the run starts, so that it misses "
@@ -82,8 +82,8 @@ static const parameter rows[] = {
         .name = "slow_subscribers",
         .kind = CHOICE,
         .offset = offsetof(settings, slow_subscribers),
-        .usual = "wait",
-        .allowed = "wait or drop",
+        .default_value = "wait",
+        .range = "wait or drop",
         .unit = "",
         .may_differ = true,
         .text =
@@ -95,9 +95,9 @@ static const parameter rows[] = {
         .name = "pace",
         .kind = REAL_NUMBER,
         .offset = offsetof(settings, pace),
-        .usual = "0",
-        .most = 1e12,
-        .allowed = "from 0 (as fast as it goes) to 1e12",
+        .default_value = "0",
+        .max = 1e12,
+        .range = "from 0 (as fast as it goes) to 1e12",
         .unit = "time units/s",
         .may_differ = true,
         .live = true,
@@ -109,8 +109,8 @@ static const parameter rows[] = {
         .name = "changes",
         .kind = CHANGES,
         .offset = offsetof(settings, changes),
-        .usual = "",
-        .allowed = "a list of texts \"TIME NAME=VALUE\"",
+        .default_value = "",
+        .range = "a list of texts \"TIME NAME=VALUE\"",
         .unit = "",
         .may_differ = true,
         .text = "Changes of parameters at given simulated times, to repeat a run in which ~set was "
@@ -120,8 +120,8 @@ static const parameter rows[] = {
         .name = "checkpoint",
         .kind = FILE_PATH,
         .offset = offsetof(settings, checkpoint),
-        .usual = "",
-        .allowed = "a path in one line",
+        .default_value = "",
+        .range = "a path in one line",
         .unit = "",
         .may_differ = true,
         .text = "File in which the run is kept so that it can be resumed. Empty: no file.",
@@ -130,9 +130,9 @@ static const parameter rows[] = {
         .name = "checkpoint_interval",
         .kind = REAL_NUMBER,
         .offset = offsetof(settings, checkpoint_interval),
-        .usual = "600",
-        .most = 1e12,
-        .allowed = "from 0 (only at the end and when asked) to 1e12",
+        .default_value = "600",
+        .max = 1e12,
+        .range = "from 0 (only at the end and when asked) to 1e12",
         .unit = "s",
         .may_differ = true,
         .text = "Wall time between two writings of the checkpoint, which is also written at the "
@@ -142,8 +142,8 @@ static const parameter rows[] = {
         .name = "resume",
         .kind = FILE_PATH,
         .offset = offsetof(settings, resume),
-        .usual = "",
-        .allowed = "a path in one line, or " RESUME_AUTO,
+        .default_value = "",
+        .range = "a path in one line, or " RESUME_AUTO,
         .unit = "",
         .may_differ = true,
         .text = "Checkpoint from which the run goes on. auto: the file checkpoint, or a new run as "
@@ -153,9 +153,9 @@ static const parameter rows[] = {
         .name = "table",
         .kind = REAL_NUMBER,
         .offset = offsetof(settings, table),
-        .usual = "0",
-        .most = 1e12,
-        .allowed = "from 0 (none) to 1e12",
+        .default_value = "0",
+        .max = 1e12,
+        .range = "from 0 (none) to 1e12",
         .unit = "s",
         .may_differ = true,
         .text = "Shortest wall time between two tables of the steps in the log. A table comes when "
@@ -177,7 +177,7 @@ static parameter of_row(const hd_parameter *row)
                        .kind = row->offset == offsetof(hd_scene_def, particles) ? PARTICLES
                                                                                 : OF_SCENE,
                        .offset = offsetof(settings, def),
-                       .allowed = row->allowed,
+                       .range = row->range,
                        .unit = row->unit,
                        .may_differ = row->may_differ,
                        .live = row->live,
@@ -266,7 +266,8 @@ parameter parameters_named(const char *name)
 
 void parameter_usual(char text[PARAMETER_TEXT], const parameter *p)
 {
-    const char *word = p->row ? hd_parameter_word_of(p->row, (int)p->row->usual) : p->usual;
+    const char *word = p->row ? hd_parameter_word_of(p->row, (int)p->row->default_value)
+                              : p->default_value;
     if (p->kind == PARTICLES) {
         const hd_scene_def usual = particles_usual();
         word = hd_dynamics_of(&usual)->particles;
@@ -274,11 +275,11 @@ void parameter_usual(char text[PARAMETER_TEXT], const parameter *p)
     if (p->row && p->row->kind == HD_PARAMETER_TEXT) word = "";
     if (p->kind == TOPICS_OBSERVED)
         topic_names(text, PARAMETER_TEXT,
-                    topics_named(p->usual) & topics_of_particles(particles_now()));
+                    topics_named(p->default_value) & topics_of_particles(particles_now()));
     else if (word)
         snprintf(text, PARAMETER_TEXT, "%s", word);
     else
-        snprintf(text, PARAMETER_TEXT, "%.15g", p->row->usual);
+        snprintf(text, PARAMETER_TEXT, "%.15g", p->row->default_value);
 }
 
 unsigned parameter_topics(const parameter *p)
@@ -292,7 +293,7 @@ void parameter_allowed(char text[PARAMETER_ALLOWED], const parameter *p)
     if (p->kind == PARTICLES)
         particles_names(text, PARAMETER_ALLOWED);
     else
-        snprintf(text, PARAMETER_ALLOWED, "%s", p->allowed);
+        snprintf(text, PARAMETER_ALLOWED, "%s", p->range);
     const size_t length = strlen(text);
     topic_names(text + length, PARAMETER_ALLOWED - length, parameter_topics(p));
 }

@@ -26,13 +26,13 @@ typedef enum parameter_kind {
 typedef struct parameter {
     const char *name;
     parameter_kind kind;
-    size_t offset;       /**< in settings */
-    const char *usual;   /**< default, as a number, a word, or the items of a list */
-    double least, most;  /**< range of a number; there is no range if both are equal */
-    const char *allowed; /**< what is allowed, in words; for topics without their names */
-    const char *unit;    /**< "" if it has none */
-    bool may_differ;     /**< true if it may change when a run is resumed from its checkpoint */
-    bool live;           /**< true if it may change while the run goes on */
+    size_t offset;             /**< in settings */
+    const char *default_value; /**< default, as a number, a word, or the items of a list */
+    double min, max;           /**< range of a number; there is no range if both are equal */
+    const char *range;         /**< what is allowed, in words; for topics without their names */
+    const char *unit;          /**< "" if it has none */
+    bool may_differ; /**< true if it may change when a run is resumed from its checkpoint */
+    bool live;       /**< true if it may change while the run goes on */
     bool at_once; /**< true if a change holds from the next step on, because it makes no difference
                      to results */
     unsigned needs; /**< topics of which at least one must be observed if the value is not the

@@ -70,7 +70,7 @@ static void write_value(char *out, size_t size, const parameter *p)
 /** Writes what is allowed, with its unit. */
 static void write_allowed(char *out, size_t size, const parameter *p)
 {
-    const bool has_unit = *p->unit && !strchr(p->allowed, '[');
+    const bool has_unit = *p->unit && !strchr(p->range, '[');
     char allowed[PARAMETER_ALLOWED];
     parameter_allowed(allowed, p);
     snprintf(out, size, "%s%s%s%s", allowed, has_unit ? " [" : "", has_unit ? p->unit : "",

@@ -10,7 +10,7 @@ static const hd_dynamics *const *brought;
 static int brought_count;
 static const hd_dynamics *now; /* NULL: none is chosen yet */
 
-void particles_bring(const hd_dynamics *const *rows, int count)
+void particles_register(const hd_dynamics *const *rows, int count)
 {
     brought = rows;
     brought_count = count;
@@ -47,7 +47,7 @@ static const hd_parameter *row_of_core(void)
 
 const hd_dynamics *particles_at(int k)
 {
-    const int core = (int)row_of_core()->most + 1;
+    const int core = (int)row_of_core()->max + 1;
     if (k >= core) return k - core < brought_count ? brought[k - core] : NULL;
     const hd_scene_def scene = {.particles = (hd_particles)k};
     return hd_dynamics_of(&scene);
@@ -62,7 +62,7 @@ bool particles_choose(hd_scene_def *def, const char *name)
     def->particles = (hd_particles)core;
     of = hd_dynamics_of(def);
     for (int k = 0; of != before && k < of->parameters; k++)
-        hd_parameter_assign(&of->parameter[k], def, of->parameter[k].usual);
+        hd_parameter_assign(&of->parameter[k], def, of->parameter[k].default_value);
     return true;
 }
 
@@ -76,7 +76,7 @@ const hd_dynamics *particles_now(void)
 
 void particles_names(char *text, size_t size)
 {
-    int length = snprintf(text, size, "%s", row_of_core()->allowed);
+    int length = snprintf(text, size, "%s", row_of_core()->range);
     if (brought_count == 0) return;
     char *last = strstr(text, " or ");
     if (last) memmove(last + 2, last + 4, strlen(last + 4) + 1), last[0] = ',', last[1] = ' ';

@@ -8,7 +8,7 @@
 #include "hdlyap/dynamics.h"
 
 /** Adds a program's rows; called once, before any other function. */
-void particles_bring(const hd_dynamics *const *rows, int count);
+void particles_register(const hd_dynamics *const *rows, int count);
 const hd_dynamics *const *particles_brought(int *count);
 
 /** Row number k = 0, 1, ..; NULL after the last one. */

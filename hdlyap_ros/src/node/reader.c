@@ -73,7 +73,7 @@ static bool refuse_seed(const reader *r, const parameter *p)
     double number = 0.0;
     const bool is_long = !text_of(r) && hdr_param_double(r->params, r->name, &number) == HDR_OK &&
                          number > INT32_MAX;
-    snprintf(allowed, sizeof allowed, "%s%s", p->allowed,
+    snprintf(allowed, sizeof allowed, "%s%s", p->range,
              is_long ? "; with rosrun in two pairs of quotes, _seed:=\"'..'\"" : "");
     return reader_refuse(r, allowed);
 }
@@ -97,10 +97,9 @@ static bool read_exponents(const reader *r, const parameter *p, int *exponents)
     const char *text = text_of(r);
     const hdr_status as_int = hdr_param_int(r->params, r->name, exponents);
     if (as_int == HDR_MISSING || (as_int == HDR_OK && *exponents > 0)) return true;
-    if (!text) return reader_refuse(r, p->allowed);
+    if (!text) return reader_refuse(r, p->range);
     if (hd_parameter_value_of(exponents, p->row, text)) return true;
-    if (!parse_unsigned(&number, text, INT32_MAX) || number == 0)
-        return reader_refuse(r, p->allowed);
+    if (!parse_unsigned(&number, text, INT32_MAX) || number == 0) return reader_refuse(r, p->range);
     *exponents = (int)number;
     return true;
 }
@@ -112,7 +111,7 @@ static bool read_interval(const reader *r, const parameter *p, double *interval)
     if (text && hd_parameter_value_of(&value, p->row, text)) return *interval = value, true;
     const hdr_status status = hdr_param_double(r->params, r->name, interval);
     const bool number = status == HDR_OK && !hd_parameter_is_word(p->row, *interval);
-    return status == HDR_MISSING || number || reader_refuse(r, p->allowed);
+    return status == HDR_MISSING || number || reader_refuse(r, p->range);
 }
 
 static bool read_word(const reader *r, const parameter *p, int *value)
@@ -121,7 +120,7 @@ static bool read_word(const reader *r, const parameter *p, int *value)
     const hdr_status status = hdr_param_string(r->params, r->name, &text);
     return status == HDR_MISSING ||
            (status == HDR_OK && hd_parameter_value_of(value, p->row, text)) ||
-           reader_refuse(r, p->allowed);
+           reader_refuse(r, p->range);
 }
 
 static bool read_text(const reader *r, const parameter *p, hd_scene_def *def)
@@ -129,7 +128,7 @@ static bool read_text(const reader *r, const parameter *p, hd_scene_def *def)
     const char *text = NULL;
     const hdr_status status = hdr_param_string(r->params, r->name, &text);
     return status == HDR_MISSING || (status == HDR_OK && hd_parameter_read(p->row, def, text)) ||
-           reader_refuse(r, p->allowed);
+           reader_refuse(r, p->range);
 }
 
 static bool read_of_scene(const reader *r, const parameter *p, hd_scene_def *def)
@@ -172,19 +171,18 @@ static bool read_particles(const reader *r, const parameter *p, hd_scene_def *de
 static bool read_line(const reader *r, const parameter *p, const char **line)
 {
     return accepts(r, hdr_param_string(r->params, r->name, line), "a string") &&
-           ((is_one_line(*line) && (**line || p->kind == FILE_PATH)) ||
-            reader_refuse(r, p->allowed));
+           ((is_one_line(*line) && (**line || p->kind == FILE_PATH)) || reader_refuse(r, p->range));
 }
 
 /** Reads one of the two words of `allowed`, which has "or" between them. */
 static bool read_choice(const reader *r, const parameter *p, const char **choice)
 {
     const hdr_status status = hdr_param_string(r->params, r->name, choice);
-    const size_t length = strlen(*choice), first = strcspn(p->allowed, " ");
-    const char *second = strrchr(p->allowed, ' ') + 1;
-    const bool is_first = length == first && strncmp(*choice, p->allowed, first) == 0;
+    const size_t length = strlen(*choice), first = strcspn(p->range, " ");
+    const char *second = strrchr(p->range, ' ') + 1;
+    const bool is_first = length == first && strncmp(*choice, p->range, first) == 0;
     return status == HDR_MISSING || (status == HDR_OK && (is_first || !strcmp(*choice, second))) ||
-           reader_refuse(r, p->allowed);
+           reader_refuse(r, p->range);
 }
 
 static bool read_topics(const reader *r, const parameter *p, unsigned *set)
@@ -211,18 +209,18 @@ static bool read_changes(const reader *r, const parameter *p, change_list *chang
 {
     const hdr_status status = hdr_param_string_list(r->params, r->name, &changes->text,
                                                     &changes->count);
-    return accepts(r, status, p->allowed);
+    return accepts(r, status, p->range);
 }
 
 /** Reads the choice of fields; its range is checked later, with the scene. */
 static bool read_fields(const reader *r, const parameter *p, field_choice *choice)
 {
-    if (is_word(r, p->usual)) return true;
+    if (is_word(r, p->default_value)) return true;
     const hdr_status status = hdr_param_int_list(r->params, r->name, &choice->index,
                                                  &choice->count);
     if (status == HDR_MISSING) return true;
     choice->text = hdr_param_text(r->params, r->name);
-    return (status == HDR_OK && choice->count > 0) || reader_refuse(r, p->allowed);
+    return (status == HDR_OK && choice->count > 0) || reader_refuse(r, p->range);
 }
 
 bool reader_read(const reader *r, const parameter *p, void *field)

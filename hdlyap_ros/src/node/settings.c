@@ -117,14 +117,14 @@ static bool check_scene_name(settings *set, reader *r)
     for (size_t k = 0; k < sizeof system / sizeof *system; k++) {
         const parameter p = parameters_named(system[k]);
         if (*hdr_param_text(r->params, system[k])) given = true;
-        if (hd_parameter_value(p.row, &set->def) != p.row->usual) usual = false;
+        if (hd_parameter_value(p.row, &set->def) != p.row->default_value) usual = false;
     }
     r->name = name.name;
     if (!*hdr_param_text(r->params, r->name)) {
         if (!usual) set->scene = "unnamed";
         return true;
     }
-    return given || strcmp(set->scene, name.usual) == 0 ||
+    return given || strcmp(set->scene, name.default_value) == 0 ||
            reader_refuse(
                r, "given with its particles, container, number, density, aspects or boundaries: a "
                   "name chooses none of them, roslaunch hdlyap run.launch scene:=.. does");
@@ -147,11 +147,11 @@ static bool check_ranges(settings *set, reader *r)
 {
     for (int k = 0; k < parameters_count(); k++) {
         const parameter p = parameters_at(k);
-        if (!(p.most > p.least) || (p.kind != REAL_NUMBER && p.kind != WHOLE_NUMBER)) continue;
+        if (!(p.max > p.min) || (p.kind != REAL_NUMBER && p.kind != WHOLE_NUMBER)) continue;
         const void *field = field_of(set, &p);
         const double value = p.kind == REAL_NUMBER ? *(const double *)field : *(const int *)field;
         r->name = p.name;
-        if (!(value >= p.least && value <= p.most)) return reader_refuse(r, p.allowed);
+        if (!(value >= p.min && value <= p.max)) return reader_refuse(r, p.range);
     }
     return true;
 }
@@ -198,11 +198,11 @@ static bool is_usual(settings *set, const parameter *p)
 {
     const void *field = field_of(set, p);
     switch (p->kind) {
-    case OF_SCENE: return hd_parameter_value(p->row, &set->def) == p->row->usual;
+    case OF_SCENE: return hd_parameter_value(p->row, &set->def) == p->row->default_value;
     case PARTICLES: return false; /* nothing needs to be observed for it */
     case FIELD_CHOICE: return set->fields.count == 0;
-    case REAL_NUMBER: return *(const double *)field == strtod(p->usual, NULL);
-    case WHOLE_NUMBER: return *(const int *)field == atoi(p->usual);
+    case REAL_NUMBER: return *(const double *)field == strtod(p->default_value, NULL);
+    case WHOLE_NUMBER: return *(const int *)field == atoi(p->default_value);
     default: return false;
     }
 }
@@ -318,14 +318,14 @@ static void set_default(settings *set, const parameter *p)
     switch (p->kind) {
     case OF_SCENE:
     case PARTICLES: break;
-    case REAL_NUMBER: *(double *)field = strtod(p->usual, NULL); break;
-    case WHOLE_NUMBER: *(int *)field = atoi(p->usual); break;
+    case REAL_NUMBER: *(double *)field = strtod(p->default_value, NULL); break;
+    case WHOLE_NUMBER: *(int *)field = atoi(p->default_value); break;
     case NAME:
     case CHOICE:
-    case FILE_PATH: *(const char **)field = p->usual; break;
+    case FILE_PATH: *(const char **)field = p->default_value; break;
     case TOPICS_OBSERVED:
-    case TOPICS_AWAITED: *(unsigned *)field = topics_named(p->usual); break;
-    case FIELD_CHOICE: *(field_choice *)field = (field_choice){.text = p->usual}; break;
+    case TOPICS_AWAITED: *(unsigned *)field = topics_named(p->default_value); break;
+    case FIELD_CHOICE: *(field_choice *)field = (field_choice){.text = p->default_value}; break;
     case CHANGES: break;
     }
 }

@@ -90,7 +90,7 @@ static void print(const char *what, const settings *set, const hd_run *run)
     const hd_spectrum *spectrum = hd_run_parts(run).spectrum;
     char of[TEXT] = "", lambda[TEXT], left[TEXT] = "", target[2 * TEXT] = "";
     const progress now = progress_of(run, set->pace);
-    const hd_standing *at = &now.cost.target;
+    const hd_target_progress *at = &now.cost.target;
     number_with_error(lambda, sizeof lambda, hd_spectrum_exponent(spectrum, 0),
                       hd_spectrum_std_error(spectrum, 0));
     if (set->def.duration > 0.0) snprintf(of, sizeof of, " of %.6g", set->def.duration);

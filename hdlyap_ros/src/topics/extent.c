@@ -3,7 +3,7 @@
 
 #include "hdlyap_ros/messages.h"
 
-hd_extent extent_of(const settings *set, hd_extent of_run)
+hd_result_counts extent_of(const settings *set, hd_result_counts of_run)
 {
     if (set->fields.count == 0) return of_run;
     of_run.examples = set->fields.count; /* which steps these belong to is not known yet */
@@ -11,7 +11,7 @@ hd_extent extent_of(const settings *set, hd_extent of_run)
     return of_run;
 }
 
-topic_size topic_size_of(topic t, const hd_extent *e)
+topic_size topic_size_of(topic t, const hd_result_counts *e)
 {
     const topic_size sizes[TOPICS] = {
 #define TOPIC(name, type, stages, is, ...) [TOPIC_##name] = {__VA_ARGS__},

@@ -6,9 +6,9 @@
 #include "node/settings.h"
 #include "topics/topic.h"
 
-/** Adapts hd_extent of a scene to the choice of fields: `examples` and `pairs` are the most at one
- * time. */
-hd_extent extent_of(const settings *set, hd_extent of_run);
+/** Adapts hd_result_counts of a scene to the choice of fields: `examples` and `pairs` are the most
+ * at one time. */
+hd_result_counts extent_of(const settings *set, hd_result_counts of_run);
 
 /** Bytes of a topic's messages, without texts. */
 typedef struct topic_size {
@@ -19,6 +19,6 @@ typedef struct topic_size {
 } topic_size;
 
 /** The size in the topic's row of rows.inc. */
-topic_size topic_size_of(topic t, const hd_extent *e);
+topic_size topic_size_of(topic t, const hd_result_counts *e);
 
 #endif

@@ -23,7 +23,7 @@ static void reconstruct(pair_fields *pairs, const hd_run *run, const hd_step *st
                                    hd_run_scene(run)->number);
     const hd_modes *modes = hd_run_parts(run).modes;
     hd_pmode *pmode = hd_run_parts(run).fields;
-    if (!hd_pmode_reconstruct(pmode, step, modes, hd_run_columns(run))) return;
+    if (!hd_pmode_reconstruct(pmode, step, modes, hd_run_vectors_now(run))) return;
     const int d = hd_pmode_pairs(pmode);
     const hd_subspace *subspace = hd_fields_subspace(hd_modes_fields(modes), step->subspace);
     pairs->count = (uint32_t)d;
@@ -50,7 +50,7 @@ static hdr_doubles column_of(hd_columns frame, int col, int component, int compo
 
 static void fill_vector(hdr_mode_field *message, const hd_run *run, int col, size_t particles)
 {
-    const hd_columns frame = hd_run_columns(run);
+    const hd_columns frame = hd_run_vectors_now(run);
     message->index = (uint32_t)col + 1;
     message->exponent = hd_spectrum_exponent(hd_run_parts(run).spectrum, col);
     const int coordinates = hd_scene_coordinates(hd_run_scene(run));

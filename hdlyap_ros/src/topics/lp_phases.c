@@ -25,7 +25,7 @@ hd_status topic_publish_lp_phases(const moment *now)
         out[k] = phase_of(phase, hd_steps_step(parts.steps, phase->step));
     }
     hdr_lp_phases message = {.sim_time = hd_run_time(now->run),
-                             .sample_time = hd_run_followed(now->run),
+                             .sample_time = hd_run_phase_time(now->run),
                              .phases = {out, count}};
     return message.sample_time >= 0.0 ? topic_send_lp_phases(now->out, &message) : HD_OK;
 }

@@ -40,7 +40,7 @@ static int queue_length(double bytes)
 static hdr_status advertise_one(publishers *out, hdr_node *ros, topic t, double bytes, bool waits)
 {
     char name[32];
-    const bool aside = topic_bit(t) & topics_that_are(TOPIC_ASIDE);
+    const bool aside = topic_bit(t) & topics_that_are(TOPIC_FOR_VIEWERS);
     snprintf(name, sizeof name, "~%s", topic_name(t));
     const hdr_status status = advertise[t](&out->publisher[t], ros, name,
                                            aside ? 1 : queue_length(bytes));
@@ -85,7 +85,7 @@ hdr_lag publishers_lag(const publishers *out)
 {
     hdr_lag worst = {.topic = ""};
     for (topic t = 0; t < TOPICS; t++) {
-        if (!out->publisher[t] || topic_bit(t) & topics_that_are(TOPIC_ASIDE)) continue;
+        if (!out->publisher[t] || topic_bit(t) & topics_that_are(TOPIC_FOR_VIEWERS)) continue;
         const hdr_lag lag = hdr_publisher_lag(out->publisher[t]);
         if (is_worse(lag, worst)) worst = lag;
     }

@@ -27,8 +27,8 @@ double publishers_waited(const publishers *out);
 unsigned publishers_subscribed(const publishers *out);
 
 /** The lag of the topic that has lost most messages or, if none is lost, whose slowest subscriber
- * is furthest behind; topic "" if there is none. TOPIC_ASIDE topics do not count. Any thread may
- * call. */
+ * is furthest behind; topic "" if there is none. TOPIC_FOR_VIEWERS topics do not count. Any thread
+ * may call. */
 hdr_lag publishers_lag(const publishers *out);
 
 /** For each topic, a function that fills header and run_id of a message and sends it. It fails with

@@ -57,14 +57,14 @@ static split_zeros split_of(const hd_run *run, const hd_cost *cost)
     const hd_spectrum *spectrum = hd_run_parts(run).spectrum;
     const int first = hd_scene_counts(scene).positive;
     split_zeros split = {.are = false};
-    if (!of->split || !of->step || !spectrum || first >= hd_run_vectors(run) ||
+    if (!of->zero_splitting_order || !of->step || !spectrum || first >= hd_run_vectors(run) ||
         cost->std_error < 0.0)
         return split;
     const double time = hd_spectrum_time(spectrum), own = log(time) / time;
     split.exponent = hd_spectrum_exponent(spectrum, first);
     split.expected = fmax(own, scene->accuracy);
     split.step = of->step(scene);
-    split.power = of->split(scene);
+    split.power = of->zero_splitting_order(scene);
     split.are = time > exp(1.0) && split.exponent > own + scene->accuracy;
     return split;
 }
@@ -92,7 +92,7 @@ progress progress_of(const hd_run *run, double pace)
 
 static hdr_status advertise(report *rep, hdr_node *ros, const hd_run *run, unsigned set)
 {
-    const hd_extent e = extent_of(rep->set, hd_extent_of(&rep->set->def, run));
+    const hd_result_counts e = extent_of(rep->set, hd_result_counts_of(&rep->set->def, run));
     double bytes[TOPICS];
     for (topic t = 0; t < TOPICS; t++) {
         const topic_size s = topic_size_of(t, &e);
@@ -104,7 +104,7 @@ static hdr_status advertise(report *rep, hdr_node *ros, const hd_run *run, unsig
 
 hdr_status report_create(report **out, hdr_node *ros, const settings *set, const hd_run *run)
 {
-    const unsigned asked = set->observables | topics_that_are(TOPIC_ALWAYS | TOPIC_ASIDE);
+    const unsigned asked = set->observables | topics_that_are(TOPIC_ALWAYS | TOPIC_FOR_VIEWERS);
     report *rep = *out = calloc(1, sizeof *rep);
     if (!rep) return HDR_NO_MEMORY;
     rep->set = set;

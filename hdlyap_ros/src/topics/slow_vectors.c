@@ -137,7 +137,7 @@ static bool fill_vectors(hdr_slow_vectors *message, const moment *now)
 {
     const hd_run *run = now->run;
     const hd_parts parts = hd_run_parts(run);
-    const hd_columns known = hd_run_columns(run);
+    const hd_columns known = hd_run_vectors_now(run);
     const int first = first_of(now->set, run), end = end_of(run);
     const size_t particles = (size_t)now->set->def.number, count = (size_t)(end - first);
     const bool is_here = is_known(known, first, end);
@@ -181,7 +181,7 @@ hd_status topic_publish_slow_vectors(const moment *now)
 {
     slow_vectors_pace *pace = &now->kept->slow_vectors;
     const int end = end_of(now->run), first = pace->due ? first_of(now->set, now->run) : end;
-    if (!pace->due || (first < end && !is_known(hd_run_columns(now->run), first, end)))
+    if (!pace->due || (first < end && !is_known(hd_run_vectors_now(now->run), first, end)))
         return HD_OK;
     pace->last = clock_seconds();
     pace->next = fmax(pace->next + 1.0 / now->set->slow_vectors_rate, pace->last);

@@ -16,7 +16,7 @@ hd_status topic_publish_spectrum(const moment *now)
         std_errors[k] = hd_spectrum_std_error(spectrum, (int)k);
         local_exponents[k] = hd_spectrum_local(spectrum, (int)k);
     }
-    hd_run_halves(run, cos_theta, dp_dq_ratio);
+    hd_run_dq_dp(run, cos_theta, dp_dq_ratio);
     const hd_spectrum_sums sums = hd_spectrum_sum_up(spectrum);
     hdr_spectrum message = {
         .sim_time = hd_run_time(run),

@@ -27,7 +27,7 @@ hd_status topic_publish_t_phases(const moment *now)
         out[k] = phase_of(phases, (int)k, parts.steps);
     }
     hdr_t_phases message = {.sim_time = hd_run_time(now->run),
-                            .sample_time = hd_run_followed(now->run),
+                            .sample_time = hd_run_phase_time(now->run),
                             .phases = {out, count}};
     return message.sample_time >= 0.0 ? topic_send_t_phases(now->out, &message) : HD_OK;
 }

@@ -8,9 +8,9 @@
 
 /** Properties of a topic, as a set. The first three exclude each other. */
 enum {
-    TOPIC_ALWAYS = 1,     /**< every run publishes it */
-    TOPIC_OBSERVABLE = 2, /**< it is one of the parameter `observables` */
-    TOPIC_ASIDE = 4,      /**< for viewers: queue of one; no run waits for it, no bag records it */
+    TOPIC_ALWAYS = 1,      /**< every run publishes it */
+    TOPIC_OBSERVABLE = 2,  /**< it is one of the parameter `observables` */
+    TOPIC_FOR_VIEWERS = 4, /**< for viewers: queue of one; no run waits for it, no bag records it */
     TOPIC_LATCHED = 8,
     TOPIC_OF_VECTORS = 16, /**< it needs exponents */
     TOPIC_OF_WINDOWS = 32, /**< published when a window of covariant vectors has ended */

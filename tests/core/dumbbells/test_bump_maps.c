@@ -165,10 +165,10 @@ TEST(null_vectors_are_carried_into_each_other)
         OWNED(hd_record) *log = new_dumbbell_log(&def);
         double at[6 * ROWS_OF_ALL], then[6 * ROWS_OF_ALL];
         const molecules end = later(&def, &s, 1.0, log);
-        const int count = of->null(&def, s.q, s.p, at);
+        const int count = of->null_vectors(&def, s.q, s.p, at);
         assert_int_equal(count, zeros[walls]);
-        assert_int_equal(of->zeros(&def), count);
-        assert_int_equal(of->null(&def, end.q, end.p, then), count);
+        assert_int_equal(of->zero_exponents(&def), count);
+        assert_int_equal(of->null_vectors(&def, end.q, end.p, then), count);
         for (int k = 0; k < count; k++) carry(at + k * ROWS_OF_ALL, &def, log, 1);
         for (int k = 0; k < count; k++)
             for (int row = 0; row < ROWS_OF_ALL; row++) {

@@ -70,7 +70,7 @@ static double thin(const hd_scene_def *def, double b2)
 
 static hd_gas_means averaged(const hd_scene_def *def, double collisions)
 {
-    const double time = collisions / hd_dynamics_of(def)->rate(def);
+    const double time = collisions / hd_dynamics_of(def)->collision_rate(def);
     MADE(hd_trajectory, tr, def);
     MADE(hd_gas, gas, def, 0.0);
     CHECK_OK(hd_trajectory_extend(tr, NULL, 0.05 * time));

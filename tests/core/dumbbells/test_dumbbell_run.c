@@ -114,7 +114,7 @@ TEST(null_vectors_are_known_to_the_modes)
     MADE(hd_trajectory, tr, &def);
     MADE(hd_modes, modes, &def, NULLS_ALL, 1);
     const molecules s = molecules_now(tr);
-    assert_int_equal(hd_dynamics_of(&def)->null(&def, s.q, s.p, column[0]), NULLS_ALL);
+    assert_int_equal(hd_dynamics_of(&def)->null_vectors(&def, s.q, s.p, column[0]), NULLS_ALL);
     for (int l = 0; l < NULLS_ALL; l++) {
         double square = 0.0;
         for (int row = 0; row < DUMBBELL_ROWS * COUNT; row++)
@@ -190,8 +190,8 @@ TEST(collisions_are_as_many_as_expected)
                              edge = sqrt(100 * each / covered[c]);
                 const hd_scene_def def = dumbbells_in_box(100, edge, edge, bonds[b], inertias[i], 0,
                                                           3);
-                const double expected = hd_dynamics_of(&def)->rate(&def), wait = 1000 / expected,
-                             time = 5000 / expected;
+                const double expected = hd_dynamics_of(&def)->collision_rate(&def),
+                             wait = 1000 / expected, time = 5000 / expected;
                 MADE(hd_trajectory, tr, &def);
                 CHECK_OK(hd_trajectory_extend(tr, NULL, wait));
                 const double before = (double)hd_trajectory_totals(tr).collisions;

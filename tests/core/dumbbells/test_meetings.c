@@ -126,7 +126,7 @@ static void agrees(seen *all, hd_trajectory *tr, const hd_scene_def *def, int sl
     const double energy = hd_trajectory_examined(tr).kinetic_energy;
     OWNED(hd_record) *log = new_dumbbell_log(def);
     for (int k = 0; k < slices; k++) slice_agrees(all, tr, log, def, slice);
-    const hd_examined now = hd_trajectory_examined(tr);
+    const hd_invariants now = hd_trajectory_examined(tr);
     CHECK_CLOSE(hd_trajectory_examined(tr).kinetic_energy, energy, energy * now.energy_rounding);
     for (int d = 0; d < 2; d++)
         if (def->boundary[d] == HD_PERIODIC)
@@ -240,7 +240,7 @@ TEST(fast_spins_overlap_by_their_rounding)
         CHECK_OK(hd_trajectory_extend(first, log, t));
     for (size_t k = 0; k < EVENTS; k++) {
         CHECK_OK(hd_trajectory_extend(tr, NULL, ((const hd_bump *)hd_record_entry(log, k))->t));
-        const hd_examined now = hd_trajectory_examined(tr);
+        const hd_invariants now = hd_trajectory_examined(tr);
         assert_true(now.overlap <= now.overlap_rounding);
         CHECK_CLOSE(now.overlap_max, fmax(1e-9, now.overlap_rounding), 0.0);
         deepest = fmax(deepest, now.overlap);

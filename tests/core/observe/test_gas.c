@@ -83,7 +83,7 @@ static void add_moment(sums *s, const hd_trajectory *tr, double sign)
 static void check_examined(const hd_trajectory *tr, const hd_scene_def *def)
 {
     const int n = def->number;
-    const hd_examined now = hd_trajectory_examined(tr);
+    const hd_invariants now = hd_trajectory_examined(tr);
     double box[DIM], sum[DIM] = {0.0}, angular = 0.0;
     HEAP double *q = malloc(2 * DIM * (size_t)n * sizeof *q);
     const double *p = q + DIM * n;

@@ -56,7 +56,7 @@ TEST(widths_are_those_of_the_vectors)
         while (going_on(run)) {
             if (hd_localization_samples(shape) == t.samples) continue;
             assert_true(hd_localization_samples(shape) == t.samples + 1 && t.samples < SAMPLES_MAX);
-            const hd_columns v = hd_run_columns(run);
+            const hd_columns v = hd_run_vectors_now(run);
             for (int col = 0; col < n; col++) t.entropy[t.samples][col] = entropy_of(v, col);
             t.samples++;
         }

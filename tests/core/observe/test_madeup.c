@@ -123,6 +123,6 @@ TEST(it_is_off_unless_asked_for)
     assert_null(hd_run_madeup(run));
     assert_true(HD_OBSERVE_ALL & HD_OBSERVE_MADEUP);
     assert_false(HD_OBSERVE_WAVES & HD_OBSERVE_MADEUP);
-    CHECK_CLOSE(hd_room_needed(&with, 1, 1) - hd_room_needed(&without, 1, 1),
+    CHECK_CLOSE(hd_memory_needed(&with, 1, 1) - hd_memory_needed(&without, 1, 1),
                 sizeof(madeup) + 80 * sizeof(double), 0.0); /* q and p */
 }

@@ -64,11 +64,11 @@ TEST(the_boundary_says_which_modes_there_are)
 TEST(a_reset_forgets_when_phases_were_followed)
 {
     OWNED(hd_run) *run = created(scene_from(channel(P, P), .warmup = 100.0));
-    assert_true(hd_run_followed(run) < 0);
+    assert_true(hd_run_phase_time(run) < 0);
     until_time(run, 300.0);
-    assert_true(hd_run_followed(run) > 200.0);
+    assert_true(hd_run_phase_time(run) > 200.0);
     CHECK_OK(hd_run_reset_average(run));
-    assert_true(hd_run_followed(run) < 0);
+    assert_true(hd_run_phase_time(run) < 0);
 }
 
 /** LP(1,0) of the periodic channel by two ways of looking. Within 4 standard errors of the two. */
@@ -81,8 +81,8 @@ TEST(coarse_reports_see_the_same_rotation)
     int followed = 0;
     for (double last = -INFINITY; hd_run_stage(coarse) != HD_FINISHED;) {
         CHECK_OK(hd_run_advance(coarse));
-        followed += hd_run_followed(coarse) > last;
-        last = hd_run_followed(coarse);
+        followed += hd_run_phase_time(coarse) > last;
+        last = hd_run_phase_time(coarse);
     }
     const hd_velocity a = hd_phases_velocity(hd_run_phases(fine));
     const hd_velocity b = hd_phases_velocity(hd_run_phases(coarse));
@@ -269,7 +269,7 @@ TEST(rarer_looks_lose_no_phase)
     double closest = INFINITY, farthest = 0.0, followed = -1.0;
     for (double tracked = 0.0; hd_run_stage(run) != HD_FINISHED;) {
         CHECK_OK(hd_run_advance(run));
-        const double now = hd_run_followed(run), apart = now - followed;
+        const double now = hd_run_phase_time(run), apart = now - followed;
         const bool again = followed >= 0.0 && apart > 0.0;
         if (again && now < 250.0) closest = fmin(closest, apart);
         if (again) farthest = fmax(farthest, apart);
@@ -290,7 +290,7 @@ TEST(phases_are_known_as_often_as_asked)
     int states = 0;
     while (going_on(run)) {
         const bool over = hd_run_stage(run) == HD_FINISHED; /* with a state that ends it */
-        const double now = over ? hd_run_time(run) : hd_run_followed(run);
+        const double now = over ? hd_run_time(run) : hd_run_phase_time(run);
         if (now > 530.0) { /* its steps are known */
             states += now > followed;
             farthest = fmax(farthest, now - followed);
@@ -373,7 +373,7 @@ TEST(the_negative_half_mirrors_the_positive_one)
     OWNED(hd_run) *run = finished(
         scene_from(channel(P, P), .exponents = HD_EXPONENTS_ALL_INDEPENDENT));
     static double cosine[4 * DISKS], ratio[4 * DISKS];
-    hd_run_halves(run, cosine, ratio);
+    hd_run_dq_dp(run, cosine, ratio);
     const hd_step *zero = step_of(run, HD_MODE_ZERO, 0, 0, false);
     assert_true(zero->resolved);
     assert_int_equal(zero->count, 6);

@@ -294,10 +294,10 @@ TEST(windows_without_room_are_refused_beforehand)
         assert_non_null(strstr(message, "at most 0.1 time units apart"));
         assert_non_null(strstr(message, "1268 triangles"));
     }
-    CHECK_OK(hd_room_check_windows(&fits, NULL, 0));
-    CHECK_OK(hd_room_check_windows(&with_fields, NULL, 0));
+    CHECK_OK(hd_memory_check_windows(&fits, NULL, 0));
+    CHECK_OK(hd_memory_check_windows(&with_fields, NULL, 0));
     with_fields.field_interval = 0.0;
-    assert_int_equal(hd_room_check_windows(&with_fields, message, sizeof message), HD_REFUSED);
+    assert_int_equal(hd_memory_check_windows(&with_fields, message, sizeof message), HD_REFUSED);
     assert_non_null(strstr(message, "1268 triangles"));
     hd_estimate estimate;
     assert_int_equal(hd_estimate_run(&estimate, &with_fields, NULL, 0), HD_REFUSED);

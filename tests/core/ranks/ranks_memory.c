@@ -7,7 +7,10 @@
 static double room_of_machine = 1e15;
 
 /** What a machine leaves to all of its ranks. */
-hd_room __wrap_hd_room_available(void) { return (hd_room){room_of_machine, "machine", 1}; }
+hd_memory_limit __wrap_hd_memory_available(void)
+{
+    return (hd_memory_limit){room_of_machine, "machine", 1};
+}
 
 static hd_scene_def short_scene(int disks, unsigned observe)
 {
@@ -27,7 +30,7 @@ TEST(memory_falls_with_the_ranks)
     CHECK_OK(hd_run_create_shared(&run, &scene, ranks, NULL, 0));
     finish(run);
     const double peak = (double)ledger_now().peak - before;
-    const double needed = hd_room_needed(&scene, 1, ranks->ranks);
+    const double needed = hd_memory_needed(&scene, 1, ranks->ranks);
     if (ranks->rank == 0)
         print_message("%.2f MB of each rank, estimated %.3f times that\n", 1e-6 * peak,
                       needed / peak);
@@ -48,7 +51,7 @@ TEST(gathered_vectors_are_estimated)
     hd_run_watch(run, 1.0);
     while (going_on(run)) CHECK_OK(hd_run_measure(run, 0));
     const double peak = (double)ledger_now().peak;
-    const double needed = hd_room_needed(&scene, 1, ranks->ranks);
+    const double needed = hd_memory_needed(&scene, 1, ranks->ranks);
     if (ranks->rank == 0)
         print_message("%.2f MB gathered; %.2f MB of each rank, estimated %.3f times that\n",
                       1e-6 * (peak - created), 1e-6 * (peak - before), needed / (peak - before));
@@ -85,7 +88,7 @@ TEST(kernels_of_every_rank_are_compared)
 TEST(ranks_share_a_machine)
 {
     const hd_scene_def scene = short_scene(50, 0);
-    const double all = ranks->ranks * hd_room_needed(&scene, 1, ranks->ranks);
+    const double all = ranks->ranks * hd_memory_needed(&scene, 1, ranks->ranks);
     OWNED(hd_run) *run = NULL;
     room_of_machine = 0.99 * all;
     assert_int_equal(hd_run_create_shared(&run, &scene, ranks, NULL, 0), HD_NO_MEMORY);
@@ -110,7 +113,7 @@ static void check_told(double room, const char *what)
 TEST(all_are_told_of_one_machine)
 {
     const hd_scene_def scene = short_scene(50, 0);
-    check_told(hd_room_needed(&scene, 1, ranks->ranks), "would fit");
+    check_told(hd_memory_needed(&scene, 1, ranks->ranks), "would fit");
     check_told(1.0, "not even one particle would fit");
 }
 

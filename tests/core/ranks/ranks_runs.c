@@ -101,8 +101,8 @@ static void expect_modes_of_one_rank(int exponents)
     }
     expect_same_structure(hd_run_structure(run), hd_run_structure(alone));
     double cosine[2][4 * 60], ratio[2][4 * 60];
-    hd_run_halves(run, cosine[0], ratio[0]);
-    hd_run_halves(alone, cosine[1], ratio[1]);
+    hd_run_dq_dp(run, cosine[0], ratio[0]);
+    hd_run_dq_dp(alone, cosine[1], ratio[1]);
     for (int col = 0; col < n; col++) {
         CHECK_CLOSE(cosine[0][col], cosine[1][col], 1e-6);
         CHECK_CLOSE(ratio[0][col], ratio[1][col], 1e-6);
@@ -211,7 +211,7 @@ static void expect_vectors_of_one_rank(int exponents)
     finish(run);
     finish(alone);
     CHECK_OK(hd_run_measure(run, 61));
-    const hd_columns got = hd_run_columns(run), want = hd_run_columns(alone);
+    const hd_columns got = hd_run_vectors_now(run), want = hd_run_vectors_now(alone);
     const bool all = exponents == HD_EXPONENTS_ALL; /* the other half needs the whole of this one */
     assert_int_equal(got.first + got.count, want.count);
     assert_int_equal(got.first, all ? 0 : 61);
@@ -225,7 +225,7 @@ static void expect_vectors_of_one_rank(int exponents)
     for (int k = 0; k < 2; k++) {
         CHECK_OK(hd_hydro_create(&hydro[k], &scene, hd_run_steps(both[k])));
         hd_trajectory_state(hd_run_trajectory(both[k]), q, p);
-        hd_hydro_measure(hydro[k], hd_run_steps(both[k]), hd_run_columns(both[k]), q, p);
+        hd_hydro_measure(hydro[k], hd_run_steps(both[k]), hd_run_vectors_now(both[k]), q, p);
     }
     int resolved = 0;
     for (int k = 0; k < hd_hydro_count(hydro[0]); k++) {
@@ -253,7 +253,7 @@ TEST(vectors_are_gathered_for_fields)
     finish(run);
     assert_true(hd_run_fields_due(run));
     CHECK_OK(hd_run_measure(run, 40));
-    const hd_columns got = hd_run_columns(run);
+    const hd_columns got = hd_run_vectors_now(run);
     assert_int_equal(got.first + got.count, hd_run_vectors(run));
     assert_int_equal(got.first, 40);
 }
@@ -266,7 +266,7 @@ TEST(nothing_is_gathered_for_nobody)
                                               .exponents = exponents[k]);
         OWNED(hd_run) *run = finish(shared(scene));
         assert_true(hd_modes_samples(hd_run_modes(run)) > 0);
-        assert_int_equal(hd_run_columns(run).count, 0);
+        assert_int_equal(hd_run_vectors_now(run).count, 0);
     }
 }
 
@@ -317,7 +317,7 @@ static void expect_watched(int disks)
     while (hd_run_time(run) < 35.0) {
         CHECK_OK(hd_run_advance(run));
         CHECK_OK(hd_run_measure(run, first));
-        const hd_columns known = hd_run_columns(run);
+        const hd_columns known = hd_run_vectors_now(run);
         if (hd_run_stage(run) != HD_AVERAGING || hd_run_time(run) < 26.0) continue;
         assert_int_equal(known.first, first);
         assert_int_equal(known.count, 6);
@@ -431,7 +431,7 @@ static double lead(hd_communicator *c)
         CHECK_OK(hd_run_advance(run));
         if (!hd_run_fields_due(run)) continue;
         CHECK_OK(hd_run_measure(run, 1));
-        fields += hd_run_columns(run).first <= 1 && hd_run_columns(run).count > 0;
+        fields += hd_run_vectors_now(run).first <= 1 && hd_run_vectors_now(run).count > 0;
     }
     assert_true(fields > 0);
     hd_run_watch(run, 0.5);

@@ -160,7 +160,7 @@ TEST(multiples_are_not_reached_early)
 /* ---- samples, interval by interval ----------------------------------------------------------- */
 
 /** Goes to the end of the interval that is planned, and plans the next one. */
-static void next_interval(hd_agenda *agenda, hd_pace *pace)
+static void next_interval(hd_agenda *agenda, hd_interval_request *pace)
 {
     pace->now = hd_agenda_plan(agenda, pace);
     agenda->interval_end = pace->now;
@@ -168,15 +168,15 @@ static void next_interval(hd_agenda *agenda, hd_pace *pace)
 }
 
 /** Of a run whose first samples should last 1.38 blocks of 8, at intervals of 4. */
-static hd_pace averaging(hd_agenda *agenda, hd_interval *interval, double phases)
+static hd_interval_request averaging(hd_agenda *agenda, hd_interval *interval, double phases)
 {
     const hd_scene_def scene = scene(.number = 30, .density = 0.6, .equilibration = 0.0,
                                      .warmup = 0.0, .duration = 1000.0, .report_interval = 1000.0);
-    const hd_pace pace = {.framed = true,
-                          .phases = phases,
-                          .snapshot = INFINITY,
-                          .interval = interval,
-                          .longest = INFINITY};
+    const hd_interval_request pace = {.framed = true,
+                                      .phases = phases,
+                                      .snapshot = INFINITY,
+                                      .interval = interval,
+                                      .longest = INFINITY};
     *agenda = hd_agenda_of(&scene, 1.0);
     *interval = hd_interval_first(4.0, 4.0, 1e-8);
     hd_agenda_enter(agenda, HD_AVERAGING, 0.0);
@@ -190,7 +190,7 @@ TEST(the_first_sample_after_a_reset_is_a_whole_one)
 {
     hd_agenda agenda;
     hd_interval interval;
-    hd_pace pace = averaging(&agenda, &interval, INFINITY);
+    hd_interval_request pace = averaging(&agenda, &interval, INFINITY);
     int intervals = 1;
     for (; !agenda.sample_ends && intervals < 100; intervals++) next_interval(&agenda, &pace);
     assert_int_equal(intervals, 3); /* 12 is nearer to 11 than 8 */
@@ -219,11 +219,11 @@ static void check_growth(double length)
                                      .warmup = 0.0, .duration = 0.0, .report_interval = 1e4);
     hd_agenda agenda = hd_agenda_of(&scene, 1.0);
     hd_interval interval = hd_interval_first(length, length, 1e-8);
-    hd_pace pace = {.framed = true,
-                    .phases = INFINITY,
-                    .snapshot = INFINITY,
-                    .interval = &interval,
-                    .longest = INFINITY};
+    hd_interval_request pace = {.framed = true,
+                                .phases = INFINITY,
+                                .snapshot = INFINITY,
+                                .interval = &interval,
+                                .longest = INFINITY};
     const double first = 1.38 * agenda.block;
     hd_agenda_enter(&agenda, HD_AVERAGING, 0.0);
     hd_agenda_plan(&agenda, &pace);
@@ -273,7 +273,7 @@ TEST(intervals_fit_the_time_of_phases_where_that_is_cheap)
 {
     hd_agenda agenda;
     hd_interval interval;
-    hd_pace pace = averaging(&agenda, &interval, 11.0);
+    hd_interval_request pace = averaging(&agenda, &interval, 11.0);
     CHECK_CLOSE(hd_agenda_plan(&agenda, &pace), 11.0 / 3.0, 1e-12);
     pace = averaging(&agenda, &interval, 10.0);
     CHECK_CLOSE(hd_agenda_plan(&agenda, &pace), 4.0, 1e-12);

@@ -95,11 +95,11 @@ static void put_wild(hd_random *random, hd_scene_def *def, const hd_parameter *p
                             DBL_MAX,
                             -DBL_TRUE_MIN,
                             DBL_MIN,
-                            p->least * (1.0 - 1e-9),
-                            p->most * (1.0 + 1e-9),
+                            p->min * (1.0 - 1e-9),
+                            p->max * (1.0 + 1e-9),
                             -DBL_MAX,
                             0.0};
-    const int wholes[] = {INT_MIN, INT_MAX, -1, -3, 0, 1, (int)p->most + 1, (int)p->least - 1};
+    const int wholes[] = {INT_MIN, INT_MAX, -1, -3, 0, 1, (int)p->max + 1, (int)p->min - 1};
     const uint64_t any = bits(random);
     double real;
     memcpy(&real, &any, sizeof real);
@@ -119,7 +119,7 @@ static bool is_costly(const hd_parameter *p)
 
 static void put_usual(hd_random *random, hd_scene_def *def, const hd_parameter *p)
 {
-    double low = p->least, high = p->most;
+    double low = p->min, high = p->max;
     for (size_t k = 0; k < sizeof USUAL / sizeof *USUAL; k++)
         if (is_named(p, USUAL[k].name)) low = USUAL[k].low, high = USUAL[k].high;
     put_within(random, def, p, low, high);
@@ -162,7 +162,7 @@ static hd_scene_def drawn(hd_random *random)
         if (is_left_out(random, p)) continue;
         put_usual(random, &def, p);
         if (p->kind != HD_PARAMETER_SET && chance(random, is_costly(p) ? 0.005 : 0.1))
-            put_within(random, &def, p, p->least, p->most);
+            put_within(random, &def, p, p->min, p->max);
         if (wild && chance(random, 0.1)) put_wild(random, &def, p);
     }
     if (chance(random, 0.05)) def.number = 1; /* in a circle */

@@ -26,7 +26,7 @@ FILE *fopen(const char *path, const char *mode)
 static void expect(const text *there, double bytes, const char *limit)
 {
     texts = there;
-    const hd_room room = hd_room_available();
+    const hd_memory_limit room = hd_memory_available();
     texts = NULL;
     assert_true(room.bytes == bytes);
     assert_string_equal(room.limit, limit);

@@ -169,8 +169,8 @@ TEST(a_finished_run_can_be_made_longer)
     hd_scene_def longer = scene_from(def, .duration = 80.0);
     OWNED(hd_run) *resumed = kept_and_resumed(run, PATH, &longer), *once = kept_run(longer);
     assert_int_equal(hd_run_stage(resumed), HD_AVERAGING);
-    assert_true(hd_run_followed(run) > 0.0);
-    CHECK_CLOSE(hd_run_followed(resumed), hd_run_followed(run), 0.0);
+    assert_true(hd_run_phase_time(run) > 0.0);
+    CHECK_CLOSE(hd_run_phase_time(resumed), hd_run_phase_time(run), 0.0);
     kept_steps(resumed, 1000000);
     kept_steps(once, 1000000);
     const hd_spectrum *a = hd_run_spectrum(resumed), *b = hd_run_spectrum(once);
@@ -290,7 +290,7 @@ static hd_scene_def with_another(const hd_scene_def *def, const hd_parameter *ro
         break;
     case HD_PARAMETER_WORD: hd_parameter_assign(row, &other, 1.0 - value); break;
     case HD_PARAMETER_TEXT: assert_true(hd_parameter_read(row, &other, "lambda_max 1e-9")); break;
-    default: hd_parameter_assign(row, &other, value < row->most ? value + 1.0 : value - 1.0);
+    default: hd_parameter_assign(row, &other, value < row->max ? value + 1.0 : value - 1.0);
     }
     return other;
 }
@@ -332,8 +332,9 @@ TEST(it_says_whose_it_is)
     int count;
     const hd_parameter *rows = hd_scene_parameters(&count);
     for (int k = 0; k < count; k++) /* nothing is as it usually is */
-        if (hd_parameter_value(&rows[k], &def) == rows[k].usual && rows[k].offset != WAVE_NUMBER &&
-            rows[k].offset != CONTAINER && !is_of_spheres(&rows[k]))
+        if (hd_parameter_value(&rows[k], &def) == rows[k].default_value &&
+            rows[k].offset != WAVE_NUMBER && rows[k].offset != CONTAINER &&
+            !is_of_spheres(&rows[k]))
             def = with_another(&def, &rows[k]);
     OWNED(hd_run) *run = kept_run(def);
     hd_checkpoint found;

@@ -35,7 +35,7 @@ TEST(all_vectors_are_known_where_they_are_measured)
 {
     OWNED(hd_run) *run = finished(
         scene_from(few(HD_EXPONENTS_ALL, P, P), .observe = HD_OBSERVE_STEPS | HD_OBSERVE_MODES));
-    const hd_columns v = hd_run_columns(run);
+    const hd_columns v = hd_run_vectors_now(run);
     double cosine[40], ratio[40];
     assert_int_equal(v.count, 40);
     for (int a = 0; a < 40; a++)
@@ -45,7 +45,7 @@ TEST(all_vectors_are_known_where_they_are_measured)
                 sum += v.data[row * v.stride + a] * v.data[row * v.stride + b];
             CHECK_CLOSE(sum, a == b, 1e-5); /* of a measured state, and of isotropy */
         }
-    hd_run_halves(run, cosine, ratio);
+    hd_run_dq_dp(run, cosine, ratio);
     for (int col = 0; col < 40; col++) CHECK_CLOSE(cosine[col], -cosine[39 - col], 0.0);
 }
 

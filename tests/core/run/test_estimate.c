@@ -151,7 +151,7 @@ TEST(extent_is_the_runs)
     def.covariant_window = 10.0;
     def.covariant_transient = 20.0;
     def.covariant_sampling = 0.5;
-    const hd_extent e = estimated(&def).extent;
+    const hd_result_counts e = estimated(&def).extent;
     hd_run *run = finished(def);
     const hd_covariant *covariant = hd_run_covariant(run);
     int examples = 0, pairs = 0;
@@ -243,6 +243,6 @@ TEST(kinds_of_fields_are_counted)
             kinds += (wave[w].transverse.count > 0) + (wave[w].pairs.count > 0);
         OWNED(hd_run) *run = created(def);
         assert_true(count > 0 && count <= 64 && (k == 2) == (kinds == 2 * count));
-        assert_int_equal(hd_extent_of(&def, run).subspaces, kinds);
+        assert_int_equal(hd_result_counts_of(&def, run).subspaces, kinds);
     }
 }

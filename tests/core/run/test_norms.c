@@ -47,9 +47,9 @@ TEST(halves_are_those_of_the_measured_state)
     while (hd_run_time(run) < 400.0) { /* samples of a young run are single intervals */
         CHECK_OK(hd_run_advance(run));
         if (hd_run_stage(run) != HD_AVERAGING) continue;
-        hd_frame_halves(hd_run_frame(run), frame[0], frame[1]);
+        hd_frame_dq_dp(hd_run_frame(run), frame[0], frame[1]);
         if (hd_run_time(run) == run->agenda.sample_begin) memcpy(want, frame, sizeof want);
-        hd_run_halves(run, got[0], got[1]);
+        hd_run_dq_dp(run, got[0], got[1]);
         for (int half = 0; half < 2; half++)
             for (int col = 0; col < VECTORS; col++)
                 CHECK_CLOSE(got[half][col], want[half][col], 0.0);

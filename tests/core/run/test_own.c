@@ -200,7 +200,7 @@ static int null_of_chain(const hd_scene_def *scene, const double *q, const doubl
 TEST(the_centre_is_held_against_what_is_known_of_it)
 {
     hd_dynamics row = of_chain;
-    row.null = null_of_chain;
+    row.null_vectors = null_of_chain;
     hd_scene_def scene = with_covariant(HD_EXPONENTS_ALL);
     scene.dynamics = &row;
     for (known = 0; known <= 2; known += 2) {
@@ -230,13 +230,13 @@ static hd_status create_disks(void **state, const hd_scene_def *scene)
 static double entries_of_disks(const hd_scene_def *scene)
 {
     const hd_scene_def def = plain(scene);
-    return hd_hard_disks.entries(&def);
+    return hd_hard_disks.record_rate(&def);
 }
 
 static double rate_of_disks(const hd_scene_def *scene)
 {
     const hd_scene_def def = plain(scene);
-    return hd_hard_disks.rate(&def);
+    return hd_hard_disks.collision_rate(&def);
 }
 
 static hd_dynamics disks_of_ones_own(void)
@@ -244,8 +244,8 @@ static hd_dynamics disks_of_ones_own(void)
     hd_dynamics own = hd_hard_disks;
     own.particles = "coins";
     own.create = create_disks;
-    own.entries = entries_of_disks;
-    own.rate = rate_of_disks;
+    own.record_rate = entries_of_disks;
+    own.collision_rate = rate_of_disks;
     own.check = NULL;
     own.fluid = NULL;
     own.totals = NULL;
@@ -376,11 +376,11 @@ static const double LOST = 5e-4;
 
 static void carry_with_friction(const void *maps, double *block, int width)
 {
-    const hd_passage *part = maps;
+    const hd_record_slice *part = maps;
     const double left = 1.0 - LOST;
     const spring *s = part->entry;
     for (size_t k = 0; k < part->count; k += N) {
-        const hd_passage one = {s + k, N, part->begin, part->end, N};
+        const hd_record_slice one = {s + k, N, part->begin, part->end, N};
         of_chain.carry(&one, block, width);
         for (int row = 0; row < ROWS; row++)
             for (int col = 0; col < width && row % 2 == 1; col++) block[row * width + col] *= left;
@@ -423,9 +423,10 @@ TEST(what_it_takes_is_known_before)
     hd_estimate estimate;
     CHECK_OK(hd_estimate_run(&estimate, &scene, message, sizeof message));
     CHECK_WITHIN(estimate.seconds, 1e-7, 10.0);
-    CHECK_WITHIN(hd_room_needed(&scene, 1, 1), 64.0 * 128.0 * 16.0, 1e8);
-    assert_int_equal(hd_room_check(&scene, (hd_room){1e4, "machine", 1}, message, sizeof message),
-                     HD_NO_MEMORY);
+    CHECK_WITHIN(hd_memory_needed(&scene, 1, 1), 64.0 * 128.0 * 16.0, 1e8);
+    assert_int_equal(
+        hd_memory_check(&scene, (hd_memory_limit){1e4, "machine", 1}, message, sizeof message),
+        HD_NO_MEMORY);
     assert_int_equal(hd_waves(&scene, NULL, 0), 0);
     assert_int_equal(hd_steps_exponents_least(&scene), 0);
     for (int kind = HD_MODE_T; kind <= HD_MODE_LP; kind++)

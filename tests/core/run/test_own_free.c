@@ -58,7 +58,7 @@ static void archive(void *state, hd_archive *file)
 
 static void carry(const void *maps, double *block, int width)
 {
-    const hd_passage *part = maps;
+    const hd_record_slice *part = maps;
     const double time = part->end - part->begin;
     for (int row = 0; row < ALL; row++)
         for (int col = 0; col < width && row % 4 < 2; col++) {
@@ -80,8 +80,8 @@ static int null(const hd_scene_def *scene, const double *q, const double *p, dou
 /* clang-format off */
 static const hd_dynamics of_free = {
     .particles = "ghosts", .dimension = 2, .coordinates = 2, .entry = sizeof(double), .symplectic = true,
-    .zeros = zeros, .entries = pace, .rate = pace, .null = null, .create = create, .free = free, .advance = advance,
-    .time = now, .state = tell, .archive = archive, .carry = carry};
+    .zero_exponents = zeros, .record_rate = pace, .collision_rate = pace, .null_vectors = null, .create = create, .free = free,
+    .advance = advance, .time = now, .state = tell, .archive = archive, .carry = carry};
 /* clang-format on */
 
 static void check_zero_modes(hd_run *run)

@@ -125,7 +125,7 @@ static void the_zeros_vanish_like_ln_t_over_t(void **state)
 static void the_halves_of_the_modes_are_parallel(void **state)
 {
     static double cosine[1600], ratio[1600];
-    hd_frame_halves(hd_run_frame(*(hd_run *const *)state), cosine, ratio);
+    hd_frame_dq_dp(hd_run_frame(*(hd_run *const *)state), cosine, ratio);
     for (int l = 1542; l <= POSITIVE; l++) {
         assert_true(cosine[l - 1] > 0.98);
         assert_true(ratio[l - 1] > 0);

@@ -186,8 +186,8 @@ TEST(vectors_that_are_not_there_are_none)
     OWNED(hd_run) *all = created(
         scene(.number = 12, .exponents = HD_EXPONENTS_ALL, .observe = HD_OBSERVE_STEPS));
     OWNED(hd_run) *some = created(scene(.number = 12, .exponents = 5));
-    assert_int_equal(hd_run_columns(none).count, 0);
-    assert_int_equal(hd_run_columns(half).count, 0);
-    assert_int_equal(hd_run_columns(all).count, 48);
-    assert_int_equal(hd_run_columns(some).count, 5);
+    assert_int_equal(hd_run_vectors_now(none).count, 0);
+    assert_int_equal(hd_run_vectors_now(half).count, 0);
+    assert_int_equal(hd_run_vectors_now(all).count, 48);
+    assert_int_equal(hd_run_vectors_now(some).count, 5);
 }

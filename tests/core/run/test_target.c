@@ -160,7 +160,7 @@ static void expect_end(const char *name, int what, double percent)
         before++;
         if (stated(run, what) <= 0.01 * percent) fail_msg("%s goes on", name);
     }
-    const hd_standing end = hd_run_cost(run).target;
+    const hd_target_progress end = hd_run_cost(run).target;
     print_message("%s after %.0f: %.3g%% of %g%%\n", name, hd_run_time(run) - 65.0,
                   100.0 * stated(run, what), percent);
     assert_true(before > 2 && hd_run_time(run) < 65.0 + 19999.0);
@@ -211,7 +211,7 @@ TEST(the_farthest_of_several_is_told)
 {
     OWNED(hd_run) *run = until(
         created(aiming(long_box(), "pressure 50%, lambda_max 50%, h_KS 0.2%")), HD_AVERAGING);
-    hd_standing at = hd_run_cost(run).target;
+    hd_target_progress at = hd_run_cost(run).target;
     assert_true(at.error < 0 && at.wanted < 0 && isinf(at.left) && !at.reached);
     assert_true(hd_run_cost(run).progress < 0.1);
     while (!(at.error > 0)) CHECK_OK(hd_run_advance(run)), at = hd_run_cost(run).target;
@@ -227,7 +227,7 @@ TEST(the_farthest_of_several_is_told)
 TEST(what_stays_open_is_told)
 {
     OWNED(hd_run) *run = finished(aiming(scene_from(long_box(), .duration = 3000.0), "c_L 1.4%"));
-    const hd_standing at = hd_run_cost(run).target;
+    const hd_target_progress at = hd_run_cost(run).target;
     print_message("c_L open %.3g, wanted %.3g, error %.3g\n", at.open, at.wanted, at.error);
     CHECK_CLOSE(hd_run_time(run), 3065.0, 1e-6);
     assert_true(at.open > at.wanted && at.error > at.open && isinf(at.left) && !at.reached);
@@ -243,7 +243,7 @@ TEST(mixing_stays_open)
 {
     OWNED(hd_run) *run = finished(
         aiming(scene_from(long_box(), .duration = 1000.0), "LP(1,0) 0.001%"));
-    const hd_standing at = hd_run_cost(run).target;
+    const hd_target_progress at = hd_run_cost(run).target;
     const int k = step_named(hd_run_steps(run), HD_MODE_LP);
     CHECK_CLOSE(at.open, hd_steps_step(hd_run_steps(run), k)->mixing, 0.0);
     assert_true(at.open > at.wanted && at.error > at.open && isinf(at.left));

@@ -30,7 +30,7 @@ TEST(two_threads_give_what_one_gives)
         assert_int_equal(hd_run_threads(run[k]), k + 1);
         assert_true(hd_run_cost(run[k]).slow_vector_samples > 0);
         assert_true(hd_run_cost(run[k]).orthonormalisations < 100);
-        hd_frame_halves(hd_run_frame(run[k]), theta[k], ratio[k]);
+        hd_frame_dq_dp(hd_run_frame(run[k]), theta[k], ratio[k]);
     }
     for (int col = 0; col < VECTORS; col++) {
         CHECK_CLOSE(hd_spectrum_exponent(hd_run_spectrum(run[1]), col),

@@ -92,7 +92,7 @@ TEST(each_step_ends_with_the_vectors_wanted)
     while (hd_run_stage(run) != HD_FINISHED) {
         CHECK_OK(hd_run_advance(run));
         CHECK_OK(hd_run_measure(run, n - WANTED));
-        const hd_columns v = hd_run_columns(run);
+        const hd_columns v = hd_run_vectors_now(run);
         assert_true(v.first == 0 && v.count == n);
         check_orthonormal(v, rows);
         if (!hd_run_report_due(run)) continue;
@@ -131,5 +131,5 @@ TEST(only_the_averaging_is_measured)
     finish(run);
     CHECK_OK(hd_run_measure(run, 0));
     assert_int_equal(hd_run_cost(run).slow_vector_samples, 0);
-    assert_int_equal(hd_run_columns(run).count, hd_run_vectors(run));
+    assert_int_equal(hd_run_vectors_now(run).count, hd_run_vectors(run));
 }

@@ -47,8 +47,8 @@ TEST(t_phases_come_alone)
         scene_from(channel(HD_OBSERVE_T_PHASES), .duration = 60.0, .phase_interval = 0.5));
     double followed = -1.0, farthest = 0.0;
     while (going_on(run)) {
-        if (hd_run_time(run) > 530.0) farthest = fmax(farthest, hd_run_followed(run) - followed);
-        followed = hd_run_followed(run);
+        if (hd_run_time(run) > 530.0) farthest = fmax(farthest, hd_run_phase_time(run) - followed);
+        followed = hd_run_phase_time(run);
     }
     assert_null(hd_run_phases(run));
     assert_true(farthest > 0.4 && farthest <= 0.5 + 1e-9);

@@ -35,14 +35,14 @@ TEST(names_and_words_are_there_once)
     const hd_parameter *rows = hd_scene_parameters(&count);
     for (int k = 0; k < count; k++) {
         const hd_parameter *row = &rows[k];
-        assert_true(*row->name && *row->allowed && *row->text && row->unit);
+        assert_true(*row->name && *row->range && *row->text && row->unit);
         assert_true(strlen(row->record) < 40); /* room in a checkpoint */
         assert_string_equal(row->record + strlen("scene "), row->name);
         for (int other = 0; other < k; other++)
             assert_string_not_equal(rows[other].name, row->name);
         for (const hd_parameter_word *w = row->words; w && w->word; w++) {
             int value = 12345;
-            assert_non_null(strstr(row->allowed, w->word));
+            assert_non_null(strstr(row->range, w->word));
             assert_true(hd_parameter_value_of(&value, row, w->word));
             assert_int_equal(value, w->value);
             assert_string_equal(hd_parameter_word_of(row, value), w->word);
@@ -58,15 +58,15 @@ TEST(ranges_are_said_in_words)
     const hd_parameter *rows = hd_scene_parameters(&count);
     for (int k = 0; k < count; k++) {
         const hd_parameter *row = &rows[k];
-        const char *from = strstr(row->allowed, "from "), *to = from ? strstr(from, " to ") : NULL;
+        const char *from = strstr(row->range, "from "), *to = from ? strstr(from, " to ") : NULL;
         if (!to || row->kind == HD_PARAMETER_SEED || row->kind == HD_PARAMETER_EXPONENTS) continue;
         char *end;
         const double most = strtod(to + 4, &end);
-        CHECK_CLOSE(strtod(from + 5, NULL), row->least, 0.0);
+        CHECK_CLOSE(strtod(from + 5, NULL), row->min, 0.0);
         if (strcmp(row->name, "density") == 0)
-            CHECK_CLOSE(sqrt(2.0), row->most, 0.0);
+            CHECK_CLOSE(sqrt(2.0), row->max, 0.0);
         else if (end != to + 4) /* a number */
-            CHECK_CLOSE(most, row->most, 0.0);
+            CHECK_CLOSE(most, row->max, 0.0);
         said++;
     }
     assert_true(said > 12);
@@ -80,13 +80,14 @@ TEST(defaults_are_in_range_and_values_come_back)
     for (int k = 0; k < count; k++) {
         const hd_parameter *row = &rows[k];
         const bool automatic = row->kind == HD_PARAMETER_INTERVAL &&
-                               hd_parameter_is_word(row, row->usual);
+                               hd_parameter_is_word(row, row->default_value);
         hd_scene_def def = usual;
-        CHECK_CLOSE(hd_parameter_value(row, &usual), row->usual, 0.0);
-        assert_true(automatic || (row->usual >= row->least && row->usual <= row->most));
-        hd_parameter_assign(row, &def, row->kind == HD_PARAMETER_SEED ? 1e15 : row->most);
+        CHECK_CLOSE(hd_parameter_value(row, &usual), row->default_value, 0.0);
+        assert_true(automatic ||
+                    (row->default_value >= row->min && row->default_value <= row->max));
+        hd_parameter_assign(row, &def, row->kind == HD_PARAMETER_SEED ? 1e15 : row->max);
         assert_int_equal(memcmp(&def, &usual, row->offset), 0);
-        hd_parameter_assign(row, &def, row->usual);
+        hd_parameter_assign(row, &def, row->default_value);
         assert_memory_equal(&def, &usual, sizeof def);
     }
 }

@@ -107,8 +107,8 @@ TEST(real_parameters_out_of_range)
     const hd_parameter *rows = hd_scene_parameters(&count);
     for (int k = 0; k < count; k++) {
         const hd_parameter *row = &rows[k];
-        const double refused[] = {row->least - 1e-3 * fabs(row->least) - DBL_MIN,
-                                  row->most * 1.001,
+        const double refused[] = {row->min - 1e-3 * fabs(row->min) - DBL_MIN,
+                                  row->max * 1.001,
                                   NAN,
                                   -NAN,
                                   INFINITY,
@@ -121,7 +121,7 @@ TEST(real_parameters_out_of_range)
             char value[64];
             const hd_scene_def def = with(row, refused[v]);
             snprintf(value, sizeof value, "= %.15g", refused[v]);
-            check_refused(&def, row->name, value, row->allowed);
+            check_refused(&def, row->name, value, row->range);
         }
         checked++;
     }
@@ -138,8 +138,7 @@ TEST(real_parameters_at_the_ends_of_their_range)
                              strcmp(rows[k].name, "aspect") == 0 ||
                              strcmp(rows[k].name, "max_wave_number") == 0;
         if (!has_range(&rows[k]) || limited || is_of_spheres(&rows[k])) continue;
-        const hd_scene_def least = with(&rows[k], rows[k].least),
-                           most = with(&rows[k], rows[k].most);
+        const hd_scene_def least = with(&rows[k], rows[k].min), most = with(&rows[k], rows[k].max);
         check_accepted(&least);
         check_accepted(&most);
         checked++;

@@ -29,7 +29,7 @@ TEST(zeros_split_with_the_power_of_the_step_that_the_row_says)
         double mean = 0.0; /* a zero of one run is known to 8 % */
         for (int integrator = 0; integrator < HD_INTEGRATORS; integrator++) {
             const hd_scene_def def = soft_few(2, potential, integrator, 0.01);
-            const double split = hd_dynamics_of(&def)->split(&def),
+            const double split = hd_dynamics_of(&def)->zero_splitting_order(&def),
                          coarse = step[potential][integrator];
             CHECK_CLOSE(split, jump[potential], 1e-15);
             if (coarse == 0.0) continue;

@@ -92,8 +92,8 @@ TEST(null_vectors_stay_what_they_are)
             const softs s = softs_of_a_fluid(def, 5);
             OWNED(hd_record) *log = new_soft_log(&def);
             const softs now = softs_later(&def, &s, 1.0, log);
-            assert_int_equal(of->null(&def, s.q, s.p, column), count);
-            assert_int_equal(of->null(&def, now.q, now.p, later), count);
+            assert_int_equal(of->null_vectors(&def, s.q, s.p, column), count);
+            assert_int_equal(of->null_vectors(&def, now.q, now.p, later), count);
             for (int l = 0; l < count; l++) {
                 double *v = column + l * rows;
                 const double close = l < count - 1 ? 1e-11 : 1e-3;
@@ -149,7 +149,7 @@ static unstable in_unstable(double step, uint64_t seed)
     const double *flow = column + 4 * 4 * def.number;
     const softs s = softs_now(hd_run_trajectory(run));
     unstable in = {0.0, 0.0};
-    assert_int_equal(hd_dynamics_of(&def)->null(&def, s.q, s.p, column), 5);
+    assert_int_equal(hd_dynamics_of(&def)->null_vectors(&def, s.q, s.p, column), 5);
     for (int row = 0; row < 4 * def.number; row++) square += flow[row] * flow[row];
     for (int l = 0; l < def.exponents; l++) {
         double along = 0.0, across = 0.0;
@@ -186,7 +186,7 @@ TEST(modes_know_the_null_space_of_soft_particles)
     const softs s = softs_of_a_fluid(def, 3);
     double column[VECTORS * SOFT_ROWS_MAX], v[SOFT_ROWS_MAX * VECTORS];
     MADE(hd_modes, modes, &def, VECTORS, 1);
-    assert_int_equal(hd_dynamics_of(&def)->null(&def, s.q, s.p, column), VECTORS);
+    assert_int_equal(hd_dynamics_of(&def)->null_vectors(&def, s.q, s.p, column), VECTORS);
     for (int l = 0; l < VECTORS; l++) {
         double square = 0.0;
         for (int row = 0; row < rows; row++) square += pow(column[l * rows + row], 2);

@@ -186,7 +186,7 @@ TEST(a_start_has_its_energy_and_no_momentum)
             CHECK_OK(hd_trajectory_extend(tr, NULL, 20.0));
             now = softs_now(tr);
             twin = soft_twin_of(&def, &now);
-            const hd_examined examined = hd_trajectory_examined(tr);
+            const hd_invariants examined = hd_trajectory_examined(tr);
             const double kinetic = hd_trajectory_examined(tr).kinetic_energy,
                          is = (double)soft_twin_energy(&twin), was = 1.7 * def.number;
             CHECK_CLOSE(examined.energy_error, (is - was) / (kinetic + fabs(is - kinetic)), 1e-13);

@@ -31,7 +31,7 @@ static void check_spectrum(const hd_run *run)
         assert_int_equal(isnan(hd_spectrum_local(spectrum, col)), !(local_time > 0));
         check_measured(hd_spectrum_local(spectrum, col), "local exponent");
     }
-    hd_run_halves(run, halves, halves + n);
+    hd_run_dq_dp(run, halves, halves + n);
     for (int col = 0; col < n; col++) {
         check_measured(halves[col], "cos Theta");
         check_measured(halves[n + col], "dp / dq");
@@ -118,7 +118,8 @@ static void check_fields(const hd_run *run)
     MADE(hd_hydro, hydro, hd_run_scene(run), steps);
     for (int k = 0; k < hd_steps_count(steps); k++) {
         const hd_step *step = hd_steps_step(steps, k);
-        if (!hd_pmode_reconstruct(pmode, step, hd_run_modes(run), hd_run_columns(run))) continue;
+        if (!hd_pmode_reconstruct(pmode, step, hd_run_modes(run), hd_run_vectors_now(run)))
+            continue;
         for (int c = 0; c < step->expected; c++) {
             hd_pmode_divide(pmode, out, c, p);
             check_numbers(out, rows, "divided field");
@@ -127,7 +128,7 @@ static void check_fields(const hd_run *run)
         }
         check_number(hd_pmode_rotation_distance(pmode), "distance from a rotation");
     }
-    hd_hydro_measure(hydro, steps, hd_run_columns(run), state, p);
+    hd_hydro_measure(hydro, steps, hd_run_vectors_now(run), state, p);
     for (int k = 0; k < hd_hydro_count(hydro); k++) {
         const hd_hydro_response *r = hd_hydro_at(hydro, k);
         const double x[] = {r->density, r->along, r->across, r->energy};

@@ -203,7 +203,7 @@ static void say_fields(said *s, const hd_run *run)
     hd_trajectory_state(hd_run_trajectory(run), NULL, p);
     for (int k = 0; k < hd_steps_count(hd_run_steps(run)); k++) {
         if (!hd_pmode_reconstruct(of, hd_steps_step(hd_run_steps(run), k), hd_run_modes(run),
-                                  hd_run_columns(run)))
+                                  hd_run_vectors_now(run)))
             continue;
         say(s, "rotation distance", hd_pmode_rotation_distance(of));
         for (int c = 0; c < 2 * hd_pmode_pairs(of); c++) {
@@ -305,7 +305,7 @@ static void say_trajectory(said *s, const hd_run *run)
                                  hd_run_scene(run)->number);
     HEAP double *q = calloc(2 * size, sizeof *q);
     const hd_totals totals = hd_trajectory_totals(of);
-    const hd_examined examined = hd_trajectory_examined(of);
+    const hd_invariants examined = hd_trajectory_examined(of);
     hd_trajectory_state(of, q, q + size);
     say_all(s, "q p", q, 2 * size);
     say(s, "time", hd_trajectory_time(of));
@@ -346,11 +346,11 @@ static void say_run(said *s, const hd_run *run)
 {
     const size_t n = (size_t)hd_run_vectors(run);
     HEAP double *halves = calloc(2 * n + 1, sizeof *halves);
-    hd_run_halves(run, halves, halves + n);
+    hd_run_dq_dp(run, halves, halves + n);
     say_all(s, "halves", halves, 2 * n);
     say(s, "stage", hd_run_stage(run));
     say(s, "report due", hd_run_report_due(run));
-    say(s, "followed", hd_run_followed(run));
+    say(s, "followed", hd_run_phase_time(run));
     say(s, "caged", hd_run_is_caged(run));
     say(s, "shortest duration", hd_run_shortest_duration(run));
     say_cost(s, run);

@@ -93,9 +93,9 @@ static void check_vectors(conjugates *x)
 static void check_halves(conjugates *x)
 {
     double found[2][128], want[2][128];
-    hd_frame_halves(x->frame[HALF], found[0], found[1]);
-    hd_conjugate_halves(found[0], found[1], x->rows / 2);
-    hd_frame_halves(x->frame[WHOLE], want[0], want[1]);
+    hd_frame_dq_dp(x->frame[HALF], found[0], found[1]);
+    hd_conjugate_dq_dp(found[0], found[1], x->rows / 2);
+    hd_frame_dq_dp(x->frame[WHOLE], want[0], want[1]);
     for (int col = 0; col < x->rows; col++) {
         CHECK_CLOSE(found[0][col], want[0][col],
                     8.0 * allowed(x) * (want[1][col] + 1.0 / want[1][col]));

@@ -352,7 +352,7 @@ TEST(a_half_that_vanishes_has_no_angle)
         for (int col = 0; col < VECTORS; col++) /* column 0: dp = 0, column 1: dq = 0 */
             hd_frame_data(frame)[row * hd_frame_stride(frame) + col] = (row % ROWS_OF_ONE < DIM) ==
                                                                        (col == 0);
-    hd_frame_halves(frame, cosine, ratio);
+    hd_frame_dq_dp(frame, cosine, ratio);
     assert_true(isnan(cosine[0]) && isnan(cosine[1]) && isnan(ratio[1]));
     CHECK_CLOSE(ratio[0], 0.0, 0.0);
 }
@@ -364,10 +364,10 @@ TEST(a_tiny_half_has_its_angle_or_none)
     double cosine, ratio, want;
     for (int digits = 0; digits <= 320; digits += 2) {
         MADE(hd_frame, frame, DYNAMICS, DISKS, 1, 9, 1);
-        hd_frame_halves(frame, &want, &ratio);
+        hd_frame_dq_dp(frame, &want, &ratio);
         for (int row = 0; row < ROWS_OF_ONE * DISKS; row++)
             if (row % ROWS_OF_ONE >= DIM) *frame_entry(frame, row, 0) *= pow(10.0, -digits);
-        hd_frame_halves(frame, &cosine, &ratio);
+        hd_frame_dq_dp(frame, &cosine, &ratio);
         assert_true(digits > 140 || !isnan(cosine));
         if (!isnan(cosine)) CHECK_CLOSE(cosine, want, 32 * DBL_EPSILON);
     }
@@ -381,7 +381,7 @@ TEST(halves_are_measured_per_column)
     for (int row = 0; row < ROWS_OF_ONE * DISKS; row++) /* column 3: dp = -2 dq */
         hd_frame_data(frame)[row * hd_frame_stride(frame) + 3] = row % ROWS_OF_ONE < DIM ? 1.5
                                                                                          : -3.0;
-    hd_frame_halves(frame, cosine, ratio);
+    hd_frame_dq_dp(frame, cosine, ratio);
     CHECK_CLOSE(cosine[3], -1.0, 4 * DBL_EPSILON);
     CHECK_CLOSE(ratio[3], 2.0, 4 * DBL_EPSILON);
     for (int col = 0; col < VECTORS; col++) {

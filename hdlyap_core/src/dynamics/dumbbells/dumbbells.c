@@ -74,7 +74,7 @@ static double gap_of(const hd_molecules *m)
     return least;
 }
 
-/** See hd_examined.overlap_rounding. It grows with the fastest rotation. */
+/** See hd_invariants.overlap_rounding. It grows with the fastest rotation. */
 static double rounding_of(const hd_molecules *m)
 {
     double fastest = 0.0;
@@ -329,15 +329,15 @@ static double row_kinetic_energy(const void *state)
 
 static double overlap_max(const hd_molecules *m) { return fmax(HD_OVERLAP_MAX, rounding_of(m)); }
 
-static void row_examine(const void *state, hd_examined *out)
+static void row_examine(const void *state, hd_invariants *out)
 {
     const hd_molecules *m = state;
     const double kinetic = row_kinetic_energy(m);
-    *out = (hd_examined){.kinetic_energy = kinetic,
-                         .energy_error = kinetic / m->hard.motion.count - 1.0,
-                         .overlap = fmax(0.0, -gap_of(m)),
-                         .overlap_rounding = rounding_of(m),
-                         .overlap_max = overlap_max(m)};
+    *out = (hd_invariants){.kinetic_energy = kinetic,
+                           .energy_error = kinetic / m->hard.motion.count - 1.0,
+                           .overlap = fmax(0.0, -gap_of(m)),
+                           .overlap_rounding = rounding_of(m),
+                           .overlap_max = overlap_max(m)};
     hd_hard_examine(&m->hard, out);
     for (int32_t i = 0; i < m->hard.motion.count; i++)
         out->angular_momentum += m->spin[i].p * m->shape.root;
@@ -398,16 +398,16 @@ const hd_dynamics hd_dumbbells_row = {.particles = "dumbbells",
                                       .coordinates = 3,
                                       .entry = sizeof(hd_bump),
                                       .symplectic = true,
-                                      .paces = true,
+                                      .scale_invariant = true,
                                       .collides = true,
                                       .parameter = hd_dumbbell_own,
                                       .parameters = HD_DUMBBELL_OWN,
                                       .fluid = &hd_fluid_dumbbells,
                                       .check = row_check,
-                                      .zeros = hd_hard_zeros,
-                                      .entries = hd_hard_entries,
-                                      .rate = hd_hard_rate,
-                                      .null = hd_null_space_fill,
+                                      .zero_exponents = hd_hard_zeros,
+                                      .record_rate = hd_hard_entries,
+                                      .collision_rate = hd_hard_rate,
+                                      .null_vectors = hd_null_space_fill,
                                       .inertia = hd_dumbbell_inertia,
                                       .size = hd_dumbbell_size,
                                       .create = create_on_lattice,

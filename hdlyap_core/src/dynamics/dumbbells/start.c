@@ -32,7 +32,7 @@ static double spacing(double *first, double length, int count, double more, hd_b
     const double room = length - 2.0 * reach, gaps = count - 1 + more + 2.0 * AT_WALL;
     *first = boundary == HD_PERIODIC ? 0.25 * length / count : reach + room * AT_WALL / gaps;
     if (boundary == HD_PERIODIC) return length > least ? length / count : -1.0;
-    return room >= HD_ROOM_MIN ? room / gaps : -1.0;
+    return room >= HD_MEMORY_LIMIT_MIN ? room / gaps : -1.0;
 }
 
 /** The gap between two parallel dumbbells whose centres are (x, y) apart, x along the bonds. */

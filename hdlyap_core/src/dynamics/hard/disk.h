@@ -11,7 +11,7 @@
 #include "hdlyap/scene.h"
 
 /** An overlap deeper than this [sigma] is a fault and no rounding. In a box so long that its
- * coordinates round by more, the limit is hd_examined.overlap_rounding instead. */
+ * coordinates round by more, the limit is hd_invariants.overlap_rounding instead. */
 #define HD_OVERLAP_MAX 1e-9
 
 /** q and p are the state at time t of the present epoch, and do not change until the disk's next
@@ -42,7 +42,7 @@ static inline double hd_epoch_length(double rate_per_disk)
     return length;
 }
 
-/** hd_examined.overlap_rounding of a box with this longest edge. */
+/** hd_invariants.overlap_rounding of a box with this longest edge. */
 static inline double hd_overlap_rounding(double longest, double epoch_length)
 {
     const double speed_max = 16.0; /* relative speed of two disks; <p^2> is 2 */

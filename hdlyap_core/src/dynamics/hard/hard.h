@@ -14,7 +14,7 @@
 typedef struct hard {
     hd_motion motion;
     double epoch_length;
-    double overlap_max; /**< see hd_examined */
+    double overlap_max; /**< see hd_invariants */
     double epoch_start; /**< simulated time, a multiple of epoch_length */
     double now;         /**< simulated time */
     uint64_t collisions, wall_events;
@@ -33,7 +33,7 @@ void hd_hard_clear(hard *tr);
 double hd_hard_least(const hard *tr, double (*of)(const hard *tr, int32_t i, int32_t j,
                                                   const double shift[HD_DIM]));
 /** Fills energy_rounding, momentum and angular_momentum. */
-void hd_hard_examine(const hard *tr, hd_examined *examined);
+void hd_hard_examine(const hard *tr, hd_invariants *examined);
 /** Writes or reads time, counters and the states of disks; reading fills the cells, too. */
 void hd_hard_keep(hard *tr, hd_archive *archive);
 /** Returns what is wrong with the state, or NULL. A scene's energy has to be its number of
@@ -57,7 +57,7 @@ void hd_hard_free(void *state);
 HD_MUST_CHECK hd_status hd_hard_advance(void *state, hd_record *record, double t_end);
 void hd_hard_archive(void *state, hd_archive *archive);
 
-/** See hd_examined.overlap and hd_examined.overlap_rounding. */
+/** See hd_invariants.overlap and hd_invariants.overlap_rounding. */
 double hd_hard_overlap(const hard *tr);
 double hd_hard_overlap_rounding(const hard *tr);
 

@@ -139,22 +139,22 @@ double hd_hard_overlap(const hard *tr)
     return least < 1.0 ? 1.0 - sqrt(least) : 0.0;
 }
 
-void hd_hard_examine(const hard *tr, hd_examined *examined)
+void hd_hard_examine(const hard *tr, hd_invariants *examined)
 {
     examined->energy_rounding = energy_rounding(tr);
     examined->angular_momentum = angular_momentum(tr);
     momentum(tr, examined->momentum);
 }
 
-static void hard_examine(const void *state, hd_examined *examined)
+static void hard_examine(const void *state, hd_invariants *examined)
 {
     const hard *tr = state;
     const double kinetic = hd_hard_kinetic_energy(tr);
-    *examined = (hd_examined){.kinetic_energy = kinetic,
-                              .energy_error = kinetic / tr->motion.count - 1.0,
-                              .overlap = hd_hard_overlap(tr),
-                              .overlap_rounding = hd_hard_overlap_rounding(tr),
-                              .overlap_max = tr->overlap_max};
+    *examined = (hd_invariants){.kinetic_energy = kinetic,
+                                .energy_error = kinetic / tr->motion.count - 1.0,
+                                .overlap = hd_hard_overlap(tr),
+                                .overlap_rounding = hd_hard_overlap_rounding(tr),
+                                .overlap_max = tr->overlap_max};
     hd_hard_examine(tr, examined);
 }
 
@@ -196,14 +196,14 @@ const hd_dynamics ROW = {.particles = HD_DIM == 2 ? "disks" : "spheres",
                          .entry = sizeof(hd_event),
                          .symplectic = true,
                          .dispersing = true,
-                         .paces = true,
+                         .scale_invariant = true,
                          .collides = true,
                          .fluid = HD_DIM == 2 ? &hd_fluid_disks : &hd_fluid_spheres,
                          .check = hard_check,
-                         .zeros = hd_hard_zeros,
-                         .entries = hd_hard_entries,
-                         .rate = hd_hard_rate,
-                         .null = hd_null_space_fill,
+                         .zero_exponents = hd_hard_zeros,
+                         .record_rate = hd_hard_entries,
+                         .collision_rate = hd_hard_rate,
+                         .null_vectors = hd_null_space_fill,
                          .size = hard_size,
                          .create = hd_hard_create,
                          .free = hd_hard_free,

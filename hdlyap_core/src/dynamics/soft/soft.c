@@ -368,12 +368,12 @@ static void row_state(const void *state, double *q, double *p)
     if (p) memcpy(p, s->p, bytes);
 }
 
-static void row_examine(const void *state, hd_examined *out)
+static void row_examine(const void *state, hd_invariants *out)
 {
     const soft *s = state;
-    *out = (hd_examined){.kinetic_energy = kinetic_energy(s),
-                         .energy_error = s->error,
-                         .energy_rounding = HD_SOFT_LOST};
+    *out = (hd_invariants){.kinetic_energy = kinetic_energy(s),
+                           .energy_error = s->error,
+                           .energy_rounding = HD_SOFT_LOST};
     for (int k = 0; k < s->count * s->dimension; k++) out->momentum[k % s->dimension] += s->p[k];
 }
 
@@ -472,13 +472,14 @@ static const char *row_fault(const hd_record *record, const hd_scene_def *scene)
     {                                                                                              \
         .particles = (name), .dimension = (of_one), .coordinates = (of_one),                       \
         .entry = HD_KICK_BYTES(bends), .symplectic = true, .parameter = hd_soft_own,               \
-        .parameters = HD_SOFT_OWN, .check = row_check, .zeros = row_zeros,                         \
-        .entries = hd_soft_entries, .rate = hd_soft_rate, .speed = hd_soft_speed,                  \
-        .step = hd_soft_time_step, .energy_asked = hd_soft_energy_asked, .split = hd_soft_split,   \
-        .crossing = hd_soft_crossing, .null = row_null, .create = row_create, .free = row_free,    \
-        .advance = row_advance, .time = row_time, .state = row_state, .totals = row_totals,        \
-        .examine = row_examine, .archive = row_archive, .fingerprint = row_fingerprint,            \
-        .bytes = row_bytes, .record_bytes = row_record_bytes_##in, .fault = row_fault,             \
+        .parameters = HD_SOFT_OWN, .check = row_check, .zero_exponents = row_zeros,                \
+        .record_rate = hd_soft_entries, .collision_rate = hd_soft_rate, .speed = hd_soft_speed,    \
+        .step = hd_soft_time_step, .energy_asked = hd_soft_energy_asked,                           \
+        .zero_splitting_order = hd_soft_split, .sound_crossing_time = hd_soft_crossing,            \
+        .null_vectors = row_null, .create = row_create, .free = row_free, .advance = row_advance,  \
+        .time = row_time, .state = row_state, .totals = row_totals, .examine = row_examine,        \
+        .archive = row_archive, .fingerprint = row_fingerprint, .bytes = row_bytes,                \
+        .record_bytes = row_record_bytes_##in, .fault = row_fault,                                 \
         .maps_create = hd_kick_maps_create_##in, .maps_free = hd_kick_maps_free,                   \
         .maps_fill = hd_kick_maps_fill, .carry = hd_kick_maps_carry                                \
     }

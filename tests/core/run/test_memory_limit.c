@@ -13,7 +13,8 @@ static void compare(hd_scene_def scene)
     ledger_reset_peak();
     hd_run_free(finished(scene));
     assert_int_equal(ledger_now().live, before);
-    CHECK_WITHIN(hd_room_needed(&scene, scene.threads, 1) / (double)ledger_now().peak, 0.93, 1.07);
+    CHECK_WITHIN(hd_memory_needed(&scene, scene.threads, 1) / (double)ledger_now().peak, 0.93,
+                 1.07);
 }
 
 /** Intervals become as long as they do. */
@@ -109,17 +110,17 @@ TEST(a_state_is_counted_for_modes)
 {
     const hd_scene_def bare = short_run(50, 10, 0), seen = short_run(50, 10, HD_OBSERVE_MODES);
     const double parts = hd_modes_row.bytes(&seen, 1) + hd_steps_row.bytes(&seen, 1);
-    CHECK_CLOSE(hd_room_needed(&seen, 1, 1) - hd_room_needed(&bare, 1, 1),
+    CHECK_CLOSE(hd_memory_needed(&seen, 1, 1) - hd_memory_needed(&bare, 1, 1),
                 parts + 4.0 * 50.0 * sizeof(double), 1e-6);
 }
 
 TEST(what_is_too_much_is_said)
 {
     char line[256] = "";
-    const hd_room room = {8e9, "machine", 1};
+    const hd_memory_limit room = {8e9, "machine", 1};
     const hd_scene_def large = short_run(20000, HD_EXPONENTS_POSITIVE, HD_OBSERVE_ALL & 31);
     int exponents = 0, disks = 0;
-    assert_int_equal(hd_room_check(&large, room, line, sizeof line), HD_NO_MEMORY);
+    assert_int_equal(hd_memory_check(&large, room, line, sizeof line), HD_NO_MEMORY);
     assert_true(strncmp(line, "out of memory: number = 20000 with 39997 exponents need 5", 56) ==
                 0);
     assert_non_null(strstr(line, "there are 8 GB (machine)"));
@@ -129,20 +130,21 @@ TEST(what_is_too_much_is_said)
                      2);
     assert_true(exponents > 100 && exponents % 100 == 0); /* two digits: it is an estimate */
     hd_scene_def one = scene_from(large, .exponents = exponents);
-    CHECK_OK(hd_room_check(&one, room, NULL, 0));
-    assert_true(hd_room_needed(&one, 2, 1) > 0.9 * room.bytes * 0.9);
+    CHECK_OK(hd_memory_check(&one, room, NULL, 0));
+    assert_true(hd_memory_needed(&one, 2, 1) > 0.9 * room.bytes * 0.9);
     one = large;
     one.number = disks;
-    CHECK_OK(hd_room_check(&one, room, NULL, 0));
-    assert_true(hd_room_needed(&one, 2, 1) > 0.7 * room.bytes);
+    CHECK_OK(hd_memory_check(&one, room, NULL, 0));
+    assert_true(hd_memory_needed(&one, 2, 1) > 0.7 * room.bytes);
 }
 
 TEST(nothing_fits_where_there_is_nothing)
 {
     char line[256] = "";
     const hd_scene_def small = short_run(50, 10, 0);
-    assert_int_equal(hd_room_check(&small, (hd_room){1.0, "machine", 1}, line, sizeof line),
-                     HD_NO_MEMORY);
+    assert_int_equal(
+        hd_memory_check(&small, (hd_memory_limit){1.0, "machine", 1}, line, sizeof line),
+        HD_NO_MEMORY);
     assert_non_null(strstr(line, "not even one particle would fit"));
 }
 
@@ -194,6 +196,6 @@ TEST(nothing_is_allocated_for_it)
 
 TEST(there_is_some)
 {
-    const hd_room room = hd_room_available();
+    const hd_memory_limit room = hd_memory_available();
     CHECK_WITHIN(room.bytes, 1e7, 1e15);
 }

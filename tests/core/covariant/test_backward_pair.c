@@ -3,11 +3,11 @@
 #include "conjugates.h"
 #include "covariant/backward.h"
 #include "covariant/coupling.h"
-#include "covariant/starts.h"
+#include "covariant/backward_pair.h"
 #include "triangles.h"
 
 OWNABLE(hd_coupling)
-OWNABLE(hd_starts)
+OWNABLE(hd_backward_pair)
 
 enum { DISKS = 8, ALL = 4 * DISKS, HALVES = 2 * DISKS, WARMUP = 200, COUNT = 800, LOOK = 40 };
 
@@ -43,19 +43,19 @@ static void freed(history *h)
     free(h);
 }
 
-static hd_starts *begun(bool conjugate)
+static hd_backward_pair *begun(bool conjugate)
 {
-    hd_starts *s;
-    CHECK_OK(hd_starts_create(&s, ALL, conjugate));
-    hd_starts_begin(s, 9, 0);
+    hd_backward_pair *s;
+    CHECK_OK(hd_backward_pair_create(&s, ALL, conjugate));
+    hd_backward_pair_begin(s, 9, 0);
     return s;
 }
 
-static void back(hd_starts *s, const history *h, int from, int to, int which)
+static void back(hd_backward_pair *s, const history *h, int from, int to, int which)
 {
     for (int k = from - 1; k >= to; k--)
-        CHECK_OK(
-            hd_starts_step(s, h->factor[which][k], which == HALF ? h->coupling[k] : NULL, true));
+        CHECK_OK(hd_backward_pair_step(s, h->factor[which][k],
+                                       which == HALF ? h->coupling[k] : NULL, true));
 }
 
 /** Sine between columns of the same index. */
@@ -66,12 +66,12 @@ static double apart(const double *one, const double *other, int col)
 
 /** Both ways have come as near to the vectors as their starts have to each other, and each start
  * was of the order of 1 away; what the frames differ by is eps condition. */
-static int check_vectors(hd_starts *half, hd_starts *whole)
+static int check_vectors(hd_backward_pair *half, hd_backward_pair *whole)
 {
     const double *one[2], *other[2];
     int good = 0;
-    CHECK_OK(hd_starts_meet(half, one));
-    CHECK_OK(hd_starts_meet(whole, other));
+    CHECK_OK(hd_backward_pair_meet(half, one));
+    CHECK_OK(hd_backward_pair_meet(whole, other));
     for (int col = 0; col < ALL; col++) {
         const double met = apart(one[0], one[1], col) + apart(other[0], other[1], col);
         if (met > 1e-3) continue; /* of nearly equal exponents */
@@ -89,20 +89,20 @@ TEST(vectors_are_those_of_all_triangles)
         const hd_scene_def scene = scene_of(DISKS, 0.5, 0.9, boundary[b][0], boundary[b][1], 4);
         const double *c, *same;
         history *h = passed(&scene);
-        OWNED(hd_starts) *half = begun(true), *whole = begun(false);
+        OWNED(hd_backward_pair) *half = begun(true), *whole = begun(false);
         back(half, h, COUNT, LOOK, HALF);
         back(whole, h, COUNT, LOOK, WHOLE);
         const int good = check_vectors(half, whole), zero = hd_scene_zero_exponents(&scene);
         assert_true(good >= ALL - zero - 8);
-        (void)hd_starts_growth(half);
-        (void)hd_starts_growth(whole);
+        (void)hd_backward_pair_growth(half);
+        (void)hd_backward_pair_growth(whole);
         back(half, h, LOOK, 0, HALF);
         back(whole, h, LOOK, 0, WHOLE);
-        CHECK_OK(hd_starts_look(half, &c));
-        CHECK_OK(hd_starts_look(whole, &same));
+        CHECK_OK(hd_backward_pair_look(half, &c));
+        CHECK_OK(hd_backward_pair_look(whole, &same));
         double grown[ALL];
-        memcpy(grown, hd_starts_growth(half), sizeof grown);
-        const double *want = hd_starts_growth(whole);
+        memcpy(grown, hd_backward_pair_growth(half), sizeof grown);
+        const double *want = hd_backward_pair_growth(whole);
         int agree = 0;
         for (int col = 0; col < ALL; col++)
             agree += fabs(grown[col] - want[col]) < 1e-6 && apart(c, same, col) < 1e-6;
@@ -117,10 +117,10 @@ TEST(vectors_have_products_with_their_conjugates_alone)
 {
     const hd_scene_def scene = scene_of(DISKS, 0.5, 0.9, P, P, 4);
     history *h = passed(&scene);
-    OWNED(hd_starts) *s = begun(true);
+    OWNED(hd_backward_pair) *s = begun(true);
     const double *both[2];
     back(s, h, COUNT, COUNT - 20, HALF);
-    CHECK_OK(hd_starts_meet(s, both));
+    CHECK_OK(hd_backward_pair_meet(s, both));
     for (int which = 0; which < 2; which++)
         for (int a = 0; a < ALL; a++) {
             const double *x = both[which] + a * ALL;

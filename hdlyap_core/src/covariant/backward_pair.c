@@ -5,7 +5,7 @@
  * coordinates (Q, J Q) [T18]; C is computed from them when it is read. Z is kept with both indices
  * reversed, column-major, upper triangle, for dsygst. The second Z is the first one plus W sign
  * W^T, of a few random directions W. */
-#include "covariant/starts.h"
+#include "covariant/backward_pair.h"
 
 #include <cblas.h>
 #include <lapacke.h>
@@ -19,7 +19,7 @@
 
 enum { PROBES = 8 };
 
-struct hd_starts {
+struct hd_backward_pair {
     int vectors, half;     /**< 4N, 2N; half is 0 where all are carried */
     hd_backward *start[2]; /**< of the half */
     double *grown;         /**< [vectors] of the first, since its growth was read */
@@ -32,7 +32,7 @@ struct hd_starts {
     bool fresh;            /**< that of the first is of this time */
 };
 
-static hd_status allocate(hd_starts *s)
+static hd_status allocate(hd_backward_pair *s)
 {
     const size_t n = (size_t)s->vectors, m = (size_t)s->half;
     for (int k = 0; k < 2; k++)
@@ -50,9 +50,9 @@ static hd_status allocate(hd_starts *s)
     return HD_OK;
 }
 
-hd_status hd_starts_create(hd_starts **out, int vectors, bool conjugate)
+hd_status hd_backward_pair_create(hd_backward_pair **out, int vectors, bool conjugate)
 {
-    hd_starts *s = hd_memory_alloc(1, sizeof *s);
+    hd_backward_pair *s = hd_memory_alloc(1, sizeof *s);
     *out = NULL;
     if (!s) return HD_NO_MEMORY;
     s->vectors = vectors;
@@ -61,11 +61,11 @@ hd_status hd_starts_create(hd_starts **out, int vectors, bool conjugate)
     if (status == HD_OK)
         *out = s;
     else
-        hd_starts_free(s);
+        hd_backward_pair_free(s);
     return status;
 }
 
-void hd_starts_free(hd_starts *s)
+void hd_backward_pair_free(hd_backward_pair *s)
 {
     if (!s) return;
     for (int k = 0; k < 2; k++) {
@@ -79,7 +79,7 @@ void hd_starts_free(hd_starts *s)
 }
 
 /** Draws both Z, with entries of the size of C's. */
-static void begin_spaces(hd_starts *s, uint64_t seed, uint64_t stream)
+static void begin_spaces(hd_backward_pair *s, uint64_t seed, uint64_t stream)
 {
     const uint64_t apart = (uint64_t)1 << 32; /* keeps these streams apart from those of C */
     const size_t m = (size_t)s->half;
@@ -90,7 +90,7 @@ static void begin_spaces(hd_starts *s, uint64_t seed, uint64_t stream)
     for (size_t k = 0; k < m * PROBES; k++) s->probe[k] = part * hd_random_symmetric(&random);
 }
 
-void hd_starts_begin(hd_starts *s, uint64_t seed, uint64_t stream)
+void hd_backward_pair_begin(hd_backward_pair *s, uint64_t seed, uint64_t stream)
 {
     for (uint64_t k = 0; k < 2; k++) hd_backward_start(s->start[k], seed, stream + k);
     if (s->half) begin_spaces(s, seed, stream);
@@ -102,7 +102,8 @@ void hd_starts_begin(hd_starts *s, uint64_t seed, uint64_t stream)
 
 /** Z <- R^-1 Z R^-T - Y: reversed, R is the transpose of an upper triangle U, and this is U^-T Z
  * U^-1 - Y. */
-static void step_spaces(hd_starts *s, const double *factor, const double *coupling, bool both)
+static void step_spaces(hd_backward_pair *s, const double *factor, const double *coupling,
+                        bool both)
 {
     const size_t m = (size_t)s->half, last = m * m - 1;
     double *u = s->work[0];
@@ -115,7 +116,8 @@ static void step_spaces(hd_starts *s, const double *factor, const double *coupli
                     1.0, factor, s->half, s->probe, s->half);
 }
 
-hd_status hd_starts_step(hd_starts *s, const double *factor, const double *coupling, bool both)
+hd_status hd_backward_pair_step(hd_backward_pair *s, const double *factor, const double *coupling,
+                                bool both)
 {
     double *growth = s->told;
     const int n = s->half ? s->half : s->vectors;
@@ -134,7 +136,7 @@ hd_status hd_starts_step(hd_starts *s, const double *factor, const double *coupl
 
 /** The J-dual of C_11, C_22 = C_11^-T, in the last half of C's rows, which are reversed, as its
  * columns are: an upper triangle again. Columns of length 1. */
-static hd_status fill_dual(hd_starts *s, double *whole, const double *c11)
+static hd_status fill_dual(hd_backward_pair *s, double *whole, const double *c11)
 {
     const size_t m = (size_t)s->half, n = (size_t)s->vectors;
     double *inverse = s->work[1];
@@ -153,7 +155,7 @@ static hd_status fill_dual(hd_starts *s, double *whole, const double *c11)
 }
 
 /** Computes C = ((C_11, Z C_22), (0, C_22)) with columns of length 1. */
-static hd_status complete(hd_starts *s, double *whole, const double *c11, const double *z)
+static hd_status complete(hd_backward_pair *s, double *whole, const double *c11, const double *z)
 {
     const size_t m = (size_t)s->half, n = (size_t)s->vectors;
     double *product = s->work[1];
@@ -174,7 +176,7 @@ static hd_status complete(hd_starts *s, double *whole, const double *c11, const 
 }
 
 /** Completes the growth, which diagonals of triangles give except for those of C [T16]. */
-static void end_growth(hd_starts *s)
+static void end_growth(hd_backward_pair *s)
 {
     for (int col = s->half; col < s->vectors; col++) {
         const double now = log(fabs(s->whole[0][(size_t)col * (size_t)(s->vectors + 1)]));
@@ -183,7 +185,7 @@ static void end_growth(hd_starts *s)
     }
 }
 
-hd_status hd_starts_look(hd_starts *s, const double **c)
+hd_status hd_backward_pair_look(hd_backward_pair *s, const double **c)
 {
     *c = s->half ? s->whole[0] : hd_backward_read(s->start[0]);
     if (!s->half || s->fresh) return HD_OK;
@@ -194,7 +196,7 @@ hd_status hd_starts_look(hd_starts *s, const double **c)
 }
 
 /** The second Z: the first one plus W sign W^T; upper triangle, reversed. */
-static double *other_space(hd_starts *s)
+static double *other_space(hd_backward_pair *s)
 {
     const int m = s->half;
     double *z = s->work[0];
@@ -205,15 +207,15 @@ static double *other_space(hd_starts *s)
     return z;
 }
 
-hd_status hd_starts_meet(hd_starts *s, const double *c[2])
+hd_status hd_backward_pair_meet(hd_backward_pair *s, const double *c[2])
 {
-    HD_TRY(hd_starts_look(s, &c[0]));
+    HD_TRY(hd_backward_pair_look(s, &c[0]));
     c[1] = s->half ? s->whole[1] : hd_backward_read(s->start[1]);
     if (!s->half) return HD_OK;
     return complete(s, s->whole[1], hd_backward_read(s->start[1]), other_space(s));
 }
 
-const double *hd_starts_growth(hd_starts *s)
+const double *hd_backward_pair_growth(hd_backward_pair *s)
 {
     memcpy(s->told, s->grown, (size_t)s->vectors * sizeof *s->told);
     memset(s->grown, 0, (size_t)s->vectors * sizeof *s->grown);

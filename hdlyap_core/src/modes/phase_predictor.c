@@ -3,7 +3,7 @@
  * A phase diffuses about omega t. Its mean square miss after dt is D dt, and omega, the mean over
  * a time T, is known to D / T: together D dt (1 + dt / T). Misses of all dt give one D, weighted
  * with dt: below a radian phases tremble, and short ones say little of long ones. */
-#include "modes/foresight.h"
+#include "modes/phase_predictor.h"
 
 #include <limits.h>
 #include <math.h>
@@ -21,7 +21,7 @@ static const double GROWTH = 2.0;
  * time that needs no prediction. */
 static const double MOST = 10.0, GAP_MAX = 21.0;
 /** A sample may come later than planned by this part. */
-static const double LATE = 1.0 / HD_FORESIGHT_PART;
+static const double LATE = 1.0 / HD_PHASE_PREDICTOR_PART;
 /** Misses are forgotten over this many samples of mean length. */
 static const double MEMORY = 48.0;
 /** Samples needed to know how large misses are; and how many turns of the whole, one after the
@@ -30,15 +30,15 @@ enum { SHOWN = 16, LOST = 2 };
 /** Smallest diffusion, so that rotation without any noise can be divided by it. */
 static const double DIFFUSION_MIN = 1e-100;
 
-void hd_foresight_clear(hd_foresight *f, int pairs)
+void hd_phase_predictor_clear(hd_phase_predictor *f, int pairs)
 {
-    *f = (hd_foresight){.off = pairs > 1 ? OFF : OFF_ONE_PAIR};
+    *f = (hd_phase_predictor){.off = pairs > 1 ? OFF : OFF_ONE_PAIR};
 }
 
 /** Mean time between the samples of the misses, weighted with that time; 0 if there are none. */
-static double span(const hd_foresight *f) { return f->time > 0 ? f->times / f->time : 0.0; }
+static double span(const hd_phase_predictor *f) { return f->time > 0 ? f->times / f->time : 0.0; }
 
-void hd_foresight_sample(hd_foresight *f, double dt)
+void hd_phase_predictor_sample(hd_phase_predictor *f, double dt)
 {
     const double keep = 1.0 - dt / fmax(dt, span(f)) / MEMORY;
     f->time *= keep;
@@ -47,7 +47,7 @@ void hd_foresight_sample(hd_foresight *f, double dt)
     f->samples++;
 }
 
-void hd_foresight_turn(hd_foresight *f, double turn, double dt)
+void hd_phase_predictor_turn(hd_phase_predictor *f, double turn, double dt)
 {
     const double miss = turn - f->omega * dt;
     f->far_off = f->samples > SHOWN && fabs(miss) > FAR_OFF ? f->far_off + 1 : 0;
@@ -55,7 +55,7 @@ void hd_foresight_turn(hd_foresight *f, double turn, double dt)
     f->omega += miss / f->averaged;
 }
 
-void hd_foresight_miss(hd_foresight *f, double miss, double dt, double strength)
+void hd_phase_predictor_miss(hd_phase_predictor *f, double miss, double dt, double strength)
 {
     f->time += strength * dt;
     f->times += strength * dt * dt;
@@ -64,36 +64,36 @@ void hd_foresight_miss(hd_foresight *f, double miss, double dt, double strength)
 
 /** Time ahead at which phases are expected to be off by `error`, from error^2 = D t (1 + t / T); 0
  * if there are no misses. */
-static double reach(const hd_foresight *f, double error)
+static double reach(const hd_phase_predictor *f, double error)
 {
     if (f->times == 0) return 0.0;
     const double alone = error * error / fmax(f->squares / f->times, DIFFUSION_MIN);
     return 2.0 * alone / (1.0 + sqrt(1.0 + 4.0 * alone / f->averaged));
 }
 
-double hd_foresight_sampling(const hd_foresight *f, double unseen)
+double hd_phase_predictor_sampling(const hd_phase_predictor *f, double unseen)
 {
     if (f->samples < SHOWN || f->far_off > 0) return unseen;
     const double seen = fmin(reach(f, f->off), GROWTH * span(f));
     return fmax(unseen, fmin(seen, MOST * unseen));
 }
 
-double hd_foresight_gap(const hd_foresight *f, double unseen)
+double hd_phase_predictor_gap(const hd_phase_predictor *f, double unseen)
 {
     if (f->samples < SHOWN) return GAP_MAX * unseen;
-    const double seen = fmax(reach(f, FAR_OFF), LATE * hd_foresight_sampling(f, unseen));
+    const double seen = fmax(reach(f, FAR_OFF), LATE * hd_phase_predictor_sampling(f, unseen));
     return fmin(seen, GAP_MAX * unseen);
 }
 
-bool hd_foresight_is_lost(const hd_foresight *f) { return f->far_off >= LOST; }
+bool hd_phase_predictor_is_lost(const hd_phase_predictor *f) { return f->far_off >= LOST; }
 
-void hd_foresight_archive(hd_foresight *f, hd_archive *archive)
+void hd_phase_predictor_archive(hd_phase_predictor *f, hd_archive *archive)
 {
     double *const all[] = {&f->omega, &f->averaged, &f->time, &f->times, &f->squares};
-    hd_archive_of_doubles(archive, "foresight omega averaged time times squares", 5);
+    hd_archive_of_doubles(archive, "predictor omega averaged time times squares", 5);
     for (int k = 0; k < 5; k++) hd_archive_next_doubles(archive, all[k], 1);
-    hd_archive_long(archive, "foresight samples", &f->samples, 0, LONG_MAX / 2);
-    hd_archive_int(archive, "foresight far off", &f->far_off, 0, LOST);
+    hd_archive_long(archive, "predictor samples", &f->samples, 0, LONG_MAX / 2);
+    hd_archive_int(archive, "predictor far off", &f->far_off, 0, LOST);
     for (int k = 1; k < 5; k++)
-        hd_archive_expect(archive, *all[k] >= 0, "foresight", "a time or a square is negative");
+        hd_archive_expect(archive, *all[k] >= 0, "predictor", "a time or a square is negative");
 }

@@ -1,5 +1,5 @@
 /** Scene -> bytes that its run takes, which is the sum over its parts. */
-#include "hdlyap/room.h"
+#include "hdlyap/memory_limit.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -13,7 +13,7 @@
 #include "tangent/threads.h"
 #include "dynamics/dynamics.h"
 
-double hd_room_needed(const hd_scene_def *def, int threads, int ranks)
+double hd_memory_needed(const hd_scene_def *def, int threads, int ranks)
 {
     const int of_ranks = ranks > 1 ? ranks : 1;
     return hd_trajectory_bytes(def) + hd_carrier_bytes(def, threads, of_ranks) +
@@ -22,16 +22,16 @@ double hd_room_needed(const hd_scene_def *def, int threads, int ranks)
 
 /* ---- what would fit ------------------------------------------------------------------------ */
 
-static bool fits(const hd_scene_def *def, hd_room room)
+static bool fits(const hd_scene_def *def, hd_memory_limit room)
 {
     const int threads = hd_threads_most(def->threads, 2 * hd_scene_coordinates(def) * def->number,
                                         hd_scene_carried(def));
-    return hd_room_needed(def, threads, room.ranks) <= room.bytes;
+    return hd_memory_needed(def, threads, room.ranks) <= room.bytes;
 }
 
 /** The largest value, below its own, of a number of the scene with which the run fits into memory;
  * 0: none. `number` points into the copy. */
-static int most_that_fits(const hd_scene_def *copy, hd_room room, int *number)
+static int most_that_fits(const hd_scene_def *copy, hd_memory_limit room, int *number)
 {
     int least = 0, most = *number;
     while (most - least > 1) {
@@ -44,14 +44,14 @@ static int most_that_fits(const hd_scene_def *copy, hd_room room, int *number)
     return least;
 }
 
-static int exponents_that_fit(const hd_scene_def *def, hd_room room)
+static int exponents_that_fit(const hd_scene_def *def, hd_memory_limit room)
 {
     hd_scene_def copy = *def;
     copy.exponents = hd_scene_vectors(def);
     return most_that_fits(&copy, room, &copy.exponents);
 }
 
-static int particles_that_fit(const hd_scene_def *def, hd_room room)
+static int particles_that_fit(const hd_scene_def *def, hd_memory_limit room)
 {
     hd_scene_def copy = *def;
     return most_that_fits(&copy, room, &copy.number);
@@ -65,7 +65,7 @@ static int about(int number)
     return number / scale * scale;
 }
 
-hd_status hd_room_check(const hd_scene_def *def, hd_room room, char *message, size_t size)
+hd_status hd_memory_check(const hd_scene_def *def, hd_memory_limit room, char *message, size_t size)
 {
     const int n = hd_scene_vectors(def);
     const int threads = hd_threads_most(def->threads, 2 * hd_scene_coordinates(def) * def->number,
@@ -82,14 +82,14 @@ hd_status hd_room_check(const hd_scene_def *def, hd_room room, char *message, si
     (void)hd_refuse(
         message, size, "%s: number = %d with %d exponents need %.3g GB, there are %.3g GB (%s); %s",
         hd_status_text(HD_NO_MEMORY), def->number, n,
-        1e-9 * hd_room_needed(def, threads, room.ranks), 1e-9 * room.bytes, room.limit, fitting);
+        1e-9 * hd_memory_needed(def, threads, room.ranks), 1e-9 * room.bytes, room.limit, fitting);
     return HD_NO_MEMORY;
 }
 
-hd_status hd_room_check_windows(const hd_scene_def *def, char *message, size_t size)
+hd_status hd_memory_check_windows(const hd_scene_def *def, char *message, size_t size)
 {
     const hd_agenda agenda = hd_agenda_of(def, 1.0 / hd_scene_collision_time(def));
     const double apart = hd_observables_apart(def, hd_observables_with(def->observe));
     const double longest = fmin(hd_carrier_longest(def), hd_agenda_sample_most(&agenda));
-    return hd_windows_check_room(def, fmin(longest, apart), message, size);
+    return hd_windows_check_memory(def, fmin(longest, apart), message, size);
 }

@@ -1,7 +1,7 @@
 /** Vectors of an LP step that are sampled as seldom as the phases allow: what the rate is known for
  * [T13]. */
 #include "modes/phases.h"
-#include "modes/foresight.h"
+#include "modes/phase_predictor.h"
 #include "rotating.h"
 
 /** Of `pairs`: 0.75 pi / (1.25 lambda), lambda = 2.4. */
@@ -12,24 +12,24 @@ static const double OFF = 0.4;
 /* ---- the estimate alone -------------------------------------------------------------------- */
 
 /** Phases that diffuse, seen every `dt[k % count]`. */
-static hd_foresight foreseen(hd_random *random, double diffusion, const double *dt, int count,
-                             int samples)
+static hd_phase_predictor foreseen(hd_random *random, double diffusion, const double *dt, int count,
+                                   int samples)
 {
-    hd_foresight f;
-    hd_foresight_clear(&f, 2);
-    for (int k = 0; k < 5; k++) hd_foresight_turn(&f, 1.3 * dt[k % count], dt[k % count]);
+    hd_phase_predictor f;
+    hd_phase_predictor_clear(&f, 2);
+    for (int k = 0; k < 5; k++) hd_phase_predictor_turn(&f, 1.3 * dt[k % count], dt[k % count]);
     for (int k = 0; k < samples; k++) {
         const double now = dt[k % count];
         const double miss = sqrt(diffusion * now) * random_normal(random);
-        hd_foresight_sample(&f, now);
-        for (int t = 0; t < 8; t++) hd_foresight_miss(&f, miss, now, 0.5);
-        hd_foresight_turn(&f, 1.3 * now + miss, now);
+        hd_phase_predictor_sample(&f, now);
+        for (int t = 0; t < 8; t++) hd_phase_predictor_miss(&f, miss, now, 0.5);
+        hd_phase_predictor_turn(&f, 1.3 * now + miss, now);
     }
     return f;
 }
 
 /** OFF^2 / D, or a bound: 1, then twice the mean distance, in the end 10 times what needs no
- * foresight. A hundred samples know D to 15 %. */
+ * prediction. A hundred samples know D to 15 %. */
 TEST(diffusion_says_how_far)
 {
     hd_random random = hd_random_seeded(5, 0);
@@ -43,12 +43,16 @@ TEST(diffusion_says_how_far)
                  {OFF * OFF / 0.5, 1.0},
                  {1.5 * OFF * OFF, 1.0}};
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
-        const hd_foresight f = foreseen(&random, cases[k].diffusion, dt, 1, 2000);
+        const hd_phase_predictor f = foreseen(&random, cases[k].diffusion, dt, 1, 2000);
         CHECK_CLOSE(f.omega, 1.3, 0.05);
-        CHECK_CLOSE(hd_foresight_sampling(&f, 1.0), cases[k].expected, 0.5 * cases[k].expected);
-        CHECK_CLOSE(fmin(hd_foresight_sampling(&f, 0.3), 3.0), fmin(cases[k].expected, 3.0), 1.2);
-        assert_true(hd_foresight_sampling(&f, 0.3) <= 3.0 && hd_foresight_gap(&f, 0.3) <= 6.3);
-        assert_true(hd_foresight_gap(&f, 1.0) >= 4.0 / 3.0 * hd_foresight_sampling(&f, 1.0));
+        CHECK_CLOSE(hd_phase_predictor_sampling(&f, 1.0), cases[k].expected,
+                    0.5 * cases[k].expected);
+        CHECK_CLOSE(fmin(hd_phase_predictor_sampling(&f, 0.3), 3.0), fmin(cases[k].expected, 3.0),
+                    1.2);
+        assert_true(hd_phase_predictor_sampling(&f, 0.3) <= 3.0 &&
+                    hd_phase_predictor_gap(&f, 0.3) <= 6.3);
+        assert_true(hd_phase_predictor_gap(&f, 1.0) >=
+                    4.0 / 3.0 * hd_phase_predictor_sampling(&f, 1.0));
     }
 }
 
@@ -62,8 +66,8 @@ TEST(distances_make_no_difference)
     for (int k = 0; k < 3; k++) {
         double mean = 0.0;
         for (int repeat = 0; repeat < 50; repeat++) {
-            const hd_foresight f = foreseen(&random, OFF * OFF / 4.0, all[k], 6, 300);
-            mean += hd_foresight_sampling(&f, 0.6) / 50.0;
+            const hd_phase_predictor f = foreseen(&random, OFF * OFF / 4.0, all[k], 6, 300);
+            mean += hd_phase_predictor_sampling(&f, 0.6) / 50.0;
         }
         CHECK_CLOSE(mean, 4.0, 0.4); /* 2 % statistics, 4 % bias of 1 / D, 3 % error of omega */
     }
@@ -72,10 +76,10 @@ TEST(distances_make_no_difference)
 /** Long ones count as much as they are long. */
 TEST(the_rate_is_a_mean_over_time)
 {
-    hd_foresight f;
-    hd_foresight_clear(&f, 2);
-    hd_foresight_turn(&f, 1.0, 1.0);
-    hd_foresight_turn(&f, 9.0, 3.0);
+    hd_phase_predictor f;
+    hd_phase_predictor_clear(&f, 2);
+    hd_phase_predictor_turn(&f, 1.0, 1.0);
+    hd_phase_predictor_turn(&f, 9.0, 3.0);
     CHECK_CLOSE(f.omega, 2.5, 1e-14);
 }
 
@@ -130,7 +134,7 @@ static int slips(const rotating *r)
     return count;
 }
 
-/** As far apart as the phases allow: 2.7 radians are what goes without foresight. */
+/** As far apart as the phases allow: 2.7 radians are what goes without a prediction. */
 TEST(a_learnt_rate_unwraps_two_turns)
 {
     const double omega = 2.6;
@@ -306,9 +310,9 @@ static int lost_turns(rotating *r, double omega)
     return lost;
 }
 
-/** Turns are not lost for ever: samples come as close as without foresight, and 400 later no phase
- * is lost or begun anew any more. (One that turns back as fast is not found again: quarters of a
- * turn look like exchanges.) */
+/** Turns are not lost for ever: samples come as close as without a prediction, and 400 later no
+ * phase is lost or begun anew any more. (One that turns back as fast is not found again: quarters
+ * of a turn look like exchanges.) */
 TEST(a_rate_that_jumps_is_found_again)
 {
     const double omega = 1.2, jumps[] = {-1.5, -1.2, -0.9, -0.7, -0.4, -0.2, 0.2,
