@@ -24,6 +24,7 @@ python3-matplotlib      python3-matplotlib
 python3-numpy           python3-numpy
 python3-pandas          python3-pandas
 python3-paramiko        python3-paramiko
+python3-pytest          python3-pytest
 python3-rospkg          python3-rospkg
 python3-scipy           python3-scipy
 python3-setuptools      python3-setuptools

@@ -9,25 +9,25 @@ import shutil
 import signal
 import socket
 import subprocess
-import sys
 import tempfile
 import threading
 import time
-import traceback
 import unittest
 import uuid
 import weakref
 
+import pytest
 import roslib.packages
 import rosgraph
 import rospy
-import rostest
 import yaml
 
 import measured
 from hdlyap import topics
 from hdlyap.msg import Mode, RunStatus
 
+UNDER_A_MASTER = pytest.mark.under_a_master  # rostest runs this file
+SECOND_TIER = pytest.mark.second_tier  # a test, a class or a file of tests/run.sh --all
 NODE = 'hdlyap'
 # a run of a fraction of a second
 SHORT = dict(number=20, density=0.7, aspect=1.0, equilibration=1.0, warmup=1.0, duration=2.0)
@@ -278,33 +278,8 @@ def whole_run(params, topics):
     return messages
 
 
-@contextlib.contextmanager
-def telling(*where):
-    """Of a subTest or a setUpClass that fails rosunit counts the failure, and tells neither which
-    nor why."""
-    try:
-        yield
-    except Exception:
-        print(*where, file=sys.stderr)
-        traceback.print_exc()
-        raise
-
-
-@contextlib.contextmanager
-def told(self, *args, _subtest=unittest.TestCase.subTest, **named):
-    with _subtest(self, *args, **named), telling(self.id(), *args, named):
-        yield
-
-
-unittest.TestCase.subTest = told
-
-
 class Case(unittest.TestCase):
     """Nodes, other processes, listeners and folders that end with the test."""
-
-    def __init_subclass__(cls):
-        if 'setUpClass' in vars(cls):
-            cls.setUpClass = classmethod(telling(cls, 'setUpClass')(cls.setUpClass.__func__))
 
     def start(self, params, **how):
         node = start(params, **how)
@@ -413,38 +388,3 @@ class Traced(unittest.TestCase):
 
     def assert_none_left(self):
         self.assertTrue(wait_until(lambda: not self.ours(), SOON, LOOK), self.ours())
-
-
-def more(test):
-    """Marks a test, or all of a class, as one of the second tier."""
-    test.is_more = True
-    return test
-
-
-def tests(of_second_tier):
-    """Those of the program that runs."""
-    load, suite = unittest.defaultTestLoader, unittest.TestSuite()
-    for case in vars(sys.modules['__main__']).values():
-        if not (isinstance(case, type) and issubclass(case, unittest.TestCase)):
-            continue
-        for name in load.getTestCaseNames(case):
-            marks = (getattr(of, 'is_more', False) for of in (case, getattr(case, name)))
-            if any(marks) == of_second_tier:
-                suite.addTest(case(name))
-    return suite
-
-
-def first_tier():
-    return tests(False)
-
-
-def second_tier():
-    return tests(True)
-
-
-def main(name):
-    """All tests of the program but those that are marked; or these, where its .test file has
-    args="more"."""
-    rospy.init_node('test_' + name)
-    tier = 'second_tier' if 'more' in sys.argv else 'first_tier'
-    rostest.rosrun('hdlyap', name, 'harness.' + tier)

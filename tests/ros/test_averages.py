@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """~gas, ~localization and fields of single vectors: against the other topics of the run, against
 kinetic theory, and against the vectors themselves."""
 
@@ -9,6 +8,8 @@ import numpy as np
 import harness
 from hdlyap.msg import Mode
 from hdlyap.plots import equation
+
+pytestmark = harness.UNDER_A_MASTER
 
 BOX = dict(
     number=60, density=0.4, aspect=0.5, equilibration=20.0, threads=1, wait_for_subscribers='all'
@@ -177,7 +178,3 @@ class BesideExponents(Gas):
                 np.testing.assert_allclose(added, np.log(now.widths_now), atol=1e-9 * now.samples)
                 checked += 1
         self.assertGreater(checked, 20)
-
-
-if __name__ == '__main__':
-    harness.main('averages')

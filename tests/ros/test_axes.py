@@ -2,7 +2,6 @@
 
 import subprocess
 import sys
-import unittest
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -142,7 +141,3 @@ def is_of(artist, colour):
             if (abs(colours - to_rgba_array(colour)[:, :3]) < 1e-6).all(axis=1).any():
                 return True
     return False
-
-
-if __name__ == '__main__':
-    unittest.main()

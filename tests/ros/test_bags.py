@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """Recording, replaying and repeating runs by the launch files: nothing is lost, nothing is changed,
 and a bag says all of its run."""
 
@@ -23,6 +22,8 @@ import hdlyap
 from hdlyap.plots import report
 import links
 from harness import MODES, NODE, OBSERVABLES, SHORT, TYPES, Process
+
+pytestmark = harness.UNDER_A_MASTER
 
 # a second run in the bag, and before it a first one
 FIRST = dict(SHORT, seed='7', observables=OBSERVABLES, wait_for_subscribers='all')
@@ -258,7 +259,7 @@ class Recorded(harness.Case):
         self.assertEqual(info.inertia, 0.0)
         self.assertAlmostEqual(info.packing_fraction, info.density * math.pi / 4, places=14)
 
-    @harness.more
+    @harness.SECOND_TIER
     def test_replay(self):
         """Waits for those who listen, then tells them what the bag holds, byte for byte; and
         run_info to who comes late."""
@@ -285,7 +286,7 @@ class Recorded(harness.Case):
         self.assertEqual(late.messages['/hdlyap/run_info'], want['/hdlyap/run_info'][-1:])
         end(replay)
 
-    @harness.more
+    @harness.SECOND_TIER
     def test_repeat(self):
         """From the bag alone: every number of every topic, bit for bit."""
         repeat = Process([*harness.command('repeat'), self.bag, '--run', '2'])
@@ -336,7 +337,7 @@ def of_fluctuations(vectors, own, times):
     return begin + 8 * 4 + 16 * vectors + 17 * len(own) + 4 * sum(own) + 16 * pairs + of_times
 
 
-@harness.more
+@harness.SECOND_TIER
 class Stopped(harness.Case):
     def setUp(self):
         self.folder = self.new_folder()
@@ -401,7 +402,3 @@ class Stopped(harness.Case):
         self.assertEqual(len(messages['/hdlyap/run_info']), 1)
         self.assertFalse({'/hdlyap/markers', '/hdlyap/slow_vectors'} & set(messages))
         self.assertIn('lambda_max', report.report(hdlyap.load(paths[0]).said))
-
-
-if __name__ == '__main__':
-    harness.main('bags')

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """hdlyap_node --check: what it says of a scene file is what the node makes of it, in the same words
 where it is refused."""
 
@@ -14,6 +13,8 @@ import golden
 import harness
 from harness import MODES, OBSERVABLES
 from hdlyap.runs import run
+
+pytestmark = harness.UNDER_A_MASTER
 
 SCENES = os.path.join(os.path.dirname(os.path.abspath(__file__)), '../../launch/scenes')
 COVARIANT = dict(
@@ -208,7 +209,7 @@ class Check(harness.Case):
                 self.assertEqual('errors ' in done.stdout, of_exponents)
                 self.assertEqual('waves ' in done.stdout, of_exponents)
 
-    @harness.more
+    @harness.SECOND_TIER
     def test_large(self):
         """An interval of the scene itself would take minutes."""
         done = checked(os.path.join(SCENES, 'quick.yaml'), 'number:=4000', 'max_wave_number:=0.12')
@@ -320,7 +321,3 @@ class Check(harness.Case):
         done = checked(self.file_of(''), 'number=40')
         self.assertEqual(done.returncode, 2)
         self.assertIn('number=40: must be parameter:=value', done.stderr)
-
-
-if __name__ == '__main__':
-    harness.main('check')

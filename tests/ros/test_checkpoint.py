@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """A run kept in a file and taken up again, by parameters and by the service."""
 
 import os
@@ -9,6 +8,8 @@ from std_srvs.srv import SetBool, Trigger
 
 import harness
 from harness import SHORT
+
+pytestmark = harness.UNDER_A_MASTER
 
 DOCUMENT = os.path.join(os.path.dirname(os.path.abspath(__file__)), '../../doc/survival.md')
 LONG = dict(SHORT, duration=0.0, threads=1)
@@ -117,7 +118,7 @@ class Checkpoint(harness.Case):
         self.ends(self.start(dict(RUN, checkpoint='/no/such/file')), 4, '/no/such/file')
         self.assertEqual(os.listdir(folder), [os.path.basename(self.file)])
 
-    @harness.more
+    @harness.SECOND_TIER
     def test_what_was_there_is_set_aside(self):
         old = [self.file, self.file + '.old', self.file + '.old2']
         for seed in ('1', '2', '3'):
@@ -138,7 +139,7 @@ class Checkpoint(harness.Case):
         self.ends(self.start(dict(resume=old[1], seed='1', duration=5.0)), 0)
         self.ends(self.start(dict(resume=old[0], seed='1', duration=6.0)), 0)
 
-    @harness.more
+    @harness.SECOND_TIER
     def test_two_runs_with_one_file(self):
         """The second one has it."""
         params = dict(LONG, checkpoint=self.file, checkpoint_interval=0.05)
@@ -151,7 +152,7 @@ class Checkpoint(harness.Case):
             self.ends(node, status)
         self.ends(self.start(dict(resume=self.file, seed='2', duration=1e-3)), 2, 'duration')
 
-    @harness.more
+    @harness.SECOND_TIER
     def test_while_paused(self):
         """What has happened before the pause is in the file."""
         heard = self.hear('/diagnostics', DiagnosticArray)
@@ -212,7 +213,3 @@ class Checkpoint(harness.Case):
         node = self.start(params)
         self.sees(lambda: node.lines('goes on from simulated time'))
         self.interrupt(node)
-
-
-if __name__ == '__main__':
-    harness.main('checkpoint')

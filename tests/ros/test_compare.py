@@ -488,7 +488,3 @@ class Power(unittest.TestCase):
                 run_.spectrum.std_errors = [factor * error for error in run_.spectrum.std_errors]
             largest = Comparison(*pair).exponents[0]
             self.assertAlmostEqual(largest.error / errors[0], max(1.0, factor), delta=0.1)
-
-
-if __name__ == '__main__':
-    unittest.main()

@@ -139,7 +139,3 @@ class FalseAlarms(unittest.TestCase):
             with self.subTest(factor=factor, seeds=seeds, found=found):
                 self.assertLessEqual(found[0], 0.058)
                 self.assertLessEqual(found[1], 0.037)
-
-
-if __name__ == '__main__':
-    unittest.main()

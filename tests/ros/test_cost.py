@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """~cost and ~status against the clock, against each other and against the other topics: seconds of
 each stage, rates, progress, and the time that is left."""
 
@@ -7,6 +6,8 @@ from statistics import median
 import harness
 from harness import SHORT
 from hdlyap.msg import Cost
+
+pytestmark = harness.UNDER_A_MASTER
 
 STAGES = ['events', 'replay', 'ortho', 'spectrum', 'modes', 'covariant', 'publish', 'waiting']
 BOX = dict(SHORT, number=100, threads=1)
@@ -104,7 +105,3 @@ class Costs(harness.Case):
         self.assertTrue(status.wait_for(lambda m: m.sim_time > 3.0))
         for message in status.messages:
             self.assertEqual((message.progress, message.remaining_seconds), (-1.0, -1.0))
-
-
-if __name__ == '__main__':
-    harness.main('cost')

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """What a run says of its covariant vectors: window by window, right, and only to those who
 listen."""
 
@@ -9,6 +8,8 @@ import harness
 from harness import is_last
 from hdlyap.msg import CovariantAngle, Mode
 from std_srvs.srv import Trigger
+
+pytestmark = harness.UNDER_A_MASTER
 
 START, WINDOW, TRANSIENT, SAMPLING, DURATION = 30.0, 5.0, 20.0, 1.0, 200.0
 SCENE = dict(
@@ -279,7 +280,7 @@ class Demand(Case):
             (calls['covariant_publish'], calls['modes_measure']), (WINDOWS, 3 * WINDOWS * LOOKS)
         )
 
-    @harness.more
+    @harness.SECOND_TIER
     def test_who_comes_late_and_goes(self):
         """Is told of windows that began when he was there, and paid for until he goes."""
         cost = self.listen('cost')
@@ -348,7 +349,3 @@ class Faults(Case):
         covariant = self.listen('covariant')
         self.ends(self.start(SCENE, probe={'PROBE_NAN_ANGLE': '1'}), 3, 'not finite')
         self.assertEqual(covariant.messages, [])
-
-
-if __name__ == '__main__':
-    harness.main('covariant')

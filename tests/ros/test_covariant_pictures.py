@@ -1,7 +1,6 @@
 """Covariant vectors in hdlyap plot, from messages made here: what it prints and draws."""
 
 import os
-import unittest
 
 import numpy as np
 
@@ -420,7 +419,3 @@ class Command(Bags):
             figure.canvas.draw()
             dark = np.asarray(figure.canvas.buffer_rgba())[..., :3] < 128
             self.assertTrue(dark.any(), name)
-
-
-if __name__ == '__main__':
-    unittest.main()

@@ -6,7 +6,6 @@ import re
 import subprocess
 import sys
 import tempfile
-import unittest
 from unittest import mock
 
 import numpy as np
@@ -480,7 +479,3 @@ class Example(Loaded):
         self.assertIn(shown, text)
         self.assertEqual(shown.count('\n'), 3)
         self.assertLessEqual(text.count('\n'), 50)
-
-
-if __name__ == '__main__':
-    unittest.main()

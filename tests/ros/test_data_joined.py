@@ -6,7 +6,6 @@ import io
 import os
 import re
 import shutil
-import unittest
 import warnings
 from unittest import mock
 
@@ -400,7 +399,3 @@ class SeveralSeeds(Loaded):
             values = np.arange(len(lengths), dtype=float)[:, None]
             _, stated, scatter, _, _ = mean(values, np.full_like(values, np.nan), lengths)
             self.assertEqual((np.isnan(stated[0]), np.isnan(scatter[0])), (True, not is_known))
-
-
-if __name__ == '__main__':
-    unittest.main()

@@ -4,7 +4,6 @@ harm."""
 import json
 import os
 import sys
-import unittest
 import xmlrpc.client
 from unittest import mock
 
@@ -548,7 +547,3 @@ class Hostile(Tools):
             content.tofile(self.path('b'))
             outcomes |= {status for status, *_ in self.all_tools(self.path('b'))}
         self.assertLessEqual({0, 1, 2}, outcomes)
-
-
-if __name__ == '__main__':
-    unittest.main()

@@ -4,7 +4,6 @@ import json
 import os
 import re
 import sys
-import unittest
 from unittest import mock
 
 import numpy as np
@@ -199,7 +198,3 @@ class Partly(bags.Bags):
         with mock.patch.dict(sys.modules, {'xarray': None}):
             with self.assertRaisesRegex(ImportError, r'to_xarray needs xarray: python3-xarray'):
                 run.to_xarray()
-
-
-if __name__ == '__main__':
-    unittest.main()

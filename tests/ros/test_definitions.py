@@ -3,7 +3,6 @@ is named, or made to do harm, which rosbag would run."""
 
 import os
 import re
-import unittest
 
 import made
 import test_data_tools
@@ -61,7 +60,3 @@ class Definitions(test_data_tools.Tools):
                         'whose message hdlyap/RunInfo differs' in error, 'aaa' in md5sum, error
                     )
                 self.assertFalse(os.path.exists(self.trace), line)
-
-
-if __name__ == '__main__':
-    unittest.main()

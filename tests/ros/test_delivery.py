@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """A recorder misses nothing, and nobody who listens, or does not, holds a run up."""
 
 import os
@@ -12,6 +11,8 @@ import rosgraph
 import harness
 import links
 from harness import MODES, OBSERVABLES, SHORT, TYPES, Process, is_last
+
+pytestmark = harness.UNDER_A_MASTER
 
 # some hundred messages of each topic, in less than a second
 MANY = dict(
@@ -102,7 +103,7 @@ class Delivery(harness.Case):
             recorder.wait()
             self.check_flood(bag)
 
-    @harness.more
+    @harness.SECOND_TIER
     def test_recorder_that_stands_still(self):
         """It is not waited for without an end, and what it loses is said."""
         recorder = self.record_all(['record']).popitem()[1]
@@ -156,7 +157,7 @@ class Delivery(harness.Case):
             link.greet()
         return some
 
-    @harness.more
+    @harness.SECOND_TIER
     def test_waits_for_all_who_have_subscribed(self):
         """Each topic has a subscriber at once, but that is not the only one."""
         for topic in TYPES:
@@ -181,7 +182,7 @@ class Delivery(harness.Case):
                 self.assertEqual(first.seqs, second.seqs)
         self.assertEqual(node.lines('WARN'), [])
 
-    @harness.more
+    @harness.SECOND_TIER
     def test_does_not_wait_for_ever(self):
         """For one that has subscribed and is gone."""
         links.register(self, 'cost', '/gone')
@@ -203,7 +204,7 @@ class Delivery(harness.Case):
         services = rosgraph.Master('/test', uri).getSystemState()[2]
         return '/%s/stop' % harness.NODE in dict(services)
 
-    @harness.more
+    @harness.SECOND_TIER
     def test_master_dies_before_the_run(self):
         """Or hangs: nobody knows who else has subscribed."""
         for number in (signal.SIGKILL, signal.SIGSTOP):
@@ -229,7 +230,3 @@ class Delivery(harness.Case):
                 )
                 master.send(signal.SIGCONT)
                 self.ends(node)
-
-
-if __name__ == '__main__':
-    harness.main('delivery')

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """What of the modes is computed, by who listens; and fields of single vectors."""
 
 
@@ -7,6 +6,8 @@ import rospy
 
 import harness
 from harness import MODES, OBSERVABLES
+
+pytestmark = harness.UNDER_A_MASTER
 
 REPORTS = 20  # of MODES, while averaging
 MESSAGE = {'fields': 'mode_field'}  # of topics that are named otherwise
@@ -113,7 +114,3 @@ class Fields(harness.Case):
             self.ends(node, 3)
             self.assertEqual(len(node.lines('not finite')), 1, node.text())
             self.assertTrue(name != 'fields' or heard.messages == [])
-
-
-if __name__ == '__main__':
-    harness.main('demand')

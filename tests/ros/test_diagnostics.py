@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """What /diagnostics says of a run on which something is wrong, and that it stops saying so."""
 
 import os
@@ -12,6 +11,8 @@ import harness
 import links
 from harness import MODES, SHORT
 from hdlyap.msg import RunStatus
+
+pytestmark = harness.UNDER_A_MASTER
 
 OK, WARN, ERROR = DiagnosticStatus.OK, DiagnosticStatus.WARN, DiagnosticStatus.ERROR
 LIVE = dict(SHORT, duration=0.0, pace=20.0, threads=1)
@@ -104,7 +105,3 @@ class Diagnostics(harness.Case):
             self.start(dict(resume=kept, duration=0.0, pace=1.0))
             values = self.said(OK)
         self.assertLess(float(values['collisions per second']), 0.1 * before)
-
-
-if __name__ == '__main__':
-    harness.main('diagnostics')

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """Checkpoints on a disk that is full, or was never to be written to, or in a process that is
 killed: what has been written stays whole, what cannot be is named, and the run goes on."""
 
@@ -16,6 +15,8 @@ from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 import rospy
 
 import harness
+
+pytestmark = [harness.UNDER_A_MASTER, harness.SECOND_TIER]
 
 
 FILE_FAULT = 4  # exit status
@@ -235,7 +236,3 @@ class Disk(harness.Case):
                     self.assertEqual(goes_on(node), before)
         for path in paths:
             self.resumes(path)
-
-
-if __name__ == '__main__':
-    harness.main('disk')

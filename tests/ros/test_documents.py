@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """The documents against the sources: tables, links, tags of equations, names and files that they
 mention. Needs no ROS master."""
 
@@ -247,7 +246,3 @@ class Text(unittest.TestCase):
         self.assertLessEqual(len(read('README.md').splitlines()), 200)
         forthcoming = read('CHANGELOG.rst').split('-----------')[1].split('\n\n')[0]
         self.assertLessEqual(len(forthcoming.strip().splitlines()), 12)
-
-
-if __name__ == '__main__':
-    unittest.main()

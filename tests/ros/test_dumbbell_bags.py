@@ -2,7 +2,6 @@
 disks and colours in figures and films, the share of rotation."""
 
 import os
-import unittest
 
 import numpy as np
 from matplotlib.colors import to_rgb
@@ -264,7 +263,3 @@ class Tables(Dumbbells):
         self.assertNotIn(shifted, words.texts[-1].get_text())
         ticks = [text.get_text() for text in words.axes[0].get_xticklabels()]
         self.assertEqual(ticks, ['0.5', 'disks'])
-
-
-if __name__ == '__main__':
-    unittest.main()

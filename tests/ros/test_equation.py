@@ -83,7 +83,3 @@ class Measured(unittest.TestCase):
         for rho in ([0.1, 0.2], [0.1, 0.2, 0.2]):
             with self.assertRaisesRegex(ValueError, '2 different densities: must be at least 3'):
                 equation.sound_velocities(rho, np.ones(len(rho)))
-
-
-if __name__ == '__main__':
-    unittest.main()

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """The example beside a running node: its numbers are found again from what the test itself
 hears."""
 
@@ -16,6 +15,8 @@ from harness import MODES
 from hdlyap.data import series
 from hdlyap.msg import LpPhase, LpPhases
 from roslib.packages import find_node
+
+pytestmark = harness.UNDER_A_MASTER
 
 ROUNDING = 1e-6  # of regressions in another order
 STATES = {
@@ -197,7 +198,3 @@ class Alone(Examples):
             atol=ROUNDING,
         )
         self.interrupt(watch)
-
-
-if __name__ == '__main__':
-    harness.main('examples')

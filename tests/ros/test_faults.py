@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """What may happen to a node on a machine that is short of something, or in hands that send signals:
 it ends with the status that stands for it and one line that names it, or goes on; it never
 crashes."""
@@ -15,6 +14,8 @@ from std_srvs.srv import SetBool
 import harness
 import links
 from harness import MODES, OBSERVABLES, SHORT
+
+pytestmark = [harness.UNDER_A_MASTER, harness.SECOND_TIER]
 
 BOUND = 1.0  # seconds from a request to stop to the end, the contract
 FAULT = 3  # exit status
@@ -241,7 +242,3 @@ class Faults(harness.Case):
                     args=args,
                     command=['sh', '-c', 'exec "$@" >/dev/full', 'sh', harness.executable()],
                 )
-
-
-if __name__ == '__main__':
-    harness.main('faults')

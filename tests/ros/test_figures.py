@@ -1,7 +1,6 @@
 """The figures of hdlyap plot: what each of them shows is what was recorded, read back from what
 matplotlib has of it."""
 
-import unittest
 
 import numpy as np
 
@@ -315,7 +314,3 @@ class Figures(bags.Figures):
         self.assertFalse(any(spine.get_visible() for spine in axes.spines.values()))
         self.assertEqual(waves.formula(2, 1, waves.COS_M), r'$J_{2}(k r)\,\cos 2\theta$')
         self.assertEqual(waves.formula(2, 1, waves.SIN_M), r'$J_{2}(k r)\,\sin 2\theta$')
-
-
-if __name__ == '__main__':
-    unittest.main()

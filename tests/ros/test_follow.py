@@ -155,7 +155,3 @@ class Running(unittest.TestCase):
         node = harness.start(PACED, ROS_MASTER_URI=uri)
         self.addCleanup(node.stop)
         self.shows(terminal, 'lambda_max')
-
-
-if __name__ == '__main__':
-    unittest.main()

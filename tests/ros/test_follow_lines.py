@@ -253,7 +253,3 @@ class Heard(unittest.TestCase):
         shown = View()
         fill(shown, dict(status=lazy(RunStatus)().deserialize(b'1234').unpacked(), cost=cost()))
         self.assertEqual((shown.status, shown.cost), (None, None))
-
-
-if __name__ == '__main__':
-    unittest.main()

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """A run of each kind of particles: what a subscriber gets, against what must be so. That every
 number arrives as the core has it is test_published's; that it is right, the core's tests'."""
 
@@ -14,6 +13,8 @@ from hdlyap.msg import LpPhase
 from hdlyap.data import containers, waves
 from hdlyap.plots import repetition, report
 from hdlyap.plots.figures import style
+
+pytestmark = harness.UNDER_A_MASTER
 
 CUT = dict(power=1.0, wca=2 ** (1 / 6))
 
@@ -238,7 +239,3 @@ class SoftSpheres(Soft, harness.Case):
         for name in 'pressure', 'pressure_z', 'temperature', 'potential_energy', 'compressibility':
             error, value = getattr(last, name + '_error'), getattr(last, name)
             self.assertTrue(0 < error < 0.1 * value, f'{name} {value} +- {error}')
-
-
-if __name__ == '__main__':
-    harness.main('kinds')

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """Each kind of particles interrupted, and on two ranks; their checkpoints and scene files."""
 
 import os
@@ -12,6 +11,8 @@ import test_kinds
 from of_kind import REST
 from test_check import check_scenes
 from test_ranks import ENVIRONMENT, mpirun
+
+pytestmark = harness.UNDER_A_MASTER
 
 
 class Again(harness.Case):
@@ -82,7 +83,3 @@ class Scenes(harness.Case):
             ('soft_disks', 2, 60, flat),
         ):
             check_scenes(self, kind, count, number, *lines)
-
-
-if __name__ == '__main__':
-    harness.main('kinds_kept')

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """Launch files: launching records whole runs."""
 
 import os
@@ -14,6 +13,8 @@ import rospy
 
 import harness
 from hdlyap.msg import RunStatus
+
+pytestmark = [harness.UNDER_A_MASTER, harness.SECOND_TIER]
 
 LAUNCH = os.path.join(rospkg.RosPack().get_path('hdlyap'), 'launch')
 
@@ -313,7 +314,3 @@ class Launch(harness.Case):
                     self.assertEqual(len(run.lines('exit code 2')), 1, run.text())
                     self.assertNotIn('<param', run.text())
             self.assertEqual(os.listdir(folder), ['q.bag'])
-
-
-if __name__ == '__main__':
-    harness.main('launch')

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """Parameters that are changed while a run goes on: when they hold, what is refused, and that a bag
 tells of it all."""
 
@@ -16,6 +15,8 @@ import yaml
 from hdlyap.srv import Set
 import harness
 from harness import NODE, SHORT
+
+pytestmark = harness.UNDER_A_MASTER
 
 RUN = dict(harness.REPEATABLE, duration=0.0, report_interval=1.0, field_interval=1000.0)
 TOPICS = RUN['observables']
@@ -113,7 +114,7 @@ class Live(harness.Case):
         runs = {info.run_id for info in self.heard['run_info'].messages}
         self.assertEqual(len(runs), 1)
 
-    @harness.more
+    @harness.SECOND_TIER
     def test_pace(self):
         """Also while it waits for a pace that is too slow, or is paused."""
         node = self.started(dict(RUN, pace=1.0e-4, duration=60.0))
@@ -228,7 +229,7 @@ class Live(harness.Case):
         self.sees(lambda: rospy.get_param('/' + NODE) == last, node)
         self.interrupt(node)
 
-    @harness.more
+    @harness.SECOND_TIER
     def test_the_parameter_server_is_read_at_the_start(self):
         """Alone; lists as rosrun hands them on are lists, whatever blanks they have."""
         params = dict(SHORT, duration=0.0, pace=20.0, wait_for_subscribers='[ status,cost]')
@@ -316,7 +317,3 @@ class Live(harness.Case):
         self.sees(lambda: rospy.get_param('/viewer/modes', '') == 'lowest', viewer)
         viewer.send(signal.SIGINT)
         self.assertEqual(viewer.wait(), 0)
-
-
-if __name__ == '__main__':
-    harness.main('live')

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """What a run says of its modes: the topics agree with each other."""
 
 import math
@@ -9,6 +8,8 @@ import harness
 import measured
 from harness import MODES, OBSERVABLES
 from hdlyap.msg import LpPhase, Mode
+
+pytestmark = harness.UNDER_A_MASTER
 
 REPORTS = 20  # of MODES, while averaging
 ROUNDING = 1e-9
@@ -407,7 +408,3 @@ def responses_of(field, modulation):
         2 * (px * dpx + py * dpy) * a + (px**2 + py**2) * dqx * slope,
     )
     return np.sum(parts, axis=1) / math.sqrt(len(x) / 2)
-
-
-if __name__ == '__main__':
-    harness.main('modes')

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """Films from bags: what a frame knows, what is drawn of it, and the file read back."""
 
 import json
@@ -282,7 +281,3 @@ class Files(Films):
             said = r'\Ahdlyap movie: %s: %s.*\n\Z' % (self.bag, words)
             self.refuses(said, 'movie', self.bag, *out)
         self.assertEqual(os.listdir(self.folder), ['run.bag'])
-
-
-if __name__ == '__main__':
-    unittest.main()

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """Nodes beside each other, under other names, at a pace, and in a system that runs on simulated
 time."""
 
@@ -20,6 +19,8 @@ from std_srvs.srv import SetBool, Trigger
 import harness
 import links
 from harness import SHORT, TYPES, Process
+
+pytestmark = harness.UNDER_A_MASTER
 
 TOPICS = ['spectrum', 'state', 'status', 'cost']
 RUN = dict(
@@ -234,7 +235,7 @@ class Nodes(harness.Case):
         self.sees(lambda: view.lines(wrong), view)
         self.assertTrue(node.running(), node.text())
 
-    @harness.more
+    @harness.SECOND_TIER
     def test_recorder_of_an_address_that_nobody_reaches(self):
         self.start_unreached()
         recorder = self.process(
@@ -255,7 +256,7 @@ class Nodes(harness.Case):
         self.assertLess(abs(run.stamps()[-1] - time.time()), 600)
         self.ends(follow)
 
-    @harness.more
+    @harness.SECOND_TIER
     def test_simulated_time(self):
         """Without a clock, and with one that is none; who has set it is left alone."""
         rospy.set_param('/use_sim_time', True)
@@ -272,7 +273,7 @@ class Nodes(harness.Case):
         self.check_simulated_time()
         self.assertIs(rospy.get_param('/use_sim_time'), True)
 
-    @harness.more
+    @harness.SECOND_TIER
     def test_the_clock_is_set(self):
         """By an hour in the midst of a run, forwards and backwards: nothing waits for it, and all
         that is measured goes on."""
@@ -307,7 +308,3 @@ class Nodes(harness.Case):
         )
         self.assertLess(last.wall_seconds, time.monotonic() - begin)
         self.assertLess(simulated, PACE * (wall + 1))  # a second of delay may be made up
-
-
-if __name__ == '__main__':
-    harness.main('nodes')

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """Nodes of particles that the core does not know, without positions in a box."""
 
 import math
@@ -6,6 +5,8 @@ import os
 import subprocess
 
 import harness
+
+pytestmark = harness.UNDER_A_MASTER
 
 N = 8
 SCENE = dict(
@@ -63,7 +64,3 @@ class Own(harness.Case):
         said = subprocess.check_output([NODE, '--parameters'], text=True)
         names = ' and '.join(f'chains_of_a_name_of_31_letters{k}' for k in range(1, 6))
         self.assertEqual(said.count(f'# For {names} only.'), 3)
-
-
-if __name__ == '__main__':
-    harness.main('own')

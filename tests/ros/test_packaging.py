@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """What others rely on without running anything: names of dependencies, files that Ubuntu 20.04 and
 ROS Noetic (CMake 3.16, Python 3.8) read as well, and what the messages say about their fields.
 Needs no ROS master."""
@@ -232,19 +231,3 @@ class Launch(unittest.TestCase):
                 self.assertTrue(argument.get('doc'), '%s: %s' % (path, argument.get('name')))
                 count += 1
         self.assertGreater(count, 8)
-
-
-class Suite(unittest.TestCase):
-    """What tests/ros/CMakeLists.txt does not name is not run."""
-
-    def test_every_rostest_is_run(self):
-        cmake = text_of('tests/ros/CMakeLists.txt')
-        run = re.findall(r'(?:set|list)\((?:APPEND )?(?:FIRST|SECOND)_TIER ([^)]*)\)', cmake)
-        run = ' '.join(run).split() + re.findall(r'add_rostest\w*\((?:\w+ )?(\w+)\.test', cmake)
-        self.assertEqual(
-            sorted(run), sorted(os.path.basename(path)[:-5] for path in files('.test'))
-        )
-
-
-if __name__ == '__main__':
-    unittest.main()

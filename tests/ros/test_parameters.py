@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """Parameters as ROS hands them on: types of the parameter server, lists of the command line, scenes
 that are started. What each may be is tested without nodes, in test_refusals.cpp."""
 
@@ -13,6 +12,8 @@ import yaml
 
 import harness
 from harness import SHORT
+
+pytestmark = harness.UNDER_A_MASTER
 
 SCENES = os.path.join(os.path.dirname(os.path.abspath(__file__)), '../../launch/scenes')
 HEARD = dict(wait_for_subscribers=['run_info'])
@@ -290,7 +291,3 @@ class Parameters(harness.Case):
             )
             self.assertEqual((done.returncode, done.stderr), (0, ''))
             self.assertRegex(done.stdout.strip(), said)
-
-
-if __name__ == '__main__':
-    harness.main('parameters')

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """~slow_vectors and the pictures that the viewer makes of topics: what is drawn is what is
 published, only while somebody looks, as often as asked; live and from what was recorded."""
 
@@ -18,6 +17,8 @@ from visualization_msgs.msg import Marker
 import harness
 from harness import MODES, Listener
 from pictured import Pictures, are_alike, lines, modes, places, text
+
+pytestmark = harness.UNDER_A_MASTER
 
 ENDLESS = dict(MODES, duration=0.0)
 SPHERES = dict(particles='spheres', number=128, density=0.5, aspect=0.25, aspect_z=0.3)
@@ -223,7 +224,7 @@ class Markers(harness.Case):
         slow.unregister()
         self.assertTrue(harness.wait_until(lambda: set(came).issuperset(STAND_INS)), came)
 
-    @harness.more
+    @harness.SECOND_TIER
     def test_the_node_works_for_who_looks(self):
         """A live node has no fields to make for the viewer, and nothing at all soon after nobody
         looks any more."""
@@ -251,7 +252,7 @@ class Markers(harness.Case):
         self.assertGreater(len(both), 1)
         self.assertEqual([one[time] for time in both], [other[time] for time in both])
 
-    @harness.more
+    @harness.SECOND_TIER
     def test_as_often_as_asked(self):
         """Pictures of the averaging, beside the wall time that they took; before it steps are as
         long as they like."""
@@ -268,7 +269,7 @@ class Markers(harness.Case):
         times = [float(re.search(r't = ([0-9.]+)', text(p)).group(1)) for p in averaging()[3:]]
         self.assertLess(max(np.diff(times)), 0.9)  # 0.2 apart, but for a busy machine
 
-    @harness.more
+    @harness.SECOND_TIER
     def test_late_to_a_run_that_rests(self):
         self.start(ENDLESS)
         self.assertTrue(harness.service('pause', SetBool)(True).success)
@@ -280,7 +281,7 @@ class Markers(harness.Case):
         for picture in pictures.all[1:]:
             np.testing.assert_array_equal(places(picture), places(pictures.all[0]))
 
-    @harness.more
+    @harness.SECOND_TIER
     def test_late_to_modes_that_rest(self):
         """Nobody looked when the run was paused: its modes are found, their vectors not known."""
         before = self.look()
@@ -301,7 +302,7 @@ class Markers(harness.Case):
         for title in titles:
             self.assertRegex(title, r'vector \d+ not received')
 
-    @harness.more
+    @harness.SECOND_TIER
     def test_what_comes_no_more_is_not_shown_as_live(self):
         """Of a node that rests, and of one that was killed; the picture is repeated for who
         looks."""
@@ -322,7 +323,7 @@ class Markers(harness.Case):
         node.stop()
         self.sees(stands)
 
-    @harness.more
+    @harness.SECOND_TIER
     def test_no_memory(self):
         """Said again and again, while the program goes on: of the viewer, and of the node."""
         many = dict(ENDLESS, number=20000, aspect=1.0, exponents='none', warmup=0.0, pace=1.0)
@@ -345,7 +346,3 @@ class Markers(harness.Case):
         self.assertEqual(transform.transform.rotation.w, 1.0)
         translation = transform.transform.translation
         self.assertEqual((translation.x, translation.y, translation.z), (0, 0, 0))
-
-
-if __name__ == '__main__':
-    harness.main('pictures')

@@ -313,7 +313,3 @@ class Numbers(unittest.TestCase):
         a = waves.modulation(info, 1, 2, waves.SIN_X, 1.0, 2.0)
         self.assertAlmostEqual(a, np.sin(2 * np.pi / 10) * np.cos(2 * np.pi / 5 * 1.5))
         self.assertEqual(waves.formula(1, 2, waves.SIN_X), r'$\sin k_x x\,\cos k_y y$')
-
-
-if __name__ == '__main__':
-    unittest.main()

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """hdlyap plot --live: what it gathers is what a bag holds, and its window shows it until it is
 closed."""
 
@@ -21,6 +20,8 @@ import harness
 import hdlyap
 import made
 from screen import Screen
+
+pytestmark = harness.UNDER_A_MASTER
 
 PLOT = [*harness.command('plot'), '--live']
 HEARD = 'spectrum', 'steps', 'lp_phases', 'status'
@@ -180,7 +181,3 @@ class Refused(harness.Case):
             self.assertEqual(plot.wait(), 2)
             self.assertIn(said, plot.text().splitlines()[-1])
             self.assertNotIn('Traceback', plot.text())
-
-
-if __name__ == '__main__':
-    harness.main('plot_live')

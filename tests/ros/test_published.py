@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """Every field of every message beside what the core says by its public headers at that moment, in
 the same process (witness.cpp). The rows of published.txt say what belongs together."""
 
@@ -17,6 +16,8 @@ from hdlyap import msg, topics
 from hdlyap.data import possible
 from hdlyap.msg import LpPhase, Mode
 from hdlyap.runs.asked import text
+
+pytestmark = harness.UNDER_A_MASTER
 
 TABLE = os.path.join(os.path.dirname(os.path.abspath(__file__)), 'published.txt')
 ROUNDING = 1e-12  # relative to the largest, of sums of some hundred terms
@@ -393,7 +394,3 @@ def given_at(asked, params, core):
     given.update((change.name, float(change.value)) for change in made)
     written = [f'{name}={text(value)}' for name, value in sorted(params.items())]
     return dict(asked=asked, given=given, made=made, written=written)
-
-
-if __name__ == '__main__':
-    harness.main('published')

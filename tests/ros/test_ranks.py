@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """The node on several ranks: the same topics, numbers, checkpoints and ends as on one."""
 
 import os
@@ -12,6 +11,8 @@ import time
 
 import harness
 from harness import MODES, REPEATABLE, SHORT
+
+pytestmark = harness.UNDER_A_MASTER
 
 RANKS = 2
 # kernels of OpenBLAS that run on every processor of this kind, and that hardly one gets by itself
@@ -102,7 +103,7 @@ class Ranks(harness.Case):
         for name, topic in topics.items():
             self.assertTrue(topic.messages, name)
 
-    @harness.more
+    @harness.SECOND_TIER
     def test_interrupt(self):
         for number in (signal.SIGINT, signal.SIGTERM):
             spectrum = self.listen('spectrum')
@@ -117,7 +118,7 @@ class Ranks(harness.Case):
             self.assertTrue(all_gone(pids))
             spectrum.close()
 
-    @harness.more
+    @harness.SECOND_TIER
     def test_one_is_interrupted(self):
         """It is for the node to end the run."""
         spectrum = self.listen('spectrum')
@@ -146,14 +147,14 @@ class Ranks(harness.Case):
             node.send(signal.SIGINT)
             node.wait(harness.SOON)
 
-    @harness.more
+    @harness.SECOND_TIER
     def test_killed(self):
         """The node, another rank, mpirun."""
         self.kill(lambda node, pids: pids[0])
         self.kill(lambda node, pids: pids[1])
         self.kill(lambda node, pids: node.process.pid)
 
-    @harness.more
+    @harness.SECOND_TIER
     def test_stopped_for_a_while(self):
         """The others wait for it."""
         status = self.listen('status')
@@ -181,7 +182,7 @@ class Ranks(harness.Case):
         self.assertEqual(status, 2, said)
         self.assertRegex(said, 'rank 1 runs hdlyap .* %s kernels: must run hdlyap' % OTHER_KERNELS)
 
-    @harness.more
+    @harness.SECOND_TIER
     def test_no_room(self):
         status, said = self.unlike('prlimit', '--as=900000000', number=3000)
         self.assertEqual(status, 3, said)
@@ -225,7 +226,3 @@ class Ranks(harness.Case):
         node = self.on_ranks(params)
         self.ends(node, 2)
         self.assertEqual(len(node.lines('ranks = 2: must be 1 for covariant vectors')), 1)
-
-
-if __name__ == '__main__':
-    harness.main('ranks')

@@ -3,7 +3,6 @@
 import os
 import shlex
 import signal
-import unittest
 from unittest import mock
 
 from diagnostic_msgs.msg import DiagnosticArray
@@ -117,7 +116,3 @@ class Recording(harness.InFolder):
         said = process('--help', script='record')
         self.assertEqual((said.status, said.error), (0, ''))
         self.assertIn('default: 1G', said.out)
-
-
-if __name__ == '__main__':
-    unittest.main()

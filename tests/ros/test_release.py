@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """What is said of a release, and what packages are made of: versions, lists of dependencies and of
 files that have to agree. Needs no ROS master; tests/packages.sh builds the packages."""
 
@@ -112,7 +111,3 @@ class Debian(unittest.TestCase):
         said = re.search(r'\nLicense: BSD-3-Clause\n((?: .*\n)+)', text_of('debian/copyright'))
         own = text_of('LICENSE').split('All rights reserved.')[1]
         self.assertEqual(re.sub(r'(?m)^ \.$', '', said.group(1)).split(), own.split())
-
-
-if __name__ == '__main__':
-    unittest.main()

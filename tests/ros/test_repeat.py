@@ -1,8 +1,6 @@
-#!/usr/bin/env python3
 """The scene file of a recorded run, from its run_info alone."""
 
 import os
-import unittest
 
 import yaml
 
@@ -166,7 +164,3 @@ class Repeat(Bags):
         self.write([made.run_info(seed='2')], node='/group/two', mode='a')
         self.assertEqual(self.repeated('/group/two')['seed'], '2')
         self.assertEqual(self.repeated('one')['seed'], '1')
-
-
-if __name__ == '__main__':
-    unittest.main()

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """hdlyap replay: when it says what a bag holds, and what it refuses."""
 
 import math
@@ -13,6 +12,8 @@ from diagnostic_msgs.msg import DiagnosticArray
 import harness
 import made
 from hdlyap.msg import RunInfo, RunStatus, State, Steps
+
+pytestmark = [harness.UNDER_A_MASTER, harness.SECOND_TIER]
 
 REPLAY = harness.command('replay')
 REPORTS = 30  # of a run, a time unit apart; recorded within milliseconds
@@ -183,7 +184,3 @@ class Replayed(harness.Case):
         replay = self.process([*REPLAY, self.bag, *args])
         self.ends(replay, 1)
         self.assertRegex(replay.text(), r'\Ahdlyap replay: %s: .*%s.*\n\Z' % (self.bag, words))
-
-
-if __name__ == '__main__':
-    harness.main('replay')

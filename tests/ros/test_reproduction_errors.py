@@ -1,12 +1,12 @@
 """An error that the reproduction states covers the truth in as many of all trials as a standard
 error should, whatever the estimate."""
-# Second tier: tests/run.sh --all
 
 import os
 import sys
 import unittest
 
 import numpy as np
+import pytest
 
 import made
 from hdlyap.data import waves
@@ -19,6 +19,8 @@ from study import averages, blocks  # noqa: E402
 from study.measures import travelling  # noqa: E402
 from study.polynomials import Polynomial, crossing  # noqa: E402
 from study.rotation import Rotation  # noqa: E402
+
+pytestmark = pytest.mark.second_tier
 
 TRIALS = 400
 SAMPLES = 640
@@ -105,7 +107,3 @@ class Errors(unittest.TestCase):
             with self.subTest(name, inside=np.mean(abs(off) < 1), bias=off.mean()):
                 self.assertAlmostEqual(np.mean(abs(off) < 1), 0.67, delta=0.08)
                 self.assertLess(abs(off.mean()), 0.25)
-
-
-if __name__ == '__main__':
-    unittest.main()

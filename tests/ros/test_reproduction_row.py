@@ -1,11 +1,11 @@
 """Rows and claims of the reproduction: verdicts, and what wrong value would have been caught; the
 page has the numbers of its rows, and the plan the runs of its table."""
-# Second tier: tests/run.sh --all
 
 import os
 import sys
 import unittest
 
+import pytest
 import yaml
 
 HERE = os.path.dirname(os.path.abspath(__file__))
@@ -15,6 +15,8 @@ sys.path.append(STUDY)
 import tables  # noqa: E402
 from study import row, table  # noqa: E402
 from study.row import ABOVE, BELOW, Claim, Row, Scatter  # noqa: E402
+
+pytestmark = pytest.mark.second_tier
 
 NAN, INF = float('nan'), float('inf')
 
@@ -195,7 +197,3 @@ def claim(rows, part=None, **entry):
     usual = {'kind': 'the paper', 'where': 'a table', 'words': 'is so', 'claim': 'so'}
     criterion = {'criterion': 'the same', 'of': 'inferred from the paper'}
     return Claim(part, {**usual, **criterion, **entry}, rows)
-
-
-if __name__ == '__main__':
-    unittest.main()

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """A run seen from outside: topics, services, diagnostics, faults, and what is not computed."""
 
 import re
@@ -12,6 +11,8 @@ from hdlyap.numbers import with_error
 import harness
 import measured
 from harness import SHORT, is_last
+
+pytestmark = harness.UNDER_A_MASTER
 
 # at least two waves of each kind
 TWO_WAVES = dict(
@@ -275,7 +276,3 @@ class Run(harness.Case):
         self.assertIn('too ill-conditioned', node.lines('FATAL')[0])
         self.sees(lambda: errors and errors[-1].status[0].level == DiagnosticStatus.ERROR)
         self.assertTrue(re.search('ill-conditioned', errors[-1].status[0].message))
-
-
-if __name__ == '__main__':
-    harness.main('run')

@@ -1,8 +1,6 @@
-#!/usr/bin/env python3
 """What many runs are made of: a scene and what is given besides become parameters or are refused,
 bags are whole or not and are not overwritten, machines take turns, processes end, progress is
 shown. Needs no ROS master."""
-# Second tier: tests/run.sh --all
 
 import contextlib
 import io
@@ -18,6 +16,7 @@ import types
 import unittest
 from unittest import mock
 
+import pytest
 import roslaunch.config
 import rospkg
 
@@ -26,6 +25,8 @@ import made
 from hdlyap.msg import Change, RunStatus
 from hdlyap.runs import asked, bags, ranks, run, scene, tree, work
 from hdlyap.runs.run import UNFINISHED
+
+pytestmark = pytest.mark.second_tier
 
 GUIDE = os.path.join(os.path.dirname(os.path.abspath(__file__)), '../../doc/user_guide.md')
 LAUNCH = os.path.join(rospkg.RosPack().get_path('hdlyap'), 'launch')
@@ -602,7 +603,3 @@ class Log(InFolder):
         ):
             self.write('log', '\n'.join(lines))
             self.assertEqual(work.last_words(self.path('log')), said)
-
-
-if __name__ == '__main__':
-    unittest.main()

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """A look at the real rviz, on a screen of its own without a monitor: it shows what ~markers says,
 live and to who comes late. Where things are, is in markers and view, as numbers."""
 
@@ -17,6 +16,8 @@ import harness
 import pictured
 from hdlyap.commands import view as view_command
 from screen import SIZE as SCREEN, Screen
+
+pytestmark = [harness.UNDER_A_MASTER, harness.SECOND_TIER]
 
 VIEW = harness.command('view')
 PAPER = (250, 251, 255)  # a background that nothing else has
@@ -172,7 +173,3 @@ class View(harness.Case):
         view.send(signal.SIGINT)
         self.assertEqual(view.wait(), 130)
         self.assertNotIn('Traceback', view.text())
-
-
-if __name__ == '__main__':
-    harness.main('rviz')

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """Whatever its parameters and its callers say, the node runs no program, writes no file, opens none
 that is not the system's, calls nobody but its master, and prints what it was given as a part of one
 line. Watched by strace."""
@@ -15,6 +14,8 @@ from std_srvs.srv import SetBool, Trigger
 import harness
 import links
 from harness import SHORT
+
+pytestmark = [harness.UNDER_A_MASTER, harness.SECOND_TIER]
 
 CALLS = (
     'open,openat,openat2,creat,execve,execveat,fork,vfork,clone,clone3,unlink,unlinkat,rename,'
@@ -205,7 +206,3 @@ def node_pid(node):
     """strace keeps signals to itself."""
     with open('/proc/%d/task/%d/children' % (node.process.pid, node.process.pid)) as file:
         return int(file.read().split()[0])
-
-
-if __name__ == '__main__':
-    harness.main('security')

@@ -145,7 +145,3 @@ class Bag(bags.Bags):
         again = blocks.draw(samples, ax=axes)
         self.assertIs(again.figure, page.figure)
         self.assertEqual(axes.get_xlabel(), 'samples in a block')
-
-
-if __name__ == '__main__':
-    unittest.main()

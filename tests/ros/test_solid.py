@@ -397,7 +397,3 @@ class Tables(Solid):
             head.startswith('number,density [1/sigma^3],aspect,aspect_z,boundary,seeds')
         )
         self.assertTrue(first.startswith('20,0.5,0.3125,0.25,periodic,1,50'))
-
-
-if __name__ == '__main__':
-    unittest.main()

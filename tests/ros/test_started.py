@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """However a program was started, Ctrl-C or TERM ends it and all that it has started."""
 
 import fcntl
@@ -9,6 +8,8 @@ import subprocess
 
 import harness
 from harness import LOOK, SOON
+
+pytestmark = [harness.UNDER_A_MASTER, harness.SECOND_TIER]
 
 COMMON = os.path.join(os.path.dirname(os.path.abspath(__file__)), '../../launch/common.sh')
 INT, TERM = signal.SIGINT, signal.SIGTERM
@@ -164,7 +165,3 @@ class Started(harness.Traced, harness.Case):
             return glob.glob(self.path(launch.number.split('=')[1] + '.bag.active'))
 
         self.check(TREES, command, records)
-
-
-if __name__ == '__main__':
-    harness.main('started')

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """Asked to stop, the node ends within a second, whatever it is doing, and with its last message."""
 
 import signal
@@ -10,6 +9,8 @@ import rosgraph
 import harness
 import links
 from harness import SHORT, is_last
+
+pytestmark = harness.UNDER_A_MASTER
 
 BOUND = 1.0  # seconds, the contract
 ENDLESS = dict(SHORT, number=100, duration=0.0)
@@ -73,7 +74,7 @@ class Stop(harness.Case):
         self.sees(lambda: node.lines('waiting for subscribers'))
         self.stop(node)
 
-    @harness.more
+    @harness.SECOND_TIER
     def test_while_waiting_for_the_second_subscriber(self):
         links.register(self, 'state', '/gone')
         state = self.listen('state')
@@ -83,7 +84,7 @@ class Stop(harness.Case):
         self.stop(node)
         self.assertEqual((state.messages, node.lines('WARN')), ([], []))
 
-    @harness.more
+    @harness.SECOND_TIER
     def test_while_a_stopped_master_is_asked(self):
         """Who else has subscribed: no answer is no reason to start what is to stop."""
         master = harness.Master()
@@ -110,7 +111,7 @@ class Stop(harness.Case):
         self.assertTrue(cost.wait_for(lambda message: True))
         self.stop(node)
 
-    @harness.more
+    @harness.SECOND_TIER
     def test_without_master(self):
         uri = 'http://localhost:%d' % harness.free_port()
         for args in ([], ['_number:=100']):
@@ -119,7 +120,7 @@ class Stop(harness.Case):
                 self.sees(lambda: node.lines('master at'), node)
                 self.stop(node)
 
-    @harness.more
+    @harness.SECOND_TIER
     def test_master_comes_later(self):
         port = harness.free_port()
         node = self.process([harness.executable()], ROS_MASTER_URI='http://localhost:%d' % port)
@@ -129,7 +130,7 @@ class Stop(harness.Case):
         self.sees(lambda: node.lines('scene paper_periodic'))
         self.stop(node)
 
-    @harness.more
+    @harness.SECOND_TIER
     def test_with_stopped_master(self):
         master = harness.Master()
         self.addCleanup(master.stop)
@@ -138,7 +139,3 @@ class Stop(harness.Case):
         time.sleep(0.3)
         master.send(signal.SIGSTOP)
         self.stop(node)
-
-
-if __name__ == '__main__':
-    harness.main('stop')

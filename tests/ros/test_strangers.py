@@ -6,7 +6,6 @@ import copy
 import io
 import re
 import time
-import unittest
 from unittest import mock
 
 import numpy as np
@@ -232,7 +231,3 @@ class Together(Strangers):
             message.serialize(packed)
             with self.assertRaisesRegex(RecordingError, 'a.bag: damaged: .*: sim_time = nan'):
                 reader.Packed('a.bag', message._type, packed.getvalue(), None).message(np)
-
-
-if __name__ == '__main__':
-    unittest.main()

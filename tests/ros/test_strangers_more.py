@@ -1,10 +1,10 @@
 """As test_strangers, with fewer odd fields at a time, and figures drawn to the end."""
 
-# Second tier: tests/run.sh --all
-
-import unittest
+import pytest
 
 from test_strangers import Strangers
+
+pytestmark = pytest.mark.second_tier
 
 
 def rendered(figure, folder, name):
@@ -18,7 +18,3 @@ class Fewer(Strangers):
 
     def test_all_that_is_possible(self):
         self.are_answered(rounds=12)
-
-
-if __name__ == '__main__':
-    unittest.main()

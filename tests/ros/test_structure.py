@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """Structure factors and their lines, of waves that are known."""
 
 import itertools
@@ -200,7 +199,3 @@ class Recorded(Bags):
         times, series = course.of([32, 33], 'along')
         self.assertEqual((len(times), series.shape), (53, (53, 8)))
         self.assertEqual(len(course.of([36, 37], 'across')[0]), 60)
-
-
-if __name__ == '__main__':
-    unittest.main()

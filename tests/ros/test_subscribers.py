@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """Many subscribers, those that stop reading, or come and go, and a master that is restarted: none
 of them slows the node, fills its memory or keeps it from ending."""
 
@@ -11,6 +10,8 @@ import time
 import harness
 import links
 from harness import MODES, OBSERVABLES, SHORT, TYPES
+
+pytestmark = [harness.UNDER_A_MASTER, harness.SECOND_TIER]
 
 LOST = 30.0  # seconds within which who waits in vain has ended
 BOUND = 1.0  # seconds from a request to stop to the end, the contract
@@ -237,7 +238,3 @@ class Subscribers(harness.Case):
         self.stop(node)
         self.assertEqual([link.gaps() for link in some], [0, 0])
         self.assertEqual(len(node.lines('stopped at simulated time')), 1, node.text())
-
-
-if __name__ == '__main__':
-    harness.main('subscribers')

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """Sweeps and plans: which runs they consist of, their table and figure. How runs are done is
 test_work.py's."""
 
@@ -436,7 +435,3 @@ class Results(InFolder):
         self.assertEqual(len(program.lines('hdlyap table: x.bag.active: ')), 1, program.text())
         self.assertEqual(len(program.lines('9.000(10)')), 1, program.text())
         self.assertIsNone(figure.draw(self.read(self.bag('a'))))
-
-
-if __name__ == '__main__':
-    unittest.main()

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """All messages of a report have one stamp and one sim_time: message_filters bring any two topics
 together at every report."""
 
@@ -10,6 +9,8 @@ import harness
 from harness import OBSERVABLES, REPEATABLE
 from hdlyap import topics
 from hdlyap.msg import LpPhase
+
+pytestmark = harness.UNDER_A_MASTER
 
 # what is told at other times than reports
 ASIDE = 'run_info', 'covariant', 'slow_vectors'
@@ -75,7 +76,3 @@ class Synchronized(harness.Case):
                     grown = phase.tracked_time - before.tracked_time
                     if phase.state == before.state == LpPhase.TRACKED and grown > 0.0:
                         self.assertAlmostEqual(grown, gone, delta=1e-9)
-
-
-if __name__ == '__main__':
-    harness.main('synchronized')

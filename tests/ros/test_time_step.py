@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """What a time step that is too long does to soft particles, and what is said of it."""
 
 import os
@@ -7,6 +6,8 @@ import re
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 
 import harness
+
+pytestmark = harness.UNDER_A_MASTER
 
 SMALL = dict(particles='soft_disks', number=16, density=0.4, aspect=1.0, seed='3', threads=1)
 SMALL.update(equilibration=5.0, warmup=20.0, observables=['spectrum'])
@@ -77,7 +78,3 @@ class Steps(harness.Case):
         self.ends(node, 3, 'the energy is not conserved: the time step is too long, 0.014')
         self.assertGreater(len(heard), 5)
         self.assertEqual('the checkpoint is' in node.text(), os.path.exists(kept))
-
-
-if __name__ == '__main__':
-    harness.main('time_step')

@@ -43,7 +43,3 @@ class Interrupted(Bags):
         for script, *name in words:
             done = process(*name, script=script, env=dict(os.environ, PYTHONPATH=path))
             self.assertEqual(done, (-signal.SIGINT, '', ''), (script, *name))
-
-
-if __name__ == '__main__':
-    unittest.main()

@@ -90,7 +90,3 @@ class Waves(unittest.TestCase):
         lp = np.array([np.cos(phase), 0 * phase, 0 * phase]) + p * np.sin(phase)
         one = expected.Expected(made_fields.ball_field(info, SECOND, lp), [SECOND], info)
         self.assertAlmostEqual(one.weight, 1)
-
-
-if __name__ == '__main__':
-    unittest.main()

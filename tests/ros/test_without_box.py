@@ -1,7 +1,5 @@
-#!/usr/bin/env python3
 """Bags of particles without positions in a box, whose parameters are their own."""
 
-import unittest
 
 import yaml
 
@@ -68,7 +66,3 @@ class WithoutBox(Bags):
         first, head, *_ = table.text(found)
         self.assertEqual(first, 'the same in all: number 8, energy 1')
         self.assertEqual(head.split()[:2], ['beta', 'lambda_max'])
-
-
-if __name__ == '__main__':
-    unittest.main()

@@ -1,6 +1,5 @@
-#!/usr/bin/env python3
 """Runs of a second by `hdlyap sweep`: what is done, done again, left over, and said; runs that are
-done elsewhere. Second tier: work.test."""
+done elsewhere."""
 
 import csv
 import glob
@@ -18,6 +17,8 @@ import yaml
 import hdlyap
 import harness
 from harness import LOOK, SOON, Process, wait_until
+
+pytestmark = [harness.UNDER_A_MASTER, harness.SECOND_TIER]
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 SBATCH = os.path.join(HERE, '../../launch/runs.sbatch')
@@ -332,7 +333,3 @@ class Grid(InFolder):
             self.assertEqual(process.wait(LATEST), 0, process.text())
             self.assertIn(wanted, process.text())
             self.assertNotIn('runs done', process.text())
-
-
-if __name__ == '__main__':
-    harness.main('work')
