@@ -6,7 +6,7 @@ cmake_minimum_required(VERSION 3.16)
 
 set(STAGES base scene averages dynamics tangent modes covariant observe run)
 set(LINEAR_ALGEBRA base/blas tangent/conjugate tangent/ortho tangent/panel tangent/product modes/dispersion modes/modes modes/pmode
-  covariant/backward covariant/coupling covariant/starts covariant/angles covariant/covariant)
+  covariant/backward covariant/coupling covariant/backward_pair covariant/angles covariant/covariant)
 
 # stage_of(OUT HEADER): number of the folder of a header as it is included: FOLDER/NAME.h or hdlyap/NAME.h.
 function(stage_of out header)

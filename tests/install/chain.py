@@ -16,7 +16,7 @@ def main():
     assert list(one.info.own) == ['beta=2', 'energy=1', 'time_step=0.02'], one.info.own
     assert report.system(one.info) == 'chain, N = 8, beta=2, energy=1, time_step=0.02'
     assert style.scene(one.info) == 'ring: chain, $N=8$'
-    assert (one.said.phase_space, one.said.positive_end) == (16, 6)
+    assert (one.summary.phase_space, one.summary.positive_end) == (16, 6)
     with rosbag.Bag(sys.argv[1]) as bag:
         said = [
             status.message

@@ -84,7 +84,7 @@ class Bags(unittest.TestCase):
     def recorded(self, messages, **which):
         """Is read when it is asked: each has a bag of its own."""
         name = f'recorded_{len(os.listdir(self.folder))}'
-        return seeds.load(self.write(messages, name), **which).said
+        return seeds.load(self.write(messages, name), **which).summary
 
     def succeeds(self, name, *arguments, status=0, how=tool):
         """What it prints."""

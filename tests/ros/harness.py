@@ -57,7 +57,7 @@ PATIENCE = 60.0  # seconds, for what has no bound of its own
 # seconds within which all has ended that was asked to, on a busy machine: roslaunch alone takes up
 # to 17
 SOON = 90.0
-LOOK = 0.1  # seconds between two looks at all processes, each of which takes some ms
+POLL = 0.1  # seconds between two looks at all processes, each of which takes some ms
 
 
 @functools.lru_cache(maxsize=None)
@@ -387,4 +387,4 @@ class Traced(unittest.TestCase):
                 os.kill(pid, signal.SIGKILL)
 
     def assert_none_left(self):
-        self.assertTrue(wait_until(lambda: not self.ours(), SOON, LOOK), self.ours())
+        self.assertTrue(wait_until(lambda: not self.ours(), SOON, POLL), self.ours())

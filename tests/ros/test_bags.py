@@ -401,4 +401,4 @@ class Stopped(harness.Case):
         messages = read(paths[0])
         self.assertEqual(len(messages['/hdlyap/run_info']), 1)
         self.assertFalse({'/hdlyap/markers', '/hdlyap/slow_vectors'} & set(messages))
-        self.assertIn('lambda_max', report.report(hdlyap.load(paths[0]).said))
+        self.assertIn('lambda_max', report.report(hdlyap.load(paths[0]).summary))

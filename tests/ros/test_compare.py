@@ -65,7 +65,7 @@ class Pairs(Bags):
         return self.write(a, 'a'), self.write(b, 'b')
 
     def compared(self, a, b):
-        return Comparison(*(hdlyap.load(bag).said for bag in self.bags(a, b)))
+        return Comparison(*(hdlyap.load(bag).summary for bag in self.bags(a, b)))
 
     def compare(self, a, b, status=0, how=tool):
         """What it prints."""
@@ -272,7 +272,7 @@ class Fits(Pairs):
     def check_apart(self, symbol, reason, a, b):
         """One line says why; what remains does not differ."""
         comparison = self.compared(a, b)
-        self.assertEqual([one.symbol for one, _ in comparison.apart], [symbol])
+        self.assertEqual([one.symbol for one, _ in comparison.unlike], [symbol])
         self.assertFalse([one for one in comparison.fits if one.name.startswith(symbol)])
         self.assertEqual(len(comparison.fits) + (1 if symbol == 'v' else 3), 7)
         text = verdict.report(comparison)
@@ -320,7 +320,7 @@ class Fits(Pairs):
         """Through T(1,0) in one run, through T(0,1) in the other."""
         pair = [run(made_steps=[made.step(INFO, T, *n, 36, 37)]) for n in ((1, 0), (0, 1))]
         comparison = self.compared(*pair)
-        self.assertEqual(comparison.apart, [])
+        self.assertEqual(comparison.unlike, [])
         self.assertEqual(len(comparison.fits), 7)
 
 

@@ -13,7 +13,7 @@ import hdlyap
 import made
 import trials
 from test_compare import EXPONENTS, Pairs, run
-from hdlyap.data.said import Said
+from hdlyap.data.summary import Summary
 from hdlyap.data.seeds import Seeds
 from hdlyap.plots import verdict
 from hdlyap.plots.comparison import Comparison
@@ -37,7 +37,7 @@ class ThreeSeeds(Pairs):
                 for name in names:
                     setattr(gas, name, getattr(gas, name) + more + each * place)
                 paths.append(self.write([*run(exponents, **of), gas], of['run_id']))
-            found.append(hdlyap.load(*paths).said)
+            found.append(hdlyap.load(*paths).summary)
         return found
 
     def of_gas(self, comparison):
@@ -91,7 +91,7 @@ class World(trials.World):
     factor = 1.0
 
     def of_seeds(self, blocks, seeds):
-        return Said(Seeds([self.one(blocks, str(seed)) for seed in range(seeds)]))
+        return Summary(Seeds([self.one(blocks, str(seed)) for seed in range(seeds)]))
 
     def one(self, blocks, seed):
         samples = self.run(blocks)

@@ -258,7 +258,7 @@ class Kept(Bags):
         self.assertGreater(os.path.getsize(self.path()), 100 * one)
         tracemalloc.start()
         try:
-            run = hdlyap.load(self.path()).said
+            run = hdlyap.load(self.path()).summary
             self.assertEqual(len(list(run.fields())), 1)
             self.assertEqual(len(run.steps.steps), 1)
             _, peak = tracemalloc.get_traced_memory()

@@ -85,7 +85,7 @@ class Heard(harness.Case):
         heard = self.gathered(messages)
         bag = os.path.join(self.new_folder(), 'run.bag')
         made.write(bag, messages)
-        live_run, bag_run = heard.run(heard.view().info).said, hdlyap.load(bag).said
+        live_run, bag_run = heard.run(heard.view().info).summary, hdlyap.load(bag).summary
         ours, theirs = list(arrays(live_run)), list(arrays(bag_run))
         self.assertEqual(len(ours), len(theirs))
         for one, other in zip(ours, theirs):
@@ -113,13 +113,13 @@ class Heard(harness.Case):
 
         for number in range(1, 3 * MOST + 1):
             hear('one', number)
-        times = heard.run(made.run_info()).said.course()['time']
+        times = heard.run(made.run_info()).summary.course()['time']
         self.assertLessEqual(len(times), MOST)
         self.assertGreater(len(times), MOST // 2)
         self.assertEqual((times[0], times[-1]), (1, 3 * MOST))
         hear('two', 5.0)
-        self.assertIsNone(heard.run(made.run_info()).said.spectrum)
-        after = heard.run(made.run_info(run_id='two')).said.course()['time']
+        self.assertIsNone(heard.run(made.run_info()).summary.spectrum)
+        after = heard.run(made.run_info(run_id='two')).summary.course()['time']
         self.assertEqual(list(after), [5.0])
 
 

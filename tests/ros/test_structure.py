@@ -148,7 +148,7 @@ class Recorded(Bags):
         self.write([*self.head(), *(message(self.info, t, [], means=False) for t in times)])
         with self.assertRaisesRegex(Exception, 'no message of structure with means in it'):
             hdlyap.load(self.bag).structure
-        self.assertIsNone(figures.structure.draw(hdlyap.load(self.bag).said))
+        self.assertIsNone(figures.structure.draw(hdlyap.load(self.bag).summary))
 
     def test_figure(self):
         """The map has the numbers, the lines are at v k and at 0."""

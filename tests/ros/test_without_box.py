@@ -35,7 +35,7 @@ class WithoutBox(Bags):
         self.assertEqual((view.phase_space, view.positive_end), (16, 6))
 
     def test_report(self):
-        said = report.report(hdlyap.load(self.spectrum('a')).said)
+        said = report.report(hdlyap.load(self.spectrum('a')).summary)
         self.assertIn('the last 6 exponents before the zero modes', said)
         self.assertIn('chain, N = 8, beta=0.30000000000000004, energy=1, start=cold', said)
 
@@ -53,7 +53,7 @@ class WithoutBox(Bags):
         with self.assertRaisesRegex(RecordingError, 'do not belong together: own is .*beta=0.3'):
             hdlyap.load(*paths)
         with self.assertRaisesRegex(RecordingError, 'different systems .* own .*beta=2'):
-            Comparison(*(hdlyap.load(path).said for path in paths))
+            Comparison(*(hdlyap.load(path).summary for path in paths))
 
     def test_table(self):
         """By own parameters as numbers, not as texts; not beside disks."""

@@ -44,7 +44,7 @@ class World:
         return self.mean + self.sigma * noise
 
     def said(self, samples, shift=0.0):
-        """As data.said of runs with these samples, all of whose exponents are shifted."""
+        """As data.summary of runs with these samples, all of whose exponents are shifted."""
         all_of = np.concatenate(samples)
         count = len(all_of)
         deviations = np.concatenate([one - one.mean(axis=0) for one in samples])

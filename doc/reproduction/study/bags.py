@@ -23,7 +23,7 @@ class Bag:
     @cached_property
     def recording(self):
         """Its last messages and courses, as figures take them."""
-        return self.run.said
+        return self.run.summary
 
     @property
     def info(self):

@@ -32,7 +32,7 @@ def main(args):
         args.error(
             f'{len(args.a)} bags: must be two, or bags of both sides with --with between the sides'
         )
-    runs = [seeds.load(*paths, node=args.node).said for paths in sides]
+    runs = [seeds.load(*paths, node=args.node).summary for paths in sides]
     compared = comparison.Comparison(*runs)
     text, status = verdict.verdict(compared)
     print(verdict.report(compared), text, sep='\n\n', flush=True)

@@ -18,7 +18,7 @@ from hdlyap.plots import figures, report
 from hdlyap.progress import Progress
 
 FAULT = 1
-HERE = '.'  # folder of the figures
+FOLDER = '.'  # folder of the figures
 PATIENCE = 30.0  # seconds for a master and a node to appear
 
 
@@ -27,7 +27,7 @@ def options(parser):
     text = 'figures of this running node in a window (default: the only node)'
     parser.add_argument('--live', nargs='?', const='', metavar='NODE', help=text)
     text = 'folder of the figures (default: the current one)'
-    parser.add_argument('--out', default=HERE, metavar='DIR', help=text)
+    parser.add_argument('--out', default=FOLDER, metavar='DIR', help=text)
     parser.add_argument('--node', metavar='NAME', help='which node, if several are in the bag')
     text = 'which run, if several are in the bag, from 1 (default: the last)'
     parser.add_argument('--run', type=int, metavar='NUMBER', help=text)
@@ -51,7 +51,7 @@ def live(args, form, k):
     """Shows the window. Returns the exit status. tkinter is imported here, because bags do not need
     it."""
     if args.bags or any(
-        (args.node, args.run, args.only, args.pdf, args.csv, args.npz, args.out != HERE)
+        (args.node, args.run, args.only, args.pdf, args.csv, args.npz, args.out != FOLDER)
     ):
         args.error('--live takes no bag and no options except --form and --k')
     try:
@@ -79,7 +79,7 @@ def main(args):
         return live(args, form, k)
     if not args.bags:
         args.error('the following arguments are required: BAG')
-    run = seeds.load(*args.bags, node=args.node, run=args.run, form=form, k=k).said
+    run = seeds.load(*args.bags, node=args.node, run=args.run, form=form, k=k).summary
     print(report.report(run), flush=True)
     if run.spectrum is None:
         print('\nno averaged spectrum in this bag')

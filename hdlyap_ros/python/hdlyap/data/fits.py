@@ -96,7 +96,7 @@ def of(message):
     return [Fit(message, 't', steps.T), Fit(message, 'l', steps.LP), Fit(message, 'v', steps.LP)]
 
 
-def alone(message, fit, terms):
+def curve(message, fit, terms):
     """A dispersion.Curve, c k or c k + c2 k^2, over the steps of a fit; None if their errors are
     not known."""
     found = _fitted(message, fit.kind, (fit.k_min, fit.k_max))

@@ -61,7 +61,7 @@ def turning(step, phases):
     return abs(step.omega), float(known(step.omega_error)), tracked
 
 
-def apart(phases, ranked):
+def independent(phases, ranked):
     """The numbers of phases in `ranked`, in this order, without those that share a vector or a pair
     with one before."""
     found = []

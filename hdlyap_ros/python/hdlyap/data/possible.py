@@ -17,7 +17,7 @@ LARGEST = 1e150  # largest number, so that its square is one, too
 LEAST = 1 / LARGEST  # least number above 0
 COUNT = 2**62  # largest integer
 PARTICLES, COORDINATES = 10**6, 1000  # most of a run, as of the parameter number
-OWN = 16  # most parameters that only some particles have
+MOST_OWN = 16  # most parameters that only some particles have
 VECTORS = 2**16  # most zero exponents, and most vectors of a set
 WAVES = 10**6  # largest mode number
 EXPONENTS = 'exponents'  # stands for the number of exponents of the run
@@ -205,7 +205,9 @@ def _of_run_info(info):
     for axis in space.axes(info) if info.dimension else '':
         wall = getattr(info, 'boundary_' + axis)
         _refuse_other(wall in WALLS, 'boundary_' + axis, wall, f'one of {", ".join(WALLS)}')
-    _refuse_other(len(info.own) <= OWN, 'own', f'{len(info.own)} elements', f'at most {OWN}')
+    _refuse_other(
+        len(info.own) <= MOST_OWN, 'own', f'{len(info.own)} elements', f'at most {MOST_OWN}'
+    )
     for one in info.own:
         name, _, value = one.partition('=')
         is_right = WORD.fullmatch(name) and WORD.fullmatch(value)

@@ -12,10 +12,10 @@ import pandas
 from hdlyap import msg, topics
 from hdlyap.numbers import known
 
-from . import dataset, fields, fits, growth, joined, reader, space, structure, tables
+from . import dataset, fields, fits, fluctuations, joined, reader, space, structure, tables
 from .disks import Disks
 from .reader import Missing
-from .said import Said
+from .summary import Summary
 
 TOPICS = {name: message._type for name, message in topics.RECORDED.items()}
 FRAMES = {
@@ -86,7 +86,7 @@ class Run:
     runs = property(lambda self: [self])
     seeds = property(lambda self: [self.info.seed])
     averaged_time = property(lambda self: float(self.averaged_times[-1]))
-    said = cached_property(Said)
+    summary = cached_property(Summary)
 
     @property
     def own(self):
@@ -192,7 +192,14 @@ class Run:
         rate, none = fields.of(last)['lambda_max'].unit, ''
         rows = [
             ('lambda_max', last.lambda_max, *[last.std_errors[0]] * 2, -1.0, rate, none),
-            (self.said.sum_name, last.ks_entropy, *[last.ks_entropy_error] * 2, -1.0, rate, none),
+            (
+                self.summary.sum_name,
+                last.ks_entropy,
+                *[last.ks_entropy_error] * 2,
+                -1.0,
+                rate,
+                none,
+            ),
         ]
         units = fields.of(msg.Steps)
         rows += [
@@ -263,10 +270,10 @@ class Run:
 
     @cached_property
     def growth(self):
-        """The last fluctuations over finite times: see growth.Growth."""
+        """The last fluctuations over finite times: see fluctuations.Growth."""
         if self._told_growth is None:
             raise self._missing('fluctuations with orders')
-        return growth.Growth(self._told_growth, self.info)
+        return fluctuations.Growth(self._told_growth, self.info)
 
     has_growth = property(lambda self: self._told_growth is not None)
 
@@ -281,8 +288,8 @@ class Run:
 
     @property
     def covariant_orders(self):
-        """Order of covariant vectors' growth over finite times: see growth.Orders."""
-        return growth.Orders(self.last('covariant'))
+        """Order of covariant vectors' growth over finite times: see fluctuations.Orders."""
+        return fluctuations.Orders(self.last('covariant'))
 
     def amplitudes(self, indices, direction):
         """A frame of all amplitudes of these vectors' waves, 'along' or 'across' k."""

@@ -9,7 +9,7 @@ import pandas
 from . import joined, space, tables
 from .reader import Missing, RecordingError
 from .run import FRAMES, Run
-from .said import Said
+from .summary import Summary
 
 # If no run states an error, the scatter of at least FEWEST runs, the longest at most RATIO times
 # the shortest, is one: it is known as well as compare assumes (plots.deviation.FREEDOM).
@@ -45,7 +45,7 @@ class Seeds:
     is in no mean: `left_out` names it."""
 
     is_mean, runs_in_bag = True, 1
-    said = cached_property(Said)
+    summary = cached_property(Summary)
 
     def __init__(self, runs):
         self.every = runs  # with runs that are left out
@@ -168,7 +168,7 @@ class Seeds:
         return topic in self._fills and all(run.has(topic) for run in self.runs)
 
     @property
-    def alone(self):
+    def without_mean(self):
         """The topics of which a run has messages, and that have no mean."""
         found = [topic for topic in MEASURED if any(run.has(topic) for run in self.runs)]
         return [topic for topic in found if not self.has(topic)]

@@ -102,7 +102,7 @@ def of_arrays(message, info=None):
 
 
 def of_fluctuations(message, info=None):
-    """D of each vector alone; see growth.Growth for the rest."""
+    """D of each vector alone; see fluctuations.Growth for the rest."""
     return arrays(message, ('covariances', 'covariance_errors', 'variances', 'reversals'))
 
 

@@ -21,7 +21,7 @@ def follow(node, window, **fits):
         view, count, began = heard.view(), heard.count, time.monotonic()
         over = view.is_finished or view.is_gone
         if view.info and count > drawn and (over or began >= ready):
-            window.draw(heard.run(view.info, **fits).said)
+            window.draw(heard.run(view.info, **fits).summary)
             drawn, ready = count, time.monotonic() + REST * (time.monotonic() - began)
         if view.status:
             window.say(_words(view))

@@ -11,7 +11,7 @@ from collections import deque
 import rospy
 
 from diagnostic_msgs.msg import DiagnosticArray
-from hdlyap.data.said import Said
+from hdlyap.data.summary import Summary
 from hdlyap.msg import Cost, LpPhases, RunInfo, RunStatus, Spectrum, Steps
 
 from .nodes import UNANSWERED, address, answers, ask_master
@@ -25,7 +25,7 @@ SPEED_OVER = 10.0  # wall seconds over which the speed is measured
 FOLLOWER = re.compile(r'/follow_\d+_\d+$')  # names that rospy gives to this command
 
 
-class View(Said):
+class View(Summary):
     """What is shown; None if it is not known. `silence`: seconds since the node's last message;
     `diagnosis`: its DiagnosticStatus; `others`: topics of COMPUTED that somebody else listens to;
     `wanted`: whether this listens to all of them."""
@@ -35,7 +35,7 @@ class View(Said):
     is_gone = is_master_gone = False
 
     def __init__(self):
-        """A view of no run; Said.__init__ would need one."""
+        """A view of no run; Summary.__init__ would need one."""
 
     @property
     def is_finished(self):

@@ -1,2 +1,2 @@
-"""A run, or several seeds (data.said) -> tables and figures: report, figures. equation, paper and
-figures are public, because the studies below doc/ use them."""
+"""A run, or several seeds (data.summary) -> tables and figures: report, figures. equation, paper
+and figures are public, because the studies below doc/ use them."""

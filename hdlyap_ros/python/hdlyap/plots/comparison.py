@@ -7,7 +7,7 @@ import io
 import numpy as np
 
 from hdlyap.data import fits, space, steps
-from hdlyap.data.fluctuations import Fluctuations
+from hdlyap.data.spectrum_test import SpectrumTest
 from hdlyap.data.joined import SYSTEM, different
 from hdlyap.data.reader import RecordingError
 
@@ -15,14 +15,14 @@ from hdlyap.numbers import known
 
 from .deviation import FREEDOM, Deviation
 
-OWN = ('header', 'run_id', 'given')  # fields that differ even if runs are identical
+NOT_OF_SYSTEM = ('header', 'run_id', 'given')  # fields that differ even if runs are identical
 SLOPES = 'c_T', 'c_L', 'v'
 SUMS = 'h_KS', 'sum of exponents'
 STEPPED = 'time_step', 'integrator'  # parameters that do not change the system
 
 
 class Comparison:
-    """Compares the runs a and b of one system: exponents, h_KS, steps, fits, gas. `apart`: (fit of
+    """Compares the runs a and b of one system: exponents, h_KS, steps, fits, gas. `unlike`: (fit of
     a, fit of b) if their forms or wave numbers differ. What decides is fixed beforehand: the
     resolved `steps`, a few `numbers`, and the spectrum as a whole."""
 
@@ -40,7 +40,7 @@ class Comparison:
         self.gas = _gas(a, b)
         pairs = _pairs_of_fits(a, b)
         self.fits = [one for pair in pairs if pair[0].is_like(pair[1]) for one in _fits(a, b, pair)]
-        self.apart = [pair for pair in pairs if not pair[0].is_like(pair[1])]
+        self.unlike = [pair for pair in pairs if not pair[0].is_like(pair[1])]
 
     @property
     def deviations(self):
@@ -72,7 +72,7 @@ class Comparison:
         weights[members] = 1.0 if one.name in SUMS else 1 / len(members)
         error = self._fluctuations.error(weights, _times(self.runs))
         if error > one.error or of_sampling and not any(run.is_mean for run in self.runs):
-            one.know_better(error, self._fluctuations.judged)
+            one.know_better(error, self._fluctuations.freedom)
         return one
 
     @property
@@ -103,7 +103,7 @@ class Comparison:
             unknown = all(value != value for value in values)  # both are NaN
             if name == 'own':
                 yield from _own_ones(a, b)
-            elif name not in OWN and values[0] != values[1] and not unknown:
+            elif name not in NOT_OF_SYSTEM and values[0] != values[1] and not unknown:
                 yield name, *values
 
     @property
@@ -161,11 +161,11 @@ def _times(runs):
 
 
 def _fluctuations(a, b):
-    """The Fluctuations of the exponents of both runs."""
+    """The SpectrumTest of the exponents of both runs."""
     times = np.array(_times((a, b)))[:, None]
     errors = known([run.spectrum.std_errors for run in (a, b)])
     sides = [run.data.runs for run in (a, b)]
-    return Fluctuations(sides, (errors**2 * times).mean(axis=0), _scattered(a, b, errors))
+    return SpectrumTest(sides, (errors**2 * times).mean(axis=0), _scattered(a, b, errors))
 
 
 def _scattered(a, b, errors):

@@ -64,7 +64,7 @@ class Film:
 
     def __init__(self, run, names=None, within=(None, None)):
         self._run, self.info = run, run.info
-        self.steps = steps.resolved(run.said.steps, self.info)
+        self.steps = steps.resolved(run.summary.steps, self.info)
         self.names = names or lowest(self.steps)
         if not self.names:
             raise RecordingError(f'{run.name}: no step is resolved in it')

@@ -1,4 +1,4 @@
-"""data.said.Said -> the text that hdlyap plot prints."""
+"""data.summary.Summary -> the text that hdlyap plot prints."""
 
 import numpy as np
 
@@ -78,7 +78,7 @@ def _of_means(recording):
     blocks += [_means(recording), _tail(recording)]
     if recording.steps is not None:
         blocks.append(next(step_table.blocks(recording)))
-    alone = recording.data.alone
+    alone = recording.data.without_mean
     if alone:
         blocks.append(f'no means, see the single runs: {", ".join(alone)}')
     return '\n\n'.join(blocks)

@@ -134,7 +134,7 @@ def _fits(recording):
         lines += _fit_lines(fit)
         branch = branches.get(steps.NAMES[fit.kind])
         if branch and fit.count and fit.symbol != 'v':
-            lines += _beside_paper(fit, fits.alone(recording.steps, fit, branch.terms), branch)
+            lines += _beside_paper(fit, fits.curve(recording.steps, fit, branch.terms), branch)
     return '\n'.join(line.rstrip() for line in lines)
 
 

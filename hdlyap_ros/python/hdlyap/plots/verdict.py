@@ -4,7 +4,7 @@ import textwrap
 from math import hypot, inf, isclose
 
 from hdlyap.data import steps
-from hdlyap.data.fluctuations import FEWEST
+from hdlyap.data.spectrum_test import FEWEST
 from hdlyap.data.reader import RecordingError
 from hdlyap.numbers import with_error
 
@@ -151,7 +151,7 @@ def _quantities(comparison):
     ]
     apart = [
         f'  {a.symbol} is not compared: a {a.measured}, {a.basis}; b {b.measured}, {b.basis}'
-        for a, b in comparison.apart
+        for a, b in comparison.unlike
     ]
     yield '\n'.join([HEAD.format('').rstrip(), *rows, *once, *apart])
 

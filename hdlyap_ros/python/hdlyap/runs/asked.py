@@ -8,7 +8,7 @@ import yaml
 from hdlyap.data.reader import PATH, plain
 
 # parameters that make no difference to results, or that a sweep replaces
-HERE = 'threads', 'wait_for_subscribers', 'table', 'checkpoint', 'resume'
+NOT_COMPARED = 'threads', 'wait_for_subscribers', 'table', 'checkpoint', 'resume'
 ENDS = '[]', "''", '""'  # of texts that the node reads as YAML
 
 
@@ -18,7 +18,7 @@ def difference(info, parameters, usual):
     given = dict(one.split('=', 1) for one in info.given)
     there = {**{name: text(value) for name, value in usual.items()}, **given}
     for name, value in parameters.items():
-        if name not in HERE and not _same(there.get(name), text(value)):
+        if name not in NOT_COMPARED and not _same(there.get(name), text(value)):
             return f'it was run with {name} = {there.get(name)}, not {text(value)}'
     for change in info.changes:
         if not any(_is(change, one) for one in _listed(parameters['changes'])):

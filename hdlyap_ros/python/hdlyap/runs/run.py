@@ -24,7 +24,9 @@ OF_ONE = 'checkpoint', 'resume'  # parameters that runs cannot share
 UNFINISHED = 'the run has not reached its end'
 # about the seconds to start, and those of a time unit with 200 disks on one core; they grow as N^2
 BEGIN, STEP, DISKS = 5.0, 0.03, 200
-OWN = re.compile(r'^# For (\w+(?: and \w+)*) only\.\n(?:# .*\n)*?# (\w+): (\S+)$', re.MULTILINE)
+OWN_PARAMETER = re.compile(
+    r'^# For (\w+(?: and \w+)*) only\.\n(?:# .*\n)*?# (\w+): (\S+)$', re.MULTILINE
+)
 
 
 class Planned:
@@ -136,7 +138,7 @@ def usual():
 def own():
     """{particles: {name: default}} of the parameters that only some particles have."""
     found = {}
-    for those, name, value in OWN.findall(_said()):
+    for those, name, value in OWN_PARAMETER.findall(_said()):
         for particles in those.split(' and '):
             found.setdefault(particles, {})[name] = yaml.safe_load(value)
     return found

@@ -14,7 +14,7 @@ from hdlyap.runs import run, scene
 from hdlyap.runs.run import Planned
 from hdlyap.runs.scene import Refused
 
-OWN = 'base', 'quick', 'full', 'seconds'  # keys of an entry that are no parameters of the node
+OF_PLAN = 'base', 'quick', 'full', 'seconds'  # keys of an entry that are no parameters of the node
 ENTRY = '{base: scene, parameter: value, ..}'
 
 
@@ -47,7 +47,7 @@ def _run(path, name, entry, quick, launch):
         if not _is_entry(entry):
             raise Refused(f'must be {ENTRY}')
         base = scene.scene_file(str(entry['base']), launch, os.path.dirname(os.path.abspath(path)))
-        asked = {key: value for key, value in entry.items() if key not in OWN}
+        asked = {key: value for key, value in entry.items() if key not in OF_PLAN}
         asked.update(entry.get('quick' if quick else 'full', {}))
         parameters = run.completed({**base, 'threads': 1, 'scene': name, **asked})
         parameters = {str(key): scene.fitting(value) for key, value in parameters.items()}

@@ -49,7 +49,7 @@ def text(points):
     yield from _table([*names, *QUANTITIES, 'seeds', 'averaged time'], rows)
     yield from marks.explained()
     for point in points:
-        yield from (*point.remarks, *point.data.left_out, *point.data.said.energies_off())
+        yield from (*point.remarks, *point.data.left_out, *point.data.summary.energies_off())
     if any(point.unlike for point in points):
         yield 'unlike: no mean, as the fits of the seeds differ in form or wave numbers'
     several = [point for point in points if len(point.runs) > 1]

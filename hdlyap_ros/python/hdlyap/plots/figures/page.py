@@ -12,7 +12,7 @@ from .style import scene
 
 
 def figure(draw):
-    """Makes draw(run, ax=None, **look), for users with a Run or Said, from draw(page, said,
+    """Makes draw(run, ax=None, **look), for users with a Run or Summary, from draw(page, said,
     **look). ax: one or several axes of the user's, into which the first panels are drawn. look:
     keyword arguments of the artists that show measured values. It returns the Page, or None if the
     bag has no data for the figure."""
@@ -20,7 +20,7 @@ def figure(draw):
     @functools.wraps(draw)
     def drawn(run, ax=None, **look):
         page = Page(ax)
-        draw(page, run.said, **normalize_kwargs(look, Line2D))
+        draw(page, run.summary, **normalize_kwargs(look, Line2D))
         return page.drawn()
 
     del drawn.__wrapped__  # help() would show the arguments of that function

@@ -3,7 +3,7 @@
 import numpy as np
 
 from hdlyap.data import steps
-from hdlyap.data.phases import apart, regression, turning
+from hdlyap.data.phases import independent, regression, turning
 from hdlyap.numbers import with_error
 
 from . import page
@@ -50,7 +50,7 @@ def chosen(recording):
         ranked = [(-time, phase) for phase, time in tracked.items() if time > 0]
         ranked = [phase for _, phase in sorted(ranked)]
         if ranked:
-            shown.append((number, apart(recording.phases.last.phases, ranked)[:PER_STEP]))
+            shown.append((number, independent(recording.phases.last.phases, ranked)[:PER_STEP]))
     return shown[:STEPS]
 
 

@@ -1,4 +1,4 @@
-"""Said: a run as tables and figures need it: its messages, and quantities over time that they
+"""Summary: a run as tables and figures need it: its messages, and quantities over time that they
 draw."""
 
 import copy
@@ -18,7 +18,7 @@ from .stages import PARTS
 SMALLEST = 4  # how many of the smallest positive exponents are drawn over time
 
 
-class Said:
+class Summary:
     """The messages of a data.run.Run, or of data.seeds.Seeds, whose spectrum, steps and fits are
     means. Each message is the last one, None if there is none. Averages from before ~reset_average
     do not count. Messages are read when they are first needed."""
@@ -30,7 +30,7 @@ class Said:
             self.info = copy.copy(data.info)
             self.info.seed, self.info.run_id = ', '.join(data.seeds), ''
 
-    said = property(lambda self: self)  # a Run has it, too
+    summary = property(lambda self: self)  # a Run has it, too
     spectrum = cached_property(lambda self: self._averaged('spectrum'))
     steps = cached_property(lambda self: self._averaged('steps'))
     gas = cached_property(lambda self: self._averaged('gas'))
@@ -98,7 +98,7 @@ class Said:
     def energies_off(self):
         """Yields a line for each run whose energy was off by more than was asked."""
         for run in self.data.runs:
-            last = run.said._status
+            last = run.summary._status
             if last is not None and last.energy_error_most > last.energy_error_wanted:
                 yield (
                     f'{run.name}: the energy was off by {last.energy_error_most:.2g}, asked was '
