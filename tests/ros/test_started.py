@@ -7,7 +7,7 @@ import signal
 import subprocess
 
 import harness
-from harness import LOOK, SOON
+from harness import POLL, SOON
 
 pytestmark = [harness.UNDER_A_MASTER, harness.SECOND_TIER]
 
@@ -87,7 +87,7 @@ class Started(harness.Traced, harness.Case):
         cases = [case for case in cases if case[0] != 'docker' or can_be_docker()]
         some = [self.start(way, command) for way, _ in cases]
         for process in some:
-            self.sees(lambda: is_ready(process), process, every=LOOK)
+            self.sees(lambda: is_ready(process), process, every=POLL)
         for (way, number), process in zip(cases, some):
             everybody = self.alive(process) if way == 'systemd' else []
             for pid in everybody or [self.main_of(way, process)]:
@@ -95,7 +95,7 @@ class Started(harness.Traced, harness.Case):
         for (way, number), process in zip(cases, some):
             with self.subTest(way=way, signal=number.name):
                 self.assertNotEqual(process.wait(SOON), -signal.SIGKILL)
-                self.sees(lambda: not self.alive(process), process, every=LOOK)
+                self.sees(lambda: not self.alive(process), process, every=POLL)
 
     # ---- programs --------------------------------------------------------------------------------
 

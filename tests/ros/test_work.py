@@ -16,7 +16,7 @@ import yaml
 
 import hdlyap
 import harness
-from harness import LOOK, SOON, Process, wait_until
+from harness import POLL, SOON, Process, wait_until
 
 pytestmark = [harness.UNDER_A_MASTER, harness.SECOND_TIER]
 
@@ -79,7 +79,7 @@ class InFolder(harness.Traced, harness.InFolder):
             path = os.path.join(self.out, 'log', name + '.log')
             return os.path.exists(path) and f'scene {name}: ' in open(path).read()
 
-        wait_until(lambda: all(map(has_said, names)) or not process.running(), LATEST, LOOK)
+        wait_until(lambda: all(map(has_said, names)) or not process.running(), LATEST, POLL)
         self.assertTrue(process.running(), process.text())
 
 
@@ -200,7 +200,7 @@ class Work(InFolder):
             *harness.command('sweep'),
         ]
         process = self.begin('--jobs', '2', program=ignoring, first=TINY, long=LONG)
-        wait_until(lambda: 'first.bag' in self.files() or not process.running(), LATEST, LOOK)
+        wait_until(lambda: 'first.bag' in self.files() or not process.running(), LATEST, POLL)
         self.await_nodes(process, 'long')
         process.send(signal.SIGINT)
         self.assertEqual(process.wait(SOON), 130, process.text())

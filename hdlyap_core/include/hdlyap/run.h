@@ -157,11 +157,11 @@ void hd_run_watch(hd_run *run, double interval);
  * hd_run_advance does. */
 HD_MUST_CHECK hd_status hd_run_measure(hd_run *run, int first);
 
-/** All n vectors as the last orthonormalisation left them; valid until the next call of
- * hd_run_advance. count is 0 without exponents, and with exponents = all unless the weights of
- * modes are computed. At samples they are orthonormal with dq and dp together; in between they may
- * be so in dq alone. With several ranks these are the vectors that hd_run_measure gathered at this
- * time, or at a report those that hydro has read. */
+/** All n vectors at the present time, orthonormal with dq and dp together, if the last call of
+ * hd_run_advance or hd_run_measure ended a sample and an observable that is computed needs them, as
+ * the weights of modes; otherwise count is 0. Valid until the next call of hd_run_advance. Their
+ * coefficients are those of hd_modes_coefficients. With several ranks these are the vectors that
+ * hd_run_measure gathered at this time, or at a report those that hydro has read. */
 hd_columns hd_run_vectors_now(const hd_run *run);
 /** Writes, for each vector in the last sample: to cos_theta[n] the cosine of the angle between its
  * halves dp and dq, NaN if one of them is 0; to dp_dq_ratio[n] |dp| / |dq|, NaN if dq is 0. */

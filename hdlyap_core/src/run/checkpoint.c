@@ -112,7 +112,7 @@ static void target_expect(const hd_run *run, hd_archive *archive)
 
 static void numbers_archive(hd_run *run, hd_archive *archive)
 {
-    int observe = (int)run->observables.looked_at, whole = run->carrier.whole;
+    int observe = (int)run->observables.looked_at, whole = run->carrier.whole, known = run->known;
     hd_archive_int(archive, "run observe", &observe, 0, (int)run->scene.observe);
     if (!archive->writing)
         hd_observables_look(&run->observables, (unsigned)observe & run->scene.observe);
@@ -120,6 +120,8 @@ static void numbers_archive(hd_run *run, hd_archive *archive)
     target_expect(run, archive);
     hd_archive_int(archive, "run whole", &whole, 0, 1);
     run->carrier.whole = whole;
+    hd_archive_int(archive, "run known", &known, 0, 1);
+    run->known = known;
     hd_archive_double(archive, "run followed", &run->followed);
     hd_archive_double(archive, "run advance longest", &run->advance.longest);
     plan_archive(&run->advance.plan, archive);

@@ -36,7 +36,8 @@ double hd_run_phase_time(const hd_run *run) { return run->followed; }
 
 hd_columns hd_run_vectors_now(const hd_run *run)
 {
-    return run->communicator ? run->gathered.columns : hd_carrier_vectors(&run->carrier);
+    if (run->communicator) return run->gathered.columns;
+    return run->known ? hd_carrier_vectors(&run->carrier) : (hd_columns){.count = 0};
 }
 
 void hd_run_dq_dp(const hd_run *run, double *cos_theta, double *dp_dq_ratio)
