@@ -40,6 +40,29 @@ TEST(stages_without_length_are_skipped)
     assert_true(hd_agenda_stage_end(&a) == INFINITY);
 }
 
+/** Fields come with the first report, at multiples of their interval, and where a target or a
+ * change ends the averaging. */
+TEST(fields_come_with_the_end)
+{
+    hd_scene_def scene = scene(.equilibration = 0.0, .warmup = 0.0, .duration = 0.0,
+                               .report_interval = 1.0, .field_interval = 10.0);
+    const unsigned both = HD_DUE_FIELDS | HD_DUE_STAGE;
+    hd_agenda a = hd_agenda_of(&scene, 1.0);
+    hd_agenda_enter(&a, HD_AVERAGING, 2.0);
+    for (int report = 1; report <= 21; report++) {
+        hd_agenda_begin(&a);
+        hd_agenda_pass_report(&a, false);
+        assert_int_equal(a.due & both, report == 1 || report % 10 == 0 ? HD_DUE_FIELDS : 0);
+    }
+    hd_agenda_pass_report(&a, true);
+    assert_int_equal(a.due & both, both);
+    hd_agenda_begin(&a);
+    hd_agenda_enter(&a, HD_AVERAGING, 2.0);
+    scene.duration = 1.0;
+    assert_true(is_over(&a, &scene, 3.0));
+    assert_int_equal(a.due & both, both);
+}
+
 /** Each cut is checked against its time; the last report may be a short one, but not of rounding
  * alone. */
 TEST(reports_end_at_multiples_and_with_the_stage)
