@@ -51,7 +51,7 @@ class Own(harness.Case):
         self.assertTrue(all(0 < angle.mean < math.pi / 2 for angle in covariant.angles))
 
     def test_lost_energy_without_a_time_step(self):
-        """Summary as it is known, with no step; and of what time the checkpoint is."""
+        """Said as it is known, with no step; and of what time the checkpoint is."""
         kept = os.path.join(self.new_folder(), 'kept')
         node = self.start(dict(SCENE, particles='lossy_chain', checkpoint=kept), command=[NODE])
         self.ends(node, 3, f'the checkpoint is {kept}; resume:=FILE goes on from it')

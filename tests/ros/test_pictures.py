@@ -325,7 +325,7 @@ class Markers(harness.Case):
 
     @harness.SECOND_TIER
     def test_no_memory(self):
-        """Summary again and again, while the program goes on: of the viewer, and of the node."""
+        """Said again and again, while the program goes on: of the viewer, and of the node."""
         many = dict(ENDLESS, number=20000, aspect=1.0, exponents='none', warmup=0.0, pace=1.0)
         pictures = self.look(probe={'PROBE_GROWTH': '300000'})
         self.start(dict(many, equilibration=0.1))

@@ -26,17 +26,17 @@ Row = collections.namedtuple('Row', 'text code how place')  # place: among the n
 # ---- names that rows may use
 
 
-class Summary(dict):
+class Said(dict):
     """What witness.cpp writes: its names are members, those with a dot members of members."""
 
     __getattr__ = dict.__getitem__
 
 
 def of_json(said):
-    out = Summary()
+    out = Said()
     for name, value in said.items():
         *outer, inner = name.split('.')
-        (out.setdefault(outer[0], Summary()) if outer else out)[inner] = array(value)
+        (out.setdefault(outer[0], Said()) if outer else out)[inner] = array(value)
     return out
 
 
@@ -50,7 +50,7 @@ def array(value):
 
 def each(count):
     """Elements without names."""
-    return [Summary() for _ in range(int(count))]
+    return [Said() for _ in range(int(count))]
 
 
 def pick(said, names):
@@ -347,7 +347,7 @@ class Published(harness.Case):
         names = ['run_info', *params['observables'], 'status', 'cost']
         params = dict(params, wait_for_subscribers=names)
         messages, said, node = self.run_of(name, params, **how)
-        asked = Summary(harness.defaults(), **{**dict(before), **params})
+        asked = Said(harness.defaults(), **{**dict(before), **params})
         warnings = [re.split(r'\]: |\x1b', line)[-2] for line in node.lines('which steps need')]
         run_id = messages['run_info'][-1].run_id
         messages = {  # without those that a node before it has latched
@@ -373,12 +373,12 @@ class Published(harness.Case):
         return [(message, found[seq]) for seq, message in by_seq.items()]
 
     def test_every_field(self):
-        for name, params, how in scenes(self.folder):
-            with self.subTest(scene=name):
-                self.compared.wrong.clear()
-                self.scene(name, params, **how)
-                wrong = [f'{name}: {how}' for name, how in self.compared.wrong.items()]
-                self.assertEqual(wrong, [], name)
+        wrong = []
+        for scene, params, how in scenes(self.folder):
+            self.compared.wrong.clear()
+            self.scene(scene, params, **how)
+            wrong += [f'{scene}: {name}: {how}' for name, how in self.compared.wrong.items()]
+        self.assertEqual(wrong, [])
         self.assertLessEqual(set(self.compared.holes()), set(self.compared.untold))
 
 
@@ -386,11 +386,11 @@ def given_at(asked, params, core):
     """Parameters as they are when the core says this, and the changes that are made by then."""
     changes = [re.fullmatch(r'(\S+) (\w+)=(.*)', text).groups() for text in asked.changes]
     made = [
-        Summary(name=name, before=f'{asked[name]:g}', value=value)
+        Said(name=name, before=f'{asked[name]:g}', value=value)
         for time, name, value in changes
         if float(time) <= core.get('change_time', core.time)
     ]
-    given = Summary(asked, **{**core.get('effect', {}), **params})
+    given = Said(asked, **{**core.get('effect', {}), **params})
     given.update((change.name, float(change.value)) for change in made)
     written = [f'{name}={text(value)}' for name, value in sorted(params.items())]
     return dict(asked=asked, given=given, made=made, written=written)

@@ -36,7 +36,7 @@ class Steps(harness.Case):
             self.assertGreater(largest, 0.02)
 
     def test_an_energy_that_is_off(self):
-        """Summary when it is so, and at the end; the last message and diagnostics have that of the
+        """Said when it is so, and at the end; the last message and diagnostics have that of the
         end."""
         scene = dict(SMALL, exponents='none', potential='wca', integrator='verlet')
         scene.update(observables=['state'], wait_for_subscribers=['status'], duration=400.0)
