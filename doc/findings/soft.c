@@ -185,7 +185,7 @@ static void look(looked *l, hd_run *run, const box *b)
     const int positive = hd_scene_counts(scene).positive;
     const hd_columns v = hd_run_vectors_now(run);
     hd_trajectory_state(trajectory, l->q, l->p);
-    (void)hd_dynamics_of(scene)->null(scene, l->q, l->p, l->null);
+    (void)hd_dynamics_of(scene)->null_vectors(scene, l->q, l->p, l->null);
     project(l, b, v, positive);
     double edge[HD_DIMENSION_MAX];
     hd_scene_box(scene, edge);

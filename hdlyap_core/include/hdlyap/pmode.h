@@ -16,8 +16,8 @@ typedef struct hd_pmode hd_pmode;
  * psi the dq halves of the vectors scaled to length 1, and Q such that the columns of phi are the
  * least-squares projections of the L and P fields of length 1. `vectors` must contain the step's
  * columns (hd_run_vectors_now when fields are due), `modes` those of the same run. Returns false,
- * and nothing below may be read, unless the step is a resolved LP step that shares its set with no
- * other step. */
+ * and nothing below may be read, without vectors, and unless the step is a resolved LP step that
+ * shares its set with no other step. */
 bool hd_pmode_reconstruct(hd_pmode *pmode, const hd_step *step, const hd_modes *modes,
                           hd_columns vectors);
 

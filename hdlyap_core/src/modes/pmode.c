@@ -151,6 +151,7 @@ bool hd_pmode_reconstruct(hd_pmode *pmode, const hd_step *step, const hd_modes *
                           hd_columns vectors)
 {
     if (step->kind != HD_MODE_LP || !step->resolved || step->members != 1) return false;
+    if (vectors.count == 0) return false;
     const hd_fields *fields = hd_modes_fields(modes);
     const int column = hd_fields_subspace(fields, step->subspace)->column;
     pmode->dimension = step->expected;

@@ -180,9 +180,7 @@ TEST(progress_and_cost_add_up)
 
 static int vectors_at_the_end(int exponents, unsigned observe)
 {
-    hd_scene_def scene = small(12, exponents);
-    scene.observe = observe;
-    OWNED(hd_run) *run = created(scene);
+    OWNED(hd_run) *run = created(scene_from(small(12, exponents), .observe = observe));
     assert_int_equal(hd_run_vectors_now(run).count, 0);
     while (going_on(run)) continue;
     return hd_run_vectors_now(run).count;

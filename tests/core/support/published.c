@@ -128,7 +128,8 @@ static void check_fields(const hd_run *run)
         }
         check_number(hd_pmode_rotation_distance(pmode), "distance from a rotation");
     }
-    hd_hydro_measure(hydro, steps, hd_run_vectors_now(run), state, p);
+    const hd_columns vectors = hd_run_vectors_now(run);
+    if (vectors.count > 0) hd_hydro_measure(hydro, steps, vectors, state, p);
     for (int k = 0; k < hd_hydro_count(hydro); k++) {
         const hd_hydro_response *r = hd_hydro_at(hydro, k);
         const double x[] = {r->density, r->along, r->across, r->energy};
