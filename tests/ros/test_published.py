@@ -378,7 +378,7 @@ class Published(harness.Case):
             self.compared.wrong.clear()
             self.scene(scene, params, **how)
             wrong += [f'{scene}: {name}: {how}' for name, how in self.compared.wrong.items()]
-        self.assertEqual(wrong, [])
+        self.assertEqual(wrong, [], "\n".join(wrong))
         self.assertLessEqual(set(self.compared.holes()), set(self.compared.untold))
 
 
