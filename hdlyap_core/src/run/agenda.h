@@ -27,7 +27,7 @@ typedef struct hd_live_values {
 } hd_live_values;
 
 /** The agenda. Its members may be read; only functions of the agenda change them, but for
- * interval_end, and checkpoint.c. */
+ * interval_end. */
 typedef struct hd_agenda {
     double length[HD_FINISHED]; /**< of each stage; INFINITY for an averaging without end */
     double report_interval;

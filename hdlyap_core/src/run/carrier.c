@@ -418,7 +418,7 @@ hd_columns hd_carrier_vectors(const hd_carrier *c)
                : none;
 }
 
-void hd_carrier_halves(const hd_carrier *c, double *cos_theta, double *dp_dq_ratio)
+void hd_carrier_dq_dp(const hd_carrier *c, double *cos_theta, double *dp_dq_ratio)
 {
     for (int col = 0; col < c->vectors; col++) {
         const double cosine = c->dq_dp[col], ratio = c->dq_dp[c->vectors + col];

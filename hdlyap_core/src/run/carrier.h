@@ -82,7 +82,7 @@ void hd_carrier_save_accuracy(hd_carrier *carrier, bool averaging);
 /** All n vectors, with a single rank; none if partners are needed that nobody has asked for. */
 hd_columns hd_carrier_vectors(const hd_carrier *carrier);
 /** hd_frame_dq_dp of all n vectors at the last measured state; [n] each. */
-void hd_carrier_halves(const hd_carrier *carrier, double *cos_theta, double *dp_dq_ratio);
+void hd_carrier_dq_dp(const hd_carrier *carrier, double *cos_theta, double *dp_dq_ratio);
 /** Averaged time, with that of the present sample. */
 double hd_carrier_averaged(const hd_carrier *carrier);
 /** Largest standard error of the positive exponents nearest to zero, or of the last ones carried if

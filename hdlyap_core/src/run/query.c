@@ -42,7 +42,7 @@ hd_columns hd_run_vectors_now(const hd_run *run)
 
 void hd_run_dq_dp(const hd_run *run, double *cos_theta, double *dp_dq_ratio)
 {
-    hd_carrier_halves(&run->carrier, cos_theta, dp_dq_ratio);
+    hd_carrier_dq_dp(&run->carrier, cos_theta, dp_dq_ratio);
 }
 
 bool hd_run_is_caged(const hd_run *run)

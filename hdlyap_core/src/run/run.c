@@ -331,11 +331,19 @@ static double plan(hd_run *run, hd_interval_request *request)
     return hd_agenda_plan(&run->agenda, request);
 }
 
+/** Vectors that were made readable belong to a time that is over. */
+static void forget_vectors(hd_run *run)
+{
+    run->known = false;
+    run->gathered.columns.count = 0;
+}
+
 /** Moves the particles towards the time `end`, or only to the next time at which a viewer looks. */
 static hd_status move_particles(hd_run *run, double end)
 {
     const double start = hd_clock_now();
     hd_record *record = is_framed(run) ? run->carrier.record : NULL;
+    forget_vectors(run);
     HD_TRY(hd_communicator_agree(run->communicator,
                                  hd_advance_on(&run->advance, record, end, run->watch)));
     run->cost.events += hd_clock_now() - start;
@@ -363,19 +371,11 @@ static hd_status go_on(hd_run *run)
     return HD_OK;
 }
 
-/** Vectors that were made readable belong to a time that is over. */
-static void forget_vectors(hd_run *run)
-{
-    run->known = false;
-    run->gathered.columns.count = 0;
-}
-
 static hd_status advance(hd_run *run)
 {
     if (is_due(run, HD_DUE_REPORT) && is_averaging(run) && run->carrier.spectrum)
         hd_spectrum_local_restart(run->carrier.spectrum);
     hd_agenda_begin(&run->agenda);
-    forget_vectors(run);
     if (run->agenda.stage == HD_FINISHED) return HD_OK;
     if (is_framed(run)) hd_blas_use_threads(run->carrier.threads); /* set for the calling thread */
     const bool behind = hd_windows_are_behind(windows_of(run));
@@ -402,7 +402,7 @@ static hd_status measure_now(hd_run *run, int first)
     } else if (averaging && !run->known && is_needed(run, HD_NEEDS_VECTORS)) {
         HD_TRY(measure(run, false));
     }
-    return hd_gather(&run->gathered, &run->carrier, first);
+    return run->known ? hd_gather(&run->gathered, &run->carrier, first) : HD_OK;
 }
 
 hd_status hd_run_measure(hd_run *run, int first)

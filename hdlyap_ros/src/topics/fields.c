@@ -121,7 +121,7 @@ hd_status topic_publish_fields(const moment *now)
     const hd_steps *steps = hd_run_parts(now->run).steps;
     const field_choice *choice = &now->set->fields;
     hd_status status = HD_OK;
-    if (!hd_run_fields_due(now->run)) return HD_OK;
+    if (!hd_run_fields_due(now->run) || hd_run_vectors_now(now->run).count == 0) return HD_OK;
     for (int k = 0; k < choice->count && status == HD_OK; k++)
         status = publish_vector(now, choice->index[k] - 1);
     for (int s = 0; choice->count == 0 && s < hd_steps_count(steps) && status == HD_OK; s++)

@@ -186,6 +186,20 @@ TEST(the_shortest_duration_ends_it)
     assert_true(isnan(hd_run_shortest_duration(run)));
 }
 
+/** Where a viewer had a state measured, the change holds at once; vectors are those of this state.
+ */
+TEST(it_ends_at_a_measured_state)
+{
+    OWNED(hd_run) *run = averaging(1.0, 0.0);
+    CHECK_OK(hd_run_measure(run, 0));
+    const double now = hd_run_time(run);
+    change(run, "duration", hd_run_shortest_duration(run));
+    CHECK_OK(hd_run_advance(run));
+    assert_true(hd_run_time(run) == now && hd_run_stage(run) == HD_FINISHED);
+    assert_true(hd_run_fields_due(run));
+    assert_int_equal(hd_run_vectors_now(run).count, hd_run_vectors(run));
+}
+
 /** Before and after any change of the reports (none if they stay as they are) the first of them at
  * or after each multiple. */
 static void expect_fields(double report_interval)

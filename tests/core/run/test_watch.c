@@ -120,12 +120,13 @@ TEST(looking_spoils_no_exponent)
     check_same_exponents(viewed, plain, bound);
 }
 
-/** Before the averaging, and after it, the vectors are there as they are: nothing is measured. */
+/** Nothing is measured before and after it; afterwards the vectors are those of its end. */
 TEST(only_the_averaging_is_measured)
 {
     OWNED(hd_run) *run = created(long_box(20.0));
     while (hd_run_stage(run) < HD_AVERAGING) {
         CHECK_OK(hd_run_measure(run, 0));
+        assert_int_equal(hd_run_vectors_now(run).count, 0);
         CHECK_OK(hd_run_advance(run));
     }
     finish(run);
