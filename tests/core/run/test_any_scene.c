@@ -202,8 +202,9 @@ static bool is_named_line(const char *line)
 static bool same_in_short_room(const hd_scene_def *def, const char *line, size_t size)
 {
     char room[LINE];
+    OWNED(hd_run) *run = NULL;
     memset(room, '#', sizeof room);
-    if (hd_scene_check(def, room, size) != HD_REFUSED) return false;
+    if (hd_run_create(&run, def, room, size) != HD_REFUSED) return false;
     for (size_t k = size; k < sizeof room; k++)
         if (room[k] != '#') return false;
     if (size == 0) return true;
