@@ -258,8 +258,7 @@ static hd_status end_interval(hd_run *run, bool sample_ends)
 /** True if what is due at this report needs a measured state. */
 static bool needs_state(const hd_run *run)
 {
-    const bool first = is_averaging(run) && hd_spectrum_time(run->carrier.spectrum) == 0;
-    return is_due(run, HD_DUE_STAGE) || first || is_needed(run, HD_NEEDS_REPORTS);
+    return is_due(run, HD_DUE_STAGE) || is_needed(run, HD_NEEDS_REPORTS);
 }
 
 static hd_status report(hd_run *run)

@@ -1,6 +1,7 @@
 /** What is changed while a run goes on: when it holds, what is refused, and that the same change at
  * the same time gives the same bits. */
 #include "kept.h"
+#include "run/run_state.h"
 
 #define PATH "change.checkpoint"
 
@@ -173,6 +174,18 @@ TEST(the_target_changes)
 
 /** The shortest duration that is allowed ends the run where a change would hold, with its last
  * report and fields. */
+/** Until it holds, a checkpoint has both: what is asked for and what is in force. */
+TEST(a_checkpoint_keeps_what_is_in_force)
+{
+    OWNED(hd_run) *run = averaging(1.0, 400.0);
+    change_to(run, "target", "smallest 1e-9");
+    OWNED(hd_run) *copy = kept_and_resumed(run, PATH, NULL);
+    assert_string_equal(hd_run_scene(copy)->target.line, "smallest 1e-9");
+    assert_string_equal(copy->agenda.in_force.target.line, run->agenda.in_force.target.line);
+    assert_string_not_equal(copy->agenda.in_force.target.line, "smallest 1e-9");
+    (void)remove(PATH);
+}
+
 TEST(the_shortest_duration_ends_it)
 {
     OWNED(hd_run) *run = kept_run(scene_from(kept_scene(30, 0.7, 1.0, 5, 0), .duration = 0.0));

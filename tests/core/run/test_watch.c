@@ -1,4 +1,5 @@
 /** Runs that are watched, for pictures. */
+#include "run/run_state.h"
 #include "runs.h"
 
 static const unsigned EVERYTHING = HD_OBSERVE_MODES | HD_OBSERVE_STEPS | HD_OBSERVE_PHASES;
@@ -91,6 +92,9 @@ TEST(each_step_ends_with_the_vectors_wanted)
     hd_run_watch(run, 0.25);
     while (hd_run_stage(run) != HD_FINISHED) {
         CHECK_OK(hd_run_advance(run));
+        if (hd_run_time(run) > run->agenda.sample_begin)
+            assert_int_equal(hd_run_vectors_now(run).count,
+                             0); /* those of before are none of now */
         CHECK_OK(hd_run_measure(run, n - WANTED));
         const hd_columns v = hd_run_vectors_now(run);
         assert_true(v.first == 0 && v.count == n);
@@ -118,6 +122,22 @@ TEST(looking_spoils_no_exponent)
     const double bound = hd_run_cost(plain).error_bound + hd_run_cost(viewed).error_bound;
     assert_true(bound > 0.0 && bound < 4e-8); /* accuracy 1e-8, stated with room [T6] */
     check_same_exponents(viewed, plain, bound);
+}
+
+/** A state that was measured when nobody listened is measured once more for who listens now, and
+ * counts once. */
+TEST(listening_late_adds_no_sample)
+{
+    OWNED(hd_run) *run = created(long_box(20.0));
+    begin_to_look(run);
+    hd_run_observe(run, 0);
+    do CHECK_OK(hd_run_advance(run));
+    while (hd_run_time(run) > run->agenda.sample_begin);
+    hd_run_observe(run, HD_OBSERVE_MODES);
+    const long samples = hd_modes_samples(hd_run_modes(run));
+    CHECK_OK(hd_run_measure(run, 0));
+    assert_int_equal(hd_run_vectors_now(run).count, hd_run_vectors(run));
+    assert_int_equal(hd_modes_samples(hd_run_modes(run)), samples);
 }
 
 /** Nothing is measured before and after it; afterwards the vectors are those of its end. */
