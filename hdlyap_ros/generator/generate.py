@@ -6,7 +6,12 @@ The comment of a float64 says what is sent while its value is not known: 'NaN if
 'while' means 'if'. Otherwise the number must be finite. A comment with NaN but without such a rule
 allows NaN at any time.
 
-If a field has no comment, or only a unit ('# [sigma]'), the comment above it describes it, too.
+If a field has no comment, or only a unit ('# [sigma]') or a shape, the comment above it describes
+it, too.
+
+An array's comment ends with its shape: the names of its dimensions, as in {vector, particle}, from
+which sizes of messages follow. @space: it is empty in the plane; @turning: unless particles turn;
+@fields: unless fields are due; any other word: it may be empty.
 
 A field 'one of FIRST .. LAST' holds one of these constants. The text before the first colon in the
 comment of a constant is its name: hdr_MESSAGE_FIELD_text(value) in C, hdlyap.data.fields.words in
@@ -44,6 +49,7 @@ ARRAYS = {
 }
 
 CHOICE = re.compile(r'one of (\w+) \.\. (\w+)')
+SHAPE = re.compile(r'\s*\{(\w[^}]*)\}((?: @\w+)*)$')
 UNKNOWN = re.compile(r'(NaN|-1) (if|while|unless) (\w+)(?: is (-?\w+))?')
 
 HEADER = '''\
@@ -58,6 +64,17 @@ HEADER = '''\
 #ifdef __cplusplus
 extern "C" {
 #endif
+
+/** How many there are of each dimension of the arrays in messages, and which arrays there are. */
+typedef struct hdr_lengths {
+    double %(dimensions)s;
+    bool space, turning;
+} hdr_lengths;
+
+/** Bytes of a message on the wire without texts: each time, and in addition when fields are due. */
+typedef struct hdr_size {
+    double always, fields;
+} hdr_size;
 %(structs)s
 /** DO(struct) for each message with a header: those may have a topic. */
 #define HDR_MESSAGES(DO) \\
@@ -89,11 +106,14 @@ static inline const char *%(name)s_%(field)s_text(unsigned value)
     }
 }
 '''
-SIZES = '''
-/** Bytes that a message takes on the wire with empty arrays and strings, and that one more element
- * in each of its arrays of numbers adds. */
-#define %(macro)s_BYTES %(bytes)d.0
-#define %(macro)s_EACH %(each)d.0
+SIZE = '''
+/** See hdr_size. */
+static inline hdr_size %(name)s_size(const hdr_lengths *n)
+{
+    const hdr_size size = {%(always)s, %(fields)s};
+    (void)n;
+    return size;
+}
 '''
 LIST = '''
 /** %(type)s[] */
@@ -173,10 +193,15 @@ class Message:
                 return found.group(1)
         return ''
 
+    def shape_of(self, name):
+        """The names of an array's dimensions, and the words behind them."""
+        found = SHAPE.search(self.own_text(name))
+        return (found.group(1).split(', '), found.group(2).split()) if found else ([], [])
+
     def text_of(self, name):
         """The text that describes a field or a constant: in its line or the nearest above."""
         names = self.names[: self.names.index(name) + 1]
-        texts = (self.own_text(above) for above in reversed(names))
+        texts = (SHAPE.sub('', self.own_text(above)) for above in reversed(names))
         return next((text for text in texts if text and not text.startswith('[')), '')
 
     def comment_of(self, name):
@@ -235,16 +260,23 @@ class Message:
             rows += '    %s%s%s;%s\n' % (c_type, space, field.name, self.comment_of(field.name))
         return STRUCT % dict(vars(self), comment=self.comment(), rows=rows)
 
-    def sizes(self):
+    def size(self, messages):
         """Bytes of fields. Arrays, strings and the name in a header begin with their length."""
         bytes_of = dict(bool=1, int8=1, uint8=1, int16=2, uint16=2, int32=4, uint32=4, float32=4)
         bytes_of.update({'int64': 8, 'uint64': 8, 'float64': 8, 'string': 4, 'std_msgs/Header': 16})
-        each, fixed = 0, 0
+        names, fixed, sums = {one.type: one.name for one in messages}, 0, dict(always='', fields='')
         for field in self.spec.parsed_fields():
             fixed += 4 if field.is_array else bytes_of[field.base_type]
-            if field.is_array and field.base_type in NUMBERS:
-                each += bytes_of[field.base_type]
-        return SIZES % dict(macro=self.name.upper(), bytes=fixed, each=each)
+            dimensions, words = self.shape_of(field.name)
+            if dimensions:
+                one = names.get(field.base_type)
+                each = one + '_size(n).always' if one else '%d.0' % bytes_of[field.base_type]
+                factors = ['n->' + word[1:] for word in words if word in ('@space', '@turning')]
+                factors += ['(n->%s)' % word.replace('-', ' - ') for word in dimensions] + [each]
+                sums['fields' if '@fields' in words else 'always'] += ' + ' + ' * '.join(factors)
+        return SIZE % dict(
+            name=self.name, always='%d.0' % fixed + sums['always'], fields='0.0' + sums['fields']
+        )
 
     def is_in_arrays_of(self, messages):
         fields = [field for message in messages for field in message.spec.parsed_fields()]
@@ -298,11 +330,18 @@ def header(package, messages):
     structs = ''
     for message in messages:
         structs += message.constants() + message.struct(messages)
-        structs += message.texts() + message.sizes()
+        structs += message.texts() + message.size(messages)
         if message.is_in_arrays_of(messages):
             structs += LIST % vars(message)
+    shaped = [one.shape_of(field)[0] for one in messages for field in one.spec.names]
+    dimensions = sorted({word.partition('-')[0] for words in shaped for word in words})
     topics = ['    DO(%s)' % message.name for message in messages if message.spec.has_header()]
-    return HEADER % dict(package=package, structs=structs, topics=' \\\n'.join(topics))
+    return HEADER % dict(
+        package=package,
+        structs=structs,
+        dimensions=', '.join(dimensions),
+        topics=' \\\n'.join(topics),
+    )
 
 
 def fields(messages):

@@ -205,7 +205,8 @@ class OneRun(Loaded):
             ('boundary_y', 'reflecting', 'boundary_y is periodic and reflecting'),
             ('wave_nx', [1, 2], r'wave_nx is \(\) and \(1, 2\)'),
         ):
-            b = self.write(run([1, 2], 'two', seed='2', **{name: value}), 'b')
+            more = {'wave_ny': value, 'wave_nz': value} if name == 'wave_nx' else {}
+            b = self.write(run([1, 2], 'two', seed='2', **{name: value}, **more), 'b')
             self.cannot_load(f'a.bag and .*b.bag do not belong together: {said}', a, b)
         b = self.write(run([1, 2], 'two', seed='2', density=0.5 * (1 + 1e-12)), 'b')
         self.assertEqual(len(hdlyap.load(a, b).runs), 2)

@@ -15,7 +15,8 @@ from matplotlib.figure import Figure
 from matplotlib.image import imread
 
 import hdlyap
-from hdlyap.data import fits, reader
+from hdlyap import topics
+from hdlyap.data import fits, frames, reader
 from hdlyap.msg import Structure
 from std_msgs.msg import String
 import made
@@ -183,7 +184,36 @@ class WithoutInfo(Tools):
         text = self.plot(self.write(messages), '--csv', self.path('csv'))
         self.assertRegex(text, r'\n  LP\(1,0\) +1\.59\d+\(\d+\) +1\.600\(16\) +8 of 8\n')
         names = {os.path.splitext(name)[0] for name in os.listdir(self.path('csv'))}
-        self.assertLessEqual({'steps', 'phases'}, names)
+        self.assertLessEqual({'steps', 'lp_phases'}, names)
+
+
+def topic_of(name):
+    """The topic of a table, or of a variable of a Dataset."""
+    found = (one for one in topics.RECORDED if f'{name}_'.startswith(one + '_'))
+    return max(found, key=len, default='spectrum')
+
+
+def numbers_of(message):
+    """Yields (name of its column, numbers) of the fields of a message and of its lists that have
+    some."""
+    for slot, kind in zip(message.__slots__, message._slot_types):
+        value, name = getattr(message, slot), frames._singular(slot) if '[' in kind else slot
+        if '/' in kind and value and '[' in kind:
+            each = [dict(numbers_of(one)) for one in value if getattr(one, 'resolved', True)]
+            yield from ((key, np.concatenate([one[key] for one in each])) for key in each[0])
+        elif '/' not in kind and 'string' not in kind and np.size(value) and slot not in LABELS:
+            yield name, np.ravel(value).astype(float)
+
+
+LABELS = 'sim_time first_index index indices time spaces step set gap gap_error'.split()
+LABELS += [*frames.NAMES, 'modulation', *frames.OF_SPHERES, *frames.OF_TURNING]  # words, of others
+
+
+def has(column, values):
+    """Whether these numbers are in it; unknown ones do not count."""
+    column = np.ravel(column).astype(float)
+    values = values[~np.isnan(values) & (values != -1)]
+    return np.isclose(values[:, np.newaxis], column).any(axis=1).all()
 
 
 class Export(Tools):
@@ -213,16 +243,19 @@ class Export(Tools):
         with open(bag, 'rb') as file:
             self.assertEqual(file.read(), before)
 
-    def table(self, name):
-        return pandas.read_csv(os.path.join(self.csv, name + '.csv'), comment='#', index_col=0)
+    def table(self, name, index_col=0):
+        path = os.path.join(self.csv, name + '.csv')
+        return pandas.read_csv(path, comment='#', index_col=index_col)
 
     def test_everything(self):
         bag = self.write(numbered(made.small_run()))
         names = self.export(bag)
         run_ = hdlyap.load(bag)
-        wanted = ['results', 'spectrum', 'steps', 'phases', 't_phases', 'cost', 'status']
+        of_arrays = ['spectrum', 'steps', 'lp_phases', 't_phases', 'fields']
+        wanted = [name for one in of_arrays for name in (one, one + '_over_time')]
+        wanted += ['results', 'cost', 'status', 'fields_pair', 'fields_pair_particle']
         self.assertEqual(names, sorted(wanted + ['exponents', 'std_errors', 'local_exponents']))
-        for name in ('spectrum', 'steps', 'phases', 'cost'):
+        for name in ('spectrum', 'steps', 'cost'):
             with open(os.path.join(self.csv, name + '.csv')) as file:
                 head = [next(file), next(file)]
             self.assertRegex(head[0], r'^# hdlyap 0\.1\.0, scene made, N = 20, .*, seed 1\n')
@@ -260,9 +293,11 @@ class Export(Tools):
         self.assertEqual(self.export(self.write([info, made.cost(1), made.cost(2)])), ['cost'])
         messages = [info, made.gas(), made.localization([0.25, 0.5]), made.cost(1)]
         messages.append(made.fluctuations([0.5, 0.25]))
+        found = ['fluctuations', 'gas', 'localization']
+        of_growth = ['fluctuations_growth_time', 'fluctuations_growth_time_index']
         self.assertEqual(
             self.export(self.write(messages)),
-            ['cost', 'fluctuations', 'gas', 'localization', 'orders'],
+            sorted([*(one + '_over_time' for one in found), 'cost', *found, *of_growth]),
         )
         gas = self.table('gas')
         self.assertEqual((gas.value['pressure'], gas.unit['pressure']), (1.25, '1/sigma^2'))
@@ -271,43 +306,27 @@ class Export(Tools):
             np.testing.assert_array_equal(arrays['localization.width'], [0.25, 0.5])
             self.assertEqual(arrays['gas.value'][0], 3.25)
 
-    def test_what_has_more_than_an_index(self):
-        """Each number of it is in a table, and in a Dataset; particles are named as left out."""
+    def test_each_field_once(self):
+        """Of every topic, as its .msg has it: in one table, and in one variable of the Dataset."""
         from test_strangers import every_kind  # which has imported this module
 
         messages = numbered(every_kind())
         bag = self.write(messages)
-        text = self.plot(bag, '--csv', self.csv)
-        self.assertIn('\nin no table, as they are of each particle: state, fields\n', text)
-        last = {one._type.partition('/')[2]: one for one in messages}
-        covariant, growth, shape = last['Covariant'], last['Fluctuations'], last['Structure']
-        (angle,), (weight,), (order,) = covariant.angles, covariant.weights, covariant.orders
-        rows = {
-            'hydro': {'energy': [one.energy for one in last['Hydro'].responses]},
-            'structure': {'along': shape.along, 'across': shape.across},
-            'covariant_weights': {k: getattr(weight, k) for k in ('dq', 'dp', 'gram_schmidt')},
-            'covariant_angles': {'mean': [angle.mean], 'least': [angle.least]},
-            'covariant_angle_counts': {
-                k: getattr(angle, k) for k in ('smallest_counts', 'all_counts')
-            },
-            'covariant_orders': {'violations': order.violations},
-            'covariances': {k: getattr(growth, k) for k in ('covariances', 'covariance_errors')},
-            'reversals': {'reversals': growth.reversals},
-            'orders': {'variances': growth.variances},
-        }
-        of_all = hdlyap.load(bag).to_xarray()
-        for name, columns in rows.items():
-            for column, values in columns.items():
-                np.testing.assert_allclose(self.table(name)[column], values, err_msg=name)
-                if name not in ('hydro', 'structure'):  # they have forms of their own
-                    held = of_all[f'{name}_{column}'].values
-                    held = held[~np.isnan(held)]  # `step` has all steps
-                    np.testing.assert_allclose(np.sort(held), np.sort(values))
-        np.testing.assert_allclose(
-            self.table('covariant_angle_counts')['from'], np.pi / 8 * np.arange(4)
-        )
-        self.assertEqual(set(self.table('orders')['count']), {500, 250})
-        self.assertEqual(of_all['covariances_covariances'].attrs['units'], '1/time unit')
+        names = self.export(bag)
+        tables = {name: self.table(name, index_col=None) for name in names}
+        of_all, seen = hdlyap.load(bag).to_xarray(), 0
+        for topic, kind in [one for one in topics.RECORDED.items() if one[0] != 'run_info']:
+            found = [one for one in messages if isinstance(one, kind)]
+            last = max(found, key=lambda one: getattr(one, 'index', one.sim_time))
+            mine = [frame for name, frame in tables.items() if topic_of(name) == topic]
+            held = [str(name) for name in of_all if topic_of(name) == topic]
+            for name, values in numbers_of(last):
+                columns = [frame[name] for frame in mine if name in frame]
+                self.assertTrue(any(has(one, values) for one in columns), (topic, name))
+                found = [of_all[one] for one in held if one.endswith(('_' + name, name + 's'))]
+                self.assertTrue(any(has(one, values) for one in found), (topic, name))
+                seen += 1
+        self.assertGreater(seen, 150)
 
     def test_means_with_gas(self):
         """The means over seeds have the gas, and name what they do not have."""
@@ -324,7 +343,7 @@ class Export(Tools):
         self.assertIn('\nno means, see the single runs: t_phases\n', text)
         os.remove(bags[1])
         bags[1] = self.write([info, spectrum], 'no')
-        self.assertIn('\nno means, see the single runs: t_phases, gas\n', self.plot(*bags))
+        self.assertIn('\nno means, see the single runs: gas, t_phases\n', self.plot(*bags))
 
     def test_gas_of_seeds(self):
         """Weighted with their times."""
@@ -432,11 +451,15 @@ class Hostile(Tools):
         unlike = Structure(run_id=info.run_id, peak=[0, 0], amplitude_along=[0.0] * 8)
         good = made.spectrum(HALF, 50.0)
         for said, count, messages in (
-            ('arrays that must be equally long have [36, 37] elements', 2, [info, short]),
+            ('std_errors has 36 elements: must be 37', 2, [info, short]),
             ('no exponents', 2, [info, empty]),
             ('number = 0: must be from 1 to 1000000', 2, [made.run_info(number=0), good]),
             ('nan', 2, [made.run_info(box_x=float('nan')), good]),
-            ('hdlyap/Structure: [0, 8] elements of 2 vectors', 1, [info, good, unlike]),
+            (
+                'hdlyap/Structure: amplitude_across has 0 elements: must be 8',
+                1,
+                [info, good, unlike],
+            ),
         ):
             done = self.all_tools(self.write(messages, 'a'))[:count]
             self.assertEqual([one.status for one in done], [1, 2][:count])

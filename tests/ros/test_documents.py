@@ -65,7 +65,7 @@ def type_of(struct):
 def rows():
     """Topic -> type, stages, what it is: the table of topics."""
     text = re.sub(r'(?s)/\*.*?\*/', '', read(TOPICS, 'rows.inc'))
-    found = re.findall(r'TOPIC\((\w+), (\w+), (\w+),\s+([\w |]+),', text)
+    found = re.findall(r'TOPIC\((\w+), (\w+), (\w+),\s+([\w |]+)\)', text)
     assert len(found) == text.count('TOPIC(')
     return {name: (type, stages, set(what.split(' | '))) for name, type, stages, what in found}
 

@@ -106,7 +106,7 @@ class Arrays(Dumbbells):
             (bare, lambda run: run.fields),
         ):
             with self.assertRaisesRegex(
-                RecordingError, r'arrays that must be equally long have \[\d+, 20\] elements'
+                RecordingError, r'(angle|spin) has \d+ elements: must be 20'
             ):
                 read(self.load(message))
 

@@ -13,6 +13,7 @@ import numpy as np
 import hdlyap
 import made
 import made_fields
+import measured
 from bags import tool
 from hdlyap.data import possible, reader
 from hdlyap.data.reader import RecordingError
@@ -56,7 +57,8 @@ def every_kind():
     turned = dict.fromkeys(('angle', 'spin', 'dq_angle', 'dp_angle'), [0.1] * 20)
     x, y, px, py = made_fields.disks(info)
     state = dict(x=x, y=y, px=px, py=py, angle=[0.1] * 20, spin=[0.2] * 20)
-    modes = [Mode(index=k, kind=T, nx=1, wave_number=1.0, weight=0.9) for k in (36, 37)]
+    unlike = dict.fromkeys(('weight_l', 'weight_p'), np.nan)  # of LP alone
+    modes = [Mode(index=k, kind=T, nx=1, wave_number=1.0, weight=0.9, **unlike) for k in (36, 37)]
     covariant = made.covariant(HALF, weights=[made.covariant_weight(found[0], 37)])
     counts = dict(smallest_counts=[3, 4, 0, 1], all_counts=[5, 6, 7, 8])
     covariant.angles = [CovariantAngle(spaces=1, mean=0.3, std_error=0.1, least=0.2, **counts)]
@@ -64,12 +66,15 @@ def every_kind():
     for name in ('violations', 'domination_violations'):
         setattr(covariant.orders[0], name, [0.5] * 36)
     pairs = [(LP, 1, 0, [32, 33]), (T, 1, 0, [36, 37])]
+    unseen = made.zero_modes()
+    for name in measured.OF_STEPS:
+        setattr(unseen, name, np.nan)
     course = [
         one
         for t in (30.0, 50.0)
         for one in (
             made.spectrum(HALF, t),
-            made.steps([*found, made.zero_modes()], t),
+            made.steps([*found, unseen], t),
             Modes(run_id='one', sim_time=100 + t, averaged_time=t, samples=5, modes=modes),
             made.status(100 + t),
             made.cost(100 + t),
@@ -195,7 +200,7 @@ class Together(Strangers):
                 [4 * 10**9],
                 'last_index = 4000000000: must be from',
             ),
-            ('ModeField', 'modulation', [[0], [0, 1, 2]], 'must be equally long|must be 2'),
+            ('ModeField', 'modulation', [[0], [0, 1, 2]], r'elements: must be \d'),
         ):
             place = len(kinds) - 1 - kinds[::-1].index(f'hdlyap/{kind}')
             for value in values:

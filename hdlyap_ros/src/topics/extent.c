@@ -11,12 +11,40 @@ hd_result_counts extent_of(const settings *set, hd_result_counts of_run)
     return of_run;
 }
 
+static hdr_lengths lengths_of(const hd_result_counts *e)
+{
+    return (hdr_lengths){.angle = e->angles,
+                         .bin = HD_ANGLE_BINS,
+                         .modulation = HD_MODULATIONS_IN(e->dimension),
+                         .order = e->orders,
+                         .pair = e->examples > 0 ? (double)e->pairs / e->examples : 0.0,
+                         .particle = e->particles,
+                         .phase = e->phases,
+                         .resolved = e->found,
+                         .response = e->responses,
+                         .step = e->steps,
+                         .subspace = e->subspaces,
+                         .t_phase = e->t_phases,
+                         .growth_time = e->times,
+                         .transverse = HD_TRANSVERSE_IN(e->dimension),
+                         .vector = e->vectors,
+                         .wave = e->waves,
+                         .space = e->dimension == 3,
+                         .turning = e->coordinates > e->dimension};
+}
+
 topic_size topic_size_of(topic t, const hd_result_counts *e)
 {
-    const topic_size sizes[TOPICS] = {
-#define TOPIC(name, type, stages, is, ...) [TOPIC_##name] = {__VA_ARGS__},
+    const hdr_lengths n = lengths_of(e);
+    const hdr_size sizes[TOPICS] = {
+#define TOPIC(name, type, stages, is) [TOPIC_##name] = hdr_##type##_size(&n),
 #include "topics/rows.inc"
 #undef TOPIC
     };
-    return sizes[t];
+    const hdr_size size = sizes[t];
+    if (topic_is(t, TOPIC_ONCE | TOPIC_FOR_VIEWERS)) return (topic_size){.report = 0.0};
+    if (topic_is(t, TOPIC_OF_WINDOWS)) return (topic_size){.window = size.always};
+    if (topic_is(t, TOPIC_OF_FIELDS))
+        return (topic_size){.fields = e->examples * size.always, .messages = e->examples};
+    return (topic_size){.report = size.always, .fields = size.fields};
 }

@@ -18,7 +18,7 @@ typedef struct topic_size {
     double messages; /**< number of messages at one time; 0 stands for 1 */
 } topic_size;
 
-/** The size in the topic's row of rows.inc. */
+/** By the shapes in the .msg; 0 if it is once in a bag or not at all. */
 topic_size topic_size_of(topic t, const hd_result_counts *e);
 
 #endif

@@ -13,7 +13,7 @@ static const double queue_bytes = 128e6;
 typedef hdr_status (*advertise_function)(hdr_publisher **, hdr_node *, const char *, int);
 
 static const advertise_function advertise[TOPICS] = {
-#define TOPIC(name, type, stages, is, ...)                                                         \
+#define TOPIC(name, type, stages, is)                                                              \
     [TOPIC_##name] = (is)&TOPIC_LATCHED ? hdr_##type##_advertise_latched : hdr_##type##_advertise,
 #include "topics/rows.inc"
 #undef TOPIC
@@ -40,7 +40,7 @@ static int queue_length(double bytes)
 static hdr_status advertise_one(publishers *out, hdr_node *ros, topic t, double bytes, bool waits)
 {
     char name[32];
-    const bool aside = topic_bit(t) & topics_that_are(TOPIC_FOR_VIEWERS);
+    const bool aside = topic_is(t, TOPIC_FOR_VIEWERS);
     snprintf(name, sizeof name, "~%s", topic_name(t));
     const hdr_status status = advertise[t](&out->publisher[t], ros, name,
                                            aside ? 1 : queue_length(bytes));
@@ -85,7 +85,7 @@ hdr_lag publishers_lag(const publishers *out)
 {
     hdr_lag worst = {.topic = ""};
     for (topic t = 0; t < TOPICS; t++) {
-        if (!out->publisher[t] || topic_bit(t) & topics_that_are(TOPIC_FOR_VIEWERS)) continue;
+        if (!out->publisher[t] || topic_is(t, TOPIC_FOR_VIEWERS)) continue;
         const hdr_lag lag = hdr_publisher_lag(out->publisher[t]);
         if (is_worse(lag, worst)) worst = lag;
     }
@@ -99,7 +99,7 @@ static hd_status sent(hdr_status status, topic t)
     return HD_OK;
 }
 
-#define TOPIC(name, type, stages, is, ...)                                                         \
+#define TOPIC(name, type, stages, is)                                                              \
     hd_status topic_send_##name(const publishers *to, hdr_##type *message)                         \
     {                                                                                              \
         message->header = (hdr_header){.stamp = to->stamp, .frame_id = "box"};                     \

@@ -34,7 +34,7 @@ hdr_lag publishers_lag(const publishers *out);
 /** For each topic, a function that fills header and run_id of a message and sends it. It fails with
  * HD_NOT_FINITE, and sends nothing, if a number is not finite that has to be. If ROS refuses, the
  * message is lost, with a line in the log, and the run goes on. */
-#define TOPIC(name, type, stages, is, ...)                                                         \
+#define TOPIC(name, type, stages, is)                                                              \
     HD_MUST_CHECK hd_status topic_send_##name(const publishers *to, hdr_##type *message);
 #include "topics/rows.inc"
 #undef TOPIC

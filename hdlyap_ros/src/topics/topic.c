@@ -11,7 +11,7 @@ static const struct {
     const char *name;
     unsigned stages, is;
 } topics[TOPICS] = {
-#define TOPIC(name, type, stages, is, ...) [TOPIC_##name] = {#name, stages, is},
+#define TOPIC(name, type, stages, is) [TOPIC_##name] = {#name, stages, is},
 #include "topics/rows.inc"
 #undef TOPIC
 };
@@ -49,11 +49,13 @@ void topic_names(char *text, size_t size, unsigned set)
                                        topics[t].name);
 }
 
+bool topic_is(topic t, unsigned any) { return topics[t].is & any; }
+
 unsigned topics_that_are(unsigned any)
 {
     unsigned set = 0;
     for (topic t = 0; t < TOPICS; t++)
-        if (topics[t].is & any) set |= topic_bit(t);
+        if (topic_is(t, any)) set |= topic_bit(t);
     return set;
 }
 

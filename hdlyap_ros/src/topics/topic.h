@@ -2,6 +2,7 @@
 #ifndef HDLYAP_TOPIC_H
 #define HDLYAP_TOPIC_H
 
+#include <stdbool.h>
 #include <stddef.h>
 
 #include "hdlyap/scene.h"
@@ -15,11 +16,13 @@ enum {
     TOPIC_OF_VECTORS = 16, /**< it needs exponents */
     TOPIC_OF_WINDOWS = 32, /**< published when a window of covariant vectors has ended */
     TOPIC_OF_STEPS = 64,   /**< it is about steps; nothing is published before modes are measured */
+    TOPIC_OF_FIELDS = 256, /**< several messages, published when fields are due */
+    TOPIC_ONCE = 512,      /**< once in a bag, but for changes */
     TOPIC_OF_BOX = 128 /**< has positions in a box; topics whose stages need a box lack this bit */
 };
 
 typedef enum topic {
-#define TOPIC(name, type, stages, is, ...) TOPIC_##name,
+#define TOPIC(name, type, stages, is) TOPIC_##name,
 #include "topics/rows.inc"
 #undef TOPIC
     TOPICS
@@ -41,7 +44,8 @@ unsigned topic_bit_of(const char *name);
 unsigned topics_named(const char *list);
 void topic_names(char *text, size_t size, unsigned set);
 
-/** The set of topics that have one of these properties. */
+/** Whether a topic has one of these properties; the set of topics that have. */
+bool topic_is(topic t, unsigned any);
 unsigned topics_that_are(unsigned any);
 
 /** The set of observables that need one of these stages. */

@@ -91,8 +91,6 @@ def main(args):
     if args.csv or args.npz:
         files += exported(run.data, args)
     print('\n' + '\n'.join(files))
-    if (args.csv or args.npz) and export.left_out(run.data):
-        print('in no table, as they are of each particle: ' + ', '.join(export.left_out(run.data)))
     if lost:
         print('not drawn, as they need run_info: ' + ', '.join(lost))
     nothing = [name for name in args.only or () if name not in drawn and name not in lost]

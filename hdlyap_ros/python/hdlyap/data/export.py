@@ -7,35 +7,24 @@ import numpy as np
 
 from hdlyap import whole
 
-from . import parts, space
+from . import space
 from .reader import Missing, is_known
 
-FRAMES = ('results', 'spectrum', 'steps', 'modes', 'phases', 't_phases', 'covariant')
-FRAMES += ('localization', 'fluctuations', 'gas', 'cost', 'status')
-OF_PARTICLES = 'state', 'fields'  # topics with numbers for each particle
+OF_MEANS = 'results', 'spectrum', 'steps', 'gas'  # frames of Seeds
 OVER_TIME = '1/time unit'  # unit of columns that have Lyapunov indices as names
 
 
 def tables(run):
-    """{name: frame} of all that was recorded; for Seeds these are results, spectrum, steps and
-    gas."""
+    """{name: frame} of all that was recorded; of Seeds those OF_MEANS."""
     found = {}
-    for name in FRAMES:
+    for name in OF_MEANS if run.is_mean else ('results',):
         try:
-            found[name] = getattr(run, name, None)
+            found[name] = getattr(run, name)
         except Missing:
             pass
-    found = {name: frame for name, frame in found.items() if frame is not None}
-    if not run.is_mean:
-        found.update(parts.of(run, {**parts.TABLES, **parts.OTHERS}))
-    return {**found, **(run.over_time() if 'spectrum' in found and hasattr(run, 'times') else {})}
-
-
-def left_out(run):
-    """The topics that were recorded, and of which no table has anything."""
     if run.is_mean:
-        return []
-    return [name for name in OF_PARTICLES if run.has(name)]
+        return found
+    return {**found, **run.tables(), **(run.over_time() if run.has('spectrum') else {})}
 
 
 def csv(run, folder):

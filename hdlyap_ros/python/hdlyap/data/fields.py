@@ -1,6 +1,6 @@
 """Message -> what its definition says about its fields: what they are, their units, whether -1
-means unknown, whether they may be NaN, and the names of the constants that they hold. If a field
-has no comment, the comment above it describes it, too."""
+means unknown, whether they may be NaN, the names of the constants that they hold, and the shapes of
+arrays. If a field has no comment, the comment above it describes it, too."""
 
 import re
 from collections import namedtuple
@@ -9,11 +9,13 @@ from functools import lru_cache
 LINE = re.compile(r'(?m)^[\w/]+(?:\[\])? +(\w+)(?: +# *(.*))?$')
 CONSTANT = re.compile(r'(?m)^\w+ +(\w+) *= *(\d+) *# *([^:\n]*)')
 CHOICE = re.compile(r'one of (\w+) \.\. (\w+)')
+SHAPE = re.compile(r'\s*\{([^}]*)\}((?: @\w+)*)$')
 UNIT = re.compile(r'\s*\[([^\]]*)\]\s*$')
 UNKNOWN = re.compile(r'(?:^|[;,] )-1 (?!\.\.)')
 STANDARD_ERROR = re.compile(r'errors?$')
 
-Field = namedtuple('Field', 'unit unknown what may_be_nan is_choice')
+# shape: names of an array's dimensions, () if it has any length; only: it is empty otherwise
+Field = namedtuple('Field', 'unit unknown what may_be_nan is_choice shape only')
 
 
 def of(message):
@@ -41,10 +43,14 @@ def _own(text):
 def _parsed(text):
     found, above = {}, ''
     for name, own in LINE.findall(_own(text)):
+        shape = SHAPE.search(own)
+        dimensions, only = shape.groups() if shape else ('', '')
+        own = SHAPE.sub('', own)
         words = above if own.startswith('[') else own or above
         unknown = UNKNOWN.search(words) or STANDARD_ERROR.search(name)
         said = bool(unknown), UNIT.sub('', words), 'NaN' in words, bool(CHOICE.search(words))
-        found[name] = Field(_unit(own or above), *said)
+        shape = tuple(dimensions.split(', ')) if dimensions else ()
+        found[name] = Field(_unit(own or above), *said, shape, frozenset(only.split()))
         above = words
     return found
 

@@ -6,7 +6,7 @@ from hdlyap import msg
 
 from hdlyap.numbers import known
 
-from . import fields, steps, tables
+from . import fields, frames, steps
 
 
 class Orders:
@@ -18,7 +18,7 @@ class Orders:
         told, unit = message.orders, fields.of(msg.GrowthOrder)['time'].unit
         columns = {name: [getattr(one, name) for one in told] for name in ('time', 'count')}
         self._first = message.first_index
-        self.times = tables.frame(columns, {'time': unit})
+        self.times = frames.frame(columns, {'time': unit})
         for name in ('violations', 'domination_violations'):
             setattr(self, name, self._rows([getattr(one, name) for one in told]))
 

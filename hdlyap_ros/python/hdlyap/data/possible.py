@@ -45,34 +45,10 @@ RANGES = {
     **dict.fromkeys(('wave_number', 'threshold', 'averaged_time', 'sim_time'), (0, LARGEST)),
 }
 ANY = ('condition',)  # numbers that may be infinite
-# arrays of the same length
-ALIKE = {
-    'RunInfo': (('outline_x', 'outline_y'),),
-    'Spectrum': (('exponents', 'std_errors', 'local_exponents', 'cos_theta', 'dp_dq_ratio'),),
-    'State': (('x', 'y', 'px', 'py'),),
-    'Structure': (('nx', 'ny', 'wave_number'),),
-    'ModeField': (
-        ('x', 'y', 'px', 'py', 'dqx', 'dqy', 'dpx', 'dpy'),
-        ('modulation', 'residual_l', 'residual_p'),
-        ('p_x', 'p_y', 'p_over_px', 'p_over_py'),
-    ),
-    'Covariant': (
-        ('exponents', 'std_errors', 'local_exponents', 'start_mismatch', 'widths', 'cos_theta'),
-        ('neighbour_angles', 'least_neighbour_angles', 'violations', 'domination_violations'),
-    ),
-    'CovariantAngle': (('smallest_counts', 'all_counts'),),
-    'CovariantWeight': (('dq', 'dp', 'gram_schmidt'),),
-    'GrowthOrder': (('violations', 'domination_violations'),),
-    'Localization': (('widths', 'std_errors', 'widths_now'),),
-    'Fluctuations': (('diffusions', 'std_errors'),),
-}
-# arrays of the length of the first ones in space, or if particles rotate; otherwise they are empty
-OF_SPHERES = {'State': ('z', 'pz'), 'ModeField': ('z', 'pz', 'dqz', 'dpz'), 'Structure': ('nz',)}
-OF_TURNING = {'State': ('angle', 'spin'), 'ModeField': ('angle', 'spin', 'dq_angle', 'dp_angle')}
+# elements of dimensions that no array of the message has alone, in the plane and in space
+FIXED = {'modulation': (4, 8), 'transverse': (4, 16)}
 NOT_EMPTY = {'Spectrum': 'exponents', 'Localization': 'widths', 'Fluctuations': 'diffusions'}
-AMPLITUDES = 'amplitude_along', 'amplitude_across'
 OF_RESOLVED = 'multiplicity', 'exponent', 'set_time', 'own_part'  # NaN unless resolved
-PAIRED = 'covariances', 'covariance_errors', 'variances', 'reversals'
 SHOWN = 80  # most characters of a value that are shown
 WORD = re.compile(r'[\w.+-]+', re.ASCII)
 WALLS = 'periodic', 'reflecting', 'curved'
@@ -90,6 +66,7 @@ def check(message, info=None):
     about = message if isinstance(message, msg.RunInfo) else info
     most = 2 * COORDINATES * PARTICLES if about is None else space.phase_space(about)
     _check_parts([message], max(most, 1))
+    _check_lengths(message, {})
     if _name(message) in CHECKS:
         CHECKS[_name(message)](message)
     if about is not None and isinstance(message, (msg.State, msg.ModeField)):
@@ -151,8 +128,6 @@ def _check_parts(parts, most):
         if values and hasattr(values[0], '__len__'):
             values = np.concatenate([_array(value) for value in values])
         _check_values(parts[0], rule, np.array(values, dtype=float), most)
-    for part in parts:
-        _check_lengths(part)
 
 
 def _array(value):
@@ -174,18 +149,41 @@ def _check_values(message, rule, values, most):
 # ---- lengths ------------------------------------------------------------------------------------
 
 
-def _check_lengths(message):
-    name = _name(message)
-    for number, alike in enumerate(ALIKE.get(name, ())):
-        lengths = {len(getattr(message, one)) for one in alike}
-        for of_some in (OF_SPHERES, OF_TURNING) if number == 0 else ():
-            found = {len(getattr(message, one)) for one in of_some.get(name, ())}
-            lengths |= found if found != {0} else set()
-        if len(lengths) > 1:
-            what = f'{", ".join(alike)}: arrays that must be equally long'
-            raise Damaged(f'hdlyap/{name}: {what} have {sorted(lengths)} elements')
-    if name in NOT_EMPTY and not len(getattr(message, NOT_EMPTY[name])):
-        raise Damaged(f'hdlyap/{name}: no {NOT_EMPTY[name]}')
+def _check_lengths(message, around):
+    """Arrays are as long as the shapes in the .msg say. around: {dimension: elements} of the
+    message that this one is in."""
+    shaped = {name: one for name, one in fields.of(message).items() if one.shape}
+    lengths = {name: len(getattr(message, name)) for name in shaped}
+    for only in sorted(set().union(*(one.only for one in shaped.values()))):
+        some = {name: lengths[name] for name in shaped if only in shaped[name].only}
+        if not any(some.values()):
+            shaped = {name: one for name, one in shaped.items() if name not in some}
+    sizes = _sizes(shaped, lengths, around)
+    for name, one in shaped.items():
+        wanted = math.prod(_size(dimension, sizes) for dimension in one.shape)
+        _refuse_unless(lengths[name] == wanted, message, name, lengths[name], wanted)
+    if _name(message) in NOT_EMPTY and not lengths[NOT_EMPTY[_name(message)]]:
+        raise Damaged(f'hdlyap/{_name(message)}: no {NOT_EMPTY[_name(message)]}')
+    for rule in _rules(type(message)):
+        for one in getattr(message, rule.name) if rule.parts else ():
+            _check_lengths(one, sizes)
+
+
+def _sizes(shaped, lengths, around):
+    """{dimension: elements}: as around the message, or as the first array of one dimension has."""
+    in_space = any(lengths[name] for name, one in shaped.items() if '@space' in one.only)
+    sizes = {**{name: found[in_space] for name, found in FIXED.items()}, **around}
+    for name, one in shaped.items():
+        dimension, _, less = one.shape[0].partition('-')
+        if len(one.shape) == 1 and dimension not in sizes:
+            sizes[dimension] = lengths[name] + (1 if less and lengths[name] else 0)
+    return sizes
+
+
+def _size(dimension, sizes):
+    """Elements of `vector`, of `vector-1`."""
+    name, _, less = dimension.partition('-')
+    return max(sizes[name] - int(less or 0), 0)
 
 
 # ---- what only some messages have ---------------------------------------------------------------
@@ -237,53 +235,20 @@ def _of_steps(message):
 
 
 def _of_field(field):
-    pairs, numbers, is_solid = field.pairs, field.pairs * len(field.x), len(field.z) > 0
-    _refuse_unless(
-        len(field.modulation) == pairs, field, 'modulation', len(field.modulation), pairs
-    )
-    for name, wanted in zip(('p_x', 'p_z', 'p_over_pz'), (numbers, *2 * [numbers * is_solid])):
-        found = len(getattr(field, name))
-        _refuse_unless(found == wanted, field, name, found, wanted)
+    found = len(field.modulation)
+    _refuse_unless(found == field.pairs, field, 'modulation', found, field.pairs)
 
 
 def _of_structure(message):
-    n, waves = len(message.peak), len(message.nx)
-    means = {len(message.along), len(message.across)}
-    now = [len(getattr(message, name)) for name in AMPLITUDES]
-    solid = waves and len(message.nz)
-    if means not in ({0}, {n * waves}) or now != ([8 * n, 16 * n] if solid else [4 * n, 4 * n]):
-        found = f'{sorted(means | set(now))} elements of {n} vectors, {waves} waves'
-        raise Damaged(f'hdlyap/Structure: {found}')
-    strongest = max(message.peak, default=0)
+    waves, strongest = len(message.nx), max(message.peak, default=0)
     _refuse_unless(strongest <= waves, message, f'wave {strongest} of peak: nx', waves, 'more')
 
 
-def _in_orders(message):
-    """How many pairs of neighbours the orders of a message have."""
-    return {len(one.violations) for one in message.orders}
-
-
-def _of_covariant(message):
-    n = len(message.exponents)
-    found = _in_orders(message) | {len(message.violations)}
-    if found - {max(n - 1, 0)}:
-        raise Damaged(f'hdlyap/Covariant: {n} vectors, pairs {found}')
-    for weight in message.weights:
-        _refuse_unless(len(weight.dq) == n, weight, 'dq', len(weight.dq), n)
-
-
 def _of_fluctuations(message):
-    vectors, times = len(message.diffusions), len(message.orders)
-    indices = [index for step in message.steps for index in step.indices]
-    pairs = len(message.steps) ** 2
-    found = {name: len(getattr(message, name)) for name in PAIRED}
-    of_orders = _in_orders(message)
-    name = 'hdlyap/Fluctuations'
-    if list(found.values()) != [pairs, pairs, times * vectors, times * pairs]:
-        raise Damaged(f'{name}: {vectors} vectors, {times} times, {pairs} pairs, {found}')
-    first = message.first_index
-    if of_orders - {vectors - 1} or set(indices) - set(range(first, first + vectors)):
-        raise Damaged(f'{name}: {vectors} vectors, pairs {of_orders}, indices {indices}')
+    indices = {index for step in message.steps for index in step.indices}
+    first, vectors = message.first_index, len(message.diffusions)
+    if indices - set(range(first, first + vectors)):
+        raise Damaged(f'hdlyap/Fluctuations: {vectors} vectors from {first}, indices {indices}')
 
 
 CHECKS = {
@@ -291,6 +256,5 @@ CHECKS = {
     'Steps': _of_steps,
     'ModeField': _of_field,
     'Structure': _of_structure,
-    'Covariant': _of_covariant,
     'Fluctuations': _of_fluctuations,
 }

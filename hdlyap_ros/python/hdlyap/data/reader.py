@@ -23,11 +23,11 @@ RUN_INFO, SPECTRUM = 'hdlyap/RunInfo', 'hdlyap/Spectrum'
 STATUS, COST = 'hdlyap/RunStatus', 'hdlyap/Cost'
 PHASES, T_PHASES = 'hdlyap/LpPhases', 'hdlyap/TPhases'
 FIELD, STATE = 'hdlyap/ModeField', 'hdlyap/State'
-COVARIANT, HYDRO, STRUCTURE = 'hdlyap/Covariant', 'hdlyap/Hydro', 'hdlyap/Structure'
-LOCALIZATION, FLUCTUATIONS = 'hdlyap/Localization', 'hdlyap/Fluctuations'
-# messages with means: the kind of the number that follows sim_time, averaged_time or samples
-MEANS = {SPECTRUM: '<d', 'hdlyap/Modes': '<d', 'hdlyap/Steps': '<d', 'hdlyap/Gas': '<d'}
-MEANS.update({COVARIANT: '<d', FLUCTUATIONS: '<d', STRUCTURE: '<I', LOCALIZATION: '<I'})
+HYDRO = 'hdlyap/Hydro'
+# messages with means: the kind of the number that follows sim_time
+AMOUNTS = {'averaged_time': '<d', 'samples': '<I'}
+FOURTH = {kind: message.__slots__[3] for kind, message in TYPES.items()}
+MEANS = {kind: AMOUNTS[slot] for kind, slot in FOURTH.items() if slot in AMOUNTS}
 NAME, PATH, LINE, LIST = 200, 4096, 8192, 4096  # longest text, path, error; most elements of a list
 PATHS = ('checkpoint', 'resume', 'given')
 VERSION = re.compile(r'\d[\w.+~-]{0,30}', re.ASCII)

@@ -12,26 +12,12 @@ import pandas
 from hdlyap import msg, topics
 from hdlyap.numbers import known
 
-from . import dataset, fields, fits, fluctuations, joined, reader, space, structure, tables
+from . import dataset, fields, fits, fluctuations, frames, joined, reader, space, structure
 from .disks import Disks
 from .reader import Missing
 from .summary import Summary
 
 TOPICS = {name: message._type for name, message in topics.RECORDED.items()}
-FRAMES = {
-    'spectrum': tables.of_arrays,
-    'modes': tables.of_modes,
-    'steps': tables.of_steps,
-    'lp_phases': tables.of_phases,
-    't_phases': tables.of_t_phases,
-    'hydro': tables.of_hydro,
-    'covariant': tables.of_arrays,
-    'localization': tables.of_arrays,
-    'fluctuations': tables.of_fluctuations,
-    'gas': tables.of_gas,
-}
-# topics that are about the run, and not about what it has averaged
-OF_THE_RUN = reader.STATUS, reader.COST, reader.STATE
 # name of an array: the field whose unit it has
 ARRAYS = {
     'times': (msg.Spectrum, 'sim_time'),
@@ -50,7 +36,7 @@ Local = namedtuple('Local', 'times lengths exponents')
 
 def _last(topic):
     """A property: the frame of the last message of a topic."""
-    return cached_property(lambda run: FRAMES[topic](run.last(topic), run.info))
+    return cached_property(lambda run: frames.of(run.last(topic), run.info))
 
 
 class Run:
@@ -126,14 +112,15 @@ class Run:
 
     def messages(self, topic):
         """The messages of a topic ('spectrum', 'fields' ..), one after the other, with numpy
-        arrays; those since the last reset, but of OF_THE_RUN all."""
-        for packed in self._counting(TOPICS[topic]):
+        arrays; those since the last reset, but of topics.OF_THE_RUN all."""
+        for packed in self._counting(topic):
             yield packed.message(np)
 
-    def _counting(self, kind):
-        """The packed messages of a type that were published after the last ~reset_average."""
-        begin = -np.inf if kind in OF_THE_RUN else self.last_reset
-        return (packed for packed in self.packed((kind,)) if packed.sim_time > begin)
+    def _counting(self, topic):
+        """The packed messages of a topic that were published after the last ~reset_average."""
+        begin = -np.inf if topic in topics.OF_THE_RUN else self.last_reset
+        found = self.packed((TOPICS[topic],))
+        return (packed for packed in found if packed.sim_time > begin)
 
     @property
     def last_reset(self):
@@ -172,7 +159,7 @@ class Run:
 
     @cached_property
     def spectrum(self):
-        return tables.arrays(self._averages.last, without=('local_exponents',))
+        return frames.of(self._averages.last, self.info)
 
     modes = _last('modes')
     steps = _last('steps')
@@ -238,22 +225,19 @@ class Run:
 
     @cached_property
     def cost(self):
-        return tables.scalars(self._all('cost'))
+        return frames.numbers(self._all('cost'))
 
     @cached_property
     def status(self):
-        return tables.scalars(self._all('status'))
+        return frames.numbers(self._all('status'))
 
     def course(self, topic):
-        """Frame of all messages of 'spectrum', 'modes', 'steps', 'lp_phases', 't_phases', 'hydro',
-        'covariant', 'localization', 'fluctuations', 'gas', 'cost' or 'status', by simulated time:
-        course('lp_phases')['phase'].unstack() has a column for each phase."""
-        if topic in ('cost', 'status'):
-            return getattr(self, topic)
-        if topic not in FRAMES:
-            names = ', '.join([*FRAMES, 'cost', 'status'])
-            raise reader.RecordingError(f'course of {topic!r}: must be one of {names}')
-        return tables.over_time(self._all(topic), FRAMES[topic], self.info)
+        """Frame of all messages of a topic, by simulated time: in course('lp_phases')['phase'], for
+        one, unstack() makes a column of each phase."""
+        names = [*topics.MEASURED, *sorted(topics.OF_THE_RUN)]
+        if topic not in names:
+            raise reader.RecordingError(f'course of {topic!r}: must be one of {", ".join(names)}')
+        return frames.over_time(self._all(topic), self.info)
 
     @cached_property
     def structure(self):
@@ -286,6 +270,18 @@ class Run:
         told = (one for one in self.messages(topic) if len(getattr(one, slot)))
         return next(iter(deque(told, maxlen=1)), None)
 
+    def tables(self):
+        """{name: frame} of all that was recorded but run_info; see frames.tables."""
+        found = {}
+        for topic in filter(self.has, topics.RECORDED):
+            if topic != 'fields':
+                found.update(frames.tables(topic, self._all(topic), self.info))
+        of_vectors = {}
+        for index, message in self.fields.items():
+            for name, one in frames.tables('fields', [message], self.info).items():
+                of_vectors.setdefault(name, {})[index] = one
+        return {**found, **{name: frames.keyed(one, 'vector') for name, one in of_vectors.items()}}
+
     @property
     def covariant_orders(self):
         """Order of covariant vectors' growth over finite times: see fluctuations.Orders."""
@@ -307,7 +303,7 @@ class Run:
     @cached_property
     def fields(self):
         """{Lyapunov index: ModeField}, the last one of each vector."""
-        last = {packed.field_index(): packed for packed in self._counting(reader.FIELD)}
+        last = {packed.field_index(): packed for packed in self._counting('fields')}
         return {index: packed.message(np) for index, packed in sorted(last.items())}
 
     # ---- messages ---------------------------------------------------------------------------
@@ -316,16 +312,15 @@ class Run:
     def _seen(self):
         """The Seen of small messages, and of those with means, for which the bag is read once."""
         seen = Seen()
-        kinds = dict.fromkeys([*(TOPICS[topic] for topic in FRAMES), *reader.MEANS])
-        for packed in self.packed(list(kinds)):
+        for packed in self.packed([TOPICS[topic] for topic in topics.MEASURED]):
             seen.add(packed)
         return seen
 
     def _last(self, topic):
         """The last Packed of a topic; None if there is none."""
-        if topic in FRAMES:
+        if topic in topics.MEASURED:
             return self._seen.last(TOPICS[topic])
-        return next(iter(deque(self._counting(TOPICS[topic]), maxlen=1)), None)
+        return next(iter(deque(self._counting(topic), maxlen=1)), None)
 
     def has(self, topic):
         """Whether a topic has a message; 'spectrum' must have averages."""

@@ -6,15 +6,17 @@ from functools import cached_property
 import numpy as np
 import pandas
 
-from . import joined, space, tables
+from hdlyap import topics
+
+from . import joined, space
+from .frames import frame
 from .reader import Missing, RecordingError
-from .run import FRAMES, Run
+from .run import Run
 from .summary import Summary
 
 # If no run states an error, the scatter of at least FEWEST runs, the longest at most RATIO times
 # the shortest, is one: it is known as well as compare assumes (plots.deviation.FREEDOM).
 FEWEST, RATIO = 8, 2.0
-MEASURED = (*FRAMES, 'structure')  # topics
 
 
 def load(*bags, node=None, run=None, form=None, k=None):
@@ -121,7 +123,7 @@ class Seeds:
         multiplicity = self._mean(found, 'multiplicity', index=about.index)['multiplicity']
         columns = {**about, 'multiplicity': multiplicity, **made}
         units = {**frames[0].attrs['units'], **made.attrs['units']}
-        return tables.frame(columns, units, made.index)
+        return frame(columns, units, made.index)
 
     @cached_property
     def results(self):
@@ -170,7 +172,7 @@ class Seeds:
     @property
     def without_mean(self):
         """The topics of which a run has messages, and that have no mean."""
-        found = [topic for topic in MEASURED if any(run.has(topic) for run in self.runs)]
+        found = [topic for topic in topics.MEASURED if any(run.has(topic) for run in self.runs)]
         return [topic for topic in found if not self.has(topic)]
 
     def last(self, topic, numpy=None):
@@ -243,7 +245,7 @@ class Seeds:
         columns = name, 'std_error', 'scatter', 'chi2', 'runs'
         made = dict(zip(columns, mean(values, errors, weights, there)))
         units = dict.fromkeys(columns[:3], '1/time unit' if name == 'exponent' else '')
-        return tables.frame(made, units, index)
+        return frame(made, units, index)
 
 
 def errors(frame):

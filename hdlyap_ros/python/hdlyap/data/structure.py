@@ -3,7 +3,7 @@
 import numpy as np
 import pandas
 
-from . import factors, fields, tables
+from . import factors, fields, frames
 
 NODES = ['nx', 'ny', 'nz']
 
@@ -18,7 +18,7 @@ class Structure:
         index = pandas.RangeIndex(1, means.along.shape[1] + 1, name='index')
         unit = {'wave_number': fields.of(message)['wave_number'].unit}
         self.samples = means.samples
-        self.waves = tables.frame(
+        self.waves = frames.frame(
             {**dict(zip(NODES, means.nodes)), 'wave_number': means.wave_number}, unit
         )
         names = pandas.MultiIndex.from_arrays(list(means.nodes), names=NODES[: len(means.nodes)])
@@ -29,7 +29,7 @@ class Structure:
         at_peak = dict(zip(NODES, means.nodes[:, largest]), wave_number=means.wave_number[largest])
         for name in factors.DIRECTIONS:
             at_peak[name] = getattr(means, name)[largest, vectors]
-        self.peaks = tables.frame(at_peak, unit, index)
+        self.peaks = frames.frame(at_peak, unit, index)
 
 
 def amplitudes(messages, indices, direction):

@@ -1,27 +1,34 @@
-"""Recording -> figures, as PNG, SVG and pages of a PDF. Each figure, a module here or a row of
-covariant.FIGURES, has draw(run, ax=None, **look); see page.figure."""
+"""Recording -> figures, as PNG, SVG and pages of a PDF. Each figure, a module here with an ORDER or
+one of its FIGURES, has draw(run, ax=None, **look); see page.figure."""
 
 import contextlib
 import importlib
+import pkgutil
 
 from matplotlib.backends.backend_pdf import PdfPages
 
 from hdlyap import whole
 from hdlyap.data.reader import NoInfo
 
-from . import covariant
 from .style import ours, save
 
-# in the order in which hdlyap plot lists them; draw returns None if the bag has no data for one
-NAMES = 'spectrum convergence steps dispersion modes p_mode phases localization structure '
-NAMES += 'covariant_exponents covariant_weights covariant_angles covariant_domination '
-NAMES += 'covariant_vectors fluctuations cost'
-FIGURES = {
-    name: covariant.FIGURES.get(name) or importlib.import_module(f'.{name}', __name__)
-    for name in NAMES.split()
-}
-globals().update(covariant.FIGURES)  # so that each figure is imported by its name
-OF_MEANS = 'spectrum', 'steps', 'dispersion'  # figures of several seeds; others are of one run
+
+def _found():
+    """{name: figure}, in the order in which hdlyap plot lists them: a module here with an ORDER, or
+    the FIGURES of one. draw returns None if the bag has no data for it."""
+    here = [one.name for one in pkgutil.iter_modules(__path__)]
+    modules = {name: importlib.import_module(f'.{name}', __name__) for name in here}
+    found = [(one.ORDER, name) for name, one in modules.items() if hasattr(one, 'ORDER')]
+    figures = (
+        getattr(modules[name], 'FIGURES', {name: modules[name]}) for _, name in sorted(found)
+    )
+    return {name: figure for some in figures for name, figure in some.items()}
+
+
+FIGURES = _found()
+globals().update(FIGURES)  # so that each figure is imported by its name
+# figures of several seeds; others are of one run
+OF_MEANS = tuple(name for name, one in FIGURES.items() if getattr(one, 'IS_OF_MEANS', False))
 
 
 def draw_all(recording, folder, progress, names=tuple(FIGURES), pdf=None):

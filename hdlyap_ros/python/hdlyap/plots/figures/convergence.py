@@ -6,6 +6,8 @@ import numpy as np
 from . import page
 from .style import BLUE, GREY, INK, ORANGE, SKY, VERMILION, instead, thinned
 
+ORDER = 2
+
 
 @page.figure
 def draw(page, recording, **look):

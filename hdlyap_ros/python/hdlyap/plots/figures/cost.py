@@ -8,6 +8,8 @@ from hdlyap.msg import RunStatus
 from . import page
 from .style import BLUE, GREEN, INK, ORANGE, PURPLE, SKY, VERMILION, beside, thinned
 
+ORDER = 12
+
 PART_COLOURS = {
     'events': BLUE,
     'replay': SKY,

@@ -13,6 +13,8 @@ from . import page
 from .style import BLUE, GREEN, GREY, INK, LIGHT, SKY, UPRIGHT, VERMILION, ZERO
 from .style import beside, index_axis, instead, kind_colour
 
+ORDER = 10
+
 LEAST, MOST = 16, 40  # vectors of the positive half in the magnified panels
 WEIGHTS = 4  # most panels of weights
 ROUNDING = 1e-16  # least value that is drawn; smaller ones are rounding

@@ -11,6 +11,9 @@ from .. import paper
 from . import page
 from .style import FEW, GREY, KIND_COLOURS, bars, kind_colour
 
+ORDER = 4
+IS_OF_MEANS = True  # drawn of several seeds, too
+
 MARKERS = {steps.T: 'o', steps.LP: 's'}
 CLOSE = 0.028  # names nearer than this part of the axes' width are put together
 NAMES = 3  # most names that are put together

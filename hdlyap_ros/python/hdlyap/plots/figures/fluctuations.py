@@ -10,6 +10,8 @@ from . import page
 from .covariant import near_zero, shade
 from .style import BLUE, INK, KIND_COLOURS, MANY, VERMILION, bars, index_axis, instead
 
+ORDER = 11
+
 OFTEN, FEW = 32, 8  # times of which a fraction, a variance can be told
 
 

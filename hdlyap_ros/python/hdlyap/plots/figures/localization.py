@@ -8,6 +8,8 @@ from hdlyap.data import space
 from . import page
 from .style import BLUE, GREY, INK, MANY, bars, index_axis
 
+ORDER = 8
+
 LARGEST = 48  # vectors in the magnified panel
 
 

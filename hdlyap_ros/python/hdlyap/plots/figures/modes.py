@@ -10,6 +10,8 @@ from .box import Particles, arrows
 from .style import GREY, LIGHT, MEMBER_COLOURS, kind_colour, scene
 from .turning import of_vector, strength
 
+ORDER = 5
+
 PANELS = 6
 WIDTH = 7.2  # width of the figure [inch]
 TALLEST = 9.0

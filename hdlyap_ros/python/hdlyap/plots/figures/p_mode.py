@@ -10,6 +10,8 @@ from .box import enclose
 from .pattern import pattern
 from .style import BLUE, GREY, VERMILION
 
+ORDER = 6
+
 CUT = 2.5  # largest quotient that is shown; if a momentum is tiny, the quotient is large
 EPSILON = 1e-2  # over the mean square of a momentum component: HD_PMODE_EPSILON
 TINY = 1e-30  # makes the weight of a momentum of 0 finite; its quotient is 0, too

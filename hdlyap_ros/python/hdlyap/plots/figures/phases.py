@@ -9,6 +9,8 @@ from hdlyap.numbers import with_error
 from . import page
 from .style import GREEN, INK, ORANGE, PURPLE, SKY, thinned
 
+ORDER = 7
+
 COLOURS = GREEN, PURPLE, SKY, INK, ORANGE  # colours of steps, other than those of T and LP
 
 STEPS = 4  # most steps that are shown

@@ -12,6 +12,9 @@ from . import page
 from .style import GREY, INK, KIND_COLOURS, LIGHT, MANY, MIXED, SMALL, UPRIGHT, VERMILION, ZERO
 from .style import bars, beside, index_axis, kind_colour
 
+ORDER = 1
+IS_OF_MEANS = True  # drawn of several seeds, too
+
 # Least and largest number of exponents in the magnified panel; the steps decide, but with still
 # more exponents their names would not fit
 MAGNIFIED, MAGNIFIED_MOST = 40, 64

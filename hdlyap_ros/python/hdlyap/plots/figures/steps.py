@@ -7,6 +7,9 @@ from hdlyap.data import steps
 from . import page
 from .style import GREY, INK, SMALL, bars, beside, kind_colour
 
+ORDER = 3
+IS_OF_MEANS = True  # drawn of several seeds, too
+
 MOST = 24  # most steps that are shown; the names of more would not fit
 ROOM = 4  # least number of steps for which there is room
 

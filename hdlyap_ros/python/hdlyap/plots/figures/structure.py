@@ -11,6 +11,8 @@ from hdlyap.numbers import with_error
 from . import page
 from .style import INK, kind_colour
 
+ORDER = 9
+
 NOISE = 0.5  # the structure factor of a random vector
 TITLES = {'along': 'along $k$', 'across': 'across $k$'}
 OF_KIND = {steps.LP: 'along', steps.T: 'across'}
