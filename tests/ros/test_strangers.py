@@ -143,13 +143,14 @@ class Strangers(Tools):
     save = staticmethod(
         lambda figure, folder, name: []
     )  # figures are made, and not drawn to the end
+    seconds = SECONDS
 
     def is_answered(self, messages, name='plot', *arguments):
         """Within seconds; returns what it said."""
         bag, began = self.write(messages, 'odd'), time.process_time()
         with mock.patch('bags.save_nothing', self.save):
             done = tool(name, bag, *arguments)
-        self.assertLess(time.process_time() - began, SECONDS)
+        self.assertLess(time.process_time() - began, self.seconds)
         for said in ('fault of hdlyap', 'unexpected contents', 'Traceback', 'cannot be drawn'):
             self.assertNotIn(said, done.error)
         self.assertLessEqual(done.error.count('\n'), 1)
@@ -176,9 +177,14 @@ class Strangers(Tools):
             odd = damaged(messages[place], path, value)
             if self.is_possible(odd, path, messages[0]):
                 messages[place] = odd
+        arguments = 'plot', '--out', self.out, '--csv', self.path('csv')
+        began = time.process_time()
+        with mock.patch('bags.save_nothing', self.save):
+            tool(arguments[0], self.write(whole), *arguments[1:])
+        self.seconds = SECONDS + 2 * (time.process_time() - began)  # a busy machine draws for long
         for number, messages in bags.items():
             with self.subTest(number=number):
-                self.is_answered(messages, 'plot', '--out', self.out, '--csv', self.path('csv'))
+                self.is_answered(messages, *arguments)
 
 
 class Together(Strangers):
