@@ -182,7 +182,7 @@ class Message:
         for line in self.lines:
             if not line.startswith('#'):
                 break
-            text += '\n * ' + line.lstrip('# ').replace('*/', '* /')
+            text += '\n * ' + self.said(line.lstrip('# '))
         return ':' + text if text else ''
 
     def own_text(self, name):
@@ -206,7 +206,12 @@ class Message:
 
     def comment_of(self, name):
         text = self.own_text(name)
-        return ' /**< %s */' % text.replace('*/', '* /') if text else ''
+        return ' /**< %s */' % self.said(text) if text else ''
+
+    @staticmethod
+    def said(text):
+        """As a comment of C, and for doxygen, which has commands of its own."""
+        return text.replace('*/', '* /').replace('@', r'\@')
 
     def constants(self):
         rows = []
