@@ -9,9 +9,9 @@ allows NaN at any time.
 If a field has no comment, or only a unit ('# [sigma]') or a shape, the comment above it describes
 it, too.
 
-An array's comment ends with its shape: the names of its dimensions, as in {vector, particle}, from
-which sizes of messages follow. @space: it is empty in the plane; @turning: unless particles turn;
-@fields: unless fields are due; any other word: it may be empty.
+An array's comment ends with its shape: the names of its dimensions, out of DIMENSIONS, as in
+{vector, particle}, from which sizes of messages follow. @space: it is empty in the plane; @turning:
+unless particles turn; @fields: unless fields are due; @known: unless it is known at that time.
 
 A field 'one of FIRST .. LAST' holds one of these constants. The text before the first colon in the
 comment of a constant is its name: hdr_MESSAGE_FIELD_text(value) in C, hdlyap.data.fields.words in
@@ -47,6 +47,10 @@ ARRAYS = {
     'uint32': 'hdr_uints',
     'uint64': 'hdr_counts',
 }
+
+DIMENSIONS = 'angle bin corner growth_time modulation order pair particle phase resolved response '
+DIMENSIONS += 'step subspace t_phase transverse vector wave'
+WORDS = '@space', '@turning', '@fields', '@known'
 
 CHOICE = re.compile(r'one of (\w+) \.\. (\w+)')
 SHAPE = re.compile(r'\s*\{(\w[^}]*)\}((?: @\w+)*)$')
@@ -196,7 +200,15 @@ class Message:
     def shape_of(self, name):
         """The names of an array's dimensions, and the words behind them."""
         found = SHAPE.search(self.own_text(name))
-        return (found.group(1).split(', '), found.group(2).split()) if found else ([], [])
+        dimensions, words = (
+            [found.group(1).split(', '), found.group(2).split()] if found else [[], []]
+        )
+        others = {one.partition('-')[0] for one in dimensions} - set(DIMENSIONS.split())
+        others |= set(words) - set(WORDS)
+        if others:
+            known = ', '.join([*DIMENSIONS.split(), *WORDS])
+            sys.exit('%s: %s: %s: must be out of %s' % (self.type, name, ' '.join(others), known))
+        return dimensions, words
 
     def text_of(self, name):
         """The text that describes a field or a constant: in its line or the nearest above."""
@@ -338,13 +350,11 @@ def header(package, messages):
         structs += message.texts() + message.size(messages)
         if message.is_in_arrays_of(messages):
             structs += LIST % vars(message)
-    shaped = [one.shape_of(field)[0] for one in messages for field in one.spec.names]
-    dimensions = sorted({word.partition('-')[0] for words in shaped for word in words})
     topics = ['    DO(%s)' % message.name for message in messages if message.spec.has_header()]
     return HEADER % dict(
         package=package,
         structs=structs,
-        dimensions=', '.join(dimensions),
+        dimensions=', '.join(DIMENSIONS.split()),
         topics=' \\\n'.join(topics),
     )
 

@@ -13,6 +13,7 @@ import sys
 import xml.etree.ElementTree as ElementTree
 
 import roslib.packages
+from hdlyap.data import fields
 
 ROOT = os.path.realpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), '../..'))
 REFERENCE = 'doc/reference.md'
@@ -36,8 +37,6 @@ ALIKE = dict(
 
 # when a number is not known; the chapter says what it is then
 OBVIOUS = r'; (?:NaN|-1) [^;\[]*(?=( \[|$|;))'
-# lengths of arrays, which stand in the .msg
-SHAPE = r' *\{\w[^}]*\}(?: @\w+)*$'
 # what the field above or the head of the message says
 PLAIN_ERROR = r'standard errors? of \w+(?: \[.*)?$'
 PARAMETER = r'parameter of this name(?: \[.*)?$'
@@ -84,7 +83,7 @@ def message_lines(name):
     found, above = [], ''
     for line in lines[len(head) :]:
         kind, field, own = re.match(r'(\S+)\s+(\S+)\s*(?:#\s*(.*))?$', line).groups()
-        above = re.sub(SHAPE, '', own or '') or above
+        above = fields.SHAPE.sub('', own or '') or above
         found.append((kind, field, above))
     return '\n'.join(line[1:].strip() for line in head), found
 

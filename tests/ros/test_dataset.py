@@ -131,6 +131,10 @@ class Everything(bags.Bags):
             seen += bool(said)
         self.assertGreater(seen, 150)
         self.assertEqual(self.all['exponents'].attrs['units'], '1/time unit')
+        for name in ('time', 'state_time'):
+            self.assertIn('simulated time', self.all[name].attrs['long_name'])
+            self.assertEqual(self.all[name].attrs['units'], 'time units')
+        self.assertEqual(self.all['vector'].attrs, {'long_name': 'Lyapunov index'})
 
     def test_netcdf_and_back(self):
         path = os.path.join(self.folder, 'run.nc')

@@ -16,9 +16,9 @@ enum {
     TOPIC_OF_VECTORS = 16, /**< it needs exponents */
     TOPIC_OF_WINDOWS = 32, /**< published when a window of covariant vectors has ended */
     TOPIC_OF_STEPS = 64,   /**< it is about steps; nothing is published before modes are measured */
+    TOPIC_OF_BOX = 128, /**< has positions in a box; topics whose stages need a box lack this bit */
     TOPIC_OF_FIELDS = 256, /**< several messages, published when fields are due */
-    TOPIC_ONCE = 512,      /**< once in a bag, but for changes */
-    TOPIC_OF_BOX = 128 /**< has positions in a box; topics whose stages need a box lack this bit */
+    TOPIC_ONCE = 512       /**< once in a bag, but for changes */
 };
 
 typedef enum topic {

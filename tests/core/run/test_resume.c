@@ -7,7 +7,7 @@
 #include "run/run_state.h"
 #include "same.h"
 
-enum { RUNS = HD_SANITIZED ? 15 : 60, RUNS_OF_SECOND_TIER = 300, STEPS = 400 };
+enum { RUNS = HD_SANITIZED ? 30 : 120, RUNS_OF_SECOND_TIER = 300, STEPS = 400 };
 
 /** Enough of disks without exponents, which take some 1e5 in a step. */
 static const uint64_t EVENTS = 300000;

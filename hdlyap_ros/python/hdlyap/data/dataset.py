@@ -8,13 +8,14 @@ import json
 import numpy as np
 import pandas
 
-from hdlyap import topics
+from hdlyap import msg, topics
 
-from . import frames, space
+from . import fields, frames, space
 from .export import plain_info
 
 MISSING = 'to_xarray needs xarray: python3-xarray of Debian and Ubuntu, xarray of PyPI'
 LARGEST = 2**31 - 1  # integer of netCDF by scipy; larger ones are floats, exact up to 2^53
+VECTOR = {'long_name': 'Lyapunov index'}
 # of the spectrum, without its name
 SPECTRUM = {f'spectrum_{one}': one + 's' for one in ('exponent', 'std_error', 'local_exponent')}
 
@@ -48,19 +49,24 @@ def _stacked(topic, outer, messages, info):
     shaped = {label: frames.Shaped(one, info) for label, one in messages.items()}
     main = frames.main(next(iter(messages.values())))
     labels, made = {outer: list(shaped), **_labels(shaped.values())}, {}
+    places = {at: _places(one, labels) for at, one in shaped.items()}
     for (dimensions, name), columns in _columns(shaped).items():
         *_, (last, column) = columns.items()
         is_rare = '@fields' in column.only
         rows = {last: column} if is_rare else {at: columns.get(at) for at in shaped}
-        values = _filled(rows, shaped, [labels[one] for one in dimensions], dimensions)
+        values = _filled(rows, places, dimensions, [len(labels[one]) for one in dimensions])
         every = list(dimensions) if is_rare else [outer, *dimensions]
         dims = ['other_' * (one in every[:k]) + one for k, one in enumerate(every)]
         labels.update((of, labels[one]) for of, one in zip(dims, every))
         part = f'{column.part}_' if column.part and dimensions != main else ''
         name = f'{topic}_{part}{name}'
-        made[SPECTRUM.get(name, name)] = dims, values[0] if is_rare else values, _said(column, info)
+        said = _said(column.field, info)
+        made[SPECTRUM.get(name, name)] = dims, values[0] if is_rare else values, said
     used = {one for dims, *_ in made.values() for one in dims}
-    return made, {name: some for name, some in labels.items() if name in used}
+    about = {outer: _said(fields.of(msg.Spectrum)['sim_time'], info), 'vector': VECTOR}
+    return made, {
+        name: (name, some, about.get(name, {})) for name, some in labels.items() if name in used
+    }
 
 
 def _labels(shaped):
@@ -82,22 +88,28 @@ def _columns(shaped):
     return found
 
 
-def _filled(rows, shaped, labels, dimensions):
-    """An array by row and these labels. What a message lacks is NaN, of words ''."""
+def _places(shaped, labels):
+    """{dimension: where the labels of a message are among all}"""
+    return {
+        name: pandas.Index(labels[name]).get_indexer(some) for name, some in shaped.labels.items()
+    }
+
+
+def _filled(rows, places, dimensions, sizes):
+    """An array by row and labels. What a message lacks is NaN, of words ''."""
     values = next(one.values for one in rows.values() if one is not None)
     blank, kind = ('', object) if values.dtype == object else (np.nan, float)
-    whole = np.full([len(rows), *map(len, labels)], blank, kind)
+    whole = np.full([len(rows), *sizes], blank, kind)
     for k, (at, column) in enumerate(rows.items()):
         if column is not None:
-            own = [shaped[at].labels[one] for one in dimensions]
-            where = [pandas.Index(every).get_indexer(one) for every, one in zip(labels, own)]
-            whole[(k, *np.ix_(*where))] = column.values if dimensions else column.values[0]
+            where = np.ix_(*(places[at][one] for one in dimensions))
+            whole[(k, *where)] = column.values if dimensions else column.values[0]
     is_whole = kind is float and not np.isnan(whole).any()
     return whole.astype(values.dtype) if is_whole else whole
 
 
-def _said(column, info):
-    said = ('units', space.unit(column.field.unit, info)), ('long_name', column.field.what)
+def _said(field, info):
+    said = ('units', space.unit(field.unit, info)), ('long_name', field.what)
     return {name: text for name, text in said if text}
 
 

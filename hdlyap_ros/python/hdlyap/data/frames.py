@@ -91,7 +91,7 @@ class Shaped:
                 values = [list(one) if isinstance(one, bytes) else one for one in values]  # uint8
                 shaped = self._shaped(np.array(values), around, field.shape)
                 column = Column(_known(shaped, kind, field), field, part, only | field.only)
-                self.columns.setdefault(dimensions, {})[_singular(slot)] = column
+                self.columns.setdefault(dimensions, {})[singular(slot)] = column
 
     def _label(self, dimension, elements):
         kind = type(elements[0]).__name__ if elements else ''
@@ -132,7 +132,7 @@ def _arrays(message):
     return sorted((one for one in found if one[2].shape), key=lambda one: len(one[2].shape))
 
 
-def _singular(slot):
+def singular(slot):
     return slot[:-1] if slot.endswith('s') and not slot.endswith('ss') else slot
 
 
@@ -210,20 +210,31 @@ def of(message, info=None):
 
 def tables(topic, messages, info=None):
     """{name: frame} of all that messages of a topic have: the last of each shape, and numbers over
-    time. The names of labels stand behind that of the topic, but of its main frame."""
-    last = messages[-1]
-    found = {main(last): of(last, info)} if main(last) or type(last).__name__ in OTHERS else {}
-    rare = [slot for slot, _, field in _arrays(last) if '@fields' in field.only]
-    due = [one for one in messages if any(len(getattr(one, slot)) for slot in rare)]
-    for one in [*due[-1:], last]:
+    time. The names of labels stand behind that of the topic, but of its main frame. One message
+    after the other is read; only their numbers are kept."""
+    due, last, kept = None, None, []
+    for last in messages:
+        rare = (slot for slot, _, field in _arrays(last) if '@fields' in field.only)
+        due = last if any(len(getattr(last, slot)) for slot in rare) else due
+        kept.append(_without_arrays(last))
+    found = {}
+    for one in [last] if due in (None, last) else [due, last]:
         shaped = Shaped(one, info)
         found.update((d, shaped.frame(d)) for d, columns in shaped.columns.items() if d and columns)
-    found = {d: frame for d, frame in found.items() if len(frame) or d == main(last)}
+    if type(last).__name__ in OTHERS:
+        found[main(last)] = of(last, info)
     named = {
         '_'.join([topic, *(frame.index.names if d != main(last) else ())]): frame
         for d, frame in found.items()
+        if len(frame) or d == main(last)
     }
-    return {**named, f'{topic}_over_time' if found else topic: numbers(messages, info)}
+    return {**named, f'{topic}_over_time' if named else topic: numbers(kept, info)}
+
+
+def _without_arrays(message):
+    slots = zip(message.__slots__, message._slot_types)
+    alone = {slot: getattr(message, slot) for slot, kind in slots if not kind.endswith('[]')}
+    return type(message)(**alone)
 
 
 def of_gas(message, info=None):

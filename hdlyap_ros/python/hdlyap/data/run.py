@@ -275,7 +275,7 @@ class Run:
         found = {}
         for topic in filter(self.has, topics.RECORDED):
             if topic != 'fields':
-                found.update(frames.tables(topic, self._all(topic), self.info))
+                found.update(frames.tables(topic, self.messages(topic), self.info))
         of_vectors = {}
         for index, message in self.fields.items():
             for name, one in frames.tables('fields', [message], self.info).items():
