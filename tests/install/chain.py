@@ -13,7 +13,7 @@ import numpy as np
 def main():
     one, two = (hdlyap.load(path) for path in sys.argv[1:])
     assert one.info.particles == 'chain' and one.info.dimension == 0, one.info
-    assert list(one.info.own) == ['beta=2', 'energy=1', 'time_step=0.02'], one.info.own
+    assert one.own == {'beta': 2, 'energy': 1, 'time_step': 0.02}, one.own
     assert report.system(one.info) == 'chain, N = 8, beta=2, energy=1, time_step=0.02'
     assert style.scene(one.info) == 'ring: chain, $N=8$'
     assert (one.summary.phase_space, one.summary.positive_end) == (16, 6)
@@ -24,7 +24,7 @@ def main():
             for status in heard.status
         ]
     assert len(said) >= 4 and not any('energy' in text or 'overlap' in text for text in said), said
-    assert two.info.own == one.info.own and two.info.resumed_time > 0
+    assert two.own == one.own and two.info.resumed_time > 0
     assert two.is_complete and two.times[-1] > 1.5 * one.times[-1]
     exponents = two.exponents[-1]
     assert len(exponents) == 16 and 0.05 < exponents[0] < 0.5, exponents

@@ -23,7 +23,7 @@ import rospy
 import yaml
 
 import measured
-from hdlyap import topics
+from hdlyap import parameters, topics  # noqa: F401  which reads parameters as fields
 from hdlyap.msg import Mode, RunStatus
 
 UNDER_A_MASTER = pytest.mark.under_a_master  # rostest runs this file

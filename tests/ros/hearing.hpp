@@ -27,9 +27,9 @@ inline hdr_step a_step(uint8_t kind, uint32_t nx, uint32_t ny, double k, uint32_
 struct hearing {
     heard h = {};
     std::vector<double> numbers;
-    const char *topics[2] = {"steps", "fields"};
     const uint32_t nx[2] = {1, 0}, ny[2] = {0, 1};
     hdr_run_info info = {};
+    std::vector<hdr_parameter> parameters;
     std::vector<hdr_step> step;
     mode_choice lowest = {};
 
@@ -37,15 +37,26 @@ struct hearing {
     {
         heard_clear(&h);
         for (int k = 0; k < 100; k++) numbers.push_back(0.01 * k);
-        info.run_id = "run", info.scene = "a scene", info.particles = "disks", info.number = DISKS;
-        info.box_x = info.box_y = 10.0, info.boundary_x = "periodic", info.boundary_y = boundary;
-        info.vectors = 9, info.container = "rectangle";
-        info.observables = {topics, 2};
+        set("scene", "a scene"), set("particles", "disks"), set("number", "3"); // DISKS
+        set("boundary_x", "periodic"), set("boundary_y", boundary), set("container", "rectangle");
+        info.run_id = "run", info.box_x = info.box_y = 10.0, info.vectors = 9;
         info.wave_nx = {nx, 2}, info.wave_ny = {ny, 2};
         EXPECT_TRUE(heard_run_info(&h, &info));
         EXPECT_FALSE(heard_run_info(&h, &info)); // the same
     }
     ~hearing() { heard_clear(&h); }
+
+    /** Gives a parameter this value in effect. */
+    void set(const char *name, const char *value, bool own = false)
+    {
+        hdr_parameter one = {};
+        one.name = name, one.effect = one.value = value, one.unit = "", one.own = own;
+        auto at = parameters.begin();
+        while (at != parameters.end() && std::string(at->name) != name) ++at;
+        if (at == parameters.end()) at = parameters.insert(at, one);
+        *at = one;
+        info.parameters = {parameters.data(), uint32_t(parameters.size())};
+    }
 
     hdr_doubles array(uint32_t count, uint32_t from = 0) { return {&numbers[from], count, 1}; }
 

@@ -3,6 +3,7 @@
 import itertools
 import math
 import os
+import re
 
 import genpy.dynamic
 import numpy as np
@@ -21,6 +22,7 @@ from hdlyap.msg import (
     Localization,
     LpPhase,
     LpPhases,
+    Parameter,
     RunInfo,
     RunStatus,
     Spectrum,
@@ -29,7 +31,7 @@ from hdlyap.msg import (
     TPhase,
     TPhases,
 )
-from hdlyap import topics
+from hdlyap import parameters, topics  # noqa: F401  which reads parameters as fields
 from hdlyap.data import waves
 
 SCRIPTS = os.path.join(os.path.dirname(os.path.abspath(__file__)), '../../hdlyap_ros/scripts')
@@ -69,31 +71,78 @@ def message_of(kind, fields, /, **usual):
     return kind(**{**usual, **fields})
 
 
-def run_info(**fields):
+# parameters of the node that runs made here have, unless they are given
+PARAMETERS = dict(
+    scene='made', particles='disks', container='rectangle', number=20, density=0.5, aspect=1.0
+)
+PARAMETERS.update(aspect_z=1.0, boundary_x='periodic', boundary_y='periodic', boundary_z='')
+PARAMETERS.update(seed='1', exponents='positive', equilibration=0.0, warmup=0.0, duration=0.0)
+PARAMETERS.update(target='', interval='auto', accuracy=0.0, report_interval=0.0)
+PARAMETERS.update(phase_interval='auto', fluctuation_time='auto', observables=[], threads=0)
+PARAMETERS.update(max_wave_number=0.0, max_mode_number=0, covariant_window=0.0)
+PARAMETERS.update(covariant_transient=0.0, covariant_sampling=0.0, covariant_memory=0.0)
+PARAMETERS.update(field_indices='steps', field_interval=0.0, wait_for_subscribers=[])
+PARAMETERS.update(slow_subscribers='wait', pace=0.0, slow_vectors_rate=0.0, slow_vectors_count=0)
+PARAMETERS.update(checkpoint='', checkpoint_interval=0.0, resume='')
+MAY_DIFFER = 'scene duration target report_interval threads covariant_memory field_indices '
+MAY_DIFFER += 'field_interval wait_for_subscribers slow_subscribers pace slow_vectors_rate '
+MAY_DIFFER += 'slow_vectors_count checkpoint checkpoint_interval resume'
+KINDS = {int: Parameter.INTEGER, float: Parameter.NUMBER}
+KINDS.update({list: Parameter.LIST, str: Parameter.WORD})
+NUMBERS = 'interval', 'phase_interval', 'fluctuation_time', 'warmup'
+
+
+def parameter(name, value, own=False):
+    """A Parameter with this value in effect."""
+    text = ', '.join(value) if isinstance(value, list) else str(value)
+    kind = KINDS[float if name in NUMBERS else type(PARAMETERS.get(name, value))]
+    as_before = name not in MAY_DIFFER.split()
+    return Parameter(name, kind, text, text, '', as_before, own)
+
+
+def _own(texts):
+    """Parameters of NAME=VALUE."""
+    for name, _, text in (one.partition('=') for one in texts):
+        numbers = (kind(text) for kind in (int, float) if re.fullmatch(PATTERNS[kind], text))
+        yield parameter(name, next(numbers, text), own=True)
+
+
+PATTERNS = {int: r'-?\d+', float: r'-?[\d.]+(e[+-]?\d+)?'}
+
+
+def run_info(own=(), **fields):
+    """own: NAME=VALUE of the parameters that only these particles have."""
     solid = fields.get('particles') == 'spheres'
+    asked = {name: fields.pop(name, usual) for name, usual in PARAMETERS.items()}
     return message_of(
         RunInfo,
         fields,
         run_id='one',
         version='0.1.0',
-        scene='made',
-        container='rectangle',
-        particles='disks',
+        parameters=[*(parameter(*one) for one in asked.items()), *_own(own)],
+        threads=asked['threads'],
         dimension=3 if solid else 2,
         coordinates=3 if solid else 2,
-        number=20,
-        density=0.5,
-        packing_fraction=fields.get('density', 0.5) * math.pi / (6 if solid else 4),
-        aspect=1.0,
+        packing_fraction=asked['density'] * math.pi / (6 if solid else 4),
         box_x=40**0.5,
         box_y=40**0.5,
-        boundary_x='periodic',
-        boundary_y='periodic',
-        seed='1',
-        exponents='positive',
         zero_exponents=6,
-        field_indices='steps',
     )
+
+
+def _set(info, name, value):
+    """Parameters are set as fields are."""
+    if name == 'own':
+        others = [one for one in info.parameters if not one.own]
+        info.parameters = [*others, *_own(value)]
+    elif name in PARAMETERS and name not in RunInfo.__slots__:
+        names = [one.name for one in info.parameters]
+        info.parameters[names.index(name)] = parameter(name, value)
+    else:
+        object.__setattr__(info, name, value)
+
+
+RunInfo.__setattr__ = _set
 
 
 def spheres(**fields):

@@ -394,13 +394,13 @@ class NotMeasured(Loaded):
         self.assertFalse(unknown & {'cos_theta', 'a', 'exponents', 'averaged_time'})
 
     def test_units_of_fields_that_share_a_comment(self):
-        steps, info = fields.of(hdlyap.msg.Steps), fields.of(hdlyap.msg.RunInfo)
+        steps, gas = fields.of(hdlyap.msg.Steps), fields.of(hdlyap.msg.Gas)
         self.assertEqual([steps[name].unit for name in ('t_k_min', 't_k_max')], 2 * ['1/sigma'])
-        self.assertEqual(info['covariant_memory'].unit, 'GB')
-        self.assertEqual(info['checkpoint'].unit, '')
+        self.assertEqual(gas['temperature_error'].unit, 'epsilon')
+        self.assertEqual(gas['compressibility'].unit, '')
         kinds = [kind for kind in vars(hdlyap.msg).values() if isinstance(kind, type)]
         units = {field.unit for kind in kinds for field in fields.of(kind).values()}
-        self.assertIn('time units/s', units)
+        self.assertIn('1/time unit', units)
         self.assertEqual([unit for unit in units if unit and not re.search('[a-zA-Z]', unit)], [])
 
     def test_names_of_constants(self):

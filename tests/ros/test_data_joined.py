@@ -17,7 +17,7 @@ from scipy.stats import chi2 as chi_squared
 
 import hdlyap
 import made
-from hdlyap.data.joined import OF_ONE_RUN, UNSEEN
+from hdlyap.data.joined import UNSEEN
 from hdlyap.data.reader import NoInfo
 from hdlyap.data.seeds import Seeds, mean
 from made import LP, T
@@ -25,7 +25,6 @@ from test_data import Loaded, state
 
 HALF = np.linspace(3, 1, 37)
 SOURCES = os.path.join(os.path.dirname(os.path.abspath(__file__)), '../..')
-ROW = r'(?s)\nHD_\w+\(\s*(\w+),.*?\b(HD_AS_BEFORE|HD_MAY_DIFFER|HD_LIVE),'  # of parameters.inc
 
 
 def numbered(messages):
@@ -146,7 +145,7 @@ class OneRun(Loaded):
         for name, value, said in (
             ('warmup', 20.0, r'warmup is 0\.0 and 20\.0'),
             ('exponents', 'all', 'exponents is positive and all'),
-            ('interval', 0.5, r'interval is 0\.0 and 0\.5'),
+            ('interval', 0.5, r'interval is auto and 0\.5'),
             ('observables', ['spectrum'], r"observables is \['modes'\] and \[\]"),
         ):
             of_b = {'observables': ['modes', 'state'], name: value}
@@ -157,12 +156,7 @@ class OneRun(Loaded):
         self.check(hdlyap.load(a, b), range(1, 9))
 
     def test_what_parts_have_in_common(self):
-        """Is what the core and the node say."""
-        with open(os.path.join(SOURCES, 'hdlyap_core/include/hdlyap/parameters.inc')) as file:
-            found = re.findall(ROW, file.read())
-        as_before = {name for name, changes in found if changes == 'HD_AS_BEFORE'}
-        self.assertIn('seed', as_before)
-        self.assertEqual(as_before - {'observe'} | {'observables', 'own'}, set(OF_ONE_RUN))
+        """Is what the node says."""
         with open(os.path.join(SOURCES, 'hdlyap_ros/src/topics/rows.inc')) as file:
             unseen = set(re.findall(r'TOPIC\((\w+), \w+, 0, TOPIC_OBSERVABLE', file.read()))
         self.assertEqual(unseen, set(UNSEEN))

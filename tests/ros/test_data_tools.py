@@ -380,7 +380,7 @@ class Export(Tools):
         self.assertNotIn('collision_rate', mean.index)
         self.assertAlmostEqual(mean.value['temperature'], 0.65)
         self.assertAlmostEqual(mean.scatter['temperature'], 0.05)
-        said = r'\Ahdlyap plot: .* do not belong together: own is .*time_step=0\.01.* and .*=0\.005'
+        said = r'\Ahdlyap plot: .* do not belong together: time_step is 0\.01 and 0\.005'
         self.refuses(said, 'plot', bags[0], bags[2], '--out', self.out)
 
 

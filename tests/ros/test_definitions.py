@@ -40,7 +40,7 @@ class Definitions(test_data_tools.Tools):
         self.refused(
             'written by hdlyap 0.0.7, whose message hdlyap/Steps differs', [info, spectrum, steps]
         )
-        old = without(info, 'boundary_z')
+        old = without(info, 'box_z')
         self.refused(
             'written by hdlyap 0.0.7, whose message hdlyap/RunInfo differs', [old, spectrum]
         )

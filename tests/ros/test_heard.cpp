@@ -202,7 +202,7 @@ TEST(heard, only_modes_that_there_can_be)
     EXPECT_TRUE(heard_run_info(&walls.h, &walls.info));
     EXPECT_FALSE(walls.h.has_t);
     EXPECT_EQ(1, walls.drawn().modes);
-    walls.info.run_id = "state alone", walls.info.observables.count = 0;
+    walls.info.run_id = "state alone", walls.info.wave_nx.count = 0;
     EXPECT_TRUE(heard_run_info(&walls.h, &walls.info));
     EXPECT_EQ(0, walls.drawn().modes);
 }
@@ -213,7 +213,7 @@ TEST(heard, an_outline)
     const double x[] = {8.0, 4.0, 0.0, 4.0}, y[] = {3.0, 6.0, 3.0};
     hearing lens("curved");
     EXPECT_EQ(0u, lens.h.corners);
-    lens.info.run_id = lens.info.container = "lens", lens.info.boundary_x = "curved";
+    lens.info.run_id = "lens", lens.set("container", "lens"), lens.set("boundary_x", "curved");
     lens.info.outline_x = {x, 4, 1}, lens.info.outline_y = {y, 3, 1};
     lens.info.wave_nx.count = lens.info.wave_ny.count = 1;
     EXPECT_TRUE(heard_run_info(&lens.h, &lens.info));

@@ -9,7 +9,6 @@ namespace
  * vectors LP(0,0,1) with eight pairs and T(0,1,1), or T(1,0) and LP(0,1). */
 struct hearing_kind : hearing {
     const bool solid;
-    const char *const own[2] = {"inertia=disks", "bond=0.75"};
     const uint32_t none[2] = {0, 0}, z[2] = {1, 1}, nz[2] = {0, 1};
     const uint8_t kind[2], pairs[2];
 
@@ -20,10 +19,11 @@ struct hearing_kind : hearing {
     {
         heard_clear(&h);
         if (solid) {
-            info.dimension = 3, info.box_z = height, info.boundary_z = boundary;
+            info.dimension = 3, info.box_z = height, set("boundary_z", boundary);
             info.wave_nz = {nz, 2};
         } else {
-            info.particles = "dumbbells", info.inertia = 0.25, info.own = {own, 2};
+            set("particles", "dumbbells"), info.inertia = 0.25;
+            set("inertia", "disks", true), set("bond", "0.75", true);
         }
         EXPECT_TRUE(heard_run_info(&h, &info));
     }
@@ -229,7 +229,7 @@ TEST(heard, only_transverse_modes_that_there_can_be)
     walls.info.run_id = "short", walls.info.wave_nx.count = walls.info.wave_ny.count = 1;
     EXPECT_TRUE(heard_run_info(&walls.h, &walls.info)); // (1,0,0) alone
     EXPECT_FALSE(walls.h.has_t);
-    walls.info.run_id = "open", walls.info.boundary_z = "periodic";
+    walls.info.run_id = "open", walls.set("boundary_z", "periodic");
     EXPECT_TRUE(heard_run_info(&walls.h, &walls.info));
     EXPECT_TRUE(walls.h.has_t);
 }
@@ -256,10 +256,9 @@ TEST(heard, names_of_modes_of_spheres)
 TEST(heard, others_say_their_own)
 {
     hearing on;
-    static const char *const own[] = {"potential=lennard_jones", "energy=1",
-                                      "time_step=0.0044274919805363921"};
     heard_clear(&on.h);
-    on.info.particles = "soft_disks", on.info.own = {own, 3};
+    on.set("particles", "soft_disks"), on.set("potential", "lennard_jones", true);
+    on.set("energy", "1", true), on.set("time_step", "0.0044274919805363921", true);
     ASSERT_TRUE(heard_run_info(&on.h, &on.info));
     EXPECT_STREQ("soft disks", on.h.particles);
     EXPECT_STREQ("potential lennard jones, energy 1, time step 0.004427", on.h.own);
@@ -269,16 +268,15 @@ TEST(heard, others_say_their_own)
 TEST(heard, a_bond_is_a_number_of_dumbbells)
 {
     hearing on;
-    for (const char *text : {"bond=inf", "bond=nan", "bond=", "bonds=2", "bond"}) {
-        const char *const own[1] = {text};
+    on.set("particles", "dumbbells"), on.set("bonds", "2", true);
+    for (const char *text : {"inf", "nan", "", "b"}) {
         heard_clear(&on.h);
-        on.info.particles = "dumbbells", on.info.own = {own, 1};
+        on.set("bond", text, true);
         EXPECT_TRUE(heard_run_info(&on.h, &on.info));
         EXPECT_EQ(0.0, on.h.bond) << text;
     }
-    const char *const own[1] = {"bond=2"};
     heard_clear(&on.h);
-    on.info.particles = "springs", on.info.own = {own, 1};
+    on.set("particles", "springs"), on.set("bond", "2", true);
     EXPECT_TRUE(heard_run_info(&on.h, &on.info));
     EXPECT_EQ(0.0, on.h.bond);
 }

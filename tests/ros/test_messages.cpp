@@ -51,6 +51,10 @@ void make_known(hdlyap::Steps &message)
     message.t_points = message.l_points = message.v_phases = 1;
     for (hdlyap::Step &step : message.steps) step.conjugate = !(step.resolved = 1);
 }
+void make_known(hdlyap::RunInfo &message)
+{
+    for (hdlyap::Parameter &one : message.parameters) one.as_before = one.own = 1;
+}
 void make_known(hdlyap::Modes &message)
 {
     for (hdlyap::Mode &mode : message.modes) mode.kind = hdlyap::Mode::LP;

@@ -9,7 +9,7 @@ import time
 import numpy as np
 import rosgraph
 import rospy
-from hdlyap.msg import RunInfo, SlowVectors
+from hdlyap.msg import Parameter, RunInfo, SlowVectors
 from std_srvs.srv import SetBool
 from tf2_msgs.msg import TFMessage
 from visualization_msgs.msg import Marker
@@ -216,7 +216,8 @@ class Markers(harness.Case):
         for topic in STAND_INS:
             publisher(topic, harness.TYPES[topic])
         info = publisher('run_info', harness.TYPES['run_info'], latch=True)
-        info.publish(RunInfo(run_id='made up', number=1, box_x=2.0, box_y=2.0))
+        one = Parameter(name='number', value='1', effect='1')
+        info.publish(RunInfo(run_id='made up', parameters=[one], box_x=2.0, box_y=2.0))
         pictures = self.look()
         self.sees(lambda: 'slow_vectors' in came and pictures.empty)
         time.sleep(1.5)  # the viewer asks ten times in a second

@@ -14,7 +14,7 @@ import numpy as np
 import harness
 from hdlyap import msg, topics
 from hdlyap.data import possible
-from hdlyap.msg import LpPhase, Mode
+from hdlyap.msg import LpPhase, Mode, Parameter
 from hdlyap.runs.asked import text
 
 pytestmark = harness.UNDER_A_MASTER
@@ -116,6 +116,51 @@ def coefficients(core, steps, pairs, of_p):
     return out.ravel()
 
 
+# of the rows that only the node has
+UNITS = {'slow_vectors_rate': '1/s', 'pace': 'time units/s'}
+UNITS.update(dict.fromkeys(('checkpoint_interval', 'table'), 's'))
+INTEGER, REAL, WORD, SEED, EXPONENTS, INTERVAL, TEXT, SET = range(8)  # hd_parameter_kind
+KINDS = {INTEGER: Parameter.INTEGER, REAL: Parameter.NUMBER, INTERVAL: Parameter.NUMBER}
+TYPES = {list: Parameter.LIST, float: Parameter.NUMBER, int: Parameter.INTEGER}
+
+
+def parameters(core, asked, made):
+    """What each Parameter has: scene, those of the core's rows, those of the node alone."""
+    rows = {row.name: row for row in core.rows if row.kind != SET}
+    now = {**asked, **{change.name: float(change.value) for change in made}}
+    others = [name for name in asked if name not in (*rows, 'scene', 'changes')]
+    return [
+        parameter(core, name, rows.get(name), now.get(name)) for name in ('scene', *rows, *others)
+    ]
+
+
+def parameter(core, name, row, asked):
+    """row: the core's, if it has one; asked: None if only these particles have it and nobody gave
+    it."""
+    kind = KINDS.get(int(row.kind), Parameter.WORD) if row else TYPES.get(type(asked), 2)
+    kind = Parameter.WORD if name == 'field_indices' else kind
+    value = effect = written_as(kind, row.usual if asked is None else asked)
+    if row and row.kind not in (SEED, EXPONENTS, TEXT) and name != 'particles':
+        effect = written_as(kind, row.effect)
+    if name == 'threads':
+        effect = shortest(float(core.threads))
+    if name == 'aspect' and row.effect * core.box[0] != core.box[1]:
+        effect = shortest(core.box[1] / core.box[0])
+    if name.startswith('boundary_'):
+        effect = core.boundary['xyz'.index(name[-1])]
+    of_node = Said(unit=UNITS.get(name, ''), as_before=name == 'observables', own=False)
+    said = {key: (row or of_node)[key] for key in of_node}
+    return Said(name=name, kind=kind, value=value, effect=effect, **said)
+
+
+def written_as(kind, value):
+    if isinstance(value, list) and kind == Parameter.LIST:
+        return ', '.join(value)
+    if kind == Parameter.WORD or isinstance(value, str):
+        return str(value)
+    return shortest(float(value))
+
+
 FUNCTIONS = [each, pick, known, shortest, largest_error, pairs_of, first_slow, coefficients]
 FUNCTIONS += [np.mean, np.where, np.ravel, np.split]
 NAMES = {function.__name__: function for function in FUNCTIONS}
@@ -176,7 +221,9 @@ class Compared:
         """Goes through all fields. given: names of the scene; element, number: of a message within
         another one, the names there and its place."""
         env = {**NAMES, **core, **given, **dict(element), 'core': core, 'i': number}
-        env.update((f.__name__, functools.partial(f, core)) for f in (axis, axes, turns))
+        env.update(
+            (f.__name__, functools.partial(f, core)) for f in (axis, axes, turns, parameters)
+        )
         env['same'], done = env, {}
         rows = {**(self.tables['any'] if kind in self.tables else {}), **self.tables.get(kind, {})}
         for name in (name for name, row in rows.items() if row.how == ':'):
@@ -390,7 +437,8 @@ def given_at(asked, params, core):
         for time, name, value in changes
         if float(time) <= core.get('change_time', core.time)
     ]
-    given = Said(asked, **{**core.get('effect', {}), **params})
+    effect = {row.name: row.effect for row in core.get('rows', ())}
+    given = Said(asked, **{**effect, **params})
     given.update((change.name, float(change.value)) for change in made)
     written = [f'{name}={text(value)}' for name, value in sorted(params.items())]
     return dict(asked=asked, given=given, made=made, written=written)

@@ -76,15 +76,15 @@ TEST(received, numbers_are_aligned_and_the_receivers_own)
 TEST(received, lists)
 {
     hdlyap::RunInfo message;
-    message.observables = {"spectrum", "", "state"};
+    message.given = {"spectrum", "", "state"};
     message.wave_nx = {1, 4294967295};
     hdlyap_ros::received<hdr_run_info> out;
     read(out, bytes_of(message));
     const hdr_run_info &got = out.messages.at(0);
-    ASSERT_EQ(3u, got.observables.count);
-    EXPECT_STREQ("spectrum", got.observables.data[0]);
-    EXPECT_STREQ("", got.observables.data[1]);
-    EXPECT_STREQ("state", got.observables.data[2]);
+    ASSERT_EQ(3u, got.given.count);
+    EXPECT_STREQ("spectrum", got.given.data[0]);
+    EXPECT_STREQ("", got.given.data[1]);
+    EXPECT_STREQ("state", got.given.data[2]);
     ASSERT_EQ(2u, got.wave_nx.count);
     EXPECT_EQ(4294967295u, got.wave_nx.data[1]);
 }

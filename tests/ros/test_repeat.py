@@ -4,7 +4,7 @@ import os
 
 import yaml
 
-from hdlyap.msg import Change, RunInfo
+from hdlyap.msg import Change
 import made
 from bags import Bags, process, tool
 from hdlyap.data.reader import RecordingError
@@ -34,9 +34,9 @@ def complete(name):
 def info_of(scene, **others):
     """run_info of a node that was given a scene file."""
     values = {name: text_of(scene[name]) for name in ('exponents', 'field_indices')}
-    for name in 'interval', 'phase_interval', 'fluctuation_time':
-        values[name] = 0.0 if scene[name] == 'auto' else scene[name]
-    own = {name: value for name, value in scene.items() if name not in RunInfo.__slots__}
+    own = {
+        name: value for name, value in scene.items() if name not in (*made.PARAMETERS, 'changes')
+    }
     said = {name: value for name, value in scene.items() if name not in own}
     said['own'] = [f'{name}={value}' for name, value in own.items()]
     return made.run_info(**{**said, **values, 'threads': 2, **others})

@@ -23,20 +23,13 @@ from test_data_joined import HALF, numbered
 from test_data_tools import Tools
 from test_structure import message as structure
 
+BOND = 'parameters[%d].effect' % len(made.PARAMETERS)  # of dumbbells
 SECONDS = 10.0  # of a processor for an answer; nested aliases took 100, an index of 4e9 took 90
 INTEGERS = 0, 1, 2**31 - 1, 2**31, 2**32 - 1, 2**64 - 1
 REALS = float('nan'), float('inf'), -float('inf'), -1.0, 0.0, 1e-320, 1e100, 1e308
 ALIASES = '{a: &a [x,x], b: &b [*a,*a,*a,*a,*a,*a,*a,*a], c: &c [*b,*b,*b,*b,*b,*b,*b,*b]}'
 TEXTS = '', '$', '\\', '$x$', '\x1b[2J', 'a' * 10000, ALIASES, '2^9'
-OWN = (
-    ['bond'],
-    ['bond=abc'],
-    ['bond=['],
-    [f'bond={ALIASES}'],
-    ['bond=nan'],
-    ['bond=-1'],
-    ['a=b'] * 17,
-)
+BONDS = '', 'abc', '[', ALIASES, 'nan', '-1'
 LIMITS = dict(bool=(0, 1), uint8=(0, 255), uint32=(0, 2**32 - 1), uint64=(0, 2**64 - 1))
 LIMITS.update(int32=(-(2**31), 2**31 - 1))
 
@@ -96,8 +89,8 @@ def places(message):
     for name, kind in zip(message.__slots__, message._slot_types):
         value = getattr(message, name)
         if kind.startswith('hdlyap/'):
-            if value:
-                yield from ((f'{name}[0].{path}', one) for path, one in places(value[0]))
+            for k, element in enumerate(value if name == 'parameters' else value[:1]):
+                yield from ((f'{name}[{k}].{path}', one) for path, one in places(element))
         elif name not in ('header', 'run_id'):
             yield name, kind
 
@@ -114,12 +107,18 @@ def odd_values(value, kind):
     return [[], value + value[:1], value[:-1], *([one] + value[1:] for one in odd)]
 
 
-def damaged(message, path, value):
-    message = copy.deepcopy(message)
-    inside = message
+def within(message, path):
+    """The message that has the field at a path, and its name."""
     *lists, name = path.split('.')
     for one in lists:
-        inside = getattr(inside, one.partition('[')[0])[0]
+        slot, place = re.fullmatch(r'(\w+)\[(\d+)\]', one).groups()
+        message = getattr(message, slot)[int(place)]
+    return message, name
+
+
+def damaged(message, path, value):
+    message = copy.deepcopy(message)
+    inside, name = within(message, path)
     is_bytes = isinstance(getattr(inside, name), bytes)
     setattr(inside, name, bytes(value) if is_bytes else value)
     return message
@@ -131,11 +130,9 @@ def cases():
     last = {message._type: place for place, message in enumerate(messages)}
     for place in last.values():
         for path, kind in places(messages[place]):
-            at = messages[place]
-            for one in path.split('.'):
-                at = getattr(at, one.partition('[')[0])
-                at = at[0] if one.endswith(']') else at
-            odd = [*odd_values(at, kind), *(OWN if path == 'own' else ())]
+            odd = odd_values(getattr(*within(messages[place], path)), kind)
+            if path.endswith('].effect'):
+                odd = [*odd, *map(str, REALS)]
             yield from ((place, path, value) for value in odd)
 
 
@@ -162,10 +159,10 @@ class Strangers(Tools):
             possible.check(message, info)
             return True
         except possible.Damaged as error:
-            name = re.split(r'[.\[]', path)[-1]
-            self.assertRegex(
-                str(error), rf'^hdlyap/\w+: .*({name}|elements|aspect|vectors|first|no )'
-            )
+            inside, name = within(message, path)
+            name = f'{name}|{re.escape(inside.name)}' if path.startswith('parameters') else name
+            said = rf'^hdlyap/\w+: .*({name}|elements|aspect|vectors|first|no )'
+            self.assertRegex(str(error), said)
             return False
 
     def are_answered(self, rounds):
@@ -197,7 +194,7 @@ class Together(Strangers):
         kinds = [message._type for message in whole]
         film = self.path('a') + '.mp4'
         for kind, path, values, said in (
-            ('RunInfo', 'own', OWN, r'own.* = .*: must be '),
+            ('RunInfo', BOND, BONDS, 'bond = .*: must be '),
             ('RunInfo', 'coordinates', [0], 'coordinates = 0: must be from 1 to 1000'),
             ('RunInfo', 'zero_exponents', [2**31], 'zero_exponents = 2147483648: must be from 0'),
             (

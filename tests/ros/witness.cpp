@@ -128,20 +128,24 @@ members beside(const hdr_run_info *)
     const hd_dynamics *of = hd_dynamics_of(def);
     const int count = def->observe & HD_OBSERVE_WAVES ? hd_waves(def, waves, 256) : 0,
               corners = hd_scene_outline(def, outline[0], outline[1]);
-    const auto own = [&](int k) {
-        const hd_parameter *row = &of->parameter[k];
-        const double value = hd_parameter_effect(row, def);
-        const char *word = row->words ? hd_parameter_word_of(row, int(value)) : nullptr;
-        return named({{"name", row->name}, {"value", word ? json(word) : json(value)}});
+    const auto in_row = [&](const hd_parameter *row, double value) {
+        return hd_parameter_is_word(row, value) ? json(hd_parameter_word_of(row, int(value)))
+                                                : json(value);
+    };
+    int rows;
+    const hd_parameter *all = hd_scene_parameters(&rows);
+    const auto parameter = [&](int k) {
+        const hd_parameter *row = k < rows ? &all[k] : &of->parameter[k - rows];
+        return named({{"name", row->name},
+                      {"kind", int(row->kind)},
+                      {"usual", in_row(row, row->default_value)},
+                      {"effect", in_row(row, hd_parameter_effect(row, def))},
+                      {"unit", row->unit},
+                      {"as_before", !row->may_differ},
+                      {"own", k >= rows}});
     };
     hd_scene_box(def, box);
-    int rows;
-    const hd_parameter *row = hd_scene_parameters(&rows);
-    members effect;
-    for (int k = 0; k < rows; k++)
-        effect = effect + named({{row[k].name, hd_parameter_effect(&row[k], def)}});
-    return named({{"effect", effect},
-                  {"own", list(of->parameters, own)},
+    return named({{"rows", list(rows + of->parameters, parameter)},
                   {"packing", hd_scene_packing(def)},
                   {"boundary", LIST(3, hd_scene_boundary_word(def, k))},
                   {"box", box},

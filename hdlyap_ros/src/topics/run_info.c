@@ -3,27 +3,10 @@
 #include "topics/moment.h"
 
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "hdlyap/hdlyap.h"
-#include "node/parameters.h"
-
-/** The word that is the value of a parameter of the scene. */
-static const char *word_of(const char *name, const hd_scene_def *def)
-{
-    const parameter p = parameters_named(name);
-    return hd_parameter_word_of(p.row, (int)hd_parameter_value(p.row, def));
-}
-
-/** Fills the names of a set of topics. Returns their number. */
-static uint32_t names_of(const char *names[TOPICS], unsigned set)
-{
-    uint32_t count = 0;
-    for (topic t = 0; t < TOPICS; t++)
-        if (set & topic_bit(t)) names[count++] = topic_name(t);
-    return count;
-}
+#include "node/parameter_value.h"
 
 /** Fills the nodes of the wave vectors that are classified; none if no observable needs them. */
 static bool fill_waves(hdr_run_info *info, const moment *now)
@@ -57,33 +40,46 @@ static bool fill_changes(hdr_run_info *info, const moment *now)
     return list;
 }
 
-/** Writes a parameter as name=value, exact to the last bit. */
-static void write_own(char *text, size_t size, const hd_parameter *row, double value)
+static uint8_t kind_of(const parameter *p)
 {
-    const char *word = hd_parameter_is_word(row, value) ? hd_parameter_word_of(row, (int)value)
-                                                        : NULL;
-    char digits[32];
-    snprintf(digits, sizeof digits, "%.15g", value);
-    if (strtod(digits, NULL) != value) snprintf(digits, sizeof digits, "%.17g", value);
-    snprintf(text, size, "%s=%s", row->name, word ? word : digits);
+    const hd_parameter_kind of_row = p->row ? p->row->kind : HD_PARAMETER_TEXT;
+    if (p->kind == TOPICS_OBSERVED || p->kind == TOPICS_AWAITED) return HDR_PARAMETER_LIST;
+    if (p->kind == WHOLE_NUMBER || of_row == HD_PARAMETER_INT) return HDR_PARAMETER_INTEGER;
+    const bool number = of_row == HD_PARAMETER_REAL || of_row == HD_PARAMETER_INTERVAL;
+    return p->kind == REAL_NUMBER || number ? HDR_PARAMETER_NUMBER : HDR_PARAMETER_WORD;
 }
 
-/** Fills the parameters that only these particles have. */
-static bool fill_own(hdr_run_info *info, const moment *now)
+/** True if only these particles have this parameter. */
+static bool is_own(const parameter *p, const hd_dynamics *of)
 {
-    enum { LENGTH = 80 };
-    const hd_scene_def *def = hd_run_scene(now->run); /* which knows what was chosen */
-    const hd_dynamics *of = hd_dynamics_of(def);
-    const uint32_t count = (uint32_t)of->parameters;
-    const char **list = moment_take(now, count, sizeof *list);
-    char *text = moment_take(now, LENGTH * (size_t)count, 1);
-    if (!list || !text) return false;
-    for (uint32_t k = 0; k < count; k++, text += LENGTH) {
-        const hd_parameter *row = &of->parameter[k];
-        list[k] = text;
-        write_own(text, LENGTH, row, hd_parameter_effect(row, def));
+    return p->row && p->row >= of->parameter && p->row < of->parameter + of->parameters;
+}
+
+/** Fills the parameters with their present values. */
+static bool fill_parameters(hdr_run_info *info, const moment *now)
+{
+    const size_t most = (size_t)parameters_count();
+    hdr_parameter *list = moment_take(now, most, sizeof *list);
+    char(*room)[PARAMETER_VALUE] = moment_take(now, 2 * most, sizeof *room);
+    if (!list || !room) return false;
+    uint32_t count = 0;
+    for (int k = 0; k < (int)most; k++, room += 2) {
+        const parameter p = parameters_at(k);
+        const bool own = is_own(&p, hd_dynamics_of(&now->set->def));
+        const hd_scene_def *def = own ? hd_run_scene(now->run) /* which has what it chose */
+                                      : &now->set->def;
+        const char *value = parameter_value(room[0], &p, now->set);
+        if (p.kind == CHANGES) continue;
+        list[count++] = (hdr_parameter){
+            .name = p.name,
+            .kind = kind_of(&p),
+            .value = value,
+            .effect = parameter_effect(room[1], &p, def, hd_run_threads(now->run), value),
+            .unit = p.unit,
+            .as_before = !p.may_differ,
+            .own = own};
     }
-    info->own = (hdr_strings){list, count};
+    info->parameters = (hdr_parameter_list){list, count};
     return true;
 }
 
@@ -109,39 +105,19 @@ static bool fill_given(hdr_run_info *info, const moment *now)
     return true;
 }
 
-/** Fills the parameters of the scene. One that RunInfo.msg lacks does not compile. */
-static void fill_scene(hdr_run_info *info, const settings *set)
+/** Fills what follows from the parameters of the scene. */
+static void fill_scene(hdr_run_info *info, const hd_scene_def *def)
 {
-    const hd_scene_def *def = &set->def;
-    const bool has_z = hd_scene_dimension(def) == 3;
     double box[HD_DIMENSION_MAX];
     hd_scene_box(def, box);
-    info->scene = set->scene;
-    info->particles = set->particles;
     info->dimension = (uint32_t)hd_scene_dimension(def);
     info->coordinates = (uint32_t)hd_scene_coordinates(def);
     info->inertia = hd_scene_inertia(def);
     info->packing_fraction = hd_scene_packing(def);
     info->box_x = box[0];
     info->box_y = box[1];
-    info->box_z = has_z ? box[2] : 0.0;
-    info->container = word_of("container", def);
-    info->boundary_x = hd_scene_boundary_word(def, 0);
-    info->boundary_y = hd_scene_boundary_word(def, 1);
-    info->boundary_z = hd_scene_boundary_word(def, 2);
-    info->seed = set->seed;
-    info->exponents = set->exponents;
+    info->box_z = hd_scene_dimension(def) == 3 ? box[2] : 0.0;
     info->zero_exponents = (uint32_t)hd_scene_counts(def).zero;
-    info->target = def->target.line;
-    info->interval = def->interval;
-    info->phase_interval = def->phase_interval;
-    info->fluctuation_time = def->fluctuation_time;
-    info->warmup = hd_scene_warmup(def);
-#define HD_INT(name, ...) info->name = (uint32_t)def->name;
-#define HD_REAL(name, ...) info->name = def->name;
-#define HD_OTHER(...)
-#include "hdlyap/parameters.inc"
-    if (def->aspect * box[0] != box[1]) info->aspect = box[1] / box[0]; /* a circle has its own */
 }
 
 /** Fills the outline of a curved container; it is empty for a box. */
@@ -171,25 +147,11 @@ static void fill_machine(hdr_run_info *info, const hd_run *run)
 
 hd_status topic_publish_run_info(const moment *now)
 {
-    const settings *set = now->set;
-    const char *names[TOPICS], *awaited[TOPICS];
-    hdr_run_info info = {
-        .observables = {.data = names, .count = names_of(names, set->observables)},
-        .field_indices = set->fields.text,
-        .wait_for_subscribers = {.data = awaited, .count = names_of(awaited, set->awaited)},
-        .slow_subscribers = set->slow_subscribers,
-        .pace = set->pace,
-        .slow_vectors_rate = set->slow_vectors_rate,
-        .slow_vectors_count = (uint32_t)set->slow_vectors_count,
-        .checkpoint = set->checkpoint,
-        .checkpoint_interval = set->checkpoint_interval,
-        .resume = set->resume,
-        .resumed_time = now->changes->since,
-    };
+    hdr_run_info info = {.resumed_time = now->changes->since};
     if (!fill_waves(&info, now) || !fill_outline(&info, now) || !fill_changes(&info, now) ||
-        !fill_own(&info, now) || !fill_given(&info, now))
+        !fill_parameters(&info, now) || !fill_given(&info, now))
         return HD_OK;
-    fill_scene(&info, set);
+    fill_scene(&info, &now->set->def);
     fill_machine(&info, now->run);
     return topic_send_run_info(now->out, &info);
 }

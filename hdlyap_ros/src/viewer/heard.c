@@ -19,11 +19,12 @@ void heard_clear(heard *h)
 
 /* ---- the run ------------------------------------------------------------------------------- */
 
-static bool is_in(const hdr_strings *list, const char *name)
+const char *heard_parameter(const hdr_run_info *info, const char *name)
 {
-    for (uint32_t k = 0; k < list->count; k++)
-        if (strcmp(list->data[k], name) == 0) return true;
-    return false;
+    for (uint32_t k = 0; k < info->parameters.count; k++)
+        if (strcmp(info->parameters.data[k].name, name) == 0)
+            return info->parameters.data[k].effect;
+    return "";
 }
 
 /** Element k of a list of mode numbers; 0 along z in the plane, where the list is empty. */
@@ -54,17 +55,6 @@ static double element(const hdr_doubles *array, uint32_t i)
     return array->data[(size_t)i * array->stride];
 }
 
-/** A number among the parameters that only these particles have; 0 if it is not there. */
-static double own_number(const hdr_run_info *info, const char *name)
-{
-    const size_t length = strlen(name);
-    double number = 0.0;
-    for (uint32_t k = 0; k < info->own.count; k++)
-        if (strncmp(info->own.data[k], name, length) == 0 && info->own.data[k][length] == '=')
-            number = strtod(info->own.data[k] + length + 1, NULL);
-    return isfinite(number) ? number : 0.0;
-}
-
 /** Turns underscores into spaces: time_step becomes time step. */
 static void in_words(char *name)
 {
@@ -73,35 +63,40 @@ static void in_words(char *name)
 }
 
 /** Writes, e.g., "potential wca, energy 1": names in words, numbers with four digits. */
-static void write_own(char *text, size_t size, const hdr_strings *own)
+static void write_own(char *text, size_t size, const hdr_parameter_list *list)
 {
     *text = '\0';
-    for (uint32_t k = 0; k < own->count; k++) {
+    for (uint32_t k = 0; k < list->count; k++) {
+        const hdr_parameter *p = &list->data[k];
         const size_t length = strlen(text);
-        const int name = (int)strcspn(own->data[k], "=");
-        const char *value = own->data[k] + name + (own->data[k][name] == '=');
+        const char *comma = length > 0 ? ", " : "";
         char *end;
-        const double number = strtod(value, &end);
-        if (end > value && !*end)
-            snprintf(text + length, size - length, "%s%.*s %.4g", k > 0 ? ", " : "", name,
-                     own->data[k], number);
-        else
-            snprintf(text + length, size - length, "%s%.*s %s", k > 0 ? ", " : "", name,
-                     own->data[k], value);
+        const double number = strtod(p->effect, &end);
+        if (p->own && end > p->effect && !*end)
+            snprintf(text + length, size - length, "%s%s %.4g", comma, p->name, number);
+        else if (p->own)
+            snprintf(text + length, size - length, "%s%s %s", comma, p->name, p->effect);
     }
     in_words(text);
 }
 
+/** A number that is finite; 0 if it is none. */
+static double number_in(const char *text)
+{
+    const double number = strtod(text, NULL);
+    return isfinite(number) ? number : 0.0;
+}
+
 static void begin_particles(heard *h, const hdr_run_info *info)
 {
-    snprintf(h->particles, sizeof h->particles, "%s", info->particles);
+    const char *particles = heard_parameter(info, "particles");
+    snprintf(h->particles, sizeof h->particles, "%s", particles);
     in_words(h->particles);
-    h->number = info->number;
     h->inertia = info->inertia;
-    if (strcmp(info->particles, "dumbbells") == 0)
-        h->bond = own_number(info, "bond");
+    if (strcmp(particles, "dumbbells") == 0)
+        h->bond = number_in(heard_parameter(info, "bond"));
     else
-        write_own(h->own, sizeof h->own, &info->own);
+        write_own(h->own, sizeof h->own, &info->parameters);
 }
 
 /** Keeps as many corners of the outline as there is room for. */
@@ -120,24 +115,22 @@ static void begin_box(heard *h, const hdr_run_info *info)
     h->box[0] = info->box_x;
     h->box[1] = info->box_y;
     h->box[2] = info->dimension == 3 ? info->box_z : 0.0;
-    h->periodic[0] = strcmp(info->boundary_x, "periodic") == 0;
-    h->periodic[1] = strcmp(info->boundary_y, "periodic") == 0;
-    h->periodic[2] = heard_has_spheres(h) && strcmp(info->boundary_z, "periodic") == 0;
-    snprintf(h->container, sizeof h->container, "%s", info->container);
+    h->periodic[0] = strcmp(heard_parameter(info, "boundary_x"), "periodic") == 0;
+    h->periodic[1] = strcmp(heard_parameter(info, "boundary_y"), "periodic") == 0;
+    h->periodic[2] = heard_has_spheres(h) &&
+                     strcmp(heard_parameter(info, "boundary_z"), "periodic") == 0;
+    snprintf(h->container, sizeof h->container, "%s", heard_parameter(info, "container"));
     begin_outline(h, info);
 }
 
 static void begin(heard *h, const hdr_run_info *info)
 {
-    static const char *const of_modes[] = {"modes",  "steps", "lp_phases", "t_phases",
-                                           "fields", "hydro", "structure"};
     snprintf(h->run_id, sizeof h->run_id, "%s", info->run_id);
-    snprintf(h->scene, sizeof h->scene, "%s", info->scene);
+    snprintf(h->scene, sizeof h->scene, "%s", heard_parameter(info, "scene"));
     begin_particles(h, info);
     h->stage = UINT8_MAX;
     begin_box(h, info);
-    for (size_t k = 0; k < sizeof of_modes / sizeof *of_modes; k++)
-        h->has_lp |= info->wave_nx.count > 0 && is_in(&info->observables, of_modes[k]);
+    h->has_lp = info->wave_nx.count > 0;
     h->has_t = h->has_lp && has_transverse(h, info);
     h->begun = true;
 }
@@ -146,11 +139,14 @@ bool heard_run_info(heard *h, const hdr_run_info *info)
 {
     if (h->begun && strcmp(h->run_id, info->run_id) == 0) return false;
     heard_clear(h);
-    h->q = malloc(2 * (size_t)info->number * (sizeof *h->q + sizeof *h->angle) + 1);
+    const double number = fmin(fmax(number_in(heard_parameter(info, "number")), 0.0),
+                               HEARD_NUMBER_MAX);
+    h->number = (uint32_t)number;
+    h->q = malloc(2 * (size_t)h->number * (sizeof *h->q + sizeof *h->angle) + 1);
     if (!h->q) return false;
-    h->at = h->q + info->number;
-    h->angle = (double *)(h->at + info->number);
-    h->spin = h->angle + info->number;
+    h->at = h->q + h->number;
+    h->angle = (double *)(h->at + h->number);
+    h->spin = h->angle + h->number;
     begin(h, info);
     h->changed = true;
     return true;

@@ -7,7 +7,12 @@
 #include "hdlyap_ros/markers.h"
 #include "hdlyap_ros/messages.h"
 
-enum { HEARD_VECTORS_MAX = 64, HEARD_PAIRS_MAX = 8, HEARD_CORNERS_MAX = 512 };
+enum {
+    HEARD_VECTORS_MAX = 64,
+    HEARD_PAIRS_MAX = 8,
+    HEARD_CORNERS_MAX = 512,
+    HEARD_NUMBER_MAX = 10000000
+};
 
 /** Coefficients of the pairs of an LP mode, as in LpPhase. */
 typedef struct heard_lp {
@@ -63,6 +68,9 @@ static inline bool heard_turns(const heard *h) { return h->inertia > 0.0; }
 
 /* Each function copies what is needed. Messages of another run are ignored, as is what memory does
  * not suffice for. */
+
+/** The value in effect of a parameter of a run; "" if it has none of this name. */
+const char *heard_parameter(const hdr_run_info *info, const char *name);
 
 /** Returns true if this is a new run. */
 bool heard_run_info(heard *h, const hdr_run_info *info);

@@ -142,7 +142,7 @@ static void warn_of_none(const hdr_run_info *info, const mode_name *name)
     hdr_log(HDR_WARN,
             "modes: the scene %s does not look for wave %s: start it with a larger max_mode_number "
             "or max_wave_number, and with observables that need modes",
-            info->scene, nodes);
+            heard_parameter(info, "scene"), nodes);
 }
 
 static void on_run_info(void *context, const hdr_run_info *info)

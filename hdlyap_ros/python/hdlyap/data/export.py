@@ -5,7 +5,8 @@ import os
 
 import numpy as np
 
-from hdlyap import whole
+from hdlyap import parameters, whole
+from hdlyap.msg import RunInfo
 
 from . import space
 from .reader import Missing, is_known
@@ -85,7 +86,14 @@ def plain_info(info):
     """run_info for JSON."""
     if not is_known(info):
         return {'run_id': info.run_id}
-    return {name: _plain(getattr(info, name)) for name in info.__slots__ if name != 'header'}
+    if isinstance(info, RunInfo):
+        return {**parameters.all_of(info), **_fields(info, ('header', 'parameters'))}
+    return _fields(info, ('header',))
+
+
+def _fields(message, without):
+    names = (name for name in message.__slots__ if name not in without)
+    return {name: _plain(getattr(message, name)) for name in names}
 
 
 def _plain(value):

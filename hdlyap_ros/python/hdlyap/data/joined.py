@@ -5,18 +5,16 @@ import math
 import os
 from collections import namedtuple
 
+from hdlyap.parameters import own
+
 from . import reader
 from .reader import NoInfo, RecordingError, is_known
 
 # parameters that bags of one system have to share: all that decide what is measured
-OF_SPHERES = ('particles', 'aspect_z', 'boundary_z', 'wave_nz')  # the same for all disks
-SYSTEM = ('container', 'number', 'density', 'aspect', 'boundary_x', 'boundary_y', 'own')
-SYSTEM += OF_SPHERES[:3]
-MEASURED = SYSTEM + ('vectors', 'wave_nx', 'wave_ny', 'wave_nz')
-# parameters that a resumed run keeps (HD_AS_BEFORE of hdlyap/parameters.inc): all parts share them
-OF_ONE_RUN = SYSTEM + ('seed', 'exponents', 'equilibration', 'warmup', 'interval', 'accuracy')
-OF_ONE_RUN += ('phase_interval', 'max_wave_number', 'max_mode_number', 'observables')
-OF_ONE_RUN += ('covariant_window', 'covariant_transient', 'covariant_sampling', 'fluctuation_time')
+OF_SPHERES = ('particles', 'aspect_z', 'boundary_z')  # the same for all disks
+SYSTEM = ('container', 'number', 'density', 'aspect', 'boundary_x', 'boundary_y')
+SYSTEM += OF_SPHERES
+MEASURED = ('vectors', 'wave_nx', 'wave_ny', 'wave_nz')
 UNSEEN = ('spectrum', 'state')  # observables that change nothing in the core, and may differ
 SAME = 1e-9  # relative difference below which parameters are the same
 
@@ -83,7 +81,7 @@ def runs(paths, node=None, number=None):
     without = [part for part in parts if not is_known(part.info)]
     if without:
         return [(_of_one_run(parts, without[0]), 1)]
-    _refuse_others(parts, MEASURED, 'do not belong together')
+    _refuse_others(parts, compared(parts[0].info), 'do not belong together')
     seeds = {}
     for part in parts:
         seeds.setdefault(part.info.seed, []).append(part)
@@ -134,6 +132,21 @@ def _chosen(path, node, number, infos):
     return Part(path, node, *infos[wanted - 1], math.inf), len(infos)
 
 
+def system(info):
+    """Names of what runs of one system share: what moves, and where."""
+    return [*SYSTEM, *own(info)]
+
+
+def compared(info):
+    """Names of what bags share whose numbers are compared, or averaged."""
+    return [*system(info), *MEASURED]
+
+
+def _kept(info):
+    """Names of what parts of one run share, because a resumed run keeps it."""
+    return [one.name for one in info.parameters if one.as_before]
+
+
 def different(a, b, names):
     """Yields (name, value of a, value of b) for each of these names in which two run_infos
     differ."""
@@ -146,7 +159,7 @@ def different(a, b, names):
 
 
 def _value(info, name):
-    value = getattr(info, name)
+    value = getattr(info, name, None)
     if name != 'observables':
         return value
     return [topic for topic in value if topic not in UNSEEN]
@@ -170,7 +183,7 @@ def _in_order(parts):
             f'{anew[0].path} and {anew[1].path} both begin with seed {anew[0].info.seed}: '
             'the same trajectory twice is no second sample'
         )
-    _refuse_others(parts, OF_ONE_RUN, 'are no parts of one run')
+    _refuse_others(parts, _kept(parts[0].info), 'are no parts of one run')
     # sorted by simulated time, because clocks may be set back
     parts = sorted(parts, key=lambda part: (begun[part.run_id], reader.start(*part[:3])))
     for a, b in zip(parts, parts[1:]):

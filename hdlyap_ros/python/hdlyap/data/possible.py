@@ -9,7 +9,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from hdlyap import msg
+from hdlyap import msg, parameters
 
 from . import fields, space
 
@@ -17,13 +17,19 @@ LARGEST = 1e150  # largest number, so that its square is one, too
 LEAST = 1 / LARGEST  # least number above 0
 COUNT = 2**62  # largest integer
 PARTICLES, COORDINATES = 10**6, 1000  # most of a run, as of the parameter number
-MOST_OWN = 16  # most parameters that only some particles have
+# parameters that every run has, and the type of their values
+NEEDED = dict.fromkeys(
+    'scene particles container seed field_indices boundary_x boundary_y boundary_z'.split(), str
+)
+NEEDED.update(
+    number=int, observables=list, **dict.fromkeys(('density', 'aspect', 'aspect_z'), float)
+)
+KINDS = {str: 'a text', int: 'an integer', float: 'a number', list: 'a list'}
 VECTORS = 2**16  # most zero exponents, and most vectors of a set
 WAVES = 10**6  # largest mode number
 EXPONENTS = 'exponents'  # stands for the number of exponents of the run
 # least and largest number of a field, of one message or of all
 RANGES = {
-    'RunInfo.number': (1, PARTICLES),
     'RunInfo.dimension': (0, 3),
     'RunInfo.coordinates': (1, COORDINATES),
     'RunInfo.inertia': (0, LARGEST),
@@ -64,6 +70,8 @@ def check(message, info=None):
     """Raises Damaged if no node can have sent this message in the run with this run_info; None if
     that is not known."""
     about = message if isinstance(message, msg.RunInfo) else info
+    if isinstance(message, msg.RunInfo):
+        _check_parameters(message)
     most = 2 * COORDINATES * PARTICLES if about is None else space.phase_space(about)
     _check_parts([message], max(most, 1))
     _check_lengths(message, {})
@@ -190,29 +198,42 @@ def _size(dimension, sizes):
 
 
 def _of_run_info(info):
-    """Sizes, words, and the particles' own parameters."""
+    """Parameters, sizes and words."""
     sizes = [info.density, info.aspect, info.box_x, info.box_y]
     if space.is_solid(info):
         sizes += [info.aspect_z, info.box_z]
     if not all(size > 0 for size in sizes):
         raise Damaged(f'hdlyap/RunInfo: density, aspect and box {tuple(sizes)}: must be above 0')
     for name in ('particles', 'container', 'boundary_x', 'boundary_y', 'boundary_z'):
-        _refuse_other(
-            WORD.fullmatch(getattr(info, name) or '-'), name, getattr(info, name), 'a word'
-        )
+        value = getattr(info, name)
+        _refuse_other(WORD.fullmatch(value or '-'), name, value, 'a word')
     for axis in space.axes(info) if info.dimension else '':
         wall = getattr(info, 'boundary_' + axis)
         _refuse_other(wall in WALLS, 'boundary_' + axis, wall, f'one of {", ".join(WALLS)}')
-    _refuse_other(
-        len(info.own) <= MOST_OWN, 'own', f'{len(info.own)} elements', f'at most {MOST_OWN}'
-    )
-    for one in info.own:
-        name, _, value = one.partition('=')
-        is_right = WORD.fullmatch(name) and WORD.fullmatch(value)
-        _refuse_other(is_right, 'own', one, 'name=value, with a number or a word')
     bond = space.own(info).get('bond', 1.0) if info.particles == 'dumbbells' else 1.0
     is_length = isinstance(bond, (int, float)) and 0 <= bond < LARGEST
-    _refuse_other(is_length, 'own: bond', bond, 'a length')
+    _refuse_other(is_length, 'bond', bond, 'a length')
+
+
+def _check_parameters(info):
+    """All that every run has; words, and numbers in what has a kind of number."""
+    found = {one.name: parameters.value(one) for one in info.parameters}
+    for name, kind in NEEDED.items():
+        if name not in found:
+            raise Damaged(f'hdlyap/RunInfo: no {name} among its parameters')
+        is_right = isinstance(found[name], kind) and (
+            kind is not float or abs(found[name]) <= LARGEST
+        )
+        _refuse_other(is_right, name, found[name], KINDS[kind])
+    for one in info.parameters:
+        _refuse_other(WORD.fullmatch(one.name), 'parameters', one.name, 'a name')
+        is_number = isinstance(found[one.name], (int, float)) and abs(found[one.name]) <= LARGEST
+        is_own = one.own and one.kind == one.WORD
+        if one.kind in (one.NUMBER, one.INTEGER) or is_own:
+            is_right = is_number or WORD.fullmatch(one.effect)
+            _refuse_other(is_right, one.name, one.effect, 'a number or a word')
+    is_right = 1 <= found['number'] <= PARTICLES
+    _refuse_other(is_right, 'number', found['number'], f'from 1 to {PARTICLES}')
 
 
 def _refuse_other(is_right, name, value, allowed):

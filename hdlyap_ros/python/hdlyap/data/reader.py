@@ -29,7 +29,7 @@ AMOUNTS = {'averaged_time': '<d', 'samples': '<I'}
 FOURTH = {kind: message.__slots__[3] for kind, message in TYPES.items()}
 MEANS = {kind: AMOUNTS[slot] for kind, slot in FOURTH.items() if slot in AMOUNTS}
 NAME, PATH, LINE, LIST = 200, 4096, 8192, 4096  # longest text, path, error; most elements of a list
-PATHS = ('checkpoint', 'resume', 'given')
+PATHS = ('value', 'effect', 'given')
 VERSION = re.compile(r'\d[\w.+~-]{0,30}', re.ASCII)
 FIRST_LINE = 100  # bytes that the first line of a bag (#ROSBAG V2.0) never has
 
@@ -179,8 +179,8 @@ def _cleaned(info):
             setattr(info, name, [plain(text, longest) for text in value[:LIST]])
         elif kind.endswith('[]'):
             setattr(info, name, value[:LIST])
-    for change in getattr(info, 'changes', ()):  # a change has no changes
-        _cleaned(change)
+    for part in (*getattr(info, 'changes', ()), *getattr(info, 'parameters', ())):  # have none
+        _cleaned(part)
     return info
 
 

@@ -3,6 +3,8 @@ particles, and where the disks of dumbbells are."""
 
 import numpy as np
 
+from hdlyap.parameters import own
+
 
 def is_solid(info):
     """Whether particles are spheres; info = None stands for disks."""
@@ -28,26 +30,12 @@ def shows(messages, names):
     return False
 
 
-def own(info):
-    """{name: value} of the parameters that only these particles have."""
-    return {name: _value(text) for name, _, text in (one.partition('=') for one in info.own)}
-
-
-def _value(text):
-    """A number, or the word itself."""
-    for kind in (int, float):
-        try:
-            return kind(text)
-        except ValueError:
-            continue
-    return text
-
-
 def without_box(info):
     """A text about particles that have no positions in a box; '' for others."""
     if info.dimension or not info.particles:
         return ''
-    return ', '.join([f'{info.particles}, N = {info.number}', *info.own])
+    own_ones = [f'{one.name}={one.effect}' for one in info.parameters if one.own]
+    return ', '.join([f'{info.particles}, N = {info.number}', *own_ones])
 
 
 def axes(info):

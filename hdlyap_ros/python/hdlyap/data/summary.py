@@ -1,12 +1,12 @@
 """Summary: a run as tables and figures need it: its messages, and quantities over time that they
 draw."""
 
-import copy
 from functools import cached_property
 
 import numpy as np
 
 from hdlyap.numbers import known
+from hdlyap.parameters import with_effect
 
 from . import space
 from .course import Course
@@ -27,8 +27,8 @@ class Summary:
         self.data, self.info = data, data.info
         self.is_mean, self.left_out = data.is_mean, data.left_out
         if self.is_mean:
-            self.info = copy.copy(data.info)
-            self.info.seed, self.info.run_id = ', '.join(data.seeds), ''
+            self.info = with_effect(data.info, 'seed', ', '.join(data.seeds))
+            self.info.run_id = ''
 
     summary = property(lambda self: self)  # a Run has it, too
     spectrum = cached_property(lambda self: self._averaged('spectrum'))

@@ -8,14 +8,15 @@ import numpy as np
 
 from hdlyap.data import fits, space, steps
 from hdlyap.data.spectrum_test import SpectrumTest
-from hdlyap.data.joined import SYSTEM, different
+from hdlyap.data.joined import different, system
 from hdlyap.data.reader import RecordingError
 
 from hdlyap.numbers import known
 
 from .deviation import FREEDOM, Deviation
 
-NOT_OF_SYSTEM = ('header', 'run_id', 'given')  # fields that differ even if runs are identical
+# fields that differ even if runs are identical; parameters are compared one by one
+NOT_OF_SYSTEM = ('header', 'run_id', 'given', 'parameters')
 SLOPES = 'c_T', 'c_L', 'v'
 SUMS = 'h_KS', 'sum of exponents'
 STEPPED = 'time_step', 'integrator'  # parameters that do not change the system
@@ -98,12 +99,11 @@ class Comparison:
     def parameters(self):
         """(name, value of a, value of b) of parameters that differ."""
         a, b = (run.info for run in self.runs)
-        for name in a.__slots__:
-            values = [getattr(info, name) for info in (a, b)]
+        names = [one.name for one in a.parameters] + a.__slots__
+        for name in dict.fromkeys(name for name in names if name not in NOT_OF_SYSTEM):
+            values = [getattr(info, name, None) for info in (a, b)]
             unknown = all(value != value for value in values)  # both are NaN
-            if name == 'own':
-                yield from _own_ones(a, b)
-            elif name not in NOT_OF_SYSTEM and values[0] != values[1] and not unknown:
+            if values[0] != values[1] and not unknown:
                 yield name, *values
 
     @property
@@ -111,16 +111,8 @@ class Comparison:
         """run_info of a; of the parameters that only some particles have, those that b shares."""
         a, b = (run.info for run in self.runs)
         shared = copy.copy(a)
-        shared.own = [one for one in a.own if one in b.own]
+        shared.parameters = [one for one in a.parameters if not one.own or one in b.parameters]
         return shared
-
-
-def _own_ones(a, b):
-    """Like Comparison.parameters, for the parameters that only these particles have."""
-    one, other = space.own(a), space.own(b)
-    for name in one:
-        if one[name] != other.get(name):
-            yield name, one[name], other.get(name)
 
 
 def _bits(message):
@@ -131,16 +123,9 @@ def _bits(message):
     return buffer.getvalue()
 
 
-def _what_moves(own):
-    return [one for one in own if one.partition('=')[0] not in STEPPED]
-
-
 def _refuse_other_systems(a, b):
-    others = [
-        f'{name} {one} and {other}'
-        for name, one, other in different(a, b, SYSTEM)
-        if name != 'own' or _what_moves(one) != _what_moves(other)
-    ]
+    names = [name for name in system(a) if name not in STEPPED]
+    others = [f'{name} {one} and {other}' for name, one, other in different(a, b, names)]
     if others:
         why = 'the runs are of different systems and are not compared'
         raise RecordingError(f'{why}: {", ".join(others)}')

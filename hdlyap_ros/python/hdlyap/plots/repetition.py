@@ -5,16 +5,11 @@ import re
 import yaml
 
 from hdlyap.data import containers, reader, space
+from hdlyap.parameters import value as parameter_value
 
-# fields of run_info that are no parameters: they follow from parameters, or describe the machine
-RESULTS = ('header', 'run_id', 'version', 'dimension', 'box_x', 'box_y', 'box_z', 'outline_x')
-RESULTS += ('outline_y', 'vectors', 'zero_exponents', 'wave_nx', 'wave_ny', 'wave_nz')
-RESULTS += ('coordinates', 'own', 'given', 'inertia', 'packing_fraction', 'resumed_time', 'ranks')
-RESULTS += ('blas_threads', 'blas_library', 'blas_kernel', 'blas_threading')
 OF_SPHERES = ('aspect_z', 'boundary_z')  # parameters that disks do not have
 # parameters that are a word or a list of numbers, and a text in run_info
 LISTS = ('field_indices',)
-AUTOMATIC = ('interval', 'phase_interval', 'fluctuation_time')  # of which 0 is auto
 
 
 def chosen(path, node=None, number=None):
@@ -38,27 +33,25 @@ def scene_file(info):
 def parameters(info):
     """{name: value} of the parameters that repeat a run. The repeated run begins anew, and does not
     touch the checkpoint of the first one; results do not depend on whether that was resumed."""
-    results = RESULTS + containers.not_asked(info)
-    results += () if space.is_solid(info) else OF_SPHERES
-    names = [name for name in info.__slots__ if name not in results]
-    asked = {name: getattr(info, name) for name in names}
+    without = containers.not_asked(info)
+    without += () if space.is_solid(info) else OF_SPHERES
+    kept = {one.name: one for one in info.parameters if one.name not in without}
+    asked = {name: parameter_value(one) for name, one in kept.items()}
     asked.update({name: _list_of(asked[name]) for name in LISTS}, checkpoint='', resume='')
-    asked.update({name: asked[name] or 'auto' for name in AUTOMATIC})
-    asked.update(space.own(info))
     before = {change.name: change.before for change in reversed(info.changes)}  # at the beginning
     for name, value in before.items():
         if name not in asked:
             raise reader.RecordingError(f'changes: {name}: must be a parameter of the run')
-        asked[name] = _typed(asked[name], value)
+        asked[name] = _typed(kept[name], value)
     return {**asked, 'changes': [_change(change) for change in info.changes]}
 
 
-def _typed(now, text):
+def _typed(parameter, text):
     """A text with the type of the parameter's present value."""
-    try:
-        return type(now)(text)
-    except ValueError:
+    found, now = parameter_value(parameter, text), parameter_value(parameter)
+    if isinstance(now, (int, float)) and not isinstance(found, (int, float)):
         raise reader.RecordingError(f'changes: {text} before: must be a {type(now).__name__}')
+    return found
 
 
 def _change(change):

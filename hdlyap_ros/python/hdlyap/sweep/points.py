@@ -5,7 +5,7 @@ from collections import namedtuple
 import numpy as np
 
 from hdlyap.data import reader, seeds, space
-from hdlyap.data.joined import MEASURED
+from hdlyap.data import joined
 from hdlyap.data.reader import RecordingError
 from hdlyap.data.containers import is_curved
 
@@ -109,7 +109,7 @@ def read(paths, choice=(None, None)):
             if info.particles != first.particles:
                 what, others = info.particles, first.particles
                 raise RecordingError(f'{path}: particles = {what}, but this table is of {others}')
-            same = [str(getattr(info, name)) for name in MEASURED]
+            same = [str(getattr(info, name)) for name in joined.compared(info)]
             systems.setdefault((*system(info).values(), *same), []).append(path)
         except RecordingError as error:
             wrong.append(str(error))

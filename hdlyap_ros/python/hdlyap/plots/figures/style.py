@@ -69,7 +69,7 @@ def scene(info):
     box = f'$\\rho={info.density:g}$, ' + (
         _edges(info) if space.is_solid(info) else f'$L_y/L_x={info.aspect:g}$'
     )
-    what = space.named(info) + '\n' if info.own else ', '  # it is too long for one line
+    what = space.named(info) + '\n' if space.own(info) else ', '  # it is too long for one line
     if len(what) > TITLE:
         what = what.replace(', ', '\n', 1)
     return f'{name}: $N={info.number}${what}{box}, ' + ', '.join(walls)
