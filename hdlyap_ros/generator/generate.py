@@ -48,7 +48,9 @@ ARRAYS = {
     'uint64': 'hdr_counts',
 }
 
-DIMENSIONS = 'angle bin corner growth_time modulation order pair particle phase resolved response '
+DIMENSIONS = (
+    'angle bin corner growth_time modulation order pair particle phase resolved response site '
+)
 DIMENSIONS += 'step subspace t_phase transverse vector wave'
 WORDS = '@space', '@turning', '@fields', '@known'
 

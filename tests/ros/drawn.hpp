@@ -119,7 +119,7 @@ struct dumbbells : scene {
         std::mt19937_64 random(seed + 2);
         std::uniform_real_distribution<double> part(0.0, 1.0);
         std::snprintf(h.particles, sizeof h.particles, "dumbbells");
-        h.bond = 0.5, h.inertia = 0.1875;
+        h.site[0] = -0.25, h.site[1] = 0.25, h.sites = 2, h.inertia = 0.1875;
         for (int i = 0; i < count; i++) angle.push_back(6.28 * part(random));
         for (int i = 0; i < count; i++) spin.push_back(6.0 * part(random) - 3.0);
         for (int k = 0; k < count * modes; k++) turn.push_back(part(random) - 0.5);

@@ -121,6 +121,7 @@ def run_info(own=(), **fields):
         version='0.1.0',
         parameters=[*(parameter(*one) for one in asked.items()), *_own(own)],
         threads=asked['threads'],
+        sites=[0.0],
         dimension=3 if solid else 2,
         coordinates=3 if solid else 2,
         packing_fraction=asked['density'] * math.pi / (6 if solid else 4),

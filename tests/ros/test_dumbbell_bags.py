@@ -30,7 +30,7 @@ FULL = 2 * np.sqrt(2 / 3 / 0.140625)  # spin of the full colour, kT being 2/3
 def dumbbells(**fields):
     """Twenty in a box of 8 x 5: 120 exponents, of which six vanish."""
     usual = dict(particles='dumbbells', coordinates=3, inertia=0.140625, own=OWN, aspect=0.625)
-    usual.update(box_x=8.0, box_y=5.0, packing_fraction=0.517)
+    usual.update(sites=[-0.125, 0.125], box_x=8.0, box_y=5.0, packing_fraction=0.517)
     return made.run_info(**{**usual, **fields})
 
 
@@ -94,7 +94,7 @@ class Arrays(Dumbbells):
         q = np.array([X, Y])
         np.testing.assert_allclose(space.disks(INFO, q, ANGLES), ENDS)
         self.assertIs(space.disks(made.run_info(), q)[0], q)
-        self.assertIs(space.disks(dumbbells(particles='rotors'), q, ANGLES)[0], q)
+        self.assertIs(space.disks(dumbbells(sites=[0.0]), q, ANGLES)[0], q)
 
     def test_damaged(self):
         """An angle less than dumbbells, a vector without what turns them."""

@@ -84,7 +84,7 @@ TEST(dumbbells, colours_say_the_spin)
     for (int k = 0; k < 80; k++)
         expect_colour(disks[k].colour, s.spin[k / 2] / (2 * std::sqrt(2.0 / 3 / 0.1875)));
     EXPECT_EQ(
-        "a scene: 40 dumbbells of bond 0.5, x reflecting, y reflecting\n"
+        "a scene: 40 dumbbells, x reflecting, y reflecting\n"
         "t = 12.5, averaging (25 %)\ngreen: the particle spins to the left, purple: to the right",
         caption(array));
 }
@@ -125,7 +125,7 @@ TEST(dumbbells, colours_say_how_a_vector_turns)
 TEST(dumbbells, others_that_turn_are_disks)
 {
     dumbbells s(20.0, 15.0, 60, 1, 3);
-    s.h.bond = 0.0;
+    s.h.sites = 0;
     std::snprintf(s.h.particles, sizeof s.h.particles, "rotors");
     const MarkerArray array = drawing().of(s.p);
     std::multiset<double> places, wanted;

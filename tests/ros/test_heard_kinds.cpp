@@ -22,7 +22,7 @@ struct hearing_kind : hearing {
             info.dimension = 3, info.box_z = height, set("boundary_z", boundary);
             info.wave_nz = {nz, 2};
         } else {
-            set("particles", "dumbbells"), info.inertia = 0.25;
+            set("particles", "dumbbells"), info.inertia = 0.25, info.sites = array(2);
             set("inertia", "disks", true), set("bond", "0.75", true);
         }
         EXPECT_TRUE(heard_run_info(&h, &info));
@@ -113,8 +113,9 @@ TEST(heard, dumbbells_have_angles)
 {
     hearing_kind on(false);
     EXPECT_STREQ("dumbbells", on.h.particles);
-    EXPECT_STREQ("", on.h.own);
-    EXPECT_TRUE(on.h.bond == 0.75 && on.h.inertia == 0.25);
+    EXPECT_STREQ("inertia disks, bond 0.75", on.h.own);
+    EXPECT_TRUE(on.h.sites == 2 && on.h.site[0] == 0.0 && on.h.site[1] == 0.01);
+    EXPECT_EQ(0.25, on.h.inertia);
     on.hear(on.state_of(1.0));
     EXPECT_TRUE(on.h.time == 1.0 && on.h.angle[2] == 0.22 && on.h.spin[1] == 0.31);
     on.hear(on.field_of(2.0));
@@ -264,19 +265,12 @@ TEST(heard, others_say_their_own)
     EXPECT_STREQ("potential lennard jones, energy 1, time step 0.004427", on.h.own);
 }
 
-/** Anybody's bag: no length that cannot be drawn, and none of what only has that name. */
-TEST(heard, a_bond_is_a_number_of_dumbbells)
+/** Anybody's bag: no more disks than there is room for. */
+TEST(heard, sites_fit)
 {
     hearing on;
-    on.set("particles", "dumbbells"), on.set("bonds", "2", true);
-    for (const char *text : {"inf", "nan", "", "b"}) {
-        heard_clear(&on.h);
-        on.set("bond", text, true);
-        EXPECT_TRUE(heard_run_info(&on.h, &on.info));
-        EXPECT_EQ(0.0, on.h.bond) << text;
-    }
+    on.info.sites = on.array(100);
     heard_clear(&on.h);
-    on.set("particles", "springs"), on.set("bond", "2", true);
     EXPECT_TRUE(heard_run_info(&on.h, &on.info));
-    EXPECT_EQ(0.0, on.h.bond);
+    EXPECT_EQ(HEARD_SITES_MAX, on.h.sites);
 }

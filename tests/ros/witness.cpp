@@ -46,6 +46,12 @@ int coordinates() { return scene().number * hd_scene_coordinates(&scene()); }
 #define LIST(count, value) list(count, [&](int k) { return value; })
 #define EACH(count, value) list(count, [&](int k) { return say(value); })
 
+json sites()
+{
+    double site[HD_SITES_MAX];
+    return numbers(site, hd_scene_sites(&scene(), site));
+}
+
 members say(const hd_spectrum *of)
 {
     return named({{"time", hd_spectrum_time(of)},
@@ -70,6 +76,7 @@ members say_run()
                                {"d", hd_scene_dimension(&scene())},
                                {"coordinates", hd_scene_coordinates(&scene())},
                                {"inertia", hd_scene_inertia(&scene())},
+                               {"sites", sites()},
                                {"N", scene().number}});
     return parts().spectrum ? all + named({{"spectrum", say(parts().spectrum)}}) : all;
 }

@@ -162,6 +162,10 @@ struct hd_dynamics {
      * more coordinate behind its position: sqrt(inertia) times its angle. If left out, particles do
      * not turn. */
     double (*inertia)(const hd_scene_def *scene);
+    /** Writes the places of the disks of a particle along its arm, whose direction is its angle,
+     * from its centre, to site[HD_SITES_MAX] in ascending order [sigma], and returns their number.
+     * If left out, it has one, at its centre. */
+    int (*sites)(const hd_scene_def *scene, double *site);
     /** Area of a particle in the plane, its volume in space [sigma^d]. If left out, it is not
      * known. */
     double (*size)(const hd_scene_def *scene);

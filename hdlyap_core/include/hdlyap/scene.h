@@ -141,6 +141,11 @@ int hd_scene_dimension(const hd_scene_def *def);
 int hd_scene_coordinates(const hd_scene_def *def);
 /** Moment of inertia of a particle that turns [sigma^2]; 0 if particles do not turn. */
 double hd_scene_inertia(const hd_scene_def *def);
+/** Most disks of a particle. */
+enum { HD_SITES_MAX = 8 };
+/** Writes the places of the disks of a particle along its arm to site[HD_SITES_MAX]
+ * (hd_dynamics.sites) [sigma], and returns their number. */
+int hd_scene_sites(const hd_scene_def *def, double *site);
 /** Fraction of the container that particles fill; NaN if they have no size. */
 double hd_scene_packing(const hd_scene_def *def);
 

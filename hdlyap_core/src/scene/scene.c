@@ -72,6 +72,13 @@ double hd_scene_inertia(const hd_scene_def *def)
     return of->inertia ? of->inertia(def) : 0.0;
 }
 
+int hd_scene_sites(const hd_scene_def *def, double *site)
+{
+    const hd_dynamics *of = hd_dynamics_of(def);
+    site[0] = 0.0;
+    return of->sites ? of->sites(def, site) : 1;
+}
+
 double hd_scene_packing(const hd_scene_def *def)
 {
     const hd_dynamics *of = hd_dynamics_of(def);

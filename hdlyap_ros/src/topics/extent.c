@@ -1,6 +1,7 @@
 /** Lengths of the arrays in messages -> bytes. */
 #include "topics/extent.h"
 
+#include "hdlyap/scene.h"
 #include "hdlyap_ros/messages.h"
 
 hd_result_counts extent_of(const settings *set, hd_result_counts of_run)
@@ -22,6 +23,7 @@ static hdr_lengths lengths_of(const hd_result_counts *e)
                          .phase = e->phases,
                          .resolved = e->found,
                          .response = e->responses,
+                         .site = HD_SITES_MAX,
                          .step = e->steps,
                          .subspace = e->subspaces,
                          .t_phase = e->t_phases,

@@ -10,7 +10,7 @@
 #include "topics/progress.h"
 #include "topics/publishers.h"
 
-enum { BUFFERS = 8 }; /**< the most that one message takes */
+enum { BUFFERS = 12 }; /**< the most that one message takes */
 
 /** Memory that grows to what a message needs; the next message uses it again. */
 typedef struct buffers {

@@ -120,6 +120,15 @@ static void fill_scene(hdr_run_info *info, const hd_scene_def *def)
     info->zero_exponents = (uint32_t)hd_scene_counts(def).zero;
 }
 
+/** Fills where a particle has its disks. */
+static bool fill_sites(hdr_run_info *info, const moment *now)
+{
+    double *site = moment_take(now, HD_SITES_MAX, sizeof *site);
+    if (!site) return false;
+    info->sites = (hdr_doubles){site, (uint32_t)hd_scene_sites(&now->set->def, site), 1};
+    return true;
+}
+
 /** Fills the outline of a curved container; it is empty for a box. */
 static bool fill_outline(hdr_run_info *info, const moment *now)
 {
@@ -148,8 +157,8 @@ static void fill_machine(hdr_run_info *info, const hd_run *run)
 hd_status topic_publish_run_info(const moment *now)
 {
     hdr_run_info info = {.resumed_time = now->changes->since};
-    if (!fill_waves(&info, now) || !fill_outline(&info, now) || !fill_changes(&info, now) ||
-        !fill_parameters(&info, now) || !fill_given(&info, now))
+    if (!fill_waves(&info, now) || !fill_outline(&info, now) || !fill_sites(&info, now) ||
+        !fill_changes(&info, now) || !fill_parameters(&info, now) || !fill_given(&info, now))
         return HD_OK;
     fill_scene(&info, &now->set->def);
     fill_machine(&info, now->run);

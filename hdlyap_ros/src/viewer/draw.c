@@ -193,10 +193,10 @@ static int shade_of(turns t, uint32_t i)
     return (int)round(SHADES * fmax(-1.0, fmin(part, 1.0)));
 }
 
-/** The vector from the middle of a dumbbell to one of its disks. */
-static hdr_point arm(const heard *h, uint32_t i)
+/** The vector from the middle of a particle that turns to a place on its arm. */
+static hdr_point on_arm(const heard *h, uint32_t i, double site)
 {
-    return on_circle((hdr_point){0.0, 0.0, 0.0}, 0.5 * h->bond, h->angle[i] / TURN);
+    return on_circle((hdr_point){0.0, 0.0, 0.0}, site, h->angle[i] / TURN);
 }
 
 /** Draws the disks of panel k that have this shade. */
@@ -208,8 +208,10 @@ static void particles_of_shade(const sheet *s, int k, int shade)
     for (uint32_t i = 0; i < h->number; i++) {
         if (shade_of(t, i) != shade) continue;
         const hdr_point at = along(along(panel(s, k), 1.0, h->q[i]), 1.0, below);
-        canvas_point(s->on, along(at, 1.0, arm(h, i)));
-        if (h->bond > 0.0) canvas_point(s->on, along(along(at, -1.0, arm(h, i)), 1.0, under));
+        for (int n = h->sites - 1; n >= 0; n--)
+            canvas_point(s->on, along(along(at, 1.0, on_arm(h, i, h->site[n])),
+                                      (double)(h->sites - 1 - n), under));
+        if (h->sites == 0) canvas_point(s->on, at);
     }
 }
 
@@ -225,15 +227,16 @@ static void turning_particles(const sheet *s, const char *ns)
     }
 }
 
-/** Draws the bonds of dumbbells, from centre to centre. */
-static void draw_bonds(const sheet *s, const char *ns)
+/** Draws the arms, from the first disk to the last. */
+static void draw_arms(const sheet *s, const char *ns)
 {
     canvas_layer(s->on, ns, HDR_MARKER_LINE_LIST, PALETTE_INK, BOND);
     for (int k = 0; k < s->panels; k++)
         for (uint32_t i = 0; i < s->h->number; i++) {
             const hdr_point above = {0.0, 0.0, BOND_Z},
                             at = along(along(panel(s, k), 1.0, s->h->q[i]), 1.0, above);
-            line(s->on, along(at, -1.0, arm(s->h, i)), along(at, 1.0, arm(s->h, i)));
+            line(s->on, along(at, 1.0, on_arm(s->h, i, s->h->site[0])),
+                 along(at, 1.0, on_arm(s->h, i, s->h->site[s->h->sites - 1])));
         }
 }
 
@@ -249,14 +252,14 @@ static void draw_round(const sheet *s)
 
 static void draw_particles(const sheet *s)
 {
-    const bool pairs = s->h->bond > 0.0;
     if (s->h->time < 0.0) return;
     if (!heard_turns(s->h)) {
         draw_round(s);
         return;
     }
-    turning_particles(s, pairs ? "dumbbells" : "disks");
-    if (pairs) draw_bonds(s, "dumbbells");
+    const bool several = s->h->sites > 1;
+    turning_particles(s, several ? s->h->particles : "disks");
+    if (several) draw_arms(s, s->h->particles);
 }
 
 /* ---- arrows -------------------------------------------------------------------------------- */
@@ -412,14 +415,6 @@ static void write_time(char *text, size_t size, const heard *h)
         snprintf(text, size, "waiting for its first message");
 }
 
-/** Writes, e.g., "36 dumbbells of bond 0.25". */
-static void write_particles(char *text, size_t size, const heard *h)
-{
-    const int end = snprintf(text, size, "%u %s", (unsigned)h->number, h->particles);
-    if (h->bond > 0.0 && end < (int)size)
-        snprintf(text + end, size - (size_t)end, " of bond %.4g", h->bond);
-}
-
 /** What the colours of particles mean; "" if they do not rotate. */
 static const char *legend(const sheet *s)
 {
@@ -447,7 +442,7 @@ static void draw_caption(const sheet *s)
         h->box[2],
     };
     char time[80], box[100], particles[80];
-    write_particles(particles, sizeof particles, h);
+    snprintf(particles, sizeof particles, "%u %s", (unsigned)h->number, h->particles);
     write_box(box, sizeof box, h);
     write_time(time, sizeof time, h);
     canvas_text(s->on, "caption", at, CAPTION_HEIGHT * s->unit, PALETTE_INK,

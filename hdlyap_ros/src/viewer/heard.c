@@ -93,10 +93,9 @@ static void begin_particles(heard *h, const hdr_run_info *info)
     snprintf(h->particles, sizeof h->particles, "%s", particles);
     in_words(h->particles);
     h->inertia = info->inertia;
-    if (strcmp(particles, "dumbbells") == 0)
-        h->bond = number_in(heard_parameter(info, "bond"));
-    else
-        write_own(h->own, sizeof h->own, &info->parameters);
+    for (uint32_t k = 0; k < info->sites.count && k < HEARD_SITES_MAX; k++)
+        h->site[h->sites++] = element(&info->sites, k);
+    write_own(h->own, sizeof h->own, &info->parameters);
 }
 
 /** Keeps as many corners of the outline as there is room for. */

@@ -11,6 +11,7 @@ enum {
     HEARD_VECTORS_MAX = 64,
     HEARD_PAIRS_MAX = 8,
     HEARD_CORNERS_MAX = 512,
+    HEARD_SITES_MAX = 8,
     HEARD_NUMBER_MAX = 10000000
 };
 
@@ -36,10 +37,11 @@ typedef struct heard {
     char run_id[96], scene[64];
     char particles[32];
     uint32_t number;
-    char own[160];  /**< parameters that only these particles have, as text; not for dumbbells */
-    double bond;    /**< bond of a dumbbell [sigma]; 0 for other particles */
-    double inertia; /**< moment of inertia [sigma^2]; 0 if particles do not rotate */
-    double box[3];  /**< edges of the box; 0 along z for particles in the plane */
+    char own[160];                /**< parameters that only these particles have, as text */
+    double site[HEARD_SITES_MAX]; /**< [sites] of its disks along its arm, ascending [sigma] */
+    int sites;                    /**< 0: one, at its centre */
+    double inertia;               /**< moment of inertia [sigma^2]; 0 if particles do not rotate */
+    double box[3];                /**< edges of the box; 0 along z for particles in the plane */
     bool periodic[3];
     char container[16];
     uint32_t corners; /**< corners of the outline of a curved container; 0 for a box */

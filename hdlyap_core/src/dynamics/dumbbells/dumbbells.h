@@ -19,7 +19,8 @@ extern const hd_parameter hd_dumbbell_own[HD_DUMBBELL_OWN];
 
 extern const hd_fluid hd_fluid_dumbbells;
 
-double hd_dumbbell_bond(const hd_scene_def *scene);    /**< distance of the two centres [sigma] */
+double hd_dumbbell_bond(const hd_scene_def *scene); /**< distance of the two centres [sigma] */
+int hd_dumbbell_sites(const hd_scene_def *scene, double *site); /**< places of its disks [sigma] */
 double hd_dumbbell_inertia(const hd_scene_def *scene); /**< moment of inertia at mass 1 [sigma^2] */
 double hd_dumbbell_size(const hd_scene_def *scene);    /**< area that both disks cover */
 

@@ -41,6 +41,13 @@ double hd_dumbbell_inertia(const hd_scene_def *scene)
     return given > 0 ? given : given < 0 ? points : points + 0.125;
 }
 
+int hd_dumbbell_sites(const hd_scene_def *scene, double *site)
+{
+    site[1] = 0.5 * hd_dumbbell_bond(scene);
+    site[0] = -site[1];
+    return 2;
+}
+
 double hd_dumbbell_size(const hd_scene_def *scene)
 {
     const double half = fmin(0.5 * hd_dumbbell_bond(scene), 0.5); /* distance of centre and chord */

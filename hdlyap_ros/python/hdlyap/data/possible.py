@@ -25,6 +25,7 @@ NEEDED.update(
     number=int, observables=list, **dict.fromkeys(('density', 'aspect', 'aspect_z'), float)
 )
 KINDS = {str: 'a text', int: 'an integer', float: 'a number', list: 'a list'}
+SITES = 8  # most disks of a particle
 VECTORS = 2**16  # most zero exponents, and most vectors of a set
 WAVES = 10**6  # largest mode number
 EXPONENTS = 'exponents'  # stands for the number of exponents of the run
@@ -210,9 +211,9 @@ def _of_run_info(info):
     for axis in space.axes(info) if info.dimension else '':
         wall = getattr(info, 'boundary_' + axis)
         _refuse_other(wall in WALLS, 'boundary_' + axis, wall, f'one of {", ".join(WALLS)}')
-    bond = space.own(info).get('bond', 1.0) if info.particles == 'dumbbells' else 1.0
-    is_length = isinstance(bond, (int, float)) and 0 <= bond < LARGEST
-    _refuse_other(is_length, 'bond', bond, 'a length')
+    _refuse_other(
+        len(info.sites) <= SITES, 'sites', f'{len(info.sites)} elements', f'at most {SITES}'
+    )
 
 
 def _check_parameters(info):

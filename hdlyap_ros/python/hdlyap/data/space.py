@@ -88,13 +88,11 @@ def _short(value):
 
 
 def disks(info, q, angle=()):
-    """Rows of positions as vectors() gives them; for dumbbells twice, once for each of their
-    disks."""
-    bond = own(info).get('bond', 0.0) if info.particles == 'dumbbells' else 0.0
-    if not bond:
+    """Rows of positions as vectors() gives them, for each disk of a particle."""
+    if len(info.sites) <= 1:
         return [q]
-    arm = 0.5 * bond * np.array([np.cos(angle), np.sin(angle)])
-    return [q - arm, q + arm]
+    arm = np.array([np.cos(angle), np.sin(angle)])
+    return [q + site * arm for site in info.sites]
 
 
 def size(info):
