@@ -34,11 +34,6 @@ Averages = namedtuple('Averages', 'times averaged_times exponents std_errors loc
 Local = namedtuple('Local', 'times lengths exponents')
 
 
-def _last(topic):
-    """A property: the frame of the last message of a topic."""
-    return cached_property(lambda run: frames.of(run.last(topic), run.info))
-
-
 class Run:
     """`info` is its run_info; without one (a part of a bag) what needs a parameter raises NoInfo.
     Arrays have a row for each message: `times` (simulated),
@@ -161,14 +156,14 @@ class Run:
     def spectrum(self):
         return frames.of(self._averages.last, self.info)
 
-    modes = _last('modes')
-    steps = _last('steps')
-    phases = _last('lp_phases')
-    t_phases = _last('t_phases')
-    covariant = _last('covariant')
-    localization = _last('localization')
-    fluctuations = _last('fluctuations')
-    gas = _last('gas')
+    def __getattr__(self, topic):
+        """The frame of the last message of a topic."""
+        if topic not in topics.MEASURED:
+            raise AttributeError(f'{type(self).__name__!r} object has no attribute {topic!r}')
+        made = self.__dict__[topic] = frames.of(self.last(topic), self.info)
+        return made
+
+    phases = property(attrgetter('lp_phases'))
 
     @cached_property
     def results(self):
@@ -242,33 +237,21 @@ class Run:
     @cached_property
     def structure(self):
         """The last mean structure factors; see structure.Structure."""
-        if self._told_structure is None:
-            raise self._missing('structure with means')
-        return structure.Structure(self._told_structure)
-
-    has_structure = property(lambda self: self._told_structure is not None)
-
-    @cached_property
-    def _told_structure(self):
-        return self._last_with('structure', 'along')
+        return structure.Structure(self._last_with('structure', 'along', 'means'))
 
     @cached_property
     def growth(self):
         """The last fluctuations over finite times: see fluctuations.Growth."""
-        if self._told_growth is None:
-            raise self._missing('fluctuations with orders')
-        return fluctuations.Growth(self._told_growth, self.info)
+        return fluctuations.Growth(self._last_with('fluctuations', 'orders', 'orders'), self.info)
 
-    has_growth = property(lambda self: self._told_growth is not None)
-
-    @cached_property
-    def _told_growth(self):
-        return self._last_with('fluctuations', 'orders')
-
-    def _last_with(self, topic, slot):
-        """The last message in which this array has elements, or None."""
-        told = (one for one in self.messages(topic) if len(getattr(one, slot)))
-        return next(iter(deque(told, maxlen=1)), None)
+    def _last_with(self, topic, slot, what):
+        """The last message in which this array has elements."""
+        last = None
+        for last in (one for one in self.messages(topic) if len(getattr(one, slot))):
+            continue
+        if last is None:
+            raise self._missing(f'{topic} with {what}')
+        return last
 
     def tables(self):
         """{name: frame} of all that was recorded but run_info; see frames.tables."""

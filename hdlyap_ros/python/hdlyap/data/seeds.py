@@ -88,7 +88,7 @@ class Seeds:
         return f'<hdlyap runs of {self.info.number} {what}s, seeds {", ".join(self.seeds)}>'
 
     def __getattr__(self, name):
-        if not name.startswith('_') and hasattr(Run, name):
+        if not name.startswith('_') and (hasattr(Run, name) or name in topics.MEASURED):
             raise AttributeError(
                 f'{name} belongs to one run, but these are {len(self.runs)}: use runs[0].{name}'
             )

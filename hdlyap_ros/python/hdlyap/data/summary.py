@@ -5,6 +5,7 @@ from functools import cached_property
 
 import numpy as np
 
+from hdlyap import topics
 from hdlyap.numbers import known
 from hdlyap.parameters import with_effect
 
@@ -12,7 +13,7 @@ from . import space
 from .course import Course
 from .factors import StructureCourse
 from .phases import PhaseCourse
-from .reader import is_known
+from .reader import Missing, is_known
 from .stages import PARTS
 
 SMALLEST = 4  # how many of the smallest positive exponents are drawn over time
@@ -31,13 +32,23 @@ class Summary:
             self.info.run_id = ''
 
     summary = property(lambda self: self)  # a Run has it, too
-    spectrum = cached_property(lambda self: self._averaged('spectrum'))
-    steps = cached_property(lambda self: self._averaged('steps'))
-    gas = cached_property(lambda self: self._averaged('gas'))
-    modes = cached_property(lambda self: self._last('modes'))
-    localization = cached_property(lambda self: self._last('localization'))
-    fluctuations = cached_property(lambda self: self._averaged('fluctuations'))
-    covariant = cached_property(lambda self: self._averaged('covariant'))  # has a window or more
+
+    def __getattr__(self, topic):
+        """The last message of a topic; None if there is none with averages."""
+        if topic not in topics.MEASURED:
+            raise AttributeError(f'Summary has no {topic}')
+        message = self.data.last(topic, numpy=None) if self.data.has(topic) else None
+        is_empty = getattr(message, 'averaged_time', 1) == 0
+        self.__dict__[topic] = None if is_empty else message
+        return self.__dict__[topic]
+
+    @cached_property
+    def growth(self):
+        """Fluctuations over finite times; None if there are none."""
+        try:
+            return self.data.growth
+        except Missing:
+            return None
 
     @property
     def positive_end(self):
@@ -154,13 +165,6 @@ class Summary:
             course.add(before + now)
         table = course.table()
         return None if table is None else dict(zip(('time', 'wall', *PARTS), table.T))
-
-    def _last(self, topic):
-        return self.data.last(topic, numpy=None) if self.data.has(topic) else None
-
-    def _averaged(self, topic):
-        message = self._last(topic)
-        return message if message is not None and message.averaged_time > 0 else None
 
 
 def _typical(errors):

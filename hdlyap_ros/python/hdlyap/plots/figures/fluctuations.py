@@ -20,7 +20,7 @@ def draw(page, recording, **look):
     message = recording.fluctuations
     if message is None:
         return
-    told = recording.data.growth if recording.data.has_growth else None
+    told = recording.growth
     grid = page.panels(2, 3, 8.4, 5.0)
     diffusion, near, variance, order, domination, common = grid.flat
     _diffusions(diffusion, near, recording, look)
