@@ -1,8 +1,13 @@
-/** A run -> the numbers that it says. A new row of observables needs its say_.. here. */
+/** A run -> the numbers that it says. A row of observables whose results are more than what a
+ * checkpoint keeps has its say_NAME here. */
 #include "said.h"
 
 #include "hdlyap/fluctuations.h"
 #include "runs.h"
+
+#define HD_OBSERVABLE(name, NAME, bit, of_waves, result)                                           \
+    __attribute__((weak)) void say_##name(said *s, const hd_run *run);
+#include "hdlyap/observables.inc"
 
 /* ---- numbers ------------------------------------------------------------------------------- */
 
@@ -86,16 +91,13 @@ static void say_order(said *s, hd_order_over order, size_t n)
 
 /* ---- observables --------------------------------------------------------------------------- */
 
-static void say_gas(said *s, const hd_run *run)
+void say_gas(said *s, const hd_run *run)
 {
     const hd_gas_means means = hd_gas_read(hd_run_gas(run));
     say_all(s, "means", (const double *)&means, sizeof means / sizeof(double));
 }
 
-static void say_modes(said *s, const hd_run *run)
-{
-    say_weights(s, hd_run_modes(run), hd_run_scene(run));
-}
+void say_modes(said *s, const hd_run *run) { say_weights(s, hd_run_modes(run), hd_run_scene(run)); }
 
 static void say_step(said *s, const hd_steps *steps, int k)
 {
@@ -120,7 +122,7 @@ static void say_step(said *s, const hd_steps *steps, int k)
     if (step->resolved && waves) say(s, "scatter", hd_steps_scatter(steps, step));
 }
 
-static void say_steps(said *s, const hd_run *run)
+void say_steps(said *s, const hd_run *run)
 {
     const hd_steps *steps = hd_run_steps(run);
     for (int k = 0; k < hd_steps_count(steps); k++) say_step(s, steps, k);
@@ -137,7 +139,7 @@ static void say_steps(said *s, const hd_run *run)
     }
 }
 
-static void say_structure(said *s, const hd_run *run)
+void say_structure(said *s, const hd_run *run)
 {
     const hd_structure *of = hd_run_structure(run);
     const size_t n = (size_t)hd_run_vectors(run);
@@ -172,17 +174,17 @@ static void say_all_phases(said *s, const hd_phases *of, const hd_steps *steps)
     say_all(s, "velocity", numbers, sizeof numbers / sizeof *numbers);
 }
 
-static void say_phases(said *s, const hd_run *run)
+void say_phases(said *s, const hd_run *run)
 {
     say_all_phases(s, hd_run_phases(run), hd_run_steps(run));
 }
 
-static void say_t_phases(said *s, const hd_run *run)
+void say_t_phases(said *s, const hd_run *run)
 {
     say_all_phases(s, hd_run_t_phases(run), hd_run_steps(run));
 }
 
-static void say_localization(said *s, const hd_run *run)
+void say_localization(said *s, const hd_run *run)
 {
     hd_localization *of = hd_run_localization(run);
     say(s, "samples", (double)hd_localization_samples(of));
@@ -194,7 +196,7 @@ static void say_localization(said *s, const hd_run *run)
 }
 
 /** Of each step whose modes can be reconstructed from the vectors as they are. */
-static void say_fields(said *s, const hd_run *run)
+void say_fields(said *s, const hd_run *run)
 {
     const hd_scene_def *scene = hd_run_scene(run);
     const size_t size = (size_t)(hd_scene_coordinates(scene) * scene->number);
@@ -216,7 +218,7 @@ static void say_fields(said *s, const hd_run *run)
     }
 }
 
-static void say_hydro(said *s, const hd_run *run)
+void say_hydro(said *s, const hd_run *run)
 {
     for (int k = 0; k < hd_hydro_count(hd_run_hydro(run)); k++) {
         const hd_hydro_response *r = hd_hydro_at(hd_run_hydro(run), k);
@@ -243,7 +245,7 @@ static void say_splitting(said *s, hd_splitting_results of, size_t n)
     }
 }
 
-static void say_covariant(said *s, const hd_run *run)
+void say_covariant(said *s, const hd_run *run)
 {
     const hd_covariant_results r = hd_covariant_read(hd_run_covariant(run));
     const size_t n = (size_t)r.vectors;
@@ -280,7 +282,7 @@ static void say_pairs_of_steps(said *s, const hd_run *run)
         }
 }
 
-static void say_fluctuations(said *s, const hd_run *run)
+void say_fluctuations(said *s, const hd_run *run)
 {
     const hd_fluctuations *of = hd_run_fluctuations(run);
     for (int k = 0; k < hd_fluctuations_times(of); k++) {
@@ -356,15 +358,40 @@ static void say_run(said *s, const hd_run *run)
     say_cost(s, run);
 }
 
+static const char *const names[HD_OBSERVED] = {
+#define HD_OBSERVABLE(name, NAME, bit, of_waves, result) #name,
+#include "hdlyap/observables.inc"
+};
+static void (*const say_row[HD_OBSERVED])(said *s, const hd_run *run) = {
+#define HD_OBSERVABLE(name, NAME, bit, of_waves, result) say_##name,
+#include "hdlyap/observables.inc"
+};
+
+/** Says the bytes that a checkpoint keeps of the observable s->part. */
+static void say_kept(said *s, const hd_run *run)
+{
+    HEAP char *kept = NULL;
+    size_t size = 0;
+    int k = 0;
+    while (strcmp(names[k], s->part) != 0) k++;
+    FILE *file = open_memstream(&kept, &size);
+    hd_archive archive = hd_archive_writer(file);
+    const hd_moment now = {.trajectory = hd_run_trajectory(run), .archive = &archive};
+    hd_observable_rows[k]->archive(run->observables.part[k], &now);
+    CHECK_OK(hd_archive_end(&archive));
+    fclose(file);
+    for (size_t place = 0; place < size; place++) say(s, "kept", kept[place]);
+}
+
 said said_of_averages(const hd_run *run)
 {
     said s = {.part = "spectrum"};
     const hd_parts parts = hd_run_parts(run);
     if (parts.spectrum) say_spectrum(&s, parts.spectrum, hd_run_vectors(run));
-#define HD_OBSERVABLE(name, NAME, bit, of_waves, result)                                           \
-    s.part = #name;                                                                                \
-    if (parts.name) say_##name(&s, run);
-#include "hdlyap/observables.inc"
+    for (int k = 0; k < HD_OBSERVED; k++) {
+        s.part = names[k];
+        if (run->observables.part[k]) (say_row[k] ? say_row[k] : say_kept)(&s, run);
+    }
     return s;
 }
 
