@@ -43,6 +43,7 @@ readme            checks   second ros_build
 sanitizers_build  one      second core_build
 sanitizers_tests  ctest    second sanitizers_build
 downstream        checks   second ros_build
+one_more          checks   second ros_build,core_build
 reproduce         checks   second demo
 slurm             checks   second ros_build
 ssh               checks   second ros_build
@@ -148,6 +149,8 @@ demo() { "$ROOT/tests/demo.sh" "$TIER" "$WORK/demo" "$WORK/ros"; }
 reproduce() { "$ROOT/tests/reproduce.sh" "$WORK/reproduce"; }
 
 readme() { "$ROOT/tests/readme.sh" "$WORK/readme" "$WORK/ros/.install/setup.bash"; }
+
+one_more() { "$ROOT/tests/one_more/run.sh" "$WORK/one_more"; }
 
 downstream() { "$ROOT/tests/install/ros.sh" "$WORK/downstream" "$WORK/ros" "$WORK/ros/.install"; }
 

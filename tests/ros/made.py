@@ -1,5 +1,6 @@
 """Messages of hdlyap_node made up for tests: a run whose modes are known exactly."""
 
+import collections
 import itertools
 import math
 import os
@@ -32,7 +33,7 @@ from hdlyap.msg import (
     TPhases,
 )
 from hdlyap import parameters, topics  # noqa: F401  which reads parameters as fields
-from hdlyap.data import waves
+from hdlyap.data import fields, waves
 
 SCRIPTS = os.path.join(os.path.dirname(os.path.abspath(__file__)), '../../hdlyap_ros/scripts')
 T, LP, ZERO = Step.T, Step.LP, Step.ZERO
@@ -505,6 +506,24 @@ def t_phases(made, sim_time, began=0.0, run_id='one'):
         for index in range(one.first_index, one.last_index + 1)
     ]
     return TPhases(run_id=run_id, sim_time=sim_time, sample_time=sim_time, phases=phases)
+
+
+def others(messages, info):
+    """One message of each topic that has none among these, by the shapes of its .msg: numbers that
+    are all distinct."""
+    found = []
+    there, sizes = {type(one) for one in messages}, collections.defaultdict(lambda: 2)
+    sizes.update(particle=info.number, vector=info.vectors)
+    fractions, counts = itertools.count(1 / 1024, 1 / 1024), itertools.count(1)
+    for kind in set(topics.RECORDED.values()) - there:
+        made, described = kind(run_id='one', sim_time=150.0, first_index=1), fields.of(kind)
+        for slot, of in zip(kind.__slots__[3:], kind._slot_types[3:]):
+            numbers = fractions if of.startswith('float64') else counts
+            size = math.prod(sizes[one] for one in described[slot].shape)
+            some = [next(numbers) for _ in range(size)]
+            setattr(made, slot, some if of.endswith('[]') else some[0])
+        found.append(made)
+    return found
 
 
 def paper_info():

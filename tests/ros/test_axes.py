@@ -11,6 +11,7 @@ import bags
 import made
 import made_fields
 import test_covariant_pictures
+import test_strangers
 import test_structure
 from hdlyap.plots.figures import FIGURES
 from hdlyap.sweep import figure as sweep, points
@@ -28,7 +29,7 @@ def everything():
     field = made_fields.mode_field(info, lp, 150.0, index=35, modulations=(0, 1))
     field.residual_p = [0.2, 0.1]
     times = np.arange(101.0, 140.0)
-    return [
+    messages = [
         *(info, *rest, made.steps([lp, t, *others]), field),
         made_fields.mode_field(info, t, 150.0, index=36),
         *(made.lp_phases(info, [lp], time, began=100.0) for time in times),
@@ -39,6 +40,7 @@ def everything():
             [(one.kind, one.nx, one.ny, [one.first_index, one.last_index]) for one in (lp, t)],
         ),
     ]
+    return messages + made.others(test_strangers.every_kind(), info)
 
 
 class Axes(bags.Bags):

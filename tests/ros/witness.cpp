@@ -393,6 +393,9 @@ template <class Function> Function real_of(Function, const char *name)
 }
 #define REAL(function) real_of(&function, #function)
 
+/** Of messages that nothing else is known of. */
+template <class message> members beside(const message *) { return {}; }
+
 /** Where a run begins or is changed. */
 void change(const hd_run *of)
 {
