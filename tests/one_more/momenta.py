@@ -14,10 +14,8 @@ def draw(page, recording, **look):
     if message is None:
         return
     grid = page.panels(1, 2, 7.6, 3.4, squeeze=False)
-    for axes, what in zip(grid[0], ('momenta', 'powers')):
-        values = getattr(message, what)
-        numbers = np.arange(1, len(values) + 1)
-        axes.plot(numbers, values, **{'color': BLUE, 'linewidth': 0.8, **look})
+    for axes, values in zip(grid[0], (message.momenta, message.powers)):
+        axes.plot(np.arange(1, len(values) + 1), values, **{'color': BLUE, **look})
     grid[0, 0].set(xlabel='particle', ylabel='mean of $|p|^4$')
     grid[0, 1].set(xlabel='Lyapunov index', ylabel='mean of $\\Sigma(\\delta q^2 + \\delta p^2)^2$')
     page.title(recording.info, *grid[0])
