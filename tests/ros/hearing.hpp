@@ -38,6 +38,7 @@ struct hearing {
         heard_clear(&h);
         for (int k = 0; k < 100; k++) numbers.push_back(0.01 * k);
         set("scene", "a scene"), set("particles", "disks"), set("number", "3"); // DISKS
+        set("observables", "spectrum, steps, fields");
         set("boundary_x", "periodic"), set("boundary_y", boundary), set("container", "rectangle");
         info.run_id = "run", info.box_x = info.box_y = 10.0, info.vectors = 9;
         info.wave_nx = {nx, 2}, info.wave_ny = {ny, 2};

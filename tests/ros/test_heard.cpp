@@ -202,7 +202,7 @@ TEST(heard, only_modes_that_there_can_be)
     EXPECT_TRUE(heard_run_info(&walls.h, &walls.info));
     EXPECT_FALSE(walls.h.has_t);
     EXPECT_EQ(1, walls.drawn().modes);
-    walls.info.run_id = "state alone", walls.info.wave_nx.count = 0;
+    walls.info.run_id = "state alone", walls.set("observables", "covariant, t_phases_of_mine");
     EXPECT_TRUE(heard_run_info(&walls.h, &walls.info));
     EXPECT_EQ(0, walls.drawn().modes);
 }

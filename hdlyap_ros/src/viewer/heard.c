@@ -80,6 +80,15 @@ static void write_own(char *text, size_t size, const hdr_parameter_list *list)
     in_words(text);
 }
 
+/** Whether a list of words with ", " between them has this one. */
+static bool has_word(const char *list, const char *word)
+{
+    const size_t length = strlen(word);
+    for (const char *at = list; (at = strstr(at, word)); at += length)
+        if ((at == list || at[-1] == ' ') && (at[length] == ',' || !at[length])) return true;
+    return false;
+}
+
 /** A number that is finite; 0 if it is none. */
 static double number_in(const char *text)
 {
@@ -124,12 +133,16 @@ static void begin_box(heard *h, const hdr_run_info *info)
 
 static void begin(heard *h, const hdr_run_info *info)
 {
+    static const char *const of_modes[] = {"modes",  "steps", "lp_phases", "t_phases",
+                                           "fields", "hydro", "structure"};
+    const char *observables = heard_parameter(info, "observables");
     snprintf(h->run_id, sizeof h->run_id, "%s", info->run_id);
     snprintf(h->scene, sizeof h->scene, "%s", heard_parameter(info, "scene"));
     begin_particles(h, info);
     h->stage = UINT8_MAX;
     begin_box(h, info);
-    h->has_lp = info->wave_nx.count > 0;
+    for (size_t k = 0; k < sizeof of_modes / sizeof *of_modes; k++)
+        h->has_lp |= info->wave_nx.count > 0 && has_word(observables, of_modes[k]);
     h->has_t = h->has_lp && has_transverse(h, info);
     h->begun = true;
 }
