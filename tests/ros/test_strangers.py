@@ -23,6 +23,8 @@ from test_data_joined import HALF, numbered
 from test_data_tools import Tools
 from test_structure import message as structure
 
+BOND = 'parameters[%d].effect' % len(made.PARAMETERS)  # of dumbbells
+DURATION = 'parameters[%d].effect' % list(made.PARAMETERS).index('duration')
 SECONDS = 10.0  # of a processor for an answer; nested aliases took 100, an index of 4e9 took 90
 INTEGERS = 0, 1, 2**31 - 1, 2**31, 2**32 - 1, 2**64 - 1
 REALS = float('nan'), float('inf'), -float('inf'), -1.0, 0.0, 1e-320, 1e100, 1e308
@@ -42,13 +44,8 @@ def of_hydro(step):
 
 def every_kind():
     """A run with a message of each type that a bag has, at its end."""
-    info = made.run_info(
-        particles='dumbbells',
-        inertia=0.14,
-        sites=[-0.125, 0.125],
-        own=['bond=0.25', 'inertia=disks'],
-    )
-    info.coordinates, info.vectors = 3, 37
+    info = made.run_info(particles='dumbbells', inertia=0.14, own=['bond=0.25', 'inertia=disks'])
+    info.coordinates, info.vectors, info.sites = 3, 37, [-0.125, 0.125]
     found = [made.step(info, T, 1, 0, 36, 37), made.step(info, LP, 1, 0, 32, 35)]
     turned = dict.fromkeys(('angle', 'spin', 'dq_angle', 'dp_angle'), [0.1] * 20)
     x, y, px, py = made_fields.disks(info)
@@ -197,6 +194,8 @@ class Together(Strangers):
         kinds = [message._type for message in whole]
         film = self.path('a') + '.mp4'
         for kind, path, values, said in (
+            ('RunInfo', BOND, ['nan', '-inf', '1e999', '[', ALIASES], 'bond = .*: must be '),
+            ('RunInfo', DURATION, ['nan', ''], 'duration = .*: must be '),
             ('RunInfo', 'sites', [[float('nan')], 9 * [0.1]], 'sites = .*: must be '),
             ('RunInfo', 'coordinates', [0], 'coordinates = 0: must be from 1 to 1000'),
             ('RunInfo', 'zero_exponents', [2**31], 'zero_exponents = 2147483648: must be from 0'),

@@ -18,12 +18,9 @@ LEAST = 1 / LARGEST  # least number above 0
 COUNT = 2**62  # largest integer
 PARTICLES, COORDINATES = 10**6, 1000  # most of a run, as of the parameter number
 # parameters that every run has, and the type of their values
-NEEDED = dict.fromkeys(
-    'scene particles container seed field_indices boundary_x boundary_y boundary_z'.split(), str
-)
-NEEDED.update(
-    number=int, observables=list, **dict.fromkeys(('density', 'aspect', 'aspect_z'), float)
-)
+TEXTS = 'scene particles container seed field_indices boundary_x boundary_y boundary_z'
+NEEDED = dict.fromkeys(TEXTS.split(), str)
+NEEDED.update(number=int, observables=list, density=float, aspect=float, aspect_z=float)
 KINDS = {str: 'a text', int: 'an integer', float: 'a number', list: 'a list'}
 SITES = 8  # most disks of a particle
 VECTORS = 2**16  # most zero exponents, and most vectors of a set
@@ -229,10 +226,9 @@ def _check_parameters(info):
     for one in info.parameters:
         _refuse_other(WORD.fullmatch(one.name), 'parameters', one.name, 'a name')
         is_number = isinstance(found[one.name], (int, float)) and abs(found[one.name]) <= LARGEST
-        is_own = one.own and one.kind == one.WORD
-        if one.kind in (one.NUMBER, one.INTEGER) or is_own:
-            is_right = is_number or WORD.fullmatch(one.effect)
-            _refuse_other(is_right, one.name, one.effect, 'a number or a word')
+        is_word = isinstance(found[one.name], str) and WORD.fullmatch(one.effect)
+        if one.kind in (one.NUMBER, one.INTEGER) or one.own:
+            _refuse_other(is_number or is_word, one.name, one.effect, 'a number or a word')
     is_right = 1 <= found['number'] <= PARTICLES
     _refuse_other(is_right, 'number', found['number'], f'from 1 to {PARTICLES}')
 

@@ -163,6 +163,9 @@ class Run:
         made = self.__dict__[topic] = frames.of(self.last(topic), self.info)
         return made
 
+    def __dir__(self):
+        return [*super().__dir__(), *topics.MEASURED]
+
     phases = property(attrgetter('lp_phases'))
 
     @cached_property

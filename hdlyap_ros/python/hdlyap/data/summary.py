@@ -38,8 +38,8 @@ class Summary:
         if topic not in topics.MEASURED:
             raise AttributeError(f'Summary has no {topic}')
         message = self.data.last(topic, numpy=None) if self.data.has(topic) else None
-        is_empty = getattr(message, 'averaged_time', 1) == 0
-        self.__dict__[topic] = None if is_empty else message
+        has_means = getattr(message, 'averaged_time', 1) > 0
+        self.__dict__[topic] = message if has_means else None
         return self.__dict__[topic]
 
     @cached_property
