@@ -171,8 +171,14 @@ def _check_lengths(message, around):
     if _name(message) in NOT_EMPTY and not lengths[NOT_EMPTY[_name(message)]]:
         raise Damaged(f'hdlyap/{_name(message)}: no {NOT_EMPTY[_name(message)]}')
     for rule in _rules(type(message)):
-        for one in getattr(message, rule.name) if rule.parts else ():
+        parts = getattr(message, rule.name) if rule.parts else ()
+        for one in parts if parts and _has_arrays(type(parts[0])) else ():
             _check_lengths(one, sizes)
+
+
+@lru_cache(maxsize=None)
+def _has_arrays(kind):
+    return any(field.shape for field in fields.of(kind).values())
 
 
 def _sizes(shaped, lengths, around):
