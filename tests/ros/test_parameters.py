@@ -39,7 +39,7 @@ ARGUMENTS = {
 # by run.launch
 HANDED_OVER = {
     'a.yaml: line 1: must be a list of parameters': dict(scene='seed', file='a.yaml'),
-    'particles = cubes: must be disks, spheres, ': dict(
+    'particles = cubes: must be disks or spheres or ': dict(
         scene='particles: spheres', arguments='particles:=cubes'
     ),
     'params: line 1: seed = 012: must be a number in': dict(params='{seed: 012}'),

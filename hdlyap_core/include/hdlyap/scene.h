@@ -14,17 +14,19 @@
 
 HD_API_BEGIN
 
-/** What moves: hard disks in the plane; hard spheres in space; dumbbells in the plane, each a rigid
- * pair of disks with mass 1 together; or soft particles in the plane or in space, on which a smooth
- * potential acts and which move in time steps. There are 4 N exponents for particles with 2
- * coordinates (disks, soft disks) and 6 N for those with 3. */
-typedef enum hd_particles {
-    HD_DISKS,
-    HD_SPHERES,
-    HD_DUMBBELLS,
-    HD_SOFT_DISKS,
-    HD_SOFT_SPHERES
-} hd_particles;
+/** What can move: EACH(NAME, name, what it is) for the particles that the core has. A scene holds
+ * HD_NAME, a user writes the name, and the row of the dynamics is hd_name_row. There are 4 N
+ * exponents for particles with 2 coordinates (disks, soft disks) and 6 N for those with 3. */
+#define HD_PARTICLES_ALL(EACH)                                                                     \
+    EACH(DISKS, disks, "hard disks in the plane")                                                  \
+    EACH(SPHERES, spheres, "hard spheres in space")                                                \
+    EACH(DUMBBELLS, dumbbells, "rigid pairs of hard disks in the plane, of mass 1 together")       \
+    EACH(SOFT_DISKS, soft_disks, "in the plane, moved by a smooth potential in time steps")        \
+    EACH(SOFT_SPHERES, soft_spheres, "as soft_disks, but in space")
+
+#define HD_PARTICLES_VALUE(NAME, name, what) HD_##NAME,
+typedef enum hd_particles { HD_PARTICLES_ALL(HD_PARTICLES_VALUE) HD_PARTICLES_END } hd_particles;
+#undef HD_PARTICLES_VALUE
 
 /** Largest dimension of space, which is the length of arrays with an element for each direction. */
 enum { HD_DIMENSION_MAX = 3 };

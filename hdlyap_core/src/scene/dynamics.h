@@ -3,9 +3,11 @@
 #define HD_DYNAMICS_ROWS_H
 
 #include "hdlyap/dynamics.h"
+#include "hdlyap/scene.h"
 
-extern const hd_dynamics hd_hard_disks, hd_hard_spheres, hd_dumbbells_row, hd_soft_disks,
-    hd_soft_spheres;
+#define ROW(NAME, name, what) extern const hd_dynamics hd_##name##_row;
+HD_PARTICLES_ALL(ROW)
+#undef ROW
 
 /** Rows that a program adds to those of the core: row[count]. */
 typedef struct hd_known {

@@ -7,10 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const hd_parameter_word hd_particles_words[] = {
-    {"disks", HD_DISKS},           {"spheres", HD_SPHERES},           {"dumbbells", HD_DUMBBELLS},
-    {"soft_disks", HD_SOFT_DISKS}, {"soft_spheres", HD_SOFT_SPHERES}, {NULL, 0}};
 #define WORD(NAME, name, what) {#name, HD_##NAME},
+static const hd_parameter_word hd_particles_words[] = {HD_PARTICLES_ALL(WORD){NULL, 0}};
 static const hd_parameter_word hd_container_words[] = {HD_CONTAINERS(WORD){NULL, 0}};
 #undef WORD
 static const hd_parameter_word hd_boundary_words[] = {

@@ -49,7 +49,7 @@ hd_scene_def hd_scene_def_of(const hd_dynamics *dynamics)
     HD_ASSERT(is_whole(dynamics));
     hd_scene_def def = hd_scene_def_default();
     def.dynamics = dynamics;
-    for (int k = HD_DISKS; k <= HD_SOFT_SPHERES; k++) {
+    for (int k = HD_DISKS; k < HD_PARTICLES_END; k++) {
         const hd_scene_def core = {.particles = (hd_particles)k};
         const hd_dynamics *row = hd_dynamics_of(&core);
         if (strcmp(row->particles, dynamics->particles) != 0) continue;

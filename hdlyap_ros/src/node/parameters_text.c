@@ -160,8 +160,14 @@ static void print_lines(const parameter *p, const char *particles)
 
 int parameters_print_scene(void)
 {
+    const hd_dynamics *of;
     print_comment(head);
-    return print_all(print_lines);
+    const int status = print_all(print_lines);
+    printf("\n");
+    for (int r = 0; (of = particles_at(r)); r++)
+        printf("# %s: %d coordinates, %d of them its position\n", of->particles, of->coordinates,
+               of->dimension);
+    return status ? status : fflush(stdout) != 0;
 }
 
 /** Prints a cell of a table; a bar in it is escaped, as it would end the cell. */

@@ -77,11 +77,6 @@ const hd_dynamics *particles_now(void)
 void particles_names(char *text, size_t size)
 {
     int length = snprintf(text, size, "%s", row_of_core()->range);
-    if (brought_count == 0) return;
-    char *last = strstr(text, " or ");
-    if (last) memmove(last + 2, last + 4, strlen(last + 4) + 1), last[0] = ',', last[1] = ' ';
-    length = (int)strlen(text);
     for (int k = 0; k < brought_count && (size_t)length < size; k++)
-        length += snprintf(text + length, size - (size_t)length, "%s%s",
-                           k + 1 < brought_count ? ", " : " or ", brought[k]->particles);
+        length += snprintf(text + length, size - (size_t)length, " or %s", brought[k]->particles);
 }

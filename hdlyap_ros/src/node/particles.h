@@ -25,7 +25,7 @@ bool particles_choose(hd_scene_def *def, const char *name);
 void particles_are(const hd_dynamics *of);
 const hd_dynamics *particles_now(void);
 
-/** Writes all names, as "disks, spheres or chain". */
+/** Writes all names, as "disks or spheres or chain". */
 void particles_names(char *text, size_t size);
 
 #endif

@@ -3,7 +3,7 @@
 #include "kept.h"
 #include "same.h"
 
-enum { KINDS = HD_SOFT_SPHERES + 3, CIRCLE = KINDS - 2, CHAIN = KINDS - 1 };
+enum { KINDS = HD_PARTICLES_END + 2, CIRCLE = KINDS - 2, CHAIN = KINDS - 1 };
 
 /** Particles of the core, disks in a circle, or those of a program. */
 static hd_scene_def scene_of_kind(int kind, int number, int exponents)

@@ -127,7 +127,7 @@ static void out_at_each_of_both(const char *name, hd_scene_def scene)
 
 TEST(of_each_kind)
 {
-    for (hd_particles kind = HD_DISKS; kind <= HD_SOFT_SPHERES; kind++) {
+    for (hd_particles kind = HD_DISKS; kind < HD_PARTICLES_END; kind++) {
         const hd_scene_def scene = of_kind(kind);
         out_at_each_of_both(hd_dynamics_of(&scene)->particles, scene);
     }
@@ -172,7 +172,7 @@ TEST(nothing_is_needed_to_read)
 {
     expect_read_without(all_observables());
     expect_read_without(windows());
-    for (hd_particles kind = HD_DISKS; kind <= HD_SOFT_SPHERES; kind++)
+    for (hd_particles kind = HD_DISKS; kind < HD_PARTICLES_END; kind++)
         expect_read_without(of_kind(kind));
     expect_read_without(scene_from(chain_of(N, 10.0, HD_EXPONENTS_NONE), .duration = 5.0));
 }

@@ -224,24 +224,24 @@ static hd_scene_def plain(const hd_scene_def *scene)
 static hd_status create_disks(void **state, const hd_scene_def *scene)
 {
     const hd_scene_def def = plain(scene);
-    return hd_hard_disks.create(state, &def);
+    return hd_disks_row.create(state, &def);
 }
 
 static double entries_of_disks(const hd_scene_def *scene)
 {
     const hd_scene_def def = plain(scene);
-    return hd_hard_disks.record_rate(&def);
+    return hd_disks_row.record_rate(&def);
 }
 
 static double rate_of_disks(const hd_scene_def *scene)
 {
     const hd_scene_def def = plain(scene);
-    return hd_hard_disks.collision_rate(&def);
+    return hd_disks_row.collision_rate(&def);
 }
 
 static hd_dynamics disks_of_ones_own(void)
 {
-    hd_dynamics own = hd_hard_disks;
+    hd_dynamics own = hd_disks_row;
     own.particles = "coins";
     own.create = create_disks;
     own.record_rate = entries_of_disks;
@@ -355,7 +355,7 @@ TEST(a_row_that_lacks_something_is_a_bug)
     row.dimension = row.coordinates = 1;
     assert_true(is_a_bug(&row));
     row = of_chain;
-    row.maps_fill = hd_hard_disks.maps_fill; /* but not the rest of them */
+    row.maps_fill = hd_disks_row.maps_fill; /* but not the rest of them */
     assert_true(is_a_bug(&row));
     row = of_chain;
     row.parameter = elsewhere;

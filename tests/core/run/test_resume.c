@@ -63,13 +63,13 @@ static unsigned drawn_observables(hd_random *random, const hd_scene_def *def)
 /** Another kind of particles than disks in a rectangle, now and then. */
 static void draw_particles(hd_scene_def *def, hd_random *random)
 {
-    const int kind = one_of(random, 2 * HD_SOFT_SPHERES);
-    if (kind == 0 || kind > HD_SOFT_SPHERES) return;
+    const int kind = one_of(random, 2 * (HD_PARTICLES_END - 1));
+    if (kind == 0 || kind >= HD_PARTICLES_END) return;
     const hd_scene_def core = {.particles = (hd_particles)kind};
     const hd_scene_def own = hd_scene_def_of(hd_dynamics_of(&core));
     def->particles = own.particles;
     memcpy(def->own, own.own, sizeof def->own);
-    if (kind < HD_SOFT_DISKS) return;
+    if (!hd_dynamics_of(def)->step) return;
     def->boundary[0] = def->boundary[1] = P;
     def->aspect = 1.0;
     def->density = log_uniform(random, 0.1, 0.7);

@@ -66,7 +66,7 @@ static double check_one(const hd_scene_def *def, int *accepted)
 TEST(scenes_are_judged_at_once_and_what_is_accepted_starts)
 {
     const int each = second_tier() ? 20000 : 400;
-    for (int particles = HD_DISKS; particles <= HD_SOFT_SPHERES; particles++) {
+    for (int particles = HD_DISKS; particles < HD_PARTICLES_END; particles++) {
         hd_random random = hd_random_seeded(60, (uint64_t)particles);
         double seconds = 0.0;
         int accepted = 0;

@@ -176,7 +176,7 @@ TEST(a_third_direction)
     const hd_scene_def high = scene(.aspect_z = 0.5), other = scene(.particles = 5);
     const hd_scene_def walls = scene(.boundary[2] = R);
     check_refused(&other, "particles", "= 5",
-                  "disks, spheres, dumbbells, soft_disks or soft_spheres");
+                  "disks or spheres or dumbbells or soft_disks or soft_spheres");
     const hd_scene_def dense = scene(.density = 1.1548);
     check_refused(&dense, "density", "= 1.1548", "from 1e-6 to 1.1547 with particles = disks");
     check_refused(&high, "aspect_z", "= 0.5", "must not be given with particles = disks");

@@ -9,9 +9,9 @@
 
 /** Of the particles that this test is of. */
 #if HD_DIM == 2
-#define DYNAMICS (&hd_hard_disks)
+#define DYNAMICS (&hd_disks_row)
 #else
-#define DYNAMICS (&hd_hard_spheres)
+#define DYNAMICS (&hd_spheres_row)
 #endif
 
 static inline hd_event *events_in(const hd_record *record) { return record->entry; }

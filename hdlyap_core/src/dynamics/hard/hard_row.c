@@ -186,9 +186,9 @@ static double hard_size(const hd_scene_def *scene)
 }
 
 #if HD_DIM == 2
-#define ROW hd_hard_disks
+#define ROW hd_disks_row
 #else
-#define ROW hd_hard_spheres
+#define ROW hd_spheres_row
 #endif
 const hd_dynamics ROW = {.particles = HD_DIM == 2 ? "disks" : "spheres",
                          .dimension = HD_DIM,

@@ -483,5 +483,5 @@ static const char *row_fault(const hd_record *record, const hd_scene_def *scene)
         .maps_create = hd_kick_maps_create_##in, .maps_free = hd_kick_maps_free,                   \
         .maps_fill = hd_kick_maps_fill, .carry = hd_kick_maps_carry                                \
     }
-const hd_dynamics hd_soft_disks = SOFT("soft_disks", plane, 2, HD_BENDS_PLANE);
-const hd_dynamics hd_soft_spheres = SOFT("soft_spheres", space, 3, HD_BENDS_SPACE);
+const hd_dynamics hd_soft_disks_row = SOFT("soft_disks", plane, 2, HD_BENDS_PLANE);
+const hd_dynamics hd_soft_spheres_row = SOFT("soft_spheres", space, 3, HD_BENDS_SPACE);

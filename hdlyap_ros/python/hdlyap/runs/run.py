@@ -27,6 +27,7 @@ BEGIN, STEP, DISKS = 5.0, 0.03, 200
 OWN_PARAMETER = re.compile(
     r'^# For (\w+(?: and \w+)*) only\.\n(?:# .*\n)*?# (\w+): (\S+)$', re.MULTILINE
 )
+KIND = re.compile(r'^# (\w+): (\d+) coordinates, (\d+) of them its position$', re.MULTILINE)
 
 
 class Planned:
@@ -118,7 +119,7 @@ def _check(parameters):
 def _estimate(parameters):
     time = sum(parameters[name] for name in TIMES if is_number(parameters[name]))
     disks = parameters['number'] if is_number(parameters['number']) else DISKS  # node refuses it
-    coordinates = 2 if parameters.get('particles') in ('disks', 'soft_disks') else 3
+    coordinates, _ = _coordinates(parameters)
     return BEGIN + STEP * time * (coordinates / 2 * disks / DISKS) ** 2
 
 
@@ -151,8 +152,15 @@ def completed(given):
 
 
 def is_solid(parameters):
-    """Whether the run has spheres, hard or soft."""
-    return parameters.get('particles') in ('spheres', 'soft_spheres')
+    """Whether the particles are in space."""
+    _, dimension = _coordinates(parameters)
+    return dimension == 3
+
+
+def _coordinates(parameters):
+    """Coordinates of a particle, and how many of them are its position, as the node says."""
+    found = {name: (int(every), int(of)) for name, every, of in KIND.findall(_said())}
+    return found.get(parameters.get('particles'), (2, 2))  # the node refuses others
 
 
 def is_number(value):
