@@ -124,10 +124,8 @@ TEST(seconds_of_disks_alone)
 
 static hd_scene_def of_kind(hd_particles particles, int number, double density, double duration)
 {
-    const hd_scene_def kind = {.particles = particles};
-    return scene_from(hd_scene_def_of(hd_dynamics_of(&kind)), .number = number, .density = density,
-                      .aspect = 0.5, .equilibration = 20.0, .warmup = 20.0, .duration = duration,
-                      .threads = 1);
+    return scene_from(scene_of_kind(particles, number, density, 0.5), .equilibration = 20.0,
+                      .warmup = 20.0, .duration = duration, .threads = 1);
 }
 
 /** Averaged time at the first report that states the errors of all exponents. */

@@ -6,15 +6,13 @@
 enum { KINDS = HD_PARTICLES_END + 2, CIRCLE = KINDS - 2, CHAIN = KINDS - 1 };
 
 /** Particles of the core, disks in a circle, or those of a program. */
-static hd_scene_def scene_of_kind(int kind, int number, int exponents)
+static hd_scene_def of_kind(int kind, int number, int exponents)
 {
-    const hd_scene_def core = {.particles = kind < CIRCLE ? (hd_particles)kind : HD_DISKS};
     hd_scene_def def = kind == CHAIN ? chain_of(number, 10.0, exponents)
-                                     : hd_scene_def_of(hd_dynamics_of(&core));
-    if (kind == CIRCLE) def.container = HD_CIRCLE;
-    if (kind < CIRCLE) def.aspect = 1.0;
-    if (kind < CHAIN) def.density = 0.4;
-    def.number = number;
+                                     : scene_of_kind(kind < CIRCLE ? (hd_particles)kind : HD_DISKS,
+                                                     number, 0.4, 1.0);
+    if (kind == CIRCLE)
+        def = scene_from(def, .container = HD_CIRCLE, .aspect = usual_scene().aspect);
     def.exponents = exponents;
     def.equilibration = def.warmup = 0.05;
     def.duration = 1.0;
@@ -55,8 +53,7 @@ TEST(each_kind_is_resumed)
     static const int exponents[] = {HD_EXPONENTS_NONE, 1, 4, 20, HD_EXPONENTS_POSITIVE,
                                     HD_EXPONENTS_ALL};
     for (int kind = 0; kind < KINDS; kind++)
-        for (int k = 0; k < 6; k++)
-            expect_resumed_at_any_time(scene_of_kind(kind, 24, exponents[k]));
+        for (int k = 0; k < 6; k++) expect_resumed_at_any_time(of_kind(kind, 24, exponents[k]));
 }
 
 /** With nothing recorded, the files are as short as they can be. */
@@ -67,18 +64,18 @@ TEST(many_of_each_kind_are_resumed)
     } sizes[] = {{400, HD_EXPONENTS_NONE}, {400, 4}, {400, 20}, {20000, 2}};
     for (int kind = 0; kind < KINDS; kind++)
         for (int k = 0; k < 4; k++) {
-            OWNED(hd_run) *run = kept_run(scene_of_kind(kind, sizes[k].number, sizes[k].exponents));
+            OWNED(hd_run) *run = kept_run(of_kind(kind, sizes[k].number, sizes[k].exponents));
             expect_resumed(run, "at the start");
         }
     if (!second_tier()) return;
-    OWNED(hd_run) *most = kept_run(scene_of_kind(HD_SOFT_DISKS, 1000000, 2));
+    OWNED(hd_run) *most = kept_run(of_kind(HD_SOFT_DISKS, 1000000, 2));
     expect_resumed(most, "at the start");
 }
 
 /** Vectors in which all else is lost. */
 TEST(a_long_chain_is_resumed)
 {
-    OWNED(hd_run) *run = kept_run(scene_of_kind(CHAIN, 1000, HD_EXPONENTS_POSITIVE));
+    OWNED(hd_run) *run = kept_run(of_kind(CHAIN, 1000, HD_EXPONENTS_POSITIVE));
     expect_resumed(run, "at the start");
 }
 
@@ -92,7 +89,7 @@ TEST(a_row_that_keeps_less_than_its_particles_is_not_saved)
 {
     hd_dynamics of_less = of_chain;
     of_less.archive = keep_no_particle;
-    hd_scene_def scene = scene_of_kind(CHAIN, 1000, HD_EXPONENTS_NONE);
+    hd_scene_def scene = of_kind(CHAIN, 1000, HD_EXPONENTS_NONE);
     scene.dynamics = &of_less;
     OWNED(hd_run) *run = kept_run(scene);
     char line[512] = "";

@@ -91,10 +91,10 @@ static void out_at_each(const char *name, const hd_scene_def *scene, const char 
 /** Of each kind of particles, with what it keeps beside them. */
 static hd_scene_def of_kind(hd_particles particles)
 {
-    const hd_scene_def core = {.particles = particles};
-    return scene_from(hd_scene_def_of(hd_dynamics_of(&core)), .number = 36, .density = 0.4,
-                      .aspect = 1.0, .exponents = 4, .observe = HD_OBSERVE_GAS, .threads = 1,
-                      .equilibration = 0.1, .warmup = 0.5, .duration = 1.0);
+    const hd_scene_def def = scene_of_kind(particles, 36, 0.4, 1.0);
+    return scene_from(def, .exponents = 4, .threads = 1, .equilibration = 0.1, .warmup = 0.5,
+                      .observe = hd_dynamics_of(&def)->totals ? HD_OBSERVE_GAS : 0,
+                      .duration = 1.0);
 }
 
 static hd_scene_def windows(void)

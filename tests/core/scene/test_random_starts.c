@@ -24,8 +24,7 @@ static void make_tight(hd_random *random, hd_scene_def *def, double needed)
 
 static hd_scene_def drawn(hd_random *random, hd_particles particles)
 {
-    const hd_scene_def kind = {.particles = particles};
-    hd_scene_def def = hd_scene_def_of(hd_dynamics_of(&kind));
+    hd_scene_def def = scene_of_kind(particles, 1, 1.0, 1.0);
     const bool flat = hd_scene_dimension(&def) == 2, bonded = particles == HD_DUMBBELLS;
     def.number = (int)log_uniform(random, 1.0, 1000.0);
     def.density = log_uniform(random, 1e-3, 1.2);
@@ -67,6 +66,8 @@ TEST(scenes_are_judged_at_once_and_what_is_accepted_starts)
 {
     const int each = second_tier() ? 20000 : 400;
     for (int particles = HD_DISKS; particles < HD_PARTICLES_END; particles++) {
+        const hd_scene_def kind = {.particles = (hd_particles)particles};
+        if (hd_scene_dimension(&kind) == 0) continue;
         hd_random random = hd_random_seeded(60, (uint64_t)particles);
         double seconds = 0.0;
         int accepted = 0;

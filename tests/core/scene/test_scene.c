@@ -173,10 +173,11 @@ TEST(whole_fields_out_of_range)
 /** What is of spheres alone is refused, not left aside. */
 TEST(a_third_direction)
 {
-    const hd_scene_def high = scene(.aspect_z = 0.5), other = scene(.particles = 5);
+    const hd_scene_def high = scene(.aspect_z = 0.5), other = scene(.particles = HD_PARTICLES_END);
+    char value[32];
     const hd_scene_def walls = scene(.boundary[2] = R);
-    check_refused(&other, "particles", "= 5",
-                  "disks or spheres or dumbbells or soft_disks or soft_spheres");
+    snprintf(value, sizeof value, "= %d", HD_PARTICLES_END);
+    check_refused(&other, "particles", value, "disks or spheres or dumbbells or soft_disks or ");
     const hd_scene_def dense = scene(.density = 1.1548);
     check_refused(&dense, "density", "= 1.1548", "from 1e-6 to 1.1547 with particles = disks");
     check_refused(&high, "aspect_z", "= 0.5", "must not be given with particles = disks");

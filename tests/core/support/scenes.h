@@ -39,6 +39,17 @@ static inline hd_scene_def usual_scene(void)
     return def;
 }
 
+/** Particles of a kind of the core, which may have no box. */
+static inline hd_scene_def scene_of_kind(hd_particles kind, int count, double density,
+                                         double aspect)
+{
+    const hd_scene_def core = {.particles = kind};
+    hd_scene_def def = hd_scene_def_of(hd_dynamics_of(&core));
+    def.number = count;
+    if (hd_scene_dimension(&def) > 0) def.density = density, def.aspect = aspect;
+    return def;
+}
+
 /** The default scene but for the fields given: scene(.number = 12, .boundary[1] = HD_REFLECTING).
  */
 #define scene(...) scene_from(usual_scene(), __VA_ARGS__)
