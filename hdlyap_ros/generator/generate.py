@@ -1,21 +1,8 @@
 #!/usr/bin/env python3
 """msg/*.msg -> the messages for C: a header of structs, and lists of fields for the wrapper.
 
-The comment of a float64 says what is sent while its value is not known: 'NaN if FIELD is VALUE',
-'NaN unless FIELD', or the same with -1. VALUE is a number or a constant (0 if there is none), and
-'while' means 'if'. Otherwise the number must be finite. A comment with NaN but without such a rule
-allows NaN at any time.
-
-If a field has no comment, or only a unit ('# [sigma]') or a shape, the comment above it describes
-it, too.
-
-An array's comment ends with its shape: the names of its dimensions, out of DIMENSIONS, as in
-{vector, particle}, from which sizes of messages follow. @space: it is empty in the plane; @turning:
-unless particles turn; @fields: unless fields are due; @known: unless it is known at that time.
-
-A field 'one of FIRST .. LAST' holds one of these constants. The text before the first colon in the
-comment of a constant is its name: hdr_MESSAGE_FIELD_text(value) in C, hdlyap.data.fields.words in
-Python.
+What their comments say of fields is at hdlyap.data.fields; dimensions are out of DIMENSIONS.
+The names of constants are hdr_MESSAGE_FIELD_text(value).
 
 generate.py PACKAGE HEADER FIELDS MESSAGE_FILE...
 """
@@ -25,6 +12,10 @@ import re
 import sys
 
 import genmsg
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+sys.path.insert(0, os.path.join(HERE, '..', 'python', 'hdlyap', 'data'))
+import fields as read_fields  # noqa: E402, its package needs the messages
 
 NUMBERS = {
     'bool': 'bool',
@@ -53,10 +44,6 @@ DIMENSIONS = (
 )
 DIMENSIONS += 'step subspace t_phase transverse vector wave'
 WORDS = '@space', '@turning', '@fields', '@known'
-
-CHOICE = re.compile(r'one of (\w+) \.\. (\w+)')
-SHAPE = re.compile(r'\s*\{(\w[^}]*)\}((?: @\w+)*)$')
-UNKNOWN = re.compile(r'(NaN|-1) (if|while|unless) (\w+)(?: is (-?\w+))?')
 
 HEADER = '''\
 /** The messages of %(package)s, one struct each; made from msg/ at build time. Rules for all of
@@ -177,7 +164,7 @@ class Message:
             genmsg.MsgContext.create_default(), path, self.type
         )
         self.lines = self.spec.text.splitlines()
-        self.names = [constant.name for constant in self.spec.constants] + self.spec.names
+        self.fields = read_fields.parsed(self.spec.text)
 
     def uses(self, other):
         return any(field.base_type == other.type for field in self.spec.parsed_fields())
@@ -201,22 +188,13 @@ class Message:
 
     def shape_of(self, name):
         """The names of an array's dimensions, and the words behind them."""
-        found = SHAPE.search(self.own_text(name))
-        dimensions, words = (
-            [found.group(1).split(', '), found.group(2).split()] if found else [[], []]
-        )
+        dimensions, words = self.fields[name].shape, self.fields[name].only
         others = {one.partition('-')[0] for one in dimensions} - set(DIMENSIONS.split())
-        others |= set(words) - set(WORDS)
+        others |= words - set(WORDS)
         if others:
             known = ', '.join([*DIMENSIONS.split(), *WORDS])
             sys.exit('%s: %s: %s: must be out of %s' % (self.type, name, ' '.join(others), known))
         return dimensions, words
-
-    def text_of(self, name):
-        """The text that describes a field or a constant: in its line or the nearest above."""
-        names = self.names[: self.names.index(name) + 1]
-        texts = (SHAPE.sub('', self.own_text(above)) for above in reversed(names))
-        return next((text for text in texts if text and not text.startswith('[')), '')
 
     def comment_of(self, name):
         text = self.own_text(name)
@@ -242,23 +220,18 @@ class Message:
     def texts(self):
         """A function for each field that holds one of some constants: their names."""
         text = ''
-        for field in self.spec.parsed_fields():
-            choice = CHOICE.search(self.text_of(field.name))
+        for name in (name for name, field in self.fields.items() if field.choice):
+            self.refuse_others(name, self.fields[name].choice)
             rows = [
-                '    case %s: return "%s";'
-                % (self.c_constant(name), self.text_of(name).partition(':')[0])
-                for name in self.choices(*choice.groups() if choice else ())
+                '    case %s: return "%s";' % (self.c_constant(constant), word)
+                for constant, _, word in read_fields.choices(self.spec.text, name)
             ]
-            if rows:
-                text += TEXTS % dict(name=self.name, field=field.name, rows='\n'.join(rows))
+            text += TEXTS % dict(name=self.name, field=name, rows='\n'.join(rows))
         return text
 
-    def choices(self, first=None, last=None):
-        """The names of the constants from one to another."""
-        names = [constant.name for constant in self.spec.constants]
-        if first and not {first, last} <= set(names):
-            sys.exit('%s: one of %s .. %s: no such constants' % (self.type, first, last))
-        return names[names.index(first) : names.index(last) + 1] if first else []
+    def refuse_others(self, name, constants):
+        if not set(constants) <= {constant.name for constant in self.spec.constants}:
+            sys.exit('%s: %s: one of %s .. %s: no such constants' % (self.type, name, *constants))
 
     def c_type(self, field, messages):
         if field.array_len is None:
@@ -313,20 +286,15 @@ class Message:
 
     def passed(self, field, messages):
         """The field as C++ passes it, with the value that is sent while it is not known."""
-        text, name = self.text_of(field.name), 'm.' + field.name
+        name, of = 'm.' + field.name, self.fields[field.name]
         if field.base_type != 'float64':
             return name
-        rule = UNKNOWN.search(text)
-        if not rule or rule.group(3) not in self.spec.names:
-            return 'or_nan(%s)' % name if 'NaN' in text else name
-        unknown, how, other, word = rule.groups()
-        equal = (how == 'unless') == (word is not None)  # a field alone means: it is not 0
-        compared = 'm.%s %s %d' % (
-            other,
-            '==' if equal else '!=',
-            self.value_of(word or '0', messages),
-        )
-        return 'known_if(%s, %s, %s)' % (compared, name, 'NAN' if unknown == 'NaN' else '-1.0')
+        if not of.rule:
+            return 'or_nan(%s)' % name if of.may_be_nan else name
+        known, value = '!=' if of.rule.if_equal else '==', self.value_of(of.rule.value, messages)
+        compared = 'm.%s %s %d' % (of.rule.field, known, value)
+        unknown = 'NAN' if of.rule.sent == 'NaN' else '-1.0'
+        return 'known_if(%s, %s, %s)' % (compared, name, unknown)
 
     def cpp_fields(self, messages):
         fields = (',\n' + 13 * ' ').join(

@@ -12,6 +12,7 @@ import rosbag
 import rospy
 
 from made_fields import mode_field
+from measured import as_sent
 from hdlyap.msg import (
     Cost,
     Covariant,
@@ -47,7 +48,7 @@ def write(path, messages, node='/hdlyap', mode='w', start=1):
     """A bag with one message a second."""
     with rosbag.Bag(path, mode) as bag:
         for second, message in enumerate(messages, start):
-            bag.write(f'{node}/{TOPICS[message._type]}', message, rospy.Time(second))
+            bag.write(f'{node}/{TOPICS[message._type]}', as_sent(message), rospy.Time(second))
 
 
 def defined(message, change):

@@ -7,11 +7,9 @@ import math
 
 import numpy as np
 
+from hdlyap import msg
+from hdlyap.data import fields
 from hdlyap.msg import Cost, LpPhase, Mode, RunStatus
-
-OF_STEPS = ('multiplicity', 'exponent', 'scatter', 'set_time', 'own_part', 'gap')
-OF_RESPONSES = ('density', 'along', 'across', 'across_second', 'energy')
-OF_LP = ('weight_l', 'weight_p')
 
 
 def of(message, *names):
@@ -36,15 +34,59 @@ def _of_value(value, path):
     return nans(value, path + '.') if hasattr(value, '__slots__') else set()
 
 
-def unmeasured(message):
+def unmeasured(message, path=''):
     """The same as the documents of the messages say it, from what else is in the message."""
-    return set(RULES.get(type(message).__name__, lambda message: ())(message))
+    found = set()
+    others = OTHERS.get(type(message).__name__, lambda message: ())
+    for name in {*by_rule(message), *others(message)}:
+        value = getattr(message, name.partition('[')[0])
+        many = isinstance(value, (list, tuple)) and '[' not in name
+        found |= {f'{path}{name}[{k}]' for k in range(len(value))} if many else {path + name}
+    for name, parts in parts_of(message):
+        for k, part in enumerate(parts):
+            found |= unmeasured(part, f'{path}{name}[{k}].')
+    return found
+
+
+def parts_of(message):
+    """(name, messages) of the lists of messages in a message."""
+    kinds = zip(message.__slots__, message._slot_types)
+    return [(name, getattr(message, name)) for name, kind in kinds if kind.startswith('hdlyap/')]
+
+
+def by_rule(message, sent='NaN'):
+    """Names of the fields for which this is sent, by rules in the .msg."""
+    for name, field in fields.of(message).items():
+        if field.rule and field.rule.sent == sent:
+            value = getattr(message, field.rule.field)
+            if (value == _constant(message, field.rule.value)) == field.rule.if_equal:
+                yield name
+
+
+def _constant(message, word):
+    try:
+        return int(word)
+    except ValueError:
+        kinds = [type(message), *vars(msg).values()]
+        return next(getattr(kind, word) for kind in kinds if hasattr(kind, word))
+
+
+def as_sent(message):
+    """A made-up message as the node sends one with such numbers."""
+    sent = copy.copy(message)
+    for value, word in ((math.nan, 'NaN'), (-1.0, '-1')):
+        for name in by_rule(message, word):
+            many = len(getattr(sent, name)) if hasattr(getattr(sent, name), '__len__') else None
+            setattr(sent, name, value if many is None else [value] * many)
+    for name, parts in parts_of(message):
+        setattr(sent, name, [as_sent(part) for part in parts])
+    return sent
+
+
+# ---- what no rule in a .msg says ---------------------------------------------------------------
 
 
 def _spectrum(message):
-    if message.local_time == 0:
-        for k in range(len(message.local_exponents)):
-            yield f'local_exponents[{k}]'
     for k, (cosine, ratio) in enumerate(zip(message.cos_theta, message.dp_dq_ratio)):
         if math.isnan(cosine) and (math.isnan(ratio) or ratio < 1e-140):  # a half vanishes
             yield f'cos_theta[{k}]'
@@ -52,8 +94,6 @@ def _spectrum(message):
 
 
 def _cost(message):
-    if message.orthonormalisations == 0:
-        yield from ('interval', 'condition', 'orthogonality_defect')
     assert (message.interval_limit == Cost.LIMIT_NONE) == (message.orthonormalisations == 0)
     if message.events_seconds == 0:
         yield 'events_per_second'
@@ -66,65 +106,26 @@ def _status(message):
     yield from names if math.isnan(message.energy_error_wanted) else ()  # of hard particles
 
 
-def _modes(message):
-    for k, mode in enumerate(message.modes):
-        names = ('wave_number', 'weight', 'weight_now') if mode.kind == Mode.NONE else ()
-        for name in names + (() if mode.kind == Mode.LP else OF_LP):
-            yield f'modes[{k}].{name}'
-
-
 def _steps(message):
-    for k, step in enumerate(message.steps):
-        alone = ('gap',) if step.sharing == step.SHARING_ALONE else ()
-        unrelated = step.kind == Mode.LP and math.isnan(message.l_long_c2)  # in a circle
-        alone += ('scatter',) if step.kind == Mode.ZERO or unrelated else ()
-        for name in alone if step.resolved else OF_STEPS:
-            yield f'steps[{k}].{name}'
-        has_begun = step.omega_error >= 0 or not math.isnan(step.omega)
-        if not (step.resolved and step.kind == Mode.LP and has_begun):
-            yield f'steps[{k}].omega'
-    for letter, points in (('t', message.t_points), ('l', message.l_points)):
-        names = [
-            f'c_{letter}',
-            f'c_{letter}2',
-            f'c_{letter}3',
-            f'{letter}_k_min',
-            f'{letter}_k_max',
-        ]
-        yield from names if points < 1 else []
-    if math.isnan(message.l_box_error):
+    if math.isnan(message.l_box_error):  # in a circle
         assert message.l_points == 0
         yield from ('l_long_c2', 'l_long_c2_error', 'l_long_c3', 'l_long_c3_error', 'l_box_error')
-    if message.v_phases == 0:
-        yield from ('v', 'v_k_min', 'v_k_max')
+    for k, step in enumerate(message.steps):
+        unrelated = step.kind == Mode.LP and math.isnan(message.l_long_c2)
+        if not step.resolved or step.kind == Mode.ZERO or unrelated:
+            yield f'steps[{k}].scatter'
 
 
-def _phases(message):
-    for k, phase in enumerate(message.phases):
-        unknown = ['a', 'b'] if phase.state == LpPhase.UNRESOLVED else []
-        if phase.tracked_time == 0:
-            unknown += ['omega', 'velocity']
-            unknown += [] if phase.state == LpPhase.TRACKED else ['phase']
-        for name in unknown:
-            yield f'phases[{k}].{name}'
+def _step(step):
+    has_begun = step.omega_error >= 0 or not math.isnan(step.omega)
+    if not (step.resolved and step.kind == Mode.LP and has_begun):
+        yield 'omega'
+    yield from [] if step.resolved else ['gap']
 
 
-def _t_phases(message):
-    for k, phase in enumerate(message.phases):
-        unknown = ['a', 'b'] if phase.state == LpPhase.UNRESOLVED else []
-        if phase.tracked_time == 0:
-            unknown += ['omega']
-            unknown += [] if phase.state == LpPhase.TRACKED else ['phase']
-        unknown += ['diffusion'] if phase.diffusion_error == -1 else []
-        for name in unknown:
-            yield f'phases[{k}].{name}'
-
-
-def _hydro(message):
-    for k, response in enumerate(message.responses):
-        if response.index == 0:
-            for name in OF_RESPONSES:
-                yield f'responses[{k}].{name}'
+def _phase(phase):
+    if phase.tracked_time == 0 and phase.state != LpPhase.TRACKED:
+        yield 'phase'
 
 
 def _gas(message):
@@ -145,25 +146,16 @@ def _fluctuations(message):
             yield from (f'reversals[{(time * steps + k) * steps + k}]' for time in range(times))
 
 
-def _field(message):
-    if message.kind == Mode.NONE:
-        yield 'wave_number'
-    if message.pairs == 0:
-        yield 'rotation_distance'
-
-
-RULES = dict(
+OTHERS = dict(
     Spectrum=_spectrum,
     Cost=_cost,
     RunStatus=_status,
-    Modes=_modes,
     Steps=_steps,
-    LpPhases=_phases,
-    TPhases=_t_phases,
-    Hydro=_hydro,
+    Step=_step,
+    LpPhase=_phase,
+    TPhase=_phase,
     Gas=_gas,
     Fluctuations=_fluctuations,
-    ModeField=_field,
 )
 
 

@@ -22,6 +22,7 @@ from std_msgs.msg import String
 import made
 from bags import process, tool
 from made import LP, T
+from measured import as_sent
 from test_data import Loaded
 from test_data_joined import HALF, numbered
 
@@ -195,17 +196,14 @@ def topic_of(name):
 
 def numbers_of(message):
     """Yields (name of its column, numbers) of the fields of a message and of its lists that have
-    some. What follows `resolved` is not known of a step that is not."""
-    slots = list(zip(message.__slots__, message._slot_types))
-    for place, (slot, kind) in enumerate(slots):
+    some."""
+    for slot, kind in zip(message.__slots__, message._slot_types):
         value, name = getattr(message, slot), frames.singular(slot) if '[' in kind else slot
         if '/' in kind and value and '[' in kind:
             each = [dict(numbers_of(one)) for one in value]
             yield from ((key, np.concatenate([one[key] for one in each])) for key in each[0])
         elif '/' not in kind and 'string' not in kind and np.size(value) and slot not in LABELS:
-            numbers = np.ravel(value).astype(float)
-            is_left = ('resolved', 'bool') in slots[:place] and not message.resolved
-            yield name, np.full_like(numbers, np.nan) if is_left and kind == 'float64' else numbers
+            yield name, np.ravel(value).astype(float)
 
 
 LABELS = 'sim_time first_index index indices time spaces step set gap gap_error'.split()
@@ -327,7 +325,7 @@ class Export(Tools):
             last = max(found, key=lambda one: getattr(one, 'index', one.sim_time))
             mine = [frame for name, frame in tables.items() if topic_of(name) == topic]
             held = [str(name) for name in of_all if topic_of(name) == topic]
-            for name, values in numbers_of(last):
+            for name, values in numbers_of(as_sent(last)):
                 columns = [frame[name] for frame in mine if name in frame]
                 self.assertTrue(any(ends_with(one, values) for one in columns), (topic, name))
                 found = [of_all[one] for one in held if one.endswith(('_' + name, name + 's'))]

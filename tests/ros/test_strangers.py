@@ -13,7 +13,6 @@ import numpy as np
 import hdlyap
 import made
 import made_fields
-import measured
 from bags import tool
 from hdlyap.data import possible, reader
 from hdlyap.data.reader import RecordingError
@@ -50,8 +49,7 @@ def every_kind():
     turned = dict.fromkeys(('angle', 'spin', 'dq_angle', 'dp_angle'), [0.1] * 20)
     x, y, px, py = made_fields.disks(info)
     state = dict(x=x, y=y, px=px, py=py, angle=[0.1] * 20, spin=[0.2] * 20)
-    unlike = dict.fromkeys(('weight_l', 'weight_p'), np.nan)  # of LP alone
-    modes = [Mode(index=k, kind=T, nx=1, wave_number=1.0, weight=0.9, **unlike) for k in (36, 37)]
+    modes = [Mode(index=k, kind=T, nx=1, wave_number=1.0, weight=0.9) for k in (36, 37)]
     covariant = made.covariant(HALF, weights=[made.covariant_weight(found[0], 37)])
     counts = dict(smallest_counts=[3, 4, 0, 1], all_counts=[5, 6, 7, 8])
     covariant.angles = [CovariantAngle(spaces=1, mean=0.3, std_error=0.1, least=0.2, **counts)]
@@ -60,8 +58,6 @@ def every_kind():
         setattr(covariant.orders[0], name, [0.5] * 36)
     pairs = [(LP, 1, 0, [32, 33]), (T, 1, 0, [36, 37])]
     unseen = made.zero_modes()
-    for name in measured.OF_STEPS:
-        setattr(unseen, name, np.nan)
     course = [
         one
         for t in (30.0, 50.0)

@@ -151,7 +151,10 @@ def _numbers(parts, part, only, info):
         if not is_a.endswith('[]') and is_a not in ('std_msgs/Header', 'string'):
             values = np.array([getattr(one, slot) for one in parts], NUMBERS.get(is_a, int))
             columns[slot] = _known(values, is_a, described[slot])
-    _blank(columns)
+    if 'tracked_time' in columns:  # a phase that is not tracked now has the last known numbers
+        lost = columns['state'] != LpPhase.TRACKED
+        for name in {'phase', 'omega', 'omega_error', 'velocity'} & columns.keys():
+            columns[name][lost] = np.nan
     for name in NAMES.keys() & columns.keys():
         columns[name] = [NAMES[name].get(value, str(value)) for value in columns[name]]
     if 'modulation' in columns:
@@ -170,27 +173,6 @@ def _numbers(parts, part, only, info):
         )
         for name, values in columns.items()
     }
-
-
-def _blank(columns):
-    """Sets numbers that were not measured to NaN."""
-    if 'resolved' in columns:  # a Step: all columns after this one
-        below = list(columns)[list(columns).index('resolved') + 1 :]
-        blank = dict.fromkeys(below, ~columns['resolved'])
-        if 'gap' in columns:
-            blank['gap'] = columns['gap'] == 0
-    elif 'tracked_time' in columns:  # an LpPhase or a TPhase
-        blank = dict.fromkeys(('a', 'b'), columns['state'] == LpPhase.UNRESOLVED)
-        tracked = {'phase', 'omega', 'omega_error', 'velocity'} & columns.keys()
-        blank.update(dict.fromkeys(tracked, columns['state'] != LpPhase.TRACKED))
-    elif 'weight_now' in columns:  # a Mode
-        blank = dict.fromkeys(('wave_number', 'weight'), columns['kind'] == Mode.NONE)
-        blank.update(dict.fromkeys(('weight_l', 'weight_p'), columns['kind'] != Mode.LP))
-    else:
-        return
-    for name, where in blank.items():
-        if columns[name].dtype == float:
-            columns[name] = np.where(where, np.nan, columns[name])
 
 
 # ---- frames ------------------------------------------------------------------------------------

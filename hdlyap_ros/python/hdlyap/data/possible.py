@@ -113,7 +113,7 @@ def _rules(kind):
 
 def _rule(kind, name, is_real, field):
     ends = (-LARGEST, LARGEST) if is_real else (-COUNT, COUNT)
-    if field.is_choice:
+    if field.choice:
         values = fields.words(kind, name)
         ends = min(values), max(values)
     ends = RANGES.get(f'{_name(kind)}.{name}', RANGES.get(name, ends))
