@@ -224,6 +224,12 @@ struct hd_dynamics {
     void (*carry)(const void *maps, double *block, int width);
 };
 
+/** Returns HD_OK for a row whose members fit together; otherwise HD_REFUSED with one line in
+ * message[size], unless that is NULL: the member, its value, what is allowed. Whatever makes a run
+ * or a trajectory begins with this check, and with one of the numbers that the row's functions give
+ * for the scene. Whether the functions do what they say is asked by hdlyap/dynamics_test.h. */
+HD_MUST_CHECK hd_status hd_dynamics_check(const hd_dynamics *row, char *message, size_t size);
+
 /** Returns the dynamics that a scene has: def->dynamics, or the row of def->particles if that is
  * NULL. */
 const hd_dynamics *hd_dynamics_of(const hd_scene_def *scene);

@@ -22,6 +22,9 @@ struct hd_record {
     size_t size; /**< bytes of an entry */
     size_t count, capacity;
     double duration; /**< [time units] */
+    /** What was wrong with a time that was told, and that time; NULL: nothing. */
+    const char *fault;
+    double at;
 };
 
 /** Makes room for at least `count` entries in all; it at least doubles when it grows. Fails with
