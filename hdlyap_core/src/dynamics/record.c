@@ -48,9 +48,10 @@ hd_status hd_record_reserve(hd_record *record, size_t count)
 }
 
 /** Time of the last entry; 0 if there is none. */
-static double last_time(const hd_record *record)
+static inline double last_time(const hd_record *record)
 {
-    return record->count > 0 ? *(const double *)hd_record_entry(record, record->count - 1) : 0.0;
+    const char *end = (const char *)record->entry + record->count * record->size;
+    return record->count > 0 ? *(const double *)(end - record->size) : 0.0;
 }
 
 /** Notes the first fault. */
@@ -67,7 +68,7 @@ hd_status hd_record_put(hd_record *record, const void *entry)
     if (!(time >= last_time(record))) /* false for NaN */
         return fail(record, "hd_record_put: an entry is earlier than the last one, or not a number",
                     time);
-    HD_TRY(hd_record_reserve(record, record->count + 1));
+    if (record->count == record->capacity) HD_TRY(hd_record_reserve(record, record->count + 1));
     memcpy((char *)record->entry + record->count++ * record->size, entry, record->size);
     return HD_OK;
 }
