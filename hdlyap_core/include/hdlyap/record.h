@@ -13,8 +13,17 @@
 
 HD_API_BEGIN
 
-/** A record; owned by the run, which empties it after each orthonormalisation. */
+/** A record. That of a run belongs to the run, which empties it after each orthonormalisation;
+ * hd_record_create makes one alone, to test `advance` and `carry` of a row. */
 typedef struct hd_record hd_record;
+
+/** Makes an empty record, which the caller frees with hd_record_free. entry: bytes of an entry, as
+ * hd_dynamics.entry, a multiple of those of a double. Returns HD_OK or HD_NO_MEMORY. */
+HD_MUST_CHECK hd_status hd_record_create(hd_record **out, size_t entry);
+/** Frees a record, unless the pointer is NULL. */
+void hd_record_free(hd_record *record);
+/** Empties the record, which then begins where the particles are now. Its memory stays. */
+void hd_record_clear(hd_record *record);
 
 /** Simulated time that the record covers [time units]. */
 double hd_record_duration(const hd_record *record);

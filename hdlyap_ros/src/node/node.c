@@ -355,7 +355,8 @@ int hdlyap_node_main(int argc, char **argv, const hd_dynamics *const *rows, int 
 {
     app a = {.ros = NULL};
     char message[512];
-    if (!particles_register(rows, count, message, sizeof message)) return refuse(message);
+    if (!particles_check(rows, count, message, sizeof message)) return refuse(message);
+    particles_register(rows, count);
     const int answered = answer(argc, argv);
     if (answered >= 0) return answered;
     restart_if_slow(argv);
