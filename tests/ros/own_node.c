@@ -1,5 +1,5 @@
 /** A node of particles that the core does not know: the chain of the examples; the same chain that
- * loses its energy, as a row may say without having a time step; and rows of long names that share
+ * loses its energy, as a row may say without having a time step, or has no name; and rows of long names that share
  * parameters of their own. */
 #include <hdlyap_ros/main.h>
 #include <string.h>
@@ -27,7 +27,7 @@ int main(int argc, char **argv)
     hd_dynamics lossy = of_chain, sharing[SHARING];
     hd_parameter shared[PARAMETERS];
     const hd_dynamics *rows[2 + SHARING] = {&of_chain, &lossy};
-    lossy.particles = "lossy_chain";
+    lossy.particles = getenv("HDLYAP_NAMELESS") ? NULL : "lossy_chain";
     lossy.advance = advance_and_lose;
     memcpy(shared, parameters, sizeof shared);
     for (int k = 0; k < SHARING; k++) {

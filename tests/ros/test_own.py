@@ -5,6 +5,7 @@ import os
 import subprocess
 
 import harness
+import yaml
 
 pytestmark = harness.UNDER_A_MASTER
 
@@ -64,3 +65,29 @@ class Own(harness.Case):
         said = subprocess.check_output([NODE, '--parameters'], text=True)
         names = ' and '.join(f'chains_of_a_name_of_31_letters{k}' for k in range(1, 6))
         self.assertEqual(said.count(f'# For {names} only.'), 3)
+
+    def tested(self, *arguments, **environment):
+        """--test-dynamics of a scene: its exit status, and what it says."""
+        scene = os.path.join(self.new_folder(), 'scene.yaml')
+        with open(scene, 'w') as file:
+            yaml.safe_dump(SCENE, file)
+        done = subprocess.run(
+            [NODE, '--test-dynamics', scene, *arguments],
+            capture_output=True,
+            text=True,
+            env=dict(os.environ, **environment),
+        )
+        return done.returncode, done.stdout + done.stderr
+
+    def test_of_the_functions_of_a_row(self):
+        """Of a program's own, and of the core's; the line names the function."""
+        self.assertEqual(self.tested(), (0, 'ok\n'))
+        status, said = self.tested('particles:=lossy_chain')
+        self.assertEqual(status, 2)
+        self.assertRegex(said, '^advance: the energy is not conserved')
+        self.assertEqual(self.tested('beta:=-1'), (2, 'beta = -1: must be from 0 to 1000\n'))
+
+    def test_row_without_a_name(self):
+        status, said = self.tested(HDLYAP_NAMELESS='1')
+        self.assertEqual(status, 2)
+        self.assertIn("row 1 of this program's dynamics: particles: must not be NULL", said)

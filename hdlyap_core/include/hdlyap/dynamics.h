@@ -126,35 +126,47 @@ struct hd_dynamics {
      * Returns HD_OK, or HD_REFUSED with one line in message[size] unless `message` is NULL: the
      * parameter, its value, what is allowed. May be left out. */
     hd_status (*check)(const hd_scene_def *scene, char *message, size_t size);
-    /** Number of exponents that vanish. If left out, none does. */
+    /** Number of exponents that vanish, even if maps are symplectic. If left out, none does. Which
+     * exponents are positive follows from it: `exponents = positive` would ask for wrong ones,
+     * targets and covariant vectors would mistake their spaces. */
     int (*zero_exponents)(const hd_scene_def *scene);
-    /** Rough number of record entries per time unit of all particles, from which the first memory
-     * for a record follows. */
+    /** Rough number of record entries per time unit of all particles, at least 1e-9 and at most 1e9
+     * for each particle. First advances and the expected memory follow from it; the run then counts
+     * by itself. */
     double (*record_rate)(const hd_scene_def *scene);
     /** Expected number of pair collisions of all N particles per time unit. For particles without
      * collisions: N / 2 divided by the time in which tangent vectors grow by a factor of about e.
-     * The time (N / 2) / collision_rate sets the pace of a run: its first interval between
-     * orthonormalisations has the length of 2 of these times, its longest one of 60, and blocks for
-     * standard errors are at least 8 long. */
+     * At least 1e-9 and at most 1e9 for each particle. The time (N / 2) / collision_rate sets
+     * the pace of a run: its first interval between orthonormalisations has the length of 2 of
+     * these times, its longest one of 60; a sample is some 80 long, blocks for standard errors at
+     * least 8, the warm-up at least 100. A rate that is a thousand times too large makes a hundred
+     * times as many orthonormalisations; one that is too small makes warm-up and samples long, so
+     * that errors are known late. Exponents stay what they are. */
     double (*collision_rate)(const hd_scene_def *scene);
-    /** Length of a time step, if particles move in time steps [time units]. May be left out. */
+    /** Length of a time step, if particles move in time steps [time units]; for messages, and so
+     * that the energy is looked at. May be left out. */
     double (*step)(const hd_scene_def *scene);
     /** Relative error of the energy up to which the numbers of a run are what the scene asks for; a
-     * run says so when its energy is off by more. May be left out; no error is then too large. */
+     * run says so when its energy is off by more. It needs `examine`. May be left out; a run then
+     * says nothing until its energy is off by 2 %, with which it ends. */
     double (*energy_asked)(const hd_scene_def *scene);
     /** Usual speed of a particle, by which exponents scale: 1 for hard particles, which is also
-     * meant if it is left out. */
+     * meant if it is left out. Only the warm-up of scenes in a box follows from it. */
     double (*speed)(const hd_scene_def *scene);
     /** Exponents that vanish in theory, but that no exact null vector keeps at 0, differ from 0 by
-     * about the time step to the power that this returns. If left out, they do not differ. */
+     * about the time step to the power that this returns. Only a warning of the node follows from
+     * it. If left out, they do not differ. */
     double (*zero_splitting_order)(const hd_scene_def *scene);
     /** Time that a disturbance, as a sound wave, takes through the whole system; blocks for
      * standard errors are not shorter [time units]. May be left out. */
     double (*sound_crossing_time)(const hd_scene_def *scene);
     /** Writes the tangent vectors that are known exactly as null vectors at the state q, p: those
      * whose length stays bounded or grows linearly with time. Vector k is column[k][particle][2
-     * coordinates], dq before dp, of any length. Returns their number, at most `zero_exponents`. If
-     * left out, none is known. */
+     * coordinates], dq before dp, of any length. Returns their number, at most `zero_exponents`;
+     * more end the run with HD_DYNAMICS_FAULT. Tangent maps must carry their span into that of the
+     * later ones. Only weights of modes and the null space of covariant vectors are held against
+     * them; a wrong one shows there, and exponents stay what they are. If left out, none is known.
+     */
     int (*null_vectors)(const hd_scene_def *scene, const double *q, const double *p,
                         double *column);
 
@@ -180,7 +192,10 @@ struct hd_dynamics {
      * `record` is NULL, it adds what happened: hd_record_put for each entry, then hd_record_end.
      * Time steps begin and end at fixed times, whatever t_end is. The call does all steps that end
      * by t_end; the state is then that of the last step, but the record ends at t_end. If it
-     * returns another status than HD_OK, as HD_NOT_FINITE or HD_NO_MEMORY, the run has failed. */
+     * returns another status than HD_OK, as HD_NOT_FINITE or HD_NO_MEMORY, the run has failed. It
+     * also fails, with HD_DYNAMICS_FAULT, if `time` is then not t_end, if the record does not end
+     * there, or if entries are not in order; and with HD_NOT_FINITE if q and p, as far as the core
+     * reads them, are no numbers. */
     hd_status (*advance)(void *state, hd_record *record, double t_end);
     double (*time)(const void *state); /**< the present simulated time, t_end of the last `advance`
                                           [time units] */
@@ -190,14 +205,18 @@ struct hd_dynamics {
     /** Writes all members of *totals but `expected`, from which the observable gas follows.
      * Integrals are needed only if the scene asks for HD_OBSERVE_GAS. May be left out. */
     void (*totals)(const void *state, hd_totals *totals);
-    /** Writes all members of *examined; 0 where a member means nothing for these particles. May be
-     * left out. */
+    /** Writes all members of *examined; 0 where a member means nothing for these particles, as
+     * energy_error where energy is not conserved. A run of particles that do not collide, or whose
+     * row has `step` or `energy_asked`, ends with HD_ENERGY_LOST when energy_error is beyond 2 %.
+     * May be left out; the error of the energy is then unknown, and a lost energy is not noticed.
+     */
     void (*examine)(const void *state, hd_invariants *examined);
     /** Calls hd_archive_doubles for each array of the state, in one order for writing and reading;
      * together these have at least a number for each particle. After reading, it also restores
      * whatever else follows from these arrays. */
     void (*archive)(void *state, hd_archive *archive);
-    /** Hash of all bits of q and p, by which ranks compare their states. May be left out. */
+    /** Hash of all bits of q and p, by which ranks compare their states: if it is not that of the
+     * state, a run of several ranks ends with HD_RANKS_APART. May be left out. */
     uint32_t (*fingerprint)(const void *state);
     /** Bytes of memory that the state takes, for estimates. May be left out. */
     double (*bytes)(const hd_scene_def *scene);
@@ -220,9 +239,17 @@ struct hd_dynamics {
     void (*maps_free)(void *maps);
     hd_status (*maps_fill)(void *maps, const hd_record *record, double t_begin, double t_end);
     /** Carries `width` tangent vectors through the maps, in place: block[particle][2
-     * coordinates][width], dq before dp. The width is 1, 2, 4, 8, 16, 32 or 64. */
+     * coordinates][width], dq before dp. The width is 1, 2, 4, 8, 16, 32 or 64. A run fails with
+     * HD_NOT_FINITE if this gives no numbers. That maps are not those of the motion is seen by no
+     * run: exponents are then wrong, see hd_dynamics_test. */
     void (*carry)(const void *maps, double *block, int width);
 };
+
+/** Returns HD_OK for a row whose members fit together; otherwise HD_REFUSED with one line in
+ * message[size], unless that is NULL: the member, its value, what is allowed. Whatever makes a run
+ * or a trajectory begins with this check, and with one of the numbers that the row's functions give
+ * for the scene. Whether the functions do what they say is asked by hdlyap/dynamics_test.h. */
+HD_MUST_CHECK hd_status hd_dynamics_check(const hd_dynamics *row, char *message, size_t size);
 
 /** Returns the dynamics that a scene has: def->dynamics, or the row of def->particles if that is
  * NULL. */

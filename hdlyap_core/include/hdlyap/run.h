@@ -175,6 +175,9 @@ HD_MUST_CHECK hd_status hd_run_reset_average(hd_run *run);
 /** HD_OK, or the status of the call of hd_run_advance, hd_run_reset_average or hd_run_save that
  * made the run fail. */
 hd_status hd_run_status(const hd_run *run);
+/** One line that says what the functions of the row of dynamics did wrong, if the run has failed
+ * with HD_DYNAMICS_FAULT; otherwise "". */
+const char *hd_run_fault(const hd_run *run);
 /** The stage in which the run is, or HD_FINISHED. */
 hd_stage hd_run_stage(const hd_run *run);
 /** Simulated time since the start of the run [time units]. */

@@ -126,8 +126,8 @@ typedef struct hd_scene_def {
 /** Returns the scene with all defaults: 780 disks in a periodic box, density 0.8, aspect 0.867. */
 hd_scene_def hd_scene_def_default(void);
 /** Returns the default scene for a dynamics, of the core or of the program's own, with the defaults
- * of its parameters. A row that lacks a member which it must have is a bug of the caller (an
- * assertion). */
+ * of its parameters. What is wrong with a row is said by hd_scene_check, and by whatever makes a
+ * run or a trajectory; see hd_dynamics_check. */
 hd_scene_def hd_scene_def_of(const hd_dynamics *dynamics);
 
 /** Returns HD_OK if the scene can be run; otherwise HD_REFUSED with one line in message[size],

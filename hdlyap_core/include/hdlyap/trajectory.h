@@ -26,10 +26,15 @@ void hd_trajectory_free(hd_trajectory *trajectory);
 /** Moves the particles to the simulated time t_end, not before the present one. Unless `record` is
  * NULL, it adds what happens to the record, which then ends at the present time. What happens does
  * not depend on how the time is cut into calls. Returns HD_OK, HD_OVERLAP, HD_NOT_FINITE,
- * HD_ENERGY_LOST or HD_NO_MEMORY. For hard particles it costs O(1) for each collision, and O(N)
+ * HD_ENERGY_LOST, HD_NO_MEMORY, HD_DYNAMICS_FAULT (see hd_trajectory_fault), or another status that
+ * the row's own `advance` returns. For hard particles it costs O(1) for each collision, and O(N)
  * every some tens of collisions of a particle. */
 HD_MUST_CHECK hd_status hd_trajectory_extend(hd_trajectory *trajectory, hd_record *record,
                                              double t_end);
+
+/** One line that says what the row's functions did wrong, if hd_trajectory_extend has returned
+ * HD_DYNAMICS_FAULT; otherwise "". */
+const char *hd_trajectory_fault(const hd_trajectory *trajectory);
 
 /** Present simulated time [time units]. */
 double hd_trajectory_time(const hd_trajectory *trajectory);
@@ -46,8 +51,8 @@ hd_invariants hd_trajectory_examined(const hd_trajectory *trajectory);
 
 /** What time steps have done to the energy. */
 typedef struct hd_energy {
-    double error; /**< relative error of the energy now; NaN for rows without `step` or
-                     `examine`, as those of hard particles */
+    double error; /**< relative error of the energy now; NaN for rows without `examine`, and for
+                     particles that collide unless their row has `step` or `energy_asked` */
     double most;  /**< largest |error| since time 0, looked at after each hd_trajectory_extend; NaN
                      as `error` */
     double asked; /**< most that the scene asks for, hd_dynamics.energy_asked; NaN if it is left out

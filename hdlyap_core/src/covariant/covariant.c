@@ -51,7 +51,8 @@ struct hd_covariant {
     hd_angles *spaces; /**< angles between spaces of C's rows; it and the next two are NULL if the
                           centre is not computed */
     hd_angles *null;   /**< angles between spaces of the vectors' rows */
-    double *null_columns; /**< [2 * centre][rows]: vectors of the centre, then exact null vectors */
+    double *null_columns; /**< [2 * centre + HD_NULL_SPARE][rows]: vectors of the centre, then exact
+                             null vectors */
     double *factor;       /**< [vectors * vectors]; room for the centres of both starts, too */
     double *coupling;     /**< [carried * carried]; NULL where all vectors are carried */
     double *angle;        /**< [vectors]: principal angles */
@@ -107,7 +108,8 @@ static hd_status allocate_spaces(hd_covariant *c)
     if (c->centre == 0) return HD_OK;
     HD_TRY(hd_angles_create(&c->spaces, c->vectors, widest));
     HD_TRY(hd_angles_create(&c->null, c->rows, c->centre));
-    c->null_columns = hd_memory_alloc(2 * (size_t)c->centre * (size_t)c->rows, sizeof(double));
+    c->null_columns = hd_memory_alloc((2 * (size_t)c->centre + HD_NULL_SPARE) * (size_t)c->rows,
+                                      sizeof(double));
     return c->null_columns ? HD_OK : HD_NO_MEMORY;
 }
 
@@ -302,14 +304,14 @@ static void raise_to(double *most, double now)
 /** Largest angle between the covariant centre and the null space. */
 static hd_status measure_null(hd_covariant *c)
 {
-    const hd_dynamics *of = hd_dynamics_of(&c->scene);
     double *columns = c->null_columns;
-    if (c->centre == 0 || !of->null_vectors) return HD_OK;
+    if (c->centre == 0) return HD_OK;
     for (int col = 0; col < c->centre; col++)
         cblas_dcopy(c->rows, c->frame + c->unstable + col, c->vectors,
                     columns + (size_t)col * (size_t)c->rows, 1);
-    const int known = of->null_vectors(&c->scene, c->q, c->p,
-                                       columns + (size_t)c->centre * (size_t)c->rows);
+    int known;
+    HD_TRY(hd_null_vectors_of(&known, &c->scene, c->q, c->p,
+                              columns + (size_t)c->centre * (size_t)c->rows));
     const hd_span covariant = {0, c->centre}, exact = {c->centre, known};
     if (known == 0) return HD_OK;
     HD_TRY(hd_angles_between(c->null, c->angle, columns, covariant, exact));

@@ -19,6 +19,15 @@ void hd_maps_free_of(const hd_dynamics *of, void *maps);
 HD_MUST_CHECK hd_status hd_maps_fill_of(const hd_dynamics *of, void *maps, const hd_record *record,
                                         double t_begin, double t_end);
 
+/** Vectors for which hd_dynamics.null_vectors has room beyond its zero exponents, so that one
+ * vector too many is a status instead of an overflow. */
+enum { HD_NULL_SPARE = 8 };
+/** Fills column[zero exponents + HD_NULL_SPARE][..] with the null vectors that the row knows, none
+ * if it has no function for them, and writes their number. Fails with HD_DYNAMICS_FAULT if there
+ * are more than exponents that vanish. */
+HD_MUST_CHECK hd_status hd_null_vectors_of(int *count, const hd_scene_def *scene, const double *q,
+                                           const double *p, double *column);
+
 /** Checks that a record is valid for the scene; NULL, or what is wrong with it. */
 const char *hd_record_fault(const hd_record *record, const hd_scene_def *scene);
 void hd_record_archive(hd_record *record, hd_archive *archive, const hd_scene_def *scene);

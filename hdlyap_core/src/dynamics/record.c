@@ -30,6 +30,7 @@ void hd_record_clear(hd_record *record)
 {
     record->count = 0;
     record->duration = 0.0;
+    record->fault = NULL;
 }
 
 hd_status hd_record_reserve(hd_record *record, size_t count)
@@ -46,14 +47,38 @@ hd_status hd_record_reserve(hd_record *record, size_t count)
     return HD_OK;
 }
 
+/** Time of the last entry; 0 if there is none. */
+static inline double last_time(const hd_record *record)
+{
+    const char *end = (const char *)record->entry + record->count * record->size;
+    return record->count > 0 ? *(const double *)(end - record->size) : 0.0;
+}
+
+/** Notes the first fault. */
+static hd_status fail(hd_record *record, const char *fault, double at)
+{
+    if (!record->fault) record->at = at;
+    if (!record->fault) record->fault = fault;
+    return HD_DYNAMICS_FAULT;
+}
+
 hd_status hd_record_put(hd_record *record, const void *entry)
 {
-    HD_TRY(hd_record_reserve(record, record->count + 1));
+    const double time = *(const double *)entry;
+    if (!(time >= last_time(record))) /* false for NaN */
+        return fail(record, "hd_record_put: an entry is earlier than the last one, or not a number",
+                    time);
+    if (record->count == record->capacity) HD_TRY(hd_record_reserve(record, record->count + 1));
     memcpy((char *)record->entry + record->count++ * record->size, entry, record->size);
     return HD_OK;
 }
 
-void hd_record_end(hd_record *record, double duration) { record->duration = duration; }
+void hd_record_end(hd_record *record, double duration)
+{
+    if (!(last_time(record) <= duration))
+        (void)fail(record, "hd_record_end: the record ends before its last entry", duration);
+    record->duration = duration;
+}
 
 double hd_record_duration(const hd_record *record) { return record->duration; }
 size_t hd_record_count(const hd_record *record) { return record->count; }

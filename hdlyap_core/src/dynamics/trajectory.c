@@ -1,34 +1,48 @@
 /** Scene -> record: moves the particles of a scene by the row of their dynamics. */
+#include <float.h>
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 #include <zlib.h>
 
+#include "base/arrays.h"
 #include "base/check.h"
 #include "base/memory.h"
 #include "dynamics/dynamics.h"
 #include "dynamics/trajectory.h"
+#include "scene/scene.h"
 
 static size_t coordinates(const hd_trajectory *tr)
 {
     return (size_t)tr->particles * (size_t)tr->of->coordinates;
 }
 
-/** Takes note of q and p, so that reading what follows from them takes no memory. */
-static void note(hd_trajectory *tr)
+/** Takes note of q and p, so that reading what follows from them takes no memory. Fails with
+ * HD_NOT_FINITE. */
+static hd_status note(hd_trajectory *tr)
 {
-    if (tr->now) tr->of->state(tr->state, tr->now, tr->now + coordinates(tr));
+    if (!tr->now) return HD_OK;
+    tr->of->state(tr->state, tr->now, tr->now + coordinates(tr));
+    return hd_all_finite(tr->now, 2 * coordinates(tr)) ? HD_OK : HD_NOT_FINITE;
 }
 
-static bool is_stepped(const hd_dynamics *of) { return of->step && of->examine; }
-
-/** Looks at what time steps have done to the energy. */
-static void look(hd_trajectory *tr)
+/** Whether the energy is looked at: what happens in time steps can lose it, and so can what a row
+ * asks about; collisions lose no more than rounding. */
+static bool is_watched(const hd_dynamics *of)
 {
-    if (!is_stepped(tr->of)) return;
+    return of->examine && (of->step || of->energy_asked || !of->collides);
+}
+
+/** Looks at what has become of the energy. Fails with HD_ENERGY_LOST, or HD_NOT_FINITE. */
+static hd_status look(hd_trajectory *tr)
+{
+    if (!is_watched(tr->of)) return HD_OK;
     tr->energy.error = hd_trajectory_examined(tr).energy_error;
     const double size = fabs(tr->energy.error);
     /* NaN stays */
     if (!isnan(tr->energy.most) && !(size <= tr->energy.most)) tr->energy.most = size;
+    if (isnan(size)) return HD_NOT_FINITE;
+    return size <= HD_ENERGY_LOST_FROM ? HD_OK : HD_ENERGY_LOST;
 }
 
 double hd_trajectory_noted(const hd_scene_def *def)
@@ -52,19 +66,41 @@ hd_status hd_trajectory_create_with(hd_trajectory **out, const hd_scene_def *def
     }
     *tr = (hd_trajectory){.of = of, .state = state, .particles = def->number, .now = now};
     tr->rate = of->collision_rate(def);
-    tr->energy.error = tr->energy.most = is_stepped(of) ? 0.0 : NAN;
+    tr->energy.error = tr->energy.most = is_watched(of) ? 0.0 : NAN;
     tr->energy.asked = of->energy_asked ? of->energy_asked(def) : NAN;
-    note(tr);
-    *out = tr;
-    return HD_OK;
+    const hd_status status = note(tr);
+    if (status == HD_OK)
+        *out = tr;
+    else
+        hd_trajectory_free(tr);
+    return status;
 }
 
 hd_status hd_trajectory_create(hd_trajectory **out, const hd_scene_def *def)
 {
     void *state;
     *out = NULL;
+    HD_TRY(hd_dynamics_check(hd_dynamics_of(def), NULL, 0));
     HD_TRY(hd_dynamics_of(def)->create(&state, def));
     return hd_trajectory_create_with(out, def, state);
+}
+
+/** Most null vectors too many for which there is room at the start. */
+enum { NULL_ROOM = 64 };
+
+hd_status hd_trajectory_check_null(const hd_trajectory *tr, const hd_scene_def *def, char *message,
+                                   size_t size)
+{
+    const size_t half = coordinates(tr), zeros = (size_t)hd_scene_zero_exponents(def);
+    if (!def->dynamics || !tr->of->null_vectors) return HD_OK;
+    double *q = hd_memory_alloc(2 * half * (1 + zeros + NULL_ROOM), sizeof *q);
+    if (!q) return HD_NO_MEMORY;
+    hd_trajectory_state(tr, q, q + half);
+    const int known = tr->of->null_vectors(def, q, q + half, q + 2 * half);
+    hd_memory_free(q);
+    if (known >= 0 && known <= (int)zeros) return HD_OK;
+    return hd_refuse(message, size, "null_vectors = %d: must be from 0 to zero_exponents = %zu",
+                     known, zeros);
 }
 
 void hd_trajectory_free(hd_trajectory *tr)
@@ -75,13 +111,44 @@ void hd_trajectory_free(hd_trajectory *tr)
     hd_memory_free(tr);
 }
 
+/** Keeps the line that says what the row did wrong. */
+static hd_status fault(hd_trajectory *tr, const char *line, double is, double must_be)
+{
+    snprintf(tr->fault, sizeof tr->fault, "%s: it is %.12g, and must be %.12g", line, is, must_be);
+    return HD_DYNAMICS_FAULT;
+}
+
+/** Refuses an advance after which times are not those that it was asked for. Times are sums and
+ * differences of the present one, and round as these do. */
+static hd_status check_times(hd_trajectory *tr, const hd_record *record, double ends, double t_end)
+{
+    const double now = tr->of->time(tr->state), close = 16.0 * DBL_EPSILON * fabs(t_end);
+    if (record && record->fault) {
+        snprintf(tr->fault, sizeof tr->fault, "%s: at %.12g", record->fault, record->at);
+        return HD_DYNAMICS_FAULT;
+    }
+    if (!(fabs(now - t_end) <= close))
+        return fault(tr, "time: not what advance was asked for", now, t_end);
+    if (record && !(fabs(record->duration - ends) <= close))
+        return fault(tr, "hd_record_end: another duration than advance was asked for",
+                     record->duration, ends);
+    return HD_OK;
+}
+
 hd_status hd_trajectory_extend(hd_trajectory *tr, hd_record *record, double t_end)
 {
+    const double now = hd_trajectory_time(tr),
+                 ends = record ? record->duration + (t_end - now) : 0.0;
     const hd_status status = tr->of->advance(tr->state, record, t_end);
-    note(tr);
-    look(tr);
+    const hd_status finite = note(tr), kept = look(tr);
+    HD_TRY(status == HD_DYNAMICS_FAULT ? HD_OK : status);
+    HD_TRY(check_times(tr, record, ends, t_end));
+    HD_TRY(finite);
+    HD_TRY(kept);
     return status;
 }
+
+const char *hd_trajectory_fault(const hd_trajectory *tr) { return tr->fault; }
 
 hd_totals hd_trajectory_totals(const hd_trajectory *tr)
 {
@@ -132,12 +199,12 @@ hd_energy hd_trajectory_energy(const hd_trajectory *tr) { return tr->energy; }
 void hd_trajectory_archive(hd_trajectory *tr, hd_archive *archive)
 {
     tr->of->archive(tr->state, archive);
-    if (is_stepped(tr->of)) hd_archive_double(archive, "trajectory energy error", &tr->energy.most);
+    if (is_watched(tr->of)) hd_archive_double(archive, "trajectory energy error", &tr->energy.most);
     hd_archive_expect(archive, !(tr->energy.most < 0.0), "trajectory energy error",
                       "it is negative");
-    if (archive->writing) return;
-    note(tr);
-    look(tr);
+    if (archive->writing || !hd_archive_good(archive)) return;
+    hd_archive_expect(archive, note(tr) == HD_OK && look(tr) == HD_OK, "trajectory",
+                      "its energy, or a number of its state, cannot be right");
 }
 
 uint32_t hd_trajectory_fingerprint(const hd_trajectory *tr)

@@ -7,18 +7,33 @@
 #include "hdlyap/trajectory.h"
 
 /** Makes a trajectory of the scene *def from a state that its row has made, which then belongs to
- * the trajectory; if that fails, with HD_NO_MEMORY, the state is freed. */
+ * the trajectory; if that fails, with HD_NO_MEMORY or HD_NOT_FINITE, the state is freed. */
 HD_MUST_CHECK hd_status hd_trajectory_create_with(hd_trajectory **out, const hd_scene_def *def,
                                                   void *state);
 /** Positions in the box and momenta along its directions, without other coordinates, as angles; q
  * and p have room for hd_trajectory_state. */
 void hd_trajectory_places(const hd_trajectory *trajectory, double *q, double *p);
 
+/** Refuses a row of a program's own that knows more null vectors of the present state than there
+ * are exponents that vanish. Fails with HD_NO_MEMORY, too. */
+HD_MUST_CHECK hd_status hd_trajectory_check_null(const hd_trajectory *trajectory,
+                                                 const hd_scene_def *scene, char *message,
+                                                 size_t size);
+
 int hd_trajectory_particles(const hd_trajectory *trajectory); /**< N */
 
 void hd_trajectory_archive(hd_trajectory *trajectory, hd_archive *archive);
 /** A checksum of positions and momenta to the last bit. */
 uint32_t hd_trajectory_fingerprint(const hd_trajectory *trajectory);
+
+/** A run whose energy is off by more than this part of it fails with HD_ENERGY_LOST: exponents go
+ * as the root of the energy, so they are then off by 1 %, as much as the errors that short runs
+ * state.
+ */
+#define HD_ENERGY_LOST_FROM 0.02
+
+/** Bytes of the line that hd_trajectory_fault returns. */
+enum { HD_FAULT_LINE = 160 };
 
 /** Only trajectory.c changes the members; benchmarks and tests look at `state`. */
 struct hd_trajectory {
@@ -30,6 +45,7 @@ struct hd_trajectory {
     /** [2][particles][coordinates]: q and p of now, for what the row leaves out; NULL if it leaves
      * nothing out that follows from them. */
     double *now;
+    char fault[HD_FAULT_LINE]; /**< what the row's functions did wrong; "": nothing */
 };
 
 #endif

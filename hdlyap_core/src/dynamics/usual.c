@@ -7,6 +7,7 @@
 #include "base/memory.h"
 #include "dynamics/dynamics.h"
 #include "dynamics/record.h"
+#include "scene/scene.h"
 
 /* ---- tangent maps -------------------------------------------------------------------------- */
 
@@ -38,6 +39,14 @@ hd_status hd_maps_fill_of(const hd_dynamics *of, void *maps, const hd_record *re
     slice->begin = t_begin;
     slice->end = t_end;
     return HD_OK;
+}
+
+hd_status hd_null_vectors_of(int *count, const hd_scene_def *scene, const double *q,
+                             const double *p, double *column)
+{
+    const hd_dynamics *of = hd_dynamics_of(scene);
+    *count = of->null_vectors ? of->null_vectors(scene, q, p, column) : 0;
+    return *count >= 0 && *count <= hd_scene_zero_exponents(scene) ? HD_OK : HD_DYNAMICS_FAULT;
 }
 
 /* ---- record -------------------------------------------------------------------------------- */

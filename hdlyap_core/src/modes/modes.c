@@ -18,7 +18,7 @@
 #include "base/check.h"
 #include "base/communicator.h"
 #include "base/memory.h"
-#include "hdlyap/dynamics.h"
+#include "dynamics/dynamics.h"
 #include "modes/fields.h"
 #include "scene/null_space.h"
 #include "scene/scene.h"
@@ -74,7 +74,7 @@ static size_t known_most(const hd_scene_def *scene)
     const int translations = 2 * hd_null_space_of(scene).count;
     return of->scale_invariant || !of->null_vectors
                ? 0
-               : (size_t)(translations + hd_scene_counts(scene).zero);
+               : (size_t)(translations + hd_scene_counts(scene).zero + HD_NULL_SPARE);
 }
 
 static size_t rows_of(const hd_scene_def *scene)
@@ -252,21 +252,22 @@ static bool make_orthonormal(double *x, const double *unit, int count, int rows)
 
 /** Adds to the last null part the weights in the null vectors that the dynamics knows beyond
  * translations and their momenta: for soft particles in the flow. */
-static void measure_known(hd_modes *modes, hd_columns v, const double *q, const double *p)
+static hd_status measure_known(hd_modes *modes, hd_columns v, const double *q, const double *p)
 {
     const int rows = (int)rows_of(&modes->scene), last = (int)nulls_of(modes) - 1;
     double *out = row_of(modes->snapshot, null_row(modes) + (size_t)last, modes) + v.first;
-    const int moved = hd_null_space_fill(&modes->scene, q, p, modes->known),
-              all = moved + hd_dynamics_of(&modes->scene)
-                                ->null_vectors(&modes->scene, q, p,
-                                               modes->known + (size_t)moved * (size_t)rows);
-    for (int k = 0; k < all; k++) {
+    const int moved = hd_null_space_fill(&modes->scene, q, p, modes->known);
+    int more;
+    HD_TRY(hd_null_vectors_of(&more, &modes->scene, q, p,
+                              modes->known + (size_t)moved * (size_t)rows));
+    for (int k = 0; k < moved + more; k++) {
         double *x = modes->known + (size_t)k * (size_t)rows;
         if (!make_orthonormal(x, modes->known, k, rows) || k < moved) continue;
         hd_dgemm(CblasNoTrans, CblasNoTrans, v.count, 1, rows, 1.0, v.data, v.stride, x, rows, 0,
                  modes->work, (int)modes->stride);
         add_squares(out, modes->work, v.count);
     }
+    return HD_OK;
 }
 
 /** Measures the fraction of each dq half's squared length that turns particles. */
@@ -363,7 +364,7 @@ hd_status hd_modes_measure(hd_modes *modes, hd_columns v, const double *q, const
     overlaps(modes, v, 0, 0, columns, modes->coefficient);
     overlaps(modes, v, modes->coordinates, columns - nulls, nulls, modes->null_dp);
     measure_null(modes, v);
-    if (modes->known && v.count > 0) measure_known(modes, v, q, p);
+    if (modes->known && v.count > 0) HD_TRY(measure_known(modes, v, q, p));
     if (turns(modes)) measure_turning(modes, v);
     normalise(modes, v);
     for (int s = 0; s < hd_fields_subspaces(modes->fields); s++) measure_subspace(modes, s, v);

@@ -10,6 +10,7 @@
 #include "tangent/frame.h"
 #include "tangent/ortho.h"
 #include "averages/spectrum.h"
+#include "base/arrays.h"
 #include "base/blas.h"
 #include "base/check.h"
 #include "base/clock.h"
@@ -360,6 +361,18 @@ static hd_status take_piece(hd_carrier *c, const hd_carrying *how, double t_begi
                   (hd_interval_event){.at = HD_INTERVAL_PIECE, .from = t_begin, .to = t_end});
 }
 
+/** Why the frame cannot be carried even through a short piece: tangent vectors that are not numbers
+ * are another fault than vectors that become too ill-conditioned. */
+static hd_status why_not(hd_carrier *c, double t_begin, double t_end)
+{
+    hd_frame_rewind(c->frame);
+    HD_TRY(hd_frame_replay(c->frame, c->record, t_begin, t_end));
+    const size_t size = (size_t)hd_frame_rows(c->frame) * (size_t)hd_frame_stride(c->frame);
+    const bool finite = hd_all_finite(hd_frame_read(c->frame), size);
+    HD_TRY(agree(c, finite ? HD_OK : HD_NOT_FINITE));
+    return HD_ILL_CONDITIONED;
+}
+
 static hd_status carry_through(hd_carrier *c, const hd_carrying *how)
 {
     const double duration = hd_record_duration(c->record);
@@ -376,7 +389,7 @@ static hd_status carry_through(hd_carrier *c, const hd_carrying *how)
                                                : end + piece; /* rounding leaves no short piece */
             continue;
         }
-        if (piece <= duration / PIECES_LAST) return HD_ILL_CONDITIONED;
+        if (piece <= duration / PIECES_LAST) return why_not(c, begin, end);
         c->cost->repairs += piece >= duration;
         c->cost->limit = HD_LIMIT_REPAIR;
         hd_interval_failed(&c->interval, piece);

@@ -67,7 +67,7 @@ hd_norm hd_carrier_norm(const hd_carrier *carrier, bool whole);
 double hd_carrier_longest(const hd_scene_def *scene);
 
 /** Carries the frame through the whole record and orthonormalises it. Fails with HD_ILL_CONDITIONED
- * if no piece is short enough. */
+ * if no piece is short enough, with HD_NOT_FINITE if that is because `carry` gives no numbers. */
 HD_MUST_CHECK hd_status hd_carrier_orthonormalise(hd_carrier *carrier, hd_carrying how);
 /** Keeps the halves of this measured state, and ends the spectrum's sample. */
 HD_MUST_CHECK hd_status hd_carrier_sample(hd_carrier *carrier, bool averaging);

@@ -9,6 +9,13 @@
 bool hd_run_report_due(const hd_run *run) { return run->agenda.due & HD_DUE_REPORT; }
 bool hd_run_fields_due(const hd_run *run) { return run->agenda.due & HD_DUE_FIELDS; }
 hd_status hd_run_status(const hd_run *run) { return run->status; }
+const char *hd_run_fault(const hd_run *run)
+{
+    const char *told = hd_trajectory_fault(run->advance.trajectory);
+    if (run->status != HD_DYNAMICS_FAULT) return "";
+    return *told ? told : "null_vectors: more vectors than zero_exponents";
+}
+
 hd_stage hd_run_stage(const hd_run *run) { return run->agenda.stage; }
 const hd_scene_def *hd_run_scene(const hd_run *run) { return &run->scene; }
 int hd_run_vectors(const hd_run *run) { return run->carrier.vectors; }

@@ -149,7 +149,10 @@ hd_status hd_run_make(hd_run **out, const hd_scene_def *def, bool resumed,
     run->scene.warmup = hd_scene_warmup(def);
     hd_scene_settle(&run->scene);
     run->clocks.created = hd_clock_now();
-    const hd_status status = prepare(run);
+    hd_status status = prepare(run);
+    if (status == HD_OK)
+        status = hd_communicator_agree(
+            communicator, hd_trajectory_check_null(run->advance.trajectory, def, message, size));
     if (status != HD_OK) {
         hd_run_drop(run);
         return status;

@@ -19,6 +19,8 @@ bool hd_dynamics_named(const hd_dynamics **out, const char *particles, hd_known 
     for (size_t k = 0; k < HD_PARTICLES_END; k++)
         if (strcmp(rows[k]->particles, particles) == 0) return true;
     for (int k = 0; k < known.count && !*out; k++)
-        if (strcmp(known.row[k]->particles, particles) == 0) *out = known.row[k];
+        if (hd_dynamics_check(known.row[k], NULL, 0) == HD_OK &&
+            strcmp(known.row[k]->particles, particles) == 0)
+            *out = known.row[k];
     return *out;
 }

@@ -18,42 +18,15 @@ hd_scene_def hd_scene_def_default(void)
     return def;
 }
 
-/** Whether a row fits a parameter of a user's dynamics: a number, a word, or either. */
-static bool is_own(const hd_parameter *row)
-{
-    const bool number = row->kind == HD_PARAMETER_INT || row->kind == HD_PARAMETER_REAL ||
-                        row->kind == HD_PARAMETER_WORD || row->kind == HD_PARAMETER_INTERVAL;
-    const bool said = row->name && row->range && row->unit && row->text;
-    return number && said && row->offset >= HD_OWN(0) && row->offset < HD_OWN(HD_OWN_MAX) &&
-           (row->offset - HD_OWN(0)) % sizeof(hd_own) == 0 && !row->live;
-}
-
-static bool is_whole(const hd_dynamics *row)
-{
-    bool own = row->parameters <= HD_OWN_MAX && (row->parameter || row->parameters <= 0);
-    for (int k = 0; k < row->parameters && own; k++) own = is_own(&row->parameter[k]);
-    const int box = row->dimension;
-    const bool room = (box == 0 || box == 2 || box == 3) && row->coordinates >= box;
-    const bool maps = !row->maps_create == !row->maps_free && !row->maps_free == !row->maps_fill;
-    const bool turns = !row->inertia || (box == 2 && row->coordinates == 3);
-    return own && room && maps && turns && row->particles && (row->totals || !row->collides) &&
-           strlen(row->particles) < HD_PARTICLES && row->coordinates >= 1 &&
-           row->coordinates <= HD_COORDINATES_MAX && row->entry > 0 &&
-           row->entry % sizeof(double) == 0 && row->record_rate && row->collision_rate &&
-           row->create && row->free && row->advance && row->time && row->state && row->archive &&
-           row->carry;
-}
-
 hd_scene_def hd_scene_def_of(const hd_dynamics *dynamics)
 {
-    HD_ASSERT(is_whole(dynamics));
+    HD_ASSERT(dynamics);
     hd_scene_def def = hd_scene_def_default();
     def.dynamics = dynamics;
+    if (hd_dynamics_check(dynamics, NULL, 0) != HD_OK) return def; /* as hd_scene_check will say */
     for (int k = HD_DISKS; k < HD_PARTICLES_END; k++) {
         const hd_scene_def core = {.particles = (hd_particles)k};
-        const hd_dynamics *row = hd_dynamics_of(&core);
-        if (strcmp(row->particles, dynamics->particles) != 0) continue;
-        HD_ASSERT(row == dynamics); /* files and other ranks find the row by its name */
+        if (hd_dynamics_of(&core) != dynamics) continue;
         def.particles = (hd_particles)k;
         def.dynamics = NULL;
     }

@@ -8,6 +8,7 @@
 #include "scene/container.h"
 #include "scene/fluid.h"
 #include "scene/parameters.h"
+#include "scene/row_check.h"
 #include "scene/scene.h"
 #include "scene/wave.h"
 
@@ -155,6 +156,7 @@ static hd_status check_pairs(const hd_scene_def *def, char *message, size_t size
 hd_status hd_scene_check_start(const hd_scene_def *def, char *message, size_t size)
 {
     const hd_dynamics *of = hd_dynamics_of(def);
+    HD_TRY(hd_dynamics_check(of, message, size));
     const int each = 2 * of->coordinates;
     HD_TRY(hd_scene_check_box(def, message, size));
     if (def->exponents < HD_EXPONENTS_ALL_INDEPENDENT || def->exponents > each * def->number)
@@ -169,5 +171,6 @@ hd_status hd_scene_check_start(const hd_scene_def *def, char *message, size_t si
                          each * def->number, def->number);
     HD_TRY(check_pairs(def, message, size));
     if (of->dimension > 0) HD_TRY(check_waves(def, message, size));
-    return of->check ? of->check(def, message, size) : HD_OK;
+    if (of->check) HD_TRY(of->check(def, message, size));
+    return hd_row_check_numbers(def, message, size);
 }

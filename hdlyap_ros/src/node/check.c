@@ -280,7 +280,11 @@ static int of_file(int count, char *const *arguments, printer *print)
     char message[512] = "";
     hdr_params *params;
     settings set;
-    if (count < 1) return refused(REFUSED, "--check: must be followed by a scene file");
+    if (count < 1) {
+        snprintf(message, sizeof message, "%s: must be followed by a scene file",
+                 arguments[-1]); /* the option */
+        return refused(REFUSED, message);
+    }
     if (hdr_params_read(&params, arguments[0], count - 1, arguments + 1) != HDR_OK)
         return refused(REFUSED, hdr_error_text());
     const bool right = settings_read(&set, params, NULL, message, sizeof message);
@@ -319,9 +323,25 @@ static int tell_errors(settings *set, const char *path, const hdr_params *params
     return EXIT_SUCCESS;
 }
 
+static int test_dynamics(settings *set, const char *path, const hdr_params *params)
+{
+    char message[512] = "";
+    (void)path, (void)params;
+    const hd_status status = hd_dynamics_test(hd_dynamics_of(&set->def), &set->def, message,
+                                              sizeof message);
+    if (status != HD_OK) return fault(status, message);
+    puts("ok");
+    return EXIT_SUCCESS;
+}
+
 int check_scene(int count, char *const *arguments) { return of_file(count, arguments, try_scene); }
 
 int check_errors(int count, char *const *arguments)
 {
     return of_file(count, arguments, tell_errors);
+}
+
+int check_dynamics(int count, char *const *arguments)
+{
+    return of_file(count, arguments, test_dynamics);
 }

@@ -12,4 +12,8 @@ int check_scene(int count, char *const *arguments);
  */
 int check_errors(int count, char *const *arguments);
 
+/** Tests whether the functions of the row of the scene's particles do what they say
+ * (hd_dynamics_test): prints ok, or the line to standard error; likewise. */
+int check_dynamics(int count, char *const *arguments);
+
 #endif

@@ -318,6 +318,20 @@ static int answer(int argc, char **argv)
     return -1;
 }
 
+/** Answers options that a scene file follows, likewise. */
+static int answer_of_scene(int argc, char **argv)
+{
+    static const struct {
+        const char *argument;
+        int (*answer)(int count, char *const *arguments);
+    } answers[] = {
+        {"--check", check_scene}, {"--errors", check_errors}, {"--test-dynamics", check_dynamics}};
+    for (size_t k = 0; k < sizeof answers / sizeof *answers; k++)
+        if (argc > 1 && strcmp(argv[1], answers[k].argument) == 0)
+            return answers[k].answer(argc - 2, argv + 2);
+    return -1;
+}
+
 static int follow(const app *a)
 {
     ranks_follow(a->ranks);
@@ -341,12 +355,13 @@ int hdlyap_node_main(int argc, char **argv, const hd_dynamics *const *rows, int 
 {
     app a = {.ros = NULL};
     char message[512];
+    if (!particles_check(rows, count, message, sizeof message)) return refuse(message);
     particles_register(rows, count);
     const int answered = answer(argc, argv);
     if (answered >= 0) return answered;
     restart_if_slow(argv);
-    if (argc > 1 && strcmp(argv[1], "--check") == 0) return check_scene(argc - 2, argv + 2);
-    if (argc > 1 && strcmp(argv[1], "--errors") == 0) return check_errors(argc - 2, argv + 2);
+    const int checked = answer_of_scene(argc, argv);
+    if (checked >= 0) return checked;
     if (!ranks_join(&a.ranks, &argc, &argv, message, sizeof message))
         return *message ? refuse(message) : EXIT_SUCCESS;
     const int status = a.ranks && a.ranks->rank > 0 ? follow(&a) : lead(&a, argc, argv);

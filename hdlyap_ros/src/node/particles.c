@@ -10,12 +10,21 @@ static const hd_dynamics *const *brought;
 static int brought_count;
 static const hd_dynamics *now; /* NULL: none is chosen yet */
 
+bool particles_check(const hd_dynamics *const *rows, int count, char *message, size_t size)
+{
+    char line[256];
+    for (int k = 0; k < count; k++) {
+        if (hd_dynamics_check(rows[k], line, sizeof line) == HD_OK) continue;
+        snprintf(message, size, "row %d of this program's dynamics: %s", k, line);
+        return false;
+    }
+    return true;
+}
+
 void particles_register(const hd_dynamics *const *rows, int count)
 {
     brought = rows;
     brought_count = count;
-    for (int k = 0; k < count; k++)
-        (void)hd_scene_def_of(rows[k]); /* asserts that the row is complete */
 }
 
 const hd_dynamics *const *particles_brought(int *count)

@@ -7,7 +7,9 @@
 
 #include "hdlyap/dynamics.h"
 
-/** Adds a program's rows; called once, before any other function. */
+/** Returns false, with a line, if a program's row cannot be right. */
+bool particles_check(const hd_dynamics *const *rows, int count, char *message, size_t size);
+/** Adds a program's rows; called once, before the functions below. */
 void particles_register(const hd_dynamics *const *rows, int count);
 const hd_dynamics *const *particles_brought(int *count);
 

@@ -299,6 +299,8 @@ static void explain(worker *w, hd_status status)
     snprintf(fault, size, "%s", hd_status_text(status));
     if (status == HD_ENERGY_LOST && of->step)
         snprintf(fault, size, "%s, %.4g", hd_status_text(status), of->step(scene));
+    if (status == HD_DYNAMICS_FAULT)
+        snprintf(fault, size, "%s: %s", hd_status_text(status), hd_run_fault(w->run));
 }
 
 /** What is known of the particles at the end, of a fault, too. The lock is held. */

@@ -312,65 +312,6 @@ TEST(no_gas_without_pressure)
                   "cannot be measured");
 }
 
-static jmp_buf bug;
-static void caught(const char *condition, const char *file, int line)
-{
-    (void)condition, (void)file, (void)line;
-    longjmp(bug, 1);
-}
-
-static bool is_a_bug(const hd_dynamics *row)
-{
-    volatile bool found = false;
-    hd_assert_handler_replace(caught);
-    if (setjmp(bug) == 0)
-        (void)hd_scene_def_of(row);
-    else
-        found = true;
-    hd_assert_handler_replace(NULL);
-    return found;
-}
-
-TEST(a_row_that_lacks_something_is_a_bug)
-{
-    static const hd_parameter elsewhere[] = {
-        {"beta", HD_PARAMETER_REAL, NULL, 0, 1, 0, 2, "from 0 to 2", "", .text = ""}};
-    static const hd_parameter silent[] = {
-        {"beta", HD_PARAMETER_REAL, NULL, HD_OWN(BETA), 1, 0, 2, "from 0 to 2", NULL, .text = ""}};
-    assert_false(is_a_bug(&of_chain));
-    hd_dynamics row = of_chain;
-    row.carry = NULL;
-    assert_true(is_a_bug(&row));
-    row = of_chain;
-    row.entry = 12;
-    assert_true(is_a_bug(&row));
-    row = of_chain;
-    row.particles = "chains of more than thirty-one letters";
-    assert_true(is_a_bug(&row));
-    row.particles = "spheres"; /* of the core */
-    assert_true(is_a_bug(&row));
-    row = of_chain;
-    row.coordinates = 1001;
-    assert_true(is_a_bug(&row));
-    row.dimension = row.coordinates = 1;
-    assert_true(is_a_bug(&row));
-    row = of_chain;
-    row.maps_fill = hd_disks_row.maps_fill; /* but not the rest of them */
-    assert_true(is_a_bug(&row));
-    row = of_chain;
-    row.parameter = elsewhere;
-    row.parameters = 1;
-    assert_true(is_a_bug(&row));
-    row.parameter = NULL; /* but there is one */
-    assert_true(is_a_bug(&row));
-    row = of_chain;
-    row.parameter = silent;
-    row.parameters = 1;
-    assert_true(is_a_bug(&row));
-    row.particles = NULL;
-    assert_true(is_a_bug(&row));
-}
-
 /** Of each step; momenta lose so much of themselves. */
 static const double LOST = 5e-4;
 

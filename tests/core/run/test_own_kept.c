@@ -74,7 +74,7 @@ TEST(own_parameters_can_be_words)
         {"time_step", HD_PARAMETER_REAL, NULL, HD_OWN(STEP), 0.02, 1e-6, 0.1, "from 1e-6 to 0.1",
          "", .text = ""},
         {"kind", HD_PARAMETER_WORD, kinds, HD_OWN(3), 3, 3, 7, "soft or stiff", "", .text = ""},
-        {"number", HD_PARAMETER_INT, NULL, HD_OWN(4), 5, 1, 9, "an integer from 1 to 9", "",
+        {"pieces", HD_PARAMETER_INT, NULL, HD_OWN(4), 5, 1, 9, "an integer from 1 to 9", "",
          .text = ""}};
     hd_dynamics of_words = of_chain;
     of_words.parameter = words;
@@ -95,7 +95,7 @@ TEST(own_parameters_can_be_words)
     check_not_resumed(PATH, &other, HD_REFUSED, "energy = 12: must be stiff, as in the checkpoint");
     other = scene;
     other.own[4].whole = 6;
-    check_not_resumed(PATH, &other, HD_REFUSED, "number = 6: must be 5, as in the checkpoint");
+    check_not_resumed(PATH, &other, HD_REFUSED, "pieces = 6: must be 5, as in the checkpoint");
     scene.own[ENERGY].real = 8.0;
     check_refused(scene, "energy = 8: must be soft, stiff or from 10 to 20");
     (void)remove(PATH);

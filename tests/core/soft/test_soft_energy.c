@@ -176,9 +176,9 @@ TEST(a_run_ends_before_its_energy_is_another)
     OWNED(hd_run) *run = created(def);
     until_time(run, 2.0);
     const hd_energy early = energy_after(run);
-    CHECK_WITHIN(early.most, 10.0 * early.asked, HD_SOFT_LOST);
+    CHECK_WITHIN(early.most, 10.0 * early.asked, HD_ENERGY_LOST_FROM);
     while (status == HD_OK && hd_run_stage(run) < HD_FINISHED) status = hd_run_advance(run);
     assert_int_equal(status, HD_ENERGY_LOST);
     CHECK_WITHIN(hd_run_time(run), 2.0, 290.0);
-    CHECK_WITHIN(energy_after(run).most, HD_SOFT_LOST, 2.0 * HD_SOFT_LOST);
+    CHECK_WITHIN(energy_after(run).most, HD_ENERGY_LOST_FROM, 2.0 * HD_ENERGY_LOST_FROM);
 }

@@ -366,7 +366,7 @@ TEST(a_step_that_is_too_long_is_named)
         while (status == HD_OK) status = hd_run_advance(run);
         assert_int_equal(status, HD_ENERGY_LOST);
         assert_non_null(strstr(hd_status_text(status), "the time step is too long"));
-        assert_true(hd_trajectory_energy(hd_run_parts(run).trajectory).most > HD_SOFT_LOST);
+        assert_true(hd_trajectory_energy(hd_run_parts(run).trajectory).most > HD_ENERGY_LOST_FROM);
         if (hd_run_stage(run) < HD_AVERAGING) continue;
         CHECK_WITHIN(hd_spectrum_exponent(hd_run_spectrum(run), 0), 1.0, 10.0);
         CHECK_WITHIN(hd_spectrum_time(hd_run_spectrum(run)), 10.0, 1e5);

@@ -19,7 +19,11 @@ static inline hd_event *events_in(const hd_record *record) { return record->entr
 /** Of events that somebody else keeps. */
 static inline hd_record record_of(hd_event *event, size_t count, double duration)
 {
-    return (hd_record){event, sizeof *event, count, count, duration};
+    return (hd_record){.entry = event,
+                       .size = sizeof *event,
+                       .count = count,
+                       .capacity = count,
+                       .duration = duration};
 }
 
 #endif

@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "dynamics/soft/soft.h"
+#include "dynamics/trajectory.h"
 #include "scene/scene.h"
 
 /** Simulated time of a run without an end, for which its step is chosen [time units]. */
@@ -123,10 +124,10 @@ static double fastest(const hd_scene_def *scene)
     return sqrt(most);
 }
 
-/** At most what leaves a run twice as far from its end by HD_SOFT_LOST as from what is asked. */
+/** At most what leaves a run twice as far from its end by HD_ENERGY_LOST_FROM as from what is asked. */
 static double accuracy(const hd_scene_def *scene)
 {
-    return fmin(fmax(scene->accuracy, hd_soft_potential(scene)->least), 0.5 * HD_SOFT_LOST / ASKED);
+    return fmin(fmax(scene->accuracy, hd_soft_potential(scene)->least), 0.5 * HD_ENERGY_LOST_FROM / ASKED);
 }
 
 double hd_soft_energy_asked(const hd_scene_def *scene) { return ASKED * accuracy(scene); }

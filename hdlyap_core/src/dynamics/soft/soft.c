@@ -11,6 +11,7 @@
 #include "dynamics/soft/kick.h"
 #include "dynamics/soft/kick_maps.h"
 #include "dynamics/soft/soft.h"
+#include "dynamics/trajectory.h"
 #include "scene/container.h"
 #include "scene/dynamics.h"
 #include "scene/null_space.h"
@@ -104,7 +105,7 @@ static double kinetic_energy(const soft *s)
 }
 
 /** Measures s->error: the change of the energy over kinetic + |potential| energy. Fails with
- * HD_ENERGY_LOST if it is more than HD_SOFT_LOST. */
+ * HD_ENERGY_LOST if it is more than HD_ENERGY_LOST_FROM. */
 static hd_status look(soft *s)
 {
     double potential;
@@ -113,7 +114,7 @@ static hd_status look(soft *s)
     if (status == HD_NOT_FINITE) return s->error = 1.0, HD_ENERGY_LOST; /* where it tends to */
     HD_TRY(status);
     s->error = (kinetic + potential - s->energy) / (kinetic + fabs(potential));
-    return fabs(s->error) <= HD_SOFT_LOST ? HD_OK : HD_ENERGY_LOST;
+    return fabs(s->error) <= HD_ENERGY_LOST_FROM ? HD_OK : HD_ENERGY_LOST;
 }
 
 /* ---- steps --------------------------------------------------------------------------------- */
@@ -373,7 +374,7 @@ static void row_examine(const void *state, hd_invariants *out)
     const soft *s = state;
     *out = (hd_invariants){.kinetic_energy = kinetic_energy(s),
                            .energy_error = s->error,
-                           .energy_rounding = HD_SOFT_LOST};
+                           .energy_rounding = HD_ENERGY_LOST_FROM};
     for (int k = 0; k < s->count * s->dimension; k++) out->momentum[k % s->dimension] += s->p[k];
 }
 
