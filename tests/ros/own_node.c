@@ -4,9 +4,7 @@
 #include <hdlyap_ros/main.h>
 #include <string.h>
 
-#define main chain_main
-#include "../../hdlyap_core/examples/chain.c"
-#undef main
+#include "../core/support/chain_by_hand.h"
 
 /** Time after which the energy is lost. */
 static const double LOST = 20.0;

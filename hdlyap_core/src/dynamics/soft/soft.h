@@ -12,10 +12,6 @@
 enum { HD_SOFT_POTENTIAL, HD_SOFT_ENERGY, HD_SOFT_TIME_STEP, HD_SOFT_INTEGRATOR, HD_SOFT_OWN };
 extern const hd_parameter hd_soft_own[HD_SOFT_OWN];
 
-/** A run whose energy is off by more than this part of it fails: exponents go as the root of the
- * energy, so they are then off by 1 %, as much as the errors that short runs state. */
-#define HD_SOFT_LOST 0.02
-
 typedef struct soft {
     const hd_potential *potential;
     const hd_integrator *integrator;
