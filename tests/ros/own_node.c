@@ -1,4 +1,4 @@
-/** A node of particles that the core does not know: the chain of the examples; the same chain that
+/** A node of particles that the core does not know: a chain by hand; the same chain that
  * loses its energy, as a row may say without having a time step; and rows of long names that share
  * parameters of their own. */
 #include <hdlyap_ros/main.h>

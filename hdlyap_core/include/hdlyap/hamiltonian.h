@@ -49,7 +49,7 @@ void hd_hamiltonian_momenta(const hd_scene_def *scene, double *p, double energy)
 /* ---- own parameters that a row may have, as number k; without them both are automatic */
 
 /** time_step: if 0, it is chosen: the longest one with which the energy stays within the accuracy,
- * which counts as from 1e-6 to 1e-3, over some hundred steps from the start. A tenfold error is
+ * which counts as from 1e-6 to 1e-3, from the start to a time of 1 / growth. A tenfold error is
  * what hd_dynamics.energy_asked allows. */
 #define HD_OWN_TIME_STEP(k)                                                                        \
     {                                                                                              \

@@ -252,14 +252,14 @@ static hd_status begin(motion *m, double step)
     return isfinite(m->energy) ? HD_OK : HD_NOT_FINITE;
 }
 
-/** Whether some hundred steps from the start, fewer of very many particles, keep the energy to
- * `aim`. */
-static bool keeps_energy(motion *m, double step, double aim)
+/** Whether steps keep the energy to `aim` over this span from the start, and over 256 steps; of
+ * very many particles over less, about a second of wall time. */
+static bool keeps_energy(motion *m, double step, double aim, double span)
 {
-    const size_t most = (size_t)1 << 20;
-    const size_t steps = m->all < most / 512 ? 512 : m->all < most / 64 ? most / m->all : 64;
+    const double least = 256.0, most = fmax(least, ldexp(1.0, 26) / (double)m->all);
+    const double steps = fmin(fmax(least, span / step), most);
     if (begin(m, step) != HD_OK) return true; /* as at any other step */
-    while (m->steps < steps)
+    while ((double)m->steps < steps)
         if (one_step(m, NULL, 0.0) != HD_OK || look(m) != HD_OK || !(fabs(m->error) <= aim))
             return false;
     return true;
@@ -269,11 +269,12 @@ static bool keeps_energy(motion *m, double step, double aim)
  * depend on the last bits of a machine. */
 static double step_chosen(motion *m, double aim)
 {
-    const double growth = m->of->growth(&m->scene);
-    double step = exp2(floor(log2(fmin(LONGEST, growth > 0 ? 1.0 / growth : LONGEST))));
-    for (int k = 0; k < 64 && !keeps_energy(m, step, aim); k++) step *= 0.5;
+    const double growth = m->of->growth(&m->scene),
+                 longest = fmin(LONGEST, growth > 0 ? 1.0 / growth : LONGEST);
+    double step = exp2(floor(log2(longest)));
+    for (int k = 0; k < 64 && !keeps_energy(m, step, aim, longest); k++) step *= 0.5;
     for (int quarters = 7; quarters > 4; quarters--)
-        if (keeps_energy(m, 0.25 * quarters * step, aim)) return 0.25 * quarters * step;
+        if (keeps_energy(m, 0.25 * quarters * step, aim, longest)) return 0.25 * quarters * step;
     return step;
 }
 
