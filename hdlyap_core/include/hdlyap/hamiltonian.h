@@ -80,22 +80,21 @@ typedef struct hd_kicks {
     const double *kept;   /**< [count][numbers] */
 } hd_kicks;
 
-/* The loops over columns are compiled for several processors, as HD_MULTIVERSION does in the core,
- * and by gcc with all optimisations of loops; `bend` becomes a part of them. */
-#if defined(__x86_64__) && defined(__GNUC__) && defined(__OPTIMIZE__) &&                           \
-    !defined(HD_NO_MULTIVERSION)
+/* The loops over columns are compiled for several processors, as hot loops of the core are, with
+ * `bend` as a part of them, and by gcc with all optimisations of loops. */
 #if defined(__clang__)
 #define HD_HAMILTONIAN_LOOPS
 #else
-#define HD_HAMILTONIAN_LOOPS optimize("O3"),
+#define HD_HAMILTONIAN_LOOPS flatten, optimize("O3"),
 #endif
-#if __has_attribute(target_clones)
-#define HD_HAMILTONIAN_HOT                                                                         \
-    __attribute__((HD_HAMILTONIAN_LOOPS flatten, target_clones("avx512f", "fma", "default")))
-#endif
-#endif
-#ifndef HD_HAMILTONIAN_HOT
 #define HD_HAMILTONIAN_HOT
+#if defined(__x86_64__) && defined(__GNUC__) && defined(__OPTIMIZE__) &&                           \
+    !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#if __has_attribute(target_clones)
+#undef HD_HAMILTONIAN_HOT
+#define HD_HAMILTONIAN_HOT                                                                         \
+    __attribute__((HD_HAMILTONIAN_LOOPS target_clones("avx512f", "fma", "default")))
+#endif
 #endif
 
 /** Makes the row `name` from the function
@@ -113,11 +112,12 @@ typedef struct hd_kicks {
     {                                                                                              \
         switch (width) {                                                                           \
         case 1: HD_HAMILTONIAN_CARRY(bend_, name.coordinates, 1) break;                            \
+        case 2: HD_HAMILTONIAN_CARRY(bend_, name.coordinates, 2) break;                            \
+        case 4: HD_HAMILTONIAN_CARRY(bend_, name.coordinates, 4) break;                            \
         case 8: HD_HAMILTONIAN_CARRY(bend_, name.coordinates, 8) break;                            \
         case 16: HD_HAMILTONIAN_CARRY(bend_, name.coordinates, 16) break;                          \
         case 32: HD_HAMILTONIAN_CARRY(bend_, name.coordinates, 32) break;                          \
-        case 64: HD_HAMILTONIAN_CARRY(bend_, name.coordinates, 64) break;                          \
-        default: HD_HAMILTONIAN_CARRY(bend_, name.coordinates, width) break;                       \
+        default: HD_HAMILTONIAN_CARRY(bend_, name.coordinates, 64) break;                          \
         }                                                                                          \
     }                                                                                              \
     static const hd_dynamics name = {                                                              \

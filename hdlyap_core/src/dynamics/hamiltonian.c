@@ -36,13 +36,14 @@ typedef struct motion {
     hd_scene_def scene;
     const hd_hamiltonian *of;
     const hd_integrator *by;
-    size_t all, numbers; /**< coordinates, and kept numbers, of all particles */
-    double step, now;    /**< [time units] */
-    uint64_t steps;      /**< time steps done so far */
-    double energy;       /**< energy at the start */
-    double error;        /**< relative error of the energy, see look */
-    double *q, *p;       /**< [all]: after the last time step, but for a drift that is pending */
-    double *here, *force, *kept; /**< [all], [all], [numbers]: for one computation of forces */
+    size_t all, numbers;  /**< coordinates, and kept numbers, of all particles */
+    double step, now;     /**< [time units] */
+    uint64_t steps;       /**< time steps done so far */
+    double energy;        /**< energy at the start */
+    double error;         /**< relative error of the energy, see look */
+    double *q, *p;        /**< [all]: after the last time step, but for a drift that is pending */
+    double *here, *force; /**< [all], [all]: for one computation of forces */
+    double *kept;         /**< [numbers], and zeros behind them for a whole part */
     double room[];
 } motion;
 
@@ -162,10 +163,8 @@ static hd_status look(motion *m)
 static hd_status put_kick(const motion *m, hd_record *record, entry *e)
 {
     for (size_t done = 0; done == 0 || done < m->numbers; done += PART) {
-        const size_t left = m->numbers - done, part = left < PART ? left : PART;
-        e->left = (double)left;
-        memcpy(e->kept, m->kept + done, part * sizeof *e->kept);
-        memset(e->kept + part, 0, (PART - part) * sizeof *e->kept);
+        e->left = (double)(m->numbers - done);
+        memcpy(e->kept, m->kept + done, sizeof e->kept);
         HD_TRY(hd_record_put(record, e));
     }
     return HD_OK;
@@ -181,12 +180,12 @@ static hd_status one_step(motion *m, hd_record *record, double end)
 {
     const hd_integrator *by = m->by;
     double due = pending(m);
+    entry e;
+    e.time = end;
     for (int k = 0; k < by->kicks; k++) {
-        const bool last = k + 1 == by->kicks;
-        entry e = {.time = end,
-                   .before = by->drift[k] * m->step,
-                   .length = by->kick[k] * m->step,
-                   .after = last ? by->drift[k + 1] * m->step : 0.0};
+        e.before = by->drift[k] * m->step;
+        e.length = by->kick[k] * m->step;
+        e.after = k + 1 == by->kicks ? by->drift[k + 1] * m->step : 0.0;
         add(m->q, due + e.before, m->p, m->all);
         forces_at(m, m->q);
         add(m->p, e.length, m->force, m->all);
@@ -223,7 +222,7 @@ static hd_status allocate(motion **out, const hd_scene_def *scene)
 {
     const size_t all = (size_t)hd_dynamics_of(scene)->coordinates * (size_t)scene->number,
                  numbers = numbers_of(scene);
-    motion *m = *out = hd_memory_alloc(1, sizeof *m + (4 * all + numbers) * sizeof *m->room);
+    motion *m = *out = hd_memory_alloc(1, sizeof *m + (4 * all + numbers + PART) * sizeof *m->room);
     if (!m) return HD_NO_MEMORY;
     m->scene = *scene;
     m->of = hamiltonian_of(scene);
@@ -363,7 +362,7 @@ uint32_t hd_hamiltonian_fingerprint(const void *state)
 double hd_hamiltonian_bytes(const hd_scene_def *scene)
 {
     const double all = (double)scene->number * hd_dynamics_of(scene)->coordinates;
-    return sizeof(motion) + (4.0 * all + (double)numbers_of(scene)) * sizeof(double);
+    return sizeof(motion) + (4.0 * all + (double)numbers_of(scene) + PART) * sizeof(double);
 }
 
 /* ---- null vectors -------------------------------------------------------------------------- */
@@ -480,7 +479,8 @@ hd_status hd_kicks_fill(void *to, const hd_record *record, double t_begin, doubl
             flight = e->after;
         }
         const size_t part = left < PART ? left : PART;
-        memcpy(kept, e->kept, part * sizeof *kept);
+        memcpy(kept, e->kept,
+               sizeof e->kept); /* a whole one, of which the next one replaces the rest */
         kept += part;
         left -= part;
     }
