@@ -1,6 +1,6 @@
 /** Forces that a program gives -> record: motion of particles with H = sum p^2 / 2 + V(q), in time
- * steps of drifts and kicks. The last drift of a step is done with the first one of the next: until
- * then it is pending, whoever looks at the state in between. One thread computes this. */
+ * steps of drifts and kicks [T24]. The last drift of a step is done with the first one of the next:
+ * until then it is pending, whoever looks at the state in between. One thread computes this. */
 #include "hdlyap/hamiltonian.h"
 
 #include <math.h>
@@ -14,9 +14,10 @@
 #include "dynamics/dynamics.h"
 #include "dynamics/soft/integrator.h"
 
-/** Simulated time of the longest time step, and the energy error asked for as a multiple of the
- * accuracy, which counts as at least this. */
-static const double LONGEST = 10.0, ASKED = 10.0, LEAST = 1e-6;
+/** The energy error asked for is this many times the accuracy, which counts as at least LEAST. */
+static const double ASKED = 10.0, LEAST = 1e-6;
+/** The longest time step; and one that is short for estimates if none is known [time units]. */
+static const double LONGEST = 10.0, SHORT = 0.01;
 
 /** The energy is measured after this many time steps. */
 enum { LOOK_STEPS = 128 };
@@ -97,8 +98,10 @@ double hd_hamiltonian_rate(const hd_scene_def *scene)
 int hd_hamiltonian_zeros(const hd_scene_def *scene)
 {
     const hd_hamiltonian *of = hamiltonian_of(scene);
-    const int coordinates = hd_dynamics_of(scene)->coordinates;
-    return of->zero_exponents ? of->zero_exponents(scene) : 2 + (of->shifts ? 2 * coordinates : 0);
+    const int of_one = 2 * hd_dynamics_of(scene)->coordinates,
+              known = 2 + (of->shifts ? of_one : 0);
+    if (of->zero_exponents) return of->zero_exponents(scene);
+    return known < of_one * scene->number ? known : of_one * scene->number;
 }
 
 static size_t numbers_of(const hd_scene_def *scene)
@@ -108,8 +111,9 @@ static size_t numbers_of(const hd_scene_def *scene)
 
 double hd_hamiltonian_entries(const hd_scene_def *scene)
 {
-    const double parts = fmax(1.0, ceil((double)numbers_of(scene) / PART));
-    return integrator_of(scene)->kicks * parts / hd_hamiltonian_time_step(scene);
+    const double parts = fmax(1.0, ceil((double)numbers_of(scene) / PART)),
+                 step = hd_hamiltonian_time_step(scene);
+    return integrator_of(scene)->kicks * parts / (step > 0 ? step : SHORT);
 }
 
 void hd_hamiltonian_momenta(const hd_scene_def *scene, double *p, double energy)
@@ -266,9 +270,9 @@ static bool keeps_energy(motion *m, double step, double aim, double span)
 
 /** Halves a power of two until it is short enough, and adds quarters of it. So the choice does not
  * depend on the last bits of a machine. */
-static double step_chosen(motion *m, double aim)
+static double step_chosen(motion *m)
 {
-    const double growth = m->of->growth(&m->scene),
+    const double growth = m->of->growth(&m->scene), aim = accuracy(&m->scene),
                  longest = fmin(LONGEST, growth > 0 ? 1.0 / growth : LONGEST);
     double step = exp2(floor(log2(longest)));
     for (int k = 0; k < 64 && !keeps_energy(m, step, aim, longest); k++) step *= 0.5;
@@ -277,22 +281,24 @@ static double step_chosen(motion *m, double aim)
     return step;
 }
 
+/** 0, as it is asked, of a scene that is not checked and refused, or if there is no memory. */
 double hd_hamiltonian_time_step(const hd_scene_def *scene)
 {
     const double asked = own(scene, "time_step", 0.0);
     motion *m;
-    if (asked > 0 || scene->number < 1) return asked; /* it may not be checked yet */
-    if (allocate(&m, scene) != HD_OK) return LONGEST;
-    const double step = step_chosen(m, accuracy(scene));
+    if (asked > 0 || scene->number < 1 || scene->number > 1000000) return asked;
+    if (hd_hamiltonian_check(scene, NULL, 0) != HD_OK || allocate(&m, scene) != HD_OK) return asked;
+    const double step = step_chosen(m);
     hd_memory_free(m);
     return step;
 }
 
 hd_status hd_hamiltonian_create(void **state, const hd_scene_def *scene)
 {
+    const double asked = own(scene, "time_step", 0.0);
     motion *m;
     hd_status status = allocate(&m, scene);
-    if (status == HD_OK) status = begin(m, hd_hamiltonian_time_step(scene));
+    if (status == HD_OK) status = begin(m, asked > 0 ? asked : step_chosen(m));
     *state = status == HD_OK ? m : NULL;
     if (status != HD_OK) hd_memory_free(m);
     return status;

@@ -172,6 +172,10 @@ TEST(rotors_have_four_zeros)
     const hd_scene_def stars = kind(OF_STARS),
                        linear = scene_from(kind(VERLET), .own[BETA].real = 0);
     assert_int_equal(hd_scene_counts(&stars).zero, 2);
+    for (int number = 1; number <= 2; number++) { /* which are all integrable */
+        const hd_scene_def few = of_row(&of_rotors, number);
+        assert_int_equal(hd_scene_counts(&few).zero, 2 * number);
+    }
     assert_int_equal(hd_scene_counts(&linear).zero, 14);
 }
 
@@ -300,6 +304,13 @@ TEST(a_record_that_cannot_be_carried_is_refused)
     scene.dynamics->free(state);
 }
 
+static hd_status refuse_odd(const hd_scene_def *scene, char *message, size_t size)
+{
+    if (scene->number % 2 == 0) return HD_OK;
+    snprintf(message, size, "number = %d: must be even", scene->number);
+    return HD_REFUSED;
+}
+
 TEST(what_does_not_fit_is_refused)
 {
     char message[256];
@@ -310,4 +321,54 @@ TEST(what_does_not_fit_is_refused)
     scene = chain_scene(8, 2, 0.01);
     assert_int_equal(hd_run_create(&run, &scene, message, sizeof message), HD_REFUSED);
     assert_string_equal(message, "integrator = 2: must be verlet or pefrl");
+    hd_hamiltonian choosy = *of_rotors.hamiltonian;
+    hd_dynamics row = of_rotors;
+    choosy.check = refuse_odd;
+    row.hamiltonian = &choosy;
+    scene = of_row(&row, 5);
+    assert_int_equal(hd_run_create(&run, &scene, message, sizeof message), HD_REFUSED);
+    assert_string_equal(message, "number = 5: must be even");
+}
+
+/* ---- in a box ------------------------------------------------------------------------------ */
+
+static void in_box_start(const hd_scene_def *scene, double *q, double *p)
+{
+    (void)q;
+    hd_hamiltonian_momenta(scene, p, 0.5);
+}
+
+/** No forces: particles fly through a periodic box. */
+static double in_box_force(const hd_scene_def *scene, const double *q, double *f, double *kept)
+{
+    (void)scene, (void)q, (void)f, (void)kept;
+    return 0.0;
+}
+
+static void in_box_bend(const double *kept, double time, const double *restrict dq,
+                        double *restrict dp, int n, int width)
+{
+    (void)kept, (void)time, (void)dq, (void)dp, (void)n, (void)width;
+}
+
+HD_HAMILTONIAN(of_box, in_box_bend,
+               (.start = in_box_start, .force = in_box_force, .growth = rotors_growth),
+               .particles = "motes", .dimension = 2, .coordinates = 2);
+
+/** They start at 0; all is exact but for rounding. */
+TEST(positions_are_in_the_box)
+{
+    const hd_scene_def scene = scene_from(of_row(&of_box, 3), .density = 0.1, .aspect = 0.8);
+    const double step = of_box.step(&scene), time = step * floor(50.0 / step);
+    double box[HD_DIMENSION_MAX], q[6], p[6];
+    void *state = state_of(&scene);
+    hd_scene_box(&scene, box);
+    CHECK_OK(of_box.advance(state, NULL, 50.0));
+    of_box.state(state, q, p);
+    for (int k = 0; k < 6; k++) {
+        const double turns = (time * p[k] - q[k]) / box[k % 2];
+        CHECK_WITHIN(q[k], 0.0, box[k % 2]);
+        CHECK_CLOSE(turns, round(turns), 1e-12);
+    }
+    of_box.free(state);
 }
