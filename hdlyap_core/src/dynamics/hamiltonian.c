@@ -365,10 +365,13 @@ uint32_t hd_hamiltonian_fingerprint(const void *state)
     return (uint32_t)crc32_z(0, (const Bytef *)m->q, 2 * m->all * sizeof *m->q); /* p, too */
 }
 
+/** Two states, one of which chooses the time step. */
 double hd_hamiltonian_bytes(const hd_scene_def *scene)
 {
-    const double all = (double)scene->number * hd_dynamics_of(scene)->coordinates;
-    return sizeof(motion) + (4.0 * all + (double)numbers_of(scene) + PART) * sizeof(double);
+    const double all = (double)scene->number * hd_dynamics_of(scene)->coordinates,
+                 states = own(scene, "time_step", 0.0) > 0 ? 1.0 : 2.0;
+    return states *
+           (sizeof(motion) + (4.0 * all + (double)numbers_of(scene) + PART) * sizeof(double));
 }
 
 /* ---- null vectors -------------------------------------------------------------------------- */
@@ -422,7 +425,7 @@ const char *hd_hamiltonian_fault(const hd_record *record, const hd_scene_def *sc
 
 double hd_hamiltonian_record_bytes(double entries)
 {
-    return hd_record_bytes(4.0 * entries, sizeof(entry)); /* the record doubles; as do the maps */
+    return hd_record_bytes_twice(entries, sizeof(entry));
 }
 
 typedef struct maps {
