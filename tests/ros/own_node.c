@@ -1,12 +1,10 @@
-/** A node of particles that the core does not know: the chain of the examples; the same chain that
- * loses its energy, as a row may say without having a time step, or has no name; and rows of long names that share
- * parameters of their own. */
+/** A node of particles that the core does not know: a chain by hand; the same chain that loses its
+ * energy, as a row may say without having a time step, or has no name; and rows of long names that
+ * share parameters of their own. */
 #include <hdlyap_ros/main.h>
 #include <string.h>
 
-#define main chain_main
-#include "../../hdlyap_core/examples/chain.c"
-#undef main
+#include "../core/support/chain_by_hand.h"
 
 /** Time after which the energy is lost. */
 static const double LOST = 20.0;

@@ -72,6 +72,9 @@ typedef struct hd_invariants {
 /** What kinetic theory says of the particles, to some percent. Only rows of the core have it. */
 typedef struct hd_fluid hd_fluid;
 
+/** Particles with H = sum p^2 / 2 + V(q): see hdlyap/hamiltonian.h, which makes rows of them. */
+typedef struct hd_hamiltonian hd_hamiltonian;
+
 /** A part of a record, which `carry` gets if the row makes no maps of its own. */
 typedef struct hd_record_slice {
     /** The entries, [count], each of hd_dynamics.entry bytes; NULL if count is 0. */
@@ -120,6 +123,7 @@ struct hd_dynamics {
     const hd_parameter *parameter;
     int parameters;        /**< number of these parameters, 0 .. HD_OWN_MAX */
     const hd_fluid *fluid; /**< may be left out */
+    const hd_hamiltonian *hamiltonian; /**< of rows that HD_HAMILTONIAN makes; else left out */
 
     /* ---- scene */
     /** Checks whether the parameters of a scene, each of which is in its own range, fit together.

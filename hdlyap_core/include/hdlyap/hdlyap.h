@@ -15,6 +15,7 @@
 #include "hdlyap/spectrum.h"
 /* trajectory */
 #include "hdlyap/trajectory.h"
+#include "hdlyap/hamiltonian.h"
 #include "hdlyap/dynamics_test.h"
 #include "hdlyap/gas.h"
 /* tangent */

@@ -19,6 +19,13 @@ double hd_record_bytes(double entries, size_t entry)
     return fmax(HD_RECORD_FIRST, entries) * (double)entry;
 }
 
+double hd_record_bytes_twice(double entries, size_t entry)
+{
+    double room = HD_RECORD_FIRST;
+    while (room < 1.1 * entries) room *= 2.0;
+    return 2.0 * room * (double)entry;
+}
+
 void hd_record_free(hd_record *record)
 {
     if (!record) return;

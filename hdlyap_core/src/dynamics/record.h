@@ -6,6 +6,9 @@
 
 /** Bytes of a record of so many entries. */
 double hd_record_bytes(double entries, size_t entry);
+/** Bytes of this many entries in a record that doubles when it is full, and of maps that take as
+ * much. */
+double hd_record_bytes_twice(double entries, size_t entry);
 
 /** Entries for which a new record has room. */
 enum { HD_RECORD_FIRST = 4096 };

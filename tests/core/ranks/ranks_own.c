@@ -1,4 +1,4 @@
-/** A dynamics of one's own, the chain of the examples, by several ranks: against one, and led. */
+/** A dynamics of one's own, a chain by hand, by several ranks: against one, and led. */
 #define _GNU_SOURCE
 #include "chain.h"
 #include "together.h"

@@ -2,6 +2,7 @@
  * little. */
 #include "dumbbell.h"
 #include "ledger.h"
+#include "rotors.h"
 #include "runs.h"
 #include "soft.h"
 #include "observe/observables.h"
@@ -87,6 +88,29 @@ TEST(the_estimate_of_soft_particles_is_what_they_ask_for)
             compare(short_softs(dimension, k, 2000, HD_EXPONENTS_NONE, 0.0));
         }
     compare(short_softs(2, HD_WCA, 400, HD_EXPONENTS_POSITIVE, 4.0));
+}
+
+/** A second state, for the choice of the time step; and a record with maps. */
+TEST(the_estimate_of_particles_by_their_forces_is_what_they_ask_for)
+{
+    hd_scene_def scene = scene_from(hd_scene_def_of(&of_rotors), .number = 20000, .duration = 1.0,
+                                    .exponents = HD_EXPONENTS_NONE, .equilibration = 0.0);
+    compare(scene);
+    scene.number = 40; /* two entries a kick */
+    void *state, *maps;
+    hd_record *record;
+    CHECK_OK(of_rotors.create(&state, &scene));
+    const size_t before = ledger_now().live;
+    CHECK_OK(hd_record_create(&record, of_rotors.entry));
+    CHECK_OK(of_rotors.maps_create(&maps, scene.number));
+    CHECK_OK(of_rotors.advance(state, record, 300.0));
+    CHECK_OK(of_rotors.maps_fill(maps, record, 0.0, 300.0));
+    const double count = (double)hd_record_count(record);
+    CHECK_CLOSE(count, 300.0 * of_rotors.record_rate(&scene), 8.0); /* but for a part of a step */
+    CHECK_WITHIN(of_rotors.record_bytes(count) / (double)(ledger_now().live - before), 0.93, 1.07);
+    of_rotors.maps_free(maps);
+    of_rotors.free(state);
+    hd_record_free(record);
 }
 
 /** Of each field: its values at the disks, and some numbers of each vector; none of each other

@@ -4,6 +4,7 @@
 #include "dynamics/trajectory.h"
 #include "hdlyap/checkpoint.h"
 #include "ledger.h"
+#include "rotors.h"
 #include "said.h"
 
 enum { EVERYTHING = 31 | HD_OBSERVE_GAS | HD_OBSERVE_LOCALIZATION | HD_OBSERVE_FLUCTUATIONS };
@@ -133,6 +134,17 @@ TEST(of_each_kind)
     }
     out_at_each_of_both("chain", scene_from(chain_of(N, 10.0, HD_EXPONENTS_ALL),
                                             .equilibration = 1.0, .duration = 5.0));
+}
+
+/** With a time step that is asked for: without memory for a trial, one is chosen later. */
+TEST(of_particles_by_their_forces)
+{
+    static const hd_parameter step[] = {HD_OWN_TIME_STEP(0)};
+    hd_dynamics row = of_rotors;
+    row.parameter = step;
+    out_at_each_of_both("rotors",
+                        scene_from(hd_scene_def_of(&row), .number = N, .threads = 1,
+                                   .own[0].real = 0.05, .equilibration = 1.0, .duration = 5.0));
 }
 
 TEST(of_covariant_windows) { out_at_each_of_both("windows", windows()); }

@@ -1,4 +1,4 @@
-/** A dynamics of one's own: the chain of the examples, by what is known of it, and rows made of it.
+/** A dynamics of one's own: a chain by hand, by what is known of it, and rows made of it.
  */
 #include "chain.h"
 

@@ -1,4 +1,4 @@
-/** A dynamics of one's own in checkpoints: the chain of the examples. */
+/** A dynamics of one's own in checkpoints: a chain by hand. */
 #include "chain.h"
 #include "kept.h"
 #include "same.h"

@@ -1,12 +1,9 @@
-/** The chain of the examples, a dynamics of one's own, and scenes of it. */
+/** A chain by hand, a dynamics of one's own, and scenes of it. */
 #ifndef HD_CHAIN_H
 #define HD_CHAIN_H
 
+#include "chain_by_hand.h"
 #include "runs.h"
-
-#define main chain_main
-#include "../../../hdlyap_core/examples/chain.c"
-#undef main
 
 enum { N = 8, ROWS = 2 * N };
 

@@ -398,23 +398,14 @@ static double row_bytes(const hd_scene_def *scene)
     return of_one * scene->number + hd_neighbours_bytes(scene, hd_soft_potential(scene)->cut);
 }
 
-/** Bytes of this many entries: in the record, which doubles when it is full, and as maps, which
- * take as much. */
-static double record_bytes(double entries, double entry)
-{
-    double room = 4096.0;
-    while (room < 1.1 * entries) room *= 2.0;
-    return 2.0 * room * entry;
-}
-
 static double row_record_bytes_plane(double entries)
 {
-    return record_bytes(entries, HD_KICK_BYTES(HD_BENDS_PLANE));
+    return hd_record_bytes_twice(entries, HD_KICK_BYTES(HD_BENDS_PLANE));
 }
 
 static double row_record_bytes_space(double entries)
 {
-    return record_bytes(entries, HD_KICK_BYTES(HD_BENDS_SPACE));
+    return hd_record_bytes_twice(entries, HD_KICK_BYTES(HD_BENDS_SPACE));
 }
 
 static const char *inconsistency(const soft *s)
