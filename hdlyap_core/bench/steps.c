@@ -101,8 +101,8 @@ static void begin(measured *m, int row)
     require(hd_trajectory_extend(m->trajectory, NULL, SETTLING), "trajectory");
     mix(m);
     require(hd_record_create(&m->record, of->entry), "record");
-    require(hd_frame_create(&m->frame, of, scene.number, half, 1, 1), "frame");
-    require(hd_maps_create_of(of, &m->maps, scene.number), "maps");
+    require(hd_frame_create(&m->frame, &scene, half, 1, 1), "frame");
+    require(hd_maps_create_of(&m->maps, &scene), "maps");
 }
 
 /** Pairs in a time step, which has an entry for each, and one that begins it. */

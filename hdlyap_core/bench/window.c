@@ -23,9 +23,7 @@ static void record_start(window *w)
     const size_t size = (size_t)w->rows * (size_t)hd_frame_stride(frame);
     w->start = room(size, sizeof(double));
     memcpy(w->start, hd_frame_read(frame), size * sizeof(double));
-    require(hd_frame_create(&w->frame, hd_dynamics_of(&w->scene), w->scene.number, w->vectors, 1,
-                            hd_run_threads(run)),
-            "window");
+    require(hd_frame_create(&w->frame, &w->scene, w->vectors, 1, hd_run_threads(run)), "window");
     hd_run_free(run);
 }
 

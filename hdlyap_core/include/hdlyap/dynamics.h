@@ -83,6 +83,7 @@ typedef struct hd_record_slice {
     double begin, end; /**< the part of the record through which tangent vectors are carried: times
                           from the start of the record [time units] */
     int particles;
+    const hd_scene_def *scene; /**< its parameters that the row reads are those of the run */
 } hd_record_slice;
 
 enum {
@@ -238,8 +239,9 @@ struct hd_dynamics {
      * entries from t_begin to t_end (hd_record_within), times counted from the start of the record.
      * Maps from a to b and then from b to c must give the same as maps from a to c; so a row gives
      * all entries of a time step the same time, because t_begin and t_end can be any times. Return
-     * HD_OK or HD_NO_MEMORY. If all three are left out, `carry` gets an hd_record_slice. */
-    hd_status (*maps_create)(void **maps, int particles);
+     * HD_OK or HD_NO_MEMORY. The scene of maps_create lasts longer than the maps. If all three are
+     * left out, `carry` gets an hd_record_slice. */
+    hd_status (*maps_create)(void **maps, const hd_scene_def *scene);
     void (*maps_free)(void *maps);
     hd_status (*maps_fill)(void *maps, const hd_record *record, double t_begin, double t_end);
     /** Carries `width` tangent vectors through the maps, in place: block[particle][2

@@ -32,15 +32,15 @@ double hd_coupling_bytes(const hd_dynamics *of, int rows, int threads)
     return sizeof(double) * half * half + hd_frame_bytes(of, rows, half, threads);
 }
 
-hd_status hd_coupling_create(hd_coupling **out, const hd_dynamics *of, int particles, int threads)
+hd_status hd_coupling_create(hd_coupling **out, const hd_scene_def *scene, int threads)
 {
     hd_coupling *c = hd_memory_alloc(1, sizeof *c);
     *out = NULL;
     if (!c) return HD_NO_MEMORY;
-    c->half = of->coordinates * particles;
+    c->half = hd_dynamics_of(scene)->coordinates * scene->number;
     c->rows = 2 * c->half;
     c->y = hd_memory_alloc((size_t)c->half * (size_t)c->half, sizeof(double));
-    if (!c->y || hd_frame_create(&c->frame, of, particles, c->half, 1, threads) != HD_OK) {
+    if (!c->y || hd_frame_create(&c->frame, scene, c->half, 1, threads) != HD_OK) {
         hd_coupling_free(c);
         return HD_NO_MEMORY;
     }

@@ -11,7 +11,7 @@ typedef struct hd_coupling hd_coupling;
 /** A coupling takes as many bytes as a frame of half as many vectors as rows, and 8 for each pair
  * of vectors. Creating one fails with HD_NO_MEMORY. */
 double hd_coupling_bytes(const hd_dynamics *of, int rows, int threads);
-HD_MUST_CHECK hd_status hd_coupling_create(hd_coupling **out, const hd_dynamics *of, int particles,
+HD_MUST_CHECK hd_status hd_coupling_create(hd_coupling **out, const hd_scene_def *scene,
                                            int threads);
 void hd_coupling_free(hd_coupling *coupling);
 

@@ -191,7 +191,7 @@ static hd_status take_room(hd_covariant *c, double interval)
     c->past = NULL;
     c->intervals = past.intervals;
     c->bytes = hd_history_bytes(&past);
-    return hd_history_create(&c->past, &past);
+    return hd_history_create(&c->past, &past, &c->scene);
 }
 
 void hd_covariant_clear(hd_covariant *c, double now)

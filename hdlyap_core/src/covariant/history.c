@@ -49,18 +49,17 @@ double hd_history_bytes(const hd_history_def *def)
            (double)def->intervals * sizeof(interval_kept);
 }
 
-static hd_status allocate(hd_history *past)
+static hd_status allocate(hd_history *past, const hd_scene_def *scene)
 {
     const hd_history_def *def = &past->def;
     past->kept = hd_memory_alloc((size_t)def->intervals, sizeof *past->kept);
     if (!past->kept) return HD_NO_MEMORY;
     HD_TRY(hd_store_create(&past->snapshots, snapshot_size(def), def->snapshots));
-    if (def->conjugate)
-        HD_TRY(hd_coupling_create(&past->coupling, def->of, def->particles, def->threads));
+    if (def->conjugate) HD_TRY(hd_coupling_create(&past->coupling, scene, def->threads));
     return hd_store_create(&past->triangles, triangle_size(def), def->intervals);
 }
 
-hd_status hd_history_create(hd_history **out, const hd_history_def *def)
+hd_status hd_history_create(hd_history **out, const hd_history_def *def, const hd_scene_def *scene)
 {
     HD_ASSERT(def->intervals >= 2 && def->snapshots >= 1);
     hd_history *past = hd_memory_alloc(1, sizeof *past);
@@ -68,7 +67,7 @@ hd_status hd_history_create(hd_history **out, const hd_history_def *def)
     if (!past) return HD_NO_MEMORY;
     past->def = *def;
     past->rows = rows_of(def);
-    const hd_status status = allocate(past);
+    const hd_status status = allocate(past, scene);
     if (status == HD_OK)
         *out = past;
     else

@@ -23,7 +23,8 @@ double hd_history_bytes(const hd_history_def *def);
 typedef struct hd_history hd_history;
 
 /** HD_NO_MEMORY. */
-HD_MUST_CHECK hd_status hd_history_create(hd_history **out, const hd_history_def *def);
+HD_MUST_CHECK hd_status hd_history_create(hd_history **out, const hd_history_def *def,
+                                          const hd_scene_def *scene);
 void hd_history_free(hd_history *past);
 
 /** Forgets everything and begins at this time. */

@@ -13,7 +13,7 @@ enum { HD_BLOCK_BYTES = 512 * 1024, HD_BLOCK_WIDTH_MAX = 64 };
 
 /* What the row says, or what is usual if the row leaves it out. */
 
-HD_MUST_CHECK hd_status hd_maps_create_of(const hd_dynamics *of, void **maps, int particles);
+HD_MUST_CHECK hd_status hd_maps_create_of(void **maps, const hd_scene_def *scene);
 void hd_maps_free_of(const hd_dynamics *of, void *maps);
 /** See hd_dynamics.maps_fill; valid as long as the record does not change. */
 HD_MUST_CHECK hd_status hd_maps_fill_of(const hd_dynamics *of, void *maps, const hd_record *record,

@@ -18,7 +18,7 @@ hd_status hd_trial_create(hd_trial *t, const hd_dynamics *row, const hd_scene_de
                     .random = hd_random_seeded(scene->seed, 1),
                     .message = message,
                     .size = size};
-    HD_TRY(hd_maps_create_of(row, &t->maps, scene->number));
+    HD_TRY(hd_maps_create_of(&t->maps, &t->scene));
     t->file = tmpfile();
     if (t->file) return HD_OK;
     (void)hd_refuse(message, size, "there is no room for a temporary file");

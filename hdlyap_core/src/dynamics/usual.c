@@ -11,12 +11,14 @@
 
 /* ---- tangent maps -------------------------------------------------------------------------- */
 
-hd_status hd_maps_create_of(const hd_dynamics *of, void **maps, int particles)
+hd_status hd_maps_create_of(void **maps, const hd_scene_def *scene)
 {
-    if (of->maps_create) return of->maps_create(maps, particles);
+    const hd_dynamics *of = hd_dynamics_of(scene);
+    if (of->maps_create) return of->maps_create(maps, scene);
     hd_record_slice *slice = *maps = hd_memory_alloc(1, sizeof *slice);
     if (!slice) return HD_NO_MEMORY;
-    slice->particles = particles;
+    slice->particles = scene->number;
+    slice->scene = scene;
     return HD_OK;
 }
 

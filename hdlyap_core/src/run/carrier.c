@@ -65,22 +65,22 @@ static hd_status agree(const hd_carrier *c, hd_status status)
     return hd_communicator_agree(c->communicator, status);
 }
 
-static hd_status create_random(hd_carrier *c, uint64_t seed)
+static hd_status create_random(hd_carrier *c, const hd_scene_def *scene)
 {
-    return hd_frame_create_shared(&c->frame, c->of, c->particles, c->carried, seed, c->threads,
+    return hd_frame_create_shared(&c->frame, scene, c->carried, scene->seed, c->threads,
                                   c->communicator);
 }
 
 /** Creates a random orthonormal frame; by repeated passes if its vectors are nearly dependent. */
-static hd_status create_frame(hd_carrier *c, uint64_t seed)
+static hd_status create_frame(hd_carrier *c, const hd_scene_def *scene)
 {
     const hd_ortho_limits once = {1e7, ORTHONORMAL, HD_NORM_FULL};
-    HD_TRY(create_random(c, seed));
+    HD_TRY(create_random(c, scene));
     if (c->carried < c->vectors) return hd_conjugate_start(c->frame);
     if (hd_ortho_step(c->ortho, c->frame, once) == HD_OK) return HD_OK;
     hd_frame_free(c->frame);
     c->frame = NULL;
-    HD_TRY(create_random(c, seed));
+    HD_TRY(create_random(c, scene));
     return hd_ortho_step_stable(c->ortho, c->frame, 1.0 / DBL_EPSILON);
 }
 
@@ -100,7 +100,7 @@ static hd_status prepare_threads(hd_carrier *c, const hd_scene_def *scene)
     const int granted = c->threads = hd_blas_threads_granted(most);
     hd_blas_use_threads(granted);
     if (scene->threads == 0 && !c->communicator)
-        HD_TRY(hd_threads_choose(&c->threads, c->ortho, c->of, c->particles, c->carried, granted));
+        HD_TRY(hd_threads_choose(&c->threads, c->ortho, scene, c->carried, granted));
     c->threads_denied = c->threads == granted ? most - granted : 0;
     hd_blas_use_threads(c->threads);
     return HD_OK;
@@ -148,7 +148,7 @@ static hd_status prepare(hd_carrier *c, const hd_scene_def *scene, double block)
                                        c->of->symplectic ? c->positive : rows, block)));
     c->dq_dp = hd_memory_alloc(2 * (size_t)n, sizeof *c->dq_dp);
     HD_TRY(agree(c, c->dq_dp ? HD_OK : HD_NO_MEMORY));
-    HD_TRY(create_frame(c, scene->seed));
+    HD_TRY(create_frame(c, scene));
     HD_TRY(agree(c, prepare_conjugate(c, scene)));
     return keep_dq_dp(c);
 }

@@ -49,8 +49,7 @@ static hd_status frame_allocate(hd_frame *frame)
         if (!(frame->copy[k] = hd_memory_alloc(size, sizeof(double)))) return HD_NO_MEMORY;
     const size_t block = (size_t)frame->rows * (size_t)frame->width;
     frame->buffer = hd_memory_alloc(block * (size_t)frame->threads, sizeof(double));
-    return frame->buffer ? hd_maps_create_of(frame->of, &frame->maps, frame->particles)
-                         : HD_NO_MEMORY;
+    return frame->buffer ? hd_maps_create_of(&frame->maps, &frame->scene) : HD_NO_MEMORY;
 }
 
 /** Number of items of a rank if `all` are shared equally; the last ranks may have fewer. */
@@ -74,16 +73,17 @@ static void fill_random(hd_frame *frame, uint64_t seed)
         }
 }
 
-hd_status hd_frame_create(hd_frame **out, const hd_dynamics *of, int particles, int vectors,
-                          uint64_t seed, int threads)
+hd_status hd_frame_create(hd_frame **out, const hd_scene_def *scene, int vectors, uint64_t seed,
+                          int threads)
 {
-    return hd_frame_create_shared(out, of, particles, vectors, seed, threads, NULL);
+    return hd_frame_create_shared(out, scene, vectors, seed, threads, NULL);
 }
 
-hd_status hd_frame_create_shared(hd_frame **out, const hd_dynamics *of, int particles, int vectors,
+hd_status hd_frame_create_shared(hd_frame **out, const hd_scene_def *scene, int vectors,
                                  uint64_t seed, int threads, hd_communicator *communicator)
 {
-    const int rows = 2 * of->coordinates;
+    const hd_dynamics *of = hd_dynamics_of(scene);
+    const int particles = scene->number, rows = 2 * of->coordinates;
     HD_ASSERT(particles >= 1 && vectors >= 1 && vectors <= rows * particles && threads >= 1);
     hd_frame *frame = hd_memory_alloc(1, sizeof *frame);
     *out = NULL;
@@ -92,6 +92,7 @@ hd_status hd_frame_create_shared(hd_frame **out, const hd_dynamics *of, int part
         hd_memory_free(frame);
         return head;
     }
+    frame->scene = *scene;
     frame->of = of;
     frame->particles = particles;
     frame->rows = rows * particles;

@@ -14,13 +14,13 @@
  * each has hd_frame_stride, the last ones fewer. */
 typedef struct hd_frame hd_frame;
 
-/** Makes a frame of 1 .. M vectors with random entries from the seed, which are not orthonormal
- * yet. */
-HD_MUST_CHECK hd_status hd_frame_create(hd_frame **out, const hd_dynamics *of, int particles,
-                                        int vectors, uint64_t seed, int threads);
+/** Makes a frame of the particles of *scene, which is copied, with 1 .. M vectors with random
+ * entries from the seed, which are not orthonormal yet. */
+HD_MUST_CHECK hd_status hd_frame_create(hd_frame **out, const hd_scene_def *scene, int vectors,
+                                        uint64_t seed, int threads);
 /** Creates a frame of which each rank carries some vectors; all ranks call it together. Fails with
  * HD_NO_MEMORY on all ranks if any of them has too little. */
-HD_MUST_CHECK hd_status hd_frame_create_shared(hd_frame **out, const hd_dynamics *of, int particles,
+HD_MUST_CHECK hd_status hd_frame_create_shared(hd_frame **out, const hd_scene_def *scene,
                                                int vectors, uint64_t seed, int threads,
                                                hd_communicator *communicator);
 void hd_frame_free(hd_frame *frame);
@@ -74,6 +74,7 @@ double hd_frame_bytes(const hd_dynamics *of, double rows, double vectors, double
 /** frame.c keeps the members, replay.c carries the vectors. */
 struct hd_frame {
     hd_communicator *communicator; /**< NULL: a single rank, which has all vectors */
+    hd_scene_def scene;            /**< for `carry`, and whoever makes its maps */
     const hd_dynamics *of;
     int particles, rows, vectors, stride;
     int rows_kept; /**< rows with the zeros that make all ranks' parts equal */

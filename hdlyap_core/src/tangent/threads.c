@@ -50,14 +50,16 @@ static hd_status try_both(double *all, double *one, hd_ortho *ortho, hd_frame *f
     return seconds_of(one, ortho, frame, 1);
 }
 
-hd_status hd_threads_choose(int *threads, hd_ortho *ortho, const hd_dynamics *of, int particles,
-                            int vectors, int most)
+hd_status hd_threads_choose(int *threads, hd_ortho *ortho, const hd_scene_def *scene, int vectors,
+                            int most)
 {
     double all = 0.0, one = 0.0;
     hd_frame *frame;
     *threads = most;
-    if (most == 1 || 2.0 * of->coordinates * particles * vectors > ENTRIES_MANY) return HD_OK;
-    HD_TRY(hd_frame_create(&frame, of, particles, vectors, 1, most));
+    if (most == 1 ||
+        2.0 * hd_dynamics_of(scene)->coordinates * scene->number * vectors > ENTRIES_MANY)
+        return HD_OK;
+    HD_TRY(hd_frame_create(&frame, scene, vectors, 1, most));
     const hd_status status = try_both(&all, &one, ortho, frame, most);
     hd_frame_free(frame);
     if (status == HD_ILL_CONDITIONED) return HD_OK; /* random vectors are hardly ever dependent */

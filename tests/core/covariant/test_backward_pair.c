@@ -20,7 +20,7 @@ static history *passed(const hd_scene_def *scene)
 {
     history *h = calloc(1, sizeof *h);
     HELD(conjugates) x = conjugates_of(*scene);
-    MADE(hd_coupling, coupling, DYNAMICS, DISKS, 1);
+    MADE(hd_coupling, coupling, PARTICLES(DISKS), 1);
     for (int k = -WARMUP; k < COUNT; k++) {
         conjugates_interval(&x, 0.25);
         if (k < 0) continue;

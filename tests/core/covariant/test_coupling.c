@@ -56,7 +56,7 @@ TEST(half_of_it_and_a_coupling_are_the_triangle_of_all)
     const hd_boundary y[] = {P, R, P};
     for (int s = 0; s < 3; s++) {
         HELD(conjugates) x = conjugates_of(scene_of(sizes[s], 0.5, 0.9, P, y[s], 5));
-        MADE(hd_coupling, coupling, DYNAMICS, sizes[s], 1);
+        MADE(hd_coupling, coupling, PARTICLES(sizes[s]), 1);
         for (int k = 0; k < 12; k++) {
             conjugates_interval(&x, 0.3);
             CHECK_OK(hd_coupling_measure(coupling, x.frame[HALF], hd_ortho_factor(x.ortho[HALF]),
@@ -72,7 +72,7 @@ TEST(long_intervals_keep_a_coupling_small)
 {
     HELD(conjugates) x = conjugates_of(scene_of(10, 0.5, 0.9, P, P, 5));
     double most = 0.0;
-    MADE(hd_coupling, coupling, DYNAMICS, 10, 1);
+    MADE(hd_coupling, coupling, PARTICLES(10), 1);
     for (int k = 0; k < 40; k++) {
         const double end = hd_trajectory_time(x.trajectory) + (k < 20 ? 0.5 : 3.0);
         CHECK_OK(trajectory_to(x.trajectory, x.log, end));

@@ -14,7 +14,7 @@ static hd_scene_def few(int disks, hd_boundary x, hd_boundary y)
 /** Row-major vectors of point `from`, carried to point `to` by the logged events, in place. */
 static void carry(const passage *x, double *v, int n, int from, int to)
 {
-    MADE(hd_frame, frame, DYNAMICS, x->rows / 4, n, 1, 1);
+    MADE(hd_frame, frame, PARTICLES(x->rows / 4), n, 1, 1);
     const size_t stride = (size_t)hd_frame_stride(frame), width = (size_t)n * sizeof *v;
     for (int row = 0; row < x->rows; row++)
         memcpy(hd_frame_data(frame) + (size_t)row * stride, v + row * n, width);
@@ -144,7 +144,7 @@ static void reverse(hd_record *into, const hd_record *log)
  * from the last point backwards in time. */
 static exact_frame *converged(const passage *x, int at, bool backwards)
 {
-    MADE(hd_frame, frame, DYNAMICS, x->rows / 4, x->rows, backwards ? 11 : 12, 1);
+    MADE(hd_frame, frame, PARTICLES(x->rows / 4), x->rows, backwards ? 11 : 12, 1);
     exact_frame *v = exact_create(frame);
     if (!backwards)
         for (int k = 0; k < at; k++) exact_replay(v, &x->log[k]);

@@ -37,7 +37,7 @@ static forward *started(int exponents)
         1);
     for (int warmup = 0; warmup < 20; warmup++) forward_interval(&x->f, 0.5);
     const hd_history_def def = def_of(forward_vectors(&x->f));
-    CHECK_OK(hd_history_create(&x->past, &def));
+    CHECK_OK(hd_history_create(&x->past, &def, PARTICLES(DISKS)));
     hd_history_begin(x->past, hd_trajectory_time(x->f.trajectory));
     return x;
 }

@@ -37,7 +37,7 @@ static void carry(double *block, const hd_scene_def *def, const hd_record *log, 
 {
     const hd_dynamics *of = hd_dynamics_of(def);
     void *maps;
-    CHECK_OK(of->maps_create(&maps, def->number));
+    CHECK_OK(of->maps_create(&maps, def));
     CHECK_OK(of->maps_fill(maps, log, 0.0, hd_record_duration(log)));
     of->carry(maps, block, width);
     of->maps_free(maps);

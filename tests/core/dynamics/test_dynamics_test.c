@@ -64,7 +64,8 @@ static void carry_too_stiff(const void *maps, double *block, int width)
     spring *s = malloc(part->count * sizeof *s + 1);
     memcpy(s, part->entry, part->count * sizeof *s);
     for (size_t k = 0; k < part->count; k++) s[k].stiffness *= 1.05;
-    const hd_record_slice stiff = {s, part->count, part->begin, part->end, part->particles};
+    hd_record_slice stiff = *part;
+    stiff.entry = s;
     carry(&stiff, block, width);
     free(s);
 }
@@ -75,7 +76,7 @@ static void carry_with_loss(const void *maps, double *block, int width)
     const hd_record_slice *part = maps;
     const spring *s = part->entry;
     for (size_t k = 0; k < part->count; k += N) {
-        const hd_record_slice one = {s + k, N, part->begin, part->end, N};
+        const hd_record_slice one = {s + k, N, part->begin, part->end, N, part->scene};
         carry(&one, block, width);
         for (int j = 0; j < ROWS * width; j++) block[j] *= 1.0 - 1e-6;
     }

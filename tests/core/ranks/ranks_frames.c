@@ -103,8 +103,8 @@ typedef struct frames {
 static frames frames_of(int disks, int vectors)
 {
     frames f;
-    CHECK_OK(hd_frame_create(&f.own, DYNAMICS, disks, vectors, 7, 1));
-    CHECK_OK(hd_frame_create_shared(&f.shared, DYNAMICS, disks, vectors, 7, 1, ranks));
+    CHECK_OK(hd_frame_create(&f.own, PARTICLES(disks), vectors, 7, 1));
+    CHECK_OK(hd_frame_create_shared(&f.shared, PARTICLES(disks), vectors, 7, 1, ranks));
     CHECK_OK(hd_ortho_create(&f.of_own, 4 * disks, vectors));
     CHECK_OK(hd_ortho_create_shared(&f.of_shared, 4 * disks, 4, vectors, ranks));
     return f;

@@ -315,7 +315,7 @@ typedef struct factors {
 static factors factors_create(void)
 {
     factors f;
-    CHECK_OK(hd_frame_create(&f.frame, DYNAMICS, DISKS, COLUMNS, 11, 1));
+    CHECK_OK(hd_frame_create(&f.frame, PARTICLES(DISKS), COLUMNS, 11, 1));
     CHECK_OK(hd_ortho_create(&f.ortho, ROWS, COLUMNS));
     return f;
 }

@@ -31,7 +31,7 @@ static carried carry_unit_vectors(double beta)
     CHECK_OK(advance(state, c.record, 31.003)); /* steps do not care for the ends of advances */
     CHECK_OK(advance(state, c.record, 35.0));
     c.end = state;
-    CHECK_OK(hd_frame_create(&c.frame, &of_chain, N, ROWS, 1, 1));
+    CHECK_OK(hd_frame_create(&c.frame, &scene, ROWS, 1, 1));
     for (int row = 0; row < ROWS; row++)
         for (int col = 0; col < ROWS; col++)
             hd_frame_data(c.frame)[row * hd_frame_stride(c.frame) + col] = row == col;
@@ -88,6 +88,31 @@ TEST(maps_are_symplectic)
                                                    : 0.0,
                         1e-11);
         }
+}
+
+/** Of whichever frame it is: the run's own, that of a trial of threads, that of covariant vectors.
+ */
+static void carry_of_scene(const void *maps, double *block, int width)
+{
+    const hd_scene_def *scene = ((const hd_record_slice *)maps)->scene;
+    of_chain.carry(maps, block, scene->own[BETA].real == 10.0 && scene->number == N ? width : 0);
+}
+
+/** Nothing is carried in another scene. */
+TEST(maps_know_their_scene)
+{
+    hd_dynamics row = of_chain;
+    row.carry = carry_of_scene;
+    hd_scene_def scene = with_covariant(HD_EXPONENTS_ALL);
+    OWNED(hd_run) *usual = finished(scene);
+    scene.dynamics = &row;
+    OWNED(hd_run) *run = finished(scene);
+    check_same_exponents(run, usual, 0.0);
+    const hd_covariant_results found = hd_covariant_read(hd_run_covariant(run)),
+                               before = hd_covariant_read(hd_run_covariant(usual));
+    for (int col = 0; col < ROWS; col++)
+        CHECK_CLOSE(hd_spectrum_exponent(found.spectrum, col),
+                    hd_spectrum_exponent(before.spectrum, col), 0.0);
 }
 
 /* ---- exponents ----------------------------------------------------------------------------- */
@@ -321,7 +346,7 @@ static void carry_with_friction(const void *maps, double *block, int width)
     const double left = 1.0 - LOST;
     const spring *s = part->entry;
     for (size_t k = 0; k < part->count; k += N) {
-        const hd_record_slice one = {s + k, N, part->begin, part->end, N};
+        const hd_record_slice one = {s + k, N, part->begin, part->end, N, part->scene};
         of_chain.carry(&one, block, width);
         for (int row = 0; row < ROWS; row++)
             for (int col = 0; col < width && row % 2 == 1; col++) block[row * width + col] *= left;

@@ -208,7 +208,7 @@ static world world_of(int walls, int vectors)
     CHECK_OK(hd_trajectory_extend(tr, NULL, 20.0));
     hd_trajectory_state(tr, w.q, w.p);
     CHECK_OK(hd_modes_create(&w.modes, &w.scene, vectors, 1));
-    CHECK_OK(hd_frame_create(&w.frame, DYNAMICS, MANY, vectors, 3, 1));
+    CHECK_OK(hd_frame_create(&w.frame, PARTICLES(MANY), vectors, 3, 1));
     return w;
 }
 

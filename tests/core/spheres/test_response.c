@@ -227,7 +227,7 @@ TEST(structure_factors_are_sums_of_exponentials)
         double dq[VECTORS][3 * SPHERES], norm[VECTORS];
         hd_frame *frame;
         hd_structure *structure;
-        CHECK_OK(hd_frame_create(&frame, DYNAMICS, SPHERES, VECTORS, 3, 1));
+        CHECK_OK(hd_frame_create(&frame, PARTICLES(SPHERES), VECTORS, 3, 1));
         CHECK_OK(hd_structure_create(&structure, &s.scene, VECTORS, 1));
         for (int col = 0; col < VECTORS; col++) unit_dq(dq[col], frame, col, &norm[col]);
         CHECK_OK(hd_structure_measure(structure, hd_frame_columns(frame), s.q, norm));

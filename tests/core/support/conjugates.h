@@ -40,7 +40,7 @@ static inline conjugates conjugates_of(hd_scene_def scene)
     CHECK_OK(hd_conjugate_create(&x.conjugate, x.rows, DIM, x.rows / 2));
     for (int k = 0; k < 2; k++) {
         const int vectors = k == HALF ? x.rows / 2 : x.rows;
-        CHECK_OK(hd_frame_create(&x.frame[k], DYNAMICS, x.disks, vectors, scene.seed, 1));
+        CHECK_OK(hd_frame_create(&x.frame[k], PARTICLES(x.disks), vectors, scene.seed, 1));
         CHECK_OK(hd_ortho_create(&x.ortho[k], x.rows, vectors));
         CHECK_OK(hd_ortho_keep_factor(x.ortho[k]));
     }

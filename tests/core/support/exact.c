@@ -182,10 +182,10 @@ static hd_frame *first_frame(const hd_scene_def *scene)
     const int n = hd_scene_vectors(scene), carried = hd_scene_carried(scene);
     hd_frame *frame, *all;
     hd_conjugate *conjugate;
-    CHECK_OK(hd_frame_create(&frame, DYNAMICS, scene->number, carried, scene->seed, 1));
+    CHECK_OK(hd_frame_create(&frame, PARTICLES(scene->number), carried, scene->seed, 1));
     if (carried == n) return frame;
     CHECK_OK(hd_conjugate_start(frame));
-    CHECK_OK(hd_frame_create(&all, DYNAMICS, scene->number, n, 1, 1));
+    CHECK_OK(hd_frame_create(&all, PARTICLES(scene->number), n, 1, 1));
     CHECK_OK(hd_conjugate_create(&conjugate, n, DIM, n / 2));
     const hd_columns whole = hd_conjugate_complete(conjugate, hd_frame_columns(frame));
     for (int row = 0; row < n; row++)

@@ -38,7 +38,7 @@ static inline forward_pass forward_started(hd_scene_def scene, uint64_t seed)
     scene.covariant_memory = hd_scene_def_default().covariant_memory;
     CHECK_OK(hd_trajectory_create(&f.trajectory, &scene));
     CHECK_OK(hd_record_create(&f.log, DYNAMICS->entry));
-    CHECK_OK(hd_frame_create(&f.frame, DYNAMICS, scene.number, n, seed, 1));
+    CHECK_OK(hd_frame_create(&f.frame, PARTICLES(scene.number), n, seed, 1));
     CHECK_OK(hd_ortho_create(&f.ortho, 4 * scene.number, n));
     CHECK_OK(hd_ortho_keep_factor(f.ortho));
     forward_factor(&f);

@@ -14,6 +14,9 @@
 #define DYNAMICS (&hd_spheres_row)
 #endif
 
+/** A scene of so many of them, as a frame takes it. */
+#define PARTICLES(count) (&(const hd_scene_def){.dynamics = DYNAMICS, .number = (count)})
+
 static inline hd_event *events_in(const hd_record *record) { return record->entry; }
 
 /** Of events that somebody else keeps. */

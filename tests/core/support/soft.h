@@ -93,7 +93,7 @@ static inline void soft_carry(double *block, const hd_scene_def *def, const hd_r
 {
     const hd_dynamics *of = hd_dynamics_of(def);
     void *maps;
-    CHECK_OK(of->maps_create(&maps, def->number));
+    CHECK_OK(of->maps_create(&maps, def));
     CHECK_OK(of->maps_fill(maps, log, a, b));
     of->carry(maps, block, width);
     of->maps_free(maps);

@@ -17,7 +17,7 @@ world world_create(hd_scene_def scene, int vectors, int threads)
     w.p = malloc(size);
     CHECK_OK(hd_trajectory_create(&w.trajectory, &scene));
     CHECK_OK(hd_fields_create(&w.fields, &scene));
-    CHECK_OK(hd_frame_create(&w.frame, DYNAMICS, scene.number, vectors, scene.seed, threads));
+    CHECK_OK(hd_frame_create(&w.frame, PARTICLES(scene.number), vectors, scene.seed, threads));
     CHECK_OK(hd_modes_create(&w.modes, &scene, vectors, threads));
     CHECK_OK(hd_steps_create(&w.steps, &scene, w.modes));
     CHECK_OK(hd_spectrum_create(&w.spectrum, 4 * scene.number, vectors,

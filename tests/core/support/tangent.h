@@ -49,7 +49,7 @@ static inline double check_symplectic_map(const hd_record *log, int disks)
     const double known = 16.0 * DBL_EPSILON * fmax(1.0, (double)log->count);
     double a[MAX], b[MAX], size[MAX], all = 0.0;
     assert_true(rows <= MAX);
-    MADE(hd_frame, frame, DYNAMICS, disks, rows, 1, 1);
+    MADE(hd_frame, frame, PARTICLES(disks), rows, 1, 1);
     frame_identity(frame);
     CHECK_OK(hd_frame_replay(frame, log, 0.0, log->duration));
     for (int k = 0; k < rows; k++) {

@@ -65,7 +65,7 @@ static inline bool second_tier(void) { return getenv("HDLYAP_SECOND_TIER") != NU
 /** Given back at the end of the block: by hd_run_free(run), world_free(&w), free(v).
  *
  *   OWNED(hd_run) *run = created(scene);
- *   MADE(hd_frame, frame, of, disks, vectors, seed, threads);   an hd_frame *frame, made of these
+ *   MADE(hd_frame, frame, scene, vectors, seed, threads);   an hd_frame *frame, made of these
  *   HELD(world) w = world_create(scene, vectors, 1);
  *   HEAP double *v = malloc(size);
  *

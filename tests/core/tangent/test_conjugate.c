@@ -25,7 +25,7 @@ TEST(a_random_frame_becomes_isotropic)
 {
     const int sizes[] = {2, 3, 8, 9, 50};
     for (size_t k = 0; k < sizeof sizes / sizeof *sizes; k++) {
-        MADE(hd_frame, frame, DYNAMICS, sizes[k], 2 * sizes[k], 7, 1);
+        MADE(hd_frame, frame, PARTICLES(sizes[k]), 2 * sizes[k], 7, 1);
         CHECK_OK(hd_conjugate_start(frame));
         CHECK_CLOSE(defect_of(frame), 0.0, rounding_of(sizes[k]));
         CHECK_CLOSE(hd_conjugate_isotropy_measured(frame), 0.0, rounding_of(sizes[k]));
@@ -38,7 +38,7 @@ TEST(isotropy_comes_back)
     enum { DISKS = 20 };
     const double lost = 1e-6;
     double before[8 * DISKS * DISKS], change = 0.0;
-    MADE(hd_frame, frame, DYNAMICS, DISKS, 2 * DISKS, 7, 1);
+    MADE(hd_frame, frame, PARTICLES(DISKS), 2 * DISKS, 7, 1);
     MADE(hd_conjugate, conjugate, 4 * DISKS, 2, 0);
     CHECK_OK(hd_conjugate_start(frame));
     double *v = hd_frame_data(frame);
@@ -63,7 +63,7 @@ TEST(isotropy_comes_back)
 
 TEST(dependent_vectors_are_refused)
 {
-    MADE(hd_frame, frame, DYNAMICS, 3, 6, 7, 1);
+    MADE(hd_frame, frame, PARTICLES(3), 6, 7, 1);
     for (int row = 0; row < 12; row++) hd_frame_data(frame)[row * hd_frame_stride(frame) + 2] = 0.0;
     assert_int_equal(hd_conjugate_start(frame), HD_ILL_CONDITIONED);
 }

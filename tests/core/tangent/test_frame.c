@@ -68,7 +68,7 @@ static void check_shadow(hd_scene_def def)
 {
     const state s = fluid(&def);
     double v[ROWS_MAX], later[ROWS_MAX], error[4];
-    MADE(hd_frame, frame, DYNAMICS, def.number, 1, 1, 1);
+    MADE(hd_frame, frame, PARTICLES(def.number), 1, 1, 1);
     for (int row = 0; row < ROWS_OF_ONE * def.number; row++)
         *frame_entry(frame, row, 0) = v[row] = cos(1 + 7 * row);
     MADE(hd_trajectory, tr, &def);
@@ -135,7 +135,7 @@ TEST(many_events_are_symplectic)
         const state s = fluid(&def);
         OWNED(hd_record) *log = log_of(&def, s.q, s.p, 1.0);
         double before[ROWS][ROWS], a[ROWS], b[ROWS];
-        MADE(hd_frame, frame, DYNAMICS, 10, ROWS, 3, 1);
+        MADE(hd_frame, frame, PARTICLES(10), ROWS, 3, 1);
         for (int k = 0; k < ROWS; k++)
             for (int l = 0; l < ROWS; l++)
                 before[k][l] = symplectic(frame_column(frame, k, a), frame_column(frame, l, b),
@@ -162,7 +162,7 @@ TEST(zero_modes_stay_zero_modes)
         const hd_scene_def def = small(walls);
         const state s = fluid(&def), end = carried(&def, &s, time);
         OWNED(hd_record) *log = log_of(&def, s.q, s.p, time);
-        MADE(hd_frame, frame, DYNAMICS, def.number, COLUMNS, 3, 1);
+        MADE(hd_frame, frame, PARTICLES(def.number), COLUMNS, 3, 1);
         for (int row = 0; row < ROWS_OF_ONE * def.number; row++)
             for (int col = 0; col < COLUMNS; col++) *frame_entry(frame, row, col) = 0.0;
         for (int k = 0; k < DIM * def.number; k++) {
@@ -226,7 +226,7 @@ static double stretched(const hd_scene_def *def, const state *s, double time)
     double v[ROWS_MAX];
     const int rows = ROWS_OF_ONE * def->number;
     OWNED(hd_record) *events = log_of(def, s->q, s->p, time);
-    MADE(hd_frame, frame, DYNAMICS, def->number, 1, 4, 1);
+    MADE(hd_frame, frame, PARTICLES(def->number), 1, 4, 1);
     frame_column(frame, 0, v);
     const double before = dot(v, v, rows);
     CHECK_OK(hd_frame_replay(frame, events, 0.0, time));
@@ -278,7 +278,7 @@ static scene_log logged(int disks, int walls, double time)
 static void replayed(const scene_log *s, int vectors, int threads, const double *cuts, int col,
                      double *out)
 {
-    MADE(hd_frame, frame, DYNAMICS, s->scene.number, vectors, 1, threads);
+    MADE(hd_frame, frame, PARTICLES(s->scene.number), vectors, 1, threads);
     for (int row = 0; row < hd_frame_rows(frame); row++)
         for (int k = 0; k < vectors; k++) *frame_entry(frame, row, k) = cos(row * 1.7 + k * 0.3);
     double begin = 0.0;
@@ -331,7 +331,7 @@ TEST(rewind_brings_the_vectors_back)
 {
     enum { DISKS = 20, VECTORS = 70 };
     scene_log s = logged(DISKS, 0, 0.5);
-    MADE(hd_frame, frame, DYNAMICS, DISKS, VECTORS, 5, 2);
+    MADE(hd_frame, frame, PARTICLES(DISKS), VECTORS, 5, 2);
     const size_t size = (size_t)(hd_frame_rows(frame) * hd_frame_stride(frame)) * sizeof(double);
     HEAP double *before = malloc(size);
     memcpy(before, hd_frame_data(frame), size);
@@ -347,7 +347,7 @@ TEST(a_half_that_vanishes_has_no_angle)
 {
     enum { DISKS = 2, VECTORS = 2 };
     double cosine[VECTORS], ratio[VECTORS];
-    MADE(hd_frame, frame, DYNAMICS, DISKS, VECTORS, 9, 1);
+    MADE(hd_frame, frame, PARTICLES(DISKS), VECTORS, 9, 1);
     for (int row = 0; row < ROWS_OF_ONE * DISKS; row++)
         for (int col = 0; col < VECTORS; col++) /* column 0: dp = 0, column 1: dq = 0 */
             hd_frame_data(frame)[row * hd_frame_stride(frame) + col] = (row % ROWS_OF_ONE < DIM) ==
@@ -363,7 +363,7 @@ TEST(a_tiny_half_has_its_angle_or_none)
     enum { DISKS = 5 };
     double cosine, ratio, want;
     for (int digits = 0; digits <= 320; digits += 2) {
-        MADE(hd_frame, frame, DYNAMICS, DISKS, 1, 9, 1);
+        MADE(hd_frame, frame, PARTICLES(DISKS), 1, 9, 1);
         hd_frame_dq_dp(frame, &want, &ratio);
         for (int row = 0; row < ROWS_OF_ONE * DISKS; row++)
             if (row % ROWS_OF_ONE >= DIM) *frame_entry(frame, row, 0) *= pow(10.0, -digits);
@@ -377,7 +377,7 @@ TEST(halves_are_measured_per_column)
 {
     enum { DISKS = 5, VECTORS = 20 };
     double cosine[VECTORS], ratio[VECTORS], v[ROWS_OF_ONE * DISKS];
-    MADE(hd_frame, frame, DYNAMICS, DISKS, VECTORS, 9, 1);
+    MADE(hd_frame, frame, PARTICLES(DISKS), VECTORS, 9, 1);
     for (int row = 0; row < ROWS_OF_ONE * DISKS; row++) /* column 3: dp = -2 dq */
         hd_frame_data(frame)[row * hd_frame_stride(frame) + 3] = row % ROWS_OF_ONE < DIM ? 1.5
                                                                                          : -3.0;

@@ -83,7 +83,7 @@ static void check_kept(const hd_exact *v, const hd_frame *q, const double *r, in
 static void check_against_twin(int disks, int n, double spread, hd_ortho_limits limits)
 {
     const int rows = 4 * disks;
-    MADE(hd_frame, frame, DYNAMICS, disks, n, 11, 1);
+    MADE(hd_frame, frame, PARTICLES(disks), n, 11, 1);
     MADE(hd_ortho, ortho, rows, n);
     CHECK_OK(hd_ortho_keep_factor(ortho));
     lean(frame, spread);
@@ -127,7 +127,7 @@ TEST(agrees_with_the_twin)
 TEST(the_defect_is_foreseen)
 {
     for (double spread = 2.0; spread <= 14.0; spread += 1.0) {
-        MADE(hd_frame, frame, DYNAMICS, 60, 100, 7, 1);
+        MADE(hd_frame, frame, PARTICLES(60), 100, 7, 1);
         MADE(hd_ortho, ortho, 240, 100);
         lean(frame, spread);
         CHECK_OK(hd_ortho_step(ortho, frame, LOOSE));
@@ -152,7 +152,7 @@ TEST(dependent_dq_halves_are_refused)
 {
     for (int to = 1; to < 20; to += 6)
         for (int how = 0; how < 2; how++) {
-            MADE(hd_frame, frame, DYNAMICS, 12, 20, 7, 1);
+            MADE(hd_frame, frame, PARTICLES(12), 20, 7, 1);
             for (int row = 0; row < 48; row++)
                 if (row % 4 < 2) *frame_entry(frame, row, to) = *frame_entry(frame, row, 0);
             assert_int_equal(step_of(frame, how ? LOOSE : FULL), how ? HD_ILL_CONDITIONED : HD_OK);
@@ -166,7 +166,7 @@ TEST(what_is_no_number_is_refused)
     for (int k = 0; k < 3; k++)
         for (int row = 4; row < 8; row++)
             for (int col = 0; col < 20; col++) {
-                MADE(hd_frame, frame, DYNAMICS, 12, 20, 7, 1);
+                MADE(hd_frame, frame, PARTICLES(12), 20, 7, 1);
                 *frame_entry(frame, row, col) = values[k];
                 assert_int_equal(step_of(frame, LOOSE), HD_ILL_CONDITIONED);
             }
@@ -215,7 +215,7 @@ static chain chain_started(hd_boundary x, hd_boundary y)
     c.n = forward_vectors(&c.f);
     for (int k = 0; k < WARMUP; k++) forward_interval(&c.f, INTERVAL);
     CHECK_OK(hd_ortho_step(c.f.ortho, c.f.frame, FULL));
-    CHECK_OK(hd_frame_create(&c.frame, DYNAMICS, DISKS, c.n, 1, 1));
+    CHECK_OK(hd_frame_create(&c.frame, PARTICLES(DISKS), c.n, 1, 1));
     CHECK_OK(hd_ortho_create(&c.ortho, 4 * DISKS, c.n));
     for (int row = 0; row < 4 * DISKS; row++)
         for (int col = 0; col < c.n; col++)

@@ -78,7 +78,7 @@ static void check_kept(const double *v, const double *q, const double *r, int ro
 /** With the passes that a step made: none, one or two of them have to be multiplied. */
 static void check_factor(int disks, int n, double spread, hd_ortho_limits limits, int passes)
 {
-    MADE(hd_frame, frame, DYNAMICS, disks, n, 11, 1);
+    MADE(hd_frame, frame, PARTICLES(disks), n, 11, 1);
     MADE(hd_ortho, ortho, 4 * disks, n);
     assert_null(hd_ortho_factor(ortho));
     CHECK_OK(hd_ortho_keep_factor(ortho));
@@ -113,7 +113,7 @@ static void check_step(int disks, int n, double spread, int stable)
 {
     const int rows = 4 * disks;
     double diagonal[200];
-    MADE(hd_frame, frame, DYNAMICS, disks, n, 11, 1);
+    MADE(hd_frame, frame, PARTICLES(disks), n, 11, 1);
     MADE(hd_ortho, ortho, rows, n);
     make_ill_conditioned(frame, spread);
     HEAP double *v = copied(frame);
@@ -169,7 +169,7 @@ TEST(the_condition_is_that_of_the_inverse)
 {
     for (double spread = 0.0; spread <= 12.0; spread += 1.5)
         for (int stable = 0; stable < 2; stable++) {
-            MADE(hd_frame, frame, DYNAMICS, 40, 90, 3, 1);
+            MADE(hd_frame, frame, PARTICLES(40), 90, 3, 1);
             MADE(hd_ortho, ortho, 160, 90);
             make_ill_conditioned(frame, spread);
             HEAP double *v = copied(frame);
@@ -187,7 +187,7 @@ TEST(the_condition_is_that_of_the_inverse)
 TEST(the_defect_is_foreseen)
 {
     for (double spread = 2.0; spread <= 12.0; spread += 1.0) {
-        MADE(hd_frame, frame, DYNAMICS, 50, 100, 7, 1);
+        MADE(hd_frame, frame, PARTICLES(50), 100, 7, 1);
         MADE(hd_ortho, ortho, 200, 100);
         make_ill_conditioned(frame, spread);
         CHECK_OK(hd_ortho_step(ortho, frame, LOOSE));
@@ -212,8 +212,8 @@ TEST(logarithms_telescope)
 {
     enum { N = 60 };
     double sum[2][N] = {{0}};
-    MADE(hd_frame, loose, DYNAMICS, 30, N, 7, 1);
-    MADE(hd_frame, tight, DYNAMICS, 30, N, 7, 1);
+    MADE(hd_frame, loose, PARTICLES(30), N, 7, 1);
+    MADE(hd_frame, tight, PARTICLES(30), N, 7, 1);
     MADE(hd_ortho, ortho, 120, N);
     double defect = 0.0;
     for (int step = 0; step < 6; step++) {
@@ -236,7 +236,7 @@ TEST(logarithms_telescope)
 TEST(a_measured_defect_keeps_nan)
 {
     for (int col = 0; col < 30; col++) {
-        MADE(hd_frame, frame, DYNAMICS, 10, 30, 7, 1);
+        MADE(hd_frame, frame, PARTICLES(10), 30, 7, 1);
         MADE(hd_ortho, ortho, 40, 30);
         CHECK_OK(hd_ortho_step(ortho, frame, TIGHT));
         hd_frame_data(frame)[5 * hd_frame_stride(frame) + col] = NAN;
@@ -246,7 +246,7 @@ TEST(a_measured_defect_keeps_nan)
 
 static hd_status step_with_entry(double value, double condition, int twin)
 {
-    MADE(hd_frame, frame, DYNAMICS, 10, 12, 7, 1);
+    MADE(hd_frame, frame, PARTICLES(10), 12, 7, 1);
     MADE(hd_ortho, ortho, 40, 12);
     double *v = hd_frame_data(frame);
     v[5 * hd_frame_stride(frame) + 3] = value;

@@ -7,7 +7,7 @@ static int chosen(int disks, int vectors, int wanted, int *most)
     int threads = 0;
     *most = hd_threads_most(wanted, 4 * disks, vectors);
     MADE(hd_ortho, ortho, 4 * disks, vectors);
-    CHECK_OK(hd_threads_choose(&threads, ortho, DYNAMICS, disks, vectors, *most));
+    CHECK_OK(hd_threads_choose(&threads, ortho, PARTICLES(disks), vectors, *most));
     return threads;
 }
 
@@ -41,7 +41,7 @@ TEST(what_is_asked_for_is_not_doubted)
 /** Also after a product, before which OpenBLAS 0.3.29 thinks again. */
 TEST(as_many_compute_as_were_asked_for)
 {
-    MADE(hd_frame, frame, DYNAMICS, 160, 317, 1, 2);
+    MADE(hd_frame, frame, PARTICLES(160), 317, 1, 2);
     MADE(hd_ortho, ortho, 4 * 160, 317);
     for (int threads = 1; threads <= 2; threads++) {
         hd_blas_use_threads(threads);

@@ -107,7 +107,11 @@ HD_KERNEL void hd_meet_wall(double *restrict v, const hd_tangent_map *m, int wid
 #define carry_block_with_walls carry_block_of_dumbbells_with_walls
 #include "dynamics/hard/carry.h"
 
-hd_status hd_bump_maps_create(void **maps, int molecules) { return maps_create(maps, molecules); }
+hd_status hd_bump_maps_create(void **maps, const hd_scene_def *scene)
+{
+    return maps_create(maps, scene->number);
+}
+
 void hd_bump_maps_free(void *maps) { maps_free(maps); }
 
 hd_status hd_bump_maps_fill(void *maps, const hd_record *record, double t_begin, double t_end)

@@ -175,7 +175,7 @@ typedef struct hd_bump {
     double spin[2];             /**< third momenta of i, of j, before the event */
 } hd_bump;
 
-HD_MUST_CHECK hd_status hd_bump_maps_create(void **out, int molecules);
+HD_MUST_CHECK hd_status hd_bump_maps_create(void **out, const hd_scene_def *scene);
 void hd_bump_maps_free(void *maps);
 HD_MUST_CHECK hd_status hd_bump_maps_fill(void *maps, const hd_record *record, double t_begin,
                                           double t_end);

@@ -13,7 +13,11 @@ enum { HD_HALF = HD_DIM };
 typedef hd_event hd_entry;
 #include "dynamics/hard/carry.h"
 
-hd_status hd_maps_create(void **maps, int disks) { return maps_create(maps, disks); }
+hd_status hd_maps_create(void **maps, const hd_scene_def *scene)
+{
+    return maps_create(maps, scene->number);
+}
+
 void hd_maps_free(void *maps) { maps_free(maps); }
 
 hd_status hd_maps_fill(void *maps, const hd_record *record, double t_begin, double t_end)

@@ -7,7 +7,7 @@
 
 /* Entries of the row: see hd_dynamics. */
 
-HD_MUST_CHECK hd_status hd_maps_create(void **maps, int disks);
+HD_MUST_CHECK hd_status hd_maps_create(void **maps, const hd_scene_def *scene);
 void hd_maps_free(void *maps);
 /** Fills the maps of the events from t_begin to t_end, with all divisions done, and the flight of
  * each disk after its last event. */

@@ -38,8 +38,15 @@ static hd_status create(void **out, int particles, int dimension)
     return all->since ? HD_OK : HD_NO_MEMORY;
 }
 
-hd_status hd_kick_maps_create_plane(void **out, int particles) { return create(out, particles, 2); }
-hd_status hd_kick_maps_create_space(void **out, int particles) { return create(out, particles, 3); }
+hd_status hd_kick_maps_create_plane(void **out, const hd_scene_def *scene)
+{
+    return create(out, scene->number, 2);
+}
+
+hd_status hd_kick_maps_create_space(void **out, const hd_scene_def *scene)
+{
+    return create(out, scene->number, 3);
+}
 
 static void release(maps *all)
 {

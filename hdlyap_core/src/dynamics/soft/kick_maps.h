@@ -4,8 +4,8 @@
 
 #include "dynamics/dynamics.h"
 
-HD_MUST_CHECK hd_status hd_kick_maps_create_plane(void **out, int particles);
-HD_MUST_CHECK hd_status hd_kick_maps_create_space(void **out, int particles);
+HD_MUST_CHECK hd_status hd_kick_maps_create_plane(void **out, const hd_scene_def *scene);
+HD_MUST_CHECK hd_status hd_kick_maps_create_space(void **out, const hd_scene_def *scene);
 void hd_kick_maps_free(void *maps);
 HD_MUST_CHECK hd_status hd_kick_maps_fill(void *maps, const hd_record *record, double t_begin,
                                           double t_end);
