@@ -122,8 +122,8 @@ struct hd_dynamics {
      * Their kind is HD_PARAMETER_INT, HD_PARAMETER_REAL, HD_PARAMETER_WORD or
      * HD_PARAMETER_INTERVAL, and they are not live. May be left out. */
     const hd_parameter *parameter;
-    int parameters;        /**< number of these parameters, 0 .. HD_OWN_MAX */
-    const hd_fluid *fluid; /**< may be left out */
+    int parameters;                    /**< number of these parameters, 0 .. HD_OWN_MAX */
+    const hd_fluid *fluid;             /**< may be left out */
     const hd_hamiltonian *hamiltonian; /**< of rows that HD_HAMILTONIAN makes; else left out */
 
     /* ---- scene */

@@ -3,8 +3,8 @@
  * is here: integrators, the choice of the time step, record, tangent maps, energy and its error,
  * checkpoints, null vectors.
  *
- *     HD_HAMILTONIAN(of_rotors, bend, (.kept = 1, .shifts = true, .force = force, .growth =
- * growth), .particles = "rotors", .coordinates = 1);
+ *     HD_HAMILTONIAN(of_rotors, bend, (.kept = 1, .force = force, .growth = growth),
+ *                    .particles = "rotors", .coordinates = 1);
  *
  * makes the row of_rotors, to which further members of hd_dynamics can be added, as `parameter`. A
  * run whose energy is off by more than 2 % of kinetic + |potential| energy fails with
@@ -46,7 +46,8 @@ struct hd_hamiltonian {
  * are several particles; `energy` is the kinetic energy per particle. */
 void hd_hamiltonian_momenta(const hd_scene_def *scene, double *p, double energy);
 
-/* ---- own parameters that a row may have, as number k; without them both are automatic */
+/* ---- own parameters that a row may have, as number k; without them the step is chosen, and the
+ * integrator is pefrl */
 
 /** time_step: if 0, it is chosen: the longest one with which the energy stays within the accuracy,
  * which counts as from 1e-6 to 1e-3, from the start to a time of 1 / growth. A tenfold error is
