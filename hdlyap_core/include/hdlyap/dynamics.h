@@ -167,10 +167,11 @@ struct hd_dynamics {
     double (*sound_crossing_time)(const hd_scene_def *scene);
     /** Writes the tangent vectors that are known exactly as null vectors at the state q, p: those
      * whose length stays bounded or grows linearly with time. Vector k is column[k][particle][2
-     * coordinates], dq before dp, of any length. Returns their number, at most `zero_exponents`;
-     * more end the run with HD_DYNAMICS_FAULT. Tangent maps must carry their span into that of the
-     * later ones. Only weights of modes and the null space of covariant vectors are held against
-     * them; a wrong one shows there, and exponents stay what they are. If left out, none is known.
+     * coordinates], dq before dp, of any length. Returns their number, at most `zero_exponents`,
+     * more of which end the run with HD_DYNAMICS_FAULT; or -1 if it lacks memory. Tangent maps must
+     * carry their span into that of the later ones. Only weights of modes and the null space of
+     * covariant vectors are held against them; a wrong one shows there, and exponents stay what
+     * they are. If left out, none is known.
      */
     int (*null_vectors)(const hd_scene_def *scene, const double *q, const double *p,
                         double *column);

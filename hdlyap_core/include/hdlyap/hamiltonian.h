@@ -183,7 +183,7 @@ uint32_t hd_hamiltonian_fingerprint(const void *state);
 double hd_hamiltonian_bytes(const hd_scene_def *scene);
 const char *hd_hamiltonian_fault(const hd_record *record, const hd_scene_def *scene);
 double hd_hamiltonian_record_bytes(double entries);
-HD_MUST_CHECK hd_status hd_kicks_create(void **maps, int particles);
+HD_MUST_CHECK hd_status hd_kicks_create(void **maps, const hd_scene_def *scene);
 void hd_kicks_free(void *maps);
 HD_MUST_CHECK hd_status hd_kicks_fill(void *maps, const hd_record *record, double t_begin,
                                       double t_end);

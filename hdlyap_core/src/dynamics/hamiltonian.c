@@ -404,7 +404,7 @@ int hd_hamiltonian_null(const hd_scene_def *scene, const double *q, const double
             column[(size_t)known * (size_t)rows + (size_t)row] = row % of_one == known;
     if (known == zeros) return known;
     const hd_status written = write_flow(column + (size_t)known * (size_t)rows, scene, q, p);
-    return known + (written == HD_OK);
+    return written == HD_OK ? known + 1 : -1;
 }
 
 /* ---- record and maps ----------------------------------------------------------------------- */
@@ -434,11 +434,11 @@ typedef struct maps {
     size_t room; /**< entries for which there is memory */
 } maps;
 
-hd_status hd_kicks_create(void **out, int particles)
+hd_status hd_kicks_create(void **out, const hd_scene_def *scene)
 {
     maps *made = *out = hd_memory_alloc(1, sizeof *made);
     if (!made) return HD_NO_MEMORY;
-    made->kicks.particles = particles;
+    made->kicks.particles = scene->number;
     return HD_OK;
 }
 

@@ -92,12 +92,13 @@ hd_status hd_trajectory_check_null(const hd_trajectory *tr, const hd_scene_def *
                                    size_t size)
 {
     const size_t half = coordinates(tr), zeros = (size_t)hd_scene_zero_exponents(def);
-    if (!def->dynamics || !tr->of->null_vectors) return HD_OK;
+    if (!def->dynamics || !tr->of->null_vectors || hd_scene_vectors(def) == 0) return HD_OK;
     double *q = hd_memory_alloc(2 * half * (1 + zeros + NULL_ROOM), sizeof *q);
     if (!q) return HD_NO_MEMORY;
     hd_trajectory_state(tr, q, q + half);
     const int known = tr->of->null_vectors(def, q, q + half, q + 2 * half);
     hd_memory_free(q);
+    if (known == -1) return HD_NO_MEMORY;
     if (known >= 0 && known <= (int)zeros) return HD_OK;
     return hd_refuse(message, size, "null_vectors = %d: must be from 0 to zero_exponents = %zu",
                      known, zeros);

@@ -48,6 +48,7 @@ hd_status hd_null_vectors_of(int *count, const hd_scene_def *scene, const double
 {
     const hd_dynamics *of = hd_dynamics_of(scene);
     *count = of->null_vectors ? of->null_vectors(scene, q, p, column) : 0;
+    if (*count == -1) return HD_NO_MEMORY;
     return *count >= 0 && *count <= hd_scene_zero_exponents(scene) ? HD_OK : HD_DYNAMICS_FAULT;
 }
 

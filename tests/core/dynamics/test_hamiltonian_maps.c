@@ -51,7 +51,7 @@ static hd_frame *carried(const hd_scene_def *scene, const double *cut, int cuts)
     CHECK_OK(hd_record_create(&record, row->entry));
     CHECK_OK(row->advance(state, record, 0.7123));
     CHECK_OK(row->advance(state, record, 3.0));
-    CHECK_OK(hd_frame_create(&frame, row, scene->number, rows, 1, 1));
+    CHECK_OK(hd_frame_create(&frame, scene, rows, 1, 1));
     for (int k = 0; k < rows; k++)
         for (int col = 0; col < rows; col++)
             hd_frame_data(frame)[k * hd_frame_stride(frame) + col] = k == col;
@@ -150,7 +150,7 @@ TEST(each_width_carries_the_same)
     void *state = state_of(&scene), *maps;
     CHECK_OK(hd_record_create(&record, row->entry));
     CHECK_OK(row->advance(state, record, 3.0));
-    CHECK_OK(row->maps_create(&maps, scene.number));
+    CHECK_OK(row->maps_create(&maps, &scene));
     CHECK_OK(row->maps_fill(maps, record, 0.0, 3.0));
     for (int width = 1; width <= 64; width *= 2) {
         double block[14 * 64];

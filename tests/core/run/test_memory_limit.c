@@ -102,7 +102,7 @@ TEST(the_estimate_of_particles_by_their_forces_is_what_they_ask_for)
     CHECK_OK(of_rotors.create(&state, &scene));
     const size_t before = ledger_now().live;
     CHECK_OK(hd_record_create(&record, of_rotors.entry));
-    CHECK_OK(of_rotors.maps_create(&maps, scene.number));
+    CHECK_OK(of_rotors.maps_create(&maps, &scene));
     CHECK_OK(of_rotors.advance(state, record, 300.0));
     CHECK_OK(of_rotors.maps_fill(maps, record, 0.0, 300.0));
     const double count = (double)hd_record_count(record);

@@ -182,8 +182,8 @@ TEST(more_null_vectors_than_zeros_are_refused)
     vectors = 5;
     REFUSES(0, "null_vectors = 5: must be from 0 to zero_exponents = 4",
             row.null_vectors = so_many);
-    vectors = -1;
-    REFUSES(0, "null_vectors = -1: must be from 0 to zero_exponents = 4",
+    vectors = -2;
+    REFUSES(0, "null_vectors = -2: must be from 0 to zero_exponents = 4",
             row.null_vectors = so_many);
 }
 
