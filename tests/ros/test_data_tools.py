@@ -18,6 +18,7 @@ import hdlyap
 from hdlyap import topics
 from hdlyap.data import fits, frames, reader
 from hdlyap.msg import Structure
+from hdlyap.plots.figures import Drawn
 from std_msgs.msg import String
 import made
 from bags import process, tool
@@ -34,7 +35,7 @@ def draw_nothing(run, *_):
     """Reads what figures alone ask for."""
     if not run.is_mean:
         run.structure, run.phases, run.fields(), run.cost()
-    return [], []
+    return Drawn([], [], [], [])
 
 
 class Tools(Loaded):
@@ -225,7 +226,7 @@ def ends_with(column, values):
 class Export(Tools):
     def setUp(self):
         super().setUp()
-        drawn = mock.patch('hdlyap.plots.figures.draw_all', lambda *_: ([], []))
+        drawn = mock.patch('hdlyap.plots.figures.draw_all', draw_nothing)
         drawn.start()
         self.addCleanup(drawn.stop)
         self.csv = os.path.join(self.folder, 'csv')

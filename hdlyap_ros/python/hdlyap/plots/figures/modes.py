@@ -95,7 +95,8 @@ def draw_panels(page, panels, info, look=()):
     width = WIDTH if len(panels) > 1 else ALONE
     height = rows * (width / columns * info.box_y / info.box_x + 0.3) + 0.5
     height += LINE * scene(info).count('\n')
-    grid = page.panels(rows, columns, width, min(height, TALLEST), squeeze=False)
+    size = width, min(height, TALLEST)
+    grid = page.panels(rows, columns, *size, squeeze=False, is_box=True)
     for axes, panel in zip(grid.flat, panels):
         _arrows(axes, panel, info, {'rasterized': len(panels) * info.number > MANY, **dict(look)})
         axes.set_xlabel(r'$x$  [$\sigma$]', fontsize=7)

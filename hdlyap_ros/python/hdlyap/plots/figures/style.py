@@ -12,7 +12,8 @@ from hdlyap.data.containers import is_curved
 from hdlyap.data.reader import is_known
 from hdlyap.numbers import known
 
-from .look import BLUE, GREEN, GREY, INK, LIGHT, ORANGE, PURPLE, SKY, STYLE, VERMILION  # noqa: F401
+from .look import BLUE, GREEN, GREY, INK, LIGHT, ORANGE, PAPER, PURPLE, SKY, STYLE  # noqa: F401
+from .look import VERMILION  # noqa: F401
 
 POINTS = 2000  # most points of a curve; more cannot be seen
 TITLE = 60  # most characters in a line with the name of the scene
@@ -23,12 +24,16 @@ MEMBER_COLOURS = (BLUE, VERMILION, GREEN, ORANGE, PURPLE, SKY)
 FEW = {'markersize': 4.5, 'elinewidth': 0.9, 'capsize': 2}
 SMALL = {'fmt': 'o', 'markersize': 2.6, 'elinewidth': 0.8, 'capsize': 1.5}
 MANY = {'ecolor': GREY, 'elinewidth': 0.7, 'rasterized': True}
+SVG = 'svg', {'dpi': 200, 'metadata': {'Date': None}}
+# vectors, with maps as pixels of a journal's resolution
+FILES_OF_PAPER = (('pdf', {'dpi': 600, 'metadata': {'CreationDate': None}}),)
 UPRIGHT = {'rotation': 90, 'ha': 'center', 'va': 'bottom'}  # look of a text above a place
 
 
-def ours():
-    """A context in which figures have this look, whatever a matplotlibrc says."""
-    return matplotlib.style.context(['default', STYLE])
+def ours(paper=None):
+    """A context in which figures have this look, or that of a journal, whatever a matplotlibrc
+    says."""
+    return matplotlib.style.context(['default', STYLE, *([PAPER] if paper else [])])
 
 
 def beside(axes, text, place, aside, **look):
@@ -41,13 +46,11 @@ def instead(axes, text):
     axes.annotate(text, (0.5, 0.5), xycoords='axes fraction', ha='center')
 
 
-def save(figure, folder, name, dpi=250):
-    """Writes a figure to files. Returns their names. dpi: resolution of the PNG file."""
+def save(figure, folder, name, dpi=250, paper=None):
+    """Writes a figure to files, for a journal to one. Returns their names. dpi: resolution of the
+    PNG file."""
     files = []
-    for suffix, options in (
-        ('png', {'dpi': dpi}),
-        ('svg', {'dpi': 200, 'metadata': {'Date': None}}),
-    ):
+    for suffix, options in FILES_OF_PAPER if paper else (('png', {'dpi': dpi}), SVG):
         path = os.path.join(folder, f'{name}.{suffix}')
         with whole.written(path) as unfinished:
             figure.savefig(unfinished, **options)
