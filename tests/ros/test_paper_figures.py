@@ -16,9 +16,7 @@ from hdlyap.plots.figures import (
     convergence,
     dispersion,
     fluctuations,
-    modes,
     phases,
-    spectrum,
     steps,
 )
 from hdlyap.plots.figures.page import PAPER, TALLEST

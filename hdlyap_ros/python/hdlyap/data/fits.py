@@ -12,7 +12,7 @@ from . import dispersion, steps
 SAME = 1e-9  # relative difference below which wave numbers are the same
 # relations by their number of terms. The node alone fits three, with c2 and c3 of long boxes
 RELATIONS = {1: 'c k', 2: 'c k + c2 k^2', 3: 'c k + c2 k^2 + c3 k^3'}
-ASSUMED = 'curvature assumed'  # as no step says anything about it
+ASSUMED, ALL = 'curvature assumed', 0.995  # if steps say less than half a per cent of it
 KINDS = {'t': steps.T, 'l': steps.LP}
 
 
@@ -50,7 +50,7 @@ class Fit:
     @property
     def is_assumed(self):
         """Whether the whole curvature is that of long boxes, so that only c is measured."""
-        return round(100 * self.prior_share) == 100 if self.prior_share >= 0 else False
+        return self.terms > 1 and self.prior_share >= ALL
 
     @property
     def measured_values(self):

@@ -3,7 +3,7 @@
 import numpy as np
 
 from hdlyap.data import seeds, space
-from hdlyap.data.containers import is_curved
+from hdlyap.data.containers import is_curved, radius
 from hdlyap.data.reader import NoInfo, is_known
 from hdlyap.numbers import fixed, known, with_error
 
@@ -130,6 +130,7 @@ def system(info):
         return space.without_box(info)
     if is_curved(info):
         size = f'{info.box_x:.3f} x {info.box_y:.3f}'
+        size = f'R = {radius(info):.4f}' if radius(info) else size
         return f'N = {info.number}, density {info.density:g}, {info.container}, {size}'
     packing = f', packing {info.packing_fraction:.4g}' if space.turns(info) else ''
     return (

@@ -27,7 +27,7 @@ STYLE = {
     'mathtext.fontset': 'dejavusans',
     'svg.hashsalt': 'hdlyap',
 }
-# on top of it for a journal: letters of its size that are not outlines, so that they can be searched
+# on top of it for a journal: letters of its size, which are no outlines, so that one can search
 PAPER = {
     'font.family': 'STIXGeneral',
     'mathtext.fontset': 'stix',

@@ -8,7 +8,7 @@ from matplotlib import ticker
 
 from hdlyap import whole
 from hdlyap.data import space, steps
-from hdlyap.data.containers import is_curved
+from hdlyap.data.containers import is_curved, radius
 from hdlyap.data.reader import is_known
 from hdlyap.numbers import known
 
@@ -66,6 +66,7 @@ def scene(info):
         return f'{name}: {info.particles}, $N={info.number}$'
     if is_curved(info):
         size = f'{info.container}, ${info.box_x:.4g}\\times{info.box_y:.4g}$'
+        size = f'circle, $R={radius(info):.4g}$' if radius(info) else size
         return f'{name}: $N={info.number}$, $\\rho={info.density:g}$, {size}'
     walls = space.along(info, 'boundary_')
     walls = walls[:1] if len(set(walls)) == 1 else map(' '.join, zip('xyz', walls))
