@@ -332,7 +332,9 @@ class Figures(bags.Figures):
         circle = made.run_info(container='circle', boundary_x='curved', boundary_y='curved')
         circle.box_x = circle.box_y = 17.06
         self.assertEqual(scene(circle), r'made: $N=20$, $\rho=0.5$, circle, $R=8.53$')
-        self.assertEqual(report.system(circle), 'N = 20, density 0.5, circle, R = 8.5300')
+        self.assertEqual(
+            report.system(circle), 'N = 20, density 0.5, packing 0.3927, circle, R = 8.5300'
+        )
         corners = [(8.0, 3.0), (4.0, 6.0), (0.0, 3.0), (4.0, 0.0)]
         x, y = zip(*corners)
         info = made.run_info(
@@ -340,7 +342,9 @@ class Figures(bags.Figures):
             **dict(boundary_x='curved', boundary_y='curved', wave_nx=[1], wave_ny=[1]),
         )
         self.assertEqual(scene(info), r'made: $N=20$, $\rho=0.5$, lens, $8\times6$')
-        self.assertEqual(report.system(info), 'N = 20, density 0.5, lens, 8.000 x 6.000')
+        self.assertEqual(
+            report.system(info), 'N = 20, density 0.5, packing 0.3927, lens, 8.000 x 6.000'
+        )
         axes = page.Page().panels(1, 1, 3, 3)
         box.Particles(axes, info, np.array([[4.0], [4.0]]))
         (wall,) = axes.patches

@@ -11,14 +11,7 @@ import bags
 import made
 import test_axes
 from made import LP, T
-from hdlyap.plots.figures import (
-    FIGURES,
-    convergence,
-    dispersion,
-    fluctuations,
-    phases,
-    steps,
-)
+from hdlyap.plots.figures import FIGURES, convergence, dispersion, fluctuations, phases, steps
 from hdlyap.plots.figures.page import PAPER, TALLEST
 
 INFO = made.run_info()

@@ -116,6 +116,13 @@ class Summary:
                     f'{last.energy_error_wanted:.2g}: the time step was too long'
                 )
 
+    @property
+    def energy_error(self):
+        """The largest relative error of the energy so far; None of particles without time steps."""
+        last = self._status
+        found = np.nan if last is None else last.energy_error_most
+        return float(found) if np.isfinite(found) else None
+
     @cached_property
     def _status(self):
         last = None

@@ -39,11 +39,11 @@ def draw_all(recording, folder, progress, names=tuple(FIGURES), pdf=None, paper=
     """Draws each figure for which the recording has data. pdf: a file with all figures; paper: see
     page.PAPER. Returns the names of the files, of figures that need run_info, which it lacks, a
     line for each panel without data, and the captions of figures without titles."""
-    made, pages = Drawn([], [], [], []), []
+    made, pages, how = Drawn([], [], [], []), [], {'paper': paper} if paper else {}
     with ours(paper), contextlib.ExitStack() as stack:
         for name in progress.over(names, len(names)):
             try:
-                page = FIGURES[name].draw(recording, paper=paper)
+                page = FIGURES[name].draw(recording, **how)
             except NoInfo:
                 made.lost.append(name)
                 continue
@@ -53,7 +53,7 @@ def draw_all(recording, folder, progress, names=tuple(FIGURES), pdf=None, paper=
                 pages = stack.enter_context(PdfPages(stack.enter_context(whole.written(pdf))))
             if pdf:
                 pages.savefig(page.figure)
-            made.files.extend(save(page.figure, folder, name, paper=paper))
+            made.files.extend(save(page.figure, folder, name, **how))
             made.left_out.extend(f'{name} has no panel of {line}' for line in page.left_out)
             made.captions.extend([f'{name}: {page.caption}'] if paper else [])
     made.files.extend([pdf] if pdf and made.files else [])

@@ -103,11 +103,11 @@ def _variances(axes, message, told, look):
     for name, indices in {'largest': [message.first_index], **told.indices}.items():
         kind = name.partition('(')[0]
         values = told.variances[indices].mean(axis=1)[often]
-        error = values * np.sqrt(2 / (count[often] - 1) / max(1, len(indices)))
+        error = values.abs() * np.sqrt(2 / (count[often] - 1) / max(1, len(indices)))
         style = {'fmt': '.-', 'color': KIND_COLOURS.get(kind, INK), 'linewidth': 0.8, **BARS}
         known_already = kind in axes.get_legend_handles_labels()[1]
         style = {**style, **look, 'label': '_' + name if known_already else kind}
-        axes.errorbar(values.index, values, error, **style)
+        axes.errorbar(values.index, values.to_numpy(), bars(error), **style)
     _log_axes(axes, told.times['time'].to_numpy()[often])
     axes.legend(loc='lower center', bbox_to_anchor=(0.5, 1.0), ncol=3, fontsize=6)
 
@@ -142,11 +142,12 @@ def _shown_times(told):
 def _dots(axes, told, number, row, fractions, look):
     """Draws fractions of times, with the errors of counts of independent times."""
     fractions = fractions.dropna()
-    error = np.sqrt(fractions * (1 - fractions) / told.times['count'][row])
+    counted = np.maximum(0, fractions * (1 - fractions))
+    error = np.sqrt(counted / max(1, told.times['count'][row]))
     style = {'fmt': '.', 'markersize': 3, 'alpha': 1 - 0.35 * number, **BARS, 'elinewidth': 0.3}
     label = f'{told.times["time"][row]:.3g} time units'
     style = {**style, **look, 'label': label}
-    axes.errorbar(fractions.index + 0.5, fractions, error, **style)
+    axes.errorbar(fractions.index + 0.5, fractions.to_numpy(), bars(error), **style)
 
 
 def _order(axes, told, look):
