@@ -293,8 +293,8 @@ class Results(InFolder):
     def test_an_energy_that_was_off(self):
         """By the name of its run."""
         found = self.read(self.bag('1', seed='1'), self.bag('2', seed='2', most=0.0016))
-        lines = [line for line in table.text(found) if 'energy' in line]
-        (line,) = lines
+        head, line = [line for line in table.text(found) if 'energy' in line]
+        self.assertRegex(head, '  energy error  seeds  averaged time$')
         self.assertRegex(line, '2.*: the energy was off by 0.0016, asked was 0.0005')
 
     def test_two_runs_in_a_bag(self):
@@ -351,8 +351,12 @@ class Results(InFolder):
         self.assertEqual(
             [line.split() for line in lines[2:5]],
             [
-                f'{density} 9.000(10) {fitted} 1 50'.split()
-                for density, fitted in (('0.4', fits), ('0.5', fits), ('0.6', of_t + ' [4]'))
+                f'{density} {packing} 9.000(10) {fitted} 1 50'.split()
+                for density, packing, fitted in (
+                    ('0.4', '0.3142', fits),
+                    ('0.5', '0.3927', fits),
+                    ('0.6', '0.4712', of_t + ' [4]'),
+                )
             ],
         )
         self.assertEqual(

@@ -5,7 +5,7 @@ import numpy as np
 from hdlyap.data import seeds, space
 from hdlyap.data.containers import is_curved, radius
 from hdlyap.data.reader import NoInfo, is_known
-from hdlyap.numbers import fixed, known, with_error
+from hdlyap.numbers import known, with_error
 
 from . import covariant_table, equation, paper, step_table
 

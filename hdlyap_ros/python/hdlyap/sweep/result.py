@@ -10,17 +10,19 @@ from . import figure, points, table
 NAME = 'sweep'
 
 
-def write(paths, folder=None, choice=(None, None)):
-    """Prints the table of these bags; writes files if a folder is given. choice: of fits, see
-    data.fits.chosen. Returns a line for each bag that cannot be used."""
+def write(paths, folder=None, choice=(None, None), latex=None):
+    """Prints the table of these bags, as text or for LaTeX (a style of plots.latex); writes files
+    if a folder is given. choice: of fits, see data.fits.chosen. Returns a line for each bag that
+    cannot be used."""
     found, wrong = points.read(paths, choice)
     if not found:
         return wrong
-    lines = '\n'.join(table.text(found))
-    print('\n' + lines, flush=True)
+    lines = '\n'.join(table.latex(found, latex) if latex else table.text(found))
+    print(lines if latex else '\n' + lines, flush=True)
     if not folder:
         return wrong
-    made = [os.path.join(folder, f'{NAME}.{ending}') for ending in ('txt', 'csv')]
+    endings = ('tex' if latex else 'txt'), 'csv'
+    made = [os.path.join(folder, f'{NAME}.{ending}') for ending in endings]
     whole.write(made[0], lines + '\n')
     table.csv(found, made[1])
     with ours():
