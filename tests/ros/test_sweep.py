@@ -90,6 +90,16 @@ class Grid(unittest.TestCase):
             (one,) = self.runs(seeds='1', params=f'{{particles: {particles}, energy: 2}}')
             self.assertEqual([one.parameters[name] for name in ('energy', 'potential')], [2, 'wca'])
 
+    def test_what_nothing_needs(self):
+        """A value of the scene that nothing needs any more is as if it were not there; that of the
+        user is refused by the node."""
+        for params, number in (('{}', 0), ('{max_mode_number: 2}', 2)):
+            how = dict(scene='dumbbells', seeds='1', observables='[gas]', params=params)
+            (one,) = self.runs(**how)
+            self.assertEqual(one.parameters['max_mode_number'], number)
+        (one,) = self.runs(scene='dumbbells', seeds='1', observables='[steps]')
+        self.assertEqual(one.parameters['max_mode_number'], 3)
+
     def test_large_systems_are_most_of_the_work(self):
         """By which progress and the time that is left are told."""
         small, large = (one.seconds - run.BEGIN for one in self.runs(numbers='100 200'))
@@ -128,6 +138,11 @@ class Plan(InFolder):
         with open(self.path('plan.yaml'), 'w') as file:
             file.write(text)
         return {run.name: run for run in plan.runs(file.name, quick, LAUNCH)}
+
+    def test_what_nothing_needs(self):
+        """In an entry, as in a sweep."""
+        one = self.runs('one: {base: dumbbells, observables: [gas], duration: 5}')['one']
+        self.assertEqual(one.parameters['max_mode_number'], 0)
 
     def test_parameters(self):
         """Those of the scene, then of the entry, then of quick or full."""
@@ -395,6 +410,34 @@ class Results(InFolder):
         }
         self.assertIn('x', markers[figure.NAMES['c_T']])
         self.assertNotIn('x', markers[figure.NAMES['c_L']])
+
+    def test_particles_of_several_kinds(self):
+        """A table and a figure of each kind."""
+        ball = made.spheres(run_id='ball')
+        made.write(self.path('ball.bag'), [ball, made.spectrum([9.0], 50.0, run_id='ball')])
+        disks = [self.bag('a', 0.4), self.bag('b', 0.5)]
+        with contextlib.redirect_stdout(io.StringIO()) as said:
+            wrong = result.write_all([*disks, self.path('ball.bag')], self.folder)
+        self.assertEqual((wrong, said.getvalue().count('the same in all')), ([], 2))
+        names = set(os.listdir(self.folder))
+        self.assertLess({'sweep_disks.txt', 'sweep_disks.png', 'sweep_spheres.csv'}, names)
+        with contextlib.redirect_stdout(io.StringIO()):
+            result.write_all(disks, self.folder)
+        self.assertIn('sweep.png', os.listdir(self.folder))
+
+    def test_one_panel(self):
+        """Its title and the text below are inside of it."""
+        found = self.read(self.bag('a', 0.4), self.bag('b', 0.5))
+        for point in found:
+            point.values = {'lambda_max': point.values['lambda_max']}
+        drawn = figure.draw(found).figure
+        drawn.canvas.draw()
+        for text in (drawn._suptitle, *drawn.texts):
+            box = text.get_window_extent()
+            self.assertGreaterEqual(box.x0, 0, text)
+            self.assertLessEqual(box.x1, drawn.bbox.x1, text)
+        page = figure.draw(found, paper='one-column')
+        self.assertEqual((page.figure.get_figwidth(), page.figure.texts), (3.375, []))
 
     def test_over_seeds(self):
         """One point of each system; both errors and chi^2 as hdlyap.load has them; a fit that is

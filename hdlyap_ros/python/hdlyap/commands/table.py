@@ -13,6 +13,7 @@ import rospy
 from hdlyap.data import fits
 from hdlyap.follow import nodes
 from hdlyap.plots import latex
+from hdlyap.plots.figures.page import PAPER
 from hdlyap.sweep import result
 
 FAULT = 1
@@ -38,6 +39,8 @@ def options(parser):
     )
     text += 'results and steps'
     parser.add_argument('--latex', nargs='?', const='plain', choices=latex.STYLES, help=text)
+    text = 'the figure for a journal, as wide as one of its columns or as both, as PDF'
+    parser.add_argument('--paper', choices=list(PAPER), help=text)
     fits.add_arguments(parser)
 
 
@@ -114,7 +117,7 @@ def main(args):
     ]
     if args.out:
         os.makedirs(args.out, exist_ok=True)
-    wrong = result.write(bags, args.out, fits.choice(args), args.latex)
+    wrong = result.write(bags, args.out, fits.choice(args), args.latex, args.paper)
     for line in wrong:
         print(f'hdlyap table: {line}', file=sys.stderr, flush=True)
     return 1 if wrong else 0

@@ -47,7 +47,7 @@ class Page:
         self._given = [] if ax is None else list(np.array(ax, dtype=object).flat)
         self.figure, self.artists = self._given[0].figure if self._given else None, []
         self._panels, self._before = [], ()
-        self._title, self._legend, self.paper = title and not paper, legend, paper
+        self.has_title, self.has_legend, self.paper = title and not paper, legend, paper
         self.caption, self.left_out = '', []
 
     @property
@@ -137,12 +137,12 @@ class Page:
             return
         for axes, letter in zip(panels, LETTERS):
             axes.set_title(f'({letter}) {axes.get_title(loc="left")}'.rstrip(), loc='left')
-        if self._title:
+        if self.has_title:
             self.figure.suptitle(scene(info) + more, fontsize=9)
 
     def drawn(self):
         """This page; None if nothing was drawn."""
-        if not self._legend:
+        if not self.has_legend:
             self._drop_legends()
         if self.paper and self.is_own and self.figure:
             for line in self.figure.findobj(lambda one: isinstance(one, (Line2D, LineCollection))):
