@@ -9,7 +9,7 @@ from hdlyap.msg import Cost, CovariantAngle, Spectrum, Steps
 import bags
 import made
 from made import LP, T
-from hdlyap.plots import covariant, report
+from hdlyap.plots import covariant_table, covariant, report
 from hdlyap.plots.figures import (
     covariant_angles,
     covariant_domination,
@@ -299,6 +299,13 @@ class Figures(Bags):
         one = covariant_angle(UNSTABLE_STABLE, {30: 5}, {30: 5})
         lines = self.draw(covariant_angles, self.changed(angles=[one]))[0].get_lines()
         self.assertEqual(lines[0].get_label(), 'unstable-stable: 30 .. 31°')
+
+    def test_zero_modes_without_errors(self):
+        """It is said why; not where they have errors."""
+        known = [0.01] * POSITIVE
+        run = self.changed(std_errors=[*known, *[-1.0] * 6, *known])
+        self.assertIn(covariant_table.ZERO, report.report(run))
+        self.assertNotIn(covariant_table.ZERO, report.report(self.changed()))
 
     def test_domination(self):
         axes = self.draw(covariant_domination)

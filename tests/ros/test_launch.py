@@ -85,11 +85,11 @@ class Launch(harness.Case):
     def test_refused_before_anything_starts(self):
         """In one line: what roslaunch ignores, or dies of in many lines."""
         refused = {
-            'densty:=0.5': 'densty = 0.5: must be an argument of run.launch; is density meant?',
+            'densty:=0.5': 'densty = 0.5: no such argument; is density meant?',
             'warmup:=5': 'warmup = 5: must be in params:="{warmup: ..}", as run.launch has no',
-            'xyz:=5': 'xyz = 5: must be an argument of run.launch\n',
+            'xyz:=5': 'xyz = 5: no such argument\n',
             'bond:=0.5': 'bond = 0.5: must be in params:="{bond: ..}", as run.launch has no',
-            'file:=5': 'file = 5: must be an argument of run.launch',
+            'file:=5': 'file = 5: no such argument',
             'scene:=quikc': 'scene = quikc: must be one of circle, circle_quick, covariant, ',
             'scene:=no.yaml': 'scene = no.yaml: must be a YAML file of parameters: ',
             'package:=nowhere': 'package = nowhere: must be a package that ROS finds\n',
@@ -298,7 +298,7 @@ class Launch(harness.Case):
             'duration:=-1': 'duration = -1: must be from 0',
             'min_space:=99999999G': 'less than min_space = 99999999G is free in '
             + tempfile.gettempdir(),
-            'params:={disk: 50}': 'disk = 50: must be removed: there is no parameter of this name',
+            'params:={disk: 50}': 'disk = 50: no such parameter',
         }
         with tempfile.TemporaryDirectory() as folder:
             with open(os.path.join(folder, 'q.bag'), 'w') as file:

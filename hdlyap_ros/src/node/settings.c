@@ -21,10 +21,9 @@ static bool check_names(reader *r)
     for (int k = 0; k < hdr_params_count(r->params); k++) {
         r->name = hdr_params_name(r->params, k);
         if (parameters_has(r->name)) continue;
-        char unknown[PARAMETER_UNKNOWN], allowed[sizeof "removed: " + PARAMETER_UNKNOWN];
+        char unknown[PARAMETER_UNKNOWN];
         parameters_unknown(unknown, r->name);
-        snprintf(allowed, sizeof allowed, "removed: %s", unknown);
-        return reader_refuse(r, allowed);
+        return reader_refuse_as(r, unknown);
     }
     return true;
 }
