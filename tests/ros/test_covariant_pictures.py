@@ -9,7 +9,7 @@ from hdlyap.msg import Cost, CovariantAngle, Spectrum, Steps
 import bags
 import made
 from made import LP, T
-from hdlyap.plots import covariant_table, covariant, report
+from hdlyap.plots import covariant, covariant_table, report
 from hdlyap.plots.figures import (
     covariant_angles,
     covariant_domination,

@@ -101,8 +101,8 @@ class Run:
         return joined.packed(self.parts, kinds)
 
     def in_time(self, kinds):
-        """Messages as packed() has them, in the order of simulated time; a recorder mixes topics a
-        little."""
+        """Messages as packed() has them, sorted by simulated time, which a recorder of several
+        topics does not quite keep."""
         streams = (self.packed((kind,)) for kind in kinds)
         return heapq.merge(*streams, key=lambda packed: packed.sim_time)
 
