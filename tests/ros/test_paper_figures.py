@@ -171,6 +171,18 @@ class Shown(bags.Figures):
         self.assertEqual(top.get_xlim(), middle.get_xlim())
         self.assertGreater(bottom.get_xlim()[0], 30)
 
+    def test_labels_of_short_courses(self):
+        """Those of a log axis shorter than a decade do not overlap."""
+        late = [made.spectrum(HALF, t, error=0.1 / t) for t in range(160, 200)]
+        for axes in self.draw(convergence, *late)[2:]:
+            boxes = [one.get_window_extent() for one in axes.get_xticklabels() if one.get_text()]
+            shown = [
+                box for box in boxes if axes.bbox.x0 <= 0.5 * (box.x0 + box.x1) <= axes.bbox.x1
+            ]
+            self.assertGreater(len(shown), 1)
+            for one, other in zip(shown, shown[1:]):
+                self.assertLess(one.x1, other.x0)
+
     def test_phases_that_were_found_again(self):
         """Go on where they were, but for less than half a turn."""
         time = np.arange(10.0)

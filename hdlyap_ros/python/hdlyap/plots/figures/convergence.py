@@ -1,10 +1,9 @@
 """Running means and their standard errors against the averaged time."""
 
-from matplotlib import ticker
 import numpy as np
 
 from . import page
-from .style import BLUE, GREY, INK, ORANGE, SKY, VERMILION, instead, thinned
+from .style import BLUE, GREY, INK, ORANGE, SKY, VERMILION, instead, plain_log, thinned
 
 ORDER = 2
 
@@ -22,6 +21,8 @@ def draw(page, recording, **look):
     rows = 3 if is_known or not page.leave_out('standard errors', UNKNOWN) else 2
     grid = page.panels(rows, 1, 5.2, 0.6 + 2 * rows, squeeze=False)
     top, middle, *others = grid.flat
+    for axes in grid.flat:
+        axes.set_xscale('log')
     kept = thinned(len(course['time']))
     time = course['time'][kept]
     of_largest = course['lambda_max'][kept], course['lambda_max_error'][kept]
@@ -42,7 +43,6 @@ def draw(page, recording, **look):
         axes.set_title('standard errors', loc='left')
     for axes in grid.flat:
         axes.set_xlabel('averaged time  [time units]')
-        axes.set_xscale('log')
     top.set_title('largest exponent', loc='left')
     middle.set_title('smallest exponents', loc='left')
     page.outer(grid[:2])
@@ -79,7 +79,6 @@ def _error(axes, time, error, **look):
     axes.loglog(time, error, _mark(time), **{'color': INK, 'label': label, **look})
     slope = error[-1] * np.sqrt(last / time)
     axes.loglog(time, slope, '--', color=GREY, label=r'$\propto 1/\sqrt{t}$')
-    axes.yaxis.set_major_locator(ticker.LogLocator(subs=(1, 2, 5)))
-    axes.yaxis.set_major_formatter(ticker.FormatStrFormatter('%g'))
-    axes.yaxis.set_minor_formatter(ticker.NullFormatter())
+    for axis in (axes.xaxis, axes.yaxis):
+        plain_log(axis)
     axes.legend()

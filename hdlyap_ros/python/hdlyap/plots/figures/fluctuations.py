@@ -11,14 +11,24 @@ from hdlyap.numbers import known
 from .. import covariant
 from . import page
 from .covariant import near_zero, shade
-from .style import BLUE, GREY, INK, KIND_COLOURS, MANY, VERMILION, bars, index_axis, instead
+from .style import (
+    BLUE,
+    GREY,
+    INK,
+    KIND_COLOURS,
+    MANY,
+    VERMILION,
+    bars,
+    index_axis,
+    instead,
+    plain_log,
+)
 
 ORDER = 11
 
 OFTEN, FEW = 32, 8  # times of which a fraction, a variance can be told
 COLUMNS = 3  # most panels in a row
 TICKS = 5  # most times on an axis
-FULL = 30  # from its lower to its upper end an axis has so much room for 1, 2, 5
 BARS = {'ecolor': GREY, 'elinewidth': 0.6}
 NO_DIFFUSION = 'diffusion', 'it takes 128 samples of growth; average longer'
 NO_TIMES = 'growth over finite times', 'a bag has it when fields are due; see field_interval'
@@ -117,12 +127,9 @@ def _log_axes(axes, times):
     axes.set_xscale('log')
     axes.set_yscale('log')
     axes.set_xticks(times[:: -(-len(times) // TICKS)])
-    low, high = axes.get_ylim()
-    subs = (1, 2, 5) if high < FULL * low else (1,)
-    axes.yaxis.set_major_locator(ticker.LogLocator(subs=subs))
-    for axis in (axes.xaxis, axes.yaxis):
-        axis.set_major_formatter(ticker.FormatStrFormatter('%.3g'))
-        axis.set_minor_formatter(ticker.NullFormatter())
+    plain_log(axes.yaxis)
+    axes.xaxis.set_major_formatter(ticker.FormatStrFormatter('%.3g'))
+    axes.xaxis.set_minor_formatter(ticker.NullFormatter())
     axes.tick_params(axis='x', which='minor', length=0)
 
 

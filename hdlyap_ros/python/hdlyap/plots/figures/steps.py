@@ -16,6 +16,7 @@ MOST = 24  # most steps that are shown; the names of more would not fit
 CHANCE = 1e-3  # probability that equal exponents of a set scatter as much as those called apart
 APART = 'apart, beyond errors and however long the run'
 SET, AROUND = 0.42, 1.9  # width of a set, and of what is beside all of them [inch]
+LEAST = 4.6  # least width of the figure, for its title [inch]
 
 
 @page.figure
@@ -23,7 +24,7 @@ def draw(page, recording, **look):
     blocks = steps.blocks(recording.steps, recording.info)[:MOST]
     if not blocks or recording.spectrum is None:
         return
-    width = min(AROUND + SET * max(len(blocks), 3), 5.6)
+    width = max(LEAST, min(AROUND + SET * len(blocks), 5.6))
     top, bottom = page.panels(2, 1, width, 5.2, sharex=True)
     for place, block in enumerate(blocks):
         _found(top, place, block, look)

@@ -90,6 +90,19 @@ def index_axis(axes, nbins=6):
     axes.set_xlabel(r'index $\ell$')
 
 
+def plain_log(axis):
+    """Gives a logarithmic axis plain numbers that do not overlap: 1, 2, 5, or if it is shorter than
+    a decade evenly spaced ones."""
+    low, high = axis.get_view_interval()
+    if high < 10 * low:
+        axis.set_major_locator(ticker.MaxNLocator(5, steps=[1, 2, 5, 10]))
+    else:
+        subs = (1, 2, 5) if high < 100 * low else (1,)
+        axis.set_major_locator(ticker.LogLocator(subs=subs))
+    axis.set_major_formatter(ticker.FormatStrFormatter('%.4g'))
+    axis.set_minor_formatter(ticker.NullFormatter())
+
+
 def bars(std_errors):
     """The lengths of error bars; None if no error is known."""
     errors = known(std_errors)
