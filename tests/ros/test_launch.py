@@ -113,7 +113,7 @@ class Launch(harness.Case):
                 file.write('number: 20\naspect: 1.0\nduration: 2\nequilibration: 1\nwarmup: 1\n')
             words = ['scene:=mine.yaml', 'density:=0.5', 'params:={accuracy: 1e-7}', '__ns:=grp']
             run = self.process([*harness.command('launch'), *words], PWD=folder)
-            self.ends(run, 0, 'scene mine: 20 disks in 6.32456 x 6.32456')
+            self.ends(run, 0, 'scene unnamed: 20 disks in 6.32456 x 6.32456')
             differs = f'unlike {folder}/mine.yaml: density = 0.5, accuracy = 1e-7'
             self.assertIn('from the arguments, ' + differs, run.text())
         given = dict(scene='mine', number=20, aspect=1.0, duration=2, equilibration=1, warmup=1)
