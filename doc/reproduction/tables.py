@@ -79,7 +79,7 @@ def _line(lines):
 def _measured(lines):
     if lines and all(line['measured'] == line['published'] for line in lines):
         return 'the same'
-    # a mean over them beside 0 is no value of its own
+    # a value beside a published 0 is a mean over the others, so it is shown only if it is alone
     lines = [line for line in lines if line['published'] != '0'] or lines
     numbers = [_number(line) for line in lines]
     if len(numbers) <= MANY:

@@ -64,7 +64,7 @@ chain_runs() {
     in_space "$1" hdlyap repeat "$folder/one.bag" >"$folder/again.yaml" && is_valid "$1" "$folder/again.yaml" || return 1
     in_space "$1" rosrun hdlyap_downstream chain_node --parameters >"$folder/all.yaml" && is_valid "$1" "$folder/all.yaml" number:=8 || return 1
     refused "$1" 'beta = -1: must be from 0 to 1000' beta:=-1 &&
-        refused "$1" 'betta = 1: must be removed: there is no parameter of this name; is beta meant?' betta:=1 &&
+        refused "$1" 'betta = 1: no such parameter; is beta meant?' betta:=1 &&
         refused "$1" 'particles = rods: must be disks or spheres or dumbbells or soft_disks or soft_spheres or chain' particles:=rods &&
         refused "$1" 'density = 0.5: must not be given with particles = chain, which have no positions in a box' density:=0.5 &&
         refused "$1" 'observables = [state]: must be a list out of spectrum, covariant, localization, fluctuations when particles = chain' 'observables:=[state]' &&

@@ -42,10 +42,12 @@ def process(*arguments, script='hdlyap', **how):
     return Done(done.returncode, done.stdout, done.stderr)
 
 
-def save_nothing(figure, folder, name):
+def save_nothing(figure, folder, name, paper=None):
     """Instead of figures.save: its files are empty."""
-    check_title(figure, name)
-    files = [os.path.join(folder, f'{name}.{suffix}') for suffix in ('png', 'svg')]
+    if not paper:
+        check_title(figure, name)
+    suffixes = ['pdf'] if paper else ['png', 'svg']
+    files = [os.path.join(folder, f'{name}.{suffix}') for suffix in suffixes]
     for path in files:
         open(path, 'w').close()
     return files

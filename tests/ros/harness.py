@@ -114,8 +114,8 @@ def slowness():
 
 @contextlib.contextmanager
 def within(test, seconds):
-    """What is promised in so many seconds, on a machine that does nothing else: in as many more as
-    it is slower by."""
+    """Fails if a block takes longer than so many seconds of a machine that does nothing else. On a
+    slower or busy one it may take longer by the same factor (slowness)."""
     slow, begin = slowness(), time.monotonic()
     yield
     taken = time.monotonic() - begin

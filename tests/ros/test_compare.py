@@ -120,7 +120,7 @@ class Agreeing(Pairs):
         other = run(shifted(z), run_id='two', seed='2', observables=['steps', 'state'])
         text = self.compare(run(), other)
         for said in (
-            r'both  N = 20, density 0\.5, box 6\.325 x 6\.325, x periodic, y periodic',
+            r'both  N = 20, density 0\.5, packing 0\.3927, box 6\.325 x 6\.325, x periodic, y',
             r'\n  seed +1 +2\n',
             r'\n  observables +"" +steps state\n',
             fr'\n  lambda_max +9\.000\(10\) .* {z[0]:+.2f}',
@@ -258,6 +258,9 @@ class Steps(Pairs):
         pair = run(made_steps=[found()[0], mirrored])
         names = sorted(one.name for one in self.compared(pair, pair).steps)
         self.assertEqual(names, ['T(1,0)', 'T(1,0)*'])
+        text = verdict.report(self.compared(pair, pair))
+        self.assertIn('  T(1,0)  ', text)
+        self.assertNotIn('T(1,0)*', text)  # the opposite of the one above
 
     def test_without_steps(self):
         comparison = self.compared(run(), run()[:-1])
@@ -355,7 +358,8 @@ class Refusals(Pairs):
             ('boundary_x', 'reflecting'),
             ('boundary_y', 'reflecting'),
         ):
-            self.cannot_compare(f'{name} .* and {value}$', run(), run(**{name: value}))
+            said = f'{name} .* and {value}; hdlyap table shows runs of several systems'
+            self.cannot_compare(said, run(), run(**{name: value}))
         said = 'number 20 and 40, density 0.5 and 0.6'
         said = 'hdlyap compare: the runs are of different systems and are not compared: ' + said
         self.refuses(said, 'compare', *self.bags(run(), run(density=0.6, number=40)), status=2)

@@ -9,7 +9,7 @@ from hdlyap.msg import Cost, CovariantAngle, Spectrum, Steps
 import bags
 import made
 from made import LP, T
-from hdlyap.plots import covariant, report
+from hdlyap.plots import covariant, covariant_table, report
 from hdlyap.plots.figures import (
     covariant_angles,
     covariant_domination,
@@ -300,6 +300,13 @@ class Figures(Bags):
         lines = self.draw(covariant_angles, self.changed(angles=[one]))[0].get_lines()
         self.assertEqual(lines[0].get_label(), 'unstable-stable: 30 .. 31°')
 
+    def test_zero_modes_without_errors(self):
+        """It is said why; not where they have errors."""
+        known = [0.01] * POSITIVE
+        run = self.changed(std_errors=[*known, *[-1.0] * 6, *known])
+        self.assertIn(covariant_table.ZERO, report.report(run))
+        self.assertNotIn(covariant_table.ZERO, report.report(self.changed()))
+
     def test_domination(self):
         axes = self.draw(covariant_domination)
         points = line(axes[0], 'next vector grew more')
@@ -362,7 +369,10 @@ class Partly(Bags):
         self.complete(run)
         axes = self.draw(covariant_exponents, run)
         axes[0].figure.canvas.draw()
-        self.assertIn('errors not yet known', axes[2].texts[0].get_text())
+        self.assertEqual(len(axes), 2)  # without the row of differences
+        left_out = FIGURES['exponents'].draw(run).left_out
+        said = 'backward - forward in errors: errors are not known yet; average longer'
+        self.assertEqual(left_out, [said])
         np.testing.assert_allclose(line(axes[0], 'backward (covariant)')[:, 1], backward())
 
     def test_a_part_of_the_vectors(self):

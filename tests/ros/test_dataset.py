@@ -126,13 +126,15 @@ class Everything(bags.Bags):
                 for slot in (field, field + 's')
                 if (kind, slot) in known
             ]
-            attrs = one.attrs.get('long_name', ''), one.attrs.get('units', '')
+            attrs = one.attrs.get('description', ''), one.attrs.get('units', '')
+            self.assertLessEqual(len(one.attrs['long_name']), 32, name)  # of an axis
             self.assertIn(attrs, [tuple(map(str.strip, pair)) for pair in said], name)
             seen += bool(said)
         self.assertGreater(seen, 150)
         self.assertEqual(self.all['exponents'].attrs['units'], '1/time unit')
         for name in ('time', 'state_time'):
-            self.assertIn('simulated time', self.all[name].attrs['long_name'])
+            self.assertEqual(self.all[name].attrs['long_name'], 'simulated time')
+            self.assertIn('simulated time since', self.all[name].attrs['description'])
             self.assertEqual(self.all[name].attrs['units'], 'time units')
         self.assertEqual(self.all['vector'].attrs, {'long_name': 'Lyapunov index'})
 

@@ -77,7 +77,9 @@ class Figures(bags.Figures):
             colour = INK if index < 32 else KIND_COLOURS['LP' if index < 36 else 'T']
             self.assertEqual(one.lines[0].get_color(), colour, index)
         names = [(text.get_text(), text.xy[0]) for text in small.texts]
-        self.assertEqual(names, [('T(1,0)', 36.5), ('LP(1,0)', 33.5)])
+        self.assertEqual(names, [('LP(1,0)', 33.5), ('T(1,0)', 36.5)])
+        said = [text.get_text() for text in small.get_legend().get_texts()]
+        self.assertEqual(said[-1], 'of no step')
         info = made.paper_info()
         values = np.linspace(6.8, 0.7, 1557)
         whole, small = self.draw(spectrum, made.spectrum(values, 10.0), info=info)
@@ -205,7 +207,7 @@ class Figures(bags.Figures):
             fields[1:],
             (
                 rf'T(1,0), $\ell=36$, $\lambda={LOW.exponent:.4f}$',
-                rf'LP(1,0), $\ell=35$, $\lambda={HIGH.exponent:.4f}$',
+                rf'LP(1,0), L part (100 %), $\ell=35$, $\lambda={HIGH.exponent:.4f}$',
             ),
         ):
             disks, arrows = axes.collections
@@ -214,6 +216,34 @@ class Figures(bags.Figures):
             drawn, dq = np.array([arrows.U, arrows.V]), np.array([field.dqx, field.dqy])
             np.testing.assert_allclose(drawn, dq * 1.3 * np.sqrt(20 / np.sum(dq**2)))
             self.assertEqual(axes.get_title(), said)
+
+    def test_l_part(self):
+        """Of 0.6 l + 0.8 n, with l in the L modes and n beside them, 0.6 l; the exponent has the
+        error of its index."""
+        field = made_fields.mode_field(INFO, HIGH, 150.0, index=35)
+        one, other, beside = np.linalg.qr(np.random.default_rng(3).normal(size=(40, 3)))[0].T
+        field.l_x, field.l_y = np.concatenate([one.reshape(2, 20), other.reshape(2, 20)], axis=1)
+        dq = 0.3 * one + 0.4 * other + 0.5 * beside
+        field.dqx, field.dqy = dq.reshape(2, 20)
+        part, share = modes.l_part(field)
+        np.testing.assert_allclose(part.ravel(), 0.3 * one + 0.4 * other, atol=1e-12)
+        self.assertAlmostEqual(share, 0.5)
+        spectrum_of = made.spectrum(EXPONENTS, 50.0, error=0.0012)
+        (axes,) = self.draw(modes, made.steps([HIGH]), spectrum_of, field)
+        self.assertIn(
+            f'L part (50 %), $\\ell=35$, $\\lambda={HIGH.exponent:.4f}(12)$', axes.get_title()
+        )
+        arrows = np.array([axes.collections[1].U, axes.collections[1].V])
+        self.assertAlmostEqual(np.sqrt(np.mean(np.sum(arrows**2, axis=0))), 1.3)
+        np.testing.assert_allclose(arrows / arrows[0, 0], part / part[0, 0])
+
+    def test_names_of_small_steps(self):
+        """Those of a vector each do not overlap: one is above the other."""
+        found = [made.step(INFO, T, n, 0, 38 - n, 38 - n) for n in (1, 2)]
+        (axes,) = self.draw(spectrum, made.spectrum(EXPONENTS, 50.0), made.steps(found))
+        boxes = [text.get_window_extent() for text in axes.texts]
+        self.assertEqual(len(boxes), 2)
+        self.assertFalse(boxes[0].overlaps(boxes[1]))
 
     def test_modes_of_a_channel(self):
         """Both components along it, with a mean square of one."""
@@ -299,6 +329,12 @@ class Figures(bags.Figures):
     def test_curved_container(self):
         """Is named with its size and drawn by its outline, without a frame; waves of a circle have
         (m,n) and no direction."""
+        circle = made.run_info(container='circle', boundary_x='curved', boundary_y='curved')
+        circle.box_x = circle.box_y = 17.06
+        self.assertEqual(scene(circle), r'made: $N=20$, $\rho=0.5$, circle, $R=8.53$')
+        self.assertEqual(
+            report.system(circle), 'N = 20, density 0.5, packing 0.3927, circle, R = 8.5300'
+        )
         corners = [(8.0, 3.0), (4.0, 6.0), (0.0, 3.0), (4.0, 0.0)]
         x, y = zip(*corners)
         info = made.run_info(
@@ -306,7 +342,9 @@ class Figures(bags.Figures):
             **dict(boundary_x='curved', boundary_y='curved', wave_nx=[1], wave_ny=[1]),
         )
         self.assertEqual(scene(info), r'made: $N=20$, $\rho=0.5$, lens, $8\times6$')
-        self.assertEqual(report.system(info), 'N = 20, density 0.5, lens, 8.000 x 6.000')
+        self.assertEqual(
+            report.system(info), 'N = 20, density 0.5, packing 0.3927, lens, 8.000 x 6.000'
+        )
         axes = page.Page().panels(1, 1, 3, 3)
         box.Particles(axes, info, np.array([[4.0], [4.0]]))
         (wall,) = axes.patches

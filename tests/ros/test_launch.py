@@ -85,11 +85,11 @@ class Launch(harness.Case):
     def test_refused_before_anything_starts(self):
         """In one line: what roslaunch ignores, or dies of in many lines."""
         refused = {
-            'densty:=0.5': 'densty = 0.5: must be an argument of run.launch; is density meant?',
+            'densty:=0.5': 'densty = 0.5: no such argument; is density meant?',
             'warmup:=5': 'warmup = 5: must be in params:="{warmup: ..}", as run.launch has no',
-            'xyz:=5': 'xyz = 5: must be an argument of run.launch\n',
+            'xyz:=5': 'xyz = 5: no such argument\n',
             'bond:=0.5': 'bond = 0.5: must be in params:="{bond: ..}", as run.launch has no',
-            'file:=5': 'file = 5: must be an argument of run.launch',
+            'file:=5': 'file = 5: no such argument',
             'scene:=quikc': 'scene = quikc: must be one of circle, circle_quick, covariant, ',
             'scene:=no.yaml': 'scene = no.yaml: must be a YAML file of parameters: ',
             'package:=nowhere': 'package = nowhere: must be a package that ROS finds\n',
@@ -113,7 +113,7 @@ class Launch(harness.Case):
                 file.write('number: 20\naspect: 1.0\nduration: 2\nequilibration: 1\nwarmup: 1\n')
             words = ['scene:=mine.yaml', 'density:=0.5', 'params:={accuracy: 1e-7}', '__ns:=grp']
             run = self.process([*harness.command('launch'), *words], PWD=folder)
-            self.ends(run, 0, 'scene mine: 20 disks in 6.32456 x 6.32456')
+            self.ends(run, 0, 'scene unnamed: 20 disks in 6.32456 x 6.32456')
             differs = f'unlike {folder}/mine.yaml: density = 0.5, accuracy = 1e-7'
             self.assertIn('from the arguments, ' + differs, run.text())
         given = dict(scene='mine', number=20, aspect=1.0, duration=2, equilibration=1, warmup=1)
@@ -298,7 +298,7 @@ class Launch(harness.Case):
             'duration:=-1': 'duration = -1: must be from 0',
             'min_space:=99999999G': 'less than min_space = 99999999G is free in '
             + tempfile.gettempdir(),
-            'params:={disk: 50}': 'disk = 50: must be removed: there is no parameter of this name',
+            'params:={disk: 50}': 'disk = 50: no such parameter',
         }
         with tempfile.TemporaryDirectory() as folder:
             with open(os.path.join(folder, 'q.bag'), 'w') as file:

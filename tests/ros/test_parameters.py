@@ -259,6 +259,20 @@ class Parameters(harness.Case):
         self.assertEqual((done.returncode, done.stderr), (0, ''))
         self.assertIn('10 disks', done.stdout)
 
+    def test_name_of_a_scene(self):
+        """Is gone once its system is changed, but not a name that the user gives."""
+        text = 'scene: mine\nnumber: 20\naspect: 1.0\ndensity: 0.5\nexponents: none\npace: 1.0\n'
+        text += 'equilibration: 0.0\nobservables: [state]\n'
+        for arguments, name in (
+            ('number:=20\nduration:=5', 'mine'),
+            ('number:=30', 'unnamed'),
+            ('number:=30\nscene:=other', 'other'),
+        ):
+            given = handed_over(scene=text, file='/no/mine.yaml', arguments=arguments)
+            node = self.start({**given, **HEARD})
+            self.assertEqual(self.told(node, self.listen('run_info')).scene, name)
+            node.stop()
+
     def test_scenes(self):
         """Some of them start as they are written; without parameters it is paper_periodic."""
         for scene, vectors in dict(quick=197, trajectory_only=0, paper_periodic=1557).items():

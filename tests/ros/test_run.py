@@ -180,8 +180,8 @@ class Run(harness.Case):
             of += 's' * (count > 1)
             self.assertGreaterEqual(misfit, 0.0)
             number = f'{self.number(value, error)}, misfit {misfit:.1f}'
-            line = f'  {name:<4} {number} over {count} {of}, k from %.4g to %.4g'
-            self.assertIn(line % ends, said)
+            line = f'  {name:<4} {number} over {count} {of}, k from %.4g to %.4g' % ends
+            self.assertEqual(re.search(re.escape(line) + '(.*?)\x1b', said).group(1), '')
         self.check_rows(said, last)
 
     @staticmethod

@@ -164,14 +164,14 @@ class Numbers(Solid):
         )
         text = self.succeeds('plot', path, '--out', self.out)
         for line in (
-            'N = 20 spheres, density 0.5, box 8.000 x 2.500 x 2.000, '
+            'N = 20 spheres, density 0.5, packing 0.2618, box 8.000 x 2.500 x 2.000, '
             'x periodic, y periodic, z periodic',
-            'collision rate  3.250000 +- 0.020000 per sphere and time unit',
-            'pressure        1.250000 +- 0.010000 per sigma^3',
-            '  of px, py, pz 1.500000, 1.000000, 1.100000',
-            'Z = p V / N kT  2.500000 +- 0.020000',
+            'collision rate  3.250(20) per sphere and time unit',
+            'pressure        1.250(10) per sigma^3',
+            '  of px, py, pz 1.500(10), 1.000(10), 1.100(20)',
+            'Z = p V / N kT  2.500(20)',
             '3.262431 by Carnahan and Starling (1969)',
-            '  h_KS            336.0000',
+            '  h_KS            336.00(56)',
             '  T(0,0,1)   45-48',
         ):
             self.assertIn(line.strip(), text)

@@ -4,6 +4,7 @@ import itertools
 import unittest
 
 import numpy as np
+from matplotlib.figure import Figure
 
 import hdlyap
 import made
@@ -182,12 +183,18 @@ class Recorded(Bags):
         self.assertAlmostEqual(found[phases].get_xdata()[0], 1.612 * made.K)  # of made.steps
 
     def test_no_line_is_known(self):
-        """Where no step is found the panel says it; where there are lines it does not."""
+        """Where no step is found there is no panel, and it is said why; the user's says it."""
         self.write([*self.head(), *self.messages], 'without')
-        for name, said in (('without', ['no line is known']), ('run', [])):
-            figure = figures.structure.draw(hdlyap.load(self.path(name))).figure
-            (lines,) = (one for one in figure.axes if one.get_title(loc='left').startswith('(c)'))
-            self.assertEqual([text.get_text() for text in lines.texts], said)
+        run = hdlyap.load(self.path('without'))
+        page = figures.structure.draw(run)
+        titles = [one.get_title(loc='left') for one in page.axes]
+        self.assertEqual([title[:3] for title in titles if title], ['(a)', '(b)'])
+        (line,) = page.left_out
+        self.assertIn('16 reports of its vectors at one wave', line)
+        self.assertEqual(figures.structure.draw(hdlyap.load(self.bag)).left_out, [])
+        axes = list(Figure().subplots(1, 3))
+        self.assertEqual(figures.structure.draw(run, ax=axes).left_out, [])
+        self.assertEqual([text.get_text() for text in axes[2].texts], ['no line is known'])
 
     def test_a_wave_that_changes_begins_the_course_anew(self):
         course = factors.StructureCourse()

@@ -90,6 +90,16 @@ class Grid(unittest.TestCase):
             (one,) = self.runs(seeds='1', params=f'{{particles: {particles}, energy: 2}}')
             self.assertEqual([one.parameters[name] for name in ('energy', 'potential')], [2, 'wca'])
 
+    def test_what_nothing_needs(self):
+        """A value of the scene that nothing needs any more is as if it were not there; that of the
+        user is refused by the node."""
+        for params, number in (('{}', 0), ('{max_mode_number: 2}', 2)):
+            how = dict(scene='dumbbells', seeds='1', observables='[gas]', params=params)
+            (one,) = self.runs(**how)
+            self.assertEqual(one.parameters['max_mode_number'], number)
+        (one,) = self.runs(scene='dumbbells', seeds='1', observables='[steps]')
+        self.assertEqual(one.parameters['max_mode_number'], 3)
+
     def test_large_systems_are_most_of_the_work(self):
         """By which progress and the time that is left are told."""
         small, large = (one.seconds - run.BEGIN for one in self.runs(numbers='100 200'))
@@ -128,6 +138,11 @@ class Plan(InFolder):
         with open(self.path('plan.yaml'), 'w') as file:
             file.write(text)
         return {run.name: run for run in plan.runs(file.name, quick, LAUNCH)}
+
+    def test_what_nothing_needs(self):
+        """In an entry, as in a sweep."""
+        one = self.runs('one: {base: dumbbells, observables: [gas], duration: 5}')['one']
+        self.assertEqual(one.parameters['max_mode_number'], 0)
 
     def test_parameters(self):
         """Those of the scene, then of the entry, then of quick or full."""
@@ -293,8 +308,8 @@ class Results(InFolder):
     def test_an_energy_that_was_off(self):
         """By the name of its run."""
         found = self.read(self.bag('1', seed='1'), self.bag('2', seed='2', most=0.0016))
-        lines = [line for line in table.text(found) if 'energy' in line]
-        (line,) = lines
+        head, line = [line for line in table.text(found) if 'energy' in line]
+        self.assertRegex(head, '  energy error  seeds  averaged time$')
         self.assertRegex(line, '2.*: the energy was off by 0.0016, asked was 0.0005')
 
     def test_two_runs_in_a_bag(self):
@@ -351,8 +366,12 @@ class Results(InFolder):
         self.assertEqual(
             [line.split() for line in lines[2:5]],
             [
-                f'{density} 9.000(10) {fitted} 1 50'.split()
-                for density, fitted in (('0.4', fits), ('0.5', fits), ('0.6', of_t + ' [4]'))
+                f'{density} {packing} 9.000(10) {fitted} 1 50'.split()
+                for density, packing, fitted in (
+                    ('0.4', '0.3142', fits),
+                    ('0.5', '0.3927', fits),
+                    ('0.6', '0.4712', of_t + ' [4]'),
+                )
             ],
         )
         self.assertEqual(
@@ -391,6 +410,34 @@ class Results(InFolder):
         }
         self.assertIn('x', markers[figure.NAMES['c_T']])
         self.assertNotIn('x', markers[figure.NAMES['c_L']])
+
+    def test_particles_of_several_kinds(self):
+        """A table and a figure of each kind."""
+        ball = made.spheres(run_id='ball')
+        made.write(self.path('ball.bag'), [ball, made.spectrum([9.0], 50.0, run_id='ball')])
+        disks = [self.bag('a', 0.4), self.bag('b', 0.5)]
+        with contextlib.redirect_stdout(io.StringIO()) as said:
+            wrong = result.write_all([*disks, self.path('ball.bag')], self.folder)
+        self.assertEqual((wrong, said.getvalue().count('the same in all')), ([], 2))
+        names = set(os.listdir(self.folder))
+        self.assertLess({'sweep_disks.txt', 'sweep_disks.png', 'sweep_spheres.csv'}, names)
+        with contextlib.redirect_stdout(io.StringIO()):
+            result.write_all(disks, self.folder)
+        self.assertIn('sweep.png', os.listdir(self.folder))
+
+    def test_one_panel(self):
+        """Its title and the text below are inside of it."""
+        found = self.read(self.bag('a', 0.4), self.bag('b', 0.5))
+        for point in found:
+            point.values = {'lambda_max': point.values['lambda_max']}
+        drawn = figure.draw(found).figure
+        drawn.canvas.draw()
+        for text in (drawn._suptitle, *drawn.texts):
+            box = text.get_window_extent()
+            self.assertGreaterEqual(box.x0, 0, text)
+            self.assertLessEqual(box.x1, drawn.bbox.x1, text)
+        page = figure.draw(found, paper='one-column')
+        self.assertEqual((page.figure.get_figwidth(), page.figure.texts), (3.375, []))
 
     def test_over_seeds(self):
         """One point of each system; both errors and chi^2 as hdlyap.load has them; a fit that is

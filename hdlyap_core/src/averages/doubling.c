@@ -21,9 +21,9 @@ typedef struct kind {
     double *sum;    /**< [vectors]: growth, summed over all stretches that have passed */
     double *square; /**< [vectors]: growth^2 / length, summed over them */
     double *violated, *entangled; /**< [vectors]: as members of hd_order_over */
-    /** [count][count], for the compared columns. On and above the diagonal: growth of the one times
-     * growth of the other / length, summed over all stretches. Below it: in how many stretches the
-     * column of the row, the later one, grew more than that of the element. */
+    /** [count][count], for each pair of compared columns. Element (i, j), j >= i: for covariances,
+     * growth of i times growth of j / length, summed over all stretches. Element (j, i), j > i: for
+     * their order, the number of stretches in which j, the later column, grew more than i. */
     double *pair;
 } kind;
 

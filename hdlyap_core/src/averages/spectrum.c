@@ -19,8 +19,8 @@ struct hd_spectrum {
     double *local_sum;  /**< [vectors]: ln R_ll, summed since hd_spectrum_local_restart */
     hd_part *parts;     /**< [vectors], workspace */
     double time, sample_time, local_time;
-    double age; /**< age of the vectors when the averaging began; negative: no zero mode takes their
-                   place */
+    double age; /**< for the error of columns in whose place a zero mode may be: age of the vectors
+                   when the averaging began; negative: no zero mode can be there */
     hd_blocks blocks; /**< blocks of ln R_ll; their weight is time */
 };
 

@@ -7,9 +7,6 @@
 #include "hdlyap/spectrum.h"
 #include "hdlyap/steps.h"
 
-/** A set is resolved if, for each of its steps, at least this part of the expected multiplicity is
- * found beyond what random vectors would show. */
-
 /** Most vectors of a set; larger sets are not resolved. */
 enum { HD_SET_VECTORS_MAX = 64 };
 

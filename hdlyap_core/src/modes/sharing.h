@@ -5,10 +5,11 @@
 #include "base/archive.h"
 #include "hdlyap/steps.h"
 
-/** Which steps share a set, and since when. */
+/** Tells whether a step still shares its set with the same steps as before, and since when. */
 typedef struct hd_set_membership {
-    uint64_t members; /**< a bit for each of these steps; 0: none */
-    double since;     /**< averaged time */
+    uint64_t members; /**< hash of the numbers of these steps, to be compared with another one; 0:
+                         the step shares its set with none */
+    double since;     /**< averaged time from which on this hash has been the same */
 } hd_set_membership;
 
 /** Fills the members of step[count] that tell about sharing; sets, exponents and errors must be

@@ -26,12 +26,12 @@ void hd_structure_add(hd_structure *structure);
 void hd_structure_clear(hd_structure *structure);
 int hd_structure_waves_of(const hd_scene_def *def); /**< hd_structure_waves of a scene */
 
-/** S(k) = |sum_j e.dq_j exp(-i k.q_j)|^2 with |dq| = 1, mean over k and its mirror image (k_x,
- * -k_y); of the snapshot, or mean over samples; [n]. Where the wave has nodes between walls it is
- * that of the box and its mirror image, per particle. Random vectors have 1/2; one that lies in the
- * wave's fields has N over the number of their modulations, 1 .. 4. In space e across k is either
- * of two directions, and both are added up: in periodic boxes random vectors have 1/3 along k and
- * 2/3 across. */
+/** The structure factors of all vectors for one wave, [n], of the snapshot or as means over
+ * samples: S(k) = |sum_j e.dq_j exp(-i k.q_j)|^2 with |dq| = 1, mean over k and its mirror image
+ * (k_x, -k_y). Between walls it is that of the box and its mirror image, per particle. To compare
+ * with: a random vector has 1/2, one that lies in the wave's fields N / (number of their
+ * modulations, 1 .. 4). In space both directions across k are added up: in periodic boxes a random
+ * vector has 1/3 along k and 2/3 across. */
 const double *hd_structure_snapshot(const hd_structure *structure, int wave, hd_direction e);
 int hd_structure_vectors(const hd_structure *structure); /**< n */
 

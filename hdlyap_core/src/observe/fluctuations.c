@@ -14,8 +14,9 @@
 
 /** Stretches of one length count for a limit once so many of them have passed. */
 enum { COUNT_MIN = 32 };
-/** Estimates from K stretches of a length t, as variances in units of noise^2 / K [T25]: LIMIT of
- * the limit, DIFFERENCE of how far it is from the limit of stretches twice as long. */
+/** For errors of estimates from K stretches of one length [T25]: variances, in units of noise^2 /
+ * K, of the limit (LIMIT), and of its difference from that of stretches twice as long (DIFFERENCE).
+ */
 static const double LIMIT = 10.0, DIFFERENCE = 18.0;
 
 struct hd_fluctuations {

@@ -3,6 +3,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "hdlyap/phases.h"
@@ -41,15 +42,34 @@ static bool step_possible(const hd_scene_def *def, const hd_aim *goal, char why[
     return s.found;
 }
 
+/** Finds a box of as many particles whose edges leave an error below `wanted`: its aspect, between
+ * that of the scene and 1; 0: there is none. */
+static double aspect_that_does(const hd_scene_def *def, hd_mode_kind kind, double wanted)
+{
+    enum { TRIED = 100 };
+    hd_scene_def other = *def;
+    for (int k = 1; k <= TRIED; k++) {
+        char rounded[16]; /* as it will be written */
+        snprintf(rounded, sizeof rounded, "%.3g", pow(def->aspect, 1.0 - (double)k / TRIED));
+        other.aspect = strtod(rounded, NULL);
+        if (hd_relation_of(&other, kind).box_error < wanted) return other.aspect;
+    }
+    return 0.0;
+}
+
 /** Of c_T, c_L and v. */
 static bool edges_allow(const hd_scene_def *def, hd_mode_kind kind, const hd_aim *goal,
                         char why[HD_WHY])
 {
     const double open = hd_relation_of(def, kind).box_error; /* NaN of LP in a circle */
-    snprintf(why, HD_WHY,
-             "walls and short edges leave an error of %.2g %%, however long it is averaged",
-             100.0 * open);
-    return !(goal->relative && goal->wanted <= open);
+    if (!(goal->relative && goal->wanted <= open)) return true;
+    const double other = aspect_that_does(def, kind, goal->wanted);
+    const int length = snprintf(
+        why, HD_WHY, "walls and short edges leave an error of %.3g %%, however long it is averaged",
+        100.0 * open);
+    if (other > 0.0)
+        snprintf(why + length, HD_WHY - (size_t)length, "; less with aspect = %.3g", other);
+    return false;
 }
 
 static bool slope_possible(const hd_scene_def *def, const hd_aim *goal, char why[HD_WHY])

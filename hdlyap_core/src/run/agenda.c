@@ -16,16 +16,17 @@
 #include "averages/blocks.h"
 #include "scene/scene.h"
 
-/** An interval that takes all of the remaining time is as long as its condition allows, and this
- * limit is reported, if the allowed length is below this times the remaining time. */
+/** Decides what is reported as the limit of an interval that takes all of the remaining time: its
+ * condition, if that would have allowed less than DIVIDED times the remaining time; otherwise the
+ * end of that time. */
 static const double DIVIDED = 1.25;
 /** Intervals are shortened by at most this factor to save a measured state. */
 static const double WORTH_A_STATE = 0.875;
 /** Two times that differ by less than this part are the same: of the report interval for a report
  * and the end of its stage; of its interval for an orthonormalisation. */
 static const double CLOSE = 1e-6;
-/** The present time is the end of the stage if they differ by less than this part: a duration of 15
- * digits is known to 23 eps, and some sums are rounded. */
+/** Relative difference below which the present time counts as the end of the stage: a duration that
+ * is written with 15 digits is known to 23 eps, and sums of times are rounded. */
 static const double ROUNDING = 64.0 * DBL_EPSILON;
 /** Longest sample, in collisions of a particle. */
 static const double COLLISIONS_PER_SAMPLE = 80.0;

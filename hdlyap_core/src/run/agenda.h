@@ -26,8 +26,8 @@ typedef struct hd_live_values {
     bool changing; /**< true if other values have been asked for that are not in force yet */
 } hd_live_values;
 
-/** The agenda. Its members may be read; only functions of the agenda change them, but for
- * interval_end. */
+/** Says when the run has to do what. Others may read the members; they may change interval_end
+ * alone. */
 typedef struct hd_agenda {
     double length[HD_FINISHED]; /**< of each stage; INFINITY for an averaging without end */
     double report_interval;

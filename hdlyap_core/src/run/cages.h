@@ -14,7 +14,8 @@ typedef struct hd_cages {
     bool left;           /**< true once a tenth of them was seen to have left */
 } hd_cages;
 
-/** Fails with HD_NO_MEMORY. Takes no more memory than the start of a trajectory has given back. */
+/** Fails with HD_NO_MEMORY. It does not raise the peak of memory: the start of a trajectory has
+ * given back at least as much before. */
 HD_MUST_CHECK hd_status hd_cages_create(hd_cages *cages, const hd_scene_def *scene);
 void hd_cages_clear(hd_cages *cages);
 

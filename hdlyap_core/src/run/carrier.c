@@ -30,8 +30,8 @@ static const double DEFECT_MEASURED = 1e-6;
 /** Loss of orthogonality that is allowed where Y needs both ends of an interval to be orthonormal
  * to rounding [T18]: it takes a second pass. */
 static const double DEFECT_COUPLED = 1e-12;
-/** Largest square of the loss of orthogonality, as a part of the interval's share of the accuracy.
- */
+/** Largest loss of orthogonality elsewhere: its square may be this part of the interval's share of
+ * the accuracy. */
 static const double DEFECT_SHARE = 0.1;
 /** An interval whose condition is too large is carried in up to PIECES_MAX pieces, because more
  * would cost more than they save [T6]; one that repeated passes cannot factor in PIECES_LAST pieces

@@ -4,9 +4,10 @@
 
 #include "hdlyap/dynamics.h"
 
-/** The curvature of a branch, lambda = c k + c2 k^2 + c3 k^3, as measured in long boxes [T12]. With
- * the mean free path l, c2 / c = c2 + c2_l l and c3 / c = c3 + c3_l2 l^2. Errors have the same
- * form; `off` is the part of c3 / c by which single densities differ from the formula. */
+/** What is known beforehand of the curvature of a branch, lambda = c k + C2 k^2 + C3 k^3, measured
+ * in long boxes [T12] at mean free paths l: C2 / c = c2 + c2_l l, with the error error + error_l l,
+ * and C3 / c = c3 + c3_l2 l^2, with the error c3_error + off C3 / c; `off` is the part by which
+ * single densities differ from the formula. */
 typedef struct hd_curvature {
     double c2, c2_l, error, error_l, c3, c3_l2, c3_error, off;
 } hd_curvature;

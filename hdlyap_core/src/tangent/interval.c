@@ -13,12 +13,12 @@ static const double CONDITION_MIN = 1e3;
 static const double MARGIN = 2.0, HEADROOM_MIN = 0.7;
 /** Largest logarithm by which a column may grow: the square of e^150 is still far from overflow. */
 static const double STRETCH_MAX = 150.0;
-/** A remaining time that is longer than the interval by up to this factor is taken at once: a
- * repair now and then costs less than two halves would. */
+/** Saves an orthonormalisation: a remaining time up to this factor longer than the interval is not
+ * cut in two. The condition is too large now and then, and repairing that costs less. */
 static const double STRAIN = 1.06;
-/** How many usual shares of the accuracy one interval may use: at most; if nothing is saved; and
- * before the averaging, where only the largest one counts, because eight intervals make up for it.
- */
+/** Limits of the error of one interval, in units of its usual share of the accuracy: at least MIN,
+ * also if nothing was saved; at most MAX; at most BEFORE before the averaging, where only the
+ * largest error counts, because eight intervals make up for it. */
 static const double SHARES_MAX = 20.0, SHARES_MIN = 0.5, SHARES_BEFORE = 4.0;
 static const double AIM_MIN = 0.3; /* of ln(condition) */
 static const double GROW_MAX = 2.0, FORGET = 0.1, VARIANCE_FIRST = 0.5;

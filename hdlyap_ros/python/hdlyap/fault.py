@@ -13,7 +13,8 @@ OTHERS = {
 
 
 def whose(error):
-    """Whose fault it is, as text; None if it is in what was read, or not known."""
+    """Says to the user who has to do something about an error: words for the line about it; None if
+    what was read is wrong, or if nobody knows."""
     if isinstance(error, OURS):
         return 'a fault of hdlyap, not of what it reads'
     if isinstance(error, MemoryError):

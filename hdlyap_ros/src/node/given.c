@@ -62,6 +62,17 @@ static void write_item(char item[ITEM], const comparison *c, const parameter *p,
     if (!is_same(value, wanted)) snprintf(item, ITEM, "%.50s = %.100s", p->name, value);
 }
 
+bool given_is_changed(const hdr_params *params, const char *name)
+{
+    comparison c = {.params = params};
+    char item[ITEM];
+    c.file = hdr_params_file(params, &c.name);
+    if (!c.file) return false;
+    const parameter p = parameters_named(name);
+    write_item(item, &c, &p, source_of(params, name));
+    return *item;
+}
+
 /** Logs all parameters that come from there and differ, in as few lines as hold them. */
 static void log_all(const comparison *c, source from)
 {

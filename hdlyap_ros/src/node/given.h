@@ -12,4 +12,7 @@
  * given is as in the checkpoint, and is not named. */
 void given_log(const hdr_params *params, bool is_resumed);
 
+/** Whether a parameter has another value than in the scene's file; false without a file. */
+bool given_is_changed(const hdr_params *params, const char *name);
+
 #endif

@@ -243,7 +243,7 @@ void parameters_unknown(char text[PARAMETER_UNKNOWN], const char *name)
     size_t fewest = 3;
     for (size_t k = 0; k < sizeof before / sizeof *before; k++) {
         if (strcmp(name, before[k].name) != 0) continue;
-        snprintf(text, PARAMETER_UNKNOWN, "%s", before[k].now);
+        snprintf(text, PARAMETER_UNKNOWN, "no such parameter; %s", before[k].now);
         return;
     }
     for (int k = 0; k < parameters_count(); k++) {
@@ -253,8 +253,8 @@ void parameters_unknown(char text[PARAMETER_UNKNOWN], const char *name)
         fewest = n;
         meant = other;
     }
-    snprintf(text, PARAMETER_UNKNOWN, "there is no parameter of this name%s%s%s",
-             meant ? "; is " : "", meant ? meant : "", meant ? " meant?" : "");
+    snprintf(text, PARAMETER_UNKNOWN, "no such parameter%s%s%s", meant ? "; is " : "",
+             meant ? meant : "", meant ? " meant?" : "");
 }
 
 parameter parameters_named(const char *name)

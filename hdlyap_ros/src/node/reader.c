@@ -25,13 +25,20 @@ void make_one_line(char *text)
 }
 
 /** Writes one line even if names and values hold line ends. */
-bool reader_refuse(const reader *r, const char *allowed)
+bool reader_refuse_as(const reader *r, const char *why)
 {
     if (r->size == 0) return false;
-    snprintf(r->message, r->size, "%.100s = %.150s: must be %s", r->name,
-             hdr_param_text(r->params, r->name), allowed);
+    snprintf(r->message, r->size, "%.100s = %.150s: %s", r->name,
+             hdr_param_text(r->params, r->name), why);
     make_one_line(r->message);
     return false;
+}
+
+bool reader_refuse(const reader *r, const char *allowed)
+{
+    char why[1024];
+    snprintf(why, sizeof why, "must be %s", allowed);
+    return reader_refuse_as(r, why);
 }
 
 /** True if the value was read or is missing; else refuses the parameter. */

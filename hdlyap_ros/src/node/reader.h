@@ -18,6 +18,9 @@ typedef struct reader {
 /** Writes the line: the parameter, its value, what is allowed. Always false. */
 bool reader_refuse(const reader *r, const char *allowed);
 
+/** As reader_refuse, with these words in place of "must be" and what is allowed. */
+bool reader_refuse_as(const reader *r, const char *why);
+
 /** Replaces line ends and other control characters by question marks. */
 void make_one_line(char *text);
 

@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include "change.h"
+#include "given.h"
 #include "parameters.h"
 #include "particles.h"
 #include "reader.h"
@@ -21,10 +22,9 @@ static bool check_names(reader *r)
     for (int k = 0; k < hdr_params_count(r->params); k++) {
         r->name = hdr_params_name(r->params, k);
         if (parameters_has(r->name)) continue;
-        char unknown[PARAMETER_UNKNOWN], allowed[sizeof "removed: " + PARAMETER_UNKNOWN];
+        char unknown[PARAMETER_UNKNOWN];
         parameters_unknown(unknown, r->name);
-        snprintf(allowed, sizeof allowed, "removed: %s", unknown);
-        return reader_refuse(r, allowed);
+        return reader_refuse_as(r, unknown);
     }
     return true;
 }
@@ -104,8 +104,19 @@ const char *settings_write_system(char text[SYSTEM_SIZE], const settings *set)
     return text;
 }
 
+/** Whether the scene's name is that of its file, not one that the user has given. */
+static bool is_of_file(const char *name, const hdr_params *file, const char *path)
+{
+    const char *own = hdr_param_text(file, "scene"), *slash = strrchr(path, '/');
+    const char *base = slash ? slash + 1 : path;
+    const size_t length = strlen(name);
+    if (*own) return strcmp(own, name) == 0;
+    return strncmp(base, name, length) == 0 && strcmp(base + length, ".yaml") == 0;
+}
+
 /** Checks the name of the scene. A name does not choose a system: the parameters of the system must
- * come with it, and only the usual system may have the usual name. */
+ * come with it, and only the usual system may have the usual name. If the system is not that of the
+ * scene's file, its name is gone. */
 static bool check_scene_name(settings *set, reader *r)
 {
     static const char *const system[] = {"particles",  "container",  "number",
@@ -113,10 +124,12 @@ static bool check_scene_name(settings *set, reader *r)
                                          "boundary_x", "boundary_y", "boundary_z"};
     const parameter name = parameters_named("scene");
     const char *path;
-    bool given = hdr_params_file(r->params, &path) != NULL, usual = !set->def.dynamics;
+    const hdr_params *file = hdr_params_file(r->params, &path);
+    bool given = file != NULL, usual = !set->def.dynamics, changed = false;
     for (size_t k = 0; k < sizeof system / sizeof *system; k++) {
         const parameter p = parameters_named(system[k]);
         if (*hdr_param_text(r->params, system[k])) given = true;
+        if (given_is_changed(r->params, system[k])) changed = true;
         if (hd_parameter_value(p.row, &set->def) != p.row->default_value) usual = false;
     }
     r->name = name.name;
@@ -124,6 +137,7 @@ static bool check_scene_name(settings *set, reader *r)
         if (!usual) set->scene = "unnamed";
         return true;
     }
+    if (changed && is_of_file(set->scene, file, path)) set->scene = "unnamed";
     return given || strcmp(set->scene, name.default_value) == 0 ||
            reader_refuse(
                r, "given with its particles, container, number, density, aspects or boundaries: a "

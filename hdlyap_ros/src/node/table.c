@@ -12,6 +12,9 @@
 
 enum { TEXT = 64 };
 
+/** Share of long boxes in the curvature from which on it counts as assumed, as in hdlyap plot. */
+static const double ASSUMED = 0.995;
+
 /** True for steps of the positive half, without the zero modes. */
 static bool in_table(const hd_step *step)
 {
@@ -34,13 +37,16 @@ static void print_step(const hd_step *step, const hd_scene_def *def)
             alone ? "" : hdr_step_sharing_text(step->sharing));
 }
 
-/** Prints a result of a fit over `count` wave numbers or phases. */
+/** Prints a result of a fit over `count` wave numbers or phases, and what of it is assumed. */
 static void print_fit(const char *name, const char *number, int count, const char *of, double from,
-                      double to)
+                      double to, bool assumed)
 {
+    char range[TEXT];
     if (count == 0) return;
-    hdr_log(HDR_INFO, "  %-4s %s over %d %s%s, k from %.4g to %.4g", name, number, count, of,
-            count > 1 ? "s" : "", from, to);
+    const int printed = snprintf(range, sizeof range, from < to ? "k from %.4g" : "k = %.4g", from);
+    if (from < to) snprintf(range + printed, sizeof range - (size_t)printed, " to %.4g", to);
+    hdr_log(HDR_INFO, "  %-4s %s over %d %s%s, %s%s", name, number, count, of, count > 1 ? "s" : "",
+            range, assumed ? ", curvature assumed" : "");
 }
 
 static void print_fits(const hd_run *run, const hd_steps *steps)
@@ -54,13 +60,14 @@ static void print_fits(const hd_run *run, const hd_steps *steps)
         const hd_dispersion fit = hd_steps_dispersion(steps, hd_run_parts(run).spectrum,
                                                       fits[k].kind);
         number_of_fit(number, sizeof number, fit.c.value, fit.c.error, fit.misfit);
-        print_fit(fits[k].name, number, fit.points, "wave number", fit.k_min, fit.k_max);
+        print_fit(fits[k].name, number, fit.points, "wave number", fit.k_min, fit.k_max,
+                  fit.prior_share >= ASSUMED);
     }
     const hd_phases *phases = hd_run_parts(run).phases;
     if (!phases) return;
     const hd_velocity v = hd_phases_velocity(phases);
     number_of_fit(number, sizeof number, v.v, v.v_error, v.misfit);
-    print_fit("v", number, v.phases, "LP phase", v.k_min, v.k_max);
+    print_fit("v", number, v.phases, "LP phase", v.k_min, v.k_max, false);
 }
 
 /** Prints the steps, the smallest exponent first. */
@@ -82,7 +89,8 @@ static void print_steps(const hd_run *run)
             if (in_table(hd_steps_step(steps, k)) && hd_steps_step(steps, k)->col == col)
                 print_step(hd_steps_step(steps, k), hd_run_scene(run));
     print_fits(run, steps);
-    if (missing > 0) hdr_log(HDR_INFO, "  %d steps are not resolved", missing);
+    if (missing > 0)
+        hdr_log(HDR_INFO, "  %d step%s not resolved", missing, missing > 1 ? "s are" : " is");
 }
 
 static void print(const char *what, const settings *set, const hd_run *run)

@@ -73,6 +73,14 @@ TEST(what_is_never_known_is_refused_by_name)
         if (strstr(rows[k].word, "zero mode")) def.exponents = HD_EXPONENTS_ALL;
         expect_refused(&def, rows[k].word);
     }
+    hd_scene_def wide = aiming(long_box(), "v 1%"); /* the box that it is advised to be does */
+    char message[512];
+    assert_int_equal(hd_target_check(&wide, message, sizeof message), HD_REFUSED);
+    const char *advised = strstr(message, "less with aspect = ");
+    assert_non_null(advised);
+    wide.aspect = strtod(advised + strlen("less with aspect = "), NULL);
+    assert_true(wide.aspect > 0.25 && wide.aspect < 1.0);
+    assert_int_equal(hd_target_check(&wide, NULL, 0), HD_OK);
     hd_scene_def blind = aiming(long_box(), "v 2%");
     blind.observe = HD_OBSERVE_STEPS;
     expect_refused(&blind, "must be without v: lp_phases is not among the observables");

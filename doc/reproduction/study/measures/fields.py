@@ -28,13 +28,15 @@ class Mode:
     """An L or a P mode that a field of an LP step has beside its vector [T14], of one pair, in
     place of that field, and in place of modes.Panel."""
 
+    said, arrows = '', modes.Panel.arrows
+
     def __init__(self, field, letter, pair):
         self.field, bits = self, field.modulation[pair]
         for name in 'kind nx ny sim_time index exponent x y px py'.split():
             setattr(self, name, getattr(field, name))
         part = slice(pair * len(field.x), (pair + 1) * len(field.x))
         both = (field.l_x, field.l_y) if letter == 'L' else (field.p_x, field.p_y)
-        self.dqx, self.dqy = both[0][part], both[1][part]
+        self.dq = self.dqx, self.dqy = np.array([both[0][part], both[1][part]])
         self.z = self.dqz = self.angle = self.dq_angle = ()  # of disks
         self.name = f'{letter}({field.nx},{field.ny})'
         self.title = f'{self.name}, $A=${waves.formula(field.nx, field.ny, bits)}'

@@ -8,8 +8,9 @@
 #include "base/multiversion.h"
 #include "dynamics/soft/kick.h"
 
-/** A particle i in a kick with its partners, whose list follows that of the run before. The first
- * `come` partners fly to the time of the kick in this run; the others have done so before. */
+/** The pairs of particle i in a kick: a stretch of the list of partners, behind that of the run
+ * before. Its first `come` partners have to fly to the time of the kick first; the others have done
+ * so in earlier runs. */
 typedef struct run {
     int32_t i, pairs, come;
 } run;

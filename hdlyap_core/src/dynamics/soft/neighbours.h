@@ -27,8 +27,8 @@ HD_MUST_CHECK hd_status hd_neighbours_create(hd_neighbours *n, const hd_scene_de
                                              double cut);
 /** The expected number of partners with higher numbers that a particle has within reach. */
 double hd_neighbours_expected(const hd_scene_def *scene, double reach);
-/** Expected bytes of the list, with those of its old copy while it grows, or of a later copy of
- * positions and momenta if that is larger. */
+/** Most bytes that the list is expected to take at a time: those of it and of its old copy while it
+ * grows, or, if that is more, those of it and of a copy of positions and momenta. */
 double hd_neighbours_bytes(const hd_scene_def *scene, double cut);
 void hd_neighbours_clear(hd_neighbours *n);
 

@@ -15,6 +15,7 @@ import sys
 
 from hdlyap.data import export, fits, seeds
 from hdlyap.plots import figures, report
+from hdlyap.plots.figures.page import PAPER
 from hdlyap.progress import Progress
 
 FAULT = 1
@@ -37,6 +38,12 @@ def options(parser):
         '--only', nargs='+', choices=names, metavar='FIGURE', help='out of ' + ', '.join(names)
     )
     parser.add_argument('--pdf', metavar='FILE', help='one file of all figures, a page for each')
+    parser.add_argument(
+        '--paper',
+        choices=list(PAPER),
+        help='figures for a journal: as wide as one of its columns or as both, without title and '
+        'misfits, as PDF; titles are printed, as captions for LaTeX',
+    )
     parser.add_argument('--csv', metavar='DIR', help='folder for all tables as CSV')
     parser.add_argument('--npz', metavar='FILE', help='file for all arrays, for numpy.load')
 
@@ -51,7 +58,16 @@ def live(args, form, k):
     """Shows the window. Returns the exit status. tkinter is imported here, because bags do not need
     it."""
     if args.bags or any(
-        (args.node, args.run, args.only, args.pdf, args.csv, args.npz, args.out != FOLDER)
+        (
+            args.node,
+            args.run,
+            args.only,
+            args.pdf,
+            args.csv,
+            args.npz,
+            args.paper,
+            args.out != FOLDER,
+        )
     ):
         args.error('--live takes no bag and no options except --form and --k')
     try:
@@ -86,14 +102,15 @@ def main(args):
     os.makedirs(args.out, exist_ok=True)
     names = figures.OF_MEANS if run.is_mean else figures.FIGURES
     names = [name for name in names if not args.only or name in args.only]
-    files, lost = figures.draw_all(run, args.out, Progress('drawing'), names, args.pdf)
-    drawn = {os.path.basename(file).partition('.')[0] for file in files}
-    if args.csv or args.npz:
-        files += exported(run.data, args)
+    made = figures.draw_all(run, args.out, Progress('drawing'), names, args.pdf, args.paper)
+    files = made.files + (exported(run.data, args) if args.csv or args.npz else [])
     print('\n' + '\n'.join(files))
-    if lost:
-        print('not drawn, as they need run_info: ' + ', '.join(lost))
-    nothing = [name for name in args.only or () if name not in drawn and name not in lost]
+    for line in (*made.captions, *made.left_out):
+        print(line)
+    if made.lost:
+        print('not drawn, as they need run_info: ' + ', '.join(made.lost))
+    drawn = {os.path.basename(file).partition('.')[0] for file in made.files}
+    nothing = [name for name in args.only or () if name not in drawn and name not in made.lost]
     if nothing:
         print('nothing to draw in this bag: ' + ', '.join(nothing))
     return 0

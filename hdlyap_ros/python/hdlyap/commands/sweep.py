@@ -4,7 +4,12 @@ Several run at a time, each recorded in a separate bag; means are over the seeds
 are not done again: the same command goes on where it was interrupted.
 
 hdlyap sweep --densities "0.2 0.4" --seeds "1 2" --folder sweep
+hdlyap sweep --densities "0.2 0.4" --scene mine.yaml --params "{warmup: 50}" --duration 100
 hdlyap sweep --plan runs.yaml --folder campaign
+
+A plan is a YAML file; each run has a base, a scene, and what differs from it:
+one: {base: quick, density: 0.5}
+two: {base: mine.yaml, density: 0.6, duration: 400.0}
 
 Exit status: 0 all runs are there; 1 a run has failed; 2 refused before the first run; 129, 130, 143
 ended by a signal."""
@@ -22,8 +27,8 @@ FAULT = 1
 OF_GRID = (
     ('scene', 'quick', 'scene from which all runs differ, as in run.launch'),
     ('duration', '', 'time units to average over; default: as in the scene'),
-    ('observables', '[spectrum, steps, lp_phases]', 'topics in the bags'),
-    ('params', '', 'other parameters of all runs, as {warmup: 50}'),
+    ('observables', '[spectrum, steps, lp_phases]', 'topics in the bags, as "[spectrum, gas]"'),
+    ('params', '', 'other parameters of all runs, as "{warmup: 50}" with its quotes'),
     ('threads', '1', 'threads of each run; 0: all cores, one run after the other'),
 )
 
@@ -36,7 +41,7 @@ def options(parser):
         )
     for name, _, text in OF_GRID:
         parser.add_argument('--' + name, default='', help=text)
-    text = 'YAML file with all runs: runs: {name: {base: scene, parameter: value, ..}, ..}'
+    text = 'YAML file of all runs: {name: {base: scene, parameter: value, ..}, ..}'
     parser.add_argument('--plan', metavar='FILE', help=text)
     parser.add_argument('--quick', action='store_true', help='does the quick runs of the plan')
     parser.add_argument('--only', default='', metavar='"NAME .."', help='does only these runs')
@@ -127,8 +132,10 @@ def sweep(found, folder, jobs, args):
         print(f'hdlyap sweep: {line}', file=sys.stderr, flush=True)
     wrong = work.do(found, folder, jobs, args.min_space)
     there = [run.bag(folder) for run in found if os.path.exists(run.bag(folder))]
-    if args.plan:  # its runs may have nothing in common
+    if args.plan:
         print(f'{len(there)} of {len(found)} runs are in {folder}', flush=True)
+        for line in result.write_all(there, folder):  # its runs may have nothing in common
+            print(f'not in the table: {line}', flush=True)
     else:
         try:
             wrong += result.write(there, folder, fits.choice(args))

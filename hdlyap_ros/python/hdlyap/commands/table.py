@@ -12,6 +12,8 @@ import rospy
 
 from hdlyap.data import fits
 from hdlyap.follow import nodes
+from hdlyap.plots import latex
+from hdlyap.plots.figures.page import PAPER
 from hdlyap.sweep import result
 
 FAULT = 1
@@ -32,6 +34,13 @@ def options(parser):
     parser.add_argument(
         '--out', metavar='DIR', help='writes the table, also as CSV, and a figure there'
     )
+    text = (
+        'prints it for LaTeX: numbers as math, or for the package siunitx; of one system with all '
+    )
+    text += 'results and steps'
+    parser.add_argument('--latex', nargs='?', const='plain', choices=latex.STYLES, help=text)
+    text = 'the figure for a journal, as wide as one of its columns or as both, as PDF'
+    parser.add_argument('--paper', choices=list(PAPER), help=text)
     fits.add_arguments(parser)
 
 
@@ -108,7 +117,7 @@ def main(args):
     ]
     if args.out:
         os.makedirs(args.out, exist_ok=True)
-    wrong = result.write(bags, args.out, fits.choice(args))
+    wrong = result.write(bags, args.out, fits.choice(args), args.latex, args.paper)
     for line in wrong:
         print(f'hdlyap table: {line}', file=sys.stderr, flush=True)
     return 1 if wrong else 0

@@ -16,6 +16,11 @@ def is_curved(info):
     return is_known(info) and info.boundary_x == 'curved'
 
 
+def radius(info):
+    """The radius of a circle; None of another container."""
+    return info.box_x / 2 if info.container == 'circle' else None
+
+
 def not_asked(info):
     """Parameters that run_info has, but that a scene with this container must not give."""
     if space.without_box(info):

@@ -1,5 +1,5 @@
 """A run -> one xarray.Dataset. A variable has the name of its topic before that of its field, its
-dimensions, its unit and what it is from the .msg file; what is not known or not measured is NaN.
+dimensions, its unit and description from the .msg file; what is not known or not measured is NaN.
 Averages are over `time`, topics about the whole run and windows over times of their own, `fields`
 over the vectors; what comes when fields are due is of the last time."""
 
@@ -59,11 +59,12 @@ def _stacked(topic, outer, messages, info):
         dims = ['other_' * (one in every[:k]) + one for k, one in enumerate(every)]
         labels.update((of, labels[one]) for of, one in zip(dims, every))
         part = f'{column.part}_' if column.part and dimensions != main else ''
+        said = _said(name, column.field, info)
         name = f'{topic}_{part}{name}'
-        said = _said(column.field, info)
         made[SPECTRUM.get(name, name)] = dims, values[0] if is_rare else values, said
     used = {one for dims, *_ in made.values() for one in dims}
-    about = {outer: _said(fields.of(msg.Spectrum)['sim_time'], info), 'vector': VECTOR}
+    time = _said('simulated time', fields.of(msg.Spectrum)['sim_time'], info)
+    about = {outer: time, 'vector': VECTOR}
     return made, {
         name: (name, some, about.get(name, {})) for name, some in labels.items() if name in used
     }
@@ -108,9 +109,10 @@ def _filled(rows, places, dimensions, sizes):
     return whole.astype(values.dtype) if is_whole else whole
 
 
-def _said(field, info):
-    said = ('units', space.unit(field.unit, info)), ('long_name', field.what)
-    return {name: text for name, text in said if text}
+def _said(name, field, info):
+    """Attributes of a variable. xarray writes the long name beside an axis, so it is short."""
+    said = ('units', space.unit(field.unit, info)), ('description', field.what)
+    return {'long_name': name.replace('_', ' '), **{of: text for of, text in said if text}}
 
 
 def _plain(values):

@@ -12,6 +12,7 @@ from . import dispersion, steps
 SAME = 1e-9  # relative difference below which wave numbers are the same
 # relations by their number of terms. The node alone fits three, with c2 and c3 of long boxes
 RELATIONS = {1: 'c k', 2: 'c k + c2 k^2', 3: 'c k + c2 k^2 + c3 k^3'}
+ASSUMED, ALL = 'curvature assumed', 0.995  # if steps say less than half a per cent of it
 KINDS = {'t': steps.T, 'l': steps.LP}
 
 
@@ -47,6 +48,16 @@ class Fit:
         self.is_unrelated = letter != 'v' and isnan(getattr(message, f'{letter}_long_c2'))
 
     @property
+    def is_assumed(self):
+        """Whether the whole curvature is that of long boxes, so that only c is measured."""
+        return self.terms > 1 and self.prior_share >= ALL
+
+    @property
+    def measured_values(self):
+        """`values` without those that are assumed."""
+        return self.values[:1] if self.is_assumed else self.values
+
+    @property
     def form(self):
         """The relation as text; v has only one."""
         if self.symbol == 'v':
@@ -62,6 +73,8 @@ class Fit:
         basis = f'{self.form} over {self.count} {waves} {self._range()}'
         if self.count > 1:
             basis += f' (lever arm {self.k_max / self.k_min:.3g})'
+        if self.is_assumed:
+            return f'{basis}, {ASSUMED}: that of long boxes'
         share = 100 * self.prior_share
         return basis if isnan(share) else f'{basis}, {share:.0f} % of the curvature from long boxes'
 

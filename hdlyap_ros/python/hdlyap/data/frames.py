@@ -67,7 +67,7 @@ class Shaped:
     def frame(self, dimensions):
         """A frame with a row for each combination of their labels."""
         columns = self.columns.get(dimensions, {})
-        return _frame(columns, self._index([self.labels[one] for one in dimensions]))
+        return _frame(columns, self._index([self.labels[one] for one in dimensions]), self._info)
 
     @staticmethod
     def _index(labels):
@@ -237,9 +237,12 @@ OTHERS = {'Gas': of_gas}  # messages of which frames are made otherwise
 
 
 def over_time(messages, info=None):
-    """The frames of many messages, by simulated time; of phases, by that of their sample. Two
+    """The frames of many messages, by simulated time, of a gas with a column for each quantity; of
+    phases, by that of their sample. Two
     reports can have the same sample, which is there once."""
-    if not main(messages[0]) and type(messages[0]).__name__ not in OTHERS:
+    if type(messages[0]).__name__ in OTHERS:
+        return numbers(messages, info, lacking(messages[-1], info))
+    if not main(messages[0]):
         return numbers(messages, info)
     states = {getattr(one, 'sample_time', one.sim_time): one for one in messages}
     return keyed({time: of(message, info) for time, message in states.items()}, 'sim_time')
@@ -252,15 +255,23 @@ def keyed(frames, name):
     return joined
 
 
-def numbers(messages, info=None):
+def lacking(gas, info):
+    """The fields of a gas that these particles do not have."""
+    found = of_gas(gas, info).index
+    names = (name[: -len('_error')] for name in gas.__slots__ if name.endswith('_error'))
+    return [one for name in names if name not in found for one in (name, name + '_error')]
+
+
+def numbers(messages, info=None, without=()):
     """A frame of the numbers outside of arrays, by simulated time."""
     columns = _numbers(messages, '', frozenset(), info)
     times = pandas.Index([message.sim_time for message in messages], name='sim_time')
-    columns.pop('sim_time', None)
-    return _frame(columns, times)
+    for name in ('sim_time', *without):
+        columns.pop(name, None)
+    return _frame(columns, times, info)
 
 
-def _frame(columns, index):
+def _frame(columns, index, info):
     values = {name: one.values.ravel() for name, one in columns.items()}
-    units = {name: one.field.unit for name, one in columns.items()}
+    units = {name: space.unit(one.field.unit, info) for name, one in columns.items()}
     return frame(values, units, index, {name: one.field.what for name, one in columns.items()})

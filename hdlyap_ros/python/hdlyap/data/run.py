@@ -12,7 +12,8 @@ import pandas
 from hdlyap import msg, topics
 from hdlyap.numbers import known
 
-from . import dataset, fields, fits, fluctuations, frames, joined, reader, space, structure
+from . import dataset, fields, fits, fluctuations, frames, joined, printed, reader, space
+from . import structure
 from .disks import Disks
 from .reader import Missing
 from .summary import Summary
@@ -100,8 +101,8 @@ class Run:
         return joined.packed(self.parts, kinds)
 
     def in_time(self, kinds):
-        """Messages as packed() has them, in the order of simulated time; a recorder mixes topics a
-        little."""
+        """Messages as packed() has them, sorted by simulated time, which a recorder of several
+        topics does not quite keep."""
         streams = (self.packed((kind,)) for kind in kinds)
         return heapq.merge(*streams, key=lambda packed: packed.sim_time)
 
@@ -216,6 +217,10 @@ class Run:
             'std_errors': pandas.DataFrame(self.std_errors, rows, index),
             'local_exponents': pandas.DataFrame(local.exponents, samples, index),
         }
+
+    def table(self):
+        """Results with their errors as texts, 0.4299(28), and units; see data.printed."""
+        return printed.of(self)
 
     def to_xarray(self):
         """One xarray.Dataset of all topics; see data.dataset."""

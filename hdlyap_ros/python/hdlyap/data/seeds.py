@@ -8,7 +8,7 @@ import pandas
 
 from hdlyap import topics
 
-from . import joined, space
+from . import joined, printed, space
 from .frames import frame
 from .reader import Missing, RecordingError
 from .run import Run
@@ -150,6 +150,10 @@ class Seeds:
         frames = [run.gas for run in self.runs]
         weights = np.array([run.last('gas').averaged_time for run in self.runs])
         return self._mean(frames, 'value', weights).join(frames[0][['unit']])
+
+    def table(self):
+        """Results with their errors as texts, 0.4299(28), and units; see data.printed."""
+        return printed.of(self)
 
     def scatter_of_few(self, frame, row):
         """(the error of the mean of a row of `frame` from the differences between runs, its degrees

@@ -106,6 +106,16 @@ class Summary:
         """Whether the last status says that particles are caged."""
         return self._status is not None and self._status.caged
 
+    def warnings(self):
+        """Yields a line for each run whose particles are caged or whose energy was off."""
+        for run in self.data.runs:
+            if run.summary.is_caged:
+                yield (
+                    f'{run.name}: {space.particle(run.info)}s have kept their places since the '
+                    'averaging began: other seeds may differ by more than the errors'
+                )
+        yield from self.energies_off()
+
     def energies_off(self):
         """Yields a line for each run whose energy was off by more than was asked."""
         for run in self.data.runs:
@@ -115,6 +125,13 @@ class Summary:
                     f'{run.name}: the energy was off by {last.energy_error_most:.2g}, asked was '
                     f'{last.energy_error_wanted:.2g}: the time step was too long'
                 )
+
+    @property
+    def energy_error(self):
+        """The largest relative error of the energy so far; None of particles without time steps."""
+        last = self._status
+        found = np.nan if last is None else last.energy_error_most
+        return float(found) if 0 < found < np.inf else None
 
     @cached_property
     def _status(self):

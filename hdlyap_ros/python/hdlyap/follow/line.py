@@ -12,7 +12,7 @@ from hdlyap.data.reader import plain
 from hdlyap.data.stages import LIMITS, STAGES
 from hdlyap.fault import whose
 from hdlyap.msg import Steps
-from hdlyap.numbers import clock
+from hdlyap.numbers import clock, with_error
 
 from .news import News
 from .watch import Watch
@@ -56,8 +56,8 @@ def _progress(view):
         yield f'{status.target} to {_number(status.target_error)} of {status.target_wanted:.2g}'
     if view.is_averaged:
         errors = view.spectrum.std_errors
-        error = f' +- {errors[0]:.4f}' if errors and errors[0] >= 0 else ''
-        yield f'lambda_max {view.spectrum.lambda_max:.4f}{error}'
+        error = errors[0] if errors else -1.0
+        yield f'lambda_max {with_error(view.spectrum.lambda_max, error, decimals=4)}'
 
 
 def _stage(view):

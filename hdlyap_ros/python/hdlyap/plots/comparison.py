@@ -128,7 +128,8 @@ def _refuse_other_systems(a, b):
     others = [f'{name} {one} and {other}' for name, one, other in different(a, b, names)]
     if others:
         why = 'the runs are of different systems and are not compared'
-        raise RecordingError(f'{why}: {", ".join(others)}')
+        table = 'hdlyap table shows runs of several systems side by side'
+        raise RecordingError(f'{why}: {", ".join(others)}; {table}')
 
 
 def _refuse_without_exponents(a, b):

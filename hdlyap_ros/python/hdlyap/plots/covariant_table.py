@@ -15,6 +15,7 @@ LISTED = 8  # most indices in a line
 ROUNDING = 1e-9  # rounding error of an angle [rad]
 ROW = '  {:<18} {:<11} {:>13} {:>13} '
 WEIGHTS = ROW + '{:>13} {:>13}'
+ZERO = 'zero modes have no errors: they fall like 1 / t, of the averages or of a window'
 MET = 1e-3  # spaces of two starts with at most this angle are the same [rad]
 
 
@@ -73,6 +74,9 @@ def _all_deviations(compared):
                 f'  {what}, {count} in all: root mean square {np.sqrt(np.nanmean(off ** 2)):.2f}, '
                 f'largest {off[place]:+.2f} at {compared.indices[place]}'
             )
+    is_known = np.isfinite(compared.deviation)
+    if zero.any() and is_known.any() and not is_known[zero].any():
+        yield f'  {ZERO}'
 
 
 def _weights(recording):

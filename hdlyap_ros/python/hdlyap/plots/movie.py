@@ -211,7 +211,7 @@ def write(film, path, pace, fps, width=None):
     options = [one.format(colours=SHADES if space.turns(film.info) else COLOURS) for one in options]
     writer, total = FFMpegWriter(fps, codec, extra_args=options), film.count(every)
     try:
-        # so that a matplotlibrc changes nothing
+        # the look of a film does not depend on the user's matplotlibrc
         with matplotlib.style.context('default'), whole.written(path) as unfinished:
             picture = Picture(film, width or WIDTH[suffix])
             with writer.saving(picture.figure, unfinished, picture.figure.dpi):

@@ -3,14 +3,14 @@
 import numpy as np
 
 from hdlyap.data import seeds, space
-from hdlyap.data.containers import is_curved
+from hdlyap.data.containers import is_curved, radius
 from hdlyap.data.reader import NoInfo, is_known
-from hdlyap.numbers import fixed, known, with_error
+from hdlyap.numbers import known, with_error
 
 from . import covariant_table, equation, paper, step_table
 
 TAIL = 64  # most exponents in the table
-COLUMNS = 3
+COLUMNS = 4
 MEAN = '  {:<16} {:>15} {:>15} {:>15} {:>12} {:>4}  {}'
 HEAD = MEAN.format('', 'mean', 'stated error', 'from scatter', 'chi^2/(n-1)', 'n', '').rstrip()
 
@@ -59,6 +59,12 @@ def _of_caged(recording):
         )
 
 
+def _of_energy(recording):
+    error = recording.energy_error
+    if error is not None:
+        yield f'energy error    {error:.1e} at most, relative'
+
+
 # what a part is about: its blocks, of what was recorded
 PARTS = {
     'the gas': _of_gas,
@@ -67,7 +73,7 @@ PARTS = {
     'steps': _of_steps,
     'covariant vectors': _of_covariant,
     'whether particles are caged': _of_caged,
-    'the energy': lambda recording: list(recording.energies_off()),
+    'the energy': lambda recording: [*_of_energy(recording), *recording.energies_off()],
 }
 
 
@@ -128,10 +134,11 @@ def _head(recording):
 def system(info):
     if space.without_box(info):
         return space.without_box(info)
+    packing = f', packing {info.packing_fraction:.4g}' if info.packing_fraction > 0 else ''
     if is_curved(info):
         size = f'{info.box_x:.3f} x {info.box_y:.3f}'
-        return f'N = {info.number}, density {info.density:g}, {info.container}, {size}'
-    packing = f', packing {info.packing_fraction:.4g}' if space.turns(info) else ''
+        size = f'R = {radius(info):.4f}' if radius(info) else size
+        return f'N = {info.number}, density {info.density:g}{packing}, {info.container}, {size}'
     return (
         f'N = {info.number}{space.named(info)}, density {info.density:g}{packing}, box '
         + ' x '.join(f'{edge:.3f}' for edge in space.along(info, 'box_'))
@@ -149,13 +156,13 @@ def _sums(recording):
     lines = [
         f'averaged time   {spectrum.averaged_time:g}',
         *([f'collisions      {spectrum.collisions}'] if spectrum.collisions else []),
-        f'lambda_max      {fixed(spectrum.lambda_max, 6)}{_error(spectrum.std_errors[0])}',
+        f'lambda_max      {with_error(spectrum.lambda_max, spectrum.std_errors[0])}',
     ]
     error = recording.sum_error
-    total = f'{fixed(spectrum.ks_entropy, 4)}{_error(error, 4)}'
+    total = with_error(spectrum.ks_entropy, error)
     if recording.sum_name == 'h_KS':
         each, of_each = spectrum.ks_entropy / recording.info.number, error / recording.info.number
-        lines += [f'h_KS            {total}', f'h_KS / N        {fixed(each, 6)}{_error(of_each)}']
+        lines += [f'h_KS            {total}', f'h_KS / N        {with_error(each, of_each)}']
     elif len(spectrum.exponents) > 1:
         lines.append(f'sum of the {len(spectrum.exponents)} exponents carried {total}')
     if spectrum.pairing_error >= 0:
@@ -169,7 +176,10 @@ def _gas(recording):
     axes = space.axes(info)
     of_z = f'Z = p {"V" if space.is_solid(info) else "A"} / N'
     of_z += ' kT' if info.coordinates == 3 or gas.temperature > 0 else ''  # kT is 1 for disks
-    each = ', '.join(fixed(getattr(gas, 'pressure_' + axis), 6) for axis in axes)
+    each = ', '.join(
+        with_error(getattr(gas, 'pressure_' + axis), getattr(gas, f'pressure_{axis}_error'))
+        for axis in axes
+    )
     per = f'per {space.particle(info)} and time unit'
     rows = [
         ('collision rate', gas.collision_rate, gas.collision_rate_error, per),
@@ -183,16 +193,12 @@ def _gas(recording):
     for name, value, error, unit in rows:
         if value != value:
             continue  # such particles have none
-        text = value if isinstance(value, str) else f'{fixed(value, 6)}{_error(error)}'
+        text = value if isinstance(value, str) else with_error(value, error)
         lines.append(f'{name:<15} {text} {unit}'.rstrip())
     reference = equation.of(info)
     if reference and periodic and info.density <= reference.most:
         lines.append(f'{"":<15} {reference.compressibility(info.density):.6f} by {reference.by}')
     return '\n'.join(lines)
-
-
-def _error(error, digits=6):
-    return f' +- {fixed(error, digits)}' if error >= 0 else ''
 
 
 def _tail(recording):
@@ -203,9 +209,9 @@ def _tail(recording):
     cells = []
     for index in range(first, end + 1):
         i = index - spectrum.first_index
-        error = fixed(spectrum.std_errors[i], 5) if spectrum.std_errors[i] >= 0 else '-'
-        cells.append(f'{index:6d} {fixed(spectrum.exponents[i], 5):>9} {error:>8}')
-    head = f'{"index":>6} {"exponent":>9} {"error":>8}'
+        value = with_error(spectrum.exponents[i], spectrum.std_errors[i])
+        cells.append(f'{index:6d} {value:>12}')
+    head = f'{"index":>6} {"exponent":>12}'
     number = 'exponent' if len(cells) == 1 else f'last {len(cells)} exponents'
     return '\n'.join([f'the {number} {what} (standard errors)', *_in_columns(head, cells)])
 

@@ -145,7 +145,9 @@ def _fit_lines(fit):
     basis = f'{steps.NAMES[fit.kind]} steps: {fit.basis}'
     if fit.symbol == 'v':
         basis = f'{fit.basis}, {fit.count} of them'
-    values = [f'  {name:<5} {with_error(value, error)}' for name, value, error in fit.values]
+    values = [
+        f'  {name:<5} {with_error(value, error)}' for name, value, error in fit.measured_values
+    ]
     return [f'  {basis}{fit.beside}', *values]
 
 

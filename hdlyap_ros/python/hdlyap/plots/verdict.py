@@ -141,7 +141,8 @@ def _remarks(comparison):
 
 def _quantities(comparison):
     rows = [_row(one) for one in comparison.exponents[:1] + comparison.sums]
-    rows += [_row(one, _of_step(one)) for one in comparison.steps]
+    half = [one for one in comparison.steps if not one.origins[0].conjugate]
+    rows += [_row(one, _of_step(one)) for one in half]  # the others are their opposites
     rows += [_row(one, _of_fit(one)) for one in comparison.fits]
     rows += [_row(one) for one in comparison.gas]
     once = [

@@ -26,7 +26,7 @@ def check(words, launch, cwd):
     given = _once(word.split(':=', 1) for word in words if not word.startswith('_'))
     for name, value in given.items():
         if name not in known:
-            raise Refused(f'{name} = {value}: must be {_wanted(name, known)}')
+            raise Refused(f'{name} = {value}: {_wanted(name, known)}')
         if '\n' in value or ':=' in value:  # roslaunch would drop it
             raise Refused(f'{name} = {in_line(value)}: must be one line without :=')
     if given.get('scene'):
@@ -55,6 +55,6 @@ def _names(path):
 def _wanted(name, known):
     all_of_node = {*run.usual(), *(own for one in run.own().values() for own in one)}
     if name in all_of_node:
-        return f'in params:="{{{name}: ..}}", as run.launch has no argument of this name'
+        return f'must be in params:="{{{name}: ..}}", as run.launch has no argument of this name'
     meant = difflib.get_close_matches(name, [*known, *all_of_node], 1)
-    return 'an argument of run.launch' + ''.join(f'; is {close} meant?' for close in meant)
+    return 'no such argument' + ''.join(f'; is {close} meant?' for close in meant)

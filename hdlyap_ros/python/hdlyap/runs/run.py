@@ -7,6 +7,7 @@ from math import isfinite
 import os
 import re
 import subprocess
+import tempfile
 
 import yaml
 
@@ -24,6 +25,8 @@ OF_ONE = 'checkpoint', 'resume'  # parameters that runs cannot share
 UNFINISHED = 'the run has not reached its end'
 # about the seconds to start, and those of a time unit with 200 disks on one core; they grow as N^2
 BEGIN, STEP, DISKS = 5.0, 0.03, 200
+# how the node refuses a parameter that nothing needs
+UNNEEDED = re.compile(r'\b(\w+) = .*?: must (?:be \S+ without|not be given with) ')
 OWN_PARAMETER = re.compile(
     r'^# For (\w+(?: and \w+)*) only\.\n(?:# .*\n)*?# (\w+): (\S+)$', re.MULTILINE
 )
@@ -149,6 +152,28 @@ def completed(given):
     """The given parameters and the defaults of all others."""
     particles = given.get('particles', usual()['particles'])
     return {**usual(), **own().get(particles, {}), **given}
+
+
+def without_unneeded(parameters, given):
+    """The parameters of a run. One that comes from the base scene, not from the user (`given`), and
+    that the node refuses because nothing of the run needs it, has its default."""
+    parameters, default = dict(parameters), completed({'particles': parameters.get('particles')})
+    for _ in default:
+        found = UNNEEDED.search(_refusal(parameters))
+        name = found.group(1) if found else None
+        if name is None or name in given or parameters.get(name) == default.get(name):
+            break
+        parameters[name] = default[name]
+    return parameters
+
+
+def _refusal(parameters):
+    """What the node says against parameters; '' if it takes them."""
+    with tempfile.NamedTemporaryFile('w', suffix='.yaml') as file:
+        yaml.safe_dump(parameters, file)
+        file.flush()
+        said = subprocess.run([ranks.node(), '--errors', file.name], capture_output=True, text=True)
+    return '' if said.returncode == 0 else said.stdout + said.stderr
 
 
 def is_solid(parameters):

@@ -1,13 +1,15 @@
 """Points -> a figure of measured quantities against swept parameters."""
 
+import contextlib
 import itertools
+import textwrap
 
 import numpy as np
 from matplotlib.lines import Line2D
 
 from hdlyap.data import space
-from hdlyap.plots.figures.page import Page
-from hdlyap.plots.figures.style import FEW, GREY, MEMBER_COLOURS
+from hdlyap.plots.figures.page import LETTERS, Page
+from hdlyap.plots.figures.style import FEW, GREY, MEMBER_COLOURS, ours
 
 from .points import FITTED, QUANTITIES, varied
 
@@ -25,34 +27,65 @@ NAMES = {
     'c_T': r'$c_T$  [$\sigma$/time unit]',
     'c_L': r'$c_L$  [$\sigma$/time unit]',
     'v': r'$v$  [$\sigma$/time unit]',
+    'collision_rate': 'collision rate  [1/time unit]',
+    'pressure': r'pressure  [1/$\sigma^2$]',
+    'temperature': r'temperature  [$\epsilon$]',
 }
 MARKERS = 'os^Dv<>p'
+LEAST = 4.6  # least width of the figure [inch]
+LETTER = 0.056  # width of a letter of the text below [inch]
 APART = 0.012  # shift of series over the width of a panel, so that error bars do not hide others
 
 
-def draw(points, ax=None, **look):
+def draw(points, ax=None, title=True, legend=True, paper=None, **look):
     """Draws a panel for each quantity. Returns None for a single point or if nothing was measured.
-    ax, look: see figures.page.figure."""
+    The arguments are those of figures.page.figure."""
+    page = Page(ax, title, legend, paper)
+    with ours(paper) if paper and page.is_own else contextlib.nullcontext():
+        return _drawn(page, points, look)
+
+
+def _drawn(page, points, look):
     names, fixed = varied(points)
     shown = [name for name in QUANTITIES if any(name in point.values for point in points)]
     if not names or not shown:
         return None
     x = max(names, key=lambda name: (not _are_words(points, name), _count(points, name)))
     series = _series(points, [name for name in names if name != x])
-    columns = 2 if len(shown) in (2, 4) else min(3, len(shown))
+    columns = 1 if page.is_narrow else 2 if len(shown) in (2, 4) else min(3, len(shown))
     rows = -(-len(shown) // columns)
-    page, size = Page(ax), (3.1 * columns, 2.7 * rows + 0.9)
-    panels = page.panels(rows, columns, *size, constrained_layout=False, squeeze=False)
+    size = max(3.1 * columns, LEAST), 2.7 * rows + 0.9
+    how = {'constrained_layout': bool(page.paper), 'squeeze': False}
+    panels = page.panels(rows, columns, *size, **how)
     for name, axes in zip(shown, panels.flat):
         _panel(axes, name, x, series, look)
     for axes in panels.flat[len(shown) :]:
         axes.remove()
     if page.is_own:
-        said = ', '.join(_said(name, value) for name, value in fixed.items())
-        page.figure.suptitle(said, fontsize=9)
-        bottom = _explain(page.figure, series, points)
-        page.figure.tight_layout(rect=(0, bottom, 1, 1))
+        info = points[0].data.info
+        page.caption = ', '.join(_said(name, value, info) for name, value in fixed.items())
+        _letters(panels.flat[: len(shown)])
+        _finish(page, series, points)
     return page.drawn()
+
+
+def _letters(panels):
+    for axes, letter in zip(panels, LETTERS if len(panels) > 1 else ''):
+        axes.set_title(f'({letter})', loc='left')
+
+
+def _finish(page, series, points):
+    """Writes title and legend; for a journal the legend alone, into the first panel."""
+    if page.paper:
+        handles = _handles(series)
+        if handles:
+            page.axes[0].legend(handles=handles)
+        return
+    wide = int(page.figure.get_figwidth() / (LETTER * 9 / 7))
+    if page.has_title:
+        page.figure.suptitle(textwrap.fill(page.caption, wide), fontsize=9)
+    bottom = _explain(page, series, points)
+    page.figure.tight_layout(rect=(0, bottom, 1, 1))
 
 
 def _count(points, name):
@@ -63,10 +96,13 @@ def _are_words(points, name):
     return any(isinstance(point.system[name], str) for point in points)
 
 
-def _said(name, value):
+def _said(name, value, info=None):
+    """A parameter with its value and, if info is given, its unit."""
     if name == 'boundary':
         return value
-    return f'{SHORT.get(name, name)} = {value if isinstance(value, str) else format(value, "g")}'
+    unit = rf'$\,\sigma^{{-{len(space.axes(info))}}}$' if info and name == 'density' else ''
+    number = value if isinstance(value, str) else format(value, 'g')
+    return f'{SHORT.get(name, name)} = {number}{unit}'
 
 
 def _series(points, names):
@@ -108,7 +144,7 @@ def _panel(axes, name, x, series, look):
             [word.replace(',', ',\n') if word.count(',') > 1 else word for word in words]
         )
     axes.set_xlabel(_label(x, every[0].data.info))
-    axes.set_ylabel(NAMES[name])
+    axes.set_ylabel(NAMES[name].replace('^2', f'^{len(space.axes(every[0].data.info))}'))
 
 
 def _label(x, info):
@@ -139,8 +175,17 @@ def _look(number):
     return MEMBER_COLOURS[number % len(MEMBER_COLOURS)], MARKERS[number % len(MARKERS)]
 
 
-def _explain(figure, series, points):
+def _handles(series):
+    handles = []
+    for number, label in enumerate(series if len(series) > 1 else ()):
+        look = dict(zip(('color', 'marker'), _look(number)))
+        handles.append(Line2D([], [], linestyle='', label=label, **look))
+    return handles
+
+
+def _explain(page, series, points):
     """Writes the legend below the panels, and what the looks of points mean. Returns its height."""
+    figure = page.figure
     lines = [
         'error bars: one standard error, of means over seeds the larger of stated error and scatter'
     ]
@@ -153,10 +198,9 @@ def _explain(figure, series, points):
         lines.append('cross: the error is not known, the run was too short')
     if any(map(_is_open, values)):
         lines.append('open: fitted without c3, or without c2 and c3; sweep.txt has the form')
-    handles = []
-    for number, label in enumerate(series if len(series) > 1 else ()):
-        look = dict(zip(('color', 'marker'), _look(number)))
-        handles.append(Line2D([], [], linestyle='', label=label, **look))
+    wide = int(figure.get_figwidth() / LETTER)
+    lines = [part for line in lines for part in textwrap.wrap(line, wide)]
+    handles = _handles(series) if page.has_legend else []
     columns = min(4, len(handles))
     rows = -(-len(handles) // columns) if handles else 0
     height = figure.get_figheight()

@@ -87,11 +87,13 @@ def runs(given, launch, cwd):
     chosen = {swept: swept.values(text) for swept, text in chosen.items()}
     if isinstance(base.get('observables'), str):
         base['observables'] = yaml.safe_load(base['observables'])
+    own = scene.mapping('params', given['params'])
     for swept in chosen:
-        twice = set(swept.parameters) & set(scene.mapping('params', given['params']))
+        twice = set(swept.parameters) & set(own)
         if twice:
             raise Refused(f'params = {given["params"]}: must be without {min(twice)}: it is swept')
-    base = run.completed(base)
+    asked = {*own, *(name for name, text in given.items() if text)}
+    base = run.without_unneeded(run.completed(base), asked)
     return [_run(base, chosen) for chosen in itertools.product(*chosen.values())]
 
 

@@ -50,6 +50,7 @@ def _run(path, name, entry, quick, launch):
         asked = {key: value for key, value in entry.items() if key not in OF_PLAN}
         asked.update(entry.get('quick' if quick else 'full', {}))
         parameters = run.completed({**base, 'threads': 1, 'scene': name, **asked})
+        parameters = run.without_unneeded(parameters, asked)
         parameters = {str(key): scene.fitting(value) for key, value in parameters.items()}
         return Planned(name, parameters, _seconds(entry, quick))
     except Refused as refused:

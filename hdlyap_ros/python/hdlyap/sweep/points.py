@@ -16,7 +16,11 @@ QUANTITIES = {
     'c_T': 'sigma/time unit',
     'c_L': 'sigma/time unit',
     'v': 'sigma/time unit',
+    'collision_rate': '1/time unit',
+    'pressure': '1/sigma^2',
+    'temperature': 'epsilon',
 }
+GAS = ('collision_rate', 'pressure', 'temperature')
 FITTED = ('c_T', 'c_L', 'v')
 NAN = float('nan')
 
@@ -53,6 +57,9 @@ class Point:
         for fit in self.runs[0].fits:
             if fit.symbol in frame.index:
                 found[fit.symbol] = self._value(frame.loc[fit.symbol], fit=fit)
+        if self.data.has('gas'):
+            gas = self.data.gas
+            found.update((name, self._value(gas.loc[name])) for name in GAS if name in gas.index)
         return found
 
     @staticmethod
@@ -60,8 +67,20 @@ class Point:
         """The Value in a row. A single run has no scatter."""
         names = 'value', 'std_error', 'scatter'
         scaled = (float(row.get(name, NAN)) * factor for name in names)
-        chi2, misfit = float(row.get('chi2', NAN)), float(row['misfit'])
+        chi2, misfit = float(row.get('chi2', NAN)), float(row.get('misfit', NAN))
         return Value(*scaled, chi2, int(row.get('runs', 1)), misfit, fit)
+
+    @property
+    def warnings(self):
+        """A line for each run that is less good than it looks."""
+        yield from (line for run in self.runs for line in run.summary.warnings())
+
+    @property
+    def energy_error(self):
+        """The largest relative error of the energy of a run; None of particles without time
+        steps."""
+        found = [run.summary.energy_error for run in self.runs]
+        return max((one for one in found if one is not None), default=None)
 
     @property
     def unlike(self):
@@ -91,6 +110,11 @@ def varied(points):
     values = {name: {point.system[name] for point in points} for name in points[0].system}
     fixed = {name: found.pop() for name, found in values.items() if len(found) == 1}
     return [name for name in values if name not in fixed], fixed
+
+
+def unit(name, info):
+    """The unit of a quantity of these particles."""
+    return space.unit(QUANTITIES[name], info)
 
 
 def _numbers_first(found):

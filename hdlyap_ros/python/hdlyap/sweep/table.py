@@ -5,11 +5,15 @@ from math import isfinite, sqrt
 from scipy.special import fdtrc
 
 from hdlyap import whole
-from hdlyap.data import space
+from hdlyap.data import printed, space
 from hdlyap.numbers import with_error
 from hdlyap.plots.deviation import FREEDOM
+from hdlyap.plots.latex import symbol, tabular, unit
 
 from .points import FITTED, NAN, QUANTITIES, varied
+from .points import unit as quantity_unit
+
+PACKING = 'packing'  # of a column that is no parameter
 
 CHANCE = 0.02  # probability that a table says of some value that seeds differ although they agree
 
@@ -39,17 +43,14 @@ class Marks:
 
 def text(points):
     """Yields the lines of the table."""
-    names, fixed = varied(points)
+    names, fixed = _columns(points)
     marks = Marks(points)
     yield 'the same in all: ' + ', '.join(f'{name} {_plain(x)}' for name, x in fixed.items())
-    rows = []
-    for point in points:
-        rows.append([*_of_system(point, names), *(_cell(point, q, marks) for q in QUANTITIES)])
-        rows[-1] += [str(len(point.runs)), f'{point.data.averaged_time:g}']
-    yield from _table([*names, *QUANTITIES, 'seeds', 'averaged time'], rows)
+    head, rows = _cells(points, names, lambda point, name: _cell(point, name, marks))
+    yield from _table(head, rows)
     yield from marks.explained()
     for point in points:
-        yield from (*point.remarks, *point.data.left_out, *point.data.summary.energies_off())
+        yield from (*point.remarks, *point.data.left_out, *point.warnings)
     if any(point.unlike for point in points):
         yield 'unlike: no mean, as the fits of the seeds differ in form or wave numbers'
     several = [point for point in points if len(point.runs) > 1]
@@ -62,7 +63,73 @@ def text(points):
             for name, value in point.values.items()
         ]
         yield from _table([*names, *head], rows)
-        yield from _scattered(points, names)
+        yield from _scattered(points, [name for name in names if name != PACKING])
+
+
+def latex(points, style):
+    """Yields the lines of the table for LaTeX; of one system with a row for each quantity."""
+    if len(points) == 1:
+        yield from _of_one(points[0], style)
+        return
+    names, fixed = _columns(points)
+    marks, info = Marks(points), points[0].data.info
+    yield '% the same in all: ' + ', '.join(f'{name} {_plain(x)}' for name, x in fixed.items())
+    head, rows = _cells(points, names, _bare)
+    units = [_unit(name, info) for name in head]
+    yield from tabular(head, rows, style, units)
+    yield from (f'% {line}' for line in marks.explained())
+    yield from (f'% {line}' for point in points for line in point.warnings)
+
+
+def _of_one(point, style):
+    found = printed.of(point.data)
+    yield f'% {point.data.name if len(point.runs) == 1 else "means over seeds"}'
+    rows = [
+        [symbol(name), row['k'], row['value'], unit(row['unit'])] for name, row in found.iterrows()
+    ]
+    units = '', found.attrs['units']['k'], '', ''
+    yield from tabular(['quantity', 'k', 'value', 'unit'], rows, style, units)
+    yield from (f'% {line}' for line in point.warnings)
+
+
+def _unit(name, info):
+    found = {'density': f'1/sigma^{len(space.axes(info))}', 'averaged time': 'time units'}
+    return quantity_unit(name, info) if name in QUANTITIES else found.get(name, '')
+
+
+def _columns(points):
+    """varied(points), with the packing fraction after the density."""
+    names, fixed = varied(points)
+    packing = {_packing(point) for point in points}
+    if 0 in packing:  # particles without a size
+        return names, fixed
+    if len(packing) > 1:
+        names.insert(names.index('density') + 1 if 'density' in names else len(names), PACKING)
+        return names, fixed
+    places = list(fixed.items())
+    at = list(fixed).index('density') + 1 if 'density' in fixed else len(fixed)
+    return names, dict([*places[:at], (PACKING, f'{packing.pop():.4g}'), *places[at:]])
+
+
+def _packing(point):
+    found = getattr(point.data.info, 'packing_fraction', 0)
+    return found if found > 0 else 0
+
+
+def _cells(points, names, cell):
+    """The head and the rows of all that was measured. cell: makes a text of (point, quantity)."""
+    shown = [
+        q for q in QUANTITIES if any(q in point.values or q in point.unlike for point in points)
+    ]
+    errors = [point.energy_error for point in points]
+    has_errors = any(error is not None for error in errors)
+    rows = []
+    for point, error in zip(points, errors):
+        rows.append([*_of_system(point, names), *(cell(point, q) for q in shown)])
+        rows[-1] += [_digits(NAN if error is None else error)] if has_errors else []
+        rows[-1] += [str(len(point.runs)), f'{point.data.averaged_time:g}']
+    energy = ['energy error'] if has_errors else []
+    return [*names, *shown, *energy, 'seeds', 'averaged time'], rows
 
 
 def _scattered(points, names):
@@ -88,7 +155,10 @@ def _plain(value):
 
 
 def _of_system(point, names):
-    return [_plain(point.system[name]) for name in names]
+    return [
+        f'{_packing(point):.4g}' if name == PACKING else _plain(point.system[name])
+        for name in names
+    ]
 
 
 def _cell(point, name, marks):
@@ -99,6 +169,12 @@ def _cell(point, name, marks):
     value = point.values[name]
     misfit = f', misfit {value.misfit:.1f}' if isfinite(value.misfit) else ''
     return with_error(value.value, value.error) + misfit + marks.of(value.fit)
+
+
+def _bare(point, name):
+    """A cell without misfit and mark."""
+    value = point.values.get(name)
+    return with_error(value.value, value.error) if value else '-'
 
 
 def _errors(value):
@@ -123,8 +199,13 @@ def csv(points, path):
     units = {'density': f' [1/sigma^{len(space.axes(points[0].data.info))}]'}
     head = [name + units.get(name, '') for name in points[0].system]
     head += ['seeds', 'averaged time [time units]']
-    for name, unit in QUANTITIES.items():
-        head += [f'{name} [{unit}]', f'{name} std_error', f'{name} scatter', f'{name} chi2']
+    for name in QUANTITIES:
+        head += [
+            f'{name} [{quantity_unit(name, points[0].data.info)}]',
+            f'{name} std_error',
+            f'{name} scatter',
+            f'{name} chi2',
+        ]
         head += [f'{name} misfit', f'{name} basis'] if name in FITTED else []
     whole.write_csv(path, head, map(_row, points))
 

@@ -4,6 +4,7 @@ one of its FIGURES, has draw(run, ax=None, **look); see page.figure."""
 import contextlib
 import importlib
 import pkgutil
+from collections import namedtuple
 
 from matplotlib.backends.backend_pdf import PdfPages
 
@@ -31,16 +32,20 @@ globals().update(FIGURES)  # so that each figure is imported by its name
 OF_MEANS = tuple(name for name, one in FIGURES.items() if getattr(one, 'IS_OF_MEANS', False))
 
 
-def draw_all(recording, folder, progress, names=tuple(FIGURES), pdf=None):
-    """Draws each figure for which the recording has data. Returns the names of the files, and of
-    figures that need run_info, which it lacks. pdf: a file with all figures."""
-    files, pages, lost = [], None, []
-    with ours(), contextlib.ExitStack() as stack:
+Drawn = namedtuple('Drawn', 'files lost left_out captions')
+
+
+def draw_all(recording, folder, progress, names=tuple(FIGURES), pdf=None, paper=None):
+    """Draws each figure for which the recording has data. pdf: a file with all figures; paper: see
+    page.PAPER. Returns the names of the files, of figures that need run_info, which it lacks, a
+    line for each panel without data, and the captions of figures without titles."""
+    made, pages, how = Drawn([], [], [], []), [], {'paper': paper} if paper else {}
+    with ours(paper), contextlib.ExitStack() as stack:
         for name in progress.over(names, len(names)):
             try:
-                page = FIGURES[name].draw(recording)
+                page = FIGURES[name].draw(recording, **how)
             except NoInfo:
-                lost.append(name)
+                made.lost.append(name)
                 continue
             if page is None:
                 continue
@@ -48,5 +53,8 @@ def draw_all(recording, folder, progress, names=tuple(FIGURES), pdf=None):
                 pages = stack.enter_context(PdfPages(stack.enter_context(whole.written(pdf))))
             if pdf:
                 pages.savefig(page.figure)
-            files += save(page.figure, folder, name)
-    return files + ([pdf] if pdf and files else []), lost
+            made.files.extend(save(page.figure, folder, name, **how))
+            made.left_out.extend(f'{name} has no panel of {line}' for line in page.left_out)
+            made.captions.extend([f'{name}: {page.caption}'] if paper else [])
+    made.files.extend([pdf] if pdf and made.files else [])
+    return made

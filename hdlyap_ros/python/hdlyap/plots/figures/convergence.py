@@ -1,43 +1,61 @@
 """Running means and their standard errors against the averaged time."""
 
-from matplotlib import ticker
 import numpy as np
 
 from . import page
-from .style import BLUE, GREY, INK, ORANGE, SKY, VERMILION, instead, thinned
+from .style import BLUE, GREY, INK, ORANGE, SKY, VERMILION, instead, plain_log, thinned
 
 ORDER = 2
+
+SETTLED = 0.1  # part of the averaged time before which the course may leave the panel
+MARGIN = 0.15  # around the later course, over its height
+UNKNOWN = 'none is known yet; average longer (hdlyap launch says at its start from when on)'
 
 
 @page.figure
 def draw(page, recording, **look):
     if recording.spectrum is None:
         return
-    grid = page.panels(3, 1, 5.2, 6.6, squeeze=False, sharex=True)
-    top, middle, bottom = grid.flat
     course = recording.course()
+    is_known = np.isfinite(course['error']).any()
+    rows = 3 if is_known or not page.leave_out('standard errors', UNKNOWN) else 2
+    grid = page.panels(rows, 1, 5.2, 0.6 + 2 * rows, squeeze=False)
+    top, middle, *others = grid.flat
+    for axes in grid.flat:
+        axes.set_xscale('log')
     kept = thinned(len(course['time']))
     time = course['time'][kept]
     of_largest = course['lambda_max'][kept], course['lambda_max_error'][kept]
     _with_error(top, time, *of_largest, **{'color': INK, **look})
+    _settled(top, time, *of_largest)
     top.set_ylabel(r'$\lambda_{\max}$  [1/time unit]')
     means, errors = course['small'][kept].T, course['small_errors'][kept].T
     colours = SKY, BLUE, ORANGE, VERMILION
     for index, mean, error, colour in zip(recording.smallest, means, errors, colours):
         named = {'color': colour, **look, 'label': rf'$\ell={index}$'}
         _with_error(middle, time, mean, error, **named)
+    _settled(middle, time, means.T, errors.T)
     middle.set_ylabel(r'$\lambda_\ell$  [1/time unit]')
     middle.legend(ncol=2)
-    _error(bottom, time, course['error'][kept], **look)
-    bottom.set_ylabel('standard error  [1/time unit]')
+    for axes in others:
+        _error(axes, time, course['error'][kept], **look)
+        axes.set_ylabel('standard error  [1/time unit]')
+        axes.set_title('standard errors', loc='left')
     for axes in grid.flat:
         axes.set_xlabel('averaged time  [time units]')
-        axes.set_xscale('log')
     top.set_title('largest exponent', loc='left')
     middle.set_title('smallest exponents', loc='left')
-    bottom.set_title('standard errors', loc='left')
-    page.outer(grid)
-    page.title(recording.info, top, middle, bottom)
+    page.outer(grid[:2])
+    page.title(recording.info, *grid.flat)
+
+
+def _settled(axes, time, mean, error):
+    """Sets limits so that all of the later course is inside, whatever came before."""
+    late = time >= SETTLED * time[-1]
+    around = np.nan_to_num(error[late])
+    low, high = np.min(mean[late] - around), np.max(mean[late] + around)
+    if high > low:
+        axes.set_ylim(low - MARGIN * (high - low), high + MARGIN * (high - low))
 
 
 def _with_error(axes, time, mean, error, color, **look):
@@ -61,7 +79,6 @@ def _error(axes, time, error, **look):
     axes.loglog(time, error, _mark(time), **{'color': INK, 'label': label, **look})
     slope = error[-1] * np.sqrt(last / time)
     axes.loglog(time, slope, '--', color=GREY, label=r'$\propto 1/\sqrt{t}$')
-    axes.yaxis.set_major_locator(ticker.LogLocator(subs=(1, 2, 5)))
-    axes.yaxis.set_major_formatter(ticker.FormatStrFormatter('%g'))
-    axes.yaxis.set_minor_formatter(ticker.NullFormatter())
+    for axis in (axes.xaxis, axes.yaxis):
+        plain_log(axis)
     axes.legend()

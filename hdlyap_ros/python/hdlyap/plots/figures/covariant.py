@@ -19,6 +19,8 @@ LEAST, MOST = 16, 40  # vectors of the positive half in the magnified panels
 WEIGHTS = 4  # most panels of weights
 ROUNDING = 1e-16  # least value that is drawn; smaller ones are rounding
 ROOM = 1.4  # height of the axes over that of curves, to leave room for text
+ABOVE = 0.3  # height of what is above panels, in panels
+NO_ERRORS = 'backward - forward in errors', 'errors are not known yet; average longer'
 POINTS = {'fmt': '.', 'markersize': 3, 'elinewidth': 0.7}
 HOLLOW = {'fmt': 'o', 'color': INK, 'markerfacecolor': 'none'}
 SIDE_BY_SIDE = {'loc': 'upper left', 'ncol': 2, 'handletextpad': 0.2, 'fontsize': 7}
@@ -34,6 +36,7 @@ class Panel(NamedTuple):
     legend: dict = None
     levels: tuple = ()
     name: str = ''
+    missing: tuple = ()  # what is left out if there are no curves, and why
 
     def draw(self, axes, ends, look):
         first, last = ends
@@ -74,7 +77,7 @@ def _exponents(run, indices, _):
     ]
     levels = (0, None), (-2, '_two'), (2, '_two')
     known = curves if np.isfinite(off).any() else []
-    yield Panel('backward - forward\n[combined errors]', known, levels=levels)
+    yield Panel('backward - forward\n[combined errors]', known, levels=levels, missing=NO_ERRORS)
 
 
 def _domination(run, indices, places):
@@ -135,8 +138,8 @@ def _weights(run, indices):
         yield Panel('weight', curves, {'ylim': (-0.03, 1.03)}, None, by_chance, name)
 
 
-def _over_index(panels, height, least=1):
-    """The figure of a row for each panel, if the run has that many vectors."""
+def _over_index(panels, of_all, height, least=1):
+    """The figure of a row for each panel, if the run has that many vectors. height: of all."""
 
     @page.figure
     def draw(page, run, **look):
@@ -144,10 +147,15 @@ def _over_index(panels, height, least=1):
         if message is None or len(message.exponents) < least:
             return
         indices = covariant.indices(message)
-        rows = list(panels(run, indices, covariant.between(message)))
+        rows = [
+            panel
+            for panel in panels(run, indices, covariant.between(message))
+            if panel.curves or not page.leave_out(*panel.missing)
+        ]
+        tall = height * (len(rows) + ABOVE) / (of_all + ABOVE)
         whole, near = (indices[0], indices[-1]), near_zero(run, indices)
         ranges = [whole] if whole == near else [whole, near]
-        size = 4.6 if len(ranges) == 1 else 7.6, height
+        size = 4.6 if len(ranges) == 1 else 7.6, tall
         grid = page.panels(len(rows), len(ranges), *size, sharex='col', squeeze=False)
         for row, panel in zip(grid, rows):
             for axes, ends in zip(row, ranges):
@@ -252,9 +260,9 @@ def shade(column, run, first, last):
 
 
 FIGURES = {
-    'covariant_exponents': SimpleNamespace(draw=_over_index(_exponents, 5.0)),
+    'covariant_exponents': SimpleNamespace(draw=_over_index(_exponents, 2, 5.0)),
     'covariant_weights': SimpleNamespace(draw=_draw_weights),
     'covariant_angles': SimpleNamespace(draw=_draw_angles),
-    'covariant_domination': SimpleNamespace(draw=_over_index(_domination, 4.8, least=2)),
-    'covariant_vectors': SimpleNamespace(draw=_over_index(_vectors, 7.4)),
+    'covariant_domination': SimpleNamespace(draw=_over_index(_domination, 2, 4.8, least=2)),
+    'covariant_vectors': SimpleNamespace(draw=_over_index(_vectors, 4, 7.4)),
 }

@@ -32,7 +32,7 @@ def draw(page, recording, **look):
     end = MARGIN * max(step.wave_number for _, step in points)
     of_t, of_l, _ = fits.of(recording.steps)
     for fit in (of_l, of_t):
-        _branch(axes, recording.info, fit, end, look)
+        _branch(axes, recording.info, fit, end, look, not page.paper)
     for block, step in points:
         _point(axes, step, len(block.steps) == 1, look)
         look.pop('label', None)  # once
@@ -53,14 +53,16 @@ def _point(axes, step, alone, look):
     axes.errorbar(step.wave_number, step.exponent, bars(step.std_error), **style)
 
 
-def _branch(axes, info, fit, end, look):
-    """Draws the fit of the run and, with a thin line, that of the paper if it holds."""
+def _branch(axes, info, fit, end, look, with_misfit):
+    """Draws the fit of the run, dashed if its curvature is assumed, and, with a thin line, that of
+    the paper if it holds."""
     kind = steps.NAMES[fit.kind]
     colour = look.get('color', KIND_COLOURS[kind])
     if fit.count:
         k = np.linspace(0, end, 100)
         line = sum(value * k**power for power, (_, value, _) in enumerate(fit.values, start=1))
-        axes.plot(k, line, color=colour, label=f'{kind}: {_fit_label(fit)}')
+        style = {'color': colour, 'linestyle': '--' if fit.is_assumed else '-'}
+        axes.plot(k, line, label=f'{kind}: {_fit_label(fit, with_misfit)}', **style)
     published = paper.branches(info).get(kind)
     if published is not None and not fit.is_unrelated:
         k = np.linspace(0, end if published.c2 else min(end, PUBLISHED_UP_TO), 100)
@@ -68,11 +70,14 @@ def _branch(axes, info, fit, end, look):
         axes.plot(k, line, color=colour, label='_published', **PUBLISHED)
 
 
-def _fit_label(fit):
-    """The label of a fit: slope and misfit, and its form if that is not the usual one."""
+def _fit_label(fit, with_misfit):
+    """The label of a fit: slope and misfit, its form if that is not the usual one, and what is
+    assumed."""
     name, value, error = fit.values[0]
-    label = f'${name[0]}_{{{name[2:]}}}={with_error(value, error, decimals=3)}${fit.beside}'
-    return label + (f' by {fit.form}' if fit.terms < 3 else '')
+    label = f'${name[0]}_{{{name[2:]}}}={with_error(value, error, decimals=3)}$'
+    label += fit.beside if with_misfit else ''
+    label += f' by {fit.form}' if fit.terms < 3 else ''
+    return f'{label}, {fits.ASSUMED}' if fit.is_assumed else label
 
 
 def _wave_axis(axes, info, points, end):

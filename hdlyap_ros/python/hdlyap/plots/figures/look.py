@@ -27,5 +27,19 @@ STYLE = {
     'mathtext.fontset': 'dejavusans',
     'svg.hashsalt': 'hdlyap',
 }
+# on top of it for a journal: letters of its size, which are no outlines, so that one can search
+PAPER = {
+    'font.family': 'STIXGeneral',
+    'mathtext.fontset': 'stix',
+    'font.size': 8,
+    'axes.titlesize': 8,
+    'axes.labelsize': 8,
+    'legend.fontsize': 7,
+    'xtick.labelsize': 7,
+    'ytick.labelsize': 7,
+    'axes.linewidth': 0.6,
+    'lines.linewidth': 1.0,
+    'pdf.fonttype': 42,
+}
 # of figures that have no page of ours
 PLAIN = {**STYLE, 'lines.markersize': 4, 'figure.constrained_layout.use': True}

@@ -4,6 +4,7 @@ spheres see solid_modes."""
 import numpy as np
 
 from hdlyap.data import space, steps
+from hdlyap.numbers import known, with_error
 
 from . import page, solid_modes
 from .box import Particles, arrows
@@ -24,10 +25,26 @@ CHANNEL = 2.0  # a box narrower than this, in sigma, has no room for arrows
 
 
 class Panel:
-    """A vector and the set to which it belongs; no set if it belongs to no step."""
+    """A vector and the set to which it belongs, no set if it belongs to no step; the error of its
+    exponent. `dq`: what is drawn, of an LP step its L part, as whole vectors look random at times
+    when most of them is in P."""
 
-    def __init__(self, field, block=None):
-        self.field, self.block = field, block
+    def __init__(self, field, block=None, error=np.nan):
+        self.field, self.block, self.error = field, block, error
+        self.dq, self.said = space.vectors(field, 'dq'), ''
+
+    def show_l(self):
+        """Takes the L part in place of dq, if the step has modes of its own."""
+        if self.block and self.block.kind == steps.LP and self.field.pairs:
+            self.dq, share = l_part(self.field)
+            self.said = f', L part ({100 * share:.0f} %)'
+        return self
+
+    @property
+    def arrows(self):
+        """dq as arrows of a root mean square length of ARROW, but of what turns its whole."""
+        size = np.sqrt(np.mean(np.sum(self.dq**2, axis=0))) if self.said else strength(self.field)
+        return self.dq * ARROW / size
 
     @property
     def name(self):
@@ -35,11 +52,21 @@ class Panel:
 
     @property
     def title(self):
-        return f'{self.name}, $\\ell={self.field.index}$, $\\lambda={self.field.exponent:.4f}$'
+        value = with_error(self.field.exponent, self.error, decimals=4)
+        return f'{self.name}{self.said}, $\\ell={self.field.index}$, $\\lambda={value}$'
 
     @property
     def colour(self):
         return kind_colour(self.block.kind) if self.block else GREY
+
+
+def l_part(field):
+    """The projection of dq on the L modes of its step, and its share of the square of dq."""
+    dq = space.vectors(field, 'dq')
+    found = space.vectors(field, 'l_').reshape(len(dq), field.pairs, -1)
+    found = np.moveaxis(found, 1, 2).reshape(-1, field.pairs)
+    part = found @ np.linalg.lstsq(found, dq.ravel(), rcond=None)[0]
+    return part.reshape(dq.shape), np.sum(part**2) / np.sum(dq**2)
 
 
 @page.figure
@@ -53,7 +80,7 @@ def draw(page, recording, **look):
     elif min(info.box_x, info.box_y) < CHANNEL:
         _channel(page, panels, info, look)
     else:
-        draw_panels(page, panels, info, look)
+        draw_panels(page, [panel.show_l() for panel in panels], info, look)
         colours = ', green: turned to the left, purple: to the right'
         more += colours if space.turns(info) else ''
     page.title(info, more=more)
@@ -82,10 +109,17 @@ def _latest(recording):
     for field in recording.fields():
         block = next((block for block in blocks if block.first <= field.index <= block.last), None)
         if block is None:
-            others.append(Panel(field))
+            others.append(Panel(field, error=_error(recording, field)))
         elif block.first not in latest or field.sim_time > latest[block.first].field.sim_time:
-            latest[block.first] = Panel(field, block)
+            latest[block.first] = Panel(field, block, _error(recording, field))
     return [latest[block.first] for block in blocks if block.first in latest], others
+
+
+def _error(recording, field):
+    """The error of the exponent of a vector; NaN if it is not known."""
+    spectrum = recording.spectrum
+    place = field.index - spectrum.first_index if spectrum else -1
+    return float(known(spectrum.std_errors[place])) if place >= 0 else np.nan
 
 
 def draw_panels(page, panels, info, look=()):
@@ -95,7 +129,8 @@ def draw_panels(page, panels, info, look=()):
     width = WIDTH if len(panels) > 1 else ALONE
     height = rows * (width / columns * info.box_y / info.box_x + 0.3) + 0.5
     height += LINE * scene(info).count('\n')
-    grid = page.panels(rows, columns, width, min(height, TALLEST), squeeze=False)
+    size = width, min(height, TALLEST)
+    grid = page.panels(rows, columns, *size, squeeze=False, is_box=True)
     for axes, panel in zip(grid.flat, panels):
         _arrows(axes, panel, info, {'rasterized': len(panels) * info.number > MANY, **dict(look)})
         axes.set_xlabel(r'$x$  [$\sigma$]', fontsize=7)
@@ -124,13 +159,12 @@ def _lowest(count, columns):
 
 def _arrows(axes, panel, info, look):
     field = panel.field
-    dq = space.vectors(field, 'dq') * ARROW / strength(field)
     rims = {'facecolors': 'none', 'edgecolors': LIGHT, 'linewidths': 0.4}
     drawn = Particles(axes, info, space.vectors(field), field.angle, **rims)
     if space.turns(info):
         drawn.paint(of_vector(field, 'white'))
-    arrows(axes, field.x, field.y, dq, **{'width': 0.13, 'color': panel.colour, **look})
-    axes.set_title(panel.title, fontsize=8 if len(panel.name) < LONG else 6)
+    arrows(axes, field.x, field.y, panel.arrows, **{'width': 0.13, 'color': panel.colour, **look})
+    axes.set_title(panel.title, fontsize=8 if len(panel.name + panel.said) < LONG else 6)
     axes.tick_params(labelsize=6, length=2)
 
 

@@ -14,6 +14,7 @@ ORDER = 7
 COLOURS = GREEN, PURPLE, SKY, INK, ORANGE  # colours of steps, other than those of T and LP
 
 STEPS = 4  # most steps that are shown
+FEW = 24  # samples that are drawn as points, too
 PER_STEP = 2  # most phases of each step; more would hide each other
 
 
@@ -28,13 +29,14 @@ def draw(page, recording, speeds=None, **look):
     top, bottom = grid.flat
     for (step, numbers), colour in zip(shown, COLOURS):
         for number in numbers:
-            for time, phase in recording.phases.curves(number):
+            for time, phase in joined(list(recording.phases.curves(number))):
                 _curve(top, bottom, time, phase, {'color': colour, **look, 'label': None})
         named = {'label': _label(recording, step, speeds or {})}
         top.plot([], [], **{'color': colour, **look, **named})
     top.set_ylabel(r'phase $\varphi / 2\pi$')
     top.legend(loc='lower right', bbox_to_anchor=(1, 1), ncol=2)
-    bottom.set_ylabel(r'deviation from even turning  [% of $2\pi$]')
+    bottom.set_ylabel(r'deviation  [% of $2\pi$]')
+    bottom.set_title('deviation from even turning', loc='left')
     for axes in grid.flat:
         axes.set_xlabel('simulated time  [time units]')
     page.outer(grid)
@@ -61,8 +63,21 @@ def _tracked(recording, number):
     return sum(time[-1] - time[0] for time, _ in recording.phases.curves(number))
 
 
+def joined(curves):
+    """Curves (time, phase) that go on from each other: a phase that was lost and found again counts
+    from less than a turn, so that the turns of the longest curve, which turns evenly, are added."""
+    if not curves:
+        return
+    times, phases = max(curves, key=lambda curve: curve[0][-1] - curve[0][0])
+    slope, start = np.polyfit(times, phases, 1)
+    for time, phase in curves:
+        off = np.mean(start + slope * time - phase) / (2 * np.pi)
+        yield time, phase + 2 * np.pi * np.round(off)
+
+
 def _curve(top, bottom, time, phase, look):
     kept = thinned(len(time))
+    look = {'marker': '.' if len(time) <= FEW else '', **look}
     top.plot(time[kept], phase[kept] / (2 * np.pi), **look)
     off = 100 * (phase - regression(time, phase)) / (2 * np.pi)
     bottom.plot(time[kept], off[kept], **{'linewidth': 0.8, 'alpha': 0.8, **look})

@@ -18,6 +18,9 @@ IS_OF_MEANS = True  # drawn of several seeds, too
 # Least and largest number of exponents in the magnified panel; the steps decide, but with still
 # more exponents their names would not fit
 MAGNIFIED, MAGNIFIED_MOST = 40, 64
+NEAR = 0.032  # names at this distance, over the width of the panel, would touch
+LETTER = 4.2  # length of a name for each of its letters [points]
+ROOM = 0.0145  # room above the exponents for each letter of the longest name, over the height
 
 
 @page.figure
@@ -116,8 +119,7 @@ def _small(axes, recording, look):
         for block in steps.all_blocks(recording.steps, recording.info)
         if first <= block.first and block.last <= last
     ]
-    for block in shown:
-        _name_block(axes, spectrum, block)
+    named = _name_blocks(axes, spectrum, shown, NEAR * (last - first))
     bands = [
         step for step in paper.steps(recording.info) if first <= step.first and step.last <= last
     ]
@@ -125,8 +127,10 @@ def _small(axes, recording, look):
         _draw_band(axes, step, named=not shown)
     _exponent_axes(axes)
     if shown:
-        _room_for_names(axes)
-    _legend(axes, shown, bands)
+        low, high = axes.get_ylim()
+        axes.set_ylim(low, high + ROOM * named * (high - low))
+    others = set(range(first, last + 1)) - set(colours)
+    _legend(axes, shown, bands, 'of no step' if shown and others else '')
 
 
 def _colours(recording, first, last):
@@ -143,34 +147,38 @@ def _colours(recording, first, last):
     return colours
 
 
-def _name_block(axes, spectrum, block):
-    """Writes the name of a block above its vectors, upright, because there is no room beside
-    them."""
-    inside = slice(block.first - spectrum.first_index, block.last + 1 - spectrum.first_index)
-    highest = max(np.add(spectrum.exponents[inside], np.maximum(0, spectrum.std_errors[inside])))
-    name = 'zero modes' if block.kind == steps.ZERO else block.name.replace('+', '\n+')
-    place, colour = (0.5 * (block.first + block.last), highest), kind_colour(block.kind)
-    beside(axes, name, place, (0, 6), color=colour, fontsize=7, **UPRIGHT)
-
-
-def _room_for_names(axes):
-    low, high = axes.get_ylim()
-    axes.set_ylim(low, high + 0.16 * (high - low))
+def _name_blocks(axes, spectrum, blocks, near):
+    """Writes the names of blocks above their vectors, upright, because there is no room beside
+    them; a name that is near the one before above that. Returns the most letters above a point."""
+    before, letters, most = -np.inf, 0, 0
+    for block in sorted(blocks, key=lambda block: block.first):
+        inside = slice(block.first - spectrum.first_index, block.last + 1 - spectrum.first_index)
+        highest = max(
+            np.add(spectrum.exponents[inside], np.maximum(0, spectrum.std_errors[inside]))
+        )
+        name = 'zero modes' if block.kind == steps.ZERO else block.name
+        middle = 0.5 * (block.first + block.last)
+        below = letters + 1 if middle - before < near else 0
+        look = {'color': kind_colour(block.kind), 'fontsize': 7, **UPRIGHT}
+        beside(axes, name, (middle, highest), (0, 6 + LETTER * below), **look)
+        before, letters = middle, len(name) if not below else -1
+        most = max(most, below + len(name))
+    return most
 
 
 def _draw_band(axes, step, named):
-    """Draws the fitted value as a band a little wider than the step, with its name before it unless
-    the measured step has one."""
+    """Draws the fitted value as a band as wide as the step, with its name before it unless the
+    measured step has one."""
     colour = KIND_COLOURS[step.kind]
     low, high = (step.fitted * (1 + sign * paper.FIT_ACCURACY) for sign in (-1, 1))
-    ends = step.first - 1.2, step.last + 1.2
+    ends = step.first - 0.5, step.last + 0.5
     axes.fill_between(ends, low, high, color=colour, alpha=0.2, linewidth=0)
     if named:
         look = {'color': colour, 'fontsize': 7, 'ha': 'right', 'va': 'center'}
         beside(axes, step.name, (ends[0], step.fitted), (-3, 0), **look)
 
 
-def _legend(axes, blocks, bands):
+def _legend(axes, blocks, bands, others):
     handles = [
         Line2D([], [], linestyle='', marker='o', markersize=4, color=colour, label=label)
         for colour, label in (
@@ -181,6 +189,9 @@ def _legend(axes, blocks, bands):
         )
         if colour in {kind_colour(block.kind) for block in blocks}
     ]
+    if others:
+        handles.append(Line2D([], [], linestyle='', marker='o', markersize=4, color=INK))
+        handles[-1].set_label(others)
     if bands:
         handles += [
             patches.Patch(color=KIND_COLOURS[kind], alpha=0.2, label=label)

@@ -5,7 +5,7 @@ import numpy as np
 from matplotlib.colors import LogNorm
 
 from hdlyap.data import steps
-from hdlyap.data.factors import DIRECTIONS, frequencies, line, power
+from hdlyap.data.factors import DIRECTIONS, REPORTS, frequencies, line, power
 from hdlyap.numbers import with_error
 
 from . import page
@@ -13,6 +13,10 @@ from .style import INK, kind_colour
 
 ORDER = 9
 
+NO_LINE = (
+    f'none is known; it takes a step with a set of its own, and {REPORTS} reports of its vectors '
+    'at one wave'
+)
 NOISE = 0.5  # the structure factor of a random vector
 TITLES = {'along': 'along $k$', 'across': 'across $k$'}
 OF_KIND = {steps.LP: 'along', steps.T: 'across'}
@@ -23,12 +27,12 @@ def draw(page, recording, **look):
     means = recording.structure.means
     if means is None:
         return
-    sheet = page.sheet(7, 6.2)
-    grid = sheet.add_gridspec(2, 2)
-    places = grid[0, 0], grid[0, 1], grid[1, :]
-    *ridges, lines = page.taken([sheet.add_subplot(place) for place in places])
     blocks = steps.blocks(recording.steps, recording.info)
     found = [block for block in blocks if len(block.steps) == 1]
+    lines_of = list(_found_lines(recording, found))
+    has_lines = bool(lines_of) or not page.leave_out('spectral lines', NO_LINE)
+    sheet, axes = _panels(page, has_lines)
+    ridges, lines = axes[:2], axes[2:]
     for axes, direction in zip(ridges, DIRECTIONS):
         image = _ridge(axes, means, direction, look)
         _classified(axes, found, direction)
@@ -39,11 +43,28 @@ def draw(page, recording, **look):
             axes.figure.colorbar(image, ax=axes, label=r'$S(k)$')
     if page.is_own:
         page.figure.colorbar(image, ax=ridges, label=r'$S(k)$')
-        sheet.delaxes(lines)
-        sheet.add_axes(lines)  # moves it to the end, because panels are counted in this order
     page.outer(np.array([ridges]))
-    _lines(lines, recording, found)
-    page.title(recording.info, *ridges, lines)
+    for axes in lines:
+        if page.is_own:
+            sheet.delaxes(axes)
+            sheet.add_axes(axes)  # moves it to the end, because panels are counted in this order
+        _lines(axes, recording, lines_of)
+    page.title(recording.info, *ridges, *lines)
+
+
+def _panels(page, has_lines):
+    """The sheet and its axes: two maps side by side, or in a narrow column below each other, and
+    below them lines."""
+    rows = 1 + has_lines
+    if page.is_narrow:
+        sheet = page.sheet(3.4, 2.1 * (1 + rows))
+        grid = sheet.add_gridspec(1 + rows, 1)
+        places = [grid[row] for row in range(1 + rows)]
+    else:
+        sheet = page.sheet(7, 3.1 * rows)
+        grid = sheet.add_gridspec(rows, 2)
+        places = [grid[0, 0], grid[0, 1], *(grid[row, :] for row in range(1, rows))]
+    return sheet, page.taken([sheet.add_subplot(place) for place in places])
 
 
 def shells(means, direction):
@@ -77,30 +98,35 @@ def _classified(axes, found, direction):
             axes.plot(*place, 'o', markersize=6, markerfacecolor='none', markeredgecolor=colour)
 
 
-def _lines(axes, recording, found):
-    """Draws the lines of the lowest T and LP step whose vectors' amplitudes are known."""
-    shown = set()
+def _found_lines(recording, found):
+    """Yields (block, times, series, line) of the lowest T and the lowest LP step with a line."""
+    kinds = set()
     for block in found:
         kind, indices = block.kind, range(block.first, block.last + 1)
-        if kind in shown or not recording.structure.has(indices):
+        if kind in kinds or not recording.structure.has(indices):
             continue
         times, series = recording.structure.of(indices, OF_KIND[kind])
         found_line = line(times, series)
-        if found_line is None:
-            continue
+        if found_line is not None:
+            kinds.add(kind)
+            yield block, times, series, found_line
+
+
+def _lines(axes, recording, lines):
+    """Draws the power of the vectors' amplitudes over the frequency."""
+    for block, times, series, found_line in lines:
         omega = frequencies(times)
         values = power(times, series, omega)
         label = rf'{block.name}: $\omega = {with_error(*found_line, decimals=4)}$'
-        axes.semilogy(omega, values, color=kind_colour(kind), label=label)
-        if kind == steps.LP and recording.steps.v_phases > 0:
+        axes.semilogy(omega, values, color=kind_colour(block.kind), label=label)
+        if block.kind == steps.LP and recording.steps.v_phases > 0:
             label = f'$v k$ of the phases, {block.name}'
             v_k = recording.steps.v * block.steps[0].wave_number
             axes.axvline(v_k, color=INK, linestyle=':', label=label)
-        shown.add(kind)
     axes.set_title('spectral lines of the lowest steps', loc='left')
     axes.set_xlabel(r'$\omega$  [rad/time unit]')
     axes.set_ylabel(r'$S(k, \omega)$')
-    if shown:
+    if lines:
         axes.legend()
     else:
         axes.text(0.5, 0.5, 'no line is known', ha='center', va='center', transform=axes.transAxes)

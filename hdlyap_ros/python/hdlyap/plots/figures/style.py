@@ -8,11 +8,12 @@ from matplotlib import ticker
 
 from hdlyap import whole
 from hdlyap.data import space, steps
-from hdlyap.data.containers import is_curved
+from hdlyap.data.containers import is_curved, radius
 from hdlyap.data.reader import is_known
 from hdlyap.numbers import known
 
-from .look import BLUE, GREEN, GREY, INK, LIGHT, ORANGE, PURPLE, SKY, STYLE, VERMILION  # noqa: F401
+from .look import BLUE, GREEN, GREY, INK, LIGHT, ORANGE, PAPER, PURPLE, SKY, STYLE  # noqa: F401
+from .look import VERMILION  # noqa: F401
 
 POINTS = 2000  # most points of a curve; more cannot be seen
 TITLE = 60  # most characters in a line with the name of the scene
@@ -23,12 +24,16 @@ MEMBER_COLOURS = (BLUE, VERMILION, GREEN, ORANGE, PURPLE, SKY)
 FEW = {'markersize': 4.5, 'elinewidth': 0.9, 'capsize': 2}
 SMALL = {'fmt': 'o', 'markersize': 2.6, 'elinewidth': 0.8, 'capsize': 1.5}
 MANY = {'ecolor': GREY, 'elinewidth': 0.7, 'rasterized': True}
+SVG = 'svg', {'dpi': 200, 'metadata': {'Date': None}}
+# vectors, with maps as pixels of a journal's resolution
+FILES_OF_PAPER = (('pdf', {'dpi': 600, 'metadata': {'CreationDate': None}}),)
 UPRIGHT = {'rotation': 90, 'ha': 'center', 'va': 'bottom'}  # look of a text above a place
 
 
-def ours():
-    """A context in which figures have this look, whatever a matplotlibrc says."""
-    return matplotlib.style.context(['default', STYLE])
+def ours(paper=None):
+    """A context in which figures have this look, or that of a journal, whatever a matplotlibrc
+    says."""
+    return matplotlib.style.context(['default', STYLE, *([PAPER] if paper else [])])
 
 
 def beside(axes, text, place, aside, **look):
@@ -41,13 +46,11 @@ def instead(axes, text):
     axes.annotate(text, (0.5, 0.5), xycoords='axes fraction', ha='center')
 
 
-def save(figure, folder, name, dpi=250):
-    """Writes a figure to files. Returns their names. dpi: resolution of the PNG file."""
+def save(figure, folder, name, dpi=250, paper=None):
+    """Writes a figure to files, for a journal to one. Returns their names. dpi: resolution of the
+    PNG file."""
     files = []
-    for suffix, options in (
-        ('png', {'dpi': dpi}),
-        ('svg', {'dpi': 200, 'metadata': {'Date': None}}),
-    ):
+    for suffix, options in FILES_OF_PAPER if paper else (('png', {'dpi': dpi}), SVG):
         path = os.path.join(folder, f'{name}.{suffix}')
         with whole.written(path) as unfinished:
             figure.savefig(unfinished, **options)
@@ -63,6 +66,7 @@ def scene(info):
         return f'{name}: {info.particles}, $N={info.number}$'
     if is_curved(info):
         size = f'{info.container}, ${info.box_x:.4g}\\times{info.box_y:.4g}$'
+        size = f'circle, $R={radius(info):.4g}$' if radius(info) else size
         return f'{name}: $N={info.number}$, $\\rho={info.density:g}$, {size}'
     walls = space.along(info, 'boundary_')
     walls = walls[:1] if len(set(walls)) == 1 else map(' '.join, zip('xyz', walls))
@@ -84,6 +88,19 @@ def index_axis(axes, nbins=6):
     """Makes the x axis one of Lyapunov indices."""
     axes.xaxis.set_major_locator(ticker.MaxNLocator(nbins, integer=True, steps=[1, 2, 5, 10]))
     axes.set_xlabel(r'index $\ell$')
+
+
+def plain_log(axis):
+    """Gives a logarithmic axis plain numbers that do not overlap: 1, 2, 5, or if it is shorter than
+    a decade evenly spaced ones."""
+    low, high = axis.get_view_interval()
+    if high < 10 * low:
+        axis.set_major_locator(ticker.MaxNLocator(5, steps=[1, 2, 5, 10]))
+    else:
+        subs = (1, 2, 5) if high < 100 * low else (1,)
+        axis.set_major_locator(ticker.LogLocator(subs=subs))
+    axis.set_major_formatter(ticker.FormatStrFormatter('%.4g'))
+    axis.set_minor_formatter(ticker.NullFormatter())
 
 
 def bars(std_errors):
