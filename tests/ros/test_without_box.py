@@ -18,7 +18,7 @@ OWN = ['beta=0.30000000000000004', 'energy=1', 'start=cold']
 def chain(**fields):
     """As a node of a chain says: eight, of which each has one coordinate."""
     usual = dict(particles='chain', dimension=0, coordinates=1, number=8, own=OWN)
-    usual.update(boundary_x='', boundary_y='', zero_exponents=4)
+    usual.update(boundary_x='', boundary_y='', zero_exponents=4, packing_fraction=float('nan'))
     return made.run_info(**{**usual, **fields})
 
 
