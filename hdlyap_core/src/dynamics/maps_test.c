@@ -15,6 +15,7 @@ static const double TIME = 3.0, TIME_NULL = 1.0, ENTRIES = 1e6;
 enum {
     COLUMNS = 8,        /* random vectors that are carried */
     CUTS = 5,           /* of a record */
+    HALVINGS = 6,       /* of TIME_NULL, at most */
     NULL_ROOM = 64,     /* for null vectors too many; they were counted before */
     EXPONENTS_MOST = 64 /* for which exponents that vanish are counted */
 };
@@ -22,8 +23,9 @@ enum {
  * part of two lengths, which have grown as rounding has, by which their product may. */
 static const double ROUNDED = 1e-9, PRODUCT_ROUNDED = 1e-12;
 /** Sine of the angle by which null vectors may leave their space; one of particles that move in
- * time steps may be known only to the square of a step. */
-static const double NULL_CLOSE = 0.1;
+ * time steps may be known only to the square of a step, so that others must not
+ * grow by more than this meanwhile. */
+static const double NULL_CLOSE = 0.1, GROWTH = 2.0;
 
 static double *block_create(const hd_trial *t, size_t width)
 {
@@ -260,11 +262,37 @@ static hd_status compare_null(hd_trial *t, leg *l)
     return HD_OK;
 }
 
+/** Finds a time in which random vectors grow little, so that what is known of null vectors only to
+ * the square of a time step stays close. */
+static hd_status find_units(hd_trial *t, const hd_image *start, double *units)
+{
+    hd_status status = HD_OK;
+    *units = TIME_NULL;
+    for (int k = 0; k < HALVINGS && status == HD_OK; k++, *units *= 0.5) {
+        leg l;
+        double growth = 0.0;
+        status = leg_create(&l, t, start, *units, COLUMNS);
+        if (status == HD_OK) {
+            fill_random(t, l.block[0], COLUMNS);
+            memcpy(l.block[1], l.block[0], t->rows * COLUMNS * sizeof(double));
+            status = hd_trial_carry(t, l.block[1], COLUMNS, l.record, 0.0, l.time);
+        }
+        for (size_t col = 0; col < COLUMNS && status == HD_OK; col++)
+            growth = fmax(growth, length_of(t, l.block[1], COLUMNS, col) /
+                                      length_of(t, l.block[0], COLUMNS, col));
+        leg_clear(&l);
+        if (growth <= GROWTH) return status;
+    }
+    return status;
+}
+
 hd_status hd_maps_test_null(hd_trial *t, const hd_image *start)
 {
     const int width = width_for(hd_scene_zero_exponents(&t->scene) + 1);
+    double units;
     if (!t->of->null_vectors || width > HD_BLOCK_WIDTH_MAX) return HD_OK;
-    return with_leg(t, start, TIME_NULL, (size_t)width, compare_null);
+    HD_TRY(find_units(t, start, &units));
+    return with_leg(t, start, units, (size_t)width, compare_null);
 }
 
 /* ---- exponents that vanish ----------------------------------------------------------------- */
