@@ -5,7 +5,6 @@
 
 #include <dirent.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
@@ -135,9 +134,7 @@ void expect_refused(const std::string &lines, const std::string &what,
                     const std::vector<std::string> &words)
 {
     const std::string line = begun(lines), begin = what + ": ";
-    EXPECT_EQ(line.substr(0, begin.size()), begin) << lines;
-    const std::string why = line.substr(std::min(begin.size(), line.size()));
-    EXPECT_TRUE(why.find("must ") == 0 || why.find("no such parameter") == 0) << line;
+    EXPECT_TRUE(line.find(begin + "must ") == 0 || line.find(begin + "no such ") == 0) << line;
     for (const std::string &word : words) EXPECT_NE(line.find(word), std::string::npos) << line;
     EXPECT_EQ(line.find('\n'), std::string::npos) << line;
 }

@@ -152,6 +152,16 @@ class Run(harness.Case):
                 self.assertEqual([messages[0].caged, messages[-1].caged], [False, caged])
                 self.assertEqual(any(said in line for line in node.lines('WARN')), caged)
 
+    def test_one_wave_number(self):
+        """Is one, and leaves the curvature to be assumed."""
+        square = dict(number=100, density=0.7, aspect=1.0, equilibration=20.0, warmup=20.0)
+        node = self.start(dict(square, duration=40.0, table=0.001, observables=['steps']))
+        self.ends(node)
+        said = node.text().split('result: ')[1]
+        self.assertRegex(
+            said, r'c_T  \S+, misfit \S+ over 1 wave number, k = 0\.5257, curvature as'
+        )
+
     def test_table(self):
         """What the log says at the end are the numbers of the last messages."""
         topics = ['spectrum', 'steps']

@@ -425,6 +425,13 @@ class Results(InFolder):
             result.write_all(disks, self.folder)
         self.assertIn('sweep.png', os.listdir(self.folder))
 
+    def test_runs_of_a_plan_that_have_no_mean(self):
+        """Two of one seed and system: each has a row, by its name."""
+        with contextlib.redirect_stdout(io.StringIO()) as said:
+            wrong = result.write_all([self.bag('a', 0.4), self.bag('b', 0.4)], self.folder)
+        rows = re.findall(r'(?m)^(\w+) +9\.000\(10\)', said.getvalue())
+        self.assertEqual((wrong, rows), ([], ['a', 'b']))
+
     def test_one_panel(self):
         """Its title and the text below are inside of it."""
         found = self.read(self.bag('a', 0.4), self.bag('b', 0.5))

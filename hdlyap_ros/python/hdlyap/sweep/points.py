@@ -1,5 +1,6 @@
 """Bags -> points. A point is a system with means over its seeds, or the numbers of a single run."""
 
+import os
 from collections import namedtuple
 
 import numpy as np
@@ -39,10 +40,10 @@ class Value(namedtuple('Value', 'value std_error scatter chi2 runs misfit fit'))
 class Point:
     """The runs of one system."""
 
-    def __init__(self, paths, choice=(None, None), remarks=()):
-        """remarks: lines about the bags. Raises RecordingError if the bags have no averages or do
-        not belong together."""
-        self.remarks = remarks
+    def __init__(self, paths, choice=(None, None), remarks=(), run=''):
+        """remarks: lines about the bags; run: the name of its runs in a plan. Raises
+        RecordingError if the bags have no averages or do not belong together."""
+        self.remarks, self.run = remarks, run
         self.data = seeds.load(*paths, form=choice[0], k=choice[1])
         self.runs = self.data.runs
         self.system = system(self.data.info)
@@ -121,9 +122,10 @@ def _numbers_first(found):
     return [(isinstance(value, str), value) for value in found[0]]
 
 
-def read(paths, choice=(None, None)):
+def read(paths, choice=(None, None), is_plan=False):
     """Returns points, sorted by their systems, and a line for each bag or system that cannot be
-    read."""
+    read. Points of a plan have the names of their runs; runs of one system that have no mean are a
+    point each."""
     systems, wrong, first, counts = {}, [], None, {}
     for path in paths:
         try:
@@ -142,7 +144,15 @@ def read(paths, choice=(None, None)):
         try:
             of_several = [path for path in of_one if counts[path] > 1]
             remarks = [f'{path}: the last of its {counts[path]} runs' for path in of_several]
-            points.append(Point(of_one, choice, remarks))
+            points.append(Point(of_one, choice, remarks, _name(of_one) if is_plan else ''))
         except RecordingError as error:
-            wrong.append(str(error))
+            if is_plan and len(of_one) > 1:
+                points += [Point([path], choice, remarks, _name([path])) for path in of_one]
+            else:
+                wrong.append(str(error))
     return points, wrong
+
+
+def _name(paths):
+    """The names of these bags, without folder and ending."""
+    return ' '.join(os.path.splitext(os.path.basename(path))[0] for path in paths)

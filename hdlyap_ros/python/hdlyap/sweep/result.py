@@ -22,15 +22,17 @@ def write_all(paths, folder):
             wrong.append(str(error))
     for kind, of_kind in kinds.items():
         name = NAME if len(kinds) == 1 else f'{NAME}_{kind}'
-        wrong += write(of_kind, folder, name=name)
+        wrong += write(of_kind, folder, name=name, is_plan=True)
     return wrong
 
 
-def write(paths, folder=None, choice=(None, None), latex=None, paper=None, name=NAME):
+def write(
+    paths, folder=None, choice=(None, None), latex=None, paper=None, name=NAME, is_plan=False
+):
     """Prints the table of these bags, as text or for LaTeX (a style of plots.latex); writes files
     if a folder is given. choice: of fits, see data.fits.chosen; paper: see figures.page.PAPER.
     Returns a line for each bag that cannot be used."""
-    found, wrong = points.read(paths, choice)
+    found, wrong = points.read(paths, choice, is_plan)
     if not found:
         return wrong
     lines = '\n'.join(table.latex(found, latex) if latex else table.text(found))

@@ -13,7 +13,7 @@ from hdlyap.plots.latex import symbol, tabular, unit
 from .points import FITTED, NAN, QUANTITIES, varied
 from .points import unit as quantity_unit
 
-PACKING = 'packing'  # of a column that is no parameter
+PACKING, RUN = 'packing', 'run'  # columns that are no parameters
 
 CHANCE = 0.02  # probability that a table says of some value that seeds differ although they agree
 
@@ -63,7 +63,7 @@ def text(points):
             for name, value in point.values.items()
         ]
         yield from _table([*names, *head], rows)
-        yield from _scattered(points, [name for name in names if name != PACKING])
+        yield from _scattered(points, [name for name in names if name not in (PACKING, RUN)])
 
 
 def latex(points, style):
@@ -98,8 +98,9 @@ def _unit(name, info):
 
 
 def _columns(points):
-    """varied(points), with the packing fraction after the density."""
+    """varied(points), with the names of runs first and the packing fraction after the density."""
     names, fixed = varied(points)
+    names = [RUN, *names] if any(point.run for point in points) else names
     packing = {_packing(point) for point in points}
     if 0 in packing:  # particles without a size
         return names, fixed
@@ -113,7 +114,7 @@ def _columns(points):
 
 def _packing(point):
     found = getattr(point.data.info, 'packing_fraction', 0)
-    return found if found > 0 else 0
+    return found if found > 0 and 'density' in point.system else 0
 
 
 def _cells(points, names, cell):
@@ -155,10 +156,13 @@ def _plain(value):
 
 
 def _of_system(point, names):
-    return [
-        f'{_packing(point):.4g}' if name == PACKING else _plain(point.system[name])
-        for name in names
-    ]
+    return [_part(point, name) for name in names]
+
+
+def _part(point, name):
+    if name == RUN:
+        return point.run
+    return f'{_packing(point):.4g}' if name == PACKING else _plain(point.system[name])
 
 
 def _cell(point, name, marks):

@@ -9,7 +9,7 @@ ORDER = 2
 
 SETTLED = 0.1  # part of the averaged time before which the course may leave the panel
 MARGIN = 0.15  # around the later course, over its height
-UNKNOWN = 'none is known yet; average longer (hdlyap launch says at its start from when on)'
+UNKNOWN = 'none is known yet; average longer (hdlyap_node --check SCENE says how long)'
 
 
 @page.figure
