@@ -67,7 +67,7 @@ def arrays(run):
 
 class Heard(harness.Case):
     def node(self, messages):
-        node = Node(messages)
+        node = Node([made.as_sent(message) for message in messages])
         self.addCleanup(node.close)
         return node
 
