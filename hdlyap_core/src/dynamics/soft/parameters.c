@@ -124,10 +124,12 @@ static double fastest(const hd_scene_def *scene)
     return sqrt(most);
 }
 
-/** At most what leaves a run twice as far from its end by HD_ENERGY_LOST_FROM as from what is asked. */
+/** At most what leaves a run twice as far from its end by HD_ENERGY_LOST_FROM as from what is
+ * asked. */
 static double accuracy(const hd_scene_def *scene)
 {
-    return fmin(fmax(scene->accuracy, hd_soft_potential(scene)->least), 0.5 * HD_ENERGY_LOST_FROM / ASKED);
+    return fmin(fmax(scene->accuracy, hd_soft_potential(scene)->least),
+                0.5 * HD_ENERGY_LOST_FROM / ASKED);
 }
 
 double hd_soft_energy_asked(const hd_scene_def *scene) { return ASKED * accuracy(scene); }
