@@ -141,8 +141,8 @@ static void plain_loop(const hd_scene_def *scene, double exponent[ROWS])
     for (int a = 0; a < ROWS; a++) exponent[a] /= until * EACH * PACE;
 }
 
-/** Of the same trajectory. Differences of neighbours are off by their distance, and some 10 times
- * it by curvature, each time; the two that vanish part from each other as slowly as 1 / T. */
+/** Of the same trajectory. Differences of neighbours are off by their distance, and some tens of
+ * times it by curvature, each time; the two that vanish part from each other as slowly as 1 / T. */
 TEST(exponents_are_those_of_a_plain_loop)
 {
     const hd_scene_def scene = scene_from(ring_of(&of_ring, 1000.0), .warmup = 600.0);
