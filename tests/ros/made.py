@@ -166,7 +166,7 @@ def spectrum(
         collisions=1000,
         lambda_max=exponents[0],
         pairing_error=pairing_error,
-        exponent_sum=sum(exponents),
+        exponent_sum=math.nan if math.isnan(divergence) else sum(exponents),
         exponent_sum_error=error,
         divergence=divergence,
         lambda_max_error=error,

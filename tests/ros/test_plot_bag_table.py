@@ -65,8 +65,10 @@ class Table(Bags):
 
     def test_divergence(self):
         """Beside the sum of all exponents, where the dynamics tells it; no pairs are spoken of."""
-        dissipative = made.spectrum([0.5, 0.0, -0.75], 50.0, divergence=-0.2501)
-        _, text = self.lines(INFO, dissipative)
+        info = made.run_info(number=1, zero_exponents=1)
+        dissipative = made.spectrum([0.5, 0.001, -0.3, -0.451], 50.0, divergence=-0.2501)
+        _, text = self.lines(info, dissipative)
+        self.assertRegex(text, r'the exponent before the zero modes .*\n.*\n +1 +0\.5')
         self.assertIn('sum of all      -0.250000 +- 0.010000\nmean divergence -0.250100\n', text)
         self.assertNotIn('pairing', text)
         self.assertNotIn('divergence', self.lines(INFO, made.spectrum(HALF, 50.0))[1])
