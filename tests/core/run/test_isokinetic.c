@@ -54,6 +54,23 @@ TEST(a_wrong_divergence_is_found)
     assert_true(strstr(message, "divergence: must be the logarithm of the volume that maps carry"));
 }
 
+static void forgetful(void *state, hd_archive *file)
+{
+    const double diverged = ring_diverged(state);
+    ring_archive(state, file);
+    ((driven *)state)->x.diverged = diverged;
+}
+
+TEST(a_forgotten_divergence_is_found)
+{
+    char message[256] = "";
+    hd_dynamics row = of_ring;
+    row.archive = forgetful;
+    const hd_scene_def scene = ring_of(&row, 1.0);
+    assert_int_equal(hd_dynamics_test(&row, &scene, message, sizeof message), HD_REFUSED);
+    assert_true(strstr(message, "differ in totals, divergence or fingerprint"));
+}
+
 /** What is asked for holds; without it, all. */
 TEST(all_exponents_are_computed_by_default)
 {
