@@ -155,7 +155,9 @@ def spheres(**fields):
     return run_info(**{**solid, **fields})
 
 
-def spectrum(exponents, averaged_time, run_id='one', error=0.01, pairing_error=-1.0):
+def spectrum(
+    exponents, averaged_time, run_id='one', error=0.01, pairing_error=-1.0, divergence=math.nan
+):
     n = len(exponents)
     return Spectrum(
         run_id=run_id,
@@ -164,6 +166,9 @@ def spectrum(exponents, averaged_time, run_id='one', error=0.01, pairing_error=-
         collisions=1000,
         lambda_max=exponents[0],
         pairing_error=pairing_error,
+        exponent_sum=math.nan if math.isnan(divergence) else sum(exponents),
+        exponent_sum_error=error,
+        divergence=divergence,
         lambda_max_error=error,
         ks_entropy=sum(e for e in exponents if e > 0),
         ks_entropy_error=error * n if error >= 0 else -1.0,

@@ -1,10 +1,11 @@
 /** A node of particles that the core does not know: a chain by hand; the same chain that loses its
- * energy, as a row may say without having a time step, or has no name; and rows of long names that
- * share parameters of their own. */
+ * energy, as a row may say without having a time step, or has no name; a ring whose maps are not
+ * symplectic; and rows of long names that share parameters of their own. */
 #include <hdlyap_ros/main.h>
 #include <string.h>
 
 #include "../core/support/chain_by_hand.h"
+#include "../core/support/isokinetic.h"
 
 /** Time after which the energy is lost. */
 static const double LOST = 20.0;
@@ -24,7 +25,7 @@ int main(int argc, char **argv)
         "chains_of_a_name_of_31_letters5"};
     hd_dynamics lossy = of_chain, sharing[SHARING];
     hd_parameter shared[PARAMETERS];
-    const hd_dynamics *rows[2 + SHARING] = {&of_chain, &lossy};
+    const hd_dynamics *rows[3 + SHARING] = {&of_chain, &lossy, &of_ring};
     lossy.particles = getenv("HDLYAP_NAMELESS") ? NULL : "lossy_chain";
     lossy.advance = advance_and_lose;
     memcpy(shared, parameters, sizeof shared);
@@ -32,7 +33,7 @@ int main(int argc, char **argv)
         sharing[k] = of_chain;
         sharing[k].particles = names[k];
         sharing[k].parameter = shared;
-        rows[2 + k] = &sharing[k];
+        rows[3 + k] = &sharing[k];
     }
-    return hdlyap_node_main(argc, argv, rows, 2 + SHARING);
+    return hdlyap_node_main(argc, argv, rows, 3 + SHARING);
 }

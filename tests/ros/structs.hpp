@@ -30,7 +30,7 @@ SAYS(hd_velocity, M(phases), M(k_min), M(k_max), M(v), M(v_error), M(v_sampling_
 SAYS(hd_phase, M(step), M(modulation), M(col), M(state), M(a), M(b), M(phase), M(omega), M(omega_error), M(time))
 SAYS(hd_hydro_response, M(step), M(col), M(modulation), M(density), M(along), M(across), M(energy), M(across_second))
 SAYS(hd_angle_of_spaces, M(last), M(mean), M(std_error), M(least), M(mean_of_all), M(smallest), M(all))
-SAYS(hd_spectrum_sums, M(local_time), M(ks_entropy_error))
+SAYS(hd_spectrum_sums, M(local_time), M(ks_entropy_error), M(exponent_sum_error))
 SAYS(hd_covariant_results, M(windows), M(lost), M(window_end), M(null), M(null_most), M(splitting.samples),
      M(start_mismatch.centre), M(start_mismatch.stable))
 SAYS(hd_subspace, M(kind), M(wave.n), M(wave.number), M(dimension), M(column))

@@ -66,11 +66,11 @@ class Own(harness.Case):
         names = ' and '.join(f'chains_of_a_name_of_31_letters{k}' for k in range(1, 6))
         self.assertEqual(said.count(f'# For {names} only.'), 3)
 
-    def tested(self, *arguments, **environment):
+    def tested(self, *arguments, keep=tuple(SCENE), **environment):
         """--test-dynamics of a scene: its exit status, and what it says."""
         scene = os.path.join(self.new_folder(), 'scene.yaml')
         with open(scene, 'w') as file:
-            yaml.safe_dump(SCENE, file)
+            yaml.safe_dump({name: SCENE[name] for name in keep}, file)
         done = subprocess.run(
             [NODE, '--test-dynamics', scene, *arguments],
             capture_output=True,
@@ -86,6 +86,25 @@ class Own(harness.Case):
         self.assertEqual(status, 2)
         self.assertRegex(said, '^advance: the energy is not conserved')
         self.assertEqual(self.tested('beta:=-1'), (2, 'beta = -1: must be from 0 to 1000\n'))
+
+    def test_maps_that_are_not_symplectic(self):
+        """All exponents by default, which all say; half of them is refused, as no pairs give it."""
+        ring = dict(particles='ring', number=4, equilibration=1.0, warmup=10.0, duration=20.0)
+        listener = self.listen('run_info')
+        spectra = self.listen('spectrum')
+        node = self.start(
+            dict(ring, observables=['spectrum'], wait_for_subscribers=['run_info', 'spectrum']),
+            command=[NODE],
+        )
+        info, last = listener.all_of(node)[-1], spectra.all_of(node)[-1]
+        self.ends(node)
+        self.assertEqual({p.name: p.value for p in info.parameters}['exponents'], 'all')
+        self.assertEqual(len(last.exponents), 8)
+        self.assertAlmostEqual(last.exponent_sum, last.divergence, delta=1e-5)
+        self.assertEqual(last.pairing_error, -1.0)
+        status, said = self.tested('particles:=ring', 'number:=4', 'exponents:=positive', keep=())
+        self.assertEqual(status, 2)
+        self.assertRegex(said, '^exponents = positive: must be all, .* not in pairs')
 
     def test_row_without_a_name(self):
         status, said = self.tested(HDLYAP_NAMELESS='1')

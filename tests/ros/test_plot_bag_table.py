@@ -63,6 +63,16 @@ class Table(Bags):
         text = self.lines(INFO, whole, made.steps(found), *others)[1]
         golden.check(self, 'steps.txt', text + '\n')
 
+    def test_divergence(self):
+        """Beside the sum of all exponents, where the dynamics tells it; no pairs are spoken of."""
+        info = made.run_info(number=1, zero_exponents=1)
+        dissipative = made.spectrum([0.5, 0.001, -0.3, -0.451], 50.0, divergence=-0.2501)
+        _, text = self.lines(info, dissipative)
+        self.assertRegex(text, r'the exponent before the zero modes .*\n.*\n +1 +0\.5')
+        self.assertIn('sum of all      -0.250000 +- 0.010000\nmean divergence -0.250100\n', text)
+        self.assertNotIn('pairing', text)
+        self.assertNotIn('divergence', self.lines(INFO, made.spectrum(HALF, 50.0))[1])
+
     def test_what_is_not_known(self):
         """Errors, zero modes, partners, points of fits: it is said, or nothing is."""
         high = made.step(INFO, LP, 1, 0, 32, 35, std_error=-1.0)

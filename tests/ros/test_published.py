@@ -335,6 +335,7 @@ BALLS.update(observables=['spectrum', 'gas', 'state'], duration=300.0, report_in
 CHAIN = dict(SHORT, particles='chain', number=8, duration=6000.0, beta=2.0)
 CHAIN.update(report_interval=2000.0, fluctuation_time=40.0, observables=WAVELESS)
 CHAIN.update(covariant_window=1500.0, covariant_transient=20.0, covariant_sampling=100.0)
+RING = dict(SHORT, particles='ring', number=4, exponents='all', observables=['spectrum'])
 ALONE = dict(SHORT, number=20, exponents='none', observables=['gas', 'state'], duration=5.0)
 FEW = dict(
     SHORT, number=30, aspect=0.1, exponents=3, observables=['spectrum', 'steps', 'covariant']
@@ -361,6 +362,7 @@ def scenes(folder):
         ('soft_spheres', BALLS, {}),
         ('chain', chain, own),
         ('resumed', resumed, dict(own, before=CHAIN)),
+        ('ring', RING, own),  # not symplectic
         ('few', FEW, {}),
         ('alone', ALONE, {}),  # no vectors
     ]

@@ -41,7 +41,12 @@ typedef struct hd_covariant_mismatch {
 /** Results of all windows so far. Arrays belong to the run; their contents change when it goes on,
  * and they last until it is freed. */
 typedef struct hd_covariant_results {
-    int vectors;       /**< number n of vectors */
+    int vectors; /**< number n of vectors */
+    /** Numbers of vectors with positive and with vanishing exponents; the others are stable. Theory
+     * says them if maps are symplectic; else they are counted by value at the end of each window,
+     * and by error if the row has no zero_exponents. Both are 0 while they are not known, and if
+     * these spaces are not measured. */
+    int unstable, centre;
     long windows;      /**< number of complete windows that the averages contain */
     long lost;         /**< number of windows that were left out because they did not fit into
                           covariant_memory */

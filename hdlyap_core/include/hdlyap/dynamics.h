@@ -104,7 +104,8 @@ struct hd_dynamics {
     size_t entry; /**< bytes of an entry of the record, which consists of doubles; the first one is
                      the time of the entry */
     /** True if tangent maps are symplectic: exponents then come in pairs of opposite sign, and half
-     * of the vectors give all of them [T18]. If false, exponents = all carries all vectors. */
+     * of the vectors give all of them [T18]. If false, exponents = all, which is then the default,
+     * carries all vectors, and positive exponents are counted by value. */
     bool symplectic;
     /** True if no growing tangent vector ever comes to dq = 0, as with hard particles, whose
      * collisions only disperse. The frame may then be orthonormalised by its dq parts alone, which
@@ -131,7 +132,8 @@ struct hd_dynamics {
      * Returns HD_OK, or HD_REFUSED with one line in message[size] unless `message` is NULL: the
      * parameter, its value, what is allowed. May be left out. */
     hd_status (*check)(const hd_scene_def *scene, char *message, size_t size);
-    /** Number of exponents that vanish, even if maps are symplectic. If left out, none does. Which
+    /** Number of exponents that vanish, even if maps are symplectic. If left out, none does; or, if
+     * maps are not symplectic, covariant vectors count them by their errors. Which
      * exponents are positive follows from it: `exponents = positive` would ask for wrong ones,
      * targets and covariant vectors would mistake their spaces. */
     int (*zero_exponents)(const hd_scene_def *scene);
@@ -211,6 +213,11 @@ struct hd_dynamics {
     /** Writes all members of *totals but `expected`, from which the observable gas follows.
      * Integrals are needed only if the scene asks for HD_OBSERVE_GAS. May be left out. */
     void (*totals)(const void *state, hd_totals *totals);
+    /** Returns the integral of the divergence of the flow, the sum of the derivatives of each dq/dt
+     * by its q and of each dp/dt by its p, over the time from the start to now, or to the last
+     * whole time step. Its mean is the sum of all exponents: hd_run_divergence. It is part of what
+     * `archive` keeps. May be left out, as it is 0 for symplectic maps. */
+    double (*divergence)(const void *state);
     /** Writes all members of *examined; 0 where a member means nothing for these particles, as
      * energy_error where energy is not conserved. A run of particles that do not collide, or whose
      * row has `step` or `energy_asked`, ends with HD_ENERGY_LOST when energy_error is beyond 2 %.

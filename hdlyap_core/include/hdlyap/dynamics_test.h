@@ -19,6 +19,7 @@ HD_API_BEGIN
  * - Does a state that `archive` wrote, and read into a new one, go on to the same bits?
  * - Do tangent maps give the same in parts as in one go, and at each width?
  * - Are they symplectic, if the row says so?
+ * - Is `divergence` the growth of the volume that they carry?
  * - Do they carry vectors as nearby trajectories go? These start from numbers of the archive that
  * are changed a little.
  * - Are null vectors carried into the span of those of the later state?

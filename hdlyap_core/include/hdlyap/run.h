@@ -166,6 +166,10 @@ hd_columns hd_run_vectors_now(const hd_run *run);
 /** Writes, for each vector in the last sample: to cos_theta[n] the cosine of the angle between its
  * halves dp and dq, NaN if one of them is 0; to dp_dq_ratio[n] |dp| / |dq|, NaN if dq is 0. */
 void hd_run_dq_dp(const hd_run *run, double *cos_theta, double *dp_dq_ratio);
+/** Mean divergence of the flow over hd_spectrum_time, which is hd_spectrum_sums.exponent_sum but
+ * for errors of time steps [1/time unit]; NaN before the first sample, and if the row does not tell
+ * it (hd_dynamics.divergence). */
+double hd_run_divergence(const hd_run *run);
 
 /** Begins all averages again at the present time, and forgets what was measured before; the
  * duration counts from now. It does nothing unless the run is averaging. Fails as hd_run_advance

@@ -126,8 +126,8 @@ typedef struct hd_scene_def {
 /** Returns the scene with all defaults: 780 disks in a periodic box, density 0.8, aspect 0.867. */
 hd_scene_def hd_scene_def_default(void);
 /** Returns the default scene for a dynamics, of the core or of the program's own, with the defaults
- * of its parameters. What is wrong with a row is said by hd_scene_check, and by whatever makes a
- * run or a trajectory; see hd_dynamics_check. */
+ * of its parameters; exponents = all if maps are not symplectic. What is wrong with a row is said
+ * by hd_scene_check, and by whatever makes a run or a trajectory; see hd_dynamics_check. */
 hd_scene_def hd_scene_def_of(const hd_dynamics *dynamics);
 
 /** Returns HD_OK if the scene can be run; otherwise HD_REFUSED with one line in message[size],
@@ -185,7 +185,8 @@ double hd_scene_warmup(const hd_scene_def *def);
 typedef struct hd_counts {
     int zero; /**< exponents that vanish (hd_dynamics.zero_exponents): for particles of the core 2,
                  and 2 for each periodic direction; 4 in a circle */
-    int positive; /**< positive exponents, half of those that do not vanish */
+    int positive; /**< positive exponents, half of those that do not vanish; fewer may be positive
+                     if maps are not symplectic */
     int vectors;  /**< exponents that are computed, each with a vector */
     int carried;  /**< vectors that are carried for them: half of these with HD_EXPONENTS_ALL and
                      symplectic maps [T18], otherwise all */

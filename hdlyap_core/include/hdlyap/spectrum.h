@@ -31,12 +31,18 @@ typedef struct hd_spectrum_sums {
     double local_time; /**< time over which hd_spectrum_local averages; 0 if no sample ended [time
                           units] */
     double ks_entropy; /**< Kolmogorov-Sinai entropy: sum of the exponents that are computed in
-                          front of those that vanish, by their number [1/time unit] */
+                          front of those that vanish, by their number; of those above 0 if they are
+                          not in pairs of opposite sign [1/time unit] */
     double ks_entropy_error; /**< standard error of ks_entropy; negative while it is not known */
     /** Largest |lambda_l + lambda_m| of two conjugate exponents, whose sum vanishes in theory
-     * [1/time unit]; negative unless all exponents are computed. 0 by construction if half of them
-     * follow from the others [T18]. */
+     * [1/time unit]; negative unless all exponents are computed, and if they are not in pairs of
+     * opposite sign. 0 by construction if half of them follow from the others [T18]. */
     double pairing_error;
+    /** Sum of all exponents, which is the mean divergence of the flow (hd_run_divergence) [1/time
+     * unit]; NaN unless all are computed. */
+    double exponent_sum;
+    double
+        exponent_sum_error; /**< standard error of exponent_sum; negative while it is not known */
 } hd_spectrum_sums;
 /** Computes the sums. O(n blocks). */
 hd_spectrum_sums hd_spectrum_sum_up(const hd_spectrum *spectrum);

@@ -43,6 +43,10 @@ double hd_trajectory_time(const hd_trajectory *trajectory);
 /** What has added up from time 0 to now. */
 hd_totals hd_trajectory_totals(const hd_trajectory *trajectory);
 
+/** Integral over time of the divergence of the flow, from time 0 to now (hd_dynamics.divergence);
+ * NaN if the row does not tell it. */
+double hd_trajectory_divergence(const hd_trajectory *trajectory);
+
 /** Writes the present positions, inside the box, to q, and the momenta to p, both
  * [particle][coordinates]. Either may be NULL. O(N). */
 void hd_trajectory_state(const hd_trajectory *trajectory, double *q, double *p);

@@ -10,6 +10,9 @@
 #include "base/check.h"
 #include "base/memory.h"
 
+/** An exponent that is less than so many of its errors is taken as 0. */
+static const double VANISHES = 4.0;
+
 struct hd_spectrum {
     int rows, vectors;
     int positive;       /**< number of vectors with positive exponents, by theory */
@@ -196,7 +199,7 @@ static double ks_entropy_error(const hd_spectrum *spectrum)
 
 static double pairing_error(const hd_spectrum *spectrum)
 {
-    if (spectrum->vectors < spectrum->rows) return -1.0;
+    if (spectrum->vectors < spectrum->rows || spectrum->by_sign) return -1.0;
     double worst = 0.0;
     for (int col = 0; col < spectrum->rows / 2; col++)
         worst = fmax(worst, fabs(hd_spectrum_exponent(spectrum, col) +
@@ -204,12 +207,72 @@ static double pairing_error(const hd_spectrum *spectrum)
     return worst;
 }
 
+/** Sum of all exponents in *sum; returns its error. Zero modes in the place of others do not change
+ * it. */
+static double exponent_sum(const hd_spectrum *spectrum, double *sum)
+{
+    *sum = NAN;
+    if (spectrum->vectors < spectrum->rows || spectrum->time == 0) return -1.0;
+    *sum = 0.0;
+    for (int col = 0; col < spectrum->vectors; col++) {
+        *sum += hd_spectrum_exponent(spectrum, col);
+        spectrum->parts[col] = (hd_part){col, 1.0};
+    }
+    return hd_blocks_error(&spectrum->blocks, spectrum->parts, spectrum->vectors);
+}
+
 hd_spectrum_sums hd_spectrum_sum_up(const hd_spectrum *spectrum)
 {
+    double sum;
+    const double error = exponent_sum(spectrum, &sum);
     return (hd_spectrum_sums){.local_time = spectrum->local_time,
                               .ks_entropy = ks_entropy(spectrum),
                               .ks_entropy_error = ks_entropy_error(spectrum),
-                              .pairing_error = pairing_error(spectrum)};
+                              .pairing_error = pairing_error(spectrum),
+                              .exponent_sum = sum,
+                              .exponent_sum_error = error};
+}
+
+/* ---- by sign ------------------------------------------------------------------------------- */
+
+/** Signs of which `zero` neighbours in the order vanish: those whose sizes add up to least. */
+static hd_signs signs_around(const hd_spectrum *spectrum, int zero)
+{
+    const int n = spectrum->vectors;
+    double size = 0.0, least = INFINITY;
+    hd_signs signs = {.positive = 0};
+    for (int col = 0; col < n && zero == 0; col++)
+        signs.positive += hd_spectrum_exponent(spectrum, col) > 0;
+    if (zero == 0 || zero >= n) return signs;
+    for (int col = 0; col < n; col++) {
+        size += fabs(hd_spectrum_exponent(spectrum, col));
+        if (col >= zero) size -= fabs(hd_spectrum_exponent(spectrum, col - zero));
+        if (col < zero - 1 || !(size < least)) continue;
+        least = size;
+        signs = (hd_signs){.positive = col + 1 - zero, .zero = zero};
+    }
+    return signs;
+}
+
+/** Signs of which those vanish that are less than so many of their errors. */
+static hd_signs signs_beyond(const hd_spectrum *spectrum, double errors)
+{
+    const hd_signs unknown = {.positive = 0};
+    hd_signs signs = unknown;
+    for (int col = 0; col < spectrum->vectors; col++) {
+        const double error = hd_spectrum_std_error(spectrum, col),
+                     exponent = hd_spectrum_exponent(spectrum, col);
+        if (!(error >= 0)) return unknown;
+        signs.zero += fabs(exponent) <= errors * error;
+        signs.positive += exponent > errors * error;
+    }
+    return signs;
+}
+
+hd_signs hd_spectrum_signs(const hd_spectrum *spectrum, int zero)
+{
+    if (spectrum->time == 0) return (hd_signs){.positive = 0};
+    return zero >= 0 ? signs_around(spectrum, zero) : signs_beyond(spectrum, VANISHES);
 }
 
 void hd_spectrum_archive(hd_spectrum *spectrum, hd_archive *archive)

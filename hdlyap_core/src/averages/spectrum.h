@@ -42,6 +42,15 @@ double hd_spectrum_error_of_sum(const hd_spectrum *spectrum, const hd_part *part
 double hd_spectrum_largest_error(const hd_spectrum *spectrum, int begin, int end);
 void hd_spectrum_local_restart(hd_spectrum *spectrum);
 
+/** Numbers of vectors with positive and with vanishing exponents; all others are negative. */
+typedef struct hd_signs {
+    int positive, zero;
+} hd_signs;
+/** Counts them by value. zero: how many vanish, where theory says so; negative: by their errors.
+ * None of either while that is not known, or if not more than those that vanish are computed. O(n),
+ * with errors O(n blocks). */
+hd_signs hd_spectrum_signs(const hd_spectrum *spectrum, int zero);
+
 void hd_spectrum_archive(hd_spectrum *spectrum, hd_archive *archive);
 double hd_spectrum_bytes(double vectors);
 

@@ -37,6 +37,10 @@ typedef enum way { FORWARD, THROUGH_TRANSIENT, THROUGH_WINDOW } way;
 struct hd_covariant {
     hd_scene_def scene;
     int rows, vectors, carried, threads, unstable, centre;
+    int centre_most; /**< largest centre for which there is room */
+    /** By whose exponents unstable vectors and those of the centre are counted; NULL: theory says
+     * how many there are. */
+    const hd_spectrum *counting;
     hd_history *past;
     hd_backward_pair
         *starts; /**< two starts through the transient, the first one through the window */
@@ -81,7 +85,8 @@ static hd_modes *weights_of(const hd_covariant *c, int k)
 
 static hd_status allocate_arrays(hd_covariant *c)
 {
-    const size_t n = (size_t)c->vectors, rows = (size_t)c->rows, centres = 2 * (size_t)c->centre;
+    const size_t n = (size_t)c->vectors, rows = (size_t)c->rows,
+                 centres = 2 * (c->counting ? n : (size_t)c->centre);
     const size_t half = c->carried < c->vectors ? (size_t)c->carried : 0;
     const struct {
         double **array;
@@ -104,12 +109,12 @@ static hd_status allocate_arrays(hd_covariant *c)
 static hd_status allocate_spaces(hd_covariant *c)
 {
     const int stable = c->vectors - c->unstable - c->centre;
-    const int widest = stable > c->centre ? stable : c->centre;
-    if (c->centre == 0) return HD_OK;
+    const int widest = c->counting ? c->vectors : stable > c->centre ? stable : c->centre;
+    if (c->centre_most == 0) return HD_OK;
     HD_TRY(hd_angles_create(&c->spaces, c->vectors, widest));
-    HD_TRY(hd_angles_create(&c->null, c->rows, c->centre));
-    c->null_columns = hd_memory_alloc((2 * (size_t)c->centre + HD_NULL_SPARE) * (size_t)c->rows,
-                                      sizeof(double));
+    HD_TRY(hd_angles_create(&c->null, c->rows, c->centre_most));
+    c->null_columns = hd_memory_alloc(
+        (2 * (size_t)c->centre_most + HD_NULL_SPARE) * (size_t)c->rows, sizeof(double));
     return c->null_columns ? HD_OK : HD_NO_MEMORY;
 }
 
@@ -122,15 +127,34 @@ static hd_status allocate(hd_covariant *c)
     for (int k = 0; k < WEIGHTS && hd_scene_dimension(&c->scene) > 0; k++)
         HD_TRY(hd_modes_create(weights[k], &c->scene, c->vectors, c->threads));
     HD_TRY(hd_spectrum_create(&c->spectrum, c->rows, c->vectors,
-                              hd_scene_positive_exponents(&c->scene),
+                              c->counting ? c->rows : hd_scene_positive_exponents(&c->scene),
                               hd_scene_sound_crossing(&c->scene)));
-    HD_TRY(hd_splitting_create(&c->splitting, c->vectors, c->unstable, c->centre));
+    HD_TRY(
+        hd_splitting_create(&c->splitting, c->vectors, c->counting ? 0 : c->unstable, c->centre));
     HD_TRY(hd_doubling_create(&c->grown, (hd_doubling_def){.vectors = c->vectors}));
     return hd_localization_create(&c->shape, c->scene.number, hd_scene_coordinates(&c->scene),
                                   c->vectors, c->threads);
 }
 
-hd_status hd_covariant_create(hd_covariant **out, const hd_scene_def *def, int threads)
+/** Number of exponents that vanish, as the row says; negative: it does not say. */
+static int said_zeros(const hd_covariant *c)
+{
+    return hd_dynamics_of(&c->scene)->zero_exponents ? hd_scene_zero_exponents(&c->scene) : -1;
+}
+
+/** The spaces are not known yet. */
+static void prepare_counting(hd_covariant *c, const hd_spectrum *spectrum)
+{
+    const int zeros = said_zeros(c);
+    HD_ASSERT(spectrum);
+    c->counting = spectrum;
+    c->centre_most = zeros >= 0 && zeros < c->vectors ? zeros : c->vectors;
+    c->centre = 0;
+    c->unstable = c->vectors;
+}
+
+hd_status hd_covariant_create(hd_covariant **out, const hd_scene_def *def,
+                              const hd_spectrum *spectrum, int threads)
 {
     const int positive = hd_scene_positive_exponents(def), zero = hd_scene_zero_exponents(def);
     *out = NULL;
@@ -141,9 +165,10 @@ hd_status hd_covariant_create(hd_covariant **out, const hd_scene_def *def, int t
     c->rows = 2 * hd_scene_coordinates(def) * def->number;
     c->vectors = hd_scene_vectors(def);
     c->carried = hd_scene_carried(def);
-    c->centre = c->vectors >= positive + zero ? zero : 0;
+    c->centre = c->centre_most = c->vectors >= positive + zero ? zero : 0;
     c->unstable = c->centre > 0 ? positive
                                 : c->vectors; /* part of a centre is not measured as a space */
+    if (!hd_dynamics_of(def)->symplectic) prepare_counting(c, spectrum);
     const hd_status status = allocate(c);
     if (status == HD_OK)
         hd_covariant_clear(*out = c, 0.0);
@@ -238,8 +263,25 @@ static bool is_complete(const hd_covariant *c)
     return last < hd_history_end(c->past) && c->now >= hd_history_time(c->past, last) + least;
 }
 
+/** Counts unstable vectors and those of the centre. What was measured of other spaces is dropped.
+ */
+static void count_spaces(hd_covariant *c)
+{
+    const hd_signs signs = hd_spectrum_signs(c->counting, said_zeros(c));
+    const bool known = signs.positive > 0 && signs.zero > 0 &&
+                       signs.positive + signs.zero < c->vectors;
+    const int unstable = known ? signs.positive : c->vectors, centre = known ? signs.zero : 0;
+    if (unstable == c->unstable && centre == c->centre) return;
+    c->unstable = unstable;
+    c->centre = centre;
+    hd_splitting_divide(c->splitting, unstable, centre);
+    c->null_apart = c->null_apart_most = -1.0;
+    c->spaces_apart.centre = c->spaces_apart.stable = -1.0;
+}
+
 static void begin_way_back(hd_covariant *c)
 {
+    if (c->counting) count_spaces(c);
     hd_backward_pair_begin(c->starts, c->scene.seed, c->streams);
     c->streams += 2;
     c->at = hd_history_end(c->past) - 1;
@@ -441,6 +483,8 @@ double hd_covariant_bytes(const hd_covariant *c) { return c->bytes; }
 hd_covariant_results hd_covariant_read(const hd_covariant *c)
 {
     hd_covariant_results r = {.vectors = c->vectors,
+                              .unstable = c->centre > 0 ? c->unstable : 0,
+                              .centre = c->centre,
                               .windows = c->windows,
                               .lost = c->lost,
                               .window_end = c->ended,
@@ -459,6 +503,14 @@ hd_covariant_results hd_covariant_read(const hd_covariant *c)
     return r;
 }
 
+/** Reads or writes which spaces the averages are of. */
+static void archive_counts(hd_covariant *c, hd_archive *archive)
+{
+    hd_archive_int(archive, "covariant unstable", &c->unstable, 1, c->vectors);
+    hd_archive_int(archive, "covariant centre", &c->centre, 0, c->vectors - c->unstable);
+    if (!archive->writing) hd_splitting_divide(c->splitting, c->unstable, c->centre);
+}
+
 /** Reads or writes the averages; the window under way is lost. */
 void hd_covariant_archive(hd_covariant *c, hd_archive *archive)
 {
@@ -472,6 +524,7 @@ void hd_covariant_archive(hd_covariant *c, hd_archive *archive)
     for (size_t k = 0; k < sizeof numbers / sizeof *numbers; k++)
         hd_archive_next_doubles(archive, numbers[k], 1);
     hd_archive_doubles(archive, "covariant apart", c->apart, (size_t)c->vectors);
+    if (c->counting) archive_counts(c, archive);
     hd_spectrum_archive(c->spectrum, archive);
     hd_splitting_archive(c->splitting, archive);
     hd_doubling_archive(c->grown, archive);

@@ -7,8 +7,10 @@
 #include "hdlyap/trajectory.h"
 #include "tangent/ortho.h"
 
+/** Makes it, without windows. spectrum: the averages of the run, by which spaces are counted if
+ * maps are not symplectic; else not read. HD_NO_MEMORY. */
 HD_MUST_CHECK hd_status hd_covariant_create(hd_covariant **out, const hd_scene_def *def,
-                                            int threads);
+                                            const hd_spectrum *spectrum, int threads);
 void hd_covariant_free(hd_covariant *covariant);
 
 /** Empties all averages; the first window does not begin before the time `now`. */

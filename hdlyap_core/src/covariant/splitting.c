@@ -26,34 +26,43 @@ struct hd_splitting {
 
 static const int PAIR[HD_PAIRS_OF_SPACES][2] = {{0, 2}, {0, 1}, {1, 2}};
 
-static hd_status allocate(hd_splitting *s)
+static hd_status allocate(hd_splitting *s, int widest)
 {
     const size_t n = (size_t)s->vectors;
     double **array[] = {&s->found, &s->mean, &s->least};
     for (size_t k = 0; k < sizeof array / sizeof *array; k++)
         if (!(*array[k] = hd_memory_alloc(n, sizeof(double)))) return HD_NO_MEMORY;
     HD_TRY(hd_blocks_create(&s->blocks, HD_PAIRS_OF_SPACES, 0.0));
-    if (s->space[2].count == 0) return HD_OK;
-    const int widest = s->space[0].count > s->space[2].count ? s->space[0].count
-                                                             : s->space[2].count;
-    return hd_angles_create(&s->angles, s->vectors,
-                            widest > s->space[1].count ? widest : s->space[1].count);
+    return widest == 0 ? HD_OK : hd_angles_create(&s->angles, s->vectors, widest);
+}
+
+/** Dimension of the largest space. */
+static int widest_of(const hd_splitting *s)
+{
+    int widest = 0;
+    for (int k = 0; k < 3; k++)
+        if (s->space[k].count > widest) widest = s->space[k].count;
+    return widest;
+}
+
+static void set_spaces(hd_splitting *s, int unstable, int centre)
+{
+    const int stable = s->vectors - unstable - centre;
+    const bool are = unstable > 0 && stable > 0;
+    s->space[0] = (hd_span){0, are ? unstable : 0};
+    s->space[1] = (hd_span){unstable, are ? centre : 0};
+    s->space[2] = (hd_span){unstable + centre, are ? stable : 0};
 }
 
 hd_status hd_splitting_create(hd_splitting **out, int vectors, int unstable, int centre)
 {
-    HD_ASSERT(unstable >= 1 && centre >= 0);
+    HD_ASSERT(unstable >= 0 && centre >= 0);
     hd_splitting *s = hd_memory_alloc(1, sizeof *s);
-    const int stable = vectors - unstable - centre;
     *out = NULL;
     if (!s) return HD_NO_MEMORY;
     s->vectors = vectors;
-    if (stable > 0) {
-        s->space[0] = (hd_span){0, unstable};
-        s->space[1] = (hd_span){unstable, centre};
-        s->space[2] = (hd_span){unstable + centre, stable};
-    }
-    const hd_status status = allocate(s);
+    set_spaces(s, unstable, centre);
+    const hd_status status = allocate(s, unstable > 0 ? widest_of(s) : vectors);
     if (status == HD_OK) {
         hd_splitting_clear(s);
         *out = s;
@@ -84,6 +93,14 @@ void hd_splitting_clear(hd_splitting *s)
     memset(s->angle, 0, sizeof s->angle);
     for (int pair = 0; pair < HD_PAIRS_OF_SPACES; pair++) s->angle[pair].least = RIGHT_ANGLE;
     hd_blocks_restart(&s->blocks);
+}
+
+void hd_splitting_divide(hd_splitting *s, int unstable, int centre)
+{
+    const hd_span before[3] = {s->space[0], s->space[1], s->space[2]};
+    set_spaces(s, unstable, centre);
+    HD_ASSERT(widest_of(s) == 0 || s->angles);
+    if (memcmp(before, s->space, sizeof before) != 0) hd_splitting_clear(s);
 }
 
 /* ---- angles -------------------------------------------------------------------------------- */
@@ -135,7 +152,7 @@ hd_status hd_splitting_add(hd_splitting *s, const double *c)
     double sample[HD_PAIRS_OF_SPACES] = {0};
     s->samples++;
     add_neighbours(s, c);
-    if (!s->angles) return HD_OK;
+    if (widest_of(s) == 0) return HD_OK;
     for (int pair = 0; pair < HD_PAIRS_OF_SPACES; pair++) {
         const hd_span a = s->space[PAIR[pair][0]], b = s->space[PAIR[pair][1]];
         HD_TRY(a.first == 0 && a.count >= b.count
@@ -155,7 +172,7 @@ hd_status hd_splitting_add(hd_splitting *s, const double *c)
 hd_splitting_results hd_splitting_read(const hd_splitting *s)
 {
     return (hd_splitting_results){.samples = s->samples,
-                                  .has_spaces = s->angles != NULL,
+                                  .has_spaces = widest_of(s) > 0,
                                   .angle = s->angle,
                                   .neighbours = s->mean,
                                   .neighbours_least = s->least};

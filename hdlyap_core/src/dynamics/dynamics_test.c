@@ -120,6 +120,8 @@ static hd_status test_cuts_of_time(hd_trial *t, const hd_image *start)
 /** Whether both tell the same of themselves, to the bit. */
 static bool tell_same(const twins *two)
 {
+    const double far = hd_trajectory_divergence(two->tr[0]); /* NaN if it is not told */
+    if (!isnan(far) && far != hd_trajectory_divergence(two->tr[1])) return false;
     const hd_totals a = hd_trajectory_totals(two->tr[0]), b = hd_trajectory_totals(two->tr[1]);
     return memcmp(&a, &b, sizeof a) == 0 &&
            hd_trajectory_fingerprint(two->tr[0]) == hd_trajectory_fingerprint(two->tr[1]);
@@ -140,7 +142,7 @@ static hd_status compare_kept(hd_trial *t, const twins *two, double time)
     const char *what = late != 0              ? "time"
                        : !are_same(two, t)    ? "q and p"
                        : !record_same(two, t) ? "what is recorded"
-                       : !tell_same(two)      ? "totals or fingerprint"
+                       : !tell_same(two)      ? "totals, divergence or fingerprint"
                                               : NULL;
     if (!what) return HD_OK;
     return hd_refuse(t->message, t->size,

@@ -1,5 +1,6 @@
 /** Record -> whether tangent maps do what a row of dynamics says: in parts, symplectic, with null
- * vectors and exponents that vanish. Blocks are [rows][width], as hd_dynamics.carry takes them. */
+ * vectors, exponents that vanish and divergence. Blocks are [rows][width], as hd_dynamics.carry
+ * takes them. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -300,6 +301,10 @@ hd_status hd_maps_test_null(hd_trial *t, const hd_image *start)
 /** Units of time that exponents need, and components of vectors times entries that are allowed. */
 static const double UNITS = 100.0, UNITS_MOST = 400.0, WORK = 5e7;
 
+/** Part of the growth of all vectors together by which `divergence` may differ from that of their
+ * volume, as time steps are of some length. */
+static const double DIVERGENCE_CLOSE = 0.01;
+
 static int by_size(const void *a, const void *b)
 {
     const double x = fabs(*(const double *)a), y = fabs(*(const double *)b);
@@ -322,11 +327,28 @@ static hd_status add_growth(hd_trial *t, double *sum, double *block, hd_trajecto
     return HD_OK;
 }
 
+/** grown[rows]: growth of all vectors; told: that of the integral of the divergence, or NaN. */
+static hd_status judge_divergence(hd_trial *t, const double *grown, double told)
+{
+    double volume = 0.0, size = 0.0;
+    for (size_t k = 0; k < t->rows; k++) {
+        volume += grown[k];
+        size += fabs(grown[k]);
+    }
+    if (!t->of->divergence || fabs(told - volume) <= DIVERGENCE_CLOSE * size) return HD_OK;
+    return hd_refuse(t->message, t->size,
+                     "divergence: must be the logarithm of the volume that maps carry: it changes "
+                     "by %.6g, that by %.6g",
+                     told, volume);
+}
+
 /** exponent[rows], by size. A zero is below some ln t / t. */
 static hd_status judge_zeros(hd_trial *t, const double *exponent, double time)
 {
     const double small = (3.0 * log(time / t->unit) + 5.0) / time;
     const int zeros = hd_scene_zero_exponents(&t->scene), all = (int)t->rows;
+    if (!t->of->zero_exponents && !t->of->symplectic)
+        return HD_OK; /* their errors will count them */
     if (zeros > 0 && !(fabs(exponent[zeros - 1]) <= 3.0 * small))
         return hd_refuse(t->message, t->size,
                          "zero_exponents = %d: must be less: number %d by size is %.3g after %g "
@@ -349,7 +371,9 @@ static hd_status count_zeros(hd_trial *t, const hd_image *start, int units)
     double *sum = block_create(t, 1), *block = block_create(t, (size_t)width_for((int)t->rows));
     hd_status status = sum && block ? hd_record_create(&record, t->of->entry) : HD_NO_MEMORY;
     if (status == HD_OK) status = hd_trial_make(t, &tr, start);
+    const double before = status == HD_OK ? hd_trajectory_divergence(tr) : NAN;
     if (status == HD_OK) status = add_growth(t, sum, block, tr, record, units);
+    if (status == HD_OK) status = judge_divergence(t, sum, hd_trajectory_divergence(tr) - before);
     for (size_t k = 0; k < t->rows && status == HD_OK; k++) sum[k] /= units * t->unit;
     if (status == HD_OK) qsort(sum, t->rows, sizeof *sum, by_size);
     if (status == HD_OK) status = judge_zeros(t, sum, units * t->unit);

@@ -159,6 +159,11 @@ hd_totals hd_trajectory_totals(const hd_trajectory *tr)
     return totals;
 }
 
+double hd_trajectory_divergence(const hd_trajectory *tr)
+{
+    return tr->of->divergence ? tr->of->divergence(tr->state) : NAN;
+}
+
 double hd_trajectory_time(const hd_trajectory *tr) { return tr->of->time(tr->state); }
 int hd_trajectory_particles(const hd_trajectory *tr) { return tr->particles; }
 

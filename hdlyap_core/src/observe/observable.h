@@ -38,8 +38,9 @@ typedef struct hd_observing {
     int width; /**< number of vectors that each rank carries; the last rank may carry fewer */
     hd_communicator *communicator; /**< NULL: a single rank */
     double block;                  /**< shortest block of averages [time units] */
-    double sample;     /**< length to which samples grow; 0: all are alike [time units] */
-    hd_ortho *ortho;   /**< NULL without exponents */
+    double sample;               /**< length to which samples grow; 0: all are alike [time units] */
+    hd_ortho *ortho;             /**< NULL without exponents */
+    const hd_spectrum *spectrum; /**< averages up to now; NULL without exponents */
     void *const *part; /**< the observables of all rows, NULL for those not asked for; in `create`,
                           only those of earlier rows */
 } hd_observing;

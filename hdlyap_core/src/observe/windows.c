@@ -19,6 +19,10 @@
 /** A call that goes back begins no further step after this many wall seconds. */
 static const double BACK_SECONDS = 0.1;
 
+/** Matrices of n^2 numbers more if spaces are counted, and may be as large as all: of the angles of
+ * spaces, of those of two starts, and of these starts. */
+static const double COUNTED = 7.0;
+
 /** The observable. */
 struct hd_windows {
     hd_covariant *covariant;
@@ -138,20 +142,17 @@ static double covariant_bytes(const hd_scene_def *scene, int ranks)
                  vectors = 2.0 * hd_scene_coordinates(scene) * scene->number * n;
     const double factors = 2.0 * carried * carried, ways = (carried < n ? 8.25 : 5.0) * n * n;
     const double gathered = ranks > 1 ? vectors : 0.0;
+    const double counted = hd_dynamics_of(scene)->symplectic ? 0.0
+                                                             : COUNTED * n * n + 4.0 * vectors;
     const double weights = hd_scene_dimension(scene) > 0 ? 3.0 * hd_modes_bytes(scene, n) : 0.0;
-    return sizeof(double) * (factors + ways + vectors + gathered) + weights + hd_spectrum_bytes(n) +
-           hd_localization_bytes(n) + hd_doubling_bytes((hd_doubling_def){.vectors = (int)n});
+    return sizeof(double) * (factors + ways + vectors + gathered + counted) + weights +
+           hd_spectrum_bytes(n) + hd_localization_bytes(n) +
+           hd_doubling_bytes((hd_doubling_def){.vectors = (int)n});
 }
 
 static hd_status covariant_check(const hd_scene_def *scene, char *message, size_t size)
 {
     const double window = scene->covariant_window, transient = scene->covariant_transient;
-    const hd_dynamics *of = hd_dynamics_of(scene);
-    if (!of->symplectic)
-        return hd_refuse(message, size,
-                         "observables = covariant: must not be given with particles = %s, whose "
-                         "exponents are not in pairs of opposite sign",
-                         of->particles);
     if (hd_scene_positive_exponents(scene) < 1)
         return hd_refuse(
             message, size,
@@ -177,7 +178,9 @@ static hd_status covariant_check(const hd_scene_def *scene, char *message, size_
 
 static void covariant_extend(hd_result_counts *extent, const hd_scene_def *scene, const void *self)
 {
-    const int known = hd_scene_positive_exponents(scene) + hd_scene_zero_exponents(scene);
+    const int known = hd_dynamics_of(scene)->symplectic
+                          ? hd_scene_positive_exponents(scene) + hd_scene_zero_exponents(scene)
+                          : 0;
     (void)self;
     extent->subspaces = (int)hd_fields_count_of(scene).subspaces;
     if (extent->vectors > known) extent->angles = HD_PAIRS_OF_SPACES;
@@ -195,7 +198,7 @@ static hd_status prepare(hd_windows *windows, const hd_observing *with)
     windows->communicator = with->communicator;
     windows->due = true;
     windows->sampling = with->scene->covariant_sampling;
-    return hd_covariant_create(&windows->covariant, with->scene, with->threads);
+    return hd_covariant_create(&windows->covariant, with->scene, with->spectrum, with->threads);
 }
 
 static void covariant_free(void *self)

@@ -163,6 +163,7 @@ hd_status hd_carrier_create(hd_carrier *c, const hd_scene_def *scene, double col
                       .vectors = hd_scene_vectors(scene),
                       .carried = hd_scene_carried(scene),
                       .positive = hd_scene_positive_exponents(scene),
+                      .zero = hd_scene_zero_exponents(scene),
                       .threads = 1,
                       .accuracy = scene->accuracy,
                       .collision = collision,
@@ -273,6 +274,12 @@ static hd_status frame_piece(hd_carrier *c, const hd_carrying *how, double t_beg
     c->cost->ortho += hd_clock_now() - replayed;
     if (HD_VERIFIES && status == HD_OK) hd_verify_ortho(c->ortho, c->frame);
     return status;
+}
+
+double hd_carrier_divergence(const hd_carrier *c)
+{
+    const double time = c->spectrum ? hd_spectrum_time(c->spectrum) : 0.0;
+    return time > 0 ? (c->diverged[1] - c->diverged[0]) / time : NAN;
 }
 
 double hd_carrier_averaged(const hd_carrier *c)
@@ -406,15 +413,18 @@ hd_status hd_carrier_orthonormalise(hd_carrier *c, hd_carrying how)
     return how.measured ? complete_norm(c, how.averaging) : HD_OK;
 }
 
-hd_status hd_carrier_sample(hd_carrier *c, bool averaging)
+hd_status hd_carrier_sample(hd_carrier *c, bool averaging, double diverged)
 {
     HD_TRY(keep_dq_dp(c));
-    if (averaging) hd_spectrum_sample(c->spectrum);
+    if (!averaging) return HD_OK;
+    c->diverged[1] = diverged;
+    hd_spectrum_sample(c->spectrum);
     return HD_OK;
 }
 
-void hd_carrier_begin(hd_carrier *c, bool averaging, double age)
+void hd_carrier_begin(hd_carrier *c, bool averaging, double age, double diverged)
 {
+    if (averaging) c->diverged[0] = c->diverged[1] = diverged;
     if (averaging && c->spectrum) hd_spectrum_begin(c->spectrum, age);
     if (averaging) c->rounding.sum = HD_ROUNDING * c->rounding.condition_max;
     hd_carrier_save_accuracy(c, averaging);
@@ -440,9 +450,17 @@ void hd_carrier_dq_dp(const hd_carrier *c, double *cos_theta, double *dp_dq_rati
     }
 }
 
+/** Number of vectors with positive exponents: by theory, or by sign. */
+static int positive_of(const hd_carrier *c)
+{
+    if (c->of->symplectic || !c->spectrum)
+        return c->vectors < c->positive ? c->vectors : c->positive;
+    return hd_spectrum_signs(c->spectrum, c->zero).positive;
+}
+
 double hd_carrier_smallest_error(const hd_carrier *c)
 {
-    const int end = c->vectors < c->positive ? c->vectors : c->positive;
+    const int end = positive_of(c);
     const int begin = end > SMALLEST_EXPONENTS ? end - SMALLEST_EXPONENTS : 0;
     return c->spectrum ? hd_spectrum_largest_error(c->spectrum, begin, end) : INFINITY;
 }

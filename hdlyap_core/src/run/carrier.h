@@ -22,7 +22,7 @@ typedef struct hd_rounding {
 typedef struct hd_carrier {
     hd_communicator *communicator; /**< NULL: a single rank */
     const hd_dynamics *of;
-    int particles, vectors, carried, positive, threads, threads_denied;
+    int particles, vectors, carried, positive, zero, threads, threads_denied;
     /** The scene's accuracy [1/time unit]; mean time between two collisions of a particle. */
     double accuracy, collision;
     hd_record *record;
@@ -31,6 +31,8 @@ typedef struct hd_carrier {
     hd_conjugate *conjugate; /**< NULL where all vectors are carried */
     double *dq_dp; /**< [2 * vectors], what hd_run_dq_dp writes, of the last measured state */
     hd_spectrum *spectrum;
+    /** hd_trajectory_divergence where the averages begin, and at the last measured state. */
+    double diverged[2];
     hd_interval interval;
     hd_rounding rounding;
     bool whole; /**< true if the last orthonormalisation was in the full norm, not in that of dq
@@ -69,12 +71,13 @@ double hd_carrier_longest(const hd_scene_def *scene);
 /** Carries the frame through the whole record and orthonormalises it. Fails with HD_ILL_CONDITIONED
  * if no piece is short enough, with HD_NOT_FINITE if that is because `carry` gives no numbers. */
 HD_MUST_CHECK hd_status hd_carrier_orthonormalise(hd_carrier *carrier, hd_carrying how);
-/** Keeps the halves of this measured state, and ends the spectrum's sample. */
-HD_MUST_CHECK hd_status hd_carrier_sample(hd_carrier *carrier, bool averaging);
+/** Keeps the halves of this measured state, and ends the spectrum's sample. diverged:
+ * hd_trajectory_divergence now. */
+HD_MUST_CHECK hd_status hd_carrier_sample(hd_carrier *carrier, bool averaging, double diverged);
 
 /** A stage begins; if it is the averaging, averages start anew. age: time for which the vectors
- * have been carried. */
-void hd_carrier_begin(hd_carrier *carrier, bool averaging, double age);
+ * have been carried; diverged: hd_trajectory_divergence now. */
+void hd_carrier_begin(hd_carrier *carrier, bool averaging, double age, double diverged);
 /** Tells the interval control how much of the allowed numerical error the averaging has not used
  * yet. */
 void hd_carrier_save_accuracy(hd_carrier *carrier, bool averaging);
@@ -83,6 +86,8 @@ void hd_carrier_save_accuracy(hd_carrier *carrier, bool averaging);
 hd_columns hd_carrier_vectors(const hd_carrier *carrier);
 /** hd_frame_dq_dp of all n vectors at the last measured state; [n] each. */
 void hd_carrier_dq_dp(const hd_carrier *carrier, double *cos_theta, double *dp_dq_ratio);
+/** See hd_run_divergence. */
+double hd_carrier_divergence(const hd_carrier *carrier);
 /** Averaged time, with that of the present sample. */
 double hd_carrier_averaged(const hd_carrier *carrier);
 /** Largest standard error of the positive exponents nearest to zero, or of the last ones carried if

@@ -52,6 +52,8 @@ void hd_run_dq_dp(const hd_run *run, double *cos_theta, double *dp_dq_ratio)
     hd_carrier_dq_dp(&run->carrier, cos_theta, dp_dq_ratio);
 }
 
+double hd_run_divergence(const hd_run *run) { return hd_carrier_divergence(&run->carrier); }
+
 bool hd_run_is_caged(const hd_run *run)
 {
     return hd_cages_hold(&run->cages, HD_SPECTRUM_BLOCKS_MIN * run->agenda.block);

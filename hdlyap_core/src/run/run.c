@@ -77,7 +77,8 @@ static hd_status prepare_observables(hd_run *run)
                                .communicator = run->communicator,
                                .block = run->agenda.block,
                                .sample = hd_agenda_sample_grown(&run->agenda),
-                               .ortho = c->ortho};
+                               .ortho = c->ortho,
+                               .spectrum = c->spectrum};
     return hd_observables_create(&run->observables, &with);
 }
 
@@ -107,7 +108,8 @@ static void enter_stage(hd_run *run, hd_stage stage)
         run->clocks.frame_started = hd_clock_now();
         run->clocks.frame_start_time = now;
     }
-    hd_carrier_begin(&run->carrier, is_averaging(run), now - run->clocks.frame_start_time);
+    hd_carrier_begin(&run->carrier, is_averaging(run), now - run->clocks.frame_start_time,
+                     hd_trajectory_divergence(run->advance.trajectory));
     if (is_averaging(run)) {
         hd_cages_begin(&run->cages, run->advance.trajectory);
         run->errors = (hd_error_trend){.first = 0.0};
@@ -240,7 +242,9 @@ static hd_status end_sample(hd_run *run)
     if (is_measured(run)) return HD_OK; /* the averaging may be too short for time to move */
     if (is_framed(run)) HD_TRY(orthonormalise(run, true));
     hd_agenda_pass_sample(&run->agenda, hd_run_time(run));
-    if (is_framed(run)) HD_TRY(hd_carrier_sample(&run->carrier, is_averaging(run)));
+    if (is_framed(run))
+        HD_TRY(hd_carrier_sample(&run->carrier, is_averaging(run),
+                                 hd_trajectory_divergence(run->advance.trajectory)));
     if (is_framed(run) && is_averaging(run)) add_error(run);
     return measure(run, true);
 }

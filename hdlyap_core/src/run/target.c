@@ -36,7 +36,8 @@ static bool index_possible(const hd_scene_def *def, const hd_aim *goal, char why
     const int index = goal->number[0], vectors = hd_scene_vectors(def);
     const int positive = hd_scene_positive_exponents(def);
     const bool carried = index >= 1 && index <= vectors;
-    const bool zero = index > positive && index <= positive + hd_scene_zero_exponents(def);
+    const bool zero = hd_dynamics_of(def)->symplectic && index > positive &&
+                      index <= positive + hd_scene_zero_exponents(def);
     if (!carried)
         snprintf(why, HD_WHY, "indices are from 1 to %d, the exponents computed", vectors);
     if (carried && zero) snprintf(why, HD_WHY, "it is the exponent of a zero mode, which is 0");

@@ -30,6 +30,7 @@ hd_scene_def hd_scene_def_of(const hd_dynamics *dynamics)
         def.particles = (hd_particles)k;
         def.dynamics = NULL;
     }
+    if (!dynamics->symplectic) def.exponents = HD_EXPONENTS_ALL;
     for (int k = 0; k < dynamics->parameters; k++)
         hd_parameter_assign(&dynamics->parameter[k], &def, dynamics->parameter[k].default_value);
     return def;

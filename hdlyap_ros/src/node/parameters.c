@@ -266,12 +266,10 @@ parameter parameters_named(const char *name)
 
 void parameter_usual(char text[PARAMETER_TEXT], const parameter *p)
 {
-    const char *word = p->row ? hd_parameter_word_of(p->row, (int)p->row->default_value)
-                              : p->default_value;
-    if (p->kind == PARTICLES) {
-        const hd_scene_def usual = particles_usual();
-        word = hd_dynamics_of(&usual)->particles;
-    }
+    const hd_scene_def first = particles_usual(), usual = hd_scene_def_of(particles_now());
+    const double value = p->row ? hd_parameter_value(p->row, &usual) : 0.0;
+    const char *word = p->row ? hd_parameter_word_of(p->row, (int)value) : p->default_value;
+    if (p->kind == PARTICLES) word = hd_dynamics_of(&first)->particles;
     if (p->row && p->row->kind == HD_PARAMETER_TEXT) word = "";
     if (p->kind == TOPICS_OBSERVED)
         topic_names(text, PARAMETER_TEXT,
@@ -279,7 +277,7 @@ void parameter_usual(char text[PARAMETER_TEXT], const parameter *p)
     else if (word)
         snprintf(text, PARAMETER_TEXT, "%s", word);
     else
-        snprintf(text, PARAMETER_TEXT, "%.15g", p->row->default_value);
+        snprintf(text, PARAMETER_TEXT, "%.15g", value);
 }
 
 unsigned parameter_topics(const parameter *p)

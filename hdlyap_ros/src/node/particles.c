@@ -70,6 +70,7 @@ bool particles_choose(hd_scene_def *def, const char *name)
     def->dynamics = of;
     def->particles = (hd_particles)core;
     of = hd_dynamics_of(def);
+    if (of != before) def->exponents = hd_scene_def_of(of).exponents;
     for (int k = 0; of != before && k < of->parameters; k++)
         hd_parameter_assign(&of->parameter[k], def, of->parameter[k].default_value);
     return true;

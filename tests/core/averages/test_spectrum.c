@@ -145,6 +145,38 @@ TEST(zero_modes_may_have_the_place_of_a_small_exponent)
     }
 }
 
+static void expect_signs(const hd_spectrum *s, int zero, int positive, int vanish)
+{
+    const hd_signs signs = hd_spectrum_signs(s, zero);
+    assert_int_equal(signs.positive, positive);
+    assert_int_equal(signs.zero, vanish);
+}
+
+/** Where theory says how many vanish, by value; else by 4 errors, at most 4 * .001 sqrt(2/3) / 8
+ * = 4e-4. */
+TEST(signs_are_counted_without_pairs)
+{
+    MADE(hd_spectrum, s, 6, 6, 6, 0.0);
+    expect_signs(s, 2, 0, 0);
+    for (int k = 0; k < 63; k++) {
+        const double off = 0.001 * (k % 3 - 1);
+        hd_spectrum_add(s,
+                        (const double[]){0.5 + off, 0.002 + off, 0.0002 + off, -0.0001 + off,
+                                         -0.3 + off, -0.7 + off},
+                        1.0);
+        hd_spectrum_sample(s);
+        if (k == 3) expect_signs(s, -1, 0, 0); /* errors are not known */
+    }
+    expect_signs(s, 2, 2, 2);
+    expect_signs(s, 3, 1, 3);
+    expect_signs(s, 0, 3, 0);
+    expect_signs(s, 6, 0, 0); /* no others are computed */
+    expect_signs(s, -1, 2, 2);
+    CHECK_CLOSE(hd_spectrum_sum_up(s).exponent_sum, 0.5021 - 1.0, 1e-12);
+    CHECK_CLOSE(hd_spectrum_sum_up(s).pairing_error, -1.0, 0.0);
+    CHECK_CLOSE(hd_spectrum_sum_up(s).ks_entropy, 0.5022, 1e-12);
+}
+
 /** Zero variance: the error is zero, or not known while there are too few samples. */
 TEST(constant_series_have_no_error)
 {

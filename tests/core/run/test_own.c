@@ -374,10 +374,6 @@ TEST(what_needs_pairs_is_refused_without_them)
     check_refused(scene,
                   "exponents = positive: must be all, all_independent, none or from 1 to "
                   "16 with particles = chain, whose exponents are not in pairs of opposite sign");
-    scene.exponents = HD_EXPONENTS_ALL;
-    scene.observe = HD_OBSERVE_COVARIANT;
-    check_refused(scene, "observables = covariant: must not be given with particles = chain, "
-                         "whose exponents are not in pairs of opposite sign");
 }
 
 /* ---- memory, trial ------------------------------------------------------------------------- */

@@ -25,7 +25,7 @@ static inline windows windows_begun(hd_scene_def scene, int warmup, double inter
 {
     windows w = {forward_started(scene, 1), NULL};
     for (int k = 0; k < warmup; k++) forward_interval(&w.f, WINDOWS_INTERVAL);
-    CHECK_OK(hd_covariant_create(&w.c, &scene, 1));
+    CHECK_OK(hd_covariant_create(&w.c, &scene, NULL, 1));
     CHECK_OK(hd_covariant_begin(w.c, hd_trajectory_time(w.f.trajectory), interval));
     return w;
 }

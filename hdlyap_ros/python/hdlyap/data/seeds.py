@@ -204,7 +204,8 @@ class Seeds:
         message.std_errors = errors(self.spectrum).tolist()
         message.lambda_max, message.ks_entropy = self.results['value'].iloc[:2].tolist()
         message.ks_entropy_error = float(errors(self.results).iloc[1])
-        message.pairing_error = -1.0
+        message.pairing_error = message.exponent_sum_error = -1.0
+        message.exponent_sum = message.divergence = np.nan
 
     def _fill_steps(self, message):
         """Fills steps from the first run in which each is resolved; multiplicities and exponents

@@ -52,8 +52,17 @@ class Summary:
 
     @property
     def positive_end(self):
-        """The Lyapunov index of the last positive exponent."""
-        return (self.phase_space - self.info.zero_exponents) // 2
+        """The Lyapunov index of the last positive exponent, which is in front of the zero ones:
+        those that are smallest together, if exponents are not in pairs of opposite sign."""
+        count, spectrum = self.info.zero_exponents, self.spectrum
+        all_unpaired = (
+            spectrum and spectrum.pairing_error < 0 and np.isfinite(spectrum.exponent_sum)
+        )
+        if not all_unpaired:
+            return (self.phase_space - count) // 2
+        if count == 0:
+            return int(np.sum(np.asarray(spectrum.exponents) > 0))
+        return int(np.convolve(np.abs(spectrum.exponents), np.ones(count), 'valid').argmin())
 
     @property
     def zeros(self):

@@ -167,6 +167,10 @@ def _sums(recording):
         lines.append(f'sum of the {len(spectrum.exponents)} exponents carried {total}')
     if spectrum.pairing_error >= 0:
         lines.append(f'pairing error   {spectrum.pairing_error:.2e}')
+    if np.isfinite(spectrum.divergence):
+        of_all = f'{fixed(spectrum.exponent_sum, 6)}{_error(spectrum.exponent_sum_error)}'
+        lines.append(f'sum of all      {of_all}')
+        lines.append(f'mean divergence {fixed(spectrum.divergence, 6)}')
     return '\n'.join(lines)
 
 
