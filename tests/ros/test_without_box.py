@@ -5,6 +5,7 @@ import yaml
 
 import made
 from bags import Bags
+from hdlyap.data import space
 from hdlyap.data.reader import RecordingError
 from hdlyap.follow import watch
 from hdlyap.plots import repetition, report
@@ -18,8 +19,10 @@ OWN = ['beta=0.30000000000000004', 'energy=1', 'start=cold']
 def chain(**fields):
     """As a node of a chain says: eight, of which each has one coordinate."""
     usual = dict(particles='chain', dimension=0, coordinates=1, number=8, own=OWN)
-    usual.update(boundary_x='', boundary_y='', zero_exponents=4)
-    return made.run_info(**{**usual, **fields})
+    usual.update(box_x=0.0, box_y=0.0, zero_exponents=4)
+    info = made.run_info(**{**usual, **fields})
+    info.parameters = [one for one in info.parameters if one.name not in space.OF_A_BOX]
+    return info
 
 
 class WithoutBox(Bags):

@@ -7,7 +7,7 @@ from collections import namedtuple
 
 from hdlyap.parameters import own
 
-from . import reader
+from . import reader, space
 from .reader import NoInfo, RecordingError, is_known
 
 # parameters that bags of one system have to share: all that decide what is measured
@@ -134,7 +134,8 @@ def _chosen(path, node, number, infos):
 
 def system(info):
     """Names of what runs of one system share: what moves, and where."""
-    return [*SYSTEM, *own(info)]
+    absent = space.OF_A_BOX if space.without_box(info) else ()
+    return [*(name for name in SYSTEM if name not in absent), *own(info)]
 
 
 def compared(info):
