@@ -5,6 +5,7 @@ import yaml
 
 import made
 from bags import Bags
+from hdlyap import parameters
 from hdlyap.data import space
 from hdlyap.data.reader import RecordingError
 from hdlyap.follow import watch
@@ -57,6 +58,18 @@ class WithoutBox(Bags):
             hdlyap.load(*paths)
         with self.assertRaisesRegex(RecordingError, 'different systems .* beta .* and 2'):
             Comparison(*(hdlyap.load(path).summary for path in paths))
+
+    def test_what_the_node_chose(self):
+        """For each seed by itself: the system is the same, whose table has what was asked for."""
+        paths = []
+        for seed, step in (('1', '0.01'), ('2', '0.02')):
+            info = chain(own=[*OWN, f'time_step={step}'], seed=seed)
+            parameters.named(info, 'time_step').value = '0'
+            paths.append(self.write([info, made.spectrum([2.0] * 16, 50.0)], 'seed' + seed))
+        self.assertEqual(len(hdlyap.load(*paths).runs), 2)
+        found, wrong = points.read(paths)
+        self.assertEqual((len(found), wrong), (1, []))
+        self.assertEqual(found[0].system['time_step'], 0)
 
     def test_table(self):
         """By own parameters as numbers, not as texts; not beside disks."""

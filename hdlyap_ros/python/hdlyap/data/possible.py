@@ -220,7 +220,8 @@ def _of_run_info(info):
 
 
 def _check_parameters(info):
-    """All that every run has, but for those of a box without one; words, and numbers in what has a kind of number."""
+    """All that every run has, in a box those of a box; words, and numbers in what has a kind of
+    number."""
     found = {one.name: parameters.value(one) for one in info.parameters}
     for name, kind in NEEDED.items():
         if name in space.OF_A_BOX and not info.dimension:
