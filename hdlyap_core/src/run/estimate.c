@@ -24,6 +24,9 @@ static const double WARMUP_COLLISIONS = 120.0;
 /** Largest N n^2 of a trial, with N particles and n vectors: above it one interval takes longer
  * than a trial may. */
 static const double TRIAL_WORK = 800.0 * 1600.0 * 1600.0;
+/** Length of the first interval of a trial, in usual first ones, from which it doubles: one of many
+ * particles takes longer than a trial may. */
+static const double FIRST_INTERVAL = 1.0 / 32.0;
 /** Observables that need more time than a trial has. */
 static const unsigned UNTRIED = HD_OBSERVE_COVARIANT;
 /** Averaged time for an error of 1 % in c_T, in shortest blocks; measured with 780 disks, see
@@ -162,6 +165,7 @@ static hd_status measure(hd_estimate *out, hd_run *run)
     const long least = hd_run_vectors(run) > 0 ? 2 : 0;
     out->interval = NAN;
     hd_agenda_begin_grown(&run->agenda); /* a run is young for a short time */
+    run->carrier.interval.last *= FIRST_INTERVAL;
     HD_TRY(warm_up(&took, &cut, run));
     if (cut) return extrapolate(out, run, &took);
     const stretch begin = so_far(run);
