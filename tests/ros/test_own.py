@@ -69,6 +69,23 @@ class Own(harness.Case):
         self.assertLess({'beta', 'energy', 'time_step', 'number'}, names)
         self.assertEqual((heard.box_x, heard.box_y, heard.box_z), (0, 0, 0))
 
+    def test_speed_of_many(self):
+        """Whose warm-up would take a minute."""
+        status, said = self.asked('--check', 'number:=400', 'observables:=[spectrum, covariant]')
+        self.assertEqual(status, 0)
+        pattern = (
+            r'speed +\S+ s per time unit, by a trial of a second, extrapolated from its \S+ time'
+        )
+        self.assertRegex(said, pattern + ' units of warm-up; interval ')
+
+    def test_help(self):
+        """Of the program that is run, as in what it is told to print."""
+        for option in ('--help', '--parameters'):
+            said = subprocess.check_output([NODE, option], text=True)
+            self.assertIn('hdlyap_own_node', said)
+            self.assertNotIn('hdlyap_node', said)
+        self.assertIn('# For chain and lossy_chain only.', said)
+
     def test_lost_energy_without_a_time_step(self):
         """Said as it is known, with no step; and of what time the checkpoint is."""
         kept = os.path.join(self.new_folder(), 'kept')
