@@ -51,6 +51,15 @@ they_talk() {
 # own_launch SETUP NAME ARGUMENT...: run.launch with the downstream package's node, which moves a chain.
 own_launch() { in_space "$1" timeout 100 roslaunch hdlyap run.launch package:=hdlyap_downstream program:=chain_node "scene:=$WORK/ring.yaml" "${@:2}"; }
 
+# own_tools SETUP FOLDER: a sweep over the chain's own parameter, of two seeds, and a run of two ranks, which is that of one.
+own_tools() {
+    local -a own=(--package hdlyap_downstream --program chain_node)
+    in_space "$1" hdlyap sweep "${own[@]}" --scene "$WORK/ring.yaml" --over 'beta 1 2' --seeds '1 2' --duration 200 --folder "$2/sweep" &&
+        [[ $(sed -n '2,4s/ .*//p' "$2/sweep/sweep.txt" | tr '\n' ' ') == 'beta 1 2 ' ]] || return 1
+    in_space "$1" mpirun --oversubscribe -n 2 hdlyap run "$WORK/ring.yaml" --out "$2/ranks.bag" "${own[@]}" duration:=200.0 &&
+        in_space "$1" hdlyap compare "$2/ranks.bag" "$2/sweep/beta_2_seed_1.bag"
+}
+
 # chain_runs SETUP: recorded, figures drawn, gone on from; its own parameters are read, refused and recorded as all others.
 chain_runs() {
     local folder=$WORK/ring
@@ -61,6 +70,7 @@ chain_runs() {
     own_launch "$1" "resume:=$folder/kept" duration:=4000.0 scene:= record:=true "bag:=$folder/two.bag" || return 1
     rosparam delete /hdlyap # the master is everybody's here
     in_space "$1" python3 "$ROOT/tests/install/chain.py" "$folder/one.bag" "$folder/two.bag" || return 1
+    own_tools "$1" "$folder" || return 1
     in_space "$1" hdlyap repeat "$folder/one.bag" >"$folder/again.yaml" && is_valid "$1" "$folder/again.yaml" || return 1
     in_space "$1" rosrun hdlyap_downstream chain_node --parameters >"$folder/all.yaml" && is_valid "$1" "$folder/all.yaml" number:=8 || return 1
     refused "$1" 'beta = -1: must be from 0 to 1000' beta:=-1 &&

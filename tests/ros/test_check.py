@@ -13,7 +13,7 @@ import golden
 import harness
 from hdlyap.data import fields
 from harness import MODES, OBSERVABLES
-from hdlyap.runs import run
+from hdlyap.runs.program import HDLYAP
 
 pytestmark = harness.UNDER_A_MASTER
 
@@ -80,7 +80,7 @@ def said_of(case, scene):
 def check_scenes(case, particles, count, number, *lines):
     """So many scenes are of such particles. Each is valid, says nothing that it need not, and
     --check of it has the lines."""
-    usual, found = run.completed({'particles': particles}), 0
+    usual, found = HDLYAP.completed({'particles': particles}), 0
     for name in sorted(os.listdir(SCENES)):
         path = os.path.join(SCENES, name)
         with open(path) as file:

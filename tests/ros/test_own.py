@@ -7,6 +7,8 @@ import subprocess
 import harness
 import yaml
 
+from hdlyap.data import space
+
 pytestmark = harness.UNDER_A_MASTER
 
 N = 8
@@ -51,6 +53,39 @@ class Own(harness.Case):
         self.assertEqual([angle.spaces for angle in covariant.angles], [0, 1, 2])
         self.assertTrue(all(0 < angle.mean < math.pi / 2 for angle in covariant.angles))
 
+    def test_nothing_of_a_box(self):
+        """Own parameters are in the log, as in --check; of a box there is no parameter, no edge."""
+        info = self.listen('run_info')
+        scene = dict(SCENE, scene='ring', wait_for_subscribers=['run_info'])
+        node = self.start(scene, command=[NODE])
+        self.ends(node)
+        self.assertTrue(info.wait_for(lambda message: True))
+        heard = info.messages[0]
+        said = '8 chain, beta 10, energy 10, time_step 0.005, 16 vectors'
+        self.assertTrue(node.lines('scene ring: ' + said))
+        self.assertIn(f'scene     ring is valid: {said}\n', self.asked('--check')[1])
+        names = {one.name for one in heard.parameters}
+        self.assertFalse(names & set(space.OF_A_BOX))
+        self.assertLess({'beta', 'energy', 'time_step', 'number'}, names)
+        self.assertEqual((heard.box_x, heard.box_y, heard.box_z), (0, 0, 0))
+
+    def test_speed_of_many(self):
+        """Whose warm-up would take a minute."""
+        status, said = self.asked('--check', 'number:=400', 'observables:=[spectrum, covariant]')
+        self.assertEqual(status, 0)
+        pattern = (
+            r'speed +\S+ s per time unit, by a trial of a second, extrapolated from its \S+ time'
+        )
+        self.assertRegex(said, pattern + ' units of warm-up; interval ')
+
+    def test_help(self):
+        """Of the program that is run, as in what it is told to print."""
+        for option in ('--help', '--parameters'):
+            said = subprocess.check_output([NODE, option], text=True)
+            self.assertIn('hdlyap_own_node', said)
+            self.assertNotIn('hdlyap_node', said)
+        self.assertIn('# For chain and lossy_chain only.', said)
+
     def test_lost_energy_without_a_time_step(self):
         """Said as it is known, with no step; and of what time the checkpoint is."""
         kept = os.path.join(self.new_folder(), 'kept')
@@ -67,12 +102,15 @@ class Own(harness.Case):
         self.assertEqual(said.count(f'# For {names} only.'), 3)
 
     def tested(self, *arguments, keep=tuple(SCENE), **environment):
-        """--test-dynamics of a scene: its exit status, and what it says."""
-        scene = os.path.join(self.new_folder(), 'scene.yaml')
+        return self.asked('--test-dynamics', *arguments, keep=keep, **environment)
+
+    def asked(self, option, *arguments, keep=tuple(SCENE), **environment):
+        """Such an option of a scene: the exit status, and what it says."""
+        scene = os.path.join(self.new_folder(), 'ring.yaml')
         with open(scene, 'w') as file:
             yaml.safe_dump({name: SCENE[name] for name in keep}, file)
         done = subprocess.run(
-            [NODE, '--test-dynamics', scene, *arguments],
+            [NODE, option, scene, *arguments],
             capture_output=True,
             text=True,
             env=dict(os.environ, **environment),

@@ -24,6 +24,7 @@ import harness
 import made
 from hdlyap.msg import Change, RunStatus
 from hdlyap.runs import asked, bags, ranks, run, scene, tree, work
+from hdlyap.runs.program import HDLYAP
 from hdlyap.runs.run import UNFINISHED
 
 pytestmark = pytest.mark.second_tier
@@ -179,7 +180,7 @@ class Made(InFolder):
     """A run whose bag is made."""
 
     def of(self, **changed):
-        return run.Planned('one', {**run.usual(), 'scene': 'one', 'duration': 7.0, **changed})
+        return run.Planned('one', {**HDLYAP.usual(), 'scene': 'one', 'duration': 7.0, **changed})
 
     def lacks(self, stage=RunStatus.FINISHED, progress=1.0, of=None, given=(), **said):
         """Of a made bag. given: what it was asked for, if it was something else; said: what else
@@ -230,7 +231,7 @@ class Done(Made):
         """Makes no difference: what auto and 0 got, the order of topics, the time of a change."""
         of = self.of(
             particles='soft_disks',
-            **run.own()['soft_disks'],
+            **HDLYAP.own()['soft_disks'],
             observables=['steps', 'spectrum'],
             changes=['5 report_interval=2.0'],
         )

@@ -21,8 +21,10 @@ import made
 from harness import InFolder, Process
 from made import LP, T
 from hdlyap.commands import sweep
+from hdlyap.data import space
 from hdlyap.data.reader import RecordingError
 from hdlyap.runs import run
+from hdlyap.runs.program import HDLYAP, Program
 from hdlyap.runs.scene import Refused
 from hdlyap.sweep import figure, grid, plan, points, result, table
 
@@ -129,6 +131,58 @@ class Grid(unittest.TestCase):
             self.assertIn(what, str(caught.exception))
 
 
+class Own(unittest.TestCase):
+    """Of a program of one's own, whose particles have no box."""
+
+    NODE = Program('hdlyap', 'hdlyap_own_node')
+
+    def runs(self, **given):
+        with tempfile.NamedTemporaryFile('w', suffix='.yaml') as file:
+            file.write('{number: 8, duration: 9.0}')
+            file.flush()
+            usual = dict(
+                scene=file.name, threads='1', params='', observables='', over=['beta 0.5 2']
+            )
+            return grid.runs({**usual, **given}, LAUNCH, '/', self.NODE)
+
+    def test_over_its_parameter(self):
+        """Nothing of a box, which the node would refuse; its program in the words for roslaunch."""
+        found = self.runs(seeds='1 2')
+        names = ['beta_0_5_seed_1', 'beta_0_5_seed_2', 'beta_2_seed_1', 'beta_2_seed_2']
+        self.assertEqual([one.name for one in found], names)
+        asked = found[-1].parameters
+        self.assertEqual((asked['beta'], asked['energy'], asked['particles']), (2, 1, 'chain'))
+        self.assertEqual((asked['scene'], asked['observables']), ('beta_2', ['spectrum']))
+        self.assertFalse(set(asked) & set(space.OF_A_BOX))
+        self.assertEqual(
+            found[0].program.arguments(), ['package:=hdlyap', 'program:=hdlyap_own_node']
+        )
+        self.assertEqual(HDLYAP.arguments(), [])
+
+    def test_disks_have_none_of_it(self):
+        asked = self.runs(params='{particles: disks}', over=['density 0.5'])[0].parameters
+        self.assertFalse({'beta', 'energy', 'bond'} & set(asked))
+        self.assertEqual((asked['density'], asked['aspect']), (0.5, 0.867))
+
+    def test_refused(self):
+        for said, given in (
+            ('over = beta: must be a parameter and its values', dict(over=['beta'])),
+            ('over = beta: must be swept once', dict(over=['beta 1', 'beta 2'])),
+            ('params = {beta: 3}: must be without beta', dict(params='{beta: 3}')),
+            ('betta = 1: must be a parameter of hdlyap_own_node', dict(over=['betta 1'])),
+        ):
+            with self.assertRaisesRegex(Refused, said):
+                self.runs(**given)
+        with self.assertRaisesRegex(Refused, 'program = none: must be a program of the package hd'):
+            Program.of(dict(program='none'))
+        with self.assertRaisesRegex(Refused, 'package = none: must be a package that ROS finds'):
+            Program.of(dict(package='none', program='none'))
+        with self.assertRaisesRegex(
+            Refused, 'program = hdlyap: must be a node, which hdlyap_node_m'
+        ):
+            Program('hdlyap', 'hdlyap').usual()
+
+
 class Plan(InFolder):
     ENTRY = '''{base: quick, duration: 7.0, number: 30, full: {number: 20}, quick: {number: 10},
                 seconds: [4, 9]}'''
@@ -147,7 +201,7 @@ class Plan(InFolder):
     def test_parameters(self):
         """Those of the scene, then of the entry, then of quick or full."""
         with open(os.path.join(LAUNCH, 'scenes/quick.yaml')) as file:
-            scene = {**run.usual(), **yaml.safe_load(file)}
+            scene = {**HDLYAP.usual(), **yaml.safe_load(file)}
         for quick, disks, seconds in ((False, 20, 9), (True, 10, 4)):
             one = self.runs('one: ' + self.ENTRY, quick)['one']
             self.assertEqual(
@@ -182,7 +236,7 @@ class Plan(InFolder):
             found = plan.runs(PLAN, quick, LAUNCH)
             self.assertEqual(len(found), 63)
             for one in found:
-                self.assertEqual(set(one.parameters), set(run.usual()), one.name)
+                self.assertEqual(set(one.parameters), set(HDLYAP.usual()), one.name)
 
     def test_refused(self):
         for text, what in (

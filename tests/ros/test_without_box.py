@@ -5,6 +5,8 @@ import yaml
 
 import made
 from bags import Bags
+from hdlyap import parameters
+from hdlyap.data import space
 from hdlyap.data.reader import RecordingError
 from hdlyap.follow import watch
 from hdlyap.plots import repetition, report
@@ -18,8 +20,10 @@ OWN = ['beta=0.30000000000000004', 'energy=1', 'start=cold']
 def chain(**fields):
     """As a node of a chain says: eight, of which each has one coordinate."""
     usual = dict(particles='chain', dimension=0, coordinates=1, number=8, own=OWN)
-    usual.update(boundary_x='', boundary_y='', zero_exponents=4, packing_fraction=float('nan'))
-    return made.run_info(**{**usual, **fields})
+    usual.update(box_x=0.0, box_y=0.0, zero_exponents=4, packing_fraction=float('nan'))
+    info = made.run_info(**{**usual, **fields})
+    info.parameters = [one for one in info.parameters if one.name not in space.OF_A_BOX]
+    return info
 
 
 class WithoutBox(Bags):
@@ -54,6 +58,18 @@ class WithoutBox(Bags):
             hdlyap.load(*paths)
         with self.assertRaisesRegex(RecordingError, 'different systems .* beta .* and 2'):
             Comparison(*(hdlyap.load(path).summary for path in paths))
+
+    def test_what_the_node_chose(self):
+        """For each seed by itself: the system is the same, whose table has what was asked for."""
+        paths = []
+        for seed, step in (('1', '0.01'), ('2', '0.02')):
+            info = chain(own=[*OWN, f'time_step={step}'], seed=seed)
+            parameters.named(info, 'time_step').value = '0'
+            paths.append(self.write([info, made.spectrum([2.0] * 16, 50.0)], 'seed' + seed))
+        self.assertEqual(len(hdlyap.load(*paths).runs), 2)
+        found, wrong = points.read(paths)
+        self.assertEqual((len(found), wrong), (1, []))
+        self.assertEqual(found[0].system['time_step'], 0)
 
     def test_table(self):
         """By own parameters as numbers, not as texts; not beside disks."""

@@ -19,7 +19,9 @@ typedef struct hd_estimate {
     unsigned untried;
     int particles; /**< number of particles in the trial: that of the scene, or fewer if these would
                       take too long */
-    double seconds; /**< wall seconds that the averaging takes per simulated time unit */
+    double seconds;      /**< wall seconds that the averaging takes per simulated time unit */
+    double extrapolated; /**< simulated time of the trial from which `seconds` and `interval` are
+                            extrapolated, as its warm-up was cut short; 0: they were measured */
     /** Mean simulated time between two orthonormalisations [time units]; NaN without exponents. */
     double interval;
     double before;       /**< simulated time before the averaging begins [time units] */
@@ -36,12 +38,13 @@ typedef struct hd_estimate {
     hd_result_counts extent;
 } hd_estimate;
 
-/** Runs a checked scene for a second or two of wall time, after a warm-up in which intervals
- * between orthonormalisations reach their full length. The trial has fewer particles in a box of
- * the same shape if the scene's would take too long; its wall times are then multiplied by the cube
- * of the ratio of N. Covariant vectors are not tried, because their windows are longer than the
- * trial; but the call returns HD_REFUSED if covariant_memory is too small for them. Other failures
- * are those of hd_run_create, with one line in message[size], and of hd_run_advance. */
+/** Runs a checked scene for a second of wall time, after a warm-up in which intervals between
+ * orthonormalisations reach their full length. A warm-up that takes longer than a second ends then,
+ * with its present interval, and the rest is extrapolated. The trial has fewer particles in a box
+ * of the same shape if the scene's would take too long; its wall times are then multiplied by the
+ * cube of the ratio of N. Covariant vectors are not tried, because their windows are longer than
+ * the trial; but the call returns HD_REFUSED if covariant_memory is too small for them. Other
+ * failures are those of hd_run_create, with one line in message[size], and of hd_run_advance. */
 HD_MUST_CHECK hd_status hd_estimate_run(hd_estimate *out, const hd_scene_def *def, char *message,
                                         size_t size);
 

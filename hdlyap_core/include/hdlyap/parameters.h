@@ -63,6 +63,9 @@ typedef struct hd_parameter {
  * only one dynamics has are in hd_dynamics.parameter. */
 const hd_parameter *hd_scene_parameters(int *count);
 
+/** True if the parameter says something about a box, which not all particles have. */
+bool hd_parameter_is_of_box(const hd_parameter *row);
+
 /** Value of a parameter in a scene as a number. A seed above 2^53 is rounded; a text gives 0 if it
  * is empty, otherwise 1. */
 double hd_parameter_value(const hd_parameter *row, const hd_scene_def *def);

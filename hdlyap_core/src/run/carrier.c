@@ -219,11 +219,20 @@ static double shortest_piece(const hd_carrier *c)
     return fmin(hd_record_duration(c->record) / PIECES_MAX, c->collision);
 }
 
+/** Whether the norm of dq is the faster one. */
+static bool has_many(const hd_carrier *c)
+{
+    return c->of->dispersing && c->carried >= HALVES_MANY && c->carried <= c->positive;
+}
+
+bool hd_carrier_is_usual(const hd_carrier *c)
+{
+    return c->cost->orthonormalisations >= (has_many(c) ? HALVES_ALIGNED : 1);
+}
+
 hd_norm hd_carrier_norm(const hd_carrier *c, bool whole)
 {
-    const bool many = c->of->dispersing && c->carried >= HALVES_MANY && c->carried <= c->positive;
-    const bool aligned = c->cost->orthonormalisations >= HALVES_ALIGNED;
-    return !many || !aligned || whole ? HD_NORM_FULL : HD_NORM_DQ;
+    return has_many(c) && hd_carrier_is_usual(c) && !whole ? HD_NORM_DQ : HD_NORM_FULL;
 }
 
 double hd_carrier_longest(const hd_scene_def *scene)

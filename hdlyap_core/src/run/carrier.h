@@ -63,6 +63,9 @@ double hd_carrier_bytes(const hd_scene_def *scene, int threads, int ranks);
 /** Threads that this rank may use; communicator may be NULL. */
 int hd_carrier_threads_most(const hd_scene_def *scene, const hd_communicator *communicator);
 
+/** Whether orthonormalisations take as long as in a long run: the first one, or the first ones, are
+ * others. */
+bool hd_carrier_is_usual(const hd_carrier *carrier);
 /** The norm of orthonormalisations that end no sample. whole: an observable needs the full norm. */
 hd_norm hd_carrier_norm(const hd_carrier *carrier, bool whole);
 /** The longest that intervals between orthonormalisations can become in a scene. */

@@ -282,14 +282,19 @@ static hd_status refuse_other(const hd_parameter *row, const hd_scene_def *asked
                      hd_parameter_say(row, kept, must, sizeof must));
 }
 
-/** Refuses a difference in a parameter that cannot change within a run. */
+/** Refuses a difference in a parameter that cannot change within a run: first in those that only
+ * these particles have, as others, such as an automatic warm-up, may follow from them. */
 static hd_status check_same(const hd_scene_def *asked, const hd_scene_def *kept, char *message,
                             size_t size)
 {
-    const hd_parameter *row;
-    for (int k = 0; (row = hd_parameter_of(asked, k)); k++)
+    int common;
+    (void)hd_scene_parameters(&common);
+    const int all = common + hd_dynamics_of(asked)->parameters;
+    for (int k = 0; k < all; k++) {
+        const hd_parameter *row = hd_parameter_of(asked, (common + k) % all);
         if (!row->may_differ && !hd_parameter_same(row, asked, kept))
             return refuse_other(row, asked, kept, message, size);
+    }
     return HD_OK;
 }
 

@@ -2,7 +2,8 @@
  * reach.
  *
  * The trial is warmed up until intervals have reached their length; then it goes on for a second,
- * and for at least two orthonormalisations. */
+ * and for at least two orthonormalisations. A warm-up that takes longer than a second is cut short,
+ * and the length of intervals is extrapolated from what the frame has shown. */
 #include "hdlyap/estimate.h"
 
 #include <math.h>
@@ -15,7 +16,7 @@
 #include "scene/scene.h"
 #include "scene/wave.h"
 
-/** Shortest time of the trial [s]. */
+/** Shortest time of the trial, and longest one of its warm-up [s]. */
 static const double TRIAL_SECONDS = 1.0;
 /** Collisions of each particle after which intervals, which begin with 2 and double, have reached
  * their length. */
@@ -23,6 +24,9 @@ static const double WARMUP_COLLISIONS = 120.0;
 /** Largest N n^2 of a trial, with N particles and n vectors: above it one interval takes longer
  * than a trial may. */
 static const double TRIAL_WORK = 800.0 * 1600.0 * 1600.0;
+/** Length of the first interval of a trial, in usual first ones, from which it doubles: one of many
+ * particles takes longer than a trial may. */
+static const double FIRST_INTERVAL = 1.0 / 32.0;
 /** Observables that need more time than a trial has. */
 static const unsigned UNTRIED = HD_OBSERVE_COVARIANT;
 /** Averaged time for an error of 1 % in c_T, in shortest blocks; measured with 780 disks, see
@@ -87,21 +91,90 @@ hd_scene_def hd_estimate_trial(const hd_scene_def *def)
     return smaller(&trial);
 }
 
+/** What a stretch of the trial has taken: seconds in all and those for orthonormalising, simulated
+ * time, and orthonormalisations. */
+typedef struct stretch {
+    double wall, ortho, time;
+    long done;
+} stretch;
+
+static stretch so_far(const hd_run *run)
+{
+    return (stretch){hd_clock_now(), run->cost.ortho, hd_run_time(run),
+                     run->cost.orthonormalisations};
+}
+
+static stretch since(const stretch *begin, const hd_run *run)
+{
+    const stretch now = so_far(run);
+    return (stretch){now.wall - begin->wall, now.ortho - begin->ortho, now.time - begin->time,
+                     now.done - begin->done};
+}
+
+/** Warms up, but for no longer than a second and the interval under way, once it orthonormalises as
+ * a long run does. Writes what it took since then; true in *cut if it came to no end. */
+static hd_status warm_up(stretch *took, bool *cut, hd_run *run)
+{
+    const double last = hd_clock_now() + TRIAL_SECONDS;
+    const bool framed = hd_run_vectors(run) > 0;
+    stretch begin = so_far(run);
+    bool ended = false;
+    while (hd_run_stage(run) < HD_AVERAGING && !(ended && hd_clock_now() >= last)) {
+        const bool usual = framed ? hd_carrier_is_usual(&run->carrier) : true;
+        const long before = run->cost.orthonormalisations;
+        HD_TRY(hd_run_advance(run));
+        if (!usual) begin = so_far(run);
+        *took = since(&begin, run);
+        ended = framed ? took->done > 0 && run->cost.orthonormalisations > before : true;
+    }
+    *cut = hd_run_stage(run) < HD_AVERAGING;
+    return *cut ? hd_run_average_now(run) : HD_OK;
+}
+
+/** The length of intervals once they have reached it, by the growth that the frame has shown. */
+static double interval_grown(const hd_run *run)
+{
+    enum { DOUBLINGS = 40 };
+    hd_interval grown = run->carrier.interval;
+    double shortest, longest;
+    for (int k = 0; k < DOUBLINGS; k++) grown.last = hd_interval_longest(&grown).length;
+    hd_advance_bounds(&run->advance, &shortest, &longest);
+    return fmin(fmin(grown.last, longest), hd_agenda_sample_most(&run->agenda));
+}
+
+/** What a warm-up that was cut short says: carrying takes as long at all times, and observables, of
+ * which one state is measured here, are measured once a sample. */
+static hd_status extrapolate(hd_estimate *out, hd_run *run, const stretch *took)
+{
+    const int vectors = hd_run_vectors(run);
+    const double before = run->cost.modes;
+    out->extrapolated = took->time;
+    out->seconds = (took->wall - took->ortho) / took->time;
+    if (vectors == 0) return HD_OK;
+    HD_TRY(hd_run_measure(run, vectors));
+    out->interval = interval_grown(run);
+    out->seconds += took->ortho / (double)took->done / out->interval +
+                    (run->cost.modes - before) / hd_agenda_sample_most(&run->agenda);
+    return HD_OK;
+}
+
 static hd_status measure(hd_estimate *out, hd_run *run)
 {
+    bool cut;
+    stretch took;
+    const long least = hd_run_vectors(run) > 0 ? 2 : 0;
+    out->interval = NAN;
     hd_agenda_begin_grown(&run->agenda); /* a run is young for a short time */
-    while (hd_run_stage(run) < HD_AVERAGING) HD_TRY(hd_run_advance(run));
-    const double begin = hd_clock_now(), from = hd_run_time(run);
-    const long before = hd_run_cost(run).orthonormalisations, vectors = hd_run_vectors(run);
-    double seconds = 0.0;
-    long done = 0;
-    while (seconds < TRIAL_SECONDS || (vectors > 0 && done < 2)) {
+    run->carrier.interval.last *= FIRST_INTERVAL;
+    HD_TRY(warm_up(&took, &cut, run));
+    if (cut) return extrapolate(out, run, &took);
+    const stretch begin = so_far(run);
+    do {
         HD_TRY(hd_run_advance(run));
-        seconds = hd_clock_now() - begin;
-        done = hd_run_cost(run).orthonormalisations - before;
-    }
-    out->seconds = seconds / (hd_run_time(run) - from);
-    out->interval = vectors > 0 ? (hd_run_time(run) - from) / (double)done : NAN;
+        took = since(&begin, run);
+    } while (took.wall < TRIAL_SECONDS || took.done < least);
+    out->seconds = took.wall / took.time;
+    if (least > 0) out->interval = took.time / (double)took.done;
     return HD_OK;
 }
 

@@ -419,9 +419,8 @@ hd_status hd_run_measure(hd_run *run, int first)
     return run->status;
 }
 
-static hd_status reset_average(hd_run *run)
+static hd_status average_now(hd_run *run)
 {
-    if (!is_averaging(run)) return HD_OK;
     if (run->carrier.frame) hd_blas_use_threads(run->carrier.threads);
     if (run->carrier.frame) HD_TRY(orthonormalise(run, true));
     enter_stage(run, HD_AVERAGING);
@@ -432,6 +431,12 @@ static hd_status reset_average(hd_run *run)
 hd_status hd_run_reset_average(hd_run *run)
 {
     hd_order_tell(run->communicator, (hd_order){.kind = HD_ORDER_RESET});
-    if (run->status == HD_OK) run->status = reset_average(run);
+    if (run->status == HD_OK && is_averaging(run)) run->status = average_now(run);
+    return run->status;
+}
+
+hd_status hd_run_average_now(hd_run *run)
+{
+    if (run->status == HD_OK) run->status = average_now(run);
     return run->status;
 }

@@ -12,4 +12,8 @@ const hd_frame *hd_run_frame(const hd_run *run);
  * same shape and with the same waves if its own would take too long. */
 hd_scene_def hd_estimate_trial(const hd_scene_def *def);
 
+/** Ends the stages before the averaging, if they go on, and begins the averaging now. For a single
+ * rank. Fails as hd_run_advance. */
+HD_MUST_CHECK hd_status hd_run_average_now(hd_run *run);
+
 #endif

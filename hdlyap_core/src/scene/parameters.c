@@ -61,6 +61,19 @@ const hd_parameter *hd_parameter_of(const hd_scene_def *def, int k)
     return k - count < of->parameters ? &of->parameter[k - count] : NULL;
 }
 
+bool hd_parameter_is_of_box(const hd_parameter *row)
+{
+    static const size_t of_box[] = {
+        offsetof(hd_scene_def, container),      offsetof(hd_scene_def, density),
+        offsetof(hd_scene_def, aspect),         offsetof(hd_scene_def, aspect_z),
+        offsetof(hd_scene_def, boundary[0]),    offsetof(hd_scene_def, boundary[1]),
+        offsetof(hd_scene_def, boundary[2]),    offsetof(hd_scene_def, max_wave_number),
+        offsetof(hd_scene_def, max_mode_number)};
+    for (size_t k = 0; k < sizeof of_box / sizeof *of_box; k++)
+        if (row->offset == of_box[k]) return true;
+    return false;
+}
+
 /** The value as a number; enumerations and sets are read as int. */
 double hd_parameter_value(const hd_parameter *row, const hd_scene_def *def)
 {

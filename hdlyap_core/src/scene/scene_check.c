@@ -88,21 +88,14 @@ static hd_status check_curved(const hd_scene_def *def, char *message, size_t siz
 /** Refuses parameters of a box if the dynamics has no box. */
 static hd_status check_without_box(const hd_scene_def *def, char *message, size_t size)
 {
-    static const size_t of_box[] = {
-        offsetof(hd_scene_def, container),      offsetof(hd_scene_def, density),
-        offsetof(hd_scene_def, aspect),         offsetof(hd_scene_def, aspect_z),
-        offsetof(hd_scene_def, boundary[0]),    offsetof(hd_scene_def, boundary[1]),
-        offsetof(hd_scene_def, boundary[2]),    offsetof(hd_scene_def, max_wave_number),
-        offsetof(hd_scene_def, max_mode_number)};
     const hd_scene_def usual = hd_scene_def_default();
     const char *particles = hd_dynamics_of(def)->particles;
     char value[VALUE];
     const hd_parameter *row;
     for (int k = 0; (row = hd_parameter_of(def, k)); k++)
-        for (size_t b = 0; b < sizeof of_box / sizeof *of_box; b++)
-            if (row->offset == of_box[b] && !hd_parameter_same(row, def, &usual))
-                return hd_refuse(message, size, HD_WITHOUT_BOX, row->name,
-                                 hd_parameter_say(row, def, value, sizeof value), particles);
+        if (hd_parameter_is_of_box(row) && !hd_parameter_same(row, def, &usual))
+            return hd_refuse(message, size, HD_WITHOUT_BOX, row->name,
+                             hd_parameter_say(row, def, value, sizeof value), particles);
     return HD_OK;
 }
 

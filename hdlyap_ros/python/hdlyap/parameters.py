@@ -37,6 +37,12 @@ def own(info):
     return {one.name: value(one) for one in info.parameters if one.own}
 
 
+def asked_of_own(info):
+    """The same with values as they were asked for: what a node chooses may differ from one seed to
+    the next."""
+    return {one.name: value(one, one.value) for one in info.parameters if one.own}
+
+
 def with_effect(info, name, text):
     """A copy with this value in effect."""
     copied = copy.copy(info)

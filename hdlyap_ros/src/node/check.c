@@ -82,6 +82,8 @@ static void print_speed(const settings *set, const hd_estimate *t)
     printf("speed     %.3g s per time unit, by a trial of a second", t->seconds);
     if (t->particles < def->number)
         printf(" with %d %s, scaled by N^3", t->particles, set->particles);
+    if (t->extrapolated > 0)
+        printf(", extrapolated from its %.3g time units of warm-up", t->extrapolated);
     if (!isnan(t->interval)) printf("; interval %.3g", t->interval);
     topic_names(left_out, sizeof left_out, set->observables & topics_of_stages(t->untried));
     if (*left_out) printf("; not in this trial: %s", left_out);

@@ -1,6 +1,8 @@
 /** Rows of parameters -> texts for users. */
+#define _GNU_SOURCE /* program_invocation_short_name */
 #include "parameters_text.h"
 
+#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -12,7 +14,7 @@
 enum { LINE_WIDTH = 100 };
 
 static const char *const head =
-    "Every parameter of hdlyap_node, with its default. Reduced units: particle mass 1, diameter "
+    "Every parameter of %s, with its default. Reduced units: particle mass 1, diameter "
     "sigma = 1, kinetic energy 1 per particle (soft particles: energy); the time unit follows from "
     "these. YAML reads 1e-8 as a string, which is taken too.";
 
@@ -77,29 +79,46 @@ static void write_allowed(char *out, size_t size, const parameter *p)
              has_unit ? "]" : "");
 }
 
+/** Writes which particles move, and how roslaunch runs the program. */
+static void write_program(char *particles, char *launch, size_t size)
+{
+    int count;
+    const hd_dynamics *const *brought = particles_brought(&count);
+    snprintf(particles, size, "Disks, spheres and dumbbells, hard or soft");
+    snprintf(launch, size, "scene:=quick");
+    if (count == 0) return;
+    snprintf(particles, size, "Particles of its own, as %.40s, and those of hdlyap",
+             brought[0]->particles);
+    snprintf(launch, size, "package:=PACKAGE program:=%.60s scene:=FILE.yaml",
+             program_invocation_short_name);
+}
+
 int parameters_print_help(void)
 {
+    char particles[PARAMETER_ALLOWED], launch[PARAMETER_ALLOWED];
+    const char *name = program_invocation_short_name;
+    write_program(particles, launch, PARAMETER_ALLOWED);
     printf(
-        "Disks, spheres and dumbbells, hard or soft, their Lyapunov exponents and modes, as ROS "
-        "topics.\n\n"
-        "  hdlyap_node [_parameter:=value ...] [__name:=NAME]\n"
+        "%s, their Lyapunov exponents and modes, as ROS topics.\n\n"
+        "  %s [_parameter:=value ...] [__name:=NAME]\n"
         "                         runs the scene that its private parameters say; needs a master\n"
-        "  hdlyap_node --check scene.yaml [parameter:=value ...]\n"
+        "  %s --check scene.yaml [parameter:=value ...]\n"
         "                         says, without a run, whether it is valid, what memory and time "
         "it\n"
         "                         takes, how large its bag becomes and which waves are looked for\n"
-        "  hdlyap_node --errors scene.yaml [parameter:=value ...]\n"
+        "  %s --errors scene.yaml [parameter:=value ...]\n"
         "                         prints the averaged time from which it states errors\n"
-        "  hdlyap_node --test-dynamics scene.yaml [parameter:=value ...]\n"
+        "  %s --test-dynamics scene.yaml [parameter:=value ...]\n"
         "                         tests whether the functions that move its particles do what they "
         "say,\n"
         "                         as those of a program's own\n"
-        "  hdlyap_node --parameters\n"
+        "  %s --parameters\n"
         "                         prints a scene file with all parameters and their defaults\n"
-        "  hdlyap_node --version\n\n"
-        "roslaunch hdlyap run.launch scene:=quick runs a scene file with a master of its own.\n"
+        "  %s --version\n\n"
+        "roslaunch hdlyap run.launch %s runs a scene file with a master of its own.\n"
         "Exit status: 0 finished or stopped, 2 refused, 3 a numerical fault or no memory, 4 a "
-        "file fault.\n");
+        "file fault.\n",
+        particles, name, name, name, name, name, name, launch);
     return fflush(stdout) == 0 ? 0 : 1;
 }
 
@@ -109,8 +128,9 @@ int parameters_print_version(void)
     return fflush(stdout) == 0 ? 0 : 1;
 }
 
-/** Prints one parameter; particles: the names of those that have it, if not the usual ones. */
-typedef void printer(const parameter *p, const char *particles);
+/** Prints one parameter; particles: the names of those that have it, if not all; usual: the usual
+ * ones have it. */
+typedef void printer(const parameter *p, const char *particles, bool usual);
 
 /** Writes the names of all particles with the same own parameters as row r; false unless r is the
  * first of them. */
@@ -127,29 +147,42 @@ static bool particles_alike(char *names, size_t size, int r)
     return true;
 }
 
-/** Prints the usual parameters, then those that only other particles have. */
+/** Prints the parameters that only these particles have. */
+static void print_own(printer *print, const hd_dynamics *of, const char *names, bool usual)
+{
+    for (int k = 0; k < of->parameters; k++) {
+        const parameter p = parameters_named(of->parameter[k].name);
+        print(&p, names, usual);
+    }
+}
+
+static bool is_own(const hd_parameter *row, const hd_dynamics *of)
+{
+    for (int k = 0; k < of->parameters; k++)
+        if (row == &of->parameter[k]) return true;
+    return false;
+}
+
+/** Prints the usual parameters, then those that only some particles have, the usual ones first. */
 static int print_all(printer *print)
 {
     const hd_dynamics *usual = particles_now();
+    char names[16 * HD_PARTICLES];
     for (int k = 0; k < parameters_count(); k++) {
         const parameter p = parameters_at(k);
-        print(&p, NULL);
+        if (!is_own(p.row, usual)) print(&p, NULL, true);
     }
     for (int r = 0; particles_at(r); r++) {
         const hd_dynamics *of = particles_at(r);
-        char names[16 * HD_PARTICLES];
         particles_are(of);
-        if (of == usual || !particles_alike(names, sizeof names, r)) continue;
-        for (int k = 0; k < of->parameters; k++) {
-            const parameter p = parameters_named(of->parameter[k].name);
-            print(&p, names);
-        }
+        if (!particles_alike(names, sizeof names, r)) continue;
+        print_own(print, of, names, of->parameter == usual->parameter);
     }
     particles_are(usual);
     return fflush(stdout) == 0 ? 0 : 1;
 }
 
-static void print_lines(const parameter *p, const char *particles)
+static void print_lines(const parameter *p, const char *particles, bool usual)
 {
     char allowed[PARAMETER_ALLOWED + 20], value[PARAMETER_TEXT + 8], text[400];
     write_allowed(allowed, sizeof allowed, p);
@@ -159,13 +192,15 @@ static void print_lines(const parameter *p, const char *particles)
     if (particles) printf("# For %s only.\n", particles);
     print_comment(p->text);
     print_comment(text);
-    printf("%s%s: %s\n", particles ? "# " : "", p->name, value);
+    printf("%s%s: %s\n", usual ? "" : "# ", p->name, value);
 }
 
 int parameters_print_scene(void)
 {
     const hd_dynamics *of;
-    print_comment(head);
+    char text[512];
+    snprintf(text, sizeof text, head, program_invocation_short_name);
+    print_comment(text);
     const int status = print_all(print_lines);
     printf("\n");
     for (int r = 0; (of = particles_at(r)); r++)
@@ -182,8 +217,9 @@ static void print_cell(const char *text)
     printf(" ");
 }
 
-static void print_row(const parameter *p, const char *particles)
+static void print_row(const parameter *p, const char *particles, bool usual)
 {
+    (void)usual;
     char allowed[PARAMETER_ALLOWED + 20], value[PARAMETER_TEXT + 8], name[PARAMETER_TEXT];
     char text[2048];
     write_allowed(allowed, sizeof allowed, p);

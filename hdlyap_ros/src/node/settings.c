@@ -74,8 +74,8 @@ const char *settings_write_nodes(char text[NODES_SIZE], const hd_scene_def *def,
                        (uint32_t)wave->n[1], (uint32_t)wave->n[2]);
 }
 
-/** Adds the particles' own parameters, from which their time steps follow, to the text. */
-static void write_steps(char *text, size_t size, const hd_scene_def *def)
+/** Adds the particles' own parameters to the text. */
+static void write_own(char *text, size_t size, const hd_scene_def *def)
 {
     const hd_dynamics *of = hd_dynamics_of(def);
     for (int k = 0; k < of->parameters; k++) {
@@ -95,12 +95,12 @@ const char *settings_write_system(char text[SYSTEM_SIZE], const settings *set)
     const double packing = hd_scene_packing(&set->def);
     char container[64];
     hd_scene_describe(&set->def, container, sizeof container);
-    const int length = snprintf(text, SYSTEM_SIZE, "%d %s in %s", set->def.number, set->particles,
-                                container);
+    const bool in_box = hd_scene_dimension(&set->def) > 0;
+    const int length = snprintf(text, SYSTEM_SIZE, in_box ? "%d %s in %s" : "%d %s",
+                                set->def.number, set->particles, container);
     if (!isnan(packing))
         snprintf(text + length, SYSTEM_SIZE - (size_t)length, ", packing fraction %.3g", packing);
-    else if (hd_dynamics_of(&set->def)->step)
-        write_steps(text, SYSTEM_SIZE, &set->def);
+    if (isnan(packing) || set->def.dynamics) write_own(text, SYSTEM_SIZE, &set->def);
     return text;
 }
 

@@ -61,8 +61,9 @@ bool settings_resume(const char **path, const hdr_params *params, char *message,
 bool settings_read(settings *out, const hdr_params *params, const hd_checkpoint *kept,
                    char *message, size_t size);
 
-/** Writes the particles and their box: "36 dumbbells in 24 x 2.5, packing fraction 0.62", or "36
- * soft_disks in 24 x 2.5, potential wca, energy 1, time_step 0.0012, integrator verlet". */
+/** Writes the particles and their box: "36 dumbbells in 24 x 2.5, packing fraction 0.62", "36
+ * soft_disks in 24 x 2.5, potential wca, energy 1, time_step 0.0012, integrator verlet", or "8
+ * chain, beta 2, energy 1" without a box. */
 enum { SYSTEM_SIZE = 400 };
 const char *settings_write_system(char text[SYSTEM_SIZE], const settings *set);
 

@@ -59,6 +59,7 @@ static bool is_own(const parameter *p, const hd_dynamics *of)
 static bool fill_parameters(hdr_run_info *info, const moment *now)
 {
     const size_t most = (size_t)parameters_count();
+    const bool in_box = hd_scene_dimension(&now->set->def) > 0;
     hdr_parameter *list = moment_take(now, most, sizeof *list);
     char(*room)[PARAMETER_VALUE] = moment_take(now, 2 * most, sizeof *room);
     if (!list || !room) return false;
@@ -69,7 +70,7 @@ static bool fill_parameters(hdr_run_info *info, const moment *now)
         const hd_scene_def *def = own ? hd_run_scene(now->run) /* which has what it chose */
                                       : &now->set->def;
         const char *value = parameter_value(room[0], &p, now->set);
-        if (p.kind == CHANGES) continue;
+        if (p.kind == CHANGES || (!in_box && p.row && hd_parameter_is_of_box(p.row))) continue;
         list[count++] = (hdr_parameter){
             .name = p.name,
             .kind = kind_of(&p),
@@ -108,8 +109,8 @@ static bool fill_given(hdr_run_info *info, const moment *now)
 /** Fills what follows from the parameters of the scene. */
 static void fill_scene(hdr_run_info *info, const hd_scene_def *def)
 {
-    double box[HD_DIMENSION_MAX];
-    hd_scene_box(def, box);
+    double box[HD_DIMENSION_MAX] = {0.0};
+    if (hd_scene_dimension(def) > 0) hd_scene_box(def, box);
     info->dimension = (uint32_t)hd_scene_dimension(def);
     info->coordinates = (uint32_t)hd_scene_coordinates(def);
     info->inertia = hd_scene_inertia(def);

@@ -87,6 +87,7 @@ static void compare(const hd_scene_def *def)
     CHECK_CLOSE(e.slopes_after, 32.0 * block, 0.0);
     CHECK_WITHIN(e.errors_after, 16.0 * block, 1.3 * 16.0 * block + 1.0);
     assert_int_equal(e.particles, def->number);
+    CHECK_CLOSE(e.extrapolated, 0.0, 0.0);
     hd_run_free(run);
 }
 
@@ -161,6 +162,24 @@ TEST(errors_are_stated_when_it_is_said)
         print_message("scene %d: ", k);
         check_ratio("errors", estimated(&scenes[k]).errors_after, after, 1.4);
     }
+}
+
+/** A warm-up of some seconds is cut short: what would have come follows from the part that was
+ * done, and lengths of intervals from the growth seen there. */
+TEST(seconds_that_are_extrapolated)
+{
+    const hd_scene_def def = scene_from(
+        of_kind(HD_SOFT_DISKS, 400, 0.5, 12.0), .own[HD_SOFT_POTENTIAL].whole = HD_WCA,
+        .equilibration = 1.0, .warmup = 12.0, .report_interval = 20.0);
+    const double begin = hd_clock_now();
+    const hd_estimate e = estimated(&def);
+    assert_true(hd_clock_now() - begin < 3.0 || HD_SANITIZED); /* a second and an interval */
+    OWNED(hd_run) *run = created(def);
+    double interval;
+    assert_true(seconds_agree(e.seconds, taken(run, &interval)) || seconds_agree_again(&def));
+    check_ratio("interval", e.interval, interval, INTERVAL_FACTOR);
+    CHECK_WITHIN(e.extrapolated, 0.1, 100.0);
+    assert_int_equal(e.particles, def.number);
 }
 
 /** How much a run tells is what it has; of covariant vectors, which are not tried, too. */

@@ -62,6 +62,27 @@ TEST(another_dynamics_is_not_resumed)
     (void)remove(PATH);
 }
 
+/** Exponents that grow with beta: an automatic warm-up follows from it. */
+static double rate_of_beta(const hd_scene_def *s) { return 0.1 * s->number * s->own[BETA].real; }
+
+/** Refused is what was asked for, not what follows from it. */
+TEST(a_changed_parameter_is_named)
+{
+    hd_dynamics of_rate = of_chain;
+    of_rate.collision_rate = rate_of_beta;
+    hd_scene_def scene = hd_scene_def_of(&of_rate), other;
+    scene.number = N;
+    OWNED(hd_run) *run = created(scene);
+    CHECK_OK(hd_run_save(run, PATH, "", NULL, 0));
+    other = scene;
+    other.own[BETA].real = 0.5;
+    check_not_resumed(PATH, &other, HD_REFUSED, "beta = 0.5: must be 1, as in the checkpoint");
+    other = scene;
+    other.number = N + 1;
+    check_not_resumed(PATH, &other, HD_REFUSED, "number = 9: must be 8, as in the checkpoint");
+    (void)remove(PATH);
+}
+
 /** A row whose parameters are words, an integer, and a word or a number. */
 TEST(own_parameters_can_be_words)
 {

@@ -2,6 +2,7 @@
 
 srun -n 64 hdlyap run large.yaml --out large.bag duration:=200
 mpirun -n 4 hdlyap run dense --out dense.bag
+mpirun -n 2 hdlyap run ring.yaml --out ring.bag --package my_package --program chain_node
 
 Rank 0 starts a separate ROS master, the recorder and the node, as run.launch does, whose arguments
 may follow, none with another value than it has here; the other ranks belong to the node. The bag
@@ -15,14 +16,17 @@ import os
 import sys
 
 from hdlyap import signals
-from hdlyap.runs import arguments, ranks, run, work
+from hdlyap.runs import arguments, program, ranks, run, work
 from hdlyap.runs.scene import Refused
+
+PROGRAM = 'package', 'program'  # options that are arguments of run.launch
 
 
 def options(parser):
-    parser.usage = '%(prog)s SCENE --out FILE [ARGUMENT:=VALUE]..'
+    parser.usage = '%(prog)s SCENE --out FILE [--package NAME --program NAME] [ARGUMENT:=VALUE]..'
     parser.add_argument('scene', help='name of a scene in launch/scenes, or a YAML file like these')
     parser.add_argument('--out', required=True, metavar='FILE', help='bag to record to')
+    program.add_arguments(parser)
 
 
 def stamp(path):
@@ -33,23 +37,24 @@ def stamp(path):
 
 
 def understood(words):
-    """Checks the arguments of run.launch. Returns the program of the node."""
+    """Checks the arguments of run.launch. Returns the path of the node's program."""
     given = arguments.check(words, arguments.launch_folder(), os.getcwd())
     if ranks.count() > 1 and given.get('ranks', '1') != '1':
         raise Refused(f'ranks = {given["ranks"]}: must be 1, as there are {ranks.count()} already')
-    return ranks.program(given)
+    return program.Program.of(given).path()
 
 
 def main(args):
     words = [f'scene:={args.scene}', 'record:=true', f'bag:={args.out}', *args.assigned]
+    words += [f'{name}:={getattr(args, name)}' for name in PROGRAM if getattr(args, name)]
     try:
-        program = understood(words)
+        path = understood(words)
     except Refused as refused:
         if ranks.number() == 0:
             print(f'hdlyap run: {refused}', file=sys.stderr)
         return 2
     if ranks.number() > 0:
-        ranks.become(program)
+        ranks.become(path)
     bag = os.path.abspath(args.out if args.out.endswith('.bag') else args.out + '.bag')
     before = stamp(bag)  # a run that is refused leaves the old bag
     with signals.held() as came:

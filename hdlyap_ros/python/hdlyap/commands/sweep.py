@@ -6,6 +6,7 @@ are not done again: the same command goes on where it was interrupted.
 hdlyap sweep --densities "0.2 0.4" --seeds "1 2" --folder sweep
 hdlyap sweep --densities "0.2 0.4" --scene mine.yaml --params "{warmup: 50}" --duration 100
 hdlyap sweep --plan runs.yaml --folder campaign
+hdlyap sweep --package my_package --program chain_node --scene ring.yaml --over "beta 0.5 1 2"
 
 A plan is a YAML file; each run has a base, a scene, and what differs from it:
 one: {base: quick, density: 0.5}
@@ -19,7 +20,7 @@ import sys
 
 from hdlyap.data import fits
 from hdlyap.data.reader import RecordingError
-from hdlyap.runs import arguments, bags, recording, work
+from hdlyap.runs import arguments, bags, program, recording, work
 from hdlyap.runs.scene import Refused
 from hdlyap.sweep import grid, plan, result
 
@@ -27,7 +28,7 @@ FAULT = 1
 OF_GRID = (
     ('scene', 'quick', 'scene from which all runs differ, as in run.launch'),
     ('duration', '', 'time units to average over; default: as in the scene'),
-    ('observables', '[spectrum, steps, lp_phases]', 'topics in the bags, as "[spectrum, gas]"'),
+    ('observables', '', f'topics in the bags; default: {grid.OBSERVED[0]}'),
     ('params', '', 'other parameters of all runs, as "{warmup: 50}" with its quotes'),
     ('threads', '1', 'threads of each run; 0: all cores, one run after the other'),
 )
@@ -39,8 +40,13 @@ def options(parser):
         parser.add_argument(
             '--' + swept.argument, default='', metavar='"A B .."', help=swept.wanted + more
         )
+    text = 'values of any other parameter, as of your particles; may be given several times'
+    parser.add_argument(
+        '--' + grid.OTHER, action='append', default=[], metavar='"NAME A B .."', help=text
+    )
     for name, _, text in OF_GRID:
         parser.add_argument('--' + name, default='', help=text)
+    program.add_arguments(parser)
     text = 'YAML file of all runs: {name: {base: scene, parameter: value, ..}, ..}'
     parser.add_argument('--plan', metavar='FILE', help=text)
     parser.add_argument('--quick', action='store_true', help='does the quick runs of the plan')
@@ -76,17 +82,18 @@ def understood(args, launch, cwd):
 def runs(args, launch, cwd):
     """All runs of the sweep or of the plan."""
     usual = {name: default for name, default, _ in OF_GRID}
-    names = [*usual, *(swept.argument for swept in grid.SWEPT)]
+    names = [*usual, *(swept.argument for swept in grid.SWEPT), grid.OTHER]
+    node = program.chosen(args)
     given = {name: getattr(args, name) for name in names if getattr(args, name)}
     if args.plan:
         for name, value in {**given, 'form': args.form, 'k': args.k}.items():
             if value:
                 raise Refused(f'{name} = {value}: must not be given with a plan')
-        return plan.runs(os.path.join(cwd, args.plan), args.quick, launch)
+        return plan.runs(os.path.join(cwd, args.plan), args.quick, launch, node)
     if args.quick:
         raise Refused('quick: must be given with --plan, which has the quick runs')
     fits.choice(args)  # refuses what cannot be fitted
-    return grid.runs({**usual, **given}, launch, cwd)
+    return grid.runs({**usual, **given}, launch, cwd, node)
 
 
 def chosen(found, only):

@@ -24,7 +24,7 @@ def radius(info):
 def not_asked(info):
     """Parameters that run_info has, but that a scene with this container must not give."""
     if space.without_box(info):
-        return OF_A_BOX
+        return tuple(space.OF_A_BOX)
     if not is_curved(info):
         return ()
     without = ('aspect',) if info.container in WITHOUT_ASPECT else ()
@@ -51,6 +51,5 @@ def _in_a_circle(info, wave_number, order, bits, x, y):
     return _bessel(order, wave_number * np.abs(from_centre)) * angular
 
 
-OF_A_BOX = ('container', 'density', 'aspect', 'boundary_x', 'boundary_y')
 WITHOUT_ASPECT = {'circle'}
 MODULATIONS = {'circle': _in_a_circle}

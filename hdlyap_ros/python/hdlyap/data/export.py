@@ -69,10 +69,10 @@ def _origin(run):
         return f'hdlyap, run {info.run_id}, without run_info: its parameters are not known'
     seeds = ' '.join(run.seeds)
     box = ' x '.join(f'{edge:.6g}' for edge in space.along(info, 'box_'))
-    return (
-        f'hdlyap {info.version}, scene {info.scene}, N = {info.number}{space.named(info)}, '
-        f'density {info.density:g}, box {box}, seed {seeds}'
+    system = space.without_box(info) or (
+        f'N = {info.number}{space.named(info)}, density {info.density:g}, box {box}'
     )
+    return f'hdlyap {info.version}, scene {info.scene}, {system}, seed {seeds}'
 
 
 def _units(frame):

@@ -5,9 +5,7 @@ import math
 import os
 from collections import namedtuple
 
-from hdlyap.parameters import own
-
-from . import reader
+from . import reader, space
 from .reader import NoInfo, RecordingError, is_known
 
 # parameters that bags of one system have to share: all that decide what is measured
@@ -133,8 +131,11 @@ def _chosen(path, node, number, infos):
 
 
 def system(info):
-    """Names of what runs of one system share: what moves, and where."""
-    return [*SYSTEM, *own(info)]
+    """Names of what runs of one system share: what moves, and where. What a node chooses may differ
+    from one seed to the next."""
+    absent = space.OF_A_BOX if space.without_box(info) else ()
+    own = [one.name for one in info.parameters if one.own and one.value == one.effect]
+    return [*(name for name in SYSTEM if name not in absent), *own]
 
 
 def compared(info):

@@ -17,7 +17,7 @@ LARGEST = 1e150  # largest number, so that its square is one, too
 LEAST = 1 / LARGEST  # least number above 0
 COUNT = 2**62  # largest integer
 PARTICLES, COORDINATES = 10**6, 1000  # most of a run, as of the parameter number
-# parameters that every run has, and the type of their values
+# parameters that every run has, those of a box in a box, and the type of their values
 TEXTS = 'scene particles container seed field_indices boundary_x boundary_y boundary_z'
 NEEDED = dict.fromkeys(TEXTS.split(), str)
 NEEDED.update(number=int, observables=list, density=float, aspect=float, aspect_z=float)
@@ -203,13 +203,13 @@ def _size(dimension, sizes):
 
 def _of_run_info(info):
     """Parameters, sizes and words."""
-    sizes = [info.density, info.aspect, info.box_x, info.box_y]
+    sizes = [info.density, info.aspect, info.box_x, info.box_y] if info.dimension else []
     if space.is_solid(info):
         sizes += [info.aspect_z, info.box_z]
     if not all(size > 0 for size in sizes):
         raise Damaged(f'hdlyap/RunInfo: density, aspect and box {tuple(sizes)}: must be above 0')
     for name in ('particles', 'container', 'boundary_x', 'boundary_y', 'boundary_z'):
-        value = getattr(info, name)
+        value = getattr(info, name, '')
         _refuse_other(WORD.fullmatch(value or '-'), name, value, 'a word')
     for axis in space.axes(info) if info.dimension else '':
         wall = getattr(info, 'boundary_' + axis)
@@ -220,9 +220,12 @@ def _of_run_info(info):
 
 
 def _check_parameters(info):
-    """All that every run has; words, and numbers in what has a kind of number."""
+    """All that every run has, in a box those of a box; words, and numbers in what has a kind of
+    number."""
     found = {one.name: parameters.value(one) for one in info.parameters}
     for name, kind in NEEDED.items():
+        if name in space.OF_A_BOX and not info.dimension:
+            continue
         if name not in found:
             raise Damaged(f'hdlyap/RunInfo: no {name} among its parameters')
         is_right = isinstance(found[name], kind) and (

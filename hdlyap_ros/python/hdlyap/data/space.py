@@ -5,6 +5,12 @@ import numpy as np
 
 from hdlyap.parameters import own
 
+# parameters of runs whose particles are in a box
+OF_A_BOX = (
+    'container density aspect aspect_z boundary_x boundary_y boundary_z max_wave_number '
+    'max_mode_number'
+).split()
+
 
 def is_solid(info):
     """Whether particles are spheres; info = None stands for disks."""

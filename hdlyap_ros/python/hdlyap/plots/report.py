@@ -168,9 +168,8 @@ def _sums(recording):
     if spectrum.pairing_error >= 0:
         lines.append(f'pairing error   {spectrum.pairing_error:.2e}')
     if np.isfinite(spectrum.divergence):
-        of_all = f'{fixed(spectrum.exponent_sum, 6)}{_error(spectrum.exponent_sum_error)}'
-        lines.append(f'sum of all      {of_all}')
-        lines.append(f'mean divergence {fixed(spectrum.divergence, 6)}')
+        of_all = with_error(spectrum.exponent_sum, spectrum.exponent_sum_error)
+        lines += [f'sum of all      {of_all}', f'mean divergence {spectrum.divergence:.6f}']
     return '\n'.join(lines)
 
 

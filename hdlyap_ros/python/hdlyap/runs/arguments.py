@@ -8,13 +8,14 @@ from xml.etree import ElementTree
 
 import rospkg
 
-from . import ranks, run, scene
+from . import scene
+from .program import HDLYAP, Program
 from .scene import Refused, in_line
 
 
 def launch_folder():
     """The folder of the launch files. Raises Refused if this build of hdlyap runs nothing."""
-    ranks.node()
+    HDLYAP.path()
     return os.path.join(rospkg.RosPack().get_path('hdlyap'), 'launch')
 
 
@@ -26,14 +27,14 @@ def check(words, launch, cwd):
     given = _once(word.split(':=', 1) for word in words if not word.startswith('_'))
     for name, value in given.items():
         if name not in known:
-            raise Refused(f'{name} = {value}: {_wanted(name, known)}')
+            raise Refused(f'{name} = {value}: {_wanted(name, known, given)}')
         if '\n' in value or ':=' in value:  # roslaunch would drop it
             raise Refused(f'{name} = {in_line(value)}: must be one line without :=')
     if given.get('scene'):
         path = scene.path(given['scene'], launch, cwd)
         scene.read(path, f'scene = {given["scene"]}', 'parameters')
     if not given.get('machine'):
-        ranks.program(given)
+        Program.of(given)
     return given
 
 
@@ -52,8 +53,9 @@ def _names(path):
     return [arg.get('name') for arg in found if arg.get('value') is None]
 
 
-def _wanted(name, known):
-    all_of_node = {*run.usual(), *(own for one in run.own().values() for own in one)}
+def _wanted(name, known, given):
+    node = Program.of(given)
+    all_of_node = {*node.usual(), *(own for one in node.own().values() for own in one)}
     if name in all_of_node:
         return f'must be in params:="{{{name}: ..}}", as run.launch has no argument of this name'
     meant = difflib.get_close_matches(name, [*known, *all_of_node], 1)

@@ -153,6 +153,7 @@ class Job:
 
         words = [f'__ns:={self.run.name}', f'scene:={self.run.scene_file(self._folder)}']
         words += ['record:=true', f'bag:={self._new}', f'min_space:={min_space}', 'table:=0']
+        words += self.run.program.arguments()
         with open(self.log, 'w') as file:
             self.run.write(self._folder)
             launched(words, came, file, is_lost)

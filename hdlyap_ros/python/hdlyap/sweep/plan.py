@@ -11,6 +11,7 @@ import re
 import yaml
 
 from hdlyap.runs import run, scene
+from hdlyap.runs.program import HDLYAP
 from hdlyap.runs.run import Planned
 from hdlyap.runs.scene import Refused
 
@@ -18,14 +19,14 @@ OF_PLAN = 'base', 'quick', 'full', 'seconds'  # keys of an entry that are no par
 ENTRY = '{base: scene, parameter: value, ..}'
 
 
-def runs(path, quick, launch):
+def runs(path, quick, launch, program=HDLYAP):
     """[Planned] in the order of the plan. Paths of scene files are relative to the folder of the
-    plan. launch: folder of the launch files."""
+    plan. launch: folder of the launch files; program: of the nodes."""
     entries = scene.load(path, f'plan = {path}', f'runs, {{name: {ENTRY}, ..}}')
     if not entries:
         raise Refused(f'plan = {path}: must have runs')
     _check_names(path)
-    return [_run(path, name, entry, quick, launch) for name, entry in entries.items()]
+    return [_run(path, name, entry, quick, launch, program) for name, entry in entries.items()]
 
 
 def _check_names(path):
@@ -40,7 +41,7 @@ def _check_names(path):
                 raise Refused(f'plan = {path}: must have {name} once')
 
 
-def _run(path, name, entry, quick, launch):
+def _run(path, name, entry, quick, launch, program):
     try:
         if not re.fullmatch('[A-Za-z][A-Za-z0-9_]*', str(name)):  # it becomes a namespace of ROS
             raise Refused('must be named with letters, digits and _, the first one a letter')
@@ -49,10 +50,10 @@ def _run(path, name, entry, quick, launch):
         base = scene.scene_file(str(entry['base']), launch, os.path.dirname(os.path.abspath(path)))
         asked = {key: value for key, value in entry.items() if key not in OF_PLAN}
         asked.update(entry.get('quick' if quick else 'full', {}))
-        parameters = run.completed({**base, 'threads': 1, 'scene': name, **asked})
-        parameters = run.without_unneeded(parameters, asked)
+        parameters = program.completed({**base, 'threads': 1, 'scene': name, **asked})
+        parameters = program.without_unneeded(parameters, asked)
         parameters = {str(key): scene.fitting(value) for key, value in parameters.items()}
-        return Planned(name, parameters, _seconds(entry, quick))
+        return Planned(name, parameters, _seconds(entry, quick), program)
     except Refused as refused:
         raise Refused(f'plan = {path}: {name}: {refused}')
 

@@ -7,6 +7,7 @@ import numpy as np
 
 from hdlyap.data import reader, seeds, space
 from hdlyap.data import joined
+from hdlyap.parameters import asked_of_own
 from hdlyap.data.reader import RecordingError
 from hdlyap.data.containers import is_curved
 
@@ -92,7 +93,7 @@ class Point:
 
 def system(info):
     if space.without_box(info):
-        return {'number': info.number, **space.own(info)}
+        return {'number': info.number, **asked_of_own(info)}
     walls = [info.container] if is_curved(info) else space.along(info, 'boundary_')
     walls = walls[:1] if len(set(walls)) == 1 else walls
     solid = {'aspect_z': info.aspect_z} if space.is_solid(info) else {}
@@ -101,7 +102,7 @@ def system(info):
         'density': info.density,
         'aspect': info.aspect,
         **solid,
-        **space.own(info),
+        **asked_of_own(info),
         'boundary': ','.join(walls),
     }
 
