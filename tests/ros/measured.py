@@ -87,6 +87,8 @@ def as_sent(message):
 
 
 def _spectrum(message):
+    if math.isnan(message.divergence):  # the dynamics does not tell it
+        yield from ['divergence', *['exponent_sum'] * (message.pairing_error < 0)]
     for k, (cosine, ratio) in enumerate(zip(message.cos_theta, message.dp_dq_ratio)):
         if math.isnan(cosine) and (math.isnan(ratio) or ratio < 1e-140):  # a half vanishes
             yield f'cos_theta[{k}]'
