@@ -69,7 +69,7 @@ class Table(Bags):
         dissipative = made.spectrum([0.5, 0.001, -0.3, -0.451], 50.0, divergence=-0.2501)
         _, text = self.lines(info, dissipative)
         self.assertRegex(text, r'the exponent before the zero modes .*\n.*\n +1 +0\.5')
-        self.assertIn('sum of all      -0.250000 +- 0.010000\nmean divergence -0.250100\n', text)
+        self.assertIn('sum of all      -0.250(10)\nmean divergence -0.250100\n', text)
         self.assertNotIn('pairing', text)
         self.assertNotIn('divergence', self.lines(INFO, made.spectrum(HALF, 50.0))[1])
 
