@@ -13,7 +13,7 @@ import numpy as np
 
 import harness
 from hdlyap import msg, topics
-from hdlyap.data import possible
+from hdlyap.data import possible, space
 from hdlyap.msg import LpPhase, Mode, Parameter
 from hdlyap.runs.asked import text
 
@@ -124,10 +124,12 @@ TYPES = {list: Parameter.LIST, float: Parameter.NUMBER, int: Parameter.INTEGER}
 
 
 def parameters(core, asked, made):
-    """What each Parameter has: scene, those of the core's rows, those of the node alone."""
-    rows = {row.name: row for row in core.rows if row.kind != SET}
+    """What each Parameter has: scene, those of the core's rows, those of the node alone; without a
+    box none of a box."""
+    absent = () if core.box[0] else space.OF_A_BOX
+    rows = {row.name: row for row in core.rows if row.kind != SET and row.name not in absent}
     now = {**asked, **{change.name: float(change.value) for change in made}}
-    others = [name for name in asked if name not in (*rows, 'scene', 'changes')]
+    others = [name for name in asked if name not in (*rows, *absent, 'scene', 'changes')]
     return [
         parameter(core, name, rows.get(name), now.get(name)) for name in ('scene', *rows, *others)
     ]

@@ -151,7 +151,7 @@ members beside(const hdr_run_info *)
                       {"as_before", !row->may_differ},
                       {"own", k >= rows}});
     };
-    hd_scene_box(def, box);
+    if (hd_scene_dimension(def) > 0) hd_scene_box(def, box);
     return named({{"rows", list(rows + of->parameters, parameter)},
                   {"packing", hd_scene_packing(def)},
                   {"boundary", LIST(3, hd_scene_boundary_word(def, k))},
