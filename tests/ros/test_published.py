@@ -319,11 +319,7 @@ CIRCLE = dict(SHORT, **LOOKED_AT, container='circle', number=100, density=0.7)
 CIRCLE.update(observables=[name for name in REST if name not in ('t_phases', 'hydro', 'structure')])
 SPHERES = dict(SHORT, particles='spheres', number=48, density=0.5, aspect_z=6.0, aspect=1.0)
 SPHERES.update(
-    slow_vectors_rate=4.0,
-    max_mode_number=1,
-    observables=EVERY,
-    duration=100.0,
-    report_interval=40.0,
+    LOOKED_AT, max_mode_number=1, observables=EVERY, duration=100.0, report_interval=40.0
 )
 SPHERES.update(covariant_window=40.0, covariant_transient=20.0, covariant_sampling=20.0)
 DUMBBELLS = dict(SHORT, particles='dumbbells', number=36, density=0.5, aspect=0.1, bond=0.4)

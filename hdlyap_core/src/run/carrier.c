@@ -288,7 +288,7 @@ static hd_status frame_piece(hd_carrier *c, const hd_carrying *how, double t_beg
 double hd_carrier_divergence(const hd_carrier *c)
 {
     const double time = c->spectrum ? hd_spectrum_time(c->spectrum) : 0.0;
-    return time > 0 ? (c->diverged[1] - c->diverged[0]) / time : NAN;
+    return c->of->divergence && time > 0 ? (c->diverged[1] - c->diverged[0]) / time : NAN;
 }
 
 double hd_carrier_averaged(const hd_carrier *c)

@@ -57,6 +57,8 @@ static void say_spectrum(said *s, const hd_spectrum *of, int n)
     say(s, "ks_entropy", sums.ks_entropy);
     say(s, "ks_entropy_error", sums.ks_entropy_error);
     say(s, "pairing_error", sums.pairing_error);
+    say(s, "exponent_sum", sums.exponent_sum);
+    say(s, "exponent_sum_error", sums.exponent_sum_error);
 }
 
 static void say_weights(said *s, const hd_modes *of, const hd_scene_def *scene)
@@ -354,6 +356,7 @@ static void say_run(said *s, const hd_run *run)
     say(s, "report due", hd_run_report_due(run));
     say(s, "followed", hd_run_phase_time(run));
     say(s, "caged", hd_run_is_caged(run));
+    say(s, "divergence", hd_run_divergence(run));
     say(s, "shortest duration", hd_run_shortest_duration(run));
     say_cost(s, run);
 }
