@@ -5,13 +5,6 @@
 
 enum { VECTORS_MAX = 64 };
 
-/** To a build that verifies, a frame that a test has broken is a bug. */
-#ifdef HD_VERIFY_BUILD
-enum { VERIFIES = 1 };
-#else
-enum { VERIFIES = 0 };
-#endif
-
 /* ---- whole runs ---------------------------------------------------------------------------- */
 
 /** Few vectors: extended precision is slow. */

@@ -177,7 +177,8 @@ TEST(seconds_that_are_extrapolated)
     OWNED(hd_run) *run = created(def);
     double interval;
     assert_true(seconds_agree(e.seconds, taken(run, &interval)) || seconds_agree_again(&def));
-    check_ratio("interval", e.interval, interval, INTERVAL_FACTOR);
+    /* sanitizers leave a second too few intervals to see how they grow */
+    if (!HD_SANITIZED) check_ratio("interval", e.interval, interval, INTERVAL_FACTOR);
     CHECK_WITHIN(e.extrapolated, 0.1, 100.0);
     assert_int_equal(e.particles, def.number);
 }

@@ -18,6 +18,13 @@
 #define HD_SANITIZED 0
 #endif
 
+/** To a build that verifies, a frame that a test has broken is a bug. */
+#ifdef HD_VERIFY_BUILD
+enum { VERIFIES = 1 };
+#else
+enum { VERIFIES = 0 };
+#endif
+
 /** A parameter that has one value of disks: what spheres have. */
 static inline bool is_of_spheres(const hd_parameter *row)
 {

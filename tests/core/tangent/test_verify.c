@@ -4,12 +4,6 @@
 #include "runs.h"
 #include "tangent/verify.h"
 
-#ifdef HD_VERIFY_BUILD
-static const bool VERIFIES = true;
-#else
-static const bool VERIFIES = false;
-#endif
-
 static jmp_buf caught;
 
 static void catch (const char *condition, const char *file, int line)
