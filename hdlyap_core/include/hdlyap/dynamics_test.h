@@ -15,11 +15,11 @@ HD_API_BEGIN
  * - Do the members fit together (hd_dynamics_check), and does hd_scene_check accept the scene?
  * - Are entries in order, and do records and times end where they must (hd_trajectory_fault)?
  * - Is the motion the same if the time is cut into other advances? To the bit if the row has
- * `step`.
- * - Does a state that `archive` wrote, and read into a new one, go on to the same bits?
+ * hd_dynamics.step.
+ * - Does a state that hd_dynamics.archive wrote, and read into a new one, go on to the same bits?
  * - Do tangent maps give the same in parts as in one go, and at each width?
  * - Are they symplectic, if the row says so?
- * - Is `divergence` the growth of the volume that they carry?
+ * - Is hd_dynamics.divergence the growth of the volume that they carry?
  * - Do they carry vectors as nearby trajectories go? These start from numbers of the archive that
  * are changed a little.
  * - Are null vectors carried into the span of those of the later state?

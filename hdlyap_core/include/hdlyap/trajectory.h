@@ -18,7 +18,7 @@ typedef struct hd_trajectory hd_trajectory;
 /** Makes a trajectory of the scene *def, which the caller frees with hd_trajectory_free. Its
  * particles are at time 0: positions on a lattice, and random momenta from the seed, with total
  * momentum 0 along periodic directions and the energy of the scene. Returns HD_OK; HD_REFUSED for a
- * scene that hd_scene_check refuses; HD_NO_MEMORY; or another status that the row's own `create`
+ * scene that hd_scene_check refuses; HD_NO_MEMORY; or another status that hd_dynamics.create
  * returns, HD_NOT_FINITE if its start is no numbers. O(N log N). */
 HD_MUST_CHECK hd_status hd_trajectory_create(hd_trajectory **out, const hd_scene_def *def);
 /** Frees a trajectory, unless the pointer is NULL. */
@@ -28,7 +28,7 @@ void hd_trajectory_free(hd_trajectory *trajectory);
  * NULL, it adds what happens to the record, which then ends at the present time. What happens does
  * not depend on how the time is cut into calls. Returns HD_OK, HD_OVERLAP, HD_NOT_FINITE,
  * HD_ENERGY_LOST, HD_NO_MEMORY, HD_DYNAMICS_FAULT (see hd_trajectory_fault), or another status that
- * the row's own `advance` returns. For hard particles it costs O(1) for each collision, and O(N)
+ * hd_dynamics.advance returns. For hard particles it costs O(1) for each collision, and O(N)
  * every some tens of collisions of a particle. */
 HD_MUST_CHECK hd_status hd_trajectory_extend(hd_trajectory *trajectory, hd_record *record,
                                              double t_end);
