@@ -161,7 +161,7 @@ TEST(the_time_to_the_target_is_predicted)
         const double ratio = predicted_over_taken(seed);
         right += fabs(ratio - 1.0) <= 0.3;
     }
-    CHECK_CLOSE(right, 16.0, 2.5 * 2.3);
+    assert_true(right >= 16.0 - 2.5 * 2.3);
 }
 
 TEST(progress_and_cost_add_up)
