@@ -49,12 +49,16 @@ static void twins_clear(twins *two)
     }
 }
 
-/** Largest difference of their q and p. */
+/** Largest difference of their q and p; NaN if one is. */
 static double apart(const twins *two, const hd_trial *t)
 {
     double most = 0.0;
     for (int k = 0; k < 2; k++) hd_trajectory_state(two->tr[k], two->x[k], two->x[k] + t->rows / 2);
-    for (size_t k = 0; k < t->rows; k++) most = fmax(most, fabs(two->x[0][k] - two->x[1][k]));
+    for (size_t k = 0; k < t->rows; k++) {
+        const double difference = fabs(two->x[0][k] - two->x[1][k]);
+        if (isnan(difference)) return NAN; /* which fmax leaves out */
+        most = fmax(most, difference);
+    }
     return most;
 }
 

@@ -13,6 +13,7 @@
 #include "base/random.h"
 #include "dynamics/dynamics.h"
 #include "dynamics/soft/integrator.h"
+#include "dynamics/trajectory.h"
 
 /** The energy error asked for is this many times the accuracy, which counts as at least LEAST. */
 static const double ASKED = 10.0, LEAST = 1e-6;
@@ -82,10 +83,10 @@ static const hd_integrator *integrator_of(const hd_scene_def *scene)
     return &hd_integrators[k == HD_VERLET ? HD_VERLET : HD_PEFRL];
 }
 
-/** At most what leaves a run twice as far from its end by HD_SOFT_LOST as from what is asked. */
+/** At most what leaves a run twice as far from a lost energy as from what is asked. */
 static double accuracy(const hd_scene_def *scene)
 {
-    return fmin(fmax(scene->accuracy, LEAST), 0.5 * HD_SOFT_LOST / ASKED);
+    return fmin(fmax(scene->accuracy, LEAST), 0.5 * HD_ENERGY_LOST_FROM / ASKED);
 }
 
 double hd_hamiltonian_energy_asked(const hd_scene_def *scene) { return ASKED * accuracy(scene); }
@@ -153,7 +154,7 @@ static double kinetic_energy(const motion *m)
 }
 
 /** Measures m->error: the change of the energy over kinetic + |potential| energy. Fails with
- * HD_ENERGY_LOST if it is more than HD_SOFT_LOST. */
+ * HD_ENERGY_LOST if it is more than HD_ENERGY_LOST_FROM. */
 static hd_status look(motion *m)
 {
     const double after = pending(m), kinetic = kinetic_energy(m);
@@ -161,7 +162,7 @@ static hd_status look(motion *m)
     const double potential = forces_at(m, m->here), size = kinetic + fabs(potential);
     m->error = size > 0 || isnan(size) ? (kinetic + potential - m->energy) / size : 0.0;
     if (isnan(m->error)) m->error = 1.0; /* where it tends to */
-    return fabs(m->error) <= HD_SOFT_LOST ? HD_OK : HD_ENERGY_LOST;
+    return fabs(m->error) <= HD_ENERGY_LOST_FROM ? HD_OK : HD_ENERGY_LOST;
 }
 
 static hd_status put_kick(const motion *m, hd_record *record, entry *e)
@@ -337,7 +338,7 @@ void hd_hamiltonian_examine(const void *state, hd_invariants *examined)
     const size_t coordinates = m->all / (size_t)m->scene.number;
     *examined = (hd_invariants){.kinetic_energy = kinetic_energy(m),
                                 .energy_error = m->error,
-                                .energy_rounding = HD_SOFT_LOST};
+                                .energy_rounding = HD_ENERGY_LOST_FROM};
     for (size_t k = 0; k < m->all && m->of->shifts; k++)
         if (k % coordinates < HD_DIMENSION_MAX) examined->momentum[k % coordinates] += m->p[k];
 }
@@ -488,8 +489,7 @@ hd_status hd_kicks_fill(void *to, const hd_record *record, double t_begin, doubl
             flight = e->after;
         }
         const size_t part = left < PART ? left : PART;
-        memcpy(kept, e->kept,
-               sizeof e->kept); /* a whole one, of which the next one replaces the rest */
+        memcpy(kept, e->kept, sizeof e->kept); /* the next part replaces what is too much */
         kept += part;
         left -= part;
     }

@@ -17,7 +17,6 @@ enum {
     COLUMNS = 8,        /* random vectors that are carried */
     CUTS = 5,           /* of a record */
     HALVINGS = 6,       /* of TIME_NULL, at most */
-    NULL_ROOM = 64,     /* for null vectors too many; they were counted before */
     EXPONENTS_MOST = 64 /* for which exponents that vanish are counted */
 };
 /** Part of the largest component by which vectors may differ by rounding, which growth enlarges;
@@ -219,7 +218,7 @@ static int width_for(int count)
 /** Null vectors of a state as a block, and their number. */
 static hd_status null_block(hd_trial *t, double *block, int width, const double *x, int *count)
 {
-    const size_t room = (size_t)(hd_scene_zero_exponents(&t->scene) + NULL_ROOM);
+    const size_t room = (size_t)(hd_scene_zero_exponents(&t->scene) + HD_NULL_SPARE);
     double *column = block_create(t, room);
     if (!column) return HD_NO_MEMORY;
     const hd_status status = hd_null_vectors_of(count, &t->scene, x, x + t->rows / 2, column);
@@ -227,10 +226,11 @@ static hd_status null_block(hd_trial *t, double *block, int width, const double 
         for (size_t row = 0; row < t->rows; row++)
             block[row * (size_t)width + (size_t)k] = column[(size_t)k * t->rows + row];
     hd_memory_free(column);
-    return status == HD_OK ? HD_OK
-                           : hd_refuse(t->message, t->size,
-                                       "null_vectors = %d: must be from 0 to zero_exponents = %d",
-                                       *count, hd_scene_zero_exponents(&t->scene));
+    return status != HD_DYNAMICS_FAULT
+               ? status
+               : hd_refuse(t->message, t->size,
+                           "null_vectors = %d: must be from 0 to zero_exponents = %d", *count,
+                           hd_scene_zero_exponents(&t->scene));
 }
 
 /** Length of column col of `block` outside of the span of `basis`, as a part of its length. */

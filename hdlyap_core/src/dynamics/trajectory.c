@@ -85,15 +85,12 @@ hd_status hd_trajectory_create(hd_trajectory **out, const hd_scene_def *def)
     return hd_trajectory_create_with(out, def, state);
 }
 
-/** Most null vectors too many for which there is room at the start. */
-enum { NULL_ROOM = 64 };
-
 hd_status hd_trajectory_check_null(const hd_trajectory *tr, const hd_scene_def *def, char *message,
                                    size_t size)
 {
     const size_t half = coordinates(tr), zeros = (size_t)hd_scene_zero_exponents(def);
     if (!def->dynamics || !tr->of->null_vectors || hd_scene_vectors(def) == 0) return HD_OK;
-    double *q = hd_memory_alloc(2 * half * (1 + zeros + NULL_ROOM), sizeof *q);
+    double *q = hd_memory_alloc(2 * half * (1 + zeros + HD_NULL_SPARE), sizeof *q);
     if (!q) return HD_NO_MEMORY;
     hd_trajectory_state(tr, q, q + half);
     const int known = tr->of->null_vectors(def, q, q + half, q + 2 * half);

@@ -251,9 +251,11 @@ static hd_status check_sites(const hd_scene_def *scene, char *message, size_t si
 hd_status hd_row_check_numbers(const hd_scene_def *scene, char *message, size_t size)
 {
     if (!scene->dynamics)
-        return HD_OK; /* those of the core are in order, and have their own limits */
-    HD_TRY(check_zeros(scene, message, size));
-    HD_TRY(check_rates(scene, message, size));
-    HD_TRY(check_positive(scene, message, size));
-    return check_sites(scene, message, size);
+        return HD_OK;              /* those of the core are in order, and have their own limits */
+    hd_scene_def settled = *scene; /* a time step that is found by a trial is found once */
+    hd_scene_settle(&settled);
+    HD_TRY(check_zeros(&settled, message, size));
+    HD_TRY(check_rates(&settled, message, size));
+    HD_TRY(check_positive(&settled, message, size));
+    return check_sites(&settled, message, size);
 }

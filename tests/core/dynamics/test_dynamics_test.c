@@ -101,6 +101,26 @@ static void carry_nothing(const void *maps, double *block, int width)
     block[0] = NAN;
 }
 
+static void tell_nothing(const void *state, double *q, double *p)
+{
+    tell(state, q, p);
+    if (q) q[0] = NAN;
+}
+
+static void examine_nothing(const void *state, hd_invariants *examined)
+{
+    *examined = (hd_invariants){.kinetic_energy = state ? 1.0 : 0.0};
+}
+
+static uint32_t no_fingerprint(const void *state) { return state ? 1 : 0; }
+
+/** Of a row that tells all of itself, so that nobody else looks at its q and p. */
+TEST(a_state_that_is_not_a_number_is_found)
+{
+    FOUND("advance: q and p differ by nan if ", wrong.state = tell_nothing;
+          wrong.examine = examine_nothing; wrong.fingerprint = no_fingerprint);
+}
+
 TEST(maps_that_are_wrong_are_found)
 {
     FOUND("carry: differs from trajectories that start nearby by ", wrong.carry = carry_too_stiff);

@@ -19,8 +19,4 @@ typedef struct hd_integrator {
 enum { HD_VERLET, HD_PEFRL, HD_INTEGRATORS, HD_INTEGRATOR_AUTO = HD_INTEGRATORS };
 extern const hd_integrator hd_integrators[HD_INTEGRATORS];
 
-/** A run whose energy is off by more than this part of it fails: exponents go as the root of the
- * energy, so they are then off by 1 %, as much as the errors that short runs state. */
-#define HD_SOFT_LOST 0.02
-
 #endif
