@@ -4,7 +4,7 @@
  * The history (history.h) reaches from the window's start to the transient's end. On the way back C
  * belongs to the end of the next interval: if vectors were kept there they are measured; then C is
  * carried to the interval's start. */
-#include "covariant/covariant.h"
+#include "covariant/covariant_state.h"
 
 #include <cblas.h>
 #include <limits.h>
@@ -12,69 +12,17 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "averages/doubling.h"
-#include "averages/spectrum.h"
 #include "base/check.h"
 #include "base/memory.h"
-#include "covariant/angles.h"
 #include "covariant/backward.h"
-#include "covariant/history.h"
-#include "covariant/splitting.h"
-#include "covariant/backward_pair.h"
 #include "covariant/window_room.h"
 #include "dynamics/dynamics.h"
-#include "modes/modes.h"
 #include "scene/scene.h"
-#include "tangent/localization.h"
 
 /** Two times that differ by less than this part of covariant_sampling are the same. */
 static const double CLOSE = 1e-6;
 
 enum { WEIGHTS = 3 }; /* of dq halves, of dp halves, of the frame */
-
-typedef enum way { FORWARD, THROUGH_TRANSIENT, THROUGH_WINDOW } way;
-
-struct hd_covariant {
-    hd_scene_def scene;
-    int rows, vectors, carried, threads, unstable, centre;
-    int centre_most; /**< largest centre for which there is room */
-    /** By whose exponents unstable vectors and those of the centre are counted; NULL: theory says
-     * how many there are. */
-    const hd_spectrum *counting;
-    hd_history *past;
-    hd_backward_pair
-        *starts; /**< two starts through the transient, the first one through the window */
-    hd_spectrum *spectrum;
-    hd_splitting *splitting;
-    hd_doubling *grown; /**< growth of the vectors between two samples, the latest samples first */
-    hd_localization *shape;
-    hd_modes *half[2]; /**< weights of the dq halves and of the dp halves; NULL without positions in
-                          a box */
-    /** Weights of the dq halves of the frame at the same times; NULL as `half`. */
-    hd_modes *of_frame;
-    hd_angles *spaces; /**< angles between spaces of C's rows; it and the next two are NULL if the
-                          centre is not computed */
-    hd_angles *null;   /**< angles between spaces of the vectors' rows */
-    double *null_columns; /**< [2 * centre + HD_NULL_SPARE][rows]: vectors of the centre, then exact
-                             null vectors */
-    double *factor;       /**< [vectors * vectors]; room for the centres of both starts, too */
-    double *coupling;     /**< [carried * carried]; NULL where all vectors are carried */
-    double *angle;        /**< [vectors]: principal angles */
-    double *apart; /**< [vectors]: sines between the vectors of both starts at the end of the last
-                      window */
-    double *frame, *q, *p;  /**< vectors [rows * vectors] of a sample; positions and momenta then */
-    double window, due;     /**< time at which the window began; time of the next sample */
-    double ended;           /**< what hd_covariant_results.window_end says */
-    double now, grown_time; /**< time that the forward pass has reached; time of the growth */
-    double bytes;           /**< bytes that the window takes */
-    way way;
-    long at;   /**< interval that is next on the way back */
-    long last; /**< interval that the window ends with */
-    long windows, lost, intervals;
-    uint64_t streams; /**< number of streams of random numbers used so far */
-    hd_covariant_mismatch spaces_apart;
-    double null_apart, null_apart_most;
-};
 
 static hd_modes *weights_of(const hd_covariant *c, int k)
 {
@@ -136,23 +84,6 @@ static hd_status allocate(hd_covariant *c)
                                   c->vectors, c->threads);
 }
 
-/** Number of exponents that vanish, as the row says; negative: it does not say. */
-static int said_zeros(const hd_covariant *c)
-{
-    return hd_dynamics_of(&c->scene)->zero_exponents ? hd_scene_zero_exponents(&c->scene) : -1;
-}
-
-/** The spaces are not known yet. */
-static void prepare_counting(hd_covariant *c, const hd_spectrum *spectrum)
-{
-    const int zeros = said_zeros(c);
-    HD_ASSERT(spectrum);
-    c->counting = spectrum;
-    c->centre_most = zeros >= 0 && zeros < c->vectors ? zeros : c->vectors;
-    c->centre = 0;
-    c->unstable = c->vectors;
-}
-
 hd_status hd_covariant_create(hd_covariant **out, const hd_scene_def *def,
                               const hd_spectrum *spectrum, int threads)
 {
@@ -168,7 +99,7 @@ hd_status hd_covariant_create(hd_covariant **out, const hd_scene_def *def,
     c->centre = c->centre_most = c->vectors >= positive + zero ? zero : 0;
     c->unstable = c->centre > 0 ? positive
                                 : c->vectors; /* part of a centre is not measured as a space */
-    if (!hd_dynamics_of(def)->symplectic) prepare_counting(c, spectrum);
+    if (!hd_dynamics_of(def)->symplectic) hd_covariant_prepare_counting(c, spectrum);
     const hd_status status = allocate(c);
     if (status == HD_OK)
         hd_covariant_clear(*out = c, 0.0);
@@ -263,25 +194,9 @@ static bool is_complete(const hd_covariant *c)
     return last < hd_history_end(c->past) && c->now >= hd_history_time(c->past, last) + least;
 }
 
-/** Counts unstable vectors and those of the centre. What was measured of other spaces is dropped.
- */
-static void count_spaces(hd_covariant *c)
-{
-    const hd_signs signs = hd_spectrum_signs(c->counting, said_zeros(c));
-    const bool known = signs.positive > 0 && signs.zero > 0 &&
-                       signs.positive + signs.zero < c->vectors;
-    const int unstable = known ? signs.positive : c->vectors, centre = known ? signs.zero : 0;
-    if (unstable == c->unstable && centre == c->centre) return;
-    c->unstable = unstable;
-    c->centre = centre;
-    hd_splitting_divide(c->splitting, unstable, centre);
-    c->null_apart = c->null_apart_most = -1.0;
-    c->spaces_apart.centre = c->spaces_apart.stable = -1.0;
-}
-
 static void begin_way_back(hd_covariant *c)
 {
-    if (c->counting) count_spaces(c);
+    if (c->counting) hd_covariant_count(c);
     hd_backward_pair_begin(c->starts, c->scene.seed, c->streams);
     c->streams += 2;
     c->at = hd_history_end(c->past) - 1;
@@ -503,14 +418,6 @@ hd_covariant_results hd_covariant_read(const hd_covariant *c)
     return r;
 }
 
-/** Reads or writes which spaces the averages are of. */
-static void archive_counts(hd_covariant *c, hd_archive *archive)
-{
-    hd_archive_int(archive, "covariant unstable", &c->unstable, 1, c->vectors);
-    hd_archive_int(archive, "covariant centre", &c->centre, 0, c->vectors - c->unstable);
-    if (!archive->writing) hd_splitting_divide(c->splitting, c->unstable, c->centre);
-}
-
 /** Reads or writes the averages; the window under way is lost. */
 void hd_covariant_archive(hd_covariant *c, hd_archive *archive)
 {
@@ -524,7 +431,7 @@ void hd_covariant_archive(hd_covariant *c, hd_archive *archive)
     for (size_t k = 0; k < sizeof numbers / sizeof *numbers; k++)
         hd_archive_next_doubles(archive, numbers[k], 1);
     hd_archive_doubles(archive, "covariant apart", c->apart, (size_t)c->vectors);
-    if (c->counting) archive_counts(c, archive);
+    if (c->counting) hd_covariant_archive_counts(c, archive);
     hd_spectrum_archive(c->spectrum, archive);
     hd_splitting_archive(c->splitting, archive);
     hd_doubling_archive(c->grown, archive);
