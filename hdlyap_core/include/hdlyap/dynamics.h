@@ -86,8 +86,18 @@ typedef struct hd_record_slice {
     const hd_scene_def *scene; /**< its parameters that the row reads are those of the run */
 } hd_record_slice;
 
+/** A number of a state, whose mean over time the observable averages has. */
+typedef struct hd_average {
+    /** Name, by which a target can ask for it: a letter, then letters, digits and _, at most 31
+     * together; not that of a parameter, nor of a quantity of targets. */
+    const char *name;
+    const char *unit; /**< unit, as time units; "" if it has none */
+} hd_average;
+
 enum {
-    HD_PARTICLES = 32, /**< bytes of a dynamics' name with its final zero */
+    HD_PARTICLES = 32,    /**< bytes of a dynamics' name with its final zero */
+    HD_AVERAGE_NAME = 32, /**< bytes of the name of an average with its final zero */
+    HD_AVERAGES_MAX = 8,  /**< most numbers of a state whose means a row asks for */
     /** Most coordinates of a particle, so that an int can count those of all particles. */
     HD_COORDINATES_MAX = 1000
 };
@@ -218,6 +228,14 @@ struct hd_dynamics {
      * whole time step. Its mean is the sum of all exponents: hd_run_divergence. It is part of what
      * `archive` keeps. May be left out, as it is 0 for symplectic maps. */
     double (*divergence)(const void *state);
+    /** What a program wants to know the means of, [averages]: the observable averages, see
+     * hdlyap/averages.h. May be left out. */
+    const hd_average *average;
+    int averages; /**< number of these, 0 .. HD_AVERAGES_MAX */
+    /** Writes these numbers of the state q, p, which is as `state` writes it, to value[averages].
+     * They follow from the state alone. A number that is not finite, or is not written, ends the
+     * run with HD_DYNAMICS_FAULT. */
+    void (*measure)(const hd_scene_def *scene, const double *q, const double *p, double *value);
     /** Writes all members of *examined; 0 where a member means nothing for these particles, as
      * energy_error where energy is not conserved. A run of particles that do not collide, or whose
      * row has `step` or `energy_asked`, ends with HD_ENERGY_LOST when energy_error is beyond 2 %.

@@ -17,6 +17,7 @@ HD_API_BEGIN
  * - Is the motion the same if the time is cut into other advances? To the bit if the row has
  * hd_dynamics.step.
  * - Does a state that hd_dynamics.archive wrote, and read into a new one, go on to the same bits?
+ * - Do averages follow from the state alone, are they finite, and no more than the row says?
  * - Do tangent maps give the same in parts as in one go, and at each width?
  * - Are they symplectic, if the row says so?
  * - Is hd_dynamics.divergence the growth of the volume that they carry?

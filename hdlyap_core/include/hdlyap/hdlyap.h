@@ -34,6 +34,7 @@
 #include "hdlyap/splitting.h"
 #include "hdlyap/covariant.h"
 /* observe */
+#include "hdlyap/averages.h"
 #include "hdlyap/fluctuations.h"
 #include "hdlyap/observables.h"
 /* run */

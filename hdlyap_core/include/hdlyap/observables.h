@@ -11,8 +11,11 @@ HD_API_BEGIN
  */
 enum { HD_QUANTITY_NAME = 32 };
 
-/** Returns the set of HD_OBSERVE_* that need particles with positions in a box. */
-unsigned hd_observe_of_box(void);
+/** Returns the set of HD_OBSERVE_* that particles of this row can have: without positions in a box
+ * none that needs them, without hd_dynamics.totals no gas, without hd_dynamics.averages no
+ * averages.
+ */
+unsigned hd_observe_of(const hd_dynamics *row);
 
 /** The parts of a run: a pointer to the result of each observable, named as in observables.inc;
  * NULL if the scene does not ask for it. The parts belong to the run and last until it is freed. */
@@ -46,6 +49,7 @@ typedef struct hd_result_counts {
     int found; /**< number of steps of positive exponents that are resolved now */
     /** Number of lengths of time over which the order of covariant vectors is compared. */
     int orders;
+    int averages; /**< number of averages that the row of the dynamics tells */
 } hd_result_counts;
 
 HD_API_END

@@ -10,6 +10,7 @@
 
 #include <stdbool.h>
 
+#include "hdlyap/averages.h"
 #include "hdlyap/communicator.h"
 #include "hdlyap/covariant.h"
 #include "hdlyap/frame.h"

@@ -63,14 +63,18 @@ enum { HD_WARMUP_AUTO = -1 };
 
 /** Bits of hd_scene_def.observe: the observables, computed beyond the exponents, as rows of
  * observables.inc. An observable brings others along: modes and steps bring each other, and phases,
- * fields, hydro and structure bring both. gas needs no exponents. */
+ * fields, hydro and structure bring both. gas and averages need no exponents. */
 enum {
 #define HD_OBSERVABLE(name, NAME, bit, of_waves, result) HD_OBSERVE_##NAME = (bit),
 #include "hdlyap/observables.inc"
-    HD_OBSERVE_ALL = 0
+    /** All that there are. */
+    HD_OBSERVE_ANY = 0
 #define HD_OBSERVABLE(name, NAME, bit, of_waves, result) | (bit)
 #include "hdlyap/observables.inc"
     ,
+    /** All that disks have, and all but hydro of other particles of the core: what rows of a
+     * program's own can have is said by hd_observe_of. */
+    HD_OBSERVE_ALL = HD_OBSERVE_ANY & ~HD_OBSERVE_AVERAGES,
     /** All observables that need waves. */
     HD_OBSERVE_WAVES = 0
 #define HD_OBSERVABLE(name, NAME, bit, of_waves, result) | (of_waves) * (bit)

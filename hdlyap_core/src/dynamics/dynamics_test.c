@@ -183,11 +183,51 @@ static hd_status test_archive(hd_trial *t, hd_image *kept)
     return status;
 }
 
+/* ---- averages ------------------------------------------------------------------------------ */
+
+/** Measures one state twice, where other numbers stand before. */
+static hd_status compare_measured(hd_trial *t, const double *x)
+{
+    double value[2][HD_AVERAGES_MAX + 1];
+    const int count = t->of->averages;
+    for (int twice = 0; twice < 2; twice++) {
+        for (int k = 0; k <= HD_AVERAGES_MAX; k++) value[twice][k] = 1.5 + twice;
+        t->of->measure(&t->scene, x, x + t->rows / 2, value[twice]);
+        if (value[twice][count] != 1.5 + twice)
+            return hd_refuse(t->message, t->size,
+                             "measure: must not write more than averages = %d numbers", count);
+    }
+    for (int k = 0; k < count; k++)
+        if (!(value[0][k] == value[1][k] && isfinite(value[0][k])))
+            return hd_refuse(
+                t->message, t->size,
+                "measure: %s is %g, and then %g of the same state: must be finite, and "
+                "follow from the state alone",
+                t->of->average[k].name, value[0][k], value[1][k]);
+    return HD_OK;
+}
+
+static hd_status test_measure(hd_trial *t, const hd_image *kept)
+{
+    hd_trajectory *tr = NULL;
+    double *x = hd_memory_alloc(t->rows, sizeof *x);
+    hd_status status = x ? HD_OK : HD_NO_MEMORY;
+    if (status == HD_OK) status = hd_trial_make(t, &tr, kept);
+    if (status == HD_OK) {
+        hd_trajectory_state(tr, x, x + t->rows / 2);
+        status = compare_measured(t, x);
+    }
+    hd_trajectory_free(tr);
+    hd_memory_free(x);
+    return status;
+}
+
 /* ---- all ----------------------------------------------------------------------------------- */
 
 static hd_status test_all(hd_trial *t, hd_image *kept)
 {
     HD_TRY(test_archive(t, kept));
+    if (t->of->averages > 0) HD_TRY(test_measure(t, kept));
     HD_TRY(test_cuts_of_time(t, kept));
     HD_TRY(hd_maps_test_cuts(t, kept));
     HD_TRY(hd_maps_test_symplectic(t, kept));

@@ -48,7 +48,8 @@ static hd_status look(hd_trajectory *tr)
 double hd_trajectory_noted(const hd_scene_def *def)
 {
     const hd_dynamics *of = hd_dynamics_of(def);
-    return of->examine && of->fingerprint ? 0.0 : 2.0 * of->coordinates * def->number;
+    const bool measured = def->observe & HD_OBSERVE_AVERAGES;
+    return of->examine && of->fingerprint && !measured ? 0.0 : 2.0 * of->coordinates * def->number;
 }
 
 hd_status hd_trajectory_create_with(hd_trajectory **out, const hd_scene_def *def, void *state)
@@ -144,6 +145,19 @@ hd_status hd_trajectory_extend(hd_trajectory *tr, hd_record *record, double t_en
     HD_TRY(finite);
     HD_TRY(kept);
     return status;
+}
+
+hd_status hd_trajectory_measure(hd_trajectory *tr, double *value, const hd_scene_def *scene)
+{
+    for (int k = 0; k < tr->of->averages; k++) value[k] = NAN;
+    tr->of->measure(scene, tr->now, tr->now + coordinates(tr), value);
+    for (int k = 0; k < tr->of->averages; k++) {
+        if (isfinite(value[k])) continue;
+        snprintf(tr->fault, sizeof tr->fault, "measure: %s is %g at %.12g: must be finite",
+                 tr->of->average[k].name, value[k], hd_trajectory_time(tr));
+        return HD_DYNAMICS_FAULT;
+    }
+    return HD_OK;
 }
 
 const char *hd_trajectory_fault(const hd_trajectory *tr) { return tr->fault; }

@@ -20,6 +20,12 @@ HD_MUST_CHECK hd_status hd_trajectory_check_null(const hd_trajectory *trajectory
                                                  const hd_scene_def *scene, char *message,
                                                  size_t size);
 
+/** Writes the numbers that the row tells of the present state (hd_dynamics.average) to
+ * value[averages]. `scene`, which asks for HD_OBSERVE_AVERAGES, is that of the trajectory. Fails
+ * with HD_DYNAMICS_FAULT if one is not finite (hd_trajectory_fault). */
+HD_MUST_CHECK hd_status hd_trajectory_measure(hd_trajectory *trajectory, double *value,
+                                              const hd_scene_def *scene);
+
 int hd_trajectory_particles(const hd_trajectory *trajectory); /**< N */
 
 void hd_trajectory_archive(hd_trajectory *trajectory, hd_archive *archive);
@@ -42,8 +48,8 @@ struct hd_trajectory {
     int particles;
     double rate; /**< expected pair collisions per time unit */
     hd_energy energy;
-    /** [2][particles][coordinates]: q and p of now, for what the row leaves out; NULL if it leaves
-     * nothing out that follows from them. */
+    /** [2][particles][coordinates]: q and p of now, for averages, and for what the row leaves out;
+     * NULL without averages, if it leaves nothing out that follows from them. */
     double *now;
     char fault[HD_FAULT_LINE]; /**< what the row's functions did wrong; "": nothing */
 };

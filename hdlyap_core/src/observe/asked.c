@@ -84,13 +84,37 @@ double hd_scene_warmup(const hd_scene_def *scene)
                                                       : time;
 }
 
-/** True if an observable of the set has this need. */
-static bool has_need(unsigned set, unsigned need)
+/** All that the observables of a set need. */
+static unsigned needs_of(unsigned set)
 {
-    bool found = false;
+    unsigned needs = 0;
     for (int k = 0; k < HD_OBSERVED; k++)
-        found |= set & hd_observable_bits[k] && hd_observable_rows[k]->needs & need;
-    return found;
+        if (hd_observables_with(set) & hd_observable_bits[k]) needs |= hd_observable_rows[k]->needs;
+    return needs;
+}
+
+/** What particles may lack, and why observables that need it are then refused. */
+static const struct {
+    unsigned need;
+    const char *why;
+} LACKING[] = {{HD_NEEDS_BOX, "which have no positions in a box"},
+               {HD_NEEDS_TOTALS, "whose pressure cannot be measured"},
+               {HD_NEEDS_AVERAGES, "whose row of dynamics tells no averages"}};
+enum { LACKS = sizeof LACKING / sizeof *LACKING };
+
+/** The needs of which particles of this row lack what they stand for. */
+static unsigned lacking(const hd_dynamics *of)
+{
+    return (of->dimension == 0 ? HD_NEEDS_BOX : 0u) | (of->totals ? 0u : HD_NEEDS_TOTALS) |
+           (of->averages > 0 ? 0u : HD_NEEDS_AVERAGES);
+}
+
+unsigned hd_observe_of(const hd_dynamics *row)
+{
+    unsigned set = 0;
+    for (int k = 0; k < HD_OBSERVED; k++)
+        if (!(needs_of(hd_observable_bits[k]) & lacking(row))) set |= hd_observable_bits[k];
+    return set;
 }
 
 /** Name of the first observable that the scene asks for and that has this need, or brings one that
@@ -102,30 +126,24 @@ static const char *name_of_need(const hd_scene_def *scene, unsigned need)
 #include "hdlyap/observables.inc"
     };
     for (int k = 0; k < HD_OBSERVED; k++)
-        if (scene->observe & hd_observable_bits[k] &&
-            has_need(hd_observables_with(hd_observable_bits[k]), need))
+        if (scene->observe & hd_observable_bits[k] && needs_of(hd_observable_bits[k]) & need)
             return names[k];
     return NULL;
 }
 
-unsigned hd_observe_of_box(void)
+/** Refuses, by its name, an observable of what these particles lack, or one that needs edges at a
+ * curved wall. */
+static hd_status check_needs(const hd_scene_def *scene, char *message, size_t size)
 {
-    unsigned set = 0;
-    for (int k = 0; k < HD_OBSERVED; k++)
-        if (has_need(hd_observables_with(hd_observable_bits[k]), HD_NEEDS_BOX))
-            set |= hd_observable_bits[k];
-    return set;
-}
-
-/** Refuses, by its name, an observable that needs edges at a curved wall, or a box where there is
- * none. */
-static hd_status check_space(const hd_scene_def *scene, char *message, size_t size)
-{
-    const char *of_box = name_of_need(scene, HD_NEEDS_BOX),
-               *of_edges = name_of_need(scene, HD_NEEDS_EDGES);
-    if (of_box && hd_scene_dimension(scene) == 0)
-        return hd_refuse(message, size, HD_WITHOUT_BOX, "observables", of_box,
-                         hd_dynamics_of(scene)->particles);
+    const hd_dynamics *of = hd_dynamics_of(scene);
+    for (int k = 0; k < LACKS; k++) {
+        const char *name = name_of_need(scene, LACKING[k].need & lacking(of));
+        if (name)
+            return hd_refuse(message, size,
+                             "observables = %s: must not be given with particles = %s, %s", name,
+                             of->particles, LACKING[k].why);
+    }
+    const char *of_edges = name_of_need(scene, HD_NEEDS_EDGES);
     if (of_edges && hd_container_of(scene)->wall)
         return hd_refuse(message, size,
                          "observables = %s: must not be given with container = %s: it needs "
@@ -137,7 +155,7 @@ static hd_status check_space(const hd_scene_def *scene, char *message, size_t si
 hd_status hd_scene_check(const hd_scene_def *scene, char *message, size_t size)
 {
     HD_TRY(hd_scene_check_start(scene, message, size));
-    HD_TRY(check_space(scene, message, size));
+    HD_TRY(check_needs(scene, message, size));
     EACH_ASKED(scene, row)
     {
         if (row->check) HD_TRY(row->check(scene, message, size));

@@ -304,18 +304,7 @@ static const hd_quantity each[] = {
     {.name = NULL}};
 static const hd_quantities quantities = {"gas", each};
 
-static hd_status gas_check(const hd_scene_def *scene, char *message, size_t size)
-{
-    const hd_dynamics *of = hd_dynamics_of(scene);
-    if (of->totals) return HD_OK;
-    return hd_refuse(message, size,
-                     "observables = gas: must not be given with particles = %s, whose pressure "
-                     "cannot be measured",
-                     of->particles);
-}
-
-const hd_observable hd_gas_row = {.needs = HD_NEEDS_BOX,
-                                  .check = gas_check,
+const hd_observable hd_gas_row = {.needs = HD_NEEDS_BOX | HD_NEEDS_TOTALS,
                                   .quantities = &quantities,
                                   .bytes = gas_bytes,
                                   .create = gas_create,

@@ -28,7 +28,9 @@ enum {
     HD_NEEDS_EDGES = 256, /**< waves in a box with edges; no curved wall */
     /** The frame is always orthonormalised with dq and dp together; if half of the vectors are
      * carried, to rounding [T18]. */
-    HD_NEEDS_WHOLE = 512
+    HD_NEEDS_WHOLE = 512,
+    HD_NEEDS_TOTALS = 1024,  /**< hd_dynamics.totals */
+    HD_NEEDS_AVERAGES = 2048 /**< hd_dynamics.averages */
 };
 
 /** What an observable is created from, and may use from then on. */
@@ -84,6 +86,11 @@ typedef struct hd_observable {
      * measured. */
     hd_status (*measure)(void *self, const hd_moment *now);
     hd_status (*share)(void *self, const hd_moment *now);
+    /** The next time at which it glances at the particles, however intervals end; INFINITY: never.
+     */
+    double (*next)(const void *self);
+    /** Glances at them, at that time. Fails as hd_trajectory_measure. */
+    hd_status (*glance)(void *self, hd_trajectory *trajectory);
     /** Adds the snapshot to its averages. */
     void (*add)(void *self, const hd_moment *now);
     /** Called at a report at which the vectors are known; now->vectors[0] are those of all ranks

@@ -144,6 +144,23 @@ hd_status hd_observables_measure(hd_observables *o, hd_moment now, bool add)
     return HD_OK;
 }
 
+double hd_observables_next(const hd_observables *o)
+{
+    double time = INFINITY;
+    for (one at = BEFORE; next(&at, o);)
+        if (at.row->next) time = fmin(time, at.row->next(at.self));
+    return time;
+}
+
+hd_status hd_observables_glance(hd_observables *o, hd_trajectory *trajectory)
+{
+    const double now = hd_trajectory_time(trajectory);
+    for (one at = BEFORE; next(&at, o);)
+        if (at.row->next && at.row->next(at.self) <= now)
+            HD_TRY(at.row->glance(at.self, trajectory));
+    return HD_OK;
+}
+
 void hd_observables_report(hd_observables *o, hd_moment now)
 {
     complete(o, &now);

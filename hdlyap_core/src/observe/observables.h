@@ -53,6 +53,11 @@ double hd_observables_sampling(const hd_observables *observables);
 /** Takes a snapshot on all ranks; if one rank fails, all do. add: and adds it to the averages. */
 HD_MUST_CHECK hd_status hd_observables_measure(hd_observables *observables, hd_moment now,
                                                bool add);
+/** The next time at which one glances at the particles; INFINITY: none does. */
+double hd_observables_next(const hd_observables *observables);
+/** Those whose time this is glance at the particles. Fails as they do. */
+HD_MUST_CHECK hd_status hd_observables_glance(hd_observables *observables,
+                                              hd_trajectory *trajectory);
 /** Called at a report; now.vectors[0] are the vectors of all ranks that can be read. */
 void hd_observables_report(hd_observables *observables, hd_moment now);
 

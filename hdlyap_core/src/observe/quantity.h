@@ -20,16 +20,18 @@ typedef struct hd_stated {
 typedef struct hd_aim {
     const struct hd_quantity *quantity;
     int row;                      /**< its observable (hd_observed); -1: the exponents alone */
-    int number[HD_DIMENSION_MAX]; /**< mode numbers of a step, or a Lyapunov index */
-    int count;                    /**< how many numbers there are */
+    const char *name;             /**< its name; of HD_OF_AVERAGE that of the average */
+    int number[HD_DIMENSION_MAX]; /**< mode numbers of a step, a Lyapunov index, or which average */
+    int count;                    /**< how many numbers are written behind the name */
     double wanted;                /**< largest standard error; if relative, a part of the value */
     bool relative;
 } hd_aim;
 
 typedef struct hd_quantity {
     const char *name;
-    /** What the numbers behind the name are: none, a Lyapunov index, or mode numbers. */
-    enum { HD_OF_NOTHING, HD_OF_INDEX, HD_OF_NODES } of;
+    /** What the numbers behind the name are: none, a Lyapunov index, or mode numbers.
+     * HD_OF_AVERAGE: none, and it stands for all hd_dynamics.average of the row, by their names. */
+    enum { HD_OF_NOTHING, HD_OF_INDEX, HD_OF_NODES, HD_OF_AVERAGE } of;
     hd_mode_kind kind;
     /** False, with the reason in why, if a run of this scene never knows the quantity. NULL: it
      * always does. */

@@ -87,7 +87,21 @@ static void learn(hd_advance *advance, const hd_record *record)
     if (length > 0) advance->longest = fmin(grown, advance->bound);
 }
 
-hd_status hd_advance_on(hd_advance *advance, hd_record *record, double stop, double most)
+/** Moves the particles to the time `end`; those who glance at them do so when it is time. */
+static hd_status move(hd_trajectory *trajectory, hd_observables *observables, hd_record *record,
+                      double end)
+{
+    double next;
+    while ((next = hd_observables_next(observables)) <= end) {
+        HD_TRY(hd_trajectory_extend(trajectory, record, next));
+        HD_TRY(hd_observables_glance(observables, trajectory));
+    }
+    return hd_trajectory_time(trajectory) < end ? hd_trajectory_extend(trajectory, record, end)
+                                                : HD_OK;
+}
+
+hd_status hd_advance_on(hd_advance *advance, hd_observables *observables, hd_record *record,
+                        double stop, double most)
 {
     const double now = time_of(advance);
     double shortest, longest;
@@ -97,7 +111,7 @@ hd_status hd_advance_on(hd_advance *advance, hd_record *record, double stop, dou
                                           .end = end_of_part(now, stop, longest),
                                           .events = hd_advance_events(advance)};
     const double end = end_of_part(now, advance->plan.end, fmax(most, shortest));
-    HD_TRY(hd_trajectory_extend(advance->trajectory, record, end));
+    HD_TRY(move(advance->trajectory, observables, record, end));
     if (is_done(advance)) learn(advance, record);
     return HD_OK;
 }

@@ -5,6 +5,7 @@
 #include <stdbool.h>
 
 #include "dynamics/trajectory.h"
+#include "observe/observables.h"
 
 /** Most entries of one advance. This bounds memory, and the wait for an answer. Particles that move
  * in time steps may have more: as many as take the time of an orthonormalisation. */
@@ -43,8 +44,9 @@ void hd_advance_bounds(const hd_advance *advance, double *shortest, double *long
 /** Ends the plan at `end`, unless it ends before. */
 void hd_advance_stop(hd_advance *advance, double end);
 /** Moves the particles on towards the end of the plan, by at most `most`; if it is reached, the
- * next one goes to at most `stop`. The record may be NULL. Fails as hd_trajectory_extend. */
-HD_MUST_CHECK hd_status hd_advance_on(hd_advance *advance, hd_record *record, double stop,
-                                      double most);
+ * next one goes to at most `stop`. On the way observables glance at the particles. The record may
+ * be NULL. Fails as hd_trajectory_extend and hd_observables_glance. */
+HD_MUST_CHECK hd_status hd_advance_on(hd_advance *advance, hd_observables *observables,
+                                      hd_record *record, double stop, double most);
 
 #endif

@@ -350,8 +350,8 @@ static hd_status move_particles(hd_run *run, double end)
     const double start = hd_clock_now();
     hd_record *record = is_framed(run) ? run->carrier.record : NULL;
     forget_vectors(run);
-    HD_TRY(hd_communicator_agree(run->communicator,
-                                 hd_advance_on(&run->advance, record, end, run->watch)));
+    HD_TRY(hd_communicator_agree(run->communicator, hd_advance_on(&run->advance, &run->observables,
+                                                                  record, end, run->watch)));
     run->cost.events += hd_clock_now() - start;
     if (HD_VERIFIES) hd_verify_trajectory(run->advance.trajectory, &run->scene);
     if (HD_VERIFIES && record) hd_verify_record(record, &run->scene);

@@ -13,6 +13,7 @@
 #include "scene/scene.h"
 
 enum { GOALS_MOST = 16 };
+_Static_assert((int)HD_AVERAGE_NAME <= (int)HD_QUANTITY_NAME, "averages are quantities");
 
 /** All quantities of a target; count 0: none. */
 typedef struct aims {
@@ -98,13 +99,38 @@ static bool is_name(const char *name, const char *text, size_t length)
     return true;
 }
 
-/** Finds the quantity of this name; false if there is none. */
-static bool find_quantity(hd_aim *goal, const char *text, size_t length)
+/** The quantity of the core with this name; NULL if there is none. */
+static const hd_quantity *quantity_named(int *row, const char *text, size_t length)
 {
-    for (goal->row = -1; goal->row < HD_OBSERVED; goal->row++)
-        for (const hd_quantity *q = quantities_of(goal->row); q && q->name; q++)
-            if (is_name(q->name, text, length)) return goal->quantity = q, true;
+    for (*row = -1; *row < HD_OBSERVED; ++*row)
+        for (const hd_quantity *q = quantities_of(*row); q && q->name; q++)
+            if (q->of != HD_OF_AVERAGE && is_name(q->name, text, length)) return q;
+    return NULL;
+}
+
+/** Finds the average of the particles with this name; false if there is none. */
+static bool find_average(hd_aim *goal, const char *text, size_t length, const hd_dynamics *of)
+{
+    for (int k = 0; k < of->averages; k++) {
+        const char *name = of->average[k].name;
+        if (strlen(name) != length || strncmp(name, text, length) != 0) continue;
+        *goal = (hd_aim){.row = HD_OBSERVED_averages, .name = name, .number = {k}};
+        goal->quantity = quantities_of(goal->row);
+        return true;
+    }
     return false;
+}
+
+/** Finds the quantity with whose name the text begins; returns the length of that, or 0. */
+static size_t find_quantity(hd_aim *goal, const char *text, const hd_dynamics *of)
+{
+    const size_t length = strcspn(text, " (:0123456789"), whole = strcspn(text, " (:,");
+    *goal = (hd_aim){.count = 0};
+    if (find_average(goal, text, whole, of)) return whole;
+    goal->quantity = quantity_named(&goal->row, text, length);
+    if (!goal->quantity) return 0;
+    goal->name = goal->quantity->name;
+    return length;
 }
 
 static const char *skipped(const char *at, const char *what) { return at + strspn(at, what); }
@@ -112,7 +138,8 @@ static const char *skipped(const char *at, const char *what) { return at + strsp
 /** Reads "(1,0)"; NULL if the numbers are not as many as dimensions. */
 static const char *read_numbers(hd_aim *goal, const char *at, int dimension)
 {
-    const int of[] = {[HD_OF_NOTHING] = 0, [HD_OF_INDEX] = 1, [HD_OF_NODES] = dimension};
+    const int of[] = {
+        [HD_OF_NOTHING] = 0, [HD_OF_INDEX] = 1, [HD_OF_NODES] = dimension, [HD_OF_AVERAGE] = 0};
     goal->count = of[goal->quantity->of];
     for (int k = 0; k < goal->count; k++) {
         char *end;
@@ -127,13 +154,11 @@ static const char *read_numbers(hd_aim *goal, const char *at, int dimension)
 }
 
 /** Reads "c_T 1%"; NULL if it is not like that. */
-static const char *read_goal(hd_aim *goal, const char *at, int dimension)
+static const char *read_goal(hd_aim *goal, const char *at, const hd_dynamics *of)
 {
     char *end;
-    const size_t length = strcspn(at, " (:0123456789");
-    *goal = (hd_aim){.count = 0};
-    if (!find_quantity(goal, at, length) || !(at = read_numbers(goal, at + length, dimension)))
-        return NULL;
+    const size_t length = find_quantity(goal, at, of);
+    if (length == 0 || !(at = read_numbers(goal, at + length, of->dimension))) return NULL;
     at = skipped(at, " :");
     goal->wanted = strtod(at, &end);
     if (end == at || !(goal->wanted > 0.0 && goal->wanted < DBL_MAX)) return NULL;
@@ -143,13 +168,13 @@ static const char *read_goal(hd_aim *goal, const char *at, int dimension)
     return skipped(at + goal->relative, " ");
 }
 
-/** Reads a whole target, in a space of this dimension; false if it is wrong. */
-static bool read_all(aims *out, const hd_text *text, int dimension)
+/** Reads a whole target of these particles; false if it is wrong. */
+static bool read_all(aims *out, const hd_text *text, const hd_dynamics *of)
 {
     const char *at = skipped(text->line, " ");
     *out = (aims){.count = 0};
     while (at && *at) {
-        at = out->count < GOALS_MOST ? read_goal(&out->goal[out->count++], at, dimension) : NULL;
+        at = out->count < GOALS_MOST ? read_goal(&out->goal[out->count++], at, of) : NULL;
         if (at && *at) at = *at == ',' && at[1] ? skipped(at + 1, " ") : NULL;
     }
     return at;
@@ -159,14 +184,14 @@ static bool read_all(aims *out, const hd_text *text, int dimension)
 static aims aims_of(const hd_scene_def *def, const hd_text *text)
 {
     aims all;
-    HD_ASSERT(read_all(&all, text, hd_scene_dimension(def)));
+    HD_ASSERT(read_all(&all, text, hd_dynamics_of(def)));
     return all;
 }
 
 static void name_of(char name[HD_QUANTITY_NAME], const hd_aim *goal)
 {
     const int room = HD_QUANTITY_NAME, *n = goal->number;
-    int length = snprintf(name, (size_t)room, "%s", goal->quantity->name);
+    int length = snprintf(name, (size_t)room, "%s", goal->name);
     for (int k = 0; k < goal->count && length < room; k++)
         length += snprintf(name + length, (size_t)(room - length), "%c%d", k == 0 ? '(' : ',',
                            n[k]);
@@ -175,19 +200,25 @@ static void name_of(char name[HD_QUANTITY_NAME], const hd_aim *goal)
 
 /* ---- can it be reached? ---------------------------------------------------------------------- */
 
+/** Adds a name to the list. */
+static void add_name(char *names, size_t size, const char *name, const char *numbers)
+{
+    const size_t length = strlen(names);
+    snprintf(names + length, size - length, "%s%s%s", length ? ", " : "", name, numbers);
+}
+
 static hd_status refuse_text(const hd_scene_def *def, char *message, size_t size)
 {
+    const hd_dynamics *of = hd_dynamics_of(def);
     const char *const numbers[] = {[HD_OF_NOTHING] = "",
                                    [HD_OF_INDEX] = "(index)",
                                    [HD_OF_NODES] = hd_scene_dimension(def) == 2 ? "(nx,ny)"
                                                                                 : "(nx,ny,nz)"};
-    char names[2 * HD_WHY] = "";
+    char names[4 * HD_WHY] = "";
     for (int k = -1; k < HD_OBSERVED; k++)
-        for (const hd_quantity *q = quantities_of(k); q && q->name; q++) {
-            const size_t length = strlen(names);
-            snprintf(names + length, sizeof names - length, "%s%s%s", length ? ", " : "", q->name,
-                     numbers[q->of]);
-        }
+        for (const hd_quantity *q = quantities_of(k); q && q->name; q++)
+            if (q->of != HD_OF_AVERAGE) add_name(names, sizeof names, q->name, numbers[q->of]);
+    for (int k = 0; k < of->averages; k++) add_name(names, sizeof names, of->average[k].name, "");
     return hd_refuse(
         message, size,
         "target = %.80s: must be quantities with their errors, as lambda_max 0.01, c_T "
@@ -208,11 +239,23 @@ static bool is_possible(const hd_scene_def *def, const hd_aim *goal, char why[HD
     return false;
 }
 
+/** Refuses a row whose averages cannot be told from other quantities. */
+static hd_status check_averages(const hd_dynamics *of, char *message, size_t size)
+{
+    for (int row, k = 0; k < of->averages; k++)
+        if (quantity_named(&row, of->average[k].name, strlen(of->average[k].name)))
+            return hd_refuse(message, size,
+                             "average[%d].name = %s: must not be that of a quantity of targets", k,
+                             of->average[k].name);
+    return HD_OK;
+}
+
 hd_status hd_target_check(const hd_scene_def *def, char *message, size_t size)
 {
     aims target;
     char name[HD_QUANTITY_NAME], why[HD_WHY];
-    if (!read_all(&target, &def->target, hd_scene_dimension(def)))
+    HD_TRY(check_averages(hd_dynamics_of(def), message, size));
+    if (!read_all(&target, &def->target, hd_dynamics_of(def)))
         return refuse_text(def, message, size);
     for (int k = 0; k < target.count; k++) {
         if (is_possible(def, &target.goal[k], why)) continue;

@@ -52,6 +52,8 @@ static hd_status check_together(const hd_dynamics *row, char *message, size_t si
          row->inertia && (row->dimension != 2 || row->coordinates != 3)},
         {"energy_asked: must be NULL without examine, which tells the error of the energy",
          row->energy_asked && !row->examine},
+        {"measure: must not be NULL with averages", row->averages != 0 && !row->measure},
+        {"measure: must be NULL without averages", row->averages == 0 && row->measure},
         {"null_vectors: must be NULL without zero_exponents",
          row->null_vectors && !row->zero_exponents}};
     for (size_t k = maps ? 0 : 3; k < sizeof together / sizeof *together; k++)
@@ -170,6 +172,61 @@ static hd_status check_parameters(const hd_dynamics *row, char *message, size_t 
     return HD_OK;
 }
 
+/* ---- averages ------------------------------------------------------------------------------ */
+
+/** Whether a name is a letter, and then letters, digits and _, as many as a target can name. */
+static bool is_word(const char *name)
+{
+    const char *const letters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_";
+    const size_t length = strspn(name, letters);
+    return length > 0 && length < HD_AVERAGE_NAME && !name[length] && *name != '_' &&
+           !(*name >= '0' && *name <= '9');
+}
+
+/** Refuses average k if its name is that of another one, or of a parameter. */
+static hd_status check_name_of_average(const hd_dynamics *row, int k, char *message, size_t size)
+{
+    const char *name = row->average[k].name;
+    int count;
+    const hd_parameter *core = hd_scene_parameters(&count);
+    bool taken = false;
+    for (int c = 0; c < count; c++) taken |= strcmp(core[c].name, name) == 0;
+    for (int c = 0; c < row->parameters; c++) taken |= strcmp(row->parameter[c].name, name) == 0;
+    if (taken)
+        return hd_refuse(message, size, "average[%d].name = %s: must not be that of a parameter", k,
+                         name);
+    for (int before = 0; before < k; before++)
+        if (strcmp(row->average[before].name, name) == 0)
+            return hd_refuse(message, size,
+                             "average[%d].name = %s: must not be that of average[%d]", k, name,
+                             before);
+    return HD_OK;
+}
+
+static hd_status check_averages(const hd_dynamics *row, char *message, size_t size)
+{
+    const hd_average *average = row->average;
+    if (row->averages < 0 || row->averages > HD_AVERAGES_MAX)
+        return hd_refuse(message, size, "averages = %d: must be from 0 to %d", row->averages,
+                         HD_AVERAGES_MAX);
+    if (row->averages > 0 && !average)
+        return hd_refuse(message, size, "average: must not be NULL with averages = %d",
+                         row->averages);
+    for (int k = 0; k < row->averages; k++) {
+        if (!average[k].name)
+            return hd_refuse(message, size, "average[%d].name: must not be NULL", k);
+        if (!is_word(average[k].name))
+            return hd_refuse(message, size,
+                             "average[%d].name = %.40s: must be a letter, then letters, digits and "
+                             "_, at most %d",
+                             k, average[k].name, HD_AVERAGE_NAME - 1);
+        if (!average[k].unit)
+            return hd_refuse(message, size, "average[%d].unit: must not be NULL; \"\" is none", k);
+        HD_TRY(check_name_of_average(row, k, message, size));
+    }
+    return HD_OK;
+}
+
 hd_status hd_dynamics_check(const hd_dynamics *row, char *message, size_t size)
 {
     if (!row) return hd_refuse(message, size, "dynamics: must not be NULL");
@@ -177,7 +234,8 @@ hd_status hd_dynamics_check(const hd_dynamics *row, char *message, size_t size)
     HD_TRY(check_sizes(row, message, size));
     HD_TRY(check_there(row, message, size));
     HD_TRY(check_together(row, message, size));
-    return check_parameters(row, message, size);
+    HD_TRY(check_parameters(row, message, size));
+    return check_averages(row, message, size);
 }
 
 /* ---- numbers of a scene -------------------------------------------------------------------- */
