@@ -40,10 +40,11 @@ ARRAYS = {
 }
 
 DIMENSIONS = (
-    'angle bin corner growth_time modulation order pair particle phase resolved response site '
+    'angle average bin coordinate corner growth_time modulation order pair particle phase resolved '
 )
-DIMENSIONS += 'step subspace t_phase transverse vector wave'
-WORDS = '@space', '@turning', '@fields', '@known'
+DIMENSIONS += 'response site step subspace t_phase transverse vector wave'
+OF_PARTICLES = '@box', '@others', '@space', '@turning'  # what particles may have
+WORDS = *OF_PARTICLES, '@fields', '@known'
 
 HEADER = '''\
 /** The messages of %(package)s, one struct each; made from msg/ at build time. Rules for all of
@@ -61,7 +62,7 @@ extern "C" {
 /** How many there are of each dimension of the arrays in messages, and which arrays there are. */
 typedef struct hdr_lengths {
     double %(dimensions)s;
-    bool space, turning;
+    bool box, others, space, turning;
 } hdr_lengths;
 
 /** Bytes of a message on the wire without texts: each time, and in addition when fields are due. */
@@ -263,7 +264,7 @@ class Message:
             if dimensions:
                 one = names.get(field.base_type)
                 each = one + '_size(n).always' if one else '%d.0' % bytes_of[field.base_type]
-                factors = ['n->' + word[1:] for word in words if word in ('@space', '@turning')]
+                factors = ['n->' + word[1:] for word in words if word in OF_PARTICLES]
                 factors += ['(n->%s)' % word.replace('-', ' - ') for word in dimensions] + [each]
                 sums['fields' if '@fields' in words else 'always'] += ' + ' + ' * '.join(factors)
         return SIZE % dict(

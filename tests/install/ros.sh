@@ -77,8 +77,8 @@ chain_runs() {
         refused "$1" 'betta = 1: no such parameter; is beta meant?' betta:=1 &&
         refused "$1" 'particles = rods: must be disks or spheres or dumbbells or soft_disks or soft_spheres or chain' particles:=rods &&
         refused "$1" 'density = 0.5: must not be given with particles = chain, which have no positions in a box' density:=0.5 &&
-        refused "$1" 'observables = [state]: must be a list out of spectrum, covariant, localization, fluctuations when particles = chain' 'observables:=[state]' &&
-        refused "$1" 'observables = [spectrum, localization]: must be [] when exponents = none' exponents:=none
+        refused "$1" 'observables = [gas]: must be a list out of spectrum, covariant, localization, fluctuations, state when particles = chain' 'observables:=[gas]' &&
+        refused "$1" 'observables = [spectrum, localization]: must be a list out of state when exponents = none' exponents:=none
 }
 
 # is_valid SETUP SCENE [ARGUMENT]...

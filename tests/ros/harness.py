@@ -47,8 +47,10 @@ REPEATABLE = dict(
     field_interval=3.0,
     wait_for_subscribers='all',
 )
-# of a scene that may be short: covariant vectors need long transients
-TYPES = {name: kind for name, kind in topics.RECORDED.items() if name != 'covariant'}
+OF_OTHERS = {'averages'}  # topics that disks do not have
+# of a scene of disks that may be short: covariant vectors need long transients
+UNSEEN = {'covariant', *OF_OTHERS}
+TYPES = {name: kind for name, kind in topics.RECORDED.items() if name not in UNSEEN}
 OBSERVABLES = [topic for topic in TYPES if topic not in ('run_info', 'status', 'cost')]
 # in every report of the averaging
 AVERAGES = 'spectrum', 'modes', 'steps', 'lp_phases', 't_phases', 'hydro', 'structure'

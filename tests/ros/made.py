@@ -14,6 +14,8 @@ import rospy
 from made_fields import mode_field
 from measured import as_sent
 from hdlyap.msg import (
+    Average,
+    Averages,
     Cost,
     Covariant,
     CovariantWeight,
@@ -452,6 +454,17 @@ def soft_gas(averaged_time=50.0, error=0.01, **fields):
     errors = dict.fromkeys(('temperature_error', 'potential_energy_error'), error)
     made = dict(unknown, temperature=0.625, potential_energy=0.5, **errors)
     return gas(averaged_time, error=error, **{**made, **fields})
+
+
+def averages(averaged_time=50.0, run_id='one', error=0.01, **means):
+    """Of a program's own particles; means by their names."""
+    means = means or dict(kinetic=1.25, stretch=0.5)
+    return Averages(
+        run_id=run_id,
+        sim_time=100 + averaged_time,
+        averaged_time=averaged_time,
+        averages=[Average(name, 'energy', mean, error) for name, mean in means.items()],
+    )
 
 
 def lp_phases(info, made, sim_time, modulations=(0, 1), began=0.0, rng=None, run_id='one'):

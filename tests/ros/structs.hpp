@@ -13,6 +13,7 @@ int vectors(); /**< of the run */
 /* clang-format off */
 #define M(m) {#m, of.m}
 #define SAYS(type, ...) members say(const type &of) { return named({__VA_ARGS__}); }
+SAYS(hd_mean, M(name), M(unit), M(mean), M(std_error))
 SAYS(hd_gas_means, M(time), M(collision_rate), M(collision_rate_error), M(pressure_error), M(pressure_of),
      M(pressure_of_error), M(compressibility), M(compressibility_error), M(temperature), M(temperature_error),
      M(potential_energy), M(potential_energy_error))

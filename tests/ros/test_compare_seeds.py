@@ -49,6 +49,20 @@ class ThreeSeeds(Pairs):
             self.assertEqual(tuple(found), names)
             self.assertTrue(all(one.judged and one.is_known for one in found.values()))
 
+    def test_averages_are_judged(self):
+        """What both sides tell."""
+        sides = [
+            self.load_of(side, made.averages(run_id=side, kinetic=kinetic, **{side: 1.0}))
+            for side, kinetic in (('a', 1.0), ('b', 1.1))
+        ]
+        (one,) = Comparison(*sides).gas
+        self.assertEqual((one.name, *one.values), ('kinetic', 1.0, 1.1))
+        self.assertAlmostEqual(abs(one.z), 0.1 / hypot(0.01, 0.01), 9)
+
+    def load_of(self, side, message):
+        messages = [*run(EXPONENTS, run_id=side, seed=f'{"ab".index(side)}'), message]
+        return hdlyap.load(self.write(messages, side)).summary
+
     def test_the_larger_error_counts(self):
         for each, expected in ((0.1, 0.1 / sqrt(3)), (0.001, 0.01 / sqrt(3))):
             comparison = Comparison(*self.sides(off=0.2, each=each))

@@ -145,7 +145,9 @@ class Arrays(Loaded):
         self.equal(turned.index, [message.sample_time for message in messages])
         self.equal(turned, [[one.phase for one in message.phases] for message in messages])
         self.assertTrue(self.run_.course('cost').equals(self.run_.cost))
-        with self.assertRaisesRegex(RecordingError, "course of 'x': must be one of covariant, "):
+        with self.assertRaisesRegex(
+            RecordingError, "course of 'x': must be one of averages, covariant, "
+        ):
             self.run_.course('x')
         weights = self.run_.course('modes')['weight'].unstack()
         self.equal(
@@ -218,6 +220,45 @@ class Arrays(Loaded):
         self.equal(run.localization.width, widths)
         self.equal(run.localization.widths_now, np.multiply(widths, 0.9))
         self.assertTrue(run.localization.std_error.isna().all())
+
+    def test_averages(self):
+        """Of a program's own particles: names, units and errors, and a column for each over time."""
+        early, late = made.averages(40.0, error=-1.0), made.averages(60.0, kinetic=1.5, stretch=0.5)
+        run = self.load([made.run_info(), early, late])
+        found = run.averages
+        self.assertEqual(list(found.index), ['kinetic', 'stretch'])
+        self.equal(found.value, [1.5, 0.5])
+        np.testing.assert_allclose(found.std_error, [0.01, 0.01])
+        self.assertEqual(list(found.unit), ['energy', 'energy'])
+        course = run.course('averages')
+        self.equal(course.index, [140, 160])
+        self.equal(course['averaged_time'], [40, 60])
+        self.equal(course['kinetic'], [1.25, 1.5])
+        np.testing.assert_array_equal(course['kinetic_error'], [np.nan, 0.01])
+        self.assertEqual(course.attrs['units']['kinetic_error'], 'energy')
+        self.assertEqual(
+            list(run.table().value[['kinetic', 'stretch']]), ['1.500(10)', '0.500(10)']
+        )
+
+    def test_averages_that_do_not_fit(self):
+        for name in ('kinetic', 'a b', ''):
+            message = made.averages()
+            message.averages[1].name = name
+            with self.assertRaisesRegex(RecordingError, 'Averages: name = .*: must be a word'):
+                self.load([made.run_info(), message]).averages
+
+    def test_state_without_a_box(self):
+        """All coordinates, as rows of particles."""
+        info = made.run_info(particles='chain', dimension=0, coordinates=2, number=3)
+        numbers = list(np.arange(6.0))
+        state = hdlyap.msg.State(run_id='one', sim_time=110.0, q=numbers, p=numbers[::-1])
+        run = self.load([info, state])
+        self.equal(run.state.positions(110), [[0, 1], [2, 3], [4, 5]])
+        ((time, q, p),) = run.state
+        self.equal(p, [[5, 4], [3, 2], [1, 0]])
+        state.q = numbers[:4]
+        with self.assertRaisesRegex(RecordingError, 'State: [qp] has [46] elements: must be [46]'):
+            list(self.load([info, state], 'short').state)
 
     def test_fluctuations(self):
         """D by index; growth over finite times of vectors and of pairs of steps."""

@@ -367,6 +367,21 @@ class Export(Tools):
         self.assertAlmostEqual(mean.scatter['pressure'], np.sqrt(squares @ [1, 1, 2] / (4 * 2)))
         self.assertEqual(mean.unit['pressure'], '1/sigma^2')
 
+    def test_averages_of_seeds(self):
+        """As those of a gas; in the text and in the tables."""
+        bags = []
+        for seed, time in (('1', 50.0), ('2', 150.0)):
+            told = made.averages(time, run_id=seed, kinetic=float(seed), stretch=0.5)
+            bags.append(self.write([made.run_info(seed=seed, run_id=seed), told], 'told' + seed))
+        mean = hdlyap.load(*bags).averages
+        self.assertAlmostEqual(mean.value['kinetic'], 1.75)
+        self.assertAlmostEqual(mean.std_error['kinetic'], 0.01 * np.sqrt(10) / 4)
+        self.assertEqual(mean.unit['kinetic'], 'energy')
+        self.assertRegex(self.plot(*bags), r'\naverages, over 200\nkinetic +1\.75\(25\) energy\n')
+        self.assertRegex(
+            self.plot(bags[1]), r'\naverages, over 150\nkinetic +2\.000\(10\) energy\n'
+        )
+
     def soft(self, seed, step, temperature):
         own = ['potential=wca', f'time_step={step}']
         info = made.run_info(seed=seed, run_id=seed, own=own)

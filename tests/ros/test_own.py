@@ -53,6 +53,34 @@ class Own(harness.Case):
         self.assertEqual([angle.spaces for angle in covariant.angles], [0, 1, 2])
         self.assertTrue(all(0 < angle.mean < math.pi / 2 for angle in covariant.angles))
 
+    def test_averages_and_coordinates(self):
+        """What particles tell is published with its names, units and errors; ends a run; ~state has all
+        coordinates. The kinetic energy of a particle in ~state is near its mean."""
+        names = ['averages', 'state']
+        heard = {topic: self.listen(topic) for topic in names}
+        asked = dict(SCENE, particles='telling_chain', exponents='none', warmup=0.0)
+        asked.update(observables=names, duration=1e6, report_interval=20.0, target='kinetic 3%')
+        del asked['covariant_window'], asked['covariant_transient'], asked['covariant_sampling']
+        node = self.start(dict(asked, wait_for_subscribers=names), command=[NODE])
+        told, states = (heard[topic].all_of(node) for topic in names)
+        self.ends(node)
+        kinetic, stretch = told[-1].averages
+        self.assertEqual((kinetic.name, kinetic.unit), ('kinetic', 'energy'))
+        self.assertEqual((stretch.name, stretch.unit), ('stretch', ''))
+        self.assertTrue(0 < kinetic.std_error <= 0.03 * kinetic.value)
+        self.assertTrue(100 < told[-1].averaged_time < 1e4)
+        self.assertTrue(all(one.averages[0].std_error == -1 for one in told[:2]))
+        energies = [sum(p * p for p in one.p) / 2 for one in states]
+        for one, energy in zip(states, energies):
+            self.assertEqual((len(one.q), len(one.p), len(one.x)), (N, N, 0))
+            self.assertAlmostEqual(one.kinetic_energy, energy, places=9)
+        late = energies[len(energies) // 2 :]
+        spread = (max(late) - min(late)) / N / len(late) ** 0.5
+        self.assertAlmostEqual(sum(late) / len(late) / N, kinetic.value, delta=4 * spread)
+        status, said = self.tested('observables:=[averages]')
+        self.assertEqual(status, 2)
+        self.assertRegex(said, r'observables = \[averages\]: must be a list out of .* chain')
+
     def test_nothing_of_a_box(self):
         """Own parameters are in the log, as in --check; of a box there is no parameter, no edge."""
         info = self.listen('run_info')
@@ -84,7 +112,7 @@ class Own(harness.Case):
             said = subprocess.check_output([NODE, option], text=True)
             self.assertIn('hdlyap_own_node', said)
             self.assertNotIn('hdlyap_node', said)
-        self.assertIn('# For chain and lossy_chain only.', said)
+        self.assertIn('# For chain and lossy_chain and telling_chain only.', said)
 
     def test_lost_energy_without_a_time_step(self):
         """Said as it is known, with no step; and of what time the checkpoint is."""

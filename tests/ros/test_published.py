@@ -333,6 +333,8 @@ BALLS.update(observables=['spectrum', 'gas', 'state'], duration=300.0, report_in
 CHAIN = dict(SHORT, particles='chain', number=8, duration=6000.0, beta=2.0)
 CHAIN.update(report_interval=2000.0, fluctuation_time=40.0, observables=WAVELESS)
 CHAIN.update(covariant_window=1500.0, covariant_transient=20.0, covariant_sampling=100.0)
+TELLING = dict(SHORT, particles='telling_chain', number=8, exponents=2, duration=3000.0)
+TELLING.update(report_interval=1000.0, observables=['spectrum', 'averages', 'state'])
 RING = dict(SHORT, particles='ring', number=4, exponents='all', observables=['spectrum'])
 ALONE = dict(SHORT, number=20, exponents='none', observables=['gas', 'state'], duration=5.0)
 FEW = dict(
@@ -361,6 +363,7 @@ def scenes(folder):
         ('chain', chain, own),
         ('resumed', resumed, dict(own, before=CHAIN)),
         ('ring', RING, own),  # not symplectic
+        ('telling', TELLING, own),
         ('few', FEW, {}),
         ('alone', ALONE, {}),  # no vectors
     ]

@@ -75,7 +75,7 @@ def every_kind():
         )
     ]
     course += [made_fields.mode_field(info, one, **turned) for one in found]
-    course += [covariant, made.localization([0.5] * 37), made.gas()]
+    course += [covariant, made.localization([0.5] * 37), made.gas(), made.averages()]
     return [info, *course, made.fluctuations([0.5] * 37, pairs)]
 
 

@@ -6,7 +6,7 @@ import itertools
 import message_filters
 
 import harness
-from harness import OBSERVABLES, REPEATABLE
+from harness import OBSERVABLES, OF_OTHERS, REPEATABLE
 from hdlyap import topics
 from hdlyap.msg import LpPhase
 
@@ -14,7 +14,7 @@ pytestmark = harness.UNDER_A_MASTER
 
 # what is told at other times than reports
 ASIDE = 'run_info', 'covariant', 'slow_vectors'
-OF_REPORTS = [topic for topic in topics.RECORDED if topic not in ASIDE]
+OF_REPORTS = [topic for topic in topics.RECORDED if topic not in (*ASIDE, *OF_OTHERS)]
 RUN = dict(REPEATABLE, observables=OBSERVABLES, duration=20.0, wait_for_subscribers=OF_REPORTS)
 REPORTS = 40  # of the averaging; all topics are at some of them
 FIELDS = 6  # reports with fields

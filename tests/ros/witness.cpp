@@ -200,6 +200,13 @@ members beside(const hdr_spectrum *)
                   {"collisions", hd_trajectory_totals(parts().trajectory).collisions}});
 }
 
+members beside(const hdr_averages *)
+{
+    const hd_averages *of = parts().averages;
+    return named({{"averages.time", hd_averages_time(of)},
+                  {"averages.means", EACH(hd_averages_count(of), hd_averages_read(of, k))}});
+}
+
 members beside(const hdr_gas *) { return named({{"gas", say(hd_gas_read(parts().gas))}}); }
 
 members beside(const hdr_modes *)

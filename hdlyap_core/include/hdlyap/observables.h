@@ -2,6 +2,8 @@
 #ifndef HDLYAP_OBSERVABLES_H
 #define HDLYAP_OBSERVABLES_H
 
+#include <stdbool.h>
+
 #include "hdlyap/spectrum.h"
 #include "hdlyap/trajectory.h"
 
@@ -31,6 +33,7 @@ typedef struct hd_parts {
 typedef struct hd_result_counts {
     /** Dimension of space; number of coordinates of a particle. */
     int dimension, coordinates;
+    bool turning; /**< true if particles turn, their last coordinate being an angle */
     /** Number of particles; number of vectors. */
     int particles, vectors;
     int waves; /**< number of waves of structure factors */

@@ -62,6 +62,7 @@ hd_result_counts hd_observables_extent(const hd_scene_def *scene, void *const *p
 {
     hd_result_counts extent = {.dimension = hd_scene_dimension(scene),
                                .coordinates = hd_scene_coordinates(scene),
+                               .turning = hd_scene_inertia(scene) > 0,
                                .particles = scene->number,
                                .vectors = hd_scene_vectors(scene)};
     for (int k = 0; k < HD_OBSERVED; k++) {

@@ -131,7 +131,7 @@ static void print_shares(const settings *set, const hd_estimate *t, coming when,
 static double bytes_in_all(const settings *set, const hd_estimate *t)
 {
     const unsigned of_averages = topics_that_are(TOPIC_OF_VECTORS) |
-                                 topics_of_stages(HD_OBSERVE_ALL);
+                                 topics_of_stages(HD_OBSERVE_ANY);
     double bytes = t->before / time_between(set, REPORTS) *
                    bytes_of_all(set, t, topics_recorded(set) & ~of_averages, REPORTS);
     for (coming when = REPORTS; when < COMINGS; when++)

@@ -30,7 +30,8 @@ static const parameter rows[] = {
         .unit = "",
         .text =
             "Topics that can be published, beside run_info, status, cost and /diagnostics. A topic "
-            "that nobody listens to is not computed. Without exponents only gas and state exist.",
+            "that nobody listens to is not computed. Without exponents only gas, "
+            "averages and state exist. averages are what particles of a program's own tell.",
     },
     {
         .name = "field_indices",

@@ -14,8 +14,11 @@ hd_result_counts extent_of(const settings *set, hd_result_counts of_run)
 
 static hdr_lengths lengths_of(const hd_result_counts *e)
 {
+    const bool box = e->dimension > 0;
     return (hdr_lengths){.angle = e->angles,
+                         .average = e->averages,
                          .bin = HD_ANGLE_BINS,
+                         .coordinate = (double)e->coordinates * e->particles,
                          .modulation = HD_MODULATIONS_IN(e->dimension),
                          .order = e->orders,
                          .pair = e->examples > 0 ? (double)e->pairs / e->examples : 0.0,
@@ -31,8 +34,10 @@ static hdr_lengths lengths_of(const hd_result_counts *e)
                          .transverse = HD_TRANSVERSE_IN(e->dimension),
                          .vector = e->vectors,
                          .wave = e->waves,
+                         .box = box,
+                         .others = !box || e->coordinates > e->dimension + e->turning,
                          .space = e->dimension == 3,
-                         .turning = e->coordinates > e->dimension};
+                         .turning = e->turning};
 }
 
 topic_size topic_size_of(topic t, const hd_result_counts *e)

@@ -94,6 +94,13 @@ static inline int moment_coordinates(const moment *now)
 /** Whether particles rotate: their last coordinate is an angle then. */
 static inline bool moment_turns(const moment *now) { return hd_scene_inertia(&now->set->def) > 0; }
 
+/** Whether particles have other coordinates than positions in a box and an angle. */
+static inline bool moment_has_others(const moment *now)
+{
+    const int dimension = moment_dimension(now);
+    return dimension == 0 || moment_coordinates(now) > dimension + moment_turns(now);
+}
+
 /** Component d of an array [count][coordinates], such as positions; empty if space has no direction
  * d. */
 static inline hdr_doubles moment_component(const moment *now, const double *data, size_t count,

@@ -174,7 +174,7 @@ hd_status report_vectors(report *rep, hd_run *run)
 static unsigned topics_due(const report *rep, const hd_run *run)
 {
     const hd_modes *modes = hd_run_parts(run).modes;
-    const unsigned measured = topics_of_stages(HD_OBSERVE_ALL) & topics_that_are(TOPIC_OF_VECTORS);
+    const unsigned measured = topics_of_stages(HD_OBSERVE_ANY) & topics_that_are(TOPIC_OF_VECTORS);
     unsigned set = publishers_subscribed(&rep->out) & topics_that_are(TOPIC_OBSERVABLE);
     set &= ~topics_that_are(TOPIC_OF_WINDOWS);
     if (!modes || hd_modes_samples(modes) == 0) set &= ~topics_that_are(TOPIC_OF_STEPS);

@@ -69,8 +69,8 @@ unsigned topics_of_stages(unsigned stages)
 
 unsigned topics_of_particles(const hd_dynamics *of)
 {
-    const unsigned of_box = topics_that_are(TOPIC_OF_BOX) | topics_of_stages(hd_observe_of_box());
-    return topics_that_are(TOPIC_OBSERVABLE) & (of->dimension > 0 ? ~0u : ~of_box);
+    return topics_that_are(TOPIC_OBSERVABLE) &
+           ~topics_of_stages(HD_OBSERVE_ANY & ~hd_observe_of(of));
 }
 
 unsigned topic_stages(unsigned set)

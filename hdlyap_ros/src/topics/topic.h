@@ -16,7 +16,6 @@ enum {
     TOPIC_OF_VECTORS = 16, /**< it needs exponents */
     TOPIC_OF_WINDOWS = 32, /**< published when a window of covariant vectors has ended */
     TOPIC_OF_STEPS = 64,   /**< it is about steps; nothing is published before modes are measured */
-    TOPIC_OF_BOX = 128, /**< has positions in a box; topics whose stages need a box lack this bit */
     TOPIC_OF_FIELDS = 256, /**< several messages, published when fields are due */
     TOPIC_ONCE = 512       /**< once in a bag, but for changes */
 };
@@ -51,8 +50,7 @@ unsigned topics_that_are(unsigned any);
 /** The set of observables that need one of these stages. */
 unsigned topics_of_stages(unsigned stages);
 
-/** The set of observables that such particles have. Without a box they have none of positions in it
- * or computed from these. */
+/** The set of observables that such particles can have: see hd_observe_of. */
 unsigned topics_of_particles(const hd_dynamics *of);
 
 /** The stages of the core (HD_OBSERVE_*) that a set of topics needs; the core adds the stages that

@@ -8,7 +8,8 @@ from . import reader, space
 class Disks:
     """Positions and momenta of a run. `times` are those of the messages; a method takes the message
     nearest to a time. Iterates over (time, positions, momenta), arrays of N rows with x, y and, in
-    space, z. Particles that rotate have N angles and spins, too; others have none."""
+    space, z; without a box, or with other coordinates than these and an angle, with all coordinates.
+    Particles that rotate have N angles and spins, too; others have none."""
 
     def __init__(self, run):
         self._run = run
@@ -25,15 +26,13 @@ class Disks:
     def __iter__(self):
         for packed in self._run.packed((reader.STATE,)):
             message = packed.message(np)
-            yield message.sim_time, _rows(message), _rows(message, 'p')
+            yield message.sim_time, self._rows(message, 'q'), self._rows(message, 'p')
 
     def positions(self, time):
-        message = self._nearest(time)
-        return _rows(message)
+        return self._rows(self._nearest(time), 'q')
 
     def momenta(self, time):
-        message = self._nearest(time)
-        return _rows(message, 'p')
+        return self._rows(self._nearest(time), 'p')
 
     def angles(self, time):
         return self._nearest(time).angle
@@ -51,6 +50,7 @@ class Disks:
             if packed.run_id == run_id and packed.sim_time == self.times[number]
         )
 
-
-def _rows(message, name=''):
-    return np.stack(space.vectors(message, name), axis=1)
+    def _rows(self, message, name):
+        if len(message.q):
+            return np.reshape(getattr(message, name), (-1, self._run.info.coordinates))
+        return np.stack(space.vectors(message, name.replace('q', '')), axis=1)

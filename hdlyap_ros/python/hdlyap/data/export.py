@@ -11,7 +11,7 @@ from hdlyap.msg import RunInfo
 from . import space
 from .reader import Missing, is_known
 
-OF_MEANS = 'results', 'spectrum', 'steps', 'gas'  # frames of Seeds
+OF_MEANS = 'results', 'spectrum', 'steps', 'gas', 'averages'  # frames of Seeds
 OVER_TIME = '1/time unit'  # unit of columns that have Lyapunov indices as names
 
 

@@ -36,6 +36,7 @@ LABELS = {
     'FluctuationStep': (steps.name, ()),
     'CovariantWeight': (steps.name, ()),
     'GrowthOrder': (lambda one, info: one.time, ('time',)),
+    'Average': (lambda one, info: one.name, ('name',)),
     'CovariantAngle': (lambda one, info: NAMES['spaces'][one.spaces], ('spaces',)),
     'Mode': (lambda one, info: one.index, ('index', 'step')),
 }
@@ -151,6 +152,8 @@ def _numbers(parts, part, only, info):
         if not is_a.endswith('[]') and is_a not in ('std_msgs/Header', 'string'):
             values = np.array([getattr(one, slot) for one in parts], NUMBERS.get(is_a, int))
             columns[slot] = _known(values, is_a, described[slot])
+        elif is_a == 'string' and part:
+            columns[slot] = [getattr(one, slot) for one in parts]
     if 'tracked_time' in columns:  # a phase that is not tracked now has the last known numbers
         lost = columns['state'] != LpPhase.TRACKED
         for name in {'phase', 'omega', 'omega_error', 'velocity'} & columns.keys():
@@ -233,15 +236,32 @@ def of_gas(message, info=None):
     return frame(columns, {}, pandas.Index(names, name='quantity'))
 
 
+def _course_of_gas(messages, info):
+    return numbers(messages, info, lacking(messages[-1], info))
+
+
+def _course_of_averages(messages, info):
+    """With columns kinetic, kinetic_error of an average with the name kinetic."""
+    made, units = numbers(messages, info), {}
+    units.update(made.attrs['units'])
+    for k, last in enumerate(messages[-1].averages):
+        told = [one.averages[k] for one in messages]
+        made[last.name] = [one.value for one in told]
+        made[last.name + '_error'] = known([one.std_error for one in told])
+        units.update(dict.fromkeys((last.name, last.name + '_error'), last.unit))
+    return frame({name: made[name] for name in made}, units, made.index)
+
+
 OTHERS = {'Gas': of_gas}  # messages of which frames are made otherwise
+COURSES = {'Gas': _course_of_gas, 'Averages': _course_of_averages}  # and over time
 
 
 def over_time(messages, info=None):
-    """The frames of many messages, by simulated time, of a gas with a column for each quantity; of
-    phases, by that of their sample. Two
-    reports can have the same sample, which is there once."""
-    if type(messages[0]).__name__ in OTHERS:
-        return numbers(messages, info, lacking(messages[-1], info))
+    """The frames of many messages, by simulated time, of a gas and of averages with a column for
+    each quantity; of phases, by that of their sample. Two reports can have the same sample, which
+    is there once."""
+    if type(messages[0]).__name__ in COURSES:
+        return COURSES[type(messages[0]).__name__](messages, info)
     if not main(messages[0]):
         return numbers(messages, info)
     states = {getattr(one, 'sample_time', one.sim_time): one for one in messages}

@@ -84,10 +84,14 @@ def _name(message):
 
 
 def _check_particles(message, info):
-    there = {'x': True, 'z': space.is_solid(info), 'angle': space.turns(info)}
+    in_box = info.dimension > 0
+    there = {'x': in_box, 'z': space.is_solid(info), 'angle': space.turns(info)}
     for name, is_there in there.items():
         found, wanted = len(getattr(message, name)), info.number * is_there
         _refuse_unless(found == wanted, message, name, found, wanted)
+    if isinstance(message, msg.State):
+        wanted = space.has_others(info) * info.coordinates * info.number
+        _refuse_unless(len(message.q) == wanted, message, 'q', len(message.q), wanted)
 
 
 def _refuse_unless(is_right, message, names, found, wanted):
@@ -278,7 +282,15 @@ def _of_fluctuations(message):
         raise Damaged(f'hdlyap/Fluctuations: {vectors} vectors from {first}, indices {indices}')
 
 
+def _of_averages(message):
+    names = [one.name for one in message.averages]
+    for name in names:
+        if not WORD.fullmatch(name) or names.count(name) > 1:
+            raise Damaged(f'hdlyap/Averages: name = {name[:SHOWN]}: must be a word, there once')
+
+
 CHECKS = {
+    'Averages': _of_averages,
     'RunInfo': _of_run_info,
     'Steps': _of_steps,
     'ModeField': _of_field,

@@ -13,7 +13,7 @@ GAS = ('collision_rate', 'pressure', 'compressibility', 'temperature', 'potentia
 def of(run):
     """A frame by quantity, of texts: `value` with its error in units of its last digits, `unit`,
     and `k` [1/sigma] of steps. Assumed coefficients of fits are left out."""
-    rows = [*_of_spectrum(run), *_of_gas(run), *_of_steps(run)]
+    rows = [*_of_spectrum(run), *_of_gas(run), *_of_averages(run), *_of_steps(run)]
     index = pandas.Index([name for name, *_ in rows], name='quantity', dtype=object)
     columns = {name: [row[k] for row in rows] for k, name in enumerate(('value', 'unit', 'k'), 1)}
     return frame(columns, {'k': '1/sigma'}, index)
@@ -43,6 +43,12 @@ def _of_gas(run):
         return
     for (name, row), error in zip(run.gas.iterrows(), _errors(run, run.gas)):
         if name in GAS:
+            yield name, with_error(row['value'], error), row['unit'], ''
+
+
+def _of_averages(run):
+    if run.has('averages'):
+        for (name, row), error in zip(run.averages.iterrows(), _errors(run, run.averages)):
             yield name, with_error(row['value'], error), row['unit'], ''
 
 

@@ -40,7 +40,7 @@ class Run:
     Arrays have a row for each message: `times` (simulated),
     `averaged_times`, `exponents` and `std_errors` of the running means; `local` the samples. Frames
     are of the last message: `spectrum`, `modes`, `steps`, `phases`, `t_phases`, `covariant`,
-    `localization`, `fluctuations`, `gas`, `results`; or of all: `cost`, `status`, `course(topic)`.
+    `localization`, `fluctuations`, `gas`, `averages`, `results`; or of all: `cost`, `status`, `course(topic)`.
     `structure` has structure factors, `growth` fluctuations over finite times, `state` positions
     and momenta, `fields` the last field of each vector. Of
     spheres each has z beside x and y, as fields[index].dqz, steps['nz'], gas.loc['pressure_z'].

@@ -39,8 +39,8 @@ def one(*bags, node=None, run=None):
 
 
 class Seeds:
-    """Independent `runs` of one system. The frames `spectrum`, `steps`, `results` and `gas` have
-    means over them, weighted with the averaged times, and two errors: `std_error` follows from the
+    """Independent `runs` of one system. The frames `spectrum`, `steps`, `results`, `gas` and
+    `averages` have means over them, weighted with the averaged times, and two errors: `std_error` follows from the
     errors that the runs state, `scatter` from the differences between runs (from n runs it is known
     to 1 / sqrt(2 n - 2)). `chi2` has `runs` - 1 degrees of freedom; if it is far above that, the
     runs differ by more than their errors allow. A run that is too short to know any of its errors
@@ -147,8 +147,16 @@ class Seeds:
     @cached_property
     def gas(self):
         """Collision rate, or temperature and potential energy, and pressure."""
-        frames = [run.gas for run in self.runs]
-        weights = np.array([run.last('gas').averaged_time for run in self.runs])
+        return self._mean_of('gas')
+
+    @cached_property
+    def averages(self):
+        """What the particles of a program's own tell."""
+        return self._mean_of('averages')
+
+    def _mean_of(self, topic):
+        frames = [getattr(run, topic) for run in self.runs]
+        weights = np.array([run.last(topic).averaged_time for run in self.runs])
         return self._mean(frames, 'value', weights).join(frames[0][['unit']])
 
     def table(self):
@@ -180,7 +188,7 @@ class Seeds:
         return [topic for topic in found if not self.has(topic)]
 
     def last(self, topic, numpy=None):
-        """A message of 'spectrum', 'steps' or 'gas', with lists: the means, and the larger one of
+        """A message of 'spectrum', 'steps', 'gas' or 'averages', with lists: the means, and the larger one of
         the two errors."""
         message = self.runs[0].last(topic, numpy)
         message.run_id = ''
@@ -190,8 +198,14 @@ class Seeds:
 
     @property
     def _fills(self):
-        fills = self._fill_spectrum, self._fill_steps, self._fill_gas
-        return dict(zip(('spectrum', 'steps', 'gas'), fills))
+        fills = self._fill_spectrum, self._fill_steps, self._fill_gas, self._fill_averages
+        return dict(zip(('spectrum', 'steps', 'gas', 'averages'), fills))
+
+    def _fill_averages(self, message):
+        for one in message.averages:
+            error = errors(self.averages.loc[one.name])
+            one.value = self.averages.loc[one.name, 'value']
+            one.std_error = error if np.isfinite(error) else -1.0
 
     def _fill_gas(self, message):
         for name, error in errors(self.gas).items():
@@ -271,11 +285,13 @@ def _beyond(frame):
 
 
 def _measured(run):
-    """A frame with errors, and its averaged time: of exponents or, if there are none, of gas."""
+    """A frame with errors, and its averaged time: of exponents or, if there are none, of gas, or of
+    averages."""
     try:
         return run.spectrum, run.averaged_times[-1]
     except Missing:
-        return run.gas, run.last('gas').averaged_time
+        topic = 'gas' if run.has('gas') else 'averages'
+        return getattr(run, topic), run.last(topic).averaged_time
 
 
 def _knows_errors(run):

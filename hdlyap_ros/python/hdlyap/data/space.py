@@ -63,6 +63,11 @@ def nodes(wave, info):
     return tuple(getattr(wave, 'n' + axis) for axis in axes(info))
 
 
+def has_others(info):
+    """Whether particles have other coordinates than positions in a box and an angle."""
+    return not info.dimension or info.coordinates > info.dimension + turns(info)
+
+
 def vectors(message, name=''):
     """Rows along x, y and, in space, z: of positions, or of fields with a name before the axis,
     such as dq and p_."""

@@ -23,7 +23,8 @@ STEPPED = 'time_step', 'integrator'  # parameters that do not change the system
 
 
 class Comparison:
-    """Compares the runs a and b of one system: exponents, h_KS, steps, fits, gas. `unlike`: (fit of
+    """Compares the runs a and b of one system: exponents, h_KS, steps, fits, gas and
+    averages, both in `gas`. `unlike`: (fit of
     a, fit of b) if their forms or wave numbers differ. What decides is fixed beforehand: the
     resolved `steps`, a few `numbers`, and the spectrum as a whole."""
 
@@ -38,7 +39,7 @@ class Comparison:
         is_sum = len(self.exponents) > 1
         self.sums = [self._together(_sum(a, b), self._positive)] if is_sum else []
         self.steps = [self._together(one, _members(one, a), False) for one in _steps(a, b)]
-        self.gas = _gas(a, b)
+        self.gas = [*_gas(a, b), *_averages(a, b)]
         pairs = _pairs_of_fits(a, b)
         self.fits = [one for pair in pairs if pair[0].is_like(pair[1]) for one in _fits(a, b, pair)]
         self.unlike = [pair for pair in pairs if not pair[0].is_like(pair[1])]
@@ -216,6 +217,24 @@ def _gas(a, b):
         )
         found.append(_deviation(name.replace('_', ' '), (a, b), values, errors, ('gas', name)))
     return found
+
+
+def _averages(a, b):
+    """Of what the particles of both tell."""
+    if not all(one.has('averages') for run in (a, b) for one in run.data.runs):
+        return []
+    told = [{one.name: one for one in run.averages.averages} for run in (a, b)]
+    return [
+        _deviation(
+            name,
+            (a, b),
+            [one[name].value for one in told],
+            [one[name].std_error for one in told],
+            ('averages', name),
+        )
+        for name in told[0]
+        if name in told[1]
+    ]
 
 
 def _exponents(a, b):

@@ -47,6 +47,19 @@ def _of_gas(recording):
     return [] if recording.gas is None else [_gas(recording)]
 
 
+def _of_averages(recording):
+    """What the particles tell, block by block."""
+    told = recording.averages
+    if told is None:
+        return
+    width = max([15, *(len(one.name) for one in told.averages)])
+    lines = [
+        f'{one.name:<{width}} {with_error(one.value, one.std_error)} {one.unit}'.rstrip()
+        for one in told.averages
+    ]
+    yield '\n'.join([f'averages, over {told.averaged_time:g}', *lines])
+
+
 def _of_covariant(recording):
     return [] if recording.covariant is None else covariant_table.blocks(recording)
 
@@ -68,6 +81,7 @@ def _of_energy(recording):
 # what a part is about: its blocks, of what was recorded
 PARTS = {
     'the gas': _of_gas,
+    'averages': _of_averages,
     'sums': _of_spectrum,
     'the last exponents': _of_tail,
     'steps': _of_steps,
@@ -78,7 +92,8 @@ PARTS = {
 
 
 def _of_means(recording):
-    blocks = [_head(recording), *_of_gas(recording), *recording.energies_off()]
+    blocks = [_head(recording), *_of_gas(recording), *_of_averages(recording)]
+    blocks += recording.energies_off()
     if recording.spectrum is None:
         return '\n\n'.join(blocks)
     blocks += [_means(recording), _tail(recording)]

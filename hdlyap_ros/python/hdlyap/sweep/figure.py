@@ -11,7 +11,7 @@ from hdlyap.data import space
 from hdlyap.plots.figures.page import LETTERS, Page
 from hdlyap.plots.figures.style import FEW, GREY, MEMBER_COLOURS, ours
 
-from .points import FITTED, QUANTITIES, varied
+from .points import FITTED, quantities, varied
 
 LABELS = {
     'number': 'number of particles $N$',
@@ -47,7 +47,7 @@ def draw(points, ax=None, title=True, legend=True, paper=None, **look):
 
 def _drawn(page, points, look):
     names, fixed = varied(points)
-    shown = [name for name in QUANTITIES if any(name in point.values for point in points)]
+    shown = [name for name in quantities(points) if any(name in point.values for point in points)]
     if not names or not shown:
         return None
     x = max(names, key=lambda name: (not _are_words(points, name), _count(points, name)))
@@ -144,7 +144,10 @@ def _panel(axes, name, x, series, look):
             [word.replace(',', ',\n') if word.count(',') > 1 else word for word in words]
         )
     axes.set_xlabel(_label(x, every[0].data.info))
-    axes.set_ylabel(NAMES[name].replace('^2', f'^{len(space.axes(every[0].data.info))}'))
+    unit = quantities(every)[name]
+    told = f'{name.replace("_", " ")}  [{unit}]' if unit else name.replace('_', ' ')
+    known = NAMES.get(name, told)  # others are averages
+    axes.set_ylabel(known.replace('^2', f'^{len(space.axes(every[0].data.info))}'))
 
 
 def _label(x, info):

@@ -62,6 +62,9 @@ class Point:
         if self.data.has('gas'):
             gas = self.data.gas
             found.update((name, self._value(gas.loc[name])) for name in GAS if name in gas.index)
+        if self.data.has('averages'):
+            rows = self.data.averages.iterrows()
+            found.update((name, self._value(row)) for name, row in rows)
         return found
 
     @staticmethod
@@ -114,9 +117,14 @@ def varied(points):
     return [name for name in values if name not in fixed], fixed
 
 
-def unit(name, info):
-    """The unit of a quantity of these particles."""
-    return space.unit(QUANTITIES[name], info)
+def quantities(points):
+    """{name: unit} of what points can have, in the order of columns of a table: last what particles
+    of a program's own tell."""
+    found = {name: space.unit(unit, points[0].data.info) for name, unit in QUANTITIES.items()}
+    for point in points:
+        if point.data.has('averages'):
+            found.update(point.data.averages['unit'])
+    return found
 
 
 def _numbers_first(found):

@@ -10,8 +10,7 @@ from hdlyap.numbers import with_error
 from hdlyap.plots.deviation import FREEDOM
 from hdlyap.plots.latex import symbol, tabular, unit
 
-from .points import FITTED, NAN, QUANTITIES, varied
-from .points import unit as quantity_unit
+from .points import FITTED, NAN, quantities, varied
 
 PACKING, RUN = 'packing', 'run'  # columns that are no parameters
 
@@ -75,7 +74,8 @@ def latex(points, style):
     marks, info = Marks(points), points[0].data.info
     yield '% the same in all: ' + ', '.join(f'{name} {_plain(x)}' for name, x in fixed.items())
     head, rows = _cells(points, names, _bare)
-    units = [_unit(name, info) for name in head]
+    of_quantities = quantities(points)
+    units = [of_quantities.get(name, _unit(name, info)) for name in head]
     yield from tabular(head, rows, style, units)
     yield from (f'% {line}' for line in marks.explained())
     yield from (f'% {line}' for point in points for line in point.warnings)
@@ -94,7 +94,7 @@ def _of_one(point, style):
 
 def _unit(name, info):
     found = {'density': f'1/sigma^{len(space.axes(info))}', 'averaged time': 'time units'}
-    return quantity_unit(name, info) if name in QUANTITIES else found.get(name, '')
+    return found.get(name, '')
 
 
 def _columns(points):
@@ -120,7 +120,9 @@ def _packing(point):
 def _cells(points, names, cell):
     """The head and the rows of all that was measured. cell: makes a text of (point, quantity)."""
     shown = [
-        q for q in QUANTITIES if any(q in point.values or q in point.unlike for point in points)
+        q
+        for q in quantities(points)
+        if any(q in point.values or q in point.unlike for point in points)
     ]
     errors = [point.energy_error for point in points]
     has_errors = any(error is not None for error in errors)
@@ -203,24 +205,25 @@ def csv(points, path):
     units = {'density': f' [1/sigma^{len(space.axes(points[0].data.info))}]'}
     head = [name + units.get(name, '') for name in points[0].system]
     head += ['seeds', 'averaged time [time units]']
-    for name in QUANTITIES:
+    for name, of_it in quantities(points).items():
         head += [
-            f'{name} [{quantity_unit(name, points[0].data.info)}]',
+            f'{name} [{of_it}]' if of_it else name,
             f'{name} std_error',
             f'{name} scatter',
             f'{name} chi2',
         ]
         head += [f'{name} misfit', f'{name} basis'] if name in FITTED else []
-    whole.write_csv(path, head, map(_row, points))
+    names = list(quantities(points))
+    whole.write_csv(path, head, (_row(point, names) for point in points))
 
 
-def _row(point):
+def _row(point, names):
     row = [
         *map(_plain, point.system.values()),
         ' '.join(point.data.seeds),
         f'{point.data.averaged_time:g}',
     ]
-    for name in QUANTITIES:
+    for name in names:
         value = point.values.get(name)
         numbers = value[:4] if value else [NAN] * 4
         if name in FITTED:
