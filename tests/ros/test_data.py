@@ -258,7 +258,7 @@ class Arrays(Loaded):
         self.equal(p, [[5, 4], [3, 2], [1, 0]])
         state.q = numbers[:4]
         with self.assertRaisesRegex(RecordingError, 'State: [qp] has [46] elements: must be [46]'):
-            list(self.load([info, state], 'short').state)
+            list(self.load([info, state]).state)
 
     def test_fluctuations(self):
         """D by index; growth over finite times of vectors and of pairs of steps."""

@@ -377,7 +377,7 @@ class Export(Tools):
         self.assertAlmostEqual(mean.value['kinetic'], 1.75)
         self.assertAlmostEqual(mean.std_error['kinetic'], 0.01 * np.sqrt(10) / 4)
         self.assertEqual(mean.unit['kinetic'], 'energy')
-        self.assertRegex(self.plot(*bags), r'\naverages, over 200\nkinetic +1\.75\(25\) energy\n')
+        self.assertRegex(self.plot(*bags), r'\naverages, over 200\nkinetic +1\.75\(43\) energy\n')
         self.assertRegex(
             self.plot(bags[1]), r'\naverages, over 150\nkinetic +2\.000\(10\) energy\n'
         )

@@ -1,5 +1,6 @@
 """Bags of particles without positions in a box, whose parameters are their own."""
 
+import csv
 
 import yaml
 
@@ -11,7 +12,7 @@ from hdlyap.data.reader import RecordingError
 from hdlyap.follow import watch
 from hdlyap.plots import repetition, report
 from hdlyap.plots.comparison import Comparison
-from hdlyap.sweep import points, table
+from hdlyap.sweep import figure, points, table
 import hdlyap
 
 OWN = ['beta=0.30000000000000004', 'energy=1', 'start=cold']
@@ -70,6 +71,25 @@ class WithoutBox(Bags):
         found, wrong = points.read(paths)
         self.assertEqual((len(found), wrong), (1, []))
         self.assertEqual(found[0].system['time_step'], 0)
+
+    def test_averages_in_a_table(self):
+        """With their names and units in the text, in CSV and in the figure, over the own parameter."""
+        paths = []
+        for beta in (1, 2):
+            info = chain(own=[f'beta={beta}', 'energy=1'])
+            told = made.averages(kinetic=0.5 * beta)
+            paths.append(self.write([info, made.spectrum([2.0], 50.0), told], f'{beta}'))
+        found, _ = points.read(paths)
+        _, head, first, second, *_ = table.text(found)
+        self.assertEqual(head.split()[:3], ['beta', 'lambda_max', 'kinetic'])
+        self.assertEqual((first.split()[2], second.split()[2]), ('0.500(10)', '1.000(10)'))
+        table.csv(found, self.path('table.csv'))
+        with open(self.path('table.csv')) as file:
+            head, *rows = csv.reader(file)
+        at = head.index('kinetic [energy]')
+        self.assertEqual([row[at : at + 2] for row in rows], [['0.5', '0.01'], ['1.0', '0.01']])
+        panels = [axes.get_ylabel() for axes in figure.draw(found).axes]
+        self.assertIn('kinetic  [energy]', panels)
 
     def test_table(self):
         """By own parameters as numbers, not as texts; not beside disks."""
