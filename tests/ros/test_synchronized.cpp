@@ -14,6 +14,7 @@
 #include <std_msgs/Header.h>
 
 extern "C" {
+#include "hdlyap/dynamics.h"
 #include "topics/topic.h"
 }
 
@@ -87,10 +88,14 @@ struct met {
 
 std::vector<std::unique_ptr<heard>> all_of_reports(ros::NodeHandle &node)
 {
+    const hd_scene_def disks = hd_scene_def_default();
+    const unsigned of_disks = topics_of_particles(hd_dynamics_of(&disks)),
+                   absent = topics_that_are(TOPIC_OBSERVABLE) & ~of_disks,
+                   rare = topics_that_are(TOPIC_FOR_VIEWERS | TOPIC_OF_WINDOWS);
     std::vector<std::unique_ptr<heard>> all;
     for (int t = 0; t < TOPICS; t++) {
         const unsigned bit = topic_bit(topic(t));
-        if (t != TOPIC_run_info && !(bit & topics_that_are(TOPIC_FOR_VIEWERS | TOPIC_OF_WINDOWS)))
+        if (t != TOPIC_run_info && !(bit & (absent | rare)))
             all.emplace_back(new heard(node, topic_name(topic(t))));
     }
     return all;
