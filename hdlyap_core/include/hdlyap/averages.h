@@ -13,9 +13,9 @@ HD_API_BEGIN
 /** The averages of a run; owned by the run. */
 typedef struct hd_averages hd_averages;
 
-/** The mean of one number. The texts are those of the row. */
+/** The mean of one number. */
 typedef struct hd_mean {
-    const char *name, *unit;
+    const char *name, *unit; /**< those of the row (hd_average) */
     double mean;      /**< mean since the averaging began; NaN while the averaged time is 0 */
     double std_error; /**< its standard error [T8]; negative while it is not known */
 } hd_mean;

@@ -31,6 +31,36 @@ TEST(all_and_their_covariant_vectors_are_those_of_one_rank)
         short_chain(HD_EXPONENTS_ALL_INDEPENDENT, HD_OBSERVE_LOCALIZATION | HD_OBSERVE_COVARIANT));
 }
 
+static void measure(const hd_scene_def *scene, const double *q, const double *p, double *value)
+{
+    (void)q;
+    value[0] = 0.0;
+    for (int i = 0; i < scene->number; i++) value[0] += p[i] * p[i];
+}
+
+/** To the bit, as all ranks move the same particles. */
+TEST(averages_are_those_of_one_rank)
+{
+    static const hd_average told[] = {{"squares", ""}};
+    hd_dynamics row = of_chain;
+    hd_scene_def def = short_chain(HD_EXPONENTS_ALL, HD_OBSERVE_AVERAGES);
+    row.average = told;
+    row.averages = 1;
+    row.measure = measure;
+    def.dynamics = &row;
+    def.duration = 1000.0;
+    hd_run *run = NULL;
+    CHECK_OK(hd_run_create_shared(&run, &def, ranks, NULL, 0));
+    finish(run);
+    OWNED(hd_run) *alone = finished(def);
+    const hd_mean found = hd_averages_read(hd_run_averages(run), 0),
+                  wanted = hd_averages_read(hd_run_averages(alone), 0);
+    CHECK_CLOSE(found.mean, wanted.mean, 0.0);
+    CHECK_CLOSE(found.std_error, wanted.std_error, 0.0);
+    assert_true(wanted.std_error > 0);
+    hd_run_free(run);
+}
+
 /** Creates, keeps, resumes; the largest exponent. */
 static double lead(hd_communicator *c)
 {
