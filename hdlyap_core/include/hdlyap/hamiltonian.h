@@ -6,8 +6,8 @@
  *     HD_HAMILTONIAN(of_rotors, bend, (.kept = 1, .force = force, .growth = growth),
  *                    .particles = "rotors", .coordinates = 1);
  *
- * makes the row of_rotors, to which further members of hd_dynamics can be added, as `parameter`. A
- * run whose energy is off by more than 2 % of kinetic + |potential| energy fails with
+ * makes the row of_rotors, to which further members of hd_dynamics can be added, as `parameter` or
+ * `average`. A run whose energy is off by more than 2 % of kinetic + |potential| energy fails with
  * HD_ENERGY_LOST. examples/chain.c is a whole program. */
 #ifndef HDLYAP_HAMILTONIAN_H
 #define HDLYAP_HAMILTONIAN_H
