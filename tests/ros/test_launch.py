@@ -116,6 +116,8 @@ class Launch(harness.Case):
             self.ends(run, 0, 'scene unnamed: 20 disks in 6.32456 x 6.32456')
             differs = f'unlike {folder}/mine.yaml: density = 0.5, accuracy = 1e-7'
             self.assertIn('from the arguments, ' + differs, run.text())
+            rest = 'number = 20, aspect = 1, equilibration = 1, warmup = 1, duration = 2'
+            self.assertIn(f'the rest is of {folder}/mine.yaml: {rest}', run.text())
         given = dict(scene='mine', number=20, aspect=1.0, duration=2, equilibration=1, warmup=1)
         given.update(density=0.5, accuracy='1e-7', table=3)
         self.assertEqual(rospy.get_param('/grp/hdlyap'), given)

@@ -273,6 +273,26 @@ class Parameters(harness.Case):
             self.assertEqual(self.told(node, self.listen('run_info')).scene, name)
             node.stop()
 
+    def test_what_no_observable_needs(self):
+        """Of a scene's file is left out if the user asks for other observables, not otherwise."""
+        text = 'number: 20\naspect: 1.0\ndensity: 0.5\nmax_mode_number: 2\npace: 1.0\n'
+        for observables, asked, status in (('modes', '[spectrum]', 0), ('spectrum', '', 2)):
+            given = handed_over(
+                scene=text + f'observables: [{observables}]\n',
+                file='/no/mine.yaml',
+                arguments=f'observables:={asked}',
+            )
+            node = self.start({**given, **HEARD})
+            if status:
+                self.assertEqual(node.wait(), status)
+                self.assertIn('max_mode_number = 2: must be 0 without', node.text())
+                continue
+            self.assertEqual(self.told(node, self.listen('run_info')).max_mode_number, 0)
+            self.assertTrue(node.lines('max_mode_number of the scene is left out'))
+            (rest,) = node.lines('the rest is of /no/mine.yaml: ')
+            self.assertNotIn('max_mode_number', rest)
+            node.stop()
+
     def test_scenes(self):
         """Some of them start as they are written; without parameters it is paper_periodic."""
         for scene, vectors in dict(quick=197, trajectory_only=0, paper_periodic=1557).items():

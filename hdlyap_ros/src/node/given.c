@@ -9,9 +9,10 @@
 #include "parameters.h"
 #include "particles.h"
 
-typedef enum source { ARGUMENT, SERVER, NOWHERE, SOURCES } source;
-static const char *const source_text[SOURCES] = {"the arguments", "the parameter server",
-                                                 "the defaults"};
+typedef enum source { ARGUMENT, SERVER, NOWHERE, SCENE_FILE, SOURCES } source;
+static const char *const source_text[SOURCES] = {"from the arguments, unlike",
+                                                 "from the parameter server, unlike",
+                                                 "from the defaults, unlike", "the rest is of"};
 
 enum { LINE = 600, ITEM = 160 }; /* letters */
 
@@ -19,7 +20,8 @@ enum { LINE = 600, ITEM = 160 }; /* letters */
 typedef struct comparison {
     const hdr_params *params;
     const hdr_params *file; /**< NULL: the defaults */
-    const char *name;       /**< of what they are compared with */
+    const hd_scene_def *def;
+    const char *name; /**< of what they are compared with */
 } comparison;
 
 /** A text without the brackets of a list. */
@@ -48,18 +50,29 @@ static source source_of(const hdr_params *params, const char *name)
     return hdr_param_is_argument(params, name) ? ARGUMENT : SERVER;
 }
 
-/** Writes the parameter if it comes from there and differs; else leaves the text empty. */
+/** Whether a parameter of the scene has the value of the scene's file, which is not its default. */
+static bool is_of_file(const comparison *c, const parameter *p)
+{
+    return p->kind == OF_SCENE && c->file && *hdr_param_text(c->file, p->name) &&
+           is_same(hdr_param_text(c->params, p->name), hdr_param_text(c->file, p->name)) &&
+           hd_parameter_value(p->row, c->def) != p->row->default_value;
+}
+
+/** Writes the parameter if it comes from there and, unless it is of the scene's file, differs; else
+ * leaves the text empty. */
 static void write_item(char item[ITEM], const comparison *c, const parameter *p, source from)
 {
     char usual[PARAMETER_TEXT];
     const char *wanted = c->file ? hdr_param_text(c->file, p->name) : "";
     const char *value = hdr_param_text(c->params, p->name);
+    const bool of_file = from == SCENE_FILE;
     *item = '\0';
-    if (p->kind == NAME || source_of(c->params, p->name) != from) return;
+    if (p->kind == NAME || (of_file && !is_of_file(c, p))) return;
+    if (!of_file && source_of(c->params, p->name) != from) return;
     parameter_usual(usual, p);
     if (!*wanted) wanted = usual;
     if (!*value) value = usual;
-    if (!is_same(value, wanted)) snprintf(item, ITEM, "%.50s = %.100s", p->name, value);
+    if (of_file || !is_same(value, wanted)) snprintf(item, ITEM, "%.50s = %.100s", p->name, value);
 }
 
 bool given_is_changed(const hdr_params *params, const char *name)
@@ -73,10 +86,19 @@ bool given_is_changed(const hdr_params *params, const char *name)
     return *item;
 }
 
-/** Logs all parameters that come from there and differ, in as few lines as hold them. */
-static void log_all(const comparison *c, source from)
+bool given_is_of_file(const hdr_params *params, const char *name)
+{
+    const char *path;
+    const hdr_params *file = hdr_params_file(params, &path);
+    return file && *hdr_param_text(file, name) && !given_is_changed(params, name);
+}
+
+/** Logs all parameters that come from there and differ, in as few lines as hold them. Returns
+ * whether there are any. */
+static bool log_all(const comparison *c, source from)
 {
     char line[LINE + ITEM] = "", item[ITEM];
+    bool any = false;
     for (int k = 0; k < parameters_count(); k++) {
         const parameter p = parameters_at(k);
         const size_t length = strlen(line);
@@ -84,9 +106,11 @@ static void log_all(const comparison *c, source from)
         if (*item) snprintf(line + length, sizeof line - length, "%s%s", length ? ", " : "", item);
         const bool is_whole = strlen(line) >= LINE - 2 || k + 1 == parameters_count();
         if (!*line || !is_whole) continue;
-        hdr_log(HDR_INFO, "from %s, unlike %.200s: %s", source_text[from], c->name, line);
+        hdr_log(HDR_INFO, "%s %.200s: %s", source_text[from], c->name, line);
         *line = '\0';
+        any = true;
     }
+    return any;
 }
 
 /** Whether these or other particles have a parameter of this name. */
@@ -99,13 +123,13 @@ static bool is_parameter(const char *name)
     return parameters_has(name);
 }
 
-void given_log(const hdr_params *params, bool is_resumed)
+void given_log(const settings *set, bool is_resumed)
 {
-    comparison c = {.params = params};
-    c.file = hdr_params_file(params, &c.name);
+    comparison c = {.params = set->given, .def = &set->def};
+    c.file = hdr_params_file(c.params, &c.name);
     if (!c.file) c.name = "the defaults";
-    log_all(&c, ARGUMENT);
+    if (log_all(&c, ARGUMENT)) log_all(&c, SCENE_FILE);
     log_all(&c, SERVER);
     if (!is_resumed) log_all(&c, NOWHERE);
-    hdr_params_warn_of_renaming(params, is_parameter);
+    hdr_params_warn_of_renaming(c.params, is_parameter);
 }

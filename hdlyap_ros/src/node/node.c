@@ -175,10 +175,12 @@ static void log_start(const app *a)
 {
     const hd_blas blas = hd_blas_query();
     char system[SYSTEM_SIZE];
-    hdr_log(HDR_INFO, "scene %s: %s, %d vectors, %d threads; %s, kernel %s, %d threads",
-            a->set.scene, settings_write_system(system, &a->set), hd_run_vectors(a->run),
-            hd_run_threads(a->run), blas.library, blas.kernel, blas.threads);
-    given_log(a->params, *a->set.resume);
+    const int threads = hd_run_threads(a->run);
+    hdr_log(HDR_INFO, "scene %s: %s, %d vectors, %d thread%s; %s, kernel %s, %d thread%s",
+            a->set.scene, settings_write_system(system, &a->set), hd_run_vectors(a->run), threads,
+            threads > 1 ? "s" : "", blas.library, blas.kernel, blas.threads,
+            blas.threads > 1 ? "s" : "");
+    given_log(&a->set, *a->set.resume);
     warn_of_threads(a->run);
     if (*a->set.warning) hdr_log(HDR_WARN, "%s", a->set.warning);
     if (*a->set.resume)

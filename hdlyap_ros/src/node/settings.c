@@ -221,6 +221,36 @@ static bool is_usual(settings *set, const parameter *p)
     }
 }
 
+static void set_default(settings *set, const parameter *p)
+{
+    void *field = field_of(set, p);
+    switch (p->kind) {
+    case OF_SCENE:
+    case PARTICLES: break;
+    case REAL_NUMBER: *(double *)field = strtod(p->default_value, NULL); break;
+    case WHOLE_NUMBER: *(int *)field = atoi(p->default_value); break;
+    case NAME:
+    case CHOICE:
+    case FILE_PATH: *(const char **)field = p->default_value; break;
+    case TOPICS_OBSERVED:
+    case TOPICS_AWAITED: *(unsigned *)field = topics_named(p->default_value); break;
+    case FIELD_CHOICE: *(field_choice *)field = (field_choice){.text = p->default_value}; break;
+    case CHANGES: break;
+    }
+}
+
+/** Leaves a parameter out that comes with the scene's file, of whose observables others were asked
+ * for. */
+static bool leave_out(settings *set, const hdr_params *params, const parameter *p)
+{
+    if (!given_is_of_file(params, p->name) || !given_is_changed(params, "observables"))
+        return false;
+    hdr_log(HDR_INFO, "%s of the scene is left out: no observable needs it", p->name);
+    set_default(set, p);
+    if (p->kind == OF_SCENE) hd_parameter_assign(p->row, &set->def, p->row->default_value);
+    return true;
+}
+
 /** Refuses parameters that have no effect, as what they belong to is not observed. They may have
  * their defaults. */
 static bool check_needs(settings *set, reader *r)
@@ -230,7 +260,7 @@ static bool check_needs(settings *set, reader *r)
         char usual[PARAMETER_TEXT], names[PARAMETER_TEXT], allowed[3 * PARAMETER_TEXT];
         r->name = p.name;
         if (!p.needs || (set->observables & p.needs) || is_usual(set, &p)) continue;
-        if (!*hdr_param_text(r->params, p.name)) continue;
+        if (!*hdr_param_text(r->params, p.name) || leave_out(set, r->params, &p)) continue;
         parameter_usual(usual, &p);
         topic_names(names, sizeof names, p.needs);
         snprintf(allowed, sizeof allowed,
@@ -324,24 +354,6 @@ static unsigned topics_kept(unsigned stages)
     for (topic t = 0; t < TOPICS; t++)
         if (topic_stages(topic_bit(t)) & ~stages) set &= ~topic_bit(t);
     return set;
-}
-
-static void set_default(settings *set, const parameter *p)
-{
-    void *field = field_of(set, p);
-    switch (p->kind) {
-    case OF_SCENE:
-    case PARTICLES: break;
-    case REAL_NUMBER: *(double *)field = strtod(p->default_value, NULL); break;
-    case WHOLE_NUMBER: *(int *)field = atoi(p->default_value); break;
-    case NAME:
-    case CHOICE:
-    case FILE_PATH: *(const char **)field = p->default_value; break;
-    case TOPICS_OBSERVED:
-    case TOPICS_AWAITED: *(unsigned *)field = topics_named(p->default_value); break;
-    case FIELD_CHOICE: *(field_choice *)field = (field_choice){.text = p->default_value}; break;
-    case CHANGES: break;
-    }
 }
 
 static settings defaults(const hd_checkpoint *kept)
