@@ -9,9 +9,11 @@ from matplotlib.figure import Figure
 import bags
 
 import made
+import made_fields
 import test_axes
 from made import LP, T
-from hdlyap.plots.figures import FIGURES, convergence, dispersion, fluctuations, phases, steps
+from hdlyap.plots.figures import FIGURES, convergence, dispersion, fluctuations, modes, phases
+from hdlyap.plots.figures import spectrum, steps
 from hdlyap.plots.figures.page import PAPER, TALLEST
 
 INFO = made.run_info()
@@ -41,6 +43,36 @@ class Paper(bags.Figures):
             page = FIGURES['covariant_exponents'].draw(run, paper=column)
             left = {round(one.get_position().x0, 1) for one in page.axes}
             self.assertEqual(len(left), places)
+
+    def test_names_are_inside(self):
+        """In a narrow column, where the legend has room in the other panel."""
+        pair = [made.step(INFO, *of, 28, 35) for of in ((T, 1, 1), (LP, 1, 0))]
+        for step in pair:
+            step.set, step.members = 7, 2
+        info = made.run_info(number=40)
+        run = self.load(
+            made.steps([LOW, *pair]), made.spectrum(np.linspace(9, 3, 77), 50.0), info=info
+        )
+        page = spectrum.draw(run, paper='one-column')
+        page.figure.canvas.draw()
+        names = [(axes, text) for axes in page.axes for text in axes.texts]
+        self.assertEqual({text.get_text() for _, text in names}, {'T(1,0)', 'LP(1,0)+T(1,1)'})
+        for axes, text in names:
+            self.assertLess(text.get_window_extent().y1, axes.bbox.y1)
+        self.assertEqual([axes.get_legend() is None for axes in page.axes], [False, True])
+
+    def test_titles_fit(self):
+        """That of a narrow figure is broken; those of modes in a narrow column do not overlap."""
+        info = made.run_info(scene='a scene whose name is rather long, longer than others')
+        page = spectrum.draw(self.load(made.spectrum(HALF, 50.0), info=info))
+        page.figure.canvas.draw()
+        self.assertLess(page.figure._suptitle.get_window_extent().width, page.figure.bbox.width)
+        fields = [made_fields.mode_field(INFO, step) for step in (LOW, HIGH)]
+        run = self.load(made.steps([LOW, HIGH]), made.spectrum(HALF, 50.0, error=1e-4), *fields)
+        page = modes.draw(run, paper='one-column')
+        page.figure.canvas.draw()
+        one, other = (axes.title.get_window_extent() for axes in page.axes)
+        self.assertFalse(one.overlaps(other))
 
     def test_in_the_axes_of_the_user(self):
         """No title and no legend, if they are not wanted; the figure keeps its size."""
@@ -126,7 +158,7 @@ class LeftOut(bags.Figures):
     def test_command(self):
         self.write([INFO, *(made.spectrum(HALF, t, error=-1.0) for t in (1.0, 2.0))])
         text = self.succeeds('plot', self.path(), '--out', self.out)
-        self.assertIn('\nconvergence has no panel of standard errors: none is known yet;', text)
+        self.assertIn('\nconvergence does not show standard errors: none is known yet;', text)
 
     def test_errors_of_fluctuations(self):
         """Of a variance over n times sqrt(2 / (n - 1)), of a fraction that of counts."""

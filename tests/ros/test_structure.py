@@ -37,6 +37,12 @@ class Lines(unittest.TestCase):
             self.assertAlmostEqual(found.omega, omega, delta=0.3 * 2 * np.pi / np.ptp(times))
             self.assertLess(found.error, 0.05 * omega)
 
+    def test_near_the_largest_frequency(self):
+        """Mirror images, which lie evenly about pi, do not count."""
+        times = self.times()
+        found = factors.line(times, self.turning(times, 3.0))
+        self.assertAlmostEqual(found.omega, 3.0, delta=2 * np.pi / np.ptp(times))
+
     def test_errors_of_diffusing_phases(self):
         """Deviations are as large as stated; 40 of them, each error from 4 pieces."""
         off, stated = [], []
@@ -181,6 +187,18 @@ class Recorded(Bags):
             peak['LP(1,0)'], OMEGA * self.found[1].wave_number, delta=2 * np.pi / 59
         )
         self.assertAlmostEqual(found[phases].get_xdata()[0], 1.612 * made.K)  # of made.steps
+
+    def test_reports_that_are_too_rare(self):
+        """v k = 1.60 is more than half a turn in 2.4 time units, not in 1."""
+        for k, one in enumerate(self.messages):
+            one.sim_time = 100.0 + 2.4 * k
+        steps = made.steps([*self.found, made.zero_modes()], 60.0)
+        self.write([*self.head(), steps, *self.messages], 'rare')
+        page = figures.structure.draw(hdlyap.load(self.path('rare')))
+        (line,) = page.left_out
+        self.assertRegex(line, r'the line of LP\(1,0\): it turns by 1.6 .*; report_interval: 0.98 ')
+        (lines,) = (one for one in page.axes if one.get_title(loc='left').startswith('(c)'))
+        self.assertEqual([one.get_label()[:2] for one in lines.lines], ['T('])
 
     def test_no_line_is_known(self):
         """Where no step is found there is no panel, and it is said why; the user's says it."""

@@ -85,10 +85,13 @@ def power(times, series, omega):
     return (np.abs(turned) ** 2).sum(axis=1) / (1.5 * times[-1] ** 2)
 
 
+def largest_frequency(times):
+    """The largest frequency that reports at these times can distinguish from smaller ones."""
+    return np.pi / np.median(np.diff(times))
+
+
 def frequencies(times):
-    """Frequencies from 0 to the largest that reports at these times can distinguish from smaller
-    ones."""
-    return np.linspace(0, np.pi / np.median(np.diff(times)), FREQUENCIES)
+    return np.linspace(0, largest_frequency(times), FREQUENCIES)
 
 
 def line(times, series):
@@ -119,9 +122,10 @@ def _resolution(times):
 
 def _middle(times, series, about):
     """The middle of a line near a frequency. It is computed twice, because the first result moves
-    the range of frequencies."""
+    the range of frequencies, which ends where they have mirror images."""
     for _ in range(2 if about > 0 else 0):
-        omega = about * np.linspace(0.5, 1.5, 301)
+        end = min(1.5, largest_frequency(times) / about)
+        omega = about * np.linspace(0.5, end, 301)
         found = power(times, series, omega)
         about = np.average(omega, weights=np.where(found > FLOOR * found.max(), found, 0.0))
     return about

@@ -54,7 +54,7 @@ def draw_all(recording, folder, progress, names=tuple(FIGURES), pdf=None, paper=
             if pdf:
                 pages.savefig(page.figure)
             made.files.extend(save(page.figure, folder, name, **how))
-            made.left_out.extend(f'{name} has no panel of {line}' for line in page.left_out)
+            made.left_out.extend(f'{name} does not show {line}' for line in page.left_out)
             made.captions.extend([f'{name}: {page.caption}'] if paper else [])
     made.files.extend([pdf] if pdf and made.files else [])
     return made

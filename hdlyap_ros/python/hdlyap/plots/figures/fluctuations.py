@@ -196,6 +196,7 @@ def _pairs(axes, told, look):
         found = values.diagonal(aside), known(error.diagonal(aside))
         style['label'] = label
         axes.errorbar(places + 0.5 * aside, *found, **{'marker': marker, 'color': colour, **style})
+    axes.set_xlim(-0.5, size - 0.5)
     axes.set_xticks(range(size))
     axes.set_xticklabels(names, rotation=90, fontsize=6)
     axes.legend(fontsize=6, handletextpad=0.2)

@@ -127,12 +127,19 @@ def draw_panels(page, panels, info, look=()):
     columns = _columns(len(panels), info)
     rows = -(-len(panels) // columns)
     width = WIDTH if len(panels) > 1 else ALONE
+    width = page.widest if page.is_narrow else width
     height = rows * (width / columns * info.box_y / info.box_x + 0.3) + 0.5
-    height += LINE * scene(info).count('\n')
+    height += LINE * (rows if page.is_narrow else scene(info).count('\n'))
     size = width, min(height, TALLEST)
     grid = page.panels(rows, columns, *size, squeeze=False, is_box=True)
     for axes, panel in zip(grid.flat, panels):
-        _arrows(axes, panel, info, {'rasterized': len(panels) * info.number > MANY, **dict(look)})
+        _arrows(
+            axes,
+            panel,
+            info,
+            page.is_narrow,
+            {'rasterized': len(panels) * info.number > MANY, **dict(look)},
+        )
         axes.set_xlabel(r'$x$  [$\sigma$]', fontsize=7)
         axes.set_ylabel(r'$y$  [$\sigma$]', fontsize=7)
     page.outer(grid)
@@ -157,14 +164,16 @@ def _lowest(count, columns):
     return [(count - 1 - column) // columns for column in range(columns)]
 
 
-def _arrows(axes, panel, info, look):
+def _arrows(axes, panel, info, is_narrow, look):
     field = panel.field
     rims = {'facecolors': 'none', 'edgecolors': LIGHT, 'linewidths': 0.4}
     drawn = Particles(axes, info, space.vectors(field), field.angle, **rims)
     if space.turns(info):
         drawn.paint(of_vector(field, 'white'))
     arrows(axes, field.x, field.y, panel.arrows, **{'width': 0.13, 'color': panel.colour, **look})
-    axes.set_title(panel.title, fontsize=8 if len(panel.name + panel.said) < LONG else 6)
+    title = panel.title.replace(', $\\ell', ',\n$\\ell') if is_narrow else panel.title
+    is_long = len(panel.name + panel.said) >= LONG
+    axes.set_title(title, fontsize=6 if is_long else 7 if is_narrow else 8)
     axes.tick_params(labelsize=6, length=2)
 
 

@@ -37,6 +37,24 @@ def figure(draw):
     return drawn
 
 
+def fit(text):
+    """Breaks lines of a text that are wider than its figure, at commas."""
+    figure = text.figure
+    renderer = figure.canvas.get_renderer()
+    for _ in range(text.get_text().count(', ')):
+        if text.get_window_extent(renderer).width <= figure.bbox.width:
+            break
+        lines = text.get_text().split('\n')
+        longest = max(range(len(lines)), key=lambda k: len(lines[k]))
+        parts = lines[longest].rsplit(', ', 1)
+        if len(parts) < 2:
+            break
+        lines[longest : longest + 1] = [parts[0] + ',', parts[1]]
+        if longest + 2 < len(lines):
+            lines[longest + 1 : longest + 3] = [', '.join(lines[longest + 1 : longest + 3])]
+        text.set_text('\n'.join(lines))
+
+
 class Page:
     """Where to draw: `figure`, `axes`, and `artists` that were drawn into them. `caption`: what the
     title says. `left_out`: a line for each panel without data: why, and what would fill it."""
@@ -59,6 +77,11 @@ class Page:
         """Whether panels have to stand below each other."""
         return self.is_own and self.paper == 'one-column'
 
+    @property
+    def widest(self):
+        """The width of a journal's column [inch]; infinite for none."""
+        return PAPER.get(self.paper, np.inf)
+
     def shows(self, number):
         """Whether a panel, counted from 0, is drawn."""
         return self.is_own or number < len(self._given)
@@ -78,7 +101,7 @@ class Page:
         high. If the user has given axes, it only takes the panels for which there are none, and
         nobody sees it."""
         if self.paper:
-            wide = PAPER[self.paper]
+            wide = self.widest
             width, height = wide, min(max(height * min(1, wide / width), least), TALLEST)
         made = Figure(figsize=(width, height), constrained_layout=constrained_layout)
         FigureCanvasAgg(made)
@@ -100,7 +123,7 @@ class Page:
 
     def _stacked(self, rows, columns, height, sharex=False, sharey=False, gridspec_kw=None):
         """The grid with all axes in one column, which keep what they share."""
-        sheet = self.sheet(PAPER[self.paper], rows * columns * min(height, PANEL))
+        sheet = self.sheet(self.widest, rows * columns * min(height, PANEL))
         ratios = np.repeat((gridspec_kw or {}).get('height_ratios', [1] * rows), columns)
         places = sheet.add_gridspec(rows * columns, 1, height_ratios=ratios)
         grid = np.empty((rows, columns), dtype=object)
@@ -138,7 +161,7 @@ class Page:
         for axes, letter in zip(panels, LETTERS):
             axes.set_title(f'({letter}) {axes.get_title(loc="left")}'.rstrip(), loc='left')
         if self.has_title:
-            self.figure.suptitle(scene(info) + more, fontsize=9)
+            fit(self.figure.suptitle(scene(info) + more, fontsize=9))
 
     def drawn(self):
         """This page; None if nothing was drawn."""

@@ -20,7 +20,7 @@ IS_OF_MEANS = True  # drawn of several seeds, too
 MAGNIFIED, MAGNIFIED_MOST = 40, 64
 NEAR = 0.032  # names at this distance, over the width of the panel, would touch
 LETTER = 4.2  # length of a name for each of its letters [points]
-ROOM = 0.0145  # room above the exponents for each letter of the longest name, over the height
+MOST = 0.45  # most room above the exponents for names, over the height
 
 
 @page.figure
@@ -40,7 +40,8 @@ def draw(page, recording, **look):
         if page.shows(1):
             _frame_magnified(rows[0, 0], recording)
         rows[0, 1].set_title('smallest exponents', loc='left')
-    _small(rows[0, -1], recording, dict(look))
+    # in a narrow column there is room below the names in the other panel alone
+    _small(rows[0, -1], rows[0, 0] if page.is_narrow else rows[0, -1], recording, dict(look))
     for axes, within in zip(rows[-1], ranges if turning else ()):
         _rotation(axes, recording, *within)
     averaged = f', averaged over {recording.spectrum.averaged_time:g} time units'
@@ -104,7 +105,8 @@ def _magnified_range(recording):
     return first, last
 
 
-def _small(axes, recording, look):
+def _small(axes, beside, recording, look):
+    """Draws the smallest exponents; beside: the axes that have the legend."""
     spectrum = recording.spectrum
     first, last = _magnified_range(recording)
     colours = _colours(recording, first, last)
@@ -128,9 +130,14 @@ def _small(axes, recording, look):
     _exponent_axes(axes)
     if shown:
         low, high = axes.get_ylim()
-        axes.set_ylim(low, high + ROOM * named * (high - low))
+        room = min(MOST, LETTER * (named + 1) * axes.figure.dpi / 72 / axes.bbox.height)
+        axes.set_ylim(low, low + (high - low) / (1 - room))
     others = set(range(first, last + 1)) - set(colours)
-    _legend(axes, shown, bands, 'of no step' if shown and others else '')
+    handles = _legend(shown, bands, 'of no step' if shown and others else '')
+    if handles:  # below the curve, above the line of zero; else above the curve
+        low = {'loc': 'lower left', 'bbox_to_anchor': (0, 0.05)}
+        how = low if beside is axes else {'loc': 'upper right'}
+        beside.legend(handles=handles, handletextpad=0.4, **how)
 
 
 def _colours(recording, first, last):
@@ -178,7 +185,7 @@ def _draw_band(axes, step, named):
         beside(axes, step.name, (ends[0], step.fitted), (-3, 0), **look)
 
 
-def _legend(axes, blocks, bands, others):
+def _legend(blocks, bands, others):
     handles = [
         Line2D([], [], linestyle='', marker='o', markersize=4, color=colour, label=label)
         for colour, label in (
@@ -200,7 +207,4 @@ def _legend(axes, blocks, bands, others):
                 ('LP', r'$c_L k \pm 3$ %'),
             )
         ]
-    if handles:
-        axes.legend(
-            handles=handles, loc='lower left', handletextpad=0.4, bbox_to_anchor=(0, 0.05)
-        )  # below the curve, above the line of zero
+    return handles

@@ -5,7 +5,7 @@ import numpy as np
 from matplotlib.colors import LogNorm
 
 from hdlyap.data import steps
-from hdlyap.data.factors import DIRECTIONS, REPORTS, frequencies, line, power
+from hdlyap.data.factors import DIRECTIONS, REPORTS, frequencies, largest_frequency, line, power
 from hdlyap.numbers import with_error
 
 from . import page
@@ -16,6 +16,9 @@ ORDER = 9
 NO_LINE = (
     f'none is known; it takes a step with a set of its own, and {REPORTS} reports of its vectors '
     'at one wave'
+)
+FOLDED = (
+    'it turns by {:.3g} rad/time unit, and reports are too rare; report_interval: {:.2g} would do'
 )
 NOISE = 0.5  # the structure factor of a random vector
 TITLES = {'along': 'along $k$', 'across': 'across $k$'}
@@ -29,7 +32,7 @@ def draw(page, recording, **look):
         return
     blocks = steps.blocks(recording.steps, recording.info)
     found = [block for block in blocks if len(block.steps) == 1]
-    lines_of = list(_found_lines(recording, found))
+    lines_of = list(_found_lines(page, recording, found))
     has_lines = bool(lines_of) or not page.leave_out('spectral lines', NO_LINE)
     sheet, axes = _panels(page, has_lines)
     ridges, lines = axes[:2], axes[2:]
@@ -98,17 +101,29 @@ def _classified(axes, found, direction):
             axes.plot(*place, 'o', markersize=6, markerfacecolor='none', markeredgecolor=colour)
 
 
-def _found_lines(recording, found):
-    """Yields (block, times, series, line) of the lowest T and the lowest LP step with a line."""
+def _omega(recording, block):
+    """v k of the phases of an LP step; 0 for others, and if it is not known."""
+    known = block.kind == steps.LP and recording.steps.v_phases > 0
+    return recording.steps.v * block.steps[0].wave_number if known else 0.0
+
+
+def _found_lines(page, recording, found):
+    """Yields (block, times, series, line) of the lowest T and the lowest LP step with a line. That
+    of an LP step which turns by more than half a turn between reports would be at another
+    frequency."""
     kinds = set()
     for block in found:
         kind, indices = block.kind, range(block.first, block.last + 1)
         if kind in kinds or not recording.structure.has(indices):
             continue
         times, series = recording.structure.of(indices, OF_KIND[kind])
-        found_line = line(times, series)
-        if found_line is not None:
-            kinds.add(kind)
+        found_line, omega = line(times, series), _omega(recording, block)
+        if found_line is None:
+            continue
+        kinds.add(kind)
+        if omega > largest_frequency(times):
+            page.leave_out(f'the line of {block.name}', FOLDED.format(omega, np.pi / (2 * omega)))
+        else:
             yield block, times, series, found_line
 
 
@@ -119,9 +134,9 @@ def _lines(axes, recording, lines):
         values = power(times, series, omega)
         label = rf'{block.name}: $\omega = {with_error(*found_line, decimals=4)}$'
         axes.semilogy(omega, values, color=kind_colour(block.kind), label=label)
-        if block.kind == steps.LP and recording.steps.v_phases > 0:
+        v_k = _omega(recording, block)
+        if v_k > 0:
             label = f'$v k$ of the phases, {block.name}'
-            v_k = recording.steps.v * block.steps[0].wave_number
             axes.axvline(v_k, color=INK, linestyle=':', label=label)
     axes.set_title('spectral lines of the lowest steps', loc='left')
     axes.set_xlabel(r'$\omega$  [rad/time unit]')
