@@ -80,6 +80,8 @@ class Table(Bags):
         lost.conjugate = True
         few = dict(t_points=1, t_prior_share=1.0, t_k_max=0.99346, l_points=0, v_phases=0)
         round_ = dict(l_points=0, l_long_c2=math.nan)
+        unknown = made.zero_modes(38)
+        unknown.std_error = -1.0
         both = dict(exponents=np.linspace(3, 0, 43))
         for known, fields, said, not_said in (
             (
@@ -99,11 +101,26 @@ class Table(Bags):
             ),
             ([LOW], few, r'c_L   not known: no step resolved\n  v     not known', 'c_L3'),
             ([LOW], round_, 'c_L   none: LP steps of a circle follow no relation\n', 'c_L2'),
+            ([LOW, made.zero_modes()], {}, 'not carried', 'zero modes have'),
+            ([unknown], both, r'\n  zero modes have no errors: ', 'xx'),
             ([], dict(averaged_time=0.0), 'lambda_max', 'steps'),
         ):
             _, text = self.run_with(*known, **fields)
             self.assertRegex(text, said)
             self.assertNotRegex(text, not_said)
+
+    def test_steps_that_walls_forbid(self):
+        """T(n,0) needs a field across walls along y; a wave that has its T is not named."""
+        info = made.run_info(boundary_x='reflecting', boundary_y='reflecting')
+        found = [made.step(info, LP, 1, 0, 36, 37), made.unresolved(info, LP, 2, 0, 2)]
+        for more, said in (
+            ([], ('T\\(1,0\\) T\\(2,0\\)', 'none: no T step exists between such walls')),
+            ([made.unresolved(info, T, 2, 0, 1)], ('T\\(1,0\\)', 'not known: no step resolved')),
+        ):
+            _, text = self.run_with(*found, *more, info=info, t_points=0)
+            self.assertRegex(text, rf'\n  do not exist between such walls: {said[0]}\n')
+            self.assertRegex(text, f'\n  c_T   {said[1]}\n')
+        self.assertNotIn('do not exist', self.run_with(*found)[1])
 
     def test_disks_that_keep_their_places(self):
         said = 'disks have kept their places since the averaging began: errors hold'

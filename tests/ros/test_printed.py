@@ -54,13 +54,21 @@ class Printed(Bags):
         self.assertTrue(any(line.startswith('T(1,0) & ') for line in lines))
 
     def test_latex_of_several(self):
-        found, _ = points.read([self.bag('a', 0.4), self.bag('b', 0.5)])
+        """What is the same in all is said above; few systems have a column each."""
+        found, _ = points.read([self.bag(f'b{k}', 0.4 + 0.1 * k) for k in range(5)])
         said, _, _, head, units, _, *rows = table.latex(found, 'plain')
-        self.assertEqual(said, '% the same in all: number 20, aspect 1, boundary periodic')
+        same = '% the same in all: number 20, aspect 1, boundary periodic'
+        self.assertEqual(said, same + ', seeds 1, averaged time 50')
         self.assertTrue(head.startswith(r'$\rho$ & packing & $\lambda_\mathrm{max}$ & '), head)
         self.assertTrue(units.startswith(r'[1/$\sigma^2$] &  & [1/time unit] & '), units)
         self.assertTrue(rows[0].startswith('$0.4$ & $0.3142$ & $9.000(10)$ & '), rows[0])
-        self.assertIn(' & $3.250(20)$ & $1.250(10)$ & ', rows[0])  # of the gas
+        self.assertIn(r' & $3.250(20)$ & $1.250(10)$ \\', rows[0])  # of the gas
+        _, begin, _, head, _, packing, *rows = table.latex(found[:2], 'siunitx')
+        self.assertEqual(begin, r'\begin{tabular}{llll}')
+        self.assertEqual(head, r'$\rho$ & 1/$\sigma^2$ & \num{0.4} & \num{0.5} \\')
+        self.assertEqual(packing, r'packing &  & \num{0.3142} & \num{0.3927} \\')
+        pressure = r'pressure & 1/$\sigma^2$ & \num{1.250(10)} & \num{1.250(10)} \\'
+        self.assertIn(pressure, rows)
 
     def test_command(self):
         path = self.bag('one')

@@ -103,6 +103,16 @@ def unresolved(message):
     return [step for step in _half(message, False) if not step.resolved]
 
 
+def impossible(message, info):
+    """Names of the T steps that walls forbid: of waves that only have an LP step."""
+    if 'reflecting' not in {getattr(info, f'boundary_{axis}', '') for axis in 'xyz'}:
+        return []
+    waves = {T: [], LP: []}
+    for step in _half(message, False):
+        waves.get(step.kind, []).append(space.nodes(step, info))
+    return [f'T({",".join(map(str, wave))})' for wave in waves[LP] if wave not in waves[T]]
+
+
 def zero_modes(message):
     """The step of the zero modes; None if there is none."""
     return next((step for step in _every(message) if step.kind == ZERO), None)

@@ -70,9 +70,9 @@ class Film:
             raise RecordingError(f'{run.name}: no step is resolved in it')
         missing = [name for name in self.names if name not in self.steps]
         if missing:
-            raise RecordingError(
-                f'{run.name}: {missing[0]} is not resolved in it, only ' + ', '.join(self.steps)
-            )
+            forbidden = missing[0] in steps.impossible(run.summary.steps, self.info)
+            why = 'does not exist between its walls' if forbidden else 'is not resolved in it'
+            raise RecordingError(f'{run.name}: {missing[0]} {why}, only {", ".join(self.steps)}')
         places, fields, begin = self._times()
         if len(places) == 0:
             raise RecordingError(

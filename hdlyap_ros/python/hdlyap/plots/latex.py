@@ -45,7 +45,9 @@ def _row(cells):
 
 
 def symbol(name):
-    """A name of a quantity as LaTeX; of c_T2 as c_{T,2}."""
+    """A name of a quantity as LaTeX; of c_T2 as c_{T,2}. What is LaTeX stays."""
+    if isinstance(name, Done):
+        return name
     found = re.fullmatch(r'c_([TL])(\d?)', name)
     if found:
         letter, power = found.groups()
@@ -63,10 +65,10 @@ def cell(text, style):
     if isinstance(text, Done):
         return text
     if not NUMBER.match(text):
-        return r'--' if text == '-' else text.translate(SPECIAL)
+        return Done(r'--' if text == '-' else text.translate(SPECIAL))
     if style == 'plain':
-        return f'${text}$' if 'e' not in text else _power(text)
-    return rf'\num{{{POINTED.sub(APART, text)}}}'
+        return Done(f'${text}$' if 'e' not in text else _power(text))
+    return Done(rf'\num{{{POINTED.sub(APART, text)}}}')
 
 
 def _power(text):

@@ -20,6 +20,7 @@ COLUMNS = (
     ('exponent', '>13'),
 )
 PAPER_COLUMNS = (('c k', '>8'), ('deviation', '>11'))
+NO_ERROR = '  zero modes have no errors: nothing fluctuates, their exponents go to 0 as (ln t) / t'
 SHARING = words(Step, 'sharing')
 
 
@@ -99,20 +100,26 @@ def _remarks(message, info):
     """Yields lines about steps that are not in the table."""
     missing = steps.unresolved(message)
     if missing:
-        yield '  ' + _names(f'not resolved ({len(missing)}): ', missing, info)
+        names = [steps.name(step, info) for step in missing]
+        yield '  ' + _names(f'not resolved ({len(missing)}): ', names)
+    forbidden = steps.impossible(message, info)
+    if forbidden:
+        yield '  ' + _names('do not exist between such walls: ', forbidden)
+    zero = steps.zero_modes(message)
+    if zero is not None and zero.resolved and not zero.std_error > 0:
+        yield NO_ERROR
     half = [step for step in message.steps if step.conjugate]
     if half:
         yield '  ' + _conjugates(message, half, info)
 
 
-def _names(start, missing, info):
+def _names(start, names):
     """A line with as many names as fit."""
     text = start
-    for count, step in enumerate(missing):
-        name = steps.name(step, info) + ' '
-        if len(text + name) > WIDTH - len('and 999 more'):
-            return f'{text}and {len(missing) - count} more'
-        text += name
+    for count, name in enumerate(names):
+        if len(f'{text}{name} ') > WIDTH - len('and 999 more'):
+            return f'{text}and {len(names) - count} more'
+        text += name + ' '
     return text.rstrip()
 
 
@@ -131,17 +138,17 @@ def _fits(recording):
     lines = ['fits over the resolved steps [sigma/time unit, sigma^2/time unit ..], k [1/sigma]']
     branches = paper.branches(recording.info)
     for fit in fits.of(recording.steps):
-        lines += _fit_lines(fit)
+        lines += _fit_lines(fit, recording)
         branch = branches.get(steps.NAMES[fit.kind])
         if branch and fit.count and fit.symbol != 'v':
             lines += _beside_paper(fit, fits.curve(recording.steps, fit, branch.terms), branch)
     return '\n'.join(line.rstrip() for line in lines)
 
 
-def _fit_lines(fit):
+def _fit_lines(fit, recording):
     """Lines about a fit: its basis, and its coefficients."""
     if not fit.count:
-        return [f'  {fit.symbol:<5} {_why_none(fit)}']
+        return [f'  {fit.symbol:<5} {_why_none(fit, recording)}']
     basis = f'{steps.NAMES[fit.kind]} steps: {fit.basis}'
     if fit.symbol == 'v':
         basis = f'{fit.basis}, {fit.count} of them'
@@ -151,9 +158,12 @@ def _fit_lines(fit):
     return [f'  {basis}{fit.beside}', *values]
 
 
-def _why_none(fit):
+def _why_none(fit, recording):
     if fit.is_unrelated:
         return 'none: LP steps of a circle follow no relation'
+    exists = any(step.kind == fit.kind for step in recording.steps.steps)
+    if not exists and steps.impossible(recording.steps, recording.info):
+        return 'none: no T step exists between such walls'
     return 'not known' if fit.symbol == 'v' else 'not known: no step resolved'
 
 

@@ -8,12 +8,13 @@ from hdlyap import whole
 from hdlyap.data import printed, space
 from hdlyap.numbers import with_error
 from hdlyap.plots.deviation import FREEDOM
-from hdlyap.plots.latex import symbol, tabular, unit
+from hdlyap.plots.latex import cell, symbol, tabular, unit
 
 from .points import FITTED, NAN, quantities, varied
 
 PACKING, RUN = 'packing', 'run'  # columns that are no parameters
 
+BESIDE = 4  # most systems with a column for each in LaTeX
 CHANCE = 0.02  # probability that a table says of some value that seeds differ although they agree
 
 
@@ -66,19 +67,35 @@ def text(points):
 
 
 def latex(points, style):
-    """Yields the lines of the table for LaTeX; of one system with a row for each quantity."""
+    """Yields the lines of the table for LaTeX: of one system with a row for each quantity, of few
+    with a column for each system, which fits on a page, of more with a row for each."""
     if len(points) == 1:
         yield from _of_one(points[0], style)
         return
     names, fixed = _columns(points)
     marks, info = Marks(points), points[0].data.info
-    yield '% the same in all: ' + ', '.join(f'{name} {_plain(x)}' for name, x in fixed.items())
     head, rows = _cells(points, names, _bare)
-    of_quantities = quantities(points)
-    units = [of_quantities.get(name, _unit(name, info)) for name in head]
-    yield from tabular(head, rows, style, units)
+    of = quantities(points)
+    columns = [(name, of.get(name, _unit(name, info)), *cells) for name, *cells in zip(head, *rows)]
+    others = {*names, *of}
+    alike = [one for one in columns if one[0] not in others and len(set(one[2:])) == 1]
+    fixed.update((name, cell) for name, _, cell, *_ in alike)
+    if fixed:
+        yield '% the same in all: ' + ', '.join(f'{name} {_plain(x)}' for name, x in fixed.items())
+    columns = [one for one in columns if one not in alike]
+    yield from (_beside if len(points) <= BESIDE else _below)(columns, style)
     yield from (f'% {line}' for line in marks.explained())
     yield from (f'% {line}' for point in points for line in point.warnings)
+
+
+def _below(columns, style):
+    head, units, *rows = zip(*columns)
+    return tabular(head, rows, style, units)
+
+
+def _beside(columns, style):
+    head, *rows = [(symbol(name), unit(of), *cells) for name, of, *cells in columns]
+    return tabular([cell(one, style) for one in head], rows, style)
 
 
 def _of_one(point, style):
