@@ -254,6 +254,9 @@ class Figures(bags.Figures):
         factor = np.sqrt(20 / np.sum(np.square([field.dqx, field.dqy])))
         self.shows(axes.lines[0], field.x, np.multiply(field.dqx, factor))
         self.shows(axes.lines[1], field.x, np.multiply(field.dqy, factor))
+        part, _ = modes.l_part(field)
+        order = np.argsort(field.x)
+        self.shows(axes.lines[2], np.array(field.x)[order], factor * part[0][order])
 
     def test_p_mode(self):
         """Is what the field says; above its values, below their quotients, beside the fit."""

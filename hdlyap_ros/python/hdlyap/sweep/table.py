@@ -45,7 +45,8 @@ def text(points):
     """Yields the lines of the table."""
     names, fixed = _columns(points)
     marks = Marks(points)
-    yield 'the same in all: ' + ', '.join(f'{name} {_plain(x)}' for name, x in fixed.items())
+    if fixed:
+        yield _same(fixed)
     head, rows = _cells(points, names, lambda point, name: _cell(point, name, marks))
     yield from _table(head, rows)
     yield from marks.explained()
@@ -81,7 +82,7 @@ def latex(points, style):
     alike = [one for one in columns if one[0] not in others and len(set(one[2:])) == 1]
     fixed.update((name, cell) for name, _, cell, *_ in alike)
     if fixed:
-        yield '% the same in all: ' + ', '.join(f'{name} {_plain(x)}' for name, x in fixed.items())
+        yield f'% {_same(fixed)}'
     columns = [one for one in columns if one not in alike]
     yield from (_beside if len(points) <= BESIDE else _below)(columns, style)
     yield from (f'% {line}' for line in marks.explained())
@@ -168,6 +169,10 @@ def _scattered(points, names):
                 f'which happens by chance in {100 * chance:.1g} % of such tables; steps of some '
                 'seeds may mix: see their runs'
             )
+
+
+def _same(fixed):
+    return 'the same in all: ' + ', '.join(f'{name} {_plain(x)}' for name, x in fixed.items())
 
 
 def _plain(value):

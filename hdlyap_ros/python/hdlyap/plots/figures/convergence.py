@@ -36,7 +36,9 @@ def draw(page, recording, **look):
         _with_error(middle, time, mean, error, **named)
     _settled(middle, time, means.T, errors.T)
     middle.set_ylabel(r'$\lambda_\ell$  [1/time unit]')
-    middle.legend(ncol=2)
+    above = {'loc': 'lower right', 'bbox_to_anchor': (1, 1), 'borderpad': 0}
+    columns = len(means) // (1 + page.is_narrow) or 1
+    middle.legend(ncol=columns, handlelength=1, columnspacing=0.8, **above)
     for axes in others:
         _error(axes, time, course['error'][kept], **look)
         axes.set_ylabel('standard error  [1/time unit]')

@@ -8,7 +8,7 @@ from hdlyap.numbers import known, with_error
 
 from . import page, solid_modes
 from .box import Particles, arrows
-from .style import GREY, LIGHT, MEMBER_COLOURS, kind_colour, scene
+from .style import GREY, INK, LIGHT, MEMBER_COLOURS, kind_colour, scene
 from .turning import of_vector, strength
 
 ORDER = 5
@@ -71,7 +71,7 @@ def l_part(field):
 
 @page.figure
 def draw(page, recording, **look):
-    panels = chosen(recording)
+    panels = [panel.show_l() for panel in chosen(recording)]
     if not panels:
         return
     info, more = recording.info, f'\n$t={panels[0].field.sim_time:g}$: $\\delta q$'
@@ -80,7 +80,7 @@ def draw(page, recording, **look):
     elif min(info.box_x, info.box_y) < CHANNEL:
         _channel(page, panels, info, look)
     else:
-        draw_panels(page, [panel.show_l() for panel in panels], info, look)
+        draw_panels(page, panels, info, look)
         colours = ', green: turned to the left, purple: to the right'
         more += colours if space.turns(info) else ''
     page.title(info, more=more)
@@ -191,11 +191,19 @@ def _channel(page, panels, info, look):
             component /= strength(field)
             style = {'markersize': 3, 'color': colour, **look, 'label': rf'$\delta q_{{{name}}}$'}
             axes.plot(getattr(field, along), component, marker, **style)
+        if panel.said:
+            place = np.array(getattr(field, along))
+            order = np.argsort(place)
+            l_along = panel.dq['xy'.index(along)] / strength(field)
+            axes.plot(place[order], l_along[order], color=INK, label='L part')
         axes.axhline(0, color=GREY, linewidth=0.5)
         axes.set_title(panel.title, fontsize=8)
         axes.set_xlim(0, max(info.box_x, info.box_y))
         axes.set_ylabel(r'$\delta q$ / rms', fontsize=7)
         axes.set_xlabel(rf'${along}$  [$\sigma$]')
     close = {'borderpad': 0, 'handletextpad': 0.2, 'columnspacing': 1}
-    rows.flat[0].legend(ncol=3, loc='lower right', bbox_to_anchor=(1, 0.97), **close)
+    named = max(
+        (axes.get_legend_handles_labels() for axes in rows.flat), key=lambda one: len(one[1])
+    )
+    rows.flat[0].legend(*named, ncol=4, loc='lower right', bbox_to_anchor=(1, 0.97), **close)
     page.outer(rows)

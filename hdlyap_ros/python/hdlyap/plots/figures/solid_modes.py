@@ -8,12 +8,10 @@ from hdlyap.data import space, steps
 from ..expected import Expected
 from .box import Particles, arrows
 from .style import BLUE, GREEN, GREY, VERMILION
-from .turning import strength
 from .view import View
 
 WIDTH, TALLEST = 7.6, 10.0  # width and largest height of the figure [inch]
 ROW = 1.75  # least height of a row [inch]
-ARROW = 1.3  # root mean square length of arrows [sigma]
 DOT = 0.3  # diameter of spheres in the picture, where larger ones would hide others [sigma]
 MOST = 2.6  # most arrows per square sigma of the front; if there are more, only those in front
 LIMIT = 2.8  # largest component that is shown, in root mean squares of the vector
@@ -35,8 +33,7 @@ def draw_panels(page, panels, info, look):
 
 
 def _arrows(axes, panel, info, view, look):
-    q, dq = space.vectors(panel.field), space.vectors(panel.field, 'dq')
-    dq = dq * ARROW / strength(panel.field)
+    q, dq = space.vectors(panel.field), panel.arrows
     share = min(1.0, MOST * info.box_x * info.box_z / info.number)
     order = [k for k in view.order(q) if share == 1 or q[1, k] < share * info.box_y]
     q, dq = q[:, order], dq[:, order]
