@@ -109,6 +109,11 @@ class Table(Bags):
             self.assertRegex(text, said)
             self.assertNotRegex(text, not_said)
 
+    def test_too_short(self):
+        for error, said in ((0.01, ''), (-1.0, ', too short for standard errors')):
+            _, text = self.lines(INFO, made.spectrum(HALF, 50.0, error=error))
+            self.assertIn(f'averaged time   50{said}\n', text)
+
     def test_steps_that_walls_forbid(self):
         """T(n,0) needs a field across walls along y; a wave that has its T is not named."""
         info = made.run_info(boundary_x='reflecting', boundary_y='reflecting')

@@ -170,7 +170,9 @@ class Run(harness.Case):
         node = self.start(params)
         spectrum, last = (listeners[topic].all_of(node)[-1] for topic in topics)
         self.ends(node)
-        self.assertGreater(len(node.lines('so far: averaged')), 1)
+        so_far = node.lines('so far: averaged')
+        self.assertGreater(len(so_far), 1)
+        self.assertIn(', too short for standard errors', so_far[0])
         said = node.text().split('result: ')[1]
         self.assertEqual(spectrum.lambda_max_error, spectrum.std_errors[0])
         largest = self.number(spectrum.lambda_max, spectrum.std_errors[0])

@@ -110,8 +110,10 @@ static void print(const char *what, const settings *set, const hd_run *run)
     if (remaining > 0.0)
         snprintf(left, sizeof left, ", %.0f:%02.0f left", floor(remaining / 60.0),
                  floor(fmod(remaining, 60.0)));
-    hdr_log(HDR_INFO, "%s: averaged %.6g%s time units, lambda_max %s%s%s", what,
-            hd_spectrum_time(spectrum), of, lambda, target, left);
+    const char *why = hd_spectrum_std_error(spectrum, 0) < 0.0 ? ", too short for standard errors"
+                                                               : "";
+    hdr_log(HDR_INFO, "%s: averaged %.6g%s time units, lambda_max %s%s%s%s", what,
+            hd_spectrum_time(spectrum), of, lambda, why, target, left);
     print_steps(run);
     if (hd_run_is_caged(run))
         hdr_log(HDR_WARN,

@@ -168,8 +168,9 @@ def origin(info):
 
 def _sums(recording):
     spectrum = recording.spectrum
+    short = '' if spectrum.std_errors[0] > 0 else ', too short for standard errors'
     lines = [
-        f'averaged time   {spectrum.averaged_time:g}',
+        f'averaged time   {spectrum.averaged_time:g}{short}',
         *([f'collisions      {spectrum.collisions}'] if spectrum.collisions else []),
         f'lambda_max      {with_error(spectrum.lambda_max, spectrum.std_errors[0])}',
     ]
