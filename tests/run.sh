@@ -37,6 +37,7 @@ tools_tests       pytest   first  ros_build
 lint              one      first  -
 format            one      first  -
 weight            one      first  -
+standards         one      second ros_build,core_build
 blas              one      second -
 checked           checks   second ros_build,core_build
 readme            checks   second ros_build
@@ -71,6 +72,9 @@ library() {
 }
 
 core_build() { without_ros cmake --build "$WORK/core" -- -j "$(nproc)"; }
+
+# What the oldest compilers make of the sources.
+standards() { "$ROOT/tests/standards.py" "$WORK/core" "$WORK/ros"; }
 
 core_install() {
     without_ros cmake --install "$WORK/core"

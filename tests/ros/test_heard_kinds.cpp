@@ -13,8 +13,8 @@ struct hearing_kind : hearing {
     const uint8_t kind[2], pairs[2];
 
     explicit hearing_kind(bool is_solid, const char *boundary = "periodic", double height = 10.0)
-        : hearing(boundary),
-          solid(is_solid), kind{solid ? HDR_MODE_LP : HDR_MODE_T, solid ? HDR_MODE_T : HDR_MODE_LP},
+        : hearing(boundary), solid(is_solid), kind{uint8_t(solid ? HDR_MODE_LP : HDR_MODE_T),
+                                                   uint8_t(solid ? HDR_MODE_T : HDR_MODE_LP)},
           pairs{uint8_t(solid ? 8 : 0), uint8_t(solid ? 0 : 2)}
     {
         heard_clear(&h);

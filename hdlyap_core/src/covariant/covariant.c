@@ -33,8 +33,8 @@ static hd_modes *weights_of(const hd_covariant *c, int k)
 
 static hd_status allocate_arrays(hd_covariant *c)
 {
-    const size_t n = (size_t)c->vectors, rows = (size_t)c->rows,
-                 centres = 2 * (c->counting ? n : (size_t)c->centre);
+    const size_t n = (size_t)c->vectors, rows = (size_t)c->rows;
+    const size_t centres = 2 * (size_t)(c->counting ? c->vectors : c->centre);
     const size_t half = c->carried < c->vectors ? (size_t)c->carried : 0;
     const struct {
         double **array;

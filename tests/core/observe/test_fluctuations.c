@@ -25,7 +25,8 @@ static void world_free(world *w)
 static world begun(double block)
 {
     hd_status status;
-    world w = {.scene = scene(.number = 10, .exponents = N, .observe = HD_OBSERVE_FLUCTUATIONS)};
+    world w = {0};
+    w.scene = scene(.number = 10, .exponents = N, .observe = HD_OBSERVE_FLUCTUATIONS);
     CHECK_OK(hd_spectrum_create(&w.spectrum, 40, N, N, 0.0));
     w.with = (hd_observing){.scene = &w.scene, .vectors = N, .carried = N, .block = block};
     w.f = hd_fluctuations_row.create(&w.with, &status);
