@@ -41,6 +41,8 @@ class Launch(harness.Case):
             wanted = dict(seed=seed, duration=30.0, number=100)
             self.assertLessEqual(wanted.items(), parameters.all_of(info).items())
             self.check_result(run, 30, 'the bag is ' + bag, 'the checkpoint is ' + kept)
+            self.assertIn("Recording to '" + bag, run.text())
+            self.assertNotIn('Subscribing to', run.text())
             self.assertEqual(sorted(os.listdir(folder)), ['kept', 'q.bag', 'q.bag.old'])
             self.assertEqual(len(run.lines('q.bag was there already')), 1, run.text())
             with open(bag + '.old') as file:

@@ -5,6 +5,8 @@ import os
 import re
 import signal
 import subprocess
+import sys
+import threading
 import time
 
 import rosbag
@@ -14,7 +16,10 @@ from . import bags
 from .scene import Refused
 
 POLL = 0.2  # seconds between two looks
+PATIENCE = 5.0  # seconds for the last lines
 LEAST = '1G'  # default of the space that has to stay free
+NEWS = 'Subscribing to '  # of every topic that there may be, not of those that there are
+LINES = {'ROSCONSOLE_STDOUT_LINE_BUFFERED': '1'}
 UNITS = {'': 1, 'k': 2**10, 'M': 2**20, 'G': 2**30}  # units that rosbag knows
 
 
@@ -48,9 +53,25 @@ def record(program, path, space, words, came):
     if came:
         return 0
     command = [program, f'--output-name={path}', f'--min-space={space.text}', *words]
-    process = subprocess.Popen(['setpriv', '--pdeathsig', 'INT', *command])
+    process = subprocess.Popen(
+        ['setpriv', '--pdeathsig', 'INT', *command],
+        stdout=subprocess.PIPE,
+        text=True,
+        env={**os.environ, **LINES},
+    )
+    said = threading.Thread(target=_pass_on, args=[process.stdout], daemon=True)
+    said.start()
     is_short = _wait(process, space, came)
+    said.join(PATIENCE)
     return _say(path, is_short, process.returncode)
+
+
+def _pass_on(lines):
+    """Prints what rosbag says, but for what it would record if it were there."""
+    for line in lines:
+        if NEWS not in line:
+            sys.stdout.write(line)
+            sys.stdout.flush()
 
 
 def _wait(process, space, came):
