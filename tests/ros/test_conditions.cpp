@@ -139,6 +139,7 @@ TEST(Conditions, EachHasItsLevelAndMessage)
 {
     const hdr_lag prompt = {"", 0, 0, 0}, behind = {"/b/fields", 12.34, 5, 0},
                   losing = {"/b/fields", 0.5, 1001, 42};
+    const hd_target_progress target = {"c_L", 3.0, 0.07, 0.03, 0.05, INFINITY, false};
     worker_state fault = healthy(), unkept = healthy(), deep = healthy(), warm = healthy(),
                  stalled = healthy(), lost = healthy(), open = healthy(), empty = healthy(),
                  caged = healthy(), off = healthy(), split = healthy();
@@ -152,7 +153,7 @@ TEST(Conditions, EachHasItsLevelAndMessage)
     stalled.last.averaged = 32;
     stalled.last.cost.std_error = stalled.last.cost.stalled_error = 0.5;
     stalled.last.cost.stalled_since = 4;
-    open.last.cost.target = {"c_L", 3.0, 0.07, 0.03, 0.05, INFINITY, false};
+    open.last.cost.target = target;
     caged.last.caged = true;
     off.last.energy = {-1e-4, 0.00123, 5e-4};
     split.last.split = {true, 0.07, 0.015, 0.01, 2.0 / 3.0};
