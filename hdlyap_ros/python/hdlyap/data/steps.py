@@ -4,6 +4,7 @@ particles are spheres, whose waves have three numbers of nodes; without it they 
 import numpy as np
 
 from hdlyap.data.fields import words
+from hdlyap.data.reader import is_known
 from hdlyap.msg import Step
 
 from . import space
@@ -105,7 +106,9 @@ def unresolved(message):
 
 def impossible(message, info):
     """Names of the T steps that walls forbid: of waves that only have an LP step."""
-    if 'reflecting' not in {getattr(info, f'boundary_{axis}', '') for axis in 'xyz'}:
+    if not is_known(info) or 'reflecting' not in {
+        getattr(info, f'boundary_{axis}', '') for axis in 'xyz'
+    }:
         return []
     waves = {T: [], LP: []}
     for step in _half(message, False):
