@@ -222,7 +222,7 @@ class Arrays(Loaded):
         self.assertTrue(run.localization.std_error.isna().all())
 
     def test_averages(self):
-        """Of a program's own particles: names, units and errors, and a column for each over time."""
+        """Of a program's own particles: names, units, errors, and a column for each over time."""
         early, late = made.averages(40.0, error=-1.0), made.averages(60.0, kinetic=1.5, stretch=0.5)
         run = self.load([made.run_info(), early, late])
         found = run.averages

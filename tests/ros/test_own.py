@@ -54,8 +54,8 @@ class Own(harness.Case):
         self.assertTrue(all(0 < angle.mean < math.pi / 2 for angle in covariant.angles))
 
     def test_averages_and_coordinates(self):
-        """What particles tell is published with its names, units and errors; ends a run; ~state has all
-        coordinates. The kinetic energy of a particle in ~state is near its mean."""
+        """What particles tell is published with names, units and errors; ends a run; ~state has
+        all coordinates. The kinetic energy of a particle in ~state is near its mean."""
         names = ['averages', 'state']
         heard = {topic: self.listen(topic) for topic in names}
         asked = dict(SCENE, particles='telling_chain', exponents='none', warmup=0.0)

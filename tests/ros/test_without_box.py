@@ -73,7 +73,7 @@ class WithoutBox(Bags):
         self.assertEqual(found[0].system['time_step'], 0)
 
     def test_averages_in_a_table(self):
-        """With their names and units in the text, in CSV and in the figure, over the own parameter."""
+        """With their names and units in text, CSV and figure, over the own parameter."""
         paths = []
         for beta in (1, 2):
             info = chain(own=[f'beta={beta}', 'energy=1'])

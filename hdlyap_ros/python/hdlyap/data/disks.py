@@ -8,7 +8,7 @@ from . import reader, space
 class Disks:
     """Positions and momenta of a run. `times` are those of the messages; a method takes the message
     nearest to a time. Iterates over (time, positions, momenta), arrays of N rows with x, y and, in
-    space, z; without a box, or with other coordinates than these and an angle, with all coordinates.
+    space, z; without a box, or with other coordinates than these and an angle, with all of them.
     Particles that rotate have N angles and spins, too; others have none."""
 
     def __init__(self, run):

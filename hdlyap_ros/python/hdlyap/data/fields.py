@@ -6,8 +6,8 @@ or the same with -1. VALUE is a number or a constant (0 if there is none), and '
 Otherwise a number must be finite; with NaN in its comment but no such rule, it may be NaN at any
 time. A field 'one of FIRST .. LAST' holds one of these constants, whose names are the texts before
 the first colons of their comments. An array's comment ends with its shape: the names of its
-dimensions, as in {vector, particle}, and a word if it is empty: @space in the plane, @turning unless
-particles turn, @box without positions in a box, @others unless they have coordinates beside
+dimensions, as in {vector, particle}, and a word if it is empty: @space in the plane, @turning
+unless particles turn, @box without positions in a box, @others unless they have coordinates beside
 positions and angle, @fields unless fields are due, @known while it is not known."""
 
 import re

@@ -40,10 +40,10 @@ class Run:
     Arrays have a row for each message: `times` (simulated),
     `averaged_times`, `exponents` and `std_errors` of the running means; `local` the samples. Frames
     are of the last message: `spectrum`, `modes`, `steps`, `phases`, `t_phases`, `covariant`,
-    `localization`, `fluctuations`, `gas`, `averages`, `results`; or of all: `cost`, `status`, `course(topic)`.
-    `structure` has structure factors, `growth` fluctuations over finite times, `state` positions
-    and momenta, `fields` the last field of each vector. Of
-    spheres each has z beside x and y, as fields[index].dqz, steps['nz'], gas.loc['pressure_z'].
+    `localization`, `fluctuations`, `gas`, `averages`, `results`; or of all: `cost`, `status`,
+    `course(topic)`. `structure` has structure factors, `growth` fluctuations over finite times,
+    `state` positions and momenta, `fields` the last field of each vector. Of spheres each has z
+    beside x and y, as fields[index].dqz, steps['nz'], gas.loc['pressure_z'].
     Of dumbbells `own` has the bond, info.inertia is a number, and they turn: state.angles(time),
     modes['rotation'], fields[index].dq_angle.
     What was averaged before ~reset_average does not count."""

@@ -40,11 +40,11 @@ def one(*bags, node=None, run=None):
 
 class Seeds:
     """Independent `runs` of one system. The frames `spectrum`, `steps`, `results`, `gas` and
-    `averages` have means over them, weighted with the averaged times, and two errors: `std_error` follows from the
-    errors that the runs state, `scatter` from the differences between runs (from n runs it is known
-    to 1 / sqrt(2 n - 2)). `chi2` has `runs` - 1 degrees of freedom; if it is far above that, the
-    runs differ by more than their errors allow. A run that is too short to know any of its errors
-    is in no mean: `left_out` names it."""
+    `averages` have means over them, weighted with the averaged times, and two errors: `std_error`
+    follows from the errors that the runs state, `scatter` from the differences between runs (from n
+    runs it is known to 1 / sqrt(2 n - 2)). `chi2` has `runs` - 1 degrees of freedom; if it is
+    far above that, the runs differ by more than their errors allow. A run that is too short to know
+    any of its errors is in no mean: `left_out` names it."""
 
     is_mean, runs_in_bag = True, 1
     summary = cached_property(Summary)
@@ -188,8 +188,8 @@ class Seeds:
         return [topic for topic in found if not self.has(topic)]
 
     def last(self, topic, numpy=None):
-        """A message of 'spectrum', 'steps', 'gas' or 'averages', with lists: the means, and the larger one of
-        the two errors."""
+        """A message of 'spectrum', 'steps', 'gas' or 'averages', with lists: the means, and the
+        larger one of the two errors."""
         message = self.runs[0].last(topic, numpy)
         message.run_id = ''
         message.averaged_time = sum(run.last(topic).averaged_time for run in self.runs)
