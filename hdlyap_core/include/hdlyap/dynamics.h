@@ -29,6 +29,9 @@ typedef struct hd_record hd_record;
 typedef struct hd_totals {
     /** Number of collisions of two particles; number of collisions of a particle with a wall. */
     uint64_t collisions, wall_events;
+    /** Those of `collisions` in which both particles are of the first kind, in which their kinds
+     * differ, and in which both are of the second kind (hd_scene_kinds). */
+    uint64_t collisions_of[3];
     /** Pair collisions of all particles expected per time unit: what the row's `collision_rate`
      * says, by Enskog's theory [T2] for hard particles of the core. */
     double expected;
@@ -196,9 +199,16 @@ struct hd_dynamics {
      * from its centre, to site[HD_SITES_MAX] in ascending order [sigma], and returns their number.
      * If left out, it has one, at its centre. */
     int (*sites)(const hd_scene_def *scene, double *site);
-    /** Area of a particle in the plane, its volume in space [sigma^d]. If left out, it is not
-     * known. */
+    /** Area of a particle in the plane, its volume in space; the mean over all particles [sigma^d].
+     * If left out, it is not known. */
     double (*size)(const hd_scene_def *scene);
+    /** See hd_scene_kinds; the scene may not have been checked. If left out, all particles are
+     * alike. q and p of a particle are then, in all that the row does with tangent vectors, q times
+     * the root of its mass, and the momentum over it; `state` writes p so, and q as it is. */
+    int (*kinds)(const hd_scene_def *scene, hd_kind *kind);
+    /** The row, of the same name, that serves scenes in which not all particles have diameter 1 and
+     * mass 1, so that those with one kind have no part of what kinds cost. May be left out. */
+    const hd_dynamics *mixture;
 
     /* ---- particles */
     /** Makes the state of the particles at time 0 in *state. Returns HD_OK; or HD_NO_MEMORY, and

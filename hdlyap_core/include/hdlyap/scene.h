@@ -155,6 +155,24 @@ int hd_scene_sites(const hd_scene_def *def, double *site);
 /** Fraction of the container that particles fill; NaN if they have no size. */
 double hd_scene_packing(const hd_scene_def *def);
 
+/** Most kinds of particles of a scene. */
+enum { HD_KINDS_MAX = 2 };
+/** A kind of particles: those that have one size and one mass. */
+typedef struct hd_kind {
+    int number;      /**< particles of this kind */
+    double diameter; /**< [sigma] */
+    double mass;
+} hd_kind;
+/** Writes the kinds of particles to kind[HD_KINDS_MAX], and returns their number. The particles of
+ * the first kind come first. Kinds without particles are left out. If all particles are alike,
+ * which is usual, there is one kind of mass 1, and of diameter 1. It may be called with any scene.
+ */
+int hd_scene_kinds(const hd_scene_def *def, hd_kind *kind);
+/** The root of the mass of a particle, 0 .. N - 1, which is 1 unless there are several kinds. A
+ * momentum of hd_trajectory_state is the true momentum over it; dq of a tangent vector is the
+ * displacement times it, dp the change of the true momentum over it [T1]. */
+double hd_scene_root_mass(const hd_scene_def *def, int particle);
+
 /** Writes the edges of the box, one for each direction [sigma]. In the plane Lx = sqrt(N / (rho A))
  * and Ly = A Lx, with density rho and A = aspect; in space Lx = cbrt(N / (rho A B)), Ly = A Lx and
  * Lz = B Lx, with B = aspect_z. For a circle both edges are 2 R, with R = sqrt(N / (pi rho)). */

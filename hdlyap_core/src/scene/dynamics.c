@@ -7,10 +7,18 @@
 static const hd_dynamics *const rows[HD_PARTICLES_END] = {HD_PARTICLES_ALL(ROW)};
 #undef ROW
 
+/** Whether not all particles have diameter 1 and mass 1, as they have in most scenes. */
+static bool has_kinds(const hd_dynamics *row, const hd_scene_def *scene)
+{
+    hd_kind kind[HD_KINDS_MAX];
+    return row->kinds(scene, kind) > 1 || kind[0].diameter != 1 || kind[0].mass != 1;
+}
+
 const hd_dynamics *hd_dynamics_of(const hd_scene_def *scene)
 {
     const unsigned k = (unsigned)scene->particles; /* it may not be checked yet */
-    return scene->dynamics ? scene->dynamics : rows[k < HD_PARTICLES_END ? k : 0];
+    const hd_dynamics *row = scene->dynamics ? scene->dynamics : rows[k < HD_PARTICLES_END ? k : 0];
+    return row->mixture && has_kinds(row, scene) ? row->mixture : row;
 }
 
 bool hd_dynamics_named(const hd_dynamics **out, const char *particles, hd_known known)

@@ -54,6 +54,7 @@ static hd_status check_together(const hd_dynamics *row, char *message, size_t si
          row->energy_asked && !row->examine},
         {"measure: must not be NULL with averages", row->averages != 0 && !row->measure},
         {"measure: must be NULL without averages", row->averages == 0 && row->measure},
+        {"kinds: must not be NULL with mixture", row->mixture && !row->kinds},
         {"null_vectors: must be NULL without zero_exponents",
          row->null_vectors && !row->zero_exponents}};
     for (size_t k = maps ? 0 : 3; k < sizeof together / sizeof *together; k++)
@@ -72,7 +73,7 @@ static hd_status check_name(const hd_dynamics *row, char *message, size_t size)
     for (int k = HD_DISKS; k < HD_PARTICLES_END; k++) {
         const hd_scene_def scene = {.particles = (hd_particles)k};
         const hd_dynamics *core = hd_dynamics_of(&scene);
-        if (row != core && strcmp(core->particles, name) == 0)
+        if (row != core && row != core->mixture && strcmp(core->particles, name) == 0)
             return hd_refuse(message, size, "particles = %s: must not be those of the core", name);
     }
     return HD_OK;

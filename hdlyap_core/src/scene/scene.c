@@ -9,12 +9,21 @@
 #include "scene/parameters.h"
 #include "scene/wave.h"
 
+/** Parameters that only the scene's dynamics has get their defaults. */
+static void own_assign(hd_scene_def *def)
+{
+    const hd_dynamics *of = hd_dynamics_of(def);
+    for (int k = 0; k < of->parameters; k++)
+        hd_parameter_assign(&of->parameter[k], def, of->parameter[k].default_value);
+}
+
 hd_scene_def hd_scene_def_default(void)
 {
     hd_scene_def def = {.seed = 0};
     int count;
     const hd_parameter *rows = hd_scene_parameters(&count);
     for (int k = 0; k < count; k++) hd_parameter_assign(&rows[k], &def, rows[k].default_value);
+    own_assign(&def);
     return def;
 }
 
@@ -31,8 +40,7 @@ hd_scene_def hd_scene_def_of(const hd_dynamics *dynamics)
         def.dynamics = NULL;
     }
     if (!dynamics->symplectic) def.exponents = HD_EXPONENTS_ALL;
-    for (int k = 0; k < dynamics->parameters; k++)
-        hd_parameter_assign(&dynamics->parameter[k], &def, dynamics->parameter[k].default_value);
+    own_assign(&def);
     return def;
 }
 

@@ -1,6 +1,8 @@
-/** The sources of this folder are compiled twice: for disks in the plane (HD_DIM = 2) and for
- * spheres in space (3). Both are in one library, so each function that is declared in a header gets
- * a different name in each. */
+/** The sources of this folder are compiled four times: for disks in the plane (HD_DIM = 2) and for
+ * spheres in space (3), and for each of them once for particles that are all alike and once
+ * (HD_MIXED = 1) for those of two sizes and masses, whose numbers are constants in the first. All
+ * are in one library, so each function that is declared in a header gets a different name in each.
+ */
 #ifndef HD_HARD_COMPILED_H
 #define HD_HARD_COMPILED_H
 
@@ -8,10 +10,18 @@
 #error "HD_DIM: must be 2 or 3"
 #endif
 
+#ifndef HD_MIXED
+#define HD_MIXED 0
+#endif
+
 /** Components of a tangent vector that belong to one particle: dq, then dp. */
 enum { HD_ROWS = 2 * HD_DIM };
 
+#if HD_MIXED
+#define HD_COMPILED__(name, dimension) name##_##dimension##d_mixed
+#else
 #define HD_COMPILED__(name, dimension) name##_##dimension##d
+#endif
 #define HD_COMPILED_(name, dimension) HD_COMPILED__(name, dimension)
 #define HD_COMPILED(name) HD_COMPILED_(name, HD_DIM)
 
@@ -34,6 +44,10 @@ enum { HD_ROWS = 2 * HD_DIM };
 #define hd_hard_fingerprint HD_COMPILED(hd_hard_fingerprint)
 #define hd_hard_free HD_COMPILED(hd_hard_free)
 #define hd_hard_inconsistency HD_COMPILED(hd_hard_inconsistency)
+#define hd_hard_kinds HD_COMPILED(hd_hard_kinds)
+#define hd_hard_share HD_COMPILED(hd_hard_share)
+#define hd_hard_size HD_COMPILED(hd_hard_size)
+#define hd_kinds_own HD_COMPILED(hd_kinds_own)
 #define hd_hard_keep HD_COMPILED(hd_hard_keep)
 #define hd_hard_kinetic_energy HD_COMPILED(hd_hard_kinetic_energy)
 #define hd_hard_least HD_COMPILED(hd_hard_least)

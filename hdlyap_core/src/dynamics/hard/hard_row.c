@@ -5,6 +5,7 @@
 #include "base/check.h"
 #include "dynamics/hard/event.h"
 #include "dynamics/hard/hard.h"
+#include "dynamics/hard/kinds.h"
 #include "dynamics/hard/maps.h"
 #include "scene/container.h"
 #include "scene/dynamics.h"
@@ -24,6 +25,7 @@ void hd_hard_totals(const void *state, hd_totals *totals)
     const hard *tr = state;
     *totals = (hd_totals){
         .collisions = tr->collisions, .wall_events = tr->wall_events, .time = tr->now};
+    totals->collisions_of[0] = tr->collisions;
     for (int d = 0; d < HD_DIM; d++) totals->virial[d] = tr->virial[d];
 }
 
@@ -163,6 +165,8 @@ static hd_status hard_check(const hd_scene_def *scene, char *message, size_t siz
 {
     const hd_container_row *container = hd_container_of(scene);
     char said[SAID];
+    if (HD_MIXED)
+        return hd_refuse(message, size, "second_fraction: must be 0 until collisions can");
     if (container->start_distance(scene) >= HD_START_DISTANCE_MIN) return HD_OK;
     container->say(scene, said, sizeof said);
     return hd_refuse(
@@ -178,17 +182,17 @@ int hd_hard_zeros(const hd_scene_def *scene)
     return 2 * hd_null_axes(scene, axis);
 }
 
-/** Volume of a particle: pi / 4 for a disk, pi / 6 for a sphere. */
-static double hard_size(const hd_scene_def *scene)
-{
-    (void)scene;
-    return 3.14159265358979323846 / (2 * HD_DIM);
-}
-
 #if HD_DIM == 2
-#define ROW hd_disks_row
+extern const hd_dynamics hd_mixed_disks_row;
+#define ROWS(kind) hd_##kind##disks_row
 #else
-#define ROW hd_spheres_row
+extern const hd_dynamics hd_mixed_spheres_row;
+#define ROWS(kind) hd_##kind##spheres_row
+#endif
+#if HD_MIXED
+#define ROW ROWS(mixed_)
+#else
+#define ROW ROWS()
 #endif
 const hd_dynamics ROW = {.particles = HD_DIM == 2 ? "disks" : "spheres",
                          .dimension = HD_DIM,
@@ -198,13 +202,17 @@ const hd_dynamics ROW = {.particles = HD_DIM == 2 ? "disks" : "spheres",
                          .dispersing = true,
                          .scale_invariant = true,
                          .collides = true,
+                         .parameter = hd_kinds_own,
+                         .parameters = HD_KINDS_OWN,
                          .fluid = HD_DIM == 2 ? &hd_fluid_disks : &hd_fluid_spheres,
                          .check = hard_check,
                          .zero_exponents = hd_hard_zeros,
                          .record_rate = hd_hard_entries,
                          .collision_rate = hd_hard_rate,
                          .null_vectors = hd_null_space_fill,
-                         .size = hard_size,
+                         .size = hd_hard_size,
+                         .kinds = hd_hard_kinds,
+                         .mixture = &ROWS(mixed_),
                          .create = hd_hard_create,
                          .free = hd_hard_free,
                          .advance = hd_hard_advance,
