@@ -12,6 +12,10 @@ HD_MUST_CHECK hd_status hd_hard_create_from_2d(void **state, const hd_scene_def 
                                                const double *q, const double *p);
 HD_MUST_CHECK hd_status hd_hard_create_from_3d(void **state, const hd_scene_def *def,
                                                const double *q, const double *p);
+HD_MUST_CHECK hd_status hd_hard_create_from_2d_mixed(void **state, const hd_scene_def *def,
+                                                     const double *q, const double *p);
+HD_MUST_CHECK hd_status hd_hard_create_from_3d_mixed(void **state, const hd_scene_def *def,
+                                                     const double *q, const double *p);
 HD_MUST_CHECK hd_status hd_dumbbells_create_from(void **state, const hd_scene_def *def,
                                                  const double *q, const double *p);
 HD_MUST_CHECK hd_status hd_soft_create_from(void **state, const hd_scene_def *scene,

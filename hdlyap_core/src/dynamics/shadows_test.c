@@ -108,6 +108,13 @@ static size_t component(const hd_trial *t, size_t k)
     return 2 * of_one * (j / of_one) + j % of_one + (k < half ? 0 : of_one);
 }
 
+/** A change of number k of q and p, times this, is the component: of q the root of the mass. */
+static double weight(const hd_trial *t, size_t k)
+{
+    const size_t particle = k / (size_t)t->of->coordinates;
+    return k < t->rows / 2 ? hd_scene_root_mass(&t->scene, (int)particle) : 1.0;
+}
+
 /** Fills differences number `fine` at both ends of the time. */
 static hd_status differ(hd_trial *t, room *r, int fine, const hd_image *image, place at,
                         double time)
@@ -123,8 +130,9 @@ static hd_status differ(hd_trial *t, room *r, int fine, const hd_image *image, p
     }
     memcpy(image->bytes + at.offset, &x, sizeof x);
     for (size_t k = 0; k < t->rows && status == HD_OK; k++) {
-        r->begin[fine][component(t, k)] = (r->before[0][k] - r->before[1][k]) / (2.0 * change);
-        r->end[fine][component(t, k)] = (r->after[0][k] - r->after[1][k]) / (2.0 * change);
+        const double per = weight(t, k) / (2.0 * change);
+        r->begin[fine][component(t, k)] = (r->before[0][k] - r->before[1][k]) * per;
+        r->end[fine][component(t, k)] = (r->after[0][k] - r->after[1][k]) * per;
     }
     return status;
 }

@@ -185,17 +185,29 @@ static void sample_curved(hd_fields *fields, double *const *row, const double *q
         hd_curved_fields_fill(row, &fields->subspace[s], fields->container, fields->own[s], q, p);
 }
 
-static void sample_particle(hd_fields *fields, double *const *row, const double *q, const double *p)
+/** Weights T and L by the root of the particle's mass; P = p A has that in its momentum. */
+static void weigh(hd_fields *fields, double *const *row, double root)
+{
+    for (int s = 0; s < fields->subspaces; s++) {
+        const hd_subspace *of = &fields->subspace[s];
+        for (int c = 0; c < of->modulations.count; c++)
+            for (int d = 0; d < fields->dimension; d++) row[d][of->column + c] *= root;
+    }
+}
+
+static void sample_particle(hd_fields *fields, const double *q, const double *p, double root)
 {
     const int null = fields->columns - hd_fields_nulls(fields);
+    double *const *row = fields->row;
     if (fields->own)
         sample_curved(fields, row, q, p);
     else
         sample_box(fields, row, q, p);
+    if (root != 1) weigh(fields, row, root);
     for (int k = 0; k < fields->null.count; k++) {
         const int axis = fields->null.axis[k];
         for (int d = 0; d < fields->coordinates; d++)
-            row[d][null + axis] = hd_null_entry(&fields->null, axis, d, q, p);
+            row[d][null + axis] = hd_null_entry(&fields->null, axis, d, q, p, root);
     }
 }
 
@@ -221,7 +233,8 @@ void hd_fields_sample(hd_fields *fields, const double *q, const double *p)
     for (size_t j = 0; j < (size_t)fields->particles; j++) {
         for (size_t d = 0; d < of_one; d++)
             fields->row[d] = fields->data + (of_one * j + d) * stride;
-        sample_particle(fields, fields->row, q + of_one * j, p + of_one * j);
+        sample_particle(fields, q + of_one * j, p + of_one * j,
+                        hd_kinds_root(&fields->null.kinds, (int)j));
     }
     normalise(fields);
 }

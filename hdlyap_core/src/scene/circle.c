@@ -8,6 +8,7 @@
 
 #include "base/check.h"
 #include "scene/container.h"
+#include "scene/kinds.h"
 
 static const double PI = 3.14159265358979323846;
 
@@ -41,11 +42,13 @@ static hd_status circle_check(const hd_scene_def *def, char *message, size_t siz
     if (def->aspect != hd_scene_def_default().aspect)
         return hd_refuse(message, size, "aspect = %.15g: must not be given with container = circle",
                          def->aspect);
-    if (!(hd_circle_reach(def) >= HD_MEMORY_LIMIT_MIN))
+    const double largest = 0.5 * hd_kinds_largest(def);
+    if (!(hd_circle_radius(def) - largest >= HD_MEMORY_LIMIT_MIN))
         return hd_refuse(message, size,
                          "density = %.15g with number = %d: the radius %.15g of the container must "
-                         "be above that of a disk, 1/2, by 1e-9",
-                         def->density, def->number, hd_circle_radius(def));
+                         "be above that of a disk, %s%.15g, by 1e-9",
+                         def->density, def->number, hd_circle_radius(def),
+                         largest == 0.5 ? "1/" : "", largest == 0.5 ? 2.0 : largest);
     return HD_OK;
 }
 
@@ -184,11 +187,11 @@ static double wall_meet(const hd_wall *wall, double *q, double *n)
     return wall->own[REACH];
 }
 
-static hd_wall circle_wall(const hd_scene_def *def)
+static hd_wall circle_wall(const hd_scene_def *def, double particle)
 {
     double box[2];
     circle_box(def, box);
-    const double centre = 0.5 * box[0], reach = centre - 0.5;
+    const double centre = 0.5 * box[0], reach = centre - particle;
     return (hd_wall){
         {[CENTRE] = centre, [REACH] = reach}, reach, reach, wall_excess, wall_wait, wall_meet};
 }

@@ -61,8 +61,8 @@ int hd_scene_outline(const hd_scene_def *def, double *x, double *y)
     return HD_OUTLINE;
 }
 
-hd_wall hd_wall_of(const hd_scene_def *def)
+hd_wall hd_wall_of(const hd_scene_def *def, double particle)
 {
     const hd_container_row *container = hd_container_of(def);
-    return container->wall ? container->wall(def) : (hd_wall){.wait = NULL};
+    return container->wall ? container->wall(def, particle) : (hd_wall){.wait = NULL};
 }

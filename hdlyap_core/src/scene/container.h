@@ -63,7 +63,8 @@ typedef struct hd_container_row {
     void (*start)(const hd_scene_def *def, double *q); /**< positions */
 
     /* The two entries of a curved wall; NULL for a box. Boundaries are HD_CURVED then. */
-    hd_wall (*wall)(const hd_scene_def *def);
+    /** The wall for centres of particles of this radius. */
+    hd_wall (*wall)(const hd_scene_def *def, double particle);
     /** The place on the outline, which rims touch, at the part `turn`, 0 .. 1, of the way round. */
     void (*outline)(const hd_scene_def *def, double turn, double *place);
 
@@ -92,8 +93,8 @@ const hd_container_row *hd_container_of(const hd_scene_def *def);
 /** The container's name, as a scene file has it. */
 const char *hd_container_name(const hd_scene_def *def);
 
-/** The curved wall; its functions are NULL for a box. */
-hd_wall hd_wall_of(const hd_scene_def *def);
+/** The curved wall for centres of particles of this radius; its functions are NULL for a box. */
+hd_wall hd_wall_of(const hd_scene_def *def, double particle);
 
 /** Whether a site stays empty: if there are more sites than particles, the empty ones are spread
  * evenly. */

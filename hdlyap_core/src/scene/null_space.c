@@ -27,7 +27,8 @@ hd_null_space hd_null_space_of(const hd_scene_def *def)
     hd_scene_box(def, box);
     hd_null_space null = {.dimension = hd_scene_dimension(def),
                           .rotates = hd_container_of(def)->rotates,
-                          .centre = 0.5 * box[0]};
+                          .centre = 0.5 * box[0],
+                          .kinds = hd_kinds_of(def)};
     null.count = hd_null_axes(def, null.axis);
     return null;
 }
@@ -46,7 +47,8 @@ int hd_null_space_fill(const hd_scene_def *def, const double *q, const double *p
             const int d = j % of_one;
             const double *at = q + (j - d), *moving = p + (j - d);
             double *entry = column + 2 * of_one * (j / of_one) + d;
-            entry[of_one * (k % 2)] = hd_null_entry(&null, null.axis[k / 2], d, at, moving);
+            entry[of_one * (k % 2)] = hd_null_entry(&null, null.axis[k / 2], d, at, moving,
+                                                    hd_kinds_root(&null.kinds, j / of_one));
             if (rotation) entry[of_one] = d == 0 ? -moving[1] : moving[0];
         }
         column += rows;
@@ -59,28 +61,33 @@ int hd_null_space_fill(const hd_scene_def *def, const double *q, const double *p
 
 static void still_rotation(const hd_scene_def *def, const double *q, double *p)
 {
-    const double centre = hd_null_space_of(def).centre;
+    const hd_null_space null = hd_null_space_of(def);
     double angular = 0.0, inertia = 0.0;
     for (int k = 0; k < 2 * def->number; k += 2) {
-        const double x = q[k] - centre, y = q[k + 1] - centre;
+        const double root = hd_kinds_root(&null.kinds, k / 2), x = root * (q[k] - null.centre),
+                     y = root * (q[k + 1] - null.centre);
         angular += x * p[k + 1] - y * p[k];
         inertia += x * x + y * y;
     }
     const double rate = inertia > 0 ? angular / inertia : 0.0;
     for (int k = 0; k < 2 * def->number; k += 2) {
-        p[k] += rate * (q[k + 1] - centre);
-        p[k + 1] -= rate * (q[k] - centre);
+        const double by = rate * hd_kinds_root(&null.kinds, k / 2);
+        p[k] += by * (q[k + 1] - null.centre);
+        p[k + 1] -= by * (q[k] - null.centre);
     }
 }
 
 void hd_null_space_still(const hd_scene_def *def, const double *q, double *p)
 {
     const int dimension = hd_scene_dimension(def), of_one = hd_scene_coordinates(def);
+    const hd_kinds kinds = hd_kinds_of(def);
     for (int d = 0; d < dimension; d++) {
-        double sum = 0.0;
+        double sum = 0.0, mass = 0.0;
         if (hd_scene_boundary(def, d) != HD_PERIODIC) continue;
-        for (int i = 0; i < def->number; i++) sum += p[of_one * i + d];
-        for (int i = 0; i < def->number; i++) p[of_one * i + d] -= sum / def->number;
+        for (int k = 0; k < kinds.count; k++) mass += kinds.kind[k].number * kinds.kind[k].mass;
+        for (int i = 0; i < def->number; i++) sum += hd_kinds_root(&kinds, i) * p[of_one * i + d];
+        for (int i = 0; i < def->number; i++)
+            p[of_one * i + d] -= hd_kinds_root(&kinds, i) * (sum / mass);
     }
     if (hd_container_of(def)->rotates) still_rotation(def, q, p);
 }

@@ -5,6 +5,7 @@
 
 #include <stdbool.h>
 
+#include "scene/kinds.h"
 #include "scene/scene.h"
 
 /** The axes of a scene's null space: directions, then the momenta if they are one of the axes. */
@@ -14,6 +15,7 @@ typedef struct hd_null_space {
     int axis[HD_DIMENSION_MAX + 1];
     bool rotates;  /**< HD_NULL_X is a rotation */
     double centre; /**< the rotation is about (centre, centre) */
+    hd_kinds kinds;
 } hd_null_space;
 
 /** Writes axis[dimension + 1] and returns the number. */
@@ -21,15 +23,15 @@ int hd_null_axes(const hd_scene_def *def, int *axis);
 
 hd_null_space hd_null_space_of(const hd_scene_def *def);
 
-/** Entry of an axis for coordinate d (0: x, 1: y, ..) of a particle at q with momentum p; the axis
- * is not normalised. */
+/** Entry of an axis for coordinate d (0: x, 1: y, ..) of a particle at q with momentum p, the root
+ * of whose mass is `root` [T1]; the axis is not normalised. */
 static inline double hd_null_entry(const hd_null_space *null, int axis, int d, const double *q,
-                                   const double *p)
+                                   const double *p, double root)
 {
     if (axis == null->dimension) return p[d];
     if (d >= null->dimension) return 0.0;
-    if (!null->rotates) return (double)(axis == d);
-    return d == 0 ? null->centre - q[1] : q[0] - null->centre;
+    if (!null->rotates) return axis == d ? root : 0.0;
+    return root * (d == 0 ? null->centre - q[1] : q[0] - null->centre);
 }
 
 /** Fills column[..][particle][2 coordinates] with the vectors that the dynamics leaves exactly as

@@ -5,6 +5,7 @@
 #include "base/check.h"
 #include "scene/container.h"
 #include "scene/fluid.h"
+#include "scene/kinds.h"
 #include "scene/plane_lattice.h"
 #include "scene/polarisation.h"
 #include "scene/scene.h"
@@ -58,6 +59,7 @@ static void rectangle_describe(const hd_scene_def *def, char *text, size_t size)
 
 static hd_status rectangle_check(const hd_scene_def *def, char *message, size_t size)
 {
+    const double largest = hd_kinds_largest(def);
     double box[HD_DIMENSION_MAX];
     rectangle_box(def, box);
     if (def->number < 2 && hd_scene_coordinates(def) == hd_scene_dimension(def))
@@ -65,13 +67,14 @@ static hd_status rectangle_check(const hd_scene_def *def, char *message, size_t 
                          "number = %d: must be an integer from 2 to 1000000 in a rectangle",
                          def->number);
     for (int d = 0; d < hd_scene_dimension(def); d++) {
-        if (has_walls(def, d) ? box[d] - 1.0 >= HD_MEMORY_LIMIT_MIN : box[d] > 1.0) continue;
+        if (has_walls(def, d) ? box[d] - largest >= HD_MEMORY_LIMIT_MIN : box[d] > largest)
+            continue;
         char said[24 + 24] = "";
         if (!is_flat(def)) snprintf(said, sizeof said, ", aspect_z = %.15g", def->aspect_z);
         return hd_refuse(message, size,
                          "density = %.15g with number = %d, aspect = %.15g%s: the box edge L%c = "
-                         "%.15g must be above the disk diameter 1%s",
-                         def->density, def->number, def->aspect, said, "xyz"[d], box[d],
+                         "%.15g must be above the disk diameter %.15g%s",
+                         def->density, def->number, def->aspect, said, "xyz"[d], box[d], largest,
                          has_walls(def, d) ? " by 1e-9" : "");
     }
     return HD_OK;

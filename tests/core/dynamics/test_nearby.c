@@ -190,7 +190,7 @@ static int check_contacts(hd_nearby *near, const hd_disk *disks, int32_t i)
     const double box[2] = {9.0, 7.0};
     double got[HD_NEARBY_MAX + HD_NEARBY_SPARE], least = INFINITY;
     int last = -1, as_early = 0;
-    const int first = hd_nearby_contacts(got, near, disks, i, box);
+    const int first = hd_nearby_contacts(got, near, disks, i, box, NULL);
     for (int k = 0; k < near->count; k++) {
         const hd_disk *b = &disks[near->disk[k]];
         const double shift[2] = {(near->image[0][k] - b->wrap[0]) * box[0],
@@ -237,7 +237,7 @@ TEST(ties_are_told)
         random_disks(disks, &random);
         random_nearby(&near, 2 + below(&random, HD_NEARBY_MAX - 1), &random);
         const int32_t i = below(&random, DISKS);
-        const int first = hd_nearby_contacts(contact, &near, disks, i, box);
+        const int first = hd_nearby_contacts(contact, &near, disks, i, box, NULL);
         if (first < 0) continue;
         const int place = (first + 1 + below(&random, near.count - 1)) % near.count;
         near.disk[place] = near.disk[first];
@@ -259,11 +259,11 @@ TEST(touching_disks_meet_at_once)
                              {.q = {closer, 0}, .p = {1, 0}, .t = 0.25}};
     hd_nearby near = {.count = 4, .disk = {2, 3, 4, 0}};
     double contact[HD_NEARBY_MAX + HD_NEARBY_SPARE];
-    assert_int_equal(hd_nearby_contacts(contact, &near, disks, 0, box), 0);
+    assert_int_equal(hd_nearby_contacts(contact, &near, disks, 0, box, NULL), 0);
     assert_true(contact[0] == 0.25);
     for (int k = 1; k < 4; k++) assert_true(isnan(contact[k]));
     near.disk[0] = 1;
-    assert_int_equal(hd_nearby_contacts(contact, &near, disks, 0, box), 0);
+    assert_int_equal(hd_nearby_contacts(contact, &near, disks, 0, box, NULL), 0);
     assert_true(contact[0] == 0.5);
 }
 
@@ -275,7 +275,7 @@ TEST(grazing_disks_pass)
         {.p = {1, 0}}, {.q = {3.0, 1.0}}, {.q = {3.0, -1.0}}, {.q = {3.0, 1.0 - DBL_EPSILON}}};
     hd_nearby near = {.count = 3, .disk = {1, 2, 3}};
     double contact[HD_NEARBY_MAX + HD_NEARBY_SPARE];
-    assert_int_equal(hd_nearby_contacts(contact, &near, disks, 0, box), 2);
+    assert_int_equal(hd_nearby_contacts(contact, &near, disks, 0, box, NULL), 2);
     assert_true(isnan(contact[0]) && isnan(contact[1]));
     assert_true(contact[2] > 2.9 && contact[2] < 3.0);
 }

@@ -20,7 +20,7 @@ static double reach_of(const hd_scene_def *def)
 TEST(it_is_reached_when_it_says)
 {
     const hd_scene_def def = circle(50, 0.6);
-    const hd_wall wall = hd_wall_of(&def);
+    const hd_wall wall = hd_wall_of(&def, 0.5);
     const double reach = reach_of(&def), centre = reach + 0.5;
     for (int k = 0; k < 20000; k++) {
         const double r = k % 3 == 0 ? reach : reach * fmod(0.618 * k, 1.0);
@@ -28,7 +28,7 @@ TEST(it_is_reached_when_it_says)
         const double inwards = k % 3 == 0 ? PI + 1.5 * sin(1.7 * k) : 0.9 * k;
         const double p[2] = {speed * cos(at + inwards), speed * sin(at + inwards)};
         const hd_disk disk = {
-            {centre + r * cos(at), centre + r * sin(at)}, {p[0], p[1]}, 0.25, {0}, {0}, 0};
+            {centre + r * cos(at), centre + r * sin(at)}, {p[0], p[1]}, 0.25, {0}, {0}, 0, 0};
         const double t = hd_round_wall_time(&wall, &disk) - disk.t;
         const double there[2] = {disk.q[0] + t * p[0], disk.q[1] + t * p[1]};
         const double before[2] = {disk.q[0] + 0.9 * t * p[0], disk.q[1] + 0.9 * t * p[1]};
@@ -42,11 +42,11 @@ TEST(it_is_reached_when_it_says)
 TEST(a_disk_that_glides_does_not_stay_for_ever)
 {
     const hd_scene_def def = circle(2, 0.1);
-    const hd_wall wall = hd_wall_of(&def);
+    const hd_wall wall = hd_wall_of(&def, 0.5);
     const double reach = reach_of(&def), centre = reach + 0.5;
     for (double out = 1e-3; out > 1e-18; out *= 0.1)
         for (int sign = -1; sign < 2; sign += 2) {
-            hd_disk disk = {{centre + reach, centre}, {sign * out, 1.0}, 0.0, {0}, {0}, 0};
+            hd_disk disk = {{centre + reach, centre}, {sign * out, 1.0}, 0.0, {0}, {0}, 0, 0};
             hd_event event = {.i = 0};
             const bool outwards = hd_round_wall_reflect(&wall, &disk, &event);
             assert_int_equal(outwards, sign > 0);

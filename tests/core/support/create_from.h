@@ -15,10 +15,12 @@ static inline hd_status hd_trajectory_create_from(hd_trajectory **out, const hd_
     const hd_dynamics *of = hd_dynamics_of(def);
     void *state;
     *out = NULL;
-    HD_TRY((of == &hd_disks_row       ? hd_hard_create_from_2d
-            : of == &hd_spheres_row   ? hd_hard_create_from_3d
-            : of == &hd_dumbbells_row ? hd_dumbbells_create_from
-                                      : hd_soft_create_from)(&state, def, q, p));
+    HD_TRY((of == &hd_disks_row            ? hd_hard_create_from_2d
+            : of == hd_disks_row.mixture   ? hd_hard_create_from_2d_mixed
+            : of == &hd_spheres_row        ? hd_hard_create_from_3d
+            : of == hd_spheres_row.mixture ? hd_hard_create_from_3d_mixed
+            : of == &hd_dumbbells_row      ? hd_dumbbells_create_from
+                                           : hd_soft_create_from)(&state, def, q, p));
     return hd_trajectory_create_with(out, def, state);
 }
 

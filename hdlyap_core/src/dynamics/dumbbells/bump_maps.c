@@ -109,7 +109,7 @@ HD_KERNEL void hd_meet_wall(double *restrict v, const hd_tangent_map *m, int wid
 
 hd_status hd_bump_maps_create(void **maps, const hd_scene_def *scene)
 {
-    return maps_create(maps, scene->number);
+    return maps_create(maps, scene);
 }
 
 void hd_bump_maps_free(void *maps) { maps_free(maps); }

@@ -136,7 +136,11 @@ static void release(hd_molecules *m)
     hd_memory_free(m);
 }
 
-static void lattice(const hd_scene_def *def, double *q) { hd_dumbbell_start(def, q); }
+static hd_status lattice(const hd_scene_def *def, double *q)
+{
+    hd_dumbbell_start(def, q);
+    return HD_OK;
+}
 
 static bool finish(hd_molecules *m, int32_t i, double t)
 {

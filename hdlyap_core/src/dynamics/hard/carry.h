@@ -22,6 +22,7 @@
 enum { FETCH_AHEAD = 12, LINE = 64 / sizeof(double) };
 
 typedef struct hd_maps {
+    const hd_scene_def *scene;
     int bodies;
     hd_tangent_map *map; /**< [count] */
     size_t count, capacity;
@@ -29,12 +30,13 @@ typedef struct hd_maps {
     double *since; /**< [bodies]: time of the last event; once filled, the flight after it */
 } hd_maps;
 
-static hd_status maps_create(void **out, int bodies)
+static hd_status maps_create(void **out, const hd_scene_def *scene)
 {
     hd_maps *maps = *out = hd_memory_alloc(1, sizeof *maps);
     if (!maps) return HD_NO_MEMORY;
-    maps->bodies = bodies;
-    maps->since = hd_memory_alloc((size_t)bodies, sizeof *maps->since);
+    maps->scene = scene;
+    maps->bodies = scene->number;
+    maps->since = hd_memory_alloc((size_t)maps->bodies, sizeof *maps->since);
     return maps->since ? HD_OK : HD_NO_MEMORY;
 }
 

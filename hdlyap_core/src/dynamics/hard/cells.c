@@ -28,8 +28,10 @@ static void line_fill(hd_cell_line *line, int32_t size, double length, hd_bounda
         }
     }
     if (boundary == HD_REFLECTING) {
-        line[0].bound[0] = 0.5;
-        line[size - 1].bound[1] = length - 0.5;
+        line[0].bound[0] = HD_MIXED ? 0.0 : 0.5;
+        line[size - 1].bound[1] = HD_MIXED ? length : length - 0.5;
+        line[0].inwards[0] = HD_MIXED;
+        line[size - 1].inwards[1] = -HD_MIXED;
     }
 }
 

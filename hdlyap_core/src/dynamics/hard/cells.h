@@ -10,10 +10,18 @@
 
 /** One column (row, layer) of cells: its two ends, and the columns next to it. */
 typedef struct hd_cell_line {
-    double bound[2];  /**< lowest and highest centre; at a wall, where centres are reflected */
-    int32_t near[3];  /**< index of the column below, itself, above; hd_cells.size beyond a wall */
-    int32_t shift[4]; /**< box edges to add to positions in near[] (-1, 0, 1); the last is spare */
+    double bound[2];   /**< lowest and highest centre; at a wall, where centres are reflected */
+    int32_t near[3];   /**< index of the column below, itself, above; hd_cells.size beyond a wall */
+    int32_t shift[4];  /**< box edges to add to positions in near[] (-1, 0, 1); the last is spare */
+    int8_t inwards[2]; /**< of bound: 1 or -1, the way into the box, at a wall whose distance is the
+                          radius of each disk; else 0 */
 } hd_cell_line;
+
+/** Where the centre of a disk meets an end, low or high, of a line of cells. */
+static inline double hd_cell_line_end(const hd_cell_line *line, int high, double radius)
+{
+    return HD_MIXED ? line->bound[high] + line->inwards[high] * radius : line->bound[high];
+}
 
 enum { HD_CELL_DISKS = 3 };
 

@@ -71,13 +71,13 @@ static inline hd_pair hd_pair_dot(const hd_pair a[HD_DIM], const hd_pair b[HD_DI
 }
 
 /** The times at which the two disks a meet the two disks b shifted by `shift`; NaN if never. Disks
- * will meet if they approach (r.p < 0) and do not pass each other (p^2 - |r x p|^2 > 0). The wait
- * until |r + p t| = 1 is, with c = r^2 - 1, c / (sqrt(p^2 - |r x p|^2) - r.p), which is no
- * difference of large numbers. Disks that approach and overlap within rounding meet at once. There
- * are no branches: one that the processor predicts wrongly costs more than a root and a quotient
- * whose results are not used. */
+ * will meet if they approach (r.p < 0) and do not pass each other (s^2 p^2 - |r x p|^2 > 0). The
+ * wait until |r + p t| = s, the distance at which they touch, is, with c = r^2 - s^2, c / (sqrt(s^2
+ * p^2 - |r x p|^2) - r.p), which is no difference of large numbers. Disks that approach and overlap
+ * within rounding meet at once. There are no branches: one that the processor predicts wrongly
+ * costs more than a root and a quotient whose results are not used. */
 static inline hd_pair hd_contact_times(const hd_two_disks *a, const hd_two_disks *b,
-                                       const hd_pair shift[HD_DIM])
+                                       const hd_pair shift[HD_DIM], hd_pair touching)
 {
     const hd_pair t = hd_pair_where(a->t > b->t, a->t, b->t), wait_a = t - a->t, wait_b = t - b->t;
     hd_pair p[HD_DIM], r[HD_DIM];
@@ -85,8 +85,9 @@ static inline hd_pair hd_contact_times(const hd_two_disks *a, const hd_two_disks
         p[d] = b->p[d] - a->p[d];
         r[d] = b->q[d] + b->p[d] * wait_b - (a->q[d] + a->p[d] * wait_a) + shift[d];
     }
-    const hd_pair rp = hd_pair_dot(r, p), square = hd_pair_dot(p, p) - hd_pair_cross_square(r, p);
-    const hd_pair c = hd_pair_dot(r, r) - 1.0;
+    const hd_pair s2 = touching * touching, rp = hd_pair_dot(r, p);
+    const hd_pair square = s2 * hd_pair_dot(p, p) - hd_pair_cross_square(r, p);
+    const hd_pair c = hd_pair_dot(r, r) - s2;
     const hd_pair root = {sqrt(square[0]), sqrt(square[1])};
     const hd_pair wait = (hd_pair)((c > 0) & (hd_pair_mask)(c / (root - rp)));
     const hd_pair_mask ahead = (rp < 0) & (square > 0);

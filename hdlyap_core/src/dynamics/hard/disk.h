@@ -22,6 +22,7 @@ typedef struct hd_disk {
     double t;
     int32_t wrap[HD_DIM]; /**< box edges to subtract from its present position to be in its cell */
     int32_t cell[HD_DIM]; /**< column, row and, for spheres, layer */
+    uint32_t size;        /**< its place in hd_sizes */
     uint32_t collisions;  /**< changes with q, p and t, so that stale predictions are recognised */
 } hd_disk;
 

@@ -22,7 +22,8 @@ typedef struct hd_event {
     /** Unit vector from i to j at contact. For a flat wall it is the unit vector of its direction;
      * for a round wall the outward normal times the radius of curvature. */
     double n[HD_DIM];
-    double p[HD_DIM]; /**< p_j - p_i before the collision; for a wall, p_i before the collision */
+    double p[HD_DIM]; /**< p_j - p_i before the collision; for a wall, p_i before the collision;
+                         momenta over mass, as all p of disks of two kinds in this folder */
 } hd_event;
 
 /** Returns NULL, or what is wrong with the events, which are finite numbers in the order of time: a

@@ -7,6 +7,7 @@
 
 #include "dynamics/hard/contact.h"
 #include "dynamics/hard/round_wall.h"
+#include "scene/kinds.h"
 
 double hd_events_bytes(double events)
 {
@@ -53,13 +54,17 @@ static bool approach(const hd_event *event)
 
 const char *hd_events_fault(const hd_record *record, const hd_scene_def *scene)
 {
-    const hd_wall wall = hd_wall_of(scene);
+    const hd_kinds kinds = hd_kinds_of(scene);
+    hd_wall walls[HD_KINDS_MAX];
+    for (int k = 0; k < kinds.count; k++)
+        walls[k] = hd_wall_of(scene, 0.5 * kinds.kind[k].diameter);
     for (size_t k = 0; k < record->count; k++) {
         const hd_event *event = hd_record_entry(record, k);
         if (!disks_exist(event, scene->number))
             return "an event names a particle that does not exist";
-        if (!wall_exists(event, &wall)) return "an event names a wall that does not exist";
-        if (!is_normal(event, &wall)) return "a normal vector has a wrong length";
+        const hd_wall *wall = &walls[event->i >= kinds.kind[0].number];
+        if (!wall_exists(event, wall)) return "an event names a wall that does not exist";
+        if (!is_normal(event, wall)) return "a normal vector has a wrong length";
         if ((event->j >= 0 || event->j == HD_WALL_ROUND) && !approach(event))
             return "partners of a collision move apart";
     }

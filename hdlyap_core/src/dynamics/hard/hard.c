@@ -17,8 +17,10 @@
 #include "base/check.h"
 #include "base/memory.h"
 #include "dynamics/hard/event.h"
+#include "dynamics/hard/grow.h"
 #include "scene/container.h"
 #include "scene/fluid.h"
+#include "scene/kinds.h"
 #include "scene/scene.h"
 
 /** A faster disk would move so far in one epoch that its position would lose digits. */
@@ -34,7 +36,7 @@ hd_status hd_hard_prepare(hard *tr, const hd_scene_def *def, double reach)
 {
     tr->motion.count = def->number;
     tr->epoch_length = hd_epoch_length(2.0 * hd_hard_rate(def) / def->number);
-    tr->motion.wall = hd_wall_of(def);
+    tr->motion.wall = hd_wall_of(def, 0.5);
     tr->motion.disk = hd_memory_alloc((size_t)tr->motion.count + 1, sizeof *tr->motion.disk);
     tr->motion.predicted = hd_memory_alloc((size_t)tr->motion.count, sizeof *tr->motion.predicted);
     if (!tr->motion.disk || !tr->motion.predicted) return HD_NO_MEMORY;
@@ -45,22 +47,26 @@ hd_status hd_hard_prepare(hard *tr, const hd_scene_def *def, double reach)
 
 static hd_status prepare(hard *tr, const hd_scene_def *def)
 {
-    return hd_hard_prepare(tr, def, 1.0);
+    if (HD_MIXED) HD_TRY(hd_sizes_create(&tr->motion.sizes, def, 0));
+    return hd_hard_prepare(tr, def, HD_MIXED ? hd_kinds_largest(def) : 1.0);
 }
 
 static hd_status start(hard *tr, const double *q, const double *p)
 {
     for (int32_t i = 0; i < tr->motion.count; i++) {
         hd_disk *disk = &tr->motion.disk[i];
+        const double root = sqrt(hd_sizes_mass(&tr->motion.sizes, i));
+        disk->size = (uint32_t)hd_sizes_kind(&tr->motion.sizes, i);
         for (int d = 0; d < HD_DIM; d++) {
-            const double reach = tr->motion.cells.boundary[d] == HD_REFLECTING ? 0.5 : 0.0;
+            const bool walls = tr->motion.cells.boundary[d] == HD_REFLECTING;
+            const double reach = walls ? hd_sizes_radius(&tr->motion.sizes, disk) : 0.0;
             disk->q[d] = q[HD_DIM * i + d];
-            disk->p[d] = p[HD_DIM * i + d];
+            disk->p[d] = p[HD_DIM * i + d] / root;
             if (!(fabs(disk->p[d]) <= MOMENTUM_MAX)) return HD_REFUSED;
             if (!(disk->q[d] >= reach && disk->q[d] <= tr->motion.cells.box[d] - reach))
                 return HD_REFUSED;
         }
-        const hd_wall *wall = &tr->motion.wall;
+        const hd_wall *wall = hd_motion_wall(&tr->motion, disk);
         if (wall->excess && wall->excess(wall, disk->q) > tr->overlap_max) return HD_REFUSED;
         hd_cells_add(&tr->motion.cells, tr->motion.disk, i);
     }
@@ -72,6 +78,7 @@ static hd_status start(hard *tr, const double *q, const double *p)
 void hd_hard_clear(hard *tr)
 {
     hd_cells_clear(&tr->motion.cells);
+    hd_sizes_clear(&tr->motion.sizes);
     hd_queue_clear(&tr->motion.queue);
     hd_memory_free(tr->motion.disk);
     hd_memory_free(tr->motion.predicted);
@@ -83,7 +90,12 @@ static void release(hard *tr)
     hd_memory_free(tr);
 }
 
-static void lattice(const hd_scene_def *def, double *q) { hd_container_of(def)->start(def, q); }
+static hd_status lattice(const hd_scene_def *def, double *q)
+{
+    if (HD_MIXED) return hd_hard_grow(def, q);
+    hd_container_of(def)->start(def, q);
+    return HD_OK;
+}
 
 static bool finish(hard *tr, int32_t i, double t)
 {
@@ -113,8 +125,8 @@ static void extend(hard *tr, int32_t i, int d, int side)
 
 /* ---- events -------------------------------------------------------------------------------- */
 
-/** r.r - 1 to twice the working precision (Dekker's product, Knuth's sum). */
-static double square_minus_one(const double r[HD_DIM])
+/** r.r - s2 to twice the working precision (Dekker's product, Knuth's sum). */
+static double square_minus(const double r[HD_DIM], double s2)
 {
     const double splitter = 134217729.0; /* 2^27 + 1 */
     double product[HD_DIM], error[HD_DIM];
@@ -130,14 +142,17 @@ static double square_minus_one(const double r[HD_DIM])
         all = sum;
     }
     for (int d = 0; d < HD_DIM; d++) lost += error[d];
-    return (all - 1.0) + lost;
+    return (all - s2) + lost;
 }
 
-/** Exchanges the normal momenta of two disks that are r apart. Returns false if they only graze: if
+/** Exchanges the normal momenta of two disks that are r apart, which changes momenta over masses by
+ * shares. approach: r.p over s^2, where they touch at the distance s; excess: (r.r - s^2) / s^2.
+ * Returns false if they only graze: if
  * they do not approach by more than momenta round. Such an exchange might not change the momenta,
  * and the pair would meet again at once, forever; so the disks are pushed apart, by more than
  * rounding, along the longest component of r. */
-static bool exchange(hd_disk *a, hd_disk *b, const double r[HD_DIM], double approach, double excess)
+static bool exchange(hd_disk *a, hd_disk *b, const double share[2], const double r[HD_DIM],
+                     double approach, double excess)
 {
     double size = 0.0;
     for (int d = 0; d < HD_DIM; d++) size += fabs(a->p[d]);
@@ -148,18 +163,30 @@ static bool exchange(hd_disk *a, hd_disk *b, const double r[HD_DIM], double appr
          * 3e-16 in each collision */
         const double per_r = approach - approach * excess;
         for (int d = 0; d < HD_DIM; d++) {
-            a->p[d] += per_r * r[d];
-            b->p[d] -= per_r * r[d];
+            a->p[d] += share[0] * (per_r * r[d]);
+            b->p[d] -= share[1] * (per_r * r[d]);
         }
         return true;
     }
     if (approach < 0) {
         int d = 0;
         for (int e = 1; e < HD_DIM; e++) d = fabs(r[e]) > fabs(r[d]) ? e : d;
-        a->p[d] -= copysign(lost, r[d]);
-        b->p[d] += copysign(lost, r[d]);
+        a->p[d] -= share[0] * copysign(lost, r[d]);
+        b->p[d] += share[1] * copysign(lost, r[d]);
     }
     return false;
+}
+
+/** Adds what a disk that is larger or smaller than 1 gives to the virial at a wall: gas counts the
+ * wall's force as acting at the distance 1/2 from it. The event is filled. */
+static void press(hard *tr, const hd_event *event, int32_t i)
+{
+    const hd_sizes *sizes = &tr->motion.sizes;
+    const double n2 = hd_contact_dot(event->n, event->n),
+                 along = hd_contact_dot(event->n, event->p);
+    const double impulse = 2.0 * hd_sizes_mass(sizes, i) * fabs(along) / (n2 * sqrt(n2)),
+                 beyond = hd_sizes_radius(sizes, &tr->motion.disk[i]) - 0.5;
+    for (int d = 0; d < HD_DIM; d++) tr->virial[d] += impulse * beyond * event->n[d] * event->n[d];
 }
 
 /** Reflects a disk at a curved wall [T21]. */
@@ -168,7 +195,8 @@ static hd_status reflect_round(hard *tr, hd_record *record, hd_event *event, dou
     const int32_t i = (int32_t)event->i;
     hd_disk *disk = &tr->motion.disk[i];
     hd_disk_move_to(disk, t);
-    const bool reflected = hd_round_wall_reflect(&tr->motion.wall, disk, event);
+    const bool reflected = hd_round_wall_reflect(hd_motion_wall(&tr->motion, disk), disk, event);
+    if (HD_MIXED && reflected) press(tr, event, i);
     disk->collisions++;
     tr->wall_events += reflected;
     hd_prediction_renew(&tr->motion, i);
@@ -196,11 +224,16 @@ static hd_status collide(hard *tr, hd_record *record, hd_event *contact, int32_t
         event.p[d] = b->p[d] - a->p[d];
         approach += event.p[d] * r[d];
     }
-    const double excess = square_minus_one(r);
-    if (excess < -2.0 * tr->overlap_max) return HD_OVERLAP;
+    const hd_sizes *sizes = &tr->motion.sizes;
+    const double s = hd_sizes_radius(sizes, a) + hd_sizes_radius(sizes, b), s2 = s * s;
+    const double share[2] = {hd_sizes_share(sizes, i, j), hd_sizes_share(sizes, j, i)};
+    const double excess = square_minus(r, s2) / s2;
+    if (excess * s < -2.0 * tr->overlap_max) return HD_OVERLAP;
     hd_status status = HD_OK;
-    if (exchange(a, b, r, approach, excess)) {
+    if (exchange(a, b, share, r, approach / s2, excess)) {
         tr->collisions++;
+        if (HD_MIXED) tr->collisions_of[hd_sizes_kind(sizes, i) + hd_sizes_kind(sizes, j)]++;
+        approach *= hd_sizes_mass(sizes, i) * share[0];
         for (int d = 0; d < HD_DIM; d++) tr->virial[d] -= approach * event.n[d] * event.n[d];
         status = put(record, &event);
     }
@@ -221,9 +254,11 @@ static hd_status reflect(hard *tr, hd_record *record, hd_event *event, int32_t i
     const int d = how->direction;
     const hd_cell_line *line = &tr->motion.cells.line[d][disk->cell[d]];
     hd_disk_move_to(disk, t);
-    disk->q[d] = line->bound[how->side == HIGH]; /* so that rounding never adds up */
+    disk->q[d] = hd_cell_line_end(line, how->side == HIGH, /* so that rounding never adds up */
+                                  hd_sizes_radius(&tr->motion.sizes, disk));
     event->n[d] = 1.0;
     for (int e = 0; e < HD_DIM; e++) event->p[e] = disk->p[e];
+    if (HD_MIXED) press(tr, event, i);
     disk->p[d] = -disk->p[d];
     disk->collisions++;
     hd_cells_fold(&tr->motion.cells, disk);

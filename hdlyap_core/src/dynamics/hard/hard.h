@@ -18,7 +18,8 @@ typedef struct hard {
     double epoch_start; /**< simulated time, a multiple of epoch_length */
     double now;         /**< simulated time */
     uint64_t collisions, wall_events;
-    double virial[HD_DIM]; /**< sum over collisions; see hd_totals */
+    uint64_t collisions_of[3]; /**< see hd_totals; of disks of two kinds */
+    double virial[HD_DIM];     /**< sum over collisions; see hd_totals */
 } hard;
 
 /* ---- for all hard particles ---------------------------------------------------------------- */
@@ -32,6 +33,10 @@ void hd_hard_clear(hard *tr);
  * image that i sees. Each pair is computed twice, once from either side, and i = j is one, too. */
 double hd_hard_least(const hard *tr, double (*of)(const hard *tr, int32_t i, int32_t j,
                                                   const double shift[HD_DIM]));
+/** The same over pairs with disk i. */
+double hd_hard_least_of(const hard *tr, int32_t i,
+                        double (*of)(const hard *tr, int32_t i, int32_t j,
+                                     const double shift[HD_DIM]));
 /** Fills energy_rounding, momentum and angular_momentum. */
 void hd_hard_examine(const hard *tr, hd_invariants *examined);
 /** Writes or reads time, counters and the states of disks; reading fills the cells, too. */
@@ -56,6 +61,9 @@ HD_MUST_CHECK hd_status hd_hard_create(void **state, const hd_scene_def *def);
 void hd_hard_free(void *state);
 HD_MUST_CHECK hd_status hd_hard_advance(void *state, hd_record *record, double t_end);
 void hd_hard_archive(void *state, hd_archive *archive);
+void hd_hard_state(const void *state, double *q, double *p);
+/** Predicts all events anew. */
+void hd_hard_predict(hard *tr);
 
 /** See hd_invariants.overlap and hd_invariants.overlap_rounding. */
 double hd_hard_overlap(const hard *tr);

@@ -37,13 +37,15 @@ static bool in_its_cell(const hard *tr, const hd_disk *disk)
     const double close = fmax(PLACE_CLOSE, tr->overlap_max);
     double at[HD_DIM];
     for (int d = 0; d < HD_DIM; d++) {
-        const double *bound = tr->motion.cells.line[d][disk->cell[d]].bound;
+        const hd_cell_line *line = &tr->motion.cells.line[d][disk->cell[d]];
+        const double radius = hd_sizes_radius(&tr->motion.sizes, disk);
         const double flight = disk->p[d] * (tr->now - tr->epoch_start - disk->t);
         const double place = disk->q[d] + flight - disk->wrap[d] * tr->motion.cells.box[d];
         at[d] = place;
-        if (!(place >= bound[0] - close && place <= bound[1] + close)) return false;
+        if (!(place >= hd_cell_line_end(line, 0, radius) - close)) return false;
+        if (!(place <= hd_cell_line_end(line, 1, radius) + close)) return false;
     }
-    const hd_wall *wall = &tr->motion.wall;
+    const hd_wall *wall = hd_motion_wall(&tr->motion, disk);
     return !wall->excess || wall->excess(wall, at) <= close;
 }
 
@@ -71,7 +73,7 @@ static void book(hard *tr)
         hd_cells_book(&tr->motion.cells, tr->motion.disk, i);
 }
 
-static void predict(hard *tr)
+void hd_hard_predict(hard *tr)
 {
     hd_queue_restart(&tr->motion.queue);
     for (int32_t i = 0; i < tr->motion.count; i++) hd_prediction_renew(&tr->motion, i);
@@ -83,6 +85,9 @@ void hd_hard_keep(hard *tr, hd_archive *archive)
     hd_archive_double(archive, "trajectory time", &tr->now);
     hd_archive_bits(archive, "trajectory collisions", &tr->collisions);
     hd_archive_bits(archive, "trajectory wall events", &tr->wall_events);
+    static const char *const of[] = {"trajectory collisions 11", "trajectory collisions 12",
+                                     "trajectory collisions 22"};
+    for (int k = 0; HD_MIXED && k < 3; k++) hd_archive_bits(archive, of[k], &tr->collisions_of[k]);
     hd_archive_doubles(archive, "trajectory virial", tr->virial, HD_DIM);
     disks_archive(tr, archive);
     if (!archive->writing && hd_archive_good(archive)) book(tr);
@@ -96,7 +101,7 @@ void hd_hard_archive(void *state, hd_archive *archive)
     const char *fault = hd_hard_inconsistency(tr, hd_hard_kinetic_energy(tr));
     if (!fault && hd_hard_overlap(tr) > tr->overlap_max) fault = "disks overlap";
     if (fault) hd_archive_refuse(archive, "trajectory", fault);
-    if (!archive->writing && hd_archive_good(archive)) predict(tr);
+    if (!archive->writing && hd_archive_good(archive)) hd_hard_predict(tr);
 }
 
 uint32_t hd_hard_fingerprint(const void *state)

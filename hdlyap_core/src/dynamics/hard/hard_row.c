@@ -1,9 +1,11 @@
 /** Answers questions about the state of hard particles; the row of disks and of spheres. */
 #include <float.h>
 #include <math.h>
+#include <string.h>
 
 #include "base/check.h"
 #include "dynamics/hard/event.h"
+#include "dynamics/hard/grow.h"
 #include "dynamics/hard/hard.h"
 #include "dynamics/hard/kinds.h"
 #include "dynamics/hard/maps.h"
@@ -26,6 +28,7 @@ void hd_hard_totals(const void *state, hd_totals *totals)
     *totals = (hd_totals){
         .collisions = tr->collisions, .wall_events = tr->wall_events, .time = tr->now};
     totals->collisions_of[0] = tr->collisions;
+    if (HD_MIXED) memcpy(totals->collisions_of, tr->collisions_of, sizeof tr->collisions_of);
     for (int d = 0; d < HD_DIM; d++) totals->virial[d] = tr->virial[d];
 }
 
@@ -38,14 +41,15 @@ static hd_disk disk_now(const hard *tr, int32_t i)
     return disk;
 }
 
-static void hard_state(const void *state, double *q, double *p)
+void hd_hard_state(const void *state, double *q, double *p)
 {
     const hard *tr = state;
     for (int32_t i = 0; i < tr->motion.count; i++) {
         const hd_disk disk = disk_now(tr, i);
+        const double root = sqrt(hd_sizes_mass(&tr->motion.sizes, i));
         for (int d = 0; d < HD_DIM; d++) {
             if (q) q[HD_DIM * i + d] = disk.q[d];
-            if (p) p[HD_DIM * i + d] = disk.p[d];
+            if (p) p[HD_DIM * i + d] = root * disk.p[d];
         }
     }
 }
@@ -53,7 +57,8 @@ static void hard_state(const void *state, double *q, double *p)
 static void momentum(const hard *tr, double *sum)
 {
     for (int i = 0; i < tr->motion.count; i++)
-        for (int d = 0; d < HD_DIM; d++) sum[d] += tr->motion.disk[i].p[d];
+        for (int d = 0; d < HD_DIM; d++)
+            sum[d] += hd_sizes_mass(&tr->motion.sizes, i) * tr->motion.disk[i].p[d];
 }
 
 /** Angular momentum about the middle of the box. It means something only inside a curved wall,
@@ -64,8 +69,9 @@ static double angular_momentum(const hard *tr)
     for (int32_t i = 0; i < tr->motion.count; i++) {
         hd_disk disk = tr->motion.disk[i];
         hd_disk_move_to(&disk, tr->now - tr->epoch_start);
-        sum += (disk.q[0] - 0.5 * tr->motion.cells.box[0]) * disk.p[1] -
-               (disk.q[1] - 0.5 * tr->motion.cells.box[1]) * disk.p[0];
+        sum += hd_sizes_mass(&tr->motion.sizes, i) *
+               ((disk.q[0] - 0.5 * tr->motion.cells.box[0]) * disk.p[1] -
+                (disk.q[1] - 0.5 * tr->motion.cells.box[1]) * disk.p[0]);
     }
     return sum;
 }
@@ -75,7 +81,8 @@ double hd_hard_kinetic_energy(const void *state)
     const hard *tr = state;
     double twice = 0;
     for (int32_t i = 0; i < tr->motion.count; i++)
-        twice += hd_contact_dot(tr->motion.disk[i].p, tr->motion.disk[i].p);
+        twice += hd_sizes_mass(&tr->motion.sizes, i) *
+                 hd_contact_dot(tr->motion.disk[i].p, tr->motion.disk[i].p);
     return 0.5 * twice;
 }
 
@@ -89,7 +96,8 @@ double hd_hard_overlap_rounding(const hard *tr)
 {
     double longest = 0.0;
     for (int d = 0; d < HD_DIM; d++) longest = fmax(longest, tr->motion.cells.box[d]);
-    return hd_overlap_rounding(longest, tr->epoch_length);
+    const double fastest = HD_MIXED ? tr->motion.sizes.fastest : 1.0;
+    return hd_overlap_rounding(longest, tr->epoch_length * fastest);
 }
 
 /** The least value of `of` for disk i with each disk in the n-th of the cells around it. */
@@ -117,29 +125,34 @@ static double least_in_cell(const hard *tr, int32_t i, int n,
     return least;
 }
 
+double hd_hard_least_of(const hard *tr, int32_t i,
+                        double (*of)(const hard *, int32_t, int32_t, const double[HD_DIM]))
+{
+    double least = INFINITY;
+    for (int n = 0; n < HD_CELLS_AROUND; n++) least = fmin(least, least_in_cell(tr, i, n, of));
+    return least;
+}
+
 double hd_hard_least(const hard *tr,
                      double (*of)(const hard *, int32_t, int32_t, const double[HD_DIM]))
 {
     double least = INFINITY;
-    for (int32_t i = 0; i < tr->motion.count; i++)
-        for (int n = 0; n < HD_CELLS_AROUND; n++) least = fmin(least, least_in_cell(tr, i, n, of));
+    for (int32_t i = 0; i < tr->motion.count; i++) least = fmin(least, hd_hard_least_of(tr, i, of));
     return least;
 }
 
-/** Infinite if i = j. */
-static double distance_squared(const hard *tr, int32_t i, int32_t j, const double shift[HD_DIM])
+/** Distance of their rims, infinite if i = j. */
+static double gap(const hard *tr, int32_t i, int32_t j, const double shift[HD_DIM])
 {
     double r[HD_DIM];
     hd_contact_separation(r, &tr->motion.disk[i], &tr->motion.disk[j], shift,
                           tr->now - tr->epoch_start);
-    return i == j ? INFINITY : hd_contact_dot(r, r);
+    const double touching = hd_sizes_radius(&tr->motion.sizes, &tr->motion.disk[i]) +
+                            hd_sizes_radius(&tr->motion.sizes, &tr->motion.disk[j]);
+    return i == j ? INFINITY : sqrt(hd_contact_dot(r, r)) - touching;
 }
 
-double hd_hard_overlap(const hard *tr)
-{
-    const double least = hd_hard_least(tr, distance_squared);
-    return least < 1.0 ? 1.0 - sqrt(least) : 0.0;
-}
+double hd_hard_overlap(const hard *tr) { return fmax(0.0, -hd_hard_least(tr, gap)); }
 
 void hd_hard_examine(const hard *tr, hd_invariants *examined)
 {
@@ -165,8 +178,7 @@ static hd_status hard_check(const hd_scene_def *scene, char *message, size_t siz
 {
     const hd_container_row *container = hd_container_of(scene);
     char said[SAID];
-    if (HD_MIXED)
-        return hd_refuse(message, size, "second_fraction: must be 0 until collisions can");
+    if (HD_MIXED) return hd_hard_grow_check(scene, message, size);
     if (container->start_distance(scene) >= HD_START_DISTANCE_MIN) return HD_OK;
     container->say(scene, said, sizeof said);
     return hd_refuse(
@@ -217,7 +229,7 @@ const hd_dynamics ROW = {.particles = HD_DIM == 2 ? "disks" : "spheres",
                          .free = hd_hard_free,
                          .advance = hd_hard_advance,
                          .time = hd_hard_time,
-                         .state = hard_state,
+                         .state = hd_hard_state,
                          .totals = hd_hard_totals,
                          .examine = hard_examine,
                          .archive = hd_hard_archive,

@@ -6,6 +6,14 @@
 
 #define HD_KERNEL static inline __attribute__((always_inline))
 
+/** With masses, coordinates are weighted by their roots, and a collision has to do with those of i
+ * and j times sqrt(2 m_j / (m_i + m_j)) and sqrt(2 m_i / (m_i + m_j)) [T3]. */
+#if HD_MIXED
+#define HD_MAP_WEIGHT(map, k) ((map)->weight[k])
+#else
+#define HD_MAP_WEIGHT(map, k) 1.0
+#endif
+
 /** Free flight [T1]: dq += tau dp. v points to the rows of a disk: `half` numbers dq, then as many
  * dp. */
 HD_KERNEL void hd_fly(double *restrict v, double tau, int half)

@@ -21,6 +21,9 @@ typedef struct hd_tangent_map {
     double normal;     /**< b = p.n: < 0; at a round wall > 0 */
     double tangential; /**< p_t = p.t */
     double ratio;      /**< p_t / b */
+#if HD_MIXED
+    double weight[2]; /**< see HD_MAP_WEIGHT */
+#endif
 } hd_tangent_map;
 
 /** Finds the curvature of a round wall: the normal in the event is as long as the radius. */
@@ -44,27 +47,35 @@ static inline void hd_map_fill(hd_tangent_map *map, const hd_event *event)
     map->ratio = map->tangential / map->normal;
 }
 
+/** The normal turns `by` times as far as it does if disks touch at the distance 1. */
+static inline void hd_map_turn(hd_tangent_map *map, double by)
+{
+    map->normal *= by;
+    map->tangential *= by;
+}
+
 /** Free flights, then the collision [T3]. s is the part of the displacement that turns n. */
 HD_KERNEL void hd_collide(double *restrict vi, double *restrict vj, const hd_tangent_map *map,
                           int width)
 {
     const double nx = map->n[0], ny = map->n[1], ti = map->flight[0], tj = map->flight[1];
     const double b = map->normal, pt = map->tangential, ratio = map->ratio;
+    const double wi = HD_MAP_WEIGHT(map, 0), wj = HD_MAP_WEIGHT(map, 1);
 #pragma GCC ivdep
     for (int k = 0; k < width; k++) {
         double *qi = vi + k, *pi = vi + 2 * width + k, *qj = vj + k, *pj = vj + 2 * width + k;
         const double qix = qi[0] + ti * pi[0], qiy = qi[width] + ti * pi[width];
         const double qjx = qj[0] + tj * pj[0], qjy = qj[width] + tj * pj[width];
-        const double qx = qjx - qix, qy = qjy - qiy;
-        const double px = pj[0] - pi[0], py = pj[width] - pi[width];
+        const double qx = wj * qjx - wi * qix, qy = wj * qjy - wi * qiy;
+        const double px = wj * pj[0] - wi * pi[0], py = wj * pj[width] - wi * pi[width];
         const double a = qx * nx + qy * ny;                     /* dq.n */
         const double s = qy * nx - qx * ny - ratio * a;         /* dq.t - (p_t / b) a */
         const double u = px * nx + py * ny + pt * s, w = b * s; /* d + p_t s, b s */
         const double ux = u * nx - w * ny, uy = u * ny + w * nx;
-        qi[0] = qix + a * nx, qi[width] = qiy + a * ny;
-        qj[0] = qjx - a * nx, qj[width] = qjy - a * ny;
-        pi[0] += ux, pi[width] += uy;
-        pj[0] -= ux, pj[width] -= uy;
+        qi[0] = qix + wi * a * nx, qi[width] = qiy + wi * a * ny;
+        qj[0] = qjx - wj * a * nx, qj[width] = qjy - wj * a * ny;
+        pi[0] += wi * ux, pi[width] += wi * uy;
+        pj[0] -= wj * ux, pj[width] -= wj * uy;
     }
 }
 

@@ -13,6 +13,9 @@ typedef struct hd_tangent_map {
     double normal;         /**< b = p.n < 0 */
     double across[HD_DIM]; /**< p_t = p - b n */
     double ratio[HD_DIM];  /**< p_t / b */
+#if HD_MIXED
+    double weight[2]; /**< see HD_MAP_WEIGHT */
+#endif
 } hd_tangent_map;
 
 /** Fills all but i, j and the flights, which the map has already. A wall needs n alone. */
@@ -27,6 +30,13 @@ static inline void hd_map_fill(hd_tangent_map *map, const hd_event *event)
     }
 }
 
+/** The normal turns `by` times as far as it does if spheres touch at the distance 1. */
+static inline void hd_map_turn(hd_tangent_map *map, double by)
+{
+    map->normal *= by;
+    for (int d = 0; d < HD_DIM; d++) map->across[d] *= by;
+}
+
 /** Free flights, then the collision [T22]. s is the part of the displacement that turns n. */
 HD_KERNEL void hd_collide(double *restrict vi, double *restrict vj, const hd_tangent_map *map,
                           int width)
@@ -35,6 +45,7 @@ HD_KERNEL void hd_collide(double *restrict vi, double *restrict vj, const hd_tan
     const double tx = map->across[0], ty = map->across[1], tz = map->across[2];
     const double rx = map->ratio[0], ry = map->ratio[1], rz = map->ratio[2];
     const double ti = map->flight[0], tj = map->flight[1];
+    const double wi = HD_MAP_WEIGHT(map, 0), wj = HD_MAP_WEIGHT(map, 1);
 #pragma GCC ivdep
     for (int k = 0; k < width; k++) {
         double *xi = vi + k, *yi = xi + width, *zi = yi + width;
@@ -43,16 +54,17 @@ HD_KERNEL void hd_collide(double *restrict vi, double *restrict vj, const hd_tan
         double *pxj = zj + width, *pyj = pxj + width, *pzj = pyj + width;
         const double xa = *xi + ti * *pxi, ya = *yi + ti * *pyi, za = *zi + ti * *pzi;
         const double xb = *xj + tj * *pxj, yb = *yj + tj * *pyj, zb = *zj + tj * *pzj;
-        const double x = xb - xa, y = yb - ya, z = zb - za;
+        const double x = wj * xb - wi * xa, y = wj * yb - wi * ya, z = wj * zb - wi * za;
         const double a = x * nx + y * ny + z * nz; /* dq.n */
         const double sx = x - a * nx - a * rx, sy = y - a * ny - a * ry, sz = z - a * nz - a * rz;
-        const double u = (*pxj - *pxi) * nx + (*pyj - *pyi) * ny + (*pzj - *pzi) * nz + tx * sx +
-                         ty * sy + tz * sz; /* dp.n + p_t.s */
+        const double u = (wj * *pxj - wi * *pxi) * nx + (wj * *pyj - wi * *pyi) * ny +
+                         (wj * *pzj - wi * *pzi) * nz + tx * sx + ty * sy +
+                         tz * sz; /* dp.n + p_t.s */
         const double ux = u * nx + b * sx, uy = u * ny + b * sy, uz = u * nz + b * sz;
-        *xi = xa + a * nx, *yi = ya + a * ny, *zi = za + a * nz;
-        *xj = xb - a * nx, *yj = yb - a * ny, *zj = zb - a * nz;
-        *pxi += ux, *pyi += uy, *pzi += uz;
-        *pxj -= ux, *pyj -= uy, *pzj -= uz;
+        *xi = xa + wi * a * nx, *yi = ya + wi * a * ny, *zi = za + wi * a * nz;
+        *xj = xb - wj * a * nx, *yj = yb - wj * a * ny, *zj = zb - wj * a * nz;
+        *pxi += wi * ux, *pyi += wi * uy, *pzi += wi * uz;
+        *pxj -= wj * ux, *pyj -= wj * uy, *pzj -= wj * uz;
     }
 }
 

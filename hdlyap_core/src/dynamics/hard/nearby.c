@@ -129,7 +129,8 @@ static inline int earliest_number(const earliest *e)
 
 /** Contact times of one disk, which `a` holds twice, with the k-th and (k + 1)-th disk nearby. */
 static inline hd_pair contacts_with(const hd_two_disks *a, const hd_nearby *near, int k,
-                                    const hd_disk *disks, const double box[HD_DIM])
+                                    const hd_disk *disks, const double box[HD_DIM],
+                                    const hd_sizes *sizes, hd_pair radius)
 {
     const hd_disk *b0 = &disks[near->disk[k]], *b1 = &disks[near->disk[k + 1]];
     const hd_two_disks b = hd_two_disks_of(b0, b1);
@@ -139,19 +140,21 @@ static inline hd_pair contacts_with(const hd_two_disks *a, const hd_nearby *near
         const hd_pair edges = {image[0] - b0->wrap[d], image[1] - b1->wrap[d]};
         shift[d] = edges * box[d];
     }
-    return hd_contact_times(a, &b, shift);
+    const hd_pair radii = {hd_sizes_radius(sizes, b0), hd_sizes_radius(sizes, b1)};
+    return hd_contact_times(a, &b, shift, radius + radii);
 }
 
 /** Does what hd_nearby_contacts does, once the places of the last step are filled. */
 HD_MULTIVERSION
 static int listed_contacts(double *contact, const hd_nearby *near, const hd_disk *disks, int32_t i,
-                           const double box[HD_DIM])
+                           const double box[HD_DIM], const hd_sizes *sizes)
 {
+    const hd_pair radius = hd_pair_both(hd_sizes_radius(sizes, &disks[i]));
     const hd_two_disks a = hd_two_disks_of(&disks[i], &disks[i]);
     earliest e = {.t = hd_pair_both(INFINITY)};
     for (int k = 0; k < near->count; k += STEP) {
-        const hd_pair t = contacts_with(&a, near, k, disks, box);
-        const hd_pair u = contacts_with(&a, near, k + 2, disks, box);
+        const hd_pair t = contacts_with(&a, near, k, disks, box, sizes, radius);
+        const hd_pair u = contacts_with(&a, near, k + 2, disks, box, sizes, radius);
         memcpy(&contact[k], &t, sizeof t);
         memcpy(&contact[k + 2], &u, sizeof u);
         earliest_lower(&e, t, k);
@@ -161,10 +164,10 @@ static int listed_contacts(double *contact, const hd_nearby *near, const hd_disk
 }
 
 int hd_nearby_contacts(double *contact, hd_nearby *near, const hd_disk *disks, int32_t i,
-                       const double box[HD_DIM])
+                       const double box[HD_DIM], const hd_sizes *sizes)
 {
     const int_quad self = spread(i), zero = spread(0);
     memcpy(&near->disk[near->count], &self, sizeof self); /* it never meets itself: p = 0 */
     for (int d = 0; d < HD_DIM; d++) memcpy(&near->image[d][near->count], &zero, sizeof zero);
-    return listed_contacts(contact, near, disks, i, box);
+    return listed_contacts(contact, near, disks, i, box, sizes);
 }

@@ -6,6 +6,7 @@
 
 #include "dynamics/hard/cells.h"
 #include "dynamics/hard/contact.h"
+#include "dynamics/hard/sizes.h"
 
 /** Places of all cells around a disk; and spare places, which the copy of a whole cell and the last
  * step of contacts write to. */
@@ -37,6 +38,6 @@ enum { HD_NEARBY_NONE = -1, HD_NEARBY_TIED = -2 };
  * contact has room for HD_NEARBY_SPARE more. Returns the index of the earliest, HD_NEARBY_NONE, or
  * HD_NEARBY_TIED if several may be equally early. Overwrites the spare places of near->disk. */
 int hd_nearby_contacts(double *contact, hd_nearby *near, const hd_disk *disks, int32_t i,
-                       const double box[HD_DIM]);
+                       const double box[HD_DIM], const hd_sizes *sizes);
 
 #endif

@@ -82,7 +82,8 @@ static void predict_beside(hd_motion *m, int32_t i, int d, int side)
 static double edge_time(const hd_motion *m, const hd_disk *disk, int d)
 {
     const hd_cell_line *line = &m->cells.line[d][disk->cell[d]];
-    const double edge = line->bound[disk->p[d] > 0] + disk->wrap[d] * m->cells.box[d];
+    const double end = hd_cell_line_end(line, disk->p[d] > 0, hd_sizes_radius(&m->sizes, disk));
+    const double edge = end + disk->wrap[d] * m->cells.box[d];
     const double wait = (edge - disk->q[d]) / disk->p[d];
     const double t = disk->t + (wait > 0 ? wait : 0.0); /* 0: it is there within rounding */
     return disk->p[d] == 0 ? INFINITY : t;

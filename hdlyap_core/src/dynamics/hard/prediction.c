@@ -9,7 +9,7 @@ enum { HD_WALL_CONTACTS = 0 };
 static void predict_nearby(hd_motion *m, int32_t i, hd_nearby *near)
 {
     double contact[HD_NEARBY_MAX + HD_NEARBY_SPARE];
-    const int first = hd_nearby_contacts(contact, near, m->disk, i, m->cells.box);
+    const int first = hd_nearby_contacts(contact, near, m->disk, i, m->cells.box, &m->sizes);
     if (first >= 0) (void)predict_contact(m, i, near, first, contact[first]);
     if (first != HD_NEARBY_TIED) return;
     for (int k = 0; k < near->count; k++) (void)predict_contact(m, i, near, k, contact[k]);
@@ -19,8 +19,9 @@ static void predict_nearby(hd_motion *m, int32_t i, hd_nearby *near)
  * because the wall's number as a partner is the highest. */
 static void predict_round_wall(hd_motion *m, int32_t i)
 {
-    m->predicted[i] = (prediction){.contact = hd_round_wall_time(&m->wall, &m->disk[i]),
-                                   .partner = m->count};
+    m->predicted[i] = (prediction){
+        .contact = hd_round_wall_time(hd_motion_wall(m, &m->disk[i]), &m->disk[i]),
+        .partner = m->count};
 }
 
 void hd_prediction_renew(hd_motion *m, int32_t i)

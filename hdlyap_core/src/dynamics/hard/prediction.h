@@ -7,6 +7,7 @@
 #include "dynamics/hard/contact.h"
 #include "dynamics/hard/queue.h"
 #include "dynamics/hard/round_wall.h"
+#include "dynamics/hard/sizes.h"
 
 enum { PAIR, WALL, EDGE };  /* kinds of events; at the same time the earlier kind comes first */
 enum { LOW = 0, HIGH = 2 }; /* sides of a cell, as in hd_cell_line */
@@ -23,11 +24,18 @@ typedef struct prediction {
 typedef struct hd_motion {
     int32_t count;
     hd_disk *disk; /**< [count + 1]: the last one is no disk but stands for the round wall */
-    hd_wall wall;  /**< the round wall; its functions are NULL in a box */
+    hd_sizes sizes;
+    hd_wall wall; /**< the round wall; its functions are NULL in a box */
     prediction *predicted;
     hd_cells cells;
     hd_queue queue;
 } hd_motion;
+
+/** The round wall for the centre of a disk. */
+static inline const hd_wall *hd_motion_wall(const hd_motion *m, const hd_disk *disk)
+{
+    return HD_MIXED ? &m->sizes.wall[disk->size] : &m->wall;
+}
 
 /** Predicts all events of disk i from its present state, and puts the earliest into the queue. */
 void hd_prediction_renew(hd_motion *m, int32_t i);

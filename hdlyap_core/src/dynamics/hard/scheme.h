@@ -5,7 +5,8 @@
  *   hd_bodies: the state, whose first member is a `hard`;
  *   HD_HALF: the number of coordinates of a particle;
  *   prepare(state, scene): allocates; release(state): frees;
- *   lattice(scene, q): fills start positions; start(state, q, p): takes them over, or refuses;
+ *   lattice(scene, q): fills start positions, or fails; start(state, q, p): takes them over, or
+ *   refuses;
  *   finish(state, i, t): moves particle i to time t, without a new prediction; returns false if one
  *   of its numbers is not finite;
  *   rests(state, i): whether particle i never moves;
@@ -146,9 +147,9 @@ static hd_status create_on_lattice(void **state, const hd_scene_def *def)
     double *p = hd_memory_alloc(HD_HALF * (size_t)def->number, sizeof *p);
     hd_status status = HD_NO_MEMORY;
     if (q && p) {
-        lattice(def, q);
-        hd_null_space_momenta(def, q, p);
-        status = create_at(state, def, q, p);
+        status = lattice(def, q);
+        if (status == HD_OK) hd_null_space_momenta(def, q, p);
+        if (status == HD_OK) status = create_at(state, def, q, p);
     }
     hd_memory_free(q);
     hd_memory_free(p);
