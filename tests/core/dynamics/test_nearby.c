@@ -195,7 +195,7 @@ static int check_contacts(hd_nearby *near, const hd_disk *disks, int32_t i)
         const hd_disk *b = &disks[near->disk[k]];
         const double shift[2] = {(near->image[0][k] - b->wrap[0]) * box[0],
                                  (near->image[1][k] - b->wrap[1]) * box[1]};
-        const double want = one_contact(&disks[i], b, shift);
+        const double want = one_contact(&disks[i], b, shift, 1.0);
         if (want < INFINITY ? got[k] != want : !isnan(got[k]))
             fail_msg("contact %d of %d at %.17g, wanted %.17g", k, near->count, got[k], want);
         as_early = want < least ? 1 : as_early + (want == least && want < INFINITY);

@@ -90,6 +90,23 @@ static inline hd_scene_def scene_of_kind(hd_particles kind, int count, double de
 #define SCENE_15(field, ...) SCENE_1(field) SCENE_14(__VA_ARGS__)
 #define SCENE_16(field, ...) SCENE_1(field) SCENE_15(__VA_ARGS__)
 
+/** The same scene with particles of a second kind. */
+static inline hd_scene_def with_second(hd_scene_def def, double fraction, double diameter,
+                                       double mass)
+{
+    const double value[] = {fraction, diameter, mass};
+    for (int k = 0; k < 3; k++)
+        hd_parameter_assign(&hd_dynamics_of(&def)->parameter[k], &def, value[k]);
+    return def;
+}
+
+/** A density at which these particles fill such a part of their container. */
+static inline hd_scene_def packed(hd_scene_def def, double packing)
+{
+    def.density *= packing / hd_scene_packing(&def);
+    return def;
+}
+
 /** The box and its disks in one line, for who needs no more. */
 static inline hd_scene_def scene_of(int disks, double density, double aspect, hd_boundary x,
                                     hd_boundary y, uint64_t seed)

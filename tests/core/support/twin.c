@@ -21,6 +21,8 @@ struct twin {
     double box[DIM];
     hd_boundary boundary[DIM];
     double epoch_length, epoch_start;
+    int first;       /**< disks of the first kind; the others are of the second one */
+    double of[2][2]; /**< radius and share of the impulse that the other kind gives, by kind */
     hd_disk *disk;
     contact *pair; /**< [i * n + j], i < j */
 };
@@ -30,6 +32,16 @@ typedef struct candidate {
     int kind;
     int32_t i, j;
 } candidate;
+
+enum { RADIUS, SHARE };
+
+static double radius(const twin *t, int i) { return t->of[i >= t->first][RADIUS]; }
+
+/** Of i, when it meets j. */
+static double share(const twin *t, int i, int j)
+{
+    return (i >= t->first) == (j >= t->first) ? 1.0 : t->of[i >= t->first][SHARE];
+}
 
 /* ---- prediction ---------------------------------------------------------------------------- */
 
@@ -46,24 +58,25 @@ static bool sooner(const contact *a, const contact *b)
 typedef struct encounter {
     const twin *t;
     const hd_disk *a, *b;
+    double touching;       /**< the distance at which they do */
     double r[DIM], p[DIM]; /**< separation at the window's zero, and its velocity */
     contact now, *best;
 } encounter;
 
-/** Images m for which r + p t + m box touches [-1, 1] along d within the window. */
+/** Images m for which r + p t + m box touches [-touching, touching] along d within the window. */
 static void image_range(int32_t range[2], const encounter *e, int d, const double window[2])
 {
     const double a = e->r[d] + e->p[d] * window[0], b = e->r[d] + e->p[d] * window[1];
     range[0] = range[1] = 0;
     if (e->t->boundary[d] == R) return;
-    range[0] = (int32_t)ceil((-1.0 - IMAGE_MARGIN - fmax(a, b)) / e->t->box[d]);
-    range[1] = (int32_t)floor((1.0 + IMAGE_MARGIN - fmin(a, b)) / e->t->box[d]);
+    range[0] = (int32_t)ceil((-e->touching - IMAGE_MARGIN - fmax(a, b)) / e->t->box[d]);
+    range[1] = (int32_t)floor((e->touching + IMAGE_MARGIN - fmin(a, b)) / e->t->box[d]);
 }
 
-/** The part of the window in which |r + p t| <= 1. */
-static void touching_window(double part[2], double r, double p, const double window[2])
+/** The part of the window in which |r + p t| <= reach. */
+static void touching_window(double part[2], double r, double p, const double window[2],
+                            double reach)
 {
-    const double reach = 1.0 + IMAGE_MARGIN;
     memcpy(part, window, 2 * sizeof *part);
     if (p == 0) return;
     part[0] = fmin(fmax((-copysign(reach, p) - r) / p, window[0]), window[1]);
@@ -77,14 +90,15 @@ static void try_images(encounter *e, int d, const double window[2])
     if (d == DIM) {
         double shift[DIM];
         for (int c = 0; c < DIM; c++) shift[c] = e->now.image[c] * e->t->box[c];
-        e->now.t = one_contact(e->a, e->b, shift);
+        e->now.t = one_contact(e->a, e->b, shift, e->touching);
         if (e->now.t < INFINITY && sooner(&e->now, e->best)) *e->best = e->now;
         return;
     }
     image_range(m, e, d, window);
     for (int32_t k = m[0]; k <= m[1]; k++) {
         double part[2];
-        touching_window(part, e->r[d] + k * e->t->box[d], e->p[d], window);
+        touching_window(part, e->r[d] + k * e->t->box[d], e->p[d], window,
+                        e->touching + IMAGE_MARGIN);
         e->now.image[d] = k;
         try_images(e, d + 1, part);
     }
@@ -92,7 +106,11 @@ static void try_images(encounter *e, int d, const double window[2])
 
 static void predict_pair(twin *t, int i, int j)
 {
-    encounter e = {.t = t, .a = &t->disk[i], .b = &t->disk[j], .best = &t->pair[i * t->n + j]};
+    encounter e = {.t = t,
+                   .a = &t->disk[i],
+                   .b = &t->disk[j],
+                   .touching = radius(t, i) + radius(t, j),
+                   .best = &t->pair[i * t->n + j]};
     const double now = fmax(e.a->t, e.b->t), here[DIM] = {0},
                  window[2] = {0, t->epoch_length - now};
     *e.best = (contact){.t = INFINITY};
@@ -109,7 +127,8 @@ static void predict_all_of(twin *t, int i)
 
 static double wall_at(const twin *t, const hd_disk *disk, int d)
 {
-    return disk->p[d] > 0 ? t->box[d] - 0.5 : 0.5;
+    const double reach = radius(t, (int)(disk - t->disk));
+    return disk->p[d] > 0 ? t->box[d] - reach : reach;
 }
 
 static double wall_time(const twin *t, const hd_disk *disk, int d)
@@ -159,8 +178,8 @@ static void fold(const twin *t, hd_disk *disk)
         if (t->boundary[d] == P) disk->q[d] -= floor(disk->q[d] / t->box[d]) * t->box[d];
 }
 
-/** r.r - 1 as a double and the correction lost in it, added last. */
-static double excess_of(const double r[DIM])
+/** r.r - s2 as a double and the correction lost in it, added last; over s2. */
+static double excess_of(const double r[DIM], double s2)
 {
     double all = r[0] * r[0], lost = 0.0;
     for (int d = 1; d < DIM; d++) {
@@ -169,7 +188,7 @@ static double excess_of(const double r[DIM])
         all = sum;
     }
     for (int d = 0; d < DIM; d++) lost += fma(r[d], r[d], -(r[d] * r[d]));
-    return (all - 1.0) + lost;
+    return ((all - s2) + lost) / s2;
 }
 
 /** An approach by less than this is rounding of the momenta. */
@@ -188,11 +207,11 @@ static void longest_of(double u[DIM], const double r[DIM])
     for (int d = 0; d < DIM; d++) u[d] = d == most ? copysign(1.0, r[d]) : 0.0;
 }
 
-static void push(hd_disk *a, hd_disk *b, const double along[DIM], double impulse)
+static void push(twin *t, int i, int j, const double along[DIM], double impulse)
 {
     for (int d = 0; d < DIM; d++) {
-        a->p[d] += impulse * along[d];
-        b->p[d] -= impulse * along[d];
+        t->disk[i].p[d] += share(t, i, j) * (impulse * along[d]);
+        t->disk[j].p[d] -= share(t, j, i) * (impulse * along[d]);
     }
 }
 
@@ -211,13 +230,14 @@ static bool collide(twin *t, hd_event *event, const candidate *c)
         event->n[d] = r[d] / distance;
         event->p[d] = b->p[d] - a->p[d];
     }
-    const double approach = hd_contact_dot(event->p, r), lost = lost_by(a, b);
+    const double touching = radius(t, c->i) + radius(t, c->j), s2 = touching * touching;
+    const double approach = hd_contact_dot(event->p, r) / s2, lost = lost_by(a, b);
     const bool exchanged = approach < -lost;
     longest_of(u, r);
     if (exchanged)
-        push(a, b, r, approach - approach * excess_of(r));
+        push(t, c->i, c->j, r, approach - approach * excess_of(r, s2));
     else if (approach < 0)
-        push(a, b, u, -lost);
+        push(t, c->i, c->j, u, -lost);
     fold(t, a);
     fold(t, b);
     predict_all_of(t, c->i);
@@ -282,8 +302,37 @@ static double enskog(double density)
 static double epoch_for(const hd_scene_def *def)
 {
     int exponent;
-    const double part = frexp(fmin(32.0 / enskog(def->density), 16384.0), &exponent);
+    hd_kind kind[HD_KINDS_MAX];
+    const bool alike = hd_scene_kinds(def, kind) == 1 && kind[0].diameter == 1;
+    const double rate = alike
+                            ? enskog(def->density) /* what theory says of mixtures, gas is asked */
+                            : 2.0 * hd_dynamics_of(def)->collision_rate(def) / def->number;
+    const double part = frexp(fmin(32.0 / rate, 16384.0), &exponent);
     return ldexp(1.0, part == 0.5 ? exponent - 1 : exponent);
+}
+
+/** A parameter that only disks and spheres have. */
+static double second_of(const hd_scene_def *def, const char *name)
+{
+    const hd_dynamics *of = hd_dynamics_of(def);
+    for (int k = 0; k < of->parameters; k++)
+        if (strcmp(of->parameter[k].name, name) == 0)
+            return hd_parameter_value(&of->parameter[k], def);
+    return NAN;
+}
+
+/** Sizes, and shares that add up to 2 to the last bit: the larger one is rounded. */
+static void kinds_of(twin *t, const hd_scene_def *def)
+{
+    hd_kind kind[HD_KINDS_MAX];
+    const int kinds = hd_scene_kinds(def, kind);
+    const double mass = kinds == 1 ? 1.0 : second_of(def, "second_mass");
+    const double larger = mass < 1 ? 2.0 / (1.0 + mass) : 2.0 * mass / (1.0 + mass);
+    t->first = kind[0].number;
+    for (int k = 0; k < 2; k++) {
+        t->of[k][RADIUS] = 0.5 * kind[k < kinds ? k : 0].diameter;
+        t->of[k][SHARE] = (k == 0) == (mass < 1) ? 2.0 - larger : larger;
+    }
 }
 
 twin *twin_create(const hd_scene_def *def, const double *q, const double *p)
@@ -294,6 +343,7 @@ twin *twin_create(const hd_scene_def *def, const double *q, const double *p)
     t->n = def->number;
     memcpy(t->boundary, def->boundary, sizeof t->boundary);
     hd_scene_box(def, t->box);
+    kinds_of(t, def);
     t->epoch_length = epoch_for(def);
     t->disk = calloc(n, sizeof *t->disk);
     t->pair = calloc(n * n, sizeof *t->pair);

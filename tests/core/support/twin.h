@@ -8,7 +8,7 @@
 
 typedef struct twin twin;
 
-/** From the state q[DIM N], p[DIM N] at time 0; NULL when out of memory. */
+/** From q[DIM N], and p[DIM N] over masses, at time 0; NULL when out of memory. */
 twin *twin_create(const hd_scene_def *def, const double *q, const double *p);
 void twin_free(twin *t);
 

@@ -1,4 +1,5 @@
 /** Follows a trajectory and its twin side by side, interval by interval. */
+#include "bodies.h"
 #include "twin.h"
 
 /** Intervals are cut unevenly so that their ends fall anywhere in an epoch. */
@@ -42,7 +43,9 @@ size_t twin_follow(hd_trajectory *fast, const hd_scene_def *def, size_t events, 
     HEAP double *q = calloc(2 * DIM * (size_t)def->number, sizeof *q);
     double *p = q + DIM * def->number;
     assert_non_null(q);
-    hd_trajectory_state(fast, q, p);
+    hd_trajectory_state(fast, q, NULL);
+    for (int k = 0; k < DIM * def->number; k++)
+        p[k] = hard_in(fast)->motion.disk[k / DIM].p[k % DIM];
     twin *slow = twin_create(def, q, p);
     assert_non_null(slow);
     OWNED(hd_record) *log = new_log();
