@@ -29,6 +29,11 @@ static void compare(hd_scene_def def)
 }
 
 TEST(runs_are_those_of_one_rank) { compare(scene_of_runs(HD_EXPONENTS_POSITIVE)); }
+TEST(mixtures_are_those_of_one_rank)
+{
+    compare(with_second(scene_of_runs(HD_EXPONENTS_POSITIVE), 0.4, 1.2, 3.0));
+}
+
 TEST(halves_are_those_of_one_rank) { compare(scene_of_runs(HD_EXPONENTS_ALL)); }
 
 int main(int argc, char **argv) { return ranks_main(argc, argv); }

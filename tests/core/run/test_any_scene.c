@@ -150,6 +150,16 @@ static bool is_left_out(hd_random *random, const hd_parameter *p)
     return is_named(p, "max_wave_number") && chance(random, 0.8);
 }
 
+/** Disks or spheres of two kinds. */
+static void make_mixed(hd_random *random, hd_scene_def *def, bool wild)
+{
+    const hd_dynamics *of = hd_dynamics_of(def);
+    for (int k = 0; k < of->parameters; k++) {
+        put_usual(random, def, &of->parameter[k]);
+        if (wild && chance(random, 0.1)) put_wild(random, def, &of->parameter[k]);
+    }
+}
+
 /** A third of the scenes have wild values; the others are possible one by one, if not together. */
 static hd_scene_def drawn(hd_random *random)
 {
@@ -169,30 +179,29 @@ static hd_scene_def drawn(hd_random *random)
     if (chance(random, 0.05)) make_narrow(random, &def);
     if (hd_scene_check(&def, NULL, 0) == HD_OK && chance(random, 0.2)) make_dense(random, &def);
     def.seed = bits(random);
+    if (chance(random, 0.25)) make_mixed(random, &def, wild);
     return def;
 }
 
 static void print_scene(int number, const hd_scene_def *def)
 {
-    int count;
-    const hd_parameter *rows = hd_scene_parameters(&count);
+    const hd_parameter *p;
     print_error("HDLYAP_CASE=%d tries it alone: seed %llu", number, (unsigned long long)def->seed);
-    for (int k = 0; k < count; k++)
-        print_error(" %s %a", rows[k].name, hd_parameter_value(&rows[k], def));
+    for (int k = 0; (p = hd_parameter_of(def, k)); k++)
+        print_error(" %s %a", p->name, hd_parameter_value(p, def));
     print_error("\n");
 }
 
 /* ---- what becomes of them ------------------------------------------------------------------ */
 
 /** One line, which begins with the name of a parameter, and its value. */
-static bool is_named_line(const char *line)
+static bool is_named_line(const hd_scene_def *def, const char *line)
 {
-    int count;
-    const hd_parameter *rows = hd_scene_parameters(&count);
+    const hd_parameter *p;
     if (strchr(line, '\n') || !strstr(line, ": ")) return false;
-    for (int k = 0; k < count; k++) {
-        const size_t length = strlen(rows[k].name);
-        if (strncmp(line, rows[k].name, length) == 0 && strncmp(line + length, " = ", 3) == 0)
+    for (int k = 0; (p = hd_parameter_of(def, k)); k++) {
+        const size_t length = strlen(p->name);
+        if (strncmp(line, p->name, length) == 0 && strncmp(line + length, " = ", 3) == 0)
             return true;
     }
     return false;
@@ -343,7 +352,7 @@ static const char *events_fault(hd_random *random, const hd_scene_def *def, tall
 static const char *refusal_fault(hd_random *random, const hd_scene_def *def, const char *line,
                                  tally *seen)
 {
-    if (!is_named_line(line)) return "the line names no parameter";
+    if (!is_named_line(def, line)) return "the line names no parameter";
     seen->refused++;
     return same_in_short_room(def, line, (size_t)one_of(random, LINE)) ? NULL
                                                                        : "a short room overflows";

@@ -3,14 +3,18 @@
 #include "kept.h"
 #include "same.h"
 
-enum { KINDS = HD_PARTICLES_END + 2, CIRCLE = KINDS - 2, CHAIN = KINDS - 1 };
+enum { MIXED = HD_PARTICLES_END, MIXED_SPHERES, CIRCLE, CHAIN, KINDS };
 
-/** Particles of the core, disks in a circle, or those of a program. */
+/** Particles of the core, disks or spheres of two kinds, disks in a circle, or those of a program.
+ */
 static hd_scene_def of_kind(int kind, int number, int exponents)
 {
+    const hd_particles core = kind < HD_PARTICLES_END ? (hd_particles)kind
+                              : kind == MIXED_SPHERES ? HD_SPHERES
+                                                      : HD_DISKS;
     hd_scene_def def = kind == CHAIN ? chain_of(number, 10.0, exponents)
-                                     : scene_of_kind(kind < CIRCLE ? (hd_particles)kind : HD_DISKS,
-                                                     number, 0.4, 1.0);
+                                     : scene_of_kind(core, number, 0.4, 1.0);
+    if (kind == MIXED || kind == MIXED_SPHERES) def = with_second(def, 0.3, 1.5, 2.0);
     if (kind == CIRCLE)
         def = scene_from(def, .container = HD_CIRCLE, .aspect = usual_scene().aspect);
     def.exponents = exponents;

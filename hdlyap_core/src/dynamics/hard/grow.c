@@ -19,8 +19,9 @@
 #include "scene/null_space.h"
 #include "scene/scene.h"
 
-/** Stops after which no start is found, and particles for which that is tried beforehand. */
-enum { STOPS = 20000, FEW = 1000 };
+/** Stops after which no start is found (dense fluids take 20 to 200), and how many particles of the
+ * largest volume over that of the first kind are few enough to try that beforehand. */
+enum { STOPS = 2000, FEW = 2000 };
 /** Most collisions of a particle between two stops; they have jammed if the time for these becomes
  * such a part of what the fluid's theory expects. */
 static const double BETWEEN = 2.0, JAMMED = 1e-6;
@@ -172,8 +173,9 @@ hd_status hd_hard_grow(const hd_scene_def *def, double *q)
 /** Whether one is found for so many particles as can be tried at once; true for more. */
 static hd_status try_few(bool *found, const hd_scene_def *def)
 {
+    const double largest = hd_kinds_largest(def), square = largest * largest;
     *found = true;
-    if (def->number > FEW) return HD_OK;
+    if (def->number * square * (HD_DIM == 2 ? 1.0 : largest) > FEW) return HD_OK;
     double *q = hd_memory_alloc(HD_DIM * (size_t)def->number, sizeof *q);
     const hd_status status = q ? hd_hard_grow(def, q) : HD_NO_MEMORY;
     hd_memory_free(q);
