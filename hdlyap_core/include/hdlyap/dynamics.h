@@ -39,8 +39,9 @@ typedef struct hd_totals {
                     [time units] */
     /** For each direction d, with r the vector from one particle of a pair to the other: the sum
      * over the collisions of |r_d Delta p_d|, Delta p the momentum that they exchange [sigma
-     * momentum]; or the integral of the sum of r_d F_d over the pairs, F the force on the other
-     * one. Repulsion makes it positive. */
+     * momentum], and of what a wall gives to a particle by being further away from, or nearer to,
+     * its centre than the mean radius, if radii differ; or the integral of the sum of r_d F_d over
+     * the pairs, F the force on the other one. Repulsion makes it positive. */
     double virial[HD_DIMENSION_MAX];
     /** For each direction d: integral of the sum of p_d^2 over the particles. */
     double kinetic[HD_DIMENSION_MAX];

@@ -1,9 +1,9 @@
 /** The scene: everything that defines a run: particles, box, stages, accuracy, observables. Units
  * are reduced. A particle has mass 1; disks, spheres and the two disks of a dumbbell have the
- * diameter sigma = 1, and the unit of energy is the mean kinetic energy of a particle; for soft
- * particles sigma and the unit of energy, epsilon, are those of the potential. The time unit is
- * sigma sqrt(mass / unit of energy). N is the number of particles, n that of vectors. Tags as [T18]
- * are those of equations in THEORY.md. */
+ * diameter sigma = 1 (those of a second kind are said by hd_scene_kinds), and the unit of energy is
+ * the mean kinetic energy of a particle; for soft particles sigma and the unit of energy, epsilon,
+ * are those of the potential. The time unit is sigma sqrt(mass / unit of energy). N is the number
+ * of particles, n that of vectors. Tags as [T18] are those of equations in THEORY.md. */
 #ifndef HDLYAP_SCENE_H
 #define HDLYAP_SCENE_H
 

@@ -48,7 +48,8 @@ hd_totals hd_trajectory_totals(const hd_trajectory *trajectory);
 double hd_trajectory_divergence(const hd_trajectory *trajectory);
 
 /** Writes the present positions, inside the box, to q, and the momenta to p, both
- * [particle][coordinates]. Either may be NULL. O(N). */
+ * [particle][coordinates]; momenta are weighted if masses differ (hd_scene_root_mass). Either may
+ * be NULL. O(N). */
 void hd_trajectory_state(const hd_trajectory *trajectory, double *q, double *p);
 
 /** What is conserved, as it is now. O(N). */

@@ -184,7 +184,7 @@ static void look(seen *s, const hd_scene_def *def, const hd_event *e)
 }
 
 /** Twice the kinetic energy and the virial of the collisions are that of the walls, as if they met
- * centres at the distance 1/2: up to sum m q.v at both ends, over the time [T19]. */
+ * centres at the mean radius: up to sum m q.v at both ends, over the time [T19]. */
 static void expect_virial(hd_scene_def def)
 {
     const double time = 2000.0;
@@ -194,12 +194,16 @@ static void expect_virial(hd_scene_def def)
     CHECK_OK(trajectory_to(tr, log, time));
     for (size_t k = 0; k < log->count; k++) look(&s, &def, &events_in(log)[k]);
     const hd_totals totals = hd_trajectory_totals(tr);
-    double box[3], inside = 2.0 * def.number * time, outside = 0.0, size = 0.0, mass = 0.0;
+    double box[3], inside = 2.0 * def.number * time, outside = 0.0, size = 0.0, mass = 0.0,
+                   diameter = 0.0;
+    hd_kind kind[HD_KINDS_MAX];
+    for (int k = hd_scene_kinds(&def, kind) - 1; k >= 0; k--)
+        diameter += kind[k].diameter * kind[k].number / def.number;
     hd_scene_box(&def, box);
     for (int d = 0; d < DIM; d++) {
         inside += totals.virial[d];
         size = hypot(size, 0.5 * box[d]);
-        outside += 0.5 * s.force[d] * (box[d] - 1.0);
+        outside += 0.5 * s.force[d] * (box[d] - diameter);
     }
     for (int i = 0; i < def.number; i++) mass += pow(hd_scene_root_mass(&def, i), 2.0);
     /* |sum m q.v| <= size sqrt(mass sum m v^2), at both ends */

@@ -177,15 +177,15 @@ static bool exchange(hd_disk *a, hd_disk *b, const double share[2], const double
     return false;
 }
 
-/** Adds what a disk that is larger or smaller than 1 gives to the virial at a wall: gas counts the
- * wall's force as acting at the distance 1/2 from it. The event is filled. */
+/** Adds to the virial what a wall gives to a disk that is larger or smaller than the mean of all:
+ * for gas the wall's force acts at the distance of the mean radius from it. The event is filled. */
 static void press(hard *tr, const hd_event *event, int32_t i)
 {
     const hd_sizes *sizes = &tr->motion.sizes;
     const double n2 = hd_contact_dot(event->n, event->n),
                  along = hd_contact_dot(event->n, event->p);
     const double impulse = 2.0 * hd_sizes_mass(sizes, i) * fabs(along) / (n2 * sqrt(n2)),
-                 beyond = hd_sizes_radius(sizes, &tr->motion.disk[i]) - 0.5;
+                 beyond = hd_sizes_radius(sizes, &tr->motion.disk[i]) - sizes->mean;
     for (int d = 0; d < HD_DIM; d++) tr->virial[d] += impulse * beyond * event->n[d] * event->n[d];
 }
 

@@ -17,6 +17,7 @@ hd_status hd_sizes_create(hd_sizes *sizes, const hd_scene_def *def, int radii)
     if (!sizes->radius || !sizes->wall) return HD_NO_MEMORY;
     for (int k = 0; k < kinds.count; k++) {
         sizes->mass[k] = kinds.kind[k].mass;
+        sizes->mean += 0.5 * kinds.kind[k].diameter * kinds.kind[k].number / def->number;
         sizes->fastest = fmax(sizes->fastest, 1.0 / kinds.root[k]);
         if (radii == 0) sizes->radius[k] = 0.5 * kinds.kind[k].diameter;
         if (radii == 0) sizes->wall[k] = hd_wall_of(def, sizes->radius[k]);

@@ -12,6 +12,7 @@ typedef struct hd_sizes {
     hd_wall *wall;            /**< by hd_disk.size: the round wall for their centres */
     double mass[2], share[2]; /**< by kind; see hd_hard_share */
     double fastest;           /**< root of the lightest mass' inverse */
+    double mean;              /**< mean radius of all disks */
 } hd_sizes;
 
 /** Fills the sizes of a scene's kinds, or `radii` others if that is above 0. Fails with
