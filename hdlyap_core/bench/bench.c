@@ -20,7 +20,7 @@
 #include "timing.h"
 
 typedef struct asked {
-    bool spheres, dumbbells, soft;
+    bool spheres, dumbbells, soft, mixed;
     int disks, threads, rounds;
     double density;
     double duration;    /**< length of a round [time units] */
@@ -35,6 +35,16 @@ typedef struct result {
     double taken;        /**< wall seconds of all rounds without those of dgemm */
 } result;
 
+/** Makes a third of the particles 1.4 times as large, at the same packing fraction. */
+static void mix(hd_scene_def *scene)
+{
+    static const double of_second[] = {0.35, 1.4, 1.0};
+    const double packing = hd_scene_packing(scene);
+    for (int k = 0; k < 3; k++)
+        hd_parameter_assign(&hd_dynamics_of(scene)->parameter[k], scene, of_second[k]);
+    scene->density *= packing / hd_scene_packing(scene);
+}
+
 static hd_scene_def scene_of(const asked *a, int disks, double density)
 {
     const hd_scene_def core = {.particles = a->spheres     ? HD_SPHERES
@@ -44,6 +54,7 @@ static hd_scene_def scene_of(const asked *a, int disks, double density)
     hd_scene_def scene = hd_scene_def_of(hd_dynamics_of(&core));
     scene.number = disks;
     scene.density = density;
+    if (a->mixed) mix(&scene);
     return scene;
 }
 
@@ -174,8 +185,8 @@ static double events_alone(const asked *a, int disks, double density, double col
     require(hd_trajectory_extend(trajectory, NULL, 2.0 * length), "trajectory");
     const double count = (double)hd_trajectory_totals(trajectory).collisions - first,
                  rate = count / (seconds() - start) * 1e-6, busy = busy_seconds() - began;
-    printf("%9d %-9s %9.2f %12.0f %22.2f", disks, hd_dynamics_of(&scene)->particles, density, count,
-           rate);
+    printf("%9d %-9s %9.2f %12.0f %22.2f", disks, hd_dynamics_of(&scene)->particles, scene.density,
+           count, rate);
     if (hd_dynamics_of(&scene)->coordinates > hd_scene_dimension(&scene))
         printf(" %4.0f %% of it predicting", 100.0 * count * predicting(trajectory) / busy);
     hd_trajectory_free(trajectory);
@@ -195,6 +206,16 @@ static void dumbbells_beside_disks(const asked *a, int count, double collisions)
     const double rate = events_alone(&of_disks, count, 0.79, 3.0 * collisions);
     printf("\n");
     printf(", %.2f of that\n", events_alone(a, count, 0.6, collisions) / rate);
+}
+
+/** Measures events of one kind, then of a mixture that fills as much. */
+static void mixture_beside_one_kind(const asked *a, int count, double collisions)
+{
+    asked mixed = *a;
+    mixed.mixed = !a->soft; /* which have no second kind */
+    const double rate = events_alone(a, count, 0.7, collisions);
+    printf("\n");
+    printf(", %.2f of that: a mixture\n", events_alone(&mixed, count, 0.7, collisions) / rate);
 }
 
 /** Bytes that one thread reads and writes per second when it copies a block far larger than the
@@ -254,10 +275,10 @@ static void print_events(const asked *a)
         dumbbells_beside_disks(a, 1000, 3e5);
         dumbbells_beside_disks(a, 10000, 3e5);
     } else {
-        events_of(a, 780, 0.7, 1e6);
+        mixture_beside_one_kind(a, 780, 1e6);
         events_of(a, 1000, 0.7, 1e6);
         events_of(a, 10000, 0.7, 1e6);
-        events_of(a, 100000, 0.7, 1e6);
+        mixture_beside_one_kind(a, 100000, 1e6);
         events_of(a, 1000000, 0.7, 4e6);
         events_of(a, 780, 0.01, 1e5);
     }

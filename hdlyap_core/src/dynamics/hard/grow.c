@@ -2,7 +2,7 @@
  * (1990)): disks begin small, on the sites of the lattice on which disks of one kind start, move,
  * and grow. Here each grows by itself when the motion stops for it, as far as those around leave
  * room, up to its own size; so the energy stays, and the last ones grow as soon as there is room.
- * Which disk starts on which site is drawn by the seed. + - * / sqrt only, so that all machines
+ * Which sites the second kind has is drawn by the seed. + - * / sqrt only, so that all machines
  * give the same bits. */
 #include "dynamics/hard/grow.h"
 
@@ -32,18 +32,18 @@ static const double GROWTH = 0.9;
 static const double APART = 1.0 - 1e-12;
 enum { STREAM = 2, SAID = 96 }; /* of random numbers; bytes of a container's description */
 
-/** Puts the sites in random order (Fisher and Yates). */
-static void shuffle(double *q, const hd_scene_def *def)
+/** Gives sites to the second kind at random. Within a kind the order of sites is kept, so that
+ * disks that are near each other are so in memory, too. */
+static void draw(double *q, const double *site, const hd_scene_def *def)
 {
+    const hd_kinds kinds = hd_kinds_of(def);
     hd_random random = hd_random_seeded(def->seed, STREAM);
-    for (int i = def->number - 1; i > 0; i--) {
+    int next[2] = {0, kinds.kind[0].number};
+    for (int k = 0; k < def->number; k++) {
         const double drawn = 0.5 + 0.5 * hd_random_symmetric(&random);
-        const int j = (int)(drawn * (i + 1));
-        for (int d = 0; d < HD_DIM; d++) {
-            const double other = q[HD_DIM * j + d];
-            q[HD_DIM * j + d] = q[HD_DIM * i + d];
-            q[HD_DIM * i + d] = other;
-        }
+        const int of_second = drawn * (def->number - k) < def->number - next[1];
+        for (int d = 0; d < HD_DIM; d++) q[HD_DIM * next[of_second] + d] = site[HD_DIM * k + d];
+        next[of_second]++;
     }
 }
 
@@ -158,8 +158,8 @@ hd_status hd_hard_grow(const hd_scene_def *def, double *q)
     hd_status status = p ? hd_sizes_create(&tr.motion.sizes, def, def->number) : HD_NO_MEMORY;
     if (status == HD_OK) status = hd_hard_prepare(&tr, def, hd_kinds_largest(def));
     if (status == HD_OK) {
-        hd_container_of(def)->start(def, q);
-        shuffle(q, def);
+        hd_container_of(def)->start(def, p); /* sites, for now */
+        draw(q, p, def);
         hd_null_space_momenta(def, q, p);
         begin(&tr, def, q, p);
         status = grow(&tr, def);
