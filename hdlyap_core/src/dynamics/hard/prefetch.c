@@ -26,12 +26,14 @@ static FETCHES void fetch_cells(const hd_cells *cells, const hd_disk *disk)
     }
 }
 
-/** Fetches the first disk of each cell around, without checking whether there is one. */
+/** Fetches the first disk of each cell around, of a mixture, whose cells are as wide as its larger
+ * disks, two; without checking whether they are there. */
 static FETCHES void fetch_nearby(const hd_motion *m, const hd_disk *disk)
 {
     for (int k = 0; k < HD_CELLS_AROUND; k++) {
         const hd_cell *cell = hd_cells_near(&m->cells, disk, k);
         __builtin_prefetch(&m->disk[cell->disk[0]]);
+        if (HD_MIXED) __builtin_prefetch(&m->disk[cell->disk[1]]);
     }
 }
 
