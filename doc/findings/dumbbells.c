@@ -154,7 +154,7 @@ typedef struct said {
 
 static said turning(const course *c, int first, int count)
 {
-    const double *share = hd_modes_turning_average(hd_run_parts(c->run).modes);
+    const double *share = hd_modes_share_average(hd_run_parts(c->run).modes, HD_SHARE_TURNING);
     said s = {0.0, 0.0};
     for (int l = first; share && l < first + count; l++) s.value += share[l] / count;
     return s;

@@ -40,9 +40,9 @@ ARRAYS = {
 }
 
 DIMENSIONS = (
-    'angle average bin coordinate corner growth_time modulation order pair particle phase resolved '
+    'angle average bin coordinate corner growth_time kind modulation order pair particle phase '
 )
-DIMENSIONS += 'response site step subspace t_phase transverse vector wave'
+DIMENSIONS += 'resolved response site step subspace t_phase transverse vector wave'
 OF_PARTICLES = '@box', '@others', '@space', '@turning'  # what particles may have
 WORDS = *OF_PARTICLES, '@fields', '@known'
 

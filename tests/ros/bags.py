@@ -56,9 +56,8 @@ def save_nothing(figure, folder, name, paper=None):
 def check_title(figure, name):
     """A figure names its system: scene, disks, density, walls."""
     title = figure._suptitle.get_text() if figure._suptitle is not None else ''
-    system = (
-        r'.+: \$N=\d+\$( dumbbells, [^$]+\n|, )\$\\rho=[0-9.]+\$, .+, (x )?(periodic|reflecting)'
-    )
+    system = r'.+: \$N=\d+\$( (dumbbells|disks)[,\n][^$]+\n|, )\$\\rho=[0-9.]+\$, .+, '
+    system += '(x )?(periodic|reflecting)'
     system += r'|run \w+: no run_info'
     if not re.match(system, title):
         raise AssertionError(f'{name}: its title is {title!r}')

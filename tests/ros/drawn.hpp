@@ -48,6 +48,7 @@ struct scene {
         std::snprintf(h.particles, sizeof h.particles, "disks");
         h.stage = HDR_RUN_STATUS_AVERAGING;
         h.number = static_cast<uint32_t>(disks);
+        h.kind[0] = {h.number, 1.0, 1.0}, h.kinds = 1;
         h.box[0] = width;
         h.box[1] = height;
         h.time = h.vector_time = 12.5;

@@ -36,13 +36,14 @@ from hdlyap.msg import (
     TPhases,
 )
 from hdlyap import parameters, topics  # noqa: F401  which reads parameters as fields
-from hdlyap.data import fields, waves
+from hdlyap.data import fields, space, waves
 
 SCRIPTS = os.path.join(os.path.dirname(os.path.abspath(__file__)), '../../hdlyap_ros/scripts')
 T, LP, ZERO = Step.T, Step.LP, Step.ZERO
 CURVES = {T: (1.4, 0.1), LP: (1.5, 0.5)}  # c, c2
 ERROR = 0.002  # of the exponents of steps
 VELOCITY = 1.6
+OF_PAIRS = [what + pair for what in ('collision_rate_', 'expected_rate_') for pair in space.PAIRS]
 TOPICS = {message._type: name for name, message in topics.TYPES.items()}
 
 
@@ -126,6 +127,9 @@ def run_info(own=(), **fields):
         parameters=[*(parameter(*one) for one in asked.items()), *_own(own)],
         threads=asked['threads'],
         sites=[0.0],
+        kind_numbers=[asked['number']],
+        kind_diameters=[1.0],
+        kind_masses=[1.0],
         dimension=3 if solid else 2,
         coordinates=3 if solid else 2,
         packing_fraction=asked['density'] * math.pi / (6 if solid else 4),
@@ -141,6 +145,8 @@ def _set(info, name, value):
         others = [one for one in info.parameters if not one.own]
         info.parameters = [*others, *_own(value)]
     elif name in PARAMETERS and name not in RunInfo.__slots__:
+        if name == 'number' and len(info.kind_numbers) < 2:
+            info.kind_numbers = [value]
         names = [one.name for one in info.parameters]
         info.parameters[names.index(name)] = parameter(name, value)
     else:
@@ -445,6 +451,9 @@ def gas(averaged_time=50.0, run_id='one', error=0.01, **fields):
         temperature_error=-1.0,
         potential_energy=np.nan,
         potential_energy_error=-1.0,
+        expected_compressibility=2.5,
+        **dict.fromkeys(OF_PAIRS, np.nan),
+        **{name + '_error': -1.0 for name in OF_PAIRS if name.startswith('c')},
     )
 
 

@@ -8,7 +8,7 @@ import math
 import numpy as np
 
 from hdlyap import msg
-from hdlyap.data import fields
+from hdlyap.data import fields, space
 from hdlyap.msg import Cost, LpPhase, Mode, RunStatus
 
 
@@ -137,6 +137,14 @@ def _gas(message):
         'potential_energy',
     ]
 
+    rates = (what + pair for what in ('collision_rate_', 'expected_rate_') for pair in space.PAIRS)
+    yield from rates if math.isnan(message.expected_rate_12) else ()  # of one kind
+    yield from ['expected_compressibility'] if math.isnan(message.expected_compressibility) else []
+
+
+def _mode(mode):
+    yield from ['second_kind'] if math.isnan(mode.second_kind) else []  # of one kind
+
 
 def _fluctuations(message):
     for name, errors in (('diffusions', 'std_errors'), ('covariances', 'covariance_errors')):
@@ -157,6 +165,7 @@ OTHERS = dict(
     LpPhase=_phase,
     TPhase=_phase,
     Gas=_gas,
+    Mode=_mode,
     Fluctuations=_fluctuations,
 )
 

@@ -39,6 +39,10 @@ class OfKind:
         cls.info = cls.messages['run_info'][-1]
         cls.axes = 'xyz'[: cls.info.dimension]
         cls.box = of(cls.info, *('box_' + axis for axis in cls.axes))
+        cls.masses, cls.diameters = (
+            np.repeat(getattr(cls.info, 'kind_' + of_each), cls.info.kind_numbers)
+            for of_each in ('masses', 'diameters')
+        )
         cls.walls = of(cls.info, *('boundary_' + axis for axis in cls.axes)) == 'reflecting'
 
     def places(self, message):
@@ -77,7 +81,8 @@ class OfKind:
             q, p = self.places(state), self.momenta(state)
             self.inside(q)
             turning = self.info.inertia * np.sum(np.array(state.spin) ** 2)
-            self.assertAlmostEqual(state.kinetic_energy, np.sum(p**2) / 2 + turning / 2, 9)
+            twice = np.sum(p**2 / self.masses)
+            self.assertAlmostEqual(state.kinetic_energy, twice / 2 + turning / 2, 9)
             found = (state.kinetic_energy + self.potential(q)) / self.info.number
             self.assertAlmostEqual(found, energy, delta=error)
             np.testing.assert_allclose(p.sum(axis=1)[self.free()], 0.0, atol=1e-10)
@@ -85,8 +90,8 @@ class OfKind:
         self.near_contact(least)
 
     def inside(self, q):
-        edge = 0.5 * self.walls - 1e-12
-        self.assertTrue((q >= edge[:, None]).all() and (q <= (self.box - edge)[:, None]).all())
+        edge = 0.5 * self.walls[:, None] * self.diameters - 1e-12
+        self.assertTrue((q >= edge).all() and (q <= self.box[:, None] - edge).all())
 
     def free(self):
         return ~self.walls
@@ -102,12 +107,13 @@ class OfKind:
         return self.places(state)
 
     def apart(self, q, each=1):
-        """Distances of bodies of two particles, by their nearest images."""
+        """Distances of bodies of two particles over those at contact, by their nearest images."""
         apart = q[:, :, None] - q[:, None, :]
         for d in np.flatnonzero(self.free()):
             apart[d] -= self.box[d] * np.round(apart[d] / self.box[d])
         other = ~np.tile(np.eye(self.info.number, dtype=bool), (each, each))
-        return np.sqrt(np.sum(apart**2, axis=0))[other & np.triu(other)]
+        contact = np.tile((self.diameters[:, None] + self.diameters) / 2, (each, each))
+        return (np.sqrt(np.sum(apart**2, axis=0)) / contact)[other & np.triu(other)]
 
     def near_contact(self, least):
         self.assertTrue(1 - ROUNDING < least < 1.01, least)
@@ -173,15 +179,16 @@ class OfKind:
         """[coordinates, N] each."""
         k = np.array([self.wave(field, d)[0] for d in range(len(self.axes))])
         root = math.sqrt(self.info.inertia)
-        momenta = [*self.momenta(field), *([root * np.array(field.spin)] if root else [])]
+        heavy = np.sqrt(self.masses)
+        momenta = [*self.momenta(field) / heavy, *([root * np.array(field.spin)] if root else [])]
         still = np.zeros((len(momenta) - len(self.axes), self.info.number))
         for a, gradient in self.modulations(field):
             if field.kind == LP:
-                yield np.array([*(k[:, None] * gradient), *still])
+                yield np.array([*(k[:, None] * gradient * heavy), *still])
                 yield np.array(momenta) * a
             else:
                 for e in self.across(field, k):
-                    yield np.array([*(e[:, None] * gradient), *still])
+                    yield np.array([*(e[:, None] * gradient * heavy), *still])
 
     def wave(self, field, d):
         """Wave number and coordinate along d, from where it is counted."""

@@ -16,7 +16,9 @@ int vectors(); /**< of the run */
 SAYS(hd_mean, M(name), M(unit), M(mean), M(std_error))
 SAYS(hd_gas_means, M(time), M(collision_rate), M(collision_rate_error), M(pressure_error), M(pressure_of),
      M(pressure_of_error), M(compressibility), M(compressibility_error), M(temperature), M(temperature_error),
-     M(potential_energy), M(potential_energy_error))
+     M(potential_energy), M(potential_energy_error), M(pair_rate), M(pair_rate_error), M(pair_rate_expected),
+     M(compressibility_expected))
+SAYS(hd_kind, M(number), M(diameter), M(mass))
 SAYS(hd_energy, M(error), M(most), M(asked))
 SAYS(hd_cost, M(wall), M(events), M(replay), M(ortho), M(spectrum), M(modes), M(following), M(communication), M(bytes),
      M(calls), M(events_per_second), M(interval), M(limit), M(condition), M(defect), M(error_bound),

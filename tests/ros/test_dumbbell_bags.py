@@ -221,7 +221,7 @@ class Films(Dumbbells):
         (panel,) = picture._panels
         for frame, parts in zip(film.frames(10.0), (SPINS / FULL, TURNED / strength(one))):
             picture.show(frame)
-            disks = panel._particles.disks
+            disks = panel._particles.disks[1.0]
             np.testing.assert_allclose(disks.get_offsets(), np.hstack(ENDS).T)
             wanted = np.tile(colours(parts, movie.DISK), (2, 1))
             np.testing.assert_allclose(disks.get_facecolors()[:, :3], wanted)

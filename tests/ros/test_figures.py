@@ -349,7 +349,7 @@ class Figures(bags.Figures):
             report.system(info), 'N = 20, density 0.5, packing 0.3927, lens, 8.000 x 6.000'
         )
         axes = page.Page().panels(1, 1, 3, 3)
-        box.Particles(axes, info, np.array([[4.0], [4.0]]))
+        box.Particles(axes, info, np.array([[4.0], [4.0]]), which=[0])
         (wall,) = axes.patches
         np.testing.assert_array_equal(wall.get_xy(), [*corners, corners[0]])
         self.assertFalse(any(spine.get_visible() for spine in axes.spines.values()))

@@ -274,3 +274,38 @@ TEST(heard, sites_fit)
     EXPECT_TRUE(heard_run_info(&on.h, &on.info));
     EXPECT_EQ(HEARD_SITES_MAX, on.h.sites);
 }
+
+/** Of each kind in its size, displaced as its mass has it; kinds beyond the number of particles,
+ * and particles beyond those of the kinds, as far as they go. */
+TEST(heard, kinds_of_a_mixture)
+{
+    const double diameter[] = {1.0, 1.4}, mass[] = {1.0, 4.0};
+    const uint32_t wrong[][2] = {{1, 2}, {1, 9}, {1, 0}, {9, 2}}, size[] = {1, 1, 1, 3};
+    for (int k = 0; k < 4; k++) {
+        hearing on;
+        on.info.kind_numbers = {wrong[k], 2};
+        on.info.kind_diameters = {diameter, 2, 1}, on.info.kind_masses = {mass, 2, 1};
+        heard_clear(&on.h);
+        ASSERT_TRUE(heard_run_info(&on.h, &on.info));
+        ASSERT_EQ(2, on.h.kinds);
+        EXPECT_TRUE(on.h.kind[0].end == size[k] && on.h.kind[1].end == DISKS);
+        on.steps(true);
+        on.field(1.0, HDR_MODE_T, 1, 7);
+        const picture p = on.drawn();
+        for (uint32_t i = 0; i < DISKS; i++) {
+            const double root = i < size[k] ? 1.0 : 2.0;
+            EXPECT_DOUBLE_EQ((0.07 + 0.01 * i) / root, p.mode[0].d[i].x);
+            EXPECT_DOUBLE_EQ((0.4 + 0.01 * i) / root, p.mode[0].d[i].y);
+        }
+        const auto drawn_ones = drawn::in(drawn::drawing().of(p), "disks",
+                                          drawn::Marker::SPHERE_LIST);
+        size_t points = 0;
+        for (const drawn::Marker &one : drawn_ones) {
+            const bool second = std::abs(one.scale.x - 1.4) < 1e-9;
+            EXPECT_TRUE(second || one.scale.x == 1.0);
+            EXPECT_EQ(p.modes * (second ? DISKS - size[k] : size[k]), one.points.size());
+            points += one.points.size();
+        }
+        EXPECT_EQ(p.modes * DISKS, points);
+    }
+}

@@ -10,7 +10,7 @@ import harness
 from of_kind import LONG, LP, ORTHONORMAL, REST, ROUNDING, SLOPE, T, ZERO, OfKind
 from test_check import said_of
 from hdlyap.msg import LpPhase
-from hdlyap.data import containers, waves
+from hdlyap.data import containers, space, waves
 from hdlyap.plots import repetition, report
 from hdlyap.plots.figures import style
 
@@ -148,6 +148,48 @@ class Dumbbells(OfKind, harness.Case):
         self.assertAlmostEqual(self.info.inertia, self.BOND**2 / 4 + 1 / 8, places=15)
         lens = math.acos(self.BOND) / 2 - self.BOND / 2 * math.sqrt(1 - self.BOND**2)
         self.assertAlmostEqual(self.info.packing_fraction, 0.5 * (math.pi / 2 - lens), places=14)
+
+
+class Mixture(OfKind, harness.Case):
+    N, KINDS_OF = 60, ((39, 21), (1.0, 1.4), (1.0, 3.0))
+    SCENE = dict(LONG, number=N, density=0.572, aspect=0.1, second_fraction=0.35, scene='glass')
+    SCENE.update(second_diameter=1.4, second_mass=3.0, duration=80.0, max_mode_number=2)
+    SCENE.update(covariant_transient=20.0, observables=[*REST, 'hydro'])
+    WHAT = dict(dimension=2, coordinates=2, zero_exponents=6, vectors=4 * N, second_mass=3.0)
+    STEPS = {(T, (1, 0)): (2, 2 * N - 4), (LP, (1, 0)): (4, 2 * N - 8), (ZERO, (0, 0)): (6, None)}
+    ZEROS, SMALLEST, COVARIANT, Z = 0.05, 0.2, 0.3, (6.0, 6.8)  # by theory 6.43
+    SAID = [
+        rf'{N} disks in .*, packing fraction 0.6, second_fraction 0.35, second_diameter 1.4, '
+        'second_mass 3, 240 vec'
+    ]
+
+    def ideal(self, gas):
+        return self.N / self.volume()
+
+    def test_kinds(self):
+        info = self.info
+        found = info.kind_numbers, info.kind_diameters, info.kind_masses
+        self.assertEqual(found[:2], self.KINDS_OF[:2])
+        np.testing.assert_allclose(found[2], self.KINDS_OF[2], rtol=1e-12)
+
+    def test_pairs(self):
+        """Their rates are parts of that of all, which is that of theory, as far as the arrangement
+        of sixty in a narrow box allows."""
+        last = self.messages['gas'][-1]
+        rates = [getattr(last, 'collision_rate_' + pair) for pair in space.PAIRS]
+        self.assertAlmostEqual(sum(rates), last.collision_rate, places=9)
+        expected = [getattr(last, 'expected_rate_' + pair) for pair in space.PAIRS]
+        self.assertAlmostEqual(sum(rates) / sum(expected), 1.0, delta=0.06)
+        self.assertAlmostEqual(last.compressibility, last.expected_compressibility, delta=0.4)
+
+    def test_second_kind(self):
+        """Its share of T(1,0) is its part of the mass, 63 of 102, but for what is not in the
+        fields; its part of the disks is 0.35."""
+        modes = self.messages['modes'][-1].modes
+        shares = [one.second_kind for one in modes]
+        self.assertTrue(0 < min(shares) and max(shares) < 1)
+        of_t = [one.second_kind for one in modes if (one.kind, one.nx) == (T, 1)]
+        np.testing.assert_allclose(of_t, 63 / 102, atol=0.1)
 
 
 class Soft(OfKind):

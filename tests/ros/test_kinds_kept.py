@@ -19,7 +19,11 @@ class Again(harness.Case):
     # without windows of covariant vectors: one that is under way begins anew
     KINDS = [
         {name: value for name, value in scene.items() if not name.startswith('covariant')}
-        for scene in (test_kinds.Dumbbells.SCENE, test_kinds.SoftDisks.SCENE)
+        for scene in (
+            test_kinds.Dumbbells.SCENE,
+            test_kinds.Mixture.SCENE,
+            test_kinds.SoftDisks.SCENE,
+        )
     ]
     for one in KINDS:
         one.update(observables=[name for name in REST if name != 'covariant'], duration=40.0)
@@ -33,7 +37,7 @@ class Again(harness.Case):
             second = self.recorded(dict(scene, resume=kept))
             self.assertLess(second['run_info'][0].resumed_time, 105.0)
             for topic in scene['observables']:
-                with self.subTest(particles=scene['particles'], topic=topic):
+                with self.subTest(scene=scene['scene'], topic=topic):
                     self.assertTrue(second[topic])
                     self.assert_same_bits(first[topic] + second[topic], whole[topic])
 

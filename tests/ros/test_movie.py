@@ -159,7 +159,7 @@ class Drawn(Films):
             picture.show(frame)
             drawn.append((self.arrows(t).copy(), self.arrows(lp).copy()))
             colours.append(lp._arrows.get_facecolor()[0][:3])
-            places.append(np.array(t._particles.disks.get_offsets()))
+            places.append(np.array(t._particles.disks[1.0].get_offsets()))
             for panel in (t, lp):  # an arrow's middle is at its disk
                 middle = panel._arrows.get_offsets() + 0.5 * self.arrows(panel)
                 np.testing.assert_allclose(middle, places[-1])

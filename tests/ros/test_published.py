@@ -16,6 +16,7 @@ from hdlyap import msg, topics
 from hdlyap.data import possible, space
 from hdlyap.msg import LpPhase, Mode, Parameter
 from hdlyap.runs.asked import text
+from hdlyap.runs.program import HDLYAP
 
 pytestmark = harness.UNDER_A_MASTER
 
@@ -84,6 +85,11 @@ def axes(core, vectors, first=0):
     """Three components, as far as space has them."""
     count = core.d if np.size(vectors) else 0
     return [axis(core, vectors, first + k) if k < count else [] for k in range(3)]
+
+
+def momenta(core, p):
+    """m v of particle after particle, from these over the roots of the masses."""
+    return np.ravel(np.reshape(p, (int(core.N), -1)) * core.root[:, np.newaxis])
 
 
 def turns(core, vectors):
@@ -222,9 +228,8 @@ class Compared:
         """Goes through all fields. given: names of the scene; element, number: of a message within
         another one, the names there and its place."""
         env = {**NAMES, **core, **given, **dict(element), 'core': core, 'i': number}
-        env.update(
-            (f.__name__, functools.partial(f, core)) for f in (axis, axes, turns, parameters)
-        )
+        of_core = axis, axes, momenta, turns, parameters
+        env.update((f.__name__, functools.partial(f, core)) for f in of_core)
         env['same'], done = env, {}
         rows = {**(self.tables['any'] if kind in self.tables else {}), **self.tables.get(kind, {})}
         for name in (name for name, row in rows.items() if row.how == ':'):
@@ -330,6 +335,7 @@ SOFT = dict(SHORT, particles='soft_disks', potential='power', number=36, density
 SOFT.update(max_mode_number=1, observables=TURNING, field_indices=[1, 66, 69])
 BALLS = dict(SHORT, particles='soft_spheres', number=16, density=0.4, aspect=1.0, exponents=5)
 BALLS.update(observables=['spectrum', 'gas', 'state'], duration=300.0, report_interval=100.0)
+MIXTURE = dict(DISKS, second_fraction=0.4, second_diameter=0.8, second_mass=3.0)
 CHAIN = dict(SHORT, particles='chain', number=8, duration=6000.0, beta=2.0)
 CHAIN.update(report_interval=2000.0, fluctuation_time=40.0, observables=WAVELESS)
 CHAIN.update(covariant_window=1500.0, covariant_transient=20.0, covariant_sampling=100.0)
@@ -353,6 +359,7 @@ def scenes(folder):
     own = dict(program='hdlyap_own_node')
     return [
         ('disks', DISKS, {}),
+        ('mixture', MIXTURE, {}),
         ('walls', WALLS, {}),
         ('small', SMALL, dict(rare=True)),
         ('circle', CIRCLE, {}),
@@ -396,7 +403,9 @@ class Published(harness.Case):
         names = ['run_info', *params['observables'], 'status', 'cost']
         params = dict(params, wait_for_subscribers=names)
         messages, said, node = self.run_of(name, params, **how)
-        asked = Said(harness.defaults(), **{**dict(before), **params})
+        own = {name for one in HDLYAP.own().values() for name in one}
+        usual = {name: value for name, value in harness.defaults().items() if name not in own}
+        asked = Said(usual, **{**dict(before), **params})
         warnings = [re.split(r'\]: |\x1b', line)[-2] for line in node.lines('which steps need')]
         run_id = messages['run_info'][-1].run_id
         messages = {  # without those that a node before it has latched

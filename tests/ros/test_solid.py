@@ -323,7 +323,8 @@ class Films(Solid):
         (panel,) = picture._panels
         view = View(INFO)
         order = view.order(Q)
-        np.testing.assert_allclose(panel._particles.disks.get_offsets(), view.places(Q)[:, order].T)
+        drawn = panel._particles.disks[1.0].get_offsets()
+        np.testing.assert_allclose(drawn, view.places(Q)[:, order].T)
         u, v = panel._arrows.U, panel._arrows.V
         middle = panel._arrows.get_offsets().T + 0.5 * np.array([u, v])
         np.testing.assert_allclose(middle, view.places(Q)[:, order])

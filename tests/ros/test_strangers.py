@@ -45,6 +45,7 @@ def every_kind():
     """A run with a message of each type that a bag has, at its end."""
     info = made.run_info(particles='dumbbells', inertia=0.14, own=['bond=0.25', 'inertia=disks'])
     info.coordinates, info.vectors, info.sites = 3, 37, [-0.125, 0.125]
+    info.kind_numbers, info.kind_diameters, info.kind_masses = [12, 8], [1.0, 1.4], [1.0, 2.0]
     found = [made.step(info, T, 1, 0, 36, 37), made.step(info, LP, 1, 0, 32, 35)]
     turned = dict.fromkeys(('angle', 'spin', 'dq_angle', 'dp_angle'), [0.1] * 20)
     x, y, px, py = made_fields.disks(info)
@@ -193,6 +194,8 @@ class Together(Strangers):
             ('RunInfo', BOND, ['nan', '-inf', '1e999', '[', ALIASES], 'bond = .*: must be '),
             ('RunInfo', DURATION, ['nan', ''], 'duration = .*: must be '),
             ('RunInfo', 'sites', [[float('nan')], 9 * [0.1]], 'sites = .*: must be '),
+            ('RunInfo', 'kind_numbers', [[12, 9], 9 * [2]], 'kind_.*: must be '),
+            ('RunInfo', 'kind_masses', [[1.0, 0.0], [1.0, 1e10]], 'kind_masses = .*must be '),
             ('RunInfo', 'coordinates', [0], 'coordinates = 0: must be from 1 to 1000'),
             ('RunInfo', 'zero_exponents', [2**31], 'zero_exponents = 2147483648: must be from 0'),
             (

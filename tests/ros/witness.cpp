@@ -77,6 +77,7 @@ members say_run()
                                {"coordinates", hd_scene_coordinates(&scene())},
                                {"inertia", hd_scene_inertia(&scene())},
                                {"sites", sites()},
+                               {"root", LIST(scene().number, hd_scene_root_mass(&scene(), k))},
                                {"N", scene().number}});
     return parts().spectrum ? all + named({{"spectrum", say(parts().spectrum)}}) : all;
 }
@@ -139,6 +140,7 @@ members beside(const hdr_run_info *)
         return hd_parameter_is_word(row, value) ? json(hd_parameter_word_of(row, int(value)))
                                                 : json(value);
     };
+    hd_kind kind[HD_KINDS_MAX];
     int rows;
     const hd_parameter *all = hd_scene_parameters(&rows);
     const auto parameter = [&](int k) {
@@ -149,11 +151,12 @@ members beside(const hdr_run_info *)
                       {"effect", in_row(row, hd_parameter_effect(row, def))},
                       {"unit", row->unit},
                       {"as_before", !row->may_differ},
-                      {"own", k >= rows}});
+                      {"own", k >= rows && !(row->idle && row->idle(def))}});
     };
     if (hd_scene_dimension(def) > 0) hd_scene_box(def, box);
     return named({{"rows", list(rows + of->parameters, parameter)},
                   {"packing", hd_scene_packing(def)},
+                  {"kinds", EACH(hd_scene_kinds(def, kind), kind[k])},
                   {"boundary", LIST(3, hd_scene_boundary_word(def, k))},
                   {"box", box},
                   {"waves", EACH(count, waves[k])},
@@ -209,12 +212,18 @@ members beside(const hdr_averages *)
 
 members beside(const hdr_gas *) { return named({{"gas", say(hd_gas_read(parts().gas))}}); }
 
+json share(hd_share which, double none)
+{
+    const double *of = hd_modes_share_average(parts().modes, which);
+    return LIST(vectors(), of ? of[k] : none);
+}
+
 members beside(const hdr_modes *)
 {
-    const double *turning = hd_modes_turning_average(parts().modes);
     return say_steps() + say(parts().modes) +
            named({{"samples", hd_modes_samples(parts().modes)},
-                  {"turning", LIST(vectors(), turning ? turning[k] : 0.0)}});
+                  {"turning", share(HD_SHARE_TURNING, 0.0)},
+                  {"second", share(HD_SHARE_SECOND, NAN)}});
 }
 
 members beside(const hdr_steps *)

@@ -10,6 +10,9 @@
 
 HD_API_BEGIN
 
+/** Pairs of two kinds of particles: 11, 12 and 22, in this order. */
+enum { HD_KIND_PAIRS = 3 };
+
 /** Means over all complete samples since the averaging began. Each _error is the standard error
  * [T8] of the number in front of it, negative while it is not known or the number does not exist.
  */
@@ -18,6 +21,11 @@ typedef struct hd_gas_means {
     double collision_rate; /**< pair collisions in which a particle takes part per time, 2
                               collisions / (N time); NaN for soft particles [1/time unit] */
     double collision_rate_error;
+    /** Parts of collision_rate: of each pair of kinds; NaN unless there are two. */
+    double pair_rate[HD_KIND_PAIRS];
+    double pair_rate_error[HD_KIND_PAIRS];
+    /** What kinetic theory says of pair_rate [T26]. */
+    double pair_rate_expected[HD_KIND_PAIRS];
     double pressure; /**< mean over all directions [energy/sigma^d in d dimensions] */
     double pressure_error;
     /** Pressure along x, y and in space z: flux of momentum component d across a plane
@@ -29,6 +37,8 @@ typedef struct hd_gas_means {
                                the area or volume that centres can reach, m the number of their
                                free momenta in d dimensions, d N less the conserved ones [T19] */
     double compressibility_error;
+    double compressibility_expected; /**< what kinetic theory says of it; NaN unless particles are
+                                        disks or spheres [T2], [T26] */
     double temperature; /**< kT of soft particles, from their free momenta [energy]; NaN for hard
                            ones, whose kinetic energy is constant: see hd_gas_temperature */
     double temperature_error;

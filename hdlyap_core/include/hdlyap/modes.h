@@ -37,10 +37,14 @@ const double *hd_modes_average(const hd_modes *modes, int s, hd_weight which);
 const double *hd_modes_null_snapshot(const hd_modes *modes, int null);
 const double *hd_modes_null_average(const hd_modes *modes, int null);
 
-/** Fraction of |dq|^2 of each vector, [n], 0 .. 1, that is in angles of particles instead of
- * positions. NULL if particles do not turn. */
-const double *hd_modes_turning_snapshot(const hd_modes *modes);
-const double *hd_modes_turning_average(const hd_modes *modes);
+/** Which part of the coordinates a share is of: angles instead of positions, of particles that
+ * turn; those of the particles of the second kind (hd_scene_kinds). */
+typedef enum hd_share { HD_SHARE_TURNING, HD_SHARE_SECOND, HD_SHARES } hd_share;
+
+/** Fraction of |dq|^2 of each vector, [n], 0 .. 1, that is in this part. NULL if the scene has no
+ * such part. */
+const double *hd_modes_share_snapshot(const hd_modes *modes, hd_share share);
+const double *hd_modes_share_average(const hd_modes *modes, hd_share share);
 
 /** Least-squares coefficients, in the last sample, of all n vectors on the field in one column of
  * the matrix of hd_fields. The dq halves of the vectors and the field are first scaled to length 1.

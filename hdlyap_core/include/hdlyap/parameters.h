@@ -57,6 +57,9 @@ typedef struct hd_parameter {
     /** Returns the value if it is not automatic, otherwise the number that it stands for in this
      * scene. NULL if the parameter has no automatic value, or none that is known without a run. */
     double (*resolve)(const hd_scene_def *def);
+    /** True if the value means nothing in this scene, and results are not told of it: how large
+     * particles of the second kind are where there are none. NULL: never. */
+    bool (*idle)(const hd_scene_def *def);
 } hd_parameter;
 
 /** Returns the parameters that every scene has, and writes their number to *count. Parameters that

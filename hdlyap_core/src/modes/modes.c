@@ -20,6 +20,7 @@
 #include "base/memory.h"
 #include "dynamics/dynamics.h"
 #include "modes/fields.h"
+#include "modes/shares.h"
 #include "scene/null_space.h"
 #include "scene/scene.h"
 #include "tangent/product.h"
@@ -43,7 +44,7 @@ struct hd_modes {
     double *dq_norm;     /**< [stride] */
     double *null_dp;     /**< [nulls][stride]: overlaps of the dp halves with the null fields */
     double *known; /**< [known_most][rows]: null vectors that are no fields; NULL: there are none */
-    double *snapshot; /**< [subspaces * HD_WEIGHTS + nulls, turning][stride] */
+    double *snapshot; /**< [subspaces * HD_WEIGHTS + nulls + shares][stride] */
     double *average;  /**< same, over samples */
     long samples;
 };
@@ -52,18 +53,15 @@ struct hd_modes {
 
 static size_t nulls_of(const hd_modes *modes) { return (size_t)hd_fields_nulls(modes->fields); }
 
-/** The first row of the parts in the null space; the row of rotation follows them if particles
- * turn. */
+/** The first row of the parts in the null space; the rows of shares follow them. */
 static size_t null_row(const hd_modes *modes)
 {
     return (size_t)hd_fields_subspaces(modes->fields) * HD_WEIGHTS;
 }
 
-static bool turns(const hd_modes *modes) { return modes->coordinates > modes->dimension; }
-
 static size_t weight_rows(const hd_modes *modes)
 {
-    return null_row(modes) + nulls_of(modes) + turns(modes);
+    return null_row(modes) + nulls_of(modes) + hd_shares_before(&modes->scene, HD_SHARES);
 }
 
 /** Null vectors that the row may know, beside the translations and their momenta; 0: fields are
@@ -87,9 +85,9 @@ double hd_modes_bytes(const hd_scene_def *scene, double vectors)
     const hd_fields_count count = hd_fields_count_of(scene);
     const double dimension = hd_scene_dimension(scene), nulls = dimension + 1.0,
                  widest = HD_FIELDS_IN(hd_scene_dimension(scene)),
-                 turning = hd_scene_coordinates(scene) > hd_scene_dimension(scene);
+                 shares = (double)hd_shares_before(scene, HD_SHARES);
     const double columns = count.columns + nulls,
-                 rows = count.subspaces * HD_WEIGHTS + nulls + turning,
+                 rows = count.subspaces * HD_WEIGHTS + nulls + shares,
                  known = (double)(known_most(scene) * rows_of(scene)),
                  fields = hd_scene_coordinates(scene) * (double)scene->number * (columns + 4.0);
     return sizeof(double) * (fields + known + widest * columns +
@@ -270,20 +268,9 @@ static hd_status measure_known(hd_modes *modes, hd_columns v, const double *q, c
     return HD_OK;
 }
 
-/** Measures the fraction of each dq half's squared length that turns particles. */
-static void measure_turning(hd_modes *modes, hd_columns v)
+static size_t share_row(const hd_modes *modes, hd_share share)
 {
-    const int of_one = 2 * modes->coordinates;
-    double *out = row_of(modes->snapshot, weight_rows(modes) - 1, modes);
-    memset(out + v.first, 0, (size_t)v.count * sizeof *out);
-    for (int j = 0; j < modes->particles; j++)
-        for (int d = modes->dimension; d < modes->coordinates; d++)
-            add_squares(out + v.first, v.data + (size_t)(of_one * j + d) * (size_t)v.stride,
-                        v.count);
-    for (int l = v.first; l < v.first + v.count; l++) {
-        const double norm = modes->dq_norm[l];
-        out[l] = norm > HD_MODES_DQ_MIN ? out[l] / (norm * norm) : 0.0;
-    }
+    return null_row(modes) + nulls_of(modes) + hd_shares_before(&modes->scene, share);
 }
 
 /** whiten[d * d] = E L^(-1/2), row-major, with zero columns for unsampled directions. The singular
@@ -365,7 +352,10 @@ hd_status hd_modes_measure(hd_modes *modes, hd_columns v, const double *q, const
     overlaps(modes, v, modes->coordinates, columns - nulls, nulls, modes->null_dp);
     measure_null(modes, v);
     if (modes->known && v.count > 0) HD_TRY(measure_known(modes, v, q, p));
-    if (turns(modes)) measure_turning(modes, v);
+    for (int share = 0; share < HD_SHARES; share++)
+        if (hd_shares_has(&modes->scene, (hd_share)share))
+            hd_shares_measure(row_of(modes->snapshot, share_row(modes, (hd_share)share), modes),
+                              &modes->scene, (hd_share)share, modes->dq_norm, v);
     normalise(modes, v);
     for (int s = 0; s < hd_fields_subspaces(modes->fields); s++) measure_subspace(modes, s, v);
     return hd_all_finite(modes->snapshot, weight_rows(modes) * modes->stride) ? HD_OK
@@ -446,14 +436,21 @@ const double *hd_modes_null_average(const hd_modes *modes, int null)
     return null_of(modes, modes->average, null);
 }
 
-const double *hd_modes_turning_snapshot(const hd_modes *modes)
+static const double *share_of(const hd_modes *modes, const double *rows, hd_share share)
 {
-    return turns(modes) ? modes->snapshot + (weight_rows(modes) - 1) * modes->stride : NULL;
+    HD_ASSERT(share < HD_SHARES);
+    return hd_shares_has(&modes->scene, share) ? rows + share_row(modes, share) * modes->stride
+                                               : NULL;
 }
 
-const double *hd_modes_turning_average(const hd_modes *modes)
+const double *hd_modes_share_snapshot(const hd_modes *modes, hd_share share)
 {
-    return turns(modes) ? modes->average + (weight_rows(modes) - 1) * modes->stride : NULL;
+    return share_of(modes, modes->snapshot, share);
+}
+
+const double *hd_modes_share_average(const hd_modes *modes, hd_share share)
+{
+    return share_of(modes, modes->average, share);
 }
 
 const double *hd_modes_dq_norms(const hd_modes *modes) { return modes->dq_norm; }

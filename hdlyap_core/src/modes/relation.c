@@ -49,11 +49,14 @@ static double diameter_of(const hd_scene_def *def)
     return of->dimension == 2 ? sqrt(of->size(def) / (pi / 4.0)) : cbrt(of->size(def) / (pi / 6.0));
 }
 
+/** Lengths of a mixture are in its own diameters. */
 static hd_curvature bend_of(const hd_scene_def *def, bool t)
 {
     const hd_fluid *own = hd_dynamics_of(def)->fluid;
     const hd_fluid *like = hd_scene_dimension(def) == 2 ? &hd_fluid_disks : &hd_fluid_spheres;
     hd_curvature bend = t ? (own ? own : like)->t : (own ? own : like)->lp;
+    const double s = hd_dynamics_of(def)->kinds ? diameter_of(def) : 1.0;
+    bend.c2 *= s, bend.error *= s, bend.c3 *= s * s, bend.c3_error *= s * s;
     if (own) return bend;
     bend.error *= OTHERS, bend.error_l *= OTHERS, bend.c3_error *= OTHERS, bend.off *= OTHERS;
     return bend;

@@ -11,13 +11,15 @@
 #include "base/memory.h"
 #include "observe/observable.h"
 #include "scene/container.h"
+#include "scene/mixture.h"
 #include "scene/null_space.h"
 #include "scene/scene.h"
 #include "dynamics/trajectory.h"
 
 /** The series of numbers that are averaged, each per time unit: collisions, or the potential energy
  * of particles that do not collide; then the virial along each direction; then, for particles with
- * a potential, twice the kinetic energy along each direction. */
+ * a potential, twice the kinetic energy along each direction, and for particles of two kinds the
+ * collisions of each pair of kinds. */
 enum {
     COLLISIONS,
     POTENTIAL = COLLISIONS, /**< in the same place, for particles that do not collide */
@@ -30,14 +32,16 @@ static bool integrates(const hd_dynamics *of) { return of->totals && !of->collid
 
 struct hd_gas {
     int dimension, series;
-    bool is_summed;
+    bool is_summed, is_mixed;
     /** number of particles; area or volume that centres can reach [sigma^d] */
     double particles, area;
     double momenta;                   /**< number of free momenta along all directions */
     double kinetic[HD_DIMENSION_MAX]; /**< twice the mean kinetic energy along each direction, of
                                          particles that collide */
-    hd_totals last;                   /**< of when the last sample ended */
-    double time, sum[SERIES_MAX];     /**< averaged time, and each series summed over it */
+    /** By kinetic theory; NaN where it says nothing. */
+    double expected[HD_KIND_PAIRS], compressibility;
+    hd_totals last;               /**< of when the last sample ended */
+    double time, sum[SERIES_MAX]; /**< averaged time, and each series summed over it */
     hd_blocks blocks;
 };
 
@@ -58,9 +62,30 @@ double hd_gas_temperature(const hd_scene_def *def)
 
 double hd_gas_area(const hd_scene_def *def) { return hd_container_of(def)->area(def); }
 
+static bool is_mixed(const hd_scene_def *def)
+{
+    hd_kind kind[HD_KINDS_MAX];
+    return hd_scene_kinds(def, kind) > 1;
+}
+
 static int series_of(const hd_scene_def *def)
 {
-    return VIRIAL_X + hd_scene_dimension(def) * (integrates(hd_dynamics_of(def)) ? 2 : 1);
+    const int dimension = hd_scene_dimension(def);
+    const int energies = integrates(hd_dynamics_of(def)) ? dimension : 0;
+    return VIRIAL_X + dimension + energies + (is_mixed(def) ? HD_KIND_PAIRS : 0);
+}
+
+/** Writes what kinetic theory says of disks and spheres. */
+static void expect(hd_gas *gas, const hd_scene_def *def)
+{
+    hd_kind kind[HD_KINDS_MAX];
+    hd_scene_kinds(def, kind);
+    gas->compressibility = hd_dynamics_of(def)->kinds ? hd_mixture_compressibility(def) : NAN;
+    for (int pair = 0; pair < HD_KIND_PAIRS; pair++) {
+        const int a = pair / 2, b = (pair + 1) / 2; /* 11, 12, 22 */
+        const double each = (a == b ? 1.0 : 2.0) * kind[a].number / def->number;
+        gas->expected[pair] = gas->is_mixed ? each * hd_mixture_rate(def, a, b) : NAN;
+    }
 }
 
 hd_status hd_gas_create(hd_gas **out, const hd_scene_def *def, double block)
@@ -70,6 +95,8 @@ hd_status hd_gas_create(hd_gas **out, const hd_scene_def *def, double block)
     if (!gas) return HD_NO_MEMORY;
     gas->dimension = hd_scene_dimension(def);
     gas->is_summed = integrates(hd_dynamics_of(def));
+    gas->is_mixed = is_mixed(def);
+    expect(gas, def);
     gas->series = series_of(def);
     gas->particles = def->number;
     gas->area = hd_gas_area(def);
@@ -91,7 +118,9 @@ void hd_gas_free(hd_gas *gas)
     hd_memory_free(gas);
 }
 
+/** The series behind the virial. */
 static int kinetic_x(const hd_gas *gas) { return VIRIAL_X + gas->dimension; }
+static int pairs_x(const hd_gas *gas) { return VIRIAL_X + gas->dimension; }
 
 void hd_gas_begin(hd_gas *gas, const hd_trajectory *trajectory)
 {
@@ -111,6 +140,8 @@ void hd_gas_add(hd_gas *gas, const hd_trajectory *trajectory)
         sample[VIRIAL_X + d] = b->virial[d] - a->virial[d];
         if (gas->is_summed) sample[kinetic_x(gas) + d] = b->kinetic[d] - a->kinetic[d];
     }
+    for (int pair = 0; pair < HD_KIND_PAIRS && gas->is_mixed; pair++)
+        sample[pairs_x(gas) + pair] = (double)(b->collisions_of[pair] - a->collisions_of[pair]);
     if (!(dt > 0)) return;
     for (int s = 0; s < gas->series; s++) gas->sum[s] += sample[s];
     gas->time += dt;
@@ -151,8 +182,22 @@ static void read_pressures(hd_gas_means *m, const hd_gas *gas, double t)
         m->pressure += m->pressure_of[d];
     }
     m->pressure /= gas->dimension;
-    m->pressure_error = error_of(gas, (span){VIRIAL_X, gas->series - 1, 1.0 / gas->dimension / a},
-                                 NO_SPAN);
+    const int last = VIRIAL_X + gas->dimension * (gas->is_summed ? 2 : 1) - 1;
+    m->pressure_error = error_of(gas, (span){VIRIAL_X, last, 1.0 / gas->dimension / a}, NO_SPAN);
+}
+
+/** Writes the parts of the collision rate. */
+static void read_pairs(hd_gas_means *m, const hd_gas *gas, double t)
+{
+    const double each = 2.0 / gas->particles;
+    for (int pair = 0; pair < HD_KIND_PAIRS; pair++) {
+        const int s = pairs_x(gas) + pair;
+        m->pair_rate[pair] = gas->is_mixed ? each * gas->sum[s] / t : NAN;
+        m->pair_rate_error[pair] = gas->is_mixed ? error_of(gas, (span){s, s, each}, NO_SPAN)
+                                                 : -1.0;
+        m->pair_rate_expected[pair] = gas->expected[pair];
+    }
+    m->compressibility_expected = gas->compressibility;
 }
 
 /** Writes the other means of particles that collide; all their energy is kinetic. Z is that of
@@ -198,6 +243,7 @@ hd_gas_means hd_gas_read(const hd_gas *gas)
     const double t = gas->time > 0 ? gas->time : NAN;
     hd_gas_means m = {.time = gas->time};
     read_pressures(&m, gas, t);
+    read_pairs(&m, gas, t);
     (gas->is_summed ? read_summed : read_counted)(&m, gas, t);
     return m;
 }
@@ -234,6 +280,8 @@ static void gas_archive(void *self, const hd_moment *now)
         hd_archive_double(archive, "gas last potential", &last->potential);
     }
     hd_archive_bits(archive, "gas last collisions", &last->collisions);
+    for (int pair = 0; pair < HD_KIND_PAIRS && gas->is_mixed; pair++)
+        hd_archive_bits(archive, "gas last collisions of kinds", &last->collisions_of[pair]);
     hd_archive_double(archive, "gas time", &gas->time);
     hd_archive_doubles(archive, "gas sum", gas->sum, (size_t)gas->series);
     hd_archive_expect(archive, last->time >= 0 && last->time <= hd_trajectory_time(now->trajectory),

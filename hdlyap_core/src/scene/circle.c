@@ -23,7 +23,8 @@ static void circle_box(const hd_scene_def *def, double *box)
 
 static double circle_area(const hd_scene_def *def)
 {
-    return PI * hd_circle_reach(def) * hd_circle_reach(def);
+    const double reach = hd_circle_radius(def) - 0.5 * hd_kinds_mean(def);
+    return PI * reach * reach;
 }
 
 static void circle_say(const hd_scene_def *def, char *text, size_t size)

@@ -55,7 +55,8 @@ typedef struct hd_container_row {
     hd_status (*check)(const hd_scene_def *def, char *message, size_t size);
     /** Writes the edges of the box around the container. */
     void (*box)(const hd_scene_def *def, double *box);
-    double (*area)(const hd_scene_def *def); /**< area that centres can reach */
+    double (*area)(const hd_scene_def *def); /**< area that centres can reach, of a mixture those
+                                                of the mean diameter */
     bool rotates; /**< symmetric under rotation about its middle: angular momentum is conserved */
     /** Smallest distance of two positions in the densest start. */
     double (*start_distance)(const hd_scene_def *def);

@@ -32,3 +32,59 @@ double hd_kinds_largest(const hd_scene_def *def)
     const hd_kinds kinds = hd_kinds_of(def);
     return fmax(kinds.kind[0].diameter, kinds.kind[kinds.count - 1].diameter);
 }
+
+double hd_kinds_mean(const hd_scene_def *def)
+{
+    const hd_kinds kinds = hd_kinds_of(def);
+    double sum = 0.0;
+    for (int k = 0; k < kinds.count; k++) sum += kinds.kind[k].number * kinds.kind[k].diameter;
+    return sum / def->number;
+}
+
+/* ---- parameters of disks and spheres --------------------------------------------------------- */
+
+int hd_kinds_second(const hd_scene_def *scene)
+{
+    const double number = floor(scene->own[HD_KINDS_FRACTION].real * scene->number + 0.5);
+    return number > 0 ? (int)fmin(number, scene->number) : 0; /* the scene may be unchecked */
+}
+
+static bool idle(const hd_scene_def *scene) { return hd_kinds_second(scene) == 0; }
+
+const hd_parameter hd_kinds_own[HD_KINDS_OWN] = {
+    {.name = "second_fraction",
+     .kind = HD_PARAMETER_REAL,
+     .offset = HD_OWN(HD_KINDS_FRACTION),
+     .default_value = 0.0,
+     .min = 0.0,
+     .max = 1.0,
+     .range = "from 0 to 1",
+     .unit = "",
+     .text = "Fraction of the particles that are of a second kind, rounded to whole particles: the "
+             "last ones. Where each starts is drawn by the seed. 0: all are alike.",
+     .record = "second fraction",
+     .idle = idle},
+    {.name = "second_diameter",
+     .kind = HD_PARAMETER_REAL,
+     .offset = HD_OWN(HD_KINDS_DIAMETER),
+     .default_value = 1.0,
+     .min = 0.2,
+     .max = 5.0,
+     .range = "from 0.2 to 5",
+     .unit = "sigma",
+     .text = "Diameter of particles of the second kind; that of the first kind is 1.",
+     .record = "second diameter",
+     .idle = idle},
+    {.name = "second_mass",
+     .kind = HD_PARAMETER_REAL,
+     .offset = HD_OWN(HD_KINDS_MASS),
+     .default_value = 1.0,
+     .min = 0.001,
+     .max = 1000.0,
+     .range = "from 0.001 to 1000",
+     .unit = "mass",
+     .text =
+         "Mass of particles of the second kind; that of the first kind is 1. The kinetic energy "
+         "of all is N.",
+     .record = "second mass",
+     .idle = idle}};

@@ -37,6 +37,7 @@ static const hd_parameter_word hd_interval_words[] = {{"auto", 0}, {NULL, 0}};
      needs,                                                                                        \
      text,                                                                                         \
      "scene " #name,                                                                               \
+     NULL,                                                                                         \
      NULL},
 static const hd_parameter rows[] = {
 #define HD_INT(name, ...) ROW(name, name, HD_PARAMETER_INT, NULL, __VA_ARGS__)

@@ -84,7 +84,8 @@ static double rectangle_area(const hd_scene_def *def)
 {
     double box[HD_DIMENSION_MAX], area = 1.0;
     rectangle_box(def, box);
-    for (int d = 0; d < hd_scene_dimension(def); d++) area *= box[d] - has_walls(def, d);
+    for (int d = 0; d < hd_scene_dimension(def); d++)
+        area *= box[d] - (has_walls(def, d) ? hd_kinds_mean(def) : 0.0);
     return area;
 }
 

@@ -17,12 +17,15 @@ enum { REFUSED = 2, FAULT = 3 };
 
 /** Most reports per second that the recorder gets. */
 static const double reports_per_second = 960.0;
-/** True if the scene is as dense as those in which disks, spheres or dumbbells were seen to keep
- * their places [T8]. */
+/** True if the scene is as dense as those in which disks, spheres, dumbbells or mixtures were seen
+ * to keep their places [T8]. */
 static bool may_be_caged(const hd_scene_def *def)
 {
     if (!hd_dynamics_of(def)->fluid) return false; /* it has not been studied for these particles */
+    hd_kind kind[HD_KINDS_MAX];
     if (hd_scene_inertia(def) > 0) return hd_scene_packing(def) >= 0.78;
+    if (hd_scene_kinds(def, kind) > 1)
+        return hd_scene_packing(def) >= (hd_scene_dimension(def) == 2 ? 0.78 : 0.56);
     return def->density >= (hd_scene_dimension(def) == 2 ? 0.88 : 0.9);
 }
 

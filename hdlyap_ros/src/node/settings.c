@@ -74,14 +74,15 @@ const char *settings_write_nodes(char text[NODES_SIZE], const hd_scene_def *def,
                        (uint32_t)wave->n[1], (uint32_t)wave->n[2]);
 }
 
-/** Adds the particles' own parameters to the text. */
-static void write_own(char *text, size_t size, const hd_scene_def *def)
+/** Adds the particles' own parameters to the text: all, or those that few scenes have. */
+static void write_own(char *text, size_t size, const hd_scene_def *def, bool all)
 {
     const hd_dynamics *of = hd_dynamics_of(def);
     for (int k = 0; k < of->parameters; k++) {
         const hd_parameter *row = &of->parameter[k];
         const double value = hd_parameter_effect(row, def);
         const size_t length = strlen(text);
+        if (row->idle ? row->idle(def) : !all) continue;
         if (hd_parameter_is_word(row, value))
             snprintf(text + length, size - length, ", %s %s", row->name,
                      hd_parameter_word_of(row, (int)value));
@@ -100,7 +101,7 @@ const char *settings_write_system(char text[SYSTEM_SIZE], const settings *set)
                                 set->def.number, set->particles, container);
     if (!isnan(packing))
         snprintf(text + length, SYSTEM_SIZE - (size_t)length, ", packing fraction %.3g", packing);
-    if (isnan(packing) || set->def.dynamics) write_own(text, SYSTEM_SIZE, &set->def);
+    write_own(text, SYSTEM_SIZE, &set->def, isnan(packing) || set->def.dynamics);
     return text;
 }
 

@@ -19,6 +19,7 @@ static hdr_lengths lengths_of(const hd_result_counts *e)
                          .average = e->averages,
                          .bin = HD_ANGLE_BINS,
                          .coordinate = (double)e->coordinates * e->particles,
+                         .kind = HD_KINDS_MAX,
                          .modulation = HD_MODULATIONS_IN(e->dimension),
                          .order = e->orders,
                          .pair = e->examples > 0 ? (double)e->pairs / e->examples : 0.0,

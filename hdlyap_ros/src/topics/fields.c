@@ -105,8 +105,7 @@ static hd_status publish_vector(const moment *now, int col)
     now->room->taken = 0; /* each message uses the buffers anew */
     pair_fields pairs = {.l = moment_take(now, 3 * length, sizeof *pairs.l)};
     if (!pairs.l || !moment_state(now, &q, &p)) return HD_OK;
-    hdr_mode_field message = {.sim_time = hd_run_time(now->run),
-                              STATE_FIELDS(now, q, p, particles)};
+    hdr_mode_field message = {.sim_time = hd_run_time(now->run), STATE_FIELDS(now, q, particles)};
     pairs.p = pairs.l + length;
     pairs.ratio = pairs.p + length;
     if (step && step->kind == HD_MODE_LP) reconstruct(&pairs, now->run, step, p);

@@ -1,6 +1,8 @@
 /** The step and the weights of each vector -> message Modes. */
 #include "topics/moment.h"
 
+#include <math.h>
+
 _Static_assert((int)HD_MODE_LP == (int)HDR_MODE_LP, "kinds as in the core");
 
 /** Fills the kind, the wave and the weights in the fields of a vector's step. */
@@ -26,7 +28,8 @@ static void fill_kind(hdr_mode *mode, const hd_modes *modes, const hd_step *step
 static hdr_mode mode_of(const hd_parts *of, int col, int dimension)
 {
     const hd_modes *modes = of->modes;
-    const double *turning = hd_modes_turning_average(modes);
+    const double *turning = hd_modes_share_average(modes, HD_SHARE_TURNING),
+                 *second = hd_modes_share_average(modes, HD_SHARE_SECOND);
     const int s = hd_steps_of_vector(of->steps, col);
     hdr_mode mode = {
         .index = (uint32_t)col + 1,
@@ -36,6 +39,7 @@ static hdr_mode mode_of(const hd_parts *of, int col, int dimension)
         .null_z = dimension > 2 ? hd_modes_null_average(modes, 2)[col] : 0.0,
         .null_p = hd_modes_null_average(modes, dimension)[col],
         .rotation = turning ? turning[col] : 0.0,
+        .second_kind = second ? second[col] : NAN,
         .step = s,
     };
     if (s >= 0) fill_kind(&mode, modes, hd_steps_step(of->steps, s), dimension);

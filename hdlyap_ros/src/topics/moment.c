@@ -35,7 +35,7 @@ static void turn(const moment *now, buffers *room, size_t count)
     static const double whole = 6.28318530717958647693;
     const size_t step = (size_t)moment_coordinates(now), last = step - 1;
     const double root = sqrt(hd_scene_inertia(&now->set->def));
-    room->angle = room->p + step * count;
+    room->angle = room->momenta + step * count;
     for (size_t j = 0; j < count; j++) {
         const double angle = room->q[step * j + last] / root;
         room->angle[j] = angle - whole * floor(angle / whole);
@@ -43,18 +43,33 @@ static void turn(const moment *now, buffers *room, size_t count)
     }
 }
 
+/** Fills momenta of particles of several masses. */
+static void weigh(const moment *now, buffers *room)
+{
+    const hd_scene_def *def = &now->set->def;
+    const size_t each = (size_t)moment_coordinates(now);
+    hd_kind kind[HD_KINDS_MAX];
+    const int kinds = hd_scene_kinds(def, kind);
+    size_t k = 0;
+    for (int a = 0; a < kinds; a++)
+        for (size_t n = each * (size_t)kind[a].number; n > 0; n--, k++)
+            room->momenta[k] = room->p[k] * sqrt(kind[a].mass);
+}
+
 bool moment_state(const moment *now, const double **q, const double **p)
 {
     buffers *room = now->room;
     const size_t count = (size_t)(moment_coordinates(now) * now->set->def.number),
                  angles = moment_turns(now) ? (size_t)now->set->def.number : 0;
-    if (!room->q) room->q = malloc(2 * (count + angles) * sizeof *room->q);
+    if (!room->q) room->q = malloc((3 * count + 2 * angles) * sizeof *room->q);
     if (!room->q) {
         log_lost(now);
         return false;
     }
     room->p = room->q + count;
+    room->momenta = room->p + count;
     if (!room->known) hd_trajectory_state(hd_run_parts(now->run).trajectory, room->q, room->p);
+    if (!room->known) weigh(now, room);
     if (!room->known && angles > 0) turn(now, room, angles);
     room->known = true;
     *q = room->q;

@@ -17,9 +17,10 @@ typedef struct buffers {
     void *block[BUFFERS];
     size_t size[BUFFERS];
     int taken;
-    double *q, *p; /**< [coordinates N] each, in one block at q; NULL until moment_state */
-    double *angle; /**< [2 N] angles, then angular velocities; NULL unless particles rotate */
-    bool known;    /**< q, p and angle are those of now */
+    double *q, *p;   /**< [coordinates N] each, in one block at q; NULL until moment_state */
+    double *momenta; /**< [coordinates N] m v, with masses; those of p over their roots */
+    double *angle;   /**< [2 N] angles, then angular velocities; NULL unless particles rotate */
+    bool known;      /**< q, p, momenta and angle are those of now */
 } buffers;
 
 /** What the topic covariant has published last. Windows that a checkpoint holds are not published
@@ -59,7 +60,8 @@ typedef struct moment {
  * is none. */
 void *moment_take(const moment *now, size_t count, size_t size);
 
-/** Positions and momenta of all particles, [coordinates N] each, x0 y0 x1 y1 ... Returns false, and
+/** Positions and momenta of all particles, [coordinates N] each, x0 y0 x1 y1 ..., momenta over the
+ * root of the mass. Returns false, and
  * logs it, if there is no memory. */
 bool moment_state(const moment *now, const double **q, const double **p);
 
@@ -110,6 +112,12 @@ static inline hdr_doubles moment_component(const moment *now, const double *data
     return message_array(data + d, count, (size_t)moment_coordinates(now));
 }
 
+/** Component d of the momenta m v. moment_state has to be called before. */
+static inline hdr_doubles moment_momentum(const moment *now, size_t particles, int d)
+{
+    return moment_component(now, now->room->momenta, particles, d);
+}
+
 /** number 0: angles, 1: angular velocities; empty unless particles rotate. moment_state has to be
  * called before. */
 static inline hdr_doubles moment_angle(const moment *now, size_t particles, size_t number)
@@ -120,10 +128,10 @@ static inline hdr_doubles moment_angle(const moment *now, size_t particles, size
 }
 
 /** The fields of a message that has positions and momenta of all particles. */
-#define STATE_FIELDS(now, q, p, particles)                                                         \
+#define STATE_FIELDS(now, q, particles)                                                            \
     .x = moment_component(now, q, particles, 0), .y = moment_component(now, q, particles, 1),      \
-    .z = moment_component(now, q, particles, 2), .px = moment_component(now, p, particles, 0),     \
-    .py = moment_component(now, p, particles, 1), .pz = moment_component(now, p, particles, 2),    \
+    .z = moment_component(now, q, particles, 2), .px = moment_momentum(now, particles, 0),         \
+    .py = moment_momentum(now, particles, 1), .pz = moment_momentum(now, particles, 2),            \
     .angle = moment_angle(now, particles, 0), .spin = moment_angle(now, particles, 1)
 
 /** Sends the messages of a topic by topic_send_NAME, if there is something to send. Fails with

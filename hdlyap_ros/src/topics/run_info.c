@@ -49,10 +49,12 @@ static uint8_t kind_of(const parameter *p)
     return p->kind == REAL_NUMBER || number ? HDR_PARAMETER_NUMBER : HDR_PARAMETER_WORD;
 }
 
-/** True if only these particles have this parameter. */
-static bool is_own(const parameter *p, const hd_dynamics *of)
+/** True if only these particles have this parameter, and it means something. */
+static bool is_own(const parameter *p, const hd_scene_def *def)
 {
-    return p->row && p->row >= of->parameter && p->row < of->parameter + of->parameters;
+    const hd_dynamics *of = hd_dynamics_of(def);
+    return p->row && p->row >= of->parameter && p->row < of->parameter + of->parameters &&
+           !(p->row->idle && p->row->idle(def));
 }
 
 /** Fills the parameters with their present values. */
@@ -66,7 +68,7 @@ static bool fill_parameters(hdr_run_info *info, const moment *now)
     uint32_t count = 0;
     for (int k = 0; k < (int)most; k++, room += 2) {
         const parameter p = parameters_at(k);
-        const bool own = is_own(&p, hd_dynamics_of(&now->set->def));
+        const bool own = is_own(&p, &now->set->def);
         const hd_scene_def *def = own ? hd_run_scene(now->run) /* which has what it chose */
                                       : &now->set->def;
         const char *value = parameter_value(room[0], &p, now->set);
@@ -130,6 +132,25 @@ static bool fill_sites(hdr_run_info *info, const moment *now)
     return true;
 }
 
+/** Fills numbers, sizes and masses of the kinds of particles. */
+static bool fill_kinds(hdr_run_info *info, const moment *now)
+{
+    hd_kind kind[HD_KINDS_MAX];
+    uint32_t *number = moment_take(now, HD_KINDS_MAX, sizeof *number);
+    double *real = moment_take(now, 2 * HD_KINDS_MAX, sizeof *real);
+    if (!number || !real) return false;
+    const uint32_t count = (uint32_t)hd_scene_kinds(&now->set->def, kind);
+    for (uint32_t k = 0; k < count; k++) {
+        number[k] = (uint32_t)kind[k].number;
+        real[k] = kind[k].diameter;
+        real[HD_KINDS_MAX + k] = kind[k].mass;
+    }
+    info->kind_numbers = (hdr_uints){number, count};
+    info->kind_diameters = (hdr_doubles){real, count, 1};
+    info->kind_masses = (hdr_doubles){real + HD_KINDS_MAX, count, 1};
+    return true;
+}
+
 /** Fills the outline of a curved container; it is empty for a box. */
 static bool fill_outline(hdr_run_info *info, const moment *now)
 {
@@ -159,7 +180,8 @@ hd_status topic_publish_run_info(const moment *now)
 {
     hdr_run_info info = {.resumed_time = now->changes->since};
     if (!fill_waves(&info, now) || !fill_outline(&info, now) || !fill_sites(&info, now) ||
-        !fill_changes(&info, now) || !fill_parameters(&info, now) || !fill_given(&info, now))
+        !fill_kinds(&info, now) || !fill_changes(&info, now) || !fill_parameters(&info, now) ||
+        !fill_given(&info, now))
         return HD_OK;
     fill_scene(&info, &now->set->def);
     fill_machine(&info, now->run);

@@ -171,8 +171,7 @@ static hd_status send(const moment *now)
     const size_t particles = (size_t)now->set->def.number;
     const double *q, *p;
     if (!moment_state(now, &q, &p)) return HD_OK;
-    hdr_slow_vectors message = {.sim_time = hd_run_time(now->run),
-                                STATE_FIELDS(now, q, p, particles)};
+    hdr_slow_vectors message = {.sim_time = hd_run_time(now->run), STATE_FIELDS(now, q, particles)};
     if (!fill_vectors(&message, now)) return HD_OK;
     return topic_send_slow_vectors(now->out, &message);
 }

@@ -13,7 +13,7 @@ hd_status topic_publish_state(const moment *now)
     hdr_state message = {
         .sim_time = hd_run_time(now->run),
         .kinetic_energy = 0.5 * twice,
-        STATE_FIELDS(now, q, p, particles),
+        STATE_FIELDS(now, q, particles),
         .q = message_array(q, others ? particles * coordinates : 0, 1),
         .p = message_array(p, others ? particles * coordinates : 0, 1),
     };

@@ -243,11 +243,15 @@ static void draw_arms(const sheet *s, const char *ns)
 static void draw_round(const sheet *s)
 {
     const hdr_point below = {0.0, 0.0, s->spheres ? 0.0 : DISKS_Z};
-    canvas_layer(s->on, s->spheres ? "spheres" : "disks", HDR_MARKER_SPHERE_LIST,
-                 s->spheres ? PALETTE_SPHERE : PALETTE_DISK, 1.0);
-    for (int k = 0; k < s->panels; k++)
-        for (uint32_t i = 0; i < s->h->number; i++)
-            canvas_point(s->on, along(along(panel(s, k), 1.0, s->h->q[i]), 1.0, below));
+    uint32_t begin = 0;
+    for (const heard_kind *kind = s->h->kind; kind < s->h->kind + s->h->kinds; kind++) {
+        canvas_layer(s->on, s->spheres ? "spheres" : "disks", HDR_MARKER_SPHERE_LIST,
+                     s->spheres ? PALETTE_SPHERE : PALETTE_DISK, kind->diameter);
+        for (int k = 0; k < s->panels; k++)
+            for (uint32_t i = begin; i < kind->end; i++)
+                canvas_point(s->on, along(along(panel(s, k), 1.0, s->h->q[i]), 1.0, below));
+        begin = kind->end;
+    }
 }
 
 static void draw_particles(const sheet *s)

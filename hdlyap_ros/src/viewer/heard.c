@@ -96,6 +96,22 @@ static double number_in(const char *text)
     return isfinite(number) ? number : 0.0;
 }
 
+/** Keeps the kinds of particles; all that are left are of the last one. */
+static void begin_kinds(heard *h, const hdr_run_info *info)
+{
+    uint32_t end = 0;
+    for (uint32_t k = 0; k < info->kind_numbers.count && k < info->kind_diameters.count &&
+                         k < info->kind_masses.count && k < HEARD_KINDS_MAX;
+         k++) {
+        const uint32_t left = h->number - end, number = info->kind_numbers.data[k];
+        end += number < left ? number : left;
+        h->kind[h->kinds++] = (heard_kind){end, element(&info->kind_diameters, k),
+                                           element(&info->kind_masses, k)};
+    }
+    if (h->kinds == 0) h->kind[h->kinds++] = (heard_kind){h->number, 1.0, 1.0};
+    h->kind[h->kinds - 1].end = h->number;
+}
+
 static void begin_particles(heard *h, const hdr_run_info *info)
 {
     const char *particles = heard_parameter(info, "particles");
@@ -104,6 +120,7 @@ static void begin_particles(heard *h, const hdr_run_info *info)
     h->inertia = info->inertia;
     for (uint32_t k = 0; k < info->sites.count && k < HEARD_SITES_MAX; k++)
         h->site[h->sites++] = element(&info->sites, k);
+    begin_kinds(h, info);
     write_own(h->own, sizeof h->own, &info->parameters);
 }
 
@@ -203,6 +220,19 @@ static bool take(const heard *h, hdr_point *to, const hdr_doubles *x, const hdr_
     if (!are_of_each(h, 1, x, y, z)) return false;
     for (uint32_t i = 0; i < h->number; i++)
         to[i] = (hdr_point){element(x, i), element(y, i), z->count > 0 ? element(z, i) : 0.0};
+    return true;
+}
+
+/** Takes the displacements of dq, which has them times the root of the mass. Returns false, and
+ * copies nothing, if a number is missing. */
+static bool take_vector(const heard *h, hdr_point *to, const hdr_doubles *x, const hdr_doubles *y,
+                        const hdr_doubles *z)
+{
+    uint32_t i = 0;
+    if (!take(h, to, x, y, z)) return false;
+    for (int k = 0; k < h->kinds; k++)
+        for (const double root = sqrt(h->kind[k].mass); i < h->kind[k].end; i++)
+            to[i] = (hdr_point){to[i].x / root, to[i].y / root, to[i].z / root};
     return true;
 }
 
@@ -310,7 +340,7 @@ void heard_mode_field(heard *h, const hdr_mode_field *field)
     heard_vector *v = with_index(h, field->index);
     if (!v) v = add(h, &what);
     if (!v) return;
-    (void)take(h, v->d, &field->dqx, &field->dqy, &field->dqz);
+    (void)take_vector(h, v->d, &field->dqx, &field->dqy, &field->dqz);
     take_turns(v->turn, &field->dq_angle);
     note_phases(h);
     h->changed = true;
@@ -386,7 +416,7 @@ void heard_slow_vectors(heard *h, const hdr_slow_vectors *slow)
                           dz = part(&slow->dqz, k, h->number),
                           turn = part(&slow->dq_angle, k, h->number);
         if (!v) continue;
-        (void)take(h, v->d, &dx, &dy, &dz);
+        (void)take_vector(h, v->d, &dx, &dy, &dz);
         take_turns(v->turn, &turn);
     }
 }

@@ -12,6 +12,7 @@ enum {
     HEARD_PAIRS_MAX = 8,
     HEARD_CORNERS_MAX = 512,
     HEARD_SITES_MAX = 8,
+    HEARD_KINDS_MAX = 8,
     HEARD_NUMBER_MAX = 10000000
 };
 
@@ -28,9 +29,15 @@ typedef struct heard_vector {
     double exponent;
     heard_lp lp;  /**< coefficients at the time of the vector; no pairs if not known */
     bool known;   /**< whether d and turn are known */
-    hdr_point *d; /**< [N] dq half of the vector */
+    hdr_point *d; /**< [N] displacements by the vector */
     double *turn; /**< [N] part of the vector in the angles of particles that rotate */
 } heard_vector;
+
+/** A kind of particles: those before number `end` that are not of a kind before. */
+typedef struct heard_kind {
+    uint32_t end;
+    double diameter, mass;
+} heard_kind;
 
 typedef struct heard {
     bool begun; /**< run_info is known: box, names and what follows */
@@ -40,8 +47,10 @@ typedef struct heard {
     char own[160];                /**< parameters that only these particles have, as text */
     double site[HEARD_SITES_MAX]; /**< [sites] of its disks along its arm, ascending [sigma] */
     int sites;                    /**< 0: one, at its centre */
-    double inertia;               /**< moment of inertia [sigma^2]; 0 if particles do not rotate */
-    double box[3];                /**< edges of the box; 0 along z for particles in the plane */
+    heard_kind kind[HEARD_KINDS_MAX];
+    int kinds;
+    double inertia; /**< moment of inertia [sigma^2]; 0 if particles do not rotate */
+    double box[3];  /**< edges of the box; 0 along z for particles in the plane */
     bool periodic[3];
     char container[16];
     uint32_t corners; /**< corners of the outline of a curved container; 0 for a box */

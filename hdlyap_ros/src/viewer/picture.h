@@ -31,7 +31,7 @@ typedef struct picture_mode {
     uint32_t index;     /**< Lyapunov index of its vector, from 1 */
     double exponent;    /**< exponent of its step, otherwise of the vector [1/time unit] */
     double error;       /**< standard error of exponent; -1 if not known */
-    const hdr_point *d; /**< [N] dq half of the vector; NULL: nothing from here on is known */
+    const hdr_point *d; /**< [N] displacements by the vector; NULL: nothing from here on is known */
     const double *turn; /**< [N] part of the vector in the angles of particles that rotate */
     heard_lp lp;        /**< coefficients of an LP mode, at the time of the picture if known */
     double momentum;    /**< part of the vector in the P fields, 0 .. 1; -1 if not known */

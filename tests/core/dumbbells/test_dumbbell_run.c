@@ -71,7 +71,7 @@ TEST(a_long_box_has_the_numbers_of_another_program)
     for (int k = 0; k < 4; k++)
         CHECK_CLOSE(hd_spectrum_exponent(spectrum, l->col + k), lp[k],
                     z * hypot(lp_error, hd_spectrum_std_error(spectrum, l->col + k)));
-    const double *turning = hd_modes_turning_average(hd_run_parts(run).modes);
+    const double *turning = hd_modes_share_average(hd_run_parts(run).modes, HD_SHARE_TURNING);
     CHECK_WITHIN(t->multiplicity / 2.0, 0.88, 0.94);
     CHECK_WITHIN(l->multiplicity / 4.0, 0.74, 0.80); /* with the rotation of P; without it 0.63 */
     for (int k = 0; k < 2; k++) CHECK_WITHIN(turning[t->col + k], 0.01, 0.03);
@@ -96,12 +96,12 @@ TEST(what_turns_is_a_part_of_each_vector)
     CHECK_OK(hd_modes_measure(modes, (hd_columns){&v[0][0], VECTORS, 0, VECTORS}, q, p));
     hd_modes_add(modes);
     for (int l = 0; l < VECTORS; l++) {
-        CHECK_CLOSE(hd_modes_turning_snapshot(modes)[l], want[l], 1e-14);
-        CHECK_CLOSE(hd_modes_turning_average(modes)[l], want[l], 1e-14);
+        CHECK_CLOSE(hd_modes_share_snapshot(modes, HD_SHARE_TURNING)[l], want[l], 1e-14);
+        CHECK_CLOSE(hd_modes_share_average(modes, HD_SHARE_TURNING)[l], want[l], 1e-14);
     }
     const hd_scene_def disks = scene(.number = 16);
     MADE(hd_modes, of_disks, &disks, VECTORS, 1);
-    assert_null(hd_modes_turning_average(of_disks));
+    assert_null(hd_modes_share_average(of_disks, HD_SHARE_TURNING));
 }
 
 /** The exact vectors, of length 1, lie in the null space, each in its part. */

@@ -164,8 +164,8 @@ TEST(dumbbells_are_those_of_one_rank)
                       *alone = finished(dumbbells(exponents[k]));
         check_same_run(run, alone);
         for (int col = 0; col < hd_run_vectors(run); col++)
-            CHECK_CLOSE(hd_modes_turning_snapshot(hd_run_modes(run))[col],
-                        hd_modes_turning_snapshot(hd_run_modes(alone))[col], 1e-6);
+            CHECK_CLOSE(hd_modes_share_snapshot(hd_run_modes(run), HD_SHARE_TURNING)[col],
+                        hd_modes_share_snapshot(hd_run_modes(alone), HD_SHARE_TURNING)[col], 1e-6);
     }
 }
 

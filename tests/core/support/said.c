@@ -76,8 +76,10 @@ static void say_weights(said *s, const hd_modes *of, const hd_scene_def *scene)
         say_all(s, "null snapshot", hd_modes_null_snapshot(of, null), n);
         say_all(s, "null average", hd_modes_null_average(of, null), n);
     }
-    say_all(s, "turning snapshot", hd_modes_turning_snapshot(of), n);
-    say_all(s, "turning average", hd_modes_turning_average(of), n);
+    say_all(s, "turning snapshot", hd_modes_share_snapshot(of, HD_SHARE_TURNING), n);
+    say_all(s, "turning average", hd_modes_share_average(of, HD_SHARE_TURNING), n);
+    say_all(s, "second snapshot", hd_modes_share_snapshot(of, HD_SHARE_SECOND), n);
+    say_all(s, "second average", hd_modes_share_average(of, HD_SHARE_SECOND), n);
     for (int column = 0; column < hd_fields_columns(fields); column++)
         say_all(s, "coefficients", hd_modes_coefficients(of, column), n);
     say_all(s, "fields", hd_fields_data(fields), rows * (size_t)hd_fields_stride(fields));

@@ -49,7 +49,6 @@ enum { HD_ROWS = 2 * HD_DIM };
 #define hd_hard_kinds HD_COMPILED(hd_hard_kinds)
 #define hd_hard_share HD_COMPILED(hd_hard_share)
 #define hd_hard_size HD_COMPILED(hd_hard_size)
-#define hd_kinds_own HD_COMPILED(hd_kinds_own)
 #define hd_hard_keep HD_COMPILED(hd_hard_keep)
 #define hd_hard_kinetic_energy HD_COMPILED(hd_hard_kinetic_energy)
 #define hd_hard_least HD_COMPILED(hd_hard_least)

@@ -11,7 +11,7 @@
 #include "dynamics/hard/maps.h"
 #include "scene/container.h"
 #include "scene/dynamics.h"
-#include "scene/fluid.h"
+#include "scene/mixture.h"
 #include "scene/null_space.h"
 
 enum { SAID = 96 }; /* bytes of a container's description */
@@ -206,6 +206,11 @@ extern const hd_dynamics hd_mixed_spheres_row;
 #else
 #define ROW ROWS()
 #endif
+#if HD_MIXED
+#define FLUID (HD_DIM == 2 ? &hd_fluid_disk_mixture : &hd_fluid_sphere_mixture)
+#else
+#define FLUID (HD_DIM == 2 ? &hd_fluid_disks : &hd_fluid_spheres)
+#endif
 const hd_dynamics ROW = {.particles = HD_DIM == 2 ? "disks" : "spheres",
                          .dimension = HD_DIM,
                          .coordinates = HD_DIM,
@@ -216,7 +221,7 @@ const hd_dynamics ROW = {.particles = HD_DIM == 2 ? "disks" : "spheres",
                          .collides = true,
                          .parameter = hd_kinds_own,
                          .parameters = HD_KINDS_OWN,
-                         .fluid = HD_DIM == 2 ? &hd_fluid_disks : &hd_fluid_spheres,
+                         .fluid = FLUID,
                          .check = hard_check,
                          .zero_exponents = hd_hard_zeros,
                          .record_rate = hd_hard_entries,

@@ -4,9 +4,7 @@
 
 #include "dynamics/hard/compiled.h"
 #include "hdlyap/dynamics.h"
-
-enum { HD_KINDS_OWN = 3 };
-extern const hd_parameter hd_kinds_own[HD_KINDS_OWN];
+#include "scene/kinds.h"
 
 /** See hd_dynamics.kinds and hd_dynamics.size. */
 int hd_hard_kinds(const hd_scene_def *scene, hd_kind *kind);

@@ -1,7 +1,7 @@
 """Messages -> arrays and pandas frames by the shapes in the .msg files: fields of one shape are
 one frame. Columns have the names of fields (arrays in the singular), attrs['units'] their units. A
 number that is not known or not measured is NaN, also if the message has 0 or -1. Only spheres have
-columns along z, only particles that rotate have `rotation`."""
+columns along z, only particles that rotate have `rotation`, only mixtures `second_kind`."""
 
 from collections import namedtuple
 
@@ -14,7 +14,8 @@ from hdlyap.numbers import known
 from . import fields, space, stages, steps, waves
 from .fields import words
 
-OF_SPHERES, OF_TURNING = ('nz', 'null_z'), ('rotation',)  # columns
+# columns that only some runs have
+OF_SPHERES, OF_TURNING, OF_MIXTURES = ('nz', 'null_z'), ('rotation',), ('second_kind',)
 NUMBERS = {'bool': bool, 'float64': float}  # others are integers
 # columns whose numbers are replaced by names
 NAMES = {
@@ -168,6 +169,7 @@ def _numbers(parts, part, only, info):
         ]
     of_others = () if space.is_solid(info) else OF_SPHERES
     of_others += () if space.turns(info) else OF_TURNING
+    of_others += () if space.is_mixture(info) else OF_MIXTURES
     for name in (*of_others, *LABELS.get(kind, ((), ()))[1]):
         columns.pop(name, None)
     return {
@@ -226,7 +228,8 @@ def of_gas(message, info=None):
     """A frame by quantity, of the quantities that these particles have."""
     described = fields.of(message)
     pressures = ['pressure', *('pressure_' + axis for axis in space.axes(info))]
-    names = ['collision_rate', *pressures, 'compressibility', 'temperature', 'potential_energy']
+    rates = ['collision_rate', *('collision_rate_' + pair for pair in space.PAIRS)]
+    names = [*rates, *pressures, 'compressibility', 'temperature', 'potential_energy']
     names = [name for name in names if not np.isnan(getattr(message, name))]
     columns = {
         'value': [getattr(message, name) for name in names],

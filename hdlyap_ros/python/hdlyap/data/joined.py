@@ -12,6 +12,7 @@ from .reader import NoInfo, RecordingError, is_known
 OF_SPHERES = ('particles', 'aspect_z', 'boundary_z')  # the same for all disks
 SYSTEM = ('container', 'number', 'density', 'aspect', 'boundary_x', 'boundary_y')
 SYSTEM += OF_SPHERES
+KINDS = ('kind_diameters', 'kind_masses')  # as parameters of their own may say
 MEASURED = ('vectors', 'wave_nx', 'wave_ny', 'wave_nz')
 UNSEEN = ('spectrum', 'state')  # observables that change nothing in the core, and may differ
 SAME = 1e-9  # relative difference below which parameters are the same
@@ -135,7 +136,7 @@ def system(info):
     from one seed to the next."""
     absent = space.OF_A_BOX if space.without_box(info) else ()
     own = [one.name for one in info.parameters if one.own and one.value == one.effect]
-    return [*(name for name in SYSTEM if name not in absent), *own]
+    return [*(name for name in SYSTEM if name not in absent), *(own or KINDS)]
 
 
 def compared(info):

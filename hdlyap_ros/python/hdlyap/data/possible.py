@@ -22,7 +22,7 @@ TEXTS = 'scene particles container seed field_indices boundary_x boundary_y boun
 NEEDED = dict.fromkeys(TEXTS.split(), str)
 NEEDED.update(number=int, observables=list, density=float, aspect=float, aspect_z=float)
 KINDS = {str: 'a text', int: 'an integer', float: 'a number', list: 'a list'}
-SITES = 8  # most disks of a particle
+SITES, KINDS_MOST = 8, 8  # most disks of a particle, most kinds of particles
 VECTORS = 2**16  # most zero exponents, and most vectors of a set
 WAVES = 10**6  # largest mode number
 EXPONENTS = 'exponents'  # stands for the number of exponents of the run
@@ -31,6 +31,8 @@ RANGES = {
     'RunInfo.dimension': (0, 3),
     'RunInfo.coordinates': (1, COORDINATES),
     'RunInfo.inertia': (0, LARGEST),
+    'RunInfo.kind_numbers': (0, PARTICLES),
+    **dict.fromkeys(('RunInfo.kind_diameters', 'RunInfo.kind_masses'), (1e-9, 1e9)),
     **dict.fromkeys((f'RunInfo.box_{axis}' for axis in 'xyz'), (0, 1e9)),
     'RunInfo.vectors': (0, EXPONENTS),
     'RunInfo.zero_exponents': (0, VECTORS),
@@ -221,6 +223,9 @@ def _of_run_info(info):
     _refuse_other(
         len(info.sites) <= SITES, 'sites', f'{len(info.sites)} elements', f'at most {SITES}'
     )
+    kinds = info.kind_numbers
+    is_right = len(kinds) <= KINDS_MOST and sum(kinds) == info.number
+    _refuse_other(is_right, 'kind_numbers', kinds, f'at most {KINDS_MOST}, with a sum of number')
 
 
 def _check_parameters(info):

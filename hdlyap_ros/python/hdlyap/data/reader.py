@@ -148,11 +148,13 @@ def without_info(path, node=None):
 
 class Unknown:
     """Stands for the run_info of a run whose bags have none. Its messages show whether there is a
-    direction z, and whether particles turn; every other parameter raises NoInfo."""
+    direction z, whether particles turn and whether there are two kinds; every other parameter
+    raises NoInfo."""
 
     def __init__(self, path, run_id, told):
         self.path, self.run_id, self.changes = path, run_id, ()
         self.dimension = 3 if space.shows(told, ('z', 'nz')) else 2
+        self.kind_numbers = (0,) * (1 + space.shows(told, ('second_kind', 'collision_rate_12')))
         self.inertia = math.inf if space.shows(told, ('angle', 'rotation')) else 0.0
 
     def __getattr__(self, name):

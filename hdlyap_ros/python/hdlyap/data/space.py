@@ -22,13 +22,21 @@ def turns(info):
     return info is not None and info.inertia > 0
 
 
+PAIRS = '11', '12', '22'  # of two kinds of particles
+
+
+def is_mixture(info):
+    """Whether particles are of two kinds; info = None stands for disks."""
+    return info is not None and len(info.kind_numbers) > 1
+
+
 def shows(messages, names):
     """Whether one of these messages, or of their elements, has something in fields of these
     names."""
     for message in messages:
         for name in message.__slots__:
             value = getattr(message, name)
-            if name in names and np.any(value):
+            if name in names and np.any(np.nan_to_num(value)):
                 return True
             is_list = isinstance(value, list) and value and hasattr(value[0], '__slots__')
             if is_list and shows(value, names):
@@ -75,6 +83,21 @@ def vectors(message, name=''):
     return np.array([row for row in rows if len(row)])
 
 
+def diameters(info):
+    """The diameter of each particle."""
+    return np.repeat(info.kind_diameters, info.kind_numbers)
+
+
+def roots(info):
+    """The root of the mass of each particle, by which coordinates of vectors are weighted."""
+    return np.sqrt(np.repeat(info.kind_masses, info.kind_numbers))
+
+
+def displacements(field, info):
+    """Rows of the displacements of particles by a vector."""
+    return vectors(field, 'dq') / roots(info)
+
+
 def particle(info):
     """What a particle is called."""
     name = _words(info.particles)
@@ -82,11 +105,11 @@ def particle(info):
 
 
 def named(info):
-    """The text after the number of particles if they are no disks: their name and their
-    parameters."""
-    if info.particles == 'disks':
-        return ''
+    """The text after the number of particles if they are not disks of one kind: their name and
+    their parameters."""
     own_ones = [f'{_words(name)} {_short(value)}' for name, value in own(info).items()]
+    if info.particles == 'disks' and not own_ones:
+        return ''
     return ', '.join([f' {_words(info.particles)}', *own_ones])
 
 

@@ -11,6 +11,8 @@ from math import pi, sqrt
 
 import numpy as np
 
+from hdlyap.data import space
+
 MOST = 0.7  # highest density of the reference; disks freeze near 0.88
 
 
@@ -34,8 +36,8 @@ REFERENCES = {
 
 
 def of(info):
-    """The Reference of a run's particles; None if there is none."""
-    return REFERENCES.get(info.particles)
+    """The Reference of a run's particles; None if there is none, or if they are of two kinds."""
+    return None if space.is_mixture(info) else REFERENCES.get(info.particles)
 
 
 def contact_value(z, density):

@@ -7,21 +7,24 @@ from hdlyap.data import space, steps, waves
 
 
 class Expected:
-    """dq of a ModeField, scaled to a mean square of one, and its projection on the fields of these
-    steps. `along`: the directions in which their waves have nodes."""
+    """Displacements of a ModeField, scaled to a mean square of one, and their projection on the
+    fields of these steps. `along`: the directions in which their waves have nodes; `weight`: the
+    part of the square of dq that is in the projection."""
 
     def __init__(self, field, found, info):
         self.info, self._field = info, field
         self._waves = [(step.kind, space.nodes(step, info)) for step in found]
-        self.q, dq = space.vectors(field), space.vectors(field, 'dq')
+        self.q, dq = space.vectors(field), space.displacements(field, info)
         self.dq = dq / np.sqrt(np.mean(np.sum(dq**2, axis=0)))
         self.along = [d for d in range(3) if any(nodes[d] for _, nodes in self._waves)]
-        shapes = self._shapes(self.q)
-        table = np.array([*shapes, *self._momenta()])
+        shapes, roots = self._shapes(self.q), space.roots(info)
+        table = np.array([*shapes, *self._velocities(roots**2)]) * roots
         table = table.reshape(len(table), -1).T
-        found, *_ = np.linalg.lstsq(table, self.dq.ravel(), rcond=None)
+        found, *_ = np.linalg.lstsq(table, (self.dq * roots).ravel(), rcond=None)
         self._of_shapes = found[: len(shapes)]
-        self.projection = (table @ found).reshape(self.dq.shape)
+        self.projection = (table @ found).reshape(self.dq.shape) / roots
+        squares = (np.sum((part * roots) ** 2) for part in (self.projection, self.dq))
+        self.weight = float(np.divide(*squares))
 
     def _bits(self, kind, nodes):
         return waves.modulations(
@@ -36,10 +39,10 @@ class Expected:
             for bits in self._bits(kind, nodes)
         ]
 
-    def _momenta(self):
-        (x, y, *z), p = self.q, space.vectors(self._field, 'p')
+    def _velocities(self, masses):
+        (x, y, *z), v = self.q, space.vectors(self._field, 'p') / masses
         return [
-            p * waves.modulation(self.info, *nodes[:2], bits, x, y, *nodes[2:], *z)
+            v * waves.modulation(self.info, *nodes[:2], bits, x, y, *nodes[2:], *z)
             for kind, nodes in self._waves
             for bits in (self._bits(kind, nodes) if kind == steps.LP else ())
         ]
@@ -47,8 +50,3 @@ class Expected:
     def at(self, q):
         """The T or L field of the projection at other positions."""
         return np.tensordot(self._of_shapes, self._shapes(q), axes=1)
-
-    @property
-    def weight(self):
-        """The part of the square of dq that is in the projection."""
-        return float(np.mean(np.sum(self.projection**2, axis=0)))

@@ -59,7 +59,8 @@ class Panel:
         self._axes, self._name, self._film = axes, name, film
         self._distance, self._view = space.distance(info), View(info)
         style = dict(size=DOT) if self._view.is_solid else dict(facecolors=DISK, antialiaseds=False)
-        self._particles = Particles(axes, info, np.zeros((len(space.axes(info)), 1)), [0], **style)
+        zeros = np.zeros((len(space.axes(info)), info.number))
+        self._particles = Particles(axes, info, zeros, zeros[0], **style)
         self._arrows = None
         self._colour = BLUE if name.startswith('T') else VERMILION
         axes.set_xticks([])
@@ -73,8 +74,8 @@ class Panel:
         self._title.set_text(self._text(frame, field))
         if field is None:
             return
-        dq = space.vectors(field, 'dq')
-        dq *= ARROW * self._distance / strength(field)
+        dq = space.displacements(field, self._film.info)
+        dq *= ARROW * self._distance / strength(field, self._film.info)
         lengths = np.maximum(np.linalg.norm(dq, axis=0), 1e-300)
         dq *= np.minimum(1, LONGEST * self._distance / lengths)
         q = space.vectors(field)
@@ -94,14 +95,15 @@ class Panel:
     def _show_particles(self, frame, field):
         """Shows the particles. Those that rotate are coloured by the vector or, without one, by
         their spin."""
-        info, q = self._film.info, frame.places[:, self._view.order(frame.places)]
-        self._particles.move(q, frame.angles)
+        info, order = self._film.info, self._view.order(frame.places)
+        q = frame.places[:, order]
+        self._particles.move(q, frame.angles, order)
         if self._view.is_solid:
             self._particles.paint(self._view.pale(SPHERE, q))
         elif space.turns(info):
             known = field is not None
             self._particles.paint(
-                of_vector(field, DISK) if known else of_spins(info, frame.spins, DISK)
+                of_vector(field, info, DISK) if known else of_spins(info, frame.spins, DISK)
             )
 
     def _text(self, frame, field):

@@ -5,6 +5,7 @@ branches, and at density 0.4 their curvature."""
 from collections import namedtuple
 from math import hypot, inf, isclose, pi
 
+from hdlyap.data import space
 from hdlyap.data.reader import is_known
 
 DISKS, DENSITY, ASPECT = 780, 0.8, 0.867
@@ -85,7 +86,8 @@ def _within(value, ends):
 
 
 def _is_rectangle(info):
-    return is_known(info) and info.particles == 'disks' and info.container == 'rectangle'
+    alike = is_known(info) and not space.is_mixture(info)
+    return alike and info.particles == 'disks' and info.container == 'rectangle'
 
 
 def _is_periodic_scene(info):

@@ -202,6 +202,7 @@ def _gas(recording):
     per = f'per {space.particle(info)} and time unit'
     rows = [
         ('collision rate', gas.collision_rate, gas.collision_rate_error, per),
+        *_of_pairs(gas, info),
         ('pressure', gas.pressure, gas.pressure_error, f'per sigma^{len(axes)}'),
         ('  of ' + ', '.join('p' + axis for axis in axes), each, -1.0, ''),
         (of_z, gas.compressibility, gas.compressibility_error, ''),
@@ -218,6 +219,18 @@ def _gas(recording):
     if reference and periodic and info.density <= reference.most:
         lines.append(f'{"":<15} {reference.compressibility(info.density):.6f} by {reference.by}')
     return '\n'.join(lines)
+
+
+def _of_pairs(gas, info):
+    """Rows of what the pairs of kinds of a mixture have of the collision rate, and of what theory
+    says."""
+    if not space.is_mixture(info):
+        return
+    names = ['collision_rate_' + pair for pair in space.PAIRS]
+    measured = [with_error(getattr(gas, name), getattr(gas, name + '_error')) for name in names]
+    expected = [f'{getattr(gas, "expected_rate_" + pair):.4g}' for pair in space.PAIRS]
+    yield '  pairs ' + ', '.join(space.PAIRS), ', '.join(measured), -1.0, ''
+    yield '  by theory', ', '.join(expected) + f'; Z {gas.expected_compressibility:.4g}', -1.0, ''
 
 
 def _tail(recording):

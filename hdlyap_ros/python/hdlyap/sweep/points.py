@@ -7,7 +7,7 @@ import numpy as np
 
 from hdlyap.data import reader, seeds, space
 from hdlyap.data import joined
-from hdlyap.parameters import asked_of_own
+from hdlyap.parameters import asked_of_own, named, value
 from hdlyap.data.reader import RecordingError
 from hdlyap.data.containers import is_curved
 
@@ -41,13 +41,13 @@ class Value(namedtuple('Value', 'value std_error scatter chi2 runs misfit fit'))
 class Point:
     """The runs of one system."""
 
-    def __init__(self, paths, choice=(None, None), remarks=(), run=''):
-        """remarks: lines about the bags; run: the name of its runs in a plan. Raises
-        RecordingError if the bags have no averages or do not belong together."""
+    def __init__(self, paths, choice=(None, None), remarks=(), run='', own=()):
+        """remarks: lines about the bags; run: the name of its runs in a plan; own: as of system.
+        Raises RecordingError if the bags have no averages or do not belong together."""
         self.remarks, self.run = remarks, run
         self.data = seeds.load(*paths, form=choice[0], k=choice[1])
         self.runs = self.data.runs
-        self.system = system(self.data.info)
+        self.system = system(self.data.info, own)
         self.values = self._values()  # {quantity: Value} of the quantities that were measured
 
     def _values(self):
@@ -94,9 +94,12 @@ class Point:
         return [name for name in FITTED if name in found and name not in self.values]
 
 
-def system(info):
+def system(info, own):
+    """own: names of the parameters that only these particles have and that mean something in one of
+    the systems, as a second kind in one of disks."""
+    asked = {name: value(named(info, name), named(info, name).value) for name in own}
     if space.without_box(info):
-        return {'number': info.number, **asked_of_own(info)}
+        return {'number': info.number, **asked}
     walls = [info.container] if is_curved(info) else space.along(info, 'boundary_')
     walls = walls[:1] if len(set(walls)) == 1 else walls
     solid = {'aspect_z': info.aspect_z} if space.is_solid(info) else {}
@@ -105,7 +108,7 @@ def system(info):
         'density': info.density,
         'aspect': info.aspect,
         **solid,
-        **asked_of_own(info),
+        **asked,
         'boundary': ','.join(walls),
     }
 
@@ -135,28 +138,32 @@ def read(paths, choice=(None, None), is_plan=False):
     """Returns points, sorted by their systems, and a line for each bag or system that cannot be
     read. Points of a plan have the names of their runs; runs of one system that have no mean are a
     point each."""
-    systems, wrong, first, counts = {}, [], None, {}
+    infos, systems, wrong, first, counts = {}, {}, [], None, {}
     for path in paths:
         try:
-            infos = list(reader.run_infos(path).values())
-            info, counts[path] = infos[-1], len(infos)
+            found = list(reader.run_infos(path).values())
+            info, counts[path] = found[-1], len(found)
             first = first or info
             if info.particles != first.particles:
                 what, others = info.particles, first.particles
                 raise RecordingError(f'{path}: particles = {what}, but this table is of {others}')
-            same = [str(getattr(info, name)) for name in joined.compared(info)]
-            systems.setdefault((*system(info).values(), *same), []).append(path)
+            infos[path] = info
         except RecordingError as error:
             wrong.append(str(error))
+    own = dict.fromkeys(name for info in infos.values() for name in asked_of_own(info))
+    for path, info in infos.items():
+        same = [str(getattr(info, name)) for name in joined.compared(info)]
+        systems.setdefault((*system(info, own).values(), *same), []).append(path)
     points = []
     for _, of_one in sorted(systems.items(), key=_numbers_first):
         try:
             of_several = [path for path in of_one if counts[path] > 1]
             remarks = [f'{path}: the last of its {counts[path]} runs' for path in of_several]
-            points.append(Point(of_one, choice, remarks, _name(of_one) if is_plan else ''))
+            name = _name(of_one) if is_plan else ''
+            points.append(Point(of_one, choice, remarks, name, own))
         except RecordingError as error:
             if is_plan and len(of_one) > 1:
-                points += [Point([path], choice, remarks, _name([path])) for path in of_one]
+                points += [Point([path], choice, remarks, _name([path]), own) for path in of_one]
             else:
                 wrong.append(str(error))
     return points, wrong

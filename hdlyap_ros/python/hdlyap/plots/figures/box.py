@@ -16,33 +16,38 @@ RIM = 1.2  # width of the line around dumbbells, half of which is visible [point
 
 class Particles:
     """Disks, spheres or dumbbells; the latter with both disks, one rim around them, and the bond.
-    `disks` repeats one outline, which makes files much smaller."""
+    `disks`: {diameter: a collection, which repeats one outline and makes files much smaller}."""
 
-    def __init__(self, axes, info, q, angle=(), size=1.0, **style):
-        """q: rows along x, y and, in space, z; angle: angles of particles that rotate."""
+    def __init__(self, axes, info, q, angle=(), which=slice(None), size=1.0, **style):
+        """q: rows along x, y and, in space, z; angle: angles of particles that rotate; which: the
+        numbers of these particles; size: of one of diameter 1."""
         self._info, self._view = info, View(info)
         self._view.fit(axes)
         enclose(axes, info)
         self._ends = len(space.disks(info, q, angle))
-        self._rims = self._bonds = None
+        self._diameters, self._bonds = space.diameters(info), None
+        self._rims, sizes = {}, np.unique(self._diameters)
         if self._ends > 1:
             style.update(edgecolors='none')
-            self._rims = _outlines(axes, size, edgecolors=GREY, facecolors='none', linewidths=RIM)
+            rim = {'edgecolors': GREY, 'facecolors': 'none', 'linewidths': RIM}
+            self._rims = {one: _outlines(axes, size * one, **rim) for one in sizes}
             self._bonds = LineCollection([], colors=INK, linewidths=0.7)
             axes.add_collection(self._bonds)
-        self.disks = _outlines(axes, size, **style)
-        self.move(q, angle)
+        self.disks = {one: _outlines(axes, size * one, **style) for one in sizes}
+        self.move(q, angle, which)
 
-    def move(self, q, angle=()):
+    def move(self, q, angle=(), which=slice(None)):
         ends = [self._view.places(end).T for end in space.disks(self._info, q, angle)]
-        for circles in filter(None, (self._rims, self.disks)):
-            circles.set_offsets(np.concatenate(ends))
+        self._moved = self._diameters[which]
+        for size, circles in [*self._rims.items(), *self.disks.items()]:
+            circles.set_offsets(np.concatenate([end[self._moved == size] for end in ends]))
         if self._bonds is not None:
             self._bonds.set_segments(np.stack(ends, axis=1))
 
     def paint(self, colours):
-        """Sets colours, a row for each particle."""
-        self.disks.set_facecolors(np.tile(colours, (self._ends, 1)))
+        """Sets colours, a row for each particle that was moved last."""
+        for size, circles in self.disks.items():
+            circles.set_facecolors(np.tile(colours[self._moved == size], (self._ends, 1)))
 
 
 def _outlines(axes, size, **style):

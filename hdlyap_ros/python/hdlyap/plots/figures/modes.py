@@ -29,22 +29,23 @@ class Panel:
     exponent. `dq`: what is drawn, of an LP step its L part, as whole vectors look random at times
     when most of them is in P."""
 
-    def __init__(self, field, block=None, error=np.nan):
-        self.field, self.block, self.error = field, block, error
-        self.dq, self.said = space.vectors(field, 'dq'), ''
+    def __init__(self, field, info, block=None, error=np.nan):
+        self.field, self.info, self.block, self.error = field, info, block, error
+        self.dq, self.said = space.displacements(field, info), ''
 
     def show_l(self):
         """Takes the L part in place of dq, if the step has modes of its own."""
         if self.block and self.block.kind == steps.LP and self.field.pairs:
-            self.dq, share = l_part(self.field)
+            part, share = l_part(self.field)
+            self.dq = part / space.roots(self.info)
             self.said = f', L part ({100 * share:.0f} %)'
         return self
 
     @property
     def arrows(self):
         """dq as arrows of a root mean square length of ARROW, but of what turns its whole."""
-        size = np.sqrt(np.mean(np.sum(self.dq**2, axis=0))) if self.said else strength(self.field)
-        return self.dq * ARROW / size
+        drawn = np.sqrt(np.mean(np.sum(self.dq**2, axis=0)))
+        return self.dq * ARROW / (drawn if self.said else strength(self.field, self.info))
 
     @property
     def name(self):
@@ -109,9 +110,9 @@ def _latest(recording):
     for field in recording.fields():
         block = next((block for block in blocks if block.first <= field.index <= block.last), None)
         if block is None:
-            others.append(Panel(field, error=_error(recording, field)))
+            others.append(Panel(field, recording.info, error=_error(recording, field)))
         elif block.first not in latest or field.sim_time > latest[block.first].field.sim_time:
-            latest[block.first] = Panel(field, block, _error(recording, field))
+            latest[block.first] = Panel(field, recording.info, block, _error(recording, field))
     return [latest[block.first] for block in blocks if block.first in latest], others
 
 
@@ -169,7 +170,7 @@ def _arrows(axes, panel, info, is_narrow, look):
     rims = {'facecolors': 'none', 'edgecolors': LIGHT, 'linewidths': 0.4}
     drawn = Particles(axes, info, space.vectors(field), field.angle, **rims)
     if space.turns(info):
-        drawn.paint(of_vector(field, 'white'))
+        drawn.paint(of_vector(field, info, 'white'))
     arrows(axes, field.x, field.y, panel.arrows, **{'width': 0.13, 'color': panel.colour, **look})
     title = panel.title.replace(', $\\ell', ',\n$\\ell') if is_narrow else panel.title
     is_long = len(panel.name + panel.said) >= LONG
@@ -185,16 +186,16 @@ def _channel(page, panels, info, look):
     along = 'x' if info.box_x >= info.box_y else 'y'
     for axes, panel in zip(rows.flat, panels):
         field = panel.field
-        dq = np.array([field.dqx, field.dqy, *[field.dq_angle] * space.turns(info)])
+        dq = [*space.displacements(field, info), *[np.array(field.dq_angle)] * space.turns(info)]
         names = 'x', 'y', r'\phi'
         for component, name, colour, marker in zip(dq, names, MEMBER_COLOURS, 'os^'):
-            component /= strength(field)
+            component = component / strength(field, info)
             style = {'markersize': 3, 'color': colour, **look, 'label': rf'$\delta q_{{{name}}}$'}
             axes.plot(getattr(field, along), component, marker, **style)
         if panel.said:
             place = np.array(getattr(field, along))
             order = np.argsort(place)
-            l_along = panel.dq['xy'.index(along)] / strength(field)
+            l_along = panel.dq['xy'.index(along)] / strength(field, info)
             axes.plot(place[order], l_along[order], color=INK, label='L part')
         axes.axhline(0, color=GREY, linewidth=0.5)
         axes.set_title(panel.title, fontsize=8)

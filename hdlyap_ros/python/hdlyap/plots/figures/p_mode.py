@@ -88,7 +88,7 @@ class PMode:
         self.across = 'xy' if containers.is_curved(info) or len(named) == 1 else named[0] + named[1]
         self._field, self.info = field, info
         self.q = space.vectors(field)
-        self._p = space.vectors(field, 'p')
+        self._p = space.vectors(field, 'p') / space.roots(info)  # as P modes have them
 
     @property
     def place(self):

@@ -37,7 +37,7 @@ def _arrows(axes, panel, info, view, look):
     share = min(1.0, MOST * info.box_x * info.box_z / info.number)
     order = [k for k in view.order(q) if share == 1 or q[1, k] < share * info.box_y]
     q, dq = q[:, order], dq[:, order]
-    Particles(axes, info, q, size=DOT, facecolors=view.pale(GREY, q))
+    Particles(axes, info, q, which=order, size=DOT).paint(view.pale(GREY, q))
     start = view.places(q - 0.5 * dq)
     style = {'width': 0.13, 'color': view.pale(panel.colour, q), **look}
     arrows(axes, *start, view.vectors(dq), **style)

@@ -1,5 +1,6 @@
 """All exponents, and a magnified panel of the smallest ones with the measured steps; below, for
-particles that rotate, the share of rotation in each vector."""
+particles that rotate, the share of rotation in each vector; of mixtures, that of the second
+kind."""
 
 from matplotlib import patches
 from matplotlib.lines import Line2D
@@ -30,11 +31,11 @@ def draw(page, recording, **look):
     carried = recording.spectrum.first_index, recording.last_index
     ranges = [carried, _magnified_range(recording)]
     ranges = ranges[ranges[0] == ranges[1] :]
-    turning = space.turns(recording.info) and recording.modes is not None
-    ratios = {'width_ratios': [1, 1.7][-len(ranges) :], 'height_ratios': [3, 1][: 1 + turning]}
-    size = 4.6 if len(ranges) == 1 else 7.6, 4.0 + 1.4 * turning
+    share = _share_of(recording.info) if recording.modes is not None else None
+    ratios = {'width_ratios': [1, 1.7][-len(ranges) :], 'height_ratios': [3, 1][: 1 + bool(share)]}
+    size = 4.6 if len(ranges) == 1 else 7.6, 4.0 + 1.4 * bool(share)
     how = {'sharex': 'col', 'squeeze': False, 'gridspec_kw': ratios}
-    rows = page.panels(1 + turning, len(ranges), *size, **how)
+    rows = page.panels(1 + bool(share), len(ranges), *size, **how)
     if len(ranges) > 1:
         _whole(rows[0, 0], recording, look)
         if page.shows(1):
@@ -42,8 +43,8 @@ def draw(page, recording, **look):
         rows[0, 1].set_title('smallest exponents', loc='left')
     # in a narrow column there is room below the names in the other panel alone
     _small(rows[0, -1], rows[0, 0] if page.is_narrow else rows[0, -1], recording, dict(look))
-    for axes, within in zip(rows[-1], ranges if turning else ()):
-        _rotation(axes, recording, *within)
+    for axes, within in zip(rows[-1], ranges if share else ()):
+        _share(axes, recording, *share, *within)
     averaged = f', averaged over {recording.spectrum.averaged_time:g} time units'
     for column in rows.T:
         page.outer(column[:, np.newaxis])
@@ -59,18 +60,27 @@ def _whole(axes, recording, look):
     axes.set_title('all exponents carried', loc='left')
 
 
-def _rotation(axes, recording, first, last):
-    """Draws the share of dq in the angles, and that of a vector without any preference."""
-    chance, colours = 1 / recording.info.coordinates, _colours(recording, first, last)
+def _share_of(info):
+    """(field of Mode, what a vector without any preference has, name) of the share of dq that is
+    drawn: in the angles, or on the second kind; None if there are neither."""
+    if space.turns(info):
+        return 'rotation', 1 / info.coordinates, 'share of rotation'
+    if space.is_mixture(info):
+        return 'second_kind', info.kind_numbers[1] / info.number, 'share of 2nd kind'
+    return None
+
+
+def _share(axes, recording, field, chance, label, first, last):
+    colours = _colours(recording, first, last)
     found = [mode for mode in recording.modes.modes if first <= mode.index <= last]
-    shares, small = [mode.rotation for mode in found], last - first < MAGNIFIED_MOST
+    shares, small = [getattr(mode, field) for mode in found], last - first < MAGNIFIED_MOST
     axes.plot([mode.index for mode in found], shares, color=LIGHT, linewidth=0.8, zorder=1)
-    for mode in found:
+    for mode, share in zip(found, shares):
         look = {'color': colours.get(mode.index, INK), 'markersize': 2.2 if small else 1}
-        axes.plot(mode.index, mode.rotation, 'o', **look)
+        axes.plot(mode.index, share, 'o', **look)
     axes.axhline(chance, color=GREY, linewidth=0.6, linestyle='--')
     axes.set_ylim(0, 1.1 * max([chance, *shares]))
-    axes.set_ylabel('share of rotation')
+    axes.set_ylabel(label)
     index_axis(axes, 8)
 
 

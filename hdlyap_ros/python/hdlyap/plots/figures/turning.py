@@ -9,18 +9,18 @@ LEFT, RIGHT = '#7FBF7B', '#AF8DC3'
 KT = 2 / 3  # temperature of particles in the plane that rotate
 
 
-def strength(field):
-    """The root mean square, over particles, of dq with its part in the angles."""
-    squares = np.sum(space.vectors(field, 'dq') ** 2, axis=0)
+def strength(field, info):
+    """The root mean square, over particles, of displacements with their part in the angles."""
+    squares = np.sum(space.displacements(field, info) ** 2, axis=0)
     if len(field.dq_angle):
         squares += np.square(field.dq_angle)
     return np.sqrt(np.mean(squares))
 
 
-def of_vector(field, still):
+def of_vector(field, info, still):
     """Colours by a vector's part in the angles. The colour is full if that part is at least
-    strength(field); still: the colour of particles that do not rotate."""
-    return _colours(np.array(field.dq_angle) / strength(field), still)
+    strength(); still: the colour of particles that do not rotate."""
+    return _colours(np.array(field.dq_angle) / strength(field, info), still)
 
 
 def of_spins(info, spins, still):
