@@ -2,7 +2,7 @@
 """Tables of the studies -> the pictures of doc/findings.md, and the fits that it quotes.
 
 Usage: findings.py TABLE.csv.. of halves, sound, dilute, circle, spheres, dumbbells, soft,
-time_steps: prints the fits, draws TABLE.png beside it.
+time_steps, mixtures: prints the fits, draws TABLE.png beside it.
 """
 
 import sys
@@ -16,6 +16,7 @@ import circle  # noqa: E402
 import dilute  # noqa: E402
 import dumbbells  # noqa: E402
 import halves  # noqa: E402
+import mixtures  # noqa: E402
 import soft  # noqa: E402
 import sound  # noqa: E402
 import spheres  # noqa: E402
@@ -30,6 +31,7 @@ STUDIES = {  # a column that only this one has: fits, picture
     'trembling': (dumbbells.lines, dumbbells.draw),
     'climb': (soft.lines, soft.draw),
     'third zero': (time_steps.lines, time_steps.draw),
+    'part': (mixtures.lines, mixtures.draw),
     'boundaries': (spheres.lines, spheres.draw),
 }
 
@@ -38,7 +40,7 @@ def main(arguments):
     if not arguments or not all(path.endswith('.csv') for path in arguments):
         print(
             'findings.py: needs tables of halves, sound, dilute, circle, spheres, dumbbells, soft, '
-            'time_steps, each a .csv',
+            'time_steps, mixtures, each a .csv',
             file=sys.stderr,
         )
         return 2

@@ -22,6 +22,7 @@ WORDS = (
     'potential',
     'integrator',
     'particles',
+    'part',
 )  # columns of them
 
 

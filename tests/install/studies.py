@@ -57,6 +57,10 @@ def drawn(test, *studies):
 
 
 WORDS = {'periodic', 'reflecting', 'none', 'disks', 'points', 'pp', 'exponent', 'T', 'LP'} | {
+    'glass',
+    'pure',
+    'mass',
+    'modes',
     'power',
     'wca',
     'lennard_jones',
@@ -218,8 +222,22 @@ class Studies(unittest.TestCase):
         leverage = 1 / 8 + (0.05 - ends / 8) ** 2 / (squares - ends**2 / 8)
         self.assertAlmostEqual(found[-2], 9 * (1 - leverage), 1)
 
+    def test_mixtures(self):
+        """Vectors of half of heavy disks live on the light ones, T has its part of the mass on the
+        second kind, and the pressure is that of theory."""
+        table = numbers('mixtures')
+        heavy = [row for row in table if row['part'] == 'mass']
+        self.assertEqual({row['mass'] for row in heavy}, {10})
+        self.assertAlmostEqual(heavy[0]['second kind of vector 1'], 0.12, delta=0.06)
+        former = [row for row in table if row['part'] == 'glass' and row['packing'] == 0.4]
+        self.assertAlmostEqual(former[0]['Z'], 2.81, delta=0.15)
+        (t,) = (row for row in former if (row['kind'], row['nx'], row['ny']) == ('T', 1, 0))
+        self.assertAlmostEqual(t['second kind of step'], 34 / 96, delta=0.05)
+        said = '\n'.join(drawn(self, 'mixtures'))
+        self.assertIn(f'mass 10: lambda_1 {heavy[0]["lambda_1"]:.4f}', said)
+
     def test_a_bad_argument_gives_one_line_and_status_2(self):
-        for name in ('halves', 'sound', 'dilute', 'dumbbells', 'soft', 'time_steps'):
+        for name in ('halves', 'sound', 'dilute', 'dumbbells', 'soft', 'time_steps', 'mixtures'):
             done = run(os.path.join(PROGRAMS, name), '--nonsense')
             self.assertEqual((done.returncode, done.stderr.count('\n')), (2, 1), name)
 
