@@ -46,6 +46,13 @@ typedef struct hd_totals {
     /** For each direction d: integral of the sum of p_d^2 over the particles. */
     double kinetic[HD_DIMENSION_MAX];
     double potential; /**< integral of the potential energy of all particles together */
+    /** Of walls that drag, at the low end and at the high one [T27]; kinetic is then known, too. */
+    struct {
+        double impulse[2];  /**< momentum along them that they have given to the particles */
+        double near[2];     /**< integral of the number of particles near them: whose centres are
+                               within 1 sigma of the places nearest to the wall that they reach */
+        double momentum[2]; /**< integral of the momentum of these along the walls */
+    } walls;
 } hd_totals;
 
 /** What is conserved, as it is now. If the row has no function `examine`, the kinetic energy is the
@@ -59,7 +66,7 @@ typedef struct hd_invariants {
      * errors are about 0.01 of the bound. */
     double energy_rounding;
     double momentum[HD_DIMENSION_MAX]; /**< total momentum along each direction, 0 along periodic
-                                          ones but for rounding */
+                                          ones but for rounding, unless walls drag */
     /** Total angular momentum about the middle of the box; it is conserved in a circle only. */
     double angular_momentum;
     /** Deepest overlap of two particles now, nearest images included: max(0, 1 - distance) for
@@ -118,8 +125,9 @@ struct hd_dynamics {
     size_t entry; /**< bytes of an entry of the record, which consists of doubles; the first one is
                      the time of the entry */
     /** True if tangent maps are symplectic: exponents then come in pairs of opposite sign, and half
-     * of the vectors give all of them [T18]. If false, exponents = all, which is then the default,
-     * carries all vectors, and positive exponents are counted by value. */
+     * of the vectors give all of them [T18], unless walls break that (hd_scene_symplectic). If
+     * false, exponents = all, which is then the default, carries all vectors, and positive
+     * exponents are counted by value. */
     bool symplectic;
     /** True if no growing tangent vector ever comes to dq = 0, as with hard particles, whose
      * collisions only disperse. The frame may then be orthonormalised by its dq parts alone, which
@@ -132,6 +140,9 @@ struct hd_dynamics {
     /** True for particles that collide and whose total kinetic energy is always N: `totals` counts
      * collisions. If false, it integrates over time. May be left out. */
     bool collides;
+    /** What the ends of a direction may be beside periodic and reflecting: a set of 1 <<
+     * HD_SHEARING. May be left out. */
+    unsigned ends;
 
     /** Parameters that only this dynamics has, [parameters]; the offset of number k is HD_OWN(k).
      * Their kind is HD_PARAMETER_INT, HD_PARAMETER_REAL, HD_PARAMETER_WORD or
@@ -237,7 +248,8 @@ struct hd_dynamics {
     /** Returns the integral of the divergence of the flow, the sum of the derivatives of each dq/dt
      * by its q and of each dp/dt by its p, over the time from the start to now, or to the last
      * whole time step. Its mean is the sum of all exponents: hd_run_divergence. It is part of what
-     * `archive` keeps. May be left out, as it is 0 for symplectic maps. */
+     * `archive` keeps. Collisions add the logarithms of what they do to phase space. May be left
+     * out, as it is 0 for symplectic maps; in scenes that have such maps it is not asked. */
     double (*divergence)(const void *state);
     /** What a program wants to know the means of, [averages]: the observable averages, see
      * hdlyap/averages.h. May be left out. */

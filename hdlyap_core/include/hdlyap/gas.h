@@ -45,6 +45,19 @@ typedef struct hd_gas_means {
     double potential_energy; /**< mean potential energy of a soft particle [energy]; NaN for hard
                                 ones */
     double potential_energy_error;
+    /** Momentum along shearing walls that flows from the high one to the low one, per time and
+     * length [T27] [energy/sigma^d]; NaN, as the numbers below, without such walls. */
+    double shear_stress;
+    double shear_stress_error;
+    /** Mean velocity along shearing walls of the particles near the one at the low end, and near
+     * that at the high end: whose centres are within 1 sigma of where they meet it [sigma/time
+     * unit]. */
+    double wall_velocity[2];
+    double wall_velocity_error[2];
+    double divergence; /**< mean divergence of the flow, as hd_run_divergence, which is less than 0
+                          where phase space contracts [1/time unit]; NaN where maps are symplectic,
+                          and if the dynamics does not tell it */
+    double divergence_error;
 } hd_gas_means;
 
 /** The gas of a run; owned by the run. */

@@ -7,6 +7,7 @@
 #ifndef HDLYAP_SCENE_H
 #define HDLYAP_SCENE_H
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -41,9 +42,23 @@ enum { HD_DIMENSION_MAX = 3 };
 typedef enum hd_container { HD_CONTAINERS(HD_CONTAINER_VALUE) HD_CONTAINERS_END } hd_container;
 #undef HD_CONTAINER_VALUE
 
-/** What the two ends of a direction are. HD_CURVED is the wall of a circle, which follows from the
- * container; a scene must not ask for it. */
-typedef enum hd_boundary { HD_PERIODIC, HD_REFLECTING, HD_CURVED } hd_boundary;
+/** What the two ends of a direction can be: EACH(NAME, name, what it is) for each. A scene holds
+ * HD_NAME, a user writes the name. */
+#define HD_BOUNDARIES(EACH)                                                                        \
+    EACH(PERIODIC, periodic, "the box repeats")                                                    \
+    EACH(REFLECTING, reflecting, "walls, which particles touch with their rims")                   \
+    EACH(SHEARING, shearing,                                                                       \
+         "walls that also turn the velocity of a disk, at the upper end towards the other axis, "  \
+         "at the lower one against it; the other direction must be periodic")
+
+/** HD_CURVED is the wall of a circle, which follows from the container; a scene must not ask for
+ * it. */
+#define HD_BOUNDARY_VALUE(NAME, name, what) HD_##NAME,
+typedef enum hd_boundary {
+    HD_BOUNDARIES(HD_BOUNDARY_VALUE) HD_BOUNDARIES_END,
+    HD_CURVED = HD_BOUNDARIES_END
+} hd_boundary;
+#undef HD_BOUNDARY_VALUE
 
 /** The stages of a run in their order: only particles move; the frame is carried, too; averages are
  * taken; the run has ended. */
@@ -130,7 +145,7 @@ typedef struct hd_scene_def {
 /** Returns the scene with all defaults: 780 disks in a periodic box, density 0.8, aspect 0.867. */
 hd_scene_def hd_scene_def_default(void);
 /** Returns the default scene for a dynamics, of the core or of the program's own, with the defaults
- * of its parameters; exponents = all if maps are not symplectic. What is wrong with a row is said
+ * of its parameters; exponents = hd_scene_exponents_usual. What is wrong with a row is said
  * by hd_scene_check, and by whatever makes a run or a trajectory; see hd_dynamics_check. */
 hd_scene_def hd_scene_def_of(const hd_dynamics *dynamics);
 
@@ -182,8 +197,8 @@ void hd_scene_box(const hd_scene_def *def, double *box);
  */
 void hd_scene_describe(const hd_scene_def *def, char *text, size_t size);
 
-/** The word for the ends of direction d = 0, 1, 2 (x, y, z): periodic, reflecting or curved; "" for
- * z in the plane. */
+/** The word for the ends of direction d = 0, 1, 2 (x, y, z): a name of HD_BOUNDARIES, or curved; ""
+ * for z in the plane. */
 const char *hd_scene_boundary_word(const hd_scene_def *def, int d);
 
 /** Number of corners of the polygon that hd_scene_outline writes. */
@@ -203,10 +218,17 @@ enum { HD_NULL_X, HD_NULL_Y, HD_NULL_Z };
  * units]. */
 double hd_scene_warmup(const hd_scene_def *def);
 
+/** True if the tangent maps of a scene are symplectic: those of its particles
+ * (hd_dynamics.symplectic) and those of its walls. */
+bool hd_scene_symplectic(const hd_scene_def *def);
+/** The exponents that a scene asks for unless its user says otherwise: HD_EXPONENTS_POSITIVE, or
+ * HD_EXPONENTS_ALL if maps are not symplectic. */
+int hd_scene_exponents_usual(const hd_scene_def *def);
+
 /** Numbers of exponents of a scene. */
 typedef struct hd_counts {
     int zero; /**< exponents that vanish (hd_dynamics.zero_exponents): for particles of the core 2,
-                 and 2 for each periodic direction; 4 in a circle */
+                 and 2 for each periodic direction, 1 if walls drag along it; 4 in a circle */
     int positive; /**< positive exponents, half of those that do not vanish; fewer may be positive
                      if maps are not symplectic */
     int vectors;  /**< exponents that are computed, each with a vector */

@@ -43,6 +43,11 @@ typedef struct hd_spectrum_sums {
     double exponent_sum;
     double
         exponent_sum_error; /**< standard error of exponent_sum; negative while it is not known */
+    /** Kaplan-Yorke dimension [T27]; NaN if exponents are in pairs of opposite sign, where it would
+     * be that of phase space, and unless so many are computed that their sum falls below 0. */
+    double kaplan_yorke;
+    double
+        kaplan_yorke_error; /**< standard error of kaplan_yorke; negative while it is not known */
 } hd_spectrum_sums;
 /** Computes the sums. O(n blocks). */
 hd_spectrum_sums hd_spectrum_sum_up(const hd_spectrum *spectrum);

@@ -37,6 +37,7 @@ HD_API_BEGIN
     X(HD_FILE_FAULT, "a file could not be read or written")                                        \
     X(HD_RANKS_APART, "ranks have computed different trajectories")                                \
     X(HD_ENERGY_LOST, "the energy is not conserved: the time step is too long")                    \
+    X(HD_JAMMED, "particles are jammed at walls that shear: they collide without end")             \
     X(HD_DYNAMICS_FAULT, "a function of the row of dynamics did what it must not")
 
 /** How a call ended. HD_MUST_CHECK makes the compiler warn if it is ignored. */

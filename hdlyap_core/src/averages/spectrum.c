@@ -221,16 +221,41 @@ static double exponent_sum(const hd_spectrum *spectrum, double *sum)
     return hd_blocks_error(&spectrum->blocks, spectrum->parts, spectrum->vectors);
 }
 
+/** Kaplan-Yorke dimension j + S / |lambda_(j+1)|, S the sum of the j exponents in front, j the most
+ * for which it is not negative; in *out. Returns its error, to first order in those of the
+ * exponents, which are correlated [T27]. Zero modes in the place of others do not change sums. */
+static double kaplan_yorke(const hd_spectrum *spectrum, double *out)
+{
+    const int n = spectrum->vectors;
+    double sum = 0.0, next = 0.0;
+    int col = 0;
+    *out = NAN;
+    if (!spectrum->by_sign || spectrum->time == 0) return -1.0;
+    for (; col < n; col++) {
+        next = hd_spectrum_exponent(spectrum, col);
+        if (sum + next < 0) break;
+        sum += next;
+    }
+    if (col == n && n < spectrum->rows) return -1.0;
+    *out = col < n ? col - sum / next : n;
+    for (int k = 0; k < col; k++) spectrum->parts[k] = (hd_part){k, -1.0 / next};
+    if (col < n) spectrum->parts[col] = (hd_part){col, sum / (next * next)};
+    return col < n ? hd_blocks_error(&spectrum->blocks, spectrum->parts, col + 1) : 0.0;
+}
+
 hd_spectrum_sums hd_spectrum_sum_up(const hd_spectrum *spectrum)
 {
-    double sum;
+    double sum, dimension;
     const double error = exponent_sum(spectrum, &sum);
+    const double dimension_error = kaplan_yorke(spectrum, &dimension);
     return (hd_spectrum_sums){.local_time = spectrum->local_time,
                               .ks_entropy = ks_entropy(spectrum),
                               .ks_entropy_error = ks_entropy_error(spectrum),
                               .pairing_error = pairing_error(spectrum),
                               .exponent_sum = sum,
-                              .exponent_sum_error = error};
+                              .exponent_sum_error = error,
+                              .kaplan_yorke = dimension,
+                              .kaplan_yorke_error = dimension_error};
 }
 
 /* ---- by sign ------------------------------------------------------------------------------- */

@@ -99,7 +99,7 @@ hd_status hd_covariant_create(hd_covariant **out, const hd_scene_def *def,
     c->centre = c->centre_most = c->vectors >= positive + zero ? zero : 0;
     c->unstable = c->centre > 0 ? positive
                                 : c->vectors; /* part of a centre is not measured as a space */
-    if (!hd_dynamics_of(def)->symplectic) hd_covariant_prepare_counting(c, spectrum);
+    if (!hd_scene_symplectic(def)) hd_covariant_prepare_counting(c, spectrum);
     const hd_status status = allocate(c);
     if (status == HD_OK)
         hd_covariant_clear(*out = c, 0.0);

@@ -67,6 +67,7 @@ hd_status hd_trajectory_create_with(hd_trajectory **out, const hd_scene_def *def
     }
     *tr = (hd_trajectory){.of = of, .state = state, .particles = def->number, .now = now};
     tr->rate = of->collision_rate(def);
+    tr->diverges = hd_scene_diverges(def);
     tr->energy.error = tr->energy.most = is_watched(of) ? 0.0 : NAN;
     tr->energy.asked = of->energy_asked ? of->energy_asked(def) : NAN;
     const hd_status status = note(tr);
@@ -172,7 +173,7 @@ hd_totals hd_trajectory_totals(const hd_trajectory *tr)
 
 double hd_trajectory_divergence(const hd_trajectory *tr)
 {
-    return tr->of->divergence ? tr->of->divergence(tr->state) : NAN;
+    return tr->diverges ? tr->of->divergence(tr->state) : NAN;
 }
 
 double hd_trajectory_time(const hd_trajectory *tr) { return tr->of->time(tr->state); }

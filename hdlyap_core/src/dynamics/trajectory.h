@@ -46,7 +46,8 @@ struct hd_trajectory {
     const hd_dynamics *of;
     void *state; /**< only the dynamics knows what it holds */
     int particles;
-    double rate; /**< expected pair collisions per time unit */
+    double rate;   /**< expected pair collisions per time unit */
+    bool diverges; /**< see hd_scene_diverges */
     hd_energy energy;
     /** [2][particles][coordinates]: q and p of now, for averages, and for what the row leaves out;
      * NULL without averages, if it leaves nothing out that follows from them. */

@@ -4,12 +4,13 @@
 #include <math.h>
 
 #include "base/memory.h"
+#include "scene/ends.h"
 
 hd_status hd_harmonics_create(hd_harmonics *h, const hd_scene_def *def, int d, int nodes)
 {
     const size_t size = 2 * ((size_t)nodes + 1);
     h->nodes = nodes;
-    h->offset = def->boundary[d] == HD_REFLECTING ? 0.5 : 0.0;
+    h->offset = hd_is_wall(def->boundary[d]) ? 0.5 : 0.0;
     h->k = hd_wave_component(def, d, 1);
     h->value = hd_memory_alloc(size, sizeof(double));
     h->derivative = hd_memory_alloc(size, sizeof(double));

@@ -12,6 +12,7 @@
 #include "dynamics/dynamics.h"
 #include "modes/fields.h"
 #include "scene/container.h"
+#include "scene/ends.h"
 #include "scene/fluid.h"
 #include "scene/scene.h"
 
@@ -35,7 +36,7 @@ static double walls_of(const hd_scene_def *def, const double *box)
 {
     double square = 0.0;
     for (int d = 0; d < hd_scene_dimension(def); d++)
-        if (hd_scene_boundary(def, d) == HD_REFLECTING) square += WALL * WALL / (box[d] * box[d]);
+        if (hd_is_wall(hd_scene_boundary(def, d))) square += WALL * WALL / (box[d] * box[d]);
     return sqrt(square);
 }
 

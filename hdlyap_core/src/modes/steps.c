@@ -91,8 +91,8 @@ static void place(hd_steps *steps, const hd_scene_def *def)
     const int positive = hd_scene_positive_exponents(def);
     steps->positive = (hd_half){0, smaller(n, positive)};
     steps->zero_first = smaller(n, positive);
-    steps->zero_end = smaller(n, all - positive);
-    steps->negative = (hd_half){all - positive, all};
+    steps->zero_end = smaller(n, positive + hd_scene_zero_exponents(def));
+    steps->negative = (hd_half){positive + hd_scene_zero_exponents(def), all};
 }
 
 hd_status hd_steps_create(hd_steps **out, const hd_scene_def *def, const hd_modes *modes)

@@ -17,6 +17,7 @@
 #include "modes/harmonics.h"
 #include "modes/modes.h"
 #include "modes/structure_terms.h"
+#include "scene/ends.h"
 #include "scene/scene.h"
 #include "scene/wave.h"
 #include "tangent/product.h"
@@ -98,7 +99,7 @@ static void plan_root(planned *p, const hd_scene_def *def)
 {
     p->root = 1.0;
     for (int d = 0; d < hd_scene_dimension(def); d++)
-        if (def->boundary[d] == HD_REFLECTING && p->wave.n[d] > 0) p->root *= sqrt(2.0);
+        if (hd_is_wall(def->boundary[d]) && p->wave.n[d] > 0) p->root *= sqrt(2.0);
 }
 
 static hd_status plan_waves(hd_structure *s, const hd_scene_def *def)

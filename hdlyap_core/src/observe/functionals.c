@@ -6,6 +6,8 @@
 #include <stdbool.h>
 #include <string.h>
 
+#include "scene/ends.h"
+
 /** A modulation at one place: its value, and the derivatives that are not multiples of it. */
 typedef struct modulation {
     double a, x, y, xy;
@@ -22,8 +24,8 @@ static modulation modulation_at(const hd_boundary *boundary, const hd_wave *wave
                                 const double *q)
 {
     double f, df, g, dg;
-    const double u = q[0] - (boundary[0] == HD_REFLECTING ? 0.5 : 0.0);
-    const double v = q[1] - (boundary[1] == HD_REFLECTING ? 0.5 : 0.0);
+    const double u = q[0] - (hd_is_wall(boundary[0]) ? 0.5 : 0.0);
+    const double v = q[1] - (hd_is_wall(boundary[1]) ? 0.5 : 0.0);
     function_at(&f, &df, wave->k[0], u, bits & HD_SIN_X);
     function_at(&g, &dg, wave->k[1], v, bits & HD_SIN_Y);
     return (modulation){f * g, df * g, f * dg, df * dg};
@@ -51,8 +53,8 @@ static void fill(hd_functionals out, const hd_wave *wave, const modulation *A, c
  */
 static unsigned transverse_bits(const hd_boundary *boundary, unsigned bits)
 {
-    if (boundary[0] == HD_REFLECTING) bits |= HD_SIN_X;
-    if (boundary[1] == HD_REFLECTING) bits |= HD_SIN_Y;
+    if (hd_is_wall(boundary[0])) bits |= HD_SIN_X;
+    if (hd_is_wall(boundary[1])) bits |= HD_SIN_Y;
     return bits;
 }
 

@@ -7,6 +7,8 @@
 #include <math.h>
 #include <stdbool.h>
 
+#include "scene/ends.h"
+
 /** Functions of one coordinate, with their derivatives: the factor of A, and that of s_i. */
 typedef struct factor {
     double value, slope, own, own_slope;
@@ -46,7 +48,7 @@ void hd_functionals_in_space(hd_functionals out, const hd_wave *wave, unsigned b
     double along[3];
     double p2 = 0.0;
     for (int d = 0; d < 3; d++) {
-        const bool wall = boundary[d] == HD_REFLECTING;
+        const bool wall = hd_is_wall(boundary[d]);
         f[d] = factor_at(wave->k[d], q[d] - (wall ? 0.5 : 0.0), bits >> d & 1);
         along[d] = wave->k[d] / wave->number;
         p2 += p[d] * p[d];

@@ -1,6 +1,6 @@
 /** Numbers of collisions, or integrals of energies, of the trajectory -> collision rate, or
- * temperature and potential energy; and from the virial the pressure [T19]. Standard errors come
- * from blocks of samples [T8]. */
+ * temperature and potential energy; from the virial the pressure [T19]; and the flow between walls
+ * that drag [T27]. Standard errors come from blocks of samples [T8]. */
 #include "observe/gas.h"
 
 #include <math.h>
@@ -11,28 +11,40 @@
 #include "base/memory.h"
 #include "observe/observable.h"
 #include "scene/container.h"
+#include "scene/ends.h"
 #include "scene/mixture.h"
 #include "scene/null_space.h"
 #include "scene/scene.h"
 #include "dynamics/trajectory.h"
 
 /** The series of numbers that are averaged, each per time unit: collisions, or the potential energy
- * of particles that do not collide; then the virial along each direction; then, for particles with
- * a potential, twice the kinetic energy along each direction, and for particles of two kinds the
- * collisions of each pair of kinds. */
+ * of particles that do not collide; then the virial along each direction; then, where it is not
+ * known beforehand, twice the kinetic energy along each direction; then the collisions of each pair
+ * of kinds, if there are two, or the flow, if walls drag; at last the divergence, if there is one. */
 enum {
     COLLISIONS,
     POTENTIAL = COLLISIONS, /**< in the same place, for particles that do not collide */
     VIRIAL_X,
-    SERIES_MAX = VIRIAL_X + 2 * HD_DIMENSION_MAX
+    FLOW = 5, /**< its series: the stress, then of both ends the particles near, their momentum */
+    SERIES_MAX = VIRIAL_X + 2 * HD_DIMENSION_MAX + FLOW + 1
 };
 
 /** Whether totals are integrals; else they are numbers of collisions, if there are any. */
 static bool integrates(const hd_dynamics *of) { return of->totals && !of->collides; }
 
+/** The direction along walls that drag; -1: none do. */
+static int dragged(const hd_scene_def *def)
+{
+    for (int d = 0; d < hd_scene_dimension(def); d++)
+        if (hd_ends_drag(def, d)) return d;
+    return -1;
+}
+
 struct hd_gas {
     int dimension, series;
-    bool is_summed, is_mixed;
+    bool is_summed, is_mixed, flows, diverges; /**< which series there are */
+    int first_flow;                            /**< the series behind those of all particles */
+    double along;                              /**< length of the walls that drag [sigma] */
     /** number of particles; area or volume that centres can reach [sigma^d] */
     double particles, area;
     double momenta;                   /**< number of free momenta along all directions */
@@ -40,7 +52,8 @@ struct hd_gas {
                                          particles that collide */
     /** By kinetic theory; NaN where it says nothing. */
     double expected[HD_KIND_PAIRS], compressibility;
-    hd_totals last;               /**< of when the last sample ended */
+    hd_totals last; /**< of when the last sample ended */
+    double last_diverged;
     double time, sum[SERIES_MAX]; /**< averaged time, and each series summed over it */
     hd_blocks blocks;
 };
@@ -68,11 +81,24 @@ static bool is_mixed(const hd_scene_def *def)
     return hd_scene_kinds(def, kind) > 1;
 }
 
+/** Number of the series that all particles have, and of all. */
+static int usual_series(const hd_scene_def *def)
+{
+    const bool both = integrates(hd_dynamics_of(def)) || dragged(def) >= 0;
+    return VIRIAL_X + hd_scene_dimension(def) * (both ? 2 : 1);
+}
+
 static int series_of(const hd_scene_def *def)
 {
-    const int dimension = hd_scene_dimension(def);
-    const int energies = integrates(hd_dynamics_of(def)) ? dimension : 0;
-    return VIRIAL_X + dimension + energies + (is_mixed(def) ? HD_KIND_PAIRS : 0);
+    return usual_series(def) + (is_mixed(def) ? HD_KIND_PAIRS : 0) + (dragged(def) >= 0 ? FLOW : 0) +
+           hd_scene_diverges(def);
+}
+
+static double edge_along(const hd_scene_def *def)
+{
+    double box[HD_DIMENSION_MAX];
+    hd_scene_box(def, box);
+    return box[dragged(def)];
 }
 
 /** Writes what kinetic theory says of disks and spheres. */
@@ -97,7 +123,11 @@ hd_status hd_gas_create(hd_gas **out, const hd_scene_def *def, double block)
     gas->is_summed = integrates(hd_dynamics_of(def));
     gas->is_mixed = is_mixed(def);
     expect(gas, def);
+    gas->flows = dragged(def) >= 0;
+    gas->diverges = hd_scene_diverges(def);
+    gas->first_flow = usual_series(def);
     gas->series = series_of(def);
+    gas->along = gas->flows ? edge_along(def) : 0.0;
     gas->particles = def->number;
     gas->area = hd_gas_area(def);
     for (int d = 0; d < gas->dimension; d++) gas->momenta += momenta(def, d);
@@ -121,13 +151,29 @@ void hd_gas_free(hd_gas *gas)
 /** The series behind the virial. */
 static int kinetic_x(const hd_gas *gas) { return VIRIAL_X + gas->dimension; }
 static int pairs_x(const hd_gas *gas) { return VIRIAL_X + gas->dimension; }
+static bool has_kinetic(const hd_gas *gas) { return gas->is_summed || gas->flows; }
+static int near(const hd_gas *gas, int side) { return gas->first_flow + 1 + 2 * side; }
 
 void hd_gas_begin(hd_gas *gas, const hd_trajectory *trajectory)
 {
     gas->last = hd_trajectory_totals(trajectory);
+    gas->last_diverged = hd_trajectory_divergence(trajectory);
     gas->time = 0.0;
     for (int s = 0; s < gas->series; s++) gas->sum[s] = 0.0;
     hd_blocks_restart(&gas->blocks);
+}
+
+/** Half of what the high wall has given less half of what the low one has: once each, the momentum
+ * that flows from one to the other. */
+static void sample_flow(double *sample, const hd_totals *a, const hd_totals *b)
+{
+    double given[2];
+    for (int side = 0; side < 2; side++) {
+        given[side] = b->walls.impulse[side] - a->walls.impulse[side];
+        sample[1 + 2 * side] = b->walls.near[side] - a->walls.near[side];
+        sample[2 + 2 * side] = b->walls.momentum[side] - a->walls.momentum[side];
+    }
+    sample[0] = 0.5 * (given[1] - given[0]);
 }
 
 void hd_gas_add(hd_gas *gas, const hd_trajectory *trajectory)
@@ -138,11 +184,15 @@ void hd_gas_add(hd_gas *gas, const hd_trajectory *trajectory)
     if (gas->is_summed) sample[POTENTIAL] = b->potential - a->potential;
     for (int d = 0; d < gas->dimension; d++) {
         sample[VIRIAL_X + d] = b->virial[d] - a->virial[d];
-        if (gas->is_summed) sample[kinetic_x(gas) + d] = b->kinetic[d] - a->kinetic[d];
+        if (has_kinetic(gas)) sample[kinetic_x(gas) + d] = b->kinetic[d] - a->kinetic[d];
     }
     for (int pair = 0; pair < HD_KIND_PAIRS && gas->is_mixed; pair++)
         sample[pairs_x(gas) + pair] = (double)(b->collisions_of[pair] - a->collisions_of[pair]);
     if (!(dt > 0)) return;
+    const double diverged = hd_trajectory_divergence(trajectory);
+    if (gas->flows) sample_flow(sample + gas->first_flow, a, b);
+    if (gas->diverges) sample[gas->series - 1] = diverged - gas->last_diverged;
+    gas->last_diverged = diverged;
     for (int s = 0; s < gas->series; s++) gas->sum[s] += sample[s];
     gas->time += dt;
     gas->last = now;
@@ -175,15 +225,15 @@ static void read_pressures(hd_gas_means *m, const hd_gas *gas, double t)
     const double a = gas->area;
     for (int d = 0; d < gas->dimension; d++) {
         const int virial = VIRIAL_X + d, kinetic = kinetic_x(gas) + d;
-        const double of_flight = gas->is_summed ? gas->sum[kinetic] / t : gas->kinetic[d];
-        const span flight = gas->is_summed ? (span){kinetic, kinetic, 1.0 / a} : NO_SPAN;
+        const double of_flight = has_kinetic(gas) ? gas->sum[kinetic] / t : gas->kinetic[d];
+        const span flight = has_kinetic(gas) ? (span){kinetic, kinetic, 1.0 / a} : NO_SPAN;
         m->pressure_of[d] = (of_flight + gas->sum[virial] / t) / a;
         m->pressure_of_error[d] = error_of(gas, (span){virial, virial, 1.0 / a}, flight);
         m->pressure += m->pressure_of[d];
     }
     m->pressure /= gas->dimension;
-    const int last = VIRIAL_X + gas->dimension * (gas->is_summed ? 2 : 1) - 1;
-    m->pressure_error = error_of(gas, (span){VIRIAL_X, last, 1.0 / gas->dimension / a}, NO_SPAN);
+    m->pressure_error = error_of(
+        gas, (span){VIRIAL_X, gas->first_flow - 1, 1.0 / gas->dimension / a}, NO_SPAN);
 }
 
 /** Writes the parts of the collision rate. */
@@ -220,7 +270,7 @@ static void read_counted(hd_gas_means *m, const hd_gas *gas, double t)
  * kinetic energy K. */
 static void read_summed(hd_gas_means *m, const hd_gas *gas, double t)
 {
-    const int x = kinetic_x(gas), last = gas->series - 1;
+    const int x = kinetic_x(gas), last = gas->first_flow - 1;
     double twice = 0.0, virial = 0.0; /* 2 K and W, each as a mean over time */
     for (int d = 0; d < gas->dimension; d++) {
         twice += gas->sum[x + d] / t;
@@ -238,12 +288,35 @@ static void read_summed(hd_gas_means *m, const hd_gas *gas, double t)
                                          NO_SPAN);
 }
 
+/** Writes the flow: the stress, and mean velocities, which are ratios u of two sums: their errors
+ * are those of (momentum - u particles) / particles. */
+static void read_flow(hd_gas_means *m, const hd_gas *gas, double t)
+{
+    const int stress = gas->first_flow, last = gas->series - 1;
+    m->shear_stress = gas->flows ? gas->sum[stress] / t / gas->along : NAN;
+    m->shear_stress_error = gas->flows
+                                ? error_of(gas, (span){stress, stress, 1.0 / gas->along}, NO_SPAN)
+                                : -1.0;
+    m->divergence = gas->diverges ? gas->sum[last] / t : NAN;
+    m->divergence_error = gas->diverges ? error_of(gas, (span){last, last, 1.0}, NO_SPAN) : -1.0;
+    for (int side = 0; side < 2; side++) {
+        const int of = near(gas, side);
+        const double many = gas->flows ? gas->sum[of] / t : NAN,
+                     u = gas->flows ? gas->sum[of + 1] / gas->sum[of] : NAN;
+        m->wall_velocity[side] = u;
+        m->wall_velocity_error[side] = many > 0 ? error_of(gas, (span){of + 1, of + 1, 1.0 / many},
+                                                           (span){of, of, -u / many})
+                                                : -1.0;
+    }
+}
+
 hd_gas_means hd_gas_read(const hd_gas *gas)
 {
     const double t = gas->time > 0 ? gas->time : NAN;
     hd_gas_means m = {.time = gas->time};
     read_pressures(&m, gas, t);
     read_pairs(&m, gas, t);
+    read_flow(&m, gas, t);
     (gas->is_summed ? read_summed : read_counted)(&m, gas, t);
     return m;
 }
@@ -275,10 +348,15 @@ static void gas_archive(void *self, const hd_moment *now)
     hd_totals *last = &gas->last;
     hd_archive_double(archive, "gas last time", &last->time);
     hd_archive_doubles(archive, "gas last virial", last->virial, (size_t)gas->dimension);
-    if (gas->is_summed) {
+    if (has_kinetic(gas))
         hd_archive_doubles(archive, "gas last kinetic", last->kinetic, (size_t)gas->dimension);
-        hd_archive_double(archive, "gas last potential", &last->potential);
+    if (gas->is_summed) hd_archive_double(archive, "gas last potential", &last->potential);
+    if (gas->flows) {
+        hd_archive_doubles(archive, "gas last wall impulse", last->walls.impulse, 2);
+        hd_archive_doubles(archive, "gas last near walls", last->walls.near, 2);
+        hd_archive_doubles(archive, "gas last momentum near walls", last->walls.momentum, 2);
     }
+    if (gas->diverges) hd_archive_double(archive, "gas last diverged", &gas->last_diverged);
     hd_archive_bits(archive, "gas last collisions", &last->collisions);
     for (int pair = 0; pair < HD_KIND_PAIRS && gas->is_mixed; pair++)
         hd_archive_bits(archive, "gas last collisions of kinds", &last->collisions_of[pair]);
@@ -344,11 +422,58 @@ static hd_stated read_potential_energy(const hd_parts *parts, const hd_aim *goal
     return (hd_stated){means.potential_energy, means.potential_energy_error, 0.0};
 }
 
+/** True if walls drag; otherwise writes why a target cannot name the quantity. */
+static bool flow_possible(const hd_scene_def *def, const hd_aim *goal, char why[HD_WHY])
+{
+    (void)goal;
+    snprintf(why, HD_WHY, "no walls shear");
+    return dragged(def) >= 0;
+}
+
+static bool divergence_possible(const hd_scene_def *def, const hd_aim *goal, char why[HD_WHY])
+{
+    (void)goal;
+    snprintf(why, HD_WHY, "phase space does not contract");
+    return hd_scene_diverges(def);
+}
+
+static hd_stated read_shear_stress(const hd_parts *parts, const hd_aim *goal)
+{
+    (void)goal;
+    const hd_gas_means means = hd_gas_read(parts->gas);
+    return (hd_stated){means.shear_stress, means.shear_stress_error, 0.0};
+}
+
+static hd_stated read_divergence(const hd_parts *parts, const hd_aim *goal)
+{
+    (void)goal;
+    const hd_gas_means means = hd_gas_read(parts->gas);
+    return (hd_stated){means.divergence, means.divergence_error, 0.0};
+}
+
+static hd_stated read_velocity_low(const hd_parts *parts, const hd_aim *goal)
+{
+    (void)goal;
+    const hd_gas_means means = hd_gas_read(parts->gas);
+    return (hd_stated){means.wall_velocity[0], means.wall_velocity_error[0], 0.0};
+}
+
+static hd_stated read_velocity_high(const hd_parts *parts, const hd_aim *goal)
+{
+    (void)goal;
+    const hd_gas_means means = hd_gas_read(parts->gas);
+    return (hd_stated){means.wall_velocity[1], means.wall_velocity_error[1], 0.0};
+}
+
 static const hd_quantity each[] = {
     {.name = "collision_rate", .possible = rate_possible, .read = read_collision_rate},
     {.name = "pressure", .read = read_pressure},
     {.name = "temperature", .possible = energy_possible, .read = read_temperature},
     {.name = "potential_energy", .possible = energy_possible, .read = read_potential_energy},
+    {.name = "shear_stress", .possible = flow_possible, .read = read_shear_stress},
+    {.name = "velocity_low", .possible = flow_possible, .read = read_velocity_low},
+    {.name = "velocity_high", .possible = flow_possible, .read = read_velocity_high},
+    {.name = "divergence", .possible = divergence_possible, .read = read_divergence},
     {.name = NULL}};
 static const hd_quantities quantities = {"gas", each};
 

@@ -142,8 +142,7 @@ static double covariant_bytes(const hd_scene_def *scene, int ranks)
                  vectors = 2.0 * hd_scene_coordinates(scene) * scene->number * n;
     const double factors = 2.0 * carried * carried, ways = (carried < n ? 8.25 : 5.0) * n * n;
     const double gathered = ranks > 1 ? vectors : 0.0;
-    const double counted = hd_dynamics_of(scene)->symplectic ? 0.0
-                                                             : COUNTED * n * n + 4.0 * vectors;
+    const double counted = hd_scene_symplectic(scene) ? 0.0 : COUNTED * n * n + 4.0 * vectors;
     const double weights = hd_scene_dimension(scene) > 0 ? 3.0 * hd_modes_bytes(scene, n) : 0.0;
     return sizeof(double) * (factors + ways + vectors + gathered + counted) + weights +
            hd_spectrum_bytes(n) + hd_localization_bytes(n) +
@@ -178,7 +177,7 @@ static hd_status covariant_check(const hd_scene_def *scene, char *message, size_
 
 static void covariant_extend(hd_result_counts *extent, const hd_scene_def *scene, const void *self)
 {
-    const int known = hd_dynamics_of(scene)->symplectic
+    const int known = hd_scene_symplectic(scene)
                           ? hd_scene_positive_exponents(scene) + hd_scene_zero_exponents(scene)
                           : 0;
     (void)self;

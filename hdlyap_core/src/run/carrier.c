@@ -144,8 +144,8 @@ static hd_status prepare(hd_carrier *c, const hd_scene_def *scene, double block)
     HD_TRY(hd_ortho_create_shared(&c->ortho, rows, 2 * c->of->coordinates, c->carried,
                                   c->communicator));
     HD_TRY(agree(c, prepare_threads(c, scene)));
-    HD_TRY(agree(c, hd_spectrum_create(&c->spectrum, rows, n,
-                                       c->of->symplectic ? c->positive : rows, block)));
+    HD_TRY(agree(
+        c, hd_spectrum_create(&c->spectrum, rows, n, c->symplectic ? c->positive : rows, block)));
     c->dq_dp = hd_memory_alloc(2 * (size_t)n, sizeof *c->dq_dp);
     HD_TRY(agree(c, c->dq_dp ? HD_OK : HD_NO_MEMORY));
     HD_TRY(create_frame(c, scene));
@@ -159,6 +159,8 @@ hd_status hd_carrier_create(hd_carrier *c, const hd_scene_def *scene, double col
     const double limit = scene->interval > 0 ? scene->interval : INFINITY;
     *c = (hd_carrier){.communicator = communicator,
                       .of = hd_dynamics_of(scene),
+                      .symplectic = hd_scene_symplectic(scene),
+                      .diverges = hd_scene_diverges(scene),
                       .particles = scene->number,
                       .vectors = hd_scene_vectors(scene),
                       .carried = hd_scene_carried(scene),
@@ -288,7 +290,7 @@ static hd_status frame_piece(hd_carrier *c, const hd_carrying *how, double t_beg
 double hd_carrier_divergence(const hd_carrier *c)
 {
     const double time = c->spectrum ? hd_spectrum_time(c->spectrum) : 0.0;
-    return c->of->divergence && time > 0 ? (c->diverged[1] - c->diverged[0]) / time : NAN;
+    return c->diverges && time > 0 ? (c->diverged[1] - c->diverged[0]) / time : NAN;
 }
 
 double hd_carrier_averaged(const hd_carrier *c)
@@ -462,8 +464,7 @@ void hd_carrier_dq_dp(const hd_carrier *c, double *cos_theta, double *dp_dq_rati
 /** Number of vectors with positive exponents: by theory, or by sign. */
 static int positive_of(const hd_carrier *c)
 {
-    if (c->of->symplectic || !c->spectrum)
-        return c->vectors < c->positive ? c->vectors : c->positive;
+    if (c->symplectic || !c->spectrum) return c->vectors < c->positive ? c->vectors : c->positive;
     return hd_spectrum_signs(c->spectrum, c->zero).positive;
 }
 

@@ -37,7 +37,7 @@ static bool index_possible(const hd_scene_def *def, const hd_aim *goal, char why
     const int index = goal->number[0], vectors = hd_scene_vectors(def);
     const int positive = hd_scene_positive_exponents(def);
     const bool carried = index >= 1 && index <= vectors;
-    const bool zero = hd_dynamics_of(def)->symplectic && index > positive &&
+    const bool zero = hd_scene_symplectic(def) && index > positive &&
                       index <= positive + hd_scene_zero_exponents(def);
     if (!carried)
         snprintf(why, HD_WHY, "indices are from 1 to %d, the exponents computed", vectors);
@@ -68,12 +68,39 @@ static hd_stated read_ks_entropy(const hd_parts *parts, const hd_aim *goal)
     return (hd_stated){sums.ks_entropy, sums.ks_entropy_error, 0.0};
 }
 
+static bool sum_possible(const hd_scene_def *def, const hd_aim *goal, char why[HD_WHY])
+{
+    (void)goal;
+    const hd_counts counts = hd_scene_counts(def);
+    const bool paired = hd_scene_symplectic(def),
+               all = counts.vectors == 2 * hd_scene_coordinates(def) * def->number;
+    snprintf(why, HD_WHY,
+             paired ? "exponents are in pairs of opposite sign" : "not all exponents are computed");
+    return !paired && all;
+}
+
+static hd_stated read_exponent_sum(const hd_parts *parts, const hd_aim *goal)
+{
+    (void)goal;
+    const hd_spectrum_sums sums = hd_spectrum_sum_up(parts->spectrum);
+    return (hd_stated){sums.exponent_sum, sums.exponent_sum_error, 0.0};
+}
+
+static hd_stated read_kaplan_yorke(const hd_parts *parts, const hd_aim *goal)
+{
+    (void)goal;
+    const hd_spectrum_sums sums = hd_spectrum_sum_up(parts->spectrum);
+    return (hd_stated){sums.kaplan_yorke, sums.kaplan_yorke_error, 0.0};
+}
+
 /** Quantities of exponents alone. */
 static const hd_quantity of_exponents[] = {
     {.name = "smallest", .possible = smallest_possible},
     {.name = "lambda_max", .read = read_lambda_max},
     {.name = "lambda", .of = HD_OF_INDEX, .possible = index_possible, .read = read_index},
     {.name = "h_KS", .read = read_ks_entropy},
+    {.name = "exponent_sum", .possible = sum_possible, .read = read_exponent_sum},
+    {.name = "kaplan_yorke", .possible = sum_possible, .read = read_kaplan_yorke},
     {.name = NULL}};
 
 /** The quantities of exponents (k = -1) or of the observable in row k; NULL: none. */

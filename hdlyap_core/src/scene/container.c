@@ -3,6 +3,7 @@
 
 #include <stdio.h>
 
+#include "scene/ends.h"
 #include "scene/scene.h"
 
 /** The scene may not have been checked yet: a wrong number counts as a rectangle. */
@@ -44,9 +45,7 @@ hd_boundary hd_scene_boundary(const hd_scene_def *def, int d)
 
 const char *hd_scene_boundary_word(const hd_scene_def *def, int d)
 {
-    static const char *const words[] = {
-        [HD_PERIODIC] = "periodic", [HD_REFLECTING] = "reflecting", [HD_CURVED] = "curved"};
-    return d < hd_scene_dimension(def) ? words[hd_scene_boundary(def, d)] : "";
+    return d < hd_scene_dimension(def) ? hd_ends_of(hd_scene_boundary(def, d))->word : "";
 }
 
 int hd_scene_outline(const hd_scene_def *def, double *x, double *y)

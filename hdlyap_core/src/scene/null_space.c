@@ -8,6 +8,7 @@
 #include "base/random.h"
 #include "scene/container.h"
 #include "scene/dynamics.h"
+#include "scene/ends.h"
 
 int hd_null_axes(const hd_scene_def *def, int *axis)
 {
@@ -19,6 +20,19 @@ int hd_null_axes(const hd_scene_def *def, int *axis)
             axis[count++] = d;
     if (hd_dynamics_of(def)->scale_invariant) axis[count++] = dimension;
     return count;
+}
+
+bool hd_null_is_damped(const hd_scene_def *def, int axis)
+{
+    return axis < hd_scene_dimension(def) && hd_ends_drag(def, axis);
+}
+
+int hd_null_count(const hd_scene_def *def)
+{
+    int axis[HD_DIMENSION_MAX + 1], damped = 0;
+    const int axes = hd_null_axes(def, axis);
+    for (int k = 0; k < axes; k++) damped += hd_null_is_damped(def, axis[k]);
+    return 2 * axes - damped;
 }
 
 hd_null_space hd_null_space_of(const hd_scene_def *def)
@@ -41,7 +55,7 @@ int hd_null_space_fill(const hd_scene_def *def, const double *q, const double *p
     int count = 0;
     for (int k = 0; k < 2 * null.count; k++) {
         const bool rotation = null.rotates && null.axis[k / 2] == HD_NULL_X;
-        if (rotation && k % 2 == 1) continue;
+        if (k % 2 == 1 && (rotation || hd_null_is_damped(def, null.axis[k / 2]))) continue;
         memset(column, 0, rows * sizeof *column);
         for (int j = 0; j < of_one * def->number; j++) {
             const int d = j % of_one;
@@ -107,5 +121,5 @@ void hd_null_space_momenta(const hd_scene_def *def, const double *q, double *p)
 double hd_null_conserved(const hd_scene_def *def, int d)
 {
     if (hd_container_of(def)->rotates) return 0.5;
-    return hd_scene_boundary(def, d) == HD_PERIODIC ? 1.0 : 0.0;
+    return hd_scene_boundary(def, d) == HD_PERIODIC && !hd_ends_drag(def, d) ? 1.0 : 0.0;
 }

@@ -1,5 +1,5 @@
 /** The null space of a scene [T9], by the directions of its vectors in dq; each direction in dp
- * belongs to it, too. */
+ * belongs to it, too, unless walls damp it [T27]. */
 #ifndef HD_NULL_SPACE_H
 #define HD_NULL_SPACE_H
 
@@ -11,7 +11,7 @@
 /** The axes of a scene's null space: directions, then the momenta if they are one of the axes. */
 typedef struct hd_null_space {
     int dimension; /**< of space; the axis of this number is the momenta */
-    int count;     /**< number of axes: half of hd_scene_zero_exponents, or one less */
+    int count;     /**< number of axes */
     int axis[HD_DIMENSION_MAX + 1];
     bool rotates;  /**< HD_NULL_X is a rotation */
     double centre; /**< the rotation is about (centre, centre) */
@@ -20,6 +20,10 @@ typedef struct hd_null_space {
 
 /** Writes axis[dimension + 1] and returns the number. */
 int hd_null_axes(const hd_scene_def *def, int *axis);
+/** Whether the direction of an axis in dp is no null vector, because walls damp that momentum. */
+bool hd_null_is_damped(const hd_scene_def *def, int axis);
+/** Number of exponents that vanish with the null space: two for each axis, one if it is damped. */
+int hd_null_count(const hd_scene_def *def);
 
 hd_null_space hd_null_space_of(const hd_scene_def *def);
 

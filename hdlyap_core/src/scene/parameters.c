@@ -10,9 +10,8 @@
 #define WORD(NAME, name, what) {#name, HD_##NAME},
 static const hd_parameter_word hd_particles_words[] = {HD_PARTICLES_ALL(WORD){NULL, 0}};
 static const hd_parameter_word hd_container_words[] = {HD_CONTAINERS(WORD){NULL, 0}};
+static const hd_parameter_word hd_boundary_words[] = {HD_BOUNDARIES(WORD){NULL, 0}};
 #undef WORD
-static const hd_parameter_word hd_boundary_words[] = {
-    {"periodic", HD_PERIODIC}, {"reflecting", HD_REFLECTING}, {NULL, 0}};
 static const hd_parameter_word hd_exponents_words[] = {
     {"positive", HD_EXPONENTS_POSITIVE},
     {"all", HD_EXPONENTS_ALL},
@@ -65,11 +64,11 @@ const hd_parameter *hd_parameter_of(const hd_scene_def *def, int k)
 bool hd_parameter_is_of_box(const hd_parameter *row)
 {
     static const size_t of_box[] = {
-        offsetof(hd_scene_def, container),      offsetof(hd_scene_def, density),
-        offsetof(hd_scene_def, aspect),         offsetof(hd_scene_def, aspect_z),
-        offsetof(hd_scene_def, boundary[0]),    offsetof(hd_scene_def, boundary[1]),
-        offsetof(hd_scene_def, boundary[2]),    offsetof(hd_scene_def, max_wave_number),
-        offsetof(hd_scene_def, max_mode_number)};
+        offsetof(hd_scene_def, container),       offsetof(hd_scene_def, density),
+        offsetof(hd_scene_def, aspect),          offsetof(hd_scene_def, aspect_z),
+        offsetof(hd_scene_def, boundary[0]),     offsetof(hd_scene_def, boundary[1]),
+        offsetof(hd_scene_def, boundary[2]),     offsetof(hd_scene_def, shear_b),
+        offsetof(hd_scene_def, max_wave_number), offsetof(hd_scene_def, max_mode_number)};
     for (size_t k = 0; k < sizeof of_box / sizeof *of_box; k++)
         if (row->offset == of_box[k]) return true;
     return false;

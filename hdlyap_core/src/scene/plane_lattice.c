@@ -6,6 +6,7 @@
 #include <stdint.h>
 
 #include "scene/container.h"
+#include "scene/ends.h"
 
 /** Sites of `rows` rows. */
 static int64_t site_count(int64_t rows, int64_t columns, int odd_short)
@@ -72,7 +73,7 @@ static void place(const hd_plane_lattice *l, double *q, int row, int column, con
     q[along] = boundary[along] == HD_PERIODIC ? in_row + 0.25 * l->column : 0.5 + in_row;
     q[across] = boundary[across] == HD_PERIODIC ? off_row + 0.5 * l->row : 0.5 + off_row;
     for (int d = 0; d < 2; d++)
-        if (boundary[d] == HD_REFLECTING)
+        if (hd_is_wall(boundary[d]))
             q[d] = fmin(q[d], box[d] - 0.5); /* the last site, rounded, may lie beyond the wall */
 }
 

@@ -1,5 +1,6 @@
 /** A wave -> directions of its transverse fields [T22]. */
 #include "scene/polarisation.h"
+#include "scene/ends.h"
 
 #include <math.h>
 
@@ -24,7 +25,7 @@ void hd_polarisations(double e[2][3], const hd_wave *wave, const hd_scene_def *d
     double unit[3] = {0.0};
     int axis = 2, forbidden = 0;
     for (int d = 0; d < 3; d++)
-        if (wave->n[d] == 0 && def->boundary[d] == HD_REFLECTING) axis = d, forbidden++;
+        if (wave->n[d] == 0 && hd_is_wall(def->boundary[d])) axis = d, forbidden++;
     unit[axis] = 1.0;
     cross(e[0], unit, wave->k);
     if (normalise(e[0]) == 0) e[0][0] = 1.0;

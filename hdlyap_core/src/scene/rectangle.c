@@ -4,6 +4,7 @@
 
 #include "base/check.h"
 #include "scene/container.h"
+#include "scene/ends.h"
 #include "scene/fluid.h"
 #include "scene/kinds.h"
 #include "scene/plane_lattice.h"
@@ -18,7 +19,7 @@ static const double NARROW = 2.0;
 
 static bool is_flat(const hd_scene_def *def) { return hd_scene_dimension(def) == 2; }
 
-static bool has_walls(const hd_scene_def *def, int d) { return def->boundary[d] == HD_REFLECTING; }
+static bool has_walls(const hd_scene_def *def, int d) { return hd_is_wall(def->boundary[d]); }
 
 /** The cube root by Newton's method from above, whose bits are the same everywhere. */
 static double cube_root(double x)

@@ -248,7 +248,7 @@ static hd_status check_zeros(const hd_scene_def *scene, char *message, size_t si
     if (zeros < 0 || zeros > all)
         return hd_refuse(message, size, "zero_exponents = %d: must be from 0 to %d, all exponents",
                          zeros, all);
-    if (zeros % 2 != 0 && hd_dynamics_of(scene)->symplectic)
+    if (zeros % 2 != 0 && hd_scene_symplectic(scene))
         return hd_refuse(message, size,
                          "zero_exponents = %d: must be even, because exponents of symplectic maps "
                          "come in pairs",

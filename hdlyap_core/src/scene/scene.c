@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/check.h"
+#include "scene/ends.h"
 #include "scene/fluid.h"
 #include "scene/parameters.h"
 #include "scene/wave.h"
@@ -39,9 +40,27 @@ hd_scene_def hd_scene_def_of(const hd_dynamics *dynamics)
         def.particles = (hd_particles)k;
         def.dynamics = NULL;
     }
-    if (!dynamics->symplectic) def.exponents = HD_EXPONENTS_ALL;
     own_assign(&def);
+    def.exponents = hd_scene_exponents_usual(&def);
     return def;
+}
+
+bool hd_scene_symplectic(const hd_scene_def *def)
+{
+    bool symplectic = hd_dynamics_of(def)->symplectic;
+    for (int d = 0; d < hd_scene_dimension(def); d++)
+        symplectic &= hd_ends_of(hd_scene_boundary(def, d))->symplectic;
+    return symplectic;
+}
+
+bool hd_scene_diverges(const hd_scene_def *def)
+{
+    return hd_dynamics_of(def)->divergence && !hd_scene_symplectic(def);
+}
+
+int hd_scene_exponents_usual(const hd_scene_def *def)
+{
+    return hd_scene_symplectic(def) ? HD_EXPONENTS_POSITIVE : HD_EXPONENTS_ALL;
 }
 
 int hd_scene_dimension(const hd_scene_def *def) { return hd_dynamics_of(def)->dimension; }
@@ -119,7 +138,7 @@ int hd_scene_positive_exponents(const hd_scene_def *def)
 int hd_scene_carried(const hd_scene_def *def)
 {
     const int all = hd_scene_vectors(def);
-    const bool half = def->exponents == HD_EXPONENTS_ALL && hd_dynamics_of(def)->symplectic;
+    const bool half = def->exponents == HD_EXPONENTS_ALL && hd_scene_symplectic(def);
     return half ? all / 2 : all;
 }
 

@@ -8,6 +8,9 @@
 /** Whether direction d is periodic, has walls, or is curved. */
 hd_boundary hd_scene_boundary(const hd_scene_def *def, int d);
 
+/** Whether the dynamics tells by how much phase space contracts; 0 if maps are symplectic. */
+bool hd_scene_diverges(const hd_scene_def *def);
+
 /* See hd_counts. */
 
 int hd_scene_zero_exponents(const hd_scene_def *def);

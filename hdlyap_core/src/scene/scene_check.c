@@ -2,10 +2,12 @@
 #include "scene/scene_check.h"
 
 #include <stdbool.h>
+#include <stdio.h>
 
 #include "base/check.h"
 #include "hdlyap/dynamics.h"
 #include "scene/container.h"
+#include "scene/ends.h"
 #include "scene/fluid.h"
 #include "scene/parameters.h"
 #include "scene/row_check.h"
@@ -61,9 +63,8 @@ static hd_status check_particles(const hd_scene_def *def, char *message, size_t 
         return hd_refuse(message, size, "aspect_z = %.15g: must not be given with particles = %s",
                          def->aspect_z, of->particles);
     if (flat && def->boundary[2] != usual.boundary[2])
-        return hd_refuse(message, size,
-                         "boundary_z = reflecting: must not be given with particles = %s",
-                         of->particles);
+        return hd_refuse(message, size, "boundary_z = %s: must not be given with particles = %s",
+                         hd_ends_of(def->boundary[2])->word, of->particles);
     if (!flat && hd_container_of(def)->wall)
         return hd_refuse(message, size,
                          "container = %s: must be rectangle, a box, with particles = %s",
@@ -79,9 +80,30 @@ static hd_status check_curved(const hd_scene_def *def, char *message, size_t siz
     for (int d = 0; d < 2; d++)
         if (def->boundary[d] != usual.boundary[d])
             return hd_refuse(message, size,
-                             "boundary_%c = reflecting: must not be given with container = %s, "
-                             "whose wall reflects",
-                             "xy"[d], name);
+                             "boundary_%c = %s: must not be given with container = %s, whose wall "
+                             "reflects",
+                             "xy"[d], hd_ends_of(def->boundary[d]) -> word, name);
+    return HD_OK;
+}
+
+/** Refuses walls that these particles cannot meet, and walls that drag unless all other directions
+ * are periodic. */
+static hd_status check_walls(const hd_scene_def *def, char *message, size_t size)
+{
+    const hd_dynamics *of = hd_dynamics_of(def);
+    for (int d = 0; d < of->dimension; d++) {
+        const hd_boundary ends = def->boundary[d];
+        const char *word = hd_ends_of(ends)->word;
+        if (ends > HD_REFLECTING && !(of->ends >> ends & 1u))
+            return hd_refuse(message, size,
+                             "boundary_%c = %s: must be periodic or reflecting with particles = %s",
+                             "xyz"[d], word, of -> particles);
+        for (int e = 0; e < of->dimension; e++)
+            if (hd_ends_of(ends)->drags && e != d && def->boundary[e] != HD_PERIODIC)
+                return hd_refuse(message, size,
+                                 "boundary_%c = %s: must be periodic with boundary_%c = %s",
+                                 "xyz"[e], hd_ends_of(def->boundary[e]) -> word, "xyz"[d], word);
+    }
     return HD_OK;
 }
 
@@ -104,6 +126,7 @@ hd_status hd_scene_check_box(const hd_scene_def *def, char *message, size_t size
     HD_TRY(check_ranges(def, message, size));
     if (hd_scene_dimension(def) == 0) return check_without_box(def, message, size);
     HD_TRY(check_particles(def, message, size));
+    if (!hd_container_of(def)->wall) HD_TRY(check_walls(def, message, size));
     HD_TRY(hd_container_of(def)->check(def, message, size));
     return hd_container_of(def)->wall ? check_curved(def, message, size) : HD_OK;
 }
@@ -135,15 +158,27 @@ static hd_status check_waves(const hd_scene_def *def, char *message, size_t size
     return HD_OK;
 }
 
+/** What makes maps not symplectic, in words: particles, or walls. */
+static const char *unpaired(const hd_scene_def *def, char said[SAID])
+{
+    const hd_dynamics *of = hd_dynamics_of(def);
+    snprintf(said, SAID, "particles = %s", of->particles);
+    for (int d = 0; d < of->dimension && of->symplectic; d++) {
+        const hd_ends *ends = hd_ends_of(hd_scene_boundary(def, d));
+        if (!ends->symplectic) snprintf(said, SAID, "boundary_%c = %s", "xyz"[d], ends -> word);
+    }
+    return said;
+}
+
 /** Refuses what needs exponents in pairs of opposite sign if the maps are not symplectic. */
 static hd_status check_pairs(const hd_scene_def *def, char *message, size_t size)
 {
     const hd_dynamics *of = hd_dynamics_of(def);
-    if (of->symplectic || def->exponents != HD_EXPONENTS_POSITIVE) return HD_OK;
+    if (hd_scene_symplectic(def) || def->exponents != HD_EXPONENTS_POSITIVE) return HD_OK;
     return hd_refuse(message, size,
                      "exponents = positive: must be all, all_independent, none or from 1 to %d "
-                     "with particles = %s, whose exponents are not in pairs of opposite sign",
-                     2 * of->coordinates * def->number, of->particles);
+                     "with %s, whose exponents are not in pairs of opposite sign",
+                     2 * of->coordinates * def->number, unpaired(def, (char[SAID]){""}));
 }
 
 hd_status hd_scene_check_start(const hd_scene_def *def, char *message, size_t size)

@@ -57,7 +57,7 @@ static split_zeros split_of(const hd_run *run, const hd_cost *cost)
     const hd_spectrum *spectrum = hd_run_parts(run).spectrum;
     const int first = hd_scene_counts(scene).positive;
     split_zeros split = {.are = false};
-    if (!of->symplectic || !of->zero_splitting_order || !of->step || !spectrum ||
+    if (!hd_scene_symplectic(scene) || !of->zero_splitting_order || !of->step || !spectrum ||
         first >= hd_run_vectors(run) || cost->std_error < 0.0)
         return split;
     const double time = hd_spectrum_time(spectrum), own = log(time) / time;

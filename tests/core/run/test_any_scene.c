@@ -240,8 +240,8 @@ static const char *step_once(hd_run *run)
     return NULL;
 }
 
-/** Volume is kept: if all are carried they add up to nothing, each known to the stated bound, and
- * the logarithms of the stretches to rounding. */
+/** Volume is kept, but for what walls do: if all are carried they add up to that, each known to the
+ * stated bound, and the logarithms of the stretches to rounding. */
 static const char *spectrum_fault(const hd_run *run)
 {
     const hd_spectrum *spectrum = hd_run_spectrum(run);
@@ -251,6 +251,7 @@ static const char *spectrum_fault(const hd_run *run)
     for (int col = 0; time > 0 && col < n; col++) sum += time * hd_spectrum_exponent(spectrum, col);
     if (!isfinite(sum)) return "an exponent is not finite";
     const double known = hd_run_cost(run).error_bound * time + 1e-12;
+    if (hd_scene_diverges(hd_run_scene(run))) sum -= time * hd_run_divergence(run);
     if (hd_run_scene(run)->exponents == HD_EXPONENTS_ALL_INDEPENDENT && fabs(sum) > n * known)
         return "the volume is not kept";
     return NULL;

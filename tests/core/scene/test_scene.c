@@ -165,8 +165,8 @@ TEST(whole_fields_out_of_range)
     }
     for (int d = 0; d < 2; d++) {
         hd_scene_def def = hd_scene_def_default();
-        def.boundary[d] = (hd_boundary)2;
-        check_refused(&def, d ? "boundary_y" : "boundary_x", "= 2", "periodic or reflecting");
+        def.boundary[d] = HD_CURVED;
+        check_refused(&def, d ? "boundary_y" : "boundary_x", "= 3", "periodic or reflecting");
     }
 }
 

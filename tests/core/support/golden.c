@@ -61,6 +61,9 @@ static golden golden_scene(int scene)
         {packed(with_second(scene(.container = HD_CIRCLE, .number = 30, .seed = 11), 0.2, 2.5, 0.1),
                 0.4),
          10000, 0xa859823c6855c053u},
+        {scene_from(scene_of(30, 0.5, 0.7, p, HD_SHEARING, 10), .exponents = HD_EXPONENTS_ALL,
+                    .shear_b = 3.0),
+         20000, 0x4c91bf8a7ee1fd73u},
     };
     return all[scene];
 }

@@ -7,7 +7,7 @@
 
 #include "hdlyap/scene.h"
 
-enum { GOLDEN_SCENES = HD_DIM == 2 ? 14 : 9 };
+enum { GOLDEN_SCENES = HD_DIM == 2 ? 15 : 9 };
 
 /** FNV-1a over i, j and the bits of n and p, of dumbbells and soft particles of all but the time,
  * of the scene's first events; 0 if it could not run. */

@@ -59,6 +59,8 @@ static void say_spectrum(said *s, const hd_spectrum *of, int n)
     say(s, "pairing_error", sums.pairing_error);
     say(s, "exponent_sum", sums.exponent_sum);
     say(s, "exponent_sum_error", sums.exponent_sum_error);
+    say(s, "kaplan_yorke", sums.kaplan_yorke);
+    say(s, "kaplan_yorke_error", sums.kaplan_yorke_error);
 }
 
 static void say_weights(said *s, const hd_modes *of, const hd_scene_def *scene)

@@ -5,6 +5,7 @@
  */
 #include "twin.h"
 #include "one_contact.h"
+#include "scene/ends.h"
 
 /** Images that come this close to touching [sigma] are tried: far above rounding, and harmless. */
 static const double IMAGE_MARGIN = 1e-6;
@@ -20,6 +21,7 @@ struct twin {
     int n;
     double box[DIM];
     hd_boundary boundary[DIM];
+    hd_scene_def scene;
     double epoch_length, epoch_start;
     int first;       /**< disks of the first kind; the others are of the second one */
     double of[2][2]; /**< radius and share of the impulse that the other kind gives, by kind */
@@ -68,7 +70,7 @@ static void image_range(int32_t range[2], const encounter *e, int d, const doubl
 {
     const double a = e->r[d] + e->p[d] * window[0], b = e->r[d] + e->p[d] * window[1];
     range[0] = range[1] = 0;
-    if (e->t->boundary[d] == R) return;
+    if (e->t->boundary[d] != P) return;
     range[0] = (int32_t)ceil((-e->touching - IMAGE_MARGIN - fmax(a, b)) / e->t->box[d]);
     range[1] = (int32_t)floor((e->touching + IMAGE_MARGIN - fmin(a, b)) / e->t->box[d]);
 }
@@ -133,7 +135,7 @@ static double wall_at(const twin *t, const hd_disk *disk, int d)
 
 static double wall_time(const twin *t, const hd_disk *disk, int d)
 {
-    if (t->boundary[d] != R || disk->p[d] == 0) return INFINITY;
+    if (t->boundary[d] == P || disk->p[d] == 0) return INFINITY;
     return disk->t + fmax((wall_at(t, disk, d) - disk->q[d]) / disk->p[d], 0.0);
 }
 
@@ -251,9 +253,15 @@ static void reflect(twin *t, hd_event *event, const candidate *c)
     const int d = HD_WALL_X - c->j;
     move(disk, c->t);
     disk->q[d] = wall_at(t, disk, d);
-    event->n[d] = 1.0;
+    event->n[d] = 1.0; /* unless its rule says otherwise */
     memcpy(event->p, disk->p, sizeof event->p);
-    disk->p[d] = -disk->p[d];
+    const hd_ends *wall = hd_ends_of(t->boundary[d]);
+    if (wall->meet) {
+        event->j = HD_WALL_RULED(t->boundary[d], d);
+        (void)wall->meet(&t->scene, disk->p, event->n, d);
+    } else {
+        disk->p[d] = -disk->p[d];
+    }
     fold(t, disk);
     predict_all_of(t, c->i);
 }
@@ -341,6 +349,7 @@ twin *twin_create(const hd_scene_def *def, const double *q, const double *p)
     twin *t = calloc(1, sizeof *t);
     if (!t) return NULL;
     t->n = def->number;
+    t->scene = *def;
     memcpy(t->boundary, def->boundary, sizeof t->boundary);
     hd_scene_box(def, t->box);
     kinds_of(t, def);

@@ -6,6 +6,7 @@
 
 #include "base/check.h"
 #include "base/memory.h"
+#include "scene/ends.h"
 #include "scene/scene.h"
 
 /** Shortest edge of a cell over the reach. Rounding can put a centre slightly outside its cell; the
@@ -27,7 +28,7 @@ static void line_fill(hd_cell_line *line, int32_t size, double length, hd_bounda
             if (boundary != HD_PERIODIC) l->shift[k] = 0;
         }
     }
-    if (boundary == HD_REFLECTING) {
+    if (hd_is_wall(boundary)) {
         line[0].bound[0] = HD_MIXED ? 0.0 : 0.5;
         line[size - 1].bound[1] = HD_MIXED ? length : length - 0.5;
         line[0].inwards[0] = HD_MIXED;

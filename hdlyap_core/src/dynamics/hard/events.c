@@ -7,6 +7,7 @@
 
 #include "dynamics/hard/contact.h"
 #include "dynamics/hard/round_wall.h"
+#include "scene/ends.h"
 #include "scene/kinds.h"
 
 double hd_events_bytes(double events)
@@ -19,13 +20,17 @@ static bool disks_exist(const hd_event *event, int disks)
 {
     if (!(event->i >= 0 && event->i < disks)) return false;
     if (event->i != floor(event->i) || event->j != floor(event->j)) return false;
-    return (event->j < 0 && event->j >= HD_WALL_ROUND) || (event->j > event->i && event->j < disks);
+    return event->j < 0 || (event->j > event->i && event->j < disks);
 }
 
-/** Whether the event's wall can exist: a scene has flat walls or a curved one, not both. */
-static bool wall_exists(const hd_event *event, const hd_wall *wall)
+/** Whether the event's wall can exist: a scene has flat walls or a curved one, not both, and walls
+ * with a rule where it says so. */
+static bool wall_exists(const hd_event *event, const hd_wall *wall, const hd_scene_def *scene)
 {
     const bool is_curved = wall->meet;
+    if (event->j < HD_WALL_RULED(HD_CURVED, 0) + 1) return false;
+    if (event->j < HD_WALL_ROUND)
+        return scene->boundary[HD_WALL_ACROSS((int)event->j)] == HD_WALL_ENDS((int)event->j);
     return event->j == HD_WALL_ROUND ? is_curved
                                      : event->j >= 0 || (event->j > HD_WALL_ROUND && !is_curved);
 }
@@ -63,7 +68,12 @@ const char *hd_events_fault(const hd_record *record, const hd_scene_def *scene)
         if (!disks_exist(event, scene->number))
             return "an event names a particle that does not exist";
         const hd_wall *wall = &walls[event->i >= kinds.kind[0].number];
-        if (!wall_exists(event, wall)) return "an event names a wall that does not exist";
+        if (!wall_exists(event, wall, scene)) return "an event names a wall that does not exist";
+        if (event->j < HD_WALL_ROUND) {
+            const char *fault = hd_ends_of(HD_WALL_ENDS((int)event->j))->fault(event->n);
+            if (fault) return fault;
+            continue;
+        }
         if (!is_normal(event, wall)) return "a normal vector has a wrong length";
         if ((event->j >= 0 || event->j == HD_WALL_ROUND) && !approach(event))
             return "partners of a collision move apart";

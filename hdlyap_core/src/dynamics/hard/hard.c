@@ -19,6 +19,7 @@
 #include "dynamics/hard/event.h"
 #include "dynamics/hard/grow.h"
 #include "scene/container.h"
+#include "scene/ends.h"
 #include "scene/fluid.h"
 #include "scene/kinds.h"
 #include "scene/scene.h"
@@ -48,7 +49,10 @@ hd_status hd_hard_prepare(hard *tr, const hd_scene_def *def, double reach)
 static hd_status prepare(hard *tr, const hd_scene_def *def)
 {
     if (HD_MIXED) HD_TRY(hd_sizes_create(&tr->motion.sizes, def, 0));
-    return hd_hard_prepare(tr, def, HD_MIXED ? hd_kinds_largest(def) : 1.0);
+    HD_TRY(hd_hard_prepare(tr, def, HD_MIXED ? hd_kinds_largest(def) : 1.0));
+    for (int d = 0; d < HD_DIM; d++)
+        hd_flow_begin(&tr->flow, def, d, 0.5, tr->motion.cells.box[d] - 0.5);
+    return HD_OK;
 }
 
 static hd_status start(hard *tr, const double *q, const double *p)
@@ -58,7 +62,7 @@ static hd_status start(hard *tr, const double *q, const double *p)
         const double root = sqrt(hd_sizes_mass(&tr->motion.sizes, i));
         disk->size = (uint32_t)hd_sizes_kind(&tr->motion.sizes, i);
         for (int d = 0; d < HD_DIM; d++) {
-            const bool walls = tr->motion.cells.boundary[d] == HD_REFLECTING;
+            const bool walls = hd_is_wall(tr->motion.cells.boundary[d]);
             const double reach = walls ? hd_sizes_radius(&tr->motion.sizes, disk) : 0.0;
             disk->q[d] = q[HD_DIM * i + d];
             disk->p[d] = p[HD_DIM * i + d] / root;
@@ -97,11 +101,17 @@ static hd_status lattice(const hd_scene_def *def, double *q)
     return HD_OK;
 }
 
+static void move(hard *tr, hd_disk *disk, double t)
+{
+    if (tr->flow.wall) hd_flow_fly(&tr->flow, tr->flow.sum, disk, t);
+    hd_disk_move_to(disk, t);
+}
+
 static bool finish(hard *tr, int32_t i, double t)
 {
     hd_disk *disk = &tr->motion.disk[i];
     double all = 0.0;
-    hd_disk_move_to(disk, t);
+    move(tr, disk, t);
     hd_cells_fold(&tr->motion.cells, disk);
     for (int d = 0; d < HD_DIM; d++) all += disk->q[d] + disk->p[d];
     return isfinite(all);
@@ -214,8 +224,8 @@ static hd_status collide(hard *tr, hd_record *record, hd_event *contact, int32_t
     const double sign = 1.0 - 2.0 * (found_by != i); /* the image is relative to found_by */
     double shift[HD_DIM], r[HD_DIM];
     for (int d = 0; d < HD_DIM; d++) shift[d] = sign * how->image[d] * tr->motion.cells.box[d];
-    hd_disk_move_to(a, t);
-    hd_disk_move_to(b, t);
+    move(tr, a, t);
+    move(tr, b, t);
     hd_contact_separation(r, a, b, shift, t);
     const double distance = sqrt(hd_contact_dot(r, r));
     double approach = 0;
@@ -246,24 +256,28 @@ static hd_status collide(hard *tr, hd_record *record, hd_event *contact, int32_t
     return status;
 }
 
-/** Reflects disk i at a flat wall [T4]. */
+/** Disk i meets a flat wall, and is reflected [T4] unless the wall has a rule of its own. */
 static hd_status reflect(hard *tr, hd_record *record, hd_event *event, int32_t i, double t)
 {
     hd_disk *disk = &tr->motion.disk[i];
     const prediction *how = &tr->motion.predicted[i];
     const int d = how->direction;
     const hd_cell_line *line = &tr->motion.cells.line[d][disk->cell[d]];
-    hd_disk_move_to(disk, t);
+    move(tr, disk, t);
     disk->q[d] = hd_cell_line_end(line, how->side == HIGH, /* so that rounding never adds up */
                                   hd_sizes_radius(&tr->motion.sizes, disk));
     event->n[d] = 1.0;
     for (int e = 0; e < HD_DIM; e++) event->p[e] = disk->p[e];
     if (HD_MIXED) press(tr, event, i);
-    disk->p[d] = -disk->p[d];
+    if (tr->flow.wall)
+        hd_flow_strike(&tr->flow, disk, event);
+    else
+        disk->p[d] = -disk->p[d];
     disk->collisions++;
     hd_cells_fold(&tr->motion.cells, disk);
     tr->wall_events++;
     hd_prediction_renew(&tr->motion, i);
+    if (tr->flow.wall && hd_flow_is_jammed(&tr->flow, t)) return HD_JAMMED;
     return put(record, event);
 }
 

@@ -9,6 +9,7 @@
 #include "dynamics/create_from.h"
 #include "dynamics/dynamics.h"
 #include "dynamics/hard/disk.h"
+#include "dynamics/hard/flow.h"
 #include "dynamics/hard/prediction.h"
 
 typedef struct hard {
@@ -20,6 +21,7 @@ typedef struct hard {
     uint64_t collisions, wall_events;
     uint64_t collisions_of[3]; /**< see hd_totals; of disks of two kinds */
     double virial[HD_DIM];     /**< sum over collisions; see hd_totals */
+    hd_flow flow;              /**< of disks of one kind alone */
 } hard;
 
 /* ---- for all hard particles ---------------------------------------------------------------- */

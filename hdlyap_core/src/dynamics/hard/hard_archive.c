@@ -79,6 +79,14 @@ void hd_hard_predict(hard *tr)
     for (int32_t i = 0; i < tr->motion.count; i++) hd_prediction_renew(&tr->motion, i);
 }
 
+static void flow_archive(hd_flow *flow, hd_archive *archive)
+{
+    hd_archive_doubles(archive, "trajectory flow", flow->sum, HD_FLOW_SUMS);
+    const double *near = flow->sum + HD_FLOW_NEAR;
+    hd_archive_expect(archive, near[0] >= 0 && near[1] >= 0 && flow->sum[HD_FLOW_VOLUME] > 0,
+                      "trajectory flow", "a time, or a volume, is negative");
+}
+
 void hd_hard_keep(hard *tr, hd_archive *archive)
 {
     hd_archive_double(archive, "trajectory epoch start", &tr->epoch_start);
@@ -89,6 +97,7 @@ void hd_hard_keep(hard *tr, hd_archive *archive)
                                      "trajectory collisions 22"};
     for (int k = 0; HD_MIXED && k < 3; k++) hd_archive_bits(archive, of[k], &tr->collisions_of[k]);
     hd_archive_doubles(archive, "trajectory virial", tr->virial, HD_DIM);
+    if (tr->flow.wall) flow_archive(&tr->flow, archive);
     disks_archive(tr, archive);
     if (!archive->writing && hd_archive_good(archive)) book(tr);
 }

@@ -11,6 +11,7 @@
 #include "dynamics/hard/maps.h"
 #include "scene/container.h"
 #include "scene/dynamics.h"
+#include "scene/ends.h"
 #include "scene/mixture.h"
 #include "scene/null_space.h"
 
@@ -22,6 +23,21 @@ double hd_hard_time(const void *state)
     return tr->now;
 }
 
+/** Adds the flights since the last events to the sums of the flow. */
+static void flow_totals(const hard *tr, hd_totals *totals)
+{
+    double sum[HD_FLOW_SUMS];
+    memcpy(sum, tr->flow.sum, sizeof sum);
+    for (int32_t i = 0; i < tr->motion.count; i++)
+        hd_flow_fly(&tr->flow, sum, &tr->motion.disk[i], tr->now - tr->epoch_start);
+    for (int d = 0; d < HD_DIM; d++) totals->kinetic[d] = sum[HD_FLOW_KINETIC + d];
+    for (int side = 0; side < 2; side++) {
+        totals->walls.impulse[side] = sum[HD_FLOW_IMPULSE + side];
+        totals->walls.near[side] = sum[HD_FLOW_NEAR + side];
+        totals->walls.momentum[side] = sum[HD_FLOW_MOMENTUM + side];
+    }
+}
+
 void hd_hard_totals(const void *state, hd_totals *totals)
 {
     const hard *tr = state;
@@ -30,6 +46,14 @@ void hd_hard_totals(const void *state, hd_totals *totals)
     totals->collisions_of[0] = tr->collisions;
     if (HD_MIXED) memcpy(totals->collisions_of, tr->collisions_of, sizeof tr->collisions_of);
     for (int d = 0; d < HD_DIM; d++) totals->virial[d] = tr->virial[d];
+    if (tr->flow.wall) flow_totals(tr, totals);
+}
+
+/** Logarithm of what phase space has become at walls. */
+static double hard_divergence(const void *state)
+{
+    const hard *tr = state;
+    return hd_flow_divergence(&tr->flow);
 }
 
 /** Disk i moved to the present time and folded into the box. */
@@ -173,13 +197,31 @@ static void hard_examine(const void *state, hd_invariants *examined)
     hd_hard_examine(tr, examined);
 }
 
+/** Largest part of the densest start at which disks can flow along walls that drag. Above it walls
+ * of small b may take away all motion across them (HD_JAMMED), as was seen from 0.98 on. */
+static const double FLOWS = 0.95;
+
+/** Refuses a density at which disks would be jammed between walls that drag. */
+static hd_status check_flow(const hd_scene_def *scene, char *message, size_t size)
+{
+    bool drag = false;
+    for (int d = 0; d < HD_DIM; d++) drag |= hd_ends_drag(scene, d);
+    const double most = drag ? FLOWS * hd_container_of(scene)->density_max(scene) : INFINITY;
+    if (scene->density <= most) return HD_OK;
+    return hd_refuse(message, size,
+                     "density = %.15g: must be at most %.6g with number = %d and walls that shear, "
+                     "between which the densest start lattice cannot flow",
+                     scene->density, most, scene->number);
+}
+
 /** Checks that there are start positions at this density. */
 static hd_status hard_check(const hd_scene_def *scene, char *message, size_t size)
 {
     const hd_container_row *container = hd_container_of(scene);
     char said[SAID];
     if (HD_MIXED) return hd_hard_grow_check(scene, message, size);
-    if (container->start_distance(scene) >= HD_START_DISTANCE_MIN) return HD_OK;
+    if (container->start_distance(scene) >= HD_START_DISTANCE_MIN)
+        return check_flow(scene, message, size);
     container->say(scene, said, sizeof said);
     return hd_refuse(
         message, size,
@@ -187,12 +229,9 @@ static hd_status hard_check(const hd_scene_def *scene, char *message, size_t siz
         scene->density, container->density_max(scene), scene->number, said);
 }
 
-/** Two exponents vanish by energy and time, and two by each conserved momentum. */
-int hd_hard_zeros(const hd_scene_def *scene)
-{
-    int axis[HD_DIMENSION_MAX + 1];
-    return 2 * hd_null_axes(scene, axis);
-}
+/** Two exponents vanish by energy and time, and two by each conserved momentum; one by a momentum
+ * that walls damp, as the box repeats all the same. */
+int hd_hard_zeros(const hd_scene_def *scene) { return hd_null_count(scene); }
 
 #if HD_DIM == 2
 extern const hd_dynamics hd_mixed_disks_row;
@@ -219,6 +258,7 @@ const hd_dynamics ROW = {.particles = HD_DIM == 2 ? "disks" : "spheres",
                          .dispersing = true,
                          .scale_invariant = true,
                          .collides = true,
+                         .ends = HD_DIM == 2 && !HD_MIXED ? 1u << HD_SHEARING : 0u,
                          .parameter = hd_kinds_own,
                          .parameters = HD_KINDS_OWN,
                          .fluid = FLUID,
@@ -236,6 +276,7 @@ const hd_dynamics ROW = {.particles = HD_DIM == 2 ? "disks" : "spheres",
                          .time = hd_hard_time,
                          .state = hd_hard_state,
                          .totals = hd_hard_totals,
+                         .divergence = hard_divergence,
                          .examine = hard_examine,
                          .archive = hd_hard_archive,
                          .fingerprint = hd_hard_fingerprint,

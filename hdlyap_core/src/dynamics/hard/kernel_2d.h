@@ -1,26 +1,33 @@
-/** Tangent map of one event of disks for a block of columns [T3], [T4], [T21]. Vectors are written
- * in components along n and along t, which is n turned by +90 degrees. */
+/** Tangent map of one event of disks for a block of columns [T3], [T4], [T21], [T27]. Vectors are
+ * written in components along n and along t, which is n turned by +90 degrees. */
 #ifndef HD_KERNEL_2D_H
 #define HD_KERNEL_2D_H
 
 #include <math.h>
 
 #include "dynamics/hard/kernel.h"
+#include "scene/ends.h"
 
 /** The free flights of the event's disks since their last events, then the collision. */
 typedef struct hd_tangent_map {
     int32_t i, j; /**< as in hd_event */
     union {
-        double flight[2]; /**< times that i and j have flown */
+        struct {
+            double flight[2]; /**< times that i and j have flown */
+            double n[HD_DIM];
+            double normal;     /**< b = p.n: < 0; at a round wall > 0 */
+            double tangential; /**< p_t = p.t */
+            double ratio;      /**< p_t / b */
+        };
         struct {
             double alone; /**< time that i has flown to the wall */
             double bend;  /**< twice the curvature of a round wall */
         };
+        struct {
+            double alone_to_rule; /**< the same */
+            hd_wall_map ruled;    /**< of a wall with a rule of its own */
+        };
     };
-    double n[HD_DIM];
-    double normal;     /**< b = p.n: < 0; at a round wall > 0 */
-    double tangential; /**< p_t = p.t */
-    double ratio;      /**< p_t / b */
 #if HD_MIXED
     double weight[2]; /**< see HD_MAP_WEIGHT */
 #endif
@@ -38,6 +45,11 @@ static inline void hd_curved_fill(hd_tangent_map *map)
 /** Fills all but i, j and the flights, which the map has already. A flat wall needs n alone. */
 static inline void hd_map_fill(hd_tangent_map *map, const hd_event *event)
 {
+    if (event->j < HD_WALL_ROUND) {
+        map->ruled =
+            hd_ends_of(HD_WALL_ENDS(map->j))->map(event->p, event->n, HD_WALL_ACROSS(map->j));
+        return;
+    }
     map->n[0] = event->n[0];
     map->n[1] = event->n[1];
     if (event->j < 0 && event->j != HD_WALL_ROUND) return;
@@ -97,11 +109,29 @@ HD_KERNEL void hd_curve(double *restrict v, const hd_tangent_map *map, int width
     }
 }
 
-/** Free flight, then reflection at a round or a flat wall. */
+/** Free flight, then a flat wall with a rule of its own [T27]. */
+HD_KERNEL void hd_turn(double *restrict v, const hd_tangent_map *map, int width)
+{
+    const hd_wall_map m = map->ruled;
+    const int d = HD_WALL_ACROSS(map->j) * width, a = width - d;
+    hd_fly(v, map->flight[0], HD_DIM * width);
+#pragma GCC ivdep
+    for (int k = 0; k < width; k++) {
+        double *q = v + k, *p = v + 2 * width + k;
+        const double across = q[d], pa = p[a], pd = p[d];
+        q[a] += m.slip * across, q[d] = m.rebound * across;
+        p[a] = m.turn[0][0] * pa + m.turn[0][1] * pd;
+        p[d] = m.turn[1][0] * pa + m.turn[1][1] * pd;
+    }
+}
+
+/** Free flight, then a round wall, a flat one with a rule of its own, or reflection. */
 HD_KERNEL void hd_meet_wall(double *restrict v, const hd_tangent_map *map, int width)
 {
     if (map->j == HD_WALL_ROUND)
         hd_curve(v, map, width);
+    else if (map->j < HD_WALL_ROUND)
+        hd_turn(v, map, width);
     else
         hd_reflect(v, map->j == HD_WALL_Y, map->flight[0], width);
 }
