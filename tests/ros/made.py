@@ -12,7 +12,7 @@ import rosbag
 import rospy
 
 from made_fields import mode_field
-from measured import as_sent
+from measured import OF_FLOW, as_sent
 from hdlyap.msg import (
     Average,
     Averages,
@@ -81,6 +81,7 @@ PARAMETERS = dict(
     scene='made', particles='disks', container='rectangle', number=20, density=0.5, aspect=1.0
 )
 PARAMETERS.update(aspect_z=1.0, boundary_x='periodic', boundary_y='periodic', boundary_z='')
+PARAMETERS.update(shear_b=10.0)
 PARAMETERS.update(seed='1', exponents='positive', equilibration=0.0, warmup=0.0, duration=0.0)
 PARAMETERS.update(target='', interval='auto', accuracy=0.0, report_interval=0.0)
 PARAMETERS.update(phase_interval='auto', fluctuation_time='auto', observables=[], threads=0)
@@ -177,6 +178,8 @@ def spectrum(
         exponent_sum=math.nan if math.isnan(divergence) else sum(exponents),
         exponent_sum_error=error,
         divergence=divergence,
+        kaplan_yorke=math.nan,
+        kaplan_yorke_error=-1.0,
         lambda_max_error=error,
         ks_entropy=sum(e for e in exponents if e > 0),
         ks_entropy_error=error * n if error >= 0 else -1.0,
@@ -454,7 +457,16 @@ def gas(averaged_time=50.0, run_id='one', error=0.01, **fields):
         expected_compressibility=2.5,
         **dict.fromkeys(OF_PAIRS, np.nan),
         **{name + '_error': -1.0 for name in OF_PAIRS if name.startswith('c')},
+        **{name: np.nan for name in OF_FLOW},
+        **{name + '_error': -1.0 for name in OF_FLOW},
     )
+
+
+def shear_gas(averaged_time=50.0, error=0.01, **fields):
+    """Of disks between walls that shear."""
+    numbers = dict(zip(OF_FLOW, (0.0625, -0.25, 0.375, -0.125)))
+    errors = {name + '_error': error for name in OF_FLOW}
+    return gas(averaged_time, error=error, **{**numbers, **errors, **fields})
 
 
 def soft_gas(averaged_time=50.0, error=0.01, **fields):

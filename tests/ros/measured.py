@@ -89,6 +89,8 @@ def as_sent(message):
 def _spectrum(message):
     if math.isnan(message.divergence):  # the dynamics does not tell it
         yield from ['divergence', *['exponent_sum'] * (message.pairing_error < 0)]
+    if math.isnan(message.kaplan_yorke):
+        yield 'kaplan_yorke'
     for k, (cosine, ratio) in enumerate(zip(message.cos_theta, message.dp_dq_ratio)):
         if math.isnan(cosine) and (math.isnan(ratio) or ratio < 1e-140):  # a half vanishes
             yield f'cos_theta[{k}]'
@@ -130,12 +132,16 @@ def _phase(phase):
         yield 'phase'
 
 
+OF_FLOW = ('shear_stress', 'velocity_low', 'velocity_high', 'divergence')  # of walls that shear
+
+
 def _gas(message):
     yield from [] if message.pressure_z_error >= 0 else ['pressure_z']  # of disks
     yield from ['collision_rate'] if message.temperature > 0 else [
         'temperature',
         'potential_energy',
     ]
+    yield from [name for name in OF_FLOW if math.isnan(getattr(message, name))]
 
     rates = (what + pair for what in ('collision_rate_', 'expected_rate_') for pair in space.PAIRS)
     yield from rates if math.isnan(message.expected_rate_12) else ()  # of one kind

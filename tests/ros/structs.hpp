@@ -17,7 +17,8 @@ SAYS(hd_mean, M(name), M(unit), M(mean), M(std_error))
 SAYS(hd_gas_means, M(time), M(collision_rate), M(collision_rate_error), M(pressure_error), M(pressure_of),
      M(pressure_of_error), M(compressibility), M(compressibility_error), M(temperature), M(temperature_error),
      M(potential_energy), M(potential_energy_error), M(pair_rate), M(pair_rate_error), M(pair_rate_expected),
-     M(compressibility_expected))
+     M(compressibility_expected), M(shear_stress), M(shear_stress_error), M(wall_velocity), M(wall_velocity_error),
+     M(divergence), M(divergence_error))
 SAYS(hd_kind, M(number), M(diameter), M(mass))
 SAYS(hd_energy, M(error), M(most), M(asked))
 SAYS(hd_cost, M(wall), M(events), M(replay), M(ortho), M(spectrum), M(modes), M(following), M(communication), M(bytes),
@@ -33,7 +34,8 @@ SAYS(hd_velocity, M(phases), M(k_min), M(k_max), M(v), M(v_error), M(v_sampling_
 SAYS(hd_phase, M(step), M(modulation), M(col), M(state), M(a), M(b), M(phase), M(omega), M(omega_error), M(time))
 SAYS(hd_hydro_response, M(step), M(col), M(modulation), M(density), M(along), M(across), M(energy), M(across_second))
 SAYS(hd_angle_of_spaces, M(last), M(mean), M(std_error), M(least), M(mean_of_all), M(smallest), M(all))
-SAYS(hd_spectrum_sums, M(local_time), M(ks_entropy_error), M(exponent_sum_error))
+SAYS(hd_spectrum_sums, M(local_time), M(ks_entropy_error), M(exponent_sum_error), M(kaplan_yorke),
+     M(kaplan_yorke_error))
 SAYS(hd_covariant_results, M(windows), M(lost), M(window_end), M(null), M(null_most), M(splitting.samples),
      M(start_mismatch.centre), M(start_mismatch.stable))
 SAYS(hd_subspace, M(kind), M(wave.n), M(wave.number), M(dimension), M(column))

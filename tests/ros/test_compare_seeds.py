@@ -44,7 +44,9 @@ class ThreeSeeds(Pairs):
         return {one.name: one for one in comparison.gas}
 
     def test_all_of_the_gas_is_judged(self):
-        for make, names in ((made.gas, GAS), (made.soft_gas, SOFT_GAS)):
+        flow = 'shear stress', 'velocity low', 'velocity high', 'divergence'
+        of_shear = made.shear_gas, (*GAS, *flow)
+        for make, names in ((made.gas, GAS), (made.soft_gas, SOFT_GAS), of_shear):
             found = self.of_gas(Comparison(*self.sides(make=make)))
             self.assertEqual(tuple(found), names)
             self.assertTrue(all(one.judged and one.is_known for one in found.values()))

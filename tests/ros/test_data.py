@@ -199,6 +199,23 @@ class Arrays(Loaded):
         self.equal(soft.value, [1.25, 1.5, 1.0, 5.0, 0.625, 0.5])
         self.assertEqual(list(soft.unit[3:]), ['', 'epsilon', 'epsilon'])
 
+    def test_shearing_walls(self):
+        """What there is only where phase space contracts, in frames and in printed results."""
+        found = made.spectrum([0.5, 0.001, -0.3, -0.451], 50.0, divergence=-0.2501)
+        found.kaplan_yorke, found.kaplan_yorke_error = 3.4457, 0.02
+        run = self.load([made.run_info(number=1, zero_exponents=3), found, made.shear_gas()])
+        flow = ['shear_stress', 'velocity_low', 'velocity_high', 'divergence']
+        self.equal(run.gas.value[flow], [0.0625, -0.25, 0.375, -0.125])
+        self.equal(run.gas.std_error[flow], 4 * [0.01])
+        self.assertEqual(list(run.gas.unit[flow[:2]]), ['1/sigma^2', 'sigma/time unit'])
+        self.equal(run.results.value[['exponent_sum', 'kaplan_yorke']], [-0.25, 3.4457])
+        self.equal(run.results.std_error[['exponent_sum', 'kaplan_yorke']], [0.01, 0.02])
+        printed = run.table()
+        self.assertEqual(printed.value['kaplan_yorke'], '3.446(20)')
+        self.assertEqual(printed.value['shear_stress'], '0.062(10)')
+        paired = self.load([made.run_info(), made.spectrum([0.5, 0.001, -0.001, -0.5], 50.0)])
+        self.assertNotIn('exponent_sum', paired.results.index)
+
     def test_gas_and_widths(self):
         widths = [0.2, 0.5, 0.7]
         gas, shape = made.gas(60.0), made.localization(widths, error=-1.0)

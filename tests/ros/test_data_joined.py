@@ -204,6 +204,14 @@ class OneRun(Loaded):
             self.cannot_load(f'a.bag and .*b.bag do not belong together: {said}', a, b)
         b = self.write(run([1, 2], 'two', seed='2', density=0.5 * (1 + 1e-12)), 'b')
         self.assertEqual(len(hdlyap.load(a, b).runs), 2)
+        b = self.write(
+            run([1, 2], 'two', seed='2', shear_b=2.0), 'b'
+        )  # of walls that are not there
+        self.assertEqual(len(hdlyap.load(a, b).runs), 2)
+        sheared = dict(boundary_y='shearing')
+        a = self.write(run([1, 2], **sheared), 'a')
+        b = self.write(run([1, 2], 'two', seed='2', shear_b=2.0, **sheared), 'b')
+        self.cannot_load('do not belong together: shear_b is 10.0 and 2.0', a, b)
 
     def test_several_runs_in_a_bag(self):
         path = self.write([*run([1, 2]), *run([1, 2, 3], 'two', seed='2')], 'a')

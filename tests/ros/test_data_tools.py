@@ -382,6 +382,22 @@ class Export(Tools):
             self.plot(bags[1]), r'\naverages, over 150\nkinetic +2\.000\(10\) energy\n'
         )
 
+    def test_sums_of_seeds_that_contract(self):
+        """The sum of all exponents and the Kaplan-Yorke dimension are means, too."""
+        bags = []
+        for seed in (1, 2):
+            exponents = np.array([0.5, 0.001, -0.3, -0.451]) - 0.01 * seed
+            one = made.spectrum(exponents, 50.0, run_id=f'{seed}', divergence=-0.25)
+            one.kaplan_yorke, one.kaplan_yorke_error = 3.4 + 0.01 * seed, 0.02
+            info = made.run_info(number=1, zero_exponents=1, run_id=f'{seed}', seed=f'{seed}')
+            bags.append(self.write([info, one], f'sum{seed}'))
+        mean = hdlyap.load(*bags)
+        names = ['exponent_sum', 'kaplan_yorke']
+        np.testing.assert_allclose(mean.results.value[names], [-0.31, 3.415])
+        np.testing.assert_allclose(mean.results.std_error[names], np.array([0.01, 0.02]) / 2**0.5)
+        text = self.plot(*bags)
+        self.assertIn('\nKaplan-Yorke    3.415(14)\n', text)
+
     def soft(self, seed, step, temperature):
         own = ['potential=wca', f'time_step={step}']
         info = made.run_info(seed=seed, run_id=seed, own=own)

@@ -342,6 +342,9 @@ CHAIN.update(covariant_window=1500.0, covariant_transient=20.0, covariant_sampli
 TELLING = dict(SHORT, particles='telling_chain', number=8, exponents=2, duration=3000.0)
 TELLING.update(report_interval=1000.0, observables=['spectrum', 'averages', 'state'])
 RING = dict(SHORT, particles='ring', number=4, exponents='all', observables=['spectrum'])
+# so short that the sum of exponents is known, and a few of its errors
+SHEAR = dict(SHORT, number=12, density=0.4, aspect=0.5, boundary_y='shearing', shear_b=2.0)
+SHEAR.update(observables=['spectrum', 'steps', 'gas'], duration=600.0, report_interval=200.0)
 ALONE = dict(SHORT, number=20, exponents='none', observables=['gas', 'state'], duration=5.0)
 FEW = dict(
     SHORT, number=30, aspect=0.1, exponents=3, observables=['spectrum', 'steps', 'covariant']
@@ -371,6 +374,7 @@ def scenes(folder):
         ('resumed', resumed, dict(own, before=CHAIN)),
         ('ring', RING, own),  # not symplectic
         ('telling', TELLING, own),
+        ('shear', SHEAR, {}),  # walls that are not symplectic
         ('few', FEW, {}),
         ('alone', ALONE, {}),  # no vectors
     ]

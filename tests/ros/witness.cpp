@@ -197,7 +197,7 @@ members beside(const hdr_spectrum *)
     std::vector<double> cosine(vectors()), ratio(vectors());
     hd_run_dq_dp(run, cosine.data(), ratio.data());
     return named({{"divergence", hd_run_divergence(run)},
-                  {"symplectic", hd_dynamics_of(&scene())->symplectic},
+                  {"symplectic", hd_scene_symplectic(&scene())},
                   {"cosine", numbers(cosine.data(), vectors())},
                   {"ratio", numbers(ratio.data(), vectors())},
                   {"collisions", hd_trajectory_totals(parts().trajectory).collisions}});

@@ -152,6 +152,9 @@ static bool read_of_scene(const reader *r, const parameter *p, hd_scene_def *def
         break;
     default:
         whole = (int)real;
+        /* the usual ones follow from particles and walls, which have been read */
+        if (p->row->kind == HD_PARAMETER_EXPONENTS && whole == HD_EXPONENTS_POSITIVE)
+            whole = hd_scene_exponents_usual(def);
         read = p->row->kind == HD_PARAMETER_WORD ? read_word(r, p, &whole)
                : p->row->kind == HD_PARAMETER_EXPONENTS
                    ? read_exponents(r, p, &whole)

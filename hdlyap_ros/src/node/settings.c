@@ -120,9 +120,9 @@ static bool is_of_file(const char *name, const hdr_params *file, const char *pat
  * scene's file, its name is gone. */
 static bool check_scene_name(settings *set, reader *r)
 {
-    static const char *const system[] = {"particles",  "container",  "number",
-                                         "density",    "aspect",     "aspect_z",
-                                         "boundary_x", "boundary_y", "boundary_z"};
+    static const char *const system[] = {"particles",  "container", "number",     "density",
+                                         "aspect",     "aspect_z",  "boundary_x", "boundary_y",
+                                         "boundary_z", "shear_b"};
     const parameter name = parameters_named("scene");
     const char *path;
     const hdr_params *file = hdr_params_file(r->params, &path);

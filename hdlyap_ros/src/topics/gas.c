@@ -1,4 +1,5 @@
-/** Means of the gas: collision rate, pressure, temperature and potential energy -> message Gas. */
+/** Means of the gas: collision rate, pressure, energies, and the flow between walls that shear ->
+ * message Gas. */
 #include "topics/moment.h"
 
 #include <math.h>
@@ -36,6 +37,14 @@ hd_status topic_publish_gas(const moment *now)
         .temperature_error = m.temperature_error,
         .potential_energy = m.potential_energy,
         .potential_energy_error = m.potential_energy_error,
+        .shear_stress = m.shear_stress,
+        .shear_stress_error = m.shear_stress_error,
+        .velocity_low = m.wall_velocity[0],
+        .velocity_low_error = m.wall_velocity_error[0],
+        .velocity_high = m.wall_velocity[1],
+        .velocity_high_error = m.wall_velocity_error[1],
+        .divergence = m.divergence,
+        .divergence_error = m.divergence_error,
     };
     return m.time > 0.0 ? topic_send_gas(now->out, &message) : HD_OK;
 }

@@ -395,14 +395,13 @@ static void draw_mode(const sheet *s, int k)
 
 static void write_box(char *text, size_t size, const heard *h)
 {
-    static const char *const end[] = {"reflecting", "periodic"};
     if (heard_has_spheres(h))
         snprintf(text, size, "%.4g x %.4g x %.4g, x %s, y %s, z %s", h->box[0], h->box[1],
-                 h->box[2], end[h->periodic[0]], end[h->periodic[1]], end[h->periodic[2]]);
+                 h->box[2], h->ends[0], h->ends[1], h->ends[2]);
     else if (h->corners > 0)
         snprintf(text, size, "%s", h->container);
     else
-        snprintf(text, size, "x %s, y %s", end[h->periodic[0]], end[h->periodic[1]]);
+        snprintf(text, size, "x %s, y %s", h->ends[0], h->ends[1]);
 }
 
 /** Writes the time, stage and progress of the run. */

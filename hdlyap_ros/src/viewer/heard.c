@@ -137,13 +137,16 @@ static void begin_outline(heard *h, const hdr_run_info *info)
 
 static void begin_box(heard *h, const hdr_run_info *info)
 {
+    static const char *const of_axis[] = {"boundary_x", "boundary_y", "boundary_z"};
     h->box[0] = info->box_x;
     h->box[1] = info->box_y;
     h->box[2] = info->dimension == 3 ? info->box_z : 0.0;
-    h->periodic[0] = strcmp(heard_parameter(info, "boundary_x"), "periodic") == 0;
-    h->periodic[1] = strcmp(heard_parameter(info, "boundary_y"), "periodic") == 0;
-    h->periodic[2] = heard_has_spheres(h) &&
-                     strcmp(heard_parameter(info, "boundary_z"), "periodic") == 0;
+    for (int d = 0; d < 3; d++) {
+        const bool there = d < 2 || heard_has_spheres(h);
+        snprintf(h->ends[d], sizeof h->ends[d], "%s",
+                 there ? heard_parameter(info, of_axis[d]) : "");
+        h->periodic[d] = strcmp(h->ends[d], "periodic") == 0;
+    }
     snprintf(h->container, sizeof h->container, "%s", heard_parameter(info, "container"));
     begin_outline(h, info);
 }

@@ -35,6 +35,21 @@ static void expect_same_exponents(const hd_run *run, const hd_run *alone)
     if (ranks->rank == 0) print_message("exponents apart by %.1e, bounds %.1e\n", most, bound);
 }
 
+/** What walls that shear do to the particles is the same on each rank. */
+TEST(a_flow_is_that_of_one_rank)
+{
+    const hd_scene_def scene = scene_from(scene_of_runs(24, HD_OBSERVE_GAS | HD_OBSERVE_STEPS),
+                                          .boundary[1] = HD_SHEARING, .density = 0.4,
+                                          .exponents = HD_EXPONENTS_ALL);
+    OWNED(hd_run) *run = finish(shared(scene)), *alone = finished(scene);
+    expect_same_exponents(run, alone);
+    assert_true(hd_run_divergence(alone) < 0);
+    CHECK_CLOSE(hd_run_divergence(run), hd_run_divergence(alone), 0.0);
+    const hd_gas_means a = hd_gas_read(hd_run_gas(run)), b = hd_gas_read(hd_run_gas(alone));
+    CHECK_CLOSE(a.shear_stress, b.shear_stress, 0.0);
+    CHECK_CLOSE(a.wall_velocity[1], b.wall_velocity[1], 0.0);
+}
+
 TEST(exponents_are_those_of_one_rank)
 {
     static const int exponents[] = {HD_EXPONENTS_POSITIVE, HD_EXPONENTS_ALL_INDEPENDENT,

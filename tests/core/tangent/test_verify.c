@@ -36,6 +36,28 @@ static hd_run *run_of(int exponents)
     return run;
 }
 
+/** Walls that shear keep neither momentum nor symplectic products nor the volume; energy they do.
+ */
+TEST(what_walls_that_shear_break_is_not_expected)
+{
+    OWNED(hd_run) *run = created(scene(.number = 16, .density = 0.5, .aspect = 1.0,
+                                       .boundary[1] = HD_SHEARING, .shear_b = 0.5,
+                                       .exponents = HD_EXPONENTS_ALL, .equilibration = 50.0,
+                                       .warmup = 10.0, .duration = 10.0));
+    until(run, HD_WARMING_UP);
+    for (int k = 0; k < 3; k++) CHECK_OK(hd_run_advance(run));
+    const hd_trajectory *tr = run->advance.trajectory;
+    hd_disk *disk = hard_in(tr)->motion.disk;
+    assert_true(fabs(hd_trajectory_examined(tr).momentum[0]) > 1e-3);
+    const hd_symplectic before = {.product = {1.0}, .scale = {1.0}};
+    EXPECT_BROKEN(false, hd_verify_trajectory(tr, &run->scene));
+    EXPECT_BROKEN(false, hd_verify_record(run->carrier.record, &run->scene));
+    EXPECT_BROKEN(false, hd_verify_symplectic(run->carrier.frame, &before, 0.0));
+    EXPECT_BROKEN(false, hd_verify_ortho(run->carrier.ortho, run->carrier.frame));
+    disk[0].p[0] *= 1.0 + 1e-9;
+    EXPECT_BROKEN(true, hd_verify_trajectory(tr, &run->scene));
+}
+
 TEST(disks_are_checked)
 {
     OWNED(hd_run) *run = run_of(HD_EXPONENTS_POSITIVE);

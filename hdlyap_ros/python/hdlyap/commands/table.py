@@ -1,6 +1,7 @@
 """The table of a sweep, of any bags.
 
-It has lambda_max, h_KS/N, c_T, c_L and v of each system, as means over its seeds. For runs of
+It has lambda_max, h_KS/N, c_T, c_L and v of each system, as means over its seeds; of walls that
+shear the sum of all exponents, the Kaplan-Yorke dimension and the flow. For runs of
 runs.launch it waits until all have ended."""
 
 import os

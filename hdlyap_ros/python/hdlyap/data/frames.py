@@ -224,12 +224,17 @@ def _without_arrays(message):
     return type(message)(**alone)
 
 
+# of a gas, if phase space contracts, as between walls that shear
+OF_FLOW = 'shear_stress', 'velocity_low', 'velocity_high', 'divergence'
+
+
 def of_gas(message, info=None):
     """A frame by quantity, of the quantities that these particles have."""
     described = fields.of(message)
     pressures = ['pressure', *('pressure_' + axis for axis in space.axes(info))]
     rates = ['collision_rate', *('collision_rate_' + pair for pair in space.PAIRS)]
     names = [*rates, *pressures, 'compressibility', 'temperature', 'potential_energy']
+    names += OF_FLOW
     names = [name for name in names if not np.isnan(getattr(message, name))]
     columns = {
         'value': [getattr(message, name) for name in names],

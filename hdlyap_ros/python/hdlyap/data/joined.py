@@ -136,7 +136,9 @@ def system(info):
     from one seed to the next."""
     absent = space.OF_A_BOX if space.without_box(info) else ()
     own = [one.name for one in info.parameters if one.own and one.value == one.effect]
-    return [*(name for name in SYSTEM if name not in absent), *(own or KINDS)]
+    sheared = not absent and 'shearing' in space.along(info, 'boundary_')
+    of_walls = ['shear_b'] if sheared else []
+    return [*(name for name in SYSTEM if name not in absent), *of_walls, *(own or KINDS)]
 
 
 def compared(info):

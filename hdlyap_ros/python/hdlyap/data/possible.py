@@ -57,7 +57,7 @@ NOT_EMPTY = {'Spectrum': 'exponents', 'Localization': 'widths', 'Fluctuations': 
 OF_RESOLVED = 'multiplicity', 'exponent', 'set_time', 'own_part'  # NaN unless resolved
 SHOWN = 80  # most characters of a value that are shown
 WORD = re.compile(r'[\w.+-]+', re.ASCII)
-WALLS = 'periodic', 'reflecting', 'curved'
+WALLS = 'periodic', 'reflecting', 'shearing', 'curved'
 
 Rule = namedtuple('Rule', 'name least most may_be_nan parts')
 

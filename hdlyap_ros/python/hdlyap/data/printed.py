@@ -5,9 +5,9 @@ import pandas
 
 from hdlyap.numbers import with_error
 
-from .frames import frame
+from .frames import OF_FLOW, frame
 
-GAS = ('collision_rate', 'pressure', 'compressibility', 'temperature', 'potential_energy')
+GAS = ('collision_rate', 'pressure', 'compressibility', 'temperature', 'potential_energy', *OF_FLOW)
 
 
 def of(run):

@@ -30,6 +30,8 @@ ARRAYS = {
     'positions': (msg.State, 'x'),
     'momenta': (msg.State, 'px'),
 }
+# sums of all exponents -> their units; there are none where exponents are in pairs
+OF_ALL = {'exponent_sum': '1/time unit', 'kaplan_yorke': ''}
 Averages = namedtuple('Averages', 'times averaged_times exponents std_errors local last')
 # samples: their ends, lengths and exponents; samples do not overlap
 Local = namedtuple('Local', 'times lengths exponents')
@@ -171,9 +173,10 @@ class Run:
 
     @cached_property
     def results(self):
-        """lambda_max, the sum of the positive exponents, and the fits to steps if there are any,
-        with their bases. sampling_error is the part of the errors of c and v by which another run
-        of the same box may differ; the rest grows with the misfit."""
+        """lambda_max, the sum of the positive exponents, those of OF_ALL that there are, and the
+        fits to steps if there are any, with their bases. sampling_error is the part of the errors
+        of c and v by which another run of the same box may differ; the rest grows with the
+        misfit."""
         last = self._averages.last
         rate, none = fields.of(last)['lambda_max'].unit, ''
         rows = [
@@ -186,6 +189,11 @@ class Run:
                 rate,
                 none,
             ),
+        ]
+        rows += [
+            (name, getattr(last, name), *[getattr(last, name + '_error')] * 2, -1.0, unit, none)
+            for name, unit in OF_ALL.items()
+            if np.isfinite(getattr(last, name)) and last.pairing_error < 0
         ]
         units = fields.of(msg.Steps)
         rows += [

@@ -11,7 +11,7 @@ from hdlyap import topics
 from . import joined, printed, space
 from .frames import frame
 from .reader import Missing, RecordingError
-from .run import Run
+from .run import OF_ALL, Run
 from .summary import Summary
 
 # If no run states an error, the scatter of at least FEWEST runs, the longest at most RATIO times
@@ -132,7 +132,8 @@ class Seeds:
         so it is in both errors in full."""
         frames = [run.results for run in self.runs]
         fits = [fit for fit in self.runs[0].fits if self._is_in_all(fit)]
-        names = [*frames[0].index[:2], *(name for fit in fits for name, _, _ in fit.values)]
+        of_fits = [name for fit in fits for name, _, _ in fit.values]
+        names = [*self._sums, *of_fits]
         frames = [one.loc[names] for one in frames]
         sampled = [one.assign(std_error=_of_sampling(one)) for one in frames]
         made = self._mean(sampled, 'value')
@@ -143,6 +144,12 @@ class Seeds:
         # the misfit of all runs: chi^2 of all over the degrees of freedom of all
         made['misfit'] = np.sqrt(np.mean([one['misfit'] ** 2 for one in frames], axis=0))
         return made.join(frames[0][['unit', 'basis']])
+
+    @property
+    def _sums(self):
+        """The names of results in front of those of fits."""
+        every = {name for run in self.runs for fit in run.fits for name, *_ in fit.values}
+        return [name for name in self.runs[0].results.index if name not in every]
 
     @cached_property
     def gas(self):
@@ -218,8 +225,12 @@ class Seeds:
         message.std_errors = errors(self.spectrum).tolist()
         message.lambda_max, message.ks_entropy = self.results['value'].iloc[:2].tolist()
         message.ks_entropy_error = float(errors(self.results).iloc[1])
-        message.pairing_error = message.exponent_sum_error = -1.0
-        message.exponent_sum = message.divergence = np.nan
+        message.pairing_error, message.divergence = -1.0, np.nan
+        for name in OF_ALL:
+            there = name in self.results.index
+            setattr(message, name, self.results.loc[name, 'value'] if there else np.nan)
+            error = float(errors(self.results.loc[[name]]).iloc[0]) if there else -1.0
+            setattr(message, name + '_error', error)
 
     def _fill_steps(self, message):
         """Fills steps from the first run in which each is resolved; multiplicities and exponents
@@ -238,7 +249,7 @@ class Seeds:
         for symbol, points in (('c_T', 't_points'), ('c_L', 'l_points'), ('v', 'v_phases')):
             if symbol not in self.results.index:
                 setattr(message, points, 0)
-        for name, error in errors(self.results).iloc[2:].items():
+        for name, error in errors(self.results).iloc[len(self._sums) :].items():
             field, row = name.lower(), self.results.loc[name]
             setattr(message, field, row['value'])
             setattr(message, field + '_error', error)

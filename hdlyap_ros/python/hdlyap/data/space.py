@@ -7,8 +7,8 @@ from hdlyap.parameters import own
 
 # parameters of runs whose particles are in a box
 OF_A_BOX = (
-    'container density aspect aspect_z boundary_x boundary_y boundary_z max_wave_number '
-    'max_mode_number'
+    'container density aspect aspect_z boundary_x boundary_y boundary_z shear_b '
+    'max_wave_number max_mode_number'
 ).split()
 
 

@@ -51,14 +51,17 @@ class Summary:
             return None
 
     @property
+    def is_unpaired(self):
+        """Whether all exponents are there, and not in pairs of opposite sign."""
+        spectrum = self.spectrum
+        return bool(spectrum and spectrum.pairing_error < 0 and np.isfinite(spectrum.exponent_sum))
+
+    @property
     def positive_end(self):
         """The Lyapunov index of the last positive exponent, which is in front of the zero ones:
         those that are smallest together, if exponents are not in pairs of opposite sign."""
         count, spectrum = self.info.zero_exponents, self.spectrum
-        all_unpaired = (
-            spectrum and spectrum.pairing_error < 0 and np.isfinite(spectrum.exponent_sum)
-        )
-        if not all_unpaired:
+        if not self.is_unpaired:
             return (self.phase_space - count) // 2
         if count == 0:
             return int(np.sum(np.asarray(spectrum.exponents) > 0))

@@ -7,6 +7,7 @@ import io
 import numpy as np
 
 from hdlyap.data import fits, space, steps
+from hdlyap.data.run import OF_ALL
 from hdlyap.data.spectrum_test import SpectrumTest
 from hdlyap.data.joined import different, system
 from hdlyap.data.reader import RecordingError
@@ -38,6 +39,7 @@ class Comparison:
         self._positive = range(min(a.positive_end, a.last_index) + 1 - a.spectrum.first_index)
         is_sum = len(self.exponents) > 1
         self.sums = [self._together(_sum(a, b), self._positive)] if is_sum else []
+        self.sums += _of_all(a, b)
         self.steps = [self._together(one, _members(one, a), False) for one in _steps(a, b)]
         self.gas = [*_gas(a, b), *_averages(a, b)]
         pairs = _pairs_of_fits(a, b)
@@ -50,7 +52,7 @@ class Comparison:
 
     @property
     def numbers(self):
-        """lambda_max, h_KS, c_T, c_L, v, all of the gas."""
+        """lambda_max, h_KS, sum and dimension of unpaired ones, c_T, c_L, v, all of the gas."""
         slopes = [one for one in self.fits if one.name in SLOPES]
         return [*self.exponents[:1], *self.sums, *slopes, *self.gas]
 
@@ -253,6 +255,22 @@ def _sum(a, b):
     """The Deviation of the sum of the positive exponents."""
     values, errors = (a.spectrum.ks_entropy, b.spectrum.ks_entropy), (a.sum_error, b.sum_error)
     return _deviation(a.sum_name, (a, b), values, errors, ('results', a.sum_name))
+
+
+def _of_all(a, b):
+    """Deviations of the sum of all exponents and of the Kaplan-Yorke dimension, if they are not in
+    pairs."""
+    found = []
+    for name in OF_ALL:
+        values, errors = (
+            [getattr(run.spectrum, name + what) for run in (a, b)] for what in ('', '_error')
+        )
+        if (
+            np.isfinite(values).all()
+            and max(a.spectrum.pairing_error, b.spectrum.pairing_error) < 0
+        ):
+            found.append(_deviation(name, (a, b), values, errors, ('results', name)))
+    return found
 
 
 def _resolved(run):

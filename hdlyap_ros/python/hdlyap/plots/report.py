@@ -186,6 +186,9 @@ def _sums(recording):
     if np.isfinite(spectrum.divergence):
         of_all = with_error(spectrum.exponent_sum, spectrum.exponent_sum_error)
         lines += [f'sum of all      {of_all}', f'mean divergence {spectrum.divergence:.6f}']
+    if np.isfinite(spectrum.kaplan_yorke):
+        of_all = with_error(spectrum.kaplan_yorke, spectrum.kaplan_yorke_error)
+        lines.append(f'Kaplan-Yorke    {of_all}')
     return '\n'.join(lines)
 
 
@@ -208,6 +211,10 @@ def _gas(recording):
         (of_z, gas.compressibility, gas.compressibility_error, ''),
         ('temperature', gas.temperature, gas.temperature_error, 'epsilon'),
         ('potential / N', gas.potential_energy, gas.potential_energy_error, 'epsilon'),
+        ('shear stress', gas.shear_stress, gas.shear_stress_error, f'per sigma^{len(axes)}'),
+        ('v near low wall', gas.velocity_low, gas.velocity_low_error, 'sigma per time unit'),
+        ('v near high one', gas.velocity_high, gas.velocity_high_error, 'sigma per time unit'),
+        ('divergence', gas.divergence, gas.divergence_error, 'per time unit'),
     ]
     lines = [f'gas, averaged over {gas.averaged_time:g}']
     for name, value, error, unit in rows:

@@ -30,6 +30,11 @@ NAMES = {
     'collision_rate': 'collision rate  [1/time unit]',
     'pressure': r'pressure  [1/$\sigma^2$]',
     'temperature': r'temperature  [$\epsilon$]',
+    'exponent_sum': r'$\sum \lambda$  [1/time unit]',
+    'kaplan_yorke': 'Kaplan-Yorke dimension',
+    'shear_stress': r'shear stress  [1/$\sigma^2$]',
+    'velocity_low': r'velocity near the low wall  [$\sigma$/time unit]',
+    'velocity_high': r'velocity near the high wall  [$\sigma$/time unit]',
 }
 MARKERS = 'os^Dv<>p'
 LEAST = 4.6  # least width of the figure [inch]

@@ -16,7 +16,7 @@ OF_SPHERES = (
 )
 OTHER = 'over'  # argument of any other parameter and its values
 OBSERVED = '[spectrum, steps, lp_phases]', '[spectrum]'  # of a sweep; where there is no box
-PERIODIC, REFLECTING = WALLS = 'periodic', 'reflecting'
+WALLS = 'periodic', 'reflecting', 'shearing'
 
 
 class Swept(namedtuple('Swept', 'argument name parameters wanted')):
@@ -73,7 +73,8 @@ SWEPT = (
         'boundaries',
         'boundary',
         ('boundary_x', 'boundary_y'),
-        'periodic or reflecting, or two of them for x and y as reflecting,periodic',
+        'periodic or reflecting, or two of them for x and y as reflecting,periodic or '
+        'periodic,shearing',
     ),
     Swept('seeds', 'seed', ('seed',), 'decimal numbers'),
 )

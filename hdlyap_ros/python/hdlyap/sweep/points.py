@@ -7,6 +7,7 @@ import numpy as np
 
 from hdlyap.data import reader, seeds, space
 from hdlyap.data import joined
+from hdlyap.data.run import OF_ALL
 from hdlyap.parameters import asked_of_own, named, value
 from hdlyap.data.reader import RecordingError
 from hdlyap.data.containers import is_curved
@@ -21,8 +22,12 @@ QUANTITIES = {
     'collision_rate': '1/time unit',
     'pressure': '1/sigma^2',
     'temperature': 'epsilon',
+    **OF_ALL,
+    'shear_stress': '1/sigma^2',
+    'velocity_low': 'sigma/time unit',
+    'velocity_high': 'sigma/time unit',
 }
-GAS = ('collision_rate', 'pressure', 'temperature')
+GAS = ('collision_rate', 'pressure', 'temperature', 'shear_stress', 'velocity_low', 'velocity_high')
 FITTED = ('c_T', 'c_L', 'v')
 NAN = float('nan')
 
@@ -56,6 +61,9 @@ class Point:
         found = {'lambda_max': self._value(frame.loc['lambda_max'])}
         if 'h_KS' in frame.index:
             found['h_KS/N'] = self._value(frame.loc['h_KS'], 1 / self.data.info.number)
+        for name in OF_ALL:
+            if name in frame.index:
+                found[name] = self._value(frame.loc[name])
         for fit in self.runs[0].fits:
             if fit.symbol in frame.index:
                 found[fit.symbol] = self._value(frame.loc[fit.symbol], fit=fit)

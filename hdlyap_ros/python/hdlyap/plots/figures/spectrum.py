@@ -56,8 +56,17 @@ def _whole(axes, recording, look):
     indices = np.arange(spectrum.first_index, recording.last_index + 1)
     style = {'fmt': '.', 'color': INK, 'markersize': 2, **MANY, **look}
     axes.errorbar(indices, spectrum.exponents, bars(spectrum.std_errors), **style)
+    if recording.is_unpaired:
+        _mirrored(axes, indices, spectrum.exponents)
     _exponent_axes(axes)
     axes.set_title('all exponents carried', loc='left')
+
+
+def _mirrored(axes, indices, exponents):
+    """Draws all exponents with the other sign in reverse order. In pairs they would be the same."""
+    look = {'linewidth': 0.8, 'color': VERMILION, 'label': r'$-\lambda_{n+1-\ell}$'}
+    axes.plot(indices, -np.array(exponents)[::-1], **look)
+    axes.legend(loc='upper right')
 
 
 def _share_of(info):
