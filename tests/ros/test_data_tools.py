@@ -396,7 +396,7 @@ class Export(Tools):
         np.testing.assert_allclose(mean.results.value[names], [-0.31, 3.415])
         np.testing.assert_allclose(mean.results.std_error[names], np.array([0.01, 0.02]) / 2**0.5)
         text = self.plot(*bags)
-        self.assertIn('\nKaplan-Yorke    3.415(14)\n', text)
+        self.assertRegex(text, r'\n *kaplan_yorke +3\.415\(14\)')
 
     def soft(self, seed, step, temperature):
         own = ['potential=wca', f'time_step={step}']

@@ -4,7 +4,9 @@
 #include "draw.h"
 #include "hdlyap/dynamics_test.h"
 #include "prepared.h"
+#include "scene/container.h"
 #include "scene/ends.h"
+#include "scene/null_space.h"
 #include "scene/scene.h"
 #include "tangent.h"
 #include "twin.h"
@@ -283,6 +285,25 @@ TEST(sums_of_the_flow_are_sums_over_events)
         CHECK_WITHIN(b.walls.momentum[1] / b.walls.near[1], 0.3, 2.0); /* with the wall */
         CHECK_WITHIN(b.walls.momentum[0] / b.walls.near[0], -2.0, -0.3);
     }
+}
+
+/** Between walls that take away motion across them, disks that cannot pass each other come to rest
+ * with ever more collisions: a trajectory that starts so ends, and soon. */
+TEST(a_jam_ends_the_trajectory)
+{
+    hd_scene_def def = scene(.number = 6, .density = 0.1, .aspect = 0.2, .shear_b = 0.1,
+                             .boundary[0] = HD_SHEARING, .exponents = HD_EXPONENTS_ALL);
+    double q[12], p[12];
+    def.density = 0.99 * hd_container_of(&def)->density_max(&def);
+    assert_int_equal(hd_scene_check(&def, NULL, 0), HD_REFUSED);
+    hd_container_of(&def)->start(&def, q);
+    hd_null_space_momenta(&def, q, p);
+    OWNED(hd_trajectory) *tr = started(&def, q, p);
+    hd_status status = HD_OK;
+    for (int k = 1; k <= 100 && status == HD_OK; k++)
+        status = hd_trajectory_extend(tr, NULL, 10.0 * k);
+    assert_int_equal(status, HD_JAMMED);
+    CHECK_WITHIN((double)hd_trajectory_totals(tr).wall_events, 1600.0, 1e6);
 }
 
 /* ---- scenes -------------------------------------------------------------------------------- */

@@ -64,7 +64,7 @@ def _whole(axes, recording, look):
 
 def _mirrored(axes, indices, exponents):
     """Draws all exponents with the other sign in reverse order. In pairs they would be the same."""
-    look = {'linewidth': 0.8, 'color': VERMILION, 'label': r'$-\lambda_{n+1-\ell}$'}
+    look = {'linewidth': 0.8, 'color': GREY, 'zorder': 1, 'label': r'$-\lambda_{n+1-\ell}$'}
     axes.plot(indices, -np.array(exponents)[::-1], **look)
     axes.legend(loc='upper right')
 
