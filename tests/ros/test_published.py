@@ -344,6 +344,7 @@ TELLING.update(report_interval=1000.0, observables=['spectrum', 'averages', 'sta
 RING = dict(SHORT, particles='ring', number=4, exponents='all', observables=['spectrum'])
 # so short that the sum of exponents is known, and a few of its errors
 SHEAR = dict(SHORT, number=12, density=0.4, aspect=0.5, boundary_y='shearing', shear_b=2.0)
+SHEAR.update(exponents='all')
 SHEAR.update(observables=['spectrum', 'steps', 'gas'], duration=600.0, report_interval=200.0)
 ALONE = dict(SHORT, number=20, exponents='none', observables=['gas', 'state'], duration=5.0)
 FEW = dict(

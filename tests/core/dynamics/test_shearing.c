@@ -319,7 +319,7 @@ TEST(what_cannot_be_is_refused_by_name)
 {
     const hd_scene_def def = sheared(20, 0.3, 1, 10.0);
     check_refused(scene_from(def, .particles = HD_SPHERES),
-                  "boundary_y = shearing: must be periodic or reflecting with particles = spheres");
+                  "boundary_y = shearing: must not be given with particles = spheres");
     check_refused(scene_from(def, .boundary[0] = HD_REFLECTING),
                   "boundary_x = reflecting: must be periodic with boundary_y = shearing");
     check_refused(scene_from(def, .boundary[0] = HD_SHEARING),
@@ -331,12 +331,11 @@ TEST(what_cannot_be_is_refused_by_name)
                   "exponents = positive: must be all, all_independent, none or from 1 to 80 with "
                   "boundary_y = shearing, whose exponents are not in pairs of opposite sign");
     check_refused(scene_from(def, .shear_b = 0.001), "shear_b = 0.001: must be from 0.01 to 1e6");
-    check_refused(
-        scene_from(scene_of_kind(HD_DUMBBELLS, 20, 0.2, 1.0), .boundary[1] = HD_SHEARING),
-        "boundary_y = shearing: must be periodic or reflecting with particles = dumbbells");
+    check_refused(scene_from(scene_of_kind(HD_DUMBBELLS, 20, 0.2, 1.0), .boundary[1] = HD_SHEARING),
+                  "boundary_y = shearing: must not be given with particles = dumbbells");
     check_refused(
         scene_from(scene_of_kind(HD_SOFT_DISKS, 20, 0.2, 1.0), .boundary[1] = HD_SHEARING),
-        "boundary_y = shearing: must be periodic or reflecting with particles = soft_disks");
+        "boundary_y = shearing: must not be given with particles = soft_disks");
     check_refused(scene_from(def, .density = 0.93),
                   "density = 0.93: must be at most 0.913462 with number = 20 and walls that shear, "
                   "between which the densest start lattice cannot flow");
