@@ -394,34 +394,6 @@ static bool energy_possible(const hd_scene_def *def, const hd_aim *goal, char wh
     return is_known(def, true, why);
 }
 
-static hd_stated read_collision_rate(const hd_parts *parts, const hd_aim *goal)
-{
-    (void)goal;
-    const hd_gas_means means = hd_gas_read(parts->gas);
-    return (hd_stated){means.collision_rate, means.collision_rate_error, 0.0};
-}
-
-static hd_stated read_pressure(const hd_parts *parts, const hd_aim *goal)
-{
-    (void)goal;
-    const hd_gas_means means = hd_gas_read(parts->gas);
-    return (hd_stated){means.pressure, means.pressure_error, 0.0};
-}
-
-static hd_stated read_temperature(const hd_parts *parts, const hd_aim *goal)
-{
-    (void)goal;
-    const hd_gas_means means = hd_gas_read(parts->gas);
-    return (hd_stated){means.temperature, means.temperature_error, 0.0};
-}
-
-static hd_stated read_potential_energy(const hd_parts *parts, const hd_aim *goal)
-{
-    (void)goal;
-    const hd_gas_means means = hd_gas_read(parts->gas);
-    return (hd_stated){means.potential_energy, means.potential_energy_error, 0.0};
-}
-
 /** True if walls drag; otherwise writes why a target cannot name the quantity. */
 static bool flow_possible(const hd_scene_def *def, const hd_aim *goal, char why[HD_WHY])
 {
@@ -437,33 +409,23 @@ static bool divergence_possible(const hd_scene_def *def, const hd_aim *goal, cha
     return hd_scene_diverges(def);
 }
 
-static hd_stated read_shear_stress(const hd_parts *parts, const hd_aim *goal)
-{
-    (void)goal;
-    const hd_gas_means means = hd_gas_read(parts->gas);
-    return (hd_stated){means.shear_stress, means.shear_stress_error, 0.0};
-}
-
-static hd_stated read_divergence(const hd_parts *parts, const hd_aim *goal)
-{
-    (void)goal;
-    const hd_gas_means means = hd_gas_read(parts->gas);
-    return (hd_stated){means.divergence, means.divergence_error, 0.0};
-}
-
-static hd_stated read_velocity_low(const hd_parts *parts, const hd_aim *goal)
-{
-    (void)goal;
-    const hd_gas_means means = hd_gas_read(parts->gas);
-    return (hd_stated){means.wall_velocity[0], means.wall_velocity_error[0], 0.0};
-}
-
-static hd_stated read_velocity_high(const hd_parts *parts, const hd_aim *goal)
-{
-    (void)goal;
-    const hd_gas_means means = hd_gas_read(parts->gas);
-    return (hd_stated){means.wall_velocity[1], means.wall_velocity_error[1], 0.0};
-}
+/** Reads a mean and its error, which are members of hd_gas_means. */
+#define READ(name, mean, std_error)                                                                \
+    static hd_stated read_##name(const hd_parts *parts, const hd_aim *goal)                        \
+    {                                                                                              \
+        (void)goal;                                                                                \
+        const hd_gas_means means = hd_gas_read(parts->gas);                                        \
+        return (hd_stated){means.mean, means.std_error, 0.0};                                      \
+    }
+READ(collision_rate, collision_rate, collision_rate_error)
+READ(pressure, pressure, pressure_error)
+READ(temperature, temperature, temperature_error)
+READ(potential_energy, potential_energy, potential_energy_error)
+READ(shear_stress, shear_stress, shear_stress_error)
+READ(velocity_low, wall_velocity[0], wall_velocity_error[0])
+READ(velocity_high, wall_velocity[1], wall_velocity_error[1])
+READ(divergence, divergence, divergence_error)
+#undef READ
 
 static const hd_quantity each[] = {
     {.name = "collision_rate", .possible = rate_possible, .read = read_collision_rate},
