@@ -1,6 +1,6 @@
 /** Numbers of collisions, or integrals of energies, of the trajectory -> collision rate, or
  * temperature and potential energy; from the virial the pressure [T19]; and the flow between walls
- * that drag [T27]. Standard errors come from blocks of samples [T8]. */
+ * that drag [T26]. Standard errors come from blocks of samples [T8]. */
 #include "observe/gas.h"
 
 #include <math.h>

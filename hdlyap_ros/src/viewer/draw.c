@@ -393,15 +393,20 @@ static void draw_mode(const sheet *s, int k)
     title(s, ns, at, m);
 }
 
+static const char *end_of(const heard *h, int d)
+{
+    return h->periodic[d] ? "periodic" : *h->wall[d] ? h->wall[d] : "reflecting";
+}
+
 static void write_box(char *text, size_t size, const heard *h)
 {
     if (heard_has_spheres(h))
         snprintf(text, size, "%.4g x %.4g x %.4g, x %s, y %s, z %s", h->box[0], h->box[1],
-                 h->box[2], h->ends[0], h->ends[1], h->ends[2]);
+                 h->box[2], end_of(h, 0), end_of(h, 1), end_of(h, 2));
     else if (h->corners > 0)
         snprintf(text, size, "%s", h->container);
     else
-        snprintf(text, size, "x %s, y %s", h->ends[0], h->ends[1]);
+        snprintf(text, size, "x %s, y %s", end_of(h, 0), end_of(h, 1));
 }
 
 /** Writes the time, stage and progress of the run. */

@@ -142,10 +142,10 @@ static void begin_box(heard *h, const hdr_run_info *info)
     h->box[1] = info->box_y;
     h->box[2] = info->dimension == 3 ? info->box_z : 0.0;
     for (int d = 0; d < 3; d++) {
-        const bool there = d < 2 || heard_has_spheres(h);
-        snprintf(h->ends[d], sizeof h->ends[d], "%s",
-                 there ? heard_parameter(info, of_axis[d]) : "");
-        h->periodic[d] = strcmp(h->ends[d], "periodic") == 0;
+        const char *word = d < 2 || heard_has_spheres(h) ? heard_parameter(info, of_axis[d]) : "";
+        const bool reflects = strcmp(word, "reflecting") == 0;
+        h->periodic[d] = strcmp(word, "periodic") == 0;
+        snprintf(h->wall[d], sizeof h->wall[d], "%s", h->periodic[d] || reflects ? "" : word);
     }
     snprintf(h->container, sizeof h->container, "%s", heard_parameter(info, "container"));
     begin_outline(h, info);
