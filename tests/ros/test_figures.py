@@ -64,6 +64,16 @@ class Figures(bags.Figures):
         self.shows(bottom.lines[0], times, typical / times)
         self.shows(bottom.lines[1], times, typical / 4 * np.sqrt(4 / times))
 
+    def test_mirrored(self):
+        """Where exponents are not in pairs: all of them with the other sign, the last one first."""
+        found = np.linspace(9, -9.5, 80)
+        for divergence, count in ((-20.0, 1), (np.nan, 0)):
+            whole, _ = self.draw(spectrum, made.spectrum(found, 50.0, divergence=divergence))
+            mirrored = [one for one in whole.lines if one.get_label().startswith(r'$-\lambda')]
+            self.assertEqual(len(mirrored), count)
+            if mirrored:
+                self.shows(mirrored[0], np.arange(1, 81), -found[::-1])
+
     def test_spectrum(self):
         """At their indices, with errors, in the colours of the steps; with the paper's bands."""
         message = made.spectrum(EXPONENTS, 50.0)
