@@ -83,7 +83,8 @@ static double dimension_of(const hd_run *run)
 
 TEST(six_disks_are_those_of_another_program)
 {
-    OWNED(hd_run) *run = finished(six(HD_SHEARING, 10.0, 40000.0, 1));
+    const double duration = second_tier() ? 160000.0 : 40000.0;
+    OWNED(hd_run) *run = finished(six(HD_SHEARING, 10.0, duration, 1));
     const hd_spectrum_sums sums = sums_of(run);
     double positive = 0.0;
     check_zeros(run);
