@@ -3,6 +3,7 @@ test_work.py's."""
 
 import argparse
 import contextlib
+import csv
 import io
 import os
 import re
@@ -485,6 +486,31 @@ class Results(InFolder):
             wrong = result.write_all([self.bag('a', 0.4), self.bag('b', 0.4)], self.folder)
         rows = re.findall(r'(?m)^(\w+) +9\.000\(10\)', said.getvalue())
         self.assertEqual((wrong, rows), ([], ['a', 'b']))
+
+    def test_walls_of_some_shear(self):
+        """A point for each shear_b, beside walls that have none; what contracts has columns."""
+        paths = [self.bag('plain', 0.4)]
+        for b in (1.0, 10.0):
+            name = f'b{b:g}'
+            info = made.run_info(run_id=name, boundary_y='shearing', shear_b=b, zero_exponents=1)
+            found = made.spectrum([0.5, 0.0, -0.5 - 1 / b], 50.0, run_id=name, divergence=-1 / b)
+            found.kaplan_yorke, found.kaplan_yorke_error = 2 + b / 100, 0.01
+            made.write(self.path(name), [info, found, made.shear_gas(run_id=name)])
+            paths.append(self.path(name))
+        found = self.read(*paths)
+        self.assertEqual([point.system['shear_b'] for point in found], ['', 1.0, 10.0])
+        lines = list(table.text(found[1:]))
+        self.assertRegex(
+            lines[1], '^shear_b .*exponent_sum +kaplan_yorke +shear_stress +velocity_l'
+        )
+        self.assertRegex(lines[2], r'^1 .* -1.000\(10\) +2.010\(10\) +0.062\(10\) +-0.250\(10\)')
+        table.csv(found, self.path('all.csv'))
+        with open(self.path('all.csv')) as file:
+            head, plain, *_ = csv.reader(file)
+        self.assertEqual(plain[head.index('shear_b')], '')
+        self.assertEqual(len(head), len(plain))
+        self.assertIn('kaplan_yorke', head)
+        figure.draw(found[1:])
 
     def test_one_panel(self):
         """Its title and the text below are inside of it."""

@@ -111,6 +111,7 @@ def system(info, own):
     walls = [info.container] if is_curved(info) else space.along(info, 'boundary_')
     walls = walls[:1] if len(set(walls)) == 1 else walls
     solid = {'aspect_z': info.aspect_z} if space.is_solid(info) else {}
+    sheared = {'shear_b': info.shear_b} if 'shearing' in walls else {}
     return {
         'number': info.number,
         'density': info.density,
@@ -118,6 +119,7 @@ def system(info, own):
         **solid,
         **asked,
         'boundary': ','.join(walls),
+        **sheared,
     }
 
 
@@ -174,6 +176,9 @@ def read(paths, choice=(None, None), is_plan=False):
                 points += [Point([path], choice, remarks, _name([path]), own) for path in of_one]
             else:
                 wrong.append(str(error))
+    names = dict.fromkeys(name for point in points for name in point.system)
+    for point in points:  # walls of some shear
+        point.system = {name: point.system.get(name, '') for name in names}
     return points, wrong
 
 
