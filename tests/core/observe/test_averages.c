@@ -227,8 +227,9 @@ TEST(what_nobody_tells_is_refused_by_name)
             untold);
     refused(scene_from(scene_with(&row, 300.0), .target = (hd_text){"kinetics 1%"}),
             "target = kinetics 1%: must be quantities with their errors, as lambda_max 0.01, c_T "
-            "1%, up to 16 out of smallest, lambda_max, lambda(index), h_KS, collision_rate, "
-            "pressure, temperature, potential_energy, T(nx,ny,nz), LP(nx,ny,nz), c_T, c_L, v, "
+            "1%, up to 16 out of smallest, lambda_max, lambda(index), h_KS, exponent_sum, "
+            "kaplan_yorke, collision_rate, pressure, temperature, potential_energy, shear_stress, "
+            "velocity_low, velocity_high, divergence, T(nx,ny,nz), LP(nx,ny,nz), c_T, c_L, v, "
             "omega(nx,ny,nz), kinetic, bonds, virial, constant");
 }
 
