@@ -30,7 +30,7 @@ TEST(values_out_of_range)
     check_line(scene_from(usual(), .aspect_z = 2e6),
                "aspect_z = 2000000: must be from 1e-6 to 1e6");
     check_line(scene_from(usual(), .boundary[2] = HD_CURVED),
-               "boundary_z = 2: must be periodic or reflecting");
+               "boundary_z = 3: must be periodic or reflecting or shearing");
     check_line(
         scene_from(usual(), .exponents = 193),
         "exponents = 193: must be positive, all, all_independent, none or from 1 to 6 N = 192");
