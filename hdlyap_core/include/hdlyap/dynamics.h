@@ -46,7 +46,7 @@ typedef struct hd_totals {
     /** For each direction d: integral of the sum of p_d^2 over the particles. */
     double kinetic[HD_DIMENSION_MAX];
     double potential; /**< integral of the potential energy of all particles together */
-    /** Of walls that drag, at the low end and at the high one [T26]; kinetic is then known, too. */
+    /** Of walls that drag, at the low end and at the high one [T27]; kinetic is then known, too. */
     struct {
         double impulse[2];  /**< momentum along them that they have given to the particles */
         double near[2];     /**< integral of the number of particles near them: whose centres are

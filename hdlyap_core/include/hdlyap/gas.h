@@ -46,7 +46,7 @@ typedef struct hd_gas_means {
                                 ones */
     double potential_energy_error;
     /** Momentum along shearing walls that flows from the high one to the low one, per time and
-     * length [T26] [energy/sigma^d]; NaN, as the numbers below, without such walls. */
+     * length [T27] [energy/sigma^d]; NaN, as the numbers below, without such walls. */
     double shear_stress;
     double shear_stress_error;
     /** Mean velocity along shearing walls of the particles near the one at the low end, and near

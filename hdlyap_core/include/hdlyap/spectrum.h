@@ -43,7 +43,7 @@ typedef struct hd_spectrum_sums {
     double exponent_sum;
     double
         exponent_sum_error; /**< standard error of exponent_sum; negative while it is not known */
-    /** Kaplan-Yorke dimension [T26]; NaN if exponents are in pairs of opposite sign, where it would
+    /** Kaplan-Yorke dimension [T27]; NaN if exponents are in pairs of opposite sign, where it would
      * be that of phase space, and unless so many are computed that their sum falls below 0. */
     double kaplan_yorke;
     double

@@ -223,7 +223,7 @@ static double exponent_sum(const hd_spectrum *spectrum, double *sum)
 
 /** Kaplan-Yorke dimension j + S / |lambda_(j+1)|, S the sum of the j exponents in front, j the most
  * for which it is not negative; in *out. Returns its error, to first order in those of the
- * exponents, which are correlated [T26]. Zero modes in the place of others do not change sums. */
+ * exponents, which are correlated [T27]. Zero modes in the place of others do not change sums. */
 static double kaplan_yorke(const hd_spectrum *spectrum, double *out)
 {
     const int n = spectrum->vectors;

@@ -1,6 +1,6 @@
 /** Numbers of collisions, or integrals of energies, of the trajectory -> collision rate, or
  * temperature and potential energy; from the virial the pressure [T19]; and the flow between walls
- * that drag [T26]. Standard errors come from blocks of samples [T8]. */
+ * that drag [T27]. Standard errors come from blocks of samples [T8]. */
 #include "observe/gas.h"
 
 #include <math.h>
@@ -20,7 +20,8 @@
 /** The series of numbers that are averaged, each per time unit: collisions, or the potential energy
  * of particles that do not collide; then the virial along each direction; then, where it is not
  * known beforehand, twice the kinetic energy along each direction; then the collisions of each pair
- * of kinds, if there are two, or the flow, if walls drag; at last the divergence, if there is one. */
+ * of kinds, if there are two, or the flow, if walls drag; at last the divergence, if there is one.
+ */
 enum {
     COLLISIONS,
     POTENTIAL = COLLISIONS, /**< in the same place, for particles that do not collide */
@@ -90,8 +91,8 @@ static int usual_series(const hd_scene_def *def)
 
 static int series_of(const hd_scene_def *def)
 {
-    return usual_series(def) + (is_mixed(def) ? HD_KIND_PAIRS : 0) + (dragged(def) >= 0 ? FLOW : 0) +
-           hd_scene_diverges(def);
+    return usual_series(def) + (is_mixed(def) ? HD_KIND_PAIRS : 0) +
+           (dragged(def) >= 0 ? FLOW : 0) + hd_scene_diverges(def);
 }
 
 static double edge_along(const hd_scene_def *def)

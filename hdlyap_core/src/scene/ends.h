@@ -7,7 +7,7 @@
 
 #include "hdlyap/scene.h"
 
-/** The tangent map of a flat wall across direction d, for particles in the plane [T26], with `a`
+/** The tangent map of a flat wall across direction d, for particles in the plane [T27], with `a`
  * the other direction: dq_a += slip dq_d, dq_d *= rebound, and (dp_a, dp_d) = turn (dp_a, dp_d). */
 typedef struct hd_wall_map {
     double slip, rebound, turn[2][2];

@@ -1,5 +1,5 @@
 /** The null space of a scene [T9], by the directions of its vectors in dq; each direction in dp
- * belongs to it, too, unless walls damp it [T26]. */
+ * belongs to it, too, unless walls damp it [T27]. */
 #ifndef HD_NULL_SPACE_H
 #define HD_NULL_SPACE_H
 

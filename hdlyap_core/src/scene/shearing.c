@@ -1,5 +1,5 @@
 /** Walls that shear (Chernov and Lebowitz, J. Stat. Phys. 86, 953 (1997), model II): they turn the
- * velocity of a disk and keep its speed [T26]. Angles are computed with + - * / sqrt alone, so that
+ * velocity of a disk and keep its speed [T27]. Angles are computed with + - * / sqrt alone, so that
  * all machines give the same bits, and to a few roundings of the smaller one of an angle and what
  * it lacks of pi, so that a disk which grazes a wall leaves it. */
 #include <math.h>

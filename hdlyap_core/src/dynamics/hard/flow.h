@@ -1,5 +1,5 @@
 /** What walls that drag do to disks, and how these flow between them: integrals over time, exact
- * but for rounding, as disks fly straight [T26]. Nothing is kept without such walls. Only + - * /
+ * but for rounding, as disks fly straight [T27]. Nothing is kept without such walls. Only + - * /
  * sqrt and comparisons, so that all machines give the same bits. */
 #ifndef HD_FLOW_H
 #define HD_FLOW_H

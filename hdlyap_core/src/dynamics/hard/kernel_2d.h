@@ -1,4 +1,4 @@
-/** Tangent map of one event of disks for a block of columns [T3], [T4], [T21], [T26]. Vectors are
+/** Tangent map of one event of disks for a block of columns [T3], [T4], [T21], [T27]. Vectors are
  * written in components along n and along t, which is n turned by +90 degrees. */
 #ifndef HD_KERNEL_2D_H
 #define HD_KERNEL_2D_H
@@ -109,7 +109,7 @@ HD_KERNEL void hd_curve(double *restrict v, const hd_tangent_map *map, int width
     }
 }
 
-/** Free flight, then a flat wall with a rule of its own [T26]. */
+/** Free flight, then a flat wall with a rule of its own [T27]. */
 HD_KERNEL void hd_turn(double *restrict v, const hd_tangent_map *map, int width)
 {
     const hd_wall_map m = map->ruled;
