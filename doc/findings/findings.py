@@ -2,7 +2,7 @@
 """Tables of the studies -> the pictures of doc/findings.md, and the fits that it quotes.
 
 Usage: findings.py TABLE.csv.. of halves, sound, dilute, circle, spheres, dumbbells, soft,
-time_steps, mixtures: prints the fits, draws TABLE.png beside it.
+time_steps, mixtures, shear: prints the fits, draws TABLE.png beside it.
 """
 
 import sys
@@ -17,6 +17,7 @@ import dilute  # noqa: E402
 import dumbbells  # noqa: E402
 import halves  # noqa: E402
 import mixtures  # noqa: E402
+import shear  # noqa: E402
 import soft  # noqa: E402
 import sound  # noqa: E402
 import spheres  # noqa: E402
@@ -32,6 +33,7 @@ STUDIES = {  # a column that only this one has: fits, picture
     'climb': (soft.lines, soft.draw),
     'third zero': (time_steps.lines, time_steps.draw),
     'part': (mixtures.lines, mixtures.draw),
+    'quantity': (shear.lines, shear.draw),
     'boundaries': (spheres.lines, spheres.draw),
 }
 
@@ -40,7 +42,7 @@ def main(arguments):
     if not arguments or not all(path.endswith('.csv') for path in arguments):
         print(
             'findings.py: needs tables of halves, sound, dilute, circle, spheres, dumbbells, soft, '
-            'time_steps, mixtures, each a .csv',
+            'time_steps, mixtures, shear, each a .csv',
             file=sys.stderr,
         )
         return 2

@@ -23,6 +23,8 @@ WORDS = (
     'integrator',
     'particles',
     'part',
+    'shape',
+    'quantity',
 )  # columns of them
 
 

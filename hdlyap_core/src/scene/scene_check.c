@@ -96,8 +96,8 @@ static hd_status check_walls(const hd_scene_def *def, char *message, size_t size
         const char *word = hd_ends_of(ends)->word;
         if (ends > HD_REFLECTING && !(of->ends >> ends & 1u))
             return hd_refuse(message, size,
-                             "boundary_%c = %s: must not be given with particles = %s", "xyz"[d],
-                             word, of -> particles);
+                             "boundary_%c = %s: must not be given with particles = %s%s", "xyz"[d],
+                             word, of -> particles, of -> mixture == of ? " of a second kind" : "");
         for (int e = 0; e < of->dimension; e++)
             if (hd_ends_of(ends)->drags && e != d && def->boundary[e] != HD_PERIODIC)
                 return hd_refuse(message, size,
