@@ -336,6 +336,9 @@ TEST(what_cannot_be_is_refused_by_name)
     check_refused(
         scene_from(scene_of_kind(HD_SOFT_DISKS, 20, 0.2, 1.0), .boundary[1] = HD_SHEARING),
         "boundary_y = shearing: must not be given with particles = soft_disks");
+    check_refused(with_second(def, 0.5, 1.2, 1.0),
+                  "boundary_y = shearing: must not be given with particles = disks of a second "
+                  "kind");
     check_refused(scene_from(def, .density = 0.93),
                   "density = 0.93: must be at most 0.913462 with number = 20 and walls that shear, "
                   "between which the densest start lattice cannot flow");
