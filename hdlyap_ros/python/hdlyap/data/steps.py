@@ -105,8 +105,8 @@ def unresolved(message):
 
 
 def impossible(message, info):
-    """Names of the T steps that walls forbid: of waves that only have an LP step."""
-    if not is_known(info) or 'reflecting' not in {
+    """Names of the T steps that flat walls forbid: of waves that only have an LP step."""
+    if not is_known(info) or not {'reflecting', 'shearing'} & {
         getattr(info, f'boundary_{axis}', '') for axis in 'xyz'
     }:
         return []
