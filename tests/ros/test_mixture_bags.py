@@ -12,7 +12,7 @@ from made import LP, T
 from hdlyap.data import space
 from hdlyap.data.reader import RecordingError
 from hdlyap.msg import Mode, Modes, State
-from hdlyap.plots import equation, expected, frames, movie, paper
+from hdlyap.plots import equation, expected, frames, movie, paper, report
 from hdlyap.plots.figures import box, modes, p_mode, spectrum
 from hdlyap.plots.figures.style import scene
 from hdlyap.sweep import points, table
@@ -116,13 +116,26 @@ class Texts(Mixtures):
         ):
             self.assertIn(line, text)
         self.assertNotIn('Henderson', text)
-        self.assertIsNone(equation.of(INFO))
-        self.assertEqual(paper.branches(mixture(number=780)), {})
+        for kinds in (KINDS, ([20], [1.4], [1.0]), ([20], [1.0], [4.0])):  # all of the second kind
+            self.assertIsNone(equation.of(mixture(kinds)))
+            many = [780 if len(kinds[0]) == 1 else 773, 7][: len(kinds[0])], *kinds[1:]
+            large = dict(number=780, density=0.8, aspect=0.867)
+            self.assertEqual(paper.branches(mixture(many, **large)), {})
+        of_the_paper = made.run_info(**large)
+        self.assertNotEqual(paper.branches(of_the_paper), {})
+        sheared = made.run_info(**large, boundary_y='shearing')
+        self.assertEqual(paper.branches(sheared), {})
 
     def test_title(self):
         own = 'second fraction 0.35, second diameter 1.4, second mass 4'
         self.assertIn(f'$N=20$ disks\n{own}\n', scene(INFO))
         self.assertEqual(space.named(made.run_info()), '')
+        round_box = dict(container='circle', boundary_x='curved', boundary_y='curved')
+        for info, said in ((mixture(**round_box), own), (made.run_info(**round_box), '')):
+            self.assertIn(said, scene(info))
+            self.assertIn(said, report.system(info))
+        for wall, said in (('shearing', 'periodic, y shearing, shear b 10'), ('reflecting', '')):
+            self.assertTrue(scene(made.run_info(boundary_y=wall)).endswith(said))
 
     def test_table(self):
         """With and without a second kind in one table."""

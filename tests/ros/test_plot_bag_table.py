@@ -85,7 +85,7 @@ class Table(Bags):
         self.assertIn('v near low wall -0.250(10) sigma per time unit\n', text)
         self.assertIn('v near high one 0.375(10) sigma per time unit\n', text)
         self.assertIn('divergence      -0.125(10) per time unit', text)
-        self.assertIn('y shearing', text)
+        self.assertIn('y shearing, shear b 10\n', text)
 
     def test_what_is_not_known(self):
         """Errors, zero modes, partners, points of fits: it is said, or nothing is."""
@@ -130,15 +130,19 @@ class Table(Bags):
 
     def test_steps_that_walls_forbid(self):
         """T(n,0) needs a field across walls along y; a wave that has its T is not named."""
-        info = made.run_info(boundary_x='reflecting', boundary_y='reflecting')
-        found = [made.step(info, LP, 1, 0, 36, 37), made.unresolved(info, LP, 2, 0, 2)]
-        for more, said in (
-            ([], ('T\\(1,0\\) T\\(2,0\\)', 'none: no T step exists between such walls')),
-            ([made.unresolved(info, T, 2, 0, 1)], ('T\\(1,0\\)', 'not known: no step resolved')),
-        ):
-            _, text = self.run_with(*found, *more, info=info, t_points=0)
-            self.assertRegex(text, rf'\n  do not exist between such walls: {said[0]}\n')
-            self.assertRegex(text, f'\n  c_T   {said[1]}\n')
+        for x, y in (('reflecting', 'reflecting'), ('periodic', 'shearing')):
+            info = made.run_info(boundary_x=x, boundary_y=y)
+            found = [made.step(info, LP, 1, 0, 36, 37), made.unresolved(info, LP, 2, 0, 2)]
+            for more, said in (
+                ([], ('T\\(1,0\\) T\\(2,0\\)', 'none: no T step exists between such walls')),
+                (
+                    [made.unresolved(info, T, 2, 0, 1)],
+                    ('T\\(1,0\\)', 'not known: no step resolved'),
+                ),
+            ):
+                _, text = self.run_with(*found, *more, info=info, t_points=0)
+                self.assertRegex(text, rf'\n  do not exist between such walls: {said[0]}\n')
+                self.assertRegex(text, f'\n  c_T   {said[1]}\n')
         self.assertNotIn('do not exist', self.run_with(*found)[1])
 
     def test_disks_that_keep_their_places(self):

@@ -30,6 +30,11 @@ def is_mixture(info):
     return info is not None and len(info.kind_numbers) > 1
 
 
+def are_units(info):
+    """Whether all particles have the diameter and the mass that are the units."""
+    return {*info.kind_diameters, *info.kind_masses} <= {1.0}
+
+
 def shows(messages, names):
     """Whether one of these messages, or of their elements, has something in fields of these
     names."""
@@ -111,6 +116,11 @@ def named(info):
     if info.particles == 'disks' and not own_ones:
         return ''
     return ', '.join([f' {_words(info.particles)}', *own_ones])
+
+
+def shear(info):
+    """The text behind the boundaries if walls shear; '' for others."""
+    return f', shear b {info.shear_b:g}' if 'shearing' in along(info, 'boundary_') else ''
 
 
 def _words(name):

@@ -36,8 +36,9 @@ REFERENCES = {
 
 
 def of(info):
-    """The Reference of a run's particles; None if there is none, or if they are of two kinds."""
-    return None if space.is_mixture(info) else REFERENCES.get(info.particles)
+    """The Reference of a run's particles; None if there is none, or if they have other sizes or
+    masses than the units."""
+    return REFERENCES.get(info.particles) if space.are_units(info) else None
 
 
 def contact_value(z, density):

@@ -86,8 +86,9 @@ def _within(value, ends):
 
 
 def _is_rectangle(info):
-    alike = is_known(info) and not space.is_mixture(info)
-    return alike and info.particles == 'disks' and info.container == 'rectangle'
+    if not is_known(info) or info.particles != 'disks' or info.container != 'rectangle':
+        return False
+    return space.are_units(info) and not space.shear(info)
 
 
 def _is_periodic_scene(info):

@@ -153,11 +153,13 @@ def system(info):
     if is_curved(info):
         size = f'{info.box_x:.3f} x {info.box_y:.3f}'
         size = f'R = {radius(info):.4f}' if radius(info) else size
-        return f'N = {info.number}, density {info.density:g}{packing}, {info.container}, {size}'
+        named = f'N = {info.number}{space.named(info)}'
+        return f'{named}, density {info.density:g}{packing}, {info.container}, {size}'
     return (
         f'N = {info.number}{space.named(info)}, density {info.density:g}{packing}, box '
         + ' x '.join(f'{edge:.3f}' for edge in space.along(info, 'box_'))
         + ''.join(f', {axis} {getattr(info, "boundary_" + axis)}' for axis in space.axes(info))
+        + space.shear(info)
     )
 
 

@@ -67,7 +67,7 @@ def scene(info):
     if is_curved(info):
         size = f'{info.container}, ${info.box_x:.4g}\\times{info.box_y:.4g}$'
         size = f'circle, $R={radius(info):.4g}$' if radius(info) else size
-        return f'{name}: $N={info.number}$, $\\rho={info.density:g}$, {size}'
+        return f'{name}: $N={info.number}${space.named(info)}, $\\rho={info.density:g}$, {size}'
     walls = space.along(info, 'boundary_')
     walls = walls[:1] if len(set(walls)) == 1 else map(' '.join, zip('xyz', walls))
     box = f'$\\rho={info.density:g}$, ' + (
@@ -76,7 +76,7 @@ def scene(info):
     what = space.named(info) + '\n' if space.own(info) else ', '  # it is too long for one line
     if len(what) > TITLE:
         what = what.replace(', ', '\n', 1)
-    return f'{name}: $N={info.number}${what}{box}, ' + ', '.join(walls)
+    return f'{name}: $N={info.number}${what}{box}, ' + ', '.join(walls) + space.shear(info)
 
 
 def _edges(info):
