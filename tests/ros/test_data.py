@@ -232,7 +232,9 @@ class Arrays(Loaded):
         self.equal(course['collision_rate'], [3.25, 3.25])
         np.testing.assert_array_equal(course['pressure_error'], [np.nan, 0.01])
         self.assertEqual(course.attrs['units']['pressure'], '1/sigma^2')
-        self.assertFalse({'temperature', 'pressure_z'} & set(course))  # disks have none
+        others = {'temperature', 'pressure_z', 'expected_rate_11'}
+        self.assertFalse(others & set(course))  # disks of one kind have none
+        self.assertIn('expected_compressibility', course)
         self.equal(run.localization.index, [1, 2, 3])
         self.equal(run.localization.width, widths)
         self.equal(run.localization.widths_now, np.multiply(widths, 0.9))

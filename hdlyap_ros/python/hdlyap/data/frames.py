@@ -287,7 +287,9 @@ def lacking(gas, info):
     """The fields of a gas that these particles do not have."""
     found = of_gas(gas, info).index
     names = (name[: -len('_error')] for name in gas.__slots__ if name.endswith('_error'))
-    return [one for name in names if name not in found for one in (name, name + '_error')]
+    measured = [one for name in names if name not in found for one in (name, name + '_error')]
+    expected = [name for name in gas.__slots__ if name.startswith('expected_')]
+    return measured + [name for name in expected if np.isnan(getattr(gas, name))]
 
 
 def numbers(messages, info=None, without=()):
