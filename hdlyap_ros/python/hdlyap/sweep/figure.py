@@ -151,7 +151,8 @@ def _panel(axes, name, x, series, look):
     axes.set_xlabel(_label(x, every[0].data.info))
     unit = quantities(every)[name]
     told = f'{name.replace("_", " ")}  [{unit}]' if unit else name.replace('_', ' ')
-    known = NAMES.get(name, told)  # others are averages
+    is_average = any(p.data.has('averages') and name in p.data.averages.index for p in every)
+    known = told if is_average else NAMES[name]
     axes.set_ylabel(known.replace('^2', f'^{len(space.axes(every[0].data.info))}'))
 
 

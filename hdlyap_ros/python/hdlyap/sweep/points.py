@@ -105,7 +105,8 @@ class Point:
 def system(info, own):
     """own: names of the parameters that only these particles have and that mean something in one of
     the systems, as a second kind in one of disks."""
-    asked = {name: value(named(info, name), named(info, name).value) for name in own}
+    found = [named(info, name) for name in own]
+    asked = {one.name: value(one, one.value) for one in found if one}  # an older program has fewer
     if space.without_box(info):
         return {'number': info.number, **asked}
     walls = [info.container] if is_curved(info) else space.along(info, 'boundary_')

@@ -252,5 +252,5 @@ def _row(point, names):
             numbers = [*numbers, value.misfit if value else NAN]
         row += [repr(x) if isfinite(x) else '' for x in numbers]
         if name in FITTED:
-            row.append(value.fit.basis if value else '')
+            row.append(value.fit.basis if value and value.fit else '')  # an average has none
     return row
