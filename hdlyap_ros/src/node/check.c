@@ -23,10 +23,12 @@ static bool may_be_caged(const hd_scene_def *def)
 {
     if (!hd_dynamics_of(def)->fluid) return false; /* it has not been studied for these particles */
     hd_kind kind[HD_KINDS_MAX];
+    const int dimension = hd_scene_dimension(def);
     if (hd_scene_inertia(def) > 0) return hd_scene_packing(def) >= 0.78;
     if (hd_scene_kinds(def, kind) > 1)
-        return hd_scene_packing(def) >= (hd_scene_dimension(def) == 2 ? 0.78 : 0.56);
-    return def->density >= (hd_scene_dimension(def) == 2 ? 0.88 : 0.9);
+        return hd_scene_packing(def) >= (dimension == 2 ? 0.78 : 0.56);
+    /* all may be of the second kind */
+    return def->density * pow(kind->diameter, dimension) >= (dimension == 2 ? 0.88 : 0.9);
 }
 
 /* ---- what is printed ------------------------------------------------------------------------ */
