@@ -25,7 +25,7 @@ typedef struct hd_hydro_response {
      * direction has mode number 0. In space, change of sum p . F with F the first T field of A, of
      * amplitude 1 [T22]. */
     double across;
-    double energy;        /**< change of sum p^2 A */
+    double energy;        /**< change of sum p^2 A / m, with the mass m of a particle */
     double across_second; /**< in space, as `across` with the second T field of A; 0 in the plane */
 } hd_hydro_response;
 

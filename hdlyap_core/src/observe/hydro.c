@@ -14,12 +14,14 @@
 #include "modes/sets.h"
 #include "observe/functionals.h"
 #include "observe/observable.h"
+#include "scene/kinds.h"
 #include "scene/scene.h"
 
 /** Holds a response for each vector of each step and each modulation; see entries_of. */
 struct hd_hydro {
     hd_boundary boundary[HD_DIMENSION_MAX];
     int dimension, particles, vectors, count;
+    hd_kinds kinds;
     hd_hydro_response *response; /**< [count] */
 };
 
@@ -51,6 +53,7 @@ hd_status hd_hydro_create(hd_hydro **out, const hd_scene_def *def, const hd_step
     hydro->dimension = hd_scene_dimension(def);
     hydro->particles = def->number;
     hydro->vectors = hd_scene_vectors(def);
+    hydro->kinds = hd_kinds_of(def);
     for (int k = 0; k < hd_steps_count(steps); k++)
         hydro->count += entries_of(hd_steps_step(steps, k));
     hydro->response = hd_memory_alloc((size_t)hydro->count + 1, sizeof *hydro->response);
@@ -70,6 +73,16 @@ void hd_hydro_free(hd_hydro *hydro)
     hd_memory_free(hydro);
 }
 
+/** Coefficients of a displacement and of a change of p -> of the weighted ones [T26]. With the
+ * weighted momentum in place of p, those of the momentum's sums lack the root of the mass. */
+static void weigh(hd_functionals f, int dimension, double root)
+{
+    for (int r = 0; r < HD_FUNCTIONALS_IN(dimension); r++) {
+        const double of_sum = r > 0 && r <= dimension ? root : 1.0;
+        for (int d = 0; d < 2 * dimension; d++) f[r][d] *= d < dimension ? of_sum / root : of_sum;
+    }
+}
+
 /** Fills sum[functionals][HD_SET_VECTORS_MAX] for the vectors of a step, at one modulation. */
 static void measure(const hd_hydro *hydro, double sum[HD_FUNCTIONALS_MAX][HD_SET_VECTORS_MAX],
                     const hd_step *step, unsigned bits, hd_columns vectors, const double *q,
@@ -84,6 +97,7 @@ static void measure(const hd_hydro *hydro, double sum[HD_FUNCTIONALS_MAX][HD_SET
         hd_functionals f;
         hd_functionals_at(f, dimension, &step->wave, bits, hydro->boundary, q + dimension * j,
                           p + dimension * j);
+        weigh(f, dimension, hd_kinds_root(&hydro->kinds, j));
         for (int r = 0; r < HD_FUNCTIONALS_IN(dimension); r++)
             for (int d = 0; d < rows; d++)
                 for (int v = 0; v < step->count; v++)

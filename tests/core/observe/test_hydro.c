@@ -13,20 +13,21 @@ static unsigned behind_walls(const world *w, unsigned bits)
            (w->scene.boundary[1] == R ? HD_SIN_Y : 0);
 }
 
-/** The sums themselves, from their definition in hydro.h. */
+/** The sums themselves, from their definition in hydro.h; p is weighted [T26]. */
 static void sums_of(const world *w, double out[SUMS], const hd_wave *wave, unsigned bits,
                     const double *q, const double *p)
 {
     memset(out, 0, SUMS * sizeof *out);
     for (int j = 0; j < DISKS; j++) {
         double a[3], b[3];
-        const double px = p[2 * j], py = p[2 * j + 1];
+        const double mass = pow(hd_scene_root_mass(&w->scene, j), 2.0), px = sqrt(mass) * p[2 * j],
+                     py = sqrt(mass) * p[2 * j + 1];
         modulation_at(&w->scene, a, wave, bits, q + 2 * j);
         modulation_at(&w->scene, b, wave, behind_walls(w, bits), q + 2 * j);
         out[DENSITY] += a[0] / wave->number;
         out[ALONG] += (px * a[1] + py * a[2]) / wave->number;
         out[ACROSS] += (px * b[2] - py * b[1]) / wave->number;
-        out[ENERGY] += (px * px + py * py) * a[0];
+        out[ENERGY] += (px * px + py * py) / mass * a[0];
     }
     for (int k = 0; k < SUMS; k++) out[k] /= sqrt(DISKS / 2.0);
 }
@@ -47,7 +48,7 @@ static void displaced(const world *w, double out[SUMS], const hd_hydro_response 
     double q[ROWS], p[ROWS], dq[ROWS], dp[ROWS];
     world_read(w, r->col, dq, dp);
     for (int row = 0; row < ROWS; row++) {
-        q[row] = w->q[row] + h * dq[row];
+        q[row] = w->q[row] + h * dq[row] / hd_scene_root_mass(&w->scene, row / 2);
         p[row] = w->p[row] + h * dp[row];
     }
     sums_of(w, out, &hd_steps_step(w->steps, r->step)->wave, r->modulation, q, p);
@@ -66,12 +67,12 @@ static void check_response(const world *w, const hd_hydro_response *r)
         CHECK_CLOSE(got[k], (ahead[k] - behind[k]) / (2.0 * H), DIFFERENCE);
 }
 
-/** All steps of one node at the end of the frame; dp at random. */
-static world all_steps(hd_boundary x, hd_boundary y, double *exponents, int vectors)
+/** All steps of one node at the end of the frame; dp at random; half of the disks of this mass. */
+static world all_steps(hd_boundary x, hd_boundary y, double mass, double *exponents, int vectors)
 {
-    world w = world_create(scene(.number = DISKS, .density = 0.5, .aspect = 0.8, .boundary[0] = x,
-                                 .boundary[1] = y, .seed = 5, .max_mode_number = 1),
-                           vectors, 1);
+    const hd_scene_def def = scene(.number = DISKS, .density = 0.5, .aspect = 0.8, .boundary[0] = x,
+                                   .boundary[1] = y, .seed = 5, .max_mode_number = 1);
+    world w = world_create(mass == 1 ? def : with_second(def, 0.5, 1.0, mass), vectors, 1);
     exponents_falling(&w, exponents);
     for (int s = 0, col = vectors; s < hd_fields_subspaces(w.fields); s++) {
         col -= world_dimension(&w, s);
@@ -111,9 +112,9 @@ static void check_entries(const world *w, const hd_hydro *hydro)
 
 TEST(responses_are_derivatives)
 {
-    for (int k = 0; k < 4; k++) {
+    for (int k = 0; k < 8; k++) {
         double exponents[30];
-        HELD(world) w = all_steps(k & 1 ? R : P, k & 2 ? R : P, exponents, 30);
+        HELD(world) w = all_steps(k & 1 ? R : P, k & 2 ? R : P, k & 4 ? 4.0 : 1.0, exponents, 30);
         MADE(hd_hydro, hydro, &w.scene, w.steps);
         hd_hydro_measure(hydro, w.steps, hd_frame_columns(w.frame), w.q, w.p);
         check_entries(&w, hydro);
@@ -127,7 +128,7 @@ TEST(responses_are_derivatives)
 TEST(only_vectors_of_resolved_steps_respond)
 {
     double exponents[30];
-    HELD(world) w = all_steps(P, P, exponents, 30);
+    HELD(world) w = all_steps(P, P, 1.0, exponents, 30);
     MADE(hd_hydro, hydro, &w.scene, w.steps);
     const hd_step *t = world_step(&w, HD_MODE_T, 1, 0), *lp = world_step(&w, HD_MODE_LP, 1, 0);
     world_turn(&w, lp->col + 1, 0, 1.3); /* keeps cos^2 = 0.07 of it */
