@@ -105,7 +105,7 @@ static double edge_along(const hd_scene_def *def)
 /** Writes what kinetic theory says of disks and spheres. */
 static void expect(hd_gas *gas, const hd_scene_def *def)
 {
-    hd_kind kind[HD_KINDS_MAX];
+    hd_kind kind[HD_KINDS_MAX] = {{0, 1.0, 1.0}, {0, 1.0, 1.0}};
     hd_scene_kinds(def, kind);
     gas->compressibility = hd_dynamics_of(def)->kinds ? hd_mixture_compressibility(def) : NAN;
     for (int pair = 0; pair < HD_KIND_PAIRS; pair++) {
