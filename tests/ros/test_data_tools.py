@@ -397,6 +397,9 @@ class Export(Tools):
         np.testing.assert_allclose(mean.results.std_error[names], np.array([0.01, 0.02]) / 2**0.5)
         text = self.plot(*bags)
         self.assertRegex(text, r'\n *kaplan_yorke +3\.415\(14\)')
+        one.kaplan_yorke = np.nan  # as of exponents that are too few
+        mean = hdlyap.load(bags[0], self.write([info, one], 'few'))
+        self.assertEqual(list(mean.results.index), ['lambda_max', 'h_KS', 'exponent_sum'])
 
     def soft(self, seed, step, temperature):
         own = ['potential=wca', f'time_step={step}']

@@ -147,9 +147,11 @@ class Seeds:
 
     @property
     def _sums(self):
-        """The names of results in front of those of fits."""
-        every = {name for run in self.runs for fit in run.fits for name, *_ in fit.values}
-        return [name for name in self.runs[0].results.index if name not in every]
+        """The names of results in front of those of fits. Of few exponents the Kaplan-Yorke
+        dimension may be known of some runs alone: it has no mean."""
+        fitted = {name for run in self.runs for fit in run.fits for name, *_ in fit.values}
+        in_all = set.intersection(*(set(run.results.index) for run in self.runs))
+        return [name for name in self.runs[0].results.index if name in in_all - fitted]
 
     @cached_property
     def gas(self):
