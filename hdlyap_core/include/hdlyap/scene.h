@@ -179,11 +179,11 @@ typedef struct hd_kind {
     double mass;
 } hd_kind;
 /** Writes the kinds of particles to kind[HD_KINDS_MAX], and returns their number. The particles of
- * the first kind come first. Kinds without particles are left out. If all particles are alike,
- * which is usual, there is one kind of mass 1, and of diameter 1. It may be called with any scene.
- */
+ * the first kind come first. Kinds without particles are left out. Usually all particles are alike,
+ * of mass 1 and diameter 1; all may be of the second kind, with its mass and diameter. It may be
+ * called with any scene. */
 int hd_scene_kinds(const hd_scene_def *def, hd_kind *kind);
-/** The root of the mass of a particle, 0 .. N - 1, which is 1 unless there are several kinds. A
+/** The root of the mass of a particle, 0 .. N - 1, which is 1 unless there is a second kind. A
  * momentum of hd_trajectory_state is the true momentum over it; dq of a tangent vector is the
  * displacement times it, dp the change of the true momentum over it [T1]. */
 double hd_scene_root_mass(const hd_scene_def *def, int particle);
