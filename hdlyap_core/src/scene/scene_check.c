@@ -49,16 +49,23 @@ static hd_status check_ranges(const hd_scene_def *def, char *message, size_t siz
     return HD_OK;
 }
 
+/** What makes particles others than their name says. */
+static const char *second_kind(const hd_dynamics *of)
+{
+    return of->mixture == of ? " of a second kind" : "";
+}
+
 /** Refuses parameters of z for particles in the plane, and a curved wall for those in space. */
 static hd_status check_particles(const hd_scene_def *def, char *message, size_t size)
 {
     const hd_scene_def usual = hd_scene_def_default();
     const hd_dynamics *of = hd_dynamics_of(def);
     const bool flat = of->dimension == 2;
-    if (of->fluid && def->density > of->fluid->density_max)
+    const double densest = of->fluid ? of->fluid->density_max : 1.4142135623730951;
+    if (of->dimension > 0 && def->density > densest)
         return hd_refuse(message, size,
-                         "density = %.15g: must be from 1e-6 to %.5g with particles = %s",
-                         def->density, of->fluid->density_max, of->particles);
+                         "density = %.15g: must be from 1e-6 to %.5g with particles = %s%s",
+                         def->density, densest, of->particles, second_kind(of));
     if (flat && def->aspect_z != usual.aspect_z)
         return hd_refuse(message, size, "aspect_z = %.15g: must not be given with particles = %s",
                          def->aspect_z, of->particles);
@@ -97,7 +104,7 @@ static hd_status check_walls(const hd_scene_def *def, char *message, size_t size
         if (ends > HD_REFLECTING && !(of->ends >> ends & 1u))
             return hd_refuse(message, size,
                              "boundary_%c = %s: must not be given with particles = %s%s", "xyz"[d],
-                             word, of -> particles, of -> mixture == of ? " of a second kind" : "");
+                             word, of -> particles, second_kind(of));
         for (int e = 0; e < of->dimension; e++)
             if (hd_ends_of(ends)->drags && e != d && def->boundary[e] != HD_PERIODIC)
                 return hd_refuse(message, size,

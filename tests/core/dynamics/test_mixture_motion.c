@@ -65,6 +65,11 @@ TEST(there_is_a_start_at_densities_of_fluids)
         expect_start(packed(with_second(box, 0.05, 4.0, 1000.0), 0.7 * densest));
         expect_start(packed(with_second(box, 0.5, 0.2, 0.001), 0.5 * densest));
     }
+    /* more particles than disks of one kind could be */
+    expect_start(
+        packed(with_second(box_of(400, 0.1, 0.9, 1.0, 0, 1), 0.9, 0.2, 1.0), 0.6 * densest));
+    expect_start(
+        packed(with_second(box_of(400, 0.1, 0.9, 1.0, 0, 1), 1.0, 0.2, 1.0), 0.6 * densest));
     if (DIM == 2)
         expect_start(
             packed(with_second(scene(.container = HD_CIRCLE, .number = 200), 0.5, 1.4, 1.0), 0.75));

@@ -21,11 +21,10 @@ TEST(what_is_of_disks_alone)
 TEST(values_out_of_range)
 {
     check_line(scene_from(usual(), .density = 1.4143),
-               "density = 1.4143: must be from 1e-6 to 2/sqrt(3) = 1.1547, in space to sqrt(2) = "
-               "1.4142");
+               "density = 1.4143: must be from 1e-6 to 1.4142 with particles = spheres");
     check_line(scene_from(usual(), .density = NAN),
                "density = nan: must be from 1e-6 to 2/sqrt(3) = 1.1547, in space to sqrt(2) = "
-               "1.4142");
+               "1.4142, with small particles of a second kind to 28.867 and 176.77");
     check_line(scene_from(usual(), .aspect_z = 0.0), "aspect_z = 0: must be from 1e-6 to 1e6");
     check_line(scene_from(usual(), .aspect_z = 2e6),
                "aspect_z = 2000000: must be from 1e-6 to 1e6");
