@@ -50,8 +50,9 @@ typedef struct hd_totals {
     struct {
         double impulse[2];  /**< momentum along them that they have given to the particles */
         double near[2];     /**< integral of the number of particles near them: whose centres are
-                               within 1 sigma of the places nearest to the wall that they reach */
-        double momentum[2]; /**< integral of the momentum of these along the walls */
+                               within 1 sigma of the places nearest to the wall that they reach
+                               [time units] */
+        double momentum[2]; /**< integral of the momentum of these along the walls [sigma mass] */
     } walls;
 } hd_totals;
 

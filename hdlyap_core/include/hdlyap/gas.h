@@ -21,10 +21,10 @@ typedef struct hd_gas_means {
     double collision_rate; /**< pair collisions in which a particle takes part per time, 2
                               collisions / (N time); NaN for soft particles [1/time unit] */
     double collision_rate_error;
-    /** Parts of collision_rate: of each pair of kinds; NaN unless there are two. */
+    /** Parts of collision_rate: of each pair of kinds; NaN unless there are two [1/time unit]. */
     double pair_rate[HD_KIND_PAIRS];
     double pair_rate_error[HD_KIND_PAIRS];
-    /** What kinetic theory says of pair_rate [T26]. */
+    /** What kinetic theory says of pair_rate, but for 1/N [T26] [1/time unit]. */
     double pair_rate_expected[HD_KIND_PAIRS];
     double pressure; /**< mean over all directions [energy/sigma^d in d dimensions] */
     double pressure_error;

@@ -31,9 +31,10 @@ const double *hd_modes_average(const hd_modes *modes, int s, hd_weight which);
 
 /** Weights of all n vectors in part `null` of the exact null space [T9], 0 .. 1: squared lengths of
  * the orthogonal projections of the whole vectors, dq and dp. Parts HD_NULL_X, HD_NULL_Y and
- * HD_NULL_Z are uniform in dq or in dp along this direction, if it is periodic. The part behind
- * them, number hd_scene_dimension, contains dq = p and dp = p; for particles with
- * hd_dynamics.scale_invariant false it contains what else hd_dynamics.null_vectors has. */
+ * HD_NULL_Z are uniform in dq or in dp along this direction, if it is periodic; walls that drag
+ * damp what is uniform in dp, which counts all the same [T27]. The part behind them, number
+ * hd_scene_dimension, contains dq = p and dp = p; for particles with hd_dynamics.scale_invariant
+ * false it contains what else hd_dynamics.null_vectors has. */
 const double *hd_modes_null_snapshot(const hd_modes *modes, int null);
 const double *hd_modes_null_average(const hd_modes *modes, int null);
 

@@ -95,8 +95,8 @@ HD_MUST_CHECK hd_status hd_target_check(const hd_scene_def *def, char *message, 
 
 /** Makes a run of *def, which is copied, and writes it to *out; the caller frees it with
  * hd_run_free. Returns HD_OK; HD_REFUSED, with one line in message[size] unless `message` is NULL,
- * for what hd_scene_check or hd_target_check refuses; or HD_NO_MEMORY. *out is NULL after a
- * failure. */
+ * for what hd_scene_check or hd_target_check refuses, or if no start is found; or HD_NO_MEMORY.
+ * *out is NULL after a failure. */
 HD_MUST_CHECK hd_status hd_run_create(hd_run **out, const hd_scene_def *def, char *message,
                                       size_t size);
 /** Makes a run that several ranks carry together, as hd_run_create. All ranks make this and all

@@ -176,7 +176,8 @@ enum { HD_KINDS_MAX = 2 };
 typedef struct hd_kind {
     int number;      /**< particles of this kind */
     double diameter; /**< [sigma] */
-    double mass;
+    double mass;     /**< [mass of a particle of the first kind]; that of the second is second_mass
+                          to 1e-13 */
 } hd_kind;
 /** Writes the kinds of particles to kind[HD_KINDS_MAX], and returns their number. The particles of
  * the first kind come first. Kinds without particles are left out. Usually all particles are alike,
@@ -185,7 +186,7 @@ typedef struct hd_kind {
 int hd_scene_kinds(const hd_scene_def *def, hd_kind *kind);
 /** The root of the mass of a particle, 0 .. N - 1, which is 1 unless there is a second kind. A
  * momentum of hd_trajectory_state is the true momentum over it; dq of a tangent vector is the
- * displacement times it, dp the change of the true momentum over it [T1]. */
+ * displacement times it, dp the change of the true momentum over it [T26]. */
 double hd_scene_root_mass(const hd_scene_def *def, int particle);
 
 /** Writes the edges of the box, one for each direction [sigma]. In the plane Lx = sqrt(N / (rho A))

@@ -16,10 +16,11 @@ HD_API_BEGIN
 typedef struct hd_trajectory hd_trajectory;
 
 /** Makes a trajectory of the scene *def, which the caller frees with hd_trajectory_free. Its
- * particles are at time 0: positions on a lattice, and random momenta from the seed, with total
- * momentum 0 along periodic directions and the energy of the scene. Returns HD_OK; HD_REFUSED for a
- * scene that hd_scene_check refuses; HD_NO_MEMORY; or another status that hd_dynamics.create
- * returns, HD_NOT_FINITE if its start is no numbers. O(N log N). */
+ * particles are at time 0: positions on a lattice (those of a mixture have left it), random momenta
+ * from the seed, with total momentum 0 along periodic directions and the energy of the scene.
+ * Returns HD_OK; HD_REFUSED for a scene that hd_scene_check refuses, or of which no start is found;
+ * HD_NO_MEMORY; or another status that hd_dynamics.create returns, HD_NOT_FINITE if its start is no
+ * numbers. O(N log N). */
 HD_MUST_CHECK hd_status hd_trajectory_create(hd_trajectory **out, const hd_scene_def *def);
 /** Frees a trajectory, unless the pointer is NULL. */
 void hd_trajectory_free(hd_trajectory *trajectory);

@@ -238,9 +238,12 @@ static double kaplan_yorke(const hd_spectrum *spectrum, double *out)
     }
     if (col == n && n < spectrum->rows) return -1.0;
     *out = col < n ? col - sum / next : n;
+    if (col == n)
+        sum -= hd_spectrum_exponent(spectrum, --col); /* above 0 by chance, which has an error */
+    if (!(next < 0)) return -1.0;
     for (int k = 0; k < col; k++) spectrum->parts[k] = (hd_part){k, -1.0 / next};
-    if (col < n) spectrum->parts[col] = (hd_part){col, sum / (next * next)};
-    return col < n ? hd_blocks_error(&spectrum->blocks, spectrum->parts, col + 1) : 0.0;
+    spectrum->parts[col] = (hd_part){col, sum / (next * next)};
+    return hd_blocks_error(&spectrum->blocks, spectrum->parts, col + 1);
 }
 
 hd_spectrum_sums hd_spectrum_sum_up(const hd_spectrum *spectrum)

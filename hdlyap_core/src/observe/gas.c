@@ -12,6 +12,7 @@
 #include "observe/observable.h"
 #include "scene/container.h"
 #include "scene/ends.h"
+#include "scene/kinds.h"
 #include "scene/mixture.h"
 #include "scene/null_space.h"
 #include "scene/scene.h"
@@ -20,14 +21,14 @@
 /** The series of numbers that are averaged, each per time unit: collisions, or the potential energy
  * of particles that do not collide; then the virial along each direction; then, where it is not
  * known beforehand, twice the kinetic energy along each direction; then the collisions of each pair
- * of kinds, if there are two, or the flow, if walls drag; at last the divergence, if there is one.
+ * of kinds, if there are two; then the flow, if walls drag; at last the divergence, if it is told.
  */
 enum {
     COLLISIONS,
     POTENTIAL = COLLISIONS, /**< in the same place, for particles that do not collide */
     VIRIAL_X,
     FLOW = 5, /**< its series: the stress, then of both ends the particles near, their momentum */
-    SERIES_MAX = VIRIAL_X + 2 * HD_DIMENSION_MAX + FLOW + 1
+    SERIES_MAX = VIRIAL_X + 2 * HD_DIMENSION_MAX + HD_KIND_PAIRS + FLOW + 1
 };
 
 /** Whether totals are integrals; else they are numbers of collisions, if there are any. */
@@ -44,7 +45,7 @@ static int dragged(const hd_scene_def *def)
 struct hd_gas {
     int dimension, series;
     bool is_summed, is_mixed, flows, diverges; /**< which series there are */
-    int first_flow;                            /**< the series behind those of all particles */
+    int first_pair, first_flow;                /**< series behind those of all particles */
     double along;                              /**< length of the walls that drag [sigma] */
     /** number of particles; area or volume that centres can reach [sigma^d] */
     double particles, area;
@@ -105,13 +106,13 @@ static double edge_along(const hd_scene_def *def)
 /** Writes what kinetic theory says of disks and spheres. */
 static void expect(hd_gas *gas, const hd_scene_def *def)
 {
-    hd_kind kind[HD_KINDS_MAX] = {{0, 1.0, 1.0}, {0, 1.0, 1.0}};
-    hd_scene_kinds(def, kind);
-    gas->compressibility = hd_dynamics_of(def)->kinds ? hd_mixture_compressibility(def) : NAN;
+    const hd_kinds kinds = hd_kinds_of(def);
+    const bool known = hd_dynamics_of(def)->fluid;
+    gas->compressibility = known ? hd_mixture_compressibility(def) : NAN;
     for (int pair = 0; pair < HD_KIND_PAIRS; pair++) {
         const int a = pair / 2, b = (pair + 1) / 2; /* 11, 12, 22 */
-        const double each = (a == b ? 1.0 : 2.0) * kind[a].number / def->number;
-        gas->expected[pair] = gas->is_mixed ? each * hd_mixture_rate(def, a, b) : NAN;
+        const double each = (a == b ? 1.0 : 2.0) * kinds.kind[a].number / def->number;
+        gas->expected[pair] = known && gas->is_mixed ? each * hd_mixture_rate(def, a, b) : NAN;
     }
 }
 
@@ -126,7 +127,8 @@ hd_status hd_gas_create(hd_gas **out, const hd_scene_def *def, double block)
     expect(gas, def);
     gas->flows = dragged(def) >= 0;
     gas->diverges = hd_scene_diverges(def);
-    gas->first_flow = usual_series(def);
+    gas->first_pair = usual_series(def);
+    gas->first_flow = gas->first_pair + (gas->is_mixed ? HD_KIND_PAIRS : 0);
     gas->series = series_of(def);
     gas->along = gas->flows ? edge_along(def) : 0.0;
     gas->particles = def->number;
@@ -151,7 +153,6 @@ void hd_gas_free(hd_gas *gas)
 
 /** The series behind the virial. */
 static int kinetic_x(const hd_gas *gas) { return VIRIAL_X + gas->dimension; }
-static int pairs_x(const hd_gas *gas) { return VIRIAL_X + gas->dimension; }
 static bool has_kinetic(const hd_gas *gas) { return gas->is_summed || gas->flows; }
 static int near(const hd_gas *gas, int side) { return gas->first_flow + 1 + 2 * side; }
 
@@ -188,7 +189,7 @@ void hd_gas_add(hd_gas *gas, const hd_trajectory *trajectory)
         if (has_kinetic(gas)) sample[kinetic_x(gas) + d] = b->kinetic[d] - a->kinetic[d];
     }
     for (int pair = 0; pair < HD_KIND_PAIRS && gas->is_mixed; pair++)
-        sample[pairs_x(gas) + pair] = (double)(b->collisions_of[pair] - a->collisions_of[pair]);
+        sample[gas->first_pair + pair] = (double)(b->collisions_of[pair] - a->collisions_of[pair]);
     if (!(dt > 0)) return;
     const double diverged = hd_trajectory_divergence(trajectory);
     if (gas->flows) sample_flow(sample + gas->first_flow, a, b);
@@ -234,7 +235,7 @@ static void read_pressures(hd_gas_means *m, const hd_gas *gas, double t)
     }
     m->pressure /= gas->dimension;
     m->pressure_error = error_of(
-        gas, (span){VIRIAL_X, gas->first_flow - 1, 1.0 / gas->dimension / a}, NO_SPAN);
+        gas, (span){VIRIAL_X, gas->first_pair - 1, 1.0 / gas->dimension / a}, NO_SPAN);
 }
 
 /** Writes the parts of the collision rate. */
@@ -242,7 +243,7 @@ static void read_pairs(hd_gas_means *m, const hd_gas *gas, double t)
 {
     const double each = 2.0 / gas->particles;
     for (int pair = 0; pair < HD_KIND_PAIRS; pair++) {
-        const int s = pairs_x(gas) + pair;
+        const int s = gas->first_pair + pair;
         m->pair_rate[pair] = gas->is_mixed ? each * gas->sum[s] / t : NAN;
         m->pair_rate_error[pair] = gas->is_mixed ? error_of(gas, (span){s, s, each}, NO_SPAN)
                                                  : -1.0;
@@ -271,7 +272,7 @@ static void read_counted(hd_gas_means *m, const hd_gas *gas, double t)
  * kinetic energy K. */
 static void read_summed(hd_gas_means *m, const hd_gas *gas, double t)
 {
-    const int x = kinetic_x(gas), last = gas->first_flow - 1;
+    const int x = kinetic_x(gas), last = gas->first_pair - 1;
     double twice = 0.0, virial = 0.0; /* 2 K and W, each as a mean over time */
     for (int d = 0; d < gas->dimension; d++) {
         twice += gas->sum[x + d] / t;

@@ -152,9 +152,8 @@ double hd_observables_next(const hd_observables *o)
     return time;
 }
 
-hd_status hd_observables_glance(hd_observables *o, hd_trajectory *trajectory)
+hd_status hd_observables_glance(hd_observables *o, hd_trajectory *trajectory, double now)
 {
-    const double now = hd_trajectory_time(trajectory);
     for (one at = BEFORE; next(&at, o);)
         if (at.row->next && at.row->next(at.self) <= now)
             HD_TRY(at.row->glance(at.self, trajectory));

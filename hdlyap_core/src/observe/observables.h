@@ -55,9 +55,10 @@ HD_MUST_CHECK hd_status hd_observables_measure(hd_observables *observables, hd_m
                                                bool add);
 /** The next time at which one glances at the particles; INFINITY: none does. */
 double hd_observables_next(const hd_observables *observables);
-/** Those whose time this is glance at the particles. Fails as they do. */
+/** Those whose time this is, which the trajectory has reached but for rounding, glance at the
+ * particles. Fails as they do. */
 HD_MUST_CHECK hd_status hd_observables_glance(hd_observables *observables,
-                                              hd_trajectory *trajectory);
+                                              hd_trajectory *trajectory, double now);
 /** Called at a report; now.vectors[0] are the vectors of all ranks that can be read. */
 void hd_observables_report(hd_observables *observables, hd_moment now);
 

@@ -94,7 +94,7 @@ static hd_status move(hd_trajectory *trajectory, hd_observables *observables, hd
     double next;
     while ((next = hd_observables_next(observables)) <= end) {
         HD_TRY(hd_trajectory_extend(trajectory, record, next));
-        HD_TRY(hd_observables_glance(observables, trajectory));
+        HD_TRY(hd_observables_glance(observables, trajectory, next));
     }
     return hd_trajectory_time(trajectory) < end ? hd_trajectory_extend(trajectory, record, end)
                                                 : HD_OK;

@@ -161,6 +161,8 @@ hd_status hd_carrier_create(hd_carrier *c, const hd_scene_def *scene, double col
                       .of = hd_dynamics_of(scene),
                       .symplectic = hd_scene_symplectic(scene),
                       .diverges = hd_scene_diverges(scene),
+                      .dispersing = hd_dynamics_of(scene)->dispersing &&
+                                    hd_scene_symplectic(scene) == hd_dynamics_of(scene)->symplectic,
                       .particles = scene->number,
                       .vectors = hd_scene_vectors(scene),
                       .carried = hd_scene_carried(scene),
@@ -224,7 +226,7 @@ static double shortest_piece(const hd_carrier *c)
 /** Whether the norm of dq is the faster one. */
 static bool has_many(const hd_carrier *c)
 {
-    return c->of->dispersing && c->carried >= HALVES_MANY && c->carried <= c->positive;
+    return c->dispersing && c->carried >= HALVES_MANY && c->carried <= c->positive;
 }
 
 bool hd_carrier_is_usual(const hd_carrier *c)

@@ -23,6 +23,7 @@ typedef struct hd_carrier {
     hd_communicator *communicator; /**< NULL: a single rank */
     const hd_dynamics *of;
     bool symplectic, diverges; /**< see hd_scene_symplectic, hd_scene_diverges */
+    bool dispersing; /**< see hd_dynamics.dispersing; not between walls that break pairs */
     int particles, vectors, carried, positive, zero, threads, threads_denied;
     /** The scene's accuracy [1/time unit]; mean time between two collisions of a particle. */
     double accuracy, collision;

@@ -82,10 +82,27 @@ static hd_status prepare_observables(hd_run *run)
     return hd_observables_create(&run->observables, &with);
 }
 
-static hd_status prepare(hd_run *run)
+/** Says that there is no start: more particles than hd_scene_check tries can turn out to have none.
+ */
+static hd_status refuse_start(const hd_scene_def *scene, char *message, size_t size)
+{
+    const hd_dynamics *of = hd_dynamics_of(scene);
+    if (of->dimension == 0)
+        return hd_refuse(message, size, "particles = %s: create has refused the scene",
+                         of->particles);
+    return hd_refuse(message, size,
+                     "density = %.15g: must be lower with particles = %s, number = %d: no start is "
+                     "found",
+                     scene->density, of->particles, scene->number);
+}
+
+static hd_status prepare(hd_run *run, char *message, size_t size)
 {
     const hd_scene_def *scene = &run->scene;
-    HD_TRY(hd_communicator_agree(run->communicator, hd_advance_create(&run->advance, scene)));
+    const hd_status moving = hd_communicator_agree(run->communicator,
+                                                   hd_advance_create(&run->advance, scene));
+    if (moving == HD_REFUSED) return refuse_start(scene, message, size);
+    HD_TRY(moving);
     HD_TRY(hd_communicator_agree(run->communicator, hd_cages_create(&run->cages, scene)));
     const double rate = 2.0 * hd_trajectory_totals(run->advance.trajectory).expected /
                         scene->number;
@@ -151,7 +168,7 @@ hd_status hd_run_make(hd_run **out, const hd_scene_def *def, bool resumed,
     run->scene.warmup = hd_scene_warmup(def);
     hd_scene_settle(&run->scene);
     run->clocks.created = hd_clock_now();
-    hd_status status = prepare(run);
+    hd_status status = prepare(run, message, size);
     if (status == HD_OK)
         status = hd_communicator_agree(
             communicator, hd_trajectory_check_null(run->advance.trajectory, def, message, size));

@@ -43,7 +43,8 @@ static hd_status circle_check(const hd_scene_def *def, char *message, size_t siz
     if (def->aspect != hd_scene_def_default().aspect)
         return hd_refuse(message, size, "aspect = %.15g: must not be given with container = circle",
                          def->aspect);
-    const double largest = 0.5 * hd_kinds_largest(def);
+    /* starts and waves count from the wall of a particle of diameter 1 */
+    const double largest = 0.5 * fmax(hd_kinds_largest(def), 1.0);
     if (!(hd_circle_radius(def) - largest >= HD_MEMORY_LIMIT_MIN))
         return hd_refuse(message, size,
                          "density = %.15g with number = %d: the radius %.15g of the container must "

@@ -18,7 +18,7 @@ const hd_dynamics *hd_dynamics_of(const hd_scene_def *scene)
 {
     const unsigned k = (unsigned)scene->particles; /* it may not be checked yet */
     const hd_dynamics *row = scene->dynamics ? scene->dynamics : rows[k < HD_PARTICLES_END ? k : 0];
-    return row->mixture && has_kinds(row, scene) ? row->mixture : row;
+    return row->mixture && row->kinds && has_kinds(row, scene) ? row->mixture : row;
 }
 
 bool hd_dynamics_named(const hd_dynamics **out, const char *particles, hd_known known)

@@ -45,8 +45,9 @@ double hd_kinds_mean(const hd_scene_def *def)
 
 int hd_kinds_second(const hd_scene_def *scene)
 {
-    const double number = floor(scene->own[HD_KINDS_FRACTION].real * scene->number + 0.5);
-    return number > 0 ? (int)fmin(number, scene->number) : 0; /* the scene may be unchecked */
+    const double all = fmax(scene->number, 0.0), /* the scene may be unchecked */
+        number = floor(scene->own[HD_KINDS_FRACTION].real * all + 0.5);
+    return number > 0 ? (int)fmin(number, all) : 0;
 }
 
 static bool idle(const hd_scene_def *scene) { return hd_kinds_second(scene) == 0; }

@@ -1,5 +1,5 @@
 /** Sizes and masses of the particles of a scene. Coordinates in which free flight and all that is
- * done to tangent vectors do not know masses are weighted by their roots [T1]. */
+ * done to tangent vectors do not know masses are weighted by their roots [T26]. */
 #ifndef HD_KINDS_H
 #define HD_KINDS_H
 

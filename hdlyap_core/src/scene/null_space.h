@@ -28,7 +28,7 @@ int hd_null_count(const hd_scene_def *def);
 hd_null_space hd_null_space_of(const hd_scene_def *def);
 
 /** Entry of an axis for coordinate d (0: x, 1: y, ..) of a particle at q with momentum p, the root
- * of whose mass is `root` [T1]; the axis is not normalised. */
+ * of whose mass is `root` [T26]; the axis is not normalised. */
 static inline double hd_null_entry(const hd_null_space *null, int axis, int d, const double *q,
                                    const double *p, double root)
 {

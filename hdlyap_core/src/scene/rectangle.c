@@ -68,15 +68,19 @@ static hd_status rectangle_check(const hd_scene_def *def, char *message, size_t 
                          "number = %d: must be an integer from 2 to 1000000 in a rectangle",
                          def->number);
     for (int d = 0; d < hd_scene_dimension(def); d++) {
-        if (has_walls(def, d) ? box[d] - largest >= HD_MEMORY_LIMIT_MIN : box[d] > largest)
-            continue;
+        /* starts and waves count from the walls of a particle of diameter 1 */
+        const bool walls = has_walls(def, d);
+        const double least = walls ? fmax(largest, 1.0) : largest;
+        if (walls ? box[d] - least >= HD_MEMORY_LIMIT_MIN : box[d] > least) continue;
         char said[24 + 24] = "";
         if (!is_flat(def)) snprintf(said, sizeof said, ", aspect_z = %.15g", def->aspect_z);
         return hd_refuse(message, size,
                          "density = %.15g with number = %d, aspect = %.15g%s: the box edge L%c = "
                          "%.15g must be above the disk diameter %.15g%s",
-                         def->density, def->number, def->aspect, said, "xyz"[d], box[d], largest,
-                         has_walls(def, d) ? " by 1e-9" : "");
+                         def->density, def->number, def->aspect, said, "xyz"[d], box[d], least,
+                         !walls            ? ""
+                         : least > largest ? " of the first kind, by 1e-9"
+                                           : " by 1e-9");
     }
     return HD_OK;
 }

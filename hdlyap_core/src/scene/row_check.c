@@ -307,6 +307,27 @@ static hd_status check_sites(const hd_scene_def *scene, char *message, size_t si
     return HD_OK;
 }
 
+hd_status hd_row_check_kinds(const hd_scene_def *scene, char *message, size_t size)
+{
+    hd_kind kind[HD_KINDS_MAX] = {{0}};
+    if (!scene->dynamics) return HD_OK;
+    const int count = hd_scene_kinds(scene, kind);
+    if (count < 1 || count > HD_KINDS_MAX)
+        return hd_refuse(message, size, "kinds = %d: must be from 1 to %d", count, HD_KINDS_MAX);
+    for (int k = 0, left = scene->number; k < count; k++) {
+        const hd_kind *one = &kind[k];
+        const bool all = k == count - 1, some = one->number >= 1 && one->number <= left;
+        left -= some ? one->number : 0;
+        if (!some || (left == 0) != all || !(one->diameter > 0 && isfinite(one->diameter)) ||
+            !(one->mass > 0 && isfinite(one->mass)))
+            return hd_refuse(message, size,
+                             "kinds: kind[%d] = {%d, %g, %g}: must be above 0 and finite, with "
+                             "number = %d particles in all",
+                             k, one->number, one->diameter, one->mass, scene->number);
+    }
+    return HD_OK;
+}
+
 hd_status hd_row_check_numbers(const hd_scene_def *scene, char *message, size_t size)
 {
     if (!scene->dynamics)

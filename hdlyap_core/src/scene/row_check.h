@@ -8,4 +8,7 @@
  * is checked. */
 HD_MUST_CHECK hd_status hd_row_check_numbers(const hd_scene_def *scene, char *message, size_t size);
 
+/** Checks the kinds of particles that such a row tells, before anything reads them. */
+HD_MUST_CHECK hd_status hd_row_check_kinds(const hd_scene_def *scene, char *message, size_t size);
+
 #endif

@@ -131,6 +131,7 @@ static hd_status check_without_box(const hd_scene_def *def, char *message, size_
 hd_status hd_scene_check_box(const hd_scene_def *def, char *message, size_t size)
 {
     HD_TRY(check_ranges(def, message, size));
+    HD_TRY(hd_row_check_kinds(def, message, size));
     if (hd_scene_dimension(def) == 0) return check_without_box(def, message, size);
     HD_TRY(check_particles(def, message, size));
     if (!hd_container_of(def)->wall) HD_TRY(check_walls(def, message, size));

@@ -157,10 +157,9 @@ static double square_minus(const double r[HD_DIM], double s2)
 
 /** Exchanges the normal momenta of two disks that are r apart, which changes momenta over masses by
  * shares. approach: r.p over s^2, where they touch at the distance s; excess: (r.r - s^2) / s^2.
- * Returns false if they only graze: if
- * they do not approach by more than momenta round. Such an exchange might not change the momenta,
- * and the pair would meet again at once, forever; so the disks are pushed apart, by more than
- * rounding, along the longest component of r. */
+ * Returns false if they only graze: if they do not approach by more than momenta round. Such an
+ * exchange might not change the momenta, and the pair would meet again at once, forever; so the
+ * disks are pushed apart, by more than rounding, along the longest component of r. */
 static bool exchange(hd_disk *a, hd_disk *b, const double share[2], const double r[HD_DIM],
                      double approach, double excess)
 {

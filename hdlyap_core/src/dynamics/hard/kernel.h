@@ -7,7 +7,7 @@
 #define HD_KERNEL static inline __attribute__((always_inline))
 
 /** With masses, coordinates are weighted by their roots, and a collision has to do with those of i
- * and j times sqrt(2 m_j / (m_i + m_j)) and sqrt(2 m_i / (m_i + m_j)) [T3]. */
+ * and j times sqrt(2 m_j / (m_i + m_j)) and sqrt(2 m_i / (m_i + m_j)) [T26]. */
 #if HD_MIXED
 #define HD_MAP_WEIGHT(map, k) ((map)->weight[k])
 #else
