@@ -52,7 +52,7 @@ static double busy_seconds(void) { return (double)clock() / CLOCKS_PER_SEC; }
 
 static hd_scene_def scene_of(int row)
 {
-    const hd_scene_def core = {.particles = rows[row].particles};
+    const hd_scene_def core = {.particles = (hd_particles)rows[row].particles};
     hd_scene_def scene = hd_scene_def_of(hd_dynamics_of(&core));
     scene.number = rows[row].number;
     scene.density = rows[row].density;

@@ -74,7 +74,7 @@ static void expect_same_structure(const hd_structure *a, const hd_structure *b)
                 CHECK_CLOSE(hd_structure_mean(a, w, e)[col], hd_structure_mean(b, w, e)[col], 1e-4);
         assert_int_equal(hd_structure_peak(a, col), hd_structure_peak(b, col));
         for (int k = 0; k < 4 * HD_DIRECTIONS; k++) {
-            const hd_direction e = k % HD_DIRECTIONS;
+            const hd_direction e = (hd_direction)(k % HD_DIRECTIONS);
             const unsigned bits = (unsigned)k / HD_DIRECTIONS;
             CHECK_CLOSE(hd_structure_amplitude(a, e, bits)[col],
                         hd_structure_amplitude(b, e, bits)[col], 1e-4);

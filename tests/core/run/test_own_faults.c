@@ -206,7 +206,8 @@ TEST(more_null_vectors_end_a_run)
 /* ---- advances ------------------------------------------------------------------------------ */
 
 /** What the row does from the simulated time BREAKS on. */
-static enum {
+static int wrong;
+enum {
     NOTHING_WRONG,
     TIME_STANDS_STILL,
     TIME_IS_HALF,
@@ -219,7 +220,7 @@ static enum {
     ENDS_NAN,
     STATE_NAN,
     CARRY_NAN
-} wrong;
+};
 static const double BREAKS = 60.0; /* the warm-up has begun */
 
 static void put_time(hd_record *record, double time)
