@@ -180,7 +180,8 @@ class Made(InFolder):
     """A run whose bag is made."""
 
     def of(self, **changed):
-        return run.Planned('one', {**HDLYAP.usual(), 'scene': 'one', 'duration': 7.0, **changed})
+        given = {'scene': 'one', 'duration': 7.0, **changed}
+        return run.Planned('one', HDLYAP.completed(given))
 
     def lacks(self, stage=RunStatus.FINISHED, progress=1.0, of=None, given=(), **said):
         """Of a made bag. given: what it was asked for, if it was something else; said: what else
