@@ -30,8 +30,8 @@ class Mode:
 
     said, arrows = '', modes.Panel.arrows
 
-    def __init__(self, field, letter, pair):
-        self.field, bits = self, field.modulation[pair]
+    def __init__(self, field, info, letter, pair):
+        self.field, self.info, bits = self, info, field.modulation[pair]
         for name in 'kind nx ny sim_time index exponent x y px py'.split():
             setattr(self, name, getattr(field, name))
         part = slice(pair * len(field.x), (pair + 1) * len(field.x))
@@ -98,7 +98,7 @@ def divergence(bag):
 def rotation(bag):
     for name in STEPS['LP']:
         times = [
-            [Mode(field, 'L', pair) for pair in range(field.pairs)]
+            [Mode(field, bag.info, 'L', pair) for pair in range(field.pairs)]
             for field in _reconstructed(bag, name)
         ]
         quantity = f'weight of the L modes of {name} in the T fields'
@@ -122,7 +122,8 @@ def pictures(bag):
     for nx, ny in NODES:
         panels += modes.named(run, [f'T({nx},{ny})'])
         for panel in modes.named(run, [f'LP({nx},{ny})']):
-            panels += [Mode(panel.field, one, 0) for one in ('LP' if panel.field.pairs else '')]
+            letters = 'LP' if panel.field.pairs else ''
+            panels += [Mode(panel.field, run.info, one, 0) for one in letters]
     if not panels:
         return None
     page = Page()

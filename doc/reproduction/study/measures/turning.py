@@ -176,8 +176,8 @@ class Snapshot(modes.Panel):
 
     colour = VERMILION
 
-    def __init__(self, field, z):
-        super().__init__(field)
+    def __init__(self, field, info, z):
+        super().__init__(field, info)
         self.z = z
 
     @property
@@ -224,7 +224,7 @@ def _fields(bag, one):
         if len(columns) and abs(one.time[at] - field.sim_time) <= SAME * QUARTER:
             # as the field has them, without the sign that makes a phase continuous
             z = complex(one.a[at, columns[0]], one.b[at, columns[0]])
-            found[field.sim_time] = Snapshot(field, z)
+            found[field.sim_time] = Snapshot(field, bag.info, z)
     return found
 
 
