@@ -214,24 +214,12 @@ static hd_status check_flow(const hd_scene_def *scene, char *message, size_t siz
                      scene->density, most, scene->number);
 }
 
-/** Refuses a second kind that rounds to no particle. */
-static hd_status check_second(const hd_scene_def *scene, char *message, size_t size)
-{
-    const double fraction = hd_parameter_value(&hd_kinds_own[0], scene);
-    if (fraction == 0 || hd_kinds_second(scene) > 0) return HD_OK;
-    return hd_refuse(message, size,
-                     "second_fraction = %.15g: must be 0, or at least %.6g with number = %d, which "
-                     "is one particle",
-                     fraction, 0.5 / scene->number, scene->number);
-}
-
 /** Checks that there are start positions at this density. */
 static hd_status hard_check(const hd_scene_def *scene, char *message, size_t size)
 {
     const hd_container_row *container = hd_container_of(scene);
     char said[SAID];
     if (HD_MIXED) return hd_hard_grow_check(scene, message, size);
-    HD_TRY(check_second(scene, message, size));
     if (container->start_distance(scene) >= HD_START_DISTANCE_MIN)
         return check_flow(scene, message, size);
     container->say(scene, said, sizeof said);
