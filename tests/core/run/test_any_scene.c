@@ -59,6 +59,8 @@ static const struct {
     {"max_mode_number", 0, 3},
     {"observe", 0, HD_OBSERVE_ALL ^ HD_OBSERVE_COVARIANT},
     {"threads", 0, 2},
+    {"boundary_x", HD_PERIODIC, DIM == 2 ? HD_SHEARING : HD_REFLECTING},
+    {"boundary_y", HD_PERIODIC, DIM == 2 ? HD_SHEARING : HD_REFLECTING},
 };
 
 static bool is_whole(const hd_parameter *p)
