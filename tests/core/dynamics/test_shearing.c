@@ -306,6 +306,18 @@ TEST(a_jam_ends_the_trajectory)
     CHECK_WITHIN((double)hd_trajectory_totals(tr).wall_events, 1600.0, 1e6);
 }
 
+/** Also where two groups of disks jam, so that times of events differ by roundings: without this it
+ * would go on until memory is full. */
+TEST(two_jams_end_the_trajectory)
+{
+    const hd_scene_def def = scene(.number = 8, .density = 0.8, .aspect = 2.7190267449571,
+                                   .shear_b = 0.8855081632678133, .boundary[0] = HD_SHEARING,
+                                   .exponents = HD_EXPONENTS_ALL, .seed = 5986531626022113050u);
+    OWNED(hd_trajectory) *tr = trajectory_of(def);
+    assert_int_equal(hd_trajectory_extend(tr, NULL, 10.0), HD_JAMMED);
+    CHECK_WITHIN((double)hd_trajectory_totals(tr).wall_events, 1800.0, 1e6);
+}
+
 /* ---- scenes -------------------------------------------------------------------------------- */
 
 static void check_refused(hd_scene_def def, const char *line)

@@ -28,7 +28,7 @@ typedef struct hd_flow {
     int across, along;
     double near[2]; /**< centres below the first and above the second are near a wall */
     double sum[HD_FLOW_SUMS];
-    double last; /**< time of the last wall event, and how many more were at the very same time */
+    double last; /**< time of a wall event, and how many more were at nearly the same time */
     int64_t at_once;
 } hd_flow;
 
@@ -73,12 +73,14 @@ static inline void hd_flow_fly(const hd_flow *flow, double *sum, const hd_disk *
     }
 }
 
-/** Whether walls are met so often at one time that this will not end: they take away motion across
- * them, so that disks between which there is no room come to rest with ever more collisions. */
+/** Whether walls are met so often in 1e-12 time units that this will not end: they take away motion
+ * across them, so that disks between which there is no room come to rest with ever more collisions.
+ */
 static inline bool hd_flow_is_jammed(hd_flow *flow, double t)
 {
-    flow->at_once = t == flow->last ? flow->at_once + 1 : 0;
-    flow->last = t;
+    const bool at_once = t >= flow->last && t <= flow->last + 0x1p-40;
+    flow->at_once = at_once ? flow->at_once + 1 : 0;
+    if (!at_once) flow->last = t;
     return flow->at_once > 1000 + 100 * (int64_t)flow->scene.number;
 }
 
