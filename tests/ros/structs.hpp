@@ -45,4 +45,24 @@ SAYS(hd_order_over, M(time), M(count), {"violations", numbers(of.violations, vec
 #undef M
 #undef SAYS
 /* clang-format on */
+
+/** A list of `count` of what `value` is at k, and of what the core says of it. */
+#define LIST(count, value) list(count, [&](int k) { return value; })
+#define EACH(count, value) list(count, [&](int k) { return say(value); })
+
+members say(const hd_spectrum *of)
+{
+    return named({{"time", hd_spectrum_time(of)},
+                  {"exponent", LIST(vectors(), hd_spectrum_exponent(of, k))},
+                  {"error", LIST(vectors(), hd_spectrum_std_error(of, k))},
+                  {"local", LIST(vectors(), hd_spectrum_local(of, k))},
+                  {"sums", say(hd_spectrum_sum_up(of))}});
+}
+
+/** Of each vector; none: where particles have no such share. */
+json share(const hd_modes *modes, hd_share which, double none)
+{
+    const double *of = hd_modes_share_average(modes, which);
+    return LIST(vectors(), of ? of[k] : none);
+}
 } // namespace

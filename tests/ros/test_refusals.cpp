@@ -18,6 +18,7 @@
 
 #include "hdlyap/RunInfo.h"
 #include "message_fields.hpp"
+#include "refused_together.hpp"
 #include "wrapper/received.hpp"
 
 #include "begin.h"
@@ -177,107 +178,6 @@ TEST(Parameters, RefusedByTheirRows)
         }
     }
 }
-
-struct refused {
-    const char *lines, *what;
-    std::vector<std::string> words;
-};
-
-static const std::vector<refused> refused_together = {
-    {"thickness: 0.8", "thickness = 0.8", {"no such parameter"}},
-    {"densty: 0.8", "densty = 0.8", {"no such parameter; is density meant?"}},
-    {"Number: 100", "Number = 100", {"; is number meant?"}},
-    {"warmpu: 100", "warmpu = 100", {"; is warmup meant?"}},
-    {"dimensions: 3",
-     "dimensions = 3",
-     {"no such parameter; it is called particles now: disks or spheres"}},
-    {"disks: 20", "disks = 20", {"no such parameter; it is called number now"}},
-    {"{particles: dumbbells, bond: 3}", "bond = 3", {"from 0.01 to 2"}},
-    {"{particles: dumbbells, inertia: round}", "inertia = round", {"disks, points, or from 1e-6"}},
-    {"{particles: dumbbells, container: circle, density: 0.3, aspect: 0.867}",
-     "container = circle",
-     {"must be rectangle with particles = dumbbells"}},
-    {"{particles: dumbbells, density: 0.5, observables: [steps, hydro]}",
-     "observables = hydro",
-     {"not be given with particles = dumbbells"}},
-    {"{particles: dumbbells, density: 1.1}",
-     "density = 1.1 (packing fraction 1.136)",
-     {"at most 0.", "number = 20, bond = 0.25"}},
-    {"{particles: soft_disks, potential: hard}", "potential = hard", {"wca or lennard_jones"}},
-    {"{particles: soft_disks, boundary_x: reflecting}",
-     "boundary_x = reflecting",
-     {"must be periodic with particles = soft_disks"}},
-    {"{particles: soft_disks, energy: -1}", "energy = -1", {"start lattice", "number = 20"}},
-    {"{particles: soft_disks, observables: [hydro]}",
-     "observables = hydro",
-     {"particles = soft_disks, whose energy is not kinetic alone"}},
-    {"{particles: soft_disks, observables: [gas], target: collision_rate 1%}",
-     "target = collision_rate 1%",
-     {"must be without collision_rate: soft_disks do not collide"}},
-    {"potential: wca", "potential = wca", {"no such parameter"}},
-    {"{particles: soft_disks, boundary_y: shearing}",
-     "boundary_y = shearing",
-     {"must not be given with particles = soft_disks"}},
-    {"{boundary_y: shearing, boundary_x: reflecting, density: 0.3}",
-     "boundary_x = reflecting",
-     {"must be periodic with boundary_y = shearing"}},
-    {"{boundary_y: shearing, exponents: positive, density: 0.3}",
-     "exponents = positive",
-     {"boundary_y = shearing, whose exponents are not in pairs"}},
-    {"{boundary_y: shearing, shear_b: 0, density: 0.3}", "shear_b = 0", {"from 0.01 to 1e6"}},
-    {"aspect_z: 0.5", "aspect_z = 0.5", {"not be given", "particles = disks"}},
-    {"boundary_z: reflecting", "boundary_z = reflecting", {"not be given", "particles = disks"}},
-    {"density: 1.1", "density = 1.1", {"at most 0.868056", "number = 20", "aspect = 1"}},
-    {"{number: 2, density: 1.01}", "density = 1.01", {"at most 1 ", "number = 2", "aspect = 1"}},
-    {"exponents: 81", "exponents = 81", {"from 1 to 4 N = 80"}},
-    {"exponents: '81'", "exponents = 81", {"from 1 to 4 N = 80"}},
-    {"{exponents: none, observables: [spectrum]}", "observables = [spectrum]", {NO_EXPONENTS}},
-    {"{exponents: none, observables: [hydro]}", "observables = [hydro]", {NO_EXPONENTS}},
-    {"{exponents: none, observables: [state, covariant]}",
-     "observables = [state, covariant]",
-     {NO_EXPONENTS}},
-    {"{phase_interval: 1.0, observables: [steps]}",
-     "phase_interval = 1",
-     {"auto without an observable out of lp_phases, t_phases"}},
-    {"{max_mode_number: 1, max_wave_number: 1.5}",
-     "max_mode_number = 1",
-     {"0", "max_wave_number = 1.5"}},
-    {"{max_mode_number: 3, aspect: 0.9}",
-     "max_mode_number = 3",
-     {"at most 2", "number = 20", "density = 0.7", "aspect = 0.9", "2 / sqrt(density)"}},
-    {"max_mode_number: 3", "max_mode_number = 3", {"at most 2", "2 / sqrt(density)"}},
-    {"max_wave_number: 1.1", "max_wave_number = 1.1", {"1.17548", "2.62844", "longest"}},
-    {"max_wave_number: 2.7", "max_wave_number = 2.7", {"1.17548", "2.62844", "longest"}},
-    {"{max_mode_number: 1, observables: [spectrum, state]}", "max_mode_number = 1", {OF_VECTORS}},
-    {"{max_mode_number: 1, exponents: none}", "max_mode_number = 1", {OF_VECTORS}},
-    {"{max_wave_number: 1.5, observables: []}", "max_wave_number = 1.5", {OF_VECTORS}},
-    {"covariant_window: 49.0", "covariant_window = 49", {"50 ", UNSEEN}},
-    {"covariant_transient: 99.0", "covariant_transient = 99", {"100 ", UNSEEN}},
-    {"covariant_sampling: 4.0", "covariant_sampling = 4", {"5 ", UNSEEN}},
-    {"covariant_memory: 3.0", "covariant_memory = 3", {"4 ", UNSEEN}},
-    {"{field_indices: [1], observables: [modes, steps]}",
-     "field_indices = [1]",
-     {"steps", "unless fields is an observable"}},
-    {"{field_indices: [1], exponents: none}", "field_indices = [1]", {"steps", "fields"}},
-    {"{field_indices: [3], exponents: 2}", "field_indices = [3]", {"steps", "from 1 to 2,"}},
-    {"field_indices: [0]", "field_indices = [0]", {"steps", "from 1 to 37,"}},
-    {"field_indices: [-1]", "field_indices = [-1]", {"steps", "from 1 to 37,"}},
-    {"field_indices: [38]", "field_indices = [38]", {"steps", "from 1 to 37,"}},
-    {"slow_vectors_count: -1", "slow_vectors_count = -1", {"from 0 ", "to 37, the vectors"}},
-    {"slow_vectors_count: 38", "slow_vectors_count = 38", {"from 0 ", "to 37, the vectors"}},
-    {"{slow_vectors_count: 3, exponents: 2}", "slow_vectors_count = 3", {"to 2, the vectors"}},
-    {"{observables: [state], wait_for_subscribers: [spectrum]}",
-     "wait_for_subscribers = [spectrum]",
-     {"run_info, status, cost and the observables"}},
-    {"{exponents: none, wait_for_subscribers: [spectrum]}",
-     "wait_for_subscribers = [spectrum]",
-     {"run_info, status, cost and the observables"}},
-    {"{covariant, covariant_sampling: 1.5}", "covariant_sampling = 1.5", {"to covariant_window"}},
-    {"{covariant, covariant_transient: 1.5}", "warmup = 1", {"at least covariant_transient = 1.5"}},
-    {"{covariant, covariant_window: 1.5}",
-     "duration = 2",
-     {"0 or at least covariant_window + covariant_transient = 2.5"}},
-};
 
 TEST(Parameters, RefusedTogether)
 {

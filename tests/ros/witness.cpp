@@ -42,23 +42,10 @@ const hd_scene_def &scene() { return *hd_run_scene(run); }
 int vectors() { return hd_run_vectors(run); }
 int coordinates() { return scene().number * hd_scene_coordinates(&scene()); }
 
-/** A list of `count` of what `value` is at k, and of what the core says of it. */
-#define LIST(count, value) list(count, [&](int k) { return value; })
-#define EACH(count, value) list(count, [&](int k) { return say(value); })
-
 json sites()
 {
     double site[HD_SITES_MAX];
     return numbers(site, hd_scene_sites(&scene(), site));
-}
-
-members say(const hd_spectrum *of)
-{
-    return named({{"time", hd_spectrum_time(of)},
-                  {"exponent", LIST(vectors(), hd_spectrum_exponent(of, k))},
-                  {"error", LIST(vectors(), hd_spectrum_std_error(of, k))},
-                  {"local", LIST(vectors(), hd_spectrum_local(of, k))},
-                  {"sums", say(hd_spectrum_sum_up(of))}});
 }
 
 /** With each message. */
@@ -212,18 +199,12 @@ members beside(const hdr_averages *)
 
 members beside(const hdr_gas *) { return named({{"gas", say(hd_gas_read(parts().gas))}}); }
 
-json share(hd_share which, double none)
-{
-    const double *of = hd_modes_share_average(parts().modes, which);
-    return LIST(vectors(), of ? of[k] : none);
-}
-
 members beside(const hdr_modes *)
 {
     return say_steps() + say(parts().modes) +
            named({{"samples", hd_modes_samples(parts().modes)},
-                  {"turning", share(HD_SHARE_TURNING, 0.0)},
-                  {"second", share(HD_SHARE_SECOND, NAN)}});
+                  {"turning", share(parts().modes, HD_SHARE_TURNING, 0.0)},
+                  {"second", share(parts().modes, HD_SHARE_SECOND, NAN)}});
 }
 
 members beside(const hdr_steps *)

@@ -13,14 +13,6 @@ static hd_scene_def scene_of_runs(int disks, unsigned observe)
                  .observe = observe);
 }
 
-/** By all ranks together. */
-static hd_run *shared(hd_scene_def scene)
-{
-    hd_run *run = NULL;
-    CHECK_OK(hd_run_create_shared(&run, &scene, ranks, NULL, 0));
-    return run;
-}
-
 static void expect_same_exponents(const hd_run *run, const hd_run *alone)
 {
     const double bound = hd_run_cost(run).error_bound + hd_run_cost(alone).error_bound;

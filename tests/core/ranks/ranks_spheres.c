@@ -13,19 +13,15 @@ static hd_scene_def scene_of_runs(int exponents)
 /** Weights differ by little, as long as directions are those of the dynamics. */
 static void compare(hd_scene_def def)
 {
-    hd_run *run = NULL;
-    CHECK_OK(hd_run_create_shared(&run, &def, ranks, NULL, 0));
-    finish(run);
-    OWNED(hd_run) *alone = finished(def);
+    OWNED(hd_run) *run = finish(shared(def)), *alone = finished(def);
     check_same_run(run, alone);
-    const hd_modes *shared = hd_run_modes(run), *own = hd_run_modes(alone);
+    const hd_modes *together = hd_run_modes(run), *own = hd_run_modes(alone);
     for (int s = 0; s < hd_fields_subspaces(hd_modes_fields(own)); s++)
         for (int col = 0; col < hd_run_vectors(run); col++)
-            CHECK_CLOSE(hd_modes_snapshot(shared, s, HD_WEIGHT)[col],
+            CHECK_CLOSE(hd_modes_snapshot(together, s, HD_WEIGHT)[col],
                         hd_modes_snapshot(own, s, HD_WEIGHT)[col], 1e-6);
     CHECK_CLOSE(hd_gas_read(hd_run_gas(run)).pressure, hd_gas_read(hd_run_gas(alone)).pressure,
                 1e-9);
-    hd_run_free(run);
 }
 
 TEST(runs_are_those_of_one_rank) { compare(scene_of_runs(HD_EXPONENTS_POSITIVE)); }

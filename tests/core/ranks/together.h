@@ -40,6 +40,14 @@ static void late_broadcast(void *context, void *x, size_t bytes)
 
 static const hd_transport late = {late_sum, late_gather, late_exchange, late_broadcast};
 
+/** A run of all ranks together. */
+static inline hd_run *shared(hd_scene_def scene)
+{
+    hd_run *run = NULL;
+    CHECK_OK(hd_run_create_shared(&run, &scene, ranks, NULL, 0));
+    return run;
+}
+
 /** Of a single process that is said to be one of several. */
 static inline void refused_alone(int argc, char **argv)
 {
