@@ -184,6 +184,9 @@ class Check(harness.Case):
             self.assertEqual(said % exponents in done.stdout, exponents < 1336)
             self.assertEqual('c_T' in done.stdout, exponents == 1336)
             self.assertEqual('waves  ' in done.stdout, exponents == 1336)
+        sheared = dict(number=100, density=0.3, boundary_y='shearing', exponents=3)
+        done = checked(self.file_of(dict(sheared, observables=['spectrum', 'steps'])))
+        self.assertIn(' exponents include a step, all (400) includes all\n', done.stdout)
         for observables in (['spectrum'], ['structure', 'localization']):
             done = checked(self.file_of(dict(exponents=120, observables=observables)))
             self.assertNotIn('warning', done.stdout)

@@ -378,12 +378,15 @@ static void warn_of_steps(settings *set)
     const int least = hd_steps_exponents_least(def), vectors = hd_scene_counts(def).vectors;
     const unsigned empty = set->observables & topics_that_are(TOPIC_OF_STEPS);
     char names[PARAMETER_TEXT];
+    hd_scene_def usual = *def;
     if (!empty || vectors == 0 || vectors >= least) return;
+    usual.exponents = hd_scene_exponents_usual(def);
     topic_names(names, sizeof names, empty);
     snprintf(set->warning, sizeof set->warning,
              "exponents = %d: none of them belongs to a step, which %s need; at least %d "
-             "exponents include a step, positive (%d) includes all",
-             vectors, names, least, hd_scene_counts(def).positive);
+             "exponents include a step, %s (%d) includes all",
+             vectors, names, least, usual.exponents == HD_EXPONENTS_ALL ? "all" : "positive",
+             hd_scene_counts(&usual).vectors);
 }
 
 bool settings_read(settings *out, const hdr_params *params, const hd_checkpoint *kept,
