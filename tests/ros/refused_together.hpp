@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "refusals.hpp"
+
 namespace
 {
 struct refused {

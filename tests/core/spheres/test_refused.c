@@ -24,7 +24,7 @@ TEST(values_out_of_range)
                "density = 1.4143: must be from 1e-6 to 1.4142 with particles = spheres");
     check_line(scene_from(usual(), .density = NAN),
                "density = nan: must be from 1e-6 to 2/sqrt(3) = 1.1547, in space to sqrt(2) = "
-               "1.4142, with small particles of a second kind to 28.867 and 176.77");
+               "1.4142, with small particles of a second kind to 28.8675 and 176.7767");
     check_line(scene_from(usual(), .aspect_z = 0.0), "aspect_z = 0: must be from 1e-6 to 1e6");
     check_line(scene_from(usual(), .aspect_z = 2e6),
                "aspect_z = 2000000: must be from 1e-6 to 1e6");
