@@ -264,10 +264,19 @@ count_checks() {
     awk '/^ok / { ok++ } /^FAILED / { failed++ } END { print ok + failed + 0, failed + 0 }' "$1"
 }
 
+# A command that fails ends the stage: bash would go on where somebody asks for the status by || or if.
+strictly() {
+    set -e
+    "$@"
+}
+
 # stage NAME COUNTER
 stage() {
     local name=$1 log=$LOGS/$1.log status=0 total=0 failed=0 TIMEFORMAT='%0R %0U %0S'
-    { time run "$name" >"$log" 2>&1; } 2>"$log.time" || status=$?
+    set +e
+    { time run strictly "$name" >"$log" 2>&1; } 2>"$log.time"
+    status=$?
+    set -e
     read -r total failed < <("count_$2" "$log") || true
     # neither a crash behind the last test nor a run without tests is a success
     if ((total == 0 || status != 0 && failed == 0)); then

@@ -10,6 +10,7 @@ import rosgraph
 
 import harness
 import links
+from hdlyap.msg import RunStatus
 from harness import MODES, OBSERVABLES, SHORT, TYPES, Process, is_last
 
 pytestmark = harness.UNDER_A_MASTER
@@ -124,6 +125,21 @@ class Delivery(harness.Case):
         )
         self.assertTrue(all(500 < int(count) <= FLOOD_REPORTS for count, _ in left), left)
         links.end(recorder)
+
+    def test_subscriber_that_stands_still_at_the_end(self):
+        """One with rospy drops what its sockets hold when it hears that the node has left: so the
+        node leaves once it answers."""
+        node = self.start(dict(MANY, wait_for_subscribers=['status'], duration=20.0))
+        echo = self.process(['rostopic', 'echo', '/hdlyap/status/stage'])
+        self.sees(lambda: '---' in echo.text(), echo)
+        echo.send(signal.SIGSTOP)
+        self.sees(lambda: node.lines('finished at'))
+        time.sleep(1.0)
+        self.assertTrue(node.running(), node.text())
+        echo.send(signal.SIGCONT)
+        self.ends(node)
+        self.sees(lambda: echo.text().split()[-2:] == [str(RunStatus.FINISHED), '---'], echo)
+        self.assertEqual(node.lines('WARN'), [])
 
     def test_slow_subscriber(self):
         slow = self.listen('state', delay=0.2)

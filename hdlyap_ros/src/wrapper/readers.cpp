@@ -70,7 +70,8 @@ struct hdr_readers::reader : awaited {
     };
     std::map<std::string, link> links; /**< known connections, by topic */
     std::condition_variable asked_for;
-    bool asked = true;
+    bool asked = true, answered = false; /**< answered: the last question */
+    bool asked_at_end = false;           /**< once all messages were handed over */
 };
 
 /** A queue that roscpp keeps for one connection. */
@@ -130,16 +131,15 @@ void note_loss(common &all, reader &one, const std::string &topic, int lost)
     one.links[topic].lost = lost;
 }
 
-/** Takes a reader's answer about one topic. links: the reader's list of its connections. Returns
- * false if the reader cannot say what it has dropped; with rospy it drops nothing. The caller holds
- * the lock. */
-bool take_topic(common &all, reader &one, const std::string &topic, XmlRpc::XmlRpcValue &links)
+/** Takes a reader's answer about one topic. links: the reader's list of its connections. A reader
+ * with rospy cannot say what it has dropped: nobody waits for it here. The caller holds the lock.
+ */
+void take_topic(common &all, reader &one, const std::string &topic, XmlRpc::XmlRpcValue &links)
 {
     int id = -1, given = 0;
-    if (links.size() == 0) return true;
+    if (links.size() == 0) return;
     const int received = links[0][2], lost = links[0][3];
-    if (lost < 0) return false;
-    if (!find_link(id, given, topic, one.name) || given < received) return true;
+    if (lost < 0 || !find_link(id, given, topic, one.name) || given < received) return;
     const common::watched &watched = all.topics[topic];
     const int64_t published = watched.backlog->look().published;
     reader::link &link = one.links[topic];
@@ -156,7 +156,6 @@ bool take_topic(common &all, reader &one, const std::string &topic, XmlRpc::XmlR
     }
     link.received = received;
     note_loss(all, one, topic, lost);
-    return true;
 }
 
 /** How many messages of a topic a reader has not read. The caller holds the lock. */
@@ -174,21 +173,19 @@ bool has_read(const common &all, const reader &one, int but)
 }
 
 /** Takes the answer to getBusStats: [publishers, subscribers]; clients other than roscpp give
- * [status, text, [publishers, subscribers]]. Returns false if it says too little. The caller holds
- * the lock. */
-bool take(common &all, reader &one, XmlRpc::XmlRpcValue &answer)
+ * [status, text, [publishers, subscribers]]. The caller holds the lock. */
+void take(common &all, reader &one, XmlRpc::XmlRpcValue &answer)
 {
     const bool is_bare = answer[0].getType() == XmlRpc::XmlRpcValue::TypeArray;
     XmlRpc::XmlRpcValue &subscribed = is_bare ? answer[1] : answer[2][1];
     for (int k = 0; k < subscribed.size(); k++) {
         const std::string topic = subscribed[k][0];
-        if (all.topics.count(topic) && !take_topic(all, one, topic, subscribed[k][1])) return false;
+        if (all.topics.count(topic)) take_topic(all, one, topic, subscribed[k][1]);
     }
     if (one.is_deaf && has_read(all, one, window / 2)) {
         one.is_deaf = false;
         hdr_log(HDR_WARN, "%s reads again", one.name.c_str());
     }
-    return true;
 }
 
 /** Finds the address of a node. One thread at a time does so, because roscpp keeps as many
@@ -203,7 +200,7 @@ bool find(common &all, std::string &host, uint32_t &port, const std::string &nam
            ros::network::splitURI(uri, host, port);
 }
 
-/** Asks a reader whenever somebody wants to know, until the reader is gone or says too little. */
+/** Asks a reader whenever somebody wants to know, until the reader is gone. */
 void ask(common &all, reader &one)
 {
     std::string host;
@@ -222,7 +219,9 @@ void ask(common &all, reader &one)
         XmlRpc::XmlRpcValue answer;
         const bool said = client.execute("getBusStats", request, answer) && !client.isFault();
         guard.lock();
-        if (all.ended || !said || !take(all, one, answer)) return;
+        if (all.ended || !said) return;
+        take(all, one, answer);
+        one.answered = !one.asked;
         all.answered.notify_all();
     }
 }
@@ -242,6 +241,7 @@ void follow(const std::shared_ptr<common> &all, const std::shared_ptr<reader> &o
 void ask_soon(reader &one)
 {
     one.asked = true;
+    one.answered = false;
     one.asked_for.notify_one();
 }
 
@@ -384,9 +384,11 @@ bool hdr_readers::have_read_all()
     bool read = true;
     for (const auto &named : all->readers) {
         reader &one = *named.second;
-        if (one.is_deaf || has_read(*all, one, 0)) continue;
+        const bool is_awake = one.asked_at_end && one.answered;
+        if (one.is_deaf || (is_awake && has_read(*all, one, 0))) continue;
         read = false;
-        ask_soon(one);
+        if (is_awake || !one.asked_at_end) ask_soon(one);
+        one.asked_at_end = true;
     }
     return read;
 }
@@ -415,11 +417,15 @@ void hdr_readers::say_lost()
                 hdr_log(HDR_WARN, "%s has lost %d of %lld messages of %s", named.first.c_str(),
                         named.second, static_cast<long long>(now.published), name);
     }
-    for (const auto &named : all->readers)
+    for (const auto &named : all->readers) {
+        if (named.second->asked_at_end && !named.second->answered)
+            hdr_log(HDR_WARN, "%s does not answer: it may not read the last messages",
+                    named.first.c_str());
         for (const auto &link : named.second->links) {
             const long long left = unread(*all, link.first, link.second);
             if (left > 0)
                 hdr_log(HDR_WARN, "%s has not read the last %lld messages of %s",
                         named.first.c_str(), left, link.first.c_str());
         }
+    }
 }

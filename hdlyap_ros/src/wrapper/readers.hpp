@@ -27,8 +27,9 @@ class hdr_readers
     /** Has those asked who may be behind; if the publisher is patient, waits while a further
      * message may be lost, but for nobody who reads nothing, and not once a stop is requested. */
     void wait(hdr_publisher &publisher);
-    /** Whether all readers have read all that was published, as far as they have said so. Asks
-     * those that have not. */
+    /** To be called once all messages are in sockets. Whether all readers have answered since
+     * then and have read all that was published, as far as they say so. Asks those that have not:
+     * one that stands still would drop what its socket holds when it hears that the node leaves. */
     bool have_read_all();
     /** How many messages of a topic its readers have dropped from their queues. */
     int64_t lost(const std::string &topic);
