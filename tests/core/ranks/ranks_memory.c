@@ -24,10 +24,9 @@ TEST(memory_falls_with_the_ranks)
 {
     const hd_scene_def scene = short_scene(400, 0);
     const double m = 1600.0, n = 797.0, alike = 6e6;
-    OWNED(hd_run) *run = NULL;
     ledger_reset_peak();
     const double before = (double)ledger_now().live;
-    CHECK_OK(hd_run_create_shared(&run, &scene, ranks, NULL, 0));
+    OWNED(hd_run) *run = shared(scene);
     finish(run);
     const double peak = (double)ledger_now().peak - before;
     const double needed = hd_memory_needed(&scene, 1, ranks->ranks);
@@ -43,10 +42,9 @@ TEST(gathered_vectors_are_estimated)
 {
     const hd_scene_def scene = scene_from(short_scene(200, HD_OBSERVE_HYDRO),
                                           .exponents = HD_EXPONENTS_ALL);
-    OWNED(hd_run) *run = NULL;
     ledger_reset_peak();
     const double before = (double)ledger_now().live;
-    CHECK_OK(hd_run_create_shared(&run, &scene, ranks, NULL, 0));
+    OWNED(hd_run) *run = shared(scene);
     const double created = (double)ledger_now().live;
     hd_run_watch(run, 1.0);
     while (going_on(run)) CHECK_OK(hd_run_measure(run, 0));
@@ -154,11 +152,9 @@ TEST(what_one_does_not_get_ends_all)
 TEST(what_one_does_not_get_later_ends_all_for_good)
 {
     static const char path[] = "ranks_memory.checkpoint";
-    const hd_scene_def scene = short_scene(16, 0);
-    OWNED(hd_run) *run = NULL;
+    OWNED(hd_run) *run = shared(short_scene(16, 0));
     OWNED(hd_run) *resumed = NULL;
     hd_status status = HD_OK;
-    CHECK_OK(hd_run_create_shared(&run, &scene, ranks, NULL, 0));
     CHECK_OK(hd_run_save(run, path, "", NULL, 0));
     if (ranks->rank == ranks->ranks - 1) ledger_refuse(0, 1);
     while (status == HD_OK && hd_run_stage(run) != HD_FINISHED) status = hd_run_advance(run);

@@ -12,12 +12,10 @@ static hd_scene_def short_chain(int exponents, unsigned observe)
 
 static void compare(hd_scene_def def)
 {
-    hd_run *run = NULL;
-    CHECK_OK(hd_run_create_shared(&run, &def, ranks, NULL, 0));
-    finish(run);
+    OWNED(hd_run) *run = shared(def);
     OWNED(hd_run) *alone = finished(def);
+    finish(run);
     check_same_run(run, alone);
-    hd_run_free(run);
 }
 
 TEST(halves_are_those_of_one_rank)
@@ -49,16 +47,14 @@ TEST(averages_are_those_of_one_rank)
     row.measure = measure;
     def.dynamics = &row;
     def.duration = 1000.0;
-    hd_run *run = NULL;
-    CHECK_OK(hd_run_create_shared(&run, &def, ranks, NULL, 0));
-    finish(run);
+    OWNED(hd_run) *run = shared(def);
     OWNED(hd_run) *alone = finished(def);
+    finish(run);
     const hd_mean found = hd_averages_read(hd_run_averages(run), 0),
                   wanted = hd_averages_read(hd_run_averages(alone), 0);
     CHECK_CLOSE(found.mean, wanted.mean, 0.0);
     CHECK_CLOSE(found.std_error, wanted.std_error, 0.0);
     assert_true(wanted.std_error > 0);
-    hd_run_free(run);
 }
 
 /** Creates, keeps, resumes; the largest exponent. */
