@@ -48,8 +48,12 @@ own_environment() {
     export PYTHONUTF8=1 # names of folders are, also where the locale has another encoding
 }
 
+# Below those that Linux hands out: nobody gets it before it is used.
 free_port() {
-    /usr/bin/python3 -c 'import socket; s = socket.socket(); s.bind(("", 0)); print(s.getsockname()[1])'
+    /usr/bin/python3 -c 'import random, socket
+for port in random.sample(range(20000, 32768), 100):
+    if socket.socket().connect_ex(("localhost", port)): break
+print(port)'
 }
 
 # build DIR [CMAKE OPTION]...: configures once, then builds what has changed. A tree of another

@@ -7,7 +7,6 @@ import itertools
 import os
 import shutil
 import signal
-import socket
 import subprocess
 import tempfile
 import threading
@@ -25,6 +24,7 @@ import yaml
 import measured
 from hdlyap import parameters, topics  # noqa: F401  which reads parameters as fields
 from hdlyap.msg import Mode, RunStatus
+from hdlyap.runs.ranks import free_port
 
 UNDER_A_MASTER = pytest.mark.under_a_master  # rostest runs this file
 SECOND_TIER = pytest.mark.second_tier  # a test, a class or a file of tests/run.sh --all
@@ -87,12 +87,6 @@ def probed(command=None):
     folder = os.path.dirname(executable())
     names = ['hdlyap_probe.so'] if command else ['hdlyap_probe.so', 'open/libhdlyap_core.so.0']
     return {'LD_PRELOAD': ':'.join(os.path.join(folder, name) for name in names)}
-
-
-def free_port():
-    with socket.socket() as s:
-        s.bind(('', 0))
-        return s.getsockname()[1]
 
 
 def wait_until(condition, seconds=PATIENCE, every=0.01):
