@@ -176,7 +176,7 @@ static bool check_ranges(settings *set, reader *r)
 static bool leave_all_but(settings *set, reader *r, unsigned topics, const char *when,
                           const char *value)
 {
-    char names[PARAMETER_TEXT], allowed[2 * PARAMETER_TEXT];
+    char names[PARAMETER_ALLOWED], allowed[PARAMETER_ALLOWED + PARAMETER_TEXT];
     if (!(set->observables & ~topics)) return true;
     topic_names(names, sizeof names, topics);
     snprintf(allowed, sizeof allowed, "%s%s when %s = %s", *names ? "a list out of " : "[]", names,
