@@ -257,8 +257,8 @@ struct hd_dynamics {
     const hd_average *average;
     int averages; /**< number of these, 0 .. HD_AVERAGES_MAX */
     /** Writes these numbers of the state q, p, which is as `state` writes it, to value[averages].
-     * They follow from the state alone. A number that is not finite, or is not written, ends the
-     * run with HD_DYNAMICS_FAULT. */
+     * They follow from the state alone. A number that is not from -1e100 to 1e100, or is not
+     * written, ends the run with HD_DYNAMICS_FAULT. */
     void (*measure)(const hd_scene_def *scene, const double *q, const double *p, double *value);
     /** Writes all members of *examined; 0 where a member means nothing for these particles, as
      * energy_error where energy is not conserved. A run of particles that do not collide, or whose

@@ -153,8 +153,9 @@ hd_status hd_trajectory_measure(hd_trajectory *tr, double *value, const hd_scene
     for (int k = 0; k < tr->of->averages; k++) value[k] = NAN;
     tr->of->measure(scene, tr->now, tr->now + coordinates(tr), value);
     for (int k = 0; k < tr->of->averages; k++) {
-        if (isfinite(value[k])) continue;
-        snprintf(tr->fault, sizeof tr->fault, "measure: %s is %g at %.12g: must be finite",
+        if (fabs(value[k]) <= HD_AVERAGE_MOST) continue;
+        snprintf(tr->fault, sizeof tr->fault,
+                 "measure: %s is %g at %.12g: must be from -1e100 to 1e100",
                  tr->of->average[k].name, value[k], hd_trajectory_time(tr));
         return HD_DYNAMICS_FAULT;
     }

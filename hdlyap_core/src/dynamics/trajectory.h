@@ -22,7 +22,7 @@ HD_MUST_CHECK hd_status hd_trajectory_check_null(const hd_trajectory *trajectory
 
 /** Writes the numbers that the row tells of the present state (hd_dynamics.average) to
  * value[averages]. `scene`, which asks for HD_OBSERVE_AVERAGES, is that of the trajectory. Fails
- * with HD_DYNAMICS_FAULT if one is not finite (hd_trajectory_fault). */
+ * with HD_DYNAMICS_FAULT if one is none (HD_AVERAGE_MOST), see hd_trajectory_fault. */
 HD_MUST_CHECK hd_status hd_trajectory_measure(hd_trajectory *trajectory, double *value,
                                               const hd_scene_def *scene);
 
@@ -37,6 +37,9 @@ uint32_t hd_trajectory_fingerprint(const hd_trajectory *trajectory);
  * state.
  */
 #define HD_ENERGY_LOST_FROM 0.02
+
+/** Largest size of a number that a row tells: sums of their squares are finite. */
+#define HD_AVERAGE_MOST 1e100
 
 /** Bytes of the line that hd_trajectory_fault returns. */
 enum { HD_FAULT_LINE = 160 };
