@@ -96,3 +96,10 @@ class Latex(unittest.TestCase):
         self.assertEqual(latex.symbol('c_L3'), r'$c_{\mathrm{L},3}$')
         self.assertEqual(latex.symbol('collision_rate'), 'collision rate')
         self.assertEqual(latex.unit('sigma^2/time unit'), r'$\sigma^2$/time unit')
+        self.assertEqual(latex.unit('kg m^2 s^-12'), r'kg m$^2$ s$^{-12}$')
+        for text, wanted in (
+            ('% of J_0', r'\% of J\_0'),
+            ('{x}~\\^y', r'\{x\}\textasciitilde{}\textbackslash{}\textasciicircum{}y'),
+        ):
+            self.assertEqual(latex.unit(text), wanted)
+            self.assertEqual(latex.cell(text, 'plain'), wanted)

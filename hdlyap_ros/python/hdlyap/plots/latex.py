@@ -23,7 +23,15 @@ class Done(str):
     """A text that is LaTeX already."""
 
 
-SPECIAL = str.maketrans({letter: '\\' + letter for letter in '_&%#$'})
+SPECIAL = str.maketrans(
+    {
+        **{letter: '\\' + letter for letter in '_&%#${}'},
+        '\\': r'\textbackslash{}',
+        '^': r'\textasciicircum{}',
+        '~': r'\textasciitilde{}',
+    }
+)
+MATH = re.compile(r'((?:sigma|epsilon)(?:\^-?\d+)?|\^-?\d+)')  # of a unit
 
 
 def tabular(head, rows, style, units=()):
@@ -56,8 +64,18 @@ def symbol(name):
 
 
 def unit(text):
-    """A unit as LaTeX: sigma and epsilon as letters."""
-    return Done(re.sub(r'(sigma|epsilon)(\^\d)?', r'$\\\1\2$', text))
+    """A unit, of a program's own any text, as LaTeX: sigma and epsilon as letters, and powers."""
+    parts = MATH.split(text)
+    parts[::2] = [part.translate(SPECIAL) for part in parts[::2]]
+    parts[1::2] = map(_letter, parts[1::2])
+    return Done(''.join(parts))
+
+
+def _letter(text):
+    """sigma^2, or a power without a letter, as math."""
+    letter, caret, power = text.partition('^')
+    power = f'{{{power}}}' if len(power) > 1 else power
+    return ''.join(('$', '\\' * bool(letter), letter, caret, power, '$'))
 
 
 def cell(text, style):
