@@ -116,6 +116,14 @@ TEST(what_has_no_start_is_refused_by_name)
     expect_refused(
         packed(with_second(box_of(3, 0.1, 1.0, 1.0, 0, 1), 1.0, 2.0, 1.0), DIM == 2 ? 0.79 : 0.59),
         "no start is found");
+    if (DIM > 2) return;
+    /* disks that come to touch all around, with gaps that shrink tenfold at each stop */
+    hd_scene_def round = box_of(2, 0.1, 1.0, 1.0, 0, 1);
+    round.container = HD_CIRCLE;
+    round.aspect = hd_scene_def_default().aspect;
+    for (int k = 0; k < 2; k++)
+        expect_refused(packed(with_second(round, 0.5, k == 0 ? 0.3 : 3.0, 1.0), 0.79),
+                       "container = circle: no start is found");
 }
 
 /* ---- motion -------------------------------------------------------------------------------- */

@@ -25,6 +25,9 @@ enum { STOPS = 2000, FEW = 2000 };
 /** Most collisions of a particle between two stops; they have jammed if the time for these becomes
  * such a part of what the fluid's theory expects. */
 static const double BETWEEN = 2.0, JAMMED = 1e-6;
+/** After so many times more collisions than that, the time is shortened at once to what fits: few
+ * disks that touch all around have gaps that shrink tenfold from stop to stop. */
+static const double FAR_BEYOND = 100.0;
 /** Part of the room by which a disk grows that does not reach its own size: so that collisions do
  * not become more than ten times as frequent at once. */
 static const double GROWTH = 0.9;
@@ -132,7 +135,7 @@ static hd_status grow(hard *tr, const hd_scene_def *def)
         hd_hard_predict(tr);
         HD_TRY(hd_hard_advance(tr, NULL, tr->now + time));
         const double met = 2.0 * (double)(tr->collisions - before) / def->number;
-        if (met > BETWEEN) time *= 0.5;
+        if (met > BETWEEN) time *= met > FAR_BEYOND * BETWEEN ? BETWEEN / met : 0.5;
         if (met < 0.25 * BETWEEN && time < expected) time *= 2.0;
         settle(tr);
     }
