@@ -116,8 +116,12 @@ TEST(what_has_no_start_is_refused_by_name)
     expect_refused(
         packed(with_second(box_of(3, 0.1, 1.0, 1.0, 0, 1), 1.0, 2.0, 1.0), DIM == 2 ? 0.79 : 0.59),
         "no start is found");
-    if (DIM > 2) return;
-    /* disks that come to touch all around, with gaps that shrink tenfold at each stop */
+    /* those that come to touch all around, so that gaps shrink by many tens at each stop */
+    if (DIM > 2) {
+        expect_refused(with_second(box_of(7, 41.0, 3.0, 1.0, 2, 56), 1.0, 0.3, 1.0),
+                       "no start is found");
+        return;
+    }
     hd_scene_def round = box_of(2, 0.1, 1.0, 1.0, 0, 1);
     round.container = HD_CIRCLE;
     round.aspect = hd_scene_def_default().aspect;

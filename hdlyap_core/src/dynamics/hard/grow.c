@@ -25,8 +25,8 @@ enum { STOPS = 2000, FEW = 2000 };
 /** Most collisions of a particle between two stops; they have jammed if the time for these becomes
  * such a part of what the fluid's theory expects. */
 static const double BETWEEN = 2.0, JAMMED = 1e-6;
-/** After so many times more collisions than that, the time is shortened at once to what fits: few
- * disks that touch all around have gaps that shrink tenfold from stop to stop. */
+/** They stop at once where they collide so many times more often: where they touch all around, gaps
+ * shrink by many tens between two stops. */
 static const double FAR_BEYOND = 100.0;
 /** Part of the room by which a disk grows that does not reach its own size: so that collisions do
  * not become more than ten times as frequent at once. */
@@ -125,17 +125,39 @@ static void begin(hard *tr, const hd_scene_def *def, const double *q, const doub
     }
 }
 
+/** Collisions of a particle since there were `before` of all. */
+static double met_since(const hard *tr, uint64_t before)
+{
+    return 2.0 * (double)(tr->collisions - before) / tr->motion.count;
+}
+
+/** Moves the disks for this time, or until they have collided far too often. What happens does not
+ * depend on the parts in which it does. */
+static hd_status move_on(hard *tr, double time)
+{
+    const uint64_t before = tr->collisions;
+    const double end = tr->now + time;
+    double part = 0x1p-20 * time;
+    for (; tr->now < end && !(met_since(tr, before) > FAR_BEYOND * BETWEEN); part *= 2.0)
+        HD_TRY(hd_hard_advance(tr, NULL, fmin(tr->now + part, end)));
+    return HD_OK;
+}
+
 static hd_status grow(hard *tr, const hd_scene_def *def)
 {
     const double expected = 1.0 / hd_dynamics_of(def)->fluid->rate(def);
     double time = expected;
     for (int k = 0; swell(tr, def) > 0; k++) {
         const uint64_t before = tr->collisions;
+        const double since = tr->now;
         if (k == STOPS || time < JAMMED * expected) return HD_REFUSED;
         hd_hard_predict(tr);
-        HD_TRY(hd_hard_advance(tr, NULL, tr->now + time));
-        const double met = 2.0 * (double)(tr->collisions - before) / def->number;
-        if (met > BETWEEN) time *= met > FAR_BEYOND * BETWEEN ? BETWEEN / met : 0.5;
+        HD_TRY(move_on(tr, time));
+        const double met = met_since(tr, before);
+        if (met > FAR_BEYOND * BETWEEN)
+            time = (tr->now - since) * BETWEEN / met;
+        else if (met > BETWEEN)
+            time *= 0.5;
         if (met < 0.25 * BETWEEN && time < expected) time *= 2.0;
         settle(tr);
     }
