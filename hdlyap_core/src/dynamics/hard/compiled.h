@@ -61,6 +61,7 @@ enum { HD_ROWS = 2 * HD_DIM };
 #define hd_hard_state HD_COMPILED(hd_hard_state)
 #define hd_hard_time HD_COMPILED(hd_hard_time)
 #define hd_hard_totals HD_COMPILED(hd_hard_totals)
+#define hd_hard_with_walls HD_COMPILED(hd_hard_with_walls)
 #define hd_hard_zeros HD_COMPILED(hd_hard_zeros)
 #define hd_maps_carry HD_COMPILED(hd_maps_carry)
 #define hd_maps_create HD_COMPILED(hd_maps_create)

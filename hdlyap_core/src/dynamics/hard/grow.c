@@ -28,6 +28,9 @@ static const double BETWEEN = 2.0, JAMMED = 1e-6;
 /** They stop at once where they collide so many times more often: where they touch all around, gaps
  * shrink by many tens between two stops. */
 static const double FAR_BEYOND = 100.0;
+/** Most times that a particle meets walls between two stops, at which hardly more than its own
+ * diameter may fit between them. */
+static const double WALLS_BETWEEN = 100.0;
 /** Part of the room by which a disk grows that does not reach its own size: so that collisions do
  * not become more than ten times as frequent at once. */
 static const double GROWTH = 0.9;
@@ -145,12 +148,13 @@ static hd_status move_on(hard *tr, double time)
 
 static hd_status grow(hard *tr, const hd_scene_def *def)
 {
-    const double expected = 1.0 / hd_dynamics_of(def)->fluid->rate(def);
-    double time = expected;
+    const double longest = fmin(1.0 / hd_dynamics_of(def)->fluid->rate(def),
+                                WALLS_BETWEEN / hd_hard_with_walls(def, 0.0));
+    double time = longest;
     for (int k = 0; swell(tr, def) > 0; k++) {
         const uint64_t before = tr->collisions;
         const double since = tr->now;
-        if (k == STOPS || time < JAMMED * expected) return HD_REFUSED;
+        if (k == STOPS || time < JAMMED * longest) return HD_REFUSED;
         hd_hard_predict(tr);
         HD_TRY(move_on(tr, time));
         const double met = met_since(tr, before);
@@ -158,7 +162,7 @@ static hd_status grow(hard *tr, const hd_scene_def *def)
             time = (tr->now - since) * BETWEEN / met;
         else if (met > BETWEEN)
             time *= 0.5;
-        if (met < 0.25 * BETWEEN && time < expected) time *= 2.0;
+        if (met < 0.25 * BETWEEN && time < longest) time *= 2.0;
         settle(tr);
     }
     return HD_OK;

@@ -292,13 +292,19 @@ double hd_hard_rate(const hd_scene_def *def)
     return 0.5 * hd_dynamics_of(def)->fluid->rate(def) * def->number;
 }
 
-double hd_hard_entries(const hd_scene_def *def)
+double hd_hard_with_walls(const hd_scene_def *def, double rate)
 {
-    double box[HD_DIM], rate = 0.5 * hd_dynamics_of(def)->fluid->rate(def);
+    const double largest = HD_MIXED ? hd_kinds_largest(def) : 1.0;
+    double box[HD_DIM];
     hd_scene_box(def, box);
     for (int d = 0; d < HD_DIM; d++)
-        if (hd_scene_boundary(def, d) != HD_PERIODIC) rate += 1.0 / (box[d] - 1.0);
-    return def->number * rate;
+        if (hd_scene_boundary(def, d) != HD_PERIODIC) rate += 1.0 / (box[d] - largest);
+    return rate;
+}
+
+double hd_hard_entries(const hd_scene_def *def)
+{
+    return def->number * hd_hard_with_walls(def, 0.5 * hd_dynamics_of(def)->fluid->rate(def));
 }
 
 double hd_hard_bytes(const hd_scene_def *scene)

@@ -54,6 +54,9 @@ void hd_hard_totals(const void *state, hd_totals *totals);
 int hd_hard_zeros(const hd_scene_def *def);
 double hd_hard_rate(const hd_scene_def *def);
 double hd_hard_entries(const hd_scene_def *def);
+
+/** A rate, and how often in a time unit one of the largest particles meets flat walls. */
+double hd_hard_with_walls(const hd_scene_def *def, double rate);
 double hd_hard_bytes(const hd_scene_def *scene);
 uint32_t hd_hard_fingerprint(const void *state);
 
