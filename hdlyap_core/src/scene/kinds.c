@@ -62,7 +62,8 @@ const hd_parameter hd_kinds_own[HD_KINDS_OWN] = {
      .range = "from 0 to 1",
      .unit = "",
      .text = "Fraction of the particles that are of a second kind, rounded to whole particles: the "
-             "last ones. Where each starts is drawn by the seed. 0: all are alike.",
+             "last ones. Where each starts is drawn by the seed. 0: all are alike; 1: all are of "
+             "the second kind. Others must leave at least one of each kind.",
      .record = "second fraction",
      .idle = idle},
     {.name = "second_diameter",

@@ -108,6 +108,18 @@ TEST(what_has_no_start_is_refused_by_name)
                    DIM == 2 ? "packing fraction 0.8, with second_fraction = 0.35"
                             : "packing fraction 0.6, with second_fraction = 0.35");
     expect_refused(with_second(box, 1.1, 1.4, 1.0), "second_fraction = 1.1: must be from 0 to 1");
+    /* kinds that rounding leaves without a particle; half a particle is one */
+    static const char one_kind[] =
+        ": must be 0, 1, or leave at least one particle of each kind with "
+        "number = 100";
+    expect_refused(with_second(box, 0.00499, 1.4, 1.0), one_kind);
+    expect_refused(with_second(box, 0.996, 1.4, 1.0), one_kind);
+    expect_refused(with_second(box, DBL_TRUE_MIN, 1.0, 1.0), one_kind);
+    static const double taken[] = {0.0, 0.005, 0.994, 1.0};
+    for (int k = 0; k < 4; k++) {
+        const hd_scene_def def = with_second(box, taken[k], 1.4, 1.0);
+        CHECK_OK(hd_scene_check(&def, NULL, 0));
+    }
     expect_refused(with_second(box, 0.5, 5.1, 1.0), "second_diameter = 5.1: must be from 0.2 to 5");
     expect_refused(with_second(box, 0.5, 1.4, 0.0), "second_mass = 0: must be from 0.001 to 1000");
     expect_refused(with_second(box_of(4, 0.16, 1.0, 1.0, 0, 1), 0.5, 5.0, 1.0),
@@ -128,6 +140,24 @@ TEST(what_has_no_start_is_refused_by_name)
     for (int k = 0; k < 2; k++)
         expect_refused(packed(with_second(round, 0.5, k == 0 ? 0.3 : 3.0, 1.0), 0.79),
                        "container = circle: no start is found");
+}
+
+/** Between walls hardly further apart than a particle, which it meets so often that no stop may
+ * last as long as between walls that are far: in less than a second, or refused. */
+TEST(starts_in_narrow_channels)
+{
+    for (double gap = 1e-1; gap > 3e-9; gap *= 0.1) {
+        const double width = 1.3 + gap, length = 20.0;
+        hd_scene_def def = box_of(4, 4.0 / (width * length * (DIM == 3 ? width : 1.0)),
+                                  width / length, width / length, ALL_WALLS - 1, 1);
+        char message[300] = "";
+        def = with_second(def, 0.5, 1.3, 1.0);
+        if (hd_scene_check(&def, message, sizeof message) != HD_OK)
+            expect_refused(def, "no start is found");
+        else
+            expect_start(def);
+        if (gap > 1e-3) assert_string_equal(message, "");
+    }
 }
 
 /* ---- motion -------------------------------------------------------------------------------- */

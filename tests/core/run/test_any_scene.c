@@ -59,6 +59,7 @@ static const struct {
     {"max_mode_number", 0, 3},
     {"observe", 0, HD_OBSERVE_ALL ^ HD_OBSERVE_COVARIANT},
     {"threads", 0, 2},
+    {"second_fraction", 0.25, 1}, /* one of two at least */
     {"boundary_x", HD_PERIODIC, DIM == 2 ? HD_SHEARING : HD_REFLECTING},
     {"boundary_y", HD_PERIODIC, DIM == 2 ? HD_SHEARING : HD_REFLECTING},
 };

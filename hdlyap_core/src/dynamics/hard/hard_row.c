@@ -214,11 +214,26 @@ static hd_status check_flow(const hd_scene_def *scene, char *message, size_t siz
                      scene->density, most, scene->number);
 }
 
+/** Refuses a fraction that would be that of one kind alone when it is rounded, but does not say so.
+ */
+static hd_status check_second(const hd_scene_def *scene, char *message, size_t size)
+{
+    const double fraction = hd_parameter_value(&hd_kinds_own[0], scene);
+    const int of_second = hd_kinds_second(scene);
+    if (fraction == 0 || fraction == 1 || (of_second > 0 && of_second < scene->number))
+        return HD_OK;
+    return hd_refuse(message, size,
+                     "second_fraction = %.15g: must be 0, 1, or leave at least one particle of "
+                     "each kind with number = %d",
+                     fraction, scene->number);
+}
+
 /** Checks that there are start positions at this density. */
 static hd_status hard_check(const hd_scene_def *scene, char *message, size_t size)
 {
     const hd_container_row *container = hd_container_of(scene);
     char said[SAID];
+    HD_TRY(check_second(scene, message, size));
     if (HD_MIXED) return hd_hard_grow_check(scene, message, size);
     if (container->start_distance(scene) >= HD_START_DISTANCE_MIN)
         return check_flow(scene, message, size);
