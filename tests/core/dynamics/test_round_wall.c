@@ -63,23 +63,42 @@ enum { DISKS_MAX = 40 };
 /** A slow twin: everything that can happen is tried at every event. */
 typedef struct slow {
     int disks;
-    double reach, q[2 * DISKS_MAX], p[2 * DISKS_MAX]; /**< q from the centre */
+    double radius, q[2 * DISKS_MAX], p[2 * DISKS_MAX]; /**< of the wall; q from the centre */
+    double size[DISKS_MAX], mass[DISKS_MAX];           /**< a disk's radius */
 } slow;
 
-static double meeting(const double *q, const double *p, int i, int j)
+/** What moves on from the state of a trajectory; momenta over masses. */
+static slow slow_of(const hd_scene_def *def, const hd_trajectory *tr)
 {
+    slow s = {.disks = def->number, .radius = reach_of(def) + 0.5};
+    hd_kind kind[HD_KINDS_MAX];
+    const int kinds = hd_scene_kinds(def, kind);
+    hd_trajectory_state(tr, s.q, s.p);
+    for (int i = 0; i < s.disks; i++) {
+        const hd_kind *of = &kind[i >= kind[0].number && kinds > 1];
+        s.size[i] = 0.5 * of->diameter;
+        s.mass[i] = of->mass;
+        for (int d = 0; d < 2; d++) s.q[2 * i + d] -= s.radius;
+        for (int d = 0; d < 2; d++) s.p[2 * i + d] /= sqrt(of->mass); /* published: p / sqrt(m) */
+    }
+    return s;
+}
+
+static double meeting(const slow *s, int i, int j)
+{
+    const double *q = s->q, *p = s->p, touching = s->size[i] + s->size[j];
     const double x = q[2 * j] - q[2 * i], y = q[2 * j + 1] - q[2 * i + 1];
     const double px = p[2 * j] - p[2 * i], py = p[2 * j + 1] - p[2 * i + 1];
     const double rp = x * px + y * py, p2 = px * px + py * py;
-    const double square = rp * rp - p2 * (x * x + y * y - 1.0);
+    const double square = rp * rp - p2 * (x * x + y * y - touching * touching);
     return rp < 0 && square > 0 ? (-rp - sqrt(square)) / p2 : INFINITY;
 }
 
 static double edge(const slow *s, int i)
 {
-    const double *q = s->q + 2 * i, *p = s->p + 2 * i;
+    const double *q = s->q + 2 * i, *p = s->p + 2 * i, reach = s->radius - s->size[i];
     const double rp = q[0] * p[0] + q[1] * p[1], p2 = p[0] * p[0] + p[1] * p[1];
-    const double square = rp * rp - p2 * (q[0] * q[0] + q[1] * q[1] - s->reach * s->reach);
+    const double square = rp * rp - p2 * (q[0] * q[0] + q[1] * q[1] - reach * reach);
     return (-rp + sqrt(fmax(square, 0.0))) / p2;
 }
 
@@ -89,33 +108,33 @@ static double slow_step(slow *s, int *i, int *j)
     for (int a = 0; a < s->disks; a++) {
         if (edge(s, a) < first) first = edge(s, a), *i = a, *j = HD_WALL_ROUND;
         for (int b = a + 1; b < s->disks; b++)
-            if (meeting(s->q, s->p, a, b) < first)
-                first = meeting(s->q, s->p, a, b), *i = a, *j = b;
+            if (meeting(s, a, b) < first) first = meeting(s, a, b), *i = a, *j = b;
     }
     for (int k = 0; k < 2 * s->disks; k++) s->q[k] += first * s->p[k];
     double n[2], along = 0.0;
     const bool wall = *j < 0;
+    const double length = wall ? s->radius - s->size[*i] : s->size[*i] + s->size[*j];
+    const double both = wall ? 1.0 : 0.5 * (s->mass[*i] + s->mass[*j]);
     for (int d = 0; d < 2; d++) {
-        n[d] = wall ? s->q[2 * *i + d] / s->reach : s->q[2 * *j + d] - s->q[2 * *i + d];
+        n[d] = (wall ? s->q[2 * *i + d] : s->q[2 * *j + d] - s->q[2 * *i + d]) / length;
         along += n[d] * (wall ? 2.0 * s->p[2 * *i + d] : s->p[2 * *j + d] - s->p[2 * *i + d]);
     }
     for (int d = 0; d < 2; d++) {
-        s->p[2 * *i + d] += (wall ? -along : along) * n[d];
-        if (!wall) s->p[2 * *j + d] -= along * n[d];
+        s->p[2 * *i + d] += (wall ? -along : along * s->mass[*j] / both) * n[d];
+        if (!wall) s->p[2 * *j + d] -= along * s->mass[*i] / both * n[d];
     }
     return first;
 }
 
-static void check_twin(int disks, double density)
+static void check_twin(hd_scene_def def)
 {
     enum { EVENTS = 60 };
-    const hd_scene_def def = circle(disks, density);
+    char message[200] = "";
+    if (hd_scene_check(&def, message, sizeof message) != HD_OK) fail_msg("%s", message);
     OWNED(hd_record) *log = new_log();
     OWNED(hd_trajectory) *tr = trajectory_of(def);
-    slow s = {.disks = disks, .reach = reach_of(&def)};
     CHECK_OK(hd_trajectory_extend(tr, NULL, 30.0));
-    hd_trajectory_state(tr, s.q, s.p);
-    for (int k = 0; k < 2 * disks; k++) s.q[k] -= s.reach + 0.5;
+    slow s = slow_of(&def, tr);
     CHECK_OK(trajectory_to(tr, log, 30.0 + EVENTS / hd_trajectory_totals(tr).expected));
     double t = 0.0;
     for (size_t k = 0; k < log->count && k < EVENTS; k++) {
@@ -126,7 +145,7 @@ static void check_twin(int disks, double density)
         CHECK_CLOSE(event->j, j, 0.0);
         CHECK_CLOSE(event->t, t, 1e-6); /* chaos: 1e-16 by some 10 collisions of each */
         if (j >= 0) continue;
-        CHECK_CLOSE(hypot(event->n[0], event->n[1]), s.reach, 1e-12);
+        CHECK_CLOSE(hypot(event->n[0], event->n[1]), s.radius - s.size[i], 1e-12);
         assert_true(event->n[0] * event->p[0] + event->n[1] * event->p[1] > 0.0);
     }
     assert_true(log->count > EVENTS / 2);
@@ -134,11 +153,22 @@ static void check_twin(int disks, double density)
 
 TEST(events_are_those_of_a_slow_twin)
 {
-    check_twin(2, 0.2);
-    check_twin(4, 0.4);
-    check_twin(7, 0.9);
-    check_twin(20, 0.6);
-    check_twin(40, 0.75);
+    check_twin(circle(2, 0.2));
+    check_twin(circle(4, 0.4));
+    check_twin(circle(7, 0.9));
+    check_twin(circle(20, 0.6));
+    check_twin(circle(40, 0.75));
+}
+
+/** Of two sizes and masses, as different as can be. */
+TEST(events_of_mixtures_are_those_of_a_slow_twin)
+{
+    static const double mass[] = {0.001, 0.1, 3.0, 1000.0}, diameter[] = {0.2, 0.7, 1.4, 4.0};
+    for (int k = 0; k < 16; k++) {
+        const hd_scene_def few = circle(2 + 5 * (k % 4), 0.1), all = circle(17, 0.1);
+        check_twin(packed(with_second(few, 0.5, diameter[k / 4], mass[k % 4]), 0.3));
+        if (k % 4 == 2) check_twin(packed(with_second(all, 1.0, diameter[k / 4], 3.0), 0.3));
+    }
 }
 
 /** Energy and angular momentum stay; nobody leaves, and none overlap. */
