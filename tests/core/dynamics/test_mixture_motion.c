@@ -184,6 +184,34 @@ TEST(energy_and_momenta_stay)
     }
 }
 
+/** Two that touch, and approach by so many roundings of their momenta: they are reflected if these
+ * are more than eight, of whatever size they are; otherwise they are pushed apart, once. */
+static void expect_graze(double diameter, double mass, double roundings)
+{
+    const hd_scene_def def = with_second(box_of(2, DIM == 2 ? 1e-3 : 3e-5, 1.0, 1.0, 0, 1), 0.5,
+                                         diameter, mass);
+    const double touching = 0.5 + 0.5 * diameter, small = 0.5 * roundings * DBL_EPSILON;
+    double q[2 * DIM] = {9.0, 9.0}, p[2 * DIM] = {small, 0.5};
+    q[DIM] = 9.0 +
+             touching * (1.0 - 1e-10); /* overlapping, or rounding decides whether they meet */
+    q[DIM + 1] = 9.0;
+    p[DIM] = -small * sqrt(mass), p[DIM + 1] = -0.5 * sqrt(mass);
+    OWNED(hd_record) *log = new_log();
+    OWNED(hd_trajectory) *tr = started(&def, q, p);
+    CHECK_OK(trajectory_to(tr, log, 0.01));
+    assert_int_equal(log->count, roundings > 8);
+    assert_int_equal(void_contacts(tr), roundings < 8);
+}
+
+TEST(grazes_are_those_of_momenta_whatever_the_size)
+{
+    for (double diameter = 0.2; diameter < 5.0; diameter *= 1.9)
+        for (double mass = 0.001; mass < 2000.0; mass *= 10.0) {
+            expect_graze(diameter, mass, 6.0);
+            expect_graze(diameter, mass, 10.0);
+        }
+}
+
 /** A light particle among heavy ones at rest, which are 1000 times as heavy: a Lorentz gas. In a
  * collision the heavy one gets at most 2/1001 of the relative speed, v to first order: after k of
  * them it is as fast as 2 k v / 1001; the light one loses that twice, and 2 v / 1001. */

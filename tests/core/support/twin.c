@@ -234,7 +234,7 @@ static bool collide(twin *t, hd_event *event, const candidate *c)
     }
     const double touching = radius(t, c->i) + radius(t, c->j), s2 = touching * touching;
     const double approach = hd_contact_dot(event->p, r) / s2, lost = lost_by(a, b);
-    const bool exchanged = approach < -lost;
+    const bool exchanged = approach * touching < -lost;
     longest_of(u, r);
     if (exchanged)
         push(t, c->i, c->j, r, approach - approach * excess_of(r, s2));

@@ -156,18 +156,18 @@ static double square_minus(const double r[HD_DIM], double s2)
 }
 
 /** Exchanges the normal momenta of two disks that are r apart, which changes momenta over masses by
- * shares. approach: r.p over s^2, where they touch at the distance s; excess: (r.r - s^2) / s^2.
+ * shares. s: the distance at which they touch; approach: r.p over s^2; excess: (r.r - s^2) / s^2.
  * Returns false if they only graze: if they do not approach by more than momenta round. Such an
  * exchange might not change the momenta, and the pair would meet again at once, forever; so the
  * disks are pushed apart, by more than rounding, along the longest component of r. */
 static bool exchange(hd_disk *a, hd_disk *b, const double share[2], const double r[HD_DIM],
-                     double approach, double excess)
+                     double s, double approach, double excess)
 {
     double size = 0.0;
     for (int d = 0; d < HD_DIM; d++) size += fabs(a->p[d]);
     for (int d = 0; d < HD_DIM; d++) size += fabs(b->p[d]);
     const double lost = 8.0 * DBL_EPSILON * size;
-    if (approach < -lost) {
+    if (approach * s < -lost) {
         /* approach / r.r to first order; dividing by the rounded r.r would let the energy drift by
          * 3e-16 in each collision */
         const double per_r = approach - approach * excess;
@@ -239,7 +239,7 @@ static hd_status collide(hard *tr, hd_record *record, hd_event *contact, int32_t
     const double excess = square_minus(r, s2) / s2;
     if (excess * s < -2.0 * tr->overlap_max) return HD_OVERLAP;
     hd_status status = HD_OK;
-    if (exchange(a, b, share, r, approach / s2, excess)) {
+    if (exchange(a, b, share, r, s, approach / s2, excess)) {
         tr->collisions++;
         if (HD_MIXED) tr->collisions_of[hd_sizes_kind(sizes, i) + hd_sizes_kind(sizes, j)]++;
         approach *= hd_sizes_mass(sizes, i) * share[0];
