@@ -216,6 +216,15 @@ class Arrays(Loaded):
         paired = self.load([made.run_info(), made.spectrum([0.5, 0.001, -0.001, -0.5], 50.0)])
         self.assertNotIn('exponent_sum', paired.results.index)
 
+    def test_zeros_between_walls_that_shear(self):
+        """Those that are smallest together, with what may be one of them at this age: at 150 an
+        exponent below ln(151) / 150 = .0335."""
+        for fourth, zeros in ((-0.04, [2, 3, 4]), (-0.03, [2, 3, 4, 5])):
+            values = [0.5, 0.001, 0.0, -0.001, fourth, -0.4, -0.5, -0.6]
+            found = made.spectrum(values, 50.0, divergence=-0.1)
+            view = self.load([made.run_info(number=2, zero_exponents=3), found]).summary
+            self.assertEqual((view.positive_end, list(view.zeros)), (1, zeros))
+
     def test_gas_and_widths(self):
         widths = [0.2, 0.5, 0.7]
         gas, shape = made.gas(60.0), made.localization(widths, error=-1.0)

@@ -263,23 +263,43 @@ hd_spectrum_sums hd_spectrum_sum_up(const hd_spectrum *spectrum)
 
 /* ---- by sign ------------------------------------------------------------------------------- */
 
-/** Signs of which `zero` neighbours in the order vanish: those whose sizes add up to least. */
-static hd_signs signs_around(const hd_spectrum *spectrum, int zero)
+/** Whether a zero mode of this age may be in a column of such an exponent [T8]. */
+static bool may_vanish(const hd_spectrum *spectrum, int col)
 {
-    const int n = spectrum->vectors;
+    const double age = spectrum->age, exponent = hd_spectrum_exponent(spectrum, col);
+    return age >= 0 && outgrown(exponent, age + spectrum->time) > 0;
+}
+
+/** First column of those `zero` neighbours in the order whose sizes add up to least. */
+static int smallest_together(const hd_spectrum *spectrum, int zero)
+{
     double size = 0.0, least = INFINITY;
-    hd_signs signs = {.positive = 0};
-    for (int col = 0; col < n && zero == 0; col++)
-        signs.positive += hd_spectrum_exponent(spectrum, col) > 0;
-    if (zero == 0 || zero >= n) return signs;
-    for (int col = 0; col < n; col++) {
+    int first = 0;
+    for (int col = 0; col < spectrum->vectors; col++) {
         size += fabs(hd_spectrum_exponent(spectrum, col));
         if (col >= zero) size -= fabs(hd_spectrum_exponent(spectrum, col - zero));
         if (col < zero - 1 || !(size < least)) continue;
         least = size;
-        signs = (hd_signs){.positive = col + 1 - zero, .zero = zero};
+        first = col + 1 - zero;
     }
-    return signs;
+    return first;
+}
+
+/** Signs of which `zero` neighbours vanish and, with them, those beside them that cannot be told
+ * from zero modes yet, as of a slowly damped momentum. Of a part of all vectors nothing vanishes
+ * that can be told. */
+static hd_signs signs_around(const hd_spectrum *spectrum, int zero)
+{
+    const int n = spectrum->vectors;
+    hd_signs signs = {.positive = 0};
+    for (int col = 0; col < n; col++) signs.positive += hd_spectrum_exponent(spectrum, col) > 0;
+    if (zero == 0) return signs;
+    if (zero >= n) return (hd_signs){.positive = 0};
+    int first = smallest_together(spectrum, zero), end = first + zero;
+    if (n < spectrum->rows && !may_vanish(spectrum, first)) return signs;
+    while (first > 0 && may_vanish(spectrum, first - 1)) first--;
+    while (end < n && may_vanish(spectrum, end)) end++;
+    return (hd_signs){.positive = first, .zero = end - first};
 }
 
 /** Signs of which those vanish that are less than so many of their errors. */

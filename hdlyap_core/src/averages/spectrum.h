@@ -46,9 +46,9 @@ void hd_spectrum_local_restart(hd_spectrum *spectrum);
 typedef struct hd_signs {
     int positive, zero;
 } hd_signs;
-/** Counts them by value. zero: how many vanish, where theory says so; negative: by their errors.
- * None of either while that is not known, or if not more than those that vanish are computed. O(n),
- * with errors O(n blocks). */
+/** Counts them by value. zero: how many vanish, where theory says so; more do that cannot be told
+ * from them yet. Negative: by their errors. None of either while that is not known, or if not more
+ * than those that vanish are computed. O(n), with errors O(n blocks). */
 hd_signs hd_spectrum_signs(const hd_spectrum *spectrum, int zero);
 
 void hd_spectrum_archive(hd_spectrum *spectrum, hd_archive *archive);

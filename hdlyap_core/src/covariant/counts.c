@@ -12,10 +12,9 @@ static int said_zeros(const hd_covariant *c)
 
 void hd_covariant_prepare_counting(hd_covariant *c, const hd_spectrum *spectrum)
 {
-    const int zeros = said_zeros(c);
     HD_ASSERT(spectrum);
     c->counting = spectrum;
-    c->centre_most = zeros >= 0 && zeros < c->vectors ? zeros : c->vectors;
+    c->centre_most = c->vectors;
     c->centre = 0;
     c->unstable = c->vectors;
 }

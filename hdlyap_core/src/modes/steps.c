@@ -22,6 +22,8 @@ struct hd_steps {
     int zero_first, zero_end; /**< columns of the zero modes, as far as they are carried */
     int subspaces, count, vectors;
     int rows;       /**< 4N */
+    int zeros;      /**< exponents that vanish, as theory says */
+    bool paired;    /**< exponents are in pairs, so that theory says where */
     int most;       /**< most vectors of a step */
     hd_step *step;  /**< [count] */
     int *of_vector; /**< [vectors] */
@@ -85,14 +87,21 @@ static double *shares_of(const hd_steps *steps, int k)
 static int smaller(int a, int b) { return a < b ? a : b; }
 
 /** Finds the columns of the two halves and of the zero modes, as far as the frame reaches. */
-static void place(hd_steps *steps, const hd_scene_def *def)
+static void place(hd_steps *steps, int positive, int zero)
 {
-    const int n = steps->vectors, all = 2 * hd_scene_coordinates(def) * def->number;
-    const int positive = hd_scene_positive_exponents(def);
+    const int n = steps->vectors, end = positive + zero;
     steps->positive = (hd_half){0, smaller(n, positive)};
     steps->zero_first = smaller(n, positive);
-    steps->zero_end = smaller(n, positive + hd_scene_zero_exponents(def));
-    steps->negative = (hd_half){positive + hd_scene_zero_exponents(def), all};
+    steps->zero_end = smaller(n, end);
+    steps->negative = (hd_half){end, steps->rows};
+}
+
+/** The same where it is told by the exponents alone, as far as it is. */
+static void place_by_sign(hd_steps *steps, const hd_spectrum *spectrum)
+{
+    const hd_signs signs = hd_spectrum_signs(spectrum, steps->zeros);
+    if (signs.zero >= steps->zeros && signs.zero <= steps->most)
+        place(steps, signs.positive, signs.zero);
 }
 
 hd_status hd_steps_create(hd_steps **out, const hd_scene_def *def, const hd_modes *modes)
@@ -104,6 +113,8 @@ hd_status hd_steps_create(hd_steps **out, const hd_scene_def *def, const hd_mode
     steps->modes = modes;
     steps->vectors = hd_modes_vectors(modes);
     steps->rows = 2 * hd_scene_coordinates(def) * def->number;
+    steps->zeros = hd_scene_zero_exponents(def);
+    steps->paired = hd_scene_symplectic(def);
     steps->most = most_of(def);
     steps->warmup = hd_scene_parting(def);
     steps->of_t = hd_relation_of(def, HD_MODE_T);
@@ -111,7 +122,7 @@ hd_status hd_steps_create(hd_steps **out, const hd_scene_def *def, const hd_mode
     steps->subspaces = hd_fields_subspaces(fields);
     const bool all = steps->vectors == steps->rows;
     steps->count = steps->subspaces * (all ? 2 : 1) + 1;
-    place(steps, def);
+    place(steps, hd_scene_positive_exponents(def), steps->zeros);
     const hd_status status = steps_allocate(steps);
     if (status != HD_OK) {
         hd_steps_free(steps);
@@ -122,7 +133,7 @@ hd_status hd_steps_create(hd_steps **out, const hd_scene_def *def, const hd_mode
         if (all) step_define(&steps->step[steps->subspaces + 1 + s], fields, s, true);
     }
     steps->step[steps->subspaces] = (hd_step){
-        .kind = HD_MODE_ZERO, .subspace = -1, .expected = hd_scene_zero_exponents(def)};
+        .kind = HD_MODE_ZERO, .subspace = -1, .expected = steps->zeros};
     hd_steps_clear(steps);
     *out = steps;
     return HD_OK;
@@ -284,7 +295,7 @@ static void zero_find(hd_steps *steps, int *sets)
     step->count = count;
     step->members = 1;
     step->set = (*sets)++;
-    step->multiplicity = trace;
+    step->multiplicity = fmin(trace, step->expected); /* a damped momentum is in null fields, too */
     for (int v = 0; v < count; v++) {
         shares_of(steps, k)[v] = 1.0;
         if (null_weight(steps, step->col + v) >= least) steps->of_vector[step->col + v] = k;
@@ -296,6 +307,7 @@ void hd_steps_find(hd_steps *steps, const hd_spectrum *spectrum)
     int sets = 0;
     steps_forget(steps);
     if (hd_modes_samples(steps->modes) == 0) return;
+    if (!steps->paired) place_by_sign(steps, spectrum);
     half_find(steps, spectrum, steps->positive, 0, &sets);
     zero_find(steps, &sets);
     if (steps->count > steps->subspaces + 1)

@@ -177,6 +177,38 @@ TEST(signs_are_counted_without_pairs)
     CHECK_CLOSE(hd_spectrum_sum_up(s).ks_entropy, 0.5022, 1e-12);
 }
 
+/** Samples of these exponents, from the age 10 to 74. */
+static void carry(hd_spectrum *s, const double exponents[6])
+{
+    hd_spectrum_begin(s, 10.0);
+    for (int k = 0; k < 64; k++) {
+        hd_spectrum_add(s, exponents, 1.0);
+        hd_spectrum_sample(s);
+    }
+}
+
+/** A zero mode has grown by up to ln(1 + 74) = 4.3, an exponent of .058; and of six vectors out of
+ * twelve none need be zero modes. */
+TEST(what_may_be_zero_modes_is_counted_with_them)
+{
+    static const double damped[] = {0.5, 0.001, 0.0002, -0.057, -0.3, -0.7},
+                        fast[] = {0.5, 0.001, 0.0002, -0.060, -0.3, -0.7},
+                        slow[] = {0.5, 0.057, 0.0002, -0.001, -0.3, -0.7},
+                        above[] = {0.9, 0.8, 0.7, 0.6, 0.5, 0.4};
+    MADE(hd_spectrum, s, 6, 6, 6, 0.0);
+    MADE(hd_spectrum, half, 12, 6, 12, 0.0);
+    carry(s, damped);
+    expect_signs(s, 2, 1, 3);
+    carry(s, fast);
+    expect_signs(s, 2, 1, 2);
+    carry(s, slow);
+    expect_signs(s, 2, 1, 3);
+    carry(half, above);
+    expect_signs(half, 2, 6, 0);
+    carry(half, damped);
+    expect_signs(half, 2, 1, 3);
+}
+
 /** Zero variance: the error is zero, or not known while there are too few samples. */
 TEST(constant_series_have_no_error)
 {

@@ -296,6 +296,50 @@ TEST(covariant_vectors_know_the_zeros)
         CHECK_CLOSE(hd_spectrum_exponent(found.spectrum, col), exponent_of(run, col), 0.1);
 }
 
+static const hd_step *zeros_of(const hd_run *run)
+{
+    const hd_steps *steps = hd_run_steps(run);
+    for (int k = 0; k < hd_steps_count(steps); k++)
+        if (hd_steps_step(steps, k)->kind == HD_MODE_ZERO) return hd_steps_step(steps, k);
+    fail();
+    return NULL;
+}
+
+/** Zero modes are where the exponents vanish, also where a strong flow has fewer positive ones. */
+TEST(zero_modes_are_found_by_their_exponents)
+{
+    const hd_scene_def scene = scene_from(six(HD_SHEARING, 0.1, 800.0, 1), .number = 12,
+                                          .observe = HD_OBSERVE_STEPS);
+    OWNED(hd_run) *run = finished(scene);
+    int positive = 0;
+    while (exponent_of(run, positive) > 0.03) positive++;
+    assert_true(positive < hd_scene_counts(&scene).positive);
+    const hd_step *zeros = zeros_of(run);
+    assert_true(zeros->resolved);
+    assert_int_equal(zeros->col, positive);
+    assert_int_equal(zeros->count, ZEROS);
+}
+
+/** In a wide box the momentum is damped so slowly that its vector is one with the zero modes, which
+ * are in four columns; the covariant centre has four vectors, and the null space is in it. */
+TEST(a_slowly_damped_momentum_stands_with_the_zero_modes)
+{
+    const hd_scene_def scene = scene_from(
+        six(HD_SHEARING, 1e6, 400.0, 1), .number = 12, .aspect = 6.0, .warmup = 200.0,
+        .observe = HD_OBSERVE_STEPS | HD_OBSERVE_COVARIANT, .covariant_window = 100.0,
+        .covariant_transient = 100.0, .covariant_sampling = 10.0);
+    OWNED(hd_run) *run = finished(scene);
+    const hd_step *zeros = zeros_of(run);
+    assert_int_equal(zeros->expected, ZEROS);
+    assert_int_equal(zeros->count, ZEROS + 1);
+    assert_int_equal(zeros->col, 22);
+    CHECK_CLOSE(zeros->multiplicity, ZEROS, 0.05);
+    const hd_covariant_results found = hd_covariant_read(hd_run_covariant(run));
+    assert_int_equal(found.unstable, 22);
+    assert_int_equal(found.centre, ZEROS + 1);
+    CHECK_CLOSE(found.null_most, 0.0, 1e-6);
+}
+
 TEST(targets_are_reached)
 {
     static const char *const target[] = {"exponent_sum 20%", "kaplan_yorke 0.05",

@@ -58,19 +58,34 @@ class Summary:
 
     @property
     def positive_end(self):
-        """The Lyapunov index of the last positive exponent, which is in front of the zero ones:
-        those that are smallest together, if exponents are not in pairs of opposite sign."""
-        count, spectrum = self.info.zero_exponents, self.spectrum
+        """The Lyapunov index of the last positive exponent, which is in front of the zero ones."""
+        count = self.info.zero_exponents
         if not self.is_unpaired:
             return (self.phase_space - count) // 2
         if count == 0:
-            return int(np.sum(np.asarray(spectrum.exponents) > 0))
-        return int(np.convolve(np.abs(spectrum.exponents), np.ones(count), 'valid').argmin())
+            return int(np.sum(np.asarray(self.spectrum.exponents) > 0))
+        return self._vanishing[0]
 
     @property
     def zeros(self):
         """The Lyapunov indices of the exponents that vanish."""
-        return range(self.positive_end + 1, self.positive_end + 1 + self.info.zero_exponents)
+        count = self.info.zero_exponents
+        begin, end = self.positive_end, self.positive_end + count
+        if self.is_unpaired and count > 0:
+            begin, end = self._vanishing
+        return range(begin + 1, end + 1)
+
+    @property
+    def _vanishing(self):
+        """The places [first, end) of exponents that vanish, if they are not in pairs of opposite
+        sign: those that are smallest together and, beside them, those that cannot be told from zero
+        modes yet, whose norms grow as the time since the vectors began [T8]."""
+        count, size = self.info.zero_exponents, np.abs(self.spectrum.exponents)
+        first = int(np.convolve(size, np.ones(count), 'valid').argmin())
+        time = self.spectrum.sim_time - self.info.equilibration
+        apart = np.flatnonzero(size * time >= np.log1p(time))
+        before, after = apart[apart < first], apart[apart >= first + count]
+        return int(max(before, default=-1)) + 1, int(min(after, default=len(size)))
 
     @property
     def phase_space(self):
