@@ -184,6 +184,31 @@ TEST(the_map_contracts_as_the_rule_says)
             }
 }
 
+/** Whether a record of disks between walls across y may have an event at the upper wall across d,
+ * with the rule of shearing or none. */
+static bool wall_may_be_met(hd_boundary y, int d, bool ruled)
+{
+    const hd_scene_def def = scene_from(sheared(1, 0.3, 1, 10.0), .boundary[1] = y);
+    hd_event event = {.t = 0.25, .j = ruled ? HD_WALL_RULED(HD_SHEARING, d) : HD_WALL_X - d};
+    double p[2];
+    velocity_at(event.p, 1.4, 1.0, d, true);
+    memcpy(p, event.p, sizeof p);
+    event.n[d] = 1.0;
+    if (ruled) (void)wall()->meet(&def, p, event.n, d);
+    const hd_record log = record_of(&event, 1, 0.5);
+    return !hd_events_fault(&log, &def);
+}
+
+TEST(only_the_walls_of_the_scene_are_met)
+{
+    for (int k = 0; k < 4; k++) {
+        const int d = k / 2;
+        const bool ruled = k % 2;
+        assert_int_equal(wall_may_be_met(HD_SHEARING, d, ruled), d == 1 && ruled);
+        assert_int_equal(wall_may_be_met(HD_REFLECTING, d, ruled), d == 1 && !ruled);
+    }
+}
+
 TEST(its_functions_do_what_they_say)
 {
     for (int d = 0; d < 2; d++)

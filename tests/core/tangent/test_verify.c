@@ -86,7 +86,7 @@ TEST(disks_are_checked)
 
 TEST(the_log_is_checked)
 {
-    const hd_scene_def box = scene(.number = 3, .density = 0.5);
+    const hd_scene_def box = scene(.number = 3, .density = 0.5, .boundary[1] = HD_REFLECTING);
     const hd_event right[2] = {{0.5, 0, 1, {1, 0}, {-1, 0}}, {0.7, 2, HD_WALL_Y, {0, 1}, {1, 2}}};
     const struct {
         int event;
@@ -99,7 +99,8 @@ TEST(the_log_is_checked)
         {0, {0.5, 0, 3, {1, 0}, {-1, 0}}}, /* no such disk */
         {0, {0.5, 0, HD_WALL_ROUND, {1, 0}, {1, 0}}},
         {0, {0.5, -1, 1, {1, 0}, {-1, 0}}},
-        {0, {0.5, 0, -4, {1, 0}, {-1, 0}}},   /* no such wall */
+        {0, {0.5, 0, -4, {1, 0}, {-1, 0}}}, /* no such wall */
+        {0, {0.5, 0, HD_WALL_X, {1, 0}, {-1, 0}}},
         {0, {0.5, 0, 1, {1, 1e-7}, {-1, 0}}}, /* not a unit vector */
         {0, {0.5, 0, 1, {NAN, 0}, {-1, 0}}},
         {0, {0.5, 0, 1, {1, 0}, {1e-9, 0}}}, /* parting */

@@ -23,16 +23,17 @@ static bool disks_exist(const hd_event *event, int disks)
     return event->j < 0 || (event->j > event->i && event->j < disks);
 }
 
-/** Whether the event's wall can exist: a scene has flat walls or a curved one, not both, and walls
- * with a rule where it says so. */
+/** Whether the event's wall exists: a scene has flat walls or a curved one, not both, and flat ones
+ * with the rule that it says, or those that reflect. */
 static bool wall_exists(const hd_event *event, const hd_wall *wall, const hd_scene_def *scene)
 {
     const bool is_curved = wall->meet;
     if (event->j < HD_WALL_RULED(HD_CURVED, 0) + 1) return false;
-    if (event->j < HD_WALL_ROUND)
-        return scene->boundary[HD_WALL_ACROSS((int)event->j)] == HD_WALL_ENDS((int)event->j);
-    return event->j == HD_WALL_ROUND ? is_curved
-                                     : event->j >= 0 || (event->j > HD_WALL_ROUND && !is_curved);
+    const int j = (int)event->j;
+    if (j < HD_WALL_ROUND) return scene->boundary[HD_WALL_ACROSS(j)] == HD_WALL_ENDS(j);
+    if (j >= 0 || j == HD_WALL_ROUND) return j >= 0 || is_curved;
+    const hd_ends *ends = hd_ends_of(scene->boundary[HD_WALL_X - j]);
+    return !is_curved && ends->is_wall && !ends->meet;
 }
 
 /** Whether the normal has length 1, or that of a radius of the curved wall. A vector divided by its
