@@ -178,6 +178,7 @@ def spectrum(
         exponent_sum=math.nan if math.isnan(divergence) else sum(exponents),
         exponent_sum_error=error,
         divergence=divergence,
+        divergence_error=error if divergence == divergence else -1.0,
         kaplan_yorke=math.nan,
         kaplan_yorke_error=-1.0,
         lambda_max_error=error,

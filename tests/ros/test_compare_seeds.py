@@ -51,6 +51,15 @@ class ThreeSeeds(Pairs):
             self.assertEqual(tuple(found), names)
             self.assertTrue(all(one.judged and one.is_known for one in found.values()))
 
+    def test_the_divergence_counts_once(self):
+        """It is the sum of all exponents, where these are compared."""
+        for exponent_sum, there in ((-0.25, False), (np.nan, True)):
+            gas = [(side, made.shear_gas(run_id=side), exponent_sum) for side in 'ab']
+            comparison = Comparison(*(self.load_of(*one) for one in gas))
+            self.assertEqual('exponent_sum' in [one.name for one in comparison.sums], not there)
+            self.assertEqual('divergence' in self.of_gas(comparison), there)
+            self.assertIn('shear stress', self.of_gas(comparison))
+
     def test_averages_are_judged(self):
         """What both sides tell."""
         sides = [
@@ -61,8 +70,9 @@ class ThreeSeeds(Pairs):
         self.assertEqual((one.name, *one.values), ('kinetic', 1.0, 1.1))
         self.assertAlmostEqual(abs(one.z), 0.1 / hypot(0.01, 0.01), 9)
 
-    def load_of(self, side, message):
+    def load_of(self, side, message, exponent_sum=np.nan):
         messages = [*run(EXPONENTS, run_id=side, seed=f'{"ab".index(side)}'), message]
+        messages[2].exponent_sum = exponent_sum
         return hdlyap.load(self.write(messages, side)).summary
 
     def test_the_larger_error_counts(self):

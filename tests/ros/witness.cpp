@@ -183,7 +183,8 @@ members beside(const hdr_spectrum *)
 {
     std::vector<double> cosine(vectors()), ratio(vectors());
     hd_run_dq_dp(run, cosine.data(), ratio.data());
-    return named({{"divergence", hd_run_divergence(run)},
+    return named({{"divergence.mean", hd_run_divergence(run)},
+                  {"divergence.error", hd_run_divergence_error(run)},
                   {"symplectic", hd_scene_symplectic(&scene())},
                   {"cosine", numbers(cosine.data(), vectors())},
                   {"ratio", numbers(ratio.data(), vectors())},

@@ -171,6 +171,8 @@ void hd_run_dq_dp(const hd_run *run, double *cos_theta, double *dp_dq_ratio);
  * for errors of time steps [1/time unit]; NaN before the first sample, and if the row does not tell
  * it (hd_dynamics.divergence). */
 double hd_run_divergence(const hd_run *run);
+/** Standard error of hd_run_divergence [1/time unit]; negative while it is not known. */
+double hd_run_divergence_error(const hd_run *run);
 
 /** Begins all averages again at the present time, and forgets what was measured before; the
  * duration counts from now. It does nothing unless the run is averaging. Fails as hd_run_advance

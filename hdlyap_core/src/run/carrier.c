@@ -146,6 +146,7 @@ static hd_status prepare(hd_carrier *c, const hd_scene_def *scene, double block)
     HD_TRY(agree(c, prepare_threads(c, scene)));
     HD_TRY(agree(
         c, hd_spectrum_create(&c->spectrum, rows, n, c->symplectic ? c->positive : rows, block)));
+    if (c->diverges) HD_TRY(agree(c, hd_blocks_create(&c->divergence, 1, block)));
     c->dq_dp = hd_memory_alloc(2 * (size_t)n, sizeof *c->dq_dp);
     HD_TRY(agree(c, c->dq_dp ? HD_OK : HD_NO_MEMORY));
     HD_TRY(create_frame(c, scene));
@@ -185,6 +186,7 @@ void hd_carrier_free(hd_carrier *c)
     hd_ortho_free(c->ortho);
     hd_conjugate_free(c->conjugate);
     hd_spectrum_free(c->spectrum);
+    hd_blocks_clear(&c->divergence);
     hd_memory_free(c->dq_dp);
 }
 
@@ -201,7 +203,9 @@ double hd_carrier_bytes(const hd_scene_def *scene, int threads, int ranks)
     const double conjugate = carried < n
                                  ? hd_conjugate_bytes(rows_of(scene), completed(scene, (int)here))
                                  : 0.0;
-    return record + frame + ortho + conjugate + hd_spectrum_bytes(n) + 2.0 * sizeof(double) * n;
+    const double told = hd_scene_diverges(scene) ? hd_blocks_bytes(1.0) : 0.0;
+    return record + frame + ortho + conjugate + hd_spectrum_bytes(n) + told +
+           2.0 * sizeof(double) * n;
 }
 
 /* ---- from one orthonormalisation to the next ------------------------------------------------ */
@@ -293,6 +297,13 @@ double hd_carrier_divergence(const hd_carrier *c)
 {
     const double time = c->spectrum ? hd_spectrum_time(c->spectrum) : 0.0;
     return c->diverges && time > 0 ? (c->diverged[1] - c->diverged[0]) / time : NAN;
+}
+
+double hd_carrier_divergence_error(const hd_carrier *c)
+{
+    return c->diverges && c->spectrum
+               ? hd_blocks_error(&c->divergence, &(hd_part){.factor = 1.0}, 1)
+               : -1.0;
 }
 
 double hd_carrier_averaged(const hd_carrier *c)
@@ -430,6 +441,8 @@ hd_status hd_carrier_sample(hd_carrier *c, bool averaging, double diverged)
 {
     HD_TRY(keep_dq_dp(c));
     if (!averaging) return HD_OK;
+    const double since = diverged - c->diverged[1];
+    if (c->diverges) hd_blocks_add(&c->divergence, &since, hd_spectrum_sample_time(c->spectrum));
     c->diverged[1] = diverged;
     hd_spectrum_sample(c->spectrum);
     return HD_OK;
@@ -439,6 +452,7 @@ void hd_carrier_begin(hd_carrier *c, bool averaging, double age, double diverged
 {
     if (averaging) c->diverged[0] = c->diverged[1] = diverged;
     if (averaging && c->spectrum) hd_spectrum_begin(c->spectrum, age);
+    if (averaging && c->spectrum && c->diverges) hd_blocks_restart(&c->divergence);
     if (averaging) c->rounding.sum = HD_ROUNDING * c->rounding.condition_max;
     hd_carrier_save_accuracy(c, averaging);
 }

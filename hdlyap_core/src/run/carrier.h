@@ -4,6 +4,7 @@
 #ifndef HD_CARRIER_H
 #define HD_CARRIER_H
 
+#include "averages/blocks.h"
 #include "hdlyap/run.h"
 #include "observe/observables.h"
 #include "tangent/conjugate.h"
@@ -35,6 +36,7 @@ typedef struct hd_carrier {
     hd_spectrum *spectrum;
     /** hd_trajectory_divergence where the averages begin, and at the last measured state. */
     double diverged[2];
+    hd_blocks divergence; /**< of the spectrum's samples; empty if nothing is told */
     hd_interval interval;
     hd_rounding rounding;
     bool whole; /**< true if the last orthonormalisation was in the full norm, not in that of dq
@@ -93,6 +95,8 @@ hd_columns hd_carrier_vectors(const hd_carrier *carrier);
 void hd_carrier_dq_dp(const hd_carrier *carrier, double *cos_theta, double *dp_dq_ratio);
 /** See hd_run_divergence. */
 double hd_carrier_divergence(const hd_carrier *carrier);
+/** See hd_run_divergence_error. */
+double hd_carrier_divergence_error(const hd_carrier *carrier);
 /** Averaged time, with that of the present sample. */
 double hd_carrier_averaged(const hd_carrier *carrier);
 /** Largest standard error of the positive exponents nearest to zero, or of the last ones carried if

@@ -146,7 +146,10 @@ static void parts_archive(hd_run *run, hd_archive *archive)
     if (status != HD_OK) hd_archive_fail(archive, status, "frame vectors", NULL);
     hd_archive_doubles(archive, "run halves", c->dq_dp, 2 * (size_t)c->vectors);
     hd_spectrum_archive(c->spectrum, archive);
-    if (c->diverges) hd_archive_doubles(archive, "run diverged", c->diverged, 2);
+    if (c->diverges) {
+        hd_archive_doubles(archive, "run diverged", c->diverged, 2);
+        hd_blocks_archive(&c->divergence, archive);
+    }
     hd_error_trend_archive(&run->errors, archive);
     hd_observables_archive(&run->observables, archive, true, now);
 }

@@ -53,6 +53,10 @@ void hd_run_dq_dp(const hd_run *run, double *cos_theta, double *dp_dq_ratio)
 }
 
 double hd_run_divergence(const hd_run *run) { return hd_carrier_divergence(&run->carrier); }
+double hd_run_divergence_error(const hd_run *run)
+{
+    return hd_carrier_divergence_error(&run->carrier);
+}
 
 bool hd_run_is_caged(const hd_run *run)
 {

@@ -30,6 +30,7 @@ hd_status topic_publish_spectrum(const moment *now)
         .exponent_sum = sums.exponent_sum,
         .exponent_sum_error = sums.exponent_sum_error,
         .divergence = hd_run_divergence(run),
+        .divergence_error = hd_run_divergence_error(run),
         .kaplan_yorke = sums.kaplan_yorke,
         .kaplan_yorke_error = sums.kaplan_yorke_error,
         .first_index = 1,

@@ -90,6 +90,7 @@ TEST(the_sum_is_the_divergence_and_pairs_are_parts_of_it)
     CHECK_WITHIN(alpha, 0.3, 0.45);
     CHECK_CLOSE(sums.exponent_sum, hd_run_divergence(run), 1e-6);
     CHECK_WITHIN(sums.exponent_sum_error, 0.005, 0.1);
+    CHECK_CLOSE(hd_run_divergence_error(run), sums.exponent_sum_error, 1e-6);
     for (int l = 0; l < RING - 1; l++) { /* without the two that vanish */
         const int m = ROWS - 1 - l, first = l < UNSTABLE ? l : l + CENTRE;
         CHECK_CLOSE(exponent_of(run, first) + exponent_of(run, m), -alpha, few);

@@ -361,6 +361,7 @@ static void say_run(said *s, const hd_run *run)
     say(s, "followed", hd_run_phase_time(run));
     say(s, "caged", hd_run_is_caged(run));
     say(s, "divergence", hd_run_divergence(run));
+    say(s, "divergence_error", hd_run_divergence_error(run));
     say(s, "shortest duration", hd_run_shortest_duration(run));
     say_cost(s, run);
 }

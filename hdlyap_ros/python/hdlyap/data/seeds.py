@@ -227,7 +227,8 @@ class Seeds:
         message.std_errors = errors(self.spectrum).tolist()
         message.lambda_max, message.ks_entropy = self.results['value'].iloc[:2].tolist()
         message.ks_entropy_error = float(errors(self.results).iloc[1])
-        message.pairing_error, message.divergence = -1.0, np.nan
+        message.pairing_error = message.divergence_error = -1.0
+        message.divergence = np.nan
         for name in OF_ALL:
             there = name in self.results.index
             setattr(message, name, self.results.loc[name, 'value'] if there else np.nan)

@@ -41,7 +41,7 @@ class Comparison:
         self.sums = [self._together(_sum(a, b), self._positive)] if is_sum else []
         self.sums += _of_all(a, b)
         self.steps = [self._together(one, _members(one, a), False) for one in _steps(a, b)]
-        self.gas = [*_gas(a, b), *_averages(a, b)]
+        self.gas = [*_gas(a, b, {one.name for one in self.sums}), *_averages(a, b)]
         pairs = _pairs_of_fits(a, b)
         self.fits = [one for pair in pairs if pair[0].is_like(pair[1]) for one in _fits(a, b, pair)]
         self.unlike = [pair for pair in pairs if not pair[0].is_like(pair[1])]
@@ -208,12 +208,14 @@ def _members(one, run):
     )
 
 
-def _gas(a, b):
-    """Deviations of all quantities of the gas; none unless all runs have them."""
+def _gas(a, b, beside):
+    """Deviations of all quantities of the gas; none unless all runs have them. The divergence is
+    the sum of all exponents: it counts once. beside: names of those sums that are compared."""
     if not all(one.has('gas') for run in (a, b) for one in run.data.runs):
         return []
     found = []
-    for name in a.data.gas.index:
+    names = a.data.gas.index
+    for name in names.drop('divergence', errors='ignore') if 'exponent_sum' in beside else names:
         values, errors = (
             [getattr(run.gas, name + what) for run in (a, b)] for what in ('', '_error')
         )

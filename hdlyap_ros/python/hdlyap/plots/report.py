@@ -185,12 +185,12 @@ def _sums(recording):
         lines.append(f'sum of the {len(spectrum.exponents)} exponents carried {total}')
     if spectrum.pairing_error >= 0:
         lines.append(f'pairing error   {spectrum.pairing_error:.2e}')
-    if np.isfinite(spectrum.divergence):
-        of_all = with_error(spectrum.exponent_sum, spectrum.exponent_sum_error)
-        lines += [f'sum of all      {of_all}', f'mean divergence {spectrum.divergence:.6f}']
-    if np.isfinite(spectrum.kaplan_yorke):
-        of_all = with_error(spectrum.kaplan_yorke, spectrum.kaplan_yorke_error)
-        lines.append(f'Kaplan-Yorke    {of_all}')
+    of_all = {'exponent_sum': 'sum of all', 'divergence': 'mean divergence'}
+    of_all['kaplan_yorke'] = 'Kaplan-Yorke'
+    for name, words in of_all.items() if spectrum.pairing_error < 0 else ():
+        value = getattr(spectrum, name)
+        if np.isfinite(value):
+            lines.append(f'{words:<15} {with_error(value, getattr(spectrum, name + "_error"))}')
     return '\n'.join(lines)
 
 
@@ -216,8 +216,9 @@ def _gas(recording):
         ('shear stress', gas.shear_stress, gas.shear_stress_error, f'per sigma^{len(axes)}'),
         ('v near low wall', gas.velocity_low, gas.velocity_low_error, 'sigma per time unit'),
         ('v near high one', gas.velocity_high, gas.velocity_high_error, 'sigma per time unit'),
-        ('divergence', gas.divergence, gas.divergence_error, 'per time unit'),
     ]
+    if not recording.spectrum:  # which has it, too
+        rows.append(('divergence', gas.divergence, gas.divergence_error, 'per time unit'))
     lines = [f'gas, averaged over {gas.averaged_time:g}']
     for name, value, error, unit in rows:
         if value != value:
