@@ -88,6 +88,9 @@ class Paper(bags.Figures):
         self.assertIsNone(page.figure._suptitle)
         with self.assertRaisesRegex(ValueError, "paper: 'A4': must be one of one-column, two-c"):
             dispersion.draw(run, paper='A4')
+        for wrong in (5, [None], [], figure):
+            with self.assertRaisesRegex(ValueError, 'ax: .*: must be Axes of matplotlib, one or'):
+                dispersion.draw(run, ax=wrong)
 
     def test_no_misfit(self):
         run = self.load(made.steps([LOW, HIGH]))

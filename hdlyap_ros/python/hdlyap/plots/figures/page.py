@@ -4,6 +4,7 @@ import contextlib
 import functools
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.cbook import normalize_kwargs
 from matplotlib.collections import LineCollection
@@ -63,10 +64,15 @@ class Page:
         if paper not in (None, *PAPER):
             raise ValueError(f'paper: {paper!r}: must be one of {", ".join(PAPER)}')
         self._given = [] if ax is None else list(np.array(ax, dtype=object).flat)
+        if ax is not None and not self._are_axes():
+            raise ValueError(f'ax: {ax!r}: must be Axes of matplotlib, one or several')
         self.figure, self.artists = self._given[0].figure if self._given else None, []
         self._panels, self._before = [], ()
         self.has_title, self.has_legend, self.paper = title and not paper, legend, paper
         self.caption, self.left_out = '', []
+
+    def _are_axes(self):
+        return len(self._given) > 0 and all(isinstance(one, Axes) for one in self._given)
 
     @property
     def is_own(self):
