@@ -227,6 +227,9 @@ struct hd_dynamics {
     /** Makes the state of the particles at time 0 in *state. Returns HD_OK; or HD_NO_MEMORY, and
      * *state is NULL. */
     hd_status (*create)(void **state, const hd_scene_def *scene);
+    /** As create, but without a start, which can take long to find: `archive` reads all that the
+     * state has before anything else is asked of it. If left out, `create` serves. */
+    hd_status (*create_empty)(void **state, const hd_scene_def *scene);
     /** Frees a state. */
     void (*free)(void *state);
     /** Moves the particles to the simulated time t_end, which is not before the present one. Unless

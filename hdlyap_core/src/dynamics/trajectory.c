@@ -87,6 +87,15 @@ hd_status hd_trajectory_create(hd_trajectory **out, const hd_scene_def *def)
     return hd_trajectory_create_with(out, def, state);
 }
 
+hd_status hd_trajectory_create_empty(hd_trajectory **out, const hd_scene_def *def)
+{
+    void *state;
+    if (!hd_dynamics_of(def)->create_empty) return hd_trajectory_create(out, def);
+    *out = NULL;
+    HD_TRY(hd_dynamics_of(def)->create_empty(&state, def));
+    return hd_trajectory_create_with(out, def, state);
+}
+
 hd_status hd_trajectory_check_null(const hd_trajectory *tr, const hd_scene_def *def, char *message,
                                    size_t size)
 {

@@ -10,6 +10,10 @@
  * the trajectory; if that fails, with HD_NO_MEMORY or HD_NOT_FINITE, the state is freed. */
 HD_MUST_CHECK hd_status hd_trajectory_create_with(hd_trajectory **out, const hd_scene_def *def,
                                                   void *state);
+
+/** As hd_trajectory_create, but without a start: for who reads the particles from an archive. */
+HD_MUST_CHECK hd_status hd_trajectory_create_empty(hd_trajectory **out, const hd_scene_def *def);
+
 /** Positions in the box and momenta along its directions, without other coordinates, as angles; q
  * and p have room for hd_trajectory_state. */
 void hd_trajectory_places(const hd_trajectory *trajectory, double *q, double *p);

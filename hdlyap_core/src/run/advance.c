@@ -24,9 +24,10 @@ double hd_advance_most(const hd_scene_def *scene)
     return fmax(2e5, scene->number * each);
 }
 
-hd_status hd_advance_create(hd_advance *advance, const hd_scene_def *scene)
+hd_status hd_advance_create(hd_advance *advance, const hd_scene_def *scene, bool resumed)
 {
-    HD_TRY(hd_trajectory_create(&advance->trajectory, scene));
+    HD_TRY(
+        (resumed ? hd_trajectory_create_empty : hd_trajectory_create)(&advance->trajectory, scene));
     const double rate = events_per_particle(scene);
     advance->entries = hd_dynamics_of(scene)->record_rate(scene);
     advance->most = hd_advance_most(scene);

@@ -29,9 +29,10 @@ typedef struct hd_advance {
     hd_advance_plan plan;
 } hd_advance;
 
-/** Creates the particles of a scene at time 0, when the rate of events is hardly known. Fails as
- * hd_trajectory_create. */
-HD_MUST_CHECK hd_status hd_advance_create(hd_advance *advance, const hd_scene_def *scene);
+/** Creates the particles of a scene at time 0, when the rate of events is hardly known; resumed:
+ * without a start. Fails as hd_trajectory_create. */
+HD_MUST_CHECK hd_status hd_advance_create(hd_advance *advance, const hd_scene_def *scene,
+                                          bool resumed);
 void hd_advance_clear(hd_advance *advance);
 
 /** Events of the run so far, of pairs and walls. */

@@ -96,11 +96,11 @@ static hd_status refuse_start(const hd_scene_def *scene, char *message, size_t s
                      scene->density, of->particles, scene->number);
 }
 
-static hd_status prepare(hd_run *run, char *message, size_t size)
+static hd_status prepare(hd_run *run, bool resumed, char *message, size_t size)
 {
     const hd_scene_def *scene = &run->scene;
-    const hd_status moving = hd_communicator_agree(run->communicator,
-                                                   hd_advance_create(&run->advance, scene));
+    const hd_status moving = hd_communicator_agree(
+        run->communicator, hd_advance_create(&run->advance, scene, resumed));
     if (moving == HD_REFUSED) return refuse_start(scene, message, size);
     HD_TRY(moving);
     HD_TRY(hd_communicator_agree(run->communicator, hd_cages_create(&run->cages, scene)));
@@ -168,7 +168,7 @@ hd_status hd_run_make(hd_run **out, const hd_scene_def *def, bool resumed,
     run->scene.warmup = hd_scene_warmup(def);
     hd_scene_settle(&run->scene);
     run->clocks.created = hd_clock_now();
-    hd_status status = prepare(run, message, size);
+    hd_status status = prepare(run, resumed, message, size);
     if (status == HD_OK)
         status = hd_communicator_agree(
             communicator, hd_trajectory_check_null(run->advance.trajectory, def, message, size));

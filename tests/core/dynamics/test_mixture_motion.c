@@ -160,6 +160,20 @@ TEST(starts_in_narrow_channels)
     }
 }
 
+/** What is read from an archive has no start, which takes long to find, or is nowhere. */
+TEST(a_resumed_one_needs_no_start)
+{
+    const hd_scene_def def = packed(with_second(box_of(1000, 0.1, 0.9, 1.0, 0, 1), 0.5, 2.0, 3.0),
+                                    DIM == 2 ? 0.87 : 0.7);
+    hd_trajectory *none = NULL;
+    OWNED(hd_trajectory) *tr = NULL;
+    assert_int_equal(hd_trajectory_create(&none, &def), HD_REFUSED);
+    CHECK_OK(hd_trajectory_create_empty(&tr, &def));
+    assert_int_equal(hard_in(tr)->motion.count, 1000);
+    assert_int_equal(hard_in(tr)->motion.disk[499].size, 0);
+    assert_int_equal(hard_in(tr)->motion.disk[500].size, 1);
+}
+
 /* ---- motion -------------------------------------------------------------------------------- */
 
 /** Energy and momenta through many collisions of masses as different as can be. */

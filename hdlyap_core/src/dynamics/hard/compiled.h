@@ -38,6 +38,7 @@ enum { HD_ROWS = 2 * HD_DIM };
 #define hd_hard_bytes HD_COMPILED(hd_hard_bytes)
 #define hd_hard_clear HD_COMPILED(hd_hard_clear)
 #define hd_hard_create HD_COMPILED(hd_hard_create)
+#define hd_hard_create_empty HD_COMPILED(hd_hard_create_empty)
 #define hd_hard_create_from HD_COMPILED(hd_hard_create_from)
 #define hd_hard_entries HD_COMPILED(hd_hard_entries)
 #define hd_hard_examine HD_COMPILED(hd_hard_examine)

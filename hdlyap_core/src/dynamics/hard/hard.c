@@ -324,6 +324,19 @@ hd_status hd_hard_create(void **state, const hd_scene_def *def)
     return create_on_lattice(state, def);
 }
 
+hd_status hd_hard_create_empty(void **state, const hd_scene_def *def)
+{
+    hard *tr = *state = hd_memory_alloc(1, sizeof *tr);
+    if (!tr) return HD_NO_MEMORY;
+    const hd_status status = prepare(tr, def);
+    for (int32_t i = 0; i < tr->motion.count && status == HD_OK; i++)
+        tr->motion.disk[i].size = (uint32_t)hd_sizes_kind(&tr->motion.sizes, i);
+    if (status == HD_OK) return HD_OK;
+    release(tr);
+    *state = NULL;
+    return status;
+}
+
 hd_status hd_hard_create_from(void **state, const hd_scene_def *def, const double *q,
                               const double *p)
 {

@@ -63,6 +63,7 @@ uint32_t hd_hard_fingerprint(const void *state);
 /* ---- for disks and spheres ----------------------------------------------------------------- */
 
 HD_MUST_CHECK hd_status hd_hard_create(void **state, const hd_scene_def *def);
+HD_MUST_CHECK hd_status hd_hard_create_empty(void **state, const hd_scene_def *def);
 void hd_hard_free(void *state);
 HD_MUST_CHECK hd_status hd_hard_advance(void *state, hd_record *record, double t_end);
 void hd_hard_archive(void *state, hd_archive *archive);
