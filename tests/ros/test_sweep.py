@@ -81,6 +81,18 @@ class Grid(unittest.TestCase):
         )
         self.assertEqual(self.runs(seeds='3')[0].parameters['scene'], 'quick')
 
+    def test_walls_that_shear(self):
+        """Exponents are left to the node, unless they are given; elsewhere they are the half."""
+        for boundaries, params, found in (
+            ('', '{}', None),
+            ('', '{exponents: 10}', 10),
+            ('reflecting periodic,shearing', '{}', None),
+            ('reflecting', '{}', 'positive'),
+        ):
+            how = dict(scene='quick' if boundaries else 'shear', params=params)
+            for one in self.runs(**how, boundaries=boundaries, seeds='1'):
+                self.assertEqual(one.parameters.get('exponents'), found)
+
     def test_of_dumbbells(self):
         """Their own parameters are given in params, or have their defaults; disks have none."""
         how = dict(scene='dumbbells', seeds='1', params='{bond: 0.5}')
@@ -271,10 +283,12 @@ class Plan(InFolder):
 class Command(InFolder):
     """What is asked for, by its words."""
 
-    def understood(self, *words):
+    def understood(self, *words, assigned=()):
         parser = argparse.ArgumentParser()
         sweep.options(parser)
-        found, folder, jobs = sweep.understood(parser.parse_args(words), LAUNCH, self.folder)
+        args = parser.parse_args(words)
+        args.assigned = assigned
+        found, folder, jobs = sweep.understood(args, LAUNCH, self.folder)
         return [run.name for run in found], folder, jobs
 
     def test_asked(self):
@@ -303,6 +317,8 @@ class Command(InFolder):
             self.assertIn(what, str(caught.exception))
         with self.assertRaisesRegex(RecordingError, 'must be with the form'):
             self.understood('--seeds', '1', '--k', '0', '1')
+        with self.assertRaisesRegex(Refused, 'scene = shear: must be given as an option'):
+            self.understood('--seeds', '1', assigned=['__name:=a', 'scene:=shear'])
 
     def test_wrong_after_the_runs(self):
         """Is no refusal."""

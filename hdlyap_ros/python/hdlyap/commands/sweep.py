@@ -68,6 +68,10 @@ def options(parser):
 
 def understood(args, launch, cwd):
     """Checks the arguments. Returns (runs, folder, jobs)."""
+    for word in args.assigned:
+        if not word.startswith('__'):  # which roslaunch adds
+            name, _, value = word.partition(':=')
+            raise Refused(f'{name} = {value}: must be given as an option, as --scene shear')
     if args.jobs and not (args.jobs.isdecimal() and int(args.jobs) > 0):
         raise Refused(f'jobs = {args.jobs}: must be 1 or more')
     folder = args.folder or 'sweep'

@@ -73,15 +73,20 @@ class Program(namedtuple('Program', 'package name')):
                 found.setdefault(particles, {})[name] = yaml.safe_load(value)
         return found
 
-    def completed(self, given):
-        """The given parameters and the defaults of all others that such particles have."""
+    def completed(self, given, later=()):
+        """The given parameters and the defaults of all others that such particles have. later:
+        values that others will have. Between walls that shear exponents have another default: they
+        are left to the node."""
         usual, own = self.usual(), self.own()
         particles = given.get('particles', usual['particles'])
         absent = {name for one in own.values() for name in one}
         if self.coordinates({'particles': particles})[1] == 0:
             absent.update(space.OF_A_BOX)
         common = {name: value for name, value in usual.items() if name not in absent}
-        return {**common, **own.get(particles, {}), **given}
+        found = {**common, **own.get(particles, {}), **given}
+        if 'shearing' in (*given.values(), *later) and 'exponents' not in given:
+            del found['exponents']
+        return found
 
     def without_unneeded(self, parameters, given):
         """The parameters of a run. One that comes from the base scene, not from the user (`given`),

@@ -104,7 +104,8 @@ def runs(given, launch, cwd, program=HDLYAP):
         *scene.mapping('params', given['params']),
         *(name for name, text in given.items() if text),
     }
-    base = program.without_unneeded(program.completed(base), asked)
+    swept = [value for those in chosen for _, values in those for value in values.values()]
+    base = program.without_unneeded(program.completed(base, swept), asked)
     return [_run(base, chosen, program) for chosen in itertools.product(*chosen)]
 
 
