@@ -265,6 +265,16 @@ TEST(heard, others_say_their_own)
     EXPECT_STREQ("potential lennard jones, energy 1, time step 0.004427", on.h.own);
 }
 
+TEST(heard, walls_that_shear_say_how_much)
+{
+    hearing on;
+    heard_clear(&on.h);
+    on.set("boundary_y", "shearing"), on.set("shear_b", "2.5");
+    ASSERT_TRUE(heard_run_info(&on.h, &on.info));
+    EXPECT_STREQ("", on.h.wall[0]);
+    EXPECT_STREQ("shearing, shear b 2.5", on.h.wall[1]);
+}
+
 /** Anybody's bag: no more disks than there is room for. */
 TEST(heard, sites_fit)
 {

@@ -143,9 +143,14 @@ static void begin_box(heard *h, const hdr_run_info *info)
     h->box[2] = info->dimension == 3 ? info->box_z : 0.0;
     for (int d = 0; d < 3; d++) {
         const char *word = d < 2 || heard_has_spheres(h) ? heard_parameter(info, of_axis[d]) : "";
-        const bool reflects = strcmp(word, "reflecting") == 0;
+        const bool reflects = strcmp(word, "reflecting") == 0,
+                   shears = strcmp(word, "shearing") == 0;
         h->periodic[d] = strcmp(word, "periodic") == 0;
-        snprintf(h->wall[d], sizeof h->wall[d], "%s", h->periodic[d] || reflects ? "" : word);
+        if (shears)
+            snprintf(h->wall[d], sizeof h->wall[d], "shearing, shear b %.4g",
+                     number_in(heard_parameter(info, "shear_b")));
+        else
+            snprintf(h->wall[d], sizeof h->wall[d], "%s", h->periodic[d] || reflects ? "" : word);
     }
     snprintf(h->container, sizeof h->container, "%s", heard_parameter(info, "container"));
     begin_outline(h, info);

@@ -52,7 +52,7 @@ typedef struct heard {
     double inertia; /**< moment of inertia [sigma^2]; 0 if particles do not rotate */
     double box[3];  /**< edges of the box; 0 along z for particles in the plane */
     bool periodic[3];
-    char wall[3][16]; /**< what else the walls of a direction are; "": they reflect */
+    char wall[3][40]; /**< what else the walls of a direction are; "": they reflect */
     char container[16];
     uint32_t corners; /**< corners of the outline of a curved container; 0 for a box */
     hdr_point outline[HEARD_CORNERS_MAX];
