@@ -44,7 +44,8 @@ typedef struct hd_covariant_results {
     int vectors; /**< number n of vectors */
     /** Numbers of vectors with positive and with vanishing exponents; the others are stable. Theory
      * says them if maps are symplectic; else they are counted by value at the end of each window,
-     * and by error if the row has no zero_exponents. Both are 0 while they are not known, and if
+     * with those of the centre that cannot be told from zero modes yet [T27], and by error if the
+     * row has no zero_exponents. Both are 0 while they are not known, and if
      * these spaces are not measured. */
     int unstable, centre;
     long windows;      /**< number of complete windows that the averages contain */
