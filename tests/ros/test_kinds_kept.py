@@ -6,13 +6,21 @@ import unittest
 
 import numpy as np
 
+import bags
 import harness
+import made
 import test_kinds
+from hdlyap.numbers import with_error
 from of_kind import REST
 from test_check import check_scenes
 from test_ranks import ENVIRONMENT, mpirun
 
 pytestmark = harness.UNDER_A_MASTER
+# between walls that shear
+FLOW = dict(number=24, density=0.4, aspect=0.4, boundary_y='shearing', shear_b=5.0, scene='flow')
+FLOW.update(equilibration=10.0, warmup=60.0, duration=40.0, report_interval=1.0, threads=1)
+FLOW.update(observables=['spectrum', 'modes', 'steps', 'localization', 'gas', 'state'])
+FLOW.update(wait_for_subscribers='all')
 
 
 class Again(harness.Case):
@@ -28,6 +36,7 @@ class Again(harness.Case):
     for one in KINDS:
         one.update(observables=[name for name in REST if name != 'covariant'], duration=40.0)
         one.update(wait_for_subscribers='all', report_interval=1.0)
+    KINDS.append(FLOW)
 
     def test_a_resumed_run_is_the_uninterrupted_one(self):
         for scene in self.KINDS:
@@ -54,6 +63,45 @@ class Again(harness.Case):
             np.testing.assert_allclose(*both, rtol=0, atol=bound, equal_nan=False)
             both = [[mode.rotation for mode in run['modes'][-1].modes] for run in (one, two)]
             np.testing.assert_allclose(*both, rtol=0, atol=1e-4, equal_nan=False)
+
+
+class Flow(harness.Case):
+    SCENE = dict(FLOW, duration=600.0, report_interval=20.0)
+    SCENE['observables'] = ['spectrum', 'steps', 'gas', 'state']
+
+    def bag(self, name, **more):
+        """The bag of a run, and its last messages."""
+        stop_after = 200.0 if 'checkpoint' in more else None
+        found = self.recorded(dict(self.SCENE, **more), stop_after)
+        path = os.path.join(self.folder, name)
+        made.write(path, [message for those in found.values() for message in those])
+        return path, {topic: those[-1] for topic, those in found.items()}
+
+    def test_in_bags(self):
+        """What tools say of a run that stopped and went on, and beside another seed."""
+        self.folder = self.new_folder()
+        kept, out = (os.path.join(self.folder, name) for name in ('kept', 'out'))
+        first, _ = self.bag('first.bag', checkpoint=kept, pace=50.0)
+        second, last = self.bag('second.bag', resume=kept)
+        other, _ = self.bag('other.bag', seed='3')
+        text = bags.tool('plot', first, second, '--out', out).out
+        self.assertIn('x periodic, y shearing, shear b 5\n', text)
+        for words, topic, name in (
+            ('sum of all', 'spectrum', 'exponent_sum'),
+            ('mean divergence', 'spectrum', 'divergence'),
+            ('Kaplan-Yorke', 'spectrum', 'kaplan_yorke'),
+            ('shear stress', 'gas', 'shear_stress'),
+            ('v near low wall', 'gas', 'velocity_low'),
+            ('v near high one', 'gas', 'velocity_high'),
+        ):
+            value, error = (getattr(last[topic], name + more) for more in ('', '_error'))
+            self.assertGreater(error, 0.0, name)
+            self.assertIn(f'\n{words:<15} {with_error(value, error)}', text)
+        compared = bags.tool('compare', second, other).out
+        self.assertRegex(compared, r'\n *exponent_sum .*\n *kaplan_yorke ')
+        self.assertNotRegex(compared, r'\n *divergence ')
+        table = bags.tool('table', second, other, '--out', out).out
+        self.assertRegex(table, 'exponent_sum +kaplan_yorke +shear_stress +velocity_low')
 
 
 class Kept(harness.Case):
