@@ -52,6 +52,15 @@ class Grid(unittest.TestCase):
             ['number_20_seed_1 will have no errors', 'number_24_seed_1 will have no errors'],
         )
 
+    def test_refused_by_the_node(self):
+        """Said before the first run, once for all seeds."""
+        found = self.runs(numbers='20', densities='0.5 1.15', seeds='1 2', duration='5000')
+        with tempfile.TemporaryDirectory() as folder:
+            (line,) = sweep.warnings(found, folder)
+        self.assertRegex(
+            line, '^number_20_density_1_15_seed_1 will be refused: density = 1.15.*: must be'
+        )
+
     def test_product(self):
         """Each with a name of its values, the seeds last."""
         runs = self.runs(
