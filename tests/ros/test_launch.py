@@ -88,6 +88,7 @@ class Launch(harness.Case):
         """In one line: what roslaunch ignores, or dies of in many lines."""
         refused = {
             'densty:=0.5': 'densty = 0.5: no such argument; is density meant?',
+            'boundary:=reflecting': 'boundary = reflecting: no such argument; is boundary_x meant?',
             'warmup:=5': 'warmup = 5: must be in params:="{warmup: ..}", as run.launch has no',
             'xyz:=5': 'xyz = 5: no such argument\n',
             'bond:=0.5': 'bond = 0.5: must be in params:="{bond: ..}", as run.launch has no',

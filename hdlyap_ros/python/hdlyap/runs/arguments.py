@@ -58,5 +58,12 @@ def _wanted(name, known, given):
     all_of_node = {*node.usual(), *(own for one in node.own().values() for own in one)}
     if name in all_of_node:
         return f'must be in params:="{{{name}: ..}}", as run.launch has no argument of this name'
-    meant = difflib.get_close_matches(name, [*known, *all_of_node], 1)
-    return 'no such argument' + ''.join(f'; is {close} meant?' for close in meant)
+    meant = _nearest(name, [*known, *sorted(all_of_node)])
+    return 'no such argument' + (f'; is {meant} meant?' if meant else '')
+
+
+def _nearest(name, names):
+    """The most alike of these names, of several the first; '' if none is like it."""
+    alike = difflib.get_close_matches(name, names, len(names))
+    close = {one: difflib.SequenceMatcher(None, name, one).ratio() for one in names if one in alike}
+    return max(close, key=close.get, default='')
