@@ -234,12 +234,11 @@ class Figures(Bags):
             np.testing.assert_array_equal(points[:, 0], range(1, ALL + 1))
             np.testing.assert_allclose(points[:, 1], wanted)
             self.assertEqual(at(line(axes[1], label), 37), points[36, 1])
-        off, zero = line(axes[2], 'difference'), line(axes[2], 'zero modes')
+        off = line(axes[2], 'difference')
         self.assertAlmostEqual(at(off, 1), 3 / 2**0.5)
         self.assertAlmostEqual(at(off, 5), 6 / 2**0.5)
-        self.assertEqual(list(zero[:, 0]), list(range(38, 44)))
-        self.assertAlmostEqual(at(zero, 40), -10 / 2**0.5)
-        self.assertEqual(len(off), 74)
+        positive, negative = list(range(1, 38)), list(range(44, ALL + 1))
+        self.assertEqual(list(off[:, 0]), positive + negative)  # without zero modes
 
     def test_error_bars(self):
         """Of each pass its own, where they are known."""
@@ -264,7 +263,7 @@ class Figures(Bags):
     def test_weights(self):
         first, second, *_ = self.draw(covariant_weights)
         self.assertEqual(
-            [axes.texts[0].get_text() for axes in (first, second)], ['T(1,0)', 'LP(1,0)']
+            [axes.texts[0].get_text() for axes in (first, second)], ['(a) T(1,0)', '(b) LP(1,0)']
         )
         for axes, dq, dp, members in (
             (first, 0.81, 0.27, (36, 37)),
@@ -306,6 +305,26 @@ class Figures(Bags):
         run = self.changed(std_errors=[*known, *[-1.0] * 6, *known])
         self.assertIn(covariant_table.ZERO, report.report(run))
         self.assertNotIn(covariant_table.ZERO, report.report(self.changed()))
+
+    def test_letters(self):
+        for draw, letters in ((covariant_exponents, 'abcd'), (covariant_vectors, 'abcdefgh')):
+            titles = [axes.get_title(loc='left') for axes in self.draw(draw)]
+            self.assertEqual(titles, [f'({letter})' for letter in letters])
+
+    def test_far_from_zero(self):
+        """Of a few of the largest exponents nothing is magnified, and no weights are drawn."""
+        info, count = made.run_info(number=780), 20
+        wave = made.step(info, T, 1, 0, 1556, 1557)
+        for largest, is_drawn in ((0.09, False), (0.11, True)):
+            weight = made.covariant_weight(wave, 1557, elsewhere=0.01)
+            weight.dq = [0.01] * (count - 1) + [largest]
+            weight.dp, weight.gram_schmidt = weight.dp[:count], weight.gram_schmidt[:count]
+            few = made.covariant(FORWARD[:count], weights=[weight])
+            run = self.recorded([info, made.spectrum(FORWARD[:count], 400.0), few])
+            self.assertEqual(len(self.draw(covariant_exponents, run)), 2)
+            said = []
+            page = FIGURES['weights'].draw(run, left_out=said)
+            self.assertEqual((page is not None, len(said)), (is_drawn, not is_drawn))
 
     def test_domination(self):
         axes = self.draw(covariant_domination)

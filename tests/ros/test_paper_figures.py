@@ -13,7 +13,7 @@ import made_fields
 import test_axes
 from made import LP, T
 from hdlyap.plots.figures import FIGURES, convergence, dispersion, fluctuations, modes, phases
-from hdlyap.plots.figures import spectrum, steps
+from hdlyap.plots.figures import page, spectrum, steps
 from hdlyap.plots.figures.page import PAPER, TALLEST
 
 INFO = made.run_info()
@@ -159,9 +159,14 @@ class LeftOut(bags.Figures):
         self.assertEqual(titles, [f'({letter})' for letter in 'abcdef'])
 
     def test_command(self):
-        self.write([INFO, *(made.spectrum(HALF, t, error=-1.0) for t in (1.0, 2.0))])
+        """A figure that has nothing to show is said to be left out, too."""
+        nothing = made.fluctuations([np.nan] * 37, error=-1.0, times=())
+        self.write([INFO, *(made.spectrum(HALF, t, error=-1.0) for t in (1.0, 2.0)), nothing])
         text = self.succeeds('plot', self.path(), '--out', self.out)
         self.assertIn('\nconvergence does not show standard errors: none is known yet;', text)
+        self.assertIn('\nfluctuations does not show diffusion: it takes 128', text)
+        self.assertIn('\nfluctuations does not show growth over finite times: ', text)
+        self.assertNotIn('fluctuations.png', os.listdir(self.out))
 
     def test_errors_of_fluctuations(self):
         """Of a variance over n times sqrt(2 / (n - 1)), of a fraction that of counts."""
@@ -226,6 +231,8 @@ class Shown(bags.Figures):
         found = list(phases.joined(curves))
         np.testing.assert_allclose(found[0][1], whole[0])
         np.testing.assert_allclose(found[1][1], whole[1] + 0.3)
+        later = [(time, whole[0] - 30), (time + 10, whole[1])]  # the longest begins late
+        np.testing.assert_allclose(next(phases.joined(later))[1], whole[0] - 30 + 4 * 2 * np.pi)
         self.assertEqual(list(phases.joined([])), [])
 
     def test_few_phases_are_points(self):
@@ -233,6 +240,30 @@ class Shown(bags.Figures):
             told = [made.lp_phases(INFO, [HIGH], 101.0 + t, began=100.0) for t in range(count)]
             top, _ = self.draw(phases, made.steps([HIGH]), *told)
             self.assertEqual(top.lines[0].get_marker(), marker)
+
+    def test_short_pieces_of_a_long_course_are_lines(self):
+        told = [made.lp_phases(INFO, [HIGH], 101.0 + t, began=100.0) for t in range(60)]
+        for one in told[30:]:
+            for phase in one.phases:
+                phase.tracked_time = one.sample_time - 130.5
+        top, _ = self.draw(phases, made.steps([HIGH]), *told)
+        self.assertEqual({line.get_marker() for line in top.lines[:-1]}, {''})
+
+    def test_long_titles_of_panels_are_broken(self):
+        """At commas, without a second one."""
+        names = [f'T({n},0)' for n in range(1, 9)]
+        for wanted in (names[:1], names):
+            axes = page.Page().sheet(4.6, 3).subplots()
+            text = axes.set_title(', '.join([steps.APART, *wanted]), loc='left')
+            page.fit(text)
+            box = text.get_window_extent(axes.figure.canvas.get_renderer())
+            self.assertLess(box.x1, 460)
+            self.assertEqual(text.get_text().replace('\n', ' '), ', '.join([steps.APART, *wanted]))
+
+    def test_far_exponents_have_a_scale_of_their_own(self):
+        for exponents, has_zero in ((np.linspace(7, 6, 20), False), (HALF, True)):
+            axes = self.draw(spectrum, made.spectrum(exponents, 50.0))[0]
+            self.assertEqual(axes.get_ylim()[0] <= 0, has_zero)
 
     def test_exponents_of_a_step_that_are_apart(self):
         """By more than errors of which each is known from some blocks alone."""

@@ -283,8 +283,8 @@ class Figures(Solid):
             setattr(field, 'p_over_p' + axis, 0.9 * a * p**2 / (p**2 + eps))
         grid = self.draw(p_mode, made.steps(FOUND), field)
         self.assertEqual(len(grid), 6)
-        for axes, axis in zip(grid[3:], 'xyz'):
-            title = rf'$\phi_{{P,{axis}}} / p_{axis}$, fit $0.90\,\cos k_x x$'
+        for axes, axis, letter in zip(grid[3:], 'xyz', 'def'):
+            title = rf'({letter}) $\phi_{{P,{axis}}} / p_{axis}$, fit $0.90\,\cos k_x x$'
             self.assertEqual(axes.get_title(loc='left'), title)
             x, y = axes.lines[-1].get_xydata().T
             np.testing.assert_allclose(y, 0.9 * np.cos(2 * np.pi * x / 8), atol=1e-9)

@@ -43,10 +43,12 @@ def draw_all(recording, folder, progress, names=tuple(FIGURES), pdf=None, paper=
     with ours(paper), contextlib.ExitStack() as stack:
         for name in progress.over(names, len(names)):
             try:
-                page = FIGURES[name].draw(recording, **how)
+                why = []
+                page = FIGURES[name].draw(recording, left_out=why, **how)
             except NoInfo:
                 made.lost.append(name)
                 continue
+            made.left_out.extend(f'{name} does not show {line}' for line in why)
             if page is None:
                 continue
             if pdf and not pages:
@@ -54,7 +56,6 @@ def draw_all(recording, folder, progress, names=tuple(FIGURES), pdf=None, paper=
             if pdf:
                 pages.savefig(page.figure)
             made.files.extend(save(page.figure, folder, name, **how))
-            made.left_out.extend(f'{name} does not show {line}' for line in page.left_out)
             made.captions.extend([f'{name}: {page.caption}'] if paper else [])
     made.files.extend([pdf] if pdf and made.files else [])
     return made

@@ -9,7 +9,9 @@ ORDER = 2
 
 SETTLED = 0.1  # part of the averaged time before which the course may leave the panel
 MARGIN = 0.15  # around the later course, over its height
-UNKNOWN = 'none is known yet; average longer (hdlyap_node --check SCENE says how long)'
+UNKNOWN = (
+    'none is known yet; average longer (rosrun hdlyap hdlyap_node --check SCENE says how long)'
+)
 
 
 @page.figure
@@ -45,7 +47,8 @@ def draw(page, recording, **look):
         axes.set_title('standard errors', loc='left')
     for axes in grid.flat:
         axes.set_xlabel('averaged time  [time units]')
-    top.set_title('largest exponent', loc='left')
+    errors = ', bands: standard errors' if is_known else ''
+    top.set_title('largest exponent' + errors, loc='left')
     middle.set_title('smallest exponents', loc='left')
     page.outer(grid[:2])
     page.title(recording.info, *grid.flat)

@@ -63,14 +63,15 @@ def _course(axes, cost, began, look):
 
 
 def _shares(axes, cost, look):
-    seconds = np.array([cost[part][-1] for part in NAMES])
+    shown = [part for part in NAMES if cost[part][-1] > 0]
+    seconds = np.array([cost[part][-1] for part in shown])
     rows = np.arange(len(seconds))
-    axes.barh(rows, seconds, **{'color': list(PART_COLOURS.values()), **look})
+    axes.barh(rows, seconds, **{'color': [PART_COLOURS[part] for part in shown], **look})
     for row, value in zip(rows, seconds):
         text = f'{value:.3g} s ({100 * value / cost["wall"][-1]:.1f} %)'
         beside(axes, text, (value, row), (3, 0), va='center', fontsize=8)
     axes.set_yticks(rows)
-    axes.set_yticklabels(NAMES.values())
+    axes.set_yticklabels([NAMES[part] for part in shown])
     axes.tick_params(axis='y', length=0)
     axes.invert_yaxis()
     axes.set_xlim(0, 1.9 * max(seconds))

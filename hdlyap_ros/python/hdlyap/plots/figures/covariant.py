@@ -10,16 +10,23 @@ from hdlyap.data import steps
 
 from .. import covariant
 from . import page
-from .style import BLUE, GREEN, GREY, INK, LIGHT, SKY, UPRIGHT, VERMILION, ZERO
+from .page import LETTERS
+from .style import BLUE, GREEN, GREY, INK, LIGHT, SKY, UPRIGHT, VERMILION
 from .style import beside, index_axis, instead, kind_colour
 
 ORDER = 10
 
 LEAST, MOST = 16, 40  # vectors of the positive half in the magnified panels
+MAGNIFIED = 2 / 3  # most part of the indices that a magnified panel has
 WEIGHTS = 4  # most panels of weights
 ROUNDING = 1e-16  # least value that is drawn; smaller ones are rounding
 ROOM = 1.4  # height of the axes over that of curves, to leave room for text
 ABOVE = 0.3  # height of what is above panels, in panels
+SEEN = 0.1  # largest weight of all vectors, from which on weights are drawn
+NO_WEIGHTS = (
+    'weights',
+    f'no vector has {100 * SEEN:.0f} % in the fields of a wave; smaller exponents have more',
+)
 NO_ERRORS = 'backward - forward in errors', 'errors are not known yet; average longer'
 POINTS = {'fmt': '.', 'markersize': 3, 'elinewidth': 0.7}
 HOLLOW = {'fmt': 'o', 'color': INK, 'markerfacecolor': 'none'}
@@ -68,15 +75,12 @@ def _exponents(run, indices, _):
         curve('forward (Gram-Schmidt)', indices, forward, compared.forward_error, **hollow),
         curve('backward (covariant)', indices, backward, compared.backward_error, color=VERMILION),
     ]
-    legend = {'loc': 'lower left', 'handletextpad': 0.4}
+    legend = {'loc': 'upper right', 'handletextpad': 0.4, 'fontsize': 6.5}  # exponents descend
     yield Panel(r'$\lambda_\ell$  [1/time unit]', curves, legend=legend)
-    zero, off = compared.is_zero, compared.deviation
-    curves = [
-        curve('difference', indices[~zero], off[~zero], color=INK),
-        curve('zero modes', indices[zero], off[zero], color=ZERO),
-    ]
+    # errors of zero modes say nothing: these fall as 1 / t, of the averages or of a window
+    off = np.where(compared.is_zero, np.nan, compared.deviation)
     levels = (0, None), (-2, '_two'), (2, '_two')
-    known = curves if np.isfinite(off).any() else []
+    known = [curve('difference', indices, off, color=INK)] if np.isfinite(off).any() else []
     yield Panel('backward - forward\n[combined errors]', known, levels=levels, missing=NO_ERRORS)
 
 
@@ -138,6 +142,12 @@ def _weights(run, indices):
         yield Panel('weight', curves, {'ylim': (-0.03, 1.03)}, None, by_chance, name)
 
 
+def _most(run):
+    """The largest weight of a vector in the fields of the lowest waves."""
+    shown = run.covariant.weights[:WEIGHTS]
+    return max(max(*weight.dq, *weight.gram_schmidt) for weight in shown)
+
+
 def _over_index(panels, of_all, height, least=1):
     """The figure of a row for each panel, if the run has that many vectors. height: of all."""
 
@@ -165,7 +175,7 @@ def _over_index(panels, of_all, height, least=1):
         page.outer(grid)
         shade(grid[:, -1], run, *ranges[-1])
         windows = f'{message.windows} window' + ('s' if message.windows != 1 else '')
-        page.title(run.info, more=f', covariant vectors of {windows}')
+        page.title(run.info, *grid.flat, more=f', covariant vectors of {windows}')
 
     return draw
 
@@ -177,20 +187,22 @@ def _draw_weights(page, run, **look):
         return
     indices = covariant.indices(message)
     shown, ends = list(_weights(run, indices)), near_zero(run, indices)
+    if _most(run) < SEEN and page.leave_out(*NO_WEIGHTS):
+        return
     columns = min(2, len(shown))
     rows = -(-len(shown) // columns)
     alike = {'sharex': True, 'sharey': True, 'squeeze': False}
     grid = page.panels(rows, columns, 3.8 * columns, 2.6 * rows + 0.6, **alike)
     bold = {'xycoords': 'axes fraction', 'va': 'top', 'weight': 'bold', 'fontsize': 8}
-    for axes, panel in zip(grid.flat, shown):
+    for axes, panel, letter in zip(grid.flat, shown, LETTERS):
         panel.draw(axes, ends, look)
-        axes.annotate(panel.name, (0.03, 0.95), **bold)
+        axes.annotate(f'({letter}) {panel.name}', (0.03, 0.95), **bold)
         shade([axes], run, *ends)
     for axes in list(grid.flat)[len(shown) :]:
         axes.set_axis_off()
     page.outer(grid)
     # weights are small far from the step, so there is room
-    grid[0, 0].legend(loc='upper left', bbox_to_anchor=(0, 0.92), fontsize=6.5, handletextpad=0.2)
+    grid[0, 0].legend(loc='upper left', bbox_to_anchor=(0, 0.9), fontsize=6.5, handletextpad=0.2)
     page.title(run.info, more=f', covariant vectors of {message.samples} samples')
 
 
@@ -236,11 +248,13 @@ def _histograms(axes, angles, name, look):
 
 def near_zero(run, indices):
     """First and last index of the magnified column: the lowest steps of both halves, as far as the
-    run has them."""
-    end = min(run.positive_end, indices[-1])
+    run has them; all if these are most, or far from zero."""
+    whole, end = (indices[0], indices[-1]), min(run.positive_end, indices[-1])
     lowest = min((block.first for block in steps.blocks(run.steps)), default=end)
-    first = max(indices[0], end + 1 - min(max(LEAST, end + 4 - lowest), MOST))
-    return first, min(indices[-1], run.phase_space + 1 - first)
+    first = max(whole[0], end + 1 - min(max(LEAST, end + 4 - lowest), MOST))
+    last = min(whole[1], run.phase_space + 1 - first)
+    is_most = last - first > MAGNIFIED * (whole[1] - whole[0])
+    return whole if is_most or end < run.positive_end - MOST else (first, last)
 
 
 def shade(column, run, first, last):

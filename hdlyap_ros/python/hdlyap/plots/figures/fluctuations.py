@@ -32,7 +32,7 @@ TICKS = 5  # most times on an axis
 BARS = {'ecolor': GREY, 'elinewidth': 0.6}
 NO_DIFFUSION = 'diffusion', 'it takes 128 samples of growth; average longer'
 NO_TIMES = 'growth over finite times', 'a bag has it when fields are due; see field_interval'
-NO_STEPS = 'correlations', 'no steps are resolved; a longer box has more'
+NO_STEPS = 'correlations', 'no steps are resolved; smaller exponents, or a longer box, have them'
 NO_PAIRS = 'correlations', NO_DIFFUSION[1]
 
 
@@ -48,7 +48,7 @@ def draw(page, recording, **look):
         return
     columns = min(COLUMNS, len(shown)) if len(shown) != 4 else 2
     rows = -(-len(shown) // columns)
-    size = 2.8 * columns if columns > 1 else 4.6, 2.5 * rows
+    size = 2.8 * columns if columns > 1 else 4.6, 2.8 * rows
     grid = page.panels(rows, columns, *size, squeeze=False)
     for axes, panel in zip(grid.flat, shown):
         panel(axes)
@@ -66,7 +66,8 @@ def _panels(recording, look):
     near = near_zero(recording, indices)
     whole = indices[0], indices[-1]
     yield functools.partial(_diffusions, recording=recording, ends=whole, look=look), lacks
-    yield functools.partial(_diffusions, recording=recording, ends=near, look=look), lacks
+    if near != whole:
+        yield functools.partial(_diffusions, recording=recording, ends=near, look=look), lacks
     lacks = NO_TIMES if told is None else None
     yield functools.partial(_variances, message=message, told=told, look=look), lacks
     yield functools.partial(_order, told=told, look=look), lacks
@@ -95,7 +96,7 @@ def _diffusions(axes, recording, ends, look):
     axes.set_ylim(bottom=0)
     axes.set_ylabel(r'$D_{\ell\ell}$  [1/time unit]')
     index_axis(axes, 5)
-    if ends != (indices[0], indices[-1]):
+    if ends == near_zero(recording, indices):
         shade([axes], recording, *ends)
     if not inside.any():
         instead(axes, 'not yet known')
@@ -105,7 +106,7 @@ def _variances(axes, message, told, look):
     """Of the largest exponent, and the mean over the vectors of each step, with the errors of
     variances over so many times as if of independent vectors."""
     axes.set_xlabel('time  [time units]')
-    axes.set_ylabel('variance of growth / time')
+    axes.set_ylabel('variance / time  [1/time unit]')
     if told is None:
         return instead(axes, 'published with fields')
     count = told.times['count'].to_numpy()
@@ -152,7 +153,8 @@ def _dots(axes, told, number, row, fractions, look):
     counted = np.maximum(0, fractions * (1 - fractions))
     error = np.sqrt(counted / max(1, told.times['count'][row]))
     style = {'fmt': '.', 'markersize': 3, 'alpha': 1 - 0.35 * number, **BARS, 'elinewidth': 0.3}
-    label = f'{told.times["time"][row]:.3g} time units'
+    time = f'{told.times["time"][row]:.3g}'
+    label = f'{time} time unit' + 's' * (time != '1')
     style = {**style, **look, 'label': label}
     axes.errorbar(fractions.index + 0.5, fractions.to_numpy(), bars(error), **style)
 
@@ -167,7 +169,7 @@ def _order(axes, told, look):
 
 
 def _domination(axes, recording, told, look):
-    _fractions(axes, 'later vector grew more\nthan earlier one  [fraction]')
+    _fractions(axes, 'later vector grew more\n[fraction of times]')
     if told is None:
         return instead(axes, 'published with fields')
     first, last = near_zero(recording, told.variances.columns)
@@ -199,4 +201,5 @@ def _pairs(axes, told, look):
     axes.set_xlim(-0.5, size - 0.5)
     axes.set_xticks(range(size))
     axes.set_xticklabels(names, rotation=90, fontsize=6)
-    axes.legend(fontsize=6, handletextpad=0.2)
+    close = {'fontsize': 6, 'handletextpad': 0.2, 'columnspacing': 0.8, 'borderpad': 0}
+    axes.legend(loc='lower right', bbox_to_anchor=(1, 1), ncol=2, **close)

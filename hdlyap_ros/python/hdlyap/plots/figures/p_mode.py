@@ -7,7 +7,7 @@ from hdlyap.data import containers, space, steps, waves
 
 from . import page
 from .box import enclose
-from .pattern import pattern
+from .pattern import SIZE, pattern
 from .style import BLUE, GREY, VERMILION
 
 ORDER = 6
@@ -15,6 +15,7 @@ ORDER = 6
 CUT = 2.5  # largest quotient that is shown; if a momentum is tiny, the quotient is large
 EPSILON = 1e-2  # over the mean square of a momentum component: HD_PMODE_EPSILON
 TINY = 1e-30  # makes the weight of a momentum of 0 finite; its quotient is 0, too
+INSIDE = 0.95  # part of the particles whose values a map tells apart
 NOISE = 4.0  # largest value of the mode that is shown, in root mean squares
 
 
@@ -42,7 +43,7 @@ def draw(page, recording, **look):
         f', {mode.name}, $t={field.sim_time:g}$: P mode with $A={mode.formula[1:]}\n'
         'above as measured, below divided by the momenta'
     )
-    page.title(recording.info, more=said)
+    page.title(recording.info, *grid.flat, more=said)
 
 
 def chosen(recording):
@@ -150,7 +151,8 @@ def _modulation(axes, mode, amplitude):
 
 def _map(axes, mode, values, limit, name, look):
     x, y = (mode.q['xyz'.index(axis)] for axis in mode.across)
-    pattern(axes, x, y, values, limit, **look)
+    shown = min(limit, np.quantile(np.abs(values), INSIDE))
+    pattern(axes, x, y, values, shown, size=SIZE * max(1, 780 / len(values)), **look)
     enclose(axes, mode.info)
     axes.set_title(name, loc='left', fontsize=8)
 

@@ -17,19 +17,22 @@ from .style import ours, scene
 PAPER = {'one-column': 3.375, 'two-column': 7.0}  # widths of a journal's columns [inch]
 TALLEST = 9.0  # of a journal [inch]
 PANEL, LEAST = 2.1, 1.5  # most height of a panel below others in one column, and least [inch]
+LINE = 0.17  # height of a line of the title [inch]
 LETTERS = 'abcdefgh'
 
 
 def figure(draw):
-    """Makes draw(run, ax=None, title=True, legend=True, paper=None, **look), for users with a Run
-    or Summary, from draw(page, said, **look). ax: one or several axes of the user's, into which the
-    first panels are drawn. title: whether the scene stands above the figure. paper: for a journal,
-    as a key of PAPER. look: keyword arguments of the artists that show measured values. It returns
+    """Makes draw(run, ax=None, title=True, legend=True, paper=None, left_out=None, **look), for
+    users with a Run or Summary, from draw(page, said, **look). ax: one or several axes of the
+    user's, into which the first panels are drawn. title: whether the scene stands above the figure.
+    paper: for a journal, as a key of PAPER. left_out: a list to which Page.left_out is added, of a
+    whole figure, too. look: keyword arguments of the artists that show measured values. It returns
     the Page, or None if the bag has no data for the figure."""
 
     @functools.wraps(draw)
-    def drawn(run, ax=None, title=True, legend=True, paper=None, **look):
+    def drawn(run, ax=None, title=True, legend=True, paper=None, left_out=None, **look):
         page = Page(ax, title, legend, paper)
+        page.left_out = page.left_out if left_out is None else left_out
         with ours(paper) if paper and page.is_own else contextlib.nullcontext():
             draw(page, run.summary, **normalize_kwargs(look, Line2D))
             return page.drawn()
@@ -39,21 +42,21 @@ def figure(draw):
 
 
 def fit(text):
-    """Breaks lines of a text that are wider than its figure, at commas."""
-    figure = text.figure
+    """Breaks lines of a text that end outside of its figure, at commas."""
+    figure, lines = text.figure, []
     renderer = figure.canvas.get_renderer()
-    for _ in range(text.get_text().count(', ')):
-        if text.get_window_extent(renderer).width <= figure.bbox.width:
-            break
-        lines = text.get_text().split('\n')
-        longest = max(range(len(lines)), key=lambda k: len(lines[k]))
-        parts = lines[longest].rsplit(', ', 1)
-        if len(parts) < 2:
-            break
-        lines[longest : longest + 1] = [parts[0] + ',', parts[1]]
-        if longest + 2 < len(lines):
-            lines[longest + 1 : longest + 3] = [', '.join(lines[longest + 1 : longest + 3])]
-        text.set_text('\n'.join(lines))
+    for line in text.get_text().split('\n'):
+        first, *others = line.split(', ')
+        lines.append(first)
+        for part in others:
+            text.set_text(f'{lines[-1]}, {part}')
+            place = text.get_window_extent(renderer)
+            if place.x0 >= 0 and place.x1 <= figure.bbox.width:
+                lines[-1] += f', {part}'
+            else:
+                lines[-1] += ','
+                lines.append(part)
+    text.set_text('\n'.join(lines))
 
 
 class Page:
@@ -165,9 +168,13 @@ class Page:
         if not self.is_own:
             return
         for axes, letter in zip(panels, LETTERS):
-            axes.set_title(f'({letter}) {axes.get_title(loc="left")}'.rstrip(), loc='left')
+            fit(axes.set_title(f'({letter}) {axes.get_title(loc="left")}'.rstrip(), loc='left'))
         if self.has_title:
-            fit(self.figure.suptitle(scene(info) + more, fontsize=9))
+            text = self.figure.suptitle(scene(info) + more, fontsize=9)
+            lines = text.get_text().count('\n')
+            fit(text)
+            room = LINE * (text.get_text().count('\n') - lines)  # panels keep their heights
+            self.figure.set_figheight(self.figure.get_figheight() + room)
 
     def drawn(self):
         """This page; None if nothing was drawn."""

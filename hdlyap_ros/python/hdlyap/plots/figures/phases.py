@@ -14,7 +14,7 @@ ORDER = 7
 COLOURS = GREEN, PURPLE, SKY, INK, ORANGE  # colours of steps, other than those of T and LP
 
 STEPS = 4  # most steps that are shown
-FEW = 24  # samples that are drawn as points, too
+FEW = 24  # samples of a phase that are drawn as points, too
 PER_STEP = 2  # most phases of each step; more would hide each other
 
 
@@ -29,8 +29,11 @@ def draw(page, recording, speeds=None, **look):
     top, bottom = grid.flat
     for (step, numbers), colour in zip(shown, COLOURS):
         for number in numbers:
-            for time, phase in joined(list(recording.phases.curves(number))):
-                _curve(top, bottom, time, phase, {'color': colour, **look, 'label': None})
+            curves = list(joined(list(recording.phases.curves(number))))
+            are_few = sum(len(time) for time, _ in curves) <= FEW
+            style = {'marker': '.' if are_few else '', 'color': colour, **look, 'label': None}
+            for time, phase in curves:
+                _curve(top, bottom, time, phase, style)
         named = {'label': _label(recording, step, speeds or {})}
         top.plot([], [], **{'color': colour, **look, **named})
     top.set_ylabel(r'phase $\varphi / 2\pi$')
@@ -65,11 +68,13 @@ def _tracked(recording, number):
 
 def joined(curves):
     """Curves (time, phase) that go on from each other: a phase that was lost and found again counts
-    from less than a turn, so that the turns of the longest curve, which turns evenly, are added."""
+    from less than a turn, so that the turns of the longest curve, which turns evenly, are added.
+    The first one begins less than a turn from 0."""
     if not curves:
         return
     times, phases = max(curves, key=lambda curve: curve[0][-1] - curve[0][0])
     slope, start = np.polyfit(times, phases, 1)
+    start -= 2 * np.pi * np.fix((start + slope * curves[0][0][0]) / (2 * np.pi))
     for time, phase in curves:
         off = np.mean(start + slope * time - phase) / (2 * np.pi)
         yield time, phase + 2 * np.pi * np.round(off)
@@ -77,7 +82,6 @@ def joined(curves):
 
 def _curve(top, bottom, time, phase, look):
     kept = thinned(len(time))
-    look = {'marker': '.' if len(time) <= FEW else '', **look}
     top.plot(time[kept], phase[kept] / (2 * np.pi), **look)
     off = 100 * (phase - regression(time, phase)) / (2 * np.pi)
     bottom.plot(time[kept], off[kept], **{'linewidth': 0.8, 'alpha': 0.8, **look})

@@ -21,6 +21,7 @@ IS_OF_MEANS = True  # drawn of several seeds, too
 MAGNIFIED, MAGNIFIED_MOST = 40, 64
 NEAR = 0.032  # names at this distance, over the width of the panel, would touch
 LETTER = 4.2  # length of a name for each of its letters [points]
+FAR = 0.5  # part of the largest exponent above which all are too far from 0 to show it
 MOST = 0.45  # most room above the exponents for names, over the height
 
 
@@ -48,7 +49,7 @@ def draw(page, recording, **look):
     averaged = f', averaged over {recording.spectrum.averaged_time:g} time units'
     for column in rows.T:
         page.outer(column[:, np.newaxis])
-    page.title(recording.info, *rows[0, : 2 * (len(ranges) > 1)], more=averaged)
+    page.title(recording.info, *(rows.flat if rows.size > 1 else ()), more=averaged)
 
 
 def _whole(axes, recording, look):
@@ -58,7 +59,7 @@ def _whole(axes, recording, look):
     axes.errorbar(indices, spectrum.exponents, bars(spectrum.std_errors), **style)
     if recording.is_unpaired:
         _mirrored(axes, indices, spectrum.exponents)
-    _exponent_axes(axes)
+    _exponent_axes(axes, spectrum.exponents)
     axes.set_title('all exponents carried', loc='left')
 
 
@@ -93,8 +94,9 @@ def _share(axes, recording, field, chance, label, first, last):
     index_axis(axes, 8)
 
 
-def _exponent_axes(axes):
-    axes.axhline(0, color=GREY, linewidth=0.6)
+def _exponent_axes(axes, exponents):
+    if min(exponents) < FAR * max(exponents):
+        axes.axhline(0, color=GREY, linewidth=0.6)
     index_axis(axes, 8)
     axes.set_ylabel(r'$\lambda_\ell$  [1/time unit]')
 
@@ -146,7 +148,7 @@ def _small(axes, beside, recording, look):
     ]
     for step in bands:
         _draw_band(axes, step, named=not shown)
-    _exponent_axes(axes)
+    _exponent_axes(axes, spectrum.exponents)
     if shown:
         low, high = axes.get_ylim()
         room = min(MOST, LETTER * (named + 1) * axes.figure.dpi / 72 / axes.bbox.height)

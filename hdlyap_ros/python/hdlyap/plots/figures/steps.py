@@ -14,7 +14,7 @@ IS_OF_MEANS = True  # drawn of several seeds, too
 
 MOST = 24  # most steps that are shown; the names of more would not fit
 CHANCE = 1e-3  # probability that equal exponents of a set scatter as much as those called apart
-APART = 'apart, beyond errors and however long the run'
+APART = 'apart beyond errors however long the run'
 SET, AROUND = 0.42, 1.9  # width of a set, and of what is beside all of them [inch]
 LEAST = 4.6  # least width of the figure, for its title [inch]
 

@@ -84,7 +84,9 @@ def _ridge(axes, means, direction, look):
     k, largest = shells(means, direction)
     around = np.concatenate(([0], k, [2 * k[-1] - (k[-2] if len(k) > 1 else 0)]))
     edges = 0.5 * (around[1:] + around[:-1])
-    places, values = np.arange(largest.shape[1] + 1) + 0.5, np.maximum(largest, 1e-3)
+    # between walls some k have no transverse waves
+    values = np.where(largest.any(axis=1, keepdims=True), np.maximum(largest, 1e-3), np.nan)
+    places = np.arange(largest.shape[1] + 1) + 0.5
     norm = LogNorm(NOISE / 2, max(largest.max(), 2 * NOISE))
     style = {'norm': norm, 'cmap': 'magma_r', 'rasterized': True, **look}
     image = axes.pcolormesh(places, edges, values, **style)
