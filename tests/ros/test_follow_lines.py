@@ -97,7 +97,7 @@ class Line(unittest.TestCase):
             diagnosis=diagnosis(1, 'disks overlap'),
         )
         parts = ['averaging', '50.0 %', 't = 150.0', '1.23 time units/s', '1:05 left']
-        parts += ['c_T to 0.012 of 0.0098', 'lambda_max 9.000(10)']
+        parts += ['error of c_T 0.012, wanted 0.0098', 'lambda_max 9.000(10)']
         parts += ['interval 2.37 (conditioning), repairs 4', 'classification 5 % of the time']
         self.assertEqual(said(shown), [*parts, 'WARN: disks overlap'])
 
@@ -110,7 +110,7 @@ class Line(unittest.TestCase):
             (view(**nothing), '', '.'),
             (view(spectrum=made.spectrum([9.0], 1.0, error=-1.0)), 'lambda_max 9.0000', '-1'),
             (view(status=status(progress=0.0, remaining_seconds=-1.0)), 't = 150.0', 'left|50.0 %'),
-            (view(status=status(**asked)), 'c_T to ? of 0.0098', '-1'),
+            (view(status=status(**asked)), 'error of c_T ?, wanted 0.0098', '-1'),
             (view(diagnosis=diagnosis(2, 'disk full')), 'ERROR: disk full', 'WARN'),
             (view(diagnosis=diagnosis(stage='paused')), 'paused', 'averaging'),
             (view(is_gone=True), 'GONE: /hdlyap does not answer', 'finished'),

@@ -104,7 +104,8 @@ static void print(const char *what, const settings *set, const hd_run *run)
     if (set->def.duration > 0.0) snprintf(of, sizeof of, " of %.6g", set->def.duration);
     const double remaining = now.cost.remaining;
     if (at->error >= 0.0)
-        snprintf(target, sizeof target, ", %s to %.2g of %.2g", at->name, at->error, at->wanted);
+        snprintf(target, sizeof target, ", error of %s %.2g, wanted %.2g", at->name, at->error,
+                 at->wanted);
     else if (*at->name)
         snprintf(target, sizeof target, ", error of %s not yet known", at->name);
     if (remaining > 0.0)

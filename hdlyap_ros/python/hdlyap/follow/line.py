@@ -53,7 +53,8 @@ def _progress(view):
     if 0 <= status.remaining_seconds < inf and not view.is_finished:
         yield f'{clock(status.remaining_seconds)} left'
     if status.target:
-        yield f'{status.target} to {_number(status.target_error)} of {status.target_wanted:.2g}'
+        error, wanted = _number(status.target_error), f'{status.target_wanted:.2g}'
+        yield f'error of {status.target} {error}, wanted {wanted}'
     if view.is_averaged:
         errors = view.spectrum.std_errors
         error = errors[0] if errors else -1.0
