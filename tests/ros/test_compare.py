@@ -229,6 +229,14 @@ class Steps(Pairs):
         self.assertEqual(self.names(comparison), names)
         self.assertEqual({one.z for one in comparison.steps}, {0.0})
 
+    def test_assumed_coefficients_are_not_compared(self):
+        pair = run(), run()
+        for messages in pair:
+            messages[-1].t_prior_share = 1.0
+        comparison = self.compared(*pair)
+        names = ['T(1,0)', 'LP(1,0)', 'c_T', 'c_L', 'c_L2', 'c_L3', 'v']
+        self.assertEqual(self.names(comparison), names)
+
     def test_of_one_run_alone(self):
         other = run(made_steps=[found()[1], made.step(INFO, T, 2, 0, 36, 37)])
         comparison = self.compared(run(), other)

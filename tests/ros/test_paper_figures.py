@@ -2,6 +2,7 @@
 
 import os
 import unittest
+from types import SimpleNamespace
 
 import numpy as np
 from matplotlib.figure import Figure
@@ -13,7 +14,7 @@ import made_fields
 import test_axes
 from made import LP, T
 from hdlyap.plots.figures import FIGURES, convergence, dispersion, fluctuations, modes, phases
-from hdlyap.plots.figures import page, spectrum, steps
+from hdlyap.plots.figures import page, spectrum, steps, structure
 from hdlyap.plots.figures.page import PAPER, TALLEST
 
 INFO = made.run_info()
@@ -259,6 +260,26 @@ class Shown(bags.Figures):
             box = text.get_window_extent(axes.figure.canvas.get_renderer())
             self.assertLess(box.x1, 460)
             self.assertEqual(text.get_text().replace('\n', ' '), ', '.join([steps.APART, *wanted]))
+
+    def test_long_titles_of_figures_make_room(self):
+        """The panels keep their heights."""
+        heights = []
+        for scene in 'a', 'a, ' * 40:
+            sheet = page.Page()
+            sheet.panels(1, 1, 4.2, 2)
+            sheet.title(made.run_info(scene=scene))
+            lines = sheet.figure._suptitle.get_text().count('\n')
+            heights.append((lines > 0, sheet.figure.get_figheight() - lines * page.LINE))
+        self.assertEqual([is_broken for is_broken, _ in heights], [False, True])
+        np.testing.assert_allclose([height for _, height in heights], 2)
+
+    def test_rows_of_k_without_waves(self):
+        means = SimpleNamespace(
+            wave_number=np.array([1.0, 2.0]), along=np.array([[0.5, 0], [0, 0]])
+        )
+        image = structure._ridge(page.Page().sheet(3, 3).subplots(), means, 'along', {})
+        np.testing.assert_array_equal(np.ma.getmaskarray(image.get_array()).ravel()[-2:], True)
+        np.testing.assert_array_equal(np.ma.getmaskarray(image.get_array()).ravel()[:2], False)
 
     def test_far_exponents_have_a_scale_of_their_own(self):
         for exponents, has_zero in ((np.linspace(7, 6, 20), False), (HALF, True)):

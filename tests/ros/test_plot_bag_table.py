@@ -71,6 +71,8 @@ class Table(Bags):
         self.assertRegex(text, r'the exponent before the zero modes .*\n.*\n +1 +0\.5')
         self.assertIn('sum of all      -0.250(10)\nmean divergence -0.250(10)\n', text)
         self.assertNotIn('pairing', text)
+        mirrored = made.spectrum(FORWARD, 50.0, pairing_error=0.0)  # by construction
+        self.assertNotIn('pairing', self.lines(INFO, mirrored)[1])
         self.assertNotIn('Kaplan', text)
         self.assertNotIn('divergence', self.lines(INFO, made.spectrum(HALF, 50.0))[1])
 
@@ -125,9 +127,12 @@ class Table(Bags):
             self.assertNotRegex(text, not_said)
 
     def test_too_short(self):
-        for error, said in ((0.01, ''), (-1.0, ', too short for standard errors')):
+        for error, said in (
+            (0.01, ''),
+            (-1.0, ', too short for standard errors; rosrun .* --check SCENE .*'),
+        ):
             _, text = self.lines(INFO, made.spectrum(HALF, 50.0, error=error))
-            self.assertIn(f'averaged time   50{said}\n', text)
+            self.assertRegex(text, f'averaged time   50{said}\n')
 
     def test_steps_that_walls_forbid(self):
         """T(n,0) needs a field across walls along y; a wave that has its T is not named."""

@@ -9,7 +9,7 @@ import hdlyap
 import made
 from bags import Bags
 from made import LP, T
-from hdlyap.plots import latex
+from hdlyap.plots import latex, report
 from hdlyap.sweep import points, table
 
 INFO = made.run_info()
@@ -44,6 +44,12 @@ class Printed(Bags):
         """The larger one of both errors: here that of the scatter, 0.1 / sqrt(2)."""
         paths = [self.bag(str(k), seed=str(k), shift=0.1 * k) for k in (1, 2)]
         self.assertEqual(hdlyap.load(*paths).table().loc['lambda_max', 'value'], '9.150(50)')
+        assumed = {'t_points': 1, 't_prior_share': 1.0}
+        for more, there in (({}, True), (assumed, False)):
+            paths = [self.bag(f'{k}{there}', seed=str(k), **more) for k in (1, 2)]
+            text = report.report(hdlyap.load(*paths).summary)
+            self.assertIn('\n  c_T  ', text)
+            self.assertEqual('\n  c_T2 ' in text, there)
 
     def test_latex_of_a_run(self):
         (point,) = points.read([self.bag('one')])[0]

@@ -24,15 +24,19 @@ def _errors(run, frame):
     return np.fmax(frame['std_error'], frame['scatter']) if run.is_mean else frame['std_error']
 
 
+def assumed(run):
+    """The names of the coefficients of fits that no step has measured."""
+    of_fits = run.runs[0].fits
+    every = {name for fit in of_fits for name, *_ in fit.values}
+    return every - {name for fit in of_fits for name, *_ in fit.measured_values}
+
+
 def _of_spectrum(run):
     if not run.has('spectrum'):
         return
-    found, number = run.results, run.info.number
-    of_fits = run.runs[0].fits
-    every = {name for fit in of_fits for name, *_ in fit.values}
-    assumed = every - {name for fit in of_fits for name, *_ in fit.measured_values}
+    found, number, without = run.results, run.info.number, assumed(run)
     for (name, row), error in zip(found.iterrows(), _errors(run, found)):
-        if name not in assumed:
+        if name not in without:
             yield name, with_error(row['value'], error), row['unit'], ''
         if name == 'h_KS':
             yield 'h_KS/N', with_error(row['value'] / number, error / number), row['unit'], ''

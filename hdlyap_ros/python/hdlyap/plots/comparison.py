@@ -310,7 +310,7 @@ def _fits(a, b, pair):
     are those of sampling if they are stated, because the error of the form is the same in both.
     Their origins are the fits."""
     found = []
-    both = enumerate(zip(*(fit.values for fit in pair)))
+    both = enumerate(zip(*(fit.measured_values for fit in pair)))
     for place, ((name, value, error), (_, other, others)) in both:
         sampling = [fit.sampling_errors[place] for fit in pair]
         errors = (error, others) if np.isnan(sampling).any() else sampling

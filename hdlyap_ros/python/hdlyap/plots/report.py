@@ -2,13 +2,16 @@
 
 import numpy as np
 
-from hdlyap.data import seeds, space
+from hdlyap.data import printed, seeds, space
 from hdlyap.data.containers import is_curved, radius
 from hdlyap.data.reader import NoInfo, is_known
 from hdlyap.numbers import known, with_error
 
 from . import covariant_table, equation, paper, step_table
 
+SHORT = (
+    'too short for standard errors; rosrun hdlyap hdlyap_node --check SCENE says how long they take'
+)
 TAIL = 64  # most exponents in the table
 COLUMNS = 4
 MEAN = '  {:<16} {:>15} {:>15} {:>15} {:>12} {:>4}  {}'
@@ -111,7 +114,12 @@ def _means(recording):
     count = len(of_all.runs)
     number = '1 seed' if count == 1 else f'{count} seeds'
     lines = [f'means over {number}, weighted with their averaged times', HEAD]
-    lines += [_mean(name, row, 'value', row['basis']) for name, row in of_all.results.iterrows()]
+    assumed = printed.assumed(of_all)
+    lines += [
+        _mean(name, row, 'value', row['basis'])
+        for name, row in of_all.results.iterrows()
+        if name not in assumed
+    ]
     if recording.steps is not None:
         found = of_all.steps[of_all.steps['resolved']]
         lines += [_mean(name, row, 'exponent') for name, row in found.iterrows()]
@@ -170,7 +178,7 @@ def origin(info):
 
 def _sums(recording):
     spectrum = recording.spectrum
-    short = '' if spectrum.std_errors[0] > 0 else ', too short for standard errors'
+    short = '' if spectrum.std_errors[0] > 0 else f', {SHORT}'
     lines = [
         f'averaged time   {spectrum.averaged_time:g}{short}',
         *([f'collisions      {spectrum.collisions}'] if spectrum.collisions else []),
@@ -183,7 +191,7 @@ def _sums(recording):
         lines += [f'h_KS            {total}', f'h_KS / N        {with_error(each, of_each)}']
     elif len(spectrum.exponents) > 1:
         lines.append(f'sum of the {len(spectrum.exponents)} exponents carried {total}')
-    if spectrum.pairing_error >= 0:
+    if spectrum.pairing_error > 0:  # it is 0 where one half is the mirror image of the other
         lines.append(f'pairing error   {spectrum.pairing_error:.2e}')
     of_all = {'exponent_sum': 'sum of all', 'divergence': 'mean divergence'}
     of_all['kaplan_yorke'] = 'Kaplan-Yorke'

@@ -131,7 +131,7 @@ def _conjugates(message, half, info):
     mirror = steps.resolved(message, info)
     names = ((steps.name(step, info), step.exponent) for step in found)
     sums = [abs(exponent + mirror[name].exponent) for name, exponent in names if name in mirror]
-    return line + (f', largest |sum with its partner| {max(sums):.1e}' if sums else '')
+    return line + (f', largest |sum with its partner| {max(sums):.1e}' if any(sums) else '')
 
 
 def _fits(recording):
