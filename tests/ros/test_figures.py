@@ -73,6 +73,10 @@ class Figures(bags.Figures):
             self.assertEqual(len(mirrored), count)
             if mirrored:
                 self.shows(mirrored[0], np.arange(1, 81), -found[::-1])
+                of_all = made.spectrum(found, 50.0, divergence=divergence), made.steps([LOW])
+                page = spectrum.draw(self.recorded([INFO, *of_all]), paper='one-column')
+                (said, *_) = page.axes[0].get_legend().get_texts()
+                self.assertEqual(said.get_text(), mirrored[0].get_label())
 
     def test_spectrum(self):
         """At their indices, with errors, in the colours of the steps; with the paper's bands."""

@@ -158,6 +158,8 @@ def _small(axes, beside, recording, look):
     if handles:  # below the curve, above the line of zero; else above the curve
         low = {'loc': 'lower left', 'bbox_to_anchor': (0, 0.05)}
         how = low if beside is axes else {'loc': 'upper right'}
+        if beside is not axes:  # what they have already
+            handles = [*beside.get_legend_handles_labels()[0], *handles]
         beside.legend(handles=handles, handletextpad=0.4, **how)
 
 
