@@ -96,7 +96,7 @@ first_number() { inside "$@" 2>/dev/null | grep -oE '[0-9]+(\.[0-9]+)+' | head -
 # row HEADS CELL...: for doc/platforms.md.
 row() {
     echo "| system | $1 | date | commit |"
-    printf '| %s ' "$NAME ($(cat "$SYSTEM/etc/debian_version"))" "${@:2}" "$(date +%F)" "$(git -C "$ROOT" rev-parse --short HEAD)"
+    printf '| %s ' "$NAME ($(cat "$SYSTEM/etc/debian_version"))" "${@:2}" "$(date +%F)" "$(git -C "$SYSTEM$CLONE" rev-parse --short HEAD)"
     echo '|'
 }
 

@@ -285,6 +285,14 @@ static bool needs_state(const hd_run *run)
     return is_due(run, HD_DUE_STAGE) || is_needed(run, HD_NEEDS_REPORTS);
 }
 
+/** Looks whether the particles have left their places. */
+static void look_at_places(hd_run *run)
+{
+    const double start = hd_clock_now();
+    hd_cages_look(&run->cages, run->advance.trajectory, &run->scene);
+    run->cost.events += hd_clock_now() - start;
+}
+
 static hd_status report(hd_run *run)
 {
     bool reached = is_averaging(run) && hd_target_reached(run);
@@ -294,7 +302,7 @@ static hd_status report(hd_run *run)
     }
     hd_agenda_pass_report(&run->agenda, reached);
     HD_TRY(hd_ranks_compare(run->communicator, run->advance.trajectory));
-    if (is_averaging(run)) hd_cages_look(&run->cages, run->advance.trajectory, &run->scene);
+    if (is_averaging(run)) look_at_places(run);
     if (is_framed(run) && needs_state(run) && !is_measured(run)) HD_TRY(end_early(run));
     if (!is_needed(run, HD_NEEDS_REPORTS)) return HD_OK;
     const double start = hd_clock_now();
