@@ -234,11 +234,12 @@ class Figures(Bags):
             np.testing.assert_array_equal(points[:, 0], range(1, ALL + 1))
             np.testing.assert_allclose(points[:, 1], wanted)
             self.assertEqual(at(line(axes[1], label), 37), points[36, 1])
-        off = line(axes[2], 'difference')
+        off, zero = line(axes[2], 'difference'), line(axes[2], 'zero modes')
         self.assertAlmostEqual(at(off, 1), 3 / 2**0.5)
         self.assertAlmostEqual(at(off, 5), 6 / 2**0.5)
-        positive, negative = list(range(1, 38)), list(range(44, ALL + 1))
-        self.assertEqual(list(off[:, 0]), positive + negative)  # without zero modes
+        self.assertEqual(list(zero[:, 0]), list(range(38, 44)))
+        self.assertAlmostEqual(at(zero, 40), -10 / 2**0.5)
+        self.assertEqual(len(off), 74)
 
     def test_error_bars(self):
         """Of each pass its own, where they are known."""

@@ -300,6 +300,7 @@ members beside(const hdr_covariant *)
     const members all = named(
         {{"covariant", say(seen)},
          {"grown", say(seen.spectrum)},
+         {"grown_error", LIST(n, hd_covariant_std_error(&seen, k))},
          {"following", cost.following},
          {"mismatch", numbers(seen.start_mismatch_each, n)},
          {"neighbours", numbers(seen.splitting.neighbours, n - 1)},

@@ -57,6 +57,9 @@ typedef struct hd_covariant_results {
      * frame. hd_spectrum_local is the growth rate over the earliest part of the last window, from
      * its beginning to the sample after it. */
     const hd_spectrum *spectrum;
+    /** Growth that vectors had beyond that of the frame, as they still turned within windows, [n],
+     * summed over all windows: what is left of the random starts [T16]. */
+    const double *turned;
     /** Angles between vectors and between spaces, from all samples. */
     hd_splitting_results splitting;
     /** Order of the vectors' growth, order[times]: over the time between two samples
@@ -85,6 +88,10 @@ typedef struct hd_covariant_results {
 } hd_covariant_results;
 /** Reads the results; O(n). */
 hd_covariant_results hd_covariant_read(const hd_covariant *covariant);
+/** Standard error of the exponent of a covariant vector, 0 .. n - 1 [1/time unit]; negative
+ * while it is not known. `turned` of the results is a part of it: a longer transient lessens it,
+ * more windows do not. */
+double hd_covariant_std_error(const hd_covariant_results *results, int vector);
 
 HD_API_END
 #endif

@@ -43,6 +43,8 @@ static hd_status allocate_arrays(hd_covariant *c)
                   {&c->coupling, half * half},
                   {&c->angle, n},
                   {&c->apart, n},
+                  {&c->edge, n},
+                  {&c->turned, n},
                   {&c->frame, rows * n},
                   {&c->q, rows / 2},
                   {&c->p, rows / 2}};
@@ -113,8 +115,8 @@ void hd_covariant_free(hd_covariant *c)
     if (!c) return;
     for (int k = 0; k < WEIGHTS; k++) hd_modes_free(weights_of(c, k));
     hd_backward_pair_free(c->starts);
-    double *arrays[] = {c->factor, c->coupling, c->angle, c->apart,
-                        c->frame,  c->q,        c->p,     c->null_columns};
+    double *arrays[] = {c->factor, c->coupling, c->angle, c->apart, c->edge,
+                        c->turned, c->frame,    c->q,     c->p,     c->null_columns};
     for (size_t k = 0; k < sizeof arrays / sizeof *arrays; k++) hd_memory_free(arrays[k]);
     hd_history_free(c->past);
     hd_spectrum_free(c->spectrum);
@@ -159,6 +161,7 @@ void hd_covariant_clear(hd_covariant *c, double now)
     for (int k = 0; k < WEIGHTS; k++)
         if (weights_of(c, k)) hd_modes_clear(weights_of(c, k));
     memset(c->apart, 0, (size_t)c->vectors * sizeof *c->apart);
+    memset(c->turned, 0, (size_t)c->vectors * sizeof *c->turned);
     c->windows = c->lost = 0;
     c->ended = now;
     c->null_apart = c->null_apart_most = -1.0;
@@ -340,6 +343,13 @@ static hd_status spaces_apart(hd_covariant *c, double *angle, const double *cons
     return HD_OK;
 }
 
+/** ln of the part of a vector that no faster one has: its growth in a window is that of the frame
+ * and the change of this [T16]. */
+static double own_part(const hd_covariant *c, const double *coefficients, int col)
+{
+    return log(fabs(coefficients[(size_t)col * (size_t)(c->vectors + 1)]));
+}
+
 /** Measures, at the window's end, how far the two starts agree; keeps the worst of all windows. */
 static hd_status meet(hd_covariant *c)
 {
@@ -353,6 +363,7 @@ static hd_status meet(hd_covariant *c)
     for (int col = 0; col < c->vectors; col++) {
         const size_t first = (size_t)col * (size_t)c->vectors;
         c->apart[col] = hd_vectors_apart(both[0] + first, both[1] + first, col + 1);
+        c->edge[col] = own_part(c, both[0], col);
         raise_to(&apart->most, c->apart[col]);
     }
     c->way = THROUGH_WINDOW;
@@ -368,9 +379,11 @@ static hd_status meet(hd_covariant *c)
 /** The next window begins where this one ended. */
 static hd_status end_window(hd_covariant *c)
 {
-    const double *unused;
-    HD_TRY(hd_backward_pair_look(c->starts, &unused));
+    const double *first;
+    HD_TRY(hd_backward_pair_look(c->starts, &first));
     end_growth(c);
+    for (int col = 0; col < c->vectors; col++)
+        c->turned[col] += own_part(c, first, col) - c->edge[col];
     c->window = c->ended = hd_history_time(c->past, c->last);
     hd_history_drop(c->past, c->window);
     c->windows++;
@@ -404,6 +417,7 @@ hd_covariant_results hd_covariant_read(const hd_covariant *c)
                               .lost = c->lost,
                               .window_end = c->ended,
                               .spectrum = c->spectrum,
+                              .turned = c->turned,
                               .splitting = hd_splitting_read(c->splitting),
                               .start_mismatch = c->spaces_apart,
                               .start_mismatch_each = c->apart,
@@ -416,6 +430,13 @@ hd_covariant_results hd_covariant_read(const hd_covariant *c)
     r.times = hd_doubling_times(c->grown);
     for (int k = 0; k < HD_TIMES_MAX; k++) r.order[k] = hd_doubling_order(c->grown, k);
     return r;
+}
+
+double hd_covariant_std_error(const hd_covariant_results *results, int vector)
+{
+    const double error = hd_spectrum_std_error(results->spectrum, vector);
+    return error < 0 ? error
+                     : hypot(error, results->turned[vector] / hd_spectrum_time(results->spectrum));
 }
 
 /** Reads or writes the averages; the window under way is lost. */
@@ -431,6 +452,7 @@ void hd_covariant_archive(hd_covariant *c, hd_archive *archive)
     for (size_t k = 0; k < sizeof numbers / sizeof *numbers; k++)
         hd_archive_next_doubles(archive, numbers[k], 1);
     hd_archive_doubles(archive, "covariant apart", c->apart, (size_t)c->vectors);
+    hd_archive_doubles(archive, "covariant turned", c->turned, (size_t)c->vectors);
     if (c->counting) hd_covariant_archive_counts(c, archive);
     hd_spectrum_archive(c->spectrum, archive);
     hd_splitting_archive(c->splitting, archive);

@@ -43,6 +43,8 @@ struct hd_covariant {
     double *angle;        /**< [vectors]: principal angles */
     double *apart; /**< [vectors]: sines between the vectors of both starts at the end of the last
                       window */
+    double *edge;   /**< [vectors]: ln |C_ll| at the end of the window */
+    double *turned; /**< [vectors]: ln |C_ll| at the beginnings of windows less `edge`, summed */
     double *frame, *q, *p;  /**< vectors [rows * vectors] of a sample; positions and momenta then */
     double window, due;     /**< time at which the window began; time of the next sample */
     double ended;           /**< what hd_covariant_results.window_end says */

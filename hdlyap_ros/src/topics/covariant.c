@@ -40,11 +40,12 @@ static bool arrays_take(arrays *a, const moment *now, const hd_covariant_results
     return true;
 }
 
-static void gather_exponents(arrays *r, const hd_spectrum *spectrum)
+static void gather_exponents(arrays *r, const hd_covariant_results *seen)
 {
+    const hd_spectrum *spectrum = seen->spectrum;
     for (uint32_t k = 0; k < r->vectors; k++) {
         r->exponents[k] = hd_spectrum_exponent(spectrum, (int)k);
-        r->std_errors[k] = hd_spectrum_std_error(spectrum, (int)k);
+        r->std_errors[k] = hd_covariant_std_error(seen, (int)k);
         r->local_exponents[k] = hd_spectrum_local(spectrum, (int)k);
     }
 }
@@ -101,7 +102,7 @@ static hdr_covariant message_of(arrays *r, const hd_run *run, const hd_covariant
     const hd_splitting_results *splitting = &seen->splitting;
     const hd_covariant_mismatch apart = seen->start_mismatch;
     const uint32_t n = r->vectors;
-    gather_exponents(r, seen->spectrum);
+    gather_exponents(r, seen);
     gather_angles(r, splitting);
     gather_weights(r, seen);
     gather_orders(r, seen);

@@ -265,6 +265,7 @@ void say_covariant(said *s, const hd_run *run)
     say(s, "mismatch centre", r.start_mismatch.centre);
     say(s, "mismatch stable", r.start_mismatch.stable);
     say_all(s, "mismatch each", r.start_mismatch_each, n);
+    say_all(s, "turned", r.turned, n);
     say(s, "null", r.null);
     say(s, "null_most", r.null_most);
     for (int half = 0; half < 2; half++)

@@ -11,7 +11,7 @@ from hdlyap.data import steps
 from .. import covariant
 from . import page
 from .page import LETTERS
-from .style import BLUE, GREEN, GREY, INK, LIGHT, SKY, UPRIGHT, VERMILION
+from .style import BLUE, GREEN, GREY, INK, LIGHT, SKY, UPRIGHT, VERMILION, ZERO
 from .style import beside, index_axis, instead, kind_colour
 
 ORDER = 10
@@ -77,10 +77,13 @@ def _exponents(run, indices, _):
     ]
     legend = {'loc': 'upper right', 'handletextpad': 0.4, 'fontsize': 6.5}  # exponents descend
     yield Panel(r'$\lambda_\ell$  [1/time unit]', curves, legend=legend)
-    # errors of zero modes say nothing: these fall as 1 / t, of the averages or of a window
-    off = np.where(compared.is_zero, np.nan, compared.deviation)
+    zero, off = compared.is_zero, compared.deviation
+    curves = [
+        curve('difference', indices[~zero], off[~zero], color=INK),
+        curve('zero modes', indices[zero], off[zero], color=ZERO),
+    ]
     levels = (0, None), (-2, '_two'), (2, '_two')
-    known = [curve('difference', indices, off, color=INK)] if np.isfinite(off).any() else []
+    known = curves if np.isfinite(off).any() else []
     yield Panel('backward - forward\n[combined errors]', known, levels=levels, missing=NO_ERRORS)
 
 
