@@ -175,7 +175,7 @@ hd_status hd_structure_create(hd_structure **out, const hd_scene_def *def, int v
     s->particles = def->number;
     s->dimension = hd_scene_dimension(def);
     s->coordinates = hd_scene_coordinates(def);
-    s->functions = HD_MODULATIONS_IN(s->dimension);
+    s->functions = (size_t)HD_MODULATIONS_IN(s->dimension);
     s->amplitudes = (size_t)HD_TRANSVERSE_IN(s->dimension);
     s->width = AT_ONCE * s->functions;
     s->vectors = vectors;

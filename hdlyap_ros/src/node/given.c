@@ -28,7 +28,7 @@ typedef struct comparison {
 static const char *bare(const char *text, size_t *length)
 {
     const bool is_list = *text == '[';
-    *length = strlen(text) - 2 * is_list;
+    *length = strlen(text) - (is_list ? 2 : 0);
     return text + is_list;
 }
 

@@ -30,7 +30,7 @@ static bool arrays_take(vector_arrays *of, const moment *now, size_t count, size
     const size_t particles = (size_t)now->set->def.number;
     of->directions = (size_t)moment_dimension(now);
     of->coordinates = (size_t)moment_coordinates(now);
-    of->pairs_most = HD_MODULATIONS_IN(of->directions);
+    of->pairs_most = (size_t)HD_MODULATIONS_IN(of->directions);
     of->exponents = moment_take(now, (1 + 2 * of->pairs_most) * count, sizeof *of->exponents);
     of->nodes[0] = moment_take(now, HD_DIMENSION_MAX * count, sizeof *of->nodes[0]);
     of->kind = moment_take(now, 2 * count, sizeof *of->kind);
