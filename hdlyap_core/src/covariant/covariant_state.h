@@ -41,8 +41,8 @@ struct hd_covariant {
     double *factor;       /**< [vectors * vectors]; room for the centres of both starts, too */
     double *coupling;     /**< [carried * carried]; NULL where all vectors are carried */
     double *angle;        /**< [vectors]: principal angles */
-    double *apart; /**< [vectors]: sines between the vectors of both starts at the end of the last
-                      window */
+    double *apart;  /**< [vectors]: sines between the vectors of both starts at the end of the last
+                       window */
     double *edge;   /**< [vectors]: ln |C_ll| at the end of the window */
     double *turned; /**< [vectors]: ln |C_ll| at the beginnings of windows less `edge`, summed */
     double *frame, *q, *p;  /**< vectors [rows * vectors] of a sample; positions and momenta then */

@@ -449,7 +449,7 @@ static void draw_caption(const sheet *s)
         h->box[1] + 0.5 * s->longest + (ABOVE + CAPTION + more) * s->unit,
         h->box[2],
     };
-    char time[80], box[100], particles[80];
+    char time[80], box[180], particles[80];
     snprintf(particles, sizeof particles, "%u %s", (unsigned)h->number, h->particles);
     write_box(box, sizeof box, h);
     write_time(time, sizeof time, h);

@@ -44,8 +44,7 @@ static void check_exponent(const hd_covariant_results *r, const hd_spectrum *for
                            int positive)
 {
     const hd_spectrum *back = r->spectrum;
-    const double one = hd_spectrum_std_error(forward, col),
-                 other = hd_covariant_std_error(r, col);
+    const double one = hd_spectrum_std_error(forward, col), other = hd_covariant_std_error(r, col);
     const double exponent = hd_spectrum_exponent(back, col);
     const bool central = col >= positive && col < positive + 6; /* decays: no error may be known */
     assert_true(central || (one > 0 && other > 0 && one < 0.08 && other < 0.08));
