@@ -192,6 +192,14 @@ class Check(harness.Case):
             self.assertNotIn('warning', done.stdout)
             self.assertNotIn('c_T', done.stdout)
 
+    def test_parameters_without_effect(self):
+        """A mass that no particle has."""
+        said = 'warning   second_mass = 10 has no effect with the other parameters\n'
+        alone = dict(number=16, density=0.5, observables=['spectrum'])
+        for fraction, warned in ((0.0, True), (0.5, False)):
+            file = self.file_of(dict(alone, second_fraction=fraction))
+            self.assertEqual(said in checked(file, 'second_mass:=10').stdout, warned)
+
     def test_places_that_are_kept(self):
         for density, said in ((0.87, False), (1.0, True)):
             done = checked(self.file_of(dict(number=16, density=density)))

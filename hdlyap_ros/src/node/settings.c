@@ -389,6 +389,21 @@ static void warn_of_steps(settings *set)
              hd_scene_counts(&usual).vectors);
 }
 
+/** Warns of a parameter of the particles' own that was asked for and has no effect, as the mass of
+ * a second kind that no particle is of. */
+static void warn_of_idle(settings *set, const hdr_params *params)
+{
+    const hd_dynamics *of = hd_dynamics_of(&set->def);
+    for (int k = 0; k < of->parameters; k++) {
+        const hd_parameter *row = &of->parameter[k];
+        const double value = hd_parameter_value(row, &set->def);
+        if (!row->idle || !row->idle(&set->def) || value == row->default_value) continue;
+        if (*hdr_param_text(params, row->name) && !given_is_of_file(params, row->name))
+            snprintf(set->warning, sizeof set->warning,
+                     "%s = %.15g has no effect with the other parameters", row->name, value);
+    }
+}
+
 bool settings_read(settings *out, const hdr_params *params, const hd_checkpoint *kept,
                    char *message, size_t size)
 {
@@ -407,6 +422,7 @@ bool settings_read(settings *out, const hdr_params *params, const hd_checkpoint 
         make_one_line(message);
         return false;
     }
+    warn_of_idle(out, params);
     warn_of_steps(out);
     return check_field_indices(out, &r) && check_slow_vectors(out, &r) &&
            check_changes(out, message, size);
