@@ -148,8 +148,9 @@ class Work(InFolder):
         self.assertEqual(hdlyap.load(two + '.old').info.duration, 2.0)
 
     def check_failure(self, said):
-        """It is told when it failed, and at the end; the others go on."""
-        lines = [line for line in said.splitlines() if 'sweep: refused' in line]
+        """It is told before all runs, when it failed, and at the end; the others go on."""
+        before, *lines = [line for line in said.splitlines() if 'sweep: refused' in line]
+        self.assertRegex(before, r'^hdlyap sweep: refused will be refused: density = 2\.5: ')
         self.assertEqual(len(lines), 2, said)
         for line in lines:
             self.assertRegex(
@@ -286,7 +287,8 @@ class Grid(InFolder):
         self.write('tiny.yaml', **MODES)
         process = self.start(*self.of('0.6 0.8 2.5'), ROS_NAMESPACE='/lab')
         self.assertEqual(process.wait(LATEST), 1, process.text())
-        self.assertEqual(len(process.lines('hdlyap sweep: density_2_5_seed_')), 4, process.text())
+        # each when it failed and at the end; one of them before all runs
+        self.assertEqual(len(process.lines('hdlyap sweep: density_2_5_seed_')), 5, process.text())
         self.assertRegex(process.text(), r'(?m)^4 of 6 runs done, 2 failed in')
         self.assert_none_left()
         done = self.run_ids(self.path('of mine'))
