@@ -89,8 +89,8 @@ typedef struct hd_covariant_results {
 /** Reads the results; O(n). */
 hd_covariant_results hd_covariant_read(const hd_covariant *covariant);
 /** Standard error of the exponent of a covariant vector, 0 .. n - 1 [1/time unit]; negative
- * while it is not known. `turned` of the results is a part of it: a longer transient lessens it,
- * more windows do not. */
+ * while it is not known. hd_covariant_results.turned is a part of it: a longer transient lessens
+ * it, more windows do not. */
 double hd_covariant_std_error(const hd_covariant_results *results, int vector);
 
 HD_API_END
