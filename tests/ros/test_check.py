@@ -199,6 +199,8 @@ class Check(harness.Case):
         for fraction, warned in ((0.0, True), (0.5, False)):
             file = self.file_of(dict(alone, second_fraction=fraction))
             self.assertEqual(said in checked(file, 'second_mass:=10').stdout, warned)
+        both = checked(self.file_of(alone), 'second_mass:=10', 'second_diameter:=2').stdout
+        self.assertRegex(both, 'warning   second_diameter = 2 has no .*; second_mass = 10 has no ')
 
     def test_places_that_are_kept(self):
         for density, said in ((0.87, False), (1.0, True)):

@@ -141,6 +141,18 @@ class Delivery(harness.Case):
         self.sees(lambda: echo.text().split()[-2:] == [str(RunStatus.FINISHED), '---'], echo)
         self.assertEqual(node.lines('WARN'), [])
 
+    @harness.SECOND_TIER
+    def test_subscriber_that_does_not_answer(self):
+        """It is not waited for without an end, and is named."""
+        node = self.start(dict(MANY, wait_for_subscribers=['status'], duration=20.0))
+        echo = self.process(['rostopic', 'echo', '/hdlyap/status/stage'])
+        self.sees(lambda: '---' in echo.text(), echo)
+        echo.send(signal.SIGSTOP)
+        with harness.within(self, 20.0):
+            self.ends(node)
+        self.assertRegex(node.text(), 'WARN.* /rostopic_.* does not answer: it may not read the la')
+        links.end(echo)
+
     def test_slow_subscriber(self):
         slow = self.listen('state', delay=0.2)
         status = self.listen('status')

@@ -398,9 +398,11 @@ static void warn_of_idle(settings *set, const hdr_params *params)
         const hd_parameter *row = &of->parameter[k];
         const double value = hd_parameter_value(row, &set->def);
         if (!row->idle || !row->idle(&set->def) || value == row->default_value) continue;
+        const size_t length = strlen(set->warning);
         if (*hdr_param_text(params, row->name) && !given_is_of_file(params, row->name))
-            snprintf(set->warning, sizeof set->warning,
-                     "%s = %.15g has no effect with the other parameters", row->name, value);
+            snprintf(set->warning + length, sizeof set->warning - length,
+                     "%s%s = %.15g has no effect with the other parameters", length ? "; " : "",
+                     row->name, value);
     }
 }
 
@@ -422,8 +424,8 @@ bool settings_read(settings *out, const hdr_params *params, const hd_checkpoint 
         make_one_line(message);
         return false;
     }
-    warn_of_idle(out, params);
     warn_of_steps(out);
+    warn_of_idle(out, params);
     return check_field_indices(out, &r) && check_slow_vectors(out, &r) &&
            check_changes(out, message, size);
 }

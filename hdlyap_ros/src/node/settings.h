@@ -44,7 +44,7 @@ typedef struct settings {
     double checkpoint_interval; /**< wall seconds between two checkpoints; 0: only at the end and
                                    when a service asks */
     const char *resume;         /**< file to go on from, or ""; in the params */
-    char warning[256];          /**< says what is allowed but gives no results; "" if nothing */
+    char warning[512];          /**< says what is allowed but gives no results; "" if nothing */
     double table; /**< least wall seconds between two tables in the log; 0: no tables */
 } settings;
 
