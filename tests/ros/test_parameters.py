@@ -3,8 +3,12 @@ that are started. What each may be is tested without nodes, in test_refusals.cpp
 
 import os
 import re
+import socketserver
 import subprocess
 import tempfile
+import threading
+import xmlrpc.client
+import xmlrpc.server
 
 import rosgraph
 import rospy
@@ -112,6 +116,30 @@ def handed_over(**texts):
     return dict(launch=dict(dict(arguments=''), **texts))
 
 
+class SlowMaster(socketserver.ThreadingMixIn, xmlrpc.server.SimpleXMLRPCServer):
+    """Asks the master what it is asked; a node's parameters are written when `may_write` is set."""
+
+    daemon_threads = True  # roscpp keeps its connections
+
+    def __init__(self, may_write):
+        super().__init__(('localhost', 0), logRequests=False, allow_none=True)
+        self.uri, self.may_write = 'http://localhost:%d' % self.server_address[1], may_write
+        self.thread = threading.Thread(target=self.serve_forever)
+        self.thread.start()
+
+    def _dispatch(self, method, params):
+        if method == 'setParam' and params[0] != '/harness':
+            self.may_write.wait()
+        with xmlrpc.client.ServerProxy(rosgraph.get_master_uri()) as master:
+            return getattr(master, method)(*params)
+
+    def end(self):
+        self.may_write.set()
+        self.shutdown()
+        self.thread.join()
+        self.server_close()
+
+
 class Parameters(harness.Case):
     def test_refused(self):
         """In one line, before anything happens."""
@@ -198,6 +226,25 @@ class Parameters(harness.Case):
                 f'argument {argument} renames a topic and sets no parameter: is _{argument} meant'
             )
             self.assertEqual(len(node.lines(said)), 1, node.text())
+
+    def test_written_by_a_run_that_ends_at_once(self):
+        """Also if the master takes longer than the run; if it does not answer, a line says so."""
+        for answers in (True, False):
+            may_write = threading.Event()
+            master = SlowMaster(may_write)
+            self.addCleanup(master.end)
+            text = '\n'.join('%s:=%s' % one for one in SHORT.items())
+            node = self.start(handed_over(arguments=text), ROS_MASTER_URI=master.uri)
+            self.sees(lambda: node.lines('finished at simulated time'), node)
+            if answers:
+                may_write.set()
+            self.ends(node)
+            said = node.lines('are not written to the parameter server')
+            self.assertEqual(len(said), int(not answers), node.text())
+            if answers:
+                self.assertEqual(rospy.get_param('/hdlyap'), dict(SHORT))
+            else:
+                self.assertIn(f'{len(SHORT)} parameters', said[0])
 
     def test_lists_on_the_command_line(self):
         info = self.listen('run_info')

@@ -18,8 +18,8 @@ namespace
 const double lost_seconds = 5.0; /**< after which a warning says so */
 const double silent_seconds = 3.0;
 const std::chrono::seconds between_questions{1};
-/** How long the thread may take to end if it is not waiting for an answer. */
-const std::chrono::milliseconds master_end{100};
+/** How long the thread may take to end: if it has nothing to do, and if parameters are unwritten. */
+const std::chrono::milliseconds master_end{100}, write_end{3000};
 
 /** Asks the master about something of this name. Returns an empty text if it knows of none. */
 std::string looked_up(const char *question, const std::string &name)
@@ -62,7 +62,7 @@ void hdr_master_watch::asked::ask()
 void hdr_master_watch::asked::write_all()
 {
     std::unique_lock<std::mutex> lock(mutex);
-    while (wanted && !unwritten.empty()) {
+    while (!unwritten.empty()) {
         const auto first = unwritten.begin();
         XmlRpc::XmlRpcValue request, response, ignored;
         request[0] = ros::this_node::getName();
@@ -99,6 +99,9 @@ void hdr_master_watch::asked::go_on()
         changed.wait_for(lock, between_questions, [this] { return !wanted || has_more; });
         has_more = false;
     }
+    lock.unlock();
+    write_all();
+    lock.lock();
     ended = true;
     changed.notify_all();
 }
@@ -116,7 +119,11 @@ hdr_master_watch::~hdr_master_watch()
     std::unique_lock<std::mutex> lock(shared->mutex);
     shared->wanted = false;
     shared->changed.notify_all();
-    shared->changed.wait_for(lock, master_end, [this] { return shared->ended; });
+    const auto patience = shared->unwritten.empty() ? master_end : write_end;
+    shared->changed.wait_for(lock, patience, [this] { return shared->ended; });
+    if (!shared->unwritten.empty())
+        hdr_log(HDR_WARN, "%zu parameters are not written to the parameter server: no answer of it",
+                shared->unwritten.size());
 }
 
 void hdr_master_watch::service_is(const std::string &name)
