@@ -42,19 +42,36 @@ static bool step_possible(const hd_scene_def *def, const hd_aim *goal, char why[
     return s.found;
 }
 
-/** Finds a box of as many particles whose edges leave an error below `wanted`: its aspect, between
- * that of the scene and 1; 0: there is none. */
-static double aspect_that_does(const hd_scene_def *def, hd_mode_kind kind, double wanted)
+static bool edges_do(const hd_scene_def *def, hd_mode_kind kind, double wanted)
 {
-    enum { TRIED = 100 };
+    return hd_relation_of(def, kind).box_error < wanted;
+}
+
+/** Finds a box whose edges leave an error below `wanted`, as it will be written: another shape of
+ * it, up to aspect 1, or else more particles in that shape, up to TENFOLD as many. Writes nothing
+ * if there is none. */
+static void advise(const hd_scene_def *def, hd_mode_kind kind, double wanted, char *text,
+                   size_t size)
+{
+    enum { TRIED = 100, TENFOLD = 10 };
     hd_scene_def other = *def;
+    char rounded[16];
     for (int k = 1; k <= TRIED; k++) {
-        char rounded[16]; /* as it will be written */
         snprintf(rounded, sizeof rounded, "%.3g", pow(def->aspect, 1.0 - (double)k / TRIED));
         other.aspect = strtod(rounded, NULL);
-        if (hd_relation_of(&other, kind).box_error < wanted) return other.aspect;
+        if (!edges_do(&other, kind, wanted)) continue;
+        snprintf(text, size, "; less with aspect = %s", rounded);
+        return;
     }
-    return 0.0;
+    other.aspect = def->aspect;
+    for (int k = 1; k <= TRIED; k++) {
+        const double number = def->number * pow(TENFOLD, (double)k / TRIED);
+        const double step = pow(10.0, fmax(floor(log10(number)) - 1.0, 0.0)); /* of two digits */
+        other.number = (int)(step * ceil(number / step));
+        if (!edges_do(&other, kind, wanted)) continue;
+        snprintf(text, size, "; less with number = %d", other.number);
+        return;
+    }
 }
 
 /** Of c_T, c_L and v. */
@@ -63,12 +80,10 @@ static bool edges_allow(const hd_scene_def *def, hd_mode_kind kind, const hd_aim
 {
     const double open = hd_relation_of(def, kind).box_error; /* NaN of LP in a circle */
     if (!(goal->relative && goal->wanted <= open)) return true;
-    const double other = aspect_that_does(def, kind, goal->wanted);
     const int length = snprintf(
         why, HD_WHY, "walls and short edges leave an error of %.3g %%, however long it is averaged",
         100.0 * open);
-    if (other > 0.0)
-        snprintf(why + length, HD_WHY - (size_t)length, "; less with aspect = %.3g", other);
+    advise(def, kind, goal->wanted, why + length, HD_WHY - (size_t)length);
     return false;
 }
 

@@ -81,6 +81,16 @@ TEST(what_is_never_known_is_refused_by_name)
     wide.aspect = strtod(advised + strlen("less with aspect = "), NULL);
     assert_true(wide.aspect > 0.25 && wide.aspect < 1.0);
     assert_int_equal(hd_target_check(&wide, NULL, 0), HD_OK);
+    wide = aiming(long_box(), "v 2%"); /* a shape is not enough */
+    wide.boundary[0] = wide.boundary[1] = HD_REFLECTING;
+    wide.aspect = 1.0;
+    const int before = wide.number;
+    assert_int_equal(hd_target_check(&wide, message, sizeof message), HD_REFUSED);
+    advised = strstr(message, "less with number = ");
+    assert_non_null(advised);
+    wide.number = atoi(advised + strlen("less with number = "));
+    assert_in_range(wide.number, before + 1, 10 * before);
+    assert_int_equal(hd_target_check(&wide, NULL, 0), HD_OK);
     hd_scene_def blind = aiming(long_box(), "v 2%");
     blind.observe = HD_OBSERVE_STEPS;
     expect_refused(&blind, "must be without v: lp_phases is not among the observables");
