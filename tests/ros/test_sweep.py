@@ -61,6 +61,16 @@ class Grid(unittest.TestCase):
             line, '^number_20_density_1_15_seed_1 will be refused: density = 1.15.*: must be'
         )
 
+    def test_what_nothing_changes(self):
+        """A parameter without effect is said before the runs, which would all be the same."""
+        found = self.runs(numbers='20', duration='5000', over=['second_mass 1 2'])
+        with tempfile.TemporaryDirectory() as folder:
+            (line,) = sweep.warnings(found, folder)
+        self.assertRegex(
+            line,
+            '^second_mass_2_number_20: second_mass = 2 has no effect with the other parameters',
+        )
+
     def test_product(self):
         """Each with a name of its values, the seeds last."""
         runs = self.runs(

@@ -327,6 +327,7 @@ static int tell_errors(settings *set, const char *path, const hdr_params *params
     const hd_status status = hd_estimate_errors(&after, &set->def);
     if (status != HD_OK) return fault(status, "");
     printf("%.6g\n", after);
+    if (*set->warning) fprintf(stderr, "%s\n", set->warning);
     return EXIT_SUCCESS;
 }
 

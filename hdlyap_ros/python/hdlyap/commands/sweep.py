@@ -118,8 +118,8 @@ def write(found, folder):
 
 
 def warnings(found, folder):
-    """Yields a line for each scene, whatever its seed, that is refused, or whose run ends before
-    its errors are known."""
+    """Yields a line for each scene, whatever its seed, that is refused, or of which the node warns,
+    or whose run ends before its errors are known."""
     told = set()
     for run in found:
         scene, duration = repr({**run.parameters, 'seed': ''}), run.parameters['duration']
@@ -127,10 +127,10 @@ def warnings(found, folder):
             continue
         told.add(scene)
         run.write(folder)
-        after, refused = run.errors_after(folder)
-        if refused:
-            yield f'{run.name} will be refused: {refused}'
-        elif duration < after:
+        after, said = run.errors_after(folder)
+        if said:
+            yield f'{run.name}{" will be refused" if after is None else ""}: {said}'
+        if after is not None and duration < after:
             yield (
                 f'{run.name} will have no errors: they are stated after {after:g} time units of '
                 f'averaging, but its duration is {duration:g}; with duration: 0 and a target, as '

@@ -56,10 +56,10 @@ class Program(namedtuple('Program', 'package name')):
         return [] if self == HDLYAP else [f'package:={self.package}', f'program:={self.name}']
 
     def errors_after(self, path):
-        """The averaged time after which a run of this scene file states errors, and ''; None and
-        the reason if the node refuses it."""
+        """The averaged time after which a run of this scene file states errors, and what the node
+        warns of; None and the reason if the node refuses it."""
         said = self._answer('--errors', path)
-        return (float(said.stdout), '') if said.returncode == 0 else (None, said.stderr.strip())
+        return (float(said.stdout) if said.returncode == 0 else None), said.stderr.strip()
 
     def usual(self):
         """{name: default} of all parameters."""

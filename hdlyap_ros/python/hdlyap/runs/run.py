@@ -59,7 +59,7 @@ class Planned:
 
     def errors_after(self, folder):
         """The averaged time after which the run states errors, as the node says for the scene file
-        in this folder, and ''; None and the reason if the node refuses the file."""
+        in this folder, and its warning; None and the reason if the node refuses the file."""
         return self.program.errors_after(self.scene_file(folder))
 
     def lacks(self, folder):
