@@ -3,10 +3,10 @@
 # expects the same events of every program.
 cmake_minimum_required(VERSION 3.16)
 
-file(GLOB SOURCES ${CORE}/src/base/*.c ${CORE}/src/scene/*.c ${CORE}/src/dynamics/*.c ${CORE}/src/dynamics/soft/*.c)
+file(GLOB SOURCES ${CORE}/src/base/*.c ${CORE}/src/scene/*.c ${CORE}/src/dynamics/*.c ${CORE}/src/dynamics/soft/*.c
+  ${CORE}/src/dynamics/dumbbells/*.c)
 list(FILTER SOURCES EXCLUDE REGEX "/(blas|gas)\\.c$") # which no event knows of
 file(GLOB HARD ${CORE}/src/dynamics/hard/*.c)
-file(GLOB DUMBBELLS ${CORE}/src/dynamics/dumbbells/*.c)
 set(TESTS ${CMAKE_CURRENT_LIST_DIR}/support)
 set(EXACT -std=c11 -ffp-contract=off -fno-math-errno -fno-trapping-math)
 # all that this processor can do; clang takes -mcpu=native for it on arm64, not -march
@@ -41,15 +41,16 @@ function(expect_golden compiler level)
       list(APPEND objects ${object})
     endforeach()
   endforeach()
-  foreach(source IN LISTS DUMBBELLS)
-    get_filename_component(object ${source} NAME_WE)
+  foreach(source IN LISTS SOURCES)
+    file(RELATIVE_PATH object ${CORE}/src ${source})
+    string(MAKE_C_IDENTIFIER ${object} object)
     set(object ${WORK}/${program}_${object}.o)
     must_succeed("${compiler} ${level}, ${source}" ${COMPILE} -DHD_DIM=2 -c ${source} -o ${object})
     list(APPEND objects ${object})
   endforeach()
   foreach(dimension 2 3)
     set(linked ${WORK}/${program}_${dimension}d)
-    must_succeed("${compiler} ${level}" ${COMPILE} -DHD_DIM=${dimension} ${SOURCES} ${TESTS}/golden.c ${TESTS}/golden_main.c
+    must_succeed("${compiler} ${level}" ${COMPILE} -DHD_DIM=${dimension} ${TESTS}/golden.c ${TESTS}/golden_main.c
       ${objects} -o ${linked} -lz -lm)
     must_succeed("${compiler} ${level}, ${dimension} dimensions" ${linked})
     message("${compiler} ${level}, ${dimension} dimensions: as stored")
