@@ -18,7 +18,8 @@ namespace
 const double lost_seconds = 5.0; /**< after which a warning says so */
 const double silent_seconds = 3.0;
 const std::chrono::seconds between_questions{1};
-/** How long the thread may take to end: if it has nothing to do, and if parameters are unwritten. */
+/** How long the thread may take to end: if it has nothing to do, and if parameters are unwritten.
+ */
 const std::chrono::milliseconds master_end{100}, write_end{3000};
 
 /** Asks the master about something of this name. Returns an empty text if it knows of none. */
@@ -119,8 +120,8 @@ hdr_master_watch::~hdr_master_watch()
     std::unique_lock<std::mutex> lock(shared->mutex);
     shared->wanted = false;
     shared->changed.notify_all();
-    const auto patience = shared->unwritten.empty() ? master_end : write_end;
-    shared->changed.wait_for(lock, patience, [this] { return shared->ended; });
+    const auto longest = shared->unwritten.empty() ? master_end : write_end;
+    shared->changed.wait_for(lock, longest, [this] { return shared->ended; });
     if (!shared->unwritten.empty())
         hdr_log(HDR_WARN, "%zu parameters are not written to the parameter server: no answer of it",
                 shared->unwritten.size());
