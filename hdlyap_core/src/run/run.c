@@ -149,6 +149,7 @@ hd_status hd_run_create_shared(hd_run **out, const hd_scene_def *def, hd_communi
 hd_status hd_run_make(hd_run **out, const hd_scene_def *def, bool resumed,
                       hd_communicator *communicator, char *message, size_t size)
 {
+    const double created = hd_clock_now();
     const hd_traffic before = hd_communicator_traffic(communicator);
     *out = NULL;
     HD_TRY(hd_ranks_check(def, communicator, message, size));
@@ -167,7 +168,7 @@ hd_status hd_run_make(hd_run **out, const hd_scene_def *def, bool resumed,
     run->scene = *def;
     run->scene.warmup = hd_scene_warmup(def);
     hd_scene_settle(&run->scene);
-    run->clocks.created = hd_clock_now();
+    run->clocks.created = created;
     hd_status status = prepare(run, resumed, message, size);
     if (status == HD_OK)
         status = hd_communicator_agree(

@@ -32,4 +32,14 @@ TEST(mixtures_are_those_of_one_rank)
 
 TEST(halves_are_those_of_one_rank) { compare(scene_of_runs(HD_EXPONENTS_ALL)); }
 
+/** A rank that comes late to the start: that the other waits is of the run's time, too. */
+TEST(waiting_is_a_part_of_the_time)
+{
+    if (ranks->rank == 1) usleep(200000);
+    OWNED(hd_run) *run = shared(scene_of_runs(HD_EXPONENTS_POSITIVE));
+    const hd_cost cost = hd_run_cost(run);
+    assert_true(cost.communication <= cost.wall);
+    if (ranks->rank == 0) assert_true(cost.communication > 0.1);
+}
+
 int main(int argc, char **argv) { return ranks_main(argc, argv); }
