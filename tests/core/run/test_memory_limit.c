@@ -42,6 +42,25 @@ TEST(the_estimate_is_what_is_asked_for)
                        .duration = 0.5));
 }
 
+/** Of two kinds; and between walls that shear, where no exponent is known from another one. */
+TEST(the_estimate_of_mixtures_and_of_flows_is_what_they_ask_for)
+{
+    const hd_scene_def mixed = packed(
+        with_second(short_run(300, HD_EXPONENTS_POSITIVE, 0), 0.35, 1.4, 2.0), 0.6);
+    compare(mixed);
+    for (int k = 0; k < 2; k++) {
+        hd_scene_def many = scene_of_kind(k ? HD_SPHERES : HD_DISKS, 20000, 0.5, 1.0);
+        many.equilibration = many.warmup = 0.0;
+        many.report_interval = many.duration = 0.5;
+        many.exponents = HD_EXPONENTS_NONE;
+        compare(packed(with_second(many, 0.35, 1.4, 2.0), 0.4));
+    }
+    compare(scene_from(short_run(200, HD_EXPONENTS_ALL, 0), .boundary[1] = HD_SHEARING,
+                       .shear_b = 3.0));
+    compare(scene_from(short_run(2000, 60, 0), .warmup = 10.0, .boundary[1] = HD_SHEARING,
+                       .shear_b = 3.0));
+}
+
 static hd_scene_def short_dumbbells(int count, int exponents, double warmup, double duration)
 {
     const double edge = sqrt(count / 0.6);

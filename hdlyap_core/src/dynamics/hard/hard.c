@@ -311,7 +311,9 @@ double hd_hard_bytes(const hd_scene_def *scene)
 {
     /* bytes of a disk, its cells, its entry in the queue and its prediction */
     static const double OF_A_DISK = HD_DIM == 2 ? 255.0 : 310.0;
-    return OF_A_DISK * scene->number;
+    /* its own radius, while a start grows it */
+    static const double OF_ITS_SIZE = HD_MIXED ? sizeof(double) + sizeof(hd_wall) : 0.0;
+    return (OF_A_DISK + OF_ITS_SIZE) * scene->number;
 }
 
 void hd_hard_free(void *state)
