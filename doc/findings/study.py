@@ -1,13 +1,18 @@
 """What the studies share: their tables, a fit, colours and style."""
 
 import csv
+import importlib.util
 import os
 import sys
 
 import numpy as np
 
 ROOT = os.path.join(os.path.dirname(__file__), '../..')
-sys.path.append(os.path.join(ROOT, 'hdlyap_ros/python/hdlyap/plots/figures'))
+# the package's colours, beside this file or installed; all of it would need ROS
+INSTALLED = importlib.util.find_spec('hdlyap')
+PACKAGES = INSTALLED.submodule_search_locations if INSTALLED else []
+for package in [os.path.join(ROOT, 'hdlyap_ros/python/hdlyap'), *PACKAGES]:
+    sys.path.append(os.path.join(package, 'plots/figures'))
 from look import BLUE, GREEN, GREY, INK, ORANGE, PLAIN, SKY, VERMILION  # noqa: E402, F401
 
 # by density
