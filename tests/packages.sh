@@ -67,7 +67,7 @@ prepare_user() {
     mkdir "$SYSTEM/packages" && cp "$PACKAGES"/*.deb "$SYSTEM/packages" &&
         inside apt-get update -q &&
         inside apt-get satisfy -y -q --no-install-recommends "$(of_packages Depends)" &&
-        inside apt-get install -y -q --no-install-recommends g++ cmake make pkg-config openmpi-bin iproute2 python3-rostopic python3-rosmsg &&
+        inside apt-get install -y -q --no-install-recommends g++ cmake make pkg-config openmpi-bin iproute2 python3-rosmsg &&
         inside useradd -m user &&
         (cd "$SYSTEM$CLONE" && cp -r --parents -t "$SYSTEM/home/user" tests doc/findings) && chown -R --reference="$SYSTEM/home/user" "$SYSTEM/home/user"
 }

@@ -46,9 +46,13 @@ def text_of(path):
         return file.read()
 
 
-def dependencies():
+def dependencies(tags='.*depend'):
     package = ElementTree.parse(os.path.join(ROOT, 'package.xml')).getroot()
-    return {element.text for element in package if element.tag.endswith('depend')}
+    return {element.text for element in package if re.fullmatch(tags, element.tag)}
+
+
+def run_dependencies():
+    return dependencies('depend|exec_depend')
 
 
 def install_sh(*words):
@@ -82,8 +86,6 @@ class Dependencies(unittest.TestCase):
 
     def test_ros_packages_that_are_imported_are_dependencies(self):
         """At run time, not of the tests alone."""
-        root = ElementTree.parse(os.path.join(ROOT, 'package.xml')).getroot()
-        known = {one.text for one in root if one.tag in ('depend', 'exec_depend')}
         found = set()
         for path in files(''):
             text = text_of(path)
@@ -91,7 +93,17 @@ class Dependencies(unittest.TestCase):
                 found |= {module.partition('.')[0] for module in imported(text, ['hdlyap'])}
         found &= of_ros()
         self.assertGreater(len(found), 5)
-        self.assertLessEqual(found, known)
+        self.assertLessEqual(found, run_dependencies())
+
+    def test_ros_programs_of_the_documents_are_dependencies(self):
+        """What a user is told to type is there without the packages of the tests."""
+        brought = {'rosrun': 'rosbash', 'roscore': 'roslaunch', 'rosparam': 'roslaunch'}
+        found = set()
+        for name in ('README.md', 'doc/user_guide.md', 'doc/first_hour.md', 'doc/reference.md'):
+            found |= set(re.findall(r'(?:^|`|\$\()(ros[a-z]+) (?=[a-z/-])', text_of(name), re.M))
+        found = {brought.get(name, name) for name in found}
+        self.assertGreater(len(found), 5)
+        self.assertLessEqual(found, run_dependencies())
 
     def test_ros_packages_found_by_cmake_are_dependencies(self):
         found = set()
