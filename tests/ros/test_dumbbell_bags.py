@@ -11,6 +11,7 @@ import hdlyap
 import made
 import made_fields
 from made import LP, T
+from hdlyap import parameters
 from hdlyap.data import space
 from hdlyap.data.reader import RecordingError
 from hdlyap.msg import Mode, Modes, State
@@ -240,6 +241,7 @@ class Tables(Dumbbells):
             (OWN, ['bond=0.25', 'inertia=0.5'], ['bond=0.1', 'inertia=points'])
         ):
             info = dumbbells(own=own)
+            parameters.named(info, 'bond').unit = 'sigma'
             paths.append(self.write([info, made.spectrum([2.0], 50.0)], str(number)))
         found, wrong = points.read(paths)
         self.assertEqual(wrong, [])
@@ -249,7 +251,7 @@ class Tables(Dumbbells):
         self.assertIn('density 0.5', first)
         self.assertEqual(head.split()[:2], ['bond', 'inertia'])
         drawn = figure.draw(found).figure
-        self.assertEqual(drawn.axes[0].get_xlabel(), 'bond')
+        self.assertEqual(drawn.axes[0].get_xlabel(), r'bond  [$\sigma$]')
         (labels,) = [one.get_texts() for one in drawn.legends]
         self.assertEqual(
             [text.get_text() for text in labels],

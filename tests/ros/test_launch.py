@@ -90,6 +90,8 @@ class Launch(harness.Case):
             'densty:=0.5': 'densty = 0.5: no such argument; is density meant?',
             'boundary:=reflecting': 'boundary = reflecting: no such argument; is boundary_x meant?',
             'warmup:=5': 'warmup = 5: must be in params:="{warmup: ..}", as run.launch has no',
+            'density=0.5': 'density=0.5: must be density:=0.5\n',
+            'density': 'density: must be density:=..\n',
             'xyz:=5': 'xyz = 5: no such argument\n',
             'bond:=0.5': 'bond = 0.5: must be in params:="{bond: ..}", as run.launch has no',
             'file:=5': 'file = 5: no such argument',

@@ -118,7 +118,7 @@ class Grid(unittest.TestCase):
         (one,) = self.runs(**how)
         self.assertEqual((one.parameters['bond'], one.parameters['inertia']), (0.5, 'disks'))
         self.assertNotIn('bond', self.runs(seeds='1')[0].parameters)
-        with self.assertRaisesRegex(Refused, 'bond = 0.5: must be a parameter of hdlyap_node'):
+        with self.assertRaisesRegex(Refused, 'bond = 0.5: must not be given with particles = disks'):
             self.runs(seeds='1', params='{bond: 0.5}')
         for particles in 'soft_disks', 'soft_spheres':
             (one,) = self.runs(seeds='1', params=f'{{particles: {particles}, energy: 2}}')
@@ -155,7 +155,8 @@ class Grid(unittest.TestCase):
             (dict(seeds='1', duration='0'), 'duration = 0: must be above 0, or it never ends'),
             (dict(seeds='1', duration='0', params='{target: ""}'), 'never ends without a target'),
             (dict(seeds='1', params='{seed: 2}'), 'must be without seed: it is swept'),
-            (dict(seeds='1', params='{lyap: 2}'), 'lyap = 2: must be a parameter of hdlyap_node'),
+            (dict(seeds='1', over=['densty 1']), 'densty = 1: no such parameter; is density meant'),
+            (dict(seeds='1', params='{lyap: 2}'), 'lyap = 2: no such parameter'),
             (dict(seeds='1', params='{checkpoint: a}'), 'checkpoint = a: must be empty'),
         ):
             with self.subTest(given=given), self.assertRaises(Refused) as caught:
@@ -201,7 +202,7 @@ class Own(unittest.TestCase):
             ('over = beta: must be a parameter and its values', dict(over=['beta'])),
             ('over = beta: must be swept once', dict(over=['beta 1', 'beta 2'])),
             ('params = {beta: 3}: must be without beta', dict(params='{beta: 3}')),
-            ('betta = 1: must be a parameter of hdlyap_own_node', dict(over=['betta 1'])),
+            ('betta = 1: no such parameter; is beta meant', dict(over=['betta 1'])),
         ):
             with self.assertRaisesRegex(Refused, said):
                 self.runs(**given)
@@ -279,7 +280,7 @@ class Plan(InFolder):
             ('one: {base: quick, full: 3}', 'one: must be {base: '),
             ('one: {base: quick, duration: 0.0}', 'one: duration = 0.0: must be above 0'),
             ('one: {base: quick, duration: 1, warmup: x}', 'one: warmup = x: must be a number'),
-            ('one: {base: quick, duration: 1, lyap: 2}', 'one: lyap = 2: must be a parameter of'),
+            ('one: {base: quick, duration: 1, lyap: 2}', 'one: lyap = 2: no such parameter'),
             ('one: {base: quick, duration: 1, seconds: [x, y]}', "one: seconds = ['x', 'y']: must"),
             ('one: {base: quick, duration: 1, seconds: [0, 1]}', 'one: seconds = [0, 1]: must be'),
             ('one: {base: quick, duration: 1, seconds: 1}', 'one: seconds = 1: must be two'),

@@ -10,6 +10,7 @@ Exit status: that of the node, or of its recorder, rviz or window of figures if 
 2, too, if an argument is refused; 1 roslaunch has failed; 129, 130, 143 ended by a signal, after
 the node has ended in order."""
 
+import argparse
 import os
 import sys
 
@@ -34,11 +35,13 @@ class First(pmon.ProcessListener):
 
 def options(parser):
     parser.usage = '%(prog)s [ARGUMENT:=VALUE]..'
+    parser.add_argument('others', nargs='*', help=argparse.SUPPRESS)
 
 
 def main(args):
     try:
         launch = arguments.launch_folder()
+        arguments.refuse(args.others)
         arguments.check(args.assigned, launch, os.environ.get('PWD', os.getcwd()))
     except Refused as refused:
         print(f'hdlyap launch: {refused}', file=sys.stderr)

@@ -38,6 +38,13 @@ def check(words, launch, cwd):
     return given
 
 
+def refuse(words):
+    """Raises Refused if there are words, which have no :=, with what the first should be."""
+    for word in words:
+        name, equals, value = word.partition('=')
+        raise Refused(f'{word}: must be {name}:={value if equals else ".."}')
+
+
 def _once(pairs):
     """{name: value}. Raises Refused if a name has two values."""
     given = {}
@@ -58,11 +65,11 @@ def _wanted(name, known, given):
     all_of_node = {*node.usual(), *(own for one in node.own().values() for own in one)}
     if name in all_of_node:
         return f'must be in params:="{{{name}: ..}}", as run.launch has no argument of this name'
-    meant = _nearest(name, [*known, *sorted(all_of_node)])
+    meant = nearest(name, [*known, *sorted(all_of_node)])
     return 'no such argument' + (f'; is {meant} meant?' if meant else '')
 
 
-def _nearest(name, names):
+def nearest(name, names):
     """The most alike of these names, of several the first; '' if none is like it."""
     alike = difflib.get_close_matches(name, names, len(names))
     close = {one: difflib.SequenceMatcher(None, name, one).ratio() for one in names if one in alike}

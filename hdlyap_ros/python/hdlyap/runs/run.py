@@ -12,6 +12,7 @@ from hdlyap import whole
 from hdlyap.data.reader import RecordingError
 
 from . import asked
+from .arguments import nearest
 from .program import HDLYAP
 from .scene import Refused
 
@@ -92,7 +93,7 @@ def _check(parameters, program):
     known = program.completed({'particles': parameters['particles']})
     for name, value in parameters.items():
         if name not in known:
-            raise Refused(f'{name} = {value}: must be a parameter of {program.name}')
+            raise Refused(f'{name} = {value}: {_unknown(name, known, program)}')
         if name in OF_ONE and value:
             raise Refused(f'{name} = {value}: must be empty in a sweep, which goes on by itself')
     for name in TIMES:
@@ -104,6 +105,14 @@ def _check(parameters, program):
             f'duration = {parameters["duration"]}: must be above 0, or it never ends without a '
             'target'
         )
+
+
+def _unknown(name, known, program):
+    """What the node says of a parameter that is not among those known."""
+    if any(name in own for own in program.own().values()):
+        return f'must not be given with particles = {known["particles"]}'
+    meant = nearest(name, known)
+    return 'no such parameter' + (f'; is {meant} meant?' if meant else '')
 
 
 def _estimate(parameters, program):

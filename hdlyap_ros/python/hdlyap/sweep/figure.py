@@ -7,7 +7,9 @@ import textwrap
 import numpy as np
 from matplotlib.lines import Line2D
 
+from hdlyap import parameters
 from hdlyap.data import space
+from hdlyap.plots import latex
 from hdlyap.plots.figures.page import LETTERS, Page
 from hdlyap.plots.figures.style import FEW, GREY, MEMBER_COLOURS, ours
 
@@ -157,6 +159,10 @@ def _panel(axes, name, x, series, look):
 
 
 def _label(x, info):
+    """The name of a parameter with its unit."""
+    known = parameters.named(info, x)
+    if x not in LABELS and known and known.unit:
+        return f'{x}  [{latex.unit(known.unit)}]'
     label = LABELS.get(x, x).replace('particles', space.particle(info) + 's')
     return label.replace('^2', f'^{len(space.axes(info))}')
 
