@@ -24,12 +24,12 @@ def with_error(value, error, decimals=5):
         return f'{round(value, places):.0f}({round(error, places):.0f})'
     digits = f'{error:.{places}f}'
     # an error of one unit or more keeps its point: 12.3(1.5)
-    return f'{value:.{places}f}({digits if error >= 1 else digits.lstrip("0.")})'
+    return f'{fixed(value, places)}({digits if error >= 1 else digits.lstrip("0.")})'
 
 
 def fixed(value, decimals):
-    """A value with this many decimals; a large one as 1e+308."""
-    return f'{value:.{decimals}f}' if abs(value) < LARGE else f'{value:.{decimals}g}'
+    """A value with this many decimals; a large one as 1e+308. What is rounded to 0 has no sign."""
+    return f'{round(value, decimals) + 0.0:.{decimals}f}' if abs(value) < LARGE else f'{value:.{decimals}g}'
 
 
 def known(errors):

@@ -128,7 +128,8 @@ def _bits(message):
 
 def _refuse_other_systems(a, b):
     names = [name for name in system(a) if name not in STEPPED]
-    others = [f'{name} {one} and {other}' for name, one, other in different(a, b, names)]
+    found = [one for one in different(a, b, names) if '' not in one]  # as boundary_z of disks
+    others = [f'{name} {one} and {other}' for name, one, other in found]
     if others:
         why = 'the runs are of different systems and are not compared'
         table = 'hdlyap table shows runs of several systems side by side'

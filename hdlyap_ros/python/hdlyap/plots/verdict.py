@@ -39,11 +39,8 @@ def verdict(comparison):
     chance, reason = min(reasons, key=lambda one: min(1.0, one[0]))
     found = f'{reason}; chance alone makes two runs as unlike in {_percent(chance)} of comparisons'
     said, status = ('agree', AGREE) if chance >= CHANCE else ('differ', DIFFER)
-    limit = 'not below' if status == AGREE else 'below'
-    return (
-        '\n'.join([*_warnings(comparison), f'{said}: {found}, {limit} {_percent(CHANCE)}']),
-        status,
-    )
+    limit = f'runs differ below {_percent(CHANCE)}'
+    return '\n'.join([*_warnings(comparison), f'{said}: {found}; {limit}']), status
 
 
 def _reasons(comparison):
