@@ -201,9 +201,10 @@ static void log_end(const worker_state *state)
         hdr_log(HDR_FATAL, "ended by a fault at simulated time %.6g: %s", last->time, state->fault);
     else
         hdr_log(HDR_INFO,
-                "%s at simulated time %.6g after %.1f s: %s%ld orthonormalisations, %ld repairs",
+                "%s at simulated time %.6g after %.1f s: %s%ld orthonormalisations, %ld repair%s",
                 last->stage == HD_FINISHED ? "finished" : "stopped", last->time, last->cost.wall,
-                collisions, last->cost.orthonormalisations, last->cost.repairs);
+                collisions, last->cost.orthonormalisations, last->cost.repairs,
+                last->cost.repairs == 1 ? "" : "s");
     char step[CONDITION_STEP];
     if (energy_write(step, &last->energy)) hdr_log(HDR_WARN, "%s", step);
     if (!last->split.are) return;

@@ -93,21 +93,28 @@ static void print_steps(const hd_run *run)
         hdr_log(HDR_INFO, "  %d step%s not resolved", missing, missing > 1 ? "s are" : " is");
 }
 
+/** Writes how far the run is from its target, with ", " before it; nothing without a target. */
+static void write_target(char text[2 * TEXT], const hd_target_progress *at, bool ended)
+{
+    const bool missed = ended && !(at->error >= 0.0 && at->error <= at->wanted);
+    const char *before = missed ? ", target not reached: " : ", ";
+    if (at->error >= 0.0)
+        snprintf(text, 2 * TEXT, "%serror of %s %.2g, wanted %.2g", before, at->name, at->error,
+                 at->wanted);
+    else if (*at->name)
+        snprintf(text, 2 * TEXT, "%serror of %s not yet known", before, at->name);
+}
+
 static void print(const char *what, const settings *set, const hd_run *run)
 {
     const hd_spectrum *spectrum = hd_run_parts(run).spectrum;
     char of[TEXT] = "", lambda[TEXT], left[TEXT] = "", target[2 * TEXT] = "";
     const progress now = progress_of(run, set->pace);
-    const hd_target_progress *at = &now.cost.target;
     number_with_error(lambda, sizeof lambda, hd_spectrum_exponent(spectrum, 0),
                       hd_spectrum_std_error(spectrum, 0));
     if (set->def.duration > 0.0) snprintf(of, sizeof of, " of %.6g", set->def.duration);
     const double remaining = now.cost.remaining;
-    if (at->error >= 0.0)
-        snprintf(target, sizeof target, ", error of %s %.2g, wanted %.2g", at->name, at->error,
-                 at->wanted);
-    else if (*at->name)
-        snprintf(target, sizeof target, ", error of %s not yet known", at->name);
+    write_target(target, &now.cost.target, now.stage == HD_FINISHED);
     if (remaining > 0.0)
         snprintf(left, sizeof left, ", %.0f:%02.0f left", floor(remaining / 60.0),
                  floor(fmod(remaining, 60.0)));
