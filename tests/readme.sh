@@ -169,7 +169,7 @@ while read -r line; do
 done < <(commands)
 check c_program c_program_prints_the_steps
 check python_on_mine says 'LP\(1,0\) +k = 0\.077[0-9]+  lambda = 0\.2[45]' '^c_T ' -- python3 mine.py
-check python_on_run says '^T\(1,0\) .*lambda = ' '^value ' -- python3 c_t.py
+check python_on_run says '^T\(1,0\) .*lambda = ' '^c_T ' -- python3 c_t.py
 check python_program beside_a_node says "${STEPS_SAID[@]}" -- python3 watch.py
 check c_subscriber beside_a_node says "${STEPS_SAID[@]}" -- ./watch_steps
 check nodes_in_c run nodes_in_c

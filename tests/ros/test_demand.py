@@ -102,6 +102,14 @@ class Fields(harness.Case):
         self.assertEqual(times, [messages['modes'][0].sim_time, messages['modes'][-1].sim_time])
         self.assertGreater(len(messages['modes']), 2)
 
+    def test_target_not_reached(self):
+        """Because the duration was over before: the log says so."""
+        node = self.start(dict(MODES, target='lambda_max 1e-9', table=3600.0))
+        self.ends(node)
+        said = node.lines('result: averaged ')
+        self.assertEqual(len(said), 1, node.text())
+        self.assertRegex(said[0], 'target not reached: error of lambda_max (not yet known|0)')
+
     def test_no_nan_is_published(self):
         """Not as what is not yet known, either."""
         for name, probe in (

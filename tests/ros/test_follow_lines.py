@@ -106,11 +106,13 @@ class Line(unittest.TestCase):
         nothing = dict.fromkeys(('status', 'cost', 'spectrum', 'steps', 'diagnosis', 'speed'))
         finished = status(stage=RunStatus.FINISHED)
         asked = dict(target='c_T', target_wanted=0.0098, target_error=-1.0)
+        unknown = dict(target='h_KS', target_wanted=-1.0, target_error=-1.0)
         for shown, part, not_said in (
             (view(**nothing), '', '.'),
             (view(spectrum=made.spectrum([9.0], 1.0, error=-1.0)), 'lambda_max 9.0000', '-1'),
             (view(status=status(progress=0.0, remaining_seconds=-1.0)), 't = 150.0', 'left|50.0 %'),
             (view(status=status(**asked)), 'error of c_T ?, wanted 0.0098', '-1'),
+            (view(status=status(**unknown)), 'error of h_KS ?, wanted ?', '-1'),
             (view(diagnosis=diagnosis(2, 'disk full')), 'ERROR: disk full', 'WARN'),
             (view(diagnosis=diagnosis(stage='paused')), 'paused', 'averaging'),
             (view(is_gone=True), 'GONE: /hdlyap does not answer', 'finished'),

@@ -53,7 +53,7 @@ def _progress(view):
     if 0 <= status.remaining_seconds < inf and not view.is_finished:
         yield f'{clock(status.remaining_seconds)} left'
     if status.target:
-        error, wanted = _number(status.target_error), f'{status.target_wanted:.2g}'
+        error, wanted = _number(status.target_error), _number(status.target_wanted)
         yield f'error of {status.target} {error}, wanted {wanted}'
     if view.is_averaged:
         errors = view.spectrum.std_errors
