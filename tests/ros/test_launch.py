@@ -103,7 +103,7 @@ class Launch(harness.Case):
         }
         for word, said in refused.items():
             for begin in (['launch'], ['run', 'quick', '--out', 'no.bag']):
-                if begin[0] == 'run' and word.startswith('scene'):
+                if begin[0] == 'run' and (word.startswith('scene') or ':=' not in word):
                     continue
                 with self.subTest(word=word, begin=begin):
                     done = self.process([*harness.command(begin[0]), *begin[1:], word])

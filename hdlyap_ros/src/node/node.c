@@ -171,6 +171,17 @@ static void warn_of_threads(const hd_run *run)
                 granted + denied);
 }
 
+/** Says before the run that it will have no standard errors. */
+static void tell_too_short(const hd_scene_def *def)
+{
+    double after;
+    if (hd_estimate_errors(&after, def) == HD_OK && def->duration > 0.0 && def->duration < after)
+        hdr_log(HDR_INFO,
+                "there will be no standard errors: they are first stated after %.6g time units of "
+                "averaging, and the duration is %.6g",
+                after, def->duration);
+}
+
 static void log_start(const app *a)
 {
     const hd_blas blas = hd_blas_query();
@@ -183,6 +194,7 @@ static void log_start(const app *a)
     given_log(&a->set, *a->set.resume);
     warn_of_threads(a->run);
     if (*a->set.warning) hdr_log(HDR_WARN, "%s", a->set.warning);
+    tell_too_short(&a->set.def);
     if (*a->set.resume)
         hdr_log(HDR_INFO, "goes on from simulated time %.6g of the checkpoint %s",
                 hd_run_time(a->run), a->set.resume);
