@@ -241,6 +241,15 @@ class Figures(Bags):
         self.assertAlmostEqual(at(zero, 40), -10 / 2**0.5)
         self.assertEqual(len(off), 74)
 
+    def test_points_are_below_the_legend(self):
+        flat = made.covariant(FORWARD[:20] * 0.01 + 5)
+        run = self.recorded([made.run_info(number=780), made.spectrum(FORWARD[:20], 400.0), flat])
+        axes = self.draw(covariant_exponents, run)[0]
+        axes.figure.canvas.draw()
+        box = axes.get_legend().get_window_extent()
+        for points in (axes.transData.transform(one.get_xydata()) for one in axes.get_lines()):
+            self.assertFalse(any(box.contains(*point) for point in points))
+
     def test_error_bars(self):
         """Of each pass its own, where they are known."""
         messages = everything()
@@ -288,6 +297,12 @@ class Figures(Bags):
             for place, share in shares.items():
                 self.assertAlmostEqual(points[place, 1], share / width)
             self.assertAlmostEqual(points[:, 1].sum() * width, 1)
+        self.assertEqual((left.get_yscale(), right.get_yscale()), ('log', 'log'))
+        np.testing.assert_allclose(left.get_xlim(), (9 * width, 13 * width))
+        np.testing.assert_allclose(right.get_xlim(), (0, np.pi / 2))
+        broad = covariant_angle(UNSTABLE_STABLE, {n: 1 for n in range(90)}, {n: 1 for n in (5, 6)})
+        left, right = self.draw(covariant_angles, self.changed(angles=[broad]))
+        np.testing.assert_allclose((*left.get_xlim(), left.get_ylim()[0]), (0, np.pi / 2, 0))
 
     def test_one_bin_is_said(self):
         right = ': at right angles, within 1°'
@@ -297,8 +312,14 @@ class Figures(Bags):
             names = ['unstable-stable', 'unstable-centre' + right, 'centre-stable' + right]
             self.assertEqual(said, names)
         one = covariant_angle(UNSTABLE_STABLE, {30: 5}, {30: 5})
-        lines = self.draw(covariant_angles, self.changed(angles=[one]))[0].get_lines()
-        self.assertEqual(lines[0].get_label(), 'unstable-stable: 30 .. 31°')
+        nearly = covariant_angle(UNSTABLE_STABLE, {30: 95, 31: 5}, {0: 5, 89: 95})
+        for angle, said in (
+            (one, ['30 .. 31°'] * 2),
+            (nearly, ['95 % in 30 .. 31°', '95 % at right angles, within 1°']),
+        ):
+            panels = self.draw(covariant_angles, self.changed(angles=[angle]))
+            labels = [axes.get_lines()[0].get_label() for axes in panels]
+            self.assertEqual(labels, [f'unstable-stable: {words}' for words in said])
 
     def test_zero_modes_without_errors(self):
         """It is said why; not where they have errors."""

@@ -221,8 +221,8 @@ class Figures(bags.Figures):
             self.draw(modes, made.steps([HIGH, LOW]), *fields),
             fields[1:],
             (
-                rf'T(1,0), $\ell=36$, $\lambda={LOW.exponent:.4f}$',
-                rf'LP(1,0), L part (100 %), $\ell=35$, $\lambda={HIGH.exponent:.4f}$',
+                rf'(a) T(1,0), $\ell=36$, $\lambda={LOW.exponent:.4f}$',
+                rf'(b) LP(1,0), L part (100 %), $\ell=35$, $\lambda={HIGH.exponent:.4f}$',
             ),
         ):
             disks, arrows = axes.collections
@@ -230,7 +230,7 @@ class Figures(bags.Figures):
             np.testing.assert_allclose(arrows.XY, np.transpose([field.x, field.y]))
             drawn, dq = np.array([arrows.U, arrows.V]), np.array([field.dqx, field.dqy])
             np.testing.assert_allclose(drawn, dq * 1.3 * np.sqrt(20 / np.sum(dq**2)))
-            self.assertEqual(axes.get_title(), said)
+            self.assertEqual(axes.get_title(loc='left'), said)
 
     def test_l_part(self):
         """Of 0.6 l + 0.8 n, with l in the L modes and n beside them, 0.6 l; the exponent has the
@@ -245,9 +245,8 @@ class Figures(bags.Figures):
         self.assertAlmostEqual(share, 0.5)
         spectrum_of = made.spectrum(EXPONENTS, 50.0, error=0.0012)
         (axes,) = self.draw(modes, made.steps([HIGH]), spectrum_of, field)
-        self.assertIn(
-            f'L part (50 %), $\\ell=35$, $\\lambda={HIGH.exponent:.4f}(12)$', axes.get_title()
-        )
+        said = f'LP(1,0), L part (50 %), $\\ell=35$, $\\lambda={HIGH.exponent:.4f}(12)$'
+        self.assertEqual(axes.get_title(loc='left'), said)
         arrows = np.array([axes.collections[1].U, axes.collections[1].V])
         self.assertAlmostEqual(np.sqrt(np.mean(np.sum(arrows**2, axis=0))), 1.3)
         np.testing.assert_allclose(arrows / arrows[0, 0], part / part[0, 0])

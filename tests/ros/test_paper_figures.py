@@ -72,7 +72,7 @@ class Paper(bags.Figures):
         run = self.load(made.steps([LOW, HIGH]), made.spectrum(HALF, 50.0, error=1e-4), *fields)
         page = modes.draw(run, paper='one-column')
         page.figure.canvas.draw()
-        one, other = (axes.title.get_window_extent() for axes in page.axes)
+        one, other = (axes._left_title.get_window_extent() for axes in page.axes)
         self.assertFalse(one.overlaps(other))
 
     def test_in_the_axes_of_the_user(self):
@@ -158,6 +158,9 @@ class LeftOut(bags.Figures):
         page = fluctuations.draw(self.load(made.fluctuations(known, pairs), made.steps([LOW])))
         titles = [axes.get_title(loc='left') for axes in page.axes]
         self.assertEqual(titles, [f'({letter})' for letter in 'abcdef'])
+        for axes in page.axes[3:5]:
+            said = [text.get_text() for text in axes.get_legend().get_texts()]
+            self.assertTrue(said[-1].endswith(' time units'), said)
 
     def test_command(self):
         """A figure that has nothing to show is said to be left out, too."""

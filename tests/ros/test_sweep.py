@@ -548,6 +548,21 @@ class Results(InFolder):
         self.assertIn('kaplan_yorke', head)
         figure.draw(found[1:])
 
+    def test_a_circle_has_no_aspect(self):
+        """Beside boxes its place is empty; of circles alone nothing is said."""
+        paths = [self.bag('box', 0.4)]
+        for density in 0.4, 0.5:
+            info = made.run_info(run_id=f'c{density}', density=density, container='circle')
+            path = self.path(info.run_id)
+            made.write(path, [info, made.spectrum([9.0, 1.0], 50.0, run_id=info.run_id)])
+            paths.append(path)
+        found = self.read(*paths)
+        self.assertEqual(sorted(str(point.system['aspect']) for point in found), ['', '', '1.0'])
+        said = next(table.text([one for one in found if one.system['boundary'] == 'circle']))
+        self.assertEqual(said, 'the same in all: number 20, boundary circle')
+        labels = figure._series(found, ['aspect'])
+        self.assertEqual(set(labels), {'', '$L_y/L_x$ = 1'})
+
     def test_one_panel(self):
         """Its title and the text below are inside of it."""
         found = self.read(self.bag('a', 0.4), self.bag('b', 0.5))

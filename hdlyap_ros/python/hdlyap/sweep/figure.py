@@ -116,7 +116,8 @@ def _series(points, names):
     """{label: points} for each combination of the parameters other than that of the x axis."""
     found = {}
     for point in points:
-        label = ', '.join(_said(name, point.system[name]) for name in names)
+        of_it = {name: point.system[name] for name in names if point.system[name] != ''}
+        label = ', '.join(_said(name, value) for name, value in of_it.items())
         found.setdefault(label, []).append(point)
     return found
 

@@ -10,7 +10,7 @@ from hdlyap.data import joined
 from hdlyap.data.run import OF_ALL
 from hdlyap.parameters import asked_of_own, named, value
 from hdlyap.data.reader import RecordingError
-from hdlyap.data.containers import is_curved
+from hdlyap.data.containers import is_curved, radius
 
 # name in a frame of results -> its unit; in the order of columns of a table
 QUANTITIES = {
@@ -116,7 +116,7 @@ def system(info, own):
     return {
         'number': info.number,
         'density': info.density,
-        'aspect': info.aspect,
+        'aspect': '' if radius(info) else info.aspect,  # a circle has none
         **solid,
         **asked,
         'boundary': ','.join(walls),
@@ -125,10 +125,12 @@ def system(info, own):
 
 
 def varied(points):
-    """Names of parameters that differ between points, and {name: value} of those that do not."""
+    """Names of parameters that differ between points, and {name: value} of those that do not and
+    that these systems have."""
     values = {name: {point.system[name] for point in points} for name in points[0].system}
-    fixed = {name: found.pop() for name, found in values.items() if len(found) == 1}
-    return [name for name in values if name not in fixed], fixed
+    differ = [name for name, found in values.items() if len(found) > 1]
+    fixed = {name: found.pop() for name, found in values.items() if name not in differ}
+    return differ, {name: value for name, value in fixed.items() if value != ''}
 
 
 def quantities(points):

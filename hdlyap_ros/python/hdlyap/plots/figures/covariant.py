@@ -5,6 +5,7 @@ from types import SimpleNamespace
 from typing import NamedTuple
 
 import numpy as np
+from matplotlib import ticker
 
 from hdlyap.data import steps
 
@@ -12,15 +13,16 @@ from .. import covariant
 from . import page
 from .page import LETTERS
 from .style import BLUE, GREEN, GREY, INK, LIGHT, SKY, UPRIGHT, VERMILION, ZERO
-from .style import beside, index_axis, instead, kind_colour
+from .style import below, beside, index_axis, instead, kind_colour
 
 ORDER = 10
 
 LEAST, MOST = 16, 40  # vectors of the positive half in the magnified panels
-MAGNIFIED = 2 / 3  # most part of the indices that a magnified panel has
+MAGNIFIED = 2 / 3  # most part of the indices, or angles, that a magnified panel has
 WEIGHTS = 4  # most panels of weights
 ROUNDING = 1e-16  # least value that is drawn; smaller ones are rounding
 ROOM = 1.4  # height of the axes over that of curves, to leave room for text
+NEARLY, PEAKED = 0.9, 0.3  # parts of all angles in one bin
 ABOVE = 0.3  # height of what is above panels, in panels
 SEEN = 0.1  # largest weight of all vectors, from which on weights are drawn
 NO_WEIGHTS = (
@@ -110,9 +112,9 @@ def _domination(run, indices, places):
 def _vectors(run, indices, places):
     """Every covariant vector: its localisation, the angle between its halves, the angle to the
     next one, and how well it is known."""
-    message, whole = run.covariant, {'ylim': (0, 1.04)}
+    message, whole, from_0 = run.covariant, {'ylim': (0, 1.04)}, {'ylim': (0, None)}
     widths = curve('width', indices, message.widths, color=INK)
-    yield Panel('localisation width\n$e^S/N$', [widths], whole)
+    yield Panel('localisation width\n$e^S/N$', [widths], from_0)
     cosines = curve('cosine', indices, message.cos_theta, color=BLUE)
     yield Panel(r'$|\cos\Theta|$ of $\delta q$, $\delta p$', [cosines], whole)
     angles = [
@@ -174,7 +176,7 @@ def _over_index(panels, of_all, height, least=1):
             for axes, ends in zip(row, ranges):
                 panel.draw(axes, ends, look)
             if panel.legend:
-                row[0].legend(**panel.legend)
+                below(row[0], row[0].legend(**panel.legend))
         page.outer(grid)
         shade(grid[:, -1], run, *ranges[-1])
         windows = f'{message.windows} window' + ('s' if message.windows != 1 else '')
@@ -204,9 +206,20 @@ def _draw_weights(page, run, **look):
     for axes in list(grid.flat)[len(shown) :]:
         axes.set_axis_off()
     page.outer(grid)
-    # weights are small far from the step, so there is room
-    grid[0, 0].legend(loc='upper left', bbox_to_anchor=(0, 0.9), fontsize=6.5, handletextpad=0.2)
+    look = {'loc': 'upper left', 'fontsize': 6.5, 'handletextpad': 0.2}
+    _freest(grid.flat[: len(shown)], ends).legend(bbox_to_anchor=(0, 0.9), **look)
     page.title(run.info, more=f', covariant vectors of {message.samples} samples')
+
+
+def _freest(panels, ends):
+    """The panel whose first vectors have the smallest weights."""
+    middle = np.mean(ends)
+
+    def highest(axes):
+        points = np.concatenate([line.get_xydata() for line in axes.get_lines()])
+        return np.max(points[(points[:, 0] < middle), 1])
+
+    return min(panels, key=highest)
 
 
 @page.figure
@@ -222,31 +235,68 @@ def _draw_angles(page, run, **look):
     ):
         _histograms(axes, message.angles, counts, look)
         axes.set_title(title, loc='left')
-        high, ticks = axes.get_ylim()[1], covariant.RIGHT_ANGLE * np.linspace(0, 1, 5)
-        axes.set(xlim=ticks[[0, -1]], ylim=(0, ROOM * high), xticks=ticks)
-        axes.set_xticklabels(['0', r'$\pi/8$', r'$\pi/4$', r'$3\pi/8$', r'$\pi/2$'])
-        axes.set(xlabel='angle  [rad]', ylabel='probability density  [1/rad]')
+        _angle_axis(axes, [getattr(angle, counts) for angle in message.angles])
+        axes.set(ylabel='probability density  [1/rad]')
     page.outer(np.array([[left, right]]))
     page.title(run.info, left, right, more=f', {message.samples} samples')
 
 
+def _angle_axis(axes, histograms):
+    """All angles from 0 to pi/2; those alone that were found, if they are a small part."""
+    axes.set_xlabel('angle  [rad]')
+    drawn = [counts for counts in histograms if sum(counts) and not _is_peak(counts)]
+    filled = np.flatnonzero(np.sum(drawn, axis=0)) if drawn else []
+    edges = covariant.edges(histograms[0])
+    if len(filled) and filled[-1] - filled[0] < MAGNIFIED * len(histograms[0]):
+        axes.set_xlim(edges[max(filled[0] - 1, 0)], edges[min(filled[-1] + 2, len(edges) - 1)])
+        axes.xaxis.set_major_locator(ticker.MaxNLocator(5))
+        return
+    axes.set(xlim=edges[[0, -1]], xticks=covariant.RIGHT_ANGLE * np.linspace(0, 1, 5))
+    axes.set_xticklabels(['0', r'$\pi/8$', r'$\pi/4$', r'$3\pi/8$', r'$\pi/2$'])
+
+
 def _histograms(axes, angles, name, look):
-    """Draws histograms. One whose angles are all in one bin is written, as its peak would hide
-    others."""
+    """Draws histograms. One whose angles are nearly all in one bin is written, as its peak would
+    hide others; lower peaks have a logarithmic scale."""
+    heights = []
     for angle in angles:
         counts, colour = getattr(angle, name), (VERMILION, BLUE, GREEN)[angle.spaces]
-        at, label = covariant.only_bin(counts), covariant.SPACES[angle.spaces]
-        if at:
-            low, high = np.degrees(at)
-            right = f'at right angles, within {high - low:.0f}°'
-            where = right if np.isclose(high, 90) else f'{low:.0f} .. {high:.0f}°'
-            axes.plot([], [], linestyle='', label=f'{label}: {where}')
+        label = covariant.SPACES[angle.spaces]
+        if _is_peak(counts):
+            axes.plot([], [], linestyle='', label=f'{label}: {_peak(counts)}')
         elif sum(counts):
-            height = np.append(covariant.density(counts), 0)
-            style = {'color': colour, 'linewidth': 1, **look, 'label': label}
-            axes.step(covariant.edges(counts), height, where='post', **style)
+            heights.append(covariant.density(counts))
+            dashes = '--' if colour == GREEN else '-'  # in pairs it is that of the one before
+            style = {'color': colour, 'linewidth': 1, 'linestyle': dashes, **look, 'label': label}
+            axes.step(covariant.edges(counts), [*heights[-1], 0], where='post', **style)
+    if heights:
+        _density_axis(axes, np.array(heights))
     if axes.get_legend_handles_labels()[0]:
         axes.legend(loc='upper left', handlelength=1, borderaxespad=0.2, fontsize=7)
+
+
+def _density_axis(axes, heights):
+    high, of_one_bin = heights.max(), heights.shape[1] / covariant.RIGHT_ANGLE
+    if high > PEAKED * of_one_bin:
+        low = 0.5 * heights[heights > 0].min()
+        axes.set_yscale('log')
+        axes.set_ylim(low, low * (high / low) ** ROOM)
+    else:
+        axes.set_ylim(0, ROOM * high)
+
+
+def _is_peak(counts):
+    return max(counts) > NEARLY * sum(counts)
+
+
+def _peak(counts):
+    """Where the angles of a histogram are, nearly all of which are in one bin."""
+    low, high = np.degrees(covariant.edges(counts)[np.argmax(counts) :][:2])
+    share = max(counts) / sum(counts)
+    part = f'{100 * share:.0f} % ' if share < 1 else ''
+    if np.isclose(high, 90):
+        return f'{part}at right angles, within {high - low:.0f}°'
+    return f'{part}{"in " if part else ""}{low:.0f} .. {high:.0f}°'
 
 
 def near_zero(run, indices):

@@ -30,7 +30,13 @@ OFTEN, FEW = 32, 8  # times of which a fraction, a variance can be told
 COLUMNS = 3  # most panels in a row
 TICKS = 5  # most times on an axis
 BARS = {'ecolor': GREY, 'elinewidth': 0.6}
-NO_DIFFUSION = 'diffusion', 'it takes 128 samples of growth; average longer'
+CROWD = 400  # more dots than this are small, with thin bars, as they would hide each other
+ABOVE = {'loc': 'lower right', 'bbox_to_anchor': (1, 1), 'fontsize': 6, 'borderpad': 0}
+CLOSE = {'handletextpad': 0.1, 'columnspacing': 0.6}
+NO_DIFFUSION = (
+    'diffusion',
+    'it takes 128 stretches of time beyond the memory of growth; average longer',
+)
 NO_TIMES = 'growth over finite times', 'a bag has it when fields are due; see field_interval'
 NO_STEPS = 'correlations', 'no steps are resolved; smaller exponents, or a longer box, have them'
 NO_PAIRS = 'correlations', NO_DIFFUSION[1]
@@ -152,10 +158,9 @@ def _dots(axes, told, number, row, fractions, look):
     fractions = fractions.dropna()
     counted = np.maximum(0, fractions * (1 - fractions))
     error = np.sqrt(counted / max(1, told.times['count'][row]))
-    style = {'fmt': '.', 'markersize': 3, 'alpha': 1 - 0.35 * number, **BARS, 'elinewidth': 0.3}
-    time = f'{told.times["time"][row]:.3g}'
-    label = f'{time} time unit' + 's' * (time != '1')
-    style = {**style, **look, 'label': label}
+    size, width = (1.2, 0.1) if len(fractions) > CROWD else (3, 0.3)
+    style = {'fmt': '.', 'markersize': size, 'alpha': 1 - 0.35 * number, **BARS}
+    style = {**style, 'elinewidth': width, **look, 'label': f'{told.times["time"][row]:.3g}'}
     axes.errorbar(fractions.index + 0.5, fractions.to_numpy(), bars(error), **style)
 
 
@@ -165,7 +170,7 @@ def _order(axes, told, look):
         return instead(axes, 'published with fields')
     for number, row in enumerate(_shown_times(told)):
         _dots(axes, told, number, row, told.violations.iloc[row], {'color': BLUE, **look})
-    axes.legend(loc='upper right', fontsize=6, handletextpad=0.1)
+    _name_times(axes, **ABOVE)
 
 
 def _domination(axes, recording, told, look):
@@ -178,6 +183,16 @@ def _domination(axes, recording, told, look):
         found = found[covariant.is_splitting(recording, found.index)]
         _dots(axes, told, number, row, found, {'color': VERMILION, **look})
     shade([axes], recording, first, last)
+    axes.set_ylim(-0.04, 1.16)  # names of steps are above the axes, so that times are inside
+    axes.set_yticks(np.linspace(0, 1, 6))
+    _name_times(axes, loc='upper left', fontsize=6, borderpad=0.3)
+
+
+def _name_times(axes, **place):
+    """The legend of times, in a line, with their unit behind the last."""
+    handles, labels = axes.get_legend_handles_labels()
+    labels[-1] += ' time unit' + 's' * (labels != ['1'])
+    axes.legend(handles, labels, ncol=len(labels), **CLOSE, **place)
 
 
 def _pairs(axes, told, look):
@@ -195,6 +210,8 @@ def _pairs(axes, told, look):
         (1, 'x', INK, 'to the next step'),
     ):
         places = np.arange(size - aside)
+        if not len(places):
+            continue
         found = values.diagonal(aside), known(error.diagonal(aside))
         style['label'] = label
         axes.errorbar(places + 0.5 * aside, *found, **{'marker': marker, 'color': colour, **style})

@@ -42,8 +42,8 @@ def _panel(axes, recording, count, look):
     least = 1.0 / recording.info.number
     axes.axhline(least, color=GREY, linewidth=0.6, linestyle='--')
     name, across = f'one {space.particle(recording.info)}', axes.get_yaxis_transform()
-    look = {'ha': 'left', 'va': 'bottom', 'color': GREY, 'fontsize': 7}
-    axes.text(0.01, least, name, transform=across, **look)
+    look = {'ha': 'center', 'va': 'bottom', 'color': GREY, 'fontsize': 7}
+    axes.text(0.35, least, name, transform=across, **look)  # between small widths and the legend
     axes.set_ylim(bottom=0)
     index_axis(axes)
 

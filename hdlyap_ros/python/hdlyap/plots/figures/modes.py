@@ -17,7 +17,7 @@ PANELS = 6
 WIDTH = 7.2  # width of the figure [inch]
 TALLEST = 9.0
 LINE = 0.2  # height of another line of the title [inch]
-LONG = 26  # longer names do not fit above a panel in the usual size
+LONG = 22  # longer names do not fit above a panel in the usual size
 ALONE = 4.2  # width of a figure with one panel [inch]
 MANY = 10000  # more arrows than this are pixels, as curves would fill megabytes of an SVG file
 ARROW = 1.3  # root mean square length of the arrows [sigma]
@@ -77,14 +77,14 @@ def draw(page, recording, **look):
         return
     info, more = recording.info, f'\n$t={panels[0].field.sim_time:g}$: $\\delta q$'
     if space.is_solid(info):
-        solid_modes.draw_panels(page, panels, info, look)
+        drawn = solid_modes.draw_panels(page, panels, info, look)
     elif min(info.box_x, info.box_y) < CHANNEL:
-        _channel(page, panels, info, look)
+        drawn = _channel(page, panels, info, look)
     else:
-        draw_panels(page, panels, info, look)
+        drawn = draw_panels(page, panels, info, look)
         colours = ', green: turned to the left, purple: to the right'
         more += colours if space.turns(info) else ''
-    page.title(info, more=more)
+    page.title(info, *(drawn if len(drawn) > 1 else ()), more=more)
 
 
 def chosen(recording):
@@ -124,7 +124,7 @@ def _error(recording, field):
 
 
 def draw_panels(page, panels, info, look=()):
-    """Draws the arrows of each panel."""
+    """Draws the arrows of each panel. Returns their axes."""
     columns = _columns(len(panels), info)
     rows = -(-len(panels) // columns)
     width = WIDTH if len(panels) > 1 else ALONE
@@ -139,6 +139,7 @@ def draw_panels(page, panels, info, look=()):
             panel,
             info,
             page.is_narrow,
+            columns > 2,
             {'rasterized': len(panels) * info.number > MANY, **dict(look)},
         )
         axes.set_xlabel(r'$x$  [$\sigma$]', fontsize=7)
@@ -148,6 +149,7 @@ def draw_panels(page, panels, info, look=()):
         column[lowest].set_xlabel(r'$x$  [$\sigma$]', fontsize=7)
     for axes in grid.flat[len(panels) :]:
         axes.set_axis_off()
+    return grid.flat[: len(panels)]
 
 
 def _columns(count, info):
@@ -165,7 +167,7 @@ def _lowest(count, columns):
     return [(count - 1 - column) // columns for column in range(columns)]
 
 
-def _arrows(axes, panel, info, is_narrow, look):
+def _arrows(axes, panel, info, is_narrow, is_small, look):
     field = panel.field
     rims = {'facecolors': 'none', 'edgecolors': LIGHT, 'linewidths': 0.4}
     drawn = Particles(axes, info, space.vectors(field), field.angle, **rims)
@@ -173,14 +175,14 @@ def _arrows(axes, panel, info, is_narrow, look):
         drawn.paint(of_vector(field, info, 'white'))
     arrows(axes, field.x, field.y, panel.arrows, **{'width': 0.13, 'color': panel.colour, **look})
     title = panel.title.replace(', $\\ell', ',\n$\\ell') if is_narrow else panel.title
-    is_long = len(panel.name + panel.said) >= LONG
-    axes.set_title(title, fontsize=6 if is_long else 7 if is_narrow else 8)
+    is_long = is_small and len(panel.name + panel.said) >= LONG
+    axes.set_title(title, fontsize=6 if is_long else 7 if is_narrow else 8, loc='left')
     axes.tick_params(labelsize=6, length=2)
 
 
 def _channel(page, panels, info, look):
     """Draws vectors in a channel: their components over the coordinate along it, normalised to a
-    mean square of one."""
+    mean square of one. Returns the axes."""
     alike = {'sharex': True, 'sharey': True, 'squeeze': False}
     rows = page.panels(len(panels), 1, WIDTH, 1.35 * len(panels) + 0.6, **alike)
     along = 'x' if info.box_x >= info.box_y else 'y'
@@ -198,7 +200,7 @@ def _channel(page, panels, info, look):
             l_along = panel.dq['xy'.index(along)] / strength(field, info)
             axes.plot(place[order], l_along[order], color=INK, label='L part')
         axes.axhline(0, color=GREY, linewidth=0.5)
-        axes.set_title(panel.title, fontsize=8)
+        axes.set_title(panel.title, fontsize=8, loc='left')
         axes.set_xlim(0, max(info.box_x, info.box_y))
         axes.set_ylabel(r'$\delta q$ / rms', fontsize=7)
         axes.set_xlabel(rf'${along}$  [$\sigma$]')
@@ -208,3 +210,4 @@ def _channel(page, panels, info, look):
     )
     rows.flat[0].legend(*named, ncol=4, loc='lower right', bbox_to_anchor=(1, 0.97), **close)
     page.outer(rows)
+    return rows.flat

@@ -2,6 +2,7 @@
 
 import contextlib
 import functools
+import string
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -18,7 +19,7 @@ PAPER = {'one-column': 3.375, 'two-column': 7.0}  # widths of a journal's column
 TALLEST = 9.0  # of a journal [inch]
 PANEL, LEAST = 2.1, 1.5  # most height of a panel below others in one column, and least [inch]
 LINE = 0.17  # height of a line of the title [inch]
-LETTERS = 'abcdefgh'
+LETTERS = string.ascii_lowercase
 
 
 def figure(draw):

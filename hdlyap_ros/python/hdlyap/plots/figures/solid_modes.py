@@ -7,7 +7,7 @@ from hdlyap.data import space, steps
 
 from ..expected import Expected
 from .box import Particles, arrows
-from .style import BLUE, GREEN, GREY, VERMILION
+from .style import BLUE, GREEN, GREY, INK, VERMILION
 from .view import View
 
 WIDTH, TALLEST = 7.6, 10.0  # width and largest height of the figure [inch]
@@ -15,12 +15,13 @@ ROW = 1.75  # least height of a row [inch]
 DOT = 0.3  # diameter of spheres in the picture, where larger ones would hide others [sigma]
 MOST = 2.6  # most arrows per square sigma of the front; if there are more, only those in front
 LIMIT = 2.8  # largest component that is shown, in root mean squares of the vector
-LONG = 42  # a longer title does not fit above a panel in the usual size
+NAMED = 1.0  # height of the legend above that
+LONG = 38  # a longer title does not fit above a panel in the usual size
 AXES, COLOURS = 'xyz', (VERMILION, BLUE, GREEN)
 
 
 def draw_panels(page, panels, info, look):
-    """Draws a row for each modes.Panel."""
+    """Draws a row for each modes.Panel. Returns the axes that show something."""
     view = View(info)
     left = 0.6 * WIDTH
     high = max(ROW, left * view.size[1] / view.size[0] + 0.3)
@@ -30,6 +31,7 @@ def draw_panels(page, panels, info, look):
     for (in_space, beside), panel in zip(rows, panels):
         _arrows(in_space, panel, info, view, look)
         _component(beside, panel, info)
+    return [axes for axes in rows.flat if axes.axison or axes.collections]
 
 
 def _arrows(axes, panel, info, view, look):
@@ -57,7 +59,7 @@ def _component(axes, panel, info):
     axes.set_title(title, fontsize=8 if len(title) < LONG else 6, loc='left')
     place = 'upper right' if is_line else 'upper left'
     axes.legend(fontsize=7, loc=place, ncol=3 if is_line else 1, handletextpad=0)
-    axes.set_ylim(-LIMIT, LIMIT)
+    axes.set_ylim(-LIMIT, LIMIT + NAMED * is_line)
     axes.tick_params(labelsize=6, length=2)
 
 
@@ -71,7 +73,7 @@ def _curve(axes, mode, kind):
     shown = [d for d in range(3) if kind is None or (d == along) == (kind == steps.LP)]
     for d in shown:
         _dots(axes, mode.q[along], mode.dq[d], d)
-        axes.plot(line[along], mode.at(line)[d], color=COLOURS[d])
+        axes.plot(line[along], mode.at(line)[d], color=INK, linewidth=0.8)
     axes.axhline(0, color=GREY, linewidth=0.5)
     axes.set_xlim(0, length)
     axes.set_xlabel(rf'${AXES[along]}$  [$\sigma$]', fontsize=7)

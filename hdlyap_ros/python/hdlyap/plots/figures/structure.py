@@ -9,7 +9,7 @@ from hdlyap.data.factors import DIRECTIONS, REPORTS, frequencies, largest_freque
 from hdlyap.numbers import with_error
 
 from . import page
-from .style import INK, kind_colour
+from .style import INK, index_axis, kind_colour
 
 ORDER = 9
 
@@ -40,7 +40,7 @@ def draw(page, recording, **look):
         image = _ridge(axes, means, direction, look)
         _classified(axes, found, direction)
         axes.set_title(TITLES[direction], loc='left')
-        axes.set_xlabel('Lyapunov index')
+        index_axis(axes)
         axes.set_ylabel(r'wave number $k$  [$1/\sigma$]')
         if not page.is_own:
             axes.figure.colorbar(image, ax=axes, label=r'$S(k)$')
@@ -100,7 +100,8 @@ def _classified(axes, found, direction):
         if OF_KIND.get(block.kind) == direction:
             place = 0.5 * (block.first + block.last), block.steps[0].wave_number
             colour = kind_colour(block.kind)
-            axes.plot(*place, 'o', markersize=6, markerfacecolor='none', markeredgecolor=colour)
+            rim = {'markerfacecolor': 'none', 'markeredgecolor': colour, 'clip_on': False}
+            axes.plot(*place, 'o', markersize=6, **rim)
 
 
 def _omega(recording, block):

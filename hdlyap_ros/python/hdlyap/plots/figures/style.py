@@ -27,6 +27,7 @@ MANY = {'ecolor': GREY, 'elinewidth': 0.7, 'rasterized': True}
 SVG = 'svg', {'dpi': 200, 'metadata': {'Date': None}}
 # vectors, with maps as pixels of a journal's resolution
 FILES_OF_PAPER = (('pdf', {'dpi': 600, 'metadata': {'CreationDate': None}}),)
+LEAST_BELOW = 0.3  # least part of a panel that is left for what is below a legend
 UPRIGHT = {'rotation': 90, 'ha': 'center', 'va': 'bottom'}  # look of a text above a place
 
 
@@ -44,6 +45,20 @@ def beside(axes, text, place, aside, **look):
 def instead(axes, text):
     """Writes a text in place of something that cannot be drawn."""
     axes.annotate(text, (0.5, 0.5), xycoords='axes fraction', ha='center')
+
+
+def below(axes, legend):
+    """Raises the upper end of a linear axis until curves and points are below a legend."""
+    box = legend.get_window_extent(axes.figure.canvas.get_renderer())
+    (left, low), (right, _) = axes.transAxes.inverted().transform(box)
+    under = [
+        axes.transAxes.inverted().transform(axes.transData.transform(line.get_xydata()))
+        for line in axes.get_lines()
+    ]
+    y = np.concatenate([at[(at[:, 0] > left) & (at[:, 0] < right), 1] for at in under])
+    bottom, top = axes.get_ylim()
+    higher = np.max(y[np.isfinite(y)], initial=0) / max(low - 0.03, LEAST_BELOW)
+    axes.set_ylim(bottom, bottom + (top - bottom) * max(1, higher))
 
 
 def save(figure, folder, name, dpi=250, paper=None):
