@@ -259,6 +259,21 @@ class Figures(bags.Figures):
         self.assertEqual(len(boxes), 2)
         self.assertFalse(boxes[0].overlaps(boxes[1]))
 
+    def test_places_of_modes(self):
+        """Two square boxes are beside each other, six wide ones below each other."""
+        for count, edges, columns in ((2, (12, 12), 2), (6, (40, 4), 1), (6, (35, 35), 2)):
+            info = made.run_info(box_x=edges[0], box_y=edges[1])
+            self.assertEqual(modes._columns(count, info), columns)
+
+    def test_names_hide_the_line_of_zero(self):
+        """Above it, and below points."""
+        (axes,) = self.draw(spectrum, made.spectrum(EXPONENTS, 50.0), made.steps([LOW]))
+        (line,) = [one for one in axes.lines if list(one.get_ydata()) == [0, 0]]
+        points = min(one.lines[0].get_zorder() for one in axes.containers)
+        (name,) = axes.texts
+        self.assertTrue(line.get_zorder() < name.get_zorder() < points)
+        self.assertEqual(name.get_bbox_patch().get_facecolor(), (1, 1, 1, 1))
+
     def test_modes_of_a_channel(self):
         """Both components along it, with a mean square of one."""
         info = made.run_info(aspect=0.0375, box_x=40.0, box_y=1.5, boundary_y='reflecting')

@@ -101,6 +101,7 @@ class Latex(unittest.TestCase):
     def test_names_and_units(self):
         self.assertEqual(latex.symbol('c_L3'), r'$c_{\mathrm{L},3}$')
         self.assertEqual(latex.symbol('collision_rate'), 'collision rate')
+        self.assertEqual(latex.symbol('kaplan_yorke'), 'Kaplan-Yorke dimension')
         self.assertEqual(latex.unit('sigma^2/time unit'), r'$\sigma^2$/time unit')
         self.assertEqual(latex.unit('kg m^2 s^-12'), r'kg m$^2$ s$^{-12}$')
         for text, wanted in (

@@ -552,13 +552,15 @@ class Results(InFolder):
         """Beside boxes its place is empty; of circles alone nothing is said."""
         paths = [self.bag('box', 0.4)]
         for density in 0.4, 0.5:
-            info = made.run_info(run_id=f'c{density}', density=density, container='circle')
+            curved = dict(container='circle', boundary_x='curved', boundary_y='curved')
+            info = made.run_info(run_id=f'c{density}', density=density, **curved)
             path = self.path(info.run_id)
             made.write(path, [info, made.spectrum([9.0, 1.0], 50.0, run_id=info.run_id)])
             paths.append(path)
         found = self.read(*paths)
         self.assertEqual(sorted(str(point.system['aspect']) for point in found), ['', '', '1.0'])
-        said = next(table.text([one for one in found if one.system['boundary'] == 'circle']))
+        circles = [one for one in found if one.system['boundary'] == 'circle']
+        said = next(table.text(circles))
         self.assertEqual(said, 'the same in all: number 20, boundary circle')
         labels = figure._series(found, ['aspect'])
         self.assertEqual(set(labels), {'', '$L_y/L_x$ = 1'})

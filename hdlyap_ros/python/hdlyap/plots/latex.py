@@ -16,6 +16,11 @@ SYMBOLS = {
     'aspect': '$L_y/L_x$',
     'aspect_z': '$L_z/L_x$',
     'compressibility': '$Z$',
+    'shear_b': '$b$',
+    'exponent_sum': r'$\sum_\ell\lambda_\ell$',
+    'kaplan_yorke': 'Kaplan-Yorke dimension',
+    'velocity_low': 'velocity, low wall',
+    'velocity_high': 'velocity, high wall',
 }
 
 

@@ -24,8 +24,8 @@ LABELS = {
 }
 SHORT = {'number': '$N$', 'density': r'$\rho$', 'aspect': '$L_y/L_x$', 'aspect_z': '$L_z/L_x$'}
 NAMES = {
-    'lambda_max': r'$\lambda_{max}$  [1/time unit]',
-    'h_KS/N': r'$h_{KS}/N$  [1/time unit]',
+    'lambda_max': r'$\lambda_{\max}$  [1/time unit]',
+    'h_KS/N': r'$h_{\mathrm{KS}}/N$  [1/time unit]',
     'c_T': r'$c_T$  [$\sigma$/time unit]',
     'c_L': r'$c_L$  [$\sigma$/time unit]',
     'v': r'$v$  [$\sigma$/time unit]',

@@ -62,6 +62,7 @@ def text(points):
             [*_of_system(point, names), name, *_errors(value)]
             for point in several
             for name, value in point.values.items()
+            if isfinite(value.error)
         ]
         yield from _table([*names, *head], rows)
         yield from _scattered(points, [name for name in names if name not in (PACKING, RUN)])

@@ -20,6 +20,7 @@ ORDER = 10
 LEAST, MOST = 16, 40  # vectors of the positive half in the magnified panels
 MAGNIFIED = 2 / 3  # most part of the indices, or angles, that a magnified panel has
 WEIGHTS = 4  # most panels of weights
+UNDER = 0.37  # width of their legend over that of a panel
 ROUNDING = 1e-16  # least value that is drawn; smaller ones are rounding
 ROOM = 1.4  # height of the axes over that of curves, to leave room for text
 NEARLY, PEAKED = 0.9, 0.3  # parts of all angles in one bin
@@ -112,16 +113,16 @@ def _domination(run, indices, places):
 def _vectors(run, indices, places):
     """Every covariant vector: its localisation, the angle between its halves, the angle to the
     next one, and how well it is known."""
-    message, whole, from_0 = run.covariant, {'ylim': (0, 1.04)}, {'ylim': (0, None)}
+    message, whole = run.covariant, {'ylim': (0, 1.04)}
     widths = curve('width', indices, message.widths, color=INK)
-    yield Panel('localisation width\n$e^S/N$', [widths], from_0)
+    yield Panel('localisation width\n$e^S/N$', [widths], {'ylim': (0, 1.08 * max(message.widths))})
     cosines = curve('cosine', indices, message.cos_theta, color=BLUE)
     yield Panel(r'$|\cos\Theta|$ of $\delta q$, $\delta p$', [cosines], whole)
     angles = [
         curve('mean', places, message.neighbour_angles, color=VERMILION),
         curve('smallest so far', places, message.least_neighbour_angles, color=SKY),
     ]
-    room = {'ylim': (0, 1.3 * covariant.RIGHT_ANGLE)}
+    room = {'ylim': (0, 1.4 * covariant.RIGHT_ANGLE)}
     yield Panel('angle to the next\n[rad]', angles, room, SIDE_BY_SIDE)
     apart = np.array(message.start_mismatch, dtype=float)
     apart = np.where(apart > 0, np.maximum(apart, ROUNDING), np.nan)
@@ -212,12 +213,12 @@ def _draw_weights(page, run, **look):
 
 
 def _freest(panels, ends):
-    """The panel whose first vectors have the smallest weights."""
-    middle = np.mean(ends)
+    """The panel in which the first vectors, below a legend, have the smallest weights."""
+    beside = ends[0] + UNDER * (ends[1] - ends[0])
 
     def highest(axes):
         points = np.concatenate([line.get_xydata() for line in axes.get_lines()])
-        return np.max(points[(points[:, 0] < middle), 1])
+        return np.max(points[points[:, 0] < beside, 1])
 
     return min(panels, key=highest)
 

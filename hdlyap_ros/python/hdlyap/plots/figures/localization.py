@@ -28,7 +28,8 @@ def draw(page, recording, **look):
         grid[0, 0].set_title('all vectors carried', loc='left')
         grid[0, 1].set_title('largest exponents', loc='left')
     if recording.covariant is not None:
-        grid[0, -1].legend(loc='lower right', handletextpad=0.2)
+        above = {'loc': 'lower right', 'bbox_to_anchor': (1, 1), 'borderpad': 0}
+        grid[0, -1].legend(ncol=2, handletextpad=0.2, **above)
     page.title(recording.info, *grid[0, : 2 * many], more=f', {message.samples} samples')
 
 

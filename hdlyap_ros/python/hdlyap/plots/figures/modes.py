@@ -130,18 +130,16 @@ def draw_panels(page, panels, info, look=()):
     width = WIDTH if len(panels) > 1 else ALONE
     width = page.widest if page.is_narrow else width
     height = rows * (width / columns * info.box_y / info.box_x + 0.3) + 0.5
-    height += LINE * (rows if page.is_narrow else scene(info).count('\n'))
+    is_broken = page.is_narrow and columns > 1
+    height += LINE * (rows if is_broken else 0 if page.is_narrow else scene(info).count('\n'))
     size = width, min(height, TALLEST)
     grid = page.panels(rows, columns, *size, squeeze=False, is_box=True)
     for axes, panel in zip(grid.flat, panels):
-        _arrows(
-            axes,
-            panel,
-            info,
-            page.is_narrow,
-            columns > 2,
-            {'rasterized': len(panels) * info.number > MANY, **dict(look)},
-        )
+        _arrows(axes, panel, info, {'rasterized': len(panels) * info.number > MANY, **dict(look)})
+        title = panel.title.replace(', $\\ell', ',\n$\\ell') if is_broken else panel.title
+        is_long = len(panel.name + panel.said) >= LONG
+        size = 7 if page.is_narrow else 9 - columns if is_long else 8
+        axes.set_title(title, fontsize=size, loc='left')
         axes.set_xlabel(r'$x$  [$\sigma$]', fontsize=7)
         axes.set_ylabel(r'$y$  [$\sigma$]', fontsize=7)
     page.outer(grid)
@@ -153,11 +151,12 @@ def draw_panels(page, panels, info, look=()):
 
 
 def _columns(count, info):
-    """The number of columns with which panels are as large as possible on the page."""
+    """The number of columns with which panels are large and fill the width of the page."""
 
     def size(columns):
         rows = -(-count // columns)
-        return min(WIDTH / columns / info.box_x, TALLEST / rows / info.box_y)
+        of_panel = min(WIDTH / columns / info.box_x, TALLEST / rows / info.box_y)
+        return of_panel * np.sqrt(of_panel * columns * info.box_x / WIDTH)
 
     return max(range(1, min(count, 3) + 1), key=lambda columns: (size(columns), columns))
 
@@ -167,16 +166,13 @@ def _lowest(count, columns):
     return [(count - 1 - column) // columns for column in range(columns)]
 
 
-def _arrows(axes, panel, info, is_narrow, is_small, look):
+def _arrows(axes, panel, info, look):
     field = panel.field
     rims = {'facecolors': 'none', 'edgecolors': LIGHT, 'linewidths': 0.4}
     drawn = Particles(axes, info, space.vectors(field), field.angle, **rims)
     if space.turns(info):
         drawn.paint(of_vector(field, info, 'white'))
     arrows(axes, field.x, field.y, panel.arrows, **{'width': 0.13, 'color': panel.colour, **look})
-    title = panel.title.replace(', $\\ell', ',\n$\\ell') if is_narrow else panel.title
-    is_long = is_small and len(panel.name + panel.said) >= LONG
-    axes.set_title(title, fontsize=6 if is_long else 7 if is_narrow else 8, loc='left')
     axes.tick_params(labelsize=6, length=2)
 
 

@@ -169,7 +169,9 @@ class Page:
         if not self.is_own:
             return
         for axes, letter in zip(panels, LETTERS):
-            fit(axes.set_title(f'({letter}) {axes.get_title(loc="left")}'.rstrip(), loc='left'))
+            text = axes._left_title  # set_title would take the usual size
+            text.set_text(f'({letter}) {text.get_text()}'.rstrip())
+            fit(text)
         if self.has_title:
             text = self.figure.suptitle(scene(info) + more, fontsize=9)
             lines = text.get_text().count('\n')

@@ -11,7 +11,7 @@ from hdlyap.data import space, steps
 from .. import paper
 from . import page
 from .style import GREY, INK, KIND_COLOURS, LIGHT, MANY, MIXED, SMALL, UPRIGHT, VERMILION, ZERO
-from .style import bars, beside, index_axis, kind_colour
+from .style import bars, below, beside, index_axis, kind_colour
 
 ORDER = 1
 IS_OF_MEANS = True  # drawn of several seeds, too
@@ -22,6 +22,8 @@ MAGNIFIED, MAGNIFIED_MOST = 40, 64
 NEAR = 0.032  # names at this distance, over the width of the panel, would touch
 LETTER = 4.2  # length of a name for each of its letters [points]
 FAR = 0.5  # part of the largest exponent above which all are too far from 0 to show it
+# of names: above the line of zero, which they hide, and below points
+CLEAR = {'bbox': {'facecolor': 'white', 'edgecolor': 'none', 'pad': 0}, 'zorder': 1.5}
 MOST = 0.45  # most room above the exponents for names, over the height
 
 
@@ -96,7 +98,7 @@ def _share(axes, recording, field, chance, label, first, last):
 
 def _exponent_axes(axes, exponents):
     if min(exponents) < FAR * max(exponents):
-        axes.axhline(0, color=GREY, linewidth=0.6)
+        axes.axhline(0, color=GREY, linewidth=0.6, zorder=1)
     index_axis(axes, 8)
     axes.set_ylabel(r'$\lambda_\ell$  [1/time unit]')
 
@@ -107,8 +109,9 @@ def _frame_magnified(axes, recording):
     offset = recording.spectrum.first_index
     inside = recording.spectrum.exponents[first - offset : last + 1 - offset]
     low, high = min(0, *inside), max(inside)
-    look = {'fill': False, 'edgecolor': VERMILION, 'linewidth': 0.8, 'zorder': 4}
-    axes.add_patch(patches.Rectangle((first, low), last - first, high - low, **look))
+    corners = np.array([(0, 0), (0, 1), (1, 1), (1, 0), (0, 0)])
+    frame = (first, low) + corners * (last - first, high - low)
+    axes.plot(*frame.T, color=VERMILION, linewidth=0.8, zorder=4)
 
 
 def _magnified_range(recording):
@@ -160,7 +163,9 @@ def _small(axes, beside, recording, look):
         how = low if beside is axes else {'loc': 'upper right'}
         if beside is not axes:  # what they have already
             handles = [*beside.get_legend_handles_labels()[0], *handles]
-        beside.legend(handles=handles, handletextpad=0.4, **how)
+        legend = beside.legend(handles=handles, handletextpad=0.4, **how)
+        if beside is not axes:
+            below(beside, legend)
 
 
 def _colours(recording, first, last):
@@ -188,11 +193,11 @@ def _name_blocks(axes, spectrum, blocks, near):
         )
         name = 'zero modes' if block.kind == steps.ZERO else block.name
         middle = 0.5 * (block.first + block.last)
-        below = letters + 1 if middle - before < near else 0
-        look = {'color': kind_colour(block.kind), 'fontsize': 7, **UPRIGHT}
-        beside(axes, name, (middle, highest), (0, 6 + LETTER * below), **look)
-        before, letters = middle, len(name) if not below else -1
-        most = max(most, below + len(name))
+        under = letters + 1 if middle - before < near else 0
+        look = {'color': kind_colour(block.kind), 'fontsize': 7, **CLEAR, **UPRIGHT}
+        beside(axes, name, (middle, highest), (0, 6 + LETTER * under), **look)
+        before, letters = middle, len(name) if not under else -1
+        most = max(most, under + len(name))
     return most
 
 

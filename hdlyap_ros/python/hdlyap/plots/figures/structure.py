@@ -9,7 +9,7 @@ from hdlyap.data.factors import DIRECTIONS, REPORTS, frequencies, largest_freque
 from hdlyap.numbers import with_error
 
 from . import page
-from .style import INK, index_axis, kind_colour
+from .style import INK, index_axis, kind_colour, plain_log
 
 ORDER = 9
 
@@ -43,9 +43,9 @@ def draw(page, recording, **look):
         index_axis(axes)
         axes.set_ylabel(r'wave number $k$  [$1/\sigma$]')
         if not page.is_own:
-            axes.figure.colorbar(image, ax=axes, label=r'$S(k)$')
+            _bar(image, axes)
     if page.is_own:
-        page.figure.colorbar(image, ax=ridges, label=r'$S(k)$')
+        _bar(image, ridges)
     page.outer(np.array([ridges]))
     for axes in lines:
         if page.is_own:
@@ -53,6 +53,11 @@ def draw(page, recording, **look):
             sheet.add_axes(axes)  # moves it to the end, because panels are counted in this order
         _lines(axes, recording, lines_of)
     page.title(recording.info, *ridges, *lines)
+
+
+def _bar(image, axes):
+    bar = image.axes.figure.colorbar(image, ax=axes, label=r'$S(k)$')
+    plain_log(bar.ax.yaxis)
 
 
 def _panels(page, has_lines):

@@ -28,6 +28,7 @@ SVG = 'svg', {'dpi': 200, 'metadata': {'Date': None}}
 # vectors, with maps as pixels of a journal's resolution
 FILES_OF_PAPER = (('pdf', {'dpi': 600, 'metadata': {'CreationDate': None}}),)
 LEAST_BELOW = 0.3  # least part of a panel that is left for what is below a legend
+LOWER = 1.4  # height of a panel over that which it has beside labels, whose places come later
 UPRIGHT = {'rotation': 90, 'ha': 'center', 'va': 'bottom'}  # look of a text above a place
 
 
@@ -51,6 +52,7 @@ def below(axes, legend):
     """Raises the upper end of a linear axis until curves and points are below a legend."""
     box = legend.get_window_extent(axes.figure.canvas.get_renderer())
     (left, low), (right, _) = axes.transAxes.inverted().transform(box)
+    low = 1 - LOWER * (1 - low)
     under = [
         axes.transAxes.inverted().transform(axes.transData.transform(line.get_xydata()))
         for line in axes.get_lines()
