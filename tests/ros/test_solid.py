@@ -233,7 +233,7 @@ class Figures(Solid):
             np.testing.assert_allclose(dots.get_xydata().T, [Q[0], transverse()[d] / scale])
             x, shown = line.get_xydata().T
             np.testing.assert_allclose(shown, size * function(np.pi * x / 4) / scale, atol=1e-9)
-        self.assertEqual(curves.get_title(loc='left'), 'wave along $x$, 100 % in T(1,0,0)')
+        self.assertEqual(curves.get_title(loc='left'), '(b) wave along $x$, 100 % in T(1,0,0)')
         dots, line, _ = along.lines
         norm = np.sqrt(np.mean(np.sum(longitudinal() ** 2, axis=0)))
         x, shown = line.get_xydata().T
@@ -267,7 +267,7 @@ class Figures(Solid):
         field = made_fields.ball_field(INFO, both[0], dq)
         messages = made.spectrum(np.linspace(9, 3, 56), 50.0), made.steps(both)
         _, each = self.draw(modes, *messages, field)
-        self.assertEqual(each.get_title(loc='left'), 'each sphere, 100 % in T(1,0,0)+T(0,0,1)')
+        self.assertEqual(each.get_title(loc='left'), '(b) each sphere, 100 % in T(1,0,0)+T(0,0,1)')
         for dots in each.lines[:3]:
             np.testing.assert_allclose(*dots.get_xydata().T, atol=1e-9)
 

@@ -133,13 +133,12 @@ def draw_panels(page, panels, info, look=()):
     is_broken = page.is_narrow and columns > 1
     height += LINE * (rows if is_broken else 0 if page.is_narrow else scene(info).count('\n'))
     size = width, min(height, TALLEST)
+    letters = 9 - columns if max(len(one.name + one.said) for one in panels) >= LONG else 8
     grid = page.panels(rows, columns, *size, squeeze=False, is_box=True)
     for axes, panel in zip(grid.flat, panels):
         _arrows(axes, panel, info, {'rasterized': len(panels) * info.number > MANY, **dict(look)})
         title = panel.title.replace(', $\\ell', ',\n$\\ell') if is_broken else panel.title
-        is_long = len(panel.name + panel.said) >= LONG
-        size = 7 if page.is_narrow else 9 - columns if is_long else 8
-        axes.set_title(title, fontsize=size, loc='left')
+        axes.set_title(title, fontsize=7 if page.is_narrow else letters, loc='left')
         axes.set_xlabel(r'$x$  [$\sigma$]', fontsize=7)
         axes.set_ylabel(r'$y$  [$\sigma$]', fontsize=7)
     page.outer(grid)

@@ -28,7 +28,7 @@ SVG = 'svg', {'dpi': 200, 'metadata': {'Date': None}}
 # vectors, with maps as pixels of a journal's resolution
 FILES_OF_PAPER = (('pdf', {'dpi': 600, 'metadata': {'CreationDate': None}}),)
 LEAST_BELOW = 0.3  # least part of a panel that is left for what is below a legend
-LOWER = 1.4  # height of a panel over that which it has beside labels, whose places come later
+LOWER = 1.3  # height of a panel over that which it has beside labels, whose places come later
 UPRIGHT = {'rotation': 90, 'ha': 'center', 'va': 'bottom'}  # look of a text above a place
 
 
