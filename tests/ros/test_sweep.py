@@ -565,6 +565,17 @@ class Results(InFolder):
         labels = figure._series(found, ['aspect'])
         self.assertEqual(set(labels), {'', '$L_y/L_x$ = 1'})
 
+    def test_errors_that_are_not_known(self):
+        """Have no rows, and are crosses, of which the figure says so and nothing of bars."""
+        found = self.read(*(self.bag(f's{n}', seed=str(n)) for n in (1, 2)), self.bag('a', 0.6))
+        self.assertIn(ERRORS, list(table.text(found)))
+        for point in found:
+            known = {'std_error': nan, 'scatter': nan}
+            point.values = {name: one._replace(**known) for name, one in point.values.items()}
+        self.assertNotIn(ERRORS, list(table.text(found)))
+        *_, said = figure.draw(found).figure.texts
+        self.assertTrue(said.get_text().startswith('cross: the error is not known'))
+
     def test_one_panel(self):
         """Its title and the text below are inside of it."""
         found = self.read(self.bag('a', 0.4), self.bag('b', 0.5))

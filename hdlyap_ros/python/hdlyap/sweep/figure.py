@@ -39,6 +39,9 @@ NAMES = {
     'velocity_high': r'velocity near the high wall  [$\sigma$/time unit]',
 }
 MARKERS = 'os^Dv<>p'
+ERRORS = (
+    'error bars: one standard error, of means over seeds the larger of stated error and scatter'
+)
 LEAST = 4.6  # least width of the figure [inch]
 LETTER = 0.056  # width of a letter of the text below [inch]
 APART = 0.012  # shift of series over the width of a panel, so that error bars do not hide others
@@ -109,7 +112,7 @@ def _said(name, value, info=None):
         return value
     unit = rf'$\,\sigma^{{-{len(space.axes(info))}}}$' if info and name == 'density' else ''
     number = value if isinstance(value, str) else format(value, 'g')
-    return f'{SHORT.get(name, name)} = {number}{unit}'
+    return f'{SHORT.get(name, name.replace("_", " "))} = {number}{unit}'
 
 
 def _series(points, names):
@@ -163,8 +166,8 @@ def _label(x, info):
     """The name of a parameter with its unit."""
     known = parameters.named(info, x)
     if x not in LABELS and known and known.unit:
-        return f'{x}  [{latex.unit(known.unit)}]'
-    label = LABELS.get(x, x).replace('particles', space.particle(info) + 's')
+        return f'{x.replace("_", " ")}  [{latex.unit(known.unit)}]'
+    label = LABELS.get(x, x.replace('_', ' ')).replace('particles', space.particle(info) + 's')
     return label.replace('^2', f'^{len(space.axes(info))}')
 
 
@@ -202,15 +205,14 @@ def _handles(series):
 def _explain(page, series, points):
     """Writes the legend below the panels, and what the looks of points mean. Returns its height."""
     figure = page.figure
-    lines = [
-        'error bars: one standard error, of means over seeds the larger of stated error and scatter'
-    ]
+    is_known = [np.isfinite(v.error) for point in points for v in point.values.values()]
+    lines = [ERRORS] if any(is_known) else []
     if len(series) > 1:
         lines.append(
             'points of each series are shifted along x, so that error bars do not hide each other'
         )
     values = [point.values[name] for point in points for name in FITTED if name in point.values]
-    if any(not np.isfinite(v.error) for point in points for v in point.values.values()):
+    if not all(is_known):
         lines.append('cross: the error is not known, the run was too short')
     if any(map(_is_open, values)):
         lines.append('open: fitted without c3, or without c2 and c3; sweep.txt has the form')

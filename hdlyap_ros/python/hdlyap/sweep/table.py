@@ -54,16 +54,15 @@ def text(points):
         yield from (*point.remarks, *point.data.left_out, *point.warnings)
     if any(point.unlike for point in points):
         yield 'unlike: no mean, as the fits of the seeds differ in form or wave numbers'
-    several = [point for point in points if len(point.runs) > 1]
-    if several:
+    rows = [
+        [*_of_system(point, names), name, *_errors(value)]
+        for point in points
+        for name, value in point.values.items()
+        if len(point.runs) > 1 and isfinite(value.error)
+    ]
+    if rows:
         yield 'both errors of the means over seeds; the table above has the larger:'
         head = 'quantity', 'from those stated', 'from the scatter', 'chi^2/(seeds - 1)'
-        rows = [
-            [*_of_system(point, names), name, *_errors(value)]
-            for point in several
-            for name, value in point.values.items()
-            if isfinite(value.error)
-        ]
         yield from _table([*names, *head], rows)
         yield from _scattered(points, [name for name in names if name not in (PACKING, RUN)])
 
