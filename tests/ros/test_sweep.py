@@ -118,7 +118,9 @@ class Grid(unittest.TestCase):
         (one,) = self.runs(**how)
         self.assertEqual((one.parameters['bond'], one.parameters['inertia']), (0.5, 'disks'))
         self.assertNotIn('bond', self.runs(seeds='1')[0].parameters)
-        with self.assertRaisesRegex(Refused, 'bond = 0.5: must not be given with particles = disks'):
+        with self.assertRaisesRegex(
+            Refused, 'bond = 0.5: must not be given with particles = disks'
+        ):
             self.runs(seeds='1', params='{bond: 0.5}')
         for particles in 'soft_disks', 'soft_spheres':
             (one,) = self.runs(seeds='1', params=f'{{particles: {particles}, energy: 2}}')

@@ -29,7 +29,11 @@ def with_error(value, error, decimals=5):
 
 def fixed(value, decimals):
     """A value with this many decimals; a large one as 1e+308. What is rounded to 0 has no sign."""
-    return f'{round(value, decimals) + 0.0:.{decimals}f}' if abs(value) < LARGE else f'{value:.{decimals}g}'
+    return (
+        f'{round(value, decimals) + 0.0:.{decimals}f}'
+        if abs(value) < LARGE
+        else f'{value:.{decimals}g}'
+    )
 
 
 def known(errors):
