@@ -128,8 +128,8 @@ class Agreeing(Pairs):
             r'\n  c_T +1\.4000\(40\) .* over 3 wave numbers 0\.9935 \.\. 1\.987 .*\n',
             fr'of b - a in errors {np.mean(z * z):.2f}; .*: chi\^2 needs 8 samples',
             'exponents: 37 of 37 compared, 0 of unknown error, 0 zero',
-            r'\nagree: lambda_max is \d\.\d\d errors apart, the farthest of 5 numbers; chance alone '
-            r'makes two runs as unlike in 100 % of comparisons; runs differ below 1.5 %\n',
+            r'\nagree: lambda_max is \d\.\d\d errors apart, the farthest of 5 numbers; chance '
+            r'alone makes two runs as unlike in 100 % of comparisons; runs differ below 1.5 %\n',
         ):
             self.assertRegex(text, said)
         self.assertNotIn('the same seed', text)
