@@ -134,7 +134,7 @@ class Texts(Mixtures):
         for info, said in ((mixture(**round_box), own), (made.run_info(**round_box), '')):
             self.assertIn(said, scene(info))
             self.assertIn(said, report.system(info))
-        for wall, said in (('shearing', 'periodic, y shearing, shear b 10'), ('reflecting', '')):
+        for wall, said in (('shearing', 'periodic, y shearing, $b=10$'), ('reflecting', '')):
             self.assertTrue(scene(made.run_info(boundary_y=wall)).endswith(said))
 
     def test_table(self):

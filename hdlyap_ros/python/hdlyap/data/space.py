@@ -118,9 +118,9 @@ def named(info):
     return ', '.join([f' {_words(info.particles)}', *own_ones])
 
 
-def shear(info):
+def shear(info, said='shear b {:g}'):
     """The text behind the boundaries if walls shear; '' for others."""
-    return f', shear b {info.shear_b:g}' if 'shearing' in along(info, 'boundary_') else ''
+    return ', ' + said.format(info.shear_b) if 'shearing' in along(info, 'boundary_') else ''
 
 
 def _words(name):

@@ -91,9 +91,9 @@ def scene(info):
         _edges(info) if space.is_solid(info) else f'$L_y/L_x={info.aspect:g}$'
     )
     what = space.named(info) + '\n' if space.own(info) else ', '  # it is too long for one line
-    if len(what) > TITLE:
-        what = what.replace(', ', '\n', 1)
-    return f'{name}: $N={info.number}${what}{box}, ' + ', '.join(walls) + space.shear(info)
+    what = what.replace(', ', '\n', 1) if len(what) > TITLE else what
+    what += box + ', ' + ', '.join(walls) + space.shear(info, '$b={:g}$')
+    return f'{name}: $N={info.number}${what}'
 
 
 def _edges(info):
