@@ -145,9 +145,9 @@ class Security(harness.Case):
     def test_scene(self):
         """The one text that may be any line."""
         lines = [text for text in NASTY if text.isprintable()]
-        self.check_all([dict(SHORT, scene=scene) for scene in lines], 0, 3)
+        self.check_all([dict(SHORT, scene=scene) for scene in lines], 0, 4)
         self.check_all([dict(SHORT, scene=text) for text in NASTY if text not in lines], 2, 1)
-        self.check_watched(dict(SHORT, scene=' '.join(lines)), 0, 3)
+        self.check_watched(dict(SHORT, scene=' '.join(lines)), 0, 4)
 
     def test_arguments(self):
         """rosrun can say what XML cannot."""
@@ -161,7 +161,7 @@ class Security(harness.Case):
             with self.subTest(argument=argument):
                 node = self.start(SHORT, args=[argument])
                 self.assertIn(node.wait(), (0, 2), node.text())
-                self.check_lines(node, 3 if node.wait() == 0 else 1)
+                self.check_lines(node, 4 if node.wait() == 0 else 1)
 
     def test_checkpoint(self):
         """The file, its part and its folder; whatever it is called."""
@@ -169,8 +169,8 @@ class Security(harness.Case):
         path = os.path.join(folder, '$(touch nasty); `touch nasty` %s%n ')
         self.check_all([dict(SHORT, checkpoint=path + FORGED)], 2, 1)
         ours = [folder + '/', path, path + '.part']
-        self.check_watched(dict(SHORT, checkpoint=path), 0, 4, ours)
-        self.check_watched(dict(resume=path, duration=3.0), 0, 4, ours[1:2])
+        self.check_watched(dict(SHORT, checkpoint=path), 0, 5, ours)
+        self.check_watched(dict(resume=path, duration=3.0), 0, 5, ours[1:2])
         self.assertEqual(os.listdir(folder), [os.path.basename(path)])
 
     def test_services(self):
