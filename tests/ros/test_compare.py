@@ -370,6 +370,8 @@ class Refusals(Pairs):
             self.cannot_compare(said, run(), run(**{name: value}))
         pair = run(boundary_z=''), run(boundary_z='periodic', number=40)
         self.cannot_compare('compared: number 20 and 40; hdlyap table', *pair)
+        pair = run(boundary_z=''), run(boundary_z='periodic')
+        self.cannot_compare('compared: boundary_z  and periodic; hdlyap table', *pair)
         said = 'number 20 and 40, density 0.5 and 0.6'
         said = 'hdlyap compare: the runs are of different systems and are not compared: ' + said
         self.refuses(said, 'compare', *self.bags(run(), run(density=0.6, number=40)), status=2)

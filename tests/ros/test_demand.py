@@ -1,11 +1,14 @@
 """What of the modes is computed, by who listens; and fields of single vectors."""
 
+import os
 
 from diagnostic_msgs.msg import DiagnosticArray
 import rospy
+import yaml
 
 import harness
 from harness import MODES, OBSERVABLES
+from hdlyap.runs.program import HDLYAP
 
 pytestmark = harness.UNDER_A_MASTER
 
@@ -103,13 +106,21 @@ class Fields(harness.Case):
         self.assertGreater(len(messages['modes']), 2)
 
     def test_target_not_reached(self):
-        """Because the duration was over before: the log says so."""
-        node = self.start(dict(MODES, target='lambda_max 1e-9', table=3600.0))
+        """Because the duration was over before: the log says so, and when errors would be stated as
+        --errors does."""
+        scene = dict(MODES, target='lambda_max 1e-9', table=3600.0)
+        path = os.path.join(self.new_folder(), 'a.yaml')
+        with open(path, 'w') as file:
+            yaml.safe_dump(scene, file)
+        when = '{:.6g} time units of averaging, and the duration is 20'
+        when = when.format(HDLYAP.errors_after(path)[0])
+        node = self.start(scene)
         self.ends(node)
         said = node.lines('result: averaged ')
         self.assertEqual(len(said), 1, node.text())
         self.assertRegex(said[0], 'target not reached: error of lambda_max not yet known')
-        self.assertEqual(len(node.lines('there will be no standard errors: they are first ')), 1)
+        said = f'there will be no standard errors: they are first stated after {when}'
+        self.assertEqual(len(node.lines(said)), 1, node.text())
 
     def test_no_nan_is_published(self):
         """Not as what is not yet known, either."""

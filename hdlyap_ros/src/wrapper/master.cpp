@@ -74,7 +74,8 @@ void hdr_master_watch::asked::write_all()
         lock.lock();
         if (!written) return;
         const auto now = unwritten.find(request[1]);
-        if (now->second == request[2]) unwritten.erase(now); /* no later value */
+        if (now != unwritten.end() && now->second == request[2])
+            unwritten.erase(now); /* no later value */
     }
 }
 
@@ -125,6 +126,7 @@ hdr_master_watch::~hdr_master_watch()
     if (!shared->unwritten.empty())
         hdr_log(HDR_WARN, "%zu parameters are not written to the parameter server: no answer of it",
                 shared->unwritten.size());
+    shared->unwritten.clear(); /* a thread that is left writes no more while the process ends */
 }
 
 void hdr_master_watch::service_is(const std::string &name)

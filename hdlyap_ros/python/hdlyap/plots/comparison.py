@@ -128,8 +128,9 @@ def _bits(message):
 
 def _refuse_other_systems(a, b):
     names = [name for name in system(a) if name not in STEPPED]
-    found = [one for one in different(a, b, names) if '' not in one]  # as boundary_z of disks
-    others = [f'{name} {one} and {other}' for name, one, other in found]
+    found = list(different(a, b, names))
+    shown = [one for one in found if '' not in one] or found  # without boundary_z of disks
+    others = [f'{name} {one} and {other}' for name, one, other in shown]
     if others:
         why = 'the runs are of different systems and are not compared'
         table = 'hdlyap table shows runs of several systems side by side'
